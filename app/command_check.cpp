@@ -1,0 +1,35 @@
+// wholehand check: is the device's answer the core's answer?
+#include <CLI/CLI.hpp>
+
+#include <memory>
+
+#include "app/commands.h"
+#include "app/paths.h"
+#include "app/scene_reader.h"
+#include "sweeps/check.h"
+
+namespace wholehand {
+namespace {
+
+struct CheckArguments {
+  std::string scene, on = "vulkan";
+};
+
+}  // namespace
+
+void add_check_command(CLI::App& app, Action& action) {
+  const auto arguments = std::make_shared<CheckArguments>();
+  CLI::App* command =
+      app.add_subcommand("check", "Compare the device with the core in float and in double, kernel by kernel and whole");
+  command->add_option("scene", arguments->scene, "Scene file, or the name of a shipped one (three_beakers)")->type_name("SCENE");
+  command->add_option("--on", arguments->on, "vulkan (the best device, the default) or a device's name")->type_name("DEVICE");
+  command->callback([arguments, &action] {
+    action = [arguments] {
+      CheckOptions options;
+      options.on = arguments->on;
+      return run_check(read_scene_file(find_scene(arguments->scene)), options);
+    };
+  });
+}
+
+}  // namespace wholehand

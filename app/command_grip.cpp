@@ -1,0 +1,110 @@
+// wholehand grip: one grip with every intermediate value.
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <vector>
+
+#include "app/commands.h"
+#include "app/output.h"
+#include "app/paths.h"
+#include "app/scene_reader.h"
+#include "app/scene_text.h"
+#include "app/values.h"
+#include "sweeps/grip_report.h"
+
+namespace wholehand {
+namespace {
+
+struct GripArguments {
+  std::string scene, vessel, height, azimuth = "0", obliquity = "0", roll = "0", offset = "0", hand_scale = "1", thumb, index;
+  std::vector<std::string> fills, tilts;
+  std::string on = "core", precision;
+  bool json = false;
+};
+
+std::size_t find_vessel(const Scene& scene, const std::string& name) {
+  std::vector<std::string_view> names;
+  for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
+    if (scene.vessels[v].name == name) return v;
+    names.push_back(scene.vessels[v].name);
+  }
+  throw usage_error(fmt::format("--vessel {}: {} has no such vessel; the nearest is '{}'", in_quotes(name), in_quotes(scene.file),
+                                nearest_name(name, names)));
+}
+
+GripInput read_grip(const GripArguments& arguments) {
+  const double roll = parse_quantity(arguments.roll, "--roll-deg", ranges::ROTATION);
+  const double hand_scale = parse_quantity(arguments.hand_scale, "--hand-scale", ranges::SCALE);
+  if (!arguments.thumb.empty()) {
+    return grip_through(parse_triple(arguments.thumb, "--thumb-mm", ranges::POINT),
+                        parse_triple(arguments.index, "--index-mm", ranges::POINT), roll, hand_scale);
+  }
+  if (arguments.height.empty()) throw usage_error("grip: where is it held? give --height-mm, or --thumb-mm and --index-mm");
+  GripInput grip;
+  grip.height = parse_quantity(arguments.height, "--height-mm", ranges::GRIP_HEIGHT);
+  grip.azimuth = parse_quantity(arguments.azimuth, "--azimuth-deg", ranges::ROTATION);
+  grip.obliquity = parse_quantity(arguments.obliquity, "--obliquity-deg", ranges::OBLIQUITY);
+  grip.roll = roll;
+  grip.offset = parse_quantity(arguments.offset, "--offset-mm", ranges::OFFSET);
+  grip.hand_scale = hand_scale;
+  return grip;
+}
+
+StateAxes read_states(const GripArguments& arguments, const Scene& scene) {
+  StateAxes axes = scene_axes(scene);
+  if (!arguments.tilts.empty()) {
+    axes.tilts.clear();
+    for (const auto& text : arguments.tilts) axes.tilts.push_back(parse_quantity(text, "--tilt-deg", ranges::TILT));
+  }
+  if (arguments.fills.empty()) return axes;
+  if (!scene.liquid)
+    throw usage_error(fmt::format("--fill: {} has no [liquid]; add one or leave --fill out", in_quotes(scene.file)));
+  if (axes.tilts.empty()) throw usage_error(fmt::format("--fill: {} has no [tilts]; give --tilt-deg too", in_quotes(scene.file)));
+  axes.fills.clear();
+  for (const auto& text : arguments.fills) axes.fills.push_back(parse_quantity(text, "--fill", ranges::FRACTION));
+  return axes;
+}
+
+ExitCode grip(const GripArguments& arguments) {
+  const GripInput input = read_grip(arguments);
+  const Scene scene = read_scene_file(find_scene(arguments.scene));
+  const std::size_t vessel = find_vessel(scene, arguments.vessel);
+  const StateAxes axes = read_states(arguments, scene);
+  Precision precision = arguments.on == "core" ? Precision::full : Precision::single;
+  if (!arguments.precision.empty()) precision = parse_precision(arguments.precision);
+  const GripReport report = make_grip_report(scene, vessel, input, axes, open_grip_methods(scene, arguments.on, precision));
+  print(arguments.json ? grip_json(report) + "\n" : grip_table(report));
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_grip_command(CLI::App& app, Action& action) {
+  const auto arguments = std::make_shared<GripArguments>();
+  CLI::App* command = app.add_subcommand("grip", "One grip with every intermediate value");
+  const auto add = [command](const char* name, auto& value, const char* type, const char* help) {
+    return command->add_option(name, value, help)->type_name(type);
+  };
+  add("scene", arguments->scene, "SCENE", "Scene file, or the name of a shipped one")->required();
+  add("--vessel", arguments->vessel, "V", "Name of the vessel")->required();
+  auto* height = add("--height-mm", arguments->height, "H", "Height of the thumb-index line over the base");
+  auto* azimuth = add("--azimuth-deg", arguments->azimuth, "A", "Its direction about the vessel's axis (0)");
+  auto* obliquity = add("--obliquity-deg", arguments->obliquity, "B", "Its angle to the horizontal, the index above (0)");
+  add("--roll-deg", arguments->roll, "Q", "Turn of the hand about it: 0 beside the vessel, -90 above (0)");
+  auto* offset = add("--offset-mm", arguments->offset, "S", "Distance at which it passes the axis (0)");
+  add("--hand-scale", arguments->hand_scale, "K", "Size of the hand, times the scene's (1)");
+  auto* thumb = add("--thumb-mm", arguments->thumb, "X,Y,Z", "Instead of these: a point of the line on the thumb's side");
+  auto* index = add("--index-mm", arguments->index, "X,Y,Z", "and one on the index finger's side");
+  thumb->needs(index);
+  index->needs(thumb);
+  for (auto* other : {height, azimuth, obliquity, offset}) thumb->excludes(other);
+  add("--fill", arguments->fills, "F", "Fills, fractions of the capacity (the scene's)");
+  add("--tilt-deg", arguments->tilts, "T", "Tilts (the scene's)");
+  add("--on", arguments->on, "DEVICE", "core (the default), vulkan or a device's name");
+  add("--precision", arguments->precision, "P", "float or double (double on the core, float on Vulkan)");
+  command->add_flag("--json", arguments->json, "One JSON object, SI units");
+  command->callback([arguments, &action] { action = [arguments] { return grip(*arguments); }; });
+}
+
+}  // namespace wholehand

@@ -1,0 +1,49 @@
+// wholehand sweep: every grip of a scene.
+#include <CLI/CLI.hpp>
+
+#include <memory>
+
+#include "app/commands.h"
+#include "app/paths.h"
+#include "app/scene_reader.h"
+#include "app/values.h"
+#include "sweeps/run.h"
+
+namespace wholehand {
+namespace {
+
+struct SweepArguments {
+  std::string scene, output, on = "vulkan", precision, best, threads;
+  bool resume = false, explain = false;
+};
+
+ExitCode sweep(const SweepArguments& arguments) {
+  SweepOptions options;
+  options.output = arguments.output;
+  options.on = arguments.on;
+  if (!arguments.precision.empty()) options.precision = parse_precision(arguments.precision);
+  if (!arguments.best.empty()) options.best = static_cast<int>(parse_integer(arguments.best, "--best", ranges::BEST));
+  if (!arguments.threads.empty())
+    options.threads = static_cast<int>(parse_integer(arguments.threads, "--threads", ranges::THREADS));
+  options.resume = arguments.resume;
+  options.explain = arguments.explain;
+  return run_sweep(read_scene_file(find_scene(arguments.scene)), options);
+}
+
+}  // namespace
+
+void add_sweep_command(CLI::App& app, Action& action) {
+  const auto arguments = std::make_shared<SweepArguments>();
+  CLI::App* command = app.add_subcommand("sweep", "Score every grip of a scene, show the best, write the results");
+  command->add_option("scene", arguments->scene, "Scene file, or the name of a shipped one (three_beakers)")->type_name("SCENE");
+  command->add_option("-o,--output", arguments->output, "Result file (the scene file's name with .nc)")->type_name("FILE");
+  command->add_option("--on", arguments->on, "core, vulkan (the best device, the default) or a device's name")->type_name("DEVICE");
+  command->add_option("--precision", arguments->precision, "float or double (float on Vulkan, double on the core)")->type_name("P");
+  command->add_option("--best", arguments->best, "Grips shown and listed for each vessel (the scene's)")->type_name("N");
+  command->add_option("--threads", arguments->threads, "Threads of the core (all)")->type_name("N");
+  command->add_flag("--resume", arguments->resume, "Go on where an interrupted sweep ended");
+  command->add_flag("--explain", arguments->explain, "Tell what was left out and what that saved");
+  command->callback([arguments, &action] { action = [arguments] { return sweep(*arguments); }; });
+}
+
+}  // namespace wholehand

@@ -1,0 +1,21 @@
+// The commands: each adds itself to the command line and, once that is parsed and names it, leaves what to do in `action`.
+#pragma once
+
+#include <functional>
+
+#include "core/error.h"
+
+namespace CLI {
+class App;
+}
+
+namespace wholehand {
+
+using Action = std::function<ExitCode()>;
+
+void add_sweep_command(CLI::App& app, Action& action);
+void add_grip_command(CLI::App& app, Action& action);
+void add_check_command(CLI::App& app, Action& action);
+void add_devices_command(CLI::App& app, Action& action);
+
+}  // namespace wholehand

@@ -1,0 +1,68 @@
+#include "app/paths.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "app/scene_text.h"
+#include "core/error.h"
+
+namespace wholehand {
+namespace fs = std::filesystem;
+
+std::string scenes_dir() {
+  std::vector<fs::path> candidates;
+#ifdef WHOLEHAND_SCENE_DIR
+  candidates.emplace_back(WHOLEHAND_SCENE_DIR);
+#endif
+  std::error_code failed;
+  const fs::path program = fs::read_symlink("/proc/self/exe", failed);
+  if (!failed) {
+    candidates.push_back(program.parent_path().parent_path() / "share/wholehand/scenes");
+    // the source tree around a build folder
+    fs::path above = program.parent_path();
+    for (int level = 0; level < 4 && above.has_relative_path(); ++level, above = above.parent_path()) {
+      candidates.push_back(above / "sweeps/scenes");
+    }
+  }
+  for (const fs::path& candidate : candidates) {
+    if (fs::is_regular_file(candidate / (std::string(DEFAULT_SCENE) + ".toml"), failed)) return candidate.string();
+  }
+  return "";
+}
+
+std::vector<std::string> shipped_scenes() {
+  std::vector<std::string> names;
+  std::error_code failed;
+  const std::string dir = scenes_dir();
+  if (dir.empty()) return names;
+  for (const auto& entry : fs::directory_iterator(dir, failed)) {
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string find_scene(const std::string& name) {
+  const std::string dir = scenes_dir();
+  std::error_code failed;
+  if (name.empty()) {
+    if (dir.empty())
+      throw failure_error(
+          fmt::format("the shipped scene '{}' is not where the program was built or installed; give a scene file", DEFAULT_SCENE));
+    return (fs::path(dir) / (std::string(DEFAULT_SCENE) + ".toml")).string();
+  }
+  if (fs::exists(name, failed) && !fs::is_directory(name, failed)) return name;
+  if (!dir.empty() && name.find('/') == std::string::npos) {
+    for (const std::string& file : {name, name + ".toml"}) {
+      if (fs::is_regular_file(fs::path(dir) / file, failed)) return (fs::path(dir) / file).string();
+    }
+  }
+  if (fs::is_directory(name, failed)) throw usage_error(fmt::format("{} is a directory; give a scene file", in_quotes(name)));
+  const auto shipped = shipped_scenes();
+  throw usage_error(fmt::format("no scene file {}; give the path of a TOML file{}{}", in_quotes(name),
+                                shipped.empty() ? "" : " or one of the shipped scenes: ", fmt::join(shipped, ", ")));
+}
+
+}  // namespace wholehand

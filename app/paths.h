@@ -1,0 +1,22 @@
+// Where the program finds the scenes that it ships.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace wholehand {
+
+inline constexpr const char* DEFAULT_SCENE = "three_beakers";
+
+// Folder of the shipped scenes: WHOLEHAND_SCENE_DIR of the build if it is there, else beside the program (sweeps/scenes of the source
+// tree above it, or ../share/wholehand/scenes). Empty where none of them exists.
+std::string scenes_dir();
+
+// Names of the shipped scenes, without .toml, in order.
+std::vector<std::string> shipped_scenes();
+
+// A path that exists stays; a bare name may be that of a shipped scene, with or without .toml; empty: the default scene. Throws Error
+// (usage) where there is no such scene, naming the shipped ones, and Error (failure) where the default one is gone.
+std::string find_scene(const std::string& name);
+
+}  // namespace wholehand

@@ -1,0 +1,63 @@
+// [force], [score] and [output]: what is made of the states, and what is kept.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/scene_parts.h"
+
+namespace wholehand {
+
+void read_force(const SceneTable& root, ForceData& force) {
+  const auto table = root.table(
+      "force", {"base_N", "range_N", "torque", "reference", "max_N", "k_open_N_m", "friction", "torsion_mm", "grip_strength_N"});
+  if (!table) return;
+  table->read("base_N", ranges::BASE_FORCE, force.base);
+  table->read("range_N", ranges::FORCE_RANGE, force.range);
+  table->read("torque", {{"paper", Torque::paper}, {"exact", Torque::exact}}, force.torque);
+  table->read("reference", {{"per_object", TorqueReference::per_object}, {"per_grip", TorqueReference::per_grip}}, force.reference);
+  table->read("max_N", ranges::MAX_FORCE, force.max);
+  table->read("k_open_N_m", ranges::OPENING_STIFFNESS, force.k_open);
+  table->read("friction", ranges::FRICTION, force.friction);
+  table->read("torsion_mm", ranges::TORSION, force.torsion);
+  table->read("grip_strength_N", ranges::GRIP_STRENGTH, force.grip_strength);
+}
+
+void read_score(const SceneTable& root, bool has_tilts, ScoreWeights& weights) {
+  const auto table = root.table("score", {"fingers", "contacts", "depth", "posture", "force", "hold"});
+  if (!table) return;
+  table->read("fingers", ranges::WEIGHT, weights.fingers);
+  table->read("contacts", ranges::WEIGHT, weights.contacts);
+  table->read("depth", ranges::WEIGHT, weights.depth);
+  table->read("posture", ranges::WEIGHT, weights.posture);
+  table->read("force", ranges::WEIGHT, weights.force);
+  table->read("hold", ranges::WEIGHT, weights.hold);
+  const double still = weights.fingers + weights.contacts + weights.depth + weights.posture;
+  if (still > 0 || (has_tilts && still + weights.force + weights.hold > 0)) return;
+  root.file().refuse(table->place(),
+                     has_tilts ? "[score] gives no term a weight" : "[score] weighs only force and hold, and there are no [tilts]",
+                     "allowed: at least one weight above 0 that counts");
+}
+
+void read_output(const SceneTable& root, OutputData& output) {
+  const auto table = root.table("output", {"keep", "best"});
+  if (!table) return;
+  std::int64_t best = output.best;
+  table->read("best", ranges::BEST, best);
+  output.best = static_cast<int>(best);
+  const toml::array* names = table->array("keep", 0, ranges::LARGEST_KEEP, "names of result variables");
+  if (!names) return;
+  auto& keep = output.keep.emplace();
+  for (const toml::node& node : *names) {
+    const auto* name = node.as_string();
+    if (!name || !is_plain_name(name->get())) {
+      root.file().refuse(place_of(node), "a name in keep " + found(node), "allowed: names of result variables");
+    }
+    if (std::find(keep.begin(), keep.end(), name->get()) != keep.end()) {
+      root.file().refuse(place_of(node), fmt::format("keep names {} a second time", in_quotes(name->get())),
+                         "allowed: each name once");
+    }
+    keep.push_back(name->get());
+  }
+}
+
+}  // namespace wholehand

@@ -1,0 +1,35 @@
+// Plane geometry of an outline's elements: extent, distance, and where two of them meet. In the unit of its input.
+#pragma once
+
+#include <array>
+#include <optional>
+
+namespace wholehand {
+
+using Point = std::array<double, 2>;  // r, y
+
+// A line segment or circular arc from a to b.
+struct PlaneCurve {
+  bool is_arc = false;
+  Point a{}, b{}, center{};
+  double radius = 0;           // distance of a from the center
+  double from = 0, sweep = 0;  // direction of a from the center, and the angle turned on the way to b, rad, |sweep| <= pi
+
+  // Largest extent along the direction (cos angle, sin angle).
+  double extent(double angle) const;
+};
+
+PlaneCurve make_line(const Point& a, const Point& b);
+
+// The shorter way round the center; of two equal ways the one further from the axis r = 0. Nothing where two equal ways are equally
+// far from it too: a half circle with level ends.
+std::optional<PlaneCurve> make_arc(const Point& a, const Point& b, const Point& center);
+
+double distance(const Point& p, const Point& q);
+double distance(const PlaneCurve& curve, const Point& p);
+
+// A point that lies on both curves to within `tolerance` and is further than `clearance` from `shared`, if there is one.
+std::optional<Point> meeting_point(const PlaneCurve& first, const PlaneCurve& second, double tolerance,
+                                   const std::optional<Point>& shared, double clearance);
+
+}  // namespace wholehand

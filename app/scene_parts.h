@@ -1,0 +1,45 @@
+// The parts of a scene file, one function a table. Each throws Error (usage) for what is not allowed there.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/scene_table.h"
+#include "core/scene.h"
+
+namespace wholehand {
+
+// ---- scene_hand.cpp ----
+void read_hand(const SceneTable& root, HandData& hand);
+
+// ---- scene_vessel.cpp ----
+void read_vessels(const SceneTable& root, Scene& scene);
+// What other tables ask of vessels: [liquid] a wall, a vessel's own liquid a [liquid].
+void check_vessels(const SceneTable& root, const Scene& scene);
+
+// ---- scene_shape.cpp, scene_outline.cpp ----
+struct Silhouette {
+  std::vector<OutlineElement> elements;
+  double largest_radius = 0;  // m
+  double height = 0;          // of the mouth, m
+};
+Silhouette read_shape(const SceneTable& vessel, const std::string& shape);
+Silhouette read_outline(const SceneTable& vessel);
+
+// ---- scene_grips.cpp ----
+void read_grips(const SceneTable& root, GripsData& grips);
+void read_tilts(const SceneTable& root, std::vector<double>& tilts);
+void read_liquid(const SceneTable& root, std::optional<LiquidData>& liquid);
+
+// ---- scene_force.cpp ----
+void read_force(const SceneTable& root, ForceData& force);
+// `has_tilts`: the force and hold terms count.
+void read_score(const SceneTable& root, bool has_tilts, ScoreWeights& weights);
+void read_output(const SceneTable& root, OutputData& output);
+
+// ---- scene_session.cpp ----
+void read_live(const SceneTable& root, LiveData& live);
+void read_device(const SceneTable& root, DeviceData& device);
+void read_task(const SceneTable& root, const std::vector<VesselData>& vessels, std::optional<TaskData>& task);
+
+}  // namespace wholehand

@@ -1,0 +1,19 @@
+// A look through a scene file's text before the TOML parser has it: what toml++ 3.3 accepts or meets without surviving.
+#pragma once
+
+#include <string_view>
+
+#include "app/scene_table.h"
+
+namespace wholehand {
+
+// Throws Error (usage) for
+// * a key of more than LARGEST_KEY_DEPTH parts: dotted keys nest tables without a limit, and the parsed tables are freed by recursion;
+// * a table header that does not begin with a key ("[= "), and brackets that do not match: the parser takes those for impossible;
+// * a character beyond ASCII where the parser asks whether it is a space, which is undefined for most of them: outside strings and
+//   comments, where TOML has none, and behind a backslash in a string of several lines, where it would be allowed after a line's end;
+// * what makes the parser see a string elsewhere than this scan: one right behind something else, a second = of one value.
+// Of a text with several faults it may name a later one than the parser would.
+void scan_scene(const SceneFile& file, std::string_view text);
+
+}  // namespace wholehand

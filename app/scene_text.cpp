@@ -1,0 +1,86 @@
+#include "app/scene_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "core/scene.h"
+
+namespace wholehand {
+namespace {
+
+constexpr std::size_t LARGEST_QUOTE = 60;          // bytes
+constexpr std::size_t LARGEST_NAME_COMPARED = 64;  // bytes
+
+}  // namespace
+
+double to_si(double value, Unit unit) {
+  switch (unit) {
+    case Unit::mm:
+      return value / 1e3;
+    case Unit::deg:
+      return radians(value);
+    case Unit::ml:
+      return value / 1e6;
+    case Unit::si:
+      break;
+  }
+  return value;
+}
+
+std::string one_line(std::string_view text) {
+  std::string line;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7F) {
+      line += fmt::format("\\x{:02x}", byte);
+    } else {
+      line += c;
+    }
+  }
+  return line;
+}
+
+std::string in_quotes(std::string_view text) {
+  if (text.size() <= LARGEST_QUOTE) return fmt::format("'{}'", one_line(text));
+  std::size_t end = LARGEST_QUOTE;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // whole UTF-8 characters
+  return fmt::format("'{}...'", one_line(text.substr(0, end)));
+}
+
+// Levenshtein distance, row by row. Names past 64 bytes are cut: they are no slip of the keyboard.
+std::string nearest_name(std::string_view name, std::span<const std::string_view> names) {
+  name = name.substr(0, LARGEST_NAME_COMPARED);
+  std::string nearest;
+  std::size_t smallest = SIZE_MAX;
+  for (const std::string_view known : names) {
+    std::vector<std::size_t> row(known.size() + 1);
+    for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
+    for (std::size_t i = 0; i < name.size(); ++i) {
+      std::size_t diagonal = row[0];
+      row[0] = i + 1;
+      for (std::size_t j = 0; j < known.size(); ++j) {
+        const std::size_t changed = diagonal + (name[i] == known[j] ? 0 : 1);
+        diagonal = row[j + 1];
+        row[j + 1] = std::min({changed, row[j] + 1, row[j + 1] + 1});
+      }
+    }
+    if (row.back() < smallest) {
+      smallest = row.back();
+      nearest = known;
+    }
+  }
+  return nearest;
+}
+
+bool is_plain_name(std::string_view name) {
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  const auto is_plain = [&](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.'; };
+  return !name.empty() && name.size() <= ranges::LARGEST_NAME && is_letter(name[0]) &&
+         std::all_of(name.begin(), name.end(), is_plain);
+}
+
+std::string describe(const Quantity& quantity) { return fmt::format("{} to {}", quantity.low, quantity.high); }
+
+}  // namespace wholehand

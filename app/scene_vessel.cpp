@@ -1,0 +1,177 @@
+// [[vessel]]: form, wall, mass, and what the live task needs.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "app/scene_parts.h"
+
+namespace wholehand {
+namespace {
+
+constexpr std::array<std::string_view, 22> VESSEL_KEYS{
+    "name",          "shape",       "diameter_mm", "height_mm",     "neck_mm",    "upright_mm",
+    "shoulder_mm",   "outline",     "mesh",        "mesh_scale",    "rotate_deg", "origin",
+    "grid_mm",       "wall_mm",     "surface",     "density_kg_m3", "mass_kg",    "center_of_mass_mm",
+    "force_range_N", "guidance_mm", "place_mm",    "liquid"};
+constexpr std::array<std::string_view, 5> SHAPE_KEYS{"diameter_mm", "height_mm", "neck_mm", "upright_mm", "shoulder_mm"};
+constexpr std::array<std::string_view, 4> MESH_KEYS{"mesh_scale", "rotate_deg", "origin", "grid_mm"};
+
+void refuse_keys(const SceneTable& table, std::span<const std::string_view> keys, const std::string& without) {
+  for (const auto key : keys) {
+    if (table.has(key))
+      table.file().refuse(table.place(key), fmt::format("{} is given without {}", key, without),
+                          fmt::format("allowed: leave out {}", key));
+  }
+}
+
+MeshData read_mesh(const SceneTable& table) {
+  MeshData mesh;
+  table.read_text("mesh", ranges::LARGEST_PATH, mesh.file);
+  table.read("mesh_scale", ranges::MESH_SCALE, mesh.scale);
+  table.read("rotate_deg", ranges::ROTATION, "[x, y, z]", mesh.rotate);
+  table.read("origin", {{"base", true}, {"as_is", false}}, mesh.origin_at_base);
+  table.read("grid_mm", ranges::GRID_SPACING, mesh.grid_spacing);
+  return mesh;
+}
+
+// Exactly one of shape, outline and mesh.
+void read_form(const SceneTable& table, VesselData& vessel, Silhouette& silhouette) {
+  std::vector<std::string_view> forms;
+  for (const std::string_view key : {"shape", "outline", "mesh"}) {
+    if (table.has(key)) forms.push_back(key);
+  }
+  if (forms.empty()) {
+    table.file().refuse(table.place(), fmt::format("vessel '{}' has no form", vessel.name),
+                        "allowed: one of 'shape', 'outline' and 'mesh'");
+  }
+  if (forms.size() > 1) {
+    table.file().refuse(table.place(forms[1]), fmt::format("vessel '{}' has both '{}' and '{}'", vessel.name, forms[0], forms[1]),
+                        "allowed: one of 'shape', 'outline' and 'mesh'");
+  }
+  if (forms[0] != "shape") refuse_keys(table, SHAPE_KEYS, "'shape'");
+  if (forms[0] != "mesh") refuse_keys(table, MESH_KEYS, "'mesh'");
+  if (forms[0] == "mesh") {
+    vessel.mesh = read_mesh(table);
+    return;
+  }
+  if (forms[0] == "shape") {
+    std::string shape;
+    table.read("shape", {{"cylinder", "cylinder"}, {"flask", "flask"}, {"conical", "conical"}}, shape);
+    silhouette = read_shape(table, shape);
+  } else {
+    silhouette = read_outline(table);
+  }
+  vessel.outline = silhouette.elements;
+  vessel.height = silhouette.height;
+}
+
+void read_wall(const SceneTable& table, VesselData& vessel, const Silhouette& silhouette) {
+  table.read("wall_mm", ranges::WALL, vessel.wall);
+  table.read("surface", {{"solid", Surface::solid}, {"shell", Surface::shell}}, vessel.surface);
+  if (vessel.surface == Surface::shell && !table.has("wall_mm")) {
+    table.file().refuse(table.place("surface"), "surface = 'shell' without a wall", "allowed: with 'wall_mm'");
+  }
+  if (vessel.mesh || !table.has("wall_mm")) return;
+  // what the wall leaves inside is looked at more closely when the vessel is prepared
+  if (vessel.wall >= silhouette.largest_radius) {
+    table.file().refuse(table.place("wall_mm"), "wall_mm " + found(*table.find("wall_mm")),
+                        fmt::format("allowed: less than the vessel's largest radius, {:.6g} mm", silhouette.largest_radius * 1e3));
+  }
+  if (vessel.wall >= silhouette.height) {
+    table.file().refuse(table.place("wall_mm"), "wall_mm " + found(*table.find("wall_mm")),
+                        fmt::format("allowed: less than the vessel's height, {:.6g} mm", silhouette.height * 1e3));
+  }
+}
+
+void read_mass(const SceneTable& table, VesselData& vessel) {
+  const bool has_mass = table.has("mass_kg"), has_center = table.has("center_of_mass_mm");
+  if (has_mass != has_center) {
+    const char* given = has_mass ? "mass_kg" : "center_of_mass_mm";
+    const char* lacking = has_mass ? "center_of_mass_mm" : "mass_kg";
+    table.file().refuse(table.place(given), fmt::format("{} without {}", given, lacking), "allowed: both or neither");
+  }
+  if (has_mass && table.has("density_kg_m3")) {
+    table.file().refuse(table.place("density_kg_m3"), "density_kg_m3 beside mass_kg", "allowed: one of the two");
+  }
+  table.read("density_kg_m3", ranges::VESSEL_DENSITY, vessel.density);
+  if (has_mass) {
+    table.need("mass_kg", ranges::MASS, vessel.mass.emplace());
+    table.need("center_of_mass_mm", ranges::CENTER_OF_MASS, "[x, y, z]", vessel.center_of_mass);
+  } else if (!table.has("wall_mm")) {
+    table.file().refuse(table.place(), fmt::format("vessel '{}' has no mass", vessel.name),
+                        "allowed: 'wall_mm', or 'mass_kg' and 'center_of_mass_mm'");
+  }
+}
+
+void read_guidance(const SceneTable& table, VesselData& vessel) {
+  const auto* points = table.array("guidance_mm", 1, ranges::LARGEST_GUIDANCE, "each [height_mm, azimuth_deg]");
+  if (!points) return;
+  for (const toml::node& node : *points) {
+    const toml::array* pair = node.as_array();
+    if (!pair || pair->size() != 2) {
+      table.file().refuse(place_of(node),
+                          "an entry of guidance_mm " + (pair ? fmt::format("has {} entries", pair->size()) : found(node)),
+                          "allowed: [height_mm, azimuth_deg]");
+    }
+    vessel.guidance.push_back({read_number(table.file(), (*pair)[0], "height in guidance_mm", ranges::GRIP_HEIGHT),
+                               read_number(table.file(), (*pair)[1], "azimuth in guidance_mm", ranges::ROTATION)});
+  }
+}
+
+VesselData read_vessel(const SceneTable& table) {
+  VesselData vessel;
+  vessel.line = table.place().line;
+  vessel.column = table.place().column;
+  table.need("name", "a name for the vessel");
+  table.read_name("name", vessel.name);
+  Silhouette silhouette;
+  read_form(table, vessel, silhouette);
+  read_wall(table, vessel, silhouette);
+  read_mass(table, vessel);
+  if (table.has("force_range_N")) table.need("force_range_N", ranges::FORCE_RANGE, vessel.force_range.emplace());
+  read_guidance(table, vessel);
+  table.read("place_mm", ranges::PLACE, "[x, y, z]", vessel.place);
+  if (const auto liquid = table.table("liquid", {"name", "fill"})) {
+    liquid->need("name", "a name for the liquid");
+    liquid->read_name("name", vessel.liquid_name);
+    liquid->need("fill", ranges::FRACTION, vessel.liquid_fill);
+  }
+  return vessel;
+}
+
+}  // namespace
+
+void read_vessels(const SceneTable& root, Scene& scene) {
+  root.need("vessel", "1 to 64 tables [[vessel]]");
+  const auto* vessels = root.array("vessel", 1, ranges::LARGEST_VESSELS, "tables [[vessel]]");
+  std::map<std::string, int> lines;
+  for (const toml::node& node : *vessels) {
+    const toml::table* table = node.as_table();
+    if (!table) root.file().refuse(place_of(node), "an entry of vessel " + found(node), "allowed: tables [[vessel]]");
+    const SceneTable checked(root.file(), *table, "[[vessel]]", {VESSEL_KEYS.begin(), VESSEL_KEYS.end()});
+    scene.vessels.push_back(read_vessel(checked));
+    const VesselData& vessel = scene.vessels.back();
+    const auto [other, is_new] = lines.emplace(vessel.name, vessel.line);
+    if (!is_new) {
+      root.file().refuse(checked.place("name"), fmt::format("a second vessel '{}'", vessel.name),
+                         fmt::format("allowed: a name of its own, unlike that of the vessel in line {}", other->second));
+    }
+  }
+}
+
+void check_vessels(const SceneTable& root, const Scene& scene) {
+  for (const VesselData& vessel : scene.vessels) {
+    const Place place{vessel.line, vessel.column};
+    if (scene.liquid && vessel.wall == 0) {
+      root.file().refuse(place, fmt::format("vessel '{}' has no 'wall_mm', and [liquid] asks what it holds", vessel.name),
+                         "allowed: 'wall_mm' in every vessel, or no [liquid]");
+    }
+    if (!scene.liquid && !vessel.liquid_name.empty()) {
+      root.file().refuse(place, fmt::format("vessel '{}' has a liquid, and the scene no [liquid]", vessel.name),
+                         "allowed: both, or neither");
+    }
+  }
+}
+
+}  // namespace wholehand

@@ -1,0 +1,64 @@
+#include "app/values.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <string_view>
+
+#include "app/scene_text.h"
+#include "core/error.h"
+
+namespace wholehand {
+namespace {
+
+template <class Number>
+bool parse_whole(std::string_view text, Number& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+// Written so that a NaN is out of range.
+bool is_within(double value, const Quantity& quantity) { return value >= quantity.low && value <= quantity.high; }
+
+}  // namespace
+
+double parse_quantity(const std::string& text, const std::string& option, const Quantity& quantity) {
+  double value = 0;
+  if (!parse_whole(text, value) || !is_within(value, quantity)) {
+    throw usage_error(fmt::format("{} {}; allowed: a number, {}", option, in_quotes(text), describe(quantity)));
+  }
+  return to_si(value, quantity.unit);
+}
+
+Triple parse_triple(const std::string& text, const std::string& option, const Quantity& quantity) {
+  Triple point{};
+  std::string_view rest = text;
+  for (int k = 0; k < 3; ++k) {
+    const std::size_t comma = rest.find(',');
+    double value = 0;
+    if ((comma == std::string_view::npos) != (k == 2) || !parse_whole(rest.substr(0, comma), value) ||
+        !is_within(value, quantity)) {
+      throw usage_error(
+          fmt::format("{} {}; allowed: three numbers x,y,z without spaces, each {}", option, in_quotes(text), describe(quantity)));
+    }
+    point[k] = to_si(value, quantity.unit);
+    if (k < 2) rest.remove_prefix(comma + 1);
+  }
+  return point;
+}
+
+std::int64_t parse_integer(const std::string& text, const std::string& option, IntegerRange range) {
+  std::int64_t value = 0;
+  if (!parse_whole(text, value) || value < range.low || value > range.high) {
+    throw usage_error(fmt::format("{} {}; allowed: a whole number, {} to {}", option, in_quotes(text), range.low, range.high));
+  }
+  return value;
+}
+
+Precision parse_precision(const std::string& text) {
+  if (text == "float") return Precision::single;
+  if (text == "double") return Precision::full;
+  throw usage_error(fmt::format("--precision {}; allowed: float or double", in_quotes(text)));
+}
+
+}  // namespace wholehand

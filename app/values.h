@@ -1,0 +1,18 @@
+// Numbers of a command line, strictly: the whole text is the number, it is finite and in its range.
+#pragma once
+
+#include <string>
+
+#include "app/scene_ranges.h"
+#include "core/backend.h"
+#include "core/scene.h"
+
+namespace wholehand {
+
+// `option` names the option in messages. Each throws Error (usage): `--option: what was found; what is allowed`.
+double parse_quantity(const std::string& text, const std::string& option, const Quantity& quantity);  // in SI
+Triple parse_triple(const std::string& text, const std::string& option, const Quantity& quantity);    // "x,y,z", in SI
+std::int64_t parse_integer(const std::string& text, const std::string& option, IntegerRange range);
+Precision parse_precision(const std::string& text);  // "float" or "double"
+
+}  // namespace wholehand

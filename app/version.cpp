@@ -1,0 +1,11 @@
+#include "app/version.h"
+
+#ifndef WHOLEHAND_VERSION
+#define WHOLEHAND_VERSION "unknown"
+#endif
+
+namespace wholehand {
+
+const char* version() { return WHOLEHAND_VERSION; }
+
+}  // namespace wholehand

@@ -1,0 +1,87 @@
+# Compiles compute shaders to SPIR-V and embeds them.
+#
+#   embed_shaders(TARGET HEADER FUNCTION GLOB ...)
+#
+# makes a static library TARGET that defines FUNCTION, declared in HEADER as
+#   std::span<const EmbeddedShader> FUNCTION();
+# with an entry for every matching .comp in float and in double, and, where it or a file it includes mentions OUTLINE_SOURCE, for every
+# source of the outline. A shader is compiled again when a file that it includes changes: glslangValidator writes the dependencies.
+
+find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
+set(SHADER_TARGET_ENV vulkan1.3)  # group sizes are LocalSizeId then: the device enables maintenance4
+
+# Sets `result` to whether the file or what it includes, at any depth, mentions OUTLINE_SOURCE. The answer is taken when configuring,
+# so the files are watched and a change configures again.
+function(shader_reads_outline file result)
+  set(pending "${file}")
+  set(seen "")
+  set(found FALSE)
+  while(pending)
+    list(POP_FRONT pending current)
+    if(current IN_LIST seen OR NOT EXISTS "${current}")
+      continue()
+    endif()
+    list(APPEND seen "${current}")
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${current}")
+    file(STRINGS "${current}" mentions REGEX "OUTLINE_SOURCE")
+    if(mentions)
+      set(found TRUE)
+    endif()
+    cmake_path(GET current PARENT_PATH here)
+    file(STRINGS "${current}" includes REGEX "^[ \t]*#[ \t]*include[ \t]*\"")
+    foreach(line IN LISTS includes)
+      string(REGEX REPLACE "^[^\"]*\"([^\"]+)\".*$" "\\1" name "${line}")
+      list(APPEND pending "${here}/${name}" "${PROJECT_SOURCE_DIR}/${name}" "${PROJECT_SOURCE_DIR}/shaders/${name}")
+    endforeach()
+  endwhile()
+  set(${result} ${found} PARENT_SCOPE)
+endfunction()
+
+function(embed_shaders target header function)
+  file(GLOB shaders CONFIGURE_DEPENDS ${ARGN})
+  set(folder "${CMAKE_CURRENT_BINARY_DIR}/${target}.dir")
+  file(MAKE_DIRECTORY "${folder}")
+  set(includes "")
+  set(rows "")
+  set(outputs "")
+  foreach(shader IN LISTS shaders)
+    cmake_path(GET shader STEM stem)
+    shader_reads_outline("${shader}" reads_outline)
+    set(sources -1)
+    if(reads_outline)
+      set(sources 0 1 2)
+    endif()
+    foreach(precision 0 1)
+      foreach(outline IN LISTS sources)
+        set(name "${stem}_${precision}")
+        set(defines -DREAL_IS_DOUBLE=${precision})
+        if(NOT outline EQUAL -1)
+          string(APPEND name "_${outline}")
+          list(APPEND defines -DOUTLINE_SOURCE=${outline})
+        endif()
+        set(output "${folder}/${name}.h")
+        add_custom_command(OUTPUT "${output}"
+          COMMAND "${GLSLANG_VALIDATOR}" --quiet --target-env ${SHADER_TARGET_ENV} ${defines} "-I${PROJECT_SOURCE_DIR}"
+            "-I${PROJECT_SOURCE_DIR}/shaders" --vn ${name} --depfile "${output}.d" -o "${output}" "${shader}"
+          DEPENDS "${shader}"
+          DEPFILE "${output}.d"
+          COMMENT "Compiling shader ${stem} (${defines})"
+          VERBATIM)
+        list(APPEND outputs "${output}")
+        string(APPEND includes "#include \"${target}.dir/${name}.h\"\n")
+        string(APPEND rows "    {\"${stem}\", ${precision}, ${outline}, ${name}},\n")
+      endforeach()
+    endforeach()
+  endforeach()
+  set(table "${CMAKE_CURRENT_BINARY_DIR}/${target}.cpp")
+  if(shaders)
+    set(body "constexpr wholehand::EmbeddedShader TABLE[] = {\n${rows}};\n}\n\nstd::span<const wholehand::EmbeddedShader> wholehand::${function}() { return TABLE; }\n")
+  else()
+    set(body "}\n\nstd::span<const wholehand::EmbeddedShader> wholehand::${function}() { return {}; }\n")
+  endif()
+  file(CONFIGURE OUTPUT "${table}" CONTENT
+    "// generated: see cmake/shaders.cmake\n#include \"${header}\"\n\n#include <cstdint>\n\nnamespace {\n${includes}\n${body}" @ONLY)
+  add_library(${target} STATIC "${table}" ${outputs})
+  target_include_directories(${target} PUBLIC "${PROJECT_SOURCE_DIR}" PRIVATE "${CMAKE_CURRENT_BINARY_DIR}")
+  target_compile_options(${target} PRIVATE -O0)  # tables only
+endfunction()

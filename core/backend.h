@@ -1,0 +1,64 @@
+// Who evaluates many grips: the core on threads, or a Vulkan device. Both give the same planes in the same order.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/planes.h"
+#include "core/result.h"
+
+namespace wholehand {
+
+enum class Precision { single, full };  // float, double
+
+struct BackendInfo {
+  std::string backend;  // "core" or "vulkan"
+  std::string device;   // e.g. "llvmpipe (LLVM 15.0.6, 256 bits)", or "core, 2 threads"
+  std::string driver;   // driver name and version; compiler for the core
+  Precision precision = Precision::full;
+  bool is_cpu = true;
+};
+
+// Writes the grips first .. first + count - 1 of a vessel's plan to `out`. Called from any thread.
+using GripSource = std::function<void(std::size_t vessel, std::uint64_t first, std::size_t count, GripInput* out)>;
+
+// Receives finished chunks in ascending order, on the thread that called run; the planes are valid during the call.
+// Only the kept planes may be read.
+using ChunkSink = std::function<void(const PlaneChunk&)>;
+
+struct Candidate {
+  double score = 0;
+  std::uint64_t index = 0;  // of the grip within its vessel's plan
+};
+
+struct RunRequest {
+  std::size_t vessel = 0;
+  std::uint64_t first = 0, last = 0;  // grips [first, last)
+  GripSource grips;
+  ChunkSink sink;        // may be empty when nothing is kept
+  std::size_t best = 0;  // candidates wanted, by score descending, then index ascending; only feasible, plausible ones
+  const std::atomic<bool>* stop = nullptr;  // set: finish the chunks under way, deliver them, return
+};
+
+struct RunResult {
+  std::vector<Candidate> best;
+  std::uint64_t done = 0;  // grips delivered
+  std::uint64_t chunks = 0;
+  double kernel_seconds = 0;       // device (or core threads') time in kernels
+  std::vector<std::string> notes;  // "out of memory: chunks of 4096", "device lost: ..."; each once
+};
+
+class Backend {
+ public:
+  virtual ~Backend() = default;
+  virtual const BackendInfo& info() const = 0;
+  virtual const FieldSet& fields() const = 0;
+  virtual RunResult run(const RunRequest& request) = 0;
+  // Liquid of a vessel over the scene's fills and tilts, fill-major; empty where the scene has none.
+  virtual std::vector<LiquidResult> liquid(std::size_t vessel) = 0;
+};
+
+}  // namespace wholehand

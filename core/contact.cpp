@@ -1,0 +1,35 @@
+#include "core/contact.h"
+
+#include <cmath>
+
+namespace CORE_NS {
+
+Real separation_at(const Vessel& vessel, Vec3 p, Real radius) { return signed_distance(vessel, p) - radius; }
+
+// One step lands on the surface where the distance is exact and the nearest feature unique. Degenerate: on the medial axis the
+// first feature in outline order is taken, so two evaluations may choose walls a thickness apart.
+Vec3 proxy_of(const Vessel& vessel, Vec3 p, Real radius, bool& settled) {
+  Vec3 proxy = p;
+  settled = false;
+  for (int step = 0; step < PROXY_STEPS; ++step) {
+    const Real separation = separation_at(vessel, proxy, radius);
+    if (std::abs(separation) < STOP_TOLERANCE) {
+      settled = true;
+      return proxy;
+    }
+    int element = -1;
+    proxy -= separation * distance_gradient(vessel, proxy, element);
+  }
+  settled = std::abs(separation_at(vessel, proxy, radius)) < STOP_TOLERANCE;
+  return proxy;
+}
+
+Contact contact_at(const Vessel& vessel, Vec3 p, Real radius) {
+  Contact contact;
+  contact.separation = separation_at(vessel, p, radius);
+  contact.proxy = p;
+  if (contact.separation < 0) contact.proxy = proxy_of(vessel, p, radius, contact.settled);
+  return contact;
+}
+
+}  // namespace CORE_NS

@@ -1,0 +1,22 @@
+// Kernel 4: which points touch, and where they belong.
+#pragma once
+
+#include "core/sdf.h"
+
+namespace CORE_NS {
+
+// A point's contact: separation sdf - radius (m), and its proxy.
+struct Contact {
+  Real separation = 0;
+  Vec3 proxy{};         // the point itself where it does not penetrate
+  bool settled = true;  // false: the proxy took all its steps
+};
+
+// Distance from the skin of a point of `radius` m at p to the surface, m; negative: penetrates.
+Real separation_at(const Vessel& vessel, Vec3 p, Real radius);
+// p moved along the outward normal, evaluated anew each step, until the separation is 0 to the stop tolerance.
+Vec3 proxy_of(const Vessel& vessel, Vec3 p, Real radius, bool& settled);
+// The whole kernel for one point.
+Contact contact_at(const Vessel& vessel, Vec3 p, Real radius);
+
+}  // namespace CORE_NS

@@ -1,0 +1,406 @@
+// The facade of core/evaluator.h at this precision.
+#include "core/evaluator.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "core/grip.h"
+#include "core/load.h"
+#include "core/score.h"
+#include "core/trig.h"
+
+namespace CORE_NS {
+
+using wholehand::FieldSet;
+using wholehand::FillTerms;
+using wholehand::GripInput;
+using wholehand::GripResult;
+using wholehand::GripScore;
+using wholehand::Handedness;
+using wholehand::LiquidResult;
+using wholehand::Scene;
+using wholehand::StateResult;
+using wholehand::Triple;
+
+namespace {
+
+constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
+
+Grip to_grip(const GripInput& g) {
+  return {Real(g.height), Real(g.azimuth), Real(g.obliquity), Real(g.roll), Real(g.offset), Real(g.hand_scale)};
+}
+
+Vec3 to_vec(const Triple& t) { return Vec3(Real(t[0]), Real(t[1]), Real(t[2])); }
+
+Triple to_triple(Vec3 v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
+
+// A vessel with everything about it that no grip changes.
+struct VesselEntry {
+  Vessel vessel;
+  ForceScale force;
+  Load largest;             // upright at the largest fill, for the torque's reference
+  Real largest_share = 0;   // of the liquid in its mass
+  std::vector<Load> loads;  // fill-major over the tilts
+  std::vector<LiquidResult> liquids;
+};
+
+struct StateForces {
+  Real pivot_length, torque, exact_torque, normal, feedback, hold;
+  Vec3 center;
+};
+
+class CoreEvaluator final : public wholehand::Evaluator {
+ public:
+  CoreEvaluator(const Scene& scene, const wholehand::EvaluatorOptions& options)
+      : scene_(scene),
+        hand_(load_hand(wholehand::prepare_hand(scene.hand), scene.hand)),
+        quadrature_(load_quadrature(wholehand::prepare_quadrature(options.quadrature_points))) {
+    for (const double tilt : scene.tilts) {
+      // a half turn's sine is 1e-16 in double: taken as it is, the kernels treat it as upright or inverted
+      tilt_sine_.push_back(sine(Real(tilt)));
+      tilt_cosine_.push_back(cosine(Real(tilt)));
+    }
+    const bool with_liquid = scene.liquid.has_value();
+    for (const auto& data : scene.vessels) {
+      const bool needs_cavity = data.wall > 0;
+      VesselEntry entry;
+      entry.vessel =
+          load_vessel(wholehand::prepare_vessel(data, needs_cavity), data, quadrature_, with_liquid, scene.hand.handedness);
+      if (options.grid_samples > 0) {
+        entry.vessel.grid = sample_grid(entry.vessel, options.grid_samples);
+        entry.vessel.is_grid = true;
+        entry.vessel.lid = -1;
+      }
+      entry.force = load_force(scene, data);
+      entries_.push_back(std::move(entry));
+      fill_states(entries_.size() - 1);
+    }
+  }
+
+  void grip(std::size_t v, const GripInput& input, GripResult& result) const override {
+    GripAnswer answer;
+    evaluate(v, input, Wanted{true, true}, answer);
+    const Closing& closing = answer.closing;
+    const auto back = [&](Vec3 p) { return wholehand::mirrored(to_triple(p), scene_.hand.handedness); };
+    result = GripResult{};
+    result.status = answer.status;
+    result.reason = static_cast<wholehand::Reason>(closing.reason);
+    if (closing.reason == REASON_NONE || closing.reason >= REASON_TOO_WIDE) {
+      result.gap = closing.gap;
+      result.midpoint = back(closing.midpoint);
+    }
+    if (closing.reason != REASON_NONE) return;
+    result.plausible = (answer.status & STATUS_PLAUSIBLE) != 0;
+    result.antipodal = (answer.status & STATUS_ANTIPODAL) != 0;
+    result.grazing = closing.grazing;
+    result.contact_angles = {static_cast<double>(closing.thumb_angle), static_cast<double>(closing.index_angle)};
+    result.closure = closing.closure;
+    for (int j = 0; j < JOINTS; ++j) {
+      result.joints[j] = back(answer.joints[j]);
+      result.posed[j] = back(answer.posed[j]);
+      result.proxies[j] = back(answer.proxies[j]);
+      result.separation[j] = answer.separation[j];
+    }
+    result.touch_mask = answer.touch_mask;
+    result.tip_mask = answer.tip_mask;
+    result.finger_mask = answer.finger_mask;
+    result.inner_mask = answer.inner_mask;
+    result.used_mask = answer.used_mask;
+    result.phalanx_depth = answer.phalanx_depth;
+    result.palm_depth = answer.palm_depth;
+    result.bone_stretch = answer.bone_stretch;
+  }
+
+  LiquidResult liquid(std::size_t v, double fill, double tilt) const override {
+    const Vessel& vessel = entries_[v].vessel;
+    LiquidResult result;
+    result.height = vessel.floor_height;
+    if (vessel.lip_capacity.empty()) return result;
+    const Real s = sine(Real(tilt)), c = cosine(Real(tilt));
+    const Real filled = Real(fill) * vessel.capacity;
+    Real volume = std::min(filled, lip_capacity(vessel, quadrature_, s, c));
+    const int before = std::clamp(static_cast<int>(std::floor(wholehand::degrees(tilt) * (1 + 1e-15))), 0, WHOLE_DEGREES - 1);
+    for (int degree = 0; degree <= before; ++degree) volume = std::min(volume, vessel.lip_capacity[degree]);
+    const LiquidState state = liquid_at(vessel, quadrature_, volume, s, c);
+    result.volume = state.volume;
+    result.mass = state.volume * Real(scene_.liquid->density);
+    result.lean = state.lean;
+    result.height = state.height;
+    result.poured = filled - state.volume;
+    return result;
+  }
+
+  StateResult state(std::size_t v, const GripInput& input, const GripResult& result, const LiquidResult& liquid, double tilt,
+                    double opening) const override {
+    const VesselEntry& entry = entries_[v];
+    const GripInput grip = wholehand::mirrored(input, scene_.hand.handedness);
+    const Vec3 direction = grip_direction(Real(grip.azimuth), Real(grip.obliquity));
+    const Vec3 midpoint = to_vec(wholehand::mirrored(result.midpoint, scene_.hand.handedness));
+    const Load load = load_of(entry, liquid);
+    const StateForces forces =
+        force_state(entry, direction, midpoint, result.antipodal, load, sine(Real(tilt)), cosine(Real(tilt)), Real(opening));
+    StateResult state;
+    state.mass = load.mass;
+    state.center_of_mass = wholehand::mirrored(to_triple(forces.center), scene_.hand.handedness);
+    state.pivot_length = forces.pivot_length;
+    state.torque = forces.torque;
+    state.exact_torque = forces.exact_torque;
+    state.normal_force = forces.normal;
+    state.feedback_force = forces.feedback;
+    state.hold_force = forces.hold;
+    return state;
+  }
+
+  GripScore score(std::size_t v, const GripInput& input, const GripResult& result) const override {
+    GripScore score;
+    const VesselEntry& entry = entries_[v];
+    if (result.reason != wholehand::Reason::none) return score;
+    const GripInput grip = wholehand::mirrored(input, scene_.hand.handedness);
+    const Vec3 direction = grip_direction(Real(grip.azimuth), Real(grip.obliquity));
+    const Vec3 midpoint = to_vec(wholehand::mirrored(result.midpoint, scene_.hand.handedness));
+    for (std::size_t fill = 0; fill < (tilt_sine_.empty() ? 0 : wholehand::scene_fills(scene_)); ++fill)
+      score.fills.push_back(fill_terms(entry, fill, direction, midpoint, result.antipodal, nullptr));
+    Real largest_feedback = 0, largest_hold = 0;
+    for (const FillTerms& terms : score.fills) {
+      largest_feedback = std::max(largest_feedback, Real(terms.peak_force));
+      largest_hold = std::max(largest_hold, Real(terms.largest_hold));
+    }
+    const auto terms = score_terms(result.used_mask, result.touch_mask, Real(result.phalanx_depth), Real(result.palm_depth),
+                                   Real(result.closure), largest_feedback, largest_hold, entry.force.max);
+    score.terms = {terms[0], terms[1], terms[2], terms[3], terms[4], terms[5]};
+    score.score = result.plausible ? weighted(terms) : 0;
+    return score;
+  }
+
+  void planes(std::size_t v, const GripInput* grips, std::size_t count, const FieldSet& fields, std::size_t stride, double* reals,
+              std::uint32_t* uints) const override {
+    const VesselEntry& entry = entries_[v];
+    const Wanted wanted{fields.has(FIELD_JOINTS), fields.has(FIELD_PROXIES) || fields.has(FIELD_BONE_STRETCH)};
+    GripAnswer answer;
+    for (std::size_t i = 0; i < count; ++i) {
+      for (int p = 0; p < fields.real_planes; ++p) reals[p * stride + i] = NOT_A_NUMBER;
+      for (int p = 0; p < fields.uint_planes; ++p) uints[p * stride + i] = 0;
+      const auto put = [&](int field, int k, Real value) {
+        if (fields.has(field)) reals[(fields.plane[field] + k) * stride + i] = static_cast<double>(value);
+      };
+      const auto put_mask = [&](int field, std::uint32_t value) {
+        if (fields.has(field)) uints[fields.plane[field] * stride + i] = value;
+      };
+      evaluate(v, grips[i], wanted, answer);
+      const Closing& closing = answer.closing;
+      put_mask(FIELD_STATUS, answer.status);
+      put(FIELD_SCORE, 0, 0);
+      for (int k = 0; k < 6; ++k) put(FIELD_TERMS, k, 0);
+      const bool reached = closing.reason == REASON_NONE || closing.reason >= REASON_TOO_WIDE;
+      if (reached) {
+        put(FIELD_T_INDEX, 0, closing.t_index);
+        put(FIELD_T_THUMB, 0, closing.t_thumb);
+        put(FIELD_GAP, 0, closing.gap);
+        put_points(fields, FIELD_MIDPOINT, &closing.midpoint, 1, stride, reals + i);
+      }
+      if (closing.reason != REASON_NONE) continue;
+      put(FIELD_CLOSURE, 0, closing.closure);
+      put(FIELD_CONTACT_ANGLES, 0, closing.thumb_angle);
+      put(FIELD_CONTACT_ANGLES, 1, closing.index_angle);
+      put(FIELD_PHALANX_DEPTH, 0, answer.phalanx_depth);
+      put(FIELD_PALM_DEPTH, 0, answer.palm_depth);
+      put(FIELD_BONE_STRETCH, 0, answer.bone_stretch);
+      put_points(fields, FIELD_JOINTS, answer.joints.data(), JOINTS, stride, reals + i);
+      put_points(fields, FIELD_POSED, answer.posed.data(), JOINTS, stride, reals + i);
+      put_points(fields, FIELD_PROXIES, answer.proxies.data(), JOINTS, stride, reals + i);
+      for (int j = 0; j < JOINTS; ++j) put(FIELD_SEPARATION, j, answer.separation[j]);
+      put_mask(FIELD_TOUCH_MASK, answer.touch_mask);
+      put_mask(FIELD_TIP_MASK, answer.tip_mask);
+      put_mask(FIELD_FINGER_MASK, answer.finger_mask);
+      put_mask(FIELD_INNER_MASK, answer.inner_mask);
+      put_mask(FIELD_USED_MASK, answer.used_mask);
+
+      Real largest_feedback = 0, largest_hold = 0;
+      const bool antipodal = (answer.status & STATUS_ANTIPODAL) != 0;
+      const std::size_t fills = tilt_sine_.empty() ? 0 : wholehand::scene_fills(scene_);
+      for (std::size_t fill = 0; fill < fills; ++fill) {
+        const int k = static_cast<int>(fill);
+        const auto keep = [&](std::size_t tilt, const StateForces& s) {
+          const int state = static_cast<int>(fill * tilt_sine_.size() + tilt);
+          put(FIELD_PIVOT_LENGTH, state, s.pivot_length);
+          put(FIELD_TORQUE, state, s.torque);
+          put(FIELD_EXACT_TORQUE, state, s.exact_torque);
+          put(FIELD_NORMAL_FORCE, state, s.normal);
+          put(FIELD_FEEDBACK_FORCE, state, s.feedback);
+          put(FIELD_HOLD_FORCE, state, s.hold);
+        };
+        const FillTerms terms = fill_terms(entry, fill, closing.direction, closing.midpoint, antipodal, keep);
+        put(FIELD_PEAK_FORCE, k, Real(terms.peak_force));
+        put(FIELD_PEAK_TILT, k, Real(terms.peak_tilt));
+        put(FIELD_LARGEST_HOLD, k, Real(terms.largest_hold));
+        put(FIELD_SAFE_TILT, k, Real(terms.safe_tilt));
+        largest_feedback = std::max(largest_feedback, Real(terms.peak_force));
+        largest_hold = std::max(largest_hold, Real(terms.largest_hold));
+      }
+      const auto terms = score_terms(answer.used_mask, answer.touch_mask, answer.phalanx_depth, answer.palm_depth, closing.closure,
+                                     largest_feedback, largest_hold, entry.force.max);
+      for (int k = 0; k < 6; ++k) put(FIELD_TERMS, k, terms[k]);
+      put(FIELD_SCORE, 0, (answer.status & STATUS_PLAUSIBLE) != 0 ? weighted(terms) : Real(0));
+    }
+  }
+
+  double distance(std::size_t v, const Triple& point) const override { return signed_distance(entries_[v].vessel, to_vec(point)); }
+
+  Triple gradient(std::size_t v, const Triple& point) const override {
+    int element = -1;
+    return to_triple(distance_gradient(entries_[v].vessel, to_vec(point), element));
+  }
+
+  wholehand::VesselConstants constants(std::size_t v) const override {
+    const VesselEntry& entry = entries_[v];
+    wholehand::VesselConstants result;
+    result.capacity = entry.vessel.capacity;
+    result.mass = entry.vessel.mass;
+    result.center_of_mass = wholehand::mirrored(to_triple(entry.vessel.center_of_mass), scene_.hand.handedness);
+    result.torque_reference = entry.force.reference;
+    result.largest_mass = entry.largest.mass;
+    result.largest_share = entry.largest_share;
+    result.largest_height = entry.largest.height;
+    return result;
+  }
+
+  double pouring_tilt(std::size_t v, double fill) const override {
+    const Vessel& vessel = entries_[v].vessel;
+    const Real volume = Real(fill) * vessel.capacity;
+    if (vessel.lip_capacity.empty() || !(volume > 0)) return NOT_A_NUMBER;
+    int degree = 1;
+    while (degree < WHOLE_DEGREES - 1 && vessel.lip_capacity[degree] >= volume) ++degree;
+    double low = wholehand::radians(degree - 1), high = wholehand::radians(degree);
+    while (high - low > 1e-12) {
+      const double middle = 0.5 * (low + high);
+      const bool holds = lip_capacity(vessel, quadrature_, sine(Real(middle)), cosine(Real(middle))) >= volume;
+      (holds ? low : high) = middle;
+    }
+    return high;
+  }
+
+  double gap_at(double closure) const override { return hand_.scale * CORE_NS::gap_at(hand_, Real(closure)); }
+
+ private:
+  void evaluate(std::size_t v, const GripInput& input, Wanted wanted, GripAnswer& answer) const {
+    evaluate_grip(hand_, entries_[v].vessel, static_cast<PoseKind>(static_cast<int>(scene_.pose)),
+                  to_grip(wholehand::mirrored(input, scene_.hand.handedness)), Real(scene_.force.friction), wanted, answer);
+  }
+
+  void put_points(const FieldSet& fields, int field, const Vec3* points, int count, std::size_t stride, double* out) const {
+    if (!fields.has(field)) return;
+    for (int j = 0; j < count; ++j) {
+      const Triple p = wholehand::mirrored(to_triple(points[j]), scene_.hand.handedness);
+      for (int k = 0; k < 3; ++k) out[(fields.plane[field] + 3 * j + k) * stride] = p[k];
+    }
+  }
+
+  static Load load_of(const VesselEntry& entry, const LiquidResult& liquid) {
+    Load load;
+    const Real own = entry.vessel.mass, held = Real(liquid.mass);
+    load.mass = own + held;
+    const Real share = load.mass > 0 ? held / load.mass : Real(0);
+    load.fixed = (Real(1) - share) * entry.vessel.center_of_mass;
+    load.lean = share * Real(liquid.lean);
+    load.height = share * Real(liquid.height);
+    return load;
+  }
+
+  // Liquid and load of every state, and the torque's reference: upright at the largest fill.
+  void fill_states(std::size_t v) {
+    VesselEntry& entry = entries_[v];
+    const bool wet = scene_.liquid.has_value();
+    const std::size_t fills = wholehand::scene_fills(scene_);
+    for (std::size_t f = 0; f < fills; ++f)
+      for (const double tilt : scene_.tilts) {
+        const LiquidResult state = wet ? liquid(v, scene_.liquid->fills[f], tilt) : LiquidResult{};
+        entry.liquids.push_back(state);
+        entry.loads.push_back(load_of(entry, state));
+      }
+    const LiquidResult most = wet ? liquid(v, scene_.liquid->fills.back(), 0) : LiquidResult{};
+    entry.largest = load_of(entry, most);
+    entry.largest_share = entry.largest.mass > 0 ? Real(most.mass) / entry.largest.mass : Real(0);
+    const Real center = entry.largest.fixed.y + entry.largest.height;
+    const Real above = Real(scene_.vessels[v].height) - center;
+    entry.force.reference = entry.largest.mass * entry.force.gravity * std::max(center, above);
+  }
+
+  StateForces force_state(const VesselEntry& entry, Vec3 direction, Vec3 midpoint, bool antipodal, const Load& load, Real sine_tilt,
+                          Real cosine_tilt, Real opening) const {
+    const ForceScale& scale = entry.force;
+    const Vec3 pour = pour_direction(direction, pour_sense_);
+    StateForces state;
+    state.center = load_center(load, pour);
+    const Vec3 arm = state.center - midpoint;
+    state.pivot_length = glm::length(arm);
+    state.torque = pendulum_torque(load.mass, scale.gravity, state.pivot_length, sine_tilt);
+    state.exact_torque = exact_pendulum_torque(load.mass, scale.gravity, arm, pour, sine_tilt, cosine_tilt);
+    const Real reference =
+        scale.per_grip ? grip_reference(entry.largest.mass, scale.gravity, glm::length(load_center(entry.largest, pour) - midpoint))
+                       : scale.reference;
+    const Real torque = scale.exact_torque ? std::abs(state.exact_torque) : state.torque;
+    state.normal = normal_force(scale.base, scale.range, torque, reference);
+    state.feedback = feedback_force(state.normal, opening_force(scale.k_open, opening), scale.max);
+    state.hold = antipodal ? hold_force(load.mass, scale.gravity, arm, direction, up_direction(pour, sine_tilt, cosine_tilt),
+                                        scale.friction, scale.torsion)
+                           : std::numeric_limits<Real>::infinity();
+    return state;
+  }
+
+  template <class Keep>
+  FillTerms fill_terms(const VesselEntry& entry, std::size_t fill, Vec3 direction, Vec3 midpoint, bool antipodal,
+                       const Keep& keep) const {
+    Real peak_force = -1, peak_tilt = 0, largest_hold = 0;
+    double safe_tilt = NOT_A_NUMBER;
+    bool safe = true;
+    for (std::size_t t = 0; t < tilt_sine_.size(); ++t) {
+      const Load& load = entry.loads[fill * tilt_sine_.size() + t];
+      const StateForces state = force_state(entry, direction, midpoint, antipodal, load, tilt_sine_[t], tilt_cosine_[t], 0);
+      if (state.feedback > peak_force) {
+        peak_force = state.feedback;
+        peak_tilt = Real(scene_.tilts[t]);
+      }
+      largest_hold = std::max(largest_hold, state.hold);
+      safe = safe && state.normal < entry.force.max && state.hold <= Real(scene_.force.grip_strength);
+      if (safe) safe_tilt = scene_.tilts[t];
+      if constexpr (!std::is_same_v<Keep, std::nullptr_t>) keep(t, state);
+    }
+    return {static_cast<double>(peak_force), static_cast<double>(peak_tilt), static_cast<double>(largest_hold), safe_tilt};
+  }
+
+  std::array<Real, 6> score_terms(std::uint32_t used, std::uint32_t touching, Real phalanx, Real palm, Real closure, Real feedback,
+                                  Real hold, Real max) const {
+    const bool tilts = !tilt_sine_.empty();
+    return {fingers_term(std::popcount(used)),
+            contacts_term(std::popcount(touching)),
+            depth_term(phalanx, palm),
+            posture_term(closure),
+            tilts ? force_term(feedback, max) : Real(0),
+            tilts ? hold_term(hold, Real(scene_.force.grip_strength)) : Real(0)};
+  }
+
+  // A scene without tilts has no force and hold terms; the other weights are scaled to sum to 1.
+  Real weighted(const std::array<Real, 6>& terms) const {
+    const auto weights = wholehand::effective_weights(scene_);
+    Real sum = 0;
+    for (int k = 0; k < 6; ++k) sum += Real(weights[k]) * terms[k];
+    return sum;
+  }
+
+  Scene scene_;
+  Hand hand_;
+  Quadrature quadrature_;
+  Real pour_sense_ = scene_.liquid && scene_.liquid->pour == wholehand::Pour::towards ? Real(-1) : Real(1);
+  std::vector<Real> tilt_sine_, tilt_cosine_;
+  std::vector<VesselEntry> entries_;
+};
+
+}  // namespace
+
+std::unique_ptr<wholehand::Evaluator> make_evaluator(const Scene& scene, const wholehand::EvaluatorOptions& options) {
+  return std::make_unique<CoreEvaluator>(scene, options);
+}
+
+}  // namespace CORE_NS

@@ -1,0 +1,72 @@
+// The core behind plain doubles, so that either precision of it can be linked side by side: `core_f64` is the reference and drives
+// the product, `core_f32` tells what single precision costs.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/planes.h"
+#include "core/result.h"
+#include "core/scene.h"
+
+namespace wholehand {
+
+// How a scene is evaluated, beyond what it says: for measuring shortcuts, not for users.
+struct EvaluatorOptions {
+  int grid_samples = 0;  // > 0: replace each outline by a regular grid of that many samples along its longest side
+  int quadrature_points = QUADRATURE_POINTS;  // liquid: Gauss-Legendre points a piece, 2..64
+};
+
+// What is known of a vessel before any grip; SI. `largest` is the load upright at the scene's largest fill: glass and liquid together,
+// the liquid's share of the mass, and that share's part of the height of the centre of mass.
+struct VesselConstants {
+  double capacity = 0;          // m3, upright to the brim; 0 without a cavity
+  double mass = 0;              // empty, kg
+  Triple center_of_mass{};      // empty, vessel frame, m
+  double torque_reference = 0;  // per object, N m
+  double largest_mass = 0, largest_share = 0, largest_height = 0;
+};
+
+// A scene made ready for the kernels. Immutable after construction; every method may be called from any thread.
+class Evaluator {
+ public:
+  virtual ~Evaluator() = default;
+
+  // One grip with every intermediate value. Allocates nothing.
+  virtual void grip(std::size_t vessel, const GripInput& grip, GripResult& result) const = 0;
+
+  // Liquid of one vessel at a fill (fraction of the capacity) and tilt (rad, 0..pi), what poured on the way there included.
+  virtual LiquidResult liquid(std::size_t vessel, double fill, double tilt) const = 0;
+
+  // Force of a feasible grip holding `liquid` at `tilt`. `opening` is g_grasp - g of the device, m.
+  virtual StateResult state(std::size_t vessel, const GripInput& grip, const GripResult& result, const LiquidResult& liquid,
+                            double tilt, double opening = 0) const = 0;
+
+  // Scores over the scene's fills and tilts.
+  virtual GripScore score(std::size_t vessel, const GripInput& grip, const GripResult& result) const = 0;
+
+  // `count` grips into planes of `stride` doubles (uints likewise). Infeasible grips get NaN reals from the
+  // first that does not exist (t, gap and midpoint do from too_wide on); score and terms 0.
+  virtual void planes(std::size_t vessel, const GripInput* grips, std::size_t count, const FieldSet& fields, std::size_t stride,
+                      double* reals, std::uint32_t* uints) const = 0;
+
+  // Signed distance and its gradient (unit) at a point of the vessel frame, m.
+  virtual double distance(std::size_t vessel, const Triple& point) const = 0;
+  virtual Triple gradient(std::size_t vessel, const Triple& point) const = 0;
+
+  virtual VesselConstants constants(std::size_t vessel) const = 0;
+  double capacity(std::size_t vessel) const { return constants(vessel).capacity; }
+  double empty_mass(std::size_t vessel) const { return constants(vessel).mass; }
+  Triple empty_center_of_mass(std::size_t vessel) const { return constants(vessel).center_of_mass; }
+  virtual double pouring_tilt(std::size_t vessel, double fill) const = 0;  // rad; NaN where it never pours (nothing in it)
+  virtual double gap_at(double closure) const = 0;                         // g(c) at hand scale 1 times the scene's, m
+};
+
+// Prepares a scene. Throws Error (usage) where the scene is physically impossible: a hand whose gap does not fall strictly
+// (with the closure at which it turns), a wall thicker than the vessel, a cavity that folds over itself.
+std::unique_ptr<Evaluator> make_core_evaluator(const Scene& scene, const EvaluatorOptions& options = {});
+std::unique_ptr<Evaluator> make_core_float_evaluator(const Scene& scene, const EvaluatorOptions& options = {});
+
+}  // namespace wholehand

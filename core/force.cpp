@@ -1,0 +1,59 @@
+#include "core/force.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace CORE_NS {
+
+// (0, 1, 0) x d = (d.z, 0, -d.x). A line along the axis has no such direction: such a grip is degenerate and never gets here.
+Vec3 pour_direction(Vec3 direction, Real sense) {
+  const Real off_axis = std::sqrt(direction.x * direction.x + direction.z * direction.z);
+  return Vec3(direction.z, 0, -direction.x) * (sense / off_axis);
+}
+
+Vec3 up_direction(Vec3 pour, Real sine_tilt, Real cosine_tilt) { return Vec3(0, cosine_tilt, 0) - sine_tilt * pour; }
+
+Vec3 load_center(Load load, Vec3 pour) { return load.fixed + load.lean * pour + Vec3(0, load.height, 0); }
+
+Real pendulum_torque(Real mass, Real gravity, Real pivot_length, Real sine_tilt) {
+  return mass * gravity * pivot_length * sine_tilt;
+}
+
+// The lever arm against gravity: potential m g (CoM - M) . u has the derivative -m g (CoM - M) . (sin t y + cos t n) by the tilt.
+Real exact_pendulum_torque(Real mass, Real gravity, Vec3 arm, Vec3 pour, Real sine_tilt, Real cosine_tilt) {
+  return mass * gravity * (sine_tilt * arm.y + cosine_tilt * glm::dot(arm, pour));
+}
+
+Real grip_reference(Real mass, Real gravity, Real pivot_length) {
+  return mass * gravity * std::max(pivot_length, Real(SMALLEST_PIVOT));
+}
+
+Real normal_force(Real base, Real range, Real torque, Real reference) {
+  return reference > 0 ? base + range * (torque / reference) : base;
+}
+
+Real opening_force(Real k_open, Real squeeze) { return k_open * squeeze; }
+
+Real feedback_force(Real normal, Real opening, Real max) { return std::clamp(normal + opening, Real(0), max); }
+
+// Limit surface of each of two contacts: (f_t / (mu N))^2 + (tau_n / (mu gamma N))^2 <= 1, with the load across d and the moment
+// about d shared; the load along d adds half of itself to one side.
+// Degenerate: mu = 0 needs an infinite force unless nothing has to be held across d.
+Real hold_force(Real mass, Real gravity, Vec3 arm, Vec3 direction, Vec3 up, Real friction, Real torsion) {
+  const Real weight = mass * gravity;
+  const Real along = glm::dot(direction, up);
+  const Real moment = weight * std::abs(glm::dot(direction, glm::cross(arm, up)));
+  const Real across_squared = weight * weight * std::max(Real(0), Real(1) - along * along) * Real(0.25);
+  const Real twist = moment / (Real(2) * torsion);
+  const Real sideways = std::sqrt(across_squared + twist * twist);
+  const Real held = sideways > 0 ? sideways / friction : Real(0);
+  return held + weight * std::abs(along) * Real(0.5);
+}
+
+Vec3 coupling_force(Vec3 tip, Vec3 proxy, Vec3 normal, Vec3 velocity, Real stiffness, Real damping) {
+  const Vec3 force = stiffness * (proxy - tip) - damping * glm::dot(velocity, normal) * normal;
+  const Real push = glm::dot(force, normal);
+  return push < 0 ? force - push * normal : force;
+}
+
+}  // namespace CORE_NS

@@ -1,0 +1,51 @@
+// Kernel 7: what the fingers feel, and what the physics asks for.
+#pragma once
+
+#include "core/real.h"
+
+namespace CORE_NS {
+
+// The scene's constants, SI (core/scene.h's ForceData with the vessel's own range).
+struct ForceScale {
+  Real gravity = 0;                   // m/s2
+  Real base = 0, range = 0, max = 0;  // N
+  bool exact_torque = false;          // which torque enters the normal force
+  bool per_grip = false;              // which reference
+  Real reference = 0;                 // tau_ref of the vessel, N m (per_object)
+  Real k_open = 0;                    // N/m
+  Real friction = 0;                  // mu
+  Real torsion = 0;                   // gamma, m
+};
+
+// What the glass and its liquid weigh at one fill and tilt: centre of mass = fixed + lean n + height y, vessel frame.
+struct Load {
+  Real mass = 0;              // kg
+  Vec3 fixed{};               // the vessel's own share of the centre of mass, m
+  Real lean = 0, height = 0;  // the liquid's share, m
+};
+
+// Horizontal direction towards which the vessel pours away from the palm, unit: (0, 1, 0) x d made unit; `sense` -1: towards.
+Vec3 pour_direction(Vec3 direction, Real sense);
+// Up in the vessel frame at a tilt.
+Vec3 up_direction(Vec3 pour, Real sine_tilt, Real cosine_tilt);
+// Centre of mass of a load, m.
+Vec3 load_center(Load load, Vec3 pour);
+// Eq. (1): m g L sin(theta), N m.
+Real pendulum_torque(Real mass, Real gravity, Real pivot_length, Real sine_tilt);
+// Torque about the tilt direction, signed: > 0 topples further, N m.
+Real exact_pendulum_torque(Real mass, Real gravity, Vec3 arm, Vec3 pour, Real sine_tilt, Real cosine_tilt);
+// The torque at which the normal force has grown by its whole range, per grip: m g max(L, 5 mm), N m.
+Real grip_reference(Real mass, Real gravity, Real pivot_length);
+// F_base + F_range tau / tau_ref; F_base where tau_ref is 0. N.
+Real normal_force(Real base, Real range, Real torque, Real reference);
+// k_open (g_grasp - g), N; `squeeze` = g_grasp - g, m.
+Real opening_force(Real k_open, Real squeeze);
+// clamp(normal + opening, 0, max), N.
+Real feedback_force(Real normal, Real opening, Real max);
+// Grip force a finger that a soft-finger pinch needs, N.
+Real hold_force(Real mass, Real gravity, Vec3 arm, Vec3 direction, Vec3 up, Real friction, Real torsion);
+// Virtual coupling of a tip to its proxy before the grasp: K (proxy - tip) - B v_n along the surface's outward normal, never a pull
+// towards the surface. N, vessel frame; v: the tip's velocity, m/s.
+Vec3 coupling_force(Vec3 tip, Vec3 proxy, Vec3 normal, Vec3 velocity, Real stiffness, Real damping);
+
+}  // namespace CORE_NS

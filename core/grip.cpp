@@ -1,0 +1,178 @@
+#include "core/grip.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/contact.h"
+
+namespace CORE_NS {
+namespace {
+
+// A finger placed in the vessel frame at its grip's scale.
+struct PlacedFinger {
+  FingerFrame frame;
+  Vec3 mcp{};
+  Vec3 lengths{};  // L1, L2, L3
+  std::array<Real, 5> radius{};
+};
+
+PlacedFinger place_finger(const Hand& hand, const Placement& placement, int f) {
+  PlacedFinger finger;
+  finger.frame = placed_frame(placement, hand.frame[f]);
+  finger.mcp = finger.frame.base + (placement.scale * hand.length[f][0]) * finger.frame.forward;
+  finger.lengths = placement.scale * Vec3(hand.length[f][1], hand.length[f][2], hand.length[f][3]);
+  for (int k = 0; k < 5; ++k) finger.radius[k] = placement.scale * hand.radius[f][k];
+  return finger;
+}
+
+Vec3 separations_of(const Vessel& vessel, const FingerPoints& points, const PlacedFinger& finger) {
+  return Vec3(separation_at(vessel, points.pip, finger.radius[2]), separation_at(vessel, points.dip, finger.radius[3]),
+              separation_at(vessel, points.tip, finger.radius[4]));
+}
+
+// Sets the three joints beyond an MCP, and which of a finger's five points touched before they were projected.
+void pose_articulated(const Hand& hand, const Vessel& vessel, const PlacedFinger& finger, int f, GripAnswer& answer, int& before) {
+  const Vec3 radii(finger.radius[2], finger.radius[3], finger.radius[4]);
+  FingerMotion motion = start_motion(hand, answer.closing.closure);
+  FingerPoints points;
+  Vec3 separations{};
+  while (motion.joint < 3) {
+    points = finger_points(finger.frame, finger.mcp, finger.lengths, motion.angles);
+    const Watch watch = watch_points(vessel, points, radii);
+    separations = watch.separations;
+    motion = advance_finger(hand, motion, finger.frame, finger.mcp, points, watch, finger.lengths);
+  }
+  const int j = first_joint(f);
+  answer.posed[j + 2] = points.pip;
+  answer.posed[j + 3] = points.dip;
+  answer.posed[j + 4] = points.tip;
+  for (int k = 0; k < 3; ++k) answer.separation[j + 2 + k] = separations[k];
+  if (motion.before.x <= hand.contact_tolerance) before |= 1 << 2;
+  if (motion.before.y <= hand.contact_tolerance) before |= 1 << 3;
+  if (motion.before.z <= hand.contact_tolerance) before |= 1 << 4;
+  if (motion.blocked) answer.status |= 1u << (STATUS_BLOCKED_SHIFT + f);
+  if (motion.unsettled) answer.status |= 1u << (STATUS_UNSETTLED_SHIFT + f);
+}
+
+void pose_paper(const Hand& hand, const Vessel& vessel, const PlacedFinger& finger, int f, const FingerPoints& rigged,
+                PaperAxis axis, GripAnswer& answer, int& before) {
+  const int j = first_joint(f);
+  const Vec3 separations = separations_of(vessel, rigged, finger);
+  const std::array<Vec3, 3> points{rigged.pip, rigged.dip, rigged.tip};
+  for (int k = 0; k < 3; ++k) {
+    answer.posed[j + 2 + k] = points[k];
+    if (separations[k] <= hand.contact_tolerance) {
+      before |= 1 << (2 + k);
+      continue;
+    }
+    bool unsettled = false;
+    answer.posed[j + 2 + k] =
+        project_point(vessel, points[k], finger.radius[2 + k], finger.mcp, axis, hand.paper_max_angle, unsettled);
+    if (unsettled) answer.status |= 1u << (STATUS_UNSETTLED_SHIFT + f);
+  }
+}
+
+// Kernel 4 on the posed hand: masks, depths, proxies and how far these stretch the bones. A finger's base and MCP do not move, so
+// whether they touched before is found here; an articulated finger came to rest with its separations known.
+void examine_pose(const Hand& hand, const Vessel& vessel, PoseKind pose, Wanted wanted, Real scale,
+                  std::array<int, FINGERS>& before, GripAnswer& answer) {
+  Real judged_depth = 0;
+  for (int f = 0; f < FINGERS; ++f) {
+    const int count = f == 0 ? 4 : 5;
+    for (int k = 0; k < count; ++k) {
+      const int j = first_joint(f) + k;
+      const Real radius = scale * hand.radius[f][k];
+      const bool known = pose == PoseKind::articulated && f >= 2 && k >= 2;
+      if (!known) answer.separation[j] = separation_at(vessel, answer.posed[j], radius);
+      const Real separation = answer.separation[j];
+      if (k < 2 && separation <= hand.contact_tolerance) before[f] |= 1 << k;
+      const Real depth = std::max(Real(0), -separation);
+      if (k == 0) {
+        answer.palm_depth = std::max(answer.palm_depth, depth);
+      } else {
+        answer.phalanx_depth = std::max(answer.phalanx_depth, depth);
+      }
+      // the paper's own projections are the method, not a fault of the pose
+      if (f < 2 || pose != PoseKind::paper) judged_depth = std::max(judged_depth, depth);
+      if (separation <= hand.contact_tolerance || j == THUMB_TIP || j == INDEX_TIP) {
+        answer.touch_mask |= 1u << j;
+        answer.used_mask |= 1u << f;
+        if (pose != PoseKind::rigged && f >= 2 && k >= 2 && (before[f] & (1 << k)) == 0) {
+          const int role = projection_role(k, before[f]);
+          if (role == 0) answer.tip_mask |= 1u << j;
+          if (role == 1) answer.finger_mask |= 1u << j;
+          if (role == 2) answer.inner_mask |= 1u << j;
+        }
+      }
+      if (wanted.proxies) {
+        bool settled = true;
+        answer.proxies[j] = separation < 0 ? proxy_of(vessel, answer.posed[j], radius, settled) : answer.posed[j];
+        if (!settled) answer.status |= STATUS_PROXY_UNSETTLED;
+        if (k > 0) {
+          const Real bone = scale * hand.length[f][k - 1];
+          const Real stretch = std::abs(glm::length(answer.proxies[j] - answer.proxies[j - 1]) - bone);
+          answer.bone_stretch = std::max(answer.bone_stretch, stretch);
+        }
+      }
+    }
+  }
+  if (judged_depth <= hand.depth_limit) answer.status |= STATUS_PLAUSIBLE;
+}
+
+}  // namespace
+
+void evaluate_grip(const Hand& hand, const Vessel& vessel, PoseKind pose, Grip grip, Real friction, Wanted wanted,
+                   GripAnswer& answer) {
+  answer = GripAnswer{};
+  answer.closing = close_fingers(hand, vessel, grip);
+  const Closing& closing = answer.closing;
+  answer.status = static_cast<std::uint32_t>(closing.reason);
+  if (closing.reason != REASON_NONE) return;
+  if (closing.grazing) answer.status |= STATUS_GRAZING;
+  const Real cone = std::atan(friction);
+  if (closing.thumb_angle <= cone && closing.index_angle <= cone) answer.status |= STATUS_ANTIPODAL;
+
+  const Real scale = closing.placement.scale;
+  const Vec3 thumb_lengths = scale * Vec3(hand.length[0][0], hand.length[0][1], hand.length[0][2]);
+  const FingerFrame thumb = placed_frame(closing.placement, hand.frame[0]);
+  const FingerPoints opposing = thumb_points(thumb, thumb_lengths, thumb_angles(hand, closing.closure));
+  answer.posed[0] = thumb.base;
+  answer.posed[1] = opposing.pip;
+  answer.posed[2] = opposing.dip;
+  answer.posed[3] = opposing.tip;
+
+  const Vec3 angles = finger_angles(hand, closing.closure);
+  std::array<PlacedFinger, FINGERS> fingers;
+  for (int f = 1; f < FINGERS; ++f) {
+    const int j = first_joint(f);
+    fingers[f] = place_finger(hand, closing.placement, f);
+    answer.posed[j] = fingers[f].frame.base;
+    answer.posed[j + 1] = fingers[f].mcp;
+    if (f == 1 || pose != PoseKind::articulated || wanted.joints) {
+      const FingerPoints points = finger_points(fingers[f].frame, fingers[f].mcp, fingers[f].lengths, angles);
+      answer.posed[j + 2] = points.pip;
+      answer.posed[j + 3] = points.dip;
+      answer.posed[j + 4] = points.tip;
+    }
+  }
+  if (wanted.joints) answer.joints = answer.posed;
+
+  std::array<int, FINGERS> before{};
+  if (pose != PoseKind::rigged) {
+    const PaperAxis axis = pose == PoseKind::paper
+                               ? paper_axis(fingers[1].mcp, fingers[4].mcp, answer.posed[INDEX_TIP], answer.posed[THUMB_TIP])
+                               : PaperAxis{};
+    for (int f = 2; f < FINGERS; ++f) {
+      const int j = first_joint(f);
+      if (pose == PoseKind::articulated) {
+        pose_articulated(hand, vessel, fingers[f], f, answer, before[f]);
+      } else {
+        const FingerPoints rigged{answer.posed[j + 2], answer.posed[j + 3], answer.posed[j + 4]};
+        pose_paper(hand, vessel, fingers[f], f, rigged, axis, answer, before[f]);
+      }
+    }
+  }
+  examine_pose(hand, vessel, pose, wanted, scale, before, answer);
+}
+
+}  // namespace CORE_NS

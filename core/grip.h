@@ -1,0 +1,37 @@
+// One grip through kernels 3, 4 and 5: the core's way of putting the leaf functions together. The shaders put the same leaves together
+// in shaders/grip.comp, streamed.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/closure.h"
+#include "core/projection.h"
+
+namespace CORE_NS {
+
+enum class PoseKind : int { articulated = POSE_ARTICULATED, paper = POSE_PAPER, rigged = POSE_RIGGED };
+
+// What is asked of a grip beyond its masks and depths.
+struct Wanted {
+  bool joints = true;   // the rigged hand's joints
+  bool proxies = true;  // proxies and bone stretch
+};
+
+struct GripAnswer {
+  Closing closing;
+  std::uint32_t status = 0;  // STATUS_*
+  std::array<Vec3, JOINTS> joints{}, posed{}, proxies{};
+  std::array<Real, JOINTS> separation{};
+  std::uint32_t touch_mask = 0, tip_mask = 0, finger_mask = 0, inner_mask = 0, used_mask = 0;
+  Real phalanx_depth = 0, palm_depth = 0, bone_stretch = 0;
+};
+
+// First joint of a finger, and whether a joint is a metacarpal base.
+constexpr int first_joint(int finger) { return finger == 0 ? 0 : 4 + 5 * (finger - 1); }
+
+// Allocates nothing. Fields as in wholehand::GripResult; where not wanted they keep their zeros. `friction` decides `antipodal`.
+void evaluate_grip(const Hand& hand, const Vessel& vessel, PoseKind pose, Grip grip, Real friction, Wanted wanted,
+                   GripAnswer& answer);
+
+}  // namespace CORE_NS

@@ -1,0 +1,29 @@
+// Prepared scenes in the kernels' own precision.
+#pragma once
+
+#include <vector>
+
+#include "core/force.h"
+#include "core/hand.h"
+#include "core/liquid.h"
+#include "core/prepare.h"
+#include "core/sdf.h"
+
+namespace CORE_NS {
+
+Hand load_hand(const wholehand::PreparedHand& prepared, const wholehand::HandData& data);
+Quadrature load_quadrature(const wholehand::PreparedQuadrature& prepared);
+Element load_element(const wholehand::PreparedElement& element);
+
+// `density` of the glass or its given mass; lip capacities at whole degrees where `with_liquid`. The centre of mass is mirrored in x
+// for a left hand.
+Vessel load_vessel(const wholehand::PreparedVessel& prepared, const wholehand::VesselData& data, const Quadrature& quadrature,
+                   bool with_liquid, wholehand::Handedness handedness);
+
+// Samples the vessel's outline on a regular lattice of `samples` points along its longest side, two cells beyond it.
+Grid sample_grid(const Vessel& vessel, int samples);
+
+// The scene's force constants for a vessel; `reference` is filled by the caller.
+ForceScale load_force(const wholehand::Scene& scene, const wholehand::VesselData& data);
+
+}  // namespace CORE_NS

@@ -1,0 +1,113 @@
+#include "core/planes.h"
+
+#include <algorithm>
+
+namespace wholehand {
+
+int field_planes(int field, std::size_t fills, std::size_t tilts) {
+  const int per_fill = tilts > 0 ? static_cast<int>(fills) : 0;
+  switch (field) {
+    case FIELD_MIDPOINT:
+      return 3;
+    case FIELD_CONTACT_ANGLES:
+      return 2;
+    case FIELD_JOINTS:
+    case FIELD_POSED:
+    case FIELD_PROXIES:
+      return 3 * JOINT_COUNT;
+    case FIELD_SEPARATION:
+      return JOINT_COUNT;
+    case FIELD_PEAK_FORCE:
+    case FIELD_PEAK_TILT:
+    case FIELD_LARGEST_HOLD:
+    case FIELD_SAFE_TILT:
+      return per_fill;
+    case FIELD_TERMS:
+      return 6;
+    case FIELD_PIVOT_LENGTH:
+    case FIELD_TORQUE:
+    case FIELD_EXACT_TORQUE:
+    case FIELD_NORMAL_FORCE:
+    case FIELD_FEEDBACK_FORCE:
+    case FIELD_HOLD_FORCE:
+      return per_fill * static_cast<int>(tilts);
+    default:
+      return 1;
+  }
+}
+
+namespace {
+
+// What must be computed for a score, and for any force.
+const std::vector<int> SCORE_NEEDS{FIELD_STATUS,     FIELD_TOUCH_MASK, FIELD_USED_MASK,    FIELD_CLOSURE, FIELD_PHALANX_DEPTH,
+                                   FIELD_PALM_DEPTH, FIELD_PEAK_FORCE, FIELD_LARGEST_HOLD, FIELD_MIDPOINT};
+
+}  // namespace
+
+FieldSet make_field_set(const std::vector<int>& kept, const Scene& scene) {
+  const std::size_t fills = scene_fills(scene), tilts = scene.tilts.size();
+  FieldSet set;
+  set.plane.fill(-1);
+  const auto place = [&](int field, bool is_kept) {
+    const int planes = field_planes(field, fills, tilts);
+    if (planes == 0 || set.plane[field] >= 0) return;
+    int& next = field < REAL_FIELDS ? set.real_planes : set.uint_planes;
+    set.plane[field] = next;
+    next += planes;
+    if (is_kept) (field < REAL_FIELDS ? set.real_kept : set.uint_kept) = next;
+  };
+  for (const int field : kept) place(field, true);
+  place(FIELD_SCORE, false);
+  for (const int field : SCORE_NEEDS) {
+    // the midpoint serves the forces alone
+    if (field == FIELD_MIDPOINT && tilts == 0) continue;
+    place(field, false);
+  }
+  return set;
+}
+
+std::size_t scene_fills(const Scene& scene) { return scene.liquid ? scene.liquid->fills.size() : 1; }
+
+std::array<double, 6> effective_weights(const Scene& scene) {
+  const ScoreWeights& w = scene.score;
+  if (!scene.tilts.empty()) return {w.fingers, w.contacts, w.depth, w.posture, w.force, w.hold};
+  const double sum = w.fingers + w.contacts + w.depth + w.posture;
+  const double scale = sum > 0 ? 1 / sum : 0;
+  return {w.fingers * scale, w.contacts * scale, w.depth * scale, w.posture * scale, 0, 0};
+}
+
+GripResult decode_grip(const PlaneChunk& chunk, const FieldSet& fields, std::size_t i) {
+  GripResult result;
+  const auto real = [&](int field, int k = 0) { return fields.has(field) ? chunk.real(fields.plane[field] + k, i) : 0.0; };
+  const auto uint = [&](int field) { return fields.has(field) ? chunk.uint(fields.plane[field], i) : 0u; };
+  const auto triples = [&](int field, std::array<Triple, JOINT_COUNT>& out) {
+    if (!fields.has(field)) return;
+    for (int j = 0; j < JOINT_COUNT; ++j)
+      for (int k = 0; k < 3; ++k) out[j][k] = real(field, 3 * j + k);
+  };
+  result.status = uint(FIELD_STATUS);
+  result.reason = static_cast<Reason>(result.status & STATUS_REASON_MASK);
+  result.plausible = (result.status & STATUS_PLAUSIBLE) != 0;
+  result.antipodal = (result.status & STATUS_ANTIPODAL) != 0;
+  result.grazing = (result.status & STATUS_GRAZING) != 0;
+  result.contact_angles = {real(FIELD_CONTACT_ANGLES, 0), real(FIELD_CONTACT_ANGLES, 1)};
+  result.closure = real(FIELD_CLOSURE);
+  result.gap = real(FIELD_GAP);
+  result.midpoint = {real(FIELD_MIDPOINT, 0), real(FIELD_MIDPOINT, 1), real(FIELD_MIDPOINT, 2)};
+  triples(FIELD_JOINTS, result.joints);
+  triples(FIELD_POSED, result.posed);
+  triples(FIELD_PROXIES, result.proxies);
+  if (fields.has(FIELD_SEPARATION))
+    for (int j = 0; j < JOINT_COUNT; ++j) result.separation[j] = real(FIELD_SEPARATION, j);
+  result.touch_mask = uint(FIELD_TOUCH_MASK);
+  result.tip_mask = uint(FIELD_TIP_MASK);
+  result.finger_mask = uint(FIELD_FINGER_MASK);
+  result.inner_mask = uint(FIELD_INNER_MASK);
+  result.used_mask = uint(FIELD_USED_MASK);
+  result.phalanx_depth = real(FIELD_PHALANX_DEPTH);
+  result.palm_depth = real(FIELD_PALM_DEPTH);
+  result.bone_stretch = real(FIELD_BONE_STRETCH);
+  return result;
+}
+
+}  // namespace wholehand

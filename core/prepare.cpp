@@ -1,0 +1,235 @@
+#include "core/prepare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/error.h"
+#include "core/hand.h"
+#include "core/load.h"
+
+namespace wholehand {
+namespace {
+
+double angle_of(const std::array<double, 2>& p, const std::array<double, 2>& center) {
+  return std::atan2(p[1] - center[1], p[0] - center[0]);
+}
+
+// An arc from a to b about center, the shorter way, split where it passes the top or the bottom of its circle.
+void append_arc(std::vector<PreparedElement>& elements, std::array<double, 2> a, std::array<double, 2> b,
+                std::array<double, 2> center) {
+  const double radius = std::hypot(a[0] - center[0], a[1] - center[1]);
+  const double from = angle_of(a, center);
+  double sweep = std::remainder(angle_of(b, center) - from, 2 * PI);
+  if (PI - std::abs(sweep) < 1e-9) {  // two equal ways: the one further from the axis
+    sweep = std::cos(from + PI / 2) > 0 ? PI : -PI;
+  }
+  std::vector<double> poles;
+  for (int k = -3; k <= 3; k += 1) {
+    const double pole = PI / 2 + k * PI;
+    const double along = (pole - from) / sweep;
+    if (along > 1e-12 && along < 1 - 1e-12) poles.push_back(along);
+  }
+  std::sort(poles.begin(), poles.end());
+  poles.push_back(1);
+  double begin = 0;
+  std::array<double, 2> start = a;
+  for (const double end : poles) {
+    const double middle = from + sweep * 0.5 * (begin + end);
+    PreparedElement piece;
+    piece.a = start;
+    if (end == 1) {
+      piece.b = b;
+    } else {
+      const double sign = std::sin(from + sweep * end) > 0 ? 1 : -1;
+      piece.b = {center[0], center[1] + sign * radius};
+    }
+    piece.center = center;
+    piece.radius = radius;
+    piece.side = std::cos(middle) >= 0 ? 1 : -1;
+    elements.push_back(piece);
+    start = piece.b;
+    begin = end;
+  }
+}
+
+PreparedElement line(std::array<double, 2> a, std::array<double, 2> b) {
+  PreparedElement element;
+  element.a = a;
+  element.b = b;
+  const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
+  element.center = {(b[1] - a[1]) / length, (a[0] - b[0]) / length};
+  return element;
+}
+
+// Outer outline, rim, and the inner wall back down to the axis.
+std::vector<PreparedElement> shell_outline(const std::vector<PreparedElement>& hull, const std::vector<PreparedElement>& cavity) {
+  std::vector<PreparedElement> outline(hull.begin(), hull.end() - 1);
+  std::array<double, 2> at = hull.back().a;
+  const auto go_to = [&](std::array<double, 2> next) {
+    if (std::abs(next[0] - at[0]) > 1e-12 || std::abs(next[1] - at[1]) > 1e-12) outline.push_back(line(at, next));
+  };
+  for (auto piece = cavity.rbegin(); piece != cavity.rend(); ++piece) {
+    go_to(piece->b);
+    PreparedElement reversed = *piece;
+    if (piece->side == 0) {
+      reversed = line(piece->b, piece->a);
+    } else {
+      std::swap(reversed.a, reversed.b);
+    }
+    outline.push_back(reversed);
+    at = piece->a;
+  }
+  go_to({0, cavity.front().a[1]});
+  return outline;
+}
+
+void set_bounds(PreparedVessel& prepared) {
+  double low = 0, high = 0, widest = 0;
+  for (const auto& e : prepared.hull) {
+    for (const auto& end : {e.a, e.b}) {
+      low = std::min(low, end[1]);
+      high = std::max(high, end[1]);
+      widest = std::max(widest, end[0]);
+    }
+    if (e.side > 0) widest = std::max(widest, e.center[0] + e.radius);
+  }
+  prepared.bound_height = 0.5 * (low + high);
+  prepared.bound_radius = std::hypot(widest, 0.5 * (high - low));
+  prepared.largest_radius = widest;
+}
+
+Triple rotate_x(double angle, const Triple& v) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {v[0], c * v[1] - s * v[2], s * v[1] + c * v[2]};
+}
+
+Triple rotate_y(double angle, const Triple& v) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {c * v[0] + s * v[2], v[1], -s * v[0] + c * v[2]};
+}
+
+}  // namespace
+
+std::vector<PreparedElement> monotone_elements(const std::vector<OutlineElement>& outline) {
+  std::vector<PreparedElement> elements;
+  std::array<double, 2> at{0, 0};
+  for (const auto& element : outline) {
+    if (element.is_arc) {
+      append_arc(elements, at, element.end, element.center);
+    } else {
+      elements.push_back(line(at, element.end));
+    }
+    at = element.end;
+  }
+  return elements;
+}
+
+PreparedVessel prepare_vessel(const VesselData& vessel, bool needs_cavity) {
+  if (vessel.mesh)
+    throw usage_error("vessel '" + vessel.name + "': mesh vessels are not evaluated yet; describe it by shape or outline");
+  PreparedVessel prepared;
+  prepared.hull = monotone_elements(vessel.outline);
+  prepared.mouth_height = prepared.hull.back().a[1];
+  if (needs_cavity) {
+    prepared.cavity = inner_offset(prepared.hull, vessel.wall, vessel);
+    prepared.floor_height = prepared.cavity.front().a[1];
+    prepared.mouth_radius = prepared.cavity.back().b[0];
+  }
+  if (vessel.surface == Surface::shell) {
+    prepared.outline = shell_outline(prepared.hull, prepared.cavity);
+  } else {
+    prepared.outline = prepared.hull;
+    prepared.lid = static_cast<int>(prepared.hull.size()) - 1;
+  }
+  set_bounds(prepared);
+  return prepared;
+}
+
+PreparedHand prepare_hand(const HandData& hand) {
+  PreparedHand prepared;
+  for (int f = 0; f < FINGER_COUNT; ++f) {
+    const FingerData& finger = hand.fingers[f];
+    auto& out = prepared.fingers[f];
+    out.base = finger.base;
+    out.length = finger.segments;
+    out.radius = finger.radii;
+    // thumb: Ry(splay), its abduction is part of the chain's angle; fingers: Ry(-splay) Rx(-arch)
+    const double turn = f == 0 ? finger.splay : -finger.splay;
+    const double arch = f == 0 ? 0 : -finger.arch;
+    out.forward = rotate_y(turn, rotate_x(arch, {0, 0, -1}));
+    out.palmward = rotate_y(turn, rotate_x(arch, {0, -1, 0}));
+  }
+  const auto swing = [](const AngleRange& range) { return range.closed - range.open; };
+  prepared.thumb_open = {hand.thumb_abduction.open, hand.thumb_mcp.open, hand.thumb_ip.open};
+  prepared.thumb_swing = {swing(hand.thumb_abduction), swing(hand.thumb_mcp), swing(hand.thumb_ip)};
+  prepared.finger_open = {hand.mcp.open, hand.pip.open, hand.dip_per_pip * hand.pip.open};
+  prepared.finger_swing = {swing(hand.mcp), swing(hand.pip), hand.dip_per_pip * swing(hand.pip)};
+
+  core_f64::Hand kernel_hand = core_f64::load_hand(prepared, hand);
+  constexpr int CHECKS = 1024;
+  double previous = 0;
+  for (int i = 0; i <= CHECKS; ++i) {
+    const double closure = static_cast<double>(i) / CHECKS;
+    const double gap = core_f64::gap_at(kernel_hand, closure);
+    if (i > 0 && !(gap < previous)) {
+      char closure_text[32];
+      std::snprintf(closure_text, sizeof closure_text, "%.4f", static_cast<double>(i - 1) / CHECKS);
+      throw usage_error("[hand]: the gap between thumb and index tip must fall strictly as the hand closes; it turns at closure " +
+                        std::string(closure_text) + " (" + std::to_string(previous * 1e3) + " mm); change the angles or segments");
+    }
+    if (i == 0) prepared.gap_open = gap;
+    if (i == CHECKS) prepared.gap_closed = gap;
+    previous = gap;
+  }
+  // closure at equal steps of the gap, by bisection: the gap is monotone
+  for (int k = 0; k < GAP_TABLE_SIZE; ++k) {
+    const double gap = prepared.gap_open + (prepared.gap_closed - prepared.gap_open) * k / (GAP_TABLE_SIZE - 1);
+    double low = 0, high = 1;
+    for (int step = 0; step < 60; ++step) {
+      const double middle = 0.5 * (low + high);
+      (core_f64::gap_at(kernel_hand, middle) > gap ? low : high) = middle;
+    }
+    prepared.gap_table[k] = k == 0 ? 0 : k == GAP_TABLE_SIZE - 1 ? 1 : 0.5 * (low + high);
+  }
+  return prepared;
+}
+
+// Newton on the Legendre polynomial from the usual cosine start.
+PreparedQuadrature prepare_quadrature(int points) {
+  PreparedQuadrature rule;
+  for (int i = 0; i < points; ++i) {
+    double x = std::cos(PI * (i + 0.75) / (points + 0.5)), slope = 1;
+    for (int step = 0; step < 100; ++step) {
+      double p = 1, before = 0;
+      for (int n = 1; n <= points; ++n) {
+        const double next = ((2 * n - 1) * x * p - (n - 1) * before) / n;
+        before = p;
+        p = next;
+      }
+      slope = points * (x * p - before) / (x * x - 1);
+      const double move = p / slope;
+      x -= move;
+      if (std::abs(move) < 1e-16) break;
+    }
+    const double theta = 0.5 * PI * (1 + x);
+    rule.cosine.push_back(std::cos(theta));
+    rule.weight.push_back(2 / ((1 - x * x) * slope * slope) * std::sin(theta) * 0.5 * PI);
+  }
+  return rule;
+}
+
+GripInput mirrored(const GripInput& grip, Handedness handedness) {
+  if (handedness == Handedness::right) return grip;
+  GripInput result = grip;
+  // the line's direction mirrored in x has the azimuth pi - a, and the side direction d x y then changes sign
+  result.azimuth = PI - grip.azimuth;
+  result.offset = -grip.offset;
+  return result;
+}
+
+Triple mirrored(const Triple& point, Handedness handedness) {
+  return handedness == Handedness::right ? point : Triple{-point[0], point[1], point[2]};
+}
+
+}  // namespace wholehand

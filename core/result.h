@@ -1,0 +1,84 @@
+// What one grip gives, as plain doubles in SI units: the common answer of the core (either precision) and of the GPU.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/scene.h"
+
+namespace wholehand {
+
+// Where and how the two tracked fingers close. Vessel frame; roll and the rest as in docs/method.md.
+struct GripInput {
+  double height = 0;      // m
+  double azimuth = 0;     // rad
+  double obliquity = 0;   // rad
+  double roll = 0;        // rad
+  double offset = 0;      // m
+  double hand_scale = 1;  // times the scene's own
+};
+
+// Why a grip is not feasible, in the order in which it is decided. Values are those of REASON_* in shaders/layout.h.
+enum class Reason : std::uint32_t { none, degenerate, not_converged, misses, too_wide, too_narrow, on_mouth };
+extern const std::array<const char*, 7> REASON_NAMES;  // "" for none
+
+// Fields exist up to the reason: gap and midpoint from too_wide on, everything else only where the reason is none.
+struct GripResult {
+  Reason reason = Reason::none;
+  bool plausible = false;                  // not deeper than the depth limit
+  bool antipodal = false;                  // both contact angles within atan(mu)
+  bool grazing = false;                    // a contact normal within 1 degree of perpendicular to the thumb-index line
+  std::array<double, 2> contact_angles{};  // thumb, index: between outward normal and line, rad
+  double closure = 0;
+  double gap = 0;  // m
+  Triple midpoint{};
+  std::array<Triple, JOINT_COUNT> joints{};  // rigged hand, vessel frame, m
+  std::array<Triple, JOINT_COUNT> posed{};
+  std::array<Triple, JOINT_COUNT> proxies{};
+  std::array<double, JOINT_COUNT> separation{};
+  std::uint32_t touch_mask = 0;  // bit j: joint j touches in the posed hand
+  std::uint32_t tip_mask = 0;    // projected, by role
+  std::uint32_t finger_mask = 0;
+  std::uint32_t inner_mask = 0;
+  std::uint32_t used_mask = 0;               // bit f: finger f has a touching point
+  std::uint32_t status = 0;                  // STATUS_* bits of shaders/layout.h
+  double phalanx_depth = 0, palm_depth = 0;  // m, >= 0
+  double bone_stretch = 0;                   // m
+};
+
+// Liquid of a vessel at one fill and tilt; the centre of mass lies in the (n, y) plane.
+struct LiquidResult {
+  double volume = 0, mass = 0;  // m3, kg
+  double lean = 0, height = 0;  // centre of mass along n and y, m
+  double poured = 0;            // m3
+};
+
+// One state of one grip.
+struct StateResult {
+  double mass = 0;                                              // vessel and liquid, kg
+  Triple center_of_mass{};                                      // vessel frame, m
+  double pivot_length = 0;                                      // m
+  double torque = 0, exact_torque = 0;                          // N m
+  double normal_force = 0, feedback_force = 0, hold_force = 0;  // N; hold is infinity where the pinch is not antipodal
+};
+
+// Per-fill terms of a grip over all tilts. An angle is NaN where no tilt qualifies.
+struct FillTerms {
+  double peak_force = 0;    // largest feedback force, N
+  double peak_tilt = 0;     // the first tilt at which it occurs, rad
+  double largest_hold = 0;  // N, may be infinity
+  double safe_tilt = 0;     // largest tilt up to which unclamped F < F_max and N_hold <= grip strength, rad; NaN: none
+};
+
+struct ScoreTerms {
+  double fingers = 0, contacts = 0, depth = 0, posture = 0, force = 0, hold = 0;
+};
+
+struct GripScore {
+  double score = 0;
+  ScoreTerms terms;
+  std::vector<FillTerms> fills;  // one per fill (one, empty glass, without liquid); empty without tilts
+};
+
+}  // namespace wholehand

@@ -1,0 +1,198 @@
+// A scene as plain data: what a scene file says, in SI units (m, kg, s, N, rad), before anything is computed from it.
+// Everything here is double, whatever the precision of the kernels that are prepared from it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wholehand {
+
+using Triple = std::array<double, 3>;  // a point or vector, m unless said otherwise
+
+constexpr double PI = 3.14159265358979323846;
+constexpr double radians(double degrees) { return degrees * (PI / 180); }
+constexpr double degrees(double radians) { return radians * (180 / PI); }
+
+enum class Pose { articulated, paper, rigged };
+enum class Handedness { right, left };
+enum class Surface { solid, shell };
+enum class Pour { away, towards };
+enum class Torque { paper, exact };
+enum class TorqueReference { per_object, per_grip };
+enum class Sampling { grid, sobol };
+
+constexpr int FINGER_COUNT = 5;  // thumb, index, middle, ring, little
+constexpr int JOINT_COUNT = 24;  // thumb 0..3, then five each: 4..8, 9..13, 14..18, 19..23
+extern const std::array<const char*, FINGER_COUNT> FINGER_NAMES;
+
+// One finger of the hand at scale 1. The thumb uses three segments, four radii and no arch.
+struct FingerData {
+  Triple base{};                     // metacarpal base in the hand frame, m
+  double splay = 0;                  // rad, about +y: thumb Ry(splay), fingers Ry(-splay)
+  double arch = 0;                   // rad, about +x, fingers only
+  std::array<double, 4> segments{};  // L0..L3, m (thumb: L0..L2)
+  std::array<double, 5> radii{};     // metacarpal base .. tip, m (thumb: four)
+};
+
+// An angle's value at closure 0 and 1, rad.
+struct AngleRange {
+  double open = 0;
+  double closed = 0;
+};
+
+// The default hand is KERNELS' table: segment means of Buryanov & Kotiuk 2010 with the pulp added.
+struct HandData {
+  double scale = 1;
+  Handedness handedness = Handedness::right;
+  double contact_tolerance = 0.2e-3;                                          // m, not scaled
+  double max_angle = radians(45);                                             // articulated: largest further turn of one joint
+  double paper_max_angle = radians(5);                                        // paper: largest turn of a point
+  double depth_limit = 5e-3;                                                  // m
+  std::array<double, 3> joint_limit{radians(90), radians(100), radians(80)};  // MCP, PIP, DIP, rad
+  std::array<FingerData, FINGER_COUNT> fingers{{
+      {{-22e-3, -9e-3, -18e-3}, radians(10), 0, {46.22e-3, 31.57e-3, 27.34e-3, 0}, {8e-3, 8e-3, 8e-3, 8e-3, 0}},
+      {{-13e-3, 0, -28e-3}, radians(-8), 0, {68.12e-3, 39.78e-3, 22.38e-3, 19.66e-3}, {8e-3, 8e-3, 7.5e-3, 7e-3, 7e-3}},
+      {{-2e-3, 1.5e-3, -30e-3}, 0, 0, {64.60e-3, 44.63e-3, 26.33e-3, 21.35e-3}, {8e-3, 8e-3, 7.5e-3, 7e-3, 7e-3}},
+      {{8e-3, 0, -28e-3}, radians(7), radians(4), {58.00e-3, 41.37e-3, 25.65e-3, 21.25e-3}, {8e-3, 8e-3, 7.5e-3, 7e-3, 7e-3}},
+      {{17e-3, -3e-3, -24e-3}, radians(15), radians(8), {53.69e-3, 32.74e-3, 18.11e-3, 19.69e-3}, {8e-3, 8e-3, 7.5e-3, 7e-3, 7e-3}},
+  }};
+  AngleRange thumb_abduction{radians(60), radians(55)};
+  AngleRange thumb_mcp{radians(4), radians(5)};
+  AngleRange thumb_ip{radians(2), radians(45)};
+  AngleRange mcp{radians(4), radians(66)};
+  AngleRange pip{radians(12), radians(40)};
+  double dip_per_pip = 0.6;
+};
+
+// One element of a half outline in (r, y), m: from the previous element's end (the first from (0, 0)) to `end`. An arc is the
+// shorter way round its center; of two equal ways the one further from the axis.
+struct OutlineElement {
+  bool is_arc = false;
+  std::array<double, 2> end{};
+  std::array<double, 2> center{};
+  int line = 0;  // place in the scene file, for messages; 0: none
+  int column = 0;
+};
+
+// A mesh vessel as the scene file names it.
+struct MeshData {
+  std::string file;
+  double scale = 1;
+  Triple rotate{};  // rad
+  bool origin_at_base = true;
+  double grid_spacing = 2e-3;  // m
+};
+
+struct GuidancePoint {
+  double height = 0;   // m
+  double azimuth = 0;  // rad
+};
+
+struct VesselData {
+  std::string name;
+  std::vector<OutlineElement> outline;  // from the axis at the base to the axis at the mouth; the last element is the mouth
+  std::optional<MeshData> mesh;         // instead of an outline
+  double height = 0;                    // y of the mouth, m
+  double wall = 0;                      // m; 0: none given (then no liquid, no shell, and the mass is given)
+  Surface surface = Surface::solid;
+  double density = 2230;              // of the wall, kg/m3
+  std::optional<double> mass;         // kg, with center_of_mass: both given or neither
+  Triple center_of_mass{};            // vessel frame, m
+  std::optional<double> force_range;  // N; the scene's when absent
+  std::vector<GuidancePoint> guidance;
+  Triple place{};           // live scene, m
+  std::string liquid_name;  // live task
+  double liquid_fill = 0;
+  int line = 0;  // place in the scene file, for messages
+  int column = 0;
+};
+
+struct LiquidData {
+  double density = 1000;      // kg/m3
+  std::vector<double> fills;  // fraction of the capacity upright to the brim, strictly ascending, at least one
+  Pour pour = Pour::away;
+};
+
+struct ForceData {
+  double base = 0.8;  // F_base, N
+  double range = 3;   // F_range, N
+  Torque torque = Torque::paper;
+  TorqueReference reference = TorqueReference::per_object;
+  double max = 8;             // F_max, N
+  double k_open = 600;        // N/m of the device's gap
+  double friction = 0.6;      // mu
+  double torsion = 5e-3;      // gamma, m
+  double grip_strength = 40;  // N
+};
+
+// Values of one axis of the grips. A range keeps its ends so that Sobol points can fill it continuously.
+struct Axis {
+  std::vector<double> values{0.0};  // SI; never empty
+  bool is_range = false;
+  double from = 0, to = 0;
+};
+
+struct GripsData {
+  bool height_is_fraction = true;  // `height` holds fractions of the vessel's height
+  Axis height{{0.5}}, azimuth, obliquity, roll, offset, hand_scale{{1.0}};
+  Sampling sampling = Sampling::grid;
+  std::uint64_t count = 0;  // Sobol points a vessel
+  std::uint64_t seed = 0;
+};
+
+struct ScoreWeights {
+  double fingers = 0.30, contacts = 0.10, depth = 0.20, posture = 0.10, force = 0.15, hold = 0.15;
+};
+
+struct OutputData {
+  std::optional<std::vector<std::string>> keep;  // variable names; absent: the default set
+  int best = 20;
+};
+
+struct LiveData {
+  double rate = 1000, stiffness = 800, damping = 1, slip = 8e-3, ramp = 0.5, slew = 2000, jump = 5;
+  int late_steps = 3;
+};
+
+struct DeviceData {
+  std::array<double, 2> gap{};  // closed, open, m
+  bool has_gap = false;
+  double workspace_scale = 1;
+  Triple origin{};
+  std::array<std::string, 3> axes{{"x", "y", "z"}};
+  int clutch_button = -1;
+  std::string library;
+};
+
+struct TaskData {
+  Triple target_place{};
+  double target_diameter = 0;
+  std::vector<std::pair<std::string, double>> amounts;  // liquid name, m3
+  Triple destination{};
+  double tolerance = 0;  // m3
+};
+
+// A table that is absent in the file is an absent optional here: that part of the work is left out.
+struct Scene {
+  std::string name;
+  Pose pose = Pose::articulated;
+  double gravity = 9.80665;  // m/s2
+  HandData hand;
+  std::vector<VesselData> vessels;
+  std::optional<LiquidData> liquid;
+  ForceData force;  // a scene without [force] has these defaults
+  GripsData grips;
+  std::vector<double> tilts;  // rad, strictly ascending in [0, pi]; empty: no [tilts], no force kernel
+  ScoreWeights score;
+  OutputData output;
+  LiveData live;
+  DeviceData device;
+  std::optional<TaskData> task;
+  std::string file;  // where it was read from
+  std::string text;  // its text, kept in the results
+};
+
+}  // namespace wholehand

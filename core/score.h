@@ -1,0 +1,20 @@
+// Scores of a grip: each term in [0, 1], larger is better; the weights come from the scene.
+#pragma once
+
+#include "core/real.h"
+
+namespace CORE_NS {
+
+// Fingers used / 5, and points touching / 24.
+Real fingers_term(int fingers_used);
+Real contacts_term(int points_touching);
+// 1 - min(1, deepest / 10 mm); m.
+Real depth_term(Real phalanx_depth, Real palm_depth);
+// 1 - |2 c - 1|.
+Real posture_term(Real closure);
+// 1 - largest feedback force over all states / F_max, N; 0 where F_max is 0.
+Real force_term(Real largest_feedback, Real max);
+// min(1, grip strength / largest hold force over all states), N; 0 where the hold force is infinite.
+Real hold_term(Real largest_hold, Real grip_strength);
+
+}  // namespace CORE_NS

@@ -1,0 +1,99 @@
+// Kernel 2: signed distance to the vessel, negative inside, m.
+#pragma once
+
+#include <vector>
+
+#include "core/real.h"
+
+namespace CORE_NS {
+
+// One y-monotone element of a half outline in the (r, y) half plane, from a to b. `side` 0: a line; +1: an arc on the half
+// r >= center.x of its circle; -1: on the other half. The interior lies to the left of a -> b. A line has no center: its unit outward
+// normal stands there, so that its distance costs no division.
+struct Element {
+  Vec2 a{}, b{}, center{};
+  Real radius = 0;
+  int side = 0;
+};
+
+// Samples on a regular lattice, x fastest: samples[(k * ny + j) * nx + i] at origin + spacing * (i, j, k).
+struct Grid {
+  Vec3 origin{};
+  Real spacing = 1;
+  int nx = 0, ny = 0, nz = 0;
+  std::vector<Real> samples;
+};
+
+// A vessel made ready for the kernels (core/prepare.h tells where each part comes from). Vessel frame, m.
+struct Vessel {
+  bool is_grid = false;
+  std::vector<Element> outline;  // closed with the axis; what the distance is measured to
+  int lid = -1;                  // index of the mouth's element in `outline`; -1: none (shell, grid)
+  Grid grid;
+  Real bound_height = 0;  // centre (0, bound_height, 0) and radius of a sphere that holds the vessel
+  Real bound_radius = 0;
+  std::vector<Element> cavity;  // inner wall from the floor to the mouth, y ascending; empty where there is no wall
+  Real floor_height = 0;        // of the cavity on the axis
+  Real mouth_height = 0;
+  Real mouth_radius = 0;           // of the cavity at the mouth
+  Real capacity = 0;               // m3, upright to the brim
+  Real mass = 0;                   // empty, kg
+  Vec3 center_of_mass{};           // empty
+  std::vector<Real> lip_capacity;  // m3 at whole degrees 0..180; empty where the scene has no liquid
+};
+
+// The nearest element's number and squared distance, as the search carries them; the squared distance of the nearest one that is
+// further away; whether an arc is among several equally near.
+struct Nearest {
+  int element = -1;
+  Real distance_squared = NO_DISTANCE;
+  Real other_squared = NO_DISTANCE;
+  bool curved_tie = false;
+};
+
+// What is known of the surroundings of a point: its signed distance and the unit gradient `normal`; and, where `planar`, that the nearest
+// element lies wholly beyond the plane at that distance with that normal, while every other element is at least `other` away. m.
+struct Support {
+  Real distance = 0;
+  Real other = 0;
+  Vec3 normal{};
+  int element = -1;  // the nearest; -1 for a grid
+  bool planar = false;
+};
+
+// Squared distance from q to an element, m2.
+Real element_distance_squared(const Element& element, Vec2 q);
+// Whether the ray from q along +r crosses the element; it counts for q.y in [min, max) of its ends, a horizontal one never.
+bool element_crosses(const Element& element, Vec2 q);
+// Whether q's nearest point on the element lies between its ends.
+bool element_spans(const Element& element, Vec2 q);
+// Direction, of any length but 0, of the signed distance's gradient at q where `element` is nearest; sign: +1 outside, -1 inside. On the
+// element: its outward normal.
+Vec2 element_outward(const Element& element, Vec2 q, Real sign);
+// Whether the element, seen from q outside, lies beyond its tangent plane at the nearest point.
+bool element_convex(const Element& element, Vec2 q);
+// Nearest element of the outline (of equally near ones the first) and the crossing parity.
+Nearest nearest_element(const Vessel& vessel, Vec2 q, bool& inside);
+// Signed distance in the half plane, and its unit gradient there.
+Real profile_distance(const Vessel& vessel, Vec2 q);
+Vec2 profile_gradient(const Vessel& vessel, Vec2 q, int& element);
+// Trilinear value of the lattice: outside the box the clamped value plus the distance to the box, which is not less than the true
+// distance; what starts there may step past the box's edge and comes back.
+Real grid_distance(const Vessel& vessel, Vec3 p);
+// Unit gradient of grid_distance; +x where it vanishes.
+Vec3 grid_gradient(const Vessel& vessel, Vec3 p);
+// Signed distance to the vessel at p, m: exact for an outline. Never NaN for finite p.
+Real signed_distance(const Vessel& vessel, Vec3 p);
+// Unit gradient towards increasing distance; `element` is the nearest element's index (-1 for a grid). On the axis the radial
+// direction is +x.
+Vec3 distance_gradient(const Vessel& vessel, Vec3 p, int& element);
+
+// Signed distance with what bounds it from below around p, for steps that must not pass a surface. From outside.
+Support support_at(const Vessel& vessel, Vec3 p);
+
+// Largest step along which a point is sure not to pass a surface: to the tangent plane of the nearest element under the largest
+// acceleration, as far as no other element can be met at the largest speed; never less than separation / speed. The step's unit is
+// the caller's (m, rad, closure); velocity, speed and acceleration are m per unit and per its square, the latter two upper bounds.
+Real safe_step(Support support, Real separation, Vec3 velocity, Real speed, Real acceleration);
+
+}  // namespace CORE_NS

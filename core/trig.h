@@ -1,0 +1,18 @@
+// Sine, cosine and arc cosine. Here the standard library's; the twin shaders/trig.glsl has polynomials, since Vulkan promises its
+// own sine only to 2^-11. That makes this pair the exception among the twins: same functions, different mathematics.
+#pragma once
+
+#include "core/real.h"
+
+namespace CORE_NS {
+
+// Sine and cosine of an angle in rad, |angle| <= 16 (the shaders' range; every angle of a hand or grip is far inside).
+Real sine(Real angle);
+Real cosine(Real angle);
+void sine_cosine(Real angle, Real& sine_out, Real& cosine_out);
+// Arc cosine in [0, pi]; arguments beyond [-1, 1] are clamped.
+Real arc_cosine(Real x);
+// Angle between two unit vectors in [0, pi], rad; accurate near 0 and pi, where an arc cosine of their product is not.
+Real angle_between(Vec3 a, Vec3 b);
+
+}  // namespace CORE_NS

@@ -1,0 +1,137 @@
+#include "host/buffer.h"
+
+#include <bit>
+
+#include "host/recorder.h"
+#include "host/vulkan.h"
+
+namespace wholehand::host {
+namespace {
+
+using Flag = vk::MemoryPropertyFlagBits;
+
+// The memory type with all of `needed` and most of `wanted`; of equals the driver's first.
+std::optional<std::uint32_t> find_type(const vk::PhysicalDeviceMemoryProperties& memory, std::uint32_t allowed,
+                                       vk::MemoryPropertyFlags needed, vk::MemoryPropertyFlags wanted,
+                                       vk::MemoryPropertyFlags unwanted) {
+  std::optional<std::uint32_t> best;
+  int best_score = 0;
+  for (std::uint32_t i = 0; i < memory.memoryTypeCount; i++) {
+    const vk::MemoryPropertyFlags flags = memory.memoryTypes[i].propertyFlags;
+    const int score =
+        std::popcount(static_cast<std::uint32_t>(flags & wanted)) - std::popcount(static_cast<std::uint32_t>(flags & unwanted));
+    if ((allowed >> i & 1) && (flags & needed) == needed && (!best || score > best_score)) {
+      best = i;
+      best_score = score;
+    }
+  }
+  return best;
+}
+
+std::uint32_t choose_type(const Device::Impl& device, std::uint32_t allowed, Memory memory) {
+  const vk::MemoryPropertyFlags direct = Flag::eHostVisible | Flag::eHostCoherent;  // coherent: nothing to flush
+  std::optional<std::uint32_t> type;
+  if (memory == Memory::upload) {
+    type = find_type(device.memory, allowed, direct, {}, Flag::eDeviceLocal);
+  } else if (memory == Memory::readback) {
+    type = find_type(device.memory, allowed, direct, Flag::eHostCached, Flag::eDeviceLocal);
+  } else if (device.info.unified_memory) {
+    type = find_type(device.memory, allowed, direct | Flag::eDeviceLocal, Flag::eHostCached, {});
+  } else {
+    type = find_type(device.memory, allowed, Flag::eDeviceLocal, {}, Flag::eHostVisible);
+  }
+  if (!type) {
+    throw failure_error("the Vulkan device " + device.info.name + " has no memory of the kind needed; use --on core");
+  }
+  return *type;
+}
+
+}  // namespace
+
+Buffer::Buffer(const Device& device, std::size_t bytes, Memory memory) : Buffer(device.impl(), bytes, memory) {}
+
+Buffer::Buffer(Device::Impl& impl, std::size_t bytes, Memory memory) : impl_(std::make_unique<Impl>(Impl{impl, bytes})) {
+  const std::size_t allocated = std::max<std::size_t>(16, (bytes + 15) / 16 * 16);  // Vulkan knows no empty buffer
+  if (allocated > impl.info.max_allocation) {
+    throw OutOfMemory("a buffer of " + std::to_string(bytes) + " bytes is more than the Vulkan device allocates at once (" +
+                      std::to_string(impl.info.max_allocation) + "); ask for less at a time");
+  }
+  checked("allocating a buffer", [&] {
+    vk::BufferCreateInfo info({}, allocated, vk::BufferUsageFlagBits::eTransferSrc | vk::BufferUsageFlagBits::eTransferDst);
+    if (memory == Memory::device) {
+      info.usage |= vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eUniformBuffer;
+    }
+    if (impl.families.size() > 1) {
+      info.sharingMode = vk::SharingMode::eConcurrent;
+      info.setQueueFamilyIndices(impl.families);
+    }
+    impl_->buffer = vk::raii::Buffer(*impl.device, info);
+    const vk::MemoryRequirements needs = impl_->buffer.getMemoryRequirements();
+    const std::uint32_t type = choose_type(impl, needs.memoryTypeBits, memory);
+    impl_->memory = vk::raii::DeviceMemory(*impl.device, {needs.size, type});
+    impl_->buffer.bindMemory(*impl_->memory, 0);
+    if (memory != Memory::device || impl.info.unified_memory) {
+      impl_->mapped = static_cast<std::byte*>(impl_->memory.mapMemory(0, VK_WHOLE_SIZE));
+      impl_->cached = bool(impl.memory.memoryTypes[type].propertyFlags & Flag::eHostCached);
+    }
+  });
+}
+
+Buffer::Buffer() = default;
+Buffer::~Buffer() = default;
+Buffer::Buffer(Buffer&&) noexcept = default;
+Buffer& Buffer::operator=(Buffer&&) noexcept = default;
+
+std::size_t Buffer::size() const { return impl_ ? impl_->size : 0; }
+bool Buffer::fast_to_read() const { return impl_ && impl_->cached; }
+std::span<std::byte> Buffer::mapped() const {
+  return impl_ && impl_->mapped ? std::span(impl_->mapped, impl_->size) : std::span<std::byte>();
+}
+
+void Buffer::write(std::span<const std::byte> bytes) {
+  if (bytes.size() > size()) {
+    throw failure_error("internal: " + std::to_string(bytes.size()) + " bytes written to a buffer of " + std::to_string(size()));
+  }
+  if (bytes.empty()) {
+    return;
+  }
+  if (impl_->mapped) {
+    std::memcpy(impl_->mapped, bytes.data(), bytes.size());
+    return;
+  }
+  Device::Impl& device = impl_->device;
+  Buffer staging(device, bytes.size(), Memory::upload);
+  staging.write(bytes);
+  checked("writing a buffer", [&] {
+    Recorder recorder(device, device.compute.family);
+    recorder.begin();
+    recorder.copy(staging, *this, bytes.size());
+    recorder.end();
+    submit_and_wait(device, recorder);
+  });
+}
+
+void Buffer::read(std::span<std::byte> bytes) const {
+  if (bytes.size() > size()) {
+    throw failure_error("internal: " + std::to_string(bytes.size()) + " bytes read from a buffer of " + std::to_string(size()));
+  }
+  if (bytes.empty()) {
+    return;
+  }
+  if (impl_->mapped) {
+    std::memcpy(bytes.data(), impl_->mapped, bytes.size());
+    return;
+  }
+  Device::Impl& device = impl_->device;
+  Buffer staging(device, bytes.size(), Memory::readback);
+  checked("reading a buffer", [&] {
+    Recorder recorder(device, device.compute.family);
+    recorder.begin();
+    recorder.copy(*this, staging, bytes.size());
+    recorder.end();
+    submit_and_wait(device, recorder);
+  });
+  staging.read(bytes);
+}
+
+}  // namespace wholehand::host

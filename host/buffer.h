@@ -1,0 +1,66 @@
+// Memory that kernels read and write.
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "host/device.h"
+
+namespace wholehand::host {
+
+enum class Memory {
+  device,    // fast for kernels; the host reaches it directly only where memory is unified
+  upload,    // the host writes, the device copies from it
+  readback,  // the device copies to it, the host reads
+};
+
+// A buffer that can be bound as storage or as uniform, whichever a kernel declares. Its contents are undefined until written.
+// Throws OutOfMemory when the memory is refused or more than the device allocates at once.
+class Buffer {
+ public:
+  Buffer();
+  Buffer(const Device& device, std::size_t bytes, Memory memory = Memory::device);
+  Buffer(Device::Impl& device, std::size_t bytes, Memory memory);
+  ~Buffer();
+  Buffer(Buffer&&) noexcept;
+  Buffer& operator=(Buffer&&) noexcept;
+
+  // A device buffer with a copy of `values`.
+  template <class T>
+  static Buffer of(const Device& device, const std::vector<T>& values) {
+    Buffer buffer(device, values.size() * sizeof(T));
+    buffer.write(values);
+    return buffer;
+  }
+
+  std::size_t size() const;             // bytes asked for
+  bool fast_to_read() const;            // mapped, and reading the mapping is fast
+  std::span<std::byte> mapped() const;  // empty where the host does not reach it
+
+  // Copies to and from the start of the buffer, any kind of it; done on return. For what is small or rare: chunks have stream.h.
+  void write(std::span<const std::byte> bytes);
+  void read(std::span<std::byte> bytes) const;
+
+  template <class T>
+  void write(const std::vector<T>& values) {
+    write(std::as_bytes(std::span(values)));
+  }
+  // The first `count` elements.
+  template <class T>
+  std::vector<T> read_as(std::size_t count) const {
+    std::vector<T> values(count);
+    read(std::as_writable_bytes(std::span(values)));
+    return values;
+  }
+
+  struct Impl;  // vulkan.h, for host/ alone
+  Impl& impl() const { return *impl_; }
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace wholehand::host

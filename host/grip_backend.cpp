@@ -1,0 +1,292 @@
+#include "host/grip_backend.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "core/prepare.h"
+#include "host/grip_program.h"
+
+namespace wholehand::host {
+namespace {
+
+constexpr std::uint32_t NO_GRIP = 0xffffffffu;
+
+// Planes whose sign changes when a left hand's result is mirrored back.
+std::vector<int> mirrored_planes(const Scene& scene, const FieldSet& fields) {
+  std::vector<int> planes;
+  if (scene.hand.handedness == Handedness::right) return planes;
+  for (const int field : {FIELD_MIDPOINT, FIELD_JOINTS, FIELD_POSED, FIELD_PROXIES}) {
+    if (!fields.has(field)) continue;
+    const int points = field == FIELD_MIDPOINT ? 1 : JOINT_COUNT;
+    for (int j = 0; j < points; ++j)
+      if (fields.plane[field] + 3 * j < fields.real_kept) planes.push_back(fields.plane[field] + 3 * j);
+  }
+  return planes;
+}
+
+}  // namespace
+
+std::span<const std::uint32_t> find_shader(std::string_view name, Precision precision, OutlineSource outline) {
+  const int wanted = precision == Precision::full ? 1 : 0;
+  for (const EmbeddedShader& shader : embedded_shaders())
+    if (shader.name == name && shader.precision == wanted && shader.outline_source == outline) return shader.words;
+  throw failure_error("this build lacks the shader '" + std::string(name) + "'; build it again");
+}
+
+struct GripBackend::Impl {
+  Impl(const Scene& scene_in, std::shared_ptr<const Evaluator> core_in, const FieldSet& fields_in, const std::string& selector,
+       const GripBackendOptions& options_in)
+      : scene(scene_in),
+        core(std::move(core_in)),
+        fields(fields_in),
+        options(options_in),
+        arrays(make_scene_arrays(scene, *core, options.evaluator)),
+        mirrored(mirrored_planes(scene, fields)),
+        stream([this, selector] { return std::make_unique<GripProgram>(scene, arrays, *core, fields, selector, options); },
+               with_select_multiple(options.stream)) {
+    info.backend = "vulkan";
+    info.device = program().on.info().name;
+    info.driver = program().on.info().driver;
+    info.precision = options.precision;
+    info.is_cpu = program().on.info().kind == DeviceKind::cpu;
+  }
+
+  static StreamOptions with_select_multiple(StreamOptions stream_options) {
+    stream_options.item_multiple = std::max<std::size_t>(stream_options.item_multiple, GROUP_SIZE);
+    return stream_options;
+  }
+
+  GripProgram& program() { return static_cast<GripProgram&>(stream.program()); }
+
+  std::size_t real_size() const { return options.precision == Precision::single ? sizeof(float) : sizeof(double); }
+
+  template <class Real>
+  void fill(const RunRequest& request, const Chunk& chunk, const ChunkInputs& inputs) {
+    grips.resize(chunk.count);
+    request.grips(request.vessel, chunk.first, chunk.count, grips.data());
+    const std::span<Real> out = elements<Real>(inputs[0]);
+    for (std::size_t i = 0; i < chunk.count; ++i) {
+      const GripInput grip = wholehand::mirrored(grips[i], scene.hand.handedness);
+      out[AXIS_HEIGHT * chunk.stride + i] = static_cast<Real>(grip.height);
+      out[AXIS_AZIMUTH * chunk.stride + i] = static_cast<Real>(grip.azimuth);
+      out[AXIS_OBLIQUITY * chunk.stride + i] = static_cast<Real>(grip.obliquity);
+      out[AXIS_ROLL * chunk.stride + i] = static_cast<Real>(grip.roll);
+      out[AXIS_OFFSET * chunk.stride + i] = static_cast<Real>(grip.offset);
+      out[AXIS_HAND_SCALE * chunk.stride + i] = static_cast<Real>(grip.hand_scale);
+    }
+  }
+
+  // Kept planes of a chunk by the core, as the device would have left them.
+  template <class Real>
+  void evaluate_on_core(const RunRequest& request, const Chunk& chunk, std::span<const std::span<std::byte>> outputs,
+                        std::size_t best) {
+    std::vector<GripInput> inputs(chunk.count);
+    request.grips(request.vessel, chunk.first, chunk.count, inputs.data());
+    std::vector<double> reals(fields.real_planes * chunk.stride);
+    std::vector<std::uint32_t> uints(fields.uint_planes * chunk.stride);
+    core->planes(request.vessel, inputs.data(), chunk.count, fields, chunk.stride, reals.data(), uints.data());
+    for (const int plane : mirrored)
+      for (std::size_t i = 0; i < chunk.count; ++i) reals[plane * chunk.stride + i] = -reals[plane * chunk.stride + i];
+    const std::span<Real> real_out = elements<Real>(outputs[0]);
+    for (std::size_t i = 0; i < real_out.size(); ++i) real_out[i] = static_cast<Real>(reals[i]);
+    const std::span<std::uint32_t> uint_out = elements<std::uint32_t>(outputs[1]);
+    std::copy_n(uints.begin(), uint_out.size(), uint_out.begin());
+    if (best == 0) return;
+    const PlaneChunk planes{request.vessel, chunk.first, chunk.count, chunk.stride, nullptr, reals.data(), uints.data()};
+    const auto chosen = best_of(planes, best);
+    const std::span<Real> scores = elements<Real>(outputs[2]);
+    const std::span<std::uint32_t> indices = elements<std::uint32_t>(outputs[3]);
+    for (std::size_t i = 0; i < best; ++i) {
+      scores[i] = i < chosen.size() ? static_cast<Real>(chosen[i].score) : Real(-1);
+      indices[i] = i < chosen.size() ? static_cast<std::uint32_t>(chosen[i].index - chunk.first) : NO_GRIP;
+    }
+  }
+
+  // Best grips of planes that have score and status.
+  std::vector<Candidate> best_of(const PlaneChunk& planes, std::size_t best) const {
+    std::vector<Candidate> candidates;
+    for (std::size_t i = 0; i < planes.count; ++i) {
+      const std::uint32_t status = planes.uint(fields.plane[FIELD_STATUS], i);
+      if ((status & (STATUS_REASON_MASK | STATUS_PLAUSIBLE)) != STATUS_PLAUSIBLE) continue;
+      candidates.push_back({planes.real(fields.plane[FIELD_SCORE], i), planes.first + i});
+    }
+    keep_best(candidates, best);
+    return candidates;
+  }
+
+  static void keep_best(std::vector<Candidate>& candidates, std::size_t best) {
+    const auto first = [](const Candidate& a, const Candidate& b) {
+      return a.score > b.score || (a.score == b.score && a.index < b.index);
+    };
+    const std::size_t kept = std::min(best, candidates.size());
+    std::partial_sort(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(kept), candidates.end(), first);
+    candidates.resize(kept);
+  }
+
+  // A whole run by the core, on all threads, where the device cannot be trusted with the vessel.
+  template <class Real>
+  RunResult run_on_core(const RunRequest& request) {
+    constexpr std::size_t SHARE = 1024;  // grips of a thread in a chunk
+    const std::size_t threads = std::max(1u, std::thread::hardware_concurrency()), stride = threads * SHARE;
+    std::vector<GripInput> inputs(stride);
+    std::vector<double> reals(fields.real_planes * stride);
+    std::vector<Real> converted(reals.size());
+    std::vector<std::uint32_t> uints(fields.uint_planes * stride);
+    RunResult result;
+    result.notes.push_back(scene.vessels[request.vessel].name + ": an outline of " +
+                           std::to_string(arrays.vessels[request.vessel].outline_count) + " elements is evaluated on the core: " +
+                           info.device + " ends loops over more than " + std::to_string(MAX_OUTLINE) + " too early");
+    const auto start = std::chrono::steady_clock::now();
+    for (std::uint64_t first = request.first; first < request.last && !(request.stop && request.stop->load()); first += stride) {
+      const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(stride, request.last - first));
+      request.grips(request.vessel, first, count, inputs.data());
+      std::vector<std::thread> workers;
+      for (std::size_t from = 0; from < count; from += SHARE) {
+        workers.emplace_back([&, from] {
+          core->planes(request.vessel, inputs.data() + from, std::min(SHARE, count - from), fields, stride, reals.data() + from,
+                       uints.data() + from);
+        });
+      }
+      for (std::thread& worker : workers) worker.join();
+      std::transform(reals.begin(), reals.end(), converted.begin(), [](double value) { return static_cast<Real>(value); });
+      PlaneChunk planes{request.vessel, first, count, stride, nullptr, nullptr, uints.data()};
+      if constexpr (sizeof(Real) == sizeof(float)) {
+        planes.floats = converted.data();
+      } else {
+        planes.doubles = converted.data();
+      }
+      const auto chosen = best_of(planes, request.best);
+      result.best.insert(result.best.end(), chosen.begin(), chosen.end());
+      keep_best(result.best, request.best);
+      if (request.sink) request.sink(planes);
+      result.done += count;
+      ++result.chunks;
+    }
+    result.kernel_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return result;
+  }
+
+  template <class Real>
+  RunResult run(const RunRequest& request) {
+    if (!outline_fits_device(arrays.vessels[request.vessel], program().on.info())) return run_on_core<Real>(request);
+    // more than the device selects: every score is read back
+    const bool on_host = request.best > SELECT_LARGEST;
+    const std::size_t best = on_host ? 0 : request.best;
+    const int real_kept = on_host ? std::max(fields.real_kept, fields.plane[FIELD_SCORE] + 1) : fields.real_kept;
+    const int uint_kept = on_host ? std::max(fields.uint_kept, fields.plane[FIELD_STATUS] + 1) : fields.uint_kept;
+    RunResult result;
+    StreamRequest work;
+    work.first = request.first;
+    work.last = request.last;
+    work.inputs = {{BINDING_GRIPS, GRIP_AXES * sizeof(Real)}};
+    work.outputs = {{BINDING_REAL_OUT, fields.real_planes * sizeof(Real), real_kept * sizeof(Real)},
+                    {BINDING_UINT_OUT, fields.uint_planes * sizeof(std::uint32_t), uint_kept * sizeof(std::uint32_t)}};
+    if (best > 0) {
+      // two halves for the passes of the selection, each of groups * best entries
+      work.outputs.push_back({BINDING_CANDIDATES, sizeof(Real), 0, 2 * best * sizeof(Real), best * sizeof(Real)});
+      work.outputs.push_back(
+          {BINDING_INDICES, sizeof(std::uint32_t), 0, 2 * best * sizeof(std::uint32_t), best * sizeof(std::uint32_t)});
+    }
+    work.stop = request.stop;
+    work.fill = [&](const Chunk& chunk, const ChunkInputs& inputs) { fill<Real>(request, chunk, inputs); };
+    work.record = [&](Program& made, const Chunk& chunk, Commands& commands) {
+      // grips come in ascending order, so of equal scores those already found stand first
+      const double floor_score = best > 0 && result.best.size() == best ? result.best.back().score : -1;
+      static_cast<GripProgram&>(made).record(request.vessel, chunk, best, floor_score, commands);
+    };
+    work.fallback = [&](const Chunk& chunk, std::span<const std::span<std::byte>> outputs) {
+      evaluate_on_core<Real>(request, chunk, outputs, best);
+    };
+    std::vector<Real> turned;
+    work.sink = [&](const Chunk& chunk, const ChunkOutputs& outputs) {
+      PlaneChunk planes{request.vessel,
+                        chunk.first,
+                        chunk.count,
+                        chunk.stride,
+                        nullptr,
+                        nullptr,
+                        elements<const std::uint32_t>(outputs[1]).data()};
+      std::span<const Real> reals = elements<const Real>(outputs[0]);
+      if (!mirrored.empty()) {
+        turned.assign(reals.begin(), reals.end());
+        for (const int plane : mirrored)
+          for (std::size_t i = 0; i < chunk.count; ++i) turned[plane * chunk.stride + i] = -turned[plane * chunk.stride + i];
+        reals = turned;
+      }
+      if constexpr (sizeof(Real) == sizeof(float)) {
+        planes.floats = reals.data();
+      } else {
+        planes.doubles = reals.data();
+      }
+      if (on_host) {
+        const auto chosen = best_of(planes, request.best);
+        result.best.insert(result.best.end(), chosen.begin(), chosen.end());
+      } else if (best > 0) {
+        const std::span<const Real> scores = elements<const Real>(outputs[2]);
+        const std::span<const std::uint32_t> indices = elements<const std::uint32_t>(outputs[3]);
+        for (std::size_t i = 0; i < best && indices[i] != NO_GRIP; ++i)
+          result.best.push_back({static_cast<double>(scores[i]), chunk.first + indices[i]});
+      }
+      keep_best(result.best, request.best);
+      if (request.sink) request.sink(planes);
+    };
+    const StreamResult streamed = stream.run(work);
+    result.done = streamed.items;
+    result.chunks = streamed.chunks;
+    result.kernel_seconds = streamed.kernel_seconds;
+    result.notes = streamed.notes;
+    return result;
+  }
+
+  Scene scene;
+  std::shared_ptr<const Evaluator> core;
+  FieldSet fields;
+  GripBackendOptions options;
+  SceneArrays arrays;
+  std::vector<int> mirrored;
+  std::vector<GripInput> grips;
+  Stream stream;
+  BackendInfo info;
+  double setup_seconds = 0;
+};
+
+GripBackend::GripBackend(const Scene& scene, std::shared_ptr<const Evaluator> core, const FieldSet& fields,
+                         const std::string& selector, const GripBackendOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  impl_ = std::make_unique<Impl>(scene, std::move(core), fields, selector, options);
+  impl_->setup_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+GripBackend::~GripBackend() = default;
+
+const BackendInfo& GripBackend::info() const { return impl_->info; }
+const FieldSet& GripBackend::fields() const { return impl_->fields; }
+
+RunResult GripBackend::run(const RunRequest& request) {
+  return impl_->options.precision == Precision::single ? impl_->run<float>(request) : impl_->run<double>(request);
+}
+
+std::vector<LiquidResult> GripBackend::liquid(std::size_t vessel) { return impl_->program().vessels[vessel].liquid; }
+
+GripPipelines GripBackend::pipelines(std::size_t vessel) const {
+  const GripProgram& program = impl_->program();
+  GripPipelines made;
+  made.outline = program.vessels[vessel].outline_source;
+  made.force = program.force.has_value();
+  made.liquid = !program.vessels[vessel].liquid.empty();
+  made.real_planes = impl_->fields.real_planes;
+  made.uint_planes = impl_->fields.uint_planes;
+  return made;
+}
+
+const DeviceInfo& GripBackend::device() const { return impl_->program().on.info(); }
+
+std::size_t GripBackend::bytes_per_grip() const {
+  return (GRIP_AXES + impl_->fields.real_planes) * impl_->real_size() + impl_->fields.uint_planes * sizeof(std::uint32_t);
+}
+
+double GripBackend::setup_seconds() const { return impl_->setup_seconds; }
+
+}  // namespace wholehand::host

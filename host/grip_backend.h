@@ -1,0 +1,61 @@
+// The kernels' way through a Vulkan device: a scene's tables, a pipeline per vessel, and grips streamed through grip, force, score and
+// select.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "core/backend.h"
+#include "core/evaluator.h"
+#include "host/device.h"
+#include "host/shaders.h"
+#include "host/stream.h"
+
+namespace wholehand::host {
+
+struct GripBackendOptions {
+  Precision precision = Precision::single;
+  OutlineSource outline = OUTLINE_SPECIALIZED;  // outlines of more than MAX_OUTLINE elements always come from a buffer
+  EvaluatorOptions evaluator;                   // grid instead of outline, quadrature points
+  DeviceOptions device;
+  StreamOptions stream;
+};
+
+// What the backend did not make because the scene does not need it, and how it reads the outline; for `--explain`.
+struct GripPipelines {
+  OutlineSource outline = OUTLINE_SPECIALIZED;
+  bool force = false, liquid = false;
+  int real_planes = 0, uint_planes = 0;  // per grip, kept and scratch
+};
+
+class GripBackend final : public Backend {
+ public:
+  // `core` evaluates the same scene (with the same EvaluatorOptions): constants of vessels come from it, and chunks that no device could
+  // compute. `selector` as for choose_device. Throws Error: no such device, no double precision on it.
+  GripBackend(const Scene& scene, std::shared_ptr<const Evaluator> core, const FieldSet& fields, const std::string& selector,
+              const GripBackendOptions& options = {});
+  ~GripBackend() override;
+
+  const BackendInfo& info() const override;
+  const FieldSet& fields() const override;
+  RunResult run(const RunRequest& request) override;
+  std::vector<LiquidResult> liquid(std::size_t vessel) override;
+
+  GripPipelines pipelines(std::size_t vessel) const;
+  const DeviceInfo& device() const;
+  // Bytes of a chunk's buffers per grip: inputs and planes.
+  std::size_t bytes_per_grip() const;
+  // Seconds that creating the device and the pipelines took.
+  double setup_seconds() const;
+
+  struct Impl;
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+// The embedded shader of that name in a precision; the variant for an outline source where it has any. Throws Error when the build
+// lacks it.
+std::span<const std::uint32_t> find_shader(std::string_view name, Precision precision, OutlineSource outline = OUTLINE_NONE);
+
+}  // namespace wholehand::host

@@ -1,0 +1,251 @@
+#include "host/grip_program.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
+#include <exception>
+#include <functional>
+#include <thread>
+
+namespace wholehand::host {
+namespace {
+
+// Mesa's CPU driver ends a loop silently after 65,535 iterations of an invocation, counted over all its loops. A level takes up to
+// LEVEL_STEPS evaluations; of the five parts of a piece of the cavity three at most are not empty (full, partial and full again).
+constexpr int LOOP_BUDGET = 60000;
+constexpr int ITERATIONS_PER_PIECE = LEVEL_STEPS * (6 + 3 * QUADRATURE_POINTS);
+
+// States a dispatch of the force kernel loops over at most, for the same reason and to keep it short.
+constexpr std::uint32_t STATES_PER_DISPATCH = 8192;
+
+template <class Real>
+Buffer upload_reals(Device& device, const std::vector<double>& values) {
+  // a binding that the shader names must be there even where nothing is read from it
+  std::vector<Real> converted(values.begin(), values.end());
+  converted.resize(std::max<std::size_t>(converted.size(), 4));
+  return Buffer::of(device, converted);
+}
+
+Buffer upload(Device& device, Precision precision, const std::vector<double>& values) {
+  return precision == Precision::single ? upload_reals<float>(device, values) : upload_reals<double>(device, values);
+}
+
+Buffer upload(Device& device, Precision precision, const Parameters<double>& parameters) {
+  if (precision == Precision::single) return Buffer::of(device, std::vector<Parameters<float>>{convert<float>(parameters)});
+  return Buffer::of(device, std::vector<Parameters<double>>{parameters});
+}
+
+std::vector<double> download(const Buffer& buffer, Precision precision, std::size_t count) {
+  if (precision == Precision::full) return buffer.read_as<double>(count);
+  const auto values = buffer.read_as<float>(count);
+  return {values.begin(), values.end()};
+}
+
+std::vector<Constant> common_constants() { return {{CONST_GROUP_SIZE, std::uint32_t(GROUP_SIZE)}}; }
+
+void add_planes(std::vector<Constant>& constants, const FieldSet& fields) {
+  for (int f = 0; f < FIELDS; ++f) constants.push_back({std::uint32_t(CONST_PLANE + f), std::int32_t(fields.plane[f])});
+}
+
+std::size_t real_size(Precision precision) { return precision == Precision::single ? sizeof(float) : sizeof(double); }
+
+// Every task, on as many threads as there are cores. The first failure is thrown on.
+void run_side_by_side(const std::vector<std::function<void()>>& tasks) {
+  std::vector<std::exception_ptr> failures(tasks.size());
+  std::atomic<std::size_t> next = 0;
+  const auto work = [&] {
+    for (std::size_t k = next++; k < tasks.size(); k = next++) {
+      try {
+        tasks[k]();
+      } catch (...) {
+        failures[k] = std::current_exception();
+      }
+    }
+  };
+  std::vector<std::thread> workers;
+  for (std::size_t w = 1; w < std::min<std::size_t>(std::max(1u, std::thread::hardware_concurrency()), tasks.size()); ++w)
+    workers.emplace_back(work);
+  work();
+  for (std::thread& worker : workers) worker.join();
+  for (const auto& failure : failures)
+    if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace
+
+// A loop over N elements in every distance of every step has no bound that such a driver would grant; an unrolled one is not counted.
+bool outline_fits_device(const VesselArrays& vessel, const DeviceInfo& device) {
+  return device.kind != DeviceKind::cpu || !vessel.grid.empty() || vessel.outline_count <= MAX_OUTLINE;
+}
+
+bool liquid_fits_device(int cavity_count) { return cavity_count * ITERATIONS_PER_PIECE < LOOP_BUDGET; }
+
+GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Evaluator& core, const FieldSet& fields,
+                         const std::string& selector, const GripBackendOptions& options)
+    : on(selector, options.device), vessels(scene.vessels.size()), precision_(options.precision) {
+  if (options.precision == Precision::full && !on.info().float64) {
+    throw usage_error("--precision double: " + on.info().name +
+                      " has no double precision (shaderFloat64); use float or another device");
+  }
+  fill_count = static_cast<std::uint32_t>(scene_fills(scene));
+  tilt_count = static_cast<std::uint32_t>(scene.tilts.size());
+  hand = upload(on, options.precision, arrays.hand);
+  quadrature = upload(on, options.precision, arrays.quadrature);
+  fills = upload(on, options.precision, arrays.fills);
+  tilts = upload(on, options.precision, arrays.tilts);
+
+  std::vector<Constant> constants = common_constants();
+  add_planes(constants, fields);
+  constants.push_back({CONST_TORQUE, std::int32_t(scene.force.torque == Torque::exact ? TORQUE_EXACT : TORQUE_PAPER)});
+  constants.push_back({CONST_REFERENCE, std::int32_t(scene.force.reference == TorqueReference::per_grip ? REFERENCE_PER_GRIP
+                                                                                                        : REFERENCE_PER_OBJECT)});
+
+  // making a pipeline takes a core a tenth of a second, so they are made side by side
+  std::optional<Kernel> lip, liquid;
+  std::vector<std::function<void()>> tasks;
+  for (std::size_t v = 0; v < vessels.size(); ++v) {
+    upload_vessel(v, arrays, options);  // through the one queue: not side by side
+    if (outline_fits_device(arrays.vessels[v], on.info()))
+      tasks.push_back([&, v] { make_grip_kernel(v, scene, arrays, fields, options); });
+  }
+  const auto make = [&](std::optional<Kernel>& kernel, const char* name, const std::vector<Constant>& values) {
+    tasks.push_back(
+        [&kernel, name, &values, &options, this] { kernel.emplace(on, find_shader(name, options.precision), values, name); });
+  };
+  const std::vector<Constant> common = common_constants();
+  const bool wet = scene.liquid && tilt_count > 0;
+  if (wet) {
+    make(lip, "lip", common);
+    make(liquid, "liquid", common);
+  }
+  if (tilt_count > 0 && fields.has(FIELD_PEAK_FORCE)) make(force, "force", constants);
+  make(score, "score", constants);
+  make(select, "select", constants);
+  run_side_by_side(tasks);
+  for (std::size_t v = 0; wet && v < vessels.size(); ++v) make_liquid(v, scene, arrays, core, options, *lip, *liquid);
+}
+
+void GripProgram::upload_vessel(std::size_t v, const SceneArrays& arrays, const GripBackendOptions& options) {
+  const VesselArrays& from = arrays.vessels[v];
+  VesselOnDevice& vessel = vessels[v];
+  vessel.outline_source = from.outline_count > MAX_OUTLINE ? OUTLINE_BUFFER : options.outline;
+  std::vector<double> outline = from.outline;
+  outline.resize(std::max<std::size_t>(outline.size(), OUTLINE_STRIDE * MAX_OUTLINE));  // the uniform block has a fixed size
+  vessel.parameters = upload(on, options.precision, from.parameters);
+  vessel.outline = upload(on, options.precision, outline);
+  vessel.grid = upload(on, options.precision, from.grid);
+  vessel.loads = upload(on, options.precision, from.dry_loads);
+}
+
+void GripProgram::make_grip_kernel(std::size_t v, const Scene& scene, const SceneArrays& arrays, const FieldSet& fields,
+                                   const GripBackendOptions& options) {
+  const VesselArrays& from = arrays.vessels[v];
+  VesselOnDevice& vessel = vessels[v];
+  std::vector<Constant> constants = common_constants();
+  add_planes(constants, fields);
+  constants.push_back({CONST_POSE, std::int32_t(scene.pose == Pose::articulated ? POSE_ARTICULATED
+                                                : scene.pose == Pose::paper     ? POSE_PAPER
+                                                                                : POSE_RIGGED)});
+  constants.push_back({CONST_SDF_KIND, std::int32_t(from.grid.empty() ? SDF_OUTLINE : SDF_GRID)});
+  constants.push_back({CONST_OUTLINE_COUNT, std::int32_t(from.outline_count)});
+  constants.push_back({CONST_LID, std::int32_t(from.grid.empty() ? from.lid : -1)});
+  if (vessel.outline_source == OUTLINE_SPECIALIZED) {
+    for (std::size_t i = 0; i < from.outline.size(); ++i) {
+      const auto id = static_cast<std::uint32_t>(CONST_OUTLINE + i);
+      if (options.precision == Precision::single) {
+        constants.push_back({id, static_cast<float>(from.outline[i])});
+      } else {
+        constants.push_back({id, from.outline[i]});
+      }
+    }
+  }
+  vessel.grip.emplace(on, find_shader("grip", options.precision, vessel.outline_source), constants, "grip");
+}
+
+void GripProgram::make_liquid(std::size_t v, const Scene& scene, const SceneArrays& arrays, const Evaluator& core,
+                              const GripBackendOptions& options, const Kernel& lip, const Kernel& liquid) {
+  VesselOnDevice& vessel = vessels[v];
+  const std::uint32_t states = fill_count * tilt_count;
+  std::vector<double> loads;
+  if (!liquid_fits_device(arrays.vessels[v].cavity_count)) {
+    const VesselConstants constants = core.constants(v);
+    for (const double fill : scene.liquid->fills)
+      for (const double tilt : scene.tilts) {
+        const LiquidResult state = core.liquid(v, fill, tilt);
+        const double together = constants.mass + state.mass, share = together > 0 ? state.mass / together : 0;
+        vessel.liquid.push_back(state);
+        loads.insert(loads.end(), {together, share, share * state.lean, share * state.height});
+      }
+    vessel.loads = upload(on, options.precision, loads);
+    return;
+  }
+  const std::size_t real = real_size(options.precision);
+  const Buffer cavity = upload(on, options.precision, arrays.vessels[v].cavity);
+  const Buffer capacity(on, real * (WHOLE_DEGREES + tilt_count)), liquids(on, real * LIQUID_STRIDE * states);
+  vessel.loads = Buffer(on, real * LOAD_STRIDE * states);
+  Commands commands;
+  commands.bind(BINDING_PARAMETERS, vessel.parameters);
+  commands.bind(BINDING_CAVITY, cavity);
+  commands.bind(BINDING_QUADRATURE, quadrature);
+  commands.bind(BINDING_TILTS, tilts);
+  commands.bind(BINDING_FILLS, fills);
+  commands.bind(BINDING_CAPACITY, capacity);
+  commands.bind(BINDING_LIQUID, liquids);
+  commands.bind(BINDING_LOADS, vessel.loads);
+  const std::uint32_t rows = WHOLE_DEGREES + tilt_count;
+  commands.dispatch(lip, groups_for(on, lip, rows), Push{rows, 0, 0, 0});
+  commands.dispatch(liquid, groups_for(on, liquid, states), Push{states, 0, 0, 0});
+  run_once(on, commands);
+  const std::vector<double> values = download(liquids, options.precision, LIQUID_STRIDE * states);
+  for (std::uint32_t s = 0; s < states; ++s) {
+    const double* at = values.data() + LIQUID_STRIDE * s;
+    vessel.liquid.push_back({at[0], at[1], at[2], at[3], at[4]});
+  }
+}
+
+void GripProgram::record(std::size_t v, const Chunk& chunk, std::size_t best, double floor_score, Commands& commands) {
+  const VesselOnDevice& vessel = vessels[v];
+  const auto count = static_cast<std::uint32_t>(chunk.count), stride = static_cast<std::uint32_t>(chunk.stride);
+  commands.bind(BINDING_PARAMETERS, vessel.parameters);
+  commands.bind(BINDING_HAND, hand);
+  commands.bind(BINDING_OUTLINE, vessel.outline);
+  commands.bind(BINDING_GRID, vessel.grid);
+  commands.bind(BINDING_TILTS, tilts);
+  commands.bind(BINDING_LOADS, vessel.loads);
+  commands.dispatch(*vessel.grip, groups_for(on, *vessel.grip, count), Push{count, stride, 0, 0});
+  if (force) {
+    const std::uint32_t together = std::max<std::uint32_t>(1, STATES_PER_DISPATCH / tilt_count);
+    for (std::uint32_t fill = 0; fill < fill_count; fill += together) {
+      const std::uint32_t number = std::min(together, fill_count - fill);
+      commands.dispatch(*force, groups_for(on, *force, count), Push{count, stride, fill, number});
+    }
+  }
+  commands.dispatch(*score, groups_for(on, *score, count), Push{count, stride, 0, 0});
+  if (best == 0) return;
+  const auto wanted = static_cast<std::uint32_t>(best);
+  std::vector<std::uint32_t> passes;  // entries of each
+  for (std::uint32_t entries = count;; entries = (entries + SELECT_ENTRIES - 1) / SELECT_ENTRIES * wanted) {
+    passes.push_back(entries);
+    if (entries <= SELECT_ENTRIES) break;
+  }
+  std::array<std::uint32_t, 2> floor_bits{};
+  if (precision_ == Precision::single) {
+    floor_bits[0] = std::bit_cast<std::uint32_t>(static_cast<float>(floor_score));
+  } else {
+    floor_bits = std::bit_cast<std::array<std::uint32_t, 2>>(floor_score);
+  }
+  // the halves alternate so that the last pass ends in the first
+  std::uint32_t from = 0;
+  bool into_first = passes.size() % 2 == 1;
+  for (const std::uint32_t entries : passes) {
+    const std::uint32_t groups = (entries + SELECT_ENTRIES - 1) / SELECT_ENTRIES;
+    const std::uint32_t step = from == 0 ? (into_first ? SELECT_SCORES_TO_FIRST : SELECT_SCORES_TO_SECOND)
+                                         : (into_first ? SELECT_SECOND_TO_FIRST : SELECT_FIRST_TO_SECOND);
+    commands.dispatch(*select, groups_for(on, *select, groups), Push{entries, stride, step, wanted, floor_bits[0], floor_bits[1]});
+    from = 1;
+    into_first = !into_first;
+  }
+}
+
+}  // namespace wholehand::host

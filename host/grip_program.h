@@ -1,0 +1,52 @@
+// A scene on one device: buffers that all grips share, the vessels' pipelines, and the liquid's tables; for host/ alone.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "host/grip_backend.h"
+#include "host/kernel.h"
+#include "host/scene_arrays.h"
+
+namespace wholehand::host {
+
+// What a vessel needs on the device.
+struct VesselOnDevice {
+  OutlineSource outline_source = OUTLINE_SPECIALIZED;
+  Buffer parameters, outline, grid, loads;
+  std::optional<Kernel> grip;
+  std::vector<LiquidResult> liquid;  // fill-major; empty without
+};
+
+// Made by the stream, again on a fresh device where one fails.
+struct GripProgram final : Program {
+  GripProgram(const Scene& scene, const SceneArrays& arrays, const Evaluator& core, const FieldSet& fields,
+              const std::string& selector, const GripBackendOptions& options);
+  Device& device() override { return on; }
+
+  // Dispatches the kernels of a chunk whose buffers are bound; `best`: how many candidates the selection leaves, of those with a score
+  // above `floor_score`.
+  void record(std::size_t vessel, const Chunk& chunk, std::size_t best, double floor_score, Commands& commands);
+
+  Device on;  // first: destroyed last
+  Buffer hand, tilts, fills, quadrature;
+  std::vector<VesselOnDevice> vessels;
+  std::optional<Kernel> force, score, select;
+  std::uint32_t fill_count = 0, tilt_count = 0;
+
+ private:
+  Precision precision_;
+  void upload_vessel(std::size_t v, const SceneArrays& arrays, const GripBackendOptions& options);
+  void make_grip_kernel(std::size_t v, const Scene& scene, const SceneArrays& arrays, const FieldSet& fields,
+                        const GripBackendOptions& options);
+  void make_liquid(std::size_t v, const Scene& scene, const SceneArrays& arrays, const Evaluator& core,
+                   const GripBackendOptions& options, const Kernel& lip, const Kernel& liquid);
+};
+
+// Whether grips of a vessel stay within those iterations: on a CPU driver an outline must be unrolled, so up to MAX_OUTLINE elements.
+bool outline_fits_device(const VesselArrays& vessel, const DeviceInfo& device);
+
+// Whether the liquid of a cavity of so many pieces stays within the loop iterations that every driver grants an invocation.
+bool liquid_fits_device(int cavity_count);
+
+}  // namespace wholehand::host

@@ -1,0 +1,92 @@
+#include "host/pipeline_cache.h"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace wholehand::host {
+namespace {
+
+// The file: this line, the bytes' number and hash, the bytes. A driver may trust what it is given, so what is damaged is not given
+// to it.
+struct FileHeader {
+  char magic[8] = {'w', 'h', 'p', 'i', 'p', 'e', '0', '1'};
+  std::uint64_t size = 0, hash = 0;
+};
+
+std::uint64_t fnv1a(const std::vector<std::uint8_t>& bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const std::uint8_t byte : bytes) {
+    hash = (hash ^ byte) * 0x100000001b3u;
+  }
+  return hash;
+}
+
+std::string default_folder() {
+  const char* cache = std::getenv("XDG_CACHE_HOME");
+  const char* home = std::getenv("HOME");
+  if (cache && *cache == '/') {
+    return std::string(cache) + "/wholehand";
+  }
+  return home && *home == '/' ? std::string(home) + "/.cache/wholehand" : "";
+}
+
+std::vector<std::uint8_t> load(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  FileHeader header;
+  const FileHeader expected;
+  if (!in.read(reinterpret_cast<char*>(&header), sizeof header) ||
+      std::memcmp(header.magic, expected.magic, sizeof header.magic) != 0) {
+    return {};
+  }
+  std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  return bytes.size() == header.size && fnv1a(bytes) == header.hash ? bytes : std::vector<std::uint8_t>();
+}
+
+}  // namespace
+
+void open_pipeline_cache(Device::Impl& impl, const std::string& folder) {
+  std::vector<std::uint8_t> bytes;
+  const std::string where = !folder.empty() ? folder : impl.info.kind == DeviceKind::cpu ? "" : default_folder();
+  if (!where.empty()) {
+    const std::uint32_t driver = impl.physical->getProperties().driverVersion;
+    impl.cache_file = where + "/" + impl.info.uuid + "-" + std::to_string(driver) + ".pipelines";
+    bytes = load(impl.cache_file);
+  }
+  impl.cache.emplace(*impl.device, vk::PipelineCacheCreateInfo({}, bytes.size(), bytes.data()));
+  impl.cache_size = bytes.size();
+}
+
+void save_pipeline_cache(Device::Impl& impl) noexcept {
+  if (impl.cache_file.empty() || !impl.cache) {
+    return;
+  }
+  try {
+    const std::vector<std::uint8_t> bytes = impl.cache->getData();
+    if (bytes.size() == impl.cache_size) {
+      return;
+    }
+    FileHeader header;
+    header.size = bytes.size();
+    header.hash = fnv1a(bytes);
+    const std::filesystem::path file(impl.cache_file);
+    std::filesystem::create_directories(file.parent_path());
+    const std::string partial = impl.cache_file + "." + std::to_string(getpid());  // two runs at once: each its own
+    std::ofstream out(partial, std::ios::binary);
+    out.write(reinterpret_cast<const char*>(&header), sizeof header);
+    out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    out.close();
+    if (out) {
+      std::filesystem::rename(partial, file);
+    } else {
+      std::filesystem::remove(partial);
+    }
+  } catch (const std::exception&) {
+    // an unwritable folder, a full disk or a lost device: the next run compiles again
+  }
+}
+
+}  // namespace wholehand::host

@@ -1,0 +1,18 @@
+// Compiled pipelines kept between runs, one file per device and driver. For GPUs: lavapipe gives nothing to keep (Mesa caches for
+// it). No cache, a damaged one or a folder that cannot be written only costs the compilation.
+#pragma once
+
+#include <string>
+
+#include "host/vulkan.h"
+
+namespace wholehand::host {
+
+// Makes impl.cache, from its file where there is one. `folder` empty: $XDG_CACHE_HOME/wholehand or ~/.cache/wholehand, nothing kept
+// on a CPU driver.
+void open_pipeline_cache(Device::Impl& impl, const std::string& folder);
+
+// Writes the file again if pipelines were added. Never throws.
+void save_pipeline_cache(Device::Impl& impl) noexcept;
+
+}  // namespace wholehand::host

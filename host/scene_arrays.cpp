@@ -1,0 +1,155 @@
+#include "host/scene_arrays.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+
+#include "core/load.h"
+
+namespace wholehand::host {
+namespace {
+
+void append_elements(std::vector<double>& out, const std::vector<PreparedElement>& elements) {
+  for (const auto& e : elements)
+    out.insert(out.end(), {e.a[0], e.a[1], e.b[0], e.b[1], e.center[0], e.center[1], e.radius, static_cast<double>(e.side)});
+}
+
+std::vector<double> hand_table(const PreparedHand& prepared, const HandData& data) {
+  std::vector<double> table(4 * HAND_VECTORS, 0.0);
+  const auto put = [&](int vector, const Triple& xyz, double w) {
+    for (int k = 0; k < 3; ++k) table[4 * vector + k] = xyz[k];
+    table[4 * vector + 3] = w;
+  };
+  for (int f = 0; f < FINGER_COUNT; ++f) {
+    const auto& finger = prepared.fingers[f];
+    const int at = HAND_FINGER_STRIDE * f;
+    put(at, finger.base, finger.length[0]);
+    put(at + 1, finger.forward, finger.length[1]);
+    put(at + 2, finger.palmward, finger.length[2]);
+    put(at + 3, {finger.radius[0], finger.radius[1], finger.radius[2]}, finger.radius[3]);
+    put(at + 4, {finger.radius[4], finger.length[3], 0}, 0);
+  }
+  put(HAND_THUMB_OPEN, prepared.thumb_open, data.max_angle);
+  put(HAND_THUMB_SWING, prepared.thumb_swing, data.paper_max_angle);
+  put(HAND_FINGER_OPEN, prepared.finger_open, data.contact_tolerance);
+  put(HAND_FINGER_SWING, prepared.finger_swing, data.depth_limit);
+  put(HAND_JOINT_LIMIT, data.joint_limit, data.scale);
+  put(HAND_GAP, {prepared.gap_open, prepared.gap_closed, 0}, 0);
+  for (int k = 0; k < GAP_TABLE_SIZE; ++k) table[4 * HAND_TABLE + k] = prepared.gap_table[k];
+  return table;
+}
+
+void set_grid(VesselArrays& arrays, const core_f64::Grid& grid) {
+  arrays.grid.assign(grid.samples.begin(), grid.samples.end());
+  auto& p = arrays.parameters;
+  p.grid_x = grid.origin.x;
+  p.grid_y = grid.origin.y;
+  p.grid_z = grid.origin.z;
+  p.grid_spacing = grid.spacing;
+  p.grid_nx = grid.nx;
+  p.grid_ny = grid.ny;
+  p.grid_nz = grid.nz;
+  arrays.lid = -1;
+}
+
+void set_scene_scalars(Parameters<double>& p, const Scene& scene, const VesselData& vessel) {
+  p.liquid_density = scene.liquid ? scene.liquid->density : 0;
+  p.gravity = scene.gravity;
+  p.force_base = scene.force.base;
+  p.force_range = vessel.force_range.value_or(scene.force.range);
+  p.force_max = scene.force.max;
+  p.friction = scene.force.friction;
+  p.torsion = scene.force.torsion;
+  p.friction_angle = std::atan(scene.force.friction);
+  p.grip_strength = scene.force.grip_strength;
+  p.pour_sense = scene.liquid && scene.liquid->pour == Pour::towards ? -1 : 1;
+  const auto weights = effective_weights(scene);
+  p.weight_fingers = weights[0];
+  p.weight_contacts = weights[1];
+  p.weight_depth = weights[2];
+  p.weight_posture = weights[3];
+  p.weight_force = weights[4];
+  p.weight_hold = weights[5];
+  p.fills = static_cast<std::uint32_t>(scene_fills(scene));
+  p.tilts = static_cast<std::uint32_t>(scene.tilts.size());
+}
+
+}  // namespace
+
+SceneArrays make_scene_arrays(const Scene& scene, const Evaluator& core, const EvaluatorOptions& options) {
+  SceneArrays arrays;
+  arrays.hand = hand_table(prepare_hand(scene.hand), scene.hand);
+  for (const double tilt : scene.tilts) arrays.tilts.insert(arrays.tilts.end(), {std::sin(tilt), std::cos(tilt), tilt});
+  if (scene.liquid) arrays.fills = scene.liquid->fills;
+  const PreparedQuadrature rule = prepare_quadrature(options.quadrature_points);
+  for (std::size_t i = 0; i < rule.cosine.size(); ++i)
+    arrays.quadrature.insert(arrays.quadrature.end(), {rule.cosine[i], rule.weight[i]});
+  for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
+    const VesselData& data = scene.vessels[v];
+    const PreparedVessel prepared = prepare_vessel(data, data.wall > 0);
+    const VesselConstants constants = core.constants(v);
+    VesselArrays vessel;
+    append_elements(vessel.outline, prepared.outline);
+    append_elements(vessel.cavity, prepared.cavity);
+    vessel.lid = prepared.lid;
+    vessel.outline_count = static_cast<int>(prepared.outline.size());
+    vessel.cavity_count = static_cast<int>(prepared.cavity.size());
+    auto& p = vessel.parameters;
+    set_scene_scalars(p, scene, data);
+    p.bound_height = prepared.bound_height;
+    p.bound_radius = prepared.bound_radius;
+    p.mouth_height = prepared.mouth_height;
+    p.mouth_radius = prepared.mouth_radius;
+    p.floor_height = prepared.floor_height;
+    p.capacity = constants.capacity;
+    p.vessel_mass = constants.mass;
+    const Triple center = mirrored(constants.center_of_mass, scene.hand.handedness);
+    p.center_x = center[0];
+    p.center_y = center[1];
+    p.center_z = center[2];
+    p.reference = constants.torque_reference;
+    p.largest_mass = constants.largest_mass;
+    p.largest_share = constants.largest_share;
+    p.largest_height = constants.largest_height;
+    p.outline_count = vessel.outline_count;
+    p.cavity_count = vessel.cavity_count;
+    p.quadrature_count = static_cast<std::uint32_t>(rule.cosine.size());
+    if (options.grid_samples > 0) {
+      core_f64::Vessel sampled;
+      for (const auto& element : prepared.outline) sampled.outline.push_back(core_f64::load_element(element));
+      set_grid(vessel, core_f64::sample_grid(sampled, options.grid_samples));
+    }
+    for (std::size_t t = 0; t < scene.tilts.size(); ++t) vessel.dry_loads.insert(vessel.dry_loads.end(), {constants.mass, 0, 0, 0});
+    arrays.vessels.push_back(std::move(vessel));
+  }
+  return arrays;
+}
+
+// Reals first, whole numbers after them, each a scalar: the block is the same list in both.
+template <class Real>
+Parameters<Real> convert(const Parameters<double>& from) {
+  Parameters<Real> to{};
+  constexpr std::size_t REALS = offsetof(Parameters<double>, outline_count) / sizeof(double);
+  static_assert(offsetof(Parameters<Real>, outline_count) == REALS * sizeof(Real));
+  std::array<double, REALS> source;
+  std::array<Real, REALS> target;
+  std::memcpy(source.data(), &from, sizeof source);
+  std::copy(source.begin(), source.end(), target.begin());
+  std::memcpy(&to, target.data(), sizeof target);
+  to.outline_count = from.outline_count;
+  to.cavity_count = from.cavity_count;
+  to.grid_nx = from.grid_nx;
+  to.grid_ny = from.grid_ny;
+  to.grid_nz = from.grid_nz;
+  to.fills = from.fills;
+  to.tilts = from.tilts;
+  to.quadrature_count = from.quadrature_count;
+  return to;
+}
+
+template Parameters<float> convert<float>(const Parameters<double>&);
+template Parameters<double> convert<double>(const Parameters<double>&);
+
+}  // namespace wholehand::host

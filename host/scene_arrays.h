@@ -1,0 +1,39 @@
+// A scene as the arrays that shaders read (layout.h's bindings), in double; converted to the shader's reals when uploaded.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/evaluator.h"
+#include "core/prepare.h"
+#include "core/scene.h"
+#include "shaders/layout.h"
+
+namespace wholehand::host {
+
+struct VesselArrays {
+  Parameters<double> parameters{};
+  std::vector<double> outline;    // OUTLINE_STRIDE an element
+  std::vector<double> cavity;     // likewise, y ascending
+  std::vector<double> grid;       // samples, x fastest; empty for an outline
+  std::vector<double> dry_loads;  // LOAD_STRIDE a tilt, for a scene without liquid
+  int lid = -1;
+  int outline_count = 0, cavity_count = 0;
+};
+
+struct SceneArrays {
+  std::vector<double> hand;   // 4 * HAND_VECTORS
+  std::vector<double> tilts;  // sine, cosine, tilt
+  std::vector<double> fills;
+  std::vector<double> quadrature;  // cosine, weight
+  std::vector<VesselArrays> vessels;
+};
+
+// `core` is the evaluator of the same scene: capacities, masses and references come from it.
+SceneArrays make_scene_arrays(const Scene& scene, const Evaluator& core, const EvaluatorOptions& options = {});
+
+// A parameter block in the shader's reals.
+template <class Real>
+Parameters<Real> convert(const Parameters<double>& from);
+
+}  // namespace wholehand::host

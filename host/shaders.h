@@ -1,0 +1,28 @@
+// The compiled shaders that the binary carries (made by cmake/shaders.cmake).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+namespace wholehand {
+
+// How a shader reads the vessel's outline (OUTLINE_SOURCE when it is compiled).
+enum OutlineSource : int {
+  OUTLINE_NONE = -1,       // the shader does not read it
+  OUTLINE_BUFFER = 0,      // elements and their number from a storage buffer, in the loop
+  OUTLINE_HOISTED = 1,     // copied once per invocation from a uniform buffer
+  OUTLINE_SPECIALIZED = 2  // specialization constants
+};
+
+struct EmbeddedShader {
+  std::string_view name;  // stem of the .comp file
+  int precision = 0;      // 0: float, 1: double (REAL_IS_DOUBLE)
+  int outline_source = OUTLINE_NONE;
+  std::span<const std::uint32_t> words;  // SPIR-V
+};
+
+// Every entry point of shaders/ in each of its variants; sorted by name, then precision, then outline source.
+std::span<const EmbeddedShader> embedded_shaders();
+
+}  // namespace wholehand

@@ -1,0 +1,46 @@
+// One chunk in flight: its buffers, command buffers and what they wait for; for host/ alone.
+#pragma once
+
+#include <chrono>
+
+#include "host/recorder.h"
+#include "host/stream.h"
+
+namespace wholehand::host {
+
+class Slot {
+ public:
+  // Room for chunks of up to `capacity` items (a stride). Throws OutOfMemory.
+  Slot(Device::Impl& device, const StreamRequest& request, std::size_t capacity);
+
+  // Bytes of a slot per item, and apart from items, staging included.
+  static std::pair<std::size_t, std::size_t> bytes(const Device::Impl& device, const StreamRequest& request);
+  // Largest capacity that the device's limits of a buffer allow.
+  static std::size_t largest_capacity(const DeviceInfo& device, const StreamRequest& request);
+
+  void submit(const Chunk& chunk, const StreamRequest& request, Program& program);
+  bool wait(double seconds);  // false: not finished within that time
+  double seconds() const;     // device time in kernels, after wait; negative where the device has no timestamps
+  void deliver(const StreamRequest& request) const;
+
+  Chunk chunk;
+  Fault fault = Fault::none;  // to be met when it is waited for
+  std::chrono::steady_clock::time_point submitted;
+  std::uint64_t bytes_in = 0, bytes_out = 0;
+
+ private:
+  // Where a device buffer is not mapped (or slow to read) the host has a second one, and the device copies.
+  struct Pair {
+    Buffer on_device, on_host;
+    std::size_t bytes = 0;  // to copy
+  };
+
+  Device::Impl& device_;
+  std::vector<Pair> inputs_, outputs_;
+  Recorder compute_;
+  std::optional<Recorder> upload_, download_;
+  vk::raii::Semaphore uploaded_, computed_;
+  vk::raii::Fence done_;
+};
+
+}  // namespace wholehand::host

@@ -1,0 +1,171 @@
+#include "host/spirv.h"
+
+#include <algorithm>
+#include <set>
+
+#include "core/error.h"
+
+namespace wholehand::host {
+namespace {
+
+// Numbers of the SPIR-V specification, sections 3.7, 3.20 and 3.32.
+enum Op : std::uint32_t {
+  OpEntryPoint = 15,
+  OpExecutionMode = 16,
+  OpCapability = 17,
+  OpTypeBool = 20,
+  OpTypeInt = 21,
+  OpTypeFloat = 22,
+  OpConstant = 43,
+  OpSpecConstantTrue = 48,
+  OpSpecConstantFalse = 49,
+  OpSpecConstant = 50,
+  OpFunction = 54,
+  OpFunctionEnd = 56,
+  OpFunctionCall = 57,
+  OpVariable = 59,
+  OpLoad = 61,
+  OpStore = 62,
+  OpCopyMemory = 63,
+  OpAccessChain = 65,
+  OpInBoundsAccessChain = 66,
+  OpPtrAccessChain = 67,
+  OpArrayLength = 68,
+  OpDecorate = 71,
+  OpCopyObject = 83,
+  OpExecutionModeId = 331
+};
+constexpr std::uint32_t MAGIC = 0x07230203, GL_COMPUTE = 5, CAPABILITY_FLOAT64 = 10;
+constexpr std::uint32_t MODE_LOCAL_SIZE = 17, MODE_LOCAL_SIZE_ID = 38;
+constexpr std::uint32_t DECORATION_SPEC_ID = 1, DECORATION_BINDING = 33, DECORATION_DESCRIPTOR_SET = 34;
+constexpr std::uint32_t STORAGE_UNIFORM = 2, STORAGE_BUFFER = 12;
+
+// Ids of `code` (one instruction of a function body) that may be a buffer variable.
+std::span<const std::uint32_t> pointers(std::uint32_t op, std::span<const std::uint32_t> code) {
+  switch (op) {
+    case OpLoad:
+    case OpAccessChain:
+    case OpInBoundsAccessChain:
+    case OpPtrAccessChain:
+    case OpArrayLength:
+    case OpCopyObject:
+      return code.subspan(3, 1);
+    case OpStore:
+      return code.subspan(1, 1);
+    case OpCopyMemory:
+      return code.subspan(1, 2);
+    case OpFunctionCall:
+      return code.subspan(4);
+    default:
+      return {};
+  }
+}
+
+}  // namespace
+
+ShaderInterface read_interface(std::span<const std::uint32_t> words, const std::string& name) {
+  const auto broken = [&](const char* what) { return failure_error("shader " + name + ": " + what + "; rebuild the program"); };
+  if (words.size() < 5 || words[0] != MAGIC) {
+    throw broken("no SPIR-V");
+  }
+  ShaderInterface result;
+  std::map<std::uint32_t, std::uint32_t> binding, set, spec_id, constant;  // by result id
+  std::map<std::uint32_t, ConstantKind> type;
+  std::map<std::uint32_t, bool> uniform;  // buffer variables
+  std::set<std::uint32_t> used;
+  std::array<std::uint32_t, 3> size_result{};
+  bool compute = false, in_function = false;
+  std::uint32_t last = 0;
+
+  for (std::size_t at = 5; at < words.size();) {
+    const std::uint32_t op = words[at] & 0xFFFF, length = words[at] >> 16;
+    if (length == 0 || at + length > words.size()) {
+      throw broken("damaged SPIR-V");
+    }
+    const auto code = words.subspan(at, length);
+    at += length;
+    last = op;
+    in_function |= op == OpFunction;
+    if (in_function) {
+      for (const std::uint32_t id : pointers(op, code)) {
+        used.insert(id);
+      }
+      continue;
+    }
+    switch (op) {
+      case OpEntryPoint:
+        compute |= code[1] == GL_COMPUTE;
+        break;
+      case OpCapability:
+        result.float64 |= code[1] == CAPABILITY_FLOAT64;
+        break;
+      case OpExecutionMode:
+        if (code[2] == MODE_LOCAL_SIZE) {
+          std::copy_n(code.begin() + 3, 3, result.group_size.begin());
+        }
+        break;
+      case OpExecutionModeId:
+        if (code[2] == MODE_LOCAL_SIZE_ID) {
+          std::copy_n(code.begin() + 3, 3, size_result.begin());
+        }
+        break;
+      case OpDecorate:
+        if (code[2] == DECORATION_BINDING) {
+          binding[code[1]] = code[3];
+        } else if (code[2] == DECORATION_DESCRIPTOR_SET) {
+          set[code[1]] = code[3];
+        } else if (code[2] == DECORATION_SPEC_ID) {
+          spec_id[code[1]] = code[3];
+        }
+        break;
+      case OpTypeBool:
+        type[code[1]] = ConstantKind::boolean;
+        break;
+      case OpTypeInt:
+        type[code[1]] = code[3] ? ConstantKind::int32 : ConstantKind::uint32;
+        break;
+      case OpTypeFloat:
+        type[code[1]] = code[2] == 64 ? ConstantKind::float64 : ConstantKind::float32;
+        break;
+      case OpConstant:
+      case OpSpecConstant:
+        constant[code[2]] = code[3];
+        [[fallthrough]];
+      case OpSpecConstantTrue:
+      case OpSpecConstantFalse:
+        if (const auto id = spec_id.find(code[2]); id != spec_id.end()) {
+          result.constants[id->second] = type.at(code[1]);
+        }
+        break;
+      case OpVariable:
+        if (code[3] == STORAGE_UNIFORM || code[3] == STORAGE_BUFFER) {
+          uniform[code[2]] = code[3] == STORAGE_UNIFORM;
+        }
+        break;
+      default:
+        break;
+    }
+  }
+  if (!compute || last != OpFunctionEnd) {
+    throw broken(compute ? "damaged SPIR-V" : "no compute shader");
+  }
+  for (const auto& [id, is_uniform] : uniform) {
+    if (used.contains(id)) {
+      if (set[id] != 0 || !binding.contains(id)) {
+        throw broken("a buffer that is not in set 0");
+      }
+      result.bindings.push_back({binding[id], is_uniform});
+    }
+  }
+  std::ranges::sort(result.bindings, {}, &ShaderBinding::binding);
+  for (std::size_t axis = 0; axis < 3; axis++) {
+    if (const std::uint32_t id = size_result[axis]; id != 0) {
+      result.group_size[axis] = constant.at(id);
+      const auto spec = spec_id.find(id);
+      result.group_size_id[axis] = spec != spec_id.end() ? spec->second : ShaderInterface::NO_ID;
+    }
+  }
+  return result;
+}
+
+}  // namespace wholehand::host

@@ -1,0 +1,33 @@
+// What a compute shader's SPIR-V says about itself: the bindings that it uses, its specialization constants and its group size.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace wholehand::host {
+
+struct ShaderBinding {
+  std::uint32_t binding = 0;
+  bool uniform = false;  // else storage
+};
+
+enum class ConstantKind { boolean, int32, uint32, float32, float64 };
+
+struct ShaderInterface {
+  std::vector<ShaderBinding> bindings;              // of set 0, that a function of the shader uses, ascending
+  std::map<std::uint32_t, ConstantKind> constants;  // by specialization constant id
+  bool float64 = false;                             // computes in double
+  // group size: where the id is not NO_ID the value is only the default of that specialization constant
+  static constexpr std::uint32_t NO_ID = ~0u;
+  std::array<std::uint32_t, 3> group_size{1, 1, 1};
+  std::array<std::uint32_t, 3> group_size_id{NO_ID, NO_ID, NO_ID};
+};
+
+// Throws Error, naming the shader, when the words are no compute shader or use a set other than 0.
+ShaderInterface read_interface(std::span<const std::uint32_t> words, const std::string& name);
+
+}  // namespace wholehand::host

@@ -1,0 +1,87 @@
+// What host/'s own files share of Vulkan; included by no other folder.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+#include <vulkan/vulkan_raii.hpp>
+
+#include "host/buffer.h"
+#include "host/device.h"
+#include "host/kernel.h"
+
+namespace wholehand::host {
+
+// The build compiles shaders for this version (SHADER_TARGET_ENV in cmake/shaders.cmake); a device must have it.
+constexpr std::uint32_t REQUIRED_API = VK_API_VERSION_1_3;
+
+// Loader and instance, one for all devices of the process that want the same options.
+struct Instance {
+  explicit Instance(const DeviceOptions& options);
+
+  struct Unload {
+    void operator()(void* library) const;
+  };
+  std::unique_ptr<void, Unload> library;
+  std::optional<vk::raii::Context> context;
+  std::optional<vk::raii::Instance> instance;
+  std::optional<vk::raii::DebugUtilsMessengerEXT> messenger;
+};
+std::shared_ptr<Instance> acquire_instance(const DeviceOptions& options);
+
+DeviceInfo describe_device(const vk::raii::PhysicalDevice& physical, std::size_t index);
+
+// Turns Vulkan's exceptions into ours; `what` says what was being done.
+[[noreturn]] void rethrow(const vk::SystemError& error, const std::string& what);
+template <class Call>
+decltype(auto) checked(const std::string& what, Call&& call) {
+  try {
+    return call();
+  } catch (const vk::SystemError& error) {
+    rethrow(error, what);
+  }
+}
+
+struct QueueRef {
+  std::uint32_t family = 0;
+  vk::raii::Queue queue = nullptr;
+};
+
+struct Device::Impl {
+  std::shared_ptr<Instance> instance;
+  DeviceInfo info;
+  std::optional<vk::raii::PhysicalDevice> physical;
+  std::optional<vk::raii::Device> device;
+  QueueRef compute, upload, download;   // upload and download are `compute` where there is no queue for copies alone
+  std::vector<std::uint32_t> families;  // those in use
+  vk::PhysicalDeviceMemoryProperties memory;
+  double timestamp_period = 0;       // s; 0: no timestamps
+  std::uint64_t timestamp_mask = 0;  // of the bits that count
+  std::optional<vk::raii::PipelineCache> cache;
+  std::string cache_file;      // empty: not kept
+  std::size_t cache_size = 0;  // as read from it
+
+  ~Impl();
+};
+
+struct Buffer::Impl {
+  Device::Impl& device;
+  std::size_t size;
+  vk::raii::DeviceMemory memory = nullptr;
+  vk::raii::Buffer buffer = nullptr;  // after its memory: destroyed first
+  std::byte* mapped = nullptr;
+  bool cached = false;  // reading the mapping is fast
+};
+
+struct Kernel::Impl {
+  std::string name;
+  std::vector<std::pair<std::uint32_t, vk::DescriptorType>> bindings;
+  std::array<std::uint32_t, 3> group_size{1, 1, 1};
+  vk::raii::DescriptorSetLayout set_layout = nullptr;
+  vk::raii::PipelineLayout layout = nullptr;
+  vk::raii::Pipeline pipeline = nullptr;
+};
+
+}  // namespace wholehand::host

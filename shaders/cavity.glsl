@@ -1,0 +1,20 @@
+// The cavity's pieces and the quadrature's rule, from storage buffers: the liquid is computed once a vessel, so their loads do not show.
+#ifndef CAVITY_GLSL
+#define CAVITY_GLSL
+
+#include "element.glsl"
+
+layout(std430, binding = BINDING_CAVITY) readonly buffer CavityBlock { Real cavity_values[]; };
+layout(std430, binding = BINDING_QUADRATURE) readonly buffer QuadratureBlock { Real quadrature_values[]; };
+
+Element cavity_element(int i) {
+  int at = OUTLINE_STRIDE * i;
+  return Element(Vec2(cavity_values[at], cavity_values[at + 1]), Vec2(cavity_values[at + 2], cavity_values[at + 3]),
+                 Vec2(cavity_values[at + 4], cavity_values[at + 5]), cavity_values[at + 6], int(cavity_values[at + 7]));
+}
+
+#define QUADRATURE_COUNT int(scene.quadrature_count)
+Real quadrature_cosine(int i) { return quadrature_values[2 * i]; }
+Real quadrature_weight(int i) { return quadrature_values[2 * i + 1]; }
+
+#endif

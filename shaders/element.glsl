@@ -1,0 +1,15 @@
+// A y-monotone line or arc in the (r, y) half plane, as core/sdf.h has it.
+#ifndef ELEMENT_GLSL
+#define ELEMENT_GLSL
+
+#include "real.glsl"
+
+struct Element {
+  Vec2 a;
+  Vec2 b;
+  Vec2 center;
+  Real radius;
+  int side;
+};
+
+#endif

@@ -1,0 +1,222 @@
+// The one file that C++ and GLSL both include: bindings, group sizes, specialization constant ids, output fields, status bits and
+// named tolerances. Only the preprocessor's integers and numbers, and one parameter struct of scalars.
+#ifndef WHOLEHAND_LAYOUT_H
+#define WHOLEHAND_LAYOUT_H
+
+#ifdef __cplusplus
+#include <cstdint>
+#endif
+
+// A ratio of whole numbers in the reals of whoever asks: a literal would be a float in GLSL.
+#ifdef __cplusplus
+#define RATIO(a, b) (double(a) / double(b))
+#else
+#define RATIO(a, b) (Real(a) / Real(b))
+#endif
+
+// ---- named tolerances (F64 where the reals are double, F32 where they are float) ----
+#define STOP_TOLERANCE_F64 1e-9     // m: sphere tracing, conservative advancement, proxies, gap inverse
+#define STOP_TOLERANCE_F32 1e-6
+#define DEGENERATE_SINE_F64 1e-9    // sine of the angle between thumb-index line and axis under which a grip is degenerate
+#define DEGENERATE_SINE_F32 1e-6
+#define LEVEL_TOLERANCE_F64 1e-12   // of the capacity: liquid level
+#define LEVEL_TOLERANCE_F32 1e-6
+#define UPRIGHT_SINE_F64 1e-9       // sine of the tilt under which the free surface is taken as horizontal in the vessel frame
+#define UPRIGHT_SINE_F32 1e-5
+#define AXIS_DISTANCE RATIO(1, 1000000)  // m: paper pose, a point nearer to its axis stays
+#define LARGEST_E1_X RATIO(19, 20)  // |e1.x| above which the hand's frame is ill-defined: too narrow
+#define SMALLEST_PIVOT RATIO(1, 200)  // m: per_grip torque reference
+#define DEPTH_SCALE RATIO(1, 100)   // m: depth at which the depth score reaches 0
+#define GRAZING_COSINE 0.017452406437283512  // cosine of 89 degrees: contact normal within 1 degree of perpendicular to the line
+
+#define TRACE_STEPS 1000            // sphere tracing steps a side
+#define ADVANCE_STEPS 1024          // conservative advancement steps a stage
+#define PROXY_STEPS 16
+#define GAP_STEPS 32                // safeguarded Newton steps of the gap's inverse
+#define LEVEL_STEPS 64              // safeguarded Newton steps of the liquid level
+#define GAP_TABLE_SIZE 257          // entries of the table that starts the gap's inverse
+#define QUADRATURE_POINTS 32        // Gauss-Legendre points a piece: 1e-10 of the capacity where the plane passes close to an arc's pole
+#define MAX_OUTLINE 32              // elements that fit a pipeline's specialization constants
+#define WHOLE_DEGREES 181           // tilts 0..180 at which the lip's capacity is tabulated
+
+// ---- the hand ----
+#define FINGERS 5
+#define JOINTS 24
+#define THUMB_TIP 3
+#define INDEX_TIP 8
+
+// ---- why a grip is not feasible, in the order of decision (status, low 4 bits) ----
+#define REASON_NONE 0
+#define REASON_DEGENERATE 1
+#define REASON_NOT_CONVERGED 2
+#define REASON_MISSES 3
+#define REASON_TOO_WIDE 4
+#define REASON_TOO_NARROW 5
+#define REASON_ON_MOUTH 6
+
+#define STATUS_REASON_MASK 0xF
+#define STATUS_PLAUSIBLE 0x10
+#define STATUS_ANTIPODAL 0x20
+#define STATUS_GRAZING 0x40         // a contact normal within 1 degree of perpendicular to the line
+#define STATUS_PROXY_UNSETTLED 0x80 // a proxy took all its steps
+#define STATUS_BLOCKED_SHIFT 8      // bits 8..12: finger f was inside when open
+#define STATUS_UNSETTLED_SHIFT 16   // bits 16..20: finger f took all its advancement steps
+
+// ---- kinds, as specialization constants ----
+#define POSE_ARTICULATED 0
+#define POSE_PAPER 1
+#define POSE_RIGGED 2
+#define SDF_OUTLINE 0
+#define SDF_GRID 1
+#define TORQUE_PAPER 0
+#define TORQUE_EXACT 1
+#define REFERENCE_PER_OBJECT 0
+#define REFERENCE_PER_GRIP 1
+
+// ---- output fields: planes real_out[plane * n + grip]; the number of planes of each in the comment ----
+#define FIELD_T_INDEX 0             // 1   m along the line, from its foot o
+#define FIELD_T_THUMB 1             // 1   m
+#define FIELD_GAP 2                 // 1   m
+#define FIELD_MIDPOINT 3            // 3   m, vessel frame
+#define FIELD_CLOSURE 4             // 1
+#define FIELD_CONTACT_ANGLES 5      // 2   rad: thumb, index
+#define FIELD_PHALANX_DEPTH 6       // 1   m
+#define FIELD_PALM_DEPTH 7          // 1   m
+#define FIELD_BONE_STRETCH 8        // 1   m
+#define FIELD_JOINTS 9              // 72  m: joint-major, x y z
+#define FIELD_POSED 10              // 72  m
+#define FIELD_PROXIES 11            // 72  m
+#define FIELD_SEPARATION 12         // 24  m
+#define FIELD_PEAK_FORCE 13         // fills  N
+#define FIELD_PEAK_TILT 14          // fills  rad
+#define FIELD_LARGEST_HOLD 15       // fills  N, infinite where not antipodal
+#define FIELD_SAFE_TILT 16          // fills  rad, NaN: no tilt
+#define FIELD_SCORE 17              // 1
+#define FIELD_TERMS 18              // 6   fingers, contacts, depth, posture, force, hold
+#define FIELD_PIVOT_LENGTH 19       // fills * tilts, fill-major  m
+#define FIELD_TORQUE 20             // fills * tilts  N m
+#define FIELD_EXACT_TORQUE 21       // fills * tilts  N m
+#define FIELD_NORMAL_FORCE 22       // fills * tilts  N
+#define FIELD_FEEDBACK_FORCE 23     // fills * tilts  N
+#define FIELD_HOLD_FORCE 24         // fills * tilts  N
+#define REAL_FIELDS 25
+// uint_out[plane * n + grip], one plane each
+#define FIELD_STATUS 25
+#define FIELD_TOUCH_MASK 26
+#define FIELD_TIP_MASK 27
+#define FIELD_FINGER_MASK 28
+#define FIELD_INNER_MASK 29
+#define FIELD_USED_MASK 30
+#define FIELDS 31
+
+// ---- axes of a grip as the kernels read them: grips_in[axis * n + grip] ----
+#define AXIS_HEIGHT 0
+#define AXIS_AZIMUTH 1
+#define AXIS_OBLIQUITY 2
+#define AXIS_ROLL 3
+#define AXIS_OFFSET 4
+#define AXIS_HAND_SCALE 5
+#define GRIP_AXES 6
+
+// ---- bindings, all in set 0 ----
+#define BINDING_PARAMETERS 0        // uniform: Parameters
+#define BINDING_GRIPS 1             // readonly: Real[GRIP_AXES * n]
+#define BINDING_REAL_OUT 2          // Real[planes * n]
+#define BINDING_UINT_OUT 3          // uint[planes * n]
+#define BINDING_HAND 4              // uniform: vec4[HAND_VECTORS]
+#define BINDING_OUTLINE 5           // readonly: Real[OUTLINE_STRIDE * count], storage or uniform by variant
+#define BINDING_GRID 6              // readonly: Real[nx * ny * nz]
+#define BINDING_CAVITY 7            // readonly: Real[OUTLINE_STRIDE * pieces], y ascending
+#define BINDING_TILTS 8             // readonly: Real[3 * tilts]: sine, cosine, tilt
+#define BINDING_FILLS 9             // readonly: Real[fills]: fraction of capacity
+#define BINDING_LIQUID 10           // Real: per (fill, tilt) LIQUID_STRIDE values
+#define BINDING_CAPACITY 11         // Real: lip capacity per whole degree, then per listed tilt
+#define BINDING_LOADS 12            // readonly: Real: per (fill, tilt) LOAD_STRIDE values
+#define BINDING_QUADRATURE 13       // readonly: Real[2 * points]: cosine, weight
+#define BINDING_CANDIDATES 14       // Real scores, and
+#define BINDING_INDICES 15          // uint indices of the top-N selection
+#define BINDINGS 16
+
+// Record of an outline or cavity element, reals: start r, start y, end r, end y, center r, center y, radius, side
+// (0: line, whose unit outward normal stands for the center; +1: arc on the half r >= center r; -1: the other half).
+#define OUTLINE_STRIDE 8
+
+// The hand as vec4s. Per finger: base and L0; forward and L1; palmward and L2; radii 0..3; radius 4 and L3.
+#define HAND_FINGER_STRIDE 5
+#define HAND_THUMB_OPEN 25          // abduction, MCP, IP; largest further turn
+#define HAND_THUMB_SWING 26         // ...; paper's largest turn
+#define HAND_FINGER_OPEN 27         // MCP, PIP, DIP; contact tolerance
+#define HAND_FINGER_SWING 28        // ...; depth limit
+#define HAND_JOINT_LIMIT 29         // MCP, PIP, DIP; scale
+#define HAND_GAP 30                 // g(0), g(1)
+#define HAND_TABLE 31               // closures of the gap's inverse, four a vec4
+#define HAND_VECTORS 96
+
+// Load of one fill and tilt: mass, the liquid's share of it, lean and height of the liquid's centre of mass.
+#define LOAD_STRIDE 4
+
+// Liquid of one fill and tilt: volume, mass, lean, height, poured.
+#define LIQUID_STRIDE 5
+
+// ---- specialization constant ids ----
+#define CONST_GROUP_SIZE 0
+#define CONST_POSE 1
+#define CONST_SDF_KIND 2
+#define CONST_OUTLINE_COUNT 3
+#define CONST_LID 4                 // index of the mouth's element in the outline, -1: none
+#define CONST_TORQUE 5
+#define CONST_REFERENCE 6
+#define CONST_PLANE 8               // + field: first plane, or -1: not computed
+#define CONST_OUTLINE 64            // + OUTLINE_STRIDE * element + value, Real
+
+#define GROUP_SIZE 64
+// Entries that an invocation of the top-N selection goes through: with the shifts of a full list, fewer iterations than every driver grants.
+#define SELECT_ENTRIES 900
+#define SELECT_SCORES_TO_FIRST 0   // push.first: from where, to which half of the candidates
+#define SELECT_FIRST_TO_SECOND 1
+#define SELECT_SECOND_TO_FIRST 2
+#define SELECT_SCORES_TO_SECOND 3
+#define SELECT_LARGEST 64           // best grips that the device can select; more are selected by the host
+
+// A vessel's and a scene's scalars, one uniform block.
+#ifdef __cplusplus
+template <class Real>
+#endif
+struct Parameters {
+  Real bound_height;      // m: centre and radius of a sphere that holds the vessel
+  Real bound_radius;
+  Real grid_x, grid_y, grid_z, grid_spacing;  // m
+  Real mouth_height, mouth_radius;            // of the cavity, m
+  Real floor_height;      // m
+  Real capacity;          // m3
+  Real vessel_mass;       // kg
+  Real center_x, center_y, center_z;          // of the empty vessel, m
+  Real liquid_density;    // kg/m3
+  Real gravity;           // m/s2
+  Real force_base, force_range, force_max;    // N
+  Real reference;         // torque reference per object, N m
+  Real largest_mass;      // upright at the largest fill: kg,
+  Real largest_share, largest_height;         // the liquid's share of it and the height of its centre, m
+  Real friction, torsion; // mu, gamma (m)
+  Real friction_angle;    // atan(mu), rad
+  Real grip_strength;     // N
+  Real pour_sense;        // +1 away, -1 towards
+  Real weight_fingers, weight_contacts, weight_depth, weight_posture, weight_force, weight_hold;
+#ifdef __cplusplus
+  std::uint32_t
+#else
+  uint
+#endif
+      outline_count,      // for the variant that reads its outline from a buffer
+      cavity_count, grid_nx, grid_ny, grid_nz, fills, tilts, quadrature_count;
+};
+
+// Push constants: grips of this chunk, distance between planes; first state and states for dispatches that are split.
+#ifdef __cplusplus
+struct Push {
+  std::uint32_t count, stride, first, number;
+  std::uint32_t floor_low = 0, floor_high = 0;
+};
+#endif
+
+#endif

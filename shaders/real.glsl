@@ -1,0 +1,55 @@
+// The shaders' number type: every kernel is compiled with float and with double (REAL_IS_DOUBLE comes from the build).
+#ifndef REAL_GLSL
+#define REAL_GLSL
+
+#if REAL_IS_DOUBLE
+#define Real double
+#define Vec2 dvec2
+#define Vec3 dvec3
+#define Vec4 dvec4
+#define Mat3 dmat3
+#else
+#define Real float
+#define Vec2 vec2
+#define Vec3 vec3
+#define Vec4 vec4
+#define Mat3 mat3
+#endif
+
+#include "layout.h"
+
+#if REAL_IS_DOUBLE
+#define STOP_TOLERANCE Real(STOP_TOLERANCE_F64)
+#define DEGENERATE_SINE Real(DEGENERATE_SINE_F64)
+#define LEVEL_TOLERANCE Real(LEVEL_TOLERANCE_F64)
+#define UPRIGHT_SINE Real(UPRIGHT_SINE_F64)
+#define HALF_PI 1.5707963267948966192lf
+#define NO_DISTANCE 1.7976931348623157e308lf
+#define NOT_A_NUMBER packDouble2x32(uvec2(0u, 0x7ff80000u))
+#define INFINITE packDouble2x32(uvec2(0u, 0x7ff00000u))
+#else
+#define STOP_TOLERANCE STOP_TOLERANCE_F32
+#define DEGENERATE_SINE DEGENERATE_SINE_F32
+#define LEVEL_TOLERANCE LEVEL_TOLERANCE_F32
+#define UPRIGHT_SINE UPRIGHT_SINE_F32
+#define HALF_PI 1.5707963267948966192
+#define NO_DISTANCE 3.402823466e38
+#define NOT_A_NUMBER uintBitsToFloat(0x7fc00000u)
+#define INFINITE uintBitsToFloat(0x7f800000u)
+#endif
+
+// Index of this invocation where groups run along x and then along y, as the host dispatches them.
+#define INVOCATION ((gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x)
+
+layout(std140, binding = BINDING_PARAMETERS) uniform ParameterBlock { Parameters scene; };
+
+layout(push_constant) uniform PushBlock {
+  uint count;   // grips of this chunk
+  uint stride;  // distance between planes
+  uint first;   // of a dispatch that is split
+  uint number;
+  uint floor_low;   // of the selection
+  uint floor_high;
+} push;
+
+#endif

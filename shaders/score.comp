@@ -1,0 +1,41 @@
+// Scores of one grip an invocation, from the planes that the kernels before it wrote.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "planes.glsl"
+#include "score.glsl"
+
+layout(local_size_x_id = CONST_GROUP_SIZE) in;
+
+void main() {
+  uint grip = INVOCATION;
+  if (grip >= push.count) return;
+  uint status = uint_out[uint(PLANE_STATUS) * push.stride + grip];
+  Real terms[6] = Real[](Real(0), Real(0), Real(0), Real(0), Real(0), Real(0));
+  Real score = Real(0);
+  if ((status & STATUS_REASON_MASK) == REASON_NONE) {
+    terms[0] = fingers_term(bitCount(uint_out[uint(PLANE_USED_MASK) * push.stride + grip]));
+    terms[1] = contacts_term(bitCount(uint_out[uint(PLANE_TOUCH_MASK) * push.stride + grip]));
+    terms[2] = depth_term(real_out[uint(PLANE_PHALANX_DEPTH) * push.stride + grip], real_out[uint(PLANE_PALM_DEPTH) * push.stride + grip]);
+    terms[3] = posture_term(real_out[uint(PLANE_CLOSURE) * push.stride + grip]);
+    if (PLANE_PEAK_FORCE >= 0) {
+      Real largest_feedback = Real(0), largest_hold = Real(0);
+      for (uint fill = 0u; fill < scene.fills; ++fill) {
+        largest_feedback = max(largest_feedback, real_out[(uint(PLANE_PEAK_FORCE) + fill) * push.stride + grip]);
+        largest_hold = max(largest_hold, real_out[(uint(PLANE_LARGEST_HOLD) + fill) * push.stride + grip]);
+      }
+      terms[4] = force_term(largest_feedback, scene.force_max);
+      terms[5] = hold_term(largest_hold, scene.grip_strength);
+    }
+    precise Real sum = scene.weight_fingers * terms[0];
+    sum += scene.weight_contacts * terms[1];
+    sum += scene.weight_depth * terms[2];
+    sum += scene.weight_posture * terms[3];
+    sum += scene.weight_force * terms[4];
+    sum += scene.weight_hold * terms[5];
+    score = (status & STATUS_PLAUSIBLE) != 0u ? sum : Real(0);
+  }
+  put_real(PLANE_SCORE, 0, grip, score);
+  if (PLANE_TERMS >= 0)
+    for (int k = 0; k < 6; ++k) put_real(PLANE_TERMS, k, grip, terms[k]);
+}

@@ -1,0 +1,71 @@
+// The best of many grips without reading all scores back: each invocation keeps the push.number best of up to SELECT_ENTRIES of them and
+// hands them on; the host dispatches again over what was handed on until one invocation is left. Higher scores first, of equal ones the
+// lower index, so that the answer does not depend on how grips fell to invocations. push.first is one of SELECT_*: from the scores, or
+// from one half of the candidates into the other.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "planes.glsl"
+
+layout(local_size_x_id = CONST_GROUP_SIZE) in;
+layout(std430, binding = BINDING_CANDIDATES) buffer CandidateBlock { Real candidate_scores[]; };
+layout(std430, binding = BINDING_INDICES) buffer IndexBlock { uint candidate_indices[]; };
+
+// An ordered list; few entries ever enter it, so shifting it is cheaper than sorting with its neighbours.
+Real scores[SELECT_LARGEST];
+uint indices[SELECT_LARGEST];
+
+bool comes_first(Real score_a, uint index_a, Real score_b, uint index_b) {
+  return score_a > score_b || (score_a == score_b && index_a < index_b);
+}
+
+void main() {
+  uint block = INVOCATION;
+  uint blocks = (push.count + SELECT_ENTRIES - 1u) / SELECT_ENTRIES;
+  if (block >= blocks) return;
+  bool from_scores = push.first == SELECT_SCORES_TO_FIRST || push.first == SELECT_SCORES_TO_SECOND;
+  uint middle = uint(candidate_scores.length()) / 2u;
+  uint from = push.first == SELECT_SECOND_TO_FIRST ? middle : 0u;
+  uint to = push.first == SELECT_FIRST_TO_SECOND || push.first == SELECT_SCORES_TO_SECOND ? middle : 0u;
+  // a score must pass push.floor_*, the worst of the best so far, to matter; -1 stands for none, as any grip's score is at least 0
+#if REAL_IS_DOUBLE
+  Real floor_score = packDouble2x32(uvec2(push.floor_low, push.floor_high));
+#else
+  Real floor_score = uintBitsToFloat(push.floor_low);
+#endif
+  for (uint i = 0u; i < push.number; ++i) {
+    scores[i] = Real(-1);
+    indices[i] = 0xffffffffu;
+  }
+  Real last_score = floor_score;
+  uint last_index = 0u;
+  // neighbours take neighbouring entries
+  for (uint entry = block; entry < push.count; entry += blocks) {
+    Real score = from_scores ? real_out[uint(PLANE_SCORE) * push.stride + entry] : candidate_scores[from + entry];
+    if (score < last_score) continue;
+    uint index = entry;
+    if (from_scores) {
+      uint status = uint_out[uint(PLANE_STATUS) * push.stride + entry];
+      if ((status & (STATUS_REASON_MASK | STATUS_PLAUSIBLE)) != STATUS_PLAUSIBLE) continue;
+    } else {
+      index = candidate_indices[from + entry];
+    }
+    if (!comes_first(score, index, last_score, last_index)) continue;
+    uint place = push.number - 1u;
+    while (place > 0u && comes_first(score, index, scores[place - 1u], indices[place - 1u])) {
+      scores[place] = scores[place - 1u];
+      indices[place] = indices[place - 1u];
+      --place;
+    }
+    scores[place] = score;
+    indices[place] = index;
+    if (scores[push.number - 1u] >= floor_score && indices[push.number - 1u] != 0xffffffffu) {
+      last_score = scores[push.number - 1u];
+      last_index = indices[push.number - 1u];
+    }
+  }
+  for (uint i = 0u; i < push.number; ++i) {
+    candidate_scores[to + block * push.number + i] = scores[i];
+    candidate_indices[to + block * push.number + i] = indices[i];
+  }
+}

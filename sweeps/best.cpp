@@ -1,0 +1,175 @@
+#include "sweeps/best.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "core/error.h"
+#include "shaders/layout.h"
+#include "sweeps/variables.h"
+
+namespace wholehand {
+namespace {
+
+constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
+
+// Forces and tilts of grip i: the worst over the fills.
+void read_forces(const PlaneChunk& chunk, const FieldSet& fields, std::size_t i, int fills, BestGrip& best) {
+  best.peak_force = best.largest_hold = -1;
+  best.safe_tilt = std::numeric_limits<double>::infinity();
+  for (int fill = 0; fill < fills; ++fill) {
+    const auto real = [&](int field) { return chunk.real(fields.plane[field] + fill, i); };
+    if (real(FIELD_PEAK_FORCE) > best.peak_force) {
+      best.peak_force = real(FIELD_PEAK_FORCE);
+      best.peak_tilt = real(FIELD_PEAK_TILT);
+    }
+    best.largest_hold = std::max(best.largest_hold, real(FIELD_LARGEST_HOLD));
+    const double safe = real(FIELD_SAFE_TILT);
+    if (std::isnan(safe) || safe < best.safe_tilt) best.safe_tilt = safe;
+    if (std::isnan(safe)) break;
+  }
+}
+
+BestGrip read_best(const PlaneChunk& chunk, const FieldSet& fields, std::size_t i, const Scene& scene) {
+  const auto real = [&](int field, int plane = 0) { return chunk.real(fields.plane[field] + plane, i); };
+  BestGrip best;
+  best.score = real(FIELD_SCORE);
+  for (int term = 0; term < 6; ++term) best.terms[term] = real(FIELD_TERMS, term);
+  best.closure = real(FIELD_CLOSURE);
+  best.gap = real(FIELD_GAP);
+  best.phalanx_depth = real(FIELD_PHALANX_DEPTH);
+  best.palm_depth = real(FIELD_PALM_DEPTH);
+  best.fingers_used = std::popcount(chunk.uint(fields.plane[FIELD_USED_MASK], i));
+  best.points_touching = std::popcount(chunk.uint(fields.plane[FIELD_TOUCH_MASK], i));
+  best.peak_force = best.peak_tilt = best.largest_hold = best.safe_tilt = NOT_A_NUMBER;
+  if (!scene.tilts.empty()) read_forces(chunk, fields, i, static_cast<int>(scene_fills(scene)), best);
+  return best;
+}
+
+// A field of a CSV file (RFC 4180).
+std::string csv_text(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+// Empty where there is no number.
+std::string csv_number(double value) { return std::isnan(value) ? "" : fmt::format("{:.9g}", value); }
+
+// A column of the table.
+struct Column {
+  std::string title;
+  std::string (*cell)(const BestGrip& best);
+};
+
+std::string fixed(double value, int digits) { return std::isnan(value) ? "-" : fmt::format("{:.{}f}", value, digits); }
+
+}  // namespace
+
+std::vector<int> best_fields(const Scene& scene) {
+  std::vector<int> fields{FIELD_GAP, FIELD_CLOSURE, FIELD_PHALANX_DEPTH, FIELD_PALM_DEPTH};
+  if (!scene.tilts.empty()) fields.insert(fields.end(), {FIELD_PEAK_FORCE, FIELD_PEAK_TILT, FIELD_LARGEST_HOLD, FIELD_SAFE_TILT});
+  fields.insert(fields.end(), {FIELD_SCORE, FIELD_TERMS, FIELD_STATUS, FIELD_TOUCH_MASK, FIELD_USED_MASK});
+  return fields;
+}
+
+std::vector<BestGrip> evaluate_best(Backend& backend, const Scene& scene, const Plan& plan, std::size_t vessel,
+                                    const std::vector<Candidate>& candidates) {
+  std::vector<BestGrip> best(candidates.size());
+  if (candidates.empty()) return best;
+  RunRequest request;
+  request.vessel = vessel;
+  request.last = candidates.size();
+  request.grips = [&](std::size_t, std::uint64_t first, std::size_t count, GripInput* out) {
+    for (std::size_t i = 0; i < count; ++i) out[i] = plan.grip(vessel, candidates[first + i].index);
+  };
+  request.sink = [&](const PlaneChunk& chunk) {
+    for (std::size_t i = 0; i < chunk.count; ++i) {
+      BestGrip& grip = best[chunk.first + i];
+      grip = read_best(chunk, backend.fields(), i, scene);
+      grip.candidate = candidates[chunk.first + i];
+      grip.grip = plan.grip(vessel, grip.candidate.index);
+    }
+  };
+  const RunResult result = backend.run(request);
+  if (result.done != candidates.size()) {
+    throw failure_error(
+        fmt::format("{}: evaluated {} of the {} best grips", backend.info().device, result.done, candidates.size()));
+  }
+  return best;
+}
+
+std::string best_csv(const Scene& scene, const std::vector<std::vector<BestGrip>>& vessels) {
+  std::string csv =
+      "vessel,rank,height_mm,azimuth_deg,obliquity_deg,roll_deg,offset_mm,hand_scale,score,score_fingers,score_contacts,score_"
+      "depth,"
+      "score_posture,score_force,score_hold,closure,gap_mm,fingers_used,points_touching,phalanx_depth_mm,palm_depth_mm,"
+      "peak_feedback_force_N,peak_feedback_tilt_deg,largest_hold_force_N,largest_safe_tilt_deg\n";
+  for (std::size_t v = 0; v < vessels.size(); ++v) {
+    for (std::size_t rank = 0; rank < vessels[v].size(); ++rank) {
+      const BestGrip& best = vessels[v][rank];
+      const GripInput& grip = best.grip;
+      std::vector<double> numbers{grip.height * 1e3,  degrees(grip.azimuth), degrees(grip.obliquity),
+                                  degrees(grip.roll), grip.offset * 1e3,     grip.hand_scale,
+                                  best.score};
+      numbers.insert(numbers.end(), best.terms.begin(), best.terms.end());
+      numbers.insert(numbers.end(), {best.closure, best.gap * 1e3, static_cast<double>(best.fingers_used),
+                                     static_cast<double>(best.points_touching), best.phalanx_depth * 1e3, best.palm_depth * 1e3,
+                                     best.peak_force, degrees(best.peak_tilt), best.largest_hold, degrees(best.safe_tilt)});
+      csv += fmt::format("{},{}", csv_text(scene.vessels[v].name), rank + 1);
+      for (const double number : numbers) csv += "," + csv_number(number);
+      csv += '\n';
+    }
+  }
+  return csv;
+}
+
+std::string best_table(const Scene& scene, const Plan& plan, const std::vector<BestGrip>& best, std::size_t rows) {
+  std::vector<Column> columns{{"score", [](const BestGrip& b) { return fixed(b.score, 3); }}};
+  const auto axis = [&](int place, const char* title, std::string (*cell)(const BestGrip&)) {
+    const Axis& data = plan.axes()[place].data;
+    const bool varies = plan.is_sobol() ? data.is_range || data.values.size() > 1
+                                        : data.values.size() > 1 && !(place == PLACE_AZIMUTH && plan.copies() > 1);
+    if (varies) columns.push_back({title, cell});
+  };
+  axis(PLACE_HEIGHT, "height mm", [](const BestGrip& b) { return fixed(b.grip.height * 1e3, 1); });
+  axis(PLACE_AZIMUTH, "azimuth deg", [](const BestGrip& b) { return fixed(degrees(b.grip.azimuth), 1); });
+  axis(PLACE_OBLIQUITY, "obliquity deg", [](const BestGrip& b) { return fixed(degrees(b.grip.obliquity), 1); });
+  axis(PLACE_ROLL, "roll deg", [](const BestGrip& b) { return fixed(degrees(b.grip.roll), 1); });
+  axis(PLACE_OFFSET, "offset mm", [](const BestGrip& b) { return fixed(b.grip.offset * 1e3, 1); });
+  axis(PLACE_HAND_SCALE, "hand scale", [](const BestGrip& b) { return fixed(b.grip.hand_scale, 3); });
+  columns.insert(columns.end(),
+                 {
+                     {"fingers", [](const BestGrip& b) { return std::to_string(b.fingers_used); }},
+                     {"points", [](const BestGrip& b) { return std::to_string(b.points_touching); }},
+                     {"depth mm", [](const BestGrip& b) { return fixed(std::max(b.phalanx_depth, b.palm_depth) * 1e3, 1); }},
+                     {"closure", [](const BestGrip& b) { return fixed(b.closure, 2); }},
+                     {"gap mm", [](const BestGrip& b) { return fixed(b.gap * 1e3, 1); }},
+                 });
+  if (!scene.tilts.empty()) {
+    columns.insert(columns.end(), {
+                                      {"peak N", [](const BestGrip& b) { return fixed(b.peak_force, 2); }},
+                                      {"hold N", [](const BestGrip& b) { return fixed(b.largest_hold, 1); }},
+                                      {"safe deg", [](const BestGrip& b) { return fixed(degrees(b.safe_tilt), 0); }},
+                                  });
+  }
+  std::string table = "  rank";
+  for (const Column& column : columns) table += "  " + column.title;
+  table += '\n';
+  for (std::size_t rank = 0; rank < std::min(rows, best.size()); ++rank) {
+    table += fmt::format("  {:>4}", rank + 1);
+    for (const Column& column : columns) table += fmt::format("  {:>{}}", column.cell(best[rank]), column.title.size());
+    table += '\n';
+  }
+  return table;
+}
+
+}  // namespace wholehand

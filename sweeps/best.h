@@ -1,0 +1,42 @@
+// The best grips of every vessel, for people: a file and a table.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/backend.h"
+#include "sweeps/plan.h"
+
+namespace wholehand {
+
+// One of the best grips with what is told of it. Forces and tilts are the worst over all fills; NaN where the scene has no tilts.
+struct BestGrip {
+  Candidate candidate;
+  GripInput grip;
+  double score = 0;
+  std::array<double, 6> terms{};  // fingers, contacts, depth, posture, force, hold
+  double closure = 0;
+  double gap = 0;  // m
+  int fingers_used = 0, points_touching = 0;
+  double phalanx_depth = 0, palm_depth = 0;  // m
+  double peak_force = 0;                     // largest feedback force, N
+  double peak_tilt = 0;                      // of it, rad
+  double largest_hold = 0;                   // N, may be infinite
+  double safe_tilt = 0;                      // smallest over the fills, rad; NaN where a fill has none
+};
+
+// FIELD_* that a BestGrip is read from.
+std::vector<int> best_fields(const Scene& scene);
+
+// Evaluates the candidates of a vessel once more: a sweep need not have kept what is told of them. The backend must keep
+// best_fields(). Throws Error (failure) where it delivers fewer.
+std::vector<BestGrip> evaluate_best(Backend& backend, const Scene& scene, const Plan& plan, std::size_t vessel,
+                                    const std::vector<Candidate>& candidates);
+
+// The file NAME.best.csv: one row per vessel and rank, units in the column names.
+std::string best_csv(const Scene& scene, const std::vector<std::vector<BestGrip>>& vessels);
+
+// The table of one vessel for a terminal: at most `rows` grips, only the axes that vary.
+std::string best_table(const Scene& scene, const Plan& plan, const std::vector<BestGrip>& best, std::size_t rows);
+
+}  // namespace wholehand

@@ -1,0 +1,105 @@
+#include "sweeps/check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "host/grip_backend.h"
+#include "sweeps/compare.h"
+#include "sweeps/plan.h"
+
+namespace wholehand {
+namespace {
+
+constexpr std::size_t GRIPS_PER_VESSEL = 1536;
+
+// Grips spread evenly over the plan; a step that shares no factor with the axes' lengths, so that every axis varies.
+std::vector<GripInput> sample_grips(const Plan& plan, std::size_t vessel) {
+  const std::uint64_t all = plan.grips();
+  const std::size_t count = static_cast<std::size_t>(std::min<std::uint64_t>(all, GRIPS_PER_VESSEL));
+  std::vector<GripInput> grips;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint64_t index = (i * 2654435761u + 12345u) % all;
+    grips.push_back(plan.grip(vessel, count == all ? i : index));
+  }
+  return grips;
+}
+
+std::vector<LiquidResult> core_liquid(const Scene& scene, const Evaluator& core, std::size_t vessel) {
+  std::vector<LiquidResult> states;
+  if (!scene.liquid) return states;
+  for (const double fill : scene.liquid->fills)
+    for (const double tilt : scene.tilts) states.push_back(core.liquid(vessel, fill, tilt));
+  return states;
+}
+
+void print_comparison(const std::string& title, const Scene& scene, const Comparer& comparer) {
+  fmt::print("\n{}: {}\n", title, comparer.holds() ? "holds" : "DOES NOT HOLD");
+  fmt::print("  {:<11} {:<18} {:>12} {:>12} {:<6} {:>9} {:>9} {:>8}  {}\n", "kernel", "quantity", "worst", "tolerance", "",
+             "of its own", "compared", "outside", "worst at");
+  for (const Comparison& row : comparer.rows()) {
+    fmt::print("  {:<11} {:<18} {:>12.4g} {:>12.4g} {:<6} {:>9.3f} {:>9} {:>8}  {} #{}\n", row.kernel, row.quantity, row.worst,
+               row.tolerance, row.unit, row.worst_ratio, row.compared, row.outside, scene.vessels[row.vessel].name, row.grip);
+  }
+  fmt::print(
+      "  {} grips; {} graze the glass and are left out; in {} a discrete outcome differs within the margin (at most 1 in 1,000 "
+      "may)\n",
+      comparer.grips(), comparer.grazing(), comparer.excluded());
+}
+
+}  // namespace
+
+ExitCode run_check(const Scene& scene, const CheckOptions& options) {
+  if (options.on == "core") throw usage_error("check: --on core is what the devices are compared with; name a Vulkan device");
+  const FieldSet fields = all_fields(scene);
+  const std::shared_ptr<const Evaluator> core = make_core_evaluator(scene);
+  const std::shared_ptr<const Evaluator> core_float = make_core_float_evaluator(scene);
+  host::GripBackendOptions backend_options;
+  backend_options.device = options.device;
+  const Scene& device_scene = options.device_scene ? *options.device_scene : scene;
+  const std::shared_ptr<const Evaluator> device_core = make_core_evaluator(device_scene);
+  host::GripBackend on_float(device_scene, device_core, fields, options.on, backend_options);
+  fmt::print("{}: {} ({}){}, against the core; up to {} grips of each vessel, every plane\n",
+             scene.name.empty() ? "check" : scene.name, on_float.info().device, on_float.info().driver,
+             on_float.info().is_cpu ? ", a CPU driver" : "", GRIPS_PER_VESSEL);
+  std::unique_ptr<host::GripBackend> on_double;
+  if (on_float.device().float64) {
+    backend_options.precision = Precision::full;
+    on_double = std::make_unique<host::GripBackend>(device_scene, device_core, fields, options.on, backend_options);
+  }
+  const Plan plan(scene, true);
+  Comparer translation(scene, *core, allowance(Precision::single)), cost(scene, *core, allowance(Precision::single)),
+      exact(scene, *core, allowance(Precision::full));
+  for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
+    const auto grips = sample_grips(plan, v);
+    const GatheredPlanes gpu = gather(on_float, v, grips), single = gather(*core_float, fields, v, grips),
+                         full = gather(*core, fields, v, grips);
+    translation.add(v, grips, gpu, single);
+    cost.add(v, grips, single, full);
+    const auto liquid_float = core_liquid(scene, *core_float, v), liquid = core_liquid(scene, *core, v);
+    if (!scene.tilts.empty()) {
+      translation.add_liquid(v, on_float.liquid(v), liquid_float);
+      cost.add_liquid(v, liquid_float, liquid);
+    }
+    if (!on_double) continue;
+    exact.add(v, grips, gather(*on_double, v, grips), full);
+    if (!scene.tilts.empty()) exact.add_liquid(v, on_double->liquid(v), liquid);
+  }
+  print_comparison("device float against core float (is the translation right?)", scene, translation);
+  print_comparison("core float against core double (what does single precision cost?)", scene, cost);
+  if (on_double) {
+    print_comparison("device double against core double", scene, exact);
+  } else {
+    fmt::print("\nthe device has no double precision: the third comparison is left out\n");
+  }
+  if (translation.feasible() == 0) {
+    fmt::print("\nno grip of the sample is feasible: nothing was compared\n");
+    return ExitCode::no;
+  }
+  const bool holds = translation.holds() && cost.holds() && (!on_double || exact.holds());
+  fmt::print("\n{}\n", holds ? "the device computes what the core computes" : "the device does NOT compute what the core computes");
+  return holds ? ExitCode::done : ExitCode::no;
+}
+
+}  // namespace wholehand

@@ -1,0 +1,255 @@
+#include "sweeps/compare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace wholehand {
+namespace {
+
+// A row of the comparison: planes of one field, in a unit for people. Where a finger comes to rest, each side ends anywhere within one stop
+// tolerance of the surface: such lengths may differ by two, however little the finger itself moves.
+struct Quantity {
+  int field;
+  const char* kernel;
+  const char* name;
+  const char* unit;
+  double scale;  // to the unit
+  bool rests = false;
+};
+
+const std::vector<Quantity> QUANTITIES{
+    {FIELD_T_INDEX, "closure", "index contact", "um", 1e6},
+    {FIELD_T_THUMB, "closure", "thumb contact", "um", 1e6},
+    {FIELD_GAP, "closure", "gap", "um", 1e6},
+    {FIELD_MIDPOINT, "closure", "midpoint", "um", 1e6},
+    {FIELD_CLOSURE, "closure", "closure", "1e-6", 1e6},
+    {FIELD_CONTACT_ANGLES, "closure", "contact angle", "urad", 1e6},
+    {FIELD_JOINTS, "hand", "rigged joints", "um", 1e6},
+    {FIELD_POSED, "projection", "posed joints", "um", 1e6, true},
+    {FIELD_SEPARATION, "sdf", "separation", "um", 1e6, true},
+    {FIELD_PROXIES, "contact", "proxies", "um", 1e6, true},
+    {FIELD_PHALANX_DEPTH, "contact", "phalanx depth", "um", 1e6, true},
+    {FIELD_PALM_DEPTH, "contact", "palm depth", "um", 1e6, true},
+    {FIELD_BONE_STRETCH, "contact", "bone stretch", "um", 1e6, true},
+    {FIELD_PIVOT_LENGTH, "force", "pivot length", "um", 1e6},
+    {FIELD_TORQUE, "force", "torque", "uN m", 1e6},
+    {FIELD_EXACT_TORQUE, "force", "exact torque", "uN m", 1e6},
+    {FIELD_NORMAL_FORCE, "force", "normal force", "mN", 1e3},
+    {FIELD_FEEDBACK_FORCE, "force", "feedback force", "mN", 1e3},
+    {FIELD_HOLD_FORCE, "force", "hold force", "mN", 1e3},
+    {FIELD_PEAK_FORCE, "force", "peak feedback", "mN", 1e3},
+    {FIELD_LARGEST_HOLD, "force", "largest hold", "mN", 1e3},
+    {FIELD_TERMS, "score", "terms", "1e-6", 1e6},
+    {FIELD_SCORE, "score", "score", "1e-6", 1e6},
+};
+
+const std::vector<int> DISCRETE{FIELD_STATUS,      FIELD_TOUCH_MASK, FIELD_TIP_MASK,
+                                FIELD_FINGER_MASK, FIELD_INNER_MASK, FIELD_USED_MASK};
+
+// Roundings that one number gathers on its way through a kernel, as a share of the quantity's largest value.
+constexpr double ROUNDINGS = 64;
+// Stop tolerances between two evaluations: each may end anywhere within one on either side, for thumb and index each.
+constexpr double STOPS = 4;
+
+bool differs(const GatheredPlanes& a, const GatheredPlanes& b, std::size_t i) {
+  return std::any_of(DISCRETE.begin(), DISCRETE.end(), [&](int field) { return a.uint(field, i) != b.uint(field, i); });
+}
+
+// The grip moved by `shift` m in every way that matters: along and about its axes, and in size.
+std::vector<GripInput> moved(const std::vector<GripInput>& grips, int way, double shift, double length) {
+  std::vector<GripInput> result = grips;
+  const double sign = way % 2 == 0 ? 1 : -1;
+  for (GripInput& grip : result) {
+    switch (way / 2) {
+      case 0:
+        grip.height += sign * shift;
+        break;
+      case 1:
+        grip.offset += sign * shift;
+        break;
+      case 2:
+        grip.roll += sign * shift / length;
+        break;
+      case 3:
+        grip.obliquity += sign * shift / length;
+        break;
+      default:
+        grip.hand_scale *= 1 + sign * shift / length;
+        break;
+    }
+  }
+  return result;
+}
+constexpr int WAYS = 10;
+
+double apart(double a, double b) {
+  if (std::isnan(a) && std::isnan(b)) return 0;
+  if (a == b) return 0;  // infinities too
+  const double difference = std::abs(a - b);
+  return std::isnan(difference) ? std::numeric_limits<double>::infinity() : difference;
+}
+
+}  // namespace
+
+FieldSet all_fields(const Scene& scene) {
+  std::vector<int> every(FIELDS);
+  std::iota(every.begin(), every.end(), 0);
+  return make_field_set(every, scene);
+}
+
+GatheredPlanes gather(Backend& backend, std::size_t vessel, const std::vector<GripInput>& grips) {
+  GatheredPlanes planes;
+  planes.fields = backend.fields();
+  planes.count = grips.size();
+  planes.reals.resize(planes.fields.real_kept * grips.size());
+  planes.uints.resize(planes.fields.uint_kept * grips.size());
+  RunRequest request;
+  request.vessel = vessel;
+  request.last = grips.size();
+  request.grips = [&](std::size_t, std::uint64_t first, std::size_t count, GripInput* out) {
+    std::copy_n(grips.begin() + static_cast<std::ptrdiff_t>(first), count, out);
+  };
+  request.sink = [&](const PlaneChunk& chunk) {
+    for (int p = 0; p < planes.fields.real_kept; ++p)
+      for (std::size_t i = 0; i < chunk.count; ++i) planes.reals[p * planes.count + chunk.first + i] = chunk.real(p, i);
+    for (int p = 0; p < planes.fields.uint_kept; ++p)
+      for (std::size_t i = 0; i < chunk.count; ++i) planes.uints[p * planes.count + chunk.first + i] = chunk.uint(p, i);
+  };
+  backend.run(request);
+  return planes;
+}
+
+GatheredPlanes gather(const Evaluator& core, const FieldSet& fields, std::size_t vessel, const std::vector<GripInput>& grips) {
+  GatheredPlanes planes;
+  planes.fields = fields;
+  planes.count = grips.size();
+  planes.reals.resize(fields.real_planes * grips.size());
+  planes.uints.resize(fields.uint_planes * grips.size());
+  core.planes(vessel, grips.data(), grips.size(), fields, grips.size(), planes.reals.data(), planes.uints.data());
+  return planes;
+}
+
+Allowance allowance(Precision precision) {
+  if (precision == Precision::single) return {std::numeric_limits<float>::epsilon(), STOP_TOLERANCE_F32, LEVEL_TOLERANCE_F32};
+  return {std::numeric_limits<double>::epsilon(), STOP_TOLERANCE_F64, LEVEL_TOLERANCE_F64};
+}
+
+Comparer::Comparer(const Scene& scene, const Evaluator& core, Allowance allowed) : scene_(scene), core_(core), allowed_(allowed) {
+  const FieldSet fields = all_fields(scene);
+  for (const Quantity& q : QUANTITIES)
+    if (fields.has(q.field)) row(q.kernel, q.name, q.unit);
+  row("whole", "discrete outcomes", "grips");
+}
+
+Comparison& Comparer::row(const std::string& kernel, const std::string& quantity, const std::string& unit) {
+  for (Comparison& existing : rows_)
+    if (existing.kernel == kernel && existing.quantity == quantity) return existing;
+  rows_.push_back({kernel, quantity, unit, 0, 0, 0, 0, 0, 0, 0});
+  return rows_.back();
+}
+
+void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, const GatheredPlanes& a, const GatheredPlanes& b) {
+  const FieldSet& fields = a.fields;
+  const std::size_t n = grips.size();
+  // a length over which the hand reaches, for turning shifts into angles
+  const double length = 0.1 * scene_.hand.scale;
+  const double shift = STOPS * allowed_.stop_tolerance + ROUNDINGS * allowed_.epsilon * (length + scene_.vessels[vessel].height);
+  const GatheredPlanes truth = gather(core_, fields, vessel, grips);
+  std::vector<double> spread(truth.reals.size(), 0.0);
+  std::vector<char> undecided(n, 0);
+  for (int way = 0; way < WAYS; ++way) {
+    const GatheredPlanes other = gather(core_, fields, vessel, moved(grips, way, shift, length));
+    for (std::size_t k = 0; k < spread.size(); ++k) spread[k] = std::max(spread[k], apart(other.reals[k], truth.reals[k]));
+    for (std::size_t i = 0; i < n; ++i) undecided[i] |= differs(other, truth, i) ? 1 : 0;
+  }
+  std::vector<char> left_out(n, 0);
+  Comparison& outcomes = row("whole", "discrete outcomes", "grips");
+  for (std::size_t i = 0; i < n; ++i) {
+    ++grips_;
+    feasible_ += (truth.uint(FIELD_STATUS, i) & STATUS_REASON_MASK) == REASON_NONE ? 1 : 0;
+    if (((a.uint(FIELD_STATUS, i) | b.uint(FIELD_STATUS, i) | truth.uint(FIELD_STATUS, i)) & STATUS_GRAZING) != 0) {
+      ++grazing_;
+      left_out[i] = 1;
+      continue;
+    }
+    ++outcomes.compared;
+    if (!differs(a, b, i)) continue;
+    left_out[i] = 1;
+    if (undecided[i] != 0) {
+      ++excluded_;
+    } else {
+      ++outcomes.outside;
+      outcomes.worst += 1;
+      outcomes.vessel = vessel;
+      outcomes.grip = i;
+    }
+  }
+  for (const Quantity& q : QUANTITIES) {
+    if (!fields.has(q.field)) continue;
+    Comparison& entry = row(q.kernel, q.name, q.unit);
+    const int planes = field_planes(q.field, scene_fills(scene_), scene_.tilts.size());
+    double largest = 0;
+    for (int p = 0; p < planes; ++p)
+      for (std::size_t i = 0; i < n; ++i) {
+        const double value = std::abs(truth.real(fields.plane[q.field] + p, i));
+        if (std::isfinite(value)) largest = std::max(largest, value);
+      }
+    const double floor =
+        (ROUNDINGS * allowed_.epsilon + 2 * allowed_.level_tolerance) * largest + (q.rests ? 2 * allowed_.stop_tolerance : 0);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (left_out[i] != 0) continue;
+      ++entry.compared;
+      bool over = false;
+      for (int p = 0; p < planes; ++p) {
+        const int plane = fields.plane[q.field] + p;
+        const double difference = apart(a.real(plane, i), b.real(plane, i));
+        const double tolerance = floor + 2 * spread[plane * n + i];
+        if (difference > entry.worst / q.scale) {
+          entry.worst = difference * q.scale;
+          entry.tolerance = tolerance * q.scale;
+          entry.vessel = vessel;
+          entry.grip = i;
+        }
+        entry.worst_ratio = std::max(entry.worst_ratio, difference == 0 ? 0 : difference / tolerance);
+        over = over || difference > tolerance;
+      }
+      entry.outside += over ? 1 : 0;
+    }
+  }
+}
+
+// The level is solved to its tolerance of the capacity and sums of slices are rounded; a centre of mass is compared by its moment, since
+// the last drop's place means nothing.
+void Comparer::add_liquid(std::size_t vessel, const std::vector<LiquidResult>& a, const std::vector<LiquidResult>& b) {
+  if (a.empty()) return;
+  const double capacity = core_.constants(vessel).capacity;
+  const double volume_tolerance = (4 * allowed_.level_tolerance + ROUNDINGS * allowed_.epsilon) * capacity;
+  const double moment_tolerance = 2 * volume_tolerance * scene_.vessels[vessel].height;
+  const auto compare = [&](const char* name, const char* unit, double scale, double tolerance, auto value) {
+    Comparison& entry = row("liquid", name, unit);
+    for (std::size_t s = 0; s < a.size(); ++s) {
+      const double difference = apart(value(a[s]), value(b[s]));
+      ++entry.compared;
+      entry.outside += difference > tolerance ? 1 : 0;
+      entry.worst_ratio = std::max(entry.worst_ratio, difference / tolerance);
+      if (difference * scale <= entry.worst) continue;
+      entry.worst = difference * scale;
+      entry.tolerance = tolerance * scale;
+      entry.vessel = vessel;
+      entry.grip = s;
+    }
+  };
+  compare("volume", "mL", 1e6, volume_tolerance, [](const LiquidResult& r) { return r.volume; });
+  compare("poured", "mL", 1e6, volume_tolerance, [](const LiquidResult& r) { return r.poured; });
+  compare("lean moment", "mL mm", 1e9, moment_tolerance, [](const LiquidResult& r) { return r.volume * r.lean; });
+  compare("height moment", "mL mm", 1e9, moment_tolerance, [](const LiquidResult& r) { return r.volume * r.height; });
+}
+
+bool Comparer::holds() const {
+  const bool inside = std::all_of(rows_.begin(), rows_.end(), [](const Comparison& r) { return r.outside == 0; });
+  return inside && excluded_ * 1000 <= grips_;
+}
+
+}  // namespace wholehand

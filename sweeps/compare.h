@@ -1,0 +1,78 @@
+// Two evaluations of the same grips side by side, quantity by quantity, with tolerances that come from how each grip's own answer moves.
+//
+// Arithmetic in float or double solves a nearby problem: every surface is met to within the stop tolerance, every position is rounded.
+// So an answer may differ by as much as the core's own double answer moves when the grip is moved by that much, and no more. The bound
+// is taken per grip and number: it grows where a finger grazes the glass, and nowhere else. docs/method.md has the derivation.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/backend.h"
+#include "core/evaluator.h"
+
+namespace wholehand {
+
+// Every plane of some grips of one vessel; reals[plane * count + i].
+struct GatheredPlanes {
+  FieldSet fields;
+  std::size_t count = 0;
+  std::vector<double> reals;
+  std::vector<std::uint32_t> uints;
+  double real(int plane, std::size_t i) const { return reals[plane * count + i]; }
+  std::uint32_t uint(int field, std::size_t i) const { return uints[fields.plane[field] * count + i]; }
+};
+
+// Every field that the scene has.
+FieldSet all_fields(const Scene& scene);
+GatheredPlanes gather(Backend& backend, std::size_t vessel, const std::vector<GripInput>& grips);
+GatheredPlanes gather(const Evaluator& core, const FieldSet& fields, std::size_t vessel, const std::vector<GripInput>& grips);
+
+// One quantity's comparison over all grips and vessels compared so far.
+struct Comparison {
+  std::string kernel, quantity, unit;
+  double worst = 0;                         // largest difference, in the unit
+  double tolerance = 0;                     // of that grip, in the unit
+  std::size_t vessel = 0, grip = 0;         // where
+  double worst_ratio = 0;                   // largest difference over its own tolerance
+  std::uint64_t compared = 0, outside = 0;  // grips; outside: over the tolerance
+};
+
+// Which precision's rounding and stop tolerance the two sides have: the coarser of the two.
+struct Allowance {
+  double epsilon = 0;          // of the reals
+  double stop_tolerance = 0;   // m
+  double level_tolerance = 0;  // of the capacity
+};
+Allowance allowance(Precision precision);
+
+// Gathers comparisons vessel by vessel.
+class Comparer {
+ public:
+  Comparer(const Scene& scene, const Evaluator& core, Allowance allowed);
+
+  // `a` and `b` evaluate `grips` of the vessel. Grips that graze are left out and counted, as are those whose discrete outcomes differ
+  // where the core's own change within the allowance (excluded); differing ones beyond that count as outside.
+  void add(std::size_t vessel, const std::vector<GripInput>& grips, const GatheredPlanes& a, const GatheredPlanes& b);
+  void add_liquid(std::size_t vessel, const std::vector<LiquidResult>& a, const std::vector<LiquidResult>& b);
+
+  const std::vector<Comparison>& rows() const { return rows_; }
+  std::uint64_t grips() const { return grips_; }
+  std::uint64_t grazing() const { return grazing_; }
+  std::uint64_t feasible() const { return feasible_; }  // by the core
+  std::uint64_t excluded() const { return excluded_; }  // discrete outcomes differ within the margin
+  // No number outside its tolerance, and at most one grip in 1,000 excluded.
+  bool holds() const;
+
+ private:
+  Comparison& row(const std::string& kernel, const std::string& quantity, const std::string& unit);
+
+  const Scene& scene_;
+  const Evaluator& core_;
+  Allowance allowed_;
+  std::vector<Comparison> rows_;
+  std::uint64_t grips_ = 0, grazing_ = 0, excluded_ = 0, feasible_ = 0;
+};
+
+}  // namespace wholehand

@@ -1,0 +1,185 @@
+#include "sweeps/core_backend.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "sweeps/candidates.h"
+
+namespace wholehand {
+namespace {
+
+constexpr std::size_t CHUNK = 512;  // grips: a few hundredths of a second of one thread
+
+#ifdef __clang__
+constexpr const char* COMPILER = __VERSION__;
+#else
+constexpr const char* COMPILER = "g++ " __VERSION__;
+#endif
+
+using Clock = std::chrono::steady_clock;
+
+// Planes of one chunk, kept and scratch.
+struct Slot {
+  std::vector<double> reals;
+  std::vector<std::uint32_t> uints;
+  bool ready = false;
+};
+
+// One run: what its threads share.
+class CoreRun {
+ public:
+  CoreRun(const Evaluator& evaluator, const FieldSet& fields, const RunRequest& request, int threads)
+      : evaluator_(evaluator),
+        fields_(fields),
+        request_(request),
+        slots_(2 * static_cast<std::size_t>(threads)),
+        best_(request.best) {
+    for (Slot& slot : slots_) {
+      slot.reals.resize(fields.real_planes * CHUNK);
+      slot.uints.resize(fields.uint_planes * CHUNK);
+    }
+    chunks_ = (request.last - request.first + CHUNK - 1) / CHUNK;
+  }
+
+  RunResult run(int threads) {
+    std::vector<std::thread> workers;
+    try {
+      for (int i = 0; i < threads; ++i) workers.emplace_back([this] { work(); });
+      deliver();
+    } catch (...) {
+      fail(std::current_exception());
+    }
+    for (std::thread& worker : workers) worker.join();
+    if (failure_) std::rethrow_exception(failure_);
+    RunResult result;
+    result.best = best_.sorted();
+    result.chunks = delivered_;
+    result.done = std::min(delivered_ * CHUNK, request_.last - request_.first);
+    result.kernel_seconds = busy_seconds_;
+    return result;
+  }
+
+ private:
+  bool stopped() const { return request_.stop && request_.stop->load(); }
+  std::uint64_t first_of(std::uint64_t chunk) const { return request_.first + chunk * CHUNK; }
+  std::size_t count_of(std::uint64_t chunk) const {
+    return static_cast<std::size_t>(std::min<std::uint64_t>(CHUNK, request_.last - first_of(chunk)));
+  }
+
+  void fail(std::exception_ptr failure) {
+    const std::lock_guard lock(mutex_);
+    if (!failure_) failure_ = failure;
+    changed_.notify_all();
+  }
+
+  // A thread: takes the next chunk while a slot is free, evaluates it, hands it over.
+  void work() {
+    std::vector<GripInput> grips(CHUNK);
+    std::unique_lock lock(mutex_);
+    for (;;) {
+      changed_.wait(lock, [&] { return failure_ || taken_ == chunks_ || stopped() || taken_ < delivered_ + slots_.size(); });
+      if (failure_ || taken_ == chunks_ || stopped()) {
+        ended_ = true;
+        changed_.notify_all();
+        return;
+      }
+      const std::uint64_t chunk = taken_++;
+      Slot& slot = slots_[chunk % slots_.size()];
+      if (busy_++ == 0) busy_since_ = Clock::now();
+      lock.unlock();
+      std::exception_ptr failure;
+      BestCandidates best(request_.best);
+      try {
+        request_.grips(request_.vessel, first_of(chunk), count_of(chunk), grips.data());
+        evaluator_.planes(request_.vessel, grips.data(), count_of(chunk), fields_, CHUNK, slot.reals.data(), slot.uints.data());
+        if (request_.best > 0) offer(slot, chunk, best);
+      } catch (...) {
+        failure = std::current_exception();
+      }
+      lock.lock();
+      if (--busy_ == 0) busy_seconds_ += std::chrono::duration<double>(Clock::now() - busy_since_).count();
+      if (failure && !failure_) failure_ = failure;
+      best_.offer(best.sorted());
+      slot.ready = true;
+      changed_.notify_all();
+    }
+  }
+
+  void offer(const Slot& slot, std::uint64_t chunk, BestCandidates& best) const {
+    const double* score = slot.reals.data() + fields_.plane[FIELD_SCORE] * CHUNK;
+    const std::uint32_t* status = slot.uints.data() + fields_.plane[FIELD_STATUS] * CHUNK;
+    for (std::size_t i = 0; i < count_of(chunk); ++i) {
+      const bool eligible = (status[i] & STATUS_REASON_MASK) == REASON_NONE && (status[i] & STATUS_PLAUSIBLE) != 0;
+      if (eligible) best.offer({score[i], first_of(chunk) + i});
+    }
+  }
+
+  // The calling thread: finished chunks go to the sink in ascending order.
+  void deliver() {
+    std::unique_lock lock(mutex_);
+    for (;;) {
+      Slot& slot = slots_[delivered_ % slots_.size()];
+      changed_.wait(lock, [&] { return failure_ || slot.ready || (ended_ && delivered_ == taken_); });
+      if (failure_ || !slot.ready) return;
+      lock.unlock();
+      if (request_.sink) {
+        request_.sink(
+            {request_.vessel, first_of(delivered_), count_of(delivered_), CHUNK, nullptr, slot.reals.data(), slot.uints.data()});
+      }
+      lock.lock();
+      slot.ready = false;
+      ++delivered_;
+      changed_.notify_all();
+    }
+  }
+
+  const Evaluator& evaluator_;
+  const FieldSet& fields_;
+  const RunRequest& request_;
+  std::uint64_t chunks_ = 0;
+
+  std::mutex mutex_;  // guards all below; a slot's planes belong to one thread at a time
+  std::condition_variable changed_;
+  std::vector<Slot> slots_;
+  BestCandidates best_;
+  std::uint64_t taken_ = 0;      // chunks handed out
+  std::uint64_t delivered_ = 0;  // chunks that the sink has had
+  bool ended_ = false;           // no further chunk will be taken
+  int busy_ = 0;                 // threads evaluating
+  Clock::time_point busy_since_;
+  double busy_seconds_ = 0;
+  std::exception_ptr failure_;
+};
+
+}  // namespace
+
+CoreBackend::CoreBackend(std::unique_ptr<Evaluator> evaluator, const Scene& scene, const FieldSet& fields, Precision precision,
+                         int threads)
+    : evaluator_(std::move(evaluator)),
+      fills_(scene.liquid ? scene.liquid->fills : std::vector<double>{}),
+      tilts_(scene.tilts),
+      fields_(fields),
+      threads_(threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))) {
+  info_ = {"core", fmt::format("core, {} thread{}", threads_, threads_ == 1 ? "" : "s"), COMPILER, precision, true};
+}
+
+RunResult CoreBackend::run(const RunRequest& request) {
+  if (request.last <= request.first) return {};
+  return CoreRun(*evaluator_, fields_, request, threads_).run(threads_);
+}
+
+std::vector<LiquidResult> CoreBackend::liquid(std::size_t vessel) {
+  std::vector<LiquidResult> table;
+  for (const double fill : fills_) {
+    for (const double tilt : tilts_) table.push_back(evaluator_->liquid(vessel, fill, tilt));
+  }
+  return table;
+}
+
+}  // namespace wholehand

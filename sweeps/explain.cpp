@@ -1,0 +1,182 @@
+#include "sweeps/explain.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <vector>
+
+#include "host/grip_backend.h"
+#include "sweeps/compare.h"
+#include "sweeps/core_backend.h"
+#include "sweeps/readable.h"
+
+namespace wholehand {
+namespace {
+
+// A way to evaluate the sample: what it took a grip, and what a grip takes in memory.
+struct Measured {
+  double seconds = 0;
+  std::size_t bytes = 0;
+};
+
+class Explainer {
+ public:
+  Explainer(const Scene& scene, const Plan& plan, const FieldSet& fields, const ExplainOptions& options)
+      : scene_(scene), plan_(plan), fields_(fields), options_(options), on_core_(options.on == "core") {
+    const std::uint64_t all = plan.grips();
+    for (std::uint64_t i = 0; i < EXPLAIN_GRIPS; ++i) sample_.push_back(plan.grip(0, i * all / EXPLAIN_GRIPS % all));
+  }
+
+  std::string run() {
+    const Measured as_is = measure(scene_, fields_, OUTLINE_SPECIALIZED);
+    say("left out, with what that saves a grip (both ways on {} grips of {}; this sweep: {:.3f} us, {} B)\n", EXPLAIN_GRIPS,
+        scene_.vessels[0].name, microseconds(as_is), as_is.bytes);
+    if (!on_core_) {
+      if (longest_outline() <= MAX_OUTLINE) {
+        row("reading the outline: its numbers are constants of the pipeline", measure(scene_, fields_, OUTLINE_BUFFER), as_is,
+            "from a buffer");
+        row("", measure(scene_, fields_, OUTLINE_HOISTED), as_is, "copied from a uniform block");
+      } else {
+        say("  an outline of more than {} elements is read from a buffer\n", MAX_OUTLINE);
+      }
+    }
+    planes(as_is);
+    pose(as_is);
+    surface(as_is);
+    force(as_is);
+    liquid(as_is);
+    azimuth();
+    return text_;
+  }
+
+ private:
+  template <class... Args>
+  void say(fmt::format_string<Args...> format, Args&&... args) {
+    text_ += fmt::format(format, std::forward<Args>(args)...);
+  }
+
+  static double microseconds(const Measured& m) { return m.seconds * 1e6 / static_cast<double>(EXPLAIN_GRIPS); }
+
+  void row(const std::string& what, const Measured& with, const Measured& without, const std::string& variant) {
+    say("  {:<64} {:>8.3f} us {:>5} B  {}\n", what, microseconds(with) - microseconds(without),
+        static_cast<long long>(with.bytes) - static_cast<long long>(without.bytes), variant);
+  }
+
+  int longest_outline() const {
+    std::size_t longest = 0;
+    for (const VesselData& vessel : scene_.vessels) longest = std::max(longest, vessel.outline.size());
+    return static_cast<int>(longest);
+  }
+
+  Measured measure(const Scene& scene, const FieldSet& fields, OutlineSource outline) const {
+    std::unique_ptr<Backend> backend;
+    Measured result;
+    if (on_core_) {
+      auto core = options_.precision == Precision::full ? make_core_evaluator(scene) : make_core_float_evaluator(scene);
+      backend = std::make_unique<CoreBackend>(std::move(core), scene, fields, options_.precision, options_.threads);
+      result.bytes = fields.real_planes * sizeof(double) + fields.uint_planes * sizeof(std::uint32_t);
+    } else {
+      host::GripBackendOptions options;
+      options.precision = options_.precision;
+      options.outline = outline;
+      auto device = std::make_unique<host::GripBackend>(scene, make_core_evaluator(scene), fields, options_.on, options);
+      result.bytes = device->bytes_per_grip();
+      backend = std::move(device);
+    }
+    result.seconds = 1e300;
+    for (int run = 0; run < 6; ++run) {
+      RunRequest request;
+      request.last = sample_.size();
+      request.grips = [this](std::size_t, std::uint64_t first, std::size_t count, GripInput* out) {
+        std::copy_n(sample_.begin() + static_cast<std::ptrdiff_t>(first), count, out);
+      };
+      const auto start = std::chrono::steady_clock::now();
+      backend->run(request);
+      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      if (run > 0) result.seconds = std::min(result.seconds, seconds);  // the first compiles
+    }
+    return result;
+  }
+
+  void planes(const Measured& as_is) {
+    const FieldSet every = all_fields(scene_);
+    const int computed = fields_.real_planes + fields_.uint_planes, all = every.real_planes + every.uint_planes;
+    const int kept = fields_.real_kept + fields_.uint_kept;
+    row(fmt::format("{} of {} result planes not computed, {} more not read back", all - computed, all, computed - kept),
+        measure(scene_, every, OUTLINE_SPECIALIZED), as_is, "every plane kept");
+  }
+
+  void pose(const Measured& as_is) {
+    if (scene_.pose != Pose::rigged) return;
+    Scene other = scene_;
+    other.pose = Pose::articulated;
+    row("projection of the fingers: the pose is rigged", measure(other, fields_, OUTLINE_SPECIALIZED), as_is, "articulated");
+  }
+
+  void surface(const Measured& as_is) {
+    const VesselData& vessel = scene_.vessels[0];
+    if (vessel.surface != Surface::solid || !(vessel.wall > 0)) return;
+    Scene other = scene_;
+    other.vessels[0].surface = Surface::shell;
+    row("the inner wall: the vessel is solid to the fingers", measure(other, fields_, OUTLINE_SPECIALIZED), as_is, "a shell");
+  }
+
+  void force(const Measured& as_is) {
+    if (!scene_.tilts.empty()) return;
+    Scene other = scene_;
+    for (int k = 0; k <= 30; ++k) other.tilts.push_back(radians(5.0 * k));
+    std::vector<int> kept;
+    for (int field = 0; field < FIELDS; ++field)
+      if (is_kept_field(field)) kept.push_back(field);
+    row("the force kernel: the scene has no tilts", measure(other, make_field_set(kept, other), OUTLINE_SPECIALIZED), as_is,
+        "31 tilts");
+  }
+
+  void liquid(const Measured& as_is) {
+    if (scene_.liquid || scene_.tilts.empty()) {
+      if (!scene_.liquid && scene_.tilts.empty())
+        say("  the liquid kernels and their tables: the scene has no liquid and no tilts\n");
+      return;
+    }
+    if (std::any_of(scene_.vessels.begin(), scene_.vessels.end(), [](const VesselData& v) { return !(v.wall > 0); })) {
+      say("  the liquid kernels and their tables: the scene has no liquid\n");
+      return;
+    }
+    Scene other = scene_;
+    other.liquid = LiquidData{};
+    other.liquid->fills = {0, 0.25, 0.5, 0.75, 1};
+    std::vector<int> kept;
+    for (int field = 0; field < FIELDS; ++field)
+      if (is_kept_field(field)) kept.push_back(field);
+    row("the liquid: four of five fills", measure(other, make_field_set(kept, other), OUTLINE_SPECIALIZED), as_is, "5 fills");
+  }
+
+  bool is_kept_field(int field) const {
+    if (!fields_.has(field)) return false;
+    return fields_.plane[field] < (field < REAL_FIELDS ? fields_.real_kept : fields_.uint_kept);
+  }
+
+  void azimuth() {
+    if (plan_.copies() < 2) return;
+    say("  {} of {} azimuths: the vessels are bodies of revolution, one is computed and written {} times\n", plan_.copies() - 1,
+        plan_.copies(), plan_.copies());
+  }
+
+  const Scene& scene_;
+  const Plan& plan_;
+  const FieldSet& fields_;
+  const ExplainOptions& options_;
+  bool on_core_;
+  std::vector<GripInput> sample_;
+  std::string text_;
+};
+
+}  // namespace
+
+std::string explain_sweep(const Scene& scene, const Plan& plan, const FieldSet& fields, const ExplainOptions& options) {
+  return Explainer(scene, plan, fields, options).run();
+}
+
+}  // namespace wholehand

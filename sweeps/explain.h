@@ -1,0 +1,23 @@
+// What a sweep leaves out because its scene does not need it, and what that saves: measured there and then, both ways on one sample.
+#pragma once
+
+#include <string>
+
+#include "core/backend.h"
+#include "sweeps/plan.h"
+
+namespace wholehand {
+
+constexpr std::size_t EXPLAIN_GRIPS = 4096;
+
+struct ExplainOptions {
+  std::string on;
+  Precision precision = Precision::single;
+  int threads = 0;
+};
+
+// Lines for the terminal. Each variant evaluates EXPLAIN_GRIPS grips of the scene's first vessel, the shortest of five runs after one
+// that warms up. Throws Error as open_backend does.
+std::string explain_sweep(const Scene& scene, const Plan& plan, const FieldSet& fields, const ExplainOptions& options);
+
+}  // namespace wholehand

@@ -1,0 +1,191 @@
+#include "sweeps/grip_methods.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "core/error.h"
+#include "sweeps/open_backend.h"
+
+namespace wholehand {
+namespace {
+
+GripAnswer answer_by_core(const Scene& scene, const Evaluator& evaluator, std::size_t vessel, const GripInput& grip,
+                          const StateAxes& axes) {
+  GripAnswer answer;
+  evaluator.grip(vessel, grip, answer.result);
+  if (answer.result.reason != Reason::none) return answer;
+  for (const double fill : axes.fills) {
+    for (const double tilt : axes.tilts) {
+      GripState state{fill, tilt, {}, {}};
+      if (scene.liquid) state.liquid = evaluator.liquid(vessel, fill, tilt);
+      state.state = evaluator.state(vessel, grip, answer.result, state.liquid, tilt);
+      answer.states.push_back(state);
+    }
+  }
+  answer.score = evaluator.score(vessel, grip, answer.result);
+  return answer;
+}
+
+// What a run over one grip leaves: its planes, copied, and the liquid's table. To be moved, not copied: the chunk points into it.
+struct GripPlanes {
+  FieldSet fields;
+  PlaneChunk chunk;
+  std::vector<double> reals;
+  std::vector<std::uint32_t> uints;
+  std::vector<LiquidResult> liquid;
+
+  GripPlanes() = default;
+  GripPlanes(GripPlanes&&) = default;
+  GripPlanes& operator=(GripPlanes&&) = default;
+
+  bool has(int field) const { return fields.has(field); }
+  double real(int field, std::size_t k = 0) const { return reals[fields.plane[field] + k]; }
+};
+
+std::vector<int> all_fields() {
+  std::vector<int> fields(FIELDS);
+  for (int field = 0; field < FIELDS; ++field) fields[field] = field;
+  return fields;
+}
+
+GripPlanes run_one(Backend& backend, std::size_t vessel, const GripInput& grip) {
+  GripPlanes planes;
+  planes.fields = backend.fields();
+  RunRequest request;
+  request.vessel = vessel;
+  request.last = 1;
+  request.grips = [&](std::size_t, std::uint64_t, std::size_t count, GripInput* out) { std::fill_n(out, count, grip); };
+  request.sink = [&](const PlaneChunk& chunk) {
+    for (int p = 0; p < planes.fields.real_kept; ++p) planes.reals.push_back(chunk.real(p, 0));
+    for (int p = 0; p < planes.fields.uint_kept; ++p) planes.uints.push_back(chunk.uint(p, 0));
+  };
+  const RunResult run = backend.run(request);
+  if (run.done != 1 || planes.reals.empty() || planes.uints.empty())
+    throw failure_error(backend.info().device + ": the grip was not evaluated");
+  planes.chunk.count = 1;
+  planes.chunk.stride = 1;
+  planes.chunk.vessel = vessel;
+  planes.chunk.doubles = planes.reals.data();
+  planes.chunk.uints = planes.uints.data();
+  planes.liquid = backend.liquid(vessel);
+  return planes;
+}
+
+GripScore score_of(const GripPlanes& planes, std::size_t fills) {
+  GripScore score;
+  score.score = planes.real(FIELD_SCORE);
+  const auto term = [&](std::size_t k) { return planes.real(FIELD_TERMS, k); };
+  score.terms = {term(0), term(1), term(2), term(3), term(4), term(5)};
+  if (!planes.has(FIELD_PEAK_FORCE)) return score;
+  for (std::size_t f = 0; f < fills; ++f) {
+    score.fills.push_back({planes.real(FIELD_PEAK_FORCE, f), planes.real(FIELD_PEAK_TILT, f), planes.real(FIELD_LARGEST_HOLD, f),
+                           planes.real(FIELD_SAFE_TILT, f)});
+  }
+  return score;
+}
+
+// Planes hold what depends on the grip; mass and centre of mass of a state are the core's for the same liquid.
+GripState state_of(const GripPlanes& planes, const Evaluator& core, const Scene& scene, std::size_t vessel, const GripInput& grip,
+                   const GripResult& result, std::size_t fill, std::size_t tilt) {
+  const std::size_t place = fill * scene.tilts.size() + tilt;
+  GripState state;
+  state.fill = scene.liquid ? scene.liquid->fills[fill] : 0;
+  state.tilt = scene.tilts[tilt];
+  if (scene.liquid) state.liquid = planes.liquid.at(place);
+  const StateResult loaded = core.state(vessel, grip, result, state.liquid, state.tilt);
+  state.state.mass = loaded.mass;
+  state.state.center_of_mass = loaded.center_of_mass;
+  state.state.pivot_length = planes.real(FIELD_PIVOT_LENGTH, place);
+  state.state.torque = planes.real(FIELD_TORQUE, place);
+  state.state.exact_torque = planes.real(FIELD_EXACT_TORQUE, place);
+  state.state.normal_force = planes.real(FIELD_NORMAL_FORCE, place);
+  state.state.feedback_force = planes.real(FIELD_FEEDBACK_FORCE, place);
+  state.state.hold_force = planes.real(FIELD_HOLD_FORCE, place);
+  return state;
+}
+
+std::vector<double> ascending(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
+std::size_t index_of(const std::vector<double>& values, double value) {
+  return static_cast<std::size_t>(std::lower_bound(values.begin(), values.end(), value) - values.begin());
+}
+
+// The scene with these states. Its largest fill stays: the torque's reference is taken there.
+Scene with_states(const Scene& scene, const StateAxes& axes) {
+  Scene changed = scene;
+  changed.tilts = ascending(axes.tilts);
+  if (!scene.liquid) return changed;
+  const double largest = scene.liquid->fills.back();
+  std::vector<double> fills = axes.fills;
+  fills.push_back(largest);
+  changed.liquid->fills = ascending(fills);
+  if (changed.liquid->fills.back() > largest) {
+    throw usage_error(
+        fmt::format("--fill {}: a device takes at most the scene's largest fill, {}, where the torque's reference is taken; "
+                    "use --on core",
+                    changed.liquid->fills.back(), largest));
+  }
+  return changed;
+}
+
+}  // namespace
+
+StateAxes scene_axes(const Scene& scene) {
+  StateAxes axes;
+  if (scene.liquid) axes.fills = scene.liquid->fills;
+  axes.tilts = scene.tilts;
+  return axes;
+}
+
+GripMethods core_grip_methods(const Scene& scene, std::shared_ptr<const Evaluator> evaluator, const std::string& device) {
+  return {device, [scene, evaluator = std::move(evaluator)](std::size_t vessel, const GripInput& grip, const StateAxes& axes) {
+            return answer_by_core(scene, *evaluator, vessel, grip, axes);
+          }};
+}
+
+GripMethods backend_grip_methods(const Scene& scene, const BackendOpener& open) {
+  std::shared_ptr<Backend> backend = open(scene, make_field_set(all_fields(), scene));
+  const BackendInfo info = backend->info();
+  const std::string device = info.device + (info.precision == Precision::single ? ", float" : ", double");
+  return {device, [scene, open, backend](std::size_t vessel, const GripInput& grip, const StateAxes& axes) {
+            GripAnswer answer;
+            GripPlanes planes = run_one(*backend, vessel, grip);
+            answer.result = decode_grip(planes.chunk, planes.fields, 0);
+            if (answer.result.reason != Reason::none) return answer;
+            answer.score = score_of(planes, scene_fills(scene));
+            if (axes.tilts.empty()) return answer;
+
+            const StateAxes own = scene_axes(scene);
+            const bool is_own = axes.fills == own.fills && axes.tilts == own.tilts;
+            const Scene asked = is_own ? scene : with_states(scene, axes);
+            if (!is_own) planes = run_one(*open(asked, make_field_set(all_fields(), asked)), vessel, grip);
+            const auto core = make_core_evaluator(asked);
+            for (const double fill : axes.fills) {
+              for (const double tilt : axes.tilts) {
+                const std::size_t fill_index = asked.liquid ? index_of(asked.liquid->fills, fill) : 0;
+                answer.states.push_back(
+                    state_of(planes, *core, asked, vessel, grip, answer.result, fill_index, index_of(asked.tilts, tilt)));
+              }
+            }
+            return answer;
+          }};
+}
+
+GripMethods open_grip_methods(const Scene& scene, const std::string& on, Precision precision) {
+  if (on != "core") {
+    return backend_grip_methods(scene, [on, precision](const Scene& opened, const FieldSet& fields) {
+      return open_backend(opened, fields, on, precision, 0);
+    });
+  }
+  const bool is_double = precision == Precision::full;
+  return core_grip_methods(scene, is_double ? make_core_evaluator(scene) : make_core_float_evaluator(scene),
+                           is_double ? "core, double" : "core, float");
+}
+
+}  // namespace wholehand

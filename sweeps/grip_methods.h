@@ -1,0 +1,54 @@
+// Where the answer to one grip comes from: the core, or a device's planes. The same questions to either.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/backend.h"
+#include "core/evaluator.h"
+
+namespace wholehand {
+
+// One fill (fraction of the capacity; 0 where the scene has no liquid) and tilt (rad) of a grip, with what is asked of it.
+struct GripState {
+  double fill = 0, tilt = 0;
+  LiquidResult liquid;
+  StateResult state;
+};
+
+// Everything that is told of one grip. `states` and `score` are empty where the grip is not feasible.
+struct GripAnswer {
+  GripResult result;
+  std::vector<GripState> states;  // fill-major, in the order asked
+  GripScore score;                // over the scene's own fills and tilts
+};
+
+// Fills and tilts of the states that are asked for. Without liquid the one fill is 0.
+struct StateAxes {
+  std::vector<double> fills{0.0};
+  std::vector<double> tilts;  // rad; empty: no states
+};
+
+// Answers one grip of one vessel of the scene that it was made for.
+struct GripMethods {
+  std::string device;  // what answers, for people
+  std::function<GripAnswer(std::size_t vessel, const GripInput& grip, const StateAxes& axes)> answer;
+};
+
+// The scene's own fills and tilts.
+StateAxes scene_axes(const Scene& scene);
+
+// The core's kernels called directly. Shares the evaluator, which must have been made for `scene`.
+GripMethods core_grip_methods(const Scene& scene, std::shared_ptr<const Evaluator> evaluator, const std::string& device);
+
+// A backend's planes: one run over the grip with every field kept, and a second one where other states are asked for than the scene
+// has. `open` gives a backend for a scene and its fields, as open_backend does.
+using BackendOpener = std::function<std::unique_ptr<Backend>(const Scene&, const FieldSet&)>;
+GripMethods backend_grip_methods(const Scene& scene, const BackendOpener& open);
+
+// By the name that a user gives, as for open_backend: "core" is called directly, everything else through its planes.
+GripMethods open_grip_methods(const Scene& scene, const std::string& on, Precision precision);
+
+}  // namespace wholehand

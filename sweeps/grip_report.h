@@ -1,0 +1,42 @@
+// One grip with every intermediate value, for people and as JSON.
+#pragma once
+
+#include <string>
+
+#include "sweeps/grip_methods.h"
+
+namespace wholehand {
+
+// What was asked and what came of it.
+struct GripReport {
+  std::string scene, vessel, device;
+  GripInput grip;
+  GripAnswer answer;
+  Triple pour{};  // horizontal direction towards which the vessel is tilted, unit, vessel frame; zero for a vertical line
+  bool has_liquid = false;
+  bool has_tilts = false;           // the scene's: without them there are no force and hold terms
+  std::vector<double> score_fills;  // fills of the score's terms
+};
+
+// Evaluates the grip.
+GripReport make_grip_report(const Scene& scene, std::size_t vessel, const GripInput& grip, const StateAxes& axes,
+                            const GripMethods& methods);
+
+// One JSON object in one line, SI units, points in the vessel frame; docs/grip.md names the fields. What does not exist up to the
+// reason of an infeasible grip is absent; an infinite hold force and the centre of no liquid are null. Doubles read back as they were.
+std::string grip_json(const GripReport& report);
+
+// The same as tables, in mm, degrees, mL and g.
+std::string grip_table(const GripReport& report);
+
+// Horizontal direction towards which a tilt turns the vessel's mouth: away from the palm at roll 0, or towards it where the scene's
+// liquid is poured so. Zero where the thumb-index line is vertical.
+Triple pour_direction(const Scene& scene, const GripInput& grip);
+
+// The grip whose thumb-index line runs through two points of the vessel frame, m, with roll and hand scale as given. With
+// d = unit(index - thumb): obliquity = asin(d.y), azimuth = atan2(-d.z, d.x); along d and the horizontal direction e = unit(d x y)
+// the line's foot o = (0, height, 0) + offset e is where it passes the axis: offset = thumb . e, height = the line's y there.
+// Throws Error (usage) where the points coincide or lie above one another.
+GripInput grip_through(const Triple& thumb, const Triple& index, double roll, double hand_scale);
+
+}  // namespace wholehand

@@ -1,0 +1,124 @@
+// A grip report as tables, in the units that people read: mm, degrees, mL, g.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+
+#include "shaders/layout.h"
+#include "sweeps/grip_report.h"
+
+namespace wholehand {
+namespace {
+
+using Buffer = std::back_insert_iterator<std::string>;
+
+constexpr std::array<const char*, 4> THUMB_JOINTS{"CMC", "MCP", "IP", "tip"};
+constexpr std::array<const char*, 5> FINGER_JOINTS{"CMC", "MCP", "PIP", "DIP", "tip"};
+
+std::string joint_name(int j) {
+  if (j < 4) return fmt::format("thumb {}", THUMB_JOINTS[j]);
+  return fmt::format("{} {}", FINGER_NAMES[1 + (j - 4) / 5], FINGER_JOINTS[(j - 4) % 5]);
+}
+
+std::string millimetres(const Triple& p) { return fmt::format("{:9.3f}{:9.3f}{:9.3f}", p[0] * 1e3, p[1] * 1e3, p[2] * 1e3); }
+
+const char* yes_no(bool value) { return value ? "yes" : "no"; }
+
+std::string newtons(double force) {
+  return std::isfinite(force) ? fmt::format("{:9.4f}", force) : fmt::format("{:>9}", "infinite");
+}
+
+// Fingers whose bit is set from `shift` on in a status; "none".
+std::string finger_list(std::uint32_t bits) {
+  std::string list;
+  for (int f = 0; f < FINGER_COUNT; ++f) {
+    if ((bits >> f & 1) != 0) list += (list.empty() ? "" : ", ") + std::string(FINGER_NAMES[f]);
+  }
+  return list.empty() ? "none" : list;
+}
+
+void write_closing(Buffer out, const GripReport& report) {
+  const GripResult& r = report.answer.result;
+  const bool is_feasible = r.reason == Reason::none;
+  fmt::format_to(out, "  feasible       {}{}\n", yes_no(is_feasible),
+                 is_feasible ? "" : fmt::format(": {}", REASON_NAMES[static_cast<std::size_t>(r.reason)]));
+  if (!is_feasible && r.reason < Reason::too_wide) return;
+  fmt::format_to(out, "  gap            {:.3f} mm\n", r.gap * 1e3);
+  fmt::format_to(out, "  midpoint      {} mm\n", millimetres(r.midpoint));
+  if (!is_feasible) return;
+  fmt::format_to(out, "  closure        {:.6f}\n", r.closure);
+  fmt::format_to(out, "  contact angles thumb {:.3f}, index {:.3f} deg, antipodal: {}{}\n", degrees(r.contact_angles[0]),
+                 degrees(r.contact_angles[1]), yes_no(r.antipodal), r.grazing ? ", grazing" : "");
+  fmt::format_to(out, "  plausible      {}: phalanges {:.3f} mm deep, palm {:.3f} mm\n", yes_no(r.plausible), r.phalanx_depth * 1e3,
+                 r.palm_depth * 1e3);
+  fmt::format_to(out, "  bone stretch   {:.3f} mm\n", r.bone_stretch * 1e3);
+  fmt::format_to(out, "  fingers used   {}\n", finger_list(r.used_mask));
+  const std::uint32_t blocked = r.status >> STATUS_BLOCKED_SHIFT & 0x1F, unsettled = r.status >> STATUS_UNSETTLED_SHIFT & 0x1F;
+  if (blocked != 0) fmt::format_to(out, "  blocked        {}: inside when open\n", finger_list(blocked));
+  if (unsettled != 0) fmt::format_to(out, "  not settled    {}: took all its steps\n", finger_list(unsettled));
+  if ((r.status & STATUS_PROXY_UNSETTLED) != 0) fmt::format_to(out, "  not settled    a proxy: took all its steps\n");
+}
+
+void write_joints(Buffer out, const GripResult& r) {
+  fmt::format_to(out, "\n  points, mm     {:^27}{:^27}{:^27}{:>11}  {}\n", "rigged", "posed", "proxy", "separation", "contact");
+  for (int j = 0; j < JOINT_COUNT; ++j) {
+    const auto has = [j](std::uint32_t mask) { return (mask >> j & 1) != 0; };
+    const char* role = has(r.tip_mask)      ? ", projected: tip"
+                       : has(r.finger_mask) ? ", projected: finger"
+                       : has(r.inner_mask)  ? ", projected: inner"
+                                            : "";
+    fmt::format_to(out, "  {:<13}{}{}{}{:11.4f}  {}{}\n", joint_name(j), millimetres(r.joints[j]), millimetres(r.posed[j]),
+                   millimetres(r.proxies[j]), r.separation[j] * 1e3, has(r.touch_mask) ? "touches" : "-", role);
+  }
+}
+
+void write_states(Buffer out, const GripReport& report) {
+  if (report.answer.states.empty()) return;
+  fmt::format_to(out, "\n  {:>5}{:>7}{:>9}{:>9}{:>9}{:>27}{:>9}{:>10}{:>10}{:>9}{:>9}{:>9}\n", "fill", "tilt", "liquid", "poured",
+                 "mass", "center of mass", "pivot", "torque", "exact", "normal", "feedback", "hold");
+  fmt::format_to(out, "  {:>5}{:>7}{:>9}{:>9}{:>9}{:>27}{:>9}{:>10}{:>10}{:>9}{:>9}{:>9}\n", "", "deg", "mL", "mL", "g", "mm", "mm",
+                 "mN m", "mN m", "N", "N", "N");
+  for (const GripState& s : report.answer.states) {
+    fmt::format_to(out, "  {:5.3g}{:7.2f}{:9.3f}{:9.3f}{:9.3f}{}{:9.3f}{:10.4f}{:10.4f}{:9.4f}{:9.4f}{}\n", s.fill, degrees(s.tilt),
+                   s.liquid.volume * 1e6, s.liquid.poured * 1e6, s.state.mass * 1e3, millimetres(s.state.center_of_mass),
+                   s.state.pivot_length * 1e3, s.state.torque * 1e3, s.state.exact_torque * 1e3, s.state.normal_force,
+                   s.state.feedback_force, newtons(s.state.hold_force));
+  }
+}
+
+void write_score(Buffer out, const GripReport& report) {
+  const GripScore& score = report.answer.score;
+  fmt::format_to(out, "\n  score          {:.6f}\n", score.score);
+  fmt::format_to(out, "  terms          fingers {:.4f}, contacts {:.4f}, depth {:.4f}, posture {:.4f}", score.terms.fingers,
+                 score.terms.contacts, score.terms.depth, score.terms.posture);
+  if (report.has_tilts) fmt::format_to(out, ", force {:.4f}, hold {:.4f}", score.terms.force, score.terms.hold);
+  fmt::format_to(out, "\n");
+  for (std::size_t f = 0; f < score.fills.size(); ++f) {
+    const FillTerms& terms = score.fills[f];
+    fmt::format_to(
+        out, "  over all tilts fill {:.3g}: peak force {:.4f} N at {:.1f} deg, largest hold {} N, {}\n", report.score_fills.at(f),
+        terms.peak_force, degrees(terms.peak_tilt),
+        std::isfinite(terms.largest_hold) ? fmt::format("{:.4f}", terms.largest_hold) : "infinite",
+        std::isnan(terms.safe_tilt) ? "safe at no tilt" : fmt::format("safe up to {:.1f} deg", degrees(terms.safe_tilt)));
+  }
+}
+
+}  // namespace
+
+std::string grip_table(const GripReport& report) {
+  const GripInput& grip = report.grip;
+  std::string text;
+  const Buffer out(text);
+  fmt::format_to(out, "Grip of {} in {}, on {}\n", report.vessel, report.scene, report.device);
+  fmt::format_to(
+      out, "  height {:.3f} mm, azimuth {:.3f} deg, obliquity {:.3f} deg, roll {:.3f} deg, offset {:.3f} mm, hand scale {:.4g}\n",
+      grip.height * 1e3, degrees(grip.azimuth), degrees(grip.obliquity), degrees(grip.roll), grip.offset * 1e3, grip.hand_scale);
+  write_closing(out, report);
+  if (report.answer.result.reason != Reason::none) return text;
+  write_joints(out, report.answer.result);
+  write_states(out, report);
+  write_score(out, report);
+  return text;
+}
+
+}  // namespace wholehand

@@ -1,0 +1,29 @@
+// Ctrl-C and termination as a flag that work looks at between chunks.
+#pragma once
+
+#include <csignal>
+
+#include <atomic>
+
+namespace wholehand {
+
+// While it lives, the first SIGINT or SIGTERM sets `flag()`; a second one ends the process as usual. At most one at a time.
+class InterruptGuard {
+ public:
+  InterruptGuard();
+  ~InterruptGuard();
+  InterruptGuard(const InterruptGuard&) = delete;
+  InterruptGuard& operator=(const InterruptGuard&) = delete;
+
+  // What work under way stops at: set by a signal, or by hand to end a stretch of work early.
+  std::atomic<bool>& flag();
+  // Takes the flag back, unless a signal has come meanwhile.
+  void clear();
+  static bool signalled();
+
+ private:
+  struct sigaction interrupt_before_ {
+  }, terminate_before_{};
+};
+
+}  // namespace wholehand

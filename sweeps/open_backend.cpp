@@ -1,0 +1,22 @@
+#include "sweeps/open_backend.h"
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "host/grip_backend.h"
+#include "sweeps/core_backend.h"
+
+namespace wholehand {
+
+std::unique_ptr<Backend> open_backend(const Scene& scene, const FieldSet& fields, const std::string& on, Precision precision,
+                                      int threads) {
+  if (on == "core") {
+    auto evaluator = precision == Precision::full ? make_core_evaluator(scene) : make_core_float_evaluator(scene);
+    return std::make_unique<CoreBackend>(std::move(evaluator), scene, fields, precision, threads);
+  }
+  host::GripBackendOptions options;
+  options.precision = precision;
+  return std::make_unique<host::GripBackend>(scene, make_core_evaluator(scene), fields, on, options);
+}
+
+}  // namespace wholehand

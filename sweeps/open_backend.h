@@ -1,0 +1,16 @@
+// From the name that a user gives to what evaluates the grips.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "core/backend.h"
+
+namespace wholehand {
+
+// `on`: "core", "vulkan" (the first device of the kinds discrete, integrated, CPU driver) or a device's name. `threads`: of the
+// core, 0 takes all. Throws Error (usage) for a device that is not there, (failure) for one that does not answer.
+std::unique_ptr<Backend> open_backend(const Scene& scene, const FieldSet& fields, const std::string& on, Precision precision,
+                                      int threads);
+
+}  // namespace wholehand

@@ -1,0 +1,160 @@
+#include "sweeps/plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/planes.h"
+#include "shaders/layout.h"
+#include "sweeps/readable.h"
+
+namespace wholehand {
+namespace {
+
+double stored_per_vessel(const Scene& scene) {
+  const GripsData& grips = scene.grips;
+  if (grips.sampling == Sampling::sobol) return static_cast<double>(grips.count);
+  double product = 1;
+  for (const Axis* axis : {&grips.azimuth, &grips.height, &grips.obliquity, &grips.roll, &grips.offset, &grips.hand_scale}) {
+    product *= static_cast<double>(axis->values.size());
+  }
+  return product;
+}
+
+// A body of revolution about its axis in mass as well as in shape.
+bool is_symmetric(const VesselData& vessel) {
+  return !vessel.mesh && (!vessel.mass || (vessel.center_of_mass[0] == 0 && vessel.center_of_mass[2] == 0));
+}
+
+}  // namespace
+
+SweepSize sweep_size(const Scene& scene, double bytes_per_grip) {
+  SweepSize size;
+  size.grips = stored_per_vessel(scene) * static_cast<double>(scene.vessels.size());
+  size.states = size.grips;
+  if (!scene.tilts.empty()) size.states *= static_cast<double>(scene_fills(scene)) * static_cast<double>(scene.tilts.size());
+  size.bytes = size.grips * bytes_per_grip;
+  return size;
+}
+
+void check_sweep_size(const Scene& scene, const SweepSize& size, double free_bytes) {
+  const std::string asked = fmt::format("{}: asks for {} grips, {} states, {} of results", scene.file, readable_count(size.grips),
+                                        readable_count(size.states), readable_bytes(size.bytes));
+  if (!(size.grips <= LARGEST_SWEEP)) {
+    throw usage_error(fmt::format("{}; one sweep takes {} grips: give [grips] fewer values", asked, readable_count(LARGEST_SWEEP)));
+  }
+  if (size.bytes > free_bytes) {
+    throw failure_error(
+        fmt::format("{}, and there is room for {}: keep fewer variables ([output] keep), give [grips] fewer values, or "
+                    "name a file on another disk with -o",
+                    asked, readable_bytes(free_bytes)));
+  }
+}
+
+Plan::Plan(const Scene& scene, bool keeps_vectors)
+    : sobol_(scene.grips.sampling == Sampling::sobol),
+      height_is_fraction_(scene.grips.height_is_fraction),
+      sequence_(scene.grips.seed) {
+  const GripsData& grips = scene.grips;
+  check_sweep_size(scene, sweep_size(scene, 0), 0);
+  if (sobol_ && (grips.count == 0 || grips.count > SOBOL_LARGEST_COUNT)) {
+    throw usage_error(fmt::format("{}: [grips] count = {}: Sobol sampling takes 1 to {} points a vessel", scene.file, grips.count,
+                                  SOBOL_LARGEST_COUNT));
+  }
+  axes_ = {{
+      {"azimuth", "rad", "azimuth of the thumb-index line about the vessel's axis", AXIS_AZIMUTH, grips.azimuth},
+      {"obliquity", "rad", "angle of the thumb-index line to the horizontal", AXIS_OBLIQUITY, grips.obliquity},
+      {"roll", "rad", "angle of the hand about the thumb-index line; 0: hand beside, -pi/2: hand above", AXIS_ROLL, grips.roll},
+      {"offset", "m", "distance of the thumb-index line from the vessel's axis, signed", AXIS_OFFSET, grips.offset},
+      {"hand_scale", "1", "size of the hand, times the scene's own scale", AXIS_HAND_SCALE, grips.hand_scale},
+      height_is_fraction_
+          ? PlanAxis{"height_fraction", "1", "height of the thumb-index line as a fraction of the vessel's height", AXIS_HEIGHT,
+                     grips.height}
+          : PlanAxis{"height", "m", "height of the thumb-index line above the vessel's base", AXIS_HEIGHT, grips.height},
+  }};
+  for (const VesselData& vessel : scene.vessels) vessel_heights_.push_back(vessel.height);
+  for (const PlanAxis& axis : axes_) {
+    if (axis.data.values.empty()) throw usage_error(fmt::format("{}: [grips] axis {} has no values", scene.file, axis.name));
+  }
+  if (sobol_) {
+    grips_ = grips.count;
+    return;
+  }
+  for (std::size_t k = 0; k < axes_.size(); ++k) counts_[k] = axes_[k].data.values.size();
+  const bool symmetric = std::all_of(scene.vessels.begin(), scene.vessels.end(), is_symmetric);
+  if (symmetric && !keeps_vectors) {
+    copies_ = counts_[PLACE_AZIMUTH];
+    counts_[PLACE_AZIMUTH] = 1;
+  }
+  grips_ = 1;
+  for (const std::uint64_t count : counts_) grips_ *= count;
+}
+
+double Plan::axis_value(const PlanAxis& axis, const SobolPoint& point) const {
+  const double u = point[axis.axis];
+  const auto& values = axis.data.values;
+  if (axis.data.is_range) return axis.data.from + u * (axis.data.to - axis.data.from);
+  if (values.size() == 1) return values[0];
+  return values[std::min(values.size() - 1, static_cast<std::size_t>(u * static_cast<double>(values.size())))];
+}
+
+void Plan::coordinates(int axis, std::uint64_t first, std::size_t count, double* out) const {
+  const PlanAxis& chosen = axes_[axis];
+  if (sobol_) {
+    std::array<SobolPoint, 256> points;
+    for (std::size_t done = 0; done < count; done += points.size()) {
+      const std::size_t n = std::min(points.size(), count - done);
+      sequence_.points(first + done, n, points.data());
+      for (std::size_t i = 0; i < n; ++i) out[done + i] = axis_value(chosen, points[i]);
+    }
+    return;
+  }
+  std::uint64_t faster = 1;  // grips per step of this axis
+  for (std::size_t k = axis + 1; k < axes_.size(); ++k) faster *= counts_[k];
+  for (std::size_t i = 0; i < count; ++i) out[i] = chosen.data.values[(first + i) / faster % counts_[axis]];
+}
+
+void Plan::fill(std::size_t vessel, std::uint64_t first, std::size_t count, GripInput* out) const {
+  const double height_unit = height_is_fraction_ ? vessel_heights_[vessel] : 1;  // m per unit of the height axis
+  if (sobol_) {
+    std::array<SobolPoint, 256> points;
+    for (std::size_t done = 0; done < count; done += points.size()) {
+      const std::size_t n = std::min(points.size(), count - done);
+      sequence_.points(first + done, n, points.data());
+      for (std::size_t i = 0; i < n; ++i) {
+        const SobolPoint& p = points[i];
+        out[done + i] = {axis_value(axes_[PLACE_HEIGHT], p) * height_unit,
+                         axis_value(axes_[PLACE_AZIMUTH], p),
+                         axis_value(axes_[PLACE_OBLIQUITY], p),
+                         axis_value(axes_[PLACE_ROLL], p),
+                         axis_value(axes_[PLACE_OFFSET], p),
+                         axis_value(axes_[PLACE_HAND_SCALE], p)};
+      }
+    }
+    return;
+  }
+  std::array<std::uint64_t, 6> digit{};
+  for (std::uint64_t k = axes_.size(), rest = first; k-- > 0; rest /= counts_[k]) digit[k] = rest % counts_[k];
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto value = [&](PlanPlace place) { return axes_[place].data.values[digit[place]]; };
+    out[i] = {value(PLACE_HEIGHT) * height_unit,
+              value(PLACE_AZIMUTH),
+              value(PLACE_OBLIQUITY),
+              value(PLACE_ROLL),
+              value(PLACE_OFFSET),
+              value(PLACE_HAND_SCALE)};
+    for (std::size_t k = axes_.size(); k-- > 0;) {  // count on by one
+      if (++digit[k] < counts_[k]) break;
+      digit[k] = 0;
+    }
+  }
+}
+
+GripInput Plan::grip(std::size_t vessel, std::uint64_t index) const {
+  GripInput grip;
+  fill(vessel, index, 1, &grip);
+  return grip;
+}
+
+}  // namespace wholehand

@@ -1,0 +1,84 @@
+// Which grips a sweep evaluates: a scene's axes as numbered grips, any of them at once, from any thread.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "core/scene.h"
+#include "sweeps/sobol.h"
+
+namespace wholehand {
+
+constexpr double LARGEST_SWEEP = 1e11;  // grips of all vessels that one sweep takes
+
+// Places of the axes, in the order in which grips are numbered and the result file stores them, the slowest first. Height is the fastest:
+// a device evaluates neighbours together, and of all axes height changes the least in how a finger moves.
+enum PlanPlace : int { PLACE_AZIMUTH, PLACE_OBLIQUITY, PLACE_ROLL, PLACE_OFFSET, PLACE_HAND_SCALE, PLACE_HEIGHT };
+
+// One axis of the grips.
+struct PlanAxis {
+  std::string name;   // dimension of the result file; the height's is "height" or "height_fraction"
+  std::string units;  // of its values: "m", "rad" or "1"
+  std::string long_name;
+  int axis = 0;  // AXIS_* of shaders/layout.h, and the Sobol dimension that feeds it
+  Axis data;
+};
+
+// What a scene asks for. Reals, since the products may pass any integer.
+struct SweepSize {
+  double grips = 0;   // of all vessels, stored
+  double states = 0;  // grips x fills x tilts (grips alone where there are no tilts)
+  double bytes = 0;   // of the results
+};
+
+// `bytes_per_grip`: what the result file stores for one grip.
+SweepSize sweep_size(const Scene& scene, double bytes_per_grip);
+
+// Throws Error with the sizes: (usage) where a sweep is larger than LARGEST_SWEEP grips, (failure) where its results are larger than
+// `free_bytes`.
+void check_sweep_size(const Scene& scene, const SweepSize& size, double free_bytes);
+
+// A grid numbers its grips with the axes azimuth, obliquity, roll, offset, hand scale, height as digits, azimuth the slowest.
+// Sobol points are numbered as the sequence goes; every axis keeps its own dimension of the sequence (AXIS_*), also where it is
+// constant, so that opening a further axis leaves the values of the others as they were. A range is filled continuously, of a list
+// equal parts of (0, 1) pick the values, a number stays. Every vessel gets the same points.
+//
+// Azimuth is left out of a grid where it changes nothing: every vessel is a body of revolution whose centre of mass lies on its
+// axis, and no vector of the vessel frame is kept. Then the grips at the first azimuth stand for those at all `copies()` azimuths,
+// and the result file repeats them.
+class Plan {
+ public:
+  // Throws Error (usage) where the grips pass LARGEST_SWEEP, or the Sobol points SOBOL_LARGEST_COUNT.
+  Plan(const Scene& scene, bool keeps_vectors);
+
+  bool is_sobol() const { return sobol_; }
+  const std::array<PlanAxis, 6>& axes() const { return axes_; }
+  std::uint64_t grips() const { return grips_; }    // evaluated per vessel
+  std::uint64_t copies() const { return copies_; }  // stored grips per evaluated one
+  std::uint64_t stored_grips() const { return grips_ * copies_; }
+
+  // Grips first .. first + count - 1 of a vessel into `out`. Thread-safe.
+  void fill(std::size_t vessel, std::uint64_t first, std::size_t count, GripInput* out) const;
+  GripInput grip(std::size_t vessel, std::uint64_t index) const;
+
+  // Values of one axis (index into axes()) at grips first .. first + count - 1, before a height fraction meets a vessel.
+  void coordinates(int axis, std::uint64_t first, std::size_t count, double* out) const;
+
+ private:
+  double axis_value(const PlanAxis& axis, const SobolPoint& point) const;
+
+  std::array<PlanAxis, 6> axes_;
+  std::array<std::uint64_t, 6> counts_{};  // evaluated values of each axis of a grid
+  bool sobol_ = false;
+  bool height_is_fraction_ = false;
+  Sobol sequence_;
+  std::uint64_t grips_ = 0;
+  std::uint64_t copies_ = 1;
+  std::vector<double> vessel_heights_;  // m
+};
+
+}  // namespace wholehand

@@ -1,0 +1,56 @@
+#include "sweeps/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+
+namespace wholehand {
+namespace {
+
+std::string rate_text(double rate) {
+  if (rate >= 1e6) return fmt::format("{:.2f} million grips/s", rate * 1e-6);
+  if (rate >= 1e3) return fmt::format("{:.1f} thousand grips/s", rate * 1e-3);
+  return fmt::format("{:.0f} grips/s", rate);
+}
+
+std::string time_text(double seconds) {
+  const auto whole = static_cast<long long>(std::ceil(seconds));
+  if (whole >= 3600) return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+  return fmt::format("{}:{:02}", whole / 60, whole % 60);
+}
+
+}  // namespace
+
+Progress::Progress(std::uint64_t total, std::uint64_t done) : Progress(total, done, isatty(STDERR_FILENO) == 1) {}
+
+Progress::Progress(std::uint64_t total, std::uint64_t done, bool is_terminal) : total_(total), before_(done), shown_(is_terminal) {}
+
+std::string Progress::line(const std::string& what, std::uint64_t total, std::uint64_t before, std::uint64_t done, double seconds) {
+  const double share = total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 1;
+  const double rate = seconds > 0 ? static_cast<double>(done - before) / seconds : 0;
+  std::string line = fmt::format("{}  {:.0f} %", what, std::floor(100 * share));
+  if (rate > 0) line += fmt::format("  {}  {} left", rate_text(rate), time_text(static_cast<double>(total - done) / rate));
+  return line;
+}
+
+void Progress::update(const std::string& what, std::uint64_t done) {
+  if (!shown_) return;
+  const auto now = Clock::now();
+  if (now - last_ < std::chrono::milliseconds(100)) return;
+  last_ = now;
+  drawn_ = true;
+  const double seconds = std::chrono::duration<double>(now - start_).count();
+  fmt::print(stderr, "\r{}\033[K", line(what, total_, before_, done, seconds));
+  std::fflush(stderr);
+}
+
+void Progress::clear() {
+  if (!drawn_) return;
+  drawn_ = false;
+  fmt::print(stderr, "\r\033[K");
+  std::fflush(stderr);
+}
+
+}  // namespace wholehand

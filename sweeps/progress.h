@@ -1,0 +1,35 @@
+// One line on the terminal while long work runs: how much is done, how fast, how long yet.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace wholehand {
+
+// Shows nothing where stderr is not a terminal, nor in the first half second.
+class Progress {
+ public:
+  // `total` and `done` count grips; `done` of them were there before (a resumed sweep) and say nothing about the rate.
+  Progress(std::uint64_t total, std::uint64_t done);
+  Progress(std::uint64_t total, std::uint64_t done, bool is_terminal);
+  ~Progress() { clear(); }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  // Draws at most ten times a second.
+  void update(const std::string& what, std::uint64_t done);
+  // Wipes the line, before something else is printed.
+  void clear();
+
+  // "beaker2  45 %  12.3 thousand grips/s  1:05 left".
+  static std::string line(const std::string& what, std::uint64_t total, std::uint64_t before, std::uint64_t done, double seconds);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::uint64_t total_, before_;
+  bool shown_, drawn_ = false;
+  Clock::time_point start_ = Clock::now(), last_ = start_ + std::chrono::milliseconds(400);
+};
+
+}  // namespace wholehand

@@ -1,0 +1,30 @@
+#include "sweeps/readable.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+namespace wholehand {
+
+std::string readable_bytes(double bytes) {
+  static constexpr std::array<const char*, 7> UNITS{"B", "kB", "MB", "GB", "TB", "PB", "EB"};
+  std::size_t unit = 0;
+  while (bytes >= 999.5 && unit + 1 < UNITS.size()) {
+    bytes /= 1000;
+    ++unit;
+  }
+  return fmt::format("{:.{}f} {}", bytes, unit > 0 && bytes < 99.95 ? 1 : 0, UNITS[unit]);
+}
+
+std::string readable_count(double count) {
+  if (count >= 1e12) return fmt::format("{:.1e}", count);
+  const std::string digits = fmt::format("{:.0f}", count);
+  std::string grouped;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) grouped += ',';
+    grouped += digits[i];
+  }
+  return grouped;
+}
+
+}  // namespace wholehand

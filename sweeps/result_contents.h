@@ -1,0 +1,51 @@
+// What a sweep's result file holds, and its definition as NetCDF-4.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/backend.h"
+#include "sweeps/plan.h"
+#include "sweeps/variables.h"
+#include "sweeps/vessel_facts.h"
+
+namespace wholehand {
+
+// All that a result file says, but for the grips' own values. Refers to the scene and the plan.
+struct ResultContents {
+  const Scene& scene;
+  const Plan& plan;
+  std::vector<const Variable*> variables;
+  std::vector<VesselFacts> facts;
+  BackendInfo info;
+  std::string version;
+  std::size_t best = 0;  // ranks of the best grips
+};
+
+// One grip of the best, as the result file keeps it.
+struct RankedGrip {
+  Candidate candidate;
+  GripInput grip;
+};
+
+// Dimensions of the grips: those of the plan's axes, or "point" for Sobol points.
+std::vector<std::string> grip_dimensions(const Plan& plan);
+
+// Variables of the best grips over (vessel, rank): index in the grips' dimensions, score, and the axes (heights in m always).
+constexpr const char* BEST_GRIP = "best_grip";
+constexpr const char* BEST_SCORE = "best_score";
+std::string best_axis_name(const PlanAxis& axis);
+
+// Attributes whose value is known only at the end; NaN until then.
+constexpr const char* WALL_TIME = "wall_time_s";
+constexpr const char* KERNEL_TIME = "kernel_time_s";
+
+// Bytes that the file needs at most.
+std::uint64_t result_size(const ResultContents& contents);
+
+// Creates the file `path` with every dimension, attribute and variable, all values that need no grip, and room for those that do:
+// every variable of the grips is one contiguous block, allocated and not filled. Throws Error (failure).
+void define_result_file(const std::string& path, const ResultContents& contents);
+
+}  // namespace wholehand

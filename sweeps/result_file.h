@@ -1,0 +1,73 @@
+// The result file of a sweep while it is written: chunk by chunk, whole or not there, and never unreadable.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/planes.h"
+#include "sweeps/files.h"
+#include "sweeps/result_contents.h"
+
+namespace wholehand {
+
+// NetCDF defines the file once (result_contents.h) and closes it. From then on only the values change, and they go straight to the
+// places in the file that HDF5 gave to them: every variable is one contiguous block in native byte order, and a plane of a chunk is
+// one contiguous run of it. This has three reasons. A process that is killed, or a disk that fills up, cannot leave HDF5's own
+// structures half written: the file can always be opened, and a resumed sweep goes on in it. The whole size is reserved before the
+// first grip. And a write costs a system call, not a walk through two libraries.
+//
+// All methods throw Error (failure) with the file, the reason and what to do.
+class ResultFile {
+ public:
+  // Creates NAME.nc.partial, or, to resume, opens the one that is there as it is. A partial file that another process is writing is
+  // refused. Contents must outlive the object, the same ones for a file that is resumed.
+  ResultFile(const OutputNames& names, const ResultContents& contents, const FieldSet& fields, bool resume);
+  ~ResultFile();
+  ResultFile(const ResultFile&) = delete;
+  ResultFile& operator=(const ResultFile&) = delete;
+
+  // Puts a chunk in its place, once per azimuth that it stands for.
+  void write(const PlaneChunk& chunk);
+
+  // Returns when everything written is on the disk; start_sync only sets the disk to it, so that other work goes on meanwhile.
+  void sync();
+  void start_sync();
+
+  // Writes the best grips (per vessel, the best first; what is missing of the ranks is filled) and the times.
+  void write_ending(const std::vector<std::vector<RankedGrip>>& best, double wall_seconds, double kernel_seconds);
+
+  // Syncs, closes, renames NAME.nc.partial to NAME.nc and removes the mark. The last call.
+  void finish();
+
+  std::uint64_t bytes() const { return bytes_; }  // of values written by this process
+  double seconds() const { return seconds_; }     // that writing and syncing took; the definition does not grow with the grips
+
+ private:
+  // A block of the file: one variable.
+  struct Block {
+    const Variable* variable = nullptr;
+    std::uint64_t offset = 0;  // bytes
+    std::size_t planes = 1;
+    std::size_t size = 1;  // bytes a value
+    int plane = 0;         // first plane of the chunk
+  };
+
+  void open_blocks();
+  void put(const void* data, std::size_t size, std::uint64_t offset);
+  const void* plane_values(const Block& block, std::size_t plane, const PlaneChunk& chunk);
+  [[noreturn]] void fail(const char* what, int error) const;
+
+  OutputNames names_;
+  const ResultContents& contents_;
+  FieldSet fields_;
+  int file_ = -1;
+  std::vector<Block> blocks_;
+  std::vector<std::uint64_t> axis_offsets_;  // of the axes' values at Sobol points; empty for a grid
+  std::vector<std::uint64_t> best_offsets_;  // best_grip, best_score, axes
+  std::vector<unsigned char> buffer_;        // values of one plane that need converting
+  std::uint64_t bytes_ = 0;
+  double seconds_ = 0;
+};
+
+}  // namespace wholehand

@@ -1,0 +1,43 @@
+// A sweep from a scene to its files: what `wholehand sweep` does.
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/backend.h"
+#include "core/error.h"
+#include "core/evaluator.h"
+
+namespace wholehand {
+
+struct SweepOptions {
+  std::string output;                  // NAME.nc; empty: the scene file's name with .nc, in the working directory
+  std::string on = "vulkan";           // see open_backend
+  std::optional<Precision> precision;  // absent: double on the core, float elsewhere
+  std::optional<int> best;             // absent: the scene's
+  bool resume = false;
+  bool explain = false;
+  int threads = 0;          // of the core, 0: all
+  double mark_seconds = 5;  // least time between two progress marks: what a crash may cost
+  std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();  // of the process, for the closing lines
+};
+
+// What a sweep gets from elsewhere. Tests put in their own.
+struct SweepParts {
+  std::function<std::unique_ptr<Backend>(const FieldSet&)> open_backend;
+  std::function<std::unique_ptr<Evaluator>()> open_evaluator;  // for what is known of a vessel whatever the grip
+};
+
+// Sweeps every grip of the scene. Writes NAME.nc, NAME.best.csv and NAME.<vessel>.svg; prints the device, the best grips and counts
+// of every vessel, and the times to stdout, notes and progress to stderr. Returns `done`, or `interrupted` after SIGINT or SIGTERM
+// with NAME.nc.partial left for --resume. Throws Error.
+ExitCode run_sweep(const Scene& scene, const SweepOptions& options);
+ExitCode run_sweep(const Scene& scene, const SweepOptions& options, const SweepParts& parts);
+
+// NAME.nc for a scene file when the user names none.
+std::string default_output(const Scene& scene);
+
+}  // namespace wholehand

@@ -1,0 +1,49 @@
+#include "sweeps/tally.h"
+
+#include <fmt/format.h>
+
+#include "core/result.h"
+#include "shaders/layout.h"
+#include "sweeps/readable.h"
+#include "sweeps/variables.h"
+
+namespace wholehand {
+namespace {
+
+std::string number(std::uint64_t count) { return readable_count(static_cast<double>(count)); }
+
+}  // namespace
+
+void count_grips(const PlaneChunk& chunk, const FieldSet& fields, GripCounts& counts) {
+  counts.grips += chunk.count;
+  if (!is_kept(fields, FIELD_STATUS)) return;
+  for (std::size_t i = 0; i < chunk.count; ++i) {
+    const std::uint32_t status = chunk.uint(fields.plane[FIELD_STATUS], i);
+    const std::uint32_t reason = status & STATUS_REASON_MASK;
+    if (reason < counts.by_reason.size()) ++counts.by_reason[reason];
+    if (reason != REASON_NONE) continue;
+    counts.implausible += (status & STATUS_PLAUSIBLE) == 0;
+    counts.antipodal += (status & STATUS_ANTIPODAL) != 0;
+    counts.blocked += ((status >> STATUS_BLOCKED_SHIFT) & 0x1F) != 0;
+  }
+}
+
+std::string counts_line(const GripCounts& counts, bool reasons_known, std::uint64_t azimuths) {
+  const std::string at = azimuths > 1 ? fmt::format(" (each at {} azimuths)", number(azimuths)) : "";
+  if (!reasons_known) return fmt::format("{} grips{}", number(counts.grips), at);
+  std::string line = fmt::format("{} of {} grips{} feasible", number(counts.by_reason[0]), number(counts.grips), at);
+  std::string reasons;
+  for (std::size_t reason = 1; reason < counts.by_reason.size(); ++reason) {
+    if (counts.by_reason[reason] == 0) continue;
+    std::string name = REASON_NAMES[reason];
+    for (char& c : name) c = c == '_' ? ' ' : c;
+    reasons += fmt::format("{}{} {}", reasons.empty() ? "" : ", ", number(counts.by_reason[reason]), name);
+  }
+  if (!reasons.empty()) line += " (" + reasons + ")";
+  if (counts.by_reason[0] == 0) return line;
+  line += fmt::format("; of these {} implausible, {} antipodal", number(counts.implausible), number(counts.antipodal));
+  if (counts.blocked > 0) line += fmt::format(", {} with a blocked finger", number(counts.blocked));
+  return line;
+}
+
+}  // namespace wholehand

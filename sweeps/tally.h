@@ -1,0 +1,16 @@
+// What is gathered on the host while a vessel's chunks come in.
+#pragma once
+
+#include "core/planes.h"
+#include "sweeps/mark.h"
+
+namespace wholehand {
+
+// Adds the grips of a chunk to the counts. Without a kept FIELD_STATUS only their number.
+void count_grips(const PlaneChunk& chunk, const FieldSet& fields, GripCounts& counts);
+
+// "5,321 of 9,216 grips feasible (3,000 too wide, 895 misses); of these 310 implausible, 4,100 antipodal, 12 with a blocked finger".
+// `reasons_known`: whether the status was kept; `azimuths`: how many azimuths each grip stands for.
+std::string counts_line(const GripCounts& counts, bool reasons_known, std::uint64_t azimuths);
+
+}  // namespace wholehand

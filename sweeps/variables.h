@@ -1,0 +1,60 @@
+// What a result file can hold for every grip: the catalogue of variables, and a scene's choice from it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/planes.h"
+#include "core/scene.h"
+
+namespace wholehand {
+
+enum class NumberType { real, byte, word };  // real: float or double with the backend's precision; signed 8 and 32 bits
+
+// What a scene must have for a variable to exist.
+enum class Need { nothing, tilts, projection, articulated };
+
+constexpr int MISSING = -1;  // of bytes and words: what an infeasible grip lacks (reals: NaN)
+
+// One variable of the result file. Its dimensions are (vessel, `dims`.., the grip's axes).
+struct Variable {
+  const char* name;
+  const char* units;
+  const char* long_name;
+  const char* comment;  // formula or meaning of the values; empty: nothing to add
+  NumberType type;
+  int field;                      // FIELD_* of shaders/layout.h it comes from
+  int plane;                      // first plane of the field that belongs to it
+  std::vector<const char*> dims;  // of "fill", "tilt", "joint", "xyz", "contact"; the slowest first
+  bool by_default;
+  Need need;
+  // Bytes and words: value of a feasible grip from the field's word; an infeasible grip has MISSING. Reals: null.
+  std::int32_t (*value)(std::uint32_t word) = nullptr;
+  bool always = false;  // has a value for infeasible grips too
+};
+
+// Every variable there is, in the order of the result file.
+std::span<const Variable> variable_catalogue();
+
+// Planes of a variable in a scene, the product of its dims: 6 terms are 6 variables of 1 plane each.
+std::size_t variable_planes(const Variable& variable, const Scene& scene);
+
+// The variables that `[output] keep` names, or the default ones that the scene can have; in the catalogue's order, each once.
+// Throws Error (usage) for a name that is unknown (with the known ones) or needs what the scene lacks (with what that is).
+std::vector<const Variable*> choose_variables(const Scene& scene);
+
+// FIELD_* that they come from, ascending, each once; with the status (it says which grips are feasible) unless there are none.
+std::vector<int> variable_fields(const std::vector<const Variable*>& variables);
+
+// Whether one of them is a vector of the vessel frame, which turns with the azimuth.
+bool keeps_vectors(const std::vector<const Variable*>& variables);
+
+// Bytes that the result file stores for one grip.
+double bytes_per_grip(const std::vector<const Variable*>& variables, const Scene& scene, std::size_t real_size);
+
+// Whether the planes of `field` may be read from a backend's chunks.
+bool is_kept(const FieldSet& fields, int field);
+
+}  // namespace wholehand

@@ -1,0 +1,24 @@
+// What a result file tells of the vessels themselves.
+#pragma once
+
+#include <vector>
+
+#include "core/backend.h"
+#include "core/evaluator.h"
+
+namespace wholehand {
+
+// What is known of a vessel whatever the grip.
+struct VesselFacts {
+  double capacity = 0;               // m3, upright to the brim
+  double empty_mass = 0;             // kg
+  Triple empty_center_of_mass{};     // vessel frame, m
+  std::vector<double> pouring_tilt;  // per fill, rad; empty without liquid
+  std::vector<LiquidResult> liquid;  // fill-major over the tilts; empty without liquid or tilts
+};
+
+// Facts of every vessel: the table of liquid from the backend, the rest from the core. Throws Error (failure)
+// where the table is not of the scene's fills and tilts.
+std::vector<VesselFacts> vessel_facts(const Scene& scene, Backend& backend, const Evaluator& evaluator);
+
+}  // namespace wholehand

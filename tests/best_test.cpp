@@ -1,0 +1,134 @@
+#include "sweeps/best.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "core/error.h"
+#include "tests/support/fake_backend.h"
+
+namespace wholehand {
+namespace {
+
+std::vector<std::string> lines(const std::string& text) {
+  std::vector<std::string> out;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) out.push_back(line);
+  return out;
+}
+
+// A backend whose chunks hold made-up forces.
+class ForceBackend : public FakeBackend {
+ public:
+  using FakeBackend::FakeBackend;
+  RunResult run(const RunRequest& request) override {
+    RunRequest changed = request;
+    changed.sink = [&](const PlaneChunk& chunk) {
+      std::vector<double> reals(chunk.doubles, chunk.doubles + fields().real_kept * chunk.stride);
+      const auto put = [&](int field, int fill, double value) { reals[(fields().plane[field] + fill) * chunk.stride] = value; };
+      put(FIELD_PEAK_FORCE, 0, 2);
+      put(FIELD_PEAK_FORCE, 1, 3);
+      put(FIELD_PEAK_TILT, 0, 0.1);
+      put(FIELD_PEAK_TILT, 1, 0.2);
+      put(FIELD_LARGEST_HOLD, 0, std::numeric_limits<double>::infinity());
+      put(FIELD_LARGEST_HOLD, 1, 5);
+      put(FIELD_SAFE_TILT, 0, 1.5);
+      put(FIELD_SAFE_TILT, 1, safe);
+      PlaneChunk with = chunk;
+      with.doubles = reals.data();
+      request.sink(with);
+    };
+    return FakeBackend::run(changed);
+  }
+  double safe = 1.2;
+};
+
+TEST(Best, ValuesComeFromThoseGripsAlone) {
+  const Scene scene = fake_scene();
+  const Plan plan(scene, false);
+  for (const Precision precision : {Precision::single, Precision::full}) {
+    FakeBackend backend(scene, make_field_set(best_fields(scene), scene), precision, 2);
+    const std::vector<Candidate> candidates{{0.9, 17}, {0.8, 3}, {0.7, 250}};
+    const auto best = evaluate_best(backend, scene, plan, 1, candidates);
+    ASSERT_EQ(best.size(), 3u);
+    EXPECT_EQ(backend.evaluated, 3u);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const GripInput grip = plan.grip(1, candidates[i].index);
+      EXPECT_EQ(best[i].candidate.index, candidates[i].index);
+      EXPECT_EQ(best[i].grip.height, grip.height);
+      EXPECT_EQ(best[i].score, fake_real(1, grip, FIELD_SCORE, 0));
+      EXPECT_EQ(best[i].terms[5], fake_real(1, grip, FIELD_TERMS, 5));
+      EXPECT_EQ(best[i].points_touching, std::popcount(fake_uint(1, grip, FIELD_TOUCH_MASK)));
+    }
+  }
+}
+
+TEST(Best, ForcesAreTheWorstOverTheFills) {
+  const Scene scene = fake_scene();
+  const Plan plan(scene, false);
+  ForceBackend backend(scene, make_field_set(best_fields(scene), scene), Precision::full, 1);
+  BestGrip best = evaluate_best(backend, scene, plan, 0, {{0.9, 1}}).front();
+  EXPECT_EQ(best.peak_force, 3);
+  EXPECT_EQ(best.peak_tilt, 0.2);
+  EXPECT_TRUE(std::isinf(best.largest_hold));
+  EXPECT_EQ(best.safe_tilt, 1.2);
+  backend.safe = std::nan("");
+  EXPECT_TRUE(std::isnan(evaluate_best(backend, scene, plan, 0, {{0.9, 1}}).front().safe_tilt)) << "one fill has none";
+}
+
+TEST(Best, CsvHasOneRowAVesselAndRankWithUnitsInItsHead) {
+  Scene scene = fake_scene();
+  scene.vessels[1].name = "a, \"b\"";
+  BestGrip grip;
+  grip.grip = {0.05, radians(45), radians(-10), radians(-90), -2e-3, 1.1};
+  grip.score = 0.75;
+  grip.gap = 0.08;
+  grip.safe_tilt = std::nan("");
+  grip.largest_hold = std::numeric_limits<double>::infinity();
+  const auto rows = lines(best_csv(scene, {{grip, grip}, {grip}}));
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_TRUE(
+      rows[0].starts_with("vessel,rank,height_mm,azimuth_deg,obliquity_deg,roll_deg,offset_mm,hand_scale,score,score_fingers,"));
+  EXPECT_TRUE(rows[1].starts_with("first vessel,1,50,45,-10,-90,-2,1.1,0.75,")) << rows[1];
+  EXPECT_TRUE(rows[2].starts_with("first vessel,2,"));
+  EXPECT_TRUE(rows[3].starts_with("\"a, \"\"b\"\"\",1,")) << rows[3];
+  EXPECT_TRUE(rows[1].ends_with(",inf,")) << "no safe tilt: empty";
+  const auto commas = std::count(rows[0].begin(), rows[0].end(), ',');
+  EXPECT_EQ(std::count(rows[1].begin(), rows[1].end(), ','), commas);
+}
+
+TEST(Best, TableShowsTheAxesThatVaryInColumns) {
+  Scene scene = fake_scene();
+  scene.grips.offset.values = {0};
+  const Plan plan(scene, false);
+  BestGrip grip;
+  grip.grip.height = 0.0612;
+  grip.safe_tilt = std::nan("");
+  const auto rows = lines(best_table(scene, plan, {grip, grip, grip}, 2));
+  ASSERT_EQ(rows.size(), 3u);
+  for (const char* title : {"score", "height mm", "obliquity deg", "roll deg", "peak N", "safe deg"}) {
+    EXPECT_NE(rows[0].find(title), std::string::npos) << title;
+  }
+  for (const char* title : {"azimuth", "offset", "hand scale"}) EXPECT_EQ(rows[0].find(title), std::string::npos) << title;
+  EXPECT_NE(rows[1].find("61.2"), std::string::npos);
+  for (const std::string& row : rows) EXPECT_EQ(row.size(), rows[0].size());
+  EXPECT_LE(rows[0].size(), 132u);
+}
+
+TEST(Best, SceneWithoutTiltsHasNoForces) {
+  Scene scene = fake_scene();
+  scene.tilts.clear();
+  const Plan plan(scene, false);
+  FakeBackend backend(scene, make_field_set(best_fields(scene), scene), Precision::full, 8);
+  const BestGrip best = evaluate_best(backend, scene, plan, 0, {{0.9, 1}}).front();
+  EXPECT_TRUE(std::isnan(best.peak_force));
+  EXPECT_EQ(best_table(scene, plan, {best}, 1).find("peak N"), std::string::npos);
+  EXPECT_TRUE(lines(best_csv(scene, {{best}}))[1].ends_with(",,,,"));
+}
+
+}  // namespace
+}  // namespace wholehand

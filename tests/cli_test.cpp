@@ -1,0 +1,164 @@
+// The built program: usage errors, exit codes, standard streams. What the commands compute is tested elsewhere.
+// sanitizers: address
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#ifdef WHOLEHAND_PROGRAM
+
+namespace {
+
+struct Outcome {
+  int code = -1;
+  std::string output;  // as redirected by the command
+};
+
+// `command` in a shell; PROGRAM in it stands for the program.
+Outcome run(std::string command) {
+  for (std::size_t at = 0; (at = command.find("PROGRAM", at)) != std::string::npos;) command.replace(at, 7, WHOLEHAND_PROGRAM);
+  Outcome outcome;
+  FILE* pipe = popen(command.c_str(), "r");
+  if (!pipe) return outcome;
+  std::array<char, 4096> buffer;
+  for (std::size_t n; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) outcome.output.append(buffer.data(), n);
+  const int status = pclose(pipe);
+  outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return outcome;
+}
+
+// Runs the program with stderr alone: one line, and nothing on stdout.
+void expect_error(const std::string& arguments, int code, const std::string& gist) {
+  const Outcome errors = run("PROGRAM " + arguments + " 2>&1 >/dev/null");
+  EXPECT_EQ(errors.code, code) << arguments << "\n" << errors.output;
+  EXPECT_EQ(errors.output.rfind("wholehand: ", 0), 0u) << errors.output;
+  ASSERT_FALSE(errors.output.empty()) << arguments;
+  EXPECT_EQ(errors.output.find('\n'), errors.output.size() - 1) << errors.output;
+  EXPECT_NE(errors.output.find(gist), std::string::npos) << errors.output << "lacks " << gist;
+  EXPECT_EQ(run("PROGRAM " + arguments + " 2>/dev/null").output, "") << arguments;
+}
+
+constexpr const char* GRIP = "grip small --vessel tumbler --height-mm 50";
+
+TEST(CommandLine, TellsVersionAndHelp) {
+  const Outcome version = run("PROGRAM --version 2>&1");
+  EXPECT_EQ(version.code, 0);
+  EXPECT_EQ(version.output, "wholehand " WHOLEHAND_VERSION "\n");
+  for (const char* arguments : {"--help", "sweep --help", "grip -h", "check --help", "devices --help"}) {
+    const Outcome help = run(std::string("PROGRAM ") + arguments + " 2>&1");
+    EXPECT_EQ(help.code, 0) << arguments;
+    EXPECT_NE(help.output.find("Usage:"), std::string::npos) << help.output;
+  }
+}
+
+TEST(CommandLine, RefusesWrongUsageWithOneLineAndCode2) {
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"", "which command? sweep, grip, check or devices"},
+      {"swep", "unknown command 'swep'"},
+      {"--bogus", "--bogus; see wholehand --help"},
+      {"sweep --bogus", "--bogus; see wholehand sweep --help"},
+      {"sweep small other", "other; see wholehand sweep --help"},
+      {"sweep --on", "--on"},
+      {"sweep --on core --on core", "--on"},
+      {"sweep --best", "--best"},
+      {"sweep --best 1.5", "--best '1.5'; allowed: a whole number, 0 to 100000"},
+      {"sweep --best -1", "--best '-1'"},
+      {"sweep --threads 0", "--threads '0'; allowed: a whole number, 1 to 1024"},
+      {"sweep --precision half", "--precision 'half'; allowed: float or double"},
+      {"sweep no_such_scene",
+       "no scene file 'no_such_scene'; give the path of a TOML file or one of the shipped scenes: paper_pose, small, "
+       "three_beakers"},
+      {"sweep /", "'/' is a directory"},
+      {"sweep /dev/null", "/dev/null:1:1: the scene lacks 'vessel'"},
+      {"check no_such_scene", "no scene file 'no_such_scene'"},
+      {"devices extra", "extra; see wholehand devices --help"},
+      {"grip", "scene is required"},
+      {"grip small", "--vessel is required"},
+      {"grip small --vessel tumbler", "where is it held? give --height-mm, or --thumb-mm and --index-mm"},
+      {"grip small --vessel tumblr --height-mm 50", "has no such vessel; the nearest is 'tumbler'"},
+      {"grip small --vessel tumbler --height-mm 5x", "--height-mm '5x'; allowed: a number, -2000 to 4000"},
+      {"grip small --vessel tumbler --height-mm nan", "--height-mm 'nan'"},
+      {"grip small --vessel tumbler --height-mm ''", "--height-mm"},
+      {"grip small --vessel tumbler --thumb-mm 1,2,3", "--thumb-mm requires --index-mm"},
+      {"grip small --vessel tumbler --index-mm 1,2,3", "--index-mm requires --thumb-mm"},
+      {"grip small --vessel tumbler --thumb-mm 1,2,3 --index-mm 4,5,6 --height-mm 4", "excludes"},
+      {"grip small --vessel tumbler --thumb-mm 1,2 --index-mm 4,5,6", "--thumb-mm '1,2'; allowed: three numbers x,y,z"},
+      {"grip small --vessel tumbler --thumb-mm 1,2,3 --index-mm 1,2,3", "are one point"},
+      {"grip small --vessel tumbler --thumb-mm 1,2,3 --index-mm 1,9,3", "must not be vertical"},
+      {std::string(GRIP) + " --tilt-deg 181", "--tilt-deg '181'; allowed: a number, 0 to 180"},
+      {std::string(GRIP) + " --fill 0.5 1.1", "--fill '1.1'; allowed: a number, 0 to 1"},
+      {std::string(GRIP) + " --hand-scale 0", "--hand-scale '0'; allowed: a number, 0.05 to 20"},
+      {std::string(GRIP) + " --on no-such-device", "no-such-device"},
+      {"grip paper_pose --vessel beaker1 --height-mm 50 --fill 0.5", "has no [liquid]"},
+  };
+  for (const auto& [arguments, gist] : cases) expect_error(arguments, 2, gist);
+}
+
+TEST(CommandLine, NamesFileLineAndColumn) {
+  const std::string scene = std::filesystem::temp_directory_path() / "wholehand_cli_test.toml";
+  std::ofstream(scene) << "[scene]\npose = \"papr\"\n";
+  expect_error("sweep " + scene, 2, scene + ":2:8: pose = 'papr'; allowed: \"articulated\", \"paper\" or \"rigged\"");
+  std::filesystem::remove(scene);
+}
+
+TEST(CommandLine, SaysWhenItCannotWrite) {
+  for (const std::string& arguments :
+       {std::string("--version"), std::string("grip --help"), std::string(GRIP), std::string(GRIP) + " --json"}) {
+    const Outcome full = run("PROGRAM " + arguments + " 2>&1 >/dev/full");
+    EXPECT_EQ(full.code, 3) << arguments;
+    EXPECT_EQ(full.output, "wholehand: cannot write to standard output: No space left on device; what was printed is incomplete\n");
+    const Outcome closed = run("PROGRAM " + arguments + " 2>&1 >&-");
+    EXPECT_EQ(closed.code, 3) << arguments;
+    EXPECT_EQ(closed.output, "wholehand: cannot write to standard output: Bad file descriptor; what was printed is incomplete\n");
+  }
+  // a reader that ends at once: the writer's code goes out by a third descriptor
+  const Outcome broken = run("{ { PROGRAM " + std::string(GRIP) + " --json; echo code $? >&3; } | true; } 3>&1 2>&1");
+  EXPECT_NE(broken.output.find("code 3"), std::string::npos) << broken.output;
+  EXPECT_NE(broken.output.find("Broken pipe"), std::string::npos) << broken.output;
+}
+
+TEST(CommandLine, RunsFromAnywhereAndWithStreamsClosed) {
+  const Outcome grip = run("cd / && PROGRAM " + std::string(GRIP) + " --json <&- 2>&-");
+  EXPECT_EQ(grip.code, 0);
+  EXPECT_EQ(nlohmann::json::parse(grip.output)["vessel"], "tumbler");
+}
+
+TEST(CommandLine, EvaluatesOneGrip) {
+  const Outcome table = run("PROGRAM " + std::string(GRIP) + " --fill 0.3 0.6 --tilt-deg 0 10 20 2>&1");
+  EXPECT_EQ(table.code, 0) << table.output;
+  EXPECT_NE(table.output.find("Grip of tumbler in small, on core, double"), std::string::npos) << table.output;
+  EXPECT_NE(table.output.find("feasible       yes"), std::string::npos) << table.output;
+
+  const Outcome json = run("PROGRAM " + std::string(GRIP) + " --fill 0.3 0.6 --tilt-deg 0 10 20 --json 2>&1");
+  EXPECT_EQ(json.code, 0) << json.output;
+  const auto grip = nlohmann::json::parse(json.output);
+  ASSERT_EQ(grip["states"].size(), 6u);
+  EXPECT_EQ(grip["states"][1]["fill"], 0.3);
+  EXPECT_EQ(grip["states"][5]["fill"], 0.6);
+  EXPECT_DOUBLE_EQ(grip["states"][4]["tilt_rad"].get<double>(), 10 * 3.14159265358979323846 / 180);
+
+  // a grip that is not feasible is an answer, not an error
+  const Outcome wide = run("PROGRAM " + std::string(GRIP) + " --hand-scale 0.2 --json 2>&1");
+  EXPECT_EQ(wide.code, 0);
+  EXPECT_EQ(nlohmann::json::parse(wide.output)["reason"], "too_wide");
+
+  // two points of the same line
+  const Outcome direct =
+      run("PROGRAM grip three_beakers --vessel beaker1 --height-mm 50 --azimuth-deg 90 --roll-deg -45 --tilt-deg 30 --json");
+  const Outcome points =
+      run("PROGRAM grip three_beakers --vessel beaker1 --thumb-mm 0,50,40 --index-mm 0,50,-40 --roll-deg -45 --tilt-deg 30 --json");
+  EXPECT_EQ(nlohmann::json::parse(direct.output), nlohmann::json::parse(points.output));
+}
+
+}  // namespace
+
+#endif

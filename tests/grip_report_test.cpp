@@ -1,0 +1,307 @@
+// One grip's report: the JSON's form, which fields exist, and that both ways to an answer agree.
+#include "sweeps/grip_report.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "app/scene_reader.h"
+#include "core/error.h"
+#include "sweeps/core_backend.h"
+
+namespace wholehand {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Answers with what it is given.
+class FakeEvaluator final : public Evaluator {
+ public:
+  GripResult result;
+  GripScore given_score;
+
+  void grip(std::size_t, const GripInput&, GripResult& out) const override { out = result; }
+  LiquidResult liquid(std::size_t, double fill, double tilt) const override { return {fill * 1e-3, fill, 0.1 * tilt, 0.05, 1e-6}; }
+  StateResult state(std::size_t, const GripInput&, const GripResult&, const LiquidResult& liquid, double tilt,
+                    double) const override {
+    StateResult state;
+    state.mass = 0.1 + liquid.mass;
+    state.center_of_mass = {0.1, 0.2, 0.3};
+    state.pivot_length = 0.04;
+    state.torque = 0.5;
+    state.exact_torque = -0.5;
+    state.normal_force = 1.0 / 3.0;
+    state.feedback_force = 2;
+    state.hold_force = tilt > 0 ? std::numeric_limits<double>::infinity() : 3;
+    return state;
+  }
+  GripScore score(std::size_t, const GripInput&, const GripResult&) const override { return given_score; }
+  void planes(std::size_t, const GripInput*, std::size_t, const FieldSet&, std::size_t, double*, std::uint32_t*) const override {}
+  double distance(std::size_t, const Triple&) const override { return 0; }
+  Triple gradient(std::size_t, const Triple&) const override { return {}; }
+  VesselConstants constants(std::size_t) const override { return {}; }
+  double pouring_tilt(std::size_t, double) const override { return 0; }
+  double gap_at(double) const override { return 0; }
+};
+
+Scene plain_scene(bool has_liquid, bool has_tilts) {
+  Scene scene;
+  scene.name = "plain";
+  scene.vessels.resize(1);
+  scene.vessels[0].name = "glass";
+  if (has_liquid) scene.liquid = LiquidData{1000, {0, 0.5}, Pour::away};
+  if (has_tilts) scene.tilts = {0, 0.1};
+  return scene;
+}
+
+GripResult feasible_result() {
+  GripResult result;
+  result.plausible = true;
+  result.contact_angles = {0.1, 0.2};
+  result.closure = 0.25;
+  result.gap = 0.08;
+  result.midpoint = {0, 0.05, 1e-300};
+  for (int j = 0; j < JOINT_COUNT; ++j) {
+    result.joints[j] = {j * 0.1, 0, 0};
+    result.posed[j] = {0, j * 0.1, 0};
+    result.proxies[j] = {0, 0, j / 3.0};
+    result.separation[j] = -j * 1e-3;
+  }
+  result.touch_mask = 1u << 3 | 1u << 8 | 1u << 23;
+  result.tip_mask = 1u << 13;
+  result.finger_mask = 1u << 12;
+  result.inner_mask = 1u << 17;
+  result.used_mask = 1u << 0 | 1u << 1 | 1u << 4;
+  result.phalanx_depth = 0.001;
+  result.palm_depth = 0.002;
+  result.bone_stretch = 0.003;
+  return result;
+}
+
+GripReport report_of(const Scene& scene, const GripResult& result) {
+  const auto evaluator = std::make_shared<FakeEvaluator>();
+  evaluator->result = result;
+  evaluator->given_score.score = 0.75;
+  evaluator->given_score.terms = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
+  const GripInput grip{0.05, 0.1, 0.2, 0.3, 0.4, 1.1};
+  return make_grip_report(scene, 0, grip, scene_axes(scene), core_grip_methods(scene, evaluator, "fake"));
+}
+
+std::vector<std::string> keys_of(const Json& json) {
+  std::vector<std::string> keys;
+  for (const auto& item : json.items()) keys.push_back(item.key());
+  return keys;
+}
+
+TEST(GripReport, JsonHasEveryFieldInOrder) {
+  const Json json = Json::parse(grip_json(report_of(plain_scene(true, true), feasible_result())));
+  EXPECT_EQ(
+      keys_of(json),
+      (std::vector<std::string>{
+          "vessel",    "grip",       "feasible",     "reason",          "plausible",    "antipodal",      "contact_angles_rad",
+          "closure",   "gap_m",      "midpoint_m",   "joints_m",        "posed_m",      "separation_m",   "touching",
+          "proxies_m", "projected",  "fingers_used", "phalanx_depth_m", "palm_depth_m", "bone_stretch_m", "states",
+          "score",     "score_terms"}));
+  EXPECT_EQ(json["vessel"], "glass");
+  EXPECT_EQ(json["grip"].dump(),
+            R"({"height_m":0.05,"azimuth_rad":0.1,"obliquity_rad":0.2,"roll_rad":0.3,"offset_m":0.4,"hand_scale":1.1})");
+  EXPECT_EQ(json["feasible"], true);
+  EXPECT_EQ(json["reason"], "");
+  EXPECT_EQ(json["plausible"], true);
+  EXPECT_EQ(json["antipodal"], false);
+  EXPECT_EQ(json["contact_angles_rad"].dump(), "[0.1,0.2]");
+  EXPECT_EQ(json["midpoint_m"].dump(), "[0.0,0.05,1e-300]");
+  for (const char* points : {"joints_m", "posed_m", "proxies_m"}) {
+    ASSERT_EQ(json[points].size(), 24u);
+    for (const auto& point : json[points]) EXPECT_EQ(point.size(), 3u);
+  }
+  EXPECT_EQ(json["proxies_m"][1][2].get<double>(), 1 / 3.0);  // to the last bit
+  ASSERT_EQ(json["separation_m"].size(), 24u);
+  EXPECT_EQ(json["separation_m"][23].get<double>(), -23 * 1e-3);
+  ASSERT_EQ(json["touching"].size(), 24u);
+  for (int j = 0; j < 24; ++j) EXPECT_EQ(json["touching"][j], j == 3 || j == 8 || j == 23) << j;
+  ASSERT_EQ(json["projected"].size(), 24u);
+  for (int j = 0; j < 24; ++j) {
+    const Json expected = j == 13 ? Json("tip") : j == 12 ? Json("finger") : j == 17 ? Json("inner") : Json(nullptr);
+    EXPECT_EQ(json["projected"][j], expected) << j;
+  }
+  EXPECT_EQ(json["fingers_used"].dump(), R"(["thumb","index","little"])");
+  EXPECT_EQ(json["score"], 0.75);
+  EXPECT_EQ(json["score_terms"].dump(), R"({"fingers":0.1,"contacts":0.2,"depth":0.3,"posture":0.4,"force":0.5,"hold":0.6})");
+}
+
+TEST(GripReport, JsonStatesRunFillByFill) {
+  const Json json = Json::parse(grip_json(report_of(plain_scene(true, true), feasible_result())));
+  ASSERT_EQ(json["states"].size(), 4u);
+  for (const auto& state : json["states"]) {
+    EXPECT_EQ(keys_of(state), (std::vector<std::string>{"fill", "tilt_rad", "liquid_volume_m3", "liquid_mass_kg", "liquid_com_m",
+                                                        "poured_m3", "mass_kg", "com_m", "pivot_length_m", "torque_Nm",
+                                                        "exact_torque_Nm", "normal_force_N", "feedback_force_N", "hold_force_N"}));
+  }
+  EXPECT_EQ(json["states"][0]["fill"], 0.0);
+  EXPECT_EQ(json["states"][1]["tilt_rad"], 0.1);
+  EXPECT_EQ(json["states"][2]["fill"], 0.5);
+  EXPECT_TRUE(json["states"][1]["liquid_com_m"].is_null());  // nothing in it
+  EXPECT_TRUE(json["states"][2]["liquid_com_m"].is_array());
+  EXPECT_EQ(json["states"][2]["hold_force_N"], 3.0);
+  EXPECT_TRUE(json["states"][3]["hold_force_N"].is_null());  // infinite
+  EXPECT_EQ(json["states"][3]["normal_force_N"].get<double>(), 1.0 / 3.0);
+  EXPECT_EQ(json["states"][3]["exact_torque_Nm"], -0.5);
+  // along the direction of the tilt, (-sin a, 0, -cos a), and up
+  const double lean = 0.1 * 0.1;
+  EXPECT_DOUBLE_EQ(json["states"][3]["liquid_com_m"][0].get<double>(), -lean * std::sin(0.1));
+  EXPECT_DOUBLE_EQ(json["states"][3]["liquid_com_m"][1].get<double>(), 0.05);
+  EXPECT_DOUBLE_EQ(json["states"][3]["liquid_com_m"][2].get<double>(), -lean * std::cos(0.1));
+}
+
+TEST(GripReport, WhatASceneLacksIsLeftOut) {
+  const Json dry = Json::parse(grip_json(report_of(plain_scene(false, true), feasible_result())));
+  ASSERT_EQ(dry["states"].size(), 2u);
+  EXPECT_EQ(dry["states"][0]["fill"], 0.0);
+  EXPECT_EQ(dry["states"][0]["liquid_mass_kg"], 0.0);
+  EXPECT_TRUE(dry["states"][0]["liquid_com_m"].is_null());
+  const Json still = Json::parse(grip_json(report_of(plain_scene(true, false), feasible_result())));
+  EXPECT_EQ(still["states"].size(), 0u);
+  EXPECT_EQ(keys_of(still["score_terms"]), (std::vector<std::string>{"fingers", "contacts", "depth", "posture"}));
+}
+
+TEST(GripReport, InfeasibleGripsHaveTheFieldsUpToTheReason) {
+  const std::vector<std::string> early{"vessel", "grip", "feasible", "reason"};
+  const std::vector<std::string> late{"vessel", "grip", "feasible", "reason", "gap_m", "midpoint_m"};
+  for (std::uint32_t reason = 1; reason <= 6; ++reason) {
+    GripResult result = feasible_result();
+    result.reason = static_cast<Reason>(reason);
+    const GripReport report = report_of(plain_scene(true, true), result);
+    const Json json = Json::parse(grip_json(report));
+    EXPECT_EQ(json["feasible"], false);
+    EXPECT_EQ(json["reason"], REASON_NAMES[reason]);
+    EXPECT_EQ(keys_of(json), result.reason >= Reason::too_wide ? late : early) << reason;
+    const std::string table = grip_table(report);
+    EXPECT_NE(table.find(std::string("feasible       no: ") + REASON_NAMES[reason]), std::string::npos) << table;
+    EXPECT_EQ(table.find("score"), std::string::npos);
+  }
+}
+
+TEST(GripReport, TableHasEveryPointAndState) {
+  const std::string table = grip_table(report_of(plain_scene(true, true), feasible_result()));
+  for (const char* words : {"Grip of glass in plain, on fake", "thumb CMC", "thumb IP", "little DIP", "middle DIP", "touches",
+                            "projected: tip", "infinite", "height 50.000 mm", "score          0.750000", "hold 0.6000"}) {
+    EXPECT_NE(table.find(words), std::string::npos) << words << "\n" << table;
+  }
+  for (std::size_t begin = 0; begin < table.size();) {
+    const std::size_t end = table.find('\n', begin);
+    EXPECT_LE(end - begin, 140u) << table.substr(begin, end - begin);
+    begin = end + 1;
+  }
+}
+
+TEST(GripThrough, FindsTheGripOfItsLine) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  for (int i = 0; i < 1000; ++i) {
+    const GripInput grip{0.1 * uniform(random), 3.1 * uniform(random),  1.5 * uniform(random),
+                         uniform(random),       0.05 * uniform(random), 1.2};
+    const double ca = std::cos(grip.azimuth), sa = std::sin(grip.azimuth), cb = std::cos(grip.obliquity),
+                 sb = std::sin(grip.obliquity);
+    const Triple d{cb * ca, sb, -cb * sa}, o{grip.offset * sa, grip.height, grip.offset * ca};
+    const double t0 = -0.04 + 0.02 * uniform(random), t1 = t0 + 0.08;
+    const auto at = [&](double t) { return Triple{o[0] + t * d[0], o[1] + t * d[1], o[2] + t * d[2]}; };
+    const GripInput found = grip_through(at(t0), at(t1), grip.roll, grip.hand_scale);
+    // lengths of 0.1 m over 0.08 m of line: rounding of 1e-17 m turns it by 1e-16, times tan(1.5) = 14 and its slope 200
+    EXPECT_NEAR(found.height, grip.height, 1e-13);
+    EXPECT_NEAR(found.azimuth, grip.azimuth, 1e-13);
+    EXPECT_NEAR(found.obliquity, grip.obliquity, 1e-14);
+    EXPECT_NEAR(found.offset, grip.offset, 1e-14);
+    EXPECT_EQ(found.roll, grip.roll);
+    EXPECT_EQ(found.hand_scale, grip.hand_scale);
+  }
+}
+
+TEST(GripThrough, RefusesWhatIsNoLine) {
+  EXPECT_THROW(grip_through({0, 1, 2}, {0, 1, 2}, 0, 1), Error);
+  EXPECT_THROW(grip_through({0, 1, 2}, {0, 3, 2}, 0, 1), Error);
+  EXPECT_THROW(grip_through({0, NAN, 2}, {0, 3, 1}, 0, 1), Error);
+}
+
+// ---- with the core ----
+
+const char* const CUP = R"(
+[hand]
+handedness = "HAND"
+[[vessel]]
+name = "cup"
+shape = "cylinder"
+diameter_mm = 76
+height_mm = 100
+wall_mm = 2
+[[vessel]]
+name = "flask"
+shape = "flask"
+diameter_mm = 85
+neck_mm = 34
+height_mm = 140
+wall_mm = 1.5
+[liquid]
+fills = [0.25, 0.8]
+pour = "POUR"
+[tilts]
+deg = [0, 40, 80]
+)";
+
+Scene cup_scene(const std::string& hand, const std::string& pour) {
+  std::string text = CUP;
+  text.replace(text.find("HAND"), 4, hand);
+  text.replace(text.find("POUR"), 4, pour);
+  return parse_scene(text, "cup.toml");
+}
+
+TEST(GripReport, LiquidLeansWhereTheCoreSaysForEitherHand) {
+  for (const char* hand : {"right", "left"}) {
+    for (const char* pour : {"away", "towards"}) {
+      const Scene scene = cup_scene(hand, pour);
+      const std::shared_ptr<const Evaluator> core = make_core_evaluator(scene);
+      const GripInput grip{0.05, 0.7, 0.1, -0.5, 0.002, 1};
+      const GripReport report = make_grip_report(scene, 0, grip, scene_axes(scene), core_grip_methods(scene, core, "core"));
+      ASSERT_EQ(report.answer.result.reason, Reason::none);
+      const Json json = Json::parse(grip_json(report));
+      for (const auto& state : json["states"]) {
+        const double own = core->empty_mass(0), held = state["liquid_mass_kg"];
+        const Triple center = core->empty_center_of_mass(0);
+        for (int k = 0; k < 3; ++k) {
+          const double liquid = state["liquid_com_m"].is_null() ? 0 : state["liquid_com_m"][k].get<double>();
+          EXPECT_NEAR((own * center[k] + held * liquid) / (own + held), state["com_m"][k].get<double>(), 1e-16)
+              << hand << pour << state;
+        }
+      }
+    }
+  }
+}
+
+TEST(GripReport, PlanesGiveWhatTheCoreGives) {
+  const Scene scene = cup_scene("left", "away");
+  const BackendOpener open = [](const Scene& opened, const FieldSet& fields) -> std::unique_ptr<Backend> {
+    return std::make_unique<CoreBackend>(make_core_evaluator(opened), opened, fields, Precision::full, 1);
+  };
+  const GripMethods direct = core_grip_methods(scene, make_core_evaluator(scene), "core"),
+                    planes = backend_grip_methods(scene, open);
+  StateAxes other;
+  other.fills = {0.5, 0.1};  // in any order, within the scene's largest
+  other.tilts = {1.0, 0.25, 1.0};
+  for (const StateAxes& axes : {scene_axes(scene), other}) {
+    for (const double height : {0.05, 0.2}) {  // held, and beside the cup
+      const GripInput grip{height, 0.7, 0.1, -0.5, 0.002, 1};
+      EXPECT_EQ(grip_json(make_grip_report(scene, 1, grip, axes, direct)),
+                grip_json(make_grip_report(scene, 1, grip, axes, planes)));
+    }
+  }
+  other.fills = {0.9};
+  EXPECT_THROW(planes.answer(0, {0.05, 0, 0, 0, 0, 1}, other), Error);
+}
+
+}  // namespace
+}  // namespace wholehand

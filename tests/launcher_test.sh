@@ -1,0 +1,163 @@
+#!/bin/bash
+# The launcher, in a copy of its own with a program of a few lines: it builds, rebuilds, passes things on, and says what is wrong.
+# No network, and nothing is installed: apt-get, dpkg-query, id and sudo are stand-ins where they matter.
+#   launcher_test.sh SOURCE_DIR
+set -u
+source_dir=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+tree="$work/a tree's place"
+failures=0
+
+check() {  # check WHAT CONDITION...
+  local what=$1
+  shift
+  if "$@"; then echo "ok    $what"; else echo "FAILS $what"; failures=$((failures + 1)); fi
+}
+equal() { [ "$1" = "$2" ] || { echo "      got '$1', expected '$2'"; return 1; }; }
+has() { grep -qF -- "$2" <<<"$1" || { echo "      got '$1', expected it to have '$2'"; return 1; }; }
+lines() { printf '%s' "$1" | grep -c ''; }
+
+# ---- the copy ----
+mkdir -p "$tree/app" "$tree/core" "$work/bin"
+cp "$source_dir/wholehand" "$tree/"
+cat >"$tree/packages.txt" <<'EOF'
+# runs
+dpkg        # there on any Debian
+
+# test
+wholehand-test-only-package
+EOF
+cat >"$tree/CMakeLists.txt" <<'EOF'
+cmake_minimum_required(VERSION 3.25)
+project(stub LANGUAGES CXX)
+option(WHOLEHAND_TESTS "" ON)
+file(GLOB sources CONFIGURE_DEPENDS core/*.cpp)
+add_executable(wholehand app/main.cpp ${sources})
+EOF
+cat >"$tree/CMakePresets.json" <<'EOF'
+{"version": 5, "configurePresets": [{"name": "default", "generator": "Ninja", "binaryDir": "${sourceDir}/build/default"}]}
+EOF
+cat >"$tree/app/main.cpp" <<'EOF'
+#include <cstdio>
+#include <unistd.h>
+#include "../core/version.h"
+int main(int n, char** a) {
+  std::printf(VERSION);
+  for (int i = 1; i < n; ++i) std::printf("[%s]", a[i]);
+  char here[4096];
+  std::printf("%s\n", getcwd(here, sizeof here));
+  return 7;
+}
+EOF
+echo '#define VERSION "v1"' >"$tree/core/version.h"
+
+# ---- first start, and what is passed on ----
+cd "$work" || exit 1
+output=$("$tree/wholehand" one "two words" '' 2>"$work/err")
+check "the exit code is the program's" equal $? 7
+check "arguments and the caller's folder are passed on" equal "$output" "v1[one][two words][]$work"
+check "the first start says that it builds" has "$(cat "$work/err")" "wholehand: building"
+
+output=$("$tree/wholehand" 2>&1)
+check "the second start says nothing of its own" equal "$output" "v1$work"
+ln -s "$tree/wholehand" "$work/link"
+mkdir -p "$work/else where"
+output=$(cd "$work/else where" && ../link x 2>&1)
+check "through a symbolic link, from another folder" equal "$output" "v1[x]$work/else where"
+output=$(cd "$tree" && PATH="$tree:$PATH" wholehand 2>&1)
+check "found on the path" equal "$output" "v1$tree"
+
+# ---- what it costs: printed, not judged ----
+measure() { local began=$EPOCHREALTIME; for _ in 1 2 3 4 5 6 7 8 9 10; do "$@" >/dev/null 2>&1; done; echo $(((${EPOCHREALTIME/./} - ${began/./}) / 10)); }
+with=$(measure "$tree/wholehand")
+without=$(measure "$tree/build/default/wholehand")
+echo "      a later start adds $((with - without)) microseconds (program alone: $without)"
+
+# ---- what makes it build again ----
+sleep 0.05
+echo '#define VERSION "v2"' >"$tree/core/version.h"
+check "an edited header is built in" equal "$("$tree/wholehand" 2>/dev/null)" "v2$work"
+echo 'syntax error' >"$tree/core/new.cpp"
+output=$("$tree/wholehand" 2>&1)
+check "an added source that fails gives exit code 3" equal $? 3
+check "and the compiler's words" has "$output" "new.cpp:1"
+check "and the launcher's last line" has "$(tail -n 1 <<<"$output")" "wholehand: building failed"
+rm "$tree/core/new.cpp"
+check "a removed source builds again" equal "$("$tree/wholehand" 2>/dev/null)" "v2$work"
+mv "$tree" "$work/moved"
+tree=$work/moved
+check "a tree that was moved builds again" equal "$("$tree/wholehand" 2>/dev/null)" "v2$work"
+echo 'nonsense(' >>"$tree/CMakeLists.txt"
+output=$("$tree/wholehand" 2>&1)
+check "a broken CMakeLists.txt gives exit code 3" equal $? 3
+check "and CMake's words" has "$output" "CMakeLists.txt:6"
+sed -i '$d' "$tree/CMakeLists.txt"
+
+# ---- two starts at once ----
+rm -rf "$tree/build"
+"$tree/wholehand" first >"$work/first" 2>&1 &
+first=$!
+"$tree/wholehand" second >"$work/second" 2>&1
+wait $first
+check "two first starts at once: one" equal "$(tail -n 1 "$work/first")" "v2[first]$work"
+check "and the other" equal "$(tail -n 1 "$work/second")" "v2[second]$work"
+check "one of them waited" has "$(cat "$work/first" "$work/second")" "waiting for another start"
+
+# ---- packages: stand-ins for the system's tools ----
+tool() { cat >"$work/bin/$1" && chmod +x "$work/bin/$1"; }
+tool dpkg-query <<EOF
+#!/bin/sh
+shift 3
+for p; do if grep -qx "\$p" "$work/installed"; then echo "installed \$p"; fi; done
+EOF
+tool apt-get <<EOF
+#!/bin/sh
+echo "\$@" >>"$work/apt"
+case "\$*" in
+  *" update") touch "$work/updated" ;;
+  *) if [ -e "$work/updated" ]; then for p; do echo "\$p"; done >>"$work/installed"; else echo "E: Unable to locate package" ; exit 100; fi ;;
+esac
+EOF
+start() { PATH="$work/bin:$PATH" "$tree/wholehand" "$@" 2>&1; }
+fresh() { echo dpkg >"$work/installed"; rm -f "$work/apt" "$work/updated"; touch "$tree/packages.txt"; }
+
+fresh
+tool id <<<'#!/bin/sh
+echo 0'
+check "nothing missing: apt-get is not called" equal "$(start)" "v2$work"
+check "(no call)" [ ! -e "$work/apt" ]
+sed -i '/^dpkg/a lib-one # with a remark' "$tree/packages.txt"
+fresh
+output=$(start)
+check "what is missing is named" has "$output" "wholehand: installing: lib-one"
+check "and installed, the lists fetched first where that is needed" equal "$(sed 's/.*120 //' "$work/apt" | tr '\n' ';')" \
+  "install --no-install-recommends lib-one;update;install --no-install-recommends lib-one;"
+check "then the program runs" equal "$(tail -n 1 <<<"$output")" "v2$work"
+check "packages under # test are not asked for by a run" equal "$(grep -c wholehand-test-only "$work/apt")" 0
+
+fresh
+touch "$work/updated"
+start test >/dev/null
+check "but by test" has "$(cat "$work/apt")" "install --no-install-recommends lib-one wholehand-test-only-package"
+
+tool apt-get <<<'#!/bin/sh
+echo "E: no network" ; exit 100'
+fresh
+output=$(start)
+check "apt-get failing gives exit code 3" equal $? 3
+check "and its reason in one line" has "$(tail -n 1 <<<"$output")" "could not install lib-one: E: no network"
+
+tool id <<<'#!/bin/sh
+echo 1000'
+hidden=$(mktemp -d -p "$work")  # a path without sudo
+for name in sh env readlink find sed grep mkdir flock date cmake ninja cat tail rm mv; do ln -s "$(command -v $name)" "$hidden/"; done
+fresh
+output=$(PATH="$work/bin:$hidden" "$tree/wholehand" 2>&1)
+check "neither root nor sudo gives exit code 3" equal $? 3
+check "and one line with the remedy" equal "$output" \
+  "wholehand: packages are missing and neither root nor sudo is at hand: apt-get install lib-one"
+
+echo
+[ $failures = 0 ] && echo "the launcher holds" || echo "$failures checks failed"
+[ $failures = 0 ]

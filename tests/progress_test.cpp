@@ -1,0 +1,50 @@
+#include "sweeps/progress.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+namespace wholehand {
+namespace {
+
+TEST(Progress, LineSaysShareRateAndTimeLeft) {
+  EXPECT_EQ(Progress::line("beaker1", 1000, 0, 250, 0.5), "beaker1  25 %  500 grips/s  0:02 left");
+  EXPECT_EQ(Progress::line("b", 30000000, 0, 10000000, 5), "b  33 %  2.00 million grips/s  0:10 left");
+  EXPECT_EQ(Progress::line("b", 100000000, 0, 12345, 1), "b  0 %  12.3 thousand grips/s  2:15:00 left");
+}
+
+TEST(Progress, WhatWasThereBeforeSaysNothingAboutTheRate) {
+  EXPECT_EQ(Progress::line("b", 1000, 500, 600, 1), "b  60 %  100 grips/s  0:04 left");
+  EXPECT_EQ(Progress::line("b", 1000, 500, 500, 1), "b  50 %") << "no rate yet";
+}
+
+TEST(Progress, NothingWherePiped) {
+  testing::internal::CaptureStderr();
+  {
+    Progress progress(100, 0, false);
+    std::this_thread::sleep_for(std::chrono::milliseconds(600));
+    progress.update("b", 50);
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(Progress, TerminalGetsOneLineThatGoesAway) {
+  testing::internal::CaptureStderr();
+  {
+    Progress progress(100, 0, true);
+    progress.update("b", 10);  // too early
+    std::this_thread::sleep_for(std::chrono::milliseconds(600));
+    progress.update("b", 50);
+    progress.update("b", 51);  // too soon after
+  }
+  const std::string text = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(text.find("10 %"), std::string::npos);
+  EXPECT_NE(text.find("b  50 %"), std::string::npos);
+  EXPECT_EQ(text.find("51 %"), std::string::npos);
+  EXPECT_TRUE(text.ends_with("\r\033[K")) << text;
+  EXPECT_EQ(text.find('\n'), std::string::npos);
+}
+
+}  // namespace
+}  // namespace wholehand

@@ -1,0 +1,180 @@
+#include "sweeps/result_contents.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "core/error.h"
+#include "tests/support/fake_backend.h"
+#include "tests/support/result_reader.h"
+
+namespace wholehand {
+namespace {
+
+// A defined file with nothing of the grips in it.
+class ResultContentsTest : public testing::Test {
+ protected:
+  std::string define(const Scene& scene, Precision precision = Precision::full, std::size_t best = 4) {
+    const auto variables = choose_variables(scene);
+    const Plan plan(scene, keeps_vectors(variables));
+    FakeBackend backend(scene, make_field_set(variable_fields(variables), scene), precision, 100);
+    const ResultContents contents{scene,          plan,    variables, vessel_facts(scene, backend, FakeEvaluator(scene)),
+                                  backend.info(), "1.2.3", best};
+    const std::string path = folder / ("file" + std::to_string(++files) + ".nc");
+    define_result_file(path, contents);
+    return path;
+  }
+
+  TemporaryFolder folder;
+  int files = 0;
+};
+
+std::string dump(const std::string& path) {
+  FILE* pipe = popen(("ncdump -h " + path + " 2>&1").c_str(), "r");
+  std::string text;
+  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) text += static_cast<char>(c);
+  EXPECT_EQ(pclose(pipe), 0) << text;
+  return text;
+}
+
+TEST_F(ResultContentsTest, EveryVariableHasUnitsNameAndFill) {
+  const std::string path = define(fake_scene());
+  const std::string text = dump(path);
+  for (const std::string& name : variable_names(path)) {
+    EXPECT_NE(text.find("\t\t" + name + ":long_name = "), std::string::npos) << name;
+    if (text.find("\tstring " + name + "(") != std::string::npos) continue;
+    EXPECT_NE(text.find("\t\t" + name + ":units = "), std::string::npos) << name;
+    EXPECT_NE(text.find("\t\t" + name + ":_FillValue = "), std::string::npos) << name;
+  }
+}
+
+TEST_F(ResultContentsTest, DimensionsAreTheScenesAxes) {
+  const std::string path = define(fake_scene());
+  EXPECT_EQ(dimension_names(path, "score"),
+            (std::vector<std::string>{"vessel", "azimuth", "obliquity", "roll", "offset", "hand_scale", "height_fraction"}));
+  EXPECT_EQ(
+      dimension_names(path, "peak_feedback_force"),
+      (std::vector<std::string>{"vessel", "fill", "azimuth", "obliquity", "roll", "offset", "hand_scale", "height_fraction"}));
+  EXPECT_EQ(dimension_names(path, "poured_volume"), (std::vector<std::string>{"vessel", "fill", "tilt"}));
+  EXPECT_EQ(read_values(path, "roll"), fake_scene().grips.roll.values);
+  EXPECT_EQ(read_values(path, "tilt"), fake_scene().tilts);
+  EXPECT_EQ(read_values(path, "azimuth").size(), 3u) << "all of them, though one is evaluated";
+  EXPECT_EQ(read_text(path, "roll", "units"), "rad");
+
+  Scene scene = fake_scene();
+  scene.output.keep = {{"proxies", "hold_force"}};
+  scene.grips.height_is_fraction = false;
+  const std::string vectors = define(scene);
+  EXPECT_EQ(dimension_names(vectors, "proxies"),
+            (std::vector<std::string>{"vessel", "joint", "xyz", "azimuth", "obliquity", "roll", "offset", "hand_scale", "height"}));
+  EXPECT_EQ(dimension_names(vectors, "hold_force")[2], "tilt");
+  EXPECT_EQ(read_text(vectors, "height", "units"), "m");
+}
+
+TEST_F(ResultContentsTest, AttributesSayWhereItCameFrom) {
+  const std::string path = define(fake_scene());
+  EXPECT_EQ(read_text(path, "", "scene"), fake_scene().text);
+  EXPECT_EQ(read_text(path, "", "title"), "grips of fake");
+  EXPECT_EQ(read_text(path, "", "version"), "1.2.3");
+  EXPECT_EQ(read_text(path, "", "device"), "fake device");
+  EXPECT_EQ(read_text(path, "", "driver"), "fake driver 1");
+  EXPECT_EQ(read_text(path, "", "precision"), "double");
+  EXPECT_EQ(read_text(path, "", "Conventions"), "CF-1.8");
+  EXPECT_EQ(read_text(path, "reason", "flag_meanings"), "none degenerate not_converged misses too_wide too_narrow on_mouth");
+  EXPECT_NE(read_text(path, "score_depth", "comment").find("10 mm"), std::string::npos);
+  const std::string text = dump(path);
+  EXPECT_NE(text.find(":seed = 0ULL"), std::string::npos);
+  EXPECT_NE(text.find(":wall_time_s = NaN"), std::string::npos);
+  EXPECT_NE(text.find("score:score_weights = 0.3, 0.1, 0.2, 0.1, 0.15, 0.15"), std::string::npos);
+}
+
+TEST_F(ResultContentsTest, RealsAreAsPreciseAsTheBackend) {
+  EXPECT_NE(dump(define(fake_scene(), Precision::single)).find("float score("), std::string::npos);
+  const std::string text = dump(define(fake_scene(), Precision::full));
+  EXPECT_NE(text.find("double score("), std::string::npos);
+  EXPECT_NE(text.find("byte reason("), std::string::npos);
+  EXPECT_NE(text.find("int touch_mask("), std::string::npos);
+}
+
+TEST_F(ResultContentsTest, FactsOfTheVessels) {
+  const std::string path = define(fake_scene());
+  EXPECT_EQ(read_values(path, "vessel_height"), (std::vector<double>{0.11, 0.14}));
+  EXPECT_EQ(read_values(path, "capacity"), (std::vector<double>{1e-4, 2e-4}));
+  EXPECT_EQ(read_values(path, "empty_center_of_mass"), (std::vector<double>{0, 0.05, 0, 0, 0.1, 0}));
+  const auto pouring = read_values(path, "pouring_tilt");
+  EXPECT_TRUE(std::isnan(pouring[0]));
+  EXPECT_EQ(pouring[3], 0.75);
+  const FakeEvaluator evaluator(fake_scene());
+  const auto poured = read_values(path, "poured_volume");
+  ASSERT_EQ(poured.size(), 2u * 2 * 4);
+  EXPECT_EQ(poured[(1 * 2 + 1) * 4 + 2], evaluator.liquid(1, 0.5, radians(60)).poured);
+}
+
+TEST_F(ResultContentsTest, WhatTheSceneLacksIsNotThere) {
+  Scene scene = fake_scene();
+  scene.tilts.clear();
+  scene.liquid.reset();
+  std::string text = dump(define(scene));
+  for (const char* name : {"fill", "tilt", "liquid_volume", "pouring_tilt", "peak_feedback_force"}) {
+    EXPECT_EQ(text.find(std::string(" ") + name), std::string::npos) << name;
+  }
+  scene.output.keep = std::vector<std::string>{};
+  text = dump(define(scene, Precision::full, 0));
+  for (const char* name : {"score", "roll", "rank", "best_grip"})
+    EXPECT_EQ(text.find(std::string(" ") + name), std::string::npos) << name;
+  scene = fake_scene();
+  scene.liquid.reset();
+  EXPECT_EQ(read_values(define(scene), "fill"), std::vector<double>{0}) << "forces of the empty vessel";
+}
+
+TEST_F(ResultContentsTest, SobolPointsHaveTheirAxesAsCoordinates) {
+  Scene scene = fake_scene();
+  scene.grips.sampling = Sampling::sobol;
+  scene.grips.count = 33;
+  const std::string path = define(scene);
+  EXPECT_EQ(dimension_names(path, "score"), (std::vector<std::string>{"vessel", "point"}));
+  EXPECT_EQ(dimension_names(path, "roll"), (std::vector<std::string>{"point"}));
+  EXPECT_EQ(read_text(path, "score", "coordinates"), "azimuth obliquity roll offset hand_scale height_fraction");
+}
+
+TEST_F(ResultContentsTest, LongSceneTextIsKeptWhole) {
+  Scene scene = fake_scene();
+  scene.text.assign(1 << 20, '#');
+  EXPECT_EQ(read_text(define(scene), "", "scene"), scene.text);
+  scene.text.clear();
+  EXPECT_EQ(read_text(define(scene), "", "scene"), "");
+}
+
+TEST_F(ResultContentsTest, FileIsNoLargerThanWasReserved) {
+  for (const Sampling sampling : {Sampling::grid, Sampling::sobol}) {
+    Scene scene = fake_scene();
+    scene.grips.sampling = sampling;
+    scene.grips.count = 5000;
+    scene.text.assign(300000, '#');
+    const auto variables = choose_variables(scene);
+    const Plan plan(scene, false);
+    FakeBackend backend(scene, make_field_set(variable_fields(variables), scene), Precision::full, 100);
+    const ResultContents contents{scene,          plan, variables, vessel_facts(scene, backend, FakeEvaluator(scene)),
+                                  backend.info(), "1",  50};
+    const std::string path = folder / (sampling == Sampling::grid ? "grid.nc" : "sobol.nc");
+    define_result_file(path, contents);
+    EXPECT_LE(std::filesystem::file_size(path), result_size(contents));
+    EXPECT_GE(std::filesystem::file_size(path) + (4 << 20), result_size(contents));
+  }
+}
+
+TEST_F(ResultContentsTest, FileThatCannotBeMadeIsAnError) {
+  const Scene scene = fake_scene();
+  const Plan plan(scene, false);
+  FakeBackend backend(scene, make_field_set({}, scene), Precision::full, 100);
+  const ResultContents contents{scene, plan, {}, vessel_facts(scene, backend, FakeEvaluator(scene)), backend.info(), "1", 4};
+  testing::internal::CaptureStderr();
+  EXPECT_THROW(define_result_file(folder / "missing/a.nc", contents), Error);
+  EXPECT_THROW(define_result_file(folder.path(), contents), Error);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << "the library's own stack of errors";
+}
+
+}  // namespace
+}  // namespace wholehand

@@ -1,0 +1,454 @@
+// sanitizers: address thread
+#include "sweeps/run.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <random>
+
+#include "sweeps/core_backend.h"
+#include "sweeps/files.h"
+#include "sweeps/plan.h"
+#include "tests/support/fake_backend.h"
+#include "tests/support/result_reader.h"
+
+namespace wholehand {
+namespace {
+
+struct Outcome {
+  ExitCode code = ExitCode::done;
+  std::string error, out, notes;
+};
+
+// A sweep over the stand-in kernels.
+struct Trial {
+  Scene scene = fake_scene();
+  SweepOptions options;
+  Precision precision = Precision::full;
+  std::size_t chunk = 50;
+  std::function<void()> before_chunk;
+  std::string driver = "fake driver 1";
+  int opened = 0;  // backends
+
+  explicit Trial(const std::string& output) {
+    options.output = output;
+    options.on = "fake";
+    options.precision = Precision::full;
+  }
+
+  ExitCode run_bare() {
+    const SweepParts parts{[this](const FieldSet& fields) -> std::unique_ptr<Backend> {
+                             auto backend = std::make_unique<FakeBackend>(scene, fields, precision, chunk);
+                             backend->before_chunk = before_chunk;
+                             backend->info_.driver = driver;
+                             ++opened;
+                             return backend;
+                           },
+                           [this] { return std::make_unique<FakeEvaluator>(scene); }};
+    return run_sweep(scene, options, parts);
+  }
+
+  Outcome run() {
+    Outcome outcome;
+    testing::internal::CaptureStdout();
+    testing::internal::CaptureStderr();
+    try {
+      outcome.code = run_bare();
+    } catch (const Error& error) {
+      outcome.code = error.code;
+      outcome.error = error.what();
+    }
+    outcome.out = testing::internal::GetCapturedStdout();
+    outcome.notes = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(outcome.error.find('\n'), std::string::npos) << outcome.error;
+    return outcome;
+  }
+
+  // In a process of its own, without a word.
+  pid_t start() {
+    const pid_t child = fork();
+    if (child != 0) return child;
+    const int null = open("/dev/null", O_WRONLY);
+    dup2(null, STDOUT_FILENO);
+    dup2(null, STDERR_FILENO);
+    int code = 99;
+    try {
+      code = static_cast<int>(run_bare());
+    } catch (const Error& error) {
+      code = static_cast<int>(error.code);
+    }
+    _exit(code);
+  }
+};
+
+int wait_for(pid_t child) {
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+class RunTest : public testing::Test {
+ protected:
+  TemporaryFolder folder;
+
+  // An undisturbed sweep to compare with.
+  std::string reference(const Scene& scene = fake_scene()) {
+    Trial trial(folder / "reference.nc");
+    trial.scene = scene;
+    EXPECT_EQ(trial.run().code, ExitCode::done);
+    return folder / "reference.nc";
+  }
+
+  void expect_same_as(const std::string& reference, const std::string& other) {
+    expect_same_values(reference, other);
+    EXPECT_EQ(file_text(output_names(reference).best), file_text(output_names(other).best));
+    EXPECT_EQ(file_text(output_names(reference).heat_map("second")), file_text(output_names(other).heat_map("second")));
+  }
+};
+
+TEST_F(RunTest, WritesAllFilesAndSaysWhatItDid) {
+  Trial trial(folder / "a.nc");
+  const Outcome outcome = trial.run();
+  ASSERT_EQ(outcome.code, ExitCode::done) << outcome.error;
+  for (const char* name : {"a.nc", "a.best.csv", "a.first_vessel.svg", "a.second.svg"})
+    EXPECT_TRUE(file_exists(folder / name)) << name;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    EXPECT_FALSE(has(entry.path().string(), "partial")) << entry.path();
+  }
+  EXPECT_TRUE(has(outcome.out, "fake: 560 grips of 2 vessels, 8 states each\non fake device (fake driver 1), double precision\n"));
+  EXPECT_TRUE(has(outcome.out, "azimuth left out")) << outcome.out;
+  EXPECT_TRUE(has(outcome.out, "first vessel: ")) << outcome.out;
+  EXPECT_TRUE(has(outcome.out, " of 280 grips (each at 3 azimuths) feasible (")) << outcome.out;
+  EXPECT_TRUE(has(outcome.out, "everything else")) << outcome.out;
+  EXPECT_TRUE(has(outcome.out, "peak memory")) << outcome.out;
+  EXPECT_EQ(outcome.notes, "") << "nothing on stderr";
+  EXPECT_EQ(trial.opened, 1) << "the default set has all that the best grips need";
+}
+
+TEST_F(RunTest, BestGripsAreThoseOfTheWholeVessel) {
+  Trial trial(folder / "a.nc");
+  ASSERT_EQ(trial.run().code, ExitCode::done);
+  const auto index = read_values(folder / "a.nc", "best_grip"), best = read_values(folder / "a.nc", "best_score");
+  const auto score = read_values(folder / "a.nc", "score");
+  const Plan plan(trial.scene, false);
+  ASSERT_EQ(best.size(), 2u * 6);
+  for (std::size_t v = 0; v < 2; ++v) {
+    for (std::size_t rank = 0; rank < 6; ++rank) {
+      const std::size_t at = v * 6 + rank;
+      EXPECT_EQ(best[at], score[v * plan.stored_grips() + static_cast<std::size_t>(index[at])]);
+      EXPECT_GE(rank > 0 ? best[at - 1] : 1, best[at]);
+    }
+  }
+  int better = 0;
+  for (std::uint64_t i = 0; i < plan.grips(); ++i) better += score[i] > best[5];
+  EXPECT_EQ(better, 5);
+}
+
+TEST_F(RunTest, EverythingCanBeLeftOutButTheBest) {
+  Trial trial(folder / "a.nc");
+  trial.scene.output.keep = std::vector<std::string>{};
+  const Outcome outcome = trial.run();
+  ASSERT_EQ(outcome.code, ExitCode::done) << outcome.error;
+  EXPECT_EQ(trial.opened, 2) << "the best grips are evaluated anew with all that is told of them";
+  EXPECT_TRUE(has(outcome.notes, "no heat maps: the score is not kept")) << outcome.notes;
+  EXPECT_TRUE(has(outcome.out, "first vessel: 280 grips (each at 3 azimuths)\n")) << outcome.out;
+  Trial whole(folder / "b.nc");
+  ASSERT_EQ(whole.run().code, ExitCode::done);
+  EXPECT_EQ(file_text(folder / "a.best.csv"), file_text(folder / "b.best.csv"));
+  EXPECT_EQ(read_values(folder / "a.nc", "best_grip"), read_values(folder / "b.nc", "best_grip"));
+}
+
+TEST_F(RunTest, MarksInBetweenChangeNothing) {
+  const std::string expected = reference();
+  Trial trial(folder / "a.nc");
+  trial.options.mark_seconds = 0;
+  trial.chunk = 9;
+  ASSERT_EQ(trial.run().code, ExitCode::done);
+  expect_same_as(expected, folder / "a.nc");
+  Trial none(folder / "b.nc");
+  none.options.mark_seconds = 0;
+  none.scene.output.keep = std::vector<std::string>{};
+  ASSERT_EQ(none.run().code, ExitCode::done);
+  EXPECT_EQ(file_text(folder / "b.best.csv"), file_text(folder / "reference.best.csv"));
+}
+
+TEST_F(RunTest, KilledAndResumedIsTheSameBitForBit) {
+  const std::string expected = reference();
+  std::mt19937 random(2);
+  int kills = 0, resumed = 0;
+  for (int round = 0; round < 5; ++round) {
+    for (int attempt = 0; !file_exists(folder / "a.nc"); ++attempt) {
+      ASSERT_LT(attempt, 50);
+      int chunks[2];  // a byte for every chunk that the child begins
+      ASSERT_EQ(pipe2(chunks, O_CLOEXEC), 0);
+      Trial trial(folder / "a.nc");
+      trial.options.resume = attempt > 0;
+      trial.options.mark_seconds = 0;
+      trial.chunk = 20;
+      trial.before_chunk = [&] { EXPECT_EQ(write(chunks[1], "x", 1), 1); };
+      resumed += attempt > 0 && file_exists(folder / "a.nc.partial.mark");
+      const pid_t child = trial.start();
+      close(chunks[1]);
+      // killed between the first chunks and the last rename
+      char byte = 0;
+      for (unsigned wait = 3 + random() % 12; wait > 0 && read(chunks[0], &byte, 1) == 1; --wait) {
+      }
+      usleep(random() % 10000);
+      kill(child, SIGKILL);
+      const int code = wait_for(child);
+      close(chunks[0]);
+      ASSERT_TRUE(code == -SIGKILL || code == 0) << code;
+      kills += code != 0;
+    }
+    // at no moment is there a file under the result's name that is not whole
+    expect_same_as(expected, folder / "a.nc");
+    std::filesystem::remove(folder / "a.nc");
+  }
+  EXPECT_GT(kills, 0);
+  EXPECT_GT(resumed, 0);
+}
+
+TEST_F(RunTest, InterruptLeavesAFileToGoOnWith) {
+  const std::string expected = reference();
+  for (const int signal : {SIGINT, SIGTERM}) {
+    Trial trial(folder / "a.nc");
+    int chunks = 0;
+    trial.before_chunk = [&] {
+      if (++chunks == 8) raise(signal);
+    };
+    const Outcome outcome = trial.run();
+    EXPECT_EQ(outcome.code, ExitCode::interrupted);
+    EXPECT_EQ(static_cast<int>(outcome.code), 130);
+    EXPECT_TRUE(has(outcome.notes, "interrupted at 3")) << outcome.notes;  // the eighth chunk is finished
+    EXPECT_FALSE(file_exists(folder / "a.nc"));
+    Trial rest(folder / "a.nc");
+    rest.options.resume = true;
+    int rest_chunks = 0;
+    rest.before_chunk = [&] { ++rest_chunks; };
+    const Outcome resumed = rest.run();
+    EXPECT_EQ(resumed.code, ExitCode::done) << resumed.error;
+    EXPECT_TRUE(has(resumed.notes, "going on with")) << resumed.notes;
+    EXPECT_LT(rest_chunks, 9) << "only what was missing, and the best";
+    expect_same_as(expected, folder / "a.nc");
+    EXPECT_EQ(resumed.out.substr(resumed.out.find("first vessel: ")).substr(0, 200),
+              Trial(folder / "c.nc").run().out.substr(resumed.out.find("first vessel: ")).substr(0, 200))
+        << "counts are those of the whole";
+    std::filesystem::remove(folder / "a.nc");
+  }
+}
+
+TEST_F(RunTest, ResumeWithoutAnythingStartsAfresh) {
+  const std::string expected = reference();
+  Trial trial(folder / "a.nc");
+  trial.options.resume = true;
+  const Outcome outcome = trial.run();
+  EXPECT_EQ(outcome.code, ExitCode::done);
+  EXPECT_TRUE(has(outcome.notes, "starting from the first grip")) << outcome.notes;
+  expect_same_as(expected, folder / "a.nc");
+}
+
+TEST_F(RunTest, ResumeOfSomethingElseIsRefused) {
+  const auto begin = [&] {
+    Trial trial(folder / "a.nc");
+    int chunks = 0;
+    trial.before_chunk = [&] {
+      if (++chunks == 2) raise(SIGINT);
+    };
+    EXPECT_EQ(trial.run().code, ExitCode::interrupted);
+  };
+  begin();
+  const auto refused = [&](const char* what, const std::function<void(Trial&)>& change) {
+    Trial trial(folder / "a.nc");
+    trial.options.resume = true;
+    change(trial);
+    const Outcome outcome = trial.run();
+    EXPECT_EQ(outcome.code, ExitCode::usage) << what;
+    EXPECT_TRUE(has(outcome.error, std::string("another ") + what)) << outcome.error;
+  };
+  refused("scene", [](Trial& trial) { trial.scene.text += "# changed"; });
+  refused("driver", [](Trial& trial) { trial.driver = "fake driver 2"; });
+  refused("precision", [](Trial& trial) { trial.precision = Precision::single; });
+  refused("number of best grips", [](Trial& trial) { trial.options.best = 7; });
+  refused("number of grips", [](Trial& trial) { trial.scene.grips.roll = range_axis(0, 1, 5); });
+  refused("set of variables", [](Trial& trial) { trial.scene.output.keep = {{"score"}}; });
+  Trial trial(folder / "a.nc");
+  trial.options.resume = true;
+  EXPECT_EQ(trial.run().code, ExitCode::done) << "a refusal leaves the file as it was";
+}
+
+TEST_F(RunTest, DamagedMarkIsRefusedInOneLine) {
+  std::ofstream(folder / "a.nc.partial") << "x";
+  std::ofstream(folder / "a.nc.partial.mark") << "{";
+  Trial trial(folder / "a.nc");
+  trial.options.resume = true;
+  const Outcome outcome = trial.run();
+  EXPECT_EQ(outcome.code, ExitCode::failure);
+  EXPECT_TRUE(has(outcome.error, "start again without --resume")) << outcome.error;
+}
+
+TEST_F(RunTest, WhatCannotBeWrittenIsRefusedBeforeAnyWork) {
+  for (const std::string& path : {folder.path(), folder / "missing/a.nc", std::string("/dev/full")}) {
+    Trial trial(path);
+    const Outcome outcome = trial.run();
+    EXPECT_EQ(outcome.code, ExitCode::usage) << path;
+    EXPECT_EQ(trial.opened, 0) << path;
+    EXPECT_EQ(outcome.notes, "") << path;
+  }
+  Trial trial("/proc/a.nc");
+  const Outcome outcome = trial.run();
+  EXPECT_EQ(outcome.code, ExitCode::failure);
+  EXPECT_EQ(outcome.notes, "");
+}
+
+TEST_F(RunTest, FileSizeLimitAndFullDisk) {
+  const auto size = std::filesystem::file_size(reference());
+  // too small for the values, for the structure besides, and for the last byte
+  for (const rlim_t limit : {size / 4, size * 9 / 10, size - 1}) {
+    Trial trial(folder / "a.nc");
+    const pid_t child = fork();
+    if (child == 0) {
+      const rlimit file_size{limit, limit};
+      setrlimit(RLIMIT_FSIZE, &file_size);
+      _exit(wait_for(trial.start()));
+    }
+    EXPECT_EQ(wait_for(child), 3) << limit;
+    for (const char* name : {"a.nc", "a.nc.partial", "a.best.csv"}) EXPECT_FALSE(file_exists(folder / name)) << limit << name;
+  }
+}
+
+TEST_F(RunTest, HugeSweepsAreRefusedWithTheirSizes) {
+  Trial trial(folder / "a.nc");
+  trial.scene.grips.obliquity = trial.scene.grips.roll = trial.scene.grips.offset = range_axis(0, 1, 10000);
+  const Outcome outcome = trial.run();
+  EXPECT_EQ(outcome.code, ExitCode::usage);
+  EXPECT_TRUE(has(outcome.error, "grips, ") && has(outcome.error, "states, ") && has(outcome.error, " of results"))
+      << outcome.error;
+  EXPECT_EQ(trial.opened, 0);
+}
+
+TEST_F(RunTest, MeshIsRefusedForNow) {
+  Trial trial(folder / "a.nc");
+  trial.scene.vessels[1].mesh = MeshData{};
+  trial.scene.vessels[1].line = 12;
+  const Outcome outcome = trial.run();
+  EXPECT_EQ(outcome.code, ExitCode::usage);
+  EXPECT_TRUE(has(outcome.error, "fake.toml:12:") && has(outcome.error, "\"second\" is a mesh")) << outcome.error;
+}
+
+TEST_F(RunTest, FailureOfTheBackendLeavesNoResult) {
+  Trial trial(folder / "a.nc");
+  int chunks = 0;
+  trial.before_chunk = [&] {
+    if (++chunks == 5) throw failure_error("device lost");
+  };
+  const Outcome outcome = trial.run();
+  EXPECT_EQ(outcome.code, ExitCode::failure);
+  EXPECT_EQ(outcome.error, "device lost");
+  EXPECT_FALSE(file_exists(folder / "a.nc"));
+}
+
+TEST_F(RunTest, BackendThatDeliversNothingIsAFailure) {
+  class Silent : public FakeBackend {
+   public:
+    using FakeBackend::FakeBackend;
+    RunResult run(const RunRequest&) override { return {}; }
+  };
+  const Scene scene = fake_scene();
+  SweepOptions options;
+  options.output = folder / "a.nc";
+  const SweepParts parts{[&](const FieldSet& fields) { return std::make_unique<Silent>(scene, fields, Precision::full, 10); },
+                         [&] { return std::make_unique<FakeEvaluator>(scene); }};
+  testing::internal::CaptureStdout();
+  EXPECT_THROW(run_sweep(scene, options, parts), Error);
+  testing::internal::GetCapturedStdout();
+}
+
+TEST_F(RunTest, CoreOnThreadsGivesTheSameFile) {
+  const std::string expected = reference();
+  const Scene scene = fake_scene();
+  SweepOptions options;
+  options.output = folder / "a.nc";
+  const SweepParts parts{[&](const FieldSet& fields) {
+                           return std::make_unique<CoreBackend>(std::make_unique<FakeEvaluator>(scene), scene, fields,
+                                                                Precision::full, 3);
+                         },
+                         [&] { return std::make_unique<FakeEvaluator>(scene); }};
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(run_sweep(scene, options, parts), ExitCode::done);
+  testing::internal::GetCapturedStdout();
+  expect_same_as(expected, folder / "a.nc");
+}
+
+TEST_F(RunTest, SobolRepeatsWithItsSeed) {
+  Scene scene = fake_scene();
+  scene.grips.sampling = Sampling::sobol;
+  scene.grips.count = 700;
+  scene.grips.seed = 5;
+  const std::string expected = reference(scene);
+  Trial again(folder / "a.nc"), other(folder / "b.nc");
+  again.scene = other.scene = scene;
+  other.scene.grips.seed = 6;
+  ASSERT_EQ(again.run().code, ExitCode::done);
+  ASSERT_EQ(other.run().code, ExitCode::done);
+  expect_same_as(expected, folder / "a.nc");
+  EXPECT_NE(read_values(folder / "b.nc", "roll"), read_values(folder / "a.nc", "roll"));
+}
+
+TEST_F(RunTest, XarrayUnderstandsTheResult) {
+  for (const Sampling sampling : {Sampling::grid, Sampling::sobol}) {
+    for (const Precision precision : {Precision::single, Precision::full}) {
+      Trial trial(folder / "a.nc");
+      trial.scene.grips.sampling = sampling;
+      trial.scene.grips.count = 300;
+      trial.precision = precision;
+      ASSERT_EQ(trial.run().code, ExitCode::done);
+      // Debian's own python3, which Debian's xarray belongs to
+      const std::string command = "/usr/bin/python3 " WHOLEHAND_SOURCE_DIR "/tests/xarray_test.py " + (folder / "a.nc");
+      EXPECT_EQ(std::system(command.c_str()), 0);
+    }
+  }
+}
+
+TEST_F(RunTest, OutputIsNamedAfterTheSceneFile) {
+  Scene scene;
+  scene.file = "some/where/three_beakers.toml";
+  EXPECT_EQ(default_output(scene), "three_beakers.nc");
+  scene.file = "odd";
+  EXPECT_EQ(default_output(scene), "odd.nc");
+  scene.file = "";
+  EXPECT_EQ(default_output(scene), "sweep.nc");
+}
+
+TEST_F(RunTest, VesselsWhoseNamesBecomeTheSameFileKeepApart) {
+  Trial trial(folder / "a.nc");
+  trial.scene.vessels[0].name = "a b";
+  trial.scene.vessels[1].name = "a/b";
+  ASSERT_EQ(trial.run().code, ExitCode::done);
+  EXPECT_TRUE(file_exists(folder / "a.a_b.svg"));
+  EXPECT_TRUE(file_exists(folder / "a.a_b_2.svg"));
+}
+
+TEST_F(RunTest, MissingGnuplotCostsThePicturesAlone) {
+  Trial trial(folder / "a.nc");
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", folder.path().c_str(), 1);
+  const Outcome outcome = trial.run();
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(outcome.code, ExitCode::done);
+  EXPECT_TRUE(has(outcome.notes, "gnuplot-nox")) << outcome.notes;
+  EXPECT_TRUE(file_exists(folder / "a.nc"));
+}
+
+}  // namespace
+}  // namespace wholehand

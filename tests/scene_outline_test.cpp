@@ -1,0 +1,182 @@
+// Vessels' outlines: shapes that become outlines, and what an outline must hold.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/support/scene_texts.h"
+
+namespace wholehand {
+namespace {
+
+// `elements` after the base; the vessel's outline.
+std::string outline_scene(const std::string& elements, const std::string& wall = "1") {
+  return "[[vessel]]\nname = \"v\"\nwall_mm = " + wall + "\noutline = [\n" + elements + "\n]\n";
+}
+
+TEST(SceneOutline, ShapesBecomeOutlines) {
+  const Scene scene = scene_of(R"(
+[[vessel]]
+name = "cylinder"
+shape = "cylinder"
+diameter_mm = 80
+height_mm = 110
+wall_mm = 2
+[[vessel]]
+name = "flask"
+shape = "flask"
+diameter_mm = 100
+neck_mm = 60
+height_mm = 120
+wall_mm = 2
+[[vessel]]
+name = "conical"
+shape = "conical"
+diameter_mm = 85
+upright_mm = 4
+neck_mm = 34
+shoulder_mm = 105
+height_mm = 145
+wall_mm = 2
+[[vessel]]
+name = "cone"
+shape = "conical"
+diameter_mm = 85
+upright_mm = 0
+neck_mm = 34
+shoulder_mm = 105
+height_mm = 145
+wall_mm = 2
+)");
+  using End = std::array<double, 2>;
+  const auto& cylinder = scene.vessels[0].outline;
+  ASSERT_EQ(cylinder.size(), 3u);
+  EXPECT_EQ(cylinder[0].end, (End{40e-3, 0}));
+  EXPECT_EQ(cylinder[1].end, (End{40e-3, 110e-3}));
+  EXPECT_EQ(cylinder[2].end, (End{0, 110e-3}));
+  EXPECT_EQ(cylinder[0].line, 4);
+  EXPECT_EQ(cylinder[0].column, 9);
+  const auto& flask = scene.vessels[1].outline;  // a 3-4-5 triangle: the sphere of 50 meets the neck of 30 at 50 + 40
+  ASSERT_EQ(flask.size(), 3u);
+  EXPECT_TRUE(flask[0].is_arc);
+  EXPECT_EQ(flask[0].center, (End{0, 50e-3}));
+  EXPECT_NEAR(flask[0].end[0], 30e-3, 1e-17);
+  EXPECT_NEAR(flask[0].end[1], 90e-3, 1e-16);
+  EXPECT_EQ(flask[1].end, (End{30e-3, 120e-3}));
+  EXPECT_EQ(flask[2].end, (End{0, 120e-3}));
+  const auto& conical = scene.vessels[2].outline;
+  ASSERT_EQ(conical.size(), 5u);
+  EXPECT_EQ(conical[1].end, (End{42.5e-3, 4e-3}));
+  EXPECT_EQ(conical[2].end, (End{17e-3, 105e-3}));
+  EXPECT_EQ(conical[3].end, (End{17e-3, 145e-3}));
+  EXPECT_EQ(conical[4].end, (End{0, 145e-3}));
+  EXPECT_EQ(scene.vessels[3].outline.size(), 4u);
+  for (const auto& vessel : scene.vessels) EXPECT_EQ(vessel.height, vessel.outline.back().end[1]);
+}
+
+TEST(SceneOutline, ReadsOutlines) {
+  const Scene scene = scene_of(outline_scene(R"({ line = [26, 0] },
+  { arc = [32, 6], center = [26, 6] },
+  { line = [32, 90] },
+  { line = [0, 90] })"));
+  const auto& outline = scene.vessels[0].outline;
+  ASSERT_EQ(outline.size(), 4u);
+  EXPECT_FALSE(outline[0].is_arc);
+  EXPECT_TRUE(outline[1].is_arc);
+  EXPECT_EQ(outline[1].center, (std::array{26e-3, 6e-3}));
+  EXPECT_EQ(outline[1].line, 6);
+  EXPECT_EQ(outline[1].column, 3);
+  EXPECT_EQ(scene.vessels[0].height, 90e-3);
+}
+
+TEST(SceneOutline, AcceptsUnusualOutlines) {
+  const std::vector<std::string> outlines{
+      // a hemisphere that starts level on the axis; a base that is drawn in (y < 0)
+      "{ arc = [30, 30], center = [0, 30] }, { line = [0, 30] }",
+      "{ line = [20, -3] }, { line = [30, -3] }, { line = [30, 90] }, { line = [0, 90] }",
+      // an arc that starts upright on the axis, and a rolled rim that is level with the mouth
+      "{ arc = [10, -10], center = [10, 0] }, { line = [30, -10] }, { line = [30, 50] }, { line = [0, 50] }",
+      "{ line = [30, 0] }, { line = [30, 90] }, { arc = [28, 92], center = [28, 90] }, { line = [0, 92] }",
+      // a waist; a half circle that bulges
+      "{ line = [30, 0] }, { arc = [30, 60], center = [90, 30] }, { line = [30, 90] }, { line = [0, 90] }",
+      "{ line = [30, 0] }, { arc = [30, 60], center = [30, 30] }, { line = [0, 60] }",
+      "{ line = [30, 0] }, { arc = [30, 40], center = [0, 20] }, { line = [0, 40] }",
+      // one circle in two arcs
+      "{ line = [30, 0] }, { arc = [60, 30], center = [30, 30] }, { arc = [30, 60], center = [30, 30] }, { line = [0, 60] }",
+  };
+  for (const auto& outline : outlines) EXPECT_EQ(refusal_of(outline_scene(outline)), "accepted") << outline;
+}
+
+TEST(SceneOutline, RefusesOutlines) {
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"@3, {}", "an element of outline = 3; allowed: {line = [r, y]} or {arc = [r, y], center = [r, y]}"},
+      {"@{ line = [1, 2], arc = [1, 2] }, {}", "with both 'line' and 'arc'"},
+      {"@{}, {}", "with neither 'line' nor 'arc'"},
+      {"@{ arc = [1, 2] }, {}", "with 'arc' and no 'center'"},
+      {"@{ line = [1, 2], center = [0, 0] }, {}", "with 'line' and 'center'"},
+      {"{ line = @[1] }, {}", "line has 1 entries; allowed: [r, y] in mm"},
+      {"{ line = @3 }, {}", "line = 3; allowed: [r, y] in mm"},
+      {"{ line = [@-1, 0] }, {}", "r of line = -1; allowed: 0 to 1000"},
+      {"{ line = [1, @nan] }, {}", "y of line = nan"},
+      // open, off the axis, no mouth
+      {"{ line = [30, 0] }, @{ line = [30, 90] }", "the outline is open: it ends at [30, 90], off the axis"},
+      {"{ line = [30, 0] }, @{ line = [0, 90] }", "the last element, from [30, 0] to [0, 90], is no level line"},
+      {"{ line = [30, 0] }, @{ arc = [0, 30], center = [0, 0] }", "the last element, from [30, 0] to [0, 30], is no level line"},
+      {"@{ line = [0, 30] }, { line = [30, 30] }, { line = [30, 90] }, { line = [0, 90] }",
+       "comes back to the axis at [0, 30], before its mouth"},
+      {"{ line = [30, 0] }, @{ line = [0, 20] }, { line = [30, 40] }, { line = [0, 40] }", "comes back to the axis at [0, 20]"},
+      {"{ line = [5, 0] }, @{ arc = [5, 40], center = [20, 20] }, { line = [30, 40] }, { line = [30, 60] }, { line = [0, 60] }",
+       "leaves its half plane: this arc reaches r = -5 at y = 20"},
+      // lengths
+      {"{ line = [30, 0] }, @{ line = [30, 0] }, { line = [0, 0] }", "an element of no length, from [30, 0] to [30, 0]"},
+      {"{ line = [30, 0] }, { line = [30, 90] }, @{ line = [30, 90.0001] }, { line = [0, 90.0001] }",
+       "allowed: elements of at least 0.001 mm"},
+      // arcs
+      {"{ line = [30, 0] }, { arc = [30, 60], center = @[31, 31] }, { line = [0, 60] }", "from the arc's start and"},
+      {"{ line = [30, 0] }, @{ arc = [50, 0], center = [40, 0] }, { line = [50, 60] }, { line = [0, 60] }",
+       "a half circle from [30, 0] to [50, 0], which may go above or below"},
+      // the mouth
+      {"{ line = [30, 0] }, @{ line = [40, 95] }, { line = [30, 90] }, { line = [0, 90] }",
+       "the outline rises to y = 95, above its mouth at 90"},
+      {"{ line = [30, 0] }, { line = [30, 90] }, @{ arc = [26, 90], center = [28, 89.9] }, { line = [0, 90] }",
+       "above its mouth at 90"},
+      {"@{ line = [30, 0] }, { line = [30, -90] }, { line = [0, -90] }", "the outline rises to y = 0, above its mouth at -90"},
+      // crossing and touching
+      {"{ line = [40, 0] }, { line = [40, 50] }, { line = [20, 50] }, { line = [20, 20] }, @{ line = [60, 20] }, { line = [60, 90] "
+       "}, { line = [0, 90] }",
+       "the outline meets itself at [40, 20], on the element of line 5, column 21"},
+      {"{ line = [40, 0] }, { line = [40, 50] }, { line = [20, 50] }, @{ line = [30, 0] }, { line = [30, 90] }, { line = [0, 90] }",
+       "the outline meets itself at [30, 0]"},
+      {"{ line = [40, 0] }, @{ line = [20, 0] }, { line = [20, 90] }, { line = [0, 90] }",
+       "the outline meets itself at [20, 0], on the element of line 5, column 1"},
+      {"{ line = [40, 0] }, { line = [40, 90] }, @{ line = [40, 20] }, { line = [20, 90] }, { line = [0, 90] }",
+       "the outline meets itself at [40, 20]"},
+      {"{ line = [40, 0] }, { arc = [40, 60], center = [40, 30] }, @{ line = [70, 30] }, { line = [30, 90] }, { line = [0, 90] }",
+       "the outline meets itself at [70, 30]"},
+      {"{ line = [30, 0] }, { line = [30, 60] }, { line = [50, 60] }, { line = [50, 20] }, @{ arc = [50, 40], center = [40, 30] }, "
+       "{ line = [80, 40] }, { line = [80, 90] }, { line = [0, 90] }",
+       "the outline meets itself at"},
+  };
+  for (const auto& [elements, gist] : cases) {
+    expect_refusal(outline_scene(elements), gist);
+  }
+  expect_refusal("[[vessel]]\nname = \"v\"\nwall_mm = 1\noutline = @[{ line = [1, 0] }]",
+                 "outline has 1 entries; allowed: 2 to 1000 entries");
+  expect_refusal(outline_scene("{ line = [30, 0] }, { line = [30, 90] }, { line = [0, 90] }", "@30"),
+                 "less than the vessel's largest radius, 30 mm");
+}
+
+TEST(SceneOutline, TakesThousandElementsAndNoMore) {
+  const auto zigzag = [](int teeth) {
+    std::string elements = "{ line = [30, 0] }";
+    for (int i = 1; i <= teeth; ++i) elements += ", { line = [" + std::to_string(30 + i % 2) + ", " + std::to_string(i) + "] }";
+    return outline_scene(elements + ", { line = [0, " + std::to_string(teeth) + "] }");
+  };
+  EXPECT_EQ(refusal_of(zigzag(998)), "accepted");
+  EXPECT_NE(refusal_of(zigzag(999)).find("outline has 1001 entries; allowed: 2 to 1000 entries"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace wholehand

@@ -1,0 +1,482 @@
+// Scene files: every key, every default, the shipped scenes.
+#include "app/scene_reader.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "tests/support/scene_texts.h"
+
+namespace wholehand {
+namespace {
+
+std::string scenes_dir() { return std::string(WHOLEHAND_SOURCE_DIR) + "/sweeps/scenes/"; }
+
+std::string text_of_file(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+TEST(SceneReader, LeavesEverythingElseAtItsDefault) {
+  const Scene scene = scene_of(VESSEL);
+  const Scene plain;
+  EXPECT_EQ(scene.name, "test");
+  EXPECT_EQ(scene.file, "test.toml");
+  EXPECT_EQ(scene.text, VESSEL);
+  EXPECT_EQ(scene.pose, Pose::articulated);
+  EXPECT_EQ(scene.gravity, 9.80665);
+  EXPECT_EQ(scene.hand.scale, 1);
+  EXPECT_EQ(scene.hand.handedness, Handedness::right);
+  EXPECT_EQ(scene.hand.joint_limit, plain.hand.joint_limit);
+  EXPECT_EQ(scene.hand.fingers[1].segments, plain.hand.fingers[1].segments);
+  ASSERT_EQ(scene.vessels.size(), 1u);
+  const VesselData& vessel = scene.vessels[0];
+  EXPECT_EQ(vessel.density, 2230);
+  EXPECT_EQ(vessel.surface, Surface::solid);
+  EXPECT_FALSE(vessel.mass);
+  EXPECT_FALSE(vessel.force_range);
+  EXPECT_FALSE(vessel.mesh);
+  EXPECT_TRUE(vessel.guidance.empty());
+  EXPECT_EQ(vessel.line, 2);
+  EXPECT_EQ(vessel.column, 1);
+  EXPECT_FALSE(scene.liquid);
+  EXPECT_FALSE(scene.task);
+  EXPECT_TRUE(scene.tilts.empty());
+  EXPECT_EQ(scene.force.range, 3);
+  EXPECT_EQ(scene.force.torsion, 5e-3);
+  EXPECT_EQ(scene.grips.sampling, Sampling::grid);
+  EXPECT_TRUE(scene.grips.height_is_fraction);
+  EXPECT_EQ(scene.grips.height.values, std::vector<double>{0.5});
+  EXPECT_EQ(scene.grips.azimuth.values, std::vector<double>{0.0});
+  EXPECT_EQ(scene.grips.hand_scale.values, std::vector<double>{1.0});
+  EXPECT_EQ(scene.score.fingers, 0.30);
+  EXPECT_FALSE(scene.output.keep);
+  EXPECT_EQ(scene.output.best, 20);
+  EXPECT_EQ(scene.live.rate, 1000);
+  EXPECT_FALSE(scene.device.has_gap);
+}
+
+TEST(SceneReader, ReadsSceneAndHand) {
+  const Scene scene = scene_of(R"(
+[scene]
+name = "all of it"
+pose = "paper"
+gravity_m_s2 = 1.62
+
+[hand]
+scale = 0.9
+handedness = "left"
+contact_tolerance_mm = 0.3
+max_angle_deg = 30
+paper_max_angle_deg = 7
+depth_limit_mm = 4
+joint_limit_deg = [80, 90, 70]
+
+[hand.thumb]
+base_mm = [1, 2, 3]
+splay_deg = 11
+segments_mm = [46, 31, 27]
+radii_mm = [1, 2, 3, 4]
+
+[hand.index]
+base_mm = [4, 5, 6]
+splay_deg = -9
+arch_deg = 1
+segments_mm = [68, 39, 22, 19]
+radii_mm = [5, 4, 3, 2, 1]
+
+[hand.middle]
+splay_deg = 1
+[hand.ring]
+arch_deg = 5
+[hand.little]
+base_mm = [7, 8, 9]
+
+[hand.angles]
+thumb_abduction_deg = [61, 56]
+thumb_mcp_deg = [5, 6]
+thumb_ip_deg = [3, 46]
+mcp_deg = [5, 67]
+pip_deg = [13, 41]
+dip_per_pip = 0.5
+)" + VESSEL);
+  EXPECT_EQ(scene.name, "all of it");
+  EXPECT_EQ(scene.pose, Pose::paper);
+  EXPECT_EQ(scene.gravity, 1.62);
+  const HandData& hand = scene.hand;
+  EXPECT_EQ(hand.scale, 0.9);
+  EXPECT_EQ(hand.handedness, Handedness::left);
+  EXPECT_EQ(hand.contact_tolerance, 0.3e-3);
+  EXPECT_EQ(hand.max_angle, radians(30));
+  EXPECT_EQ(hand.paper_max_angle, radians(7));
+  EXPECT_EQ(hand.depth_limit, 4e-3);
+  EXPECT_EQ(hand.joint_limit, (std::array{radians(80), radians(90), radians(70)}));
+  EXPECT_EQ(hand.fingers[0].base, (Triple{1e-3, 2e-3, 3e-3}));
+  EXPECT_EQ(hand.fingers[0].splay, radians(11));
+  EXPECT_EQ(hand.fingers[0].segments, (std::array{46e-3, 31e-3, 27e-3, 0.0}));
+  EXPECT_EQ(hand.fingers[0].radii, (std::array{1e-3, 2e-3, 3e-3, 4e-3, 0.0}));
+  EXPECT_EQ(hand.fingers[1].base, (Triple{4e-3, 5e-3, 6e-3}));
+  EXPECT_EQ(hand.fingers[1].splay, radians(-9));
+  EXPECT_EQ(hand.fingers[1].arch, radians(1));
+  EXPECT_EQ(hand.fingers[1].segments, (std::array{68e-3, 39e-3, 22e-3, 19e-3}));
+  EXPECT_EQ(hand.fingers[1].radii, (std::array{5e-3, 4e-3, 3e-3, 2e-3, 1e-3}));
+  EXPECT_EQ(hand.fingers[2].splay, radians(1));
+  EXPECT_EQ(hand.fingers[3].arch, radians(5));
+  EXPECT_EQ(hand.fingers[3].splay, radians(7));  // untouched
+  EXPECT_EQ(hand.fingers[4].base, (Triple{7e-3, 8e-3, 9e-3}));
+  EXPECT_EQ(hand.thumb_abduction.open, radians(61));
+  EXPECT_EQ(hand.thumb_abduction.closed, radians(56));
+  EXPECT_EQ(hand.thumb_mcp.closed, radians(6));
+  EXPECT_EQ(hand.thumb_ip.open, radians(3));
+  EXPECT_EQ(hand.mcp.closed, radians(67));
+  EXPECT_EQ(hand.pip.open, radians(13));
+  EXPECT_EQ(hand.dip_per_pip, 0.5);
+}
+
+TEST(SceneReader, TheDefaultHandIsWhatItsTableSays) {
+  // lengths are divided, not multiplied: 46.22 mm must be the double 46.22e-3
+  const Scene scene =
+      scene_of("[hand.thumb]\nbase_mm = [-22, -9, -18]\nsplay_deg = 10\nsegments_mm = [46.22, 31.57, 27.34]\n" + VESSEL);
+  const HandData plain;
+  EXPECT_EQ(scene.hand.fingers[0].base, plain.fingers[0].base);
+  EXPECT_EQ(scene.hand.fingers[0].segments, plain.fingers[0].segments);
+  EXPECT_EQ(scene.hand.fingers[0].splay, plain.fingers[0].splay);
+}
+
+TEST(SceneReader, ReadsVessels) {
+  const Scene scene = scene_of(R"(
+[liquid]
+fills = [0.5]
+[[vessel]]
+name = "glass"
+shape = "cylinder"
+diameter_mm = 70
+height_mm = 100
+wall_mm = 1.25
+surface = "shell"
+density_kg_m3 = 2500
+force_range_N = 2.5
+guidance_mm = [[30, 0], [60.5, 90]]
+place_mm = [100, 0, -200]
+liquid = { name = "acid", fill = 0.25 }
+
+[[vessel]]
+name = "weighed"
+shape = "cylinder"
+diameter_mm = 70
+height_mm = 100
+wall_mm = 1
+mass_kg = 0.25
+center_of_mass_mm = [1, 50, 2]
+
+[[vessel]]
+name = "scanned"
+mesh = "cup.glb"
+mesh_scale = 0.001
+rotate_deg = [90, 0, -45]
+origin = "as_is"
+grid_mm = 1.5
+wall_mm = 2
+)");
+  ASSERT_EQ(scene.vessels.size(), 3u);
+  const VesselData& glass = scene.vessels[0];
+  EXPECT_EQ(glass.name, "glass");
+  EXPECT_EQ(glass.height, 0.1);
+  EXPECT_EQ(glass.wall, 1.25e-3);
+  EXPECT_EQ(glass.surface, Surface::shell);
+  EXPECT_EQ(glass.density, 2500);
+  EXPECT_EQ(glass.force_range, 2.5);
+  ASSERT_EQ(glass.guidance.size(), 2u);
+  EXPECT_EQ(glass.guidance[1].height, 60.5e-3);
+  EXPECT_EQ(glass.guidance[1].azimuth, radians(90));
+  EXPECT_EQ(glass.place, (Triple{0.1, 0, -0.2}));
+  EXPECT_EQ(glass.liquid_name, "acid");
+  EXPECT_EQ(glass.liquid_fill, 0.25);
+  EXPECT_FALSE(glass.mass);
+  const VesselData& weighed = scene.vessels[1];
+  EXPECT_EQ(weighed.mass, 0.25);
+  EXPECT_EQ(weighed.center_of_mass, (Triple{1e-3, 50e-3, 2e-3}));
+  EXPECT_EQ(weighed.line, 17);
+  const VesselData& scanned = scene.vessels[2];
+  ASSERT_TRUE(scanned.mesh);
+  EXPECT_EQ(scanned.mesh->file, "cup.glb");
+  EXPECT_EQ(scanned.mesh->scale, 0.001);
+  EXPECT_EQ(scanned.mesh->rotate, (Triple{radians(90), 0, radians(-45)}));
+  EXPECT_FALSE(scanned.mesh->origin_at_base);
+  EXPECT_EQ(scanned.mesh->grid_spacing, 1.5e-3);
+  EXPECT_TRUE(scanned.outline.empty());
+}
+
+TEST(SceneReader, ReadsLiquidForceScoreAndOutput) {
+  const Scene scene = scene_of(R"(
+[liquid]
+density_kg_m3 = 789
+fills = [0, 0.5, 1]
+pour = "towards"
+[force]
+base_N = 1
+range_N = 2
+torque = "exact"
+reference = "per_grip"
+max_N = 12
+k_open_N_m = 500
+friction = 0.5
+torsion_mm = 4
+grip_strength_N = 60
+[score]
+fingers = 1
+contacts = 2
+depth = 3
+posture = 4
+force = 5
+hold = 6
+[output]
+keep = ["score", "gap"]
+best = 7
+)" + VESSEL);
+  ASSERT_TRUE(scene.liquid);
+  EXPECT_EQ(scene.liquid->density, 789);
+  EXPECT_EQ(scene.liquid->fills, (std::vector<double>{0, 0.5, 1}));
+  EXPECT_EQ(scene.liquid->pour, Pour::towards);
+  EXPECT_EQ(scene.force.base, 1);
+  EXPECT_EQ(scene.force.range, 2);
+  EXPECT_EQ(scene.force.torque, Torque::exact);
+  EXPECT_EQ(scene.force.reference, TorqueReference::per_grip);
+  EXPECT_EQ(scene.force.max, 12);
+  EXPECT_EQ(scene.force.k_open, 500);
+  EXPECT_EQ(scene.force.friction, 0.5);
+  EXPECT_EQ(scene.force.torsion, 4e-3);
+  EXPECT_EQ(scene.force.grip_strength, 60);
+  EXPECT_EQ(scene.score.fingers, 1);
+  EXPECT_EQ(scene.score.contacts, 2);
+  EXPECT_EQ(scene.score.depth, 3);
+  EXPECT_EQ(scene.score.posture, 4);
+  EXPECT_EQ(scene.score.force, 5);
+  EXPECT_EQ(scene.score.hold, 6);
+  EXPECT_EQ(scene.output.keep, (std::vector<std::string>{"score", "gap"}));
+  EXPECT_EQ(scene.output.best, 7);
+}
+
+TEST(SceneReader, ReadsAxesOfEveryForm) {
+  const Scene scene = scene_of(R"(
+[grips]
+height_mm = { from = 10, to = 30, count = 3 }
+azimuth_deg = [90, 0]
+obliquity_deg = -5.5
+roll_deg = { from = -90, to = 30, count = 16 }
+offset_mm = [1]
+hand_scale = { from = 0.8, to = 1.2, count = 2 }
+[tilts]
+deg = { from = 0, to = 150, count = 31 }
+)" + VESSEL);
+  const GripsData& grips = scene.grips;
+  EXPECT_FALSE(grips.height_is_fraction);
+  EXPECT_EQ(grips.height.values, (std::vector<double>{10e-3, 20e-3, 30e-3}));
+  EXPECT_TRUE(grips.height.is_range);
+  EXPECT_EQ(grips.height.from, 10e-3);
+  EXPECT_EQ(grips.height.to, 30e-3);
+  EXPECT_EQ(grips.azimuth.values, (std::vector<double>{radians(90), 0}));
+  EXPECT_FALSE(grips.azimuth.is_range);
+  EXPECT_EQ(grips.obliquity.values, std::vector<double>{radians(-5.5)});
+  ASSERT_EQ(grips.roll.values.size(), 16u);
+  EXPECT_EQ(grips.roll.values[1], radians(-82));
+  EXPECT_EQ(grips.roll.values.back(), radians(30));
+  EXPECT_EQ(grips.offset.values, std::vector<double>{1e-3});
+  EXPECT_EQ(grips.hand_scale.values, (std::vector<double>{0.8, 1.2}));
+  ASSERT_EQ(scene.tilts.size(), 31u);
+  for (int i = 0; i < 31; ++i) EXPECT_EQ(scene.tilts[i], radians(5 * i));
+  EXPECT_EQ(scene_of("[grips]\nheight_fraction = [0, 1]" + VESSEL).grips.height.values, (std::vector<double>{0, 1}));
+  EXPECT_EQ(scene_of("[tilts]\ndeg = [0, 45, 180]" + VESSEL).tilts, (std::vector<double>{0, radians(45), radians(180)}));
+}
+
+TEST(SceneReader, ReadsSobolRangesWithAndWithoutCount) {
+  const Scene scene = scene_of(R"(
+[grips]
+sampling = "sobol"
+count = 10_000_000
+seed = 42
+height_fraction = { from = 0.1, to = 0.9 }
+roll_deg = { from = -90, to = 30, count = 4 }
+obliquity_deg = { from = 5, to = 5 }
+)" + VESSEL);
+  EXPECT_EQ(scene.grips.sampling, Sampling::sobol);
+  EXPECT_EQ(scene.grips.count, 10000000u);
+  EXPECT_EQ(scene.grips.seed, 42u);
+  EXPECT_TRUE(scene.grips.height.is_range);
+  EXPECT_EQ(scene.grips.height.from, 0.1);
+  EXPECT_EQ(scene.grips.height.to, 0.9);
+  EXPECT_TRUE(scene.grips.roll.is_range);
+  EXPECT_EQ(scene.grips.roll.values.size(), 4u);
+  EXPECT_EQ(scene.grips.obliquity.values, std::vector<double>{radians(5)});
+}
+
+TEST(SceneReader, ReadsLiveDeviceAndTask) {
+  const Scene scene = scene_of(R"(
+[liquid]
+fills = [0]
+[live]
+rate_Hz = 4000
+K_N_m = 700
+B_Ns_m = 2
+slip_mm = 9
+ramp_s = 0.25
+slew_N_s = 1000
+jump_m_s = 4
+late_steps = 5
+[device]
+gap_mm = [0, 25]
+workspace_scale = 1.5
+origin_mm = [1, 2, 3]
+axes = ["z", "-x", "y"]
+clutch_button = 1
+library = "/opt/libdhd.so"
+[task]
+target = { place_mm = [0, 1, 2], diameter_mm = 90 }
+amounts_ml = { acid = 50 }
+destination_mm = [3, 4, 5]
+tolerance_ml = 5
+[[vessel]]
+name = "v"
+shape = "cylinder"
+diameter_mm = 80
+height_mm = 110
+wall_mm = 2
+liquid = { name = "acid", fill = 0.5 }
+)");
+  EXPECT_EQ(scene.live.rate, 4000);
+  EXPECT_EQ(scene.live.stiffness, 700);
+  EXPECT_EQ(scene.live.damping, 2);
+  EXPECT_EQ(scene.live.slip, 9e-3);
+  EXPECT_EQ(scene.live.ramp, 0.25);
+  EXPECT_EQ(scene.live.slew, 1000);
+  EXPECT_EQ(scene.live.jump, 4);
+  EXPECT_EQ(scene.live.late_steps, 5);
+  EXPECT_TRUE(scene.device.has_gap);
+  EXPECT_EQ(scene.device.gap, (std::array{0.0, 25e-3}));
+  EXPECT_EQ(scene.device.workspace_scale, 1.5);
+  EXPECT_EQ(scene.device.origin, (Triple{1e-3, 2e-3, 3e-3}));
+  EXPECT_EQ(scene.device.axes, (std::array<std::string, 3>{"z", "-x", "y"}));
+  EXPECT_EQ(scene.device.clutch_button, 1);
+  EXPECT_EQ(scene.device.library, "/opt/libdhd.so");
+  ASSERT_TRUE(scene.task);
+  EXPECT_EQ(scene.task->target_place, (Triple{0, 1e-3, 2e-3}));
+  EXPECT_EQ(scene.task->target_diameter, 90e-3);
+  ASSERT_EQ(scene.task->amounts.size(), 1u);
+  EXPECT_EQ(scene.task->amounts[0].first, "acid");
+  EXPECT_EQ(scene.task->amounts[0].second, 50e-6);
+  EXPECT_EQ(scene.task->destination, (Triple{3e-3, 4e-3, 5e-3}));
+  EXPECT_EQ(scene.task->tolerance, 5e-6);
+}
+
+const std::map<std::string, std::vector<std::string>> KEYS{
+    {"[scene]", {"name", "pose", "gravity_m_s2"}},
+    {"[hand]",
+     {"scale", "handedness", "contact_tolerance_mm", "max_angle_deg", "paper_max_angle_deg", "depth_limit_mm", "joint_limit_deg",
+      "thumb", "index", "middle", "ring", "little", "angles"}},
+    {"[hand.thumb]", {"base_mm", "splay_deg", "segments_mm", "radii_mm"}},
+    {"[hand.index]", {"base_mm", "splay_deg", "arch_deg", "segments_mm", "radii_mm"}},
+    {"[hand.little]", {"base_mm", "splay_deg", "arch_deg", "segments_mm", "radii_mm"}},
+    {"[hand.angles]", {"thumb_abduction_deg", "thumb_mcp_deg", "thumb_ip_deg", "mcp_deg", "pip_deg", "dip_per_pip"}},
+    {"[[vessel]]", {"name",          "shape",       "diameter_mm", "height_mm",     "neck_mm",    "upright_mm",
+                    "shoulder_mm",   "outline",     "mesh",        "mesh_scale",    "rotate_deg", "origin",
+                    "grid_mm",       "wall_mm",     "surface",     "density_kg_m3", "mass_kg",    "center_of_mass_mm",
+                    "force_range_N", "guidance_mm", "place_mm",    "liquid"}},
+    {"[liquid]", {"density_kg_m3", "fills", "pour"}},
+    {"[force]", {"base_N", "range_N", "torque", "reference", "max_N", "k_open_N_m", "friction", "torsion_mm", "grip_strength_N"}},
+    {"[grips]",
+     {"height_mm", "height_fraction", "azimuth_deg", "obliquity_deg", "roll_deg", "offset_mm", "hand_scale", "sampling", "count",
+      "seed"}},
+    {"[tilts]", {"deg"}},
+    {"[score]", {"fingers", "contacts", "depth", "posture", "force", "hold"}},
+    {"[output]", {"keep", "best"}},
+    {"[live]", {"rate_Hz", "K_N_m", "B_Ns_m", "slip_mm", "ramp_s", "slew_N_s", "jump_m_s", "late_steps"}},
+    {"[device]", {"gap_mm", "workspace_scale", "origin_mm", "axes", "clutch_button", "library"}},
+    {"[task]", {"target", "amounts_ml", "destination_mm", "tolerance_ml"}},
+};
+
+TEST(SceneReader, EveryMisspeltKeyGetsTheRightOneSuggested) {
+  for (const auto& [table, keys] : KEYS) {
+    for (const std::string& key : keys) {
+      const std::string misspelt = key + "x";
+      const std::string vessel = table == "[[vessel]]" ? "" : VESSEL;
+      expect_refusal(table + "\n@" + misspelt + " = 1\n" + vessel,
+                     "unknown key '" + misspelt + "' in " + table + "; the nearest known key is '" + key + "'");
+    }
+  }
+}
+
+TEST(SceneReader, EveryKeyIsInTheReference) {
+  const std::string reference = text_of_file(std::string(WHOLEHAND_SOURCE_DIR) + "/docs/scene.md");
+  for (const auto& [table, keys] : KEYS) {
+    EXPECT_NE(reference.find("`" + table + "`"), std::string::npos) << table;
+    for (const std::string& key : keys) EXPECT_NE(reference.find("`" + key + "`"), std::string::npos) << table << " " << key;
+  }
+}
+
+TEST(SceneReader, ReadsTheShippedScenes) {
+  const Scene beakers = read_scene_file(scenes_dir() + "three_beakers.toml");
+  EXPECT_EQ(beakers.name, "three_beakers");
+  EXPECT_EQ(beakers.text, text_of_file(scenes_dir() + "three_beakers.toml"));
+  ASSERT_EQ(beakers.vessels.size(), 3u);
+  EXPECT_EQ(beakers.vessels[0].name, "beaker1");
+  EXPECT_EQ(beakers.vessels[1].name, "beaker2");
+  EXPECT_EQ(beakers.vessels[2].name, "beaker3");
+  EXPECT_EQ(beakers.vessels[0].force_range, 2);
+  EXPECT_EQ(beakers.vessels[1].force_range, 3);
+  EXPECT_EQ(beakers.vessels[2].force_range, 4);
+  for (const auto& vessel : beakers.vessels) {
+    EXPECT_EQ(vessel.wall, 1.5e-3);
+    EXPECT_EQ(vessel.density, 2230);
+    EXPECT_EQ(vessel.surface, Surface::solid);
+  }
+  EXPECT_EQ(beakers.vessels[0].height, 0.11);
+  EXPECT_EQ(beakers.vessels[1].height, 0.14);
+  EXPECT_EQ(beakers.vessels[2].height, 0.145);
+  EXPECT_EQ(beakers.pose, Pose::articulated);
+  EXPECT_EQ(beakers.grips.height.values.size() * beakers.grips.azimuth.values.size() * beakers.grips.obliquity.values.size() *
+                beakers.grips.roll.values.size() * beakers.grips.offset.values.size() * beakers.grips.hand_scale.values.size(),
+            9216u);
+  EXPECT_EQ(beakers.grips.height.values.front(), 0.10);
+  EXPECT_EQ(beakers.grips.height.values.back(), 0.95);
+  EXPECT_EQ(beakers.liquid->fills, (std::vector<double>{0, 0.25, 0.5, 0.75, 1}));
+  EXPECT_EQ(beakers.tilts.size(), 31u);
+  EXPECT_EQ(beakers.tilts.back(), radians(150));
+  EXPECT_EQ(beakers.output.best, 20);
+
+  const Scene paper = read_scene_file(scenes_dir() + "paper_pose.toml");
+  EXPECT_EQ(paper.pose, Pose::paper);
+  EXPECT_FALSE(paper.liquid);
+  for (const auto& finger : paper.hand.fingers) EXPECT_EQ(finger.radii, (std::array<double, 5>{}));
+
+  const Scene small = read_scene_file(scenes_dir() + "small.toml");
+  EXPECT_EQ(small.hand.handedness, Handedness::left);
+  EXPECT_EQ(small.vessels[0].surface, Surface::shell);
+  EXPECT_TRUE(small.vessels[0].outline[1].is_arc);
+}
+
+TEST(SceneReader, RefusesFilesThatAreNone) {
+  const auto refusal = [](const std::string& path) -> std::string {
+    try {
+      read_scene_file(path);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code, ExitCode::usage);
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(refusal("/nowhere/scene.toml"), "no scene file '/nowhere/scene.toml'; give the path of a TOML file");
+  EXPECT_EQ(refusal("/"), "'/' is a directory; give the path of a scene file");
+  EXPECT_EQ(refusal(""), "no scene file ''; give the path of a TOML file");
+  EXPECT_NE(refusal("/dev/zero").find("/dev/zero:1:1: more than 1048576 bytes"), std::string::npos);
+  EXPECT_NE(refusal("/dev/null").find("/dev/null:1:1: the scene lacks 'vessel'"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace wholehand

@@ -1,0 +1,29 @@
+// Leaf functions of closure.glsl.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "closure.glsl"
+#include "probe.glsl"
+
+void main() {
+  if (row() >= push.count) return;
+  load_outline();
+  if (PROBE == PROBE_TRACE_TIP) {
+    Trace trace = trace_tip(given3(0), grip_direction(given(3), given(4)), given(5), given(6));
+    answer(0, trace.t);
+    answer(1, Real(trace.reason));
+    answer3(2, trace.normal);
+    answer(5, Real(trace.element));
+  }
+  if (PROBE == PROBE_PLACE_HAND) {
+    Real e1_x;
+    Placement placement = place_hand(given(0), grip_direction(given(1), given(2)), given(3), given3(4), given(7), e1_x);
+    for (int k = 0; k < 3; ++k) answer3(3 * k, placement.rotation[k]);
+    answer3(9, placement.translation);
+    answer(12, e1_x);
+    FingerFrame index = placed_frame(placement, hand_frame(1));
+    answer3(13, index.base);
+    answer3(16, index.forward);
+    answer3(19, index.palmward);
+  }
+}

@@ -1,0 +1,10 @@
+// The shaders of this folder, which evaluate one leaf function on a table: embedded in the tests, not in the product.
+#pragma once
+
+#include "host/shaders.h"
+
+namespace wholehand {
+
+std::span<const EmbeddedShader> probe_shaders();
+
+}  // namespace wholehand

@@ -1,0 +1,54 @@
+// Which leaf function a probe evaluates, and how many numbers it takes and gives: read by the probe shaders and by the tests.
+#ifndef WHOLEHAND_PROBE_TABLE_H
+#define WHOLEHAND_PROBE_TABLE_H
+
+#define CONST_PROBE 7  // specialization constant: one of these
+
+// probe_trig
+#define PROBE_SINE_COSINE 0    // angle; sine, cosine
+#define PROBE_ARC_COSINE 1     // x; angle
+#define PROBE_ANGLE_BETWEEN 2  // a, b; angle
+// probe_hand
+#define PROBE_TRAJECTORY 10      // closure; angles of the thumb, of a finger
+#define PROBE_FINGER_POINTS 11   // frame, mcp, lengths, angles; pip, dip, tip
+#define PROBE_THUMB_POINTS 12    // frame, lengths, angles; mcp, ip, tip
+#define PROBE_TIP_TO_TIP 13      // closure; way, slope, gap
+#define PROBE_CLOSURE_OF_GAP 14  // gap; closure
+// probe_sdf
+#define PROBE_SIGNED_DISTANCE 20  // point; distance
+#define PROBE_GRADIENT 21         // point; gradient, element
+#define PROBE_SUPPORT 22          // point; distance, other, normal, element, planar
+#define PROBE_SAFE_STEP 23        // distance, other, normal, planar, separation, velocity, speed, acceleration; step
+#define PROBE_CONTACT 24          // point, radius; separation, proxy, settled
+// probe_closure
+#define PROBE_TRACE_TIP 30   // origin, azimuth, obliquity, heading, radius; t, reason, normal, element
+#define PROBE_PLACE_HAND 31  // closure, azimuth, obliquity, roll, midpoint, scale; rotation, translation, e1.x, index frame
+// probe_projection
+#define PROBE_SEGMENT_RATES 40    // swing, joint; rates
+#define PROBE_QUARTER_TURN 41     // frame, segment; velocity
+#define PROBE_NEAREST_POINT 42    // separations, first; point
+#define PROBE_FINGER_STEP 43      // frame, mcp, lengths, angles, radii, rates; step
+#define PROBE_FINGER_MOTION 44    // frame, mcp, lengths, radii, limit; angles, blocked, unsettled
+#define PROBE_PAPER_AXIS 45       // index MCP, little MCP, index tip, thumb tip; direction, exists
+#define PROBE_TURNED_POINT 46     // point, pivot, axis, angle; point
+#define PROBE_PROJECT_POINT 47    // point, radius, pivot, axis, largest angle; point, unsettled
+#define PROBE_PROJECTION_ROLE 48  // point, touched before; role
+// probe_liquid; element: a, b, center, radius, side
+#define PROBE_SEGMENT_AREA 60     // r, h; area
+#define PROBE_SEGMENT_MOMENT 61   // r, h; moment
+#define PROBE_ELEMENT_RADIUS 62   // element, y; radius
+#define PROBE_PLANE_CROSSINGS 63  // element, level, sine, cosine, sigma; heights
+#define PROBE_PIECE_BELOW 64      // element, level, sine, cosine; volume, lean, height, surface
+#define PROBE_LIP_CAPACITY 65     // sine, cosine; lip level, bottom level, capacity
+#define PROBE_LIQUID_AT 66        // volume, sine, cosine; volume, lean, height
+#define PROBE_REVOLVED 67         // element; volume, height
+// probe_force
+#define PROBE_DIRECTIONS 80      // direction, sense, sine, cosine; pour, up
+#define PROBE_LOAD_CENTER 81     // fixed, lean, height, pour; center
+#define PROBE_TORQUES 82         // mass, gravity, length, arm, pour, sine, cosine; paper's, exact, reference
+#define PROBE_FORCES 83          // base, range, torque, reference, k_open, squeeze, max; normal, opening, feedback
+#define PROBE_HOLD_FORCE 84      // mass, gravity, arm, direction, up, friction, torsion; force
+#define PROBE_COUPLING_FORCE 85  // tip, proxy, normal, velocity, stiffness, damping; force
+#define PROBE_SCORE 86           // fingers, points, phalanx, palm, closure, feedback, max, hold, strength; terms
+
+#endif

@@ -1,0 +1,86 @@
+// The shaders that the binaries carry: every variant there, in order, and each valid by spirv-val's judgement.
+// sanitizers: none
+#include "host/shaders.h"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <tuple>
+
+#include "tests/shaders/probe_shaders.h"
+
+namespace wholehand {
+namespace {
+
+using Variant = std::pair<int, int>;  // precision, outline source
+
+std::string label(const EmbeddedShader& shader) {
+  return std::string(shader.name) + " precision " + std::to_string(shader.precision) + " outline " +
+         std::to_string(shader.outline_source);
+}
+
+// Every shader in float and in double, with no outline or with all three sources of it; sorted.
+void expect_every_variant(std::span<const EmbeddedShader> shaders) {
+  std::map<std::string, std::set<Variant>> variants;
+  for (const EmbeddedShader& shader : shaders) variants[std::string(shader.name)].emplace(shader.precision, shader.outline_source);
+  const std::set<Variant> plain = {{0, -1}, {1, -1}};
+  const std::set<Variant> outlined = {{0, 0}, {0, 1}, {0, 2}, {1, 0}, {1, 1}, {1, 2}};
+  std::size_t count = 0;
+  for (const auto& [name, found] : variants) {
+    EXPECT_TRUE(found == plain || found == outlined) << name << " has " << found.size() << " variants";
+    count += found.size();
+  }
+  EXPECT_EQ(count, shaders.size());
+  for (std::size_t i = 1; i < shaders.size(); ++i) {
+    const auto key = [](const EmbeddedShader& s) { return std::tuple(s.name, s.precision, s.outline_source); };
+    EXPECT_LT(key(shaders[i - 1]), key(shaders[i])) << label(shaders[i]);
+  }
+}
+
+// What spirv-val says of the words; empty: nothing.
+std::string complaints(std::span<const std::uint32_t> words) {
+  const std::filesystem::path path = std::filesystem::temp_directory_path() / ("wholehand-" + std::to_string(getpid()) + ".spv");
+  std::FILE* file = std::fopen(path.c_str(), "wb");
+  if (!file) return "cannot write " + path.string();
+  const std::size_t written = std::fwrite(words.data(), sizeof(words[0]), words.size(), file);
+  std::fclose(file);
+  if (written != words.size()) return "cannot write " + path.string();
+  std::string output;
+  std::FILE* pipe = popen(("spirv-val --target-env vulkan1.3 '" + path.string() + "' 2>&1").c_str(), "r");
+  std::array<char, 512> buffer;
+  while (pipe && std::fgets(buffer.data(), buffer.size(), pipe)) output += buffer.data();
+  const int status = pipe ? pclose(pipe) : -1;
+  std::filesystem::remove(path);
+  if (status != 0) return "spirv-val ended with " + std::to_string(status) + ": " + output;
+  return output;
+}
+
+void expect_valid(std::span<const EmbeddedShader> shaders) {
+  EXPECT_FALSE(shaders.empty());
+  for (const EmbeddedShader& shader : shaders) EXPECT_EQ(complaints(shader.words), "") << label(shader);
+}
+
+TEST(Shaders, EveryVariantIsEmbedded) {
+  expect_every_variant(embedded_shaders());
+  expect_every_variant(probe_shaders());
+}
+
+TEST(Shaders, ProductIsValidSpirv) { expect_valid(embedded_shaders()); }
+
+TEST(Shaders, ProbesAreValidSpirv) { expect_valid(probe_shaders()); }
+
+TEST(Shaders, DamagedWordsAreNotValid) {
+  ASSERT_FALSE(embedded_shaders().empty());
+  const std::span<const std::uint32_t> words = embedded_shaders()[0].words;
+  EXPECT_NE(complaints(words.first(words.size() / 2)), "");
+}
+
+}  // namespace
+}  // namespace wholehand

@@ -1,0 +1,36 @@
+// Result files as tests read them back, and folders to put them in.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace wholehand {
+
+// All values of a variable in the file's order. Adds a test failure and returns nothing where it cannot be read.
+std::vector<double> read_values(const std::string& file, const std::string& variable);
+// The raw text of an attribute; `variable` empty: of the file.
+std::string read_text(const std::string& file, const std::string& variable, const std::string& attribute);
+std::vector<std::string> dimension_names(const std::string& file, const std::string& variable);
+std::vector<std::string> variable_names(const std::string& file);
+
+// Every variable of both files holds the same bits.
+void expect_same_values(const std::string& file, const std::string& other);
+
+// An empty folder that goes away with everything in it.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  std::string operator/(const std::string& name) const { return path_ + "/" + name; }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+std::string file_text(const std::string& path);
+bool file_exists(const std::string& path);
+
+}  // namespace wholehand
