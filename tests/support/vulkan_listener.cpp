@@ -1,6 +1,5 @@
 #include "tests/support/vulkan_listener.h"
 
-#include <dlfcn.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -29,9 +28,6 @@ class Environment : public testing::Environment {
 
 bool install_vulkan_listener() {
   setenv("WHOLEHAND_VALIDATION", "1", 0);
-  for (const char* library : {"libvulkan_lvp.so", "libVkLayer_khronos_validation.so"}) {
-    dlopen(library, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);  // where it is not there, there is nothing to keep
-  }
   testing::UnitTest::GetInstance()->listeners().Append(new Listener);  // both are owned by gtest
   testing::AddGlobalTestEnvironment(new Environment);
   return true;
