@@ -61,7 +61,7 @@ function(embed_shaders target header function)
         endif()
         set(output "${folder}/${name}.h")
         add_custom_command(OUTPUT "${output}"
-          COMMAND "${GLSLANG_VALIDATOR}" --quiet --target-env ${SHADER_TARGET_ENV} ${defines} "-I${PROJECT_SOURCE_DIR}"
+          COMMAND "${GLSLANG_VALIDATOR}" --quiet -Os --target-env ${SHADER_TARGET_ENV} ${defines} "-I${PROJECT_SOURCE_DIR}"
             "-I${PROJECT_SOURCE_DIR}/shaders" --vn ${name} --depfile "${output}.d" -o "${output}" "${shader}"
           DEPENDS "${shader}"
           DEPFILE "${output}.d"

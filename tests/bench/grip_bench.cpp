@@ -2,6 +2,7 @@
 //   wholehand_bench [--csv FILE] [--on DEVICE] [Google Benchmark's own options]
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <fstream>
@@ -22,14 +23,20 @@ namespace {
 
 std::string device_name = "vulkan";
 
-// The default scene's grips alone, without liquid and tilts: closure, projection and contact; at ten times its heights, so that what is
-// measured is the work and not the dozen waits of a run that lasts 15 ms.
-Scene grips_scene() {
+// The default scene, fills and tilts included, at ten times its heights, so that what is measured is the work and not the dozen waits of
+// a run that lasts 15 ms.
+Scene whole_scene() {
   Scene scene = read_scene_file(find_scene("three_beakers"));
   std::vector<double>& heights = scene.grips.height.values;
   const double low = heights.front(), high = heights.back();
   heights.clear();
   for (int k = 0; k < 640; ++k) heights.push_back(low + (high - low) * k / 639);
+  return scene;
+}
+
+// Its grips alone: closure, projection and contact.
+Scene grips_scene() {
+  Scene scene = whole_scene();
   scene.liquid.reset();
   scene.tilts.clear();
   return scene;
@@ -94,14 +101,14 @@ const std::vector<int> KEPT{FIELD_SCORE,         FIELD_TERMS,       FIELD_GAP,  
 
 void bench_backend(benchmark::State& state, Backend& backend, const Scene& scene) {
   const Plan plan(scene, false);
-  state.counters["hash"] = static_cast<double>(hash_all(backend, scene, plan) >> 12);  // warms the device's compiler as well
+  state.counters["hash"] =
+      static_cast<double>(hash_all(backend, scene, plan) >> 12);  // warms the device's compiler as well; 52 bits
   std::uint64_t grips = 0;
   for (auto _ : state) grips += run_all(backend, scene, plan);
   state.SetItemsProcessed(static_cast<std::int64_t>(grips));
 }
 
-void core_grips(benchmark::State& state, Precision precision, int threads) {
-  const Scene scene = grips_scene();
+void core_grips(benchmark::State& state, const Scene& scene, Precision precision, int threads) {
   auto core = precision == Precision::full ? make_core_evaluator(scene) : make_core_float_evaluator(scene);
   CoreBackend backend(std::move(core), scene, make_field_set(KEPT, scene), precision, threads);
   bench_backend(state, backend, scene);
@@ -133,9 +140,15 @@ void core_step(benchmark::State& state, bool liquid) {
   }
 }
 
+struct Figure {
+  double microseconds = 0;  // a grip or step, the median where there are repetitions
+  double hash = 0;          // of the results, 52 bits; 0: none
+};
+
 // Keeps every figure for the ratios after the table.
 class Ratios : public benchmark::ConsoleReporter {
  public:
+  Ratios() : ConsoleReporter(isatty(STDOUT_FILENO) ? OO_ColorTabular : OO_Tabular) {}
   void ReportRuns(const std::vector<Run>& runs) override {
     ConsoleReporter::ReportRuns(runs);
     for (const Run& run : runs) {
@@ -144,16 +157,17 @@ class Ratios : public benchmark::ConsoleReporter {
       if (!median && run.run_type == Run::RT_Aggregate) continue;
       const double items = run.counters.count("items_per_second") ? static_cast<double>(run.counters.at("items_per_second")) : 0;
       const double microseconds = run.real_accumulated_time / static_cast<double>(std::max<std::int64_t>(1, run.iterations)) * 1e6;
-      figures[run.run_name.function_name] = items > 0 ? 1e6 / items : microseconds;
+      const double hash = run.counters.count("hash") ? static_cast<double>(run.counters.at("hash")) : 0;
+      figures[run.run_name.function_name] = {items > 0 ? 1e6 / items : microseconds, hash};
     }
   }
-  std::map<std::string, double> figures;  // microseconds a grip or step, the median where there are repetitions
+  std::map<std::string, Figure> figures;
 };
 
 void print_ratio(const Ratios& ratios, const char* fast, const char* slow, double wanted) {
   const auto a = ratios.figures.find(fast), b = ratios.figures.find(slow);
   if (a == ratios.figures.end() || b == ratios.figures.end()) return;
-  fmt::print("{:<28} over {:<22} {:6.2f} x{}\n", fast, slow, b->second / a->second,
+  fmt::print("{:<28} over {:<22} {:6.2f} x{}\n", fast, slow, b->second.microseconds / a->second.microseconds,
              wanted > 0 ? fmt::format("  (wanted: {:g})", wanted) : "");
 }
 
@@ -185,17 +199,19 @@ int main(int argc, char** argv) {
       core_step(state, liquid);
     })->Unit(benchmark::kMicrosecond);
   };
-  const Scene beakers = grips_scene(), ribbed = twelve_elements_scene();
-  add("core_double_1", [](benchmark::State& s) { core_grips(s, Precision::full, 1); });
+  const Scene whole = whole_scene(), beakers = grips_scene(), ribbed = twelve_elements_scene();
+  add("core_double_1", [&](benchmark::State& s) { core_grips(s, beakers, Precision::full, 1); });
   add("vulkan_float", [&](benchmark::State& s) { vulkan_grips(s, beakers, Precision::single, OUTLINE_SPECIALIZED); });
   add("vulkan_double", [&](benchmark::State& s) { vulkan_grips(s, beakers, Precision::full, OUTLINE_SPECIALIZED); });
-  add("core_double_all", [](benchmark::State& s) { core_grips(s, Precision::full, 0); });
-  add("core_float_1", [](benchmark::State& s) { core_grips(s, Precision::single, 1); });
+  add("core_double_all", [&](benchmark::State& s) { core_grips(s, beakers, Precision::full, 0); });
+  add("core_float_1", [&](benchmark::State& s) { core_grips(s, beakers, Precision::single, 1); });
   add("vulkan_float_hoisted", [&](benchmark::State& s) { vulkan_grips(s, beakers, Precision::single, OUTLINE_HOISTED); });
   add("vulkan_float_buffer", [&](benchmark::State& s) { vulkan_grips(s, beakers, Precision::single, OUTLINE_BUFFER); });
   add("ribbed_float", [&](benchmark::State& s) { vulkan_grips(s, ribbed, Precision::single, OUTLINE_SPECIALIZED); });
   add("ribbed_float_hoisted", [&](benchmark::State& s) { vulkan_grips(s, ribbed, Precision::single, OUTLINE_HOISTED); });
   add("ribbed_float_buffer", [&](benchmark::State& s) { vulkan_grips(s, ribbed, Precision::single, OUTLINE_BUFFER); });
+  add("whole_core_all", [&](benchmark::State& s) { core_grips(s, whole, Precision::full, 0); });
+  add("whole_vulkan_float", [&](benchmark::State& s) { vulkan_grips(s, whole, Precision::single, OUTLINE_SPECIALIZED); });
   add_step("step_dry", false);
   add_step("step_liquid", true);
 
@@ -209,16 +225,17 @@ int main(int argc, char** argv) {
   print_ratio(ratios, "vulkan_float_hoisted", "vulkan_float_buffer", 0);
   print_ratio(ratios, "ribbed_float", "ribbed_float_buffer", 4);
   print_ratio(ratios, "ribbed_float_hoisted", "ribbed_float_buffer", 0);
+  print_ratio(ratios, "whole_vulkan_float", "whole_core_all", 0);
   for (const char* step : {"step_dry", "step_liquid"})
-    if (ratios.figures.count(step)) fmt::print("{:<28} {:.2f} us\n", step, ratios.figures[step]);
+    if (ratios.figures.count(step)) fmt::print("{:<28} {:.2f} us\n", step, ratios.figures[step].microseconds);
   if (!csv.empty()) {
     const auto devices = host::list_devices();
     const auto& device = host::choose_device(devices, device_name);
     std::ofstream out(csv);
-    out << "benchmark,microseconds,device,driver,threads\n";
+    out << "benchmark,microseconds,hash,device,driver,threads\n";
     for (const auto& [name, figure] : ratios.figures)
-      out << fmt::format("{},{:.4f},\"{}\",\"{}\",{}\n", name, figure, device.name, device.driver,
-                         std::thread::hardware_concurrency());
+      out << fmt::format("{},{:.4f},{:013x},\"{}\",\"{}\",{}\n", name, figure.microseconds, static_cast<std::uint64_t>(figure.hash),
+                         device.name, device.driver, std::thread::hardware_concurrency());
     out.flush();
     if (!out) {
       fmt::print(stderr, "wholehand_bench: {}: could not be written\n", csv);
