@@ -45,13 +45,14 @@ const std::vector<Quantity> QUANTITIES{
     {FIELD_SCORE, "score", "score", "1e-6", 1e6},
 };
 
+constexpr const char* PEAK_TILT = "force short of peak";  // at the tilt that the other side tells
+constexpr const char* SAFE_TILT = "force beyond safe";    // where one side tells a larger safe tilt
+
 const std::vector<int> DISCRETE{FIELD_STATUS,      FIELD_TOUCH_MASK, FIELD_TIP_MASK,
                                 FIELD_FINGER_MASK, FIELD_INNER_MASK, FIELD_USED_MASK};
 
 // Roundings that one number gathers on its way through a kernel, as a share of the quantity's largest value.
 constexpr double ROUNDINGS = 64;
-// Stop tolerances between two evaluations: each may end anywhere within one on either side, for thumb and index each.
-constexpr double STOPS = 4;
 
 bool differs(const GatheredPlanes& a, const GatheredPlanes& b, std::size_t i) {
   return std::any_of(DISCRETE.begin(), DISCRETE.end(), [&](int field) { return a.uint(field, i) != b.uint(field, i); });
@@ -83,6 +84,27 @@ std::vector<GripInput> moved(const std::vector<GripInput>& grips, int way, doubl
   return result;
 }
 constexpr int WAYS = 10;
+
+// The scene with tips that are thicker by so much, which is what meeting the surface within a tolerance comes to.
+Scene with_tips(Scene scene, double thumb, double index) {
+  scene.hand.fingers[0].radii[3] += thumb / scene.hand.scale;
+  scene.hand.fingers[1].radii[4] += index / scene.hand.scale;
+  return scene;
+}
+
+// Takes a difference into its row; true: over the tolerance.
+bool note_difference(Comparison& entry, double scale, std::size_t vessel, std::size_t grip, double difference, double tolerance) {
+  if (difference > entry.worst / scale) {
+    entry.worst = difference * scale;
+    entry.tolerance = tolerance * scale;
+    entry.vessel = vessel;
+    entry.grip = grip;
+  }
+  entry.worst_ratio = std::max(entry.worst_ratio, difference == 0 ? 0 : difference / tolerance);
+  return difference > tolerance;
+}
+
+double tip_radius(const HandData& hand) { return hand.scale * std::max(hand.fingers[0].radii[3], hand.fingers[1].radii[4]); }
 
 double apart(double a, double b) {
   if (std::isnan(a) && std::isnan(b)) return 0;
@@ -137,9 +159,16 @@ Allowance allowance(Precision precision) {
 }
 
 Comparer::Comparer(const Scene& scene, const Evaluator& core, Allowance allowed) : scene_(scene), core_(core), allowed_(allowed) {
+  const double stop = allowed.stop_tolerance;
+  for (const auto& [thumb, index] : {std::pair{stop, stop}, {stop, -stop}, {-stop, stop}, {-stop, -stop}})
+    other_tips_.push_back(make_core_evaluator(with_tips(scene, thumb, index)));
   const FieldSet fields = all_fields(scene);
   for (const Quantity& q : QUANTITIES)
     if (fields.has(q.field)) row(q.kernel, q.name, q.unit);
+  if (fields.has(FIELD_PEAK_TILT)) {
+    row("force", PEAK_TILT, "mN");
+    row("force", SAFE_TILT, "mN");
+  }
   row("whole", "discrete outcomes", "grips");
 }
 
@@ -155,15 +184,26 @@ void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, cons
   const std::size_t n = grips.size();
   // a length over which the hand reaches, for turning shifts into angles
   const double length = 0.1 * scene_.hand.scale;
-  const double shift = STOPS * allowed_.stop_tolerance + ROUNDINGS * allowed_.epsilon * (length + scene_.vessels[vessel].height);
+  const double size = length + scene_.vessels[vessel].height;
+  const double shift = allowed_.stop_tolerance + ROUNDINGS * allowed_.epsilon * size;
   const GatheredPlanes truth = gather(core_, fields, vessel, grips);
   std::vector<double> spread(truth.reals.size(), 0.0);
   std::vector<char> undecided(n, 0);
-  for (int way = 0; way < WAYS; ++way) {
-    const GatheredPlanes other = gather(core_, fields, vessel, moved(grips, way, shift, length));
-    for (std::size_t k = 0; k < spread.size(); ++k) spread[k] = std::max(spread[k], apart(other.reals[k], truth.reals[k]));
+  const auto spread_to = [&](const GatheredPlanes& other, int first_plane, int planes) {
+    for (std::size_t k = first_plane * n; k < (first_plane + planes) * n; ++k) {
+      const double difference = apart(other.reals[k], truth.reals[k]);
+      if (std::isfinite(difference)) spread[k] = std::max(spread[k], difference);  // else another outcome: undecided
+    }
     for (std::size_t i = 0; i < n; ++i) undecided[i] |= differs(other, truth, i) ? 1 : 0;
-  }
+  };
+  for (int way = 0; way < WAYS; ++way)
+    spread_to(gather(core_, fields, vessel, moved(grips, way, shift, length)), 0, fields.real_planes);
+  for (const auto& core : other_tips_) spread_to(gather(*core, fields, vessel, grips), 0, fields.real_planes);
+  // Beside an edge, the distances to edge and face differ by x^2 / 2r at x from where they are equal, so the face that is nearest after
+  // rounding may be another one up to here, and the normal with it.
+  const double corner = std::sqrt(2 * tip_radius(scene_.hand) * allowed_.epsilon * size);
+  for (int way = 0; corner > shift && way < WAYS; ++way)
+    spread_to(gather(core_, fields, vessel, moved(grips, way, corner, length)), fields.plane[FIELD_CONTACT_ANGLES], 2);
   std::vector<char> left_out(n, 0);
   Comparison& outcomes = row("whole", "discrete outcomes", "grips");
   for (std::size_t i = 0; i < n; ++i) {
@@ -186,6 +226,7 @@ void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, cons
       outcomes.grip = i;
     }
   }
+  std::vector<double> floors(FIELDS, 0.0);
   for (const Quantity& q : QUANTITIES) {
     if (!fields.has(q.field)) continue;
     Comparison& entry = row(q.kernel, q.name, q.unit);
@@ -196,7 +237,7 @@ void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, cons
         const double value = std::abs(truth.real(fields.plane[q.field] + p, i));
         if (std::isfinite(value)) largest = std::max(largest, value);
       }
-    const double floor =
+    floors[q.field] =
         (ROUNDINGS * allowed_.epsilon + 2 * allowed_.level_tolerance) * largest + (q.rests ? 2 * allowed_.stop_tolerance : 0);
     for (std::size_t i = 0; i < n; ++i) {
       if (left_out[i] != 0) continue;
@@ -205,19 +246,62 @@ void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, cons
       for (int p = 0; p < planes; ++p) {
         const int plane = fields.plane[q.field] + p;
         const double difference = apart(a.real(plane, i), b.real(plane, i));
-        const double tolerance = floor + 2 * spread[plane * n + i];
-        if (difference > entry.worst / q.scale) {
-          entry.worst = difference * q.scale;
-          entry.tolerance = tolerance * q.scale;
-          entry.vessel = vessel;
-          entry.grip = i;
-        }
-        entry.worst_ratio = std::max(entry.worst_ratio, difference == 0 ? 0 : difference / tolerance);
-        over = over || difference > tolerance;
+        over = note_difference(entry, q.scale, vessel, i, difference, floors[q.field] + 2 * spread[plane * n + i]) || over;
       }
       entry.outside += over ? 1 : 0;
     }
   }
+  if (!fields.has(FIELD_PEAK_TILT)) return;
+  add_tilts(vessel, a, b, left_out, [&](int field, std::size_t state, std::size_t i) {
+    return floors[field] + 2 * spread[(fields.plane[field] + state) * n + i];
+  });
+}
+
+// A tilt that is told is a choice among the listed ones: it must be as good a choice by the other side's forces, to their tolerances.
+void Comparer::add_tilts(std::size_t vessel, const GatheredPlanes& a, const GatheredPlanes& b, const std::vector<char>& left_out,
+                         const std::function<double(int field, std::size_t state, std::size_t grip)>& tolerance) {
+  const FieldSet& fields = a.fields;
+  Comparison& peak = row("force", PEAK_TILT, "mN");
+  Comparison& safe = row("force", SAFE_TILT, "mN");
+  const std::size_t tilts = scene_.tilts.size();
+  for (std::size_t i = 0; i < a.count; ++i) {
+    if (left_out[i] != 0 || (a.uint(FIELD_STATUS, i) & STATUS_REASON_MASK) != REASON_NONE) continue;
+    ++peak.compared;
+    ++safe.compared;
+    bool peak_over = false, safe_over = false;
+    for (int fill = 0; fill < static_cast<int>(scene_fills(scene_)); ++fill) {
+      const std::size_t first = fill * tilts;
+      const std::size_t peak_a = first + tilt_told(a.real(fields.plane[FIELD_PEAK_TILT] + fill, i)) - 1,
+                        peak_b = first + tilt_told(b.real(fields.plane[FIELD_PEAK_TILT] + fill, i)) - 1;
+      const auto feedback = [&](std::size_t state) {
+        return b.real(fields.plane[FIELD_FEEDBACK_FORCE] + static_cast<int>(state), i);
+      };
+      peak_over |= note_difference(peak, 1e3, vessel, i, std::max(0.0, feedback(peak_b) - feedback(peak_a)),
+                                   tolerance(FIELD_FEEDBACK_FORCE, peak_a, i) + tolerance(FIELD_FEEDBACK_FORCE, peak_b, i));
+      const std::size_t safe_a = tilt_told(a.real(fields.plane[FIELD_SAFE_TILT] + fill, i)),
+                        safe_b = tilt_told(b.real(fields.plane[FIELD_SAFE_TILT] + fill, i));
+      if (safe_a == safe_b) continue;
+      // the first state that one side calls unsafe and the other does not
+      const GatheredPlanes& stricter = safe_a < safe_b ? a : b;
+      const std::size_t state = first + std::min(safe_a, safe_b);
+      const double normal = stricter.real(fields.plane[FIELD_NORMAL_FORCE] + static_cast<int>(state), i) - scene_.force.max;
+      const double hold = stricter.real(fields.plane[FIELD_HOLD_FORCE] + static_cast<int>(state), i) - scene_.force.grip_strength;
+      // the stricter side's own forces must say so too
+      const double by_normal = normal < 0 && !(hold > 0) ? std::numeric_limits<double>::infinity() : std::max(0.0, normal);
+      safe_over |= note_difference(safe, 1e3, vessel, i, by_normal, tolerance(FIELD_NORMAL_FORCE, state, i));
+      safe_over |= note_difference(safe, 1e3, vessel, i, std::max(0.0, hold), tolerance(FIELD_HOLD_FORCE, state, i));
+    }
+    peak.outside += peak_over ? 1 : 0;
+    safe.outside += safe_over ? 1 : 0;
+  }
+}
+
+// How many of the listed tilts a told one stands for: its place from 1, or 0 where none is told.
+std::size_t Comparer::tilt_told(double told) const {
+  if (std::isnan(told)) return 0;
+  const auto nearest = std::min_element(scene_.tilts.begin(), scene_.tilts.end(),
+                                        [told](double a, double b) { return std::abs(a - told) < std::abs(b - told); });
+  return static_cast<std::size_t>(nearest - scene_.tilts.begin()) + 1;
 }
 
 // The level is solved to its tolerance of the capacity and sums of slices are rounded; a centre of mass is compared by its moment, since

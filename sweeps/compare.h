@@ -6,6 +6,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -66,11 +68,15 @@ class Comparer {
   bool holds() const;
 
  private:
+  void add_tilts(std::size_t vessel, const GatheredPlanes& a, const GatheredPlanes& b, const std::vector<char>& left_out,
+                 const std::function<double(int field, std::size_t state, std::size_t grip)>& tolerance);
+  std::size_t tilt_told(double told) const;
   Comparison& row(const std::string& kernel, const std::string& quantity, const std::string& unit);
 
   const Scene& scene_;
   const Evaluator& core_;
   Allowance allowed_;
+  std::vector<std::shared_ptr<const Evaluator>> other_tips_;  // thumb and index tips thicker and thinner by the stop tolerance
   std::vector<Comparison> rows_;
   std::uint64_t grips_ = 0, grazing_ = 0, excluded_ = 0, feasible_ = 0;
 };

@@ -1,0 +1,128 @@
+// What the comparison of two evaluations lets pass and what it must not: answers that were tampered with, one number at a time.
+// sanitizers: address
+#include "sweeps/compare.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+
+#include "app/paths.h"
+#include "app/scene_reader.h"
+#include "sweeps/plan.h"
+
+namespace wholehand {
+namespace {
+
+class Compare : public testing::Test {
+ protected:
+  Compare() : scene_(read_scene_file(find_scene("small"))) {
+    scene_.force.max = scene_.force.base + 0.08 * scene_.force.range;  // reached at some of the tilts
+    core_ = make_core_evaluator(scene_);
+    const Plan plan(scene_, true);
+    for (std::uint64_t i = 0; i < plan.grips(); ++i) grips_.push_back(plan.grip(0, i));
+    planes_ = gather(*core_, all_fields(scene_), 0, grips_);
+  }
+
+  // Grips outside after `change` was made to every feasible grip of one side, in a row that `name` is in; and over all rows.
+  std::pair<std::uint64_t, std::uint64_t> outside(const std::string& name,
+                                                  const std::function<void(GatheredPlanes&, std::size_t grip)>& change) const {
+    GatheredPlanes other = planes_;
+    for (std::size_t i = 0; i < grips_.size(); ++i)
+      if (feasible(i)) change(other, i);
+    Comparer comparer(scene_, *core_, allowance(Precision::single));
+    comparer.add(0, grips_, other, planes_);
+    std::uint64_t named = 0, all = 0;
+    for (const Comparison& row : comparer.rows()) {
+      all += row.outside;
+      named += row.quantity == name ? row.outside : 0;
+    }
+    EXPECT_EQ(comparer.holds(), all == 0);
+    return {named, all};
+  }
+
+  bool feasible(std::size_t i) const { return (planes_.uint(FIELD_STATUS, i) & STATUS_REASON_MASK) == REASON_NONE; }
+  double& real(GatheredPlanes& planes, int field, int k, std::size_t i) const {
+    return planes.reals[(planes.fields.plane[field] + k) * planes.count + i];
+  }
+  std::uint64_t feasible_grips() const {
+    std::uint64_t count = 0;
+    for (std::size_t i = 0; i < grips_.size(); ++i) count += feasible(i) ? 1 : 0;
+    return count;
+  }
+
+  Scene scene_;
+  std::shared_ptr<const Evaluator> core_;
+  std::vector<GripInput> grips_;
+  GatheredPlanes planes_;
+};
+
+TEST_F(Compare, HoldsForTheSameAnswers) {
+  EXPECT_GT(feasible_grips(), 20u);
+  EXPECT_EQ(outside("", [](GatheredPlanes&, std::size_t) {}).second, 0u);
+}
+
+TEST_F(Compare, FindsALengthThatIsOffByMicrometres) {
+  const auto [gaps, all] = outside("gap", [&](GatheredPlanes& planes, std::size_t i) { real(planes, FIELD_GAP, 0, i) += 100e-6; });
+  EXPECT_EQ(gaps, feasible_grips());
+  EXPECT_EQ(all, gaps);
+}
+
+TEST_F(Compare, FindsANumberThatIsNotThere) {
+  const auto nan = [&](GatheredPlanes& planes, std::size_t i) {
+    real(planes, FIELD_CLOSURE, 0, i) = std::numeric_limits<double>::quiet_NaN();
+  };
+  EXPECT_EQ(outside("closure", nan).first, feasible_grips());
+  const auto infinite = [&](GatheredPlanes& planes, std::size_t i) {
+    double& hold = real(planes, FIELD_LARGEST_HOLD, 0, i);
+    hold = std::isinf(hold) ? 1 : std::numeric_limits<double>::infinity();
+  };
+  EXPECT_EQ(outside("largest hold", infinite).first, feasible_grips());
+}
+
+// The fullest vessel's torque is largest at one tilt: at any other the force is smaller by far more than rounding.
+TEST_F(Compare, FindsAPeakToldAtTheWrongTilt) {
+  const auto [peaks, all] = outside(
+      "force short of peak", [&](GatheredPlanes& planes, std::size_t i) { real(planes, FIELD_PEAK_TILT, 1, i) = scene_.tilts[0]; });
+  EXPECT_EQ(peaks, feasible_grips());
+  EXPECT_EQ(all, peaks);
+}
+
+TEST_F(Compare, FindsASafeTiltThatIsTooSmall) {
+  std::uint64_t changed = 0;
+  const auto [wrong, all] = outside("force beyond safe", [&](GatheredPlanes& planes, std::size_t i) {
+    double& safe = real(planes, FIELD_SAFE_TILT, 0, i);
+    if (std::isnan(safe)) return;  // no tilt is
+    ++changed;
+    safe = std::numeric_limits<double>::quiet_NaN();
+  });
+  EXPECT_GT(changed, 0u);
+  EXPECT_EQ(wrong, changed);
+  EXPECT_EQ(all, wrong);
+}
+
+TEST_F(Compare, FindsASafeTiltThatIsTooLarge) {
+  std::uint64_t changed = 0;
+  const auto [wrong, all] = outside("force beyond safe", [&](GatheredPlanes& planes, std::size_t i) {
+    double& safe = real(planes, FIELD_SAFE_TILT, 1, i);
+    if (safe == scene_.tilts.back()) return;  // every tilt is
+    ++changed;
+    safe = scene_.tilts.back();
+  });
+  EXPECT_GT(changed, 0u);
+  EXPECT_EQ(wrong, changed);
+  EXPECT_EQ(all, wrong);
+}
+
+TEST_F(Compare, FindsAnOutcomeThatNoMoveExplains) {
+  const auto [outcomes, all] = outside("discrete outcomes", [&](GatheredPlanes& planes, std::size_t i) {
+    planes.uints[planes.fields.plane[FIELD_TOUCH_MASK] * planes.count + i] ^= 1;  // the thumb's base, which is far from the glass
+  });
+  EXPECT_EQ(outcomes, feasible_grips());
+  EXPECT_EQ(all, outcomes);
+}
+
+}  // namespace
+}  // namespace wholehand
