@@ -11,6 +11,7 @@
 #include "sweeps/compare.h"
 #include "sweeps/core_backend.h"
 #include "sweeps/readable.h"
+#include "sweeps/variables.h"
 
 namespace wholehand {
 namespace {
@@ -39,7 +40,7 @@ class Explainer {
             "from a buffer");
         row("", measure(scene_, fields_, OUTLINE_HOISTED), as_is, "copied from a uniform block");
       } else {
-        say("  an outline of more than {} elements is read from a buffer\n", MAX_OUTLINE);
+        say("  nothing of an outline of more than {} elements: it is read from a buffer, or evaluated on the core\n", MAX_OUTLINE);
       }
     }
     planes(as_is);
@@ -126,42 +127,54 @@ class Explainer {
   void force(const Measured& as_is) {
     if (!scene_.tilts.empty()) return;
     Scene other = scene_;
-    for (int k = 0; k <= 30; ++k) other.tilts.push_back(radians(5.0 * k));
-    std::vector<int> kept;
-    for (int field = 0; field < FIELDS; ++field)
-      if (is_kept_field(field)) kept.push_back(field);
-    row("the force kernel: the scene has no tilts", measure(other, make_field_set(kept, other), OUTLINE_SPECIALIZED), as_is,
-        "31 tilts");
+    other.tilts = some_tilts();
+    row("the force kernel: the scene has no tilts", measure(other, make_field_set(kept_fields(), other), OUTLINE_SPECIALIZED),
+        as_is, "31 tilts");
   }
 
   void liquid(const Measured& as_is) {
-    if (scene_.liquid || scene_.tilts.empty()) {
-      if (!scene_.liquid && scene_.tilts.empty())
-        say("  the liquid kernels and their tables: the scene has no liquid and no tilts\n");
-      return;
-    }
+    if (scene_.liquid) return;
     if (std::any_of(scene_.vessels.begin(), scene_.vessels.end(), [](const VesselData& v) { return !(v.wall > 0); })) {
-      say("  the liquid kernels and their tables: the scene has no liquid\n");
+      say("  the liquid kernels and their tables: a vessel without a wall holds none\n");
       return;
     }
-    Scene other = scene_;
-    other.liquid = LiquidData{};
-    other.liquid->fills = {0, 0.25, 0.5, 0.75, 1};
+    // its forces need tilts: both ways have those of the row above where the scene has none
+    Scene dry = scene_;
+    if (dry.tilts.empty()) dry.tilts = some_tilts();
+    Scene wet = dry;
+    wet.liquid = LiquidData{};
+    wet.liquid->fills = {0, 0.25, 0.5, 0.75, 1};
+    row("the liquid: its kernels, tables and four of five fills",
+        measure(wet, make_field_set(kept_fields(), wet), OUTLINE_SPECIALIZED),
+        scene_.tilts.empty() ? measure(dry, make_field_set(kept_fields(), dry), OUTLINE_SPECIALIZED) : as_is,
+        scene_.tilts.empty() ? "5 fills and 31 tilts" : "5 fills");
+  }
+
+  static std::vector<double> some_tilts() {
+    std::vector<double> tilts;
+    for (int k = 0; k <= 30; ++k) tilts.push_back(radians(5.0 * k));
+    return tilts;
+  }
+
+  std::vector<int> kept_fields() const {
     std::vector<int> kept;
     for (int field = 0; field < FIELDS; ++field)
-      if (is_kept_field(field)) kept.push_back(field);
-    row("the liquid: four of five fills", measure(other, make_field_set(kept, other), OUTLINE_SPECIALIZED), as_is, "5 fills");
+      if (is_kept(fields_, field)) kept.push_back(field);
+    return kept;
   }
 
-  bool is_kept_field(int field) const {
-    if (!fields_.has(field)) return false;
-    return fields_.plane[field] < (field < REAL_FIELDS ? fields_.real_kept : fields_.uint_kept);
-  }
-
+  // Computed for every azimuth, as they come in the scene, the sample would be this many grips.
   void azimuth() {
     if (plan_.copies() < 2) return;
-    say("  {} of {} azimuths: the vessels are bodies of revolution, one is computed and written {} times\n", plan_.copies() - 1,
-        plan_.copies(), plan_.copies());
+    std::vector<GripInput> turned = sample_;
+    const auto& azimuths = scene_.grips.azimuth.values;
+    for (std::size_t i = 0; i < turned.size(); ++i) turned[i].azimuth = azimuths[i % azimuths.size()];
+    sample_.swap(turned);
+    const Measured every = measure(scene_, fields_, OUTLINE_SPECIALIZED);
+    sample_.swap(turned);
+    const std::size_t others = plan_.copies() - 1;
+    row(fmt::format("{} of {} azimuths: one stands for all, round vessels", others, plan_.copies()),
+        {every.seconds * static_cast<double>(others), every.bytes * others}, {}, "every azimuth");
   }
 
   const Scene& scene_;

@@ -1,0 +1,119 @@
+// What a sweep says it leaves out: each part that a scene lacks has its line, with bytes that are what the fields take, and no line is there
+// for what the scene has.
+// sanitizers: none (a dozen pipelines; what they compute is tested elsewhere)
+#include "sweeps/explain.h"
+
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <sstream>
+
+#include "app/paths.h"
+#include "app/scene_reader.h"
+#include "sweeps/compare.h"
+#include "sweeps/variables.h"
+#include "tests/support/vulkan_listener.h"
+
+namespace wholehand {
+namespace {
+
+struct Row {
+  std::string what, variant;
+  double microseconds = 0;
+  long long bytes = 0;
+};
+
+struct Explained {
+  std::string text;
+  double microseconds = 0;
+  long long bytes = 0;
+  std::vector<Row> rows;
+  const Row* find(const std::string& part) const {
+    for (const Row& row : rows)
+      if (row.what.find(part) != std::string::npos || row.variant.find(part) != std::string::npos) return &row;
+    return nullptr;
+  }
+};
+
+Explained explain(const Scene& scene, const std::string& on, Precision precision = Precision::single) {
+  const auto variables = choose_variables(scene);
+  const Plan plan(scene, keeps_vectors(variables));
+  const FieldSet fields = make_field_set(variable_fields(variables), scene);
+  Explained explained;
+  explained.text = explain_sweep(scene, plan, fields, {on, precision, 1});
+  std::istringstream lines(explained.text);
+  std::smatch match;
+  for (std::string line; std::getline(lines, line);) {
+    if (std::regex_search(line, match, std::regex("this sweep: ([0-9.]+) us, ([0-9]+) B\\)$"))) {
+      explained.microseconds = std::stod(match[1]);
+      explained.bytes = std::stoll(match[2]);
+    } else if (std::regex_match(line, match, std::regex("  (.*?) +(-?[0-9.]+) us +(-?[0-9]+) B  (.+)"))) {
+      explained.rows.push_back({match[1], match[4], std::stod(match[2]), std::stoll(match[3])});
+    }
+  }
+  return explained;
+}
+
+// The shipped scene with few grips.
+Scene beakers() {
+  Scene scene = read_scene_file(find_scene("three_beakers"));
+  scene.grips.height.values = {0.03, 0.05, 0.07};
+  return scene;
+}
+
+TEST(Explain, WholeSceneLeavesOutPlanesAndTheInnerWall) {
+  const Scene scene = beakers();
+  const Explained explained = explain(scene, "vulkan");
+  EXPECT_GT(explained.microseconds, 0);
+  ASSERT_TRUE(explained.find("from a buffer")) << explained.text;
+  EXPECT_TRUE(explained.find("copied from a uniform block")) << explained.text;
+  ASSERT_TRUE(explained.find("result planes not computed")) << explained.text;
+  const FieldSet every = all_fields(scene);
+  const long long whole = (GRIP_AXES + every.real_planes) * 4LL + every.uint_planes * 4LL;
+  EXPECT_EQ(explained.find("result planes not computed")->bytes, whole - explained.bytes) << explained.text;
+  EXPECT_TRUE(explained.find("inner wall")) << explained.text;
+  for (const char* had : {"projection", "force kernel", "the liquid", "azimuth"})
+    EXPECT_FALSE(explained.find(had)) << explained.text;
+}
+
+TEST(Explain, BareSceneHasALineForEachPartThatItLacks) {
+  Scene scene = beakers();
+  scene.pose = Pose::rigged;
+  scene.liquid.reset();
+  scene.tilts.clear();
+  scene.grips.azimuth.values = {0, 0.5, 1};
+  for (const char* on : {"core", "vulkan"}) {
+    const Explained explained = explain(scene, on, Precision::full);
+    for (const char* lacked : {"projection", "force kernel", "the liquid", "2 of 3 azimuths", "inner wall"})
+      EXPECT_TRUE(explained.find(lacked)) << lacked << "\n" << explained.text;
+    EXPECT_EQ(explained.find("from a buffer") != nullptr, std::string(on) == "vulkan") << explained.text;
+    // two of three azimuths are two grips more for each that is computed
+    ASSERT_TRUE(explained.find("azimuths"));
+    EXPECT_EQ(explained.find("azimuths")->bytes, 2 * explained.bytes) << explained.text;
+    EXPECT_GT(explained.find("azimuths")->microseconds, 0) << explained.text;
+    // tilts bring the force and hold terms, peak, its tilt, largest hold and safe tilt
+    ASSERT_TRUE(explained.find("force kernel"));
+    EXPECT_GT(explained.find("force kernel")->bytes, 0) << explained.text;
+  }
+}
+
+TEST(Explain, SaysWhereNothingCanBeSaved) {
+  Scene scene = beakers();
+  scene.liquid.reset();
+  VesselData& vessel = scene.vessels[0];
+  vessel.wall = 0;
+  vessel.mass = 0.1;
+  vessel.outline.clear();
+  constexpr int PIECES = 40;
+  for (int i = 0; i <= PIECES; ++i) vessel.outline.push_back({false, {0.02 + 0.0005 * i, 0.1 * i / PIECES}, {}, 0, 0});
+  vessel.outline.push_back({false, {0, 0.1}, {}, 0, 0});
+  vessel.height = 0.1;
+  scene.vessels.resize(1);
+  const Explained explained = explain(scene, "vulkan");
+  EXPECT_NE(explained.text.find("more than 32 elements"), std::string::npos) << explained.text;
+  EXPECT_NE(explained.text.find("without a wall holds none"), std::string::npos) << explained.text;
+  EXPECT_FALSE(explained.find("inner wall")) << explained.text;
+}
+
+}  // namespace
+}  // namespace wholehand
