@@ -9,6 +9,7 @@
 #include <set>
 
 #include "sweeps/best.h"
+#include "sweeps/build_id.h"
 #include "sweeps/candidates.h"
 #include "sweeps/closing.h"
 #include "sweeps/explain.h"
@@ -107,6 +108,7 @@ class Sweep {
     for (const Variable* variable : variables_) names.push_back(variable->name);
     return {{"scene", scene_.text},
             {"version", WHOLEHAND_VERSION},
+            {"build", build_id()},  // other code may give other bits
             {"backend", info.backend},
             // the core gives the same on any number of threads
             {"device", info.backend == "core" ? "core" : info.device},

@@ -98,6 +98,9 @@ TEST(CommandLine, RefusesWrongUsageWithOneLineAndCode2) {
       {std::string(GRIP) + " --fill 0.5 1.1", "--fill '1.1'; allowed: a number, 0 to 1"},
       {std::string(GRIP) + " --hand-scale 0", "--hand-scale '0'; allowed: a number, 0.05 to 20"},
       {std::string(GRIP) + " --on no-such-device", "no-such-device"},
+      {"sweep small --on no-such-device", "no-such-device"},
+      {"check small --on no-such-device", "no-such-device"},
+      {"check small --on core", "name a Vulkan device"},
       {"grip paper_pose --vessel beaker1 --height-mm 50 --fill 0.5", "has no [liquid]"},
   };
   for (const auto& [arguments, gist] : cases) expect_error(arguments, 2, gist);
@@ -108,6 +111,33 @@ TEST(CommandLine, NamesFileLineAndColumn) {
   std::ofstream(scene) << "[scene]\npose = \"papr\"\n";
   expect_error("sweep " + scene, 2, scene + ":2:8: pose = 'papr'; allowed: \"articulated\", \"paper\" or \"rigged\"");
   std::filesystem::remove(scene);
+}
+
+// No driver, as on a machine that has none: an error, never the core instead.
+TEST(CommandLine, SaysWhenThereIsNoVulkan) {
+  const std::string result = std::filesystem::temp_directory_path() / "wholehand_cli_test.nc";
+  for (const std::string& arguments : {"sweep small -o " + result, std::string("check small")}) {
+    const Outcome outcome =
+        run("VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent PROGRAM " + arguments + " 2>&1 >/dev/null");
+    EXPECT_EQ(outcome.code, 3) << outcome.output;
+    EXPECT_EQ(outcome.output.find("wholehand: no Vulkan driver"), 0u) << outcome.output;
+    EXPECT_EQ(outcome.output.find('\n'), outcome.output.size() - 1) << outcome.output;
+    EXPECT_NE(outcome.output.find("install mesa-vulkan-drivers"), std::string::npos) << outcome.output;
+    for (const char* left : {"", ".partial"}) EXPECT_FALSE(std::filesystem::exists(result + left)) << left;
+  }
+}
+
+TEST(CommandLine, SaysWhenAResultCannotBeWritten) {
+  const std::string result = std::filesystem::temp_directory_path() / "wholehand_cli_test.nc";
+  const Outcome limited = run("ulimit -f 8; PROGRAM sweep small --on core -o " + result + " 2>&1 >/dev/null");
+  EXPECT_EQ(limited.code, 3) << limited.output;
+  EXPECT_NE(limited.output.find("there is room for 4.1 kB"), std::string::npos) << limited.output;
+  EXPECT_EQ(limited.output.find('\n'), limited.output.size() - 1) << limited.output;
+  for (const char* left : {"", ".partial", ".partial.mark", ".best.csv"})
+    EXPECT_FALSE(std::filesystem::exists(result + left)) << left;
+  expect_error("sweep small --on core -o /dev/full", 2, "/dev/full");
+  expect_error("sweep small --on core -o /nonexistent/a.nc", 2, "/nonexistent");
+  expect_error("sweep small --on core -o /proc/a.nc", 3, "there is room for 0 B");
 }
 
 TEST(CommandLine, SaysWhenItCannotWrite) {

@@ -5,7 +5,10 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <csignal>
+#include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -50,34 +53,97 @@ TEST(Whole, SweepOnVulkanAndOnTheCoreAgree) {
   EXPECT_EQ(read_values(vulkan, "touch_mask"), read_values(core, "touch_mask"));
 }
 
-TEST(Whole, KilledSweepOnVulkanResumesToTheSameBits) {
+// A sweep that was started in the background.
+pid_t start(const std::string& scene, const std::string& output, bool resume) {
+  const pid_t child = fork();
+  if (child != 0) return child;
+  freopen((output + ".said").c_str(), "w", stderr);
+  freopen("/dev/null", "w", stdout);
+  execl(WHOLEHAND_PROGRAM, WHOLEHAND_PROGRAM, "sweep", scene.c_str(), "-o", output.c_str(), resume ? "--resume" : nullptr,
+        static_cast<char*>(nullptr));
+  _exit(127);
+}
+
+// Waits until the file is written to, since `before`.
+bool wait_for_writing(const std::string& file, std::filesystem::file_time_type before) {
+  for (int tries = 0; tries < 6000; ++tries) {
+    std::error_code error;
+    const auto now = std::filesystem::last_write_time(file, error);
+    if (!error && now > before) return true;
+    usleep(10000);
+  }
+  return false;
+}
+
+std::string said(const std::string& output) {
+  std::ifstream in(output + ".said");
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+// Interrupted, gone on with, killed in the middle of that, and gone on with again.
+TEST(Whole, InterruptedAndKilledSweepOnVulkanResumesToTheSameBits) {
   const TemporaryFolder folder;
   const std::string scene = folder.path() + "/many.toml", whole = folder.path() + "/whole.nc",
-                    killed = folder.path() + "/killed.nc";
+                    broken = folder.path() + "/broken.nc", partial = broken + ".partial";
+  // some seconds of work
   std::ofstream(scene)
       << "[[vessel]]\nname = \"v\"\nshape = \"flask\"\ndiameter_mm = 85\nneck_mm = 34\nheight_mm = 140\nwall_mm = 1.5\n"
-         "[grips]\nsampling = \"sobol\"\ncount = 300000\nseed = 7\nheight_fraction = { from = 0.1, to = 0.9 }\n"
+         "[grips]\nsampling = \"sobol\"\ncount = 5000000\nseed = 7\nheight_fraction = { from = 0.1, to = 0.9 }\n"
          "roll_deg = { from = -90, to = 30 }\n[output]\nkeep = [\"score\", \"touch_mask\", \"gap\"]\n";
   ASSERT_EQ(run("sweep " + scene + " -o " + whole + " >" + folder.path() + "/out.txt"), 0);
-  const pid_t child = fork();
-  if (child == 0) {
-    execl(WHOLEHAND_PROGRAM, WHOLEHAND_PROGRAM, "sweep", scene.c_str(), "-o", killed.c_str(), static_cast<char*>(nullptr));
-    _exit(127);
-  }
-  usleep(700000);
-  kill(child, SIGKILL);
+
   int status = 0;
-  waitpid(child, &status, 0);
-  if (WIFSIGNALED(status)) {
-    EXPECT_NE(access(killed.c_str(), F_OK), 0) << "a killed sweep leaves no file that looks whole";
-  }
-  ASSERT_EQ(run("sweep " + scene + " -o " + killed + " --resume >>" + folder.path() + "/out.txt 2>&1"), 0);
+  const pid_t first = start(scene, broken, false);
+  ASSERT_TRUE(wait_for_writing(partial, std::filesystem::file_time_type::min()));
+  usleep(200000);
+  kill(first, SIGINT);
+  waitpid(first, &status, 0);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 130);
+  const std::string line = said(broken);
+  EXPECT_EQ(line.find("wholehand: interrupted at "), 0u) << line;
+  EXPECT_EQ(line.find('\n'), line.size() - 1) << line;
+
+  const auto before = std::filesystem::last_write_time(partial);
+  const pid_t second = start(scene, broken, true);
+  ASSERT_TRUE(wait_for_writing(partial, before));
+  usleep(50000);
+  kill(second, SIGKILL);
+  waitpid(second, &status, 0);
+  EXPECT_TRUE(WIFSIGNALED(status)) << "it had ended before it was killed";
+  EXPECT_EQ(said(broken).find("wholehand: going on with "), 0u) << said(broken);
+  EXPECT_FALSE(std::filesystem::exists(broken)) << "a killed sweep leaves no file that looks whole";
+
+  ASSERT_EQ(run("sweep " + scene + " -o " + broken + " --resume >>" + folder.path() + "/out.txt 2>&1"), 0);
   for (const char* name : {"score", "touch_mask", "gap", "height_fraction", "best_score"}) {
-    const auto a = read_values(whole, name), b = read_values(killed, name);
+    const auto a = read_values(whole, name), b = read_values(broken, name);
     ASSERT_EQ(a.size(), b.size()) << name;
     for (std::size_t i = 0; i < a.size(); ++i)
       ASSERT_TRUE(a[i] == b[i] || (std::isnan(a[i]) && std::isnan(b[i]))) << name << " #" << i;
   }
+}
+
+// What other tools make of a file that a real sweep wrote: ncdump's listing of it and xarray's view.
+TEST(Whole, OtherToolsReadTheResult) {
+  const TemporaryFolder folder;
+  const std::string result = folder.path() + "/small.nc", out = folder.path() + "/out.txt";
+  ASSERT_EQ(run("sweep small -o " + result + " >" + out), 0);
+  ASSERT_EQ(std::system(("ncdump -h " + result + " >" + out).c_str()), 0);
+  std::ifstream listing(out);
+  const std::string text{std::istreambuf_iterator<char>(listing), std::istreambuf_iterator<char>()};
+  for (const char* part : {"vessel = 1 ;", "height = 3 ;", "azimuth = 2 ;", "obliquity = 3 ;", "roll = 4 ;", "score:long_name",
+                           "gap:units = \"m\"", "gap:_FillValue", ":device = ", ":driver = ", ":scene = ", ":version = "})
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+  std::ofstream(folder.path() + "/look.py") << "import sys, xarray\n"
+                                               "d = xarray.open_dataset(sys.argv[1])\n"
+                                               "s = d['score'].isel(vessel=0)\n"
+                                               "assert s.max() > 0.5 and s.min() >= 0, s\n"
+                                               "assert float(d['gap'].sel(height=0.045, roll=0, method='nearest').max()) > 0.05\n"
+                                               "assert d['gap'].attrs['long_name'] and d['height'].attrs['units'] == 'm'\n";
+  EXPECT_EQ(std::system(("/usr/bin/python3 " + folder.path() + "/look.py " + result + " >" + out + " 2>&1").c_str()), 0) << [&] {
+    std::ifstream in(out);
+    return std::string{std::istreambuf_iterator<char>(in), {}};
+  }();
 }
 
 #endif
