@@ -54,9 +54,21 @@ std::optional<double> curve_radius(const PreparedElement& element, int kind, dou
 // are told apart only beyond rounding, the offset first, so that no sliver of the other appears at their joint.
 constexpr double SAME_RADIUS = 1e-13;  // m
 
-std::optional<Boundary> first_blocked(const std::vector<PreparedElement>& open, double wall, double y) {
-  std::optional<Boundary> first;
+// Elements whose curves may be met at heights from low to high: none is further than the wall from its element.
+std::vector<std::size_t> elements_near(const std::vector<PreparedElement>& open, double wall, double low, double high) {
+  const double reach = wall * (1 + 1e-9) + 1e-12;
+  std::vector<std::size_t> near;
   for (std::size_t e = 0; e < open.size(); ++e) {
+    const auto [bottom, top] = std::minmax(open[e].a[1], open[e].b[1]);
+    if (bottom - reach <= high && top + reach >= low) near.push_back(e);
+  }
+  return near;
+}
+
+std::optional<Boundary> first_blocked(const std::vector<PreparedElement>& open, const std::vector<std::size_t>& near, double wall,
+                                      double y) {
+  std::optional<Boundary> first;
+  for (const std::size_t e : near) {
     for (const int kind : {2, 3, 0, 1}) {
       const auto radius = curve_radius(open[e], kind, wall, y);
       if (radius && (!first || *radius < first->radius - SAME_RADIUS)) first = Boundary{*radius, {static_cast<int>(e), kind}};
@@ -187,9 +199,10 @@ std::vector<PreparedElement> inner_offset(const std::vector<PreparedElement>& hu
     // the curve just above `low` and just below `high`; between them at most one gives way
     const double inset = (high - low) * 1e-7;
     if (!(high - low > 1e-15)) continue;
+    const std::vector<std::size_t> near = elements_near(open, wall, low, high);
     double at = low + inset;
     while (true) {
-      const auto here = first_blocked(open, wall, at);
+      const auto here = first_blocked(open, near, wall, at);
       const std::optional<Curve> curve = closed(here) ? std::nullopt : std::optional<Curve>(here->curve);
       if (curve != current) {
         const double y = at <= low + inset ? low : at;
@@ -201,14 +214,14 @@ std::vector<PreparedElement> inner_offset(const std::vector<PreparedElement>& hu
         begin = y;
         was_open = was_open || curve.has_value();
       }
-      const auto end = first_blocked(open, wall, high - inset);
+      const auto end = first_blocked(open, near, wall, high - inset);
       const std::optional<Curve> end_curve = closed(end) ? std::nullopt : std::optional<Curve>(end->curve);
       if (end_curve == current) break;
       double below = at, above = high - inset;  // bisect for where `current` ends
       for (int step = 0; step < 200 && above - below > 1e-17; ++step) {
         const double middle = 0.5 * (below + above);
         if (middle <= below || middle >= above) break;
-        const auto there = first_blocked(open, wall, middle);
+        const auto there = first_blocked(open, near, wall, middle);
         const std::optional<Curve> curve_there = closed(there) ? std::nullopt : std::optional<Curve>(there->curve);
         (curve_there == current ? below : above) = middle;
       }
@@ -223,7 +236,7 @@ std::vector<PreparedElement> inner_offset(const std::vector<PreparedElement>& hu
   for (int i = 0; i < 128; ++i) {
     const double y = floor + (mouth - floor) * (i + 0.5) / 128;
     const auto radii = crossings(hull, y);
-    const double inner = first_blocked(open, wall, y).value_or(Boundary{}).radius;
+    const double inner = first_blocked(open, elements_near(open, wall, y, y), wall, y).value_or(Boundary{}).radius;
     for (std::size_t k = 0; k < radii.size(); k += 2) {
       const double from = k == 0 ? inner : radii[k - 1];
       for (int j = 0; j < 64; ++j) {

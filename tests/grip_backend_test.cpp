@@ -1,0 +1,137 @@
+// The backend around the kernels: ways of moving data, pipelines that are made side by side, what goes to the core instead. What the kernels
+// compute is compared in parity_test.cpp.
+// sanitizers: address thread
+#include "host/grip_backend.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <thread>
+
+#include "sweeps/compare.h"
+#include "tests/support/scenes.h"
+#include "tests/support/vulkan_listener.h"
+
+namespace wholehand {
+namespace {
+
+using host::GripBackend;
+using host::GripBackendOptions;
+
+Scene wet(std::vector<VesselData> vessels, const HandData& hand = {}) {
+  Scene scene = scene_of(std::move(vessels), Pose::articulated, hand);
+  scene.liquid = LiquidData{};
+  scene.liquid->fills = {0, 0.6};
+  scene.tilts = {0, radians(40), radians(110)};
+  return scene;
+}
+
+std::unique_ptr<GripBackend> backend_of(const Scene& scene, const FieldSet& fields, const GripBackendOptions& options = {}) {
+  return std::make_unique<GripBackend>(scene, make_core_evaluator(scene), fields, "vulkan", options);
+}
+
+const std::vector<int> FEW{FIELD_SCORE, FIELD_STATUS, FIELD_TOUCH_MASK, FIELD_PEAK_FORCE};
+
+std::size_t differences(const GatheredPlanes& a, const GatheredPlanes& b) {
+  std::size_t count = a.reals.size() == b.reals.size() && a.uints.size() == b.uints.size() ? 0 : 1;
+  for (std::size_t k = 0; k < std::min(a.reals.size(), b.reals.size()); ++k)
+    count += std::bit_cast<std::uint64_t>(a.reals[k]) != std::bit_cast<std::uint64_t>(b.reals[k]) ? 1 : 0;
+  for (std::size_t k = 0; k < std::min(a.uints.size(), b.uints.size()); ++k) count += a.uints[k] != b.uints[k] ? 1 : 0;
+  return count;
+}
+
+// The same pipelines on the same device: however the data got there.
+TEST(GripBackend, StagedTransfersGiveTheSameBits) {
+  const Scene scene = wet({beaker1(), beaker3()}, left_hand());  // a left hand's planes are turned on the host
+  const FieldSet fields = make_field_set({FIELD_SCORE, FIELD_STATUS, FIELD_MIDPOINT, FIELD_PEAK_FORCE}, scene);
+  GripBackendOptions staged;
+  staged.device.unified_memory = false;
+  const auto direct = backend_of(scene, fields), copied = backend_of(scene, fields, staged);
+  EXPECT_FALSE(copied->device().unified_memory);
+  for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
+    const auto grips = sample_grips(scene.vessels[v], 3000, 7 + v);
+    EXPECT_EQ(differences(gather(*direct, v, grips), gather(*copied, v, grips)), 0u);
+    const auto a = direct->liquid(v), b = copied->liquid(v);
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t s = 0; s < a.size(); ++s) EXPECT_EQ(a[s].volume, b[s].volume);
+  }
+}
+
+TEST(GripBackend, TwoAtOnceDoNotDisturbEachOther) {
+  const Scene scene = wet({beaker1(), beaker2(), beaker3()});
+  const auto grips = sample_grips(scene.vessels[1], 2000, 3);
+  const FieldSet fields = make_field_set(FEW, scene);
+  const GatheredPlanes alone = gather(*backend_of(scene, fields), 1, grips);
+  std::vector<GatheredPlanes> found(2);
+  std::vector<std::thread> threads;
+  for (GatheredPlanes& planes : found) threads.emplace_back([&] { planes = gather(*backend_of(scene, fields), 1, grips); });
+  for (std::thread& thread : threads) thread.join();
+  for (const GatheredPlanes& planes : found) EXPECT_EQ(differences(planes, alone), 0u);
+}
+
+// A belly of straight pieces.
+VesselData faceted(int pieces) {
+  std::vector<OutlineElement> outline{line_to(20, 0)};
+  for (int i = 1; i <= pieces; ++i) {
+    const double y = 100.0 * i / pieces;
+    outline.push_back(line_to(20 + 18 * std::sin(PI * y / 110), y));
+  }
+  outline.push_back(line_to(0, 100));
+  return vessel_of("faceted", outline, 1);
+}
+
+// Drivers that run on the processor end a loop after 65,535 iterations without a word: an outline that is looped over goes to the core.
+TEST(GripBackend, LongOutlinesGoToTheCoreOnACpuDriver) {
+  for (const int pieces : {30, 31, 200, 900}) {
+    const Scene scene = scene_of({faceted(pieces)});
+    const FieldSet fields = make_field_set({FIELD_SCORE, FIELD_STATUS, FIELD_TOUCH_MASK, FIELD_GAP}, scene);
+    const auto core = make_core_evaluator(scene);
+    const auto backend = backend_of(scene, fields);
+    const auto grips = sample_grips(scene.vessels[0], 300, pieces);
+    RunRequest request;
+    request.last = grips.size();
+    request.best = 5;
+    request.grips = [&](std::size_t, std::uint64_t first, std::size_t count, GripInput* out) {
+      std::copy_n(grips.begin() + static_cast<std::ptrdiff_t>(first), count, out);
+    };
+    std::size_t differ = 0, compared = 0;
+    const GatheredPlanes on_core = gather(*core, fields, 0, grips);
+    request.sink = [&](const PlaneChunk& chunk) {
+      for (std::size_t i = 0; i < chunk.count; ++i) {
+        const std::size_t grip = chunk.first + i;
+        ++compared;
+        differ += chunk.uint(fields.plane[FIELD_TOUCH_MASK], i) != on_core.uint(FIELD_TOUCH_MASK, grip) ? 1 : 0;
+        const double gap = chunk.real(fields.plane[FIELD_GAP], i), truth = on_core.real(fields.plane[FIELD_GAP], grip);
+        differ += std::isnan(gap) == std::isnan(truth) && !(gap != static_cast<float>(truth) && !std::isnan(gap)) ? 0 : 1;
+      }
+    };
+    const RunResult result = backend->run(request);
+    EXPECT_EQ(compared, grips.size());
+    EXPECT_EQ(result.done, grips.size());
+    EXPECT_FALSE(result.best.empty()) << pieces;
+    if (!backend->info().is_cpu) continue;  // a GPU loops over as many as there are, and its answers are its own
+    const bool long_one = pieces + 2 > MAX_OUTLINE;
+    EXPECT_EQ(result.notes.empty(), !long_one) << pieces;
+    if (!long_one) continue;
+    EXPECT_EQ(differ, 0u) << pieces << " pieces: the core's own answers, rounded to float";
+    EXPECT_NE(result.notes[0].find("an outline of " + std::to_string(pieces + 2) + " elements is evaluated on the core"),
+              std::string::npos)
+        << result.notes[0];
+  }
+}
+
+TEST(GripBackend, SaysWhatItMadeAndWhatAGripTakes) {
+  const Scene scene = wet({beaker1()}), dry = scene_of({beaker1()});
+  const auto with = backend_of(scene, make_field_set(FEW, scene));
+  EXPECT_TRUE(with->pipelines(0).force && with->pipelines(0).liquid);
+  EXPECT_GT(with->setup_seconds(), 0);
+  const FieldSet scored = make_field_set({FIELD_SCORE}, dry);
+  const auto without = backend_of(dry, scored);
+  EXPECT_FALSE(without->pipelines(0).force || without->pipelines(0).liquid);
+  EXPECT_EQ(without->bytes_per_grip(), 4u * (GRIP_AXES + scored.real_planes + scored.uint_planes));
+  EXPECT_LT(without->bytes_per_grip(), with->bytes_per_grip());
+}
+
+}  // namespace
+}  // namespace wholehand
