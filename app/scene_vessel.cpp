@@ -98,7 +98,7 @@ void read_mass(const SceneTable& table, VesselData& vessel) {
   if (has_mass) {
     table.need("mass_kg", ranges::MASS, vessel.mass.emplace());
     table.need("center_of_mass_mm", ranges::CENTER_OF_MASS, "[x, y, z]", vessel.center_of_mass);
-  } else if (!table.has("wall_mm")) {
+  } else if (!table.has("wall_mm") && !table.has("mesh")) {  // a mesh has its volume
     table.file().refuse(table.place(), fmt::format("vessel '{}' has no mass", vessel.name),
                         "allowed: 'wall_mm', or 'mass_kg' and 'center_of_mass_mm'");
   }

@@ -63,6 +63,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
       tilt_cosine_.push_back(cosine(Real(tilt)));
     }
     const bool with_liquid = scene.liquid.has_value();
+    wholehand::refuse_meshes(scene);
     for (const auto& data : scene.vessels) {
       const bool needs_cavity = data.wall > 0;
       VesselEntry entry;

@@ -125,9 +125,15 @@ std::vector<PreparedElement> monotone_elements(const std::vector<OutlineElement>
   return elements;
 }
 
+void refuse_meshes(const Scene& scene) {
+  for (const VesselData& vessel : scene.vessels) {
+    if (!vessel.mesh) continue;
+    throw usage_error(scene.file + ":" + std::to_string(vessel.line) + ":" + std::to_string(vessel.column) + ": vessel '" +
+                      vessel.name + "' is a mesh, which cannot be evaluated yet; describe it by shape or outline");
+  }
+}
+
 PreparedVessel prepare_vessel(const VesselData& vessel, bool needs_cavity) {
-  if (vessel.mesh)
-    throw usage_error("vessel '" + vessel.name + "': mesh vessels are not evaluated yet; describe it by shape or outline");
   PreparedVessel prepared;
   prepared.hull = monotone_elements(vessel.outline);
   prepared.mouth_height = prepared.hull.back().a[1];

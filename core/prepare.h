@@ -53,7 +53,10 @@ std::vector<PreparedElement> monotone_elements(const std::vector<OutlineElement>
 // with the vessel's name where the wall leaves no cavity, closes it half way up, or makes it fold over itself.
 std::vector<PreparedElement> inner_offset(const std::vector<PreparedElement>& hull, double wall, const VesselData& vessel);
 
-// Throws Error (usage) for a mesh vessel (not evaluated yet) and for what inner_offset refuses.
+// Throws Error (usage), with the place in the scene file, where a vessel is a mesh: none is evaluated yet.
+void refuse_meshes(const Scene& scene);
+
+// Of a vessel with an outline. Throws Error (usage) for what inner_offset refuses.
 PreparedVessel prepare_vessel(const VesselData& vessel, bool needs_cavity);
 
 // Throws Error (usage) where the gap is not strictly decreasing at 1,025 equal steps of the closure, naming where it turns.

@@ -8,6 +8,7 @@
 #include <csignal>
 #include <set>
 
+#include "core/prepare.h"
 #include "sweeps/best.h"
 #include "sweeps/build_id.h"
 #include "sweeps/candidates.h"
@@ -79,12 +80,7 @@ class Sweep {
 
   // What can be refused before any work.
   void check() const {
-    for (const VesselData& vessel : scene_.vessels) {
-      if (vessel.mesh) {
-        throw usage_error(fmt::format("{}:{}:{}: vessel \"{}\" is a mesh, which a sweep cannot evaluate yet; give it an outline",
-                                      scene_.file, vessel.line, vessel.column, vessel.name));
-      }
-    }
+    refuse_meshes(scene_);
     check_output_path(names_.result);
     struct stat read_from {
     }, written_to{};

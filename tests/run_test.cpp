@@ -343,7 +343,7 @@ TEST_F(RunTest, MeshIsRefusedForNow) {
   trial.scene.vessels[1].line = 12;
   const Outcome outcome = trial.run();
   EXPECT_EQ(outcome.code, ExitCode::usage);
-  EXPECT_TRUE(has(outcome.error, "fake.toml:12:") && has(outcome.error, "\"second\" is a mesh")) << outcome.error;
+  EXPECT_TRUE(has(outcome.error, "fake.toml:12:") && has(outcome.error, "'second' is a mesh")) << outcome.error;
 }
 
 TEST_F(RunTest, FailureOfTheBackendLeavesNoResult) {

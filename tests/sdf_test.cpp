@@ -1027,12 +1027,6 @@ TEST(Sdf, CavityThatFoldsOverItselfIsRefused) {
   EXPECT_NE(refusal(vessel).find("ledges"), std::string::npos);
 }
 
-TEST(Sdf, MeshIsRefused) {
-  VesselData vessel = beaker1();
-  vessel.mesh = MeshData{};
-  EXPECT_NE(refusal(vessel).find("beaker1"), std::string::npos);
-}
-
 TEST(Sdf, ShellWithoutACavityIsRefused) {
   VesselData vessel = shell_of(beaker1());
   vessel.wall = 50e-3;
