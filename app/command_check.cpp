@@ -6,6 +6,7 @@
 #include "app/commands.h"
 #include "app/paths.h"
 #include "app/scene_reader.h"
+#include "app/validators.h"
 #include "sweeps/check.h"
 
 namespace wholehand {
@@ -21,8 +22,12 @@ void add_check_command(CLI::App& app, Action& action) {
   const auto arguments = std::make_shared<CheckArguments>();
   CLI::App* command =
       app.add_subcommand("check", "Compare the device with the core in float and in double, kernel by kernel and whole");
-  command->add_option("scene", arguments->scene, "Scene file, or the name of a shipped one (three_beakers)")->type_name("SCENE");
-  command->add_option("--on", arguments->on, "vulkan (the best device, the default) or a device's name")->type_name("DEVICE");
+  command->add_option("scene", arguments->scene, "Scene file, or the name of a shipped one (three_beakers)")
+      ->type_name("SCENE")
+      ->check(not_empty());
+  command->add_option("--on", arguments->on, "vulkan (the best device, the default) or a device's name")
+      ->type_name("DEVICE")
+      ->check(not_empty());
   command->callback([arguments, &action] {
     action = [arguments] {
       CheckOptions options;

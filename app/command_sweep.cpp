@@ -6,6 +6,7 @@
 #include "app/commands.h"
 #include "app/paths.h"
 #include "app/scene_reader.h"
+#include "app/validators.h"
 #include "app/values.h"
 #include "sweeps/run.h"
 
@@ -35,9 +36,15 @@ ExitCode sweep(const SweepArguments& arguments) {
 void add_sweep_command(CLI::App& app, Action& action) {
   const auto arguments = std::make_shared<SweepArguments>();
   CLI::App* command = app.add_subcommand("sweep", "Score every grip of a scene, show the best, write the results");
-  command->add_option("scene", arguments->scene, "Scene file, or the name of a shipped one (three_beakers)")->type_name("SCENE");
-  command->add_option("-o,--output", arguments->output, "Result file (the scene file's name with .nc)")->type_name("FILE");
-  command->add_option("--on", arguments->on, "core, vulkan (the best device, the default) or a device's name")->type_name("DEVICE");
+  command->add_option("scene", arguments->scene, "Scene file, or the name of a shipped one (three_beakers)")
+      ->type_name("SCENE")
+      ->check(not_empty());
+  command->add_option("-o,--output", arguments->output, "Result file (the scene file's name with .nc)")
+      ->type_name("FILE")
+      ->check(not_empty());
+  command->add_option("--on", arguments->on, "core, vulkan (the best device, the default) or a device's name")
+      ->type_name("DEVICE")
+      ->check(not_empty());
   command->add_option("--precision", arguments->precision, "float or double (float on Vulkan, double on the core)")->type_name("P");
   command->add_option("--best", arguments->best, "Grips shown and listed for each vessel (the scene's)")->type_name("N");
   command->add_option("--threads", arguments->threads, "Threads of the core (all)")->type_name("N");

@@ -6,6 +6,7 @@
 #include <new>
 #include <sstream>
 #include <string>
+#include <system_error>
 
 #include "app/commands.h"
 #include "app/output.h"
@@ -42,7 +43,9 @@ int run(int argc, char** argv) {
                "wholehand"};
   app.set_version_flag("--version", std::string("wholehand ") + wholehand::version());
   app.require_subcommand(0, 1);
-  app.footer("Exit codes: 0 done, 1 the answer is no, 2 wrong usage or input, 3 device or system failure, 130 interrupted.");
+  app.footer(
+      "The launcher also builds and runs the tests (test) and the benchmarks (bench).\n"
+      "Exit codes: 0 done, 1 the answer is no (check), 2 wrong usage or input, 3 device or system failure, 130 interrupted.");
   wholehand::add_sweep_command(app, action);
   wholehand::add_grip_command(app, action);
   wholehand::add_check_command(app, action);
@@ -80,6 +83,13 @@ int main(int argc, char** argv) {
     return run(argc, argv);
   } catch (const wholehand::Error& error) {
     return report(error.code, error.what());
+  } catch (const std::system_error& error) {
+    // what prints while it works throws this where standard output takes no more
+    if (std::ferror(stdout)) {
+      return report(ExitCode::failure,
+                    "cannot write to standard output: " + error.code().message() + "; what was printed is incomplete");
+    }
+    return report(ExitCode::failure, std::string("unexpected failure: ") + error.what());
   } catch (const std::bad_alloc&) {
     return report(ExitCode::failure, "out of memory; ask for less at once");
   } catch (const std::exception& error) {

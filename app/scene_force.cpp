@@ -46,6 +46,7 @@ void read_output(const SceneTable& root, OutputData& output) {
   output.best = static_cast<int>(best);
   const toml::array* names = table->array("keep", 0, ranges::LARGEST_KEEP, "names of result variables");
   if (!names) return;
+  output.keep_place = table->file().text_of(table->place("keep"));
   auto& keep = output.keep.emplace();
   for (const toml::node& node : *names) {
     const auto* name = node.as_string();

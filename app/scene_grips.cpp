@@ -103,6 +103,7 @@ void read_grips(const SceneTable& root, GripsData& grips) {
   const auto table = root.table("grips", {"height_mm", "height_fraction", "azimuth_deg", "obliquity_deg", "roll_deg", "offset_mm",
                                           "hand_scale", "sampling", "count", "seed"});
   if (!table) return;
+  grips.place = table->file().text_of(table->place());
   table->read("sampling", {{"grid", Sampling::grid}, {"sobol", Sampling::sobol}}, grips.sampling);
   const bool is_sobol = grips.sampling == Sampling::sobol;
   for (const char* key : {"count", "seed"}) {

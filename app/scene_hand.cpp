@@ -30,6 +30,7 @@ void read_hand(const SceneTable& root, HandData& hand) {
       root.table("hand", {"scale", "handedness", "contact_tolerance_mm", "max_angle_deg", "paper_max_angle_deg", "depth_limit_mm",
                           "joint_limit_deg", "thumb", "index", "middle", "ring", "little", "angles"});
   if (!table) return;
+  hand.place = table->file().text_of(table->place());
   table->read("scale", ranges::SCALE, hand.scale);
   table->read("handedness", {{"right", Handedness::right}, {"left", Handedness::left}}, hand.handedness);
   table->read("contact_tolerance_mm", ranges::CONTACT_TOLERANCE, hand.contact_tolerance);

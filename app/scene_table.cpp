@@ -43,8 +43,10 @@ std::string inner_title(std::string_view outer, std::string_view key) {
 SceneFile::SceneFile(std::string_view name) : name_(one_line(name)) {}
 
 void SceneFile::refuse(Place place, const std::string& found, const std::string& allowed) const {
-  throw usage_error(fmt::format("{}:{}:{}: {}; {}", name_, place.line, place.column, found, allowed));
+  throw usage_error(fmt::format("{}: {}; {}", text_of(place), found, allowed));
 }
+
+std::string SceneFile::text_of(Place place) const { return fmt::format("{}:{}:{}", name_, place.line, place.column); }
 
 Place place_of(const toml::node& node) {
   const auto begin = node.source().begin;

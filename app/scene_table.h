@@ -32,6 +32,9 @@ class SceneFile {
   // Throws Error (usage): `name:line:column: found; allowed`.
   [[noreturn]] void refuse(Place place, const std::string& found, const std::string& allowed) const;
 
+  // `name:line:column`, for what is refused after reading.
+  std::string text_of(Place place) const;
+
  private:
   std::string name_;
 };

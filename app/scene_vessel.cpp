@@ -28,6 +28,7 @@ void refuse_keys(const SceneTable& table, std::span<const std::string_view> keys
 MeshData read_mesh(const SceneTable& table) {
   MeshData mesh;
   table.read_text("mesh", ranges::LARGEST_PATH, mesh.file);
+  mesh.place = table.file().text_of(table.place("mesh"));
   table.read("mesh_scale", ranges::MESH_SCALE, mesh.scale);
   table.read("rotate_deg", ranges::ROTATION, "[x, y, z]", mesh.rotate);
   table.read("origin", {{"base", true}, {"as_is", false}}, mesh.origin_at_base);
@@ -68,6 +69,7 @@ void read_form(const SceneTable& table, VesselData& vessel, Silhouette& silhouet
 
 void read_wall(const SceneTable& table, VesselData& vessel, const Silhouette& silhouette) {
   table.read("wall_mm", ranges::WALL, vessel.wall);
+  if (table.has("wall_mm")) vessel.wall_place = table.file().text_of(table.place("wall_mm"));
   table.read("surface", {{"solid", Surface::solid}, {"shell", Surface::shell}}, vessel.surface);
   if (vessel.surface == Surface::shell && !table.has("wall_mm")) {
     table.file().refuse(table.place("surface"), "surface = 'shell' without a wall", "allowed: with 'wall_mm'");

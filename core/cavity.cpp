@@ -167,8 +167,8 @@ std::vector<double> crossings(const std::vector<PreparedElement>& hull, double y
 
 std::vector<PreparedElement> inner_offset(const std::vector<PreparedElement>& hull, double wall, const VesselData& vessel) {
   const auto refuse = [&](const std::string& what) {
-    const std::string place = vessel.line > 0 ? ":" + std::to_string(vessel.line) + ":" + std::to_string(vessel.column) : "";
-    return usage_error("vessel '" + vessel.name + "'" + place + ": wall_mm = " + std::to_string(wall * 1e3) + ": " + what);
+    return usage_error(
+        at_place(vessel.wall_place, "vessel '" + vessel.name + "': wall_mm = " + std::to_string(wall * 1e3) + ": " + what));
   };
   const std::vector<PreparedElement> open(hull.begin(), hull.end() - 1);
   const double mouth = hull.back().a[1];

@@ -19,4 +19,9 @@ class Error : public std::runtime_error {
 inline Error usage_error(const std::string& line) { return Error(ExitCode::usage, line); }
 inline Error failure_error(const std::string& line) { return Error(ExitCode::failure, line); }
 
+// `place` of a scene file before a message, where there is one.
+inline std::string at_place(const std::string& place, const std::string& message) {
+  return place.empty() ? message : place + ": " + message;
+}
+
 }  // namespace wholehand

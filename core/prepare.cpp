@@ -128,8 +128,9 @@ std::vector<PreparedElement> monotone_elements(const std::vector<OutlineElement>
 void refuse_meshes(const Scene& scene) {
   for (const VesselData& vessel : scene.vessels) {
     if (!vessel.mesh) continue;
-    throw usage_error(scene.file + ":" + std::to_string(vessel.line) + ":" + std::to_string(vessel.column) + ": vessel '" +
-                      vessel.name + "' is a mesh, which cannot be evaluated yet; describe it by shape or outline");
+    throw usage_error(
+        at_place(vessel.mesh->place,
+                 "vessel '" + vessel.name + "' is a mesh, which cannot be evaluated yet; describe it by shape or outline"));
   }
 }
 
@@ -181,8 +182,10 @@ PreparedHand prepare_hand(const HandData& hand) {
     if (i > 0 && !(gap < previous)) {
       char closure_text[32];
       std::snprintf(closure_text, sizeof closure_text, "%.4f", static_cast<double>(i - 1) / CHECKS);
-      throw usage_error("[hand]: the gap between thumb and index tip must fall strictly as the hand closes; it turns at closure " +
-                        std::string(closure_text) + " (" + std::to_string(previous * 1e3) + " mm); change the angles or segments");
+      throw usage_error(at_place(
+          hand.place, "[hand]: the gap between thumb and index tip must fall strictly as the hand closes; it turns at closure " +
+                          std::string(closure_text) + " (" + std::to_string(previous * 1e3) +
+                          " mm); change the angles or segments"));
     }
     if (i == 0) prepared.gap_open = gap;
     if (i == CHECKS) prepared.gap_closed = gap;

@@ -45,6 +45,7 @@ struct AngleRange {
 
 // The default hand is KERNELS' table: segment means of Buryanov & Kotiuk 2010 with the pulp added.
 struct HandData {
+  std::string place;  // file:line:column of [hand], for messages; empty: none
   double scale = 1;
   Handedness handedness = Handedness::right;
   double contact_tolerance = 0.2e-3;                                          // m, not scaled
@@ -79,6 +80,7 @@ struct OutlineElement {
 
 // A mesh vessel as the scene file names it.
 struct MeshData {
+  std::string place;  // of the key, as above
   std::string file;
   double scale = 1;
   Triple rotate{};  // rad
@@ -97,6 +99,7 @@ struct VesselData {
   std::optional<MeshData> mesh;         // instead of an outline
   double height = 0;                    // y of the mouth, m
   double wall = 0;                      // m; 0: none given (then no liquid, no shell, and the mass is given)
+  std::string wall_place;               // of the key, as above
   Surface surface = Surface::solid;
   double density = 2230;              // of the wall, kg/m3
   std::optional<double> mass;         // kg, with center_of_mass: both given or neither
@@ -136,6 +139,7 @@ struct Axis {
 };
 
 struct GripsData {
+  std::string place;               // as above
   bool height_is_fraction = true;  // `height` holds fractions of the vessel's height
   Axis height{{0.5}}, azimuth, obliquity, roll, offset, hand_scale{{1.0}};
   Sampling sampling = Sampling::grid;
@@ -148,6 +152,7 @@ struct ScoreWeights {
 };
 
 struct OutputData {
+  std::string keep_place;                        // as above
   std::optional<std::vector<std::string>> keep;  // variable names; absent: the default set
   int best = 20;
 };

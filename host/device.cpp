@@ -103,11 +103,12 @@ const DeviceInfo& choose_device(const std::vector<DeviceInfo>& devices, std::str
     if (error == std::errc() && rest == end && index < devices.size()) {
       chosen = &devices[index];
     }
-  } else {
-    chosen = first_usable(devices, lower(selector));
+  } else if (selector.find_first_not_of("0123456789") != std::string_view::npos) {  // a number alone is no name
+    chosen =
+        first_usable(devices, lower(selector) == "lavapipe" ? "llvmpipe" : lower(selector));  // the driver's name for its device
   }
   if (!chosen) {
-    throw usage_error("no Vulkan device \"" + std::string(selector) + "\" that can be used; there: " + names_of(devices));
+    throw usage_error("no Vulkan device \"" + std::string(selector) + "\" that can be used; there: core, " + names_of(devices));
   }
   if (!chosen->unusable.empty()) {
     throw usage_error("Vulkan device " + chosen->name + " cannot be used: " + chosen->unusable + "; there: " + names_of(devices));

@@ -16,9 +16,6 @@ namespace {
 constexpr int LOOP_BUDGET = 60000;
 constexpr int ITERATIONS_PER_PIECE = LEVEL_STEPS * (6 + 3 * QUADRATURE_POINTS);
 
-// States a dispatch of the force kernel loops over at most, for the same reason and to keep it short.
-constexpr std::uint32_t STATES_PER_DISPATCH = 8192;
-
 template <class Real>
 Buffer upload_reals(Device& device, const std::vector<double>& values) {
   // a binding that the shader names must be there even where nothing is read from it
@@ -135,7 +132,23 @@ void GripProgram::upload_vessel(std::size_t v, const SceneArrays& arrays, const 
   vessel.parameters = upload(on, options.precision, from.parameters);
   vessel.outline = upload(on, options.precision, outline);
   vessel.grid = upload(on, options.precision, from.grid);
-  vessel.loads = upload(on, options.precision, from.dry_loads);
+  upload_states(vessel, from.dry_loads, arrays.tilts);  // none where there is liquid
+}
+
+// `loads` of every fill and tilt, `tilts` as the other kernels read them.
+void GripProgram::upload_states(VesselOnDevice& vessel, const std::vector<double>& loads, const std::vector<double>& tilts) {
+  const std::size_t states = loads.size() / LOAD_STRIDE;
+  for (std::size_t first = 0; first < states; first += STATES_IN_BLOCK) {
+    std::vector<double> block(std::size_t{STATE_STRIDE} * STATES_IN_BLOCK);
+    for (std::size_t state = first; state < std::min(states, first + STATES_IN_BLOCK); ++state) {
+      double* out = block.data() + STATE_STRIDE * (state - first);
+      const std::size_t tilt = state % tilt_count;
+      std::copy_n(loads.data() + LOAD_STRIDE * state, LOAD_STRIDE, out);
+      std::copy_n(tilts.data() + 3 * tilt, 3, out + LOAD_STRIDE);
+      out[7] = tilt > 0 ? tilts[3 * tilt - 1] : -1;
+    }
+    vessel.states.push_back(upload(on, precision_, block));
+  }
 }
 
 void GripProgram::make_grip_kernel(std::size_t v, const Scene& scene, const SceneArrays& arrays, const FieldSet& fields,
@@ -177,13 +190,13 @@ void GripProgram::make_liquid(std::size_t v, const Scene& scene, const SceneArra
         vessel.liquid.push_back(state);
         loads.insert(loads.end(), {together, share, share * state.lean, share * state.height});
       }
-    vessel.loads = upload(on, options.precision, loads);
+    upload_states(vessel, loads, arrays.tilts);
     return;
   }
   const std::size_t real = real_size(options.precision);
   const Buffer cavity = upload(on, options.precision, arrays.vessels[v].cavity);
   const Buffer capacity(on, real * (WHOLE_DEGREES + tilt_count)), liquids(on, real * LIQUID_STRIDE * states);
-  vessel.loads = Buffer(on, real * LOAD_STRIDE * states);
+  const Buffer loads_out(on, real * LOAD_STRIDE * states);
   Commands commands;
   commands.bind(BINDING_PARAMETERS, vessel.parameters);
   commands.bind(BINDING_CAVITY, cavity);
@@ -192,7 +205,7 @@ void GripProgram::make_liquid(std::size_t v, const Scene& scene, const SceneArra
   commands.bind(BINDING_FILLS, fills);
   commands.bind(BINDING_CAPACITY, capacity);
   commands.bind(BINDING_LIQUID, liquids);
-  commands.bind(BINDING_LOADS, vessel.loads);
+  commands.bind(BINDING_LOADS, loads_out);
   const std::uint32_t rows = WHOLE_DEGREES + tilt_count;
   commands.dispatch(lip, groups_for(on, lip, rows), Push{rows, 0, 0, 0});
   commands.dispatch(liquid, groups_for(on, liquid, states), Push{states, 0, 0, 0});
@@ -202,6 +215,7 @@ void GripProgram::make_liquid(std::size_t v, const Scene& scene, const SceneArra
     const double* at = values.data() + LIQUID_STRIDE * s;
     vessel.liquid.push_back({at[0], at[1], at[2], at[3], at[4]});
   }
+  upload_states(vessel, download(loads_out, options.precision, LOAD_STRIDE * states), arrays.tilts);
 }
 
 void GripProgram::record(std::size_t v, const Chunk& chunk, std::size_t best, double floor_score, Commands& commands) {
@@ -211,14 +225,13 @@ void GripProgram::record(std::size_t v, const Chunk& chunk, std::size_t best, do
   commands.bind(BINDING_HAND, hand);
   commands.bind(BINDING_OUTLINE, vessel.outline);
   commands.bind(BINDING_GRID, vessel.grid);
-  commands.bind(BINDING_TILTS, tilts);
-  commands.bind(BINDING_LOADS, vessel.loads);
   commands.dispatch(*vessel.grip, groups_for(on, *vessel.grip, count), Push{count, stride, 0, 0});
   if (force) {
-    const std::uint32_t together = std::max<std::uint32_t>(1, STATES_PER_DISPATCH / tilt_count);
-    for (std::uint32_t fill = 0; fill < fill_count; fill += together) {
-      const std::uint32_t number = std::min(together, fill_count - fill);
-      commands.dispatch(*force, groups_for(on, *force, count), Push{count, stride, fill, number});
+    const std::uint32_t states = fill_count * tilt_count;
+    for (std::uint32_t first = 0; first < states; first += STATES_IN_BLOCK) {
+      commands.bind(BINDING_STATES, vessel.states[first / STATES_IN_BLOCK]);
+      commands.dispatch(*force, groups_for(on, *force, count),
+                        Push{count, stride, first, std::min<std::uint32_t>(STATES_IN_BLOCK, states - first)});
     }
   }
   commands.dispatch(*score, groups_for(on, *score, count), Push{count, stride, 0, 0});

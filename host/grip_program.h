@@ -13,7 +13,8 @@ namespace wholehand::host {
 // What a vessel needs on the device.
 struct VesselOnDevice {
   OutlineSource outline_source = OUTLINE_SPECIALIZED;
-  Buffer parameters, outline, grid, loads;
+  Buffer parameters, outline, grid;
+  std::vector<Buffer> states;  // blocks of STATES_IN_BLOCK; empty without tilts
   std::optional<Kernel> grip;
   std::vector<LiquidResult> liquid;  // fill-major; empty without
 };
@@ -41,6 +42,7 @@ struct GripProgram final : Program {
                         const GripBackendOptions& options);
   void make_liquid(std::size_t v, const Scene& scene, const SceneArrays& arrays, const Evaluator& core,
                    const GripBackendOptions& options, const Kernel& lip, const Kernel& liquid);
+  void upload_states(VesselOnDevice& vessel, const std::vector<double>& loads, const std::vector<double>& tilts);
 };
 
 // Whether grips of a vessel stay within those iterations: on a CPU driver an outline must be unrolled, so up to MAX_OUTLINE elements.

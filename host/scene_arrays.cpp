@@ -121,7 +121,8 @@ SceneArrays make_scene_arrays(const Scene& scene, const Evaluator& core, const E
       for (const auto& element : prepared.outline) sampled.outline.push_back(core_f64::load_element(element));
       set_grid(vessel, core_f64::sample_grid(sampled, options.grid_samples));
     }
-    for (std::size_t t = 0; t < scene.tilts.size(); ++t) vessel.dry_loads.insert(vessel.dry_loads.end(), {constants.mass, 0, 0, 0});
+    for (std::size_t t = 0; !scene.liquid && t < scene.tilts.size(); ++t)
+      vessel.dry_loads.insert(vessel.dry_loads.end(), {constants.mass, 0, 0, 0});
     arrays.vessels.push_back(std::move(vessel));
   }
   return arrays;

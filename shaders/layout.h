@@ -131,11 +131,12 @@
 #define BINDING_FILLS 9             // readonly: Real[fills]: fraction of capacity
 #define BINDING_LIQUID 10           // Real: per (fill, tilt) LIQUID_STRIDE values
 #define BINDING_CAPACITY 11         // Real: lip capacity per whole degree, then per listed tilt
-#define BINDING_LOADS 12            // readonly: Real: per (fill, tilt) LOAD_STRIDE values
+#define BINDING_LOADS 12            // Real: per (fill, tilt) LOAD_STRIDE values
 #define BINDING_QUADRATURE 13       // readonly: Real[2 * points]: cosine, weight
 #define BINDING_CANDIDATES 14       // Real scores, and
 #define BINDING_INDICES 15          // uint indices of the top-N selection
-#define BINDINGS 16
+#define BINDING_STATES 16           // uniform: vec4[2 * STATES_IN_BLOCK], a stretch of the (fill, tilt) in order
+#define BINDINGS 17
 
 // Record of an outline or cavity element, reals: start r, start y, end r, end y, center r, center y, radius, side
 // (0: line, whose unit outward normal stands for the center; +1: arc on the half r >= center r; -1: the other half).
@@ -154,6 +155,10 @@
 
 // Load of one fill and tilt: mass, the liquid's share of it, lean and height of the liquid's centre of mass.
 #define LOAD_STRIDE 4
+
+// A state as the force kernel reads it: its load; sine, cosine and angle of its tilt, and the angle of the tilt before (-1: none).
+#define STATE_STRIDE 8
+#define STATES_IN_BLOCK 256         // in double 16 KiB, the smallest uniform range that Vulkan grants
 
 // Liquid of one fill and tilt: volume, mass, lean, height, poured.
 #define LIQUID_STRIDE 5

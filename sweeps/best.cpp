@@ -120,7 +120,10 @@ std::string best_csv(const Scene& scene, const std::vector<std::vector<BestGrip>
       std::vector<double> numbers{grip.height * 1e3,  degrees(grip.azimuth), degrees(grip.obliquity),
                                   degrees(grip.roll), grip.offset * 1e3,     grip.hand_scale,
                                   best.score};
-      numbers.insert(numbers.end(), best.terms.begin(), best.terms.end());
+      for (std::size_t term = 0; term < best.terms.size(); ++term) {
+        const bool absent = term >= 4 && scene.tilts.empty();  // force and hold
+        numbers.push_back(absent ? std::nan("") : best.terms[term]);
+      }
       numbers.insert(numbers.end(), {best.closure, best.gap * 1e3, static_cast<double>(best.fingers_used),
                                      static_cast<double>(best.points_touching), best.phalanx_depth * 1e3, best.palm_depth * 1e3,
                                      best.peak_force, degrees(best.peak_tilt), best.largest_hold, degrees(best.safe_tilt)});

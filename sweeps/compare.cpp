@@ -5,18 +5,18 @@
 #include <limits>
 #include <numeric>
 
+#include "sweeps/liquid_floors.h"
+
 namespace wholehand {
 namespace {
 
-// A row of the comparison: planes of one field, in a unit for people. Where a finger comes to rest, each side ends anywhere within one stop
-// tolerance of the surface: such lengths may differ by two, however little the finger itself moves.
+// A row of the comparison: planes of one field, in a unit for people.
 struct Quantity {
   int field;
   const char* kernel;
   const char* name;
   const char* unit;
   double scale;  // to the unit
-  bool rests = false;
 };
 
 const std::vector<Quantity> QUANTITIES{
@@ -27,12 +27,12 @@ const std::vector<Quantity> QUANTITIES{
     {FIELD_CLOSURE, "closure", "closure", "1e-6", 1e6},
     {FIELD_CONTACT_ANGLES, "closure", "contact angle", "urad", 1e6},
     {FIELD_JOINTS, "hand", "rigged joints", "um", 1e6},
-    {FIELD_POSED, "projection", "posed joints", "um", 1e6, true},
-    {FIELD_SEPARATION, "sdf", "separation", "um", 1e6, true},
-    {FIELD_PROXIES, "contact", "proxies", "um", 1e6, true},
-    {FIELD_PHALANX_DEPTH, "contact", "phalanx depth", "um", 1e6, true},
-    {FIELD_PALM_DEPTH, "contact", "palm depth", "um", 1e6, true},
-    {FIELD_BONE_STRETCH, "contact", "bone stretch", "um", 1e6, true},
+    {FIELD_POSED, "projection", "posed joints", "um", 1e6},
+    {FIELD_SEPARATION, "sdf", "separation", "um", 1e6},
+    {FIELD_PROXIES, "contact", "proxies", "um", 1e6},
+    {FIELD_PHALANX_DEPTH, "contact", "phalanx depth", "um", 1e6},
+    {FIELD_PALM_DEPTH, "contact", "palm depth", "um", 1e6},
+    {FIELD_BONE_STRETCH, "contact", "bone stretch", "um", 1e6},
     {FIELD_PIVOT_LENGTH, "force", "pivot length", "um", 1e6},
     {FIELD_TORQUE, "force", "torque", "uN m", 1e6},
     {FIELD_EXACT_TORQUE, "force", "exact torque", "uN m", 1e6},
@@ -92,8 +92,20 @@ Scene with_tips(Scene scene, double thumb, double index) {
   return scene;
 }
 
+// Whether the planes are there, and not only computed where they were.
+bool is_held(const GatheredPlanes& planes, int field) {
+  return planes.fields.has(field) && static_cast<std::size_t>(planes.fields.plane[field]) * planes.count < planes.reals.size();
+}
+
+// What the comparison of told tilts looks at.
+bool has_tilts(const FieldSet& fields) {
+  const auto needed = {FIELD_PEAK_TILT, FIELD_SAFE_TILT, FIELD_FEEDBACK_FORCE, FIELD_NORMAL_FORCE, FIELD_HOLD_FORCE};
+  return std::all_of(needed.begin(), needed.end(), [&](int field) { return fields.has(field); });
+}
+
 // Takes a difference into its row; true: over the tolerance.
 bool note_difference(Comparison& entry, double scale, std::size_t vessel, std::size_t grip, double difference, double tolerance) {
+  if (entry.worst == 0 && difference == 0) entry.tolerance = std::max(entry.tolerance, tolerance * scale);
   if (difference > entry.worst / scale) {
     entry.worst = difference * scale;
     entry.tolerance = tolerance * scale;
@@ -165,7 +177,7 @@ Comparer::Comparer(const Scene& scene, const Evaluator& core, Allowance allowed)
   const FieldSet fields = all_fields(scene);
   for (const Quantity& q : QUANTITIES)
     if (fields.has(q.field)) row(q.kernel, q.name, q.unit);
-  if (fields.has(FIELD_PEAK_TILT)) {
+  if (has_tilts(fields)) {
     row("force", PEAK_TILT, "mN");
     row("force", SAFE_TILT, "mN");
   }
@@ -202,8 +214,10 @@ void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, cons
   // Beside an edge, the distances to edge and face differ by x^2 / 2r at x from where they are equal, so the face that is nearest after
   // rounding may be another one up to here, and the normal with it.
   const double corner = std::sqrt(2 * tip_radius(scene_.hand) * allowed_.epsilon * size);
+  const bool angles = fields.has(FIELD_CONTACT_ANGLES);
   for (int way = 0; corner > shift && way < WAYS; ++way)
-    spread_to(gather(core_, fields, vessel, moved(grips, way, corner, length)), fields.plane[FIELD_CONTACT_ANGLES], 2);
+    spread_to(gather(core_, fields, vessel, moved(grips, way, corner, length)), angles ? fields.plane[FIELD_CONTACT_ANGLES] : 0,
+              angles ? 2 : 0);
   std::vector<char> left_out(n, 0);
   Comparison& outcomes = row("whole", "discrete outcomes", "grips");
   for (std::size_t i = 0; i < n; ++i) {
@@ -227,8 +241,13 @@ void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, cons
     }
   }
   std::vector<double> floors(FIELDS, 0.0);
+  const LiquidFloors liquid(scene_, core_, vessel, volume_tolerance(vessel), truth);
+  const auto tolerance = [&](int field, std::size_t k, std::size_t i) {
+    return floors[field] + 2 * allowed_.stop_tolerance * rests(field, k) + liquid.of(field, k, i) +
+           2 * spread[(fields.plane[field] + k) * n + i];
+  };
   for (const Quantity& q : QUANTITIES) {
-    if (!fields.has(q.field)) continue;
+    if (!is_held(a, q.field) || !is_held(b, q.field)) continue;
     Comparison& entry = row(q.kernel, q.name, q.unit);
     const int planes = field_planes(q.field, scene_fills(scene_), scene_.tilts.size());
     double largest = 0;
@@ -237,8 +256,7 @@ void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, cons
         const double value = std::abs(truth.real(fields.plane[q.field] + p, i));
         if (std::isfinite(value)) largest = std::max(largest, value);
       }
-    floors[q.field] =
-        (ROUNDINGS * allowed_.epsilon + 2 * allowed_.level_tolerance) * largest + (q.rests ? 2 * allowed_.stop_tolerance : 0);
+    floors[q.field] = ROUNDINGS * allowed_.epsilon * largest;
     for (std::size_t i = 0; i < n; ++i) {
       if (left_out[i] != 0) continue;
       ++entry.compared;
@@ -246,15 +264,35 @@ void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, cons
       for (int p = 0; p < planes; ++p) {
         const int plane = fields.plane[q.field] + p;
         const double difference = apart(a.real(plane, i), b.real(plane, i));
-        over = note_difference(entry, q.scale, vessel, i, difference, floors[q.field] + 2 * spread[plane * n + i]) || over;
+        over = note_difference(entry, q.scale, vessel, i, difference, tolerance(q.field, p, i)) || over;
       }
       entry.outside += over ? 1 : 0;
     }
   }
-  if (!fields.has(FIELD_PEAK_TILT)) return;
-  add_tilts(vessel, a, b, left_out, [&](int field, std::size_t state, std::size_t i) {
-    return floors[field] + 2 * spread[(fields.plane[field] + state) * n + i];
-  });
+  if (has_tilts(fields)) add_tilts(vessel, a, b, left_out, tolerance);
+}
+
+// How much of a length at which a finger rests is in plane `k` of the field. Each side ends anywhere within one stop tolerance of the
+// surface: such lengths may differ by two, however little the finger itself moves, and what is made of them likewise.
+double Comparer::rests(int field, std::size_t k) const {
+  switch (field) {
+    case FIELD_POSED:
+    case FIELD_SEPARATION:
+    case FIELD_PROXIES:
+    case FIELD_PHALANX_DEPTH:
+    case FIELD_PALM_DEPTH:
+    case FIELD_BONE_STRETCH:
+      return 1;
+    case FIELD_TERMS:
+      return k == 2 ? 1 / DEPTH_SCALE : 0;
+    case FIELD_SCORE: {
+      const auto& w = scene_.score;
+      const double whole = scene_.tilts.empty() ? w.fingers + w.contacts + w.depth + w.posture : 1;
+      return whole > 0 ? w.depth / whole / DEPTH_SCALE : 0;
+    }
+    default:
+      return 0;
+  }
 }
 
 // A tilt that is told is a choice among the listed ones: it must be as good a choice by the other side's forces, to their tolerances.
@@ -304,31 +342,27 @@ std::size_t Comparer::tilt_told(double told) const {
   return static_cast<std::size_t>(nearest - scene_.tilts.begin()) + 1;
 }
 
+double Comparer::volume_tolerance(std::size_t vessel) const {
+  return (4 * allowed_.level_tolerance + ROUNDINGS * allowed_.epsilon) * core_.constants(vessel).capacity;
+}
+
 // The level is solved to its tolerance of the capacity and sums of slices are rounded; a centre of mass is compared by its moment, since
 // the last drop's place means nothing.
 void Comparer::add_liquid(std::size_t vessel, const std::vector<LiquidResult>& a, const std::vector<LiquidResult>& b) {
   if (a.empty()) return;
-  const double capacity = core_.constants(vessel).capacity;
-  const double volume_tolerance = (4 * allowed_.level_tolerance + ROUNDINGS * allowed_.epsilon) * capacity;
-  const double moment_tolerance = 2 * volume_tolerance * scene_.vessels[vessel].height;
+  const double of_volume = volume_tolerance(vessel), of_moment = 2 * of_volume * scene_.vessels[vessel].height;
   const auto compare = [&](const char* name, const char* unit, double scale, double tolerance, auto value) {
     Comparison& entry = row("liquid", name, unit);
     for (std::size_t s = 0; s < a.size(); ++s) {
       const double difference = apart(value(a[s]), value(b[s]));
       ++entry.compared;
-      entry.outside += difference > tolerance ? 1 : 0;
-      entry.worst_ratio = std::max(entry.worst_ratio, difference / tolerance);
-      if (difference * scale <= entry.worst) continue;
-      entry.worst = difference * scale;
-      entry.tolerance = tolerance * scale;
-      entry.vessel = vessel;
-      entry.grip = s;
+      entry.outside += note_difference(entry, scale, vessel, s, difference, tolerance) ? 1 : 0;
     }
   };
-  compare("volume", "mL", 1e6, volume_tolerance, [](const LiquidResult& r) { return r.volume; });
-  compare("poured", "mL", 1e6, volume_tolerance, [](const LiquidResult& r) { return r.poured; });
-  compare("lean moment", "mL mm", 1e9, moment_tolerance, [](const LiquidResult& r) { return r.volume * r.lean; });
-  compare("height moment", "mL mm", 1e9, moment_tolerance, [](const LiquidResult& r) { return r.volume * r.height; });
+  compare("volume", "mL", 1e6, of_volume, [](const LiquidResult& r) { return r.volume; });
+  compare("poured", "mL", 1e6, of_volume, [](const LiquidResult& r) { return r.poured; });
+  compare("lean moment", "mL mm", 1e9, of_moment, [](const LiquidResult& r) { return r.volume * r.lean; });
+  compare("height moment", "mL mm", 1e9, of_moment, [](const LiquidResult& r) { return r.volume * r.height; });
 }
 
 bool Comparer::holds() const {

@@ -35,7 +35,7 @@ GatheredPlanes gather(const Evaluator& core, const FieldSet& fields, std::size_t
 struct Comparison {
   std::string kernel, quantity, unit;
   double worst = 0;                         // largest difference, in the unit
-  double tolerance = 0;                     // of that grip, in the unit
+  double tolerance = 0;                     // of that grip, in the unit; the largest where nothing differs
   std::size_t vessel = 0, grip = 0;         // where
   double worst_ratio = 0;                   // largest difference over its own tolerance
   std::uint64_t compared = 0, outside = 0;  // grips; outside: over the tolerance
@@ -70,6 +70,8 @@ class Comparer {
  private:
   void add_tilts(std::size_t vessel, const GatheredPlanes& a, const GatheredPlanes& b, const std::vector<char>& left_out,
                  const std::function<double(int field, std::size_t state, std::size_t grip)>& tolerance);
+  double rests(int field, std::size_t k) const;
+  double volume_tolerance(std::size_t vessel) const;
   std::size_t tilt_told(double told) const;
   Comparison& row(const std::string& kernel, const std::string& quantity, const std::string& unit);
 

@@ -20,6 +20,7 @@ namespace {
 struct Measured {
   double seconds = 0;
   std::size_t bytes = 0;
+  double noise = 0;  // s, between the shortest runs
 };
 
 class Explainer {
@@ -61,8 +62,10 @@ class Explainer {
   static double microseconds(const Measured& m) { return m.seconds * 1e6 / static_cast<double>(EXPLAIN_GRIPS); }
 
   void row(const std::string& what, const Measured& with, const Measured& without, const std::string& variant) {
-    say("  {:<64} {:>8.3f} us {:>5} B  {}\n", what, microseconds(with) - microseconds(without),
-        static_cast<long long>(with.bytes) - static_cast<long long>(without.bytes), variant);
+    const bool is_noise = with.seconds - without.seconds < std::max(with.noise, without.noise);
+    say("  {:<64} {:>8.3f} us {:>5} B  {}{}\n", what, microseconds(with) - microseconds(without),
+        static_cast<long long>(with.bytes) - static_cast<long long>(without.bytes), variant,
+        is_noise ? " (no more than these runs' noise)" : "");
   }
 
   int longest_outline() const {
@@ -86,7 +89,7 @@ class Explainer {
       result.bytes = device->bytes_per_grip();
       backend = std::move(device);
     }
-    result.seconds = 1e300;
+    std::vector<double> runs;
     for (int run = 0; run < 6; ++run) {
       RunRequest request;
       request.last = sample_.size();
@@ -96,8 +99,11 @@ class Explainer {
       const auto start = std::chrono::steady_clock::now();
       backend->run(request);
       const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-      if (run > 0) result.seconds = std::min(result.seconds, seconds);  // the first compiles
+      if (run > 0) runs.push_back(seconds);  // the first compiles
     }
+    std::sort(runs.begin(), runs.end());
+    result.seconds = runs[0];
+    result.noise = runs[2] - runs[0];
     return result;
   }
 

@@ -11,13 +11,14 @@
 namespace wholehand {
 
 // Cells along one axis of a heat map. A grid's values have a cell each, bounded halfway to their neighbours (more than LARGEST_MAP
-// values share cells evenly); a Sobol range is cut into SOBOL_CELLS.
+// values share cells evenly); a Sobol range is cut into so many that a cell of two such axes has 16 points on average.
 class MapAxis {
  public:
   static constexpr std::size_t LARGEST_MAP = 128;
-  static constexpr std::size_t SOBOL_CELLS = 64;
+  static constexpr std::size_t LARGEST_SOBOL = 64;  // cells
 
-  MapAxis(const Axis& axis, bool is_sobol);
+  // `sobol_points`: of a vessel; 0 for a grid.
+  MapAxis(const Axis& axis, std::uint64_t sobol_points);
   std::size_t cells() const { return edges_.size() - 1; }
   double edge(std::size_t i) const { return edges_[i]; }  // i in [0, cells()], ascending, in the axis's unit
   std::size_t cell(double value) const;                   // clamped to the cells

@@ -1,4 +1,4 @@
-// Ctrl-C and termination as a flag that work looks at between chunks.
+// Ctrl-C, a terminal that closes and termination as a flag that work looks at between chunks.
 #pragma once
 
 #include <csignal>
@@ -7,7 +7,7 @@
 
 namespace wholehand {
 
-// While it lives, the first SIGINT or SIGTERM sets `flag()`; a second one ends the process as usual. At most one at a time.
+// While it lives, the first SIGINT, SIGTERM or SIGHUP sets `flag()`; a second one ends the process as usual. At most one at a time.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -23,7 +23,7 @@ class InterruptGuard {
 
  private:
   struct sigaction interrupt_before_ {
-  }, terminate_before_{};
+  }, terminate_before_{}, hangup_before_{};
 };
 
 }  // namespace wholehand

@@ -12,6 +12,9 @@
 namespace wholehand {
 namespace {
 
+// Where the number of grips is said.
+std::string place_of_grips(const Scene& scene) { return scene.grips.place.empty() ? scene.file : scene.grips.place; }
+
 double stored_per_vessel(const Scene& scene) {
   const GripsData& grips = scene.grips;
   if (grips.sampling == Sampling::sobol) return static_cast<double>(grips.count);
@@ -39,8 +42,8 @@ SweepSize sweep_size(const Scene& scene, double bytes_per_grip) {
 }
 
 void check_sweep_size(const Scene& scene, const SweepSize& size, double free_bytes) {
-  const std::string asked = fmt::format("{}: asks for {} grips, {} states, {} of results", scene.file, readable_count(size.grips),
-                                        readable_count(size.states), readable_bytes(size.bytes));
+  const std::string asked = fmt::format("{}: asks for {} grips, {} states, {} of results", place_of_grips(scene),
+                                        readable_count(size.grips), readable_count(size.states), readable_bytes(size.bytes));
   if (!(size.grips <= LARGEST_SWEEP)) {
     throw usage_error(fmt::format("{}; one sweep takes {} grips: give [grips] fewer values", asked, readable_count(LARGEST_SWEEP)));
   }
@@ -59,8 +62,8 @@ Plan::Plan(const Scene& scene, bool keeps_vectors)
   const GripsData& grips = scene.grips;
   check_sweep_size(scene, sweep_size(scene, 0), 0);
   if (sobol_ && (grips.count == 0 || grips.count > SOBOL_LARGEST_COUNT)) {
-    throw usage_error(fmt::format("{}: [grips] count = {}: Sobol sampling takes 1 to {} points a vessel", scene.file, grips.count,
-                                  SOBOL_LARGEST_COUNT));
+    throw usage_error(fmt::format("{}: [grips] count = {}: Sobol sampling takes 1 to {} points a vessel", place_of_grips(scene),
+                                  grips.count, SOBOL_LARGEST_COUNT));
   }
   axes_ = {{
       {"azimuth", "rad", "azimuth of the thumb-index line about the vessel's axis", AXIS_AZIMUTH, grips.azimuth},

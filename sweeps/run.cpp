@@ -54,6 +54,11 @@ class Sweep {
     // a file that grows past its limit is an error of the write, not the end of the process
     std::signal(SIGXFSZ, SIG_IGN);
     check();
+    if (is_finished()) {
+      note(
+          fmt::format("{} is complete: nothing to go on with; the same command without --resume computes it again", names_.result));
+      return ExitCode::done;
+    }
     const Plan plan(scene_, keeps_vectors(variables_));
     backend_ = parts_.open_backend(make_field_set(variable_fields(variables_), scene_));
     fmt::print("{}", opening_lines(scene_, plan, backend_->info()));
@@ -77,6 +82,11 @@ class Sweep {
  private:
   bool has_field(int field) const { return is_kept(backend_->fields(), field); }
   bool has_heat_map() const { return has_field(FIELD_SCORE) && has_field(FIELD_STATUS); }
+
+  bool is_finished() const {
+    struct stat file {};
+    return options_.resume && stat(names_.partial.c_str(), &file) != 0 && stat(names_.result.c_str(), &file) == 0;
+  }
 
   // What can be refused before any work.
   void check() const {
@@ -131,11 +141,26 @@ class Sweep {
       note(fmt::format("going on with {}: {} of {} grips are there", names_.partial, number(done()), number(total(plan))));
     } else {
       if (options_.resume) note(fmt::format("nothing of {} is complete: starting from the first grip", names_.partial));
+      if (!options_.resume) say_what_is_lost();
       mark_.identity = identity(plan);
       mark_.vessels.resize(scene_.vessels.size());
     }
     wall_before_ = mark_.wall_seconds;
     return resumed;
+  }
+
+  void say_what_is_lost() const {
+    struct stat partial {};
+    SweepMark earlier;
+    try {
+      if (stat(names_.partial.c_str(), &partial) != 0 || !load_mark(names_.mark, earlier)) return;
+    } catch (const Error&) {
+      return;  // nothing could have gone on from there
+    }
+    std::uint64_t kept = 0;
+    for (const VesselProgress& vessel : earlier.vessels) kept += vessel.done;
+    note(fmt::format("{} held {} grips of a sweep that was interrupted: begun again without them (--resume goes on)",
+                     names_.partial, number(kept)));
   }
 
   std::uint64_t total(const Plan& plan) const { return plan.grips() * scene_.vessels.size(); }
@@ -274,6 +299,8 @@ class Sweep {
     if (best_wanted_ > 0) {
       write_whole_file(names_.best, best_csv(scene_, best), false);
       files.insert(files.begin(), names_.best);
+    } else {
+      std::remove(names_.best.c_str());  // of the result that is replaced
     }
     file.write_ending(ranked, wall_before_ + since(options_.started), mark_.kernel_seconds);
     file.finish();

@@ -199,12 +199,13 @@ std::vector<const Variable*> choose_variables(const Scene& scene) {
     }
     return chosen;
   }
+  const std::string& place = scene.output.keep_place.empty() ? scene.file : scene.output.keep_place;
   std::set<std::string> wanted(scene.output.keep->begin(), scene.output.keep->end());
   for (const Variable& variable : catalogue()) {
     if (wanted.erase(variable.name) == 0) continue;
     if (const char* lacking = missing_need(variable.need, scene)) {
       throw usage_error(
-          fmt::format("{}: [output] keep: \"{}\" needs {}, which this scene does not have", scene.file, variable.name, lacking));
+          fmt::format("{}: [output] keep: \"{}\" needs {}, which this scene does not have", place, variable.name, lacking));
     }
     chosen.push_back(&variable);
   }
@@ -213,8 +214,8 @@ std::vector<const Variable*> choose_variables(const Scene& scene) {
     for (const Variable& variable : catalogue()) {
       if (!missing_need(variable.need, scene)) known.push_back(variable.name);
     }
-    throw usage_error(fmt::format("{}: [output] keep: unknown variable{} \"{}\"; known: {}", scene.file,
-                                  wanted.size() > 1 ? "s" : "", fmt::join(wanted, "\", \""), fmt::join(known, ", ")));
+    throw usage_error(fmt::format("{}: [output] keep: unknown variable{} \"{}\"; known: {}", place, wanted.size() > 1 ? "s" : "",
+                                  fmt::join(wanted, "\", \""), fmt::join(known, ", ")));
   }
   return chosen;
 }

@@ -1,4 +1,4 @@
-// sanitizers: none (two devices' worth of pipelines with every plane)
+// sanitizers: address
 #include "sweeps/check.h"
 
 #include <gtest/gtest.h>

@@ -70,6 +70,10 @@ TEST(CommandLine, RefusesWrongUsageWithOneLineAndCode2) {
       {"sweep --on", "--on"},
       {"sweep --on core --on core", "--on"},
       {"sweep --best", "--best"},
+      {"sweep ''", "must not be empty"},
+      {"sweep small -o ''", "must not be empty"},
+      {"sweep small --on ''", "must not be empty"},
+      {"check small --on 0", "no Vulkan device"},
       {"sweep --best 1.5", "--best '1.5'; allowed: a whole number, 0 to 100000"},
       {"sweep --best -1", "--best '-1'"},
       {"sweep --threads 0", "--threads '0'; allowed: a whole number, 1 to 1024"},
@@ -110,6 +114,19 @@ TEST(CommandLine, NamesFileLineAndColumn) {
   const std::string scene = std::filesystem::temp_directory_path() / "wholehand_cli_test.toml";
   std::ofstream(scene) << "[scene]\npose = \"papr\"\n";
   expect_error("sweep " + scene, 2, scene + ":2:8: pose = 'papr'; allowed: \"articulated\", \"paper\" or \"rigged\"");
+  // what only shows after reading
+  const std::string vessel = "[[vessel]]\nname = \"v\"\nshape = \"flask\"\ndiameter_mm = 85\nneck_mm = 34\nheight_mm = 140\n";
+  std::ofstream(scene) << vessel << "wall_mm = 17.5\n";
+  expect_error("sweep " + scene, 2, scene + ":7:11: vessel 'v': wall_mm = 17.5");
+  std::ofstream(scene) << vessel << "wall_mm = 1.5\n[hand.angles]\nmcp_deg = [66, 4]\npip_deg = [40, 12]\n";
+  expect_error("check " + scene, 2, scene + ":8:1: [hand]: the gap between thumb and index tip must fall");
+  std::ofstream(scene) << vessel << "wall_mm = 1.5\n[output]\nkeep = [\"scor\"]\n";
+  expect_error("sweep " + scene, 2, scene + ":9:8: [output] keep: unknown variable \"scor\"");
+  std::ofstream(scene) << vessel << "wall_mm = 1.5\n[grips]\nheight_fraction = { from = 0, to = 1, count = 1000000 }\n"
+                       << "roll_deg = { from = 0, to = 1, count = 1000000 }\n";
+  expect_error("sweep " + scene, 2, scene + ":8:1: asks for ");
+  std::ofstream(scene) << "[[vessel]]\nname = \"m\"\nmesh = \"a.glb\"\n";
+  expect_error("grip " + scene + " --vessel m --height-mm 10", 2, scene + ":3:8: vessel 'm' is a mesh");
   std::filesystem::remove(scene);
 }
 
@@ -150,6 +167,16 @@ TEST(CommandLine, SaysWhenItCannotWrite) {
     EXPECT_EQ(closed.code, 3) << arguments;
     EXPECT_EQ(closed.output, "wholehand: cannot write to standard output: Bad file descriptor; what was printed is incomplete\n");
   }
+  // whose output comes while it works
+  const std::string result = std::filesystem::temp_directory_path() / "wholehand_cli_test.nc";
+  for (const std::string& arguments : {"sweep three_beakers --on core -o " + result, std::string("check small")}) {
+    const Outcome full = run("PROGRAM " + arguments + " 2>&1 >/dev/full");
+    EXPECT_EQ(full.code, 3) << arguments;
+    EXPECT_EQ(full.output, "wholehand: cannot write to standard output: No space left on device; what was printed is incomplete\n");
+  }
+  EXPECT_TRUE(std::filesystem::exists(result)) << "the result itself was written";
+  for (const char* name : {".nc", ".best.csv", ".beaker1.svg", ".beaker2.svg", ".beaker3.svg"})
+    std::filesystem::remove(result.substr(0, result.size() - 3) + name);
   // a reader that ends at once: the writer's code goes out by a third descriptor
   const Outcome broken = run("{ { PROGRAM " + std::string(GRIP) + " --json; echo code $? >&3; } | true; } 3>&1 2>&1");
   EXPECT_NE(broken.output.find("code 3"), std::string::npos) << broken.output;

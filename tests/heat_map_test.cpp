@@ -68,10 +68,33 @@ TEST(HeatMap, InfeasibleCellsHaveNoScore) {
   EXPECT_LT(missing, 14);
 }
 
+// Cells that no point fell into would look like grips that are not feasible.
+TEST(HeatMap, EveryCellOfASobolRangeIsSampled) {
+  for (const std::uint64_t count : {1u, 10u, 100u, 500u, 4096u, 20000u}) {
+    Scene scene = fake_scene();
+    scene.grips.sampling = Sampling::sobol;
+    scene.grips.count = count;
+    for (Axis* axis : {&scene.grips.height, &scene.grips.roll}) {
+      axis->is_range = true;
+      axis->from = 0.1;
+      axis->to = 0.9;
+    }
+    const Plan plan(scene, false);
+    const HeatMap map(plan);
+    std::set<std::pair<std::size_t, std::size_t>> sampled;
+    std::vector<double> heights(count), rolls(count);
+    plan.coordinates(PLACE_HEIGHT, 0, count, heights.data());
+    plan.coordinates(PLACE_ROLL, 0, count, rolls.data());
+    for (std::size_t i = 0; i < count; ++i) sampled.insert({map.heights().cell(heights[i]), map.rolls().cell(rolls[i])});
+    EXPECT_EQ(sampled.size(), map.heights().cells() * map.rolls().cells()) << count << " points";
+    EXPECT_LE(map.heights().cells(), MapAxis::LARGEST_SOBOL);
+  }
+}
+
 TEST(HeatMap, CellsOfAGridAreBoundedHalfwayBetweenItsValues) {
   Axis axis;
   axis.values = {30, -90, 0};  // in any order
-  const MapAxis map(axis, false);
+  const MapAxis map(axis, 0);
   ASSERT_EQ(map.cells(), 3u);
   EXPECT_EQ(map.edge(0), -135);
   EXPECT_EQ(map.edge(1), -45);
@@ -88,7 +111,7 @@ TEST(HeatMap, OneValueHasACellOfSomeWidth) {
   for (const double value : {0.0, 0.5, -2.0}) {
     Axis axis;
     axis.values = {value};
-    const MapAxis map(axis, false);
+    const MapAxis map(axis, 0);
     ASSERT_EQ(map.cells(), 1u);
     EXPECT_LT(map.edge(0), value);
     EXPECT_GT(map.edge(1), value);
@@ -98,7 +121,7 @@ TEST(HeatMap, OneValueHasACellOfSomeWidth) {
 
 TEST(HeatMap, ManyValuesShareCells) {
   const Axis axis = range_axis(0, 1, 1000);
-  const MapAxis map(axis, false);
+  const MapAxis map(axis, 0);
   ASSERT_EQ(map.cells(), MapAxis::LARGEST_MAP);
   std::vector<int> values(map.cells());
   for (const double value : axis.values) ++values[map.cell(value)];
@@ -108,14 +131,14 @@ TEST(HeatMap, ManyValuesShareCells) {
 TEST(HeatMap, SobolRangesAreCutEvenly) {
   Scene scene = fake_scene();
   scene.grips.sampling = Sampling::sobol;
-  scene.grips.count = 64 * 64 * 8;
+  scene.grips.count = 64 * 64 * 16;
   scene.grips.roll = range_axis(radians(30), radians(-90), 2);  // falling
   const HeatMap map = gathered(scene, 5000);
   EXPECT_EQ(map.heights().cells(), 64u);
   EXPECT_EQ(map.rolls().cells(), 64u);
   EXPECT_DOUBLE_EQ(map.rolls().edge(0), radians(-90));
   EXPECT_DOUBLE_EQ(map.rolls().edge(64), radians(30));
-  for (const double score : map.scores()) EXPECT_FALSE(std::isnan(score)) << "eight points a cell, one in five infeasible";
+  for (const double score : map.scores()) EXPECT_FALSE(std::isnan(score)) << "sixteen points a cell, one in five infeasible";
 }
 
 TEST(HeatMap, GoesOnWhereItStood) {

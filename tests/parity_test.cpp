@@ -12,8 +12,12 @@
 #include <string>
 #include <vector>
 
+#include "app/paths.h"
+#include "app/scene_reader.h"
 #include "host/grip_backend.h"
 #include "sweeps/compare.h"
+#include "sweeps/plan.h"
+#include "sweeps/variables.h"
 #include "tests/support/scenes.h"
 #include "tests/support/vulkan_listener.h"
 
@@ -86,7 +90,7 @@ std::string table_of(const Comparer& comparer) {
   return text.str();
 }
 
-void expect_parity(const Scene& scene, const std::string& name) {
+void expect_parity(const Scene& scene, const std::string& name, int count = COUNT) {
   const FieldSet fields = all_fields(scene);
   const auto truth = make_core_evaluator(scene);
   for (const Precision precision : {Precision::single, Precision::full}) {
@@ -95,7 +99,7 @@ void expect_parity(const Scene& scene, const std::string& name) {
     Comparer comparer(scene, *truth, allowance(precision));
     std::size_t feasible = 0;
     for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
-      const auto grips = grips_of(scene, v, COUNT);
+      const auto grips = grips_of(scene, v, count);
       const GatheredPlanes device = gather(*backend, v, grips);
       comparer.add(v, grips, device, gather(*core, fields, v, grips));
       comparer.add_liquid(v, backend->liquid(v), core_liquid(scene, *core, v));
@@ -114,6 +118,41 @@ void expect_parity(const Scene& scene, const std::string& name) {
 TEST(Parity, ArticulatedHand) {
   expect_parity(wet_scene({beaker1(), beaker2(), beaker3(), shell_of(beaker3()), vase(), facets()}, Pose::articulated),
                 "articulated");
+}
+
+// Wide ranges by Sobol points: off the axis, in hands of several sizes, a shell's rim, a near-empty glass.
+TEST(Parity, SobolScene) {
+  Scene scene = read_scene_file(find_scene("three_beakers"));
+  for (VesselData& vessel : scene.vessels) vessel.surface = Surface::shell;
+  scene.liquid->fills = {0.01, 1};
+  scene.tilts = linspace(0, PI, 5);
+  const auto range = [](Axis& axis, double from, double to) {
+    axis.is_range = true;
+    axis.from = from;
+    axis.to = to;
+  };
+  range(scene.grips.height, 0.02, 1.1);
+  range(scene.grips.azimuth, -PI, PI);
+  range(scene.grips.obliquity, -1, 1);
+  range(scene.grips.roll, -PI, PI);
+  range(scene.grips.offset, -0.03, 0.03);
+  range(scene.grips.hand_scale, 0.8, 1.3);
+  scene.grips.sampling = Sampling::sobol;
+  scene.grips.count = 512;
+  const Plan plan(scene, true);
+  const FieldSet fields = all_fields(scene);
+  const auto truth = make_core_evaluator(scene);
+  for (const Precision precision : {Precision::single, Precision::full}) {
+    const auto backend = backend_of(scene, fields, precision);
+    Comparer comparer(scene, *truth, allowance(precision));
+    for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
+      std::vector<GripInput> grips(plan.grips());
+      plan.fill(v, 0, grips.size(), grips.data());
+      comparer.add(v, grips, gather(*backend, v, grips), gather(*truth, fields, v, grips));
+    }
+    EXPECT_GT(3 * comparer.feasible(), comparer.grips());
+    EXPECT_TRUE(comparer.holds()) << table_of(comparer);
+  }
 }
 
 TEST(Parity, PaperPoseExactTorquePerGrip) {
@@ -142,6 +181,17 @@ TEST(Parity, OddHandDryAndUntilted) {
   Scene tilted = scene_of({ledges()}, Pose::paper, odd_hand());
   tilted.tilts = linspace(0, PI, 7);
   expect_parity(tilted, "odd_tilted");
+}
+
+// More states than a block of the force kernel holds: fills are cut in the middle, and go on from where they were cut.
+TEST(Parity, StatesOfManyBlocks) {
+  Scene scene = wet_scene({beaker2()}, Pose::rigged);
+  scene.tilts = linspace(0, PI, 300);
+  scene.force.max = scene.force.base + 0.3 * scene.force.range;  // so that safe tilts end within a fill
+  expect_parity(scene, "many", 60);
+  scene.liquid.reset();
+  scene.tilts = linspace(0, PI, 600);
+  expect_parity(scene, "many_dry", 60);
 }
 
 TEST(Parity, GridDistance) {

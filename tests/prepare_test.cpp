@@ -35,11 +35,9 @@ TEST(Prepare, ArcsAreSplitAtTheirPoles) {
 
 TEST(Prepare, MeshesAreRefusedWithTheirPlace) {
   Scene scene = scene_of({beaker1(), beaker2()});
-  scene.file = "cups.toml";
   EXPECT_NO_THROW(refuse_meshes(scene));
   scene.vessels[1].mesh = MeshData{};
-  scene.vessels[1].line = 7;
-  scene.vessels[1].column = 3;
+  scene.vessels[1].mesh->place = "cups.toml:7:3";
   try {
     refuse_meshes(scene);
     ADD_FAILURE() << "not refused";

@@ -258,6 +258,18 @@ TEST_F(RunTest, ResumeWithoutAnythingStartsAfresh) {
   expect_same_as(expected, folder / "a.nc");
 }
 
+TEST_F(RunTest, ResumeOfWhatIsCompleteLeavesIt) {
+  const std::string expected = reference();
+  const auto written = std::filesystem::last_write_time(expected);
+  Trial trial(expected);
+  trial.options.resume = true;
+  const Outcome outcome = trial.run();
+  EXPECT_EQ(outcome.code, ExitCode::done);
+  EXPECT_TRUE(has(outcome.notes, "is complete: nothing to go on with")) << outcome.notes;
+  EXPECT_EQ(trial.opened, 0);
+  EXPECT_EQ(std::filesystem::last_write_time(expected), written);
+}
+
 TEST_F(RunTest, ResumeOfSomethingElseIsRefused) {
   const auto begin = [&] {
     Trial trial(folder / "a.nc");
@@ -340,7 +352,7 @@ TEST_F(RunTest, HugeSweepsAreRefusedWithTheirSizes) {
 TEST_F(RunTest, MeshIsRefusedForNow) {
   Trial trial(folder / "a.nc");
   trial.scene.vessels[1].mesh = MeshData{};
-  trial.scene.vessels[1].line = 12;
+  trial.scene.vessels[1].mesh->place = "fake.toml:12:1";
   const Outcome outcome = trial.run();
   EXPECT_EQ(outcome.code, ExitCode::usage);
   EXPECT_TRUE(has(outcome.error, "fake.toml:12:") && has(outcome.error, "'second' is a mesh")) << outcome.error;
