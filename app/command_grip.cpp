@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <cstdio>
 #include <memory>
 #include <vector>
 
@@ -74,6 +75,7 @@ ExitCode grip(const GripArguments& arguments) {
   Precision precision = arguments.on == "core" ? Precision::full : Precision::single;
   if (!arguments.precision.empty()) precision = parse_precision(arguments.precision);
   const GripReport report = make_grip_report(scene, vessel, input, axes, open_grip_methods(scene, arguments.on, precision));
+  if (arguments.json && arguments.on != "core") std::fprintf(stderr, "wholehand: on %s\n", report.device.c_str());
   print(arguments.json ? grip_json(report) + "\n" : grip_table(report));
   return ExitCode::done;
 }

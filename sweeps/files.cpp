@@ -49,6 +49,15 @@ void check_output_path(const std::string& path) {
   if (access(folder.c_str(), W_OK | X_OK) != 0) {
     throw failure_error(fmt::format("-o {}: cannot write to {}: {}; name a file elsewhere", path, folder, std::strerror(errno)));
   }
+  // root may write anywhere, and still not make a file in every folder
+  std::string trial = folder + "/.wholehand-XXXXXX";
+  const int file = mkstemp(trial.data());
+  if (file < 0) {
+    throw failure_error(
+        fmt::format("-o {}: cannot make a file in {}: {}; name a file elsewhere", path, folder, std::strerror(errno)));
+  }
+  close(file);
+  unlink(trial.c_str());
 }
 
 double free_bytes(const std::string& path) {

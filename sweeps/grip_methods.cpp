@@ -152,7 +152,8 @@ GripMethods core_grip_methods(const Scene& scene, std::shared_ptr<const Evaluato
 GripMethods backend_grip_methods(const Scene& scene, const BackendOpener& open) {
   std::shared_ptr<Backend> backend = open(scene, make_field_set(all_fields(), scene));
   const BackendInfo info = backend->info();
-  const std::string device = info.device + (info.precision == Precision::single ? ", float" : ", double");
+  const std::string device = info.device + (info.backend == "vulkan" && info.is_cpu ? ", a CPU driver" : "") +
+                             (info.precision == Precision::single ? ", float" : ", double");
   return {device, [scene, open, backend](std::size_t vessel, const GripInput& grip, const StateAxes& axes) {
             GripAnswer answer;
             GripPlanes planes = run_one(*backend, vessel, grip);

@@ -43,7 +43,7 @@ TEST(Files, PathsThatCannotBecomeFilesAreRefused) {
   std::ofstream(folder / "file") << "x";
   EXPECT_EQ(refused(folder / "file"), ExitCode::done) << "overwritten by the final rename";
   EXPECT_EQ(refused(folder / "file/new.nc"), ExitCode::usage);
-  EXPECT_EQ(refused("/proc/new.nc"), ExitCode::done) << "found out when it is written: root may write anywhere";
+  EXPECT_EQ(refused("/proc/new.nc"), ExitCode::failure) << "root may write anywhere, but no file can be made there";
 }
 
 TEST(Files, WholeOrNotAtAll) {
