@@ -30,7 +30,8 @@ struct LiquidState {
 // Area (m2) and first moment (m3) of the part x >= h of a disc of radius r at the origin.
 Real segment_area(Real r, Real h);
 Real segment_moment(Real r, Real h);
-// Radius of a y-monotone element at a height within its ends, m.
+// Elements here are pieces of a cavity, which rise: a.y < b.y, but for a sliver that rounds to no height, which holds nothing.
+// Radius of a piece at a height within its ends, m.
 Real element_radius(const Element& element, Real y);
 // Heights at which the plane cos y - sin sigma r = level meets the element, sigma = +-1; the element's start where there is none.
 Vec2 plane_crossings(const Element& element, Real level, Real sine_tilt, Real cosine_tilt, Real sigma);

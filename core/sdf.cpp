@@ -130,15 +130,6 @@ Vec2 profile_gradient(const Vessel& vessel, Vec2 q, int& element) {
   return outward * (Real(1) / std::sqrt(glm::dot(outward, outward)));
 }
 
-namespace {
-
-// The cell of the lattice that holds a point clamped to the box, and the point's place in it.
-struct Cell {
-  int i, j, k;
-  Vec3 fraction;
-  Vec3 outside;  // from the clamped point to the point, m
-};
-
 Cell locate_cell(const Vessel& vessel, Vec3 p) {
   const Grid& grid = vessel.grid;
   const Vec3 counts(Real(grid.nx - 1), Real(grid.ny - 1), Real(grid.nz - 1));
@@ -159,8 +150,6 @@ Real grid_sample(const Vessel& vessel, int i, int j, int k) {
 }
 
 Real mix_reals(Real a, Real b, Real t) { return a + (b - a) * t; }
-
-}  // namespace
 
 Real grid_distance(const Vessel& vessel, Vec3 p) {
   const Cell cell = locate_cell(vessel, p);

@@ -61,6 +61,13 @@ struct Support {
   bool planar = false;
 };
 
+// The cell of a lattice that holds a point clamped to the box, and the point's place in it.
+struct Cell {
+  int i, j, k;
+  Vec3 fraction;
+  Vec3 outside;  // from the clamped point to the point, m
+};
+
 // Squared distance from q to an element, m2.
 Real element_distance_squared(const Element& element, Vec2 q);
 // Whether the ray from q along +r crosses the element; it counts for q.y in [min, max) of its ends, a horizontal one never.
@@ -77,6 +84,10 @@ Nearest nearest_element(const Vessel& vessel, Vec2 q, bool& inside);
 // Signed distance in the half plane, and its unit gradient there.
 Real profile_distance(const Vessel& vessel, Vec2 q);
 Vec2 profile_gradient(const Vessel& vessel, Vec2 q, int& element);
+// The cell of p, a value of the lattice, and the value at t in [0, 1] between two.
+Cell locate_cell(const Vessel& vessel, Vec3 p);
+Real grid_sample(const Vessel& vessel, int i, int j, int k);
+Real mix_reals(Real a, Real b, Real t);
 // Trilinear value of the lattice: outside the box the clamped value plus the distance to the box, which is not less than the true
 // distance; what starts there may step past the box's edge and comes back.
 Real grid_distance(const Vessel& vessel, Vec3 p);

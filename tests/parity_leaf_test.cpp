@@ -1,11 +1,5 @@
-// Every leaf function of the shaders against the core's, on tables of inputs and in both precisions: the same inputs, rounded to that
-// precision, through a probe shader and through the core compiled with it.
-//
-// Arithmetic that rounds is taken for exact arithmetic on inputs a few roundings away. So a number may differ by
-//   2 x how far the core's double answer moves when each input moves by BACKWARD roundings (and the one that stands for an early stop by
-//   two stop tolerances), which is the conditioning at that very row, and
-//   FORWARD roundings of the quantity's scale, for the operations behind it.
-// A discrete answer may differ only where it differs between such neighbours too; such rows are counted and bounded.
+// Every leaf function of the shaders against the core's (tests/support/leaf_parity.h); those of sdf.glsl's elements and lattice and of
+// contact.glsl's proxies are in parity_leaf_sdf_test.cpp.
 // sanitizers: address
 #include <gtest/gtest.h>
 
@@ -13,252 +7,18 @@
 #include <array>
 #include <cfloat>
 #include <cmath>
-#include <functional>
-#include <memory>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "tests/shaders/probe_table.h"
 #include "tests/support/leaf_facade.h"
+#include "tests/support/leaf_parity.h"
 #include "tests/support/leaf_probe.h"
 #include "tests/support/scenes.h"
 #include "tests/support/vulkan_listener.h"
 
 namespace wholehand {
 namespace {
-
-// A row's inputs count as known to so many roundings of the largest in their column: the longest leaf function rounds an input in a sum
-// of that column's size no more than this often on its way through (a finger's tip: base, three segments, radius).
-constexpr double BACKWARD = 4;
-// Of the scale of what comes out. A finger's chain is the longest sum: three segments with an angle, its sine and cosine (2 units each,
-// shaders/trig.glsl), two products and three sums each, at 1 unit; Vulkan's division and root add up to 3 units each.
-constexpr double FORWARD = 32;
-// Rows in which a discrete answer differs between neighbours, of a table: as many as lie within roundings of a boundary by chance.
-constexpr double UNDECIDED = 0.01;
-// A tolerance that lets anything pass tests nothing: in float, nine of ten stay under this share of their scale.
-constexpr double SHARP = 1e-3;
-
-constexpr double REACH = 0.3;  // m: scale of positions, hand and vessel together
-
-struct Output {
-  std::string name;
-  double scale = 1;  // largest value that the sum behind it passes through
-  bool discrete = false;
-};
-
-struct Leaf {
-  std::string shader;
-  int probe = 0;
-  int inputs = 0;
-  std::vector<Output> outputs;
-  int stopped = -1;          // the input that an early stop of an iteration is as good as moving, by two stop tolerances
-  double stop_scale = 1;     // .. times this, where the input is no length
-  double sharp_share = 0.9;  // of outputs whose tolerance is sharp (float)
-  double undecided = UNDECIDED;
-  std::vector<int> fixed{};  // inputs that are whole numbers: not moved
-};
-
-std::vector<Output> repeated(const std::string& name, int count, double scale) {
-  std::vector<Output> outputs;
-  for (int i = 0; i < count; ++i) outputs.push_back({name + std::to_string(i), scale});
-  return outputs;
-}
-
-template <class... Lists>
-std::vector<Output> together(const Lists&... lists) {
-  std::vector<Output> outputs;
-  (outputs.insert(outputs.end(), lists.begin(), lists.end()), ...);
-  return outputs;
-}
-
-double apart(double a, double b) {
-  if (a == b || (std::isnan(a) && std::isnan(b))) return 0;
-  const double difference = std::abs(a - b);
-  return std::isnan(difference) ? HUGE_VAL : difference;
-}
-
-// How the vessel's distance is found.
-struct Way {
-  OutlineSource source = OUTLINE_SPECIALIZED;
-  int grid_samples = 0;
-};
-
-using Table = std::vector<double>;
-
-class ParityLeaf : public testing::Test {
- protected:
-  static void SetUpTestSuite() { device = std::make_unique<host::Device>("vulkan"); }
-  static void TearDownTestSuite() { device.reset(); }
-
-  static std::vector<Precision> precisions() {
-    if (!device->info().float64) return {Precision::single};
-    return {Precision::single, Precision::full};
-  }
-
-  static Table rounded(Table table, Precision precision) {
-    if (precision == Precision::single)
-      for (double& value : table) value = static_cast<double>(static_cast<float>(value));
-    return table;
-  }
-
-  static Table on_core(const Leaves& leaves, const Leaf& leaf, const Table& table) {
-    const std::size_t rows = table.size() / leaf.inputs;
-    Table answers(rows * leaf.outputs.size());
-    for (std::size_t i = 0; i < rows; ++i) leaves.evaluate(leaf.probe, &table[i * leaf.inputs], &answers[i * leaf.outputs.size()]);
-    return answers;
-  }
-
-  // Largest change of the core's double answers when an input moves.
-  static Table spread_of(const Leaves& leaves, const Leaf& leaf, const Table& table, const Table& truth, double epsilon,
-                         double stop) {
-    Table spread(truth.size(), 0.0);
-    const std::size_t rows = table.size() / leaf.inputs;
-    for (int column = 0; column < leaf.inputs; ++column) {
-      if (std::ranges::find(leaf.fixed, column) != leaf.fixed.end()) continue;
-      double largest = 0;
-      for (std::size_t i = 0; i < rows; ++i) largest = std::max(largest, std::abs(table[i * leaf.inputs + column]));
-      const double shift = BACKWARD * epsilon * largest + (column == leaf.stopped ? 2 * stop * leaf.stop_scale : 0);
-      for (const double sign : {-1.0, 1.0}) {
-        Table moved = table;
-        for (std::size_t i = 0; i < rows; ++i) moved[i * leaf.inputs + column] += sign * shift;
-        const Table answers = on_core(leaves, leaf, moved);
-        for (std::size_t k = 0; k < spread.size(); ++k) spread[k] = std::max(spread[k], apart(answers[k], truth[k]));
-      }
-    }
-    return spread;
-  }
-
-  void compare(const Leaf& leaf, const Table& exact_table, const Scene& scene, std::size_t vessel = 0, Way way = {}) {
-    for (const Precision precision : precisions()) {
-      const bool single = precision == Precision::single;
-      const Table table = rounded(exact_table, precision);
-      const std::size_t rows = table.size() / leaf.inputs, width = leaf.outputs.size();
-      const auto reference = make_double_leaves(scene, vessel, way.grid_samples);
-      const auto leaves =
-          single ? make_float_leaves(scene, vessel, way.grid_samples) : make_double_leaves(scene, vessel, way.grid_samples);
-      const LeafProbe probe(*device, scene, vessel, precision, way.source, way.grid_samples);
-      const Table a = probe.run(leaf.shader, leaf.probe, table, rows, leaf.inputs, static_cast<int>(width));
-      const Table b = on_core(*leaves, leaf, table);
-      const double epsilon = single ? FLT_EPSILON : DBL_EPSILON;
-      const Table truth = on_core(*reference, leaf, table);
-      const Table spread = spread_of(*reference, leaf, table, truth, epsilon, single ? STOP_TOLERANCE_F32 : STOP_TOLERANCE_F64);
-      judge(leaf, table, a, b, spread, epsilon, std::string(single ? "float " : "double ") + scene.vessels[vessel].name);
-    }
-  }
-
-  void judge(const Leaf& leaf, const Table& table, const Table& a, const Table& b, const Table& spread, double epsilon,
-             const std::string& where) {
-    const std::size_t width = leaf.outputs.size(), rows = a.size() / width;
-    std::size_t undecided = 0, sharp = 0, numbers = 0;
-    double worst_ratio = 0, worst = 0;
-    std::string worst_name;
-    for (std::size_t i = 0; i < rows; ++i) {
-      bool left_out = false;
-      for (std::size_t k = 0; k < width; ++k) {
-        const std::size_t at = i * width + k;
-        if (!leaf.outputs[k].discrete || a[at] == b[at]) continue;
-        EXPECT_NE(spread[at], 0) << failure(leaf, table, i, k, a[at], b[at], 0, where);
-        left_out = true;
-      }
-      undecided += left_out ? 1 : 0;
-      if (left_out) continue;
-      for (std::size_t k = 0; k < width; ++k) {
-        if (leaf.outputs[k].discrete) continue;
-        const std::size_t at = i * width + k;
-        const double tolerance = FORWARD * epsilon * leaf.outputs[k].scale + 2 * spread[at];
-        const double ratio = apart(a[at], b[at]) / tolerance;
-        ++numbers;
-        sharp += tolerance <= SHARP * leaf.outputs[k].scale ? 1 : 0;
-        if (ratio <= worst_ratio) continue;
-        worst_ratio = ratio;
-        worst = apart(a[at], b[at]);
-        worst_name = leaf.outputs[k].name;
-        EXPECT_LE(ratio, 1) << failure(leaf, table, i, k, a[at], b[at], tolerance, where);
-      }
-    }
-    EXPECT_LE(static_cast<double>(undecided), std::max(1.0, leaf.undecided * static_cast<double>(rows))) << where;
-    EXPECT_GE(static_cast<double>(sharp), leaf.sharp_share * static_cast<double>(numbers))
-        << where << ": tolerances too wide to tell anything";
-    std::ostringstream measured;
-    measured << worst_name << " " << worst << " (" << worst_ratio << " of its tolerance), " << undecided << " of " << rows
-             << " undecided, sharp " << static_cast<double>(sharp) / static_cast<double>(std::max<std::size_t>(numbers, 1));
-    RecordProperty("worst_" + std::to_string(leaf.probe) + "_" + where, measured.str());
-  }
-
-  static std::string failure(const Leaf& leaf, const Table& table, std::size_t row, std::size_t output, double a, double b,
-                             double tolerance, const std::string& where) {
-    std::ostringstream text;
-    text.precision(17);
-    text << leaf.shader << " " << leaf.probe << ", " << where << ", row " << row << ": " << leaf.outputs[output].name << " is " << a
-         << " on the device, " << b << " on the core, apart " << apart(a, b) << ", tolerance " << tolerance << "; given";
-    for (int k = 0; k < leaf.inputs; ++k) text << " " << table[row * leaf.inputs + k];
-    return text.str();
-  }
-
-  static inline std::unique_ptr<host::Device> device;
-};
-
-// ---- tables; their sizes are no multiple of a work group ----
-
-struct Builder {
-  explicit Builder(std::uint64_t seed) : random(seed) {}
-  Builder& add(double value) {
-    table.push_back(value);
-    return *this;
-  }
-  Builder& uniform(double low, double high) { return add(random.uniform(low, high)); }
-  Builder& vec(const Triple& v) { return add(v[0]).add(v[1]).add(v[2]); }
-  Builder& point(double size) { return uniform(-size, size).uniform(-size, size).uniform(-size, size); }
-
-  Triple direction() {
-    const double y = random.uniform(-1, 1), angle = random.uniform(-PI, PI), r = std::sqrt(1 - y * y);
-    return {r * std::cos(angle), y, r * std::sin(angle)};
-  }
-  // A finger's plane: base near the hand, two unit vectors at right angles.
-  Builder& frame() { return frame({random.uniform(-0.1, 0.1), random.uniform(-0.05, 0.15), random.uniform(-0.1, 0.1)}); }
-  Builder& frame(const Triple& base) {
-    const Triple forward = direction();
-    Triple across = direction();
-    const double along = across[0] * forward[0] + across[1] * forward[1] + across[2] * forward[2];
-    double size = 0;
-    for (int k = 0; k < 3; ++k) {
-      across[k] -= along * forward[k];
-      size += across[k] * across[k];
-    }
-    for (double& value : across) value /= std::sqrt(size);
-    return vec(base).vec(forward).vec(across);
-  }
-
-  Random random;
-  Table table;
-};
-
-Scene vessels_scene() {
-  Scene scene = three_beakers();
-  VesselData bent = vase();
-  scene.vessels.push_back(bent);
-  scene.vessels.push_back(shell_of(beaker2()));
-  return scene;
-}
-constexpr std::size_t VASE = 3, SHELL = 4;
-
-// Points about a vessel: outside and in, on the axis, close to the wall, far away, on an end of an element.
-Table points_about(const VesselData& vessel, std::uint64_t seed) {
-  Builder build(seed);
-  const double radius = largest_radius(vessel);
-  for (int i = 0; i < 700; ++i)
-    build.uniform(-1.6 * radius, 1.6 * radius)
-        .uniform(-0.3 * vessel.height, 1.3 * vessel.height)
-        .uniform(-1.6 * radius, 1.6 * radius);
-  for (int i = 0; i < 61; ++i) build.add(0).uniform(-0.2 * vessel.height, 1.2 * vessel.height).add(0);
-  for (int i = 0; i < 60; ++i) build.point(2);
-  for (const OutlineElement& element : vessel.outline) {
-    build.add(element.end[0]).add(element.end[1]).add(0);
-    for (const double off : {-1e-4, -1e-7, 1e-7, 1e-4}) build.add(0).add(element.end[1]).add(element.end[0] + off);
-  }
-  return build.table;
-}
 
 // ---- trig: against long double ----
 
@@ -363,9 +123,15 @@ TEST_F(ParityLeaf, Hand) {
     Builder gaps(14);
     const double open = core->gap_at(0) / scene->hand.scale, closed = core->gap_at(1) / scene->hand.scale;
     for (int i = 0; i <= 1000; ++i) gaps.add(open + (closed - open) * i / 1000.0);
-    compare({.shader = "probe_hand", .probe = PROBE_CLOSURE_OF_GAP, .inputs = 1, .outputs = {{"closure", 1}}, .stopped = 0},
+    compare({.shader = "probe_hand", .probe = PROBE_CLOSURE_OF_GAP, .inputs = 1, .outputs = {{"closure", 1}}, .stopped = {0}},
             gaps.table, *scene);
   }
+  Builder ends(15);
+  for (int i = 0; i < 777; ++i) {
+    ends.frame().point(0.1).add(i % 10 == 0 ? 0 : ends.random.uniform(0, 0.07));
+    ends.add(i % 7 == 0 ? (i / 7 % 5 - 2) * PI / 2 : ends.random.uniform(-PI, PI));
+  }
+  compare({"probe_hand", PROBE_SEGMENT_END, 14, repeated("coordinate", 3, REACH)}, ends.table, plain);
   compare({"probe_hand", PROBE_FINGER_POINTS, 18, repeated("coordinate", 9, REACH)}, fingers.table, plain);
   compare({"probe_hand", PROBE_THUMB_POINTS, 15, repeated("coordinate", 9, REACH)}, thumbs.table, plain);
 }
@@ -459,7 +225,7 @@ TEST_F(ParityLeaf, Contact) {
              .inputs = 4,
              .outputs =
                  together(repeated("separation", 1, REACH), repeated("proxy", 3, REACH), std::vector<Output>{{"settled", 1, true}}),
-             .stopped = 3},
+             .stopped = {3}},
             build.table, scene, v);
   }
 }
@@ -482,7 +248,7 @@ TEST_F(ParityLeaf, TraceTip) {
              .inputs = 7,
              .outputs = together(std::vector<Output>{{"t", REACH}, {"reason", 1, true}}, repeated("normal", 3, 1),
                                  std::vector<Output>{{"element", 1, true}}),
-             .stopped = 6,
+             .stopped = {6},
              .fixed = {5}},
             build.table, scene, v);
   }
@@ -496,6 +262,49 @@ TEST_F(ParityLeaf, PlaceHand) {
                                                repeated("e1_x", 1, 1), repeated("base", 3, REACH), repeated("axis", 6, 1));
   compare({"probe_closure", PROBE_PLACE_HAND, 8, outputs}, build.table, three_beakers());
   compare({"probe_closure", PROBE_PLACE_HAND, 8, outputs}, build.table, scene_of({beaker1()}, Pose::articulated, odd_hand()));
+}
+
+// Grips that close, and some for each reason not to. The core's tips are the inputs 6 and 7 larger (0 on the device): a tip's way is as
+// good as one that ends with another radius, each side for itself.
+TEST_F(ParityLeaf, CloseFingers) {
+  const Scene scene = vessels_scene();
+  const Scene odd = scene_of({beaker1()}, Pose::articulated, odd_hand());
+  std::array<int, REASON_ON_MOUTH + 1> seen{};
+  const auto check = [&](const Scene& on, std::size_t v) {
+    const VesselData& vessel = on.vessels[v];
+    const double radius = largest_radius(vessel);
+    Builder build(190 + v);
+    for (int i = 0; i < 1200; ++i) {
+      const double reach = i % 8 == 0 ? 1.3 : 0.4;
+      build.uniform(0.02 * vessel.height, (i % 8 == 1 ? 1.1 : 0.98) * vessel.height).uniform(-PI, PI);
+      build.add(i % 50 == 2 ? PI / 2 : i % 50 == 3 ? -PI / 2 : build.random.uniform(-0.5, 0.5)).uniform(-2, 1);
+      build.uniform(i % 8 == 6 ? radius : -reach * radius, (i % 8 == 6 ? 1.3 : reach) * radius);
+      const double scale = i % 8 == 4 ? build.random.uniform(0.3, 0.8) : i % 8 == 5 ? build.random.uniform(2, 6) : 1;
+      build.add(scale * build.random.uniform(0.9, 1.1)).add(0).add(0);
+    }
+    const auto leaves = make_double_leaves(on, v);
+    for (std::size_t row = 0; row < build.table.size(); row += 8) {
+      std::array<double, 27> answer{};
+      leaves->evaluate(PROBE_CLOSE_FINGERS, &build.table[row], answer.data());
+      ++seen[static_cast<std::size_t>(answer[0])];
+    }
+    compare({.shader = "probe_closure",
+             .probe = PROBE_CLOSE_FINGERS,
+             .inputs = 8,
+             .outputs = together(std::vector<Output>{{"reason", 1, true}}, repeated("direction", 3, 1), repeated("t", 2, REACH),
+                                 repeated("gap", 1, REACH), repeated("midpoint", 3, REACH), repeated("closure", 1, 1),
+                                 repeated("angle", 2, PI), std::vector<Output>{{"grazing", 1, true}}, repeated("rotation", 9, 1),
+                                 repeated("translation", 3, REACH), repeated("scale", 1, 4)),
+             .stopped = {6, 7},
+             // two tolerances for either side's stop and two for the gap's inverse, six in all: spreads count twice
+             .stop_scale = 1.5,
+             .undecided = 1e-3},
+            build.table, on, v);
+  };
+  for (std::size_t v = 0; v < scene.vessels.size(); ++v) check(scene, v);
+  check(odd, 0);
+  for (const int reason : {REASON_NONE, REASON_DEGENERATE, REASON_MISSES, REASON_TOO_WIDE, REASON_TOO_NARROW, REASON_ON_MOUTH})
+    EXPECT_GE(seen[static_cast<std::size_t>(reason)], 20) << "reason " << reason;
 }
 
 // ---- projection ----
@@ -528,6 +337,26 @@ TEST_F(ParityLeaf, ProjectionPieces) {
   compare(
       {.shader = "probe_projection", .probe = PROBE_PROJECTION_ROLE, .inputs = 2, .outputs = {{"role", 1, true}}, .fixed = {0, 1}},
       roles.table, scene);
+}
+
+// All is copied but the room, one difference: equal to the bit but for that. Angles at, before and beyond the joints' limits.
+TEST_F(ParityLeaf, TurnJoint) {
+  for (const HandData& hand : {HandData{}, odd_hand()}) {
+    Builder build(96);
+    for (int i = 0; i < 600; ++i) {
+      for (const double limit : hand.joint_limit) {
+        const double off = i % 4 == 0 ? 0 : i % 4 == 1 ? hand.max_angle : build.random.uniform(-0.2, 1.5);
+        build.add(limit - off);
+      }
+      build.uniform(0, 1).uniform(0, 1).add(i % 5 - 1).uniform(0, 1.5).uniform(0, 0.5).uniform(0, 0.8).add(i % 1025);
+      build.point(0.05).add(i % 2).add(i % 3 == 0 ? 1 : 0).add(i / 5 % 4);
+    }
+    std::vector<Output> outputs = repeated("motion", 15, 2);
+    for (std::size_t k = 0; k < outputs.size(); ++k) outputs[k].discrete = k != 8;
+    outputs[8].name = "room";
+    compare({.shader = "probe_projection", .probe = PROBE_TURN_JOINT, .inputs = 16, .outputs = outputs, .exact = true}, build.table,
+            scene_of({beaker1()}, Pose::articulated, hand));
+  }
 }
 
 // The rows of finger_step whose three points are clear of the vessel: no moving point is ever inside.
@@ -583,13 +412,13 @@ TEST_F(ParityLeaf, FingersOnTheirWay) {
              .probe = PROBE_FINGER_MOTION,
              .inputs = 19,
              .outputs = together(repeated("angle", 3, 2), std::vector<Output>{{"blocked", 1, true}, {"unsettled", 1, true}}),
-             .stopped = 15},
+             .stopped = {15}},
             motions.table, scene, v);
     compare({.shader = "probe_projection",
              .probe = PROBE_PROJECT_POINT,
              .inputs = 11,
              .outputs = together(repeated("coordinate", 3, REACH), std::vector<Output>{{"unsettled", 1, true}}),
-             .stopped = 3},
+             .stopped = {3}},
             turned.table, scene, v);
   }
 }
@@ -610,49 +439,113 @@ TEST_F(ParityLeaf, CircularSegments) {
   compare({"probe_liquid", PROBE_SEGMENT_MOMENT, 2, {{"moment", r * r * r}}}, build.table, scene);
 }
 
-Builder& add_element(Builder& build, const PreparedElement& e) {
-  return build.add(e.a[0]).add(e.a[1]).add(e.b[0]).add(e.b[1]).add(e.center[0]).add(e.center[1]).add(e.radius).add(e.side);
-}
-
 TEST_F(ParityLeaf, LiquidInOnePiece) {
   const Scene scene = vessels_scene();
   Builder radii(140), crossings(141), pieces(142), revolved(143);
   for (const VesselData& vessel : scene.vessels) {
     for (const PreparedElement& element : prepare_vessel(vessel, true).cavity) {
-      add_element(revolved, element);
-      for (int i = 0; i < 21; ++i) add_element(radii, element).add(element.a[1] + (element.b[1] - element.a[1]) * i / 20.0);
+      revolved.element(element);
+      for (int i = 0; i < 21; ++i) radii.element(element).add(element.a[1] + (element.b[1] - element.a[1]) * i / 20.0);
       for (int i = 0; i < 12; ++i) {
         const double tilt = i == 0 ? 0 : i == 1 ? PI / 2 : i == 2 ? PI : crossings.random.uniform(1e-3, PI - 1e-3);
         const double s = i == 0 || i == 2 ? 0 : std::sin(tilt), c = i == 1 ? 0 : std::cos(tilt);
         const double level =
             c * crossings.random.uniform(element.a[1] - 0.02, element.b[1] + 0.02) + s * crossings.random.uniform(-0.05, 0.05);
-        add_element(crossings, element).add(level).add(s).add(c).add(i % 2 == 0 ? 1 : -1);
-        add_element(pieces, element).add(level).add(s).add(c);
+        crossings.element(element).add(level).add(s).add(c).add(i % 2 == 0 ? 1 : -1);
+        pieces.element(element).add(level).add(s).add(c);
       }
     }
   }
   // a whole cavity's volume and moment: pi r^2 h and, over the height, twice that again
   const double volume = PI * 0.05 * 0.05 * 0.15, moment = volume * 0.15;
-  compare({.shader = "probe_liquid", .probe = PROBE_ELEMENT_RADIUS, .inputs = 9, .outputs = {{"radius", 0.05}}, .fixed = {7}},
+  compare({.shader = "probe_liquid",
+           .probe = PROBE_ELEMENT_RADIUS,
+           .inputs = 9,
+           .outputs = {{"radius", 0.05}},
+           .fixed = {7},
+           .takes = rises},
           radii.table, scene);
   compare({.shader = "probe_liquid",
            .probe = PROBE_PLANE_CROSSINGS,
            .inputs = 12,
            .outputs = repeated("height", 2, REACH),
-           .fixed = {7, 11}},
+           .fixed = {7, 11},
+           .takes = rises},
           crossings.table, scene);
   compare({.shader = "probe_liquid",
            .probe = PROBE_PIECE_BELOW,
            .inputs = 11,
            .outputs = {{"volume", volume}, {"lean", moment}, {"height", moment}, {"surface", PI * 0.05 * 0.05}},
-           .fixed = {7}},
+           .fixed = {7},
+           .takes = rises},
           pieces.table, scene);
   compare({.shader = "probe_liquid",
            .probe = PROBE_REVOLVED,
            .inputs = 8,
            .outputs = {{"volume", volume}, {"height", moment}},
-           .fixed = {7}},
+           .fixed = {7},
+           .takes = rises},
           revolved.table, scene);
+}
+
+// Between the heights at which the plane meets a piece's wall, as piece_below asks; full, dry and empty stretches among them.
+TEST_F(ParityLeaf, SlicesOfAPiece) {
+  const Scene scene = vessels_scene();
+  const auto leaves = make_double_leaves(scene, 0);
+  Builder tilted(144), upright(145);
+  for (const VesselData& vessel : scene.vessels) {
+    for (const PreparedElement& element : prepare_vessel(vessel, true).cavity) {
+      const double low = element.a[1], high = element.b[1];
+      for (const auto& [from, to] : {std::array{low, high}, std::array{low, 0.5 * (low + high)}, std::array{high, low},
+                                     std::array{high, high}, std::array{0.7 * low + 0.3 * high, high}})
+        upright.element(element).add(from).add(to).add(FLT_MAX).add(0).add(1);
+      for (int i = 0; i < 24; ++i) {
+        const double tilt = i == 0 ? PI / 2 : tilted.random.uniform(1e-2, PI - 1e-2), s = std::sin(tilt),
+                     c = i == 0 ? 0 : std::cos(tilt);
+        const double level = c * tilted.random.uniform(low - 0.02, high + 0.02) + s * tilted.random.uniform(-0.05, 0.05);
+        std::vector<double> breaks{low, high};
+        for (const double sigma : {1.0, -1.0}) {
+          Builder plane(0);
+          plane.element(element).add(level).add(s).add(c).add(sigma);
+          std::array<double, 2> heights{};
+          leaves->evaluate(PROBE_PLANE_CROSSINGS, plane.table.data(), heights.data());
+          breaks.insert(breaks.end(), heights.begin(), heights.end());
+        }
+        std::ranges::sort(breaks);
+        for (std::size_t k = 1; k < breaks.size(); ++k)
+          tilted.element(element).add(breaks[k - 1]).add(breaks[k]).add(level).add(s).add(c);
+      }
+    }
+  }
+  const double volume = PI * 0.05 * 0.05 * 0.15, moment = volume * 0.15;  // as above
+  for (const Builder* build : {&tilted, &upright})
+    compare({.shader = "probe_liquid",
+             .probe = PROBE_INTEGRATE_SLICES,
+             .inputs = 13,
+             .outputs = {{"volume", volume}, {"lean", moment}, {"height", moment}, {"surface", PI * 0.05 * 0.05}},
+             .fixed = {7},
+             .takes = rises},
+            build->table, scene);
+}
+
+// From nothing to the whole cavity, at levels off the joints of its pieces.
+TEST_F(ParityLeaf, LiquidBelow) {
+  const Scene scene = vessels_scene();
+  const auto core = make_core_evaluator(scene);
+  for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
+    const double capacity = core->capacity(v), height = scene.vessels[v].height, radius = largest_radius(scene.vessels[v]);
+    Builder build(146 + v);
+    for (int degree = 0; degree <= 180; degree += 4) {
+      const double s = degree % 180 == 0 ? 0 : std::sin(radians(degree)), c = std::cos(radians(degree));
+      const double low = std::min(0.0, c * height) - s * radius, high = std::max(0.0, c * height) + s * radius;
+      for (int i = 0; i < 9; ++i) build.add(low + (high - low) * build.random.uniform(-0.05, 1.05)).add(s).add(c);
+    }
+    compare({"probe_liquid",
+             PROBE_LIQUID_BELOW,
+             3,
+             {{"volume", capacity}, {"lean", capacity * height}, {"height", capacity * height}, {"surface", PI * radius * radius}}},
+            build.table, scene, v);
+  }
 }
 
 TEST_F(ParityLeaf, LiquidInTheCavity) {
@@ -677,7 +570,7 @@ TEST_F(ParityLeaf, LiquidInTheCavity) {
              .probe = PROBE_LIQUID_AT,
              .inputs = 3,
              .outputs = {{"volume", capacity}, {"lean", height}, {"height", height}},
-             .stopped = 0,
+             .stopped = {0},
              .stop_scale = capacity,
              .sharp_share = 0.5},  // centres of a film of liquid are as good as unknown
             states.table, scene, v);

@@ -26,4 +26,22 @@ void main() {
     answer3(16, index.forward);
     answer3(19, index.palmward);
   }
+  if (PROBE == PROBE_CLOSE_FINGERS) {
+    Closing closing = close_fingers(Grip(given(0), given(1), given(2), given(3), given(4), given(5)));
+    bool reached = closing.reason == REASON_NONE || closing.reason >= REASON_TOO_WIDE;
+    bool closed = closing.reason == REASON_NONE;
+    answer(0, Real(closing.reason));
+    answer3(1, closing.direction);
+    answer(4, reached ? closing.t_index : Real(0));
+    answer(5, reached ? closing.t_thumb : Real(0));
+    answer(6, reached ? closing.gap : Real(0));
+    answer3(7, reached ? closing.midpoint : Vec3(0));
+    answer(10, closed ? closing.closure : Real(0));
+    answer(11, closed ? closing.thumb_angle : Real(0));
+    answer(12, closed ? closing.index_angle : Real(0));
+    answer(13, closed ? Real(closing.grazing) : Real(0));
+    for (int k = 0; k < 3; ++k) answer3(14 + 3 * k, closed ? closing.placement.rotation[k] : Vec3(0));
+    answer3(23, closed ? closing.placement.translation : Vec3(0));
+    answer(26, closed ? closing.placement.scale : Real(0));
+  }
 }

@@ -21,6 +21,7 @@ void main() {
   }
   if (PROBE == PROBE_FINGER_POINTS) answer_points(finger_points(given_frame(0), given3(9), given3(12), given3(15)));
   if (PROBE == PROBE_THUMB_POINTS) answer_points(thumb_points(given_frame(0), given3(9), given3(12)));
+  if (PROBE == PROBE_SEGMENT_END) answer3(0, segment_end(given_frame(0), given3(9), given(12), given(13)));
   if (PROBE == PROBE_TIP_TO_TIP) {
     Vec3 slope;
     answer3(0, tip_to_tip(given(0), slope));

@@ -40,4 +40,20 @@ void main() {
     answer(3, Real(unsettled));
   }
   if (PROBE == PROBE_PROJECTION_ROLE) answer(0, Real(projection_role(given_int(0), given_int(1))));
+  if (PROBE == PROBE_TURN_JOINT) {
+    FingerMotion motion = FingerMotion(given3(0), given(3), given(4), given_int(5), given(6), given(7), given(8), given_int(9),
+                                       given3(10), given_int(13) != 0, given_int(14) != 0);
+    motion = turn_joint(motion, given_int(15));
+    answer3(0, motion.angles);
+    answer(3, motion.closure);
+    answer(4, motion.limit);
+    answer(5, Real(motion.joint));
+    answer(6, motion.start);
+    answer(7, motion.turned);
+    answer(8, motion.room);
+    answer(9, Real(motion.steps));
+    answer3(10, motion.before);
+    answer(13, Real(motion.blocked));
+    answer(14, Real(motion.unsettled));
+  }
 }

@@ -5,6 +5,9 @@
 #include "contact.glsl"
 #include "probe.glsl"
 
+Vec2 given2(int k) { return Vec2(given(k), given(k + 1)); }
+Element given_element() { return Element(given2(0), given2(2), given2(4), given(6), given_int(7)); }
+
 void main() {
   if (row() >= push.count) return;
   load_outline();
@@ -32,4 +35,28 @@ void main() {
     answer3(1, contact.proxy);
     answer(4, Real(contact.settled));
   }
+  if (PROBE == PROBE_ELEMENT) {
+    Element element = given_element();
+    Vec2 q = given2(8);
+    Vec2 outward = element_outward(element, q, given(10));
+    answer(0, sqrt(element_distance_squared(element, q)));
+    answer(1, Real(element_crosses(element, q)));
+    answer(2, Real(element_spans(element, q)));
+    answer(3, Real(element_convex(element, q)));
+    answer(4, outward.x);
+    answer(5, outward.y);
+  }
+  if (PROBE == PROBE_PROXY) {
+    bool settled;
+    answer3(0, proxy_of(given3(0), given(3), settled));
+    answer(3, Real(settled));
+  }
+  if (PROBE == PROBE_LOCATE_CELL) {
+    Cell cell = locate_cell(given3(0));
+    answer3(0, Vec3(cell.i, cell.j, cell.k));
+    answer3(3, cell.fraction);
+    answer3(6, cell.outside);
+  }
+  if (PROBE == PROBE_GRID_SAMPLE) answer(0, grid_sample(given_int(0), given_int(1), given_int(2)));
+  if (PROBE == PROBE_MIX_REALS) answer(0, mix_reals(given(0), given(1), given(2)));
 }

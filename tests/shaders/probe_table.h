@@ -14,15 +14,24 @@
 #define PROBE_THUMB_POINTS 12    // frame, lengths, angles; mcp, ip, tip
 #define PROBE_TIP_TO_TIP 13      // closure; way, slope, gap
 #define PROBE_CLOSURE_OF_GAP 14  // gap; closure
-// probe_sdf
+#define PROBE_SEGMENT_END 15     // frame, start, length, angle; end
+// probe_sdf; element: a, b, center, radius, side
 #define PROBE_SIGNED_DISTANCE 20  // point; distance
 #define PROBE_GRADIENT 21         // point; gradient, element
 #define PROBE_SUPPORT 22          // point; distance, other, normal, element, planar
 #define PROBE_SAFE_STEP 23        // distance, other, normal, planar, separation, velocity, speed, acceleration; step
 #define PROBE_CONTACT 24          // point, radius; separation, proxy, settled
+#define PROBE_ELEMENT 25          // element, q, sign; distance, crosses, spans, convex, outward
+#define PROBE_PROXY 26            // point, radius; proxy, settled
+#define PROBE_LOCATE_CELL 27      // point; cell, fraction, outside
+#define PROBE_GRID_SAMPLE 28      // i, j, k; sample
+#define PROBE_MIX_REALS 29        // a, b, t; mixed
 // probe_closure
 #define PROBE_TRACE_TIP 30   // origin, azimuth, obliquity, heading, radius; t, reason, normal, element
 #define PROBE_PLACE_HAND 31  // closure, azimuth, obliquity, roll, midpoint, scale; rotation, translation, e1.x, index frame
+// height, azimuth, obliquity, roll, offset, hand_scale, and what the core adds to the radii of index and thumb; reason, where it stands for
+// some: direction | t_index, t_thumb, gap, midpoint | closure, thumb_angle, index_angle, grazing, rotation, translation, scale
+#define PROBE_CLOSE_FINGERS 32
 // probe_projection
 #define PROBE_SEGMENT_RATES 40    // swing, joint; rates
 #define PROBE_QUARTER_TURN 41     // frame, segment; velocity
@@ -33,15 +42,19 @@
 #define PROBE_TURNED_POINT 46     // point, pivot, axis, angle; point
 #define PROBE_PROJECT_POINT 47    // point, radius, pivot, axis, largest angle; point, unsettled
 #define PROBE_PROJECTION_ROLE 48  // point, touched before; role
-// probe_liquid; element: a, b, center, radius, side
-#define PROBE_SEGMENT_AREA 60     // r, h; area
-#define PROBE_SEGMENT_MOMENT 61   // r, h; moment
-#define PROBE_ELEMENT_RADIUS 62   // element, y; radius
-#define PROBE_PLANE_CROSSINGS 63  // element, level, sine, cosine, sigma; heights
-#define PROBE_PIECE_BELOW 64      // element, level, sine, cosine; volume, lean, height, surface
-#define PROBE_LIP_CAPACITY 65     // sine, cosine; lip level, bottom level, capacity
-#define PROBE_LIQUID_AT 66        // volume, sine, cosine; volume, lean, height
-#define PROBE_REVOLVED 67         // element; volume, height
+// angles, closure, limit, joint, start, turned, room, steps, before, blocked, unsettled; next joint: the motion, in this order
+#define PROBE_TURN_JOINT 49
+// probe_liquid; element as above
+#define PROBE_SEGMENT_AREA 60      // r, h; area
+#define PROBE_SEGMENT_MOMENT 61    // r, h; moment
+#define PROBE_ELEMENT_RADIUS 62    // element, y; radius
+#define PROBE_PLANE_CROSSINGS 63   // element, level, sine, cosine, sigma; heights
+#define PROBE_PIECE_BELOW 64       // element, level, sine, cosine; volume, lean, height, surface
+#define PROBE_LIP_CAPACITY 65      // sine, cosine; lip level, bottom level, capacity
+#define PROBE_LIQUID_AT 66         // volume, sine, cosine; volume, lean, height
+#define PROBE_REVOLVED 67          // element; volume, height
+#define PROBE_INTEGRATE_SLICES 68  // element, low, high, level, sine, cosine; volume, lean, height, surface
+#define PROBE_LIQUID_BELOW 69      // level, sine, cosine; volume, lean, height, surface
 // probe_force
 #define PROBE_DIRECTIONS 80      // direction, sense, sine, cosine; pour, up
 #define PROBE_LOAD_CENTER 81     // fixed, lean, height, pour; center

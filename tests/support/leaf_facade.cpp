@@ -35,6 +35,12 @@ struct Row {
   void answer3(int k, Vec3 value) const {
     for (int i = 0; i < 3; ++i) answer(k + i, value[i]);
   }
+  void answer_slices(Slices slices) const {
+    answer(0, slices.volume);
+    answer(1, slices.lean);
+    answer(2, slices.height);
+    answer(3, slices.surface);
+  }
   void answer_points(FingerPoints points) const {
     answer3(0, points.pip);
     answer3(3, points.dip);
@@ -101,6 +107,9 @@ class CoreLeaves final : public wholehand::Leaves {
       case PROBE_THUMB_POINTS:
         row.answer_points(thumb_points(row.frame(), row.given3(9), row.given3(12)));
         break;
+      case PROBE_SEGMENT_END:
+        row.answer3(0, segment_end(row.frame(), row.given3(9), row.given(12), row.given(13)));
+        break;
       case PROBE_TIP_TO_TIP: {
         Vec3 slope{};
         row.answer3(0, tip_to_tip(hand_, row.given(0), slope));
@@ -148,9 +157,59 @@ class CoreLeaves final : public wholehand::Leaves {
         row.answer(4, Real(contact.settled));
         break;
       }
+      case PROBE_ELEMENT: {
+        const Element element = row.element();
+        const Vec2 q = row.given2(8);
+        const Vec2 outward = element_outward(element, q, row.given(10));
+        row.answer(0, std::sqrt(element_distance_squared(element, q)));
+        row.answer(1, Real(element_crosses(element, q)));
+        row.answer(2, Real(element_spans(element, q)));
+        row.answer(3, Real(element_convex(element, q)));
+        row.answer(4, outward.x);
+        row.answer(5, outward.y);
+        break;
+      }
+      case PROBE_PROXY: {
+        bool settled = false;
+        row.answer3(0, proxy_of(vessel_, row.given3(0), row.given(3), settled));
+        row.answer(3, Real(settled));
+        break;
+      }
+      case PROBE_LOCATE_CELL: {
+        const Cell cell = locate_cell(vessel_, row.given3(0));
+        row.answer3(0, Vec3(cell.i, cell.j, cell.k));
+        row.answer3(3, cell.fraction);
+        row.answer3(6, cell.outside);
+        break;
+      }
+      case PROBE_GRID_SAMPLE:
+        row.answer(0, grid_sample(vessel_, row.given_int(0), row.given_int(1), row.given_int(2)));
+        break;
+      case PROBE_MIX_REALS:
+        row.answer(0, mix_reals(row.given(0), row.given(1), row.given(2)));
+        break;
       default:
         unknown();
     }
+  }
+
+  // 0 where the reason leaves a value open
+  static void answer_closing(const Row& row, Closing closing) {
+    const bool reached = closing.reason == REASON_NONE || closing.reason >= REASON_TOO_WIDE;
+    const bool closed = closing.reason == REASON_NONE;
+    row.answer(0, Real(closing.reason));
+    row.answer3(1, closing.direction);
+    row.answer(4, reached ? closing.t_index : Real(0));
+    row.answer(5, reached ? closing.t_thumb : Real(0));
+    row.answer(6, reached ? closing.gap : Real(0));
+    row.answer3(7, reached ? closing.midpoint : Vec3(0));
+    row.answer(10, closed ? closing.closure : Real(0));
+    row.answer(11, closed ? closing.thumb_angle : Real(0));
+    row.answer(12, closed ? closing.index_angle : Real(0));
+    row.answer(13, closed ? Real(closing.grazing) : Real(0));
+    for (int k = 0; k < 3; ++k) row.answer3(14 + 3 * k, closed ? closing.placement.rotation[k] : Vec3(0));
+    row.answer3(23, closed ? closing.placement.translation : Vec3(0));
+    row.answer(26, closed ? closing.placement.scale : Real(0));
   }
 
   void closure(int probe, const Row& row) const {
@@ -175,6 +234,14 @@ class CoreLeaves final : public wholehand::Leaves {
         row.answer3(13, index.base);
         row.answer3(16, index.forward);
         row.answer3(19, index.palmward);
+        break;
+      }
+      case PROBE_CLOSE_FINGERS: {
+        const Grip grip{row.given(0), row.given(1), row.given(2), row.given(3), row.given(4), row.given(5)};
+        Hand hand = hand_;
+        hand.radius[1][4] += row.given(6) / (hand.scale * grip.hand_scale);
+        hand.radius[0][3] += row.given(7) / (hand.scale * grip.hand_scale);
+        answer_closing(row, close_fingers(hand, vessel_, grip));
         break;
       }
       default:
@@ -227,6 +294,24 @@ class CoreLeaves final : public wholehand::Leaves {
         row.answer(3, Real(unsettled));
         break;
       }
+      case PROBE_TURN_JOINT: {
+        const FingerMotion motion{row.given3(0),  row.given(3),           row.given(4),          row.given_int(5),
+                                  row.given(6),   row.given(7),           row.given(8),          row.given_int(9),
+                                  row.given3(10), row.given_int(13) != 0, row.given_int(14) != 0};
+        const FingerMotion next = turn_joint(hand_, motion, row.given_int(15));
+        row.answer3(0, next.angles);
+        row.answer(3, next.closure);
+        row.answer(4, next.limit);
+        row.answer(5, Real(next.joint));
+        row.answer(6, next.start);
+        row.answer(7, next.turned);
+        row.answer(8, next.room);
+        row.answer(9, Real(next.steps));
+        row.answer3(10, next.before);
+        row.answer(13, Real(next.blocked));
+        row.answer(14, Real(next.unsettled));
+        break;
+      }
       case PROBE_PROJECTION_ROLE:
         row.answer(0, Real(projection_role(row.given_int(0), row.given_int(1))));
         break;
@@ -252,14 +337,16 @@ class CoreLeaves final : public wholehand::Leaves {
         row.answer(1, heights.y);
         break;
       }
-      case PROBE_PIECE_BELOW: {
-        const Slices slices = piece_below(quadrature_, row.element(), row.given(8), row.given(9), row.given(10));
-        row.answer(0, slices.volume);
-        row.answer(1, slices.lean);
-        row.answer(2, slices.height);
-        row.answer(3, slices.surface);
+      case PROBE_PIECE_BELOW:
+        row.answer_slices(piece_below(quadrature_, row.element(), row.given(8), row.given(9), row.given(10)));
         break;
-      }
+      case PROBE_INTEGRATE_SLICES:
+        row.answer_slices(
+            integrate_slices(quadrature_, row.element(), row.given(8), row.given(9), row.given(10), row.given(11), row.given(12)));
+        break;
+      case PROBE_LIQUID_BELOW:
+        row.answer_slices(liquid_below(vessel_, quadrature_, row.given(0), row.given(1), row.given(2)));
+        break;
       case PROBE_LIP_CAPACITY:
         row.answer(0, lip_level(vessel_, row.given(0), row.given(1)));
         row.answer(1, bottom_level(vessel_, row.given(0), row.given(1)));
