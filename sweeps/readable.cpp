@@ -27,4 +27,6 @@ std::string readable_count(double count) {
   return grouped;
 }
 
+std::string readable_number(std::uint64_t count) { return readable_count(static_cast<double>(count)); }
+
 }  // namespace wholehand

@@ -1,6 +1,7 @@
 // Numbers as people read them.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace wholehand {
@@ -9,5 +10,6 @@ namespace wholehand {
 std::string readable_bytes(double bytes);
 // "27,648"; "1.0e+12" from 1e12 on.
 std::string readable_count(double count);
+std::string readable_number(std::uint64_t count);
 
 }  // namespace wholehand

@@ -36,8 +36,6 @@ constexpr double MARK_SHARE = 0.02;     // of the time, at most, for marks
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-std::string number(std::uint64_t count) { return readable_count(static_cast<double>(count)); }
-
 void note(const std::string& line) { fmt::print(stderr, "wholehand: {}\n", line); }
 
 class Sweep {
@@ -138,7 +136,8 @@ class Sweep {
       }
       mark_ = mark;
       for (std::size_t v = 0; v < maps_.size() && has_heat_map(); ++v) maps_[v].restore(mark_.vessels[v].heat_map);
-      note(fmt::format("going on with {}: {} of {} grips are there", names_.partial, number(done()), number(total(plan))));
+      note(fmt::format("going on with {}: {} of {} grips are there", names_.partial, readable_number(done()),
+                       readable_number(total(plan))));
     } else {
       if (options_.resume) note(fmt::format("nothing of {} is complete: starting from the first grip", names_.partial));
       if (!options_.resume) say_what_is_lost();
@@ -160,7 +159,7 @@ class Sweep {
     std::uint64_t kept = 0;
     for (const VesselProgress& vessel : earlier.vessels) kept += vessel.done;
     note(fmt::format("{} held {} grips of a sweep that was interrupted: begun again without them (--resume goes on)",
-                     names_.partial, number(kept)));
+                     names_.partial, readable_number(kept)));
   }
 
   std::uint64_t total(const Plan& plan) const { return plan.grips() * scene_.vessels.size(); }
@@ -250,8 +249,8 @@ class Sweep {
   }
 
   ExitCode interrupted(const Plan& plan) const {
-    note(fmt::format("interrupted at {} of {} grips; the same command with --resume goes on with {}", number(done()),
-                     number(total(plan)), names_.partial));
+    note(fmt::format("interrupted at {} of {} grips; the same command with --resume goes on with {}", readable_number(done()),
+                     readable_number(total(plan)), names_.partial));
     return ExitCode::interrupted;
   }
 

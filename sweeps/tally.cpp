@@ -8,11 +8,6 @@
 #include "sweeps/variables.h"
 
 namespace wholehand {
-namespace {
-
-std::string number(std::uint64_t count) { return readable_count(static_cast<double>(count)); }
-
-}  // namespace
 
 void count_grips(const PlaneChunk& chunk, const FieldSet& fields, GripCounts& counts) {
   counts.grips += chunk.count;
@@ -29,20 +24,22 @@ void count_grips(const PlaneChunk& chunk, const FieldSet& fields, GripCounts& co
 }
 
 std::string counts_line(const GripCounts& counts, bool reasons_known, std::uint64_t azimuths) {
-  const std::string at = azimuths > 1 ? fmt::format(" (each at {} azimuths)", number(azimuths)) : "";
-  if (!reasons_known) return fmt::format("{} grips{}", number(counts.grips), at);
-  std::string line = fmt::format("{} of {} grips{} feasible", number(counts.by_reason[0]), number(counts.grips), at);
+  const std::string at = azimuths > 1 ? fmt::format(" (each at {} azimuths)", readable_number(azimuths)) : "";
+  if (!reasons_known) return fmt::format("{} grips{}", readable_number(counts.grips), at);
+  std::string line =
+      fmt::format("{} of {} grips{} feasible", readable_number(counts.by_reason[0]), readable_number(counts.grips), at);
   std::string reasons;
   for (std::size_t reason = 1; reason < counts.by_reason.size(); ++reason) {
     if (counts.by_reason[reason] == 0) continue;
     std::string name = REASON_NAMES[reason];
     for (char& c : name) c = c == '_' ? ' ' : c;
-    reasons += fmt::format("{}{} {}", reasons.empty() ? "" : ", ", number(counts.by_reason[reason]), name);
+    reasons += fmt::format("{}{} {}", reasons.empty() ? "" : ", ", readable_number(counts.by_reason[reason]), name);
   }
   if (!reasons.empty()) line += " (" + reasons + ")";
   if (counts.by_reason[0] == 0) return line;
-  line += fmt::format("; of these {} implausible, {} antipodal", number(counts.implausible), number(counts.antipodal));
-  if (counts.blocked > 0) line += fmt::format(", {} with a blocked finger", number(counts.blocked));
+  line += fmt::format("; of these {} implausible, {} antipodal", readable_number(counts.implausible),
+                      readable_number(counts.antipodal));
+  if (counts.blocked > 0) line += fmt::format(", {} with a blocked finger", readable_number(counts.blocked));
   return line;
 }
 

@@ -1,5 +1,5 @@
 // The core in double against the same core in long double: what double precision itself costs.
-// sanitizers: address
+// sanitizers: none
 #include <gtest/gtest.h>
 
 #include <memory>

@@ -329,4 +329,11 @@ long double reference_gap(const HandData& hand, long double closure) {
   return length(joints[INDEX_TIP] - joints[THUMB_TIP]);
 }
 
+core_f64::Vessel grid_vessel(const core_f64::Vessel& outline, int samples) {
+  core_f64::Vessel vessel = outline;
+  vessel.grid = core_f64::sample_grid(outline, samples);
+  vessel.is_grid = true;
+  return vessel;
+}
+
 }  // namespace wholehand

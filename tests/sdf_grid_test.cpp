@@ -1,0 +1,173 @@
+// Kernel 2 on a lattice of samples in place of the outline.
+#include "core/sdf.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/support/sampled_outline.h"
+
+namespace wholehand {
+namespace {
+
+using core_f64::Vessel;
+
+Vec3 lattice_point(const core_f64::Grid& grid, double i, double j, double k) { return grid.origin + grid.spacing * Vec3{i, j, k}; }
+
+TEST(Sdf, GridHoldsTheDistanceAtItsSamples) {
+  const Vessel outline = ready_vessel(vase()), vessel = grid_vessel(outline, 24);
+  const core_f64::Grid& grid = vessel.grid;
+  ASSERT_EQ(grid.samples.size(), static_cast<std::size_t>(grid.nx * grid.ny * grid.nz));
+  for (int k = 0; k < grid.nz; ++k) {
+    for (int j = 0; j < grid.ny; ++j) {
+      for (int i = 0; i < grid.nx; ++i) {
+        const Vec3 p = lattice_point(grid, i, j, k);
+        // 1e-15 m: the place of a sample is rounded to 1e-17 m, its cell coordinates to 1e-15
+        ASSERT_NEAR(core_f64::signed_distance(vessel, p), core_f64::signed_distance(outline, p), 1e-15)
+            << i << " " << j << " " << k;
+      }
+    }
+  }
+}
+
+TEST(Sdf, GridIsTrilinearBetweenItsSamples) {
+  const Vessel vessel = grid_vessel(ready_vessel(vase()), 24);
+  const core_f64::Grid& grid = vessel.grid;
+  Random random(9);
+  for (int n = 0; n < 1000; ++n) {
+    const int i = static_cast<int>(random.uniform(0, grid.nx - 1)), j = static_cast<int>(random.uniform(0, grid.ny - 1)),
+              k = static_cast<int>(random.uniform(0, grid.nz - 1));
+    const double u = random.uniform(0, 1), v = random.uniform(0, 1), w = random.uniform(0, 1);
+    double expected = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+      const int di = corner & 1, dj = corner >> 1 & 1, dk = corner >> 2;
+      const auto index = static_cast<std::size_t>(((k + dk) * grid.ny + j + dj) * grid.nx + i + di);
+      expected += (di ? u : 1 - u) * (dj ? v : 1 - v) * (dk ? w : 1 - w) * grid.samples[index];
+    }
+    ASSERT_NEAR(core_f64::signed_distance(vessel, lattice_point(grid, i + u, j + v, k + w)), expected, 1e-15);  // as above
+  }
+}
+
+TEST(Sdf, GridReachesTwoCellsBeyondTheVessel) {
+  const VesselData data = beaker3();
+  const core_f64::Grid grid = core_f64::sample_grid(ready_vessel(data), 24);
+  const Vec3 low = grid.origin, high = lattice_point(grid, grid.nx - 1, grid.ny - 1, grid.nz - 1);
+  const double r = largest_radius(data), reach = 2 * grid.spacing - 1e-12;
+  EXPECT_LE(low.x, -r - reach);
+  EXPECT_LE(low.y, -reach);
+  EXPECT_LE(low.z, -r - reach);
+  EXPECT_GE(high.x, r + reach);
+  EXPECT_GE(high.y, data.height + reach);
+  EXPECT_GE(high.z, r + reach);
+}
+
+TEST(Sdf, GridOutsideItsBoxIsTheClampedValueAndTheWayToTheBox) {
+  const Vessel outline = ready_vessel(beaker3()), vessel = grid_vessel(outline, 32);
+  const core_f64::Grid& grid = vessel.grid;
+  const Vec3 low = grid.origin, high = lattice_point(grid, grid.nx - 1, grid.ny - 1, grid.nz - 1);
+  Random random(10);
+  int compared = 0;
+  for (int n = 0; n < 20000; ++n) {
+    const Vec3 p{random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.6), random.uniform(-0.4, 0.4)};
+    const Vec3 clamped = glm::clamp(p, low, high);
+    if (p == clamped) continue;
+    ++compared;
+    const double sdf = core_f64::signed_distance(vessel, p);
+    ASSERT_NEAR(sdf, core_f64::signed_distance(vessel, clamped) + glm::distance(p, clamped), 1e-15);  // rounding
+    // the two ways meet at a right angle at most, so their sum lies between the true distance and 2^(1/2) of it; interpolation is
+    // off by spacing^2 / 8 times the curvature of the distance, at most 1 / (2 spacing) two cells off: a 16th of a cell
+    const double exact = core_f64::signed_distance(outline, p);
+    ASSERT_GE(sdf, exact - grid.spacing / 16) << p.x << " " << p.y << " " << p.z;
+    ASSERT_LE(sdf, std::sqrt(2.0) * exact + grid.spacing / 16) << p.x << " " << p.y << " " << p.z;
+  }
+  EXPECT_GT(compared, 10000);
+}
+
+TEST(Sdf, GridIsContinuousAtItsBox) {
+  const Vessel vessel = grid_vessel(ready_vessel(vase()), 24);
+  const core_f64::Grid& grid = vessel.grid;
+  for (const Vec3 p :
+       {lattice_point(grid, 0, 3.3, 4.1), lattice_point(grid, grid.nx - 1, 3.3, 4.1), lattice_point(grid, 2.5, 0, 6.2),
+        lattice_point(grid, 2.5, grid.ny - 1, 6.2), lattice_point(grid, 7.7, 3.3, 0), lattice_point(grid, 7.7, 3.3, grid.nz - 1),
+        lattice_point(grid, 0, 0, 0), lattice_point(grid, grid.nx - 1, grid.ny - 1, grid.nz - 1)}) {
+    const double here = core_f64::signed_distance(vessel, p);
+    for (int k = 0; k < 6; ++k) {
+      Vec3 step{};
+      step[k / 2] = k % 2 ? 1e-9 : -1e-9;
+      ASSERT_NEAR(core_f64::signed_distance(vessel, p + step), here, 1e-8);  // 1e-9 m away, by a slope of a few at most
+    }
+  }
+}
+
+TEST(Sdf, GridGradientIsItsDifferenceQuotient) {
+  const Vessel vessel = grid_vessel(ready_vessel(vase()), 24);
+  const core_f64::Grid& grid = vessel.grid;
+  const double h = 1e-7;
+  Random random(12);
+  for (int n = 0; n < 2000; ++n) {
+    // inside a cell; across its faces the slope jumps
+    const auto coordinate = [&random](int count) { return std::floor(random.uniform(0, count - 1)) + random.uniform(0.01, 0.99); };
+    const Vec3 p = lattice_point(grid, coordinate(grid.nx), coordinate(grid.ny), coordinate(grid.nz));
+    Vec3 difference;
+    for (int k = 0; k < 3; ++k) {
+      Vec3 step{};
+      step[k] = h;
+      difference[k] = (core_f64::signed_distance(vessel, p + step) - core_f64::signed_distance(vessel, p - step)) / (2 * h);
+    }
+    if (glm::length(difference) < 0.1) continue;  // near where it vanishes its direction is undetermined
+    int element = 0;
+    const Vec3 g = core_f64::distance_gradient(vessel, p, element);
+    EXPECT_EQ(element, -1);
+    EXPECT_NEAR(glm::length(g), 1, 1e-12);
+    // 1e-7: along an axis trilinear is linear, so only rounding, 1e-16 / h / 0.1
+    ASSERT_LT(glm::distance(g, glm::normalize(difference)), 1e-7);
+  }
+}
+
+TEST(Sdf, GridGradientOutsideItsBoxIsUnitAndPointsAway) {
+  const Vessel vessel = grid_vessel(ready_vessel(beaker1()), 24);
+  for (const Vec3 p : {Vec3{0.5, 0.05, 0}, Vec3{0, 0.05, -0.5}, Vec3{0, 1, 0}, Vec3{0.3, -0.4, 0.2}}) {
+    int element = 0;
+    const Vec3 g = core_f64::distance_gradient(vessel, p, element);
+    EXPECT_NEAR(glm::length(g), 1, 1e-12);
+    EXPECT_GT(glm::dot(g, glm::normalize(p - Vec3{0, 0.055, 0})), 0.5);
+  }
+}
+
+TEST(Sdf, GridGradientIsXWhereItVanishes) {
+  Vessel vessel;
+  vessel.is_grid = true;
+  vessel.grid = {{0, 0, 0}, 1, 2, 2, 2, std::vector<double>(8, 0.25)};
+  int element = 0;
+  EXPECT_EQ(core_f64::distance_gradient(vessel, {0.5, 0.5, 0.5}, element), (Vec3{1, 0, 0}));
+  EXPECT_EQ(core_f64::signed_distance(vessel, {0.5, 0.5, 0.5}), 0.25);
+}
+
+TEST(Sdf, GridErrorFallsWithTheSquareOfItsSpacing) {
+  // on the cone and the neck, further from creases than the coarsest cell's diagonal
+  const Vessel outline = ready_vessel(beaker3());
+  std::vector<Vec3> points;
+  Random random(13);
+  while (points.size() < 4000) {
+    const Vec3 p = around({random.uniform(5e-3, 45e-3), random.uniform(15e-3, 90e-3)}, random.uniform(-PI, PI));
+    if (std::abs(core_f64::signed_distance(outline, p)) < 5e-3) points.push_back(p);
+  }
+  std::vector<double> worst, spacing;
+  for (const int samples : {30, 60, 120}) {
+    const Vessel vessel = grid_vessel(outline, samples);
+    double largest = 0;
+    for (const Vec3& p : points)
+      largest = std::max(largest, std::abs(core_f64::signed_distance(vessel, p) - core_f64::signed_distance(outline, p)));
+    worst.push_back(largest);
+    spacing.push_back(vessel.grid.spacing);
+  }
+  for (std::size_t i = 1; i < worst.size(); ++i) {
+    const double order = std::log(worst[i - 1] / worst[i]) / std::log(spacing[i - 1] / spacing[i]);
+    EXPECT_NEAR(order, 2, 0.3) << worst[i - 1] << " m, " << worst[i]
+                               << " m";  // the worst place in a cell differs from lattice to lattice
+  }
+}
+
+}  // namespace
+}  // namespace wholehand
