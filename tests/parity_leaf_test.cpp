@@ -1,6 +1,6 @@
 // Every leaf function of the shaders against the core's (tests/support/leaf_parity.h); those of sdf.glsl's elements and lattice and of
 // contact.glsl's proxies are in parity_leaf_sdf_test.cpp.
-// sanitizers: address
+// sanitizers: none
 #include <gtest/gtest.h>
 
 #include <algorithm>
