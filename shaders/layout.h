@@ -38,6 +38,11 @@
 #define QUADRATURE_POINTS 32        // Gauss-Legendre points a piece: 1e-10 of the capacity where the plane passes close to an arc's pole
 #define MAX_OUTLINE 32              // elements that fit a pipeline's specialization constants
 #define WHOLE_DEGREES 181           // tilts 0..180 at which the lip's capacity is tabulated
+#define LOOP_DELAYS 4               // whole samples of delay of a haptic loop, at most
+#define LOOP_ORDER 10               // of the series of its propagator
+#define LOOP_DOUBLINGS 40           // of the step of that series
+#define LOOP_STOPS 4                // reversals within a sample that friction is followed through
+#define LOOP_NEWTON 3               // steps to where the motion stops
 
 // ---- the hand ----
 #define FINGERS 5

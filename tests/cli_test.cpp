@@ -62,7 +62,7 @@ TEST(CommandLine, TellsVersionAndHelp) {
 
 TEST(CommandLine, RefusesWrongUsageWithOneLineAndCode2) {
   const std::vector<std::pair<std::string, std::string>> cases{
-      {"", "which command? sweep, grip, check or devices"},
+      {"", "which command? sweep, grip, check, stability or devices"},
       {"swep", "unknown command 'swep'"},
       {"--bogus", "--bogus; see wholehand --help"},
       {"sweep --bogus", "--bogus; see wholehand sweep --help"},
@@ -84,6 +84,12 @@ TEST(CommandLine, RefusesWrongUsageWithOneLineAndCode2) {
       {"sweep /", "'/' is a directory"},
       {"sweep /dev/null", "/dev/null:1:1: the scene lacks 'vessel'"},
       {"check no_such_scene", "no scene file 'no_such_scene'"},
+      {"stability", "stability"},
+      {"stability wall --damping-Nspm 1 --rate-hz 1000", "--mass-kg is required"},
+      {"stability wall --mass-kg 0 --damping-Nspm 1 --rate-hz 1000", "--mass-kg '0'; allowed: a number, "},
+      {"stability wall --mass-kg 0.1 --damping-Nspm 1 --rate-hz 1000 --delay-samples 9",
+       "--delay-samples '9'; allowed: a whole number, 0 to 4"},
+      {"stability wall --mass-kg 0.1 --damping-Nspm 1 --rate-hz 1000 --finger 1,2", "--finger '1,2'; allowed: three numbers"},
       {"devices extra", "extra; see wholehand devices --help"},
       {"grip", "scene is required"},
       {"grip small", "--vessel is required"},
@@ -187,6 +193,20 @@ TEST(CommandLine, RunsFromAnywhereAndWithStreamsClosed) {
   const Outcome grip = run("cd / && PROGRAM " + std::string(GRIP) + " --json <&- 2>&-");
   EXPECT_EQ(grip.code, 0);
   EXPECT_EQ(nlohmann::json::parse(grip.output)["vessel"], "tumbler");
+}
+
+TEST(CommandLine, StiffestWallOfADevice) {
+  const Outcome json =
+      run("PROGRAM stability wall --mass-kg 0.1 --damping-Nspm 1 --rate-hz 1000 --encoder-um 20 --coulomb-N 0.015 --json");
+  EXPECT_EQ(json.code, 0) << json.output;
+  const auto limits = nlohmann::json::parse(json.output);
+  EXPECT_EQ(limits.size(), 4u);
+  EXPECT_NEAR(limits["passive_K_Npm"].get<double>(), 2000, 1e-6);
+  EXPECT_NEAR(limits["linear_K_Npm"].get<double>(), 2003.3, 0.1);
+  EXPECT_NEAR(limits["coulomb_K_Npm"].get<double>(), 1500, 1e-6);
+  EXPECT_GT(limits["largest_stable_K_Npm"].get<double>(), 1500);
+  const Outcome table = run("PROGRAM stability wall --mass-kg 0.1 --damping-Nspm 1 --rate-hz 1000 --wall-damping-Nspm 0.5");
+  EXPECT_NE(table.output.find("2990.1"), std::string::npos) << table.output;
 }
 
 TEST(CommandLine, EvaluatesOneGrip) {

@@ -63,5 +63,11 @@
 #define PROBE_HOLD_FORCE 84      // mass, gravity, arm, direction, up, friction, torsion; force
 #define PROBE_COUPLING_FORCE 85  // tip, proxy, normal, velocity, stiffness, damping; force
 #define PROBE_SCORE 86           // fingers, points, phalanx, palm, closure, feedback, max, hold, strength; terms
+// probe_loop; plant: mass, damping, stiffness; wall: stiffness, damping, period, encoder step, force limit, delay, bilateral
+#define PROBE_PROPAGATOR 90   // plant, time; of place, of speed: place, speed, force
+#define PROBE_ADVANCE 91      // plant, place, speed, force, friction, time; place, speed
+#define PROBE_WALL_FORCE 92   // wall without its delay, place, rate; reading, force
+#define PROBE_STEP_LOOP 93    // plant, wall, place, speed, reading, waiting, press, friction; place, speed, reading, waiting
+#define PROBE_LOOP_ENERGY 94  // plant, wall's stiffness, place, speed, press; energy
 
 #endif

@@ -8,6 +8,7 @@
 #include "core/force.h"
 #include "core/liquid.h"
 #include "core/load.h"
+#include "core/loop.h"
 #include "core/projection.h"
 #include "core/score.h"
 #include "core/trig.h"
@@ -69,7 +70,8 @@ class CoreLeaves final : public wholehand::Leaves {
     if (probe < PROBE_SEGMENT_RATES) return closure(probe, row);
     if (probe < PROBE_SEGMENT_AREA) return projection(probe, row);
     if (probe < PROBE_DIRECTIONS) return liquid(probe, row);
-    force(probe, row);
+    if (probe < PROBE_PROPAGATOR) return force(probe, row);
+    loop(probe, row);
   }
 
  private:
@@ -363,6 +365,58 @@ class CoreLeaves final : public wholehand::Leaves {
         const Slices slices = revolved_element(quadrature_, row.element());
         row.answer(0, slices.volume);
         row.answer(1, slices.height);
+        break;
+      }
+      default:
+        unknown();
+    }
+  }
+
+  static void answer_motion(const Row& row, Motion motion) {
+    row.answer(0, motion.place);
+    row.answer(1, motion.speed);
+  }
+
+  static void loop(int probe, const Row& row) {
+    const Plant plant{row.given(0), row.given(1), row.given(2)};
+    switch (probe) {
+      case PROBE_PROPAGATOR: {
+        const Propagator by = propagator(plant, row.given(3));
+        row.answer3(0, Vec3(by.place_place, by.place_speed, by.place_force));
+        row.answer3(3, Vec3(by.speed_place, by.speed_speed, by.speed_force));
+        break;
+      }
+      case PROBE_ADVANCE: {
+        const Propagator by = propagator(plant, row.given(7));
+        const Motion motion{row.given(3), row.given(4)};
+        answer_motion(row, row.given(6) > 0 ? advance_with_friction(plant, by, motion, row.given(5), row.given(6), row.given(7))
+                                            : advance(by, motion, row.given(5)));
+        break;
+      }
+      case PROBE_WALL_FORCE: {
+        const Wall wall{row.given(0), row.given(1), row.given(2), row.given(3), row.given(4), 0, row.given_int(5) != 0};
+        const Real reading = read_encoder(row.given(6), wall.encoder_step);
+        row.answer(0, reading);
+        row.answer(1, wall_force(wall, reading, row.given(7)));
+        break;
+      }
+      case PROBE_STEP_LOOP: {
+        const Wall wall{row.given(3), row.given(4),     row.given(5),         row.given(6),
+                        row.given(7), row.given_int(8), row.given_int(9) != 0};
+        LoopState state;
+        state.motion = {row.given(10), row.given(11)};
+        state.reading = row.given(12);
+        for (int k = 0; k < LOOP_DELAYS; ++k) state.waiting[k] = row.given(13 + k);
+        state = step_loop(plant, propagator(plant, wall.period), wall, state, row.given(17), row.given(18));
+        answer_motion(row, state.motion);
+        row.answer(2, state.reading);
+        for (int k = 0; k < LOOP_DELAYS; ++k) row.answer(3 + k, state.waiting[k]);
+        break;
+      }
+      case PROBE_LOOP_ENERGY: {
+        Wall wall;
+        wall.stiffness = row.given(3);
+        row.answer(0, loop_energy(plant, wall, {row.given(4), row.given(5)}, row.given(6)));
         break;
       }
       default:

@@ -1,0 +1,73 @@
+// wholehand stability: where a haptic loop stops being trustworthy.
+#include <CLI/CLI.hpp>
+
+#include <memory>
+
+#include "app/commands.h"
+#include "app/output.h"
+#include "app/validators.h"
+#include "app/values.h"
+#include "sweeps/wall.h"
+
+namespace wholehand {
+namespace {
+
+namespace wall_ranges {
+constexpr Quantity MASS{1e-6, 1e3};
+constexpr Quantity DAMPING{0, 1e6};
+constexpr Quantity RATE{1, 1e5};
+constexpr Quantity WALL_DAMPING{-1e6, 1e6};
+constexpr IntegerRange DELAY{0, LOOP_DELAYS};
+constexpr Quantity ENCODER_UM{0, 1e5};
+constexpr Quantity COULOMB{0, 1e3};
+constexpr Quantity FINGER{0, 1e6};
+}  // namespace wall_ranges
+
+struct WallArguments {
+  std::string mass, damping, rate, wall_damping = "0", delay = "0", encoder = "0", coulomb = "0", finger;
+  bool json = false;
+};
+
+ExitCode wall(const WallArguments& arguments) {
+  WallDevice device;
+  device.mass = parse_quantity(arguments.mass, "--mass-kg", wall_ranges::MASS);
+  device.damping = parse_quantity(arguments.damping, "--damping-Nspm", wall_ranges::DAMPING);
+  device.rate = parse_quantity(arguments.rate, "--rate-hz", wall_ranges::RATE);
+  device.wall_damping = parse_quantity(arguments.wall_damping, "--wall-damping-Nspm", wall_ranges::WALL_DAMPING);
+  device.delay = static_cast<int>(parse_integer(arguments.delay, "--delay-samples", wall_ranges::DELAY));
+  device.encoder_step = parse_quantity(arguments.encoder, "--encoder-um", wall_ranges::ENCODER_UM) * 1e-6;
+  device.coulomb = parse_quantity(arguments.coulomb, "--coulomb-N", wall_ranges::COULOMB);
+  if (!arguments.finger.empty()) {
+    const Triple finger = parse_triple(arguments.finger, "--finger", wall_ranges::FINGER);
+    device.finger_mass = finger[0];
+    device.finger_damping = finger[1];
+    device.finger_stiffness = finger[2];
+  }
+  const WallLimits limits = wall_limits(device);
+  print(arguments.json ? wall_json(limits) : wall_table(device, limits));
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_stability_command(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand("stability", "Where a haptic loop stops being trustworthy");
+  command->require_subcommand(1);
+  const auto arguments = std::make_shared<WallArguments>();
+  CLI::App* wall_command = command->add_subcommand("wall", "The stiffest wall that a device can render");
+  const auto add = [wall_command](const char* name, auto& value, const char* type, const char* help) {
+    return wall_command->add_option(name, value, help)->type_name(type)->check(not_empty());
+  };
+  add("--mass-kg", arguments->mass, "M", "Moving mass of one axis of the device")->required();
+  add("--damping-Nspm", arguments->damping, "b", "Its damping, N s/m")->required();
+  add("--rate-hz", arguments->rate, "F", "Samples a second")->required();
+  add("--wall-damping-Nspm", arguments->wall_damping, "B", "Damping of the rendered wall, N s/m (0)");
+  add("--delay-samples", arguments->delay, "n", "Whole samples between reading and force (0)");
+  add("--encoder-um", arguments->encoder, "D", "Step of the encoder at the handle, micrometres (0: exact)");
+  add("--coulomb-N", arguments->coulomb, "f", "Coulomb friction of the device (0)");
+  add("--finger", arguments->finger, "m,b,k", "Mass, damping and stiffness of the finger that holds it: kg, N s/m, N/m");
+  wall_command->add_flag("--json", arguments->json, "One JSON object in one line");
+  wall_command->callback([arguments, &action] { action = [arguments] { return wall(*arguments); }; });
+}
+
+}  // namespace wholehand

@@ -1,0 +1,61 @@
+// One axis of a sampled haptic loop: a device, with the finger on it, against a rendered wall. Place is counted into the wall, which begins
+// at 0; forces are positive into the wall.
+#pragma once
+
+#include <array>
+
+#include "core/real.h"
+
+namespace CORE_NS {
+
+// Device and finger as one: mass x'' + damping x' + stiffness x = force, the finger's spring at rest at 0.
+struct Plant {
+  Real mass = 0;       // kg, > 0
+  Real damping = 0;    // N s/m
+  Real stiffness = 0;  // N/m
+};
+
+struct Motion {
+  Real place = 0;  // m
+  Real speed = 0;  // m/s
+};
+
+// What a time under a constant force does to a motion, exactly: a matrix and a column.
+struct Propagator {
+  Real place_place = 1, place_speed = 0, place_force = 0;
+  Real speed_place = 0, speed_speed = 1, speed_force = 0;
+};
+
+// What the controller renders, once a sample.
+struct Wall {
+  Real stiffness = 0;         // K, N/m
+  Real damping = 0;           // B, N s/m, of the backward difference of the readings
+  Real period = 0;            // T, s
+  Real encoder_step = 0;      // m; 0: exact
+  Real force_limit = 0;       // N; 0: none
+  int delay = 0;              // whole samples, 0..LOOP_DELAYS
+  bool is_bilateral = false;  // a spring that pulls as well; else a wall, which only pushes out
+};
+
+struct LoopState {
+  Motion motion;
+  Real reading = 0;                         // of the sample before, m
+  std::array<Real, LOOP_DELAYS> waiting{};  // forces computed and not yet applied, the oldest first, N
+};
+
+// By scaling and squaring of the series: steps of which the fastest mode is at most 1/8, to the tenth order (3e-16 of a step), doubled.
+Propagator propagator(Plant plant, Real time);
+Motion advance(Propagator by, Motion motion, Real force);
+// The same with Coulomb friction (N): the motion is followed to where it stops, at most LOOP_STOPS times in `time`; from there it goes on
+// the other way, or stays where the other forces do not overcome the friction. `whole` is the propagator of `time`.
+Motion advance_with_friction(Plant plant, Propagator whole, Motion motion, Real force, Real friction, Real time);
+// The nearest multiple of the step.
+Real read_encoder(Real place, Real step);
+// Force of the wall on the device for a reading and its rate, N: at most 0 but for a bilateral one.
+Real wall_force(Wall wall, Real place, Real rate);
+// One sample: read, render, hold for a period. `press`: the user's constant force into the wall, N.
+LoopState step_loop(Plant plant, Propagator by, Wall wall, LoopState state, Real press, Real friction);
+// Energy of the motion about where a wall and the finger would hold it at rest, J.
+Real loop_energy(Plant plant, Wall wall, Motion motion, Real press);
+
+}  // namespace CORE_NS

@@ -1,0 +1,169 @@
+#include "sweeps/wall.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "core/loop.h"
+
+namespace wholehand {
+namespace {
+
+constexpr double NO_LIMIT = std::numeric_limits<double>::infinity();
+constexpr double STIFFEST = 1e12;  // N/m: what is stable there is not limited
+
+core_f64::Plant plant_of(const WallDevice& device) {
+  return {device.mass + device.finger_mass, device.damping + device.finger_damping, device.finger_stiffness};
+}
+
+core_f64::Wall wall_of(const WallDevice& device, double stiffness) {
+  core_f64::Wall wall;
+  wall.stiffness = stiffness;
+  wall.damping = device.wall_damping;
+  wall.period = 1 / device.rate;
+  wall.encoder_step = device.encoder_step;
+  wall.delay = device.delay;
+  return wall;
+}
+
+using Matrix = std::vector<std::vector<double>>;
+
+// One sample of the linear loop, column by column through the kernel: place, speed, reading, and the forces that wait.
+Matrix loop_matrix(const WallDevice& device, double stiffness) {
+  const core_f64::Plant plant = plant_of(device);
+  core_f64::Wall wall = wall_of(device, stiffness);
+  wall.encoder_step = 0;
+  wall.is_bilateral = true;
+  const core_f64::Propagator by = core_f64::propagator(plant, wall.period);
+  const int size = 3 + device.delay;
+  Matrix matrix(size, std::vector<double>(size));
+  for (int column = 0; column < size; ++column) {
+    core_f64::LoopState state;
+    if (column == 0) state.motion.place = 1;
+    if (column == 1) state.motion.speed = 1;
+    if (column == 2) state.reading = 1;
+    if (column > 2) state.waiting[column - 3] = 1;
+    const core_f64::LoopState next = core_f64::step_loop(plant, by, wall, state, 0, 0);
+    matrix[0][column] = next.motion.place;
+    matrix[1][column] = next.motion.speed;
+    matrix[2][column] = next.reading;
+    for (int k = 0; k < device.delay; ++k) matrix[3 + k][column] = next.waiting[k];
+  }
+  return matrix;
+}
+
+Matrix squared(const Matrix& a) {
+  const std::size_t size = a.size();
+  Matrix result(size, std::vector<double>(size));
+  for (std::size_t i = 0; i < size; ++i)
+    for (std::size_t k = 0; k < size; ++k)
+      for (std::size_t j = 0; j < size; ++j) result[i][j] += a[i][k] * a[k][j];
+  return result;
+}
+
+double largest_entry(const Matrix& a) {
+  double largest = 0;
+  for (const auto& row : a)
+    for (const double value : row) largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
+// The largest stiffness at which `is_stable`, found by doubling and halving to a millionth.
+template <class IsStable>
+double largest_stiffness(const IsStable& is_stable) {
+  double high = 1;
+  while (is_stable(high)) {
+    high *= 2;
+    if (high > STIFFEST) return NO_LIMIT;
+  }
+  double low = high / 2;
+  if (high == 1) low = 0;
+  for (int step = 0; step < 100 && high - low > 1e-6 * high; ++step) {
+    const double middle = 0.5 * (low + high);
+    (is_stable(middle) ? low : high) = middle;
+  }
+  return low;
+}
+
+}  // namespace
+
+bool settles(const WallDevice& device, double stiffness) {
+  const core_f64::Plant plant = plant_of(device);
+  const core_f64::Wall wall = wall_of(device, stiffness);
+  const core_f64::Propagator by = core_f64::propagator(plant, wall.period);
+  // far from its rest against what the encoder and friction blur, and less than it is pressed in, so that a loop that settles stays in
+  // contact
+  const double away = std::max({1e-3, 100 * device.encoder_step, 20 * device.coulomb / stiffness});
+  const double press = 2 * (stiffness + plant.stiffness) * away;
+  core_f64::LoopState state;
+  state.motion.place = 3 * away;
+  state.reading = state.motion.place;
+  // the loop as it would be at rest there
+  for (int k = 0; k < device.delay; ++k) state.waiting[k] = core_f64::wall_force(wall, state.motion.place, 0);
+  const double begin = core_f64::loop_energy(plant, wall, state.motion, press);
+  double late = 0;
+  for (int sample = 0; sample < WALL_SAMPLES; ++sample) {
+    state = core_f64::step_loop(plant, by, wall, state, press, device.coulomb);
+    const double energy = core_f64::loop_energy(plant, wall, state.motion, press);
+    if (!std::isfinite(energy)) return false;
+    if (sample >= WALL_SAMPLES - WALL_SAMPLES / 4) late = std::max(late, energy);
+  }
+  const double blur = 2 * device.encoder_step + device.coulomb / stiffness;
+  return late <= std::max(begin, 0.5 * (stiffness + plant.stiffness) * blur * blur);
+}
+
+// |M^n|^(1/n) for n = 2^30, by squaring; kept from overflow by the logarithm of what is divided out.
+double spectral_radius(const WallDevice& device, double stiffness) {
+  Matrix matrix = loop_matrix(device, stiffness);
+  double logarithm = 0, power = 1;
+  for (int k = 0; k < 30; ++k) {
+    const double size = largest_entry(matrix);
+    if (size == 0) return 0;
+    for (auto& row : matrix)
+      for (double& value : row) value /= size;
+    logarithm += std::log(size) / power;
+    matrix = squared(matrix);
+    power *= 2;
+  }
+  const double size = largest_entry(matrix);
+  return size > 0 ? std::exp(logarithm + std::log(size) / power) : 0;
+}
+
+WallLimits wall_limits(const WallDevice& device) {
+  const double period = 1 / device.rate;
+  WallLimits limits;
+  limits.passive = std::max(0.0, 2 * (device.damping - std::abs(device.wall_damping)) / period);
+  limits.coulomb = 2 * device.damping / period;
+  if (device.encoder_step > 0) limits.coulomb = std::min(limits.coulomb, 2 * device.coulomb / device.encoder_step);
+  limits.linear = largest_stiffness([&](double stiffness) { return spectral_radius(device, stiffness) <= 1; });
+  limits.simulated = largest_stiffness([&](double stiffness) { return settles(device, stiffness); });
+  return limits;
+}
+
+std::string wall_json(const WallLimits& limits) {
+  const auto number = [](double value) { return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(); };
+  nlohmann::ordered_json json;
+  json["largest_stable_K_Npm"] = number(limits.simulated);
+  json["passive_K_Npm"] = number(limits.passive);
+  json["linear_K_Npm"] = number(limits.linear);
+  json["coulomb_K_Npm"] = number(limits.coulomb);
+  return json.dump() + "\n";
+}
+
+std::string wall_table(const WallDevice& device, const WallLimits& limits) {
+  const auto number = [](double value) { return std::isfinite(value) ? fmt::format("{:.1f}", value) : std::string("no limit"); };
+  return fmt::format(
+      "Stiffest wall of a device of {:g} kg and {:g} N s/m at {:g} Hz, N/m:\n"
+      "  settles in simulation      {:>12}\n"
+      "  passive, whoever holds it  {:>12}\n"
+      "  linear loop's eigenvalues  {:>12}\n"
+      "  encoder and friction       {:>12}\n",
+      device.mass, device.damping, device.rate, number(limits.simulated), number(limits.passive), number(limits.linear),
+      number(limits.coulomb));
+}
+
+}  // namespace wholehand

@@ -1,0 +1,41 @@
+// How stiff a wall one axis of a haptic device can render.
+#pragma once
+
+#include <string>
+
+namespace wholehand {
+
+// One axis of a device and, where there is one, the finger on it; SI.
+struct WallDevice {
+  double mass = 0.1;        // m, kg
+  double damping = 1;       // b, N s/m
+  double rate = 1000;       // samples a second, Hz
+  double wall_damping = 0;  // B of the rendered wall, N s/m
+  int delay = 0;            // whole samples
+  double encoder_step = 0;  // D, m
+  double coulomb = 0;       // f_c, N
+  double finger_mass = 0, finger_damping = 0, finger_stiffness = 0;
+};
+
+// Largest stiffness of the wall, N/m; infinite where nothing limits it.
+struct WallLimits {
+  double simulated = 0;  // up to which a press against the wall settles
+  double passive = 0;    // b > K T / 2 + |B|: whoever holds the device (Colgate & Schenkel)
+  double linear = 0;     // the sampled loop's eigenvalues within the unit circle, the finger included
+  double coulomb = 0;    // min(2 b / T, 2 f_c / D) (Abbott & Okamura); the second where D > 0
+};
+
+// Whether a device that is pressed against a wall of that stiffness and let go off its rest settles: the energy about its rest, over
+// the last quarter of WALL_SAMPLES samples, is no larger than at the start, or than two steps of the encoder and the friction's band hold.
+bool settles(const WallDevice& device, double stiffness);
+constexpr int WALL_SAMPLES = 20000;
+
+// The magnitude of the linear loop's largest eigenvalue (no encoder, no friction).
+double spectral_radius(const WallDevice& device, double stiffness);
+
+WallLimits wall_limits(const WallDevice& device);
+
+std::string wall_json(const WallLimits& limits);                             // one line; null where nothing limits
+std::string wall_table(const WallDevice& device, const WallLimits& limits);  // for people
+
+}  // namespace wholehand
