@@ -25,6 +25,18 @@ std::string folder_of(const std::string& path) {
   return slash == 0 ? "/" : path.substr(0, slash);
 }
 
+// Root may write anywhere, and still not make a file in every folder.
+void try_folder(const std::string& asked, const std::string& folder) {
+  std::string trial = folder + "/.wholehand-XXXXXX";
+  const int file = mkstemp(trial.data());
+  if (file < 0) {
+    throw failure_error(
+        fmt::format("-o {}: cannot make a file in {}: {}; name a place elsewhere", asked, folder, std::strerror(errno)));
+  }
+  close(file);
+  unlink(trial.c_str());
+}
+
 }  // namespace
 
 OutputNames output_names(const std::string& result) {
@@ -49,15 +61,20 @@ void check_output_path(const std::string& path) {
   if (access(folder.c_str(), W_OK | X_OK) != 0) {
     throw failure_error(fmt::format("-o {}: cannot write to {}: {}; name a file elsewhere", path, folder, std::strerror(errno)));
   }
-  // root may write anywhere, and still not make a file in every folder
-  std::string trial = folder + "/.wholehand-XXXXXX";
-  const int file = mkstemp(trial.data());
-  if (file < 0) {
-    throw failure_error(
-        fmt::format("-o {}: cannot make a file in {}: {}; name a file elsewhere", path, folder, std::strerror(errno)));
+  try_folder(path, folder);
+}
+
+void make_output_folder(const std::string& path) {
+  if (path.empty()) throw usage_error("-o: name a folder");
+  if (mkdir(path.c_str(), 0777) != 0 && errno != EEXIST) {
+    const ExitCode code = errno == ENOENT || errno == ENOTDIR ? ExitCode::usage : ExitCode::failure;
+    throw Error(code, fmt::format("-o {}: cannot make that folder: {}; name one elsewhere", path, std::strerror(errno)));
   }
-  close(file);
-  unlink(trial.c_str());
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0 || !S_ISDIR(status.st_mode)) {
+    throw usage_error(fmt::format("-o {}: is there and is not a folder; name another", path));
+  }
+  try_folder(path, path);
 }
 
 double free_bytes(const std::string& path) {

@@ -22,6 +22,10 @@ OutputNames output_names(const std::string& result);
 // regular file (a directory, a device).
 void check_output_path(const std::string& path);
 
+// Makes the folder where it is missing. Throws Error: (usage) its parent is missing, or a file is there; (failure) no file can be made
+// in it.
+void make_output_folder(const std::string& path);
+
 // Bytes free for this user on the disk that holds `path`'s folder; the file-size limit of the process if that is less.
 double free_bytes(const std::string& path);
 

@@ -5,12 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <csignal>
-#include <cstdio>
 #include <iterator>
 
-#include <sys/wait.h>
-#include <unistd.h>
+#include "sweeps/gnuplot.h"
 
 namespace wholehand {
 namespace {
@@ -21,18 +18,6 @@ constexpr const char* PALETTE =
     "7 '#6ece58', 8 '#b5de2b', 9 '#fde725')\n";
 constexpr const char* INFEASIBLE_COLOR = "#d4d4d4";
 constexpr const char* IMPLAUSIBLE_COLOR = "#8c8c8c";
-
-std::string temporary_name(const std::string& file) { return file + ".partial"; }
-
-// In gnuplot's single quotes a quote is doubled and nothing else is special; a line break would end the command.
-std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) {
-    if (c == '\'') result += '\'';
-    result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return result + "'";
-}
 
 struct Range {
   double low = 0, high = 1;
@@ -56,20 +41,6 @@ Range score_range(const std::vector<HeatMapPicture>& pictures) {
   high = std::ceil(high * 20) / 20;
   return {low, high > low ? high : low + 0.05};
 }
-
-// A broken pipe is an exit status here, not a signal.
-class IgnorePipeSignal {
- public:
-  IgnorePipeSignal() {
-    struct sigaction ignore {};
-    ignore.sa_handler = SIG_IGN;
-    sigaction(SIGPIPE, &ignore, &before_);
-  }
-  ~IgnorePipeSignal() { sigaction(SIGPIPE, &before_, nullptr); }
-
- private:
-  struct sigaction before_ {};
-};
 
 }  // namespace
 
@@ -111,26 +82,23 @@ std::string heat_map_script(const std::vector<HeatMapPicture>& pictures) {
   std::string script;
   auto out = std::back_inserter(script);
   const Range range = score_range(pictures);
-  fmt::format_to(
-      out,
-      "set encoding utf8\n"
-      "set terminal svg size 720,515 fixed noenhanced background '#ffffff' font 'DejaVu Sans,Arial,sans-serif' fontscale 1\n"
-      "{}set cbrange [{}:{}]\n"
-      "set border linecolor '#202020'\nset tics textcolor '#202020' out nomirror\n"
-      "set xlabel 'roll / deg' textcolor '#202020'\nset ylabel 'height / mm' textcolor '#202020'\n"
-      "set cblabel 'best score' textcolor '#202020'\n"
-      "set style fill solid 1.0 noborder\n"
-      "set key at graph 1, screen 0.025 right bottom horizontal textcolor '#202020'\n"
-      "set lmargin 11\nset rmargin 13\nset bmargin 6\n"
-      "set object 1 rectangle from graph 0,0 to graph 1,1 behind fillcolor '{}' fillstyle solid noborder\n",
-      PALETTE, range.low, range.high, INFEASIBLE_COLOR);
+  script += gnuplot_style(720, 515);
+  fmt::format_to(out,
+                 "{}set cbrange [{}:{}]\n"
+                 "set xlabel 'roll / deg' textcolor '#202020'\nset ylabel 'height / mm' textcolor '#202020'\n"
+                 "set cblabel 'best score' textcolor '#202020'\n"
+                 "set style fill solid 1.0 noborder\n"
+                 "set key at graph 1, screen 0.025 right bottom horizontal textcolor '#202020'\n"
+                 "set lmargin 11\nset rmargin 13\nset bmargin 6\n"
+                 "set object 1 rectangle from graph 0,0 to graph 1,1 behind fillcolor '{}' fillstyle solid noborder\n",
+                 PALETTE, range.low, range.high, INFEASIBLE_COLOR);
   for (const HeatMapPicture& picture : pictures) {
     const HeatMap& map = *picture.map;
     const MapAxis &heights = map.heights(), &rolls = map.rolls();
     const auto y = [&](std::size_t edge) { return heights.edge(edge) * picture.height_unit * 1e3; };  // mm
     const auto x = [&](std::size_t edge) { return degrees(rolls.edge(edge)); };
-    fmt::format_to(out, "set output {}\nset title {} textcolor '#202020'\nset xrange [{}:{}]\nset yrange [{}:{}]\n",
-                   quoted(temporary_name(picture.file)), quoted(picture.title), x(0), x(rolls.cells()), y(0), y(heights.cells()));
+    fmt::format_to(out, "{}set title {} textcolor '#202020'\nset xrange [{}:{}]\nset yrange [{}:{}]\n",
+                   gnuplot_output(picture.file), gnuplot_quoted(picture.title), x(0), x(rolls.cells()), y(0), y(heights.cells()));
     fmt::format_to(out,
                    "plot '-' using 1:2:3:4:5:6:7 with boxxyerror fillcolor palette notitle, "
                    "'-' using 1:2:3:4:5:6 with boxxyerror fillcolor '{}' notitle, "
@@ -157,24 +125,9 @@ std::string heat_map_script(const std::vector<HeatMapPicture>& pictures) {
 
 std::string draw_heat_maps(const std::vector<HeatMapPicture>& pictures) {
   if (pictures.empty()) return {};
-  const std::string script = heat_map_script(pictures);
-  const IgnorePipeSignal ignore;
-  // flush first: the child must not inherit what the parent has still to print
-  std::fflush(nullptr);
-  FILE* pipe = popen("exec gnuplot >/dev/null 2>&1", "w");
-  if (!pipe) return "no heat maps: cannot start gnuplot";
-  std::fwrite(script.data(), 1, script.size(), pipe);
-  const int status = pclose(pipe);
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 127) return "no heat maps: gnuplot is not installed (package gnuplot-nox)";
-  bool drawn = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-  for (const HeatMapPicture& picture : pictures) {
-    const std::string temporary = temporary_name(picture.file);
-    if (!drawn || std::rename(temporary.c_str(), picture.file.c_str()) != 0) {
-      drawn = false;
-      unlink(temporary.c_str());
-    }
-  }
-  return drawn ? "" : "no heat maps: gnuplot failed to write " + pictures.front().file;
+  std::vector<std::string> files;
+  for (const HeatMapPicture& picture : pictures) files.push_back(picture.file);
+  return draw_with_gnuplot(heat_map_script(pictures), files);
 }
 
 }  // namespace wholehand

@@ -33,6 +33,27 @@ TEST(Files, NamesGoTogether) {
   EXPECT_EQ(output_names(".nc").best, ".nc.best.csv");
 }
 
+TEST(Files, FoldersAreMadeOrRefused) {
+  const TemporaryFolder folder;
+  const auto refused_folder = [](const std::string& path) {
+    try {
+      make_output_folder(path);
+    } catch (const Error& error) {
+      return error.code;
+    }
+    return ExitCode::done;
+  };
+  EXPECT_EQ(refused_folder(folder / "new"), ExitCode::done);
+  EXPECT_TRUE(std::filesystem::is_directory(folder / "new"));
+  EXPECT_EQ(refused_folder(folder / "new"), ExitCode::done) << "there already";
+  EXPECT_EQ(refused_folder(folder / "missing/new"), ExitCode::usage);
+  std::ofstream(folder / "file") << "x";
+  EXPECT_EQ(refused_folder(folder / "file"), ExitCode::usage);
+  EXPECT_EQ(refused_folder(folder / "file/new"), ExitCode::usage);
+  EXPECT_EQ(refused_folder(""), ExitCode::usage);
+  EXPECT_EQ(refused_folder("/proc/wholehand"), ExitCode::usage) << "no such file or directory, says the kernel";
+}
+
 TEST(Files, PathsThatCannotBecomeFilesAreRefused) {
   const TemporaryFolder folder;
   EXPECT_EQ(refused(folder / "new.nc"), ExitCode::done);
