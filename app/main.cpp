@@ -34,7 +34,7 @@ int report(ExitCode code, std::string line) {
 // The command that the arguments name, for the hint at its help; "" before one is known.
 std::string command_name(const CLI::App& app) {
   const auto commands = app.get_subcommands();
-  return commands.empty() ? "" : " " + commands.front()->get_name();
+  return commands.empty() ? "" : " " + commands.front()->get_name() + command_name(*commands.front());
 }
 
 int run(int argc, char** argv) {

@@ -34,7 +34,9 @@ void read_score(const SceneTable& root, bool has_tilts, ScoreWeights& weights) {
   const double still = weights.fingers + weights.contacts + weights.depth + weights.posture;
   if (still > 0 || (has_tilts && still + weights.force + weights.hold > 0)) return;
   root.file().refuse(table->place(),
-                     has_tilts ? "[score] gives no term a weight" : "[score] weighs only force and hold, and there are no [tilts]",
+                     has_tilts || weights.force + weights.hold == 0
+                         ? "[score] gives no term a weight"
+                         : "[score] weighs only force and hold, and there are no [tilts]",
                      "allowed: at least one weight above 0 that counts");
 }
 

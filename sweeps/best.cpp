@@ -17,18 +17,26 @@ namespace {
 
 constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
 
+// The scene's own number for a tilt that a device tells in its precision; NaN stays.
+double listed(double told, const std::vector<double>& tilts) {
+  if (std::isnan(told)) return told;
+  return *std::min_element(tilts.begin(), tilts.end(),
+                           [told](double a, double b) { return std::abs(a - told) < std::abs(b - told); });
+}
+
 // Forces and tilts of grip i: the worst over the fills.
-void read_forces(const PlaneChunk& chunk, const FieldSet& fields, std::size_t i, int fills, BestGrip& best) {
+void read_forces(const PlaneChunk& chunk, const FieldSet& fields, std::size_t i, int fills, const std::vector<double>& tilts,
+                 BestGrip& best) {
   best.peak_force = best.largest_hold = -1;
   best.safe_tilt = std::numeric_limits<double>::infinity();
   for (int fill = 0; fill < fills; ++fill) {
     const auto real = [&](int field) { return chunk.real(fields.plane[field] + fill, i); };
     if (real(FIELD_PEAK_FORCE) > best.peak_force) {
       best.peak_force = real(FIELD_PEAK_FORCE);
-      best.peak_tilt = real(FIELD_PEAK_TILT);
+      best.peak_tilt = listed(real(FIELD_PEAK_TILT), tilts);
     }
     best.largest_hold = std::max(best.largest_hold, real(FIELD_LARGEST_HOLD));
-    const double safe = real(FIELD_SAFE_TILT);
+    const double safe = listed(real(FIELD_SAFE_TILT), tilts);
     if (std::isnan(safe) || safe < best.safe_tilt) best.safe_tilt = safe;
     if (std::isnan(safe)) break;
   }
@@ -44,9 +52,10 @@ BestGrip read_best(const PlaneChunk& chunk, const FieldSet& fields, std::size_t 
   best.phalanx_depth = real(FIELD_PHALANX_DEPTH);
   best.palm_depth = real(FIELD_PALM_DEPTH);
   best.fingers_used = std::popcount(chunk.uint(fields.plane[FIELD_USED_MASK], i));
+  best.antipodal = (chunk.uint(fields.plane[FIELD_STATUS], i) & STATUS_ANTIPODAL) != 0;
   best.points_touching = std::popcount(chunk.uint(fields.plane[FIELD_TOUCH_MASK], i));
   best.peak_force = best.peak_tilt = best.largest_hold = best.safe_tilt = NOT_A_NUMBER;
-  if (!scene.tilts.empty()) read_forces(chunk, fields, i, static_cast<int>(scene_fills(scene)), best);
+  if (!scene.tilts.empty()) read_forces(chunk, fields, i, static_cast<int>(scene_fills(scene)), scene.tilts, best);
   return best;
 }
 
@@ -112,7 +121,7 @@ std::string best_csv(const Scene& scene, const std::vector<std::vector<BestGrip>
       "vessel,rank,height_mm,azimuth_deg,obliquity_deg,roll_deg,offset_mm,hand_scale,score,score_fingers,score_contacts,score_"
       "depth,"
       "score_posture,score_force,score_hold,closure,gap_mm,fingers_used,points_touching,phalanx_depth_mm,palm_depth_mm,"
-      "peak_feedback_force_N,peak_feedback_tilt_deg,largest_hold_force_N,largest_safe_tilt_deg\n";
+      "peak_feedback_force_N,peak_feedback_tilt_deg,largest_hold_force_N,largest_safe_tilt_deg,antipodal\n";
   for (std::size_t v = 0; v < vessels.size(); ++v) {
     for (std::size_t rank = 0; rank < vessels[v].size(); ++rank) {
       const BestGrip& best = vessels[v][rank];
@@ -124,9 +133,10 @@ std::string best_csv(const Scene& scene, const std::vector<std::vector<BestGrip>
         const bool absent = term >= 4 && scene.tilts.empty();  // force and hold
         numbers.push_back(absent ? std::nan("") : best.terms[term]);
       }
-      numbers.insert(numbers.end(), {best.closure, best.gap * 1e3, static_cast<double>(best.fingers_used),
-                                     static_cast<double>(best.points_touching), best.phalanx_depth * 1e3, best.palm_depth * 1e3,
-                                     best.peak_force, degrees(best.peak_tilt), best.largest_hold, degrees(best.safe_tilt)});
+      numbers.insert(numbers.end(),
+                     {best.closure, best.gap * 1e3, static_cast<double>(best.fingers_used),
+                      static_cast<double>(best.points_touching), best.phalanx_depth * 1e3, best.palm_depth * 1e3, best.peak_force,
+                      degrees(best.peak_tilt), best.largest_hold, degrees(best.safe_tilt), best.antipodal ? 1.0 : 0.0});
       csv += fmt::format("{},{}", csv_text(scene.vessels[v].name), rank + 1);
       for (const double number : numbers) csv += "," + csv_number(number);
       csv += '\n';
@@ -157,6 +167,9 @@ std::string best_table(const Scene& scene, const Plan& plan, const std::vector<B
                      {"closure", [](const BestGrip& b) { return fixed(b.closure, 2); }},
                      {"gap mm", [](const BestGrip& b) { return fixed(b.gap * 1e3, 1); }},
                  });
+  // with tilts an infinite hold says it
+  if (scene.tilts.empty())
+    columns.push_back({"antipodal", [](const BestGrip& b) { return std::string(b.antipodal ? "yes" : "no"); }});
   if (!scene.tilts.empty()) {
     columns.insert(columns.end(), {
                                       {"peak N", [](const BestGrip& b) { return fixed(b.peak_force, 2); }},

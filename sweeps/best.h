@@ -18,6 +18,7 @@ struct BestGrip {
   double closure = 0;
   double gap = 0;  // m
   int fingers_used = 0, points_touching = 0;
+  bool antipodal = false;
   double phalanx_depth = 0, palm_depth = 0;  // m
   double peak_force = 0;                     // largest feedback force, N
   double peak_tilt = 0;                      // of it, rad

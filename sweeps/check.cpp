@@ -15,15 +15,38 @@ namespace {
 constexpr std::size_t GRIPS_PER_VESSEL = 1536;
 
 // Grips spread evenly over the plan; a step that shares no factor with the axes' lengths, so that every axis varies.
-std::vector<GripInput> sample_grips(const Plan& plan, std::size_t vessel) {
+std::uint64_t sample_index(const Plan& plan, std::size_t i) {
   const std::uint64_t all = plan.grips();
-  const std::size_t count = static_cast<std::size_t>(std::min<std::uint64_t>(all, GRIPS_PER_VESSEL));
+  return all <= GRIPS_PER_VESSEL ? i : (i * 2654435761u + 12345u) % all;
+}
+
+std::vector<GripInput> sample_grips(const Plan& plan, std::size_t vessel) {
+  const std::uint64_t count = std::min<std::uint64_t>(plan.grips(), GRIPS_PER_VESSEL);
   std::vector<GripInput> grips;
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::uint64_t index = (i * 2654435761u + 12345u) % all;
-    grips.push_back(plan.grip(vessel, count == all ? i : index));
-  }
+  for (std::size_t i = 0; i < count; ++i) grips.push_back(plan.grip(vessel, sample_index(plan, i)));
   return grips;
+}
+
+// Where a row is at its worst, as the options of `grip` (a state of the liquid: its fill and tilt).
+std::string place_of(const Comparison& row, const Scene& scene, const Plan& plan) {
+  const std::string& name = scene.vessels[row.vessel].name;
+  if (row.compared == 0) return "-";
+  if (row.kernel == "liquid") {
+    const std::size_t tilts = scene.tilts.size();
+    return fmt::format("{}, fill {:g}, tilt {:g} deg", name, scene.liquid->fills[row.grip / tilts],
+                       degrees(scene.tilts[row.grip % tilts]));
+  }
+  const GripInput grip = plan.grip(row.vessel, sample_index(plan, row.grip));
+  std::string place = fmt::format("{} --height-mm {:.9g}", name, grip.height * 1e3);
+  const auto add = [&place](const char* option, double value, double usual) {
+    if (value != usual) place += fmt::format(" {} {:.9g}", option, value);
+  };
+  add("--azimuth-deg", degrees(grip.azimuth), 0);
+  add("--obliquity-deg", degrees(grip.obliquity), 0);
+  add("--roll-deg", degrees(grip.roll), 0);
+  add("--offset-mm", grip.offset * 1e3, 0);
+  add("--hand-scale", grip.hand_scale, 1);
+  return place;
 }
 
 std::vector<LiquidResult> core_liquid(const Scene& scene, const Evaluator& core, std::size_t vessel) {
@@ -34,13 +57,13 @@ std::vector<LiquidResult> core_liquid(const Scene& scene, const Evaluator& core,
   return states;
 }
 
-void print_comparison(const std::string& title, const Scene& scene, const Comparer& comparer) {
+void print_comparison(const std::string& title, const Scene& scene, const Comparer& comparer, const Plan& plan) {
   fmt::print("\n{}: {}\n", title, comparer.holds() ? "holds" : "DOES NOT HOLD");
   fmt::print("  {:<11} {:<18} {:>12} {:>12} {:<6} {:>9} {:>9} {:>8}  {}\n", "kernel", "quantity", "worst", "tolerance", "",
              "of its own", "compared", "outside", "worst at");
   for (const Comparison& row : comparer.rows()) {
-    fmt::print("  {:<11} {:<18} {:>12.4g} {:>12.4g} {:<6} {:>9.3f} {:>9} {:>8}  {} #{}\n", row.kernel, row.quantity, row.worst,
-               row.tolerance, row.unit, row.worst_ratio, row.compared, row.outside, scene.vessels[row.vessel].name, row.grip);
+    fmt::print("  {:<11} {:<18} {:>12.4g} {:>12.4g} {:<6} {:>9.3f} {:>9} {:>8}  {}\n", row.kernel, row.quantity, row.worst,
+               row.tolerance, row.unit, row.worst_ratio, row.compared, row.outside, place_of(row, scene, plan));
   }
   fmt::print(
       "  {} grips; {} graze the glass and are left out; in {} a discrete outcome differs within the margin (at most 1 in 1,000 "
@@ -63,6 +86,7 @@ ExitCode run_check(const Scene& scene, const CheckOptions& options) {
   fmt::print("{}: {} ({}){}, against the core; up to {} grips of each vessel, every plane\n",
              scene.name.empty() ? "check" : scene.name, on_float.info().device, on_float.info().driver,
              on_float.info().is_cpu ? ", a CPU driver" : "", GRIPS_PER_VESSEL);
+  std::fflush(stdout);
   std::unique_ptr<host::GripBackend> on_double;
   if (on_float.device().float64) {
     backend_options.precision = Precision::full;
@@ -86,10 +110,10 @@ ExitCode run_check(const Scene& scene, const CheckOptions& options) {
     exact.add(v, grips, gather(*on_double, v, grips), full);
     if (!scene.tilts.empty()) exact.add_liquid(v, on_double->liquid(v), liquid);
   }
-  print_comparison("device float against core float (is the translation right?)", scene, translation);
-  print_comparison("core float against core double (what does single precision cost?)", scene, cost);
+  print_comparison("device float against core float (is the translation right?)", scene, translation, plan);
+  print_comparison("core float against core double (what does single precision cost?)", scene, cost, plan);
   if (on_double) {
-    print_comparison("device double against core double", scene, exact);
+    print_comparison("device double against core double", scene, exact, plan);
   } else {
     fmt::print("\nthe device has no double precision: the third comparison is left out\n");
   }

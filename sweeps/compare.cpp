@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include "sweeps/liquid_floors.h"
 
@@ -57,6 +58,8 @@ constexpr double ROUNDINGS = 64;
 bool differs(const GatheredPlanes& a, const GatheredPlanes& b, std::size_t i) {
   return std::any_of(DISCRETE.begin(), DISCRETE.end(), [&](int field) { return a.uint(field, i) != b.uint(field, i); });
 }
+
+bool grazes(const GatheredPlanes& planes, std::size_t i) { return (planes.uint(FIELD_STATUS, i) & STATUS_GRAZING) != 0; }
 
 // The grip moved by `shift` m in every way that matters: along and about its axes, and in size.
 std::vector<GripInput> moved(const std::vector<GripInput>& grips, int way, double shift, double length) {
@@ -200,13 +203,16 @@ void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, cons
   const double shift = allowed_.stop_tolerance + ROUNDINGS * allowed_.epsilon * size;
   const GatheredPlanes truth = gather(core_, fields, vessel, grips);
   std::vector<double> spread(truth.reals.size(), 0.0);
-  std::vector<char> undecided(n, 0);
+  std::vector<char> undecided(n, 0), may_graze(n, 0);
   const auto spread_to = [&](const GatheredPlanes& other, int first_plane, int planes) {
     for (std::size_t k = first_plane * n; k < (first_plane + planes) * n; ++k) {
       const double difference = apart(other.reals[k], truth.reals[k]);
       if (std::isfinite(difference)) spread[k] = std::max(spread[k], difference);  // else another outcome: undecided
     }
-    for (std::size_t i = 0; i < n; ++i) undecided[i] |= differs(other, truth, i) ? 1 : 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      undecided[i] |= differs(other, truth, i) ? 1 : 0;
+      may_graze[i] |= grazes(other, i) ? 1 : 0;
+    }
   };
   for (int way = 0; way < WAYS; ++way)
     spread_to(gather(core_, fields, vessel, moved(grips, way, shift, length)), 0, fields.real_planes);
@@ -223,7 +229,8 @@ void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, cons
   for (std::size_t i = 0; i < n; ++i) {
     ++grips_;
     feasible_ += (truth.uint(FIELD_STATUS, i) & STATUS_REASON_MASK) == REASON_NONE ? 1 : 0;
-    if (((a.uint(FIELD_STATUS, i) | b.uint(FIELD_STATUS, i) | truth.uint(FIELD_STATUS, i)) & STATUS_GRAZING) != 0) {
+    // by the core, or by a side where the core's own answer is that near to grazing: a side alone may not take a grip out
+    if (grazes(truth, i) || (may_graze[i] != 0 && (grazes(a, i) || grazes(b, i)))) {
       ++grazing_;
       left_out[i] = 1;
       continue;
@@ -309,15 +316,25 @@ void Comparer::add_tilts(std::size_t vessel, const GatheredPlanes& a, const Gath
     bool peak_over = false, safe_over = false;
     for (int fill = 0; fill < static_cast<int>(scene_fills(scene_)); ++fill) {
       const std::size_t first = fill * tilts;
-      const std::size_t peak_a = first + tilt_told(a.real(fields.plane[FIELD_PEAK_TILT] + fill, i)) - 1,
-                        peak_b = first + tilt_told(b.real(fields.plane[FIELD_PEAK_TILT] + fill, i)) - 1;
+      const auto told = [&](const GatheredPlanes& side, int field) { return tilt_told(side.real(fields.plane[field] + fill, i)); };
+      const std::optional<std::size_t> told_a = told(a, FIELD_PEAK_TILT), told_b = told(b, FIELD_PEAK_TILT);
+      constexpr double WRONG = std::numeric_limits<double>::infinity();
+      if (told_a.value_or(0) == 0 || told_b.value_or(0) == 0) {
+        peak_over |= note_difference(peak, 1e3, vessel, i, WRONG, 0);
+        continue;
+      }
+      const std::size_t peak_a = first + *told_a - 1, peak_b = first + *told_b - 1;
       const auto feedback = [&](std::size_t state) {
         return b.real(fields.plane[FIELD_FEEDBACK_FORCE] + static_cast<int>(state), i);
       };
       peak_over |= note_difference(peak, 1e3, vessel, i, std::max(0.0, feedback(peak_b) - feedback(peak_a)),
                                    tolerance(FIELD_FEEDBACK_FORCE, peak_a, i) + tolerance(FIELD_FEEDBACK_FORCE, peak_b, i));
-      const std::size_t safe_a = tilt_told(a.real(fields.plane[FIELD_SAFE_TILT] + fill, i)),
-                        safe_b = tilt_told(b.real(fields.plane[FIELD_SAFE_TILT] + fill, i));
+      const std::optional<std::size_t> safe_told_a = told(a, FIELD_SAFE_TILT), safe_told_b = told(b, FIELD_SAFE_TILT);
+      if (!safe_told_a || !safe_told_b) {
+        safe_over |= note_difference(safe, 1e3, vessel, i, WRONG, 0);
+        continue;
+      }
+      const std::size_t safe_a = *safe_told_a, safe_b = *safe_told_b;
       if (safe_a == safe_b) continue;
       // the first state that one side calls unsafe and the other does not
       const GatheredPlanes& stricter = safe_a < safe_b ? a : b;
@@ -334,11 +351,13 @@ void Comparer::add_tilts(std::size_t vessel, const GatheredPlanes& a, const Gath
   }
 }
 
-// How many of the listed tilts a told one stands for: its place from 1, or 0 where none is told.
-std::size_t Comparer::tilt_told(double told) const {
+// The place of a told tilt among the listed ones, from 1; 0 where none is told, and nothing where what is told is not one of them, which
+// are handed through and at most rounded to the coarser precision.
+std::optional<std::size_t> Comparer::tilt_told(double told) const {
   if (std::isnan(told)) return 0;
   const auto nearest = std::min_element(scene_.tilts.begin(), scene_.tilts.end(),
                                         [told](double a, double b) { return std::abs(a - told) < std::abs(b - told); });
+  if (!(std::abs(*nearest - told) <= 4 * allowed_.epsilon * PI)) return std::nullopt;
   return static_cast<std::size_t>(nearest - scene_.tilts.begin()) + 1;
 }
 
@@ -367,7 +386,7 @@ void Comparer::add_liquid(std::size_t vessel, const std::vector<LiquidResult>& a
 
 bool Comparer::holds() const {
   const bool inside = std::all_of(rows_.begin(), rows_.end(), [](const Comparison& r) { return r.outside == 0; });
-  return inside && excluded_ * 1000 <= grips_;
+  return inside && excluded_ * 1000 <= grips_ && (grazing_ < grips_ || grips_ == 0);
 }
 
 }  // namespace wholehand

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -54,8 +55,9 @@ class Comparer {
  public:
   Comparer(const Scene& scene, const Evaluator& core, Allowance allowed);
 
-  // `a` and `b` evaluate `grips` of the vessel. Grips that graze are left out and counted, as are those whose discrete outcomes differ
-  // where the core's own change within the allowance (excluded); differing ones beyond that count as outside.
+  // `a` and `b` evaluate `grips` of the vessel. Grips that graze by the core, or within the
+  // allowance of that, are left out and counted, as are those whose discrete outcomes differ where the core's own change within the
+  // allowance (excluded); differing ones beyond that count as outside.
   void add(std::size_t vessel, const std::vector<GripInput>& grips, const GatheredPlanes& a, const GatheredPlanes& b);
   void add_liquid(std::size_t vessel, const std::vector<LiquidResult>& a, const std::vector<LiquidResult>& b);
 
@@ -64,7 +66,7 @@ class Comparer {
   std::uint64_t grazing() const { return grazing_; }
   std::uint64_t feasible() const { return feasible_; }  // by the core
   std::uint64_t excluded() const { return excluded_; }  // discrete outcomes differ within the margin
-  // No number outside its tolerance, and at most one grip in 1,000 excluded.
+  // No number outside its tolerance, at most one grip in 1,000 excluded, and not all of them grazing.
   bool holds() const;
 
  private:
@@ -72,7 +74,7 @@ class Comparer {
                  const std::function<double(int field, std::size_t state, std::size_t grip)>& tolerance);
   double rests(int field, std::size_t k) const;
   double volume_tolerance(std::size_t vessel) const;
-  std::size_t tilt_told(double told) const;
+  std::optional<std::size_t> tilt_told(double told) const;
   Comparison& row(const std::string& kernel, const std::string& quantity, const std::string& unit);
 
   const Scene& scene_;

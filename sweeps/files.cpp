@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <vector>
 
 #include "core/error.h"
@@ -62,6 +63,16 @@ void check_output_path(const std::string& path) {
     throw failure_error(fmt::format("-o {}: cannot write to {}: {}; name a file elsewhere", path, folder, std::strerror(errno)));
   }
   try_folder(path, folder);
+}
+
+void check_overwrites_result(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  char head[8] = {};
+  file.read(head, sizeof head);
+  if (file.gcount() == 0) return;  // not there, or empty
+  // the signature of HDF5, which NetCDF-4 files are made of
+  if (file.gcount() == 8 && std::memcmp(head, "\x89HDF\r\n\x1a\n", 8) == 0) return;
+  throw usage_error(fmt::format("-o {}: is there and is no result file; name another, or remove it", path));
 }
 
 void make_output_folder(const std::string& path) {

@@ -22,6 +22,9 @@ OutputNames output_names(const std::string& result);
 // regular file (a directory, a device).
 void check_output_path(const std::string& path);
 
+// Throws Error (usage) where a file with something in it is there that is no result file (NetCDF-4, of any program): it is not overwritten.
+void check_overwrites_result(const std::string& path);
+
 // Makes the folder where it is missing. Throws Error: (usage) its parent is missing, or a file is there; (failure) no file can be made
 // in it.
 void make_output_folder(const std::string& path);

@@ -7,7 +7,8 @@
 
 namespace wholehand {
 
-// While it lives, the first SIGINT, SIGTERM or SIGHUP sets `flag()`; a second one ends the process as usual. At most one at a time.
+// While it lives, the first SIGINT, SIGTERM or SIGHUP sets `flag()`; another one that
+// comes a quarter of a second later or more ends the process as usual. At most one at a time.
 class InterruptGuard {
  public:
   InterruptGuard();

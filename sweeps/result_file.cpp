@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <hdf5/serial/hdf5.h>
+#include <netcdf.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -277,6 +278,35 @@ void ResultFile::finish() {
   rename_file(names_.partial, names_.result);
   sync_folder_of(names_.result);
   unlink(names_.mark.c_str());
+}
+
+FinishedResult read_finished(const std::string& path, const std::vector<std::string>& variables) {
+  const auto refuse = [&path] {
+    return usage_error(
+        fmt::format("-o {}: is there and is no result of a sweep; name another file, or start without --resume", path));
+  };
+  struct File {
+    explicit File(const std::string& name) : status(nc_open(name.c_str(), NC_NOWRITE, &id)) {}
+    ~File() {
+      if (status == NC_NOERR) nc_close(id);
+    }
+    int id = -1, status;
+  } file(path);
+  if (file.status != NC_NOERR) throw refuse();
+  const auto text = [&](const char* name) {
+    std::size_t length = 0;
+    nc_type type = NC_NAT;
+    if (nc_inq_att(file.id, NC_GLOBAL, name, &type, &length) != NC_NOERR || type != NC_CHAR) throw refuse();
+    std::string value(length, ' ');
+    if (length > 0 && nc_get_att_text(file.id, NC_GLOBAL, name, value.data()) != NC_NOERR) throw refuse();
+    return value;
+  };
+  FinishedResult finished{text("scene"), text("backend"), text("precision"), {}};
+  for (const std::string& name : variables) {
+    int id = -1;
+    if (nc_inq_varid(file.id, name.c_str(), &id) != NC_NOERR) finished.missing.push_back(name);
+  }
+  return finished;
 }
 
 }  // namespace wholehand

@@ -70,4 +70,12 @@ class ResultFile {
   double seconds_ = 0;
 };
 
+// What a finished result file says it holds: the texts of `scene`, `backend` and `precision`, and `variables` that it lacks of those named.
+// Throws Error (usage) where it is not a result file.
+struct FinishedResult {
+  std::string scene, backend, precision;
+  std::vector<std::string> missing;
+};
+FinishedResult read_finished(const std::string& path, const std::vector<std::string>& variables);
+
 }  // namespace wholehand

@@ -53,6 +53,7 @@ class Sweep {
     std::signal(SIGXFSZ, SIG_IGN);
     check();
     if (is_finished()) {
+      check_finished();
       note(
           fmt::format("{} is complete: nothing to go on with; the same command without --resume computes it again", names_.result));
       return ExitCode::done;
@@ -86,6 +87,21 @@ class Sweep {
     return options_.resume && stat(names_.partial.c_str(), &file) != 0 && stat(names_.result.c_str(), &file) == 0;
   }
 
+  // The file that is whole must be of this sweep, as far as that is known without a device.
+  void check_finished() const {
+    std::vector<std::string> names;
+    for (const Variable* variable : variables_) names.push_back(variable->name);
+    const FinishedResult there = read_finished(names_.result, names);
+    const auto refuse = [this](const std::string& what) {
+      throw usage_error(fmt::format("--resume: {} is complete, of another {}; name another file, or start again without --resume",
+                                    names_.result, what));
+    };
+    if (there.scene != scene_.text) refuse("scene");
+    if ((there.backend == "core") != (options_.on == "core")) refuse("backend: " + there.backend);
+    if (there.precision != (precision() == Precision::single ? "float" : "double")) refuse("precision: " + there.precision);
+    if (!there.missing.empty()) refuse("set of variables: it lacks " + there.missing.front());
+  }
+
   // What can be refused before any work.
   void check() const {
     refuse_meshes(scene_);
@@ -96,6 +112,7 @@ class Sweep {
         read_from.st_dev == written_to.st_dev && read_from.st_ino == written_to.st_ino) {
       throw usage_error(fmt::format("-o {}: this is the scene file itself; name another file for the results", names_.result));
     }
+    check_overwrites_result(names_.result);
     struct stat partial {};
     const double reserved = stat(names_.partial.c_str(), &partial) == 0 ? static_cast<double>(partial.st_blocks) * 512 : 0;
     const std::size_t real_size = precision() == Precision::single ? sizeof(float) : sizeof(double);

@@ -33,7 +33,7 @@ class ForceBackend : public FakeBackend {
       put(FIELD_PEAK_FORCE, 0, 2);
       put(FIELD_PEAK_FORCE, 1, 3);
       put(FIELD_PEAK_TILT, 0, 0.1);
-      put(FIELD_PEAK_TILT, 1, 0.2);
+      put(FIELD_PEAK_TILT, 1, static_cast<float>(radians(30)));
       put(FIELD_LARGEST_HOLD, 0, std::numeric_limits<double>::infinity());
       put(FIELD_LARGEST_HOLD, 1, 5);
       put(FIELD_SAFE_TILT, 0, 1.5);
@@ -44,7 +44,7 @@ class ForceBackend : public FakeBackend {
     };
     return FakeBackend::run(changed);
   }
-  double safe = 1.2;
+  double safe = static_cast<float>(radians(60));
 };
 
 TEST(Best, ValuesComeFromThoseGripsAlone) {
@@ -73,9 +73,9 @@ TEST(Best, ForcesAreTheWorstOverTheFills) {
   ForceBackend backend(scene, make_field_set(best_fields(scene), scene), Precision::full, 1);
   BestGrip best = evaluate_best(backend, scene, plan, 0, {{0.9, 1}}).front();
   EXPECT_EQ(best.peak_force, 3);
-  EXPECT_EQ(best.peak_tilt, 0.2);
+  EXPECT_EQ(best.peak_tilt, scene.tilts[1]) << "the listed one that is told to a device's digits";
   EXPECT_TRUE(std::isinf(best.largest_hold));
-  EXPECT_EQ(best.safe_tilt, 1.2);
+  EXPECT_EQ(best.safe_tilt, scene.tilts[2]);
   backend.safe = std::nan("");
   EXPECT_TRUE(std::isnan(evaluate_best(backend, scene, plan, 0, {{0.9, 1}}).front().safe_tilt)) << "one fill has none";
 }
@@ -96,7 +96,8 @@ TEST(Best, CsvHasOneRowAVesselAndRankWithUnitsInItsHead) {
   EXPECT_TRUE(rows[1].starts_with("first vessel,1,50,45,-10,-90,-2,1.1,0.75,")) << rows[1];
   EXPECT_TRUE(rows[2].starts_with("first vessel,2,"));
   EXPECT_TRUE(rows[3].starts_with("\"a, \"\"b\"\"\",1,")) << rows[3];
-  EXPECT_TRUE(rows[1].ends_with(",inf,")) << "no safe tilt: empty";
+  EXPECT_TRUE(rows[1].ends_with(",inf,,0")) << "no safe tilt: empty";
+  EXPECT_TRUE(rows[0].ends_with(",antipodal"));
   const auto commas = std::count(rows[0].begin(), rows[0].end(), ',');
   EXPECT_EQ(std::count(rows[1].begin(), rows[1].end(), ','), commas);
 }
@@ -127,7 +128,9 @@ TEST(Best, SceneWithoutTiltsHasNoForces) {
   const BestGrip best = evaluate_best(backend, scene, plan, 0, {{0.9, 1}}).front();
   EXPECT_TRUE(std::isnan(best.peak_force));
   EXPECT_EQ(best_table(scene, plan, {best}, 1).find("peak N"), std::string::npos);
-  EXPECT_TRUE(lines(best_csv(scene, {{best}}))[1].ends_with(",,,,"));
+  const std::string row = lines(best_csv(scene, {{best}}))[1];
+  EXPECT_TRUE(row.ends_with(best.antipodal ? ",,,,,1" : ",,,,,0")) << row;
+  EXPECT_NE(best_table(scene, plan, {best}, 1).find("antipodal"), std::string::npos) << "nothing else says that it would slip";
 }
 
 }  // namespace

@@ -124,5 +124,58 @@ TEST_F(Compare, FindsAnOutcomeThatNoMoveExplains) {
   EXPECT_EQ(all, outcomes);
 }
 
+TEST_F(Compare, FindsATiltThatIsNotListed) {
+  const auto between = [&](int field) {
+    return [&, field](GatheredPlanes& planes, std::size_t i) {
+      double& tilt = real(planes, field, 1, i);
+      tilt = (std::isnan(tilt) ? 0 : tilt) + 0.3 * (scene_.tilts[1] - scene_.tilts[0]);
+    };
+  };
+  EXPECT_EQ(outside("force short of peak", between(FIELD_PEAK_TILT)).first, feasible_grips());
+  EXPECT_EQ(outside("force beyond safe", between(FIELD_SAFE_TILT)).first, feasible_grips());
+  const auto none = [&](GatheredPlanes& planes, std::size_t i) {
+    real(planes, FIELD_PEAK_TILT, 0, i) = std::numeric_limits<double>::quiet_NaN();
+  };
+  EXPECT_EQ(outside("force short of peak", none).first, feasible_grips());
+}
+
+// A side that calls a sharp grip grazing does not get it left out.
+TEST_F(Compare, FindsGrazingThatIsNone) {
+  std::uint64_t sharp = 0;
+  for (std::size_t i = 0; i < grips_.size(); ++i)
+    sharp += feasible(i) && (planes_.uint(FIELD_STATUS, i) & STATUS_GRAZING) == 0 ? 1 : 0;
+  const auto [outcomes, all] = outside("discrete outcomes", [&](GatheredPlanes& planes, std::size_t i) {
+    planes.uints[planes.fields.plane[FIELD_STATUS] * planes.count + i] |= STATUS_GRAZING;
+  });
+  EXPECT_GT(sharp, 20u);
+  EXPECT_EQ(outcomes, sharp);
+  EXPECT_EQ(all, outcomes);
+}
+
+// A line beside the axis that the thin index tip only just meets, where the thick thumb still closes from well around the wall.
+TEST_F(Compare, DoesNotHoldWhereNothingIsCompared) {
+  Scene scene = scene_;
+  scene.hand.fingers[1].radii[4] = 0.1e-3;
+  const auto core = make_core_evaluator(scene);
+  const FieldSet fields = all_fields(scene);
+  std::vector<GripInput> scan;
+  for (double offset = 5e-3; offset < 60e-3; offset += 1e-6) {
+    GripInput beside = grips_[0];
+    beside.obliquity = 0;
+    beside.offset = offset;
+    scan.push_back(beside);
+  }
+  const GatheredPlanes found = gather(*core, fields, 0, scan);
+  std::vector<GripInput> grazing;
+  for (std::size_t i = 0; i < scan.size(); ++i)
+    if ((found.uint(FIELD_STATUS, i) & STATUS_GRAZING) != 0) grazing.push_back(scan[i]);
+  ASSERT_FALSE(grazing.empty());
+  const GatheredPlanes answers = gather(*core, fields, 0, grazing);
+  Comparer comparer(scene, *core, allowance(Precision::single));
+  comparer.add(0, grazing, answers, answers);
+  EXPECT_EQ(comparer.grazing(), grazing.size());
+  EXPECT_FALSE(comparer.holds());
+}
+
 }  // namespace
 }  // namespace wholehand

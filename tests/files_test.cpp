@@ -33,6 +33,17 @@ TEST(Files, NamesGoTogether) {
   EXPECT_EQ(output_names(".nc").best, ".nc.best.csv");
 }
 
+TEST(Files, OnlyResultsAreOverwritten) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "notes.txt") << "my notes, and more of them";
+  std::ofstream(folder / "empty");
+  std::ofstream(folder / "result.nc") << "\x89HDF\r\n\x1a\nand so on";
+  EXPECT_THROW(check_overwrites_result(folder / "notes.txt"), Error);
+  EXPECT_NO_THROW(check_overwrites_result(folder / "empty"));
+  EXPECT_NO_THROW(check_overwrites_result(folder / "missing"));
+  EXPECT_NO_THROW(check_overwrites_result(folder / "result.nc"));
+}
+
 TEST(Files, FoldersAreMadeOrRefused) {
   const TemporaryFolder folder;
   const auto refused_folder = [](const std::string& path) {

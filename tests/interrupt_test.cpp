@@ -32,12 +32,27 @@ TEST(Interrupt, SecondSignalEndsTheProcess) {
   if (child == 0) {
     InterruptGuard guard;
     raise(SIGINT);
+    usleep(300000);
     raise(SIGINT);
     _exit(0);
   }
   int status = 0;
   waitpid(child, &status, 0);
   EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGINT);
+}
+
+// As `timeout` sends it: to the process and to its group.
+TEST(Interrupt, SignalThatComesTwiceIsOneWish) {
+  const pid_t child = fork();
+  if (child == 0) {
+    InterruptGuard guard;
+    raise(SIGINT);
+    raise(SIGINT);
+    _exit(guard.flag() ? 7 : 0);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 7);
 }
 
 TEST(Interrupt, HandlersAreThoseOfBeforeAfterwards) {

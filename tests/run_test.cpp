@@ -270,6 +270,29 @@ TEST_F(RunTest, ResumeOfWhatIsCompleteLeavesIt) {
   EXPECT_EQ(std::filesystem::last_write_time(expected), written);
 }
 
+TEST_F(RunTest, ResumeOfSomethingElseThatIsCompleteIsRefused) {
+  const std::string whole = reference();
+  const std::string before = file_text(whole);
+  const auto refused = [&](const std::string& path, const char* what, const std::function<void(Trial&)>& change) {
+    Trial trial(path);
+    trial.options.resume = true;
+    change(trial);
+    const Outcome outcome = trial.run();
+    EXPECT_EQ(outcome.code, ExitCode::usage) << what;
+    EXPECT_TRUE(has(outcome.error, what)) << outcome.error;
+    EXPECT_EQ(trial.opened, 0) << what;
+  };
+  refused(whole, "of another scene", [](Trial& trial) { trial.scene.text += "# changed"; });
+  refused(whole, "of another precision", [](Trial& trial) {
+    trial.options.precision = read_text(trial.options.output, "", "precision") == "float" ? Precision::full : Precision::single;
+  });
+  refused(whole, "of another backend", [](Trial& trial) { trial.options.on = trial.options.on == "core" ? "vulkan" : "core"; });
+  refused(whole, "it lacks joints", [](Trial& trial) { trial.scene.output.keep = {{"joints"}}; });
+  EXPECT_EQ(file_text(whole), before);
+  std::ofstream(folder / "other.nc") << "not a result";
+  refused(folder / "other.nc", "is no result file", [](Trial&) {});
+}
+
 TEST_F(RunTest, ResumeOfSomethingElseIsRefused) {
   const auto begin = [&] {
     Trial trial(folder / "a.nc");

@@ -87,6 +87,7 @@ TEST(Whole, SweepOnVulkanAndOnTheCoreAgree) {
 pid_t start(const std::string& scene, const std::string& output, bool resume) {
   const pid_t child = fork();
   if (child != 0) return child;
+  setenv("WHOLEHAND_VALIDATION", "1", 1);
   freopen((output + ".said").c_str(), "w", stderr);
   freopen("/dev/null", "w", stdout);
   execl(WHOLEHAND_PROGRAM, WHOLEHAND_PROGRAM, "sweep", scene.c_str(), "-o", output.c_str(), resume ? "--resume" : nullptr,
