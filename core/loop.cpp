@@ -45,6 +45,28 @@ Propagator propagator(Plant plant, Real time) {
   return by;
 }
 
+Propagator stepped_propagator(Plant plant, Real time, int integrator, int substeps) {
+  if (integrator == LOOP_EXACT) return propagator(plant, time);
+  Real h = time / Real(substeps);
+  Real pull = plant.stiffness / plant.mass * h, drag = plant.damping / plant.mass * h;
+  // explicit: x + h v; semi-implicit: x + h (new v)
+  Real lag = integrator == LOOP_SEMI_IMPLICIT ? h : Real(0);
+  Propagator once;
+  once.place_place = 1 - lag * pull, once.place_speed = h - lag * drag, once.place_force = lag * h / plant.mass;
+  once.speed_place = -pull, once.speed_speed = 1 - drag, once.speed_force = h / plant.mass;
+  Propagator by;
+  for (int step = 0; step < substeps; ++step) {
+    Propagator before = by;
+    by.place_place = once.place_place * before.place_place + once.place_speed * before.speed_place;
+    by.place_speed = once.place_place * before.place_speed + once.place_speed * before.speed_speed;
+    by.place_force = once.place_place * before.place_force + once.place_speed * before.speed_force + once.place_force;
+    by.speed_place = once.speed_place * before.place_place + once.speed_speed * before.speed_place;
+    by.speed_speed = once.speed_place * before.place_speed + once.speed_speed * before.speed_speed;
+    by.speed_force = once.speed_place * before.place_force + once.speed_speed * before.speed_force + once.speed_force;
+  }
+  return by;
+}
+
 Motion advance(Propagator by, Motion motion, Real force) {
   Motion next;
   next.place = by.place_place * motion.place + by.place_speed * motion.speed + by.place_force * force;
@@ -86,6 +108,14 @@ Real wall_force(Wall wall, Real place, Real rate) {
   if (!wall.is_bilateral) force = place > 0 ? std::min(force, Real(0)) : Real(0);
   if (wall.force_limit > 0) force = std::min(std::max(force, -wall.force_limit), wall.force_limit);
   return force;
+}
+
+LoopState let_go(Wall wall, Real place) {
+  LoopState state;
+  state.motion.place = place;
+  state.reading = place;
+  for (int k = 0; k < LOOP_DELAYS; ++k) state.waiting[k] = k < wall.delay ? wall_force(wall, place, 0) : Real(0);
+  return state;
 }
 
 LoopState step_loop(Plant plant, Propagator by, Wall wall, LoopState state, Real press, Real friction) {

@@ -45,6 +45,8 @@ struct LoopState {
 
 // By scaling and squaring of the series: steps of which the fastest mode is at most 1/8, to the tenth order (3e-16 of a step), doubled.
 Propagator propagator(Plant plant, Real time);
+// The same by Euler's method at equal sub-steps, explicit or semi-implicit (LOOP_* of layout.h): what an integrator makes of the plant.
+Propagator stepped_propagator(Plant plant, Real time, int integrator, int substeps);
 Motion advance(Propagator by, Motion motion, Real force);
 // The same with Coulomb friction (N): the motion is followed to where it stops, at most LOOP_STOPS times in `time`; from there it goes on
 // the other way, or stays where the other forces do not overcome the friction. `whole` is the propagator of `time`.
@@ -53,6 +55,8 @@ Motion advance_with_friction(Plant plant, Propagator whole, Motion motion, Real 
 Real read_encoder(Real place, Real step);
 // Force of the wall on the device for a reading and its rate, N: at most 0 but for a bilateral one.
 Real wall_force(Wall wall, Real place, Real rate);
+// At rest there until now: the wall's forces for it wait.
+LoopState let_go(Wall wall, Real place);
 // One sample: read, render, hold for a period. `press`: the user's constant force into the wall, N.
 LoopState step_loop(Plant plant, Propagator by, Wall wall, LoopState state, Real press, Real friction);
 // Energy of the motion about where a wall and the finger would hold it at rest, J.

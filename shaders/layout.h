@@ -43,6 +43,28 @@
 #define LOOP_DOUBLINGS 40           // of the step of that series
 #define LOOP_STOPS 4                // reversals within a sample that friction is followed through
 #define LOOP_NEWTON 3               // steps to where the motion stops
+#define LOOP_EXACT 0                // how the motion between two samples is integrated
+#define LOOP_EULER 1                // explicit, at equal sub-steps
+#define LOOP_SEMI_IMPLICIT 2        // the place by the new speed
+
+// ---- a case of the rendered wall as its kernel reads it: plane * n + case, reals ----
+#define CASE_MASS 0                 // of the plant: kg
+#define CASE_DAMPING 1              // N s/m
+#define CASE_SPRING 2               // N/m
+#define CASE_WALL_STIFFNESS 3
+#define CASE_WALL_DAMPING 4
+#define CASE_PERIOD 5               // s
+#define CASE_ENCODER 6              // m
+#define CASE_FORCE_LIMIT 7          // N
+#define CASE_DELAY 8                // samples
+#define CASE_BILATERAL 9            // 0 or 1
+#define CASE_PRESS 10               // N
+#define CASE_FRICTION 11            // N
+#define CASE_PLACE 12               // m, where it is let go
+#define CASE_INTEGRATOR 13          // LOOP_*
+#define CASE_SUBSTEPS 14
+#define CASE_PLANES 15
+#define CASE_STATE_PLANES (4 + LOOP_DELAYS)  // place, speed, reading, largest energy of the late samples; forces that wait
 
 // ---- the hand ----
 #define FINGERS 5

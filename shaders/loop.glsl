@@ -70,6 +70,25 @@ Propagator propagator(Plant plant, Real time) {
   return by;
 }
 
+Propagator stepped_propagator(Plant plant, Real time, int integrator, int substeps) {
+  if (integrator == LOOP_EXACT) return propagator(plant, time);
+  Real h = time / Real(substeps);
+  Real pull = plant.stiffness / plant.mass * h, drag = plant.damping / plant.mass * h;
+  Real lag = integrator == LOOP_SEMI_IMPLICIT ? h : Real(0);
+  Propagator once = Propagator(Real(1) - lag * pull, h - lag * drag, lag * h / plant.mass, -pull, Real(1) - drag, h / plant.mass);
+  Propagator by = Propagator(Real(1), Real(0), Real(0), Real(0), Real(1), Real(0));
+  for (int step = 0; step < substeps; ++step) {
+    Propagator before = by;
+    by.place_place = once.place_place * before.place_place + once.place_speed * before.speed_place;
+    by.place_speed = once.place_place * before.place_speed + once.place_speed * before.speed_speed;
+    by.place_force = once.place_place * before.place_force + once.place_speed * before.speed_force + once.place_force;
+    by.speed_place = once.speed_place * before.place_place + once.speed_speed * before.speed_place;
+    by.speed_speed = once.speed_place * before.place_speed + once.speed_speed * before.speed_speed;
+    by.speed_force = once.speed_place * before.place_force + once.speed_speed * before.speed_force + once.speed_force;
+  }
+  return by;
+}
+
 Motion advance(Propagator by, Motion motion, Real force) {
   return Motion(by.place_place * motion.place + by.place_speed * motion.speed + by.place_force * force,
                 by.speed_place * motion.place + by.speed_speed * motion.speed + by.speed_force * force);
@@ -108,6 +127,14 @@ Real wall_force(Wall wall, Real place, Real rate) {
   if (!wall.is_bilateral) force = place > Real(0) ? min(force, Real(0)) : Real(0);
   if (wall.force_limit > Real(0)) force = min(max(force, -wall.force_limit), wall.force_limit);
   return force;
+}
+
+LoopState let_go(Wall wall, Real place) {
+  LoopState state;
+  state.motion = Motion(place, Real(0));
+  state.reading = place;
+  for (int k = 0; k < LOOP_DELAYS; ++k) state.waiting[k] = k < wall.delay ? wall_force(wall, place, Real(0)) : Real(0);
+  return state;
 }
 
 LoopState step_loop(Plant plant, Propagator by, Wall wall, LoopState state, Real press, Real friction) {

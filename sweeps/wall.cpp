@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/loop.h"
+#include "core/wall_run.h"
 
 namespace wholehand {
 namespace {
@@ -91,29 +92,34 @@ double largest_stiffness(const IsStable& is_stable) {
 
 }  // namespace
 
-bool settles(const WallDevice& device, double stiffness) {
+WallTrial wall_trial(const WallDevice& device, double stiffness) {
   const core_f64::Plant plant = plant_of(device);
   const core_f64::Wall wall = wall_of(device, stiffness);
-  const core_f64::Propagator by = core_f64::propagator(plant, wall.period);
   // far from its rest against what the encoder and friction blur, and less than it is pressed in, so that a loop that settles stays in
   // contact
   const double away = std::max({1e-3, 100 * device.encoder_step, 20 * device.coulomb / stiffness});
-  const double press = 2 * (stiffness + plant.stiffness) * away;
-  core_f64::LoopState state;
-  state.motion.place = 3 * away;
-  state.reading = state.motion.place;
-  // the loop as it would be at rest there
-  for (int k = 0; k < device.delay; ++k) state.waiting[k] = core_f64::wall_force(wall, state.motion.place, 0);
-  const double begin = core_f64::loop_energy(plant, wall, state.motion, press);
-  double late = 0;
-  for (int sample = 0; sample < WALL_SAMPLES; ++sample) {
-    state = core_f64::step_loop(plant, by, wall, state, press, device.coulomb);
-    const double energy = core_f64::loop_energy(plant, wall, state.motion, press);
-    if (!std::isfinite(energy)) return false;
-    if (sample >= WALL_SAMPLES - WALL_SAMPLES / 4) late = std::max(late, energy);
-  }
+  WallTrial trial;
+  WallCase& press = trial.press;
+  press.mass = plant.mass;
+  press.damping = plant.damping;
+  press.spring = plant.stiffness;
+  press.wall_stiffness = stiffness;
+  press.wall_damping = device.wall_damping;
+  press.period = wall.period;
+  press.encoder_step = device.encoder_step;
+  press.delay = device.delay;
+  press.friction = device.coulomb;
+  press.press = 2 * (stiffness + plant.stiffness) * away;
+  press.place = 3 * away;
+  const double begin = core_f64::loop_energy(plant, wall, {press.place, 0}, press.press);
   const double blur = 2 * device.encoder_step + device.coulomb / stiffness;
-  return late <= std::max(begin, 0.5 * (stiffness + plant.stiffness) * blur * blur);
+  trial.allowed = std::max(begin, 0.5 * (stiffness + plant.stiffness) * blur * blur);
+  return trial;
+}
+
+bool settles(const WallDevice& device, double stiffness) {
+  const WallTrial trial = wall_trial(device, stiffness);
+  return core_f64::late_energy(trial.press, WALL_SAMPLES, LATE_SAMPLES) <= trial.allowed;
 }
 
 // |M^n|^(1/n) for n = 2^30, by squaring; kept from overflow by the logarithm of what is divided out.

@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "core/wall_case.h"
+
 namespace wholehand {
 
 // One axis of a device and, where there is one, the finger on it; SI.
@@ -25,10 +27,16 @@ struct WallLimits {
   double coulomb = 0;    // min(2 b / T, 2 f_c / D) (Abbott & Okamura); the second where D > 0
 };
 
-// Whether a device that is pressed against a wall of that stiffness and let go off its rest settles: the energy about its rest, over
-// the last quarter of WALL_SAMPLES samples, is no larger than at the start, or than two steps of the encoder and the friction's band hold.
+// A device that is pressed against a wall of that stiffness and let go off its rest, and the energy about its rest that the last quarter of
+// WALL_SAMPLES samples may have for it to settle: no more than at the start, or than two steps of the encoder and the friction's band hold.
+struct WallTrial {
+  WallCase press;
+  double allowed = 0;  // J
+};
+WallTrial wall_trial(const WallDevice& device, double stiffness);
+constexpr int WALL_SAMPLES = 20000, LATE_SAMPLES = WALL_SAMPLES / 4;
+// By the core, in double.
 bool settles(const WallDevice& device, double stiffness);
-constexpr int WALL_SAMPLES = 20000;
 
 // The magnitude of the linear loop's largest eigenvalue (no encoder, no friction).
 double spectral_radius(const WallDevice& device, double stiffness);

@@ -236,5 +236,36 @@ TEST(Loop, SpectralRadiusOfADeviceInTheAir) {
   EXPECT_NEAR(spectral_radius(device, 0), std::exp(-1 * 1e-3 / 0.2), 1e-7);
 }
 
+// Both converge to the exact propagator to first order in the sub-step.
+TEST(Loop, EulerConvergesToTheExactPropagator) {
+  const Plant plant{0.1, 2, 300};
+  const Propagator exact = propagator(plant, 4e-3);
+  for (const int integrator : {LOOP_EULER, LOOP_SEMI_IMPLICIT}) {
+    double before = 0;
+    for (const int substeps : {8, 16, 32, 64}) {
+      const Propagator by = stepped_propagator(plant, 4e-3, integrator, substeps);
+      const double error = std::abs(by.speed_place - exact.speed_place) + std::abs(by.speed_speed - exact.speed_speed);
+      if (before > 0) {
+        EXPECT_NEAR(before / error, 2, 0.1) << integrator << " " << substeps;
+      }
+      before = error;
+    }
+  }
+  EXPECT_EQ(stepped_propagator(plant, 4e-3, LOOP_EXACT, 3).speed_place, exact.speed_place);
+}
+
+// One explicit step per sample adds the energy that it does not see: a free mass on an undamped spring gains (1 + k h^2 / m) a step, the
+// semi-implicit one gains nothing.
+TEST(Loop, ExplicitEulerGainsWhatItsFormulaSays) {
+  const Plant plant{0.2, 0, 500};
+  const double h = 1e-3;
+  const Propagator explicit_step = stepped_propagator(plant, h, LOOP_EULER, 1);
+  const Propagator semi = stepped_propagator(plant, h, LOOP_SEMI_IMPLICIT, 1);
+  const auto determinant = [](const Propagator& by) { return by.place_place * by.speed_speed - by.place_speed * by.speed_place; };
+  EXPECT_NEAR(determinant(explicit_step), 1 + 500 / 0.2 * h * h, 1e-15);
+  EXPECT_NEAR(determinant(semi), 1, 1e-15);
+  EXPECT_NEAR(determinant(propagator(plant, h)), 1, 1e-15);
+}
+
 }  // namespace
 }  // namespace wholehand

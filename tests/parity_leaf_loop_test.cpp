@@ -48,6 +48,43 @@ TEST_F(ParityLeaf, Propagator) {
           build.table, vessels_scene());
 }
 
+// Up to 16 sub-steps, each of which may round twice where the exact propagator's doublings do: the forward bound of 16 products.
+TEST_F(ParityLeaf, SteppedPropagator) {
+  Builder build(305);
+  for (int i = 0; i < 1501; ++i) {
+    period(plant(build)).add(i % 3 == 0 ? LOOP_EXACT : i % 3 == 1 ? LOOP_EULER : LOOP_SEMI_IMPLICIT);
+    build.add(1 + i % 16);
+  }
+  constexpr double PRODUCTS = 16;
+  compare({.shader = "probe_loop",
+           .probe = PROBE_STEPPED,
+           .inputs = 6,
+           .outputs = {{"place of place", PRODUCTS},
+                       {"place of speed", PRODUCTS * PERIOD_MOST},
+                       {"place of force", PRODUCTS * PERIOD_MOST * PERIOD_MOST / 2 / MASS_LEAST},
+                       {"speed of place", PRODUCTS * FASTEST * FASTEST * PERIOD_MOST},
+                       {"speed of speed", PRODUCTS},
+                       {"speed of force", PRODUCTS * PERIOD_MOST / MASS_LEAST}},
+           .fixed = {4, 5}},
+          build.table, vessels_scene());
+}
+
+TEST_F(ParityLeaf, LetGo) {
+  constexpr double STIFFNESS = 5000;
+  Builder build(306);
+  for (int i = 0; i < 1001; ++i) {
+    build.uniform(0, STIFFNESS).uniform(0, 2);
+    period(build).add(0).add(i % 3 == 0 ? 0 : 12).add(i % (LOOP_DELAYS + 1)).add(i % 7 == 0 ? 1 : 0).uniform(-PLACE, PLACE);
+  }
+  compare({.shader = "probe_loop",
+           .probe = PROBE_LET_GO,
+           .inputs = 8,
+           .outputs = together(std::vector<Output>{{"place", PLACE}, {"speed", 1}, {"reading", PLACE}},
+                               repeated("waiting", LOOP_DELAYS, STIFFNESS * PLACE)),
+           .fixed = {3, 4, 5, 6}},
+          build.table, vessels_scene());
+}
+
 TEST_F(ParityLeaf, AdvanceWithAndWithoutFriction) {
   Builder build(301);
   for (int i = 0; i < 2003; ++i) {

@@ -19,6 +19,18 @@ void main() {
     answer3(0, Vec3(by.place_place, by.place_speed, by.place_force));
     answer3(3, Vec3(by.speed_place, by.speed_speed, by.speed_force));
   }
+  if (PROBE == PROBE_STEPPED) {
+    Propagator by = stepped_propagator(given_plant(), given(3), given_int(4), given_int(5));
+    answer3(0, Vec3(by.place_place, by.place_speed, by.place_force));
+    answer3(3, Vec3(by.speed_place, by.speed_speed, by.speed_force));
+  }
+  if (PROBE == PROBE_LET_GO) {
+    Wall wall = Wall(given(0), given(1), given(2), given(3), given(4), given_int(5), given_int(6) != 0);
+    LoopState state = let_go(wall, given(7));
+    answer_motion(state.motion);
+    answer(2, state.reading);
+    for (int k = 0; k < LOOP_DELAYS; ++k) answer(3 + k, state.waiting[k]);
+  }
   if (PROBE == PROBE_ADVANCE) {
     Plant plant = given_plant();
     Propagator by = propagator(plant, given(7));

@@ -69,5 +69,7 @@
 #define PROBE_WALL_FORCE 92   // wall without its delay, place, rate; reading, force
 #define PROBE_STEP_LOOP 93    // plant, wall, place, speed, reading, waiting, press, friction; place, speed, reading, waiting
 #define PROBE_LOOP_ENERGY 94  // plant, wall's stiffness, place, speed, press; energy
+#define PROBE_STEPPED 95      // plant, time, integrator, sub-steps; as PROBE_PROPAGATOR
+#define PROBE_LET_GO 96       // wall, place; place, speed, reading, waiting
 
 #endif

@@ -386,6 +386,21 @@ class CoreLeaves final : public wholehand::Leaves {
         row.answer3(3, Vec3(by.speed_place, by.speed_speed, by.speed_force));
         break;
       }
+      case PROBE_STEPPED: {
+        const Propagator by = stepped_propagator(plant, row.given(3), row.given_int(4), row.given_int(5));
+        row.answer3(0, Vec3(by.place_place, by.place_speed, by.place_force));
+        row.answer3(3, Vec3(by.speed_place, by.speed_speed, by.speed_force));
+        break;
+      }
+      case PROBE_LET_GO: {
+        const Wall wall{row.given(0), row.given(1),     row.given(2),         row.given(3),
+                        row.given(4), row.given_int(5), row.given_int(6) != 0};
+        const LoopState state = let_go(wall, row.given(7));
+        answer_motion(row, state.motion);
+        row.answer(2, state.reading);
+        for (int k = 0; k < LOOP_DELAYS; ++k) row.answer(3 + k, state.waiting[k]);
+        break;
+      }
       case PROBE_ADVANCE: {
         const Propagator by = propagator(plant, row.given(7));
         const Motion motion{row.given(3), row.given(4)};

@@ -1,0 +1,46 @@
+// The rendered wall, one invocation a case: push.number samples on from where the last dispatch left it, or from the start (push.first).
+// A dispatch is short, since drivers end an invocation's loops after so many iterations; what moves is kept between dispatches.
+// push.floor_low: whether these samples are late ones, whose largest energy is the answer.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "loop.glsl"
+
+layout(local_size_x_id = CONST_GROUP_SIZE) in;
+layout(std430, binding = BINDING_GRIPS) readonly buffer CaseBlock { Real case_in[]; };
+layout(std430, binding = BINDING_REAL_OUT) buffer StateBlock { Real state_io[]; };
+
+void main() {
+  uint i = INVOCATION;
+  if (i >= push.count) return;
+#define GIVEN(plane) case_in[uint(plane) * push.stride + i]
+#define KEPT(plane) state_io[uint(plane) * push.stride + i]
+  Plant plant = Plant(GIVEN(CASE_MASS), GIVEN(CASE_DAMPING), GIVEN(CASE_SPRING));
+  Wall wall = Wall(GIVEN(CASE_WALL_STIFFNESS), GIVEN(CASE_WALL_DAMPING), GIVEN(CASE_PERIOD), GIVEN(CASE_ENCODER),
+                   GIVEN(CASE_FORCE_LIMIT), int(GIVEN(CASE_DELAY)), GIVEN(CASE_BILATERAL) != Real(0));
+  Real press = GIVEN(CASE_PRESS), friction = GIVEN(CASE_FRICTION);
+  Propagator by = stepped_propagator(plant, wall.period, int(GIVEN(CASE_INTEGRATOR)), int(GIVEN(CASE_SUBSTEPS)));
+  LoopState state;
+  Real late;
+  if (push.first != 0u) {
+    state = let_go(wall, GIVEN(CASE_PLACE));
+    late = Real(0);
+  } else {
+    state.motion = Motion(KEPT(0), KEPT(1));
+    state.reading = KEPT(2);
+    late = KEPT(3);
+    for (int k = 0; k < LOOP_DELAYS; ++k) state.waiting[k] = KEPT(4 + k);
+  }
+  for (uint step = 0u; step < push.number; ++step) {
+    state = step_loop(plant, by, wall, state, press, friction);
+    if (push.floor_low != 0u) {
+      Real energy = loop_energy(plant, wall, state.motion, press);
+      if (!(energy <= late)) late = energy;
+    }
+  }
+  KEPT(0) = state.motion.place;
+  KEPT(1) = state.motion.speed;
+  KEPT(2) = state.reading;
+  KEPT(3) = late;
+  for (int k = 0; k < LOOP_DELAYS; ++k) KEPT(4 + k) = state.waiting[k];
+}
