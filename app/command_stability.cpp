@@ -7,6 +7,7 @@
 #include "app/output.h"
 #include "app/validators.h"
 #include "app/values.h"
+#include "sweeps/stability.h"
 #include "sweeps/wall.h"
 
 namespace wholehand {
@@ -21,6 +22,7 @@ constexpr IntegerRange DELAY{0, LOOP_DELAYS};
 constexpr Quantity ENCODER_UM{0, 1e5};
 constexpr Quantity COULOMB{0, 1e3};
 constexpr Quantity FINGER{0, 1e6};
+constexpr IntegerRange SEED{0, 1000000000};
 }  // namespace wall_ranges
 
 struct WallArguments {
@@ -48,11 +50,41 @@ ExitCode wall(const WallArguments& arguments) {
   return ExitCode::done;
 }
 
+struct ReportArguments {
+  std::string folder, on = "vulkan", seed = "1";
+  bool quick = false;
+};
+
+ExitCode report_stability(const ReportArguments& arguments) {
+  if (arguments.folder.empty()) {
+    throw usage_error("stability: -o DIR is required, or `stability wall` for one device; see wholehand stability --help");
+  }
+  StabilityOptions options;
+  options.folder = arguments.folder;
+  options.on = arguments.on;
+  options.quick = arguments.quick;
+  options.seed = static_cast<std::uint64_t>(parse_integer(arguments.seed, "--seed", wall_ranges::SEED));
+  return run_stability(options);
+}
+
 }  // namespace
 
 void add_stability_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("stability", "Where a haptic loop stops being trustworthy");
-  command->require_subcommand(1);
+  CLI::App* command = app.add_subcommand("stability", "Where a haptic loop and the kernels stop being trustworthy");
+  command->require_subcommand(0, 1);
+  const auto report_arguments = std::make_shared<ReportArguments>();
+  command->add_option("-o,--output", report_arguments->folder, "Folder for the tables, pictures and the summary")
+      ->type_name("DIR")
+      ->check(not_empty());
+  command->add_option("--on", report_arguments->on, "core, vulkan (the best device, the default) or a device's name")
+      ->type_name("DEVICE")
+      ->check(not_empty());
+  command->add_flag("--quick", report_arguments->quick, "Coarser maps, under a minute");
+  command->add_option("--seed", report_arguments->seed, "Of the random grips (1)")->type_name("N");
+  command->callback([command, report_arguments, &action] {
+    if (!command->get_subcommands().empty()) return;
+    action = [report_arguments] { return report_stability(*report_arguments); };
+  });
   const auto arguments = std::make_shared<WallArguments>();
   CLI::App* wall_command = command->add_subcommand("wall", "The stiffest wall that a device can render");
   const auto add = [wall_command](const char* name, auto& value, const char* type, const char* help) {

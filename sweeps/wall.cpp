@@ -73,9 +73,9 @@ double largest_entry(const Matrix& a) {
   return largest;
 }
 
-// The largest stiffness at which `is_stable`, found by doubling and halving to a millionth.
-template <class IsStable>
-double largest_stiffness(const IsStable& is_stable) {
+}  // namespace
+
+double largest_stable(const std::function<bool(double stiffness)>& is_stable) {
   double high = 1;
   while (is_stable(high)) {
     high *= 2;
@@ -89,8 +89,6 @@ double largest_stiffness(const IsStable& is_stable) {
   }
   return low;
 }
-
-}  // namespace
 
 WallTrial wall_trial(const WallDevice& device, double stiffness) {
   const core_f64::Plant plant = plant_of(device);
@@ -139,14 +137,19 @@ double spectral_radius(const WallDevice& device, double stiffness) {
   return size > 0 ? std::exp(logarithm + std::log(size) / power) : 0;
 }
 
-WallLimits wall_limits(const WallDevice& device) {
+WallLimits wall_theory(const WallDevice& device) {
   const double period = 1 / device.rate;
   WallLimits limits;
   limits.passive = std::max(0.0, 2 * (device.damping - std::abs(device.wall_damping)) / period);
   limits.coulomb = 2 * device.damping / period;
   if (device.encoder_step > 0) limits.coulomb = std::min(limits.coulomb, 2 * device.coulomb / device.encoder_step);
-  limits.linear = largest_stiffness([&](double stiffness) { return spectral_radius(device, stiffness) <= 1; });
-  limits.simulated = largest_stiffness([&](double stiffness) { return settles(device, stiffness); });
+  limits.linear = largest_stable([&](double stiffness) { return spectral_radius(device, stiffness) <= 1; });
+  return limits;
+}
+
+WallLimits wall_limits(const WallDevice& device) {
+  WallLimits limits = wall_theory(device);
+  limits.simulated = largest_stable([&](double stiffness) { return settles(device, stiffness); });
   return limits;
 }
 

@@ -1,6 +1,7 @@
 // How stiff a wall one axis of a haptic device can render.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "core/wall_case.h"
@@ -41,7 +42,11 @@ bool settles(const WallDevice& device, double stiffness);
 // The magnitude of the linear loop's largest eigenvalue (no encoder, no friction).
 double spectral_radius(const WallDevice& device, double stiffness);
 
+WallLimits wall_theory(const WallDevice& device);  // all but `simulated`
 WallLimits wall_limits(const WallDevice& device);
+// The largest stiffness (N/m) at which `is_stable`, which holds up to there, found by doubling and halving to a millionth; infinite where
+// it holds at 10^12.
+double largest_stable(const std::function<bool(double stiffness)>& is_stable);
 
 std::string wall_json(const WallLimits& limits);                             // one line; null where nothing limits
 std::string wall_table(const WallDevice& device, const WallLimits& limits);  // for people

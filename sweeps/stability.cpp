@@ -1,0 +1,194 @@
+#include "sweeps/stability.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <iterator>
+
+#include "sweeps/files.h"
+#include "sweeps/gains.h"
+#include "sweeps/gnuplot.h"
+#include "sweeps/grip_loop.h"
+#include "sweeps/wall_sweep.h"
+
+namespace wholehand {
+namespace {
+
+using StabilityClock = std::chrono::steady_clock;
+double seconds_since(StabilityClock::time_point start) {
+  return std::chrono::duration<double>(StabilityClock::now() - start).count();
+}
+
+std::string newtons_per_metre(double limit) {
+  return std::isfinite(limit) ? fmt::format("{:.0f}", limit) : std::string("no limit");
+}
+
+constexpr std::array<double, 6> RATES{250, 500, 1000, 2000, 4000, 8000};
+
+// What a map of walls must show, whatever the machine: a passive wall that does not settle is a wrong kernel.
+struct WallFindings {
+  std::size_t points = 0, passive = 0, passive_unsettled = 0;
+};
+WallFindings look_at(const std::vector<WallSheet>& sheets) {
+  WallFindings found;
+  for (const WallSheet& sheet : sheets)
+    for (const WallColumn& column : sheet.columns)
+      for (const WallPoint& point : column.points) {
+        ++found.points;
+        // the rule is for a reading that is exact or blurred by less than friction holds, and for no delay
+        const bool is_passive = point.integrator == LOOP_EXACT && point.device.delay == 0 && point.device.encoder_step == 0 &&
+                                point.stiffness < column.theory.passive;
+        if (!is_passive) continue;
+        ++found.passive;
+        found.passive_unsettled += point.settles() ? 0 : 1;
+      }
+  return found;
+}
+
+void write_walls(std::back_insert_iterator<std::string> out, const std::vector<WallSheet>& sheets, const WallFindings& found) {
+  fmt::format_to(
+      out,
+      "\n## The rendered wall\n\n"
+      "{} walls were pressed, 20,000 samples each; of {} that are passive by b > K T / 2 + |B|, {} did not settle.\n\n"
+      "Largest stiffness K in N/m without wall damping: in simulation / linear limit / passive. A device held by nobody is "
+      "the hardest case for the first two; only the passive limit holds whoever holds it.\n\n| device |",
+      found.points, found.passive, found.passive_unsettled);
+  for (const double rate : RATES) fmt::format_to(out, " {:g} Hz |", rate);
+  fmt::format_to(out, "\n|---|");
+  for (std::size_t k = 0; k < RATES.size(); ++k) fmt::format_to(out, "---|");
+  for (const NamedDevice& named : wall_devices()) {
+    fmt::format_to(out, "\n| {} |", named.name);
+    for (const double rate : RATES) {
+      WallDevice device;
+      device.mass = named.mass;
+      device.damping = named.damping;
+      device.rate = rate;
+      const WallLimits limits = wall_limits(device);
+      fmt::format_to(out, " {} / {} / {} |", newtons_per_metre(limits.simulated), newtons_per_metre(limits.linear),
+                     newtons_per_metre(limits.passive));
+    }
+  }
+  fmt::format_to(out, "\n\nOne sample of delay, 1 kHz, {}:", wall_devices().front().name);
+  WallDevice device;
+  device.mass = wall_devices().front().mass;
+  device.damping = wall_devices().front().damping;
+  for (int delay = 0; delay <= LOOP_DELAYS; ++delay) {
+    device.delay = delay;
+    fmt::format_to(out, "{} {} samples {} N/m", delay == 0 ? "" : ",", delay, newtons_per_metre(wall_theory(device).linear));
+  }
+  fmt::format_to(out, ".\n");
+  for (const WallSheet& sheet : sheets) {
+    if (sheet.name != "integrator") continue;
+    fmt::format_to(out, "\nAn integrator instead of the exact motion between samples moves the limit (same device, 1 kHz):");
+    const char* separator = "";
+    for (const WallColumn& column : sheet.columns) {
+      const WallPoint& first = column.points.front();
+      if (first.device.mass != device.mass || first.device.damping != device.damping) continue;
+      if (first.integrator == LOOP_EXACT) {
+        fmt::format_to(out, "{} exact {}", separator, newtons_per_metre(column.theory.simulated));
+      } else {
+        fmt::format_to(out, "{} {} Euler, {} sub-step{}, {}", separator,
+                       first.integrator == LOOP_EULER ? "explicit" : "semi-implicit", first.substeps,
+                       first.substeps == 1 ? "" : "s", newtons_per_metre(column.theory.simulated));
+      }
+      separator = ";";
+    }
+    fmt::format_to(out, " N/m.\n");
+  }
+}
+
+void write_grips(std::back_insert_iterator<std::string> out, const std::vector<GripLoopRow>& rows) {
+  const GripLoop usual;
+  fmt::format_to(out,
+                 "\n## The held grip\n\n"
+                 "A gripper of {:g} g and {:g} N s/m, a finger of {:g} g, {:g} N s/m and {:g} N/m, a user who reacts after {:g} ms "
+                 "with a time constant of {:g} ms and holds {:g} N more than F_base.\n\n"
+                 "Largest k_open in N/m: in simulation / by the sampled spring's theory.\n\n|",
+                 usual.device_mass * 1e3, usual.device_damping, usual.finger_mass * 1e3, usual.finger_damping,
+                 usual.finger_stiffness, usual.reaction * 1e3, usual.response * 1e3, usual.excess);
+  for (const double rate : RATES) fmt::format_to(out, " {:g} Hz |", rate);
+  fmt::format_to(out, "\n|");
+  for (std::size_t k = 0; k < RATES.size(); ++k) fmt::format_to(out, "---|");
+  fmt::format_to(out, "\n|");
+  for (const double rate : RATES) {
+    GripLoop loop;
+    loop.rate = rate;
+    fmt::format_to(out, " {} / {} |", newtons_per_metre(largest_k_open(loop)), newtons_per_metre(sampled_k_open(loop)));
+  }
+  fmt::format_to(out, "\n\nA slow user shakes at softer springs, whatever the rate (simulation / theory):");
+  const char* separator = "";
+  for (const double reaction : {0.2, 0.3, 0.4, 0.6}) {
+    GripLoop loop;
+    loop.reaction = reaction;
+    fmt::format_to(out, "{} {:g} ms {} / {}", separator, reaction * 1e3, newtons_per_metre(largest_k_open(loop)),
+                   newtons_per_metre(reaction_k_open(loop)));
+    separator = ",";
+  }
+  std::array<std::size_t, 4> counts{};
+  std::size_t all = 0;
+  for (const GripLoopRow& row : rows) {
+    if (row.varied != "products") continue;
+    ++counts[static_cast<std::size_t>(row.result.outcome)];
+    ++all;
+  }
+  fmt::format_to(out, ".\n\nOf {} sessions over F_base, F_range, k_open, reaction, finger and tilt speed:", all);
+  for (std::size_t k = 0; k < counts.size(); ++k) {
+    fmt::format_to(out, "{} {} {:.1f} %", k == 0 ? "" : ",", GRIP_OUTCOME_NAMES[k],
+                   100.0 * static_cast<double>(counts[k]) / static_cast<double>(std::max<std::size_t>(all, 1)));
+  }
+  const GripLoopResult result = hold_and_tilt(usual);
+  fmt::format_to(out, ". With all at their defaults it settles {:.0f} ms after the grasp, opens by {:.2f} mm in the tilt.\n",
+                 result.response_time * 1e3, result.opened * 1e3);
+}
+
+void write_gains(std::back_insert_iterator<std::string> out) {
+  fmt::format_to(out,
+                 "\n## Live gains\n\nA live session refuses gains beyond these without `--unsafe-gains` (linear limits of the "
+                 "lightest device here; K with B of 1 N s/m):\n\n| rate | K | k_open |\n|---|---|---|\n");
+  for (const double rate : RATES) {
+    const GainLimits limits = gain_limits(rate, 1);
+    fmt::format_to(out, "| {:g} Hz | {} | {} |\n", rate, newtons_per_metre(limits.stiffness), newtons_per_metre(limits.k_open));
+  }
+}
+
+}  // namespace
+
+ExitCode run_stability(const StabilityOptions& options) {
+  make_output_folder(options.folder);
+  const auto path = [&options](const char* name) { return options.folder + "/" + name; };
+  BackendInfo info;
+  double kernel_seconds = 0;
+  const WallRunner runner = open_wall_runner(options.on, info, kernel_seconds);
+  std::vector<WallSheet> sheets = wall_sheets(options.quick);
+  const auto start = StabilityClock::now();
+  run_walls(sheets, runner);
+  const double wall_seconds = seconds_since(start);
+  const WallFindings found = look_at(sheets);
+  const std::vector<GripLoopRow> rows = grip_loop_rows(options.quick);
+
+  std::string summary;
+  auto out = std::back_inserter(summary);
+  fmt::format_to(out, "# Stability\n\nwholehand {}, {} ({}), {}, seed {}, {} run.\n", WHOLEHAND_VERSION, info.device, info.driver,
+                 info.precision == Precision::single ? "float" : "double", options.seed, options.quick ? "quick" : "full");
+  write_walls(out, sheets, found);
+  fmt::format_to(out, "\nThese walls took {:.1f} s.\n", wall_seconds);
+  write_grips(out, rows);
+  write_gains(out);
+
+  write_whole_file(path("wall.csv"), wall_csv(sheets), false);
+  write_whole_file(path("wall_limits.csv"), wall_limits_csv(sheets), false);
+  write_whole_file(path("grip_loop.csv"), grip_loop_csv(rows), false);
+  std::vector<std::string> pictures;
+  std::string script = wall_script(sheets, options.folder, pictures);
+  script += grip_loop_script(options.folder, pictures);
+  const std::string failure = draw_with_gnuplot(script, pictures);
+  if (!failure.empty()) std::fprintf(stderr, "wholehand: %s\n", failure.c_str());
+  write_whole_file(path("stability.md"), summary, false);
+  fmt::print("{}\nwritten to {}\n", summary, options.folder);
+  return found.passive_unsettled == 0 ? ExitCode::done : ExitCode::no;
+}
+
+}  // namespace wholehand
