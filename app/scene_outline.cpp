@@ -13,8 +13,10 @@ namespace wholehand {
 namespace {
 
 constexpr double SHORTEST_ELEMENT = 1e-3;  // mm
-constexpr double UNEQUAL_RADII = 1e-6;     // of an arc's radius: by how much its ends may differ in distance from the center
-constexpr double TOUCHING = 1e-6;          // mm: elements nearer than this touch
+// An end at 50.001 is less than that from one at 50, by rounding of either: this much of it may be missing.
+constexpr double ROUNDED_AWAY = 1e-6;
+constexpr double UNEQUAL_RADII = 1e-6;  // of an arc's radius: by how much its ends may differ in distance from the center
+constexpr double TOUCHING = 1e-6;       // mm: elements nearer than this touch
 // mm: around an end that two elements share, they are near each other by right. Rounding makes tangents seem to cross there again.
 constexpr double SHARED_END = 5e-4;
 
@@ -81,7 +83,7 @@ RawElement read_element(const SceneFile& file, const toml::node& node, const Poi
 // What an element must hold by itself; `is_last`: it is the mouth.
 void check_element(const SceneFile& file, const RawElement& raw, bool is_last) {
   const PlaneCurve& curve = raw.curve;
-  if (distance(curve.a, curve.b) < SHORTEST_ELEMENT) {
+  if (distance(curve.a, curve.b) < SHORTEST_ELEMENT * (1 - ROUNDED_AWAY)) {
     file.refuse(raw.place, fmt::format("an element of no length, from {} to {}", show(curve.a), show(curve.b)),
                 fmt::format("allowed: elements of at least {} mm", SHORTEST_ELEMENT));
   }

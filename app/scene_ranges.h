@@ -54,16 +54,16 @@ constexpr Quantity JOINT_RADIUS{0, 100, Unit::mm};
 constexpr Quantity JOINT_ANGLE{-180, 180, Unit::deg};
 constexpr Quantity DIP_PER_PIP{0, 2};
 
-constexpr Quantity DIAMETER{1, 2000, Unit::mm};
-constexpr Quantity HEIGHT{1, 2000, Unit::mm};
-constexpr Quantity UPRIGHT{0, 2000, Unit::mm};
-constexpr Quantity OUTLINE_R{0, 1000, Unit::mm};
-constexpr Quantity OUTLINE_Y{-2000, 2000, Unit::mm};
-constexpr Quantity CENTER{-5000, 5000, Unit::mm};  // of an arc, r and y
+constexpr Quantity DIAMETER{1, 10000, Unit::mm};
+constexpr Quantity HEIGHT{1, 10000, Unit::mm};
+constexpr Quantity UPRIGHT{0, 10000, Unit::mm};
+constexpr Quantity OUTLINE_R{0, 5000, Unit::mm};
+constexpr Quantity OUTLINE_Y{-10000, 10000, Unit::mm};
+constexpr Quantity CENTER{-25000, 25000, Unit::mm};  // of an arc, r and y
 constexpr Quantity WALL{0.05, 100, Unit::mm};
 constexpr Quantity VESSEL_DENSITY{1, 25000};  // kg/m3
-constexpr Quantity MASS{1e-4, 1000};          // kg
-constexpr Quantity CENTER_OF_MASS{-2000, 2000, Unit::mm};
+constexpr Quantity MASS{1e-6, 1e6};           // kg
+constexpr Quantity CENTER_OF_MASS{-10000, 10000, Unit::mm};
 constexpr Quantity MESH_SCALE{1e-6, 1e6};
 constexpr Quantity ROTATION{-360, 360, Unit::deg};  // also azimuth and roll
 constexpr Quantity GRID_SPACING{0.05, 100, Unit::mm};
@@ -76,14 +76,14 @@ constexpr Quantity BASE_FORCE{0, 100};         // N
 constexpr Quantity FORCE_RANGE{0, 100};        // N
 constexpr Quantity MAX_FORCE{0, 1000};         // N
 constexpr Quantity OPENING_STIFFNESS{0, 1e6};  // N/m
-constexpr Quantity FRICTION{0.01, 10};
-constexpr Quantity TORSION{0.01, 100, Unit::mm};
+constexpr Quantity FRICTION{0, 10};
+constexpr Quantity TORSION{0, 100, Unit::mm};
 constexpr Quantity GRIP_STRENGTH{0.1, 10000};  // N
 
-constexpr Quantity GRIP_HEIGHT{-2000, 4000, Unit::mm};
+constexpr Quantity GRIP_HEIGHT{-10000, 20000, Unit::mm};
 constexpr Quantity OBLIQUITY{-90, 90, Unit::deg};
-constexpr Quantity OFFSET{-2000, 2000, Unit::mm};
-constexpr Quantity POINT{-5000, 5000, Unit::mm};  // a fingertip given on the command line
+constexpr Quantity OFFSET{-10000, 10000, Unit::mm};
+constexpr Quantity POINT{-25000, 25000, Unit::mm};  // a fingertip given on the command line
 constexpr Quantity TILT{0, 180, Unit::deg};
 constexpr IntegerRange AXIS_COUNT{1, LARGEST_AXIS};
 constexpr IntegerRange SOBOL_COUNT{1, 1000000000000000};

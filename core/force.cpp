@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace CORE_NS {
 
@@ -38,14 +39,17 @@ Real feedback_force(Real normal, Real opening, Real max) { return std::clamp(nor
 
 // Limit surface of each of two contacts: (f_t / (mu N))^2 + (tau_n / (mu gamma N))^2 <= 1, with the load across d and the moment
 // about d shared; the load along d adds half of itself to one side.
-// Degenerate: mu = 0 needs an infinite force unless nothing has to be held across d.
+// Degenerate: without torsion a lever beyond the stop tolerance, and without friction whatever lies across d, needs an infinite force.
 Real hold_force(Real mass, Real gravity, Vec3 arm, Vec3 direction, Vec3 up, Real friction, Real torsion) {
   const Real weight = mass * gravity;
   const Real along = glm::dot(direction, up);
-  const Real moment = weight * std::abs(glm::dot(direction, glm::cross(arm, up)));
+  const Real lever = std::abs(glm::dot(direction, glm::cross(arm, up)));
+  const bool bare = !(torsion > 0);  // a contact of no extent
+  if (bare && weight > 0 && lever > STOP_TOLERANCE) return std::numeric_limits<Real>::infinity();
   const Real across_squared = weight * weight * std::max(Real(0), Real(1) - along * along) * Real(0.25);
-  const Real twist = moment / (Real(2) * torsion);
+  const Real twist = bare ? Real(0) : weight * lever / (Real(2) * torsion);
   const Real sideways = std::sqrt(across_squared + twist * twist);
+  if (sideways > 0 && !(friction > 0)) return std::numeric_limits<Real>::infinity();
   const Real held = sideways > 0 ? sideways / friction : Real(0);
   return held + weight * std::abs(along) * Real(0.5);
 }

@@ -130,7 +130,7 @@ void evaluate_grip(const Hand& hand, const Vessel& vessel, PoseKind pose, Grip g
   if (closing.reason != REASON_NONE) return;
   if (closing.grazing) answer.status |= STATUS_GRAZING;
   const Real cone = std::atan(friction);
-  if (closing.thumb_angle <= cone && closing.index_angle <= cone) answer.status |= STATUS_ANTIPODAL;
+  if (cone > 0 && closing.thumb_angle <= cone && closing.index_angle <= cone) answer.status |= STATUS_ANTIPODAL;
 
   const Real scale = closing.placement.scale;
   const Vec3 thumb_lengths = scale * Vec3(hand.length[0][0], hand.length[0][1], hand.length[0][2]);

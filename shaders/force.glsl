@@ -40,10 +40,13 @@ Real feedback_force(Real normal, Real opening, Real max) { return clamp(normal +
 Real hold_force(Real mass, Real gravity, Vec3 arm, Vec3 direction, Vec3 up, Real friction, Real torsion) {
   Real weight = mass * gravity;
   Real along = dot(direction, up);
-  Real moment = weight * abs(dot(direction, cross(arm, up)));
+  Real lever = abs(dot(direction, cross(arm, up)));
+  bool bare = !(torsion > Real(0));
+  if (bare && weight > Real(0) && lever > STOP_TOLERANCE) return INFINITE;
   Real across_squared = weight * weight * max(Real(0), Real(1) - along * along) * Real(0.25);
-  Real twist = moment / (Real(2) * torsion);
+  Real twist = bare ? Real(0) : weight * lever / (Real(2) * torsion);
   Real sideways = sqrt(across_squared + twist * twist);
+  if (sideways > Real(0) && !(friction > Real(0))) return INFINITE;
   Real held = sideways > Real(0) ? sideways / friction : Real(0);
   return held + weight * abs(along) * Real(0.5);
 }

@@ -89,7 +89,8 @@ void main() {
     return;
   }
   if (closing.grazing) status |= STATUS_GRAZING;
-  if (closing.thumb_angle <= scene.friction_angle && closing.index_angle <= scene.friction_angle) status |= STATUS_ANTIPODAL;
+  bool held = scene.friction_angle > Real(0);
+  if (held && closing.thumb_angle <= scene.friction_angle && closing.index_angle <= scene.friction_angle) status |= STATUS_ANTIPODAL;
 
   scale = closing.placement.scale;
   phalanx_depth = palm_depth = judged_depth = bone_stretch = Real(0);

@@ -95,7 +95,7 @@ TEST(CommandLine, RefusesWrongUsageWithOneLineAndCode2) {
       {"grip small", "--vessel is required"},
       {"grip small --vessel tumbler", "where is it held? give --height-mm, or --thumb-mm and --index-mm"},
       {"grip small --vessel tumblr --height-mm 50", "has no such vessel; the nearest is 'tumbler'"},
-      {"grip small --vessel tumbler --height-mm 5x", "--height-mm '5x'; allowed: a number, -2000 to 4000"},
+      {"grip small --vessel tumbler --height-mm 5x", "--height-mm '5x'; allowed: a number, -10000 to 20000"},
       {"grip small --vessel tumbler --height-mm nan", "--height-mm 'nan'"},
       {"grip small --vessel tumbler --height-mm ''", "--height-mm"},
       {"grip small --vessel tumbler --thumb-mm 1,2,3", "--thumb-mm requires --index-mm"},

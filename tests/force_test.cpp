@@ -221,7 +221,26 @@ TEST(Force, HoldForceOfAMomentAloneByHand) {
 
 TEST(Force, HoldForceWithoutFrictionIsInfinite) {
   EXPECT_EQ(hold_force({0.3, {0, 0.05, 0}, {1, 0, 0}, {0, 1, 0}, 0, 5e-3}), INFINITE);
-  EXPECT_EQ(hold_force({0.3, {0, 0, 0.05}, {1, 0, 0}, {0, 1, 0}, 0.6, 0}), INFINITE);  // a moment on bare points
+}
+
+TEST(Force, HoldForceWithoutTorsionTakesNoMoment) {
+  EXPECT_EQ(hold_force({0.3, {0, 0, 0.05}, {1, 0, 0}, {0, 1, 0}, 0.6, 0}), INFINITE);
+  // a lever up to the stop tolerance is rounding, and none
+  EXPECT_EQ(hold_force({0.3, {0, 0, 2 * STOP_TOLERANCE_F64}, {1, 0, 0}, {0, 1, 0}, 0.6, 0}), INFINITE);
+  for (const double lever : {0.0, 0.5 * STOP_TOLERANCE_F64})
+    EXPECT_DOUBLE_EQ(hold_force({0.3, {0.02, 0.05, lever}, {1, 0, 0}, {0, 1, 0}, 0.6, 0}), 0.3 * G / 1.2);
+  EXPECT_EQ(hold_force({0, {0, 0, 0.05}, {1, 0, 0}, {0, 1, 0}, 0.6, 0}), 0);
+  EXPECT_EQ(hold_force({0.3, {0, 0.05, 0}, {1, 0, 0}, {0, 1, 0}, 0, 0}), INFINITE);
+}
+
+// Forces beyond the largest number, whichever division passes it.
+TEST(Force, HoldForceOfTheLeastFrictionAndTorsionIsNeverNaN) {
+  for (const double friction : {0.0, 5e-324, 1e-300, 1e-9})
+    for (const double torsion : {0.0, 5e-324, 1e-300, 1e-9})
+      for (const double lever : {0.0, 1e-12, 0.05}) {
+        const double hold = hold_force({1e6, {0, 0.05, lever}, {1, 0, 0}, {0, 1, 0}, friction, torsion});
+        EXPECT_GT(hold, 1e12) << friction << " " << torsion << " " << lever;
+      }
 }
 
 TEST(Force, HoldForceOfNothingAcrossTheLineNeedsNoFriction) {

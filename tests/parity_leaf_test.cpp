@@ -602,8 +602,8 @@ TEST_F(ParityLeaf, Force) {
         .point(0.1)
         .vec(d)
         .vec({-s * pour[0], c, -s * pour[2]})
-        .uniform(0.3, 0.9)
-        .uniform(2e-3, 9e-3);
+        .add(i % 13 == 0 ? 0 : holds.random.uniform(0.3, 0.9))
+        .add(i % 17 == 0 ? 0 : holds.random.uniform(2e-3, 9e-3));
     couplings.point(0.1).point(0.1).vec(couplings.direction()).point(1).uniform(0, 900).uniform(0, 5);
   }
   compare({.shader = "probe_force", .probe = PROBE_DIRECTIONS, .inputs = 6, .outputs = repeated("direction", 6, 1), .fixed = {3}},

@@ -16,6 +16,15 @@ std::string outline_scene(const std::string& elements, const std::string& wall =
   return "[[vessel]]\nname = \"v\"\nwall_mm = " + wall + "\noutline = [\n" + elements + "\n]\n";
 }
 
+// As far apart as they may be at the least, which no two doubles at 50 and 50.001 are.
+TEST(SceneOutline, EdgesOfAMicrometreAreLongEnough) {
+  const Scene scene = parse_scene(
+      "[[vessel]]\nname = \"v\"\nmass_kg = 1\ncenter_of_mass_mm = [0, 0, 0]\noutline = [{ line = [30, 0] }, { line = [30, 50] }, "
+      "{ line = [30.001, 50] }, { line = [30.001, 50.001] }, { line = [0, 50.001] }]",
+      "test.toml");
+  EXPECT_EQ(scene.vessels[0].outline.size(), 5u);
+}
+
 TEST(SceneOutline, ShapesBecomeOutlines) {
   const Scene scene = scene_of(R"(
 [[vessel]]
@@ -118,7 +127,7 @@ TEST(SceneOutline, RefusesOutlines) {
       {"@{ line = [1, 2], center = [0, 0] }, {}", "with 'line' and 'center'"},
       {"{ line = @[1] }, {}", "line has 1 entries; allowed: [r, y] in mm"},
       {"{ line = @3 }, {}", "line = 3; allowed: [r, y] in mm"},
-      {"{ line = [@-1, 0] }, {}", "r of line = -1; allowed: 0 to 1000"},
+      {"{ line = [@-1, 0] }, {}", "r of line = -1; allowed: 0 to 5000"},
       {"{ line = [1, @nan] }, {}", "y of line = nan"},
       // open, off the axis, no mouth
       {"{ line = [30, 0] }, @{ line = [30, 90] }", "the outline is open: it ends at [30, 90], off the axis"},
