@@ -130,9 +130,11 @@ double settle(const PreparedElement& piece, double y) {
   return piece.center[0] + piece.side * std::sqrt(std::max(0.0, (piece.radius - rise) * (piece.radius + rise)));
 }
 
-double distance_to(const std::vector<PreparedElement>& open, double r, double y) {
+// To the nearest of the elements named.
+double distance_to(const std::vector<PreparedElement>& open, const std::vector<std::size_t>& near, double r, double y) {
   double best = 1e300;
-  for (const auto& e : open) {
+  for (const std::size_t k : near) {
+    const auto& e = open[k];
     const double to_ends = std::min(std::hypot(r - e.a[0], y - e.a[1]), std::hypot(r - e.b[0], y - e.b[1]));
     best = std::min(best, to_ends);
     if (e.side == 0) {
@@ -185,6 +187,7 @@ std::vector<PreparedElement> inner_offset(const std::vector<PreparedElement>& hu
   std::optional<Curve> current;  // none: closed
   double begin = 0;
   bool was_open = false;
+  std::vector<std::size_t> near;  // the same for all steps between two critical heights
   const auto finish = [&](double y) {
     if (current && y > begin) {
       PreparedElement piece = piece_of(open[current->element], *current, wall, begin + (y - begin) * 1e-9, y - (y - begin) * 1e-9);
@@ -198,8 +201,8 @@ std::vector<PreparedElement> inner_offset(const std::vector<PreparedElement>& hu
     const double low = heights[i], high = heights[i + 1];
     // the curve just above `low` and just below `high`; between them at most one gives way
     const double inset = (high - low) * 1e-7;
+    if (i % STEPS == 0) near = elements_near(open, wall, low, critical[i / STEPS + 1]);
     if (!(high - low > 1e-15)) continue;
-    const std::vector<std::size_t> near = elements_near(open, wall, low, high);
     double at = low + inset;
     while (true) {
       const auto here = first_blocked(open, near, wall, at);
@@ -236,12 +239,13 @@ std::vector<PreparedElement> inner_offset(const std::vector<PreparedElement>& hu
   for (int i = 0; i < 128; ++i) {
     const double y = floor + (mouth - floor) * (i + 0.5) / 128;
     const auto radii = crossings(hull, y);
-    const double inner = first_blocked(open, elements_near(open, wall, y, y), wall, y).value_or(Boundary{}).radius;
+    const std::vector<std::size_t> within = elements_near(open, wall, y, y);  // no other is nearer than the wall
+    const double inner = first_blocked(open, within, wall, y).value_or(Boundary{}).radius;
     for (std::size_t k = 0; k < radii.size(); k += 2) {
       const double from = k == 0 ? inner : radii[k - 1];
       for (int j = 0; j < 64; ++j) {
         const double r = from + (radii[k] - from) * (j + 0.5) / 64;
-        if (distance_to(open, r, y) > wall * (1 + 1e-9) + 1e-12)
+        if (distance_to(open, within, r, y) > wall * (1 + 1e-9) + 1e-12)
           throw refuse("the inner wall folds over itself at " + std::to_string(y * 1e3) +
                        " mm; the cavity must have one radius at each height");
       }
