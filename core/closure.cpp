@@ -25,6 +25,7 @@ Trace trace_tip(const Vessel& vessel, Vec3 origin, Vec3 direction, Real heading,
   Trace trace;
   for (int step = 0; step < TRACE_STEPS; ++step) {
     trace.t = middle + heading * (reach - travelled);
+    trace.steps = step + 1;
     const Support support = support_at(vessel, origin + trace.t * direction);
     const Real clear = support.distance - radius;
     if (std::abs(clear) < STOP_TOLERANCE) {
@@ -96,6 +97,7 @@ Closing close_fingers(const Hand& hand, const Vessel& vessel, Grip grip) {
   const Real index_radius = scale * hand.radius[1][4];
   const Trace index = trace_tip(vessel, origin, d, Real(1), index_radius);
   const Trace thumb = trace_tip(vessel, origin, d, Real(-1), thumb_radius);
+  closing.steps = std::max(index.steps, thumb.steps);
   closing.reason = REASON_NOT_CONVERGED;
   if (index.reason == REASON_NOT_CONVERGED || thumb.reason == REASON_NOT_CONVERGED) return closing;
   closing.reason = REASON_MISSES;

@@ -25,6 +25,7 @@ struct Trace {
   int reason = 0;
   Vec3 normal{};
   int element = -1;
+  int steps = 0;  // taken before it ended; for evidence, the shaders do not count
 };
 
 // What closing gives. t, gap and midpoint are set from REASON_TOO_WIDE on, the rest where the reason is REASON_NONE.
@@ -37,6 +38,7 @@ struct Closing {
   Real thumb_angle = 0, index_angle = 0;  // between the outward normal and the line, rad
   bool grazing = false;
   Placement placement;
+  int steps = 0;  // of the longer trace
 };
 
 // Thumb-to-index direction Ry(azimuth) Rz(obliquity) (1, 0, 0).

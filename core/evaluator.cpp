@@ -87,6 +87,8 @@ class CoreEvaluator final : public wholehand::Evaluator {
     const auto back = [&](Vec3 p) { return wholehand::mirrored(to_triple(p), scene_.hand.handedness); };
     result = GripResult{};
     result.status = answer.status;
+    result.trace_steps = closing.steps;
+    result.advance_steps = answer.advance_steps;
     result.reason = static_cast<wholehand::Reason>(closing.reason);
     if (closing.reason == REASON_NONE || closing.reason >= REASON_TOO_WIDE) {
       result.gap = closing.gap;

@@ -41,6 +41,7 @@ void pose_articulated(const Hand& hand, const Vessel& vessel, const PlacedFinger
     const Watch watch = watch_points(vessel, points, radii);
     separations = watch.separations;
     motion = advance_finger(hand, motion, finger.frame, finger.mcp, points, watch, finger.lengths);
+    answer.advance_steps = std::max(answer.advance_steps, motion.steps);
   }
   const int j = first_joint(f);
   answer.posed[j + 2] = points.pip;

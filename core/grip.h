@@ -25,6 +25,7 @@ struct GripAnswer {
   std::array<Real, JOINTS> separation{};
   std::uint32_t touch_mask = 0, tip_mask = 0, finger_mask = 0, inner_mask = 0, used_mask = 0;
   Real phalanx_depth = 0, palm_depth = 0, bone_stretch = 0;
+  int advance_steps = 0;  // of the longest stage of a finger (pose articulated)
 };
 
 // First joint of a finger, and whether a joint is a metacarpal base.

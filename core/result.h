@@ -45,6 +45,8 @@ struct GripResult {
   std::uint32_t status = 0;                  // STATUS_* bits of shaders/layout.h
   double phalanx_depth = 0, palm_depth = 0;  // m, >= 0
   double bone_stretch = 0;                   // m
+  // Iterations, of the core alone (a device does not tell): of the longer trace of a tip, and of a finger's longest stage.
+  int trace_steps = 0, advance_steps = 0;
 };
 
 // Liquid of a vessel at one fill and tilt; the centre of mass lies in the (n, y) plane.

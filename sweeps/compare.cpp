@@ -238,6 +238,7 @@ void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, cons
     ++outcomes.compared;
     if (!differs(a, b, i)) continue;
     left_out[i] = 1;
+    flips_.push_back({vessel, i, undecided[i] != 0});
     if (undecided[i] != 0) {
       ++excluded_;
     } else {

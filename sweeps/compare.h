@@ -42,6 +42,12 @@ struct Comparison {
   std::uint64_t compared = 0, outside = 0;  // grips; outside: over the tolerance
 };
 
+// A grip whose discrete outcomes differ; inside: the core's own change within the allowance too.
+struct Flip {
+  std::size_t vessel = 0, grip = 0;
+  bool inside = false;
+};
+
 // Which precision's rounding and stop tolerance the two sides have: the coarser of the two.
 struct Allowance {
   double epsilon = 0;          // of the reals
@@ -66,6 +72,7 @@ class Comparer {
   std::uint64_t grazing() const { return grazing_; }
   std::uint64_t feasible() const { return feasible_; }  // by the core
   std::uint64_t excluded() const { return excluded_; }  // discrete outcomes differ within the margin
+  const std::vector<Flip>& flips() const { return flips_; }
   // No number outside its tolerance, at most one grip in 1,000 excluded, and not all of them grazing.
   bool holds() const;
 
@@ -82,6 +89,7 @@ class Comparer {
   Allowance allowed_;
   std::vector<std::shared_ptr<const Evaluator>> other_tips_;  // thumb and index tips thicker and thinner by the stop tolerance
   std::vector<Comparison> rows_;
+  std::vector<Flip> flips_;
   std::uint64_t grips_ = 0, grazing_ = 0, excluded_ = 0, feasible_ = 0;
 };
 

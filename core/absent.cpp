@@ -1,0 +1,54 @@
+#include "core/absent.h"
+
+#include <cmath>
+#include <limits>
+
+namespace wholehand {
+namespace {
+
+bool is_of_closing(int field) {
+  return field == FIELD_GAP || field == FIELD_MIDPOINT || field == FIELD_T_INDEX || field == FIELD_T_THUMB;
+}
+
+}  // namespace
+
+Misplaced misplaced_values(const Scene& scene, const FieldSet& fields, std::size_t count, std::size_t stride, const double* reals,
+                           const std::uint32_t* uints, bool overflows) {
+  Misplaced found;
+  const bool unheld = !(scene.force.friction > 0 && scene.force.torsion > 0);
+  const std::uint32_t* status = uints + fields.plane[FIELD_STATUS] * stride;
+  for (int field = 0; field < REAL_FIELDS; ++field) {
+    if (!fields.has(field) || fields.plane[field] >= fields.real_kept) continue;
+    const int planes = field_planes(field, scene_fills(scene), scene.tilts.size());
+    for (int p = 0; p < planes; ++p) {
+      const double* plane = reals + (fields.plane[field] + p) * stride;
+      for (std::size_t i = 0; i < count; ++i) {
+        const double value = plane[i];
+        const std::uint32_t reason = status[i] & STATUS_REASON_MASK;
+        bool fits = std::isfinite(value);
+        if (field == FIELD_SCORE || field == FIELD_TERMS) {
+          fits = fits && (reason == REASON_NONE || value == 0);
+        } else if (reason != REASON_NONE && !(is_of_closing(field) && reason >= REASON_TOO_WIDE)) {
+          fits = std::isnan(value);
+        } else if (field == FIELD_SAFE_TILT) {
+          fits = fits || std::isnan(value);
+        } else if (field == FIELD_HOLD_FORCE || field == FIELD_LARGEST_HOLD) {
+          const bool may = unheld || overflows || (status[i] & STATUS_ANTIPODAL) == 0;
+          fits = fits || (may && value == std::numeric_limits<double>::infinity());
+        }
+        if (fits) continue;
+        if (found.count++ == 0) found = {1, field, p, i, value};
+      }
+    }
+  }
+  return found;
+}
+
+std::string describe(const Misplaced& misplaced) {
+  if (misplaced.count == 0) return "";
+  return "field " + std::to_string(misplaced.field) + ", plane " + std::to_string(misplaced.plane) + " of grip " +
+         std::to_string(misplaced.grip) + " is " + std::to_string(misplaced.value) + " (" + std::to_string(misplaced.count) +
+         " such values)";
+}
+
+}  // namespace wholehand
