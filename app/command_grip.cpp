@@ -12,6 +12,7 @@
 #include "app/scene_reader.h"
 #include "app/scene_text.h"
 #include "app/values.h"
+#include "sweeps/domain.h"
 #include "sweeps/grip_report.h"
 
 namespace wholehand {
@@ -74,6 +75,9 @@ ExitCode grip(const GripArguments& arguments) {
   const StateAxes axes = read_states(arguments, scene);
   Precision precision = arguments.on == "core" ? Precision::full : Precision::single;
   if (!arguments.precision.empty()) precision = parse_precision(arguments.precision);
+  Scene asked = scene;
+  asked.grips.hand_scale = {{input.hand_scale}};
+  for (const std::string& line : domain_warnings(asked, precision)) std::fprintf(stderr, "wholehand: %s\n", line.c_str());
   const GripReport report = make_grip_report(scene, vessel, input, axes, open_grip_methods(scene, arguments.on, precision));
   if (arguments.json && arguments.on != "core") std::fprintf(stderr, "wholehand: on %s\n", report.device.c_str());
   print(arguments.json ? grip_json(report) + "\n" : grip_table(report));

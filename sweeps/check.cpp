@@ -7,6 +7,7 @@
 
 #include "host/grip_backend.h"
 #include "sweeps/compare.h"
+#include "sweeps/domain.h"
 #include "sweeps/plan.h"
 
 namespace wholehand {
@@ -75,6 +76,7 @@ void print_comparison(const std::string& title, const Scene& scene, const Compar
 
 ExitCode run_check(const Scene& scene, const CheckOptions& options) {
   if (options.on == "core") throw usage_error("check: --on core is what the devices are compared with; name a Vulkan device");
+  for (const std::string& line : domain_warnings(scene, Precision::single)) fmt::print(stderr, "wholehand: {}\n", line);
   const FieldSet fields = all_fields(scene);
   const std::shared_ptr<const Evaluator> core = make_core_evaluator(scene);
   const std::shared_ptr<const Evaluator> core_float = make_core_float_evaluator(scene);

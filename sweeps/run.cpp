@@ -13,6 +13,7 @@
 #include "sweeps/build_id.h"
 #include "sweeps/candidates.h"
 #include "sweeps/closing.h"
+#include "sweeps/domain.h"
 #include "sweeps/explain.h"
 #include "sweeps/heat_map_plot.h"
 #include "sweeps/interrupt.h"
@@ -58,6 +59,7 @@ class Sweep {
           fmt::format("{} is complete: nothing to go on with; the same command without --resume computes it again", names_.result));
       return ExitCode::done;
     }
+    for (const std::string& line : domain_warnings(scene_, precision())) note(line);
     const Plan plan(scene_, keeps_vectors(variables_));
     backend_ = parts_.open_backend(make_field_set(variable_fields(variables_), scene_));
     fmt::print("{}", opening_lines(scene_, plan, backend_->info()));

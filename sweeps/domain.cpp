@@ -1,0 +1,93 @@
+#include "sweeps/domain.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/load.h"
+#include "core/prepare.h"
+
+namespace wholehand {
+namespace {
+
+// The largest coordinate, arc's centre or arc's radius of an outline, m.
+double farthest(const VesselData& vessel) {
+  double largest = 0;
+  std::array<double, 2> start{};
+  for (const OutlineElement& element : vessel.outline) {
+    largest = std::max({largest, std::abs(element.end[0]), std::abs(element.end[1])});
+    if (element.is_arc) {
+      largest = std::max({largest, std::abs(element.center[0]), std::abs(element.center[1]),
+                          std::hypot(start[0] - element.center[0], start[1] - element.center[1])});
+    }
+    start = element.end;
+  }
+  return largest;
+}
+
+// What holds a vessel at its heaviest, with the longest lever about a line within its height, N; 0 where no force does.
+double largest_hold(const Scene& scene, const VesselData& data) {
+  const ForceData& force = scene.force;
+  if (scene.tilts.empty() || !(force.friction > 0)) return 0;
+  const core_f64::Quadrature rule = core_f64::load_quadrature(prepare_quadrature(QUADRATURE_POINTS));
+  const core_f64::Vessel vessel =
+      core_f64::load_vessel(prepare_vessel(data, data.wall > 0), data, rule, false, scene.hand.handedness);
+  double mass = vessel.mass;
+  if (scene.liquid && data.wall > 0)
+    mass += scene.liquid->density * scene.liquid->fills.back() * core_f64::lip_capacity(vessel, rule, 0, 1);
+  const auto& center = vessel.center_of_mass;
+  const double lever = std::max(std::abs(center.y), std::abs(data.height - center.y)) + std::hypot(center.x, center.z);
+  const double twist = force.torsion > 0 ? lever / (2 * force.torsion) : 0;  // without torsion infinite, or nothing
+  return mass * scene.gravity * (twist + 0.5) / force.friction;
+}
+
+std::string beyond(const std::string& what, const std::string& limit) {
+  return fmt::format("{}: beyond {} float may be more than 10 um or 10 mN from double; use --precision double", what, limit);
+}
+
+}  // namespace
+
+std::vector<std::string> domain_warnings(const Scene& scene, Precision precision) {
+  using namespace float_domain;
+  std::vector<std::string> warnings;
+  if (precision == Precision::full) return warnings;
+  refuse_meshes(scene);
+  const Axis& axis = scene.grips.hand_scale;
+  auto [least, most] = std::minmax_element(axis.values.begin(), axis.values.end());
+  const double smallest = scene.hand.scale * (axis.is_range ? std::min(axis.from, axis.to) : *least),
+               largest = scene.hand.scale * (axis.is_range ? std::max(axis.from, axis.to) : *most);
+  const double rounding = 1e-12;  // of the products and conversions: the limits themselves are within
+  if (smallest < SMALLEST_HAND * (1 - rounding))
+    warnings.push_back(beyond(fmt::format("hand scale {:.3g}", smallest), fmt::format("a smallest of {}", SMALLEST_HAND)));
+  if (largest > LARGEST_HAND * (1 + rounding))
+    warnings.push_back(beyond(fmt::format("hand scale {:.3g}", largest), fmt::format("a largest of {}", LARGEST_HAND)));
+  if (scene.hand.contact_tolerance < SMALLEST_CONTACT_TOLERANCE * (1 - rounding)) {
+    warnings.push_back(beyond(fmt::format("contact tolerance {:.3g} mm", scene.hand.contact_tolerance * 1e3),
+                              fmt::format("a smallest of {} mm", SMALLEST_CONTACT_TOLERANCE * 1e3)));
+  }
+  const VesselData* far = nullptr;
+  const VesselData* heavy = nullptr;
+  double far_most = LARGEST_COORDINATE, hold_most = LARGEST_HOLD;
+  for (const VesselData& vessel : scene.vessels) {
+    if (const double reach = farthest(vessel); reach > far_most) {
+      far = &vessel;
+      far_most = reach;
+    }
+    if (const double hold = largest_hold(scene, vessel); hold > hold_most) {
+      heavy = &vessel;
+      hold_most = hold;
+    }
+  }
+  if (far) {
+    warnings.push_back(beyond(fmt::format("vessel '{}' has coordinates of {:.3g} m", far->name, far_most),
+                              fmt::format("{} m", LARGEST_COORDINATE)));
+  }
+  if (heavy) {
+    warnings.push_back(
+        beyond(fmt::format("vessel '{}' is held by up to {:.2g} N", heavy->name, hold_most), fmt::format("{} N", LARGEST_HOLD)));
+  }
+  return warnings;
+}
+
+}  // namespace wholehand
