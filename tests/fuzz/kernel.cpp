@@ -1,0 +1,236 @@
+// Whatever a scene may say and wherever it is gripped, kernels answer with finite numbers where a value must be: bytes become a scene
+// that the reader takes (what it or the preparation refuses is passed over), grips within its ranges, and both precisions' answers.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "app/scene_ranges.h"
+#include "app/scene_reader.h"
+#include "core/absent.h"
+#include "core/error.h"
+#include "core/evaluator.h"
+
+namespace wholehand {
+namespace {
+
+constexpr int LARGEST_ELEMENTS = 10, LARGEST_STATES = 3, GRIPS = 6;
+
+// Bytes as choices and numbers; past their end all are 0.
+class Choices {
+ public:
+  Choices(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
+
+  int of(int count) { return byte() % count; }
+  bool yes() { return of(2) == 1; }
+
+  double share() { return (byte() + 256.0 * byte()) / 65535; }
+
+  // A number of the range: a share of it, an end, one beside one that was, or eight bytes as they stand.
+  double in(const Quantity& range) {
+    static constexpr double NUDGES[] = {0, 1e-17, -1e-12, 1e-9, -1e-6, 1e-3, 5e-324, 1e-300};
+    double value = 0;
+    switch (of(6)) {
+      case 0:
+        value = range.low;
+        break;
+      case 1:
+        value = range.high;
+        break;
+      case 2:
+        value = numbers_[of(KEPT)] * (yes() ? 1 : -1) + NUDGES[of(8)];
+        break;
+      case 3: {
+        std::uint8_t bytes[sizeof value];
+        for (std::uint8_t& b : bytes) b = byte();
+        std::memcpy(&value, bytes, sizeof value);
+        break;
+      }
+      default:
+        value = range.low + share() * (range.high - range.low);
+    }
+    value = std::isfinite(value) ? std::clamp(value, range.low, range.high) : range.low;
+    return keep(value);
+  }
+
+  // One that later numbers may be equal or near to.
+  double keep(double value) { return numbers_[next_++ % KEPT] = value; }
+
+ private:
+  static constexpr int KEPT = 16;
+  std::uint8_t byte() { return at_ < size_ ? data_[at_++] : 0; }
+
+  const std::uint8_t* data_;
+  std::size_t size_, at_ = 0;
+  double numbers_[KEPT] = {};
+  std::size_t next_ = 0;
+};
+
+std::string key(const char* name, double value) { return fmt::format("{} = {:.17g}\n", name, value); }
+
+// Upwards for the most part, so that few outlines cross themselves; lengths in mm, about `size`.
+std::string outline_of(Choices& choose, double size) {
+  std::string text = "outline = [";
+  double r = choose.keep(size * (0.05 + choose.share())), y = 0;
+  text += fmt::format("{{ line = [{:.17g}, 0] }}", r);
+  const int count = choose.of(LARGEST_ELEMENTS);
+  for (int k = 0; k < count; ++k) {
+    const double last_r = r, last_y = y;
+    r = choose.yes() ? r : choose.keep(size * (0.05 + choose.share()));
+    y = choose.of(4) == 0 ? y : choose.keep(y + size * choose.share() * (choose.of(8) == 0 ? 1e-4 : 1));
+    if (r == last_r && y == last_y) y += choose.keep(size * 0.1);
+    if (choose.of(3) > 0) {
+      text += fmt::format(", {{ line = [{:.17g}, {:.17g}] }}", r, y);
+    } else {  // its centre somewhere on the perpendicular through the middle
+      const double along = std::exp(8 * choose.share() - 4) * (choose.yes() ? 1 : -1);
+      const double center_r = (r + last_r) / 2 + along * (last_y - y), center_y = (y + last_y) / 2 + along * (r - last_r);
+      text += fmt::format(", {{ arc = [{:.17g}, {:.17g}], center = [{:.17g}, {:.17g}] }}", r, y, center_r, center_y);
+    }
+  }
+  return text + fmt::format(", {{ line = [0, {:.17g}] }}]\n", y);
+}
+
+std::string vessel_of(Choices& choose) {
+  const double size = std::exp(choose.share() * std::log(1e4));  // mm, 1 to 10,000
+  std::string text = "[[vessel]]\nname = \"v\"\n";
+  const auto length = [&] {
+    return choose.keep(std::clamp(size * (0.02 + choose.share()), ranges::DIAMETER.low, ranges::DIAMETER.high));
+  };
+  switch (choose.of(4)) {
+    case 0:
+      text += "shape = \"cylinder\"\n" + key("diameter_mm", length()) + key("height_mm", length());
+      break;
+    case 1: {
+      const double diameter = length();
+      text += "shape = \"flask\"\n" + key("diameter_mm", diameter) + key("neck_mm", diameter * choose.share()) +
+              key("height_mm", diameter + length());
+      break;
+    }
+    case 2: {
+      const double diameter = length(), upright = choose.yes() ? 0 : length(), shoulder = upright + length();
+      text += "shape = \"conical\"\n" + key("diameter_mm", diameter) + key("upright_mm", upright) +
+              key("neck_mm", diameter * choose.share()) + key("shoulder_mm", choose.keep(shoulder)) +
+              key("height_mm", shoulder + length());
+      break;
+    }
+    default:
+      text += outline_of(choose, size);
+  }
+  const bool has_mass = choose.yes(), has_wall = !has_mass || choose.yes();
+  if (has_wall)
+    text += key("wall_mm",
+                std::max(ranges::WALL.low, std::min(ranges::WALL.high, choose.keep(size * std::exp(-1 - 7 * choose.share())))));
+  if (has_mass) {
+    text += key("mass_kg", std::exp(std::log(1e-6) + choose.share() * std::log(1e12)));
+    text += fmt::format("center_of_mass_mm = [{:.17g}, {:.17g}, {:.17g}]\n", choose.in({-size, size}), choose.in({-size, size}),
+                        choose.in(ranges::CENTER_OF_MASS));
+  }
+  if (has_wall && choose.yes()) text += "surface = \"shell\"\n";
+  return text;
+}
+
+// Ascending numbers of a range, at least one.
+std::string ascending(Choices& choose, const char* name, const Quantity& range) {
+  std::vector<double> values;
+  for (int k = choose.of(LARGEST_STATES) + 1; k > 0; --k) values.push_back(choose.in(range));
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  std::string text = std::string(name) + " = [";
+  for (const double value : values) text += fmt::format("{:.17g}, ", value);
+  return text + "]\n";
+}
+
+std::string scene_of(Choices& choose) {
+  static constexpr const char* POSES[] = {"articulated", "paper", "rigged"};
+  std::string text = fmt::format("[scene]\npose = \"{}\"\n", POSES[choose.of(3)]) + key("gravity_m_s2", choose.in(ranges::GRAVITY));
+  text += "[hand]\n" + key("scale", choose.in(ranges::SCALE)) + key("contact_tolerance_mm", choose.in(ranges::CONTACT_TOLERANCE));
+  if (choose.yes()) text += "handedness = \"left\"\n";
+  text += vessel_of(choose);
+  if (choose.yes()) {
+    text += "[liquid]\n" + ascending(choose, "fills", ranges::FRACTION) + key("density_kg_m3", choose.in(ranges::LIQUID_DENSITY));
+    if (choose.yes()) text += "pour = \"towards\"\n";
+  }
+  if (choose.yes()) {
+    text += "[force]\n" + key("base_N", choose.in(ranges::BASE_FORCE)) + key("range_N", choose.in(ranges::FORCE_RANGE)) +
+            key("max_N", choose.in(ranges::MAX_FORCE)) + key("friction", choose.in(ranges::FRICTION)) +
+            key("torsion_mm", choose.in(ranges::TORSION)) + key("grip_strength_N", choose.in(ranges::GRIP_STRENGTH));
+    if (choose.yes()) text += "torque = \"exact\"\n";
+    if (choose.yes()) text += "reference = \"per_grip\"\n";
+  }
+  return text + "[tilts]\n" + ascending(choose, "deg", ranges::TILT);
+}
+
+std::vector<GripInput> grips_of(Choices& choose, const Scene& scene) {
+  const double height = scene.vessels[0].height;
+  const auto si = [&](const Quantity& range) { return to_si(choose.in(range), range.unit); };
+  double widest = 0;
+  for (const OutlineElement& element : scene.vessels[0].outline) widest = std::max(widest, element.end[0]);
+  std::vector<GripInput> grips(GRIPS);
+  for (GripInput& grip : grips) {
+    grip.height = choose.of(4) == 0 ? si(ranges::GRIP_HEIGHT) : choose.share() * height;
+    grip.azimuth = si(ranges::ROTATION);
+    grip.obliquity = choose.yes() ? 0 : si(ranges::OBLIQUITY);
+    grip.roll = si(ranges::ROTATION);
+    grip.offset = choose.yes() ? 0 : choose.of(4) == 0 ? si(ranges::OFFSET) : (2 * choose.share() - 1) * widest;
+    // most hands span the vessel
+    const double spanning = widest / (0.04 * scene.hand.scale) * (0.4 + 2.6 * choose.share());
+    grip.hand_scale = choose.of(4) == 0 ? choose.in(ranges::SCALE) : std::clamp(spanning, ranges::SCALE.low, ranges::SCALE.high);
+  }
+  return grips;
+}
+
+void must(bool holds, const std::string& what) {
+  if (holds) return;
+  std::fprintf(stderr, "%s\n", what.c_str());
+  std::abort();
+}
+
+void check(const Scene& scene, const Evaluator& core, const std::vector<GripInput>& grips, const char* precision) {
+  std::vector<int> every(FIELDS);
+  std::iota(every.begin(), every.end(), 0);
+  const FieldSet fields = make_field_set(every, scene);
+  std::vector<double> reals(fields.real_planes * grips.size());
+  std::vector<std::uint32_t> uints(fields.uint_planes * grips.size());
+  core.planes(0, grips.data(), grips.size(), fields, grips.size(), reals.data(), uints.data());
+  const Misplaced misplaced = misplaced_values(scene, fields, grips.size(), grips.size(), reals.data(), uints.data(), true);
+  must(misplaced.count == 0, fmt::format("{}: {}\n{}", precision, describe(misplaced), scene.text));
+  const VesselConstants constants = core.constants(0);
+  for (const double value : {constants.capacity, constants.mass, constants.center_of_mass[0], constants.center_of_mass[1],
+                             constants.center_of_mass[2], constants.torque_reference, constants.largest_mass})
+    must(std::isfinite(value), fmt::format("{}: a constant of the vessel is {}\n{}", precision, value, scene.text));
+  if (!scene.liquid) return;
+  for (const double fill : scene.liquid->fills) {
+    for (const double tilt : scene.tilts) {
+      const LiquidResult liquid = core.liquid(0, fill, tilt);
+      for (const double value : {liquid.volume, liquid.mass, liquid.lean, liquid.height, liquid.poured})
+        must(std::isfinite(value), fmt::format("{}: liquid is {}\n{}", precision, value, scene.text));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace wholehand
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace wholehand;
+  Choices choose(data, size);
+  try {
+    const Scene scene = parse_scene(scene_of(choose), "fuzz.toml");
+    const std::vector<GripInput> grips = grips_of(choose, scene);
+    check(scene, *make_core_evaluator(scene), grips, "double");
+    check(scene, *make_core_float_evaluator(scene), grips, "float");
+  } catch (const Error& error) {
+    if (error.code != ExitCode::usage) std::abort();
+    if (std::getenv("WHOLEHAND_FUZZ_REFUSALS")) std::fprintf(stderr, "%s\n", error.what());
+  }
+  return 0;
+}
