@@ -44,6 +44,18 @@ std::vector<std::string> shipped_scenes() {
   return names;
 }
 
+std::vector<std::string> extreme_scene_files() {
+  std::vector<std::string> files;
+  std::error_code failed;
+  const std::string dir = scenes_dir();
+  if (dir.empty()) return files;
+  for (const auto& entry : fs::directory_iterator(fs::path(dir).parent_path().parent_path() / "tests/extreme", failed)) {
+    if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
 std::string find_scene(const std::string& name) {
   const std::string dir = scenes_dir();
   std::error_code failed;

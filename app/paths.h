@@ -15,6 +15,9 @@ std::string scenes_dir();
 // Names of the shipped scenes, without .toml, in order.
 std::vector<std::string> shipped_scenes();
 
+// The extreme scenes of the source tree that scenes_dir() belongs to (tests/extreme), as paths in order; none where there is no such folder.
+std::vector<std::string> extreme_scene_files();
+
 // A path that exists stays; a bare name may be that of a shipped scene, with or without .toml; empty: the default scene. Throws Error
 // (usage) where there is no such scene, naming the shipped ones, and Error (failure) where the default one is gone.
 std::string find_scene(const std::string& name);

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "app/paths.h"
 #include "app/scene_reader.h"
 #include "core/force.h"
 #include "core/prepare.h"
@@ -346,6 +347,7 @@ TEST(Extreme, EveryCaseHasAScene) {
   for (const auto& [name, look] : LOOKS) wanted.push_back(name + ".toml");
   std::sort(found.begin(), found.end());
   EXPECT_EQ(found, wanted);
+  EXPECT_EQ(extreme_scene_files().size(), wanted.size());
 }
 
 TEST(Extreme, EverySceneSaysWhatIsHardAndWhatComesOut) {
