@@ -5,6 +5,8 @@
 
 #include "app/commands.h"
 #include "app/output.h"
+#include "app/paths.h"
+#include "app/scene_reader.h"
 #include "app/validators.h"
 #include "app/values.h"
 #include "sweeps/stability.h"
@@ -64,6 +66,7 @@ ExitCode report_stability(const ReportArguments& arguments) {
   options.on = arguments.on;
   options.quick = arguments.quick;
   options.seed = static_cast<std::uint64_t>(parse_integer(arguments.seed, "--seed", wall_ranges::SEED));
+  for (const std::string& file : extreme_scene_files()) options.extremes.push_back(extreme_case(read_scene_file(file)));
   return run_stability(options);
 }
 
@@ -80,7 +83,7 @@ void add_stability_command(CLI::App& app, Action& action) {
       ->type_name("DEVICE")
       ->check(not_empty());
   command->add_flag("--quick", report_arguments->quick, "Coarser maps, under a minute");
-  command->add_option("--seed", report_arguments->seed, "Of the random grips (1)")->type_name("N");
+  command->add_option("--seed", report_arguments->seed, "Of the devices and walls by chance (1)")->type_name("N");
   command->callback([command, report_arguments, &action] {
     if (!command->get_subcommands().empty()) return;
     action = [report_arguments] { return report_stability(*report_arguments); };

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 #include <memory>
+#include <random>
 #include <thread>
 
 #include "core/wall_run.h"
@@ -39,6 +40,42 @@ WallColumn column_of(const WallDevice& device, int count, int integrator = LOOP_
     column.points.push_back({device, stiffness, integrator, substeps, 0});
   }
   return column;
+}
+
+// The same on every machine: the library's distributions are not.
+class Chance {
+ public:
+  explicit Chance(std::uint64_t seed) : engine_(seed) {}
+  double between(double low, double high) { return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53); }
+  double evenly_in_logarithm(double low, double high) { return low * std::pow(high / low, between(0, 1)); }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+WallSheet by_chance(int count, std::uint64_t seed) {
+  WallSheet sheet{"chance", {}};
+  Chance chance(seed);
+  for (int k = 0; k < count; ++k) {
+    WallDevice device;
+    device.mass = chance.evenly_in_logarithm(0.02, 0.5);
+    device.damping = chance.evenly_in_logarithm(0.3, 3);
+    device.rate = chance.evenly_in_logarithm(250, 8000);
+    device.wall_damping = chance.between(0, 1) < 0.5 ? 0 : chance.between(-0.5, 2) * device.damping;
+    device.delay = chance.between(0, 1) < 0.5 ? 0 : static_cast<int>(chance.between(0, LOOP_DELAYS + 1));
+    if (chance.between(0, 1) < 0.5) {
+      device.finger_mass = chance.between(0.004, 0.02);
+      device.finger_damping = chance.between(1, 8);
+      device.finger_stiffness = chance.between(200, 800);
+    }
+    WallColumn column;
+    column.theory = wall_theory(device);
+    // damping that is delayed leaves some without any stable wall
+    if (!(column.theory.linear > 1)) continue;
+    for (const double share : {0.99, 1.01}) column.points.push_back({device, share * column.theory.linear, LOOP_EXACT, 1, 0});
+    sheet.columns.push_back(column);
+  }
+  return sheet;
 }
 
 const std::array<const char*, 3> INTEGRATOR_NAMES{"exact", "euler", "semi_implicit"};
@@ -161,7 +198,7 @@ WallRunner open_wall_runner(const std::string& on, BackendInfo& info, double& ke
   };
 }
 
-std::vector<WallSheet> wall_sheets(bool quick) {
+std::vector<WallSheet> wall_sheets(bool quick, std::uint64_t seed) {
   const int stiffnesses = quick ? 48 : 96;
   const std::vector<double> rates = logarithmic(250, 8000, quick ? 11 : 41);  // 1000 and every octave among them
   WallSheet map{"stiffness_damping_rate", {}}, delays{"delay", {}}, encoders{"encoder", {}}, fingers{"finger", {}},
@@ -201,7 +238,7 @@ std::vector<WallSheet> wall_sheets(bool quick) {
         integrators.columns.push_back(column_of(device_at(devices[d], 1000), 2 * stiffnesses, integrator, substeps, 1000));
       }
   }
-  return {map, delays, encoders, fingers, integrators};
+  return {map, delays, encoders, fingers, integrators, by_chance(quick ? 200 : 5000, seed)};
 }
 
 std::size_t count_points(const std::vector<WallSheet>& sheets) {

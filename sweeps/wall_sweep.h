@@ -1,6 +1,7 @@
 // Where a rendered wall settles, over its stiffness and everything that limits it: many presses at once, on a device or on the core.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -45,8 +46,9 @@ struct NamedDevice {
 const std::vector<NamedDevice>& wall_devices();
 
 // All sheets: stiffness x wall damping x rate for every device (a quick run: for one, coarser); delays; encoder and friction; fingers;
-// integrators. About 400,000 points, a quick run 25,000.
-std::vector<WallSheet> wall_sheets(bool quick);
+// integrators; and devices, fingers, walls and rates by chance, each 1 % below and above its linear limit. About 500,000 points, a quick
+// run 11,000.
+std::vector<WallSheet> wall_sheets(bool quick, std::uint64_t seed);
 // Fills in the energies and `simulated`.
 void run_walls(std::vector<WallSheet>& sheets, const WallRunner& runner);
 std::size_t count_points(const std::vector<WallSheet>& sheets);

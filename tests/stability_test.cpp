@@ -22,17 +22,18 @@ TEST(Stability, WritesTablesPicturesAndASummary) {
   const TemporaryFolder folder;
   const std::string report = folder / "report";
   ASSERT_EQ(program("stability --quick --seed 7 -o " + report, folder / "said"), 0) << file_text(folder / "said");
-  for (const char* name :
-       {"wall.csv", "wall_limits.csv", "wall.svg", "wall_integrators.svg", "grip_loop.csv", "grip_loop.svg", "stability.md"})
+  for (const char* name : {"wall.csv", "wall_limits.csv", "wall.svg", "wall_integrators.svg", "grip_loop.csv", "grip_loop.svg",
+                           "extreme.csv", "stability.md"})
     EXPECT_FALSE(file_text(report + "/" + name).empty()) << name;
   const std::string summary = file_text(report + "/stability.md");
-  for (const char* part : {"seed 7", "llvmpipe", "0 did not settle", "| 100 g, 1 N s/m |", "Largest k_open", "--unsafe-gains"})
+  for (const char* part : {"seed 7", "llvmpipe", "0 did not settle", "| 100 g, 1 N s/m |", "Largest k_open", "--unsafe-gains",
+                           "| creases_and_rim |", " 0 values are not finite"})
     EXPECT_NE(summary.find(part), std::string::npos) << part;
   EXPECT_NE(file_text(folder / "said").find(summary), std::string::npos);
 
   const std::string again = folder / "again";
   ASSERT_EQ(program("stability --quick --seed 7 -o " + again, folder / "said"), 0);
-  for (const char* name : {"wall.csv", "wall_limits.csv", "grip_loop.csv"})
+  for (const char* name : {"wall.csv", "wall_limits.csv", "grip_loop.csv", "extreme.csv"})
     EXPECT_EQ(file_text(report + "/" + name), file_text(again + "/" + name)) << name << ": one seed, one answer";
 }
 

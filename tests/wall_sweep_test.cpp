@@ -94,7 +94,7 @@ void tables_have_a_row_a_point_and_a_row_a_column(const std::vector<WallSheet>& 
 TEST(WallSweep, MapsAgreeWithTheory) {
   BackendInfo info;
   double seconds = 0;
-  std::vector<WallSheet> sheets = wall_sheets(true);
+  std::vector<WallSheet> sheets = wall_sheets(true, 1);
   run_walls(sheets, open_wall_runner("vulkan", info, seconds));
   EXPECT_EQ(info.backend, "vulkan");
   EXPECT_GT(seconds, 0);
@@ -106,7 +106,7 @@ TEST(WallSweep, MapsAgreeWithTheory) {
 }
 
 TEST(WallSweep, CoreGivesTheSameVerdicts) {
-  const auto all = wall_sheets(true);
+  const auto all = wall_sheets(true, 1);
   std::vector<WallSheet> by_core{{"few", {}}};
   const auto& columns = sheet_named(all, "stiffness_damping_rate").columns;
   for (std::size_t k = 0; k < columns.size(); k += 23) by_core[0].columns.push_back(columns[k]);
@@ -122,7 +122,7 @@ TEST(WallSweep, CoreGivesTheSameVerdicts) {
 }
 
 TEST(WallSheets, AFullRunHasMoreThanAHundredThousandPoints) {
-  const auto sheets = wall_sheets(false);
+  const auto sheets = wall_sheets(false, 1);
   EXPECT_GE(sheet_named(sheets, "stiffness_damping_rate").columns.size() * 96, 100000u);
 }
 
