@@ -20,15 +20,15 @@ Vec3 grip_direction(Real azimuth, Real obliquity) {
 Trace trace_tip(const Vessel& vessel, Vec3 origin, Vec3 direction, Real heading, Real radius) {
   const Vec3 center(0, vessel.bound_height, 0);
   const Real middle = glm::dot(center - origin, direction);
-  const Real reach = vessel.bound_radius + radius + STOP_TOLERANCE;
+  const Real reach = vessel.bound_radius + radius + vessel.limits.stop_tolerance;
   Real travelled = 0;
   Trace trace;
-  for (int step = 0; step < TRACE_STEPS; ++step) {
+  for (int step = 0; step < vessel.limits.trace_steps; ++step) {
     trace.t = middle + heading * (reach - travelled);
     trace.steps = step + 1;
     const Support support = support_at(vessel, origin + trace.t * direction);
     const Real clear = support.distance - radius;
-    if (std::abs(clear) < STOP_TOLERANCE) {
+    if (std::abs(clear) < vessel.limits.stop_tolerance) {
       trace.reason = REASON_NONE;
       trace.normal = support.normal;
       trace.element = support.element;
@@ -110,7 +110,7 @@ Closing close_fingers(const Hand& hand, const Vessel& vessel, Grip grip) {
   if (closing.gap > scale * hand.gap_open) return closing;
   closing.reason = REASON_TOO_NARROW;
   if (closing.gap < scale * hand.gap_closed || closing.gap < thumb_radius + index_radius) return closing;
-  closing.closure = closure_of_gap(hand, closing.gap / scale, STOP_TOLERANCE / scale);
+  closing.closure = closure_of_gap(hand, closing.gap / scale, hand.limits.stop_tolerance / scale);
   Real e1_x = 0;
   closing.placement = place_hand(hand, closing.closure, d, grip.roll, closing.midpoint, scale, e1_x);
   if (std::abs(e1_x) > Real(LARGEST_E1_X)) return closing;

@@ -13,14 +13,14 @@ Vec3 proxy_of(const Vessel& vessel, Vec3 p, Real radius, bool& settled) {
   settled = false;
   for (int step = 0; step < PROXY_STEPS; ++step) {
     const Real separation = separation_at(vessel, proxy, radius);
-    if (std::abs(separation) < STOP_TOLERANCE) {
+    if (std::abs(separation) < vessel.limits.stop_tolerance) {
       settled = true;
       return proxy;
     }
     int element = -1;
     proxy -= separation * distance_gradient(vessel, proxy, element);
   }
-  settled = std::abs(separation_at(vessel, proxy, radius)) < STOP_TOLERANCE;
+  settled = std::abs(separation_at(vessel, proxy, radius)) < vessel.limits.stop_tolerance;
   return proxy;
 }
 

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/grip.h"
 #include "core/load.h"
@@ -44,7 +45,17 @@ struct VesselEntry {
   Real largest_share = 0;   // of the liquid in its mass
   std::vector<Load> loads;  // fill-major over the tilts
   std::vector<LiquidResult> liquids;
+  std::optional<wholehand::PreparedGrid> grid;
 };
+
+Limits limits_of(const wholehand::EvaluatorOptions& options) {
+  Limits limits;
+  if (options.stop_tolerance > 0) limits.stop_tolerance = Real(options.stop_tolerance);
+  if (options.trace_steps > 0) limits.trace_steps = options.trace_steps;
+  if (options.advance_steps > 0) limits.advance_steps = options.advance_steps;
+  if (options.gap_table > 0) limits.gap_steps = 0;
+  return limits;
+}
 
 struct StateForces {
   Real pivot_length, torque, exact_torque, normal, feedback, hold;
@@ -55,25 +66,27 @@ class CoreEvaluator final : public wholehand::Evaluator {
  public:
   CoreEvaluator(const Scene& scene, const wholehand::EvaluatorOptions& options)
       : scene_(scene),
-        hand_(load_hand(wholehand::prepare_hand(scene.hand), scene.hand)),
+        hand_(
+            load_hand(wholehand::prepare_hand(scene.hand, options.gap_table > 0 ? options.gap_table : GAP_TABLE_SIZE), scene.hand)),
         quadrature_(load_quadrature(wholehand::prepare_quadrature(options.quadrature_points))) {
     for (const double tilt : scene.tilts) {
       // a half turn's sine is 1e-16 in double: taken as it is, the kernels treat it as upright or inverted
       tilt_sine_.push_back(sine(Real(tilt)));
       tilt_cosine_.push_back(cosine(Real(tilt)));
     }
+    hand_.limits = limits_of(options);
     const bool with_liquid = scene.liquid.has_value();
     wholehand::refuse_meshes(scene);
     for (const auto& data : scene.vessels) {
       const bool needs_cavity = data.wall > 0;
       VesselEntry entry;
-      entry.vessel =
-          load_vessel(wholehand::prepare_vessel(data, needs_cavity), data, quadrature_, with_liquid, scene.hand.handedness);
+      const wholehand::PreparedVessel prepared = wholehand::prepare_vessel(data, needs_cavity);
+      entry.vessel = load_vessel(prepared, data, quadrature_, with_liquid, scene.hand.handedness);
       if (options.grid_samples > 0) {
-        entry.vessel.grid = sample_grid(entry.vessel, options.grid_samples);
-        entry.vessel.is_grid = true;
-        entry.vessel.lid = -1;
+        entry.grid = wholehand::prepare_grid(prepared, options.grid_samples, options.grid_bits == 16);
+        use_grid(entry.vessel, load_grid(*entry.grid));
       }
+      entry.vessel.limits = hand_.limits;
       entry.force = load_force(scene, data);
       entries_.push_back(std::move(entry));
       fill_states(entries_.size() - 1);
@@ -285,6 +298,18 @@ class CoreEvaluator final : public wholehand::Evaluator {
   }
 
   double gap_at(double closure) const override { return hand_.scale * CORE_NS::gap_at(hand_, Real(closure)); }
+
+  const wholehand::PreparedGrid* grid(std::size_t v) const override { return entries_[v].grid ? &*entries_[v].grid : nullptr; }
+
+  std::size_t table_bytes() const override {
+    std::size_t bytes = sizeof hand_ + hand_.gap_table.size() * sizeof(Real) + 2 * quadrature_.count * sizeof(Real);
+    for (const VesselEntry& entry : entries_) {
+      bytes += entry.vessel.cavity.size() * sizeof(Element) + entry.vessel.lip_capacity.size() * sizeof(Real) +
+               entry.loads.size() * sizeof(Load);
+      bytes += entry.grid ? entry.grid->words->size() * sizeof(std::uint32_t) : entry.vessel.outline.size() * sizeof(Element);
+    }
+    return bytes;
+  }
 
  private:
   void evaluate(std::size_t v, const GripInput& input, Wanted wanted, GripAnswer& answer) const {

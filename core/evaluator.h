@@ -13,10 +13,16 @@
 
 namespace wholehand {
 
+struct PreparedGrid;  // core/prepare.h
+
 // How a scene is evaluated, beyond what it says: for measuring shortcuts, not for users.
 struct EvaluatorOptions {
   int grid_samples = 0;  // > 0: replace each outline by a regular grid of that many samples along its longest side
+  int grid_bits = 32;    // of a sample: 32, or 16 (half precision)
   int quadrature_points = QUADRATURE_POINTS;  // liquid: Gauss-Legendre points a piece, 2..64
+  double stop_tolerance = 0;                  // m; 0: the precision's named one
+  int trace_steps = 0, advance_steps = 0;     // at most; 0: the named numbers
+  int gap_table = 0;  // > 0: the closure by interpolation in a table of so many entries, 2..GAP_TABLE_LARGEST; 0: solved
 };
 
 // What is known of a vessel before any grip; SI. `largest` is the load upright at the scene's largest fill: glass and liquid together,
@@ -62,6 +68,11 @@ class Evaluator {
   Triple empty_center_of_mass(std::size_t vessel) const { return constants(vessel).center_of_mass; }
   virtual double pouring_tilt(std::size_t vessel, double fill) const = 0;  // rad; NaN where it never pours (nothing in it)
   virtual double gap_at(double closure) const = 0;                         // g(c) at hand scale 1 times the scene's, m
+
+  // The samples that stand for a vessel's outline; null where none do.
+  virtual const PreparedGrid* grid(std::size_t vessel) const;
+  // Bytes of all that the kernels read: outlines or grids, cavities, tables of hand, lips, states and quadrature.
+  virtual std::size_t table_bytes() const { return 0; }
 };
 
 // Prepares a scene. Throws Error (usage) where the scene is physically impossible: a hand whose gap does not fall strictly

@@ -64,13 +64,14 @@ Real gap_at(const Hand& hand, Real closure) {
 }
 
 Real closure_of_gap(const Hand& hand, Real gap, Real tolerance) {
+  const int entries = static_cast<int>(hand.gap_table.size());
   const Real span = hand.gap_open - hand.gap_closed;
-  const Real place = std::clamp((hand.gap_open - gap) / span, Real(0), Real(1)) * Real(GAP_TABLE_SIZE - 1);
-  const int cell = std::min(static_cast<int>(place), GAP_TABLE_SIZE - 2);
+  const Real place = std::clamp((hand.gap_open - gap) / span, Real(0), Real(1)) * Real(entries - 1);
+  const int cell = std::min(static_cast<int>(place), entries - 2);
   Real low = hand.gap_table[cell];
   Real high = hand.gap_table[cell + 1];
   Real closure = low + (high - low) * (place - Real(cell));
-  for (int step = 0; step < GAP_STEPS; ++step) {
+  for (int step = 0; step < hand.limits.gap_steps; ++step) {
     Vec3 slope{};
     const Vec3 apart = tip_to_tip(hand, closure, slope);
     const Real distance = glm::length(apart);

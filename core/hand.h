@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "core/real.h"
 
@@ -26,8 +27,9 @@ struct Hand {
   Real max_angle = 0, paper_max_angle = 0;            // rad
   Real contact_tolerance = 0, depth_limit = 0;        // m, not scaled
   Real scale = 1;
-  Real gap_open = 0, gap_closed = 0;             // g(0), g(1) at scale 1, m
-  std::array<Real, GAP_TABLE_SIZE> gap_table{};  // closure at equal steps of the gap from g(0) to g(1)
+  Real gap_open = 0, gap_closed = 0;  // g(0), g(1) at scale 1, m
+  std::vector<Real> gap_table;        // closure at equal steps of the gap from g(0) to g(1), two entries or more
+  Limits limits;
 };
 
 // Positions of the three joints beyond the MCP.
@@ -48,7 +50,8 @@ FingerPoints thumb_points(FingerFrame frame, Vec3 lengths, Vec3 angles);
 Vec3 tip_to_tip(const Hand& hand, Real closure, Vec3& slope);
 // The gap g(c) at scale 1, m.
 Real gap_at(const Hand& hand, Real closure);
-// The closure whose gap is `gap` (scale 1, m, within [g(1), g(0)]), to `tolerance` m: Newton from the table, kept in its bracket.
+// The closure whose gap is `gap` (scale 1, m, within [g(1), g(0)]), to `tolerance` m: Newton from the table, kept in its bracket. With no
+// gap_steps the table's own value, interpolated.
 Real closure_of_gap(const Hand& hand, Real gap, Real tolerance);
 
 }  // namespace CORE_NS

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/trig.h"
 
@@ -51,7 +52,7 @@ Hand load_hand(const wholehand::PreparedHand& prepared, const wholehand::HandDat
   hand.scale = Real(data.scale);
   hand.gap_open = Real(prepared.gap_open);
   hand.gap_closed = Real(prepared.gap_closed);
-  for (int k = 0; k < GAP_TABLE_SIZE; ++k) hand.gap_table[k] = Real(prepared.gap_table[k]);
+  for (const double closure : prepared.gap_table) hand.gap_table.push_back(Real(closure));
   return hand;
 }
 
@@ -102,26 +103,22 @@ Vessel load_vessel(const wholehand::PreparedVessel& prepared, const wholehand::V
   return vessel;
 }
 
-Grid sample_grid(const Vessel& vessel, int samples) {
-  Real widest = 0, low = 0, high = 0;
-  for (const Element& e : vessel.outline) {
-    widest = std::max({widest, e.a.x, e.b.x, e.side > 0 ? e.center.x + e.radius : Real(0)});
-    low = std::min({low, e.a.y, e.b.y});
-    high = std::max({high, e.a.y, e.b.y});
-  }
+Grid load_grid(const wholehand::PreparedGrid& prepared) {
   Grid grid;
-  const Real longest = std::max(Real(2) * widest, high - low);
-  grid.spacing = longest / Real(samples - 5);
-  const auto count = [&](Real length) { return static_cast<int>(std::ceil(length / grid.spacing)) + 5; };
-  grid.nx = grid.nz = count(Real(2) * widest);
-  grid.ny = count(high - low);
-  grid.origin = Vec3(-widest, low, -widest) - Vec3(Real(2) * grid.spacing);
-  grid.samples.reserve(static_cast<std::size_t>(grid.nx) * grid.ny * grid.nz);
-  for (int k = 0; k < grid.nz; ++k)
-    for (int j = 0; j < grid.ny; ++j)
-      for (int i = 0; i < grid.nx; ++i)
-        grid.samples.push_back(signed_distance(vessel, grid.origin + grid.spacing * Vec3(Real(i), Real(j), Real(k))));
+  grid.origin = to_vec(prepared.origin);
+  grid.spacing = Real(prepared.spacing);
+  grid.nx = prepared.nx;
+  grid.ny = prepared.ny;
+  grid.nz = prepared.nz;
+  grid.halves = prepared.halves;
+  grid.words = prepared.words;
   return grid;
+}
+
+void use_grid(Vessel& vessel, Grid grid) {
+  vessel.grid = std::move(grid);
+  vessel.is_grid = true;
+  vessel.lid = -1;
 }
 
 ForceScale load_force(const wholehand::Scene& scene, const wholehand::VesselData& data) {

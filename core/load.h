@@ -20,8 +20,11 @@ Element load_element(const wholehand::PreparedElement& element);
 Vessel load_vessel(const wholehand::PreparedVessel& prepared, const wholehand::VesselData& data, const Quadrature& quadrature,
                    bool with_liquid, wholehand::Handedness handedness);
 
-// Samples the vessel's outline on a regular lattice of `samples` points along its longest side, two cells beyond it.
-Grid sample_grid(const Vessel& vessel, int samples);
+// The samples are shared, not copied.
+Grid load_grid(const wholehand::PreparedGrid& prepared);
+
+// Puts the grid in the outline's place: no lid, and the distance is the lattice's.
+void use_grid(Vessel& vessel, Grid grid);
 
 // The scene's force constants for a vessel; `reference` is filled by the caller.
 ForceScale load_force(const wholehand::Scene& scene, const wholehand::VesselData& data);

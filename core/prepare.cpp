@@ -1,10 +1,12 @@
 #include "core/prepare.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
 #include "core/error.h"
+#include "core/half.h"
 #include "core/hand.h"
 #include "core/load.h"
 
@@ -153,7 +155,7 @@ PreparedVessel prepare_vessel(const VesselData& vessel, bool needs_cavity) {
   return prepared;
 }
 
-PreparedHand prepare_hand(const HandData& hand) {
+PreparedHand prepare_hand(const HandData& hand, int gap_entries) {
   PreparedHand prepared;
   for (int f = 0; f < FINGER_COUNT; ++f) {
     const FingerData& finger = hand.fingers[f];
@@ -192,16 +194,56 @@ PreparedHand prepare_hand(const HandData& hand) {
     previous = gap;
   }
   // closure at equal steps of the gap, by bisection: the gap is monotone
-  for (int k = 0; k < GAP_TABLE_SIZE; ++k) {
-    const double gap = prepared.gap_open + (prepared.gap_closed - prepared.gap_open) * k / (GAP_TABLE_SIZE - 1);
+  for (int k = 0; k < gap_entries; ++k) {
+    const double gap = prepared.gap_open + (prepared.gap_closed - prepared.gap_open) * k / (gap_entries - 1);
     double low = 0, high = 1;
     for (int step = 0; step < 60; ++step) {
       const double middle = 0.5 * (low + high);
       (core_f64::gap_at(kernel_hand, middle) > gap ? low : high) = middle;
     }
-    prepared.gap_table[k] = k == 0 ? 0 : k == GAP_TABLE_SIZE - 1 ? 1 : 0.5 * (low + high);
+    prepared.gap_table.push_back(k == 0 ? 0 : k == gap_entries - 1 ? 1 : 0.5 * (low + high));
   }
   return prepared;
+}
+
+PreparedGrid prepare_grid(const PreparedVessel& prepared, int samples, bool halves) {
+  core_f64::Vessel vessel;
+  double widest = 0, low = 0, high = 0;
+  for (const PreparedElement& e : prepared.outline) {
+    vessel.outline.push_back(core_f64::load_element(e));
+    widest = std::max({widest, e.a[0], e.b[0], e.side > 0 ? e.center[0] + e.radius : 0.0});
+    low = std::min({low, e.a[1], e.b[1]});
+    high = std::max({high, e.a[1], e.b[1]});
+  }
+  PreparedGrid grid;
+  grid.halves = halves;
+  grid.spacing = std::max(2 * widest, high - low) / (samples - 5);
+  const auto count = [&](double length) { return static_cast<int>(std::ceil(length / grid.spacing)) + 5; };
+  grid.nx = grid.nz = count(2 * widest);
+  grid.ny = count(high - low);
+  grid.origin = {-widest - 2 * grid.spacing, low - 2 * grid.spacing, -widest - 2 * grid.spacing};
+  const std::size_t plane = static_cast<std::size_t>(grid.nx) * grid.ny, all = plane * grid.nz;
+  std::vector<std::uint32_t> words(halves ? (all + 1) / 2 : all);
+  const auto store = [&](std::size_t at, float value) {
+    if (!halves) {
+      words[at] = std::bit_cast<std::uint32_t>(value);
+    } else {
+      const std::uint32_t half = half_bits(value * static_cast<float>(1 / HALF_UNIT));
+      words[at / 2] |= at % 2 == 0 ? half : half << 16;
+    }
+  };
+  const auto at_place = [&](int axis, int i) { return grid.origin[axis] + grid.spacing * i; };
+  for (int k = 0; k < grid.nz; ++k)
+    for (int j = 0; j < grid.ny; ++j)
+      for (int i = 0; i <= k; ++i) {
+        // a body of revolution is its own mirror image where x and z change places, and so is the lattice
+        const double x = at_place(0, i), z = at_place(2, k);
+        const float value = static_cast<float>(core_f64::profile_distance(vessel, {std::sqrt(x * x + z * z), at_place(1, j)}));
+        store(k * plane + static_cast<std::size_t>(j) * grid.nx + i, value);
+        if (i != k) store(i * plane + static_cast<std::size_t>(j) * grid.nx + k, value);
+      }
+  grid.words = std::make_shared<const std::vector<std::uint32_t>>(std::move(words));
+  return grid;
 }
 
 // Newton on the Legendre polynomial from the usual cosine start.

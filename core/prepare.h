@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/result.h"
@@ -38,7 +40,16 @@ struct PreparedHand {
   std::array<Finger, FINGER_COUNT> fingers{};
   Triple thumb_open{}, thumb_swing{}, finger_open{}, finger_swing{};
   double gap_open = 0, gap_closed = 0;
-  std::array<double, GAP_TABLE_SIZE> gap_table{};
+  std::vector<double> gap_table;  // closures at equal steps of the gap
+};
+
+// A vessel's signed distance on a regular lattice, as core/sdf.h's Grid takes it: what every precision and device then reads.
+struct PreparedGrid {
+  Triple origin{};
+  double spacing = 1;
+  int nx = 0, ny = 0, nz = 0;
+  bool halves = false;
+  std::shared_ptr<const std::vector<std::uint32_t>> words;
 };
 
 // Gauss-Legendre of `points` on a cosine map: cosines of the angles and weights times sin(theta) pi / 2.
@@ -60,7 +71,11 @@ void refuse_meshes(const Scene& scene);
 PreparedVessel prepare_vessel(const VesselData& vessel, bool needs_cavity);
 
 // Throws Error (usage) where the gap is not strictly decreasing at 1,025 equal steps of the closure, naming where it turns.
-PreparedHand prepare_hand(const HandData& hand);
+PreparedHand prepare_hand(const HandData& hand, int gap_entries = GAP_TABLE_SIZE);
+
+// Samples of the distance to the vessel's outline, taken in double, `samples` along its longest side, two cells beyond it. Stored with
+// 32 bits each or with 16 (`halves`).
+PreparedGrid prepare_grid(const PreparedVessel& vessel, int samples, bool halves);
 
 PreparedQuadrature prepare_quadrature(int points);
 

@@ -82,7 +82,7 @@ FingerMotion advance_finger(const Hand& hand, FingerMotion motion, FingerFrame f
     if (next.closure == 0 && clear < 0) {
       next.blocked = true;
       next.joint = 3;
-    } else if (clear < STOP_TOLERANCE) {
+    } else if (clear < hand.limits.stop_tolerance) {
       next = turn_joint(hand, next, nearest + 1);
     } else if (next.closure >= next.limit) {
       next = turn_joint(hand, next, 0);
@@ -92,7 +92,7 @@ FingerMotion advance_finger(const Hand& hand, FingerMotion motion, FingerFrame f
     if (next.joint >= 0 && next.joint < 3) {
       const int nearest = nearest_point(separations, next.joint);
       const Real clear = nearest == 0 ? separations.x : nearest == 1 ? separations.y : separations.z;
-      if (clear < STOP_TOLERANCE) {
+      if (clear < hand.limits.stop_tolerance) {
         next = turn_joint(hand, next, nearest + 1);
       } else if (next.turned >= next.room) {
         next = turn_joint(hand, next, next.joint + 1);
@@ -100,7 +100,7 @@ FingerMotion advance_finger(const Hand& hand, FingerMotion motion, FingerFrame f
     }
   }
   if (next.joint >= 3) return next;
-  if (next.steps >= ADVANCE_STEPS) {
+  if (next.steps >= hand.limits.advance_steps) {
     next.unsettled = true;
     next.joint = 3;
     return next;
@@ -151,10 +151,10 @@ Vec3 project_point(const Vessel& vessel, Vec3 p, Real radius, Vec3 pivot, PaperA
   if (reach <= Real(AXIS_DISTANCE)) return p;
   Real angle = 0;
   Vec3 place = p;
-  for (int step = 0; step < ADVANCE_STEPS; ++step) {
+  for (int step = 0; step < vessel.limits.advance_steps; ++step) {
     const Support support = support_at(vessel, place);
     const Real separation = support.distance - radius;
-    if (separation < STOP_TOLERANCE) return place;
+    if (separation < vessel.limits.stop_tolerance) return place;
     if (angle >= max_angle) return p;
     const Vec3 velocity = glm::cross(axis.direction, place - pivot);
     angle = std::min(angle + safe_step(support, separation, velocity, reach, reach), max_angle);

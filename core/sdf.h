@@ -1,6 +1,8 @@
 // Kernel 2: signed distance to the vessel, negative inside, m.
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/real.h"
@@ -16,12 +18,14 @@ struct Element {
   int side = 0;
 };
 
-// Samples on a regular lattice, x fastest: samples[(k * ny + j) * nx + i] at origin + spacing * (i, j, k).
+// Samples on a regular lattice, x fastest: sample (k * ny + j) * nx + i at origin + spacing * (i, j, k). They are stored alike for every
+// precision and device (core/prepare.h's PreparedGrid): as floats, or as halves in units of HALF_UNIT.
 struct Grid {
   Vec3 origin{};
   Real spacing = 1;
   int nx = 0, ny = 0, nz = 0;
-  std::vector<Real> samples;
+  bool halves = false;
+  std::shared_ptr<const std::vector<std::uint32_t>> words;
 };
 
 // A vessel made ready for the kernels (core/prepare.h tells where each part comes from). Vessel frame, m.
@@ -30,6 +34,7 @@ struct Vessel {
   std::vector<Element> outline;  // closed with the axis; what the distance is measured to
   int lid = -1;                  // index of the mouth's element in `outline`; -1: none (shell, grid)
   Grid grid;
+  Limits limits;
   Real bound_height = 0;  // centre (0, bound_height, 0) and radius of a sphere that holds the vessel
   Real bound_radius = 0;
   std::vector<Element> cavity;  // inner wall from the floor to the mouth, y ascending; empty where there is no wall

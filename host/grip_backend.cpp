@@ -287,6 +287,16 @@ std::size_t GripBackend::bytes_per_grip() const {
   return (GRIP_AXES + impl_->fields.real_planes) * impl_->real_size() + impl_->fields.uint_planes * sizeof(std::uint32_t);
 }
 
+std::size_t GripBackend::table_bytes() const {
+  const GripProgram& program = impl_->program();
+  std::size_t bytes = program.hand.size() + program.tilts.size() + program.fills.size() + program.quadrature.size();
+  for (const VesselOnDevice& vessel : program.vessels) {
+    bytes += vessel.parameters.size() + vessel.outline.size() + vessel.grid.size();
+    for (const Buffer& states : vessel.states) bytes += states.size();
+  }
+  return bytes;
+}
+
 double GripBackend::setup_seconds() const { return impl_->setup_seconds; }
 
 }  // namespace wholehand::host

@@ -16,7 +16,7 @@ namespace wholehand::host {
 struct GripBackendOptions {
   Precision precision = Precision::single;
   OutlineSource outline = OUTLINE_SPECIALIZED;  // outlines of more than MAX_OUTLINE elements always come from a buffer
-  EvaluatorOptions evaluator;                   // grid instead of outline, quadrature points
+  EvaluatorOptions evaluator;                   // as the core's: grid instead of outline, tolerances, ..
   DeviceOptions device;
   StreamOptions stream;
 };
@@ -45,6 +45,8 @@ class GripBackend final : public Backend {
   const DeviceInfo& device() const;
   // Bytes of a chunk's buffers per grip: inputs and planes.
   std::size_t bytes_per_grip() const;
+  // Bytes of what all grips share on the device: outlines or grids, hand, states, quadrature.
+  std::size_t table_bytes() const;
   // Seconds that creating the device and the pipelines took.
   double setup_seconds() const;
 

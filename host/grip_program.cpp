@@ -14,7 +14,7 @@ namespace {
 // Mesa's CPU driver ends a loop silently after 65,535 iterations of an invocation, counted over all its loops. A level takes up to
 // LEVEL_STEPS evaluations; of the five parts of a piece of the cavity three at most are not empty (full, partial and full again).
 constexpr int LOOP_BUDGET = 60000;
-constexpr int ITERATIONS_PER_PIECE = LEVEL_STEPS * (6 + 3 * QUADRATURE_POINTS);
+constexpr int iterations_per_piece(int points) { return LEVEL_STEPS * (6 + 3 * points); }
 
 template <class Real>
 Buffer upload_reals(Device& device, const std::vector<double>& values) {
@@ -45,6 +45,24 @@ void add_planes(std::vector<Constant>& constants, const FieldSet& fields) {
   for (int f = 0; f < FIELDS; ++f) constants.push_back({std::uint32_t(CONST_PLANE + f), std::int32_t(fields.plane[f])});
 }
 
+// Only what differs from the shaders' own named values.
+void add_limits(std::vector<Constant>& constants, const GripBackendOptions& options) {
+  const EvaluatorOptions& asked = options.evaluator;
+  if (asked.stop_tolerance > 0) {
+    if (options.precision == Precision::single) {
+      constants.push_back({CONST_STOP_TOLERANCE, static_cast<float>(asked.stop_tolerance)});
+    } else {
+      constants.push_back({CONST_STOP_TOLERANCE, asked.stop_tolerance});
+    }
+  }
+  if (asked.trace_steps > 0) constants.push_back({CONST_TRACE_STEPS, std::int32_t(asked.trace_steps)});
+  if (asked.advance_steps > 0) constants.push_back({CONST_ADVANCE_STEPS, std::int32_t(asked.advance_steps)});
+  if (asked.gap_table > 0) {
+    constants.push_back({CONST_GAP_STEPS, std::int32_t(0)});
+    constants.push_back({CONST_GAP_TABLE_SIZE, std::int32_t(asked.gap_table)});
+  }
+}
+
 std::size_t real_size(Precision precision) { return precision == Precision::single ? sizeof(float) : sizeof(double); }
 
 // Every task, on as many threads as there are cores. The first failure is thrown on.
@@ -73,10 +91,10 @@ void run_side_by_side(const std::vector<std::function<void()>>& tasks) {
 
 // A loop over N elements in every distance of every step has no bound that such a driver would grant; an unrolled one is not counted.
 bool outline_fits_device(const VesselArrays& vessel, const DeviceInfo& device) {
-  return device.kind != DeviceKind::cpu || !vessel.grid.empty() || vessel.outline_count <= MAX_OUTLINE;
+  return device.kind != DeviceKind::cpu || vessel.grid || vessel.outline_count <= MAX_OUTLINE;
 }
 
-bool liquid_fits_device(int cavity_count) { return cavity_count * ITERATIONS_PER_PIECE < LOOP_BUDGET; }
+bool liquid_fits_device(int cavity_count, int points) { return cavity_count * iterations_per_piece(points) < LOOP_BUDGET; }
 
 GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Evaluator& core, const FieldSet& fields,
                          const std::string& selector, const GripBackendOptions& options)
@@ -131,7 +149,7 @@ void GripProgram::upload_vessel(std::size_t v, const SceneArrays& arrays, const 
   outline.resize(std::max<std::size_t>(outline.size(), OUTLINE_STRIDE * MAX_OUTLINE));  // the uniform block has a fixed size
   vessel.parameters = upload(on, options.precision, from.parameters);
   vessel.outline = upload(on, options.precision, outline);
-  vessel.grid = upload(on, options.precision, from.grid);
+  vessel.grid = Buffer::of(on, from.grid ? *from.grid : std::vector<std::uint32_t>(4));
   upload_states(vessel, from.dry_loads, arrays.tilts);  // none where there is liquid
 }
 
@@ -160,9 +178,11 @@ void GripProgram::make_grip_kernel(std::size_t v, const Scene& scene, const Scen
   constants.push_back({CONST_POSE, std::int32_t(scene.pose == Pose::articulated ? POSE_ARTICULATED
                                                 : scene.pose == Pose::paper     ? POSE_PAPER
                                                                                 : POSE_RIGGED)});
-  constants.push_back({CONST_SDF_KIND, std::int32_t(from.grid.empty() ? SDF_OUTLINE : SDF_GRID)});
+  constants.push_back({CONST_SDF_KIND, std::int32_t(from.grid ? SDF_GRID : SDF_OUTLINE)});
   constants.push_back({CONST_OUTLINE_COUNT, std::int32_t(from.outline_count)});
-  constants.push_back({CONST_LID, std::int32_t(from.grid.empty() ? from.lid : -1)});
+  if (from.halves) constants.push_back({CONST_GRID_BITS, std::int32_t(16)});
+  add_limits(constants, options);
+  constants.push_back({CONST_LID, std::int32_t(from.grid ? -1 : from.lid)});
   if (vessel.outline_source == OUTLINE_SPECIALIZED) {
     for (std::size_t i = 0; i < from.outline.size(); ++i) {
       const auto id = static_cast<std::uint32_t>(CONST_OUTLINE + i);
@@ -181,7 +201,7 @@ void GripProgram::make_liquid(std::size_t v, const Scene& scene, const SceneArra
   VesselOnDevice& vessel = vessels[v];
   const std::uint32_t states = fill_count * tilt_count;
   std::vector<double> loads;
-  if (!liquid_fits_device(arrays.vessels[v].cavity_count)) {
+  if (!liquid_fits_device(arrays.vessels[v].cavity_count, options.evaluator.quadrature_points)) {
     const VesselConstants constants = core.constants(v);
     for (const double fill : scene.liquid->fills)
       for (const double tilt : scene.tilts) {

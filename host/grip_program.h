@@ -48,7 +48,8 @@ struct GripProgram final : Program {
 // Whether grips of a vessel stay within those iterations: on a CPU driver an outline must be unrolled, so up to MAX_OUTLINE elements.
 bool outline_fits_device(const VesselArrays& vessel, const DeviceInfo& device);
 
-// Whether the liquid of a cavity of so many pieces stays within the loop iterations that every driver grants an invocation.
-bool liquid_fits_device(int cavity_count);
+// Whether the liquid of a cavity of so many pieces, integrated with so many points each, stays within the loop iterations that every
+// driver grants an invocation.
+bool liquid_fits_device(int cavity_count, int points = QUADRATURE_POINTS);
 
 }  // namespace wholehand::host

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstring>
 
-#include "core/load.h"
+#include "core/prepare.h"
 
 namespace wholehand::host {
 namespace {
@@ -37,16 +37,17 @@ std::vector<double> hand_table(const PreparedHand& prepared, const HandData& dat
   put(HAND_FINGER_SWING, prepared.finger_swing, data.depth_limit);
   put(HAND_JOINT_LIMIT, data.joint_limit, data.scale);
   put(HAND_GAP, {prepared.gap_open, prepared.gap_closed, 0}, 0);
-  for (int k = 0; k < GAP_TABLE_SIZE; ++k) table[4 * HAND_TABLE + k] = prepared.gap_table[k];
+  std::copy(prepared.gap_table.begin(), prepared.gap_table.end(), table.begin() + 4 * HAND_TABLE);
   return table;
 }
 
-void set_grid(VesselArrays& arrays, const core_f64::Grid& grid) {
-  arrays.grid.assign(grid.samples.begin(), grid.samples.end());
+void set_grid(VesselArrays& arrays, const PreparedGrid& grid) {
+  arrays.grid = grid.words;
+  arrays.halves = grid.halves;
   auto& p = arrays.parameters;
-  p.grid_x = grid.origin.x;
-  p.grid_y = grid.origin.y;
-  p.grid_z = grid.origin.z;
+  p.grid_x = grid.origin[0];
+  p.grid_y = grid.origin[1];
+  p.grid_z = grid.origin[2];
   p.grid_spacing = grid.spacing;
   p.grid_nx = grid.nx;
   p.grid_ny = grid.ny;
@@ -80,7 +81,7 @@ void set_scene_scalars(Parameters<double>& p, const Scene& scene, const VesselDa
 
 SceneArrays make_scene_arrays(const Scene& scene, const Evaluator& core, const EvaluatorOptions& options) {
   SceneArrays arrays;
-  arrays.hand = hand_table(prepare_hand(scene.hand), scene.hand);
+  arrays.hand = hand_table(prepare_hand(scene.hand, options.gap_table > 0 ? options.gap_table : GAP_TABLE_SIZE), scene.hand);
   for (const double tilt : scene.tilts) arrays.tilts.insert(arrays.tilts.end(), {std::sin(tilt), std::cos(tilt), tilt});
   if (scene.liquid) arrays.fills = scene.liquid->fills;
   const PreparedQuadrature rule = prepare_quadrature(options.quadrature_points);
@@ -116,11 +117,7 @@ SceneArrays make_scene_arrays(const Scene& scene, const Evaluator& core, const E
     p.outline_count = vessel.outline_count;
     p.cavity_count = vessel.cavity_count;
     p.quadrature_count = static_cast<std::uint32_t>(rule.cosine.size());
-    if (options.grid_samples > 0) {
-      core_f64::Vessel sampled;
-      for (const auto& element : prepared.outline) sampled.outline.push_back(core_f64::load_element(element));
-      set_grid(vessel, core_f64::sample_grid(sampled, options.grid_samples));
-    }
+    if (const PreparedGrid* grid = core.grid(v)) set_grid(vessel, *grid);
     for (std::size_t t = 0; !scene.liquid && t < scene.tilts.size(); ++t)
       vessel.dry_loads.insert(vessel.dry_loads.end(), {constants.mass, 0, 0, 0});
     arrays.vessels.push_back(std::move(vessel));

@@ -46,7 +46,7 @@ Trace trace_tip(Vec3 origin, Vec3 direction, Real heading, Real radius) {
   Real reach = scene.bound_radius + radius + STOP_TOLERANCE;
   Real travelled = Real(0);
   Trace trace = Trace(Real(0), REASON_NOT_CONVERGED, Vec3(0), -1);
-  for (int step = 0; step < TRACE_STEPS; ++step) {
+  for (int step = 0; step < LIMIT_TRACE_STEPS; ++step) {
     trace.t = middle + heading * (reach - travelled);
     precise Vec3 place = origin + trace.t * direction;
     Support support = support_at(place);

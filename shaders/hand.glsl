@@ -66,12 +66,12 @@ Real gap_at(Real closure) {
 
 Real closure_of_gap(Real gap, Real tolerance) {
   Real span = HAND_GAP_OPEN - HAND_GAP_CLOSED;
-  Real place = clamp((HAND_GAP_OPEN - gap) / span, Real(0), Real(1)) * Real(GAP_TABLE_SIZE - 1);
-  int cell = min(int(place), GAP_TABLE_SIZE - 2);
+  Real place = clamp((HAND_GAP_OPEN - gap) / span, Real(0), Real(1)) * Real(GAP_ENTRIES - 1);
+  int cell = min(int(place), GAP_ENTRIES - 2);
   Real low = gap_table(cell);
   Real high = gap_table(cell + 1);
   Real closure = low + (high - low) * (place - Real(cell));
-  for (int step = 0; step < GAP_STEPS; ++step) {
+  for (int step = 0; step < LIMIT_GAP_STEPS; ++step) {
     Vec3 slope;
     Vec3 apart = tip_to_tip(closure, slope);
     Real distance = length(apart);

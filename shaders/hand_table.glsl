@@ -10,6 +10,7 @@ struct FingerFrame {
   Vec3 palmward;
 };
 
+layout(constant_id = CONST_GAP_TABLE_SIZE) const int GAP_ENTRIES = GAP_TABLE_SIZE;
 layout(std140, binding = BINDING_HAND) uniform HandBlock { Vec4 hand_table[HAND_VECTORS]; };
 
 FingerFrame hand_frame(int finger) {

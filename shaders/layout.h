@@ -35,9 +35,11 @@
 #define GAP_STEPS 32                // safeguarded Newton steps of the gap's inverse
 #define LEVEL_STEPS 64              // safeguarded Newton steps of the liquid level
 #define GAP_TABLE_SIZE 257          // entries of the table that starts the gap's inverse
+#define GAP_TABLE_LARGEST 1025      // .. that the hand's block has room for
 #define QUADRATURE_POINTS 32        // Gauss-Legendre points a piece: 1e-10 of the capacity where the plane passes close to an arc's pole
 #define MAX_OUTLINE 32              // elements that fit a pipeline's specialization constants
 #define WHOLE_DEGREES 181           // tilts 0..180 at which the lip's capacity is tabulated
+#define HALF_UNIT RATIO(1, 1024)    // m: unit of 16-bit samples, so that halves too small to be normal are under 60 nm
 #define LOOP_DELAYS 4               // whole samples of delay of a haptic loop, at most
 #define LOOP_ORDER 10               // of the series of its propagator
 #define LOOP_DOUBLINGS 40           // of the step of that series
@@ -152,7 +154,7 @@
 #define BINDING_UINT_OUT 3          // uint[planes * n]
 #define BINDING_HAND 4              // uniform: vec4[HAND_VECTORS]
 #define BINDING_OUTLINE 5           // readonly: Real[OUTLINE_STRIDE * count], storage or uniform by variant
-#define BINDING_GRID 6              // readonly: Real[nx * ny * nz]
+#define BINDING_GRID 6              // readonly: uint: a float's bits each, or two halves in units of HALF_UNIT, the first in the low bits
 #define BINDING_CAVITY 7            // readonly: Real[OUTLINE_STRIDE * pieces], y ascending
 #define BINDING_TILTS 8             // readonly: Real[3 * tilts]: sine, cosine, tilt
 #define BINDING_FILLS 9             // readonly: Real[fills]: fraction of capacity
@@ -178,7 +180,7 @@
 #define HAND_JOINT_LIMIT 29         // MCP, PIP, DIP; scale
 #define HAND_GAP 30                 // g(0), g(1)
 #define HAND_TABLE 31               // closures of the gap's inverse, four a vec4
-#define HAND_VECTORS 96
+#define HAND_VECTORS 288
 
 // Load of one fill and tilt: mass, the liquid's share of it, lean and height of the liquid's centre of mass.
 #define LOAD_STRIDE 4
@@ -199,6 +201,12 @@
 #define CONST_TORQUE 5
 #define CONST_REFERENCE 6
 #define CONST_PLANE 8               // + field: first plane, or -1: not computed
+#define CONST_STOP_TOLERANCE 40     // Real, m; this and the next five have the named values where nothing is given
+#define CONST_TRACE_STEPS 41
+#define CONST_ADVANCE_STEPS 42
+#define CONST_GAP_STEPS 43
+#define CONST_GAP_TABLE_SIZE 44
+#define CONST_GRID_BITS 45          // of a sample: 32 or 16
 #define CONST_OUTLINE 64            // + OUTLINE_STRIDE * element + value, Real
 
 #define GROUP_SIZE 64

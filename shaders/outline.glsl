@@ -48,6 +48,7 @@ Element outline_element(int i) { return outline_copy[i]; }
 
 #endif
 
-layout(std430, binding = BINDING_GRID) readonly buffer GridBlock { Real grid_samples[]; };
+layout(constant_id = CONST_GRID_BITS) const int GRID_BITS = 32;
+layout(std430, binding = BINDING_GRID) readonly buffer GridBlock { uint grid_words[]; };
 
 #endif

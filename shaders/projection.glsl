@@ -127,7 +127,7 @@ FingerMotion advance_finger(FingerMotion motion, FingerFrame frame, Vec3 mcp, Fi
     }
   }
   if (next.joint >= 3) return next;
-  if (next.steps >= ADVANCE_STEPS) {
+  if (next.steps >= LIMIT_ADVANCE_STEPS) {
     next.unsettled = true;
     next.joint = 3;
     return next;
@@ -175,7 +175,7 @@ Vec3 project_point(Vec3 p, Real radius, Vec3 pivot, PaperAxis axis, Real max_ang
   if (reach <= AXIS_DISTANCE) return p;
   Real angle = Real(0);
   Vec3 place = p;
-  for (int step = 0; step < ADVANCE_STEPS; ++step) {
+  for (int step = 0; step < LIMIT_ADVANCE_STEPS; ++step) {
     Support support = support_at(place);
     Real separation = support.distance - radius;
     if (separation < STOP_TOLERANCE) return place;

@@ -19,7 +19,7 @@
 #include "layout.h"
 
 #if REAL_IS_DOUBLE
-#define STOP_TOLERANCE Real(STOP_TOLERANCE_F64)
+#define NAMED_STOP_TOLERANCE Real(STOP_TOLERANCE_F64)
 #define DEGENERATE_SINE Real(DEGENERATE_SINE_F64)
 #define LEVEL_TOLERANCE Real(LEVEL_TOLERANCE_F64)
 #define UPRIGHT_SINE Real(UPRIGHT_SINE_F64)
@@ -28,7 +28,7 @@
 #define NOT_A_NUMBER packDouble2x32(uvec2(0u, 0x7ff80000u))
 #define INFINITE packDouble2x32(uvec2(0u, 0x7ff00000u))
 #else
-#define STOP_TOLERANCE STOP_TOLERANCE_F32
+#define NAMED_STOP_TOLERANCE STOP_TOLERANCE_F32
 #define DEGENERATE_SINE DEGENERATE_SINE_F32
 #define LEVEL_TOLERANCE LEVEL_TOLERANCE_F32
 #define UPRIGHT_SINE UPRIGHT_SINE_F32
@@ -37,6 +37,12 @@
 #define NOT_A_NUMBER uintBitsToFloat(0x7fc00000u)
 #define INFINITE uintBitsToFloat(0x7f800000u)
 #endif
+
+// Where iterations end, as core/real.h's Limits.
+layout(constant_id = CONST_STOP_TOLERANCE) const Real STOP_TOLERANCE = NAMED_STOP_TOLERANCE;
+layout(constant_id = CONST_TRACE_STEPS) const int LIMIT_TRACE_STEPS = TRACE_STEPS;
+layout(constant_id = CONST_ADVANCE_STEPS) const int LIMIT_ADVANCE_STEPS = ADVANCE_STEPS;
+layout(constant_id = CONST_GAP_STEPS) const int LIMIT_GAP_STEPS = GAP_STEPS;
 
 // Index of this invocation where groups run along x and then along y, as the host dispatches them.
 #define INVOCATION ((gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x)

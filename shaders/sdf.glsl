@@ -156,7 +156,12 @@ Cell locate_cell(Vec3 p) {
   return cell;
 }
 
-Real grid_sample(int i, int j, int k) { return grid_samples[(k * int(scene.grid_ny) + j) * int(scene.grid_nx) + i]; }
+Real grid_sample(int i, int j, int k) {
+  uint at = uint((k * int(scene.grid_ny) + j) * int(scene.grid_nx) + i);
+  if (GRID_BITS == 32) return Real(uintBitsToFloat(grid_words[at]));
+  vec2 pair = unpackHalf2x16(grid_words[at >> 1]);
+  return Real((at & 1u) == 0u ? pair.x : pair.y) * HALF_UNIT;
+}
 
 Real mix_reals(Real a, Real b, Real t) {
   precise Real mixed = a + (b - a) * t;

@@ -160,10 +160,7 @@ TEST(Contact, ProxyInAShellsWallLeavesItOnTheNearerSide) {
 }
 
 TEST(Contact, ProxyOnALatticeSettlesOrSaysSo) {
-  const Vessel outline = ready_vessel(vase());
-  Vessel vessel = outline;
-  vessel.grid = core_f64::sample_grid(outline, 60);
-  vessel.is_grid = true;
+  const Vessel vessel = grid_vessel(vase(), 60);
   Random random(34);
   int penetrating = 0, unsettled = 0;
   for (int n = 0; n < 2000; ++n) {

@@ -104,14 +104,17 @@ TEST(Parity, StatesOfManyBlocks) {
 TEST(Parity, GridDistance) {
   const Scene scene = scene_of({beaker2()});
   const FieldSet fields = all_fields(scene);
-  GripBackendOptions options;
-  options.evaluator.grid_samples = 64;
-  const auto backend = backend_of(scene, fields, Precision::full, options);
-  const auto core = make_core_evaluator(scene, options.evaluator);
-  Comparer comparer(scene, *core, allowance(Precision::full));
   const auto grips = grips_of(scene, 0, 100);
-  comparer.add(0, grips, gather(*backend, 0, grips), gather(*core, fields, 0, grips));
-  EXPECT_TRUE(comparer.holds()) << table_of(comparer);
+  for (const int bits : {32, 16}) {
+    GripBackendOptions options;
+    options.evaluator.grid_samples = 64;
+    options.evaluator.grid_bits = bits;
+    const auto backend = backend_of(scene, fields, Precision::full, options);
+    const auto core = make_core_evaluator(scene, options.evaluator);
+    Comparer comparer(scene, *core, allowance(Precision::full));
+    comparer.add(0, grips, gather(*backend, 0, grips), gather(*core, fields, 0, grips));
+    EXPECT_TRUE(comparer.holds()) << bits << " bits\n" << table_of(comparer);
+  }
 }
 
 // Exactly upright, level and inverted; nothing, as good as nothing, brim-full.

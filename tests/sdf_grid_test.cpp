@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "tests/support/sampled_outline.h"
@@ -16,23 +17,51 @@ using core_f64::Vessel;
 Vec3 lattice_point(const core_f64::Grid& grid, double i, double j, double k) { return grid.origin + grid.spacing * Vec3{i, j, k}; }
 
 TEST(Sdf, GridHoldsTheDistanceAtItsSamples) {
-  const Vessel outline = ready_vessel(vase()), vessel = grid_vessel(outline, 24);
+  const Vessel outline = ready_vessel(vase()), vessel = grid_vessel(vase(), 24);
   const core_f64::Grid& grid = vessel.grid;
-  ASSERT_EQ(grid.samples.size(), static_cast<std::size_t>(grid.nx * grid.ny * grid.nz));
+  ASSERT_EQ(grid.words->size(), static_cast<std::size_t>(grid.nx * grid.ny * grid.nz));
   for (int k = 0; k < grid.nz; ++k) {
     for (int j = 0; j < grid.ny; ++j) {
       for (int i = 0; i < grid.nx; ++i) {
         const Vec3 p = lattice_point(grid, i, j, k);
-        // 1e-15 m: the place of a sample is rounded to 1e-17 m, its cell coordinates to 1e-15
-        ASSERT_NEAR(core_f64::signed_distance(vessel, p), core_f64::signed_distance(outline, p), 1e-15)
-            << i << " " << j << " " << k;
+        // a float holds half a unit of its 24th bit; 1e-15 m: the place of a sample is rounded to 1e-17 m, its cell coordinates to 1e-15
+        const double exact = core_f64::signed_distance(outline, p);
+        ASSERT_NEAR(core_f64::signed_distance(vessel, p), exact, 0x1p-24 * std::abs(exact) + 1e-15) << i << " " << j << " " << k;
       }
     }
   }
 }
 
+TEST(Sdf, GridOfHalvesIsOffByTheirSpacing) {
+  for (const VesselData& data : {vase(), beaker2()}) {
+    const Vessel floats = grid_vessel(data, 41), halves = grid_vessel(data, 41, 16);
+    const core_f64::Grid& grid = halves.grid;
+    EXPECT_EQ(grid.words->size(), (floats.grid.words->size() + 1) / 2);
+    int differ = 0;
+    for (int k = 0; k < grid.nz; ++k) {
+      for (int j = 0; j < grid.ny; ++j) {
+        for (int i = 0; i < grid.nx; ++i) {
+          const double exact = core_f64::grid_sample(floats, i, j, k), stored = core_f64::grid_sample(halves, i, j, k);
+          differ += stored != exact;
+          // half a unit of the 11th bit, or of 2^-24 in units of 2^-10 m
+          ASSERT_NEAR(stored, exact, std::max(0x1p-11 * std::abs(exact), 0x1p-35)) << i << " " << j << " " << k;
+        }
+      }
+    }
+    EXPECT_GT(differ, 1000);
+    // a mean of samples is off by no more than they are
+    Random random(11);
+    for (int n = 0; n < 5000; ++n) {
+      const Vec3 p =
+          lattice_point(grid, random.uniform(0, grid.nx - 1), random.uniform(0, grid.ny - 1), random.uniform(0, grid.nz - 1));
+      const double exact = core_f64::signed_distance(floats, p);
+      ASSERT_NEAR(core_f64::signed_distance(halves, p), exact, 0x1p-11 * (std::abs(exact) + 2 * grid.spacing));
+    }
+  }
+}
+
 TEST(Sdf, GridIsTrilinearBetweenItsSamples) {
-  const Vessel vessel = grid_vessel(ready_vessel(vase()), 24);
+  const Vessel vessel = grid_vessel(vase(), 24);
   const core_f64::Grid& grid = vessel.grid;
   Random random(9);
   for (int n = 0; n < 1000; ++n) {
@@ -42,8 +71,7 @@ TEST(Sdf, GridIsTrilinearBetweenItsSamples) {
     double expected = 0;
     for (int corner = 0; corner < 8; ++corner) {
       const int di = corner & 1, dj = corner >> 1 & 1, dk = corner >> 2;
-      const auto index = static_cast<std::size_t>(((k + dk) * grid.ny + j + dj) * grid.nx + i + di);
-      expected += (di ? u : 1 - u) * (dj ? v : 1 - v) * (dk ? w : 1 - w) * grid.samples[index];
+      expected += (di ? u : 1 - u) * (dj ? v : 1 - v) * (dk ? w : 1 - w) * core_f64::grid_sample(vessel, i + di, j + dj, k + dk);
     }
     ASSERT_NEAR(core_f64::signed_distance(vessel, lattice_point(grid, i + u, j + v, k + w)), expected, 1e-15);  // as above
   }
@@ -51,7 +79,7 @@ TEST(Sdf, GridIsTrilinearBetweenItsSamples) {
 
 TEST(Sdf, GridReachesTwoCellsBeyondTheVessel) {
   const VesselData data = beaker3();
-  const core_f64::Grid grid = core_f64::sample_grid(ready_vessel(data), 24);
+  const core_f64::Grid grid = grid_vessel(data, 24).grid;
   const Vec3 low = grid.origin, high = lattice_point(grid, grid.nx - 1, grid.ny - 1, grid.nz - 1);
   const double r = largest_radius(data), reach = 2 * grid.spacing - 1e-12;
   EXPECT_LE(low.x, -r - reach);
@@ -63,7 +91,7 @@ TEST(Sdf, GridReachesTwoCellsBeyondTheVessel) {
 }
 
 TEST(Sdf, GridOutsideItsBoxIsTheClampedValueAndTheWayToTheBox) {
-  const Vessel outline = ready_vessel(beaker3()), vessel = grid_vessel(outline, 32);
+  const Vessel outline = ready_vessel(beaker3()), vessel = grid_vessel(beaker3(), 32);
   const core_f64::Grid& grid = vessel.grid;
   const Vec3 low = grid.origin, high = lattice_point(grid, grid.nx - 1, grid.ny - 1, grid.nz - 1);
   Random random(10);
@@ -85,7 +113,7 @@ TEST(Sdf, GridOutsideItsBoxIsTheClampedValueAndTheWayToTheBox) {
 }
 
 TEST(Sdf, GridIsContinuousAtItsBox) {
-  const Vessel vessel = grid_vessel(ready_vessel(vase()), 24);
+  const Vessel vessel = grid_vessel(vase(), 24);
   const core_f64::Grid& grid = vessel.grid;
   for (const Vec3 p :
        {lattice_point(grid, 0, 3.3, 4.1), lattice_point(grid, grid.nx - 1, 3.3, 4.1), lattice_point(grid, 2.5, 0, 6.2),
@@ -101,7 +129,7 @@ TEST(Sdf, GridIsContinuousAtItsBox) {
 }
 
 TEST(Sdf, GridGradientIsItsDifferenceQuotient) {
-  const Vessel vessel = grid_vessel(ready_vessel(vase()), 24);
+  const Vessel vessel = grid_vessel(vase(), 24);
   const core_f64::Grid& grid = vessel.grid;
   const double h = 1e-7;
   Random random(12);
@@ -126,7 +154,7 @@ TEST(Sdf, GridGradientIsItsDifferenceQuotient) {
 }
 
 TEST(Sdf, GridGradientOutsideItsBoxIsUnitAndPointsAway) {
-  const Vessel vessel = grid_vessel(ready_vessel(beaker1()), 24);
+  const Vessel vessel = grid_vessel(beaker1(), 24);
   for (const Vec3 p : {Vec3{0.5, 0.05, 0}, Vec3{0, 0.05, -0.5}, Vec3{0, 1, 0}, Vec3{0.3, -0.4, 0.2}}) {
     int element = 0;
     const Vec3 g = core_f64::distance_gradient(vessel, p, element);
@@ -138,7 +166,8 @@ TEST(Sdf, GridGradientOutsideItsBoxIsUnitAndPointsAway) {
 TEST(Sdf, GridGradientIsXWhereItVanishes) {
   Vessel vessel;
   vessel.is_grid = true;
-  vessel.grid = {{0, 0, 0}, 1, 2, 2, 2, std::vector<double>(8, 0.25)};
+  const std::vector<std::uint32_t> quarters(8, std::bit_cast<std::uint32_t>(0.25f));
+  vessel.grid = {{0, 0, 0}, 1, 2, 2, 2, false, std::make_shared<const std::vector<std::uint32_t>>(quarters)};
   int element = 0;
   EXPECT_EQ(core_f64::distance_gradient(vessel, {0.5, 0.5, 0.5}, element), (Vec3{1, 0, 0}));
   EXPECT_EQ(core_f64::signed_distance(vessel, {0.5, 0.5, 0.5}), 0.25);
@@ -155,7 +184,7 @@ TEST(Sdf, GridErrorFallsWithTheSquareOfItsSpacing) {
   }
   std::vector<double> worst, spacing;
   for (const int samples : {30, 60, 120}) {
-    const Vessel vessel = grid_vessel(outline, samples);
+    const Vessel vessel = grid_vessel(beaker3(), samples);
     double largest = 0;
     for (const Vec3& p : points)
       largest = std::max(largest, std::abs(core_f64::signed_distance(vessel, p) - core_f64::signed_distance(outline, p)));

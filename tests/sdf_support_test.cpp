@@ -31,7 +31,7 @@ Vec3 swept(const Element& element, double t, double azimuth) {
 
 TEST(Sdf, SupportIsTheDistanceAndItsGradient) {
   for (const VesselData& data : {beaker1(), vase(), ledges(), shell_of(vase())}) {
-    const Vessel vessel = ready_vessel(data), grid = grid_vessel(vessel, 16);
+    const Vessel vessel = ready_vessel(data), grid = grid_vessel(data, 16);
     Random random(14);
     for (int n = 0; n < 1000; ++n) {
       const Vec3 p = around(point_in_box(data, random), random.uniform(-PI, PI));

@@ -51,16 +51,14 @@ struct Row {
 
 class CoreLeaves final : public wholehand::Leaves {
  public:
-  CoreLeaves(const wholehand::Scene& scene, std::size_t v, int grid_samples)
+  CoreLeaves(const wholehand::Scene& scene, std::size_t v, int grid_samples, int grid_bits)
       : hand_(load_hand(wholehand::prepare_hand(scene.hand), scene.hand)),
         quadrature_(load_quadrature(wholehand::prepare_quadrature(QUADRATURE_POINTS))) {
     const wholehand::VesselData& data = scene.vessels[v];
-    vessel_ = load_vessel(wholehand::prepare_vessel(data, data.wall > 0), data, quadrature_, scene.liquid.has_value(),
-                          scene.hand.handedness);
+    const wholehand::PreparedVessel prepared = wholehand::prepare_vessel(data, data.wall > 0);
+    vessel_ = load_vessel(prepared, data, quadrature_, scene.liquid.has_value(), scene.hand.handedness);
     if (grid_samples == 0) return;
-    vessel_.grid = sample_grid(vessel_, grid_samples);
-    vessel_.is_grid = true;
-    vessel_.lid = -1;
+    use_grid(vessel_, load_grid(wholehand::prepare_grid(prepared, grid_samples, grid_bits == 16)));
   }
 
   void evaluate(int probe, const double* given, double* answer) const override {
@@ -493,8 +491,8 @@ class CoreLeaves final : public wholehand::Leaves {
 
 namespace wholehand {
 
-std::unique_ptr<Leaves> MAKE_LEAVES(const Scene& scene, std::size_t vessel, int grid_samples) {
-  return std::make_unique<CORE_NS::CoreLeaves>(scene, vessel, grid_samples);
+std::unique_ptr<Leaves> MAKE_LEAVES(const Scene& scene, std::size_t vessel, int grid_samples, int grid_bits) {
+  return std::make_unique<CORE_NS::CoreLeaves>(scene, vessel, grid_samples, grid_bits);
 }
 
 }  // namespace wholehand

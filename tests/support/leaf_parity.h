@@ -63,6 +63,7 @@ std::vector<Output> together(const Lists&... lists) {
 struct Way {
   OutlineSource source = OUTLINE_SPECIALIZED;
   int grid_samples = 0;
+  int grid_bits = 32;
 };
 
 using Table = std::vector<double>;

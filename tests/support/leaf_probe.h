@@ -16,7 +16,7 @@ class LeafProbe {
  public:
   // `source`: how the outline is read by those shaders that read it. grid_samples > 0: its distance sampled on a grid.
   LeafProbe(const host::Device& device, const Scene& scene, std::size_t vessel, Precision precision, OutlineSource source,
-            int grid_samples = 0);
+            int grid_samples = 0, int grid_bits = 32);
 
   // `rows` rows of `given` (inputs numbers each) through a probe of tests/shaders/`shader`; outputs numbers each.
   std::vector<double> run(std::string_view shader, int probe, const std::vector<double>& given, std::size_t rows, int inputs,

@@ -329,11 +329,10 @@ long double reference_gap(const HandData& hand, long double closure) {
   return length(joints[INDEX_TIP] - joints[THUMB_TIP]);
 }
 
-core_f64::Vessel grid_vessel(const core_f64::Vessel& outline, int samples) {
-  core_f64::Vessel vessel = outline;
-  vessel.grid = core_f64::sample_grid(outline, samples);
-  vessel.is_grid = true;
-  return vessel;
+core_f64::Vessel grid_vessel(const VesselData& vessel, int samples, int bits) {
+  core_f64::Vessel ready = ready_vessel(vessel);
+  core_f64::use_grid(ready, core_f64::load_grid(prepare_grid(prepare_vessel(vessel, vessel.wall > 0), samples, bits == 16)));
+  return ready;
 }
 
 }  // namespace wholehand
