@@ -16,6 +16,7 @@ using Action = std::function<ExitCode()>;
 void add_sweep_command(CLI::App& app, Action& action);
 void add_grip_command(CLI::App& app, Action& action);
 void add_check_command(CLI::App& app, Action& action);
+void add_error_time_command(CLI::App& app, Action& action);
 void add_stability_command(CLI::App& app, Action& action);
 void add_devices_command(CLI::App& app, Action& action);
 

@@ -83,7 +83,8 @@ class CoreEvaluator final : public wholehand::Evaluator {
       const wholehand::PreparedVessel prepared = wholehand::prepare_vessel(data, needs_cavity);
       entry.vessel = load_vessel(prepared, data, quadrature_, with_liquid, scene.hand.handedness);
       if (options.grid_samples > 0) {
-        entry.grid = wholehand::prepare_grid(prepared, options.grid_samples, options.grid_bits == 16);
+        entry.grid =
+            wholehand::prepare_grid(prepared, options.grid_samples, options.grid_bits == 16, wholehand::grid_margin(scene));
         use_grid(entry.vessel, load_grid(*entry.grid));
       }
       entry.vessel.limits = hand_.limits;

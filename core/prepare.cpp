@@ -206,7 +206,7 @@ PreparedHand prepare_hand(const HandData& hand, int gap_entries) {
   return prepared;
 }
 
-PreparedGrid prepare_grid(const PreparedVessel& prepared, int samples, bool halves) {
+PreparedGrid prepare_grid(const PreparedVessel& prepared, int samples, bool halves, double margin) {
   core_f64::Vessel vessel;
   double widest = 0, low = 0, high = 0;
   for (const PreparedElement& e : prepared.outline) {
@@ -215,6 +215,9 @@ PreparedGrid prepare_grid(const PreparedVessel& prepared, int samples, bool halv
     low = std::min({low, e.a[1], e.b[1]});
     high = std::max({high, e.a[1], e.b[1]});
   }
+  widest += margin;
+  low -= margin;
+  high += margin;
   PreparedGrid grid;
   grid.halves = halves;
   grid.spacing = std::max(2 * widest, high - low) / (samples - 5);
@@ -244,6 +247,14 @@ PreparedGrid prepare_grid(const PreparedVessel& prepared, int samples, bool halv
       }
   grid.words = std::make_shared<const std::vector<std::uint32_t>>(std::move(words));
   return grid;
+}
+
+double grid_margin(const Scene& scene) {
+  double radius = 0, scale = scene.grips.hand_scale.is_range ? scene.grips.hand_scale.to : 0;
+  for (const FingerData& finger : scene.hand.fingers)
+    radius = std::max(radius, *std::max_element(finger.radii.begin(), finger.radii.end()));
+  for (const double value : scene.grips.hand_scale.values) scale = std::max(scale, value);
+  return scene.hand.scale * scale * radius + GRID_BAND;
 }
 
 // Newton on the Legendre polynomial from the usual cosine start.

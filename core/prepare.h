@@ -73,9 +73,14 @@ PreparedVessel prepare_vessel(const VesselData& vessel, bool needs_cavity);
 // Throws Error (usage) where the gap is not strictly decreasing at 1,025 equal steps of the closure, naming where it turns.
 PreparedHand prepare_hand(const HandData& hand, int gap_entries = GAP_TABLE_SIZE);
 
-// Samples of the distance to the vessel's outline, taken in double, `samples` along its longest side, two cells beyond it. Stored with
-// 32 bits each or with 16 (`halves`).
-PreparedGrid prepare_grid(const PreparedVessel& vessel, int samples, bool halves);
+// Samples of the distance to the vessel's outline, taken in double, `samples` along the longest side; the lattice reaches `margin` (m) and
+// two cells beyond the vessel. Stored with 32 bits each or with 16 (`halves`).
+PreparedGrid prepare_grid(const PreparedVessel& vessel, int samples, bool halves, double margin = 0);
+
+// The margin with which a lattice holds every point of the scene's hand whose skin is within GRID_BAND of a vessel: beyond it only a bound
+// of the distance is known.
+constexpr double GRID_BAND = 1e-3;  // m
+double grid_margin(const Scene& scene);
 
 PreparedQuadrature prepare_quadrature(int points);
 

@@ -159,8 +159,8 @@ class CoreRun {
 
 }  // namespace
 
-CoreBackend::CoreBackend(std::unique_ptr<Evaluator> evaluator, const Scene& scene, const FieldSet& fields, Precision precision,
-                         int threads)
+CoreBackend::CoreBackend(std::shared_ptr<const Evaluator> evaluator, const Scene& scene, const FieldSet& fields,
+                         Precision precision, int threads)
     : evaluator_(std::move(evaluator)),
       fills_(scene.liquid ? scene.liquid->fills : std::vector<double>{}),
       tilts_(scene.tilts),

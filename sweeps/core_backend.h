@@ -13,7 +13,8 @@ namespace wholehand {
 class CoreBackend final : public Backend {
  public:
   // `threads`: 0 takes all. `precision` is that of the evaluator's arithmetic; its planes are doubles either way.
-  CoreBackend(std::unique_ptr<Evaluator> evaluator, const Scene& scene, const FieldSet& fields, Precision precision, int threads);
+  CoreBackend(std::shared_ptr<const Evaluator> evaluator, const Scene& scene, const FieldSet& fields, Precision precision,
+              int threads);
 
   const BackendInfo& info() const override { return info_; }
   const FieldSet& fields() const override { return fields_; }
@@ -23,7 +24,7 @@ class CoreBackend final : public Backend {
   std::vector<LiquidResult> liquid(std::size_t vessel) override;
 
  private:
-  std::unique_ptr<Evaluator> evaluator_;
+  std::shared_ptr<const Evaluator> evaluator_;
   std::vector<double> fills_;  // of the liquid; empty without
   std::vector<double> tilts_;
   FieldSet fields_;

@@ -197,7 +197,8 @@ TEST_F(ParityLeaf, ProxyOnTheAxis) {
 TEST_F(ParityLeaf, Lattice) {
   const Scene scene = vessels_scene();
   const Way way{OUTLINE_SPECIALIZED, 40};
-  const core_f64::Grid grid = grid_vessel(scene.vessels[VASE], way.grid_samples).grid;
+  const auto core = make_core_evaluator(scene, {.grid_samples = way.grid_samples});
+  const core_f64::Grid grid = core_f64::load_grid(*core->grid(VASE));
   const std::array<int, 3> counts{grid.nx, grid.ny, grid.nz};
   const auto place = [&](int axis, double at) { return grid.origin[axis] + grid.spacing * at; };
   Builder points(240), samples(241), mixed(242);

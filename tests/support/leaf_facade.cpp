@@ -58,7 +58,7 @@ class CoreLeaves final : public wholehand::Leaves {
     const wholehand::PreparedVessel prepared = wholehand::prepare_vessel(data, data.wall > 0);
     vessel_ = load_vessel(prepared, data, quadrature_, scene.liquid.has_value(), scene.hand.handedness);
     if (grid_samples == 0) return;
-    use_grid(vessel_, load_grid(wholehand::prepare_grid(prepared, grid_samples, grid_bits == 16)));
+    use_grid(vessel_, load_grid(wholehand::prepare_grid(prepared, grid_samples, grid_bits == 16, wholehand::grid_margin(scene))));
   }
 
   void evaluate(int probe, const double* given, double* answer) const override {

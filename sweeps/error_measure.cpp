@@ -1,0 +1,330 @@
+#include "sweeps/error_measure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "core/prepare.h"
+#include "host/grip_backend.h"
+#include "sweeps/core_backend.h"
+#include "sweeps/plan.h"
+#include "sweeps/variables.h"
+
+namespace wholehand {
+namespace {
+
+constexpr double ABSENT = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t LARGEST_RUN = 1 << 20;  // timed grips of a vessel
+
+// Random grips within the scene's axes: its own as Sobol points, by the seed. Alike ones follow each other, by height the last, as in a
+// sweep: a device evaluates neighbours together.
+std::vector<std::vector<GripInput>> random_grips(const Scene& scene, std::size_t count, std::uint64_t seed) {
+  Scene sampled = scene;
+  sampled.grips.sampling = Sampling::sobol;
+  sampled.grips.count = count;
+  sampled.grips.seed = seed;
+  const Plan plan(sampled, true);
+  std::vector<std::vector<GripInput>> grips(scene.vessels.size(), std::vector<GripInput>(count));
+  const auto part = [](const Axis& axis, double value, double parts) {
+    const auto [low, high] = std::minmax_element(axis.values.begin(), axis.values.end());
+    return *high > *low ? std::floor((value - *low) / (*high - *low) * parts) : 0;
+  };
+  const auto place = [&](const GripInput& g) {
+    return std::array{part(scene.grips.azimuth, g.azimuth, 2), part(scene.grips.obliquity, g.obliquity, 4),
+                      part(scene.grips.roll, g.roll, 12), part(scene.grips.offset, g.offset, 2), g.height};
+  };
+  for (std::size_t v = 0; v < grips.size(); ++v) {
+    plan.fill(v, 0, count, grips[v].data());
+    std::stable_sort(grips[v].begin(), grips[v].end(), [&](const GripInput& a, const GripInput& b) { return place(a) < place(b); });
+  }
+  return grips;
+}
+
+// What is compared.
+FieldSet compared_fields(const Scene& scene) {
+  std::vector<int> fields{FIELD_GAP, FIELD_CLOSURE, FIELD_POSED, FIELD_PROXIES, FIELD_STATUS, FIELD_TOUCH_MASK, FIELD_SEPARATION};
+  if (!scene.tilts.empty())
+    fields.insert(fields.end(), {scene.force.torque == Torque::exact ? FIELD_EXACT_TORQUE : FIELD_TORQUE, FIELD_FEEDBACK_FORCE,
+                                 FIELD_HOLD_FORCE});
+  return make_field_set(fields, scene);
+}
+
+double difference(double a, double b) {
+  if (a == b || (std::isnan(a) && std::isnan(b))) return 0;
+  const double apart = std::abs(a - b);
+  return std::isnan(apart) ? std::numeric_limits<double>::infinity() : apart;
+}
+
+bool is_feasible(std::uint32_t status) { return (status & STATUS_REASON_MASK) == REASON_NONE; }
+
+// The errors of one quantity, with their places.
+struct Errors {
+  std::vector<double> values;
+  std::vector<std::string> where;
+  void add(double value, std::size_t vessel, std::size_t index) {
+    values.push_back(value);
+    where.push_back(fmt::format("{}:{}", vessel, index));
+  }
+};
+
+// Largest difference between the planes of a field at one grip. With `finite`, infinite values on either side are passed over (a hold force
+// is infinite where the pinch is not antipodal, which is an outcome and not a number): NaN where none is left.
+double plane_difference(const GatheredPlanes& a, const GatheredPlanes& b, int field, int planes, std::size_t i, bool finite) {
+  double worst = finite ? ABSENT : 0;
+  for (int p = 0; p < planes; ++p) {
+    const double x = a.real(a.fields.plane[field] + p, i), y = b.real(b.fields.plane[field] + p, i);
+    if (finite && (std::isinf(x) || std::isinf(y))) continue;
+    worst = std::fmax(worst, difference(x, y));
+  }
+  return worst;
+}
+
+// Largest distance between the points of a field at one grip.
+double point_difference(const GatheredPlanes& a, const GatheredPlanes& b, int field, std::size_t i) {
+  double worst = 0;
+  for (int j = 0; j < JOINT_COUNT; ++j) {
+    double square = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double d = difference(a.real(a.fields.plane[field] + 3 * j + k, i), b.real(b.fields.plane[field] + 3 * j + k, i));
+      square += d * d;
+    }
+    worst = std::max(worst, std::sqrt(square));
+  }
+  return worst;
+}
+
+bool same_options(const EvaluatorOptions& a, const EvaluatorOptions& b) {
+  return a.grid_samples == b.grid_samples && a.grid_bits == b.grid_bits && a.quadrature_points == b.quadrature_points &&
+         a.stop_tolerance == b.stop_tolerance && a.trace_steps == b.trace_steps && a.advance_steps == b.advance_steps &&
+         a.gap_table == b.gap_table;
+}
+
+// Height and lean of the centre of mass of glass and liquid, m.
+std::array<double, 2> center_of_mass(const VesselConstants& glass, const LiquidResult& liquid) {
+  const double mass = glass.mass + liquid.mass, share = mass > 0 ? liquid.mass / mass : 0;
+  return {(1 - share) * glass.center_of_mass[1] + share * liquid.height, share * liquid.lean};
+}
+
+}  // namespace
+
+// A variant ready to run.
+struct ErrorMeasure::Opened {
+  std::shared_ptr<const Evaluator> core;  // whose constants it has
+  std::unique_ptr<Backend> backend;
+  std::size_t memory_bytes = 0;
+};
+
+ErrorFigures figures_of(const std::vector<double>& errors, const std::vector<std::string>& where) {
+  if (errors.empty()) return {ABSENT, ABSENT, ABSENT, "", 0};
+  std::vector<std::size_t> order(errors.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto value = [&](std::size_t i) { return std::isnan(errors[i]) ? std::numeric_limits<double>::infinity() : errors[i]; };
+  // of equally bad ones the first
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return value(a) < value(b); });
+  const auto rank = [&](double share) {
+    const auto place = static_cast<std::size_t>(std::ceil(share * static_cast<double>(order.size())));
+    return value(order[std::max<std::size_t>(place, 1) - 1]);
+  };
+  const double max = value(order.back());
+  const std::size_t worst = *std::find_if(order.begin(), order.end(), [&](std::size_t i) { return value(i) == max; });
+  return {rank(0.5), rank(0.999), max, where[worst], errors.size()};
+}
+
+double ErrorRow::length_error() const {
+  if (!variant.answers_the_question()) return ABSENT;
+  double worst = 0;
+  for (const int q : {ERROR_SEPARATION, ERROR_POSED, ERROR_PROXY, ERROR_GAP, ERROR_COM})
+    if (errors[q].compared > 0) worst = std::max(worst, errors[q].p999);
+  return worst;
+}
+
+double ErrorRow::force_error() const {
+  if (!variant.answers_the_question() || errors[ERROR_FEEDBACK].compared == 0) return ABSENT;
+  const double hold = errors[ERROR_HOLD].compared > 0 ? errors[ERROR_HOLD].p999 : 0;
+  return std::max(errors[ERROR_FEEDBACK].p999, hold);
+}
+
+ErrorMeasure::ErrorMeasure(const Scene& scene, const MeasureOptions& options)
+    : scene_(scene),
+      options_(options),
+      grips_(random_grips(scene, options.grips, options.seed)),
+      reference_(make_core_evaluator(scene, reference_options())) {
+  CoreBackend backend(reference_, scene, compared_fields(scene), Precision::full, options.threads);
+  for (std::size_t v = 0; v < grips_.size(); ++v) {
+    truth_.push_back(gather(backend, v, grips_[v]));
+    true_liquid_.push_back(backend.liquid(v));
+    for (std::size_t i = 0; i < grips_[v].size(); ++i) {
+      const std::uint32_t status = truth_[v].uint(FIELD_STATUS, i);
+      feasible_ += is_feasible(status) ? 1 : 0;
+      grazing_ += is_feasible(status) && (status & STATUS_GRAZING) != 0 ? 1 : 0;
+    }
+  }
+}
+
+// The one used last again where it is the same: those with a grid are large and slow to make.
+std::shared_ptr<const Evaluator> ErrorMeasure::evaluator(const ErrorVariant& variant, Precision precision) {
+  const Scene& scene = variant.scene ? *variant.scene : scene_;
+  if (precision == Precision::single) return make_core_float_evaluator(scene, variant.options);
+  if (!last_ || last_scene_ != &scene || !same_options(last_options_, variant.options)) {
+    last_.reset();
+    last_ = make_core_evaluator(scene, variant.options);
+    last_scene_ = &scene;
+    last_options_ = variant.options;
+  }
+  return last_;
+}
+
+ErrorMeasure::Opened ErrorMeasure::open(const ErrorVariant& variant, const FieldSet& fields) {
+  const Scene& scene = variant.scene ? *variant.scene : scene_;
+  Opened opened;
+  if (variant.on_core) {
+    opened.core = evaluator(variant, variant.precision);
+    opened.backend = std::make_unique<CoreBackend>(opened.core, scene, fields, variant.precision, variant.threads);
+    const std::size_t planes = fields.real_planes * sizeof(double) + fields.uint_planes * sizeof(std::uint32_t);
+    opened.memory_bytes = opened.core->table_bytes() + (sizeof(GripInput) + planes) * options_.grips;
+    return opened;
+  }
+  opened.core = evaluator(variant, Precision::full);
+  host::GripBackendOptions device;
+  device.precision = variant.precision;
+  device.outline = variant.outline;
+  device.evaluator = variant.options;
+  auto backend = std::make_unique<host::GripBackend>(scene, opened.core, fields, options_.on, device);
+  opened.memory_bytes = backend->table_bytes() + backend->bytes_per_grip() * options_.grips;
+  opened.backend = std::move(backend);
+  return opened;
+}
+
+ErrorRow ErrorMeasure::measure(const ErrorVariant& variant) {
+  ErrorRow row;
+  row.variant = variant;
+  row.errors.fill(figures_of({}, {}));
+  const Scene& scene = variant.scene ? *variant.scene : scene_;
+  const Opened opened = open(variant, compared_fields(scene));
+  row.device = opened.backend->info().device;
+  row.driver = opened.backend->info().driver;
+  std::vector<GatheredPlanes> planes;
+  std::vector<std::vector<LiquidResult>> liquid;
+  const auto start = std::chrono::steady_clock::now();
+  for (std::size_t v = 0; v < grips_.size(); ++v) liquid.push_back(opened.backend->liquid(v));
+  const double liquid_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (variant.on_core && !liquid.front().empty())
+    row.liquid_seconds = liquid_seconds / static_cast<double>(liquid.size() * liquid.front().size());
+  for (std::size_t v = 0; v < grips_.size(); ++v) planes.push_back(gather(*opened.backend, v, grips_[v]));
+  compare(planes, row);
+  if (variant.comparable.states && !scene_.tilts.empty() && scene_.liquid) compare_liquid(liquid, *opened.core, row);
+  // timed as a sweep runs it: with the planes that it keeps
+  const Opened timed = open(variant, make_field_set(variable_fields(choose_variables(scene)), scene));
+  row.memory_bytes = timed.memory_bytes;
+  time(*timed.backend, row);
+  return row;
+}
+
+void ErrorMeasure::compare(const std::vector<GatheredPlanes>& planes, ErrorRow& row) const {
+  const Comparable& comparable = row.variant.comparable;
+  const bool forces = comparable.states && !scene_.tilts.empty();
+  const int states = static_cast<int>(scene_fills(scene_) * scene_.tilts.size());
+  const int torque = scene_.force.torque == Torque::exact ? FIELD_EXACT_TORQUE : FIELD_TORQUE;
+  std::array<Errors, ERROR_QUANTITIES> errors;
+  std::uint64_t touch_flips = 0, feasible_flips = 0;
+  std::vector<double> margins;  // of touch flips, m
+  for (std::size_t v = 0; v < planes.size(); ++v) {
+    const GatheredPlanes &a = planes[v], &b = truth_[v];
+    for (std::size_t i = 0; i < a.count; ++i) {
+      const std::uint32_t status_a = a.uint(FIELD_STATUS, i), status_b = b.uint(FIELD_STATUS, i);
+      feasible_flips += is_feasible(status_a) != is_feasible(status_b) ? 1 : 0;
+      if (!is_feasible(status_a) || !is_feasible(status_b) || ((status_a | status_b) & STATUS_GRAZING) != 0) continue;
+      errors[ERROR_CLOSURE].add(plane_difference(a, b, FIELD_CLOSURE, 1, i, false), v, i);
+      errors[ERROR_GAP].add(1e6 * plane_difference(a, b, FIELD_GAP, 1, i, false), v, i);
+      if (forces) {
+        errors[ERROR_TORQUE].add(plane_difference(a, b, torque, states, i, false), v, i);
+        errors[ERROR_FEEDBACK].add(plane_difference(a, b, FIELD_FEEDBACK_FORCE, states, i, false), v, i);
+        const double hold = plane_difference(a, b, FIELD_HOLD_FORCE, states, i, true);
+        if (!std::isnan(hold)) errors[ERROR_HOLD].add(hold, v, i);
+      }
+      if (!comparable.pose) continue;
+      errors[ERROR_POSED].add(1e6 * point_difference(a, b, FIELD_POSED, i), v, i);
+      errors[ERROR_PROXY].add(1e6 * point_difference(a, b, FIELD_PROXIES, i), v, i);
+      const std::uint32_t flipped = a.uint(FIELD_TOUCH_MASK, i) ^ b.uint(FIELD_TOUCH_MASK, i);
+      touch_flips += static_cast<std::uint64_t>(std::popcount(flipped));
+      double separation = 0;
+      for (int j = 0; j < JOINT_COUNT; ++j) {
+        const double own = a.real(a.fields.plane[FIELD_SEPARATION] + j, i), exact = b.real(b.fields.plane[FIELD_SEPARATION] + j, i);
+        if (exact <= GRID_BAND) separation = std::max(separation, difference(own, exact));
+        if ((flipped >> j & 1) != 0) margins.push_back(std::abs(exact - scene_.hand.contact_tolerance));
+      }
+      errors[ERROR_SEPARATION].add(1e6 * separation, v, i);
+    }
+  }
+  for (int q = 0; q < ERROR_QUANTITIES; ++q) row.errors[q] = figures_of(errors[q].values, errors[q].where);
+  if (comparable.outcomes) row.feasible_flips = feasible_flips;
+  if (!comparable.pose) return;
+  row.touch_flips = touch_flips;
+  // what all but one grip in a thousand keep to, and at least what stopping and rounding come to
+  const double epsilon = allowance(row.variant.precision).epsilon;
+  double reach = 0;
+  for (const VesselData& vessel : scene_.vessels) reach = std::max(reach, 0.1 * scene_.hand.scale + vessel.height);
+  const double p999 = row.errors[ERROR_SEPARATION].compared > 0 ? row.errors[ERROR_SEPARATION].p999 * 1e-6 : 0;
+  const double allowed = std::max(p999, 2 * row.variant.stop_tolerance() + 64 * epsilon * reach);
+  row.touch_flips_outside =
+      static_cast<std::uint64_t>(std::count_if(margins.begin(), margins.end(), [&](double margin) { return margin > allowed; }));
+}
+
+void ErrorMeasure::compare_liquid(const std::vector<std::vector<LiquidResult>>& liquid, const Evaluator& core,
+                                  ErrorRow& row) const {
+  Errors volume, center;
+  for (std::size_t v = 0; v < liquid.size(); ++v) {
+    const VesselConstants own = core.constants(v), exact = reference_->constants(v);
+    for (std::size_t s = 0; s < liquid[v].size(); ++s) {
+      volume.add(1e6 * difference(liquid[v][s].volume, true_liquid_[v][s].volume), v, s);
+      const auto a = center_of_mass(own, liquid[v][s]), b = center_of_mass(exact, true_liquid_[v][s]);
+      center.add(1e6 * std::hypot(difference(a[0], b[0]), difference(a[1], b[1])), v, s);
+    }
+  }
+  row.errors[ERROR_VOLUME] = figures_of(volume.values, volume.where);
+  row.errors[ERROR_COM] = figures_of(center.values, center.where);
+}
+
+// The first run compiles; those after it find out how many grips make a run long enough, and let chunks grow.
+void ErrorMeasure::time(Backend& backend, ErrorRow& row) {
+  const std::size_t own = options_.grips;
+  // the core hands out chunks of 512
+  std::size_t count = row.variant.on_core ? std::max<std::size_t>(own, 1024 * static_cast<std::size_t>(row.variant.threads)) : own;
+  const auto run = [&] {
+    double total = 0;
+    for (std::size_t v = 0; v < grips_.size(); ++v) {
+      RunRequest request;
+      request.vessel = v;
+      request.last = count;
+      request.best = static_cast<std::size_t>(std::max(0, scene_.output.best));
+      request.grips = [&](std::size_t vessel, std::uint64_t first, std::size_t wanted, GripInput* out) {
+        for (std::size_t i = 0; i < wanted; ++i) out[i] = grips_[vessel][(first + i) % own];
+      };
+      const RunResult result = backend.run(request);
+      total += result.kernel_seconds;
+      for (const std::string& note : result.notes)
+        if (std::find(notes_.begin(), notes_.end(), note) == notes_.end()) notes_.push_back(note);
+    }
+    return total;
+  };
+  double seconds = run();
+  if (!row.variant.on_core) seconds = run();
+  for (int growth = 0; growth < 3 && seconds < options_.run_seconds && count < LARGEST_RUN; ++growth) {
+    const double factor = std::min(1.2 * options_.run_seconds / std::max(seconds, 1e-6), 64.0);
+    count = std::min(LARGEST_RUN, static_cast<std::size_t>(static_cast<double>(count) * factor) + 1);
+    seconds = run();
+  }
+  std::vector<double> runs;
+  for (int k = 0; k < options_.runs; ++k) runs.push_back(run() / static_cast<double>(count * grips_.size()));
+  std::sort(runs.begin(), runs.end());
+  row.seconds_per_grip = runs[runs.size() / 2];
+  row.spread = runs[runs.size() * 3 / 4] - runs[runs.size() / 4];
+}
+
+}  // namespace wholehand

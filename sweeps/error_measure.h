@@ -1,0 +1,100 @@
+// What a variant costs in error and takes in time, on the same grips and states as all others.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sweeps/compare.h"
+#include "sweeps/error_variants.h"
+
+namespace wholehand {
+
+enum ErrorQuantity : int {
+  ERROR_SEPARATION,  // um, of points that the reference has inside or within GRID_BAND of the surface
+  ERROR_POSED,       // um, distance between posed joints
+  ERROR_PROXY,       // um, distance between proxies
+  ERROR_CLOSURE,
+  ERROR_GAP,       // um
+  ERROR_VOLUME,    // mL, of the liquid left
+  ERROR_COM,       // um, of glass and liquid together
+  ERROR_TORQUE,    // N m, the one that the scene renders
+  ERROR_FEEDBACK,  // N
+  ERROR_HOLD,      // N, where it is finite on both sides
+  ERROR_QUANTITIES
+};
+
+// Over grips, each with the largest difference among its points or states; over states for the liquid's two. NaN where nothing compares.
+struct ErrorFigures {
+  double median, p999, max;
+  std::string worst;  // vessel:index of the sampled grip, or of the state, fill-major
+  std::uint64_t compared = 0;
+};
+
+// By nearest rank, NaN-safe: a value that only one side lacks is infinite. `where` names each error's place.
+ErrorFigures figures_of(const std::vector<double>& errors, const std::vector<std::string>& where);
+
+struct ErrorRow {
+  ErrorVariant variant;
+  std::array<ErrorFigures, ERROR_QUANTITIES> errors;
+  std::optional<std::uint64_t> touch_flips, touch_flips_outside, feasible_flips;
+  double seconds_per_grip = 0;   // in the kernels of a sweep, median of the runs
+  double spread = 0;             // s, between the quartiles of the runs
+  double liquid_seconds = 0;     // of one state's liquid on the core; 0: none
+  std::size_t memory_bytes = 0;  // tables and grids, and inputs and planes of a sweep of one vessel's grips
+  std::string device, driver;
+
+  // Largest of the lengths' 99.9th percentiles, um (separation, posed joints, proxies, gap, centre of mass), and of the forces', N. NaN:
+  // the variant answers another question.
+  double length_error() const;
+  double force_error() const;
+};
+
+struct MeasureOptions {
+  std::string on;  // the device; as open_backend, but for "core"
+  int threads = 1;
+  std::uint64_t seed = 1;
+  std::size_t grips = 2048;   // of each vessel
+  int runs = 7;               // timed
+  double run_seconds = 0.05;  // of one timed run, at least: the grips are gone through as often as that takes
+};
+
+// Keeps the grips, the reference's answers and the evaluator used last.
+class ErrorMeasure {
+ public:
+  // Throws Error as the evaluators do.
+  ErrorMeasure(const Scene& scene, const MeasureOptions& options);
+
+  // Throws Error: the device fails.
+  ErrorRow measure(const ErrorVariant& variant);
+
+  const std::vector<std::vector<GripInput>>& grips() const { return grips_; }  // by vessel
+  std::uint64_t feasible() const { return feasible_; }                         // by the reference
+  std::uint64_t grazing() const { return grazing_; }
+  std::vector<std::string> notes() const { return notes_; }  // of backends, each once
+
+ private:
+  struct Opened;
+  Opened open(const ErrorVariant& variant, const FieldSet& fields);
+  std::shared_ptr<const Evaluator> evaluator(const ErrorVariant& variant, Precision precision);
+  void compare(const std::vector<GatheredPlanes>& planes, ErrorRow& row) const;
+  void compare_liquid(const std::vector<std::vector<LiquidResult>>& liquid, const Evaluator& core, ErrorRow& row) const;
+  void time(Backend& backend, ErrorRow& row);
+
+  const Scene& scene_;
+  MeasureOptions options_;
+  std::vector<std::vector<GripInput>> grips_;
+  std::shared_ptr<const Evaluator> reference_;
+  std::vector<GatheredPlanes> truth_;
+  std::vector<std::vector<LiquidResult>> true_liquid_;
+  std::shared_ptr<const Evaluator> last_;  // and what it was made for
+  const Scene* last_scene_ = nullptr;
+  EvaluatorOptions last_options_;
+  std::uint64_t feasible_ = 0, grazing_ = 0;
+  std::vector<std::string> notes_;
+};
+
+}  // namespace wholehand

@@ -1,0 +1,116 @@
+#include "sweeps/error_time.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <thread>
+
+#include "core/prepare.h"
+#include "host/device.h"
+#include "sweeps/error_plot.h"
+#include "sweeps/error_table.h"
+#include "sweeps/files.h"
+#include "sweeps/interrupt.h"
+
+#ifndef WHOLEHAND_VERSION
+#define WHOLEHAND_VERSION "unknown"
+#endif
+
+namespace wholehand {
+namespace {
+
+// What a device that is there can take part in, with notes on what it cannot.
+void choose_device_part(const Scene& scene, const std::string& on, VariantChoice& choice, ErrorContext& context) {
+  const auto devices = host::list_devices();
+  const host::DeviceInfo& device = host::choose_device(devices, on);
+  context.device = device.name;
+  context.driver = device.driver;
+  choice.device = true;
+  choice.device_double = device.float64;
+  if (!device.float64) context.notes.push_back(device.name + " has no double precision: Vulkan double is left out");
+  choice.outline_constants = std::all_of(scene.vessels.begin(), scene.vessels.end(), [](const VesselData& vessel) {
+    return prepare_vessel(vessel, vessel.wall > 0).outline.size() <= MAX_OUTLINE;
+  });
+  choice.device_outlines = choice.outline_constants || device.kind != host::DeviceKind::cpu;
+  if (!choice.device_outlines) {
+    context.notes.push_back(
+        fmt::format("{} takes no outlines of more than {} elements: its variants with one are left out", device.name, MAX_OUTLINE));
+  }
+}
+
+void show_progress(std::size_t k, std::size_t all, const std::string& name) {
+  static const bool is_terminal = isatty(STDERR_FILENO) != 0;
+  if (is_terminal) std::fprintf(stderr, "\r\x1b[K%zu of %zu  %s", k + 1, all, name.c_str());
+}
+
+void end_progress() {
+  if (isatty(STDERR_FILENO) != 0) std::fprintf(stderr, "\r\x1b[K");
+}
+
+}  // namespace
+
+ExitCode run_error_time(const Scene& scene, const ErrorTimeOptions& options) {
+  refuse_meshes(scene);
+  make_output_folder(options.output);
+  InterruptGuard interrupt;
+  const int threads = options.threads > 0 ? options.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  VariantChoice choice;
+  choice.quick = options.quick;
+  choice.threads = threads;
+  ErrorContext context;
+  context.scene = scene.name.empty() ? "scene" : scene.name;
+  context.version = WHOLEHAND_VERSION;
+  context.seed = options.seed;
+  context.quick = options.quick;
+  context.vessels = scene.vessels.size();
+  context.states = scene_fills(scene) * scene.tilts.size();
+  if (options.on != "core") choose_device_part(scene, options.on, choice, context);
+  MeasureOptions measure_options;
+  measure_options.on = options.on;
+  measure_options.threads = threads;
+  measure_options.seed = options.seed;
+  if (options.quick) {
+    measure_options.grips = 256;
+    measure_options.runs = 3;
+    measure_options.run_seconds = 0.015;
+  }
+  ErrorMeasure measure(scene, measure_options);
+  context.grips = measure_options.grips * scene.vessels.size();
+  context.feasible = measure.feasible();
+  context.grazing = measure.grazing();
+  const auto variants = error_variants(scene, choice);
+  std::vector<ErrorRow> rows;
+  for (std::size_t k = 0; k < variants.size(); ++k) {
+    if (interrupt.flag()) {
+      end_progress();
+      fmt::print(stderr, "wholehand: interrupted after {} of {} variants; nothing was written\n", k, variants.size());
+      return ExitCode::interrupted;
+    }
+    show_progress(k, variants.size(), variants[k].name);
+    rows.push_back(measure.measure(variants[k]));
+  }
+  end_progress();
+  if (options.on == "core" && !rows.empty()) {
+    context.device = rows.front().device;
+    context.driver = rows.front().driver;
+  }
+  for (const std::string& note : measure.notes()) context.notes.push_back(note);
+  const std::string folder = options.output.back() == '/' ? options.output : options.output + "/";
+  const std::string report = error_report(rows, context);
+  write_whole_file(folder + "error-time.csv", error_csv(rows, context), false);
+  write_whole_file(folder + "error-time-grips.csv", error_grips_csv(measure.grips()), false);
+  write_whole_file(folder + "error-time.md", report, false);
+  const auto pictures = front_pictures(folder, rows, context);
+  const std::string complaint = draw_fronts(pictures, rows);
+  fmt::print("{}\n", report);
+  if (!complaint.empty()) fmt::print(stderr, "wholehand: {}\n", complaint);
+  fmt::print("wrote {0}error-time.csv, {0}error-time-grips.csv, {0}error-time.md", folder);
+  if (complaint.empty())
+    for (const FrontPicture& picture : pictures) fmt::print(", {}", picture.file);
+  fmt::print("\n");
+  return ExitCode::done;
+}
+
+}  // namespace wholehand

@@ -1,0 +1,57 @@
+// The ways to evaluate a scene that `wholehand error-time` compares: each shortcut swept with the others at their defaults, and the
+// products that are of use.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/backend.h"
+#include "core/evaluator.h"
+#include "host/shaders.h"
+
+namespace wholehand {
+
+// Which of its answers mean what the reference's do. A variant that answers another question has some that do not.
+struct Comparable {
+  bool pose = true;      // separations, posed joints, proxies, touches
+  bool states = true;    // the liquid, torque and forces
+  bool outcomes = true;  // whether a grip is feasible
+};
+
+// What of the approximations is swept, for the convergence that is fitted; `step` is what the error should be a power of.
+enum class SweptAxis { none, grid, tolerance, gap_table, points };
+
+struct ErrorVariant {
+  std::string name;
+  bool on_core = true;
+  Precision precision = Precision::full;
+  int threads = 0;  // of the core
+  OutlineSource outline = OUTLINE_SPECIALIZED;
+  EvaluatorOptions options;
+  std::string left_out;                // what it leaves out of the scene or the pipelines; "+ .." what it leaves in
+  std::shared_ptr<const Scene> scene;  // null: the scene as it is
+  Comparable comparable;
+  SweptAxis axis = SweptAxis::none;
+  double step = 0;
+
+  bool answers_the_question() const { return comparable.pose && comparable.states && comparable.outcomes; }
+  double stop_tolerance() const;  // m
+};
+
+struct VariantChoice {
+  bool quick = false;
+  int threads = 1;                 // all that the core may take
+  bool device = false;             // a Vulkan device too
+  bool device_double = false;      // .. in double precision
+  bool device_outlines = false;    // .. whose loops take these outlines
+  bool outline_constants = false;  // .. which fit its pipelines' constants
+};
+
+// What the others are compared with: the core in double, the exact outline, the tightest tolerances.
+EvaluatorOptions reference_options();
+
+// Without those that need what the scene lacks. Variants on one evaluator follow each other.
+std::vector<ErrorVariant> error_variants(const Scene& scene, const VariantChoice& choice);
+
+}  // namespace wholehand
