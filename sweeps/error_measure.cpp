@@ -218,6 +218,7 @@ ErrorRow ErrorMeasure::measure(const ErrorVariant& variant) {
     row.liquid_seconds = liquid_seconds / static_cast<double>(liquid.size() * liquid.front().size());
   for (std::size_t v = 0; v < grips_.size(); ++v) planes.push_back(gather(*opened.backend, v, grips_[v]));
   compare(planes, row);
+  if (variant.on_core && variant.options.grid_samples > 0) row.distance = compare_distance(*opened.core);
   if (variant.comparable.states && !scene_.tilts.empty() && scene_.liquid) compare_liquid(liquid, *opened.core, row);
   // timed as a sweep runs it: with the planes that it keeps
   const Opened timed = open(variant, make_field_set(variable_fields(choose_variables(scene)), scene));
@@ -289,6 +290,24 @@ void ErrorMeasure::compare_liquid(const std::vector<std::vector<LiquidResult>>& 
   }
   row.errors[ERROR_VOLUME] = figures_of(volume.values, volume.where);
   row.errors[ERROR_COM] = figures_of(center.values, center.where);
+}
+
+// The signed distance itself, inside and as far out as a touching point's centre.
+ErrorFigures ErrorMeasure::compare_distance(const Evaluator& core) const {
+  constexpr std::size_t POINTS = 4096;
+  const double margin = grid_margin(scene_);
+  std::vector<SobolPoint> points(POINTS);
+  Sobol(options_.seed).points(0, POINTS, points.data());
+  Errors errors;
+  for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
+    const PreparedVessel vessel = prepare_vessel(scene_.vessels[v], scene_.vessels[v].wall > 0);
+    for (std::size_t i = 0; i < POINTS; ++i) {
+      const double r = points[i][0] * (vessel.largest_radius + margin), azimuth = 2 * PI * points[i][1];
+      const Triple p{r * std::cos(azimuth), points[i][2] * (scene_.vessels[v].height + 2 * margin) - margin, r * std::sin(azimuth)};
+      errors.add(1e6 * difference(core.distance(v, p), reference_->distance(v, p)), v, i);
+    }
+  }
+  return figures_of(errors.values, errors.where);
 }
 
 // The first run compiles; those after it find out how many grips make a run long enough, and let chunks grow.

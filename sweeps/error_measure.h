@@ -43,6 +43,7 @@ struct ErrorRow {
   std::optional<std::uint64_t> touch_flips, touch_flips_outside, feasible_flips;
   double seconds_per_grip = 0;   // in the kernels of a sweep, median of the runs
   double spread = 0;             // s, between the quartiles of the runs
+  ErrorFigures distance{};       // um, of a grid on the core at points about the glass
   double liquid_seconds = 0;     // of one state's liquid on the core; 0: none
   std::size_t memory_bytes = 0;  // tables and grids, and inputs and planes of a sweep of one vessel's grips
   std::string device, driver;
@@ -82,6 +83,7 @@ class ErrorMeasure {
   std::shared_ptr<const Evaluator> evaluator(const ErrorVariant& variant, Precision precision);
   void compare(const std::vector<GatheredPlanes>& planes, ErrorRow& row) const;
   void compare_liquid(const std::vector<std::vector<LiquidResult>>& liquid, const Evaluator& core, ErrorRow& row) const;
+  ErrorFigures compare_distance(const Evaluator& core) const;
   void time(Backend& backend, ErrorRow& row);
 
   const Scene& scene_;

@@ -102,12 +102,13 @@ std::string front_script(const std::vector<FrontPicture>& pictures, const std::v
     fmt::format_to(out, "set xrange [{:g}:{:g}]\nset yrange [{:g}:{:g}]\nset xtics ({})\nset ytics ({})\n", x_axis.low, x_axis.high,
                    y_axis.low, y_axis.high, x_axis.tics, y_axis.tics);
     // the names stand beside the plot, where they cannot cover each other
+    const double apart = std::min(0.034, 0.6 / static_cast<double>(std::max<std::size_t>(front.size(), 1)));
     for (std::size_t k = 0; k < front.size(); ++k) {
       fmt::format_to(out, "set label {} '{}' at {:.6g},{:.6g} offset 0.8,0.7 font ',11' textcolor '#202020' front\n", 2 * k + 1,
                      k + 1, x_of(*front[k]), y_of(*front[k]));
       fmt::format_to(out, "set label {} {} at screen 0.65, screen {:.4f} left font ',11' textcolor '#202020'\n", 2 * k + 2,
                      gnuplot_quoted(fmt::format("{:>2}  {}", k + 1, front[k]->variant.name)),
-                     0.66 - 0.034 * static_cast<double>(k));
+                     0.66 - apart * static_cast<double>(k));
     }
     std::string plots = "plot '-' using 1:2 with lines linewidth 1.5 linecolor '#a0a0a0' title 'not beaten: named below'";
     std::string data;

@@ -93,10 +93,12 @@ std::string orders(const std::vector<ErrorRow>& rows) {
   const auto figure = [](ErrorQuantity quantity, double ErrorFigures::*which) {
     return [quantity, which](const ErrorRow& row) { return row.errors[quantity].*which; };
   };
+  add_order(text, rows, SweptAxis::grid, "distance at random points, median", "spacing of the grid", "2, away from creases", 0,
+            [](const ErrorRow& row) { return row.distance.median; });
+  add_order(text, rows, SweptAxis::grid, "distance at random points, maximum", "spacing of the grid", "1, at creases", 0,
+            [](const ErrorRow& row) { return row.distance.max; });
   add_order(text, rows, SweptAxis::grid, "gap, median", "spacing of the grid", "2, where no crease is near", 0,
             figure(ERROR_GAP, &ErrorFigures::median));
-  add_order(text, rows, SweptAxis::grid, "separation, 99.9 %", "spacing of the grid", "1, at creases", 0,
-            figure(ERROR_SEPARATION, &ErrorFigures::p999));
   add_order(text, rows, SweptAxis::tolerance, "gap, maximum", "stop tolerance", "1", 0, figure(ERROR_GAP, &ErrorFigures::max));
   add_order(text, rows, SweptAxis::gap_table, "closure, maximum", "step of the gap table", "2", 0,
             figure(ERROR_CLOSURE, &ErrorFigures::max));

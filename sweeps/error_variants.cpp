@@ -139,7 +139,7 @@ class VariantList {
           variant.options.grid_samples = samples;
           variant.options.grid_bits = bits;
           variant.axis = bits == 32 ? SweptAxis::grid : SweptAxis::none;
-          variant.step = 1.0 / samples;
+          variant.step = 1.0 / (samples - 5);  // cells between the lattice's margins
         }
       }
     }

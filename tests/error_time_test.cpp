@@ -283,6 +283,16 @@ TEST(ErrorTime, CommandWritesItsFiles) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(ErrorTime, InterruptLeavesNoFiles) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "wholehand_error_time_interrupted";
+  std::filesystem::remove_all(folder);
+  const std::string command =
+      "error-time three_beakers --on core -o " + folder.string() + " >/dev/null 2>&1 & sleep 2; kill -INT $!; wait $!";
+  EXPECT_EQ(code_of(command), 130);
+  EXPECT_TRUE(std::filesystem::is_empty(folder));
+  std::filesystem::remove_all(folder);
+}
+
 TEST(ErrorTime, CommandRefusesBadInput) {
   for (const char* arguments : {"", "-o ''", "--quick", "small -o /nowhere/at/all", "no_such_scene -o /tmp", "-o /tmp --seed x",
                                 "-o /tmp --threads 0", "-o /tmp --on no_such_device"}) {
