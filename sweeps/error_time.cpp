@@ -71,8 +71,9 @@ ExitCode run_error_time(const Scene& scene, const ErrorTimeOptions& options) {
   measure_options.on = options.on;
   measure_options.threads = threads;
   measure_options.seed = options.seed;
+  // of all vessels together, so that more of them do not take longer
+  measure_options.grips = std::clamp<std::size_t>((options.quick ? 768 : 6144) / scene.vessels.size(), 64, 4096);
   if (options.quick) {
-    measure_options.grips = 256;
     measure_options.runs = 3;
     measure_options.run_seconds = 0.015;
   }

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace wholehand {
 namespace {
 
+constexpr double LARGEST_GRIDS = 1 << 30;  // bytes of all vessels' lattices, were they cubes
 constexpr const char* POSE_NAMES[] = {"articulated", "paper", "rigged"};
 
 // A backend in a precision, with what it is called.
@@ -132,6 +134,7 @@ class VariantList {
     for (const int samples : {32, 64, 128, 256}) {
       if (quick() && samples > 128) continue;
       for (const int bits : {32, 16}) {
+        if (static_cast<double>(scene_.vessels.size()) * std::pow(samples, 3) * bits / 8 > LARGEST_GRIDS) continue;
         for (const Side& side : sides) {
           if (quick() && bits == 16 && (!side.on_core || samples != 64)) continue;
           if (quick() && !side.on_core && samples == 32) continue;
