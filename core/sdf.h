@@ -50,7 +50,7 @@ struct Vessel {
 // The nearest element's number and squared distance, as the search carries them; the squared distance of the nearest one that is
 // further away; whether an arc is among several equally near.
 struct Nearest {
-  int element = -1;
+  int element = 0;  // stays where no distance is a number
   Real distance_squared = NO_DISTANCE;
   Real other_squared = NO_DISTANCE;
   bool curved_tie = false;

@@ -96,7 +96,7 @@ bool element_convex(Element element, Vec2 q) {
 }
 
 Nearest nearest_element(Vec2 q, out bool inside) {
-  Nearest nearest = Nearest(-1, NO_DISTANCE, NO_DISTANCE, false);
+  Nearest nearest = Nearest(0, NO_DISTANCE, NO_DISTANCE, false);
   int side = 0;
   inside = false;
   OUTLINE_LOOP for (int i = 0; i < OUTLINE_COUNT; ++i) {
