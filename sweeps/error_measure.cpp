@@ -19,12 +19,12 @@
 namespace wholehand {
 namespace {
 
-constexpr double ABSENT = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t LARGEST_RUN = 1 << 20;  // timed grips of a vessel
+constexpr double NO_FIGURE = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t LARGEST_TIMED_RUN = 1 << 20;  // timed grips of a vessel
 
 // Random grips within the scene's axes: its own as Sobol points, by the seed. Alike ones follow each other, by height the last, as in a
 // sweep: a device evaluates neighbours together.
-std::vector<std::vector<GripInput>> random_grips(const Scene& scene, std::size_t count, std::uint64_t seed) {
+std::vector<std::vector<GripInput>> random_error_grips(const Scene& scene, std::size_t count, std::uint64_t seed) {
   Scene sampled = scene;
   sampled.grips.sampling = Sampling::sobol;
   sampled.grips.count = count;
@@ -55,16 +55,16 @@ FieldSet compared_fields(const Scene& scene) {
   return make_field_set(fields, scene);
 }
 
-double difference(double a, double b) {
+double figure_difference(double a, double b) {
   if (a == b || (std::isnan(a) && std::isnan(b))) return 0;
   const double apart = std::abs(a - b);
   return std::isnan(apart) ? std::numeric_limits<double>::infinity() : apart;
 }
 
-bool is_feasible(std::uint32_t status) { return (status & STATUS_REASON_MASK) == REASON_NONE; }
+bool is_feasible_status(std::uint32_t status) { return (status & STATUS_REASON_MASK) == REASON_NONE; }
 
 // The errors of one quantity, with their places.
-struct Errors {
+struct QuantityErrors {
   std::vector<double> values;
   std::vector<std::string> where;
   void add(double value, std::size_t vessel, std::size_t index) {
@@ -73,14 +73,14 @@ struct Errors {
   }
 };
 
-// Largest difference between the planes of a field at one grip. With `finite`, infinite values on either side are passed over (a hold force
+// Largest figure_difference between the planes of a field at one grip. With `finite`, infinite values on either side are passed over (a hold force
 // is infinite where the pinch is not antipodal, which is an outcome and not a number): NaN where none is left.
 double plane_difference(const GatheredPlanes& a, const GatheredPlanes& b, int field, int planes, std::size_t i, bool finite) {
-  double worst = finite ? ABSENT : 0;
+  double worst = finite ? NO_FIGURE : 0;
   for (int p = 0; p < planes; ++p) {
     const double x = a.real(a.fields.plane[field] + p, i), y = b.real(b.fields.plane[field] + p, i);
     if (finite && (std::isinf(x) || std::isinf(y))) continue;
-    worst = std::fmax(worst, difference(x, y));
+    worst = std::fmax(worst, figure_difference(x, y));
   }
   return worst;
 }
@@ -91,7 +91,8 @@ double point_difference(const GatheredPlanes& a, const GatheredPlanes& b, int fi
   for (int j = 0; j < JOINT_COUNT; ++j) {
     double square = 0;
     for (int k = 0; k < 3; ++k) {
-      const double d = difference(a.real(a.fields.plane[field] + 3 * j + k, i), b.real(b.fields.plane[field] + 3 * j + k, i));
+      const double d =
+          figure_difference(a.real(a.fields.plane[field] + 3 * j + k, i), b.real(b.fields.plane[field] + 3 * j + k, i));
       square += d * d;
     }
     worst = std::max(worst, std::sqrt(square));
@@ -99,14 +100,14 @@ double point_difference(const GatheredPlanes& a, const GatheredPlanes& b, int fi
   return worst;
 }
 
-bool same_options(const EvaluatorOptions& a, const EvaluatorOptions& b) {
+bool same_evaluator_options(const EvaluatorOptions& a, const EvaluatorOptions& b) {
   return a.grid_samples == b.grid_samples && a.grid_bits == b.grid_bits && a.quadrature_points == b.quadrature_points &&
          a.stop_tolerance == b.stop_tolerance && a.trace_steps == b.trace_steps && a.advance_steps == b.advance_steps &&
          a.gap_table == b.gap_table;
 }
 
 // Height and lean of the centre of mass of glass and liquid, m.
-std::array<double, 2> center_of_mass(const VesselConstants& glass, const LiquidResult& liquid) {
+std::array<double, 2> loaded_center(const VesselConstants& glass, const LiquidResult& liquid) {
   const double mass = glass.mass + liquid.mass, share = mass > 0 ? liquid.mass / mass : 0;
   return {(1 - share) * glass.center_of_mass[1] + share * liquid.height, share * liquid.lean};
 }
@@ -121,7 +122,7 @@ struct ErrorMeasure::Opened {
 };
 
 ErrorFigures figures_of(const std::vector<double>& errors, const std::vector<std::string>& where) {
-  if (errors.empty()) return {ABSENT, ABSENT, ABSENT, "", 0};
+  if (errors.empty()) return {NO_FIGURE, NO_FIGURE, NO_FIGURE, "", 0};
   std::vector<std::size_t> order(errors.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   const auto value = [&](std::size_t i) { return std::isnan(errors[i]) ? std::numeric_limits<double>::infinity() : errors[i]; };
@@ -137,7 +138,7 @@ ErrorFigures figures_of(const std::vector<double>& errors, const std::vector<std
 }
 
 double ErrorRow::length_error() const {
-  if (!variant.answers_the_question()) return ABSENT;
+  if (!variant.answers_the_question()) return NO_FIGURE;
   double worst = 0;
   for (const int q : {ERROR_SEPARATION, ERROR_POSED, ERROR_PROXY, ERROR_GAP, ERROR_COM})
     if (errors[q].compared > 0) worst = std::max(worst, errors[q].p999);
@@ -145,7 +146,7 @@ double ErrorRow::length_error() const {
 }
 
 double ErrorRow::force_error() const {
-  if (!variant.answers_the_question() || errors[ERROR_FEEDBACK].compared == 0) return ABSENT;
+  if (!variant.answers_the_question() || errors[ERROR_FEEDBACK].compared == 0) return NO_FIGURE;
   const double hold = errors[ERROR_HOLD].compared > 0 ? errors[ERROR_HOLD].p999 : 0;
   return std::max(errors[ERROR_FEEDBACK].p999, hold);
 }
@@ -153,7 +154,7 @@ double ErrorRow::force_error() const {
 ErrorMeasure::ErrorMeasure(const Scene& scene, const MeasureOptions& options)
     : scene_(scene),
       options_(options),
-      grips_(random_grips(scene, options.grips, options.seed)),
+      grips_(random_error_grips(scene, options.grips, options.seed)),
       reference_(make_core_evaluator(scene, reference_options())) {
   CoreBackend backend(reference_, scene, compared_fields(scene), Precision::full, options.threads);
   for (std::size_t v = 0; v < grips_.size(); ++v) {
@@ -161,8 +162,8 @@ ErrorMeasure::ErrorMeasure(const Scene& scene, const MeasureOptions& options)
     true_liquid_.push_back(backend.liquid(v));
     for (std::size_t i = 0; i < grips_[v].size(); ++i) {
       const std::uint32_t status = truth_[v].uint(FIELD_STATUS, i);
-      feasible_ += is_feasible(status) ? 1 : 0;
-      grazing_ += is_feasible(status) && (status & STATUS_GRAZING) != 0 ? 1 : 0;
+      feasible_ += is_feasible_status(status) ? 1 : 0;
+      grazing_ += is_feasible_status(status) && (status & STATUS_GRAZING) != 0 ? 1 : 0;
     }
   }
 }
@@ -171,7 +172,7 @@ ErrorMeasure::ErrorMeasure(const Scene& scene, const MeasureOptions& options)
 std::shared_ptr<const Evaluator> ErrorMeasure::evaluator(const ErrorVariant& variant, Precision precision) {
   const Scene& scene = variant.scene ? *variant.scene : scene_;
   if (precision == Precision::single) return make_core_float_evaluator(scene, variant.options);
-  if (!last_ || last_scene_ != &scene || !same_options(last_options_, variant.options)) {
+  if (!last_ || last_scene_ != &scene || !same_evaluator_options(last_options_, variant.options)) {
     last_.reset();
     last_ = make_core_evaluator(scene, variant.options);
     last_scene_ = &scene;
@@ -232,15 +233,15 @@ void ErrorMeasure::compare(const std::vector<GatheredPlanes>& planes, ErrorRow& 
   const bool forces = comparable.states && !scene_.tilts.empty();
   const int states = static_cast<int>(scene_fills(scene_) * scene_.tilts.size());
   const int torque = scene_.force.torque == Torque::exact ? FIELD_EXACT_TORQUE : FIELD_TORQUE;
-  std::array<Errors, ERROR_QUANTITIES> errors;
+  std::array<QuantityErrors, ERROR_QUANTITIES> errors;
   std::uint64_t touch_flips = 0, feasible_flips = 0;
   std::vector<double> margins;  // of touch flips, m
   for (std::size_t v = 0; v < planes.size(); ++v) {
     const GatheredPlanes &a = planes[v], &b = truth_[v];
     for (std::size_t i = 0; i < a.count; ++i) {
       const std::uint32_t status_a = a.uint(FIELD_STATUS, i), status_b = b.uint(FIELD_STATUS, i);
-      feasible_flips += is_feasible(status_a) != is_feasible(status_b) ? 1 : 0;
-      if (!is_feasible(status_a) || !is_feasible(status_b) || ((status_a | status_b) & STATUS_GRAZING) != 0) continue;
+      feasible_flips += is_feasible_status(status_a) != is_feasible_status(status_b) ? 1 : 0;
+      if (!is_feasible_status(status_a) || !is_feasible_status(status_b) || ((status_a | status_b) & STATUS_GRAZING) != 0) continue;
       errors[ERROR_CLOSURE].add(plane_difference(a, b, FIELD_CLOSURE, 1, i, false), v, i);
       errors[ERROR_GAP].add(1e6 * plane_difference(a, b, FIELD_GAP, 1, i, false), v, i);
       if (forces) {
@@ -257,7 +258,7 @@ void ErrorMeasure::compare(const std::vector<GatheredPlanes>& planes, ErrorRow& 
       double separation = 0;
       for (int j = 0; j < JOINT_COUNT; ++j) {
         const double own = a.real(a.fields.plane[FIELD_SEPARATION] + j, i), exact = b.real(b.fields.plane[FIELD_SEPARATION] + j, i);
-        if (exact <= GRID_BAND) separation = std::max(separation, difference(own, exact));
+        if (exact <= GRID_BAND) separation = std::max(separation, figure_difference(own, exact));
         if ((flipped >> j & 1) != 0) margins.push_back(std::abs(exact - scene_.hand.contact_tolerance));
       }
       errors[ERROR_SEPARATION].add(1e6 * separation, v, i);
@@ -279,13 +280,13 @@ void ErrorMeasure::compare(const std::vector<GatheredPlanes>& planes, ErrorRow& 
 
 void ErrorMeasure::compare_liquid(const std::vector<std::vector<LiquidResult>>& liquid, const Evaluator& core,
                                   ErrorRow& row) const {
-  Errors volume, center;
+  QuantityErrors volume, center;
   for (std::size_t v = 0; v < liquid.size(); ++v) {
     const VesselConstants own = core.constants(v), exact = reference_->constants(v);
     for (std::size_t s = 0; s < liquid[v].size(); ++s) {
-      volume.add(1e6 * difference(liquid[v][s].volume, true_liquid_[v][s].volume), v, s);
-      const auto a = center_of_mass(own, liquid[v][s]), b = center_of_mass(exact, true_liquid_[v][s]);
-      center.add(1e6 * std::hypot(difference(a[0], b[0]), difference(a[1], b[1])), v, s);
+      volume.add(1e6 * figure_difference(liquid[v][s].volume, true_liquid_[v][s].volume), v, s);
+      const auto a = loaded_center(own, liquid[v][s]), b = loaded_center(exact, true_liquid_[v][s]);
+      center.add(1e6 * std::hypot(figure_difference(a[0], b[0]), figure_difference(a[1], b[1])), v, s);
     }
   }
   row.errors[ERROR_VOLUME] = figures_of(volume.values, volume.where);
@@ -298,13 +299,13 @@ ErrorFigures ErrorMeasure::compare_distance(const Evaluator& core) const {
   const double margin = grid_margin(scene_);
   std::vector<SobolPoint> points(POINTS);
   Sobol(options_.seed).points(0, POINTS, points.data());
-  Errors errors;
+  QuantityErrors errors;
   for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
     const PreparedVessel vessel = prepare_vessel(scene_.vessels[v], scene_.vessels[v].wall > 0);
     for (std::size_t i = 0; i < POINTS; ++i) {
       const double r = points[i][0] * (vessel.largest_radius + margin), azimuth = 2 * PI * points[i][1];
       const Triple p{r * std::cos(azimuth), points[i][2] * (scene_.vessels[v].height + 2 * margin) - margin, r * std::sin(azimuth)};
-      errors.add(1e6 * difference(core.distance(v, p), reference_->distance(v, p)), v, i);
+      errors.add(1e6 * figure_difference(core.distance(v, p), reference_->distance(v, p)), v, i);
     }
   }
   return figures_of(errors.values, errors.where);
@@ -334,9 +335,9 @@ void ErrorMeasure::time(Backend& backend, ErrorRow& row) {
   };
   double seconds = run();
   if (!row.variant.on_core) seconds = run();
-  for (int growth = 0; growth < 3 && seconds < options_.run_seconds && count < LARGEST_RUN; ++growth) {
+  for (int growth = 0; growth < 3 && seconds < options_.run_seconds && count < LARGEST_TIMED_RUN; ++growth) {
     const double factor = std::min(1.2 * options_.run_seconds / std::max(seconds, 1e-6), 64.0);
-    count = std::min(LARGEST_RUN, static_cast<std::size_t>(static_cast<double>(count) * factor) + 1);
+    count = std::min(LARGEST_TIMED_RUN, static_cast<std::size_t>(static_cast<double>(count) * factor) + 1);
     seconds = run();
   }
   std::vector<double> runs;

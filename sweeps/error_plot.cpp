@@ -11,35 +11,35 @@
 namespace wholehand {
 namespace {
 
-constexpr int WIDTH = 980, HEIGHT = 560;
-constexpr double LEAST_SHOWN = 1e-9;  // of the axis' unit: where an error of 0 stands
+constexpr int FRONT_WIDTH = 980, FRONT_HEIGHT = 560;
+constexpr double LEAST_ERROR_SHOWN = 1e-9;  // of the axis' unit: where an error of 0 stands
 
 // Okabe and Ito's colours, which colour-blind readers tell apart, and a mark of its own for each.
-struct Group {
+struct FrontGroup {
   const char* name;
   bool on_core;
   Precision precision;
   const char* color;
   int mark;
 };
-constexpr Group GROUPS[] = {{"core double", true, Precision::full, "#0072b2", 7},
-                            {"core float", true, Precision::single, "#56b4e9", 5},
-                            {"Vulkan double", false, Precision::full, "#e69f00", 9},
-                            {"Vulkan float", false, Precision::single, "#d55e00", 13}};
+constexpr FrontGroup FRONT_GROUPS[] = {{"core double", true, Precision::full, "#0072b2", 7},
+                                       {"core float", true, Precision::single, "#56b4e9", 5},
+                                       {"Vulkan double", false, Precision::full, "#e69f00", 9},
+                                       {"Vulkan float", false, Precision::single, "#d55e00", 13}};
 
-bool belongs(const ErrorRow& row, const Group& group) {
+bool is_of_group(const ErrorRow& row, const FrontGroup& group) {
   return row.variant.on_core == group.on_core && row.variant.precision == group.precision;
 }
 
 // An axis about the values, from a 1, 2 or 5 to another, with a tic at each of these, or at the decades where there are many.
-struct LogAxis {
+struct FrontAxis {
   double low = 0, high = 0;
   std::string tics;
 };
 
-LogAxis log_axis(const std::vector<double>& values) {
+FrontAxis front_axis(const std::vector<double>& values) {
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  LogAxis axis;
+  FrontAxis axis;
   std::vector<double> places;
   for (int decade = static_cast<int>(std::floor(std::log10(*least))) - 1; std::pow(10, decade) <= 10 * *most; ++decade)
     for (const double step : {1.0, 2.0, 5.0}) places.push_back(step * std::pow(10, decade));
@@ -55,7 +55,7 @@ LogAxis log_axis(const std::vector<double>& values) {
   return axis;
 }
 
-void add_block(std::string& script, const std::vector<std::pair<double, double>>& points) {
+void add_front_points(std::string& script, const std::vector<std::pair<double, double>>& points) {
   for (const auto& [x, y] : points) fmt::format_to(std::back_inserter(script), "{:.6g} {:.6g}\n", x, y);
   script += points.empty() ? "NaN NaN\ne\n" : "e\n";
 }
@@ -78,14 +78,14 @@ std::vector<FrontPicture> front_pictures(const std::string& folder, const std::v
 }
 
 std::string front_script(const std::vector<FrontPicture>& pictures, const std::vector<ErrorRow>& rows) {
-  std::string script = gnuplot_style(WIDTH, HEIGHT);
+  std::string script = gnuplot_style(FRONT_WIDTH, FRONT_HEIGHT);
   auto out = std::back_inserter(script);
   script +=
       "set logscale xy\nset grid linetype 1 linecolor '#dcdcdc'\nset ylabel 'time of a grip / \u00b5s' textcolor '#202020'\n"
       "set lmargin 9\nset rmargin at screen 0.62\nset bmargin 4\n"
       "set key at screen 0.645, screen 0.92 left top Left reverse samplen 1 textcolor '#202020'\n";
   for (const FrontPicture& picture : pictures) {
-    const auto x_of = [&](const ErrorRow& row) { return std::max((row.*picture.error)() * picture.error_unit, LEAST_SHOWN); };
+    const auto x_of = [&](const ErrorRow& row) { return std::max((row.*picture.error)() * picture.error_unit, LEAST_ERROR_SHOWN); };
     const auto y_of = [](const ErrorRow& row) { return row.seconds_per_grip * 1e6; };
     const auto has_place = [&](const ErrorRow& row) { return std::isfinite((row.*picture.error)()) && row.seconds_per_grip > 0; };
     const auto front = pareto_front(rows, picture.error);
@@ -96,7 +96,7 @@ std::string front_script(const std::vector<FrontPicture>& pictures, const std::v
       ys.push_back(y_of(row));
     }
     if (xs.empty()) continue;
-    const LogAxis x_axis = log_axis(xs), y_axis = log_axis(ys);
+    const FrontAxis x_axis = front_axis(xs), y_axis = front_axis(ys);
     fmt::format_to(out, "unset label\n{}set title {} textcolor '#202020'\nset xlabel {} textcolor '#202020'\n",
                    gnuplot_output(picture.file), gnuplot_quoted(picture.title), gnuplot_quoted(picture.error_axis));
     fmt::format_to(out, "set xrange [{:g}:{:g}]\nset yrange [{:g}:{:g}]\nset xtics ({})\nset ytics ({})\n", x_axis.low, x_axis.high,
@@ -114,11 +114,11 @@ std::string front_script(const std::vector<FrontPicture>& pictures, const std::v
     std::string data;
     std::vector<std::pair<double, double>> points;
     for (const ErrorRow* row : front) points.push_back({x_of(*row), y_of(*row)});
-    add_block(data, points);
-    for (const Group& group : GROUPS) {
+    add_front_points(data, points);
+    for (const FrontGroup& group : FRONT_GROUPS) {
       std::vector<std::pair<double, double>> all, best;
       for (const ErrorRow& row : rows) {
-        if (!belongs(row, group) || !has_place(row)) continue;
+        if (!is_of_group(row, group) || !has_place(row)) continue;
         const bool is_best = std::find(front.begin(), front.end(), &row) != front.end();
         (is_best ? best : all).push_back({x_of(row), y_of(row)});
       }
@@ -126,7 +126,7 @@ std::string front_script(const std::vector<FrontPicture>& pictures, const std::v
       for (const bool large : {false, true}) {
         fmt::format_to(std::back_inserter(plots), ", '-' using 1:2 with points pointtype {} pointsize {} linecolor '{}' {}",
                        group.mark, large ? 1.4 : 0.65, group.color, large ? fmt::format("title '{}'", group.name) : "notitle");
-        add_block(data, large ? best : all);
+        add_front_points(data, large ? best : all);
       }
     }
     script += plots + "\n" + data + "set output\n";

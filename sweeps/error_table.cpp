@@ -18,7 +18,7 @@ constexpr const char* ERROR_NAMES[ERROR_QUANTITIES] = {"separation_um", "posed_u
                                                        "volume_ml",     "com_um",   "torque_Nm", "feedback_N", "hold_N"};
 
 // A cell of text: in quotes where a comma or a quote would end it.
-std::string text_cell(const std::string& text) {
+std::string error_text_cell(const std::string& text) {
   if (text.find_first_of(",\"\n") == text.npos) return text;
   std::string cell = "\"";
   for (const char c : text) {
@@ -28,24 +28,24 @@ std::string text_cell(const std::string& text) {
   return cell + '"';
 }
 
-std::string number_cell(double value) { return std::isnan(value) ? "" : fmt::format("{:.9g}", value); }
+std::string error_number_cell(double value) { return std::isnan(value) ? "" : fmt::format("{:.9g}", value); }
 
 template <class Count>
-std::string count_cell(const Count& count) {
+std::string error_count_cell(const Count& count) {
   return count ? fmt::format("{}", *count) : "";
 }
 
-std::string microseconds(double seconds) { return fmt::format("{:.3g} us", seconds * 1e6); }
+std::string grip_time_text(double seconds) { return fmt::format("{:.3g} us", seconds * 1e6); }
 
 // "3.2 um", "0.41 nm": three digits in the unit that suits.
-std::string length_text(double um) {
+std::string length_error_text(double um) {
   if (um == 0) return "0";
   if (um < 0.1) return fmt::format("{:.3g} nm", um * 1e3);
   if (um < 1000) return fmt::format("{:.3g} um", um);
   return fmt::format("{:.3g} mm", um * 1e-3);
 }
 
-std::string force_text(double newtons) {
+std::string force_error_text(double newtons) {
   if (newtons == 0) return "0";
   if (newtons < 1e-4) return fmt::format("{:.3g} uN", newtons * 1e6);
   if (newtons < 1) return fmt::format("{:.3g} mN", newtons * 1e3);
@@ -53,7 +53,7 @@ std::string force_text(double newtons) {
 }
 
 using ErrorOf = double (ErrorRow::*)() const;
-using Text = std::string (*)(double);
+using ErrorText = std::string (*)(double);
 
 const ErrorRow* fastest_under(const std::vector<ErrorRow>& rows, ErrorOf error, double limit) {
   const ErrorRow* best = nullptr;
@@ -63,18 +63,19 @@ const ErrorRow* fastest_under(const std::vector<ErrorRow>& rows, ErrorOf error, 
 }
 
 void add_fastest(std::string& text, const std::vector<ErrorRow>& rows, ErrorOf error, const std::vector<double>& limits,
-                 Text show) {
+                 ErrorText show) {
   for (const double limit : limits) {
     const ErrorRow* row = fastest_under(rows, error, limit);
-    text += row ? fmt::format("| {} | {} | {} | {} |\n", show(limit), row->variant.name, microseconds(row->seconds_per_grip),
+    text += row ? fmt::format("| {} | {} | {} | {} |\n", show(limit), row->variant.name, grip_time_text(row->seconds_per_grip),
                               show((row->*error)()))
                 : fmt::format("| {} | none | | |\n", show(limit));
   }
 }
 
-// One line of the fitted orders: rows of an axis and side, errors by `value`.
-void add_order(std::string& text, const std::vector<ErrorRow>& rows, SweptAxis axis, const std::string& what, const std::string& by,
-               const std::string& theory, double floor, const std::function<double(const ErrorRow&)>& value) {
+// One line of the fitted fitted_orders: rows of an axis and side, errors by `value`.
+void add_fitted_order(std::string& text, const std::vector<ErrorRow>& rows, SweptAxis axis, const std::string& what,
+                      const std::string& by, const std::string& theory, double floor,
+                      const std::function<double(const ErrorRow&)>& value) {
   std::vector<double> steps, errors;
   for (const ErrorRow& row : rows) {
     if (row.variant.axis != axis || !row.variant.on_core || row.variant.precision != Precision::full) continue;
@@ -88,27 +89,28 @@ void add_order(std::string& text, const std::vector<ErrorRow>& rows, SweptAxis a
   text += fmt::format("| {} | {} | {:.2f} | {} | {} |\n", what, by, order, errors.size(), theory);
 }
 
-std::string orders(const std::vector<ErrorRow>& rows) {
+std::string fitted_orders(const std::vector<ErrorRow>& rows) {
   std::string text;
   const auto figure = [](ErrorQuantity quantity, double ErrorFigures::*which) {
     return [quantity, which](const ErrorRow& row) { return row.errors[quantity].*which; };
   };
-  add_order(text, rows, SweptAxis::grid, "distance at random points, median", "spacing of the grid", "2, away from creases", 0,
-            [](const ErrorRow& row) { return row.distance.median; });
-  add_order(text, rows, SweptAxis::grid, "distance at random points, maximum", "spacing of the grid", "1, at creases", 0,
-            [](const ErrorRow& row) { return row.distance.max; });
-  add_order(text, rows, SweptAxis::grid, "gap, median", "spacing of the grid", "2, where no crease is near", 0,
-            figure(ERROR_GAP, &ErrorFigures::median));
-  add_order(text, rows, SweptAxis::tolerance, "gap, maximum", "stop tolerance", "1", 0, figure(ERROR_GAP, &ErrorFigures::max));
-  add_order(text, rows, SweptAxis::gap_table, "closure, maximum", "step of the gap table", "2", 0,
-            figure(ERROR_CLOSURE, &ErrorFigures::max));
-  add_order(text, rows, SweptAxis::points, "volume, maximum", "1 / points of the liquid", "no fixed one: faster than any power",
-            1e-7, figure(ERROR_VOLUME, &ErrorFigures::max));
+  add_fitted_order(text, rows, SweptAxis::grid, "distance at random points, median", "spacing of the grid", "2, away from creases",
+                   0, [](const ErrorRow& row) { return row.distance.median; });
+  add_fitted_order(text, rows, SweptAxis::grid, "distance at random points, maximum", "spacing of the grid", "1, at creases", 0,
+                   [](const ErrorRow& row) { return row.distance.max; });
+  add_fitted_order(text, rows, SweptAxis::grid, "gap, median", "spacing of the grid", "2, where no crease is near", 0,
+                   figure(ERROR_GAP, &ErrorFigures::median));
+  add_fitted_order(text, rows, SweptAxis::tolerance, "gap, maximum", "stop tolerance", "1", 0,
+                   figure(ERROR_GAP, &ErrorFigures::max));
+  add_fitted_order(text, rows, SweptAxis::gap_table, "closure, maximum", "step of the gap table", "2", 0,
+                   figure(ERROR_CLOSURE, &ErrorFigures::max));
+  add_fitted_order(text, rows, SweptAxis::points, "volume, maximum", "1 / points of the liquid",
+                   "no fixed one: faster than any power", 1e-7, figure(ERROR_VOLUME, &ErrorFigures::max));
   return text;
 }
 
 // Times of the other questions beside that of the same side.
-std::string left_out_rows(const std::vector<ErrorRow>& rows) {
+std::string left_out_times(const std::vector<ErrorRow>& rows) {
   std::string text;
   for (const ErrorRow& row : rows) {
     if (row.variant.left_out.empty()) continue;
@@ -117,18 +119,18 @@ std::string left_out_rows(const std::vector<ErrorRow>& rows) {
              other.variant.threads == row.variant.threads;
     });
     if (own == rows.end() || own->variant.axis != SweptAxis::none) continue;
-    text += fmt::format("| {} | {} | {} | {:.2f} |\n", row.variant.name, row.variant.left_out, microseconds(row.seconds_per_grip),
+    text += fmt::format("| {} | {} | {} | {:.2f} |\n", row.variant.name, row.variant.left_out, grip_time_text(row.seconds_per_grip),
                         row.seconds_per_grip / own->seconds_per_grip);
   }
   return text;
 }
 
-std::string liquid_rows(const std::vector<ErrorRow>& rows) {
+std::string liquid_times(const std::vector<ErrorRow>& rows) {
   std::string text;
   for (const ErrorRow& row : rows) {
     if (row.variant.axis != SweptAxis::points || !(row.liquid_seconds > 0)) continue;
-    text += fmt::format("| {} | {} | {:.3g} mL | {} |\n", row.variant.options.quadrature_points, microseconds(row.liquid_seconds),
-                        row.errors[ERROR_VOLUME].max, length_text(row.errors[ERROR_COM].max));
+    text += fmt::format("| {} | {} | {:.3g} mL | {} |\n", row.variant.options.quadrature_points, grip_time_text(row.liquid_seconds),
+                        row.errors[ERROR_VOLUME].max, length_error_text(row.errors[ERROR_COM].max));
   }
   return text;
 }
@@ -145,16 +147,17 @@ std::string error_csv(const std::vector<ErrorRow>& rows, const ErrorContext& con
     const ErrorVariant& v = row.variant;
     const bool grid = v.options.grid_samples > 0;
     auto out = std::back_inserter(csv);
-    fmt::format_to(out, "{},{},{},{},{},{},{},{:.9g},{},{},{:.6g},{:.6g},{}", text_cell(v.name), v.on_core ? "core" : "vulkan",
-                   v.precision == Precision::single ? "float" : "double", v.on_core ? fmt::format("{}", v.threads) : "",
-                   grid ? "grid" : "outline", grid ? fmt::format("{}", v.options.grid_samples) : "",
-                   grid ? fmt::format("{}", v.options.grid_bits) : "", v.stop_tolerance(),
-                   context.states > 0 ? fmt::format("{}", v.options.quadrature_points) : "", text_cell(v.left_out),
-                   row.seconds_per_grip, row.spread, row.memory_bytes);
+    fmt::format_to(out, "{},{},{},{},{},{},{},{:.9g},{},{},{:.6g},{:.6g},{}", error_text_cell(v.name),
+                   v.on_core ? "core" : "vulkan", v.precision == Precision::single ? "float" : "double",
+                   v.on_core ? fmt::format("{}", v.threads) : "", grid ? "grid" : "outline",
+                   grid ? fmt::format("{}", v.options.grid_samples) : "", grid ? fmt::format("{}", v.options.grid_bits) : "",
+                   v.stop_tolerance(), context.states > 0 ? fmt::format("{}", v.options.quadrature_points) : "",
+                   error_text_cell(v.left_out), row.seconds_per_grip, row.spread, row.memory_bytes);
     for (const ErrorFigures& error : row.errors)
-      fmt::format_to(out, ",{},{},{},{}", number_cell(error.median), number_cell(error.p999), number_cell(error.max), error.worst);
-    fmt::format_to(out, ",{},{},{},{},{},{}\n", count_cell(row.touch_flips), count_cell(row.touch_flips_outside),
-                   count_cell(row.feasible_flips), text_cell(row.device), text_cell(row.driver), context.seed);
+      fmt::format_to(out, ",{},{},{},{}", error_number_cell(error.median), error_number_cell(error.p999),
+                     error_number_cell(error.max), error.worst);
+    fmt::format_to(out, ",{},{},{},{},{},{}\n", error_count_cell(row.touch_flips), error_count_cell(row.touch_flips_outside),
+                   error_count_cell(row.feasible_flips), error_text_cell(row.device), error_text_cell(row.driver), context.seed);
   }
   return csv;
 }
@@ -198,19 +201,19 @@ std::string error_report(const std::vector<ErrorRow>& rows, const ErrorContext& 
       "proxies, gap "
       "and centre of mass;\nfor forces among feedback and hold force. Time is a grip's in kernels.\n\n"
       "| error under | variant | a grip | its error |\n|---|---|---|---|\n";
-  add_fastest(text, rows, &ErrorRow::length_error, {1, 10, 100}, length_text);
-  if (context.states > 0) add_fastest(text, rows, &ErrorRow::force_error, {1e-3, 10e-3}, force_text);
+  add_fastest(text, rows, &ErrorRow::length_error, {1, 10, 100}, length_error_text);
+  if (context.states > 0) add_fastest(text, rows, &ErrorRow::force_error, {1e-3, 10e-3}, force_error_text);
   text +=
-      "\n## Observed orders of convergence\n\nCore double; error = C step^order.\n\n| error | by | order | rows | theory "
+      "\n## Observed fitted_orders of convergence\n\nCore double; error = C step^order.\n\n| error | by | order | rows | theory "
       "|\n|---|---|---|---|---|\n";
-  text += orders(rows);
-  if (const std::string times = left_out_rows(rows); !times.empty()) {
+  text += fitted_orders(rows);
+  if (const std::string times = left_out_times(rows); !times.empty()) {
     text +=
         "\n## Left out, left in\n\nRatio: to the scene as it is, on the same side.\n\n| variant | left out (+: left in) | a grip | "
         "ratio |\n|---|---|---|---|\n" +
         times;
   }
-  if (const std::string liquid = liquid_rows(rows); !liquid.empty()) {
+  if (const std::string liquid = liquid_times(rows); !liquid.empty()) {
     text +=
         "\n## The liquid\n\nMade ready once a vessel, so no part of a grip's time.\n\n"
         "| points a piece | a state, core, one thread | largest volume error | largest centre of mass error "

@@ -40,12 +40,12 @@ void choose_device_part(const Scene& scene, const std::string& on, VariantChoice
   }
 }
 
-void show_progress(std::size_t k, std::size_t all, const std::string& name) {
+void show_variant(std::size_t k, std::size_t all, const std::string& name) {
   static const bool is_terminal = isatty(STDERR_FILENO) != 0;
   if (is_terminal) std::fprintf(stderr, "\r\x1b[K%zu of %zu  %s", k + 1, all, name.c_str());
 }
 
-void end_progress() {
+void wipe_variant() {
   if (isatty(STDERR_FILENO) != 0) std::fprintf(stderr, "\r\x1b[K");
 }
 
@@ -85,14 +85,14 @@ ExitCode run_error_time(const Scene& scene, const ErrorTimeOptions& options) {
   std::vector<ErrorRow> rows;
   for (std::size_t k = 0; k < variants.size(); ++k) {
     if (interrupt.flag()) {
-      end_progress();
+      wipe_variant();
       fmt::print(stderr, "wholehand: interrupted after {} of {} variants; nothing was written\n", k, variants.size());
       return ExitCode::interrupted;
     }
-    show_progress(k, variants.size(), variants[k].name);
+    show_variant(k, variants.size(), variants[k].name);
     rows.push_back(measure.measure(variants[k]));
   }
-  end_progress();
+  wipe_variant();
   if (options.on == "core" && !rows.empty()) {
     context.device = rows.front().device;
     context.driver = rows.front().driver;

@@ -9,10 +9,10 @@ namespace wholehand {
 namespace {
 
 constexpr double LARGEST_GRIDS = 1 << 30;  // bytes of all vessels' lattices, were they cubes
-constexpr const char* POSE_NAMES[] = {"articulated", "paper", "rigged"};
+constexpr const char* VARIANT_POSES[] = {"articulated", "paper", "rigged"};
 
 // A backend in a precision, with what it is called.
-struct Side {
+struct VariantSide {
   bool on_core = true;
   Precision precision = Precision::full;
   int threads = 0;
@@ -25,8 +25,8 @@ class VariantList {
     const auto threads = [](int n) { return fmt::format("{} thread{}", n, n == 1 ? "" : "s"); };
     core_ = {true, Precision::full, choice.threads, "core double"};
     core_float_ = {true, Precision::single, choice.threads, "core float"};
-    const auto add_side = [&](const Side& side, int n) {
-      Side one = side;
+    const auto add_side = [&](const VariantSide& side, int n) {
+      VariantSide one = side;
       one.threads = n;
       add(one, one.on_core ? threads(n) : "");
     };
@@ -38,7 +38,7 @@ class VariantList {
       device_.push_back({false, Precision::single, 0, "Vulkan float"});
       if (choice.device_double) device_.push_back({false, Precision::full, 0, "Vulkan double"});
     }
-    for (const Side& side : device_)
+    for (const VariantSide& side : device_)
       if (choice.device_outlines) add_side(side, 0);
     tolerances();
     steps();
@@ -56,15 +56,15 @@ class VariantList {
   bool has_states() const { return scene_.liquid.has_value() && !scene_.tilts.empty(); }
 
   // Those that read outlines.
-  std::vector<Side> with_outlines(bool with_core_float, bool with_device_double) const {
-    std::vector<Side> sides{core_};
+  std::vector<VariantSide> with_outlines(bool with_core_float, bool with_device_double) const {
+    std::vector<VariantSide> sides{core_};
     if (with_core_float) sides.push_back(core_float_);
-    for (const Side& side : device_)
+    for (const VariantSide& side : device_)
       if (choice_.device_outlines && (with_device_double || side.precision == Precision::single)) sides.push_back(side);
     return sides;
   }
 
-  ErrorVariant& add(const Side& side, const std::string& what) {
+  ErrorVariant& add(const VariantSide& side, const std::string& what) {
     ErrorVariant variant;
     variant.name = what.empty() ? side.name : side.name + ": " + what;
     variant.on_core = side.on_core;
@@ -75,7 +75,7 @@ class VariantList {
   }
 
   void tolerances() {
-    for (const Side& side : with_outlines(!quick(), !quick())) {
+    for (const VariantSide& side : with_outlines(!quick(), !quick())) {
       for (int digits = 3; digits <= 9; ++digits) {
         const bool single = side.precision == Precision::single;
         // the named one is the default; float distances of 0.1 m are 7 nm apart
@@ -90,7 +90,7 @@ class VariantList {
   }
 
   void steps() {
-    for (const Side& side : with_outlines(false, false)) {
+    for (const VariantSide& side : with_outlines(false, false)) {
       for (const int steps : {8, 16, 32, 64, 256}) {
         const bool wanted = quick() ? side.on_core && (steps == 16 || steps == 64) : side.on_core || steps == 16 || steps == 64;
         if (!wanted) continue;
@@ -101,7 +101,7 @@ class VariantList {
   }
 
   void gap_tables() {
-    for (const Side& side : with_outlines(false, false)) {
+    for (const VariantSide& side : with_outlines(false, false)) {
       for (const int entries : {17, 65, 257, 1025}) {
         const bool wanted = quick() ? side.on_core && (entries == 65 || entries == 257) : side.on_core || entries == 257;
         if (!wanted) continue;
@@ -115,7 +115,7 @@ class VariantList {
 
   void points() {
     if (!has_states()) return;
-    for (const Side& side : with_outlines(false, false)) {
+    for (const VariantSide& side : with_outlines(false, false)) {
       for (const int points : {2, 4, 8, 16, 64}) {
         const bool wanted = quick() ? side.on_core && points != 2 : side.on_core || points == 4 || points == 8 || points == 64;
         if (!wanted) continue;
@@ -128,14 +128,14 @@ class VariantList {
   }
 
   void grids() {
-    std::vector<Side> sides{core_};
-    for (const Side& side : device_)
+    std::vector<VariantSide> sides{core_};
+    for (const VariantSide& side : device_)
       if (side.precision == Precision::single || !quick()) sides.push_back(side);
     for (const int samples : {32, 64, 128, 256}) {
       if (quick() && samples > 128) continue;
       for (const int bits : {32, 16}) {
         if (static_cast<double>(scene_.vessels.size()) * std::pow(samples, 3) * bits / 8 > LARGEST_GRIDS) continue;
-        for (const Side& side : sides) {
+        for (const VariantSide& side : sides) {
           if (quick() && bits == 16 && (!side.on_core || samples != 64)) continue;
           if (quick() && !side.on_core && samples == 32) continue;
           ErrorVariant& variant = add(side, fmt::format("grid {}^3 x {} bits", samples, bits));
@@ -151,7 +151,7 @@ class VariantList {
   // What the device's pipelines carry of the outline.
   void pipelines() {
     if (!choice_.device_outlines || !choice_.outline_constants) return;
-    for (const Side& side : device_) {
+    for (const VariantSide& side : device_) {
       if (quick() && side.precision == Precision::full) continue;
       if (!quick()) {
         ErrorVariant& hoisted = add(side, "outline from a uniform block");
@@ -166,7 +166,7 @@ class VariantList {
 
   void question(const Scene& scene, const std::string& what, const std::string& left_out, Comparable comparable) {
     const auto shared = std::make_shared<const Scene>(scene);
-    for (const Side& side : with_outlines(false, false)) {
+    for (const VariantSide& side : with_outlines(false, false)) {
       if (quick() && !side.on_core && !comparable.outcomes) continue;
       ErrorVariant& variant = add(side, what);
       variant.scene = shared;
@@ -181,7 +181,7 @@ class VariantList {
       if (pose == scene_.pose || (quick() && pose == Pose::paper)) continue;
       Scene other = scene_;
       other.pose = pose;
-      const std::string name = POSE_NAMES[static_cast<int>(pose)];
+      const std::string name = VARIANT_POSES[static_cast<int>(pose)];
       question(other, "pose " + name, pose == Pose::rigged ? "projection" : "+ pose " + name, {false, true, true});
     }
     const bool walled = std::all_of(scene_.vessels.begin(), scene_.vessels.end(), [](const VesselData& v) { return v.wall > 0; });
@@ -210,8 +210,8 @@ class VariantList {
 
   const Scene& scene_;
   const VariantChoice& choice_;
-  Side core_, core_float_;
-  std::vector<Side> device_;
+  VariantSide core_, core_float_;
+  std::vector<VariantSide> device_;
   std::vector<ErrorVariant> variants_;
 };
 
