@@ -144,7 +144,8 @@ GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Ev
 void GripProgram::upload_vessel(std::size_t v, const SceneArrays& arrays, const GripBackendOptions& options) {
   const VesselArrays& from = arrays.vessels[v];
   VesselOnDevice& vessel = vessels[v];
-  vessel.outline_source = from.outline_count > MAX_OUTLINE ? OUTLINE_BUFFER : options.outline;
+  // with a grid the outline is not read: one pipeline for all vessels, which a driver compiles once
+  vessel.outline_source = from.grid || from.outline_count > MAX_OUTLINE ? OUTLINE_BUFFER : options.outline;
   std::vector<double> outline = from.outline;
   outline.resize(std::max<std::size_t>(outline.size(), OUTLINE_STRIDE * MAX_OUTLINE));  // the uniform block has a fixed size
   vessel.parameters = upload(on, options.precision, from.parameters);
