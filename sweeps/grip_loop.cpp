@@ -218,11 +218,11 @@ std::vector<GripLoopRow> grip_loop_rows(bool quick) {
   return rows;
 }
 
-std::string grip_loop_csv(const std::vector<GripLoopRow>& rows) {
+std::string grip_loop_csv(const std::vector<GripLoopRow>& rows, const std::string& run) {
   std::string csv =
       "varied,base_N,range_N,k_open_Npm,max_N,rate_Hz,device_kg,device_Nspm,finger_kg,finger_Nspm,finger_Npm,reaction_s,response_s,"
       "excess_N,tilt_rad,tilt_speed_radps,band_mm,outcome,response_time_s,overshoot_mm,opened_mm,swing_mm,sampled_k_open_Npm,"
-      "reaction_k_open_Npm\n";
+      "reaction_k_open_Npm,device,driver,version,seed\n";
   auto out = std::back_inserter(csv);
   const auto number = [](double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : std::string(); };
   GripLoop last;
@@ -235,11 +235,11 @@ std::string grip_loop_csv(const std::vector<GripLoopRow>& rows) {
     last = l;
     const GripLoopResult& r = row.result;
     fmt::format_to(out,
-                   "{},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:.5g},{:g},{:g},{},{},{},{},{},{},{}\n",
+                   "{},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:.5g},{:g},{:g},{},{},{},{},{},{},{},{}\n",
                    row.varied, l.base, l.range, l.k_open, l.max, l.rate, l.device_mass, l.device_damping, l.finger_mass,
                    l.finger_damping, l.finger_stiffness, l.reaction, l.response, l.excess, l.tilt, l.tilt_speed, l.band * 1e3,
                    GRIP_OUTCOME_NAMES[static_cast<int>(r.outcome)], number(r.response_time), number(r.overshoot * 1e3),
-                   number(r.opened * 1e3), number(r.swing * 1e3), number(sampled), number(reaction_k_open(l)));
+                   number(r.opened * 1e3), number(r.swing * 1e3), number(sampled), number(reaction_k_open(l)), run);
   }
   return csv;
 }

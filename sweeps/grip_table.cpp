@@ -76,13 +76,13 @@ void write_states(Buffer out, const GripReport& report) {
   if (report.answer.states.empty()) return;
   fmt::format_to(out, "\n  {:>5}{:>7}{:>9}{:>9}{:>9} {:>27}{:>9}{:>10}{:>10}{:>9}{:>9}{:>9}\n", "fill", "tilt", "liquid", "poured",
                  "mass", "center of mass", "pivot", "torque", "exact", "normal", "feedback", "hold");
-  fmt::format_to(out, "  {:>5}{:>7}{:>9}{:>9}{:>9} {:>27}{:>9}{:>10}{:>10}{:>9}{:>9}{:>9}\n", "", "deg", "mL", "mL", "g", "mm", "mm",
-                 "mN m", "mN m", "N", "N", "N");
+  fmt::format_to(out, "  {:>5}{:>7}{:>9}{:>9}{:>9} {:>27}{:>9}{:>10}{:>10}{:>9}{:>9}{:>9}\n", "", "deg", "mL", "mL", "g", "mm",
+                 "mm", "mN m", "mN m", "N", "N", "N");
   for (const GripState& s : report.answer.states) {
-    fmt::format_to(out, "  {:5.3g}{:7.2f} {:8.3f} {:8.3f} {:8.3f} {}{:9.3f} {:9.4f} {:9.4f} {:8.4f} {:8.4f} {}\n", s.fill, degrees(s.tilt),
-                   s.liquid.volume * 1e6, s.liquid.poured * 1e6, s.state.mass * 1e3, millimetres(s.state.center_of_mass),
-                   s.state.pivot_length * 1e3, s.state.torque * 1e3, s.state.exact_torque * 1e3, s.state.normal_force,
-                   s.state.feedback_force, newtons(s.state.hold_force));
+    fmt::format_to(out, "  {:5.3g}{:7.2f} {:8.3f} {:8.3f} {:8.3f} {}{:9.3f} {:9.4f} {:9.4f} {:8.4f} {:8.4f} {}\n", s.fill,
+                   degrees(s.tilt), s.liquid.volume * 1e6, s.liquid.poured * 1e6, s.state.mass * 1e3,
+                   millimetres(s.state.center_of_mass), s.state.pivot_length * 1e3, s.state.torque * 1e3,
+                   s.state.exact_torque * 1e3, s.state.normal_force, s.state.feedback_force, newtons(s.state.hold_force));
   }
 }
 

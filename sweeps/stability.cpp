@@ -247,9 +247,12 @@ ExitCode run_stability(const StabilityOptions& options) {
   write_gains(out);
   if (!options.extremes.empty()) write_extremes(out, options.extremes, extremes);
 
+  const std::string stamp = fmt::format("{},{}", WHOLEHAND_VERSION, options.seed);
+  const std::string run = fmt::format("\"{}\",\"{}\",{}", info.device, info.driver, stamp);
+  const std::string on_core = "core,g++ " __VERSION__ "," + stamp;
   write_whole_file(path("wall.csv"), wall_csv(sheets), false);
-  write_whole_file(path("wall_limits.csv"), wall_limits_csv(sheets), false);
-  write_whole_file(path("grip_loop.csv"), grip_loop_csv(rows), false);
+  write_whole_file(path("wall_limits.csv"), wall_limits_csv(sheets, run), false);
+  write_whole_file(path("grip_loop.csv"), grip_loop_csv(rows, on_core), false);
   if (!options.extremes.empty()) write_whole_file(path("extreme.csv"), extreme_csv(extremes), false);
   std::vector<std::string> pictures;
   std::string script = wall_script(sheets, options.folder, pictures);

@@ -176,7 +176,7 @@ const std::vector<NamedDevice>& wall_devices() {
 WallRunner open_wall_runner(const std::string& on, BackendInfo& info, double& kernel_seconds) {
   if (on == "core") {
     const unsigned threads = std::max(1u, std::thread::hardware_concurrency());
-    info = {"core", fmt::format("core, {} threads", threads), __VERSION__, Precision::full, true};
+    info = {"core", fmt::format("core, {} threads", threads), "g++ " __VERSION__, Precision::full, true};
     return [threads](const std::vector<WallCase>& cases, int samples, int late) {
       std::vector<double> energies(cases.size());
       std::atomic<std::size_t> next{0};
@@ -295,22 +295,22 @@ std::string wall_csv(const std::vector<WallSheet>& sheets) {
   return csv;
 }
 
-std::string wall_limits_csv(const std::vector<WallSheet>& sheets) {
+std::string wall_limits_csv(const std::vector<WallSheet>& sheets, const std::string& run) {
   std::string csv =
       "sheet,mass_kg,damping_Nspm,rate_Hz,wall_damping_Nspm,delay_samples,encoder_um,coulomb_N,finger_kg,finger_Nspm,finger_Npm,"
-      "integrator,substeps,settles_up_to_Npm,next_tried_Npm,passive_Npm,linear_Npm,coulomb_Npm\n";
+      "integrator,substeps,settles_up_to_Npm,next_tried_Npm,passive_Npm,linear_Npm,coulomb_Npm,device,driver,version,seed\n";
   auto out = std::back_inserter(csv);
   for (const WallSheet& sheet : sheets)
     for (const WallColumn& column : sheet.columns) {
       const WallPoint& first = column.points.front();
       const WallDevice& d = first.device;
       const auto next = std::find_if(column.points.begin(), column.points.end(), [](const WallPoint& p) { return !p.settles(); });
-      fmt::format_to(out, "{},{:g},{:g},{:.7g},{:.7g},{},{:.7g},{:g},{:g},{:g},{:g},{},{},{},{},{},{},{}\n", sheet.name, d.mass,
+      fmt::format_to(out, "{},{:g},{:g},{:.7g},{:.7g},{},{:.7g},{:g},{:g},{:g},{:g},{},{},{},{},{},{},{},{}\n", sheet.name, d.mass,
                      d.damping, d.rate, d.wall_damping, d.delay, d.encoder_step * 1e6, d.coulomb, d.finger_mass, d.finger_damping,
                      d.finger_stiffness, INTEGRATOR_NAMES[first.integrator], first.substeps,
                      number_or_empty(column.theory.simulated), next == column.points.end() ? "" : number_or_empty(next->stiffness),
                      number_or_empty(column.theory.passive), number_or_empty(column.theory.linear),
-                     number_or_empty(column.theory.coulomb));
+                     number_or_empty(column.theory.coulomb), run);
     }
   return csv;
 }

@@ -75,9 +75,9 @@ TEST(GripLoop, OutcomesAreToldApart) {
 TEST(GripLoop, TableHasARowASessionAndTheSameEveryTime) {
   const auto rows = grip_loop_rows(true);
   EXPECT_GT(rows.size(), 1000u);
-  const std::string csv = grip_loop_csv(rows);
+  const std::string csv = grip_loop_csv(rows, "a,b,c,d");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), static_cast<std::ptrdiff_t>(rows.size()) + 1);
-  EXPECT_EQ(csv, grip_loop_csv(grip_loop_rows(true)));
+  EXPECT_EQ(csv, grip_loop_csv(grip_loop_rows(true), "a,b,c,d"));
   for (int outcome = 0; outcome < 4; ++outcome)
     EXPECT_TRUE(std::any_of(rows.begin(), rows.end(), [outcome](const GripLoopRow& row) {
       return static_cast<int>(row.result.outcome) == outcome;

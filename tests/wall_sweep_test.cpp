@@ -83,7 +83,7 @@ void tables_have_a_row_a_point_and_a_row_a_column(const std::vector<WallSheet>& 
   EXPECT_EQ(lines(wall_csv(sheets)), 1 + count_points(sheets));
   std::size_t columns = 0;
   for (const WallSheet& sheet : sheets) columns += sheet.columns.size();
-  const std::string limits = wall_limits_csv(sheets);
+  const std::string limits = wall_limits_csv(sheets, "a,b,c,d");
   EXPECT_EQ(lines(limits), 1 + columns);
   const std::string head = limits.substr(0, limits.find('\n')), row = limits.substr(limits.find('\n') + 1);
   EXPECT_EQ(std::count(head.begin(), head.end(), ','),
