@@ -27,6 +27,8 @@ constexpr Quantity FINGER{0, 1e6};
 constexpr IntegerRange SEED{0, 1000000000};
 }  // namespace wall_ranges
 
+constexpr double SMALLEST_STEP = 1e-12;  // m: a picometre
+
 struct WallArguments {
   std::string mass, damping, rate, wall_damping = "0", delay = "0", encoder = "0", coulomb = "0", finger;
   bool json = false;
@@ -40,6 +42,8 @@ ExitCode wall(const WallArguments& arguments) {
   device.wall_damping = parse_quantity(arguments.wall_damping, "--wall-damping-Nspm", wall_ranges::WALL_DAMPING);
   device.delay = static_cast<int>(parse_integer(arguments.delay, "--delay-samples", wall_ranges::DELAY));
   device.encoder_step = parse_quantity(arguments.encoder, "--encoder-um", wall_ranges::ENCODER_UM) * 1e-6;
+  if (device.encoder_step > 0 && device.encoder_step < SMALLEST_STEP)
+    throw usage_error("--encoder-um " + arguments.encoder + ": allowed: 0 (exact), or 1e-06 and more");
   device.coulomb = parse_quantity(arguments.coulomb, "--coulomb-N", wall_ranges::COULOMB);
   if (!arguments.finger.empty()) {
     const Triple finger = parse_triple(arguments.finger, "--finger", wall_ranges::FINGER);

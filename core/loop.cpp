@@ -84,7 +84,7 @@ Motion advance_with_friction(Plant plant, Propagator whole, Motion motion, Real 
     if (heading == 0) return motion;
     Real drive = force - (heading > 0 ? friction : -friction);
     Motion next = advance(by, motion, drive);
-    if (next.speed * heading >= 0) return next;
+    if (heading > 0 ? next.speed >= 0 : next.speed <= 0) return next;
     // where the speed passes 0: Newton from the chord
     Real at = left * motion.speed / (motion.speed - next.speed);
     Motion there = motion;

@@ -31,7 +31,7 @@ struct Wall {
   Real stiffness = 0;         // K, N/m
   Real damping = 0;           // B, N s/m, of the backward difference of the readings
   Real period = 0;            // T, s
-  Real encoder_step = 0;      // m; 0: exact
+  Real encoder_step = 0;      // m, from 1e-12; 0: exact
   Real force_limit = 0;       // N; 0: none
   int delay = 0;              // whole samples, 0..LOOP_DELAYS
   bool is_bilateral = false;  // a spring that pulls as well; else a wall, which only pushes out

@@ -42,7 +42,7 @@
 #define HALF_UNIT RATIO(1, 1024)    // m: unit of 16-bit samples, so that halves too small to be normal are under 60 nm
 #define LOOP_DELAYS 4               // whole samples of delay of a haptic loop, at most
 #define LOOP_ORDER 10               // of the series of its propagator
-#define LOOP_DOUBLINGS 40           // of the step of that series
+#define LOOP_DOUBLINGS 48           // of the step of that series: 2e12 of the fastest time constants
 #define LOOP_STOPS 4                // reversals within a sample that friction is followed through
 #define LOOP_NEWTON 3               // steps to where the motion stops
 #define LOOP_EXACT 0                // how the motion between two samples is integrated

@@ -104,7 +104,7 @@ Motion advance_with_friction(Plant plant, Propagator whole, Motion motion, Real 
     if (heading == Real(0)) return motion;
     Real drive = force - (heading > Real(0) ? friction : -friction);
     Motion next = advance(by, motion, drive);
-    if (next.speed * heading >= Real(0)) return next;
+    if (heading > Real(0) ? next.speed >= Real(0) : next.speed <= Real(0)) return next;
     Real at = left * motion.speed / (motion.speed - next.speed);
     Motion there = motion;
     for (int k = 0; k < LOOP_NEWTON; ++k) {

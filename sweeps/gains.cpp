@@ -4,16 +4,33 @@
 
 #include <algorithm>
 #include <limits>
+#include <vector>
 
 #include "core/error.h"
+#include "core/prepare.h"
 #include "sweeps/grip_loop.h"
 #include "sweeps/wall_sweep.h"
 
 namespace wholehand {
+namespace {
 
-GainLimits gain_limits(double rate, double wall_damping) {
-  GainLimits limits;
-  limits.stiffness = std::numeric_limits<double>::infinity();
+// The lightest finger, on users of every usual reaction.
+std::vector<GripLoop> light_grips(double rate) {
+  std::vector<GripLoop> grips;
+  for (int reaction = 60; reaction <= 90; reaction += 5) {
+    GripLoop light;
+    light.rate = rate;
+    light.finger_mass = 0.004;
+    light.finger_damping = 1;
+    light.finger_stiffness = 200;
+    light.reaction = reaction * 1e-3;
+    grips.push_back(light);
+  }
+  return grips;
+}
+
+double wall_limit(double rate, double wall_damping) {
+  double limit = std::numeric_limits<double>::infinity();
   WallDevice device;
   device.rate = rate;
   device.wall_damping = wall_damping;
@@ -21,30 +38,43 @@ GainLimits gain_limits(double rate, double wall_damping) {
     if (named.damping < 1) continue;  // an axis without friction worth the name is no haptic device's
     device.mass = named.mass;
     device.damping = named.damping;
-    limits.stiffness = std::min(limits.stiffness, wall_theory(device).linear);
+    limit = std::min(limit, wall_theory(device).linear);
   }
-  GripLoop light;
-  light.rate = rate;
-  light.finger_mass = 0.004;
-  light.finger_damping = 1;
-  light.finger_stiffness = 200;
-  limits.k_open = sampled_k_open(light);
+  return limit;
+}
+
+}  // namespace
+
+GainLimits gain_limits(double rate, double wall_damping) {
+  GainLimits limits;
+  limits.stiffness = wall_limit(rate, wall_damping);
+  limits.k_open = std::numeric_limits<double>::infinity();
+  for (const GripLoop& loop : light_grips(rate)) limits.k_open = std::min(limits.k_open, largest_k_open(loop));
   return limits;
+}
+
+double device_slope(const Scene& scene) {
+  if (!scene.device.has_gap) return 1;
+  const PreparedHand hand = prepare_hand(scene.hand);
+  return scene.hand.scale * (hand.gap_open - hand.gap_closed) / (scene.device.gap[1] - scene.device.gap[0]);
 }
 
 void refuse_unstable_gains(const Scene& scene, bool unsafe) {
   if (unsafe) return;
   const LiveData& live = scene.live;
-  const GainLimits limits = gain_limits(live.rate, live.damping);
+  const double slope = device_slope(scene);
   const auto refuse = [&](const char* key, double gain, double limit) {
-    if (gain <= limit) return;
     throw usage_error(
         fmt::format("{} = {:g}: not stable on a light device at {:g} Hz; allowed: at most {:.0f}, a higher [live] rate_Hz, or "
                     "--unsafe-gains where the device is known to bear it (wholehand stability wall)",
                     key, gain, live.rate, limit));
   };
-  refuse("[live] K_N_m", live.stiffness, limits.stiffness);
-  refuse("[force] k_open_N_m", scene.force.k_open, limits.k_open);
+  const double stiffness = wall_limit(live.rate, slope * live.damping) / slope;
+  if (live.stiffness > stiffness) refuse("[live] K_N_m", live.stiffness, stiffness);
+  for (GripLoop loop : light_grips(live.rate)) {
+    loop.k_open = scene.force.k_open;
+    if (!dies_away(loop)) refuse("[force] k_open_N_m", scene.force.k_open, gain_limits(live.rate, live.damping).k_open);
+  }
 }
 
 }  // namespace wholehand

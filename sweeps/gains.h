@@ -5,15 +5,21 @@
 
 namespace wholehand {
 
-// The largest gains at a rate that settle on the lightest devices of the reports (wall_devices(); the gripper of GripLoop with the lightest
-// finger that people have); N/m. Where a device is heavier or more damped the limits are higher: `stability wall` tells.
+// The largest gains at a rate that settle on the lightest devices of the reports that have a damping of 1 N s/m and more, at the device, N/m.
+// K: the linear limit of a wall without delay. k_open: the smallest that simulation finds for users who react after 60 to 90 ms, with the
+// gripper of GripLoop and the lightest finger; their delayed answer takes up to a sixth of what the sampled spring alone would bear. A
+// heavier or more damped device bears more: `stability wall` tells.
 struct GainLimits {
   double stiffness = 0;  // K of the virtual coupling, for its damping B
   double k_open = 0;
 };
 GainLimits gain_limits(double rate, double wall_damping);
 
-// Throws Error (usage) with the gain, its limit and the remedy where a scene's live gains are beyond them, unless `unsafe`.
+// How much stiffer a wall of the hand's gap is at the device's gap, onto which [device] gap_mm maps it: 1 without.
+double device_slope(const Scene& scene);
+
+// Throws Error (usage) with the gain, its limit and the remedy where a scene's live gains are beyond them at the device (K and B times
+// the slope), unless `unsafe`.
 void refuse_unstable_gains(const Scene& scene, bool unsafe);
 
 }  // namespace wholehand

@@ -155,24 +155,28 @@ GripLoopResult hold_and_tilt(const GripLoop& loop) {
 }
 
 // Linear about the grasp: larger in the last quarter than in the second is growth.
-double largest_k_open(const GripLoop& asked) {
+bool dies_away(const GripLoop& asked) {
   GripLoop loop = asked;
-  loop.max = std::numeric_limits<double>::infinity();
   loop.excess = 0;
   const int samples = static_cast<int>(LINEAR_TIME * loop.rate);
-  return largest_stable([&](double k_open) {
+  Held held(loop);
+  held.is_linear = true;
+  double early = 0, late = 0;
+  for (int sample = 0; sample < samples; ++sample) {
+    held.step(0);
+    const double x = std::abs(held.motion.place);
+    if (!(x < FLIES_APART)) return false;
+    if (sample >= samples / 4 && sample < samples / 2) early = std::max(early, x);
+    if (sample >= samples - samples / 4) late = std::max(late, x);
+  }
+  return late <= early;
+}
+
+double largest_k_open(const GripLoop& asked) {
+  GripLoop loop = asked;
+  return largest_stable([&loop](double k_open) {
     loop.k_open = k_open;
-    Held held(loop);
-    held.is_linear = true;
-    double early = 0, late = 0;
-    for (int sample = 0; sample < samples; ++sample) {
-      held.step(0);
-      const double x = std::abs(held.motion.place);
-      if (!(x < FLIES_APART)) return false;
-      if (sample >= samples / 4 && sample < samples / 2) early = std::max(early, x);
-      if (sample >= samples - samples / 4) late = std::max(late, x);
-    }
-    return late <= early;
+    return dies_away(loop);
   });
 }
 

@@ -23,8 +23,10 @@ std::atomic<double> first_came{0};
 static_assert(std::atomic<double>::is_always_lock_free);
 
 void on_signal(int signal) {
+  // the time goes first: another thread may take the second signal at once
+  double never = 0;
+  first_came.compare_exchange_strong(never, now());
   if (!signal_came.exchange(true)) {
-    first_came = now();
     stop = true;
     return;
   }
@@ -40,6 +42,7 @@ void on_signal(int signal) {
 InterruptGuard::InterruptGuard() {
   stop = false;
   signal_came = false;
+  first_came = 0;
   struct sigaction action {};
   action.sa_handler = on_signal;
   action.sa_flags = SA_RESTART;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -31,38 +32,40 @@ core_f64::Wall wall_of(const WallDevice& device, double stiffness) {
   return wall;
 }
 
-using Matrix = std::vector<std::vector<double>>;
+constexpr int STATES = 3 + LOOP_DELAYS;  // place, speed, reading, and the forces that wait
+using Matrix = std::array<std::array<double, STATES>, STATES>;
 
-// One sample of the linear loop, column by column through the kernel: place, speed, reading, and the forces that wait.
+// One sample of the linear loop, column by column through the kernel. Speeds and forces are counted in what makes them as large as a place
+// of the same energy, so that the matrix is about as large as its eigenvalues are.
 Matrix loop_matrix(const WallDevice& device, double stiffness) {
   const core_f64::Plant plant = plant_of(device);
   core_f64::Wall wall = wall_of(device, stiffness);
   wall.encoder_step = 0;
   wall.is_bilateral = true;
   const core_f64::Propagator by = core_f64::propagator(plant, wall.period);
-  const int size = 3 + device.delay;
-  Matrix matrix(size, std::vector<double>(size));
-  for (int column = 0; column < size; ++column) {
+  const double spring = std::max(stiffness + plant.stiffness, std::numeric_limits<double>::min());
+  const double speed = std::sqrt(spring / plant.mass);
+  Matrix matrix{};
+  for (int column = 0; column < 3 + device.delay; ++column) {
     core_f64::LoopState state;
     if (column == 0) state.motion.place = 1;
-    if (column == 1) state.motion.speed = 1;
+    if (column == 1) state.motion.speed = speed;
     if (column == 2) state.reading = 1;
-    if (column > 2) state.waiting[column - 3] = 1;
+    if (column > 2) state.waiting[column - 3] = spring;
     const core_f64::LoopState next = core_f64::step_loop(plant, by, wall, state, 0, 0);
     matrix[0][column] = next.motion.place;
-    matrix[1][column] = next.motion.speed;
+    matrix[1][column] = next.motion.speed / speed;
     matrix[2][column] = next.reading;
-    for (int k = 0; k < device.delay; ++k) matrix[3 + k][column] = next.waiting[k];
+    for (int k = 0; k < device.delay; ++k) matrix[3 + k][column] = next.waiting[k] / spring;
   }
   return matrix;
 }
 
 Matrix squared(const Matrix& a) {
-  const std::size_t size = a.size();
-  Matrix result(size, std::vector<double>(size));
-  for (std::size_t i = 0; i < size; ++i)
-    for (std::size_t k = 0; k < size; ++k)
-      for (std::size_t j = 0; j < size; ++j) result[i][j] += a[i][k] * a[k][j];
+  Matrix result{};
+  for (int i = 0; i < STATES; ++i)
+    for (int k = 0; k < STATES; ++k)
+      for (int j = 0; j < STATES; ++j) result[i][j] += a[i][k] * a[k][j];
   return result;
 }
 
@@ -93,9 +96,10 @@ double largest_stable(const std::function<bool(double stiffness)>& is_stable) {
 WallTrial wall_trial(const WallDevice& device, double stiffness) {
   const core_f64::Plant plant = plant_of(device);
   const core_f64::Wall wall = wall_of(device, stiffness);
-  // far from its rest against what the encoder and friction blur, and less than it is pressed in, so that a loop that settles stays in
-  // contact
-  const double away = std::max({1e-3, 100 * device.encoder_step, 20 * device.coulomb / stiffness});
+  // off its rest by less than it is pressed in, so that a loop that settles stays in contact; where the encoder and friction blur, by far
+  // more than they do, and to settle is to come to within twice of that
+  const double blur = device.encoder_step + device.coulomb / stiffness;
+  const double away = blur > 0 ? 20 * blur : 1e-3;
   WallTrial trial;
   WallCase& press = trial.press;
   press.mass = plant.mass;
@@ -109,9 +113,8 @@ WallTrial wall_trial(const WallDevice& device, double stiffness) {
   press.friction = device.coulomb;
   press.press = 2 * (stiffness + plant.stiffness) * away;
   press.place = 3 * away;
-  const double begin = core_f64::loop_energy(plant, wall, {press.place, 0}, press.press);
-  const double blur = 2 * device.encoder_step + device.coulomb / stiffness;
-  trial.allowed = std::max(begin, 0.5 * (stiffness + plant.stiffness) * blur * blur);
+  trial.allowed = blur > 0 ? 2 * (stiffness + plant.stiffness) * blur * blur
+                           : core_f64::loop_energy(plant, wall, {press.place, 0}, press.press);
   return trial;
 }
 
@@ -120,11 +123,12 @@ bool settles(const WallDevice& device, double stiffness) {
   return core_f64::late_energy(trial.press, WALL_SAMPLES, LATE_SAMPLES) <= trial.allowed;
 }
 
-// |M^n|^(1/n) for n = 2^30, by squaring; kept from overflow by the logarithm of what is divided out.
+// |M^n|^(1/n) for n = 2^50, by squaring; kept from overflow by the logarithm of what is divided out. What rounding adds to the logarithm
+// at a squaring is halved by each one after it.
 double spectral_radius(const WallDevice& device, double stiffness) {
   Matrix matrix = loop_matrix(device, stiffness);
   double logarithm = 0, power = 1;
-  for (int k = 0; k < 30; ++k) {
+  for (int k = 0; k < 50; ++k) {
     const double size = largest_entry(matrix);
     if (size == 0) return 0;
     for (auto& row : matrix)

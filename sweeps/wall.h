@@ -29,7 +29,8 @@ struct WallLimits {
 };
 
 // A device that is pressed against a wall of that stiffness and let go off its rest, and the energy about its rest that the last quarter of
-// WALL_SAMPLES samples may have for it to settle: no more than at the start, or than two steps of the encoder and the friction's band hold.
+// WALL_SAMPLES samples may have for it to settle: no more than at the start; with an encoder or friction, that of two of the encoder's
+// steps and twice the friction's band, having begun ten times as far off.
 struct WallTrial {
   WallCase press;
   double allowed = 0;  // J

@@ -17,6 +17,8 @@
 namespace wholehand {
 namespace {
 
+constexpr std::size_t POINTS_AT_ONCE = 16384;  // seconds on two cores, and enough to fill a large device
+
 std::vector<double> logarithmic(double from, double to, int count) {
   std::vector<double> values;
   for (int k = 0; k < count; ++k) values.push_back(from * std::pow(to / from, static_cast<double>(k) / (count - 1)));
@@ -241,6 +243,15 @@ std::vector<WallSheet> wall_sheets(bool quick, std::uint64_t seed) {
   return {map, delays, encoders, fingers, integrators, by_chance(quick ? 200 : 5000, seed)};
 }
 
+double integrator_limit(const WallDevice& device, int integrator, int substeps) {
+  return largest_stable([&](double stiffness) {
+    WallTrial trial = wall_trial(device, stiffness);
+    trial.press.integrator = integrator;
+    trial.press.substeps = substeps;
+    return core_f64::late_energy(trial.press, WALL_SAMPLES, LATE_SAMPLES) <= trial.allowed;
+  });
+}
+
 std::size_t count_points(const std::vector<WallSheet>& sheets) {
   std::size_t count = 0;
   for (const WallSheet& sheet : sheets)
@@ -249,7 +260,8 @@ std::size_t count_points(const std::vector<WallSheet>& sheets) {
 }
 
 // A sheet at a time: with friction a sample costs many times more, and cases of one dispatch wait for each other.
-void run_walls(std::vector<WallSheet>& sheets, const WallRunner& runner) {
+bool run_walls(std::vector<WallSheet>& sheets, const WallRunner& runner, const std::function<bool(std::size_t done)>& go_on) {
+  std::size_t done = 0;
   for (WallSheet& sheet : sheets) {
     std::vector<WallCase> cases;
     std::vector<double> allowed;
@@ -261,7 +273,15 @@ void run_walls(std::vector<WallSheet>& sheets, const WallRunner& runner) {
         cases.push_back(trial.press);
         allowed.push_back(trial.allowed);
       }
-    const std::vector<double> energies = runner(cases, WALL_SAMPLES, LATE_SAMPLES);
+    std::vector<double> energies;
+    for (std::size_t first = 0; first < cases.size(); first += POINTS_AT_ONCE) {
+      if (!go_on(done)) return false;
+      const auto begin = cases.begin() + static_cast<std::ptrdiff_t>(first);
+      const std::vector<WallCase> part(begin, begin + static_cast<std::ptrdiff_t>(std::min(POINTS_AT_ONCE, cases.size() - first)));
+      const std::vector<double> some = runner(part, WALL_SAMPLES, LATE_SAMPLES);
+      energies.insert(energies.end(), some.begin(), some.end());
+      done += part.size();
+    }
     std::size_t i = 0;
     for (WallColumn& column : sheet.columns) {
       bool all_settle = true;
@@ -276,6 +296,7 @@ void run_walls(std::vector<WallSheet>& sheets, const WallRunner& runner) {
       if (all_settle) column.theory.simulated = std::numeric_limits<double>::infinity();
     }
   }
+  return go_on(done);
 }
 
 std::string wall_csv(const std::vector<WallSheet>& sheets) {
@@ -373,7 +394,7 @@ std::string wall_script(const std::vector<WallSheet>& sheets, const std::string&
     for (const WallColumn& column : sheet_of(sheets, "integrator").columns) {
       const WallPoint& first = column.points.front();
       if (first.integrator != integrator || !is_named(first.device)) continue;
-      const double limit = column.theory.simulated;
+      const double limit = integrator_limit(first.device, integrator, first.substeps);
       if (integrator == LOOP_EXACT) {
         fmt::format_to(out, "1 {:.6g}\n16 {:.6g}\n", limit, limit);
       } else {

@@ -60,8 +60,8 @@ TEST(Domain, WarningsNameTheLimitAndTheRemedy) {
   scene.grips.hand_scale = {{1, 6}, true, 1, 6};
   scene.hand.scale = 20;
   EXPECT_EQ(only_warning(scene).find("hand scale 120: beyond a largest of 100 "), 0u);
-  EXPECT_EQ(only_warning(tilted({barrel(17)})).find("vessel 'barrel' has coordinates of 17 m: beyond 16 m "), 0u);
-  EXPECT_EQ(only_warning(tilted({beaker1(), pole(5)})).find("vessel 'pole' is held by up to 1.7e+04 N: beyond 12000 N "), 0u);
+  EXPECT_EQ(only_warning(tilted({barrel(17)})).find("vessel 'barrel' has coordinates of 17 m: beyond 10 m "), 0u);
+  EXPECT_EQ(only_warning(tilted({beaker1(), pole(5)})).find("vessel 'pole' is held by up to 1.7e+04 N: beyond 5000 N "), 0u);
   scene = tilted({beaker1()});
   scene.hand.contact_tolerance = 0.5e-6;
   EXPECT_EQ(only_warning(scene).find("contact tolerance 0.0005 mm: beyond a smallest of 0.001 mm "), 0u);
@@ -126,7 +126,7 @@ void expect_within(const Cost& cost, const char* what, bool forces = true) {
   EXPECT_LE(cost.separation, FLOAT_LENGTH) << what;
   EXPECT_LE(cost.joint, FLOAT_LENGTH) << what;
   EXPECT_TRUE(!forces || cost.force <= FLOAT_FORCE) << what;
-  EXPECT_LE(cost.flips, 0.005) << what;
+  EXPECT_LE(cost.flips, 0.0015) << what;  // 0 to 3 of 3,000
 }
 
 TEST(Domain, AtItsLimitsFloatIsEnough) {
@@ -136,8 +136,11 @@ TEST(Domain, AtItsLimitsFloatIsEnough) {
   expect_within(cost_of(tilted({scaled(beaker1(), small.scale)}, small)), "smallest hand");
   large.scale = 20;
   expect_within(cost_of(tilted({cylinder("tower", 8000, 10000, 50)}, large), LARGEST_HAND / 20), "largest hand", false);
-  expect_within(cost_of(tilted({barrel(15)})), "largest coordinate");
-  expect_within(cost_of(tilted({pole(2)})), "largest hold");
+  expect_within(cost_of(tilted({barrel(LARGEST_COORDINATE)})), "largest coordinate");
+  const Scene heaviest = tilted({pole(2.72)});
+  EXPECT_TRUE(domain_warnings(heaviest, Precision::single).empty());
+  EXPECT_EQ(domain_warnings(tilted({pole(2.75)}), Precision::single).size(), 1u) << "at the limit itself";
+  expect_within(cost_of(heaviest), "largest hold");
   HandData fine;
   fine.contact_tolerance = SMALLEST_CONTACT_TOLERANCE;
   expect_within(cost_of(tilted({beaker1()}, fine)), "smallest contact tolerance");

@@ -1,3 +1,5 @@
+// Nothing but loops.
+// sanitizers: none
 #include "sweeps/grip_loop.h"
 
 #include <gtest/gtest.h>

@@ -267,5 +267,29 @@ TEST(Loop, ExplicitEulerGainsWhatItsFormulaSays) {
   EXPECT_NEAR(determinant(propagator(plant, h)), 1, 1e-15);
 }
 
+// Over what the command takes: a passive wall without delay is stable, so the linear limit is not below the passive one.
+TEST(Loop, LinearLimitIsNotBelowThePassiveOne) {
+  for (const double mass : {1e-6, 1e-3, 0.1, 10.0, 1000.0})
+    for (const double damping : {1e-2, 1.0, 1e3})
+      for (const double rate : {1.0, 1e3, 1e5}) {
+        WallDevice device;
+        device.mass = mass;
+        device.damping = damping;
+        device.rate = rate;
+        const WallLimits limits = wall_theory(device);
+        EXPECT_GE(limits.linear, limits.passive * (1 - 1e-5)) << mass << " kg, " << damping << " N s/m, " << rate << " Hz";
+      }
+}
+
+// A coarse encoder without friction buzzes by more than two steps below the linear limit.
+TEST(Loop, SimulationSeesTheEncoder) {
+  WallDevice device;
+  device.encoder_step = 1e-3;
+  EXPECT_LT(wall_limits(device).simulated, 0.95 * wall_theory(device).linear);
+  device.encoder_step = 1e-6;
+  device.coulomb = 0.2;
+  EXPECT_GT(wall_limits(device).simulated, 0.95 * wall_theory(device).linear);
+}
+
 }  // namespace
 }  // namespace wholehand

@@ -7,7 +7,10 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <sstream>
 
+#include "app/paths.h"
+#include "app/scene_reader.h"
 #include "tests/support/result_reader.h"
 
 namespace wholehand {
@@ -31,10 +34,25 @@ TEST(Stability, WritesTablesPicturesAndASummary) {
     EXPECT_NE(summary.find(part), std::string::npos) << part;
   EXPECT_NE(file_text(folder / "said").find(summary), std::string::npos);
 
-  const std::string again = folder / "again";
-  ASSERT_EQ(program("stability --quick --seed 7 -o " + again, folder / "said"), 0);
-  for (const char* name : {"wall.csv", "wall_limits.csv", "grip_loop.csv", "extreme.csv"})
-    EXPECT_EQ(file_text(report + "/" + name), file_text(again + "/" + name)) << name << ": one seed, one answer";
+  // once more, in this process and with two of the scenes: one seed, one answer
+  StabilityOptions options;
+  options.folder = folder / "again";
+  options.quick = true;
+  options.seed = 7;
+  for (const std::string& file : extreme_scene_files())
+    if (file.ends_with("/dwarf.toml") || file.ends_with("/no_friction.toml"))
+      options.extremes.push_back(extreme_case(read_scene_file(file)));
+  ASSERT_EQ(options.extremes.size(), 2u);
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(run_stability(options), ExitCode::done);
+  testing::internal::GetCapturedStdout();
+  for (const char* name : {"wall.csv", "wall_limits.csv", "grip_loop.csv"})
+    EXPECT_EQ(file_text(report + "/" + name), file_text(options.folder + "/" + name)) << name;
+  std::istringstream rows(file_text(options.folder + "/extreme.csv"));
+  const std::string all = file_text(report + "/extreme.csv");
+  int found = 0;
+  for (std::string row; std::getline(rows, row); ++found) EXPECT_NE(all.find(row + "\n"), std::string::npos) << row;
+  EXPECT_EQ(found, 1 + 2 * 4);
 }
 
 TEST(Stability, WrongUseIsOneLine) {
