@@ -72,7 +72,7 @@ void add_fastest(std::string& text, const std::vector<ErrorRow>& rows, ErrorOf e
   }
 }
 
-// One line of the fitted fitted_orders: rows of an axis and side, errors by `value`.
+// One line of the fitted orders: rows of an axis and side, errors by `value`.
 void add_fitted_order(std::string& text, const std::vector<ErrorRow>& rows, SweptAxis axis, const std::string& what,
                       const std::string& by, const std::string& theory, double floor,
                       const std::function<double(const ErrorRow&)>& value) {
@@ -204,7 +204,7 @@ std::string error_report(const std::vector<ErrorRow>& rows, const ErrorContext& 
   add_fastest(text, rows, &ErrorRow::length_error, {1, 10, 100}, length_error_text);
   if (context.states > 0) add_fastest(text, rows, &ErrorRow::force_error, {1e-3, 10e-3}, force_error_text);
   text +=
-      "\n## Observed fitted_orders of convergence\n\nCore double; error = C step^order.\n\n| error | by | order | rows | theory "
+      "\n## Observed orders of convergence\n\nCore double; error = C step^order.\n\n| error | by | order | rows | theory "
       "|\n|---|---|---|---|---|\n";
   text += fitted_orders(rows);
   if (const std::string times = left_out_times(rows); !times.empty()) {

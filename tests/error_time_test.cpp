@@ -136,6 +136,21 @@ TEST(ErrorTime, ReportNamesTheFastestUnderEachError) {
   EXPECT_NE(report.find("| 100 um | fast rough |"), report.npos) << report;
 }
 
+TEST(ErrorTime, ReportHasItsHeadings) {
+  ErrorRow points = row_of("liquid", 1, 0), left_out = row_of("smaller", 1, 0);
+  points.variant.axis = SweptAxis::points;
+  points.liquid_seconds = 1e-6;
+  left_out.variant.left_out = "much";
+  ErrorContext context;
+  context.scene = "cups";
+  std::istringstream report(error_report({row_of("core", 1, 0), points, left_out}, context));
+  std::vector<std::string> headings;
+  for (std::string line; std::getline(report, line);)
+    if (line.starts_with('#')) headings.push_back(line);
+  EXPECT_EQ(headings, (std::vector<std::string>{"# Error against run time: cups", "## The fastest variant under an error",
+                                                "## Observed orders of convergence", "## Left out, left in", "## The liquid"}));
+}
+
 // ---- variants ----
 
 TEST(ErrorTime, VariantsHaveNamesOfTheirOwn) {
