@@ -37,21 +37,29 @@ struct ErrorFigures {
 // By nearest rank, NaN-safe: a value that only one side lacks is infinite. `where` names each error's place.
 ErrorFigures figures_of(const std::vector<double>& errors, const std::vector<std::string>& where);
 
+// More than a 99.9th percentile leaves out.
+constexpr bool above_one_in_1000(std::uint64_t some, std::uint64_t all) { return 1000 * some > all; }
+
 struct ErrorRow {
   ErrorVariant variant;
   std::array<ErrorFigures, ERROR_QUANTITIES> errors;
+  std::uint64_t grips = 0;  // of all vessels, whether compared or not
   std::optional<std::uint64_t> touch_flips, touch_flips_outside, feasible_flips;
+  std::uint64_t hold_flips = 0;  // compared grips whose hold force is finite on one side alone, in some state
   double seconds_per_grip = 0;   // in the kernels of a sweep, median of the runs
   double spread = 0;             // s, between the quartiles of the runs
   ErrorFigures distance{};       // um, of a grid on the core at points about the glass
+  double touch_margin = 0;       // m: a touch flip nearer to the contact tolerance is inside it
   double liquid_seconds = 0;     // of one state's liquid on the core; 0: none
   std::size_t memory_bytes = 0;  // tables and grids, and inputs and planes of a sweep of one vessel's grips
   std::string device, driver;
 
-  // Largest of the lengths' 99.9th percentiles, um (separation, posed joints, proxies, gap, centre of mass), and of the forces', N. NaN:
-  // the variant answers another question.
+  // Largest of the lengths' 99.9th percentiles, um (separation, posed joints, proxies, gap, centre of mass), and of the forces', N; a hold
+  // force on one side alone is wrong by infinity. NaN: the variant answers another question, or nothing of it compares.
   double length_error() const;
   double force_error() const;
+  // On more than one grip in 1,000 it is of another mind whether they are feasible at all: what its errors leave out is no detail.
+  bool flips_too_often() const { return feasible_flips && above_one_in_1000(*feasible_flips, grips); }
 };
 
 struct MeasureOptions {
@@ -81,9 +89,10 @@ class ErrorMeasure {
   struct Opened;
   Opened open(const ErrorVariant& variant, const FieldSet& fields);
   std::shared_ptr<const Evaluator> evaluator(const ErrorVariant& variant, Precision precision);
-  void compare(const std::vector<GatheredPlanes>& planes, ErrorRow& row) const;
+  void compare(const std::vector<GatheredPlanes>& planes, const Evaluator& core, ErrorRow& row) const;
   void compare_liquid(const std::vector<std::vector<LiquidResult>>& liquid, const Evaluator& core, ErrorRow& row) const;
   ErrorFigures compare_distance(const Evaluator& core) const;
+  double nearby_distance_error(const Evaluator& core) const;
   void time(Backend& backend, ErrorRow& row);
 
   const Scene& scene_;
@@ -92,6 +101,8 @@ class ErrorMeasure {
   std::shared_ptr<const Evaluator> reference_;
   std::vector<GatheredPlanes> truth_;
   std::vector<std::vector<LiquidResult>> true_liquid_;
+  // by vessel: where the reference has joints whose skin is within GRID_BAND of the surface
+  std::vector<std::vector<Triple>> nearby_;
   std::shared_ptr<const Evaluator> last_;  // and what it was made for
   const Scene* last_scene_ = nullptr;
   EvaluatorOptions last_options_;

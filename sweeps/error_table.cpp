@@ -58,7 +58,7 @@ using ErrorText = std::string (*)(double);
 const ErrorRow* fastest_under(const std::vector<ErrorRow>& rows, ErrorOf error, double limit) {
   const ErrorRow* best = nullptr;
   for (const ErrorRow& row : rows)
-    if ((row.*error)() < limit && (!best || row.seconds_per_grip < best->seconds_per_grip)) best = &row;
+    if (!row.flips_too_often() && (row.*error)() < limit && (!best || row.seconds_per_grip < best->seconds_per_grip)) best = &row;
   return best;
 }
 
@@ -106,6 +106,36 @@ std::string fitted_orders(const std::vector<ErrorRow>& rows) {
                    figure(ERROR_CLOSURE, &ErrorFigures::max));
   add_fitted_order(text, rows, SweptAxis::points, "volume, maximum", "1 / points of the liquid",
                    "no fixed one: faster than any power", 1e-7, figure(ERROR_VOLUME, &ErrorFigures::max));
+  return text;
+}
+
+// "a (3), b (1)": the variants that have a count, with it.
+std::string counted_variants(const std::vector<ErrorRow>& rows, const std::function<std::uint64_t(const ErrorRow&)>& count) {
+  std::string text;
+  for (const ErrorRow& row : rows)
+    if (const std::uint64_t n = count(row); n > 0) text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", row.variant.name, n);
+  return text;
+}
+
+// What the errors alone do not tell: grips that were not compared, and answers on one side alone.
+std::string flip_lines(const std::vector<ErrorRow>& rows, const ErrorContext& context) {
+  std::string text;
+  std::uint64_t compared = 0;
+  for (const ErrorRow& row : rows) compared = std::max(compared, row.errors[ERROR_GAP].compared);
+  if (compared > 0 && compared < 1000)
+    text += fmt::format("\nWith so few grips compared ({}), the 99.9th percentile is the largest error.\n", compared);
+  std::string nothing;
+  for (const ErrorRow& row : rows)
+    if (row.variant.answers_the_question() && row.errors[ERROR_GAP].compared == 0)
+      nothing += (nothing.empty() ? "" : ", ") + row.variant.name;
+  if (!nothing.empty()) text += "\nNot chosen, for nothing of theirs compares: " + nothing + ".\n";
+  const std::string often =
+      counted_variants(rows, [](const ErrorRow& row) { return row.flips_too_often() ? *row.feasible_flips : 0; });
+  if (!often.empty()) text += "\nNot chosen, for more than 1 grip in 1,000 is feasible on one side alone (grips): " + often + ".\n";
+  if (context.states == 0) return text;
+  const std::string hold = counted_variants(rows, [](const ErrorRow& row) { return row.hold_flips; });
+  text += "\nHold force finite on one side alone (grips; more than 1 in 1,000 is an infinite error of force): " +
+          (hold.empty() ? "nowhere" : hold) + ".\n";
   return text;
 }
 
@@ -177,7 +207,7 @@ std::string error_grips_csv(const std::vector<std::vector<GripInput>>& grips) {
 std::vector<const ErrorRow*> pareto_front(const std::vector<ErrorRow>& rows, ErrorOf error) {
   std::vector<const ErrorRow*> ordered;
   for (const ErrorRow& row : rows)
-    if (std::isfinite((row.*error)()) && row.seconds_per_grip > 0) ordered.push_back(&row);
+    if (!row.flips_too_often() && std::isfinite((row.*error)()) && row.seconds_per_grip > 0) ordered.push_back(&row);
   std::stable_sort(ordered.begin(), ordered.end(),
                    [](const ErrorRow* a, const ErrorRow* b) { return a->seconds_per_grip < b->seconds_per_grip; });
   std::vector<const ErrorRow*> front;
@@ -203,6 +233,7 @@ std::string error_report(const std::vector<ErrorRow>& rows, const ErrorContext& 
       "| error under | variant | a grip | its error |\n|---|---|---|---|\n";
   add_fastest(text, rows, &ErrorRow::length_error, {1, 10, 100}, length_error_text);
   if (context.states > 0) add_fastest(text, rows, &ErrorRow::force_error, {1e-3, 10e-3}, force_error_text);
+  text += flip_lines(rows, context);
   text +=
       "\n## Observed orders of convergence\n\nCore double; error = C step^order.\n\n| error | by | order | rows | theory "
       "|\n|---|---|---|---|---|\n";

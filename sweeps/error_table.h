@@ -25,7 +25,8 @@ std::string error_csv(const std::vector<ErrorRow>& rows, const ErrorContext& con
 // The grips by vessel and index, for what the worst ones are: m and rad.
 std::string error_grips_csv(const std::vector<std::vector<GripInput>>& grips);
 
-// The rows that no other beats in time and in `error` at once, the fastest first. Rows without error are not among them.
+// The rows that no other beats in time and in `error` at once, the fastest first. Rows without a finite error, or with
+// too many flips, are not among them.
 std::vector<const ErrorRow*> pareto_front(const std::vector<ErrorRow>& rows, double (ErrorRow::*error)() const);
 
 // Markdown.

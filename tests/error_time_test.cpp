@@ -151,6 +151,39 @@ TEST(ErrorTime, ReportHasItsHeadings) {
                                                 "## Observed orders of convergence", "## Left out, left in", "## The liquid"}));
 }
 
+// What answers where others do not, or nowhere, is not the best for having few answers to be wrong in.
+TEST(ErrorTime, WhatDoesNotCompareIsNotChosen) {
+  std::vector<ErrorRow> rows{row_of("sound", 9, 0.1), row_of("mute", 1, 0), row_of("fickle", 2, 0), row_of("limp", 3, 0.05)};
+  for (ErrorRow& row : rows) {
+    row.grips = 2000;
+    row.feasible_flips = 2;  // as many as a 99.9th percentile leaves out
+    row.errors[ERROR_FEEDBACK] = figures_of(std::vector<double>(2000, 1e-5), std::vector<std::string>(2000));
+  }
+  rows[1].errors.fill(figures_of({}, {}));
+  rows[2].feasible_flips = 3;
+  rows[3].hold_flips = 3;
+  EXPECT_TRUE(std::isnan(rows[1].length_error()) && std::isnan(rows[1].force_error()));
+  EXPECT_TRUE(std::isinf(rows[3].force_error()));
+  const auto names = [&](double (ErrorRow::*error)() const) {
+    std::vector<std::string> front;
+    for (const ErrorRow* row : pareto_front(rows, error)) front.push_back(row->variant.name);
+    return front;
+  };
+  EXPECT_EQ(names(&ErrorRow::length_error), (std::vector<std::string>{"limp"}));
+  EXPECT_EQ(names(&ErrorRow::force_error), (std::vector<std::string>{"sound"}));
+  ErrorContext context;
+  context.states = 10;
+  const std::string report = error_report(rows, context);
+  for (const char* text :
+       {"| 1 um | limp |", "| 1 mN | sound |", "nothing of theirs compares: mute.\n", "on one side alone (grips): fickle (3).\n",
+        "infinite error of force): limp (3).\n", "With so few grips compared (1), the 99.9th percentile is the largest"})
+    EXPECT_NE(report.find(text), report.npos) << text << " in " << report;
+  const std::string script = front_script(front_pictures("", rows, context), rows);
+  EXPECT_EQ(script.find("mute"), script.npos);
+  EXPECT_EQ(script.find("fickle"), script.npos);
+  EXPECT_TRUE(front_pictures("", {rows[1]}, context).empty());
+}
+
 // ---- variants ----
 
 TEST(ErrorTime, VariantsHaveNamesOfTheirOwn) {
@@ -233,6 +266,33 @@ TEST(ErrorTime, MemoryTellsGridsApart) {
   const double outline = bytes("core double: 1 thread");
   EXPECT_NEAR((bytes("core double: grid 64^3 x 32 bits") - outline) / (bytes("core double: grid 64^3 x 16 bits") - outline), 2,
               0.01);
+}
+
+// No variant is its own judge: what moves fingers, or stops before they touch, has its flips outside the margin.
+TEST(ErrorTime, MarginIsNotTheVariantsOwnError) {
+  const Scene scene = three_beakers();
+  MeasureOptions options = few_grips();
+  options.grips = 150;
+  ErrorMeasure measure(scene, options);
+  const auto variants = error_variants(scene, {false, 1, false, false, false, false});
+  const auto row = [&](const std::string& name) { return measure.measure(find(variants, "core double: " + name)); };
+  const ErrorRow loose = row("tolerance 1e-3 m"), tighter = row("tolerance 1e-4 m"), tight = row("tolerance 1e-6 m");
+  EXPECT_GT(*loose.touch_flips, 100u);
+  EXPECT_GT(*loose.touch_flips_outside, *loose.touch_flips / 2);
+  EXPECT_GT(*loose.touch_flips_outside, *tighter.touch_flips_outside);
+  EXPECT_GE(*tighter.touch_flips_outside, *tight.touch_flips_outside);
+  EXPECT_EQ(*tight.touch_flips, 0u);
+  ErrorVariant five_steps = find(variants, "core double: 8 steps");
+  five_steps.options.trace_steps = five_steps.options.advance_steps = 5;
+  const ErrorRow few = measure.measure(five_steps), base = row("1 thread");
+  EXPECT_GT(*few.touch_flips_outside, 0u);
+  EXPECT_EQ(*few.touch_flips_outside, *few.touch_flips);
+  EXPECT_EQ(few.touch_margin, base.touch_margin);
+  EXPECT_LT(base.touch_margin, 3e-9);
+  const ErrorRow coarse = row("grid 32^3 x 32 bits"), fine = row("grid 128^3 x 32 bits");
+  EXPECT_GT(coarse.touch_margin, 2 * fine.touch_margin);
+  EXPECT_GT(fine.touch_margin, 1e-6);
+  EXPECT_LT(coarse.touch_margin, 3e-3);
 }
 
 // Two runs with one seed: the same errors to the bit; another seed: other grips.
