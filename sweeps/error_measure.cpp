@@ -21,6 +21,8 @@ namespace {
 
 constexpr double NO_FIGURE = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t LARGEST_TIMED_RUN = 1 << 20;  // timed grips of a vessel
+constexpr std::size_t CHUNKS_IN_FLIGHT = 3;         // of a device, at most, and what all of them may take
+const std::size_t CHUNKS_BYTES = CHUNKS_IN_FLIGHT * host::StreamOptions().slot_bytes;
 
 // Random grips within the scene's axes: its own as Sobol points, by the seed. Alike ones follow each other, by height the last, as in a
 // sweep: a device evaluates neighbours together.
@@ -113,6 +115,11 @@ bool same_evaluator_options(const EvaluatorOptions& a, const EvaluatorOptions& b
          a.gap_table == b.gap_table;
 }
 
+double middle(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
 // Height and lean of the centre of mass of glass and liquid, m.
 std::array<double, 2> loaded_center(const VesselConstants& glass, const LiquidResult& liquid) {
   const double mass = glass.mass + liquid.mass, share = mass > 0 ? liquid.mass / mass : 0;
@@ -125,7 +132,27 @@ std::array<double, 2> loaded_center(const VesselConstants& glass, const LiquidRe
 struct ErrorMeasure::Opened {
   std::shared_ptr<const Evaluator> core;  // whose constants it has
   std::unique_ptr<Backend> backend;
-  std::size_t memory_bytes = 0;
+  std::size_t table_bytes = 0, grip_bytes = 0;
+};
+
+// A variant being timed.
+struct ErrorMeasure::Timed {
+  Opened opened;
+  ErrorVariant variant;
+  std::size_t row = 0;           // its place among the rows
+  std::size_t count = 0;         // grips of each vessel in a run
+  std::vector<double> runs;      // s a grip
+  std::vector<double> all_runs;  // of a base: those of the groups before, too
+
+  // Of the same kind of machine, so that one's drift is the other's.
+  bool is_beside(const Timed& other) const {
+    return variant.on_core == other.variant.on_core && variant.precision == other.variant.precision &&
+           variant.threads == other.variant.threads;
+  }
+  std::size_t held_bytes() const {
+    const std::size_t chunks = CHUNKS_IN_FLIGHT * opened.grip_bytes * count;
+    return opened.table_bytes + (variant.on_core ? 0 : std::min(chunks, CHUNKS_BYTES));
+  }
 };
 
 ErrorFigures figures_of(const std::vector<double>& errors, const std::vector<std::string>& where) {
@@ -142,6 +169,14 @@ ErrorFigures figures_of(const std::vector<double>& errors, const std::vector<std
   const double max = value(order.back());
   const std::size_t worst = *std::find_if(order.begin(), order.end(), [&](std::size_t i) { return value(i) == max; });
   return {rank(0.5), rank(0.999), max, where[worst], errors.size()};
+}
+
+TimeFigures time_figures(std::vector<double> runs, const std::vector<double>& base_beside, const std::vector<double>& base_all) {
+  if (runs.empty()) return {};
+  std::sort(runs.begin(), runs.end());
+  double scale = 1;
+  if (!base_beside.empty() && !base_all.empty() && middle(base_beside) > 0) scale = middle(base_all) / middle(base_beside);
+  return {scale * middle(runs), scale * (runs[runs.size() * 3 / 4] - runs[runs.size() / 4])};
 }
 
 double ErrorRow::length_error() const {
@@ -204,7 +239,8 @@ ErrorMeasure::Opened ErrorMeasure::open(const ErrorVariant& variant, const Field
     opened.core = evaluator(variant, variant.precision);
     opened.backend = std::make_unique<CoreBackend>(opened.core, scene, fields, variant.precision, variant.threads);
     const std::size_t planes = fields.real_planes * sizeof(double) + fields.uint_planes * sizeof(std::uint32_t);
-    opened.memory_bytes = opened.core->table_bytes() + (sizeof(GripInput) + planes) * options_.grips;
+    opened.table_bytes = opened.core->table_bytes();
+    opened.grip_bytes = sizeof(GripInput) + planes;
     return opened;
   }
   opened.core = evaluator(variant, Precision::full);
@@ -213,12 +249,53 @@ ErrorMeasure::Opened ErrorMeasure::open(const ErrorVariant& variant, const Field
   device.outline = variant.outline;
   device.evaluator = variant.options;
   auto backend = std::make_unique<host::GripBackend>(scene, opened.core, fields, options_.on, device);
-  opened.memory_bytes = backend->table_bytes() + backend->bytes_per_grip() * options_.grips;
+  opened.table_bytes = backend->table_bytes();
+  opened.grip_bytes = backend->bytes_per_grip();
   opened.backend = std::move(backend);
   return opened;
 }
 
-ErrorRow ErrorMeasure::measure(const ErrorVariant& variant) {
+// The first variant of each kind of machine stays ready to the end, to be timed beside the others of its kind.
+std::vector<ErrorRow> ErrorMeasure::measure(const std::vector<ErrorVariant>& variants, const MeasureProgress& progress) {
+  std::vector<ErrorRow> rows;
+  std::vector<Timed> bases, group;
+  struct Beside {
+    std::size_t row, base;
+    std::vector<double> runs, base_runs;
+  };
+  std::vector<Beside> timed_rows;
+  std::size_t bytes = 0;
+  for (std::size_t k = 0; k < variants.size() && !stopped(); ++k) {
+    if (progress) progress(k, variants[k].name);
+    rows.push_back(compared_row(variants[k]));
+    Timed timed = warmed(variants[k], rows.back());
+    timed.row = k;
+    bytes += timed.held_bytes();
+    const bool is_base = std::none_of(bases.begin(), bases.end(), [&](const Timed& base) { return base.is_beside(timed); });
+    (is_base ? bases : group).push_back(std::move(timed));
+    if (k + 1 < variants.size() && group.size() < options_.group && bytes < options_.group_bytes) continue;
+    if (progress) progress(k, "timing");
+    time(group, bases);
+    if (stopped()) break;
+    for (Timed& one : group) {
+      const auto base = std::find_if(bases.begin(), bases.end(), [&](const Timed& other) { return other.is_beside(one); });
+      timed_rows.push_back({one.row, static_cast<std::size_t>(base - bases.begin()), std::move(one.runs), base->runs});
+    }
+    group.clear();
+    bytes = 0;
+  }
+  if (stopped()) return rows;
+  const auto set_time = [&](std::size_t row, const TimeFigures& time) {
+    rows[row].seconds_per_grip = time.median;
+    rows[row].spread = time.spread;
+  };
+  for (const Timed& base : bases) set_time(base.row, time_figures(base.all_runs));
+  for (const Beside& one : timed_rows) set_time(one.row, time_figures(one.runs, one.base_runs, bases[one.base].all_runs));
+  return rows;
+}
+
+// All but its time.
+ErrorRow ErrorMeasure::compared_row(const ErrorVariant& variant) {
   ErrorRow row;
   row.variant = variant;
   row.errors.fill(figures_of({}, {}));
@@ -237,10 +314,6 @@ ErrorRow ErrorMeasure::measure(const ErrorVariant& variant) {
   compare(planes, *opened.core, row);
   if (variant.on_core && variant.options.grid_samples > 0) row.distance = compare_distance(*opened.core);
   if (variant.comparable.states && !scene_.tilts.empty() && scene_.liquid) compare_liquid(liquid, *opened.core, row);
-  // timed as a sweep runs it: with the planes that it keeps
-  const Opened timed = open(variant, make_field_set(variable_fields(choose_variables(scene)), scene));
-  row.memory_bytes = timed.memory_bytes;
-  time(*timed.backend, row);
   return row;
 }
 
@@ -339,40 +412,64 @@ ErrorFigures ErrorMeasure::compare_distance(const Evaluator& core) const {
   return figures_of(errors.values, errors.where);
 }
 
-// The first run compiles; those after it find out how many grips make a run long enough, and let chunks grow.
-void ErrorMeasure::time(Backend& backend, ErrorRow& row) {
-  const std::size_t own = options_.grips;
+// Ready to be timed as a sweep runs it: with the planes that it keeps. The first run compiles; those after it find out how many grips make a
+// run long enough, and let chunks grow.
+ErrorMeasure::Timed ErrorMeasure::warmed(const ErrorVariant& variant, ErrorRow& row) {
+  const Scene& scene = variant.scene ? *variant.scene : scene_;
+  Timed timed;
+  timed.opened = open(variant, make_field_set(variable_fields(choose_variables(scene)), scene));
+  timed.variant = variant;
+  row.memory_bytes = timed.opened.table_bytes + timed.opened.grip_bytes * options_.grips;
   // the core hands out chunks of 512
-  std::size_t count = row.variant.on_core ? std::max<std::size_t>(own, 1024 * static_cast<std::size_t>(row.variant.threads)) : own;
-  const auto run = [&] {
-    double total = 0;
-    for (std::size_t v = 0; v < grips_.size(); ++v) {
-      RunRequest request;
-      request.vessel = v;
-      request.last = count;
-      request.best = static_cast<std::size_t>(std::max(0, scene_.output.best));
-      request.grips = [&](std::size_t vessel, std::uint64_t first, std::size_t wanted, GripInput* out) {
-        for (std::size_t i = 0; i < wanted; ++i) out[i] = grips_[vessel][(first + i) % own];
-      };
-      const RunResult result = backend.run(request);
-      total += result.kernel_seconds;
-      for (const std::string& note : result.notes)
-        if (std::find(notes_.begin(), notes_.end(), note) == notes_.end()) notes_.push_back(note);
-    }
-    return total;
-  };
-  double seconds = run();
-  if (!row.variant.on_core) seconds = run();
-  for (int growth = 0; growth < 3 && seconds < options_.run_seconds && count < LARGEST_TIMED_RUN; ++growth) {
+  timed.count = variant.on_core ? std::max(options_.grips, 1024 * static_cast<std::size_t>(variant.threads)) : options_.grips;
+  double seconds = timed_run(timed);
+  if (!variant.on_core) seconds = timed_run(timed);
+  for (int growth = 0; growth < 3 && seconds < options_.run_seconds && timed.count < LARGEST_TIMED_RUN && !stopped(); ++growth) {
     const double factor = std::min(1.2 * options_.run_seconds / std::max(seconds, 1e-6), 64.0);
-    count = std::min(LARGEST_TIMED_RUN, static_cast<std::size_t>(static_cast<double>(count) * factor) + 1);
-    seconds = run();
+    timed.count = std::min(LARGEST_TIMED_RUN, static_cast<std::size_t>(static_cast<double>(timed.count) * factor) + 1);
+    seconds = timed_run(timed);
   }
-  std::vector<double> runs;
-  for (int k = 0; k < options_.runs; ++k) runs.push_back(run() / static_cast<double>(count * grips_.size()));
-  std::sort(runs.begin(), runs.end());
-  row.seconds_per_grip = runs[runs.size() / 2];
-  row.spread = runs[runs.size() * 3 / 4] - runs[runs.size() / 4];
+  return timed;
+}
+
+// Seconds in kernels.
+double ErrorMeasure::timed_run(Timed& timed) {
+  double total = 0;
+  for (std::size_t v = 0; v < grips_.size(); ++v) {
+    RunRequest request;
+    request.vessel = v;
+    request.last = timed.count;
+    request.best = static_cast<std::size_t>(std::max(0, scene_.output.best));
+    request.stop = options_.stop;
+    request.grips = [&](std::size_t vessel, std::uint64_t first, std::size_t wanted, GripInput* out) {
+      for (std::size_t i = 0; i < wanted; ++i) out[i] = grips_[vessel][(first + i) % options_.grips];
+    };
+    const RunResult result = timed.opened.backend->run(request);
+    total += result.kernel_seconds;
+    for (const std::string& note : result.notes)
+      if (std::find(notes_.begin(), notes_.end(), note) == notes_.end()) notes_.push_back(note);
+  }
+  return total;
+}
+
+// In turns, so that what else the machine does meanwhile comes to all of them alike.
+void ErrorMeasure::time(std::vector<Timed>& group, std::vector<Timed>& bases) {
+  std::vector<Timed*> taking_turns;
+  for (Timed& base : bases) {
+    base.runs.clear();
+    // one that has been timed is timed again for those beside it
+    const bool is_wanted =
+        base.all_runs.empty() || std::any_of(group.begin(), group.end(), [&](const Timed& one) { return one.is_beside(base); });
+    if (is_wanted) taking_turns.push_back(&base);
+  }
+  for (Timed& one : group) taking_turns.push_back(&one);
+  for (int k = 0; k < options_.runs; ++k) {
+    for (Timed* timed : taking_turns) {
+      if (stopped()) return;
+      timed->runs.push_back(timed_run(*timed) / static_cast<double>(timed->count * grips_.size()));
+    }
+  }
+  for (Timed& base : bases) base.all_runs.insert(base.all_runs.end(), base.runs.begin(), base.runs.end());
 }
 
 }  // namespace wholehand

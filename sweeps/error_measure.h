@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -37,6 +39,16 @@ struct ErrorFigures {
 // By nearest rank, NaN-safe: a value that only one side lacks is infinite. `where` names each error's place.
 ErrorFigures figures_of(const std::vector<double>& errors, const std::vector<std::string>& where);
 
+// A time by several runs of it.
+struct TimeFigures {
+  double median = 0, spread = 0;  // s; the spread is between the quartiles
+};
+
+// Of a variant: in units of the base's median beside it (runs interleaved with the variant's), times the base's median over all its runs, so
+// that a machine that is slower for minutes makes nobody slow who is timed then. Without a base, or one that took no time: as they are.
+TimeFigures time_figures(std::vector<double> runs, const std::vector<double>& base_beside = {},
+                         const std::vector<double>& base_all = {});
+
 // More than a 99.9th percentile leaves out.
 constexpr bool above_one_in_1000(std::uint64_t some, std::uint64_t all) { return 1000 * some > all; }
 
@@ -69,7 +81,14 @@ struct MeasureOptions {
   std::size_t grips = 2048;   // of each vessel
   int runs = 7;               // timed
   double run_seconds = 0.05;  // of one timed run, at least: the grips are gone through as often as that takes
+  // Variants that are held ready and timed in turns, the first run of each, then the second of each, ..
+  std::size_t group = 32;
+  std::size_t group_bytes = std::size_t(1) << 30;  // .. fewer where their tables and chunks together take more
+  const std::atomic<bool>* stop = nullptr;
 };
+
+// What is being done, for a user who waits: variants compared so far, and the name of the one under way.
+using MeasureProgress = std::function<void(std::size_t compared, const std::string& what)>;
 
 // Keeps the grips, the reference's answers and the evaluator used last.
 class ErrorMeasure {
@@ -77,8 +96,9 @@ class ErrorMeasure {
   // Throws Error as the evaluators do.
   ErrorMeasure(const Scene& scene, const MeasureOptions& options);
 
-  // Throws Error: the device fails.
-  ErrorRow measure(const ErrorVariant& variant);
+  // A row a variant, in their order; fewer, and without times, where MeasureOptions::stop was set. Throws Error: the device fails.
+  std::vector<ErrorRow> measure(const std::vector<ErrorVariant>& variants, const MeasureProgress& progress = {});
+  ErrorRow measure(const ErrorVariant& variant) { return measure(std::vector<ErrorVariant>{variant}).front(); }
 
   const std::vector<std::vector<GripInput>>& grips() const { return grips_; }  // by vessel
   std::uint64_t feasible() const { return feasible_; }                         // by the reference
@@ -87,13 +107,18 @@ class ErrorMeasure {
 
  private:
   struct Opened;
+  struct Timed;
   Opened open(const ErrorVariant& variant, const FieldSet& fields);
   std::shared_ptr<const Evaluator> evaluator(const ErrorVariant& variant, Precision precision);
+  ErrorRow compared_row(const ErrorVariant& variant);
   void compare(const std::vector<GatheredPlanes>& planes, const Evaluator& core, ErrorRow& row) const;
   void compare_liquid(const std::vector<std::vector<LiquidResult>>& liquid, const Evaluator& core, ErrorRow& row) const;
   ErrorFigures compare_distance(const Evaluator& core) const;
   double nearby_distance_error(const Evaluator& core) const;
-  void time(Backend& backend, ErrorRow& row);
+  bool stopped() const { return options_.stop && options_.stop->load(); }
+  Timed warmed(const ErrorVariant& variant, ErrorRow& row);
+  double timed_run(Timed& timed);
+  void time(std::vector<Timed>& group, std::vector<Timed>& bases);
 
   const Scene& scene_;
   MeasureOptions options_;

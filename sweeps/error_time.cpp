@@ -73,24 +73,19 @@ ExitCode run_error_time(const Scene& scene, const ErrorTimeOptions& options) {
   measure_options.seed = options.seed;
   // of all vessels together, so that more of them do not take longer
   measure_options.grips = std::clamp<std::size_t>((options.quick ? 768 : 6144) / scene.vessels.size(), 64, 4096);
-  if (options.quick) {
-    measure_options.runs = 3;
-    measure_options.run_seconds = 0.015;
-  }
+  if (options.quick) measure_options.run_seconds = 0.015;
+  measure_options.stop = &interrupt.flag();
   ErrorMeasure measure(scene, measure_options);
   context.grips = measure_options.grips * scene.vessels.size();
   context.feasible = measure.feasible();
   context.grazing = measure.grazing();
   const auto variants = error_variants(scene, choice);
-  std::vector<ErrorRow> rows;
-  for (std::size_t k = 0; k < variants.size(); ++k) {
-    if (interrupt.flag()) {
-      wipe_variant();
-      fmt::print(stderr, "wholehand: interrupted after {} of {} variants; nothing was written\n", k, variants.size());
-      return ExitCode::interrupted;
-    }
-    show_variant(k, variants.size(), variants[k].name);
-    rows.push_back(measure.measure(variants[k]));
+  const auto rows =
+      measure.measure(variants, [&](std::size_t k, const std::string& what) { show_variant(k, variants.size(), what); });
+  if (interrupt.flag()) {
+    wipe_variant();
+    fmt::print(stderr, "wholehand: interrupted after {} of {} variants; nothing was written\n", rows.size(), variants.size());
+    return ExitCode::interrupted;
   }
   wipe_variant();
   if (options.on == "core" && !rows.empty()) {

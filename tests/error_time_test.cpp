@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -117,6 +118,17 @@ ErrorRow row_of(const std::string& name, double microseconds, double micrometres
   row.errors[ERROR_GAP] = figures_of({micrometres}, {"0:0"});
   row.seconds_per_grip = microseconds * 1e-6;
   return row;
+}
+
+// A machine that is half as fast for a while: what is timed then, is as many times the base as it would be otherwise.
+TEST(ErrorTime, TimesAreByTheBaseBesideThem) {
+  const std::vector<double> base_before{1, 1.1, 1}, base_after{2, 2, 2.2}, base{1, 1.1, 1, 2, 2, 2.2};
+  EXPECT_DOUBLE_EQ(time_figures({3, 3.3, 3}, base_before, base).median, time_figures({6, 6.6, 6}, base_after, base).median);
+  EXPECT_DOUBLE_EQ(time_figures({3, 3.3, 3}, base_before, base).spread, time_figures({6, 6.6, 6}, base_after, base).spread);
+  EXPECT_DOUBLE_EQ(time_figures({5, 3, 4}).median, 4);
+  EXPECT_DOUBLE_EQ(time_figures({5, 3, 4}).spread, 2);
+  EXPECT_DOUBLE_EQ(time_figures({5, 3, 4}, {0, 0}, {0, 0}).median, 4);
+  EXPECT_EQ(time_figures({}).median, 0);
 }
 
 TEST(ErrorTime, FrontIsWhatNothingBeats) {
@@ -293,6 +305,40 @@ TEST(ErrorTime, MarginIsNotTheVariantsOwnError) {
   EXPECT_GT(coarse.touch_margin, 2 * fine.touch_margin);
   EXPECT_GT(fine.touch_margin, 1e-6);
   EXPECT_LT(coarse.touch_margin, 3e-3);
+}
+
+// Groups, and what is timed beside what, are of no account for errors.
+TEST(ErrorTime, GroupsChangeNoError) {
+  const Scene scene = read_scene_file(find_scene("small"));
+  auto variants = error_variants(scene, {true, 1, true, false, true, true});
+  std::erase_if(variants, [](const ErrorVariant& v) { return v.axis == SweptAxis::points || v.axis == SweptAxis::grid; });
+  variants.resize(6);
+  const auto table = [&](std::size_t group, std::size_t bytes) {
+    MeasureOptions options = few_grips();
+    options.group = group;
+    options.group_bytes = bytes;
+    auto rows = ErrorMeasure(scene, options).measure(variants);
+    EXPECT_EQ(rows.size(), variants.size());
+    for (ErrorRow& row : rows) {
+      EXPECT_GT(row.seconds_per_grip, 0) << row.variant.name;
+      row.seconds_per_grip = row.spread = 0;
+    }
+    return error_csv(rows, {});
+  };
+  const std::string once = table(32, std::size_t(1) << 30);
+  EXPECT_EQ(once, table(2, std::size_t(1) << 30));
+  EXPECT_EQ(once, table(32, 1));
+}
+
+TEST(ErrorTime, StopsWhereItIsTold) {
+  const Scene scene = read_scene_file(find_scene("small"));
+  const auto variants = error_variants(scene, {true, 1, false, false, false, false});
+  std::atomic<bool> stop = false;
+  MeasureOptions options = few_grips();
+  options.stop = &stop;
+  ErrorMeasure measure(scene, options);
+  const auto rows = measure.measure(variants, [&](std::size_t k, const std::string&) { stop = k == 2; });
+  EXPECT_EQ(rows.size(), 3u);
 }
 
 // Two runs with one seed: the same errors to the bit; another seed: other grips.
