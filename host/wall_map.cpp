@@ -57,8 +57,17 @@ struct WallMap::Impl {
     if (precision == Precision::full && !on.info().float64) {
       throw usage_error("device " + on.info().name + " has no double precision; use --precision float");
     }
-    const std::array<Constant, 1> constants{Constant{CONST_GROUP_SIZE, std::uint32_t{GROUP_SIZE}}};
-    kernel.emplace(on, find_shader("loop", precision), constants, "loop");
+  }
+
+  // A CPU driver goes through branches that no case takes: without friction its code is left out.
+  const Kernel& kernel_for(bool rubs) {
+    std::optional<Kernel>& kernel = rubs ? with_friction : without_friction;
+    if (!kernel) {
+      const std::array<Constant, 2> constants{Constant{CONST_GROUP_SIZE, std::uint32_t{GROUP_SIZE}},
+                                              Constant{CONST_FRICTION, std::uint32_t{rubs ? 1u : 0u}}};
+      kernel.emplace(on, find_shader("loop", precision), constants, "loop");
+    }
+    return *kernel;
   }
 
   template <class Real>
@@ -67,6 +76,7 @@ struct WallMap::Impl {
     const Buffer given = Buffer::of(on, planes_of<Real>(cases));
     const Buffer state(on, CASE_STATE_PLANES * cases.size() * sizeof(Real));
     const bool rubs = std::any_of(cases.begin(), cases.end(), [](const WallCase& c) { return c.friction > 0; });
+    const Kernel& kernel = kernel_for(rubs);
     const int most = rubs ? SAMPLES_WITH_FRICTION : SAMPLES_MOST;
     int at_once = std::min(32, most);
     for (int done = 0; done < samples;) {
@@ -76,7 +86,7 @@ struct WallMap::Impl {
       commands.bind(BINDING_GRIPS, given);
       commands.bind(BINDING_REAL_OUT, state);
       const Push push{count, count, done == 0 ? 1u : 0u, static_cast<std::uint32_t>(number), is_late ? 1u : 0u, 0};
-      commands.dispatch(*kernel, groups_for(on, *kernel, count), push);
+      commands.dispatch(kernel, groups_for(on, kernel, count), push);
       const double taken = run_once(on, commands);
       seconds += taken;
       done += number;
@@ -91,7 +101,7 @@ struct WallMap::Impl {
 
   Device on;  // first: destroyed last
   Precision precision;
-  std::optional<Kernel> kernel;
+  std::optional<Kernel> with_friction, without_friction;
   double seconds = 0;
 };
 

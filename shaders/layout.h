@@ -207,6 +207,7 @@
 #define CONST_GAP_STEPS 43
 #define CONST_GAP_TABLE_SIZE 44
 #define CONST_GRID_BITS 45          // of a sample: 32 or 16
+#define CONST_FRICTION 46           // of the loop: whether any case has friction, bool
 #define CONST_OUTLINE 64            // + OUTLINE_STRIDE * element + value, Real
 
 #define GROUP_SIZE 64

@@ -7,6 +7,7 @@
 #include "loop.glsl"
 
 layout(local_size_x_id = CONST_GROUP_SIZE) in;
+layout(constant_id = CONST_FRICTION) const bool HAS_FRICTION = true;
 layout(std430, binding = BINDING_GRIPS) readonly buffer CaseBlock { Real case_in[]; };
 layout(std430, binding = BINDING_REAL_OUT) buffer StateBlock { Real state_io[]; };
 
@@ -18,7 +19,7 @@ void main() {
   Plant plant = Plant(GIVEN(CASE_MASS), GIVEN(CASE_DAMPING), GIVEN(CASE_SPRING));
   Wall wall = Wall(GIVEN(CASE_WALL_STIFFNESS), GIVEN(CASE_WALL_DAMPING), GIVEN(CASE_PERIOD), GIVEN(CASE_ENCODER),
                    GIVEN(CASE_FORCE_LIMIT), int(GIVEN(CASE_DELAY)), GIVEN(CASE_BILATERAL) != Real(0));
-  Real press = GIVEN(CASE_PRESS), friction = GIVEN(CASE_FRICTION);
+  Real press = GIVEN(CASE_PRESS), friction = HAS_FRICTION ? GIVEN(CASE_FRICTION) : Real(0);
   Propagator by = stepped_propagator(plant, wall.period, int(GIVEN(CASE_INTEGRATOR)), int(GIVEN(CASE_SUBSTEPS)));
   LoopState state;
   Real late;

@@ -142,12 +142,11 @@ LoopState step_loop(Plant plant, Propagator by, Wall wall, LoopState state, Real
   Real applied = wall_force(wall, reading, (reading - state.reading) / wall.period);
   LoopState next;
   next.reading = reading;
-  for (int k = 0; k < LOOP_DELAYS; ++k) next.waiting[k] = k + 1 < LOOP_DELAYS ? state.waiting[min(k + 1, LOOP_DELAYS - 1)] : Real(0);
-  if (wall.delay > 0) {
-    Real newest = applied;
-    applied = state.waiting[0];
-    next.waiting[wall.delay - 1] = newest;
+  for (int k = 0; k < LOOP_DELAYS; ++k) {
+    Real later = k + 1 < LOOP_DELAYS ? state.waiting[min(k + 1, LOOP_DELAYS - 1)] : Real(0);
+    next.waiting[k] = k == wall.delay - 1 ? applied : later;
   }
+  if (wall.delay > 0) applied = state.waiting[0];
   next.motion = advance_with_friction(plant, by, state.motion, applied + press, friction, wall.period);
   return next;
 }
