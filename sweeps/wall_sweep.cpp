@@ -373,7 +373,7 @@ std::string wall_script(const std::vector<WallSheet>& sheets, const std::string&
       Rule::none);
   draw_panel(out,
              panel_of(
-                 sheet_of(sheets, "encoder"), "1 kHz, friction f_c of 0.2 N", "encoder step D / um", true,
+                 sheet_of(sheets, "encoder"), "1 kHz, friction f_c = 0.2 N", "encoder step D / um", true,
                  [&](const WallDevice& d) { return is_named(d) && d.coulomb == 0.2; },
                  [](const WallPoint& p) { return p.device.encoder_step * 1e6; }),
              Rule::friction);
