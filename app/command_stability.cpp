@@ -89,7 +89,12 @@ void add_stability_command(CLI::App& app, Action& action) {
   command->add_flag("--quick", report_arguments->quick, "Coarser maps, under a minute");
   command->add_option("--seed", report_arguments->seed, "Of the devices and walls by chance (1)")->type_name("N");
   command->callback([command, report_arguments, &action] {
-    if (!command->get_subcommands().empty()) return;
+    if (!command->get_subcommands().empty()) {
+      for (const char* option : {"--output", "--on", "--quick", "--seed"})
+        if (command->count(option) > 0)
+          throw usage_error(std::string("stability ") + option + ": of the report, not of `wall`; leave it out");
+      return;
+    }
     action = [report_arguments] { return report_stability(*report_arguments); };
   });
   const auto arguments = std::make_shared<WallArguments>();

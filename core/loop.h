@@ -49,7 +49,8 @@ Propagator propagator(Plant plant, Real time);
 Propagator stepped_propagator(Plant plant, Real time, int integrator, int substeps);
 Motion advance(Propagator by, Motion motion, Real force);
 // The same with Coulomb friction (N): the motion is followed to where it stops, at most LOOP_STOPS times in `time`; from there it goes on
-// the other way, or stays where the other forces do not overcome the friction. `whole` is the propagator of `time`.
+// the other way, or stays where the other forces do not overcome the friction: for samples no longer than the plant's fastest
+// mode, which reverse it no more often. `whole` is the propagator of `time`.
 Motion advance_with_friction(Plant plant, Propagator whole, Motion motion, Real force, Real friction, Real time);
 // The nearest multiple of the step.
 Real read_encoder(Real place, Real step);

@@ -84,7 +84,7 @@ ExitCode run_error_time(const Scene& scene, const ErrorTimeOptions& options) {
       measure.measure(variants, [&](std::size_t k, const std::string& what) { show_variant(k, variants.size(), what); });
   if (interrupt.flag()) {
     wipe_variant();
-    fmt::print(stderr, "wholehand: interrupted after {} of {} variants; nothing was written\n", rows.size(), variants.size());
+    fmt::print(stderr, "wholehand: interrupted while comparing and timing {} variants; nothing was written\n", variants.size());
     return ExitCode::interrupted;
   }
   wipe_variant();
@@ -93,11 +93,20 @@ ExitCode run_error_time(const Scene& scene, const ErrorTimeOptions& options) {
     context.driver = rows.front().driver;
   }
   for (const std::string& note : measure.notes()) context.notes.push_back(note);
+  const GripsData& asked = scene.grips;
+  const auto is_fixed = [](const Axis& axis) { return !axis.is_range && axis.values.size() == 1; };
+  if (is_fixed(asked.height) && is_fixed(asked.azimuth) && is_fixed(asked.obliquity) && is_fixed(asked.roll) &&
+      is_fixed(asked.offset) && is_fixed(asked.hand_scale)) {
+    context.notes.push_back(
+        "every axis of [grips] is one number, so all grips are the same one; give ranges for figures that mean more");
+  }
   const std::string folder = options.output.back() == '/' ? options.output : options.output + "/";
   const std::string report = error_report(rows, context);
   write_whole_file(folder + "error-time.csv", error_csv(rows, context), false);
   write_whole_file(folder + "error-time-grips.csv", error_grips_csv(measure.grips()), false);
   write_whole_file(folder + "error-time.md", report, false);
+  // pictures of another scene beside these tables would mislead
+  for (const char* name : {"error-time.svg", "error-time-force.svg"}) std::remove((folder + name).c_str());
   const auto pictures = front_pictures(folder, rows, context);
   const std::string complaint = draw_fronts(pictures, rows);
   fmt::print("{}\n", report);

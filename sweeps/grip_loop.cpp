@@ -20,7 +20,7 @@ constexpr double TO_GRASP = 2, TO_SETTLE = 2, LAST = 0.5;  // s
 constexpr double STILL_SPEED = 2e-3, STILL_TIME = 0.05;    // m/s, s: the paper gives no criterion; docs/evidence.md
 constexpr double FLIES_APART = 1;                          // m: no hand is that wide
 constexpr double LINEAR_TIME = 20;                         // s: a hundred reactions
-constexpr std::array<const char*, 4> OUTCOME_COLORS{"#a6cee3", "#e08a1e", "#bdbdbd", "#7a1f1f"};
+constexpr std::array<const char*, GRIP_OUTCOMES> OUTCOME_COLORS{"#a6cee3", "#5b8db8", "#e08a1e", "#bdbdbd", "#7a1f1f"};
 
 core_f64::Plant held_plant(const GripLoop& loop) {
   return {loop.device_mass + loop.finger_mass, loop.device_damping + loop.finger_damping, loop.finger_stiffness};
@@ -95,7 +95,7 @@ const std::vector<Varied>& varied() {
 
 }  // namespace
 
-const char* const GRIP_OUTCOME_NAMES[4] = {"settles", "oscillates", "saturates", "lost"};
+const char* const GRIP_OUTCOME_NAMES[GRIP_OUTCOMES] = {"settles", "creeps", "oscillates", "saturates", "lost"};
 
 GripLoopResult hold_and_tilt(const GripLoop& loop) {
   const int tilt_begins = static_cast<int>(TO_GRASP * loop.rate);
@@ -150,6 +150,8 @@ GripLoopResult hold_and_tilt(const GripLoop& loop) {
     result.outcome = GripOutcome::saturates;
   } else if (std::min(rise, fall) > GRIP_SWING) {
     result.outcome = GripOutcome::oscillates;
+  } else if (result.swing > GRIP_SWING) {
+    result.outcome = GripOutcome::creeps;
   }
   return result;
 }
@@ -250,7 +252,7 @@ std::string grip_loop_csv(const std::vector<GripLoopRow>& rows, const std::strin
 
 // Where a user of slow or quick reaction holds, oscillates or loses, over k_open; the theory of the user's loop as a line.
 std::string grip_loop_script(const std::string& folder, std::vector<std::string>& files) {
-  std::array<std::string, 4> points;
+  std::array<std::string, GRIP_OUTCOMES> points;
   std::string user;
   for (int column = 0; column <= 60; ++column) {
     GripLoop loop;

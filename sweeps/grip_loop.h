@@ -26,8 +26,9 @@ struct GripLoop {
   double band = 8e-3;                        // m of opening beyond the grasp at which it is lost
 };
 
-enum class GripOutcome { settles, oscillates, saturates, lost };
-extern const char* const GRIP_OUTCOME_NAMES[4];
+enum class GripOutcome { settles, creeps, oscillates, saturates, lost };
+constexpr int GRIP_OUTCOMES = 5;
+extern const char* const GRIP_OUTCOME_NAMES[GRIP_OUTCOMES];
 
 struct GripLoopResult {
   GripOutcome outcome = GripOutcome::settles;
@@ -39,7 +40,7 @@ struct GripLoopResult {
 
 // Two seconds to grasp, the tilt, and two seconds and ten reactions to settle. The grip is lost where x falls below -band; oscillates where
 // x still rises and falls by more than GRIP_SWING in the end (half a second, or five reactions: more than a period of the user's loop at
-// its limit); saturates where the feedback is then at F_max throughout, so that the user feels neither torque nor grip and closes on.
+// its limit), creeps where it only does one of them; saturates where the feedback is then at F_max throughout, so that the user feels neither torque nor grip and closes on.
 GripLoopResult hold_and_tilt(const GripLoop& loop);
 constexpr double GRIP_SWING = 0.2e-3;  // m
 

@@ -143,7 +143,10 @@ void write_grips(std::back_insert_iterator<std::string> out, const std::vector<G
       fmt::format_to(out, " {} / {} |", newtons_per_metre(largest_k_open(loop)), newtons_per_metre(sampled_k_open(loop)));
     }
   }
-  fmt::format_to(out, "\n\nA slow user shakes at softer springs, whatever the rate (simulation / theory):");
+  fmt::format_to(out,
+                 "\n\nA slow user shakes at softer springs, whatever the rate (what no longer dies away in simulation / theory; in "
+                 "the sessions below and the "
+                 "picture, softer springs too still shake when they end):");
   const char* separator = "";
   for (const double reaction : {0.2, 0.3, 0.4, 0.6}) {
     GripLoop loop;
@@ -152,7 +155,7 @@ void write_grips(std::back_insert_iterator<std::string> out, const std::vector<G
                    newtons_per_metre(reaction_k_open(loop)));
     separator = ",";
   }
-  std::array<std::size_t, 4> counts{};
+  std::array<std::size_t, GRIP_OUTCOMES> counts{};
   std::size_t all = 0;
   for (const GripLoopRow& row : rows) {
     if (row.varied != "products") continue;
@@ -235,11 +238,11 @@ void write_extremes(std::back_insert_iterator<std::string> out, const std::vecto
 }  // namespace
 
 ExitCode run_stability(const StabilityOptions& options) {
-  make_output_folder(options.folder);
   const auto path = [&options](const char* name) { return options.folder + "/" + name; };
   BackendInfo info;
   double kernel_seconds = 0;
   const WallRunner runner = open_wall_runner(options.on, info, kernel_seconds);
+  make_output_folder(options.folder);  // when the device is there, so that a wrong one leaves none
   InterruptGuard interrupt;
   const auto interrupted = [] {
     show_progress("");
@@ -291,8 +294,9 @@ ExitCode run_stability(const StabilityOptions& options) {
   write_whole_file(path("grip_loop.csv"), grip_loop_csv(rows, on_core), false);
   if (!options.extremes.empty()) write_whole_file(path("extreme.csv"), extreme_csv(extremes), false);
   std::vector<std::string> pictures;
-  std::string script = wall_script(sheets, options.folder, pictures);
-  script += grip_loop_script(options.folder, pictures);
+  std::string script = grip_loop_script(options.folder, pictures);
+  script += wall_script(sheets, options.folder, pictures);
+  for (const std::string& picture : pictures) std::remove(picture.c_str());  // one of another run beside these tables would mislead
   const std::string failure = draw_with_gnuplot(script, pictures);
   if (!failure.empty()) std::fprintf(stderr, "wholehand: %s\n", failure.c_str());
   write_whole_file(path("stability.md"), summary, false);

@@ -16,7 +16,9 @@ namespace wholehand {
 namespace {
 
 constexpr double NO_LIMIT = std::numeric_limits<double>::infinity();
-constexpr double STIFFEST = 1e12;  // N/m: what is stable there is not limited
+constexpr double STIFFEST = 1e12;       // N/m: what is stable there is not limited
+constexpr double SOFTEST = 1e-3;        // N/m: below this nothing is a wall
+constexpr double BEYOND_LINEAR = 1.01;  // what the simulation's finite time may add
 
 core_f64::Plant plant_of(const WallDevice& device) {
   return {device.mass + device.finger_mass, device.damping + device.finger_damping, device.finger_stiffness};
@@ -84,8 +86,8 @@ double largest_stable(const std::function<bool(double stiffness)>& is_stable) {
     high *= 2;
     if (high > STIFFEST) return NO_LIMIT;
   }
-  double low = high / 2;
-  if (high == 1) low = 0;
+  if (high == 1 && !is_stable(SOFTEST)) return 0;
+  double low = high == 1 ? SOFTEST : high / 2;
   for (int step = 0; step < 100 && high - low > 1e-6 * high; ++step) {
     const double middle = 0.5 * (low + high);
     (is_stable(middle) ? low : high) = middle;
@@ -154,6 +156,8 @@ WallLimits wall_theory(const WallDevice& device) {
 WallLimits wall_limits(const WallDevice& device) {
   WallLimits limits = wall_theory(device);
   limits.simulated = largest_stable([&](double stiffness) { return settles(device, stiffness); });
+  // with an ideal reading and no friction to hold it, what stays bounded beyond the linear limit is a cycle
+  if (device.encoder_step == 0 && device.coulomb == 0) limits.simulated = std::min(limits.simulated, BEYOND_LINEAR * limits.linear);
   return limits;
 }
 

@@ -46,7 +46,7 @@ double spectral_radius(const WallDevice& device, double stiffness);
 WallLimits wall_theory(const WallDevice& device);  // all but `simulated`
 WallLimits wall_limits(const WallDevice& device);
 // The largest stiffness (N/m) at which `is_stable`, which holds up to there, found by doubling and halving to a millionth; infinite where
-// it holds at 10^12.
+// it holds at 10^12, 0 below 0.001.
 double largest_stable(const std::function<bool(double stiffness)>& is_stable);
 
 std::string wall_json(const WallLimits& limits);                             // one line; null where nothing limits

@@ -341,10 +341,37 @@ std::string wall_script(const std::vector<WallSheet>& sheets, const std::string&
   const auto is_named = [&named](const WallDevice& d) { return d.mass == named.mass && d.damping == named.damping; };
   const auto is_kilohertz = [](const WallDevice& d) { return std::abs(d.rate - 1000) < 0.5; };
   const WallSheet& map = sheet_of(sheets, "stiffness_damping_rate");
-  std::string script = gnuplot_style(960, 760);
+  // wall.svg last: gnuplot writes the last subscript that it set into the titles of later pictures
+  std::string script;
   auto out = std::back_inserter(script);
+  files.push_back(folder + "/wall_integrators.svg");
+  script += gnuplot_style(640, 440) + gnuplot_output(files.back());
+  fmt::format_to(
+      out,
+      "set title 'What an integrator makes of the limit: {}, 1 kHz' textcolor '#202020'\n"
+      "set xlabel 'sub-steps a sample' textcolor '#202020'\nset ylabel 'settles up to K / (N/m)' textcolor '#202020'\n"
+      "set logscale x 2\nset logscale y 10\nset key top right nobox vertical inside\nset xrange [0.8:20]\nset yrange [500:*]\n"
+      "plot '-' with linespoints pointtype 7 linewidth 2 linecolor '#b03a00' title 'explicit Euler', "
+      "'-' with linespoints pointtype 5 linewidth 2 linecolor '#1f4e79' title 'semi-implicit Euler', "
+      "'-' with lines linewidth 2 dashtype 2 linecolor '#404040' title 'exact'\n",
+      named.name);
+  for (const int integrator : {LOOP_EULER, LOOP_SEMI_IMPLICIT, LOOP_EXACT}) {
+    for (const WallColumn& column : sheet_of(sheets, "integrator").columns) {
+      const WallPoint& first = column.points.front();
+      if (first.integrator != integrator || !is_named(first.device)) continue;
+      const double limit = integrator_limit(first.device, integrator, first.substeps);
+      if (integrator == LOOP_EXACT) {
+        fmt::format_to(out, "1 {:.6g}\n16 {:.6g}\n", limit, limit);
+      } else {
+        fmt::format_to(out, "{} {:.6g}\n", first.substeps, limit);
+      }
+    }
+    fmt::format_to(out, "e\n");
+  }
+  fmt::format_to(out, "set output\nreset\n");
+
   files.push_back(folder + "/wall.svg");
-  script += gnuplot_output(files.back());
+  script += gnuplot_style(960, 760) + gnuplot_output(files.back());
   fmt::format_to(out,
                  "set multiplot layout 2,2 title 'A rendered wall on a device of {}' textcolor '#202020'\n"
                  "set logscale y\nset ylabel 'stiffness K / (N/m)' textcolor '#202020'\nset format y '10^{{%L}}'\n"
@@ -377,33 +404,7 @@ std::string wall_script(const std::vector<WallSheet>& sheets, const std::string&
                  [&](const WallDevice& d) { return is_named(d) && d.coulomb == 0.2; },
                  [](const WallPoint& p) { return p.device.encoder_step * 1e6; }),
              Rule::friction);
-  fmt::format_to(out, "unset multiplot\nset output\nset termoption noenhanced\nunset logscale\nset format y '%g'\n");
-
-  files.push_back(folder + "/wall_integrators.svg");
-  script += gnuplot_style(640, 440) + gnuplot_output(files.back());
-  fmt::format_to(
-      out,
-      "set title 'What an integrator makes of the limit: {}, 1 kHz' textcolor '#202020'\n"
-      "set xlabel 'sub-steps a sample' textcolor '#202020'\nset ylabel 'settles up to K / (N/m)' textcolor '#202020'\n"
-      "set logscale x 2\nset logscale y 10\nset key top right nobox vertical inside\nset xrange [0.8:20]\nset yrange [500:*]\n"
-      "plot '-' with linespoints pointtype 7 linewidth 2 linecolor '#b03a00' title 'explicit Euler', "
-      "'-' with linespoints pointtype 5 linewidth 2 linecolor '#1f4e79' title 'semi-implicit Euler', "
-      "'-' with lines linewidth 2 dashtype 2 linecolor '#404040' title 'exact'\n",
-      named.name);
-  for (const int integrator : {LOOP_EULER, LOOP_SEMI_IMPLICIT, LOOP_EXACT}) {
-    for (const WallColumn& column : sheet_of(sheets, "integrator").columns) {
-      const WallPoint& first = column.points.front();
-      if (first.integrator != integrator || !is_named(first.device)) continue;
-      const double limit = integrator_limit(first.device, integrator, first.substeps);
-      if (integrator == LOOP_EXACT) {
-        fmt::format_to(out, "1 {:.6g}\n16 {:.6g}\n", limit, limit);
-      } else {
-        fmt::format_to(out, "{} {:.6g}\n", first.substeps, limit);
-      }
-    }
-    fmt::format_to(out, "e\n");
-  }
-  fmt::format_to(out, "set output\nreset\n");
+  fmt::format_to(out, "unset multiplot\nset output\nreset\n");
   return script;
 }
 

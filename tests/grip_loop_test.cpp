@@ -80,7 +80,7 @@ TEST(GripLoop, TableHasARowASessionAndTheSameEveryTime) {
   const std::string csv = grip_loop_csv(rows, "a,b,c,d");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), static_cast<std::ptrdiff_t>(rows.size()) + 1);
   EXPECT_EQ(csv, grip_loop_csv(grip_loop_rows(true), "a,b,c,d"));
-  for (int outcome = 0; outcome < 4; ++outcome)
+  for (int outcome = 0; outcome < GRIP_OUTCOMES; ++outcome)
     EXPECT_TRUE(std::any_of(rows.begin(), rows.end(), [outcome](const GripLoopRow& row) {
       return static_cast<int>(row.result.outcome) == outcome;
     })) << GRIP_OUTCOME_NAMES[outcome];

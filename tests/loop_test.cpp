@@ -291,5 +291,14 @@ TEST(Loop, SimulationSeesTheEncoder) {
   EXPECT_GT(wall_limits(device).simulated, 0.95 * wall_theory(device).linear);
 }
 
+// Beyond the linear limit a wall may hold a cycle that is no larger than it began: that is no stable wall.
+TEST(Loop, CyclesAreNotStable) {
+  WallDevice device;
+  for (const double wall_damping : {300.0, -1.0, -2.0}) {
+    device.wall_damping = wall_damping;
+    EXPECT_EQ(wall_limits(device).simulated, 0) << wall_damping;
+  }
+}
+
 }  // namespace
 }  // namespace wholehand

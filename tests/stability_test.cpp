@@ -60,11 +60,13 @@ TEST(Stability, WrongUseIsOneLine) {
   std::ofstream(folder / "file") << "x";
   for (const std::string& arguments : {std::string("stability"), "stability -o " + (folder / "missing/report"),
                                        "stability -o " + (folder / "file"), "stability --on nothing -o " + (folder / "report"),
-                                       "stability --seed x -o " + (folder / "report"), std::string("stability wall --mass-kg 1")}) {
+                                       "stability --seed x -o " + (folder / "report"), std::string("stability wall --mass-kg 1"),
+                                       std::string("stability --quick wall --mass-kg 1 --damping-Nspm 1 --rate-hz 1000")}) {
     EXPECT_EQ(program(arguments, folder / "said"), 2) << arguments;
     const std::string said = file_text(folder / "said");
     EXPECT_EQ(said.find('\n'), said.size() - 1) << said;
   }
+  EXPECT_FALSE(file_exists(folder / "report")) << "nothing was made";
   program("stability wall --mass-kg 1", folder / "said");
   EXPECT_NE(file_text(folder / "said").find("see wholehand stability wall --help"), std::string::npos)
       << file_text(folder / "said");
