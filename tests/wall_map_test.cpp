@@ -1,5 +1,5 @@
 // Many rendered walls at once against the core's, one by one.
-// sanitizers: address
+// sanitizers: none
 #include "host/wall_map.h"
 
 #include <gtest/gtest.h>
