@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "shaders/layout.h"
+#include "sweeps/csv.h"
 #include "sweeps/variables.h"
 
 namespace wholehand {
@@ -57,17 +58,6 @@ BestGrip read_best(const PlaneChunk& chunk, const FieldSet& fields, std::size_t 
   best.peak_force = best.peak_tilt = best.largest_hold = best.safe_tilt = NOT_A_NUMBER;
   if (!scene.tilts.empty()) read_forces(chunk, fields, i, static_cast<int>(scene_fills(scene)), scene.tilts, best);
   return best;
-}
-
-// A field of a CSV file (RFC 4180).
-std::string csv_text(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + '"';
 }
 
 // Empty where there is no number.

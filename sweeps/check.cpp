@@ -50,14 +50,6 @@ std::string place_of(const Comparison& row, const Scene& scene, const Plan& plan
   return place;
 }
 
-std::vector<LiquidResult> core_liquid(const Scene& scene, const Evaluator& core, std::size_t vessel) {
-  std::vector<LiquidResult> states;
-  if (!scene.liquid) return states;
-  for (const double fill : scene.liquid->fills)
-    for (const double tilt : scene.tilts) states.push_back(core.liquid(vessel, fill, tilt));
-  return states;
-}
-
 void print_comparison(const std::string& title, const Scene& scene, const Comparer& comparer, const Plan& plan) {
   fmt::print("\n{}: {}\n", title, comparer.holds() ? "holds" : "DOES NOT HOLD");
   fmt::print("  {:<11} {:<18} {:>12} {:>12} {:<6} {:>9} {:>9} {:>8}  {}\n", "kernel", "quantity", "worst", "tolerance", "",

@@ -121,14 +121,27 @@ bool note_difference(Comparison& entry, double scale, std::size_t vessel, std::s
 
 double tip_radius(const HandData& hand) { return hand.scale * std::max(hand.fingers[0].radii[3], hand.fingers[1].radii[4]); }
 
-double apart(double a, double b) {
+}  // namespace
+
+double figure_difference(double a, double b) {
   if (std::isnan(a) && std::isnan(b)) return 0;
   if (a == b) return 0;  // infinities too
   const double difference = std::abs(a - b);
   return std::isnan(difference) ? std::numeric_limits<double>::infinity() : difference;
 }
 
-}  // namespace
+std::vector<LiquidResult> core_liquid(const Scene& scene, const Evaluator& core, std::size_t vessel) {
+  std::vector<LiquidResult> states;
+  if (!scene.liquid) return states;
+  for (const double fill : scene.liquid->fills)
+    for (const double tilt : scene.tilts) states.push_back(core.liquid(vessel, fill, tilt));
+  return states;
+}
+
+std::array<double, 2> loaded_center(const VesselConstants& glass, const LiquidResult& liquid) {
+  const double mass = glass.mass + liquid.mass, share = mass > 0 ? liquid.mass / mass : 0;
+  return {(1 - share) * glass.center_of_mass[1] + share * liquid.height, share * liquid.lean};
+}
 
 FieldSet all_fields(const Scene& scene) {
   std::vector<int> every(FIELDS);
@@ -206,7 +219,7 @@ void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, cons
   std::vector<char> undecided(n, 0), may_graze(n, 0);
   const auto spread_to = [&](const GatheredPlanes& other, int first_plane, int planes) {
     for (std::size_t k = first_plane * n; k < (first_plane + planes) * n; ++k) {
-      const double difference = apart(other.reals[k], truth.reals[k]);
+      const double difference = figure_difference(other.reals[k], truth.reals[k]);
       if (std::isfinite(difference)) spread[k] = std::max(spread[k], difference);  // else another outcome: undecided
     }
     for (std::size_t i = 0; i < n; ++i) {
@@ -271,7 +284,7 @@ void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, cons
       bool over = false;
       for (int p = 0; p < planes; ++p) {
         const int plane = fields.plane[q.field] + p;
-        const double difference = apart(a.real(plane, i), b.real(plane, i));
+        const double difference = figure_difference(a.real(plane, i), b.real(plane, i));
         over = note_difference(entry, q.scale, vessel, i, difference, tolerance(q.field, p, i)) || over;
       }
       entry.outside += over ? 1 : 0;
@@ -374,7 +387,7 @@ void Comparer::add_liquid(std::size_t vessel, const std::vector<LiquidResult>& a
   const auto compare = [&](const char* name, const char* unit, double scale, double tolerance, auto value) {
     Comparison& entry = row("liquid", name, unit);
     for (std::size_t s = 0; s < a.size(); ++s) {
-      const double difference = apart(value(a[s]), value(b[s]));
+      const double difference = figure_difference(value(a[s]), value(b[s]));
       ++entry.compared;
       entry.outside += note_difference(entry, scale, vessel, s, difference, tolerance) ? 1 : 0;
     }

@@ -5,6 +5,7 @@
 // is taken per grip and number: it grows where a finger grazes the glass, and nowhere else. docs/method.md has the derivation.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -31,6 +32,15 @@ struct GatheredPlanes {
 FieldSet all_fields(const Scene& scene);
 GatheredPlanes gather(Backend& backend, std::size_t vessel, const std::vector<GripInput>& grips);
 GatheredPlanes gather(const Evaluator& core, const FieldSet& fields, std::size_t vessel, const std::vector<GripInput>& grips);
+
+// |a - b|: 0 for two NaN or two infinities of one sign, infinite where one side alone is no number.
+double figure_difference(double a, double b);
+
+// Liquid of a vessel over the scene's fills and tilts by the core, fill-major, as Backend::liquid; empty without one.
+std::vector<LiquidResult> core_liquid(const Scene& scene, const Evaluator& core, std::size_t vessel);
+
+// Height and lean of the centre of mass of glass and liquid, m; the glass's own share to the side is left out, which no state changes.
+std::array<double, 2> loaded_center(const VesselConstants& glass, const LiquidResult& liquid);
 
 // One quantity's comparison over all grips and vessels compared so far.
 struct Comparison {

@@ -159,6 +159,10 @@ class CoreRun {
 
 }  // namespace
 
+BackendInfo core_info(Precision precision, int threads) {
+  return {"core", fmt::format("core, {} thread{}", threads, threads == 1 ? "" : "s"), COMPILER, precision, true};
+}
+
 CoreBackend::CoreBackend(std::shared_ptr<const Evaluator> evaluator, const Scene& scene, const FieldSet& fields,
                          Precision precision, int threads)
     : evaluator_(std::move(evaluator)),
@@ -166,7 +170,7 @@ CoreBackend::CoreBackend(std::shared_ptr<const Evaluator> evaluator, const Scene
       tilts_(scene.tilts),
       fields_(fields),
       threads_(threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))) {
-  info_ = {"core", fmt::format("core, {} thread{}", threads_, threads_ == 1 ? "" : "s"), COMPILER, precision, true};
+  info_ = core_info(precision, threads_);
 }
 
 RunResult CoreBackend::run(const RunRequest& request) {

@@ -8,6 +8,9 @@
 
 namespace wholehand {
 
+// What the core says of itself on so many threads.
+BackendInfo core_info(Precision precision, int threads);
+
 // Chunks are handed out to threads in ascending order and delivered in that order on the thread that called run, so nothing depends
 // on how many threads there are. At most two chunks per thread wait for delivery: memory is bounded whatever the number of grips.
 class CoreBackend final : public Backend {

@@ -57,12 +57,6 @@ FieldSet compared_fields(const Scene& scene) {
   return make_field_set(fields, scene);
 }
 
-double figure_difference(double a, double b) {
-  if (a == b || (std::isnan(a) && std::isnan(b))) return 0;
-  const double apart = std::abs(a - b);
-  return std::isnan(apart) ? std::numeric_limits<double>::infinity() : apart;
-}
-
 bool is_feasible_status(std::uint32_t status) { return (status & STATUS_REASON_MASK) == REASON_NONE; }
 
 // The errors of one quantity, with their places.
@@ -75,8 +69,8 @@ struct QuantityErrors {
   }
 };
 
-// Largest figure_difference between the planes of a field at one grip. With `finite`, infinite values on either side are passed over (a hold force
-// is infinite where the pinch is not antipodal, which is an outcome and not a number): NaN where none is left.
+// Largest difference between the planes of a field at one grip. With `finite`, infinite values on either side are passed over (a hold force is
+// infinite where the pinch is not antipodal, which is an outcome and not a number): NaN where none is left.
 double plane_difference(const GatheredPlanes& a, const GatheredPlanes& b, int field, int planes, std::size_t i, bool finite) {
   double worst = finite ? NO_FIGURE : 0;
   for (int p = 0; p < planes; ++p) {
@@ -118,12 +112,6 @@ bool same_evaluator_options(const EvaluatorOptions& a, const EvaluatorOptions& b
 double middle(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   return values[values.size() / 2];
-}
-
-// Height and lean of the centre of mass of glass and liquid, m.
-std::array<double, 2> loaded_center(const VesselConstants& glass, const LiquidResult& liquid) {
-  const double mass = glass.mass + liquid.mass, share = mass > 0 ? liquid.mass / mass : 0;
-  return {(1 - share) * glass.center_of_mass[1] + share * liquid.height, share * liquid.lean};
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "sweeps/convergence.h"
+#include "sweeps/csv.h"
 #include "sweeps/readable.h"
 
 namespace wholehand {
@@ -16,17 +17,6 @@ namespace {
 
 constexpr const char* ERROR_NAMES[ERROR_QUANTITIES] = {"separation_um", "posed_um", "proxy_um",  "closure",    "gap_um",
                                                        "volume_ml",     "com_um",   "torque_Nm", "feedback_N", "hold_N"};
-
-// A cell of text: in quotes where a comma or a quote would end it.
-std::string error_text_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == text.npos) return text;
-  std::string cell = "\"";
-  for (const char c : text) {
-    if (c == '"') cell += '"';
-    cell += c == '\n' ? ' ' : c;
-  }
-  return cell + '"';
-}
 
 std::string error_number_cell(double value) { return std::isnan(value) ? "" : fmt::format("{:.9g}", value); }
 
@@ -183,17 +173,17 @@ std::string error_csv(const std::vector<ErrorRow>& rows, const ErrorContext& con
     const ErrorVariant& v = row.variant;
     const bool grid = v.options.grid_samples > 0;
     auto out = std::back_inserter(csv);
-    fmt::format_to(out, "{},{},{},{},{},{},{},{:.9g},{},{},{:.6g},{:.6g},{}", error_text_cell(v.name),
-                   v.on_core ? "core" : "vulkan", v.precision == Precision::single ? "float" : "double",
-                   v.on_core ? fmt::format("{}", v.threads) : "", grid ? "grid" : "outline",
-                   grid ? fmt::format("{}", v.options.grid_samples) : "", grid ? fmt::format("{}", v.options.grid_bits) : "",
-                   v.stop_tolerance(), context.states > 0 ? fmt::format("{}", v.options.quadrature_points) : "",
-                   error_text_cell(v.left_out), row.seconds_per_grip, row.spread, row.memory_bytes);
+    fmt::format_to(out, "{},{},{},{},{},{},{},{:.9g},{},{},{:.6g},{:.6g},{}", csv_text(v.name), v.on_core ? "core" : "vulkan",
+                   v.precision == Precision::single ? "float" : "double", v.on_core ? fmt::format("{}", v.threads) : "",
+                   grid ? "grid" : "outline", grid ? fmt::format("{}", v.options.grid_samples) : "",
+                   grid ? fmt::format("{}", v.options.grid_bits) : "", v.stop_tolerance(),
+                   context.states > 0 ? fmt::format("{}", v.options.quadrature_points) : "", csv_text(v.left_out),
+                   row.seconds_per_grip, row.spread, row.memory_bytes);
     for (const ErrorFigures& error : row.errors)
       fmt::format_to(out, ",{},{},{},{}", error_number_cell(error.median), error_number_cell(error.p999),
                      error_number_cell(error.max), error.worst);
     fmt::format_to(out, ",{},{},{},{},{},{}\n", error_count_cell(row.touch_flips), error_count_cell(row.touch_flips_outside),
-                   error_count_cell(row.feasible_flips), error_text_cell(row.device), error_text_cell(row.driver), context.seed);
+                   error_count_cell(row.feasible_flips), csv_text(row.device), csv_text(row.driver), context.seed);
   }
   return csv;
 }

@@ -1,7 +1,6 @@
 #include "sweeps/error_time.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -13,6 +12,7 @@
 #include "sweeps/error_table.h"
 #include "sweeps/files.h"
 #include "sweeps/interrupt.h"
+#include "sweeps/progress.h"
 
 #ifndef WHOLEHAND_VERSION
 #define WHOLEHAND_VERSION "unknown"
@@ -38,15 +38,6 @@ void choose_device_part(const Scene& scene, const std::string& on, VariantChoice
     context.notes.push_back(
         fmt::format("{} takes no outlines of more than {} elements: its variants with one are left out", device.name, MAX_OUTLINE));
   }
-}
-
-void show_variant(std::size_t k, std::size_t all, const std::string& name) {
-  static const bool is_terminal = isatty(STDERR_FILENO) != 0;
-  if (is_terminal) std::fprintf(stderr, "\r\x1b[K%zu of %zu  %s", k + 1, all, name.c_str());
-}
-
-void wipe_variant() {
-  if (isatty(STDERR_FILENO) != 0) std::fprintf(stderr, "\r\x1b[K");
 }
 
 }  // namespace
@@ -80,14 +71,15 @@ ExitCode run_error_time(const Scene& scene, const ErrorTimeOptions& options) {
   context.feasible = measure.feasible();
   context.grazing = measure.grazing();
   const auto variants = error_variants(scene, choice);
-  const auto rows =
-      measure.measure(variants, [&](std::size_t k, const std::string& what) { show_variant(k, variants.size(), what); });
+  const auto rows = measure.measure(variants, [&](std::size_t k, const std::string& what) {
+    show_status(fmt::format("{} of {}  {}", k + 1, variants.size(), what));
+  });
   if (interrupt.flag()) {
-    wipe_variant();
+    show_status("");
     fmt::print(stderr, "wholehand: interrupted while comparing and timing {} variants; nothing was written\n", variants.size());
     return ExitCode::interrupted;
   }
-  wipe_variant();
+  show_status("");
   if (options.on == "core" && !rows.empty()) {
     context.device = rows.front().device;
     context.driver = rows.front().driver;

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "host/grip_backend.h"
 #include "sweeps/core_backend.h"
+#include "sweeps/csv.h"
 #include "sweeps/plan.h"
 
 namespace wholehand {
@@ -33,12 +34,6 @@ std::vector<GripInput> spread_grips(const Plan& plan, std::size_t vessel, std::s
   return grips;
 }
 
-// Of vessel and liquid in the (n, y) plane, m; the vessel's own share to the side is left out, which no state changes.
-std::array<double, 2> center_of(const VesselConstants& vessel, const LiquidResult& liquid) {
-  const double mass = vessel.mass + liquid.mass;
-  return {liquid.mass * liquid.lean / mass, (vessel.mass * vessel.center_of_mass[1] + liquid.mass * liquid.height) / mass};
-}
-
 // The largest difference of a field over the grips that are compared, infinities of one sign being the same.
 double largest_difference(int field, const Scene& scene, const GatheredPlanes& a, const GatheredPlanes& b,
                           const std::vector<char>& compared) {
@@ -48,8 +43,7 @@ double largest_difference(int field, const Scene& scene, const GatheredPlanes& a
   for (int p = 0; p < planes; ++p) {
     for (std::size_t i = 0; i < a.count; ++i) {
       const double x = a.real(a.fields.plane[field] + p, i), y = b.real(b.fields.plane[field] + p, i);
-      if (compared[i] == 0 || x == y || (std::isnan(x) && std::isnan(y))) continue;
-      largest = std::max(largest, std::isfinite(x - y) ? std::abs(x - y) : HUGE_VAL);
+      if (compared[i] != 0) largest = std::max(largest, figure_difference(x, y));
     }
   }
   return largest;
@@ -118,7 +112,7 @@ class ExtremeTally {
         if (row_.misplaced++ == 0) row_.first_misplaced = fmt::format("liquid of state {} is {}", s, value);
       }
       row_.volume = std::max(row_.volume, std::abs(own[s].volume - full[s].volume));
-      const auto a = center_of(vessel_by, own[s]), b = center_of(truth, full[s]);
+      const auto a = loaded_center(vessel_by, own[s]), b = loaded_center(truth, full[s]);
       row_.center_of_mass = std::max(row_.center_of_mass, std::hypot(a[0] - b[0], a[1] - b[1]));
     }
   }
@@ -166,20 +160,6 @@ class ExtremeTally {
   ExtremeRow row_;
 };
 
-std::vector<LiquidResult> liquid_table(const Scene& scene, const Evaluator& core, std::size_t vessel) {
-  std::vector<LiquidResult> states;
-  if (!scene.liquid) return states;
-  for (const double fill : scene.liquid->fills)
-    for (const double tilt : scene.tilts) states.push_back(core.liquid(vessel, fill, tilt));
-  return states;
-}
-
-std::string in_csv_quotes(const std::string& text) {
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
-}
-
 }  // namespace
 
 ExtremeCase extreme_case(const Scene& scene) {
@@ -195,18 +175,20 @@ std::vector<ExtremeRow> evaluate_extreme(const ExtremeCase& extreme, const Extre
   const std::shared_ptr<const Evaluator> full = make_core_evaluator(scene), single = make_core_float_evaluator(scene);
   std::vector<std::vector<GripInput>> grips;
   std::vector<GatheredPlanes> truth;
+  std::vector<std::vector<LiquidResult>> true_liquid;
   for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
     grips.push_back(spread_grips(plan, v, options.grips));
     truth.push_back(gather(*full, fields, v, grips[v]));
+    true_liquid.push_back(core_liquid(scene, *full, v));
   }
   std::vector<ExtremeRow> rows;
   for (const auto& [core, precision] : {std::pair{full, Precision::full}, {single, Precision::single}}) {
-    const BackendInfo info = CoreBackend(nullptr, scene, fields, precision, 1).info();  // nothing else is asked of it
+    const BackendInfo info = core_info(precision, 1);
     ExtremeTally tally(extreme, *full, info, precision == Precision::full);
     for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
       tally.count_steps(*core, v, grips[v]);
       tally.add(v, grips[v], gather(*core, fields, v, grips[v]), truth[v]);
-      tally.add_liquid(v, liquid_table(scene, *core, v), liquid_table(scene, *full, v), core->constants(v));
+      tally.add_liquid(v, core_liquid(scene, *core, v), true_liquid[v], core->constants(v));
     }
     rows.push_back(tally.finished());
   }
@@ -219,7 +201,7 @@ std::vector<ExtremeRow> evaluate_extreme(const ExtremeCase& extreme, const Extre
     ExtremeTally tally(extreme, *full, backend.info(), false);
     for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
       tally.add(v, grips[v], gather(backend, v, grips[v]), truth[v]);
-      if (!scene.tilts.empty()) tally.add_liquid(v, backend.liquid(v), liquid_table(scene, *full, v), full->constants(v));
+      if (!scene.tilts.empty()) tally.add_liquid(v, backend.liquid(v), true_liquid[v], full->constants(v));
     }
     rows.push_back(tally.finished());
     if (!backend.device().float64) break;
@@ -247,7 +229,7 @@ std::string extreme_csv(const std::vector<ExtremeRow>& rows) {
     for (const std::uint64_t number :
          {row.touch_flips, row.touch_flips_outside, row.feasible_flips, row.feasible_flips_outside, row.misplaced})
       text += fmt::format(",{}", number);
-    text += fmt::format(",{},{},{}\n", row.holds ? "yes" : "no", in_csv_quotes(row.device), in_csv_quotes(row.driver));
+    text += fmt::format(",{},{},{}\n", row.holds ? "yes" : "no", csv_text(row.device), csv_text(row.driver));
   }
   return text;
 }

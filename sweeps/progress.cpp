@@ -53,4 +53,8 @@ void Progress::clear() {
   std::fflush(stderr);
 }
 
+void show_status(const std::string& line) {
+  if (isatty(STDERR_FILENO) != 0) std::fprintf(stderr, "\r\x1b[K%s", line.c_str());
+}
+
 }  // namespace wholehand

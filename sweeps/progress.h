@@ -7,6 +7,9 @@
 
 namespace wholehand {
 
+// Shows a line on stderr over the last one, where that is a terminal; "" wipes it. For work that is not counted in grips.
+void show_status(const std::string& line);
+
 // Shows nothing where stderr is not a terminal, nor in the first half second.
 class Progress {
  public:

@@ -1,7 +1,6 @@
 #include "sweeps/stability.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -10,12 +9,15 @@
 #include <cstdio>
 #include <iterator>
 
+#include "sweeps/core_backend.h"
+#include "sweeps/csv.h"
 #include "sweeps/domain.h"
 #include "sweeps/files.h"
 #include "sweeps/gains.h"
 #include "sweeps/gnuplot.h"
 #include "sweeps/grip_loop.h"
 #include "sweeps/interrupt.h"
+#include "sweeps/progress.h"
 #include "sweeps/wall_sweep.h"
 
 namespace wholehand {
@@ -24,11 +26,6 @@ namespace {
 using StabilityClock = std::chrono::steady_clock;
 double seconds_since(StabilityClock::time_point start) {
   return std::chrono::duration<double>(StabilityClock::now() - start).count();
-}
-
-// One line on a terminal, over the last one; "" wipes it.
-void show_progress(const std::string& what) {
-  if (isatty(STDERR_FILENO) != 0) std::fprintf(stderr, "\r\x1b[K%s", what.c_str());
 }
 
 std::string newtons_per_metre(double limit) {
@@ -245,22 +242,22 @@ ExitCode run_stability(const StabilityOptions& options) {
   make_output_folder(options.folder);  // when the device is there, so that a wrong one leaves none
   InterruptGuard interrupt;
   const auto interrupted = [] {
-    show_progress("");
+    show_status("");
     std::fprintf(stderr, "wholehand: interrupted; nothing was written\n");
     return ExitCode::interrupted;
   };
-  show_progress("limits by theory");
+  show_status("limits by theory");
   std::vector<WallSheet> sheets = wall_sheets(options.quick, options.seed);
   const auto start = StabilityClock::now();
   const std::size_t points = count_points(sheets);
   const bool walls_done = run_walls(sheets, runner, [&](std::size_t done) {
-    show_progress(fmt::format("walls {} of {}", done, points));
+    show_status(fmt::format("walls {} of {}", done, points));
     return !interrupt.flag();
   });
   if (!walls_done) return interrupted();
   const double wall_seconds = seconds_since(start);
   const WallFindings found = look_at(sheets);
-  show_progress("held grips");
+  show_status("held grips");
   const std::vector<GripLoopRow> rows = grip_loop_rows(options.quick);
   std::vector<ExtremeRow> extremes;
   ExtremeOptions extreme_options;
@@ -268,13 +265,13 @@ ExitCode run_stability(const StabilityOptions& options) {
   if (options.quick) extreme_options.grips = 40;
   for (const ExtremeCase& extreme : options.extremes) {
     if (interrupt.flag()) return interrupted();
-    show_progress(extreme.name);
+    show_status(extreme.name);
     const auto found_there = evaluate_extreme(extreme, extreme_options);
     extremes.insert(extremes.end(), found_there.begin(), found_there.end());
   }
 
   if (interrupt.flag()) return interrupted();
-  show_progress("summary");
+  show_status("summary");
 
   std::string summary;
   auto out = std::back_inserter(summary);
@@ -287,8 +284,8 @@ ExitCode run_stability(const StabilityOptions& options) {
   if (!options.extremes.empty()) write_extremes(out, options.extremes, extremes);
 
   const std::string stamp = fmt::format("{},{}", WHOLEHAND_VERSION, options.seed);
-  const std::string run = fmt::format("\"{}\",\"{}\",{}", info.device, info.driver, stamp);
-  const std::string on_core = "core,g++ " __VERSION__ "," + stamp;
+  const std::string run = fmt::format("{},{},{}", csv_text(info.device), csv_text(info.driver), stamp);
+  const std::string on_core = fmt::format("core,{},{}", csv_text(core_info(Precision::full, 1).driver), stamp);
   write_whole_file(path("wall.csv"), wall_csv(sheets), false);
   write_whole_file(path("wall_limits.csv"), wall_limits_csv(sheets, run), false);
   write_whole_file(path("grip_loop.csv"), grip_loop_csv(rows, on_core), false);
@@ -300,7 +297,7 @@ ExitCode run_stability(const StabilityOptions& options) {
   const std::string failure = draw_with_gnuplot(script, pictures);
   if (!failure.empty()) std::fprintf(stderr, "wholehand: %s\n", failure.c_str());
   write_whole_file(path("stability.md"), summary, false);
-  show_progress("");
+  show_status("");
   fmt::print("{}\nwritten to {}\n", summary, options.folder);
   return found.passive_unsettled == 0 && wrong_rows(extremes) == 0 ? ExitCode::done : ExitCode::no;
 }

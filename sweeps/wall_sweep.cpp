@@ -12,6 +12,7 @@
 
 #include "core/wall_run.h"
 #include "host/wall_map.h"
+#include "sweeps/core_backend.h"
 #include "sweeps/gnuplot.h"
 
 namespace wholehand {
@@ -178,7 +179,7 @@ const std::vector<NamedDevice>& wall_devices() {
 WallRunner open_wall_runner(const std::string& on, BackendInfo& info, double& kernel_seconds) {
   if (on == "core") {
     const unsigned threads = std::max(1u, std::thread::hardware_concurrency());
-    info = {"core", fmt::format("core, {} threads", threads), "g++ " __VERSION__, Precision::full, true};
+    info = core_info(Precision::full, static_cast<int>(threads));
     return [threads](const std::vector<WallCase>& cases, int samples, int late) {
       std::vector<double> energies(cases.size());
       std::atomic<std::size_t> next{0};

@@ -45,14 +45,6 @@ std::unique_ptr<Evaluator> core_of(const Scene& scene, Precision precision) {
   return precision == Precision::single ? make_core_float_evaluator(scene) : make_core_evaluator(scene);
 }
 
-std::vector<LiquidResult> core_liquid(const Scene& scene, const Evaluator& core, std::size_t vessel) {
-  std::vector<LiquidResult> states;
-  if (!scene.liquid) return states;
-  for (const double fill : scene.liquid->fills)
-    for (const double tilt : scene.tilts) states.push_back(core.liquid(vessel, fill, tilt));
-  return states;
-}
-
 std::string table_of(const Comparer& comparer) {
   std::ostringstream text;
   text.precision(4);

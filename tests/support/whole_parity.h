@@ -25,7 +25,6 @@ std::vector<GripInput> grips_of(const Scene& scene, std::size_t vessel, int coun
 std::unique_ptr<host::GripBackend> backend_of(const Scene& scene, const FieldSet& fields, Precision precision,
                                               host::GripBackendOptions options = {});
 std::unique_ptr<Evaluator> core_of(const Scene& scene, Precision precision);
-std::vector<LiquidResult> core_liquid(const Scene& scene, const Evaluator& core, std::size_t vessel);
 
 std::string table_of(const Comparer& comparer);
 // Device against core of the same precision and against core double, in each precision.
