@@ -1,0 +1,118 @@
+// One tick of a live session as plain data: what the gripper said, what the session made of it, and what the fingers felt. It travels
+// through the ring to whoever records or shows it, and a recording is a list of them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+
+#include "core/scene.h"
+
+namespace wholehand {
+
+constexpr int LIVE_VESSELS = 16;  // at most in a live scene
+
+using Rotation = std::array<double, 9>;  // row-major; its columns are the turned frame's axes
+constexpr Rotation NO_ROTATION{1, 0, 0, 0, 1, 0, 0, 0, 1};
+
+// What a read gives: a value, nothing yet, or an error.
+enum class ReadOutcome : std::uint8_t { value, timeout, error };
+
+// What a gripper says of itself at one moment. Device frame: right-handed, +x to the right and +y up for the person who holds it, +z towards
+// them. The gripper's own +x runs along its closing line: to the index finger of a right hand, to the thumb of a left hand; at
+// NO_ROTATION the palm faces away from the person (-z).
+struct GripperState {
+  Triple position{};               // of the middle between the two tracked points, m
+  Rotation rotation{NO_ROTATION};  // of the gripper in the device frame
+  double gap = 0;                  // between the two tracked points, or what the device has in its place, m
+  std::uint32_t buttons = 0;       // bit k: button k is pressed
+  std::uint32_t sequence = 0;      // another one with each measurement
+  double time = 0;                 // of the measurement by the device's own clock, s; 0 where it has none
+};
+
+// What is written to a gripper, device frame.
+struct GripperForce {
+  Triple arm{};     // N
+  double grip = 0;  // on each finger, N; positive opens
+};
+
+// free: nothing is touched. touching: a tracked tip is on a vessel. Held is lift (upright since the grasp or again, within 5 degrees),
+// tilt (turning by 5 degrees or more within half a second) or maintain (tilted and still). slipped: the vessel returns to where it
+// stood, or the fingers have not left it since. released: no force any more.
+enum class SessionState : std::uint8_t { free, touching, lift, tilt, maintain, slipped, released };
+constexpr int SESSION_STATES = 7;
+extern const std::array<const char*, SESSION_STATES> SESSION_STATE_NAMES;
+constexpr bool is_held(SessionState state) {
+  return state == SessionState::lift || state == SessionState::tilt || state == SessionState::maintain;
+}
+
+// Why a session let go.
+enum class Fault : std::uint8_t {
+  none,
+  read_error,   // the device answers with an error, or is gone
+  timeout,      // it does not answer
+  stale,        // the same measurement twice
+  not_finite,   // a number that is none, or a rotation that is none
+  jump,         // faster than anything physical
+  write_error,  // it takes no force
+  late,         // steps over their budget
+  ring_full,    // the recording does not keep up
+  interrupted,  // SIGINT, SIGTERM, SIGHUP
+};
+constexpr int FAULTS = 10;
+extern const std::array<const char*, FAULTS> FAULT_NAMES;
+
+// Frames: world, that of the scene's places, +y up; vessel, as in docs/method.md. NaN: there is none (nothing held, say).
+struct Tick {
+  static constexpr double NONE = std::numeric_limits<double>::quiet_NaN();
+
+  std::int64_t number = 0;  // periods since the start; time = number / rate
+  ReadOutcome read = ReadOutcome::value;
+  Fault fault = Fault::none;
+  GripperState device;  // as read
+
+  SessionState state = SessionState::free;
+  int vessel = -1;  // touched, held or slipping; -1: none
+  int guidance =
+      -1;  // number of the guidance point that is shown on each vessel that has any (modulo their count); -1 without a task
+
+  // ---- the hand, world frame ----
+  Triple middle{};                      // of the two mapped tips, m
+  Rotation hand_rotation{NO_ROTATION};  // of the gripper's axes
+  double gap = 0;                       // of the hand, m
+  double closure = 0;
+  std::array<Triple, 2> tips{}, proxies{};  // thumb, index, m
+  // of the pose that is kept while held: which joints touch (bit j) and which fingers are used (bit f)
+  std::uint32_t touch_mask = 0, used_mask = 0;
+
+  // ---- the vessel that is touched, held or slipping, world frame ----
+  Triple vessel_place{};                  // of its origin, m
+  Rotation vessel_rotation{NO_ROTATION};  // vessel to world
+  double tilt = 0;                        // between its axis and up, rad
+  double grasp_height = NONE;             // of the middle of the tips at the grasp, vessel frame, m
+  double guidance_distance = NONE;        // of this grasp, m
+
+  // ---- liquid, by vessel, m3: in it, arrived in the target, spilt; what is missing of the sum is in the air ----
+  std::array<double, LIVE_VESSELS> volume{}, arrived{}, spilt{};
+  double flow = 0;  // over the held vessel's lip, m3/s
+
+  // ---- forces, N ----
+  std::array<Triple, 2> coupling{};                          // of the surface on thumb and index tip before the grasp, world frame
+  double weight = 0;                                         // of vessel and liquid, as far as it is lifted
+  double torque = 0, exact_torque = 0;                       // N m
+  double normal_force = 0, opening_force = 0, feedback = 0;  // kernel 7
+  double hold_force = NONE;                                  // what the physics asks for; infinite where the pinch is not antipodal
+  double user_force = 0;  // the user's grip force: feedback less what the torque added since the grasp
+  GripperForce wanted;    // of the method, device frame
+  GripperForce written;   // after limits, ramp and slew, device frame
+
+  // ---- counts since the start ----
+  int grasps = 0, lost = 0, destinations = 0;
+  bool task_done = false;
+
+  // ---- timing, s ----
+  double latency = 0;    // from the tick's time to when the loop woke
+  double step_time = 0;  // from waking until the force was written, waiting for the device included
+};
+
+}  // namespace wholehand

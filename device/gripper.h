@@ -1,0 +1,61 @@
+// A two-finger haptic gripper, whatever is behind it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/tick.h"
+
+namespace wholehand {
+
+// What an open gripper is and can do. Forces are the largest that may ever be written to it.
+struct GripperLimits {
+  std::string name;             // for people, e.g. "omega.7"
+  std::string address;          // what --device would open it again by, e.g. "hid:/dev/hidraw0"
+  double force = 0;             // magnitude at the arm, N
+  double grip = 0;              // at the fingers, N
+  std::array<double, 2> gap{};  // closed, open, m
+  double rate = 0;              // measurements a second at most, Hz
+  bool has_rotation = true;     // false: GripperState::rotation stays NO_ROTATION
+  bool is_left_handed = false;
+};
+
+// An open gripper. Open functions (open_sim, open_hid, ..) throw Error; the methods below are called from the haptic thread, do not throw,
+// and allocate, lock and log nothing of their own. No force is on it until the first write, and none is left when it is destroyed.
+class Gripper {
+ public:
+  Gripper() = default;
+  virtual ~Gripper() = default;
+  Gripper(const Gripper&) = delete;
+  Gripper& operator=(const Gripper&) = delete;
+
+  virtual const GripperLimits& limits() const noexcept = 0;
+
+  // The newest measurement for the tick of that number, waiting for it at most READ_PATIENCE; `state` is left alone where there is none.
+  virtual ReadOutcome read(GripperState& state, std::int64_t tick) noexcept = 0;
+  // False: the device did not take it.
+  virtual bool write(const GripperForce& force) noexcept = 0;
+  // Why the last read or write failed: a few words that stay where they are ("unplugged"). Never null.
+  virtual const char* trouble() const noexcept { return ""; }
+  // Zero force as far as a signal handler may do that, from any thread, whatever the haptic thread was doing. A device that has
+  // nothing of this kind leaves it to its watchdog.
+  virtual void panic() noexcept {}
+  // What is on the screen after this tick. Only simulated users look.
+  virtual void show(const Tick&) noexcept {}
+  // Whether the one who holds it is done: a simulated user, a recording at its end.
+  virtual bool is_done() const noexcept { return false; }
+};
+
+constexpr double READ_PATIENCE = 10e-3;  // s: several periods of any allowed rate, and shorter than a person's shortest reaction
+
+// A gripper that is attached, or would be there if something were not missing.
+struct GripperFound {
+  std::string address;  // for --device; empty where it cannot be opened
+  std::string name;
+  std::string summary;  // limits and rate in one line; empty where they could not be read
+  std::string missing;  // what is missing to open it, and the remedy; empty: nothing
+};
+
+}  // namespace wholehand
