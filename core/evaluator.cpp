@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/grip.h"
+#include "core/held.h"
 #include "core/load.h"
 #include "core/score.h"
 #include "core/trig.h"
@@ -56,11 +57,6 @@ Limits limits_of(const wholehand::EvaluatorOptions& options) {
   if (options.gap_table > 0) limits.gap_steps = 0;
   return limits;
 }
-
-struct StateForces {
-  Real pivot_length, torque, exact_torque, normal, feedback, hold;
-  Vec3 center;
-};
 
 class CoreEvaluator final : public wholehand::Evaluator {
  public:
@@ -156,7 +152,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
     const Vec3 direction = grip_direction(Real(grip.azimuth), Real(grip.obliquity));
     const Vec3 midpoint = to_vec(wholehand::mirrored(result.midpoint, scene_.hand.handedness));
     const Load load = load_of(entry, liquid);
-    const StateForces forces =
+    const HeldForces forces =
         force_state(entry, direction, midpoint, result.antipodal, load, sine(Real(tilt)), cosine(Real(tilt)), Real(opening));
     StateResult state;
     state.mass = load.mass;
@@ -239,7 +235,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
       const std::size_t fills = tilt_sine_.empty() ? 0 : wholehand::scene_fills(scene_);
       for (std::size_t fill = 0; fill < fills; ++fill) {
         const int k = static_cast<int>(fill);
-        const auto keep = [&](std::size_t tilt, const StateForces& s) {
+        const auto keep = [&](std::size_t tilt, const HeldForces& s) {
           const int state = static_cast<int>(fill * tilt_sine_.size() + tilt);
           put(FIELD_PIVOT_LENGTH, state, s.pivot_length);
           put(FIELD_TORQUE, state, s.torque);
@@ -327,14 +323,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
   }
 
   static Load load_of(const VesselEntry& entry, const LiquidResult& liquid) {
-    Load load;
-    const Real own = entry.vessel.mass, held = Real(liquid.mass);
-    load.mass = own + held;
-    const Real share = load.mass > 0 ? held / load.mass : Real(0);
-    load.fixed = (Real(1) - share) * entry.vessel.center_of_mass;
-    load.lean = share * Real(liquid.lean);
-    load.height = share * Real(liquid.height);
-    return load;
+    return load_with(entry.vessel, Real(liquid.mass), Real(liquid.lean), Real(liquid.height));
   }
 
   // Liquid and load of every state, and the torque's reference: upright at the largest fill.
@@ -351,31 +340,13 @@ class CoreEvaluator final : public wholehand::Evaluator {
     const LiquidResult most = wet ? liquid(v, scene_.liquid->fills.back(), 0) : LiquidResult{};
     entry.largest = load_of(entry, most);
     entry.largest_share = entry.largest.mass > 0 ? Real(most.mass) / entry.largest.mass : Real(0);
-    const Real center = entry.largest.fixed.y + entry.largest.height;
-    const Real above = Real(scene_.vessels[v].height) - center;
-    entry.force.reference = entry.largest.mass * entry.force.gravity * std::max(center, above);
+    entry.force.reference = object_reference(entry.largest, entry.force.gravity, Real(scene_.vessels[v].height));
   }
 
-  StateForces force_state(const VesselEntry& entry, Vec3 direction, Vec3 midpoint, bool antipodal, const Load& load, Real sine_tilt,
-                          Real cosine_tilt, Real opening) const {
-    const ForceScale& scale = entry.force;
-    const Vec3 pour = pour_direction(direction, pour_sense_);
-    StateForces state;
-    state.center = load_center(load, pour);
-    const Vec3 arm = state.center - midpoint;
-    state.pivot_length = glm::length(arm);
-    state.torque = pendulum_torque(load.mass, scale.gravity, state.pivot_length, sine_tilt);
-    state.exact_torque = exact_pendulum_torque(load.mass, scale.gravity, arm, pour, sine_tilt, cosine_tilt);
-    const Real reference =
-        scale.per_grip ? grip_reference(entry.largest.mass, scale.gravity, glm::length(load_center(entry.largest, pour) - midpoint))
-                       : scale.reference;
-    const Real torque = scale.exact_torque ? std::abs(state.exact_torque) : state.torque;
-    state.normal = normal_force(scale.base, scale.range, torque, reference);
-    state.feedback = feedback_force(state.normal, opening_force(scale.k_open, opening), scale.max);
-    state.hold = antipodal ? hold_force(load.mass, scale.gravity, arm, direction, up_direction(pour, sine_tilt, cosine_tilt),
-                                        scale.friction, scale.torsion)
-                           : std::numeric_limits<Real>::infinity();
-    return state;
+  HeldForces force_state(const VesselEntry& entry, Vec3 direction, Vec3 midpoint, bool antipodal, const Load& load, Real sine_tilt,
+                         Real cosine_tilt, Real opening) const {
+    return held_forces(entry.force, load, entry.largest, direction, midpoint, pour_direction(direction, pour_sense_), sine_tilt,
+                       cosine_tilt, antipodal, opening);
   }
 
   template <class Keep>
@@ -386,7 +357,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
     bool safe = true;
     for (std::size_t t = 0; t < tilt_sine_.size(); ++t) {
       const Load& load = entry.loads[fill * tilt_sine_.size() + t];
-      const StateForces state = force_state(entry, direction, midpoint, antipodal, load, tilt_sine_[t], tilt_cosine_[t], 0);
+      const HeldForces state = force_state(entry, direction, midpoint, antipodal, load, tilt_sine_[t], tilt_cosine_[t], 0);
       if (state.feedback > peak_force) {
         peak_force = state.feedback;
         peak_tilt = Real(scene_.tilts[t]);

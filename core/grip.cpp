@@ -122,13 +122,10 @@ void examine_pose(const Hand& hand, const Vessel& vessel, PoseKind pose, Wanted 
 
 }  // namespace
 
-void evaluate_grip(const Hand& hand, const Vessel& vessel, PoseKind pose, Grip grip, Real friction, Wanted wanted,
-                   GripAnswer& answer) {
+void rest_hand(const Hand& hand, const Vessel& vessel, PoseKind pose, const Closing& closing, Real friction, Wanted wanted,
+               GripAnswer& answer) {
   answer = GripAnswer{};
-  answer.closing = close_fingers(hand, vessel, grip);
-  const Closing& closing = answer.closing;
-  answer.status = static_cast<std::uint32_t>(closing.reason);
-  if (closing.reason != REASON_NONE) return;
+  answer.closing = closing;
   if (closing.grazing) answer.status |= STATUS_GRAZING;
   const Real cone = std::atan(friction);
   if (cone > 0 && closing.thumb_angle <= cone && closing.index_angle <= cone) answer.status |= STATUS_ANTIPODAL;
@@ -174,6 +171,18 @@ void evaluate_grip(const Hand& hand, const Vessel& vessel, PoseKind pose, Grip g
     }
   }
   examine_pose(hand, vessel, pose, wanted, scale, before, answer);
+}
+
+void evaluate_grip(const Hand& hand, const Vessel& vessel, PoseKind pose, Grip grip, Real friction, Wanted wanted,
+                   GripAnswer& answer) {
+  const Closing closing = close_fingers(hand, vessel, grip);
+  if (closing.reason == REASON_NONE) {
+    rest_hand(hand, vessel, pose, closing, friction, wanted, answer);
+    return;
+  }
+  answer = GripAnswer{};
+  answer.closing = closing;
+  answer.status = static_cast<std::uint32_t>(closing.reason);
 }
 
 }  // namespace CORE_NS

@@ -31,7 +31,10 @@ struct GripAnswer {
 // First joint of a finger, and whether a joint is a metacarpal base.
 constexpr int first_joint(int finger) { return finger == 0 ? 0 : 4 + 5 * (finger - 1); }
 
-// Allocates nothing. Fields as in wholehand::GripResult; where not wanted they keep their zeros. `friction` decides `antipodal`.
+// Kernels 5 and 4 of a hand that has closed: `closing` tells where it is, without a reason against it. Allocates nothing.
+void rest_hand(const Hand& hand, const Vessel& vessel, PoseKind pose, const Closing& closing, Real friction, Wanted wanted,
+               GripAnswer& answer);
+// The whole. Allocates nothing. Fields as in wholehand::GripResult; where not wanted they keep their zeros. `friction` decides `antipodal`.
 void evaluate_grip(const Hand& hand, const Vessel& vessel, PoseKind pose, Grip grip, Real friction, Wanted wanted,
                    GripAnswer& answer);
 

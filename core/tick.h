@@ -112,7 +112,7 @@ struct Tick {
 
   // ---- timing, s ----
   double latency = 0;    // from the tick's time to when the loop woke
-  double step_time = 0;  // from waking until the force was written, waiting for the device included
+  double step_time = 0;  // from having the measurement until the force was written
 };
 
 }  // namespace wholehand

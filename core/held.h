@@ -1,0 +1,25 @@
+// Kernel 7 on a vessel in the hand: its load at a fill and tilt, and what the fingers then feel. One piece for sweeps and live sessions.
+#pragma once
+
+#include "core/force.h"
+#include "core/sdf.h"
+
+namespace CORE_NS {
+
+// The vessel with liquid of a mass (kg) whose centre lies at `lean` along the pour direction and `height`, m.
+Load load_with(const Vessel& vessel, Real liquid_mass, Real lean, Real height);
+// tau_ref of a vessel: its largest load upright, about the farther of base and mouth, N m; `mouth_height` in m.
+Real object_reference(Load largest, Real gravity, Real mouth_height);
+
+// Forces in N, torques in N m, lengths in m; `center` of mass in the vessel frame.
+struct HeldForces {
+  Real pivot_length = 0, torque = 0, exact_torque = 0, normal = 0, opening = 0, feedback = 0, hold = 0;
+  Vec3 center{};
+};
+
+// A vessel held by tips on a line along `direction` about `midpoint`, leaning towards `pour` by the tilt; `largest` as for
+// object_reference; `squeeze` = g_grasp - g, m. The hold force of a pinch that is not antipodal is infinite.
+HeldForces held_forces(const ForceScale& scale, Load load, Load largest, Vec3 direction, Vec3 midpoint, Vec3 pour, Real sine_tilt,
+                       Real cosine_tilt, bool antipodal, Real squeeze);
+
+}  // namespace CORE_NS

@@ -1,0 +1,48 @@
+// Tracked tips before the grasp: each has a proxy that stays outside of every vessel and is carried from step to step (Ruspini et al. 1997),
+// so that no wall is crossed between two steps, however thin.
+#pragma once
+
+#include <array>
+
+#include "core/contact.h"
+#include "core/tick.h"
+
+namespace wholehand {
+
+// What stands in the way: vessels upright at their places.
+struct Obstacles {
+  struct Standing {
+    const core_f64::Vessel* vessel = nullptr;
+    core_f64::Vec3 place{};
+    bool is_solid = false;  // false: it is not felt, a vessel in the hand for instance
+  };
+  std::array<Standing, LIVE_VESSELS> standing{};
+  int count = 0;
+};
+
+// The nearest solid vessel to a point of that radius: its number (-1: none), and the separation, m. `skip`: one that does not count.
+struct NearestVessel {
+  int vessel = -1;
+  double separation = core_f64::NO_DISTANCE;
+};
+NearestVessel nearest_vessel(const Obstacles& obstacles, core_f64::Vec3 point, double radius) noexcept;
+// Separation of a point of that radius from one vessel, m.
+double vessel_separation(const Obstacles::Standing& standing, core_f64::Vec3 point, double radius) noexcept;
+
+// One tip's proxy.
+struct Proxy {
+  core_f64::Vec3 place{};
+  core_f64::Vec3 normal{};  // outward, of the nearest vessel at the proxy; only where it touches
+  int vessel = -1;          // which it touches; -1: none
+  int element = -1;         // of that vessel's outline
+};
+
+// The proxy for a tip that is now at `tip`, m, where it was `before`. It goes towards the tip in steps that cannot pass a surface and is
+// moved out along the normal after each, until it is as near as it gets: its place on the surface nearest to the tip. Friction: it stays
+// where it was while the tip pulls it sideways by less than `friction` times the depth, and otherwise lags behind by that much. It never
+// ends inside, and where PROXY_MOVES steps do not suffice it goes on in the next tick.
+// Degenerate: in an edge where two surfaces meet it is moved out of one after the other; where that does not end it stays.
+Proxy carry_proxy(const Obstacles& obstacles, const Proxy& before, core_f64::Vec3 tip, double radius, double friction) noexcept;
+constexpr int PROXY_MOVES = 24;
+
+}  // namespace wholehand

@@ -1,0 +1,397 @@
+#include "core/session.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/gtc/quaternion.hpp>
+
+#include "core/error.h"
+#include "core/load.h"
+#include "core/prepare.h"
+#include "core/trig.h"
+
+namespace wholehand {
+
+using core_f64::Mat3;
+using core_f64::Vec3;
+
+namespace {
+
+Vec3 normalized_or(Vec3 v, Vec3 otherwise) {
+  const double length = glm::length(v);
+  return length > 1e-12 ? v / length : otherwise;
+}
+
+// From the first place to the second without a jerk at either end, 0 to 1 over 0 to 1.
+double minimum_jerk(double t) {
+  const double s = std::clamp(t, 0.0, 1.0);
+  return s * s * s * (10 + s * (6 * s - 15));
+}
+
+std::array<double, 2> gap_of(const core_f64::Hand& hand) { return {hand.scale * hand.gap_closed, hand.scale * hand.gap_open}; }
+
+std::vector<double> volumes_of(const LiveScene& live) {
+  std::vector<double> volumes;
+  for (const LiveVessel& vessel : live.vessels) volumes.push_back(vessel.volume);
+  return volumes;
+}
+
+LiveVessel load_live_vessel(const Scene& scene, const VesselData& data, const core_f64::Quadrature& quadrature) {
+  const bool is_left = scene.hand.handedness == Handedness::left;
+  LiveVessel live;
+  live.vessel =
+      core_f64::load_vessel(prepare_vessel(data, data.wall > 0), data, quadrature, scene.liquid.has_value(), scene.hand.handedness);
+  live.force = core_f64::load_force(scene, data);
+  live.home = to_vec3(mirrored(data.place, scene.hand.handedness));
+  double most = 0;
+  core_f64::LiquidState liquid;
+  liquid.height = live.vessel.floor_height;
+  if (scene.liquid) {
+    live.volume = data.liquid_fill * live.vessel.capacity;
+    most = scene.liquid->fills.back() * live.vessel.capacity;
+    liquid = core_f64::liquid_at(live.vessel, quadrature, most, 0, 1);
+  }
+  const double density = scene.liquid ? scene.liquid->density : 0;
+  live.largest = core_f64::load_with(live.vessel, most * density, liquid.lean, liquid.height);
+  live.force.reference = core_f64::object_reference(live.largest, live.force.gravity, data.height);
+  for (const GuidancePoint& point : data.guidance) {
+    const double azimuth = is_left ? PI - point.azimuth : point.azimuth;
+    const Vec3 out = core_f64::grip_direction(azimuth, 0), axis(0, point.height, 0);
+    const core_f64::Trace trace = core_f64::trace_tip(live.vessel, axis, out, 1, 0);
+    live.guidance.push_back(trace.reason == REASON_NONE ? axis + trace.t * out : axis);
+  }
+  return live;
+}
+
+}  // namespace
+
+LiveScene::LiveScene(const Scene& given) : scene(given) {
+  refuse_meshes(scene);
+  if (scene.vessels.empty() || scene.vessels.size() > LIVE_VESSELS) {
+    throw usage_error(at_place(scene.file, "a live session has 1 to " + std::to_string(LIVE_VESSELS) + " vessels; this scene has " +
+                                               std::to_string(scene.vessels.size())));
+  }
+  hand = core_f64::load_hand(prepare_hand(scene.hand), scene.hand);
+  quadrature = core_f64::load_quadrature(prepare_quadrature(QUADRATURE_POINTS));
+  for (const VesselData& data : scene.vessels) {
+    if (tutorial < 0 && scene.task && data.liquid_name.empty()) tutorial = static_cast<int>(vessels.size());
+    vessels.push_back(load_live_vessel(scene, data, quadrature));
+  }
+}
+
+Session::Session(const Scene& scene, std::array<double, 2> device_gap)
+    : live_(std::make_unique<const LiveScene>(scene)),
+      workspace_(scene, device_gap, gap_of(live_->hand)),
+      pouring_(volumes_of(*live_), scene.task, scene.gravity, scene.live.rate),
+      period_(1 / scene.live.rate),
+      radii_{live_->hand.scale * live_->hand.radius[0][3], live_->hand.scale * live_->hand.radius[1][4]} {
+  for (const LiveVessel& vessel : live_->vessels) obstacles_.standing[obstacles_.count++] = {&vessel.vessel, vessel.home, false};
+}
+
+// A tick: where the hand is; then what holds, comes back or is touched; then the forces.
+void Session::step(const GripperState& state, std::int64_t number, Tick& tick) noexcept {
+  const core_f64::Hand& hand = live_->hand;
+  seconds_ = period_ * static_cast<double>(number_ < 0 ? 1 : std::max<std::int64_t>(1, number - number_));
+  const HandPose pose = workspace_.map(state);
+  const double closure = core_f64::closure_of_gap(hand, pose.gap / hand.scale, hand.limits.stop_tolerance / hand.scale);
+  const Vec3 half = 0.5 * pose.gap * pose.rotation[0];
+  tips_ = {pose.middle - half, pose.middle + half};
+  if (number_ < 0) {
+    tips_before_ = tips_;
+    for (int k = 0; k < 2; ++k) proxies_[k].place = tips_[k];
+  }
+  tick = Tick{};
+  tick.number = number;
+  tell(pose, closure, tick);
+  pouring_.land(number);
+  if (is_held(state_)) {
+    hold(pose, state.gap, seconds_, tick);
+  } else {
+    if (state_ == SessionState::slipped) come_back(tick);
+    settle_vessels();
+    approach(pose, closure, tick);
+    if (state_ != SessionState::slipped && grasp(pose, state.gap, tick)) hold(pose, state.gap, 0, tick);
+  }
+  tick.state = state_;
+  tick.vessel = vessel_;
+  for (int v = 0; v < obstacles_.count; ++v) {
+    tick.volume[v] = pouring_.volume(v);
+    tick.arrived[v] = pouring_.arrived(v);
+    tick.spilt[v] = pouring_.spilt(v);
+  }
+  const int done = tasks_done();
+  tick.guidance = live_->scene.task ? done : -1;
+  tick.task_done =
+      live_->scene.task && done == static_cast<int>(live_->scene.task->amounts.size()) + (live_->tutorial >= 0 ? 1 : 0);
+  tick.grasps = grasps_;
+  tick.lost = lost_;
+  tick.destinations = destinations_;
+  tips_before_ = tips_;
+  number_ = number;
+}
+
+// A vessel is felt from when both tips have left it: at the start, and after it was held.
+void Session::settle_vessels() noexcept {
+  for (int v = 0; v < obstacles_.count; ++v) {
+    auto& standing = obstacles_.standing[v];
+    if (standing.is_solid || (state_ == SessionState::slipped && v == vessel_)) continue;
+    standing.is_solid =
+        vessel_separation(standing, tips_[0], radii_[0]) > 0 && vessel_separation(standing, tips_[1], radii_[1]) > 0;
+  }
+}
+
+// Before the grasp: the coupling of both tips to their proxies.
+void Session::approach(const HandPose& pose, double, Tick& tick) noexcept {
+  const LiveData& live = live_->scene.live;
+  const double friction = live_->scene.force.friction;
+  if (state_ != SessionState::slipped) {
+    state_ = SessionState::free;
+    vessel_ = -1;
+  }
+  std::array<Vec3, 2> forces{};
+  for (int k = 0; k < 2; ++k) {
+    proxies_[k] = carry_proxy(obstacles_, proxies_[k], tips_[k], radii_[k], friction);
+    const Proxy& proxy = proxies_[k];
+    const NearestVessel nearest = nearest_vessel(obstacles_, tips_[k], radii_[k]);
+    const bool touches = proxy.vessel >= 0 || nearest.separation <= live_->hand.contact_tolerance;
+    if (touches && state_ != SessionState::slipped) {
+      state_ = SessionState::touching;
+      vessel_ = proxy.vessel >= 0 ? proxy.vessel : nearest.vessel;
+      tell_vessel({obstacles_.standing[vessel_].place, Mat3(1)}, tick);
+    }
+    if (proxy.vessel >= 0 && !workspace_.is_clutched()) {
+      const Vec3 velocity = (tips_[k] - tips_before_[k]) / seconds_;
+      forces[k] = core_f64::coupling_force(tips_[k], proxy.place, proxy.normal, velocity, live.stiffness, live.damping);
+    }
+    tick.coupling[k] = to_triple(workspace_.across(forces[k]));
+    tick.proxies[k] = to_triple(workspace_.across(proxy.place));
+  }
+  tick.wanted.arm = workspace_.to_device(forces[0] + forces[1]);
+  // what moves both tips apart by one metre of gap moves each by half of it
+  tick.wanted.grip = 0.5 * glm::dot(forces[1] - forces[0], pose.rotation[0]);
+  tick.feedback = tick.wanted.grip;
+  tick.user_force = tick.feedback;
+}
+
+// Both tips on the same vessel, one from each side, neither on its lid, at a gap that the hand can make: held from now on.
+bool Session::grasp(const HandPose& pose, double device_gap, Tick& tick) noexcept {
+  const core_f64::Hand& hand = live_->hand;
+  std::array<Vec3, 2> normals{};
+  std::array<int, 2> vessels{-1, -1};
+  for (int k = 0; k < 2; ++k) {
+    const NearestVessel nearest = nearest_vessel(obstacles_, tips_[k], radii_[k]);
+    if (nearest.vessel < 0 || nearest.separation > hand.contact_tolerance) return false;
+    const auto& standing = obstacles_.standing[nearest.vessel];
+    int element = -1;
+    normals[k] = core_f64::distance_gradient(*standing.vessel, proxies_[k].place - standing.place, element);
+    if (standing.vessel->lid >= 0 && element == standing.vessel->lid) return false;
+    vessels[k] = nearest.vessel;
+  }
+  if (vessels[0] != vessels[1]) return false;
+  const int v = vessels[0];
+  const LiveVessel& live = live_->vessels[v];
+  const Vec3 place = obstacles_.standing[v].place;
+  const Vec3 apart = proxies_[1].place - proxies_[0].place;
+  const double gap = glm::length(apart);
+  if (!(gap > radii_[0] + radii_[1])) return false;
+  core_f64::Closing closing;
+  closing.direction = apart / gap;
+  const double thumb = glm::dot(normals[0], -closing.direction), index = glm::dot(normals[1], closing.direction);
+  if (!(thumb > GRAZING_COSINE && index > GRAZING_COSINE)) return false;
+  closing.gap = std::clamp(gap, hand.scale * hand.gap_closed, hand.scale * hand.gap_open);
+  closing.midpoint = 0.5 * (proxies_[0].place + proxies_[1].place) - place;
+  closing.closure = core_f64::closure_of_gap(hand, closing.gap / hand.scale, hand.limits.stop_tolerance / hand.scale);
+  closing.thumb_angle = core_f64::angle_between(normals[0], -closing.direction);
+  closing.index_angle = core_f64::angle_between(normals[1], closing.direction);
+  // the gripper's axes, turned so that the first lies along the contacts
+  const Vec3 up =
+      normalized_or(pose.rotation[1] - glm::dot(pose.rotation[1], closing.direction) * closing.direction, pose.rotation[2]);
+  double e1_x = 0;
+  closing.placement = place_live_hand(hand, closing.closure, Mat3(closing.direction, up, glm::cross(closing.direction, up)),
+                                      closing.midpoint, hand.scale, e1_x);
+  if (std::abs(e1_x) > LARGEST_E1_X) return false;
+  core_f64::GripAnswer answer;
+  core_f64::rest_hand(hand, live.vessel, static_cast<core_f64::PoseKind>(static_cast<int>(live_->scene.pose)), closing,
+                      live_->scene.force.friction, {false, false}, answer);
+
+  grasp_ = Grasp{};
+  grasp_.device_gap = device_gap;
+  grasp_.is_antipodal = (answer.status & STATUS_ANTIPODAL) != 0;
+  grasp_.midpoint = closing.midpoint;
+  grasp_.direction = closing.direction;
+  grasp_.touch_mask = answer.touch_mask;
+  grasp_.used_mask = answer.used_mask;
+  for (int k = 0; k < 2; ++k) grasp_.proxies[k] = proxies_[k].place - place;
+  grasp_.turn = glm::transpose(pose.rotation);
+  grasp_.offset = grasp_.turn * (place - pose.middle);
+  if (live_->scene.task && !live.guidance.empty()) {
+    const Vec3 shown = live.guidance[tasks_done() % live.guidance.size()];
+    grasp_.guidance_distance = std::min(glm::length(grasp_.proxies[0] - radii_[0] * normals[0] - shown),
+                                        glm::length(grasp_.proxies[1] - radii_[1] * normals[1] - shown));
+  }
+  obstacles_.standing[v].is_solid = false;
+  vessel_ = v;
+  state_ = SessionState::lift;
+  is_turning_ = false;
+  turn_from_ = turn_time_ = 0;
+  ++grasps_;
+  tick.coupling = {};
+  return true;
+}
+
+// In the hand: the vessel goes with it, its liquid runs, and the gripper feels kernel 7.
+void Session::hold(const HandPose& pose, double device_gap, double seconds, Tick& tick) noexcept {
+  const LiveVessel& live = live_->vessels[vessel_];
+  const Pose vessel{pose.middle + pose.rotation * grasp_.offset, pose.rotation * grasp_.turn};
+  const Vec3 up = glm::transpose(vessel.rotation) * Vec3(0, 1, 0);
+  const double sine = std::sqrt(up.x * up.x + up.z * up.z), cosine = up.y;
+  const bool is_upright = sine < UPRIGHT_SINE_F64;
+  const double off_axis = std::hypot(grasp_.direction.x, grasp_.direction.z);
+  const double sense = live_->scene.liquid && live_->scene.liquid->pour == Pour::towards ? -1 : 1;
+  const Vec3 across = off_axis > DEGENERATE_SINE_F64 ? core_f64::pour_direction(grasp_.direction, sense) : Vec3(1, 0, 0);
+  const Vec3 lean = is_upright ? across : Vec3(-up.x / sine, 0, -up.z / sine);
+  tick.tilt = std::atan2(sine, cosine);
+
+  core_f64::LiquidState liquid;
+  liquid.height = live.vessel.floor_height;
+  double density = 0;
+  if (pouring_.volume(vessel_) > 0) {
+    density = live_->scene.liquid->density;
+    const double held_back = core_f64::lip_capacity(live.vessel, live_->quadrature, sine, cosine);
+    const Vec3 lip = vessel.place + vessel.rotation * (live.vessel.mouth_radius * lean + Vec3(0, live.vessel.mouth_height, 0));
+    tick.flow = pouring_.pour(vessel_, held_back, workspace_.across(lip), tick.number, seconds);
+    liquid = core_f64::liquid_at(live.vessel, live_->quadrature, std::min(pouring_.volume(vessel_), held_back), sine, cosine);
+  }
+  const core_f64::Load load = core_f64::load_with(live.vessel, density * pouring_.volume(vessel_), liquid.lean, liquid.height);
+  const core_f64::HeldForces held = core_f64::held_forces(live.force, load, live.largest, grasp_.direction, grasp_.midpoint, lean,
+                                                          sine, cosine, grasp_.is_antipodal, grasp_.device_gap - device_gap);
+  if (seconds == 0) grasp_.normal = held.normal;  // the moment of grasp
+  state_ = turning(tick.tilt);
+
+  const Vec3 home = obstacles_.standing[vessel_].place;
+  const Vec3 destination = live_->scene.task ? workspace_.across(to_vec3(live_->scene.task->destination)) : Vec3(0);
+  if (vessel_ == live_->tutorial && !is_tutored_ && glm::length(vessel.place - destination) <= DESTINATION_RADIUS) {
+    grasp_.is_delivered = true;
+    is_tutored_ = true;
+    ++destinations_;
+  }
+  tick.weight = load.mass * live.force.gravity * minimum_jerk((vessel.place.y - home.y) / FULL_WEIGHT);
+  tick.torque = held.torque;
+  tick.exact_torque = held.exact_torque;
+  tick.normal_force = held.normal;
+  tick.opening_force = held.opening;
+  tick.feedback = held.feedback;
+  tick.hold_force = held.hold;
+  tick.user_force = held.feedback - (held.normal - grasp_.normal);
+  tick.wanted.arm = workspace_.to_device(Vec3(0, -tick.weight, 0));
+  tick.wanted.grip = held.feedback;
+  tick.touch_mask = grasp_.touch_mask;
+  tick.used_mask = grasp_.used_mask;
+  tick.grasp_height = grasp_.midpoint.y;
+  tick.guidance_distance = grasp_.guidance_distance;
+  for (int k = 0; k < 2; ++k) tick.proxies[k] = to_triple(workspace_.across(vessel.place + vessel.rotation * grasp_.proxies[k]));
+  tell_vessel(vessel, tick);
+
+  const std::array<double, 2> range = workspace_.device_gap();
+  const bool is_open = device_gap >= range[1] - OPEN_MARGIN * (range[1] - range[0]);
+  if (device_gap - grasp_.device_gap > live_->scene.live.slip || (is_open && device_gap > grasp_.device_gap)) slip(vessel);
+  if (state_ == SessionState::slipped) {
+    tick.wanted = {};
+    tick.feedback = tick.user_force = 0;
+    tick.weight = 0;
+  }
+}
+
+// lift, tilt or maintain: the tilt since it last changed by the step, and for how long it has not.
+SessionState Session::turning(double tilt) noexcept {
+  turn_time_ += seconds_;
+  if (std::abs(tilt - turn_from_) >= TURN_STEP) {
+    is_turning_ = true;
+    turn_from_ = tilt;
+    turn_time_ = 0;
+  } else if (turn_time_ >= TURN_WINDOW) {
+    is_turning_ = false;
+    turn_from_ = tilt;
+    turn_time_ = 0;
+  }
+  if (is_turning_) return SessionState::tilt;
+  return tilt < TURN_STEP ? SessionState::lift : SessionState::maintain;
+}
+
+void Session::slip(const Pose& pose) noexcept {
+  Vec3& home = obstacles_.standing[vessel_].place;
+  if (grasp_.is_delivered &&
+      glm::length(pose.place - workspace_.across(to_vec3(live_->scene.task->destination))) <= DESTINATION_RADIUS) {
+    home = workspace_.across(to_vec3(live_->scene.task->destination));
+  } else if (glm::length(pose.place - home) > PUT_DOWN) {
+    ++lost_;
+  }
+  state_ = SessionState::slipped;
+  slipped_from_ = pose;
+  slipped_for_ = 0;
+  for (int k = 0; k < 2; ++k) proxies_[k] = {tips_[k], {}, -1, -1};
+}
+
+// Back to where it stood, upright; then it waits there until the fingers have left it.
+void Session::come_back(Tick& tick) noexcept {
+  slipped_for_ += seconds_;
+  const double way = minimum_jerk(slipped_for_ / RETURN_TIME);
+  const auto& standing = obstacles_.standing[vessel_];
+  Pose pose;
+  pose.place = glm::mix(slipped_from_.place, standing.place, way);
+  if (way < 1) {
+    const auto upright = glm::identity<glm::dquat>();
+    pose.rotation = glm::mat3_cast(glm::slerp(glm::quat_cast(slipped_from_.rotation), upright, way));
+  }
+  tell_vessel(pose, tick);
+  tick.tilt = std::acos(std::clamp(pose.rotation[1].y, -1.0, 1.0));
+  const bool are_clear =
+      vessel_separation(standing, tips_[0], radii_[0]) > 0 && vessel_separation(standing, tips_[1], radii_[1]) > 0;
+  if (way >= 1 && are_clear) state_ = SessionState::free;
+}
+
+int Session::tasks_done() const noexcept {
+  const Scene& scene = live_->scene;
+  if (!scene.task) return 0;
+  int done = is_tutored_ ? 1 : 0;
+  for (const auto& [name, amount] : scene.task->amounts) {
+    double arrived = 0;
+    for (std::size_t v = 0; v < scene.vessels.size(); ++v)
+      if (scene.vessels[v].liquid_name == name) arrived += pouring_.arrived(static_cast<int>(v));
+    if (std::abs(arrived - amount) <= scene.task->tolerance) ++done;
+  }
+  return done;
+}
+
+void Session::tell(const HandPose& pose, double closure, Tick& tick) const noexcept {
+  tick.middle = to_triple(workspace_.across(pose.middle));
+  tick.hand_rotation = to_rotation(workspace_.across(pose.rotation));
+  tick.gap = pose.gap;
+  tick.closure = closure;
+  for (int k = 0; k < 2; ++k) tick.tips[k] = to_triple(workspace_.across(tips_[k]));
+}
+
+void Session::tell_vessel(const Pose& pose, Tick& tick) const noexcept {
+  tick.vessel_place = to_triple(workspace_.across(pose.place));
+  tick.vessel_rotation = to_rotation(workspace_.across(pose.rotation));
+}
+
+// As place_hand, with the axes given instead of line and roll: at roll 0 the little finger's side is against the gripper's second axis.
+core_f64::Placement place_live_hand(const core_f64::Hand& hand, double closure, const Mat3& rotation, Vec3 middle, double scale,
+                                    double& e1_x) {
+  Vec3 slope{};
+  const Vec3 apart = core_f64::tip_to_tip(hand, closure, slope);
+  const Vec3 e1 = apart / glm::length(apart);
+  e1_x = e1.x;
+  const Vec3 e2 = normalized_or(Vec3(1, 0, 0) - e1.x * e1, Vec3(0, 1, 0));
+  const Mat3 hand_axes(e1, e2, glm::cross(e1, e2)), gripper_axes(rotation[0], -rotation[1], -rotation[2]);
+  core_f64::Placement placement;
+  placement.scale = scale;
+  placement.rotation = gripper_axes * glm::transpose(hand_axes);
+  const Vec3 lengths(hand.length[0][0], hand.length[0][1], hand.length[0][2]);
+  const Vec3 thumb = core_f64::thumb_points(hand.frame[0], lengths, core_f64::thumb_angles(hand, closure)).tip;
+  placement.translation = middle - placement.rotation * (scale * (thumb + 0.5 * apart));
+  return placement;
+}
+
+}  // namespace wholehand

@@ -1,0 +1,115 @@
+// A live session as a pure state machine: from what the gripper says to what the fingers feel, one tick after the other. The same states
+// at the same ticks give the same forces to the bit.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/grip.h"
+#include "core/held.h"
+#include "core/pouring.h"
+#include "core/proxy.h"
+#include "core/workspace.h"
+
+namespace wholehand {
+
+// A vessel of the scene made ready for a session, in the world of the right hand.
+struct LiveVessel {
+  core_f64::Vessel vessel;
+  core_f64::ForceScale force;
+  core_f64::Load largest;                // upright at the scene's largest fill
+  std::vector<core_f64::Vec3> guidance;  // on its outer surface, vessel frame
+  core_f64::Vec3 home{};                 // where it stands at the start
+  double volume = 0;                     // at the start, m3
+};
+
+// All that a session has that no tick changes. Throws Error (usage): no vessel or more than LIVE_VESSELS, a mesh, a hand or a vessel that is
+// physically impossible, liquid for a vessel without walls.
+struct LiveScene {
+  explicit LiveScene(const Scene& scene);
+  Scene scene;
+  core_f64::Hand hand;
+  core_f64::Quadrature quadrature;
+  std::vector<LiveVessel> vessels;
+  int tutorial = -1;  // the vessel to be carried to the destination: the first without liquid, where there is a task; -1: none
+};
+
+class Session {
+ public:
+  // `device_gap`: closed and open gap of the device, m. Throws Error (usage) where it is no range and the scene says none.
+  Session(const Scene& scene, std::array<double, 2> device_gap);
+
+  // The tick of that number, which is greater than the one before. Fills the whole tick but read, fault, device, written and timing. Neither
+  // allocates nor throws. The state must be finite.
+  void step(const GripperState& state, std::int64_t number, Tick& tick) noexcept;
+
+  const LiveScene& live() const noexcept { return *live_; }
+  const Workspace& workspace() const noexcept { return workspace_; }
+
+ private:
+  // What is kept from the moment of a grasp. Vessel frame: `midpoint` and `direction` of the tips, their contacts' proxies.
+  struct Grasp {
+    double device_gap = 0;  // g_grasp, m
+    double normal = 0;      // F_n then, N
+    bool is_antipodal = false;
+    core_f64::Vec3 midpoint{}, direction{};
+    std::array<core_f64::Vec3, 2> proxies{};
+    core_f64::Mat3 turn{1};   // of the vessel in the gripper's axes
+    core_f64::Vec3 offset{};  // of the vessel's origin from the middle of the tips, in the gripper's axes
+    std::uint32_t touch_mask = 0, used_mask = 0;
+    double guidance_distance = Tick::NONE;
+    bool is_delivered = false;
+  };
+  struct Pose {
+    core_f64::Vec3 place{};
+    core_f64::Mat3 rotation{1};
+  };
+
+  void approach(const HandPose& pose, double closure, Tick& tick) noexcept;
+  bool grasp(const HandPose& pose, double device_gap, Tick& tick) noexcept;
+  void hold(const HandPose& pose, double device_gap, double seconds, Tick& tick) noexcept;
+  SessionState turning(double tilt) noexcept;
+  void slip(const Pose& pose) noexcept;
+  void come_back(Tick& tick) noexcept;
+  void settle_vessels() noexcept;
+  int tasks_done() const noexcept;
+  void tell(const HandPose& pose, double closure, Tick& tick) const noexcept;
+  void tell_vessel(const Pose& pose, Tick& tick) const noexcept;
+
+  std::unique_ptr<const LiveScene> live_;  // where it is: obstacles point into it
+  Workspace workspace_;
+  Pouring pouring_;
+  Obstacles obstacles_;
+  double period_;                // s
+  std::array<double, 2> radii_;  // of thumb and index tip, m
+  std::int64_t number_ = -1;     // of the tick before; -1: none
+  std::array<core_f64::Vec3, 2> tips_{}, tips_before_{};
+  std::array<Proxy, 2> proxies_{};
+  double seconds_ = 0;  // since the tick before
+  SessionState state_ = SessionState::free;
+  int vessel_ = -1;  // touched, held or coming back
+  Grasp grasp_;
+  bool is_turning_ = false;
+  double turn_from_ = 0;  // rad: since when the tilt has not changed by the step
+  double turn_time_ = 0;  // s: for how long
+  Pose slipped_from_;
+  double slipped_for_ = 0;  // s
+  bool is_tutored_ = false;
+  int grasps_ = 0, lost_ = 0, destinations_ = 0;
+};
+
+// Constants of ours; docs/method.md, "Live".
+constexpr double TURN_STEP = 5 * PI / 180;    // rad: a tilt that changes by less is maintained (the paper's)
+constexpr double TURN_WINDOW = 0.5;           // s in which it would have to
+constexpr double OPEN_MARGIN = 0.02;          // of the device's range of gaps: so near its end the fingers are open
+constexpr double RETURN_TIME = 0.5;           // s of a vessel on its way back
+constexpr double PUT_DOWN = 15e-3;            // m: let go so near to where it stood, it was put down and not lost
+constexpr double DESTINATION_RADIUS = 30e-3;  // m
+constexpr double FULL_WEIGHT = 5e-3;          // m of lifting over which the weight comes on
+
+// The hand whose gripper's axes are `rotation` and whose tips' middle is `middle` (vessel or world frame), at a closure; `scale` of the hand
+// in all. `e1_x` as place_hand's.
+core_f64::Placement place_live_hand(const core_f64::Hand& hand, double closure, const core_f64::Mat3& rotation,
+                                    core_f64::Vec3 middle, double scale, double& e1_x);
+
+}  // namespace wholehand

@@ -1,0 +1,82 @@
+#include "device/guard.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wholehand {
+namespace {
+
+bool is_finite(const GripperState& state) {
+  bool finite = std::isfinite(state.gap) && std::isfinite(state.time);
+  for (const double x : state.position) finite = finite && std::isfinite(x);
+  for (const double x : state.rotation) finite = finite && std::isfinite(x);
+  return finite;
+}
+
+// Unit columns at right angles, the third the product of the first two.
+bool is_rotation(const Rotation& r) {
+  const auto dot = [&r](int a, int b) { return r[a] * r[b] + r[3 + a] * r[3 + b] + r[6 + a] * r[6 + b]; };
+  bool holds = true;
+  for (int a = 0; a < 3; ++a)
+    for (int b = a; b < 3; ++b) holds = holds && std::abs(dot(a, b) - (a == b ? 1 : 0)) <= ROTATION_TOLERANCE;
+  const double volume =
+      r[0] * (r[4] * r[8] - r[5] * r[7]) - r[1] * (r[3] * r[8] - r[5] * r[6]) + r[2] * (r[3] * r[7] - r[4] * r[6]);
+  return holds && volume > 0;
+}
+
+double distance(const Triple& a, const Triple& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+
+// Angle between two rotations: for small ones, the length of their difference over the root of two.
+double turned(const Rotation& a, const Rotation& b) {
+  double squares = 0;
+  for (int k = 0; k < 9; ++k) squares += (a[k] - b[k]) * (a[k] - b[k]);
+  return std::sqrt(0.5 * squares);
+}
+
+}  // namespace
+
+Guard::Guard(const LiveData& live, const GripperLimits& limits)
+    : force_(limits.force), grip_(limits.grip), period_(1 / live.rate), ramp_(live.ramp), slew_(live.slew), jump_(live.jump) {}
+
+Fault Guard::check(ReadOutcome read, const GripperState& state, std::int64_t number) noexcept {
+  if (read == ReadOutcome::error) return Fault::read_error;
+  if (read == ReadOutcome::timeout) return Fault::timeout;
+  if (has_state_ && state.sequence == state_.sequence) return Fault::stale;
+  if (!is_finite(state) || !is_rotation(state.rotation)) return Fault::not_finite;
+  if (has_state_) {
+    const double seconds = period_ * static_cast<double>(std::max<std::int64_t>(1, number - number_));
+    if (distance(state.position, state_.position) > jump_ * seconds || std::abs(state.gap - state_.gap) > jump_ * seconds ||
+        turned(state.rotation, state_.rotation) > JUMP_TURN * seconds) {
+      return Fault::jump;
+    }
+  }
+  has_state_ = true;
+  state_ = state;
+  number_ = number;
+  return Fault::none;
+}
+
+GripperForce Guard::limit(const GripperForce& wanted, std::int64_t number) noexcept {
+  const bool is_first = first_ < 0;
+  if (is_first) first_ = number;
+  const double ramp = ramp_ > 0 ? std::clamp(period_ * static_cast<double>(number - first_) / ramp_, 0.0, 1.0) : 1;
+  const double seconds = period_ * static_cast<double>(is_first ? 1 : std::max<std::int64_t>(1, number - limited_));
+  limited_ = number;
+  const double most = slew_ * seconds;
+  const double size = std::hypot(wanted.arm[0], wanted.arm[1], wanted.arm[2]);
+  if (!std::isfinite(size) || !std::isfinite(wanted.grip)) {
+    written_ = {};
+    return written_;
+  }
+  const double factor = ramp * (size > force_ ? force_ / size : 1);
+  Triple change{};
+  for (int k = 0; k < 3; ++k) change[k] = factor * wanted.arm[k] - written_.arm[k];
+  const double changed = std::hypot(change[0], change[1], change[2]);
+  const double part = changed > most ? most / changed : 1;
+  for (int k = 0; k < 3; ++k) written_.arm[k] += part * change[k];
+  const double grip = ramp * std::clamp(wanted.grip, -grip_, grip_);
+  written_.grip += std::clamp(grip - written_.grip, -most, most);
+  return written_;
+}
+
+}  // namespace wholehand

@@ -1,0 +1,13 @@
+// A thread that wakes on time, where the system permits it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace wholehand {
+
+// Puts the calling thread under SCHED_FIFO, above everything but the kernel's own, and locks the memory that the process has by now. Returns
+// a line, with the remedy, for each that is not permitted: the loop runs without it, and later wakings are then the system's.
+std::vector<std::string> make_realtime();
+
+}  // namespace wholehand
