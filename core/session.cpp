@@ -39,8 +39,9 @@ std::vector<double> volumes_of(const LiveScene& live) {
 LiveVessel load_live_vessel(const Scene& scene, const VesselData& data, const core_f64::Quadrature& quadrature) {
   const bool is_left = scene.hand.handedness == Handedness::left;
   LiveVessel live;
-  live.vessel =
-      core_f64::load_vessel(prepare_vessel(data, data.wall > 0), data, quadrature, scene.liquid.has_value(), scene.hand.handedness);
+  const PreparedVessel prepared = prepare_vessel(data, data.wall > 0);
+  live.radius = prepared.largest_radius;
+  live.vessel = core_f64::load_vessel(prepared, data, quadrature, scene.liquid.has_value(), scene.hand.handedness);
   live.force = core_f64::load_force(scene, data);
   live.home = to_vec3(mirrored(data.place, scene.hand.handedness));
   double most = 0;
@@ -63,6 +64,12 @@ LiveVessel load_live_vessel(const Scene& scene, const VesselData& data, const co
   return live;
 }
 
+// By the cylinders about them.
+bool stand_in_each_other(const LiveVessel& a, double height_a, const LiveVessel& b, double height_b) {
+  const Vec3 apart = b.home - a.home;
+  return std::hypot(apart.x, apart.z) < a.radius + b.radius && apart.y < height_a && -apart.y < height_b;
+}
+
 }  // namespace
 
 LiveScene::LiveScene(const Scene& given) : scene(given) {
@@ -76,6 +83,11 @@ LiveScene::LiveScene(const Scene& given) : scene(given) {
   for (const VesselData& data : scene.vessels) {
     if (tutorial < 0 && scene.task && data.liquid_name.empty()) tutorial = static_cast<int>(vessels.size());
     vessels.push_back(load_live_vessel(scene, data, quadrature));
+    for (std::size_t v = 0; v + 1 < vessels.size(); ++v) {
+      if (!stand_in_each_other(vessels[v], scene.vessels[v].height, vessels.back(), data.height)) continue;
+      throw usage_error(at_place(scene.file, "vessels '" + scene.vessels[v].name + "' and '" + data.name +
+                                                 "' stand in each other; a live session needs place_mm for each"));
+    }
   }
 }
 

@@ -48,7 +48,18 @@ HandPose Workspace::map(const GripperState& state) noexcept {
   return pose;
 }
 
+GripperState Workspace::unmap(const HandPose& pose) const noexcept {
+  const Mat3 back = glm::transpose(axes_);
+  GripperState state;
+  state.position = to_triple((1 / scale_) * (back * (across(pose.middle) - origin_)));
+  state.rotation = to_rotation(back * across(pose.rotation) * axes_);
+  state.gap = device_gap_[0] + (std::clamp(pose.gap, hand_gap_[0], hand_gap_[1]) - hand_gap_[0]) / slope_;
+  return state;
+}
+
 Triple Workspace::to_device(Vec3 force) const noexcept { return to_triple(glm::transpose(axes_) * across(force)); }
+
+Vec3 Workspace::to_world(const Triple& force) const noexcept { return across(axes_ * to_vec3(force)); }
 
 Vec3 Workspace::across(Vec3 v) const noexcept { return is_mirrored_ ? Vec3(-v.x, v.y, v.z) : v; }
 

@@ -28,9 +28,12 @@ class Workspace {
 
   // Linear in place and gap, the gap kept within its ends. While the clutch button is pressed the hand stays where it is, and goes on from there.
   HandPose map(const GripperState& state) noexcept;
+  // A state of the gripper, without clutch, buttons and numbers, at which the hand is there. The gap is kept within the hand's.
+  GripperState unmap(const HandPose& pose) const noexcept;
   bool is_clutched() const noexcept { return is_clutched_; }
   // The way back for a force in that world: as it is, but for the axes.
   Triple to_device(core_f64::Vec3 force) const noexcept;
+  core_f64::Vec3 to_world(const Triple& force) const noexcept;
   // Between that world and the scene's own: mirrored in x for a left hand. The same both ways.
   core_f64::Vec3 across(core_f64::Vec3 v) const noexcept;
   core_f64::Mat3 across(const core_f64::Mat3& rotation) const noexcept;

@@ -1,0 +1,271 @@
+#include "device/sim_user.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/error.h"
+#include "core/evaluator.h"
+#include "core/prepare.h"
+
+namespace wholehand {
+
+using core_f64::Vec3;
+
+namespace {
+
+// How a person moves: durations of ours, in s, and lengths in m, but for the paper's tilting time.
+constexpr double REACH_TIME = 0.9, ENTER_TIME = 0.5, CLOSE_TIME = 0.9, SETTLE_TIME = 0.8, LIFT_TIME = 0.8, CARRY_TIME = 1.2;
+constexpr double TILT_TIME = 3.6, MAINTAIN_TIME = 1.5, UPRIGHT_TIME = 1.2, LOWER_TIME = 0.9, OPEN_TIME = 0.5, WITHDRAW_TIME = 0.5;
+constexpr double SHOWN_TILT = radians(75);
+constexpr double LIFT = 0.12, APART = 0.12;  // height of lifting; distance from which the hand goes in
+constexpr double ABOVE_TARGET = 0.03;        // of the lip over the target's mouth
+constexpr double SQUEEZE = 8e-3;             // m that the fingers aim inside of the vessel
+constexpr double FELT = 0.3;                 // N: a contact
+constexpr double TILT_SPEED = radians(25);   // rad/s, the paper's 90 degrees in 3.6 s
+constexpr double QUICKEST_FLOW = 25e-6;      // m3/s that a person pours when there is much to pour
+constexpr double POUR_AHEAD = 0.8;           // s: how far before the amount is there the flow is made less
+constexpr double FLOW_BAND = 100e-6;         // m3/s of difference for the whole tilting speed
+constexpr double LARGEST_TILT = radians(140);
+constexpr double PATIENCE = 40;       // s of pouring after which a person gives up
+constexpr double LOOKS = 0.3;         // s before a vessel that slipped is seen to
+constexpr double CLEAR = 0.18;        // over the other vessels, on the way to the next
+constexpr double ABOVE_TABLE = 0.02;  // of the vessel's lowest part while it pours
+constexpr int ATTEMPTS = 3;
+
+double course(double t) {
+  const double s = std::clamp(t, 0.0, 1.0);
+  return s * s * s * (10 + s * (6 * s - 15));
+}
+
+// The best-scoring grip of a vessel among heights and rolls, or at a given height; false: none is feasible.
+bool choose_grip(const Scene& scene, const Evaluator& evaluator, std::size_t v, SimJob& job) {
+  const VesselData& vessel = scene.vessels[v];
+  std::vector<double> heights;
+  if (!vessel.guidance.empty()) heights.push_back(vessel.guidance.front().height);
+  const std::size_t guided = heights.size();
+  for (int k = 1; k < 20; ++k) heights.push_back(vessel.height * k / 20);
+  double best = -1;
+  for (std::size_t k = 0; k < heights.size(); ++k) {
+    if (k == guided && best >= 0) break;  // the guidance point's height it is
+    for (int roll = -60; roll <= 30; roll += 15) {
+      GripInput grip;
+      grip.height = heights[k];
+      grip.roll = radians(roll);
+      // in the world of a left hand the palm faces away where the line runs the other way
+      if (scene.hand.handedness == Handedness::left) grip.azimuth = PI;
+      GripResult result;
+      evaluator.grip(v, grip, result);
+      if (result.reason != Reason::none || result.grazing) continue;
+      const double score = evaluator.score(v, grip, result).score + (result.antipodal ? 1 : 0) + (result.plausible ? 1 : 0);
+      if (score > best) {
+        best = score;
+        job.grip = grip;
+        job.gap = result.gap;
+      }
+    }
+  }
+  job.grip.azimuth = 0;
+  return best >= 0;
+}
+
+}  // namespace
+
+std::vector<SimJob> plan_sim_jobs(const Scene& scene) {
+  const std::unique_ptr<Evaluator> evaluator = make_core_evaluator(scene);
+  std::vector<SimJob> jobs;
+  auto wanted = scene.task ? scene.task->amounts : std::vector<std::pair<std::string, double>>{};
+  bool is_tutored = false;
+  for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
+    const VesselData& vessel = scene.vessels[v];
+    SimJob job;
+    job.vessel = static_cast<int>(v);
+    if (!choose_grip(scene, *evaluator, v, job)) continue;
+    if (scene.task && vessel.liquid_name.empty()) {
+      if (is_tutored) continue;
+      is_tutored = true;
+      job.kind = SimJob::Kind::carry;
+    } else if (scene.task) {
+      const auto entry = std::find_if(wanted.begin(), wanted.end(), [&](const auto& w) { return w.first == vessel.liquid_name; });
+      if (entry == wanted.end() || !(entry->second > 0)) continue;
+      job.kind = SimJob::Kind::pour;
+      job.amount = std::min(entry->second, vessel.liquid_fill * evaluator->capacity(v));
+      entry->second -= job.amount;
+    }
+    jobs.push_back(job);
+  }
+  // what is carried comes first: the tutorial
+  std::stable_partition(jobs.begin(), jobs.end(), [](const SimJob& job) { return job.kind == SimJob::Kind::carry; });
+  if (jobs.empty())
+    throw usage_error(at_place(
+        scene.file, "the simulated user finds nothing to do: no vessel that the hand can hold with its palm away from the user"));
+  return jobs;
+}
+
+SimUser::SimUser(const LiveScene& live, std::vector<SimJob> jobs) : live_(live), jobs_(std::move(jobs)) {
+  const double open = live.hand.scale * live.hand.gap_open;
+  home_ = live.vessels[jobs_.front().vessel].home + Vec3(0, 0.2, 0.3);
+  wish_.middle = home_;
+  wish_.gap = open;
+  wish_.roll = jobs_.front().grip.roll;
+  begin(Phase::reach);
+}
+
+// The tips' middle at which the lip's lowest point is over the target's middle, the gripper tilted, and no part of the vessel under what it
+// stood on.
+Vec3 SimUser::over_target(double tilt) const noexcept {
+  const core_f64::Vessel& vessel = live_.vessels[job().vessel].vessel;
+  const double height = job().grip.height, up = vessel.mouth_height - height, out = vessel.mouth_radius;
+  const double c = std::cos(tilt), s = std::sin(tilt);
+  Vec3 target = in_hand_world(live_.scene.task->target_place);
+  // away from the user is -z; at no tilt the lip's point towards it counts
+  Vec3 middle = target + Vec3(0, ABOVE_TARGET - (up * c - out * s), up * s + out * c);
+  const double floor = live_.vessels[job().vessel].home.y + ABOVE_TABLE;
+  middle.y = std::max(middle.y, floor + height * c + vessel.bound_radius * s);
+  return middle;
+}
+
+Vec3 SimUser::in_hand_world(const Triple& place) const noexcept { return to_vec3(mirrored(place, live_.scene.hand.handedness)); }
+
+void SimUser::move(Vec3 to, double seconds) noexcept {
+  from_ = wish_.middle;
+  to_ = to;
+  lasts_ = seconds;
+}
+
+void SimUser::begin(Phase phase) noexcept {
+  phase_ = phase;
+  time_ = 0;
+  from_ = to_ = wish_.middle;
+  gap_from_ = gap_to_ = wish_.gap;
+  tilt_from_ = tilt_to_ = wish_.tilt;
+  roll_from_ = wish_.roll;
+  roll_to_ = job().grip.roll;
+  has_run_ = false;
+  const double open = live_.hand.scale * live_.hand.gap_open;
+  const Vec3 stand = live_.vessels[job().vessel].home, taken = stand + Vec3(0, job().grip.height, 0);
+  const bool is_carried = job().kind == SimJob::Kind::carry;
+  const Vec3 destination = live_.scene.task ? in_hand_world(live_.scene.task->destination) : Vec3(0);
+  const Vec3 put = (is_carried ? destination : stand) + Vec3(0, job().grip.height, 0);
+  switch (phase) {
+    case Phase::reach:
+      move(taken + Vec3(0, 0, APART), REACH_TIME);
+      gap_to_ = open;
+      tilt_to_ = 0;
+      break;
+    case Phase::enter:
+      move(taken, ENTER_TIME);
+      break;
+    case Phase::close:
+      gap_to_ = std::max(live_.hand.scale * live_.hand.gap_closed, job().gap - SQUEEZE);
+      lasts_ = CLOSE_TIME;
+      break;
+    case Phase::settle:
+      lasts_ = SETTLE_TIME;
+      break;
+    case Phase::lift:
+      move(wish_.middle + Vec3(0, LIFT, 0), LIFT_TIME);
+      break;
+    case Phase::carry:
+      if (job().kind == SimJob::Kind::pour)
+        move(over_target(0), CARRY_TIME);
+      else if (is_carried)
+        move(put + Vec3(0, LIFT, 0), CARRY_TIME);
+      else
+        lasts_ = 0;
+      break;
+    case Phase::tilt:
+      lasts_ = TILT_TIME;
+      if (job().kind == SimJob::Kind::show) tilt_to_ = SHOWN_TILT;
+      if (job().kind == SimJob::Kind::pour) lasts_ = PATIENCE;
+      if (is_carried) lasts_ = 0;
+      break;
+    case Phase::maintain:
+      lasts_ = job().kind == SimJob::Kind::show ? MAINTAIN_TIME : 0;
+      break;
+    case Phase::upright:
+      lasts_ = wish_.tilt > 0 ? UPRIGHT_TIME : 0;
+      tilt_to_ = 0;
+      break;
+    case Phase::back:
+      move(put + Vec3(0, LIFT, 0), CARRY_TIME);
+      break;
+    case Phase::lower:
+      move(put, LOWER_TIME);
+      break;
+    case Phase::open:
+      gap_to_ = open;
+      lasts_ = OPEN_TIME;
+      break;
+    case Phase::withdraw:
+      move(wish_.middle + Vec3(0, CLEAR, APART), WITHDRAW_TIME);
+      break;
+  }
+}
+
+// Tilts until it runs, then so that the flow suits what is missing; upright again when it is there.
+void SimUser::pour(const SimSense& sense, double seconds) noexcept {
+  const double missing = job().amount - sense.arrived;
+  const double flow = std::clamp(missing / POUR_AHEAD, 0.0, QUICKEST_FLOW);
+  has_run_ = has_run_ || sense.flow > 0;
+  const double speed = has_run_ ? TILT_SPEED * std::clamp((flow - sense.flow) / FLOW_BAND, -1.0, 1.0) : TILT_SPEED;
+  wish_.tilt = std::clamp(wish_.tilt + speed * seconds, 0.0, LARGEST_TILT);
+  wish_.middle = over_target(wish_.tilt);
+  if (missing <= 0.3 * live_.scene.task->tolerance) time_ = lasts_;
+}
+
+SimWish SimUser::next(const SimSense& sense, double seconds) noexcept {
+  if (is_done()) return wish_;
+  time_ += seconds;
+  const bool should_hold = phase_ >= Phase::settle && phase_ < Phase::open;
+  if (should_hold && time_ > LOOKS && sense.state == SessionState::slipped) fail();
+  const double part = lasts_ > 0 ? time_ / lasts_ : 1;
+  const Vec3 before = wish_.middle;
+  const double gap_before = wish_.gap;
+  const bool pours = job().kind == SimJob::Kind::pour;
+  if (phase_ == Phase::tilt && pours) {
+    pour(sense, seconds);
+  } else {
+    wish_.middle = from_ + course(part) * (to_ - from_);
+    wish_.tilt = tilt_from_ + course(part) * (tilt_to_ - tilt_from_);
+    if (phase_ == Phase::upright && pours) wish_.middle = over_target(wish_.tilt);
+  }
+  wish_.roll = roll_from_ + course(part) * (roll_to_ - roll_from_);
+  wish_.gap = wish_.grips_by_force ? sense.gap : gap_from_ + course(part) * (gap_to_ - gap_from_);
+  wish_.velocity = (wish_.middle - before) / seconds;
+  wish_.gap_speed = (wish_.gap - gap_before) / seconds;
+  const bool feels = phase_ == Phase::close && is_held(sense.state) && sense.grip > FELT;
+  if (feels) wish_.grips_by_force = true;
+  if (feels || time_ >= lasts_) go_on(feels);
+  return wish_;
+}
+
+// What was meant did not succeed: let go, leave, and begin again.
+void SimUser::fail() noexcept {
+  has_failed_ = true;
+  wish_.grips_by_force = false;
+  begin(Phase::open);
+  tilt_to_ = 0;
+}
+
+void SimUser::go_on(bool feels) noexcept {
+  if (phase_ == Phase::close && !feels) {
+    if (time_ > 2 * CLOSE_TIME) fail();
+    return;
+  }
+  if (phase_ == Phase::lower) wish_.grips_by_force = false;
+  if (phase_ != Phase::withdraw) {
+    begin(static_cast<Phase>(static_cast<int>(phase_) + 1));
+    return;
+  }
+  const bool again = has_failed_ && ++attempts_ < ATTEMPTS;
+  if (has_failed_ && !again) ++abandoned_;
+  has_failed_ = false;
+  if (!again) {
+    attempts_ = 0;
+    ++job_;
+  }
+  if (!is_done()) begin(Phase::reach);
+}
+
+}  // namespace wholehand
