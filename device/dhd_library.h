@@ -1,0 +1,48 @@
+// Force Dimension's SDK, loaded at run time by whoever has it: nothing of the vendor's is needed to build or to run without such a device.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace wholehand {
+
+// The calls that are used, by the vendor's names without `dhd`. All but those that answer with text or time return a negative number on
+// failure and 0 or a positive one otherwise: 1 (asked again too soon, the last answer is given) and 2 (a motor is saturated) are no errors.
+// `id` is what open_id gave. The prototypes are declared anew from the documentation of the SDK (3.x), https://www.forcedimension.com/sdk.
+struct DhdLibrary {
+  std::string path;  // as it was loaded
+
+  int (*get_device_count)();
+  void (*get_sdk_version)(int* major, int* minor, int* release, int* revision);
+  int (*open_id)(char number);
+  int (*close)(char id);
+  int (*stop)(char id);  // no force, brakes
+  const char* (*get_system_name)(char id);
+  int (*get_system_type)(char id);
+  int (*get_position_and_orientation_frame)(double* x, double* y, double* z, double frame[3][3], char id);  // m
+  int (*get_gripper_gap)(double* gap, char id);                                                             // m
+  int (*get_gripper_thumb_pos)(double* x, double* y, double* z, char id);                                   // m
+  int (*get_gripper_finger_pos)(double* x, double* y, double* z, char id);                                  // m
+  int (*set_force_and_torque_and_gripper_force)(double fx, double fy, double fz, double tx, double ty, double tz, double grip,
+                                                char id);  // N, N m, N
+  int (*enable_force)(unsigned char is_enabled, char id);
+  int (*set_max_force)(double force, char id);          // N
+  int (*set_max_gripper_force)(double force, char id);  // N
+  int (*enable_expert_mode)();
+  int (*set_watchdog)(unsigned char duration, char id);  // in units of 125 us, 0: off
+  double (*get_time)();                                  // s
+  const char* (*error_get_last_str)();
+
+  unsigned int (*get_button_mask)(char id) = nullptr;  // null where this release of the SDK has none
+};
+
+// Where the SDK says it is, in this order, if nobody names a path. libdrd has all of libdhd.
+extern const std::vector<std::string> DHD_LIBRARY_NAMES;
+
+// Loads `path` or, where it is empty, what the environment variable WHOLEHAND_DHD_LIBRARY names or else the first of `names` that is
+// there. What is named explicitly is never replaced by another. Stays loaded until the process ends, since a vendor's library may have
+// threads. Throws Error (failure): the loader's words; or what the SDK is, where to get it and how to name its path; or the symbol that
+// the library lacks.
+DhdLibrary load_dhd_library(const std::string& path, const std::vector<std::string>& names = DHD_LIBRARY_NAMES);
+
+}  // namespace wholehand

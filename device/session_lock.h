@@ -1,0 +1,22 @@
+// One session a device: a lock that ends with the process, whatever ends it.
+#pragma once
+
+#include <string>
+
+namespace wholehand {
+
+// Holds the lock file `wholehand-NAME.lock` in the runtime directory (XDG_RUNTIME_DIR, or /tmp where that is none). The file stays behind,
+// the lock does not. It holds between the processes of one user; another user's session is refused by the device itself.
+class SessionLock {
+ public:
+  // `name` without slashes, e.g. "omega-0". Throws Error (failure) if another session holds it or the file cannot be made.
+  explicit SessionLock(const std::string& name);
+  ~SessionLock();
+  SessionLock(const SessionLock&) = delete;
+  SessionLock& operator=(const SessionLock&) = delete;
+
+ private:
+  int file_ = -1;
+};
+
+}  // namespace wholehand
