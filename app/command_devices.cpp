@@ -1,14 +1,41 @@
-// wholehand devices: what there is to compute on.
+// wholehand devices: what there is to compute on, and to feel with.
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <memory>
+#include <optional>
+#include <string>
+
 #include "app/commands.h"
+#include "app/validators.h"
+#include "device/find_grippers.h"
 #include "sweeps/devices.h"
 
 namespace wholehand {
+namespace {
+
+// Without a Vulkan device the grippers are listed all the same, before that is told.
+ExitCode list_all_devices(const std::string& dhd_library) {
+  std::optional<Error> problem;
+  try {
+    list_devices();
+  } catch (const Error& error) {
+    problem = error;
+  }
+  fmt::print("{}", list_grippers(find_grippers(dhd_library)));
+  if (problem) throw *problem;
+  return ExitCode::done;
+}
+
+}  // namespace
 
 void add_devices_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("devices", "Vulkan devices and what each can do");
-  command->callback([&action] { action = [] { return list_devices(); }; });
+  const auto dhd_library = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand("devices", "Vulkan devices and grippers, and what each can do");
+  command->add_option("--dhd-library", *dhd_library, "Force Dimension's SDK (libdhd.so), for omega.7 and sigma.7")
+      ->type_name("PATH")
+      ->check(not_empty());
+  command->callback([dhd_library, &action] { action = [dhd_library] { return list_all_devices(*dhd_library); }; });
 }
 
 }  // namespace wholehand

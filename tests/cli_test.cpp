@@ -90,6 +90,7 @@ TEST(CommandLine, RefusesWrongUsageWithOneLineAndCode2) {
       {"stability wall --mass-kg 0.1 --damping-Nspm 1 --rate-hz 1000 --delay-samples 9",
        "--delay-samples '9'; allowed: a whole number, 0 to 4"},
       {"stability wall --mass-kg 0.1 --damping-Nspm 1 --rate-hz 1000 --finger 1,2", "--finger '1,2'; allowed: three numbers"},
+      {"devices --dhd-library ''", "must not be empty"},
       {"devices extra", "extra; see wholehand devices --help"},
       {"grip", "scene is required"},
       {"grip small", "--vessel is required"},
@@ -134,6 +135,38 @@ TEST(CommandLine, NamesFileLineAndColumn) {
   std::ofstream(scene) << "[[vessel]]\nname = \"m\"\nmesh = \"a.glb\"\n";
   expect_error("grip " + scene + " --vessel m --height-mm 10", 2, scene + ":3:8: vessel 'm' is a mesh");
   std::filesystem::remove(scene);
+}
+
+// The grippers below the Vulkan devices, with the stand-in for Force Dimension's SDK.
+TEST(CommandLine, ListsDevicesAndGrippers) {
+  const std::string folder = std::filesystem::temp_directory_path() / "wholehand_cli_test_devices";
+  std::filesystem::create_directory(folder);
+  const std::string program = "XDG_RUNTIME_DIR=" + folder + " WHOLEHAND_DHD_LIBRARY=" STAND_IN_DHD " PROGRAM devices 2>&1 ";
+  const Outcome listed = run(program);
+  EXPECT_EQ(listed.code, 0) << listed.output;
+  std::size_t last = 0;
+  for (const char* line :
+       {"core  the reference, double precision, all threads  <- --on core\n",
+        "\nsim  a virtual user, always there  <- --device sim\n",
+        "\nomega  omega.7, right hand  <- --device omega\n  up to 12 N, gripper 8 N, gap 0 to 25 mm, up to 4000 Hz; SDK 3.17.6"}) {
+    const std::size_t at = listed.output.find(line, last);
+    ASSERT_NE(at, std::string::npos) << listed.output << "lacks, or has elsewhere: " << line;
+    last = at;
+  }
+  // the option comes before the environment
+  const Outcome missing = run(program + "--dhd-library /not/there/libdhd.so");
+  EXPECT_EQ(missing.code, 0) << missing.output;
+  EXPECT_NE(missing.output.find("\nomega  cannot be opened: cannot load Force Dimension's SDK: /not/there/libdhd.so"),
+            std::string::npos)
+      << missing.output;
+  const Outcome old = run(program + "--dhd-library " STAND_IN_DHD_OLD);
+  EXPECT_NE(old.output.find("lacks the function dhdSetWatchdog"), std::string::npos) << old.output;
+  // without a driver for Vulkan: the grippers all the same, and the code of before
+  const Outcome no_vulkan = run("VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent " + program);
+  EXPECT_EQ(no_vulkan.code, 3) << no_vulkan.output;
+  EXPECT_NE(no_vulkan.output.find("omega  omega.7, right hand"), std::string::npos) << no_vulkan.output;
+  EXPECT_NE(no_vulkan.output.find("wholehand: no Vulkan driver"), std::string::npos) << no_vulkan.output;
+  std::filesystem::remove_all(folder);
 }
 
 // No driver, as on a machine that has none: an error, never the core instead.

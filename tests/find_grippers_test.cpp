@@ -1,0 +1,41 @@
+#include "device/find_grippers.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/support/stand_in_dhd.h"
+
+namespace wholehand {
+namespace {
+
+TEST(FindGrippers, SimIsAlwaysThereAndOmegaWithItsSdk) {
+  const StandIn sdk(STAND_IN_DHD);
+  for (const char* library : {STAND_IN_DHD, "/not/there/libdhd.so"}) {
+    const auto found = find_grippers(library);
+    ASSERT_GE(found.size(), 2u);
+    EXPECT_EQ(found[0].address, "sim");
+    EXPECT_EQ(found[0].name, "a virtual user, always there");
+    EXPECT_EQ(found[0].missing, "");
+    const bool has_omega =
+        std::any_of(found.begin(), found.end(), [](const GripperFound& gripper) { return gripper.address == "omega"; });
+    EXPECT_EQ(has_omega, library == std::string(STAND_IN_DHD));
+  }
+}
+
+TEST(FindGrippers, ListsWhatCanBeOpenedAndWhatIsMissing) {
+  EXPECT_EQ(list_grippers({{"sim", "a virtual user", "", ""},
+                           {"omega:1", "omega.7, left hand", "up to 12 N", ""},
+                           {"hid:/dev/hidraw0", "grip", "up to 2 N", "a udev rule"},
+                           {"", "usb", "", "none attached"}}),
+            "sim  a virtual user  <- --device sim\n"
+            "omega:1  omega.7, left hand  <- --device omega:1\n"
+            "  up to 12 N\n"
+            "hid:/dev/hidraw0  grip  <- --device hid:/dev/hidraw0\n"
+            "  up to 2 N\n"
+            "  missing: a udev rule\n"
+            "usb  cannot be opened: none attached\n");
+}
+
+}  // namespace
+}  // namespace wholehand
