@@ -10,7 +10,7 @@
 namespace wholehand {
 
 // Between the SDK's frame (+x towards the person, +y to the right, +z up; so says CHAI3D, "Haptic devices", General conventions,
-// https://www.chai3d.org/download/doc/html/chapter6-haptic-devices.html) and the device frame of core/tick.h (+x right, +y up, +z towards
+// https://chai3d.org/download/doc/html/chapter6-haptic-devices.html) and the device frame of core/tick.h (+x right, +y up, +z towards
 // the person): the same axes under other names, so that lengths and handedness stay.
 Triple from_dhd(const Triple& vector);
 Triple to_dhd(const Triple& vector);
