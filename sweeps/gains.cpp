@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/prepare.h"
+#include "core/workspace.h"
 #include "sweeps/grip_loop.h"
 #include "sweeps/wall_sweep.h"
 
@@ -53,16 +54,16 @@ GainLimits gain_limits(double rate, double wall_damping) {
   return limits;
 }
 
-double device_slope(const Scene& scene) {
-  if (!scene.device.has_gap) return 1;
+double device_slope(const Scene& scene, std::array<double, 2> device_gap) {
   const PreparedHand hand = prepare_hand(scene.hand);
-  return scene.hand.scale * (hand.gap_open - hand.gap_closed) / (scene.device.gap[1] - scene.device.gap[0]);
+  const std::array<double, 2> gap = scene.device.has_gap ? scene.device.gap : device_gap;
+  return coupling_slope(scene.device.workspace_scale, scene.hand.scale * (hand.gap_open - hand.gap_closed) / (gap[1] - gap[0]));
 }
 
-void refuse_unstable_gains(const Scene& scene, bool unsafe) {
+void refuse_unstable_gains(const Scene& scene, std::array<double, 2> device_gap, bool unsafe) {
   if (unsafe) return;
   const LiveData& live = scene.live;
-  const double slope = device_slope(scene);
+  const double slope = device_slope(scene, device_gap);
   const auto refuse = [&](const char* key, double gain, double limit) {
     throw usage_error(
         fmt::format("{} = {:g}: not stable on a light device at {:g} Hz; allowed: at most {:.0f}, a higher [live] rate_Hz, or "

@@ -1,6 +1,8 @@
 // Gains that a live loop must not have: what a sampled wall or spring cannot be, on a light device.
 #pragma once
 
+#include <array>
+
 #include "core/scene.h"
 
 namespace wholehand {
@@ -15,11 +17,12 @@ struct GainLimits {
 };
 GainLimits gain_limits(double rate, double wall_damping);
 
-// How much stiffer a wall of the hand's gap is at the device's gap, onto which [device] gap_mm maps it: 1 without.
-double device_slope(const Scene& scene);
+// How many times K a gripper feels at its arm or fingers, whichever is more (core/workspace.h's coupling_slope). `device_gap`: its own closed
+// and open gap, m, where [device] gap_mm says none.
+double device_slope(const Scene& scene, std::array<double, 2> device_gap);
 
 // Throws Error (usage) with the gain, its limit and the remedy where a scene's live gains are beyond them at the device (K and B times
 // the slope), unless `unsafe`.
-void refuse_unstable_gains(const Scene& scene, bool unsafe);
+void refuse_unstable_gains(const Scene& scene, std::array<double, 2> device_gap, bool unsafe);
 
 }  // namespace wholehand
