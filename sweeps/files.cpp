@@ -27,12 +27,12 @@ std::string folder_of(const std::string& path) {
 }
 
 // Root may write anywhere, and still not make a file in every folder.
-void try_folder(const std::string& asked, const std::string& folder) {
+void try_folder(const std::string& asked, const std::string& folder, const char* option = "-o") {
   std::string trial = folder + "/.wholehand-XXXXXX";
   const int file = mkstemp(trial.data());
   if (file < 0) {
     throw failure_error(
-        fmt::format("-o {}: cannot make a file in {}: {}; name a place elsewhere", asked, folder, std::strerror(errno)));
+        fmt::format("{} {}: cannot make a file in {}: {}; name a place elsewhere", option, asked, folder, std::strerror(errno)));
   }
   close(file);
   unlink(trial.c_str());
@@ -50,19 +50,21 @@ OutputNames output_names(const std::string& result) {
   return names;
 }
 
-void check_output_path(const std::string& path) {
+void check_output_path(const std::string& path, const char* option) {
   struct stat status {};
   if (stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
-    throw usage_error(fmt::format("-o {}: is a {}; name a file", path, S_ISDIR(status.st_mode) ? "directory" : "device or pipe"));
+    throw usage_error(
+        fmt::format("{} {}: is a {}; name a file", option, path, S_ISDIR(status.st_mode) ? "directory" : "device or pipe"));
   }
   const std::string folder = folder_of(path);
   if (path.empty() || path.ends_with('/') || stat(folder.c_str(), &status) != 0 || !S_ISDIR(status.st_mode)) {
-    throw usage_error(fmt::format("-o {}: {} is not a directory; create it or name another", path, folder));
+    throw usage_error(fmt::format("{} {}: {} is not a directory; create it or name another", option, path, folder));
   }
   if (access(folder.c_str(), W_OK | X_OK) != 0) {
-    throw failure_error(fmt::format("-o {}: cannot write to {}: {}; name a file elsewhere", path, folder, std::strerror(errno)));
+    throw failure_error(
+        fmt::format("{} {}: cannot write to {}: {}; name a file elsewhere", option, path, folder, std::strerror(errno)));
   }
-  try_folder(path, folder);
+  try_folder(path, folder, option);
 }
 
 void check_overwrites_result(const std::string& path) {

@@ -19,8 +19,8 @@ struct OutputNames {
 OutputNames output_names(const std::string& result);
 
 // Throws Error (usage) where `path` cannot become a file: its folder is missing or cannot be written to, or it is there and is not a
-// regular file (a directory, a device).
-void check_output_path(const std::string& path);
+// regular file (a directory, a device). `option` is the one that named it, for the message.
+void check_output_path(const std::string& path, const char* option = "-o");
 
 // Throws Error (usage) where a file with something in it is there that is no result file (NetCDF-4, of any program): it is not overwritten.
 void check_overwrites_result(const std::string& path);

@@ -1,0 +1,96 @@
+#include "sweeps/recorder.h"
+
+#include <pthread.h>
+
+#include <chrono>
+#include <csignal>
+#include <utility>
+
+namespace wholehand {
+namespace {
+
+constexpr std::size_t BLOCK = 1024;  // ticks
+constexpr std::chrono::milliseconds DRAIN_INTERVAL{
+    50};  // at most this much is lost with the process, and some 400 ticks at 8 kHz wait
+
+// Signals are the business of the threads that were there before.
+class BlockSignals {
+ public:
+  BlockSignals() {
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before_);
+  }
+  ~BlockSignals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+
+ private:
+  sigset_t before_;
+};
+
+}  // namespace
+
+Recorder::Recorder(TickRing& ring, std::unique_ptr<RecordingWriter> writer, Observer observer)
+    : ring_(ring), writer_(std::move(writer)), observer_(std::move(observer)) {
+  block_.reserve(BLOCK);
+  const BlockSignals inherited;
+  thread_ = std::thread([this] { run(); });
+}
+
+Recorder::~Recorder() { stop({}); }
+
+// Takes up to a block out of the ring and writes it down; false: there was nothing.
+bool Recorder::drain() {
+  block_.clear();
+  Tick tick;
+  while (block_.size() < BLOCK && ring_.pop(tick)) block_.push_back(tick);
+  if (block_.empty()) return false;
+  newest_ = block_.back();
+  // after trouble the writer takes nothing, and what comes is let go
+  if (writer_) writer_->append(block_);
+  tell_trouble();
+  return true;
+}
+
+void Recorder::tell_trouble() {
+  if (is_told_ || !writer_ || writer_->trouble().empty()) return;
+  is_told_ = true;
+  const std::lock_guard lock(mutex_);
+  trouble_ = writer_->trouble();
+}
+
+void Recorder::run() {
+  for (bool is_last = false; !is_last;) {
+    {
+      std::unique_lock lock(mutex_);
+      wake_.wait_for(lock, DRAIN_INTERVAL, [this] { return is_stopping_; });
+      is_last = is_stopping_;
+    }
+    bool has_new = false;
+    // the last time until it is empty; before, one round of the ring at most, so that the observer hears of it
+    for (std::size_t left = ring_.capacity() / BLOCK + 1; (left > 0 || is_last) && drain(); left -= left > 0) has_new = true;
+    if (has_new && observer_) observer_(newest_);
+  }
+}
+
+std::optional<std::string> Recorder::trouble() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(trouble_, std::nullopt);
+}
+
+bool Recorder::stop(const RecordingEnd& end) {
+  if (!thread_.joinable()) return is_whole_;
+  {
+    const std::lock_guard lock(mutex_);
+    is_stopping_ = true;
+  }
+  wake_.notify_one();
+  thread_.join();
+  if (writer_) {
+    writer_->finish(end);
+    is_whole_ = writer_->trouble().empty();
+    tell_trouble();
+  }
+  return is_whole_;
+}
+
+}  // namespace wholehand

@@ -1,0 +1,60 @@
+// The thread that takes ticks from the haptic thread and writes them down.
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/tick_ring.h"
+#include "sweeps/recording.h"
+
+namespace wholehand {
+
+// Drains a ring from construction until stop(), so that the thread that pushes never waits and, as long as the disk keeps up or refuses, never
+// finds it full. The ring must outlive it and hold what comes during a pause of the disk: a few seconds.
+class Recorder {
+ public:
+  // Called on the recorder's thread with the newest tick of each batch, at most some 20 times a second (a status line, say). Must not throw.
+  using Observer = std::function<void(const Tick&)>;
+
+  // Without a writer it only drains and shows.
+  Recorder(TickRing& ring, std::unique_ptr<RecordingWriter> writer, Observer observer = {});
+  // Stops; a recording that was not stopped before gets an end without timing.
+  ~Recorder();
+  Recorder(const Recorder&) = delete;
+  Recorder& operator=(const Recorder&) = delete;
+
+  // Why the recording ended early, once, as soon as it is known; nothing otherwise. From any thread but the one that pushes.
+  std::optional<std::string> trouble();
+
+  // Takes what is still in the ring (nothing may be pushed any more), finishes the recording and ends the thread. False: the recording is
+  // not all there; trouble() says why. Calls after the first do nothing and give the same answer.
+  bool stop(const RecordingEnd& end);
+
+ private:
+  void run();
+  bool drain();
+  void tell_trouble();
+
+  TickRing& ring_;
+  std::unique_ptr<RecordingWriter> writer_;
+  Observer observer_;
+  std::vector<Tick> block_;
+  Tick newest_;
+  bool is_told_ = false;  // its trouble
+  bool is_whole_ = true;
+
+  std::mutex mutex_;  // of the next three; the thread that pushes knows nothing of it
+  std::condition_variable wake_;
+  bool is_stopping_ = false;
+  std::optional<std::string> trouble_;  // until somebody asks
+
+  std::thread thread_;  // last: it uses all of the above
+};
+
+}  // namespace wholehand

@@ -1,0 +1,332 @@
+#include "sweeps/recording_layout.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+#include "core/error.h"
+#include "sweeps/recording_fields.h"
+
+namespace wholehand {
+namespace {
+
+using classic::Attribute;
+using classic::Header;
+
+constexpr const char* CONTENT = "recording of a wholehand session";
+constexpr std::uint64_t ROOM_FOR_END = 4096;  // bytes
+constexpr std::size_t LONGEST_REASON = 1000;  // bytes of it, well within that room
+constexpr std::size_t MOST_AMOUNTS = 64;
+constexpr double LARGEST_RATE = 1e6;  // Hz
+
+// Builds a header with its fixed variables.
+class LayoutBuilder {
+ public:
+  explicit LayoutBuilder(const RecordingInfo& info) : info_(info) {}
+
+  RecordingLayout build() {
+    dimensions();
+    attributes();
+    fixed_variables();
+    tick_variables();
+    classic::lay_out(layout_.header, ROOM_FOR_END);
+    return std::move(layout_);
+  }
+
+ private:
+  Header& header() { return layout_.header; }
+
+  void dimensions() {
+    // the longest text of any label
+    text_length_ = 5;
+    for (const RecordedVessel& vessel : info_.vessels)
+      text_length_ = std::max({text_length_, vessel.name.size(), vessel.liquid.size()});
+    for (const RecordedAmount& amount : info_.amounts) text_length_ = std::max(text_length_, amount.liquid.size());
+    header().dimensions = {
+        {TICK_DIMENSION, 0}, {"vessel", static_cast<std::uint32_t>(info_.vessels.size())}, {"contact", 2}, {"xyz", 3}, {"row", 3},
+        {"column", 3},       {"text_length", static_cast<std::uint32_t>(text_length_)}};
+    if (!info_.amounts.empty()) header().dimensions.push_back({"amount", static_cast<std::uint32_t>(info_.amounts.size())});
+  }
+
+  void attributes() {
+    const RecordedDevice& device = info_.device;
+    header().attributes = {
+        classic::text_attribute("Conventions", "CF-1.8"),
+        classic::text_attribute("title", "session in " + (info_.scene_name.empty() ? "a scene" : info_.scene_name)),
+        classic::text_attribute("content", CONTENT),
+        classic::text_attribute("program", "wholehand"),
+        classic::text_attribute("version", info_.version),
+        classic::text_attribute("start", info_.start),
+        classic::text_attribute("scene_name", info_.scene_name),
+        classic::text_attribute("scene_file", info_.scene_file),
+        classic::text_attribute("scene", info_.scene_text),
+        classic::text_attribute("seed", fmt::format("{}", info_.seed)),  // classic files have no 64-bit integers
+        classic::number_attribute("rate_Hz", {info_.rate}),
+        classic::text_attribute("device", device.name),
+        classic::text_attribute("device_address", device.address),
+        classic::number_attribute("device_arm_force_N", {device.force}),
+        classic::number_attribute("device_gripper_force_N", {device.grip}),
+        classic::number_attribute("device_gap_m", {device.gap[0], device.gap[1]}),
+        classic::number_attribute("device_rate_Hz", {device.rate}),
+        classic::integer_attribute("device_has_rotation", {device.has_rotation}),
+        classic::integer_attribute("device_is_left_handed", {device.is_left_handed}),
+        classic::number_attribute("force_base_N", {info_.force_base}),
+        classic::number_attribute("force_max_N", {info_.force_max}),
+        classic::number_attribute("tolerance_m3", {info_.tolerance})};
+  }
+
+  std::uint32_t dimension(std::string_view name) {
+    const auto& all = header().dimensions;
+    const auto found = std::find_if(all.begin(), all.end(), [name](const classic::Dimension& d) { return d.name == name; });
+    return static_cast<std::uint32_t>(found - all.begin());
+  }
+
+  classic::Variable& variable(const std::string& name, classic::Type type, std::string_view dimensions, bool of_ticks,
+                              const std::string& units, const std::string& long_name) {
+    classic::Variable variable{name, type, {}, {}};
+    if (of_ticks) variable.dimensions.push_back(dimension(TICK_DIMENSION));
+    while (!dimensions.empty()) {
+      const std::size_t end = std::min(dimensions.find(' '), dimensions.size());
+      variable.dimensions.push_back(dimension(dimensions.substr(0, end)));
+      dimensions.remove_prefix(std::min(end + 1, dimensions.size()));
+    }
+    if (!units.empty()) variable.attributes.push_back(classic::text_attribute("units", units));
+    variable.attributes.push_back(classic::text_attribute("long_name", long_name));
+    header().variables.push_back(variable);
+    return header().variables.back();
+  }
+
+  void labels(const std::string& name, const std::string& along, const std::string& long_name,
+              const std::vector<std::string>& values) {
+    variable(name, classic::Type::text, along + " text_length", false, "", long_name);
+    for (const std::string& value : values) {
+      layout_.fixed += value;
+      layout_.fixed.append(text_length_ - value.size(), '\0');
+    }
+    layout_.fixed.resize((layout_.fixed.size() + 3) / 4 * 4, '\0');
+  }
+
+  void numbers(const std::string& name, const std::string& along, const std::string& units, const std::string& long_name,
+               const std::vector<double>& values) {
+    variable(name, classic::Type::float64, along, false, units, long_name);
+    for (const double value : values) classic::append_real(layout_.fixed, value);
+  }
+
+  void fixed_variables() {
+    std::vector<std::string> names, liquids, wanted;
+    std::vector<double> ranges, amounts;
+    for (const RecordedVessel& vessel : info_.vessels) {
+      names.push_back(vessel.name);
+      liquids.push_back(vessel.liquid);
+      ranges.push_back(vessel.force_range);
+    }
+    labels("vessel", "vessel", "vessel", names);
+    labels("liquid", "vessel", "liquid in the vessel", liquids);
+    numbers("force_range", "vessel", "N", "F_range of the vessel", ranges);
+    labels("contact", "contact", "tracked finger", {"thumb", "index"});
+    labels("xyz", "xyz", "direction", {"x", "y", "z"});
+    if (info_.amounts.empty()) return;
+    for (const RecordedAmount& amount : info_.amounts) {
+      wanted.push_back(amount.liquid);
+      amounts.push_back(amount.volume);
+    }
+    labels("amount_liquid", "amount", "liquid that the task wants in the target", wanted);
+    numbers("amount", "amount", "m3", "volume that the task wants in the target", amounts);
+  }
+
+  void tick_variables() {
+    variable(TIME_VARIABLE, classic::Type::float64, "", true, "s", "time since the start")
+        .attributes.push_back(classic::text_attribute("comment", "tick / rate_Hz"));
+    for (const RecordedField& field : recorded_fields()) {
+      const bool is_real = field.as == RecordedAs::real || field.as == RecordedAs::number;
+      const classic::Type type = is_real                        ? classic::Type::float64
+                                 : field.as == RecordedAs::flag ? classic::Type::byte
+                                                                : classic::Type::int32;
+      classic::Variable& added = variable(field.name, type, field.dimensions, true, field.units, field.long_name);
+      if (*field.comment) added.attributes.push_back(classic::text_attribute("comment", field.comment));
+      if (field.as == RecordedAs::word) added.attributes.push_back(classic::text_attribute("_Unsigned", "true"));
+      if (field.as == RecordedAs::flag) add_meanings(added, field);
+      if (field.as != RecordedAs::number) added.attributes.push_back(classic::text_attribute("coordinates", TIME_VARIABLE));
+    }
+  }
+
+  // A meaning is one word there.
+  static void add_meanings(classic::Variable& added, const RecordedField& field) {
+    std::vector<std::int8_t> values;
+    std::string meanings;
+    for (int k = 0; k <= static_cast<int>(field.most); ++k) {
+      values.push_back(static_cast<std::int8_t>(k));
+      meanings += (k == 0 ? "" : " ") + std::string(field.meanings[k]);
+      std::replace(meanings.end() - static_cast<std::ptrdiff_t>(std::string_view(field.meanings[k]).size()), meanings.end(), ' ',
+                   '_');
+    }
+    added.attributes.push_back(classic::byte_attribute("flag_values", values));
+    added.attributes.push_back(classic::text_attribute("flag_meanings", meanings));
+  }
+
+  const RecordingInfo& info_;
+  std::size_t text_length_ = 0;
+  RecordingLayout layout_;
+};
+
+// ---- the way back ----
+
+Error lacks(std::string_view what) { return usage_error(fmt::format("is no recording of a session: it lacks {}", what)); }
+
+std::string recorded_text(const Header& header, const char* name) {
+  const Attribute* attribute = header.attribute(name);
+  if (!attribute || attribute->type != classic::Type::text) throw lacks(fmt::format("the text attribute {}", name));
+  return attribute->bytes;
+}
+
+std::vector<double> recorded_numbers(const Header& header, const char* name, std::size_t count) {
+  const Attribute* attribute = header.attribute(name);
+  if (!attribute || attribute->type != classic::Type::float64 || attribute->bytes.size() != count * 8)
+    throw lacks(fmt::format("the attribute {} of {} double{}", name, count, count == 1 ? "" : "s"));
+  std::vector<double> values;
+  for (std::size_t k = 0; k < count; ++k) values.push_back(classic::load_real(attribute->bytes.data() + k * 8));
+  return values;
+}
+
+double recorded_number(const Header& header, const char* name) { return recorded_numbers(header, name, 1)[0]; }
+
+bool recorded_yes(const Header& header, const char* name) {
+  const Attribute* attribute = header.attribute(name);
+  if (!attribute || attribute->type != classic::Type::int32 || attribute->bytes.size() != 4)
+    throw lacks(fmt::format("the attribute {} of one integer", name));
+  return classic::load_32(attribute->bytes.data()) != 0;
+}
+
+std::uint64_t length_of(const Header& header, std::string_view name) {
+  for (const classic::Dimension& dimension : header.dimensions) {
+    if (dimension.name == name) return dimension.length;
+  }
+  return 0;
+}
+
+const classic::Variable& fixed_variable(const Header& header, const char* name, classic::Type type, const char* dimensions) {
+  const classic::Variable* variable = header.variable(name);
+  if (!variable || variable->is_record || variable->type != type || dimension_names(header, *variable) != dimensions)
+    throw lacks(fmt::format("the variable {}({})", name, dimensions));
+  return *variable;
+}
+
+// Labels end where the zeros begin. They are printed: no control characters.
+std::vector<std::string> recorded_labels(const Header& header, const FixedValues& fixed_values, const char* name,
+                                         const char* along) {
+  const auto& variable = fixed_variable(header, name, classic::Type::text, fmt::format("{} text_length", along).c_str());
+  const std::string bytes = fixed_values(variable);
+  const std::uint64_t length = length_of(header, "text_length");
+  std::vector<std::string> labels;
+  for (std::uint64_t at = 0; at + length <= variable.values; at += length) {
+    std::string label = bytes.substr(at, length);
+    label.resize(std::min(label.find('\0'), label.size()));
+    std::replace_if(
+        label.begin(), label.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+    labels.push_back(label);
+  }
+  return labels;
+}
+
+std::vector<double> recorded_reals(const Header& header, const FixedValues& fixed_values, const char* name, const char* along) {
+  const auto& variable = fixed_variable(header, name, classic::Type::float64, along);
+  const std::string bytes = fixed_values(variable);
+  std::vector<double> values;
+  for (std::uint64_t k = 0; k < variable.values; ++k) values.push_back(classic::load_real(bytes.data() + k * 8));
+  return values;
+}
+
+void read_labels_and_amounts(RecordingInfo& info, const Header& header, const FixedValues& fixed_values) {
+  const std::uint64_t vessels = length_of(header, "vessel"), amounts = length_of(header, "amount");
+  if (vessels < 1 || vessels > LIVE_VESSELS) throw lacks(fmt::format("1 to {} vessels", LIVE_VESSELS));
+  if (amounts > MOST_AMOUNTS) throw usage_error(fmt::format("has {} amounts; at most {} can be", amounts, MOST_AMOUNTS));
+  const auto names = recorded_labels(header, fixed_values, "vessel", "vessel");
+  const auto liquids = recorded_labels(header, fixed_values, "liquid", "vessel");
+  const auto ranges = recorded_reals(header, fixed_values, "force_range", "vessel");
+  for (std::size_t v = 0; v < vessels; ++v) info.vessels.push_back({names[v], liquids[v], ranges[v]});
+  if (amounts == 0) return;
+  const auto wanted = recorded_labels(header, fixed_values, "amount_liquid", "amount");
+  const auto volumes = recorded_reals(header, fixed_values, "amount", "amount");
+  for (std::size_t k = 0; k < amounts; ++k) info.amounts.push_back({wanted[k], volumes[k]});
+}
+
+Percentiles recorded_percentiles(const Header& header, const char* name) {
+  const auto values = recorded_numbers(header, name, 4);
+  return {values[0], values[1], values[2], values[3]};
+}
+
+constexpr const char* PERIOD_PERCENTILES = "period_p50_p99_p999_max_s";
+constexpr const char* STEP_PERCENTILES = "step_time_p50_p99_p999_max_s";
+
+}  // namespace
+
+RecordingLayout layout_recording(const RecordingInfo& info) { return LayoutBuilder(info).build(); }
+
+void add_end(Header& header, const RecordingEnd& end) {
+  const auto percentiles = [&header](const char* name, const Percentiles& values) {
+    header.attributes.push_back(classic::number_attribute(name, {values.p50, values.p99, values.p999, values.max}));
+  };
+  percentiles(PERIOD_PERCENTILES, end.period);
+  percentiles(STEP_PERCENTILES, end.step);
+  header.attributes.push_back(classic::number_attribute("missed_periods", {static_cast<double>(end.missed)}));
+  header.attributes.push_back(classic::text_attribute("fault", FAULT_NAMES[static_cast<std::size_t>(end.fault)]));
+  header.attributes.push_back(classic::text_attribute("ended_early", end.early.substr(0, LONGEST_REASON)));
+}
+
+std::string dimension_names(const Header& header, const classic::Variable& variable) {
+  std::vector<std::string> names;
+  for (const std::uint32_t dimension : variable.dimensions) names.push_back(header.dimensions[dimension].name);
+  return fmt::format("{}", fmt::join(names, " "));
+}
+
+RecordingInfo info_of(const Header& header, const FixedValues& fixed_values) {
+  const Attribute* content = header.attribute("content");
+  if (!content || content->bytes != CONTENT) throw usage_error("is no recording of a session, but another NetCDF file");
+  RecordingInfo info;
+  info.scene_name = recorded_text(header, "scene_name");
+  info.scene_file = recorded_text(header, "scene_file");
+  info.scene_text = recorded_text(header, "scene");
+  info.version = recorded_text(header, "version");
+  info.start = recorded_text(header, "start");
+  const std::string seed = recorded_text(header, "seed");
+  if (std::from_chars(seed.data(), seed.data() + seed.size(), info.seed).ptr != seed.data() + seed.size() || seed.empty())
+    throw lacks("a seed that is a whole number");
+  info.rate = recorded_number(header, "rate_Hz");
+  if (!(info.rate > 0 && info.rate <= LARGEST_RATE))
+    throw usage_error(fmt::format("has a rate of {} Hz, which cannot be", info.rate));
+  const auto gap = recorded_numbers(header, "device_gap_m", 2);
+  info.device = {recorded_text(header, "device"),
+                 recorded_text(header, "device_address"),
+                 recorded_number(header, "device_arm_force_N"),
+                 recorded_number(header, "device_gripper_force_N"),
+                 {gap[0], gap[1]},
+                 recorded_number(header, "device_rate_Hz"),
+                 recorded_yes(header, "device_has_rotation"),
+                 recorded_yes(header, "device_is_left_handed")};
+  info.force_base = recorded_number(header, "force_base_N");
+  info.force_max = recorded_number(header, "force_max_N");
+  info.tolerance = recorded_number(header, "tolerance_m3");
+  read_labels_and_amounts(info, header, fixed_values);
+  return info;
+}
+
+std::optional<RecordingEnd> end_of(const Header& header) {
+  if (!header.attribute("ended_early")) return std::nullopt;
+  RecordingEnd end;
+  end.period = recorded_percentiles(header, PERIOD_PERCENTILES);
+  end.step = recorded_percentiles(header, STEP_PERCENTILES);
+  const double missed = recorded_number(header, "missed_periods");
+  if (!(missed >= 0 && missed < 1e15)) throw usage_error(fmt::format("has {} missed periods, which cannot be", missed));
+  end.missed = static_cast<std::int64_t>(missed);
+  const auto fault = std::find(FAULT_NAMES.begin(), FAULT_NAMES.end(), recorded_text(header, "fault"));
+  if (fault == FAULT_NAMES.end()) throw usage_error("has a fault that there is not");
+  end.fault = static_cast<Fault>(fault - FAULT_NAMES.begin());
+  end.early = recorded_text(header, "ended_early");
+  return end;
+}
+
+}  // namespace wholehand

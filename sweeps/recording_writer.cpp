@@ -1,0 +1,153 @@
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <new>
+
+#include "core/error.h"
+#include "sweeps/files.h"
+#include "sweeps/recording.h"
+#include "sweeps/recording_fields.h"
+#include "sweeps/recording_layout.h"
+
+namespace wholehand {
+namespace {
+
+std::string partial_recording(const std::string& path) { return path + ".partial"; }
+
+Error is_in_the_way(const std::string& path, const std::string& partial) {
+  return usage_error(fmt::format(
+      "--record {}: {} is there, of a session that was killed or is still running; move it, remove it, or name another file", path,
+      partial));
+}
+
+void append_record(std::string& block, const Tick& tick, double rate, std::size_t vessels) {
+  classic::append_real(block, static_cast<double>(tick.number) / rate);
+  for (const RecordedField& field : recorded_fields()) append_field(block, field, tick, vessels);
+}
+
+}  // namespace
+
+void check_recording_path(const std::string& path) {
+  check_output_path(path, "--record");
+  struct stat status {};
+  if (stat(path.c_str(), &status) == 0 && status.st_size > 0) {
+    throw usage_error(
+        fmt::format("--record {}: is there, and what it holds is not overwritten; name another file, or remove it", path));
+  }
+  const std::string partial = partial_recording(path);
+  if (lstat(partial.c_str(), &status) == 0) throw is_in_the_way(path, partial);
+}
+
+RecordingWriter::RecordingWriter(const std::string& path, const RecordingInfo& info)
+    : path_(path), partial_(partial_recording(path)), rate_(info.rate), vessels_(info.vessels.size()) {
+  if (vessels_ < 1 || vessels_ > LIVE_VESSELS)
+    throw usage_error(fmt::format("{}: a recording has 1 to {} vessels", path, LIVE_VESSELS));
+  check_recording_path(path);
+  std::signal(SIGXFSZ, SIG_IGN);
+  RecordingLayout layout = layout_recording(info);
+  header_ = std::move(layout.header);
+  // the room between the header and the first variable is written, too, so that the end needs no more of the disk
+  std::string start = classic::encode_header(header_);
+  start.resize(header_.record_begin - layout.fixed.size(), '\0');
+  start += layout.fixed;
+  file_ = open(partial_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
+  if (file_ < 0 && errno == EEXIST) throw is_in_the_way(path, partial_);
+  int error = file_ < 0 ? errno : 0;
+  if (file_ >= 0 && put(start.data(), start.size(), 0, error) < start.size()) {
+    close(file_);
+    unlink(partial_.c_str());
+    file_ = -1;
+  }
+  if (file_ < 0) throw failure_error(fmt::format("{}: cannot record: {}; name another file", partial_, std::strerror(error)));
+}
+
+RecordingWriter::~RecordingWriter() {
+  if (file_ >= 0) close(file_);
+}
+
+// How many bytes the file took, and why not all of them.
+std::uint64_t RecordingWriter::put(const char* data, std::uint64_t size, std::uint64_t place, int& error) {
+  std::uint64_t done = 0;
+  while (done < size) {
+    const ssize_t written = pwrite(file_, data + done, size - done, static_cast<off_t>(place + done));
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) {
+      error = written < 0 ? errno : EIO;
+      break;
+    }
+    done += static_cast<std::uint64_t>(written);
+  }
+  return done;
+}
+
+void RecordingWriter::give_up(int error) {
+  const char* why = error == 0 ? "it holds as many ticks as a file can" : std::strerror(error);
+  trouble_ = fmt::format("{}: recording ended: {}; it is whole up to here", path_, why);
+}
+
+std::uint64_t RecordingWriter::bytes() const { return header_.record_begin + header_.records * header_.record_size; }
+
+bool RecordingWriter::append(std::span<const Tick> ticks) {
+  if (file_ < 0 || !trouble_.empty()) return false;
+  const std::size_t taken = std::min<std::size_t>(ticks.size(), classic::MOST_RECORDS - header_.records);
+  try {
+    block_.clear();
+    block_.reserve(taken * header_.record_size);
+    for (const Tick& tick : ticks.first(taken)) append_record(block_, tick, rate_, vessels_);
+  } catch (const std::bad_alloc&) {
+    give_up(ENOMEM);
+    return false;
+  }
+  append_block();
+  if (trouble_.empty() && taken < ticks.size()) give_up(0);
+  return trouble_.empty();
+}
+
+// Writes the block down, or as many whole records of it as the disk still takes.
+void RecordingWriter::append_block() {
+  int error = 0;
+  const std::uint64_t end = bytes(), written = put(block_.data(), block_.size(), end, error);
+  const auto added = static_cast<std::uint32_t>(written / header_.record_size);
+  if (written < block_.size()) {
+    give_up(error);
+    [[maybe_unused]] const int cut =
+        ftruncate(file_, static_cast<off_t>(end + added * header_.record_size));  // a rest does no harm
+  }
+  // counted last: a process that is killed in between leaves a file without the block, but whole
+  std::string count;
+  classic::append_32(count, header_.records + added);
+  if (put(count.data(), count.size(), classic::RECORD_COUNT_PLACE, error) == count.size()) {
+    header_.records += added;
+  } else if (trouble_.empty()) {
+    give_up(error);
+  }
+}
+
+bool RecordingWriter::finish(RecordingEnd end) {
+  if (file_ < 0) return false;
+  if (end.early.empty()) end.early = trouble_;
+  add_end(header_, end);
+  const std::string start = classic::encode_header(header_);
+  int error = 0;
+  // in place, over bytes that the file has: a full disk does not prevent it
+  const bool is_ended = put(start.data(), start.size(), 0, error) == start.size() && fsync(file_) == 0;
+  if (!is_ended && trouble_.empty()) give_up(error != 0 ? error : errno);
+  close(file_);
+  file_ = -1;
+  try {
+    rename_file(partial_, path_);
+  } catch (const Error& refused) {
+    trouble_ = fmt::format("{}; the recording is whole at {}", refused.what(), partial_);
+    return false;
+  }
+  sync_folder_of(path_);
+  return is_ended;
+}
+
+}  // namespace wholehand
