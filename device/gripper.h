@@ -44,7 +44,8 @@ class Gripper {
   virtual void panic() noexcept {}
   // What is on the screen after this tick. Only simulated users look.
   virtual void show(const Tick&) noexcept {}
-  // The number that the next tick must have: a recording's. -1: the loop's own clock counts.
+  // The number that the next tick must have: a recording's, in which some may be missing. -1: the loop's own
+  // clock counts.
   virtual std::int64_t dictated_tick() const noexcept { return -1; }
   // Whether the one who holds it is done: a simulated user, a recording at its end.
   virtual bool is_done() const noexcept { return false; }
