@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -136,6 +137,17 @@ TEST(Protocol, GrippersAreKnownByTheirFirstCollection) {
   second.insert(second.end(), report_descriptor().begin(), report_descriptor().end());
   EXPECT_FALSE(is_gripper(second));
   for (std::size_t size = 0; size < 7; ++size) EXPECT_FALSE(is_gripper(report_descriptor().first(size))) << size;
+}
+
+TEST(Protocol, UdevRulesKnowTheInterface) {
+  std::ifstream file(WHOLEHAND_SOURCE_DIR "/device/udev/60-wholehand.rules");
+  const std::string rules{std::istreambuf_iterator<char>(file), {}};
+  char interface[16];
+  std::snprintf(interface, sizeof interface, "*:%02x%02x%02x:*", USB_CLASS, USB_SUBCLASS, USB_PROTOCOL);
+  EXPECT_NE(rules.find("ENV{ID_USB_INTERFACES}==\"" + std::string(interface) + "\""), std::string::npos) << interface;
+  std::istringstream lines(rules);
+  for (std::string line; std::getline(lines, line);)
+    EXPECT_TRUE(line.empty() || line[0] == '#' || line.ends_with("TAG+=\"uaccess\"")) << line;
 }
 
 // ---- round trips ----

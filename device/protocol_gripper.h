@@ -1,0 +1,24 @@
+// An open gripper over either transport: start-up, watchdog, measurements and forces as docs/gripper-protocol.md has them.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "device/gripper.h"
+#include "device/protocol.h"
+#include "device/transport.h"
+
+namespace wholehand {
+
+// The identity, checked; else what is wrong with it, in one line. Empty: nothing.
+std::string read_identity(Transport& transport, protocol::Identity& identity);
+
+// Takes the gripper into use: no force, its watchdog at that period, its first measurement seen. Throws Error: (usage) a period that the
+// protocol does not allow, (failure) everything else.
+std::unique_ptr<Gripper> open_over(std::unique_ptr<Transport> transport, const std::string& address, double watchdog_s);
+
+// What to tell the one who may not open a device node.
+std::string no_permission(const std::string& node);
+constexpr const char* IN_USE = "in use by another session";
+
+}  // namespace wholehand

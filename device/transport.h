@@ -1,0 +1,37 @@
+// Reports to and from an open gripper, whatever carries them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "core/tick.h"
+#include "device/protocol.h"
+
+namespace wholehand {
+
+// Opened by its maker, closed by its destructor. No method throws; receive() and send() do not allocate of their own.
+class Transport {
+ public:
+  Transport() = default;
+  virtual ~Transport() = default;
+  Transport(const Transport&) = delete;
+  Transport& operator=(const Transport&) = delete;
+
+  // How many reports wait where nobody reads; beyond them the newer ones are lost.
+  virtual int queue_length() const noexcept = 0;
+  // The next report in the order in which they came, waiting for it so long, s; `into` has LARGEST_SIZE bytes.
+  virtual ReadOutcome receive(std::span<std::uint8_t> into, std::size_t& length, double patience) noexcept = 0;
+  // False: not taken. send_now() waits until the device has it.
+  virtual bool send(protocol::Bytes report) noexcept = 0;
+  virtual bool send_now(protocol::Bytes report) noexcept = 0;
+  // report[0] is the id; `length` is what came, id included.
+  virtual bool get_feature(std::span<std::uint8_t> report, std::size_t& length) noexcept = 0;
+  virtual bool set_feature(protocol::Bytes report) noexcept = 0;
+  // Why the last of the above failed: a few words that stay where they are.
+  virtual const char* trouble() const noexcept = 0;
+  // Sends what it can of a report from a signal handler, whatever the above are doing.
+  virtual void panic(protocol::Bytes report) noexcept = 0;
+};
+
+}  // namespace wholehand
