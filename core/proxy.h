@@ -18,9 +18,10 @@ struct Obstacles {
   };
   std::array<Standing, LIVE_VESSELS> standing{};
   int count = 0;
+  double thinnest = 0.05e-3;  // m: no wall is thinner; bare points slide so far at once
 };
 
-// The nearest solid vessel to a point of that radius: its number (-1: none), and the separation, m. `skip`: one that does not count.
+// The nearest solid vessel to a point of that radius: its number (-1: none), and the separation, m.
 struct NearestVessel {
   int vessel = -1;
   double separation = core_f64::NO_DISTANCE;
@@ -37,12 +38,12 @@ struct Proxy {
   int element = -1;         // of that vessel's outline
 };
 
-// The proxy for a tip that is now at `tip`, m, where it was `before`. It goes towards the tip in steps that cannot pass a surface and is
-// moved out along the normal after each, until it is as near as it gets: its place on the surface nearest to the tip. Friction: it stays
-// where it was while the tip pulls it sideways by less than `friction` times the depth, and otherwise lags behind by that much. It never
-// ends inside, and where PROXY_MOVES steps do not suffice it goes on in the next tick.
+// The proxy for a tip that is now at `tip`, m, where it was `before`. It goes towards the tip, along the surfaces that it meets, in steps that
+// cannot pass one, and is moved out along the normal after each, until it is as near as it gets. Friction: on a surface it stays
+// where it is while the tip pulls it sideways by less than `friction` times the depth, and otherwise lags behind by that much. It never ends
+// inside, and where PROXY_MOVES steps do not suffice it goes on in the next tick. A bare point is taken for one of a micrometre.
 // Degenerate: in an edge where two surfaces meet it is moved out of one after the other; where that does not end it stays.
 Proxy carry_proxy(const Obstacles& obstacles, const Proxy& before, core_f64::Vec3 tip, double radius, double friction) noexcept;
-constexpr int PROXY_MOVES = 24;
+constexpr int PROXY_MOVES = 48;
 
 }  // namespace wholehand

@@ -28,6 +28,8 @@ double minimum_jerk(double t) {
   return s * s * s * (10 + s * (6 * s - 15));
 }
 
+constexpr double THINNEST_SOLID = 1e-3;  // m: a hull has no wall, and what it has that is thinner is no way in
+
 std::array<double, 2> gap_of(const core_f64::Hand& hand) { return {hand.scale * hand.gap_closed, hand.scale * hand.gap_open}; }
 
 std::vector<double> volumes_of(const LiveScene& live) {
@@ -98,6 +100,9 @@ Session::Session(const Scene& scene, std::array<double, 2> device_gap)
       period_(1 / scene.live.rate),
       radii_{live_->hand.scale * live_->hand.radius[0][3], live_->hand.scale * live_->hand.radius[1][4]} {
   for (const LiveVessel& vessel : live_->vessels) obstacles_.standing[obstacles_.count++] = {&vessel.vessel, vessel.home, false};
+  obstacles_.thinnest = THINNEST_SOLID;
+  for (const VesselData& data : live_->scene.vessels)
+    if (data.surface == Surface::shell) obstacles_.thinnest = std::min(obstacles_.thinnest, data.wall);
 }
 
 // A tick: where the hand is; then what holds, comes back or is touched; then the forces.
@@ -191,13 +196,16 @@ bool Session::grasp(const HandPose& pose, double device_gap, Tick& tick) noexcep
   std::array<Vec3, 2> normals{};
   std::array<int, 2> vessels{-1, -1};
   for (int k = 0; k < 2; ++k) {
+    // a tip that is pressed through a thin wall still touches what its proxy rests on
     const NearestVessel nearest = nearest_vessel(obstacles_, tips_[k], radii_[k]);
-    if (nearest.vessel < 0 || nearest.separation > hand.contact_tolerance) return false;
-    const auto& standing = obstacles_.standing[nearest.vessel];
+    const bool is_near = nearest.vessel >= 0 && nearest.separation <= hand.contact_tolerance;
+    const int touched = proxies_[k].vessel >= 0 ? proxies_[k].vessel : is_near ? nearest.vessel : -1;
+    if (touched < 0) return false;
+    const auto& standing = obstacles_.standing[touched];
     int element = -1;
     normals[k] = core_f64::distance_gradient(*standing.vessel, proxies_[k].place - standing.place, element);
     if (standing.vessel->lid >= 0 && element == standing.vessel->lid) return false;
-    vessels[k] = nearest.vessel;
+    vessels[k] = touched;
   }
   if (vessels[0] != vessels[1]) return false;
   const int v = vessels[0];
