@@ -51,6 +51,7 @@ int run(int argc, char** argv) {
   wholehand::add_check_command(app, action);
   wholehand::add_error_time_command(app, action);
   wholehand::add_stability_command(app, action);
+  wholehand::add_live_command(app, action);
   wholehand::add_devices_command(app, action);
   try {
     app.parse(argc, argv);

@@ -1,13 +1,16 @@
 #include "device/realtime.h"
 
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <unistd.h>
 
 namespace wholehand {
 namespace {
@@ -19,6 +22,14 @@ constexpr std::size_t STACK = 64 * 1024;  // bytes that a tick may need
 void touch_stack() {
   char stack[STACK];
   explicit_bzero(stack, sizeof stack);
+}
+
+// Asks the processors not to sleep so deeply that waking takes long, for as long as the process lives: the kernel forgets it when the file
+// is closed. Where that is not permitted wakings are a little later, and nothing else.
+void keep_awake() {
+  static const int file = open("/dev/cpu_dma_latency", O_RDWR | O_CLOEXEC);
+  const std::int32_t microseconds = 0;
+  if (file >= 0 && write(file, &microseconds, sizeof microseconds) < 0) errno = 0;
 }
 
 }  // namespace
@@ -37,6 +48,7 @@ std::vector<std::string> make_realtime() {
     notes.push_back(fmt::format("memory is not locked ({}): a memlock limit of unlimited in /etc/security/limits.d permits it",
                                 std::strerror(errno)));
   }
+  keep_awake();
   prctl(PR_SET_TIMERSLACK, 1);  // ns; 50 us by default for threads that are not real-time
   return notes;
 }

@@ -6,12 +6,16 @@
 namespace wholehand {
 namespace {
 
-bool is_of_loop(Fault fault) { return fault == Fault::late || fault == Fault::ring_full || fault == Fault::interrupted; }
+// Where the session ended by itself, its time over or its user done, or by the loop's own doing.
+bool ends_there(const Tick& tick) {
+  const bool is_of_loop = tick.fault == Fault::late || tick.fault == Fault::ring_full || tick.fault == Fault::interrupted;
+  return is_of_loop || (tick.state == SessionState::released && tick.fault == Fault::none);
+}
 
 class ReplayGripper : public Gripper {
  public:
   ReplayGripper(std::vector<Tick> ticks, GripperLimits limits) : ticks_(std::move(ticks)), limits_(std::move(limits)) {
-    while (end_ < ticks_.size() && !is_of_loop(ticks_[end_].fault)) ++end_;
+    while (end_ < ticks_.size() && !ends_there(ticks_[end_])) ++end_;
   }
 
   const GripperLimits& limits() const noexcept override { return limits_; }

@@ -9,8 +9,8 @@
 namespace wholehand {
 
 // A gripper that says again what was read then: each recorded tick's value, timeout or error. It dictates the numbers of the ticks, because a
-// recorded session may have missed periods. A write fails where it failed then. It is done at the end, and at the tick whose fault was the
-// loop's own doing (late, ring full, interrupted) and would not happen again. `ticks` ascend in their numbers.
+// recorded session may have missed periods. A write fails where it failed then. It is done where the session was, and at a tick whose
+// fault was the loop's own doing (late, ring full, interrupted) and would not happen again. `ticks` ascend in their numbers.
 std::unique_ptr<Gripper> make_replay(std::vector<Tick> ticks, GripperLimits limits);
 
 }  // namespace wholehand

@@ -44,7 +44,7 @@ bool Recorder::drain() {
   Tick tick;
   while (block_.size() < BLOCK && ring_.pop(tick)) block_.push_back(tick);
   if (block_.empty()) return false;
-  newest_ = block_.back();
+  if (observer_) observer_(block_);
   // after trouble the writer takes nothing, and what comes is let go
   if (writer_) writer_->append(block_);
   tell_trouble();
@@ -65,10 +65,8 @@ void Recorder::run() {
       wake_.wait_for(lock, DRAIN_INTERVAL, [this] { return is_stopping_; });
       is_last = is_stopping_;
     }
-    bool has_new = false;
-    // the last time until it is empty; before, one round of the ring at most, so that the observer hears of it
-    for (std::size_t left = ring_.capacity() / BLOCK + 1; (left > 0 || is_last) && drain(); left -= left > 0) has_new = true;
-    if (has_new && observer_) observer_(newest_);
+    while (drain()) {
+    }
   }
 }
 

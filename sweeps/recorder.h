@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -19,8 +20,8 @@ namespace wholehand {
 // finds it full. The ring must outlive it and hold what comes during a pause of the disk: a few seconds.
 class Recorder {
  public:
-  // Called on the recorder's thread with the newest tick of each batch, at most some 20 times a second (a status line, say). Must not throw.
-  using Observer = std::function<void(const Tick&)>;
+  // Called on the recorder's thread with each batch of ticks, all of them in their order (a status line, say). Must not throw.
+  using Observer = std::function<void(std::span<const Tick>)>;
 
   // Without a writer it only drains and shows.
   Recorder(TickRing& ring, std::unique_ptr<RecordingWriter> writer, Observer observer = {});
@@ -45,7 +46,6 @@ class Recorder {
   std::unique_ptr<RecordingWriter> writer_;
   Observer observer_;
   std::vector<Tick> block_;
-  Tick newest_;
   bool is_told_ = false;  // its trouble
   bool is_whole_ = true;
 

@@ -528,7 +528,7 @@ TEST(Closure, AzimuthTurnsEverything) {
   for (GripInput grip : sample_grips(vessel, 60, 26)) {
     GripResult turned, straight;
     evaluator->grip(0, grip, turned);
-    const Rotation R = rotation_y(grip.azimuth);
+    const LongRotation R = rotation_y(grip.azimuth);
     grip.azimuth = 0;
     evaluator->grip(0, grip, straight);
     ASSERT_EQ(turned.reason, straight.reason);

@@ -68,7 +68,7 @@ std::array<Vec3, 3> watched_points(const Placed& finger, const Vec3& angles) {
 // The same by the specification's rotation matrices, R = Rx(-MCP) Rx(-PIP) Rx(-DIP) after the metacarpal's frame.
 std::array<Vec3, 3> watched_points_by_matrices(const Placed& finger, const Vec3& angles) {
   const Vec3 y = -finger.palmward, z = -finger.forward, x = glm::cross(y, z);
-  Rotation R = rotation_x(0);
+  LongRotation R = rotation_x(0);
   Long3 at{0, 0, -static_cast<long double>(finger.length[0])};
   std::array<Vec3, 3> points;
   for (int k = 0; k < 3; ++k) {
@@ -767,7 +767,7 @@ TEST(Paper, TurnedPointIsARotation) {
     const double angle = random.uniform(0, 1);
     const Vec3 p{random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1)}, pivot{0.03, -0.02, 0.05};
     const Vec3 arm = p - pivot;
-    const std::array<Rotation, 3> by_axis{rotation_x(angle), rotation_y(angle), rotation_z(angle)};
+    const std::array<LongRotation, 3> by_axis{rotation_x(angle), rotation_y(angle), rotation_z(angle)};
     for (int k = 0; k < 3; ++k) {
       Vec3 axis{};
       axis[k] = 1;

@@ -246,23 +246,23 @@ std::vector<GripInput> sample_grips(const VesselData& vessel, int count, std::ui
 
 // ---- the hand by rotation matrices ----
 
-Rotation rotation_x(long double angle) {
+LongRotation rotation_x(long double angle) {
   const long double c = std::cos(angle), s = std::sin(angle);
   return {{{1, 0, 0}, {0, c, -s}, {0, s, c}}};
 }
 
-Rotation rotation_y(long double angle) {
+LongRotation rotation_y(long double angle) {
   const long double c = std::cos(angle), s = std::sin(angle);
   return {{{c, 0, s}, {0, 1, 0}, {-s, 0, c}}};
 }
 
-Rotation rotation_z(long double angle) {
+LongRotation rotation_z(long double angle) {
   const long double c = std::cos(angle), s = std::sin(angle);
   return {{{c, -s, 0}, {s, c, 0}, {0, 0, 1}}};
 }
 
-Rotation operator*(const Rotation& a, const Rotation& b) {
-  Rotation product{};
+LongRotation operator*(const LongRotation& a, const LongRotation& b) {
+  LongRotation product{};
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) {
       for (int k = 0; k < 3; ++k) product[i][j] += a[i][k] * b[k][j];
@@ -271,7 +271,7 @@ Rotation operator*(const Rotation& a, const Rotation& b) {
   return product;
 }
 
-Long3 operator*(const Rotation& a, const Long3& p) { return {dot(a[0], p), dot(a[1], p), dot(a[2], p)}; }
+Long3 operator*(const LongRotation& a, const Long3& p) { return {dot(a[0], p), dot(a[1], p), dot(a[2], p)}; }
 Long3 operator+(const Long3& a, const Long3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 Long3 operator-(const Long3& a, const Long3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 Long3 operator*(long double s, const Long3& a) { return {s * a[0], s * a[1], s * a[2]}; }
@@ -298,15 +298,15 @@ Long3 reference_finger_angles(const HandData& hand, long double closure) {
 std::vector<Long3> reference_finger(const HandData& hand, int finger, const Long3& angles) {
   const FingerData& data = hand.fingers[static_cast<std::size_t>(finger)];
   const bool is_thumb = finger == 0;
-  const std::vector<Rotation> turns =
+  const std::vector<LongRotation> turns =
       is_thumb
-          ? std::vector<Rotation>{rotation_y(data.splay) * rotation_x(-angles[0]), rotation_x(angles[1]), rotation_x(angles[2])}
-          : std::vector<Rotation>{
+          ? std::vector<LongRotation>{rotation_y(data.splay) * rotation_x(-angles[0]), rotation_x(angles[1]), rotation_x(angles[2])}
+          : std::vector<LongRotation>{
                 rotation_y(-static_cast<long double>(data.splay)) * rotation_x(-static_cast<long double>(data.arch)),
                 rotation_x(-angles[0]), rotation_x(-angles[1]), rotation_x(-angles[2])};
   const long double scale = hand.scale;
   std::vector<Long3> joints{{scale * data.base[0], scale * data.base[1], scale * data.base[2]}};
-  Rotation R = rotation_x(0);
+  LongRotation R = rotation_x(0);
   for (std::size_t k = 0; k < turns.size(); ++k) {
     R = R * turns[k];
     joints.push_back(joints.back() + R * Long3{0, 0, -scale * data.segments[k]});

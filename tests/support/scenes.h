@@ -70,13 +70,13 @@ std::vector<GripInput> sample_grips(const VesselData& vessel, int count, std::ui
 // ---- the hand by rotation matrices, in long double: R p, with p0 = base and p_{k+1} = p_k + R (0, 0, -L) ----
 
 using Long3 = std::array<long double, 3>;
-using Rotation = std::array<Long3, 3>;  // rows
+using LongRotation = std::array<Long3, 3>;  // rows
 
-Rotation rotation_x(long double angle);
-Rotation rotation_y(long double angle);
-Rotation rotation_z(long double angle);
-Rotation operator*(const Rotation& a, const Rotation& b);
-Long3 operator*(const Rotation& a, const Long3& p);
+LongRotation rotation_x(long double angle);
+LongRotation rotation_y(long double angle);
+LongRotation rotation_z(long double angle);
+LongRotation operator*(const LongRotation& a, const LongRotation& b);
+Long3 operator*(const LongRotation& a, const Long3& p);
 Long3 operator+(const Long3& a, const Long3& b);
 Long3 operator-(const Long3& a, const Long3& b);
 Long3 operator*(long double s, const Long3& a);

@@ -1,0 +1,53 @@
+// wholehand live: a session with a gripper, or with a simulated one.
+#include <CLI/CLI.hpp>
+
+#include <memory>
+
+#include "app/commands.h"
+#include "app/live.h"
+#include "app/scene_ranges.h"
+#include "app/validators.h"
+#include "app/values.h"
+
+namespace wholehand {
+namespace {
+
+constexpr Quantity LIVE_SECONDS{0.01, 1e6};
+
+struct LiveArguments {
+  LiveOptions options;
+  std::string rate, seconds, seed = "1";
+};
+
+ExitCode live(const LiveArguments& arguments) {
+  LiveOptions options = arguments.options;
+  if (!arguments.rate.empty()) options.rate = parse_quantity(arguments.rate, "--rate", ranges::RATE);
+  if (!arguments.seconds.empty()) options.seconds = parse_quantity(arguments.seconds, "--seconds", LIVE_SECONDS);
+  options.seed = static_cast<std::uint64_t>(parse_integer(arguments.seed, "--seed", ranges::SEED));
+  return run_live(options);
+}
+
+}  // namespace
+
+void add_live_command(CLI::App& app, Action& action) {
+  const auto arguments = std::make_shared<LiveArguments>();
+  LiveOptions& options = arguments->options;
+  CLI::App* command = app.add_subcommand("live", "A session with a gripper: what it does is felt, and can be recorded");
+  const auto add = [command](const char* name, std::string& value, const char* type, const char* help) {
+    return command->add_option(name, value, help)->type_name(type)->check(not_empty());
+  };
+  add("scene", options.scene, "SCENE", "Scene file or name of a shipped scene (mixing_board; of a replay the recorded one)");
+  add("--device", options.device, "DEVICE",
+      "sim (the default), replay:FILE, hid[:PATH], usb[:VID:PID] or omega[:N]; see wholehand devices");
+  add("--rate", arguments->rate, "HZ", "Of the force loop (the scene's)");
+  add("--record", options.record, "FILE", "Keep every tick in a NetCDF file; see wholehand session");
+  add("--seconds", arguments->seconds, "S", "End after so long (when the simulated user is done, or on Ctrl-C)");
+  add("--seed", arguments->seed, "N", "Of the simulated user (1)");
+  add("--dhd-library", options.dhd_library, "PATH", "Force Dimension's SDK (libdhd.so), for omega.7 and sigma.7");
+  command->add_flag("--unsafe-gains", options.unsafe_gains, "Allow gains that a light device may not bear");
+  command->add_flag("--no-clock", options.no_clock, "As fast as it goes, without a clock: sim and replay only");
+  command->add_flag("--json", options.json, "The report at the end as JSON, and nothing else");
+  command->callback([arguments, &action] { action = [arguments] { return live(*arguments); }; });
+}
+
+}  // namespace wholehand

@@ -1,0 +1,30 @@
+// A live session from its command line: gripper, loop, recording, and what is told meanwhile.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/error.h"
+
+namespace wholehand {
+
+struct LiveOptions {
+  std::string scene;  // as for the other commands; empty: the recorded one of a replay, else DEFAULT_LIVE_SCENE
+  std::string device = "sim";
+  double rate = 0;            // Hz; 0: the scene's, or the recorded one
+  std::string record;         // file; empty: none
+  double seconds = 0;         // 0: until the user is done, or for ever
+  std::uint64_t seed = 1;     // of the simulated user
+  std::string dhd_library;    // empty: the scene's, or wherever it is found
+  bool unsafe_gains = false;  // whatever their limits
+  bool no_clock = false;      // as fast as it goes: simulated and recorded users only
+  bool json = false;          // the report at the end, and nothing else, on standard output
+};
+
+inline constexpr const char* DEFAULT_LIVE_SCENE = "mixing_board";
+
+// Runs it and prints what happens, and at the end how it went. Returns done, or interrupted after a signal. Throws Error: (usage) what is asked
+// for is not allowed; (failure) the device cannot be opened, or the session ended by a fault: the line says which.
+ExitCode run_live(const LiveOptions& options);
+
+}  // namespace wholehand

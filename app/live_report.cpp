@@ -1,0 +1,162 @@
+#include "app/live_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "sweeps/readable.h"
+
+namespace wholehand {
+namespace {
+
+constexpr double ML = 1e6;  // a m3
+
+std::string percentiles(const Histogram& times) {
+  return fmt::format("p50 {:.1f}, p99 {:.1f}, p99.9 {:.1f}, largest {:.1f} us", times.quantile(0.5) * 1e6,
+                     times.quantile(0.99) * 1e6, times.quantile(0.999) * 1e6, times.largest() * 1e6);
+}
+
+nlohmann::ordered_json percentiles_json(const Histogram& times) {
+  return {{"p50", times.quantile(0.5)}, {"p99", times.quantile(0.99)}, {"p999", times.quantile(0.999)}, {"max", times.largest()}};
+}
+
+std::string board(const std::vector<MixedAmount>& amounts) {
+  std::string line;
+  for (const MixedAmount& amount : amounts) {
+    line +=
+        fmt::format("{}{} {:.1f} of {:.1f} ml", line.empty() ? "" : ", ", amount.liquid, amount.arrived * ML, amount.wanted * ML);
+  }
+  return line;
+}
+
+double total_spilt(const Scene& scene, const Tick& tick) {
+  double spilt = 0;
+  for (std::size_t v = 0; v < scene.vessels.size(); ++v) spilt += tick.spilt[v];
+  return spilt;
+}
+
+}  // namespace
+
+std::vector<MixedAmount> mixing_board(const Scene& scene, const Tick& tick) {
+  std::vector<MixedAmount> amounts;
+  if (!scene.task) return amounts;
+  for (const auto& [liquid, wanted] : scene.task->amounts) {
+    MixedAmount amount{liquid, 0, wanted, 0};
+    for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
+      if (scene.vessels[v].liquid_name != liquid) continue;
+      amount.arrived += tick.arrived[v];
+      amount.spilt += tick.spilt[v];
+    }
+    amounts.push_back(amount);
+  }
+  return amounts;
+}
+
+Narrator::Narrator(const Scene& scene) : scene_(scene) {}
+
+std::string Narrator::stamp(const Tick& tick) const {
+  return fmt::format("{:8.2f} s  ", static_cast<double>(tick.number) / scene_.live.rate);
+}
+
+std::vector<std::string> Narrator::look(const Tick& tick) {
+  std::vector<std::string> lines;
+  const auto name = [this](int vessel) { return vessel >= 0 ? scene_.vessels[vessel].name : std::string("a vessel"); };
+  if (tick.destinations > last_.destinations) lines.push_back(stamp(tick) + name(tick.vessel) + " is at its destination");
+  if (tick.lost > last_.lost) {
+    lines.push_back(stamp(tick) + name(last_.vessel) + " slipped and returns to where it stood");
+  } else if (is_held(last_.state) && !is_held(tick.state) && tick.state != SessionState::released) {
+    lines.push_back(stamp(tick) + name(last_.vessel) + " was let go");
+  }
+  if (tick.grasps > last_.grasps && is_held(tick.state)) {
+    std::string line = fmt::format("{}{} is held at {:.0f} mm", stamp(tick), name(tick.vessel), tick.grasp_height * 1e3);
+    if (std::isfinite(tick.guidance_distance))
+      line += fmt::format(", {:.0f} mm from the guidance point", tick.guidance_distance * 1e3);
+    lines.push_back(line);
+  }
+  const std::vector<MixedAmount> before = mixing_board(scene_, last_), now = mixing_board(scene_, tick);
+  for (std::size_t k = 0; k < now.size(); ++k) {
+    const auto is_met = [&](const MixedAmount& amount) {
+      return std::abs(amount.arrived - amount.wanted) <= scene_.task->tolerance;
+    };
+    if (is_met(now[k]) && !is_met(before[k])) {
+      lines.push_back(
+          fmt::format("{}{} ml of {} are in the target", stamp(tick), fmt::format("{:.1f}", now[k].arrived * ML), now[k].liquid));
+    }
+  }
+  last_ = tick;
+  return lines;
+}
+
+std::string Narrator::status(const Tick& tick) const {
+  std::string line = fmt::format("{:.1f} s  {}", static_cast<double>(tick.number) / scene_.live.rate,
+                                 SESSION_STATE_NAMES[static_cast<std::size_t>(tick.state)]);
+  if (tick.vessel >= 0) line += fmt::format(" {}  tilt {:.0f} deg", scene_.vessels[tick.vessel].name, degrees(tick.tilt));
+  line += fmt::format("  force {:.2f} N", tick.feedback);
+  if (scene_.task) line += "  " + board(mixing_board(scene_, tick));
+  return line;
+}
+
+std::string live_text(const LiveSummary& summary) {
+  const LoopReport& loop = summary.loop;
+  const Tick& last = loop.last;
+  std::string text = fmt::format("{} with {}: {:.1f} s, {} ticks at {:g} Hz\n", summary.scene.name, summary.gripper.name,
+                                 summary.seconds, readable_number(static_cast<std::uint64_t>(loop.ticks)), summary.scene.live.rate);
+  text += fmt::format("  grasps {}, lost {}", last.grasps, last.lost);
+  if (summary.scene.task)
+    text += fmt::format(", destinations {}; {}", last.destinations, last.task_done ? "all is done" : "not all is done");
+  text += "\n";
+  if (summary.scene.task) {
+    text += fmt::format("  amounts    {}; spilt {:.1f} ml\n", board(mixing_board(summary.scene, last)),
+                        total_spilt(summary.scene, last) * ML);
+  }
+  if (summary.has_clock) {
+    text += fmt::format("  period     {}; missed {}\n", percentiles(loop.period), loop.missed);
+    text += fmt::format("  wake-up    {}\n", percentiles(loop.latency));
+    text += fmt::format("  step       {}; late {}\n", percentiles(loop.step), loop.late);
+  }
+  for (const std::string& note : summary.notes) text += "  " + note + "\n";
+  if (!summary.recording.empty()) text += fmt::format("  recorded in {}\n", summary.recording);
+  return text;
+}
+
+std::string live_json(const LiveSummary& summary) {
+  const LoopReport& loop = summary.loop;
+  const Tick& last = loop.last;
+  nlohmann::ordered_json json{
+      {"scene", summary.scene.name},
+      {"device", {{"name", summary.gripper.name}, {"address", summary.gripper.address}}},
+      {"rate_Hz", summary.scene.live.rate},
+      {"seconds", summary.seconds},
+      {"ticks", loop.ticks},
+      {"fault", loop.fault == Fault::none ? nlohmann::ordered_json() : FAULT_NAMES[static_cast<std::size_t>(loop.fault)]},
+      {"grasps", last.grasps},
+      {"lost", last.lost},
+      {"destinations", last.destinations},
+      {"task_done", last.task_done}};
+  json["amounts"] = nlohmann::ordered_json::array();
+  for (const MixedAmount& amount : mixing_board(summary.scene, last)) {
+    json["amounts"].push_back(
+        {{"liquid", amount.liquid}, {"arrived_m3", amount.arrived}, {"wanted_m3", amount.wanted}, {"spilt_m3", amount.spilt}});
+  }
+  json["spilt_m3"] = total_spilt(summary.scene, last);
+  if (summary.has_clock) {
+    json["period_s"] = percentiles_json(loop.period);
+    json["latency_s"] = percentiles_json(loop.latency);
+    json["step_s"] = percentiles_json(loop.step);
+    json["missed"] = loop.missed;
+    json["late"] = loop.late;
+  }
+  json["notes"] = summary.notes;
+  json["recording"] = summary.recording.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(summary.recording);
+  return json.dump(2) + "\n";
+}
+
+std::string fault_line(const LoopReport& report, double rate) {
+  const std::string trouble = report.trouble.empty() ? "" : " (" + report.trouble + ")";
+  return fmt::format("live: released after {:.3f} s: {}{}; no force is on the device",
+                     static_cast<double>(report.last.number) / rate, FAULT_NAMES[static_cast<std::size_t>(report.fault)], trouble);
+}
+
+}  // namespace wholehand

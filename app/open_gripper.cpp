@@ -1,0 +1,39 @@
+#include "app/open_gripper.h"
+
+#include <fmt/format.h>
+
+#include "app/scene_ranges.h"
+#include "app/scene_text.h"
+#include "app/values.h"
+#include "core/error.h"
+#include "device/hid_gripper.h"
+#include "device/omega_gripper.h"
+#include "device/sim_gripper.h"
+#include "device/usb_gripper.h"
+
+namespace wholehand {
+namespace {
+
+constexpr IntegerRange OMEGA_NUMBER{0, 31};
+
+}  // namespace
+
+std::unique_ptr<Gripper> open_gripper(const std::string& device, const Scene& scene, std::uint64_t seed,
+                                      const std::string& library) {
+  const std::size_t colon = device.find(':');
+  const std::string kind = device.substr(0, colon), which = colon == std::string::npos ? "" : device.substr(colon + 1);
+  const bool is_bare = colon == std::string::npos;
+  if (device == "sim") return open_sim(scene, seed);
+  if (kind == "hid" && (is_bare || !which.empty())) return open_hid(which, WATCHDOG);
+  if (kind == "usb" && (is_bare || !which.empty())) return open_usb(which, WATCHDOG);
+  if (kind == "omega" && (is_bare || !which.empty())) {
+    const int number = is_bare ? 0 : static_cast<int>(parse_integer(which, "--device omega", OMEGA_NUMBER));
+    return open_omega(library.empty() ? scene.device.library : library, WATCHDOG, number);
+  }
+  throw usage_error(
+      fmt::format("--device {}: allowed: sim, replay:FILE, hid, hid:PATH, usb, usb:VID:PID, omega or omega:N; `wholehand "
+                  "devices` lists what is there",
+                  in_quotes(device)));
+}
+
+}  // namespace wholehand

@@ -1,0 +1,21 @@
+// From `--device` to an open gripper.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "core/scene.h"
+#include "device/gripper.h"
+
+namespace wholehand {
+
+// sim, hid[:PATH], usb[:VID:PID] or omega[:N], as --device names them; a recording is opened by its own (sweeps/recording.h). `library`: of
+// Force Dimension's SDK, empty: wherever it is found. Throws Error: (usage) another name, with those that are allowed; (failure) what
+// opening it throws.
+std::unique_ptr<Gripper> open_gripper(const std::string& device, const Scene& scene, std::uint64_t seed,
+                                      const std::string& library);
+
+constexpr double WATCHDOG = 20e-3;  // s without a word from the host after which a device lets go: two of the host's own patience
+
+}  // namespace wholehand

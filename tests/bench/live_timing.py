@@ -1,0 +1,93 @@
+#!/usr/bin/python3
+"""Wake-up latency and step time of `wholehand live` beside cyclictest (Debian's rt-tests), in turns in one run.
+
+    tests/bench/live_timing.py [--rate HZ] [--seconds S] [--rounds N]
+
+Each round measures both on an idle machine and with every other core loaded, all on core 0. Latency: from the moment a tick was due until
+the thread ran. Prints a table in microseconds; exits with 1 where the loop's median or 99.9th percentile of the latency is more than 1.5
+times cyclictest's (by the medians over the rounds), or the step's 99.9th percentile is 50 us or more.
+"""
+import argparse
+import json
+import os
+import re
+import shutil
+import statistics
+import subprocess
+import sys
+
+PROGRAM = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../wholehand")
+KEYS = ("p50", "p99", "p999", "max")
+ON_CORE = ["taskset", "-c", "0"]
+PRIORITY = "80"  # of both
+
+
+def quantile(counts, share):
+    """Upper end of the microsecond that `share` of all counts do not exceed."""
+    total, passed = sum(counts.values()), 0
+    for microseconds in sorted(counts):
+        passed += counts[microseconds]
+        if passed >= share * total:
+            return microseconds + 1
+    return float("nan")
+
+
+def cyclictest(rate, seconds):
+    command = ["cyclictest", "-q", "-m", "-t1", "-p", PRIORITY, "-i", str(round(1e6 / rate)), "-D", str(seconds), "-h", "20000"]
+    text = subprocess.run(ON_CORE + command, check=True, capture_output=True, text=True).stdout
+    counts = {int(at): int(n) for at, n in re.findall(r"^(\d+)\s+(\d+)$", text, re.M) if int(n) > 0}
+    largest = max([max(counts)] + [int(x) for x in re.findall(r"# Max Latencies: (\d+)", text)])
+    return {"p50": quantile(counts, 0.5), "p99": quantile(counts, 0.99), "p999": quantile(counts, 0.999), "max": largest}
+
+
+def live(rate, seconds):
+    command = [PROGRAM, "live", "--json", "--rate", str(rate), "--seconds", str(seconds)]
+    report = json.loads(subprocess.run(ON_CORE + command, check=True, capture_output=True, text=True).stdout)
+    for note in report["notes"]:
+        print("note:", note)
+    times = lambda name: {key: report[name][key] * 1e6 for key in KEYS}
+    return times("latency_s"), times("step_s")
+
+
+def loaded(work):
+    """`work` while every core but the first is busy."""
+    others = [subprocess.Popen(["taskset", "-c", str(core), "sh", "-c", "while :; do :; done"]) for core in range(1, os.cpu_count())]
+    try:
+        return work()
+    finally:
+        for other in others:
+            other.kill()
+            other.wait()
+
+
+def main():
+    options = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    options.add_argument("--rate", type=int, default=1000)
+    options.add_argument("--seconds", type=int, default=10)
+    options.add_argument("--rounds", type=int, default=3)
+    asked = options.parse_args()
+    for tool in ("cyclictest", "taskset"):
+        if not shutil.which(tool):
+            sys.exit(f"{tool} is missing: apt-get install rt-tests util-linux")
+    holds = True
+    print(f"{asked.rate} Hz, {asked.rounds} rounds of {asked.seconds} s each; medians over the rounds, us (largest: of all rounds)")
+    print(f"{'':10}{'':22}{'p50':>8}{'p99':>8}{'p99.9':>8}{'largest':>9}")
+    for load, run in (("idle", lambda work: work()), ("loaded", loaded)):
+        rows = {"cyclictest latency": [], "live latency": [], "live step": []}
+        for _ in range(asked.rounds):
+            rows["cyclictest latency"].append(run(lambda: cyclictest(asked.rate, asked.seconds)))
+            latency, step = run(lambda: live(asked.rate, asked.seconds))
+            rows["live latency"].append(latency)
+            rows["live step"].append(step)
+        middle = {name: {key: (max if key == "max" else statistics.median)(row[key] for row in found) for key in KEYS} for name, found in rows.items()}
+        for name, found in middle.items():
+            print(f"{load:10}{name:22}" + "".join(f"{found[key]:>{9 if key == 'max' else 8}.1f}" for key in KEYS))
+        ratios = {key: middle["live latency"][key] / middle["cyclictest latency"][key] for key in KEYS}
+        print(f"{load:10}{'ratio of latencies':22}" + "".join(f"{ratios[key]:>{9 if key == 'max' else 8}.2f}" for key in KEYS))
+        holds = holds and ratios["p50"] <= 1.5 and ratios["p999"] <= 1.5 and middle["live step"]["p999"] < 50
+    print("holds" if holds else "does not hold")
+    return 0 if holds else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

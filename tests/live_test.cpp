@@ -1,0 +1,272 @@
+// What a live session tells, and the built program's `live`: options, exit codes, recording, replay, signals, disks that fill up.
+// sanitizers: address thread
+#include "app/live.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include <nlohmann/json.hpp>
+
+#include "app/live_report.h"
+#include "app/open_gripper.h"
+#include "app/paths.h"
+#include "app/scene_reader.h"
+#include "core/error.h"
+#include "sweeps/recording.h"
+
+namespace wholehand {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A folder of its own, gone with the test.
+class Folder {
+ public:
+  Folder() {
+    std::string pattern = (fs::temp_directory_path() / "wholehand-live-XXXXXX").string();
+    path_ = mkdtemp(pattern.data());
+  }
+  ~Folder() { fs::remove_all(path_); }
+  std::string file(const std::string& name) const { return path_ + "/" + name; }
+
+ private:
+  std::string path_;
+};
+
+Scene board_scene() { return read_scene_file(find_scene("mixing_board")); }
+
+// ---- what it tells ----
+
+TEST(LiveReport, NarratesWhatHappensAndNothingTwice) {
+  const Scene scene = board_scene();
+  Narrator narrator(scene);
+  Tick tick;
+  tick.number = 2000;
+  tick.state = SessionState::touching;
+  EXPECT_TRUE(narrator.look(tick).empty());
+  tick.state = SessionState::lift;
+  tick.vessel = 1;
+  tick.grasps = 1;
+  tick.grasp_height = 0.045;
+  tick.guidance_distance = 0.0123;
+  auto lines = narrator.look(tick);
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_EQ(lines[0], "    2.00 s  beaker1 is held at 45 mm, 12 mm from the guidance point");
+  EXPECT_TRUE(narrator.look(tick).empty());
+  tick.arrived[1] = 79e-6;
+  lines = narrator.look(tick);
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_EQ(lines[0], "    2.00 s  79.0 ml of red are in the target");
+  tick.state = SessionState::slipped;
+  tick.lost = 1;
+  lines = narrator.look(tick);
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_EQ(lines[0], "    2.00 s  beaker1 slipped and returns to where it stood");
+  EXPECT_NE(narrator.status(tick).find("red 79.0 of 80.0 ml"), std::string::npos) << narrator.status(tick);
+}
+
+TEST(LiveReport, TheMixingBoardAddsUpVesselsOfOneLiquid) {
+  Scene scene = board_scene();
+  scene.vessels[2].liquid_name = "red";
+  Tick tick;
+  tick.arrived[1] = 1e-6;
+  tick.arrived[2] = 2e-6;
+  tick.spilt[2] = 5e-7;
+  for (const MixedAmount& amount : mixing_board(scene, tick)) {
+    EXPECT_DOUBLE_EQ(amount.arrived, amount.liquid == "red" ? 3e-6 : 0) << amount.liquid;
+    EXPECT_DOUBLE_EQ(amount.spilt, amount.liquid == "red" ? 5e-7 : 0) << amount.liquid;
+  }
+  scene.task.reset();
+  EXPECT_TRUE(mixing_board(scene, tick).empty());
+}
+
+TEST(LiveReport, TheFaultLineSaysWhenAndWhy) {
+  LoopReport report;
+  report.fault = Fault::read_error;
+  report.trouble = "unplugged";
+  report.last.number = 2004;
+  EXPECT_EQ(fault_line(report, 1000), "live: released after 2.004 s: read error (unplugged); no force is on the device");
+}
+
+TEST(OpenGripper, RefusesOtherNames) {
+  const Scene scene = board_scene();
+  for (const char* name : {"", "simulator", "sim:1", "hid:", "usb:", "omega:", "omega:x", "omega:99", "replay"}) {
+    try {
+      open_gripper(name, scene, 1, "");
+      ADD_FAILURE() << name;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code, ExitCode::usage) << name;
+      EXPECT_NE(std::string(error.what()).find("--device"), std::string::npos) << error.what();
+    }
+  }
+}
+
+// ---- the program ----
+
+struct Outcome {
+  int code = -1;
+  std::string output, errors;
+};
+
+std::string text_of(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// Starts the program with arguments as a shell takes them, standard output and errors into files. `limit`: of a file's size, 0: none.
+class Program {
+ public:
+  explicit Program(const std::string& arguments, rlim_t limit = 0) {
+    process_ = fork();
+    if (process_ != 0) return;
+    if (limit > 0) {
+      const rlimit size{limit, limit};
+      setrlimit(RLIMIT_FSIZE, &size);
+    }
+    const std::string command =
+        std::string("exec ") + WHOLEHAND_PROGRAM + " live " + arguments + " >" + folder_.file("out") + " 2>" + folder_.file("err");
+    execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+    _exit(127);
+  }
+  void send(int signal) const { kill(process_, signal); }
+  Outcome wait() {
+    int status = 0;
+    waitpid(process_, &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), text_of(folder_.file("out")),
+            text_of(folder_.file("err"))};
+  }
+  std::string out() const { return text_of(folder_.file("out")); }
+
+ private:
+  Folder folder_;
+  pid_t process_ = 0;
+};
+
+TEST(Live, ShowsAWholeSessionWithoutADevice) {
+  const Outcome outcome = Program("--no-clock").wait();
+  EXPECT_EQ(outcome.code, 0) << outcome.errors;
+  EXPECT_EQ(outcome.errors, "");
+  for (const char* part :
+       {"tutorial is at its destination", "beaker3 is held at 120 mm", "grasps 4, lost 0, destinations 1; all is done", "red 7"})
+    EXPECT_NE(outcome.output.find(part), std::string::npos) << outcome.output << "lacks " << part;
+}
+
+TEST(Live, KeepsItsRateWithAClock) {
+  const Outcome outcome = Program("--json --seconds 2 --rate 2000").wait();
+  ASSERT_EQ(outcome.code, 0) << outcome.errors;
+  const auto report = nlohmann::json::parse(outcome.output);
+  EXPECT_EQ(report["rate_Hz"], 2000);
+  EXPECT_EQ(report["ticks"].get<int>() + report["missed"].get<int>(), 4000) << "every period is a tick or missed";
+  EXPECT_GT(report["ticks"], 2000);
+  EXPECT_NEAR(report["period_s"]["p50"], 5e-4, 2e-4);
+  EXPECT_TRUE(report["fault"].is_null());
+}
+
+// What was felt is felt again, to the bit, and recorded again.
+TEST(Live, AReplayGivesTheSameForcesToTheBit) {
+  const Folder folder;
+  const std::string first = folder.file("first.nc"), second = folder.file("second.nc");
+  // with a clock: a session in which periods may be missed
+  ASSERT_EQ(Program("--seconds 4 --record " + first).wait().code, 0);
+  const Outcome again = Program("--no-clock --device replay:" + first + " --record " + second).wait();
+  ASSERT_EQ(again.code, 0) << again.errors;
+  const Recording a = read_recording(first), b = read_recording(second);
+  ASSERT_GT(a.ticks.size(), 1000u);
+  ASSERT_EQ(a.ticks.size(), b.ticks.size());
+  int held = 0;
+  for (std::size_t k = 0; k < a.ticks.size(); ++k) {
+    ASSERT_EQ(a.ticks[k].number, b.ticks[k].number) << k;
+    ASSERT_EQ(a.ticks[k].state, b.ticks[k].state) << k;
+    ASSERT_EQ(a.ticks[k].written.arm, b.ticks[k].written.arm) << k;
+    ASSERT_EQ(a.ticks[k].written.grip, b.ticks[k].written.grip) << k;
+    held += is_held(a.ticks[k].state);
+  }
+  EXPECT_GT(held, 100) << "of a session in which something is held";
+  EXPECT_EQ(a.ticks.back().state, SessionState::released);
+}
+
+TEST(Live, SignalsEndItCleanly) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const Folder folder;
+    const std::string file = folder.file("a.nc");
+    Program program("--record " + file);
+    // until something is held: a force is on the gripper then
+    for (int k = 0; k < 600 && program.out().find("is held") == std::string::npos; ++k)
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    program.send(signal);
+    const Outcome outcome = program.wait();
+    EXPECT_EQ(outcome.code, 130) << signal << outcome.errors;
+    const Recording recording = read_recording(file);
+    ASSERT_FALSE(recording.ticks.empty());
+    const Tick& last = recording.ticks.back();
+    EXPECT_EQ(last.state, SessionState::released) << signal;
+    EXPECT_EQ(last.fault, Fault::interrupted) << signal;
+    EXPECT_EQ(last.written.grip, 0) << signal;
+    EXPECT_GT(recording.ticks[recording.ticks.size() - 2].written.grip, 0.5) << "it let go at once";
+    ASSERT_TRUE(recording.end);
+    EXPECT_EQ(recording.end->fault, Fault::interrupted);
+  }
+}
+
+// The disk ends the recording, not the session.
+TEST(Live, AFullDiskEndsTheRecordingAndNotTheSession) {
+  const Folder folder;
+  const std::string file = folder.file("a.nc");
+  const Outcome outcome = Program("--no-clock --record " + file, 4 << 20).wait();
+  EXPECT_EQ(outcome.code, 0) << outcome.errors;
+  EXPECT_NE(outcome.output.find("all is done"), std::string::npos) << outcome.output;
+  EXPECT_EQ(outcome.errors.rfind("wholehand: live: ", 0), 0u) << outcome.errors;
+  EXPECT_EQ(outcome.errors.find('\n'), outcome.errors.size() - 1) << outcome.errors;
+  EXPECT_GT(read_recording(file).ticks.size(), 1000u);
+}
+
+void expect_refused(const std::string& arguments, int code, const std::string& gist) {
+  const Outcome outcome = Program(arguments).wait();
+  EXPECT_EQ(outcome.code, code) << arguments << outcome.errors;
+  EXPECT_EQ(outcome.output, "") << arguments;
+  EXPECT_EQ(outcome.errors.rfind("wholehand: ", 0), 0u) << outcome.errors;
+  EXPECT_EQ(outcome.errors.find('\n'), outcome.errors.size() - 1) << outcome.errors;
+  EXPECT_NE(outcome.errors.find(gist), std::string::npos) << outcome.errors << "lacks " << gist;
+}
+
+TEST(Live, RefusesWhatIsNotAllowedInOneLine) {
+  const Folder folder;
+  std::ofstream(folder.file("notes.txt")) << "not a recording";
+  expect_refused("--device robot", 2, "--device 'robot': allowed: sim");
+  expect_refused("--rate 100", 2, "--rate");
+  expect_refused("--rate 10000", 2, "--rate");
+  expect_refused("--seconds 0", 2, "--seconds");
+  expect_refused("--no-clock --device hid", 2, "--no-clock");
+  expect_refused("--device replay:" + folder.file("none.nc"), 2, "none.nc");
+  expect_refused("--device replay:" + folder.file("notes.txt"), 2, "notes.txt");
+  expect_refused("--rate 2000 --device replay:" + folder.file("notes.txt"), 2, "--rate: a recording is replayed at its own rate");
+  expect_refused("three_beakers", 2, "stand in each other");
+  expect_refused("no_such_scene", 2, "no_such_scene");
+  expect_refused("--record " + folder.file("notes.txt"), 2, "notes.txt");
+  EXPECT_EQ(text_of(folder.file("notes.txt")), "not a recording") << "it is still there";
+  expect_refused("--record " + folder.file("none/a.nc"), 2, "none");
+}
+
+// From the theory of rendered walls: beyond it only who says so.
+TEST(Live, GainsThatAreNotStableAreRefused) {
+  const Folder folder;
+  std::string text = text_of(find_scene("mixing_board"));
+  std::ofstream(folder.file("stiff.toml")) << text << "\n[live]\nK_N_m = 5000\n";
+  expect_refused(folder.file("stiff.toml"), 2, "K_N_m = 5000: not stable on a light device at 1000 Hz");
+  EXPECT_EQ(Program(folder.file("stiff.toml") + " --unsafe-gains --no-clock --seconds 1").wait().code, 0);
+  EXPECT_EQ(Program(folder.file("stiff.toml") + " --rate 8000 --no-clock --seconds 1").wait().code, 0)
+      << "a higher rate bears more";
+}
+
+}  // namespace
+}  // namespace wholehand
