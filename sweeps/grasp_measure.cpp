@@ -187,12 +187,13 @@ GraspReport measure_grasp(std::span<const Tick> held, double rate, bool is_lost)
   grasp.vessel = held.front().vessel;
   grasp.start = static_cast<double>(held.front().number) / rate;
   grasp.end = static_cast<double>(held.back().number + 1) / rate;
+  std::array<std::int64_t, 3> periods{};
   for (std::size_t k = 0; k < held.size(); ++k) {
-    const auto state = static_cast<std::size_t>(held[k].state) - static_cast<std::size_t>(SessionState::lift);
-    grasp.duration[state] += static_cast<double>(periods_of(held, k)) / rate;
+    periods[static_cast<std::size_t>(held[k].state) - static_cast<std::size_t>(SessionState::lift)] += periods_of(held, k);
     if (held[k].tilt > grasp.largest_tilt) grasp.largest_tilt = held[k].tilt;
     if (std::isnan(grasp.guidance_distance)) grasp.guidance_distance = held[k].guidance_distance;
   }
+  for (std::size_t k = 0; k < periods.size(); ++k) grasp.duration[k] = static_cast<double>(periods[k]) / rate;
   const TiltWay way = tilt_way(held, grasp.largest_tilt);
   // what comes to rest only when the tilt is under way is no response to F_base
   const auto before_tilt = way.is_there ? held.first(way.first) : held;

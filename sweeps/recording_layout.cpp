@@ -18,7 +18,7 @@ using classic::Attribute;
 using classic::Header;
 
 constexpr const char* CONTENT = "recording of a wholehand session";
-constexpr std::uint64_t ROOM_FOR_END = 4096;  // bytes
+constexpr std::uint64_t ROOM_FOR_END = 2048;  // bytes
 constexpr std::size_t LONGEST_REASON = 1000;  // bytes of it, well within that room
 constexpr std::size_t MOST_AMOUNTS = 64;
 constexpr double LARGEST_RATE = 1e6;  // Hz

@@ -149,8 +149,9 @@ void measure_timing(SessionReport& report, const std::vector<Tick>& ticks) {
 
 void measure_states(SessionReport& report, const std::vector<Tick>& ticks) {
   const double rate = report.info.rate;
-  for (std::size_t k = 0; k < ticks.size(); ++k)
-    report.time_in_state[static_cast<std::size_t>(ticks[k].state)] += static_cast<double>(periods_of(ticks, k)) / rate;
+  std::array<std::int64_t, SESSION_STATES> periods{};
+  for (std::size_t k = 0; k < ticks.size(); ++k) periods[static_cast<std::size_t>(ticks[k].state)] += periods_of(ticks, k);
+  for (std::size_t k = 0; k < periods.size(); ++k) report.time_in_state[k] = static_cast<double>(periods[k]) / rate;
   const auto runs = split(ticks, [](const Tick& a, const Tick& b) { return a.state == b.state && a.vessel == b.vessel; });
   for (const TickRange& run : runs) {
     const std::int64_t end = run.end < ticks.size() ? ticks[run.end].number : ticks.back().number + 1;

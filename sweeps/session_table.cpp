@@ -28,7 +28,8 @@ const char* shown_course(GripCourse course) {
   return course == GripCourse::not_analysed ? "-" : GRIP_COURSE_NAMES[static_cast<std::size_t>(course)];
 }
 
-// A table whose columns are as wide as what is in them; the first to the left, the others to the right.
+// A table whose columns are as wide as what is in them; the first to the left, the others to the right. Only the last cells of a row may be
+// empty.
 class ColumnTable {
  public:
   void row(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
@@ -41,7 +42,7 @@ class ColumnTable {
     for (const auto& cells : rows_) {
       for (std::size_t k = 0; k < cells.size(); ++k) {
         if (k == 0) fmt::format_to(out, "  {:<{}}", cells[k], widths[k]);
-        if (k > 0) fmt::format_to(out, "  {:>{}}", cells[k], widths[k]);
+        if (k > 0 && !cells[k].empty()) fmt::format_to(out, "  {:>{}}", cells[k], widths[k]);
       }
       fmt::format_to(out, "\n");
     }

@@ -14,6 +14,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "sweeps/recording.h"
+
 #ifdef WHOLEHAND_PROGRAM
 
 namespace {
@@ -62,7 +64,7 @@ TEST(CommandLine, TellsVersionAndHelp) {
 
 TEST(CommandLine, RefusesWrongUsageWithOneLineAndCode2) {
   const std::vector<std::pair<std::string, std::string>> cases{
-      {"", "which command? sweep, grip, check, error-time, stability or devices"},
+      {"", "which command? sweep, grip, check, error-time, stability, session or devices"},
       {"swep", "unknown command 'swep'"},
       {"--bogus", "--bogus; see wholehand --help"},
       {"sweep --bogus", "--bogus; see wholehand sweep --help"},
@@ -91,6 +93,13 @@ TEST(CommandLine, RefusesWrongUsageWithOneLineAndCode2) {
        "--delay-samples '9'; allowed: a whole number, 0 to 4"},
       {"stability wall --mass-kg 0.1 --damping-Nspm 1 --rate-hz 1000 --finger 1,2", "--finger '1,2'; allowed: three numbers"},
       {"devices --dhd-library ''", "must not be empty"},
+      {"session", "recording is required"},
+      {"session ''", "must not be empty"},
+      {"session /nonexistent.nc", "/nonexistent.nc: cannot be read: No such file or directory"},
+      {"session /tmp", "/tmp: is a directory; name a recording"},
+      {"session /dev/null", "/dev/null: is a device or pipe; name a recording"},
+      {"session /proc/self/status", "/proc/self/status: is no recording"},
+      {"session a.nc b.nc", "b.nc; see wholehand session --help"},
       {"devices extra", "extra; see wholehand devices --help"},
       {"grip", "scene is required"},
       {"grip small", "--vessel is required"},
@@ -226,6 +235,53 @@ TEST(CommandLine, RunsFromAnywhereAndWithStreamsClosed) {
   const Outcome grip = run("cd / && PROGRAM " + std::string(GRIP) + " --json <&- 2>&-");
   EXPECT_EQ(grip.code, 0);
   EXPECT_EQ(nlohmann::json::parse(grip.output)["vessel"], "tumbler");
+}
+
+// A vessel lifted for a second.
+std::string small_recording(const std::string& folder) {
+  using namespace wholehand;
+  RecordingInfo info;
+  info.scene_name = "bench";
+  info.device.name = "omega.7";
+  info.vessels = {{"one", "water", 2}};
+  std::vector<Tick> ticks(1500);
+  for (std::size_t k = 0; k < ticks.size(); ++k) {
+    ticks[k].number = static_cast<std::int64_t>(k);
+    ticks[k].state = k < 500 ? SessionState::free : SessionState::lift;
+    ticks[k].vessel = k < 500 ? -1 : 0;
+    ticks[k].user_force = 3;
+  }
+  const std::string path = folder + "/session.nc";
+  RecordingWriter writer(path, info);
+  writer.append(ticks);
+  writer.finish({});
+  return path;
+}
+
+TEST(CommandLine, ReportsASession) {
+  std::string folder = std::filesystem::temp_directory_path() / "wholehand_cli_XXXXXX";
+  ASSERT_NE(mkdtemp(folder.data()), nullptr);
+  const std::string path = small_recording(folder);
+  const Outcome table = run("PROGRAM session " + path + " 2>&1");
+  EXPECT_EQ(table.code, 0) << table.output;
+  EXPECT_EQ(table.output.find("Session of 1.500 s in bench, on omega.7, 1000 Hz"), 0u) << table.output;
+  const Outcome json = run("PROGRAM session " + path + " --json -o " + folder + "/out 2>&1");
+  EXPECT_EQ(json.code, 0) << json.output;
+  const auto report = nlohmann::json::parse(json.output);
+  EXPECT_EQ(report["grasps"][0]["vessel"], "one");
+  EXPECT_EQ(report["grasps"][0]["duration_s"]["lift"], 1);
+  EXPECT_EQ(report["grasps"][0]["grip_before_N"]["mean"], 3);
+  for (const char* name : {"session.csv", "states.csv", "session.svg"})
+    EXPECT_TRUE(std::filesystem::exists(folder + "/out/" + name)) << name;
+  // cut off in its last records: a note, and what is there
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) - 1000);
+  const Outcome cut = run("PROGRAM session " + path + " 2>&1 >/dev/null");
+  EXPECT_EQ(cut.code, 0);
+  EXPECT_EQ(cut.output, "wholehand: " + path + " is cut off: 1498 of 1500 ticks are there\n");
+  std::filesystem::resize_file(path, 3000);
+  expect_error("session " + path, 2, path + ": its header is cut off or damaged");
+  expect_error("session " + path + " --json -o " + folder + "/out", 2, path + ": its header is cut off or damaged");
+  std::filesystem::remove_all(folder);
 }
 
 TEST(CommandLine, StiffestWallOfADevice) {

@@ -181,6 +181,16 @@ TEST(Recording, FieldsCoverTheTick) {
   EXPECT_LT(sizeof(Tick) - end, 8u);
 }
 
+// docs/session.md has a line for each variable, with its units.
+TEST(Recording, VariablesAreInTheDocumentation) {
+  const std::string text = contents(WHOLEHAND_SOURCE_DIR "/docs/session.md");
+  for (const RecordedField& field : recorded_fields()) {
+    const std::size_t line = text.find(fmt::format("\n| `{}` | tick", field.name));
+    ASSERT_NE(line, std::string::npos) << field.name;
+    EXPECT_LT(text.find(fmt::format("| {} |", field.units), line), text.find('\n', line + 1)) << field.name;
+  }
+}
+
 TEST(Recording, GivesBackEveryBit) {
   for (const std::size_t vessels : {1u, 3u, 16u}) {
     const Folder folder;

@@ -1,0 +1,58 @@
+// wholehand session: what a recording says about the one who gripped.
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <memory>
+
+#include "app/commands.h"
+#include "app/output.h"
+#include "app/validators.h"
+#include "sweeps/files.h"
+#include "sweeps/session_plot.h"
+#include "sweeps/session_report.h"
+
+namespace wholehand {
+namespace {
+
+struct SessionArguments {
+  std::string recording, folder;
+  bool json = false;
+};
+
+// The tables, and the picture where there is something to draw and gnuplot to draw it.
+void write_session_files(const std::string& folder, const Recording& recording, const SessionReport& report) {
+  write_whole_file(folder + "/session.csv", grasps_csv(report), false);
+  write_whole_file(folder + "/states.csv", states_csv(report), false);
+  if (recording.ticks.empty()) return;
+  const std::string trouble = draw_session(recording, report, folder + "/session.svg");
+  if (!trouble.empty()) std::fprintf(stderr, "wholehand: %s\n", trouble.c_str());
+}
+
+ExitCode report_recording(const SessionArguments& arguments) {
+  const Recording recording = read_recording(arguments.recording);
+  if (!arguments.folder.empty()) make_output_folder(arguments.folder);
+  if (!recording.note.empty()) std::fprintf(stderr, "wholehand: %s\n", recording.note.c_str());
+  const SessionReport report = report_session(recording);
+  if (!arguments.folder.empty()) write_session_files(arguments.folder, recording, report);
+  print(arguments.json ? session_json(report) + "\n" : session_table(report));
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_session_command(CLI::App& app, Action& action) {
+  const auto arguments = std::make_shared<SessionArguments>();
+  CLI::App* command =
+      app.add_subcommand("session", "What the paper measured, from a recording: states, response, grip force, lost grips");
+  command->add_option("recording", arguments->recording, "A recording of `wholehand live --record`")
+      ->type_name("FILE.nc")
+      ->required()
+      ->check(not_empty());
+  command->add_option("-o,--output", arguments->folder, "Folder for session.csv, states.csv and session.svg")
+      ->type_name("DIR")
+      ->check(not_empty());
+  command->add_flag("--json", arguments->json, "One JSON object in one line");
+  command->callback([arguments, &action] { action = [arguments] { return report_recording(*arguments); }; });
+}
+
+}  // namespace wholehand
