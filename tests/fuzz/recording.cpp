@@ -1,0 +1,39 @@
+// Whatever a file holds, it is read as a recording and reported on, or refused: Error, with one line, is all that may come out.
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+
+#include "core/error.h"
+#include "sweeps/recording.h"
+#include "sweeps/session_report.h"
+
+namespace {
+
+// A file in memory with these bytes, by the name under which it can be opened.
+std::string file_of(const std::uint8_t* data, std::size_t size) {
+  static const int file = memfd_create("recording", 0);
+  if (file < 0 || ftruncate(file, 0) != 0 || pwrite(file, data, size, 0) != static_cast<ssize_t>(size)) std::abort();
+  return "/proc/self/fd/" + std::to_string(file);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string path = file_of(data, size);
+  try {
+    const wholehand::SessionReport report = wholehand::report_session(wholehand::read_recording(path));
+    const std::size_t length =
+        session_table(report).size() + session_json(report).size() + grasps_csv(report).size() + states_csv(report).size();
+    if (length == 0) std::abort();
+  } catch (const wholehand::Error& error) {
+    const std::string_view line = error.what();
+    const bool is_one_line = line.starts_with(path + ": ") && line.size() < 2000;
+    if (!is_one_line || error.code != wholehand::ExitCode::usage) std::abort();
+  }
+  return 0;
+}
