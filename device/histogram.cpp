@@ -7,7 +7,8 @@ namespace wholehand {
 
 // Nanoseconds as 2^octave (1 + part / PARTS).
 void Histogram::add(double seconds) noexcept {
-  const double nanoseconds = std::clamp(seconds * 1e9, 1.0, std::ldexp(1.0, OCTAVES) - 1);
+  // a time that is no number counts as the least
+  const double nanoseconds = seconds * 1e9 >= 1 ? std::min(seconds * 1e9, std::ldexp(1.0, OCTAVES) - 1) : 1;
   int exponent = 0;
   const double mantissa = std::frexp(nanoseconds, &exponent);  // in [0.5, 1)
   const int octave = exponent - 1;

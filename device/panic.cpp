@@ -10,6 +10,7 @@ namespace {
 
 constexpr int PANICS[PanicGuard::SIGNALS] = {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL};
 std::atomic<Gripper*> at_hand{nullptr};
+std::atomic<pid_t> first{0};                                // thread that failed first; 0: none
 static_assert(std::atomic<Gripper*>::is_always_lock_free);  // or a signal handler could not read it
 
 // The stack may be what has failed.
@@ -21,7 +22,11 @@ void say(const char* text) {
 }
 
 void on_panic(int signal) {
-  // the first one lets go; what fails meanwhile, here or on another thread, does not come back in
+  // the first one lets go; another thread that fails meanwhile waits for it to end the process, and a panic() that fails is given up
+  const pid_t self = gettid();
+  pid_t none = 0;
+  if (!first.compare_exchange_strong(none, self) && none != self)
+    for (;;) pause();
   Gripper* gripper = at_hand.exchange(nullptr);
   if (gripper) gripper->panic();
   say("wholehand: live: the program failed (");
@@ -44,7 +49,7 @@ PanicGuard::PanicGuard(Gripper& gripper) {
   sigaltstack(&stack, nullptr);  // of the thread that makes the guard; others have their own to overflow
   struct sigaction action {};
   action.sa_handler = on_panic;
-  action.sa_flags = SA_ONSTACK;
+  action.sa_flags = SA_ONSTACK | SA_NODEFER;  // so that the same failure within panic() comes back here
   for (int k = 0; k < SIGNALS; ++k) sigaction(PANICS[k], &action, &before_[k]);
 }
 

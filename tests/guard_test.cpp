@@ -1,0 +1,230 @@
+// The guard: each fault injected, each limit looked at tick by tick against its own definition.
+// sanitizers: address
+#include "device/guard.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "tests/support/scenes.h"
+
+namespace wholehand {
+namespace {
+
+constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
+constexpr double INFINITE = std::numeric_limits<double>::infinity();
+// Rounding of a few products and sums of forces of some newtons.
+constexpr double ROUNDING = 1e-12;
+
+GripperLimits limits_of(double force, double grip) {
+  GripperLimits limits;
+  limits.force = force;
+  limits.grip = grip;
+  limits.gap = {0, 25e-3};
+  limits.rate = 1000;
+  return limits;
+}
+
+GripperState state_at(std::uint32_t sequence) {
+  GripperState state;
+  state.position = {0.1, 0.2, 0.3};
+  state.gap = 0.02;
+  state.sequence = sequence;
+  return state;
+}
+
+Rotation turned_about_y(double angle) {
+  return {std::cos(angle), 0, std::sin(angle), 0, 1, 0, -std::sin(angle), 0, std::cos(angle)};
+}
+
+double size_of(const Triple& v) { return std::hypot(v[0], v[1], v[2]); }
+
+// ---- faults ----
+
+TEST(Guard, LetsAGoodMeasurementPass) {
+  Guard guard(LiveData{}, limits_of(12, 8));
+  for (std::uint32_t n = 0; n < 10; ++n) EXPECT_EQ(guard.check(ReadOutcome::value, state_at(n), n), Fault::none);
+}
+
+TEST(Guard, TellsReadErrorsAndTimeouts) {
+  Guard guard(LiveData{}, limits_of(12, 8));
+  EXPECT_EQ(guard.check(ReadOutcome::error, state_at(0), 0), Fault::read_error);
+  EXPECT_EQ(guard.check(ReadOutcome::timeout, state_at(0), 0), Fault::timeout);
+}
+
+TEST(Guard, TellsTheSameMeasurementTwice) {
+  Guard guard(LiveData{}, limits_of(12, 8));
+  EXPECT_EQ(guard.check(ReadOutcome::value, state_at(0), 0), Fault::none);  // the first may have any number, 0 as well
+  EXPECT_EQ(guard.check(ReadOutcome::value, state_at(0), 1), Fault::stale);
+  EXPECT_EQ(guard.check(ReadOutcome::value, state_at(1), 2), Fault::none);
+  // numbers wrap round
+  EXPECT_EQ(guard.check(ReadOutcome::value, state_at(0xFFFFFFFFu), 3), Fault::none);
+  EXPECT_EQ(guard.check(ReadOutcome::value, state_at(0), 4), Fault::none);
+}
+
+TEST(Guard, TellsEveryNumberThatIsNone) {
+  std::vector<std::function<double&(GripperState&)>> numbers{[](GripperState& s) -> double& { return s.gap; },
+                                                             [](GripperState& s) -> double& { return s.time; }};
+  for (int k = 0; k < 3; ++k) numbers.push_back([k](GripperState& s) -> double& { return s.position[k]; });
+  for (int k = 0; k < 9; ++k) numbers.push_back([k](GripperState& s) -> double& { return s.rotation[k]; });
+  for (const auto& number : numbers)
+    for (const double value : {NOT_A_NUMBER, INFINITE, -INFINITE}) {
+      Guard guard(LiveData{}, limits_of(12, 8));
+      ASSERT_EQ(guard.check(ReadOutcome::value, state_at(0), 0), Fault::none);
+      GripperState bad = state_at(1);
+      number(bad) = value;
+      EXPECT_EQ(guard.check(ReadOutcome::value, bad, 1), Fault::not_finite);
+    }
+}
+
+TEST(Guard, TellsARotationThatIsNone) {
+  const auto check = [](const Rotation& rotation) {
+    Guard guard(LiveData{}, limits_of(12, 8));
+    GripperState state = state_at(0);
+    state.rotation = rotation;
+    return guard.check(ReadOutcome::value, state, 0);
+  };
+  EXPECT_EQ(check(turned_about_y(1)), Fault::none);
+  EXPECT_EQ(check({}), Fault::not_finite);
+  EXPECT_EQ(check({-1, 0, 0, 0, 1, 0, 0, 0, 1}), Fault::not_finite);  // a mirror
+  EXPECT_EQ(check({1, 0, 0, 0, 1, 0, 0, 0, 0}), Fault::not_finite);   // flat
+  // a column of length 1 + e has the square 1 + 2 e; a skew of e the product e
+  EXPECT_EQ(check({1 + 0.49e-3, 0, 0, 0, 1, 0, 0, 0, 1}), Fault::none);
+  EXPECT_EQ(check({1 + 0.51e-3, 0, 0, 0, 1, 0, 0, 0, 1}), Fault::not_finite);
+  EXPECT_EQ(check({1, 0.99e-3, 0, 0, 1, 0, 0, 0, 1}), Fault::none);
+  EXPECT_EQ(check({1, 1.01e-3, 0, 0, 1, 0, 0, 0, 1}), Fault::not_finite);
+}
+
+// [live] jump_m_s for arm and gap and JUMP_TURN for the rotation, over the time since the tick before, skipped ones included.
+TEST(Guard, TellsAJump) {
+  LiveData live;
+  live.rate = 2000;
+  live.jump = 4;
+  for (const std::int64_t ticks : {1, 3}) {
+    const double way = 4.0 * static_cast<double>(ticks) / 2000, turn = JUMP_TURN * static_cast<double>(ticks) / 2000;
+    const auto after = [&](const std::function<void(GripperState&)>& change) {
+      Guard guard(live, limits_of(12, 8));
+      EXPECT_EQ(guard.check(ReadOutcome::value, state_at(0), 7), Fault::none);
+      GripperState state = state_at(1);
+      change(state);
+      return guard.check(ReadOutcome::value, state, 7 + ticks);
+    };
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_EQ(after([&](GripperState& s) { s.position[k] -= 0.999 * way; }), Fault::none);
+      EXPECT_EQ(after([&](GripperState& s) { s.position[k] += 1.001 * way; }), Fault::jump);
+    }
+    EXPECT_EQ(after([&](GripperState& s) { s.gap += 0.999 * way; }), Fault::none);
+    EXPECT_EQ(after([&](GripperState& s) { s.gap -= 1.001 * way; }), Fault::jump);
+    // the chord 2 sin(angle / 2) is up to 0.1 % shorter than an angle of 0.15
+    EXPECT_EQ(after([&](GripperState& s) { s.rotation = turned_about_y(0.999 * turn); }), Fault::none);
+    EXPECT_EQ(after([&](GripperState& s) { s.rotation = turned_about_y(-1.002 * turn); }), Fault::jump);
+  }
+}
+
+TEST(Guard, TheFirstMeasurementMayBeAnywhere) {
+  Guard guard(LiveData{}, limits_of(12, 8));
+  GripperState far = state_at(0);
+  far.position = {100, 0, 0};
+  EXPECT_EQ(guard.check(ReadOutcome::value, far, 0), Fault::none);
+}
+
+// What was refused is not what the next is compared with.
+TEST(Guard, ARefusedMeasurementIsForgotten) {
+  Guard guard(LiveData{}, limits_of(12, 8));
+  EXPECT_EQ(guard.check(ReadOutcome::value, state_at(0), 0), Fault::none);
+  GripperState far = state_at(1);
+  far.gap = 1;
+  EXPECT_EQ(guard.check(ReadOutcome::value, far, 1), Fault::jump);
+  EXPECT_EQ(guard.check(ReadOutcome::value, state_at(2), 2), Fault::none);
+}
+
+// ---- limits ----
+
+// A constant wish: at tick n no more than the ramp's share, in its direction, and all of it once the ramp is over.
+TEST(Guard, RampsUpFromZero) {
+  LiveData live;
+  Guard guard(live, limits_of(12, 8));
+  const GripperForce wanted{{3, -4, 0}, 2};
+  for (int n = 0; n <= 700; ++n) {
+    const GripperForce force = guard.limit(wanted, n + 40);
+    const double share = std::min(1.0, n * 1e-3 / live.ramp);
+    EXPECT_NEAR(force.arm[0], 3 * share, ROUNDING);
+    EXPECT_NEAR(force.arm[1], -4 * share, ROUNDING);
+    EXPECT_NEAR(force.grip, 2 * share, ROUNDING);
+  }
+}
+
+TEST(Guard, ClampsToTheDevicesLimitsAndKeepsTheArmsDirection) {
+  LiveData live;
+  live.ramp = 0;
+  live.slew = 1e9;
+  Guard guard(live, limits_of(5, 2));
+  Random random(4);
+  for (int n = 0; n < 1000; ++n) {
+    GripperForce wanted{{random.uniform(-20, 20), random.uniform(-20, 20), random.uniform(-20, 20)}, random.uniform(-8, 8)};
+    const GripperForce force = guard.limit(wanted, n);
+    const double size = size_of(wanted.arm), factor = std::min(1.0, 5 / size);
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(force.arm[k], factor * wanted.arm[k], ROUNDING);
+    EXPECT_LE(size_of(force.arm), 5 + ROUNDING);
+    EXPECT_NEAR(force.grip, std::clamp(wanted.grip, -2.0, 2.0), ROUNDING);
+  }
+}
+
+// Whatever is wished: never over the limits, never over the ramp, never further from the force before than the slew, ticks skipped or not.
+TEST(Guard, HoldsEveryLimitAgainstWildWishes) {
+  LiveData live;
+  live.rate = 3000;
+  live.slew = 500;
+  Random random(9);
+  Guard guard(live, limits_of(6, 3));
+  GripperForce before;
+  std::int64_t tick = 11;
+  const std::int64_t first = tick;
+  int at_slew = 0, at_limit = 0;
+  for (int n = 0; n < 20000; ++n) {
+    const double wild = n % 7 == 0 ? 1e3 : 8;
+    const GripperForce wanted{{random.uniform(-wild, wild), random.uniform(-wild, wild), random.uniform(-wild, wild)},
+                              random.uniform(-wild, wild)};
+    const GripperForce force = guard.limit(n % 50 < 25 ? wanted : GripperForce{{0, 40, 0}, 40}, tick);
+    const std::int64_t passed = n == 0 ? 1 : n % 5 == 0 ? 4 : 1;
+    const double share = std::min(1.0, static_cast<double>(tick - first) / 3000 / live.ramp);
+    // a force that the ramp of a moment ago allowed is within the ramp of now
+    EXPECT_LE(size_of(force.arm), 6 * share + ROUNDING);
+    EXPECT_LE(std::abs(force.grip), 3 * share + ROUNDING);
+    const double most = 500 * static_cast<double>(passed) / 3000;
+    const double changed = std::hypot(force.arm[0] - before.arm[0], force.arm[1] - before.arm[1], force.arm[2] - before.arm[2]);
+    EXPECT_LE(changed, most + ROUNDING);
+    EXPECT_LE(std::abs(force.grip - before.grip), most + ROUNDING);
+    at_slew += changed > 0.999 * most;
+    at_limit += size_of(force.arm) > 0.999 * 6;
+    before = force;
+    tick += (n + 1) % 5 == 0 ? 4 : 1;
+  }
+  EXPECT_GT(at_slew, 1000);
+  EXPECT_GT(at_limit, 500);
+}
+
+TEST(Guard, AForceThatIsNoNumberIsNone) {
+  LiveData live;
+  live.ramp = 0;
+  for (const double bad : {NOT_A_NUMBER, INFINITE, -INFINITE}) {
+    for (int k = 0; k < 4; ++k) {
+      Guard guard(live, limits_of(5, 2));
+      guard.limit({{1, 1, 1}, 1}, 0);
+      GripperForce wanted{{1, 1, 1}, 1};
+      (k < 3 ? wanted.arm[k] : wanted.grip) = bad;
+      const GripperForce force = guard.limit(wanted, 1);
+      EXPECT_EQ(size_of(force.arm), 0);
+      EXPECT_EQ(force.grip, 0);
+      // and goes on from there within the slew
+      EXPECT_LE(guard.limit({{1, 1, 1}, 1}, 2).grip, live.slew * 1e-3 + ROUNDING);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace wholehand
