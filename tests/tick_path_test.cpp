@@ -1,0 +1,292 @@
+// Nothing but work on the tick path: no allocation, no lock, no system call besides the clock's and the device's own. Everything between
+// the calls of the device is watched, from the first touch to the slip.
+// sanitizers: none
+#include <gtest/gtest.h>
+
+#include <dlfcn.h>
+#include <pthread.h>
+#include <sys/mman.h>
+#include <sys/ptrace.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <mutex>
+#include <new>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "device/haptic_loop.h"
+#include "tests/support/live_script.h"
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+
+namespace {
+
+// Of this thread, while it is between two calls of the device.
+thread_local bool is_watched = false;
+thread_local long allocations = 0, locks = 0;
+
+using LockFunction = int (*)(pthread_mutex_t*);
+LockFunction next_of(const char* name) {
+  LockFunction function = nullptr;
+  void* found = dlsym(RTLD_NEXT, name);
+  static_assert(sizeof found == sizeof function);
+  __builtin_memcpy(&function, &found, sizeof found);
+  return function;
+}
+
+}  // namespace
+
+// The whole executable's, but they only count.
+extern "C" {
+void* __libc_malloc(std::size_t);
+void* __libc_calloc(std::size_t, std::size_t);
+void* __libc_realloc(void*, std::size_t);
+void* __libc_memalign(std::size_t, std::size_t);
+void __libc_free(void*);
+
+void* malloc(std::size_t size) {
+  allocations += is_watched;
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t count, std::size_t size) {
+  allocations += is_watched;
+  return __libc_calloc(count, size);
+}
+void* realloc(void* block, std::size_t size) {
+  allocations += is_watched;
+  return __libc_realloc(block, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  allocations += is_watched;
+  return __libc_memalign(alignment, size);
+}
+int posix_memalign(void** block, std::size_t alignment, std::size_t size) {
+  allocations += is_watched;
+  *block = __libc_memalign(alignment, size);
+  return *block ? 0 : ENOMEM;
+}
+void free(void* block) {
+  allocations += is_watched;
+  __libc_free(block);
+}
+int pthread_mutex_lock(pthread_mutex_t* mutex) {
+  static std::atomic<LockFunction> next{nullptr};
+  LockFunction function = next.load(std::memory_order_relaxed);
+  if (!function) next.store(function = next_of("pthread_mutex_lock"), std::memory_order_relaxed);
+  locks += is_watched;
+  return function(mutex);
+}
+int pthread_mutex_trylock(pthread_mutex_t* mutex) {
+  static std::atomic<LockFunction> next{nullptr};
+  LockFunction function = next.load(std::memory_order_relaxed);
+  if (!function) next.store(function = next_of("pthread_mutex_trylock"), std::memory_order_relaxed);
+  locks += is_watched;
+  return function(mutex);
+}
+}
+
+namespace wholehand {
+namespace {
+
+const std::atomic<bool> NEVER{false};
+
+// What a run tells; in memory that a child shares with the test.
+struct Seen {
+  std::atomic<bool> is_watched{false};  // as seen from outside
+  std::array<std::atomic<int>, SESSION_STATES> states{};
+  std::atomic<bool> poured{false};
+  std::atomic<long> allocations{0}, locks{0}, ticks{0};
+};
+
+// Follows the script. Its own calls are not watched, what lies between them is; `misbehave` is called in between.
+class WatchingGripper : public Gripper {
+ public:
+  WatchingGripper(Seen& seen, const LiveScript& script, std::function<void()> misbehave)
+      : seen_(seen), script_(script), misbehave_(std::move(misbehave)) {
+    limits_.force = 12;
+    limits_.grip = 8;
+    limits_.gap = own_gap(HandData{});
+    limits_.rate = script.rate;
+  }
+  const GripperLimits& limits() const noexcept override { return limits_; }
+  ReadOutcome read(GripperState& state, std::int64_t tick) noexcept override {
+    watch(false);
+    state = script_.at(tick);
+    is_over_ = static_cast<double>(tick) > script_.seconds() * script_.rate;
+    watch(true);
+    return ReadOutcome::value;
+  }
+  bool write(const GripperForce&) noexcept override {
+    watch(false);
+    watch(true);
+    return true;
+  }
+  void show(const Tick& tick) noexcept override {
+    ++seen_.states[static_cast<std::size_t>(tick.state)];
+    if (tick.arrived[0] > 10e-6 && tick.flow > 0) seen_.poured = true;
+    ++seen_.ticks;
+    if (misbehave_) misbehave_();
+  }
+  bool is_done() const noexcept override { return is_over_; }
+
+  void watch(bool on) noexcept {
+    is_watched = on;
+    seen_.is_watched = on;
+  }
+
+ private:
+  Seen& seen_;
+  LiveScript script_;
+  std::function<void()> misbehave_;
+  GripperLimits limits_;
+  bool is_over_ = false;
+};
+
+void run_loop(Seen& seen, bool is_simulated, double hurry, const std::function<void()>& misbehave) {
+  Scene scene = live_scene();
+  scene.live.late_steps = 1 << 30;  // a tick that is looked into takes its time
+  scene.live.jump = 1e3;
+  LiveScript script;
+  script.hurry = hurry;
+  script.vessel = scene.vessels[0].place;
+  WatchingGripper gripper(seen, script, misbehave);
+  Session session(scene, gripper.limits().gap);
+  std::vector<Tick> record(20000);
+  std::size_t recorded = 0;
+  LoopOptions options;
+  options.is_simulated = is_simulated;
+  HapticLoop loop(
+      scene.live, gripper, session, [&](const Tick& tick) { return record[recorded++ % record.size()] = tick, true; }, options);
+  allocations = locks = 0;
+  loop.run(NEVER);
+  gripper.watch(false);
+  seen.allocations = allocations;
+  seen.locks = locks;
+}
+
+void expect_every_state(const Seen& seen) {
+  for (int k = 0; k < SESSION_STATES; ++k) {
+    if (static_cast<SessionState>(k) == SessionState::released) continue;
+    EXPECT_GT(seen.states[static_cast<std::size_t>(k)], 0) << SESSION_STATE_NAMES[static_cast<std::size_t>(k)];
+  }
+  EXPECT_TRUE(seen.poured);
+}
+
+// ---- allocations and locks ----
+
+TEST(TickPath, NeitherAllocatesNorLocks) {
+  for (const bool is_simulated : {true, false}) {
+    Seen seen;
+    run_loop(seen, is_simulated, is_simulated ? 1 : 5, {});
+    expect_every_state(seen);
+    EXPECT_EQ(seen.allocations, 0);
+    EXPECT_EQ(seen.locks, 0);
+  }
+}
+
+TEST(TickPath, TheWatchSeesAnAllocation) {
+  const std::vector<std::function<void()>> ways{
+      [] { delete new volatile int(1); },
+      [] { std::free(std::realloc(std::malloc(10), 100)); },
+      [] { std::free(std::calloc(1, 8)); },
+      [] { std::vector<double>(3).swap(*std::make_unique<std::vector<double>>()); },
+      [] {
+        try {
+          throw 1;
+        } catch (int) {
+        }
+      },
+      [] { ::operator delete(::operator new(64, std::align_val_t(64)), std::align_val_t(64)); },
+  };
+  for (std::size_t k = 0; k < ways.size(); ++k) {
+    Seen seen;
+    run_loop(seen, true, 5, ways[k]);
+    EXPECT_GE(seen.allocations, seen.ticks) << k;
+    EXPECT_GT(seen.ticks, 1000);
+  }
+}
+
+TEST(TickPath, TheWatchSeesALock) {
+  std::mutex mutex;
+  Seen seen;
+  run_loop(seen, true, 5, [&] { const std::lock_guard<std::mutex> lock(mutex); });
+  EXPECT_EQ(seen.locks, seen.ticks);
+}
+
+// ---- system calls ----
+
+// Runs the loop on the clock in a child under the eyes of its parent, and tells the numbers of the calls that it made while it was watched.
+// False: this system does not let itself be watched.
+bool watched_calls(std::set<long>& calls, Seen& seen, const std::function<void()>& misbehave) {
+  std::fflush(nullptr);
+  const pid_t child = fork();
+  if (child == 0) {
+    if (ptrace(PTRACE_TRACEME, 0, nullptr, nullptr) != 0) _exit(77);
+    raise(SIGSTOP);
+    run_loop(seen, false, 5, misbehave);
+    _exit(0);
+  }
+  int status = 0;
+  waitpid(child, &status, 0);
+  if (!WIFSTOPPED(status)) return false;
+  if (ptrace(PTRACE_SETOPTIONS, child, nullptr, PTRACE_O_TRACESYSGOOD | PTRACE_O_EXITKILL) != 0) return false;
+  int signal = 0;
+  for (;;) {
+    if (ptrace(PTRACE_SYSCALL, child, nullptr, signal) != 0) return false;
+    waitpid(child, &status, 0);
+    if (!WIFSTOPPED(status)) break;
+    const bool is_call = WSTOPSIG(status) == (SIGTRAP | 0x80);
+    signal = is_call ? 0 : WSTOPSIG(status);
+    if (!is_call || !seen.is_watched) continue;
+    __ptrace_syscall_info info{};
+    if (ptrace(PTRACE_GET_SYSCALL_INFO, child, sizeof info, &info) <= 0) continue;
+    if (info.op == PTRACE_SYSCALL_INFO_ENTRY) calls.insert(static_cast<long>(info.entry.nr));
+  }
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+class Shared {
+ public:
+  Shared() : seen_(new (mmap(nullptr, sizeof(Seen), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0)) Seen) {}
+  ~Shared() { munmap(seen_, sizeof(Seen)); }
+  Shared(const Shared&) = delete;
+  Shared& operator=(const Shared&) = delete;
+  Seen& operator*() const { return *seen_; }
+
+ private:
+  Seen* seen_;
+};
+
+TEST(TickPath, CallsNothingButTheClock) {
+  Shared seen;
+  std::set<long> calls;
+  if (!watched_calls(calls, *seen, {})) GTEST_SKIP() << "this system does not let a child be watched";
+  expect_every_state(*seen);
+  EXPECT_TRUE(calls.count(SYS_clock_nanosleep));
+  for (const long call : calls) EXPECT_TRUE(call == SYS_clock_nanosleep || call == SYS_clock_gettime) << "system call " << call;
+}
+
+TEST(TickPath, TheWatchSeesASystemCall) {
+  Shared seen;
+  std::set<long> calls;
+  if (!watched_calls(calls, *seen, [] { static_cast<void>(getppid()); })) {
+    GTEST_SKIP() << "this system does not let a child be watched";
+  }
+  EXPECT_TRUE(calls.count(SYS_getppid));
+}
+
+}  // namespace
+}  // namespace wholehand
+
+#endif
