@@ -65,13 +65,13 @@ int run(int argc, char** argv) {
     const auto extra = app.remaining();
     if (app.get_subcommands().empty() && !extra.empty() && extra.front()[0] != '-') {
       return report(ExitCode::usage, "unknown command " + wholehand::in_quotes(extra.front()) +
-                                         "; the commands are sweep, grip, check, error-time, stability, session and devices");
+                                         "; the commands are sweep, grip, check, error-time, stability, live, session and devices");
     }
     return report(ExitCode::usage, std::string(error.what()) + "; see wholehand" + command_name(app) + " --help");
   }
   if (!action)
     return report(ExitCode::usage,
-                  "which command? sweep, grip, check, error-time, stability, session or devices; see wholehand --help");
+                  "which command? sweep, grip, check, error-time, stability, live, session or devices; see wholehand --help");
   const ExitCode code = action();
   wholehand::finish_output();
   // with the validation layer on (WHOLEHAND_VALIDATION=1) a message is a failure

@@ -253,6 +253,7 @@ bool Session::grasp(const HandPose& pose, double device_gap, Tick& tick) noexcep
   vessel_ = v;
   state_ = SessionState::lift;
   is_turning_ = false;
+  rest_ = SessionState::lift;
   turn_from_ = turn_time_ = 0;
   ++grasps_;
   tick.coupling = {};
@@ -322,7 +323,8 @@ void Session::hold(const HandPose& pose, double device_gap, double seconds, Tick
   }
 }
 
-// lift, tilt or maintain: the tilt since it last changed by the step, and for how long it has not.
+// lift, tilt or maintain: it turns from when the tilt has changed by the step until it has not for as long as the window; what it is at
+// rest is decided then, so that a slow beginning belongs to what was before.
 SessionState Session::turning(double tilt) noexcept {
   turn_time_ += seconds_;
   if (std::abs(tilt - turn_from_) >= TURN_STEP) {
@@ -331,11 +333,11 @@ SessionState Session::turning(double tilt) noexcept {
     turn_time_ = 0;
   } else if (turn_time_ >= TURN_WINDOW) {
     is_turning_ = false;
+    rest_ = tilt < TURN_STEP ? SessionState::lift : SessionState::maintain;
     turn_from_ = tilt;
     turn_time_ = 0;
   }
-  if (is_turning_) return SessionState::tilt;
-  return tilt < TURN_STEP ? SessionState::lift : SessionState::maintain;
+  return is_turning_ ? SessionState::tilt : rest_;
 }
 
 void Session::slip(const Pose& pose) noexcept {

@@ -91,8 +91,9 @@ class Session {
   int vessel_ = -1;  // touched, held or coming back
   Grasp grasp_;
   bool is_turning_ = false;
-  double turn_from_ = 0;  // rad: since when the tilt has not changed by the step
-  double turn_time_ = 0;  // s: for how long
+  SessionState rest_ = SessionState::lift;  // when it does not turn
+  double turn_from_ = 0;                    // rad: since when the tilt has not changed by the step
+  double turn_time_ = 0;                    // s: for how long
   Pose slipped_from_;
   double slipped_for_ = 0;  // s
   bool is_tutored_ = false;

@@ -29,7 +29,7 @@ constexpr double FLOW_BAND = 100e-6;         // m3/s of difference for the whole
 constexpr double LARGEST_TILT = radians(140);
 constexpr double PATIENCE = 40;       // s of pouring after which a person gives up
 constexpr double LOOKS = 0.3;         // s before a vessel that slipped is seen to
-constexpr double CLEAR = 0.18;        // over the other vessels, on the way to the next
+constexpr double CLEAR = 0.28;        // over the other vessels, on the way to the next
 constexpr double ABOVE_TABLE = 0.02;  // of the vessel's lowest part while it pours
 constexpr int ATTEMPTS = 3;
 
