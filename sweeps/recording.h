@@ -105,7 +105,7 @@ class RecordingWriter {
   std::size_t vessels_;
   classic::Header header_;
   std::string block_;  // records on their way into the file
-  std::string trouble_;
+  std::string trouble_, reason_;
 };
 
 struct Recording {

@@ -177,11 +177,20 @@ class LayoutBuilder {
 
 Error lacks(std::string_view what) { return usage_error(fmt::format("is no recording of a session: it lacks {}", what)); }
 
+std::string printable(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+  return text;
+}
+
 std::string recorded_text(const Header& header, const char* name) {
   const Attribute* attribute = header.attribute(name);
   if (!attribute || attribute->type != classic::Type::text) throw lacks(fmt::format("the text attribute {}", name));
   return attribute->bytes;
 }
+
+// Of what is printed: no control characters.
+std::string recorded_line(const Header& header, const char* name) { return printable(recorded_text(header, name)); }
 
 std::vector<double> recorded_numbers(const Header& header, const char* name, std::size_t count) {
   const Attribute* attribute = header.attribute(name);
@@ -215,7 +224,7 @@ const classic::Variable& fixed_variable(const Header& header, const char* name, 
   return *variable;
 }
 
-// Labels end where the zeros begin. They are printed: no control characters.
+// Labels end where the zeros begin.
 std::vector<std::string> recorded_labels(const Header& header, const FixedValues& fixed_values, const char* name,
                                          const char* along) {
   const auto& variable = fixed_variable(header, name, classic::Type::text, fmt::format("{} text_length", along).c_str());
@@ -225,9 +234,7 @@ std::vector<std::string> recorded_labels(const Header& header, const FixedValues
   for (std::uint64_t at = 0; at + length <= variable.values; at += length) {
     std::string label = bytes.substr(at, length);
     label.resize(std::min(label.find('\0'), label.size()));
-    std::replace_if(
-        label.begin(), label.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
-    labels.push_back(label);
+    labels.push_back(printable(label));
   }
   return labels;
 }
@@ -287,11 +294,11 @@ RecordingInfo info_of(const Header& header, const FixedValues& fixed_values) {
   const Attribute* content = header.attribute("content");
   if (!content || content->bytes != CONTENT) throw usage_error("is no recording of a session, but another NetCDF file");
   RecordingInfo info;
-  info.scene_name = recorded_text(header, "scene_name");
-  info.scene_file = recorded_text(header, "scene_file");
+  info.scene_name = recorded_line(header, "scene_name");
+  info.scene_file = recorded_line(header, "scene_file");
   info.scene_text = recorded_text(header, "scene");
-  info.version = recorded_text(header, "version");
-  info.start = recorded_text(header, "start");
+  info.version = recorded_line(header, "version");
+  info.start = recorded_line(header, "start");
   const std::string seed = recorded_text(header, "seed");
   if (std::from_chars(seed.data(), seed.data() + seed.size(), info.seed).ptr != seed.data() + seed.size() || seed.empty())
     throw lacks("a seed that is a whole number");
@@ -299,8 +306,8 @@ RecordingInfo info_of(const Header& header, const FixedValues& fixed_values) {
   if (!(info.rate > 0 && info.rate <= LARGEST_RATE))
     throw usage_error(fmt::format("has a rate of {} Hz, which cannot be", info.rate));
   const auto gap = recorded_numbers(header, "device_gap_m", 2);
-  info.device = {recorded_text(header, "device"),
-                 recorded_text(header, "device_address"),
+  info.device = {recorded_line(header, "device"),
+                 recorded_line(header, "device_address"),
                  recorded_number(header, "device_arm_force_N"),
                  recorded_number(header, "device_gripper_force_N"),
                  {gap[0], gap[1]},
@@ -325,7 +332,7 @@ std::optional<RecordingEnd> end_of(const Header& header) {
   const auto fault = std::find(FAULT_NAMES.begin(), FAULT_NAMES.end(), recorded_text(header, "fault"));
   if (fault == FAULT_NAMES.end()) throw usage_error("has a fault that there is not");
   end.fault = static_cast<Fault>(fault - FAULT_NAMES.begin());
-  end.early = recorded_text(header, "ended_early");
+  end.early = recorded_line(header, "ended_early");
   return end;
 }
 

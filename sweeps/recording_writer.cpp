@@ -87,8 +87,8 @@ std::uint64_t RecordingWriter::put(const char* data, std::uint64_t size, std::ui
 }
 
 void RecordingWriter::give_up(int error) {
-  const char* why = error == 0 ? "it holds as many ticks as a file can" : std::strerror(error);
-  trouble_ = fmt::format("{}: recording ended: {}; it is whole up to here", path_, why);
+  reason_ = error == 0 ? "it holds as many ticks as a file can" : std::strerror(error);
+  trouble_ = fmt::format("{}: recording ended: {}; it is whole up to here", path_, reason_);
 }
 
 std::uint64_t RecordingWriter::bytes() const { return header_.record_begin + header_.records * header_.record_size; }
@@ -131,7 +131,7 @@ void RecordingWriter::append_block() {
 
 bool RecordingWriter::finish(RecordingEnd end) {
   if (file_ < 0) return false;
-  if (end.early.empty()) end.early = trouble_;
+  if (end.early.empty()) end.early = reason_;
   add_end(header_, end);
   const std::string start = classic::encode_header(header_);
   int error = 0;

@@ -371,6 +371,12 @@ TEST(Recording, OutlivesTheProcess) {
     EXPECT_FALSE(std::filesystem::exists(path)) << "looks finished";
     const Recording recording = read_recording(path + ".partial");
     EXPECT_GT(recording.ticks.size(), 0u);
+    int file = -1;
+    std::size_t records = 0;
+    EXPECT_EQ(nc_open((path + ".partial").c_str(), NC_NOWRITE, &file), NC_NOERR);
+    EXPECT_EQ(nc_inq_dimlen(file, 0, &records), NC_NOERR);
+    EXPECT_EQ(records, recording.ticks.size()) << "for everybody else";
+    nc_close(file);
     EXPECT_EQ(recording.ticks.size() % 64, 0u);
     const std::size_t bytes = std::filesystem::file_size(path + ".partial");
     for (std::size_t k = 0; k < recording.ticks.size(); ++k) ASSERT_EQ(recording.ticks[k].device.sequence, k + 1);
@@ -418,8 +424,8 @@ TEST(Recording, EndsWhereTheDiskIsFull) {
   expect_same(recording.ticks, {ticks.begin(), ticks.begin() + static_cast<std::ptrdiff_t>(kept)});
   ASSERT_TRUE(recording.end);
   EXPECT_EQ(recording.end->missed, 17);
-  EXPECT_NE(recording.end->early.find("File too large"), std::string::npos);
-  EXPECT_NE(recording.note.find("ended before the session: "), std::string::npos) << recording.note;
+  EXPECT_EQ(recording.end->early, "File too large");
+  EXPECT_EQ(recording.note, path + " ended before the session: File too large");
 }
 
 TEST(Recording, SaysWhenItCannotStart) {
@@ -513,6 +519,15 @@ class Changed {
     bytes_[at] = byte;
     return save();
   }
+  // Another header of the same length: places and lengths of its parts.
+  std::string& with_header(const std::function<void(classic::Header&)>& change) {
+    classic::Header other = header_;
+    change(other);
+    const std::string start = classic::encode_header(other);
+    EXPECT_EQ(start.size(), header_.bytes);
+    bytes_ = start + whole_.substr(start.size());
+    return save();
+  }
   std::string& cut_at(std::size_t length) {
     bytes_ = whole_.substr(0, length);
     return save();
@@ -568,6 +583,38 @@ TEST(Recording, RefusesWhatCannotBe) {
   EXPECT_REFUSED(changed.with_value("latency", 1, as_real(INFINITE)), "record 1: latency is none");
   EXPECT_REFUSED(changed.with_value("written_arm_force", 1, as_real(NOT_A_NUMBER)), "record 1: written_arm_force is none");
   EXPECT_NO_THROW(read_recording(changed.with_value("hold_force", 1, as_real(NOT_A_NUMBER))));
+}
+
+TEST(Recording, RefusesPlacesThatCannotBe) {
+  Changed changed(2);
+  const auto place = [](const char* name, const std::function<void(std::uint64_t&, const classic::Header&)>& move) {
+    return [name, move](classic::Header& header) {
+      for (classic::Variable& variable : header.variables) {
+        if (variable.name == name) move(variable.begin, header);
+      }
+    };
+  };
+  const auto set = [](std::uint64_t to) { return [to](std::uint64_t& at, const classic::Header&) { at = to; }; };
+  EXPECT_NO_THROW(read_recording(changed.with_header([](classic::Header&) {})));
+  EXPECT_REFUSED(changed.with_header(place("vessel", set(0))), "'vessel' has no place in the file");
+  EXPECT_REFUSED(changed.with_header(place("vessel", set(1ull << 40))), "'vessel' has no place in the file");
+  EXPECT_REFUSED(changed.with_header(place("state", set(~0ull))), "'state' has no place in the file");
+  EXPECT_REFUSED(changed.with_header(place("state", set(1ull << 40))), "'state' has no place in the records");
+  EXPECT_REFUSED(changed.with_header(place("state", [](std::uint64_t& at, const classic::Header&) { at -= 4; })), "has no place");
+  EXPECT_REFUSED(changed.with_header(place("time", [](std::uint64_t& at, const classic::Header&) { at -= 400; })), "has no place");
+  const auto length = [](const char* name, std::uint32_t to) {
+    return [name, to](classic::Header& header) {
+      for (classic::Dimension& dimension : header.dimensions) {
+        if (dimension.name == name) dimension.length = to;
+      }
+    };
+  };
+  EXPECT_REFUSED(changed.with_header(length("vessel", 0xFFFFFFFF)), "");
+  EXPECT_REFUSED(changed.with_header(length("text_length", 0xFFFFFFFF)), "has no place in the file");
+  EXPECT_REFUSED(changed.with_header(length("xyz", 0)), "has the records in the wrong place");
+  EXPECT_REFUSED(changed.with_header(length("xyz", 0xFFFFFFFF)), "");
+  EXPECT_REFUSED(changed.with_header([](classic::Header& header) { header.variables[3].dimensions[0] = 1000; }), "damaged");
+  EXPECT_REFUSED(changed.with_header([](classic::Header& header) { header.variables.back().type = classic::Type::float32; }), "");
 }
 
 TEST(Recording, ReadsWhatIsThereOfACutFile) {
