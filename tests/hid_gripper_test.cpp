@@ -87,6 +87,12 @@ TEST(HidGripper, UnpluggingIsSaid) {
                "hid:/dev/hidraw0: it cannot be opened: No such file or directory");
 }
 
+TEST(HidGripper, SignalsAreNoErrors) {
+  MockBench bench;
+  HidMock mock(bench);
+  check_signals(mock, [&mock] { return open_hid(mock.node(), WATCHDOG); });
+}
+
 TEST(HidGripper, PanicLeavesNoForce) {
   MockBench bench;
   HidMock mock(bench);

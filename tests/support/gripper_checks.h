@@ -2,9 +2,12 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <pthread.h>
 
+#include <atomic>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <limits>
 #include <memory>
 #include <string>
@@ -221,16 +224,36 @@ void check_unplugging(MockGripper& mock, const Open& open) {
   gripper->panic();
 }
 
-// Whatever is written after it has no force either.
+// A handler for a signal while it lives.
+class Handler {
+ public:
+  Handler(int signal, void (*function)(int)) : signal_(signal) {
+    struct sigaction action {};
+    action.sa_handler = function;  // and not SA_RESTART: calls are interrupted
+    sigaction(signal, &action, &before_);
+  }
+  ~Handler() { sigaction(signal_, &before_, nullptr); }
+  Handler(const Handler&) = delete;
+  Handler& operator=(const Handler&) = delete;
+
+ private:
+  int signal_;
+  struct sigaction before_ {};
+};
+
+// Out of a signal handler. Whatever is written after it has no force either.
 template <class Open>
 void check_panic(MockGripper& mock, const Open& open) {
+  static Gripper* frightened;
   const auto gripper = open();
+  frightened = gripper.get();
   ASSERT_TRUE(gripper->write({{1, 2, 3}, 1}));
   GripperState state;
   ASSERT_EQ(read_soon(*gripper, state), ReadOutcome::value);
   ASSERT_TRUE(mock.has_force());
   const std::size_t before = mock.outputs().size();
-  std::thread([&gripper] { gripper->panic(); }).join();
+  const Handler handler(SIGUSR1, [](int) { frightened->panic(); });
+  raise(SIGUSR1);
   ASSERT_EQ(mock.outputs().size(), before + 1);
   EXPECT_TRUE(is_nothing(mock.outputs().back()));
   EXPECT_FALSE(mock.has_force());
@@ -238,6 +261,27 @@ void check_panic(MockGripper& mock, const Open& open) {
   ASSERT_EQ(read_soon(*gripper, state), ReadOutcome::value) << gripper->trouble();
   EXPECT_TRUE(is_nothing(mock.outputs().back()));
   EXPECT_FALSE(mock.has_force());
+}
+
+// A signal that somebody else handles is no error of the device. Not for USB: of an ioctl() that a signal interrupts umockdev loses the
+// error number.
+template <class Open>
+void check_signals(MockGripper& mock, const Open& open) {
+  const Handler handler(SIGUSR1, [](int) {});
+  const auto gripper = open();
+  mock.misbehave(Mischief::silent);
+  const auto read = [&gripper](GripperState& state) { return gripper->read(state, 0); };
+  ASSERT_EQ(first_failure(read), ReadOutcome::timeout);
+  std::atomic<bool> is_enough{false};
+  std::thread knocking([&is_enough, reader = pthread_self()] {
+    for (; !is_enough; rest(1e-3)) pthread_kill(reader, SIGUSR1);
+  });
+  GripperState state;
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(read(state), ReadOutcome::timeout) << gripper->trouble();
+  mock.misbehave(Mischief::none);
+  EXPECT_EQ(read_soon(*gripper, state), ReadOutcome::value) << gripper->trouble();
+  is_enough = true;
+  knocking.join();
 }
 
 // Nobody reads for longer than any queue lasts: what is read then is of now.
