@@ -179,12 +179,12 @@ void UsbTransport::on_input(libusb_transfer* transfer) {
   if (self.is_closing_) return;
   if (transfer->status == LIBUSB_TRANSFER_COMPLETED) {
     self.take(incoming);
-  } else {
-    self.has_input_failed_ = true;
-    self.input_trouble_ = status_words(transfer->status);
-    if (transfer->status != LIBUSB_TRANSFER_ERROR) return;  // nothing more will come
+    self.submit(incoming);
+    return;
   }
-  self.submit(incoming);
+  // for good: a session that goes on is no use, and where it was unplugged the transfers that follow say so
+  self.has_input_failed_ = true;
+  self.input_trouble_ = status_words(transfer->status);
 }
 
 void UsbTransport::take(const Incoming& incoming) noexcept {

@@ -64,7 +64,8 @@ struct MockSettings {
   std::uint32_t first_time = 0;  // of the device's clock, us
   std::uint8_t version = protocol::VERSION;
   bool keeps_watchdog = false;  // does not take another period
-  // Position, rotation, gap and buttons at a time of the device's clock, s; the rest is the mock's own.
+  // Position, rotation, gap and buttons at a time of the device's clock, s; the rest is the mock's own. From two threads, and under the
+  // mock's lock: it must depend on nothing else.
   std::function<GripperState(double)> motion;
   MockSettings();
 };
