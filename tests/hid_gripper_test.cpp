@@ -163,6 +163,14 @@ TEST(HidGripper, SessionOfAnotherProcessIsRefused) {
 
 TEST(HidGripper, WhatIsNoGripperIsNotAsked) {
   MockBench bench;
+  MockSettings settings;
+  settings.is_gripper = false;
+  HidMock mock(bench, settings);
+  EXPECT_TRUE(find_hid_grippers().empty());
+  expect_error([&mock] { open_hid(mock.node(), WATCHDOG); }, ExitCode::failure,
+               "hid:/dev/hidraw0: it is no open gripper: its report descriptor does not begin with usage 5748 of page FF00");
+  expect_error([] { open_hid("", WATCHDOG); }, ExitCode::failure, "no gripper found over HID");
+  EXPECT_TRUE(mock.outputs().empty());
   expect_error([] { open_hid("/dev/null", WATCHDOG); }, ExitCode::failure, "hid:/dev/null: it is no hidraw node");
 }
 

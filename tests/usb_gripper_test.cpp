@@ -135,6 +135,18 @@ TEST(UsbGripper, NoPermissionNamesTheRemedy) {
   EXPECT_NO_THROW(open_usb("", WATCHDOG));
 }
 
+TEST(UsbGripper, WhatIsNoGripperIsNotAsked) {
+  MockBench bench;
+  MockSettings settings;
+  settings.is_gripper = false;
+  UsbMock mock(bench, settings);
+  EXPECT_TRUE(find_usb_grippers().empty());
+  expect_error([] { open_usb("f055:5748", WATCHDOG); }, ExitCode::failure,
+               "usb:f055:5748: it is no open gripper: it has no interface of class FF, subclass 57, protocol 48");
+  expect_error([] { open_usb("", WATCHDOG); }, ExitCode::failure, "no gripper found over USB");
+  EXPECT_TRUE(mock.outputs().empty());
+}
+
 TEST(UsbGripper, SecondSessionIsRefused) {
   MockBench bench;
   UsbMock mock(bench);

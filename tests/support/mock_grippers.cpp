@@ -255,7 +255,7 @@ protocol::Watchdog MockGripper::watchdog() const {
 // ---- HID: a hidraw node whose reads and writes come here. That there is something to read is a byte in the pty behind it ----
 
 HidMock::HidMock(MockBench& bench, const MockSettings& settings, int number)
-    : MockGripper(settings), bench_(bench), handler_(umockdev_ioctl_base_new()) {
+    : MockGripper(settings), bench_(bench), is_gripper_(settings.is_gripper), handler_(umockdev_ioctl_base_new()) {
   node_ = fmt::format("/dev/hidraw{}", number);
   path_ = fmt::format("/sys/devices/mock/0003:F055:5748.{:04}", number);
   g_signal_connect(handler_, "handle-ioctl", G_CALLBACK(on_ioctl), this);
@@ -266,7 +266,7 @@ HidMock::HidMock(MockBench& bench, const MockSettings& settings, int number)
   add(bench.testbed(),
       fmt::format("P: {}\nE: SUBSYSTEM=hid\nE: HID_ID=0003:0000F055:00005748\nE: HID_NAME=A wholehand gripper\nE: HID_UNIQ=\n"
                   "H: report_descriptor={}\n",
-                  path_.substr(4), hex(protocol::report_descriptor())));
+                  path_.substr(4), hex(descriptor())));
   add(bench.testbed(),
       fmt::format(
           "P: {0}/hidraw/hidraw{1}\nN: hidraw{1}\nE: SUBSYSTEM=hidraw\nE: DEVNAME=/dev/hidraw{1}\nE: MAJOR=240\nE: MINOR={1}\n"
@@ -296,6 +296,13 @@ void HidMock::unplug() {
   close(nothing);
   umockdev_testbed_remove_device(bench_.testbed(), (path_ + "/hidraw/" + node_.substr(5)).c_str());
   umockdev_testbed_remove_device(bench_.testbed(), path_.c_str());
+}
+
+// That of something else differs in the last byte of its usage.
+HidMock::Bytes HidMock::descriptor() const {
+  Bytes bytes(protocol::report_descriptor().begin(), protocol::report_descriptor().end());
+  if (!is_gripper_) ++bytes[5];
+  return bytes;
 }
 
 bool HidMock::is_open() {
@@ -367,7 +374,7 @@ int HidMock::on_ioctl(UMockdevIoctlBase*, UMockdevIoctlClient* client, HidMock* 
   }
   const std::size_t size = _IOC_SIZE(request);
   const Data data = resolve(umockdev_ioctl_client_get_arg(client), 0, size);
-  const protocol::Bytes descriptor = protocol::report_descriptor();
+  const Bytes descriptor = self->descriptor();
   if (request == HIDIOCGRDESCSIZE) {
     const int length = static_cast<int>(descriptor.size());
     std::memcpy(data->data, &length, sizeof length);
@@ -394,56 +401,57 @@ UsbMock::UsbMock(MockBench& bench, const MockSettings& settings, int number)
     : MockGripper(settings), bench_(bench), handler_(umockdev_ioctl_base_new()) {
   node_ = fmt::format("/dev/bus/usb/001/{:03}", number);
   path_ = fmt::format("/sys/devices/mock/usb{}", number);
-  constexpr std::array<std::uint8_t, 18 + 9 + 9 + 7 + 7> DESCRIPTORS{18,
-                                                                     1,
-                                                                     0x00,
-                                                                     0x02,
-                                                                     0,
-                                                                     0,
-                                                                     0,
-                                                                     64,
-                                                                     0x55,
-                                                                     0xF0,
-                                                                     0x48,
-                                                                     0x57,
-                                                                     0x00,
-                                                                     0x01,
-                                                                     0,
-                                                                     0,
-                                                                     0,
-                                                                     1,  // device
-                                                                     9,
-                                                                     2,
-                                                                     32,
-                                                                     0,
-                                                                     1,
-                                                                     1,
-                                                                     0,
-                                                                     0x80,
-                                                                     50,  // configuration
-                                                                     9,
-                                                                     4,
-                                                                     0,
-                                                                     0,
-                                                                     2,
-                                                                     protocol::USB_CLASS,
-                                                                     protocol::USB_SUBCLASS,
-                                                                     protocol::USB_PROTOCOL,
-                                                                     0,  // interface
-                                                                     7,
-                                                                     5,
-                                                                     ENDPOINT_IN,
-                                                                     3,
-                                                                     64,
-                                                                     0,
-                                                                     1,
-                                                                     7,
-                                                                     5,
-                                                                     ENDPOINT_OUT,
-                                                                     3,
-                                                                     64,
-                                                                     0,
-                                                                     1};  // endpoints
+  std::array<std::uint8_t, 18 + 9 + 9 + 7 + 7> descriptors{18,
+                                                           1,
+                                                           0x00,
+                                                           0x02,
+                                                           0,
+                                                           0,
+                                                           0,
+                                                           64,
+                                                           0x55,
+                                                           0xF0,
+                                                           0x48,
+                                                           0x57,
+                                                           0x00,
+                                                           0x01,
+                                                           0,
+                                                           0,
+                                                           0,
+                                                           1,  // device
+                                                           9,
+                                                           2,
+                                                           32,
+                                                           0,
+                                                           1,
+                                                           1,
+                                                           0,
+                                                           0x80,
+                                                           50,  // configuration
+                                                           9,
+                                                           4,
+                                                           0,
+                                                           0,
+                                                           2,
+                                                           protocol::USB_CLASS,
+                                                           protocol::USB_SUBCLASS,
+                                                           protocol::USB_PROTOCOL,
+                                                           0,  // interface
+                                                           7,
+                                                           5,
+                                                           ENDPOINT_IN,
+                                                           3,
+                                                           64,
+                                                           0,
+                                                           1,
+                                                           7,
+                                                           5,
+                                                           ENDPOINT_OUT,
+                                                           3,
+                                                           64,
+                                                           0,
+                                                           1};  // endpoints
+  if (!settings.is_gripper) ++descriptors[18 + 9 + 7];          // the protocol of the interface
   g_signal_connect(handler_, "handle-ioctl", G_CALLBACK(on_ioctl), this);
   umockdev_testbed_attach_ioctl(bench.testbed(), node_.c_str(), handler_, nullptr);
   add(bench.testbed(),
@@ -451,7 +459,7 @@ UsbMock::UsbMock(MockBench& bench, const MockSettings& settings, int number)
           "P: {0}\nN: bus/usb/001/{1:03}\nE: SUBSYSTEM=usb\nE: DRIVER=usb\nE: DEVTYPE=usb_device\nE: BUSNUM=001\nE: DEVNUM={1:03}\n"
           "E: DEVNAME=/dev/bus/usb/001/{1:03}\nA: busnum=1\\n\nA: devnum={1}\\n\nA: bConfigurationValue=1\\n\nA: speed=480\\n\n"
           "A: product=A wholehand gripper\\n\nH: descriptors={2}\n",
-          path_.substr(4), number, hex(DESCRIPTORS)));
+          path_.substr(4), number, hex(descriptors)));
   start();
 }
 

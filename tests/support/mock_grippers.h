@@ -64,6 +64,7 @@ struct MockSettings {
   std::uint32_t first_time = 0;  // of the device's clock, us
   std::uint8_t version = protocol::VERSION;
   bool keeps_watchdog = false;  // does not take another period
+  bool is_gripper = true;       // false: something else, by its descriptors
   // Position, rotation, gap and buttons at a time of the device's clock, s; the rest is the mock's own. From two threads, and under the
   // mock's lock: it must depend on nothing else.
   std::function<GripperState(double)> motion;
@@ -137,10 +138,12 @@ class HidMock final : public MockGripper {
   static int on_write(_UMockdevIoctlBase*, _UMockdevIoctlClient* client, HidMock* self);
   static void on_connected(_UMockdevIoctlBase*, _UMockdevIoctlClient* client, HidMock* self);
   void send(const Bytes& report) override;
+  Bytes descriptor() const;
   bool is_open();
   void empty();
 
   MockBench& bench_;
+  const bool is_gripper_;
   std::string path_;  // in /sys
   _UMockdevIoctlBase* handler_;
   int master_ = -1, slave_ = -1;  // of the pty behind the node: a byte in it for each report that waits
