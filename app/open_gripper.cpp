@@ -18,17 +18,17 @@ constexpr IntegerRange OMEGA_NUMBER{0, 31};
 
 }  // namespace
 
-std::unique_ptr<Gripper> open_gripper(const std::string& device, const Scene& scene, std::uint64_t seed,
-                                      const std::string& library) {
+std::unique_ptr<Gripper> open_gripper(const std::string& device, const Scene& scene, std::uint64_t seed, const std::string& library,
+                                      double watchdog) {
   const std::size_t colon = device.find(':');
   const std::string kind = device.substr(0, colon), which = colon == std::string::npos ? "" : device.substr(colon + 1);
   const bool is_bare = colon == std::string::npos;
   if (device == "sim") return open_sim(scene, seed);
-  if (kind == "hid" && (is_bare || !which.empty())) return open_hid(which, WATCHDOG);
-  if (kind == "usb" && (is_bare || !which.empty())) return open_usb(which, WATCHDOG);
+  if (kind == "hid" && (is_bare || !which.empty())) return open_hid(which, watchdog);
+  if (kind == "usb" && (is_bare || !which.empty())) return open_usb(which, watchdog);
   if (kind == "omega" && (is_bare || !which.empty())) {
     const int number = is_bare ? 0 : static_cast<int>(parse_integer(which, "--device omega", OMEGA_NUMBER));
-    return open_omega(library.empty() ? scene.device.library : library, WATCHDOG, number);
+    return open_omega(library.empty() ? scene.device.library : library, watchdog, number);
   }
   throw usage_error(
       fmt::format("--device {}: allowed: sim, replay:FILE, hid, hid:PATH, usb, usb:VID:PID, omega or omega:N; `wholehand "

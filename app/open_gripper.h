@@ -10,12 +10,12 @@
 
 namespace wholehand {
 
-// sim, hid[:PATH], usb[:VID:PID] or omega[:N], as --device names them; a recording is opened by its own (sweeps/recording.h). `library`: of
-// Force Dimension's SDK, empty: wherever it is found. Throws Error: (usage) another name, with those that are allowed; (failure) what
-// opening it throws.
-std::unique_ptr<Gripper> open_gripper(const std::string& device, const Scene& scene, std::uint64_t seed,
-                                      const std::string& library);
-
 constexpr double WATCHDOG = 20e-3;  // s without a word from the host after which a device lets go: two of the host's own patience
+
+// sim, hid[:PATH], usb[:VID:PID] or omega[:N], as --device names them; a recording is opened by its own (sweeps/recording.h). `library`: of
+// Force Dimension's SDK, empty: wherever it is found; `watchdog` in s. Throws Error: (usage) another name, with those that are allowed;
+// (failure) what opening it throws.
+std::unique_ptr<Gripper> open_gripper(const std::string& device, const Scene& scene, std::uint64_t seed, const std::string& library,
+                                      double watchdog = WATCHDOG);
 
 }  // namespace wholehand

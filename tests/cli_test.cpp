@@ -81,7 +81,7 @@ TEST(CommandLine, RefusesWrongUsageWithOneLineAndCode2) {
       {"sweep --threads 0", "--threads '0'; allowed: a whole number, 1 to 1024"},
       {"sweep --precision half", "--precision 'half'; allowed: float or double"},
       {"sweep no_such_scene",
-       "no scene file 'no_such_scene'; give the path of a TOML file or one of the shipped scenes: paper_pose, small, "
+       "no scene file 'no_such_scene'; give the path of a TOML file or one of the shipped scenes: mixing_board, paper_pose, small, "
        "three_beakers"},
       {"sweep /", "'/' is a directory"},
       {"sweep /dev/null", "/dev/null:1:1: the scene lacks 'vessel'"},

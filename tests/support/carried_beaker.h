@@ -18,6 +18,7 @@ inline Scene carried_scene(double rate) {
   scene.device.gap = {0, 25e-3};
   scene.live.rate = rate;
   scene.live.late_steps = 1000;
+  scene.live.jump = 100;  // a machine that is busy sees a device jump
   scene.live.ramp = 0.1;
   scene.live.slip = 3e-3;
   return scene;
@@ -36,7 +37,7 @@ inline GripperState carried_state(double time) {
   GripperState state;
   state.position = {0, 0.055 + 0.06 * part(0.9, 1.4), 0};
   state.gap = OPEN - (OPEN - CLOSED) * (part(0.4, 0.8) - part(2.4, 2.8));
-  const double tilt = radians(40) * (part(1.5, 2.2) - part(2.3, 2.4));
+  const double tilt = radians(40) * (part(1.5, 2.2) - part(2.3, 2.8));
   const double c = std::cos(tilt), s = std::sin(tilt);
   state.rotation = {1, 0, 0, 0, c, s, 0, -s, c};
   return state;
