@@ -40,6 +40,9 @@ std::vector<double> volumes_of(const LiveScene& live) {
 
 LiveVessel load_live_vessel(const Scene& scene, const VesselData& data, const core_f64::Quadrature& quadrature) {
   const bool is_left = scene.hand.handedness == Handedness::left;
+  if (data.liquid_fill > 0 && !(scene.liquid && data.wall > 0)) {
+    throw usage_error(at_place(scene.file, "vessel '" + data.name + "' has liquid in it; that needs 'wall_mm' and [liquid]"));
+  }
   LiveVessel live;
   const PreparedVessel prepared = prepare_vessel(data, data.wall > 0);
   live.radius = prepared.largest_radius;
