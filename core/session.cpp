@@ -317,8 +317,10 @@ void Session::hold(const HandPose& pose, double device_gap, double seconds, Tick
   tell_vessel(vessel, tick);
 
   const std::array<double, 2> range = workspace_.device_gap();
-  const bool is_open = device_gap >= range[1] - OPEN_MARGIN * (range[1] - range[0]);
-  if (device_gap - grasp_.device_gap > live_->scene.live.slip || (is_open && device_gap > grasp_.device_gap)) slip(vessel);
+  // of a vessel that the hand can hardly span it takes half of what is left: its noise opens no fingers
+  const double open = std::max(range[1] - OPEN_MARGIN * (range[1] - range[0]), 0.5 * (grasp_.device_gap + range[1]));
+  if (device_gap - grasp_.device_gap > live_->scene.live.slip || (device_gap >= open && device_gap > grasp_.device_gap))
+    slip(vessel);
   if (state_ == SessionState::slipped) {
     tick.wanted = {};
     tick.feedback = tick.user_force = 0;
