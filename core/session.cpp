@@ -150,14 +150,21 @@ void Session::step(const GripperState& state, std::int64_t number, Tick& tick) n
   number_ = number;
 }
 
-// A vessel is felt from when both tips have left it: at the start, and after it was held.
+// A vessel is felt from when both tips have left it, and their proxies with them: at the start, and after it was held.
 void Session::settle_vessels() noexcept {
   for (int v = 0; v < obstacles_.count; ++v) {
     auto& standing = obstacles_.standing[v];
-    if (standing.is_solid || (state_ == SessionState::slipped && v == vessel_)) continue;
-    standing.is_solid =
-        vessel_separation(standing, tips_[0], radii_[0]) > 0 && vessel_separation(standing, tips_[1], radii_[1]) > 0;
+    if (!standing.is_solid && !(state_ == SessionState::slipped && v == vessel_)) standing.is_solid = is_left(standing);
   }
+}
+
+bool Session::is_left(const Obstacles::Standing& standing) const noexcept {
+  bool left = true;
+  for (int k = 0; k < 2; ++k) {
+    left = left && vessel_separation(standing, tips_[k], radii_[k]) > 0 &&
+           vessel_separation(standing, proxies_[k].place, radii_[k]) > 0;
+  }
+  return left;
 }
 
 // Before the grasp: the coupling of both tips to their proxies.
@@ -372,9 +379,7 @@ void Session::come_back(Tick& tick) noexcept {
   }
   tell_vessel(pose, tick);
   tick.tilt = std::acos(std::clamp(pose.rotation[1].y, -1.0, 1.0));
-  const bool are_clear =
-      vessel_separation(standing, tips_[0], radii_[0]) > 0 && vessel_separation(standing, tips_[1], radii_[1]) > 0;
-  if (way >= 1 && are_clear) state_ = SessionState::free;
+  if (way >= 1 && is_left(standing)) state_ = SessionState::free;
 }
 
 int Session::tasks_done() const noexcept {

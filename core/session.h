@@ -73,6 +73,7 @@ class Session {
   void slip(const Pose& pose) noexcept;
   void come_back(Tick& tick) noexcept;
   void settle_vessels() noexcept;
+  bool is_left(const Obstacles::Standing& standing) const noexcept;
   int tasks_done() const noexcept;
   void tell(const HandPose& pose, double closure, Tick& tick) const noexcept;
   void tell_vessel(const Pose& pose, Tick& tick) const noexcept;
