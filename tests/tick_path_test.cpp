@@ -55,39 +55,39 @@ void* __libc_realloc(void*, std::size_t);
 void* __libc_memalign(std::size_t, std::size_t);
 void __libc_free(void*);
 
-void* malloc(std::size_t size) {
+void* malloc(std::size_t size) noexcept {
   allocations += is_watched;
   return __libc_malloc(size);
 }
-void* calloc(std::size_t count, std::size_t size) {
+void* calloc(std::size_t count, std::size_t size) noexcept {
   allocations += is_watched;
   return __libc_calloc(count, size);
 }
-void* realloc(void* block, std::size_t size) {
+void* realloc(void* block, std::size_t size) noexcept {
   allocations += is_watched;
   return __libc_realloc(block, size);
 }
-void* aligned_alloc(std::size_t alignment, std::size_t size) {
+void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
   allocations += is_watched;
   return __libc_memalign(alignment, size);
 }
-int posix_memalign(void** block, std::size_t alignment, std::size_t size) {
+int posix_memalign(void** block, std::size_t alignment, std::size_t size) noexcept {
   allocations += is_watched;
   *block = __libc_memalign(alignment, size);
   return *block ? 0 : ENOMEM;
 }
-void free(void* block) {
+void free(void* block) noexcept {
   allocations += is_watched;
   __libc_free(block);
 }
-int pthread_mutex_lock(pthread_mutex_t* mutex) {
+int pthread_mutex_lock(pthread_mutex_t* mutex) noexcept {
   static std::atomic<LockFunction> next{nullptr};
   LockFunction function = next.load(std::memory_order_relaxed);
   if (!function) next.store(function = next_of("pthread_mutex_lock"), std::memory_order_relaxed);
   locks += is_watched;
   return function(mutex);
 }
-int pthread_mutex_trylock(pthread_mutex_t* mutex) {
+int pthread_mutex_trylock(pthread_mutex_t* mutex) noexcept {
   static std::atomic<LockFunction> next{nullptr};
   LockFunction function = next.load(std::memory_order_relaxed);
   if (!function) next.store(function = next_of("pthread_mutex_trylock"), std::memory_order_relaxed);
