@@ -246,7 +246,7 @@ TEST(Session, NoiseOpensNoFingers) {
   Scene scene = scene_of({cylinder("wide", 1e3 * (range[1] - 15e-3) - 1, 110, 1.5)});
   const auto at = [&](std::int64_t n) {
     return held_at(Vec3(-0.5e-3, 0.05, 0), range[1] - (n < 100 ? 0 : 1e-3) +
-                                              (n > 200 && n < 800 ? 2e-5 * static_cast<double>(n % 3) : 0) + (n > 900 ? 1e-3 : 0));
+                                               (n > 200 && n < 800 ? 2e-5 * static_cast<double>(n % 3) : 0) + (n > 900 ? 1e-3 : 0));
   };
   const std::vector<Tick> record = play(scene, at, 1000);
   for (std::size_t n = 150; n < 900; ++n) ASSERT_TRUE(is_held(record[n].state)) << n;
