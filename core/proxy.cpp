@@ -197,8 +197,9 @@ Proxy carry_proxy(const Obstacles& obstacles, const Proxy& before, Vec3 tip, dou
   }
   Proxy proxy;
   proxy.place = walk.at;
-  if (glm::length(tip - proxy.place) > NEAR) {
-    const Surroundings here = surroundings(obstacles, proxy.place, radius);
+  const Surroundings here = surroundings(obstacles, proxy.place, radius);
+  // one that is still on its way through the air touches nothing
+  if (glm::length(tip - proxy.place) > NEAR && here.separation <= LEAST_STEP) {
     proxy.vessel = here.vessel;
     // in a crease the nearest surface may be the one that the tip has left
     const Vec3 out = proxy.place - tip;

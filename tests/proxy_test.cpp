@@ -234,6 +234,26 @@ TEST(Proxy, KeepsUpWithASlidingTip) {
   }
 }
 
+// Whatever a tip does, what is said to touch is on the surface, within the 20 um of a bare point's least step.
+TEST(Proxy, TouchesOnlyWhatItIsAt) {
+  Random random(21);
+  for (const double radius : {0.0, FINGERTIP}) {
+    const Table table({shell_of(beaker1()), beaker3()}, {SOMEWHERE, SOMEWHERE + Vec3(0.1, 0, 0)});
+    Proxy proxy;
+    proxy.place = SOMEWHERE + Vec3(0, 0.3, 0);
+    int touching = 0;
+    for (int n = 0; n < 4000; ++n) {
+      const Vec3 tip = SOMEWHERE + Vec3(random.uniform(-0.1, 0.2), random.uniform(0, 0.2), random.uniform(-0.1, 0.1));
+      proxy = carry_proxy(table.obstacles, proxy, tip, radius, 0.6);
+      if (proxy.vessel < 0) continue;
+      ++touching;
+      EXPECT_LE(vessel_separation(table.obstacles.standing[proxy.vessel], proxy.place, radius), 25e-6);
+      EXPECT_GT(glm::dot(proxy.normal, proxy.place - tip), 0);
+    }
+    EXPECT_GT(touching, 500);
+  }
+}
+
 // ---- with friction ----
 
 // On the lid, a plane: the tip is at a depth and moves sideways. It sticks while the way is less than mu times the depth.
