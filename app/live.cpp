@@ -123,7 +123,7 @@ class LiveRun {
   explicit LiveRun(const LiveOptions& options) : options_(options) {
     if (!options_.record.empty()) check_recording_path(options_.record);
     open();
-    refuse_unstable_gains(scene_, gripper_->limits().gap, options_.unsafe_gains);
+    check_gripper();
     session_ = std::make_unique<Session>(scene_, gripper_->limits().gap);
     const auto capacity = static_cast<std::size_t>(RING_TIME * scene_.live.rate);
     ring_ = std::make_unique<TickRing>(std::max(capacity, LEAST_RING));
@@ -156,7 +156,7 @@ class LiveRun {
 
  private:
   void open() {
-    const bool is_replay = options_.device.rfind(REPLAY, 0) == 0;
+    const bool is_replay = is_replay_ = options_.device.rfind(REPLAY, 0) == 0;
     const bool is_sim = options_.device == "sim";
     if (options_.no_clock && !is_replay && !is_sim)
       throw usage_error("--no-clock: a device keeps its own time; allowed with --device sim and replay:FILE");
@@ -183,6 +183,20 @@ class LiveRun {
     }
   }
 
+  // Whether this gripper goes with this scene. Nobody holds a recording.
+  void check_gripper() {
+    const GripperLimits& limits = gripper_->limits();
+    if (is_replay_) return;
+    refuse_unstable_gains(scene_, limits.gap, options_.unsafe_gains);
+    const bool is_left = scene_.hand.handedness == Handedness::left;
+    if (limits.is_left_handed != is_left) {
+      throw usage_error(fmt::format("{} is for the {} hand and the scene's [hand] is a {} one; say handedness = \"{}\" there",
+                                    limits.name, limits.is_left_handed ? "left" : "right", is_left ? "left" : "right",
+                                    limits.is_left_handed ? "left" : "right"));
+    }
+    if (!limits.has_rotation) notes_.push_back("this gripper measures no rotation: vessels stay upright");
+  }
+
   // A loop that has a clock must not wait for the ring; one that has none must not run away from it.
   TickSink sink() {
     if (!options_.no_clock) return [this](const Tick& tick) { return ring_->push(tick); };
@@ -196,6 +210,7 @@ class LiveRun {
     std::atomic<bool> is_over{false};
     std::vector<std::string> missing;
     std::thread haptic([&] {
+      const HandlerStack stack;
       if (!options_.no_clock) missing = make_realtime();
       loop_->run(interrupt.flag());
       is_over = true;
@@ -230,6 +245,7 @@ class LiveRun {
   }
 
   LiveOptions options_;
+  bool is_replay_ = false;
   Scene scene_;
   std::vector<std::string> notes_;
   std::unique_ptr<Gripper> gripper_;

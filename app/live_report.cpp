@@ -60,8 +60,24 @@ std::string Narrator::stamp(const Tick& tick) const {
   return fmt::format("{:8.2f} s  ", static_cast<double>(tick.number) / scene_.live.rate);
 }
 
+// Where each vessel is best taken for the task that is on: its shown guidance point.
+std::string Narrator::guidance(const Tick& tick) const {
+  std::string points;
+  for (const VesselData& vessel : scene_.vessels) {
+    if (vessel.guidance.empty()) continue;
+    const GuidancePoint& point = vessel.guidance[static_cast<std::size_t>(tick.guidance) % vessel.guidance.size()];
+    points += fmt::format("{}{} at {:.0f} mm, {:.0f} deg", points.empty() ? "" : "; ", vessel.name, point.height * 1e3,
+                          degrees(point.azimuth));
+  }
+  return points;
+}
+
 std::vector<std::string> Narrator::look(const Tick& tick) {
   std::vector<std::string> lines;
+  if (tick.guidance >= 0 && tick.guidance != last_.guidance && !tick.task_done) {
+    const std::string points = guidance(tick);
+    if (!points.empty()) lines.push_back(stamp(tick) + "guidance points: " + points);
+  }
   const auto name = [this](int vessel) { return vessel >= 0 ? scene_.vessels[vessel].name : std::string("a vessel"); };
   if (tick.destinations > last_.destinations) lines.push_back(stamp(tick) + name(tick.vessel) + " is at its destination");
   if (tick.lost > last_.lost) {

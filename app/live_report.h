@@ -15,13 +15,15 @@ class Narrator {
  public:
   // `scene` must outlive it.
   explicit Narrator(const Scene& scene);
-  // Lines for what has happened since the tick before: grasped, put down, lost, delivered, poured; each with the time, s.
+  // Lines for what has happened since the tick before: the guidance points of a new task, grasped, put down, lost,
+  // delivered, poured; each with the time, s.
   std::vector<std::string> look(const Tick& tick);
   // One line for a status that is overwritten: state, tilt, force, amounts.
   std::string status(const Tick& tick) const;
 
  private:
   std::string stamp(const Tick& tick) const;
+  std::string guidance(const Tick& tick) const;
   const Scene& scene_;
   Tick last_;
 };

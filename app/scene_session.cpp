@@ -29,6 +29,14 @@ void read_axes(const SceneTable& device, std::array<std::string, 3>& axes) {
     used += letter;
     axes[i] = axis;
   }
+  // even permutations and an even number of turned axes are rotations; the rest would turn right hands into left ones
+  const bool is_even = used == "xyz" || used == "yzx" || used == "zxy";
+  const auto turned = std::count_if(axes.begin(), axes.end(), [](const std::string& axis) { return axis[0] == '-'; });
+  if (is_even != (turned % 2 == 0)) {
+    device.file().refuse(place_of(*node),
+                         fmt::format("axes = [\"{}\", \"{}\", \"{}\"] mirrors the device", axes[0], axes[1], axes[2]),
+                         "allowed: axes of which one more or one less is turned round");
+  }
 }
 
 }  // namespace

@@ -22,12 +22,6 @@ Vec3 normalized_or(Vec3 v, Vec3 otherwise) {
   return length > 1e-12 ? v / length : otherwise;
 }
 
-// From the first place to the second without a jerk at either end, 0 to 1 over 0 to 1.
-double minimum_jerk(double t) {
-  const double s = std::clamp(t, 0.0, 1.0);
-  return s * s * s * (10 + s * (6 * s - 15));
-}
-
 constexpr double THINNEST_SOLID = 1e-3;  // m: a hull has no wall, and what it has that is thinner is no way in
 
 std::array<double, 2> gap_of(const core_f64::Hand& hand) { return {hand.scale * hand.gap_closed, hand.scale * hand.gap_open}; }
@@ -129,7 +123,7 @@ void Session::step(const GripperState& state, std::int64_t number, Tick& tick) n
   } else {
     if (state_ == SessionState::slipped) come_back(tick);
     settle_vessels();
-    approach(pose, closure, tick);
+    approach(pose, tick);
     if (state_ != SessionState::slipped && grasp(pose, state.gap, tick)) hold(pose, state.gap, 0, tick);
   }
   tick.state = state_;
@@ -168,7 +162,7 @@ bool Session::is_left(const Obstacles::Standing& standing) const noexcept {
 }
 
 // Before the grasp: the coupling of both tips to their proxies.
-void Session::approach(const HandPose& pose, double, Tick& tick) noexcept {
+void Session::approach(const HandPose& pose, Tick& tick) noexcept {
   const LiveData& live = live_->scene.live;
   const double friction = live_->scene.force.friction;
   if (state_ != SessionState::slipped) {
@@ -223,12 +217,13 @@ bool Session::grasp(const HandPose& pose, double device_gap, Tick& tick) noexcep
   const Vec3 place = obstacles_.standing[v].place;
   const Vec3 apart = proxies_[1].place - proxies_[0].place;
   const double gap = glm::length(apart);
-  if (!(gap > radii_[0] + radii_[1])) return false;
+  const double widest = hand.scale * hand.gap_open, narrowest = std::max(hand.scale * hand.gap_closed, radii_[0] + radii_[1]);
+  if (!(gap > narrowest && gap <= widest)) return false;
   core_f64::Closing closing;
   closing.direction = apart / gap;
   const double thumb = glm::dot(normals[0], -closing.direction), index = glm::dot(normals[1], closing.direction);
   if (!(thumb > GRAZING_COSINE && index > GRAZING_COSINE)) return false;
-  closing.gap = std::clamp(gap, hand.scale * hand.gap_closed, hand.scale * hand.gap_open);
+  closing.gap = gap;
   closing.midpoint = 0.5 * (proxies_[0].place + proxies_[1].place) - place;
   closing.closure = core_f64::closure_of_gap(hand, closing.gap / hand.scale, hand.limits.stop_tolerance / hand.scale);
   closing.thumb_angle = core_f64::angle_between(normals[0], -closing.direction);
@@ -264,7 +259,7 @@ bool Session::grasp(const HandPose& pose, double device_gap, Tick& tick) noexcep
   state_ = SessionState::lift;
   is_turning_ = false;
   rest_ = SessionState::lift;
-  turn_from_ = turn_time_ = 0;
+  rested_at_ = turn_from_ = turn_time_ = 0;
   ++grasps_;
   tick.coupling = {};
   return true;
@@ -335,19 +330,22 @@ void Session::hold(const HandPose& pose, double device_gap, double seconds, Tick
   }
 }
 
-// lift, tilt or maintain: it turns from when the tilt has changed by the step until it has not for as long as the window; what it is at
-// rest is decided then, so that a slow beginning belongs to what was before.
+// lift, tilt or maintain: it turns from when the tilt has changed by the step since it came to rest, until it has changed by less than a
+// fifth of that within the window. What it is at rest is decided then, so that a slow beginning belongs to what was before.
 SessionState Session::turning(double tilt) noexcept {
-  turn_time_ += seconds_;
-  if (std::abs(tilt - turn_from_) >= TURN_STEP) {
+  if (!is_turning_ && std::abs(tilt - rested_at_) >= TURN_STEP) {
     is_turning_ = true;
     turn_from_ = tilt;
     turn_time_ = 0;
-  } else if (turn_time_ >= TURN_WINDOW) {
-    is_turning_ = false;
-    rest_ = tilt < TURN_STEP ? SessionState::lift : SessionState::maintain;
+  }
+  turn_time_ += seconds_;
+  if (is_turning_ && std::abs(tilt - turn_from_) >= TURN_REST) {
     turn_from_ = tilt;
     turn_time_ = 0;
+  } else if (is_turning_ && turn_time_ >= TURN_WINDOW) {
+    is_turning_ = false;
+    rested_at_ = tilt;
+    rest_ = tilt < TURN_STEP ? SessionState::lift : SessionState::maintain;
   }
   return is_turning_ ? SessionState::tilt : rest_;
 }
@@ -364,6 +362,9 @@ void Session::slip(const Pose& pose) noexcept {
   slipped_from_ = pose;
   slipped_for_ = 0;
   for (int k = 0; k < 2; ++k) proxies_[k] = {tips_[k], {}, -1, -1};
+  // a hand that holds goes through other vessels: those that it is in now are felt when it has left them
+  for (int v = 0; v < obstacles_.count; ++v)
+    obstacles_.standing[v].is_solid = obstacles_.standing[v].is_solid && is_left(obstacles_.standing[v]);
 }
 
 // Back to where it stood, upright; then it waits there until the fingers have left it.

@@ -66,7 +66,7 @@ class Session {
     core_f64::Mat3 rotation{1};
   };
 
-  void approach(const HandPose& pose, double closure, Tick& tick) noexcept;
+  void approach(const HandPose& pose, Tick& tick) noexcept;
   bool grasp(const HandPose& pose, double device_gap, Tick& tick) noexcept;
   void hold(const HandPose& pose, double device_gap, double seconds, Tick& tick) noexcept;
   SessionState turning(double tilt) noexcept;
@@ -93,8 +93,8 @@ class Session {
   Grasp grasp_;
   bool is_turning_ = false;
   SessionState rest_ = SessionState::lift;  // when it does not turn
-  double turn_from_ = 0;                    // rad: since when the tilt has not changed by the step
-  double turn_time_ = 0;                    // s: for how long
+  double rested_at_ = 0;                    // rad: tilt at which it came to rest
+  double turn_from_ = 0, turn_time_ = 0;    // rad, s: since when it has not changed while it turns, and for how long
   Pose slipped_from_;
   double slipped_for_ = 0;  // s
   bool is_tutored_ = false;
@@ -103,7 +103,8 @@ class Session {
 
 // Constants of ours; docs/method.md, "Live".
 constexpr double TURN_STEP = 5 * PI / 180;    // rad: a tilt that changes by less is maintained (the paper's)
-constexpr double TURN_WINDOW = 0.5;           // s in which it would have to
+constexpr double TURN_REST = 1 * PI / 180;    // rad: less than this
+constexpr double TURN_WINDOW = 0.5;           // in so many s is rest
 constexpr double OPEN_MARGIN = 0.02;          // of the device's range of gaps: so near its end the fingers are open
 constexpr double RETURN_TIME = 0.5;           // s of a vessel on its way back
 constexpr double PUT_DOWN = 15e-3;            // m: let go so near to where it stood, it was put down and not lost

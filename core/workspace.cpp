@@ -34,7 +34,7 @@ Workspace::Workspace(const Scene& scene, std::array<double, 2> device_gap, std::
 }
 
 HandPose Workspace::map(const GripperState& state) noexcept {
-  const Mat3 turned = axes_ * to_mat3(state.rotation) * glm::transpose(axes_);
+  const Mat3 turned = axes_ * to_mat3(state.rotation);
   HandPose pose;
   pose.rotation = across(turned);
   const Vec3 place = across(origin_ + scale_ * (axes_ * to_vec3(state.position)));
@@ -52,7 +52,7 @@ GripperState Workspace::unmap(const HandPose& pose) const noexcept {
   const Mat3 back = glm::transpose(axes_);
   GripperState state;
   state.position = to_triple((1 / scale_) * (back * (across(pose.middle) - origin_)));
-  state.rotation = to_rotation(back * across(pose.rotation) * axes_);
+  state.rotation = to_rotation(back * across(pose.rotation));
   state.gap = device_gap_[0] + (std::clamp(pose.gap, hand_gap_[0], hand_gap_[1]) - hand_gap_[0]) / slope_;
   return state;
 }
@@ -69,6 +69,11 @@ Mat3 Workspace::across(const Mat3& rotation) const noexcept {
   return mirror * rotation * mirror;
 }
 
-double coupling_slope(double workspace_scale, double gap_slope) { return std::max(2 * workspace_scale, 0.5 * gap_slope); }
+double coupling_slope(double workspace_scale, double gap_slope) { return std::max(2 * workspace_scale, gap_slope); }
+
+double minimum_jerk(double t) {
+  const double s = std::clamp(t, 0.0, 1.0);
+  return s * s * s * (10 + s * (6 * s - 15));
+}
 
 }  // namespace wholehand

@@ -54,8 +54,11 @@ class Workspace {
   core_f64::Vec3 offset_{};  // of all clutching so far
 };
 
-// How many times the coupling's stiffness a gripper feels: two tips push the arm, which moves them by `scale` of its own way, and each of
-// them takes half of what the gap moves by its slope.
+// How many times the coupling's stiffness a gripper feels at its arm, which pushes two tips by `workspace_scale` of its own way, or at a
+// finger, whose tip goes `gap_slope` times as far; the greater of both.
 double coupling_slope(double workspace_scale, double gap_slope);
+
+// From 0 to 1 over 0 to 1 without a jerk at either end; constant beyond.
+double minimum_jerk(double t);
 
 }  // namespace wholehand

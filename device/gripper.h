@@ -37,6 +37,8 @@ class Gripper {
   virtual ReadOutcome read(GripperState& state, std::int64_t tick) noexcept = 0;
   // False: the device did not take it.
   virtual bool write(const GripperForce& force) noexcept = 0;
+  // No force, as the last thing that is written: returns when the device has it, or does not take it. May wait for some milliseconds.
+  virtual void let_go() noexcept { write({}); }
   // Why the last read or write failed: a few words that stay where they are ("unplugged"). Never null.
   virtual const char* trouble() const noexcept { return ""; }
   // Zero force as far as a signal handler may do that, from any thread, whatever the haptic thread was doing. A device that has

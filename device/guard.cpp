@@ -57,6 +57,10 @@ Fault Guard::check(ReadOutcome read, const GripperState& state, std::int64_t num
 }
 
 GripperForce Guard::limit(const GripperForce& wanted, std::int64_t number) noexcept {
+  if (first_ >= 0 && period_ * static_cast<double>(number - limited_) >= STALL) {
+    first_ = -1;
+    written_ = {};
+  }
   const bool is_first = first_ < 0;
   if (is_first) first_ = number;
   const double ramp = ramp_ > 0 ? std::clamp(period_ * static_cast<double>(number - first_) / ramp_, 0.0, 1.0) : 1;

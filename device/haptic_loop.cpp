@@ -1,5 +1,6 @@
 #include "device/haptic_loop.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <ctime>
@@ -62,7 +63,8 @@ std::int64_t HapticLoop::next_number(std::int64_t number) noexcept {
   if (options_.is_simulated || number < 0) return number + 1;
   const auto passed = static_cast<std::int64_t>(std::floor((now() - start_) / period_));
   if (passed <= number + 1) return number + 1;
-  report_.missed += passed - number - 1;
+  const auto last = options_.seconds > 0 ? static_cast<std::int64_t>(std::ceil(options_.seconds / period_)) : passed;
+  report_.missed += std::max<std::int64_t>(0, std::min(passed, last) - number - 1);
   return passed;
 }
 
@@ -71,7 +73,9 @@ bool HapticLoop::step(std::int64_t number, double due) noexcept {
   Tick& tick = report_.last;
   const ReadOutcome read = gripper_.read(state_, number);
   const double began = options_.is_simulated ? 0 : now();
-  const Fault fault = late_ >= live_.late_steps ? Fault::late : guard_.check(read, state_, number);
+  // what a recording dictates was on time when it counted
+  const bool is_late = late_ >= live_.late_steps && gripper_.dictated_tick() < 0;
+  const Fault fault = is_late ? Fault::late : guard_.check(read, state_, number);
   if (fault != Fault::none) {
     tick.number = number;
     tick.read = read;
@@ -115,7 +119,7 @@ bool HapticLoop::step(std::int64_t number, double due) noexcept {
 
 // No force, at once and without slew; what was last is told with it.
 void HapticLoop::release(Fault fault, Tick& tick) noexcept {
-  gripper_.write({});
+  gripper_.let_go();
   tick.state = SessionState::released;
   tick.fault = fault;
   tick.wanted = tick.written = {};

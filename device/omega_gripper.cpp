@@ -171,11 +171,11 @@ class OmegaGripper : public Gripper {
     dhd_.enable_expert_mode();
     dhd_.enable_force(0, id_);
     if (dhd_.set_watchdog(static_cast<unsigned char>(steps), id_) < 0) {
-      fmt::print(
-          stderr,
-          "wholehand: {}: the device takes no watchdog ({}); if this program is stopped hard, the last force may stay on it\n",
-          limits_.address, last_error(dhd_));
-    } else if (watchdog > WATCHDOG_STEPS * WATCHDOG_STEP + WATCHDOG_STEP / 2) {
+      // the SDK cannot be called when this program fails: without a watchdog the last force would stay on it
+      throw failure_error(
+          fmt::format("{}: the device takes no watchdog ({}), and is not used without one", limits_.address, last_error(dhd_)));
+    }
+    if (watchdog > WATCHDOG_STEPS * WATCHDOG_STEP + WATCHDOG_STEP / 2) {
       fmt::print(stderr, "wholehand: {}: the watchdog is set to {:.6g} ms, the longest of the device, instead of {:.6g} ms\n",
                  limits_.address, WATCHDOG_STEPS * WATCHDOG_STEP * 1e3, watchdog * 1e3);
     }

@@ -47,6 +47,7 @@ class ProtocolGripper final : public Gripper {
   const GripperLimits& limits() const noexcept override { return limits_; }
   ReadOutcome read(GripperState& state, std::int64_t) noexcept override;
   bool write(const GripperForce& force) noexcept override;
+  void let_go() noexcept override { transport_->send_now(release_); }
   const char* trouble() const noexcept override { return trouble_; }
   void panic() noexcept override {
     // first the flag: a write that comes between sends no force either

@@ -33,16 +33,11 @@ constexpr double CLEAR = 0.28;        // over the other vessels, on the way to t
 constexpr double ABOVE_TABLE = 0.02;  // of the vessel's lowest part while it pours
 constexpr int ATTEMPTS = 3;
 
-double course(double t) {
-  const double s = std::clamp(t, 0.0, 1.0);
-  return s * s * s * (10 + s * (6 * s - 15));
-}
-
 // The best-scoring grip of a vessel among heights and rolls, or at a given height; false: none is feasible.
-bool choose_grip(const Scene& scene, const Evaluator& evaluator, std::size_t v, SimJob& job) {
+bool choose_grip(const Scene& scene, const Evaluator& evaluator, std::size_t v, std::size_t task, SimJob& job) {
   const VesselData& vessel = scene.vessels[v];
   std::vector<double> heights;
-  if (!vessel.guidance.empty()) heights.push_back(vessel.guidance.front().height);
+  if (!vessel.guidance.empty()) heights.push_back(vessel.guidance[task % vessel.guidance.size()].height);
   const std::size_t guided = heights.size();
   for (int k = 1; k < 20; ++k) heights.push_back(vessel.height * k / 20);
   double best = -1;
@@ -80,7 +75,6 @@ std::vector<SimJob> plan_sim_jobs(const Scene& scene) {
     const VesselData& vessel = scene.vessels[v];
     SimJob job;
     job.vessel = static_cast<int>(v);
-    if (!choose_grip(scene, *evaluator, v, job)) continue;
     if (scene.task && vessel.liquid_name.empty()) {
       if (is_tutored) continue;
       is_tutored = true;
@@ -96,10 +90,13 @@ std::vector<SimJob> plan_sim_jobs(const Scene& scene) {
   }
   // what is carried comes first: the tutorial
   std::stable_partition(jobs.begin(), jobs.end(), [](const SimJob& job) { return job.kind == SimJob::Kind::carry; });
-  if (jobs.empty())
+  std::vector<SimJob> possible;
+  for (SimJob& job : jobs)
+    if (choose_grip(scene, *evaluator, job.vessel, possible.size(), job)) possible.push_back(job);
+  if (possible.empty())
     throw usage_error(at_place(
         scene.file, "the simulated user finds nothing to do: no vessel that the hand can hold with its palm away from the user"));
-  return jobs;
+  return possible;
 }
 
 SimUser::SimUser(const LiveScene& live, std::vector<SimJob> jobs) : live_(live), jobs_(std::move(jobs)) {
@@ -226,12 +223,12 @@ SimWish SimUser::next(const SimSense& sense, double seconds) noexcept {
   if (phase_ == Phase::tilt && pours) {
     pour(sense, seconds);
   } else {
-    wish_.middle = from_ + course(part) * (to_ - from_);
-    wish_.tilt = tilt_from_ + course(part) * (tilt_to_ - tilt_from_);
+    wish_.middle = from_ + minimum_jerk(part) * (to_ - from_);
+    wish_.tilt = tilt_from_ + minimum_jerk(part) * (tilt_to_ - tilt_from_);
     if (phase_ == Phase::upright && pours) wish_.middle = over_target(wish_.tilt);
   }
-  wish_.roll = roll_from_ + course(part) * (roll_to_ - roll_from_);
-  wish_.gap = wish_.grips_by_force ? sense.gap : gap_from_ + course(part) * (gap_to_ - gap_from_);
+  wish_.roll = roll_from_ + minimum_jerk(part) * (roll_to_ - roll_from_);
+  wish_.gap = wish_.grips_by_force ? sense.gap : gap_from_ + minimum_jerk(part) * (gap_to_ - gap_from_);
   wish_.velocity = (wish_.middle - before) / seconds;
   wish_.gap_speed = (wish_.gap - gap_before) / seconds;
   const bool feels = phase_ == Phase::close && is_held(sense.state) && sense.grip > FELT;

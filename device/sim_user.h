@@ -18,8 +18,8 @@ struct SimJob {
   double amount = 0;  // m3 of its liquid that are to be in the target
 };
 
-// What there is to do in a scene: its task, or each vessel shown. A vessel is taken at the height of its guidance point where it has one,
-// else where the grip scores best, always with the palm away from the user. Vessels that no such grip holds are left out; throws Error
+// What there is to do in a scene: its task, or each vessel shown. A vessel is taken at the height of the guidance point that is shown then,
+// without one where the grip scores best, always with the palm away from the user. Vessels that no such grip holds are left out; throws Error
 // (usage) where none is left.
 std::vector<SimJob> plan_sim_jobs(const Scene& scene);
 

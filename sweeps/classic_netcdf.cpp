@@ -235,6 +235,9 @@ Header parse_header(std::string_view start, std::uint64_t file_size) {
   for (Dimension& dimension : header.dimensions) {
     dimension.name = bytes.name();
     dimension.length = bytes.word();
+    // they are known by their names from here on
+    if (std::any_of(header.dimensions.data(), &dimension, [&](const Dimension& other) { return other.name == dimension.name; }))
+      throw usage_error("is damaged: two dimensions of one name");
   }
   header.attributes = take_attributes(bytes);
   const std::uint32_t count = bytes.list(VARIABLES_TAG, 32);

@@ -230,6 +230,7 @@ std::vector<std::string> recorded_labels(const Header& header, const FixedValues
   const auto& variable = fixed_variable(header, name, classic::Type::text, fmt::format("{} text_length", along).c_str());
   const std::string bytes = fixed_values(variable);
   const std::uint64_t length = length_of(header, "text_length");
+  if (length == 0) throw lacks("texts of some length");
   std::vector<std::string> labels;
   for (std::uint64_t at = 0; at + length <= variable.values; at += length) {
     std::string label = bytes.substr(at, length);
@@ -254,10 +255,13 @@ void read_labels_and_amounts(RecordingInfo& info, const Header& header, const Fi
   const auto names = recorded_labels(header, fixed_values, "vessel", "vessel");
   const auto liquids = recorded_labels(header, fixed_values, "liquid", "vessel");
   const auto ranges = recorded_reals(header, fixed_values, "force_range", "vessel");
+  if (names.size() != vessels || liquids.size() != vessels || ranges.size() != vessels)
+    throw lacks("a name, a liquid and a range for each vessel");
   for (std::size_t v = 0; v < vessels; ++v) info.vessels.push_back({names[v], liquids[v], ranges[v]});
   if (amounts == 0) return;
   const auto wanted = recorded_labels(header, fixed_values, "amount_liquid", "amount");
   const auto volumes = recorded_reals(header, fixed_values, "amount", "amount");
+  if (wanted.size() != amounts || volumes.size() != amounts) throw lacks("a liquid and a volume for each amount");
   for (std::size_t k = 0; k < amounts; ++k) info.amounts.push_back({wanted[k], volumes[k]});
 }
 
@@ -314,6 +318,8 @@ RecordingInfo info_of(const Header& header, const FixedValues& fixed_values) {
                  recorded_number(header, "device_rate_Hz"),
                  recorded_yes(header, "device_has_rotation"),
                  recorded_yes(header, "device_is_left_handed")};
+  if (!(info.device.force >= 0 && info.device.grip >= 0 && gap[0] < gap[1]))
+    throw usage_error("has a device whose forces or gap cannot be");
   info.force_base = recorded_number(header, "force_base_N");
   info.force_max = recorded_number(header, "force_max_N");
   info.tolerance = recorded_number(header, "tolerance_m3");

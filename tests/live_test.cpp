@@ -157,7 +157,7 @@ TEST(Live, ShowsAWholeSessionWithoutADevice) {
   EXPECT_EQ(outcome.code, 0) << outcome.errors;
   EXPECT_EQ(outcome.errors, "");
   for (const char* part :
-       {"tutorial is at its destination", "beaker3 is held at 120 mm", "grasps 4, lost 0, destinations 1; all is done", "red 7"})
+       {"tutorial is at its destination", "beaker3 is held at 130 mm", "grasps 4, lost 0, destinations 1; all is done", "red 7"})
     EXPECT_NE(outcome.output.find(part), std::string::npos) << outcome.output << "lacks " << part;
 }
 

@@ -318,12 +318,11 @@ TEST_F(OmegaGripperTest, WatchdogIsKeptToItsRange) {
   }
 }
 
-TEST_F(OmegaGripperTest, SaysWhenThereIsNoWatchdog) {
+TEST_F(OmegaGripperTest, RefusesADeviceWithoutAWatchdog) {
   sdk->codes["dhdSetWatchdog"] = -1;
   sdk->error = "not available";
-  testing::internal::CaptureStderr();
-  EXPECT_NE(open(), nullptr);
-  expect_has(testing::internal::GetCapturedStderr(), "omega: the device takes no watchdog (not available)");
+  expect_has(refusal([&] { open(); }, ExitCode::failure),
+             "omega: the device takes no watchdog (not available), and is not used without one");
 }
 
 TEST_F(OmegaGripperTest, RefusesADeviceWithoutMaximumForces) {

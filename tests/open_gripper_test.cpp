@@ -41,6 +41,7 @@ class Patient final : public Gripper {
     if (written == 60 && at_work) at_work();
     return is_taken;
   }
+  void let_go() noexcept override { gripper_->let_go(); }
   const char* trouble() const noexcept override { return gripper_->trouble(); }
 
   int patience = 100, written = 0;
@@ -171,6 +172,22 @@ TYPED_TEST(OpenGripperSession, UnpluggingEndsItAndSaysSo) {
   EXPECT_NE(carried.report.trouble.find("unplugged"), std::string::npos) << carried.report.trouble;
   EXPECT_EQ(carried.report.last.state, SessionState::released);
   EXPECT_EQ(carried.report.last.written.grip, 0);
+}
+
+// A recording that does not keep up: the force of that tick may still be on its way, and none must follow it at once.
+TYPED_TEST(OpenGripperSession, AFullRingLeavesNoForceWhileTheGripperIsStillOpen) {
+  MockBench bench;
+  TypeParam mock(bench, carrying());
+  const Scene scene = carried_scene(RATE);
+  Patient gripper(open_gripper(mock.address(), scene, 1, "", SLOW));
+  Session session(scene, gripper.limits().gap);
+  int held = 0;
+  HapticLoop loop(scene.live, gripper, session, [&held](const Tick& tick) { return !(tick.written.grip > 1 && ++held > 20); }, {});
+  const std::atomic<bool> stop{false};
+  loop.run(stop);
+  EXPECT_EQ(loop.report().fault, Fault::ring_full);
+  EXPECT_FALSE(mock.has_force()) << "as soon as the loop has ended";
+  EXPECT_TRUE(is_no_force(mock.outputs().back()));
 }
 
 TYPED_TEST(OpenGripperSession, ASecondSessionIsRefusedAndTheFirstGoesOn) {

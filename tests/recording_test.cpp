@@ -661,10 +661,9 @@ TEST(Recorder, WritesDownWhatGoesThroughTheRing) {
   const std::string path = folder.file("a.nc");
   TickRing ring(4096);
   std::vector<std::int64_t> seen;  // by the recorder's thread until it has stopped
-  Recorder recorder(ring, std::make_unique<RecordingWriter>(path, some_info(2)),
-                    [&seen](std::span<const Tick> batch) {
-                      for (const Tick& tick : batch) seen.push_back(tick.number);
-                    });
+  Recorder recorder(ring, std::make_unique<RecordingWriter>(path, some_info(2)), [&seen](std::span<const Tick> batch) {
+    for (const Tick& tick : batch) seen.push_back(tick.number);
+  });
   const auto ticks = RandomTicks(2).some(20000, 2);
   for (const Tick& tick : ticks) {
     while (!ring.push(tick)) usleep(100);

@@ -334,7 +334,7 @@ late_steps = 5
 gap_mm = [0, 25]
 workspace_scale = 1.5
 origin_mm = [1, 2, 3]
-axes = ["z", "-x", "y"]
+axes = ["z", "-x", "-y"]
 clutch_button = 1
 library = "/opt/libdhd.so"
 [task]
@@ -362,7 +362,7 @@ liquid = { name = "acid", fill = 0.5 }
   EXPECT_EQ(scene.device.gap, (std::array{0.0, 25e-3}));
   EXPECT_EQ(scene.device.workspace_scale, 1.5);
   EXPECT_EQ(scene.device.origin, (Triple{1e-3, 2e-3, 3e-3}));
-  EXPECT_EQ(scene.device.axes, (std::array<std::string, 3>{"z", "-x", "y"}));
+  EXPECT_EQ(scene.device.axes, (std::array<std::string, 3>{"z", "-x", "-y"}));
   EXPECT_EQ(scene.device.clutch_button, 1);
   EXPECT_EQ(scene.device.library, "/opt/libdhd.so");
   ASSERT_TRUE(scene.task);

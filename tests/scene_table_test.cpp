@@ -99,6 +99,8 @@ TEST(SceneTable, RefusesWithPlaceFoundAndAllowed) {
       {"[device]\naxes = [\"x\", \"y\", @\"-x\"]", "an entry of axes = '-x'"},
       {"[device]\naxes = [\"x\", \"y\", @\"w\"]", "an entry of axes = 'w'"},
       {"[device]\naxes = @[\"x\"]", "axes has 1 entries"},
+      {"[device]\naxes = @[\"-x\", \"y\", \"z\"]", "mirrors the device"},
+      {"[device]\naxes = @[\"y\", \"x\", \"z\"]", "mirrors the device"},
       {"@[task]", "[task] lacks 'target'"},
       {"[task]\ntarget = @{ place_mm = [0, 0, 0] }", "[task.target] lacks 'diameter_mm'"},
   };

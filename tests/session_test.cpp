@@ -680,7 +680,10 @@ TEST(PlaceLiveHand, IsTheSweepsHand) {
 TEST(LiveScene, RefusesWhatCannotBeLive) {
   EXPECT_THROW(LiveScene(scene_of({})), Error);
   EXPECT_THROW(LiveScene(scene_of(std::vector<VesselData>(LIVE_VESSELS + 1, beaker1()))), Error);
-  EXPECT_NO_THROW(LiveScene(scene_of(std::vector<VesselData>(LIVE_VESSELS, beaker1()))));
+  Scene many = scene_of(std::vector<VesselData>(LIVE_VESSELS, beaker1()));
+  EXPECT_THROW(LiveScene{many}, Error) << "they stand in each other";
+  for (std::size_t v = 0; v < many.vessels.size(); ++v) many.vessels[v].place = {0.1 * static_cast<double>(v), 0, 0};
+  EXPECT_NO_THROW(LiveScene{many});
   Scene mesh = scene_of({beaker1()});
   mesh.vessels[0].mesh = MeshData{};
   EXPECT_THROW(LiveScene{mesh}, Error);

@@ -157,7 +157,7 @@ TEST(SimGripper, WorksAtEveryRateAndWithAMappedGapAndALeftHand) {
     EXPECT_EQ(play(scene, 1).report.last.lost, 0) << rate;
     scene.device.has_gap = true;
     scene.device.gap = {0, 25e-3};
-    scene.device.axes = {"z", "-x", "y"};
+    scene.device.axes = {"z", "-x", "-y"};
     scene.device.origin = {0.1, 0.2, -0.1};
     scene.device.workspace_scale = 2;
     const SimSession mapped = play(scene, 1);

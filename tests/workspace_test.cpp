@@ -114,10 +114,17 @@ TEST(Workspace, FollowsTheAxesAndTheScale) {
     // a force along an axis of the world is felt along the device's axis that lies there
     EXPECT_LT(glm::length(to_vec3(workspace.to_device(3.0 * along[k])) - 75.0 * axis), ROUNDING * 10);
   }
-  // turned about the device's first axis by 0.3: about -z of the world
+  // the gripper's axes go where the device's frame takes them: its closing line, moved along itself, stays on itself
   const double c = std::cos(0.3), s = std::sin(0.3);
-  const Mat3 about_x(1, 0, 0, 0, c, s, 0, -s, c), about_minus_z(c, -s, 0, s, c, 0, 0, 0, 1);
-  EXPECT_LT(difference(workspace.map(state_of(Vec3(0), about_x, 0.02)).rotation, about_minus_z), ROUNDING);
+  const Mat3 about_x(1, 0, 0, 0, c, s, 0, -s, c), about_z(c, s, 0, -s, c, 0, 0, 0, 1);
+  for (const Mat3& turn : {Mat3(1), about_x, about_z, about_x * about_z}) {
+    const HandPose here = workspace.map(state_of(Vec3(0), turn, 0.02)), there = workspace.map(state_of(0.01 * turn[0], turn, 0.02));
+    EXPECT_LT(glm::length((there.middle - here.middle) / 0.025 - here.rotation[0]), 1e-12);
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 expected = turn[k].x * along[0] + turn[k].y * along[1] + turn[k].z * along[2];
+      EXPECT_LT(glm::length(here.rotation[k] - expected), ROUNDING);
+    }
+  }
 }
 
 // Power at the device is power at the hand, but for the workspace's scale: the way back is the transpose of the way there.

@@ -125,6 +125,7 @@ void MockGripper::start() {
       const std::lock_guard guard(lock_);
       if (is_unplugged_) continue;
       check_watchdog();
+      frame();
       if (const Bytes report = measure(); !report.empty()) send(report);
     }
   });
@@ -503,6 +504,21 @@ void UsbMock::send(const Bytes& report) {
   finish(urb, 0, static_cast<int>(size));
 }
 
+// What waits to go out goes now, as far as the device takes it.
+void UsbMock::frame() {
+  for (auto at = flying_.begin(); at != flying_.end();) {
+    auto* const memory = reinterpret_cast<usbdevfs_urb*>(at->data->data);
+    const protocol::Bytes bytes{static_cast<const std::uint8_t*>(memory->buffer), static_cast<std::size_t>(memory->buffer_length)};
+    if (memory->endpoint != ENDPOINT_OUT || !take_output(bytes)) {
+      ++at;
+      continue;
+    }
+    const Urb urb = *at;
+    at = flying_.erase(at);
+    finish(urb, 0, memory->buffer_length);
+  }
+}
+
 void UsbMock::submit(UMockdevIoctlClient* client) {
   Data data = resolve(umockdev_ioctl_client_get_arg(client), 0, sizeof(usbdevfs_urb));
   auto* const memory = reinterpret_cast<usbdevfs_urb*>(data->data);
@@ -522,10 +538,8 @@ void UsbMock::submit(UMockdevIoctlClient* client) {
                             set_feature({buffer->data + 8, size});
       finish(urb, is_taken ? 0 : -EPIPE, is_taken ? static_cast<int>(size) : 0);
     }
-  } else if (memory->endpoint == ENDPOINT_OUT && take_output({buffer->data, static_cast<std::size_t>(memory->buffer_length)})) {
-    finish(urb, 0, memory->buffer_length);
   } else {
-    flying_.push_back(urb);
+    flying_.push_back(urb);  // until there is a frame for it
   }
   complete(client, 0);
 }

@@ -98,7 +98,8 @@ class MockGripper {
   std::optional<Bytes> get_feature(std::uint8_t id) const;  // none: stalls
   bool set_feature(protocol::Bytes report);
   bool take_output(protocol::Bytes report);    // false: not taken
-  virtual void send(const Bytes& report) = 0;  // called under the lock
+  virtual void send(const Bytes& report) = 0;  // called under the lock, as is
+  virtual void frame() {}                      // before each measurement
   void start();
   void stop();  // by each destructor, before what send() needs goes
 
@@ -166,6 +167,7 @@ class UsbMock final : public MockGripper {
   };
   static int on_ioctl(_UMockdevIoctlBase*, _UMockdevIoctlClient* client, UsbMock* self);
   void send(const Bytes& report) override;
+  void frame() override;
   void submit(_UMockdevIoctlClient* client);
   void reap(_UMockdevIoctlClient* client);
   void discard(_UMockdevIoctlClient* client);
