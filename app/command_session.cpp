@@ -19,13 +19,13 @@ struct SessionArguments {
   bool json = false;
 };
 
-// The tables, and the picture where there is something to draw and gnuplot to draw it.
-void write_session_files(const std::string& folder, const Recording& recording, const SessionReport& report) {
+// The tables, and the picture where there is something to draw. What could not be drawn, and why.
+std::string write_session_files(const std::string& folder, const Recording& recording, const SessionReport& report) {
   write_whole_file(folder + "/session.csv", grasps_csv(report), false);
   write_whole_file(folder + "/states.csv", states_csv(report), false);
-  if (recording.ticks.empty()) return;
-  const std::string trouble = draw_session(recording, report, folder + "/session.svg");
-  if (!trouble.empty()) std::fprintf(stderr, "wholehand: %s\n", trouble.c_str());
+  const std::string picture = folder + "/session.svg";
+  std::remove(picture.c_str());  // of another recording
+  return recording.ticks.empty() ? "" : draw_session(recording, report, picture);
 }
 
 ExitCode report_recording(const SessionArguments& arguments) {
@@ -33,8 +33,9 @@ ExitCode report_recording(const SessionArguments& arguments) {
   if (!arguments.folder.empty()) make_output_folder(arguments.folder);
   if (!recording.note.empty()) std::fprintf(stderr, "wholehand: %s\n", recording.note.c_str());
   const SessionReport report = report_session(recording);
-  if (!arguments.folder.empty()) write_session_files(arguments.folder, recording, report);
+  const std::string trouble = arguments.folder.empty() ? "" : write_session_files(arguments.folder, recording, report);
   print(arguments.json ? session_json(report) + "\n" : session_table(report));
+  if (!trouble.empty()) throw failure_error("session: " + trouble);
   return ExitCode::done;
 }
 

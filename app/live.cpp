@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <ctime>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -150,7 +151,8 @@ class LiveRun {
     show_status("");
     tell(is_recorded);
     if (report.fault == Fault::interrupted) return ExitCode::interrupted;
-    if (report.fault != Fault::none) throw failure_error(fault_line(report, scene_.live.rate));
+    if (report.fault != Fault::none) throw failure_error(fault_line(report, loop_->guard(), scene_.live));
+    if (!is_recorded) throw failure_error("live: the session is over and the recording holds only its beginning");
     return ExitCode::done;
   }
 
@@ -161,6 +163,9 @@ class LiveRun {
     if (options_.no_clock && !is_replay && !is_sim)
       throw usage_error("--no-clock: a device keeps its own time; allowed with --device sim and replay:FILE");
     if (is_replay && options_.rate > 0) throw usage_error("--rate: a recording is replayed at its own rate; leave it out");
+    if (options_.device == REPLAY) throw usage_error("--device replay: needs a recording: --device replay:FILE");
+    if (is_replay && !options_.scene.empty())
+      notes_.push_back("replayed in another scene: the forces are what that one gives, not those that were felt");
     std::optional<Recording> recording;
     if (is_replay) recording = read_recording(options_.device.substr(std::string(REPLAY).size()));
     if (recording && options_.scene.empty()) {
@@ -208,13 +213,17 @@ class LiveRun {
 
   void loop_thread(InterruptGuard& interrupt, Recorder& recorder, Board& board) {
     std::atomic<bool> is_over{false};
-    std::vector<std::string> missing;
+    std::promise<std::vector<std::string>> permitted;
     std::thread haptic([&] {
       const HandlerStack stack;
-      if (!options_.no_clock) missing = make_realtime();
+      permitted.set_value(options_.no_clock ? std::vector<std::string>{} : make_realtime());
       loop_->run(interrupt.flag());
       is_over = true;
     });
+    for (const std::string& note : permitted.get_future().get()) {
+      std::fprintf(stderr, "wholehand: live: %s\n", note.c_str());
+      notes_.push_back(note);
+    }
     while (!is_over) {
       std::this_thread::sleep_for(LOOK);
       tell_trouble(recorder);
@@ -227,19 +236,18 @@ class LiveRun {
       }
     }
     haptic.join();
-    notes_.insert(notes_.end(), missing.begin(), missing.end());
   }
 
   void tell_trouble(Recorder& recorder) {
     if (const auto trouble = recorder.trouble()) {
       show_status("");
       std::fprintf(stderr, "wholehand: live: %s\n", trouble->c_str());
+      notes_.push_back(*trouble);
     }
   }
 
   void tell(bool is_recorded) {
-    LiveSummary summary{
-        scene_, gripper_->limits(), loop_->report(), 0, !options_.no_clock, notes_, is_recorded ? options_.record : ""};
+    LiveSummary summary{scene_, gripper_->limits(), loop_->report(), 0, !options_.no_clock, notes_, options_.record, is_recorded};
     summary.seconds = static_cast<double>(loop_->report().last.number) / scene_.live.rate;
     print(options_.json ? live_json(summary) : live_text(summary));
   }

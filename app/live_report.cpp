@@ -133,7 +133,9 @@ std::string live_text(const LiveSummary& summary) {
     text += fmt::format("  step       {}; late {}\n", percentiles(loop.step), loop.late);
   }
   for (const std::string& note : summary.notes) text += "  " + note + "\n";
-  if (!summary.recording.empty()) text += fmt::format("  recorded in {}\n", summary.recording);
+  if (loop.fault == Fault::interrupted) text += "  ended by a signal\n";
+  if (!summary.recording.empty())
+    text += fmt::format("  recorded {}in {}\n", summary.is_recorded ? "" : "in part ", summary.recording);
   return text;
 }
 
@@ -165,14 +167,22 @@ std::string live_json(const LiveSummary& summary) {
     json["late"] = loop.late;
   }
   json["notes"] = summary.notes;
+  json["recorded_wholly"] = summary.is_recorded;
   json["recording"] = summary.recording.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(summary.recording);
   return json.dump(2) + "\n";
 }
 
-std::string fault_line(const LoopReport& report, double rate) {
-  const std::string trouble = report.trouble.empty() ? "" : " (" + report.trouble + ")";
+std::string fault_line(const LoopReport& report, const Guard& guard, const LiveData& live) {
+  std::string words = report.trouble;
+  if (report.fault == Fault::jump) words = guard.jump();
+  if (report.fault == Fault::stale) words = "the same measurement came twice";
+  if (report.fault == Fault::late)
+    words = fmt::format("{} steps in a row took longer than a period; [live] late_steps", live.late_steps);
+  if (report.fault == Fault::not_finite) words = "a number that is none, or a rotation that is none";
+  if (report.fault == Fault::ring_full) words = "the recording does not keep up";
   return fmt::format("live: released after {:.3f} s: {}{}; no force is on the device",
-                     static_cast<double>(report.last.number) / rate, FAULT_NAMES[static_cast<std::size_t>(report.fault)], trouble);
+                     static_cast<double>(report.last.number) / live.rate, FAULT_NAMES[static_cast<std::size_t>(report.fault)],
+                     words.empty() ? "" : " (" + words + ")");
 }
 
 }  // namespace wholehand

@@ -43,12 +43,13 @@ struct LiveSummary {
   double seconds = 0;  // of the session's own time
   bool has_clock = true;
   std::vector<std::string> notes;
-  std::string recording;  // the file; empty: none
+  std::string recording;    // the file; empty: none
+  bool is_recorded = true;  // all of it
 };
 std::string live_text(const LiveSummary& summary);
 std::string live_json(const LiveSummary& summary);
 
-// "released after 2.004 s: read error (unplugged)": the line for a session that ended by a fault.
-std::string fault_line(const LoopReport& report, double rate);
+// "released after 2.004 s: read error (unplugged)": the line for a session that ended by a fault, with what was found and what is allowed.
+std::string fault_line(const LoopReport& report, const Guard& guard, const LiveData& live);
 
 }  // namespace wholehand

@@ -48,7 +48,7 @@ LiveVessel load_live_vessel(const Scene& scene, const VesselData& data, const co
   liquid.height = live.vessel.floor_height;
   if (scene.liquid) {
     live.volume = data.liquid_fill * live.vessel.capacity;
-    most = scene.liquid->fills.back() * live.vessel.capacity;
+    most = std::max(scene.liquid->fills.back(), data.liquid_fill) * live.vessel.capacity;
     liquid = core_f64::liquid_at(live.vessel, quadrature, most, 0, 1);
   }
   const double density = scene.liquid ? scene.liquid->density : 0;
@@ -217,7 +217,9 @@ bool Session::grasp(const HandPose& pose, double device_gap, Tick& tick) noexcep
   const Vec3 place = obstacles_.standing[v].place;
   const Vec3 apart = proxies_[1].place - proxies_[0].place;
   const double gap = glm::length(apart);
-  const double widest = hand.scale * hand.gap_open, narrowest = std::max(hand.scale * hand.gap_closed, radii_[0] + radii_[1]);
+  // an open hand holds nothing: it could not let go
+  const double widest = hand.scale * hand.gap_open - 2 * hand.contact_tolerance,
+               narrowest = std::max(hand.scale * hand.gap_closed, radii_[0] + radii_[1]);
   if (!(gap > narrowest && gap <= widest)) return false;
   core_f64::Closing closing;
   closing.direction = apart / gap;

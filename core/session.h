@@ -17,7 +17,7 @@ namespace wholehand {
 struct LiveVessel {
   core_f64::Vessel vessel;
   core_f64::ForceScale force;
-  core_f64::Load largest;                // upright at the scene's largest fill
+  core_f64::Load largest;                // upright at the scene's largest fill, or its own if that is more
   std::vector<core_f64::Vec3> guidance;  // on its outer surface, vessel frame
   core_f64::Vec3 home{};                 // where it stands at the start
   double radius = 0;                     // at its widest, m

@@ -1,5 +1,7 @@
 #include "device/guard.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -45,15 +47,21 @@ Fault Guard::check(ReadOutcome read, const GripperState& state, std::int64_t num
   if (!is_finite(state) || !is_rotation(state.rotation)) return Fault::not_finite;
   if (has_state_) {
     const double seconds = period_ * static_cast<double>(std::max<std::int64_t>(1, number - number_));
-    if (distance(state.position, state_.position) > jump_ * seconds || std::abs(state.gap - state_.gap) > jump_ * seconds ||
-        turned(state.rotation, state_.rotation) > JUMP_TURN * seconds) {
-      return Fault::jump;
-    }
+    arm_speed_ = distance(state.position, state_.position) / seconds;
+    gap_speed_ = std::abs(state.gap - state_.gap) / seconds;
+    turn_speed_ = turned(state.rotation, state_.rotation) / seconds;
+    if (arm_speed_ > jump_ || gap_speed_ > jump_ || turn_speed_ > JUMP_TURN) return Fault::jump;
   }
   has_state_ = true;
   state_ = state;
   number_ = number;
   return Fault::none;
+}
+
+std::string Guard::jump() const {
+  if (arm_speed_ > jump_) return fmt::format("its place by {:.3g} m/s; allowed: up to {:g}, [live] jump_m_s", arm_speed_, jump_);
+  if (gap_speed_ > jump_) return fmt::format("its gap by {:.3g} m/s; allowed: up to {:g}, [live] jump_m_s", gap_speed_, jump_);
+  return fmt::format("its rotation by {:.3g} rad/s; allowed: up to {:g}", turn_speed_, JUMP_TURN);
 }
 
 GripperForce Guard::limit(const GripperForce& wanted, std::int64_t number) noexcept {

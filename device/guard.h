@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "core/scene.h"
 #include "device/gripper.h"
@@ -18,21 +19,25 @@ class Guard {
   // moved faster than [live] jump_m_s, or the rotation faster than JUMP_TURN.
   Fault check(ReadOutcome read, const GripperState& state, std::int64_t number) noexcept;
 
+  // What jumped, how fast, and what is allowed, for the fault of that name.
+  std::string jump() const;
+
   // The force to write: `wanted` no larger than the device's limits (the arm keeps its direction), times the ramp from zero over the first
   // ramp_s of ticks, and no further from the force before than slew_N_s allows, arm and grip each. A force that is no number is none. After
   // ticks that were missed for STALL and longer, in which a device's own watchdog may have let go, it all begins at zero again.
   GripperForce limit(const GripperForce& wanted, std::int64_t number) noexcept;
 
  private:
-  double force_, grip_;       // N
-  double period_, ramp_;      // s
-  double slew_, jump_;        // N/s, m/s
-  bool has_state_ = false;    // a measurement came before
-  GripperState state_;        // it
-  std::int64_t number_ = 0;   // its tick
-  std::int64_t first_ = -1;   // tick of the first force; -1: none yet
-  std::int64_t limited_ = 0;  // tick of the force before
-  GripperForce written_;      // that force
+  double force_, grip_;                                    // N
+  double period_, ramp_;                                   // s
+  double slew_, jump_;                                     // N/s, m/s
+  bool has_state_ = false;                                 // a measurement came before
+  GripperState state_;                                     // it
+  std::int64_t number_ = 0;                                // its tick
+  std::int64_t first_ = -1;                                // tick of the first force; -1: none yet
+  std::int64_t limited_ = 0;                               // tick of the force before
+  GripperForce written_;                                   // that force
+  double arm_speed_ = 0, gap_speed_ = 0, turn_speed_ = 0;  // m/s, m/s, rad/s: of the last two measurements
 };
 
 constexpr double ROTATION_TOLERANCE = 1e-3;  // a tenth of a degree of skew is a broken sensor

@@ -44,6 +44,7 @@ class HapticLoop {
   void run(const std::atomic<bool>& stop) noexcept;
 
   const LoopReport& report() const noexcept { return report_; }
+  const Guard& guard() const noexcept { return guard_; }
 
  private:
   bool step(std::int64_t number, double due) noexcept;

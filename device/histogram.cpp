@@ -21,13 +21,14 @@ void Histogram::add(double seconds) noexcept {
 double Histogram::quantile(double share) const noexcept {
   if (count_ == 0) return 0;
   const auto wanted = static_cast<std::uint64_t>(std::ceil(std::clamp(share, 0.0, 1.0) * static_cast<double>(count_)));
+  if (wanted >= count_) return largest_;
   std::uint64_t passed = 0;
   for (std::size_t k = 0; k < bins_.size(); ++k) {
     passed += bins_[k];
     if (passed >= std::max<std::uint64_t>(1, wanted)) {
       const int octave = static_cast<int>(k) / PARTS, part = static_cast<int>(k) % PARTS;
-      const double upper = std::ldexp(1 + (part + 1.0) / PARTS, octave) * 1e-9;
-      return std::min(upper, largest_);
+      const double middle = std::ldexp(1 + (part + 0.5) / PARTS, octave) * 1e-9;
+      return std::min(middle, largest_);
     }
   }
   return largest_;

@@ -15,18 +15,26 @@
 namespace wholehand {
 namespace {
 
-std::string runtime_directory() {
-  const char* directory = std::getenv("XDG_RUNTIME_DIR");
-  struct stat status;
-  const bool is_there = directory && *directory && stat(directory, &status) == 0 && S_ISDIR(status.st_mode);
-  return is_there ? directory : "/tmp";
+// One for all users: two of them may sit before the same device.
+std::string lock_directory() {
+  if (const char* named = std::getenv("WHOLEHAND_LOCK_DIR"); named && *named) return named;
+  return access("/run/lock", W_OK | X_OK) == 0 ? "/run/lock" : "/tmp";
+}
+
+// Whoever made it, anybody may lock it. It is opened first and made only where it is not there: in a folder that all may write to, a kernel
+// lets nobody else open a user's file with leave to make it.
+int open_lock_file(const std::string& path) {
+  const int there = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+  if (there >= 0 || errno != ENOENT) return there;
+  const int made = open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0644);
+  return made >= 0 || errno != EEXIST ? made : open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
 }
 
 }  // namespace
 
 SessionLock::SessionLock(const std::string& name) {
-  const std::string path = fmt::format("{}/wholehand-{}.lock", runtime_directory(), name);
-  file_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600);
+  const std::string path = fmt::format("{}/wholehand-{}.lock", lock_directory(), name);
+  file_ = open_lock_file(path);
   if (file_ < 0) throw failure_error(fmt::format("cannot make the lock file {}: {}", path, std::strerror(errno)));
   if (flock(file_, LOCK_EX | LOCK_NB) == 0) return;
   const int reason = errno;

@@ -5,8 +5,8 @@
 
 namespace wholehand {
 
-// Holds the lock file `wholehand-NAME.lock` in the runtime directory (XDG_RUNTIME_DIR, or /tmp where that is none). The file stays behind,
-// the lock does not. It holds between the processes of one user; another user's session is refused by the device itself.
+// Holds the lock file `wholehand-NAME.lock` in /run/lock (/tmp where that is none; or WHOLEHAND_LOCK_DIR). The file stays behind, the lock does
+// not. It holds between all users.
 class SessionLock {
  public:
   // `name` without slashes, e.g. "omega-0". Throws Error (failure) if another session holds it or the file cannot be made.

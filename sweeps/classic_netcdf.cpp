@@ -226,7 +226,8 @@ void lay_out(Header& header, std::uint64_t room) {
 }
 
 Header parse_header(std::string_view start, std::uint64_t file_size) {
-  if (!start.starts_with(MAGIC)) throw usage_error("is no recording (NetCDF classic with 64-bit offsets)");
+  if (!start.starts_with(MAGIC))
+    throw usage_error("is no recording (NetCDF classic with 64-bit offsets; nccopy -k 64-bit-offset brings back a rewritten one)");
   HeaderBytes bytes(start);
   bytes.take(MAGIC.size());
   Header header;

@@ -64,17 +64,24 @@ void refuse_unstable_gains(const Scene& scene, std::array<double, 2> device_gap,
   if (unsafe) return;
   const LiveData& live = scene.live;
   const double slope = device_slope(scene, device_gap);
-  const auto refuse = [&](const char* key, double gain, double limit) {
+  const auto refuse = [&](const std::string& what, double limit) {
     throw usage_error(
-        fmt::format("{} = {:g}: not stable on a light device at {:g} Hz; allowed: at most {:.0f}, a higher [live] rate_Hz, or "
+        fmt::format("{}: not stable on a light device at {:g} Hz; allowed: at most {:.0f}, a higher [live] rate_Hz, or "
                     "--unsafe-gains where the device is known to bear it (wholehand stability wall)",
-                    key, gain, live.rate, limit));
+                    what, live.rate, limit));
   };
   const double stiffness = wall_limit(live.rate, slope * live.damping) / slope;
-  if (live.stiffness > stiffness) refuse("[live] K_N_m", live.stiffness, stiffness);
+  if (live.stiffness > stiffness) {
+    refuse(
+        fmt::format("[live] K_N_m = {:g} with B_Ns_m = {:g}, of which the device feels {:.3g} times as much (two tips at its arm, "
+                    "workspace_scale, gap_mm)",
+                    live.stiffness, live.damping, slope),
+        std::max(0.0, stiffness));
+  }
   for (GripLoop loop : light_grips(live.rate)) {
     loop.k_open = scene.force.k_open;
-    if (!dies_away(loop)) refuse("[force] k_open_N_m", scene.force.k_open, gain_limits(live.rate, live.damping).k_open);
+    if (!dies_away(loop))
+      refuse(fmt::format("[force] k_open_N_m = {:g}", scene.force.k_open), gain_limits(live.rate, live.damping).k_open);
   }
 }
 

@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <fstream>
+#include <string_view>
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -12,6 +15,17 @@ namespace wholehand {
 namespace {
 
 std::string temporary_name(const std::string& file) { return file + ".partial"; }
+
+// Gnuplot does not see that a disk is full.
+bool is_whole(const std::string& svg) {
+  constexpr std::string_view END = "</svg>";
+  std::ifstream file(svg, std::ios::binary | std::ios::ate);
+  const std::streamoff size = file.tellg();
+  std::string tail(static_cast<std::size_t>(std::clamp<std::streamoff>(size, 0, 64)), '\0');
+  file.seekg(size - static_cast<std::streamoff>(tail.size()));
+  file.read(tail.data(), static_cast<std::streamsize>(tail.size()));
+  return tail.find(END) != std::string::npos;
+}
 
 // A broken pipe is an exit status here, not a signal.
 class IgnorePipeSignal {
@@ -62,6 +76,7 @@ std::string draw_with_gnuplot(const std::string& script, const std::vector<std::
   bool drawn = WIFEXITED(status) && WEXITSTATUS(status) == 0;
   for (const std::string& file : files) {
     const std::string temporary = temporary_name(file);
+    drawn = drawn && is_whole(temporary);
     if (!drawn || std::rename(temporary.c_str(), file.c_str()) != 0) {
       drawn = false;
       unlink(temporary.c_str());

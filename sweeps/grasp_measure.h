@@ -57,6 +57,7 @@ struct GraspReport {
   double normal_increase = Tick::NONE;  // of the normal force over it, N
   double grip_change = Tick::NONE;      // of the user's grip force over it, N
   double turning_back = Tick::NONE;     // how far the grip force goes both up and down, beyond what the normal force does, N
+  double saturated = 0;                 // for how long the feedback is at F_max, s; while tilted: the course is not analysed
   GripCourse course = GripCourse::not_analysed;
   GraspOutcome outcome = GraspOutcome::let_go;
   double guidance_distance = Tick::NONE;  // m

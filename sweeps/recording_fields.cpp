@@ -110,7 +110,8 @@ std::vector<RecordedField> make_recorded_fields() {
                offsetof(Tick, exact_torque)),
       real_one("normal_force", "N", "normal force", NOT_SAID, offsetof(Tick, normal_force)),
       real_one("opening_force", "N", "force of the gripper's opening against the grasp", NOT_SAID, offsetof(Tick, opening_force)),
-      real_one("feedback_force", "N", "force that the gripper renders", NOT_SAID, offsetof(Tick, feedback)),
+      real_one("feedback_force", "N", "force of the method at the gripper, before limits, ramp and slew", NOT_SAID,
+               offsetof(Tick, feedback)),
       real_one("hold_force", "N", "force per finger that a soft-finger pinch needs to hold the vessel",
                "infinite where not antipodal; NaN: there is none", offsetof(Tick, hold_force)),
       real_one("grip_force", "N", "the user's grip force", "feedback force less what the normal force rose since the grasp",
@@ -128,8 +129,8 @@ std::vector<RecordedField> make_recorded_fields() {
                  offsetof(Tick, destinations)),
       flag_of("task_done", "whether the task is done", YES_NO_NAMES, offsetof(Tick, task_done)),
       always_finite(real_one("latency", "s", "from the tick's time to when the loop woke", NOT_SAID, offsetof(Tick, latency))),
-      always_finite(real_one("step_time", "s", "from waking until the force was written", "waiting for the device included",
-                             offsetof(Tick, step_time))),
+      always_finite(real_one("step_time", "s", "from having the measurement until the force was written",
+                             "waiting for the device not included", offsetof(Tick, step_time))),
   };
 }
 

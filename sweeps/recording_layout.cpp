@@ -318,7 +318,7 @@ RecordingInfo info_of(const Header& header, const FixedValues& fixed_values) {
                  recorded_number(header, "device_rate_Hz"),
                  recorded_yes(header, "device_has_rotation"),
                  recorded_yes(header, "device_is_left_handed")};
-  if (!(info.device.force >= 0 && info.device.grip >= 0 && gap[0] < gap[1]))
+  if (!(info.device.force >= 0 && info.device.grip >= 0 && gap[0] <= gap[1]))
     throw usage_error("has a device whose forces or gap cannot be");
   info.force_base = recorded_number(header, "force_base_N");
   info.force_max = recorded_number(header, "force_max_N");

@@ -122,7 +122,9 @@ Recording read_recorded_file(const RecordedFile& file) {
   std::string start;
   file.read(start, std::min(file.size(), classic::LARGEST_HEADER), 0);
   if (start.starts_with("\x89HDF\r\n\x1a\n"))
-    throw usage_error("is a NetCDF-4 file, as sweeps write them, and no recording of a session");
+    throw usage_error(
+        "is a NetCDF-4 file, as sweeps write them, and no recording; one that another program has rewritten comes back by nccopy "
+        "-k 64-bit-offset");
   const classic::Header header = classic::parse_header(start, file.size());
   Recording recording;
   recording.info = info_of(header, [&file](const classic::Variable& variable) {

@@ -45,6 +45,7 @@ SessionJson grasp_json(const SessionReport& report, const GraspReport& grasp) {
   json["normal_increase_N"] = number_or_null(grasp.normal_increase);
   json["grip_change_N"] = number_or_null(grasp.grip_change);
   json["turning_back_N"] = number_or_null(grasp.turning_back);
+  json["saturated_s"] = grasp.saturated;
   json["type"] = course_json(grasp.course);
   json["outcome"] = GRASP_OUTCOME_NAMES[static_cast<std::size_t>(grasp.outcome)];
   json["guidance_distance_m"] = number_or_null(grasp.guidance_distance);

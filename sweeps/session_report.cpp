@@ -67,7 +67,20 @@ void add_liquid(GraspReport& grasp, const std::vector<Tick>& ticks, const std::v
   grasp.spilt = ticks[last].spilt[vessel] - from.spilt[vessel];
 }
 
-std::vector<GraspReport> measure_grasps(const std::vector<Tick>& ticks, double rate) {
+// At F_max the gripper renders neither what the torque adds nor what the user does.
+void add_saturation(GraspReport& grasp, std::span<const Tick> held, double rate, double force_max) {
+  std::int64_t periods = 0;
+  bool while_tilting = false;
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    if (!(held[k].feedback >= force_max)) continue;
+    periods += periods_of(held, k);
+    while_tilting = while_tilting || held[k].state != SessionState::lift;
+  }
+  grasp.saturated = static_cast<double>(periods) / rate;
+  if (while_tilting) grasp.course = GripCourse::not_analysed;
+}
+
+std::vector<GraspReport> measure_grasps(const std::vector<Tick>& ticks, double rate, double force_max) {
   const std::vector<TickRange> ranges = find_grasps(ticks);
   std::vector<GraspReport> grasps;
   for (std::size_t k = 0; k < ranges.size(); ++k) {
@@ -75,6 +88,7 @@ std::vector<GraspReport> measure_grasps(const std::vector<Tick>& ticks, double r
     const auto held = std::span(ticks).subspan(ranges[k].first, ranges[k].end - ranges[k].first);
     grasps.push_back(measure_grasp(held, rate, outcome == GraspOutcome::lost));
     grasps.back().outcome = outcome;
+    add_saturation(grasps.back(), held, rate, force_max);
     add_liquid(grasps.back(), ticks, ranges, k);
   }
   return grasps;
@@ -174,7 +188,7 @@ SessionReport report_session(const Recording& recording) {
     if (fault != ticks.end()) report.fault = fault->fault;
     measure_states(report, ticks);
     measure_timing(report, ticks);
-    report.grasps = measure_grasps(ticks, recording.info.rate);
+    report.grasps = measure_grasps(ticks, recording.info.rate, recording.info.force_max);
     report.lost = ticks.back().lost;
     report.destinations = ticks.back().destinations;
     report.task_done = ticks.back().task_done;

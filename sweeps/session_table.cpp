@@ -58,7 +58,8 @@ void write_heading(SessionText out, const SessionReport& report) {
                  info.scene_name.empty() ? info.scene_file : info.scene_name, info.device.name, info.rate,
                  info.start.empty() ? "" : ", ", info.start);
   if (report.fault != Fault::none)
-    fmt::format_to(out, "  let go by a fault: {}\n", FAULT_NAMES[static_cast<std::size_t>(report.fault)]);
+    fmt::format_to(out, "  {}{}\n", report.fault == Fault::interrupted ? "ended by a signal" : "let go by a fault: ",
+                   report.fault == Fault::interrupted ? "" : FAULT_NAMES[static_cast<std::size_t>(report.fault)]);
   ColumnTable states;
   states.row({"state", "s"});
   for (std::size_t k = 0; k < report.time_in_state.size(); ++k)
@@ -84,6 +85,12 @@ void write_grasps(SessionText out, const SessionReport& report) {
                shown(grasp.spilt, 1e-6, 1), GRASP_OUTCOME_NAMES[static_cast<std::size_t>(grasp.outcome)]});
   }
   table.write(out);
+  for (const GraspReport& grasp : report.grasps) {
+    if (!(grasp.saturated > 0)) continue;
+    fmt::format_to(out,
+                   "  {} at {:.3f} s: the feedback was at F_max for {:.3f} s, where the gripper renders neither torque nor grip\n",
+                   report.info.vessels[static_cast<std::size_t>(grasp.vessel)].name, grasp.start, grasp.saturated);
+  }
   fmt::format_to(out, "\nBy vessel, mean +- deviation over grasps: times in s, forces in N\n");
   ColumnTable summary;
   summary.row({"vessel", "grasps", "lost", "G1", "G2", "G3", "G4", "response", "stopped", "before", "during", "after",
@@ -154,14 +161,31 @@ std::string grasps_csv(const SessionReport& report) {
   std::string csv =
       "grasp,vessel,start_s,end_s,lift_s,tilt_s,maintain_s,response_time_s,grip_stopped_N,grip_before_N,grip_before_deviation_N,"
       "grip_during_N,grip_during_deviation_N,grip_after_N,grip_after_deviation_N,largest_tilt_deg,tilt_start_s,tilt_time_s,"
-      "normal_increase_N,grip_change_N,turning_back_N,type,guidance_distance_mm,poured_ml,arrived_ml,spilt_ml,outcome\n";
+      "normal_increase_N,grip_change_N,turning_back_N,saturated_s,type,guidance_distance_mm,poured_ml,arrived_ml,spilt_ml,"
+      "outcome\n";
   for (std::size_t k = 0; k < report.grasps.size(); ++k) {
     const GraspReport& grasp = report.grasps[k];
     csv += fmt::format("{},{}", k + 1, csv_vessel(report, grasp.vessel));
-    for (const double value : {grasp.start, grasp.end, grasp.duration[0], grasp.duration[1], grasp.duration[2], grasp.response_time,
-                               grasp.tightened, grasp.before.mean, grasp.before.deviation, grasp.during.mean,
-                               grasp.during.deviation, grasp.after.mean, grasp.after.deviation, degrees(grasp.largest_tilt),
-                               grasp.tilt_start, grasp.tilt_time, grasp.normal_increase, grasp.grip_change, grasp.turning_back})
+    for (const double value : {grasp.start,
+                               grasp.end,
+                               grasp.duration[0],
+                               grasp.duration[1],
+                               grasp.duration[2],
+                               grasp.response_time,
+                               grasp.tightened,
+                               grasp.before.mean,
+                               grasp.before.deviation,
+                               grasp.during.mean,
+                               grasp.during.deviation,
+                               grasp.after.mean,
+                               grasp.after.deviation,
+                               degrees(grasp.largest_tilt),
+                               grasp.tilt_start,
+                               grasp.tilt_time,
+                               grasp.normal_increase,
+                               grasp.grip_change,
+                               grasp.turning_back,
+                               grasp.saturated})
       csv += "," + csv_number(value);
     csv += fmt::format(",{},{},{},{},{},{}\n", GRIP_COURSE_NAMES[static_cast<std::size_t>(grasp.course)],
                        csv_number(grasp.guidance_distance, 1e-3), csv_number(grasp.poured, 1e-6), csv_number(grasp.arrived, 1e-6),

@@ -150,7 +150,7 @@ TEST(CommandLine, NamesFileLineAndColumn) {
 TEST(CommandLine, ListsDevicesAndGrippers) {
   const std::string folder = std::filesystem::temp_directory_path() / "wholehand_cli_test_devices";
   std::filesystem::create_directory(folder);
-  const std::string program = "XDG_RUNTIME_DIR=" + folder + " WHOLEHAND_DHD_LIBRARY=" STAND_IN_DHD " PROGRAM devices 2>&1 ";
+  const std::string program = "WHOLEHAND_LOCK_DIR=" + folder + " WHOLEHAND_DHD_LIBRARY=" STAND_IN_DHD " PROGRAM devices 2>&1 ";
   const Outcome listed = run(program);
   EXPECT_EQ(listed.code, 0) << listed.output;
   std::size_t last = 0;

@@ -208,6 +208,26 @@ TEST(Guard, HoldsEveryLimitAgainstWildWishes) {
   EXPECT_GT(at_limit, 500);
 }
 
+// A device's own watchdog may have let go while nobody wrote: what comes then begins as at the start.
+TEST(Guard, AfterAStallItBeginsAtZeroAgain) {
+  LiveData live;
+  Guard guard(live, limits_of(12, 8));
+  const GripperForce wanted{{0, -4, 0}, 7};
+  std::int64_t n = 0;
+  for (; n < 1000; ++n) guard.limit(wanted, n);
+  const auto longest = static_cast<std::int64_t>(STALL * live.rate);
+  n += longest - 2;
+  EXPECT_NEAR(guard.limit(wanted, n).grip, 7, ROUNDING) << "a short one is only time";
+  n += longest;
+  const std::int64_t again = n;
+  for (; n < again + 600; ++n) {
+    const double share = std::min(1.0, static_cast<double>(n - again) * 1e-3 / live.ramp);
+    const GripperForce force = guard.limit(wanted, n);
+    EXPECT_NEAR(force.grip, 7 * share, ROUNDING) << n - again;
+    EXPECT_NEAR(force.arm[1], -4 * share, ROUNDING) << n - again;
+  }
+}
+
 TEST(Guard, AForceThatIsNoNumberIsNone) {
   LiveData live;
   live.ramp = 0;

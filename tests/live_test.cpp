@@ -95,7 +95,19 @@ TEST(LiveReport, TheFaultLineSaysWhenAndWhy) {
   report.fault = Fault::read_error;
   report.trouble = "unplugged";
   report.last.number = 2004;
-  EXPECT_EQ(fault_line(report, 1000), "live: released after 2.004 s: read error (unplugged); no force is on the device");
+  const LiveData live;
+  GripperLimits limits;
+  Guard guard(live, limits);
+  EXPECT_EQ(fault_line(report, guard, live), "live: released after 2.004 s: read error (unplugged); no force is on the device");
+  GripperState state;
+  state.sequence = 1;
+  EXPECT_EQ(guard.check(ReadOutcome::value, state, 0), Fault::none);
+  state.sequence = 2;
+  state.gap = 12e-3;
+  report.fault = guard.check(ReadOutcome::value, state, 1);
+  report.trouble.clear();
+  EXPECT_EQ(fault_line(report, guard, live),
+            "live: released after 2.004 s: jump (its gap by 12 m/s; allowed: up to 5, [live] jump_m_s); no force is on the device");
 }
 
 TEST(OpenGripper, RefusesOtherNames) {
@@ -218,15 +230,16 @@ TEST(Live, SignalsEndItCleanly) {
   }
 }
 
-// The disk ends the recording, not the session.
+// The disk ends the recording, not the session; but what was asked for is not all there.
 TEST(Live, AFullDiskEndsTheRecordingAndNotTheSession) {
   const Folder folder;
   const std::string file = folder.file("a.nc");
   const Outcome outcome = Program("--no-clock --record " + file, 4 << 20).wait();
-  EXPECT_EQ(outcome.code, 0) << outcome.errors;
+  EXPECT_EQ(outcome.code, 3) << outcome.errors;
   EXPECT_NE(outcome.output.find("all is done"), std::string::npos) << outcome.output;
-  EXPECT_EQ(outcome.errors.rfind("wholehand: live: ", 0), 0u) << outcome.errors;
-  EXPECT_EQ(outcome.errors.find('\n'), outcome.errors.size() - 1) << outcome.errors;
+  EXPECT_NE(outcome.output.find("recorded in part in " + file), std::string::npos) << outcome.output;
+  EXPECT_EQ(outcome.errors.rfind("wholehand: live: ", 0), 0u) << "told as it happens: " << outcome.errors;
+  EXPECT_NE(outcome.errors.find("File too large"), std::string::npos) << outcome.errors;
   EXPECT_GT(read_recording(file).ticks.size(), 1000u);
 }
 
@@ -262,7 +275,7 @@ TEST(Live, GainsThatAreNotStableAreRefused) {
   const Folder folder;
   std::string text = text_of(find_scene("mixing_board"));
   std::ofstream(folder.file("stiff.toml")) << text << "\n[live]\nK_N_m = 5000\n";
-  expect_refused(folder.file("stiff.toml"), 2, "K_N_m = 5000: not stable on a light device at 1000 Hz");
+  expect_refused(folder.file("stiff.toml"), 2, "K_N_m = 5000 with B_Ns_m = 1, of which the device feels 2 times as much");
   EXPECT_EQ(Program(folder.file("stiff.toml") + " --unsafe-gains --no-clock --seconds 1").wait().code, 0);
   EXPECT_EQ(Program(folder.file("stiff.toml") + " --rate 8000 --no-clock --seconds 1").wait().code, 0)
       << "a higher rate bears more";

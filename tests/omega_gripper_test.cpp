@@ -381,12 +381,17 @@ TEST_F(OmegaGripperTest, OneSessionADevice) {
   EXPECT_NE(open(), nullptr);
 }
 
-TEST_F(OmegaGripperTest, LockNeedsNoRuntimeDirectory) {
-  const ScopedVariable runtime("XDG_RUNTIME_DIR", (sdk.runtime_directory() / "not_there").c_str());
-  const auto found = find_omega_grippers(STAND_IN_DHD);
-  ASSERT_EQ(found.size(), 1u);
-  // in /tmp, where another test may hold it
-  if (!found[0].missing.empty()) expect_has(found[0].missing, "/tmp/wholehand-omega-0.lock");
+TEST_F(OmegaGripperTest, ALockThatCannotBeMadeIsAnError) {
+  const std::string nowhere = sdk.runtime_directory() / "not_there";
+  const ScopedVariable folder("WHOLEHAND_LOCK_DIR", nowhere.c_str());
+  expect_has(refused(), "cannot make the lock file " + nowhere + "/wholehand-omega-0.lock: No such file or directory");
+}
+
+// Another user's session may have made the file; it can still be locked.
+TEST_F(OmegaGripperTest, LocksAFileThatItMayOnlyRead) {
+  open().reset();
+  ASSERT_EQ(chmod((sdk.runtime_directory() / "wholehand-omega-0.lock").c_str(), 0444), 0);
+  EXPECT_NE(open(), nullptr);
 }
 
 TEST_F(OmegaGripperTest, FindsEveryDevice) {

@@ -222,6 +222,38 @@ TEST(PanicGuard, HasAStackOfItsOwn) {
   expect_panic(outcome, *log, "SIGSEGV");
 }
 
+// The haptic thread's, too, if it has been given one.
+TEST(PanicGuard, AnotherThreadHasItsOwnStackToo) {
+  Shared log;
+  const Outcome outcome = run_in_child([&] {
+    LoggingGripper gripper(*log);
+    PanicGuard guard(gripper);
+    std::thread haptic([] {
+      const HandlerStack stack;
+      overflow_stack(nullptr);
+    });
+    haptic.join();
+  });
+  expect_panic(outcome, *log, "SIGSEGV");
+}
+
+// Signals that nobody handles and that would end the process at once.
+TEST(PanicGuard, LetsGoAtSignalsThatEndTheProcess) {
+  for (const int signal : {SIGQUIT, SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU, SIGVTALRM, SIGPROF}) {
+    Shared log;
+    const Outcome outcome = run_in_child([&] {
+      LoggingGripper gripper(*log);
+      PanicGuard guard(gripper);
+      gripper.write({{}, 5});
+      raise(signal);
+    });
+    EXPECT_EQ(outcome.code, 3) << signal;
+    EXPECT_EQ(log->panics, 1) << signal;
+    EXPECT_EQ(log->grip, 0) << signal;
+    EXPECT_EQ(outcome.said.rfind("wholehand: live: ended by a signal (SIG", 0), 0u) << outcome.said;
+  }
+}
+
 // panic() takes a while; a second thread fails meanwhile: it must not end the process before the force is gone.
 TEST(PanicGuard, ASecondFailureDoesNotCutTheFirstShort) {
   Shared log;

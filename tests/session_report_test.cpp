@@ -297,6 +297,26 @@ TEST(SessionReport, FollowingANormalForceThatFallsIsNotComplex) {
   EXPECT_NEAR(grasp.turning_back, 0, 1e-9);
 }
 
+// At F_max the gripper clamps: what the grip force then seems to do is not the user's doing.
+TEST(SessionReport, WhatSaturatesWhileItIsTiltedHasNoType) {
+  const auto grip = [](double) { return 3.0; };
+  const auto normal = [](double x) { return linear(x, 0.8, 2); };
+  Session session = tilted(radians(90), grip, normal);
+  session.recording.info.force_max = 8;
+  for (Tick& tick : session.recording.ticks) tick.feedback = is_held(tick.state) ? 5 : 0;
+  EXPECT_EQ(only_grasp(session).course, GripCourse::less);
+  EXPECT_EQ(only_grasp(session).saturated, 0);
+  for (Tick& tick : session.recording.ticks)
+    if (tick.state == SessionState::lift) tick.feedback = 8;
+  EXPECT_NEAR(only_grasp(session).saturated, 1, 1e-9);
+  EXPECT_EQ(only_grasp(session).course, GripCourse::less) << "before the tilt";
+  for (Tick& tick : session.recording.ticks)
+    if (tick.state == SessionState::maintain) tick.feedback = 8;
+  EXPECT_NEAR(only_grasp(session).saturated, 2, 1e-9);
+  EXPECT_EQ(only_grasp(session).course, GripCourse::not_analysed);
+  EXPECT_NE(session_table(session.report()).find("the feedback was at F_max for 2.000 s"), std::string::npos);
+}
+
 TEST(SessionReport, TiltsUnder30DegreesAreNotAnalysed) {
   const auto of = [](double tilt) {
     return only_grasp(tilted(

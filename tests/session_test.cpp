@@ -148,7 +148,67 @@ TEST(Session, ATiltThatStandsStillIsMaintained) {
   }
 }
 
+// However slow: what has changed by 5 degrees since it stood still is tilting.
+TEST(Session, ASlowTiltIsATilt) {
+  Scene scene = live_scene();
+  const LiveScript script = script_for(scene);
+  const auto at = [&](std::int64_t n) {
+    GripperState state = script.at(std::min<std::int64_t>(n, 2250));
+    state.rotation =
+        turned('x', -radians(4) * std::clamp((static_cast<double>(n) - 2300) / 1000, 0.0, 10.0));  // 4 degrees a second
+    return state;
+  };
+  for (const Tick& tick : play(scene, at, 2300 + 12000)) {
+    if (tick.number > 2300 + 1300 && tick.number < 2300 + 10000) {
+      ASSERT_EQ(tick.state, SessionState::tilt) << tick.number;
+    } else if (tick.number > 2300 + 11000) {
+      ASSERT_EQ(tick.state, SessionState::maintain) << tick.number;
+    }
+  }
+}
+
 // ---- slipping ----
+
+// A hand that holds goes through other vessels. Where it lets go inside of one, that one is felt when the hand has left it, and not before.
+TEST(Session, LettingGoWithinAnotherVesselPushesNobody) {
+  Scene scene = scene_of({beaker1(), beaker1()});
+  scene.vessels[1].name = "other";
+  scene.vessels[1].place = {0.3, 0, 0};
+  const auto range = own_gap(scene.hand);
+  const auto at = [&](std::int64_t n) {
+    // closes on the first, goes to where the index finger is in the second, opens, and goes away towards the person
+    const double t = static_cast<double>(n) * 1e-3, out = range[1] - (range[1] - 0.09) * std::clamp(t / 0.3, 0.0, 1.0);
+    const double x = 0.22 * std::clamp((t - 0.5) / 0.5, 0.0, 1.0), z = 0.5 * std::max(0.0, t - 1.3);
+    const double gap = t < 1.05 ? out : std::min(range[1], 0.09 + 0.2 * (t - 1.05));
+    return held_at(Vec3(x, 0.055, z), gap);
+  };
+  bool was_held = false, slipped = false;
+  for (const Tick& tick : play(scene, at, 2000)) {
+    was_held = was_held || is_held(tick.state);
+    slipped = slipped || tick.state == SessionState::slipped;
+    if (was_held && !is_held(tick.state)) {
+      for (int k = 0; k < 2; ++k) ASSERT_LT(glm::length(vec(tick.coupling[k])), 1e-9) << tick.number;
+    }
+  }
+  EXPECT_TRUE(was_held);
+  EXPECT_TRUE(slipped);
+}
+
+// Kernel 3's too_wide: tips that touch at more than the hand can open hold nothing.
+TEST(Session, WhatIsTooWideIsNotHeld) {
+  const auto range = own_gap(HandData{});
+  Scene scene = scene_of({cylinder("wide", 1e3 * (range[1] - 15e-3) + 0.3, 110, 1.5)});
+  bool touches = false;
+  const auto at = [&](std::int64_t n) {
+    // wide open, towards it from the person's side: at last both tips are within the contact tolerance
+    return held_at(Vec3(0, 0.05, std::max(0.0, 0.2 - 1e-3 * static_cast<double>(n))), range[1]);
+  };
+  for (const Tick& tick : play(scene, at, 600)) {
+    ASSERT_FALSE(is_held(tick.state)) << tick.number;
+    touches = touches || tick.state == SessionState::touching;
+  }
+  EXPECT_TRUE(touches);
+}
 
 TEST(Session, SlipsWhenTheOpeningLeavesItsBand) {
   Scene scene = live_scene();

@@ -55,6 +55,12 @@ inline bool is_nothing(const protocol::OutputReport& report) {
   return report.flags == 0 && report.arm == std::array<std::int32_t, 3>{} && report.grip == 0;
 }
 
+// Whether so many reports of the host have arrived, now or in a while: a device takes one a frame.
+inline bool arrives(const MockGripper& mock, std::size_t count) {
+  for (int i = 0; i < 200 && mock.outputs().size() < count; ++i) rest(0.005);
+  return mock.outputs().size() >= count;
+}
+
 // Some hundred cycles: poses as the mock moves, forces as written, its watchdog set, nothing before the first force and nothing left.
 template <class Open>
 void check_session(MockGripper& mock, const Open& open) {
@@ -87,11 +93,14 @@ void check_session(MockGripper& mock, const Open& open) {
     last = state;
     ASSERT_TRUE(gripper->write(force_at(i))) << i << ' ' << gripper->trouble();
   }
-  // over its limits it is scaled, and what is no number does not go out
+  // over its limits it is scaled, and what is no number does not go out; each after the one before has arrived
+  EXPECT_TRUE(arrives(mock, before + CYCLES));
   EXPECT_TRUE(gripper->write({{30, 0, -40}, -100}));
+  EXPECT_TRUE(arrives(mock, before + CYCLES + 1));
   EXPECT_TRUE(mock.has_force());
   EXPECT_FALSE(gripper->write({{0, std::numeric_limits<double>::quiet_NaN(), 0}, 0}));
   EXPECT_STREQ(gripper->trouble(), "a force that is no number");
+  EXPECT_TRUE(arrives(mock, before + CYCLES + 2));
   gripper.reset();
 
   const auto outputs = mock.outputs();
@@ -185,7 +194,9 @@ template <class Open>
 void check_silence(MockGripper& mock, const Open& open) {
   std::unique_ptr<Gripper> gripper = open();
   EXPECT_EQ(mock.watchdog().period, 200'000u);
+  const std::size_t before = mock.outputs().size();
   ASSERT_TRUE(gripper->write({{1, 2, 3}, 1}));
+  EXPECT_TRUE(arrives(mock, before + 1));
   EXPECT_TRUE(mock.has_force());
   mock.misbehave(Mischief::silent);
   ASSERT_EQ(first_failure([&gripper](GripperState& state) { return gripper->read(state, 0); }), ReadOutcome::timeout);
@@ -247,9 +258,11 @@ void check_panic(MockGripper& mock, const Open& open) {
   static Gripper* frightened;
   const auto gripper = open();
   frightened = gripper.get();
+  const std::size_t opened = mock.outputs().size();
   ASSERT_TRUE(gripper->write({{1, 2, 3}, 1}));
   GripperState state;
   ASSERT_EQ(read_soon(*gripper, state), ReadOutcome::value);
+  ASSERT_TRUE(arrives(mock, opened + 1));
   ASSERT_TRUE(mock.has_force());
   const std::size_t before = mock.outputs().size();
   const Handler handler(SIGUSR1, [](int) { frightened->panic(); });
@@ -259,6 +272,7 @@ void check_panic(MockGripper& mock, const Open& open) {
   EXPECT_FALSE(mock.has_force());
   EXPECT_TRUE(gripper->write({{1, 2, 3}, 1}));
   ASSERT_EQ(read_soon(*gripper, state), ReadOutcome::value) << gripper->trouble();
+  EXPECT_TRUE(arrives(mock, before + 2));
   EXPECT_TRUE(is_nothing(mock.outputs().back()));
   EXPECT_FALSE(mock.has_force());
 }

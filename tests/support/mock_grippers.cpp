@@ -585,6 +585,7 @@ void UsbMock::bulk(UMockdevIoctlClient* client) {
   const bool is_ours = transfer->ep == ENDPOINT_OUT && claimed_ == client;
   const Data buffer = resolve(data.get(), offsetof(usbdevfs_bulktransfer, data), size);
   if (is_unplugged_ || !is_ours) return complete(client, -1, is_unplugged_ ? ENODEV : EINVAL);
+  frame();  // what is under way goes first
   const bool is_taken = take_output({buffer->data, size});
   complete(client, static_cast<long>(size), is_taken ? 0 : ETIMEDOUT);
 }

@@ -26,7 +26,7 @@ class StandIn {
 
  private:
   TemporaryFolder folder_;
-  ScopedVariable runtime_{"XDG_RUNTIME_DIR", folder_.path().c_str()};
+  ScopedVariable runtime_{"WHOLEHAND_LOCK_DIR", folder_.path().c_str()};
   ScopedVariable library_{"WHOLEHAND_DHD_LIBRARY", nullptr};
   StandInDhd* control_ = nullptr;
 };
