@@ -1,0 +1,130 @@
+#include "sweeps/hand_nodes.h"
+
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
+
+#include "core/closure.h"
+#include "core/load.h"
+#include "core/prepare.h"
+
+namespace wholehand {
+namespace {
+
+using core_f64::Mat3;
+using core_f64::Vec3;
+
+constexpr double NO_BONE = 1e-9;  // m: shorter ones have no direction
+
+struct JointName {
+  const char* webxr;
+  const char* openxr;
+};
+
+constexpr std::array<JointName, JOINT_COUNT> JOINT_NAMES{{
+    {"thumb-metacarpal", "XR_HAND_JOINT_THUMB_METACARPAL_EXT"},
+    {"thumb-phalanx-proximal", "XR_HAND_JOINT_THUMB_PROXIMAL_EXT"},
+    {"thumb-phalanx-distal", "XR_HAND_JOINT_THUMB_DISTAL_EXT"},
+    {"thumb-tip", "XR_HAND_JOINT_THUMB_TIP_EXT"},
+    {"index-finger-metacarpal", "XR_HAND_JOINT_INDEX_METACARPAL_EXT"},
+    {"index-finger-phalanx-proximal", "XR_HAND_JOINT_INDEX_PROXIMAL_EXT"},
+    {"index-finger-phalanx-intermediate", "XR_HAND_JOINT_INDEX_INTERMEDIATE_EXT"},
+    {"index-finger-phalanx-distal", "XR_HAND_JOINT_INDEX_DISTAL_EXT"},
+    {"index-finger-tip", "XR_HAND_JOINT_INDEX_TIP_EXT"},
+    {"middle-finger-metacarpal", "XR_HAND_JOINT_MIDDLE_METACARPAL_EXT"},
+    {"middle-finger-phalanx-proximal", "XR_HAND_JOINT_MIDDLE_PROXIMAL_EXT"},
+    {"middle-finger-phalanx-intermediate", "XR_HAND_JOINT_MIDDLE_INTERMEDIATE_EXT"},
+    {"middle-finger-phalanx-distal", "XR_HAND_JOINT_MIDDLE_DISTAL_EXT"},
+    {"middle-finger-tip", "XR_HAND_JOINT_MIDDLE_TIP_EXT"},
+    {"ring-finger-metacarpal", "XR_HAND_JOINT_RING_METACARPAL_EXT"},
+    {"ring-finger-phalanx-proximal", "XR_HAND_JOINT_RING_PROXIMAL_EXT"},
+    {"ring-finger-phalanx-intermediate", "XR_HAND_JOINT_RING_INTERMEDIATE_EXT"},
+    {"ring-finger-phalanx-distal", "XR_HAND_JOINT_RING_DISTAL_EXT"},
+    {"ring-finger-tip", "XR_HAND_JOINT_RING_TIP_EXT"},
+    {"pinky-finger-metacarpal", "XR_HAND_JOINT_LITTLE_METACARPAL_EXT"},
+    {"pinky-finger-phalanx-proximal", "XR_HAND_JOINT_LITTLE_PROXIMAL_EXT"},
+    {"pinky-finger-phalanx-intermediate", "XR_HAND_JOINT_LITTLE_INTERMEDIATE_EXT"},
+    {"pinky-finger-phalanx-distal", "XR_HAND_JOINT_LITTLE_DISTAL_EXT"},
+    {"pinky-finger-tip", "XR_HAND_JOINT_LITTLE_TIP_EXT"},
+}};
+
+Vec3 vector_of(const Triple& t) { return Vec3(t[0], t[1], t[2]); }
+Triple triple_of(Vec3 v) { return {v.x, v.y, v.z}; }
+glm::dquat quaternion_of(const Quaternion& q) { return glm::dquat(q[3], q[0], q[1], q[2]); }  // w first in glm's
+
+Quaternion quaternion_of(const Mat3& rotation) {
+  const glm::dquat q = glm::normalize(glm::quat_cast(rotation));
+  return {q.x, q.y, q.z, q.w};
+}
+
+// A rotation of the right hand's scene in the left hand's: M R M with M = diag(-1, 1, 1). Its +y and +z are the mirrored ones; +x follows.
+Mat3 mirrored_rotation(Mat3 rotation, Handedness handedness) {
+  if (handedness == Handedness::right) return rotation;
+  const Mat3 mirror(-1, 0, 0, 0, 1, 0, 0, 0, 1);
+  return mirror * rotation * mirror;
+}
+
+// The joint's frame from the direction towards its finger's base and the axis about which the finger bends. A bone that lies along that
+// axis (a point that moved on its own, pose paper) keeps the back of the hand instead.
+Mat3 joint_rotation(Vec3 backward, Vec3 bend_axis, Vec3 back) {
+  Vec3 x = bend_axis - glm::dot(bend_axis, backward) * backward;
+  if (glm::length(x) < 1e-6) x = glm::cross(back, backward);
+  x = glm::normalize(x);
+  return Mat3(x, glm::cross(backward, x), backward);
+}
+
+// Where the kernel placed the hand: from what the result keeps of it. All in the scene of the right hand.
+core_f64::Placement find_placement(const HandData& hand, const core_f64::Hand& ready, const GripInput& grip,
+                                   const GripResult& result) {
+  const Vec3 thumb = vector_of(mirrored(result.posed[finger_start(1) - 1], hand.handedness));
+  const Vec3 index = vector_of(mirrored(result.posed[finger_start(2) - 1], hand.handedness));
+  double e1_x = 0;
+  return core_f64::place_hand(ready, result.closure, glm::normalize(index - thumb), grip.roll, 0.5 * (thumb + index),
+                              hand.scale * grip.hand_scale, e1_x);
+}
+
+}  // namespace
+
+HandNodes hand_nodes(const HandData& hand, const GripInput& grip, const GripResult& result) {
+  const core_f64::Hand ready = core_f64::load_hand(prepare_hand(hand), hand);
+  const core_f64::Placement placement = find_placement(hand, ready, grip, result);
+  HandNodes nodes;
+  nodes.wrist.name = "wrist";
+  nodes.wrist.openxr = "XR_HAND_JOINT_WRIST_EXT";
+  nodes.wrist.position = mirrored(triple_of(placement.translation), hand.handedness);
+  nodes.wrist.rotation = quaternion_of(mirrored_rotation(placement.rotation, hand.handedness));
+  for (int f = 0; f < FINGER_COUNT; ++f) {
+    const core_f64::FingerFrame frame = core_f64::placed_frame(placement, ready.frame[f]);
+    // the thumb's chain leaves the palm and bends back towards it (core/hand.cpp): its pad is on the other side
+    const Vec3 back = f == 0 ? frame.palmward : -frame.palmward;
+    const Vec3 bend_axis = glm::cross(frame.forward, back);
+    Vec3 backward = -frame.forward;
+    for (int k = 0; k < finger_joints(f); ++k) {
+      const int j = finger_start(f) + k;
+      const bool is_tip = k + 1 == finger_joints(f);
+      if (!is_tip) {
+        const Vec3 bone =
+            vector_of(mirrored(result.posed[j], hand.handedness)) - vector_of(mirrored(result.posed[j + 1], hand.handedness));
+        if (glm::length(bone) > NO_BONE) backward = glm::normalize(bone);
+      }
+      HandNode& node = nodes.joints[j];
+      node.name = JOINT_NAMES[j].webxr;
+      node.openxr = JOINT_NAMES[j].openxr;
+      node.parent = k == 0 ? -1 : j - 1;
+      node.position = result.posed[j];
+      node.rotation = quaternion_of(mirrored_rotation(joint_rotation(backward, bend_axis, back), hand.handedness));
+      node.radius = hand.scale * grip.hand_scale * hand.fingers[f].radii[k];
+    }
+  }
+  return nodes;
+}
+
+Triple relative_position(const HandNode& parent, const Triple& position) {
+  return triple_of(glm::conjugate(quaternion_of(parent.rotation)) * (vector_of(position) - vector_of(parent.position)));
+}
+
+Quaternion relative_rotation(const HandNode& parent, const Quaternion& rotation) {
+  const glm::dquat q = glm::normalize(glm::conjugate(quaternion_of(parent.rotation)) * quaternion_of(rotation));
+  return {q.x, q.y, q.z, q.w};
+}
+
+}  // namespace wholehand

@@ -1,0 +1,39 @@
+// The hand of a grip as the nodes of a scene graph: OpenXR's joints with its orientations (XR_EXT_hand_tracking).
+#pragma once
+
+#include <array>
+
+#include "core/result.h"
+
+namespace wholehand {
+
+using Quaternion = std::array<double, 4>;  // x, y, z, w, as glTF orders it; unit
+
+// A joint of the hand in the vessel frame. Its rotation is OpenXR's: +z along the bone away from the tip, +y out of the back of the
+// hand (of a thumb: of its nail), for either hand; a tip has that of the bone it ends. The bone of a joint runs to the next joint of the finger, along -z.
+struct HandNode {
+  const char* name = "";    // WebXR's, by which hand rigs in glTF are matched: "thumb-metacarpal" .. "pinky-finger-tip"
+  const char* openxr = "";  // OpenXR's enumerant of the same joint: "XR_HAND_JOINT_THUMB_METACARPAL_EXT"
+  int parent = -1;          // joint it hangs on, towards the wrist; -1: the wrist
+  Triple position{};        // m
+  Quaternion rotation{0, 0, 0, 1};
+  double radius = 0;  // of the skin about it, m
+};
+
+struct HandNodes {
+  HandNode wrist;  // origin of the hand frame; radius 0
+  std::array<HandNode, JOINT_COUNT> joints;
+};
+
+// Nodes of the posed hand of a feasible grip: positions are result.posed.
+HandNodes hand_nodes(const HandData& hand, const GripInput& grip, const GripResult& result);
+
+// First joint of a finger, and how many it has.
+constexpr int finger_start(int finger) { return finger == 0 ? 0 : 5 * finger - 1; }
+constexpr int finger_joints(int finger) { return finger == 0 ? 4 : 5; }
+
+// A node's place relative to another's: what it takes to write it as that one's child.
+Triple relative_position(const HandNode& parent, const Triple& position);
+Quaternion relative_rotation(const HandNode& parent, const Quaternion& rotation);
+
+}  // namespace wholehand
