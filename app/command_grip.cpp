@@ -11,9 +11,13 @@
 #include "app/paths.h"
 #include "app/scene_reader.h"
 #include "app/scene_text.h"
+#include "app/validators.h"
 #include "app/values.h"
 #include "sweeps/domain.h"
+#include "sweeps/files.h"
+#include "sweeps/grip_glb.h"
 #include "sweeps/grip_report.h"
+#include "sweeps/grip_svg.h"
 
 namespace wholehand {
 namespace {
@@ -21,7 +25,7 @@ namespace {
 struct GripArguments {
   std::string scene, vessel, height, azimuth = "0", obliquity = "0", roll = "0", offset = "0", hand_scale = "1", thumb, index;
   std::vector<std::string> fills, tilts;
-  std::string on = "core", precision;
+  std::string on = "core", precision, glb, svg;
   bool json = false;
 };
 
@@ -68,9 +72,31 @@ StateAxes read_states(const GripArguments& arguments, const Scene& scene) {
   return axes;
 }
 
+// What can be refused before any work.
+void check_drawing_files(const GripArguments& arguments, const Scene& scene) {
+  const auto check = [&scene](const std::string& path, const char* option) {
+    if (path.empty()) return;
+    check_output_path(path, option);
+    check_not_the_scene(path, scene.file, option);
+  };
+  check(arguments.glb, "--glb");
+  check(arguments.svg, "--svg");
+  if (!arguments.glb.empty() && arguments.glb == arguments.svg)
+    throw usage_error(fmt::format("--glb and --svg name one file, {}; name two", arguments.glb));
+}
+
+// Both are made before either is written.
+void write_drawings(const GripArguments& arguments, const Scene& scene, std::size_t vessel, const GripReport& report) {
+  const std::string glb = arguments.glb.empty() ? "" : grip_glb(scene, vessel, report);
+  const std::string svg = arguments.svg.empty() ? "" : grip_svg(scene, vessel, report);
+  if (!glb.empty()) write_whole_file(arguments.glb, glb, false);
+  if (!svg.empty()) write_whole_file(arguments.svg, svg, false);
+}
+
 ExitCode grip(const GripArguments& arguments) {
   const GripInput input = read_grip(arguments);
   const Scene scene = read_scene_file(find_scene(arguments.scene));
+  check_drawing_files(arguments, scene);
   const std::size_t vessel = find_vessel(scene, arguments.vessel);
   const StateAxes axes = read_states(arguments, scene);
   Precision precision = arguments.on == "core" ? Precision::full : Precision::single;
@@ -79,6 +105,7 @@ ExitCode grip(const GripArguments& arguments) {
   asked.grips.hand_scale = {{input.hand_scale}};
   for (const std::string& line : domain_warnings(asked, precision)) std::fprintf(stderr, "wholehand: %s\n", line.c_str());
   const GripReport report = make_grip_report(scene, vessel, input, axes, open_grip_methods(scene, arguments.on, precision));
+  write_drawings(arguments, scene, vessel, report);
   if (arguments.json && arguments.on != "core") std::fprintf(stderr, "wholehand: on %s\n", report.device.c_str());
   print(arguments.json ? grip_json(report) + "\n" : grip_table(report));
   return ExitCode::done;
@@ -109,6 +136,8 @@ void add_grip_command(CLI::App& app, Action& action) {
   add("--tilt-deg", arguments->tilts, "T", "Tilts (the scene's)");
   add("--on", arguments->on, "DEVICE", "core (the default), vulkan or a device's name");
   add("--precision", arguments->precision, "P", "float or double (double on the core, float on Vulkan)");
+  add("--glb", arguments->glb, "FILE", "Write hand, vessel and liquid as glTF binary")->check(not_empty());
+  add("--svg", arguments->svg, "FILE", "Write front, side and top view as a drawing")->check(not_empty());
   command->add_flag("--json", arguments->json, "One JSON object, SI units");
   command->callback([arguments, &action] { action = [arguments] { return grip(*arguments); }; });
 }

@@ -67,6 +67,14 @@ void check_output_path(const std::string& path, const char* option) {
   try_folder(path, folder, option);
 }
 
+void check_not_the_scene(const std::string& path, const std::string& scene_file, const char* option) {
+  struct stat scene {
+  }, written{};
+  if (stat(scene_file.c_str(), &scene) != 0 || stat(path.c_str(), &written) != 0) return;
+  if (scene.st_dev != written.st_dev || scene.st_ino != written.st_ino) return;
+  throw usage_error(fmt::format("{} {}: this is the scene file itself; name another file for the results", option, path));
+}
+
 void check_overwrites_result(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   char head[8] = {};

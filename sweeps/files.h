@@ -22,6 +22,9 @@ OutputNames output_names(const std::string& result);
 // regular file (a directory, a device). `option` is the one that named it, for the message.
 void check_output_path(const std::string& path, const char* option = "-o");
 
+// Throws Error (usage) where `path` is the scene file itself, by whatever name.
+void check_not_the_scene(const std::string& path, const std::string& scene_file, const char* option = "-o");
+
 // Throws Error (usage) where a file with something in it is there that is no result file (NetCDF-4, of any program): it is not overwritten.
 void check_overwrites_result(const std::string& path);
 

@@ -108,12 +108,7 @@ class Sweep {
   void check() const {
     refuse_meshes(scene_);
     check_output_path(names_.result);
-    struct stat read_from {
-    }, written_to{};
-    if (stat(scene_.file.c_str(), &read_from) == 0 && stat(names_.result.c_str(), &written_to) == 0 &&
-        read_from.st_dev == written_to.st_dev && read_from.st_ino == written_to.st_ino) {
-      throw usage_error(fmt::format("-o {}: this is the scene file itself; name another file for the results", names_.result));
-    }
+    check_not_the_scene(names_.result, scene_.file);
     check_overwrites_result(names_.result);
     struct stat partial {};
     const double reserved = stat(names_.partial.c_str(), &partial) == 0 ? static_cast<double>(partial.st_blocks) * 512 : 0;

@@ -1,0 +1,23 @@
+// A grip as one glTF binary: the hand as OpenXR's joints, the glass, the liquid.
+#pragma once
+
+#include <string>
+
+#include "sweeps/grip_report.h"
+
+namespace wholehand {
+
+// How finely round things are cut: flat faces round the glass.
+constexpr int GLB_SEGMENTS = 64;
+
+// The bytes of a .glb (glTF 2.0: m, +y up). Nodes, each the child of the one before it where it is indented:
+//   pivot      at the middle between the tips; its rotation is animated over the report's tilts where there are two or more
+//     grip     the vessel frame; its `extras` are grip_json's object
+//       vessel, liquid   meshes; the liquid of the first of the report's states that has any, its level surface in the upright vessel
+//       wrist  and the 24 joints of the posed hand by hand_nodes' names, nested along each finger, each with the capsule of its bone;
+//              its child `<joint> contact` is a ball of the joint's radius, coloured by its state, which `extras` tell
+// While the animation runs the liquid is shown at its own tilt and hidden at others. Radii below 1.5 mm are drawn as 1.5 mm.
+// Throws Error (usage) where the grip is not feasible or the vessel has no outline.
+std::string grip_glb(const Scene& scene, std::size_t vessel, const GripReport& report, int segments = GLB_SEGMENTS);
+
+}  // namespace wholehand

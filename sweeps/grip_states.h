@@ -1,0 +1,29 @@
+// How the points of a grip are told apart in its drawings.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "sweeps/grip_report.h"
+
+namespace wholehand {
+
+enum class PointState { touching, projected, free };
+
+// A state's name, and its colour of Okabe and Ito's set, which colour-blind readers tell apart; in print they differ in lightness too.
+struct PointStyle {
+  const char* name;
+  std::array<int, 3> color;  // sRGB, 0..255
+};
+extern const std::array<PointStyle, 3> POINT_STYLES;  // by PointState
+
+// A point is projected where its finger brought it to the glass, touching where it was there, free where it is not.
+PointState point_state(const GripResult& result, int joint);
+
+// Throws Error (usage) where the grip is not feasible: there is no hand to draw. `option` is what asked for the drawing.
+void check_drawable(const GripReport& report, const std::string& option);
+
+// The first of the report's states that has liquid; null where none has.
+const GripState* drawn_liquid(const GripReport& report);
+
+}  // namespace wholehand

@@ -1,0 +1,413 @@
+#include "sweeps/grip_svg.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+
+#include "core/error.h"
+#include "core/prepare.h"
+#include "sweeps/grip_states.h"
+#include "sweeps/hand_nodes.h"
+
+namespace wholehand {
+namespace {
+
+constexpr double PAPER_WIDTH = 180;      // mm
+constexpr double PAPER_FONT = 2.8;       // mm: 8 pt
+constexpr double PAPER_LINE = 0.25;      // mm
+constexpr double SMALLEST_SKIN = 1.5;    // mm: a bare point is still seen
+constexpr double CORNER_COSINE = 0.985;  // 10 degrees: sharper edges of the glass are drawn across it
+
+using Flat = std::array<double, 2>;  // on the sheet: mm to the right, mm down
+
+// An orthographic view: unit vectors of the vessel frame, and where its origin lies on the sheet.
+struct DrawnView {
+  const char* name;
+  Triple right, up, toward;
+  Flat origin{};
+
+  double along(const Triple& axis, const Triple& p) const { return 1e3 * (axis[0] * p[0] + axis[1] * p[1] + axis[2] * p[2]); }
+  double depth(const Triple& p) const { return along(toward, p); }  // mm, larger is nearer
+  Flat flat(const Triple& p) const { return {origin[0] + along(right, p), origin[1] - along(up, p)}; }
+  bool is_level() const { return up[1] == 1; }  // front and side: the vessel's axis runs up
+};
+
+// The hand and the glass in mm, and what the views have in common.
+struct Drawing {
+  const GripReport& report;
+  PreparedVessel glass;
+  std::string vessel;
+  std::array<Triple, JOINT_COUNT> joints{};  // m
+  std::array<double, JOINT_COUNT> skin{};    // mm
+  double font = 0, line = 0;                 // mm of the vessel
+};
+
+// Extent of hand and glass along a direction, mm.
+std::array<double, 2> extent_along(const Drawing& drawing, const Triple& axis) {
+  const double radius = 1e3 * drawing.glass.largest_radius, top = 1e3 * drawing.glass.mouth_height;
+  std::array<double, 2> extent = axis[1] != 0 ? std::array{0.0, top} : std::array{-radius, radius};
+  for (int j = 0; j < JOINT_COUNT; ++j) {
+    const Triple& p = drawing.joints[j];
+    const double at = 1e3 * (axis[0] * p[0] + axis[1] * p[1] + axis[2] * p[2]);
+    extent = {std::min(extent[0], at - drawing.skin[j]), std::max(extent[1], at + drawing.skin[j])};
+  }
+  return extent;
+}
+
+std::string xml_text(const std::string& text) {
+  std::string safe;
+  for (const char c : text) {
+    if (c == '&') {
+      safe += "&amp;";
+    } else if (c == '<') {
+      safe += "&lt;";
+    } else if (c == '>') {
+      safe += "&gt;";
+    } else if (static_cast<unsigned char>(c) < 0x20) {
+      safe += ' ';  // not allowed in XML
+    } else {
+      safe += c;
+    }
+  }
+  return safe;
+}
+
+std::string number_text(double value) { return fmt::format("{:.2f}", std::abs(value) < 0.005 ? 0 : value); }
+std::string point_text(const Flat& p) { return number_text(p[0]) + " " + number_text(p[1]); }
+
+// ---- the glass ----
+
+// One half of an outline as path commands after its first point; `side` -1 mirrors it. Backwards where asked.
+std::string half_outline(const DrawnView& view, const std::vector<PreparedElement>& elements, double side, bool backwards) {
+  std::string path;
+  const auto to = [&](const PreparedElement& e) {
+    const auto& end = backwards ? e.a : e.b;
+    const Flat p{view.origin[0] + side * 1e3 * end[0], view.origin[1] - 1e3 * end[1]};
+    const bool anticlockwise = (e.side > 0) == (e.b[1] > e.a[1]);  // in (r, y); mirrored and backwards it stays so
+    path += e.side == 0 ? "L" + point_text(p)
+                        : fmt::format("A{0} {0} 0 0 {1} {2}", number_text(1e3 * e.radius),
+                                      anticlockwise == (backwards == (side < 0)) ? 0 : 1, point_text(p));
+  };
+  if (backwards) {
+    std::for_each(elements.rbegin(), elements.rend(), to);
+  } else {
+    std::for_each(elements.begin(), elements.end(), to);
+  }
+  return path;
+}
+
+void draw_line(std::string& svg, const Flat& a, const Flat& b, const char* style) {
+  svg += fmt::format("<path class=\"{}\" d=\"M{}L{}\"/>\n", style, point_text(a), point_text(b));
+}
+
+// Direction of an element at its end or start, in (r, y).
+Flat tangent_of(const PreparedElement& e, bool at_end) {
+  const auto& p = at_end ? e.b : e.a;
+  Flat t{e.b[0] - e.a[0], e.b[1] - e.a[1]};
+  if (e.side != 0) {
+    const double sense = (e.side > 0) == (e.b[1] > e.a[1]) ? 1 : -1;
+    t = {-sense * (p[1] - e.center[1]), sense * (p[0] - e.center[0])};
+  }
+  const double length = std::hypot(t[0], t[1]);
+  return {t[0] / length, t[1] / length};
+}
+
+void draw_glass_upright(std::string& svg, const DrawnView& view, const PreparedVessel& glass) {
+  svg += fmt::format("<path class=\"glass\" d=\"M{}{}{}Z\"/>\n", point_text(view.origin), half_outline(view, glass.hull, 1, false),
+                     half_outline(view, glass.hull, -1, true));
+  for (std::size_t i = 0; i + 2 < glass.hull.size(); ++i) {
+    const Flat before = tangent_of(glass.hull[i], true), after = tangent_of(glass.hull[i + 1], false);
+    if (before[0] * after[0] + before[1] * after[1] > CORNER_COSINE || glass.hull[i].b[1] < 1e-6) continue;
+    const double r = 1e3 * glass.hull[i].b[0], y = view.origin[1] - 1e3 * glass.hull[i].b[1];
+    draw_line(svg, {view.origin[0] - r, y}, {view.origin[0] + r, y}, "edge");
+  }
+  if (glass.cavity.empty()) return;
+  for (const double side : {-1.0, 1.0}) {
+    const auto& floor = glass.cavity.front().a;
+    const Flat middle{view.origin[0], view.origin[1] - 1e3 * floor[1]};
+    svg += fmt::format("<path class=\"inner\" d=\"M{}L{}{}\"/>\n", point_text(middle),
+                       point_text({middle[0] + side * 1e3 * floor[0], middle[1]}), half_outline(view, glass.cavity, side, false));
+  }
+}
+
+void draw_glass_from_above(std::string& svg, const DrawnView& view, const PreparedVessel& glass) {
+  const auto circle = [&](double radius, const char* style) {
+    svg += fmt::format("<circle class=\"{}\" cx=\"{}\" cy=\"{}\" r=\"{}\"/>\n", style, number_text(view.origin[0]),
+                       number_text(view.origin[1]), number_text(1e3 * radius));
+  };
+  circle(glass.largest_radius, "glass");
+  const double mouth = glass.hull.back().a[0];
+  if (mouth < glass.largest_radius - 1e-6) circle(mouth, "edge");
+  if (!glass.cavity.empty()) circle(glass.mouth_radius, "inner");
+}
+
+// ---- the hand ----
+
+// Hull of two discs, as they are seen of a bone.
+std::string bone_path(const Flat& a, double ra, const Flat& b, double rb) {
+  const double length = std::hypot(b[0] - a[0], b[1] - a[1]);
+  if (length <= std::abs(ra - rb) + 1e-6) {
+    const Flat& c = ra >= rb ? a : b;
+    const double r = std::max(ra, rb);
+    return fmt::format("M{0}A{2} {2} 0 1 0 {1}A{2} {2} 0 1 0 {0}Z", point_text({c[0] - r, c[1]}), point_text({c[0] + r, c[1]}),
+                       number_text(r));
+  }
+  const Flat w{(b[0] - a[0]) / length, (b[1] - a[1]) / length};
+  const double along = (ra - rb) / length, across = std::sqrt((1 - along) * (1 + along));
+  const auto touch = [&](const Flat& c, double r, double side) {
+    return point_text({c[0] + r * (along * w[0] - side * across * w[1]), c[1] + r * (along * w[1] + side * across * w[0])});
+  };
+  return fmt::format("M{}L{}A{} {} 0 {} 0 {}L{}A{} {} 0 {} 0 {}Z", touch(a, ra, 1), touch(b, rb, 1), number_text(rb),
+                     number_text(rb), rb > ra ? 1 : 0, touch(b, rb, -1), touch(a, ra, -1), number_text(ra), number_text(ra),
+                     ra > rb ? 1 : 0, touch(a, ra, 1));
+}
+
+// A run of a finger's joints, drawn as one shape.
+struct FingerRun {
+  int first = 0, last = 0;
+  bool is_behind = false;  // the glass is in front of it
+  double depth = 0;        // mm
+};
+
+// Whether the glass is between a point and the viewer.
+bool is_behind_glass(const Drawing& drawing, const DrawnView& view, const Triple& p) {
+  if (view.is_level()) return view.depth(p) < 0;
+  const double radius = std::hypot(p[0], p[2]);
+  return std::any_of(drawing.glass.hull.begin(), drawing.glass.hull.end(), [&](const PreparedElement& e) {
+    const double widest = e.side > 0 ? e.center[0] + e.radius : std::max(e.a[0], e.b[0]);
+    return std::max(e.a[1], e.b[1]) > p[1] && widest > radius;
+  });
+}
+
+// The bones of all fingers in runs that are on one side of the glass, the furthest first.
+std::vector<FingerRun> finger_runs(const Drawing& drawing, const DrawnView& view) {
+  std::vector<FingerRun> runs;
+  for (int f = 0; f < FINGER_COUNT; ++f) {
+    for (int k = 0; k + 1 < finger_joints(f); ++k) {
+      const int j = finger_start(f) + k;
+      const Triple &a = drawing.joints[j], &b = drawing.joints[j + 1];
+      const Triple middle{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])};
+      const bool is_behind = is_behind_glass(drawing, view, middle);
+      if (k > 0 && runs.back().is_behind == is_behind) {
+        runs.back().last = j + 1;
+        runs.back().depth = std::max(runs.back().depth, view.depth(middle));
+      } else {
+        runs.push_back({j, j + 1, is_behind, view.depth(middle)});
+      }
+    }
+  }
+  std::stable_sort(runs.begin(), runs.end(), [](const FingerRun& a, const FingerRun& b) { return a.depth < b.depth; });
+  return runs;
+}
+
+// Shape tells the state as well as colour does: a disc, a diamond, a small ring.
+std::string marker(const Flat& p, PointState state, double font) {
+  const double size = 0.42 * font;
+  const char* name = POINT_STYLES[static_cast<std::size_t>(state)].name;
+  if (state == PointState::projected) {
+    return fmt::format("<path class=\"{}\" d=\"M{}L{}L{}L{}Z\"/>\n", name, point_text({p[0] - size, p[1]}),
+                       point_text({p[0], p[1] - size}), point_text({p[0] + size, p[1]}), point_text({p[0], p[1] + size}));
+  }
+  return fmt::format("<circle class=\"{}\" cx=\"{}\" cy=\"{}\" r=\"{}\"/>\n", name, number_text(p[0]), number_text(p[1]),
+                     number_text(state == PointState::free ? 0.55 * size : 0.85 * size));
+}
+
+// All shapes with a line round them, then all again without: what is left is the line round the whole.
+void draw_run(std::string& svg, const Drawing& drawing, const DrawnView& view, const FingerRun& run) {
+  std::string shapes, bones;
+  for (int j = run.first; j < run.last; ++j) {
+    const Flat a = view.flat(drawing.joints[j]), b = view.flat(drawing.joints[j + 1]);
+    shapes += bone_path(a, drawing.skin[j], b, drawing.skin[j + 1]);
+    bones += fmt::format("{}{}", j == run.first ? "M" + point_text(a) + "L" : "L", point_text(b));
+  }
+  svg += fmt::format("<path class=\"skin\" d=\"{0}\"/>\n<path class=\"flesh\" d=\"{0}\"/>\n<path class=\"bone\" d=\"{1}\"/>\n",
+                     shapes, bones);
+  for (int j = run.first; j <= run.last; ++j)
+    svg += marker(view.flat(drawing.joints[j]), point_state(drawing.report.answer.result, j), drawing.font);
+}
+
+// ---- words and measures ----
+
+void draw_text(std::string& svg, const Flat& p, const char* style, const std::string& text) {
+  svg +=
+      fmt::format("<text class=\"{}\" x=\"{}\" y=\"{}\">{}</text>\n", style, number_text(p[0]), number_text(p[1]), xml_text(text));
+}
+
+// A measure between two points with ticks across its ends, the words beside its middle.
+void draw_measure(std::string& svg, const Drawing& drawing, const Flat& a, const Flat& b, const std::string& text) {
+  const double tick = 0.35 * drawing.font;
+  const bool is_level = a[1] == b[1];
+  const double tx = is_level ? 0 : tick, ty = is_level ? tick : 0;
+  draw_line(svg, a, b, "measure");
+  for (const Flat& end : {a, b}) draw_line(svg, {end[0] - tx, end[1] - ty}, {end[0] + tx, end[1] + ty}, "measure");
+  const Flat middle{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
+  if (is_level) {
+    draw_text(svg, {middle[0], middle[1] + 1.1 * drawing.font}, "mid", text);
+  } else {
+    draw_text(svg, {middle[0] + 0.5 * drawing.font, middle[1] + 0.35 * drawing.font}, "start", text);
+  }
+}
+
+void draw_view(std::string& svg, const Drawing& drawing, const DrawnView& view, const Flat& title) {
+  svg += fmt::format("<g id=\"{}\">\n", view.name);
+  const std::vector<FingerRun> runs = finger_runs(drawing, view);
+  for (const FingerRun& run : runs) {
+    if (run.is_behind) draw_run(svg, drawing, view, run);
+  }
+  if (view.is_level()) {
+    draw_glass_upright(svg, view, drawing.glass);
+  } else {
+    draw_glass_from_above(svg, view, drawing.glass);
+  }
+  for (const FingerRun& run : runs) {
+    if (!run.is_behind) draw_run(svg, drawing, view, run);
+  }
+  const Flat thumb = view.flat(drawing.joints[finger_start(1) - 1]), index = view.flat(drawing.joints[finger_start(2) - 1]);
+  draw_line(svg, thumb, index, "axis");
+  draw_text(svg, title, "head", view.name);
+  svg += "</g>\n";
+}
+
+std::vector<std::string> caption_lines(const GripReport& report) {
+  const GripInput& g = report.grip;
+  const GripResult& r = report.answer.result;
+  std::vector<std::string> lines{
+      report.vessel,
+      fmt::format("height {:.1f} mm, roll {:.1f}\u00b0", g.height * 1e3, degrees(g.roll)),
+      fmt::format("obliquity {:.1f}\u00b0, azimuth {:.1f}\u00b0", degrees(g.obliquity), degrees(g.azimuth)),
+      fmt::format("gap {:.1f} mm, closure {:.2f}", r.gap * 1e3, r.closure),
+      fmt::format("{} fingers, {} points touch", std::popcount(r.used_mask), std::popcount(r.touch_mask)),
+      fmt::format("score {:.3f}{}", report.answer.score.score, r.plausible ? "" : " (implausible)"),
+  };
+  if (g.offset != 0) lines[2] += fmt::format(", offset {:.1f} mm", g.offset * 1e3);
+  return lines;
+}
+
+// What the drawing shows, in sentences for those who do not see it.
+std::string spoken(const Drawing& drawing) {
+  const GripResult& r = drawing.report.answer.result;
+  std::string text = fmt::format(
+      "Front, side and top view of a hand that holds {}, {:.0f} mm wide and {:.0f} mm high, between thumb and index finger {:.1f} "
+      "mm "
+      "above its base.",
+      drawing.vessel, 2e3 * drawing.glass.largest_radius, 1e3 * drawing.glass.mouth_height, drawing.report.grip.height * 1e3);
+  for (int f = 0; f < FINGER_COUNT; ++f) {
+    int touching = 0;
+    for (int k = 0; k < finger_joints(f); ++k) touching += r.touch_mask >> (finger_start(f) + k) & 1;
+    text += fmt::format(" The {} touches with {} of its {} points.", f == 0 ? "thumb" : std::string(FINGER_NAMES[f]) + " finger",
+                        touching, finger_joints(f));
+  }
+  return text;
+}
+
+void draw_legend(std::string& svg, const Drawing& drawing, Flat at) {
+  const double step = 1.45 * drawing.font;
+  const auto lines = caption_lines(drawing.report);
+  svg += "<g id=\"legend\">\n";
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    at[1] += step;
+    draw_text(svg, at, i == 0 ? "head" : "start", lines[i]);
+  }
+  at[1] += 0.5 * step;
+  const std::array<const char*, 3> words{"touches where it was", "touches, brought to the glass", "does not touch"};
+  for (int s = 0; s < 3; ++s) {
+    at[1] += step;
+    svg += marker({at[0] + 0.5 * drawing.font, at[1] - 0.35 * drawing.font}, static_cast<PointState>(s), drawing.font);
+    draw_text(svg, {at[0] + 1.4 * drawing.font, at[1]}, "start", words[s]);
+  }
+  at[1] += 1.3 * step;
+  draw_measure(svg, drawing, at, {at[0] + 50, at[1]}, "50 mm");
+  svg += "</g>\n";
+}
+
+std::string style_sheet(const Drawing& drawing) {
+  const auto color = [](PointState state) {
+    const auto& c = POINT_STYLES[static_cast<std::size_t>(state)].color;
+    return fmt::format("#{:02x}{:02x}{:02x}", c[0], c[1], c[2]);
+  };
+  const double w = drawing.line;
+  return fmt::format(
+      "<style>\n"
+      "text {{ font-family: Helvetica, Arial, sans-serif; font-size: {font:.2f}px; fill: #202020 }}\n"
+      ".mid {{ text-anchor: middle }}\n.head {{ font-weight: bold }}\n"
+      "path, circle {{ stroke-linejoin: round; stroke-linecap: round }}\n"
+      ".glass {{ fill: #eaf3f8; fill-opacity: 0.6; stroke: #202020; stroke-width: {thick:.3f} }}\n"
+      ".edge, .measure {{ fill: none; stroke: #404040; stroke-width: {thin:.3f} }}\n"
+      ".inner {{ fill: none; stroke: #606060; stroke-width: {thin:.3f}; stroke-dasharray: {dash:.2f} {dash:.2f} }}\n"
+      ".axis {{ fill: none; stroke: #404040; stroke-width: {thin:.3f}; stroke-dasharray: {long_dash:.2f} {dash:.2f} {thin:.2f} "
+      "{dash:.2f} }}\n"
+      ".skin {{ fill: none; stroke: #202020; stroke-width: {double_line:.3f} }}\n"
+      ".flesh {{ fill: #ffffff; stroke: none }}\n"
+      ".bone {{ fill: none; stroke: #909090; stroke-width: {line:.3f} }}\n"
+      ".touching {{ fill: {touching}; stroke: #202020; stroke-width: {thin:.3f} }}\n"
+      ".projected {{ fill: {projected}; stroke: #202020; stroke-width: {thin:.3f} }}\n"
+      ".free {{ fill: {free}; stroke: #606060; stroke-width: {line:.3f} }}\n"
+      "</style>\n",
+      fmt::arg("font", drawing.font), fmt::arg("line", w), fmt::arg("thick", 1.4 * w), fmt::arg("thin", 0.6 * w),
+      fmt::arg("dash", 3 * w), fmt::arg("long_dash", 10 * w), fmt::arg("double_line", 2.4 * w),
+      fmt::arg("touching", color(PointState::touching)), fmt::arg("projected", color(PointState::projected)),
+      fmt::arg("free", color(PointState::free)));
+}
+
+Drawing make_drawing(const Scene& scene, std::size_t vessel, const GripReport& report) {
+  const VesselData& data = scene.vessels[vessel];
+  if (data.outline.empty()) throw usage_error("vessel '" + data.name + "' has no outline to draw");
+  Drawing drawing{report, prepare_vessel(data, data.wall > 0), data.name};
+  const HandNodes hand = hand_nodes(scene.hand, report.grip, report.answer.result);
+  for (int j = 0; j < JOINT_COUNT; ++j) {
+    drawing.joints[j] = hand.joints[j].position;
+    drawing.skin[j] = std::max(SMALLEST_SKIN, 1e3 * hand.joints[j].radius);
+  }
+  return drawing;
+}
+
+}  // namespace
+
+std::string grip_svg(const Scene& scene, std::size_t vessel, const GripReport& report) {
+  check_drawable(report, "--svg");
+  Drawing drawing = make_drawing(scene, vessel, report);
+  // towards the hand, d x y for a right hand, and to its right
+  const double side = scene.hand.handedness == Handedness::right ? 1 : -1;
+  const Triple hand{side * std::sin(report.grip.azimuth), 0, side * std::cos(report.grip.azimuth)};
+  const Triple across{hand[2], 0, -hand[0]}, away{-hand[0], 0, -hand[2]}, up{0, 1, 0};
+  DrawnView front{"front", across, up, hand}, beside{"side", away, up, across}, above{"top", across, away, up};
+
+  const auto wide = extent_along(drawing, across), deep = extent_along(drawing, away), high = extent_along(drawing, up);
+  const double width = wide[1] - wide[0], depth = deep[1] - deep[0], height = high[1] - high[0];
+  // margins, gap and measures take 11 letters, the font a fixed share of the paper
+  const double share = PAPER_FONT / PAPER_WIDTH;
+  const double sheet_width = (width + depth) / (1 - 11 * share);
+  const double f = drawing.font = share * sheet_width;
+  drawing.line = PAPER_LINE / PAPER_WIDTH * sheet_width;
+  const double left = 2 * f, top_row = 3 * f, right_column = left + width + 3 * f;
+  const double legend_height = 17 * f, first_row = std::max(depth, legend_height);
+  const double second_row = top_row + first_row + 3 * f;
+  const double sheet_height = second_row + height + 4 * f;
+  above.origin = {left - wide[0], top_row + (first_row - depth) + deep[1]};
+  front.origin = {left - wide[0], second_row + high[1]};
+  beside.origin = {right_column - deep[0], second_row + high[1]};
+
+  std::string svg = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.0f}mm\" height=\"{:.1f}mm\" viewBox=\"0 0 {:.2f} {:.2f}\" role=\"img\" "
+      "aria-labelledby=\"title desc\">\n<title id=\"title\">{}</title>\n<desc id=\"desc\">{}</desc>\n",
+      PAPER_WIDTH, sheet_height * PAPER_WIDTH / sheet_width, sheet_width, sheet_height, xml_text("Grip of " + drawing.vessel),
+      xml_text(spoken(drawing)));
+  svg += style_sheet(drawing);
+  svg += fmt::format("<rect width=\"{:.2f}\" height=\"{:.2f}\" fill=\"#ffffff\"/>\n", sheet_width, sheet_height);
+  draw_view(svg, drawing, above, {left, top_row - f});
+  draw_view(svg, drawing, front, {left, second_row - f});
+  draw_view(svg, drawing, beside, {right_column, second_row - f});
+  const double radius = 1e3 * drawing.glass.largest_radius, mouth = 1e3 * drawing.glass.mouth_height;
+  const double under = second_row + height + f, right = right_column + depth + 0.8 * f;
+  draw_measure(svg, drawing, {front.origin[0] - radius, under}, {front.origin[0] + radius, under},
+               fmt::format("{:.0f} mm", 2 * radius));
+  draw_measure(svg, drawing, {right, beside.origin[1]}, {right, beside.origin[1] - mouth}, fmt::format("{:.0f} mm", mouth));
+  draw_legend(svg, drawing, {right_column, top_row - 1.8 * f});
+  return svg + "</svg>\n";
+}
+
+}  // namespace wholehand

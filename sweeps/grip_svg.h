@@ -1,0 +1,17 @@
+// A grip as a line drawing for papers: front, side and top view with a scale bar.
+#pragma once
+
+#include <string>
+
+#include "sweeps/grip_report.h"
+
+namespace wholehand {
+
+// The text of an SVG, 180 mm wide, one unit of its coordinates a millimetre of the vessel; black on white, contact points in colours that
+// colour-blind readers tell apart and in shapes that do without colour. Third-angle projection: the front view from the side of the hand,
+// the thumb-index line across; the top view above it; the side view beside it, from the right. Posed joints with their skin, seen through
+// the glass where they are behind it. With a title and a description for screen readers.
+// Throws Error (usage) where the grip is not feasible or the vessel has no outline.
+std::string grip_svg(const Scene& scene, std::size_t vessel, const GripReport& report);
+
+}  // namespace wholehand
