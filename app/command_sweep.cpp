@@ -14,7 +14,7 @@ namespace wholehand {
 namespace {
 
 struct SweepArguments {
-  std::string scene, output, on = "vulkan", precision, best, threads;
+  std::string scene, output, on = "vulkan", precision, best, glb, threads;
   bool resume = false, explain = false;
 };
 
@@ -24,6 +24,7 @@ ExitCode sweep(const SweepArguments& arguments) {
   options.on = arguments.on;
   if (!arguments.precision.empty()) options.precision = parse_precision(arguments.precision);
   if (!arguments.best.empty()) options.best = static_cast<int>(parse_integer(arguments.best, "--best", ranges::BEST));
+  if (!arguments.glb.empty()) options.glb = static_cast<int>(parse_integer(arguments.glb, "--glb", ranges::BEST));
   if (!arguments.threads.empty())
     options.threads = static_cast<int>(parse_integer(arguments.threads, "--threads", ranges::THREADS));
   options.resume = arguments.resume;
@@ -47,6 +48,8 @@ void add_sweep_command(CLI::App& app, Action& action) {
       ->check(not_empty());
   command->add_option("--precision", arguments->precision, "float or double (float on Vulkan, double on the core)")->type_name("P");
   command->add_option("--best", arguments->best, "Grips shown and listed for each vessel (the scene's)")->type_name("N");
+  command->add_option("--glb", arguments->glb, "Of these, so many for each vessel as glTF: NAME.<vessel>.<rank>.glb")
+      ->type_name("N");
   command->add_option("--threads", arguments->threads, "Threads of the core (all)")->type_name("N");
   command->add_flag("--resume", arguments->resume, "Go on where an interrupted sweep ended");
   command->add_flag("--explain", arguments->explain, "Tell what was left out and what that saved");

@@ -13,6 +13,9 @@ struct OutputNames {
   std::string mark;     // NAME.nc.partial.mark: how far it is whole
   std::string best;     // NAME.best.csv
   std::string heat_map(const std::string& vessel_part) const { return stem + "." + vessel_part + ".svg"; }
+  std::string grip_glb(const std::string& vessel_part, std::size_t rank) const {
+    return stem + "." + vessel_part + "." + std::to_string(rank) + ".glb";
+  }
   std::string stem;  // NAME
 };
 

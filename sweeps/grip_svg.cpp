@@ -16,10 +16,11 @@
 namespace wholehand {
 namespace {
 
-constexpr double PAPER_WIDTH = 180;      // mm
-constexpr double PAPER_FONT = 2.8;       // mm: 8 pt
-constexpr double PAPER_LINE = 0.25;      // mm
-constexpr double SMALLEST_SKIN = 1.5;    // mm: a bare point is still seen
+constexpr double PAPER_WIDTH = 180;    // mm
+constexpr double PAPER_FONT = 2.8;     // mm: 8 pt
+constexpr double PAPER_LINE = 0.25;    // mm
+constexpr double SMALLEST_SKIN = 1.5;  // mm: a bare point is still seen
+constexpr std::array<char, FINGER_COUNT> INITIALS{'T', 'I', 'M', 'R', 'L'};
 constexpr double CORNER_COSINE = 0.985;  // 10 degrees: sharper edges of the glass are drawn across it
 
 using Flat = std::array<double, 2>;  // on the sheet: mm to the right, mm down
@@ -252,6 +253,25 @@ void draw_measure(std::string& svg, const Drawing& drawing, const Flat& a, const
   }
 }
 
+// Initials beyond the tips, the nearest first; none on top of another.
+void draw_initials(std::string& svg, const Drawing& drawing, const DrawnView& view, const std::vector<FingerRun>& runs) {
+  std::vector<Flat> taken;
+  for (auto run = runs.rbegin(); run != runs.rend(); ++run) {
+    const int finger = run->last < finger_start(1) ? 0 : (run->last + 1) / 5;
+    if (run->last != finger_start(finger) + finger_joints(finger) - 1) continue;  // not the run with the tip
+    const Flat tip = view.flat(drawing.joints[run->last]), before = view.flat(drawing.joints[run->last - 1]);
+    const double length = std::hypot(tip[0] - before[0], tip[1] - before[1]);
+    const double beyond = (drawing.skin[run->last] + 0.7 * drawing.font) / std::max(length, 1e-3);
+    const Flat at = length < 1 ? Flat{tip[0], tip[1] - drawing.skin[run->last] - 0.7 * drawing.font}
+                               : Flat{tip[0] + beyond * (tip[0] - before[0]), tip[1] + beyond * (tip[1] - before[1])};
+    const bool is_free = std::none_of(taken.begin(), taken.end(), [&](const Flat& other) {
+      return std::hypot(at[0] - other[0], at[1] - other[1]) < drawing.font;
+    });
+    if (is_free) draw_text(svg, {at[0], at[1] + 0.35 * drawing.font}, "initial", std::string(1, INITIALS[finger]));
+    taken.push_back(at);
+  }
+}
+
 void draw_view(std::string& svg, const Drawing& drawing, const DrawnView& view, const Flat& title) {
   svg += fmt::format("<g id=\"{}\">\n", view.name);
   const std::vector<FingerRun> runs = finger_runs(drawing, view);
@@ -268,6 +288,7 @@ void draw_view(std::string& svg, const Drawing& drawing, const DrawnView& view, 
   }
   const Flat thumb = view.flat(drawing.joints[finger_start(1) - 1]), index = view.flat(drawing.joints[finger_start(2) - 1]);
   draw_line(svg, thumb, index, "axis");
+  draw_initials(svg, drawing, view, runs);
   draw_text(svg, title, "head", view.name);
   svg += "</g>\n";
 }
@@ -319,6 +340,8 @@ void draw_legend(std::string& svg, const Drawing& drawing, Flat at) {
     svg += marker({at[0] + 0.5 * drawing.font, at[1] - 0.35 * drawing.font}, static_cast<PointState>(s), drawing.font);
     draw_text(svg, {at[0] + 1.4 * drawing.font, at[1]}, "start", words[s]);
   }
+  at[1] += step;
+  draw_text(svg, at, "start", "T thumb, I index, M middle, R ring, L little");
   at[1] += 1.3 * step;
   draw_measure(svg, drawing, at, {at[0] + 50, at[1]}, "50 mm");
   svg += "</g>\n";
@@ -334,6 +357,7 @@ std::string style_sheet(const Drawing& drawing) {
       "<style>\n"
       "text {{ font-family: Helvetica, Arial, sans-serif; font-size: {font:.2f}px; fill: #202020 }}\n"
       ".mid {{ text-anchor: middle }}\n.head {{ font-weight: bold }}\n"
+      ".initial {{ text-anchor: middle; stroke: #ffffff; stroke-width: {halo:.2f}; paint-order: stroke; stroke-linejoin: round }}\n"
       "path, circle {{ stroke-linejoin: round; stroke-linecap: round }}\n"
       ".glass {{ fill: #eaf3f8; fill-opacity: 0.6; stroke: #202020; stroke-width: {thick:.3f} }}\n"
       ".edge, .measure {{ fill: none; stroke: #404040; stroke-width: {thin:.3f} }}\n"
@@ -348,7 +372,7 @@ std::string style_sheet(const Drawing& drawing) {
       ".free {{ fill: {free}; stroke: #606060; stroke-width: {line:.3f} }}\n"
       "</style>\n",
       fmt::arg("font", drawing.font), fmt::arg("line", w), fmt::arg("thick", 1.4 * w), fmt::arg("thin", 0.6 * w),
-      fmt::arg("dash", 3 * w), fmt::arg("long_dash", 10 * w), fmt::arg("double_line", 2.4 * w),
+      fmt::arg("halo", 4 * w), fmt::arg("dash", 3 * w), fmt::arg("long_dash", 10 * w), fmt::arg("double_line", 2.4 * w),
       fmt::arg("touching", color(PointState::touching)), fmt::arg("projected", color(PointState::projected)),
       fmt::arg("free", color(PointState::free)));
 }
@@ -384,7 +408,7 @@ std::string grip_svg(const Scene& scene, std::size_t vessel, const GripReport& r
   const double f = drawing.font = share * sheet_width;
   drawing.line = PAPER_LINE / PAPER_WIDTH * sheet_width;
   const double left = 2 * f, top_row = 3 * f, right_column = left + width + 3 * f;
-  const double legend_height = 17 * f, first_row = std::max(depth, legend_height);
+  const double legend_height = 19 * f, first_row = std::max(depth, legend_height);
   const double second_row = top_row + first_row + 3 * f;
   const double sheet_height = second_row + height + 4 * f;
   above.origin = {left - wide[0], top_row + (first_row - depth) + deep[1]};

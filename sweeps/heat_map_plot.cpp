@@ -54,6 +54,17 @@ std::string file_name_part(const std::string& name) {
   return part.empty() ? "_" : part;
 }
 
+std::vector<std::string> file_name_parts(const Scene& scene) {
+  std::vector<std::string> parts;
+  for (const VesselData& vessel : scene.vessels) {
+    const std::string own = file_name_part(vessel.name);
+    std::string part = own;
+    for (int k = 2; std::find(parts.begin(), parts.end(), part) != parts.end(); ++k) part = fmt::format("{}_{}", own, k);
+    parts.push_back(part);
+  }
+  return parts;
+}
+
 std::vector<HeatMapPicture> sweep_pictures(const Scene& scene, const Plan& plan, const std::vector<HeatMap>& maps,
                                            const OutputNames& names) {
   std::vector<std::string> over;  // the axes that vary beside height and roll
@@ -64,16 +75,12 @@ std::vector<HeatMapPicture> sweep_pictures(const Scene& scene, const Plan& plan,
     std::replace(over.back().begin(), over.back().end(), '_', ' ');
   }
   const std::string maximised = over.empty() ? "score" : fmt::format("best score over {}", fmt::join(over, ", "));
+  const std::vector<std::string> parts = file_name_parts(scene);
   std::vector<HeatMapPicture> pictures;
   for (std::size_t v = 0; v < maps.size(); ++v) {
     const VesselData& vessel = scene.vessels[v];
-    std::string file = names.heat_map(file_name_part(vessel.name));
-    const auto is_taken = [&] {
-      return std::any_of(pictures.begin(), pictures.end(), [&](const HeatMapPicture& other) { return other.file == file; });
-    };
-    for (int k = 2; is_taken(); ++k) file = names.heat_map(fmt::format("{}_{}", file_name_part(vessel.name), k));
-    pictures.push_back(
-        {file, fmt::format("{}: {}", vessel.name, maximised), &maps[v], scene.grips.height_is_fraction ? vessel.height : 1});
+    pictures.push_back({names.heat_map(parts[v]), fmt::format("{}: {}", vessel.name, maximised), &maps[v],
+                        scene.grips.height_is_fraction ? vessel.height : 1});
   }
   return pictures;
 }

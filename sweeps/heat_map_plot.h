@@ -34,4 +34,7 @@ std::vector<HeatMapPicture> sweep_pictures(const Scene& scene, const Plan& plan,
 // "a b/c" -> "a_b_c": a vessel's name as part of a file name.
 std::string file_name_part(const std::string& name);
 
+// Of all vessels; those that are alike are told apart by a number.
+std::vector<std::string> file_name_parts(const Scene& scene);
+
 }  // namespace wholehand

@@ -10,6 +10,7 @@
 
 #include "core/prepare.h"
 #include "sweeps/best.h"
+#include "sweeps/best_glb.h"
 #include "sweeps/build_id.h"
 #include "sweeps/candidates.h"
 #include "sweeps/closing.h"
@@ -108,6 +109,10 @@ class Sweep {
   void check() const {
     refuse_meshes(scene_);
     check_output_path(names_.result);
+    if (options_.glb > static_cast<int>(best_wanted_)) {
+      throw usage_error(
+          fmt::format("--glb {0}: the best {1} of each vessel are kept; ask for --best {0} too", options_.glb, best_wanted_));
+    }
     check_not_the_scene(names_.result, scene_.file);
     check_overwrites_result(names_.result);
     struct stat partial {};
@@ -314,6 +319,11 @@ class Sweep {
       files.insert(files.begin(), names_.best);
     } else {
       std::remove(names_.best.c_str());  // of the result that is replaced
+    }
+    if (options_.glb > 0) {
+      const BestGlb written = write_best_glb(scene_, parts_.open_evaluator(), best, options_.glb, names_);
+      files.insert(files.end(), written.files.begin(), written.files.end());
+      for (const std::string& line : written.notes) note(line);
     }
     file.write_ending(ranked, wall_before_ + since(options_.started), mark_.kernel_seconds);
     file.finish();

@@ -18,6 +18,7 @@ struct SweepOptions {
   std::string on = "vulkan";           // see open_backend
   std::optional<Precision> precision;  // absent: double on the core, float elsewhere
   std::optional<int> best;             // absent: the scene's
+  int glb = 0;                         // so many of the best of each vessel are written as glTF
   bool resume = false;
   bool explain = false;
   int threads = 0;          // of the core, 0: all
@@ -31,7 +32,7 @@ struct SweepParts {
   std::function<std::unique_ptr<Evaluator>()> open_evaluator;  // for what is known of a vessel whatever the grip
 };
 
-// Sweeps every grip of the scene. Writes NAME.nc, NAME.best.csv and NAME.<vessel>.svg; prints the device, the best grips and counts
+// Sweeps every grip of the scene. Writes NAME.nc, NAME.best.csv, NAME.<vessel>.svg and NAME.<vessel>.<rank>.glb; prints the device, the best grips and counts
 // of every vessel, and the times to stdout, notes and progress to stderr. Returns `done`, or `interrupted` after SIGINT or SIGTERM
 // with NAME.nc.partial left for --resume. Throws Error.
 ExitCode run_sweep(const Scene& scene, const SweepOptions& options);

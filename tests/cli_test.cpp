@@ -122,6 +122,16 @@ TEST(CommandLine, RefusesWrongUsageWithOneLineAndCode2) {
       {"check small --on no-such-device", "no-such-device"},
       {"check small --on core", "name a Vulkan device"},
       {"grip paper_pose --vessel beaker1 --height-mm 50 --fill 0.5", "has no [liquid]"},
+      {std::string(GRIP) + " --glb", "--glb"},
+      {std::string(GRIP) + " --glb ''", "must not be empty"},
+      {std::string(GRIP) + " --svg ''", "must not be empty"},
+      {std::string(GRIP) + " --glb /tmp", "--glb /tmp: is a directory; name a file"},
+      {std::string(GRIP) + " --svg /nonexistent/a.svg", "--svg /nonexistent/a.svg: /nonexistent is not a directory"},
+      {std::string(GRIP) + " --svg /dev/null", "--svg /dev/null: is a device or pipe"},
+      {std::string(GRIP) + " --glb /tmp/wholehand_cli_one --svg /tmp/wholehand_cli_one", "--glb and --svg name one file"},
+      {"sweep small --glb -1", "--glb '-1'; allowed: a whole number, 0 to 100000"},
+      {"sweep small --glb x", "--glb 'x'"},
+      {"sweep small --best 2 --glb 3 --on core -o /tmp/wholehand_cli_none.nc", "--glb 3: the best 2 of each vessel are kept"},
   };
   for (const auto& [arguments, gist] : cases) expect_error(arguments, 2, gist);
 }
@@ -317,6 +327,13 @@ TEST(CommandLine, EvaluatesOneGrip) {
   EXPECT_EQ(wide.code, 0);
   EXPECT_EQ(nlohmann::json::parse(wide.output)["reason"], "too_wide");
 
+  // but there is no hand to draw: nothing is written
+  const std::string drawing = std::filesystem::temp_directory_path() / "wholehand_cli_test";
+  for (const char* option : {"--glb", "--svg"}) {
+    expect_error(std::string(GRIP) + " --hand-scale 0.2 " + option + " " + drawing, 2, "not feasible (too_wide)");
+    EXPECT_FALSE(std::filesystem::exists(drawing)) << option;
+  }
+
   // a device that computes says which it is, without disturbing what reads the object
   const Outcome device = run("PROGRAM " + std::string(GRIP) + " --on vulkan --json 2>&1 >/dev/null");
   EXPECT_EQ(device.code, 0);
@@ -328,6 +345,34 @@ TEST(CommandLine, EvaluatesOneGrip) {
   const Outcome points =
       run("PROGRAM grip three_beakers --vessel beaker1 --thumb-mm 0,50,40 --index-mm 0,50,-40 --roll-deg -45 --tilt-deg 30 --json");
   EXPECT_EQ(nlohmann::json::parse(direct.output), nlohmann::json::parse(points.output));
+}
+
+TEST(CommandLine, DrawsAGrip) {
+  std::string folder = std::filesystem::temp_directory_path() / "wholehand_cli_XXXXXX";
+  ASSERT_NE(mkdtemp(folder.data()), nullptr);
+  const auto head_of = [](const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::string head(4, ' ');
+    file.read(head.data(), 4);
+    return head;
+  };
+  const std::string plain = run("PROGRAM " + std::string(GRIP) + " --json").output;
+  const Outcome drawn = run("PROGRAM " + std::string(GRIP) + " --json --glb " + folder + "/a.glb --svg " + folder + "/a.svg 2>&1");
+  EXPECT_EQ(drawn.code, 0);
+  EXPECT_EQ(drawn.output, plain);
+  EXPECT_EQ(head_of(folder + "/a.glb"), "glTF");
+  EXPECT_EQ(head_of(folder + "/a.svg"), "<svg");
+  const std::string scene = folder + "/scene.toml";
+  std::ofstream(scene) << "[[vessel]]\nname = \"v\"\nshape = \"cylinder\"\ndiameter_mm = 80\nheight_mm = 100\nwall_mm = 2\n";
+  expect_error("grip " + scene + " --vessel v --height-mm 50 --glb " + folder + "/../" + folder.substr(folder.rfind('/') + 1) +
+                   "/scene.toml",
+               2, "this is the scene file itself");
+  const Outcome sweep = run("PROGRAM sweep small --on core --best 3 --glb 2 -o " + folder + "/s.nc 2>&1");
+  EXPECT_EQ(sweep.code, 0) << sweep.output;
+  EXPECT_NE(sweep.output.find("s.tumbler.1.glb .. "), std::string::npos) << sweep.output;
+  EXPECT_EQ(head_of(folder + "/s.tumbler.2.glb"), "glTF");
+  EXPECT_FALSE(std::filesystem::exists(folder + "/s.tumbler.3.glb"));
+  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

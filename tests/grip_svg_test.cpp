@@ -1,0 +1,198 @@
+// A grip as a line drawing: well-formed, to scale, and every view shows what it should.
+// sanitizers: address
+#include "sweeps/grip_svg.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "tests/support/scenes.h"
+
+namespace wholehand {
+namespace {
+
+GripReport report_of(const Scene& scene, std::size_t vessel, const GripInput& grip) {
+  return make_grip_report(scene, vessel, grip, scene_axes(scene), core_grip_methods(scene, make_core_evaluator(scene), "core"));
+}
+
+std::string drawn(const Scene& scene, std::size_t vessel, const GripInput& grip) {
+  return grip_svg(scene, vessel, report_of(scene, vessel, grip));
+}
+
+// Every tag is closed in its order, attributes are quoted once each, text has no bare '<' or '&', nothing but ASCII and UTF-8.
+void expect_well_formed(const std::string& xml) {
+  std::vector<std::string> open;
+  std::size_t at = 0;
+  while ((at = xml.find('<', at)) != std::string::npos) {
+    const std::size_t end = xml.find('>', at);
+    ASSERT_NE(end, std::string::npos);
+    std::string tag = xml.substr(at + 1, end - at - 1);
+    at = end;
+    if (tag[0] == '/') {
+      ASSERT_FALSE(open.empty());
+      EXPECT_EQ(tag.substr(1), open.back());
+      open.pop_back();
+      continue;
+    }
+    EXPECT_TRUE(std::regex_match(tag, std::regex("[a-z]+( [a-zA-Z:-]+=\"[^\"<&]*\")*/?"))) << tag;
+    if (!tag.ends_with('/')) open.push_back(tag.substr(0, tag.find(' ')));
+  }
+  EXPECT_TRUE(open.empty());
+  EXPECT_FALSE(std::regex_search(xml, std::regex("&(?!amp;|lt;|gt;)")));
+  EXPECT_EQ(xml.find("nan"), std::string::npos);
+  EXPECT_EQ(xml.find("inf"), std::string::npos);
+  EXPECT_EQ(xml.find("-0.00"), std::string::npos);
+}
+
+std::string group(const std::string& svg, const std::string& id) {
+  const std::size_t from = svg.find("<g id=\"" + id + "\">");
+  EXPECT_NE(from, std::string::npos) << id;
+  return svg.substr(from, svg.find("</g>", from) - from);
+}
+
+int count(const std::string& text, const std::string& part) {
+  int times = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++times;
+  return times;
+}
+
+// Ends of the first line of a class within a group.
+std::array<double, 4> line_in(const std::string& text, const std::string& style) {
+  std::smatch match;
+  const std::regex line("class=\"" + style + "\" d=\"M([-0-9.]+) ([-0-9.]+)L([-0-9.]+) ([-0-9.]+)\"");
+  EXPECT_TRUE(std::regex_search(text, match, line)) << text;
+  std::array<double, 4> ends{};
+  for (int k = 0; k < 4; ++k) ends[k] = std::stod(match[k + 1]);
+  return ends;
+}
+
+const GripInput BESIDE{0.0585, 0, 0.1, 0.38, 0, 1};
+
+TEST(GripSvg, IsWellFormedForEveryVesselAndRoll) {
+  const Scene scene = three_beakers();
+  int drawings = 0;
+  for (std::size_t v = 0; v < 3; ++v) {
+    for (const double roll : {-90, -30, 0, 22}) {
+      const GripReport report = report_of(scene, v, {0.05, 0.4, -0.1, radians(roll), 0.001, 1});
+      if (report.answer.result.reason != Reason::none) continue;
+      expect_well_formed(grip_svg(scene, v, report));
+      ++drawings;
+    }
+  }
+  EXPECT_GE(drawings, 9);
+}
+
+TEST(GripSvg, HasTheWordsOfAScreenReader) {
+  Scene scene = three_beakers();
+  scene.vessels[0].name = "a <b> & \"c\"";
+  const std::string svg = drawn(scene, 0, BESIDE);
+  expect_well_formed(svg);
+  EXPECT_NE(svg.find("<title id=\"title\">Grip of a &lt;b&gt; &amp; \"c\"</title>"), std::string::npos);
+  EXPECT_NE(svg.find("aria-labelledby=\"title desc\""), std::string::npos);
+  EXPECT_NE(svg.find("80 mm wide and 110 mm high, between thumb and index finger 58.5 mm above its base"), std::string::npos);
+  EXPECT_NE(svg.find("The thumb touches with 1 of its 4 points."), std::string::npos) << svg.substr(0, 1500);
+}
+
+// One unit is a millimetre, and the views agree with one another: the thumb-index line is as long as it is seen.
+TEST(GripSvg, ViewsAreToScale) {
+  for (const Handedness handedness : {Handedness::right, Handedness::left}) {
+    Scene scene = three_beakers();
+    scene.hand.handedness = handedness;
+    const double sign = handedness == Handedness::right ? 1 : -1;
+    for (const double azimuth : {0.0, 2.5}) {
+      GripInput grip = BESIDE;
+      grip.azimuth = azimuth;
+      const GripReport report = report_of(scene, 0, grip);
+      const std::string svg = grip_svg(scene, 0, report);
+      const double gap = report.answer.result.gap * 1e3, level = gap * std::cos(0.1), rise = gap * std::sin(0.1);
+      const auto front = line_in(group(svg, "front"), "axis"), side = line_in(group(svg, "side"), "axis"),
+                 top = line_in(group(svg, "top"), "axis");
+      // mm; two decimals at either end. A left hand's index is on the left.
+      EXPECT_NEAR(front[2] - front[0], sign * level, 0.011);
+      EXPECT_NEAR(front[3] - front[1], -rise, 0.011);
+      EXPECT_NEAR(side[2] - side[0], 0, 0.011);
+      EXPECT_NEAR(side[3] - side[1], -rise, 0.011);
+      EXPECT_NEAR(top[2] - top[0], sign * level, 0.011);
+      EXPECT_NEAR(top[3] - top[1], 0, 0.011);
+      EXPECT_NEAR(front[1], side[1], 0.011);  // side by side
+      EXPECT_NEAR(front[0], top[0], 0.011);   // above one another
+      const auto bar = line_in(group(svg, "legend"), "measure");
+      EXPECT_NEAR(bar[2] - bar[0], 50, 0.011);
+      EXPECT_EQ(count(svg, ">80 mm<") + count(svg, ">110 mm<"), 2);
+    }
+  }
+}
+
+// And to the left in the side view: the mouth leans away from it to the right.
+TEST(GripSvg, TheHandIsInFrontInTheFrontView) {
+  const Scene scene = three_beakers();
+  const std::string svg = drawn(scene, 0, {0.0585, 0.7, 0, 0.38, 0, 1});
+  const std::string front = group(svg, "front"), side = group(svg, "side");
+  const std::size_t glass = front.find("class=\"glass\"");
+  EXPECT_GT(count(front.substr(glass), "class=\"bone\""), 3);
+  std::smatch match;
+  ASSERT_TRUE(std::regex_search(side, match, std::regex("class=\"glass\" d=\"M([-0-9.]+) ")));
+  const double axis = std::stod(match[1]);
+  std::vector<double> free;
+  const std::regex circle("class=\"free\" cx=\"([-0-9.]+)\"");
+  for (std::sregex_iterator it(side.begin(), side.end(), circle), end; it != end; ++it) free.push_back(std::stod((*it)[1]));
+  ASSERT_GT(free.size(), 10u);
+  double sum = 0;
+  for (const double x : free) sum += x;
+  EXPECT_LT(sum / static_cast<double>(free.size()), axis - 20);  // mm: the hand is longer than the glass is wide
+}
+
+TEST(GripSvg, EveryPointHasItsMark) {
+  const Scene scene = three_beakers();
+  const GripReport report = report_of(scene, 0, BESIDE);
+  const std::string svg = grip_svg(scene, 0, report);
+  const GripResult& result = report.answer.result;
+  int projected = 0, touching = 0;
+  for (int j = 0; j < JOINT_COUNT; ++j) {
+    const bool is_projected = ((result.tip_mask | result.finger_mask | result.inner_mask) >> j & 1) != 0;
+    projected += is_projected;
+    touching += !is_projected && (result.touch_mask >> j & 1) != 0;
+  }
+  ASSERT_GT(projected, 0);
+  for (const char* view : {"front", "side", "top"}) EXPECT_GE(count(group(svg, view), "class=\"initial\""), 4) << view;
+  for (const char* view : {"front", "side", "top"}) {
+    std::map<std::string, int> marks;  // by place: a joint where the glass comes between two bones is drawn with both
+    const std::string text = group(svg, view);
+    const std::regex mark("class=\"(touching|projected|free)\" [^/]*/");
+    std::map<std::string, int> states;
+    for (std::sregex_iterator it(text.begin(), text.end(), mark), end; it != end; ++it) {
+      if (marks[it->str()]++ == 0) ++states[(*it)[1]];
+    }
+    EXPECT_EQ(states["projected"], projected) << view;
+    EXPECT_EQ(states["touching"], touching) << view;
+    EXPECT_EQ(states["free"], JOINT_COUNT - projected - touching) << view;
+  }
+}
+
+// The half outline of a flask is drawn by its own arcs.
+TEST(GripSvg, ArcsOfTheOutlineStayArcs) {
+  const Scene scene = three_beakers();
+  const std::string front = group(drawn(scene, 1, {0.06, 0, 0, 0, 0, 1}), "front");
+  EXPECT_GE(count(front, "A42.50 42.50 0 0 0 "), 2);  // anticlockwise up the right side, and down the left
+  EXPECT_EQ(count(front, "A42.50 42.50 0 0 1 "), 0);
+}
+
+TEST(GripSvg, NothingToDraw) {
+  const Scene scene = three_beakers();
+  const GripReport report = report_of(scene, 0, {0.3, 0, 0, 0, 0, 1});
+  try {
+    grip_svg(scene, 0, report);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ExitCode::usage);
+    EXPECT_EQ(std::string(error.what()).rfind("--svg: ", 0), 0u) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace wholehand
