@@ -10,7 +10,7 @@ namespace wholehand {
 
 enum class PointState { touching, projected, free };
 
-// A state's name, and its colour of Okabe and Ito's set, which colour-blind readers tell apart; in print they differ in lightness too.
+// A state's name, and its colour of Okabe and Ito's set, which colour-blind readers tell apart.
 struct PointStyle {
   const char* name;
   std::array<int, 3> color;  // sRGB, 0..255

@@ -253,7 +253,20 @@ void draw_measure(std::string& svg, const Drawing& drawing, const Flat& a, const
   }
 }
 
-// Initials beyond the tips, the nearest first; none on top of another.
+// Whether a run's shapes cover a place on the sheet.
+bool covers(const Drawing& drawing, const DrawnView& view, const FingerRun& run, const Flat& p) {
+  for (int j = run.first; j < run.last; ++j) {
+    const Flat a = view.flat(drawing.joints[j]), b = view.flat(drawing.joints[j + 1]);
+    const Flat along{b[0] - a[0], b[1] - a[1]}, to{p[0] - a[0], p[1] - a[1]};
+    const double squared = along[0] * along[0] + along[1] * along[1];
+    const double t = squared > 0 ? std::clamp((to[0] * along[0] + to[1] * along[1]) / squared, 0.0, 1.0) : 0;
+    const double skin = drawing.skin[j] + t * (drawing.skin[j + 1] - drawing.skin[j]);
+    if (std::hypot(to[0] - t * along[0], to[1] - t * along[1]) < skin) return true;
+  }
+  return false;
+}
+
+// Initials beyond the tips that are seen: of those that no nearer finger covers, and not on top of another's initial.
 void draw_initials(std::string& svg, const Drawing& drawing, const DrawnView& view, const std::vector<FingerRun>& runs) {
   std::vector<Flat> taken;
   for (auto run = runs.rbegin(); run != runs.rend(); ++run) {
@@ -261,13 +274,17 @@ void draw_initials(std::string& svg, const Drawing& drawing, const DrawnView& vi
     if (run->last != finger_start(finger) + finger_joints(finger) - 1) continue;  // not the run with the tip
     const Flat tip = view.flat(drawing.joints[run->last]), before = view.flat(drawing.joints[run->last - 1]);
     const double length = std::hypot(tip[0] - before[0], tip[1] - before[1]);
-    const double beyond = (drawing.skin[run->last] + 0.7 * drawing.font) / std::max(length, 1e-3);
-    const Flat at = length < 1 ? Flat{tip[0], tip[1] - drawing.skin[run->last] - 0.7 * drawing.font}
-                               : Flat{tip[0] + beyond * (tip[0] - before[0]), tip[1] + beyond * (tip[1] - before[1])};
-    const bool is_free = std::none_of(taken.begin(), taken.end(), [&](const Flat& other) {
+    const Flat along = length < 1 ? Flat{0, -1} : Flat{(tip[0] - before[0]) / length, (tip[1] - before[1]) / length};
+    const double beyond = drawing.skin[run->last] + 0.7 * drawing.font;
+    const Flat at{tip[0] + beyond * along[0], tip[1] + beyond * along[1]};
+    const bool is_hidden = std::any_of(runs.rbegin(), run, [&](const FingerRun& nearer) {
+      return covers(drawing, view, nearer, tip) || covers(drawing, view, nearer, at);
+    });
+    const bool is_taken = std::any_of(taken.begin(), taken.end(), [&](const Flat& other) {
       return std::hypot(at[0] - other[0], at[1] - other[1]) < drawing.font;
     });
-    if (is_free) draw_text(svg, {at[0], at[1] + 0.35 * drawing.font}, "initial", std::string(1, INITIALS[finger]));
+    if (is_hidden || is_taken) continue;
+    draw_text(svg, {at[0], at[1] + 0.35 * drawing.font}, "initial", std::string(1, INITIALS[finger]));
     taken.push_back(at);
   }
 }

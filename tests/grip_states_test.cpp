@@ -1,0 +1,62 @@
+// What a drawing tells of a point, and when there is nothing to draw.
+// sanitizers: address
+#include "sweeps/grip_states.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "core/error.h"
+
+namespace wholehand {
+namespace {
+
+TEST(GripStates, AProjectedPointTouchesToo) {
+  GripResult result;
+  result.touch_mask = 1u << 2 | 1u << 5 | 1u << 6 | 1u << 7;
+  result.tip_mask = 1u << 5;
+  result.finger_mask = 1u << 6;
+  result.inner_mask = 1u << 7;
+  EXPECT_EQ(point_state(result, 2), PointState::touching);
+  for (const int j : {5, 6, 7}) EXPECT_EQ(point_state(result, j), PointState::projected) << j;
+  EXPECT_EQ(point_state(result, 3), PointState::free);
+  EXPECT_STREQ(POINT_STYLES[static_cast<std::size_t>(PointState::projected)].name, "projected");
+}
+
+// In grey print the two that touch are alike, and dark beside the third; a drawing's shapes tell them apart.
+TEST(GripStates, TouchingIsDarkerThanFree) {
+  const auto lightness = [](PointState state) {
+    const auto& c = POINT_STYLES[static_cast<std::size_t>(state)].color;
+    return (0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]) / 255;
+  };
+  EXPECT_LT(lightness(PointState::touching), 0.5);
+  EXPECT_LT(lightness(PointState::projected), 0.5);
+  EXPECT_GT(lightness(PointState::free), 0.99);
+}
+
+TEST(GripStates, AnInfeasibleGripIsRefusedByItsReason) {
+  GripReport report;
+  report.vessel = "glass";
+  EXPECT_NO_THROW(check_drawable(report, "--svg"));
+  report.answer.result.reason = Reason::on_mouth;
+  try {
+    check_drawable(report, "--svg");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ExitCode::usage);
+    EXPECT_STREQ(error.what(),
+                 "--svg: the grip of glass is not feasible (on_mouth), so there is no hand to draw; choose another grip");
+  }
+}
+
+TEST(GripStates, TheFirstStateWithLiquidIsDrawn) {
+  GripReport report;
+  EXPECT_EQ(drawn_liquid(report), nullptr);
+  report.answer.states.resize(3);
+  EXPECT_EQ(drawn_liquid(report), nullptr);
+  report.answer.states[1].liquid.volume = report.answer.states[2].liquid.volume = 1e-4;
+  EXPECT_EQ(drawn_liquid(report), &report.answer.states[1]);
+}
+
+}  // namespace
+}  // namespace wholehand
