@@ -198,11 +198,13 @@ double drawn_radius(double radius) { return std::max(radius, LEAST_DRAWN_RADIUS)
 void add_hand_nodes(GlbBuilder& glb, int parent, const HandNodes& hand, const GripResult& result) {
   const int bone_material = glb.add_material("bone", BONE_COLOR, 1, 0.7);
   const tinygltf::Primitive ball = glb.add_primitive(ball_mesh(BALL_SEGMENTS));
-  std::array<int, 3> balls{};
-  for (std::size_t s = 0; s < POINT_STYLES.size(); ++s) {
-    const std::string name = POINT_STYLES[s].name;
-    balls[s] = glb.add_mesh(name, ball, glb.add_material(name, POINT_STYLES[s].color, 1, 0.5));
-  }
+  std::array<int, 3> balls{-1, -1, -1};  // of the states that there are
+  const auto ball_of = [&](PointState state) {
+    int& mesh = balls[static_cast<std::size_t>(state)];
+    const PointStyle& style = POINT_STYLES[static_cast<std::size_t>(state)];
+    if (mesh < 0) mesh = glb.add_mesh(style.name, ball, glb.add_material(style.name, style.color, 1, 0.5));
+    return mesh;
+  };
   const int wrist = glb.add_node(hand.wrist.name, parent);
   place_node(glb.node(wrist), hand.wrist.position, hand.wrist.rotation);
   glb.node(wrist).extras = gltf_value({{"openxr_joint", hand.wrist.openxr}});
@@ -226,7 +228,7 @@ void add_hand_nodes(GlbBuilder& glb, int parent, const HandNodes& hand, const Gr
                                             {"radius_m", joint.radius},
                                             {"separation_m", result.separation[j]}});
     const int contact = glb.add_node(fmt::format("{} contact", joint.name), nodes[j]);
-    glb.node(contact).mesh = balls[static_cast<std::size_t>(state)];
+    glb.node(contact).mesh = ball_of(state);
     glb.node(contact).scale.assign(3, drawn_radius(joint.radius));
   }
 }

@@ -16,7 +16,10 @@
 namespace wholehand {
 namespace {
 
-constexpr double PAPER_WIDTH = 180;    // mm
+constexpr double PAPER_WIDTH = 180;    // mm, at most
+constexpr double PAPER_HEIGHT = 250;   // mm, at most
+constexpr double LEGEND_WIDTH = 24;    // letters
+constexpr double LEGEND_HEIGHT = 19;   // letters
 constexpr double PAPER_FONT = 2.8;     // mm: 8 pt
 constexpr double PAPER_LINE = 0.25;    // mm
 constexpr double SMALLEST_SKIN = 1.5;  // mm: a bare point is still seen
@@ -419,23 +422,23 @@ std::string grip_svg(const Scene& scene, std::size_t vessel, const GripReport& r
 
   const auto wide = extent_along(drawing, across), deep = extent_along(drawing, away), high = extent_along(drawing, up);
   const double width = wide[1] - wide[0], depth = deep[1] - deep[0], height = high[1] - high[0];
-  // margins, gap and measures take 11 letters, the font a fixed share of the paper
-  const double share = PAPER_FONT / PAPER_WIDTH;
-  const double sheet_width = (width + depth) / (1 - 11 * share);
-  const double f = drawing.font = share * sheet_width;
-  drawing.line = PAPER_LINE / PAPER_WIDTH * sheet_width;
+  // mm of the vessel on a mm of paper; in letters, margins, gaps and measures take 11 across and 10 down
+  const double unit =
+      std::max({(width + depth) / (PAPER_WIDTH - 11 * PAPER_FONT), width / (PAPER_WIDTH - (5 + LEGEND_WIDTH) * PAPER_FONT),
+                (depth + height) / (PAPER_HEIGHT - 10 * PAPER_FONT), height / (PAPER_HEIGHT - (10 + LEGEND_HEIGHT) * PAPER_FONT)});
+  const double f = drawing.font = PAPER_FONT * unit;
+  drawing.line = PAPER_LINE * unit;
   const double left = 2 * f, top_row = 3 * f, right_column = left + width + 3 * f;
-  const double legend_height = 19 * f, first_row = std::max(depth, legend_height);
-  const double second_row = top_row + first_row + 3 * f;
-  const double sheet_height = second_row + height + 4 * f;
+  const double first_row = std::max(depth, LEGEND_HEIGHT * f), second_row = top_row + first_row + 3 * f;
+  const double sheet_width = right_column + std::max(depth + 6 * f, LEGEND_WIDTH * f), sheet_height = second_row + height + 4 * f;
   above.origin = {left - wide[0], top_row + (first_row - depth) + deep[1]};
   front.origin = {left - wide[0], second_row + high[1]};
   beside.origin = {right_column - deep[0], second_row + high[1]};
 
   std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.0f}mm\" height=\"{:.1f}mm\" viewBox=\"0 0 {:.2f} {:.2f}\" role=\"img\" "
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.1f}mm\" height=\"{:.1f}mm\" viewBox=\"0 0 {:.2f} {:.2f}\" role=\"img\" "
       "aria-labelledby=\"title desc\">\n<title id=\"title\">{}</title>\n<desc id=\"desc\">{}</desc>\n",
-      PAPER_WIDTH, sheet_height * PAPER_WIDTH / sheet_width, sheet_width, sheet_height, xml_text("Grip of " + drawing.vessel),
+      sheet_width / unit, sheet_height / unit, sheet_width, sheet_height, xml_text("Grip of " + drawing.vessel),
       xml_text(spoken(drawing)));
   svg += style_sheet(drawing);
   svg += fmt::format("<rect width=\"{:.2f}\" height=\"{:.2f}\" fill=\"#ffffff\"/>\n", sheet_width, sheet_height);

@@ -151,6 +151,22 @@ TEST(GripSvg, ViewsAreToScale) {
   }
 }
 
+// Whatever is held, the sheet fits on a page and its letters are 8 points.
+TEST(GripSvg, FitsOnAPage) {
+  for (const double height_mm : {30.0, 110.0, 3000.0}) {
+    const Scene scene = scene_of({cylinder("v", 60, height_mm, 1)});
+    const std::string svg = drawn(scene, 0, {0.01, 0, 0, 0, 0, 1});
+    std::smatch match;
+    ASSERT_TRUE(std::regex_search(svg, match, std::regex("width=\"([0-9.]+)mm\" height=\"([0-9.]+)mm\" viewBox=\"0 0 ([0-9.]+) ")));
+    const double width = std::stod(match[1]), height = std::stod(match[2]), unit = std::stod(match[3]) / width;
+    EXPECT_LE(width, 180.01) << height_mm;
+    EXPECT_LE(height, 250.01) << height_mm;
+    EXPECT_TRUE(width > 179.9 || height > 249.9) << height_mm;
+    ASSERT_TRUE(std::regex_search(svg, match, std::regex("font-size: ([0-9.]+)px")));
+    EXPECT_NEAR(std::stod(match[1]) / unit, 2.8, 0.02) << height_mm;
+  }
+}
+
 // And to the left in the side view: the mouth leans away from it to the right.
 TEST(GripSvg, TheHandIsInFrontInTheFrontView) {
   const Scene scene = three_beakers();
