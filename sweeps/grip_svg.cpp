@@ -9,6 +9,8 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "core/liquid.h"
+#include "core/load.h"
 #include "core/prepare.h"
 #include "sweeps/grip_states.h"
 #include "sweeps/hand_nodes.h"
@@ -177,14 +179,22 @@ struct FingerRun {
   double depth = 0;        // mm
 };
 
+// Largest radius of an element above a height, m; 0 where it does not reach there.
+double widest_above(const PreparedElement& e, double height) {
+  const double low = std::max(height, std::min(e.a[1], e.b[1])), high = std::max(e.a[1], e.b[1]);
+  if (high <= height) return 0;
+  if (e.a[1] == e.b[1]) return std::max(e.a[0], e.b[0]);
+  if (e.side > 0 && e.center[1] > low && e.center[1] < high) return e.center[0] + e.radius;
+  const core_f64::Element element = core_f64::load_element(e);
+  return std::max(core_f64::element_radius(element, low), core_f64::element_radius(element, high));
+}
+
 // Whether the glass is between a point and the viewer.
 bool is_behind_glass(const Drawing& drawing, const DrawnView& view, const Triple& p) {
   if (view.is_level()) return view.depth(p) < 0;
-  const double radius = std::hypot(p[0], p[2]);
-  return std::any_of(drawing.glass.hull.begin(), drawing.glass.hull.end(), [&](const PreparedElement& e) {
-    const double widest = e.side > 0 ? e.center[0] + e.radius : std::max(e.a[0], e.b[0]);
-    return std::max(e.a[1], e.b[1]) > p[1] && widest > radius;
-  });
+  const auto& hull = drawing.glass.hull;
+  return std::any_of(hull.begin(), hull.end(),
+                     [&](const PreparedElement& e) { return widest_above(e, p[1]) > std::hypot(p[0], p[2]); });
 }
 
 // The bones of all fingers in runs that are on one side of the glass, the furthest first.

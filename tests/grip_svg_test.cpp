@@ -186,6 +186,18 @@ TEST(GripSvg, TheHandIsInFrontInTheFrontView) {
   EXPECT_LT(sum / static_cast<double>(free.size()), axis - 20);  // mm: the hand is longer than the glass is wide
 }
 
+// From above, what rests on a cone is seen, and what is under a sphere's belly is not.
+TEST(GripSvg, FromAboveOnlyWhatIsUnderTheGlassIsBehindIt) {
+  const Scene scene = three_beakers();
+  const auto before_glass = [&](std::size_t vessel, double height, const char* mark) {
+    const std::string top = group(drawn(scene, vessel, {height, 0, 0, 0, 0, 1}), "top");
+    return count(top.substr(0, top.find("class=\"glass\"")), mark);
+  };
+  EXPECT_EQ(before_glass(2, 0.06, "class=\"touching\""), 0);
+  EXPECT_EQ(before_glass(1, 0.06, "class=\"touching\""), 0);
+  EXPECT_EQ(before_glass(1, 0.025, "class=\"projected\""), 2);  // the middle finger, brought up to the base
+}
+
 TEST(GripSvg, EveryPointHasItsMark) {
   const Scene scene = three_beakers();
   const GripReport report = report_of(scene, 0, BESIDE);
