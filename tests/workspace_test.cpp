@@ -199,7 +199,7 @@ TEST(Workspace, ALeftHandIsTheRightHandOfTheMirroredWorld) {
 
 TEST(CouplingSlope, IsTheLargerOfArmAndGap) {
   EXPECT_EQ(coupling_slope(1, 1), 2);
-  EXPECT_EQ(coupling_slope(0.5, 4.5), 2.25);
+  EXPECT_EQ(coupling_slope(0.5, 4.5), 4.5);
 }
 
 }  // namespace
