@@ -80,7 +80,7 @@ class GlbBuilder {
   }
 
   // Positions, normals and corners of a mesh as accessors, which meshes of several materials may share.
-  tinygltf::Primitive add_primitive(const TriangleMesh& mesh) {
+  tinygltf::Primitive add_primitive(const SurfaceMesh& mesh) {
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
     primitive.attributes["POSITION"] = add_floats<3>(mesh.positions, TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
@@ -238,7 +238,7 @@ int add_liquid_node(GlbBuilder& glb, int parent, const VesselData& vessel, const
                     const nlohmann::ordered_json& json, int segments) {
   const GripState* state = drawn_liquid(report);
   if (!state) return -1;
-  const TriangleMesh mesh = liquid_mesh(vessel, state->liquid.volume, state->tilt, report.pour, segments);
+  const SurfaceMesh mesh = liquid_mesh(vessel, state->liquid.volume, state->tilt, report.pour, segments);
   if (mesh.triangles.empty()) return -1;
   const int node = glb.add_node("liquid", parent);
   glb.node(node).mesh = glb.add_mesh("liquid", glb.add_primitive(mesh), glb.add_material("liquid", LIQUID_COLOR, 0.55, 0.1));
@@ -282,7 +282,7 @@ std::string grip_glb(const Scene& scene, std::size_t vessel, const GripReport& r
   glb.node(grip).extras = gltf_value(json);
   add_hand_nodes(glb, grip, hand_nodes(scene.hand, report.grip, result), result);
   const int liquid = add_liquid_node(glb, grip, data, report, json, segments);
-  const TriangleMesh glass = vessel_mesh(data, segments);
+  const SurfaceMesh glass = vessel_mesh(data, segments);
   const int node = glb.add_node("vessel", grip);
   glb.node(node).mesh = glb.add_mesh(data.name, glb.add_primitive(glass), glb.add_material("glass", GLASS_COLOR, 0.3, 0.05));
   glb.node(node).extras = gltf_value({{"name", data.name}, {"wall_m", data.wall}, {"height_m", data.height}});

@@ -18,13 +18,13 @@ constexpr double SAME_POINT = 1e-9;    // m: where elements meet they do so to r
 constexpr double UPRIGHT = 1e-12;      // sine of a tilt
 
 // A triangle between vertices; none where two corners are one point: rings that have shrunk to a point leave such.
-void add_triangle(TriangleMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+void add_triangle(SurfaceMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   const auto& p = mesh.positions;
   if (p[a] == p[b] || p[b] == p[c] || p[c] == p[a]) return;
   mesh.triangles.insert(mesh.triangles.end(), {a, b, c});
 }
 
-std::uint32_t add_vertex(TriangleMesh& mesh, const Triple& position, const Triple& normal) {
+std::uint32_t add_vertex(SurfaceMesh& mesh, const Triple& position, const Triple& normal) {
   mesh.positions.push_back(position);
   mesh.normals.push_back(normal);
   return static_cast<std::uint32_t>(mesh.positions.size() - 1);
@@ -214,7 +214,7 @@ class LiquidBuilder {
     }
   }
 
-  TriangleMesh take() { return std::move(mesh_); }
+  SurfaceMesh take() { return std::move(mesh_); }
 
  private:
   // The strip of the level surface between two rings' chords.
@@ -241,12 +241,12 @@ class LiquidBuilder {
 
   Triple pour_, up_;
   int segments_;
-  TriangleMesh mesh_;
+  SurfaceMesh mesh_;
 };
 
 }  // namespace
 
-double enclosed_volume(const TriangleMesh& mesh) {
+double enclosed_volume(const SurfaceMesh& mesh) {
   double six = 0;
   for (std::size_t t = 0; t + 2 < mesh.triangles.size(); t += 3) {
     const Triple &a = mesh.positions[mesh.triangles[t]], &b = mesh.positions[mesh.triangles[t + 1]],
@@ -256,8 +256,8 @@ double enclosed_volume(const TriangleMesh& mesh) {
   return six / 6;
 }
 
-TriangleMesh revolved_mesh(const std::vector<PreparedElement>& outline, int segments) {
-  TriangleMesh mesh;
+SurfaceMesh revolved_mesh(const std::vector<PreparedElement>& outline, int segments) {
+  SurfaceMesh mesh;
   std::vector<Point2> round;  // exact at the quarters, so that extents are
   for (int k = 0; k < segments; ++k) {
     const int quarter = 4 * k / segments;
@@ -289,7 +289,7 @@ TriangleMesh revolved_mesh(const std::vector<PreparedElement>& outline, int segm
   return mesh;
 }
 
-TriangleMesh vessel_mesh(const VesselData& vessel, int segments) {
+SurfaceMesh vessel_mesh(const VesselData& vessel, int segments) {
   if (vessel.outline.empty()) throw usage_error("vessel '" + vessel.name + "' has no outline to draw");
   VesselData glass = vessel;
   if (vessel.wall > 0) glass.surface = Surface::shell;
@@ -297,7 +297,7 @@ TriangleMesh vessel_mesh(const VesselData& vessel, int segments) {
   return revolved_mesh(vessel.wall > 0 ? prepared.outline : prepared.hull, segments);
 }
 
-TriangleMesh liquid_mesh(const VesselData& vessel, double volume, double tilt, const Triple& pour, int segments) {
+SurfaceMesh liquid_mesh(const VesselData& vessel, double volume, double tilt, const Triple& pour, int segments) {
   if (!(volume > 0) || !(vessel.wall > 0)) return {};
   const PreparedVessel prepared = prepare_vessel(vessel, true);
   const core_f64::Quadrature quadrature = core_f64::load_quadrature(prepare_quadrature(QUADRATURE_POINTS));
@@ -316,7 +316,7 @@ TriangleMesh liquid_mesh(const VesselData& vessel, double volume, double tilt, c
   return builder.take();
 }
 
-TriangleMesh ball_mesh(int segments) {
+SurfaceMesh ball_mesh(int segments) {
   PreparedElement half;
   half.a = {0, -1};
   half.b = {0, 1};
@@ -326,7 +326,7 @@ TriangleMesh ball_mesh(int segments) {
 }
 
 // With y along the bone: two arcs and the line that touches both, at the angle whose sine is (near - far) / length.
-TriangleMesh capsule_mesh(double length, double near, double far, int segments) {
+SurfaceMesh capsule_mesh(double length, double near, double far, int segments) {
   PreparedElement start, side, end;
   start.radius = near;
   start.side = 1;
@@ -344,7 +344,7 @@ TriangleMesh capsule_mesh(double length, double near, double far, int segments) 
     end.a = side.b = {far * cosine, length + far * sine};
     outline = {start, side, end};
   }
-  TriangleMesh mesh = revolved_mesh(outline, segments);
+  SurfaceMesh mesh = revolved_mesh(outline, segments);
   for (std::vector<Triple>* vectors : {&mesh.positions, &mesh.normals}) {
     for (Triple& v : *vectors) v = {v[0], v[2], -v[1]};
   }

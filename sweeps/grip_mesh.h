@@ -10,31 +10,31 @@
 
 namespace wholehand {
 
-struct TriangleMesh {
+struct SurfaceMesh {
   std::vector<Triple> positions;
   std::vector<Triple> normals;           // unit, one a position; positions are repeated where the surface has an edge
   std::vector<std::uint32_t> triangles;  // three positions each
 };
 
 // The volume that the mesh encloses, m3.
-double enclosed_volume(const TriangleMesh& mesh);
+double enclosed_volume(const SurfaceMesh& mesh);
 
 // An outline turned about +y: `segments` flat faces round (a multiple of 4 touches the largest extents along x and z), arcs in steps of
 // the same angle. Corners lie on the surface, so that all errors fall with the square of `segments`.
-TriangleMesh revolved_mesh(const std::vector<PreparedElement>& outline, int segments);
+SurfaceMesh revolved_mesh(const std::vector<PreparedElement>& outline, int segments);
 
 // The glass with its inner wall where the vessel has a wall, else its hull closed at the mouth. Vessel frame. Throws Error (usage) as
 // prepare_vessel.
-TriangleMesh vessel_mesh(const VesselData& vessel, int segments);
+SurfaceMesh vessel_mesh(const VesselData& vessel, int segments);
 
 // Liquid of `volume` m3 at rest in the vessel tilted by `tilt` rad towards the horizontal unit direction `pour` (vessel frame): the cavity
 // under the level plane, with the plane's part as its surface. Empty where there is none. `volume` is at most what the lip holds.
-TriangleMesh liquid_mesh(const VesselData& vessel, double volume, double tilt, const Triple& pour, int segments);
+SurfaceMesh liquid_mesh(const VesselData& vessel, double volume, double tilt, const Triple& pour, int segments);
 
 // A ball of radius 1 m at the origin.
-TriangleMesh ball_mesh(int segments);
+SurfaceMesh ball_mesh(int segments);
 
 // Hull of two balls: radius `near` m at the origin and `far` m at `length` m along -z.
-TriangleMesh capsule_mesh(double length, double near, double far, int segments);
+SurfaceMesh capsule_mesh(double length, double near, double far, int segments);
 
 }  // namespace wholehand

@@ -21,7 +21,7 @@ Triple cross(const Triple& a, const Triple& b) {
 }
 
 // Every edge is met once in either direction, and by area the normals of the vertices are the triangles'.
-void expect_closed(const TriangleMesh& mesh, const char* what) {
+void expect_closed(const SurfaceMesh& mesh, const char* what) {
   ASSERT_FALSE(mesh.triangles.empty()) << what;
   ASSERT_EQ(mesh.positions.size(), mesh.normals.size());
   std::map<std::pair<Triple, Triple>, int> edges;
@@ -60,7 +60,7 @@ TEST(GripMesh, GlassIsClosedAndHasItsWallsVolume) {
     const double volume = make_core_evaluator(scene)->empty_mass(0) / vessel.density;
     std::vector<double> errors;
     for (const int segments : {32, 64, 128}) {
-      const TriangleMesh mesh = vessel_mesh(vessel, segments);
+      const SurfaceMesh mesh = vessel_mesh(vessel, segments);
       expect_closed(mesh, vessel.name.c_str());
       errors.push_back(enclosed_volume(mesh) / volume - 1);
     }
@@ -91,7 +91,7 @@ TEST(GripMesh, GlassReachesAsFarAsItsOutline) {
 
 TEST(GripMesh, WithoutAWallTheHullIsDrawn) {
   VesselData vessel = cylinder("solid", 80, 100, 0);
-  const TriangleMesh mesh = vessel_mesh(vessel, 256);
+  const SurfaceMesh mesh = vessel_mesh(vessel, 256);
   expect_closed(mesh, "solid");
   EXPECT_NEAR(enclosed_volume(mesh), PI * 0.04 * 0.04 * 0.1, 1e-7);  // 1e-4 of 5e-4 m3
   EXPECT_TRUE(liquid_mesh(vessel, 1e-4, 0, {1, 0, 0}, 64).triangles.empty());
@@ -109,7 +109,7 @@ TEST(GripMesh, LiquidIsClosedAndHasTheLiquidsVolume) {
         const std::string what = vessel.name + " fill " + std::to_string(fill) + " tilt " + std::to_string(tilt);
         std::vector<double> errors;
         for (const int segments : {32, 64, 128}) {
-          const TriangleMesh mesh = liquid_mesh(vessel, liquid.volume, radians(tilt), {0.6, 0, -0.8}, segments);
+          const SurfaceMesh mesh = liquid_mesh(vessel, liquid.volume, radians(tilt), {0.6, 0, -0.8}, segments);
           if (segments == 32) expect_closed(mesh, what.c_str());
           errors.push_back(enclosed_volume(mesh) / liquid.volume - 1);
         }
@@ -126,7 +126,7 @@ TEST(GripMesh, LiquidLeansAsTheCoreSays) {
   scene.liquid = LiquidData{1000, {1}, Pour::away};
   const LiquidResult liquid = make_core_evaluator(scene)->liquid(0, 0.4, radians(50));
   const Triple n{0.6, 0, -0.8};
-  const TriangleMesh mesh = liquid_mesh(scene.vessels[0], liquid.volume, radians(50), n, 192);
+  const SurfaceMesh mesh = liquid_mesh(scene.vessels[0], liquid.volume, radians(50), n, 192);
   Triple moment{};
   double six = 0, top = -1;
   const Triple up{-std::sin(radians(50)) * n[0], std::cos(radians(50)), -std::sin(radians(50)) * n[2]};
@@ -150,15 +150,15 @@ TEST(GripMesh, LiquidLeansAsTheCoreSays) {
 }
 
 TEST(GripMesh, BallsAndCapsules) {
-  const TriangleMesh ball = ball_mesh(96);
+  const SurfaceMesh ball = ball_mesh(96);
   expect_closed(ball, "ball");
   EXPECT_NEAR(enclosed_volume(ball), 4 * PI / 3, 1e-2);
-  const TriangleMesh even = capsule_mesh(0.04, 0.008, 0.008, 96);
+  const SurfaceMesh even = capsule_mesh(0.04, 0.008, 0.008, 96);
   expect_closed(even, "even");
   const double r = 0.008;
   EXPECT_NEAR(enclosed_volume(even) / (PI * r * r * 0.04 + 4 * PI / 3 * r * r * r), 1, 2e-3);
   for (const auto& [near, far] : {std::pair{0.008, 0.005}, std::pair{0.005, 0.008}}) {
-    const TriangleMesh mesh = capsule_mesh(0.03, near, far, 32);
+    const SurfaceMesh mesh = capsule_mesh(0.03, near, far, 32);
     expect_closed(mesh, "tapered");
     double front = 0, back = 0;
     for (const Triple& p : mesh.positions) {

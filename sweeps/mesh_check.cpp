@@ -1,0 +1,168 @@
+#include "sweeps/mesh_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <limits>
+#include <numeric>
+
+#include "core/error.h"
+
+namespace wholehand {
+namespace {
+
+constexpr double LARGE_MESH = 10;         // m: nothing that a hand holds
+constexpr double LEAST_THICKNESS = 1e-9;  // volume over area, of the largest extent: below it, rounding
+constexpr double LEAST_HEIGHT = 1e-12;    // of a triangle, of its longest edge: below it, rounding
+
+glm::dvec3 corner_of(const TriangleMesh& mesh, std::uint32_t vertex) {
+  const Triple& p = mesh.vertices[vertex];
+  return {p[0], p[1], p[2]};
+}
+
+// The mesh with equal vertices joined and those that no triangle uses left out; the order is that of their coordinates.
+TriangleMesh weld(const TriangleMesh& mesh) {
+  std::vector<bool> used(mesh.vertices.size());
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t corner : triangle) used[corner] = true;
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t i = 0; i < mesh.vertices.size(); ++i)
+    if (used[i]) order.push_back(i);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return mesh.vertices[a] < mesh.vertices[b]; });
+  TriangleMesh welded;
+  std::vector<std::uint32_t> place(mesh.vertices.size());
+  for (const std::uint32_t i : order) {
+    if (welded.vertices.empty() || welded.vertices.back() != mesh.vertices[i]) welded.vertices.push_back(mesh.vertices[i]);
+    place[i] = static_cast<std::uint32_t>(welded.vertices.size() - 1);
+  }
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const bool is_point_or_edge = place[a] == place[b] || place[b] == place[c] || place[c] == place[a];
+    if (!is_point_or_edge) welded.triangles.push_back({place[a], place[b], place[c]});
+  }
+  return welded;
+}
+
+void measure_extent(const TriangleMesh& mesh, MeshFacts& facts) {
+  facts.low = facts.high = mesh.vertices.front();
+  for (const Triple& vertex : mesh.vertices)
+    for (int k = 0; k < 3; ++k) {
+      facts.low[k] = std::min(facts.low[k], vertex[k]);
+      facts.high[k] = std::max(facts.high[k], vertex[k]);
+    }
+}
+
+// One use of an edge: its ends in order of number, and whether it runs from the larger. Fits a word, as there are fewer than 2^31 vertices.
+std::uint64_t edge_use(std::uint32_t from, std::uint32_t to) {
+  const std::uint64_t low = std::min(from, to), high = std::max(from, to);
+  return low << 32 | high << 1 | (from > to ? 1 : 0);
+}
+
+// Counts edges, and returns the mean of the open ones' middles; the box's middle where none is open.
+glm::dvec3 count_edges(const TriangleMesh& mesh, MeshFacts& facts) {
+  std::vector<std::uint64_t> uses;
+  uses.reserve(3 * mesh.triangles.size());
+  for (const auto& [a, b, c] : mesh.triangles) uses.insert(uses.end(), {edge_use(a, b), edge_use(b, c), edge_use(c, a)});
+  std::sort(uses.begin(), uses.end());
+  facts.closed = facts.oriented = true;
+  glm::dvec3 rim(0);
+  for (std::size_t first = 0, next = 0; first < uses.size(); first = next) {
+    std::size_t backward = 0;
+    for (next = first; next < uses.size() && uses[next] >> 1 == uses[first] >> 1; ++next) backward += uses[next] & 1u;
+    const std::size_t count = next - first;
+    if (count % 2 == 1) facts.closed = false;
+    if (2 * backward > count + 1 || 2 * backward + 1 < count) facts.oriented = false;
+    if (count > 2) ++facts.non_manifold_edges;
+    if (count == 2 && backward != 1) ++facts.inverted_pairs;
+    if (count != 1) continue;
+    ++facts.open_edges;
+    const auto low = static_cast<std::uint32_t>(uses[first] >> 32),
+               high = static_cast<std::uint32_t>(uses[first] >> 1 & 0x7FFFFFFFu);
+    rim += (corner_of(mesh, low) + corner_of(mesh, high)) / 2.0;
+  }
+  if (facts.open_edges > 0) return rim / static_cast<double>(facts.open_edges);
+  return {(facts.low[0] + facts.high[0]) / 2, (facts.low[1] + facts.high[1]) / 2, (facts.low[2] + facts.high[2]) / 2};
+}
+
+// Sums the tetrahedra of the triangles and `apex`, signed: volume and its centre.
+void measure_volume(const TriangleMesh& mesh, const glm::dvec3& apex, MeshFacts& facts) {
+  glm::dvec3 moment(0);
+  for (const auto& triangle : mesh.triangles) {
+    const glm::dvec3 a = corner_of(mesh, triangle[0]) - apex, b = corner_of(mesh, triangle[1]) - apex,
+                     c = corner_of(mesh, triangle[2]) - apex;
+    const glm::dvec3 normal = glm::cross(b - a, c - a);
+    const double doubled = glm::length(normal), edge = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
+    if (doubled <= LEAST_HEIGHT * edge * edge) ++facts.zero_triangles;
+    const double part = glm::dot(a, glm::cross(b, c)) / 6;
+    facts.area += doubled / 2;
+    facts.volume += part;
+    moment += part / 4 * (a + b + c);
+  }
+  const glm::dvec3 center = apex + (facts.volume != 0 ? moment / facts.volume : glm::dvec3(0));
+  facts.center_of_mass = {center.x, center.y, center.z};
+}
+
+double largest_extent(const MeshFacts& facts) {
+  double extent = 0;
+  for (int k = 0; k < 3; ++k) extent = std::max(extent, facts.high[k] - facts.low[k]);
+  return extent;
+}
+
+void turn_round(TriangleMesh& mesh, MeshFacts& facts) {
+  for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+  facts.volume = -facts.volume;
+  facts.was_inside_out = true;
+}
+
+std::string count_text(std::size_t count, const char* one, const char* many) {
+  return count == 1 ? fmt::format("1 {}", one) : fmt::format("{} {}", count, many);
+}
+
+}  // namespace
+
+CheckedMesh check_mesh(const TriangleMesh& mesh, const std::string& name) {
+  CheckedMesh checked{weld(mesh), {}};
+  MeshFacts& facts = checked.facts;
+  facts.triangles = mesh.triangles.size();
+  facts.zero_triangles = mesh.triangles.size() - checked.mesh.triangles.size();
+  if (checked.mesh.triangles.empty()) throw usage_error(name + ": has no triangle with an area");
+  measure_extent(checked.mesh, facts);
+  measure_volume(checked.mesh, count_edges(checked.mesh, facts), facts);
+  if (!(std::abs(facts.volume) > LEAST_THICKNESS * facts.area * largest_extent(facts))) {
+    throw usage_error(name +
+                      ": encloses no volume (a flat sheet, or surfaces that cancel), so it has no inside: give it a thickness");
+  }
+  if (facts.volume < 0) turn_round(checked.mesh, facts);
+  return checked;
+}
+
+std::string mesh_check_text(const MeshFacts& facts) {
+  std::string text =
+      fmt::format("{}, {:.4g} x {:.4g} x {:.4g} mm, ", count_text(facts.triangles, "triangle", "triangles"),
+                  1e3 * (facts.high[0] - facts.low[0]), 1e3 * (facts.high[1] - facts.low[1]), 1e3 * (facts.high[2] - facts.low[2]));
+  text += facts.closed ? "closed" : fmt::format("not closed ({})", count_text(facts.open_edges, "open edge", "open edges"));
+  text += fmt::format("; {}, {}, {}; volume {:.4g} cm3, centre of mass ({:.4g}, {:.4g}, {:.4g}) mm.",
+                      count_text(facts.non_manifold_edges, "non-manifold edge", "non-manifold edges"),
+                      count_text(facts.inverted_pairs, "inverted pair", "inverted pairs"),
+                      count_text(facts.zero_triangles, "triangle without area", "triangles without area"), 1e6 * facts.volume,
+                      1e3 * facts.center_of_mass[0], 1e3 * facts.center_of_mass[1], 1e3 * facts.center_of_mass[2]);
+  if (facts.was_inside_out) text += " It was inside out and has been turned round.";
+  if (!facts.closed)
+    text += " What lies inside is judged by the winding number, which guesses across the holes: close them for a sure answer.";
+  if (!facts.oriented) text += " Its triangles do not all face outward, so volume and centre of mass are not to be trusted.";
+  return text;
+}
+
+// Exporters that forget the unit write millimetres, centimetres or inches.
+std::string mesh_size_warning(const MeshFacts& facts) {
+  const double extent = largest_extent(facts);
+  if (extent <= LARGE_MESH) return "";
+  const char* unit = extent > 20 ? "millimetres" : "centimetres";
+  const double scale = extent > 20 ? 0.001 : 0.01;
+  return fmt::format("it is {:.4g} m large: glTF counts in metres; if these are {}, set mesh_scale = {} ({:.4g} mm)", extent, unit,
+                     scale, 1e3 * scale * extent);
+}
+
+}  // namespace wholehand

@@ -1,0 +1,42 @@
+// What is wrong with a mesh, said before it is used.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "sweeps/mesh.h"
+
+namespace wholehand {
+
+struct MeshFacts {
+  std::size_t triangles = 0;           // as read
+  std::size_t open_edges = 0;          // of one triangle only
+  std::size_t non_manifold_edges = 0;  // of three or more triangles
+  std::size_t inverted_pairs = 0;      // edges of two triangles that turn opposite ways
+  std::size_t zero_triangles = 0;      // without area, from corners in one place or in one line
+  bool closed = false;          // each edge belongs to an even number of triangles: a ray's crossings tell inside from outside
+  bool oriented = false;        // each edge is used as often in one direction as in the other, give or take one
+  bool was_inside_out = false;  // all triangles were turned round
+  Triple low{}, high{};         // bounding box, m
+  double area = 0;              // m2
+  double volume = 0;            // m3, > 0; of an open mesh, with each hole closed by a cone to the middle of all open edges
+  Triple center_of_mass{};      // of that volume, m
+};
+
+// Triangles that share their corners, outward, with what was found.
+struct CheckedMesh {
+  TriangleMesh mesh;
+  MeshFacts facts;
+};
+
+// Joins vertices that are equal in all three coordinates, leaves out triangles with two corners in one place, and turns all round where
+// the volume is negative. `name` is for messages. Throws Error (usage) where no volume is left: a flat sheet, or two that cancel.
+CheckedMesh check_mesh(const TriangleMesh& mesh, const std::string& name);
+
+// What was found as one paragraph, with what follows from it; ends without a line break.
+std::string mesh_check_text(const MeshFacts& facts);
+
+// A sentence where the mesh is so large (over 10 m) that its unit is hardly the metre, with the scale that is likely meant; else empty.
+std::string mesh_size_warning(const MeshFacts& facts);
+
+}  // namespace wholehand

@@ -1,0 +1,211 @@
+#include "tests/support/meshes.h"
+
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "core/prepare.h"
+#include "tests/support/scenes.h"
+
+namespace wholehand {
+namespace {
+
+constexpr double TURN = 2 * std::numbers::pi;
+
+using Corners = std::array<std::uint32_t, 3>;
+
+class Subdivision {
+ public:
+  Subdivision(TriangleMesh mesh, double radius) : mesh_(std::move(mesh)), radius_(radius) {
+    for (Triple& p : mesh_.vertices) p = on_sphere(p);
+  }
+
+  void refine() {
+    std::vector<Corners> finer;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
+    const auto middle = [&](std::uint32_t a, std::uint32_t b) {
+      const auto [place, is_new] = middles.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(mesh_.vertices.size()));
+      if (is_new) {
+        const Triple p = mesh_.vertices[a], q = mesh_.vertices[b];
+        mesh_.vertices.push_back(on_sphere({p[0] + q[0], p[1] + q[1], p[2] + q[2]}));
+      }
+      return place->second;
+    };
+    for (const auto& [a, b, c] : mesh_.triangles) {
+      const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
+      finer.insert(finer.end(), {Corners{a, ab, ca}, Corners{b, bc, ab}, Corners{c, ca, bc}, Corners{ab, bc, ca}});
+    }
+    mesh_.triangles = std::move(finer);
+  }
+
+  TriangleMesh take() { return std::move(mesh_); }
+
+ private:
+  Triple on_sphere(const Triple& p) const {
+    const double length = std::hypot(p[0], p[1], p[2]);
+    return {radius_ * p[0] / length, radius_ * p[1] / length, radius_ * p[2] / length};
+  }
+
+  TriangleMesh mesh_;
+  double radius_;
+};
+
+// A grid of points, rows x columns, closed in the columns: two triangles a field, those without area left out.
+void add_fields(TriangleMesh& mesh, const std::vector<std::vector<std::uint32_t>>& rows) {
+  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    if (a != b && b != c && c != a) mesh.triangles.push_back({a, b, c});
+  };
+  for (std::size_t i = 0; i + 1 < rows.size(); ++i)
+    for (std::size_t j = 0; j < rows[i].size(); ++j) {
+      const std::size_t next = (j + 1) % rows[i].size();
+      add(rows[i][j], rows[i + 1][j], rows[i + 1][next]);
+      add(rows[i][j], rows[i + 1][next], rows[i][next]);
+    }
+}
+
+std::vector<std::array<double, 2>> outline_points(const VesselData& vessel, double chord) {
+  std::vector<std::array<double, 2>> points{{0, 0}};
+  for (const PreparedElement& e : prepare_vessel(vessel, false).hull) {
+    double from = 0, sweep = 0;
+    int steps = 1;
+    if (e.side != 0) {
+      from = std::atan2(e.a[1] - e.center[1], e.a[0] - e.center[0]);
+      sweep = std::remainder(std::atan2(e.b[1] - e.center[1], e.b[0] - e.center[0]) - from, TURN);
+      if (std::abs(std::abs(sweep) - TURN / 2) < 1e-9) sweep = (e.b[1] > e.a[1]) == (e.side > 0) ? TURN / 2 : -TURN / 2;
+      steps = std::max(1, static_cast<int>(std::ceil(e.radius * std::abs(sweep) / chord)));
+    }
+    for (int i = 1; i < steps; ++i) {
+      const double angle = from + sweep * i / steps;
+      points.push_back({e.center[0] + e.radius * std::cos(angle), e.center[1] + e.radius * std::sin(angle)});
+    }
+    points.push_back(e.b);
+  }
+  return points;
+}
+
+template <class T>
+void append(std::string& bytes, T value) {
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+}  // namespace
+
+TriangleMesh icosphere(double radius, int level) {
+  const double g = std::numbers::phi;
+  TriangleMesh mesh;
+  mesh.vertices = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+                   {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
+  mesh.triangles = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                    {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                    {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
+  Subdivision sphere(mesh, radius);
+  for (int i = 0; i < level; ++i) sphere.refine();
+  return sphere.take();
+}
+
+TriangleMesh open_hemisphere(double radius, int level) {
+  TriangleMesh octant;
+  octant.vertices = {{1, 0, 0}, {0, 0, 1}, {-1, 0, 0}, {0, 0, -1}, {0, 1, 0}};
+  octant.triangles = {{1, 0, 4}, {2, 1, 4}, {3, 2, 4}, {0, 3, 4}};
+  Subdivision sphere(octant, radius);
+  for (int i = 0; i < level; ++i) sphere.refine();
+  return sphere.take();
+}
+
+TriangleMesh torus(double large_radius, double small_radius, int around, int across) {
+  TriangleMesh mesh;
+  std::vector<std::vector<std::uint32_t>> rows(across + 1);
+  for (int i = 0; i < across; ++i)
+    for (int j = 0; j < around; ++j) {
+      const double a = TURN * i / across, b = TURN * j / around, r = large_radius + small_radius * std::cos(a);
+      rows[i].push_back(static_cast<std::uint32_t>(mesh.vertices.size()));
+      mesh.vertices.push_back({r * std::sin(b), small_radius * std::sin(a), r * std::cos(b)});
+    }
+  rows[across] = rows[0];
+  add_fields(mesh, rows);
+  for (auto& [a, b, c] : mesh.triangles) std::swap(b, c);
+  return mesh;
+}
+
+TriangleMesh box_mesh(const Triple& low, const Triple& high) {
+  TriangleMesh mesh;
+  for (int i = 0; i < 8; ++i) mesh.vertices.push_back({(i & 1 ? high : low)[0], (i & 2 ? high : low)[1], (i & 4 ? high : low)[2]});
+  mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  return mesh;
+}
+
+TriangleMesh turned_mesh(const VesselData& vessel, int around, double chord) {
+  TriangleMesh mesh;
+  std::vector<std::vector<std::uint32_t>> rows;
+  for (const auto& [r, y] : outline_points(vessel, chord)) {
+    std::vector<std::uint32_t>& row = rows.emplace_back();
+    const bool on_axis = r < 1e-12;
+    for (int j = 0; j < around; ++j) {
+      if (j == 0 || !on_axis) mesh.vertices.push_back({r * std::sin(TURN * j / around), y, r * std::cos(TURN * j / around)});
+      row.push_back(static_cast<std::uint32_t>(mesh.vertices.size() - 1));
+    }
+  }
+  add_fields(mesh, rows);
+  for (auto& [a, b, c] : mesh.triangles) std::swap(b, c);
+  return mesh;
+}
+
+TriangleMesh placed_mesh(TriangleMesh mesh, const Triple& turn, const Triple& move) {
+  const LongRotation rotation = rotation_x(turn[0]) * rotation_y(turn[1]) * rotation_z(turn[2]);
+  for (Triple& p : mesh.vertices) {
+    const Long3 turned = rotation * Long3{p[0], p[1], p[2]};
+    for (int k = 0; k < 3; ++k) p[k] = static_cast<double>(turned[k] + move[k]);
+  }
+  return mesh;
+}
+
+TriangleMesh joined(TriangleMesh a, const TriangleMesh& b) {
+  const auto base = static_cast<std::uint32_t>(a.vertices.size());
+  a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
+  for (const auto& [i, j, k] : b.triangles) a.triangles.push_back({base + i, base + j, base + k});
+  return a;
+}
+
+std::string glb_text(std::string json, std::string binary) {
+  json.append((4 - json.size() % 4) % 4, ' ');
+  binary.append((4 - binary.size() % 4) % 4, '\0');
+  std::string bytes = "glTF";
+  append<std::uint32_t>(bytes, 2);
+  append(bytes, static_cast<std::uint32_t>(12 + 8 + json.size() + (binary.empty() ? 0 : 8 + binary.size())));
+  append(bytes, static_cast<std::uint32_t>(json.size()));
+  bytes += "JSON" + json;
+  if (binary.empty()) return bytes;
+  append(bytes, static_cast<std::uint32_t>(binary.size()));
+  bytes += std::string("BIN\0", 4) + binary;
+  return bytes;
+}
+
+std::string glb_text(const TriangleMesh& mesh) {
+  std::string binary;
+  for (const Triple& p : mesh.vertices)
+    for (const double x : p) append(binary, static_cast<float>(x));
+  const std::size_t positions = binary.size();
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t i : triangle) append(binary, i);
+  const nlohmann::json json{
+      {"asset", {{"version", "2.0"}}},
+      {"scene", 0},
+      {"scenes", {{{"nodes", {0}}}}},
+      {"nodes", {{{"mesh", 0}}}},
+      {"meshes", {{{"primitives", {{{"attributes", {{"POSITION", 0}}}, {"indices", 1}}}}}}},
+      {"accessors",
+       {{{"bufferView", 0}, {"componentType", 5126}, {"count", mesh.vertices.size()}, {"type", "VEC3"}},
+        {{"bufferView", 1}, {"componentType", 5125}, {"count", 3 * mesh.triangles.size()}, {"type", "SCALAR"}}}},
+      {"bufferViews",
+       {{{"buffer", 0}, {"byteLength", positions}},
+        {{"buffer", 0}, {"byteOffset", positions}, {"byteLength", binary.size() - positions}}}},
+      {"buffers", {{{"byteLength", binary.size()}}}}};
+  return glb_text(json.dump(), binary);
+}
+
+}  // namespace wholehand

@@ -1,0 +1,31 @@
+// Bodies of triangles whose distance is known, and glTF files of them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/scene.h"
+#include "sweeps/mesh.h"
+
+namespace wholehand {
+
+// About the origin, outward; m. Each level of a sphere has four times the triangles: 20 at level 0.
+TriangleMesh icosphere(double radius, int level);
+// About the y axis.
+TriangleMesh torus(double large_radius, double small_radius, int around, int across);
+TriangleMesh box_mesh(const Triple& low, const Triple& high);
+// A vessel's outline, mouth included, turned about the y axis in `around` steps, arcs in chords of `chord` m at most.
+TriangleMesh turned_mesh(const VesselData& vessel, int around, double chord);
+// The upper half of a sphere without its base: open.
+TriangleMesh open_hemisphere(double radius, int level);
+
+// Turned by Rx Ry Rz (rad), then moved.
+TriangleMesh placed_mesh(TriangleMesh mesh, const Triple& turn, const Triple& move);
+TriangleMesh joined(TriangleMesh a, const TriangleMesh& b);
+
+// A .glb of one mesh: 32-bit floats and 32-bit indices.
+std::string glb_text(const TriangleMesh& mesh);
+// A .glb of this JSON and these bytes.
+std::string glb_text(std::string json, std::string binary);
+
+}  // namespace wholehand
