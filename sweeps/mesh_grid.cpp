@@ -1,0 +1,208 @@
+#include <fmt/format.h>
+
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <limits>
+#include <random>
+#include <thread>
+
+#include "core/error.h"
+#include "core/half.h"
+#include "core/sdf.h"
+#include "shaders/layout.h"
+#include "sweeps/mesh_distance.h"
+
+namespace wholehand {
+namespace {
+
+constexpr int SURFACE_SAMPLES = 4096;
+constexpr double COARSEST_CELLS = 24;                             // along the longest side: where the search for a spacing starts
+constexpr double SPACING_STEP = 1.25;                             // from one try to the next
+constexpr double MOST_SAMPLES = std::numeric_limits<int>::max();  // the kernels count in 32 bits
+
+// Runs `work` for 0 .. count - 1 on several threads, in no order.
+void on_threads(int threads, int count, const std::function<void(int)>& work) {
+  std::atomic<int> next{0};
+  const auto take = [&] {
+    for (int i = next++; i < count; i = next++) work(i);
+  };
+  if (threads <= 0) threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  std::vector<std::jthread> others;
+  for (int i = 1; i < std::min(threads, count); ++i) others.emplace_back(take);
+  take();
+}
+
+// Random points of the surface, as many a square metre everywhere; the same ones each time.
+std::vector<Triple> surface_points(const TriangleMesh& mesh, int count) {
+  const auto corner = [&](std::size_t triangle, int k) {
+    const Triple& p = mesh.vertices[mesh.triangles[triangle][k]];
+    return glm::dvec3(p[0], p[1], p[2]);
+  };
+  std::vector<double> area_up_to;
+  double area = 0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    area += glm::length(glm::cross(corner(i, 1) - corner(i, 0), corner(i, 2) - corner(i, 0)));
+    area_up_to.push_back(area);
+  }
+  std::mt19937_64 random(5);
+  const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+  std::vector<Triple> points;
+  for (int n = 0; n < count; ++n) {
+    const auto found = std::upper_bound(area_up_to.begin(), area_up_to.end() - 1, uniform() * area);
+    const auto i = static_cast<std::size_t>(found - area_up_to.begin());
+    const double root = std::sqrt(uniform()), share = uniform();
+    const glm::dvec3 p = (1 - root) * corner(i, 0) + root * (1 - share) * corner(i, 1) + root * share * corner(i, 2);
+    points.push_back({p.x, p.y, p.z});
+  }
+  return points;
+}
+
+// Where the samples of a lattice lie; none are taken yet.
+PreparedGrid lay_lattice(const MeshFacts& facts, const GridWish& wish, double spacing) {
+  PreparedGrid grid;
+  grid.spacing = spacing;
+  grid.halves = wish.halves;
+  std::array<int, 3> counts{};
+  for (int k = 0; k < 3; ++k) {
+    const double length = facts.high[k] - facts.low[k] + 2 * wish.margin;
+    counts[k] = static_cast<int>(std::min(std::ceil(length / spacing) + 5, 1e9));
+    grid.origin[k] = facts.low[k] - wish.margin - 2 * spacing;
+  }
+  grid.nx = counts[0];
+  grid.ny = counts[1];
+  grid.nz = counts[2];
+  return grid;
+}
+
+double samples_of(const PreparedGrid& grid) { return static_cast<double>(grid.nx) * grid.ny * grid.nz; }
+
+bool lattice_fits(const PreparedGrid& grid, const GridWish& wish) {
+  return samples_of(grid) <= MOST_SAMPLES && samples_of(grid) * (grid.halves ? 2 : 4) <= static_cast<double>(wish.most_bytes);
+}
+
+Triple lattice_place(const PreparedGrid& grid, int i, int j, int k) {
+  return {grid.origin[0] + grid.spacing * i, grid.origin[1] + grid.spacing * j, grid.origin[2] + grid.spacing * k};
+}
+
+// The trilinear value at p of samples that are taken now.
+double value_without_samples(const MeshDistance& distance, const PreparedGrid& grid, const Triple& p) {
+  std::array<int, 3> cell{};
+  Triple at{};
+  for (int k = 0; k < 3; ++k) {
+    const double steps = (p[k] - grid.origin[k]) / grid.spacing;
+    cell[k] = static_cast<int>(std::floor(steps));
+    at[k] = steps - cell[k];
+  }
+  double value = 0;
+  for (int n = 0; n < 8; ++n) {
+    const int x = n & 1, y = n >> 1 & 1, z = n >> 2;
+    const double weight = (x != 0 ? at[0] : 1 - at[0]) * (y != 0 ? at[1] : 1 - at[1]) * (z != 0 ? at[2] : 1 - at[2]);
+    value += weight * distance.signed_distance(lattice_place(grid, cell[0] + x, cell[1] + y, cell[2] + z));
+  }
+  return value;
+}
+
+double largest_error(const std::vector<Triple>& points, int threads, const std::function<double(const Triple&)>& value_at) {
+  std::vector<double> errors(points.size());
+  constexpr int CHUNK = 64;
+  on_threads(threads, static_cast<int>(points.size()) / CHUNK, [&](int chunk) {
+    for (int i = chunk * CHUNK; i < (chunk + 1) * CHUNK; ++i) errors[i] = std::abs(value_at(points[i]));
+  });
+  return *std::max_element(errors.begin(), errors.end());
+}
+
+// Finer and finer until the error is small enough or no more samples fit.
+PreparedGrid choose_grid(const MeshDistance& distance, const MeshFacts& facts, const std::vector<Triple>& points,
+                         const GridWish& wish) {
+  double spacing = 0;
+  for (int k = 0; k < 3; ++k) spacing = std::max(spacing, (facts.high[k] - facts.low[k]) / COARSEST_CELLS);
+  PreparedGrid grid = lay_lattice(facts, wish, spacing);
+  while (!lattice_fits(grid, wish) && samples_of(grid) > 6.0 * 6 * 6) grid = lay_lattice(facts, wish, grid.spacing * SPACING_STEP);
+  if (!lattice_fits(grid, wish)) throw usage_error(fmt::format("no lattice of distances fits {} bytes", wish.most_bytes));
+  while (largest_error(points, wish.threads, [&](const Triple& p) { return value_without_samples(distance, grid, p); }) >
+         wish.tolerance) {
+    const PreparedGrid finer = lay_lattice(facts, wish, grid.spacing / SPACING_STEP);
+    if (!lattice_fits(finer, wish)) break;
+    grid = finer;
+  }
+  return grid;
+}
+
+PreparedGrid given_grid(const MeshFacts& facts, const GridWish& wish) {
+  const PreparedGrid grid = lay_lattice(facts, wish, wish.spacing);
+  if (lattice_fits(grid, wish)) return grid;
+  throw usage_error(
+      fmt::format("a lattice of {:.4g} mm has {:.3g} samples of {} bytes, and {} MB are free for it: choose a larger grid_mm",
+                  1e3 * grid.spacing, samples_of(grid), grid.halves ? 2 : 4, wish.most_bytes >> 20));
+}
+
+// One row of samples along x. What is nearest to one sample is near to the next; and where a closed surface is farther away than the
+// next sample, that one is on the same side.
+void sample_row(const MeshDistance& distance, const PreparedGrid& grid, int j, int k, std::vector<float>& row) {
+  const bool keeps_side = distance.sign() != MeshSign::winding;
+  std::uint32_t nearest = 0;
+  double away = 0;
+  bool inside = false;
+  for (int i = 0; i < grid.nx; ++i) {
+    const Triple p = lattice_place(grid, i, j, k);
+    const bool same_side = i > 0 && keeps_side && away > grid.spacing * (1 + 1e-6);
+    away = distance.distance(p, nearest);
+    if (!same_side) inside = distance.is_inside(p);
+    row[i] = static_cast<float>(inside ? -away : away);
+  }
+}
+
+// Halves of two rows may share a word, and rows are taken by different threads.
+void store_row(const std::vector<float>& row, std::size_t first, bool halves, std::vector<std::uint32_t>& words) {
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    const std::size_t at = first + i;
+    if (halves) {
+      const std::uint32_t half = half_bits(row[i] * static_cast<float>(1 / HALF_UNIT));
+      std::atomic_ref<std::uint32_t>(words[at / 2]).fetch_or(at % 2 == 0 ? half : half << 16, std::memory_order_relaxed);
+    } else {
+      words[at] = std::bit_cast<std::uint32_t>(row[i]);
+    }
+  }
+}
+
+void sample_lattice(const MeshDistance& distance, PreparedGrid& grid, int threads) {
+  const auto nx = static_cast<std::size_t>(grid.nx), all = nx * grid.ny * grid.nz;
+  std::vector<std::uint32_t> words(grid.halves ? (all + 1) / 2 : all);
+  on_threads(threads, grid.nz, [&](int k) {
+    std::vector<float> row(nx);
+    for (int j = 0; j < grid.ny; ++j) {
+      sample_row(distance, grid, j, k, row);
+      store_row(row, (static_cast<std::size_t>(k) * grid.ny + j) * nx, grid.halves, words);
+    }
+  });
+  grid.words = std::make_shared<const std::vector<std::uint32_t>>(std::move(words));
+}
+
+// The lattice as the kernels read it.
+core_f64::Vessel kernel_vessel(const PreparedGrid& grid) {
+  core_f64::Vessel vessel;
+  vessel.is_grid = true;
+  vessel.grid = {
+      {grid.origin[0], grid.origin[1], grid.origin[2]}, grid.spacing, grid.nx, grid.ny, grid.nz, grid.halves, grid.words};
+  return vessel;
+}
+
+}  // namespace
+
+MeshGrid grid_of_mesh(const MeshDistance& distance, const CheckedMesh& mesh, const GridWish& wish) {
+  const std::vector<Triple> points = surface_points(mesh.mesh, SURFACE_SAMPLES);
+  MeshGrid made;
+  made.grid = wish.spacing > 0 ? given_grid(mesh.facts, wish) : choose_grid(distance, mesh.facts, points, wish);
+  sample_lattice(distance, made.grid, wish.threads);
+  const core_f64::Vessel vessel = kernel_vessel(made.grid);
+  made.error = largest_error(points, wish.threads, [&](const Triple& p) {
+    return core_f64::grid_distance(vessel, {p[0], p[1], p[2]});
+  });
+  return made;
+}
+
+}  // namespace wholehand
