@@ -1,4 +1,5 @@
-// sanitizers: address thread
+// sanitizers: address
+// (Embree starts workers that the thread sanitizer cannot see into, and then reports what they were given.)
 // Distances to meshes against closed forms and the outline's own, the side of a million points, and the lattices made of them.
 #include "sweeps/mesh_distance.h"
 
