@@ -28,10 +28,16 @@ constexpr int BYTE = 5120, UBYTE = 5121, SHORT = 5122, USHORT = 5123, UINT = 512
 constexpr int STRIP = 5, FAN = 6;
 constexpr double ROUNDING = 1e-7;  // m: single precision of some 10 cm
 
-std::string folder() {
-  const std::string path = testing::TempDir() + "wholehand-mesh-" + std::to_string(::getpid());
-  std::filesystem::create_directories(path);
-  return path;
+// A folder for this process, which goes with it.
+struct Folder {
+  std::string path = testing::TempDir() + "wholehand-mesh-" + std::to_string(::getpid());
+  Folder() { std::filesystem::create_directories(path); }
+  ~Folder() { std::filesystem::remove_all(path); }
+};
+
+const std::string& folder() {
+  static const Folder made;
+  return made.path;
 }
 
 std::string write(const std::string& name, const std::string& bytes) {
