@@ -15,6 +15,11 @@
 #include "sweeps/winding_tree.h"
 
 namespace wholehand {
+// A ray's direction, exact in single precision, and two vectors across it.
+struct RayFrame {
+  glm::dvec3 along, u, v;
+};
+
 namespace {
 
 // Embree's boxes and queries are in single precision. The boxes are this much larger, of the mesh's extent, than the triangles in them,
@@ -54,11 +59,6 @@ double triangle_distance_squared(const glm::dvec3& p, const glm::dvec3& a, const
   if (beyond_ca) nearest = std::min(nearest, segment_distance_squared(pc, ca));
   return nearest;
 }
-
-// A ray's direction, exact in single precision, and two vectors across it.
-struct RayFrame {
-  glm::dvec3 along, u, v;
-};
 
 RayFrame frame_along(float x, float y, float z) {
   const glm::dvec3 along(x, y, z), u = glm::normalize(glm::cross(along, glm::dvec3(0.3, -0.5, 0.8)));
