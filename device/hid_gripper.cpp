@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <utility>
 
 #include "core/error.h"
 #include "device/protocol.h"
@@ -186,17 +187,8 @@ std::vector<GripperFound> find_hid_grippers() {
   std::vector<GripperFound> grippers;
   for (const Listed& one : list()) {
     GripperFound found{"hid:" + one.path, one.product, "", ""};
-    protocol::Identity identity;
-    std::unique_ptr<HidTransport> transport = HidTransport::open(one.path, found.missing);
-    if (transport) found.missing = read_identity(*transport, identity);
-    if (found.missing.empty()) {
-      const GripperLimits limits = protocol::limits_of(identity, found.address);
-      found.name = limits.name;
-      found.summary = protocol::summary_of(limits);
-    } else {
-      found.address.clear();
-    }
-    grippers.push_back(found);
+    const std::unique_ptr<HidTransport> transport = HidTransport::open(one.path, found.missing);
+    grippers.push_back(described(std::move(found), transport.get()));
   }
   return grippers;
 }

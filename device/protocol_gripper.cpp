@@ -182,6 +182,19 @@ std::string read_identity(Transport& transport, protocol::Identity& identity) {
   return "";
 }
 
+GripperFound described(GripperFound found, Transport* transport) {
+  protocol::Identity identity;
+  if (transport) found.missing = read_identity(*transport, identity);
+  if (found.missing.empty()) {
+    const GripperLimits limits = protocol::limits_of(identity, found.address);
+    found.name = limits.name;
+    found.summary = protocol::summary_of(limits);
+  } else {
+    found.address.clear();
+  }
+  return found;
+}
+
 std::unique_ptr<Gripper> open_over(std::unique_ptr<Transport> transport, const std::string& address, double watchdog_s) {
   check_watchdog(watchdog_s);
   protocol::Identity identity;

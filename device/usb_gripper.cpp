@@ -482,17 +482,8 @@ std::vector<GripperFound> find_usb_grippers() {
     const std::optional<Part> part = gripper_part(device);
     if (!part) continue;
     GripperFound found{address_of(device), address_of(device), "", ""};
-    protocol::Identity identity;
-    std::unique_ptr<UsbTransport> transport = UsbTransport::open(context, device, *part, found.missing);
-    if (transport) found.missing = read_identity(*transport, identity);
-    if (found.missing.empty()) {
-      const GripperLimits limits = protocol::limits_of(identity, found.address);
-      found.name = limits.name;
-      found.summary = protocol::summary_of(limits);
-    } else {
-      found.address.clear();
-    }
-    grippers.push_back(found);
+    const std::unique_ptr<UsbTransport> transport = UsbTransport::open(context, device, *part, found.missing);
+    grippers.push_back(described(std::move(found), transport.get()));
   }
   return grippers;
 }
