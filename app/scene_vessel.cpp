@@ -32,7 +32,7 @@ MeshData read_mesh(const SceneTable& table) {
   table.read("mesh_scale", ranges::MESH_SCALE, mesh.scale);
   table.read("rotate_deg", ranges::ROTATION, "[x, y, z]", mesh.rotate);
   table.read("origin", {{"base", true}, {"as_is", false}}, mesh.origin_at_base);
-  table.read("grid_mm", ranges::GRID_SPACING, mesh.grid_spacing);
+  if (table.has("grid_mm")) table.need("grid_mm", ranges::GRID_SPACING, mesh.grid_spacing.emplace());
   return mesh;
 }
 

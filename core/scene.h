@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -78,6 +79,8 @@ struct OutlineElement {
   int column = 0;
 };
 
+struct MeshBody;  // core/mesh_body.h
+
 // A mesh vessel as the scene file names it.
 struct MeshData {
   std::string place;  // of the key, as above
@@ -85,7 +88,9 @@ struct MeshData {
   double scale = 1;
   Triple rotate{};  // rad
   bool origin_at_base = true;
-  double grid_spacing = 2e-3;  // m
+  std::optional<double> grid_spacing;  // m; absent: as wide as the wanted accuracy allows
+  std::vector<OutlineElement> inner;   // of the cavity: from [0, 0] up the axis to its floor, then rising to the mouth; empty: none
+  std::shared_ptr<const MeshBody> body;  // the file once it is read (sweeps/mesh_vessel.h); null before
 };
 
 struct GuidancePoint {
@@ -97,7 +102,8 @@ struct VesselData {
   std::string name;
   std::vector<OutlineElement> outline;  // from the axis at the base to the axis at the mouth; the last element is the mouth
   std::optional<MeshData> mesh;         // instead of an outline
-  double height = 0;                    // y of the mouth, m
+  double base = 0;                      // y of the lowest point, m; not 0 only for a mesh whose origin is as it is
+  double height = 0;                    // y of the mouth, m; of a mesh, of the highest point, once it is read
   double wall = 0;                      // m; 0: none given (then no liquid, no shell, and the mass is given)
   std::string wall_place;               // of the key, as above
   Surface surface = Surface::solid;
@@ -111,6 +117,8 @@ struct VesselData {
   double liquid_fill = 0;
   int line = 0;  // place in the scene file, for messages
   int column = 0;
+
+  bool has_cavity() const { return mesh ? !mesh->inner.empty() : wall > 0; }
 };
 
 struct LiquidData {

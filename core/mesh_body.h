@@ -1,0 +1,27 @@
+// A vessel read from a mesh file, as the kernels and the drawings need it: plain data, made by sweeps/mesh_vessel.h.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/prepare.h"
+
+namespace wholehand {
+
+// Vessel frame, m.
+struct MeshBody {
+  std::vector<Triple> vertices;                         // shared between triangles
+  std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise seen from outside
+  Triple low{}, high{};                                 // bounding box
+  double volume = 0;                                    // enclosed, m3, > 0
+  Triple center_of_mass{};                              // of that volume
+  bool holds_cavity = false;  // the inner outline lies within the enclosed volume: what it encloses is no glass
+  PreparedGrid grid;          // signed distance; of the right hand's scene
+  double grid_error = 0;      // of the lattice at the surface, m
+  std::string facts;          // what the check found, in one paragraph
+  std::string key;            // of the triangles and the lattice, hexadecimal: equal where both are equal
+};
+
+}  // namespace wholehand
