@@ -87,7 +87,7 @@ ExitCode run_check(const Scene& scene, const CheckOptions& options) {
     on_double = std::make_unique<host::GripBackend>(device_scene, device_core, fields, options.on, backend_options);
   }
   const Plan plan(scene, true);
-  Comparer translation(scene, *core, allowance(Precision::single)), cost(scene, *core, allowance(Precision::single)),
+  Comparer translation(scene, *core, allowance(Precision::single)), cost(scene, *core, float_against_double()),
       exact(scene, *core, allowance(Precision::full));
   for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
     const auto grips = sample_grips(plan, v);

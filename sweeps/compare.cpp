@@ -55,8 +55,14 @@ const std::vector<int> DISCRETE{FIELD_STATUS,      FIELD_TOUCH_MASK, FIELD_TIP_M
 // Roundings that one number gathers on its way through a kernel, as a share of the quantity's largest value.
 constexpr double ROUNDINGS = 64;
 
-bool differs(const GatheredPlanes& a, const GatheredPlanes& b, std::size_t i) {
-  return std::any_of(DISCRETE.begin(), DISCRETE.end(), [&](int field) { return a.uint(field, i) != b.uint(field, i); });
+// Whether an iteration of the grip took all its steps.
+constexpr std::uint32_t ALL_STEPS = STATUS_PROXY_UNSETTLED | 0x1Fu << STATUS_UNSETTLED_SHIFT;
+
+bool differs(const GatheredPlanes& a, const GatheredPlanes& b, std::size_t i, bool same_stop) {
+  return std::any_of(DISCRETE.begin(), DISCRETE.end(), [&](int field) {
+    const std::uint32_t left_out = field == FIELD_STATUS && !same_stop ? ALL_STEPS : 0;
+    return ((a.uint(field, i) ^ b.uint(field, i)) & ~left_out) != 0;
+  });
 }
 
 bool grazes(const GatheredPlanes& planes, std::size_t i) { return (planes.uint(FIELD_STATUS, i) & STATUS_GRAZING) != 0; }
@@ -182,8 +188,14 @@ GatheredPlanes gather(const Evaluator& core, const FieldSet& fields, std::size_t
 }
 
 Allowance allowance(Precision precision) {
-  if (precision == Precision::single) return {std::numeric_limits<float>::epsilon(), STOP_TOLERANCE_F32, LEVEL_TOLERANCE_F32};
-  return {std::numeric_limits<double>::epsilon(), STOP_TOLERANCE_F64, LEVEL_TOLERANCE_F64};
+  if (precision == Precision::single) return {std::numeric_limits<float>::epsilon(), STOP_TOLERANCE_F32, LEVEL_TOLERANCE_F32, true};
+  return {std::numeric_limits<double>::epsilon(), STOP_TOLERANCE_F64, LEVEL_TOLERANCE_F64, true};
+}
+
+Allowance float_against_double() {
+  Allowance allowed = allowance(Precision::single);
+  allowed.same_stop = false;
+  return allowed;
 }
 
 Comparer::Comparer(const Scene& scene, const Evaluator& core, Allowance allowed) : scene_(scene), core_(core), allowed_(allowed) {
@@ -223,7 +235,7 @@ void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, cons
       if (std::isfinite(difference)) spread[k] = std::max(spread[k], difference);  // else another outcome: undecided
     }
     for (std::size_t i = 0; i < n; ++i) {
-      undecided[i] |= differs(other, truth, i) ? 1 : 0;
+      undecided[i] |= differs(other, truth, i, allowed_.same_stop) ? 1 : 0;
       may_graze[i] |= grazes(other, i) ? 1 : 0;
     }
   };
@@ -249,7 +261,7 @@ void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, cons
       continue;
     }
     ++outcomes.compared;
-    if (!differs(a, b, i)) continue;
+    if (!differs(a, b, i, allowed_.same_stop)) continue;
     left_out[i] = 1;
     flips_.push_back({vessel, i, undecided[i] != 0});
     if (undecided[i] != 0) {

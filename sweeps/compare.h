@@ -63,8 +63,13 @@ struct Allowance {
   double epsilon = 0;          // of the reals
   double stop_tolerance = 0;   // m
   double level_tolerance = 0;  // of the capacity
+  // Both sides stop at that tolerance. Where one goes on to a finer one, it may spend its steps on a corner of a lattice that the other
+  // was done with: which side took all of them is then no outcome.
+  bool same_stop = true;
 };
 Allowance allowance(Precision precision);
+// Float on one side, double on the other.
+Allowance float_against_double();
 
 // Gathers comparisons vessel by vessel.
 class Comparer {

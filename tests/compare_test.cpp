@@ -70,6 +70,24 @@ TEST_F(Compare, FindsALengthThatIsOffByMicrometres) {
   EXPECT_EQ(all, gaps);
 }
 
+// Float is done with a corner at 1e-6 m, where double may spend its steps on the way to 1e-9.
+TEST_F(Compare, SpentStepsAreAnOutcomeOnlyAtOneStopTolerance) {
+  GatheredPlanes other = planes_;
+  for (std::size_t i = 0; i < grips_.size(); ++i) {
+    if (feasible(i))
+      other.uints[other.fields.plane[FIELD_STATUS] * other.count + i] ^= STATUS_PROXY_UNSETTLED | 4u << STATUS_UNSETTLED_SHIFT;
+  }
+  const auto outside_of = [&](Allowance allowed) {
+    Comparer comparer(scene_, *core_, allowed);
+    comparer.add(0, grips_, other, planes_);
+    std::uint64_t all = 0;
+    for (const Comparison& row : comparer.rows()) all += row.outside;
+    return all;
+  };
+  EXPECT_EQ(outside_of(allowance(Precision::single)), feasible_grips());
+  EXPECT_EQ(outside_of(float_against_double()), 0u);
+}
+
 TEST_F(Compare, FindsANumberThatIsNotThere) {
   const auto nan = [&](GatheredPlanes& planes, std::size_t i) {
     real(planes, FIELD_CLOSURE, 0, i) = std::numeric_limits<double>::quiet_NaN();
