@@ -8,6 +8,7 @@
 #include "app/scene_reader.h"
 #include "app/validators.h"
 #include "sweeps/check.h"
+#include "sweeps/mesh_vessel.h"
 
 namespace wholehand {
 namespace {
@@ -32,7 +33,9 @@ void add_check_command(CLI::App& app, Action& action) {
     action = [arguments] {
       CheckOptions options;
       options.on = arguments->on;
-      return run_check(read_scene_file(find_scene(arguments->scene)), options);
+      Scene scene = read_scene_file(find_scene(arguments->scene));
+      load_meshes(scene, options.on);
+      return run_check(scene, options);
     };
   });
 }

@@ -18,6 +18,7 @@
 #include "sweeps/grip_glb.h"
 #include "sweeps/grip_report.h"
 #include "sweeps/grip_svg.h"
+#include "sweeps/mesh_vessel.h"
 
 namespace wholehand {
 namespace {
@@ -95,7 +96,7 @@ void write_drawings(const GripArguments& arguments, const Scene& scene, std::siz
 
 ExitCode grip(const GripArguments& arguments) {
   const GripInput input = read_grip(arguments);
-  const Scene scene = read_scene_file(find_scene(arguments.scene));
+  Scene scene = read_scene_file(find_scene(arguments.scene));
   check_drawing_files(arguments, scene);
   const std::size_t vessel = find_vessel(scene, arguments.vessel);
   const StateAxes axes = read_states(arguments, scene);
@@ -103,6 +104,8 @@ ExitCode grip(const GripArguments& arguments) {
   if (!arguments.precision.empty()) precision = parse_precision(arguments.precision);
   Scene asked = scene;
   asked.grips.hand_scale = {{input.hand_scale}};
+  load_meshes(asked, arguments.on);  // lattices as wide as this hand needs
+  scene.vessels = asked.vessels;
   for (const std::string& line : domain_warnings(asked, precision)) std::fprintf(stderr, "wholehand: %s\n", line.c_str());
   const GripReport report = make_grip_report(scene, vessel, input, axes, open_grip_methods(scene, arguments.on, precision));
   write_drawings(arguments, scene, vessel, report);

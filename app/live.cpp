@@ -27,6 +27,7 @@
 #include "device/replay_gripper.h"
 #include "sweeps/gains.h"
 #include "sweeps/interrupt.h"
+#include "sweeps/mesh_vessel.h"
 #include "sweeps/progress.h"
 #include "sweeps/recorder.h"
 #include "sweeps/recording.h"
@@ -173,6 +174,7 @@ class LiveRun {
     } else {
       scene_ = read_scene_file(find_scene(options_.scene.empty() ? DEFAULT_LIVE_SCENE : options_.scene));
     }
+    load_meshes(scene_, "core");
     if (recording) scene_.live.rate = recording->info.rate;
     if (options_.rate > 0) scene_.live.rate = options_.rate;
     if (recording) {

@@ -9,6 +9,8 @@
 namespace wholehand {
 namespace {
 
+constexpr int TURNS = 24;  // azimuths of a mesh where the scene gives none: every 15 degrees
+
 // {from, to, count}: equal steps, both ends included. Without a count (where that is allowed) only its ends.
 struct Range {
   double from = 0, to = 0;
@@ -99,7 +101,11 @@ void read_axis(const SceneTable& grips, const char* key, const Quantity& quantit
 
 }  // namespace
 
-void read_grips(const SceneTable& root, GripsData& grips) {
+void read_grips(const SceneTable& root, bool turns, GripsData& grips) {
+  if (turns) {
+    grips.azimuth = {{}, true, 0, radians(360)};
+    for (int k = 0; k < TURNS; ++k) grips.azimuth.values.push_back(radians(360.0 * k / TURNS));
+  }
   const auto table = root.table("grips", {"height_mm", "height_fraction", "azimuth_deg", "obliquity_deg", "roll_deg", "offset_mm",
                                           "hand_scale", "sampling", "count", "seed"});
   if (!table) return;

@@ -12,6 +12,7 @@
 namespace wholehand {
 namespace {
 
+constexpr const char* ELEMENTS = "each {line = [r, y]} or {arc = [r, y], center = [r, y]}";
 constexpr double SHORTEST_ELEMENT = 1e-3;  // mm
 // An end at 50.001 is less than that from one at 50, by rounding of either: this much of it may be missing.
 constexpr double ROUNDED_AWAY = 1e-6;
@@ -43,18 +44,18 @@ Point read_point(const SceneFile& file, const toml::node& node, const char* what
           read_number(file, (*pair)[1], fmt::format("y of {}", what), y_plain)};
 }
 
-RawElement read_element(const SceneFile& file, const toml::node& node, const Point& start) {
+RawElement read_element(const SceneFile& file, const toml::node& node, const std::string& key, const Point& start) {
   const toml::table* table = node.as_table();
-  const std::string allowed = "allowed: {line = [r, y]} or {arc = [r, y], center = [r, y]}";
-  if (!table) file.refuse(place_of(node), "an element of outline " + found(node), allowed);
-  const SceneTable element(file, *table, "an element of outline", {"line", "arc", "center"});
+  const std::string allowed = "allowed: {line = [r, y]} or {arc = [r, y], center = [r, y]}", what = "an element of " + key;
+  if (!table) file.refuse(place_of(node), what + " " + found(node), allowed);
+  const SceneTable element(file, *table, what, {"line", "arc", "center"});
   const bool is_line = element.has("line"), is_arc = element.has("arc"), has_center = element.has("center");
   const char* fault = is_line && is_arc       ? "both 'line' and 'arc'"
                       : !is_line && !is_arc   ? "neither 'line' nor 'arc'"
                       : is_arc && !has_center ? "'arc' and no 'center'"
                       : is_line && has_center ? "'line' and 'center'"
                                               : nullptr;
-  if (fault) file.refuse(element.place(), fmt::format("an element of outline with {}", fault), allowed);
+  if (fault) file.refuse(element.place(), fmt::format("{} with {}", what, fault), allowed);
   RawElement raw;
   raw.place = element.place();
   if (!is_arc) {
@@ -113,6 +114,38 @@ void check_element(const SceneFile& file, const RawElement& raw, bool is_last) {
   }
 }
 
+OutlineElement in_metres(const RawElement& raw) {
+  const auto to_metres = [](const Point& p) { return Point{to_si(p[0], Unit::mm), to_si(p[1], Unit::mm)}; };
+  return {raw.curve.is_arc, to_metres(raw.curve.b), to_metres(raw.curve.center), raw.place.line, raw.place.column};
+}
+
+// A cavity has one radius at each height.
+void check_inner_element(const SceneFile& file, const RawElement& raw, bool is_first, bool is_last) {
+  const PlaneCurve& curve = raw.curve;
+  if (is_first) {
+    if (!curve.is_arc && curve.b[0] == 0) return;
+    file.refuse(raw.place, fmt::format("the inner outline begins at {}, off the axis", show(curve.b)),
+                "allowed: as the first element where the cavity's floor meets the axis, {line = [0, y]}");
+  }
+  if (distance(curve.a, curve.b) < SHORTEST_ELEMENT * (1 - ROUNDED_AWAY)) {
+    file.refuse(raw.place, fmt::format("an element of no length, from {} to {}", show(curve.a), show(curve.b)),
+                fmt::format("allowed: elements of at least {} mm", SHORTEST_ELEMENT));
+  }
+  const double top = curve.extent(PI / 2), bottom = -curve.extent(-PI / 2), leftmost = -curve.extent(PI);
+  if (curve.b[1] < curve.a[1] || top > curve.b[1] + TOUCHING || bottom < curve.a[1] - TOUCHING) {
+    file.refuse(raw.place, fmt::format("the inner outline falls between {} and {}", show(curve.a), show(curve.b)),
+                "allowed: elements that rise or are level, as a cavity has one radius at each height");
+  }
+  if (leftmost < -TOUCHING) {
+    file.refuse(raw.place, fmt::format("the inner outline leaves its half plane: it reaches r = {}", show(leftmost)),
+                "allowed: r >= 0");
+  }
+  if (is_last && (curve.b[0] <= TOUCHING || curve.b[1] <= curve.a[1])) {
+    file.refuse(raw.place, fmt::format("the inner outline ends at {}, which is no mouth", show(curve.b)),
+                "allowed: as the last element one that rises to the mouth's edge, off the axis");
+  }
+}
+
 void check_whole(const SceneFile& file, const std::vector<RawElement>& elements) {
   const double mouth = elements.back().curve.b[1];
   for (const RawElement& raw : elements) {
@@ -141,26 +174,37 @@ void check_whole(const SceneFile& file, const std::vector<RawElement>& elements)
 
 Silhouette read_outline(const SceneTable& vessel) {
   const SceneFile& file = vessel.file();
-  const auto* array =
-      vessel.array("outline", 2, ranges::LARGEST_OUTLINE, "each {line = [r, y]} or {arc = [r, y], center = [r, y]}");
+  const auto* array = vessel.array("outline", 2, ranges::LARGEST_OUTLINE, ELEMENTS);
   std::vector<RawElement> elements;
   Point at{0, 0};
   for (const toml::node& node : *array) {
-    elements.push_back(read_element(file, node, at));
+    elements.push_back(read_element(file, node, "outline", at));
     check_element(file, elements.back(), elements.size() == array->size());
     at = elements.back().curve.b;
   }
   check_whole(file, elements);
 
   Silhouette silhouette;
-  const auto to_metres = [](const Point& p) { return Point{to_si(p[0], Unit::mm), to_si(p[1], Unit::mm)}; };
   for (const RawElement& raw : elements) {
-    silhouette.elements.push_back(
-        {raw.curve.is_arc, to_metres(raw.curve.b), to_metres(raw.curve.center), raw.place.line, raw.place.column});
+    silhouette.elements.push_back(in_metres(raw));
     silhouette.largest_radius = std::max(silhouette.largest_radius, to_si(raw.curve.extent(0), Unit::mm));
   }
   silhouette.height = to_si(at[1], Unit::mm);
   return silhouette;
+}
+
+std::vector<OutlineElement> read_inner_outline(const SceneTable& vessel) {
+  std::vector<OutlineElement> elements;
+  const toml::array* array = vessel.array("inner_outline", 2, ranges::LARGEST_OUTLINE, ELEMENTS);
+  if (!array) return elements;
+  Point at{0, 0};
+  for (const toml::node& node : *array) {
+    const RawElement raw = read_element(vessel.file(), node, "inner_outline", at);
+    check_inner_element(vessel.file(), raw, elements.empty(), elements.size() + 1 == array->size());
+    elements.push_back(in_metres(raw));
+    at = raw.curve.b;
+  }
+  return elements;
 }
 
 }  // namespace wholehand

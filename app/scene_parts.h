@@ -25,9 +25,12 @@ struct Silhouette {
 };
 Silhouette read_shape(const SceneTable& vessel, const std::string& shape);
 Silhouette read_outline(const SceneTable& vessel);
+// Of a mesh's cavity, as MeshData has it; empty where the vessel gives none.
+std::vector<OutlineElement> read_inner_outline(const SceneTable& vessel);
 
 // ---- scene_grips.cpp ----
-void read_grips(const SceneTable& root, GripsData& grips);
+// `turns`: some vessel is no body of revolution, so that without a word the azimuth goes round.
+void read_grips(const SceneTable& root, bool turns, GripsData& grips);
 void read_tilts(const SceneTable& root, std::vector<double>& tilts);
 void read_liquid(const SceneTable& root, std::optional<LiquidData>& liquid);
 

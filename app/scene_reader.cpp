@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -48,7 +49,9 @@ void read_scene(const SceneTable& root, Scene& scene) {
   read_liquid(root, scene.liquid);
   check_vessels(root, scene);
   read_force(root, scene.force);
-  read_grips(root, scene.grips);
+  const bool has_mesh =
+      std::any_of(scene.vessels.begin(), scene.vessels.end(), [](const VesselData& vessel) { return vessel.mesh.has_value(); });
+  read_grips(root, has_mesh, scene.grips);
   read_tilts(root, scene.tilts);
   read_score(root, !scene.tilts.empty(), scene.score);
   read_output(root, scene.output);

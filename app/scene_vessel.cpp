@@ -9,13 +9,12 @@
 namespace wholehand {
 namespace {
 
-constexpr std::array<std::string_view, 22> VESSEL_KEYS{
-    "name",          "shape",       "diameter_mm", "height_mm",     "neck_mm",    "upright_mm",
-    "shoulder_mm",   "outline",     "mesh",        "mesh_scale",    "rotate_deg", "origin",
-    "grid_mm",       "wall_mm",     "surface",     "density_kg_m3", "mass_kg",    "center_of_mass_mm",
-    "force_range_N", "guidance_mm", "place_mm",    "liquid"};
+constexpr std::array<std::string_view, 23> VESSEL_KEYS{
+    "name",          "shape",      "diameter_mm",       "height_mm",     "neck_mm",     "upright_mm",    "shoulder_mm", "outline",
+    "mesh",          "mesh_scale", "rotate_deg",        "origin",        "grid_mm",     "inner_outline", "wall_mm",     "surface",
+    "density_kg_m3", "mass_kg",    "center_of_mass_mm", "force_range_N", "guidance_mm", "place_mm",      "liquid"};
 constexpr std::array<std::string_view, 5> SHAPE_KEYS{"diameter_mm", "height_mm", "neck_mm", "upright_mm", "shoulder_mm"};
-constexpr std::array<std::string_view, 4> MESH_KEYS{"mesh_scale", "rotate_deg", "origin", "grid_mm"};
+constexpr std::array<std::string_view, 5> MESH_KEYS{"mesh_scale", "rotate_deg", "origin", "grid_mm", "inner_outline"};
 
 void refuse_keys(const SceneTable& table, std::span<const std::string_view> keys, const std::string& without) {
   for (const auto key : keys) {
@@ -33,6 +32,13 @@ MeshData read_mesh(const SceneTable& table) {
   table.read("rotate_deg", ranges::ROTATION, "[x, y, z]", mesh.rotate);
   table.read("origin", {{"base", true}, {"as_is", false}}, mesh.origin_at_base);
   if (table.has("grid_mm")) table.need("grid_mm", ranges::GRID_SPACING, mesh.grid_spacing.emplace());
+  mesh.inner = read_inner_outline(table);
+  // what is in the file is hull and wall at once
+  for (const char* key : {"wall_mm", "surface"}) {
+    if (table.has(key))
+      table.file().refuse(table.place(key), fmt::format("{} of a mesh", key),
+                          "allowed: with 'shape' and 'outline'; a mesh has the walls of its file, and a cavity by 'inner_outline'");
+  }
   return mesh;
 }
 
@@ -74,7 +80,7 @@ void read_wall(const SceneTable& table, VesselData& vessel, const Silhouette& si
   if (vessel.surface == Surface::shell && !table.has("wall_mm")) {
     table.file().refuse(table.place("surface"), "surface = 'shell' without a wall", "allowed: with 'wall_mm'");
   }
-  if (vessel.mesh || !table.has("wall_mm")) return;
+  if (!table.has("wall_mm")) return;
   // what the wall leaves inside is looked at more closely when the vessel is prepared
   if (vessel.wall >= silhouette.largest_radius) {
     table.file().refuse(table.place("wall_mm"), "wall_mm " + found(*table.find("wall_mm")),
@@ -165,9 +171,13 @@ void read_vessels(const SceneTable& root, Scene& scene) {
 void check_vessels(const SceneTable& root, const Scene& scene) {
   for (const VesselData& vessel : scene.vessels) {
     const Place place{vessel.line, vessel.column};
-    if (scene.liquid && vessel.wall == 0) {
+    if (vessel.mesh && vessel.mesh->inner.empty() && !vessel.liquid_name.empty()) {
+      root.file().refuse(place, fmt::format("vessel '{}' has a liquid and is a mesh without 'inner_outline'", vessel.name),
+                         "allowed: with 'inner_outline', the cavity that holds it");
+    }
+    if (scene.liquid && !vessel.mesh && vessel.wall == 0) {
       root.file().refuse(place, fmt::format("vessel '{}' has no 'wall_mm', and [liquid] asks what it holds", vessel.name),
-                         "allowed: 'wall_mm' in every vessel, or no [liquid]");
+                         "allowed: 'wall_mm' in every shape and outline, or no [liquid]");
     }
     if (!scene.liquid && !vessel.liquid_name.empty()) {
       root.file().refuse(place, fmt::format("vessel '{}' has a liquid, and the scene no [liquid]", vessel.name),

@@ -10,6 +10,7 @@
 #include "core/grip.h"
 #include "core/held.h"
 #include "core/load.h"
+#include "core/mesh_body.h"
 #include "core/score.h"
 #include "core/trig.h"
 
@@ -72,17 +73,17 @@ class CoreEvaluator final : public wholehand::Evaluator {
     }
     hand_.limits = limits_of(options);
     const bool with_liquid = scene.liquid.has_value();
-    wholehand::refuse_meshes(scene);
     for (const auto& data : scene.vessels) {
-      const bool needs_cavity = data.wall > 0;
       VesselEntry entry;
-      const wholehand::PreparedVessel prepared = wholehand::prepare_vessel(data, needs_cavity);
+      const wholehand::PreparedVessel prepared = wholehand::prepare_vessel(data, data.has_cavity());
       entry.vessel = load_vessel(prepared, data, quadrature_, with_liquid, scene.hand.handedness);
-      if (options.grid_samples > 0) {
+      if (data.mesh) {
+        entry.grid = wholehand::mirrored(data.mesh->body->grid, scene.hand.handedness);
+      } else if (options.grid_samples > 0) {
         entry.grid =
             wholehand::prepare_grid(prepared, options.grid_samples, options.grid_bits == 16, wholehand::grid_margin(scene));
-        use_grid(entry.vessel, load_grid(*entry.grid));
       }
+      if (entry.grid) use_grid(entry.vessel, load_grid(*entry.grid));
       entry.vessel.limits = hand_.limits;
       entry.force = load_force(scene, data);
       entries_.push_back(std::move(entry));
@@ -259,11 +260,15 @@ class CoreEvaluator final : public wholehand::Evaluator {
     }
   }
 
-  double distance(std::size_t v, const Triple& point) const override { return signed_distance(entries_[v].vessel, to_vec(point)); }
+  double distance(std::size_t v, const Triple& point) const override {
+    return signed_distance(entries_[v].vessel, to_vec(wholehand::mirrored(point, scene_.hand.handedness)));
+  }
 
   Triple gradient(std::size_t v, const Triple& point) const override {
     int element = -1;
-    return to_triple(distance_gradient(entries_[v].vessel, to_vec(point), element));
+    const Vec3 gradient =
+        distance_gradient(entries_[v].vessel, to_vec(wholehand::mirrored(point, scene_.hand.handedness)), element);
+    return wholehand::mirrored(to_triple(gradient), scene_.hand.handedness);
   }
 
   wholehand::VesselConstants constants(std::size_t v) const override {
@@ -340,7 +345,8 @@ class CoreEvaluator final : public wholehand::Evaluator {
     const LiquidResult most = wet ? liquid(v, scene_.liquid->fills.back(), 0) : LiquidResult{};
     entry.largest = load_of(entry, most);
     entry.largest_share = entry.largest.mass > 0 ? Real(most.mass) / entry.largest.mass : Real(0);
-    entry.force.reference = object_reference(entry.largest, entry.force.gravity, Real(scene_.vessels[v].height));
+    entry.force.reference =
+        object_reference(entry.largest, entry.force.gravity, Real(scene_.vessels[v].base), Real(scene_.vessels[v].height));
   }
 
   HeldForces force_state(const VesselEntry& entry, Vec3 direction, Vec3 midpoint, bool antipodal, const Load& load, Real sine_tilt,

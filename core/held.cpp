@@ -16,9 +16,9 @@ Load load_with(const Vessel& vessel, Real liquid_mass, Real lean, Real height) {
   return load;
 }
 
-Real object_reference(Load largest, Real gravity, Real mouth_height) {
+Real object_reference(Load largest, Real gravity, Real base_height, Real mouth_height) {
   const Real center = largest.fixed.y + largest.height;
-  return largest.mass * gravity * std::max(center, mouth_height - center);
+  return largest.mass * gravity * std::max(center - base_height, mouth_height - center);
 }
 
 HeldForces held_forces(const ForceScale& scale, Load load, Load largest, Vec3 direction, Vec3 midpoint, Vec3 pour, Real sine_tilt,

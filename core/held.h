@@ -8,8 +8,8 @@ namespace CORE_NS {
 
 // The vessel with liquid of a mass (kg) whose centre lies at `lean` along the pour direction and `height`, m.
 Load load_with(const Vessel& vessel, Real liquid_mass, Real lean, Real height);
-// tau_ref of a vessel: its largest load upright, about the farther of base and mouth, N m; `mouth_height` in m.
-Real object_reference(Load largest, Real gravity, Real mouth_height);
+// tau_ref of a vessel: its largest load upright, about the farther of base and mouth (heights in m), N m.
+Real object_reference(Load largest, Real gravity, Real base_height, Real mouth_height);
 
 // Forces in N, torques in N m, lengths in m; `center` of mass in the vessel frame.
 struct HeldForces {

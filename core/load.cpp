@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/mesh_body.h"
 #include "core/trig.h"
 
 namespace CORE_NS {
@@ -12,22 +13,31 @@ namespace {
 Vec3 to_vec(const wholehand::Triple& t) { return Vec3(Real(t[0]), Real(t[1]), Real(t[2])); }
 Vec2 to_vec(const std::array<double, 2>& t) { return Vec2(Real(t[0]), Real(t[1])); }
 
-// Mass and centre of mass of the wall: what the hull encloses less the cavity, by revolution of their elements.
-void weigh_wall(Vessel& vessel, const wholehand::PreparedVessel& prepared, const Quadrature& quadrature, Real density) {
+// Mass and centre of mass of the wall: what the hull encloses less the cavity, by revolution of their elements; of a mesh, what it
+// encloses, less the cavity where that is enclosed too.
+void weigh_wall(Vessel& vessel, const wholehand::PreparedVessel& prepared, const wholehand::VesselData& data,
+                const Quadrature& quadrature, wholehand::Handedness handedness) {
+  const wholehand::MeshBody* body = data.mesh ? data.mesh->body.get() : nullptr;
   Real volume = 0;
-  Real moment = 0;
+  Vec3 moment(0);
+  if (body) {
+    volume = Real(body->volume);
+    moment = volume * to_vec(wholehand::mirrored(body->center_of_mass, handedness));
+  }
   for (const auto& element : prepared.hull) {
     const Slices part = revolved_element(quadrature, load_element(element));
     volume += part.volume;
-    moment += part.height;
+    moment.y += part.height;
   }
-  for (const auto& piece : vessel.cavity) {
-    const Slices part = revolved_element(quadrature, piece);
-    volume -= part.volume;
-    moment -= part.height;
+  if (!body || body->holds_cavity) {
+    for (const auto& piece : vessel.cavity) {
+      const Slices part = revolved_element(quadrature, piece);
+      volume -= part.volume;
+      moment.y -= part.height;
+    }
   }
-  vessel.mass = density * volume;
-  vessel.center_of_mass = Vec3(0, moment / volume, 0);
+  vessel.mass = Real(data.density) * volume;
+  vessel.center_of_mass = moment / volume;
 }
 
 }  // namespace
@@ -91,9 +101,9 @@ Vessel load_vessel(const wholehand::PreparedVessel& prepared, const wholehand::V
     vessel.mass = Real(*data.mass);
     vessel.center_of_mass = to_vec(wholehand::mirrored(data.center_of_mass, handedness));
   } else {
-    weigh_wall(vessel, prepared, quadrature, Real(data.density));
+    weigh_wall(vessel, prepared, data, quadrature, handedness);
   }
-  if (with_liquid) {
+  if (with_liquid && !vessel.cavity.empty()) {
     vessel.capacity = lip_capacity(vessel, quadrature, Real(0), Real(1));
     for (int degree = 0; degree < WHOLE_DEGREES; ++degree) {
       const Real tilt = Real(wholehand::radians(degree));

@@ -15,7 +15,7 @@ Hand load_hand(const wholehand::PreparedHand& prepared, const wholehand::HandDat
 Quadrature load_quadrature(const wholehand::PreparedQuadrature& prepared);
 Element load_element(const wholehand::PreparedElement& element);
 
-// `density` of the glass or its given mass; lip capacities at whole degrees where `with_liquid`. The centre of mass is mirrored in x
+// `density` of the glass or its given mass; lip capacities at whole degrees where `with_liquid` and there is a cavity. The centre of mass is mirrored in x
 // for a left hand.
 Vessel load_vessel(const wholehand::PreparedVessel& prepared, const wholehand::VesselData& data, const Quadrature& quadrature,
                    bool with_liquid, wholehand::Handedness handedness);

@@ -9,6 +9,7 @@
 #include "core/half.h"
 #include "core/hand.h"
 #include "core/load.h"
+#include "core/mesh_body.h"
 
 namespace wholehand {
 namespace {
@@ -101,6 +102,26 @@ void set_bounds(PreparedVessel& prepared) {
   prepared.largest_radius = widest;
 }
 
+PreparedVessel prepare_mesh(const VesselData& vessel, bool needs_cavity) {
+  if (!vessel.mesh->body) throw failure_error("vessel '" + vessel.name + "': its mesh has not been read");
+  const MeshBody& body = *vessel.mesh->body;
+  PreparedVessel prepared;
+  prepared.mouth_height = vessel.height;
+  if (needs_cavity) {
+    prepared.cavity = inner_cavity(vessel.mesh->inner);
+    prepared.floor_height = prepared.cavity.front().a[1];
+    prepared.mouth_height = prepared.cavity.back().b[1];
+    prepared.mouth_radius = prepared.cavity.back().b[0];
+  }
+  prepared.bound_height = 0.5 * (body.low[1] + body.high[1]);
+  for (const Triple& p : body.vertices) {
+    const double across = std::hypot(p[0], p[2]);
+    prepared.largest_radius = std::max(prepared.largest_radius, across);
+    prepared.bound_radius = std::max(prepared.bound_radius, std::hypot(across, p[1] - prepared.bound_height));
+  }
+  return prepared;
+}
+
 Triple rotate_x(double angle, const Triple& v) {
   const double c = std::cos(angle), s = std::sin(angle);
   return {v[0], c * v[1] - s * v[2], s * v[1] + c * v[2]};
@@ -127,16 +148,15 @@ std::vector<PreparedElement> monotone_elements(const std::vector<OutlineElement>
   return elements;
 }
 
-void refuse_meshes(const Scene& scene) {
-  for (const VesselData& vessel : scene.vessels) {
-    if (!vessel.mesh) continue;
-    throw usage_error(
-        at_place(vessel.mesh->place,
-                 "vessel '" + vessel.name + "' is a mesh, which cannot be evaluated yet; describe it by shape or outline"));
-  }
+std::vector<PreparedElement> inner_cavity(const std::vector<OutlineElement>& inner) {
+  std::vector<PreparedElement> cavity = monotone_elements(inner);
+  cavity.erase(cavity.begin());  // up the axis to the floor
+  std::erase_if(cavity, [](const PreparedElement& e) { return e.a[1] == e.b[1]; });
+  return cavity;
 }
 
 PreparedVessel prepare_vessel(const VesselData& vessel, bool needs_cavity) {
+  if (vessel.mesh) return prepare_mesh(vessel, needs_cavity);
   PreparedVessel prepared;
   prepared.hull = monotone_elements(vessel.outline);
   prepared.mouth_height = prepared.hull.back().a[1];
@@ -287,6 +307,26 @@ GripInput mirrored(const GripInput& grip, Handedness handedness) {
   // the line's direction mirrored in x has the azimuth pi - a, and the side direction d x y then changes sign
   result.azimuth = PI - grip.azimuth;
   result.offset = -grip.offset;
+  return result;
+}
+
+PreparedGrid mirrored(const PreparedGrid& grid, Handedness handedness) {
+  if (handedness == Handedness::right) return grid;
+  PreparedGrid result = grid;
+  result.origin[0] = -(grid.origin[0] + (grid.nx - 1) * grid.spacing);
+  const std::size_t rows = static_cast<std::size_t>(grid.ny) * grid.nz, nx = grid.nx;
+  std::vector<std::uint32_t> words(grid.words->size());
+  const auto half_at = [&](std::size_t at) { return (*grid.words)[at / 2] >> (at % 2 == 0 ? 0 : 16) & 0xFFFFu; };
+  for (std::size_t row = 0; row < rows; ++row)
+    for (std::size_t i = 0; i < nx; ++i) {
+      const std::size_t from = row * nx + i, to = row * nx + nx - 1 - i;
+      if (grid.halves) {
+        words[to / 2] |= half_at(from) << (to % 2 == 0 ? 0 : 16);
+      } else {
+        words[to] = (*grid.words)[from];
+      }
+    }
+  result.words = std::make_shared<const std::vector<std::uint32_t>>(std::move(words));
   return result;
 }
 

@@ -28,7 +28,7 @@ struct PreparedVessel {
   std::vector<PreparedElement> cavity;   // y ascending, empty without a wall
   double floor_height = 0, mouth_height = 0, mouth_radius = 0;
   double bound_height = 0, bound_radius = 0;
-  double largest_radius = 0;  // of the hull
+  double largest_radius = 0;  // of the hull, or of the mesh about the axis
 };
 
 struct PreparedHand {
@@ -64,10 +64,11 @@ std::vector<PreparedElement> monotone_elements(const std::vector<OutlineElement>
 // with the vessel's name where the wall leaves no cavity, closes it half way up, or makes it fold over itself.
 std::vector<PreparedElement> inner_offset(const std::vector<PreparedElement>& hull, double wall, const VesselData& vessel);
 
-// Throws Error (usage), with the place in the scene file, where a vessel is a mesh: none is evaluated yet.
-void refuse_meshes(const Scene& scene);
+// The cavity of a mesh by its inner outline; its level elements, which hold nothing, are left out.
+std::vector<PreparedElement> inner_cavity(const std::vector<OutlineElement>& inner);
 
-// Of a vessel with an outline. Throws Error (usage) for what inner_offset refuses.
+// A mesh has neither hull nor outline: its distance is its body's lattice. Throws Error: (usage) for what inner_offset refuses, (failure)
+// for a mesh that has not been read.
 PreparedVessel prepare_vessel(const VesselData& vessel, bool needs_cavity);
 
 // Throws Error (usage) where the gap is not strictly decreasing at 1,025 equal steps of the closure, naming where it turns.
@@ -87,5 +88,6 @@ PreparedQuadrature prepare_quadrature(int points);
 // A left hand is the right hand in the scene mirrored in x: the grip of that mirrored scene, and a point mirrored back.
 GripInput mirrored(const GripInput& grip, Handedness handedness);
 Triple mirrored(const Triple& point, Handedness handedness);
+PreparedGrid mirrored(const PreparedGrid& grid, Handedness handedness);
 
 }  // namespace wholehand

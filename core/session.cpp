@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/load.h"
+#include "core/mesh_body.h"
 #include "core/prepare.h"
 #include "core/trig.h"
 
@@ -34,13 +35,15 @@ std::vector<double> volumes_of(const LiveScene& live) {
 
 LiveVessel load_live_vessel(const Scene& scene, const VesselData& data, const core_f64::Quadrature& quadrature) {
   const bool is_left = scene.hand.handedness == Handedness::left;
-  if (data.liquid_fill > 0 && !(scene.liquid && data.wall > 0)) {
-    throw usage_error(at_place(scene.file, "vessel '" + data.name + "' has liquid in it; that needs 'wall_mm' and [liquid]"));
+  if (data.liquid_fill > 0 && !(scene.liquid && data.has_cavity())) {
+    throw usage_error(at_place(scene.file, "vessel '" + data.name + "' has liquid in it; that needs [liquid] and " +
+                                               (data.mesh ? "'inner_outline'" : "'wall_mm'")));
   }
   LiveVessel live;
-  const PreparedVessel prepared = prepare_vessel(data, data.wall > 0);
+  const PreparedVessel prepared = prepare_vessel(data, data.has_cavity());
   live.radius = prepared.largest_radius;
   live.vessel = core_f64::load_vessel(prepared, data, quadrature, scene.liquid.has_value(), scene.hand.handedness);
+  if (data.mesh) core_f64::use_grid(live.vessel, core_f64::load_grid(mirrored(data.mesh->body->grid, scene.hand.handedness)));
   live.force = core_f64::load_force(scene, data);
   live.home = to_vec3(mirrored(data.place, scene.hand.handedness));
   double most = 0;
@@ -53,7 +56,7 @@ LiveVessel load_live_vessel(const Scene& scene, const VesselData& data, const co
   }
   const double density = scene.liquid ? scene.liquid->density : 0;
   live.largest = core_f64::load_with(live.vessel, most * density, liquid.lean, liquid.height);
-  live.force.reference = core_f64::object_reference(live.largest, live.force.gravity, data.height);
+  live.force.reference = core_f64::object_reference(live.largest, live.force.gravity, data.base, data.height);
   for (const GuidancePoint& point : data.guidance) {
     const double azimuth = is_left ? PI - point.azimuth : point.azimuth;
     const Vec3 out = core_f64::grip_direction(azimuth, 0), axis(0, point.height, 0);
@@ -72,7 +75,6 @@ bool stand_in_each_other(const LiveVessel& a, double height_a, const LiveVessel&
 }  // namespace
 
 LiveScene::LiveScene(const Scene& given) : scene(given) {
-  refuse_meshes(scene);
   if (scene.vessels.empty() || scene.vessels.size() > LIVE_VESSELS) {
     throw usage_error(at_place(scene.file, "a live session has 1 to " + std::to_string(LIVE_VESSELS) + " vessels; this scene has " +
                                                std::to_string(scene.vessels.size())));
@@ -98,8 +100,11 @@ Session::Session(const Scene& scene, std::array<double, 2> device_gap)
       radii_{live_->hand.scale * live_->hand.radius[0][3], live_->hand.scale * live_->hand.radius[1][4]} {
   for (const LiveVessel& vessel : live_->vessels) obstacles_.standing[obstacles_.count++] = {&vessel.vessel, vessel.home, false};
   obstacles_.thinnest = THINNEST_SOLID;
-  for (const VesselData& data : live_->scene.vessels)
+  for (const VesselData& data : live_->scene.vessels) {
     if (data.surface == Surface::shell) obstacles_.thinnest = std::min(obstacles_.thinnest, data.wall);
+    if (data.mesh)
+      obstacles_.thinnest = std::min(obstacles_.thinnest, data.mesh->body->grid.spacing);  // thinner walls it does not hold
+  }
 }
 
 // A tick: where the hand is; then what holds, comes back or is touched; then the forces.

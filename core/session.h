@@ -24,7 +24,7 @@ struct LiveVessel {
   double volume = 0;                     // at the start, m3
 };
 
-// All that a session has that no tick changes. Throws Error (usage): no vessel or more than LIVE_VESSELS, a mesh, a hand or a vessel that is
+// All that a session has that no tick changes. Throws Error (usage): no vessel or more than LIVE_VESSELS, a hand or a vessel that is
 // physically impossible, vessels that stand in each other.
 struct LiveScene {
   explicit LiveScene(const Scene& scene);

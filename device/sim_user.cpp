@@ -39,7 +39,7 @@ bool choose_grip(const Scene& scene, const Evaluator& evaluator, std::size_t v, 
   std::vector<double> heights;
   if (!vessel.guidance.empty()) heights.push_back(vessel.guidance[task % vessel.guidance.size()].height);
   const std::size_t guided = heights.size();
-  for (int k = 1; k < 20; ++k) heights.push_back(vessel.height * k / 20);
+  for (int k = 1; k < 20; ++k) heights.push_back(vessel.base + (vessel.height - vessel.base) * k / 20);
   double best = -1;
   for (std::size_t k = 0; k < heights.size(); ++k) {
     if (k == guided && best >= 0) break;  // the guidance point's height it is

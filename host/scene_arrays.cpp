@@ -89,7 +89,7 @@ SceneArrays make_scene_arrays(const Scene& scene, const Evaluator& core, const E
     arrays.quadrature.insert(arrays.quadrature.end(), {rule.cosine[i], rule.weight[i]});
   for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
     const VesselData& data = scene.vessels[v];
-    const PreparedVessel prepared = prepare_vessel(data, data.wall > 0);
+    const PreparedVessel prepared = prepare_vessel(data, data.has_cavity());
     const VesselConstants constants = core.constants(v);
     VesselArrays vessel;
     append_elements(vessel.outline, prepared.outline);

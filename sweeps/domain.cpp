@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/load.h"
+#include "core/mesh_body.h"
 #include "core/prepare.h"
 
 namespace wholehand {
@@ -14,6 +15,10 @@ namespace {
 // The largest coordinate, arc's centre or arc's radius of an outline, m.
 double farthest(const VesselData& vessel) {
   double largest = 0;
+  if (vessel.mesh) {
+    for (int k = 0; k < 3; ++k)
+      largest = std::max({largest, std::abs(vessel.mesh->body->low[k]), std::abs(vessel.mesh->body->high[k])});
+  }
   std::array<double, 2> start{};
   for (const OutlineElement& element : vessel.outline) {
     largest = std::max({largest, std::abs(element.end[0]), std::abs(element.end[1])});
@@ -32,12 +37,12 @@ double largest_hold(const Scene& scene, const VesselData& data) {
   if (scene.tilts.empty() || !(force.friction > 0)) return 0;
   const core_f64::Quadrature rule = core_f64::load_quadrature(prepare_quadrature(QUADRATURE_POINTS));
   const core_f64::Vessel vessel =
-      core_f64::load_vessel(prepare_vessel(data, data.wall > 0), data, rule, false, scene.hand.handedness);
+      core_f64::load_vessel(prepare_vessel(data, data.has_cavity()), data, rule, false, scene.hand.handedness);
   double mass = vessel.mass;
-  if (scene.liquid && data.wall > 0)
+  if (scene.liquid && data.has_cavity())
     mass += scene.liquid->density * scene.liquid->fills.back() * core_f64::lip_capacity(vessel, rule, 0, 1);
   const auto& center = vessel.center_of_mass;
-  const double lever = std::max(std::abs(center.y), std::abs(data.height - center.y)) + std::hypot(center.x, center.z);
+  const double lever = std::max(std::abs(center.y - data.base), std::abs(data.height - center.y)) + std::hypot(center.x, center.z);
   const double twist = force.torsion > 0 ? lever / (2 * force.torsion) : 0;  // without torsion infinite, or nothing
   return mass * scene.gravity * (twist + 0.5) / force.friction;
 }
@@ -52,7 +57,6 @@ std::vector<std::string> domain_warnings(const Scene& scene, Precision precision
   using namespace float_domain;
   std::vector<std::string> warnings;
   if (precision == Precision::full) return warnings;
-  refuse_meshes(scene);
   const Axis& axis = scene.grips.hand_scale;
   auto [least, most] = std::minmax_element(axis.values.begin(), axis.values.end());
   const double smallest = scene.hand.scale * (axis.is_range ? std::min(axis.from, axis.to) : *least),

@@ -31,7 +31,7 @@ void choose_device_part(const Scene& scene, const std::string& on, VariantChoice
   choice.device_double = device.float64;
   if (!device.float64) context.notes.push_back(device.name + " has no double precision: Vulkan double is left out");
   choice.outline_constants = std::all_of(scene.vessels.begin(), scene.vessels.end(), [](const VesselData& vessel) {
-    return prepare_vessel(vessel, vessel.wall > 0).outline.size() <= MAX_OUTLINE;
+    return prepare_vessel(vessel, vessel.has_cavity()).outline.size() <= MAX_OUTLINE;
   });
   choice.device_outlines = choice.outline_constants || device.kind != host::DeviceKind::cpu;
   if (!choice.device_outlines) {
@@ -43,7 +43,13 @@ void choose_device_part(const Scene& scene, const std::string& on, VariantChoice
 }  // namespace
 
 ExitCode run_error_time(const Scene& scene, const ErrorTimeOptions& options) {
-  refuse_meshes(scene);
+  for (const VesselData& vessel : scene.vessels) {
+    if (!vessel.mesh) continue;
+    throw usage_error(
+        at_place(vessel.mesh->place, fmt::format("vessel '{}' is a mesh; error-time measures what a lattice costs beside "
+                                                 "an exact outline, so it takes shapes and outlines",
+                                                 vessel.name)));
+  }
   make_output_folder(options.output);
   InterruptGuard interrupt;
   const int threads = options.threads > 0 ? options.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));

@@ -36,7 +36,9 @@ class Explainer {
     say("left out, with what that saves a grip (both ways on {} grips of {}; this sweep: {:.3f} us, {} B)\n", EXPLAIN_GRIPS,
         scene_.vessels[0].name, microseconds(as_is), as_is.bytes);
     if (!on_core_) {
-      if (longest_outline() <= MAX_OUTLINE) {
+      if (scene_.vessels[0].mesh) {
+        say("  nothing of an outline: the distance is that of the mesh's lattice\n");
+      } else if (longest_outline() <= MAX_OUTLINE) {
         row("reading the outline: its numbers are constants of the pipeline", measure(scene_, fields_, OUTLINE_BUFFER), as_is,
             "from a buffer");
         row("", measure(scene_, fields_, OUTLINE_HOISTED), as_is, "copied from a uniform block");
@@ -124,7 +126,7 @@ class Explainer {
 
   void surface(const Measured& as_is) {
     const VesselData& vessel = scene_.vessels[0];
-    if (vessel.surface != Surface::solid || !(vessel.wall > 0)) return;
+    if (vessel.mesh || vessel.surface != Surface::solid || !(vessel.wall > 0)) return;
     Scene other = scene_;
     other.vessels[0].surface = Surface::shell;
     row("the inner wall: the vessel is solid to the fingers", measure(other, fields_, OUTLINE_SPECIALIZED), as_is, "a shell");
@@ -140,8 +142,8 @@ class Explainer {
 
   void liquid(const Measured& as_is) {
     if (scene_.liquid) return;
-    if (std::any_of(scene_.vessels.begin(), scene_.vessels.end(), [](const VesselData& v) { return !(v.wall > 0); })) {
-      say("  the liquid kernels and their tables: a vessel without a wall holds none\n");
+    if (std::any_of(scene_.vessels.begin(), scene_.vessels.end(), [](const VesselData& v) { return !v.has_cavity(); })) {
+      say("  the liquid kernels and their tables: a vessel without a wall, or a mesh without an inner outline, holds none\n");
       return;
     }
     // its forces need tilts: both ways have those of the row above where the scene has none

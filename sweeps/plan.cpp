@@ -76,7 +76,7 @@ Plan::Plan(const Scene& scene, bool keeps_vectors)
                      grips.height}
           : PlanAxis{"height", "m", "height of the thumb-index line above the vessel's base", AXIS_HEIGHT, grips.height},
   }};
-  for (const VesselData& vessel : scene.vessels) vessel_heights_.push_back(vessel.height);
+  for (const VesselData& vessel : scene.vessels) vessel_spans_.push_back({vessel.base, vessel.height - vessel.base});
   for (const PlanAxis& axis : axes_) {
     if (axis.data.values.empty()) throw usage_error(fmt::format("{}: [grips] axis {} has no values", scene.file, axis.name));
   }
@@ -119,7 +119,8 @@ void Plan::coordinates(int axis, std::uint64_t first, std::size_t count, double*
 }
 
 void Plan::fill(std::size_t vessel, std::uint64_t first, std::size_t count, GripInput* out) const {
-  const double height_unit = height_is_fraction_ ? vessel_heights_[vessel] : 1;  // m per unit of the height axis
+  // a fraction counts from the lowest point to the mouth
+  const auto [base, height_unit] = height_is_fraction_ ? vessel_spans_[vessel] : std::array<double, 2>{0, 1};
   if (sobol_) {
     std::array<SobolPoint, 256> points;
     for (std::size_t done = 0; done < count; done += points.size()) {
@@ -127,7 +128,7 @@ void Plan::fill(std::size_t vessel, std::uint64_t first, std::size_t count, Grip
       sequence_.points(first + done, n, points.data());
       for (std::size_t i = 0; i < n; ++i) {
         const SobolPoint& p = points[i];
-        out[done + i] = {axis_value(axes_[PLACE_HEIGHT], p) * height_unit,
+        out[done + i] = {base + axis_value(axes_[PLACE_HEIGHT], p) * height_unit,
                          axis_value(axes_[PLACE_AZIMUTH], p),
                          axis_value(axes_[PLACE_OBLIQUITY], p),
                          axis_value(axes_[PLACE_ROLL], p),
@@ -141,7 +142,7 @@ void Plan::fill(std::size_t vessel, std::uint64_t first, std::size_t count, Grip
   for (std::uint64_t k = axes_.size(), rest = first; k-- > 0; rest /= counts_[k]) digit[k] = rest % counts_[k];
   for (std::size_t i = 0; i < count; ++i) {
     const auto value = [&](PlanPlace place) { return axes_[place].data.values[digit[place]]; };
-    out[i] = {value(PLACE_HEIGHT) * height_unit,
+    out[i] = {base + value(PLACE_HEIGHT) * height_unit,
               value(PLACE_AZIMUTH),
               value(PLACE_OBLIQUITY),
               value(PLACE_ROLL),

@@ -78,7 +78,7 @@ class Plan {
   Sobol sequence_;
   std::uint64_t grips_ = 0;
   std::uint64_t copies_ = 1;
-  std::vector<double> vessel_heights_;  // m
+  std::vector<std::array<double, 2>> vessel_spans_;  // y of the lowest point and height above it, m
 };
 
 }  // namespace wholehand

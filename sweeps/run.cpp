@@ -18,6 +18,7 @@
 #include "sweeps/explain.h"
 #include "sweeps/heat_map_plot.h"
 #include "sweeps/interrupt.h"
+#include "sweeps/mesh_vessel.h"
 #include "sweeps/open_backend.h"
 #include "sweeps/progress.h"
 #include "sweeps/readable.h"
@@ -49,6 +50,27 @@ class Sweep {
         names_(output_names(options.output.empty() ? default_output(scene) : options.output)),
         best_wanted_(static_cast<std::size_t>(std::max(0, options.best.value_or(scene.output.best)))),
         variables_(choose_variables(scene)) {}
+
+  // What can be refused before any work, meshes unread.
+  void check() const {
+    check_output_path(names_.result);
+    if (options_.glb > static_cast<int>(best_wanted_)) {
+      throw usage_error(
+          fmt::format("--glb {0}: the best {1} of each vessel are kept; ask for --best {0} too", options_.glb, best_wanted_));
+    }
+    check_not_the_scene(names_.result, scene_.file);
+    check_overwrites_result(names_.result);
+    struct stat partial {};
+    const double reserved = stat(names_.partial.c_str(), &partial) == 0 ? static_cast<double>(partial.st_blocks) * 512 : 0;
+    const std::size_t real_size = precision() == Precision::single ? sizeof(float) : sizeof(double);
+    check_sweep_size(scene_, sweep_size(scene_, bytes_per_grip(variables_, scene_, real_size)),
+                     free_bytes(names_.result) + reserved);
+  }
+
+  bool is_finished() const {
+    struct stat file {};
+    return options_.resume && stat(names_.partial.c_str(), &file) != 0 && stat(names_.result.c_str(), &file) == 0;
+  }
 
   ExitCode run() {
     // a file that grows past its limit is an error of the write, not the end of the process
@@ -85,11 +107,6 @@ class Sweep {
   bool has_field(int field) const { return is_kept(backend_->fields(), field); }
   bool has_heat_map() const { return has_field(FIELD_SCORE) && has_field(FIELD_STATUS); }
 
-  bool is_finished() const {
-    struct stat file {};
-    return options_.resume && stat(names_.partial.c_str(), &file) != 0 && stat(names_.result.c_str(), &file) == 0;
-  }
-
   // The file that is whole must be of this sweep, as far as that is known without a device.
   void check_finished() const {
     std::vector<std::string> names;
@@ -103,23 +120,6 @@ class Sweep {
     if ((there.backend == "core") != (options_.on == "core")) refuse("backend: " + there.backend);
     if (there.precision != (precision() == Precision::single ? "float" : "double")) refuse("precision: " + there.precision);
     if (!there.missing.empty()) refuse("set of variables: it lacks " + there.missing.front());
-  }
-
-  // What can be refused before any work.
-  void check() const {
-    refuse_meshes(scene_);
-    check_output_path(names_.result);
-    if (options_.glb > static_cast<int>(best_wanted_)) {
-      throw usage_error(
-          fmt::format("--glb {0}: the best {1} of each vessel are kept; ask for --best {0} too", options_.glb, best_wanted_));
-    }
-    check_not_the_scene(names_.result, scene_.file);
-    check_overwrites_result(names_.result);
-    struct stat partial {};
-    const double reserved = stat(names_.partial.c_str(), &partial) == 0 ? static_cast<double>(partial.st_blocks) * 512 : 0;
-    const std::size_t real_size = precision() == Precision::single ? sizeof(float) : sizeof(double);
-    check_sweep_size(scene_, sweep_size(scene_, bytes_per_grip(variables_, scene_, real_size)),
-                     free_bytes(names_.result) + reserved);
   }
 
   Precision precision() const { return options_.precision.value_or(options_.on == "core" ? Precision::full : Precision::single); }
@@ -139,6 +139,7 @@ class Sweep {
             {"precision", info.precision == Precision::single ? "float" : "double"},
             {"number of best grips", std::to_string(best_wanted_)},
             {"number of grips", fmt::format("{} x {} x {}", scene_.vessels.size(), plan.grips(), plan.copies())},
+            {"set of meshes", mesh_keys(scene_)},
             {"set of variables", fmt::format("{}", fmt::join(names, " "))}};
   }
 
@@ -364,7 +365,14 @@ std::string default_output(const Scene& scene) {
   return (stem.empty() ? "sweep" : stem) + ".nc";
 }
 
-ExitCode run_sweep(const Scene& scene, const SweepOptions& options) {
+ExitCode run_sweep(const Scene& given, const SweepOptions& options) {
+  Scene scene = given;
+  if (has_meshes(scene)) {  // what takes longer comes after what can be refused at once
+    const SweepParts none;
+    const Sweep unread(scene, options, none);
+    unread.check();
+    if (!unread.is_finished()) load_meshes(scene, options.on);
+  }
   const Precision precision = options.precision.value_or(options.on == "core" ? Precision::full : Precision::single);
   const SweepParts parts{
       [&](const FieldSet& fields) { return open_backend(scene, fields, options.on, precision, options.threads); },

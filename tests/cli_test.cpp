@@ -152,7 +152,12 @@ TEST(CommandLine, NamesFileLineAndColumn) {
                        << "roll_deg = { from = 0, to = 1, count = 1000000 }\n";
   expect_error("sweep " + scene, 2, scene + ":8:1: asks for ");
   std::ofstream(scene) << "[[vessel]]\nname = \"m\"\nmesh = \"a.glb\"\n";
-  expect_error("grip " + scene + " --vessel m --height-mm 10", 2, scene + ":3:8: vessel 'm' is a mesh");
+  for (const char* command : {"grip @ --vessel m --height-mm 10", "sweep @", "check @", "live @ --no-clock --seconds 1"}) {
+    std::string line = command;
+    line.replace(line.find('@'), 1, scene);
+    expect_error(line, 2, scene + ":3:8: ");
+  }
+  expect_error("error-time " + scene + " -o " + testing::TempDir(), 2, scene + ":3:8: vessel 'm' is a mesh");
   std::filesystem::remove(scene);
 }
 

@@ -42,7 +42,7 @@ TEST(HeldForces, AreThoseOfASweepsState) {
           core_f64::ForceScale scale = core_f64::load_force(scene, scene.vessels[v]);
           const LiquidResult most = evaluator->liquid(v, scene.liquid->fills.back(), 0);
           const core_f64::Load largest = core_f64::load_with(vessel, most.mass, most.lean, most.height);
-          scale.reference = core_f64::object_reference(largest, scale.gravity, scene.vessels[v].height);
+          scale.reference = core_f64::object_reference(largest, scale.gravity, 0, scene.vessels[v].height);
           for (const GripInput& grip : sample_grips(scene.vessels[v], 25, 31 + v)) {
             GripResult result;
             evaluator->grip(v, grip, result);
@@ -99,8 +99,9 @@ TEST(ObjectReference, IsAboutTheFartherEnd) {
   load.mass = 2;
   load.fixed = Vec3(0, 0.02, 0);
   load.height = 0.01;
-  EXPECT_NEAR(core_f64::object_reference(load, 10, 0.1), 2 * 10 * 0.07, 1e-15);
-  EXPECT_NEAR(core_f64::object_reference(load, 10, 0.05), 2 * 10 * 0.03, 1e-15);
+  EXPECT_NEAR(core_f64::object_reference(load, 10, 0, 0.1), 2 * 10 * 0.07, 1e-15);
+  EXPECT_NEAR(core_f64::object_reference(load, 10, 0, 0.05), 2 * 10 * 0.03, 1e-15);
+  EXPECT_NEAR(core_f64::object_reference(load, 10, -0.06, 0.1), 2 * 10 * 0.09, 1e-15);
 }
 
 }  // namespace

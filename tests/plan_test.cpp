@@ -90,6 +90,16 @@ TEST(Plan, AbsoluteHeightsDoNotDependOnTheVessel) {
   EXPECT_EQ(plan.axes()[PLACE_HEIGHT].units, "m");
 }
 
+TEST(Plan, FractionsCountFromTheLowestPoint) {
+  Scene scene = fake_scene();
+  scene.vessels[1].base = -0.02;
+  scene.vessels[1].height = 0.08;
+  const Plan plan(scene, true);
+  std::vector<double> fraction(plan.grips());
+  plan.coordinates(PLACE_HEIGHT, 0, fraction.size(), fraction.data());
+  for (std::uint64_t i = 0; i < plan.grips(); ++i) EXPECT_EQ(plan.grip(1, i).height, -0.02 + fraction[i] * 0.1);
+}
+
 TEST(Plan, AzimuthIsLeftOutWhereNothingDependsOnIt) {
   Scene scene = fake_scene();
   const Plan plan(scene, false);

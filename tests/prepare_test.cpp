@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/mesh_body.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {
@@ -33,16 +34,54 @@ TEST(Prepare, ArcsAreSplitAtTheirPoles) {
   EXPECT_EQ(arcs, 2u);
 }
 
-TEST(Prepare, MeshesAreRefusedWithTheirPlace) {
-  Scene scene = scene_of({beaker1(), beaker2()});
-  EXPECT_NO_THROW(refuse_meshes(scene));
-  scene.vessels[1].mesh = MeshData{};
-  scene.vessels[1].mesh->place = "cups.toml:7:3";
-  try {
-    refuse_meshes(scene);
-    ADD_FAILURE() << "not refused";
-  } catch (const Error& error) {
-    EXPECT_EQ(std::string(error.what()).rfind("cups.toml:7:3: vessel 'beaker2' is a mesh", 0), 0u) << error.what();
+TEST(Prepare, AMeshIsItsBodyAndItsInnerOutline) {
+  VesselData vessel;
+  vessel.name = "cup";
+  vessel.mesh = MeshData{};
+  EXPECT_THROW(prepare_vessel(vessel, false), Error) << "not read";
+  MeshBody body;
+  body.vertices = {{0.03, -0.02, 0.04}, {0, 0.08, 0}, {0, -0.02, 0}};
+  body.low = {0, -0.02, 0};
+  body.high = {0.03, 0.08, 0.04};
+  vessel.base = -0.02;
+  vessel.height = 0.08;
+  // floor at -15 mm, a level step out, a quarter circle, and straight up to the mouth
+  vessel.mesh->inner = {line_to(0, -15), line_to(10, -15), arc_to(20, -5, 10, -5), line_to(20, 70)};
+  vessel.mesh->body = std::make_shared<MeshBody>(body);
+  const PreparedVessel prepared = prepare_vessel(vessel, vessel.has_cavity());
+  EXPECT_TRUE(prepared.hull.empty() && prepared.outline.empty());
+  EXPECT_EQ(prepared.lid, -1);
+  ASSERT_EQ(prepared.cavity.size(), 2u) << "the level step holds nothing";
+  EXPECT_EQ(prepared.cavity[0].side, 1);
+  EXPECT_EQ(prepared.floor_height, -15e-3);
+  EXPECT_EQ(prepared.mouth_height, 70e-3);
+  EXPECT_EQ(prepared.mouth_radius, 20e-3);
+  EXPECT_NEAR(prepared.largest_radius, 0.05, 1e-15);
+  EXPECT_NEAR(prepared.bound_height, 0.03, 1e-15);
+  EXPECT_NEAR(prepared.bound_radius, std::hypot(0.05, 0.05), 1e-15);
+  EXPECT_TRUE(prepare_vessel(vessel, false).cavity.empty());
+}
+
+TEST(Prepare, AMirroredLatticeIsTheMirrorImageToTheBit) {
+  for (const bool halves : {false, true}) {
+    PreparedGrid grid;
+    grid.origin = {-0.3, 0.1, 0.2};
+    grid.spacing = 0.1;
+    grid.nx = 3;
+    grid.ny = 2;
+    grid.nz = 2;
+    grid.halves = halves;
+    grid.words = std::make_shared<const std::vector<std::uint32_t>>(
+        halves ? std::vector<std::uint32_t>{0x00010000, 0x00030002, 0x00050004, 0x00070006, 0x00090008, 0x000B000A}
+               : std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11});
+    const PreparedGrid image = mirrored(grid, Handedness::left);
+    EXPECT_NEAR(image.origin[0], 0.1, 1e-15);
+    EXPECT_EQ(image.origin[1], grid.origin[1]);
+    EXPECT_EQ(*image.words,
+              halves ? (std::vector<std::uint32_t>{0x00010002, 0x00050000, 0x00030004, 0x00070008, 0x000B0006, 0x0009000A})
+                     : (std::vector<std::uint32_t>{2, 1, 0, 5, 4, 3, 8, 7, 6, 11, 10, 9}));
+    EXPECT_EQ(mirrored(grid, Handedness::right).words, grid.words);
+    EXPECT_EQ(*mirrored(image, Handedness::left).words, *grid.words);
   }
 }
 

@@ -372,15 +372,6 @@ TEST_F(RunTest, HugeSweepsAreRefusedWithTheirSizes) {
   EXPECT_EQ(trial.opened, 0);
 }
 
-TEST_F(RunTest, MeshIsRefusedForNow) {
-  Trial trial(folder / "a.nc");
-  trial.scene.vessels[1].mesh = MeshData{};
-  trial.scene.vessels[1].mesh->place = "fake.toml:12:1";
-  const Outcome outcome = trial.run();
-  EXPECT_EQ(outcome.code, ExitCode::usage);
-  EXPECT_TRUE(has(outcome.error, "fake.toml:12:") && has(outcome.error, "'second' is a mesh")) << outcome.error;
-}
-
 TEST_F(RunTest, FailureOfTheBackendLeavesNoResult) {
   Trial trial(folder / "a.nc");
   int chunks = 0;

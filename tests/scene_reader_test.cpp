@@ -183,7 +183,7 @@ mesh_scale = 0.001
 rotate_deg = [90, 0, -45]
 origin = "as_is"
 grid_mm = 1.5
-wall_mm = 2
+inner_outline = [{ line = [0, -3] }, { line = [20, -3] }, { arc = [30, 7], center = [20, 7] }, { line = [30, 80] }]
 )");
   ASSERT_EQ(scene.vessels.size(), 3u);
   const VesselData& glass = scene.vessels[0];
@@ -211,6 +211,13 @@ wall_mm = 2
   EXPECT_EQ(scanned.mesh->rotate, (Triple{radians(90), 0, radians(-45)}));
   EXPECT_FALSE(scanned.mesh->origin_at_base);
   EXPECT_EQ(scanned.mesh->grid_spacing, 1.5e-3);
+  ASSERT_EQ(scanned.mesh->inner.size(), 4u);
+  EXPECT_EQ(scanned.mesh->inner[0].end, (std::array<double, 2>{0, -3e-3}));
+  EXPECT_TRUE(scanned.mesh->inner[2].is_arc);
+  EXPECT_EQ(scanned.mesh->inner[2].center, (std::array<double, 2>{20e-3, 7e-3}));
+  // every 15 degrees where no azimuth is given
+  EXPECT_EQ(scene.grips.azimuth.values.size(), 24u);
+  EXPECT_EQ(scene.grips.azimuth.values[1], radians(15));
   EXPECT_TRUE(scanned.outline.empty());
 }
 
@@ -384,10 +391,10 @@ const std::map<std::string, std::vector<std::string>> KEYS{
     {"[hand.index]", {"base_mm", "splay_deg", "arch_deg", "segments_mm", "radii_mm"}},
     {"[hand.little]", {"base_mm", "splay_deg", "arch_deg", "segments_mm", "radii_mm"}},
     {"[hand.angles]", {"thumb_abduction_deg", "thumb_mcp_deg", "thumb_ip_deg", "mcp_deg", "pip_deg", "dip_per_pip"}},
-    {"[[vessel]]", {"name",          "shape",       "diameter_mm", "height_mm",     "neck_mm",    "upright_mm",
-                    "shoulder_mm",   "outline",     "mesh",        "mesh_scale",    "rotate_deg", "origin",
-                    "grid_mm",       "wall_mm",     "surface",     "density_kg_m3", "mass_kg",    "center_of_mass_mm",
-                    "force_range_N", "guidance_mm", "place_mm",    "liquid"}},
+    {"[[vessel]]",
+     {"name",          "shape",      "diameter_mm",       "height_mm",     "neck_mm",     "upright_mm",    "shoulder_mm", "outline",
+      "mesh",          "mesh_scale", "rotate_deg",        "origin",        "grid_mm",     "inner_outline", "wall_mm",     "surface",
+      "density_kg_m3", "mass_kg",    "center_of_mass_mm", "force_range_N", "guidance_mm", "place_mm",      "liquid"}},
     {"[liquid]", {"density_kg_m3", "fills", "pour"}},
     {"[force]", {"base_N", "range_N", "torque", "reference", "max_N", "k_open_N_m", "friction", "torsion_mm", "grip_strength_N"}},
     {"[grips]",

@@ -746,7 +746,7 @@ TEST(LiveScene, RefusesWhatCannotBeLive) {
   EXPECT_NO_THROW(LiveScene{many});
   Scene mesh = scene_of({beaker1()});
   mesh.vessels[0].mesh = MeshData{};
-  EXPECT_THROW(LiveScene{mesh}, Error);
+  EXPECT_THROW(LiveScene{mesh}, Error) << "it is not read";
   Scene leaky = scene_of({ledges()});
   leaky.liquid = LiquidData{};
   leaky.liquid->fills = {1};

@@ -1,0 +1,177 @@
+#include "sweeps/mesh_vessel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "core/error.h"
+#include "core/load.h"
+#include "host/device.h"
+#include "sweeps/mesh.h"
+#include "sweeps/mesh_check.h"
+#include "sweeps/mesh_distance.h"
+
+namespace wholehand {
+namespace {
+
+// Within how much of the mesh's box a cavity must lie, m: an inner outline is written in rounded millimetres.
+constexpr double ROUNDED_OUTLINE = 0.1e-3;
+
+constexpr std::size_t LARGE_MESH_LATTICE = 16u << 20;  // bytes
+
+// Of the points between axis and wall of a cavity: so many may be on the other side than the rest, where a fillet was left out.
+constexpr double OTHER_SIDE = 0.05;
+
+// How many of the points between axis and wall of a cavity lie within the mesh.
+struct CavityPoints {
+  int inside = 0, all = 0;
+};
+
+CavityPoints count_cavity_points(const PreparedGrid& grid, const std::vector<PreparedElement>& cavity) {
+  core_f64::Vessel vessel;
+  core_f64::use_grid(vessel, core_f64::load_grid(grid));
+  CavityPoints points;
+  constexpr int HEIGHTS = 16, AZIMUTHS = 8;  // of each piece
+  for (const PreparedElement& piece : cavity) {
+    for (int h = 0; h < HEIGHTS; ++h) {
+      const double y = piece.a[1] + (piece.b[1] - piece.a[1]) * (h + 0.5) / HEIGHTS;
+      const double wall = core_f64::element_radius(core_f64::load_element(piece), y);
+      for (int k = 0; k < 2 * AZIMUTHS; ++k) {
+        const double azimuth = 2 * PI * (k + 0.5) / AZIMUTHS, r = (k < AZIMUTHS ? 0.5 : 0.9) * wall;
+        points.inside += core_f64::signed_distance(vessel, {r * std::cos(azimuth), y, r * std::sin(azimuth)}) < 0;
+        ++points.all;
+      }
+    }
+  }
+  return points;
+}
+
+void place_cavity(const VesselData& vessel, MeshBody& body) {
+  const std::vector<PreparedElement> cavity = inner_cavity(vessel.mesh->inner);
+  double widest = 0, reach = 0;
+  for (const PreparedElement& e : cavity) widest = std::max({widest, e.a[0], e.b[0], e.side > 0 ? e.center[0] + e.radius : 0.0});
+  for (const int k : {0, 2}) reach = std::max({reach, std::abs(body.low[k]), std::abs(body.high[k])});
+  const double floor = cavity.front().a[1], mouth = cavity.back().b[1];
+  const auto refuse = [&](const std::string& what) {
+    throw usage_error(at_place(vessel.mesh->place, fmt::format("vessel '{}': {}", vessel.name, what)));
+  };
+  if (floor < body.low[1] - ROUNDED_OUTLINE || mouth > body.high[1] + ROUNDED_OUTLINE || widest > reach + ROUNDED_OUTLINE) {
+    refuse(fmt::format(
+        "the inner outline (heights {:.4g} to {:.4g} mm, radius {:.4g}) reaches beyond the mesh (heights {:.4g} to {:.4g} "
+        "mm, {:.4g} from the axis); give it in the vessel's frame",
+        1e3 * floor, 1e3 * mouth, 1e3 * widest, 1e3 * body.low[1], 1e3 * body.high[1], 1e3 * reach));
+  }
+  const CavityPoints points = count_cavity_points(body.grid, cavity);
+  const double share = static_cast<double>(points.inside) / points.all;
+  if (std::min(share, 1 - share) > OTHER_SIDE) {
+    refuse(
+        fmt::format("the inner outline passes through the mesh: {} of {} points well within it are glass; move it where the mesh "
+                    "is hollow, or make the mesh its hull",
+                    points.inside, points.all));
+  }
+  body.holds_cavity = share > 0.5;
+}
+
+GridWish wish_of(const Scene& scene, const MeshData& data, bool is_large, const MeshOptions& options) {
+  GridWish wish;
+  wish.spacing = data.grid_spacing.value_or(0);
+  wish.margin = grid_margin(scene);
+  // what no hand holds is most likely in another unit: an answer soon, not a fine one
+  wish.most_bytes = data.grid_spacing || !is_large ? options.most_bytes : std::min(options.most_bytes, LARGE_MESH_LATTICE);
+  wish.threads = options.threads;
+  return wish;
+}
+
+std::string lattice_text(const MeshBody& body, double tolerance) {
+  const PreparedGrid& grid = body.grid;
+  std::string text =
+      fmt::format("lattice of {:.4g} mm, {} x {} x {} samples of {} bits; distances at the surface are within {:.2g} mm",
+                  1e3 * grid.spacing, grid.nx, grid.ny, grid.nz, grid.halves ? 16 : 32, 1e3 * body.grid_error);
+  if (body.grid_error > tolerance)
+    text +=
+        fmt::format(", not the {:.2g} mm wanted: {}", 1e3 * tolerance, "a smaller grid_mm is more exact, as far as memory allows");
+  return text;
+}
+
+// What weighs, and what it holds.
+std::string mass_text(const VesselData& vessel, const MeshBody& body) {
+  std::string text = vessel.mass ? fmt::format("mass {:.4g} g as given", 1e3 * *vessel.mass)
+                                 : fmt::format("mass of its volume{} at {:g} kg/m3", body.holds_cavity ? ", less the cavity," : "",
+                                               vessel.density);
+  return text + (vessel.has_cavity() ? "; holds liquid in its inner outline"
+                                     : "; a solid object, without liquid: it has no inner_outline");
+}
+
+void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder, const MeshOptions& options) {
+  const MeshData& data = *vessel.mesh;
+  const std::string name = fmt::format("vessel '{}'", vessel.name);
+  const auto say = [&](const std::string& line) {
+    if (options.say) options.say(name + ": " + line);
+  };
+  CheckedMesh checked = check_mesh(read_mesh(data, folder), at_place(data.place, data.file));
+  const MeshFacts& facts = checked.facts;
+  say(data.file + ": " + mesh_check_text(facts));
+  const std::string warning = mesh_size_warning(facts);
+  if (!warning.empty()) say(warning);
+  auto body = std::make_shared<MeshBody>();
+  const GridWish wish = wish_of(scene, data, !warning.empty(), options);
+  try {
+    MeshGrid made = grid_of_mesh(MeshDistance(checked), checked, wish);
+    body->grid = std::move(made.grid);
+    body->grid_error = made.error;
+  } catch (const Error& error) {
+    if (error.code != ExitCode::usage) throw;
+    throw usage_error(at_place(data.place, name + ": " + error.what()));
+  }
+  body->low = facts.low;
+  body->high = facts.high;
+  body->volume = facts.volume;
+  body->center_of_mass = facts.center_of_mass;
+  body->facts = mesh_check_text(facts);
+  body->vertices = std::move(checked.mesh.vertices);
+  body->triangles = std::move(checked.mesh.triangles);
+  if (vessel.has_cavity()) place_cavity(vessel, *body);
+  say(lattice_text(*body, wish.tolerance));
+  say(mass_text(vessel, *body));
+  vessel.base = body->low[1];
+  vessel.height = body->high[1];
+  vessel.mesh->body = std::move(body);
+}
+
+}  // namespace
+
+bool has_meshes(const Scene& scene) {
+  return std::any_of(scene.vessels.begin(), scene.vessels.end(), [](const VesselData& vessel) { return vessel.mesh.has_value(); });
+}
+
+std::string mesh_keys(const Scene& scene) {
+  std::string keys;
+  for (const VesselData& vessel : scene.vessels)
+    if (vessel.mesh && vessel.mesh->body) keys += (keys.empty() ? "" : " ") + vessel.mesh->body->key;
+  return keys;
+}
+
+std::size_t largest_lattice(const std::string& on) {
+  if (on == "core") return LARGEST_LATTICE;
+  const std::vector<host::DeviceInfo> devices = host::list_devices();
+  return std::min<std::uint64_t>(LARGEST_LATTICE, host::choose_device(devices, on).max_storage_range);
+}
+
+void load_meshes(Scene& scene, const MeshOptions& options) {
+  const std::string folder = std::filesystem::path(scene.file).parent_path().string();
+  for (VesselData& vessel : scene.vessels)
+    if (vessel.mesh && !vessel.mesh->body) load_mesh(scene, vessel, folder, options);
+}
+
+void load_meshes(Scene& scene, const std::string& on) {
+  if (!has_meshes(scene)) return;
+  MeshOptions options;
+  options.most_bytes = largest_lattice(on);
+  options.say = [](const std::string& line) { fmt::print(stderr, "wholehand: {}\n", line); };
+  load_meshes(scene, options);
+}
+
+}  // namespace wholehand

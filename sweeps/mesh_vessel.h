@@ -1,0 +1,37 @@
+// From the mesh files that a scene names to the bodies that the kernels and the drawings take.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+
+#include "core/mesh_body.h"
+#include "core/scene.h"
+
+namespace wholehand {
+
+constexpr std::size_t LARGEST_LATTICE = 512u << 20;  // bytes of samples, whatever the device
+
+struct MeshOptions {
+  std::size_t most_bytes = LARGEST_LATTICE;     // of a lattice's samples: floats up to half of it, 16 bits each beyond
+  int threads = 0;                              // 0: all cores
+  std::function<void(const std::string&)> say;  // gets what was found of each mesh, a line a time; may be empty
+};
+
+// What a lattice may take for `on` (core, vulkan or a device's name): its largest storage buffer, at most LARGEST_LATTICE. Throws Error
+// as choose_device does.
+std::size_t largest_lattice(const std::string& on);
+
+// Reads, checks and samples the mesh of every vessel that has one and sets its body, base and height; files are looked for from the scene
+// file's folder. The lattice holds all that hands of the scene's sizes can touch. A body that is there already stays. Throws Error (usage),
+// one line with the place in the scene file: what read_mesh and check_mesh refuse, a lattice that is too large, an inner outline that is
+// not the mesh's.
+void load_meshes(Scene& scene, const MeshOptions& options);
+// For `on`, saying on stderr what was found.
+void load_meshes(Scene& scene, const std::string& on);
+
+bool has_meshes(const Scene& scene);
+// The keys of all bodies, which tell whether two scenes have the same meshes; empty without any.
+std::string mesh_keys(const Scene& scene);
+
+}  // namespace wholehand
