@@ -1,5 +1,8 @@
+#include "sweeps/mesh_grid.h"
+
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <bit>
 #include <cmath>
