@@ -25,18 +25,30 @@ namespace {
 constexpr int SURFACE_SAMPLES = 4096;
 constexpr double COARSEST_CELLS = 24;                             // along the longest side: where the search for a spacing starts
 constexpr double SPACING_STEP = 1.25;                             // from one try to the next
+constexpr double FEWEST_SAMPLES = 6 * 6 * 6;                      // with which lay_lattice lays any
+constexpr double SAME_SPACING = 1e-4;                             // relative: finer is not sought
+constexpr double FAR_FOR_HALVES = 32;                             // m: half of what they hold, as a lattice reaches beyond its mesh
 constexpr double MOST_SAMPLES = std::numeric_limits<int>::max();  // the kernels count in 32 bits
 
 // Runs `work` for 0 .. count - 1 on several threads, in no order.
-void on_threads(int threads, int count, const std::function<void(int)>& work) {
-  std::atomic<int> next{0};
-  const auto take = [&] {
-    for (int i = next++; i < count; i = next++) work(i);
+void on_threads(int threads, int count, const std::function<void(int)>& work, const GridProgress& progress = {}) {
+  std::atomic<int> next{0}, done{0};
+  const auto take = [&](bool is_first) {
+    for (int i = next++; i < count; i = next++) {
+      work(i);
+      const int so_far = ++done;
+      if (is_first && progress) progress(static_cast<double>(so_far) / count);
+    }
   };
   if (threads <= 0) threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   std::vector<std::jthread> others;
-  for (int i = 1; i < std::min(threads, count); ++i) others.emplace_back(take);
-  take();
+  for (int i = 1; i < std::min(threads, count); ++i) others.emplace_back(take, false);
+  try {
+    take(true);
+  } catch (...) {
+    next = count;  // the others stop after what they have begun
+    throw;
+  }
 }
 
 // Random points of the surface, as many a square metre everywhere; the same ones each time.
@@ -64,11 +76,25 @@ std::vector<Triple> surface_points(const TriangleMesh& mesh, int count) {
   return points;
 }
 
-// Where the samples of a lattice lie; none are taken yet.
+double samples_of(const PreparedGrid& grid) { return static_cast<double>(grid.nx) * grid.ny * grid.nz; }
+
+bool stores_halves(const PreparedGrid& grid, const MeshFacts& facts, const GridWish& wish) {
+  if (wish.bits) return *wish.bits == 16;
+  double squared = 0;
+  for (int k = 0; k < 3; ++k) squared += std::pow(facts.high[k] - facts.low[k] + 2 * wish.margin, 2);
+  return 4 * samples_of(grid) > static_cast<double>(wish.most_bytes) / 2 && std::sqrt(squared) < FAR_FOR_HALVES;
+}
+
+// A sample as the kernels will read it.
+double stored_value(double value, bool halves) {
+  const auto single = static_cast<float>(value);
+  return halves ? half_value(half_bits(single * static_cast<float>(1 / HALF_UNIT))) * HALF_UNIT : single;
+}
+
+// Where the samples of a lattice lie, and in how many bits; none are taken yet.
 PreparedGrid lay_lattice(const MeshFacts& facts, const GridWish& wish, double spacing) {
   PreparedGrid grid;
   grid.spacing = spacing;
-  grid.halves = wish.halves;
   std::array<int, 3> counts{};
   for (int k = 0; k < 3; ++k) {
     const double length = facts.high[k] - facts.low[k] + 2 * wish.margin;
@@ -78,17 +104,30 @@ PreparedGrid lay_lattice(const MeshFacts& facts, const GridWish& wish, double sp
   grid.nx = counts[0];
   grid.ny = counts[1];
   grid.nz = counts[2];
+  grid.halves = stores_halves(grid, facts, wish);
   return grid;
 }
 
-double samples_of(const PreparedGrid& grid) { return static_cast<double>(grid.nx) * grid.ny * grid.nz; }
-
 bool lattice_fits(const PreparedGrid& grid, const GridWish& wish) {
-  return samples_of(grid) <= MOST_SAMPLES && samples_of(grid) * (grid.halves ? 2 : 4) <= static_cast<double>(wish.most_bytes);
+  const double words = grid.halves ? std::ceil(samples_of(grid) / 2) : samples_of(grid);
+  return samples_of(grid) <= MOST_SAMPLES && 4 * words <= static_cast<double>(wish.most_bytes);
 }
 
 Triple lattice_place(const PreparedGrid& grid, int i, int j, int k) {
   return {grid.origin[0] + grid.spacing * i, grid.origin[1] + grid.spacing * j, grid.origin[2] + grid.spacing * k};
+}
+
+// Of a lattice that fits and a smaller spacing with which none does: the finest that fits.
+PreparedGrid finest_lattice(const MeshFacts& facts, const GridWish& wish, PreparedGrid fits, double too_fine) {
+  while (fits.spacing - too_fine > SAME_SPACING * fits.spacing) {
+    const PreparedGrid between = lay_lattice(facts, wish, 0.5 * (fits.spacing + too_fine));
+    if (lattice_fits(between, wish)) {
+      fits = between;
+    } else {
+      too_fine = between.spacing;
+    }
+  }
+  return fits;
 }
 
 // The trilinear value at p of samples that are taken now.
@@ -104,7 +143,8 @@ double value_without_samples(const MeshDistance& distance, const PreparedGrid& g
   for (int n = 0; n < 8; ++n) {
     const int x = n & 1, y = n >> 1 & 1, z = n >> 2;
     const double weight = (x != 0 ? at[0] : 1 - at[0]) * (y != 0 ? at[1] : 1 - at[1]) * (z != 0 ? at[2] : 1 - at[2]);
-    value += weight * distance.signed_distance(lattice_place(grid, cell[0] + x, cell[1] + y, cell[2] + z));
+    const double sample = distance.signed_distance(lattice_place(grid, cell[0] + x, cell[1] + y, cell[2] + z));
+    value += weight * stored_value(sample, grid.halves);
   }
   return value;
 }
@@ -118,29 +158,41 @@ double largest_error(const std::vector<Triple>& points, int threads, const std::
   return *std::max_element(errors.begin(), errors.end());
 }
 
-// Finer and finer until the error is small enough or no more samples fit.
-PreparedGrid choose_grid(const MeshDistance& distance, const MeshFacts& facts, const std::vector<Triple>& points,
-                         const GridWish& wish) {
+// Coarser and coarser until one fits.
+PreparedGrid coarsest_lattice(const MeshFacts& facts, const GridWish& wish) {
   double spacing = 0;
   for (int k = 0; k < 3; ++k) spacing = std::max(spacing, (facts.high[k] - facts.low[k]) / COARSEST_CELLS);
   PreparedGrid grid = lay_lattice(facts, wish, spacing);
-  while (!lattice_fits(grid, wish) && samples_of(grid) > 6.0 * 6 * 6) grid = lay_lattice(facts, wish, grid.spacing * SPACING_STEP);
+  while (!lattice_fits(grid, wish) && samples_of(grid) > FEWEST_SAMPLES)
+    grid = lay_lattice(facts, wish, grid.spacing * SPACING_STEP);
   if (!lattice_fits(grid, wish)) throw usage_error(fmt::format("no lattice of distances fits {} bytes", wish.most_bytes));
-  while (largest_error(points, wish.threads, [&](const Triple& p) { return value_without_samples(distance, grid, p); }) >
-         wish.tolerance) {
+  return grid;
+}
+
+// Finer and finer until the error is small enough or no more samples fit.
+PreparedGrid choose_grid(const MeshDistance& distance, const MeshFacts& facts, const std::vector<Triple>& points,
+                         const GridWish& wish, const GridProgress& progress) {
+  PreparedGrid grid = coarsest_lattice(facts, wish);
+  const auto value_at = [&](const Triple& p) { return value_without_samples(distance, grid, p); };
+  const auto error_of_grid = [&] {
+    if (progress) progress(0);
+    return largest_error(points, wish.threads, value_at);
+  };
+  while (error_of_grid() > wish.tolerance) {
     const PreparedGrid finer = lay_lattice(facts, wish, grid.spacing / SPACING_STEP);
-    if (!lattice_fits(finer, wish)) break;
+    if (!lattice_fits(finer, wish)) return finest_lattice(facts, wish, grid, finer.spacing);
     grid = finer;
   }
   return grid;
 }
 
 PreparedGrid given_grid(const MeshFacts& facts, const GridWish& wish) {
-  const PreparedGrid grid = lay_lattice(facts, wish, wish.spacing);
+  const PreparedGrid grid = lay_lattice(facts, wish, *wish.spacing);
   if (lattice_fits(grid, wish)) return grid;
-  throw usage_error(
-      fmt::format("a lattice of {:.4g} mm has {:.3g} samples of {} bytes, and {} MB are free for it: choose a larger grid_mm",
-                  1e3 * grid.spacing, samples_of(grid), grid.halves ? 2 : 4, wish.most_bytes >> 20));
+  const double least = finest_lattice(facts, wish, coarsest_lattice(facts, wish), grid.spacing).spacing;
+  throw usage_error(fmt::format(
+      "a lattice of {:.4g} mm has {:.3g} samples of {} bytes, and {} MB are free for them: the finest that fits has {:.4g} mm",
+      1e3 * grid.spacing, samples_of(grid), grid.halves ? 2 : 4, wish.most_bytes >> 20, 1e3 * least * (1 + 5 * SAME_SPACING)));
 }
 
 // One row of samples along x. What is nearest to one sample is near to the next; and where a closed surface is farther away than the
@@ -172,16 +224,17 @@ void store_row(const std::vector<float>& row, std::size_t first, bool halves, st
   }
 }
 
-void sample_lattice(const MeshDistance& distance, PreparedGrid& grid, int threads) {
+void sample_lattice(const MeshDistance& distance, PreparedGrid& grid, int threads, const GridProgress& progress) {
   const auto nx = static_cast<std::size_t>(grid.nx), all = nx * grid.ny * grid.nz;
   std::vector<std::uint32_t> words(grid.halves ? (all + 1) / 2 : all);
-  on_threads(threads, grid.nz, [&](int k) {
+  const auto sample_plane = [&](int k) {
     std::vector<float> row(nx);
     for (int j = 0; j < grid.ny; ++j) {
       sample_row(distance, grid, j, k, row);
       store_row(row, (static_cast<std::size_t>(k) * grid.ny + j) * nx, grid.halves, words);
     }
-  });
+  };
+  on_threads(threads, grid.nz, sample_plane, progress);
   grid.words = std::make_shared<const std::vector<std::uint32_t>>(std::move(words));
 }
 
@@ -196,15 +249,16 @@ core_f64::Vessel kernel_vessel(const PreparedGrid& grid) {
 
 }  // namespace
 
-MeshGrid grid_of_mesh(const MeshDistance& distance, const CheckedMesh& mesh, const GridWish& wish) {
+MeshGrid grid_of_mesh(const MeshDistance& distance, const CheckedMesh& mesh, const GridWish& wish, const GridProgress& progress) {
   const std::vector<Triple> points = surface_points(mesh.mesh, SURFACE_SAMPLES);
   MeshGrid made;
-  made.grid = wish.spacing > 0 ? given_grid(mesh.facts, wish) : choose_grid(distance, mesh.facts, points, wish);
-  sample_lattice(distance, made.grid, wish.threads);
+  made.grid = wish.spacing ? given_grid(mesh.facts, wish) : choose_grid(distance, mesh.facts, points, wish, progress);
+  sample_lattice(distance, made.grid, wish.threads, progress);
   const core_f64::Vessel vessel = kernel_vessel(made.grid);
   made.error = largest_error(points, wish.threads, [&](const Triple& p) {
     return core_f64::grid_distance(vessel, {p[0], p[1], p[2]});
   });
+  if (progress) progress(1);
   return made;
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <optional>
 
 #include "core/prepare.h"
 #include "sweeps/mesh_check.h"
@@ -12,12 +14,16 @@ class MeshDistance;  // sweeps/mesh_distance.h
 
 // What a lattice is to be.
 struct GridWish {
-  double spacing = 0;                   // m; 0: as wide as `tolerance` allows
-  double tolerance = 0.25e-3;           // m, for the error at the surface
-  double margin = 0;                    // m beyond the mesh that the lattice reaches, and two cells more
-  bool halves = false;                  // 16 bits a sample, not 32
-  std::size_t most_bytes = 512u << 20;  // of the samples
-  int threads = 0;                      // 0: all cores
+  std::optional<double> spacing;  // m, > 0; absent: as wide as `tolerance` allows
+  double tolerance = 0.25e-3;     // m, for the error at the surface
+  double margin = 0;              // m beyond the mesh that the lattice reaches, and two cells more
+  // Of a sample, 16 or 32. Absent: 32 as long as the samples then take at most half of `most_bytes`, else 16; but always 32 where the mesh
+  // and its margin are 32 m or more across, as halves end at 63.97 m.
+  std::optional<int> bits;
+  // Of the samples: what memory and the device's largest buffer allow. Of what the machine has, rather than of what is free just now:
+  // where it decides, another value means another lattice.
+  std::size_t most_bytes = 512u << 20;
+  int threads = 0;  // 0: all cores
 };
 
 struct MeshGrid {
@@ -25,9 +31,15 @@ struct MeshGrid {
   double error = 0;  // m: the largest trilinear value found at random points of the surface, where it should be 0
 };
 
+// Called with the share of the work that is done, from 0 to 1, ascending, by the thread that asked for the work; 0 as long as a spacing is
+// sought. What it throws ends the work.
+using GridProgress = std::function<void(double share)>;
+
 // The lattice as core/prepare.h's prepare_grid lays one out, but only as wide in x, y and z as the mesh is. Without a spacing the
-// widest lattice whose error stays below the tolerance, or the finest that fits `most_bytes`: then `error` is above the tolerance.
-// Throws Error (usage) where a given spacing does not fit.
-MeshGrid grid_of_mesh(const MeshDistance& distance, const CheckedMesh& mesh, const GridWish& wish);
+// widest lattice whose error, rounding to 16 bits included, stays below the tolerance, or the finest that fits `most_bytes`: then `error`
+// may be above the tolerance. With 16 bits asked for, distances beyond 63.97 m are cut to that.
+// Throws Error (usage) where a given spacing does not fit, or none does.
+MeshGrid grid_of_mesh(const MeshDistance& distance, const CheckedMesh& mesh, const GridWish& wish,
+                      const GridProgress& progress = {});
 
 }  // namespace wholehand

@@ -4,10 +4,15 @@
 #include "sweeps/mesh_distance.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "core/sdf.h"
@@ -175,6 +180,46 @@ TEST(MeshDistance, TurnedAndMovedCopiesGiveTheSame) {
     const Triple p = random_point(random, 0.1);
     const Triple q = placed_mesh({{p}, {}}, turn, move).vertices[0];
     ASSERT_NEAR(here.signed_distance(p), there.signed_distance(q), 10 * ROUNDING);
+  }
+}
+
+// As TurnedAndMovedCopiesGiveTheSame, but by the file's nodes and by the scene's scale and rotation: the distances scale with the body.
+TEST(MeshDistance, CopiesPlacedByNodesAndByTheSceneGiveTheSame) {
+  const std::string path = testing::TempDir() + "wholehand-placed-" + std::to_string(::getpid()) + ".glb";
+  const std::string plain = glb_text(turned_mesh(beaker3(), 60, 3e-3));
+  MeshData data;
+  data.file = path;
+  data.origin_at_base = false;
+  const auto read = [&](const std::string& bytes) {
+    std::ofstream(path, std::ios::binary) << bytes;
+    return check_mesh(read_mesh(data, ""), "flask");
+  };
+  const CheckedMesh mesh = read(plain);
+  std::uint32_t json_size = 0;
+  std::memcpy(&json_size, plain.data() + 12, 4);
+  nlohmann::json json = nlohmann::json::parse(plain.substr(20, json_size));
+  // the outer node is moved and turned about y, the inner one turned about x, moved and made half as large
+  json["nodes"] = {{{"children", {1}}, {"translation", {0.4, -0.2, 0.7}}, {"rotation", {0, std::sin(0.6), 0, std::cos(0.6)}}},
+                   {{"mesh", 0},
+                    {"translation", {0, 0.1, 0}},
+                    {"rotation", {std::sin(0.15), 0, 0, std::cos(0.15)}},
+                    {"scale", {0.5, 0.5, 0.5}}}};
+  data.scale = 3;
+  data.rotate = {-0.7, 0.9, 2.1};
+  const CheckedMesh copy = read(glb_text(json.dump(), plain.substr(20 + json_size + 8)));
+  std::filesystem::remove(path);
+  const auto place = [&](Triple p) {
+    for (double& x : p) x *= 0.5;
+    p = placed_mesh({{p}, {}}, {0.3, 0, 0}, {0, 0.1, 0}).vertices[0];
+    p = placed_mesh({{p}, {}}, {0, 1.2, 0}, {0.4, -0.2, 0.7}).vertices[0];
+    for (double& x : p) x *= 3;
+    return placed_mesh({{p}, {}}, data.rotate, {}).vertices[0];
+  };
+  const MeshDistance here(mesh), there(copy);
+  Random random(11);
+  for (int i = 0; i < 5000; ++i) {
+    const Triple p = random_point(random, 0.1);
+    ASSERT_NEAR(1.5 * here.signed_distance(p), there.signed_distance(place(p)), 10 * ROUNDING);  // m: some 3 m from the origin
   }
 }
 

@@ -5,7 +5,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <thread>
+#include <vector>
 
 #include "core/error.h"
 #include "core/sdf.h"
@@ -33,9 +39,10 @@ TEST(MeshGrid, SamplesAreDistancesWhereTheyShouldBe) {
     GridWish wish;
     wish.spacing = 5e-3;
     wish.margin = 8e-3;
-    wish.halves = halves;
+    wish.bits = halves ? 16 : 32;
     const PreparedGrid grid = grid_of_mesh(distance, mesh, wish).grid;
-    EXPECT_EQ(grid.spacing, wish.spacing);
+    EXPECT_EQ(grid.spacing, 5e-3);
+    EXPECT_EQ(grid.halves, halves);
     const core_f64::Vessel vessel = kernel_grid(grid);
     const std::array<int, 3> counts{grid.nx, grid.ny, grid.nz};
     for (int k = 0; k < 3; ++k) {
@@ -62,6 +69,109 @@ TEST(MeshGrid, AnOpenMeshKeepsItsSides) {
   EXPECT_NEAR(core_f64::grid_distance(vessel, {0, 0.055, 0}), 0.005, 1e-3);
 }
 
+// Largest difference between the lattice and a closed form in a band of 5 mm on both sides of the surface.
+double band_error(const TriangleMesh& triangles, double spacing, const std::function<double(const Triple&)>& exact) {
+  const CheckedMesh mesh = check_mesh(triangles, "body");
+  const MeshDistance distance(mesh);
+  GridWish wish;
+  wish.spacing = spacing;
+  wish.margin = 5e-3;
+  const core_f64::Vessel vessel = kernel_grid(grid_of_mesh(distance, mesh, wish).grid);
+  Random random(10);
+  double largest = 0;
+  for (int i = 0; i < 100'000; ++i) {
+    const double x = random.uniform(-0.08, 0.08), y = random.uniform(-0.08, 0.08);
+    const Triple p{x, y, random.uniform(-0.08, 0.08)};
+    if (std::abs(exact(p)) > 5e-3) continue;
+    largest = std::max(largest, std::abs(core_f64::grid_distance(vessel, {p[0], p[1], p[2]}) - exact(p)));
+  }
+  return largest;
+}
+
+// Trilinear interpolation errs by h^2 / 8 times the sum of the second derivatives along the axes, which for a distance is at most the
+// sum of the curvatures' sizes of its level surface, here at the depth to which the cells' corners reach: 10 mm. Chords cut off a sagitta.
+TEST(MeshGrid, ASphereAndATorusAtSecondOrder) {
+  struct Body {
+    TriangleMesh mesh;
+    std::function<double(const Triple&)> exact;
+    double curvature, sagitta;
+  };
+  const std::vector<Body> bodies{
+      {icosphere(0.05, 6), [](const Triple& p) { return std::hypot(p[0], p[1], p[2]) - 0.05; }, 2 / 0.04,
+       0.05 * std::pow(1.4 / 64, 2) / 6},
+      {torus(0.05, 0.02, 400, 200), [](const Triple& p) { return std::hypot(std::hypot(p[0], p[2]) - 0.05, p[1]) - 0.02; },
+       1 / 0.01 + 1 / 0.02, 2 * (0.07 * std::pow(PI / 400, 2) / 2 + 0.02 * std::pow(PI / 200, 2) / 2)},
+  };
+  for (const Body& body : bodies) {
+    const double coarse = band_error(body.mesh, 5e-3, body.exact), fine = band_error(body.mesh, 2.5e-3, body.exact);
+    EXPECT_LT(coarse, 25e-6 / 8 * body.curvature + body.sagitta);
+    EXPECT_GT((coarse + body.sagitta) / (fine - body.sagitta), 3.5);
+    EXPECT_LT((coarse - body.sagitta) / (fine + body.sagitta), 4.5);
+  }
+}
+
+TEST(MeshGrid, FloatsUpToHalfOfTheMemoryThenHalvesThenNothing) {
+  const CheckedMesh mesh = check_mesh(torus(0.05, 0.02, 40, 20), "torus");
+  const MeshDistance distance(mesh);
+  GridWish wish;
+  wish.spacing = 10e-3;
+  for (const double margin : {0.0, 7e-3}) {  // an even and an odd number of samples
+    wish.bits.reset();
+    wish.most_bytes = 1u << 20;
+    wish.margin = margin;
+    const PreparedGrid roomy = grid_of_mesh(distance, mesh, wish).grid;
+    const std::size_t samples = static_cast<std::size_t>(roomy.nx) * roomy.ny * roomy.nz, half_words = (samples + 1) / 2;
+    EXPECT_EQ(samples % 2, margin > 0 ? 1u : 0u);
+    EXPECT_FALSE(roomy.halves);
+    const auto made = [&](std::size_t most_bytes) {
+      wish.most_bytes = most_bytes;
+      return grid_of_mesh(distance, mesh, wish).grid;
+    };
+    EXPECT_FALSE(made(8 * samples).halves);
+    EXPECT_TRUE(made(8 * samples - 1).halves);
+    EXPECT_EQ(made(8 * samples - 1).words->size(), half_words);
+    EXPECT_TRUE(made(4 * half_words).halves);
+    EXPECT_THROW(made(4 * half_words - 1), Error);
+    wish.bits = 32;
+    EXPECT_FALSE(made(4 * samples).halves);
+    EXPECT_THROW(made(4 * samples - 1), Error);
+    wish.bits = 16;
+    EXPECT_TRUE(made(1u << 20).halves);
+    EXPECT_TRUE(made(4 * half_words).halves);
+    EXPECT_THROW(made(4 * half_words - 1), Error);
+  }
+}
+
+// A half keeps 11 bits: of a sample at a corner of a cell that the surface passes, at most a cell's diagonal.
+TEST(MeshGrid, HalvesCostTheirRoundingAndSaySo) {
+  const CheckedMesh mesh = check_mesh(turned_mesh(beaker2(), 60, 3e-3), "flask");
+  const MeshDistance distance(mesh);
+  for (const double spacing : {2e-3, 5e-3}) {
+    GridWish wish;
+    wish.spacing = spacing;
+    wish.bits = 32;
+    const double floats = grid_of_mesh(distance, mesh, wish).error;
+    wish.bits = 16;
+    const double halves = grid_of_mesh(distance, mesh, wish).error;
+    EXPECT_NE(halves, floats);
+    EXPECT_NEAR(halves, floats, std::sqrt(3.0) * spacing / 2048);
+  }
+}
+
+TEST(MeshGrid, AChosenSpacingGoesOverToHalves) {
+  const CheckedMesh mesh = check_mesh(turned_mesh(beaker1(), 60, 5e-3), "beaker");
+  const MeshDistance distance(mesh);
+  GridWish wish;
+  wish.tolerance = 2e-3;
+  const MeshGrid floats = grid_of_mesh(distance, mesh, wish);
+  EXPECT_FALSE(floats.grid.halves);
+  wish.most_bytes = 8 * floats.grid.words->size() - 4;
+  const MeshGrid halves = grid_of_mesh(distance, mesh, wish);
+  EXPECT_TRUE(halves.grid.halves);
+  EXPECT_EQ(halves.grid.spacing, floats.grid.spacing);
+  EXPECT_LE(halves.error, 2e-3);
+}
+
 TEST(MeshGrid, TheSpacingIsChosenByTheErrorAtTheSurface) {
   const CheckedMesh mesh = check_mesh(turned_mesh(beaker3(), 120, 2e-3), "flask");
   const MeshDistance distance(mesh);
@@ -79,18 +189,55 @@ TEST(MeshGrid, StaysWithinItsMemory) {
   const MeshDistance distance(mesh);
   GridWish wish;
   wish.tolerance = 1e-9;
-  wish.most_bytes = 200'000;
-  const MeshGrid finest = grid_of_mesh(distance, mesh, wish);
-  EXPECT_LE(4 * finest.grid.words->size(), 200'000u);
-  EXPECT_GT(4 * finest.grid.words->size(), 80'000u);
-  EXPECT_GT(finest.error, 1e-9);
-  wish.spacing = 1e-3;
-  EXPECT_THROW(grid_of_mesh(distance, mesh, wish), Error);
-  wish.spacing = 1e-12;
-  EXPECT_THROW(grid_of_mesh(distance, mesh, wish), Error);
-  wish.spacing = 0;
+  for (const std::size_t most : {2000u, 20'000u, 200'000u}) {
+    wish.most_bytes = most;
+    const MeshGrid finest = grid_of_mesh(distance, mesh, wish);
+    EXPECT_TRUE(finest.grid.halves);
+    EXPECT_LE(4 * finest.grid.words->size(), most);
+    EXPECT_GT(4 * finest.grid.words->size(), most / 1.25) << most;  // the counts are whole numbers
+    EXPECT_GT(finest.error, 1e-9);
+  }
   wish.most_bytes = 100;
   EXPECT_THROW(grid_of_mesh(distance, mesh, wish), Error);
+}
+
+TEST(MeshGrid, ARefusedSpacingNamesTheFinestThatFits) {
+  const CheckedMesh mesh = check_mesh(torus(0.05, 0.02, 40, 20), "torus");
+  const MeshDistance distance(mesh);
+  GridWish wish;
+  wish.most_bytes = 1u << 20;
+  wish.spacing = 1e-12;
+  EXPECT_THROW(grid_of_mesh(distance, mesh, wish), Error);
+  wish.spacing = 0.5e-3;
+  try {
+    grid_of_mesh(distance, mesh, wish);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ExitCode::usage);
+    const std::string line = error.what(), words = "the finest that fits has ";
+    EXPECT_NE(line.find("a lattice of 0.5 mm has 6.9e+06 samples of 2 bytes, and 1 MB are free for them"), std::string::npos)
+        << line;
+    ASSERT_NE(line.find(words), std::string::npos) << line;
+    wish.spacing = 1e-3 * std::stod(line.substr(line.find(words) + words.size()));
+  }
+  EXPECT_NO_THROW(grid_of_mesh(distance, mesh, wish));
+  *wish.spacing *= 0.99;
+  EXPECT_THROW(grid_of_mesh(distance, mesh, wish), Error);
+}
+
+// 65504 / 1024 m is the largest half.
+TEST(MeshGrid, DistancesBeyondHalvesAreKeptOrCut) {
+  const CheckedMesh mesh = check_mesh(box_mesh({0, 0, 0}, {200, 200, 200}), "box");
+  const MeshDistance distance(mesh);
+  GridWish wish;
+  wish.spacing = 20;
+  wish.most_bytes = 16'000;
+  const auto middle = [&] {
+    return core_f64::grid_distance(kernel_grid(grid_of_mesh(distance, mesh, wish).grid), {100, 100, 100});
+  };
+  EXPECT_EQ(middle(), -100);
+  wish.bits = 16;
+  EXPECT_EQ(middle(), -65504.0 / 1024);
 }
 
 TEST(MeshGrid, IsTheSameOnAnyNumberOfThreads) {
@@ -98,13 +245,35 @@ TEST(MeshGrid, IsTheSameOnAnyNumberOfThreads) {
   const MeshDistance distance(mesh);
   GridWish wish;
   wish.spacing = 7.3e-3;
-  wish.halves = true;
+  wish.bits = 16;
   wish.threads = 1;
   const MeshGrid one = grid_of_mesh(distance, mesh, wish);
   wish.threads = 5;
   const MeshGrid five = grid_of_mesh(distance, mesh, wish);
   EXPECT_EQ(*one.grid.words, *five.grid.words);
   EXPECT_EQ(one.error, five.error);
+}
+
+TEST(MeshGrid, TellsHowFarItIs) {
+  const CheckedMesh mesh = check_mesh(torus(0.05, 0.02, 40, 20), "torus");
+  const MeshDistance distance(mesh);
+  GridWish wish;
+  wish.tolerance = 2e-3;
+  wish.threads = 3;
+  std::vector<double> shares;
+  const auto here = std::this_thread::get_id();
+  grid_of_mesh(distance, mesh, wish, [&](double share) {
+    EXPECT_EQ(std::this_thread::get_id(), here);
+    shares.push_back(share);
+  });
+  ASSERT_GT(shares.size(), 3u);
+  EXPECT_EQ(shares.front(), 0);
+  EXPECT_EQ(shares.back(), 1);
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  const auto give_up = [](double share) {
+    if (share > 0) throw failure_error("enough");
+  };
+  EXPECT_THROW(grid_of_mesh(distance, mesh, wish, give_up), Error);
 }
 
 }  // namespace
