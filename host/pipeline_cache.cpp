@@ -2,10 +2,11 @@
 
 #include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+
+#include "host/cache_folder.h"
 
 namespace wholehand::host {
 namespace {
@@ -25,15 +26,6 @@ std::uint64_t fnv1a(const std::vector<std::uint8_t>& bytes) {
   return hash;
 }
 
-std::string default_folder() {
-  const char* cache = std::getenv("XDG_CACHE_HOME");
-  const char* home = std::getenv("HOME");
-  if (cache && *cache == '/') {
-    return std::string(cache) + "/wholehand";
-  }
-  return home && *home == '/' ? std::string(home) + "/.cache/wholehand" : "";
-}
-
 std::vector<std::uint8_t> load(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   FileHeader header;
@@ -50,7 +42,7 @@ std::vector<std::uint8_t> load(const std::string& file) {
 
 void open_pipeline_cache(Device::Impl& impl, const std::string& folder) {
   std::vector<std::uint8_t> bytes;
-  const std::string where = !folder.empty() ? folder : impl.info.kind == DeviceKind::cpu ? "" : default_folder();
+  const std::string where = !folder.empty() ? folder : impl.info.kind == DeviceKind::cpu ? "" : cache_folder();
   if (!where.empty()) {
     const std::uint32_t driver = impl.physical->getProperties().driverVersion;
     impl.cache_file = where + "/" + impl.info.uuid + "-" + std::to_string(driver) + ".pipelines";
