@@ -13,6 +13,7 @@
 #include "sweeps/mesh.h"
 #include "sweeps/mesh_check.h"
 #include "sweeps/mesh_distance.h"
+#include "sweeps/mesh_grid.h"
 
 namespace wholehand {
 namespace {
@@ -77,7 +78,7 @@ void place_cavity(const VesselData& vessel, MeshBody& body) {
 
 GridWish wish_of(const Scene& scene, const MeshData& data, bool is_large, const MeshOptions& options) {
   GridWish wish;
-  wish.spacing = data.grid_spacing.value_or(0);
+  wish.spacing = data.grid_spacing;
   wish.margin = grid_margin(scene);
   // what no hand holds is most likely in another unit: an answer soon, not a fine one
   wish.most_bytes = data.grid_spacing || !is_large ? options.most_bytes : std::min(options.most_bytes, LARGE_MESH_LATTICE);
@@ -85,14 +86,15 @@ GridWish wish_of(const Scene& scene, const MeshData& data, bool is_large, const 
   return wish;
 }
 
-std::string lattice_text(const MeshBody& body, double tolerance) {
+std::string lattice_text(const MeshBody& body) {
+  const double tolerance = GridWish{}.tolerance;
   const PreparedGrid& grid = body.grid;
   std::string text =
       fmt::format("lattice of {:.4g} mm, {} x {} x {} samples of {} bits; distances at the surface are within {:.2g} mm",
                   1e3 * grid.spacing, grid.nx, grid.ny, grid.nz, grid.halves ? 16 : 32, 1e3 * body.grid_error);
   if (body.grid_error > tolerance)
-    text +=
-        fmt::format(", not the {:.2g} mm wanted: {}", 1e3 * tolerance, "a smaller grid_mm is more exact, as far as memory allows");
+    text += fmt::format(", more than the {:.2g} mm aimed at: a smaller grid_mm is more exact, as far as memory allows",
+                        1e3 * tolerance);
   return text;
 }
 
@@ -134,7 +136,7 @@ void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder
   body->vertices = std::move(checked.mesh.vertices);
   body->triangles = std::move(checked.mesh.triangles);
   if (vessel.has_cavity()) place_cavity(vessel, *body);
-  say(lattice_text(*body, wish.tolerance));
+  say(lattice_text(*body));
   say(mass_text(vessel, *body));
   vessel.base = body->low[1];
   vessel.height = body->high[1];
@@ -145,6 +147,17 @@ void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder
 
 bool has_meshes(const Scene& scene) {
   return std::any_of(scene.vessels.begin(), scene.vessels.end(), [](const VesselData& vessel) { return vessel.mesh.has_value(); });
+}
+
+std::string mesh_lines(const Scene& scene) {
+  std::string lines;
+  for (const VesselData& vessel : scene.vessels) {
+    if (!vessel.mesh || !vessel.mesh->body) continue;
+    for (const std::string& part : {vessel.mesh->file + ": " + vessel.mesh->body->facts, lattice_text(*vessel.mesh->body),
+                                    mass_text(vessel, *vessel.mesh->body)})
+      lines += fmt::format("{}vessel '{}': {}", lines.empty() ? "" : "\n", vessel.name, part);
+  }
+  return lines;
 }
 
 std::string mesh_keys(const Scene& scene) {

@@ -31,6 +31,8 @@ void load_meshes(Scene& scene, const MeshOptions& options);
 void load_meshes(Scene& scene, const std::string& on);
 
 bool has_meshes(const Scene& scene);
+// What was found of each mesh, a line each with the vessel's name.
+std::string mesh_lines(const Scene& scene);
 // The keys of all bodies, which tell whether two scenes have the same meshes; empty without any.
 std::string mesh_keys(const Scene& scene);
 

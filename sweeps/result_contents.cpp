@@ -5,10 +5,12 @@
 #include <netcdf.h>
 
 #include <cstring>
+#include <filesystem>
 #include <limits>
 
 #include "core/error.h"
 #include "shaders/layout.h"
+#include "sweeps/mesh_vessel.h"
 
 namespace wholehand {
 namespace {
@@ -159,6 +161,11 @@ class Definition {
     check(nc_put_att_ulonglong(file_, NC_GLOBAL, "seed", NC_UINT64, 1, &seed), path_);
     number(NC_GLOBAL, WALL_TIME, NOT_A_NUMBER);
     number(NC_GLOBAL, KERNEL_TIME, NOT_A_NUMBER);
+    if (has_meshes(scene)) {
+      text(NC_GLOBAL, SCENE_FILE, std::filesystem::absolute(scene.file).lexically_normal().string());
+      text(NC_GLOBAL, "meshes", mesh_lines(scene));
+      text(NC_GLOBAL, MESH_KEYS, mesh_keys(scene));
+    }
     if (contents_.plan.copies() > 1) {
       text(NC_GLOBAL, "azimuth", "evaluated at the first azimuth and repeated: the vessels are bodies of revolution");
     }

@@ -37,6 +37,10 @@ constexpr const char* BEST_GRIP = "best_grip";
 constexpr const char* BEST_SCORE = "best_score";
 std::string best_axis_name(const PlanAxis& axis);
 
+// Of a scene with meshes: from where relative mesh files are looked for, and what tells that they are still the same (sweeps/mesh_vessel.h).
+constexpr const char* SCENE_FILE = "scene_file";
+constexpr const char* MESH_KEYS = "mesh_keys";
+
 // Attributes whose value is known only at the end; NaN until then.
 constexpr const char* WALL_TIME = "wall_time_s";
 constexpr const char* KERNEL_TIME = "kernel_time_s";
