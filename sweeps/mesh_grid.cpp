@@ -158,11 +158,12 @@ double largest_error(const std::vector<Triple>& points, int threads, const std::
   return *std::max_element(errors.begin(), errors.end());
 }
 
-// Coarser and coarser until one fits.
-PreparedGrid coarsest_lattice(const MeshFacts& facts, const GridWish& wish) {
+// Where the search for a spacing starts: coarser than it would be where only that fits.
+PreparedGrid coarsest_lattice(const MeshFacts& facts, const GridWish& wish, bool& at_limit) {
   double spacing = 0;
   for (int k = 0; k < 3; ++k) spacing = std::max(spacing, (facts.high[k] - facts.low[k]) / COARSEST_CELLS);
   PreparedGrid grid = lay_lattice(facts, wish, spacing);
+  at_limit = !lattice_fits(grid, wish);
   while (!lattice_fits(grid, wish) && samples_of(grid) > FEWEST_SAMPLES)
     grid = lay_lattice(facts, wish, grid.spacing * SPACING_STEP);
   if (!lattice_fits(grid, wish)) throw usage_error(fmt::format("no lattice of distances fits {} bytes", wish.most_bytes));
@@ -171,8 +172,8 @@ PreparedGrid coarsest_lattice(const MeshFacts& facts, const GridWish& wish) {
 
 // Finer and finer until the error is small enough or no more samples fit.
 PreparedGrid choose_grid(const MeshDistance& distance, const MeshFacts& facts, const std::vector<Triple>& points,
-                         const GridWish& wish, const GridProgress& progress) {
-  PreparedGrid grid = coarsest_lattice(facts, wish);
+                         const GridWish& wish, const GridProgress& progress, bool& at_limit) {
+  PreparedGrid grid = coarsest_lattice(facts, wish, at_limit);
   const auto value_at = [&](const Triple& p) { return value_without_samples(distance, grid, p); };
   const auto error_of_grid = [&] {
     if (progress) progress(0);
@@ -180,7 +181,10 @@ PreparedGrid choose_grid(const MeshDistance& distance, const MeshFacts& facts, c
   };
   while (error_of_grid() > wish.tolerance) {
     const PreparedGrid finer = lay_lattice(facts, wish, grid.spacing / SPACING_STEP);
-    if (!lattice_fits(finer, wish)) return finest_lattice(facts, wish, grid, finer.spacing);
+    if (!lattice_fits(finer, wish)) {
+      at_limit = true;
+      return finest_lattice(facts, wish, grid, finer.spacing);
+    }
     grid = finer;
   }
   return grid;
@@ -189,7 +193,8 @@ PreparedGrid choose_grid(const MeshDistance& distance, const MeshFacts& facts, c
 PreparedGrid given_grid(const MeshFacts& facts, const GridWish& wish) {
   const PreparedGrid grid = lay_lattice(facts, wish, *wish.spacing);
   if (lattice_fits(grid, wish)) return grid;
-  const double least = finest_lattice(facts, wish, coarsest_lattice(facts, wish), grid.spacing).spacing;
+  bool at_limit = false;
+  const double least = finest_lattice(facts, wish, coarsest_lattice(facts, wish, at_limit), grid.spacing).spacing;
   throw usage_error(fmt::format(
       "a lattice of {:.4g} mm has {:.3g} samples of {} bytes, and {} MB are free for them: the finest that fits has {:.4g} mm",
       1e3 * grid.spacing, samples_of(grid), grid.halves ? 2 : 4, wish.most_bytes >> 20, 1e3 * least * (1 + 5 * SAME_SPACING)));
@@ -249,10 +254,16 @@ core_f64::Vessel kernel_vessel(const PreparedGrid& grid) {
 
 }  // namespace
 
+std::optional<PreparedGrid> lattice_at(const MeshFacts& facts, const GridWish& wish, double spacing) {
+  const PreparedGrid grid = lay_lattice(facts, wish, spacing);
+  return lattice_fits(grid, wish) ? std::optional(grid) : std::nullopt;
+}
+
 MeshGrid grid_of_mesh(const MeshDistance& distance, const CheckedMesh& mesh, const GridWish& wish, const GridProgress& progress) {
   const std::vector<Triple> points = surface_points(mesh.mesh, SURFACE_SAMPLES);
   MeshGrid made;
-  made.grid = wish.spacing ? given_grid(mesh.facts, wish) : choose_grid(distance, mesh.facts, points, wish, progress);
+  made.grid =
+      wish.spacing ? given_grid(mesh.facts, wish) : choose_grid(distance, mesh.facts, points, wish, progress, made.at_limit);
   sample_lattice(distance, made.grid, wish.threads, progress);
   const core_f64::Vessel vessel = kernel_vessel(made.grid);
   made.error = largest_error(points, wish.threads, [&](const Triple& p) {

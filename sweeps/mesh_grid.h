@@ -28,8 +28,12 @@ struct GridWish {
 
 struct MeshGrid {
   PreparedGrid grid;
-  double error = 0;  // m: the largest trilinear value found at random points of the surface, where it should be 0
+  double error = 0;       // m: the largest trilinear value found at random points of the surface, where it should be 0
+  bool at_limit = false;  // `most_bytes` had a say in choosing the spacing: with more it would be smaller
 };
+
+// Where the samples of a lattice with this spacing (m, > 0) would lie, and in how many bits, without samples; none where it does not fit.
+std::optional<PreparedGrid> lattice_at(const MeshFacts& facts, const GridWish& wish, double spacing);
 
 // Called with the share of the work that is done, from 0 to 1, ascending, by the thread that asked for the work; 0 as long as a spacing is
 // sought. What it throws ends the work.

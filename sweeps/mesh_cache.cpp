@@ -1,0 +1,285 @@
+#include "sweeps/mesh_cache.h"
+
+#include <fmt/format.h>
+#include <stdlib.h>
+#include <unistd.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <new>
+#include <optional>
+#include <type_traits>
+#include <vector>
+
+#include "host/cache_folder.h"
+#include "sweeps/mesh_distance.h"
+
+namespace wholehand {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Raised whenever samples, error or choice of a lattice, or the file, are made in another way: older files are then made again.
+constexpr std::uint32_t GRID_FORMAT = 1;
+constexpr auto STALE = std::chrono::hours(1);  // what is not whole by then never will be
+constexpr const char* GRID_SUFFIX = ".grid";
+constexpr const char* PARTIAL_SUFFIX = ".partial";
+
+using Digest = std::array<std::uint64_t, 2>;  // XXH3 of 128 bits
+
+class Hash {
+ public:
+  Hash() {
+    if (!state_) throw std::bad_alloc();
+    XXH3_128bits_reset(state_.get());
+  }
+  void add(const void* data, std::size_t size) { XXH3_128bits_update(state_.get(), data, size); }
+  template <class T>
+  void add(const T& value) {
+    static_assert(std::has_unique_object_representations_v<T> || std::is_same_v<T, double>);  // no padding
+    add(&value, sizeof value);
+  }
+  template <class T>
+  void add_all(const std::vector<T>& values) {
+    add(values.size());
+    add(values.data(), values.size() * sizeof(T));
+  }
+  Digest digest() const {
+    const XXH128_hash_t hash = XXH3_128bits_digest(state_.get());
+    return {hash.low64, hash.high64};
+  }
+
+ private:
+  struct Free {
+    void operator()(XXH3_state_t* state) const { XXH3_freeState(state); }
+  };
+  std::unique_ptr<XXH3_state_t, Free> state_{XXH3_createState()};
+};
+
+std::string hex_of(const Digest& digest) { return fmt::format("{:016x}{:016x}", digest[1], digest[0]); }
+
+Hash hash_of(const CheckedMesh& mesh) {
+  Hash hash;
+  hash.add(GRID_FORMAT);
+  hash.add_all(mesh.mesh.vertices);
+  hash.add_all(mesh.mesh.triangles);
+  return hash;
+}
+
+Digest lattice_digest(const CheckedMesh& mesh, const PreparedGrid& grid) {
+  Hash hash = hash_of(mesh);
+  for (const double x : grid.origin) hash.add(x);
+  hash.add(grid.spacing);
+  for (const int count : {grid.nx, grid.ny, grid.nz, grid.halves ? 16 : 32}) hash.add(count);
+  return hash.digest();
+}
+
+// Of a lattice whose spacing is chosen. Where the tolerance alone decides it is the same with any memory that holds it (`most_bytes` 0);
+// else the memory is part of the wish.
+Digest choice_digest(const CheckedMesh& mesh, const GridWish& wish, int bits, std::uint64_t most_bytes) {
+  Hash hash = hash_of(mesh);
+  hash.add(wish.tolerance);
+  hash.add(wish.margin);
+  hash.add(bits);
+  hash.add(most_bytes);
+  return hash.digest();
+}
+
+// ---- files: this, the samples' words, and the hash of both ----
+
+struct GridHeader {
+  std::array<char, 8> magic{'w', 'h', 'g', 'r', 'i', 'd', '0', '1'};
+  Digest key{};
+  std::uint32_t format = GRID_FORMAT, bits = 0;
+  std::int32_t nx = 0, ny = 0, nz = 0;
+  std::uint32_t at_limit = 0;
+  Triple origin{};
+  double spacing = 0, error = 0;
+};
+static_assert(sizeof(GridHeader) == 88);
+
+GridHeader header_of(const MeshGrid& made, const Digest& key) {
+  GridHeader header;
+  header.key = key;
+  header.bits = made.grid.halves ? 16 : 32;
+  header.nx = made.grid.nx;
+  header.ny = made.grid.ny;
+  header.nz = made.grid.nz;
+  header.at_limit = made.at_limit ? 1 : 0;
+  header.origin = made.grid.origin;
+  header.spacing = made.grid.spacing;
+  header.error = made.error;
+  return header;
+}
+
+// Without samples.
+MeshGrid lattice_of(const GridHeader& header) {
+  MeshGrid found;
+  found.grid.origin = header.origin;
+  found.grid.spacing = header.spacing;
+  found.grid.nx = header.nx;
+  found.grid.ny = header.ny;
+  found.grid.nz = header.nz;
+  found.grid.halves = header.bits == 16;
+  found.error = header.error;
+  found.at_limit = header.at_limit != 0;
+  return found;
+}
+
+Digest file_digest(const GridHeader& header, const std::vector<std::uint32_t>& words) {
+  Hash hash;
+  hash.add(&header, sizeof header);
+  hash.add(words.data(), 4 * words.size());
+  return hash.digest();
+}
+
+// How many words a file of this size holds after such a header; 0: it cannot be whole.
+std::size_t words_in(const GridHeader& header, std::uintmax_t size) {
+  const double samples = static_cast<double>(header.nx) * header.ny * header.nz;
+  const double words = header.bits == 16 ? std::ceil(samples / 2) : samples;
+  const bool is_whole =
+      header.nx > 1 && header.ny > 1 && header.nz > 1 && static_cast<double>(size) == sizeof header + 4 * words + sizeof(Digest);
+  return is_whole ? static_cast<std::size_t>(words) : 0;
+}
+
+template <class T>
+bool read_value(std::istream& in, T& value) {
+  return static_cast<bool>(in.read(reinterpret_cast<char*>(&value), sizeof value));
+}
+
+void touch(const fs::path& file) {
+  std::error_code ignored;  // of a folder that may only be read
+  fs::last_write_time(file, fs::file_time_type::clock::now(), ignored);
+}
+
+// The lattice in a file; none where it is not there, not whole, not this one, or not what is wished.
+std::optional<MeshGrid> load_grid_file(const fs::path& file, const Digest& key, const MeshFacts& facts, const GridWish& wish) try {
+  std::ifstream in(file, std::ios::binary);
+  GridHeader header;
+  if (!in || !read_value(in, header)) return {};
+  if (header.magic != GridHeader().magic || header.format != GRID_FORMAT || header.key != key) return {};
+  if (!(header.spacing > 0)) return {};
+  const std::size_t count = words_in(header, fs::file_size(file));
+  const std::optional<PreparedGrid> wished = lattice_at(facts, wish, header.spacing);
+  if (count == 0 || !wished || wished->halves != (header.bits == 16)) return {};
+  std::vector<std::uint32_t> words(count);
+  Digest digest{};
+  if (!in.read(reinterpret_cast<char*>(words.data()), static_cast<std::streamsize>(4 * count)) || !read_value(in, digest))
+    return {};
+  if (digest != file_digest(header, words)) return {};
+  touch(file);
+  MeshGrid found = lattice_of(header);
+  found.grid.words = std::make_shared<const std::vector<std::uint32_t>>(std::move(words));
+  return found;
+} catch (const std::exception&) {
+  return {};
+}
+
+// Of this cache: a key, and one of its endings.
+bool is_cache_file(const fs::path& file) {
+  const std::string name = file.filename().string(), ending = file.extension().string();
+  return (ending == GRID_SUFFIX || ending == PARTIAL_SUFFIX) && name.find_first_not_of("0123456789abcdef") == 32;
+}
+
+// Removes what others left unfinished, and then the files unused for longest until so many bytes more may be there. Others may do the same
+// at the same time.
+void make_room(const fs::path& folder, std::uintmax_t bytes) {
+  struct Kept {
+    fs::file_time_type used;
+    std::uintmax_t size;
+    fs::path file;
+  };
+  std::vector<Kept> kept;
+  std::uintmax_t total = bytes;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    std::error_code gone;
+    if (!is_cache_file(entry.path()) || !entry.is_regular_file(gone)) continue;
+    const fs::file_time_type used = entry.last_write_time(gone);
+    const std::uintmax_t size = entry.file_size(gone);
+    if (gone) continue;
+    if (entry.path().extension() == GRID_SUFFIX) {
+      kept.push_back({used, size, entry.path()});
+      total += size;
+    } else if (fs::file_time_type::clock::now() - used > STALE) {
+      fs::remove(entry.path(), gone);
+    }
+  }
+  std::sort(kept.begin(), kept.end(), [](const Kept& a, const Kept& b) { return a.used < b.used; });
+  for (const Kept& oldest : kept) {
+    if (total <= MOST_CACHED_BYTES) return;
+    std::error_code ignored;
+    fs::remove(oldest.file, ignored);
+    total -= oldest.size;
+  }
+}
+
+// A new file that no other process writes; empty where none can be made.
+std::string new_partial(const fs::path& folder, const Digest& key) {
+  std::string name = (folder / (hex_of(key) + ".XXXXXX" + PARTIAL_SUFFIX)).string();
+  const int file = mkstemps(name.data(), static_cast<int>(std::strlen(PARTIAL_SUFFIX)));
+  if (file < 0) return "";
+  close(file);
+  return name;
+}
+
+void save_grid_file(const fs::path& folder, const Digest& key, const MeshGrid& made) try {
+  const GridHeader header = header_of(made, key);
+  const std::vector<std::uint32_t>& words = *made.grid.words;
+  const std::uintmax_t size = sizeof header + 4 * words.size() + sizeof(Digest);
+  if (size > MOST_CACHED_BYTES) return;
+  fs::create_directories(folder);
+  make_room(folder, size);
+  if (fs::space(folder).available < 2 * size) return;  // the disk is others' too
+  const std::string partial = new_partial(folder, key);
+  if (partial.empty()) return;
+  std::ofstream out(partial, std::ios::binary);
+  const Digest digest = file_digest(header, words);
+  out.write(reinterpret_cast<const char*>(&header), sizeof header);
+  out.write(reinterpret_cast<const char*>(words.data()), static_cast<std::streamsize>(4 * words.size()));
+  out.write(reinterpret_cast<const char*>(&digest), sizeof digest);
+  out.close();
+  std::error_code failed;
+  if (out) fs::rename(partial, folder / (hex_of(key) + GRID_SUFFIX), failed);
+  if (!out || failed) fs::remove(partial, failed);
+} catch (const std::exception&) {
+  // the next run makes it again
+}
+
+fs::path folder_of(const std::string& given) {
+  if (!given.empty()) return given;
+  const std::string own = host::cache_folder();
+  return own.empty() ? "" : own + "/grids";
+}
+
+}  // namespace
+
+MeshGrid cached_grid(const CheckedMesh& mesh, const GridWish& wish, const std::string& folder, const GridProgress& progress) {
+  const auto make = [&] { return grid_of_mesh(MeshDistance(mesh), mesh, wish, progress); };
+  const fs::path where = folder_of(folder);
+  if (where.empty()) return make();
+  const int bits = wish.bits.value_or(32);
+  std::vector<Digest> keys;  // any file that holds the lattice has one of these
+  if (!wish.spacing) {
+    keys = {choice_digest(mesh, wish, bits, 0), choice_digest(mesh, wish, wish.bits.value_or(0), wish.most_bytes)};
+  } else if (const std::optional<PreparedGrid> lattice = lattice_at(mesh.facts, wish, *wish.spacing)) {
+    keys = {lattice_digest(mesh, *lattice)};
+  }
+  for (const Digest& key : keys) {
+    if (auto found = load_grid_file(where / (hex_of(key) + GRID_SUFFIX), key, mesh.facts, wish)) return std::move(*found);
+  }
+  MeshGrid made = make();
+  const bool by_tolerance = !made.at_limit && made.grid.halves == (bits == 16);
+  save_grid_file(where, wish.spacing || by_tolerance ? keys.front() : keys.back(), made);
+  return made;
+}
+
+std::string mesh_key(const CheckedMesh& mesh, const PreparedGrid& grid) { return hex_of(lattice_digest(mesh, grid)); }
+
+}  // namespace wholehand

@@ -1,0 +1,351 @@
+// sanitizers: address
+// (Embree starts workers that the thread sanitizer cannot see into, and then reports what they were given.)
+// Lattices of meshes on the disk: the same again to the bit, made anew where a file is not what it should be, and never in the way.
+#include "sweeps/mesh_cache.h"
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/error.h"
+#include "sweeps/mesh_distance.h"
+#include "tests/support/environment.h"
+#include "tests/support/meshes.h"
+
+namespace wholehand {
+namespace {
+
+namespace fs = std::filesystem;
+
+class MeshCache : public testing::Test {
+ protected:
+  MeshCache() {
+    std::string name = (fs::temp_directory_path() / "wholehand-XXXXXX").string();
+    folder = mkdtemp(name.data());
+    wish.spacing = 20e-3;
+  }
+  ~MeshCache() override {
+    std::error_code ignored;
+    fs::permissions(folder, fs::perms::owner_all, ignored);
+    fs::remove_all(folder);
+  }
+
+  // The cache's answer, and whether it had to be made.
+  MeshGrid ask(const CheckedMesh& of, const GridWish& with) {
+    was_made = false;
+    return cached_grid(of, with, folder.string(), [&](double) { was_made = true; });
+  }
+  MeshGrid ask() { return ask(mesh, wish); }
+  std::vector<fs::path> files() const {
+    std::vector<fs::path> found;
+    for (const auto& entry : fs::directory_iterator(folder)) found.push_back(entry.path());
+    return found;
+  }
+  static std::string bytes_of(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  static void write(const fs::path& file, const std::string& bytes) {
+    std::ofstream(file, std::ios::binary | std::ios::trunc) << bytes;
+  }
+
+  const CheckedMesh mesh = check_mesh(torus(0.05, 0.02, 20, 10), "torus");
+  GridWish wish;
+  fs::path folder;
+  bool was_made = false;
+};
+
+void expect_same(const MeshGrid& a, const MeshGrid& b) {
+  EXPECT_EQ(a.grid.origin, b.grid.origin);
+  EXPECT_EQ(a.grid.spacing, b.grid.spacing);
+  EXPECT_EQ((std::array{a.grid.nx, a.grid.ny, a.grid.nz}), (std::array{b.grid.nx, b.grid.ny, b.grid.nz}));
+  EXPECT_EQ(a.grid.halves, b.grid.halves);
+  EXPECT_EQ(*a.grid.words, *b.grid.words);
+  EXPECT_EQ(a.error, b.error);
+  EXPECT_EQ(a.at_limit, b.at_limit);
+}
+
+TEST_F(MeshCache, GivesTheSameToTheBitWithoutMakingIt) {
+  std::vector<GridWish> wishes(5, wish);
+  wishes[1].bits = 16;
+  wishes[2].spacing.reset();
+  wishes[2].tolerance = 2e-3;
+  wishes[3] = wishes[2];
+  wishes[3].most_bytes = 6'000;  // halves, and not fine enough
+  wishes[4].margin = 8e-3;
+  for (const GridWish& each : wishes) {
+    const MeshGrid plain = grid_of_mesh(MeshDistance(mesh), mesh, each), made = ask(mesh, each);
+    EXPECT_TRUE(was_made);
+    expect_same(plain, made);
+    const MeshGrid again = ask(mesh, each);
+    EXPECT_FALSE(was_made);
+    expect_same(made, again);
+  }
+  EXPECT_EQ(files().size(), wishes.size());
+  EXPECT_TRUE(ask(mesh, wishes[3]).at_limit);
+  EXPECT_TRUE(ask(mesh, wishes[3]).grid.halves);
+}
+
+TEST_F(MeshCache, EveryPartOfTheWishAndEveryVertexCounts) {
+  const auto is_new = [&](const CheckedMesh& of, const GridWish& with) {
+    ask(of, with);
+    return was_made;
+  };
+  EXPECT_TRUE(is_new(mesh, wish));
+  GridWish other = wish;
+  other.spacing = 20.001e-3;
+  EXPECT_TRUE(is_new(mesh, other));
+  other = wish;
+  other.margin = 1e-6;
+  EXPECT_TRUE(is_new(mesh, other));
+  other = wish;
+  other.bits = 16;
+  EXPECT_TRUE(is_new(mesh, other));
+  other = wish;
+  other.spacing.reset();
+  other.tolerance = 3e-3;
+  EXPECT_TRUE(is_new(mesh, other));
+  other.tolerance = 3.001e-3;
+  EXPECT_TRUE(is_new(mesh, other));
+  other.margin = 1e-3;
+  EXPECT_TRUE(is_new(mesh, other));
+  other.bits = 16;
+  EXPECT_TRUE(is_new(mesh, other));
+  CheckedMesh moved = mesh;
+  moved.mesh.vertices[77][1] += 1e-9;
+  EXPECT_TRUE(is_new(moved, wish));
+  CheckedMesh turned = mesh;
+  std::swap(turned.mesh.triangles[5][0], turned.mesh.triangles[5][1]);
+  EXPECT_TRUE(is_new(turned, wish));
+  EXPECT_FALSE(is_new(mesh, wish));
+}
+
+TEST_F(MeshCache, WhatDoesNotChangeTheLatticeDoesNotCount) {
+  const MeshGrid given = ask();
+  wish.threads = 1;
+  wish.tolerance = 1e-9;
+  wish.most_bytes = 1u << 22;
+  wish.bits = 32;
+  expect_same(given, ask());
+  EXPECT_FALSE(was_made);
+  wish.spacing.reset();
+  wish.tolerance = 2e-3;
+  const MeshGrid chosen = ask();
+  EXPECT_TRUE(was_made);
+  EXPECT_FALSE(chosen.at_limit);
+  const std::size_t words = chosen.grid.words->size();
+  for (const std::size_t most : {4 * words, 8 * words, std::size_t{1} << 30}) {  // any memory that holds it
+    wish.most_bytes = most;
+    wish.bits = most == 4 * words ? std::optional<int>(32) : std::nullopt;
+    expect_same(chosen, ask());
+    EXPECT_FALSE(was_made) << most;
+  }
+}
+
+TEST_F(MeshCache, MemoryThatDecidesCounts) {
+  wish.spacing.reset();
+  wish.tolerance = 2e-3;
+  const std::size_t words = ask().grid.words->size();
+  wish.most_bytes = 8 * words - 4;
+  EXPECT_TRUE(ask().grid.halves);
+  EXPECT_TRUE(was_made);
+  wish.most_bytes = words;
+  EXPECT_TRUE(ask().at_limit);
+  EXPECT_TRUE(was_made);
+  wish.most_bytes = words - 400;
+  EXPECT_LE(4 * ask().grid.words->size(), words - 400);
+  EXPECT_TRUE(was_made);
+  wish.bits = 32;  // good enough, but coarser than what more memory begins with
+  wish.most_bytes = 2 * words;
+  EXPECT_TRUE(ask().at_limit);
+  wish.most_bytes = 4 * words;
+  EXPECT_EQ(ask().grid.words->size(), words);
+  EXPECT_FALSE(was_made);
+  wish.most_bytes = 100;
+  EXPECT_THROW(ask(), Error);
+  wish.spacing = 1e-6;
+  EXPECT_THROW(ask(), Error);
+}
+
+TEST_F(MeshCache, ADamagedFileIsMadeAgain) {
+  const MeshGrid made = ask();
+  ASSERT_EQ(files().size(), 1u);
+  const fs::path file = files()[0];
+  const std::string whole = bytes_of(file);
+  ASSERT_EQ(whole.size(), 88 + 4 * made.grid.words->size() + 16);
+  // each byte of the header, samples at both ends and in between, each byte of the hash
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < 88; ++i) places.push_back(i);
+  for (const std::size_t i : {std::size_t{88}, whole.size() / 2, whole.size() - 17}) places.push_back(i);
+  for (std::size_t i = whole.size() - 16; i < whole.size(); ++i) places.push_back(i);
+  for (const std::size_t at : places) {
+    for (const int bit : {0, 7}) {
+      std::string bytes = whole;
+      bytes[at] = static_cast<char>(bytes[at] ^ (1 << bit));
+      write(file, bytes);
+      expect_same(made, ask());
+      EXPECT_TRUE(was_made) << at;
+      ASSERT_EQ(bytes_of(file), whole) << at;
+    }
+  }
+}
+
+TEST_F(MeshCache, ATruncatedOrForeignFileIsMadeAgain) {
+  const MeshGrid made = ask();
+  const fs::path file = files().at(0);
+  const std::string whole = bytes_of(file);
+  std::vector<std::string> wrong{"", "short", std::string(200, '\0'), std::string(200, '\xFF'), whole + "x", whole + whole};
+  for (const std::size_t size : {8u, 87u, 88u, 89u, 103u, 104u}) wrong.push_back(whole.substr(0, size));
+  wrong.push_back(whole.substr(0, whole.size() - 1));
+  for (const std::string& bytes : wrong) {
+    write(file, bytes);
+    expect_same(made, ask());
+    EXPECT_TRUE(was_made) << bytes.size();
+    EXPECT_EQ(bytes_of(file), whole);
+  }
+  // another's lattice under this one's name
+  wish.margin = 5e-3;
+  ask();
+  for (const fs::path& other : files()) {
+    if (other != file) fs::rename(other, file);
+  }
+  wish.margin = 0;
+  expect_same(made, ask());
+  EXPECT_TRUE(was_made);
+  // a folder under this one's name stays
+  fs::remove(file);
+  fs::create_directories(file / "below");
+  expect_same(made, ask());
+  EXPECT_TRUE(fs::is_directory(file / "below"));
+  EXPECT_EQ(files().size(), 1u);  // nothing half written beside it
+}
+
+TEST_F(MeshCache, AFolderThatCannotBeWrittenCostsNothing) {
+  const MeshGrid plain = grid_of_mesh(MeshDistance(mesh), mesh, wish);
+  expect_same(plain, cached_grid(mesh, wish, "/proc/nonexistent"));
+  write(folder / "file", "not a folder");
+  expect_same(plain, cached_grid(mesh, wish, (folder / "file").string()));
+  expect_same(plain, cached_grid(mesh, wish, (folder / "file" / "below").string()));
+}
+
+TEST_F(MeshCache, AFolderThatMayOnlyBeReadIsRead) {
+  ask();
+  fs::permissions(folder, fs::perms::owner_read | fs::perms::owner_exec);
+  ask();
+  EXPECT_FALSE(was_made);
+}
+
+TEST_F(MeshCache, IsKeptWhereTheUserKeepsSuchThings) {
+  const ScopedVariable home("HOME", folder.c_str());
+  {
+    const ScopedVariable cache("XDG_CACHE_HOME", (folder / "xdg").c_str());
+    cached_grid(mesh, wish);
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder / "xdg/wholehand/grids"), {}), 1);
+  }
+  const ScopedVariable cache("XDG_CACHE_HOME", nullptr);
+  cached_grid(mesh, wish);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder / ".cache/wholehand/grids"), {}), 1);
+  const ScopedVariable nowhere("HOME", nullptr);
+  EXPECT_FALSE(cached_grid(mesh, wish).grid.words->empty());
+}
+
+// Files without contents, which take no room on the disk, fill the cache up.
+TEST_F(MeshCache, WhatIsUnusedForLongestGoesFirst) {
+  using std::chrono::hours;
+  ask();
+  const fs::path used = files().at(0);
+  const auto size = fs::file_size(used);
+  const auto now = fs::file_time_type::clock::now();
+  const auto add = [&](char digit, const std::string& ending, std::uintmax_t bytes, hours age) {
+    const fs::path file = folder / (std::string(32, digit) + ending);
+    write(file, "");
+    fs::resize_file(file, bytes);
+    fs::last_write_time(file, now - age);
+    return file;
+  };
+  fs::last_write_time(used, now - hours(5));
+  const fs::path oldest = add('a', ".grid", MOST_CACHED_BYTES / 2, hours(4)),
+                 old = add('b', ".grid", MOST_CACHED_BYTES / 2 - 2 * size - 1, hours(3)),
+                 left_over = add('c', ".Ab3dEf.partial", 10, hours(2)), begun = add('d', ".Ab3dEf.partial", 10, hours(0)),
+                 foreign = folder / "notes.grid";
+  write(foreign, "keep me");
+  fs::last_write_time(foreign, now - hours(100));
+  ask();  // not read for longest until now
+  EXPECT_FALSE(was_made);
+  wish.margin = 1e-7;  // as large; both fit beside the others to within a byte
+  ask();
+  EXPECT_TRUE(fs::exists(oldest));
+  EXPECT_FALSE(fs::exists(left_over));
+  EXPECT_TRUE(fs::exists(begun));
+  wish.margin = 2e-7;
+  ask();
+  EXPECT_FALSE(fs::exists(oldest));
+  for (const fs::path& file : {used, old, begun, foreign}) EXPECT_TRUE(fs::exists(file)) << file;
+  fs::resize_file(old, MOST_CACHED_BYTES + 1);
+  fs::last_write_time(old, now + hours(1));  // and a clock that was wrong
+  wish.margin = 3e-7;
+  ask();
+  EXPECT_EQ(files().size(), 3u);  // all lattices but the new one have gone
+  ask();
+  EXPECT_FALSE(was_made);
+}
+
+TEST_F(MeshCache, ManyAtOnceDoNoHarm) {
+  const MeshGrid plain = grid_of_mesh(MeshDistance(mesh), mesh, wish);
+  std::vector<std::jthread> others;
+  for (int t = 0; t < 4; ++t) {
+    others.emplace_back([&] {
+      for (int i = 0; i < 10; ++i) {
+        expect_same(plain, cached_grid(mesh, wish, folder.string()));
+        std::error_code ignored;
+        for (const fs::path& file : files()) {
+          if (i % 3 == 0 && file.extension() == ".grid") fs::remove(file, ignored);
+        }
+      }
+    });
+  }
+  others.clear();
+  ask();
+  EXPECT_EQ(files().size(), 1u);
+}
+
+TEST_F(MeshCache, TheKeyIsThatOfTrianglesAndLattice) {
+  const PreparedGrid grid = ask().grid;
+  std::set<std::string> keys{mesh_key(mesh, grid)};
+  EXPECT_EQ(keys.begin()->size(), 32u);
+  EXPECT_EQ(keys.begin()->find_first_not_of("0123456789abcdef"), std::string::npos);
+  const CheckedMesh same = check_mesh(torus(0.05, 0.02, 20, 10), "another name");
+  keys.insert(mesh_key(same, grid_of_mesh(MeshDistance(same), same, wish).grid));
+  EXPECT_EQ(keys.size(), 1u);
+  for (int part = 0; part < 8; ++part) {
+    PreparedGrid other = grid;
+    if (part < 3) other.origin[part] += 1e-12;
+    if (part == 3) other.spacing += 1e-12;
+    if (part == 4) ++other.nx;
+    if (part == 5) ++other.ny;
+    if (part == 6) ++other.nz;
+    if (part == 7) other.halves = true;
+    EXPECT_TRUE(keys.insert(mesh_key(mesh, other)).second) << part;
+  }
+  for (std::size_t i = 0; i < mesh.mesh.vertices.size(); i += 17) {
+    CheckedMesh other = mesh;
+    other.mesh.vertices[i][i % 3] += 1e-12;
+    EXPECT_TRUE(keys.insert(mesh_key(other, grid)).second) << i;
+  }
+  CheckedMesh other = mesh;
+  std::swap(other.mesh.triangles[1][1], other.mesh.triangles[1][2]);
+  EXPECT_TRUE(keys.insert(mesh_key(other, grid)).second);
+  other.mesh.triangles.pop_back();
+  EXPECT_TRUE(keys.insert(mesh_key(other, grid)).second);
+}
+
+}  // namespace
+}  // namespace wholehand
