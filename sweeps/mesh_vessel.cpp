@@ -1,6 +1,7 @@
 #include "sweeps/mesh_vessel.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +12,9 @@
 #include "core/load.h"
 #include "host/device.h"
 #include "sweeps/mesh.h"
+#include "sweeps/mesh_cache.h"
 #include "sweeps/mesh_check.h"
-#include "sweeps/mesh_distance.h"
-#include "sweeps/mesh_grid.h"
+#include "sweeps/progress.h"
 
 namespace wholehand {
 namespace {
@@ -121,12 +122,15 @@ void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder
   auto body = std::make_shared<MeshBody>();
   const GridWish wish = wish_of(scene, data, !warning.empty(), options);
   try {
-    MeshGrid made = grid_of_mesh(MeshDistance(checked), checked, wish);
+    const auto progress = [&](double share) { show_status(fmt::format("{}: distances to its mesh  {:.0f} %", name, 100 * share)); };
+    MeshGrid made = cached_grid(checked, wish, options.cache_folder, progress);
+    show_status("");
     body->grid = std::move(made.grid);
     body->grid_error = made.error;
+    body->key = mesh_key(checked, body->grid);
   } catch (const Error& error) {
     if (error.code != ExitCode::usage) throw;
-    throw usage_error(at_place(data.place, name + ": " + error.what()));
+    throw usage_error(at_place(data.place, name + ": grid_mm: " + error.what()));
   }
   body->low = facts.low;
   body->high = facts.high;
@@ -168,9 +172,11 @@ std::string mesh_keys(const Scene& scene) {
 }
 
 std::size_t largest_lattice(const std::string& on) {
-  if (on == "core") return LARGEST_LATTICE;
+  const auto memory = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+  const std::uint64_t most = std::min<std::uint64_t>(LARGEST_LATTICE, memory / 8);
+  if (on == "core") return most;
   const std::vector<host::DeviceInfo> devices = host::list_devices();
-  return std::min<std::uint64_t>(LARGEST_LATTICE, host::choose_device(devices, on).max_storage_range);
+  return std::min<std::uint64_t>(most, host::choose_device(devices, on).max_storage_range);
 }
 
 void load_meshes(Scene& scene, const MeshOptions& options) {

@@ -15,10 +15,12 @@ constexpr std::size_t LARGEST_LATTICE = 512u << 20;  // bytes of samples, whatev
 struct MeshOptions {
   std::size_t most_bytes = LARGEST_LATTICE;     // of a lattice's samples: floats up to half of it, 16 bits each beyond
   int threads = 0;                              // 0: all cores
+  std::string cache_folder;                     // of lattices, see cached_grid
   std::function<void(const std::string&)> say;  // gets what was found of each mesh, a line a time; may be empty
 };
 
-// What a lattice may take for `on` (core, vulkan or a device's name): its largest storage buffer, at most LARGEST_LATTICE. Throws Error
+// What a lattice may take for `on` (core, vulkan or a device's name): its largest storage buffer, an eighth of the
+// machine's memory, or LARGEST_LATTICE, whichever is least. Throws Error
 // as choose_device does.
 std::size_t largest_lattice(const std::string& on);
 

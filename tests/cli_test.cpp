@@ -15,39 +15,15 @@
 #include <nlohmann/json.hpp>
 
 #include "sweeps/recording.h"
+#include "tests/support/program.h"
 
 #ifdef WHOLEHAND_PROGRAM
 
 namespace {
 
-struct Outcome {
-  int code = -1;
-  std::string output;  // as redirected by the command
-};
-
-// `command` in a shell; PROGRAM in it stands for the program.
-Outcome run(std::string command) {
-  for (std::size_t at = 0; (at = command.find("PROGRAM", at)) != std::string::npos;) command.replace(at, 7, WHOLEHAND_PROGRAM);
-  Outcome outcome;
-  FILE* pipe = popen(command.c_str(), "r");
-  if (!pipe) return outcome;
-  std::array<char, 4096> buffer;
-  for (std::size_t n; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;) outcome.output.append(buffer.data(), n);
-  const int status = pclose(pipe);
-  outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  return outcome;
-}
-
-// Runs the program with stderr alone: one line, and nothing on stdout.
-void expect_error(const std::string& arguments, int code, const std::string& gist) {
-  const Outcome errors = run("PROGRAM " + arguments + " 2>&1 >/dev/null");
-  EXPECT_EQ(errors.code, code) << arguments << "\n" << errors.output;
-  EXPECT_EQ(errors.output.rfind("wholehand: ", 0), 0u) << errors.output;
-  ASSERT_FALSE(errors.output.empty()) << arguments;
-  EXPECT_EQ(errors.output.find('\n'), errors.output.size() - 1) << errors.output;
-  EXPECT_NE(errors.output.find(gist), std::string::npos) << errors.output << "lacks " << gist;
-  EXPECT_EQ(run("PROGRAM " + arguments + " 2>/dev/null").output, "") << arguments;
-}
+using wholehand::expect_error;
+using wholehand::Outcome;
+using wholehand::run;
 
 constexpr const char* GRIP = "grip small --vessel tumbler --height-mm 50";
 

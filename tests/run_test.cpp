@@ -15,6 +15,7 @@
 #include <functional>
 #include <random>
 
+#include "core/mesh_body.h"
 #include "sweeps/core_backend.h"
 #include "sweeps/files.h"
 #include "sweeps/plan.h"
@@ -291,6 +292,29 @@ TEST_F(RunTest, ResumeOfSomethingElseThatIsCompleteIsRefused) {
   EXPECT_EQ(file_text(whole), before);
   std::ofstream(folder / "other.nc") << "not a result";
   refused(folder / "other.nc", "is no result file", [](Trial&) {});
+}
+
+TEST_F(RunTest, ResumeWithAnotherMeshIsRefused) {
+  const auto with_mesh = [&](const std::string& key) {
+    Trial trial(folder / "a.nc");
+    MeshBody body;
+    body.key = key;
+    trial.scene.vessels[1].mesh = MeshData{};
+    trial.scene.vessels[1].mesh->body = std::make_shared<MeshBody>(body);
+    return trial;
+  };
+  Trial begun = with_mesh("first");
+  int chunks = 0;
+  begun.before_chunk = [&] {
+    if (++chunks == 2) raise(SIGINT);
+  };
+  EXPECT_EQ(begun.run().code, ExitCode::interrupted);
+  Trial other = with_mesh("second"), same = with_mesh("first");
+  other.options.resume = same.options.resume = true;
+  const Outcome refused = other.run();
+  EXPECT_EQ(refused.code, ExitCode::usage);
+  EXPECT_TRUE(has(refused.error, "another set of meshes")) << refused.error;
+  EXPECT_EQ(same.run().code, ExitCode::done);
 }
 
 TEST_F(RunTest, ResumeOfSomethingElseIsRefused) {
