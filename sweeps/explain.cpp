@@ -143,7 +143,7 @@ class Explainer {
   void liquid(const Measured& as_is) {
     if (scene_.liquid) return;
     if (std::any_of(scene_.vessels.begin(), scene_.vessels.end(), [](const VesselData& v) { return !v.has_cavity(); })) {
-      say("  the liquid kernels and their tables: a vessel without a wall, or a mesh without an inner outline, holds none\n");
+      say("  the liquid kernels and their tables: a vessel without a wall holds none, a mesh without an inner outline neither\n");
       return;
     }
     // its forces need tilts: both ways have those of the row above where the scene has none
