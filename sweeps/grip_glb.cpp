@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "core/error.h"
+#include "core/mesh_body.h"
 #include "sweeps/grip_mesh.h"
 #include "sweeps/grip_states.h"
 #include "sweeps/hand_nodes.h"
@@ -233,6 +235,20 @@ void add_hand_nodes(GlbBuilder& glb, int parent, const HandNodes& hand, const Gr
   }
 }
 
+nlohmann::ordered_json vessel_extras(const VesselData& vessel) {
+  nlohmann::ordered_json extras{{"name", vessel.name}};
+  if (vessel.mesh) {
+    extras["mesh"] = std::filesystem::path(vessel.mesh->file).filename().string();
+    extras["base_m"] = vessel.base;
+    extras["lattice_spacing_m"] = vessel.mesh->body->grid.spacing;
+    extras["lattice_error_m"] = vessel.mesh->body->grid_error;
+  } else {
+    extras["wall_m"] = vessel.wall;
+  }
+  extras["height_m"] = vessel.height;
+  return extras;
+}
+
 // The liquid's node; -1: there is none.
 int add_liquid_node(GlbBuilder& glb, int parent, const VesselData& vessel, const GripReport& report,
                     const nlohmann::ordered_json& json, int segments) {
@@ -285,7 +301,7 @@ std::string grip_glb(const Scene& scene, std::size_t vessel, const GripReport& r
   const SurfaceMesh glass = vessel_mesh(data, segments);
   const int node = glb.add_node("vessel", grip);
   glb.node(node).mesh = glb.add_mesh(data.name, glb.add_primitive(glass), glb.add_material("glass", GLASS_COLOR, 0.3, 0.05));
-  glb.node(node).extras = gltf_value({{"name", data.name}, {"wall_m", data.wall}, {"height_m", data.height}});
+  glb.node(node).extras = gltf_value(vessel_extras(data));
   add_tilt_animation(glb, pivot, liquid, report);
   return glb.bytes();
 }

@@ -17,7 +17,7 @@ constexpr int GLB_SEGMENTS = 64;
 //       wrist  and the 24 joints of the posed hand by hand_nodes' names, nested along each finger, each with the capsule of its bone;
 //              its child `<joint> contact` is a ball of the joint's radius, coloured by its state, which `extras` tell
 // While the animation runs the liquid is shown at its own tilt and hidden at others. Radii below 1.5 mm are drawn as 1.5 mm.
-// Throws Error (usage) where the grip is not feasible or the vessel has no outline.
+// Throws Error: (usage) where the grip is not feasible, (failure) where the vessel's mesh has not been read.
 std::string grip_glb(const Scene& scene, std::size_t vessel, const GripReport& report, int segments = GLB_SEGMENTS);
 
 }  // namespace wholehand

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
 #include "core/liquid.h"
 #include "core/load.h"
+#include "core/mesh_body.h"
+#include "sweeps/mesh_surface.h"
 
 namespace wholehand {
 namespace {
@@ -246,16 +247,6 @@ class LiquidBuilder {
 
 }  // namespace
 
-double enclosed_volume(const SurfaceMesh& mesh) {
-  double six = 0;
-  for (std::size_t t = 0; t + 2 < mesh.triangles.size(); t += 3) {
-    const Triple &a = mesh.positions[mesh.triangles[t]], &b = mesh.positions[mesh.triangles[t + 1]],
-                 &c = mesh.positions[mesh.triangles[t + 2]];
-    six += a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
-  }
-  return six / 6;
-}
-
 SurfaceMesh revolved_mesh(const std::vector<PreparedElement>& outline, int segments) {
   SurfaceMesh mesh;
   std::vector<Point2> round;  // exact at the quarters, so that extents are
@@ -290,7 +281,10 @@ SurfaceMesh revolved_mesh(const std::vector<PreparedElement>& outline, int segme
 }
 
 SurfaceMesh vessel_mesh(const VesselData& vessel, int segments) {
-  if (vessel.outline.empty()) throw usage_error("vessel '" + vessel.name + "' has no outline to draw");
+  if (vessel.mesh) {
+    prepare_vessel(vessel, false);  // refuses a mesh that has not been read
+    return mesh_surface(*vessel.mesh->body);
+  }
   VesselData glass = vessel;
   if (vessel.wall > 0) glass.surface = Surface::shell;
   const PreparedVessel prepared = prepare_vessel(glass, vessel.wall > 0);
@@ -298,7 +292,7 @@ SurfaceMesh vessel_mesh(const VesselData& vessel, int segments) {
 }
 
 SurfaceMesh liquid_mesh(const VesselData& vessel, double volume, double tilt, const Triple& pour, int segments) {
-  if (!(volume > 0) || !(vessel.wall > 0)) return {};
+  if (!(volume > 0) || !vessel.has_cavity()) return {};
   const PreparedVessel prepared = prepare_vessel(vessel, true);
   const core_f64::Quadrature quadrature = core_f64::load_quadrature(prepare_quadrature(QUADRATURE_POINTS));
   const core_f64::Vessel ready = core_f64::load_vessel(prepared, vessel, quadrature, false, Handedness::right);

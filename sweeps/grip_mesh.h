@@ -1,5 +1,5 @@
 // Triangle meshes of what a grip shows: the glass, the liquid in it, bones and contact points. m, right-handed, counter-clockwise from
-// outside. Every mesh is closed: two triangles meet in each edge, whose ends are the same numbers in both.
+// outside. Every mesh but that of a mesh vessel is closed: two triangles meet in each edge, whose ends are the same numbers in both.
 #pragma once
 
 #include <cstdint>
@@ -16,15 +16,12 @@ struct SurfaceMesh {
   std::vector<std::uint32_t> triangles;  // three positions each
 };
 
-// The volume that the mesh encloses, m3.
-double enclosed_volume(const SurfaceMesh& mesh);
-
 // An outline turned about +y: `segments` flat faces round (a multiple of 4 touches the largest extents along x and z), arcs in steps of
 // the same angle. Corners lie on the surface, so that all errors fall with the square of `segments`.
 SurfaceMesh revolved_mesh(const std::vector<PreparedElement>& outline, int segments);
 
-// The glass with its inner wall where the vessel has a wall, else its hull closed at the mouth. Vessel frame. Throws Error (usage) as
-// prepare_vessel.
+// The glass with its inner wall where the vessel has a wall, else its hull closed at the mouth; of a mesh vessel the mesh as it is
+// (mesh_surface). Vessel frame. Throws Error as prepare_vessel.
 SurfaceMesh vessel_mesh(const VesselData& vessel, int segments);
 
 // Liquid of `volume` m3 at rest in the vessel tilted by `tilt` rad towards the horizontal unit direction `pour` (vessel frame): the cavity

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {
@@ -67,6 +68,15 @@ TEST_F(BestGlbTest, AFileForEachVesselAndRank) {
   EXPECT_EQ(written.files,
             (std::vector<std::string>{(folder / "out.a_b.1.glb").string() + " .. " + (folder / "out.a_b.2.glb").string(),
                                       folder / "out.a_b_2.1.glb"}));
+  EXPECT_TRUE(written.notes.empty());
+}
+
+TEST_F(BestGlbTest, MeshVesselsToo) {
+  const Scene scene = scene_of({vessel_of_mesh("mesh", turned_mesh(beaker1(), 48, 4e-3), 4e-3)});
+  const BestGlb written =
+      write_best_glb(scene, make_core_evaluator(scene), {{at_height(0.05)}}, 5, output_names(folder / "out.nc"));
+  EXPECT_EQ(there(), (std::vector<std::string>{"out.mesh.1.glb"}));
+  EXPECT_EQ(height_in(folder / "out.mesh.1.glb"), 0.05);
   EXPECT_TRUE(written.notes.empty());
 }
 

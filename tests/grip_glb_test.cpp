@@ -15,6 +15,7 @@
 #include "core/error.h"
 #include "sweeps/grip_states.h"
 #include "sweeps/hand_nodes.h"
+#include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {
@@ -266,6 +267,47 @@ TEST(GripGlb, BarePointsAreStillSeen) {
   const tinygltf::Model model = opened(grip_glb(scene, 0, report_of(scene, 0, {0.05, 0, 0, 0, 0, 1}, one_state(0.5, 0))));
   EXPECT_DOUBLE_EQ(model.nodes[index_of_node(model, "thumb-tip contact")].scale[0], 1.5e-3);
   EXPECT_EQ(model.nodes[index_of_node(model, "thumb-tip")].extras.Get("radius_m").GetNumberAsDouble(), 0);
+}
+
+// Drawn with the outline's grip: the nodes depend on the report, the vessel's on the mesh alone.
+TEST(GripGlb, AMeshVesselIsItsMesh) {
+  Scene scene = three_beakers();
+  const GripReport report = report_of(scene, 0, GRIP, one_state(0.5, 30));
+  const TriangleMesh mesh = turned_mesh(beaker1(), 40, 5e-3);
+  scene.vessels[0] = vessel_of_mesh("mug", placed_mesh(mesh, {}, {0, 0.02, 0}), 5e-3);
+  scene.vessels[0].mesh->file = "folder/of/mug.glb";
+  const tinygltf::Model model = opened(grip_glb(scene, 0, report));
+  EXPECT_EQ(index_of_node(model, "liquid"), -1);
+  EXPECT_EQ(model.nodes.size(), 4u + 24 + 24);
+  EXPECT_NEAR(volume_of(model, "vessel") / body_of(mesh).volume, 1, 1e-6);  // floats
+  const tinygltf::Primitive& primitive = primitive_of(model, "vessel");
+  EXPECT_EQ(model.accessors[primitive.indices].count, 3 * mesh.triangles.size());
+  EXPECT_EQ(model.accessors[primitive.attributes.at("POSITION")].count,
+            mesh.vertices.size() + 2 * 40);  // creases at base and mouth
+  EXPECT_EQ(model.accessors[primitive.attributes.at("NORMAL")].count, mesh.vertices.size() + 2 * 40);
+  EXPECT_EQ(model.materials[primitive.material].alphaMode, "BLEND");
+  const tinygltf::Value& extras = model.nodes[index_of_node(model, "vessel")].extras;
+  EXPECT_EQ(extras.Get("name").Get<std::string>(), "mug");
+  EXPECT_EQ(extras.Get("mesh").Get<std::string>(), "mug.glb");
+  EXPECT_EQ(extras.Get("lattice_spacing_m").GetNumberAsDouble(), 5e-3);
+  EXPECT_EQ(extras.Get("lattice_error_m").GetNumberAsDouble(), scene.vessels[0].mesh->body->grid_error);
+  EXPECT_GT(extras.Get("lattice_error_m").GetNumberAsDouble(), 0);
+  EXPECT_NEAR(extras.Get("base_m").GetNumberAsDouble(), 0.02, 1e-12);
+  EXPECT_NEAR(extras.Get("height_m").GetNumberAsDouble(), 0.13, 1e-12);
+  EXPECT_FALSE(extras.Has("wall_m"));
+  scene.vessels[0].mesh->body.reset();
+  EXPECT_THROW(grip_glb(scene, 0, report), Error);
+}
+
+TEST(GripGlb, AMeshVesselHoldsItsLiquid) {
+  Scene scene = three_beakers();
+  const GripReport report = report_of(scene, 0, GRIP, one_state(0.5, 40));
+  const double of_outline = volume_of(opened(grip_glb(scene, 0, report)), "liquid");
+  scene.vessels[0] = vessel_of_mesh("mug", turned_mesh(beaker1(), 40, 5e-3), 0);
+  scene.vessels[0].mesh->inner = {line_to(0, 1.5), line_to(38.5, 1.5), line_to(38.5, 110)};
+  const tinygltf::Model model = opened(grip_glb(scene, 0, report));
+  EXPECT_NEAR(volume_of(model, "liquid") / of_outline, 1, 1e-9);
+  EXPECT_EQ(model.nodes[index_of_node(model, "liquid")].extras.Get("tilt_rad").GetNumberAsDouble(), radians(40));
 }
 
 TEST(GripGlb, NothingToDraw) {

@@ -8,7 +8,9 @@
 #include <map>
 #include <utility>
 
+#include "core/error.h"
 #include "core/evaluator.h"
+#include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {
@@ -18,6 +20,14 @@ Triple minus(const Triple& a, const Triple& b) { return {a[0] - b[0], a[1] - b[1
 double dot(const Triple& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Triple cross(const Triple& a, const Triple& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+double enclosed_volume(const SurfaceMesh& mesh) {
+  double six = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); t += 3)
+    six +=
+        dot(mesh.positions[mesh.triangles[t]], cross(mesh.positions[mesh.triangles[t + 1]], mesh.positions[mesh.triangles[t + 2]]));
+  return six / 6;
 }
 
 // Every edge is met once in either direction, and by area the normals of the vertices are the triangles'.
@@ -147,6 +157,31 @@ TEST(GripMesh, LiquidLeansAsTheCoreSays) {
   EXPECT_NEAR(dot(moment, n) / six, liquid.lean, 4e-5);
   EXPECT_NEAR(moment[1] / six, liquid.height, 4e-5);
   EXPECT_NEAR(dot(moment, {-n[2], 0, n[0]}) / six, 0, 4e-5);
+}
+
+TEST(GripMesh, OfAMeshVesselTheMeshIsDrawn) {
+  const TriangleMesh mesh = turned_mesh(beaker2(), 48, 4e-3);
+  const SurfaceMesh drawn = vessel_mesh(vessel_of_mesh("flask", mesh, 0), 64);
+  expect_closed(drawn, "flask");
+  EXPECT_EQ(drawn.triangles.size(), 3 * mesh.triangles.size());
+  EXPECT_NEAR(enclosed_volume(drawn), body_of(mesh).volume, 1e-15);
+  VesselData unread = vessel_of_mesh("unread", mesh, 0);
+  unread.mesh->body.reset();
+  EXPECT_THROW(vessel_mesh(unread, 64), Error);
+}
+
+// Liquid fills the inner outline of a mesh as it does the cavity of an outline.
+TEST(GripMesh, AMeshVesselHoldsTheLiquidOfItsCavity) {
+  const VesselData outline = beaker1();  // its cavity: radius 38.5 from 1.5 to 110 mm
+  VesselData mesh = vessel_of_mesh("mesh", turned_mesh(outline, 48, 4e-3), 0);
+  EXPECT_TRUE(liquid_mesh(mesh, 1e-4, 0, {1, 0, 0}, 64).triangles.empty());
+  mesh.mesh->inner = {line_to(0, 1.5), line_to(38.5, 1.5), line_to(38.5, 110)};
+  for (const double tilt : {0.0, 30.0, 80.0}) {
+    const SurfaceMesh of_mesh = liquid_mesh(mesh, 1e-4, radians(tilt), {0.6, 0, -0.8}, 64),
+                      of_outline = liquid_mesh(outline, 1e-4, radians(tilt), {0.6, 0, -0.8}, 64);
+    expect_closed(of_mesh, "liquid");
+    EXPECT_NEAR(enclosed_volume(of_mesh), enclosed_volume(of_outline), 1e-15) << tilt;
+  }
 }
 
 TEST(GripMesh, BallsAndCapsules) {

@@ -9,6 +9,9 @@
 #include <numbers>
 
 #include "core/prepare.h"
+#include "sweeps/mesh_check.h"
+#include "sweeps/mesh_distance.h"
+#include "sweeps/mesh_grid.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {
@@ -169,6 +172,39 @@ TriangleMesh joined(TriangleMesh a, const TriangleMesh& b) {
   a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
   for (const auto& [i, j, k] : b.triangles) a.triangles.push_back({base + i, base + j, base + k});
   return a;
+}
+
+MeshBody body_of(const TriangleMesh& mesh) {
+  const CheckedMesh checked = check_mesh(mesh, "body");
+  MeshBody body;
+  body.vertices = checked.mesh.vertices;
+  body.triangles = checked.mesh.triangles;
+  body.low = checked.facts.low;
+  body.high = checked.facts.high;
+  body.volume = checked.facts.volume;
+  body.center_of_mass = checked.facts.center_of_mass;
+  return body;
+}
+
+VesselData vessel_of_mesh(const std::string& name, const TriangleMesh& mesh, double spacing) {
+  auto body = std::make_shared<MeshBody>(body_of(mesh));
+  if (spacing > 0) {
+    const CheckedMesh checked = check_mesh(mesh, name);
+    GridWish wish;
+    wish.spacing = spacing;
+    wish.margin = grid_margin(Scene());
+    const MeshGrid made = grid_of_mesh(MeshDistance(checked), checked, wish);
+    body->grid = made.grid;
+    body->grid_error = made.error;
+  }
+  VesselData vessel;
+  vessel.name = name;
+  vessel.mesh.emplace();
+  vessel.mesh->file = name + ".glb";
+  vessel.base = body->low[1];
+  vessel.height = body->high[1];
+  vessel.mesh->body = std::move(body);
+  return vessel;
 }
 
 std::string glb_text(std::string json, std::string binary) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/mesh_body.h"
 #include "core/scene.h"
 #include "sweeps/mesh.h"
 
@@ -22,6 +23,11 @@ TriangleMesh open_hemisphere(double radius, int level);
 // Turned by Rx Ry Rz (rad), then moved.
 TriangleMesh placed_mesh(TriangleMesh mesh, const Triple& turn, const Triple& move);
 TriangleMesh joined(TriangleMesh a, const TriangleMesh& b);
+
+// A vessel with that mesh as its body, checked as a file's would be, with a lattice of this spacing (m; 0: none).
+VesselData vessel_of_mesh(const std::string& name, const TriangleMesh& mesh, double spacing);
+// What drawings need of it.
+MeshBody body_of(const TriangleMesh& mesh);
 
 // A .glb of one mesh: 32-bit floats and 32-bit indices.
 std::string glb_text(const TriangleMesh& mesh);

@@ -1,0 +1,105 @@
+#include "sweeps/mesh_edges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <tuple>
+#include <utility>
+
+namespace wholehand {
+namespace {
+
+constexpr double NO_AREA = 1e-12;  // height of a triangle, of its longest edge: below it, rounding
+
+// One triangle's use of an edge; sorted, those of one edge are together.
+struct EdgeUse {
+  std::uint32_t low, high;
+  std::uint32_t triangle;
+  bool is_forward;  // runs from low to high
+  bool operator<(const EdgeUse& other) const {
+    return std::tie(low, high, triangle) < std::tie(other.low, other.high, other.triangle);
+  }
+  bool is_with(const EdgeUse& other) const { return low == other.low && high == other.high; }
+};
+
+glm::dvec3 vertex_of(const MeshBody& body, std::uint32_t vertex) {
+  const Triple& p = body.vertices[vertex];
+  return {p[0], p[1], p[2]};
+}
+
+double length_of(const MeshBody& body, const MeshEdge& edge) {
+  return glm::length(vertex_of(body, edge.to) - vertex_of(body, edge.from));
+}
+
+std::vector<MeshEdge> join_uses(const std::vector<EdgeUse>& uses) {
+  std::vector<MeshEdge> edges;
+  const auto add = [&](const EdgeUse& use, std::uint32_t right) {
+    edges.push_back({use.is_forward ? use.low : use.high, use.is_forward ? use.high : use.low, use.triangle, right, false});
+  };
+  for (std::size_t first = 0, next = 0; first < uses.size(); first = next) {
+    for (next = first; next < uses.size() && uses[next].is_with(uses[first]); ++next) {
+    }
+    if (next - first == 2 && uses[first].is_forward != uses[first + 1].is_forward) {
+      add(uses[first], uses[first + 1].triangle);
+    } else {
+      for (std::size_t i = first; i < next; ++i) add(uses[i], NO_TRIANGLE);
+    }
+  }
+  return edges;
+}
+
+// Zero for a triangle without area.
+std::vector<Triple> triangle_normals(const MeshBody& body) {
+  std::vector<Triple> normals;
+  normals.reserve(body.triangles.size());
+  for (const auto& [i, j, k] : body.triangles) {
+    const glm::dvec3 a = vertex_of(body, i), b = vertex_of(body, j), c = vertex_of(body, k), normal = glm::cross(b - a, c - a);
+    const double doubled = glm::length(normal), edge = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
+    const glm::dvec3 unit = doubled > NO_AREA * edge * edge ? normal / doubled : glm::dvec3(0);
+    normals.push_back({unit.x, unit.y, unit.z});
+  }
+  return normals;
+}
+
+// A triangle without area lies in a seam: it takes its longest edge's other side's normal, and is then no crease there.
+void borrow_normals(const MeshBody& body, MeshEdges& found) {
+  std::vector<double> longest(body.triangles.size());
+  const std::vector<Triple> own = found.normals;
+  for (const MeshEdge& edge : found.edges) {
+    if (edge.right == NO_TRIANGLE) continue;
+    const double length = length_of(body, edge);
+    for (const auto& [triangle, other] : {std::pair{edge.left, edge.right}, std::pair{edge.right, edge.left}}) {
+      if (own[triangle] != Triple{} || !(length > longest[triangle])) continue;
+      longest[triangle] = length;
+      found.normals[triangle] = own[other];
+    }
+  }
+}
+
+}  // namespace
+
+MeshEdges find_edges(const MeshBody& body) {
+  std::vector<EdgeUse> uses;
+  uses.reserve(3 * body.triangles.size());
+  for (std::uint32_t t = 0; t < body.triangles.size(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t from = body.triangles[t][k], to = body.triangles[t][(k + 1) % 3];
+      uses.push_back({std::min(from, to), std::max(from, to), t, from < to});
+    }
+  }
+  std::sort(uses.begin(), uses.end());
+  MeshEdges found{join_uses(uses), triangle_normals(body), false};
+  borrow_normals(body, found);
+  for (MeshEdge& edge : found.edges) {
+    if (edge.right == NO_TRIANGLE) {
+      found.has_open = true;
+      continue;
+    }
+    const Triple &a = found.normals[edge.left], &b = found.normals[edge.right];
+    edge.is_crease = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] < std::cos(CREASE_ANGLE) && a != Triple{} && b != Triple{};
+  }
+  return found;
+}
+
+}  // namespace wholehand
