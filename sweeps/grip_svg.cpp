@@ -8,10 +8,7 @@
 #include <iterator>
 #include <numeric>
 
-#include "core/error.h"
-#include "core/liquid.h"
-#include "core/load.h"
-#include "core/prepare.h"
+#include "sweeps/grip_glass.h"
 #include "sweeps/grip_states.h"
 #include "sweeps/hand_nodes.h"
 
@@ -26,27 +23,14 @@ constexpr double PAPER_FONT = 2.8;     // mm: 8 pt
 constexpr double PAPER_LINE = 0.25;    // mm
 constexpr double SMALLEST_SKIN = 1.5;  // mm: a bare point is still seen
 constexpr std::array<char, FINGER_COUNT> INITIALS{'T', 'I', 'M', 'R', 'L'};
-constexpr double CORNER_COSINE = 0.985;  // 10 degrees: sharper edges of the glass are drawn across it
-
-using Flat = std::array<double, 2>;  // on the sheet: mm to the right, mm down
-
-// An orthographic view: unit vectors of the vessel frame, and where its origin lies on the sheet.
-struct DrawnView {
-  const char* name;
-  Triple right, up, toward;
-  Flat origin{};
-
-  double along(const Triple& axis, const Triple& p) const { return 1e3 * (axis[0] * p[0] + axis[1] * p[1] + axis[2] * p[2]); }
-  double depth(const Triple& p) const { return along(toward, p); }  // mm, larger is nearer
-  Flat flat(const Triple& p) const { return {origin[0] + along(right, p), origin[1] - along(up, p)}; }
-  bool is_level() const { return up[1] == 1; }  // front and side: the vessel's axis runs up
-};
+constexpr double PAPER_DETAIL = 0.1;  // mm, of a mesh
 
 // The hand and the glass in mm, and what the views have in common.
 struct Drawing {
   const GripReport& report;
-  PreparedVessel glass;
+  DrawnGlass glass;
   std::string vessel;
+  double base = 0;                           // m
   std::array<Triple, JOINT_COUNT> joints{};  // m
   std::array<double, JOINT_COUNT> skin{};    // mm
   double font = 0, line = 0;                 // mm of the vessel
@@ -54,8 +38,7 @@ struct Drawing {
 
 // Extent of hand and glass along a direction, mm.
 std::array<double, 2> extent_along(const Drawing& drawing, const Triple& axis) {
-  const double radius = 1e3 * drawing.glass.largest_radius, top = 1e3 * drawing.glass.mouth_height;
-  std::array<double, 2> extent = axis[1] != 0 ? std::array{0.0, top} : std::array{-radius, radius};
+  std::array<double, 2> extent = drawing.glass.extent_along(axis);
   for (int j = 0; j < JOINT_COUNT; ++j) {
     const Triple& p = drawing.joints[j];
     const double at = 1e3 * (axis[0] * p[0] + axis[1] * p[1] + axis[2] * p[2]);
@@ -80,75 +63,6 @@ std::string xml_text(const std::string& text) {
     }
   }
   return safe;
-}
-
-std::string number_text(double value) { return fmt::format("{:.2f}", std::abs(value) < 0.005 ? 0 : value); }
-std::string point_text(const Flat& p) { return number_text(p[0]) + " " + number_text(p[1]); }
-
-// ---- the glass ----
-
-// One half of an outline as path commands after its first point; `side` -1 mirrors it. Backwards where asked.
-std::string half_outline(const DrawnView& view, const std::vector<PreparedElement>& elements, double side, bool backwards) {
-  std::string path;
-  const auto to = [&](const PreparedElement& e) {
-    const auto& end = backwards ? e.a : e.b;
-    const Flat p{view.origin[0] + side * 1e3 * end[0], view.origin[1] - 1e3 * end[1]};
-    const bool anticlockwise = (e.side > 0) == (e.b[1] > e.a[1]);  // in (r, y); mirrored and backwards it stays so
-    path += e.side == 0 ? "L" + point_text(p)
-                        : fmt::format("A{0} {0} 0 0 {1} {2}", number_text(1e3 * e.radius),
-                                      anticlockwise == (backwards == (side < 0)) ? 0 : 1, point_text(p));
-  };
-  if (backwards) {
-    std::for_each(elements.rbegin(), elements.rend(), to);
-  } else {
-    std::for_each(elements.begin(), elements.end(), to);
-  }
-  return path;
-}
-
-void draw_line(std::string& svg, const Flat& a, const Flat& b, const char* style) {
-  svg += fmt::format("<path class=\"{}\" d=\"M{}L{}\"/>\n", style, point_text(a), point_text(b));
-}
-
-// Direction of an element at its end or start, in (r, y).
-Flat tangent_of(const PreparedElement& e, bool at_end) {
-  const auto& p = at_end ? e.b : e.a;
-  Flat t{e.b[0] - e.a[0], e.b[1] - e.a[1]};
-  if (e.side != 0) {
-    const double sense = (e.side > 0) == (e.b[1] > e.a[1]) ? 1 : -1;
-    t = {-sense * (p[1] - e.center[1]), sense * (p[0] - e.center[0])};
-  }
-  const double length = std::hypot(t[0], t[1]);
-  return {t[0] / length, t[1] / length};
-}
-
-void draw_glass_upright(std::string& svg, const DrawnView& view, const PreparedVessel& glass) {
-  svg += fmt::format("<path class=\"glass\" d=\"M{}{}{}Z\"/>\n", point_text(view.origin), half_outline(view, glass.hull, 1, false),
-                     half_outline(view, glass.hull, -1, true));
-  for (std::size_t i = 0; i + 2 < glass.hull.size(); ++i) {
-    const Flat before = tangent_of(glass.hull[i], true), after = tangent_of(glass.hull[i + 1], false);
-    if (before[0] * after[0] + before[1] * after[1] > CORNER_COSINE || glass.hull[i].b[1] < 1e-6) continue;
-    const double r = 1e3 * glass.hull[i].b[0], y = view.origin[1] - 1e3 * glass.hull[i].b[1];
-    draw_line(svg, {view.origin[0] - r, y}, {view.origin[0] + r, y}, "edge");
-  }
-  if (glass.cavity.empty()) return;
-  for (const double side : {-1.0, 1.0}) {
-    const auto& floor = glass.cavity.front().a;
-    const Flat middle{view.origin[0], view.origin[1] - 1e3 * floor[1]};
-    svg += fmt::format("<path class=\"inner\" d=\"M{}L{}{}\"/>\n", point_text(middle),
-                       point_text({middle[0] + side * 1e3 * floor[0], middle[1]}), half_outline(view, glass.cavity, side, false));
-  }
-}
-
-void draw_glass_from_above(std::string& svg, const DrawnView& view, const PreparedVessel& glass) {
-  const auto circle = [&](double radius, const char* style) {
-    svg += fmt::format("<circle class=\"{}\" cx=\"{}\" cy=\"{}\" r=\"{}\"/>\n", style, number_text(view.origin[0]),
-                       number_text(view.origin[1]), number_text(1e3 * radius));
-  };
-  circle(glass.largest_radius, "glass");
-  const double mouth = glass.hull.back().a[0];
-  if (mouth < glass.largest_radius - 1e-6) circle(mouth, "edge");
-  if (!glass.cavity.empty()) circle(glass.mouth_radius, "inner");
 }
 
 // ---- the hand ----
@@ -179,24 +93,6 @@ struct FingerRun {
   double depth = 0;        // mm
 };
 
-// Largest radius of an element above a height, m; 0 where it does not reach there.
-double widest_above(const PreparedElement& e, double height) {
-  const double low = std::max(height, std::min(e.a[1], e.b[1])), high = std::max(e.a[1], e.b[1]);
-  if (high <= height) return 0;
-  if (e.a[1] == e.b[1]) return std::max(e.a[0], e.b[0]);
-  if (e.side > 0 && e.center[1] > low && e.center[1] < high) return e.center[0] + e.radius;
-  const core_f64::Element element = core_f64::load_element(e);
-  return std::max(core_f64::element_radius(element, low), core_f64::element_radius(element, high));
-}
-
-// Whether the glass is between a point and the viewer.
-bool is_behind_glass(const Drawing& drawing, const DrawnView& view, const Triple& p) {
-  if (view.is_level()) return view.depth(p) < 0;
-  const auto& hull = drawing.glass.hull;
-  return std::any_of(hull.begin(), hull.end(),
-                     [&](const PreparedElement& e) { return widest_above(e, p[1]) > std::hypot(p[0], p[2]); });
-}
-
 // The bones of all fingers in runs that are on one side of the glass, the furthest first.
 std::vector<FingerRun> finger_runs(const Drawing& drawing, const DrawnView& view) {
   std::vector<FingerRun> runs;
@@ -205,7 +101,7 @@ std::vector<FingerRun> finger_runs(const Drawing& drawing, const DrawnView& view
       const int j = finger_start(f) + k;
       const Triple &a = drawing.joints[j], &b = drawing.joints[j + 1];
       const Triple middle{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])};
-      const bool is_behind = is_behind_glass(drawing, view, middle);
+      const bool is_behind = drawing.glass.covers(view, a, b);
       if (k > 0 && runs.back().is_behind == is_behind) {
         runs.back().last = j + 1;
         runs.back().depth = std::max(runs.back().depth, view.depth(middle));
@@ -308,11 +204,7 @@ void draw_view(std::string& svg, const Drawing& drawing, const DrawnView& view, 
   for (const FingerRun& run : runs) {
     if (run.is_behind) draw_run(svg, drawing, view, run);
   }
-  if (view.is_level()) {
-    draw_glass_upright(svg, view, drawing.glass);
-  } else {
-    draw_glass_from_above(svg, view, drawing.glass);
-  }
+  drawing.glass.draw(svg, view);
   for (const FingerRun& run : runs) {
     if (!run.is_behind) draw_run(svg, drawing, view, run);
   }
@@ -339,13 +231,13 @@ std::vector<std::string> caption_lines(const GripReport& report) {
 }
 
 // What the drawing shows, in sentences for those who do not see it.
-std::string spoken(const Drawing& drawing) {
+std::string spoken(const Drawing& drawing, double width, double height) {
   const GripResult& r = drawing.report.answer.result;
   std::string text = fmt::format(
       "Front, side and top view of a hand that holds {}, {:.0f} mm wide and {:.0f} mm high, between thumb and index finger {:.1f} "
       "mm "
       "above its base.",
-      drawing.vessel, 2e3 * drawing.glass.largest_radius, 1e3 * drawing.glass.mouth_height, drawing.report.grip.height * 1e3);
+      drawing.vessel, width, height, 1e3 * (drawing.report.grip.height - drawing.base));
   for (int f = 0; f < FINGER_COUNT; ++f) {
     int touching = 0;
     for (int k = 0; k < finger_joints(f); ++k) touching += r.touch_mask >> (finger_start(f) + k) & 1;
@@ -390,6 +282,8 @@ std::string style_sheet(const Drawing& drawing) {
       ".initial {{ text-anchor: middle; stroke: #ffffff; stroke-width: {halo:.2f}; paint-order: stroke; stroke-linejoin: round }}\n"
       "path, circle {{ stroke-linejoin: round; stroke-linecap: round }}\n"
       ".glass {{ fill: #eaf3f8; fill-opacity: 0.6; stroke: #202020; stroke-width: {thick:.3f} }}\n"
+      ".body {{ fill: #eaf3f8; fill-opacity: 0.6; fill-rule: evenodd; stroke: none }}\n"
+      ".contour {{ fill: none; stroke: #202020; stroke-width: {thick:.3f} }}\n"
       ".edge, .measure {{ fill: none; stroke: #404040; stroke-width: {thin:.3f} }}\n"
       ".inner {{ fill: none; stroke: #606060; stroke-width: {thin:.3f}; stroke-dasharray: {dash:.2f} {dash:.2f} }}\n"
       ".axis {{ fill: none; stroke: #404040; stroke-width: {thin:.3f}; stroke-dasharray: {long_dash:.2f} {dash:.2f} {thin:.2f} "
@@ -409,8 +303,7 @@ std::string style_sheet(const Drawing& drawing) {
 
 Drawing make_drawing(const Scene& scene, std::size_t vessel, const GripReport& report) {
   const VesselData& data = scene.vessels[vessel];
-  if (data.outline.empty()) throw usage_error("vessel '" + data.name + "' has no outline to draw");
-  Drawing drawing{report, prepare_vessel(data, data.wall > 0), data.name};
+  Drawing drawing{report, DrawnGlass(data), data.name, data.base};
   const HandNodes hand = hand_nodes(scene.hand, report.grip, report.answer.result);
   for (int j = 0; j < JOINT_COUNT; ++j) {
     drawing.joints[j] = hand.joints[j].position;
@@ -428,8 +321,10 @@ std::string grip_svg(const Scene& scene, std::size_t vessel, const GripReport& r
   const double side = scene.hand.handedness == Handedness::right ? 1 : -1;
   const Triple hand{side * std::sin(report.grip.azimuth), 0, side * std::cos(report.grip.azimuth)};
   const Triple across{hand[2], 0, -hand[0]}, away{-hand[0], 0, -hand[2]}, up{0, 1, 0};
-  DrawnView front{"front", across, up, hand}, beside{"side", away, up, across}, above{"top", across, away, up};
+  DrawnView front{"front", across, up, hand, {}, {}}, beside{"side", away, up, across, {}, {}},
+      above{"top", across, away, up, {}, {}};
 
+  const auto glass_wide = drawing.glass.extent_along(across), glass_high = drawing.glass.extent_along(up);
   const auto wide = extent_along(drawing, across), deep = extent_along(drawing, away), high = extent_along(drawing, up);
   const double width = wide[1] - wide[0], depth = deep[1] - deep[0], height = high[1] - high[0];
   // mm of the vessel on a mm of paper; in letters, margins, gaps and measures take 11 across and 10 down
@@ -449,17 +344,18 @@ std::string grip_svg(const Scene& scene, std::size_t vessel, const GripReport& r
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.1f}mm\" height=\"{:.1f}mm\" viewBox=\"0 0 {:.2f} {:.2f}\" role=\"img\" "
       "aria-labelledby=\"title desc\">\n<title id=\"title\">{}</title>\n<desc id=\"desc\">{}</desc>\n",
       sheet_width / unit, sheet_height / unit, sheet_width, sheet_height, xml_text("Grip of " + drawing.vessel),
-      xml_text(spoken(drawing)));
+      xml_text(spoken(drawing, glass_wide[1] - glass_wide[0], glass_high[1] - glass_high[0])));
   svg += style_sheet(drawing);
   svg += fmt::format("<rect width=\"{:.2f}\" height=\"{:.2f}\" fill=\"#ffffff\"/>\n", sheet_width, sheet_height);
+  for (DrawnView* view : {&above, &front, &beside}) drawing.glass.look(*view, PAPER_DETAIL * unit);
   draw_view(svg, drawing, above, {left, top_row - f});
   draw_view(svg, drawing, front, {left, second_row - f});
   draw_view(svg, drawing, beside, {right_column, second_row - f});
-  const double radius = 1e3 * drawing.glass.largest_radius, mouth = 1e3 * drawing.glass.mouth_height;
   const double under = second_row + height + f, right = right_column + depth + 0.8 * f;
-  draw_measure(svg, drawing, {front.origin[0] - radius, under}, {front.origin[0] + radius, under},
-               fmt::format("{:.0f} mm", 2 * radius));
-  draw_measure(svg, drawing, {right, beside.origin[1]}, {right, beside.origin[1] - mouth}, fmt::format("{:.0f} mm", mouth));
+  draw_measure(svg, drawing, {front.origin[0] + glass_wide[0], under}, {front.origin[0] + glass_wide[1], under},
+               fmt::format("{:.0f} mm", glass_wide[1] - glass_wide[0]));
+  draw_measure(svg, drawing, {right, beside.origin[1] - glass_high[0]}, {right, beside.origin[1] - glass_high[1]},
+               fmt::format("{:.0f} mm", glass_high[1] - glass_high[0]));
   draw_legend(svg, drawing, {right_column, top_row - 1.8 * f});
   return svg + "</svg>\n";
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {
@@ -247,6 +248,115 @@ TEST(GripSvg, ArcsOfTheOutlineStayArcs) {
   const std::string front = group(drawn(scene, 1, {0.06, 0, 0, 0, 0, 1}), "front");
   EXPECT_GE(count(front, "A42.50 42.50 0 0 0 "), 2);  // anticlockwise up the right side, and down the left
   EXPECT_EQ(count(front, "A42.50 42.50 0 0 1 "), 0);
+}
+
+// The scene's first vessel as a mesh, drawn with the grip that the outline gives.
+std::string drawn_as(Scene scene, const VesselData& mesh, const GripInput& grip) {
+  const GripReport report = report_of(scene, 0, grip);
+  scene.vessels[0] = mesh;
+  return grip_svg(scene, 0, report);
+}
+
+// Least and largest of all coordinates in the paths of a class within a group: x, y.
+std::array<double, 4> reach_of(const std::string& text, const std::string& style) {
+  std::array<double, 4> reach{1e9, -1e9, 1e9, -1e9};
+  const std::regex path("class=\"" + style + "\" d=\"([^\"]*)\""), point("(-?[0-9.]+) (-?[0-9.]+)");
+  for (std::sregex_iterator p(text.begin(), text.end(), path), end; p != end; ++p) {
+    const std::string places = (*p)[1];
+    for (std::sregex_iterator it(places.begin(), places.end(), point); it != end; ++it) {
+      const double x = std::stod((*it)[1]), y = std::stod((*it)[2]);
+      reach = {std::min(reach[0], x), std::max(reach[1], x), std::min(reach[2], y), std::max(reach[3], y)};
+    }
+  }
+  return reach;
+}
+
+TEST(GripSvg, AMeshVesselIsDrawnByItsLines) {
+  const VesselData mesh = vessel_of_mesh("mesh", turned_mesh(beaker1(), 64, 2e-3), 0);
+  const std::string svg = drawn_as(three_beakers(), mesh, BESIDE);
+  expect_well_formed(svg);
+  EXPECT_EQ(count(svg, "class=\"glass\""), 0);
+  EXPECT_EQ(count(svg, "class=\"inner\""), 0);
+  for (const char* view : {"front", "side", "top"}) {
+    const std::string text = group(svg, view);
+    EXPECT_EQ(count(text, "class=\"body\""), 1) << view;
+    EXPECT_EQ(count(text, "class=\"contour\""), 1) << view;
+    EXPECT_EQ(count(text, "class=\"edge\""), 0) << view;
+    const auto contour = reach_of(text, "contour"), body = reach_of(text, "body");
+    EXPECT_NEAR(contour[1] - contour[0], 80, 0.02) << view;  // 64 corners round: one lies across; two decimals
+    EXPECT_NEAR(contour[3] - contour[2], view == std::string("top") ? 80 : 110, 0.02) << view;
+    for (int k = 0; k < 4; ++k) EXPECT_NEAR(body[k], contour[k], 0.3) << view;  // a pixel is 0.1 mm of paper, some 0.2 mm here
+  }
+  // as the outline's: measures, words, and where the hand is
+  const std::string outline = drawn(three_beakers(), 0, BESIDE);
+  EXPECT_EQ(count(svg, ">80 mm<") + count(svg, ">110 mm<"), 2);
+  EXPECT_NE(svg.find("80 mm wide and 110 mm high, between thumb and index finger 58.5 mm above its base"), std::string::npos);
+  for (const char* view : {"front", "side", "top"}) {
+    const std::string a = group(svg, view), b = group(outline, view);
+    EXPECT_EQ(line_in(a, "axis"), line_in(b, "axis"));
+    EXPECT_EQ(count(a.substr(0, a.find("class=\"body\"")), "class=\"bone\""),
+              count(b.substr(0, b.find("class=\"glass\"")), "class=\"bone\""))
+        << view;
+  }
+}
+
+TEST(GripSvg, AMeshVesselIsMeasuredWhereItIs) {
+  const VesselData mesh = vessel_of_mesh("mesh", placed_mesh(box_mesh({-0.03, 0, -0.04}, {0.05, 0.1, 0.04}), {}, {0, 0.02, 0}), 0);
+  const std::string svg = drawn_as(three_beakers(), mesh, {0.0585, 0, 0, 0.38, 0, 1});
+  EXPECT_NE(svg.find("80 mm wide and 100 mm high, between thumb and index finger 38.5 mm above its base"), std::string::npos);
+  const std::string front = group(svg, "front");
+  const auto contour = reach_of(front, "contour"), axis = line_in(front, "axis");
+  const auto measure = reach_of(svg, "measure");
+  EXPECT_NEAR(contour[1] - contour[0], 80, 0.02);
+  EXPECT_NEAR(contour[3] - contour[2], 100, 0.02);
+  EXPECT_NEAR(contour[3] - axis[1], 38.5, 0.02);  // the base is 20 mm up
+  EXPECT_LE(measure[0], contour[0] + 0.02);
+}
+
+// A ring is seen through, and what is sharp is drawn across.
+TEST(GripSvg, HolesAndEdgesOfAMesh) {
+  TriangleMesh ring = torus(0.035, 0.012, 96, 32);
+  for (Triple& p : ring.vertices) p = {p[0], p[2] + 0.047, -p[1]};
+  const VesselData rings = vessel_of_mesh("ring", ring, 0);
+  const std::string front = group(drawn_as(three_beakers(), rings, {0.0585, 0, 0, 0.38, 0, 1}), "front");
+  std::smatch match;
+  ASSERT_TRUE(std::regex_search(front, match, std::regex("class=\"body\" d=\"([^\"]*)\"")));
+  EXPECT_EQ(count(match[1], "M"), 2);
+  EXPECT_EQ(count(match[1], "Z"), 2);
+  const VesselData box = vessel_of_mesh("box", placed_mesh(box_mesh({-0.03, 0, -0.03}, {0.03, 0.1, 0.03}), {0, 0.6, 0}, {}), 0);
+  const std::string boxed = drawn_as(three_beakers(), box, {0.0585, 0, 0, 0.38, 0, 1});
+  EXPECT_EQ(count(group(boxed, "front"), "class=\"edge\""), 1);
+  EXPECT_EQ(count(group(boxed, "top"), "class=\"edge\""), 0);
+}
+
+TEST(GripSvg, TheCavityOfAMeshIsDashed) {
+  VesselData mesh = vessel_of_mesh("mesh", turned_mesh(beaker1(), 48, 4e-3), 0);
+  mesh.mesh->inner = {line_to(0, 1.5), line_to(38.5, 1.5), line_to(38.5, 110)};
+  const std::string svg = drawn_as(three_beakers(), mesh, BESIDE), outline = drawn(three_beakers(), 0, BESIDE);
+  expect_well_formed(svg);
+  for (const char* view : {"front", "side", "top"})
+    EXPECT_EQ(count(group(svg, view), "class=\"inner\""), count(group(outline, view), "class=\"inner\"")) << view;
+}
+
+// 82,000 triangles, all of whose edges are sharp.
+TEST(GripSvg, AFineMeshMakesNoLargeFile) {
+  TriangleMesh crumpled = icosphere(0.045, 6);
+  Random random(14);
+  for (Triple& p : crumpled.vertices) {
+    const double factor = random.uniform(0.95, 1.05);
+    for (double& x : p) x *= factor;
+    p[1] += 0.05;
+  }
+  const std::string svg = drawn_as(three_beakers(), vessel_of_mesh("stone", crumpled, 0), BESIDE);
+  EXPECT_LT(svg.size(), 1'000'000u);
+  EXPECT_GT(svg.size(), 100'000u);
+  expect_well_formed(svg);
+}
+
+TEST(GripSvg, AMeshThatHasNotBeenReadIsRefused) {
+  VesselData unread = vessel_of_mesh("unread", box_mesh({-0.03, 0, -0.03}, {0.03, 0.1, 0.03}), 0);
+  unread.mesh->body.reset();
+  EXPECT_THROW(drawn_as(three_beakers(), unread, BESIDE), Error);
 }
 
 TEST(GripSvg, NothingToDraw) {
