@@ -38,6 +38,7 @@ class Figures : public benchmark::ConsoleReporter {
 void add_grip_benchmarks(const Options& options);
 void print_grip_ratios(const Figures& figures);
 void add_lattice_benchmarks(const Options& options);
+void add_mesh_benchmarks();
 
 // ---- grips ----
 

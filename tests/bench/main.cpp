@@ -62,6 +62,7 @@ int run(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(count, rest.data())) return 2;
   add_grip_benchmarks(options);
   add_lattice_benchmarks(options);
+  add_mesh_benchmarks();
 
   Figures figures;
   benchmark::RunSpecifiedBenchmarks(&figures);
