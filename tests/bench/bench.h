@@ -39,6 +39,7 @@ void add_grip_benchmarks(const Options& options);
 void print_grip_ratios(const Figures& figures);
 void add_lattice_benchmarks(const Options& options);
 void add_mesh_benchmarks();
+void add_image_benchmarks(const Options& options);
 
 // ---- grips ----
 

@@ -63,6 +63,7 @@ int run(int argc, char** argv) {
   add_grip_benchmarks(options);
   add_lattice_benchmarks(options);
   add_mesh_benchmarks();
+  add_image_benchmarks(options);
 
   Figures figures;
   benchmark::RunSpecifiedBenchmarks(&figures);

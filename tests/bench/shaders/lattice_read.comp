@@ -1,0 +1,60 @@
+// Distances along rays as sphere tracing would ask for them, the lattice read in several ways. Each invocation goes along one ray in steps
+// that shrink towards its end; the points are the same for every way, and neighbouring invocations have neighbouring rays.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "sdf.glsl"
+#include "tests/bench/shaders/lattice_read.h"
+
+layout(local_size_x_id = CONST_GROUP_SIZE) in;
+layout(constant_id = CONST_WAY) const int WAY = WAY_BUFFER;
+layout(std430, binding = BINDING_GRIPS) readonly buffer RayBlock { Real rays[]; };  // start x, y, z, way x, y, z: planes
+layout(std430, binding = BINDING_REAL_OUT) writeonly buffer DistanceBlock { Real distances[]; };
+layout(binding = BINDING_IMAGE) uniform sampler3D image;
+layout(binding = BINDING_TEXELS) uniform samplerBuffer texels;
+
+Real fetched(int i, int j, int k) {
+  Real unit = GRID_BITS == 16 ? HALF_UNIT : Real(1);
+  if (WAY == WAY_TEXELS) return Real(texelFetch(texels, (k * int(scene.grid_ny) + j) * int(scene.grid_nx) + i).x) * unit;
+  return Real(texelFetch(image, ivec3(i, j, k), 0).x) * unit;
+}
+
+// grid_distance of sdf.glsl with another way to a sample.
+Real fetched_distance(Vec3 p) {
+  Cell cell = locate_cell(p);
+  Vec3 f = cell.fraction;
+  Real c00 = mix_reals(fetched(cell.i, cell.j, cell.k), fetched(cell.i + 1, cell.j, cell.k), f.x);
+  Real c10 = mix_reals(fetched(cell.i, cell.j + 1, cell.k), fetched(cell.i + 1, cell.j + 1, cell.k), f.x);
+  Real c01 = mix_reals(fetched(cell.i, cell.j, cell.k + 1), fetched(cell.i + 1, cell.j, cell.k + 1), f.x);
+  Real c11 = mix_reals(fetched(cell.i, cell.j + 1, cell.k + 1), fetched(cell.i + 1, cell.j + 1, cell.k + 1), f.x);
+  return mix_reals(mix_reals(c00, c10, f.y), mix_reals(c01, c11, f.y), f.z) + length(cell.outside);
+}
+
+// The sampler's own interpolation: texel (i, j, k) has its centre half a texel further.
+Real filtered_distance(Vec3 p) {
+  Vec3 origin = Vec3(scene.grid_x, scene.grid_y, scene.grid_z);
+  Vec3 counts = Vec3(Real(scene.grid_nx), Real(scene.grid_ny), Real(scene.grid_nz));
+  Vec3 clamped = min(max(p, origin), origin + (counts - Real(1)) * scene.grid_spacing);
+  Vec3 place = ((clamped - origin) / scene.grid_spacing + Real(0.5)) / counts;
+  return Real(textureLod(image, vec3(place), 0.0).x) * (GRID_BITS == 16 ? HALF_UNIT : Real(1)) + length(p - clamped);
+}
+
+Real distance_by(Vec3 p) {
+  if (WAY == WAY_NOTHING) return p.x + p.y + p.z;
+  if (WAY == WAY_FETCH || WAY == WAY_TEXELS) return fetched_distance(p);
+  if (WAY == WAY_FILTER) return filtered_distance(p);
+  return grid_distance(p);
+}
+
+void main() {
+  uint ray = INVOCATION;
+  if (ray >= push.count) return;
+  Vec3 start = Vec3(rays[ray], rays[push.stride + ray], rays[2u * push.stride + ray]);
+  Vec3 way = Vec3(rays[3u * push.stride + ray], rays[4u * push.stride + ray], rays[5u * push.stride + ray]);
+  precise Real left = Real(1);
+  for (int step = 0; step < RAY_STEPS; ++step) {
+    precise Vec3 p = start + (Real(1) - left) * way;
+    distances[uint(step) * push.stride + ray] = distance_by(p);
+    left *= Real(STEP_SHARE);
+  }
+}
