@@ -26,10 +26,13 @@ constexpr std::size_t LARGE_MESH_LATTICE = 16u << 20;  // bytes
 
 // Of the points between axis and wall of a cavity: so many may be on the other side than the rest, where a fillet was left out.
 constexpr double OTHER_SIDE = 0.05;
+// How far a cavity's wall may be from that of a hollow mesh: m, or a share of its radius if that is more. Cups are drawn with rounded numbers.
+constexpr double OFF_WALL = 3e-3, OFF_WALL_SHARE = 0.1;
 
 // How many of the points between axis and wall of a cavity lie within the mesh.
 struct CavityPoints {
   int inside = 0, all = 0;
+  int off_wall = 0, of_wall = 0;  // points of the cavity's wall itself: further from the glass than its inner wall may be; all
 };
 
 CavityPoints count_cavity_points(const PreparedGrid& grid, const std::vector<PreparedElement>& cavity) {
@@ -41,10 +44,15 @@ CavityPoints count_cavity_points(const PreparedGrid& grid, const std::vector<Pre
     for (int h = 0; h < HEIGHTS; ++h) {
       const double y = piece.a[1] + (piece.b[1] - piece.a[1]) * (h + 0.5) / HEIGHTS;
       const double wall = core_f64::element_radius(core_f64::load_element(piece), y);
-      for (int k = 0; k < 2 * AZIMUTHS; ++k) {
-        const double azimuth = 2 * PI * (k + 0.5) / AZIMUTHS, r = (k < AZIMUTHS ? 0.5 : 0.9) * wall;
-        points.inside += core_f64::signed_distance(vessel, {r * std::cos(azimuth), y, r * std::sin(azimuth)}) < 0;
-        ++points.all;
+      for (int k = 0; k < AZIMUTHS; ++k) {
+        const double azimuth = 2 * PI * (k + 0.5) / AZIMUTHS;
+        const auto distance_at = [&](double r) {
+          return core_f64::signed_distance(vessel, {r * std::cos(azimuth), y, r * std::sin(azimuth)});
+        };
+        for (const double share : {0.5, 0.9}) points.inside += distance_at(share * wall) < 0;
+        points.all += 2;
+        points.off_wall += distance_at(wall) > std::max(OFF_WALL, OFF_WALL_SHARE * wall);
+        ++points.of_wall;
       }
     }
   }
@@ -73,6 +81,12 @@ void place_cavity(const VesselData& vessel, MeshBody& body) {
         fmt::format("the inner outline passes through the mesh: {} of {} points well within it are glass; move it where the mesh "
                     "is hollow, or make the mesh its hull",
                     points.inside, points.all));
+  }
+  if (points.off_wall > OTHER_SIDE * points.of_wall) {
+    refuse(fmt::format(
+        "the inner outline is not that of the mesh: {} of {} points of it are far from the glass; it is turned about the "
+        "axis x = z = 0, which is the middle of the mesh's bounding box unless origin = \"as_is\"",
+        points.off_wall, points.of_wall));
   }
   body.holds_cavity = share > 0.5;
 }

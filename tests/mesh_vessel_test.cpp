@@ -361,6 +361,14 @@ TEST_F(MeshVessel, WhatCannotBeUsedIsRefusedInOneLine) {
   EXPECT_NE(with_inner(-2e-3, 35e-3, 110e-3).find("reaches beyond the mesh"), std::string::npos);
   EXPECT_NE(with_inner(2e-3, 45e-3, 110e-3).find("reaches beyond the mesh"), std::string::npos);
   EXPECT_NE(with_inner(2e-3, 35e-3, 120e-3).find("reaches beyond the mesh"), std::string::npos);
+  // the handle moves the middle of the box off the cup's axis
+  VesselData shell;
+  shell.outline = {line_to(40, 0), line_to(40, 110), line_to(38.5, 110), line_to(38.5, 1.5), line_to(0, 1.5)};
+  VesselData cup = of_file("cup", joined(turned_mesh(shell, 64, 2e-3), box_mesh({0.039, 0.03, -0.005}, {0.07, 0.08, 0.005})), 1e-3);
+  cup.mesh->inner = inner_of(beaker1());
+  EXPECT_NE(refusal(cup).find("unless origin = \"as_is\""), std::string::npos) << refusal(cup);
+  cup.mesh->origin_at_base = false;
+  EXPECT_EQ(refusal(cup), "");
   VesselData ball = of_file("ball", icosphere(0.03, 3), 1e-3);
   ball.mesh->inner = {{false, {0, 1e-3}, {}, 0, 0}, {false, {29e-3, 1e-3}, {}, 0, 0}, {false, {29e-3, 59e-3}, {}, 0, 0}};
   EXPECT_NE(refusal(ball).find("passes through the mesh"), std::string::npos) << refusal(ball);
