@@ -1,0 +1,80 @@
+// A finished result file of a sweep, read back: for what is made of it afterwards.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/backend.h"
+#include "sweeps/plan.h"
+#include "sweeps/variables.h"
+
+namespace wholehand {
+
+// What the file says of the sweep as a whole.
+struct SweepOrigin {
+  std::string scene;  // the scene file's text
+  std::string version, backend, device, driver;
+  Precision precision = Precision::full;
+  double wall_seconds = 0, kernel_seconds = 0;
+  double bytes = 0;  // of the file
+};
+
+// Reads only; no value is taken from the file before it is known to have the type and shape that a sweep gives it. Not thread-safe, since
+// the NetCDF library is not.
+class SweepResult {
+ public:
+  // Opens the file. Throws Error (usage), one line with the file: it is not there or cannot be read, is no NetCDF-4 file or a damaged one, is
+  // not of a sweep, or of one that was not finished.
+  explicit SweepResult(const std::string& path);
+  ~SweepResult();
+  SweepResult(const SweepResult&) = delete;
+  SweepResult& operator=(const SweepResult&) = delete;
+
+  const std::string& path() const { return path_; }
+  const SweepOrigin& origin() const { return origin_; }
+
+  // The variables of the grips that the file has, in the catalogue's order; and one of them by its name, null where it has it not.
+  const std::vector<const Variable*>& variables() const { return variables_; }
+  const Variable* find(const std::string& name) const;
+
+  // Ties the file to the scene that its text describes: call once, before what is below. Throws Error (usage) where the vessels or the grips
+  // are not those of the scene. Both must outlive the object.
+  void use(const Scene& scene, const Plan& plan);
+
+  // Values of one plane of a variable at the stored grips first .. first + count - 1 of a vessel. Where a grip has none: NaN, MISSING.
+  void read(const Variable& variable, std::size_t vessel, std::size_t plane, std::uint64_t first, std::size_t count,
+            double* out) const;
+  // The same at some of the grips, in their order.
+  std::vector<double> pick(const Variable& variable, std::size_t vessel, std::size_t plane,
+                           const std::vector<std::uint64_t>& grips) const;
+
+  // Whether the sweep was asked to list its best grips; and those of a vessel, the best first, none where none is feasible and plausible.
+  bool lists_best() const;
+  std::vector<Candidate> best(std::size_t vessel) const;
+
+  // The tilts at which a vessel starts to pour, one for each of the scene's fills, rad; NaN where it never does.
+  std::vector<double> pouring_tilts(std::size_t vessel) const;
+
+  // Heights of all vessels, m; known before `use`.
+  std::vector<double> vessel_heights() const;
+
+ private:
+  int numbers_id(const std::string& name) const;
+  std::vector<std::size_t> shape_of(int id) const;
+  int checked_id(const std::string& name, const std::vector<std::size_t>& shape) const;
+  std::vector<double> row(const std::string& name, std::size_t vessel, std::size_t length) const;
+  std::string text(const char* name) const;
+  double number(const char* name) const;
+
+  std::string path_;
+  int file_ = -1;
+  SweepOrigin origin_;
+  std::vector<const Variable*> variables_;
+  const Scene* scene_ = nullptr;
+  const Plan* plan_ = nullptr;
+  std::vector<std::size_t> grip_shape_;  // lengths of the grips' dimensions, the slowest first
+};
+
+}  // namespace wholehand

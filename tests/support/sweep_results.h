@@ -1,0 +1,43 @@
+// Result files of real sweeps, small and without their companions.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/backend.h"
+#include "sweeps/report_source.h"
+#include "tests/support/result_reader.h"
+
+namespace wholehand {
+
+// Two vessels with guidance points, a cup and a flask, of 3 x 2 x 3 x 12 grips with 2 fills and 4 tilts; made by editing it for other cases.
+extern const std::string RESULT_SCENE;
+
+// Sweeps the scene by the core, in either precision, and writes what `wholehand sweep` does to `path`. Without an ending it is as a sweep
+// that was interrupted leaves it.
+void write_result(const Scene& scene, const std::string& path, Precision precision = Precision::full, bool has_ending = true);
+
+// `text` with the first `from` in it replaced; a test failure where there is none.
+std::string edited(std::string text, const std::string& from, const std::string& to);
+
+// A swept scene with everything that a report needs.
+struct SweptScene {
+  explicit SweptScene(const std::string& text, Precision precision = Precision::full);
+
+  TemporaryFolder folder;
+  Scene scene;
+  std::string path;
+  std::unique_ptr<SweepResult> result;
+  std::unique_ptr<Plan> plan;
+  std::unique_ptr<ReportSource> source;
+
+  // Overwrites values of a variable of the file, from its first on, and reads it anew.
+  void change(const std::string& variable, const std::vector<double>& values);
+
+ private:
+  void open();
+};
+
+}  // namespace wholehand
