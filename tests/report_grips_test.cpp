@@ -1,0 +1,138 @@
+// The best grips: their numbers, their drawings cut out of the whole one, and what is said where there are none.
+// sanitizers: address
+#include "sweeps/report_grips.h"
+
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "sweeps/core_backend.h"
+#include "sweeps/grip_svg.h"
+#include "tests/support/sweep_results.h"
+
+namespace wholehand {
+namespace {
+
+std::string written(const SweptScene& swept, std::size_t vessel) {
+  HtmlWriter html;
+  write_grips(html, *swept.source, vessel, read_grips(*swept.source, vessel), "v");
+  EXPECT_TRUE(html.is_closed());
+  return html.html();
+}
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+TEST(ReportGrips, AreTheFilesWithTheCoresNumbers) {
+  const SweptScene swept(RESULT_SCENE);
+  const ReportedGrips best = read_grips(*swept.source, 1);
+  ASSERT_TRUE(best.is_whole);
+  ASSERT_EQ(best.grips.size(), 5u);
+  const auto listed = swept.result->best(1);
+  for (std::size_t rank = 0; rank < 5; ++rank) {
+    const BestGrip& grip = best.grips[rank];
+    EXPECT_EQ(grip.score, listed[rank].score);
+    EXPECT_EQ(grip.candidate.index, listed[rank].index);
+    GripResult result;
+    swept.source->core->grip(1, grip.grip, result);
+    EXPECT_EQ(grip.gap, result.gap);
+    EXPECT_EQ(grip.fingers_used, std::popcount(result.used_mask));
+    const GripScore score = swept.source->core->score(1, grip.grip, result);
+    EXPECT_EQ(grip.peak_force, std::max(score.fills[0].peak_force, score.fills[1].peak_force));
+  }
+}
+
+TEST(ReportGrips, TableHasARowForEachAndADrawingForTheFirst) {
+  const std::string html = written(SweptScene(RESULT_SCENE), 0);
+  EXPECT_EQ(count_of(html, "<th scope=\"row\">"), 5u);
+  EXPECT_EQ(count_of(html, "<img src=\"data:image/svg+xml,"), DRAWN_GRIPS);
+  EXPECT_EQ(count_of(html, "alt=\"Front and side view of the hand on cup"), DRAWN_GRIPS);
+  for (const char* column : {"height (mm)", "roll (°)", "obliquity (°)", "peak force (N)", "hold force (N)", "safe tilt (°)"})
+    EXPECT_EQ(count_of(html, std::string(">") + column + "</th>"), 1u) << column;
+  EXPECT_EQ(html.find("azimuth (°)"), std::string::npos) << "one stands for all";
+}
+
+TEST(ReportGrips, WithoutTiltsTheyAreAntipodalOrNot) {
+  const std::string html = written(SweptScene(edited(RESULT_SCENE, "[tilts]\ndeg = [0, 45, 90, 135]", "")), 0);
+  EXPECT_NE(html.find(">antipodal</th>"), std::string::npos);
+  EXPECT_EQ(html.find("force (N)"), std::string::npos);
+}
+
+TEST(ReportGrips, ManyAreCutAndCounted) {
+  const SweptScene swept(edited(RESULT_SCENE, "best = 5", "best = 60"));
+  const ReportedGrips best = read_grips(*swept.source, 1);
+  EXPECT_EQ(best.grips.size(), TABLED_GRIPS);
+  EXPECT_EQ(best.listed, swept.result->best(1).size());
+  ASSERT_GT(best.listed, TABLED_GRIPS);
+  EXPECT_NE(written(swept, 1).find("The sweep listed " + std::to_string(best.listed)), std::string::npos);
+}
+
+TEST(ReportGrips, NoneAskedAndNoneThereAreSaid) {
+  EXPECT_NE(written(SweptScene(edited(RESULT_SCENE, "best = 5", "best = 0")), 0).find("asked to list none"), std::string::npos);
+  EXPECT_NE(written(SweptScene(edited(RESULT_SCENE, "diameter_mm = 70", "diameter_mm = 300")), 0).find("There are none"),
+            std::string::npos);
+}
+
+TEST(ReportGrips, WithoutTheCoreThePlacesRemain) {
+  SweptScene swept(RESULT_SCENE);
+  swept.source->core = nullptr;
+  swept.source->no_core = "cup.glb: is not there";
+  const std::string html = written(swept, 0);
+  EXPECT_EQ(count_of(html, "<th scope=\"row\">"), 5u);
+  EXPECT_EQ(html.find("<img"), std::string::npos);
+  EXPECT_EQ(html.find("closure"), std::string::npos);
+  EXPECT_NE(html.find("left out: cup.glb: is not there"), std::string::npos);
+}
+
+// ---- the drawing's part ----
+
+std::string drawing() {
+  const SweptScene swept(RESULT_SCENE);
+  const auto& source = *swept.source;
+  const GripInput grip = source.plan.grip(0, swept.result->best(0)[0].index);
+  return grip_svg(source.scene, 0,
+                  make_grip_report(source.scene, 0, grip, {}, core_grip_methods(source.scene, source.core, "core")));
+}
+
+std::array<double, 4> box_of(const std::string& svg) {
+  std::smatch found;
+  EXPECT_TRUE(std::regex_search(svg, found, std::regex(R"re(viewBox="([-\d.]+) ([-\d.]+) ([-\d.]+) ([-\d.]+)")re")));
+  return {std::stod(found[1]), std::stod(found[2]), std::stod(found[3]), std::stod(found[4])};
+}
+
+TEST(FrontAndSide, LeavesTwoViewsAndNothingElse) {
+  const std::string whole = drawing(), part = front_and_side(whole);
+  for (const char* view : {"front", "side"})
+    EXPECT_NE(part.find(std::string("<g id=\"") + view + "\">"), std::string::npos) << view;
+  for (const char* gone : {"<g id=\"top\">", "<g id=\"legend\">", "brought to the glass"})
+    EXPECT_EQ(part.find(gone), std::string::npos) << gone;
+  EXPECT_LT(part.size(), whole.size());
+  // the front view as it was
+  const std::size_t begin = whole.find("<g id=\"front\">"), end = whole.find("</g>", begin);
+  EXPECT_NE(part.find(whole.substr(begin, end - begin)), std::string::npos);
+}
+
+TEST(FrontAndSide, ItsBoxHoldsWhatIsDrawn) {
+  const std::string part = front_and_side(drawing());
+  const auto box = box_of(part);
+  const std::regex point(R"re(c?x="([-\d.]+)" c?y="([-\d.]+)")re");
+  int points = 0;
+  for (std::sregex_iterator p(part.begin(), part.end(), point), end; p != end; ++p, ++points) {
+    EXPECT_GT(std::stod((*p)[1]), box[0]);
+    EXPECT_LT(std::stod((*p)[1]), box[0] + box[2]);
+    EXPECT_GT(std::stod((*p)[2]), box[1]);
+    EXPECT_LT(std::stod((*p)[2]), box[1] + box[3]);
+  }
+  EXPECT_GT(points, 20);
+}
+
+TEST(FrontAndSide, WhatIsNoSuchDrawingStays) {
+  for (const char* other : {"", "<svg/>", "<svg viewBox=\"0 0 10 10\"><style></style><text x=\"1\">front</text></svg>"})
+    EXPECT_EQ(front_and_side(other), other);
+}
+
+}  // namespace
+}  // namespace wholehand
