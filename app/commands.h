@@ -14,6 +14,7 @@ namespace wholehand {
 using Action = std::function<ExitCode()>;
 
 void add_sweep_command(CLI::App& app, Action& action);
+void add_report_command(CLI::App& app, Action& action);
 void add_grip_command(CLI::App& app, Action& action);
 void add_check_command(CLI::App& app, Action& action);
 void add_error_time_command(CLI::App& app, Action& action);

@@ -47,6 +47,7 @@ int run(int argc, char** argv) {
       "The launcher also builds and runs the tests (test) and the benchmarks (bench).\n"
       "Exit codes: 0 done, 1 the answer is no (check), 2 wrong usage or input, 3 device or system failure, 130 interrupted.");
   wholehand::add_sweep_command(app, action);
+  wholehand::add_report_command(app, action);
   wholehand::add_grip_command(app, action);
   wholehand::add_check_command(app, action);
   wholehand::add_error_time_command(app, action);
@@ -64,14 +65,16 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     const auto extra = app.remaining();
     if (app.get_subcommands().empty() && !extra.empty() && extra.front()[0] != '-') {
-      return report(ExitCode::usage, "unknown command " + wholehand::in_quotes(extra.front()) +
-                                         "; the commands are sweep, grip, check, error-time, stability, live, session and devices");
+      return report(ExitCode::usage,
+                    "unknown command " + wholehand::in_quotes(extra.front()) +
+                        "; the commands are sweep, report, grip, check, error-time, stability, live, session and devices");
     }
     return report(ExitCode::usage, std::string(error.what()) + "; see wholehand" + command_name(app) + " --help");
   }
   if (!action)
-    return report(ExitCode::usage,
-                  "which command? sweep, grip, check, error-time, stability, live, session or devices; see wholehand --help");
+    return report(
+        ExitCode::usage,
+        "which command? sweep, report, grip, check, error-time, stability, live, session or devices; see wholehand --help");
   const ExitCode code = action();
   wholehand::finish_output();
   // with the validation layer on (WHOLEHAND_VALIDATION=1) a message is a failure

@@ -31,7 +31,7 @@ TEST(CommandLine, TellsVersionAndHelp) {
   const Outcome version = run("PROGRAM --version 2>&1");
   EXPECT_EQ(version.code, 0);
   EXPECT_EQ(version.output, "wholehand " WHOLEHAND_VERSION "\n");
-  for (const char* arguments : {"--help", "sweep --help", "grip -h", "check --help", "devices --help"}) {
+  for (const char* arguments : {"--help", "sweep --help", "report --help", "grip -h", "check --help", "devices --help"}) {
     const Outcome help = run(std::string("PROGRAM ") + arguments + " 2>&1");
     EXPECT_EQ(help.code, 0) << arguments;
     EXPECT_NE(help.output.find("Usage:"), std::string::npos) << help.output;
@@ -40,7 +40,7 @@ TEST(CommandLine, TellsVersionAndHelp) {
 
 TEST(CommandLine, RefusesWrongUsageWithOneLineAndCode2) {
   const std::vector<std::pair<std::string, std::string>> cases{
-      {"", "which command? sweep, grip, check, error-time, stability, live, session or devices"},
+      {"", "which command? sweep, report, grip, check, error-time, stability, live, session or devices"},
       {"swep", "unknown command 'swep'"},
       {"--bogus", "--bogus; see wholehand --help"},
       {"sweep --bogus", "--bogus; see wholehand sweep --help"},
@@ -76,6 +76,14 @@ TEST(CommandLine, RefusesWrongUsageWithOneLineAndCode2) {
       {"session /dev/null", "/dev/null: is a device or pipe; name a recording"},
       {"session /proc/self/status", "/proc/self/status: is no recording"},
       {"session a.nc b.nc", "b.nc; see wholehand session --help"},
+      {"report", "result is required"},
+      {"report ''", "must not be empty"},
+      {"report a.nc -o ''", "must not be empty"},
+      {"report /nonexistent.nc", "/nonexistent.nc: cannot be read: No such file or directory"},
+      {"report /tmp", "/tmp: is a directory; name the result file of a sweep"},
+      {"report /dev/null", "/dev/null: is a device or pipe; name the result file of a sweep"},
+      {"report /proc/self/status", "/proc/self/status: is no result file"},
+      {"report a.nc b.nc", "b.nc; see wholehand report --help"},
       {"devices extra", "extra; see wholehand devices --help"},
       {"grip", "scene is required"},
       {"grip small", "--vessel is required"},
@@ -272,6 +280,36 @@ TEST(CommandLine, ReportsASession) {
   std::filesystem::resize_file(path, 3000);
   expect_error("session " + path, 2, path + ": its header is cut off or damaged");
   expect_error("session " + path + " --json -o " + folder + "/out", 2, path + ": its header is cut off or damaged");
+  std::filesystem::remove_all(folder);
+}
+
+TEST(CommandLine, WritesAPageForASweep) {
+  std::string folder = std::filesystem::temp_directory_path() / "wholehand_cli_XXXXXX";
+  ASSERT_NE(mkdtemp(folder.data()), nullptr);
+  const std::string result = folder + "/s.nc", page = folder + "/s.html";
+  ASSERT_EQ(run("PROGRAM sweep small --on core -o " + result + " 2>&1").code, 0);
+  const Outcome named = run("PROGRAM report " + result + " 2>&1");
+  EXPECT_EQ(named.code, 0) << named.output;
+  EXPECT_EQ(named.output.find("wrote " + page + " ("), 0u) << named.output;
+  EXPECT_EQ(named.output.find('\n'), named.output.size() - 1) << named.output;
+  EXPECT_GT(std::filesystem::file_size(page), 10000u);
+  // over an earlier page, and over nothing else
+  EXPECT_EQ(run("PROGRAM report " + result + " -o " + page + " 2>&1").code, 0);
+  const auto size = std::filesystem::file_size(result);
+  expect_error("report " + result + " -o " + result, 2, "this is the result file itself");
+  expect_error("report " + result + " -o " + folder + "/s.best.csv", 2, "is no HTML page");
+  expect_error("report " + result + " -o " + folder, 2, "is a directory; name a file");
+  expect_error("report " + result + " -o /nonexistent/a.html", 2, "/nonexistent is not a directory");
+  EXPECT_EQ(std::filesystem::file_size(result), size);
+  // what was cut off, what is no sweep's, what was not finished
+  std::filesystem::remove(page);
+  expect_error("report " + small_recording(folder), 2, "wholehand session");
+  std::filesystem::copy_file(result, folder + "/t.nc");
+  std::filesystem::resize_file(folder + "/t.nc", size / 2);
+  expect_error("report " + folder + "/t.nc", 2, "is damaged");
+  std::filesystem::rename(result, result + ".partial");
+  expect_error("report " + result, 2, "was not finished; finish it with wholehand sweep --resume");
+  EXPECT_FALSE(std::filesystem::exists(page));
   std::filesystem::remove_all(folder);
 }
 

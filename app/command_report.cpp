@@ -1,0 +1,56 @@
+// wholehand report: one page for a sweep.
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <memory>
+
+#include "app/commands.h"
+#include "app/output.h"
+#include "app/scene_reader.h"
+#include "app/validators.h"
+#include "sweeps/files.h"
+#include "sweeps/readable.h"
+#include "sweeps/report_page.h"
+
+namespace wholehand {
+namespace {
+
+struct PageArguments {
+  std::string result, page;
+};
+
+// The scene that the file's text describes, meshes included; of what could not be read there `trouble` tells.
+Scene scene_of_result(const SweepResult& result, std::string& trouble) {
+  trouble.clear();
+  return parse_scene(result.origin().scene, result.path() + " (its scene)");
+}
+
+ExitCode report_sweep(const PageArguments& arguments) {
+  const std::string page = arguments.page.empty() ? output_names(arguments.result).stem + ".html" : arguments.page;
+  SweepResult result(arguments.result);
+  check_output_path(page);
+  check_overwrites_page(page, arguments.result);
+  std::string trouble;
+  const Scene scene = scene_of_result(result, trouble);
+  const std::string html = report_page(result, scene, trouble);
+  write_whole_file(page, html, false);
+  print(fmt::format("wrote {} ({})\n", page, readable_bytes(static_cast<double>(html.size()))));
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_report_command(CLI::App& app, Action& action) {
+  const auto arguments = std::make_shared<PageArguments>();
+  CLI::App* command = app.add_subcommand("report", "One page that explains a sweep: maps, best grips, forces, agreement");
+  command->add_option("result", arguments->result, "A result of `wholehand sweep`")
+      ->type_name("FILE.nc")
+      ->required()
+      ->check(not_empty());
+  command->add_option("-o,--output", arguments->page, "The page (the result's name with .html)")
+      ->type_name("FILE")
+      ->check(not_empty());
+  command->callback([arguments, &action] { action = [arguments] { return report_sweep(*arguments); }; });
+}
+
+}  // namespace wholehand

@@ -1,0 +1,8 @@
+// The style sheet of a report: a phone's column to a wide screen, light and dark, and paper.
+#pragma once
+
+namespace wholehand {
+
+extern const char* const REPORT_STYLE;
+
+}  // namespace wholehand

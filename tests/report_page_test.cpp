@@ -1,0 +1,181 @@
+// The whole page of many kinds of sweeps: well-formed, self-contained, and with a word for everything that is not there.
+// sanitizers: address
+#include "sweeps/report_page.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "core/error.h"
+#include "sweeps/report_scene.h"
+#include "tests/support/sweep_results.h"
+
+namespace wholehand {
+namespace {
+
+const std::string TILTS = "[tilts]\ndeg = [0, 45, 90, 135]", LIQUID = "[liquid]\nfills = [0, 0.6]";
+
+std::string page_of(const SweptScene& swept, const std::string& trouble = "") {
+  SweepResult result(swept.path);
+  return report_page(result, swept.scene, trouble);
+}
+
+void expect_well_built(const SweptScene& swept, const std::string& page) {
+  const std::string path = swept.folder / "page.html";
+  std::ofstream(path) << page;
+  // Debian's own python3, whatever else there is
+  EXPECT_EQ(std::system(("/usr/bin/python3 " WHOLEHAND_SOURCE_DIR "/tests/report_page_test.py " + path).c_str()), 0);
+}
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST(ReportPage, IsWellBuiltForEveryKindOfSweep) {
+  const std::string keep = "best = 5\nkeep = ";
+  const std::pair<const char*, std::string> kinds[] = {
+      {"usual", RESULT_SCENE},
+      {"left hand, shell", edited(edited(RESULT_SCENE, "[liquid]", "[hand]\nhandedness = \"left\"\n[liquid]"), "wall_mm = 1.5",
+                                  "wall_mm = 1.5\nsurface = \"shell\"")},
+      {"no tilts", edited(RESULT_SCENE, TILTS, "")},
+      {"no liquid", edited(RESULT_SCENE, LIQUID, "")},
+      {"neither", edited(edited(RESULT_SCENE, LIQUID, ""), TILTS, "")},
+      {"rigged", edited(RESULT_SCENE, "name = \"cups\"", "name = \"cups\"\npose = \"rigged\"")},
+      {"paper", edited(RESULT_SCENE, "name = \"cups\"", "pose = \"paper\"")},
+      {"one grip", edited(edited(edited(edited(RESULT_SCENE, "{ from = 0.1, to = 0.95, count = 12 }", "0.5"), "[-90, -30, 0]", "0"),
+                                 "[-10, 10]", "0"),
+                          "[0, 60, 120]", "0")},
+      {"one height in mm", edited(RESULT_SCENE, "height_fraction = { from = 0.1, to = 0.95, count = 12 }", "height_mm = 60")},
+      {"every axis",
+       edited(RESULT_SCENE, "roll_deg = [-90, -30, 0]", "roll_deg = [-90, 0]\noffset_mm = [0, 4]\nhand_scale = [0.9, 1.1]")},
+      {"Sobol",
+       edited(RESULT_SCENE, "roll_deg = [-90, -30, 0]", "roll_deg = { from = -90, to = 0 }\nsampling = \"sobol\"\ncount = 200")},
+      {"one tilt, full", edited(edited(RESULT_SCENE, "[0, 45, 90, 135]", "[60]"), "[0, 0.6]", "[1]")},
+      {"many fills", edited(RESULT_SCENE, "[0, 0.6]", "[0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1]")},
+      {"nobody can hold", edited(RESULT_SCENE, "diameter_mm = 70", "diameter_mm = 300")},
+      {"no friction", edited(RESULT_SCENE, "[tilts]", "[force]\nfriction = 0\n[tilts]")},
+      {"nothing kept", edited(RESULT_SCENE, "best = 5", keep + "[]")},
+      {"nothing kept nor listed", edited(RESULT_SCENE, "best = 5", "best = 0\nkeep = []")},
+      {"score kept", edited(RESULT_SCENE, "best = 5", "best = 0\nkeep = [\"score\"]")},
+      {"vectors kept", edited(RESULT_SCENE, "best = 5", keep + "[\"posed\", \"score\", \"reason\"]")},
+  };
+  for (const auto& [kind, text] : kinds) {
+    SCOPED_TRACE(kind);
+    const SweptScene swept(text, Precision::single);
+    expect_well_built(swept, page_of(swept));
+  }
+}
+
+TEST(ReportPage, TellsInItsOrder) {
+  const std::string page = page_of(SweptScene(RESULT_SCENE));
+  std::size_t at = 0;
+  for (const char* heading : {"<h1>Grips of cups</h1>", ">What was asked</h2>", ">How it ran</h2>", ">cup</h2>",
+                              ">Score, fingers and force over height and roll</h3>", ">The best grips</h3>",
+                              ">Forces over the tilt</h3>", ">Where pouring starts</h3>", ">Agreement with the core</h3>",
+                              ">Touching, and the distance from a guidance point</h3>", ">flask</h2>", ">The words</h2>"}) {
+    const std::size_t next = page.find(heading, at);
+    ASSERT_NE(next, std::string::npos) << heading;
+    at = next;
+  }
+}
+
+TEST(ReportPage, TellsOnWhatItRan) {
+  const std::string page = page_of(SweptScene(RESULT_SCENE));
+  for (const char* fact : {"core, 2 threads", "double precision", "wholehand 1.2.3", "12.50 s in all, 3.25 s of it in kernels",
+                           "144 grips, 1,152 states", "result.nc, "})
+    EXPECT_TRUE(has(page, fact)) << fact;
+}
+
+TEST(ReportPage, TheScenesTextIsTextAndNothingElse) {
+  const SweptScene swept(
+      edited(RESULT_SCENE, "[scene]", "# </pre></details><script>alert(1)</script> & <img src=x onerror=y>\n[scene]"));
+  const std::string page = page_of(swept);
+  EXPECT_FALSE(has(page, "<script"));
+  EXPECT_FALSE(has(page, "<img src=x"));
+  EXPECT_TRUE(has(page, "&lt;script&gt;alert(1)&lt;/script&gt; &amp; &lt;img src=x onerror=y&gt;"));
+  EXPECT_TRUE(has(page, "# &lt;b&gt;bold &amp; &quot;quoted&quot;&lt;/b&gt;"));
+  expect_well_built(swept, page);
+}
+
+TEST(ReportPage, NamesOfAnyLettersCannotBreakIt) {
+  // a reader of scenes refuses them; a scene may come from elsewhere
+  SweptScene swept(RESULT_SCENE);
+  swept.scene.name = "<i>\"&'\x01\xff";
+  for (VesselData& vessel : swept.scene.vessels) vessel.name = "</h2><script>" + vessel.name + "\"'&\xc3";
+  const std::string page = page_of(swept);
+  EXPECT_FALSE(has(page, "<script"));
+  expect_well_built(swept, page);
+}
+
+TEST(ReportPage, WithoutTheMeshesWhatTheFileHoldsRemains) {
+  const SweptScene swept(RESULT_SCENE);
+  const std::string page = page_of(swept, "cup.glb: cannot be read: No such file or directory");
+  expect_well_built(swept, page);
+  EXPECT_TRUE(has(page, "best score over height and roll"));
+  EXPECT_TRUE(has(page, "The best 5 grips of cup"));
+  EXPECT_FALSE(has(page, "<img"));
+  std::size_t sentences = 0;
+  for (std::size_t at = page.find("cup.glb"); at != std::string::npos; at = page.find("cup.glb", at + 1)) ++sentences;
+  EXPECT_GE(sentences, 4u) << "drawings, forces, agreement, guidance";
+}
+
+TEST(ReportPage, ASceneThatCannotBeMadeReadyIsNoReasonToFail) {
+  SweptScene swept(RESULT_SCENE);
+  swept.scene.vessels[0].wall = 1;  // thicker than the cup
+  const std::string page = page_of(swept);
+  EXPECT_TRUE(has(page, "left out: "));
+  expect_well_built(swept, page);
+}
+
+TEST(ReportPage, IsTheSameEachTime) {
+  const SweptScene swept(RESULT_SCENE);
+  EXPECT_EQ(page_of(swept), page_of(swept));
+}
+
+TEST(ReportPage, StaysSmall) {
+  // bytes: a page that a phone opens; most of it are the drawings
+  EXPECT_LT(page_of(SweptScene(RESULT_SCENE)).size(), 400u << 10);
+}
+
+TEST(LeftOut, NamesWhatTheSceneDoesNotNeed) {
+  const auto all = [](const std::string& text) {
+    std::string sentences;
+    for (const std::string& sentence : left_out(*SweptScene(text).source)) sentences += sentence + "\n";
+    return sentences;
+  };
+  const std::string usual = all(RESULT_SCENE);
+  EXPECT_TRUE(has(usual, "2 of 3 azimuths"));
+  EXPECT_TRUE(has(usual, "The inner wall"));
+  EXPECT_TRUE(has(usual, "hold_force"));
+  EXPECT_FALSE(has(usual, "The liquid"));
+  EXPECT_TRUE(has(all(edited(RESULT_SCENE, LIQUID, "")), "The liquid: the scene has none."));
+  EXPECT_TRUE(has(all(edited(RESULT_SCENE, TILTS, "")), "The forces: the scene has no tilts."));
+  EXPECT_TRUE(has(all(edited(RESULT_SCENE, "name = \"cups\"", "pose = \"rigged\"")), "the pose is rigged"));
+  EXPECT_TRUE(has(all(edited(RESULT_SCENE, "best = 5", "best = 5\nkeep = []")), "the file holds the best alone"));
+}
+
+TEST(OverwritesPage, OnlyPagesAreWrittenOver) {
+  const TemporaryFolder folder;
+  const auto refusal = [&](const std::string& name) -> std::string {
+    try {
+      check_overwrites_page(folder / name, folder / "result.nc");
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code, ExitCode::usage);
+      return error.what();
+    }
+    return "";
+  };
+  std::ofstream(folder / "result.nc") << "\x89HDF";
+  std::ofstream(folder / "scene.toml") << RESULT_SCENE;
+  std::ofstream(folder / "page.html") << "<!DOCTYPE html>\n<html>";
+  std::ofstream(folder / "old.html") << "<!doctype HTML>";
+  std::ofstream(folder / "empty.html").close();
+  std::filesystem::create_symlink("result.nc", folder / "link.html");
+  EXPECT_EQ(refusal("new.html") + refusal("page.html") + refusal("old.html") + refusal("empty.html"), "");
+  EXPECT_TRUE(has(refusal("result.nc"), "this is the result file itself"));
+  EXPECT_TRUE(has(refusal("link.html"), "this is the result file itself"));
+  EXPECT_TRUE(has(refusal("scene.toml"), "is no HTML page"));
+}
+
+}  // namespace
+}  // namespace wholehand
