@@ -16,12 +16,12 @@
 namespace wholehand {
 namespace {
 
-constexpr std::array<const char*, 5> FINGER_JOINTS{"CMC", "MCP", "PIP", "DIP", "tip"};
-constexpr std::array<const char*, 4> THUMB_JOINTS{"CMC", "MCP", "IP", "tip"};
+constexpr std::array<const char*, 5> FINGER_POINTS{"CMC", "MCP", "PIP", "DIP", "tip"};
+constexpr std::array<const char*, 4> THUMB_POINTS{"CMC", "MCP", "IP", "tip"};
 
 std::string point_name(int joint) {
   const int finger = joint < finger_start(1) ? 0 : (joint + 1) / 5, k = joint - finger_start(finger);
-  return fmt::format("{} {}", FINGER_NAMES[finger], finger == 0 ? THUMB_JOINTS[k] : FINGER_JOINTS[k]);
+  return fmt::format("{} {}", FINGER_NAMES[finger], finger == 0 ? THUMB_POINTS[k] : FINGER_POINTS[k]);
 }
 
 std::string r_text(const Correlation& correlation) {

@@ -98,6 +98,65 @@ std::string cell_text(const ReportSource& source, std::size_t vessel, const MapC
   return grip_text(source.plan, source.plan.grip(vessel, cell.grip));
 }
 
+// What all maps of a vessel have in common: edges, greys and marks.
+FieldChart map_frame(const ReportSource& source, std::size_t vessel, const GripMap& map, const std::vector<Candidate>& best) {
+  FieldChart chart;
+  chart.x_label = "roll (°)";
+  chart.y_label = "height (mm)";
+  chart.x_is_angle = true;
+  const double unit = source.scene.grips.height_is_fraction ? source.scene.vessels[vessel].height : 1;
+  chart.x_edges = map_edges(map.rolls, degrees(1));
+  chart.y_edges = map_edges(map.heights, unit * 1e3);
+  for (const MapCell& cell : map.cells) chart.kinds.push_back(cell.kind);
+  const auto has = [&chart](CellKind kind) { return std::find(chart.kinds.begin(), chart.kinds.end(), kind) != chart.kinds.end(); };
+  if (has(CellKind::hollow)) chart.hollow = map.knows_reasons ? "only implausible" : "none plausible";
+  if (has(CellKind::absent)) chart.absent = "none feasible";
+  for (const Candidate& candidate : best) {
+    const GripInput grip = source.plan.grip(vessel, candidate.index);
+    chart.marks.push_back({degrees(grip.roll), grip.height * 1e3, chart.marks.empty()});
+  }
+  chart.mark = best.size() > 1 ? fmt::format("best {}", best.size()) : "best";
+  return chart;
+}
+
+void write_map(HtmlWriter& html, FieldChart& frame, const GripMap& map, double MapCell::*value, const ColorScale& scale,
+               const ChartName& name) {
+  frame.name = name;
+  frame.scale = scale;
+  frame.values.clear();
+  for (const MapCell& cell : map.cells) frame.values.push_back(cell.*value);
+  html.open("div", {{"class", "chart"}});
+  write_chart(html, frame);
+  html.close();
+}
+
+// "0.41 to 0.87": lowest and highest over the filled cells.
+std::string extent_text(const GripMap& map, double MapCell::*value, int digits) {
+  double low = 0, high = 0;
+  value_range({map}, value, low, high);
+  return fmt::format("{} to {}", html_number(low, digits), html_number(high, digits));
+}
+
+std::string maps_caption(const ReportSource& source, const GripMap& map) {
+  std::string caption;
+  const std::string others = other_axes(source.plan);
+  if (source.plan.is_sobol()) {
+    caption = "Each cell shows the best of the points that lie in it; the sweep has points and no grid. ";
+  } else if (!others.empty()) {
+    caption = fmt::format("Each cell shows the best grip over {}. ", others);
+  }
+  caption += "All maps of a vessel show the same grips; colours mean the same for all vessels.";
+  if (map.is_by_core)
+    caption += " The file does not have all of fingers and forces: what it lacks is computed by the core in double precision.";
+  if (!map.has_fingers) caption += " The file does not have the fingers used.";
+  if (source.scene.tilts.empty()) {
+    caption += " The scene has no tilts, and so no forces.";
+  } else if (!map.has_forces) {
+    caption += " The file does not have the forces.";
+  }
+  return caption;
+}
+
 }  // namespace
 
 const MapCell* GripMap::best() const {
@@ -205,79 +264,28 @@ void write_maps(HtmlWriter& html, const ReportSource& source, std::size_t vessel
                                   html_number(top->score, 3), cell_text(source, vessel, *top)));
     return;
   }
-  FieldChart chart;
-  chart.x_label = "roll (°)";
-  chart.y_label = "height (mm)";
-  chart.x_is_angle = true;
-  const double unit = source.scene.grips.height_is_fraction ? source.scene.vessels[vessel].height : 1;
-  chart.x_edges = map_edges(map.rolls, degrees(1));
-  chart.y_edges = map_edges(map.heights, unit * 1e3);
-  for (const MapCell& cell : map.cells) chart.kinds.push_back(cell.kind);
-  const auto has = [&chart](CellKind kind) { return std::find(chart.kinds.begin(), chart.kinds.end(), kind) != chart.kinds.end(); };
-  if (has(CellKind::hollow)) chart.hollow = map.knows_reasons ? "only implausible" : "none plausible";
-  if (has(CellKind::absent)) chart.absent = "none feasible";
-  for (const Candidate& candidate : best) {
-    const GripInput grip = source.plan.grip(vessel, candidate.index);
-    chart.marks.push_back({degrees(grip.roll), grip.height * 1e3, chart.marks.empty()});
-  }
-  chart.mark = best.size() > 1 ? fmt::format("best {}", best.size()) : "best";
-
-  const auto write = [&](const char* part, const std::string& title, const std::string& text, double MapCell::*value,
-                         const ColorScale& scale) {
-    chart.name = {id + "-" + part, title, text};
-    chart.scale = scale;
-    chart.values.clear();
-    for (const MapCell& cell : map.cells) chart.values.push_back(cell.*value);
-    html.open("div", {{"class", "chart"}});
-    write_chart(html, chart);
-    html.close();
-  };
-  const auto extent = [&map](double MapCell::*value) {
-    double low = INFINITY, high = -INFINITY;
-    for (const MapCell& cell : map.cells) {
-      if (cell.kind != CellKind::filled) continue;
-      low = std::min(low, cell.*value);
-      high = std::max(high, cell.*value);
-    }
-    return std::pair{low, high};
-  };
+  FieldChart frame = map_frame(source, vessel, map, best);
   html.open("figure").open("div", {{"class", "charts"}});
-  const auto [low_score, high_score] = extent(&MapCell::score);
-  write("score", name + ": best score over height and roll",
-        fmt::format("Heat map of the best score over height and roll. The highest is {} at {}, the lowest {}.",
-                    html_number(high_score, 3), cell_text(source, vessel, *top), html_number(low_score, 3)),
-        &MapCell::score, scales.score);
+  write_map(html, frame, map, &MapCell::score, scales.score,
+            {id + "-score", name + ": best score over height and roll",
+             fmt::format("Heat map of the best score over height and roll: {}. The highest is at {}.",
+                         extent_text(map, &MapCell::score, 3), cell_text(source, vessel, *top))});
   if (map.has_fingers) {
-    const auto [low, high] = extent(&MapCell::fingers);
-    write("fingers", name + ": fingers used over height and roll",
-          fmt::format("Heat map of the number of fingers that the best grip of each height and roll uses: {} to {}, of the best "
-                      "grip of all {}.",
-                      html_number(low, 0), html_number(high, 0), html_number(top->fingers, 0)),
-          &MapCell::fingers, scales.fingers);
+    write_map(
+        html, frame, map, &MapCell::fingers, scales.fingers,
+        {id + "-fingers", name + ": fingers used over height and roll",
+         fmt::format(
+             "Heat map of the number of fingers that the best grip of each height and roll uses: {}, of the best grip of all {}.",
+             extent_text(map, &MapCell::fingers, 0), html_number(top->fingers, 0))});
   }
   if (map.has_forces) {
-    const auto [low, high] = extent(&MapCell::peak_force);
-    write(
-        "force", name + ": peak feedback force over height and roll",
-        fmt::format(
-            "Heat map of the largest feedback force over all tilts and fills of the best grip of each height and roll: {} to {} N, "
-            "of the best grip of all {} N.",
-            html_number(low, 2), html_number(high, 2), html_number(top->peak_force, 2)),
-        &MapCell::peak_force, scales.peak_force);
+    write_map(html, frame, map, &MapCell::peak_force, scales.peak_force,
+              {id + "-force", name + ": peak feedback force over height and roll",
+               fmt::format("Heat map of the largest feedback force over all tilts and fills of the best grip of each height and "
+                           "roll: {} N, of the best grip of all {} N.",
+                           extent_text(map, &MapCell::peak_force, 2), html_number(top->peak_force, 2))});
   }
-  html.close();
-  const std::string others = other_axes(source.plan);
-  std::string caption = source.plan.is_sobol()
-                            ? "Each cell shows the best of the points that lie in it; the sweep has points and no grid. "
-                        : others.empty() ? ""
-                                         : fmt::format("Each cell shows the best grip over {}. ", others);
-  caption += "All maps of a vessel show the same grips; colours mean the same for all vessels.";
-  if (map.is_by_core)
-    caption += " The file does not have all of fingers and forces: what it lacks is computed by the core in double precision.";
-  if (!map.has_fingers) caption += " The file does not have the fingers used.";
-  if (!map.has_forces && !source.scene.tilts.empty()) caption += " The file does not have the forces.";
-  if (source.scene.tilts.empty()) caption += " The scene has no tilts, and so no forces.";
-  html.element("figcaption", caption).close();
+  html.close().element("figcaption", maps_caption(source, map)).close();
 }
 
 }  // namespace wholehand
