@@ -9,6 +9,7 @@
 #include "app/scene_reader.h"
 #include "app/validators.h"
 #include "sweeps/files.h"
+#include "sweeps/mesh_vessel.h"
 #include "sweeps/readable.h"
 #include "sweeps/report_page.h"
 
@@ -21,8 +22,10 @@ struct PageArguments {
 
 // The scene that the file's text describes, meshes included; of what could not be read there `trouble` tells.
 Scene scene_of_result(const SweepResult& result, std::string& trouble) {
-  trouble.clear();
-  return parse_scene(result.origin().scene, result.path() + " (its scene)");
+  const SweepOrigin& origin = result.origin();
+  Scene scene = parse_scene(origin.scene, result.path() + " (its scene)");
+  trouble = reload_meshes(scene, origin.scene_file, origin.mesh_keys, origin.backend);
+  return scene;
 }
 
 ExitCode report_sweep(const PageArguments& arguments) {

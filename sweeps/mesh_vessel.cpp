@@ -199,6 +199,26 @@ void load_meshes(Scene& scene, const MeshOptions& options) {
     if (vessel.mesh && !vessel.mesh->body) load_mesh(scene, vessel, folder, options);
 }
 
+std::string reload_meshes(Scene& scene, const std::string& scene_file, const std::string& keys, const std::string& on) {
+  if (!has_meshes(scene)) return "";
+  MeshOptions options;
+  for (const std::string& device : {on, std::string("core")}) {  // a lattice may have been as large as its device allowed
+    Scene read = scene;
+    read.file = scene_file;
+    try {
+      options.most_bytes = largest_lattice(device);
+      load_meshes(read, options);
+    } catch (const Error& error) {
+      if (device == "core") return error.what();
+      continue;
+    }
+    if (mesh_keys(read) != keys) continue;
+    scene.vessels = read.vessels;
+    return "";
+  }
+  return "the mesh files are not what they were when the sweep ran";
+}
+
 void load_meshes(Scene& scene, const std::string& on) {
   if (!has_meshes(scene)) return;
   MeshOptions options;

@@ -32,6 +32,10 @@ void load_meshes(Scene& scene, const MeshOptions& options);
 // For `on`, saying on stderr what was found.
 void load_meshes(Scene& scene, const std::string& on);
 
+// For a scene read back from a result of `on`, whose file lay at `scene_file` and whose meshes had those keys. Returns why the meshes are
+// no longer those, "" where they are; then every body is there, else none.
+std::string reload_meshes(Scene& scene, const std::string& scene_file, const std::string& keys, const std::string& on);
+
 bool has_meshes(const Scene& scene);
 // What was found of each mesh, a line each with the vessel's name.
 std::string mesh_lines(const Scene& scene);

@@ -149,9 +149,12 @@ class Page {
 std::string report_page(SweepResult& result, const Scene& given, const std::string& trouble) {
   Scene scene = given;
   // of a mesh that is not there the file alone knows the height
-  const std::vector<double> heights = result.vessel_heights();
-  for (std::size_t v = 0; v < std::min(heights.size(), scene.vessels.size()); ++v)
-    if (!(scene.vessels[v].height > 0)) scene.vessels[v].height = heights[v];
+  const std::vector<double> heights = result.vessel_heights(), bases = result.vessel_bases();
+  for (std::size_t v = 0; v < std::min({heights.size(), bases.size(), scene.vessels.size()}); ++v) {
+    if (!scene.vessels[v].mesh || scene.vessels[v].mesh->body) continue;
+    scene.vessels[v].height = heights[v];
+    scene.vessels[v].base = bases[v];
+  }
   const Plan plan(scene, keeps_vectors(result.variables()));
   result.use(scene, plan);
   ReportSource source{result, scene, plan, nullptr, trouble};

@@ -163,7 +163,7 @@ class Definition {
     number(NC_GLOBAL, KERNEL_TIME, NOT_A_NUMBER);
     if (has_meshes(scene)) {
       text(NC_GLOBAL, SCENE_FILE, std::filesystem::absolute(scene.file).lexically_normal().string());
-      text(NC_GLOBAL, "meshes", mesh_lines(scene));
+      text(NC_GLOBAL, MESHES, mesh_lines(scene));
       text(NC_GLOBAL, MESH_KEYS, mesh_keys(scene));
     }
     if (contents_.plan.copies() > 1) {
@@ -217,6 +217,8 @@ class Definition {
     const auto& facts = contents_.facts;
     doubles("vessel_height", {"vessel"}, "m", "height of the vessel's mouth",
             per_vessel([&](std::size_t v, auto& out) { out.push_back(scene.vessels[v].height); }));
+    doubles("vessel_base", {"vessel"}, "m", "height of the vessel's lowest point, from where height fractions count",
+            per_vessel([&](std::size_t v, auto& out) { out.push_back(scene.vessels[v].base); }));
     doubles("capacity", {"vessel"}, "m3", "volume of the upright vessel to the brim",
             per_vessel([&](std::size_t v, auto& out) { out.push_back(facts[v].capacity); }));
     doubles("empty_mass", {"vessel"}, "kg", "mass of the empty vessel",

@@ -39,6 +39,7 @@ std::string best_axis_name(const PlanAxis& axis);
 
 // Of a scene with meshes: from where relative mesh files are looked for, and what tells that they are still the same (sweeps/mesh_vessel.h).
 constexpr const char* SCENE_FILE = "scene_file";
+constexpr const char* MESHES = "meshes";
 constexpr const char* MESH_KEYS = "mesh_keys";
 
 // Attributes whose value is known only at the end; NaN until then.

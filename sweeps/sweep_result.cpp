@@ -100,6 +100,9 @@ SweepResult::SweepResult(const std::string& path) : path_(path) {
     origin_.device = text("device");
     origin_.driver = text("driver");
     origin_.precision = text("precision") == "float" ? Precision::single : Precision::full;
+    origin_.scene_file = text_or_nothing(SCENE_FILE);
+    origin_.meshes = text_or_nothing(MESHES);
+    origin_.mesh_keys = text_or_nothing(MESH_KEYS);
     origin_.wall_seconds = number(WALL_TIME);
     origin_.kernel_seconds = number(KERNEL_TIME);
     if (!std::isfinite(origin_.wall_seconds)) {
@@ -228,13 +231,17 @@ std::vector<double> SweepResult::pouring_tilts(std::size_t vessel) const {
   return row("pouring_tilt", vessel, scene_fills(*scene_));
 }
 
-std::vector<double> SweepResult::vessel_heights() const {
-  const int id = numbers_id("vessel_height");
+std::vector<double> SweepResult::vessel_heights() const { return of_vessels("vessel_height"); }
+
+std::vector<double> SweepResult::vessel_bases() const { return of_vessels("vessel_base"); }
+
+std::vector<double> SweepResult::of_vessels(const char* name) const {
+  const int id = numbers_id(name);
   const std::vector<std::size_t> shape = shape_of(id);
-  if (shape.size() != 1) throw usage_error(path_ + ": vessel_height is not as a sweep writes it");
-  std::vector<double> heights(shape[0]);
-  nc_get_var_double(file_, id, heights.data());
-  return heights;
+  if (shape.size() != 1) throw usage_error(fmt::format("{}: {} is not as a sweep writes it", path_, name));
+  std::vector<double> values(shape[0]);
+  nc_get_var_double(file_, id, values.data());
+  return values;
 }
 
 int SweepResult::numbers_id(const std::string& name) const {
@@ -282,6 +289,10 @@ std::string SweepResult::text(const char* name) const {
   std::string value(length, ' ');
   if (length > 0) nc_get_att_text(file_, NC_GLOBAL, name, value.data());
   return value;
+}
+
+std::string SweepResult::text_or_nothing(const char* name) const {
+  return nc_inq_attid(file_, NC_GLOBAL, name, nullptr) == NC_NOERR ? text(name) : "";
 }
 
 double SweepResult::number(const char* name) const {

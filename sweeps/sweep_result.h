@@ -19,6 +19,8 @@ struct SweepOrigin {
   Precision precision = Precision::full;
   double wall_seconds = 0, kernel_seconds = 0;
   double bytes = 0;  // of the file
+  // Of a scene with meshes, else empty: where it lay, what was found of each mesh, and what tells whether they are still the same.
+  std::string scene_file, meshes, mesh_keys;
 };
 
 // Reads only; no value is taken from the file before it is known to have the type and shape that a sweep gives it. Not thread-safe, since
@@ -57,15 +59,18 @@ class SweepResult {
   // The tilts at which a vessel starts to pour, one for each of the scene's fills, rad; NaN where it never does.
   std::vector<double> pouring_tilts(std::size_t vessel) const;
 
-  // Heights of all vessels, m; known before `use`.
+  // Of all vessels their mouths' height and their lowest points, m; known before `use`.
   std::vector<double> vessel_heights() const;
+  std::vector<double> vessel_bases() const;
 
  private:
   int numbers_id(const std::string& name) const;
   std::vector<std::size_t> shape_of(int id) const;
   int checked_id(const std::string& name, const std::vector<std::size_t>& shape) const;
   std::vector<double> row(const std::string& name, std::size_t vessel, std::size_t length) const;
+  std::vector<double> of_vessels(const char* name) const;
   std::string text(const char* name) const;
+  std::string text_or_nothing(const char* name) const;
   double number(const char* name) const;
 
   std::string path_;
