@@ -13,8 +13,9 @@ namespace {
 
 constexpr std::size_t MOST_LINES = 8;
 
+// The number and its unit stay in one line.
 std::string fill_text(const Scene& scene, double fill) {
-  return scene.liquid ? html_number(100 * fill, std::abs(100 * fill - std::round(100 * fill)) < 0.05 ? 0 : 1) + " %" : "empty";
+  return scene.liquid ? html_number(100 * fill, std::abs(100 * fill - std::round(100 * fill)) < 0.05 ? 0 : 1) + "\u00a0%" : "empty";
 }
 
 // What is said of one fill's line to those who do not see it.

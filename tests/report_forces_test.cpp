@@ -56,7 +56,7 @@ TEST(ReportForces, AreTheCoresOverFillsAndTilts) {
 TEST(ReportForces, HaveTwoChartsAndATableOfTheirNumbers) {
   const std::string html = forces_text(SweptScene(RESULT_SCENE), 0);
   EXPECT_TRUE(has(html, "feedback force (N)") && has(html, "hold force per finger (N)"));
-  EXPECT_TRUE(has(html, "feedback, 60 % (N)") && has(html, "hold, 0 % (N)"));
+  EXPECT_TRUE(has(html, "feedback, 60\u00a0% (N)") && has(html, "hold, 0\u00a0% (N)"));
   EXPECT_TRUE(has(html, "limit of 8 N is not reached."));
   EXPECT_TRUE(has(html, "id=\"v-feedback-title\"") && has(html, "id=\"v-hold-title\""));
 }
@@ -94,10 +94,10 @@ TEST(ReportForces, WithoutTiltsOrTheCoreThereAreNone) {
 TEST(ReportPouring, TellsTheTiltOfEachFill) {
   const SweptScene swept(RESULT_SCENE);
   const std::string html = pouring_text(swept, 1);
-  EXPECT_TRUE(has(html, "<th scope=\"row\">0 %</th>\n<td>0</td>\n<td>nothing to pour</td>")) << html;
+  EXPECT_TRUE(has(html, "<th scope=\"row\">0\u00a0%</th>\n<td>0</td>\n<td>nothing to pour</td>")) << html;
   const double tilt = degrees(swept.source->core->pouring_tilt(1, 0.6)), volume = 0.6e6 * swept.source->core->capacity(1);
   EXPECT_TRUE(
-      has(html, "<th scope=\"row\">60 %</th>\n<td>" + html_number(volume, 0) + "</td>\n<td>" + html_number(tilt, 1) + "</td>"))
+      has(html, "<th scope=\"row\">60\u00a0%</th>\n<td>" + html_number(volume, 0) + "</td>\n<td>" + html_number(tilt, 1) + "</td>"))
       << html;
 }
 
