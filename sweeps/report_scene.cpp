@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
+#include "core/mesh_body.h"
 #include "core/prepare.h"
 #include "sweeps/grip_methods.h"
 #include "sweeps/readable.h"
@@ -96,10 +98,23 @@ std::string form_text(const VesselData& vessel) {
   return fmt::format("outline of {} elements{}", vessel.outline.size(), vessel.surface == Surface::shell ? ", a shell" : "");
 }
 
-// Of an outline that can be made ready; NaN for a mesh.
+// Of an outline that can be made ready; NaN for a mesh that is not there.
 double widest(const ReportSource& source, const VesselData& vessel) {
+  if (vessel.mesh && vessel.mesh->body) {
+    const MeshBody& body = *vessel.mesh->body;
+    return std::max(body.high[0] - body.low[0], body.high[2] - body.low[2]);
+  }
   if (vessel.outline.empty() || !source.core) return std::nan("");
   return 2 * prepare_vessel(vessel, vessel.wall > 0).largest_radius;
+}
+
+// What was found of each mesh, a line each.
+void write_meshes(HtmlWriter& html, const std::string& lines) {
+  if (lines.empty()) return;
+  html.open("ul");
+  std::istringstream stream(lines);
+  for (std::string line; std::getline(stream, line);) html.element("li", line);
+  html.close();
 }
 
 void write_vessels(HtmlWriter& html, const ReportSource& source) {
@@ -133,6 +148,7 @@ void write_scene(HtmlWriter& html, const ReportSource& source) {
   write_pair(html, "Score", "weights: " + weights_text(scene));
   html.close();
   write_vessels(html, source);
+  write_meshes(html, source.result.origin().meshes);
   html.open("details").element("summary", "The scene as it was written").element("pre", scene.text, {{"tabindex", "0"}}).close();
   html.close();
 }
