@@ -84,6 +84,9 @@ core_f64::Placement find_placement(const HandData& hand, const core_f64::Hand& r
 
 }  // namespace
 
+const char* webxr_name(int joint) { return JOINT_NAMES[joint].webxr; }
+const char* openxr_name(int joint) { return JOINT_NAMES[joint].openxr; }
+
 HandNodes hand_nodes(const HandData& hand, const GripInput& grip, const GripResult& result) {
   const core_f64::Hand ready = core_f64::load_hand(prepare_hand(hand), hand);
   const core_f64::Placement placement = find_placement(hand, ready, grip, result);
@@ -107,8 +110,8 @@ HandNodes hand_nodes(const HandData& hand, const GripInput& grip, const GripResu
         if (glm::length(bone) > NO_BONE) backward = glm::normalize(bone);
       }
       HandNode& node = nodes.joints[j];
-      node.name = JOINT_NAMES[j].webxr;
-      node.openxr = JOINT_NAMES[j].openxr;
+      node.name = webxr_name(j);
+      node.openxr = openxr_name(j);
       node.parent = k == 0 ? -1 : j - 1;
       node.position = result.posed[j];
       node.rotation = quaternion_of(mirrored_rotation(joint_rotation(backward, bend_axis, back), hand.handedness));

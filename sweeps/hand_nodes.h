@@ -28,6 +28,10 @@ struct HandNodes {
 // Nodes of the posed hand of a feasible grip: positions are result.posed.
 HandNodes hand_nodes(const HandData& hand, const GripInput& grip, const GripResult& result);
 
+// A joint's names as HandNode has them.
+const char* webxr_name(int joint);
+const char* openxr_name(int joint);
+
 // First joint of a finger, and how many it has.
 constexpr int finger_start(int finger) { return finger == 0 ? 0 : 5 * finger - 1; }
 constexpr int finger_joints(int finger) { return finger == 0 ? 4 : 5; }

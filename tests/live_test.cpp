@@ -112,7 +112,7 @@ TEST(LiveReport, TheFaultLineSaysWhenAndWhy) {
 
 TEST(OpenGripper, RefusesOtherNames) {
   const Scene scene = board_scene();
-  for (const char* name : {"", "simulator", "sim:1", "hid:", "usb:", "omega:", "omega:x", "omega:99", "replay"}) {
+  for (const char* name : {"", "simulator", "sim:1", "view", "view:1", "hid:", "usb:", "omega:", "omega:x", "omega:99", "replay"}) {
     try {
       open_gripper(name, scene, 1, "");
       ADD_FAILURE() << name;
@@ -121,6 +121,12 @@ TEST(OpenGripper, RefusesOtherNames) {
       EXPECT_NE(std::string(error.what()).find("--device"), std::string::npos) << error.what();
     }
   }
+}
+
+TEST(OpenGripper, ThePageIsOneWhereThereIsAPage) {
+  const Scene scene = board_scene();
+  ViewInput input(scene);
+  EXPECT_EQ(open_gripper("view", scene, 1, "", WATCHDOG, &input)->limits().address, "view");
 }
 
 // ---- the program ----
