@@ -164,7 +164,8 @@ ViewFrame FrameMaker::make(const Tick& tick, const VesselPoses& poses, const Han
   for (std::size_t v = 0; v < rests_.size(); ++v) {
     Rest& rest = rests_[v];
     if (rest.volume != tick.volume[v] || rest.rotation != poses[v].rotation)
-      rest = {tick.volume[v], poses[v].rotation, liquid_surface(live_, static_cast<int>(v), tick.volume[v], poses[v].rotation)};
+      rest = {tick.volume[v], poses[v].rotation,
+              liquid_surface(live_.vessels[v].vessel, live_.quadrature, tick.volume[v], poses[v].rotation)};
     frame.vessels.push_back({true, poses[v], tick.volume[v], rest.surface});
   }
   frame.stream = pouring_stream(live_, tick, table_);

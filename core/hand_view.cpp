@@ -202,13 +202,13 @@ struct Upward {
 
 HandView hand_view(const LiveScene& live, const Tick& tick, const VesselPoses& poses) { return View(live, tick, poses).make(); }
 
-std::optional<LiquidSurface> liquid_surface(const LiveScene& live, int vessel, double volume, const Rotation& rotation) {
-  const core_f64::Vessel& glass = live.vessels[vessel].vessel;
-  if (!(volume > 0) || glass.cavity.empty()) return std::nullopt;
+std::optional<LiquidSurface> liquid_surface(const core_f64::Vessel& vessel, const core_f64::Quadrature& quadrature, double volume,
+                                            const Rotation& rotation) {
+  if (!(volume > 0) || vessel.cavity.empty()) return std::nullopt;
   const Upward to(rotation);
-  const double held_back = core_f64::lip_capacity(glass, live.quadrature, to.sine, to.cosine);
+  const double held_back = core_f64::lip_capacity(vessel, quadrature, to.sine, to.cosine);
   if (!(held_back > 0)) return std::nullopt;
-  const auto state = core_f64::liquid_at(glass, live.quadrature, std::min(volume, held_back), to.sine, to.cosine);
+  const auto state = core_f64::liquid_at(vessel, quadrature, std::min(volume, held_back), to.sine, to.cosine);
   return LiquidSurface{to_triple(to.up), state.level};
 }
 

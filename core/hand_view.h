@@ -38,7 +38,8 @@ struct LiquidSurface {
   Triple up{};
   double level = 0;
 };
-std::optional<LiquidSurface> liquid_surface(const LiveScene& live, int vessel, double volume, const Rotation& rotation);
+std::optional<LiquidSurface> liquid_surface(const core_f64::Vessel& vessel, const core_f64::Quadrature& quadrature, double volume,
+                                            const Rotation& rotation);
 
 // What runs over the held vessel's lip: from its lowest point straight down to the surface in the target, where it arrives, or to `table` (y of it, m). Nothing
 // where nothing flows.

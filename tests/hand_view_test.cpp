@@ -277,11 +277,15 @@ TEST(HandView, ASessionThatIsOverKeepsTheHandThatItHad) {
 // beaker1's cavity: radius 38.5 mm from 1.5 mm up.
 constexpr double INNER = 38.5e-3, FLOOR = 1.5e-3;
 
+std::optional<LiquidSurface> surface_in(const LiveScene& live, double volume, const Rotation& rotation) {
+  return liquid_surface(live.vessels[0].vessel, live.quadrature, volume, rotation);
+}
+
 TEST(LiquidSurface, OfACylinderStandsAtItsVolumeOverTheFloor) {
   const LiveScene live(live_scene());
   for (const double volume : {1e-6, 100e-6, 400e-6}) {
     const double level = FLOOR + volume / (PI * INNER * INNER);
-    const auto upright = liquid_surface(live, 0, volume, NO_ROTATION);
+    const auto upright = surface_in(live, volume, NO_ROTATION);
     ASSERT_TRUE(upright);
     EXPECT_EQ(upright->up, (Triple{0, 1, 0}));
     EXPECT_NEAR(upright->level, level, 1e-9);
@@ -289,7 +293,7 @@ TEST(LiquidSurface, OfACylinderStandsAtItsVolumeOverTheFloor) {
     // tilted so little that the plane cuts neither floor nor lip it goes through the same point of the axis
     for (const double tilt : {0.05, 0.2}) {
       const Rotation turn = product(turned('y', 1), turned('x', -tilt));
-      const auto tilted = liquid_surface(live, 0, volume, turn);
+      const auto tilted = surface_in(live, volume, turn);
       ASSERT_TRUE(tilted);
       EXPECT_NEAR(tilted->level, level * std::cos(tilt), 1e-9);
       // up in the vessel's frame
@@ -302,11 +306,11 @@ TEST(LiquidSurface, OfACylinderStandsAtItsVolumeOverTheFloor) {
 TEST(LiquidSurface, IsAtTheLipWhereMoreIsInItThanThatHoldsBack) {
   const LiveScene live(live_scene());
   const double tilt = radians(70), most = live.vessels[0].vessel.capacity;
-  const auto surface = liquid_surface(live, 0, most, turned('x', -tilt));
+  const auto surface = surface_in(live, most, turned('x', -tilt));
   ASSERT_TRUE(surface);
   EXPECT_NEAR(surface->level, live.vessels[0].vessel.mouth_height * std::cos(tilt) - INNER * std::sin(tilt), 1e-9);
-  EXPECT_FALSE(liquid_surface(live, 0, 0, NO_ROTATION)) << "empty";
-  EXPECT_FALSE(liquid_surface(live, 0, most, turned('x', PI))) << "upside down it holds nothing";
+  EXPECT_FALSE(surface_in(live, 0, NO_ROTATION)) << "empty";
+  EXPECT_FALSE(surface_in(live, most, turned('x', PI))) << "upside down it holds nothing";
 }
 
 TEST(PouringStream, FallsFromTheLipsLowestPoint) {
