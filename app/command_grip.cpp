@@ -11,8 +11,10 @@
 #include "app/paths.h"
 #include "app/scene_reader.h"
 #include "app/scene_text.h"
+#include "app/serve_view.h"
 #include "app/validators.h"
 #include "app/values.h"
+#include "app/view_grips.h"
 #include "sweeps/domain.h"
 #include "sweeps/files.h"
 #include "sweeps/grip_glb.h"
@@ -26,8 +28,8 @@ namespace {
 struct GripArguments {
   std::string scene, vessel, height, azimuth = "0", obliquity = "0", roll = "0", offset = "0", hand_scale = "1", thumb, index;
   std::vector<std::string> fills, tilts;
-  std::string on = "core", precision, glb, svg;
-  bool json = false;
+  std::string on = "core", precision, glb, svg, view_port;
+  bool json = false, view = false;
 };
 
 std::size_t find_vessel(const Scene& scene, const std::string& name) {
@@ -96,6 +98,7 @@ void write_drawings(const GripArguments& arguments, const Scene& scene, std::siz
 
 ExitCode grip(const GripArguments& arguments) {
   const GripInput input = read_grip(arguments);
+  const int port = parse_view_port(arguments.view_port, arguments.view);
   Scene scene = read_scene_file(find_scene(arguments.scene));
   check_drawing_files(arguments, scene);
   const std::size_t vessel = find_vessel(scene, arguments.vessel);
@@ -111,6 +114,11 @@ ExitCode grip(const GripArguments& arguments) {
   write_drawings(arguments, scene, vessel, report);
   if (arguments.json && arguments.on != "core") std::fprintf(stderr, "wholehand: on %s\n", report.device.c_str());
   print(arguments.json ? grip_json(report) + "\n" : grip_table(report));
+  if (arguments.view) {
+    std::vector<std::string> notes;
+    const GripsView view(scene, {{vessel, input, report.vessel}}, notes);
+    serve_view(view.content(scene.name), port, arguments.json);
+  }
   return ExitCode::done;
 }
 
@@ -141,6 +149,8 @@ void add_grip_command(CLI::App& app, Action& action) {
   add("--precision", arguments->precision, "P", "float or double (double on the core, float on Vulkan)");
   add("--glb", arguments->glb, "FILE", "Write hand, vessel and liquid as glTF binary")->check(not_empty());
   add("--svg", arguments->svg, "FILE", "Write front, side and top view as a drawing")->check(not_empty());
+  command->add_flag("--view", arguments->view, "Show it in the browser, at any fill and tilt, until Ctrl-C");
+  add("--view-port", arguments->view_port, "N", "Port of the view on 127.0.0.1 (any that is free)")->check(not_empty());
   command->add_flag("--json", arguments->json, "One JSON object, SI units");
   command->callback([arguments, &action] { action = [arguments] { return grip(*arguments); }; });
 }

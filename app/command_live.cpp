@@ -16,7 +16,7 @@ constexpr Quantity LIVE_SECONDS{0.01, 1e6};
 
 struct LiveArguments {
   LiveOptions options;
-  std::string rate, seconds, seed = "1";
+  std::string rate, seconds, seed = "1", view_port;
 };
 
 ExitCode live(const LiveArguments& arguments) {
@@ -24,6 +24,7 @@ ExitCode live(const LiveArguments& arguments) {
   if (!arguments.rate.empty()) options.rate = parse_quantity(arguments.rate, "--rate", ranges::RATE);
   if (!arguments.seconds.empty()) options.seconds = parse_quantity(arguments.seconds, "--seconds", LIVE_SECONDS);
   options.seed = static_cast<std::uint64_t>(parse_integer(arguments.seed, "--seed", ranges::SEED));
+  options.view_port = parse_view_port(arguments.view_port, options.view);
   return run_live(options);
 }
 
@@ -38,12 +39,15 @@ void add_live_command(CLI::App& app, Action& action) {
   };
   add("scene", options.scene, "SCENE", "Scene file or name of a shipped scene (mixing_board; of a replay the recorded one)");
   add("--device", options.device, "DEVICE",
-      "sim (the default), replay:FILE, hid[:PATH], usb[:VID:PID] or omega[:N]; see wholehand devices");
+      "sim (the default), view (the page of --view), replay:FILE, hid[:PATH], usb[:VID:PID] or omega[:N]; see wholehand devices");
   add("--rate", arguments->rate, "HZ", "Of the force loop (the scene's)");
   add("--record", options.record, "FILE", "Keep every tick in a NetCDF file; see wholehand session");
   add("--seconds", arguments->seconds, "S", "End after so long (when the simulated user is done, or on Ctrl-C)");
   add("--seed", arguments->seed, "N", "Of the simulated user (1)");
   add("--dhd-library", options.dhd_library, "PATH", "Force Dimension's SDK (libdhd.so), for omega.7 and sigma.7");
+  command->add_flag("--view", options.view, "Show it in the browser: prints the address, and opens it on a desktop");
+  add("--view-port", arguments->view_port, "N", "Port of the view on 127.0.0.1 (any that is free)");
+  add("--stream", options.stream, "URL", "Send it to osc://HOST:PORT at display rate, for engines and patches; see docs/stream.md");
   command->add_flag("--unsafe-gains", options.unsafe_gains, "Allow gains that a light device may not bear");
   command->add_flag("--no-clock", options.no_clock, "As fast as it goes, without a clock: sim and replay only");
   command->add_flag("--json", options.json, "The report at the end as JSON, and nothing else");

@@ -21,6 +21,7 @@ void add_error_time_command(CLI::App& app, Action& action);
 void add_stability_command(CLI::App& app, Action& action);
 void add_live_command(CLI::App& app, Action& action);
 void add_session_command(CLI::App& app, Action& action);
+void add_view_command(CLI::App& app, Action& action);
 void add_devices_command(CLI::App& app, Action& action);
 
 }  // namespace wholehand

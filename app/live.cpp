@@ -8,23 +8,29 @@
 #include <future>
 #include <memory>
 #include <mutex>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <thread>
 #include <utility>
 
+#include "app/browser.h"
 #include "app/live_report.h"
+#include "app/live_view.h"
 #include "app/open_gripper.h"
+#include "app/osc_stream.h"
 #include "app/output.h"
 #include "app/paths.h"
 #include "app/scene_reader.h"
 #include "app/version.h"
+#include "app/view_control.h"
 #include "core/session.h"
 #include "core/tick_ring.h"
 #include "device/haptic_loop.h"
 #include "device/panic.h"
 #include "device/realtime.h"
 #include "device/replay_gripper.h"
+#include "device/view_gripper.h"
 #include "sweeps/gains.h"
 #include "sweeps/interrupt.h"
 #include "sweeps/mesh_vessel.h"
@@ -38,6 +44,8 @@ namespace {
 constexpr double RING_TIME = 4;  // s of ticks that wait for a disk that pauses
 constexpr std::size_t LEAST_RING = 4096;
 constexpr auto LOOK = std::chrono::milliseconds(50);  // between two looks at what has happened
+constexpr auto SHOWN_LOOK =
+    std::chrono::milliseconds(8);  // of the recorder into the ring, half a frame: where what happens is displayed
 constexpr const char* REPLAY = "replay:";
 
 std::string now_iso() {
@@ -79,6 +87,15 @@ GripperLimits limits_of(const RecordedDevice& device, const std::string& address
 
 Percentiles percentiles_of(const Histogram& times) {
   return {times.quantile(0.5), times.quantile(0.99), times.quantile(0.999), times.largest()};
+}
+
+std::string limits_json(const ViewLimits& limits) {
+  return nlohmann::json{
+      {"gap", limits.gap},
+      {"center", limits.center},
+      {"reach", limits.reach},
+      {"start", {{"position", limits.start.position}, {"rotation", limits.start.rotation}, {"gap", limits.start.gap}}}}
+      .dump();
 }
 
 // Lines that the recorder's thread has for the main one.
@@ -123,6 +140,8 @@ class Board {
 class LiveRun {
  public:
   explicit LiveRun(const LiveOptions& options) : options_(options) {
+    std::optional<OscTarget> target;
+    if (!options_.stream.empty()) target = parse_osc_url(options_.stream);
     if (!options_.record.empty()) check_recording_path(options_.record);
     open();
     check_gripper();
@@ -133,6 +152,7 @@ class LiveRun {
     loop.seconds = options_.seconds;
     loop.is_simulated = options_.no_clock;
     loop_ = std::make_unique<HapticLoop>(scene_.live, *gripper_, *session_, sink(), loop);
+    if (target) open_stream(*target);
   }
 
   ExitCode run() {
@@ -142,11 +162,20 @@ class LiveRun {
     std::unique_ptr<RecordingWriter> writer;
     if (!options_.record.empty())
       writer = std::make_unique<RecordingWriter>(options_.record, info_of(scene_, gripper_->limits(), options_.seed));
-    Recorder recorder(*ring_, std::move(writer), [&board](std::span<const Tick> ticks) { board.look(ticks); });
+    open_view();
+    std::optional<DisplayLoop> display;
+    if (!displays_.empty()) display.emplace(session_->live(), displays_);
+    const auto look = [&](std::span<const Tick> ticks) {
+      board.look(ticks);
+      if (display) display->look(ticks);
+    };
+    Recorder recorder(*ring_, std::move(writer), look, display ? SHOWN_LOOK : DRAIN_INTERVAL);
     loop_thread(interrupt, recorder, board);
     const LoopReport& report = loop_->report();
     const bool is_recorded =
         recorder.stop({percentiles_of(report.period), percentiles_of(report.step), report.missed, report.fault, ""});
+    if (display) display->stop();
+    if (view_) view_->end(report.fault == Fault::none ? "done" : FAULT_NAMES[static_cast<std::size_t>(report.fault)]);
     tell_trouble(recorder);
     board.show(options_.json);
     show_status("");
@@ -163,6 +192,10 @@ class LiveRun {
     const bool is_sim = options_.device == "sim";
     if (options_.no_clock && !is_replay && !is_sim)
       throw usage_error("--no-clock: a device keeps its own time; allowed with --device sim and replay:FILE");
+    if (options_.no_clock && options_.view)
+      throw usage_error("--view: shows what happens as it happens, which --no-clock leaves out; leave one of them out");
+    if (options_.no_clock && !options_.stream.empty())
+      throw usage_error("--stream: sends what happens as it happens, which --no-clock leaves out; leave one of them out");
     if (is_replay && options_.rate > 0) throw usage_error("--rate: a recording is replayed at its own rate; leave it out");
     if (options_.device == REPLAY) throw usage_error("--device replay: needs a recording: --device replay:FILE");
     if (is_replay && !options_.scene.empty())
@@ -181,7 +214,8 @@ class LiveRun {
       if (!recording->note.empty()) notes_.push_back(recording->note);
       gripper_ = make_replay(std::move(recording->ticks), limits_of(recording->info.device, options_.device));
     } else {
-      gripper_ = open_gripper(options_.device, scene_, options_.seed, options_.dhd_library);
+      if (options_.view && options_.device == "view") input_ = std::make_unique<ViewInput>(scene_);
+      gripper_ = open_gripper(options_.device, scene_, options_.seed, options_.dhd_library, WATCHDOG, input_.get());
     }
     const double most = gripper_->limits().rate;
     if (!is_replay && most > 0 && scene_.live.rate > most) {
@@ -190,10 +224,10 @@ class LiveRun {
     }
   }
 
-  // Whether this gripper goes with this scene. Nobody holds a recording.
+  // Whether this gripper goes with this scene. Nobody holds a recording, and nobody feels what a page holds.
   void check_gripper() {
     const GripperLimits& limits = gripper_->limits();
-    if (is_replay_) return;
+    if (is_replay_ || input_) return;
     refuse_unstable_gains(scene_, limits.gap, options_.unsafe_gains);
     const bool is_left = scene_.hand.handedness == Handedness::left;
     if (limits.is_left_handed != is_left) {
@@ -202,6 +236,31 @@ class LiveRun {
                                     limits.is_left_handed ? "left" : "right"));
     }
     if (!limits.has_rotation) notes_.push_back("this gripper measures no rotation: vessels stay upright");
+  }
+
+  void open_stream(const OscTarget& target) {
+    stream_ = std::make_unique<OscStream>(target, session_->live());
+    displays_.push_back(stream_.get());
+    if (stream_->note().empty()) return;
+    std::fprintf(stderr, "wholehand: live: %s\n", stream_->note().c_str());
+    notes_.push_back(stream_->note());
+  }
+
+  // The view, its address told before the session starts.
+  void open_view() {
+    if (!options_.view) return;
+    ViewFacts facts;
+    facts.title = scene_.name;
+    facts.device = gripper_->limits().name;
+    facts.rate = scene_.live.rate;
+    std::function<void(const std::string&)> control;
+    if (input_) {
+      facts.control_limits = limits_json(input_->limits());
+      control = [this](const std::string& body) { input_->post(parse_view_control(body)); };
+    }
+    view_ = std::make_unique<LiveView>(session_->live(), facts, std::move(control), options_.view_port);
+    displays_.push_back(view_.get());
+    window_ = std::make_unique<BrowserWindow>(view_->address(), options_.json);
   }
 
   // A loop that has a clock must not wait for the ring; one that has none must not run away from it.
@@ -258,10 +317,15 @@ class LiveRun {
   bool is_replay_ = false;
   Scene scene_;
   std::vector<std::string> notes_;
+  std::unique_ptr<ViewInput> input_;  // of the page where it is the gripper
   std::unique_ptr<Gripper> gripper_;
   std::unique_ptr<Session> session_;
   std::unique_ptr<TickRing> ring_;
   std::unique_ptr<HapticLoop> loop_;
+  std::unique_ptr<LiveView> view_;
+  std::unique_ptr<BrowserWindow> window_;
+  std::unique_ptr<OscStream> stream_;
+  std::vector<Display*> displays_;
 };
 
 }  // namespace

@@ -18,6 +18,9 @@ struct LiveOptions {
   std::string dhd_library;    // empty: the scene's, or wherever it is found
   bool unsafe_gains = false;  // whatever their limits
   bool no_clock = false;      // as fast as it goes: simulated and recorded users only
+  bool view = false;          // in the browser
+  int view_port = 0;          // 0: any that is free
+  std::string stream;         // osc://HOST:PORT; empty: nowhere
   bool json = false;          // the report at the end, and nothing else, on standard output
 };
 

@@ -54,6 +54,7 @@ int run(int argc, char** argv) {
   wholehand::add_stability_command(app, action);
   wholehand::add_live_command(app, action);
   wholehand::add_session_command(app, action);
+  wholehand::add_view_command(app, action);
   wholehand::add_devices_command(app, action);
   try {
     app.parse(argc, argv);
@@ -67,14 +68,14 @@ int run(int argc, char** argv) {
     if (app.get_subcommands().empty() && !extra.empty() && extra.front()[0] != '-') {
       return report(ExitCode::usage,
                     "unknown command " + wholehand::in_quotes(extra.front()) +
-                        "; the commands are sweep, report, grip, check, error-time, stability, live, session and devices");
+                        "; the commands are sweep, report, grip, check, error-time, stability, live, session, view and devices");
     }
     return report(ExitCode::usage, std::string(error.what()) + "; see wholehand" + command_name(app) + " --help");
   }
   if (!action)
-    return report(
-        ExitCode::usage,
-        "which command? sweep, report, grip, check, error-time, stability, live, session or devices; see wholehand --help");
+    return report(ExitCode::usage,
+                  "which command? sweep, report, grip, check, error-time, stability, live, session, view or devices; see "
+                  "wholehand --help");
   const ExitCode code = action();
   wholehand::finish_output();
   // with the validation layer on (WHOLEHAND_VALIDATION=1) a message is a failure

@@ -7,15 +7,17 @@
 
 #include "core/scene.h"
 #include "device/gripper.h"
+#include "device/view_gripper.h"
 
 namespace wholehand {
 
 constexpr double WATCHDOG = 20e-3;  // s without a word from the host after which a device lets go: two of the host's own patience
 
-// sim, hid[:PATH], usb[:VID:PID] or omega[:N], as --device names them; a recording is opened by its own (sweeps/recording.h). `library`: of
-// Force Dimension's SDK, empty: wherever it is found; `watchdog` in s. Throws Error: (usage) another name, with those that are allowed;
-// (failure) what opening it throws.
+// sim, view, hid[:PATH], usb[:VID:PID] or omega[:N], as --device names them; a recording is opened by its own (sweeps/recording.h). `library`: of
+// Force Dimension's SDK, empty: wherever it is found; `watchdog` in s; `view`: where the page's controls go in, which must outlive the
+// gripper; null: there is no page. Throws Error: (usage) another name, with those that are allowed, or no page; (failure) what opening it
+// throws.
 std::unique_ptr<Gripper> open_gripper(const std::string& device, const Scene& scene, std::uint64_t seed, const std::string& library,
-                                      double watchdog = WATCHDOG);
+                                      double watchdog = WATCHDOG, ViewInput* view = nullptr);
 
 }  // namespace wholehand

@@ -55,6 +55,12 @@ std::int64_t parse_integer(const std::string& text, const std::string& option, I
   return value;
 }
 
+int parse_view_port(const std::string& text, bool has_view) {
+  if (text.empty()) return 0;
+  if (!has_view) throw usage_error("--view-port: there is no view; add --view");
+  return static_cast<int>(parse_integer(text, "--view-port", {0, 65535}));
+}
+
 Precision parse_precision(const std::string& text) {
   if (text == "float") return Precision::single;
   if (text == "double") return Precision::full;

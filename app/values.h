@@ -13,6 +13,7 @@ namespace wholehand {
 double parse_quantity(const std::string& text, const std::string& option, const Quantity& quantity);  // in SI
 Triple parse_triple(const std::string& text, const std::string& option, const Quantity& quantity);    // "x,y,z", in SI
 std::int64_t parse_integer(const std::string& text, const std::string& option, IntegerRange range);
-Precision parse_precision(const std::string& text);  // "float" or "double"
+int parse_view_port(const std::string& text, bool has_view);  // "": 0, any; refuses one without --view
+Precision parse_precision(const std::string& text);           // "float" or "double"
 
 }  // namespace wholehand

@@ -187,6 +187,7 @@ LiquidState liquid_at(const Vessel& vessel, const Quadrature& quadrature, Real v
     level = next;
   }
   state.volume = volume;
+  state.level = level;
   if (below.volume > 0) {
     state.lean = below.lean / below.volume;
     state.height = below.height / below.volume;

@@ -22,9 +22,11 @@ struct Slices {
   Real volume = 0, lean = 0, height = 0, surface = 0;
 };
 
-// Liquid at rest: m3 and its centre of mass along n and y, m.
+// Liquid at rest: m3 and its centre of mass along n and y, m; of its surface, the plane u . p = level (u: up, in the vessel frame), m, where
+// there is any; for those who draw it, the shaders do not tell.
 struct LiquidState {
   Real volume = 0, lean = 0, height = 0;
+  Real level = 0;
 };
 
 // Area (m2) and first moment (m3) of the part x >= h of a disc of radius r at the origin.

@@ -226,21 +226,13 @@ bool Session::grasp(const HandPose& pose, double device_gap, Tick& tick) noexcep
   const double widest = hand.scale * hand.gap_open - 2 * hand.contact_tolerance,
                narrowest = std::max(hand.scale * hand.gap_closed, radii_[0] + radii_[1]);
   if (!(gap > narrowest && gap <= widest)) return false;
-  core_f64::Closing closing;
-  closing.direction = apart / gap;
-  const double thumb = glm::dot(normals[0], -closing.direction), index = glm::dot(normals[1], closing.direction);
+  const Vec3 direction = apart / gap;
+  const double thumb = glm::dot(normals[0], -direction), index = glm::dot(normals[1], direction);
   if (!(thumb > GRAZING_COSINE && index > GRAZING_COSINE)) return false;
-  closing.gap = gap;
-  closing.midpoint = 0.5 * (proxies_[0].place + proxies_[1].place) - place;
-  closing.closure = core_f64::closure_of_gap(hand, closing.gap / hand.scale, hand.limits.stop_tolerance / hand.scale);
-  closing.thumb_angle = core_f64::angle_between(normals[0], -closing.direction);
-  closing.index_angle = core_f64::angle_between(normals[1], closing.direction);
-  // the gripper's axes, turned so that the first lies along the contacts
-  const Vec3 up =
-      normalized_or(pose.rotation[1] - glm::dot(pose.rotation[1], closing.direction) * closing.direction, pose.rotation[2]);
   double e1_x = 0;
-  closing.placement = place_live_hand(hand, closing.closure, Mat3(closing.direction, up, glm::cross(closing.direction, up)),
-                                      closing.midpoint, hand.scale, e1_x);
+  core_f64::Closing closing = close_live_hand(hand, {proxies_[0].place, proxies_[1].place}, place, pose.rotation, e1_x);
+  closing.thumb_angle = core_f64::angle_between(normals[0], -direction);
+  closing.index_angle = core_f64::angle_between(normals[1], direction);
   if (std::abs(e1_x) > LARGEST_E1_X) return false;
   core_f64::GripAnswer answer;
   core_f64::rest_hand(hand, live.vessel, static_cast<core_f64::PoseKind>(static_cast<int>(live_->scene.pose)), closing,
@@ -432,6 +424,21 @@ core_f64::Placement place_live_hand(const core_f64::Hand& hand, double closure, 
   const Vec3 thumb = core_f64::thumb_points(hand.frame[0], lengths, core_f64::thumb_angles(hand, closure)).tip;
   placement.translation = middle - placement.rotation * (scale * (thumb + 0.5 * apart));
   return placement;
+}
+
+core_f64::Closing close_live_hand(const core_f64::Hand& hand, const std::array<Vec3, 2>& contacts, Vec3 place, const Mat3& rotation,
+                                  double& e1_x) {
+  const Vec3 apart = contacts[1] - contacts[0];
+  core_f64::Closing closing;
+  closing.gap = glm::length(apart);
+  closing.direction = closing.gap > 1e-12 ? apart / closing.gap : rotation[0];
+  closing.midpoint = 0.5 * (contacts[0] + contacts[1]) - place;
+  const double gap = std::clamp(closing.gap / hand.scale, hand.gap_closed, hand.gap_open);
+  closing.closure = core_f64::closure_of_gap(hand, gap, hand.limits.stop_tolerance / hand.scale);
+  const Vec3 up = normalized_or(rotation[1] - glm::dot(rotation[1], closing.direction) * closing.direction, rotation[2]);
+  closing.placement = place_live_hand(hand, closing.closure, Mat3(closing.direction, up, glm::cross(closing.direction, up)),
+                                      closing.midpoint, hand.scale, e1_x);
+  return closing;
 }
 
 }  // namespace wholehand

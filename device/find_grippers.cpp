@@ -26,7 +26,8 @@ std::vector<GripperFound> or_missing(std::vector<GripperFound> found, const char
 }  // namespace
 
 std::vector<GripperFound> find_grippers(const std::string& dhd_library) {
-  std::vector<GripperFound> all{{"sim", "a virtual user, always there", "", ""}};
+  std::vector<GripperFound> all{{"sim", "a virtual user, always there", "", ""},
+                                {"view", "the page of `live --view`: dragged in a browser, felt by nobody", "", ""}};
   append(all, or_missing(find_hid_grippers(), "hid", "no HID device speaks the open gripper protocol"));
   append(all, or_missing(find_usb_grippers(), "usb", "no USB device has an interface of the open gripper protocol"));
   append(all, find_omega_grippers(dhd_library));

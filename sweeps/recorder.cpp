@@ -2,7 +2,6 @@
 
 #include <pthread.h>
 
-#include <chrono>
 #include <csignal>
 #include <utility>
 
@@ -10,8 +9,6 @@ namespace wholehand {
 namespace {
 
 constexpr std::size_t BLOCK = 1024;  // ticks
-constexpr std::chrono::milliseconds DRAIN_INTERVAL{
-    50};  // at most this much is lost with the process, and some 400 ticks at 8 kHz wait
 
 // Signals are the business of the threads that were there before.
 class BlockSignals {
@@ -29,8 +26,8 @@ class BlockSignals {
 
 }  // namespace
 
-Recorder::Recorder(TickRing& ring, std::unique_ptr<RecordingWriter> writer, Observer observer)
-    : ring_(ring), writer_(std::move(writer)), observer_(std::move(observer)) {
+Recorder::Recorder(TickRing& ring, std::unique_ptr<RecordingWriter> writer, Observer observer, std::chrono::milliseconds interval)
+    : ring_(ring), writer_(std::move(writer)), observer_(std::move(observer)), interval_(interval) {
   block_.reserve(BLOCK);
   const BlockSignals inherited;
   thread_ = std::thread([this] { run(); });
@@ -62,7 +59,7 @@ void Recorder::run() {
   for (bool is_last = false; !is_last;) {
     {
       std::unique_lock lock(mutex_);
-      wake_.wait_for(lock, DRAIN_INTERVAL, [this] { return is_stopping_; });
+      wake_.wait_for(lock, interval_, [this] { return is_stopping_; });
       is_last = is_stopping_;
     }
     while (drain()) {

@@ -1,6 +1,7 @@
 // The thread that takes ticks from the haptic thread and writes them down.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <functional>
 #include <memory>
@@ -16,6 +17,9 @@
 
 namespace wholehand {
 
+constexpr std::chrono::milliseconds DRAIN_INTERVAL{
+    50};  // at most this much is lost with the process, and some 400 ticks at 8 kHz wait
+
 // Drains a ring from construction until stop(), so that the thread that pushes never waits and, as long as the disk keeps up or refuses, never
 // finds it full. The ring must outlive it and hold what comes during a pause of the disk: a few seconds.
 class Recorder {
@@ -23,8 +27,9 @@ class Recorder {
   // Called on the recorder's thread with each batch of ticks, all of them in their order (a status line, say). Must not throw.
   using Observer = std::function<void(std::span<const Tick>)>;
 
-  // Without a writer it only drains and shows.
-  Recorder(TickRing& ring, std::unique_ptr<RecordingWriter> writer, Observer observer = {});
+  // Without a writer it only drains and shows. `interval`: between two looks into the ring; shorter for who displays what he observes.
+  Recorder(TickRing& ring, std::unique_ptr<RecordingWriter> writer, Observer observer = {},
+           std::chrono::milliseconds interval = DRAIN_INTERVAL);
   // Stops; a recording that was not stopped before gets an end without timing.
   ~Recorder();
   Recorder(const Recorder&) = delete;
@@ -45,6 +50,7 @@ class Recorder {
   TickRing& ring_;
   std::unique_ptr<RecordingWriter> writer_;
   Observer observer_;
+  std::chrono::milliseconds interval_;
   std::vector<Tick> block_;
   bool is_told_ = false;  // its trouble
   bool is_whole_ = true;

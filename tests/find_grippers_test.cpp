@@ -9,7 +9,7 @@
 namespace wholehand {
 namespace {
 
-TEST(FindGrippers, SimIsAlwaysThereAndOmegaWithItsSdk) {
+TEST(FindGrippers, SimAndThePageAreAlwaysThereAndOmegaWithItsSdk) {
   const StandIn sdk(STAND_IN_DHD);
   for (const char* library : {STAND_IN_DHD, "/not/there/libdhd.so"}) {
     const auto found = find_grippers(library);
@@ -17,6 +17,8 @@ TEST(FindGrippers, SimIsAlwaysThereAndOmegaWithItsSdk) {
     EXPECT_EQ(found[0].address, "sim");
     EXPECT_EQ(found[0].name, "a virtual user, always there");
     EXPECT_EQ(found[0].missing, "");
+    EXPECT_EQ(found[1].address, "view");
+    EXPECT_EQ(found[1].missing, "");
     const bool has_omega =
         std::any_of(found.begin(), found.end(), [](const GripperFound& gripper) { return gripper.address == "omega"; });
     EXPECT_EQ(has_omega, library == std::string(STAND_IN_DHD));

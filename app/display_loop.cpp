@@ -1,0 +1,104 @@
+#include "app/display_loop.h"
+
+#include <pthread.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+
+namespace wholehand {
+
+DisplayLoop::DisplayLoop(const LiveScene& live, std::vector<Display*> displays)
+    : live_(live), displays_(std::move(displays)), tracker_(live.scene) {
+  // signals are the business of the threads that were there before
+  sigset_t all, before;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &before);
+  thread_ = std::thread([this] { run(); });
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
+DisplayLoop::~DisplayLoop() { stop(); }
+
+void DisplayLoop::look(std::span<const Tick> ticks) {
+  if (ticks.empty()) return;
+  const std::lock_guard lock(mutex_);
+  for (const Tick& tick : ticks) {
+    tracker_.follow(tick);
+    if (ticks_ > 0) timing_.missed += std::max<std::int64_t>(0, tick.number - newest_.number - 1);
+    timing_.step = std::max(timing_.step, tick.step_time);
+    newest_.number = tick.number;
+    ++ticks_;
+  }
+  newest_ = ticks.back();
+  is_new_ = true;
+}
+
+void DisplayLoop::stop() {
+  if (!thread_.joinable()) return;
+  {
+    const std::lock_guard lock(mutex_);
+    is_stopping_ = true;
+  }
+  wake_.notify_one();
+  thread_.join();
+  try {
+    show_newest();
+  } catch (...) {
+  }
+}
+
+void DisplayLoop::run() {
+  using Clock = std::chrono::steady_clock;
+  const auto period = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / DISPLAY_RATE));
+  auto next = Clock::now() + period;
+  for (;;) {
+    {
+      std::unique_lock lock(mutex_);
+      wake_.wait_until(lock, next, [this] { return is_stopping_; });
+      if (is_stopping_) return;
+    }
+    try {
+      show_newest();
+    } catch (...) {  // no memory for this moment; the session goes on
+    }
+    // what was late is left out
+    next = std::max(next + period, Clock::now());
+  }
+}
+
+void DisplayLoop::show_newest() {
+  Tick tick;
+  VesselPoses poses;
+  ViewFrame::Timing timing;
+  std::int64_t ticks = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!is_new_) return;
+    is_new_ = false;
+    tick = newest_;
+    poses = tracker_.poses();
+    timing = timing_;
+    timing_.step = 0;
+    ticks = ticks_;
+  }
+  timing.rate = measured_rate(ticks, tick.number);
+  bool is_watched = false;
+  for (Display* display : displays_) is_watched = display->is_watched() || is_watched;
+  if (!is_watched) return;
+  const HandView hand = hand_view(live_, tick, poses);
+  for (Display* display : displays_) display->show({tick, poses, hand, timing});
+}
+
+// Over the last second's moments: the session's rate, less the share of periods that have no tick.
+double DisplayLoop::measured_rate(std::int64_t ticks, std::int64_t number) {
+  const std::size_t at = moments_ % counts_.size();
+  const Count before = moments_ < counts_.size() ? counts_[0] : counts_[at];
+  const bool is_first = moments_ == 0;
+  counts_[at] = {ticks, number};
+  ++moments_;
+  if (is_first || number <= before.number) return live_.scene.live.rate;
+  return live_.scene.live.rate * static_cast<double>(ticks - before.ticks) / static_cast<double>(number - before.number);
+}
+
+}  // namespace wholehand

@@ -1,0 +1,79 @@
+// What a live session shows, at display rate: from the ticks that the recorder's thread hands on to whoever displays them. The haptic thread
+// knows nothing of it.
+#pragma once
+
+#include <array>
+#include <condition_variable>
+#include <mutex>
+#include <span>
+#include <thread>
+#include <vector>
+
+#include "app/view_frame.h"
+#include "core/hand_view.h"
+
+namespace wholehand {
+
+constexpr double DISPLAY_RATE = 60;  // Hz
+
+// A moment of the session. References hold during the call.
+struct DisplayMoment {
+  const Tick& tick;
+  const VesselPoses& poses;
+  const HandView& hand;
+  const ViewFrame::Timing& timing;
+};
+
+// Who shows moments: on the display loop's thread.
+class Display {
+ public:
+  virtual ~Display() = default;
+  // Whether anybody looks: without that no hand is posed.
+  virtual bool is_watched() { return true; }
+  // Must not wait for long, nor throw.
+  virtual void show(const DisplayMoment& moment) noexcept = 0;
+};
+
+// Shows the newest tick on every display at DISPLAY_RATE, those between them not at all. No tick is shown twice; the last one always.
+class DisplayLoop {
+ public:
+  // `live` and the displays must outlive it.
+  DisplayLoop(const LiveScene& live, std::vector<Display*> displays);
+  // Stops.
+  ~DisplayLoop();
+  DisplayLoop(const DisplayLoop&) = delete;
+  DisplayLoop& operator=(const DisplayLoop&) = delete;
+
+  // Ticks in their order, all of them, from one thread. Waits for nothing but what is copied.
+  void look(std::span<const Tick> ticks);
+  // Shows what was last looked at, and ends. Once; then nothing is shown any more.
+  void stop();
+
+ private:
+  void run();
+  void show_newest();
+  double measured_rate(std::int64_t ticks, std::int64_t number);
+
+  const LiveScene& live_;
+  std::vector<Display*> displays_;
+
+  std::mutex mutex_;  // of the next seven
+  std::condition_variable wake_;
+  bool is_stopping_ = false;
+  bool is_new_ = false;
+  Tick newest_;
+  VesselTracker tracker_;
+  std::int64_t ticks_ = 0;
+  ViewFrame::Timing timing_;
+
+  // Of the loop's own thread: ticks counted at the last second's moments, for the rate.
+  struct Count {
+    std::int64_t ticks = 0, number = 0;
+  };
+  std::array<Count, static_cast<std::size_t>(DISPLAY_RATE)> counts_{};
+  std::size_t moments_ = 0;
+
+  std::thread thread_;  // last: it uses all of the above
+};
+
+}  // namespace wholehand

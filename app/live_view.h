@@ -1,0 +1,31 @@
+// A live session in the browser: frames of its moments, and the server that hands them out.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "app/display_loop.h"
+#include "app/view_scene.h"
+#include "app/view_server.h"
+
+namespace wholehand {
+
+class LiveView final : public Display {
+ public:
+  // `live` must outlive it. `control` takes what the page posts where it is the gripper; else empty. Throws Error as ViewServer does.
+  LiveView(const LiveScene& live, const ViewFacts& facts, std::function<void(const std::string&)> control, int port);
+
+  const std::string& address() const { return server_->address(); }
+  bool is_watched() override { return frames_.viewers() > 0; }
+  void show(const DisplayMoment& moment) noexcept override;
+  // Tells viewers why there are no more frames, and ends the server.
+  void end(const std::string& reason);
+
+ private:
+  FrameMaker maker_;
+  FrameHub frames_;
+  std::unique_ptr<ViewServer> server_;  // last: it uses the frames
+};
+
+}  // namespace wholehand

@@ -1,0 +1,19 @@
+#include "app/serve_view.h"
+
+#include <chrono>
+#include <thread>
+#include <utility>
+
+#include "app/browser.h"
+#include "sweeps/interrupt.h"
+
+namespace wholehand {
+
+void serve_view(ViewContent content, int port, bool address_on_standard_error) {
+  InterruptGuard interrupt;
+  ViewServer server(std::move(content), port);
+  const BrowserWindow window(server.address(), address_on_standard_error);
+  while (!interrupt.flag()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+}
+
+}  // namespace wholehand

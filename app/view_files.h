@@ -1,0 +1,20 @@
+// The viewer's page: the files of viewer/ and three.js, embedded by the build (cmake/embed_files.cmake).
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace wholehand {
+
+struct EmbeddedFile {
+  std::string_view path;  // below viewer/, with slashes
+  std::string_view bytes;
+};
+
+std::span<const EmbeddedFile> view_files();
+
+// The file of that path, or null; what a browser is told that it is: by its ending.
+const EmbeddedFile* find_view_file(std::string_view path);
+std::string_view content_type(std::string_view path);
+
+}  // namespace wholehand

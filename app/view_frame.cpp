@@ -1,0 +1,189 @@
+#include "app/view_frame.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
+#include <iterator>
+
+#include "app/live_report.h"
+
+namespace wholehand {
+namespace {
+
+// Writes JSON as it comes: a frame is made sixty times a second, and a tree of values would cost more than what is in it.
+class Writer {
+ public:
+  void text(std::string_view value) { out_.append(value); }
+  void number(double value) {
+    if (std::isfinite(value)) {
+      fmt::format_to(std::back_inserter(out_), "{}", static_cast<float>(value));
+    } else {
+      text("null");
+    }
+  }
+  void exact(double value) { fmt::format_to(std::back_inserter(out_), "{}", value); }
+  void whole(std::int64_t value) { fmt::format_to(std::back_inserter(out_), "{}", value); }
+  template <typename Numbers>
+  void numbers(const Numbers& values) {
+    text("[");
+    bool is_first = true;
+    for (const double value : values) {
+      if (!is_first) text(",");
+      is_first = false;
+      number(value);
+    }
+    text("]");
+  }
+  // `name` comes with its quotes, its colon and the comma before it.
+  void number(std::string_view name, double value) {
+    text(name);
+    number(value);
+  }
+  template <typename Numbers>
+  void numbers(std::string_view name, const Numbers& values) {
+    text(name);
+    numbers(values);
+  }
+  void points(std::string_view name, const std::array<Triple, JOINT_COUNT>& values) {
+    text(name);
+    for (int j = 0; j < JOINT_COUNT; ++j) {
+      text(j == 0 ? "[" : ",");
+      numbers(values[j]);
+    }
+    text("]");
+  }
+  std::string take() { return fmt::to_string(out_); }
+
+ private:
+  fmt::basic_memory_buffer<char, 4096> out_;
+};
+
+std::array<double, 4> quaternion_of(const Rotation& rotation) {
+  const glm::dquat q = glm::normalize(glm::quat_cast(to_mat3(rotation)));
+  return {q.x, q.y, q.z, q.w};
+}
+
+char letter(PointContact contact) {
+  constexpr char LETTERS[] = {'.', 't', 'p', 'k', 'K'};
+  return LETTERS[static_cast<std::size_t>(contact)];
+}
+
+void write_vessel(Writer& out, const ViewFrame::Vessel& vessel) {
+  if (!vessel.is_shown) {
+    out.text("null");
+    return;
+  }
+  out.numbers("{\"place\":", vessel.pose.place);
+  out.numbers(",\"rotation\":", quaternion_of(vessel.pose.rotation));
+  out.number(",\"volume\":", vessel.volume);
+  const Rotation& r = vessel.pose.rotation;
+  out.numbers(",\"up\":", vessel.surface ? vessel.surface->up : Triple{r[3], r[4], r[5]});
+  out.number(",\"level\":", vessel.surface ? vessel.surface->level : Tick::NONE);
+  out.text("}");
+}
+
+void write_forces(Writer& out, const ViewFrame& frame) {
+  out.number(",\"forces\":{\"feedback\":", frame.feedback);
+  out.number(",\"base\":", frame.base);
+  out.number(",\"normal\":", frame.normal);
+  out.number(",\"opening\":", frame.opening);
+  out.number(",\"user\":", frame.user);
+  out.number(",\"hold\":", frame.hold);
+  out.number(",\"weight\":", frame.weight);
+  out.number(",\"torque\":", frame.torque);
+  out.text("}");
+}
+
+}  // namespace
+
+std::string frame_json(const ViewFrame& frame) {
+  Writer out;
+  out.text("{\"t\":");
+  out.exact(frame.time);
+  out.text(",\"tick\":");
+  out.whole(frame.tick);
+  out.text(",\"state\":\"");
+  out.text(frame.state);
+  out.text("\",\"vessel\":");
+  out.whole(frame.vessel);
+  out.points(",\"joints\":", frame.hand.proxies);
+  out.points(",\"rigged\":", frame.hand.rigged);
+  out.numbers(",\"wrist\":", frame.hand.wrist);
+  out.text(",\"contacts\":\"");
+  for (const PointContact contact : frame.hand.contact) out.text({std::array{letter(contact)}.data(), 1});
+  out.number("\",\"closure\":", frame.closure);
+  out.number(",\"gap\":", frame.gap);
+  out.number(",\"tilt\":", frame.tilt);
+  out.text(",\"vessels\":[");
+  for (std::size_t v = 0; v < frame.vessels.size(); ++v) {
+    if (v > 0) out.text(",");
+    write_vessel(out, frame.vessels[v]);
+  }
+  out.text("],\"stream\":");
+  if (frame.stream) {
+    out.numbers("{\"from\":", frame.stream->from);
+    out.numbers(",\"to\":", frame.stream->to);
+    out.number(",\"flow\":", frame.stream->flow);
+    out.text("}");
+  } else {
+    out.text("null");
+  }
+  write_forces(out, frame);
+  out.text(",\"amounts\":[");
+  for (std::size_t k = 0; k < frame.arrived.size(); ++k) {
+    out.number(k > 0 ? ",{\"arrived\":" : "{\"arrived\":", frame.arrived[k]);
+    out.text("}");
+  }
+  out.number("],\"spilt\":", frame.spilt);
+  out.number(",\"target_volume\":", frame.target_volume);
+  out.text(",\"guidance\":");
+  out.whole(frame.guidance);
+  out.text(frame.is_done ? ",\"done\":true" : ",\"done\":false");
+  out.number(",\"timing\":{\"rate\":", frame.timing.rate);
+  out.number(",\"step\":", frame.timing.step);
+  out.text(",\"missed\":");
+  out.whole(frame.timing.missed);
+  out.text("}}");
+  return out.take();
+}
+
+FrameMaker::FrameMaker(const LiveScene& live) : live_(live), table_(table_height(live.scene)), rests_(live.vessels.size()) {}
+
+ViewFrame FrameMaker::make(const Tick& tick, const VesselPoses& poses, const HandView& hand, const ViewFrame::Timing& timing) {
+  const Scene& scene = live_.scene;
+  ViewFrame frame;
+  frame.time = static_cast<double>(tick.number) / scene.live.rate;
+  frame.tick = tick.number;
+  frame.state = SESSION_STATE_NAMES[static_cast<std::size_t>(tick.state)];
+  frame.vessel = tick.vessel;
+  frame.hand = hand;
+  frame.closure = tick.closure;
+  frame.gap = tick.gap;
+  frame.tilt = tick.tilt;
+  for (std::size_t v = 0; v < rests_.size(); ++v) {
+    Rest& rest = rests_[v];
+    if (rest.volume != tick.volume[v] || rest.rotation != poses[v].rotation)
+      rest = {tick.volume[v], poses[v].rotation,
+              liquid_surface(live_.vessels[v].vessel, live_.quadrature, tick.volume[v], poses[v].rotation)};
+    frame.vessels.push_back({true, poses[v], tick.volume[v], rest.surface});
+  }
+  frame.stream = pouring_stream(live_, tick, table_);
+  frame.feedback = tick.feedback;
+  frame.base = is_held(tick.state) ? scene.force.base : 0;
+  frame.normal = tick.normal_force;
+  frame.opening = tick.opening_force;
+  frame.user = tick.user_force;
+  frame.hold = tick.hold_force;
+  frame.weight = tick.weight;
+  frame.torque = tick.torque;
+  for (const MixedAmount& amount : mixing_board(scene, tick)) frame.arrived.push_back(amount.arrived);
+  for (std::size_t v = 0; v < rests_.size(); ++v) frame.spilt += tick.spilt[v];
+  frame.target_volume = target_volume(scene, tick);
+  frame.guidance = tick.guidance;
+  frame.is_done = tick.task_done;
+  frame.timing = timing;
+  return frame;
+}
+
+}  // namespace wholehand

@@ -1,0 +1,64 @@
+// One moment as the viewer sees it, and as the JSON that the page takes; docs/view.md names the fields.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/hand_view.h"
+
+namespace wholehand {
+
+// SI; world frame but for what a vessel has in its own.
+struct ViewFrame {
+  struct Vessel {
+    bool is_shown = true;  // false: the page does not draw it
+    VesselPose pose;
+    double volume = 0;  // m3
+    std::optional<LiquidSurface> surface;
+  };
+  struct Timing {
+    double rate = 0;  // Hz, of the loop
+    double step = 0;  // s
+    std::int64_t missed = 0;
+  };
+
+  double time = 0;  // s
+  std::int64_t tick = 0;
+  const char* state = "";
+  int vessel = -1;
+  HandView hand;
+  double closure = 0, gap = 0, tilt = 0;
+  std::vector<Vessel> vessels;
+  std::optional<PouringStream> stream;
+  // N; N m. What is infinite or not there is null in JSON.
+  double feedback = 0, base = 0, normal = 0, opening = 0, user = 0, hold = Tick::NONE, weight = 0, torque = 0;
+  std::vector<double> arrived;  // of each amount that the task wants, m3
+  double spilt = 0, target_volume = 0;
+  int guidance = -1;  // modulo each vessel's count
+  bool is_done = false;
+  Timing timing;
+};
+
+// One JSON object in one line. Numbers have the digits of a float: tenths of a micrometre in a hand.
+std::string frame_json(const ViewFrame& frame);
+
+// Makes frames of a session's ticks. The liquid's surface of a vessel that rests is kept from one frame to the next.
+class FrameMaker {
+ public:
+  // `live` must outlive it.
+  explicit FrameMaker(const LiveScene& live);
+  ViewFrame make(const Tick& tick, const VesselPoses& poses, const HandView& hand, const ViewFrame::Timing& timing);
+
+ private:
+  struct Rest {
+    double volume = 0;
+    Rotation rotation{};  // no rotation at all: not known yet
+    std::optional<LiquidSurface> surface;
+  };
+  const LiveScene& live_;
+  double table_;
+  std::vector<Rest> rests_;
+};
+
+}  // namespace wholehand

@@ -1,0 +1,45 @@
+// Grips in the browser: single ones, or the best of a sweep, each at any fill and tilt.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/view_frame.h"
+#include "app/view_server.h"
+#include "core/evaluator.h"
+
+namespace wholehand {
+
+// A grip to be seen, and what it is called there.
+struct ViewedGrip {
+  std::size_t vessel = 0;
+  GripInput grip;
+  std::string label;
+};
+
+// The grips of a scene with the core's numbers. From any thread.
+class GripsView {
+ public:
+  // Evaluates them all; those that the core finds not feasible are left out, with a line in `notes` each. Throws Error: (usage) what
+  // make_core_evaluator throws, or that none is left.
+  GripsView(const Scene& scene, const std::vector<ViewedGrip>& grips, std::vector<std::string>& notes);
+  ~GripsView();
+  GripsView(const GripsView&) = delete;
+  GripsView& operator=(const GripsView&) = delete;
+
+  std::size_t size() const;
+  const GripResult& result(std::size_t grip) const;  // vessel frame, as `grip --json` has it
+
+  // A grip at a fill (of the capacity; 0 in a scene without liquid) and a tilt, rad. The vessel stands where the scene has it, is turned about
+  // the middle of the tips towards where it pours, and lifted so that neither it nor the hand is under the table.
+  ViewFrame frame(std::size_t grip, double fill, double tilt) const;
+  // scene.json and state of it, for a server; it must be outlived by this.
+  ViewContent content(const std::string& title) const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace wholehand

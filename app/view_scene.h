@@ -1,0 +1,30 @@
+// What of a scene does not change while it is viewed, as the JSON that the page takes; docs/view.md names the fields.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/scene.h"
+
+namespace wholehand {
+
+enum class ViewMode { live, recording, grips };
+
+// Of what is viewed, beside the scene: what gripper it was or what evaluated it; and the parts that only some modes have, as JSON: the control's
+// limits, the length of a recording, the grips.
+struct ViewFacts {
+  ViewMode mode = ViewMode::live;
+  std::string title, device;
+  std::string control_limits;     // empty: the page is no gripper
+  double duration = 0, rate = 0;  // s, Hz: of a recording
+  std::string grips;              // empty: none
+};
+
+// One JSON object. Vessels in the scene's order, joints in the order of docs/method.md. Throws Error as prepare_vessel.
+std::string view_scene_json(const Scene& scene, const ViewFacts& facts);
+
+// The triangles of a mesh vessel for the page: two counts, positions, indices; little endian, vessel frame, m. Empty for an outline.
+std::string mesh_bytes(const VesselData& vessel);
+
+}  // namespace wholehand

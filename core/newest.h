@@ -1,0 +1,45 @@
+// The newest value from one thread to another, where what came between does not matter.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+
+namespace wholehand {
+
+// One thread puts, one takes; neither ever waits for the other: no locks, no system calls, no allocation. Of three places each thread has
+// one to itself, and they exchange theirs for the third.
+template <class T>
+class Newest {
+ public:
+  Newest() = default;
+  Newest(const Newest&) = delete;
+  Newest& operator=(const Newest&) = delete;
+
+  void put(const T& value) noexcept {
+    places_[back_].value = value;
+    back_ = between_.exchange(back_ | FRESH, std::memory_order_acq_rel) & ~FRESH;
+  }
+
+  // False: nothing was put since the last was taken, and `value` was left alone.
+  bool take(T& value) noexcept {
+    if ((between_.load(std::memory_order_relaxed) & FRESH) == 0) return false;
+    front_ = between_.exchange(front_, std::memory_order_acq_rel) & ~FRESH;
+    value = places_[front_].value;
+    return true;
+  }
+
+ private:
+  static constexpr std::size_t CACHE_LINE = 64;  // what each thread writes lies apart from what the other does
+  static constexpr unsigned FRESH = 4;           // beside the number of a place: it was put and not yet taken
+  struct alignas(CACHE_LINE) Place {
+    T value{};
+  };
+
+  std::array<Place, 3> places_{};
+  alignas(CACHE_LINE) unsigned back_ = 0;  // of the thread that puts
+  alignas(CACHE_LINE) std::atomic<unsigned> between_{1};
+  alignas(CACHE_LINE) unsigned front_ = 2;  // of the thread that takes
+};
+
+}  // namespace wholehand
