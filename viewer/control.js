@@ -1,0 +1,196 @@
+// The page as the gripper: drag the hand, close it, tilt it. What it sends is a gripper's state in the device's own frame (core/tick.h).
+import {Quaternion, Vector3} from './three.module.js';
+import {degrees, element, millimetres} from './format.js';
+
+const NEAR = 110;                      // px about the hand in which a drag takes it
+const INTERVAL = 1000 / 60;            // ms between two states that are sent
+const KEY_STEP = 0.006, KEY_TURN = 0.05;  // m and rad for each press of a key
+const CLOSING = 0.5, OPENING = 1.2;    // of the gap's range, in a second
+const SQUEEZE = 0.05;                  // of it, that a grasp goes on closing
+const HELD = ['lift', 'tilt', 'maintain'];
+const LARGEST_TILT = 150, LARGEST_TURN = 180;  // degrees
+
+export class Control {
+  constructor(about, view, trouble) {
+    this.limits = about.control_limits;
+    this.view = view;
+    this.trouble = trouble;
+    const {start} = this.limits;
+    this.position = new Vector3(...start.position);
+    this.gap = start.gap;
+    this.tilt = this.turn = 0;
+    this.sequence = 0;
+    this.motion = 0;  // of the assistant: -1 closing, 1 opening
+    this.axes = [0, 1, 2].map((k) => new Vector3(...[0, 3, 6].map((row) => this.limits.axes[row + k])));  // the device's, in the world
+    this.make(document.getElementById('control'));
+    view.orbit.claim = (event) => this.take(event);
+    const canvas = view.stage.canvas;
+    canvas.addEventListener('pointermove', (event) => this.drag(event));
+    for (const kind of ['pointerup', 'pointercancel']) canvas.addEventListener(kind, (event) => this.drop(event));
+    this.showValues();
+  }
+
+  make(place) {
+    place.hidden = false;
+    const [closed, opened] = this.limits.gap, reach = this.limits.reach;
+    this.sliders = {};
+    const add = (name, label, min, max, step, read, write, text) => {
+      const input = element('input', {type: 'range', id: `control-${name}`, min: String(min), max: String(max), step: String(step)});
+      const value = element('output', {for: `control-${name}`});
+      input.addEventListener('input', () => {
+        this.motion = 0;
+        write(Number(input.value));
+        this.changed();
+      });
+      this.sliders[name] = {input, value, read, text};
+      return element('div', {class: 'slider'}, element('label', {for: `control-${name}`, text: label}), input, value);
+    };
+    this.grasp = element('button', {type: 'button', class: 'grasp', text: 'Grasp', title: 'Close until it holds, or let go (Space)'});
+    this.grasp.addEventListener('click', () => this.toggle());
+    const axis = (k) => [() => this.world().getComponent(k) * 1e3, (mm) => this.moveTo(k, mm / 1e3), () => millimetres(this.world().getComponent(k), 0) + ' mm'];
+    const middle = this.toWorld(new Vector3(...this.limits.center)), span = reach * this.limits.scale;
+    const range = (k) => [Math.round((middle.getComponent(k) - span) * 1e3), Math.round((middle.getComponent(k) + span) * 1e3)];
+    place.append(
+      element('p', {class: 'hint', text: 'Drag the hand to move it; drag beside it to look around.'}), this.grasp,
+      add('close', 'Close', 0, 100, 0.5, () => 100 * (opened - this.gap) / (opened - closed), (v) => { this.gap = opened - (opened - closed) * v / 100; },
+        () => `${Math.round(100 * (opened - this.gap) / (opened - closed))} %`),
+      add('tilt', 'Tilt', -30, LARGEST_TILT, 1, () => this.tilt * 180 / Math.PI, (v) => { this.tilt = v * Math.PI / 180; }, () => `${degrees(this.tilt)}°`),
+      add('turn', 'Turn', -LARGEST_TURN, LARGEST_TURN, 1, () => this.turn * 180 / Math.PI, (v) => { this.turn = v * Math.PI / 180; }, () => `${degrees(this.turn)}°`),
+      add('height', 'Height', ...range(1), 1, ...axis(1)), add('depth', 'Depth', ...range(2), 1, ...axis(2)), add('across', 'Across', ...range(0), 1, ...axis(0)));
+  }
+
+  toWorld(position) {
+    const world = new Vector3(...this.limits.origin);
+    this.axes.forEach((axis, k) => world.addScaledVector(axis, this.limits.scale * position.getComponent(k)));
+    return world;
+  }
+  world() {
+    return this.toWorld(this.position);
+  }
+  // By a way of the world; kept within reach.
+  moveBy(way) {
+    const device = new Vector3(...this.axes.map((axis) => axis.dot(way) / this.limits.scale));
+    const center = new Vector3(...this.limits.center);
+    this.position.add(device).sub(center).clampLength(0, this.limits.reach).add(center);
+  }
+  moveTo(k, value) {
+    const way = new Vector3();
+    way.setComponent(k, value - this.world().getComponent(k));
+    this.moveBy(way);
+  }
+
+  // ---- pointer: in the plane of the picture through the hand ----
+  take(event) {
+    if (!this.view.middle || event.button !== 0 || event.shiftKey) return false;
+    const at = this.view.project(this.view.middle.toArray());
+    const size = NEAR / Math.max(1, 700 * this.view.orbit.pixel() / 0.5);
+    if (Math.hypot(event.clientX - at.x, event.clientY - at.y) > Math.max(56, Math.min(NEAR, size * 2))) return false;
+    this.pointer = event.pointerId;
+    this.last = [event.clientX, event.clientY];
+    this.view.stage.canvas.setPointerCapture(event.pointerId);
+    this.view.stage.canvas.classList.add('holding');
+    return true;
+  }
+  drag(event) {
+    if (event.pointerId !== this.pointer) return;
+    const [right, up] = this.view.orbit.axes(), far = this.view.stage.camera.position.distanceTo(this.view.middle), size = this.view.orbit.pixel(far);
+    this.moveBy(new Vector3().addScaledVector(right, (event.clientX - this.last[0]) * size).addScaledVector(up, -(event.clientY - this.last[1]) * size));
+    this.last = [event.clientX, event.clientY];
+    this.changed();
+  }
+  drop(event) {
+    if (event.pointerId !== this.pointer) return;
+    this.pointer = undefined;
+    this.view.stage.canvas.classList.remove('holding');
+  }
+
+  // ---- the assistant: closes until the session says that it holds, and a little further; or opens ----
+  toggle() {
+    const opens = this.motion < 0 || (this.motion === 0 && this.isHeld);
+    this.motion = opens ? 1 : -1;
+    this.squeezed = 0;
+    this.before = performance.now();
+    this.step();
+  }
+  step() {
+    if (!this.motion) return;
+    const now = performance.now(), dt = Math.min(0.1, (now - this.before) / 1e3), [closed, opened] = this.limits.gap, range = opened - closed;
+    this.before = now;
+    const way = (this.motion > 0 ? OPENING : -CLOSING) * dt * range;
+    if (this.isHeld && this.motion < 0) this.squeezed -= way;
+    this.gap = Math.max(closed, Math.min(opened, this.gap + way));
+    const isEnd = this.gap === (this.motion > 0 ? opened : closed);
+    if (isEnd || this.squeezed >= SQUEEZE * range) this.motion = 0;
+    this.changed();
+    requestAnimationFrame(() => this.step());
+  }
+
+  // What a frame tells the controls.
+  show(frame) {
+    this.isHeld = HELD.includes(frame.state);
+    const word = this.motion < 0 || this.isHeld ? 'Let go' : 'Grasp';
+    if (this.grasp.textContent !== word) this.grasp.textContent = word;
+  }
+
+  showValues() {
+    for (const {input, value, read, text} of Object.values(this.sliders)) {
+      if (document.activeElement !== input || this.motion || this.pointer !== undefined) input.value = String(read());
+      value.textContent = text();
+    }
+  }
+
+  // ---- sending: at most 60 a second, one on its way ----
+  changed() {
+    this.showValues();
+    this.isStale = true;
+    if (!this.isSending) this.send();
+  }
+  async send() {
+    this.isSending = true;
+    while (this.isStale) {
+      this.isStale = false;
+      const began = performance.now();
+      try {
+        const answer = await fetch('control', {method: 'POST', headers: {'Content-Type': 'application/json'}, body: JSON.stringify(this.state())});
+        if (!answer.ok) this.trouble((await answer.text()).trim());
+      } catch (error) {
+        this.trouble('wholehand does not answer any more.');
+        break;
+      }
+      await new Promise((done) => setTimeout(done, Math.max(0, INTERVAL - (performance.now() - began))));
+    }
+    this.isSending = false;
+  }
+  // Ry(turn) Rx(-tilt) in the world, in the device's frame: a positive tilt pours away from the palm.
+  state() {
+    const turned = new Quaternion().setFromAxisAngle(new Vector3(0, 1, 0), this.turn).multiply(new Quaternion().setFromAxisAngle(new Vector3(1, 0, 0), -this.tilt));
+    const columns = this.axes.map((axis) => axis.clone());  // the gripper's axes unturned, as the device has them in the world
+    const rotation = [];
+    for (let row = 0; row < 3; ++row) for (let k = 0; k < 3; ++k) rotation.push(this.axes[row].dot(columns[k].clone().applyQuaternion(turned)));
+    return {position: this.position.toArray(), rotation, gap: this.gap, buttons: 0, sequence: ++this.sequence};
+  }
+
+  keys() {
+    const by = (x, y, z) => () => { this.moveBy(new Vector3(x, y, z).multiplyScalar(KEY_STEP)); this.changed(); };
+    const turn = (name, way) => () => {
+      const most = (name === 'tilt' ? LARGEST_TILT : LARGEST_TURN) * Math.PI / 180;
+      this[name] = Math.max(name === 'tilt' ? -Math.PI / 6 : -most, Math.min(most, this[name] + way * KEY_TURN));
+      this.changed();
+    };
+    const close = (way) => () => {
+      const [closed, opened] = this.limits.gap;
+      this.motion = 0;
+      this.gap = Math.max(closed, Math.min(opened, this.gap - way * 0.02 * (opened - closed)));
+      this.changed();
+    };
+    return [
+      {keys: [' '], shown: 'Space', what: 'grasp, let go', act: () => this.toggle()},
+      {keys: ['d'], shown: 'A D', what: 'move left, right', act: by(1, 0, 0)}, {keys: ['a'], act: by(-1, 0, 0)},
+      {keys: ['w'], shown: 'W S', what: 'move away, towards you', act: by(0, 0, -1)}, {keys: ['s'], act: by(0, 0, 1)},
+      {keys: ['e'], shown: 'E Q', what: 'move up, down', act: by(0, 1, 0)}, {keys: ['q'], act: by(0, -1, 0)},
+      {keys: ['x'], shown: 'X Y', what: 'close, open', act: close(1)}, {keys: ['y'], act: close(-1)},
+      {keys: ['t'], shown: 'T R', what: 'tilt, tilt back', act: turn('tilt', 1)}, {keys: ['r'], act: turn('tilt', -1)},
+      {keys: ['v'], shown: 'V B', what: 'turn left, right', act: turn('turn', 1)}, {keys: ['b'], act: turn('turn', -1)},
+    ];
+  }
+}

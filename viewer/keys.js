@@ -1,0 +1,48 @@
+// Keys, and the help that lists them. A key acts wherever the focus is, but in fields that need it themselves.
+import {element} from './format.js';
+
+const TURN = 0.09, PAN = 24;  // rad, px for each press
+
+export function viewKeys(view, buttons) {
+  const {orbit} = view;
+  const arrows = (plain, shifted) => (event) => (event.shiftKey ? orbit.pan(...shifted) : orbit.turn(...plain));
+  return [
+    {keys: ['ArrowLeft'], shown: '← → ↑ ↓', what: 'turn the view (Shift: move it)', act: arrows([-TURN, 0], [PAN, 0]), atPicture: true},
+    {keys: ['ArrowRight'], act: arrows([TURN, 0], [-PAN, 0]), atPicture: true},
+    {keys: ['ArrowUp'], act: arrows([0, TURN], [0, PAN]), atPicture: true},
+    {keys: ['ArrowDown'], act: arrows([0, -TURN], [0, -PAN]), atPicture: true},
+    {keys: ['+', '='], shown: '+ −', what: 'closer, farther', act: () => orbit.zoom(0.87)},
+    {keys: ['-', '−'], act: () => orbit.zoom(1.15)},
+    {keys: ['0'], shown: '0', what: 'the whole scene', act: () => buttons.home.click()},
+    {keys: ['1'], shown: '1 2 3', what: 'from the front, the side, above', act: () => buttons.front.click()},
+    {keys: ['2'], act: () => buttons.side.click()},
+    {keys: ['3'], act: () => buttons.top.click()},
+    {keys: ['g'], shown: 'G', what: 'ghost of the hand before it came to rest on the glass', act: () => buttons.ghost.click()},
+    {keys: ['c'], shown: 'C', what: 'contact points', act: () => buttons.points.click()},
+    {keys: ['f'], shown: 'F', what: 'keep the hand in the middle', act: () => buttons.follow.click()},
+  ];
+}
+
+// Native behaviour of what has the focus comes first: arrows in a slider, letters in a list, space on a button.
+function isOwn(target, key) {
+  if (target.closest('dialog')) return true;
+  if (target.matches('select, [role=listbox]')) return key.length === 1 || key.startsWith('Arrow') || key === 'Home' || key === 'End';
+  if (target.matches('input')) return key.startsWith('Arrow') || key === 'Home' || key === 'End';
+  return key === ' ' && target.matches('button, a, summary');
+}
+
+export function listenToKeys(bindings, canvas) {
+  const help = document.getElementById('help');
+  const all = [...bindings, {keys: ['?'], shown: '?', what: 'this help', act: () => help.showModal()}];
+  document.addEventListener('keydown', (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey || isOwn(event.target, event.key)) return;
+    const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
+    const found = all.find((binding) => binding.keys.includes(key));
+    if (!found || (found.atPicture && event.target !== canvas && event.target !== document.body)) return;
+    event.preventDefault();
+    found.act(event);
+  });
+  document.getElementById('help-keys').append(...all.filter((binding) => binding.shown).map((binding) =>
+    element('div', {}, element('dt', {}, ...binding.shown.split(' ').map((key) => element('kbd', {text: key}))), element('dd', {text: binding.what}))));
+  document.getElementById('help-open').addEventListener('click', () => help.showModal());
+}

@@ -1,0 +1,172 @@
+// The numbers beside the picture: state, hand, forces, amounts, loop; and the legend of the contact points.
+import {degrees, element, fixed, isNumber, millilitres, millimetres, setText, whole} from './format.js';
+import {CONTACTS, liquidColor} from './theme.js';
+
+const WAY = 5;  // states that a session goes through when all goes well; the others are exceptions
+const SVG = 'http://www.w3.org/2000/svg';
+const SHAPES = {
+  ring: 'M8 2.6a5.4 5.4 0 1 0 0 10.8a5.4 5.4 0 1 0 0-10.8z', disc: 'M8 2a6 6 0 1 0 0 12a6 6 0 1 0 0-12z',
+  diamond: 'M8 1l7 7-7 7-7-7z', square: 'M3.4 3.4h9.2v9.2H3.4z', 'filled square': 'M2.4 2.4h11.2v11.2H2.4z',
+};
+
+export function mark(contact) {
+  const svg = document.createElementNS(SVG, 'svg'), path = document.createElementNS(SVG, 'path');
+  svg.setAttribute('viewBox', '0 0 16 16');
+  svg.setAttribute('aria-hidden', 'true');
+  svg.setAttribute('class', `mark ${contact.shape === 'ring' || contact.shape === 'square' ? 'hollow' : 'full'} contact-${CONTACTS.indexOf(contact)}`);
+  path.setAttribute('d', SHAPES[contact.shape]);
+  svg.append(path);
+  return svg;
+}
+
+// A bar from 0 to `most`; its parts are told in CSS.
+function meter(label, most, unit) {
+  const fill = element('span', {class: 'fill'}), value = element('output', {});
+  const row = element('div', {class: 'meter'}, element('span', {class: 'name', text: label}),
+    element('span', {class: 'bar', 'aria-hidden': 'true'}, fill), element('span', {class: 'value'}, value, element('span', {class: 'unit', text: ` ${unit}`})));
+  return {row, set: (share, text) => {
+    fill.style.width = `${100 * Math.max(0, Math.min(1, share / most)) || 0}%`;
+    setText(value, text);
+  }};
+}
+
+export class Panels {
+  constructor(about) {
+    this.about = about;
+    this.said = '';
+    const find = (id) => document.getElementById(id);
+    this.makeState(find('state'));
+    this.makeForce(find('force'));
+    this.makeLegend(find('legend'));
+    this.makeLoop(find('loop'));
+    if (about.amounts.length) this.makeAmounts(find('amounts'));
+    find('amounts-panel').hidden = !about.amounts.length;
+    find('loop-panel').hidden = about.mode === 'grips';
+    find('state-panel').querySelector('h2').textContent = about.mode === 'grips' ? 'Held' : 'State';
+  }
+
+  makeState(place) {
+    this.stateName = element('strong', {class: 'state-name'});
+    this.stateVessel = element('span', {class: 'state-vessel'});
+    this.steps = this.about.states.slice(0, WAY).map((name) => element('li', {text: name, 'data-state': name}));
+    this.meters = {closure: meter('Closure', 1, ''), gap: meter('Gap', 0.13, 'mm'), tilt: meter('Tilt', Math.PI, '°')};
+    if (this.about.mode !== 'grips') place.append(element('p', {class: 'state-line'}, this.stateName, this.stateVessel), element('ol', {class: 'steps', 'aria-hidden': 'true'}, ...this.steps));
+    else place.append(element('p', {class: 'state-line'}, this.stateVessel));
+    place.append(...Object.values(this.meters).map((made) => made.row));
+  }
+
+  makeForce(place) {
+    this.force = element('output', {class: 'force-value'});
+    this.forceParts = ['base', 'torque', 'opening', 'less'].map((name) => element('span', {class: `part ${name}`}));
+    const most = this.about.force.max;
+    const bar = element('div', {class: 'force-bar', 'aria-hidden': 'true'}, ...this.forceParts);
+    this.forceRows = {};
+    const rows = element('dl', {class: 'forces'});
+    for (const [key, symbol, sub, what, kind] of [
+      ['base', 'F', 'base', 'from the grasp on', 'base'], ['normal', 'F', 'n', 'with what the tilt adds', 'torque'],
+      ['opening', 'F', 'o', 'from squeezing further', 'opening'], ['user', 'Grip', '', 'the user’s own', 'user'],
+      ['hold', 'N', 'hold', 'what physics asks for', 'hold']]) {
+      const value = element('output', {});
+      this.forceRows[key] = value;
+      rows.append(element('div', {class: `force-row ${kind}`}, element('dt', {}, element('i', {class: 'swatch', 'aria-hidden': 'true'}), symbol, element('sub', {text: sub}), element('small', {text: what})),
+        element('dd', {}, value, ' N')));
+    }
+    place.append(element('p', {class: 'force-line'}, element('span', {text: 'F'}), this.force, element('span', {class: 'unit', text: 'N'}),
+      element('small', {text: `of ${fixed(most, 1)} N at most`})), bar, rows);
+  }
+
+  makeLegend(place) {
+    this.counts = CONTACTS.map((contact) => {
+      const count = element('b', {});
+      place.append(element('li', {}, mark(contact), element('span', {text: contact.name}), count));
+      return count;
+    });
+  }
+
+  makeAmounts(place) {
+    this.amounts = this.about.amounts.map(({liquid, target_m3}) => {
+      const most = target_m3 * 1.6 || 1e-4, tolerance = this.about.tolerance_m3 || 0;
+      const fill = element('span', {class: 'fill'}), band = element('span', {class: 'band'}), wanted = element('span', {class: 'wanted'});
+      fill.style.background = liquidColor(liquid);
+      band.style.left = `${100 * Math.max(0, (target_m3 - tolerance) / most)}%`;
+      band.style.width = `${100 * 2 * tolerance / most}%`;
+      wanted.style.left = `${100 * target_m3 / most}%`;
+      const value = element('output', {}), done = element('span', {class: 'done'});
+      place.append(element('div', {class: 'amount'}, element('span', {class: 'name', text: liquid}),
+        element('span', {class: 'bar', 'aria-hidden': 'true'}, band, fill, wanted), element('span', {class: 'value'}, value, ` of ${millilitres(target_m3)} mL `, done)));
+      return {fill, value, done, most, tolerance, target: target_m3};
+    });
+    this.spilt = element('output', {});
+    this.allDone = element('span', {class: 'all-done'});
+    place.append(element('p', {class: 'spilt'}, 'Spilt ', this.spilt, ' mL', this.allDone));
+  }
+
+  makeLoop(place) {
+    this.loop = {};
+    for (const [key, name] of [['rate', 'Rate'], ['step', 'Latest step'], ['missed', 'Missed ticks'], ['tick', 'Tick'], ['frames', 'Picture']]) {
+      this.loop[key] = element('dd', {});
+      place.append(element('div', {}, element('dt', {text: name}), this.loop[key]));
+    }
+  }
+
+  show(frame, grip) {
+    this.showState(frame, grip);
+    this.showForce(frame.forces);
+    CONTACTS.forEach((contact, k) => setText(this.counts[k], String([...frame.contacts].filter((c) => c === contact.key).length)));
+    if (this.amounts) this.showAmounts(frame);
+    const {timing} = frame;
+    setText(this.loop.rate, isNumber(timing.rate) ? `${whole(timing.rate)} Hz` : '–');
+    setText(this.loop.step, isNumber(timing.step) ? `${fixed(timing.step * 1e6, 1)} µs` : '–');
+    setText(this.loop.missed, whole(timing.missed));
+    setText(this.loop.tick, whole(frame.tick));
+    this.say(frame);
+  }
+
+  showState(frame, grip) {
+    const vessel = this.about.vessels[frame.vessel];
+    setText(this.stateName, frame.state);
+    this.stateName.classList.toggle('bad', this.about.states.indexOf(frame.state) >= WAY);
+    setText(this.stateVessel, grip ? grip.label : vessel ? vessel.name : '');
+    for (const step of this.steps) step.classList.toggle('now', step.dataset.state === frame.state);
+    this.meters.closure.set(frame.closure, fixed(frame.closure, 2));
+    this.meters.gap.set(frame.gap, millimetres(frame.gap));
+    this.meters.tilt.set(frame.tilt, degrees(frame.tilt));
+  }
+
+  // The bar: what F is made of, one after the other; a part that takes away is hatched over the end.
+  showForce(forces) {
+    const {base, normal, opening, feedback} = forces, most = this.about.force.max;
+    const torque = isNumber(normal) ? normal - base : 0, more = isNumber(opening) ? opening : 0;
+    const parts = [[0, base], [base, base + Math.max(0, torque)], [normal || 0, (normal || 0) + Math.max(0, more)],
+      [(normal || 0) + Math.min(0, more), more < 0 ? normal : (normal || 0)]];
+    parts.forEach(([from, to], k) => {
+      const low = Math.max(0, Math.min(1, from / most)), high = Math.max(0, Math.min(1, to / most));
+      this.forceParts[k].style.left = `${100 * low}%`;
+      this.forceParts[k].style.width = `${100 * Math.max(0, high - low) || 0}%`;
+    });
+    setText(this.force, fixed(feedback, 2));
+    for (const [key, digits] of [['base', 2], ['normal', 2], ['opening', 2], ['user', 2], ['hold', 1]]) {
+      setText(this.forceRows[key], key === 'hold' && forces.hold_infinite ? '∞' : fixed(forces[key], digits));
+    }
+  }
+
+  showAmounts(frame) {
+    this.amounts.forEach((row, k) => {
+      const {arrived} = frame.amounts[k], isThere = Math.abs(arrived - row.target) <= row.tolerance;
+      row.fill.style.width = `${100 * Math.min(1, arrived / row.most)}%`;
+      setText(row.value, millilitres(arrived));
+      setText(row.done, isThere ? '✓' : arrived > row.target ? 'too much' : '');
+    });
+    setText(this.spilt, millilitres(frame.spilt));
+    setText(this.allDone, frame.done ? 'Task done' : '');
+  }
+
+  // For readers of the screen: what changed, in words.
+  say(frame) {
+    const vessel = this.about.vessels[frame.vessel];
+    const words = `${frame.state}${vessel ? `, ${vessel.name}` : ''}`;
+    if (words === this.said) return;
+    this.said = words;
+    document.getElementById('said').textContent = words;
+  }
+}

@@ -1,0 +1,126 @@
+// A frame as a picture: puts hand, marks, vessels, liquids and stream where a frame says, and looks at them.
+import * as THREE from './three.module.js';
+import {Hand} from './hand.js';
+import {Liquid} from './liquid.js';
+import {Marks} from './marks.js';
+import {Pour} from './pour.js';
+import {Stage} from './stage.js';
+import {stillMode} from './theme.js';
+import {Vessels} from './vessels.js';
+
+const FOLLOW = 0.7;  // s, time constant with which the picture's middle follows the hand
+const HEADROOM = 0.09;  // m over the vessels of a scene, for the hand
+const THUMB_TIP = 3, INDEX_TIP = 8;
+
+export class View {
+  constructor(canvas, about) {
+    this.about = about;
+    this.stage = new Stage(canvas);
+    this.orbit = this.stage.orbit;
+    this.tableY = about.table_y;
+    const {scene} = this.stage;
+    this.vessels = new Vessels(scene, about.vessels);
+    this.pour = new Pour(scene, about, this.vessels);
+    this.liquids = this.vessels.list.slice(0, this.vessels.count).map((vessel) => (vessel.about.inner ? new Liquid(vessel) : null));
+    this.hand = new Hand(scene, about.joints);
+    this.marks = new Marks(scene, about.joints);
+    this.follows = false;
+    this.frame = null;
+    this.stage.beforeDraw.push((time, dt) => this.prepare(time, dt));
+  }
+
+  // Meshes of vessels that are no outlines.
+  load() {
+    return this.vessels.load().then(() => this.stage.invalidate());
+  }
+
+  size() {
+    const grips = this.about.grips;
+    return this.grip !== undefined && grips ? grips[this.grip].hand_scale || 1 : 1;
+  }
+
+  show(frame) {
+    this.frame = frame;
+    const size = this.size();
+    this.vessels.place(frame, this.tableY);
+    frame.vessels.forEach((state, k) => state && this.liquids[k] && this.liquids[k].show(state.level, state.up));
+    this.hand.pose(frame, size);
+    const near = frame.vessel >= 0 ? this.vessels.list[frame.vessel] : this.vessels.nearest(frame.joints);
+    this.hand.skin.press(near && near.matrix, near && near.profile);
+    this.pour.show(frame);
+    this.marks.show(frame, size, this.guidancePlace(frame));
+    this.middle = frame.joints.reduce((sum, p) => sum.add(new THREE.Vector3(...p)), new THREE.Vector3()).multiplyScalar(1 / frame.joints.length);
+    this.stage.lightAt(this.middle);
+    this.stage.invalidate();
+  }
+
+  // Of the vessel that is held, or of each; the nearest is the one that matters.
+  guidancePlace(frame) {
+    if (frame.guidance < 0) return null;
+    const near = frame.vessel >= 0 ? this.vessels.list[frame.vessel] : this.vessels.nearest(frame.joints);
+    const points = near && near.about.guidance;
+    if (!points || !points.length) return null;
+    return new THREE.Vector3(...points[frame.guidance % points.length]).applyMatrix4(near.matrix).toArray();
+  }
+
+  prepare(time, dt) {
+    const moving = !stillMode.matches;
+    let goesOn = this.pour.step(moving ? time : 0) && moving;
+    if (this.frame && this.frame.guidance >= 0 && moving) this.marks.shared.pulse.value = 0.6 + 0.4 * Math.sin(4 * time);
+    else this.marks.shared.pulse.value = 1;
+    if (this.follows && this.middle && this.orbit.pointers.size === 0) {
+      const share = moving ? 1 - Math.exp(-dt / FOLLOW) : 1;
+      for (const axis of ['x', 'y', 'z']) this.orbit.aim[axis] += (this.middle[axis] - this.orbit.aim[axis]) * share;
+      goesOn = goesOn || this.middle.distanceTo(new THREE.Vector3(this.orbit.aim.x, this.orbit.aim.y, this.orbit.aim.z)) > 1e-4;
+    }
+    this.marks.shared.pixels.value = this.stage.renderer.getPixelRatio();
+    this.vessels.sort(this.stage.camera);
+    return goesOn;
+  }
+
+  // What the home view has to show: of a scene all that stands in it; of a grip the glass and the hand about the pivot, whatever the tilt.
+  frameHome() {
+    const {about, frame} = this, points = [];
+    const ring = ([x, y, z], radius) => {
+      for (let k = 0; k < 8; ++k) points.push([x + radius * Math.cos(k * Math.PI / 4), y, z + radius * Math.sin(k * Math.PI / 4)]);
+    };
+    if (about.mode === 'grips') {
+      const vessel = about.vessels[frame.vessel];
+      const pivot = new THREE.Vector3(...frame.joints[THUMB_TIP]).add(new THREE.Vector3(...frame.joints[INDEX_TIP])).multiplyScalar(0.5);
+      const far = Math.max(...frame.joints.map((p) => pivot.distanceTo(new THREE.Vector3(...p))), vessel.height * 0.6);
+      for (const way of [[1, 0, 0], [0, 1, 0], [0, 0, 1]]) for (const sign of [-0.7, 0.7]) points.push(pivot.toArray().map((v, k) => v + sign * far * way[k]));
+      ring(vessel.place, vessel.radius);
+      ring([vessel.place[0], vessel.place[1] + vessel.height, vessel.place[2]], vessel.radius);
+      points.push(...frame.joints, frame.wrist);
+      this.tableY = Math.min(about.table_y, pivot.y - far) - 0.03;
+      this.stage.setTable(vessel.place, this.tableY);
+      this.orbit.setHome(points, 0.95, 0.32);
+    } else {
+      for (const {place, radius, height} of about.vessels) {
+        ring(place, radius);
+        ring([place[0], place[1] + height, place[2]], radius);
+        points.push([place[0], place[1] + height + HEADROOM, place[2]]);
+      }
+      if (about.target) ring(about.target.place, about.target.diameter / 2);
+      if (about.destination) ring(about.destination, 0.04);
+      const middle = points.reduce((sum, p) => sum.map((v, k) => v + p[k] / points.length), [0, 0, 0]);
+      this.stage.setTable(middle, this.tableY);
+      this.orbit.setHome(points, 0.24, 0.5);
+    }
+    this.orbit.reset();
+    this.orbit.jump();
+    this.show(frame);
+  }
+
+  setGhost(isShown) {
+    this.hand.ghost.mesh.visible = isShown;
+    if (this.frame) this.show(this.frame);
+  }
+
+  // Where a point of the world is in the window, CSS pixels.
+  project(place) {
+    const {camera, canvas} = this.stage, box = canvas.getBoundingClientRect();
+    const ndc = new THREE.Vector3(...place).project(camera);
+    return {x: box.left + (ndc.x + 1) / 2 * box.width, y: box.top + (1 - ndc.y) / 2 * box.height, depth: ndc.z};
+  }
+}
