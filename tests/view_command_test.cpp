@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -177,6 +178,51 @@ TEST(LiveView, ASignalEndsItAndSaysSo) {
   EXPECT_EQ(socket.read_event("end"), "{\"reason\":\"interrupted\"}");
   later.join();
   EXPECT_FALSE(HttpSocket(at.port).is_open());
+}
+
+// What is posted moves the hand that is seen.
+TEST(LiveView, ThePageMayBeTheGripper) {
+  Viewed live("live --view --device view --seconds 20");
+  const json scene = live.get("scene.json");
+  EXPECT_EQ(scene["control"], true);
+  const json start = scene["control_limits"]["start"];
+  HttpSocket frames(live.at.port), controls(live.at.port);
+  frames.send(live.at.request("frames"));
+  const auto tips_middle = [&] {
+    const json frame = json::parse(frames.read_event());
+    Triple middle{};
+    for (std::size_t k = 0; k < 3; ++k)
+      middle[k] = 0.5 * (frame["rigged"][THUMB_TIP][k].get<double>() + frame["rigged"][INDEX_TIP][k].get<double>());
+    return middle;
+  };
+  Triple wanted = start["position"];
+  EXPECT_LT(std::hypot(tips_middle()[0] - wanted[0], tips_middle()[1] - wanted[1]), 1e-4) << "where it starts";
+  wanted[0] += 0.05;
+  wanted[1] += 0.03;
+  json control{{"position", wanted}, {"rotation", start["rotation"]}, {"gap", start["gap"]}, {"buttons", 0}, {"sequence", 1}};
+  controls.send(live.at.post(control.dump()));
+  EXPECT_EQ(controls.read_reply().status, 204);
+  double away = 1;
+  for (int k = 0; k < 600 && away > 1e-4; ++k) {
+    const Triple middle = tips_middle();
+    away = std::hypot(middle[0] - wanted[0], middle[1] - wanted[1], middle[2] - wanted[2]);
+  }
+  EXPECT_LT(away, 1e-4);
+  control["gap"] = "wide";
+  controls.send(live.at.post(control.dump()));
+  const HttpReply refused = controls.read_reply();
+  EXPECT_EQ(refused.status, 400);
+  EXPECT_NE(refused.body.find("gap"), std::string::npos) << refused.body;
+  EXPECT_EQ(live.interrupt(), 130);
+}
+
+TEST(LiveView, OnlyWithThePageAsGripperAreControlsTaken) {
+  Viewed live("live --view --seconds 20");
+  EXPECT_EQ(live.get("scene.json")["control"], false);
+  HttpSocket socket(live.at.port);
+  socket.send(live.at.post("{}"));
+  EXPECT_EQ(socket.read_reply().status, 405);
+  EXPECT_EQ(live.interrupt(), 130);
 }
 
 // 200 connections, eight viewers of whom one does not read, and requests of every kind, while every tick is recorded.

@@ -149,6 +149,9 @@ TEST(ViewFrame, WhatIsNoNumberIsNull) {
   frame.vessels[1].is_shown = false;
   const json seen = json::parse(frame_json(frame));
   EXPECT_TRUE(seen["forces"]["hold"].is_null());
+  EXPECT_EQ(seen["forces"]["hold_infinite"], true);
+  frame.hold = Tick::NONE;
+  EXPECT_FALSE(json::parse(frame_json(frame))["forces"].contains("hold_infinite")) << "there is none";
   EXPECT_TRUE(seen["forces"]["feedback"].is_null());
   EXPECT_TRUE(seen["vessels"][0]["level"].is_null());
   EXPECT_TRUE(seen["vessels"][1].is_null());
