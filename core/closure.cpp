@@ -26,11 +26,12 @@ Trace trace_tip(const Vessel& vessel, Vec3 origin, Vec3 direction, Real heading,
   for (int step = 0; step < vessel.limits.trace_steps; ++step) {
     trace.t = middle + heading * (reach - travelled);
     trace.steps = step + 1;
-    const Support support = support_at(vessel, origin + trace.t * direction);
+    const Vec3 place = origin + trace.t * direction;
+    const Support support = support_at(vessel, place);
     const Real clear = support.distance - radius;
     if (std::abs(clear) < vessel.limits.stop_tolerance) {
       trace.reason = REASON_NONE;
-      trace.normal = support.normal;
+      trace.normal = vessel.is_grid ? grid_gradient(vessel, place) : support.normal;
       trace.element = support.element;
       return trace;
     }

@@ -216,7 +216,6 @@ Support support_at(const Vessel& vessel, Vec3 p) {
   if (vessel.is_grid) {
     support.distance = grid_distance(vessel, p);
     support.other = support.distance;
-    support.normal = grid_gradient(vessel, p);
     return support;
   }
   const Real r = std::sqrt(p.x * p.x + p.z * p.z);

@@ -57,7 +57,8 @@ struct Nearest {
 };
 
 // What is known of the surroundings of a point: its signed distance and the unit gradient `normal`; and, where `planar`, that the nearest
-// element lies wholly beyond the plane at that distance with that normal, while every other element is at least `other` away. m.
+// element lies wholly beyond the plane at that distance with that normal, while every other element is at least `other` away. m. On a grid
+// the normal is left at zero: nothing there is planar, and the gradient costs as much as the distance (distance_gradient has it).
 struct Support {
   Real distance = 0;
   Real other = 0;

@@ -222,7 +222,7 @@ Support support_at(Vec3 p) {
   if (SDF_KIND == SDF_GRID) {
     support.distance = grid_distance(p);
     support.other = support.distance;
-    support.normal = grid_gradient(p);
+    support.normal = Vec3(0);
     return support;
   }
   precise Real r = sqrt(p.x * p.x + p.z * p.z);
