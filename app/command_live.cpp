@@ -47,6 +47,7 @@ void add_live_command(CLI::App& app, Action& action) {
   add("--dhd-library", options.dhd_library, "PATH", "Force Dimension's SDK (libdhd.so), for omega.7 and sigma.7");
   command->add_flag("--view", options.view, "Show it in the browser: prints the address, and opens it on a desktop");
   add("--view-port", arguments->view_port, "N", "Port of the view on 127.0.0.1 (any that is free)");
+  add("--stream", options.stream, "URL", "Send it to osc://HOST:PORT at display rate, for engines and patches; see docs/stream.md");
   command->add_flag("--unsafe-gains", options.unsafe_gains, "Allow gains that a light device may not bear");
   command->add_flag("--no-clock", options.no_clock, "As fast as it goes, without a clock: sim and replay only");
   command->add_flag("--json", options.json, "The report at the end as JSON, and nothing else");

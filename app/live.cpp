@@ -18,6 +18,7 @@
 #include "app/live_report.h"
 #include "app/live_view.h"
 #include "app/open_gripper.h"
+#include "app/osc_stream.h"
 #include "app/output.h"
 #include "app/paths.h"
 #include "app/scene_reader.h"
@@ -139,6 +140,8 @@ class Board {
 class LiveRun {
  public:
   explicit LiveRun(const LiveOptions& options) : options_(options) {
+    std::optional<OscTarget> target;
+    if (!options_.stream.empty()) target = parse_osc_url(options_.stream);
     if (!options_.record.empty()) check_recording_path(options_.record);
     open();
     check_gripper();
@@ -149,6 +152,7 @@ class LiveRun {
     loop.seconds = options_.seconds;
     loop.is_simulated = options_.no_clock;
     loop_ = std::make_unique<HapticLoop>(scene_.live, *gripper_, *session_, sink(), loop);
+    if (target) open_stream(*target);
   }
 
   ExitCode run() {
@@ -190,6 +194,8 @@ class LiveRun {
       throw usage_error("--no-clock: a device keeps its own time; allowed with --device sim and replay:FILE");
     if (options_.no_clock && options_.view)
       throw usage_error("--view: shows what happens as it happens, which --no-clock leaves out; leave one of them out");
+    if (options_.no_clock && !options_.stream.empty())
+      throw usage_error("--stream: sends what happens as it happens, which --no-clock leaves out; leave one of them out");
     if (is_replay && options_.rate > 0) throw usage_error("--rate: a recording is replayed at its own rate; leave it out");
     if (options_.device == REPLAY) throw usage_error("--device replay: needs a recording: --device replay:FILE");
     if (is_replay && !options_.scene.empty())
@@ -230,6 +236,14 @@ class LiveRun {
                                     limits.is_left_handed ? "left" : "right"));
     }
     if (!limits.has_rotation) notes_.push_back("this gripper measures no rotation: vessels stay upright");
+  }
+
+  void open_stream(const OscTarget& target) {
+    stream_ = std::make_unique<OscStream>(target, session_->live());
+    displays_.push_back(stream_.get());
+    if (stream_->note().empty()) return;
+    std::fprintf(stderr, "wholehand: live: %s\n", stream_->note().c_str());
+    notes_.push_back(stream_->note());
   }
 
   // The view, its address told before the session starts.
@@ -310,6 +324,7 @@ class LiveRun {
   std::unique_ptr<HapticLoop> loop_;
   std::unique_ptr<LiveView> view_;
   std::unique_ptr<BrowserWindow> window_;
+  std::unique_ptr<OscStream> stream_;
   std::vector<Display*> displays_;
 };
 

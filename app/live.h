@@ -20,6 +20,7 @@ struct LiveOptions {
   bool no_clock = false;      // as fast as it goes: simulated and recorded users only
   bool view = false;          // in the browser
   int view_port = 0;          // 0: any that is free
+  std::string stream;         // osc://HOST:PORT; empty: nowhere
   bool json = false;          // the report at the end, and nothing else, on standard output
 };
 

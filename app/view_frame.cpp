@@ -90,6 +90,7 @@ void write_forces(Writer& out, const ViewFrame& frame) {
   out.number(",\"opening\":", frame.opening);
   out.number(",\"user\":", frame.user);
   out.number(",\"hold\":", frame.hold);
+  if (std::isinf(frame.hold)) out.text(",\"hold_infinite\":true");
   out.number(",\"weight\":", frame.weight);
   out.number(",\"torque\":", frame.torque);
   out.text("}");

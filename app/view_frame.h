@@ -31,7 +31,7 @@ struct ViewFrame {
   double closure = 0, gap = 0, tilt = 0;
   std::vector<Vessel> vessels;
   std::optional<PouringStream> stream;
-  // N; N m. What is infinite or not there is null in JSON.
+  // N; N m. What is infinite or not there is null in JSON, and of a hold force that is infinite it is said.
   double feedback = 0, base = 0, normal = 0, opening = 0, user = 0, hold = Tick::NONE, weight = 0, torque = 0;
   std::vector<double> arrived;  // of each amount that the task wants, m3
   double spilt = 0, target_volume = 0;

@@ -145,6 +145,7 @@ class View {
     posed_[INDEX_TIP] = tips_[1];
     proxies_ = posed_;
     view_.wrist = back(stance.outward(closing.placement.translation), handedness_);
+    view_.rotation = to_rotation(across(stance.rotation * closing.placement.rotation, handedness_));
   }
 
   // Kernel 4 on the points, in the frame of a vessel: those inside go out of it. Returns which touch it.

@@ -6,6 +6,7 @@
 #include "core/closure.h"
 #include "core/load.h"
 #include "core/prepare.h"
+#include "core/workspace.h"
 
 namespace wholehand {
 namespace {
@@ -90,11 +91,20 @@ const char* openxr_name(int joint) { return JOINT_NAMES[joint].openxr; }
 HandNodes hand_nodes(const HandData& hand, const GripInput& grip, const GripResult& result) {
   const core_f64::Hand ready = core_f64::load_hand(prepare_hand(hand), hand);
   const core_f64::Placement placement = find_placement(hand, ready, grip, result);
+  const Mat3 rotation = mirrored_rotation(placement.rotation, hand.handedness);
+  return hand_nodes(hand, ready, mirrored(triple_of(placement.translation), hand.handedness), to_rotation(rotation), result.posed,
+                    grip.hand_scale);
+}
+
+HandNodes hand_nodes(const HandData& hand, const core_f64::Hand& ready, const Triple& wrist, const Rotation& rotation,
+                     const std::array<Triple, JOINT_COUNT>& points, double scale) {
+  const core_f64::Placement placement{mirrored_rotation(to_mat3(rotation), hand.handedness),
+                                      vector_of(mirrored(wrist, hand.handedness)), hand.scale * scale};
   HandNodes nodes;
   nodes.wrist.name = "wrist";
   nodes.wrist.openxr = "XR_HAND_JOINT_WRIST_EXT";
-  nodes.wrist.position = mirrored(triple_of(placement.translation), hand.handedness);
-  nodes.wrist.rotation = quaternion_of(mirrored_rotation(placement.rotation, hand.handedness));
+  nodes.wrist.position = wrist;
+  nodes.wrist.rotation = quaternion_of(to_mat3(rotation));
   for (int f = 0; f < FINGER_COUNT; ++f) {
     const core_f64::FingerFrame frame = core_f64::placed_frame(placement, ready.frame[f]);
     // the thumb's chain leaves the palm and bends back towards it (core/hand.cpp): its pad is on the other side
@@ -105,17 +115,16 @@ HandNodes hand_nodes(const HandData& hand, const GripInput& grip, const GripResu
       const int j = finger_start(f) + k;
       const bool is_tip = k + 1 == finger_joints(f);
       if (!is_tip) {
-        const Vec3 bone =
-            vector_of(mirrored(result.posed[j], hand.handedness)) - vector_of(mirrored(result.posed[j + 1], hand.handedness));
+        const Vec3 bone = vector_of(mirrored(points[j], hand.handedness)) - vector_of(mirrored(points[j + 1], hand.handedness));
         if (glm::length(bone) > NO_BONE) backward = glm::normalize(bone);
       }
       HandNode& node = nodes.joints[j];
       node.name = webxr_name(j);
       node.openxr = openxr_name(j);
       node.parent = k == 0 ? -1 : j - 1;
-      node.position = result.posed[j];
+      node.position = points[j];
       node.rotation = quaternion_of(mirrored_rotation(joint_rotation(backward, bend_axis, back), hand.handedness));
-      node.radius = hand.scale * grip.hand_scale * hand.fingers[f].radii[k];
+      node.radius = hand.scale * scale * hand.fingers[f].radii[k];
     }
   }
   return nodes;

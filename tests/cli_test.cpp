@@ -40,7 +40,7 @@ TEST(CommandLine, TellsVersionAndHelp) {
 
 TEST(CommandLine, RefusesWrongUsageWithOneLineAndCode2) {
   const std::vector<std::pair<std::string, std::string>> cases{
-      {"", "which command? sweep, grip, check, error-time, stability, live, session or devices"},
+      {"", "which command? sweep, grip, check, error-time, stability, live, session, view or devices"},
       {"swep", "unknown command 'swep'"},
       {"--bogus", "--bogus; see wholehand --help"},
       {"sweep --bogus", "--bogus; see wholehand sweep --help"},

@@ -133,6 +133,11 @@ TEST(HandView, FarFromAllGlassIsTheRiggedHand) {
       // any two joints are as far apart as in the hand by rotation matrices, and all as far from the wrist
       EXPECT_NEAR(apart(view.rigged[j], view.wrist), static_cast<double>(length(truth[j])), 1e-9) << j;
       EXPECT_NEAR(apart(view.rigged[j], view.rigged[0]), static_cast<double>(length(truth[j] - truth[0])), 1e-9) << j;
+      // and where the hand's own frame has them
+      Triple there = view.wrist;
+      for (int row = 0; row < 3; ++row)
+        for (int k = 0; k < 3; ++k) there[row] += view.rotation[3 * row + k] * static_cast<double>(truth[j][k]);
+      EXPECT_LT(apart(view.posed[j], there), 1e-9) << j;
     }
     EXPECT_LT(apart(view.proxies[THUMB_TIP], tick.tips[0]), 1e-12);
     EXPECT_LT(apart(view.proxies[INDEX_TIP], tick.tips[1]), 1e-12);

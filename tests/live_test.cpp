@@ -3,6 +3,7 @@
 #include "app/live.h"
 
 #include <gtest/gtest.h>
+#include <lo/lo.h>
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -190,6 +191,41 @@ TEST(Live, KeepsItsRateWithAClock) {
   EXPECT_TRUE(report["fault"].is_null());
 }
 
+// Sixty frames a second at most, and of all of them the last.
+TEST(Live, StreamsToWhoeverListens) {
+  struct Heard {
+    int frames = 0;
+    std::string state;
+  } heard;
+  const lo_server server = lo_server_new(nullptr, nullptr);
+  lo_server_add_method(
+      server, "/wholehand/state", "is",
+      [](const char*, const char*, lo_arg** values, int, lo_message, void* to) {
+        static_cast<Heard*>(to)->state = static_cast<const char*>(static_cast<void*>(values[1]));
+        return 0;
+      },
+      &heard);
+  lo_server_add_method(
+      server, "/wholehand/end", "i",
+      [](const char*, const char*, lo_arg**, int, lo_message, void* to) {
+        ++static_cast<Heard*>(to)->frames;
+        return 0;
+      },
+      &heard);
+  Program program("--json --seconds 2 --stream osc://localhost:" + std::to_string(lo_server_get_port(server)));
+  while (heard.state != "released" && lo_server_recv_noblock(server, 20000) > 0) {
+  }
+  while (lo_server_recv_noblock(server, 200) > 0) {
+  }
+  lo_server_free(server);
+  const Outcome outcome = program.wait();
+  EXPECT_EQ(outcome.code, 0) << outcome.errors;
+  EXPECT_EQ(outcome.errors.find("--stream"), std::string::npos) << "it stays on this machine";
+  EXPECT_EQ(heard.state, "released");
+  EXPECT_GT(heard.frames, 10) << "on however busy a machine";
+  EXPECT_LE(heard.frames, 2 * 60 + 2);
+}
+
 // What was felt is felt again, to the bit, and recorded again.
 TEST(Live, AReplayGivesTheSameForcesToTheBit) {
   const Folder folder;
@@ -266,6 +302,11 @@ TEST(Live, RefusesWhatIsNotAllowedInOneLine) {
   expect_refused("--rate 10000", 2, "--rate");
   expect_refused("--seconds 0", 2, "--seconds");
   expect_refused("--no-clock --device hid", 2, "--no-clock");
+  expect_refused("--device view", 2, "--device view: the page is the gripper, and there is none; add --view");
+  expect_refused("--stream http://127.0.0.1:9000", 2, "--stream 'http://127.0.0.1:9000': it does not begin with osc://");
+  expect_refused("--stream osc://127.0.0.1", 2, "there is no port");
+  expect_refused("--stream osc://a..b:9000", 3, "host 'a..b' is not found");
+  expect_refused("--no-clock --stream osc://127.0.0.1:9000", 2, "--stream: sends what happens as it happens");
   expect_refused("--device replay:" + folder.file("none.nc"), 2, "none.nc");
   expect_refused("--device replay:" + folder.file("notes.txt"), 2, "notes.txt");
   expect_refused("--rate 2000 --device replay:" + folder.file("notes.txt"), 2, "--rate: a recording is replayed at its own rate");

@@ -1,0 +1,95 @@
+#!/usr/bin/python3
+"""What a view costs a session: wake-up latency and step time of `wholehand live` without a view and with 0, 1 and 4 viewers, in turns in one
+run; frames that a viewer gets, and the processor time beyond that of a session without a view.
+
+    tests/bench/view_timing.py [--rate HZ] [--seconds S] [--rounds N]
+
+Prints a table, medians over the rounds (largest: of all rounds). Exits with 1 where a viewer costs 2 % of a core or more, gets fewer than 55
+frames a second, or the median or 99th percentile of latency or step is more than 1.5 times and 10 us above what it is without a view. What else runs on the
+machine is seen in all rows.
+"""
+import argparse
+import json
+import os
+import re
+import socket
+import statistics
+import subprocess
+import sys
+import threading
+import time
+
+PROGRAM = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../build/default/wholehand")
+KEYS = ("p50", "p99", "p999", "max")
+
+
+def watch(port, token, counts):
+    """Reads frames as they come, without a look at them."""
+    with socket.create_connection(("127.0.0.1", port)) as viewer:
+        viewer.sendall(f"GET /{token}/frames HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\n\r\n".encode())
+        frames, began, ended = 0, None, None
+        while part := viewer.recv(65536):
+            frames += part.count(b"data: {\"t\"")
+            ended = time.monotonic()
+            began = began or ended
+        counts.append((frames, ended - began if began else 0))
+
+
+def session(rate, seconds, viewers):
+    """Report, frames per second of each viewer, and processor seconds a second; `viewers` None: no view."""
+    command = [PROGRAM, "live", "--json", "--rate", str(rate), "--seconds", str(seconds)] + ([] if viewers is None else ["--view"])
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    counts, threads = [], []
+    if viewers is not None:
+        while not (found := re.match(r"view: http://127\.0\.0\.1:(\d+)/(\w+)/", line := process.stderr.readline())):
+            if not line:
+                sys.exit("it told no address")
+        for _ in range(viewers):
+            threads.append(threading.Thread(target=watch, args=(int(found[1]), found[2], counts)))
+            threads[-1].start()
+    text = process.stdout.read()
+    _, status, usage = os.wait4(process.pid, 0)
+    for thread in threads:
+        thread.join()
+    if status != 0:
+        sys.exit(f"live ended with {status}")
+    return json.loads(text), [frames / max(length, 1e-9) for frames, length in counts], (usage.ru_utime + usage.ru_stime) / seconds
+
+
+def main():
+    options = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    options.add_argument("--rate", type=int, default=1000)
+    options.add_argument("--seconds", type=int, default=10)
+    options.add_argument("--rounds", type=int, default=5)
+    asked = options.parse_args()
+    rows = {None: [], 0: [], 1: [], 4: []}
+    for _ in range(asked.rounds):
+        for viewers, row in rows.items():
+            row.append(session(asked.rate, asked.seconds, viewers))
+    middle = lambda row, name, key: (max if key == "max" else statistics.median)(report[name][key] * 1e6 for report, _, _ in row)
+    cpu = {viewers: statistics.median(load for _, _, load in row) for viewers, row in rows.items()}
+    print(f"{asked.rate} Hz, {asked.rounds} rounds of {asked.seconds} s each; us")
+    print(f"{'':12}{'latency p50':>12}{'p99':>8}{'p99.9':>8}{'largest':>9}{'step p50':>10}{'p99':>8}{'p99.9':>8}{'largest':>9}{'missed':>8}{'frames/s':>10}{'% of a core':>13}")
+    holds = True
+    for viewers, row in rows.items():
+        line = f"{'no view' if viewers is None else f'{viewers} viewers':12}"
+        for name, widths in (("latency_s", (12, 8, 8, 9)), ("step_s", (10, 8, 8, 9))):
+            for key, width in zip(KEYS, widths):
+                line += f"{middle(row, name, key):>{width}.1f}"
+                if key in ("p50", "p99"):
+                    alone = middle(rows[None], name, key)
+                    holds = holds and middle(row, name, key) <= max(1.5 * alone, alone + 10)
+        rates = [rate for _, found, _ in row for rate in found]
+        line += f"{statistics.median(report['missed'] for report, _, _ in row):>8.0f}"
+        line += f"{statistics.median(rates):>10.1f}" if rates else f"{'-':>10}"
+        line += f"{100 * cpu[viewers]:>8.2f}" + (f" (+{100 * (cpu[viewers] - cpu[None]):.2f})" if viewers is not None else "")
+        print(line)
+        if rates:
+            holds = holds and statistics.median(rates) >= 55
+    holds = holds and cpu[1] - cpu[None] < 0.02
+    print("holds" if holds else "does not hold")
+    return 0 if holds else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,386 @@
+// The built program's views: `live --view`, `view` of recordings and results, `grip --view`; how they end, what they refuse, and that nobody who
+// watches, or does worse, costs the session a tick. With sweeps/best_reader.
+// sanitizers: address thread
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "app/browser.h"
+#include "app/paths.h"
+#include "app/scene_reader.h"
+#include "app/view_frame.h"
+#include "app/view_server.h"
+#include "core/error.h"
+#include "sweeps/best_reader.h"
+#include "sweeps/mesh_vessel.h"
+#include "sweeps/recording.h"
+#include "tests/support/http_client.h"
+#include "tests/support/program.h"
+
+namespace wholehand {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+// A folder of its own, gone with the test.
+class ViewFolder {
+ public:
+  ViewFolder() {
+    std::string pattern = (fs::temp_directory_path() / "wholehand-view-XXXXXX").string();
+    path_ = mkdtemp(pattern.data());
+  }
+  ~ViewFolder() { fs::remove_all(path_); }
+  std::string file(const std::string& name) const { return path_ + "/" + name; }
+
+ private:
+  std::string path_;
+};
+
+std::string text_in(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// A program that shows a view, from when it has told its address.
+class Viewed {
+ public:
+  explicit Viewed(const std::string& arguments) {
+    process_ = fork();
+    if (process_ == 0) {
+      const std::string command =
+          std::string("exec ") + WHOLEHAND_PROGRAM + " " + arguments + " >" + folder_.file("out") + " 2>" + folder_.file("err");
+      execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+      _exit(127);
+    }
+    for (int k = 0; k < 4000 && at.port == 0; ++k) {
+      for (const std::string& text : {out(), err()}) {
+        const std::size_t line = text.find("view: http://");
+        if (line != std::string::npos && text.find('\n', line) != std::string::npos) at = ViewAddress(text.substr(line));
+      }
+      if (at.port == 0) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+    EXPECT_NE(at.port, 0) << out() << err();
+  }
+  ~Viewed() {
+    if (process_ > 0) kill(process_, SIGKILL), waitpid(process_, nullptr, 0);
+  }
+  std::string out() const { return text_in(folder_.file("out")); }
+  std::string err() const { return text_in(folder_.file("err")); }
+  int interrupt() {
+    kill(process_, SIGINT);
+    return wait();
+  }
+  int wait() {
+    int status = 0;
+    waitpid(process_, &status, 0);
+    process_ = 0;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+  json get(const std::string& path) const { return json::parse(at.get(path).body); }
+
+  ViewAddress at{""};
+
+ private:
+  ViewFolder folder_;
+  pid_t process_ = 0;
+};
+
+bool is_same(const json& seen, double truth) { return seen.get<float>() == static_cast<float>(truth); }
+
+// ---- live ----
+
+TEST(LiveView, ShowsASessionWhileItRuns) {
+  Viewed live("live --view --seconds 3");
+  const json scene = live.get("scene.json");
+  EXPECT_EQ(scene["mode"], "live");
+  EXPECT_EQ(scene["title"], "mixing_board");
+  HttpSocket socket(live.at.port);
+  socket.send(live.at.request("frames"));
+  std::int64_t before = -1;
+  int frames = 0;
+  std::set<std::string> states;
+  for (std::string event = socket.read_event(); !event.empty(); event = socket.read_event()) {
+    if (event.find("reason") != std::string::npos) break;
+    const json frame = json::parse(event);
+    EXPECT_GT(frame["tick"], before) << "later than the one before";
+    before = frame["tick"];
+    EXPECT_NEAR(frame["t"].get<double>(), 1e-3 * static_cast<double>(before), 1e-9);
+    states.insert(frame["state"]);
+    ++frames;
+    if (frame["state"] == "released") break;
+  }
+  EXPECT_EQ(socket.read_event("end"), "{\"reason\":\"done\"}");
+  EXPECT_GT(frames, 30);
+  EXPECT_TRUE(states.count("lift") && states.count("released")) << "the last tick is seen";
+  EXPECT_EQ(live.wait(), 0) << live.err();
+  EXPECT_EQ(live.out().rfind("view: http://127.0.0.1:", 0), 0u) << live.out();
+}
+
+// What is shown of a replay is what was recorded, tick by tick.
+TEST(LiveView, WhatIsShownIsWhatWasRecorded) {
+  const ViewFolder folder;
+  const std::string file = folder.file("a.nc");
+  ASSERT_EQ(run("PROGRAM live --no-clock --seconds 6 --record " + file).code, 0);
+  const Recording recording = read_recording(file);
+  Viewed live("live --view --device replay:" + file);
+  HttpSocket socket(live.at.port);
+  socket.send(live.at.request("frames"));
+  const LiveScene scene(read_scene_file(find_scene("mixing_board")));
+  FrameMaker maker(scene);
+  VesselTracker tracker(scene.scene);
+  std::size_t k = 0;
+  int compared = 0;
+  for (std::string event = socket.read_event(); !event.empty() && event.find("\"tick\"") != std::string::npos;
+       event = socket.read_event()) {
+    const json seen = json::parse(event);
+    if (seen["state"] == "released") break;
+    while (k < recording.ticks.size() && recording.ticks[k].number <= seen["tick"]) tracker.follow(recording.ticks[k++]);
+    ASSERT_GT(k, 0u);
+    const Tick& tick = recording.ticks[k - 1];
+    ASSERT_EQ(tick.number, seen["tick"]);
+    const ViewFrame::Timing timing{seen["timing"]["rate"], seen["timing"]["step"], seen["timing"]["missed"]};
+    const json truth = json::parse(frame_json(maker.make(tick, tracker.poses(), hand_view(scene, tick, tracker.poses()), timing)));
+    EXPECT_EQ(seen, truth) << tick.number;
+    ++compared;
+  }
+  EXPECT_GT(compared, 60);
+  EXPECT_EQ(live.wait(), 0);
+}
+
+TEST(LiveView, WithJsonTheAddressIsNotInTheReport) {
+  Viewed live("live --view --json --seconds 0.2");
+  EXPECT_EQ(live.wait(), 0);
+  EXPECT_EQ(json::parse(live.out())["fault"], json());
+  EXPECT_EQ(live.err().rfind("view: http://127.0.0.1:", 0), 0u) << live.err();
+}
+
+TEST(LiveView, ASignalEndsItAndSaysSo) {
+  Viewed live("live --view");
+  HttpSocket socket(live.at.port);
+  socket.send(live.at.request("frames"));
+  EXPECT_FALSE(socket.read_event().empty());
+  const ViewAddress at = live.at;
+  std::thread later([&] { EXPECT_EQ(live.interrupt(), 130); });
+  EXPECT_EQ(socket.read_event("end"), "{\"reason\":\"interrupted\"}");
+  later.join();
+  EXPECT_FALSE(HttpSocket(at.port).is_open());
+}
+
+// What is posted moves the hand that is seen.
+TEST(LiveView, ThePageMayBeTheGripper) {
+  Viewed live("live --view --device view --seconds 20");
+  const json scene = live.get("scene.json");
+  EXPECT_EQ(scene["control"], true);
+  const json start = scene["control_limits"]["start"];
+  HttpSocket frames(live.at.port), controls(live.at.port);
+  frames.send(live.at.request("frames"));
+  const auto tips_middle = [&] {
+    const json frame = json::parse(frames.read_event());
+    Triple middle{};
+    for (std::size_t k = 0; k < 3; ++k)
+      middle[k] = 0.5 * (frame["rigged"][THUMB_TIP][k].get<double>() + frame["rigged"][INDEX_TIP][k].get<double>());
+    return middle;
+  };
+  Triple wanted = start["position"];
+  EXPECT_LT(std::hypot(tips_middle()[0] - wanted[0], tips_middle()[1] - wanted[1]), 1e-4) << "where it starts";
+  wanted[0] += 0.05;
+  wanted[1] += 0.03;
+  json control{{"position", wanted}, {"rotation", start["rotation"]}, {"gap", start["gap"]}, {"buttons", 0}, {"sequence", 1}};
+  controls.send(live.at.post(control.dump()));
+  EXPECT_EQ(controls.read_reply().status, 204);
+  double away = 1;
+  for (int k = 0; k < 600 && away > 1e-4; ++k) {
+    const Triple middle = tips_middle();
+    away = std::hypot(middle[0] - wanted[0], middle[1] - wanted[1], middle[2] - wanted[2]);
+  }
+  EXPECT_LT(away, 1e-4);
+  control["gap"] = "wide";
+  controls.send(live.at.post(control.dump()));
+  const HttpReply refused = controls.read_reply();
+  EXPECT_EQ(refused.status, 400);
+  EXPECT_NE(refused.body.find("gap"), std::string::npos) << refused.body;
+  EXPECT_EQ(live.interrupt(), 130);
+}
+
+TEST(LiveView, OnlyWithThePageAsGripperAreControlsTaken) {
+  Viewed live("live --view --seconds 20");
+  EXPECT_EQ(live.get("scene.json")["control"], false);
+  HttpSocket socket(live.at.port);
+  socket.send(live.at.post("{}"));
+  EXPECT_EQ(socket.read_reply().status, 405);
+  EXPECT_EQ(live.interrupt(), 130);
+}
+
+// 200 connections, eight viewers of whom one does not read, and requests of every kind, while every tick is recorded.
+TEST(LiveView, AStormOfConnectionsCostsTheSessionNothing) {
+  const ViewFolder folder;
+  const std::string file = folder.file("a.nc");
+  Viewed live("live --view --json --seconds 4 --record " + file);
+  std::vector<HttpSocket> viewers, others;
+  for (int k = 0; k < MOST_VIEWERS; ++k) {
+    viewers.emplace_back(live.at.port, k == 0 ? 4096 : 0);
+    viewers.back().send(live.at.request("frames"));
+  }
+  for (int k = 0; k < 200; ++k) others.emplace_back(live.at.port);
+  for (std::size_t k = 0; k < others.size(); ++k) {
+    if (k % 4 == 0) others[k].send(live.at.request("scene.json"));
+    if (k % 4 == 1) others[k].send("GET / HTTP/1.1\r\n");
+    if (k % 4 == 2) others[k].send(std::string(100000, 'x'));
+  }
+  int seen = 0;
+  for (std::string event = viewers[1].read_event(); !event.empty() && event.find("released") == std::string::npos;
+       event = viewers[1].read_event())
+    ++seen;
+  EXPECT_GT(seen, 60);
+  EXPECT_EQ(live.wait(), 0) << live.err();
+  const json report = json::parse(live.out());
+  EXPECT_TRUE(report["fault"].is_null());
+  EXPECT_TRUE(report["recorded_wholly"]);
+  EXPECT_EQ(report["ticks"].get<int>() + report["missed"].get<int>(), 4000);
+  const Recording recording = read_recording(file);
+  EXPECT_EQ(recording.ticks.size(), report["ticks"].get<std::size_t>() + 1) << "and the one with which it ended";
+}
+
+// ---- recordings ----
+
+TEST(ViewCommand, ShowsARecordingAtAnyMoment) {
+  const ViewFolder folder;
+  const std::string file = folder.file("mine.nc");
+  ASSERT_EQ(run("PROGRAM live --no-clock --seconds 12 --record " + file).code, 0);
+  const Recording recording = read_recording(file);
+  Viewed view("view " + file);
+  const json scene = view.get("scene.json");
+  EXPECT_EQ(scene["mode"], "recording");
+  EXPECT_EQ(scene["title"], "mine.nc");
+  const json frames = view.get("recording?from=2&to=11.5&rate=60")["frames"];
+  ASSERT_EQ(frames.size(), 571u);
+  for (std::size_t k = 0; k < frames.size(); k += 30) {
+    const std::size_t at = static_cast<std::size_t>((2 + static_cast<double>(k) / 60) * 1000 + 1e-6);
+    const Tick& tick = recording.ticks[at];
+    EXPECT_EQ(frames[k]["tick"], tick.number);
+    EXPECT_TRUE(is_same(frames[k]["forces"]["feedback"], tick.feedback));
+    EXPECT_TRUE(is_same(frames[k]["gap"], tick.gap));
+  }
+  EXPECT_EQ(view.interrupt(), 0);
+}
+
+// ---- grips ----
+
+TEST(ViewCommand, ShowsTheBestGripsOfASweep) {
+  const ViewFolder folder;
+  const std::string file = folder.file("best.nc");
+  ASSERT_EQ(run("PROGRAM sweep small --on core --best 3 -o " + file + " >/dev/null").code, 0);
+  const RecordedBest best = read_best(file);
+  const Scene small = read_scene_file(find_scene("small"));
+  ASSERT_EQ(best.vessels.size(), small.vessels.size());
+  Viewed view("view " + file);
+  const json scene = view.get("scene.json");
+  EXPECT_EQ(scene["mode"], "grips");
+  std::size_t g = 0;
+  for (std::size_t v = 0; v < best.vessels.size(); ++v) {
+    for (std::size_t k = 0; k < best.vessels[v].size(); ++k, ++g) {
+      const auto& ranked = best.vessels[v][k];
+      ASSERT_LT(g, scene["grips"].size());
+      EXPECT_EQ(scene["grips"][g]["label"], small.vessels[v].name + ", rank " + std::to_string(k + 1));
+      EXPECT_EQ(scene["grips"][g]["vessel"], v);
+      EXPECT_EQ(scene["grips"][g]["height_m"], ranked.grip.height);
+      EXPECT_EQ(scene["grips"][g]["roll_rad"], ranked.grip.roll);
+      EXPECT_NEAR(scene["grips"][g]["score"].get<double>(), ranked.score, 1e-12) << "of a sweep in double precision";
+      if (k > 0) {
+        EXPECT_LE(ranked.score, best.vessels[v][k - 1].score);
+      }
+      const json frame = view.get("state?grip=" + std::to_string(g) + "&fill=0&tilt=0.3");
+      EXPECT_EQ(frame["vessel"], v);
+      EXPECT_TRUE(is_same(frame["gap"], scene["grips"][g]["gap_m"]));
+    }
+  }
+  EXPECT_EQ(g, scene["grips"].size());
+  EXPECT_EQ(view.interrupt(), 0);
+  EXPECT_EQ(view.err(), "");
+}
+
+TEST(ViewCommand, ShowsAGripBesideItsReport) {
+  const std::string grip = "grip three_beakers --vessel beaker1 --height-mm 58.5 --roll-deg 22 --fill 0.5 --tilt-deg 40 --json";
+  Viewed view(grip + " --view");
+  const json told = json::parse(view.out());
+  EXPECT_EQ(told, json::parse(run("PROGRAM " + grip).output));
+  const json frame = view.get("state?grip=0&fill=0.5&tilt=0");
+  const json& vessel = frame["vessels"][0];
+  for (std::size_t j = 0; j < JOINT_COUNT; ++j) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_NEAR(frame["joints"][j][k].get<double>() - vessel["place"][k].get<double>(), told["proxies_m"][j][k].get<double>(),
+                  1e-7);
+      EXPECT_NEAR(frame["rigged"][j][k].get<double>() - vessel["place"][k].get<double>(), told["joints_m"][j][k].get<double>(),
+                  1e-7);
+    }
+  }
+  const json tilted = view.get("state?grip=0&fill=0.5&tilt=" + std::to_string(radians(40)));
+  EXPECT_NEAR(tilted["forces"]["feedback"].get<double>(), told["states"][0]["feedback_force_N"].get<double>(), 1e-5);
+  EXPECT_EQ(view.interrupt(), 0);
+}
+
+// ---- refusals ----
+
+TEST(ViewCommand, RefusesWhatCannotBeShown) {
+  const ViewFolder folder;
+  const std::string text = folder.file("text"), empty = folder.file("empty"), cut = folder.file("cut.nc"),
+                    whole = folder.file("whole.nc"), none = folder.file("none.nc");
+  std::ofstream(text) << "not a recording\n";
+  std::ofstream(empty) << "";
+  ASSERT_EQ(run("PROGRAM sweep small --on core -o " + whole + " >/dev/null").code, 0);
+  ASSERT_EQ(run("PROGRAM sweep small --on core --best 0 -o " + none + " >/dev/null").code, 0);
+  std::ofstream(cut, std::ios::binary) << text_in(whole).substr(0, 3000);
+  for (const std::string& file : {text, empty, cut, folder.file("missing"), std::string("/"), std::string("/dev/null")})
+    expect_error("view " + file, 2, file);
+  expect_error("view " + none, 2, "holds no best grips");
+  expect_error("view " + whole + " --view-port 65536", 2, "--view-port");
+  expect_error("view " + whole + " --view-port x", 2, "--view-port");
+  expect_error("live --view --no-clock", 2, "--no-clock");
+  expect_error("live --view-port 8000", 2, "add --view");
+  expect_error("grip three_beakers --vessel beaker1 --height-mm 50 --view-port 8000", 2, "add --view");
+  expect_error("live --device view --seconds 1", 2, "--view");
+}
+
+TEST(ViewCommand, APortThatIsTakenIsNamed) {
+  Viewed live("live --view --seconds 20");
+  expect_error("live --view --seconds 1 --view-port " + std::to_string(live.at.port), 2,
+               "--view-port " + std::to_string(live.at.port));
+  EXPECT_EQ(live.interrupt(), 130);
+}
+
+TEST(ReadBest, RefusesWhatIsNoFinishedResult) {
+  const ViewFolder folder;
+  const std::string recording = folder.file("session.nc");
+  ASSERT_EQ(run("PROGRAM live --no-clock --seconds 0.1 --record " + recording).code, 0);
+  for (const std::string& file : {recording, folder.file("missing"), std::string("/")}) {
+    try {
+      read_best(file);
+      ADD_FAILURE() << file;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code, ExitCode::usage);
+      EXPECT_EQ(std::string(error.what()).rfind(file + ": ", 0), 0u) << error.what();
+    }
+  }
+}
+
+TEST(Browser, OpensNothingWhereNobodySitsBeforeIt) {
+  // standard output of a test is no terminal
+  EXPECT_FALSE(has_desktop());
+}
+
+}  // namespace
+}  // namespace wholehand

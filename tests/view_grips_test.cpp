@@ -1,0 +1,223 @@
+// Grips as the viewer shows them: those of `grip --json`, turned about the middle of the tips, above the table, with the states' own forces.
+// sanitizers: address
+#include "app/view_grips.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "app/paths.h"
+#include "app/scene_reader.h"
+#include "core/contact.h"
+#include "core/error.h"
+#include "sweeps/grip_report.h"
+#include "tests/support/scenes.h"
+
+namespace wholehand {
+namespace {
+
+using core_f64::Mat3;
+using core_f64::Vec3;
+using nlohmann::json;
+
+Vec3 vec(const Triple& t) { return Vec3(t[0], t[1], t[2]); }
+
+Scene beakers() { return read_scene_file(find_scene("three_beakers")); }
+
+std::vector<ViewedGrip> some_grips() {
+  GripInput side, above, oblique;
+  side.height = 0.0585;
+  side.roll = radians(22);
+  above.height = 0.06;
+  above.roll = radians(-80);
+  above.azimuth = 0.7;
+  oblique.height = 0.07;
+  oblique.obliquity = radians(10);
+  oblique.azimuth = -2;
+  return {{0, side, "side"}, {1, above, "above"}, {2, oblique, "oblique"}, {0, above, "beaker from above"}};
+}
+
+// What `grip --json` says of it.
+json report_of(const Scene& scene, const ViewedGrip& grip, const StateAxes& axes) {
+  return json::parse(
+      grip_json(make_grip_report(scene, grip.vessel, grip.grip, axes, open_grip_methods(scene, "core", Precision::full))));
+}
+
+TEST(GripsView, AFrameIsWhatGripTells) {
+  Scene left = beakers();
+  left.hand.handedness = Handedness::left;
+  for (const Scene& scene : {beakers(), left}) {
+    std::vector<std::string> notes;
+    const std::vector<ViewedGrip> grips = some_grips();
+    const GripsView view(scene, grips, notes);
+    ASSERT_EQ(view.size(), grips.size());
+    for (std::size_t g = 0; g < grips.size(); ++g) {
+      const StateAxes axes{{0, 0.5, 0.9}, {0, 0.4, radians(100)}};
+      const json told = report_of(scene, grips[g], axes);
+      for (const json& state : told["states"]) {
+        const ViewFrame frame = view.frame(g, state["fill"], state["tilt_rad"]);
+        EXPECT_EQ(frame.vessel, static_cast<int>(grips[g].vessel));
+        const ViewFrame::Vessel& vessel = frame.vessels[grips[g].vessel];
+        const Mat3 back = glm::transpose(to_mat3(vessel.pose.rotation));
+        for (std::size_t j = 0; j < JOINT_COUNT; ++j) {
+          const Vec3 seen = back * (vec(frame.hand.proxies[j]) - vec(vessel.pose.place)),
+                     rigged = back * (vec(frame.hand.rigged[j]) - vec(vessel.pose.place));
+          EXPECT_LT(glm::length(seen - vec(told["proxies_m"][j].get<Triple>())), 1e-14) << j;
+          EXPECT_LT(glm::length(rigged - vec(told["joints_m"][j].get<Triple>())), 1e-14) << j;
+          const PointContact contact = frame.hand.contact[j];
+          EXPECT_EQ(contact != PointContact::free && contact != PointContact::tracked, told["touching"][j].get<bool>()) << j;
+          if (j != THUMB_TIP && j != INDEX_TIP) {
+            EXPECT_EQ(contact == PointContact::projected, !told["projected"][j].is_null()) << j;
+          }
+        }
+        EXPECT_EQ(frame.feedback, state["feedback_force_N"]);
+        EXPECT_EQ(frame.normal, state["normal_force_N"]);
+        EXPECT_EQ(frame.torque, state["torque_Nm"]);
+        EXPECT_EQ(vessel.volume, state["liquid_volume_m3"]);
+        EXPECT_NEAR(frame.weight, state["mass_kg"].get<double>() * scene.gravity, 1e-12);
+        EXPECT_EQ(std::isfinite(frame.hold) ? json(frame.hold) : json(nullptr), state["hold_force_N"]);
+        EXPECT_EQ(frame.closure, told["closure"]);
+        EXPECT_EQ(frame.gap, told["gap_m"]);
+        // the liquid's centre is under its surface, and the lean of both to the same side
+        if (!vessel.surface) continue;
+        const Vec3 up = vec(vessel.surface->up), center = vec(state["liquid_com_m"].get<Triple>());
+        EXPECT_LT(glm::dot(up, center), vessel.surface->level);
+        EXPECT_NEAR(up.y, std::cos(frame.tilt), 1e-12);
+        EXPECT_LE(up.x * center.x + up.z * center.z, 1e-9) << "up leans away from where it has gathered";
+      }
+    }
+  }
+}
+
+TEST(GripsView, ItTurnsTowardsWhereItPoursAndStaysAboveTheTable) {
+  const Scene scene = beakers();
+  std::vector<std::string> notes;
+  const std::vector<ViewedGrip> grips = some_grips();
+  const GripsView view(scene, grips, notes);
+  for (std::size_t g = 0; g < grips.size(); ++g) {
+    const core_f64::Vessel glass = ready_vessel(scene.vessels[grips[g].vessel]);
+    const Vec3 pour = vec(pour_direction(scene, grips[g].grip)), pivot = vec(view.result(g).midpoint);
+    double before = -1;
+    for (double tilt = 0; tilt <= PI; tilt += 0.05) {
+      const ViewFrame frame = view.frame(g, 1, tilt);
+      const VesselPose& pose = frame.vessels[grips[g].vessel].pose;
+      const Mat3 turn = to_mat3(pose.rotation);
+      EXPECT_LT(glm::length(turn[1] - std::cos(tilt) * Vec3(0, 1, 0) - std::sin(tilt) * pour), 1e-12);
+      EXPECT_NEAR(glm::determinant(turn), 1, 1e-12);
+      // the middle of the tips stays where it was, but for the lifting
+      const Vec3 middle = vec(pose.place) + turn * pivot;
+      EXPECT_NEAR(middle.x, pivot.x, 1e-12);
+      EXPECT_NEAR(middle.z, pivot.z, 1e-12);
+      if (before >= 0) {
+        EXPECT_LT(std::abs(middle.y - before), 0.05 * 0.3) << "without a jump";
+      }
+      before = middle.y;
+      // all around its widest and its ends
+      for (const double y : {0.0, 0.04, scene.vessels[grips[g].vessel].height}) {
+        for (double angle = 0; angle < 2 * PI; angle += 0.1) {
+          double r = 0.1;
+          while (r > 0 && core_f64::signed_distance(glass, Vec3(r * std::cos(angle), y, r * std::sin(angle))) > 0) r -= 1e-3;
+          const Vec3 p = vec(pose.place) + turn * Vec3(r * std::cos(angle), y, r * std::sin(angle));
+          EXPECT_GT(p.y, -1e-4);
+        }
+      }
+      for (const Triple& joint : frame.hand.proxies) EXPECT_GT(joint[1], 5e-3) << "a joint's radius and more";
+    }
+  }
+}
+
+TEST(GripsView, OnlyTheHeldVesselIsShown) {
+  std::vector<std::string> notes;
+  const GripsView view(beakers(), some_grips(), notes);
+  const json frame = json::parse(frame_json(view.frame(1, 0.5, 0)));
+  EXPECT_TRUE(frame["vessels"][0].is_null());
+  EXPECT_FALSE(frame["vessels"][1].is_null());
+  EXPECT_TRUE(frame["vessels"][2].is_null());
+  EXPECT_EQ(frame["state"], "lift");
+  EXPECT_EQ(json::parse(frame_json(view.frame(1, 0.5, 0.1)))["state"], "maintain");
+}
+
+TEST(GripsView, TheListTellsEachGripAndItsTerms) {
+  const Scene scene = beakers();
+  std::vector<std::string> notes;
+  const std::vector<ViewedGrip> grips = some_grips();
+  const GripsView view(scene, grips, notes);
+  const ViewContent content = view.content("best");
+  const json seen = json::parse(content.scene);
+  EXPECT_EQ(seen["mode"], "grips");
+  EXPECT_EQ(seen["fills"], json(scene.liquid->fills));
+  EXPECT_EQ(seen["tilts"], json(scene.tilts));
+  ASSERT_EQ(seen["grips"].size(), grips.size());
+  for (std::size_t g = 0; g < grips.size(); ++g) {
+    const json &listed = seen["grips"][g], told = report_of(scene, grips[g], scene_axes(scene));
+    EXPECT_EQ(listed["vessel"], grips[g].vessel);
+    EXPECT_EQ(listed["label"], grips[g].label);
+    EXPECT_EQ(listed["score"], told["score"]);
+    EXPECT_EQ(listed["terms"], told["score_terms"]);
+    for (const auto& [key, value] : told["grip"].items()) EXPECT_EQ(listed[key], value) << key;
+    EXPECT_EQ(listed["gap_m"], told["gap_m"]);
+    EXPECT_EQ(listed["fingers"], told["fingers_used"].size());
+    int points = 0;
+    for (const json& touches : told["touching"]) points += touches.get<bool>();
+    EXPECT_EQ(listed["points"], points);
+    // the worst over all states
+    double peak = 0, hold = 0;
+    for (const json& state : told["states"]) {
+      peak = std::max(peak, state["feedback_force_N"].get<double>());
+      hold = state["hold_force_N"].is_null() ? INFINITY : std::max(hold, state["hold_force_N"].get<double>());
+    }
+    EXPECT_NEAR(listed["peak_force_N"].get<double>(), peak, 1e-12);
+    EXPECT_EQ(listed["hold_force_N"].is_null(), std::isinf(hold));
+    if (std::isfinite(hold)) {
+      EXPECT_NEAR(listed["hold_force_N"].get<double>(), hold, 1e-9);
+    }
+  }
+}
+
+TEST(GripsView, AnswersAtAnyStateAndRefusesWhatIsNone) {
+  std::vector<std::string> notes;
+  const GripsView view(beakers(), some_grips(), notes);
+  const ViewContent content = view.content("best");
+  EXPECT_EQ(content.state({{"grip", "1"}, {"fill", "0.37"}, {"tilt", "1.234"}}), frame_json(view.frame(1, 0.37, 1.234)));
+  EXPECT_EQ(content.state({{"grip", "0"}, {"fill", "1"}, {"tilt", "3.1415927"}}), frame_json(view.frame(0, 1, PI)));
+  using Query = ViewContent::Query;
+  for (const Query& bad :
+       {Query{}, Query{{"grip", "4"}, {"fill", "0"}, {"tilt", "0"}}, Query{{"grip", "-1"}, {"fill", "0"}, {"tilt", "0"}},
+        Query{{"grip", "0.5"}, {"fill", "0"}, {"tilt", "0"}}, Query{{"grip", "0"}, {"fill", "1.01"}, {"tilt", "0"}},
+        Query{{"grip", "0"}, {"fill", "0"}, {"tilt", "3.2"}}, Query{{"grip", "0"}, {"fill", "0"}}})
+    EXPECT_THROW(content.state(bad), Error);
+}
+
+TEST(GripsView, ASceneWithoutLiquidAndTiltsIsShownToo) {
+  const Scene scene = scene_of({beaker1()});
+  std::vector<std::string> notes;
+  const GripsView view(scene, {some_grips()[0]}, notes);
+  const json seen = json::parse(view.content("bare").scene);
+  EXPECT_EQ(seen["fills"], json({0.0}));
+  EXPECT_TRUE(seen["tilts"].empty());
+  EXPECT_FALSE(seen["grips"][0]["terms"].contains("force"));
+  EXPECT_TRUE(seen["grips"][0]["peak_force_N"].is_null());
+  const ViewFrame frame = view.frame(0, 0, 0.5);
+  EXPECT_FALSE(frame.vessels[0].surface);
+  EXPECT_GT(frame.feedback, scene.force.base);
+}
+
+TEST(GripsView, WhatIsNotFeasibleIsLeftOutWithAWord) {
+  std::vector<ViewedGrip> grips = some_grips();
+  GripInput above_it;
+  above_it.height = 0.5;
+  grips.push_back({0, above_it, "in the air"});
+  std::vector<std::string> notes;
+  const GripsView view(beakers(), grips, notes);
+  EXPECT_EQ(view.size(), grips.size() - 1);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_NE(notes[0].find("in the air is not shown: the core finds it not feasible (misses)"), std::string::npos) << notes[0];
+  EXPECT_THROW(GripsView(beakers(), {grips.back()}, notes), Error);
+}
+
+}  // namespace
+}  // namespace wholehand
