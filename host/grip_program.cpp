@@ -202,7 +202,8 @@ void GripProgram::make_liquid(std::size_t v, const Scene& scene, const SceneArra
   VesselOnDevice& vessel = vessels[v];
   const std::uint32_t states = fill_count * tilt_count;
   std::vector<double> loads;
-  if (arrays.vessels[v].cavity_count == 0 || !liquid_fits_device(arrays.vessels[v].cavity_count, options.evaluator.quadrature_points)) {
+  if (arrays.vessels[v].cavity_count == 0 ||
+      !liquid_fits_device(arrays.vessels[v].cavity_count, options.evaluator.quadrature_points)) {
     const VesselConstants constants = core.constants(v);
     for (const double fill : scene.liquid->fills)
       for (const double tilt : scene.tilts) {

@@ -77,7 +77,8 @@ TEST(VesselHistory, OfAWholeSessionIsTheTrackers) {
     if (n % 97 == 0) expect_same(history.at(n), tracker.poses(), n);
   }
   EXPECT_EQ(history.at(ticks.size() - 1)[0].rotation, NO_ROTATION) << "it slipped back to where it stood";
-  for (int k = 0; k < 3; ++k) EXPECT_NEAR(history.at(ticks.size() - 1)[0].place[k], scene.vessels[0].place[k], 1e-6);  // less a tick of its way
+  for (int k = 0; k < 3; ++k)
+    EXPECT_NEAR(history.at(ticks.size() - 1)[0].place[k], scene.vessels[0].place[k], 1e-6);  // less a tick of its way
 }
 
 }  // namespace

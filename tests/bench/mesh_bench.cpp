@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "sweeps/mesh_distance.h"
+#include "sweeps/mesh_grid.h"
 #include "tests/bench/bench.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"

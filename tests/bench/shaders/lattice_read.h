@@ -2,12 +2,12 @@
 #ifndef WHOLEHAND_LATTICE_READ_H
 #define WHOLEHAND_LATTICE_READ_H
 
-#define CONST_WAY 7       // specialization constant: one of these
-#define WAY_NOTHING 0     // the points alone
-#define WAY_BUFFER 1      // grid_distance of shaders/sdf.glsl
-#define WAY_FETCH 2       // the same from texels of a 3-D image
-#define WAY_FILTER 3      // the image's own linear interpolation
-#define WAY_TEXELS 4      // the same from a uniform texel buffer
+#define CONST_WAY 7    // specialization constant: one of these
+#define WAY_NOTHING 0  // the points alone
+#define WAY_BUFFER 1   // grid_distance of shaders/sdf.glsl
+#define WAY_FETCH 2    // the same from texels of a 3-D image
+#define WAY_FILTER 3   // the image's own linear interpolation
+#define WAY_TEXELS 4   // the same from a uniform texel buffer
 #define BINDING_IMAGE 17
 #define BINDING_TEXELS 18
 
