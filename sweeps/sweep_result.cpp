@@ -57,24 +57,34 @@ std::string readable_file(const std::string& path, double& bytes) {
   return name;
 }
 
-// Whether the libraries survive what the file says of itself: HDF5 follows a damaged one to places that are not there. Found out by a
-// process that may die of it.
-bool can_be_opened(const std::string& name) {
+// Opens the file and all that it says of its variables; NetCDF's status.
+int try_to_open(const std::string& name) {
+  int file = -1, variables = 0;
+  int status = nc_open(name.c_str(), NC_NOWRITE, &file);
+  if (status == NC_NOERR) status = nc_inq_nvars(file, &variables);
+  for (int id = 0; id < variables && status == NC_NOERR; ++id)
+    status = nc_inq_var(file, id, nullptr, nullptr, nullptr, nullptr, nullptr);
+  return status;
+}
+
+// Throws where the file cannot be opened. HDF5 follows what a damaged one says to places that are not there, and forgets memory on the way:
+// so that is found out by a process that may die of it.
+void check_opens(const std::string& path, const std::string& name) {
+  constexpr int DIED = 255;
   const pid_t child = fork();
-  if (child < 0) return true;  // not to be found out
+  if (child < 0) return;  // not to be found out
   if (child == 0) {
-    for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGABRT, SIGILL, SIGALRM}) std::signal(signal, [](int) { _exit(1); });
+    for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGABRT, SIGILL, SIGALRM}) std::signal(signal, [](int) { _exit(DIED); });
     alarm(OPENING_SECONDS);
-    int file = -1, variables = 0;
-    if (nc_open(name.c_str(), NC_NOWRITE, &file) == NC_NOERR) {
-      nc_inq_nvars(file, &variables);
-      for (int id = 0; id < variables; ++id) nc_inq_var(file, id, nullptr, nullptr, nullptr, nullptr, nullptr);
-    }
-    _exit(0);
+    const int status = try_to_open(name);  // NetCDF's are above -255; positive: of the system
+    _exit(status > 0 ? DIED : -status);
   }
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : DIED;
+  if (code == 0) return;
+  throw usage_error(
+      fmt::format("{}: is damaged, or no NetCDF-4 file: {}", path, code == DIED ? "it cannot be read" : nc_strerror(-code)));
 }
 
 std::uint64_t product(const std::vector<std::size_t>& lengths, std::size_t first) {
@@ -86,7 +96,7 @@ std::uint64_t product(const std::vector<std::size_t>& lengths, std::size_t first
 
 SweepResult::SweepResult(const std::string& path) : path_(path) {
   const std::string name = readable_file(path, origin_.bytes);
-  if (!can_be_opened(name)) throw usage_error(path + ": is damaged: it cannot be read");
+  check_opens(path, name);
   const int status = nc_open(name.c_str(), NC_NOWRITE, &file_);
   if (status != NC_NOERR) {
     file_ = -1;
