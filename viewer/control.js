@@ -9,6 +9,7 @@ const CLOSING = 0.5, OPENING = 1.2;    // of the gap's range, in a second
 const SQUEEZE = 0.004;                 // m, that a grasp goes on closing beyond where it held
 const STIFFNESS = 600;                 // N/m of the opening by which one finds where it held; the method's default
 const HELD = ['lift', 'tilt', 'maintain'];
+const THUMB_TIP = 3, INDEX_TIP = 8;
 const LARGEST_TILT = 150, LARGEST_TURN = 180;  // degrees
 
 export class Control {
@@ -17,9 +18,7 @@ export class Control {
     this.view = view;
     this.trouble = trouble;
     const {start} = this.limits;
-    this.position = new Vector3(...start.position);
-    this.gap = start.gap;
-    this.tilt = this.turn = 0;
+    this.place({...start, tilt: 0, turn: 0, ...this.kept()});
     this.sequence = 0;
     this.motion = 0;  // of the assistant: -1 closing, 1 opening
     this.make(document.getElementById('control'));
@@ -56,6 +55,25 @@ export class Control {
       add('tilt', 'Tilt', -30, LARGEST_TILT, 1, () => this.tilt * 180 / Math.PI, (v) => { this.tilt = v * Math.PI / 180; }, () => `${degrees(this.tilt)}°`),
       add('turn', 'Turn', -LARGEST_TURN, LARGEST_TURN, 1, () => this.turn * 180 / Math.PI, (v) => { this.turn = v * Math.PI / 180; }, () => `${degrees(this.turn)}°`),
       add('height', 'Height', ...range(1), 1, ...axis(1)), add('depth', 'Depth', ...range(2), 1, ...axis(2)), add('across', 'Across', ...range(0), 1, ...axis(0)));
+  }
+
+  place({position, gap, tilt, turn}) {
+    Object.assign(this, {position: new Vector3(...position), gap, tilt, turn});
+  }
+  // Where this page left the hand before it was loaded again. The address is another one for each session.
+  kept() {
+    try {
+      return JSON.parse(sessionStorage.getItem(location.pathname));
+    } catch (error) {
+      return null;
+    }
+  }
+  keep() {
+    try {
+      sessionStorage.setItem(location.pathname, JSON.stringify({position: this.position.toArray(), gap: this.gap, tilt: this.tilt, turn: this.turn}));
+    } catch (error) {
+      // a browser that keeps nothing: a page that is loaded again begins at the hand, untilted
+    }
   }
 
   // Kept within reach.
@@ -115,6 +133,12 @@ export class Control {
 
   // What a frame tells the controls.
   show(frame) {
+    if (!this.isAtHand) {  // another page may have moved it
+      this.isAtHand = true;
+      const [thumb, index] = [THUMB_TIP, INDEX_TIP].map((joint) => new Vector3(...frame.rigged[joint]));
+      if (!this.kept()) this.place({position: thumb.add(index).multiplyScalar(0.5).toArray(), gap: frame.gap, tilt: 0, turn: 0});
+      this.showValues();
+    }
     this.isHeld = HELD.includes(frame.state);
     if (this.isHeld && this.motion < 0) {
       this.motion = 0;
@@ -135,6 +159,7 @@ export class Control {
   // ---- sending: at most 60 a second, one on its way ----
   changed() {
     this.showValues();
+    this.keep();
     this.isStale = true;
     if (!this.isSending) this.send();
   }

@@ -90,15 +90,13 @@ async function start() {
     if (control) control.show(frame);
   };
 
-  window.wholehand = {scene: about, frame: null, view, show, get playback() { return playback; }, get grips() { return grips; }, get control() { return control; },
+  window.wholehand = {scene: about, frame: null, view, charts, get playback() { return playback; }, get grips() { return grips; }, get control() { return control; },
     project: (joint) => view.project(window.wholehand.frame.joints[joint]),
-    camera: () => ({position: view.stage.camera.position.toArray(), target: ['x', 'y', 'z'].map((k) => view.orbit.now[k]), fov: view.stage.camera.fov * Math.PI / 180,
-      isStill: Object.keys(view.orbit.now).every((key) => Math.abs(view.orbit.now[key] - view.orbit.aim[key]) < 1e-6),
-      rectangle: (({left, top, width, height}) => ({left, top, width, height}))(view.stage.canvas.getBoundingClientRect())}),
+    camera: () => view.seenFrom(),
   };
 
   if (about.mode === 'live') {
-    const history = new History(), drawCharts = seldom(CHARTS_EVERY, (frame) => charts.show(history.records, frame.t));
+    const history = window.wholehand.history = new History(), drawCharts = seldom(CHARTS_EVERY, (frame) => charts.show(history.records, frame.t));
     charts.live = true;
     if (about.control && view) control = new Control(about, view, trouble);
     listen((frame) => {

@@ -134,4 +134,13 @@ export class View {
     const ndc = new THREE.Vector3(...place).project(camera);
     return {x: box.left + (ndc.x + 1) / 2 * box.width, y: box.top + (1 - ndc.y) / 2 * box.height, depth: ndc.z};
   }
+
+  // What the picture is seen with, and whether it has come to rest there.
+  seenFrom() {
+    const {camera, canvas} = this.stage, {now, aim} = this.orbit, {left, top, width, height} = canvas.getBoundingClientRect();
+    return {
+      position: camera.position.toArray(), target: [now.x, now.y, now.z], fov: camera.fov * Math.PI / 180, rectangle: {left, top, width, height},
+      isStill: Object.keys(now).every((key) => Math.abs(now[key] - aim[key]) < 1e-6) && Math.abs(camera.aspect * height - width) < 1,
+    };
+  }
 }
