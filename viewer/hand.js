@@ -8,7 +8,7 @@ const LEAST_RADIUS = 0.003;  // m: the paper's bare points have none, and would 
 const PALM = flats();
 const FINGER_BASES = [4, 9, 14, 19];
 const WEB_SHARE = 0.62;      // of the index finger's metacarpal, from its base, up to where the web of the thumb reaches
-const FORK = 0.24;            // of a finger's first phalanx, up to where the skin between two fingers reaches
+const FORK = 0.15;            // of a finger's first phalanx, up to where the skin between two fingers reaches
 const WRIST_HALF = 0.0145, WRIST_RADIUS = 0.0115, ARM_HALF = 0.017, ARM_RADIUS = 0.0145, ARM_LENGTH = 0.085;  // m, of an adult's hand
 
 const DECLARATIONS = `#define GLASS_SAMPLES ${GLASS_SAMPLES}\n${HAND_SHADER}`;
@@ -85,7 +85,7 @@ class Skin {
     for (let f = 0; f < 3; ++f) {
       const [a, b] = [FINGER_BASES[f] + 1, FINGER_BASES[f + 1] + 1];
       ball[WEBS + f].copy(ball[a]).lerp(ball[a + 1], FORK).add(ball[b].clone().lerp(ball[b + 1], FORK)).multiplyScalar(0.5);
-      ball[WEBS + f].w *= 0.85;
+      ball[WEBS + f].w *= 0.9;
     }
     this.smooth();
   }

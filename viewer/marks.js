@@ -86,7 +86,7 @@ export class Marks {
     for (let k = 0; k < JOINTS; ++k) {
       this.places.setXYZ(k, ...frame.joints[k]);
       this.kinds.setX(k, Math.max(0, KINDS.indexOf(frame.contacts[k])));
-      this.lifts.setX(k, this.radii[k] * size * 1.4 + 0.002);
+      this.lifts.setX(k, this.radii[k] * size * 2.2 + 0.002);
     }
     this.places.setXYZ(JOINTS, ...(guidance || [0, 0, 0]));
     this.kinds.setX(JOINTS, GUIDANCE);

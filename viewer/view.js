@@ -11,6 +11,7 @@ import {Vessels} from './vessels.js';
 const FOLLOW = 0.7;  // s, time constant with which the picture's middle follows the hand
 const FOLLOWED = 0.2;   // m about the hand that are seen while it is followed
 const HEADROOM = 0.09;  // m over the vessels of a scene, for the hand
+const BESIDE = 0.95;    // rad, from the forearm's side towards the index finger's
 const THUMB_TIP = 3, INDEX_TIP = 8;
 
 export class View {
@@ -98,7 +99,7 @@ export class View {
       ring([place[0], place[1] + vessel.height, place[2]], vessel.radius);
       points.push(...frame.joints, frame.wrist);
       this.stage.setTable(vessel.place, this.tableY);
-      this.orbit.setHome(points, 0.95, 0.32);
+      this.orbit.setHome(points, this.besideAzimuth(pivot), 0.32);
     } else {
       for (const {place, radius, height} of about.vessels) {
         ring(place, radius);
@@ -114,6 +115,16 @@ export class View {
     this.orbit.reset();
     this.orbit.jump();
     this.show(frame);
+  }
+
+  // From beside the hand: where thumb, fingers and glass are all seen, whichever way the grip is turned and whichever hand it is.
+  besideAzimuth(pivot) {
+    const {joints, wrist} = this.frame, flat = (p) => new THREE.Vector3(p[0], 0, p[2]);
+    const index = flat(joints[INDEX_TIP]).sub(flat(joints[THUMB_TIP])).normalize();
+    const arm = flat(wrist).sub(new THREE.Vector3(pivot.x, 0, pivot.z));
+    arm.addScaledVector(index, -arm.dot(index));
+    const way = index.multiplyScalar(Math.sin(BESIDE)).addScaledVector(arm.normalize(), Math.cos(BESIDE));
+    return Math.atan2(way.x, way.z);
   }
 
   // Keeps the hand in the middle, near enough to see its points; or shows all again.
