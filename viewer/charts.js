@@ -26,7 +26,7 @@ function niceStep(range, count) {
 export class Charts {
   // `overTilt`: x is the tilt in degrees, and the row of the tilt is left out.
   constructor(place, overTilt) {
-    this.rows = overTilt ? ROWS.slice(0, 2) : ROWS;
+    this.rows = overTilt ? ROWS.slice(0, 2).map((row) => ({...row, lines: row.lines.slice(-1)})) : ROWS;  // there F is F_n, and the grip stays
     this.overTilt = overTilt;
     this.canvas = element('canvas', {role: 'img', 'aria-label': overTilt ? 'Forces over the tilt' : 'Forces, force that holding needs and tilt over the last ten seconds'});
     place.append(this.canvas);

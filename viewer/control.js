@@ -1,13 +1,15 @@
-// The page as the gripper: drag the hand, close it, tilt it. What it sends is a gripper's state in the device's own frame (core/tick.h).
-import {Quaternion, Vector3} from './three.module.js';
+// The page as the gripper: drag the hand, close it, tilt it. What it sends is where the hand is to be in the world (docs/view.md).
+import {Matrix4, Quaternion, Vector3} from './three.module.js';
 import {degrees, element, millimetres} from './format.js';
 
-const NEAR = 110;                      // px about the hand in which a drag takes it
+const HAND = 0.1, NEAR = 48;           // m about the hand's middle in which a drag takes it, and px at least
 const INTERVAL = 1000 / 60;            // ms between two states that are sent
 const KEY_STEP = 0.006, KEY_TURN = 0.05;  // m and rad for each press of a key
 const CLOSING = 0.5, OPENING = 1.2;    // of the gap's range, in a second
-const SQUEEZE = 0.05;                  // of it, that a grasp goes on closing
+const SQUEEZE = 0.004;                 // m, that a grasp goes on closing beyond where it held
+const STIFFNESS = 600;                 // N/m of the opening by which one finds where it held; the method's default
 const HELD = ['lift', 'tilt', 'maintain'];
+const THUMB_TIP = 3, INDEX_TIP = 8;
 const LARGEST_TILT = 150, LARGEST_TURN = 180;  // degrees
 
 export class Control {
@@ -16,12 +18,9 @@ export class Control {
     this.view = view;
     this.trouble = trouble;
     const {start} = this.limits;
-    this.position = new Vector3(...start.position);
-    this.gap = start.gap;
-    this.tilt = this.turn = 0;
+    this.place({...start, tilt: 0, turn: 0, ...this.kept()});
     this.sequence = 0;
     this.motion = 0;  // of the assistant: -1 closing, 1 opening
-    this.axes = [0, 1, 2].map((k) => new Vector3(...[0, 3, 6].map((row) => this.limits.axes[row + k])));  // the device's, in the world
     this.make(document.getElementById('control'));
     view.orbit.claim = (event) => this.take(event);
     const canvas = view.stage.canvas;
@@ -47,11 +46,10 @@ export class Control {
     };
     this.grasp = element('button', {type: 'button', class: 'grasp', text: 'Grasp', title: 'Close until it holds, or let go (Space)'});
     this.grasp.addEventListener('click', () => this.toggle());
-    const axis = (k) => [() => this.world().getComponent(k) * 1e3, (mm) => this.moveTo(k, mm / 1e3), () => millimetres(this.world().getComponent(k), 0) + ' mm'];
-    const middle = this.toWorld(new Vector3(...this.limits.center)), span = reach * this.limits.scale;
-    const range = (k) => [Math.round((middle.getComponent(k) - span) * 1e3), Math.round((middle.getComponent(k) + span) * 1e3)];
+    const axis = (k) => [() => this.position.getComponent(k) * 1e3, (mm) => this.moveTo(k, mm / 1e3), () => millimetres(this.position.getComponent(k), 0) + ' mm'];
+    const range = (k) => [-reach, reach].map((way) => Math.round((this.limits.center[k] + way) * 1e3));
     place.append(
-      element('p', {class: 'hint', text: 'Drag the hand to move it; drag beside it to look around.'}), this.grasp,
+      element('p', {class: 'hint', text: 'Drag the hand to move it, with Shift over the table; drag beside it to look around.'}), this.grasp,
       add('close', 'Close', 0, 100, 0.5, () => 100 * (opened - this.gap) / (opened - closed), (v) => { this.gap = opened - (opened - closed) * v / 100; },
         () => `${Math.round(100 * (opened - this.gap) / (opened - closed))} %`),
       add('tilt', 'Tilt', -30, LARGEST_TILT, 1, () => this.tilt * 180 / Math.PI, (v) => { this.tilt = v * Math.PI / 180; }, () => `${degrees(this.tilt)}°`),
@@ -59,32 +57,42 @@ export class Control {
       add('height', 'Height', ...range(1), 1, ...axis(1)), add('depth', 'Depth', ...range(2), 1, ...axis(2)), add('across', 'Across', ...range(0), 1, ...axis(0)));
   }
 
-  toWorld(position) {
-    const world = new Vector3(...this.limits.origin);
-    this.axes.forEach((axis, k) => world.addScaledVector(axis, this.limits.scale * position.getComponent(k)));
-    return world;
+  place({position, gap, tilt, turn}) {
+    Object.assign(this, {position: new Vector3(...position), gap, tilt, turn});
   }
-  world() {
-    return this.toWorld(this.position);
+  // Where this page left the hand before it was loaded again. The address is another one for each session.
+  kept() {
+    try {
+      return JSON.parse(sessionStorage.getItem(location.pathname));
+    } catch (error) {
+      return null;
+    }
   }
-  // By a way of the world; kept within reach.
+  keep() {
+    try {
+      sessionStorage.setItem(location.pathname, JSON.stringify({position: this.position.toArray(), gap: this.gap, tilt: this.tilt, turn: this.turn}));
+    } catch (error) {
+      // a browser that keeps nothing: a page that is loaded again begins at the hand, untilted
+    }
+  }
+
+  // Kept within reach.
   moveBy(way) {
-    const device = new Vector3(...this.axes.map((axis) => axis.dot(way) / this.limits.scale));
     const center = new Vector3(...this.limits.center);
-    this.position.add(device).sub(center).clampLength(0, this.limits.reach).add(center);
+    this.position.add(way).sub(center).clampLength(0, this.limits.reach).add(center);
   }
   moveTo(k, value) {
     const way = new Vector3();
-    way.setComponent(k, value - this.world().getComponent(k));
+    way.setComponent(k, value - this.position.getComponent(k));
     this.moveBy(way);
   }
 
-  // ---- pointer: in the plane of the picture through the hand ----
+  // ---- pointer: in the plane of the picture through the hand; with Shift, over the table ----
   take(event) {
-    if (!this.view.middle || event.button !== 0 || event.shiftKey) return false;
+    if (!this.view.middle || event.button !== 0) return false;
     const at = this.view.project(this.view.middle.toArray());
-    const size = NEAR / Math.max(1, 700 * this.view.orbit.pixel() / 0.5);
-    if (Math.hypot(event.clientX - at.x, event.clientY - at.y) > Math.max(56, Math.min(NEAR, size * 2))) return false;
+    const near = Math.max(NEAR, HAND / this.view.orbit.pixel());
+    if (Math.hypot(event.clientX - at.x, event.clientY - at.y) > near) return false;
     this.pointer = event.pointerId;
     this.last = [event.clientX, event.clientY];
     this.view.stage.canvas.setPointerCapture(event.pointerId);
@@ -94,7 +102,8 @@ export class Control {
   drag(event) {
     if (event.pointerId !== this.pointer) return;
     const [right, up] = this.view.orbit.axes(), far = this.view.stage.camera.position.distanceTo(this.view.middle), size = this.view.orbit.pixel(far);
-    this.moveBy(new Vector3().addScaledVector(right, (event.clientX - this.last[0]) * size).addScaledVector(up, -(event.clientY - this.last[1]) * size));
+    const over = event.shiftKey ? new Vector3(-right.z, 0, right.x).normalize().negate() : up;  // over the table: away from the eye
+    this.moveBy(new Vector3().addScaledVector(right, (event.clientX - this.last[0]) * size).addScaledVector(over, -(event.clientY - this.last[1]) * size));
     this.last = [event.clientX, event.clientY];
     this.changed();
   }
@@ -108,7 +117,6 @@ export class Control {
   toggle() {
     const opens = this.motion < 0 || (this.motion === 0 && this.isHeld);
     this.motion = opens ? 1 : -1;
-    this.squeezed = 0;
     this.before = performance.now();
     this.step();
   }
@@ -117,17 +125,26 @@ export class Control {
     const now = performance.now(), dt = Math.min(0.1, (now - this.before) / 1e3), [closed, opened] = this.limits.gap, range = opened - closed;
     this.before = now;
     const way = (this.motion > 0 ? OPENING : -CLOSING) * dt * range;
-    if (this.isHeld && this.motion < 0) this.squeezed -= way;
     this.gap = Math.max(closed, Math.min(opened, this.gap + way));
-    const isEnd = this.gap === (this.motion > 0 ? opened : closed);
-    if (isEnd || this.squeezed >= SQUEEZE * range) this.motion = 0;
+    if (this.gap === (this.motion > 0 ? opened : closed)) this.motion = 0;
     this.changed();
     requestAnimationFrame(() => this.step());
   }
 
   // What a frame tells the controls.
   show(frame) {
+    if (!this.isAtHand) {  // another page may have moved it
+      this.isAtHand = true;
+      const [thumb, index] = [THUMB_TIP, INDEX_TIP].map((joint) => new Vector3(...frame.rigged[joint]));
+      if (!this.kept()) this.place({position: thumb.add(index).multiplyScalar(0.5).toArray(), gap: frame.gap, tilt: 0, turn: 0});
+      this.showValues();
+    }
     this.isHeld = HELD.includes(frame.state);
+    if (this.isHeld && this.motion < 0) {
+      this.motion = 0;
+      this.gap = Math.max(this.limits.gap[0], frame.gap + Math.max(0, frame.forces.opening) / STIFFNESS - SQUEEZE);
+      this.changed();
+    }
     const word = this.motion < 0 || this.isHeld ? 'Let go' : 'Grasp';
     if (this.grasp.textContent !== word) this.grasp.textContent = word;
   }
@@ -142,6 +159,7 @@ export class Control {
   // ---- sending: at most 60 a second, one on its way ----
   changed() {
     this.showValues();
+    this.keep();
     this.isStale = true;
     if (!this.isSending) this.send();
   }
@@ -161,13 +179,13 @@ export class Control {
     }
     this.isSending = false;
   }
-  // Ry(turn) Rx(-tilt) in the world, in the device's frame: a positive tilt pours away from the palm.
+  // The gripper's axes: turned about the vertical, then tilted about its closing line; a positive tilt pours away from the palm. Numbers go up, above
+  // those of a page that was here before.
   state() {
-    const turned = new Quaternion().setFromAxisAngle(new Vector3(0, 1, 0), this.turn).multiply(new Quaternion().setFromAxisAngle(new Vector3(1, 0, 0), -this.tilt));
-    const columns = this.axes.map((axis) => axis.clone());  // the gripper's axes unturned, as the device has them in the world
-    const rotation = [];
-    for (let row = 0; row < 3; ++row) for (let k = 0; k < 3; ++k) rotation.push(this.axes[row].dot(columns[k].clone().applyQuaternion(turned)));
-    return {position: this.position.toArray(), rotation, gap: this.gap, buttons: 0, sequence: ++this.sequence};
+    const turn = new Quaternion().setFromAxisAngle(new Vector3(0, 1, 0), this.turn), tilt = new Quaternion().setFromAxisAngle(new Vector3(1, 0, 0), -this.tilt);
+    const e = new Matrix4().makeRotationFromQuaternion(turn.multiply(tilt)).elements;
+    this.sequence = Math.max(this.sequence + 1, Date.now());
+    return {position: this.position.toArray(), rotation: [e[0], e[4], e[8], e[1], e[5], e[9], e[2], e[6], e[10]], gap: this.gap, buttons: 0, sequence: this.sequence};
   }
 
   keys() {

@@ -25,15 +25,12 @@ export class Grips {
       frame(found, about.grips[grip]);
       this.showCurve();
     }, trouble);
-    document.getElementById('grips-panel').hidden = false;
-    this.place = document.getElementById('grips');
-    this.makeSliders();
-    if (about.grips.length > 1) this.makeList();
-    else document.getElementById('grips-panel').querySelector('h2').textContent = 'The grip';
-    this.makeTerms();
+    this.makeSliders(document.getElementById('held'));
+    if (about.grips.length > 1) this.makeList(document.getElementById('grips'));
+    this.makeTerms(document.getElementById('score'));
   }
 
-  makeSliders() {
+  makeSliders(place) {
     this.tilt = slider('tilt', 'Tilt', this.largestTilt * 180 / Math.PI, 1);
     this.fill = slider('fill', 'Fill', 1, 0.01);
     const fills = this.about.fills;
@@ -41,10 +38,11 @@ export class Grips {
     this.tilt.row.hidden = this.largestTilt === 0;
     this.fill.row.hidden = !fills.some((fill) => fill > 0);
     for (const {input} of [this.tilt, this.fill]) input.addEventListener('input', () => this.ask());
-    this.place.append(this.tilt.row, this.fill.row);
+    place.append(this.tilt.row, this.fill.row);
+    place.hidden = false;
   }
 
-  makeList() {
+  makeList(place) {
     const vessels = [...new Set(this.about.grips.map((grip) => grip.vessel))];
     this.which = element('select', {'aria-label': 'Vessel'});
     this.which.add(new Option('All vessels', ''));
@@ -55,7 +53,8 @@ export class Grips {
     this.list.append(...this.options);
     this.which.addEventListener('change', () => this.filter());
     this.list.addEventListener('keydown', (event) => this.key(event));
-    this.place.append(this.which, this.list);
+    place.append(this.which, this.list);
+    document.getElementById('grips-panel').hidden = false;
   }
 
   makeOption(grip, k) {
@@ -70,9 +69,11 @@ export class Grips {
     return option;
   }
 
-  makeTerms() {
+  makeTerms(place) {
     this.terms = element('dl', {class: 'terms', 'aria-label': 'Terms of the score'});
-    this.place.append(this.terms);
+    this.facts = element('dl', {class: 'facts', 'aria-label': 'Over all states'});
+    place.append(this.terms, this.facts);
+    document.getElementById('score-panel').hidden = false;
   }
 
   showTerms(grip) {
@@ -81,6 +82,10 @@ export class Grips {
       fill.style.width = `${100 * Math.max(0, Math.min(1, value))}%`;
       return element('div', {}, element('dt', {text: name}), element('dd', {}, element('span', {class: 'bar', 'aria-hidden': 'true'}, fill), fixed(value, 2)));
     }));
+    this.facts.replaceChildren(...[
+      ['Largest force', `${fixed(grip.peak_force_N, 2)} N`], ['Largest N‑hold', `${fixed(grip.hold_force_N, 1)} N`], ['Safe up to', `${degrees(grip.safe_tilt_rad)}°`],
+      ['Deepest point', `${millimetres(grip.depth_m)} mm`], ['Fingers', `${grip.fingers} of 5`], ['Pinch', grip.antipodal ? 'antipodal' : 'not antipodal'],
+    ].map(([name, value]) => element('div', {}, element('dt', {text: name}), element('dd', {text: value}))));
   }
 
   filter() {

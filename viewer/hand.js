@@ -8,7 +8,7 @@ const LEAST_RADIUS = 0.003;  // m: the paper's bare points have none, and would 
 const PALM = flats();
 const FINGER_BASES = [4, 9, 14, 19];
 const WEB_SHARE = 0.62;      // of the index finger's metacarpal, from its base, up to where the web of the thumb reaches
-const FORK = 0.3;             // of a finger's first phalanx, up to where the skin between two fingers reaches
+const FORK = 0.15;            // of a finger's first phalanx, up to where the skin between two fingers reaches
 const WRIST_HALF = 0.0145, WRIST_RADIUS = 0.0115, ARM_HALF = 0.017, ARM_RADIUS = 0.0145, ARM_LENGTH = 0.085;  // m, of an adult's hand
 
 const DECLARATIONS = `#define GLASS_SAMPLES ${GLASS_SAMPLES}\n${HAND_SHADER}`;
@@ -85,7 +85,7 @@ class Skin {
     for (let f = 0; f < 3; ++f) {
       const [a, b] = [FINGER_BASES[f] + 1, FINGER_BASES[f + 1] + 1];
       ball[WEBS + f].copy(ball[a]).lerp(ball[a + 1], FORK).add(ball[b].clone().lerp(ball[b + 1], FORK)).multiplyScalar(0.5);
-      ball[WEBS + f].w *= 0.72;
+      ball[WEBS + f].w *= 0.9;
     }
     this.smooth();
   }
@@ -102,6 +102,10 @@ class Skin {
       ab.cross(ac);
       for (const corner of corners) skin[corner].add(ab);
     }
+    // at the wrist, that of the forearm
+    const along = ab.copy(ball[ARM_THUMB]).sub(ball[WRIST_THUMB]), up = a.copy(ball[WRIST_LITTLE]).sub(ball[WRIST_THUMB]).cross(along);
+    if (up.dot(skin[WRIST_THUMB]) < 0) up.negate();
+    for (const k of [WRIST_THUMB, WRIST_LITTLE]) skin[k].copy(up);
     for (const way of skin) way.normalize();
   }
 
@@ -127,7 +131,8 @@ export class Hand {
     mesh.customDepthMaterial = taught(new THREE.MeshDepthMaterial({depthPacking: THREE.RGBADepthPacking}), this.skin.uniforms, true);
     mesh.castShadow = mesh.receiveShadow = true;
     this.ghost.mesh.material = new THREE.ShaderMaterial({
-      vertexShader: GHOST_VERTEX, fragmentShader: GHOST_FRAGMENT, transparent: true,
+      vertexShader: GHOST_VERTEX, fragmentShader: GHOST_FRAGMENT, transparent: true, polygonOffset: true, polygonOffsetFactor: 2,
+      polygonOffsetUnits: 8,  // where both are in one place the skin is seen
       uniforms: {...this.ghost.uniforms, color: {value: new THREE.Color()}},
     });
     this.ghost.mesh.renderOrder = 500;

@@ -18,7 +18,8 @@ function edges(parents) {
   const inner = FINGERS.slice(1, 3);  // of their metacarpals the palm's skin is all that is seen
   const bones = parents.map((parent, joint) => [parent, joint]).filter(([parent]) => parent >= 0 && !inner.includes(parent));
   const forks = [0, 1, 2].flatMap((f) => [[FINGERS[f] + 1, WEBS + f], [WEBS + f, FINGERS[f + 1] + 1]]);
-  return [...bones, ...forks, [WRIST_THUMB, WRIST_LITTLE], [WRIST_THUMB, THUMB], [WRIST_LITTLE, FINGERS[3]], [THUMB, WEB], [THUMB + 1, WEB]];
+  return [...bones, ...forks, [WRIST_THUMB, WRIST_LITTLE], [WRIST_THUMB, THUMB], [WRIST_LITTLE, FINGERS[3]],
+    [WRIST_THUMB, FINGERS[0]], [THUMB, FINGERS[0]], [THUMB, WEB], [THUMB + 1, WEB]];
 }
 
 // The skin of the palm, as triangles of balls, all the same way round.

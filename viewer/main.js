@@ -8,6 +8,7 @@ import {listenToKeys, viewKeys} from './keys.js';
 import {Panels} from './panels.js';
 import {Playback} from './playback.js';
 import {listen, loadScene, Recording} from './stream.js';
+import {stillMode} from './theme.js';
 import {View} from './view.js';
 
 const PANELS_EVERY = 66, CHARTS_EVERY = 50, COUNT_EVERY = 1000;  // ms
@@ -33,7 +34,11 @@ function wireTools(view) {
   for (const button of document.querySelectorAll('[data-view]')) {
     const name = button.dataset.view;
     buttons[name] = button;
-    button.addEventListener('click', () => (name === 'home' ? view.orbit.reset() : view.orbit.view(name)));
+    button.addEventListener('click', () => {
+      if (name === 'home' && view.follows) buttons.follow.click();
+      else if (name === 'home') view.orbit.reset();
+      else view.orbit.view(name);
+    });
   }
   for (const button of document.querySelectorAll('[data-zoom]')) button.addEventListener('click', () => view.orbit.zoom(Number(button.dataset.zoom)));
   const toggle = (button, act) => button.addEventListener('click', () => {
@@ -44,7 +49,7 @@ function wireTools(view) {
   });
   toggle(buttons.ghost, (isOn) => view.setGhost(isOn));
   toggle(buttons.points, (isOn) => view.marks.setVisible(isOn));
-  toggle(buttons.follow, (isOn) => { view.follows = isOn; });
+  toggle(buttons.follow, (isOn) => view.setFollow(isOn));
   return buttons;
 }
 
@@ -85,15 +90,13 @@ async function start() {
     if (control) control.show(frame);
   };
 
-  window.wholehand = {scene: about, frame: null, view, show, get playback() { return playback; }, get grips() { return grips; }, get control() { return control; },
+  window.wholehand = {scene: about, frame: null, view, charts, get playback() { return playback; }, get grips() { return grips; }, get control() { return control; },
     project: (joint) => view.project(window.wholehand.frame.joints[joint]),
-    camera: () => ({position: view.stage.camera.position.toArray(), target: ['x', 'y', 'z'].map((k) => view.orbit.now[k]), fov: view.stage.camera.fov * Math.PI / 180,
-      isStill: Object.keys(view.orbit.now).every((key) => Math.abs(view.orbit.now[key] - view.orbit.aim[key]) < 1e-6),
-      rectangle: (({left, top, width, height}) => ({left, top, width, height}))(view.stage.canvas.getBoundingClientRect())}),
+    camera: () => view.seenFrom(),
   };
 
   if (about.mode === 'live') {
-    const history = new History(), drawCharts = seldom(CHARTS_EVERY, (frame) => charts.show(history.records, frame.t));
+    const history = window.wholehand.history = new History(), drawCharts = seldom(CHARTS_EVERY, (frame) => charts.show(history.records, frame.t));
     charts.live = true;
     if (about.control && view) control = new Control(about, view, trouble);
     listen((frame) => {
@@ -106,10 +109,11 @@ async function start() {
     });
     if (control) bindings = control.keys();
   } else if (about.mode === 'recording') {
-    const recording = new Recording(about.duration, about.rate);
+    const drawCharts = seldom(CHARTS_EVERY, () => charts.show(recording.before(playback.t, SPAN).map(record), playback.t));
+    const recording = new Recording(about.duration, about.rate, () => playback && drawCharts());
     playback = new Playback(recording, (frame) => {
       show(frame);
-      charts.show(recording.before(playback.t, SPAN).map(record), playback.t);
+      drawCharts();
     }, trouble);
     bindings = playback.keys();
     await playback.seek(0);
@@ -126,6 +130,7 @@ async function start() {
   if (view) {
     const buttons = wireTools(view);
     listenToKeys([...viewKeys(view, buttons), ...bindings], view.stage.canvas);
+    if (about.mode !== 'grips' && !control && !stillMode.matches) buttons.follow.click();
     await view.load();
     let before = 0;
     setInterval(() => {

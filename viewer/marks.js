@@ -8,13 +8,13 @@ const KINDS = CONTACTS.map((contact) => contact.key);
 const GUIDANCE = KINDS.length;
 
 const VERTEX = `
-  attribute float kind, lift; uniform float pixels; varying float shape;
+  attribute float kind, lift; uniform float pixels, size; varying float shape;
   void main() {
     shape = kind;
     vec4 view = modelViewMatrix * vec4(position, 1.0);
     view.xyz *= max(0.2, 1.0 - lift / length(view.xyz));  // in front of the flesh that is about it, at the same place of the picture
     gl_Position = projectionMatrix * view;
-    gl_PointSize = (kind < 0.5 ? 9.0 : kind > ${GUIDANCE}.0 - 0.5 ? 26.0 : 13.0) * pixels;
+    gl_PointSize = (kind < 0.5 ? 9.0 : kind > ${GUIDANCE}.0 - 0.5 ? 26.0 : 13.0) * size * pixels;
   }`;
 const FRAGMENT = `
   uniform vec3 colors[${GUIDANCE + 1}]; uniform vec3 edge; uniform float opacity, pulse; varying float shape;
@@ -54,7 +54,7 @@ export class Marks {
     this.places = dynamic('position', 3);
     this.kinds = dynamic('kind', 1);
     this.lifts = dynamic('lift', 1);
-    this.shared = {pixels: {value: 1}, colors: {value: Array.from({length: GUIDANCE + 1}, () => new THREE.Color())},
+    this.shared = {pixels: {value: 1}, size: {value: 1}, colors: {value: Array.from({length: GUIDANCE + 1}, () => new THREE.Color())},
       edge: {value: new THREE.Color()}, pulse: {value: 1}};
     const make = (opacity, depthFunc) => {
       const points = new THREE.Points(this.geometry, new THREE.ShaderMaterial({
@@ -86,7 +86,7 @@ export class Marks {
     for (let k = 0; k < JOINTS; ++k) {
       this.places.setXYZ(k, ...frame.joints[k]);
       this.kinds.setX(k, Math.max(0, KINDS.indexOf(frame.contacts[k])));
-      this.lifts.setX(k, this.radii[k] * size * 1.4 + 0.002);
+      this.lifts.setX(k, this.radii[k] * size * 2.2 + 0.002);
     }
     this.places.setXYZ(JOINTS, ...(guidance || [0, 0, 0]));
     this.kinds.setX(JOINTS, GUIDANCE);

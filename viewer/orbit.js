@@ -5,7 +5,7 @@ import {stillMode} from './theme.js';
 const FIELD_OF_VIEW = 30;  // degrees, vertical
 const LOWEST = -0.35, HIGHEST = Math.PI / 2 - 1e-3;
 const NEAREST = 0.08, FARTHEST = 6;
-const ROOM_ABOVE = 56, ROOM_BELOW = 56, FILLED = 0.92;  // px of tools and legend, share of the room between that is filled
+const FILLED = 0.92;  // share of the room between tools and legend
 const GLIDE = 0.12;  // s, time constant of the way to where the reader wants to be
 
 export class Orbit {
@@ -17,6 +17,7 @@ export class Orbit {
     this.now = {azimuth: 0, elevation: 0.4, distance: 1, x: 0, y: 0, z: 0};
     this.aim = {...this.now};
     this.home = null;
+    this.room = {above: 0, below: 0};  // px at the picture's edges that others cover
     this.isHome = false;
     this.claim = () => false;  // another's hand on a pointer: given the event, true if it takes it
     this.pointers = new Map();
@@ -92,12 +93,18 @@ export class Orbit {
     this.home = {points: points.map((p) => new Vector3(...p)), azimuth, elevation};
   }
 
+  // From which a ball of that radius is seen whole.
+  distanceFor(radius) {
+    const half = this.camera.fov * Math.PI / 360;
+    return radius / Math.sin(Math.min(half, Math.atan(Math.tan(half) * this.camera.aspect)));
+  }
+
   reset() {
     const {points, azimuth, elevation} = this.home, middle = points.reduce((sum, p) => sum.addScaledVector(p, 1 / points.length), new Vector3());
     const back = new Vector3(Math.sin(azimuth) * Math.cos(elevation), Math.sin(elevation), Math.cos(azimuth) * Math.cos(elevation));
     const right = new Vector3(Math.cos(azimuth), 0, -Math.sin(azimuth)), up = back.clone().cross(right);
     const tall = Math.tan(this.camera.fov * Math.PI / 360), wide = tall * this.camera.aspect, {clientHeight} = this.element;
-    const top = 1 - 2 * ROOM_ABOVE / clientHeight, bottom = -1 + 2 * ROOM_BELOW / clientHeight;  // of the picture, -1 to 1
+    const top = 1 - 2 * this.room.above / clientHeight, bottom = -1 + 2 * this.room.below / clientHeight;  // of the picture, -1 to 1
     let distance = 1;
     for (let k = 0; k < 12; ++k) {  // the middle of what is seen to the middle of the room, and the distance at which it fits
       const seen = points.map((p) => {

@@ -43,6 +43,7 @@ export class Panels {
     find('amounts-panel').hidden = !about.amounts.length;
     find('loop-panel').hidden = about.mode === 'grips';
     find('state-panel').querySelector('h2').textContent = about.mode === 'grips' ? 'Held' : 'State';
+    if (about.mode === 'grips') find('score-panel').before(find('state-panel'));  // what the sliders change comes first
   }
 
   makeState(place) {

@@ -41,12 +41,14 @@ export class Playback {
     const pen = timeline.getContext('2d');
     pen.setTransform(scale, 0, 0, scale, 0, 0);
     const tall = {free: 0.16, touching: 0.34, lift: 0.58, tilt: 1, maintain: 0.8, slipped: 0.24, released: 0.08};
-    frames.forEach((frame, k) => {
-      const from = frame.t / this.recording.duration * width, to = (k + 1 < frames.length ? frames[k + 1].t : this.recording.duration) / this.recording.duration * width;
-      pen.fillStyle = cssColor(`--state-${frame.state}`);
-      const high = height * (tall[frame.state] || 0.1);
-      pen.fillRect(from, height - high, to - from + 0.5, high);
-    });
+    for (let k = 0, next; k < frames.length; k = next) {
+      const {state} = frames[k];
+      for (next = k + 1; next < frames.length && frames[next].state === state; ) ++next;
+      const [from, to] = [frames[k].t, next < frames.length ? frames[next].t : this.recording.duration].map((t) => t / this.recording.duration * width);
+      pen.fillStyle = cssColor(`--state-${state}`);
+      const high = height * (tall[state] || 0.1);
+      pen.fillRect(from, height - high, to - from, high);
+    }
   }
 
   toggle() {

@@ -5,7 +5,7 @@ import {liquidColor, onThemeChange, schemeColor, GUIDANCE_COLOR} from './theme.j
 import {Vessel} from './vessels.js';
 
 const WALL = 0.0018;         // m, of the target as it is drawn
-const FLOOR = 0.004;
+const FLOOR = 2e-4;
 const LEAST_HEIGHT = 0.03;   // m: a target whose mouth lies lower is drawn as a dish
 const START_SPEED = 0.25;    // m/s over the lip, for the stream's width
 const GRAVITY = 9.80665;
@@ -123,7 +123,8 @@ export class Pour {
   // The target's liquids, mixed, upright.
   fill(frame) {
     const area = Math.PI * (this.about.target.diameter / 2) ** 2, volume = frame.target_volume;
-    this.filling.show(volume > 1e-9 ? FLOOR + Math.min(volume / area, this.target.about.height - FLOOR) : null, [0, 1, 0]);
+    const above = this.about.table_y - this.target.about.place[1] + volume / area;  // as high as the stream comes down to
+    this.filling.show(volume > 1e-9 ? Math.min(above, this.target.about.height) : null, [0, 1, 0]);
     const mixed = new THREE.Color(0, 0, 0), hue = new THREE.Color();
     const total = frame.amounts.reduce((sum, amount) => sum + amount.arrived, 0);
     if (total <= 0) return;

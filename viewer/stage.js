@@ -5,6 +5,7 @@ import {onThemeChange, sceneColors} from './theme.js';
 
 const SLOW = 1 / 22;       // s from asking for a picture to its turn: later than this is late
 const PATIENCE = 2;        // s
+const REST = 400;          // ms
 const TABLE_RADIUS = 1.6, SHADOW_REACH = 0.34;  // m
 
 const BACKDROP = {
@@ -60,6 +61,7 @@ export class Stage {
     this.scene = new THREE.Scene();
     this.orbit = new Orbit(canvas, () => this.invalidate());
     this.camera = this.orbit.camera;
+    this.beforeRender = [];
     this.beforeDraw = [];  // each is given the time, s, and dt; it returns true to be drawn again
     this.pixels = 1;       // share of the screen's own
     this.slowSince = null; // when pictures began to come late, s
@@ -139,14 +141,27 @@ export class Stage {
     this.invalidate();
   }
 
-  resize() {
+  resize(pixels = this.pixels) {
     const {clientWidth, clientHeight} = this.canvas.parentElement;
     if (!clientWidth || !clientHeight) return;
-    this.renderer.setPixelRatio(Math.min(2, devicePixelRatio) * this.pixels);
+    this.drawn = pixels;
+    this.orbit.room = this.covered();
+    this.renderer.setPixelRatio(Math.min(2, devicePixelRatio) * pixels);
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.orbit.resize(clientWidth, clientHeight);
-    if (this.pictures) this.renderer.render(this.scene, this.camera);  // a new size is an empty canvas
-    this.invalidate();
+    if (this.pictures) this.render();  // a new size is an empty canvas
+    else this.invalidate();
+  }
+
+  // What tools and legend leave free.
+  covered() {
+    const box = this.canvas.getBoundingClientRect(), [tools, legend] = ['tools', 'legend'].map((id) => document.getElementById(id).getBoundingClientRect());
+    return {above: Math.max(0, tools.bottom - box.top), below: Math.max(0, box.bottom - legend.top)};
+  }
+
+  render() {
+    for (const prepare of this.beforeRender) prepare();
+    this.renderer.render(this.scene, this.camera);
   }
 
   invalidate() {
@@ -162,10 +177,13 @@ export class Stage {
     this.last = now;
     let goesOn = this.orbit.step(dt);
     for (const prepare of this.beforeDraw) goesOn = prepare(now, dt) || goesOn;
-    this.renderer.render(this.scene, this.camera);
+    if (this.drawn !== this.pixels) this.resize();
+    else this.render();
     this.pictures += 1;
     this.watch();
+    clearTimeout(this.rest);
     if (goesOn) this.invalidate();
+    else if (this.pixels < 1) this.rest = setTimeout(() => this.resize(1), REST);  // a still picture may take its time
   }
 
   // Where pictures come late, fewer pixels, down to half of them each way; never more again, so that the picture does not jump.
@@ -176,6 +194,5 @@ export class Stage {
     if (!this.slowSince || now - this.slowSince < PATIENCE || this.pixels <= 0.5) return;
     this.slowSince = now;
     this.pixels = Math.max(0.5, this.pixels * 0.75);
-    this.resize();
   }
 }

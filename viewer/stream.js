@@ -51,9 +51,11 @@ const FRAMES_AT_MOST = 600;
 
 // A recording, fetched as it is needed.
 export class Recording {
-  constructor(duration, rate) {
+  // `arrived` is called when more of it is here.
+  constructor(duration, rate, arrived) {
     this.duration = duration;
     this.rate = rate;
+    this.arrived = arrived;
     this.stretches = new Map();  // by number: a promise of frames
     this.ready = new Map();      // by number: frames
   }
@@ -72,7 +74,10 @@ export class Recording {
     if (!this.stretches.has(number)) {
       const from = number * STRETCH, promise = this.fetch(from, Math.min(from + STRETCH, this.duration), Math.min(60, this.rate || 60));
       this.stretches.set(number, promise);
-      promise.then((frames) => this.ready.set(number, frames), () => this.stretches.delete(number));
+      promise.then((frames) => {
+        this.ready.set(number, frames);
+        this.arrived();
+      }, () => this.stretches.delete(number));
       if (this.stretches.size > KEPT) {
         const far = [...this.stretches.keys()].sort((a, b) => Math.abs(b - number) - Math.abs(a - number))[0];
         this.stretches.delete(far);

@@ -1,6 +1,7 @@
 // Vessels: translucent glass with its wall, where they stand, and the shade under them.
 import * as THREE from './three.module.js';
 import {GLASS_SAMPLES, open, revolve, rounded, sample} from './profile.js';
+import {creased} from './mesh.js';
 import {onThemeChange, sceneColors} from './theme.js';
 
 // What is see-through is drawn from the back to the front; within a vessel in this order, the liquid between.
@@ -67,11 +68,7 @@ async function meshGeometry(address) {
   if (!answer.ok) throw new Error(`${address}: ${await answer.text()}`);
   const data = await answer.arrayBuffer();
   const [vertices, triangles] = new Uint32Array(data, 0, 2);
-  const geometry = new THREE.BufferGeometry();
-  geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(data, 8, 3 * vertices), 3));
-  geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(data, 8 + 12 * vertices, 3 * triangles), 1));
-  geometry.computeVertexNormals();
-  return geometry;
+  return creased(new Float32Array(data, 8, 3 * vertices), new Uint32Array(data, 8 + 12 * vertices, 3 * triangles));
 }
 
 export class Vessel {

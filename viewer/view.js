@@ -9,7 +9,9 @@ import {stillMode} from './theme.js';
 import {Vessels} from './vessels.js';
 
 const FOLLOW = 0.7;  // s, time constant with which the picture's middle follows the hand
+const FOLLOWED = 0.2;   // m about the hand that are seen while it is followed
 const HEADROOM = 0.09;  // m over the vessels of a scene, for the hand
+const BESIDE = 0.95;    // rad, from the forearm's side towards the index finger's
 const THUMB_TIP = 3, INDEX_TIP = 8;
 
 export class View {
@@ -27,6 +29,11 @@ export class View {
     this.follows = false;
     this.frame = null;
     this.stage.beforeDraw.push((time, dt) => this.prepare(time, dt));
+    this.stage.beforeRender.push(() => {
+      this.marks.shared.pixels.value = this.stage.renderer.getPixelRatio();
+      this.marks.shared.size.value = Math.max(0.75, Math.min(1, this.stage.canvas.clientWidth / 900));
+      this.vessels.sort(this.stage.camera);
+    });
   }
 
   // Meshes of vessels that are no outlines.
@@ -73,8 +80,6 @@ export class View {
       for (const axis of ['x', 'y', 'z']) this.orbit.aim[axis] += (this.middle[axis] - this.orbit.aim[axis]) * share;
       goesOn = goesOn || this.middle.distanceTo(new THREE.Vector3(this.orbit.aim.x, this.orbit.aim.y, this.orbit.aim.z)) > 1e-4;
     }
-    this.marks.shared.pixels.value = this.stage.renderer.getPixelRatio();
-    this.vessels.sort(this.stage.camera);
     return goesOn;
   }
 
@@ -88,13 +93,13 @@ export class View {
       const vessel = about.vessels[frame.vessel];
       const pivot = new THREE.Vector3(...frame.joints[THUMB_TIP]).add(new THREE.Vector3(...frame.joints[INDEX_TIP])).multiplyScalar(0.5);
       const far = Math.max(...frame.joints.map((p) => pivot.distanceTo(new THREE.Vector3(...p))), vessel.height * 0.6);
-      for (const way of [[1, 0, 0], [0, 1, 0], [0, 0, 1]]) for (const sign of [-0.7, 0.7]) points.push(pivot.toArray().map((v, k) => v + sign * far * way[k]));
-      ring(vessel.place, vessel.radius);
-      ring([vessel.place[0], vessel.place[1] + vessel.height, vessel.place[2]], vessel.radius);
+      for (const way of [[1, 0, 0], [0, 1, 0], [0, 0, 1]]) for (const sign of [-0.8, 0.8]) points.push(pivot.toArray().map((v, k) => v + sign * far * way[k]));
+      const {place} = frame.vessels[frame.vessel];
+      ring(place, vessel.radius);
+      ring([place[0], place[1] + vessel.height, place[2]], vessel.radius);
       points.push(...frame.joints, frame.wrist);
-      this.tableY = Math.min(about.table_y, pivot.y - far) - 0.03;
       this.stage.setTable(vessel.place, this.tableY);
-      this.orbit.setHome(points, 0.95, 0.32);
+      this.orbit.setHome(points, this.besideAzimuth(pivot), 0.32);
     } else {
       for (const {place, radius, height} of about.vessels) {
         ring(place, radius);
@@ -112,6 +117,23 @@ export class View {
     this.show(frame);
   }
 
+  // From beside the hand: where thumb, fingers and glass are all seen, whichever way the grip is turned and whichever hand it is.
+  besideAzimuth(pivot) {
+    const {joints, wrist} = this.frame, flat = (p) => new THREE.Vector3(p[0], 0, p[2]);
+    const index = flat(joints[INDEX_TIP]).sub(flat(joints[THUMB_TIP])).normalize();
+    const arm = flat(wrist).sub(new THREE.Vector3(pivot.x, 0, pivot.z));
+    arm.addScaledVector(index, -arm.dot(index));
+    const way = index.multiplyScalar(Math.sin(BESIDE)).addScaledVector(arm.normalize(), Math.cos(BESIDE));
+    return Math.atan2(way.x, way.z);
+  }
+
+  // Keeps the hand in the middle, near enough to see its points; or shows all again.
+  setFollow(isOn) {
+    this.follows = isOn;
+    if (!isOn) this.orbit.reset();
+    else this.orbit.go({distance: this.orbit.distanceFor(FOLLOWED)});
+  }
+
   setGhost(isShown) {
     this.hand.ghost.mesh.visible = isShown;
     if (this.frame) this.show(this.frame);
@@ -122,5 +144,14 @@ export class View {
     const {camera, canvas} = this.stage, box = canvas.getBoundingClientRect();
     const ndc = new THREE.Vector3(...place).project(camera);
     return {x: box.left + (ndc.x + 1) / 2 * box.width, y: box.top + (1 - ndc.y) / 2 * box.height, depth: ndc.z};
+  }
+
+  // What the picture is seen with, and whether it has come to rest there.
+  seenFrom() {
+    const {camera, canvas} = this.stage, {now, aim} = this.orbit, {left, top, width, height} = canvas.getBoundingClientRect();
+    return {
+      position: camera.position.toArray(), target: [now.x, now.y, now.z], fov: camera.fov * Math.PI / 180, rectangle: {left, top, width, height},
+      isStill: Object.keys(now).every((key) => Math.abs(now[key] - aim[key]) < 1e-6) && Math.abs(camera.aspect * height - width) < 1,
+    };
   }
 }

@@ -69,6 +69,8 @@ class Browser:
         except subprocess.TimeoutExpired:
             self.process.kill()
             self.process.wait()
+        self.out.close()
+        self.reader.join(10)
         shutil.rmtree(self.folder, ignore_errors=True)
 
     def _read(self, stream):
@@ -86,6 +88,7 @@ class Browser:
                         waiting.put(message)
                 elif message.get("sessionId") in self.pages:
                     self.pages[message["sessionId"]].hear(message["method"], message["params"])
+        stream.close()
         for waiting in list(self.answers.values()):
             waiting.put({"error": {"message": "the browser is gone"}})
 
@@ -173,13 +176,12 @@ class Page:
         return result["result"].get("value")
 
     def wait(self, expression, seconds=None, what=None):
-        """Until the expression is true; its value then."""
+        """Until the expression, or what it promises, is true."""
         seconds = seconds or self.browser.patience
         end = time.monotonic() + seconds
         while True:
-            value = self.evaluate(expression)
-            if value:
-                return value
+            if self.evaluate(f"Promise.resolve({expression}).then(Boolean)"):
+                return
             if time.monotonic() > end:
                 raise BrowserError(f"{what or expression}: not in {seconds} s; errors: {self.errors}")
             time.sleep(0.05)

@@ -1,0 +1,126 @@
+"""The page as the gripper: by sliders, keys, pointer and touch."""
+
+from support import ViewerTest, main, slide, still
+
+FAR = 0.02  # m: what follows smoothly has arrived, all but this
+POURED = 1e-6  # m3
+
+
+class ThePageAsGripper(ViewerTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.live = cls.serve("live", "mixing_board", "--view", "--device", "view")
+
+    def hand(self, page):
+        """Middle between the tips of thumb and index finger, as drawn."""
+        tips = page.evaluate("[3, 8].map((k) => wholehand.frame.rigged[k])")
+        return [(a + b) / 2 for a, b in zip(*tips)]
+
+    def wait_for_hand(self, page, place):
+        page.wait(f"((a, b) => Math.hypot(...[0, 1, 2].map((k) => (a[k] + b[k]) / 2 - {place}[k])) < {FAR})(wholehand.frame.rigged[3], wholehand.frame.rigged[8])",
+                  what=f"the hand at {place}")
+
+    def go(self, page, across, height, depth):
+        for name, value in [("across", across), ("height", height), ("depth", depth)]:
+            slide(page, f"control-{name}", value)
+        self.wait_for_hand(page, [across / 1e3, height / 1e3, depth / 1e3])
+
+    def test_a_beaker_is_grasped_lifted_tilted_and_let_go(self):
+        page = self.open(self.live, 900, 700)
+        self.go(page, -120, 60, 150)  # in front of it, then towards it
+        self.go(page, -120, 60, 0)
+        page.evaluate("document.activeElement.blur()")
+        page.key(" ")
+        page.wait("wholehand.frame.state === 'lift'", what="a grasp")
+        self.assertEqual(page.evaluate("wholehand.scene.vessels[wholehand.frame.vessel].name"), "beaker1")
+        page.wait("wholehand.control.motion === 0", what="the end of closing")
+        page.wait("wholehand.frame.forces.opening > 0.5", what="a squeeze")
+        self.assertLess(page.evaluate("wholehand.frame.forces.feedback"), 8)
+        slide(page, "control-height", 160)
+        page.wait("wholehand.frame.vessels[1].place[1] > 0.08", what="the lift")
+        slide(page, "control-tilt", 75)
+        page.wait("wholehand.frame.tilt > 1.2", what="the tilt")
+        page.wait(f"wholehand.frame.spilt > {POURED}", what="something spilt: there is nothing below")
+        slide(page, "control-tilt", 0)
+        page.wait("wholehand.frame.tilt < 0.1", what="upright again")
+        page.evaluate("document.querySelector('.grasp').click()")
+        page.wait("!['lift', 'tilt', 'maintain'].includes(wholehand.frame.state)", what="letting go")
+        page.evaluate("document.querySelector('.grasp').blur()")
+
+    def test_keys_move_close_and_tilt(self):
+        page = self.open(self.live)
+        page.wait("wholehand.control")
+        before = page.evaluate("({...wholehand.control.state(), tilt: wholehand.control.tilt})")
+        for key in "eeddx":
+            page.key(key)
+        page.key("t")
+        after = page.evaluate("({...wholehand.control.state(), tilt: wholehand.control.tilt})")
+        self.assertGreater(after["position"][1], before["position"][1])
+        self.assertGreater(after["position"][0], before["position"][0])
+        self.assertLess(after["gap"], before["gap"])
+        self.assertGreater(after["tilt"], before["tilt"])
+        self.assertGreater(after["sequence"], before["sequence"])
+        self.wait_for_hand(page, after["position"])
+
+    def test_a_drag_moves_the_hand_with_the_pointer(self):
+        page = self.open(self.live)
+        self.go(page, 0, 150, 200)
+        still(page)
+        start = page.evaluate("(({x, y}) => [x, y])(wholehand.view.project(wholehand.view.middle.toArray()))")
+        tips = page.evaluate("wholehand.control.position.toArray()")
+        seen = page.evaluate(f"(({{x, y}}) => [x, y])(wholehand.view.project({tips}))")
+        camera = page.evaluate("wholehand.camera().position")
+        page.drag(start, (start[0] + 60, start[1] - 40))
+        moved = page.evaluate("wholehand.control.position.toArray()")
+        after = page.evaluate(f"(({{x, y}}) => [x, y])(wholehand.view.project({moved}))")
+        # the drag is at the distance of the hand's middle, the tips are some centimetres nearer or farther
+        self.assert_near(after, [seen[0] + 60, seen[1] - 40], 15, "pixels")
+        self.assertEqual(page.evaluate("wholehand.camera().position"), camera, "the view has not turned")
+        self.wait_for_hand(page, moved)
+
+    def test_a_page_that_is_loaded_again_goes_on_where_it_was(self):
+        page = self.open(self.live)
+        self.go(page, -40, 140, 180)
+        slide(page, "control-tilt", 25)
+        before = page.evaluate("(({position, gap, tilt}) => ({position, gap, tilt}))(wholehand.control)")
+        page.go(self.live.address)
+        page.wait("window.wholehand && wholehand.frame", what="the first frame")
+        self.assertEqual(page.evaluate("(({position, gap, tilt}) => ({position, gap, tilt}))(wholehand.control)"), before)
+        self.wait_for_hand(page, [-0.04, 0.14, 0.18])
+
+    def test_a_second_page_begins_where_the_hand_is(self):
+        page = self.open(self.live)
+        self.go(page, 60, 160, 170)
+        other = self.open(self.live)
+        self.assert_near(other.evaluate("wholehand.control.position.toArray()"), [0.06, 0.16, 0.17], FAR)
+
+    def test_touch_does_the_same(self):
+        page = self.open(self.live, 420, 800)
+        page.resize(420, 800, mobile=True)
+        self.go(page, 0, 150, 200)
+        still(page)
+        page.evaluate("window.scrollTo(0, 0)")
+        x, y = page.evaluate("(({x, y}) => [x, y])(wholehand.view.project(wholehand.view.middle.toArray()))")
+        before = page.evaluate("wholehand.control.position.x")
+        page.touch("touchStart", [(x, y)])
+        for k in range(1, 6):
+            page.touch("touchMove", [(x + 8 * k, y)])
+        page.touch("touchEnd", [])
+        self.assertGreater(page.evaluate("wholehand.control.position.x"), before + 0.01)
+
+    def test_a_drag_beside_the_hand_turns_the_view(self):
+        page = self.open(self.live)
+        self.go(page, 0, 150, 200)
+        still(page)
+        position = page.evaluate("wholehand.control.position.toArray()")
+        camera = page.evaluate("wholehand.camera().position")
+        box = page.evaluate("wholehand.camera().rectangle")
+        corner = (box["left"] + box["width"] - 20, box["top"] + 80)
+        page.drag(corner, (corner[0] - 80, corner[1] + 10))
+        page.wait(f"Math.hypot(...wholehand.camera().position.map((v, k) => v - {camera}[k])) > 0.05", what="a turned view")
+        self.assertEqual(page.evaluate("wholehand.control.position.toArray()"), position)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,131 @@
+"""The page for everyone: every width, dark mode, reduced motion, the keyboard alone, a reader of the screen, a server that is gone."""
+
+import os
+
+from support import Picture, ViewerTest, main, still, wholehand
+
+GRIP = ["three_beakers", "--vessel", "beaker2", "--height-mm", "95", "--roll-deg", "30"]
+WIDTHS = [400, 560, 800, 861, 1024, 1366, 2000]
+# Whatever a person may use
+USABLE = "[...document.querySelectorAll('button, input, select, [tabindex=\"0\"], a[href]')].filter((e) => e.offsetParent !== null || e.id === 'view')"
+
+
+def luminance(color):
+    return 0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2]
+
+
+class ThePage(ViewerTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        wholehand("live", "mixing_board", "--no-clock", "--record", "board.nc", "--seconds", "4", folder=cls.folder)
+        cls.pages = {"grips": cls.serve("grip", *GRIP, "--view"), "recording": cls.serve("view", "board.nc"),
+                     "control": cls.serve("live", "mixing_board", "--view", "--device", "view")}
+
+    def test_no_width_scrolls_sideways(self):
+        for name, served in self.pages.items():
+            page = self.open(served)
+            for width in WIDTHS:
+                page.resize(width, 800)
+                page.wait(f"innerWidth === {width}")
+                wide = page.evaluate("Math.max(document.documentElement.scrollWidth, document.body.scrollWidth, document.getElementById('panels').scrollWidth)")
+                self.assertLessEqual(wide, width, f"{name} at {width}")
+                over = page.evaluate(f"{USABLE}.filter((e) => !e.classList.contains('skip')).map((e) => e.getBoundingClientRect())"
+                                     f".filter((box) => box.left < -1 || box.right > {width} + 1).length")
+                self.assertEqual(over, 0, f"{name} at {width}")
+                seen = page.evaluate("(({width, height}) => [width, height])(wholehand.camera().rectangle)")
+                self.assertTrue(seen[0] >= min(width, 400) and seen[1] >= 200, f"{name} at {width}: {seen}")
+
+    def test_dark_mode_is_dark_and_light_is_light(self):
+        for dark in [False, True]:
+            page = self.open(self.pages["grips"], dark=dark)
+            still(page)
+            path = os.path.join(self.folder, f"{dark}.png")
+            page.screenshot(path)
+            picture = Picture(path)
+            for what, x, y in [("backdrop", 500, 130), ("header", 500, 20), ("panels", 1192, 500)]:
+                light = luminance(picture.color(x, y))
+                self.assertTrue(light < 60 if dark else light > 200, f"{what} {light}")
+
+    def test_a_change_of_the_scheme_is_followed(self):
+        page = self.open(self.pages["grips"])
+        tint = "wholehand.view.vessels.list[0].materials[0].uniforms.tint.value.getHex()"
+        before = page.evaluate(tint)
+        page.emulate(dark=True)
+        page.wait(f"{tint} !== {before}")
+
+    def test_reduced_motion_does_not_glide(self):
+        page = self.open(self.pages["grips"], still=True)
+        still(page)
+        pictures = page.evaluate("wholehand.view.stage.pictures")
+        page.evaluate("document.querySelector('[data-view=top]').click()")
+        page.wait(f"wholehand.view.stage.pictures > {pictures}")
+        self.assertGreater(page.evaluate("wholehand.view.orbit.now.elevation"), 1.5)
+        self.assertLessEqual(page.evaluate("wholehand.view.stage.pictures"), pictures + 2)
+
+    def test_nothing_is_drawn_while_nothing_changes(self):
+        page = self.open(self.pages["grips"])
+        still(page)
+        page.wait("new Promise((done) => { const before = wholehand.view.stage.pictures;"
+                  " setTimeout(() => done(wholehand.view.stage.pictures === before), 700); })", what="rest")
+
+    def test_the_keyboard_reaches_everything(self):
+        for name, served in self.pages.items():
+            page = self.open(served)
+            wanted = page.evaluate(f"{USABLE}.length")
+            page.evaluate("window.reached = new Set(), document.body.focus()")
+            for _ in range(wanted + 3):
+                page.key("Tab")
+                page.evaluate("reached.add(document.activeElement)")
+            missed = page.evaluate(f"{USABLE}.filter((e) => !reached.has(e)).map((e) => e.id || e.textContent)")
+            self.assertEqual(missed, [], name)
+
+    def test_everything_that_can_be_used_has_a_name(self):
+        for name, served in self.pages.items():
+            page = self.open(served)
+            page.call("Accessibility.enable")
+            nodes = page.call("Accessibility.getFullAXTree")["nodes"]
+            roles = {"button", "slider", "combobox", "listbox", "option", "img", "image", "dialog", "link", "toolbar", "group"}
+            nameless = [node["role"]["value"] for node in nodes if not node.get("ignored") and node.get("role", {}).get("value") in roles
+                        and not node.get("name", {}).get("value")]
+            self.assertEqual(nameless, [], name)
+
+    def test_keys_turn_and_the_help_lists_them(self):
+        page = self.open(self.pages["grips"])
+        still(page)
+        page.evaluate("document.getElementById('view').focus()")
+        before = page.evaluate("wholehand.view.orbit.aim.azimuth")
+        page.key("ArrowRight")
+        self.assertGreater(page.evaluate("wholehand.view.orbit.aim.azimuth"), before)
+        near = page.evaluate("wholehand.view.orbit.aim.distance")
+        page.key("+")
+        self.assertLess(page.evaluate("wholehand.view.orbit.aim.distance"), near)
+        page.key("1")
+        self.assertEqual(page.evaluate("wholehand.view.orbit.aim.elevation"), 0)
+        page.key("g")
+        self.assertTrue(page.evaluate("wholehand.view.hand.ghost.mesh.visible"))
+        page.key("?")
+        self.assertTrue(page.evaluate("document.getElementById('help').open"))
+        self.assertGreater(page.evaluate("document.querySelectorAll('#help-keys kbd').length"), 15)
+        page.key("Escape")
+        page.wait("!document.getElementById('help').open")
+
+    def test_a_change_of_state_is_said(self):
+        page = self.open(self.pages["recording"])
+        page.wait("document.getElementById('said').textContent === 'free'")
+        page.evaluate("wholehand.playback.seek(3)")
+        page.wait("document.getElementById('said').textContent === 'lift, tutorial'")
+
+    def test_a_server_that_is_gone_is_told(self):
+        served = self.serve("grip", *GRIP, "--view")
+        page = self.browser.open(served.address)
+        self.addCleanup(page.close)
+        page.wait("window.wholehand && wholehand.frame")
+        self.assertEqual(served.stop(), 0)
+        page.evaluate("document.getElementById('tilt').value = 20, document.getElementById('tilt').dispatchEvent(new Event('input'))")
+        page.wait("!document.getElementById('trouble').hidden")
+        self.assertIn("does not answer", page.evaluate("document.getElementById('trouble').textContent"))
+
+
+if __name__ == "__main__":
+    main()

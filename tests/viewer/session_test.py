@@ -1,0 +1,162 @@
+"""A live session in the viewer, from reach to return; then the same session as a recording, played and scrubbed."""
+
+import os
+import re
+
+from netCDF4 import Dataset
+
+from support import PATIENCE, ViewerTest, main, slide
+
+SCENE = """
+[scene]
+name = "one_beaker"
+
+[[vessel]]
+name = "beaker"
+shape = "cylinder"
+diameter_mm = 80
+height_mm = 110
+wall_mm = 1.5
+force_range_N = 2
+place_mm = [60, 0, 0]
+liquid = { name = "red", fill = 0.8 }
+guidance_mm = [[65, 0]]
+
+[liquid]
+fills = [0, 0.8]
+
+[task]
+target = { place_mm = [0, 60, -200], diameter_mm = 120 }
+amounts_ml = { red = 20 }
+destination_mm = [-200, 0, 0]
+tolerance_ml = 5
+"""
+HELD = ["lift", "tilt", "maintain"]
+# What the page shows, kept at each picture: states in their order, and the largest of what changes
+WATCH = """(() => {
+  const seen = window.seen = {states: [], arrived: 0, tilt: 0, streams: 0, feedback: 0, texts: new Set()};
+  const look = () => {
+    const {frame} = wholehand;
+    if (seen.states[seen.states.length - 1] !== frame.state) seen.states.push(frame.state);
+    seen.arrived = Math.max(seen.arrived, frame.amounts[0].arrived);
+    seen.tilt = Math.max(seen.tilt, frame.tilt || 0);
+    seen.feedback = Math.max(seen.feedback, frame.forces.feedback);
+    if (frame.stream && wholehand.view.pour.stream.visible) seen.streams += 1;
+    seen.texts.add(document.querySelector('#amounts output').textContent);
+    setTimeout(look, 10);
+  };
+  look();
+})()"""
+
+
+class ASession(ViewerTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        with open(os.path.join(cls.folder, "one.toml"), "w") as file:
+            file.write(SCENE)
+        cls.live = cls.serve("live", "one.toml", "--view", "--record", "one.nc")
+        cls.page = cls.browser.open(cls.live.address, 700, 600)
+        cls.page.wait("window.wholehand && wholehand.frame", what="the first frame")
+        cls.page.evaluate(WATCH)
+        cls.page.wait("document.getElementById('link').dataset.status === 'over'", 3 * PATIENCE, "the session's end")
+        cls.seen = cls.page.evaluate("({...seen, texts: [...seen.texts]})")
+        cls.last = cls.page.evaluate("wholehand.frame")
+        cls.said = cls.page.evaluate("document.getElementById('link').textContent")
+        cls.recording = cls.serve("view", "one.nc")
+        cls.data = Dataset(os.path.join(cls.folder, "one.nc"))
+        cls.addClassCleanup(cls.data.close)
+
+    def value(self, name, t):
+        """What the recording has at that moment: of its newest tick."""
+        times = self.data["time"][:]
+        return self.data[name][max(k for k in range(len(times)) if times[k] <= t + 1e-9)]
+
+    # ---- live ----
+
+    def test_runs_from_reach_to_return(self):
+        states = self.seen["states"]
+        self.assertIn(states[0], ["free", "touching"] + HELD)  # the page may open late
+        first_held = next(k for k, state in enumerate(states) if state in HELD)
+        self.assertIn("tilt", states[first_held:])
+        last_held = max(k for k, state in enumerate(states) if state in HELD)
+        self.assertTrue(set(states[last_held + 1:]) & {"free", "touching", "slipped", "released"}, states)
+
+    def test_amounts_change_while_it_pours(self):
+        self.assertGreater(self.seen["streams"], 0)
+        self.assertGreater(self.seen["tilt"], 0.5)
+        self.assertAlmostEqual(self.seen["arrived"], 20e-6, delta=5e-6)
+        self.assertGreater(len(self.seen["texts"]), 3, self.seen["texts"])
+
+    def test_forces_are_felt(self):
+        self.assertGreater(self.seen["feedback"], 0.8)
+        self.assertLessEqual(self.seen["feedback"], 8)
+
+    def test_the_target_shows_what_is_in_it(self):
+        volume = self.last["target_volume"]
+        self.assertGreater(volume, 15e-6)
+        level = self.page.evaluate("wholehand.view.pour.filling.level.value")
+        self.assertAlmostEqual(level, volume / (3.141592653589793 * 0.06 ** 2), delta=1e-9)
+
+    def test_the_page_says_that_it_is_over(self):
+        self.assertRegex(self.said, "^over")
+
+    def test_there_is_nothing_to_complain_about(self):
+        self.assertEqual(self.page.errors, [])
+
+    def test_the_chart_has_the_last_ten_seconds(self):
+        records = self.page.evaluate("wholehand.history.records.map((r) => r.x)")
+        self.assertEqual(records, sorted(records))
+        self.assertAlmostEqual(records[-1], self.last["t"], delta=1e-9)
+        self.assertGreater(records[0], self.last["t"] - 11)
+
+    # ---- recorded ----
+
+    def test_scrubbing_shows_what_was_recorded(self):
+        page = self.open(self.recording)
+        duration = self.recording.get("scene.json")["duration"]
+        for share in [0.1, 0.45, 0.5, 0.9, 0.3]:
+            t = round(share * duration, 2)
+            slide(page, "scrub", t)
+            page.wait(f"wholehand.frame.t <= {t} + 1e-9 && wholehand.frame.t > {t} - 0.02", what=f"the frame of {t} s")
+            shown = page.evaluate("wholehand.frame")
+            at = shown["t"]
+            self.assertEqual(shown["tick"], self.value("tick", at))
+            for name, variable, tolerance in [("closure", "closure", 1e-6), ("gap", "gap", 1e-7), ("tilt", "tilt", 1e-6)]:
+                self.assertAlmostEqual(shown[name], self.value(variable, at), delta=tolerance, msg=f"{name} at {at}")
+            for name, variable in [("feedback", "feedback_force"), ("normal", "normal_force"), ("opening", "opening_force"), ("user", "grip_force")]:
+                self.assertAlmostEqual(shown["forces"][name], self.value(variable, at), delta=1e-5, msg=f"{name} at {at}")
+            self.assertAlmostEqual(shown["vessels"][0]["volume"], self.value("liquid_volume", at)[0], delta=1e-10)
+            self.assertAlmostEqual(shown["amounts"][0]["arrived"], self.value("arrived_volume", at)[0], delta=1e-10)
+            if shown["state"] in HELD + ["touching"]:  # thumb and index finger are drawn at what was felt
+                for joint, tip in [(3, 0), (8, 1)]:
+                    self.assert_near(shown["joints"][joint], self.value("proxies", at)[tip], 5e-4, f"tip {tip} at {at}")
+            text = f"{self.value('feedback_force', at):.2f}".replace("-0.00", "0.00").replace("-", "−")
+            page.wait(f"document.querySelector('.force-value').textContent === '{text}'", what=f"{text} N")
+
+    def test_play_and_pause(self):
+        page = self.open(self.recording)
+        page.evaluate("document.activeElement.blur()")
+        page.key(" ")
+        page.wait("wholehand.playback.t > 0.3", what="playing")
+        page.key(" ")
+        at = page.evaluate("[wholehand.playback.isPlaying, wholehand.playback.t]")
+        self.assertFalse(at[0])
+        self.assertEqual(page.evaluate("new Promise((done) => setTimeout(() => done(wholehand.playback.t), 300))"), at[1])
+        page.key(".")
+        page.wait(f"Math.abs(wholehand.playback.t - {at[1]} - 0.1) < 1e-6")
+
+    def test_the_end_is_the_end(self):
+        page = self.open(self.recording)
+        duration = self.recording.get("scene.json")["duration"]
+        page.evaluate("document.getElementById('speed').value = 4, document.getElementById('speed').dispatchEvent(new Event('change'))")
+        slide(page, "scrub", duration - 0.4)
+        page.evaluate("document.getElementById('play').click()")
+        page.wait("!wholehand.playback.isPlaying", what="the end")
+        self.assertAlmostEqual(page.evaluate("wholehand.playback.t"), duration, delta=1e-6)
+        clock = page.evaluate("document.getElementById('clock').textContent")
+        self.assertEqual(len(set(re.findall(r"\d+:\d\d\.\d", clock))), 1, clock)
+
+
+if __name__ == "__main__":
+    main()
