@@ -9,8 +9,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -24,6 +26,7 @@
 #include "app/scene_reader.h"
 #include "core/error.h"
 #include "sweeps/recording.h"
+#include "tests/support/http_client.h"
 
 namespace wholehand {
 namespace {
@@ -165,6 +168,7 @@ class Program {
             text_of(folder_.file("err"))};
   }
   std::string out() const { return text_of(folder_.file("out")); }
+  std::string errors() const { return text_of(folder_.file("err")); }
 
  private:
   Folder folder_;
@@ -189,6 +193,67 @@ TEST(Live, KeepsItsRateWithAClock) {
   EXPECT_GT(report["ticks"], 1250);
   EXPECT_NEAR(report["period_s"]["p50"], 8e-4, 2e-4);
   EXPECT_TRUE(report["fault"].is_null());
+}
+
+double ease(double time, double from, double to) {
+  const double s = std::clamp((time - from) / (to - from), 0.0, 1.0);
+  return s * s * (3 - 2 * s);
+}
+
+Triple between(const Triple& a, const Triple& b, double share) {
+  Triple place{};
+  for (int k = 0; k < 3; ++k) place[k] = a[k] + share * (b[k] - a[k]);
+  return place;
+}
+
+// What a page would post of a mouse that takes the board's first full beaker from its place, over the target, and tilts it there.
+nlohmann::json dragged(const Scene& scene, double time) {
+  const Triple home = scene.vessels[1].place, mouth = scene.task->target_place;
+  // at 75 degrees the lip is 4 cm below the tips and 5 cm further from the person
+  const Triple held{home[0], home[1] + 0.07, home[2]}, lifted{home[0], home[1] + 0.3, home[2]},
+      over{mouth[0], mouth[1] + 0.12, mouth[2] + 0.05};
+  Triple place = between({0, 0.07, 0.19}, held, ease(time, 0, 1));
+  place = between(place, lifted, ease(time, 2, 2.7));
+  place = between(place, over, ease(time, 2.7, 3.5));
+  const double tilt = radians(75) * ease(time, 3.5, 4.7), c = std::cos(tilt), s = std::sin(tilt);
+  return {{"position", place},
+          {"rotation", {1, 0, 0, 0, c, s, 0, -s, c}},
+          {"gap", 0.125 + (0.079 - 0.125) * ease(time, 1.1, 1.8)},
+          {"buttons", 0},
+          {"sequence", static_cast<std::int64_t>(time * 1000) + 1}};
+}
+
+// Everything between a mouse and the target container but the mouse: requests, parser, gripper, loop.
+TEST(Live, WhatAPagePostsGraspsLiftsTiltsAndPours) {
+  const Scene scene = board_scene();
+  Program program("--view --device view --json --seconds 7");
+  for (int k = 0; k < 400 && program.errors().find("/\n") == std::string::npos; ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  const ViewAddress page(program.errors());
+  ASSERT_NE(page.port, 0) << program.errors();
+  HttpSocket socket(page.port);
+  const auto began = std::chrono::steady_clock::now();
+  for (double time = 0; time < 5;) {
+    socket.send(page.post(dragged(scene, time).dump()));
+    ASSERT_EQ(socket.read_reply().status, 204) << time;
+    std::this_thread::sleep_for(std::chrono::milliseconds(16));
+    time = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  }
+  socket.send(page.post("{}"));
+  const HttpReply refused = socket.read_reply();
+  EXPECT_EQ(refused.status, 400);
+  EXPECT_EQ(refused.body.rfind("control: 'position' is missing", 0), 0u) << refused.body;
+  const Outcome outcome = program.wait();
+  ASSERT_EQ(outcome.code, 0) << outcome.errors;
+  const auto report = nlohmann::json::parse(outcome.output);
+  EXPECT_TRUE(report["fault"].is_null());
+  EXPECT_EQ(report["device"]["address"], "view");
+  EXPECT_EQ(report["grasps"], 1);
+  EXPECT_EQ(report["lost"], 0) << "it is held until the end";
+  const auto red =
+      std::find_if(report["amounts"].begin(), report["amounts"].end(), [](const auto& a) { return a["liquid"] == "red"; });
+  EXPECT_GT((*red)["arrived_m3"], 20e-6);
+  EXPECT_LT((*red)["spilt_m3"], (*red)["arrived_m3"]);
 }
 
 // Sixty frames a second at most, and of all of them the last.
