@@ -3,10 +3,14 @@
 #include <pthread.h>
 
 #include <algorithm>
-#include <chrono>
 #include <csignal>
 
 namespace wholehand {
+namespace {
+
+constexpr std::chrono::microseconds PERIOD{static_cast<std::int64_t>(1e6 / DISPLAY_RATE)};
+
+}  // namespace
 
 DisplayLoop::DisplayLoop(const LiveScene& live, std::vector<Display*> displays)
     : live_(live), displays_(std::move(displays)), tracker_(live.scene) {
@@ -22,16 +26,24 @@ DisplayLoop::~DisplayLoop() { stop(); }
 
 void DisplayLoop::look(std::span<const Tick> ticks) {
   if (ticks.empty()) return;
-  const std::lock_guard lock(mutex_);
-  for (const Tick& tick : ticks) {
-    tracker_.follow(tick);
-    if (ticks_ > 0) timing_.missed += std::max<std::int64_t>(0, tick.number - newest_.number - 1);
-    timing_.step = std::max(timing_.step, tick.step_time);
-    newest_.number = tick.number;
-    ++ticks_;
+  {
+    const std::lock_guard lock(mutex_);
+    for (const Tick& tick : ticks) {
+      tracker_.follow(tick);
+      if (ticks_ > 0) timing_.missed += std::max<std::int64_t>(0, tick.number - newest_.number - 1);
+      timing_.step = std::max(timing_.step, tick.step_time);
+      newest_.number = tick.number;
+      ++ticks_;
+    }
+    newest_ = ticks.back();
+    is_new_ = true;
+    // a few that come right behind others wait for the next
+    const Clock::time_point now = Clock::now();
+    if (now < due_) return;
+    due_ = now + PERIOD / 2;
+    is_due_ = true;
   }
-  newest_ = ticks.back();
-  is_new_ = true;
+  if (is_watched()) wake_.notify_one();
 }
 
 void DisplayLoop::stop() {
@@ -49,12 +61,10 @@ void DisplayLoop::stop() {
 }
 
 void DisplayLoop::run() {
-  using Clock = std::chrono::steady_clock;
-  const auto period = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / DISPLAY_RATE));
-  auto next = Clock::now() + period;
-  for (;;) {
+  for (Clock::time_point next = Clock::now();; next = Clock::now() + PERIOD * 9 / 10) {
     {
       std::unique_lock lock(mutex_);
+      wake_.wait(lock, [this] { return is_stopping_ || is_due_; });
       wake_.wait_until(lock, next, [this] { return is_stopping_; });
       if (is_stopping_) return;
     }
@@ -62,8 +72,6 @@ void DisplayLoop::run() {
       show_newest();
     } catch (...) {  // no memory for this moment; the session goes on
     }
-    // what was late is left out
-    next = std::max(next + period, Clock::now());
   }
 }
 
@@ -74,6 +82,7 @@ void DisplayLoop::show_newest() {
   std::int64_t ticks = 0;
   {
     const std::lock_guard lock(mutex_);
+    is_due_ = false;
     if (!is_new_) return;
     is_new_ = false;
     tick = newest_;
@@ -83,14 +92,16 @@ void DisplayLoop::show_newest() {
     ticks = ticks_;
   }
   timing.rate = measured_rate(ticks, tick.number);
-  bool is_watched = false;
-  for (Display* display : displays_) is_watched = display->is_watched() || is_watched;
-  if (!is_watched) return;
+  if (!is_watched()) return;
   const HandView hand = hand_view(live_, tick, poses);
   for (Display* display : displays_) display->show({tick, poses, hand, timing});
 }
 
-// Over the last second's moments: the session's rate, less the share of periods that have no tick.
+bool DisplayLoop::is_watched() const {
+  return std::any_of(displays_.begin(), displays_.end(), [](Display* display) { return display->is_watched(); });
+}
+
+// Over the last moments: the session's rate, less the share of periods that have no tick.
 double DisplayLoop::measured_rate(std::int64_t ticks, std::int64_t number) {
   const std::size_t at = moments_ % counts_.size();
   const Count before = moments_ < counts_.size() ? counts_[0] : counts_[at];

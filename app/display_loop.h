@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <span>
@@ -28,13 +29,14 @@ struct DisplayMoment {
 class Display {
  public:
   virtual ~Display() = default;
-  // Whether anybody looks: without that no hand is posed.
+  // Whether anybody looks: without that no hand is posed. From any thread.
   virtual bool is_watched() { return true; }
   // Must not wait for long, nor throw.
   virtual void show(const DisplayMoment& moment) noexcept = 0;
 };
 
-// Shows the newest tick on every display at DISPLAY_RATE, those between them not at all. No tick is shown twice; the last one always.
+// Shows the newest tick on every display when it is looked at, DISPLAY_RATE times a second at most: best looked at just so often. Those between
+// are not shown, none is twice, the last one always.
 class DisplayLoop {
  public:
   // `live` and the displays must outlive it.
@@ -52,21 +54,25 @@ class DisplayLoop {
  private:
   void run();
   void show_newest();
+  bool is_watched() const;
   double measured_rate(std::int64_t ticks, std::int64_t number);
 
   const LiveScene& live_;
   std::vector<Display*> displays_;
 
-  std::mutex mutex_;  // of the next seven
+  using Clock = std::chrono::steady_clock;
+  std::mutex mutex_;  // of the next nine
   std::condition_variable wake_;
   bool is_stopping_ = false;
-  bool is_new_ = false;
+  bool is_new_ = false;  // the newest was not shown
+  bool is_due_ = false;  // and is to be
+  Clock::time_point due_;
   Tick newest_;
   VesselTracker tracker_;
   std::int64_t ticks_ = 0;
   ViewFrame::Timing timing_;
 
-  // Of the loop's own thread: ticks counted at the last second's moments, for the rate.
+  // Of the loop's own thread: ticks counted at the last moments, a second of them, for the rate.
   struct Count {
     std::int64_t ticks = 0, number = 0;
   };

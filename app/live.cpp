@@ -44,8 +44,8 @@ namespace {
 constexpr double RING_TIME = 4;  // s of ticks that wait for a disk that pauses
 constexpr std::size_t LEAST_RING = 4096;
 constexpr auto LOOK = std::chrono::milliseconds(50);  // between two looks at what has happened
-constexpr auto SHOWN_LOOK =
-    std::chrono::milliseconds(8);  // of the recorder into the ring, half a frame: where what happens is displayed
+// of the recorder into the ring where what happens is displayed: a moment a look
+constexpr std::chrono::microseconds SHOWN_LOOK{static_cast<std::int64_t>(1e6 / DISPLAY_RATE)};
 constexpr const char* REPLAY = "replay:";
 
 std::string now_iso() {

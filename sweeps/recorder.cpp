@@ -2,6 +2,7 @@
 
 #include <pthread.h>
 
+#include <algorithm>
 #include <csignal>
 #include <utility>
 
@@ -26,7 +27,7 @@ class BlockSignals {
 
 }  // namespace
 
-Recorder::Recorder(TickRing& ring, std::unique_ptr<RecordingWriter> writer, Observer observer, std::chrono::milliseconds interval)
+Recorder::Recorder(TickRing& ring, std::unique_ptr<RecordingWriter> writer, Observer observer, std::chrono::microseconds interval)
     : ring_(ring), writer_(std::move(writer)), observer_(std::move(observer)), interval_(interval) {
   block_.reserve(BLOCK);
   const BlockSignals inherited;
@@ -56,10 +57,12 @@ void Recorder::tell_trouble() {
 }
 
 void Recorder::run() {
-  for (bool is_last = false; !is_last;) {
+  using Clock = std::chrono::steady_clock;
+  auto next = Clock::now() + interval_;
+  for (bool is_last = false; !is_last; next = std::max(next + interval_, Clock::now())) {
     {
       std::unique_lock lock(mutex_);
-      wake_.wait_for(lock, interval_, [this] { return is_stopping_; });
+      wake_.wait_until(lock, next, [this] { return is_stopping_; });
       is_last = is_stopping_;
     }
     while (drain()) {

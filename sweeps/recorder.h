@@ -29,7 +29,7 @@ class Recorder {
 
   // Without a writer it only drains and shows. `interval`: between two looks into the ring; shorter for who displays what he observes.
   Recorder(TickRing& ring, std::unique_ptr<RecordingWriter> writer, Observer observer = {},
-           std::chrono::milliseconds interval = DRAIN_INTERVAL);
+           std::chrono::microseconds interval = DRAIN_INTERVAL);
   // Stops; a recording that was not stopped before gets an end without timing.
   ~Recorder();
   Recorder(const Recorder&) = delete;
@@ -50,7 +50,7 @@ class Recorder {
   TickRing& ring_;
   std::unique_ptr<RecordingWriter> writer_;
   Observer observer_;
-  std::chrono::milliseconds interval_;
+  std::chrono::microseconds interval_;
   std::vector<Tick> block_;
   bool is_told_ = false;  // its trouble
   bool is_whole_ = true;

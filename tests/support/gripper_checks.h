@@ -57,7 +57,7 @@ inline bool is_nothing(const protocol::OutputReport& report) {
 
 // Whether so many reports of the host have arrived, now or in a while: a device takes one a frame.
 inline bool arrives(const MockGripper& mock, std::size_t count) {
-  for (int i = 0; i < 200 && mock.outputs().size() < count; ++i) rest(0.005);
+  for (int i = 0; i < 5000 && mock.outputs().size() < count; ++i) rest(0.0002);
   return mock.outputs().size() >= count;
 }
 
@@ -92,9 +92,10 @@ void check_session(MockGripper& mock, const Open& open) {
     }
     last = state;
     ASSERT_TRUE(gripper->write(force_at(i))) << i << ' ' << gripper->trouble();
+    // on a busy machine the mock may be the slow one, and a force that waits is overtaken by the next
+    ASSERT_TRUE(arrives(mock, before + static_cast<std::size_t>(i) + 1)) << i;
   }
   // over its limits it is scaled, and what is no number does not go out; each after the one before has arrived
-  EXPECT_TRUE(arrives(mock, before + CYCLES));
   EXPECT_TRUE(gripper->write({{30, 0, -40}, -100}));
   EXPECT_TRUE(arrives(mock, before + CYCLES + 1));
   EXPECT_TRUE(mock.has_force());
@@ -105,7 +106,6 @@ void check_session(MockGripper& mock, const Open& open) {
 
   const auto outputs = mock.outputs();
   EXPECT_EQ(mock.rejected(), 0);
-  // a report may be overtaken by a newer one where the device is slow, which this one is not
   ASSERT_EQ(outputs.size(), before + CYCLES + 3);
   for (int i = 0; i < CYCLES; ++i) {
     const auto& report = outputs[before + static_cast<std::size_t>(i)];
