@@ -7,7 +7,6 @@
 #include <ctime>
 #include <future>
 #include <memory>
-#include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
@@ -15,6 +14,7 @@
 #include <utility>
 
 #include "app/browser.h"
+#include "app/live_board.h"
 #include "app/live_report.h"
 #include "app/live_view.h"
 #include "app/open_gripper.h"
@@ -97,44 +97,6 @@ std::string limits_json(const ViewLimits& limits) {
       {"start", {{"position", limits.start.position}, {"rotation", limits.start.rotation}, {"gap", limits.start.gap}}}}
       .dump();
 }
-
-// Lines that the recorder's thread has for the main one.
-class Board {
- public:
-  explicit Board(const Scene& scene) : narrator_(scene) {}
-  void look(std::span<const Tick> ticks) {
-    std::vector<std::string> lines;
-    for (const Tick& tick : ticks) {
-      for (std::string& line : narrator_.look(tick)) lines.push_back(std::move(line));
-    }
-    const std::string status = narrator_.status(ticks.back());
-    const std::lock_guard lock(mutex_);
-    for (std::string& line : lines) lines_.push_back(std::move(line));
-    status_ = status;
-  }
-  // Prints what is new; `quiet`: only the status, and only on a terminal.
-  void show(bool quiet) {
-    std::vector<std::string> lines;
-    std::string status;
-    {
-      const std::lock_guard lock(mutex_);
-      lines.swap(lines_);
-      status = status_;
-    }
-    if (!lines.empty() && !quiet) {
-      show_status("");
-      for (const std::string& line : lines) print(line + "\n");
-      std::fflush(stdout);
-    }
-    show_status(status);
-  }
-
- private:
-  Narrator narrator_;
-  std::mutex mutex_;
-  std::vector<std::string> lines_;
-  std::string status_;
-};
 
 // Everything of a session, in the order in which it is made.
 class LiveRun {

@@ -1,9 +1,7 @@
 // What of a scene does not change while it is viewed, as the JSON that the page takes; docs/view.md names the fields.
 #pragma once
 
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "core/scene.h"
 

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/prepare.h"
-
 namespace wholehand {
 namespace {
 
@@ -122,12 +120,12 @@ GuidanceStatistics guidance_statistics(const std::vector<GuidedGrip>& grips) {
 }
 
 // Sphere tracing inwards along a level ray. What the ray meets beyond the axis counts too, as for a tip (core/closure.cpp).
-Triple guidance_place(const Evaluator& core, const Scene& scene, std::size_t vessel, const GuidancePoint& point) {
+Triple guidance_place(const Evaluator& core, std::size_t vessel, const GuidancePoint& point) {
   const Triple out{std::cos(point.azimuth), 0, -std::sin(point.azimuth)};
   double t = FAR_OUTSIDE;
   for (int step = 0; step < SURFACE_STEPS && t > -FAR_OUTSIDE; ++step) {
     const Triple place{t * out[0], point.height, t * out[2]};
-    const double distance = core.distance(vessel, mirrored(place, scene.hand.handedness));
+    const double distance = core.distance(vessel, place);
     if (std::abs(distance) < ON_SURFACE) return place;
     t -= distance;
   }
@@ -143,8 +141,7 @@ double guidance_distance(const Evaluator& core, const Scene& scene, std::size_t 
     Triple tip{};
     for (int k = 0; k < 3; ++k) tip[k] = midpoint[k] + side * gap * along[k];
     const double radius = scale * (side < 0 ? scene.hand.fingers[0].radii[3] : scene.hand.fingers[1].radii[4]);
-    // the evaluator's own frame is that of a right hand
-    const Triple normal = mirrored(core.gradient(vessel, mirrored(tip, scene.hand.handedness)), scene.hand.handedness);
+    const Triple normal = core.gradient(vessel, tip);
     Triple contact{};
     for (int k = 0; k < 3; ++k) contact[k] = tip[k] - radius * normal[k];
     for (const Triple& place : places) least = std::min(least, apart(contact, place));

@@ -65,7 +65,7 @@ GuidanceStatistics guidance_statistics(const std::vector<GuidedGrip>& grips);
 
 // Where a guidance point lies on a vessel, as in a session (docs/method.md, "Tasks"): first met on the way from outside to the axis, level, at
 // its height and azimuth; on the axis itself where nothing is met. Vessel frame, m.
-Triple guidance_place(const Evaluator& core, const Scene& scene, std::size_t vessel, const GuidancePoint& point);
+Triple guidance_place(const Evaluator& core, std::size_t vessel, const GuidancePoint& point);
 
 // Distance of a grip from the nearest of the places: from the nearer of its two contacts, on the skin. `midpoint`, `gap`: of the tips.
 double guidance_distance(const Evaluator& core, const Scene& scene, std::size_t vessel, const GripInput& grip,

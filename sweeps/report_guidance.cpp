@@ -158,7 +158,7 @@ GuidedSample guided_grips(const ReportSource& source, std::size_t vessel) {
   }
   std::vector<Triple> points;
   for (const GuidancePoint& point : source.scene.vessels[vessel].guidance)
-    points.push_back(guidance_place(*source.core, source.scene, vessel, point));
+    points.push_back(guidance_place(*source.core, vessel, point));
   for (std::size_t i = 0; i < grips.size(); ++i) {
     const std::uint32_t status = planes.uint(FIELD_STATUS, i);
     const bool is_good = (status & STATUS_REASON_MASK) == REASON_NONE && (status & STATUS_PLAUSIBLE) != 0;

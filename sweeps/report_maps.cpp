@@ -62,10 +62,10 @@ void fill_by_core(const ReportSource& source, std::size_t vessel, GripMap& map) 
   map.has_forces = has_tilts;
 }
 
-// Edges in what people read: mm, degrees.
-std::vector<double> map_edges(const MapAxis& axis, double scale) {
+// Edges in what people read: degrees; mm, of fractions of a vessel's height too.
+std::vector<double> map_edges(const MapAxis& axis, double scale, double from = 0) {
   std::vector<double> edges;
-  for (std::size_t i = 0; i <= axis.cells(); ++i) edges.push_back(axis.edge(i) * scale);
+  for (std::size_t i = 0; i <= axis.cells(); ++i) edges.push_back(from + axis.edge(i) * scale);
   return edges;
 }
 
@@ -104,9 +104,10 @@ FieldChart map_frame(const ReportSource& source, std::size_t vessel, const GripM
   chart.x_label = "roll (°)";
   chart.y_label = "height (mm)";
   chart.x_is_angle = true;
-  const double unit = source.scene.grips.height_is_fraction ? source.scene.vessels[vessel].height : 1;
+  const VesselData& data = source.scene.vessels[vessel];
+  const bool is_fraction = source.scene.grips.height_is_fraction;
   chart.x_edges = map_edges(map.rolls, degrees(1));
-  chart.y_edges = map_edges(map.heights, unit * 1e3);
+  chart.y_edges = map_edges(map.heights, 1e3 * (is_fraction ? data.height - data.base : 1), is_fraction ? 1e3 * data.base : 0);
   for (const MapCell& cell : map.cells) chart.kinds.push_back(cell.kind);
   const auto has = [&chart](CellKind kind) { return std::find(chart.kinds.begin(), chart.kinds.end(), kind) != chart.kinds.end(); };
   if (has(CellKind::hollow)) chart.hollow = map.knows_reasons ? "only implausible" : "none plausible";

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/evaluator.h"
+#include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {
@@ -193,6 +194,13 @@ TEST(GuidanceStatistics, OfNoGripAndOfEqualDistances) {
 
 // ---- places ----
 
+// A box beside the axis: its faces are met at x = 10 and 50 mm.
+Scene scene_beside_the_axis(Handedness handedness) {
+  Scene scene = scene_of({vessel_of_mesh("box", box_mesh({0.01, 0, -0.03}, {0.05, 0.1, 0.03}), 2e-3)});
+  scene.hand.handedness = handedness;
+  return scene;
+}
+
 TEST(GuidancePlace, LiesOnTheOuterSurface) {
   for (const bool is_left : {false, true}) {
     Scene scene = scene_of({beaker1(), beaker2(), shell_of(beaker1())});
@@ -200,7 +208,7 @@ TEST(GuidancePlace, LiesOnTheOuterSurface) {
     const auto core = make_core_evaluator(scene);
     for (const double azimuth : {0.0, 0.7, PI, 4.0, -1.2}) {
       const auto expect = [&](std::size_t vessel, double height, double radius) {
-        const Triple place = guidance_place(*core, scene, vessel, {height, azimuth});
+        const Triple place = guidance_place(*core, vessel, {height, azimuth});
         EXPECT_NEAR(place[0], radius * std::cos(azimuth), PLACE_TOLERANCE);
         EXPECT_NEAR(place[1], height, ROUNDING);
         EXPECT_NEAR(place[2], -radius * std::sin(azimuth), PLACE_TOLERANCE);
@@ -217,7 +225,19 @@ TEST(GuidancePlace, LiesOnTheOuterSurface) {
 TEST(GuidancePlace, WhereNothingIsMetIsOnTheAxis) {
   const Scene scene = scene_of({beaker1()});
   const auto core = make_core_evaluator(scene);
-  for (const double height : {0.2, -0.05}) EXPECT_EQ(guidance_place(*core, scene, 0, {height, 1}), (Triple{0, height, 0}));
+  for (const double height : {0.2, -0.05}) EXPECT_EQ(guidance_place(*core, 0, {height, 1}), (Triple{0, height, 0}));
+}
+
+TEST(GuidancePlace, OnAMeshIsItsOwnForEitherHand) {
+  for (const Handedness handedness : {Handedness::right, Handedness::left}) {
+    const auto core = make_core_evaluator(scene_beside_the_axis(handedness));
+    // the far face where the near side is empty
+    for (const auto& [azimuth, x] : {std::pair{0.0, 0.05}, {PI, 0.01}}) {
+      const Triple place = guidance_place(*core, 0, {0.04, azimuth});
+      EXPECT_NEAR(place[0], x, PLACE_TOLERANCE);
+      EXPECT_NEAR(place[2], 0, PLACE_TOLERANCE);
+    }
+  }
 }
 
 double distance_of(const Scene& scene, const GripInput& grip, const std::vector<Triple>& places) {
@@ -248,6 +268,17 @@ TEST(GuidanceDistance, IsFromTheNearerContactOnTheSkin) {
         EXPECT_NEAR(distance_of(scene, grip, {at(0.06, 1)}), 2 * R * std::sin(0.5), PLACE_TOLERANCE);
         EXPECT_NEAR(distance_of(scene, grip, {at(0.1, 1), at(0.07, PI), at(0.06, 1)}), 0.01, PLACE_TOLERANCE);
       }
+    }
+  }
+}
+
+TEST(GuidanceDistance, OnAMeshIsItsOwnForEitherHand) {
+  for (const Handedness handedness : {Handedness::right, Handedness::left}) {
+    const Scene scene = scene_beside_the_axis(handedness);
+    for (const double azimuth : {0.0, PI}) {
+      const GripInput grip{0.06, azimuth, 0, radians(-20), 0, 1};
+      EXPECT_NEAR(distance_of(scene, grip, {{0.05, 0.06, 0}}), 0, PLACE_TOLERANCE);
+      EXPECT_NEAR(distance_of(scene, grip, {{0.01, 0.09, 0}}), 0.03, PLACE_TOLERANCE);
     }
   }
 }

@@ -10,6 +10,10 @@
 
 #include "core/error.h"
 #include "sweeps/report_scene.h"
+#include "tests/support/environment.h"
+#include "tests/support/meshes.h"
+#include "tests/support/program.h"
+#include "tests/support/scenes.h"
 #include "tests/support/sweep_results.h"
 
 namespace wholehand {
@@ -126,6 +130,43 @@ TEST(ReportPage, ASceneThatCannotBeMadeReadyIsNoReasonToFail) {
   EXPECT_TRUE(has(page, "left out: "));
   expect_well_built(swept, page);
 }
+
+#ifdef WHOLEHAND_PROGRAM
+
+// From the sweep of a mesh to its page, by the program: as long as the mesh is there, and when it is not or another one.
+TEST(ReportPage, OfAMeshSaysWhetherItIsStillThere) {
+  const SweptScene other(RESULT_SCENE);  // a folder
+  const std::string folder = other.folder.path(), result = folder + "/cup.nc", page = folder + "/cup.html";
+  const ScopedVariable cache("XDG_CACHE_HOME", (folder + "/cache").c_str());
+  const auto put = [&folder](const std::string& name, const std::string& text) {
+    std::ofstream(folder + "/" + name, std::ios::binary) << text;
+  };
+  const auto report = [&] {
+    const Outcome outcome = run("PROGRAM report " + result + " 2>&1");
+    EXPECT_EQ(outcome.code, 0) << outcome.output;
+    const std::string text = file_text(page);
+    expect_well_built(other, text);
+    return text;
+  };
+  put("cup.glb", glb_text(turned_mesh(beaker1(), 48, 2e-3)));
+  put("cup.toml",
+      "[[vessel]]\nname = \"cup\"\nmesh = \"cup.glb\"\ngrid_mm = 2\nmass_kg = 0.1\ncenter_of_mass_mm = [0, 50, 0]\nguidance_mm = "
+      "[[50, 0]]\n"
+      "[grips]\nheight_fraction = [0.3, 0.4, 0.5, 0.6]\nroll_deg = [-60, -30, 0]\n[tilts]\ndeg = [0, 45, 90]\n");
+  ASSERT_EQ(run("PROGRAM sweep " + folder + "/cup.toml --on core -o " + result + " 2>&1").code, 0);
+  const std::string whole = report();
+  EXPECT_TRUE(has(whole, "every number agrees within its tolerance"));
+  EXPECT_TRUE(has(whole, "point-biserial r"));
+  std::filesystem::remove(folder + "/cup.glb");
+  const std::string gone = report();
+  EXPECT_TRUE(has(gone, "Left out: "));
+  EXPECT_TRUE(has(gone, "best score over height and roll"));
+  EXPECT_FALSE(has(gone, "<img"));
+  put("cup.glb", glb_text(turned_mesh(beaker1(), 40, 2e-3)));
+  EXPECT_TRUE(has(report(), "not what they were when the sweep ran"));
+}
+
+#endif
 
 TEST(ReportPage, IsTheSameEachTime) {
   const SweptScene swept(RESULT_SCENE);

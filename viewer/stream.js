@@ -22,9 +22,13 @@ export function listen(frame, status) {
     if (newest) frame(newest);
     newest = null;
   };
-  source.onopen = () => status('live');
+  let wasOpen = false;
+  source.onopen = () => {
+    wasOpen = true;
+    status('live');
+  };
   source.onerror = () => {
-    status(source.readyState === EventSource.CLOSED ? 'over' : 'waiting', 'the connection is gone');
+    status(source.readyState === EventSource.CLOSED ? 'over' : 'waiting', wasOpen ? 'the connection is gone' : 'no more viewers are let in');
   };
   source.onmessage = (event) => {
     const isFirst = newest === null;

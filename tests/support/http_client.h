@@ -88,7 +88,8 @@ class HttpSocket {
   }
   // The data of the next server-sent event with that name ("": a frame); empty where there is none any more.
   std::string read_event(const std::string& name = "") {
-    const std::string start = name.empty() ? "\ndata: " : "\nevent: " + name + "\ndata: ";
+    // right behind another event, without a chunk's header between them, it has no newline of its own before it
+    const std::string start = name.empty() ? "data: " : "event: " + name + "\ndata: ";
     if (read_until(start).size() < start.size()) return "";
     std::string data = read_until("\n\n");
     return data.size() < 2 ? "" : data.substr(0, data.size() - 2);

@@ -1,0 +1,38 @@
+#include "app/live_board.h"
+
+#include <cstdio>
+#include <utility>
+
+#include "app/output.h"
+#include "sweeps/progress.h"
+
+namespace wholehand {
+
+void Board::look(std::span<const Tick> ticks) {
+  std::vector<std::string> lines;
+  for (const Tick& tick : ticks) {
+    for (std::string& line : narrator_.look(tick)) lines.push_back(std::move(line));
+  }
+  const std::string status = narrator_.status(ticks.back());
+  const std::lock_guard lock(mutex_);
+  for (std::string& line : lines) lines_.push_back(std::move(line));
+  status_ = status;
+}
+
+void Board::show(bool quiet) {
+  std::vector<std::string> lines;
+  std::string status;
+  {
+    const std::lock_guard lock(mutex_);
+    lines.swap(lines_);
+    status = status_;
+  }
+  if (!lines.empty() && !quiet) {
+    show_status("");
+    for (const std::string& line : lines) print(line + "\n");
+    std::fflush(stdout);
+  }
+  show_status(status);
+}
+
+}  // namespace wholehand

@@ -1,0 +1,29 @@
+// What a live session has to say while it runs, from the recorder's thread to the main one.
+#pragma once
+
+#include <mutex>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/live_report.h"
+
+namespace wholehand {
+
+class Board {
+ public:
+  // `scene` must outlive it.
+  explicit Board(const Scene& scene) : narrator_(scene) {}
+  // Ticks in their order, from one thread.
+  void look(std::span<const Tick> ticks);
+  // Prints what is new; `quiet`: only the status, and only on a terminal. Throws Error as print does.
+  void show(bool quiet);
+
+ private:
+  Narrator narrator_;
+  std::mutex mutex_;  // of the next two
+  std::vector<std::string> lines_;
+  std::string status_;
+};
+
+}  // namespace wholehand
