@@ -59,7 +59,8 @@ Buffer::Buffer(Device::Impl& impl, std::size_t bytes, Memory memory) : impl_(std
   checked("allocating a buffer", [&] {
     vk::BufferCreateInfo info({}, allocated, vk::BufferUsageFlagBits::eTransferSrc | vk::BufferUsageFlagBits::eTransferDst);
     if (memory == Memory::device) {
-      info.usage |= vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eUniformBuffer;
+      info.usage |= vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eUniformBuffer |
+                    vk::BufferUsageFlagBits::eUniformTexelBuffer;
     }
     if (impl.families.size() > 1) {
       info.sharingMode = vk::SharingMode::eConcurrent;
@@ -75,6 +76,11 @@ Buffer::Buffer(Device::Impl& impl, std::size_t bytes, Memory memory) : impl_(std
       impl_->cached = bool(impl.memory.memoryTypes[type].propertyFlags & Flag::eHostCached);
     }
   });
+}
+
+vk::BufferView Buffer::Impl::texels() {
+  if (!*view) view = vk::raii::BufferView(*device.device, {{}, *buffer, vk::Format::eR32Uint, 0, VK_WHOLE_SIZE});
+  return *view;
 }
 
 Buffer::Buffer() = default;

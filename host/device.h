@@ -46,6 +46,7 @@ struct DeviceInfo {
   std::uint64_t max_allocation = 0;     // of one allocation, bytes
   std::uint64_t max_storage_range = 0;  // of one storage buffer, bytes
   std::uint64_t max_uniform_range = 0;  // of one uniform buffer, bytes
+  std::uint64_t max_texel_range = 0;    // of one texel buffer of uints, bytes: 256 KiB at least
   std::uint32_t max_group_invocations = 0;
   std::array<std::uint32_t, 3> max_group_count{};
   std::uint32_t shared_memory = 0;  // of a work group, bytes

@@ -172,6 +172,7 @@ DeviceInfo describe_device(const vk::raii::PhysicalDevice& physical, std::size_t
   info.api_version = version_string(core.apiVersion);
   info.max_storage_range = core.limits.maxStorageBufferRange;
   info.max_uniform_range = core.limits.maxUniformBufferRange;
+  info.max_texel_range = std::uint64_t(core.limits.maxTexelBufferElements) * sizeof(std::uint32_t);
   info.max_group_invocations = core.limits.maxComputeWorkGroupInvocations;
   std::ranges::copy(core.limits.maxComputeWorkGroupCount, info.max_group_count.begin());
   info.shared_memory = core.limits.maxComputeSharedMemorySize;

@@ -60,6 +60,29 @@ Specialization specialize(const ShaderInterface& shader, std::span<const Constan
   return result;
 }
 
+vk::DescriptorType descriptor_type(BindingKind kind) {
+  switch (kind) {
+    case BindingKind::uniform:
+      return vk::DescriptorType::eUniformBuffer;
+    case BindingKind::texels:
+      return vk::DescriptorType::eUniformTexelBuffer;
+    default:
+      return vk::DescriptorType::eStorageBuffer;
+  }
+}
+
+// The largest buffer that a binding of that type takes, bytes.
+std::uint64_t largest_range(const DeviceInfo& device, vk::DescriptorType type) {
+  switch (type) {
+    case vk::DescriptorType::eUniformBuffer:
+      return device.max_uniform_range;
+    case vk::DescriptorType::eUniformTexelBuffer:
+      return device.max_texel_range;
+    default:
+      return device.max_storage_range;
+  }
+}
+
 std::array<std::uint32_t, 3> final_group_size(const ShaderInterface& shader, std::span<const Constant> constants) {
   std::array<std::uint32_t, 3> size = shader.group_size;
   for (std::size_t axis = 0; axis < 3; axis++) {
@@ -89,8 +112,7 @@ Kernel::Kernel(const Device& device, std::span<const std::uint32_t> words, std::
   }
   std::vector<vk::DescriptorSetLayoutBinding> layout;
   for (const ShaderBinding& binding : shader.bindings) {
-    impl_->bindings.emplace_back(binding.binding,
-                                 binding.uniform ? vk::DescriptorType::eUniformBuffer : vk::DescriptorType::eStorageBuffer);
+    impl_->bindings.emplace_back(binding.binding, descriptor_type(binding.kind));
     layout.emplace_back(binding.binding, impl_->bindings.back().second, 1, vk::ShaderStageFlagBits::eCompute);
   }
   const Specialization specialization = specialize(shader, constants, name);
@@ -151,7 +173,7 @@ void Commands::dispatch(const Kernel& kernel, std::array<std::uint32_t, 3> group
     }
     const Buffer& buffer = *place->second;
     const DeviceInfo& device = buffer.impl().device.info;
-    const std::uint64_t limit = type == vk::DescriptorType::eUniformBuffer ? device.max_uniform_range : device.max_storage_range;
+    const std::uint64_t limit = largest_range(device, type);
     if (buffer.size() > limit) {
       throw failure_error("kernel " + kernel.name() + ": buffer " + std::to_string(binding) + " has " +
                           std::to_string(buffer.size()) + " bytes and " + device.name + " takes " + std::to_string(limit) +

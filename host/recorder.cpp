@@ -40,17 +40,20 @@ void Recorder::copy(const Buffer& from, const Buffer& to, std::size_t bytes) {
 
 void Recorder::steps(const Commands& commands) {
   const vk::raii::CommandBuffer& out = buffers_[0];
-  std::uint32_t set_count = 0, storage = 0, uniform = 0;
+  std::uint32_t set_count = 0, storage = 0, uniform = 0, texels = 0;
   for (const Commands::Step& step : commands.steps()) {
     if (step.kernel) {
       set_count++;
       for (const auto& [binding, type] : step.kernel->impl().bindings) {
-        (type == vk::DescriptorType::eUniformBuffer ? uniform : storage)++;
+        (type == vk::DescriptorType::eUniformBuffer        ? uniform
+         : type == vk::DescriptorType::eUniformTexelBuffer ? texels
+                                                           : storage)++;
       }
     }
   }
   sets_.clear();
-  const std::array<vk::DescriptorPoolSize, 2> sizes{vk::DescriptorPoolSize{vk::DescriptorType::eStorageBuffer, storage + 1},
+  const std::array<vk::DescriptorPoolSize, 3> sizes{vk::DescriptorPoolSize{vk::DescriptorType::eStorageBuffer, storage + 1},
+                                                    vk::DescriptorPoolSize{vk::DescriptorType::eUniformTexelBuffer, texels + 1},
                                                     vk::DescriptorPoolSize{vk::DescriptorType::eUniformBuffer, uniform + 1}};
   descriptor_pool_ = vk::raii::DescriptorPool(
       *device_.device, vk::DescriptorPoolCreateInfo(vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, set_count + 1, sizes));
@@ -69,9 +72,13 @@ void Recorder::steps(const Commands& commands) {
     sets_.push_back(std::move(vk::raii::DescriptorSets(*device_.device, {*descriptor_pool_, *kernel.set_layout})[0]));
     const vk::DescriptorSet set = *sets_.back();
     for (std::size_t i = 0; i < kernel.bindings.size(); i++) {
-      const vk::DescriptorBufferInfo whole(*step.buffers[i]->impl().buffer, 0, VK_WHOLE_SIZE);
-      device_.device->updateDescriptorSets(
-          vk::WriteDescriptorSet(set, kernel.bindings[i].first, 0, kernel.bindings[i].second, {}, whole), {});
+      const auto& [binding, type] = kernel.bindings[i];
+      Buffer::Impl& buffer = step.buffers[i]->impl();
+      const vk::DescriptorBufferInfo whole(*buffer.buffer, 0, VK_WHOLE_SIZE);
+      const vk::BufferView texels_of = type == vk::DescriptorType::eUniformTexelBuffer ? buffer.texels() : vk::BufferView();
+      vk::WriteDescriptorSet write(set, binding, 0, type, {}, whole);
+      write.pTexelBufferView = &texels_of;
+      device_.device->updateDescriptorSets(write, {});
     }
     out.bindPipeline(vk::PipelineBindPoint::eCompute, *kernel.pipeline);
     out.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *kernel.layout, 0, set, {});

@@ -38,7 +38,7 @@ enum Op : std::uint32_t {
 constexpr std::uint32_t MAGIC = 0x07230203, GL_COMPUTE = 5, CAPABILITY_FLOAT64 = 10;
 constexpr std::uint32_t MODE_LOCAL_SIZE = 17, MODE_LOCAL_SIZE_ID = 38;
 constexpr std::uint32_t DECORATION_SPEC_ID = 1, DECORATION_BINDING = 33, DECORATION_DESCRIPTOR_SET = 34;
-constexpr std::uint32_t STORAGE_UNIFORM = 2, STORAGE_BUFFER = 12;
+constexpr std::uint32_t STORAGE_UNIFORM_CONSTANT = 0, STORAGE_UNIFORM = 2, STORAGE_BUFFER = 12;
 
 // Ids of `code` (one instruction of a function body) that may be a buffer variable.
 std::span<const std::uint32_t> pointers(std::uint32_t op, std::span<const std::uint32_t> code) {
@@ -71,7 +71,7 @@ ShaderInterface read_interface(std::span<const std::uint32_t> words, const std::
   ShaderInterface result;
   std::map<std::uint32_t, std::uint32_t> binding, set, spec_id, constant;  // by result id
   std::map<std::uint32_t, ConstantKind> type;
-  std::map<std::uint32_t, bool> uniform;  // buffer variables
+  std::map<std::uint32_t, BindingKind> buffers;  // variables
   std::set<std::uint32_t> used;
   std::array<std::uint32_t, 3> size_result{};
   bool compute = false, in_function = false;
@@ -138,8 +138,10 @@ ShaderInterface read_interface(std::span<const std::uint32_t> words, const std::
         }
         break;
       case OpVariable:
-        if (code[3] == STORAGE_UNIFORM || code[3] == STORAGE_BUFFER) {
-          uniform[code[2]] = code[3] == STORAGE_UNIFORM;
+        if (code[3] == STORAGE_UNIFORM || code[3] == STORAGE_BUFFER || code[3] == STORAGE_UNIFORM_CONSTANT) {
+          buffers[code[2]] = code[3] == STORAGE_UNIFORM  ? BindingKind::uniform
+                             : code[3] == STORAGE_BUFFER ? BindingKind::storage
+                                                         : BindingKind::texels;
         }
         break;
       default:
@@ -149,12 +151,12 @@ ShaderInterface read_interface(std::span<const std::uint32_t> words, const std::
   if (!compute || last != OpFunctionEnd) {
     throw broken(compute ? "damaged SPIR-V" : "no compute shader");
   }
-  for (const auto& [id, is_uniform] : uniform) {
+  for (const auto& [id, kind] : buffers) {
     if (used.contains(id)) {
       if (set[id] != 0 || !binding.contains(id)) {
         throw broken("a buffer that is not in set 0");
       }
-      result.bindings.push_back({binding[id], is_uniform});
+      result.bindings.push_back({binding[id], kind});
     }
   }
   std::ranges::sort(result.bindings, {}, &ShaderBinding::binding);

@@ -10,9 +10,11 @@
 
 namespace wholehand::host {
 
+enum class BindingKind { storage, uniform, texels };  // texels: a uniform texel buffer of uint
+
 struct ShaderBinding {
   std::uint32_t binding = 0;
-  bool uniform = false;  // else storage
+  BindingKind kind = BindingKind::storage;
 };
 
 enum class ConstantKind { boolean, int32, uint32, float32, float64 };

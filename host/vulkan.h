@@ -70,9 +70,12 @@ struct Buffer::Impl {
   Device::Impl& device;
   std::size_t size;
   vk::raii::DeviceMemory memory = nullptr;
-  vk::raii::Buffer buffer = nullptr;  // after its memory: destroyed first
+  vk::raii::Buffer buffer = nullptr;    // after its memory: destroyed first
+  vk::raii::BufferView view = nullptr;  // of uints; made by texels()
   std::byte* mapped = nullptr;
   bool cached = false;  // reading the mapping is fast
+
+  vk::BufferView texels();
 };
 
 struct Kernel::Impl {

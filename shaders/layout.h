@@ -154,7 +154,7 @@
 #define BINDING_UINT_OUT 3          // uint[planes * n]
 #define BINDING_HAND 4              // uniform: vec4[HAND_VECTORS]
 #define BINDING_OUTLINE 5           // readonly: Real[OUTLINE_STRIDE * count], storage or uniform by variant
-#define BINDING_GRID 6              // readonly: uint: a float's bits each, or two halves in units of HALF_UNIT, the first in the low bits
+#define BINDING_GRID 6              // texel buffer of uint: a float's bits each, or two halves in units of HALF_UNIT, the first in the low bits
 #define BINDING_CAVITY 7            // readonly: Real[OUTLINE_STRIDE * pieces], y ascending
 #define BINDING_TILTS 8             // readonly: Real[3 * tilts]: sine, cosine, tilt
 #define BINDING_FILLS 9             // readonly: Real[fills]: fraction of capacity

@@ -49,6 +49,6 @@ Element outline_element(int i) { return outline_copy[i]; }
 #endif
 
 layout(constant_id = CONST_GRID_BITS) const int GRID_BITS = 32;
-layout(std430, binding = BINDING_GRID) readonly buffer GridBlock { uint grid_words[]; };
+layout(binding = BINDING_GRID) uniform usamplerBuffer grid_words;
 
 #endif

@@ -158,8 +158,8 @@ Cell locate_cell(Vec3 p) {
 
 Real grid_sample(int i, int j, int k) {
   uint at = uint((k * int(scene.grid_ny) + j) * int(scene.grid_nx) + i);
-  if (GRID_BITS == 32) return Real(uintBitsToFloat(grid_words[at]));
-  vec2 pair = unpackHalf2x16(grid_words[at >> 1]);
+  if (GRID_BITS == 32) return Real(uintBitsToFloat(texelFetch(grid_words, int(at)).x));
+  vec2 pair = unpackHalf2x16(texelFetch(grid_words, int(at >> 1)).x);
   return Real((at & 1u) == 0u ? pair.x : pair.y) * HALF_UNIT;
 }
 

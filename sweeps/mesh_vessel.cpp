@@ -190,7 +190,8 @@ std::size_t largest_lattice(const std::string& on) {
   const std::uint64_t most = std::min<std::uint64_t>(LARGEST_LATTICE, memory / 8);
   if (on == "core") return most;
   const std::vector<host::DeviceInfo> devices = host::list_devices();
-  return std::min<std::uint64_t>(most, host::choose_device(devices, on).max_storage_range);
+  const host::DeviceInfo& device = host::choose_device(devices, on);
+  return std::min<std::uint64_t>(most, std::min(device.max_storage_range, device.max_texel_range));
 }
 
 void load_meshes(Scene& scene, const MeshOptions& options) {

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/error.h"
+#include "host/grip_backend.h"
 #include "tests/support/vulkan_kernels.h"
 
 namespace wholehand::host {
@@ -23,10 +26,15 @@ TEST(HostSpirv, InterfaceIsReadFromTheShader) {
 
   const ShaderInterface other = read_interface(test_shader("host_neighbours"), "host_neighbours");
   ASSERT_EQ(other.bindings.size(), 3u);
-  EXPECT_TRUE(other.bindings[2].uniform);
+  EXPECT_EQ(other.bindings[2].kind, BindingKind::uniform);
   EXPECT_EQ(other.group_size, (std::array<std::uint32_t, 3>{64, 1, 1}));
   EXPECT_EQ(other.group_size_id[0], ShaderInterface::NO_ID);
   EXPECT_FALSE(other.float64);
+
+  const ShaderInterface grip = read_interface(find_shader("grip", Precision::single, OUTLINE_SPECIALIZED), "grip");
+  const auto lattice = std::ranges::find(grip.bindings, std::uint32_t{BINDING_GRID}, &ShaderBinding::binding);
+  ASSERT_NE(lattice, grip.bindings.end());
+  EXPECT_EQ(lattice->kind, BindingKind::texels);
 }
 
 TEST(HostSpirv, DamagedShaderIsAnError) {
