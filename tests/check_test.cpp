@@ -10,12 +10,12 @@
 namespace wholehand {
 namespace {
 
-Scene few_grips() { return read_scene_file(find_scene("small")); }
+Scene small_scene() { return read_scene_file(find_scene("small")); }
 
-TEST(Check, HoldsWhereTheTwinsAgree) { EXPECT_EQ(run_check(few_grips(), {}), ExitCode::done); }
+TEST(Check, HoldsWhereTheTwinsAgree) { EXPECT_EQ(run_check(small_scene(), {}), ExitCode::done); }
 
 TEST(Check, SaysNoWhereAConstantDiffersOnOneSide) {
-  const Scene scene = few_grips();
+  const Scene scene = small_scene();
   Scene broken = scene;
   broken.hand.fingers[2].radii[4] += 50e-6;  // the middle fingertip is 50 micrometres thicker on the device
   CheckOptions options;
@@ -24,7 +24,7 @@ TEST(Check, SaysNoWhereAConstantDiffersOnOneSide) {
 }
 
 TEST(Check, SaysNoWhereNothingCouldBeCompared) {
-  Scene scene = few_grips();
+  Scene scene = small_scene();
   scene.grips.offset.values = {0.2};  // every line misses the vessel
   EXPECT_EQ(run_check(scene, {}), ExitCode::no);
 }

@@ -14,6 +14,7 @@
 
 #include "core/error.h"
 #include "tests/support/meshes.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {
@@ -95,11 +96,6 @@ std::array<double, 4> line_in(const std::string& text, const std::string& style)
   return ends;
 }
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool IS_SANITIZED = true;  // every access costs some twenty times as much
-#else
-constexpr bool IS_SANITIZED = false;
-#endif
 const GripInput BESIDE{0.0585, 0, 0.1, 0.38, 0, 1};
 
 TEST(GripSvg, IsWellFormedForEveryVesselAndRoll) {

@@ -16,7 +16,7 @@ namespace {
 using core_f64::Vec3;
 
 // 1e-15 m: a joint is a sum of at most five terms under 0.3 m, each rounded to 5e-17 m, with sines good to 1e-15.
-constexpr double ROUNDING = 1e-15;
+constexpr double JOINT_ROUNDING = 1e-15;
 const std::array<const char*, 3> HAND_NAMES{"default", "odd", "large"};
 const std::array<HandData, 3> HANDS{HandData{}, odd_hand(), large_hand()};
 const std::array<double, 7> CLOSURES{0, 0.1, 1.0 / 3, 0.5, 0.75, 0.999, 1};
@@ -68,7 +68,7 @@ TEST(Hand, JointsFollowTheRotationMatrices) {
       const auto joints = core_joints(hand, c);
       const auto expected = reference_hand(unscaled, c);
       for (std::size_t j = 0; j < JOINT_COUNT; ++j) {
-        EXPECT_LT(length(joints[j] - expected[j]), ROUNDING) << HAND_NAMES[h] << ", closure " << c << ", joint " << j;
+        EXPECT_LT(length(joints[j] - expected[j]), JOINT_ROUNDING) << HAND_NAMES[h] << ", closure " << c << ", joint " << j;
       }
     }
   }
@@ -82,9 +82,9 @@ TEST(Hand, OpenPostureOfTheIndexFingerWorkedByHand) {
       68.12e-3 + 39.78e-3 * std::cos(radians(4)) + 22.38e-3 * std::cos(radians(16)) + 19.66e-3 * std::cos(radians(23.2));
   const double down = 39.78e-3 * std::sin(radians(4)) + 22.38e-3 * std::sin(radians(16)) + 19.66e-3 * std::sin(radians(23.2));
   // Ry(8 degrees) (0, 0, -1) = (-sin 8, 0, -cos 8): towards the thumb side
-  EXPECT_NEAR(static_cast<double>(joints[INDEX_TIP][0]), -13e-3 - forward * std::sin(radians(8)), ROUNDING);
-  EXPECT_NEAR(static_cast<double>(joints[INDEX_TIP][1]), -down, ROUNDING);
-  EXPECT_NEAR(static_cast<double>(joints[INDEX_TIP][2]), -28e-3 - forward * std::cos(radians(8)), ROUNDING);
+  EXPECT_NEAR(static_cast<double>(joints[INDEX_TIP][0]), -13e-3 - forward * std::sin(radians(8)), JOINT_ROUNDING);
+  EXPECT_NEAR(static_cast<double>(joints[INDEX_TIP][1]), -down, JOINT_ROUNDING);
+  EXPECT_NEAR(static_cast<double>(joints[INDEX_TIP][2]), -28e-3 - forward * std::cos(radians(8)), JOINT_ROUNDING);
 }
 
 TEST(Hand, MetacarpalBasesAndMcpsDoNotMove) {
@@ -102,7 +102,8 @@ TEST(Hand, SegmentsKeepTheirLengths) {
       for (std::size_t f = 0; f < FINGER_COUNT; ++f) {
         const std::size_t first = f == 0 ? 0 : 4 + 5 * (f - 1), segments = f == 0 ? 3 : 4;
         for (std::size_t k = 0; k < segments; ++k) {
-          EXPECT_NEAR(static_cast<double>(length(joints[first + k + 1] - joints[first + k])), data.fingers[f].segments[k], ROUNDING)
+          EXPECT_NEAR(static_cast<double>(length(joints[first + k + 1] - joints[first + k])), data.fingers[f].segments[k],
+                      JOINT_ROUNDING)
               << "closure " << c << ", finger " << f << ", segment " << k;
         }
       }
@@ -117,10 +118,10 @@ TEST(Hand, AnglesAreLinearInTheClosure) {
     const Long3 thumb = reference_thumb_angles(data, c), finger = reference_finger_angles(data, c);
     const Vec3 core_thumb = core_f64::thumb_angles(hand, c), core_finger = core_f64::finger_angles(hand, c);
     for (int k = 0; k < 3; ++k) {
-      EXPECT_NEAR(core_thumb[k], static_cast<double>(thumb[static_cast<std::size_t>(k)]), ROUNDING);
-      EXPECT_NEAR(core_finger[k], static_cast<double>(finger[static_cast<std::size_t>(k)]), ROUNDING);
+      EXPECT_NEAR(core_thumb[k], static_cast<double>(thumb[static_cast<std::size_t>(k)]), JOINT_ROUNDING);
+      EXPECT_NEAR(core_finger[k], static_cast<double>(finger[static_cast<std::size_t>(k)]), JOINT_ROUNDING);
     }
-    EXPECT_NEAR(core_finger.z, data.dip_per_pip * core_finger.y, ROUNDING);
+    EXPECT_NEAR(core_finger.z, data.dip_per_pip * core_finger.y, JOINT_ROUNDING);
   }
 }
 
@@ -128,9 +129,9 @@ TEST(Hand, FramesAreOrthonormal) {
   for (const HandData& data : HANDS) {
     const core_f64::Hand hand = ready_hand(data);
     for (const auto& frame : hand.frame) {
-      EXPECT_NEAR(glm::length(frame.forward), 1, ROUNDING);
-      EXPECT_NEAR(glm::length(frame.palmward), 1, ROUNDING);
-      EXPECT_NEAR(glm::dot(frame.forward, frame.palmward), 0, ROUNDING);
+      EXPECT_NEAR(glm::length(frame.forward), 1, JOINT_ROUNDING);
+      EXPECT_NEAR(glm::length(frame.palmward), 1, JOINT_ROUNDING);
+      EXPECT_NEAR(glm::dot(frame.forward, frame.palmward), 0, JOINT_ROUNDING);
     }
   }
 }
@@ -153,9 +154,9 @@ TEST(Hand, GapIsTheDistanceOfTheTips) {
     const core_f64::Hand hand = ready_hand(HANDS[h]);
     for (const double c : CLOSURES) {
       const double expected = static_cast<double>(reference_gap(HANDS[h], c)) / HANDS[h].scale;
-      EXPECT_NEAR(core_f64::gap_at(hand, c), expected, ROUNDING) << HAND_NAMES[h] << " " << c;
+      EXPECT_NEAR(core_f64::gap_at(hand, c), expected, JOINT_ROUNDING) << HAND_NAMES[h] << " " << c;
       Vec3 slope;
-      EXPECT_NEAR(glm::length(core_f64::tip_to_tip(hand, c, slope)), expected, ROUNDING);
+      EXPECT_NEAR(glm::length(core_f64::tip_to_tip(hand, c, slope)), expected, JOINT_ROUNDING);
     }
   }
 }
@@ -180,7 +181,7 @@ TEST(Hand, TipToTipPointsFromThumbToIndex) {
     const Vec3 line = core_f64::tip_to_tip(hand, c, slope);
     const auto joints = reference_hand(data, c);
     const Long3 expected = (1 / static_cast<long double>(data.scale)) * (joints[INDEX_TIP] - joints[THUMB_TIP]);
-    EXPECT_LT(length(widened(line) - expected), ROUNDING) << c;
+    EXPECT_LT(length(widened(line) - expected), JOINT_ROUNDING) << c;
   }
 }
 
@@ -231,8 +232,8 @@ TEST(Hand, ScaleMultipliesEveryLength) {
     HandData hand;
     hand.scale = scale;
     const auto evaluator = make_core_evaluator(scene_of({beaker1()}, Pose::articulated, hand));
-    EXPECT_NEAR(evaluator->gap_at(0), scale * open, ROUNDING);
-    EXPECT_NEAR(evaluator->gap_at(0.5), static_cast<double>(reference_gap(hand, 0.5)), ROUNDING);
+    EXPECT_NEAR(evaluator->gap_at(0), scale * open, JOINT_ROUNDING);
+    EXPECT_NEAR(evaluator->gap_at(0.5), static_cast<double>(reference_gap(hand, 0.5)), JOINT_ROUNDING);
   }
 }
 

@@ -23,7 +23,7 @@ using core_f64::Mat3;
 using core_f64::Vec3;
 
 Vec3 vec(const Triple& t) { return Vec3(t[0], t[1], t[2]); }
-double apart(const Triple& a, const Triple& b) { return glm::length(vec(a) - vec(b)); }
+double distance_between(const Triple& a, const Triple& b) { return glm::length(vec(a) - vec(b)); }
 int finger_of(int joint) { return joint < 4 ? 0 : 1 + (joint - 4) / 5; }
 bool is_tracked(int joint) { return joint == THUMB_TIP || joint == INDEX_TIP; }
 bool touches(PointContact contact) { return contact != PointContact::free && contact != PointContact::tracked; }
@@ -98,9 +98,9 @@ TEST(HandView, OfAHeldGripIsTheHandOfTheGrip) {
         for (int j = 0; j < JOINT_COUNT; ++j) {
           const auto seen = [&](const Triple& p) { return to_triple(vec(held.poses[0].place) + turn * vec(p)); };
           // the closure is found to 1e-9 m of the gap; a finger that turns alone may carry that on tenfold
-          EXPECT_LT(apart(view.rigged[j], seen(result.joints[j])), 1e-7) << j;
-          EXPECT_LT(apart(view.posed[j], seen(result.posed[j])), 1e-7) << j;
-          EXPECT_LT(apart(view.proxies[j], seen(result.proxies[j])), 1e-7) << j;
+          EXPECT_LT(distance_between(view.rigged[j], seen(result.joints[j])), 1e-7) << j;
+          EXPECT_LT(distance_between(view.posed[j], seen(result.posed[j])), 1e-7) << j;
+          EXPECT_LT(distance_between(view.proxies[j], seen(result.proxies[j])), 1e-7) << j;
           EXPECT_EQ(touches(view.contact[j]), (result.touch_mask >> j & 1) != 0) << j;
           const bool is_projected = ((result.tip_mask | result.finger_mask | result.inner_mask) >> j & 1) != 0;
           EXPECT_EQ(view.contact[j] == PointContact::projected, is_projected && !is_tracked(j)) << j;
@@ -128,19 +128,19 @@ TEST(HandView, FarFromAllGlassIsTheRiggedHand) {
     EXPECT_EQ(view.vessel, -1);
     const auto truth = reference_hand(scene.hand, static_cast<long double>(tick.closure));
     for (int j = 0; j < JOINT_COUNT; ++j) {
-      EXPECT_LT(apart(view.proxies[j], view.rigged[j]), 1e-9) << j;
+      EXPECT_LT(distance_between(view.proxies[j], view.rigged[j]), 1e-9) << j;
       EXPECT_EQ(view.contact[j], is_tracked(j) ? PointContact::tracked : PointContact::free);
       // any two joints are as far apart as in the hand by rotation matrices, and all as far from the wrist
-      EXPECT_NEAR(apart(view.rigged[j], view.wrist), static_cast<double>(length(truth[j])), 1e-9) << j;
-      EXPECT_NEAR(apart(view.rigged[j], view.rigged[0]), static_cast<double>(length(truth[j] - truth[0])), 1e-9) << j;
+      EXPECT_NEAR(distance_between(view.rigged[j], view.wrist), static_cast<double>(length(truth[j])), 1e-9) << j;
+      EXPECT_NEAR(distance_between(view.rigged[j], view.rigged[0]), static_cast<double>(length(truth[j] - truth[0])), 1e-9) << j;
       // and where the hand's own frame has them
       Triple there = view.wrist;
       for (int row = 0; row < 3; ++row)
         for (int k = 0; k < 3; ++k) there[row] += view.rotation[3 * row + k] * static_cast<double>(truth[j][k]);
-      EXPECT_LT(apart(view.posed[j], there), 1e-9) << j;
+      EXPECT_LT(distance_between(view.posed[j], there), 1e-9) << j;
     }
-    EXPECT_LT(apart(view.proxies[THUMB_TIP], tick.tips[0]), 1e-12);
-    EXPECT_LT(apart(view.proxies[INDEX_TIP], tick.tips[1]), 1e-12);
+    EXPECT_LT(distance_between(view.proxies[THUMB_TIP], tick.tips[0]), 1e-12);
+    EXPECT_LT(distance_between(view.proxies[INDEX_TIP], tick.tips[1]), 1e-12);
   }
 }
 
@@ -185,8 +185,8 @@ TEST(HandView, NothingIsInsideTheGlassThroughoutASession) {
         EXPECT_EQ(touches(view.contact[j]), (seen.ticks[n].touch_mask >> j & 1) != 0) << j;
       }
       if (seen.ticks[n].state == SessionState::slipped) continue;  // there the vessel comes through the tips
-      EXPECT_LT(apart(view.proxies[THUMB_TIP], seen.ticks[n].proxies[0]), 1e-7) << n;
-      EXPECT_LT(apart(view.proxies[INDEX_TIP], seen.ticks[n].proxies[1]), 1e-7) << n;
+      EXPECT_LT(distance_between(view.proxies[THUMB_TIP], seen.ticks[n].proxies[0]), 1e-7) << n;
+      EXPECT_LT(distance_between(view.proxies[INDEX_TIP], seen.ticks[n].proxies[1]), 1e-7) << n;
     }
   }
 }
@@ -221,7 +221,8 @@ TEST(HandView, FingersComeToTheGlassWithoutAJump) {
   const Seen seen = watch_script(live_scene());
   for (std::size_t n = 1; n < seen.views.size() && seen.ticks[n].state != SessionState::slipped; ++n) {
     for (int j = 0; j < JOINT_COUNT; ++j)
-      EXPECT_LT(apart(seen.views[n].proxies[j], seen.views[n - 1].proxies[j]), 1e-3) << "joint " << j << " at tick " << n;
+      EXPECT_LT(distance_between(seen.views[n].proxies[j], seen.views[n - 1].proxies[j]), 1e-3)
+          << "joint " << j << " at tick " << n;
   }
   bool is_closed = false;
   for (std::size_t n = 0; n < seen.views.size() && !is_closed; ++n)
@@ -253,7 +254,7 @@ TEST(HandView, ALeftHandIsTheRightHandOfTheMirroredScene) {
     for (int j = 0; j < JOINT_COUNT; ++j) {
       Triple p = b.views[n].proxies[j];
       p[0] = -p[0];
-      EXPECT_LT(apart(p, a.views[n].proxies[j]), 1e-9) << "joint " << j << " at tick " << n;
+      EXPECT_LT(distance_between(p, a.views[n].proxies[j]), 1e-9) << "joint " << j << " at tick " << n;
       EXPECT_EQ(a.views[n].contact[j], b.views[n].contact[j]) << j;
     }
   }

@@ -16,8 +16,6 @@
 namespace wholehand {
 namespace {
 
-constexpr double WATCHDOG = 1;  // s: a busy machine does not trip it
-
 TEST(HidGripper, IsFoundWithItsLimits) {
   MockBench bench;
   EXPECT_TRUE(find_hid_grippers().empty());
@@ -36,22 +34,22 @@ TEST(HidGripper, IsFoundWithItsLimits) {
 
 TEST(HidGripper, FirstFoundIsOpenedWhereNoneIsNamed) {
   MockBench bench;
-  expect_error([] { open_hid("", WATCHDOG); }, ExitCode::failure,
+  expect_error([] { open_hid("", PATIENT_WATCHDOG); }, ExitCode::failure,
                "no gripper found over HID: no device's report descriptor begins with usage 5748");
   HidMock gripper(bench, {}, 7);
-  EXPECT_EQ(open_hid("", WATCHDOG)->limits().address, "hid:/dev/hidraw7");
+  EXPECT_EQ(open_hid("", PATIENT_WATCHDOG)->limits().address, "hid:/dev/hidraw7");
 }
 
 TEST(HidGripper, SessionMovesAndFeels) {
   MockBench bench;
   HidMock mock(bench);
-  check_session(mock, [&mock] { return open_hid(mock.node(), WATCHDOG); });
+  check_session(mock, [&mock] { return open_hid(mock.node(), PATIENT_WATCHDOG); });
 }
 
 TEST(HidGripper, ReadAndWriteAllocateNothing) {
   MockBench bench;
   HidMock mock(bench);
-  const auto gripper = open_hid(mock.node(), WATCHDOG);
+  const auto gripper = open_hid(mock.node(), PATIENT_WATCHDOG);
   const long before = allocations();
   GripperState state;
   for (int i = 0; i < 50; ++i) {
@@ -64,13 +62,13 @@ TEST(HidGripper, ReadAndWriteAllocateNothing) {
 }
 
 TEST(HidGripper, ClockGoesOnWhereItWraps) {
-  check_clock<HidMock>([](const HidMock& mock) { return open_hid(mock.node(), WATCHDOG); });
+  check_clock<HidMock>([](const HidMock& mock) { return open_hid(mock.node(), PATIENT_WATCHDOG); });
 }
 
 TEST(HidGripper, WrongReportsAreErrors) {
   MockBench bench;
   HidMock mock(bench);
-  check_wrong_reports(mock, [&mock] { return open_hid(mock.node(), WATCHDOG); });
+  check_wrong_reports(mock, [&mock] { return open_hid(mock.node(), PATIENT_WATCHDOG); });
 }
 
 TEST(HidGripper, SilenceIsATimeoutAndTripsTheWatchdogs) {
@@ -82,27 +80,27 @@ TEST(HidGripper, SilenceIsATimeoutAndTripsTheWatchdogs) {
 TEST(HidGripper, UnpluggingIsSaid) {
   MockBench bench;
   HidMock mock(bench);
-  check_unplugging(mock, [&mock] { return open_hid(mock.node(), WATCHDOG); });
-  expect_error([&mock] { open_hid(mock.node(), WATCHDOG); }, ExitCode::failure,
+  check_unplugging(mock, [&mock] { return open_hid(mock.node(), PATIENT_WATCHDOG); });
+  expect_error([&mock] { open_hid(mock.node(), PATIENT_WATCHDOG); }, ExitCode::failure,
                "hid:/dev/hidraw0: it cannot be opened: No such file or directory");
 }
 
 TEST(HidGripper, SignalsAreNoErrors) {
   MockBench bench;
   HidMock mock(bench);
-  check_signals(mock, [&mock] { return open_hid(mock.node(), WATCHDOG); });
+  check_signals(mock, [&mock] { return open_hid(mock.node(), PATIENT_WATCHDOG); });
 }
 
 TEST(HidGripper, PanicLeavesNoForce) {
   MockBench bench;
   HidMock mock(bench);
-  check_panic(mock, [&mock] { return open_hid(mock.node(), WATCHDOG); });
+  check_panic(mock, [&mock] { return open_hid(mock.node(), PATIENT_WATCHDOG); });
 }
 
 TEST(HidGripper, ForceThatIsNotTakenIsAnError) {
   MockBench bench;
   HidMock mock(bench);
-  const auto gripper = open_hid(mock.node(), WATCHDOG);
+  const auto gripper = open_hid(mock.node(), PATIENT_WATCHDOG);
   mock.misbehave(Mischief::takes_no_force);
   EXPECT_FALSE(gripper->write({{1, 0, 0}, 0}));
   EXPECT_STREQ(gripper->trouble(), "it takes no force");
@@ -111,7 +109,7 @@ TEST(HidGripper, ForceThatIsNotTakenIsAnError) {
 TEST(HidGripper, OldReportsAreNotTakenForNew) {
   MockBench bench;
   HidMock mock(bench);
-  check_old_reports(mock, [&mock] { return open_hid(mock.node(), WATCHDOG); });
+  check_old_reports(mock, [&mock] { return open_hid(mock.node(), PATIENT_WATCHDOG); });
 }
 
 TEST(HidGripper, DevicesThatCannotBeUsedAreRefused) {
@@ -123,7 +121,7 @@ TEST(HidGripper, NoPermissionNamesTheRemedy) {
   HidMock mock(bench);
   {
     const Refusal refusal(bench, mock);
-    expect_error([&mock] { open_hid(mock.node(), WATCHDOG); }, ExitCode::failure,
+    expect_error([&mock] { open_hid(mock.node(), PATIENT_WATCHDOG); }, ExitCode::failure,
                  "hid:/dev/hidraw0: no permission for /dev/hidraw0: copy device/udev/60-wholehand.rules to /etc/udev/rules.d/, run "
                  "`sudo udevadm "
                  "control --reload`, and plug it in again");
@@ -133,24 +131,24 @@ TEST(HidGripper, NoPermissionNamesTheRemedy) {
     EXPECT_EQ(found[0].name, "A wholehand gripper");
     EXPECT_TRUE(found[0].missing.starts_with("no permission for /dev/hidraw0: copy")) << found[0].missing;
   }
-  EXPECT_NO_THROW(open_hid(mock.node(), WATCHDOG));
+  EXPECT_NO_THROW(open_hid(mock.node(), PATIENT_WATCHDOG));
 }
 
 TEST(HidGripper, SecondSessionIsRefused) {
   MockBench bench;
   HidMock mock(bench);
   check_second_session(
-      mock, [&mock] { return open_hid(mock.node(), WATCHDOG); }, find_hid_grippers);
+      mock, [&mock] { return open_hid(mock.node(), PATIENT_WATCHDOG); }, find_hid_grippers);
 }
 
 TEST(HidGripper, SessionOfAnotherProcessIsRefused) {
   MockBench bench;
   HidMock mock(bench);
-  const auto gripper = open_hid(mock.node(), WATCHDOG);
+  const auto gripper = open_hid(mock.node(), PATIENT_WATCHDOG);
   const pid_t child = fork();
   if (child == 0) {
     try {
-      open_hid(mock.node(), WATCHDOG);
+      open_hid(mock.node(), PATIENT_WATCHDOG);
     } catch (const Error& error) {
       _exit(std::string(error.what()) == "hid:/dev/hidraw0: in use by another session" ? 42 : 43);
     }
@@ -167,11 +165,11 @@ TEST(HidGripper, WhatIsNoGripperIsNotAsked) {
   settings.is_gripper = false;
   HidMock mock(bench, settings);
   EXPECT_TRUE(find_hid_grippers().empty());
-  expect_error([&mock] { open_hid(mock.node(), WATCHDOG); }, ExitCode::failure,
+  expect_error([&mock] { open_hid(mock.node(), PATIENT_WATCHDOG); }, ExitCode::failure,
                "hid:/dev/hidraw0: it is no open gripper: its report descriptor does not begin with usage 5748 of page FF00");
-  expect_error([] { open_hid("", WATCHDOG); }, ExitCode::failure, "no gripper found over HID");
+  expect_error([] { open_hid("", PATIENT_WATCHDOG); }, ExitCode::failure, "no gripper found over HID");
   EXPECT_TRUE(mock.outputs().empty());
-  expect_error([] { open_hid("/dev/null", WATCHDOG); }, ExitCode::failure, "hid:/dev/null: it is no hidraw node");
+  expect_error([] { open_hid("/dev/null", PATIENT_WATCHDOG); }, ExitCode::failure, "hid:/dev/null: it is no hidraw node");
 }
 
 }  // namespace

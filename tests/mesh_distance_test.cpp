@@ -18,18 +18,14 @@
 #include "core/sdf.h"
 #include "sweeps/winding_tree.h"
 #include "tests/support/meshes.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {
 namespace {
 
-constexpr double PI = std::numbers::pi;
 constexpr double ROUNDING = 1e-15;  // m: double precision of some 10 cm
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int MANY = 100'000;
-#else
-constexpr int MANY = 1'000'000;
-#endif
+constexpr int MANY = IS_SANITIZED ? 100'000 : 1'000'000;
 
 Triple random_point(Random& random, double reach) {
   const double x = random.uniform(-reach, reach), y = random.uniform(-reach, reach);
@@ -99,7 +95,7 @@ TEST(MeshDistance, ASphereToItsTessellation) {
 }
 
 TEST(MeshDistance, ATorusToItsTessellation) {
-  const double sagitta = 0.07 * std::pow(PI / 200, 2) / 2 + 0.02 * std::pow(PI / 100, 2) / 2;
+  const double sagitta = 0.07 * std::pow(std::numbers::pi / 200, 2) / 2 + 0.02 * std::pow(std::numbers::pi / 100, 2) / 2;
   const CheckedMesh mesh = check_mesh(torus(0.05, 0.02, 200, 100), "torus");
   const MeshDistance distance(mesh);
   Random random(2);

@@ -17,17 +17,13 @@
 #include "core/sdf.h"
 #include "sweeps/mesh_distance.h"
 #include "tests/support/meshes.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {
 namespace {
 
 constexpr double ROUNDING = 1e-15;  // m: double precision of some 10 cm
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool IS_SANITIZED = true;  // every access costs some twenty times as much
-#else
-constexpr bool IS_SANITIZED = false;
-#endif
 
 core_f64::Vessel kernel_grid(const PreparedGrid& grid) {
   core_f64::Vessel vessel;

@@ -7,17 +7,13 @@
 #include <cmath>
 
 #include "tests/support/meshes.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {
 namespace {
 
 constexpr double PIXEL = 0.2e-3;
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool IS_SANITIZED = true;  // every access costs some twenty times as much
-#else
-constexpr bool IS_SANITIZED = false;
-#endif
 
 struct Seen {
   explicit Seen(const TriangleMesh& mesh) : body(body_of(mesh)), edges(find_edges(body)) {}

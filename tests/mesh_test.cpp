@@ -26,7 +26,7 @@ using Json = nlohmann::json;
 
 constexpr int BYTE = 5120, UBYTE = 5121, SHORT = 5122, USHORT = 5123, UINT = 5125, FLOAT = 5126;
 constexpr int STRIP = 5, FAN = 6;
-constexpr double ROUNDING = 1e-7;  // m: single precision of some 10 cm
+constexpr double FLOAT_ROUNDING = 1e-7;  // m: single precision of some 10 cm
 
 // A folder for this process, which goes with it.
 struct Folder {
@@ -155,20 +155,20 @@ TEST(Mesh, EveryIndexWidthAndNone) {
                                           : -1);
     const TriangleMesh mesh = read(gltf);
     EXPECT_EQ(mesh.triangles.size(), 4u);
-    EXPECT_NEAR(volume_of(mesh), 1, ROUNDING) << width;
+    EXPECT_NEAR(volume_of(mesh), 1, FLOAT_ROUNDING) << width;
   }
 }
 
 TEST(Mesh, StripsAndFansKeepTheirSide) {
   Gltf strip;
   strip.primitive(strip.positions(LEGS), strip.indices<std::uint8_t>({0, 2, 1, 3, 0, 2}), STRIP);
-  EXPECT_NEAR(volume_of(read(strip)), 1, ROUNDING);
+  EXPECT_NEAR(volume_of(read(strip)), 1, FLOAT_ROUNDING);
   // three faces about one corner, the fourth as a fan of one
   Gltf fan;
   const int position = fan.positions(LEGS);
   fan.primitive(position, fan.indices<std::uint16_t>({0, 2, 1, 3, 2}), FAN);
   fan.primitive(position, fan.indices<std::uint16_t>({1, 2, 3}), FAN);
-  EXPECT_NEAR(volume_of(read(fan)), 1, ROUNDING);
+  EXPECT_NEAR(volume_of(read(fan)), 1, FLOAT_ROUNDING);
 }
 
 TEST(Mesh, SparseAccessorsReplaceWhatTheyName) {
@@ -182,7 +182,7 @@ TEST(Mesh, SparseAccessorsReplaceWhatTheyName) {
       {"sparse",
        {{"count", 2}, {"indices", {{"bufferView", places}, {"componentType", USHORT}}}, {"values", {{"bufferView", values}}}}}};
   gltf.primitive(gltf.accessor(base, FLOAT, 4, "VEC3", sparse), gltf.indices(FACES));
-  EXPECT_NEAR(volume_of(read(gltf)), 1, ROUNDING);
+  EXPECT_NEAR(volume_of(read(gltf)), 1, FLOAT_ROUNDING);
 }
 
 TEST(Mesh, SparseAccessorsMayStandOnNothing) {
@@ -192,7 +192,7 @@ TEST(Mesh, SparseAccessorsMayStandOnNothing) {
       {"sparse",
        {{"count", 3}, {"indices", {{"bufferView", places}, {"componentType", UBYTE}}}, {"values", {{"bufferView", values}}}}}};
   gltf.primitive(gltf.accessor(-1, FLOAT, 4, "VEC3", sparse), gltf.indices(FACES));
-  EXPECT_NEAR(volume_of(read(gltf)), 1, ROUNDING);
+  EXPECT_NEAR(volume_of(read(gltf)), 1, FLOAT_ROUNDING);
 }
 
 TEST(Mesh, NormalizedAndPlainIntegers) {
@@ -226,7 +226,7 @@ TEST(Mesh, StridedViewsAreStepped) {
     interleaved.insert(interleaved.end(), {LEGS[i], LEGS[i + 1], LEGS[i + 2], 5, 6, 7});
   const int view = gltf.view(bytes_of(interleaved), 24);
   gltf.primitive(gltf.accessor(view, FLOAT, 4, "VEC3", {{"byteOffset", 12}}), gltf.indices(FACES));
-  EXPECT_NEAR(volume_of(read(gltf)), 1, ROUNDING);
+  EXPECT_NEAR(volume_of(read(gltf)), 1, FLOAT_ROUNDING);
 }
 
 TEST(Mesh, NodesPlaceTheirMeshes) {
@@ -236,10 +236,10 @@ TEST(Mesh, NodesPlaceTheirMeshes) {
   gltf.json["nodes"] = {{{"translation", {10, 0, 0}}, {"rotation", {0, 0, half, half}}, {"children", {1}}},
                         {{"mesh", 0}, {"scale", {2, 3, 4}}, {"translation", {0, 1, 0}}}};
   const TriangleMesh mesh = read(gltf);
-  EXPECT_NEAR(mesh.vertices[0][0], 9, ROUNDING);
-  EXPECT_NEAR(mesh.vertices[1][1], 2, ROUNDING);
-  EXPECT_NEAR(mesh.vertices[2][0], 10 - 1 - 6, ROUNDING);
-  EXPECT_NEAR(mesh.vertices[3][2], 12, ROUNDING);
+  EXPECT_NEAR(mesh.vertices[0][0], 9, FLOAT_ROUNDING);
+  EXPECT_NEAR(mesh.vertices[1][1], 2, FLOAT_ROUNDING);
+  EXPECT_NEAR(mesh.vertices[2][0], 10 - 1 - 6, FLOAT_ROUNDING);
+  EXPECT_NEAR(mesh.vertices[3][2], 12, FLOAT_ROUNDING);
   EXPECT_NEAR(volume_of(mesh), 24, 1e-5);
 }
 
@@ -250,15 +250,15 @@ TEST(Mesh, MatricesAreReadByColumns) {
   EXPECT_EQ(mesh.vertices[0], (Triple{5, 6, 7}));
   EXPECT_EQ(mesh.vertices[1], (Triple{5, 7, 7}));
   EXPECT_EQ(mesh.vertices[3], (Triple{8, 6, 7}));
-  EXPECT_NEAR(volume_of(mesh), 1, ROUNDING);
+  EXPECT_NEAR(volume_of(mesh), 1, FLOAT_ROUNDING);
 }
 
 TEST(Mesh, MirroringNodesKeepTheOutsideOut) {
   Gltf gltf = tetrahedron();
   gltf.json["nodes"] = {{{"mesh", 0}, {"scale", {-1, 1, 1}}}};
-  EXPECT_NEAR(volume_of(read(gltf)), 1, ROUNDING);
+  EXPECT_NEAR(volume_of(read(gltf)), 1, FLOAT_ROUNDING);
   gltf.json["nodes"] = {{{"scale", {1, -1, 1}}, {"children", {1}}}, {{"mesh", 0}, {"scale", {1, 1, -2}}}};
-  EXPECT_NEAR(volume_of(read(gltf)), 2, ROUNDING);
+  EXPECT_NEAR(volume_of(read(gltf)), 2, FLOAT_ROUNDING);
 }
 
 TEST(Mesh, AllMeshesOfTheDefaultSceneAndNoOther) {
@@ -277,19 +277,19 @@ TEST(Mesh, IsScaledThenTurnedThenSetDown) {
   MeshData data = as_is(path);
   data.scale = 0.1;
   data.rotate = {0, 0, std::numbers::pi / 2};
-  EXPECT_NEAR(read_mesh(data, "").vertices[2][0], -0.2, ROUNDING);
+  EXPECT_NEAR(read_mesh(data, "").vertices[2][0], -0.2, FLOAT_ROUNDING);
   // first about x, then about the y that x has turned: the leg along z goes to -y by x; about the turned y it would stay in the plane
   data.rotate = {std::numbers::pi / 2, std::numbers::pi / 2, 0};
   const TriangleMesh turned = read_mesh(data, "");
-  EXPECT_NEAR(turned.vertices[3][0], 0.3, ROUNDING);  // z -> (Ry) x -> (Rx) x
-  EXPECT_NEAR(turned.vertices[1][1], 0.1, ROUNDING);  // x -> (Ry) -z -> (Rx) y
-  EXPECT_NEAR(turned.vertices[2][2], 0.2, ROUNDING);  // y -> (Ry) y -> (Rx) z
+  EXPECT_NEAR(turned.vertices[3][0], 0.3, FLOAT_ROUNDING);  // z -> (Ry) x -> (Rx) x
+  EXPECT_NEAR(turned.vertices[1][1], 0.1, FLOAT_ROUNDING);  // x -> (Ry) -z -> (Rx) y
+  EXPECT_NEAR(turned.vertices[2][2], 0.2, FLOAT_ROUNDING);  // y -> (Ry) y -> (Rx) z
   data.rotate = {};
   data.origin_at_base = true;
   const TriangleMesh set = read_mesh(data, "");
-  EXPECT_NEAR(set.vertices[0][0], -0.05, ROUNDING);
-  EXPECT_NEAR(set.vertices[0][1], 0, ROUNDING);
-  EXPECT_NEAR(set.vertices[0][2], -0.15, ROUNDING);
+  EXPECT_NEAR(set.vertices[0][0], -0.05, FLOAT_ROUNDING);
+  EXPECT_NEAR(set.vertices[0][1], 0, FLOAT_ROUNDING);
+  EXPECT_NEAR(set.vertices[0][2], -0.15, FLOAT_ROUNDING);
 }
 
 TEST(Mesh, BuffersMayBeFilesOrDataUris) {
@@ -305,7 +305,7 @@ TEST(Mesh, BuffersMayBeFilesOrDataUris) {
   small.primitive(position, small.indices(FACES));
   small.json["buffers"] = {
       {{"byteLength", 28}, {"uri", "data:application/octet-stream;base64,AAAAAAEAAAAAAgAAAAADAAACAQABAwADAgECAw=="}}};
-  EXPECT_NEAR(volume_of(read_mesh(as_is(write("small.gltf", small.json.dump())), "")), 1, ROUNDING);
+  EXPECT_NEAR(volume_of(read_mesh(as_is(write("small.gltf", small.json.dump())), "")), 1, FLOAT_ROUNDING);
 }
 
 TEST(Mesh, LooksAreLeftOut) {

@@ -15,7 +15,7 @@
 namespace wholehand {
 namespace {
 
-constexpr double WATCHDOG = 10e-3;  // s
+constexpr double OMEGA_WATCHDOG = 10e-3;  // s
 constexpr int OMEGA_RIGHT = 35, OMEGA_LEFT = 37, SIGMA_RIGHT = 104, SIGMA_LEFT = 105;
 
 // What `function` throws: one line, with `code`.
@@ -41,10 +41,10 @@ struct OmegaGripperTest : testing::Test {
 
   std::unique_ptr<Gripper> open(int type = OMEGA_RIGHT) const {
     sdk->types = {type};
-    return open_omega(STAND_IN_DHD, WATCHDOG);
+    return open_omega(STAND_IN_DHD, OMEGA_WATCHDOG);
   }
   std::string refused() const {
-    return refusal([] { open_omega(STAND_IN_DHD, WATCHDOG); });
+    return refusal([] { open_omega(STAND_IN_DHD, OMEGA_WATCHDOG); });
   }
   // Where `call` stands among those that were made; past them if it was not.
   std::size_t place(const std::string& call) const {
@@ -350,15 +350,15 @@ TEST_F(OmegaGripperTest, SaysWhenThereIsNoDevice) {
   sdk->types.clear();
   expect_has(refused(), "Force Dimension's SDK finds no device; is one attached and switched on");
   sdk->types = {OMEGA_RIGHT};
-  expect_has(refusal([] { open_omega(STAND_IN_DHD, WATCHDOG, 1); }),
+  expect_has(refusal([] { open_omega(STAND_IN_DHD, OMEGA_WATCHDOG, 1); }),
              "there is no device 1; Force Dimension's SDK counts 1, from 0");
   EXPECT_TRUE(sdk->opened.empty());
 }
 
 TEST_F(OmegaGripperTest, OpensTheDeviceOfThatNumber) {
   sdk->types = {OMEGA_RIGHT, SIGMA_LEFT};
-  const auto first = open_omega(STAND_IN_DHD, WATCHDOG);
-  const auto second = open_omega(STAND_IN_DHD, WATCHDOG, 1);
+  const auto first = open_omega(STAND_IN_DHD, OMEGA_WATCHDOG);
+  const auto second = open_omega(STAND_IN_DHD, OMEGA_WATCHDOG, 1);
   EXPECT_EQ(second->limits().address, "omega:1");
   EXPECT_TRUE(second->limits().is_left_handed);
   EXPECT_EQ(sdk->opened, (std::vector<int>{0, 1}));

@@ -19,7 +19,7 @@ std::set<std::string> quantities(const Agreement& agreement) {
   return names;
 }
 
-std::string written(const SweptScene& swept, std::size_t vessel) {
+std::string written_agreement(const SweptScene& swept, std::size_t vessel) {
   HtmlWriter html;
   write_agreement(html, *swept.source, vessel, "v");
   EXPECT_TRUE(html.is_closed());
@@ -93,7 +93,7 @@ TEST(Agreement, FindsAWrongNumber) {
     EXPECT_FALSE(agreement.holds()) << variable;
     EXPECT_EQ(agreement.outside, 1u) << variable;
     for (const Comparison& row : agreement.rows) EXPECT_EQ(row.outside, row.quantity == quantity ? 1u : 0u) << row.quantity;
-    EXPECT_NE(written(swept, 0).find("do NOT agree"), std::string::npos);
+    EXPECT_NE(written_agreement(swept, 0).find("do NOT agree"), std::string::npos);
     swept.change(variable, before);
     EXPECT_TRUE(compare_with_core(*swept.source, 0).holds());
   }
@@ -120,20 +120,20 @@ TEST(Agreement, OfManyGripsTakesASample) {
   const SweptScene swept(edited(RESULT_SCENE, "count = 12", "count = 30"));
   const Agreement agreement = compare_with_core(*swept.source, 0);
   EXPECT_EQ(agreement.grips, SAMPLED_GRIPS);
-  EXPECT_NE(written(swept, 0).find("256 of 540 grips"), std::string::npos);
+  EXPECT_NE(written_agreement(swept, 0).find("256 of 540 grips"), std::string::npos);
 }
 
 TEST(Agreement, IsToldInWords) {
-  const std::string html = written(SweptScene(RESULT_SCENE), 0);
+  const std::string html = written_agreement(SweptScene(RESULT_SCENE), 0);
   EXPECT_NE(html.find("All grips (216)"), std::string::npos);
   EXPECT_NE(html.find("every number agrees within its tolerance"), std::string::npos);
   EXPECT_NE(html.find("Reasons, flags and masks are equal in"), std::string::npos);
-  EXPECT_NE(written(SweptScene(edited(RESULT_SCENE, "best = 5", "best = 5\nkeep = []")), 0).find("nothing to compare"),
+  EXPECT_NE(written_agreement(SweptScene(edited(RESULT_SCENE, "best = 5", "best = 5\nkeep = []")), 0).find("nothing to compare"),
             std::string::npos);
   SweptScene swept(RESULT_SCENE);
   swept.source->core = nullptr;
   swept.source->no_core = "no mesh";
-  EXPECT_NE(written(swept, 0).find("Left out: no mesh."), std::string::npos);
+  EXPECT_NE(written_agreement(swept, 0).find("Left out: no mesh."), std::string::npos);
 }
 
 TEST(SamplePlaces, AreOnceEachAndTheSameEachTime) {

@@ -13,14 +13,14 @@
 namespace wholehand {
 namespace {
 
-std::string written(const SweptScene& swept, std::size_t vessel) {
+std::string written_grips(const SweptScene& swept, std::size_t vessel) {
   HtmlWriter html;
   write_grips(html, *swept.source, vessel, read_grips(*swept.source, vessel), "v");
   EXPECT_TRUE(html.is_closed());
   return html.html();
 }
 
-std::size_t count_of(const std::string& text, const std::string& part) {
+std::size_t times_in(const std::string& text, const std::string& part) {
   std::size_t count = 0;
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
   return count;
@@ -46,17 +46,17 @@ TEST(ReportGrips, AreTheFilesWithTheCoresNumbers) {
 }
 
 TEST(ReportGrips, TableHasARowForEachAndADrawingForTheFirst) {
-  const std::string html = written(SweptScene(RESULT_SCENE), 0);
-  EXPECT_EQ(count_of(html, "<th scope=\"row\">"), 5u);
-  EXPECT_EQ(count_of(html, "<img src=\"data:image/svg+xml,"), DRAWN_GRIPS);
-  EXPECT_EQ(count_of(html, "alt=\"Front and side view of the hand on cup"), DRAWN_GRIPS);
+  const std::string html = written_grips(SweptScene(RESULT_SCENE), 0);
+  EXPECT_EQ(times_in(html, "<th scope=\"row\">"), 5u);
+  EXPECT_EQ(times_in(html, "<img src=\"data:image/svg+xml,"), DRAWN_GRIPS);
+  EXPECT_EQ(times_in(html, "alt=\"Front and side view of the hand on cup"), DRAWN_GRIPS);
   for (const char* column : {"height (mm)", "roll (°)", "obliquity (°)", "peak force (N)", "hold force (N)", "safe tilt (°)"})
-    EXPECT_EQ(count_of(html, std::string(">") + column + "</th>"), 1u) << column;
+    EXPECT_EQ(times_in(html, std::string(">") + column + "</th>"), 1u) << column;
   EXPECT_EQ(html.find("azimuth (°)"), std::string::npos) << "one stands for all";
 }
 
 TEST(ReportGrips, WithoutTiltsTheyAreAntipodalOrNot) {
-  const std::string html = written(SweptScene(edited(RESULT_SCENE, "[tilts]\ndeg = [0, 45, 90, 135]", "")), 0);
+  const std::string html = written_grips(SweptScene(edited(RESULT_SCENE, "[tilts]\ndeg = [0, 45, 90, 135]", "")), 0);
   EXPECT_NE(html.find(">antipodal</th>"), std::string::npos);
   EXPECT_EQ(html.find("force (N)"), std::string::npos);
 }
@@ -67,12 +67,13 @@ TEST(ReportGrips, ManyAreCutAndCounted) {
   EXPECT_EQ(best.grips.size(), TABLED_GRIPS);
   EXPECT_EQ(best.listed, swept.result->best(1).size());
   ASSERT_GT(best.listed, TABLED_GRIPS);
-  EXPECT_NE(written(swept, 1).find("The sweep listed " + std::to_string(best.listed)), std::string::npos);
+  EXPECT_NE(written_grips(swept, 1).find("The sweep listed " + std::to_string(best.listed)), std::string::npos);
 }
 
 TEST(ReportGrips, NoneAskedAndNoneThereAreSaid) {
-  EXPECT_NE(written(SweptScene(edited(RESULT_SCENE, "best = 5", "best = 0")), 0).find("asked to list none"), std::string::npos);
-  EXPECT_NE(written(SweptScene(edited(RESULT_SCENE, "diameter_mm = 70", "diameter_mm = 300")), 0).find("There are none"),
+  EXPECT_NE(written_grips(SweptScene(edited(RESULT_SCENE, "best = 5", "best = 0")), 0).find("asked to list none"),
+            std::string::npos);
+  EXPECT_NE(written_grips(SweptScene(edited(RESULT_SCENE, "diameter_mm = 70", "diameter_mm = 300")), 0).find("There are none"),
             std::string::npos);
 }
 
@@ -80,8 +81,8 @@ TEST(ReportGrips, WithoutTheCoreThePlacesRemain) {
   SweptScene swept(RESULT_SCENE);
   swept.source->core = nullptr;
   swept.source->no_core = "cup.glb: is not there";
-  const std::string html = written(swept, 0);
-  EXPECT_EQ(count_of(html, "<th scope=\"row\">"), 5u);
+  const std::string html = written_grips(swept, 0);
+  EXPECT_EQ(times_in(html, "<th scope=\"row\">"), 5u);
   EXPECT_EQ(html.find("<img"), std::string::npos);
   EXPECT_EQ(html.find("closure"), std::string::npos);
   EXPECT_NE(html.find("left out: cup.glb: is not there"), std::string::npos);

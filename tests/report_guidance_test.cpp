@@ -12,7 +12,7 @@
 namespace wholehand {
 namespace {
 
-std::string written(const SweptScene& swept, std::size_t vessel) {
+std::string written_guidance(const SweptScene& swept, std::size_t vessel) {
   HtmlWriter html;
   write_guidance(html, *swept.source, vessel, "v");
   EXPECT_TRUE(html.is_closed());
@@ -71,12 +71,12 @@ TEST(GuidedGrips, WithoutMasksInTheFileAreTheCores) {
     EXPECT_EQ(all.grips[i].touch_mask, other.grips[i].touch_mask);
     EXPECT_EQ(all.grips[i].fingers, other.grips[i].fingers);
   }
-  EXPECT_NE(written(few, 0).find("does not have all of what touches"), std::string::npos);
+  EXPECT_NE(written_guidance(few, 0).find("does not have all of what touches"), std::string::npos);
 }
 
 TEST(ReportGuidance, HasARowForEachPointOfTheHand) {
   const SweptScene swept(RESULT_SCENE);
-  const std::string html = written(swept, 0);
+  const std::string html = written_guidance(swept, 0);
   for (const char* point : {"thumb CMC", "thumb tip", "index PIP", "little tip"})
     EXPECT_NE(html.find(std::string("<th scope=\"row\">") + point + "</th>"), std::string::npos) << point;
   std::size_t rows = 0;
@@ -89,21 +89,21 @@ TEST(ReportGuidance, HasARowForEachPointOfTheHand) {
 }
 
 TEST(ReportGuidance, WhereThereIsNothingToTellItIsSaid) {
-  EXPECT_NE(written(SweptScene(edited(RESULT_SCENE, "guidance_mm = [[42, 90]]", "")), 1).find("no guidance points"),
+  EXPECT_NE(written_guidance(SweptScene(edited(RESULT_SCENE, "guidance_mm = [[42, 90]]", "")), 1).find("no guidance points"),
             std::string::npos);
-  EXPECT_NE(written(SweptScene(edited(RESULT_SCENE, "diameter_mm = 70", "diameter_mm = 300")), 0).find("nothing to count"),
+  EXPECT_NE(written_guidance(SweptScene(edited(RESULT_SCENE, "diameter_mm = 70", "diameter_mm = 300")), 0).find("nothing to count"),
             std::string::npos);
   SweptScene swept(RESULT_SCENE);
   swept.source->core = nullptr;
   swept.source->no_core = "no mesh";
-  EXPECT_NE(written(swept, 0).find("Left out: no mesh."), std::string::npos);
+  EXPECT_NE(written_guidance(swept, 0).find("Left out: no mesh."), std::string::npos);
 }
 
 TEST(ReportGuidance, OneGripHasNoCorrelation) {
   const SweptScene swept(edited(
       edited(edited(edited(RESULT_SCENE, "{ from = 0.1, to = 0.95, count = 12 }", "0.6"), "[-90, -30, 0]", "0"), "[-10, 10]", "0"),
       "[0, 60, 120]", "0"));
-  const std::string html = written(swept, 0);
+  const std::string html = written_guidance(swept, 0);
   EXPECT_NE(html.find("no correlation (fewer than three grips)"), std::string::npos) << html;
 }
 

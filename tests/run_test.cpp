@@ -25,7 +25,7 @@
 namespace wholehand {
 namespace {
 
-struct Outcome {
+struct TrialOutcome {
   ExitCode code = ExitCode::done;
   std::string error, out, notes;
 };
@@ -58,8 +58,8 @@ struct Trial {
     return run_sweep(scene, options, parts);
   }
 
-  Outcome run() {
-    Outcome outcome;
+  TrialOutcome run() {
+    TrialOutcome outcome;
     testing::internal::CaptureStdout();
     testing::internal::CaptureStderr();
     try {
@@ -120,7 +120,7 @@ class RunTest : public testing::Test {
 
 TEST_F(RunTest, WritesAllFilesAndSaysWhatItDid) {
   Trial trial(folder / "a.nc");
-  const Outcome outcome = trial.run();
+  const TrialOutcome outcome = trial.run();
   ASSERT_EQ(outcome.code, ExitCode::done) << outcome.error;
   for (const char* name : {"a.nc", "a.best.csv", "a.first_vessel.svg", "a.second.svg"})
     EXPECT_TRUE(file_exists(folder / name)) << name;
@@ -159,7 +159,7 @@ TEST_F(RunTest, BestGripsAreThoseOfTheWholeVessel) {
 TEST_F(RunTest, EverythingCanBeLeftOutButTheBest) {
   Trial trial(folder / "a.nc");
   trial.scene.output.keep = std::vector<std::string>{};
-  const Outcome outcome = trial.run();
+  const TrialOutcome outcome = trial.run();
   ASSERT_EQ(outcome.code, ExitCode::done) << outcome.error;
   EXPECT_EQ(trial.opened, 2) << "the best grips are evaluated anew with all that is told of them";
   EXPECT_TRUE(has(outcome.notes, "no heat maps: the score is not kept")) << outcome.notes;
@@ -228,7 +228,7 @@ TEST_F(RunTest, InterruptLeavesAFileToGoOnWith) {
     trial.before_chunk = [&] {
       if (++chunks == 8) raise(signal);
     };
-    const Outcome outcome = trial.run();
+    const TrialOutcome outcome = trial.run();
     EXPECT_EQ(outcome.code, ExitCode::interrupted);
     EXPECT_EQ(static_cast<int>(outcome.code), 130);
     EXPECT_TRUE(has(outcome.notes, "interrupted at 3")) << outcome.notes;  // the eighth chunk is finished
@@ -237,7 +237,7 @@ TEST_F(RunTest, InterruptLeavesAFileToGoOnWith) {
     rest.options.resume = true;
     int rest_chunks = 0;
     rest.before_chunk = [&] { ++rest_chunks; };
-    const Outcome resumed = rest.run();
+    const TrialOutcome resumed = rest.run();
     EXPECT_EQ(resumed.code, ExitCode::done) << resumed.error;
     EXPECT_TRUE(has(resumed.notes, "going on with")) << resumed.notes;
     EXPECT_LT(rest_chunks, 9) << "only what was missing, and the best";
@@ -253,7 +253,7 @@ TEST_F(RunTest, ResumeWithoutAnythingStartsAfresh) {
   const std::string expected = reference();
   Trial trial(folder / "a.nc");
   trial.options.resume = true;
-  const Outcome outcome = trial.run();
+  const TrialOutcome outcome = trial.run();
   EXPECT_EQ(outcome.code, ExitCode::done);
   EXPECT_TRUE(has(outcome.notes, "starting from the first grip")) << outcome.notes;
   expect_same_as(expected, folder / "a.nc");
@@ -264,7 +264,7 @@ TEST_F(RunTest, ResumeOfWhatIsCompleteLeavesIt) {
   const auto written = std::filesystem::last_write_time(expected);
   Trial trial(expected);
   trial.options.resume = true;
-  const Outcome outcome = trial.run();
+  const TrialOutcome outcome = trial.run();
   EXPECT_EQ(outcome.code, ExitCode::done);
   EXPECT_TRUE(has(outcome.notes, "is complete: nothing to go on with")) << outcome.notes;
   EXPECT_EQ(trial.opened, 0);
@@ -278,7 +278,7 @@ TEST_F(RunTest, ResumeOfSomethingElseThatIsCompleteIsRefused) {
     Trial trial(path);
     trial.options.resume = true;
     change(trial);
-    const Outcome outcome = trial.run();
+    const TrialOutcome outcome = trial.run();
     EXPECT_EQ(outcome.code, ExitCode::usage) << what;
     EXPECT_TRUE(has(outcome.error, what)) << outcome.error;
     EXPECT_EQ(trial.opened, 0) << what;
@@ -311,7 +311,7 @@ TEST_F(RunTest, ResumeWithAnotherMeshIsRefused) {
   EXPECT_EQ(begun.run().code, ExitCode::interrupted);
   Trial other = with_mesh("second"), same = with_mesh("first");
   other.options.resume = same.options.resume = true;
-  const Outcome refused = other.run();
+  const TrialOutcome refused = other.run();
   EXPECT_EQ(refused.code, ExitCode::usage);
   EXPECT_TRUE(has(refused.error, "another set of meshes")) << refused.error;
   EXPECT_EQ(same.run().code, ExitCode::done);
@@ -331,7 +331,7 @@ TEST_F(RunTest, ResumeOfSomethingElseIsRefused) {
     Trial trial(folder / "a.nc");
     trial.options.resume = true;
     change(trial);
-    const Outcome outcome = trial.run();
+    const TrialOutcome outcome = trial.run();
     EXPECT_EQ(outcome.code, ExitCode::usage) << what;
     EXPECT_TRUE(has(outcome.error, std::string("another ") + what)) << outcome.error;
   };
@@ -351,7 +351,7 @@ TEST_F(RunTest, DamagedMarkIsRefusedInOneLine) {
   std::ofstream(folder / "a.nc.partial.mark") << "{";
   Trial trial(folder / "a.nc");
   trial.options.resume = true;
-  const Outcome outcome = trial.run();
+  const TrialOutcome outcome = trial.run();
   EXPECT_EQ(outcome.code, ExitCode::failure);
   EXPECT_TRUE(has(outcome.error, "start again without --resume")) << outcome.error;
 }
@@ -359,13 +359,13 @@ TEST_F(RunTest, DamagedMarkIsRefusedInOneLine) {
 TEST_F(RunTest, WhatCannotBeWrittenIsRefusedBeforeAnyWork) {
   for (const std::string& path : {folder.path(), folder / "missing/a.nc", std::string("/dev/full")}) {
     Trial trial(path);
-    const Outcome outcome = trial.run();
+    const TrialOutcome outcome = trial.run();
     EXPECT_EQ(outcome.code, ExitCode::usage) << path;
     EXPECT_EQ(trial.opened, 0) << path;
     EXPECT_EQ(outcome.notes, "") << path;
   }
   Trial trial("/proc/a.nc");
-  const Outcome outcome = trial.run();
+  const TrialOutcome outcome = trial.run();
   EXPECT_EQ(outcome.code, ExitCode::failure);
   EXPECT_EQ(outcome.notes, "");
 }
@@ -389,7 +389,7 @@ TEST_F(RunTest, FileSizeLimitAndFullDisk) {
 TEST_F(RunTest, HugeSweepsAreRefusedWithTheirSizes) {
   Trial trial(folder / "a.nc");
   trial.scene.grips.obliquity = trial.scene.grips.roll = trial.scene.grips.offset = range_axis(0, 1, 10000);
-  const Outcome outcome = trial.run();
+  const TrialOutcome outcome = trial.run();
   EXPECT_EQ(outcome.code, ExitCode::usage);
   EXPECT_TRUE(has(outcome.error, "grips, ") && has(outcome.error, "states, ") && has(outcome.error, " of results"))
       << outcome.error;
@@ -402,7 +402,7 @@ TEST_F(RunTest, FailureOfTheBackendLeavesNoResult) {
   trial.before_chunk = [&] {
     if (++chunks == 5) throw failure_error("device lost");
   };
-  const Outcome outcome = trial.run();
+  const TrialOutcome outcome = trial.run();
   EXPECT_EQ(outcome.code, ExitCode::failure);
   EXPECT_EQ(outcome.error, "device lost");
   EXPECT_FALSE(file_exists(folder / "a.nc"));
@@ -493,7 +493,7 @@ TEST_F(RunTest, MissingGnuplotCostsThePicturesAlone) {
   Trial trial(folder / "a.nc");
   const std::string path = std::getenv("PATH");
   setenv("PATH", folder.path().c_str(), 1);
-  const Outcome outcome = trial.run();
+  const TrialOutcome outcome = trial.run();
   setenv("PATH", path.c_str(), 1);
   EXPECT_EQ(outcome.code, ExitCode::done);
   EXPECT_TRUE(has(outcome.notes, "gnuplot-nox")) << outcome.notes;

@@ -14,7 +14,7 @@ using core_f64::Element;
 using core_f64::Vessel;
 
 // A line from a to b: where an arc has its center stands the outward normal.
-Element line_element(Vec2 a, Vec2 b) { return {a, b, glm::normalize(Vec2{b.y - a.y, a.x - b.x})}; }
+Element straight(Vec2 a, Vec2 b) { return {a, b, glm::normalize(Vec2{b.y - a.y, a.x - b.x})}; }
 
 std::vector<VesselData> solids() { return {beaker1(), beaker2(), beaker3(), vase(), ledges()}; }
 
@@ -173,7 +173,7 @@ TEST(Sdf, RadialDirectionOnTheAxisIsX) {
 TEST(Sdf, OfEquallyNearElementsTheFirstDecides) {
   // a cylinder of radius 2 and height 8 in whole numbers, so that ties are exact
   Vessel vessel;
-  vessel.outline = {line_element({0, 0}, {2, 0}), line_element({2, 0}, {2, 8}), line_element({2, 8}, {0, 8})};
+  vessel.outline = {straight({0, 0}, {2, 0}), straight({2, 0}, {2, 8}), straight({2, 8}, {0, 8})};
   int element = -1;
   EXPECT_EQ(core_f64::profile_gradient(vessel, {1, 1}, element), (Vec2{0, -1}));  // base and wall
   EXPECT_EQ(element, 0);
@@ -192,8 +192,8 @@ TEST(Sdf, OfEquallyNearElementsTheFirstDecides) {
 // ---- crossings ----
 
 TEST(Sdf, CrossingsAreHalfOpen) {
-  const Element rising = line_element({1, 0}, {1, 2}), falling = line_element({1, 2}, {1, 0}),
-                slanted = line_element({1, 0}, {3, 2}), level = line_element({1, 1}, {3, 1});
+  const Element rising = straight({1, 0}, {1, 2}), falling = straight({1, 2}, {1, 0}), slanted = straight({1, 0}, {3, 2}),
+                level = straight({1, 1}, {3, 1});
   for (const Element& element : {rising, falling, slanted}) {
     EXPECT_TRUE(core_f64::element_crosses(element, {0, 0}));  // counts for y in [min, max)
     EXPECT_TRUE(core_f64::element_crosses(element, {0, 1}));
@@ -245,7 +245,7 @@ TEST(Sdf, SignDoesNotFlipLevelWithTheEndOfAnElement) {
 
 TEST(Sdf, DistanceToALine) {
   // 1e-15: rounding of numbers under 100
-  const Element line = line_element({1, 1}, {5, 4});
+  const Element line = straight({1, 1}, {5, 4});
   EXPECT_NEAR(core_f64::element_distance_squared(line, {3, 2.5}), 0, 1e-15);
   EXPECT_NEAR(core_f64::element_distance_squared(line, {3 - 3, 2.5 + 4}), 25, 1e-13);  // beside it
   EXPECT_NEAR(core_f64::element_distance_squared(line, {3 + 1.5, 2.5 - 2}), 6.25, 1e-14);

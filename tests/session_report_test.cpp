@@ -17,9 +17,9 @@ namespace {
 constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
 
 // Ticks one after the other, each a copy of the last with changes.
-class Session {
+class RecordedSession {
  public:
-  explicit Session(double rate = 1000) {
+  explicit RecordedSession(double rate = 1000) {
     recording.info.rate = rate;
     recording.info.scene_name = "bench";
     recording.info.device.name = "omega.7";
@@ -29,7 +29,7 @@ class Session {
 
   using Change = std::function<void(double t, Tick& tick)>;  // t: s since the start of this stretch
 
-  Session& stretch(double seconds, SessionState state, const Change& change = {}) {
+  RecordedSession& stretch(double seconds, SessionState state, const Change& change = {}) {
     const auto count = std::llround(seconds * recording.info.rate);
     now_.state = state;
     if (state == SessionState::free) now_.vessel = -1;
@@ -40,16 +40,16 @@ class Session {
     }
     return *this;
   }
-  Session& hold(int vessel) {
+  RecordedSession& hold(int vessel) {
     now_.vessel = vessel;
     ++now_.grasps;
     return *this;
   }
-  Session& skip(std::int64_t periods) {
+  RecordedSession& skip(std::int64_t periods) {
     now_.number += periods;
     return *this;
   }
-  Session& with(const std::function<void(Tick&)>& change) {
+  RecordedSession& with(const std::function<void(Tick&)>& change) {
     change(now_);
     return *this;
   }
@@ -66,8 +66,8 @@ double ramp(double t, double seconds, double from, double to) { return from + (t
 
 // A grasp of vessel 0: lifted for 1 s, tilted to `tilt` within 2 s, kept there for 1 s. `grip` and `normal` give the forces over the tilt for x
 // from 0 to 1, and keep their ends before and after.
-Session tilted(double tilt, const std::function<double(double)>& grip, const std::function<double(double)>& normal) {
-  Session session;
+RecordedSession tilted(double tilt, const std::function<double(double)>& grip, const std::function<double(double)>& normal) {
+  RecordedSession session;
   const auto forces = [&](double x, Tick& tick) {
     tick.tilt = x * tilt;
     tick.user_force = grip(x);
@@ -84,14 +84,14 @@ Session tilted(double tilt, const std::function<double(double)>& grip, const std
 
 double linear(double x, double from, double to) { return from + x * (to - from); }
 
-GraspReport only_grasp(const Session& session) {
+GraspReport only_grasp(const RecordedSession& session) {
   const SessionReport report = session.report();
   EXPECT_EQ(report.grasps.size(), 1u);
   return report.grasps.at(0);
 }
 
 TEST(SessionReport, TimesOfStatesAndGrasps) {
-  Session session;
+  RecordedSession session;
   session.stretch(0.5, SessionState::free).stretch(0.25, SessionState::touching).hold(1);
   session.stretch(1, SessionState::lift).stretch(2, SessionState::tilt).stretch(0.5, SessionState::lift);
   session.stretch(1, SessionState::tilt).skip(100).stretch(3, SessionState::maintain).stretch(0.125, SessionState::free);
@@ -122,7 +122,7 @@ TEST(SessionReport, TimesOfStatesAndGrasps) {
 TEST(SessionReport, ResponseTimeUntilTheGapIsAtRest) {
   for (const double rate : {500.0, 1000.0, 4000.0}) {
     for (const double step : {0.0, 10e-6}) {  // of an encoder
-      Session session(rate);
+      RecordedSession session(rate);
       session.stretch(0.3, SessionState::touching, [](double t, Tick& tick) { tick.device.gap = ramp(t, 0.3, 0.03, 0.02); })
           .hold(0);
       session.stretch(1, SessionState::lift, [step](double t, Tick& tick) {
@@ -145,15 +145,15 @@ TEST(SessionReport, ResponseTimeNeedsCalmOf50Milliseconds) {
       if (t < 0.6 && std::fmod(t, rest + 0.02) >= rest) tick.device.gap += 5e-6;  // 5 mm/s
     };
   };
-  Session session;
+  RecordedSession session;
   session.hold(0).stretch(1, SessionState::lift, stop_and_go(0.04));
   EXPECT_NEAR(only_grasp(session).response_time, 0.6, 0.011);
-  Session calmer;
+  RecordedSession calmer;
   calmer.hold(0).stretch(1, SessionState::lift, stop_and_go(0.08));
   EXPECT_NEAR(only_grasp(calmer).response_time, 0, 1e-9);
   // slower than 2 mm/s is at rest, faster is not
   for (const double speed : {1.9e-3, 2.1e-3}) {
-    Session slow;
+    RecordedSession slow;
     slow.hold(0).stretch(1, SessionState::lift, [speed](double, Tick& tick) { tick.device.gap -= speed / 1000; });
     EXPECT_EQ(only_grasp(slow).response_time == 0, speed < 2e-3) << speed;
     EXPECT_EQ(std::isnan(only_grasp(slow).response_time), speed > 2e-3) << speed;
@@ -161,7 +161,7 @@ TEST(SessionReport, ResponseTimeNeedsCalmOf50Milliseconds) {
 }
 
 TEST(SessionReport, NoResponseBeforeTheTilt) {
-  Session session;
+  RecordedSession session;
   const auto moving = [](double, Tick& tick) { tick.device.gap += 3e-6; };
   session.hold(0).stretch(0.5, SessionState::lift, moving).stretch(1, SessionState::tilt);
   const GraspReport grasp = only_grasp(session);
@@ -170,7 +170,7 @@ TEST(SessionReport, NoResponseBeforeTheTilt) {
 }
 
 TEST(SessionReport, ResponseTimeWithoutSomeMeasurements) {
-  Session session;
+  RecordedSession session;
   session.hold(0).stretch(1, SessionState::lift, [](double t, Tick& tick) {
     const bool is_missing = tick.number % 3 == 0;
     tick.read = is_missing ? ReadOutcome::timeout : ReadOutcome::value;
@@ -180,7 +180,7 @@ TEST(SessionReport, ResponseTimeWithoutSomeMeasurements) {
 }
 
 TEST(SessionReport, GripForceBeforeDuringAndAfter) {
-  Session session;
+  RecordedSession session;
   const auto about = [](double mean) {
     return [mean](double, Tick& tick) { tick.user_force = mean + (tick.number % 2 == 0 ? 0.3 : -0.3); };
   };
@@ -207,7 +207,7 @@ TEST(SessionReport, GripForceBeforeDuringAndAfter) {
 }
 
 TEST(SessionReport, WayToTheTiltThatIsMaintained) {
-  const Session session = tilted(
+  const RecordedSession session = tilted(
       radians(80), [](double) { return 2; }, [](double x) { return linear(x, 0.8, 2); });
   const GraspReport grasp = only_grasp(session);
   EXPECT_NEAR(degrees(grasp.largest_tilt), 80, 1e-9);
@@ -219,7 +219,7 @@ TEST(SessionReport, WayToTheTiltThatIsMaintained) {
 
 // There with a rest on the way, and back: the way there ends where the largest tilt is reached.
 TEST(SessionReport, WayBackDoesNotCount) {
-  Session session;
+  RecordedSession session;
   const auto to = [](double from, double until, double seconds) {
     return [=](double t, Tick& tick) {
       tick.tilt = radians(ramp(t, seconds, from, until));
@@ -301,7 +301,7 @@ TEST(SessionReport, FollowingANormalForceThatFallsIsNotComplex) {
 TEST(SessionReport, WhatSaturatesWhileItIsTiltedHasNoType) {
   const auto grip = [](double) { return 3.0; };
   const auto normal = [](double x) { return linear(x, 0.8, 2); };
-  Session session = tilted(radians(90), grip, normal);
+  RecordedSession session = tilted(radians(90), grip, normal);
   session.recording.info.force_max = 8;
   for (Tick& tick : session.recording.ticks) tick.feedback = is_held(tick.state) ? 5 : 0;
   EXPECT_EQ(only_grasp(session).course, GripCourse::less);
@@ -325,7 +325,7 @@ TEST(SessionReport, TiltsUnder30DegreesAreNotAnalysed) {
   EXPECT_EQ(of(29).course, GripCourse::not_analysed);
   EXPECT_EQ(of(31).course, GripCourse::more);
   EXPECT_NEAR(of(29).grip_change, 3, 2e-3) << "measured all the same";
-  Session upright;
+  RecordedSession upright;
   upright.hold(0).stretch(1, SessionState::lift);
   const GraspReport grasp = only_grasp(upright);
   EXPECT_EQ(grasp.course, GripCourse::not_analysed);
@@ -334,7 +334,7 @@ TEST(SessionReport, TiltsUnder30DegreesAreNotAnalysed) {
 }
 
 TEST(SessionReport, HowGraspsEnd) {
-  Session session;
+  RecordedSession session;
   session.hold(0).stretch(0.2, SessionState::lift).stretch(0.2, SessionState::free);  // let go
   session.hold(1).stretch(0.2, SessionState::lift).with([](Tick& tick) { ++tick.lost; });
   session.stretch(0.2, SessionState::slipped).stretch(0.1, SessionState::free);          // lost
@@ -362,7 +362,7 @@ TEST(SessionReport, HowGraspsEnd) {
 
 // From one vessel straight to another: two grasps.
 TEST(SessionReport, GraspsAreOfOneVessel) {
-  Session session;
+  RecordedSession session;
   session.hold(0).stretch(0.2, SessionState::lift).hold(1).stretch(0.3, SessionState::lift);
   const SessionReport report = session.report();
   ASSERT_EQ(report.grasps.size(), 2u);
@@ -371,7 +371,7 @@ TEST(SessionReport, GraspsAreOfOneVessel) {
 }
 
 TEST(SessionReport, GripLostOnTheWayIsNotAnalysed) {
-  Session session;
+  RecordedSession session;
   const auto turning = [](double t, Tick& tick) {
     tick.tilt = radians(60 * t);
     tick.user_force = 3 - t;
@@ -388,7 +388,7 @@ TEST(SessionReport, GripLostOnTheWayIsNotAnalysed) {
 }
 
 TEST(SessionReport, LiquidGuidanceAndTask) {
-  Session session;
+  RecordedSession session;
   session.recording.info.amounts = {{"water", 100e-6}, {"oil", 50e-6}};
   session.recording.info.tolerance = 2e-6;
   session.with([](Tick& tick) { tick.volume[0] = 200e-6; }).stretch(0.1, SessionState::free).hold(0);
@@ -428,7 +428,7 @@ TEST(SessionReport, LiquidGuidanceAndTask) {
 }
 
 TEST(SessionReport, MeansAndDeviationsOverGrasps) {
-  Session session;
+  RecordedSession session;
   for (const double grip : {2.0, 3.0, 7.0}) {
     session.hold(1).stretch(0.5, SessionState::lift, [grip](double, Tick& tick) { tick.user_force = grip; });
     session.stretch(0.1, SessionState::free);
@@ -448,7 +448,7 @@ TEST(SessionReport, MeansAndDeviationsOverGrasps) {
 }
 
 TEST(SessionReport, TimingOfTheLoop) {
-  Session session;
+  RecordedSession session;
   session.stretch(1, SessionState::free, [](double, Tick& tick) {
     tick.step_time = 1e-6 * static_cast<double>((tick.number * 7) % 1000 + 1);  // 1 to 1000 us, each once
     tick.latency = tick.number == 500 ? 250e-6 : 50e-6;
@@ -466,12 +466,12 @@ TEST(SessionReport, TimingOfTheLoop) {
 }
 
 TEST(SessionReport, OfNothingAndOfNoNumbers) {
-  const SessionReport empty = Session().report();
+  const SessionReport empty = RecordedSession().report();
   EXPECT_EQ(empty.ticks, 0u);
   EXPECT_TRUE(empty.grasps.empty());
   EXPECT_NE(session_table(empty), "");
   EXPECT_FALSE(nlohmann::json::parse(session_json(empty)).empty());
-  Session session = tilted(
+  RecordedSession session = tilted(
       radians(90), [](double) { return NOT_A_NUMBER; }, [](double) { return NOT_A_NUMBER; });
   for (Tick& tick : session.recording.ticks) tick.device.gap = tick.volume[0] = NOT_A_NUMBER;
   const GraspReport grasp = only_grasp(session);
@@ -484,7 +484,7 @@ TEST(SessionReport, OfNothingAndOfNoNumbers) {
 }
 
 TEST(SessionReport, TableCsvAndJsonSayTheSame) {
-  const Session session = tilted(
+  const RecordedSession session = tilted(
       radians(90), [](double x) { return linear(x, 3, 6); }, [](double x) { return linear(x, 0.8, 2); });
   const SessionReport report = session.report();
   const auto json = nlohmann::json::parse(session_json(report));

@@ -22,7 +22,7 @@ long double reference_angle(Vec3 a, Vec3 b) {
   return std::atan2(length(cross(wide_a, wide_b)), dot(wide_a, wide_b));
 }
 
-Vec3 turned(Vec3 a, Vec3 side, long double angle) {
+Vec3 turned_in_plane(Vec3 a, Vec3 side, long double angle) {
   const long double c = std::cos(angle), s = std::sin(angle);
   return {double(c * a.x + s * side.x), double(c * a.y + s * side.y), double(c * a.z + s * side.z)};
 }
@@ -63,7 +63,7 @@ TEST(Trig, AngleBetweenIsAccurateNearZeroARightAngleAndAHalfTurn) {
   for (const long double base : {0.0L, half_turn / 2, half_turn}) {
     for (const long double off : {0.0L, 1e-15L, 1e-12L, 1e-9L, 1e-8L, 1e-6L, 1e-3L, 0.1L}) {
       for (const long double sense : {-1.0L, 1.0L}) {
-        const Vec3 b = turned(a, side, base + sense * off);
+        const Vec3 b = turned_in_plane(a, side, base + sense * off);
         EXPECT_NEAR(core_f64::angle_between(a, b), double(reference_angle(a, b)), ROUNDING) << double(base) << " " << double(off);
       }
     }

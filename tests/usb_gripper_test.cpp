@@ -14,8 +14,6 @@
 namespace wholehand {
 namespace {
 
-constexpr double WATCHDOG = 1;  // s: a busy machine does not trip it
-
 TEST(UsbGripper, IsFoundWithItsLimits) {
   MockBench bench;
   EXPECT_TRUE(find_usb_grippers().empty());
@@ -30,32 +28,32 @@ TEST(UsbGripper, IsFoundWithItsLimits) {
 
 TEST(UsbGripper, IsOpenedByItsIdOrAsTheFirst) {
   MockBench bench;
-  expect_error([] { open_usb("", WATCHDOG); }, ExitCode::failure,
+  expect_error([] { open_usb("", PATIENT_WATCHDOG); }, ExitCode::failure,
                "no gripper found over USB: no device has an interface of class FF");
-  expect_error([] { open_usb("f055:5748", WATCHDOG); }, ExitCode::failure, "usb:f055:5748: no such device is plugged in");
+  expect_error([] { open_usb("f055:5748", PATIENT_WATCHDOG); }, ExitCode::failure, "usb:f055:5748: no such device is plugged in");
   UsbMock gripper(bench);
-  EXPECT_EQ(open_usb("", WATCHDOG)->limits().address, "usb:f055:5748");
-  EXPECT_EQ(open_usb("F055:5748", WATCHDOG)->limits().address, "usb:f055:5748");
-  expect_error([] { open_usb("f055:5749", WATCHDOG); }, ExitCode::failure, "usb:f055:5749: no such device is plugged in");
+  EXPECT_EQ(open_usb("", PATIENT_WATCHDOG)->limits().address, "usb:f055:5748");
+  EXPECT_EQ(open_usb("F055:5748", PATIENT_WATCHDOG)->limits().address, "usb:f055:5748");
+  expect_error([] { open_usb("f055:5749", PATIENT_WATCHDOG); }, ExitCode::failure, "usb:f055:5749: no such device is plugged in");
 }
 
 TEST(UsbGripper, IdsHaveOneForm) {
   for (const char* text : {"f055", "f055:574", "f055:57480", "f05x:5748", "f055-5748", "-055:5748", "f055: 748", ":", "0xf0:0x57"})
-    expect_error([text] { open_usb(text, WATCHDOG); }, ExitCode::usage,
+    expect_error([text] { open_usb(text, PATIENT_WATCHDOG); }, ExitCode::usage,
                  std::string("usb:") + text + ": give the vendor and product id as VVVV:PPPP, four hexadecimal digits each");
 }
 
 TEST(UsbGripper, SessionMovesAndFeels) {
   MockBench bench;
   UsbMock mock(bench);
-  check_session(mock, [] { return open_usb("", WATCHDOG); });
+  check_session(mock, [] { return open_usb("", PATIENT_WATCHDOG); });
 }
 
 // libusb itself takes a block for each transfer it submits, and has no way around it: one for the output, one for each input.
 TEST(UsbGripper, ReadAndWriteAllocateOnlyWhatLibusbMust) {
   MockBench bench;
   UsbMock mock(bench);
-  const auto gripper = open_usb("", WATCHDOG);
+  const auto gripper = open_usb("", PATIENT_WATCHDOG);
   GripperState state;
   ASSERT_EQ(read_soon(*gripper, state), ReadOutcome::value);
   const std::uint32_t first = state.sequence;
@@ -70,13 +68,13 @@ TEST(UsbGripper, ReadAndWriteAllocateOnlyWhatLibusbMust) {
 }
 
 TEST(UsbGripper, ClockGoesOnWhereItWraps) {
-  check_clock<UsbMock>([](const UsbMock&) { return open_usb("", WATCHDOG); });
+  check_clock<UsbMock>([](const UsbMock&) { return open_usb("", PATIENT_WATCHDOG); });
 }
 
 TEST(UsbGripper, WrongReportsAreErrors) {
   MockBench bench;
   UsbMock mock(bench);
-  check_wrong_reports(mock, [] { return open_usb("", WATCHDOG); });
+  check_wrong_reports(mock, [] { return open_usb("", PATIENT_WATCHDOG); });
 }
 
 TEST(UsbGripper, SilenceIsATimeoutAndTripsTheWatchdogs) {
@@ -88,21 +86,21 @@ TEST(UsbGripper, SilenceIsATimeoutAndTripsTheWatchdogs) {
 TEST(UsbGripper, UnpluggingIsSaid) {
   MockBench bench;
   UsbMock mock(bench);
-  check_unplugging(mock, [] { return open_usb("", WATCHDOG); });
-  expect_error([] { open_usb("f055:5748", WATCHDOG); }, ExitCode::failure, "usb:f055:5748: no such device is plugged in");
+  check_unplugging(mock, [] { return open_usb("", PATIENT_WATCHDOG); });
+  expect_error([] { open_usb("f055:5748", PATIENT_WATCHDOG); }, ExitCode::failure, "usb:f055:5748: no such device is plugged in");
 }
 
 TEST(UsbGripper, PanicLeavesNoForce) {
   MockBench bench;
   UsbMock mock(bench);
-  check_panic(mock, [] { return open_usb("", WATCHDOG); });
+  check_panic(mock, [] { return open_usb("", PATIENT_WATCHDOG); });
 }
 
 // One that is slow is not yet an error: its next force waits. One that never takes any is, after ten.
 TEST(UsbGripper, ForceThatIsNotTakenIsAnError) {
   MockBench bench;
   UsbMock mock(bench);
-  const auto gripper = open_usb("", WATCHDOG);
+  const auto gripper = open_usb("", PATIENT_WATCHDOG);
   mock.misbehave(Mischief::takes_no_force);
   for (int i = 0; i < 11; ++i) ASSERT_TRUE(gripper->write({{1, 0, 0}, 0})) << i;
   EXPECT_FALSE(gripper->write({{1, 0, 0}, 0}));
@@ -112,7 +110,7 @@ TEST(UsbGripper, ForceThatIsNotTakenIsAnError) {
 TEST(UsbGripper, OldReportsAreNotTakenForNew) {
   MockBench bench;
   UsbMock mock(bench);
-  check_old_reports(mock, [] { return open_usb("", WATCHDOG); });
+  check_old_reports(mock, [] { return open_usb("", PATIENT_WATCHDOG); });
 }
 
 TEST(UsbGripper, DevicesThatCannotBeUsedAreRefused) {
@@ -125,14 +123,14 @@ TEST(UsbGripper, NoPermissionNamesTheRemedy) {
   {
     const Refusal refusal(bench, mock);
     expect_error(
-        [] { open_usb("", WATCHDOG); }, ExitCode::failure,
+        [] { open_usb("", PATIENT_WATCHDOG); }, ExitCode::failure,
         "usb:f055:5748: no permission for /dev/bus/usb/001/001: copy device/udev/60-wholehand.rules to /etc/udev/rules.d/");
     const auto found = find_usb_grippers();
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].address, "");
     EXPECT_TRUE(found[0].missing.starts_with("no permission for /dev/bus/usb/001/001: copy")) << found[0].missing;
   }
-  EXPECT_NO_THROW(open_usb("", WATCHDOG));
+  EXPECT_NO_THROW(open_usb("", PATIENT_WATCHDOG));
 }
 
 TEST(UsbGripper, WhatIsNoGripperIsNotAsked) {
@@ -141,9 +139,9 @@ TEST(UsbGripper, WhatIsNoGripperIsNotAsked) {
   settings.is_gripper = false;
   UsbMock mock(bench, settings);
   EXPECT_TRUE(find_usb_grippers().empty());
-  expect_error([] { open_usb("f055:5748", WATCHDOG); }, ExitCode::failure,
+  expect_error([] { open_usb("f055:5748", PATIENT_WATCHDOG); }, ExitCode::failure,
                "usb:f055:5748: it is no open gripper: it has no interface of class FF, subclass 57, protocol 48");
-  expect_error([] { open_usb("", WATCHDOG); }, ExitCode::failure, "no gripper found over USB");
+  expect_error([] { open_usb("", PATIENT_WATCHDOG); }, ExitCode::failure, "no gripper found over USB");
   EXPECT_TRUE(mock.outputs().empty());
 }
 
@@ -151,7 +149,7 @@ TEST(UsbGripper, SecondSessionIsRefused) {
   MockBench bench;
   UsbMock mock(bench);
   check_second_session(
-      mock, [] { return open_usb("", WATCHDOG); }, find_usb_grippers);
+      mock, [] { return open_usb("", PATIENT_WATCHDOG); }, find_usb_grippers);
 }
 
 }  // namespace

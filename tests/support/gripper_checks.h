@@ -30,6 +30,8 @@ void expect_error(const Action& action, ExitCode code, const std::string& start)
   }
 }
 
+inline constexpr double PATIENT_WATCHDOG = 1;  // s: a busy machine does not trip it
+
 inline void rest(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
 
 // A machine that is busy may let no report through within a read's patience: then again, a second long.
