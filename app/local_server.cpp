@@ -188,6 +188,8 @@ void LocalServer::serve(socket_t socket) {
     }
     bool is_closed = false;
     if (!process_request(connection, false, is_closed, nullptr) || is_closed) return;
+    // what was refused by its head has its body still to come, which is no request, whatever it looks like
+    if (!connection.is_taken()) return;
   }
 }
 
