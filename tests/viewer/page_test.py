@@ -161,6 +161,19 @@ class ThePage(ViewerTest):
         page.evaluate("wholehand.playback.seek(1)")
         page.wait("document.getElementById('trouble').hidden")
 
+    def test_without_a_picture_the_reason_stays(self):
+        page = self.browser.open("about:blank")
+        self.addCleanup(page.close)
+        page.call("Page.addScriptToEvaluateOnNewDocument", source="""const {getContext} = HTMLCanvasElement.prototype;
+          HTMLCanvasElement.prototype.getContext = function(kind, ...rest) { return kind.includes('webgl') ? null : getContext.call(this, kind, ...rest); };""")
+        page.go(self.pages["recording"].address)
+        page.wait("window.wholehand && wholehand.frame", what="the numbers")
+        said = page.evaluate("document.getElementById('trouble').textContent")
+        self.assertIn("WebGL", said)
+        page.evaluate("wholehand.playback.trouble('one line')")
+        page.evaluate("wholehand.playback.seek(1)")
+        page.wait(f"wholehand.frame.t > 0.9 && document.getElementById('trouble').textContent === {said!r}")
+
     def test_playing_stops_where_the_server_is_gone(self):
         served = self.serve("view", RECORDING)
         page = self.browser.open(served.address)
