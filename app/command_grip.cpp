@@ -117,7 +117,7 @@ ExitCode grip(const GripArguments& arguments) {
   if (arguments.view) {
     std::vector<std::string> notes;
     const GripsView view(scene, {{vessel, input, report.vessel}}, notes);
-    serve_view(view.content(scene.name), port, arguments.json);
+    serve_view(view.content(scene.name, axes), port, arguments.json);
   }
   return ExitCode::done;
 }

@@ -16,6 +16,7 @@
 #include "app/view_grips.h"
 #include "app/view_recording.h"
 #include "sweeps/best_reader.h"
+#include "sweeps/grip_methods.h"
 #include "sweeps/mesh_vessel.h"
 
 namespace wholehand {
@@ -63,7 +64,7 @@ void view_result(const std::string& path, int port) {
   }
   const GripsView view(scene, grips, notes);
   for (const std::string& note : notes) std::fprintf(stderr, "wholehand: view: %s\n", note.c_str());
-  serve_view(view.content(file_name(path)), port, false);
+  serve_view(view.content(file_name(path), scene_axes(scene)), port, false);
 }
 
 ExitCode view(const ViewArguments& arguments) {

@@ -1,9 +1,8 @@
 #include "app/display_loop.h"
 
-#include <pthread.h>
-
 #include <algorithm>
-#include <csignal>
+
+#include "core/block_signals.h"
 
 namespace wholehand {
 namespace {
@@ -14,12 +13,8 @@ constexpr std::chrono::microseconds PERIOD{static_cast<std::int64_t>(1e6 / DISPL
 
 DisplayLoop::DisplayLoop(const LiveScene& live, std::vector<Display*> displays)
     : live_(live), displays_(std::move(displays)), tracker_(live.scene) {
-  // signals are the business of the threads that were there before
-  sigset_t all, before;
-  sigfillset(&all);
-  pthread_sigmask(SIG_SETMASK, &all, &before);
+  const BlockSignals inherited;
   thread_ = std::thread([this] { run(); });
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 
 DisplayLoop::~DisplayLoop() { stop(); }

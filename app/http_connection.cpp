@@ -58,7 +58,7 @@ HttpConnection::HttpConnection(int socket) : socket_(socket) {}
 
 HttpConnection::Head HttpConnection::await_head() {
   buffer_.erase(0, at_);
-  at_ = 0;
+  at_ = left_ = 0;
   until_ = Clock::now() + (buffer_.empty() ? IDLE_PATIENCE : REQUEST_PATIENCE);
   for (std::size_t looked = 0;;) {
     const std::size_t end = buffer_.find("\r\n\r\n", looked);
@@ -76,6 +76,7 @@ HttpConnection::Head HttpConnection::await_head() {
 HttpConnection::Head HttpConnection::look_at_head(std::size_t size) {
   Head head = Head::whole;
   std::size_t lengths = 0;
+  left_ = size;
   for_each_header(buffer_, 0, size - 2, [&](std::size_t at, std::string_view name, std::string_view value) {
     // a name is written without spaces: with them httplib might take it for another one
     if (name.empty() || name.find_first_of(" \t") != name.npos || value.data() == name.data() + name.size())
@@ -84,7 +85,9 @@ HttpConnection::Head HttpConnection::look_at_head(std::size_t size) {
     if (is_header(name, "transfer-encoding") || is_header(name, "expect")) head = Head::not_allowed;
     if (is_header(name, "content-length")) {
       ++lengths;
-      if (length_of(value) > LARGEST_BODY && head == Head::whole) head = Head::body_too_large;
+      const std::size_t length = length_of(value);
+      if (length > LARGEST_BODY && head == Head::whole) head = Head::body_too_large;
+      left_ += length;
     }
   });
   return lengths > 1 ? Head::not_allowed : head;
@@ -103,16 +106,23 @@ ssize_t HttpConnection::receive(char* data, std::size_t size, Clock::time_point 
 }
 
 bool HttpConnection::is_readable() const {
-  return has_more() || wait_for(socket_, POLLIN, duration_cast<milliseconds>(until_ - Clock::now()));
+  return at_ < buffer_.size() || wait_for(socket_, POLLIN, duration_cast<milliseconds>(until_ - Clock::now()));
 }
 
 bool HttpConnection::is_writable() const { return wait_for(socket_, POLLOUT, WRITE_PATIENCE); }
 
 ssize_t HttpConnection::read(char* data, std::size_t size) {
-  if (!has_more()) return receive(data, size, until_);
-  const std::size_t count = std::min(size, buffer_.size() - at_);
+  const std::size_t most = std::min(size, left_);
+  if (most == 0) return 0;  // its end: what follows is another request
+  if (at_ == buffer_.size()) {
+    const ssize_t got = receive(data, most, until_);
+    if (got > 0) left_ -= static_cast<std::size_t>(got);
+    return got;
+  }
+  const std::size_t count = std::min(most, buffer_.size() - at_);
   std::memcpy(data, buffer_.data() + at_, count);
   at_ += count;
+  left_ -= count;
   return static_cast<ssize_t>(count);
 }
 

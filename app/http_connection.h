@@ -25,8 +25,8 @@ class HttpConnection final : public httplib::Stream {
   // none: nothing came, or only part of it; the connection is of no use any more.
   enum class Head { whole, none, too_large, body_too_large, not_allowed };
   Head await_head();
-  // Whether something was sent that the request did not take.
-  bool has_more() const { return at_ < buffer_.size(); }
+  // Whether all of the request was read: its head, and the body whose length the head says. No read goes beyond it.
+  bool is_taken() const { return left_ == 0; }
 
   bool is_readable() const override;
   bool is_writable() const override;
@@ -44,6 +44,7 @@ class HttpConnection final : public httplib::Stream {
   int socket_;
   std::string buffer_;       // received
   std::size_t at_ = 0;       // of it taken
+  std::size_t left_ = 0;     // bytes of this request that are not taken yet
   Clock::time_point until_;  // of this request
 };
 

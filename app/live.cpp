@@ -89,11 +89,13 @@ Percentiles percentiles_of(const Histogram& times) {
   return {times.quantile(0.5), times.quantile(0.99), times.quantile(0.999), times.largest()};
 }
 
-std::string limits_json(const ViewLimits& limits) {
+// `stiffness`: N/m of the hand's gap.
+std::string limits_json(const ViewLimits& limits, double stiffness) {
   return nlohmann::json{
       {"gap", limits.gap},
       {"center", limits.center},
       {"reach", limits.reach},
+      {"opening_N_m", stiffness},
       {"start", {{"position", limits.start.position}, {"rotation", limits.start.rotation}, {"gap", limits.start.gap}}}}
       .dump();
 }
@@ -121,10 +123,11 @@ class LiveRun {
     InterruptGuard interrupt;
     const PanicGuard panic(*gripper_);
     Board board(scene_);
+    open_view();  // first: whose port is taken leaves no recording behind
     std::unique_ptr<RecordingWriter> writer;
     if (!options_.record.empty())
       writer = std::make_unique<RecordingWriter>(options_.record, info_of(scene_, gripper_->limits(), options_.seed));
-    open_view();
+    tell_address();
     std::optional<DisplayLoop> display;
     if (!displays_.empty()) display.emplace(session_->live(), displays_);
     const auto look = [&](std::span<const Tick> ticks) {
@@ -208,7 +211,7 @@ class LiveRun {
     notes_.push_back(stream_->note());
   }
 
-  // The view, its address told before the session starts.
+  // The view, which listens from here on.
   void open_view() {
     if (!options_.view) return;
     ViewFacts facts;
@@ -217,12 +220,16 @@ class LiveRun {
     facts.rate = scene_.live.rate;
     std::function<void(const std::string&)> control;
     if (input_) {
-      facts.control_limits = limits_json(input_->limits());
+      facts.control_limits = limits_json(input_->limits(), scene_.force.k_open / input_->workspace().gap_slope());
       control = [this](const std::string& body) { input_->post(parse_view_control(body)); };
     }
     view_ = std::make_unique<LiveView>(session_->live(), facts, std::move(control), options_.view_port);
     displays_.push_back(view_.get());
-    window_ = std::make_unique<BrowserWindow>(view_->address(), options_.json);
+  }
+
+  // Before the session starts, so that it is seen from its beginning.
+  void tell_address() {
+    if (view_) window_ = std::make_unique<BrowserWindow>(view_->address(), options_.json);
   }
 
   // A loop that has a clock must not wait for the ring; one that has none must not run away from it.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/scene.h"
@@ -34,6 +35,9 @@ struct MixedAmount {
   double arrived = 0, wanted = 0, spilt = 0;
 };
 std::vector<MixedAmount> mixing_board(const Scene& scene, const Tick& tick);
+// m3: of a liquid in the target, and of all vessels beside it. They allocate nothing.
+double total_arrived(const Scene& scene, const Tick& tick, std::string_view liquid);
+double total_spilt(const Scene& scene, const Tick& tick);
 
 // The report at the end, as text or as JSON (times in s). `notes`: lines on what was not permitted.
 struct LiveSummary {

@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <chrono>
 #include <condition_variable>
-#include <csignal>
 #include <cstring>
 #include <deque>
 #include <functional>
@@ -17,6 +16,7 @@
 #include <vector>
 
 #include "app/http_connection.h"
+#include "core/block_signals.h"
 #include "core/error.h"
 
 namespace wholehand {
@@ -27,20 +27,6 @@ constexpr std::size_t STACK = 512 * 1024;  // bytes a thread: a live session loc
 constexpr int MOST_REQUESTS = 10000;       // on one connection
 constexpr int SEND_BUFFER = 64 * 1024;     // bytes: half a second of frames; who has not read them is behind
 thread_local bool is_one_too_many = false;
-
-// Signals are the business of the threads that were there before.
-class BlockSignals {
- public:
-  BlockSignals() {
-    sigset_t all;
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &before_);
-  }
-  ~BlockSignals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-
- private:
-  sigset_t before_;
-};
 
 // Small threads that work, or else say no at once.
 class Workers final : public httplib::TaskQueue {
@@ -202,6 +188,8 @@ void LocalServer::serve(socket_t socket) {
     }
     bool is_closed = false;
     if (!process_request(connection, false, is_closed, nullptr) || is_closed) return;
+    // what was refused by its head has its body still to come, which is no request, whatever it looks like
+    if (!connection.is_taken()) return;
   }
 }
 

@@ -12,10 +12,10 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <glm/gtc/quaternion.hpp>
 #include <memory>
 #include <system_error>
 
+#include "app/live_report.h"
 #include "app/scene_text.h"
 #include "core/error.h"
 
@@ -75,11 +75,6 @@ int open_socket(const addrinfo& address) {
 }
 
 float number(double value) { return std::isfinite(value) ? static_cast<float>(value) : 0; }
-
-Quaternion quaternion_of(const Rotation& rotation) {
-  const glm::dquat q = glm::normalize(glm::quat_cast(to_mat3(rotation)));
-  return {q.x, q.y, q.z, q.w};
-}
 
 }  // namespace
 
@@ -212,16 +207,11 @@ void OscStream::put_forces(const Tick& tick) noexcept {
 
 void OscStream::put_task(const Tick& tick) noexcept {
   const Scene& scene = live_.scene;
-  double spilt = 0;
-  for (std::size_t v = 0; v < vessels_.size(); ++v) spilt += tick.spilt[v];
   for (std::size_t k = 0; k < amounts_.size(); ++k) {
     const auto& [liquid, wanted] = scene.task->amounts[k];
-    double arrived = 0;
-    for (std::size_t v = 0; v < vessels_.size(); ++v)
-      if (scene.vessels[v].liquid_name == liquid) arrived += tick.arrived[v];
-    put(amounts_[k], {number(arrived), number(wanted)});
+    put(amounts_[k], {number(total_arrived(scene, tick, liquid)), number(wanted)});
   }
-  put("/wholehand/task/spilt", {number(spilt)});
+  put("/wholehand/task/spilt", {number(total_spilt(scene, tick))});
   put("/wholehand/task/guidance", {static_cast<std::int32_t>(tick.guidance)});
   put("/wholehand/task/done", {tick.task_done ? 1 : 0});
 }

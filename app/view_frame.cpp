@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <glm/gtc/quaternion.hpp>
 #include <iterator>
 
 #include "app/live_report.h"
+#include "core/quaternion.h"
 
 namespace wholehand {
 namespace {
@@ -59,11 +59,6 @@ class Writer {
   fmt::basic_memory_buffer<char, 4096> out_;
 };
 
-std::array<double, 4> quaternion_of(const Rotation& rotation) {
-  const glm::dquat q = glm::normalize(glm::quat_cast(to_mat3(rotation)));
-  return {q.x, q.y, q.z, q.w};
-}
-
 char letter(PointContact contact) {
   constexpr char LETTERS[] = {'.', 't', 'p', 'k', 'K'};
   return LETTERS[static_cast<std::size_t>(contact)];
@@ -111,6 +106,13 @@ std::string frame_json(const ViewFrame& frame) {
   out.points(",\"joints\":", frame.hand.proxies);
   out.points(",\"rigged\":", frame.hand.rigged);
   out.numbers(",\"wrist\":", frame.hand.wrist);
+  out.numbers(",\"rigged_wrist\":", frame.hand.rigged_wrist);
+  out.text(",\"rotation\":");
+  if (frame.rotation) {
+    out.numbers(quaternion_of(*frame.rotation));
+  } else {
+    out.text("null");
+  }
   out.text(",\"contacts\":\"");
   for (const PointContact contact : frame.hand.contact) out.text({std::array{letter(contact)}.data(), 1});
   out.number("\",\"closure\":", frame.closure);
@@ -159,6 +161,7 @@ ViewFrame FrameMaker::make(const Tick& tick, const VesselPoses& poses, const Han
   frame.state = SESSION_STATE_NAMES[static_cast<std::size_t>(tick.state)];
   frame.vessel = tick.vessel;
   frame.hand = hand;
+  frame.rotation = tick.hand_rotation;
   frame.closure = tick.closure;
   frame.gap = tick.gap;
   frame.tilt = tick.tilt;
@@ -179,7 +182,7 @@ ViewFrame FrameMaker::make(const Tick& tick, const VesselPoses& poses, const Han
   frame.weight = tick.weight;
   frame.torque = tick.torque;
   for (const MixedAmount& amount : mixing_board(scene, tick)) frame.arrived.push_back(amount.arrived);
-  for (std::size_t v = 0; v < rests_.size(); ++v) frame.spilt += tick.spilt[v];
+  frame.spilt = total_spilt(scene, tick);
   frame.target_volume = target_volume(scene, tick);
   frame.guidance = tick.guidance;
   frame.is_done = tick.task_done;

@@ -28,6 +28,7 @@ struct ViewFrame {
   const char* state = "";
   int vessel = -1;
   HandView hand;
+  std::optional<Rotation> rotation;  // of the gripper's axes; absent where there is no gripper
   double closure = 0, gap = 0, tilt = 0;
   std::vector<Vessel> vessels;
   std::optional<PouringStream> stream;

@@ -125,12 +125,14 @@ class GripsView::Impl {
     return list.dump();
   }
 
-  std::string scene_json(const std::string& title) const {
+  std::string scene_json(const std::string& title, const StateAxes& asked) const {
     ViewFacts facts;
     facts.mode = ViewMode::grips;
     facts.title = title;
     facts.device = "core";
     facts.grips = grips_json();
+    facts.fills = asked.fills;
+    facts.tilts = asked.tilts;
     return view_scene_json(scene_, facts);
   }
 
@@ -193,7 +195,7 @@ class GripsView::Impl {
                         : is_projected ? PointContact::projected
                                        : PointContact::touching;
     }
-    hand.wrist = out(seen.wrist);
+    hand.wrist = hand.rigged_wrist = out(seen.wrist);
     hand.vessel = static_cast<int>(seen.wanted.vessel);
   }
 
@@ -264,9 +266,9 @@ std::size_t GripsView::size() const { return impl_->size(); }
 const GripResult& GripsView::result(std::size_t grip) const { return impl_->result(grip); }
 ViewFrame GripsView::frame(std::size_t grip, double fill, double tilt) const { return impl_->frame(grip, fill, tilt); }
 
-ViewContent GripsView::content(const std::string& title) const {
+ViewContent GripsView::content(const std::string& title, const StateAxes& asked) const {
   ViewContent content;
-  content.scene = impl_->scene_json(title);
+  content.scene = impl_->scene_json(title, asked);
   for (const VesselData& vessel : impl_->scene().vessels) content.meshes.push_back(mesh_bytes(vessel));
   content.state = [this](const ViewContent::Query& query) { return impl_->state(query); };
   return content;

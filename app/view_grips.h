@@ -8,6 +8,7 @@
 #include "app/view_frame.h"
 #include "app/view_server.h"
 #include "core/evaluator.h"
+#include "sweeps/grip_methods.h"
 
 namespace wholehand {
 
@@ -34,8 +35,9 @@ class GripsView {
   // A grip at a fill (of the capacity; 0 in a scene without liquid) and a tilt, rad. The vessel stands where the scene has it, is turned about
   // the middle of the tips towards where it pours, and lifted so that neither it nor the hand is under the table.
   ViewFrame frame(std::size_t grip, double fill, double tilt) const;
-  // scene.json and state of it, for a server; it must be outlived by this.
-  ViewContent content(const std::string& title) const;
+  // scene.json and state of it, for a server; it must be outlived by this. `asked`: the fills and tilts that the page begins with and goes up
+  // to; the scene's own if nobody says otherwise. Forces and scores are those of the scene whatever is asked.
+  ViewContent content(const std::string& title, const StateAxes& asked) const;
 
  private:
   class Impl;

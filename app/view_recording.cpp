@@ -22,6 +22,9 @@ Scene at_rate(Scene scene, double rate) {
   return scene;
 }
 
+// How many frames a stretch has.
+double count_of(double from, double to, double rate) { return to > from ? std::floor((to - from) * rate + 1e-9) + 1 : 1; }
+
 }  // namespace
 
 RecordingView::RecordingView(const Scene& scene, Recording recording)
@@ -59,8 +62,8 @@ ViewFrame::Timing RecordingView::timing_of(std::size_t tick) const {
 std::vector<ViewFrame> RecordingView::frames(double from, double to, double rate) const {
   FrameMaker maker(live_);
   std::vector<ViewFrame> frames;
-  const int count = to > from ? static_cast<int>(std::floor((to - from) * rate + 1e-9)) : 0;
-  for (int k = 0; k <= count; ++k) {
+  const int count = static_cast<int>(count_of(from, to, rate));
+  for (int k = 0; k < count; ++k) {
     const std::size_t at = tick_by(from + (k > 0 ? k / rate : 0));
     const VesselPoses poses = history_.at(at);
     const Tick& tick = recording_.ticks[at];
@@ -73,7 +76,7 @@ std::string RecordingView::answer(const ViewContent::Query& query) const {
   constexpr double LONGEST = 1e9;  // s
   const double from = query_number(query, "from", 0, LONGEST), to = query_number(query, "to", from, LONGEST);
   const double rate = query_number(query, "rate", 0, LONGEST);
-  if ((to - from) * rate + 1 > MOST_RECORDED_FRAMES)
+  if (count_of(from, to, rate) > MOST_RECORDED_FRAMES)
     throw usage_error(fmt::format("at most {} frames at once", MOST_RECORDED_FRAMES));
   std::string json = "{\"frames\":[";
   bool is_first = true;

@@ -132,11 +132,12 @@ std::string view_scene_json(const Scene& scene, const ViewFacts& facts) {
   if (facts.mode == ViewMode::recording) json["duration"] = facts.duration;
   if (facts.mode != ViewMode::grips) json["rate"] = facts.rate;
   if (!facts.grips.empty()) {
-    json["fills"] = scene.liquid ? scene.liquid->fills : std::vector<double>{0};
-    json["tilts"] = scene.tilts;
+    json["fills"] = facts.fills.empty() ? std::vector<double>{0} : facts.fills;
+    json["tilts"] = facts.tilts;
     json["grips"] = Json::parse(facts.grips);
   }
-  return json.dump();
+  // a title may be the name of a file, which is any bytes
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string mesh_bytes(const VesselData& vessel) {

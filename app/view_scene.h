@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/scene.h"
 
@@ -14,9 +15,10 @@ enum class ViewMode { live, recording, grips };
 struct ViewFacts {
   ViewMode mode = ViewMode::live;
   std::string title, device;
-  std::string control_limits;     // empty: the page is no gripper
-  double duration = 0, rate = 0;  // s, Hz: of a recording
-  std::string grips;              // empty: none
+  std::string control_limits;        // empty: the page is no gripper
+  double duration = 0, rate = 0;     // s, Hz: of a recording
+  std::string grips;                 // empty: none
+  std::vector<double> fills, tilts;  // of grips: what is asked for, of the capacity and rad
 };
 
 // One JSON object. Vessels in the scene's order, joints in the order of docs/method.md. Throws Error as prepare_vessel.

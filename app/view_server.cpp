@@ -124,7 +124,7 @@ class ViewServer::Pages {
   bool is_own(const Request& request) const {
     const std::string host = request.get_header_value("Host");
     if (request.get_header_value_count("Host") != 1) return false;
-    if (host != fmt::format("127.0.0.1:{}", port_) && host != fmt::format("localhost:{}", port_)) return false;
+    if (!is_own_host(host, port_)) return false;
     return !request.has_header("Origin") ||
            (request.get_header_value_count("Origin") == 1 && request.get_header_value("Origin") == "http://" + host);
   }
@@ -198,6 +198,13 @@ ViewServer::~ViewServer() { stop(); }
 const std::string& ViewServer::address() const { return pages_->address(); }
 
 void ViewServer::stop() { pages_->stop(); }
+
+bool is_own_host(std::string_view host, int port) {
+  constexpr int HTTP = 80;
+  for (const char* name : {"127.0.0.1", "localhost"})
+    if (host == fmt::format("{}:{}", name, port) || (port == HTTP && host == name)) return true;
+  return false;
+}
 
 double query_number(const ViewContent::Query& query, const std::string& name, double low, double high) {
   const auto found = query.find(name);

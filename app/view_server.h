@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/frame_hub.h"
@@ -43,6 +44,9 @@ class ViewServer {
   class Pages;
   std::unique_ptr<Pages> pages_;
 };
+
+// Whether a request's Host names this server: 127.0.0.1 or localhost with its port, which clients leave out where it is 80.
+bool is_own_host(std::string_view host, int port);
 
 // A number of a query: the whole text, finite and in its range. Throws Error (usage).
 double query_number(const ViewContent::Query& query, const std::string& name, double low, double high);

@@ -80,6 +80,7 @@ class View {
     core_f64::GripAnswer answer;
     rest_hand(live_.hand, live_.vessels[0].vessel, core_f64::PoseKind::rigged, closing, 0, {true, false}, answer);
     for (int j = 0; j < JOINT_COUNT; ++j) view_.rigged[j] = back(answer.joints[j], handedness_);
+    view_.rigged_wrist = back(closing.placement.translation, handedness_);
   }
 
   // Before a grasp: the nearest vessel, and how far the other fingers have come to it.

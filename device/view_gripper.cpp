@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/quaternion.hpp>
 #include <limits>
 
 #include "core/prepare.h"
+#include "core/quaternion.h"
 #include "device/follower.h"
 
 namespace wholehand {
@@ -39,8 +39,6 @@ std::array<double, 2> gap_of(const HandData& hand) {
   const PreparedHand prepared = prepare_hand(hand);
   return {hand.scale * prepared.gap_closed, hand.scale * prepared.gap_open};
 }
-
-glm::dquat quaternion_of(const Rotation& rotation) { return glm::normalize(glm::quat_cast(to_mat3(rotation))); }
 
 // The turn by which `to` becomes `from`: axis times angle, at most pi.
 Vec3 turn_between(const glm::dquat& from, const glm::dquat& to) {
@@ -101,7 +99,7 @@ class ViewGripper final : public Gripper {
  private:
   void aim(const GripperState& wanted) noexcept {
     goal_ = wanted;
-    goal_turn_ = quaternion_of(wanted.rotation);
+    goal_turn_ = to_quat(to_mat3(wanted.rotation));
   }
 
   ViewInput& input_;

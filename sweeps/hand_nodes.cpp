@@ -52,11 +52,6 @@ Vec3 vector_of(const Triple& t) { return Vec3(t[0], t[1], t[2]); }
 Triple triple_of(Vec3 v) { return {v.x, v.y, v.z}; }
 glm::dquat quaternion_of(const Quaternion& q) { return glm::dquat(q[3], q[0], q[1], q[2]); }  // w first in glm's
 
-Quaternion quaternion_of(const Mat3& rotation) {
-  const glm::dquat q = glm::normalize(glm::quat_cast(rotation));
-  return {q.x, q.y, q.z, q.w};
-}
-
 // A rotation of the right hand's scene in the left hand's: M R M with M = diag(-1, 1, 1). Its +y and +z are the mirrored ones; +x follows.
 Mat3 mirrored_rotation(Mat3 rotation, Handedness handedness) {
   if (handedness == Handedness::right) return rotation;

@@ -4,12 +4,11 @@
 #include <array>
 
 #include "core/hand.h"
+#include "core/quaternion.h"
 #include "core/result.h"
 #include "core/tick.h"
 
 namespace wholehand {
-
-using Quaternion = std::array<double, 4>;  // x, y, z, w, as glTF orders it; unit
 
 // A joint of the hand in the vessel frame. Its rotation is OpenXR's: +z along the bone away from the tip, +y out of the back of the
 // hand (of a thumb: of its nail), for either hand; a tip has that of the bone it ends. The bone of a joint runs to the next joint of the finger, along -z.

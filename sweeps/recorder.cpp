@@ -1,29 +1,14 @@
 #include "sweeps/recorder.h"
 
-#include <pthread.h>
-
 #include <algorithm>
-#include <csignal>
 #include <utility>
+
+#include "core/block_signals.h"
 
 namespace wholehand {
 namespace {
 
 constexpr std::size_t BLOCK = 1024;  // ticks
-
-// Signals are the business of the threads that were there before.
-class BlockSignals {
- public:
-  BlockSignals() {
-    sigset_t all;
-    sigfillset(&all);
-    pthread_sigmask(SIG_SETMASK, &all, &before_);
-  }
-  ~BlockSignals() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
-
- private:
-  sigset_t before_;
-};
 
 }  // namespace
 

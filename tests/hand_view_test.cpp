@@ -170,6 +170,21 @@ Seen watch_script(const Scene& scene) {
       scene, [&](std::int64_t n) { return script.at(n); }, static_cast<std::int64_t>(script.seconds() * script.rate));
 }
 
+// The hand that the gripper moves is one body with its wrist; the posed hand, whose tips the glass keeps apart, has its own elsewhere.
+TEST(HandView, TheRiggedHandHasItsOwnWrist) {
+  const Scene scene = live_scene();
+  const Seen seen = watch_script(scene);
+  double farthest = 0;
+  for (std::size_t n = 0; n < seen.views.size(); n += 97) {
+    const HandView& view = seen.views[n];
+    const auto truth = reference_hand(scene.hand, static_cast<long double>(seen.ticks[n].closure));
+    for (int j = 0; j < JOINT_COUNT; ++j)
+      EXPECT_NEAR(apart(view.rigged[j], view.rigged_wrist), static_cast<double>(length(truth[j])), 1e-9) << j << " at tick " << n;
+    farthest = std::max(farthest, apart(view.wrist, view.rigged_wrist));
+  }
+  EXPECT_GT(farthest, 1e-4) << "m: somewhere it is squeezed";
+}
+
 TEST(HandView, NothingIsInsideTheGlassThroughoutASession) {
   for (const Surface surface : {Surface::solid, Surface::shell}) {
     Scene scene = live_scene();

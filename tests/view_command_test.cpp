@@ -216,6 +216,19 @@ TEST(LiveView, ThePageMayBeTheGripper) {
   EXPECT_EQ(live.interrupt(), 130);
 }
 
+// k_open is of the device's gap, and what the page moves is the hand's.
+TEST(LiveView, ThePageIsToldTheStiffnessOfTheHandsGap) {
+  const ViewFolder folder;
+  std::string scene = text_in(find_scene("mixing_board"));
+  scene.insert(scene.find("[force]\n") + 8, "k_open_N_m = 500\n");
+  std::ofstream(folder.file("half.toml")) << scene << "\n[device]\ngap_mm = [20, 60]\n";
+  Viewed live("live " + folder.file("half.toml") + " --view --device view --seconds 20");
+  const json limits = live.get("scene.json")["control_limits"];
+  const double range = limits["gap"][1].get<double>() - limits["gap"][0].get<double>();
+  EXPECT_NEAR(limits["opening_N_m"].get<double>(), 500 * 0.04 / range, 1e-9);
+  EXPECT_EQ(live.interrupt(), 130);
+}
+
 TEST(LiveView, OnlyWithThePageAsGripperAreControlsTaken) {
   Viewed live("live --view --seconds 20");
   EXPECT_EQ(live.get("scene.json")["control"], false);
@@ -318,6 +331,10 @@ TEST(ViewCommand, ShowsAGripBesideItsReport) {
   Viewed view(grip + " --view");
   const json told = json::parse(view.out());
   EXPECT_EQ(told, json::parse(run("PROGRAM " + grip).output));
+  const json scene = view.get("scene.json");
+  EXPECT_EQ(scene["fills"], json({0.5}));
+  ASSERT_EQ(scene["tilts"].size(), 1u);
+  EXPECT_DOUBLE_EQ(scene["tilts"][0], radians(40));
   const json frame = view.get("state?grip=0&fill=0.5&tilt=0");
   const json& vessel = frame["vessels"][0];
   for (std::size_t j = 0; j < JOINT_COUNT; ++j) {
@@ -355,10 +372,12 @@ TEST(ViewCommand, RefusesWhatCannotBeShown) {
   expect_error("live --device view --seconds 1", 2, "--view");
 }
 
-TEST(ViewCommand, APortThatIsTakenIsNamed) {
+TEST(ViewCommand, APortThatIsTakenIsNamedAndNothingIsLeft) {
+  const ViewFolder folder;
   Viewed live("live --view --seconds 20");
-  expect_error("live --view --seconds 1 --view-port " + std::to_string(live.at.port), 2,
+  expect_error("live --view --seconds 1 --view-port " + std::to_string(live.at.port) + " --record " + folder.file("p.nc"), 2,
                "--view-port " + std::to_string(live.at.port));
+  EXPECT_TRUE(fs::is_empty(fs::path(folder.file("p.nc")).parent_path())) << "the next start would be refused";
   EXPECT_EQ(live.interrupt(), 130);
 }
 

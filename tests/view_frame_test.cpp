@@ -41,6 +41,15 @@ void expect_seen(const json& list, const Triple& truth, const std::string& what)
     EXPECT_TRUE(is_seen(list[static_cast<std::size_t>(k)], truth[k])) << what << " " << list << " " << truth[k];
 }
 
+// The quaternion turns as the matrix does, to a few units of a float's 24 bits.
+void expect_turned(const json& quaternion, const Rotation& r) {
+  const double x = quaternion[0], y = quaternion[1], z = quaternion[2], w = quaternion[3];
+  EXPECT_NEAR(1 - 2 * (y * y + z * z), r[0], 1e-6);
+  EXPECT_NEAR(2 * (x * y - z * w), r[1], 1e-6);
+  EXPECT_NEAR(2 * (x * z + y * w), r[2], 1e-6);
+  EXPECT_NEAR(2 * (y * z - x * w), r[5], 1e-6);
+}
+
 struct Moment {
   Tick tick;
   VesselPoses poses;
@@ -74,10 +83,10 @@ TEST(ViewFrame, TellsEveryFieldOfATick) {
     const std::string text = frame_json(frame);
     EXPECT_EQ(text.find('\n'), std::string::npos);
     const json seen = json::parse(text);
-    EXPECT_EQ(keys_of(seen),
-              (std::set<std::string>{"t",        "tick",    "state",         "vessel",   "joints",  "rigged", "wrist",
-                                     "contacts", "closure", "gap",           "tilt",     "vessels", "stream", "forces",
-                                     "amounts",  "spilt",   "target_volume", "guidance", "done",    "timing"}));
+    EXPECT_EQ(keys_of(seen), (std::set<std::string>{
+                                 "t",        "tick",     "state",         "vessel",   "joints", "rigged",  "wrist",  "rigged_wrist",
+                                 "rotation", "contacts", "closure",       "gap",      "tilt",   "vessels", "stream", "forces",
+                                 "amounts",  "spilt",    "target_volume", "guidance", "done",   "timing"}));
     EXPECT_EQ(seen["t"], static_cast<double>(tick.number) / scene.live.rate);
     EXPECT_EQ(seen["tick"], tick.number);
     EXPECT_EQ(seen["state"], SESSION_STATE_NAMES[static_cast<std::size_t>(tick.state)]);
@@ -93,6 +102,8 @@ TEST(ViewFrame, TellsEveryFieldOfATick) {
       EXPECT_EQ(contacts[j], std::string(".tpkK")[static_cast<std::size_t>(hand.contact[j])]);
     }
     expect_seen(seen["wrist"], hand.wrist, "wrist");
+    expect_seen(seen["rigged_wrist"], hand.rigged_wrist, "rigged wrist");
+    expect_turned(seen["rotation"], tick.hand_rotation);
     EXPECT_TRUE(is_seen(seen["closure"], tick.closure) && is_seen(seen["gap"], tick.gap) && is_seen(seen["tilt"], tick.tilt));
     ASSERT_EQ(seen["vessels"].size(), scene.vessels.size());
     for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
@@ -104,13 +115,7 @@ TEST(ViewFrame, TellsEveryFieldOfATick) {
       EXPECT_EQ(vessel["level"].is_null(), !surface.has_value());
       EXPECT_TRUE(!surface || is_seen(vessel["level"], surface->level));
       expect_seen(vessel["up"], {poses[v].rotation[3], poses[v].rotation[4], poses[v].rotation[5]}, "up");
-      // the quaternion turns as the matrix does
-      const double x = vessel["rotation"][0], y = vessel["rotation"][1], z = vessel["rotation"][2], w = vessel["rotation"][3];
-      const Rotation& r = poses[v].rotation;
-      EXPECT_NEAR(1 - 2 * (y * y + z * z), r[0], 1e-6);
-      EXPECT_NEAR(2 * (x * y - z * w), r[1], 1e-6);
-      EXPECT_NEAR(2 * (x * z + y * w), r[2], 1e-6);
-      EXPECT_NEAR(2 * (y * z - x * w), r[5], 1e-6);
+      expect_turned(vessel["rotation"], poses[v].rotation);
     }
     const auto stream = pouring_stream(live, tick, 0);
     EXPECT_EQ(seen["stream"].is_null(), !stream.has_value());
@@ -204,6 +209,12 @@ TEST(ViewScene, TellsWhatDoesNotChange) {
   EXPECT_EQ(seen["tolerance_m3"], 5e-6);
   EXPECT_EQ(seen["force"], json({{"base", 0.8}, {"max", 8.0}}));
   EXPECT_EQ(seen["states"], json({"free", "touching", "lift", "tilt", "maintain", "slipped", "released"}));
+}
+
+TEST(ViewScene, ATitleMayBeAnyBytes) {
+  ViewFacts facts;
+  facts.title = "m\xfc.nc";  // a file's name in Latin-1
+  EXPECT_EQ(json::parse(view_scene_json(live_scene(), facts))["title"], "m\xef\xbf\xbd.nc");
 }
 
 // The distance of a point of the half plane from a polyline.

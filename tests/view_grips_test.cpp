@@ -146,7 +146,7 @@ TEST(GripsView, TheListTellsEachGripAndItsTerms) {
   std::vector<std::string> notes;
   const std::vector<ViewedGrip> grips = some_grips();
   const GripsView view(scene, grips, notes);
-  const ViewContent content = view.content("best");
+  const ViewContent content = view.content("best", scene_axes(scene));
   const json seen = json::parse(content.scene);
   EXPECT_EQ(seen["mode"], "grips");
   EXPECT_EQ(seen["fills"], json(scene.liquid->fills));
@@ -181,7 +181,7 @@ TEST(GripsView, TheListTellsEachGripAndItsTerms) {
 TEST(GripsView, AnswersAtAnyStateAndRefusesWhatIsNone) {
   std::vector<std::string> notes;
   const GripsView view(beakers(), some_grips(), notes);
-  const ViewContent content = view.content("best");
+  const ViewContent content = view.content("best", {});
   EXPECT_EQ(content.state({{"grip", "1"}, {"fill", "0.37"}, {"tilt", "1.234"}}), frame_json(view.frame(1, 0.37, 1.234)));
   EXPECT_EQ(content.state({{"grip", "0"}, {"fill", "1"}, {"tilt", "3.1415927"}}), frame_json(view.frame(0, 1, PI)));
   using Query = ViewContent::Query;
@@ -192,11 +192,23 @@ TEST(GripsView, AnswersAtAnyStateAndRefusesWhatIsNone) {
     EXPECT_THROW(content.state(bad), Error);
 }
 
+// Other fills in the scene would be another reference of the torque, and other forces than those of the report.
+TEST(GripsView, WhatIsAskedForMovesTheSlidersAndNotTheForces) {
+  const Scene scene = beakers();
+  std::vector<std::string> notes;
+  const GripsView view(scene, {some_grips()[0]}, notes);
+  const StateAxes asked{{0.3}, {0, radians(120)}};
+  const json seen = json::parse(view.content("one", asked).scene), own = json::parse(view.content("one", scene_axes(scene)).scene);
+  EXPECT_EQ(seen["fills"], json(asked.fills));
+  EXPECT_EQ(seen["tilts"], json(asked.tilts));
+  EXPECT_EQ(seen["grips"], own["grips"]);
+}
+
 TEST(GripsView, ASceneWithoutLiquidAndTiltsIsShownToo) {
   const Scene scene = scene_of({beaker1()});
   std::vector<std::string> notes;
   const GripsView view(scene, {some_grips()[0]}, notes);
-  const json seen = json::parse(view.content("bare").scene);
+  const json seen = json::parse(view.content("bare", scene_axes(scene)).scene);
   EXPECT_EQ(seen["fills"], json({0.0}));
   EXPECT_TRUE(seen["tilts"].empty());
   EXPECT_FALSE(seen["grips"][0]["terms"].contains("force"));

@@ -2,6 +2,7 @@
 // sanitizers: address
 #include "app/view_recording.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -103,6 +104,27 @@ TEST(RecordingView, AnswersAsJsonAndRefusesTooMuch) {
                            Query{{"from", "-1"}, {"to", "1"}, {"rate", "1"}}, Query{{"from", "0"}, {"to", "1e9"}, {"rate", "1e9"}},
                            Query{{"from", "0"}, {"to", "1"}}, Query{{"from", "0"}, {"to", "1"}, {"rate", "x"}}})
     EXPECT_THROW(content.recording(bad), Error);
+}
+
+// The page asks for all of it with the duration to 1e-6 s: rounded up here, that must not make it one frame too many.
+TEST(RecordingView, AllOfItIsAtMostTheMostFramesWhateverTheRate) {
+  const Scene scene = live_scene();
+  struct Case {
+    double rate;
+    std::int64_t last;  // tick
+    const char* duration;
+  };
+  for (const Case& c : {Case{333, 598, "1.798799"}, Case{1500, 3000, "2.000667"}}) {
+    Recording recording = recorded(scene);
+    std::erase_if(recording.ticks, [&](const Tick& tick) { return tick.number > c.last; });
+    recording.info.rate = c.rate;
+    const RecordingView view(scene, recording);
+    EXPECT_NEAR(view.duration(), std::stod(c.duration), 5e-7);
+    EXPECT_LT(view.duration(), std::stod(c.duration));
+    const std::string rate = fmt::format("{}", std::min(c.rate, (MOST_RECORDED_FRAMES - 1) / view.duration()));
+    const json answer = json::parse(view.content("").recording({{"from", "0"}, {"to", c.duration}, {"rate", rate}}));
+    EXPECT_EQ(answer["frames"].size(), static_cast<std::size_t>(MOST_RECORDED_FRAMES)) << c.rate;
+  }
 }
 
 TEST(RecordingView, RefusesARecordingWithoutTicksOrOfAnotherScene) {

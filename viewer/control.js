@@ -7,10 +7,16 @@ const INTERVAL = 1000 / 60;            // ms between two states that are sent
 const KEY_STEP = 0.006, KEY_TURN = 0.05;  // m and rad for each press of a key
 const CLOSING = 0.5, OPENING = 1.2;    // of the gap's range, in a second
 const SQUEEZE = 0.004;                 // m, that a grasp goes on closing beyond where it held
-const STIFFNESS = 600;                 // N/m of the opening by which one finds where it held; the method's default
 const HELD = ['lift', 'tilt', 'maintain'];
 const THUMB_TIP = 3, INDEX_TIP = 8;
 const LARGEST_TILT = 150, LARGEST_TURN = 180;  // degrees
+
+// Of the gripper's axes, [x, y, z, w], as Control.state() puts them together, rad. What else they may be turned by is left out.
+function angles(rotation) {
+  const turned = (x, y, z) => new Vector3(x, y, z).applyQuaternion(new Quaternion(...rotation));
+  const across = turned(1, 0, 0), up = turned(0, 1, 0), back = turned(0, 0, 1);
+  return {tilt: Math.atan2(back.y, up.y), turn: Math.atan2(-across.z, across.x)};
+}
 
 export class Control {
   constructor(about, view, trouble) {
@@ -136,13 +142,15 @@ export class Control {
     if (!this.isAtHand) {  // another page may have moved it
       this.isAtHand = true;
       const [thumb, index] = [THUMB_TIP, INDEX_TIP].map((joint) => new Vector3(...frame.rigged[joint]));
-      if (!this.kept()) this.place({position: thumb.add(index).multiplyScalar(0.5).toArray(), gap: frame.gap, tilt: 0, turn: 0});
+      if (!this.kept()) this.place({position: thumb.add(index).multiplyScalar(0.5).toArray(), gap: frame.gap, ...angles(frame.rotation)});
       this.showValues();
     }
     this.isHeld = HELD.includes(frame.state);
     if (this.isHeld && this.motion < 0) {
       this.motion = 0;
-      this.gap = Math.max(this.limits.gap[0], frame.gap + Math.max(0, frame.forces.opening) / STIFFNESS - SQUEEZE);
+      const stiffness = this.limits.opening_N_m;  // it has closed on since it held, by as much as the force that opens it tells
+      const way = stiffness > 0 ? Math.max(0, frame.forces.opening) / stiffness : 0;
+      this.gap = Math.max(this.limits.gap[0], frame.gap + way - SQUEEZE);
       this.changed();
     }
     const word = this.motion < 0 || this.isHeld ? 'Let go' : 'Grasp';
@@ -170,7 +178,7 @@ export class Control {
       const began = performance.now();
       try {
         const answer = await fetch('control', {method: 'POST', headers: {'Content-Type': 'application/json'}, body: JSON.stringify(this.state())});
-        if (!answer.ok) this.trouble((await answer.text()).trim());
+        this.trouble(answer.ok ? '' : (await answer.text()).trim());
       } catch (error) {
         this.trouble('wholehand does not answer any more.');
         break;

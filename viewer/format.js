@@ -15,8 +15,8 @@ export const millilitres = (value, digits = 0) => fixed(isNumber(value) ? value 
 export const whole = (value) => (isNumber(value) ? Math.round(value).toLocaleString('en') : DASH);
 
 export function clock(seconds) {
-  const minutes = Math.floor(seconds / 60);
-  return `${minutes}:${(seconds - 60 * minutes).toFixed(1).padStart(4, '0')}`;
+  const tenths = Math.round(10 * seconds), minutes = Math.floor(tenths / 600);
+  return `${minutes}:${((tenths - 600 * minutes) / 10).toFixed(1).padStart(4, '0')}`;
 }
 
 // element('p', {class: 'x', text: 'y'}, child, ...)

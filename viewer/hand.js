@@ -150,6 +150,6 @@ export class Hand {
 
   pose(frame, size) {
     this.skin.pose(frame.joints, frame.wrist, this.radii, size);
-    if (this.ghost.mesh.visible) this.ghost.pose(frame.rigged, frame.wrist, this.radii, size);
+    if (this.ghost.mesh.visible) this.ghost.pose(frame.rigged, frame.rigged_wrist, this.radii, size);
   }
 }

@@ -38,7 +38,8 @@ export function listenToKeys(bindings, canvas) {
     if (event.ctrlKey || event.metaKey || event.altKey || isOwn(event.target, event.key)) return;
     const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
     const found = all.find((binding) => binding.keys.includes(key));
-    if (!found || (found.atPicture && event.target !== canvas && event.target !== document.body)) return;
+    const isAtPicture = event.target === canvas || event.target === document.body || event.target.closest('#tools');
+    if (!found || (found.atPicture && !isAtPicture)) return;
     event.preventDefault();
     found.act(event);
   });

@@ -14,17 +14,20 @@ import {View} from './view.js';
 const PANELS_EVERY = 66, CHARTS_EVERY = 50, COUNT_EVERY = 1000;  // ms
 const find = (id) => document.getElementById(id);
 
+let noPicture = '';  // why there is none: that stays
+
 function trouble(text) {
-  const place = find('trouble');
-  place.textContent = text || '';
-  place.hidden = !text;
+  const place = find('trouble'), said = text || noPicture;
+  if (place.textContent !== said) place.textContent = said;
+  place.hidden = !said;
 }
 
 function makeView(about) {
   try {
     return new View(find('view'), about);
   } catch (error) {
-    trouble(error.message);
+    noPicture = error.message;
+    trouble('');
     return null;
   }
 }
@@ -112,6 +115,7 @@ async function start() {
     const drawCharts = seldom(CHARTS_EVERY, () => charts.show(recording.before(playback.t, SPAN).map(record), playback.t));
     const recording = new Recording(about.duration, about.rate, () => playback && drawCharts());
     playback = new Playback(recording, (frame) => {
+      trouble('');
       show(frame);
       drawCharts();
     }, trouble);

@@ -100,6 +100,7 @@ export class Orbit {
   }
 
   reset() {
+    if (!this.home) return;  // nothing has been seen yet
     const {points, azimuth, elevation} = this.home, middle = points.reduce((sum, p) => sum.addScaledVector(p, 1 / points.length), new Vector3());
     const back = new Vector3(Math.sin(azimuth) * Math.cos(elevation), Math.sin(elevation), Math.cos(azimuth) * Math.cos(elevation));
     const right = new Vector3(Math.cos(azimuth), 0, -Math.sin(azimuth)), up = back.clone().cross(right);

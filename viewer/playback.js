@@ -13,6 +13,7 @@ export class Playback {
     this.trouble = trouble;
     this.t = 0;
     this.isPlaying = false;
+    this.runs = 0;  // times that it was played; a step of an earlier one is none any more
     this.speed = 1;
     const find = (id) => document.getElementById(id);
     [this.button, this.scrub, this.clock, this.timeline] = ['play', 'scrub', 'clock', 'timeline'].map(find);
@@ -56,8 +57,8 @@ export class Playback {
     if (this.t >= this.recording.duration - 1e-6) this.t = 0;
     this.isPlaying = true;
     this.showButton();
-    this.last = null;
-    requestAnimationFrame((now) => this.step(now / 1000));
+    this.runs += 1;
+    this.goOn(this.runs);
     return undefined;
   }
 
@@ -71,18 +72,29 @@ export class Playback {
     this.button.setAttribute('aria-label', this.isPlaying ? 'Pause' : 'Play');
   }
 
-  step(now) {
-    if (!this.isPlaying) return;
+  goOn(run) {
+    this.last = null;
+    requestAnimationFrame((now) => this.step(now / 1000, run));
+  }
+
+  step(now, run) {
+    if (!this.isPlaying || run !== this.runs) return;
     const t = Math.min(this.recording.duration, this.t + (this.last === null ? 0 : Math.min(0.25, now - this.last) * this.speed));
     this.last = now;
     const frame = this.recording.now(t);
-    if (frame) {  // time stands still while a stretch is on its way
-      this.t = t;
-      this.showTime();
-      this.frame(frame);
-      if (t >= this.recording.duration) this.pause();
+    if (!frame) {  // time stands still while a stretch is on its way
+      this.recording.at(t).then(() => this.goOn(run), (error) => {
+        if (run !== this.runs) return;
+        this.pause();
+        this.trouble(error.message);
+      });
+      return;
     }
-    requestAnimationFrame((next) => this.step(next / 1000));
+    this.t = t;
+    this.showTime();
+    this.frame(frame);
+    if (t >= this.recording.duration) this.pause();
+    requestAnimationFrame((next) => this.step(next / 1000, run));
   }
 
   // Answers when that frame is shown.

@@ -68,9 +68,9 @@ export class Recording {
     return json(`recording?from=${from.toFixed(6)}&to=${to.toFixed(6)}&rate=${rate}`).then((answer) => answer.frames);
   }
 
-  // All of it, coarsely.
+  // All of it, coarsely; by one frame less than the most, as `to` is rounded on its way.
   overview() {
-    const rate = Math.min(this.rate || 1000, (FRAMES_AT_MOST - 1) / Math.max(this.duration, 1e-3));
+    const rate = Math.min(this.rate || 1000, (FRAMES_AT_MOST - 2) / Math.max(this.duration, 1e-3));
     return this.fetch(0, this.duration, rate);
   }
 
@@ -101,16 +101,19 @@ export class Recording {
   // The same if it is here, else null.
   now(t) {
     const number = this.number(t), frames = this.ready.get(number);
-    this.stretch(number).catch(() => {});
+    if (!frames) return null;
     this.ahead(number);
-    return frames ? this.pick(frames, t) : null;
+    return this.pick(frames, t);
   }
 
   number(t) {
     return Math.floor(Math.max(0, Math.min(t, this.duration - 1e-9)) / STRETCH);
   }
 
+  // Once for each: trouble is told when it is that stretch's turn.
   ahead(number) {
+    if (this.aheadOf === number) return;
+    this.aheadOf = number;
     if ((number + 1) * STRETCH < this.duration) this.stretch(number + 1).catch(() => {});
   }
 

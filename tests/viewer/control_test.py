@@ -95,6 +95,43 @@ class ThePageAsGripper(ViewerTest):
         other = self.open(self.live)
         self.assert_near(other.evaluate("wholehand.control.position.toArray()"), [0.06, 0.16, 0.17], FAR)
 
+    def test_a_second_page_keeps_the_hand_as_it_is_turned(self):
+        page = self.open(self.live)
+        self.go(page, 60, 160, 170)
+        for tilt, turn in [(110, -35), (0, 0)]:
+            slide(page, "control-tilt", tilt)
+            slide(page, "control-turn", turn)
+            wanted = page.evaluate("""(() => { const {tilt, turn} = wholehand.control, a = turn / 2, b = -tilt / 2;
+              return [Math.cos(a) * Math.sin(b), Math.sin(a) * Math.cos(b), -Math.sin(a) * Math.sin(b), Math.cos(a) * Math.cos(b)]; })()""")
+            # either of the two quaternions of that turn, but for 3e-4 rad
+            page.wait(f"Math.abs({wanted}.reduce((sum, v, k) => sum + v * wholehand.frame.rotation[k], 0)) > 1 - 1e-8", what=f"a hand tilted by {tilt}")
+            other = self.open(self.live)
+            found = other.evaluate("[wholehand.control.tilt, wholehand.control.turn].map((v) => v * 180 / Math.PI)")
+            self.assert_near(found, [tilt, turn], 0.1, "degrees")
+
+    def test_a_grasp_goes_on_closing_from_where_it_held(self):
+        page = self.open(self.live)
+        page.wait("wholehand.control")
+        stiffness = page.evaluate("wholehand.scene.control_limits.opening_N_m")
+        self.assertAlmostEqual(stiffness, 600, delta=1e-6)  # the method's, as this gripper's gap is the hand's
+        for n_m, squeezed in [(600, 0.005), (6000, 0.0005), (0, 0)]:
+            gap = page.evaluate(f"""(() => {{ const {{control, frame}} = wholehand;
+              control.limits.opening_N_m = {n_m};
+              control.motion = -1;
+              control.show({{...frame, state: 'lift', gap: 0.06, forces: {{...frame.forces, opening: 3}}}});
+              return control.gap; }})()""")
+            self.assertAlmostEqual(gap, 0.06 + squeezed - 0.004, delta=1e-9)
+        page.evaluate("wholehand.control.limits.opening_N_m = 600")
+        slide(page, "control-close", 0)
+
+    def test_trouble_is_over_when_a_control_is_taken(self):
+        page = self.open(self.live)
+        page.wait("wholehand.control")
+        page.evaluate("wholehand.control.trouble('one line')")
+        self.assertFalse(page.evaluate("document.getElementById('trouble').hidden"))
+        page.key("e")
+        page.wait("document.getElementById('trouble').hidden")
+
     def test_touch_does_the_same(self):
         page = self.open(self.live, 420, 800)
         page.resize(420, 800, mobile=True)

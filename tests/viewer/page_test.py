@@ -5,6 +5,7 @@ import os
 from support import Picture, ViewerTest, main, still, wholehand
 
 GRIP = ["three_beakers", "--vessel", "beaker2", "--height-mm", "95", "--roll-deg", "30"]
+RECORDING = "a_recording_whose_name_is_longer_than_a_narrow_window_is_wide.nc"
 WIDTHS = [400, 560, 800, 861, 1024, 1366, 2000]
 # Whatever a person may use
 USABLE = "[...document.querySelectorAll('button, input, select, [tabindex=\"0\"], a[href]')].filter((e) => e.offsetParent !== null || e.id === 'view')"
@@ -18,8 +19,8 @@ class ThePage(ViewerTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        wholehand("live", "mixing_board", "--no-clock", "--record", "board.nc", "--seconds", "4", folder=cls.folder)
-        cls.pages = {"grips": cls.serve("grip", *GRIP, "--view"), "recording": cls.serve("view", "board.nc"),
+        wholehand("live", "mixing_board", "--no-clock", "--record", RECORDING, "--seconds", "4", folder=cls.folder)
+        cls.pages = {"grips": cls.serve("grip", *GRIP, "--view"), "recording": cls.serve("view", RECORDING),
                      "control": cls.serve("live", "mixing_board", "--view", "--device", "view")}
 
     def test_no_width_scrolls_sideways(self):
@@ -109,6 +110,81 @@ class ThePage(ViewerTest):
         self.assertGreater(page.evaluate("document.querySelectorAll('#help-keys kbd').length"), 15)
         page.key("Escape")
         page.wait("!document.getElementById('help').open")
+
+    def test_arrows_turn_with_the_focus_on_a_button_of_the_picture(self):
+        page = self.open(self.pages["grips"])
+        still(page)
+        page.evaluate("document.querySelector('[data-view=front]').focus()")
+        before = page.evaluate("wholehand.view.orbit.aim.azimuth")
+        page.key("ArrowRight")
+        self.assertGreater(page.evaluate("wholehand.view.orbit.aim.azimuth"), before)
+
+    def test_there_is_nothing_to_go_back_to_before_the_first_frame(self):
+        page = self.open(self.pages["grips"])
+        still(page)
+        page.evaluate("wholehand.view.orbit.home = null")
+        for _ in range(2):
+            page.evaluate("document.getElementById('follow').click(), document.querySelector('[data-view=home]').click()")
+
+    def test_the_clock_rounds_up_to_the_minute(self):
+        page = self.open(self.pages["recording"])
+        said = page.evaluate("import('./format.js').then(({clock}) => [0, 9.94, 59.94, 59.96, 60, 3599.97].map(clock))")
+        self.assertEqual(said, ["0:00.0", "0:09.9", "0:59.9", "1:00.0", "1:00.0", "60:00.0"])
+
+    def test_the_timeline_has_all_of_the_recording(self):
+        page = self.open(self.pages["recording"])
+        page.wait("wholehand.playback.frames && wholehand.playback.frames.length > 500")
+        # whatever the rate, and whichever way the duration is rounded on its way: one frame less than the most
+        asked = page.evaluate("""import('./stream.js').then(({Recording}) => [[1.5015015, 333], [2.0006667, 1500], [100.0000006, 8000]].map(([duration, rate]) => {
+          const recording = new Recording(duration, rate, () => {});
+          recording.fetch = (from, to, at) => Number(to.toFixed(6)) * at + 1;
+          return recording.overview();
+        }))""")
+        self.assertEqual([frames <= 600 for frames in asked], [True] * 3, asked)
+
+    def test_the_ghost_has_the_wrist_of_the_rigged_hand(self):
+        page = self.open(self.pages["recording"])
+        page.evaluate("wholehand.playback.seek(3)")
+        page.wait("wholehand.frame.state === 'lift'")
+        page.evaluate("document.getElementById('ghost').click()")
+        for name, wrist in [("ghost", "rigged_wrist"), ("skin", "wrist")]:
+            middle = page.evaluate(f"import('./hand_shape.js').then(({{WRIST_THUMB, WRIST_LITTLE}}) => (([a, b]) => ['x', 'y', 'z'].map((k) => (a[k] + b[k]) / 2))"
+                                   f"([WRIST_THUMB, WRIST_LITTLE].map((k) => wholehand.view.hand.{name}.uniforms.ball.value[k])))")
+            self.assert_near(middle, page.evaluate(f"wholehand.frame.{wrist}"), 1e-9, name)  # m: in double, but for the middle's rounding
+        apart = page.evaluate("Math.hypot(...wholehand.frame.wrist.map((v, k) => v - wholehand.frame.rigged_wrist[k]))")
+        self.assertGreater(apart, 1e-5, "the hand is squeezed")
+
+    def test_trouble_is_over_when_a_frame_is_shown_again(self):
+        page = self.open(self.pages["recording"])
+        page.evaluate("wholehand.playback.trouble('one line')")
+        self.assertFalse(page.evaluate("document.getElementById('trouble').hidden"))
+        page.evaluate("wholehand.playback.seek(1)")
+        page.wait("document.getElementById('trouble').hidden")
+
+    def test_without_a_picture_the_reason_stays(self):
+        page = self.browser.open("about:blank")
+        self.addCleanup(page.close)
+        page.call("Page.addScriptToEvaluateOnNewDocument", source="""const {getContext} = HTMLCanvasElement.prototype;
+          HTMLCanvasElement.prototype.getContext = function(kind, ...rest) { return kind.includes('webgl') ? null : getContext.call(this, kind, ...rest); };""")
+        page.go(self.pages["recording"].address)
+        page.wait("window.wholehand && wholehand.frame", what="the numbers")
+        said = page.evaluate("document.getElementById('trouble').textContent")
+        self.assertIn("WebGL", said)
+        page.evaluate("wholehand.playback.trouble('one line')")
+        page.evaluate("wholehand.playback.seek(1)")
+        page.wait(f"wholehand.frame.t > 0.9 && document.getElementById('trouble').textContent === {said!r}")
+
+    def test_playing_stops_where_the_server_is_gone(self):
+        served = self.serve("view", RECORDING)
+        page = self.browser.open(served.address)
+        self.addCleanup(page.close)
+        page.wait("window.wholehand && wholehand.frame && wholehand.playback.frames")
+        served.stop()
+        page.evaluate("wholehand.playback.recording.ready.clear(), wholehand.playback.recording.stretches.clear()")
+        page.evaluate("document.getElementById('play').click()")
+        page.wait("!wholehand.playback.isPlaying", what="a pause")
+        self.assertIn("does not answer", page.evaluate("document.getElementById('trouble').textContent"))
+        self.assertEqual(page.evaluate("document.getElementById('play').getAttribute('aria-label')"), "Play")
 
     def test_a_change_of_state_is_said(self):
         page = self.open(self.pages["recording"])
