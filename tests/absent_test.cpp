@@ -7,13 +7,11 @@
 #include <limits>
 #include <utility>
 
+#include "tests/support/special_values.h"
 #include "tests/support/whole_parity.h"
 
 namespace wholehand {
 namespace {
-
-constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
-constexpr double INFINITE = std::numeric_limits<double>::infinity();
 
 // One grip that is feasible and antipodal, one that is too wide, one that misses.
 struct Absent : testing::Test {

@@ -12,6 +12,7 @@
 
 #include "core/evaluator.h"
 #include "tests/support/scenes.h"
+#include "tests/support/special_values.h"
 
 namespace wholehand {
 namespace {
@@ -19,7 +20,6 @@ namespace {
 using core_f64::Vec3;
 
 constexpr double G = 9.80665;
-constexpr double INFINITE = std::numeric_limits<double>::infinity();
 // Rounding of a handful of products of numbers under 10.
 constexpr double ROUNDING = 1e-14;
 

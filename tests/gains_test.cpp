@@ -12,16 +12,16 @@
 namespace wholehand {
 namespace {
 
-constexpr std::array<double, 2> HAND_GAP{12.5e-3, 128e-3};  // a device whose gap is the hand's
+constexpr std::array<double, 2> OWN_GAP{12.5e-3, 128e-3};  // a device whose gap is the hand's
 
 TEST(Gains, ShippedScenesAndDefaultsPassAtEveryRate) {
   Scene scene = read_scene_file(find_scene("three_beakers"));
   for (const double rate : {1000.0, 2000.0, 4000.0, 8000.0}) {
     scene.live.rate = rate;
-    EXPECT_NO_THROW(refuse_unstable_gains(scene, HAND_GAP, false)) << rate;
+    EXPECT_NO_THROW(refuse_unstable_gains(scene, OWN_GAP, false)) << rate;
   }
   scene.live.rate = 250;  // (b + B) / (T / 2) of both tips is less than 800 N/m there
-  EXPECT_THROW(refuse_unstable_gains(scene, HAND_GAP, false), Error);
+  EXPECT_THROW(refuse_unstable_gains(scene, OWN_GAP, false), Error);
 }
 
 TEST(Gains, BeyondTheirLimitsAreRefusedWithTheRemedy) {
@@ -33,10 +33,10 @@ TEST(Gains, BeyondTheirLimitsAreRefusedWithTheRemedy) {
     // the simulated one is no sharp edge: beside it, a user's answer may come in or out of phase
     const double beside = is_stiffness ? 0.001 : 0.1;
     gain = (1 - beside) * limit;
-    EXPECT_NO_THROW(refuse_unstable_gains(scene, HAND_GAP, false));
+    EXPECT_NO_THROW(refuse_unstable_gains(scene, OWN_GAP, false));
     gain = (1 + beside) * limit;
     try {
-      refuse_unstable_gains(scene, HAND_GAP, false);
+      refuse_unstable_gains(scene, OWN_GAP, false);
       ADD_FAILURE() << "a gain beyond its limit";
     } catch (const Error& error) {
       EXPECT_EQ(error.code, ExitCode::usage);
@@ -45,7 +45,7 @@ TEST(Gains, BeyondTheirLimitsAreRefusedWithTheRemedy) {
       EXPECT_NE(line.find("--unsafe-gains"), std::string::npos) << line;
       EXPECT_EQ(line.find('\n'), std::string::npos);
     }
-    EXPECT_NO_THROW(refuse_unstable_gains(scene, HAND_GAP, true));
+    EXPECT_NO_THROW(refuse_unstable_gains(scene, OWN_GAP, true));
   }
 }
 
@@ -76,19 +76,19 @@ TEST(Gains, NoUsualUserShakesAtTheLimit) {
 // Two tips push the arm; a finger's tip goes as many times as far as the finger: a gap of 25 mm that spans a hand's 128 mm is felt like 4.6 K.
 TEST(Gains, AMappedDeviceFeelsTheStiffnessTimesTheSlope) {
   Scene scene;
-  EXPECT_EQ(device_slope(scene, HAND_GAP), 2) << "the arm's";
+  EXPECT_EQ(device_slope(scene, OWN_GAP), 2) << "the arm's";
   scene.device.has_gap = true;
   scene.device.gap = {0, 25e-3};
-  const double slope = device_slope(scene, HAND_GAP);
+  const double slope = device_slope(scene, OWN_GAP);
   EXPECT_NEAR(slope, (128 - 12.5) / 25, 0.1) << "128 mm open; pads that touch are two radii apart and less";
   scene.live.damping = 0;
   scene.live.stiffness = 1.01 * gain_limits(scene.live.rate, 0).stiffness / slope;
-  EXPECT_THROW(refuse_unstable_gains(scene, HAND_GAP, false), Error);
+  EXPECT_THROW(refuse_unstable_gains(scene, OWN_GAP, false), Error);
   scene.device.has_gap = false;
-  EXPECT_NO_THROW(refuse_unstable_gains(scene, HAND_GAP, false));
+  EXPECT_NO_THROW(refuse_unstable_gains(scene, OWN_GAP, false));
   scene.device.workspace_scale = 3;  // of its arm's way
-  EXPECT_EQ(device_slope(scene, HAND_GAP), 6);
-  EXPECT_THROW(refuse_unstable_gains(scene, HAND_GAP, false), Error);
+  EXPECT_EQ(device_slope(scene, OWN_GAP), 6);
+  EXPECT_THROW(refuse_unstable_gains(scene, OWN_GAP, false), Error);
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Answers with what it is given.
-class FakeEvaluator final : public Evaluator {
+class ToldEvaluator final : public Evaluator {
  public:
   GripResult result;
   GripScore given_score;
@@ -84,7 +84,7 @@ GripResult feasible_result() {
 }
 
 GripReport report_of(const Scene& scene, const GripResult& result) {
-  const auto evaluator = std::make_shared<FakeEvaluator>();
+  const auto evaluator = std::make_shared<ToldEvaluator>();
   evaluator->result = result;
   evaluator->given_score.score = 0.75;
   evaluator->given_score.terms = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};

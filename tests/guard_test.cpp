@@ -11,12 +11,11 @@
 #include <vector>
 
 #include "tests/support/scenes.h"
+#include "tests/support/special_values.h"
 
 namespace wholehand {
 namespace {
 
-constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
-constexpr double INFINITE = std::numeric_limits<double>::infinity();
 // Rounding of a few products and sums of forces of some newtons.
 constexpr double ROUNDING = 1e-12;
 

@@ -25,14 +25,14 @@ Long3 long_of(const Triple& p) { return {p[0], p[1], p[2]}; }
 Long3 column(const LongRotation& m, int k) { return {m[0][k], m[1][k], m[2][k]}; }
 Long3 apart(const Triple& a, const Triple& b) { return long_of(b) - long_of(a); }
 
-struct Held {
+struct HeldHand {
   Scene scene;
   GripInput grip;
   GripResult result;
 };
 
-Held held(const HandData& hand, Pose pose, const GripInput& grip) {
-  Held held{scene_of({beaker1()}, pose, hand), grip, {}};
+HeldHand held(const HandData& hand, Pose pose, const GripInput& grip) {
+  HeldHand held{scene_of({beaker1()}, pose, hand), grip, {}};
   make_core_evaluator(held.scene)->grip(0, grip, held.result);
   EXPECT_EQ(held.result.reason, Reason::none);
   return held;
@@ -56,7 +56,7 @@ LongRotation reference_rotation(const HandData& hand, int finger, int joint, lon
 }
 
 void expect_as_specified(const HandData& hand) {
-  const Held h = held(hand, Pose::rigged, GRIP);
+  const HeldHand h = held(hand, Pose::rigged, GRIP);
   const HandNodes nodes = hand_nodes(hand, h.grip, h.result);
   const LongRotation wrist = rotation_of(nodes.wrist.rotation);
   const long double side = hand.handedness == Handedness::left ? -1 : 1;
@@ -98,7 +98,7 @@ TEST(HandNodes, HandOfOtherNumbersToo) {
 TEST(HandNodes, PosedBonesRunAlongMinusZWithTheBackUp) {
   for (const Pose pose : {Pose::articulated, Pose::paper}) {
     for (const HandData& hand : {HandData{}, left_hand()}) {
-      const Held h = held(hand, pose, GRIP);
+      const HeldHand h = held(hand, pose, GRIP);
       const HandNodes nodes = hand_nodes(hand, h.grip, h.result);
       const Long3 palm_to_back = column(rotation_of(nodes.wrist.rotation), 1);
       for (int f = 0; f < FINGER_COUNT; ++f) {
@@ -126,7 +126,7 @@ TEST(HandNodes, PosedBonesRunAlongMinusZWithTheBackUp) {
 }
 
 TEST(HandNodes, NamesAreThoseOfHandRigs) {
-  const Held h = held({}, Pose::articulated, GRIP);
+  const HeldHand h = held({}, Pose::articulated, GRIP);
   const HandNodes nodes = hand_nodes({}, h.grip, h.result);
   EXPECT_STREQ(nodes.wrist.name, "wrist");
   EXPECT_STREQ(nodes.joints[0].name, "thumb-metacarpal");
@@ -148,7 +148,7 @@ TEST(HandNodes, NamesAreThoseOfHandRigs) {
 }
 
 TEST(HandNodes, AChildsPlaceIsThatInItsParent) {
-  const Held h = held(left_hand(), Pose::articulated, GRIP);
+  const HeldHand h = held(left_hand(), Pose::articulated, GRIP);
   const HandNodes nodes = hand_nodes(h.scene.hand, h.grip, h.result);
   const HandNode &a = nodes.joints[10], &b = nodes.joints[11];
   const Triple within = relative_position(a, b.position);

@@ -179,8 +179,9 @@ TEST(HandView, TheRiggedHandHasItsOwnWrist) {
     const HandView& view = seen.views[n];
     const auto truth = reference_hand(scene.hand, static_cast<long double>(seen.ticks[n].closure));
     for (int j = 0; j < JOINT_COUNT; ++j)
-      EXPECT_NEAR(apart(view.rigged[j], view.rigged_wrist), static_cast<double>(length(truth[j])), 1e-9) << j << " at tick " << n;
-    farthest = std::max(farthest, apart(view.wrist, view.rigged_wrist));
+      EXPECT_NEAR(distance_between(view.rigged[j], view.rigged_wrist), static_cast<double>(length(truth[j])), 1e-9)
+          << j << " at tick " << n;
+    farthest = std::max(farthest, distance_between(view.wrist, view.rigged_wrist));
   }
   EXPECT_GT(farthest, 1e-4) << "m: somewhere it is squeezed";
 }

@@ -18,6 +18,7 @@
 
 #include "core/loop.h"
 #include "tests/support/scenes.h"
+#include "tests/support/special_values.h"
 
 namespace wholehand {
 namespace {
@@ -25,7 +26,6 @@ namespace {
 using core_f64::Vec3;
 
 const std::atomic<bool> NEVER{false};
-constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
 
 bool same(const GripperForce& a, const GripperForce& b) { return a.arm == b.arm && a.grip == b.grip; }
 bool is_zero(const GripperForce& force) { return same(force, {}); }

@@ -135,7 +135,7 @@ TEST(OpenGripper, ThePageIsOneWhereThereIsAPage) {
 
 // ---- the program ----
 
-struct Outcome {
+struct LiveOutcome {
   int code = -1;
   std::string output, errors;
 };
@@ -161,7 +161,7 @@ class Program {
     _exit(127);
   }
   void send(int signal) const { kill(process_, signal); }
-  Outcome wait() {
+  LiveOutcome wait() {
     int status = 0;
     waitpid(process_, &status, 0);
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), text_of(folder_.file("out")),
@@ -176,7 +176,7 @@ class Program {
 };
 
 TEST(Live, ShowsAWholeSessionWithoutADevice) {
-  const Outcome outcome = Program("--no-clock").wait();
+  const LiveOutcome outcome = Program("--no-clock").wait();
   EXPECT_EQ(outcome.code, 0) << outcome.errors;
   EXPECT_EQ(outcome.errors, "");
   for (const char* part :
@@ -185,7 +185,7 @@ TEST(Live, ShowsAWholeSessionWithoutADevice) {
 }
 
 TEST(Live, KeepsItsRateWithAClock) {
-  const Outcome outcome = Program("--json --seconds 2 --rate 1250").wait();
+  const LiveOutcome outcome = Program("--json --seconds 2 --rate 1250").wait();
   ASSERT_EQ(outcome.code, 0) << outcome.errors;
   const auto report = nlohmann::json::parse(outcome.output);
   EXPECT_EQ(report["rate_Hz"], 1250);
@@ -243,7 +243,7 @@ TEST(Live, WhatAPagePostsGraspsLiftsTiltsAndPours) {
   const HttpReply refused = socket.read_reply();
   EXPECT_EQ(refused.status, 400);
   EXPECT_EQ(refused.body.rfind("control: 'position' is missing", 0), 0u) << refused.body;
-  const Outcome outcome = program.wait();
+  const LiveOutcome outcome = program.wait();
   ASSERT_EQ(outcome.code, 0) << outcome.errors;
   const auto report = nlohmann::json::parse(outcome.output);
   EXPECT_TRUE(report["fault"].is_null());
@@ -283,7 +283,7 @@ TEST(Live, StreamsToWhoeverListens) {
   while (lo_server_recv_noblock(server, 200) > 0) {
   }
   lo_server_free(server);
-  const Outcome outcome = program.wait();
+  const LiveOutcome outcome = program.wait();
   EXPECT_EQ(outcome.code, 0) << outcome.errors;
   EXPECT_EQ(outcome.errors.find("--stream"), std::string::npos) << "it stays on this machine";
   EXPECT_EQ(heard.state, "released");
@@ -297,7 +297,7 @@ TEST(Live, AReplayGivesTheSameForcesToTheBit) {
   const std::string first = folder.file("first.nc"), second = folder.file("second.nc");
   // with a clock: a session in which periods may be missed
   ASSERT_EQ(Program("--seconds 4 --record " + first).wait().code, 0);
-  const Outcome again = Program("--no-clock --device replay:" + first + " --record " + second).wait();
+  const LiveOutcome again = Program("--no-clock --device replay:" + first + " --record " + second).wait();
   ASSERT_EQ(again.code, 0) << again.errors;
   const Recording a = read_recording(first), b = read_recording(second);
   ASSERT_GT(a.ticks.size(), 1000u);
@@ -323,7 +323,7 @@ TEST(Live, SignalsEndItCleanly) {
     for (int k = 0; k < 600 && program.out().find("is held") == std::string::npos; ++k)
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     program.send(signal);
-    const Outcome outcome = program.wait();
+    const LiveOutcome outcome = program.wait();
     EXPECT_EQ(outcome.code, 130) << signal << outcome.errors;
     const Recording recording = read_recording(file);
     ASSERT_FALSE(recording.ticks.empty());
@@ -341,7 +341,7 @@ TEST(Live, SignalsEndItCleanly) {
 TEST(Live, AFullDiskEndsTheRecordingAndNotTheSession) {
   const Folder folder;
   const std::string file = folder.file("a.nc");
-  const Outcome outcome = Program("--no-clock --record " + file, 4 << 20).wait();
+  const LiveOutcome outcome = Program("--no-clock --record " + file, 4 << 20).wait();
   EXPECT_EQ(outcome.code, 3) << outcome.errors;
   EXPECT_NE(outcome.output.find("all is done"), std::string::npos) << outcome.output;
   EXPECT_NE(outcome.output.find("recorded in part in " + file), std::string::npos) << outcome.output;
@@ -351,7 +351,7 @@ TEST(Live, AFullDiskEndsTheRecordingAndNotTheSession) {
 }
 
 void expect_refused(const std::string& arguments, int code, const std::string& gist) {
-  const Outcome outcome = Program(arguments).wait();
+  const LiveOutcome outcome = Program(arguments).wait();
   EXPECT_EQ(outcome.code, code) << arguments << outcome.errors;
   EXPECT_EQ(outcome.output, "") << arguments;
   EXPECT_EQ(outcome.errors.rfind("wholehand: ", 0), 0u) << outcome.errors;

@@ -85,13 +85,13 @@ class LoggingGripper : public Gripper {
   GripperLimits limits_;
 };
 
-struct Outcome {
+struct PanicOutcome {
   int code = -1;  // 1000 + signal where one ended it
   std::string said;
 };
 
 // Runs in a child, within ten seconds, and keeps what it says on stderr.
-Outcome run_in_child(const std::function<void()>& body) {
+PanicOutcome run_in_child(const std::function<void()>& body) {
   std::fflush(nullptr);
   int ends[2];
   if (pipe(ends) != 0) throw std::runtime_error("no pipe");
@@ -104,7 +104,7 @@ Outcome run_in_child(const std::function<void()>& body) {
     _exit(0);
   }
   close(ends[1]);
-  Outcome outcome;
+  PanicOutcome outcome;
   char part[512];
   for (ssize_t got = 0; (got = read(ends[0], part, sizeof part)) > 0;) outcome.said.append(part, static_cast<std::size_t>(got));
   close(ends[0]);
@@ -116,7 +116,7 @@ Outcome run_in_child(const std::function<void()>& body) {
 
 int lines_of(const std::string& text) { return static_cast<int>(std::count(text.begin(), text.end(), '\n')); }
 
-void expect_panic(const Outcome& outcome, const Log& log, const std::string& why) {
+void expect_panic(const PanicOutcome& outcome, const Log& log, const std::string& why) {
   EXPECT_EQ(outcome.code, 3) << outcome.said;
   EXPECT_EQ(log.panics, 1);
   EXPECT_EQ(log.grip, 0);
@@ -174,7 +174,7 @@ TEST(PanicGuard, LetsGoWhenTheHapticThreadFails) {
   for (const Failure& failure : failures()) {
     SCOPED_TRACE(failure.name);
     Shared log;
-    const Outcome outcome = run_in_child([&] {
+    const PanicOutcome outcome = run_in_child([&] {
       LoggingGripper gripper(*log);
       PanicGuard guard(gripper);
       gripper.fails_at = 100;
@@ -193,7 +193,7 @@ TEST(PanicGuard, LetsGoWhenAnotherThreadFails) {
   for (const Failure& failure : failures()) {
     SCOPED_TRACE(failure.name);
     Shared log;
-    const Outcome outcome = run_in_child([&] {
+    const PanicOutcome outcome = run_in_child([&] {
       LoggingGripper gripper(*log);
       PanicGuard guard(gripper);
       std::atomic<bool> is_running{false};
@@ -214,7 +214,7 @@ TEST(PanicGuard, LetsGoWhenAnotherThreadFails) {
 
 TEST(PanicGuard, HasAStackOfItsOwn) {
   Shared log;
-  const Outcome outcome = run_in_child([&] {
+  const PanicOutcome outcome = run_in_child([&] {
     LoggingGripper gripper(*log);
     PanicGuard guard(gripper);
     overflow_stack(nullptr);
@@ -225,7 +225,7 @@ TEST(PanicGuard, HasAStackOfItsOwn) {
 // The haptic thread's, too, if it has been given one.
 TEST(PanicGuard, AnotherThreadHasItsOwnStackToo) {
   Shared log;
-  const Outcome outcome = run_in_child([&] {
+  const PanicOutcome outcome = run_in_child([&] {
     LoggingGripper gripper(*log);
     PanicGuard guard(gripper);
     std::thread haptic([] {
@@ -241,7 +241,7 @@ TEST(PanicGuard, AnotherThreadHasItsOwnStackToo) {
 TEST(PanicGuard, LetsGoAtSignalsThatEndTheProcess) {
   for (const int signal : {SIGQUIT, SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU, SIGVTALRM, SIGPROF}) {
     Shared log;
-    const Outcome outcome = run_in_child([&] {
+    const PanicOutcome outcome = run_in_child([&] {
       LoggingGripper gripper(*log);
       PanicGuard guard(gripper);
       gripper.write({{}, 5});
@@ -257,7 +257,7 @@ TEST(PanicGuard, LetsGoAtSignalsThatEndTheProcess) {
 // panic() takes a while; a second thread fails meanwhile: it must not end the process before the force is gone.
 TEST(PanicGuard, ASecondFailureDoesNotCutTheFirstShort) {
   Shared log;
-  const Outcome outcome = run_in_child([&] {
+  const PanicOutcome outcome = run_in_child([&] {
     LoggingGripper gripper(*log);
     PanicGuard guard(gripper);
     std::atomic<bool> is_in_panic{false};
@@ -281,7 +281,7 @@ TEST(PanicGuard, ASecondFailureDoesNotCutTheFirstShort) {
 TEST(PanicGuard, APanicThatFailsIsGivenUp) {
   for (const int inner : {SIGSEGV, SIGABRT}) {
     Shared log;
-    const Outcome outcome = run_in_child([&] {
+    const PanicOutcome outcome = run_in_child([&] {
       LoggingGripper gripper(*log);
       PanicGuard guard(gripper);
       gripper.in_panic = [&] { raise(inner); };
@@ -295,7 +295,7 @@ TEST(PanicGuard, APanicThatFailsIsGivenUp) {
 
 TEST(PanicGuard, IsGoneWithItsEnd) {
   Shared log;
-  const Outcome outcome = run_in_child([&] {
+  const PanicOutcome outcome = run_in_child([&] {
     LoggingGripper gripper(*log);
     { PanicGuard guard(gripper); }
     std::abort();

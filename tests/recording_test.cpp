@@ -22,12 +22,10 @@
 #include "core/error.h"
 #include "sweeps/recorder.h"
 #include "sweeps/recording_fields.h"
+#include "tests/support/special_values.h"
 
 namespace wholehand {
 namespace {
-
-constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
-constexpr double INFINITE = std::numeric_limits<double>::infinity();
 
 // A folder that goes with the test.
 class Folder {

@@ -10,12 +10,12 @@
 
 #include "sweeps/report_field.h"
 #include "sweeps/report_lines.h"
+#include "tests/support/special_values.h"
 
 namespace wholehand {
 namespace {
 
 constexpr double TENTH = 0.051;  // units: coordinates are written to a tenth
-constexpr double INFINITE = std::numeric_limits<double>::infinity();
 
 int count_of(const std::string& text, const std::string& part) {
   int count = 0;

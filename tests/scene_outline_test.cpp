@@ -26,7 +26,7 @@ TEST(SceneOutline, EdgesOfAMicrometreAreLongEnough) {
 }
 
 TEST(SceneOutline, ShapesBecomeOutlines) {
-  const Scene scene = scene_of(R"(
+  const Scene scene = scene_from(R"(
 [[vessel]]
 name = "cylinder"
 shape = "cylinder"
@@ -86,7 +86,7 @@ wall_mm = 2
 }
 
 TEST(SceneOutline, ReadsOutlines) {
-  const Scene scene = scene_of(outline_scene(R"({ line = [26, 0] },
+  const Scene scene = scene_from(outline_scene(R"({ line = [26, 0] },
   { arc = [32, 6], center = [26, 6] },
   { line = [32, 90] },
   { line = [0, 90] })"));

@@ -25,7 +25,7 @@ std::string text_of_file(const std::string& path) {
 }
 
 TEST(SceneReader, LeavesEverythingElseAtItsDefault) {
-  const Scene scene = scene_of(VESSEL);
+  const Scene scene = scene_from(VESSEL);
   const Scene plain;
   EXPECT_EQ(scene.name, "test");
   EXPECT_EQ(scene.file, "test.toml");
@@ -64,7 +64,7 @@ TEST(SceneReader, LeavesEverythingElseAtItsDefault) {
 }
 
 TEST(SceneReader, ReadsSceneAndHand) {
-  const Scene scene = scene_of(R"(
+  const Scene scene = scene_from(R"(
 [scene]
 name = "all of it"
 pose = "paper"
@@ -143,7 +143,7 @@ dip_per_pip = 0.5
 TEST(SceneReader, TheDefaultHandIsWhatItsTableSays) {
   // lengths are divided, not multiplied: 46.22 mm must be the double 46.22e-3
   const Scene scene =
-      scene_of("[hand.thumb]\nbase_mm = [-22, -9, -18]\nsplay_deg = 10\nsegments_mm = [46.22, 31.57, 27.34]\n" + VESSEL);
+      scene_from("[hand.thumb]\nbase_mm = [-22, -9, -18]\nsplay_deg = 10\nsegments_mm = [46.22, 31.57, 27.34]\n" + VESSEL);
   const HandData plain;
   EXPECT_EQ(scene.hand.fingers[0].base, plain.fingers[0].base);
   EXPECT_EQ(scene.hand.fingers[0].segments, plain.fingers[0].segments);
@@ -151,7 +151,7 @@ TEST(SceneReader, TheDefaultHandIsWhatItsTableSays) {
 }
 
 TEST(SceneReader, ReadsVessels) {
-  const Scene scene = scene_of(R"(
+  const Scene scene = scene_from(R"(
 [liquid]
 fills = [0.5]
 [[vessel]]
@@ -222,7 +222,7 @@ inner_outline = [{ line = [0, -3] }, { line = [20, -3] }, { arc = [30, 7], cente
 }
 
 TEST(SceneReader, ReadsLiquidForceScoreAndOutput) {
-  const Scene scene = scene_of(R"(
+  const Scene scene = scene_from(R"(
 [liquid]
 density_kg_m3 = 789
 fills = [0, 0.5, 1]
@@ -272,7 +272,7 @@ best = 7
 }
 
 TEST(SceneReader, ReadsAxesOfEveryForm) {
-  const Scene scene = scene_of(R"(
+  const Scene scene = scene_from(R"(
 [grips]
 height_mm = { from = 10, to = 30, count = 3 }
 azimuth_deg = [90, 0]
@@ -299,12 +299,12 @@ deg = { from = 0, to = 150, count = 31 }
   EXPECT_EQ(grips.hand_scale.values, (std::vector<double>{0.8, 1.2}));
   ASSERT_EQ(scene.tilts.size(), 31u);
   for (int i = 0; i < 31; ++i) EXPECT_EQ(scene.tilts[i], radians(5 * i));
-  EXPECT_EQ(scene_of("[grips]\nheight_fraction = [0, 1]" + VESSEL).grips.height.values, (std::vector<double>{0, 1}));
-  EXPECT_EQ(scene_of("[tilts]\ndeg = [0, 45, 180]" + VESSEL).tilts, (std::vector<double>{0, radians(45), radians(180)}));
+  EXPECT_EQ(scene_from("[grips]\nheight_fraction = [0, 1]" + VESSEL).grips.height.values, (std::vector<double>{0, 1}));
+  EXPECT_EQ(scene_from("[tilts]\ndeg = [0, 45, 180]" + VESSEL).tilts, (std::vector<double>{0, radians(45), radians(180)}));
 }
 
 TEST(SceneReader, ReadsSobolRangesWithAndWithoutCount) {
-  const Scene scene = scene_of(R"(
+  const Scene scene = scene_from(R"(
 [grips]
 sampling = "sobol"
 count = 10_000_000
@@ -325,7 +325,7 @@ obliquity_deg = { from = 5, to = 5 }
 }
 
 TEST(SceneReader, ReadsLiveDeviceAndTask) {
-  const Scene scene = scene_of(R"(
+  const Scene scene = scene_from(R"(
 [liquid]
 fills = [0]
 [live]

@@ -13,11 +13,11 @@
 
 #include "core/evaluator.h"
 #include "tests/support/scenes.h"
+#include "tests/support/special_values.h"
 
 namespace wholehand {
 namespace {
 
-constexpr double INFINITE = std::numeric_limits<double>::infinity();
 constexpr double ROUNDING = 1e-14;  // sums of a few numbers up to 1
 
 // ---- terms ----

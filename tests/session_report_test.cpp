@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/special_values.h"
+
 namespace wholehand {
 namespace {
-
-constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
 
 // Ticks one after the other, each a copy of the last with changes.
 class RecordedSession {

@@ -99,7 +99,7 @@ int pthread_mutex_trylock(pthread_mutex_t* mutex) noexcept {
 namespace wholehand {
 namespace {
 
-const std::atomic<bool> NEVER{false};
+const std::atomic<bool> GOES_ON{false};
 
 // What a run tells; in memory that a child shares with the test.
 struct Seen {
@@ -169,7 +169,7 @@ void run_loop(Seen& seen, bool is_simulated, double hurry, const std::function<v
   HapticLoop loop(
       scene.live, gripper, session, [&](const Tick& tick) { return record[recorded++ % record.size()] = tick, true; }, options);
   allocations = locks = 0;
-  loop.run(NEVER);
+  loop.run(GOES_ON);
   gripper.watch(false);
   seen.allocations = allocations;
   seen.locks = locks;

@@ -21,7 +21,7 @@
 namespace wholehand {
 namespace {
 
-const std::atomic<bool> NEVER{false};
+const std::atomic<bool> NO_STOP{false};
 
 ViewControl control_at(Triple position, const Rotation& rotation, double gap, std::int64_t sequence) {
   return {position, rotation, gap, 0, sequence};
@@ -59,7 +59,7 @@ std::vector<Tick> run(const Scene& scene, Gripper& gripper, double seconds, Loop
         return true;
       },
       options);
-  loop.run(NEVER);
+  loop.run(NO_STOP);
   EXPECT_EQ(loop.report().fault, Fault::none) << FAULT_NAMES[static_cast<std::size_t>(loop.report().fault)] << loop.guard().jump();
   if (report) *report = loop.report();
   return ticks;
@@ -312,7 +312,7 @@ TEST(ViewGripper, ManyThreadsMayPostWhileTheLoopRuns) {
       }
     });
   }
-  loop.run(NEVER);
+  loop.run(NO_STOP);
   is_over = true;
   for (std::thread& thread : posting) thread.join();
   EXPECT_EQ(loop.report().fault, Fault::none) << FAULT_NAMES[static_cast<std::size_t>(loop.report().fault)];

@@ -18,7 +18,7 @@ using core_f64::Vec3;
 
 constexpr std::array<double, 2> OF_DEVICE{0.001, 0.026}, OF_HAND{0.015, 0.127};
 // Rounding of a few products of numbers under 1.
-constexpr double ROUNDING = 1e-15;
+constexpr double CORNER_ROUNDING = 1e-15;
 
 Mat3 turn(Random& random) {
   const double a = random.uniform(-PI, PI), b = random.uniform(-PI, PI), c = random.uniform(-PI, PI);
@@ -53,7 +53,7 @@ TEST(Workspace, RotationsGoThereAndBack) {
     EXPECT_EQ(to_mat3(r), m);
     const Vec3 v(1, 2, 3);
     // row-major: the first row times v
-    EXPECT_NEAR((m * v).x, r[0] * 1 + r[1] * 2 + r[2] * 3, ROUNDING * 10);
+    EXPECT_NEAR((m * v).x, r[0] * 1 + r[1] * 2 + r[2] * 3, CORNER_ROUNDING * 10);
     // the first column is the first axis
     EXPECT_EQ((m * Vec3(1, 0, 0)), Vec3(r[0], r[3], r[6]));
   }
@@ -66,8 +66,8 @@ TEST(Workspace, AsItIsWithoutAnyMapping) {
     const Vec3 p(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
     const Mat3 m = turn(random);
     const HandPose pose = workspace.map(state_of(p, m, 0.02));
-    EXPECT_LT(glm::length(pose.middle - p), ROUNDING);
-    EXPECT_LT(difference(pose.rotation, m), ROUNDING);
+    EXPECT_LT(glm::length(pose.middle - p), CORNER_ROUNDING);
+    EXPECT_LT(difference(pose.rotation, m), CORNER_ROUNDING);
   }
 }
 
@@ -76,12 +76,12 @@ TEST(Workspace, MapsTheGapLinearly) {
   Workspace workspace(plain(), OF_DEVICE, OF_HAND);
   const auto gap = [&](double device) { return workspace.map(state_of(Vec3(0), Mat3(1), device)).gap; };
   EXPECT_EQ(gap(OF_DEVICE[0]), OF_HAND[0]);
-  EXPECT_NEAR(gap(OF_DEVICE[1]), OF_HAND[1], ROUNDING);
+  EXPECT_NEAR(gap(OF_DEVICE[1]), OF_HAND[1], CORNER_ROUNDING);
   EXPECT_LE(gap(OF_DEVICE[1]), OF_HAND[1]);
-  EXPECT_NEAR(gap(0.5 * (OF_DEVICE[0] + OF_DEVICE[1])), 0.5 * (OF_HAND[0] + OF_HAND[1]), ROUNDING);
+  EXPECT_NEAR(gap(0.5 * (OF_DEVICE[0] + OF_DEVICE[1])), 0.5 * (OF_HAND[0] + OF_HAND[1]), CORNER_ROUNDING);
   EXPECT_EQ(gap(-1), OF_HAND[0]);
-  EXPECT_NEAR(gap(1), OF_HAND[1], ROUNDING);
-  EXPECT_NEAR(workspace.gap_slope(), (OF_HAND[1] - OF_HAND[0]) / (OF_DEVICE[1] - OF_DEVICE[0]), ROUNDING * 10);
+  EXPECT_NEAR(gap(1), OF_HAND[1], CORNER_ROUNDING);
+  EXPECT_NEAR(workspace.gap_slope(), (OF_HAND[1] - OF_HAND[0]) / (OF_DEVICE[1] - OF_DEVICE[0]), CORNER_ROUNDING * 10);
 }
 
 TEST(Workspace, TheScenesGapComesFirst) {
@@ -110,9 +110,10 @@ TEST(Workspace, FollowsTheAxesAndTheScale) {
   for (int k = 0; k < 3; ++k) {
     Vec3 axis(0);
     axis[k] = 0.04;
-    EXPECT_LT(glm::length(workspace.map(state_of(axis, Mat3(1), 0.02)).middle - (Vec3(0.1, 0.2, 0.3) + 0.1 * along[k])), ROUNDING);
+    EXPECT_LT(glm::length(workspace.map(state_of(axis, Mat3(1), 0.02)).middle - (Vec3(0.1, 0.2, 0.3) + 0.1 * along[k])),
+              CORNER_ROUNDING);
     // a force along an axis of the world is felt along the device's axis that lies there
-    EXPECT_LT(glm::length(to_vec3(workspace.to_device(3.0 * along[k])) - 75.0 * axis), ROUNDING * 10);
+    EXPECT_LT(glm::length(to_vec3(workspace.to_device(3.0 * along[k])) - 75.0 * axis), CORNER_ROUNDING * 10);
   }
   // the gripper's axes go where the device's frame takes them: its closing line, moved along itself, stays on itself
   const double c = std::cos(0.3), s = std::sin(0.3);
@@ -122,7 +123,7 @@ TEST(Workspace, FollowsTheAxesAndTheScale) {
     EXPECT_LT(glm::length((there.middle - here.middle) / 0.025 - here.rotation[0]), 1e-12);
     for (int k = 0; k < 3; ++k) {
       const Vec3 expected = turn[k].x * along[0] + turn[k].y * along[1] + turn[k].z * along[2];
-      EXPECT_LT(glm::length(here.rotation[k] - expected), ROUNDING);
+      EXPECT_LT(glm::length(here.rotation[k] - expected), CORNER_ROUNDING);
     }
   }
 }
@@ -141,7 +142,7 @@ TEST(Workspace, ForcesDoTheSameWork) {
           b(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)),
           force(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
       const Vec3 moved = workspace.map(state_of(a, Mat3(1), 0.02)).middle - workspace.map(state_of(b, Mat3(1), 0.02)).middle;
-      EXPECT_NEAR(3 * glm::dot(to_vec3(workspace.to_device(force)), a - b), glm::dot(force, moved), ROUNDING * 30);
+      EXPECT_NEAR(3 * glm::dot(to_vec3(workspace.to_device(force)), a - b), glm::dot(force, moved), CORNER_ROUNDING * 30);
     }
   }
 }
@@ -162,7 +163,7 @@ TEST(Workspace, TheClutchHoldsTheHand) {
     device += step;
     const HandPose pose = workspace.map(state_of(device, Mat3(1), n % 2 ? 0.02 : 0.01, pressed));
     EXPECT_EQ(workspace.is_clutched(), pressed);
-    EXPECT_LT(glm::length(pose.middle - hand), ROUNDING * 1000) << n;
+    EXPECT_LT(glm::length(pose.middle - hand), CORNER_ROUNDING * 1000) << n;
     EXPECT_NE(pose.gap, workspace.map(state_of(device, Mat3(1), n % 2 ? 0.01 : 0.02, pressed)).gap);
   }
 }
@@ -189,11 +190,11 @@ TEST(Workspace, ALeftHandIsTheRightHandOfTheMirroredWorld) {
     const Vec3 p(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
     const Mat3 m = turn(random);
     const HandPose of_left = a.map(state_of(mirror * p, mirror * m * mirror, 0.02)), of_right = b.map(state_of(p, m, 0.02));
-    EXPECT_LT(glm::length(of_left.middle - of_right.middle), ROUNDING);
-    EXPECT_LT(difference(of_left.rotation, of_right.rotation), ROUNDING);
-    EXPECT_LT(glm::length(to_vec3(a.to_device(p)) - mirror * to_vec3(b.to_device(p))), ROUNDING);
+    EXPECT_LT(glm::length(of_left.middle - of_right.middle), CORNER_ROUNDING);
+    EXPECT_LT(difference(of_left.rotation, of_right.rotation), CORNER_ROUNDING);
+    EXPECT_LT(glm::length(to_vec3(a.to_device(p)) - mirror * to_vec3(b.to_device(p))), CORNER_ROUNDING);
     EXPECT_EQ(a.across(a.across(p)), p);
-    EXPECT_LT(difference(a.across(a.across(m)), m), ROUNDING);
+    EXPECT_LT(difference(a.across(a.across(m)), m), CORNER_ROUNDING);
   }
 }
 

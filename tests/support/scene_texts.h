@@ -15,11 +15,11 @@ namespace wholehand {
 inline const std::string VESSEL =
     "\n[[vessel]]\nname = \"v\"\nshape = \"cylinder\"\ndiameter_mm = 80\nheight_mm = 110\nwall_mm = 2\n";
 
-inline Scene scene_of(const std::string& text) { return parse_scene(text, "test.toml"); }
+inline Scene scene_from(const std::string& text) { return parse_scene(text, "test.toml"); }
 
 inline std::string refusal_of(const std::string& text) {
   try {
-    scene_of(text);
+    scene_from(text);
   } catch (const Error& error) {
     EXPECT_EQ(error.code, ExitCode::usage);
     return error.what();
