@@ -3,7 +3,9 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
+#include <filesystem>
 #include <memory>
+#include <system_error>
 #include <vector>
 
 #include "app/commands.h"
@@ -84,7 +86,12 @@ void check_drawing_files(const GripArguments& arguments, const Scene& scene) {
   };
   check(arguments.glb, "--glb");
   check(arguments.svg, "--svg");
-  if (!arguments.glb.empty() && arguments.glb == arguments.svg)
+  const auto resolved = [](const std::string& path) {
+    std::error_code unresolved;  // then no other way to it is known
+    const auto whole = std::filesystem::weakly_canonical(std::filesystem::absolute(path), unresolved);
+    return unresolved ? std::filesystem::path(path) : whole;
+  };
+  if (!arguments.glb.empty() && !arguments.svg.empty() && resolved(arguments.glb) == resolved(arguments.svg))
     throw usage_error(fmt::format("--glb and --svg name one file, {}; name two", arguments.glb));
 }
 
@@ -132,7 +139,8 @@ void add_grip_command(CLI::App& app, Action& action) {
   };
   add("scene", arguments->scene, "SCENE", "Scene file, or the name of a shipped one")->required();
   add("--vessel", arguments->vessel, "V", "Name of the vessel")->required();
-  auto* height = add("--height-mm", arguments->height, "H", "Height of the thumb-index line over the base");
+  auto* height = add("--height-mm", arguments->height, "H",
+                     "Height of the thumb-index line in the vessel's frame: over the base, unless a mesh's origin is \"as_is\"");
   auto* azimuth = add("--azimuth-deg", arguments->azimuth, "A", "Its direction about the vessel's axis (0)");
   auto* obliquity = add("--obliquity-deg", arguments->obliquity, "B", "Its angle to the horizontal, the index above (0)");
   add("--roll-deg", arguments->roll, "Q", "Turn of the hand about it: 0 beside the vessel, -90 above (0)");

@@ -24,7 +24,7 @@ struct PageArguments {
 Scene scene_of_result(const SweepResult& result, std::string& trouble) {
   const SweepOrigin& origin = result.origin();
   Scene scene = parse_scene(origin.scene, result.path() + " (its scene)");
-  trouble = reload_meshes(scene, origin.scene_file, origin.mesh_keys, origin.backend);
+  trouble = reload_meshes(scene, origin.scene_file, origin.mesh_keys, origin.mesh_lattices);
   return scene;
 }
 

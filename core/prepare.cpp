@@ -87,6 +87,7 @@ std::vector<PreparedElement> shell_outline(const std::vector<PreparedElement>& h
   return outline;
 }
 
+// The sphere about an arc is that of its whole circle: a bound may be wide, and results keep their bits.
 void set_bounds(PreparedVessel& prepared) {
   double low = 0, high = 0, widest = 0;
   for (const auto& e : prepared.hull) {
@@ -96,10 +97,10 @@ void set_bounds(PreparedVessel& prepared) {
       widest = std::max(widest, end[0]);
     }
     if (e.side > 0) widest = std::max(widest, e.center[0] + e.radius);
+    prepared.largest_radius = std::max(prepared.largest_radius, widest_on(e));
   }
   prepared.bound_height = 0.5 * (low + high);
   prepared.bound_radius = std::hypot(widest, 0.5 * (high - low));
-  prepared.largest_radius = widest;
 }
 
 PreparedVessel prepare_mesh(const VesselData& vessel, bool needs_cavity) {
@@ -267,6 +268,12 @@ PreparedGrid prepare_grid(const PreparedVessel& prepared, int samples, bool halv
       }
   grid.words = std::make_shared<const std::vector<std::uint32_t>>(std::move(words));
   return grid;
+}
+
+double widest_on(const PreparedElement& element) {
+  const double low = std::min(element.a[1], element.b[1]), high = std::max(element.a[1], element.b[1]);
+  const bool is_widest_between = element.side > 0 && element.center[1] > low && element.center[1] < high;
+  return std::max({element.a[0], element.b[0], is_widest_between ? element.center[0] + element.radius : 0.0});
 }
 
 double grid_margin(const Scene& scene) {

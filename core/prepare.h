@@ -74,6 +74,9 @@ PreparedVessel prepare_vessel(const VesselData& vessel, bool needs_cavity);
 // Throws Error (usage) where the gap is not strictly decreasing at 1,025 equal steps of the closure, naming where it turns.
 PreparedHand prepare_hand(const HandData& hand, int gap_entries = GAP_TABLE_SIZE);
 
+// Largest radius on an element, m: that of an arc's circle only where the arc reaches it.
+double widest_on(const PreparedElement& element);
+
 // Samples of the distance to the vessel's outline, taken in double, `samples` along the longest side; the lattice reaches `margin` (m) and
 // two cells beyond the vessel. Stored with 32 bits each or with 16 (`halves`).
 PreparedGrid prepare_grid(const PreparedVessel& vessel, int samples, bool halves, double margin = 0);

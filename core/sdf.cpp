@@ -157,6 +157,13 @@ Real grid_sample(const Vessel& vessel, int i, int j, int k) {
 
 Real mix_reals(Real a, Real b, Real t) { return a + (b - a) * t; }
 
+// What lies in the box lies beyond the plane through the nearest point c of it, across the way there: its distance from p is not less
+// than the hypotenuse over that way and its distance from c.
+Real distance_beyond(Real value, Vec3 outside) {
+  const Real squared = glm::dot(outside, outside), held = std::max(value, Real(0));
+  return squared > 0 ? std::sqrt(held * held + squared) : value;
+}
+
 Real grid_distance(const Vessel& vessel, Vec3 p) {
   const Cell cell = locate_cell(vessel, p);
   const Vec3 f = cell.fraction;
@@ -167,10 +174,10 @@ Real grid_distance(const Vessel& vessel, Vec3 p) {
       mix_reals(grid_sample(vessel, cell.i, cell.j, cell.k + 1), grid_sample(vessel, cell.i + 1, cell.j, cell.k + 1), f.x);
   const Real c11 =
       mix_reals(grid_sample(vessel, cell.i, cell.j + 1, cell.k + 1), grid_sample(vessel, cell.i + 1, cell.j + 1, cell.k + 1), f.x);
-  return mix_reals(mix_reals(c00, c10, f.y), mix_reals(c01, c11, f.y), f.z) + glm::length(cell.outside);
+  return distance_beyond(mix_reals(mix_reals(c00, c10, f.y), mix_reals(c01, c11, f.y), f.z), cell.outside);
 }
 
-// The derivative of the trilinear value where the point is not clamped, plus the direction away from the box, normalized.
+// The derivative of the trilinear value where the point is not clamped; off the box that of distance_beyond; normalized.
 Vec3 grid_gradient(const Vessel& vessel, Vec3 p) {
   const Cell cell = locate_cell(vessel, p);
   const Vec3 f = cell.fraction;
@@ -183,11 +190,14 @@ Vec3 grid_gradient(const Vessel& vessel, Vec3 p) {
              mix_reals(mix_reals(s010 - s000, s110 - s100, f.x), mix_reals(s011 - s001, s111 - s101, f.x), f.z),
              mix_reals(mix_reals(s001 - s000, s101 - s100, f.x), mix_reals(s011 - s010, s111 - s110, f.x), f.y));
   slope /= vessel.grid.spacing;
-  const Real outside = glm::length(cell.outside);
   if (cell.outside.x != 0) slope.x = 0;
   if (cell.outside.y != 0) slope.y = 0;
   if (cell.outside.z != 0) slope.z = 0;
-  if (outside > 0) slope += cell.outside / outside;
+  if (glm::dot(cell.outside, cell.outside) > 0) {
+    const Real value = mix_reals(mix_reals(mix_reals(s000, s100, f.x), mix_reals(s010, s110, f.x), f.y),
+                                 mix_reals(mix_reals(s001, s101, f.x), mix_reals(s011, s111, f.x), f.y), f.z);
+    slope = std::max(value, Real(0)) * slope + cell.outside;
+  }
   const Real size = glm::length(slope);
   return size > 0 ? slope / size : Vec3(1, 0, 0);
 }

@@ -94,8 +94,10 @@ Vec2 profile_gradient(const Vessel& vessel, Vec2 q, int& element);
 Cell locate_cell(const Vessel& vessel, Vec3 p);
 Real grid_sample(const Vessel& vessel, int i, int j, int k);
 Real mix_reals(Real a, Real b, Real t);
-// Trilinear value of the lattice: outside the box the clamped value plus the distance to the box, which is not less than the true
-// distance; what starts there may step past the box's edge and comes back.
+// The distance from a point off the box, from the value at the nearest point of it and the way from there, m: never more than the true
+// one, so that no step along a ray passes over what the box holds. `value` itself where the way is zero.
+Real distance_beyond(Real value, Vec3 outside);
+// Trilinear value of the lattice; off the box distance_beyond of the clamped one.
 Real grid_distance(const Vessel& vessel, Vec3 p);
 // Unit gradient of grid_distance; +x where it vanishes.
 Vec3 grid_gradient(const Vessel& vessel, Vec3 p);

@@ -168,6 +168,11 @@ Real mix_reals(Real a, Real b, Real t) {
   return mixed;
 }
 
+Real distance_beyond(Real value, Vec3 outside) {
+  Real squared = dot(outside, outside), held = max(value, Real(0));
+  return squared > Real(0) ? sqrt(held * held + squared) : value;
+}
+
 Real grid_distance(Vec3 p) {
   Cell cell = locate_cell(p);
   Vec3 f = cell.fraction;
@@ -175,7 +180,7 @@ Real grid_distance(Vec3 p) {
   Real c10 = mix_reals(grid_sample(cell.i, cell.j + 1, cell.k), grid_sample(cell.i + 1, cell.j + 1, cell.k), f.x);
   Real c01 = mix_reals(grid_sample(cell.i, cell.j, cell.k + 1), grid_sample(cell.i + 1, cell.j, cell.k + 1), f.x);
   Real c11 = mix_reals(grid_sample(cell.i, cell.j + 1, cell.k + 1), grid_sample(cell.i + 1, cell.j + 1, cell.k + 1), f.x);
-  return mix_reals(mix_reals(c00, c10, f.y), mix_reals(c01, c11, f.y), f.z) + length(cell.outside);
+  return distance_beyond(mix_reals(mix_reals(c00, c10, f.y), mix_reals(c01, c11, f.y), f.z), cell.outside);
 }
 
 Vec3 grid_gradient(Vec3 p) {
@@ -189,11 +194,14 @@ Vec3 grid_gradient(Vec3 p) {
                     mix_reals(mix_reals(s010 - s000, s110 - s100, f.x), mix_reals(s011 - s001, s111 - s101, f.x), f.z),
                     mix_reals(mix_reals(s001 - s000, s101 - s100, f.x), mix_reals(s011 - s010, s111 - s110, f.x), f.y));
   slope /= scene.grid_spacing;
-  Real outside = length(cell.outside);
   if (cell.outside.x != Real(0)) slope.x = Real(0);
   if (cell.outside.y != Real(0)) slope.y = Real(0);
   if (cell.outside.z != Real(0)) slope.z = Real(0);
-  if (outside > Real(0)) slope += cell.outside / outside;
+  if (dot(cell.outside, cell.outside) > Real(0)) {
+    Real value = mix_reals(mix_reals(mix_reals(s000, s100, f.x), mix_reals(s010, s110, f.x), f.y),
+                           mix_reals(mix_reals(s001, s101, f.x), mix_reals(s011, s111, f.x), f.y), f.z);
+    slope = max(value, Real(0)) * slope + cell.outside;
+  }
   Real size = length(slope);
   return size > Real(0) ? slope / size : Vec3(1, 0, 0);
 }

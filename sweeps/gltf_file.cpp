@@ -229,6 +229,12 @@ void refuse_extensions(const MeshFile& file, const GltfJson& root) {
       const std::string name = entry.is_string() ? entry.get<std::string>() : "?";
       if (name == "KHR_draco_mesh_compression" || name == "EXT_meshopt_compression" || name == "KHR_meshopt_compression")
         file.refuse(fmt::format("is compressed ({}), which is not read: export it without compression", name));
+      // they change what there is to touch, and files may use them without requiring them
+      if (name == "EXT_mesh_gpu_instancing")
+        file.refuse(fmt::format("has instances ({}), which are not read: make them real, then export", name));
+      if (name == "KHR_node_visibility")
+        file.refuse(
+            fmt::format("has nodes that may be hidden ({}), which is not read: remove what is hidden, export it without", name));
       const bool is_read = name == "KHR_mesh_quantization" || only_looks(name);
       if (list == std::string_view("extensionsRequired") && !is_read)
         file.refuse(fmt::format("requires the extension {}, which is not read: export it without", name));

@@ -245,7 +245,7 @@ nlohmann::ordered_json vessel_extras(const VesselData& vessel) {
   } else {
     extras["wall_m"] = vessel.wall;
   }
-  extras["height_m"] = vessel.height;
+  extras["height_m"] = vessel.height - vessel.base;
   return extras;
 }
 

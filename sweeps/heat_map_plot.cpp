@@ -79,8 +79,12 @@ std::vector<HeatMapPicture> sweep_pictures(const Scene& scene, const Plan& plan,
   std::vector<HeatMapPicture> pictures;
   for (std::size_t v = 0; v < maps.size(); ++v) {
     const VesselData& vessel = scene.vessels[v];
-    pictures.push_back({names.heat_map(parts[v]), fmt::format("{}: {}", vessel.name, maximised), &maps[v],
-                        scene.grips.height_is_fraction ? vessel.height : 1});
+    HeatMapPicture picture{names.heat_map(parts[v]), fmt::format("{}: {}", vessel.name, maximised), &maps[v]};
+    if (scene.grips.height_is_fraction) {
+      picture.height_unit = vessel.height - vessel.base;
+      picture.height_zero = vessel.base;
+    }
+    pictures.push_back(picture);
   }
   return pictures;
 }
@@ -102,7 +106,7 @@ std::string heat_map_script(const std::vector<HeatMapPicture>& pictures) {
   for (const HeatMapPicture& picture : pictures) {
     const HeatMap& map = *picture.map;
     const MapAxis &heights = map.heights(), &rolls = map.rolls();
-    const auto y = [&](std::size_t edge) { return heights.edge(edge) * picture.height_unit * 1e3; };  // mm
+    const auto y = [&](std::size_t edge) { return (picture.height_zero + heights.edge(edge) * picture.height_unit) * 1e3; };  // mm
     const auto x = [&](std::size_t edge) { return degrees(rolls.edge(edge)); };
     fmt::format_to(out, "{}set title {} textcolor '#202020'\nset xrange [{}:{}]\nset yrange [{}:{}]\n",
                    gnuplot_output(picture.file), gnuplot_quoted(picture.title), x(0), x(rolls.cells()), y(0), y(heights.cells()));

@@ -16,6 +16,7 @@ struct HeatMapPicture {
   std::string title;  // the vessel, as the reader knows it
   const HeatMap* map = nullptr;
   double height_unit = 1;  // m per unit of the map's height axis
+  double height_zero = 0;  // m: the height where that axis is 0
 };
 
 // Draws all pictures in one gnuplot process, with one colour scale for all. Each is written under a temporary name and renamed, so

@@ -334,18 +334,26 @@ void place_mesh(TriangleMesh& mesh, const MeshData& data, const MeshFile& file) 
     }
   }
   if (!data.origin_at_base) return;
-  for (const auto& triangle : mesh.triangles)  // vertices that no triangle uses have no say
+  for (const auto& triangle : mesh.triangles) {  // vertices that none uses have no say
+    if (is_point_or_edge(mesh, triangle)) continue;
     for (const std::uint32_t corner : triangle)
       for (int k = 0; k < 3; ++k) {
         low[k] = std::min(low[k], mesh.vertices[corner][k]);
         high[k] = std::max(high[k], mesh.vertices[corner][k]);
       }
+  }
+  if (!(low[0] <= high[0])) return;  // nothing but points and edges, which check_mesh refuses
   const Triple origin{low[0] / 2 + high[0] / 2, low[1], low[2] / 2 + high[2] / 2};
   for (Triple& vertex : mesh.vertices)
     for (int k = 0; k < 3; ++k) vertex[k] -= origin[k];
 }
 
 }  // namespace
+
+bool is_point_or_edge(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
+  const Triple &a = mesh.vertices[triangle[0]], &b = mesh.vertices[triangle[1]], &c = mesh.vertices[triangle[2]];
+  return a == b || b == c || c == a;
+}
 
 TriangleMesh read_mesh(const MeshData& data, const std::string& base_folder) {
   const MeshFile file{(std::filesystem::path(base_folder) / data.file).string(), data.place};

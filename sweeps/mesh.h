@@ -18,6 +18,9 @@ struct TriangleMesh {
 
 constexpr std::size_t MOST_TRIANGLES = 20'000'000;
 
+// Whether two of a triangle's corners are in one place: it has no side, and where it lies has no say.
+bool is_point_or_edge(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& triangle);
+
 // All triangles of the file's default scene (the first where it names none), with the transforms of its nodes, then scaled by
 // `data.scale`, then turned by `data.rotate` about the axes x, then the turned y, then the twice turned z (R = Rx Ry Rz), then, with
 // `data.origin_at_base`, moved so that the lowest point has y = 0 and the bounding box is centred on the axis in x and z. Corners

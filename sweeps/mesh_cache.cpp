@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Raised whenever samples, error or choice of a lattice, or the file, are made in another way: older files are then made again.
-constexpr std::uint32_t GRID_FORMAT = 1;
+constexpr std::uint32_t GRID_FORMAT = 2;
 constexpr auto STALE = std::chrono::hours(1);  // what is not whole by then never will be
 constexpr const char* GRID_SUFFIX = ".grid";
 constexpr const char* PARTIAL_SUFFIX = ".partial";

@@ -23,11 +23,14 @@ glm::dvec3 corner_of(const TriangleMesh& mesh, std::uint32_t vertex) {
   return {p[0], p[1], p[2]};
 }
 
-// The mesh with equal vertices joined and those that no triangle uses left out; the order is that of their coordinates.
+// The mesh with equal vertices joined and those that no triangle uses left out, nor triangles that are points or edges; the order is that of
+// the vertices' coordinates.
 TriangleMesh weld(const TriangleMesh& mesh) {
   std::vector<bool> used(mesh.vertices.size());
-  for (const auto& triangle : mesh.triangles)
+  for (const auto& triangle : mesh.triangles) {
+    if (is_point_or_edge(mesh, triangle)) continue;
     for (const std::uint32_t corner : triangle) used[corner] = true;
+  }
   std::vector<std::uint32_t> order;
   for (std::uint32_t i = 0; i < mesh.vertices.size(); ++i)
     if (used[i]) order.push_back(i);
@@ -38,9 +41,9 @@ TriangleMesh weld(const TriangleMesh& mesh) {
     if (welded.vertices.empty() || welded.vertices.back() != mesh.vertices[i]) welded.vertices.push_back(mesh.vertices[i]);
     place[i] = static_cast<std::uint32_t>(welded.vertices.size() - 1);
   }
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const bool is_point_or_edge = place[a] == place[b] || place[b] == place[c] || place[c] == place[a];
-    if (!is_point_or_edge) welded.triangles.push_back({place[a], place[b], place[c]});
+  for (const auto& triangle : mesh.triangles) {
+    const auto& [a, b, c] = triangle;
+    if (!is_point_or_edge(mesh, triangle)) welded.triangles.push_back({place[a], place[b], place[c]});
   }
   return welded;
 }
@@ -120,6 +123,11 @@ std::string count_text(std::size_t count, const char* one, const char* many) {
   return count == 1 ? fmt::format("1 {}", one) : fmt::format("{} {}", count, many);
 }
 
+// The mesh's extent along an axis, mm.
+std::string span_text(const MeshFacts& facts, int axis) {
+  return fmt::format("{:.4g} to {:.4g}", 1e3 * facts.low[axis], 1e3 * facts.high[axis]);
+}
+
 }  // namespace
 
 CheckedMesh check_mesh(const TriangleMesh& mesh, const std::string& name) {
@@ -140,8 +148,9 @@ CheckedMesh check_mesh(const TriangleMesh& mesh, const std::string& name) {
 
 std::string mesh_check_text(const MeshFacts& facts) {
   std::string text =
-      fmt::format("{}, {:.4g} x {:.4g} x {:.4g} mm, ", count_text(facts.triangles, "triangle", "triangles"),
-                  1e3 * (facts.high[0] - facts.low[0]), 1e3 * (facts.high[1] - facts.low[1]), 1e3 * (facts.high[2] - facts.low[2]));
+      fmt::format("{}, {:.4g} x {:.4g} x {:.4g} mm (x {}, y {}, z {}), ", count_text(facts.triangles, "triangle", "triangles"),
+                  1e3 * (facts.high[0] - facts.low[0]), 1e3 * (facts.high[1] - facts.low[1]), 1e3 * (facts.high[2] - facts.low[2]),
+                  span_text(facts, 0), span_text(facts, 1), span_text(facts, 2));
   text += facts.closed ? "closed" : fmt::format("not closed ({})", count_text(facts.open_edges, "open edge", "open edges"));
   text += fmt::format("; {}, {}, {}; volume {:.4g} cm3, centre of mass ({:.4g}, {:.4g}, {:.4g}) mm.",
                       count_text(facts.non_manifold_edges, "non-manifold edge", "non-manifold edges"),

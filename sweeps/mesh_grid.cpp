@@ -6,10 +6,12 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
+#include <exception>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
+#include <mutex>
 #include <random>
 #include <thread>
 
@@ -22,7 +24,7 @@
 namespace wholehand {
 namespace {
 
-constexpr int SURFACE_SAMPLES = 4096;
+constexpr double BESIDE = 1e-6;                                   // of a triangle's size: a side of it is looked at from there
 constexpr double COARSEST_CELLS = 24;                             // along the longest side: where the search for a spacing starts
 constexpr double SPACING_STEP = 1.25;                             // from one try to the next
 constexpr double FEWEST_SAMPLES = 6 * 6 * 6;                      // with which lay_lattice lays any
@@ -33,26 +35,33 @@ constexpr double MOST_SAMPLES = std::numeric_limits<int>::max();  // the kernels
 // Runs `work` for 0 .. count - 1 on several threads, in no order.
 void on_threads(int threads, int count, const std::function<void(int)>& work, const GridProgress& progress = {}) {
   std::atomic<int> next{0}, done{0};
+  std::mutex failing;
+  std::exception_ptr failure;
   const auto take = [&](bool is_first) {
-    for (int i = next++; i < count; i = next++) {
-      work(i);
-      const int so_far = ++done;
-      if (is_first && progress) progress(static_cast<double>(so_far) / count);
+    try {
+      for (int i = next++; i < count; i = next++) {
+        work(i);
+        const int so_far = ++done;
+        if (is_first && progress) progress(static_cast<double>(so_far) / count);
+      }
+    } catch (...) {
+      next = count;  // the others stop after what they have begun
+      const std::lock_guard lock(failing);
+      if (!failure) failure = std::current_exception();
     }
   };
   if (threads <= 0) threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  std::vector<std::jthread> others;
-  for (int i = 1; i < std::min(threads, count); ++i) others.emplace_back(take, false);
-  try {
+  {
+    std::vector<std::jthread> others;
+    for (int i = 1; i < std::min(threads, count); ++i) others.emplace_back(take, false);
     take(true);
-  } catch (...) {
-    next = count;  // the others stop after what they have begun
-    throw;
   }
+  if (failure) std::rethrow_exception(failure);
 }
 
-// Random points of the surface, as many a square metre everywhere; the same ones each time.
-std::vector<Triple> surface_points(const TriangleMesh& mesh, int count) {
+// Random points of the surface, as many a square metre everywhere; the same ones each time. Those that lie within are left out, where
+// bodies overlap: nobody touches them, and the distance is not 0 there.
+std::vector<Triple> surface_points(const MeshDistance& distance, const TriangleMesh& mesh, int count) {
   const auto corner = [&](std::size_t triangle, int k) {
     const Triple& p = mesh.vertices[mesh.triangles[triangle][k]];
     return glm::dvec3(p[0], p[1], p[2]);
@@ -71,7 +80,12 @@ std::vector<Triple> surface_points(const TriangleMesh& mesh, int count) {
     const auto i = static_cast<std::size_t>(found - area_up_to.begin());
     const double root = std::sqrt(uniform()), share = uniform();
     const glm::dvec3 p = (1 - root) * corner(i, 0) + root * (1 - share) * corner(i, 1) + root * share * corner(i, 2);
-    points.push_back({p.x, p.y, p.z});
+    const glm::dvec3 normal = glm::cross(corner(i, 1) - corner(i, 0), corner(i, 2) - corner(i, 0));
+    const double edge = std::sqrt(glm::length(normal));
+    const glm::dvec3 aside = edge > 0 ? BESIDE * edge * glm::normalize(normal) : glm::dvec3(0);
+    const glm::dvec3 front = p + aside, back = p - aside;
+    const bool is_buried = distance.is_inside({front.x, front.y, front.z}) && distance.is_inside({back.x, back.y, back.z});
+    if (!is_buried) points.push_back({p.x, p.y, p.z});
   }
   return points;
 }
@@ -152,10 +166,11 @@ double value_without_samples(const MeshDistance& distance, const PreparedGrid& g
 double largest_error(const std::vector<Triple>& points, int threads, const std::function<double(const Triple&)>& value_at) {
   std::vector<double> errors(points.size());
   constexpr int CHUNK = 64;
-  on_threads(threads, static_cast<int>(points.size()) / CHUNK, [&](int chunk) {
-    for (int i = chunk * CHUNK; i < (chunk + 1) * CHUNK; ++i) errors[i] = std::abs(value_at(points[i]));
+  const auto count = static_cast<int>(points.size());
+  on_threads(threads, (count + CHUNK - 1) / CHUNK, [&](int chunk) {
+    for (int i = chunk * CHUNK; i < std::min(count, (chunk + 1) * CHUNK); ++i) errors[i] = std::abs(value_at(points[i]));
   });
-  return *std::max_element(errors.begin(), errors.end());
+  return count > 0 ? *std::max_element(errors.begin(), errors.end()) : 0;
 }
 
 // Where the search for a spacing starts: coarser than it would be where only that fits.
@@ -260,7 +275,7 @@ std::optional<PreparedGrid> lattice_at(const MeshFacts& facts, const GridWish& w
 }
 
 MeshGrid grid_of_mesh(const MeshDistance& distance, const CheckedMesh& mesh, const GridWish& wish, const GridProgress& progress) {
-  const std::vector<Triple> points = surface_points(mesh.mesh, SURFACE_SAMPLES);
+  const std::vector<Triple> points = surface_points(distance, mesh.mesh, SURFACE_SAMPLES);
   MeshGrid made;
   made.grid =
       wish.spacing ? given_grid(mesh.facts, wish) : choose_grid(distance, mesh.facts, points, wish, progress, made.at_limit);
@@ -271,6 +286,38 @@ MeshGrid grid_of_mesh(const MeshDistance& distance, const CheckedMesh& mesh, con
   });
   if (progress) progress(1);
   return made;
+}
+
+// A sample stands for a cell about it, of which a wall at the distance d across leaves 1/2 - d / spacing. Along any line across two walls
+// that are a cell apart or more those shares add up to the way between them; of walls that are nearer they add up to more, by up to a
+// quarter of a cell. A sample half a cell from a wall has a neighbour across it; one that has none is at a wall within another body.
+EnclosedVolume enclosed_volume(const PreparedGrid& grid, double area) {
+  const core_f64::Vessel vessel = kernel_vessel(grid);
+  const auto is_inside = [&](int i, int j, int k) {
+    const bool is_there = i >= 0 && j >= 0 && k >= 0 && i < grid.nx && j < grid.ny && k < grid.nz;
+    return is_there && std::signbit(core_f64::grid_sample(vessel, i, j, k));  // -0 on a wall within
+  };
+  const auto is_deep = [&](int i, int j, int k) {
+    return is_inside(i, j, k) && is_inside(i - 1, j, k) && is_inside(i + 1, j, k) && is_inside(i, j - 1, k) &&
+           is_inside(i, j + 1, k) && is_inside(i, j, k - 1) && is_inside(i, j, k + 1);
+  };
+  double sum = 0;
+  Triple moment{};
+  for (int k = 0; k < grid.nz; ++k)
+    for (int j = 0; j < grid.ny; ++j)
+      for (int i = 0; i < grid.nx; ++i) {
+        double share = std::clamp(0.5 - core_f64::grid_sample(vessel, i, j, k) / grid.spacing, 0.0, 1.0);
+        if (share == 0) continue;
+        if (share < 1 && is_deep(i, j, k)) share = 1;
+        sum += share;
+        const Triple place = lattice_place(grid, i, j, k);
+        for (int axis = 0; axis < 3; ++axis) moment[axis] += share * place[axis];
+      }
+  EnclosedVolume enclosed;
+  enclosed.volume = sum * std::pow(grid.spacing, 3);
+  enclosed.doubt = area * grid.spacing / 8;  // a quarter of a cell for two walls
+  for (int axis = 0; axis < 3; ++axis) enclosed.center[axis] = sum > 0 ? moment[axis] / sum : 0;
+  return enclosed;
 }
 
 }  // namespace wholehand

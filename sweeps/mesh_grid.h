@@ -28,9 +28,11 @@ struct GridWish {
 
 struct MeshGrid {
   PreparedGrid grid;
-  double error = 0;       // m: the largest trilinear value found at random points of the surface, where it should be 0
+  double error = 0;       // m: the largest trilinear value found at random points of the outer surface, where it should be 0
   bool at_limit = false;  // `most_bytes` had a say in choosing the spacing: with more it would be smaller
 };
+
+constexpr int SURFACE_SAMPLES = 4096;  // points of the surface at which a lattice's error is measured
 
 // Where the samples of a lattice with this spacing (m, > 0) would lie, and in how many bits, without samples; none where it does not fit.
 std::optional<PreparedGrid> lattice_at(const MeshFacts& facts, const GridWish& wish, double spacing);
@@ -45,5 +47,15 @@ using GridProgress = std::function<void(double share)>;
 // Throws Error (usage) where a given spacing does not fit, or none does.
 MeshGrid grid_of_mesh(const MeshDistance& distance, const CheckedMesh& mesh, const GridWish& wish,
                       const GridProgress& progress = {});
+
+// What lies inside a lattice's surface.
+struct EnclosedVolume {
+  double volume = 0;  // m3
+  double doubt = 0;   // m3: by how much walls thinner than a cell may make it too large
+  Triple center{};    // of that volume, m
+};
+
+// Bodies that overlap count once, as hands feel them. `area`: of the mesh, m2.
+EnclosedVolume enclosed_volume(const PreparedGrid& grid, double area);
 
 }  // namespace wholehand

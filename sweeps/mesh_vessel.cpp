@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <istream>
+#include <sstream>
 
 #include "core/error.h"
 #include "core/load.h"
@@ -21,6 +23,8 @@ namespace {
 
 // Within how much of the mesh's box a cavity must lie, m: an inner outline is written in rounded millimetres.
 constexpr double ROUNDED_OUTLINE = 0.1e-3;
+
+constexpr double OTHER_VOLUME = 0.05;  // of the mesh's: the lattice's volume is then another one, not a coarse one
 
 constexpr std::size_t LARGE_MESH_LATTICE = 16u << 20;  // bytes
 
@@ -62,7 +66,7 @@ CavityPoints count_cavity_points(const PreparedGrid& grid, const std::vector<Pre
 void place_cavity(const VesselData& vessel, MeshBody& body) {
   const std::vector<PreparedElement> cavity = inner_cavity(vessel.mesh->inner);
   double widest = 0, reach = 0;
-  for (const PreparedElement& e : cavity) widest = std::max({widest, e.a[0], e.b[0], e.side > 0 ? e.center[0] + e.radius : 0.0});
+  for (const PreparedElement& e : cavity) widest = std::max(widest, widest_on(e));
   for (const int k : {0, 2}) reach = std::max({reach, std::abs(body.low[k]), std::abs(body.high[k])});
   const double floor = cavity.front().a[1], mouth = cavity.back().b[1];
   const auto refuse = [&](const std::string& what) {
@@ -101,12 +105,14 @@ GridWish wish_of(const Scene& scene, const MeshData& data, bool is_large, const 
   return wish;
 }
 
+int bits_of(const PreparedGrid& grid) { return grid.halves ? 16 : 32; }
+
 std::string lattice_text(const MeshBody& body) {
   const double tolerance = GridWish{}.tolerance;
   const PreparedGrid& grid = body.grid;
-  std::string text =
-      fmt::format("lattice of {:.4g} mm, {} x {} x {} samples of {} bits; distances at the surface are within {:.2g} mm",
-                  1e3 * grid.spacing, grid.nx, grid.ny, grid.nz, grid.halves ? 16 : 32, 1e3 * body.grid_error);
+  std::string text = fmt::format(
+      "lattice of {:.4g} mm, {} x {} x {} samples of {} bits; at {} points of the surface distances are within {:.2g} mm",
+      1e3 * grid.spacing, grid.nx, grid.ny, grid.nz, bits_of(grid), SURFACE_SAMPLES, 1e3 * body.grid_error);
   if (body.grid_error > tolerance)
     text += fmt::format(", more than the {:.2g} mm aimed at: a smaller grid_mm is more exact, as far as memory allows",
                         1e3 * tolerance);
@@ -122,7 +128,24 @@ std::string mass_text(const VesselData& vessel, const MeshBody& body) {
                                      : "; a solid object, without liquid: it has no inner_outline");
 }
 
-void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder, const MeshOptions& options) {
+// Takes volume and centre of mass from the mesh; from its lattice where bodies overlap or face different ways, so that the sum over
+// triangles counts some parts twice or takes them off. Returns the sentence that says so, else "".
+std::string set_volume(const MeshFacts& facts, MeshBody& body) {
+  body.volume = facts.volume;
+  body.center_of_mass = facts.center_of_mass;
+  const EnclosedVolume enclosed = enclosed_volume(body.grid, facts.area);
+  const double off = enclosed.volume - facts.volume;
+  if (!(std::abs(off) > OTHER_VOLUME * facts.volume + enclosed.doubt)) return "";
+  body.volume = enclosed.volume;
+  body.center_of_mass = enclosed.center;
+  return fmt::format(
+      "its bodies overlap, or not all face outward: inside them are {:.4g} cm3, centre of mass ({:.4g}, {:.4g}, {:.4g}) mm, by the "
+      "lattice, and these are taken; make one body of them, or give mass_kg",
+      1e6 * enclosed.volume, 1e3 * enclosed.center[0], 1e3 * enclosed.center[1], 1e3 * enclosed.center[2]);
+}
+
+void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder, const MeshOptions& options,
+               std::istream& lattices) {
   const MeshData& data = *vessel.mesh;
   const std::string name = fmt::format("vessel '{}'", vessel.name);
   const auto say = [&](const std::string& line) {
@@ -134,7 +157,14 @@ void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder
   const std::string warning = mesh_size_warning(facts);
   if (!warning.empty()) say(warning);
   auto body = std::make_shared<MeshBody>();
-  const GridWish wish = wish_of(scene, data, !warning.empty(), options);
+  GridWish wish = wish_of(scene, data, !warning.empty(), options);
+  double spacing = 0;
+  int bits = 0;
+  if (lattices >> spacing >> bits && spacing > 0 && (bits == 16 || bits == 32)) {
+    wish.spacing = spacing;
+    wish.bits = bits;
+    wish.most_bytes = options.most_bytes;
+  }
   try {
     const auto progress = [&](double share) { show_status(fmt::format("{}: distances to its mesh  {:.0f} %", name, 100 * share)); };
     MeshGrid made = cached_grid(checked, wish, options.cache_folder, progress);
@@ -148,9 +178,9 @@ void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder
   }
   body->low = facts.low;
   body->high = facts.high;
-  body->volume = facts.volume;
-  body->center_of_mass = facts.center_of_mass;
-  body->facts = mesh_check_text(facts);
+  const std::string other_volume = set_volume(facts, *body);
+  if (!other_volume.empty()) say(other_volume);
+  body->facts = mesh_check_text(facts) + (other_volume.empty() ? "" : " But " + other_volume + ".");
   body->vertices = std::move(checked.mesh.vertices);
   body->triangles = std::move(checked.mesh.triangles);
   if (vessel.has_cavity()) place_cavity(vessel, *body);
@@ -185,6 +215,16 @@ std::string mesh_keys(const Scene& scene) {
   return keys;
 }
 
+std::string mesh_lattices(const Scene& scene) {
+  std::string lattices;
+  for (const VesselData& vessel : scene.vessels) {
+    if (!vessel.mesh || !vessel.mesh->body) continue;
+    const PreparedGrid& grid = vessel.mesh->body->grid;
+    lattices += fmt::format("{}{} {}", lattices.empty() ? "" : " ", grid.spacing, bits_of(grid));
+  }
+  return lattices;
+}
+
 std::size_t largest_lattice(const std::string& on) {
   const auto memory = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
   const std::uint64_t most = std::min<std::uint64_t>(LARGEST_LATTICE, memory / 8);
@@ -196,28 +236,26 @@ std::size_t largest_lattice(const std::string& on) {
 
 void load_meshes(Scene& scene, const MeshOptions& options) {
   const std::string folder = std::filesystem::path(scene.file).parent_path().string();
+  std::istringstream lattices(options.lattices);
   for (VesselData& vessel : scene.vessels)
-    if (vessel.mesh && !vessel.mesh->body) load_mesh(scene, vessel, folder, options);
+    if (vessel.mesh && !vessel.mesh->body) load_mesh(scene, vessel, folder, options, lattices);
 }
 
-std::string reload_meshes(Scene& scene, const std::string& scene_file, const std::string& keys, const std::string& on) {
+std::string reload_meshes(Scene& scene, const std::string& scene_file, const std::string& keys, const std::string& lattices) {
   if (!has_meshes(scene)) return "";
   MeshOptions options;
-  for (const std::string& device : {on, std::string("core")}) {  // a lattice may have been as large as its device allowed
-    Scene read = scene;
-    read.file = scene_file;
-    try {
-      options.most_bytes = largest_lattice(device);
-      load_meshes(read, options);
-    } catch (const Error& error) {
-      if (device == "core") return error.what();
-      continue;
-    }
-    if (mesh_keys(read) != keys) continue;
-    scene.vessels = read.vessels;
-    return "";
+  options.lattices = lattices;
+  Scene read = scene;
+  read.file = scene_file;
+  try {
+    load_meshes(read, options);
+  } catch (const Error& error) {
+    return error.what();
   }
-  return "the mesh files are not what they were when the sweep ran";
+  if (mesh_lattices(read) != lattices) return "the result does not say by which lattices the meshes were read";
+  if (mesh_keys(read) != keys) return "the mesh files are not what they were when the sweep ran";
+  scene.vessels = read.vessels;
+  return "";
 }
 
 void load_meshes(Scene& scene, const std::string& on) {

@@ -15,6 +15,7 @@ constexpr std::size_t LARGEST_LATTICE = 512u << 20;  // bytes of samples, whatev
 struct MeshOptions {
   std::size_t most_bytes = LARGEST_LATTICE;     // of a lattice's samples: floats up to half of it, 16 bits each beyond
   int threads = 0;                              // 0: all cores
+  std::string lattices;                         // as of mesh_lattices; not empty: these, whatever the scene asks for
   std::string cache_folder;                     // of lattices, see cached_grid
   std::function<void(const std::string&)> say;  // gets what was found of each mesh, a line a time; may be empty
 };
@@ -32,14 +33,16 @@ void load_meshes(Scene& scene, const MeshOptions& options);
 // For `on`, saying on stderr what was found.
 void load_meshes(Scene& scene, const std::string& on);
 
-// For a scene read back from a result of `on`, whose file lay at `scene_file` and whose meshes had those keys. Returns why the meshes are
-// no longer those, "" where they are; then every body is there, else none.
-std::string reload_meshes(Scene& scene, const std::string& scene_file, const std::string& keys, const std::string& on);
+// For a scene read back from a result, whose file lay at `scene_file` and whose meshes had those keys and lattices (mesh_lattices). Returns
+// why the meshes are no longer those, "" where they are; then every body is there, else none.
+std::string reload_meshes(Scene& scene, const std::string& scene_file, const std::string& keys, const std::string& lattices);
 
 bool has_meshes(const Scene& scene);
 // What was found of each mesh, a line each with the vessel's name.
 std::string mesh_lines(const Scene& scene);
 // The keys of all bodies, which tell whether two scenes have the same meshes; empty without any.
 std::string mesh_keys(const Scene& scene);
+// Of all lattices their spacing (m) and bits, "0.001 32 0.0012 16": what makes the same ones again, whatever the memory here allows.
+std::string mesh_lattices(const Scene& scene);
 
 }  // namespace wholehand

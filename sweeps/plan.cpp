@@ -74,7 +74,7 @@ Plan::Plan(const Scene& scene, bool keeps_vectors)
       height_is_fraction_
           ? PlanAxis{"height_fraction", "1", "height of the thumb-index line as a fraction of the vessel's height", AXIS_HEIGHT,
                      grips.height}
-          : PlanAxis{"height", "m", "height of the thumb-index line above the vessel's base", AXIS_HEIGHT, grips.height},
+          : PlanAxis{"height", "m", "height of the thumb-index line in the vessel's frame", AXIS_HEIGHT, grips.height},
   }};
   for (const VesselData& vessel : scene.vessels) vessel_spans_.push_back({vessel.base, vessel.height - vessel.base});
   for (const PlanAxis& axis : axes_) {

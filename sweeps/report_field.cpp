@@ -38,9 +38,9 @@ void put_cells(HtmlWriter& html, const FieldChart& chart, const PlotArea& area) 
   const std::size_t columns = chart.x_edges.size() - 1, rows = chart.y_edges.size() - 1;
   const auto shade_at = [&](std::size_t r, std::size_t c) {
     const CellKind kind = chart.kinds[r * columns + c];
-    return kind == CellKind::absent   ? ABSENT
-           : kind == CellKind::hollow ? HOLLOW
-                                      : shade_of(chart.scale, chart.values[r * columns + c]);
+    const double value = chart.values[r * columns + c];
+    if (kind == CellKind::hollow) return HOLLOW;
+    return kind == CellKind::absent || !std::isfinite(value) ? ABSENT : shade_of(chart.scale, value);
   };
   for (std::size_t c = 0; c < columns; ++c) {
     const std::string left = chart_number(area.x(chart.x_edges[c])), right = chart_number(area.x(chart.x_edges[c + 1]) + UNDER);

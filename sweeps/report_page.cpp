@@ -54,7 +54,9 @@ void write_words(HtmlWriter& html) {
   const auto word = [&html](const char* name, const char* meaning) {
     html.open("div").element("dt", name).element("dd", meaning).close();
   };
-  word("height", "where the line between the tips of thumb and index finger crosses the vessel's axis, above its base");
+  word("height",
+       "where the line between the tips of thumb and index finger crosses the vessel's axis: above its base, or above the origin "
+       "of a mesh that keeps its own");
   word("roll", "turn of the hand about that line; 0: beside the vessel, \u221290°: above");
   word("obliquity", "angle of that line to the horizontal, the index finger above");
   word("feasible", "both tips find the vessel, at a gap that the hand can make");

@@ -126,8 +126,9 @@ void write_vessels(HtmlWriter& html, const ReportSource& source) {
     const VesselData& vessel = source.scene.vessels[v];
     const double mass = source.core ? source.core->empty_mass(v) : vessel.mass.value_or(std::nan(""));
     const double capacity = source.core && vessel.has_cavity() ? source.core->capacity(v) : std::nan("");
-    table.row({vessel.name, form_text(vessel), html_number(widest(source, vessel) * 1e3, 1), html_number(vessel.height * 1e3, 1),
-               vessel.wall > 0 ? html_plain(vessel.wall * 1e3) : "none", html_number(mass * 1e3, 1), html_number(capacity * 1e6, 0),
+    table.row({vessel.name, form_text(vessel), html_number(widest(source, vessel) * 1e3, 1),
+               html_number((vessel.height - vessel.base) * 1e3, 1), vessel.wall > 0 ? html_plain(vessel.wall * 1e3) : "none",
+               html_number(mass * 1e3, 1), html_number(capacity * 1e6, 0),
                html_plain(vessel.force_range.value_or(source.scene.force.range)),
                vessel.guidance.empty() ? "none" : std::to_string(vessel.guidance.size())});
   }

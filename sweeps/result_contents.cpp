@@ -165,6 +165,7 @@ class Definition {
       text(NC_GLOBAL, SCENE_FILE, std::filesystem::absolute(scene.file).lexically_normal().string());
       text(NC_GLOBAL, MESHES, mesh_lines(scene));
       text(NC_GLOBAL, MESH_KEYS, mesh_keys(scene));
+      text(NC_GLOBAL, MESH_LATTICES, mesh_lattices(scene));
     }
     if (contents_.plan.copies() > 1) {
       text(NC_GLOBAL, "azimuth", "evaluated at the first azimuth and repeated: the vessels are bodies of revolution");
@@ -299,7 +300,7 @@ class Definition {
     for (const PlanAxis& axis : contents_.plan.axes()) {
       const bool is_height = axis.axis == AXIS_HEIGHT;
       define(best_axis_name(axis), NC_DOUBLE, is_height ? "m" : axis.units.c_str(),
-             "best grips: " + (is_height ? std::string("height of the thumb-index line above the vessel's base") : axis.long_name));
+             "best grips: " + (is_height ? std::string("height of the thumb-index line in the vessel's frame") : axis.long_name));
     }
   }
 

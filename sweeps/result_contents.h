@@ -41,6 +41,7 @@ std::string best_axis_name(const PlanAxis& axis);
 constexpr const char* SCENE_FILE = "scene_file";
 constexpr const char* MESHES = "meshes";
 constexpr const char* MESH_KEYS = "mesh_keys";
+constexpr const char* MESH_LATTICES = "mesh_lattices";
 
 // Attributes whose value is known only at the end; NaN until then.
 constexpr const char* WALL_TIME = "wall_time_s";

@@ -57,13 +57,24 @@ std::string readable_file(const std::string& path, double& bytes) {
   return name;
 }
 
-// Opens the file and all that it says of its variables; NetCDF's status.
+// Reads the first value of a variable, and with it the part of the file where that lies; NetCDF's status.
+int try_to_read(int file, int id) {
+  int dims = 0;
+  nc_type type = NC_NAT;
+  int status = nc_inq_var(file, id, nullptr, &type, &dims, nullptr, nullptr);
+  if (status != NC_NOERR || type > NC_UINT64 || type == NC_CHAR) return status;
+  const std::vector<std::size_t> first(static_cast<std::size_t>(dims) + 1, 0);
+  double value = 0;
+  status = nc_get_var1_double(file, id, first.data(), &value);
+  return status == NC_ERANGE || status == NC_EINVALCOORDS ? NC_NOERR : status;  // no double, or no value at all
+}
+
+// Opens the file, and all that it says of its variables and a value of each; NetCDF's status.
 int try_to_open(const std::string& name) {
   int file = -1, variables = 0;
   int status = nc_open(name.c_str(), NC_NOWRITE, &file);
   if (status == NC_NOERR) status = nc_inq_nvars(file, &variables);
-  for (int id = 0; id < variables && status == NC_NOERR; ++id)
-    status = nc_inq_var(file, id, nullptr, nullptr, nullptr, nullptr, nullptr);
+  for (int id = 0; id < variables && status == NC_NOERR; ++id) status = try_to_read(file, id);
   return status;
 }
 
@@ -113,6 +124,7 @@ SweepResult::SweepResult(const std::string& path) : path_(path) {
     origin_.scene_file = text_or_nothing(SCENE_FILE);
     origin_.meshes = text_or_nothing(MESHES);
     origin_.mesh_keys = text_or_nothing(MESH_KEYS);
+    origin_.mesh_lattices = text_or_nothing(MESH_LATTICES);
     origin_.wall_seconds = number(WALL_TIME);
     origin_.kernel_seconds = number(KERNEL_TIME);
     if (!std::isfinite(origin_.wall_seconds)) {
@@ -138,7 +150,7 @@ const Variable* SweepResult::find(const std::string& name) const {
 void SweepResult::use(const Scene& scene, const Plan& plan) {
   scene_ = &scene;
   plan_ = &plan;
-  if (vessel_heights().size() != scene.vessels.size())
+  if (shape_of(numbers_id("vessel_height")) != std::vector<std::size_t>{scene.vessels.size()})
     throw usage_error(fmt::format("{}: has not the {} vessels of its own scene", path_, scene.vessels.size()));
   grip_shape_.clear();
   if (plan.is_sobol()) {
@@ -227,6 +239,8 @@ std::vector<Candidate> SweepResult::best(std::size_t vessel) const {
   if (!lists_best()) return {};
   const std::vector<std::size_t> shape = shape_of(numbers_id(BEST_GRIP));
   if (shape.size() != 2) throw usage_error(fmt::format("{}: {} is not as a sweep writes it", path_, BEST_GRIP));
+  if (shape[1] > MOST_BEST)
+    throw usage_error(fmt::format("{}: {} lists {} grips a vessel, and a sweep at most {}", path_, BEST_GRIP, shape[1], MOST_BEST));
   const std::vector<double> grips = row(BEST_GRIP, vessel, shape[1]), scores = row(BEST_SCORE, vessel, shape[1]);
   std::vector<Candidate> best;
   for (std::size_t rank = 0; rank < grips.size() && grips[rank] >= 0; ++rank) {
@@ -248,9 +262,11 @@ std::vector<double> SweepResult::vessel_bases() const { return of_vessels("vesse
 std::vector<double> SweepResult::of_vessels(const char* name) const {
   const int id = numbers_id(name);
   const std::vector<std::size_t> shape = shape_of(id);
-  if (shape.size() != 1) throw usage_error(fmt::format("{}: {} is not as a sweep writes it", path_, name));
+  if (shape.size() != 1 || shape[0] > MOST_VESSELS)
+    throw usage_error(fmt::format("{}: {} is not as a sweep writes it", path_, name));
   std::vector<double> values(shape[0]);
-  nc_get_var_double(file_, id, values.data());
+  const int status = nc_get_var_double(file_, id, values.data());
+  if (status != NC_NOERR) throw usage_error(fmt::format("{}: {} cannot be read: {}", path_, name, nc_strerror(status)));
   return values;
 }
 

@@ -19,9 +19,14 @@ struct SweepOrigin {
   Precision precision = Precision::full;
   double wall_seconds = 0, kernel_seconds = 0;
   double bytes = 0;  // of the file
-  // Of a scene with meshes, else empty: where it lay, what was found of each mesh, and what tells whether they are still the same.
-  std::string scene_file, meshes, mesh_keys;
+  // Of a scene with meshes, else empty: where it lay, what was found of each mesh, what tells whether they are still the
+  // same, and the lattices by which they were read.
+  std::string scene_file, meshes, mesh_keys, mesh_lattices;
 };
+
+// What a scene may ask for and have (app/scene_ranges.h): more in a file is damage, found before room is made for it.
+constexpr std::size_t MOST_BEST = 100'000;  // grips listed of a vessel
+constexpr std::size_t MOST_VESSELS = 64;
 
 // Reads only; no value is taken from the file before it is known to have the type and shape that a sweep gives it. Not thread-safe, since
 // the NetCDF library is not.

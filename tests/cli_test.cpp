@@ -113,6 +113,7 @@ TEST(CommandLine, RefusesWrongUsageWithOneLineAndCode2) {
       {std::string(GRIP) + " --svg /nonexistent/a.svg", "--svg /nonexistent/a.svg: /nonexistent is not a directory"},
       {std::string(GRIP) + " --svg /dev/null", "--svg /dev/null: is a device or pipe"},
       {std::string(GRIP) + " --glb /tmp/wholehand_cli_one --svg /tmp/wholehand_cli_one", "--glb and --svg name one file"},
+      {std::string(GRIP) + " --glb /tmp/wholehand_cli_one --svg /tmp/../tmp/./wholehand_cli_one", "--glb and --svg name one file"},
       {"sweep small --glb -1", "--glb '-1'; allowed: a whole number, 0 to 100000"},
       {"sweep small --glb x", "--glb 'x'"},
       {"sweep small --best 2 --glb 3 --on core -o /tmp/wholehand_cli_none.nc", "--glb 3: the best 2 of each vessel are kept"},

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/evaluator.h"
+#include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {
@@ -646,6 +647,25 @@ TEST(Closure, GridGivesTheOutlinesAnswerAtEveryAzimuth) {
       for (std::size_t k = 0; k < 3; ++k) ASSERT_NEAR(sampled.midpoint[k], exact.midpoint[k], 1e-4);
     }
     EXPECT_GT(compared, 150);
+  }
+}
+
+// What starts far above or beside the lattice of a tall cup comes to it aslant, and must not pass over its wall.
+TEST(Closure, OfATallHollowMeshMeetsTheNearWalls) {
+  VesselData shell;
+  shell.outline = {line_to(40, 0), line_to(40, 400), line_to(37, 400), line_to(37, 3), line_to(0, 3)};
+  HandData bare;
+  for (FingerData& finger : bare.fingers) finger.radii = {};
+  const Scene scene = scene_of({vessel_of_mesh("cup", turned_mesh(shell, 128, 2e-3), 1e-3)}, Pose::rigged, bare);
+  const auto core = make_core_evaluator(scene);
+  for (int degree = 0; degree < 360; degree += 10) {
+    GripInput grip;
+    grip.height = 0.2;
+    grip.azimuth = radians(degree);
+    GripResult result;
+    core->grip(0, grip, result);
+    ASSERT_EQ(result.reason, Reason::none) << degree;
+    EXPECT_NEAR(result.gap, 0.08, 4e-5) << degree;  // two walls' chords and cells, 15 um each
   }
 }
 

@@ -240,6 +240,19 @@ TEST(GuidancePlace, OnAMeshIsItsOwnForEitherHand) {
   }
 }
 
+// A ray from far away comes to the lattice's box aslant; of a cup it may then pass over the near wall.
+TEST(GuidancePlace, OfAHollowMeshIsOnTheNearWall) {
+  VesselData shell;
+  shell.outline = {line_to(40, 0), line_to(40, 100), line_to(37, 100), line_to(37, 3), line_to(0, 3)};
+  const auto core = make_core_evaluator(scene_of({vessel_of_mesh("cup", turned_mesh(shell, 128, 2e-3), 1e-3)}));
+  for (int degree = 0; degree < 360; degree += 5) {
+    const Triple place = guidance_place(*core, 0, {0.05, radians(degree)});
+    // chords: 40 mm (1 - cos(pi / 128)) is 12 um; trilinear over cells of 1 mm: h^2 / (8 r) is 3 um
+    EXPECT_NEAR(place[0], 0.04 * std::cos(radians(degree)), 2e-5) << degree;
+    EXPECT_NEAR(place[2], -0.04 * std::sin(radians(degree)), 2e-5) << degree;
+  }
+}
+
 double distance_of(const Scene& scene, const GripInput& grip, const std::vector<Triple>& places) {
   const auto core = make_core_evaluator(scene);
   GripResult result;

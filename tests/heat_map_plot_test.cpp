@@ -1,5 +1,6 @@
 #include "sweeps/heat_map_plot.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -88,6 +89,22 @@ TEST(HeatMapPlot, PicturesOfASweepSayWhatIsMaximised) {
   EXPECT_EQ(pictures[1].height_unit, 0.14);
   scene.grips.azimuth.values = scene.grips.obliquity.values = scene.grips.offset.values = {0};
   EXPECT_EQ(sweep_pictures(scene, Plan(scene, false), maps, output_names("y.nc"))[0].title, "a b: score");
+}
+
+// A mesh whose origin is kept stands where its file has it.
+TEST(HeatMapPlot, FractionsCountFromTheVesselsBase) {
+  Scene scene = fake_scene();
+  ASSERT_TRUE(scene.grips.height_is_fraction);
+  scene.vessels[1].base = -0.06;
+  scene.vessels[1].height = 0.14;
+  const std::vector<HeatMap> maps(2, small_map());
+  const auto pictures = sweep_pictures(scene, Plan(scene, false), maps, output_names("y.nc"));
+  const MapAxis& heights = maps[1].heights();
+  const auto height = [](double fraction) { return (-0.06 + 0.2 * fraction) * 1e3; };
+  EXPECT_NE(heat_map_script({pictures[1]})
+                .find(fmt::format("set yrange [{}:{}]", height(heights.edge(0)), height(heights.edge(heights.cells())))),
+            std::string::npos)
+      << heat_map_script({pictures[1]});
 }
 
 TEST(HeatMapPlot, VesselNamesBecomeFileNames) {

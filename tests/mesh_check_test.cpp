@@ -38,7 +38,8 @@ TEST(MeshCheck, ABoxIsMeasured) {
   EXPECT_NEAR(facts.area, 0.22, 1e-15);
   EXPECT_EQ(facts.high, (Triple{0.1, 0.2, 0.3}));
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(facts.center_of_mass[k], facts.high[k] / 2, 1e-16);
-  EXPECT_TRUE(says(mesh_check_text(facts), "12 triangles, 100 x 200 x 300 mm, closed; 0 non-manifold edges"));
+  EXPECT_TRUE(says(mesh_check_text(facts),
+                   "12 triangles, 100 x 200 x 300 mm (x 0 to 100, y 0 to 200, z 0 to 300), closed; 0 non-manifold edges"));
 }
 
 TEST(MeshCheck, ClosedForms) {
@@ -117,6 +118,16 @@ TEST(MeshCheck, TrianglesWithoutAreaAreCounted) {
   const MeshFacts with_sliver = check_mesh(mesh, "box").facts;
   EXPECT_EQ(with_sliver.zero_triangles, 2u);
   EXPECT_FALSE(with_sliver.closed);
+}
+
+TEST(MeshCheck, WhatFallsAwayHasNoSayInTheExtent) {
+  TriangleMesh mesh = cube();
+  mesh.vertices.push_back({5, 0, 0});
+  mesh.triangles.push_back({8, 8, 8});
+  const CheckedMesh checked = check_mesh(mesh, "box");
+  EXPECT_EQ(checked.facts.high, (Triple{0.1, 0.2, 0.3}));
+  EXPECT_EQ(checked.mesh.vertices.size(), 8u);
+  EXPECT_EQ(checked.facts.zero_triangles, 1u);
 }
 
 TEST(MeshCheck, WhatEnclosesNothingIsRefused) {

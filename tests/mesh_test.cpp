@@ -292,6 +292,18 @@ TEST(Mesh, IsScaledThenTurnedThenSetDown) {
   EXPECT_NEAR(set.vertices[0][2], -0.15, FLOAT_ROUNDING);
 }
 
+TEST(Mesh, APointHasNoSayInWhereTheOriginIs) {
+  TriangleMesh mesh = box_mesh({0, 0, 0}, {0.1, 0.2, 0.3});
+  mesh.vertices.push_back({5, -1, 0});
+  mesh.triangles.push_back({8, 8, 8});
+  MeshData data = as_is(write("a.glb", glb_text(mesh)));
+  data.origin_at_base = true;
+  const TriangleMesh set = read_mesh(data, "");
+  EXPECT_NEAR(set.vertices[0][0], -0.05, 1e-8);  // the file's single precision
+  EXPECT_NEAR(set.vertices[0][1], 0, 1e-8);
+  EXPECT_NEAR(set.vertices[0][2], -0.15, 1e-8);
+}
+
 TEST(Mesh, BuffersMayBeFilesOrDataUris) {
   Gltf gltf = tetrahedron();
   gltf.json["buffers"] = {{{"byteLength", gltf.binary.size()}, {"uri", "a%20buffer.bin"}}};
@@ -327,6 +339,8 @@ TEST(Mesh, WhatIsNotReadIsNamedWithTheRemedy) {
     EXPECT_SAYS(line, name);
     EXPECT_SAYS(line, "without compression");
   }
+  EXPECT_SAYS(after([](Gltf& g) { g.json["extensionsUsed"] = {"EXT_mesh_gpu_instancing"}; }), "make them real");
+  EXPECT_SAYS(after([](Gltf& g) { g.json["extensionsUsed"] = {"KHR_node_visibility"}; }), "remove what is hidden");
   EXPECT_SAYS(after([](Gltf& g) { g.json["extensionsRequired"] = {"ACME_shape"}; }), "requires the extension ACME_shape");
   for (const auto& [mode, name] : std::map<int, std::string>{{0, "points"}, {1, "lines"}, {2, "lines"}, {3, "lines"}})
     EXPECT_SAYS(after([mode = mode](Gltf& g) { g.json["meshes"][0]["primitives"][0]["mode"] = mode; }), "made of " + name);

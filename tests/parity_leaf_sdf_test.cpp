@@ -201,13 +201,15 @@ TEST_F(ParityLeaf, Lattice) {
   const core_f64::Grid grid = core_f64::load_grid(*core->grid(VASE));
   const std::array<int, 3> counts{grid.nx, grid.ny, grid.nz};
   const auto place = [&](int axis, double at) { return grid.origin[axis] + grid.spacing * at; };
-  Builder points(240), samples(241), mixed(242);
+  Builder points(240), samples(241), mixed(242), beyond(243);
   for (int i = 0; i < 1500; ++i) {
     for (int axis = 0; axis < 3; ++axis) {
       const double last = counts[axis] - 1;
       points.add(place(axis, points.random.uniform(-0.2, 1.2) * last));
       samples.add(std::floor(samples.random.uniform(0, 1) * counts[axis]));
     }
+    beyond.uniform(-0.1 * REACH, REACH);
+    for (int axis = 0; axis < 3; ++axis) beyond.add(beyond.random.uniform(0, 1) < 0.4 ? 0 : beyond.random.uniform(-REACH, REACH));
     mixed.uniform(-REACH, REACH).uniform(-REACH, REACH).add(i % 9 == 0 ? 0 : i % 9 == 1 ? 1 : mixed.random.uniform(0, 1));
   }
   // the box's corners and beyond each of its faces; a thousandth of a cell to either side of a sample
@@ -238,6 +240,7 @@ TEST_F(ParityLeaf, Lattice) {
              .exact = true},
             samples.table, scene, VASE, {way.source, way.grid_samples, bits});
   }
+  compare({"probe_sdf", PROBE_DISTANCE_BEYOND, 4, {{"distance", 2 * REACH}}}, beyond.table, scene);
   compare({"probe_sdf", PROBE_MIX_REALS, 3, {{"mixed", 2 * REACH}}}, mixed.table, scene);
 }
 

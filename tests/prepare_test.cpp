@@ -34,6 +34,16 @@ TEST(Prepare, ArcsAreSplitAtTheirPoles) {
   EXPECT_EQ(arcs, 2u);
 }
 
+TEST(Prepare, AnArcIsAsWideAsItReaches) {
+  // about a place within the vessel and far above: the circle is 150 mm wide, the vessel 50
+  const PreparedVessel shallow =
+      prepare_vessel(vessel_of("s", {line_to(30, 0), arc_to(50, 65, -350, 165), line_to(0, 65)}, 0), false);
+  EXPECT_NEAR(shallow.largest_radius, 0.05, 1e-15);
+  // one that reaches its equator, at 20 + 10 mm
+  const PreparedVessel belly = prepare_vessel(vessel_of("b", {line_to(20, 20), arc_to(20, 40, 20, 30), line_to(0, 40)}, 0), false);
+  EXPECT_NEAR(belly.largest_radius, 0.03, 1e-15);
+}
+
 TEST(Prepare, AMeshIsItsBodyAndItsInnerOutline) {
   VesselData vessel;
   vessel.name = "cup";

@@ -32,7 +32,7 @@ class ReportBrowser : public testing::Test {
   void SetUp() override {
     int code = 0;
     browser = output_of("command -v chromium-headless-shell || command -v chromium", code);
-    if (code != 0) GTEST_SKIP() << "no Chromium here: chromium-headless-shell of packages.txt";
+    ASSERT_EQ(code, 0) << "no Chromium here: chromium-headless-shell of packages.txt";
     browser.erase(browser.find_last_not_of('\n') + 1);
     SweepResult result(swept.path);
     page = report_page(result, swept.scene);

@@ -130,6 +130,16 @@ TEST(FieldChart, GreysShowWhatHasNoValue) {
   EXPECT_NE(svg.find(">none feasible</text>"), std::string::npos);
 }
 
+// As a damaged file may have it: a grip that is there, and a number that is none.
+TEST(FieldChart, WhatIsNoNumberIsAbsent) {
+  for (const double value : {std::nan(""), HUGE_VAL}) {
+    FieldChart chart = two_by_three(), without = chart;
+    chart.values[0] = without.values[0] = value;
+    without.kinds[0] = CellKind::absent;
+    EXPECT_EQ(cells_in(written(chart)), cells_in(written(without)));
+  }
+}
+
 TEST(FieldChart, WholeNumbersHaveAColourEach) {
   FieldChart chart = two_by_three();
   chart.values = {0, 1, 2, 3, 4, 5};

@@ -90,7 +90,7 @@ TEST(Sdf, GridReachesTwoCellsBeyondTheVessel) {
   EXPECT_GE(high.z, r + reach);
 }
 
-TEST(Sdf, GridOutsideItsBoxIsTheClampedValueAndTheWayToTheBox) {
+TEST(Sdf, GridOutsideItsBoxIsNeverMoreThanTheDistance) {
   const Vessel outline = ready_vessel(beaker3()), vessel = grid_vessel(beaker3(), 32);
   const core_f64::Grid& grid = vessel.grid;
   const Vec3 low = grid.origin, high = lattice_point(grid, grid.nx - 1, grid.ny - 1, grid.nz - 1);
@@ -102,12 +102,12 @@ TEST(Sdf, GridOutsideItsBoxIsTheClampedValueAndTheWayToTheBox) {
     if (p == clamped) continue;
     ++compared;
     const double sdf = core_f64::signed_distance(vessel, p);
-    ASSERT_NEAR(sdf, core_f64::signed_distance(vessel, clamped) + glm::distance(p, clamped), 1e-15);  // rounding
-    // the two ways meet at a right angle at most, so their sum lies between the true distance and 2^(1/2) of it; interpolation is
-    // off by spacing^2 / 8 times the curvature of the distance, at most 1 / (2 spacing) two cells off: a 16th of a cell
+    ASSERT_NEAR(sdf, std::hypot(core_f64::signed_distance(vessel, clamped), glm::distance(p, clamped)), 1e-15);  // rounding
+    // the two ways meet at a right angle or more, so the hypotenuse lies between the true distance and 2^(-1/2) of it; interpolation
+    // is off by spacing^2 / 8 times the curvature of the distance, at most 1 / (2 spacing) two cells off: a 16th of a cell
     const double exact = core_f64::signed_distance(outline, p);
-    ASSERT_GE(sdf, exact - grid.spacing / 16) << p.x << " " << p.y << " " << p.z;
-    ASSERT_LE(sdf, std::sqrt(2.0) * exact + grid.spacing / 16) << p.x << " " << p.y << " " << p.z;
+    ASSERT_LE(sdf, exact + grid.spacing / 16) << p.x << " " << p.y << " " << p.z;
+    ASSERT_GE(sdf, std::sqrt(0.5) * exact - grid.spacing / 16) << p.x << " " << p.y << " " << p.z;
   }
   EXPECT_GT(compared, 10000);
 }
@@ -151,6 +151,37 @@ TEST(Sdf, GridGradientIsItsDifferenceQuotient) {
     // 1e-7: along an axis trilinear is linear, so only rounding, 1e-16 / h / 0.1
     ASSERT_LT(glm::distance(g, glm::normalize(difference)), 1e-7);
   }
+}
+
+TEST(Sdf, GridGradientOutsideItsBoxIsItsDifferenceQuotient) {
+  const Vessel vessel = grid_vessel(vase(), 24);
+  const core_f64::Grid& grid = vessel.grid;
+  const Vec3 low = grid.origin, high = lattice_point(grid, grid.nx - 1, grid.ny - 1, grid.nz - 1);
+  const double h = 1e-7;
+  Random random(14);
+  int compared = 0;
+  for (int n = 0; n < 4000; ++n) {
+    const Vec3 p{random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.5), random.uniform(-0.3, 0.3)};
+    const Vec3 inner = glm::clamp(p, low, high), steps = (inner - grid.origin) / grid.spacing;
+    bool near_a_face = p == inner;
+    for (int k = 0; k < 3; ++k) {
+      const double to_face =
+          p[k] == inner[k] ? std::abs(steps[k] - std::round(steps[k])) * grid.spacing : std::abs(p[k] - inner[k]);
+      near_a_face = near_a_face || to_face < 2 * h;  // across it the slope jumps
+    }
+    if (near_a_face) continue;
+    ++compared;
+    Vec3 difference;
+    for (int k = 0; k < 3; ++k) {
+      Vec3 step{};
+      step[k] = h;
+      difference[k] = (core_f64::signed_distance(vessel, p + step) - core_f64::signed_distance(vessel, p - step)) / (2 * h);
+    }
+    int element = 0;
+    // 1e-6: rounding, 1e-16 / h, and the third derivative, h^2 / d^2 for d over some mm
+    ASSERT_LT(glm::distance(core_f64::distance_gradient(vessel, p, element), glm::normalize(difference)), 1e-6);
+  }
+  EXPECT_GT(compared, 2000);
 }
 
 TEST(Sdf, GridGradientOutsideItsBoxIsUnitAndPointsAway) {

@@ -16,6 +16,7 @@
 #include "core/evaluator.h"
 #include "core/trig.h"
 #include "tests/support/live_script.h"
+#include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {
@@ -736,6 +737,15 @@ TEST(PlaceLiveHand, IsTheSweepsHand) {
 }
 
 // ---- refusals ----
+
+TEST(LiveScene, AGuidancePointOfAHollowMeshIsOnItsNearWall) {
+  VesselData shell;
+  shell.outline = {line_to(40, 0), line_to(40, 400), line_to(37, 400), line_to(37, 3), line_to(0, 3)};
+  VesselData cup = vessel_of_mesh("cup", turned_mesh(shell, 128, 2e-3), 1e-3);
+  for (int degree = 0; degree < 360; degree += 20) cup.guidance.push_back({0.2, radians(degree)});
+  const LiveScene live(scene_of({cup}));
+  for (const Vec3& place : live.vessels[0].guidance) EXPECT_NEAR(std::hypot(place.x, place.z), 0.04, 2e-5);  // chords and cells
+}
 
 TEST(LiveScene, RefusesWhatCannotBeLive) {
   EXPECT_THROW(LiveScene(scene_of({})), Error);

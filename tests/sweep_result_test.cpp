@@ -10,6 +10,7 @@
 #include <fstream>
 #include <functional>
 
+#include "app/scene_ranges.h"
 #include "app/scene_reader.h"
 #include "core/error.h"
 #include "tests/support/scenes.h"
@@ -278,6 +279,36 @@ TEST(SweepResultTest, VariablesOfAnotherShapeOrTypeAreRefused) {
     int id = -1;
     nc_def_var(file, "best_grip", NC_INT64, 1, &dim, &id);
   });
+}
+
+TEST(SweepResultTest, AbsurdLengthsAreRefusedBeforeRoomIsMade) {
+  static_assert(MOST_BEST == static_cast<std::size_t>(ranges::BEST.high) && MOST_VESSELS == ranges::LARGEST_VESSELS);
+  const TemporaryFolder folder;
+  const Scene scene = parse_scene(RESULT_SCENE, "test.toml");
+  const Plan plan(scene, false);
+  const auto file_of = [&](std::size_t vessels, std::size_t ranks) {
+    return foreign_file(folder, [&](int file) {
+      put_texts(file, "wholehand");
+      int dims[2] = {-1, -1}, id = -1;
+      nc_def_dim(file, "vessel", vessels, &dims[0]);
+      nc_def_var(file, "vessel_height", NC_DOUBLE, 1, dims, &id);
+      nc_def_dim(file, "rank", ranks, &dims[1]);
+      const std::size_t chunk[2] = {1, 1};  // takes no room in the file
+      for (const char* name : {"best_grip", "best_score"}) {
+        nc_def_var(file, name, NC_DOUBLE, 2, dims, &id);
+        nc_def_var_chunking(file, id, NC_CHUNKED, chunk);
+      }
+    });
+  };
+  const std::size_t absurd = std::size_t{1} << 50;
+  const std::string many_ranks = file_of(2, absurd);
+  SweepResult ranked(many_ranks);
+  ranked.use(scene, plan);
+  expect_refused(many_ranks, "best_grip lists 1125899906842624 grips a vessel, and a sweep at most 100000",
+                 [&] { ranked.best(0); });
+  const std::string many_vessels = file_of(65, 1);
+  SweepResult peopled(many_vessels);
+  expect_refused(many_vessels, "vessel_height is not as a sweep writes it", [&] { peopled.vessel_heights(); });
 }
 
 TEST(SweepResultTest, ABestGripThatTheSweepDidNotHaveIsRefused) {

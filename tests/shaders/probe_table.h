@@ -26,6 +26,7 @@
 #define PROBE_LOCATE_CELL 27      // point; cell, fraction, outside
 #define PROBE_GRID_SAMPLE 28      // i, j, k; sample
 #define PROBE_MIX_REALS 29        // a, b, t; mixed
+#define PROBE_DISTANCE_BEYOND 97  // value, way off the box; distance
 // probe_closure
 #define PROBE_TRACE_TIP 30   // origin, azimuth, obliquity, heading, radius; t, reason, normal, element
 #define PROBE_PLACE_HAND 31  // closure, azimuth, obliquity, roll, midpoint, scale; rotation, translation, e1.x, index frame

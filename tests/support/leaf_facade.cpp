@@ -185,6 +185,9 @@ class CoreLeaves final : public wholehand::Leaves {
       case PROBE_GRID_SAMPLE:
         row.answer(0, grid_sample(vessel_, row.given_int(0), row.given_int(1), row.given_int(2)));
         break;
+      case PROBE_DISTANCE_BEYOND:
+        row.answer(0, distance_beyond(row.given(0), row.given3(1)));
+        break;
       case PROBE_MIX_REALS:
         row.answer(0, mix_reals(row.given(0), row.given(1), row.given(2)));
         break;

@@ -27,7 +27,7 @@ Real fetched_distance(Vec3 p) {
   Real c10 = mix_reals(fetched(cell.i, cell.j + 1, cell.k), fetched(cell.i + 1, cell.j + 1, cell.k), f.x);
   Real c01 = mix_reals(fetched(cell.i, cell.j, cell.k + 1), fetched(cell.i + 1, cell.j, cell.k + 1), f.x);
   Real c11 = mix_reals(fetched(cell.i, cell.j + 1, cell.k + 1), fetched(cell.i + 1, cell.j + 1, cell.k + 1), f.x);
-  return mix_reals(mix_reals(c00, c10, f.y), mix_reals(c01, c11, f.y), f.z) + length(cell.outside);
+  return distance_beyond(mix_reals(mix_reals(c00, c10, f.y), mix_reals(c01, c11, f.y), f.z), cell.outside);
 }
 
 // The sampler's own interpolation: texel (i, j, k) has its centre half a texel further.
@@ -36,7 +36,7 @@ Real filtered_distance(Vec3 p) {
   Vec3 counts = Vec3(Real(scene.grid_nx), Real(scene.grid_ny), Real(scene.grid_nz));
   Vec3 clamped = min(max(p, origin), origin + (counts - Real(1)) * scene.grid_spacing);
   Vec3 place = ((clamped - origin) / scene.grid_spacing + Real(0.5)) / counts;
-  return Real(textureLod(image, vec3(place), 0.0).x) * (GRID_BITS == 16 ? HALF_UNIT : Real(1)) + length(p - clamped);
+  return distance_beyond(Real(textureLod(image, vec3(place), 0.0).x) * (GRID_BITS == 16 ? HALF_UNIT : Real(1)), p - clamped);
 }
 
 Real distance_by(Vec3 p) {
