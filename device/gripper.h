@@ -1,6 +1,8 @@
 // A two-finger haptic gripper, whatever is behind it.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -9,6 +11,17 @@
 #include "core/tick.h"
 
 namespace wholehand {
+
+// Whether every number in it is one.
+inline bool is_finite(const GripperState& state) {
+  const auto is_number = [](double x) { return std::isfinite(x); };
+  return std::all_of(state.position.begin(), state.position.end(), is_number) &&
+         std::all_of(state.rotation.begin(), state.rotation.end(), is_number) && std::isfinite(state.gap) &&
+         std::isfinite(state.time);
+}
+inline bool is_finite(const GripperForce& force) {
+  return std::isfinite(force.arm[0]) && std::isfinite(force.arm[1]) && std::isfinite(force.arm[2]) && std::isfinite(force.grip);
+}
 
 // What an open gripper is and can do. Forces are the largest that may ever be written to it.
 struct GripperLimits {

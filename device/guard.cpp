@@ -8,13 +8,6 @@
 namespace wholehand {
 namespace {
 
-bool is_finite(const GripperState& state) {
-  bool finite = std::isfinite(state.gap) && std::isfinite(state.time);
-  for (const double x : state.position) finite = finite && std::isfinite(x);
-  for (const double x : state.rotation) finite = finite && std::isfinite(x);
-  return finite;
-}
-
 // Unit columns at right angles, the third the product of the first two.
 bool is_rotation(const Rotation& r) {
   const auto dot = [&r](int a, int b) { return r[a] * r[b] + r[3 + a] * r[3 + b] + r[6 + a] * r[6 + b]; };

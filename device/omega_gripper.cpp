@@ -106,12 +106,6 @@ std::string lock_name(int number) { return fmt::format("omega-{}", number); }
 
 bool is_finite(const Triple& vector) { return std::isfinite(vector[0]) && std::isfinite(vector[1]) && std::isfinite(vector[2]); }
 
-bool is_finite(const GripperState& state) {
-  const bool is_turned =
-      std::all_of(state.rotation.begin(), state.rotation.end(), [](double entry) { return std::isfinite(entry); });
-  return is_turned && is_finite(state.position) && std::isfinite(state.gap);
-}
-
 bool is_zero(const GripperForce& force) { return force.arm == Triple{} && force.grip == 0; }
 
 class OmegaGripper : public Gripper {
@@ -151,7 +145,7 @@ class OmegaGripper : public Gripper {
   }
 
   bool write(const GripperForce& force) noexcept override {
-    if (!is_finite(force.arm) || !std::isfinite(force.grip)) {
+    if (!is_finite(force)) {
       if (is_enabled_) send(GripperForce{});
       return fail("a force that is not a number");
     }

@@ -31,10 +31,6 @@ GripperForce limited(const GripperForce& force, const GripperLimits& limits) {
   return answer;
 }
 
-bool is_finite(const GripperForce& force) {
-  return std::isfinite(force.arm[0]) && std::isfinite(force.arm[1]) && std::isfinite(force.arm[2]) && std::isfinite(force.grip);
-}
-
 class ProtocolGripper final : public Gripper {
  public:
   ProtocolGripper(std::unique_ptr<Transport> transport, const protocol::Identity& identity, const std::string& address)

@@ -15,7 +15,7 @@
 namespace wholehand {
 namespace {
 
-std::string scenes_dir() { return std::string(WHOLEHAND_SOURCE_DIR) + "/sweeps/scenes/"; }
+std::string scenes_dir() { return WHOLEHAND_SOURCE_DIR "/sweeps/scenes/"; }
 
 std::string text_of_file(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);

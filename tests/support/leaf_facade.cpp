@@ -64,7 +64,7 @@ class CoreLeaves final : public wholehand::Leaves {
   void evaluate(int probe, const double* given, double* answer) const override {
     const Row row{given, answer};
     if (probe < PROBE_SIGNED_DISTANCE) return probe < PROBE_TRAJECTORY ? trig(probe, row) : hand(probe, row);
-    if (probe < PROBE_TRACE_TIP) return sdf(probe, row);
+    if (probe < PROBE_TRACE_TIP || probe == PROBE_DISTANCE_BEYOND) return sdf(probe, row);
     if (probe < PROBE_SEGMENT_RATES) return closure(probe, row);
     if (probe < PROBE_SEGMENT_AREA) return projection(probe, row);
     if (probe < PROBE_DIRECTIONS) return liquid(probe, row);
