@@ -79,13 +79,14 @@ StateAxes read_states(const GripArguments& arguments, const Scene& scene) {
 
 // What can be refused before any work.
 void check_drawing_files(const GripArguments& arguments, const Scene& scene) {
-  const auto check = [&scene](const std::string& path, const char* option) {
+  const auto check = [&scene](const std::string& path, const char* option, const char* start, const char* what) {
     if (path.empty()) return;
     check_output_path(path, option);
-    check_not_the_scene(path, scene.file, option);
+    check_not_the_scene(path, scene, option);
+    check_overwrites_kind(path, start, what, option);
   };
-  check(arguments.glb, "--glb");
-  check(arguments.svg, "--svg");
+  check(arguments.glb, "--glb", "glTF", "glTF binary");
+  check(arguments.svg, "--svg", "<svg", "drawing of wholehand's");
   const auto resolved = [](const std::string& path) {
     std::error_code unresolved;  // then no other way to it is known
     const auto whole = std::filesystem::weakly_canonical(std::filesystem::absolute(path), unresolved);
@@ -121,6 +122,9 @@ ExitCode grip(const GripArguments& arguments) {
   write_drawings(arguments, scene, vessel, report);
   if (arguments.json && arguments.on != "core") std::fprintf(stderr, "wholehand: on %s\n", report.device.c_str());
   print(arguments.json ? grip_json(report) + "\n" : grip_table(report));
+  for (const std::string& path : {arguments.glb, arguments.svg}) {
+    if (!path.empty() && !arguments.json) print(fmt::format("wrote {}\n", path));
+  }
   if (arguments.view) {
     std::vector<std::string> notes;
     const GripsView view(scene, {{vessel, input, report.vessel}}, notes);

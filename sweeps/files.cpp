@@ -11,10 +11,12 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <vector>
 
 #include "core/error.h"
+#include "core/scene.h"
 #include "sweeps/readable.h"
 
 namespace wholehand {
@@ -67,12 +69,27 @@ void check_output_path(const std::string& path, const char* option) {
   try_folder(path, folder, option);
 }
 
-void check_not_the_scene(const std::string& path, const std::string& scene_file, const char* option) {
-  struct stat scene {
-  }, written{};
-  if (stat(scene_file.c_str(), &scene) != 0 || stat(path.c_str(), &written) != 0) return;
-  if (scene.st_dev != written.st_dev || scene.st_ino != written.st_ino) return;
-  throw usage_error(fmt::format("{} {}: this is the scene file itself; name another file for the results", option, path));
+void check_not_the_scene(const std::string& path, const Scene& scene, const char* option) {
+  struct stat written {};
+  if (stat(path.c_str(), &written) != 0) return;
+  const auto refuse = [&](const std::string& source, const std::string& what) {
+    struct stat status {};
+    if (stat(source.c_str(), &status) != 0 || status.st_dev != written.st_dev || status.st_ino != written.st_ino) return;
+    throw usage_error(fmt::format("{} {}: this is {}; name another file for the results", option, path, what));
+  };
+  refuse(scene.file, "the scene file itself");
+  const std::filesystem::path folder = std::filesystem::path(scene.file).parent_path();
+  for (const VesselData& vessel : scene.vessels) {
+    if (vessel.mesh) refuse((folder / vessel.mesh->file).string(), fmt::format("the mesh of vessel '{}'", vessel.name));
+  }
+}
+
+void check_overwrites_kind(const std::string& path, const std::string& start, const char* what, const char* option) {
+  std::ifstream file(path, std::ios::binary);
+  std::string head(start.size(), '\0');
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  if (file.gcount() == 0 || head == start) return;  // not there, empty, or its like
+  throw usage_error(fmt::format("{} {}: is there and is no {}; name another, or remove it", option, path, what));
 }
 
 void check_overwrites_result(const std::string& path) {

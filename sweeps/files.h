@@ -6,6 +6,8 @@
 
 namespace wholehand {
 
+struct Scene;
+
 // Where the files of a sweep lie: NAME.nc and its companions, from the name of the result file.
 struct OutputNames {
   std::string result;   // NAME.nc as the user gave it
@@ -25,8 +27,12 @@ OutputNames output_names(const std::string& result);
 // regular file (a directory, a device). `option` is the one that named it, for the message.
 void check_output_path(const std::string& path, const char* option = "-o");
 
-// Throws Error (usage) where `path` is the scene file itself, by whatever name.
-void check_not_the_scene(const std::string& path, const std::string& scene_file, const char* option = "-o");
+// Throws Error (usage) where `path` is the scene file itself or a mesh of it, by whatever name.
+void check_not_the_scene(const std::string& path, const Scene& scene, const char* option = "-o");
+
+// Throws Error (usage) where a file with something in it is there that does not begin with `start`: it is not overwritten. `what`: what begins
+// so, for the message ("glTF binary").
+void check_overwrites_kind(const std::string& path, const std::string& start, const char* what, const char* option);
 
 // Throws Error (usage) where a file with something in it is there that is no result file (NetCDF-4, of any program): it is not overwritten.
 void check_overwrites_result(const std::string& path);

@@ -58,7 +58,7 @@ class Sweep {
       throw usage_error(
           fmt::format("--glb {0}: the best {1} of each vessel are kept; ask for --best {0} too", options_.glb, best_wanted_));
     }
-    check_not_the_scene(names_.result, scene_.file);
+    check_not_the_scene(names_.result, scene_);
     check_overwrites_result(names_.result);
     struct stat partial {};
     const double reserved = stat(names_.partial.c_str(), &partial) == 0 ? static_cast<double>(partial.st_blocks) * 512 : 0;

@@ -387,6 +387,15 @@ TEST(CommandLine, DrawsAGrip) {
   expect_error("grip " + scene + " --vessel v --height-mm 50 --glb " + folder + "/../" + folder.substr(folder.rfind('/') + 1) +
                    "/scene.toml",
                2, "this is the scene file itself");
+  // what is there stays, unless it is a drawing
+  const std::string notes = folder + "/notes";
+  std::ofstream(notes) << "not to be lost";
+  expect_error(std::string(GRIP) + " --svg " + notes, 2, "is there and is no drawing of wholehand's");
+  expect_error(std::string(GRIP) + " --glb " + notes, 2, "is there and is no glTF binary");
+  EXPECT_EQ(head_of(notes), "not ");
+  const Outcome again = run("PROGRAM " + std::string(GRIP) + " --svg " + folder + "/a.svg 2>&1");
+  EXPECT_EQ(again.code, 0) << again.output;
+  EXPECT_NE(again.output.find("wrote " + folder + "/a.svg\n"), std::string::npos) << again.output;
   const Outcome sweep = run("PROGRAM sweep small --on core --best 3 --glb 2 -o " + folder + "/s.nc 2>&1");
   EXPECT_EQ(sweep.code, 0) << sweep.output;
   EXPECT_NE(sweep.output.find("s.tumbler.1.glb .. "), std::string::npos) << sweep.output;

@@ -66,6 +66,13 @@ TEST_F(MeshCommands, GripSaysWhatTheMeshIsAndAnswers) {
   EXPECT_GT(core["states"][3]["liquid_volume_m3"], 50e-6);
 }
 
+TEST_F(MeshCommands, ADrawingNeverTakesTheMeshsPlace) {
+  const auto size = std::filesystem::file_size(path("cup.glb"));
+  expect_error("grip " + path("cup.toml") + " --vessel cup --height-mm 40 --glb " + path("cup.glb"), 2,
+               "this is the mesh of vessel 'cup'");
+  EXPECT_EQ(std::filesystem::file_size(path("cup.glb")), size);
+}
+
 TEST_F(MeshCommands, SweepAndCheckRunOnTheLattice) {
   const std::string result = path("cup.nc");
   const Outcome swept = run("PROGRAM sweep " + path("cup.toml") + " -o " + result + " 2>&1");
