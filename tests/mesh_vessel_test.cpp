@@ -1,5 +1,5 @@
 // Vessels from mesh files: what is read, what the kernels make of it, and what is refused.
-// sanitizers: address
+// sanitizers: none (sampling its meshes would be most of a sanitized run; mesh_commands_test goes the same way)
 #include "sweeps/mesh_vessel.h"
 
 #include <gtest/gtest.h>
