@@ -1,20 +1,26 @@
 // wholehand check: is the device's answer the core's answer?
 #include <CLI/CLI.hpp>
 
+#include <cstdio>
 #include <memory>
 
 #include "app/commands.h"
+#include "app/output.h"
 #include "app/paths.h"
 #include "app/scene_reader.h"
 #include "app/validators.h"
+#include "sweeps/cavity_notes.h"
 #include "sweeps/check.h"
+#include "sweeps/domain.h"
 #include "sweeps/mesh_vessel.h"
+#include "sweeps/open_backend.h"
 
 namespace wholehand {
 namespace {
 
 struct CheckArguments {
   std::string scene, on = "vulkan";
+  bool json = false;
 };
 
 }  // namespace
@@ -29,13 +35,19 @@ void add_check_command(CLI::App& app, Action& action) {
   command->add_option("--on", arguments->on, "vulkan (the best device, the default) or a device's name")
       ->type_name("DEVICE")
       ->check(not_empty());
+  command->add_flag("--json", arguments->json, "One JSON object in one line, whether it holds first");
   command->callback([arguments, &action] {
     action = [arguments] {
       CheckOptions options;
       options.on = arguments->on;
       Scene scene = read_scene_file(find_scene(arguments->scene));
-      load_meshes(scene, options.on);
-      return run_check(scene, options);
+      load_meshes(scene, [&] { return largest_buffer(options.on); });
+      for (const std::string& line : domain_warnings(scene, Precision::single))
+        std::fprintf(stderr, "wholehand: %s\n", line.c_str());
+      say_cavity_notes(scene);
+      const CheckReport report = check_scene(scene, options);
+      print(arguments->json ? check_json(report) : check_text(report));
+      return verdict_of(report).holds ? ExitCode::done : ExitCode::no;
     };
   });
 }

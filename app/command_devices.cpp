@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,7 +23,8 @@ ExitCode list_all_devices(const std::string& dhd_library) {
   } catch (const Error& error) {
     problem = error;
   }
-  fmt::print("{}", list_grippers(find_grippers(dhd_library)));
+  std::fflush(stdout);  // a device's library may end the program
+  fmt::print("{}{}", list_grippers(find_grippers(dhd_library)), cache_text());
   if (problem) throw *problem;
   return ExitCode::done;
 }
@@ -31,7 +33,7 @@ ExitCode list_all_devices(const std::string& dhd_library) {
 
 void add_devices_command(CLI::App& app, Action& action) {
   const auto dhd_library = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("devices", "Vulkan devices and grippers, and what each can do");
+  CLI::App* command = app.add_subcommand("devices", "Vulkan devices and grippers, what each can do, and the cache");
   command->add_option("--dhd-library", *dhd_library, "Force Dimension's SDK (libdhd.so), for omega.7 and sigma.7")
       ->type_name("PATH")
       ->check(not_empty());

@@ -1,35 +1,45 @@
 // wholehand grip: one grip with every intermediate value.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <system_error>
 #include <vector>
 
 #include "app/commands.h"
 #include "app/output.h"
 #include "app/paths.h"
+#include "app/result_scene.h"
+#include "app/scene_fills.h"
 #include "app/scene_reader.h"
 #include "app/scene_text.h"
 #include "app/serve_view.h"
 #include "app/validators.h"
 #include "app/values.h"
 #include "app/view_grips.h"
+#include "core/capacity.h"
+#include "sweeps/cavity_notes.h"
 #include "sweeps/domain.h"
 #include "sweeps/files.h"
 #include "sweeps/grip_glb.h"
+#include "sweeps/grip_lists.h"
 #include "sweeps/grip_report.h"
 #include "sweeps/grip_svg.h"
 #include "sweeps/mesh_vessel.h"
+#include "sweeps/open_backend.h"
 
 namespace wholehand {
 namespace {
 
 struct GripArguments {
-  std::string scene, vessel, height, azimuth = "0", obliquity = "0", roll = "0", offset = "0", hand_scale = "1", thumb, index;
-  std::vector<std::string> fills, tilts;
+  std::string scene, vessel, height, azimuth = "0", obliquity = "0", roll = "0", offset = "0", hand_scale, thumb, index;
+  std::string rank, list;
+  std::vector<std::string> fills, volumes, tilts;
   std::string on = "core", precision, glb, svg, view_port;
   bool json = false, view = false;
 };
@@ -44,9 +54,14 @@ std::size_t find_vessel(const Scene& scene, const std::string& name) {
                                 nearest_name(name, names)));
 }
 
+std::optional<double> read_hand_scale(const GripArguments& arguments) {
+  if (arguments.hand_scale.empty()) return std::nullopt;
+  return parse_quantity(arguments.hand_scale, "--hand-scale", ranges::SCALE);
+}
+
 GripInput read_grip(const GripArguments& arguments) {
   const double roll = parse_quantity(arguments.roll, "--roll-deg", ranges::ROTATION);
-  const double hand_scale = parse_quantity(arguments.hand_scale, "--hand-scale", ranges::SCALE);
+  const double hand_scale = read_hand_scale(arguments).value_or(1);
   if (!arguments.thumb.empty()) {
     return grip_through(parse_triple(arguments.thumb, "--thumb-mm", ranges::POINT),
                         parse_triple(arguments.index, "--index-mm", ranges::POINT), roll, hand_scale);
@@ -62,34 +77,42 @@ GripInput read_grip(const GripArguments& arguments) {
   return grip;
 }
 
-StateAxes read_states(const GripArguments& arguments, const Scene& scene) {
-  StateAxes axes = scene_axes(scene);
+StateAxes read_states(const GripArguments& arguments, const Scene& scene, std::size_t vessel) {
+  StateAxes axes = scene_axes(scene, vessel);
   if (!arguments.tilts.empty()) {
     axes.tilts.clear();
     for (const auto& text : arguments.tilts) axes.tilts.push_back(parse_quantity(text, "--tilt-deg", ranges::TILT));
   }
-  if (arguments.fills.empty()) return axes;
+  if (arguments.fills.empty() && arguments.volumes.empty()) return axes;
+  const char* option = arguments.volumes.empty() ? "--fill" : "--fill-ml";
   if (!scene.liquid)
-    throw usage_error(fmt::format("--fill: {} has no [liquid]; add one or leave --fill out", in_quotes(scene.file)));
-  if (axes.tilts.empty()) throw usage_error(fmt::format("--fill: {} has no [tilts]; give --tilt-deg too", in_quotes(scene.file)));
+    throw usage_error(fmt::format("{0}: {1} has no [liquid]; add one or leave {0} out", option, in_quotes(scene.file)));
+  if (axes.tilts.empty())
+    throw usage_error(fmt::format("{}: {} has no [tilts]; give --tilt-deg too", option, in_quotes(scene.file)));
   axes.fills.clear();
-  for (const auto& text : arguments.fills) axes.fills.push_back(parse_quantity(text, "--fill", ranges::FRACTION));
+  for (const auto& text : arguments.fills) axes.fills.push_back(parse_quantity(text, option, ranges::FRACTION));
+  const VesselData& held = scene.vessels[vessel];
+  const double capacity = arguments.volumes.empty() ? 0 : capacity_of(held);
+  for (const auto& text : arguments.volumes) {
+    const double volume = parse_quantity(text, option, ranges::FILL_VOLUME);
+    axes.fills.push_back(fraction_of_capacity(held, capacity, volume, fmt::format("{} {}", option, text)));
+  }
   return axes;
 }
 
 // What can be refused before any work.
 void check_drawing_files(const GripArguments& arguments, const Scene& scene) {
-  const auto check = [&scene](const std::string& path, const char* option, const char* start, const char* what) {
+  const auto check = [&scene](const std::string& path, const char* option, std::string_view mark, const char* what) {
     if (path.empty()) return;
     check_output_path(path, option);
     check_not_the_scene(path, scene, option);
-    check_overwrites_kind(path, start, what, option);
+    check_overwrites_marked(path, mark, what, option);
   };
-  check(arguments.glb, "--glb", "glTF", "glTF binary");
-  check(arguments.svg, "--svg", "<svg", "drawing of wholehand's");
+  check(arguments.glb, "--glb", GRIP_GLB_MARK, "glTF binary of wholehand's");
+  check(arguments.svg, "--svg", GRIP_SVG_MARK, "drawing of wholehand's");
   const auto resolved = [](const std::string& path) {
     std::error_code unresolved;  // then no other way to it is known
-    const auto whole = std::filesystem::weakly_canonical(std::filesystem::absolute(path), unresolved);
+    const auto whole = std::filesystem::weakly_canonical(std::filesystem::absolute(followed(path)), unresolved);
     return unresolved ? std::filesystem::path(path) : whole;
   };
   if (!arguments.glb.empty() && !arguments.svg.empty() && resolved(arguments.glb) == resolved(arguments.svg))
@@ -104,19 +127,76 @@ void write_drawings(const GripArguments& arguments, const Scene& scene, std::siz
   if (!svg.empty()) write_whole_file(arguments.svg, svg, false);
 }
 
+// A grip of a vessel of a scene.
+struct ChosenGrip {
+  Scene scene;
+  std::size_t vessel = 0;
+  GripInput input;
+};
+
+ChosenGrip asked_grip(const GripArguments& arguments) {
+  if (!arguments.list.empty()) throw usage_error("--list: which grip of it? give --rank");
+  if (is_result(arguments.scene))
+    throw usage_error(fmt::format("{}: is a result; which of its grips? give --rank", arguments.scene));
+  ChosenGrip chosen;
+  chosen.input = read_grip(arguments);
+  chosen.scene = read_scene_file(find_scene(arguments.scene));
+  check_drawing_files(arguments, chosen.scene);
+  chosen.vessel = find_vessel(chosen.scene, arguments.vessel);
+  return chosen;
+}
+
+// The place of the hand scale among those that the sweep lists.
+std::size_t find_hand_scale(const GripArguments& arguments, const Plan& plan) {
+  const std::optional<double> wanted = read_hand_scale(arguments);
+  if (plan.hand_scales() == 1) {
+    if (wanted) throw usage_error("--hand-scale: the sweep has one list for all; leave it out");
+    return 0;
+  }
+  std::vector<double> known;
+  for (std::size_t s = 0; s < plan.hand_scales(); ++s) {
+    known.push_back(plan.hand_scale(s));
+    if (wanted && std::abs(*wanted - known.back()) <= 1e-6 * known.back()) return s;  // as they are printed
+  }
+  throw usage_error(fmt::format("--hand-scale {}: the sweep has a list for each of {:.6g}; name one",
+                                arguments.hand_scale.empty() ? "is missing" : in_quotes(arguments.hand_scale),
+                                fmt::join(known, ", ")));
+}
+
+// A grip of a sweep's best, or of a list that was made of its result.
+ChosenGrip ranked_grip(const GripArguments& arguments) {
+  const auto rank = static_cast<std::size_t>(parse_integer(arguments.rank, "--rank", {1, ranges::BEST.high}));
+  SweepResult result(arguments.scene);
+  ChosenGrip chosen;
+  chosen.scene = whole_scene_of_result(result);
+  check_drawing_files(arguments, chosen.scene);
+  chosen.vessel = find_vessel(chosen.scene, arguments.vessel);
+  const Plan plan(chosen.scene, keeps_vectors(result.variables()));
+  result.use(chosen.scene, plan);
+  const bool is_own = arguments.list.empty();
+  const GripLists lists =
+      is_own ? lists_of_sweep(result, chosen.scene, plan) : read_grip_lists(arguments.list, result, chosen.scene, plan);
+  const std::size_t place = chosen.vessel * plan.hand_scales() + find_hand_scale(arguments, plan);
+  for (const RankedCandidate& ranked : lists[place]) {
+    if (ranked.rank != rank) continue;
+    chosen.input = plan.grip(chosen.vessel, ranked.candidate.index);
+    return chosen;
+  }
+  throw usage_error(fmt::format("--rank {}: {} lists {} grip{} of {}", rank, is_own ? result.path() : arguments.list,
+                                lists[place].size(), lists[place].size() == 1 ? "" : "s", list_name(chosen.scene, plan, place)));
+}
+
 ExitCode grip(const GripArguments& arguments) {
-  const GripInput input = read_grip(arguments);
   const int port = parse_view_port(arguments.view_port, arguments.view);
-  Scene scene = read_scene_file(find_scene(arguments.scene));
-  check_drawing_files(arguments, scene);
-  const std::size_t vessel = find_vessel(scene, arguments.vessel);
-  const StateAxes axes = read_states(arguments, scene);
+  auto [scene, vessel, input] = arguments.rank.empty() ? asked_grip(arguments) : ranked_grip(arguments);
+  const StateAxes axes = read_states(arguments, scene, vessel);
   Precision precision = arguments.on == "core" ? Precision::full : Precision::single;
   if (!arguments.precision.empty()) precision = parse_precision(arguments.precision);
   Scene asked = scene;
   asked.grips.hand_scale = {{input.hand_scale}};
-  load_meshes(asked, arguments.on);  // lattices as wide as this hand needs
+  load_meshes(asked, [&] { return largest_buffer(arguments.on); });  // lattices as wide as this hand needs
   scene.vessels = asked.vessels;
+  say_cavity_notes(scene);
   for (const std::string& line : domain_warnings(asked, precision)) std::fprintf(stderr, "wholehand: %s\n", line.c_str());
   const GripReport report = make_grip_report(scene, vessel, input, axes, open_grip_methods(scene, arguments.on, precision));
   write_drawings(arguments, scene, vessel, report);
@@ -141,21 +221,27 @@ void add_grip_command(CLI::App& app, Action& action) {
   const auto add = [command](const char* name, auto& value, const char* type, const char* help) {
     return command->add_option(name, value, help)->type_name(type);
   };
-  add("scene", arguments->scene, "SCENE", "Scene file, or the name of a shipped one")->required();
+  add("scene", arguments->scene, "SCENE", "Scene file, or the name of a shipped one; with --rank a result of `wholehand sweep`")
+      ->required();
   add("--vessel", arguments->vessel, "V", "Name of the vessel")->required();
   auto* height = add("--height-mm", arguments->height, "H",
                      "Height of the thumb-index line in the vessel's frame: over the base, unless a mesh's origin is \"as_is\"");
   auto* azimuth = add("--azimuth-deg", arguments->azimuth, "A", "Its direction about the vessel's axis (0)");
   auto* obliquity = add("--obliquity-deg", arguments->obliquity, "B", "Its angle to the horizontal, the index above (0)");
-  add("--roll-deg", arguments->roll, "Q", "Turn of the hand about it: 0 beside the vessel, -90 above (0)");
+  auto* roll = add("--roll-deg", arguments->roll, "Q", "Turn of the hand about it: 0 beside the vessel, -90 above (0)");
   auto* offset = add("--offset-mm", arguments->offset, "S", "Distance at which it passes the axis (0)");
-  add("--hand-scale", arguments->hand_scale, "K", "Size of the hand, times the scene's (1)");
+  add("--hand-scale", arguments->hand_scale, "K", "Size of the hand, times the scene's (1); with --rank whose list")
+      ->check(not_empty());
   auto* thumb = add("--thumb-mm", arguments->thumb, "X,Y,Z", "Instead of these: a point of the line on the thumb's side");
   auto* index = add("--index-mm", arguments->index, "X,Y,Z", "and one on the index finger's side");
   thumb->needs(index);
   index->needs(thumb);
   for (auto* other : {height, azimuth, obliquity, offset}) thumb->excludes(other);
-  add("--fill", arguments->fills, "F", "Fills, fractions of the capacity (the scene's)");
+  auto* rank = add("--rank", arguments->rank, "N", "Instead of these: that grip of the best in a result")->check(not_empty());
+  for (auto* other : {height, azimuth, obliquity, roll, offset, thumb, index}) rank->excludes(other);
+  add("--list", arguments->list, "LIST.csv", "With --rank: of this list of `wholehand rank` (the sweep's own)")->check(not_empty());
+  auto* fill = add("--fill", arguments->fills, "F", "Fills, fractions of the capacity (the scene's)");
+  add("--fill-ml", arguments->volumes, "V", "The same in mL")->excludes(fill);
   add("--tilt-deg", arguments->tilts, "T", "Tilts (the scene's)");
   add("--on", arguments->on, "DEVICE", "core (the default), vulkan or a device's name");
   add("--precision", arguments->precision, "P", "float or double (double on the core, float on Vulkan)");

@@ -6,10 +6,9 @@
 
 #include "app/commands.h"
 #include "app/output.h"
-#include "app/scene_reader.h"
+#include "app/result_scene.h"
 #include "app/validators.h"
 #include "sweeps/files.h"
-#include "sweeps/mesh_vessel.h"
 #include "sweeps/readable.h"
 #include "sweeps/report_page.h"
 
@@ -17,16 +16,8 @@ namespace wholehand {
 namespace {
 
 struct PageArguments {
-  std::string result, page;
+  std::string result, page, list;
 };
-
-// The scene that the file's text describes, meshes included; of what could not be read there `trouble` tells.
-Scene scene_of_result(const SweepResult& result, std::string& trouble) {
-  const SweepOrigin& origin = result.origin();
-  Scene scene = parse_scene(origin.scene, result.path() + " (its scene)");
-  trouble = reload_meshes(scene, origin.scene_file, origin.mesh_keys, origin.mesh_lattices);
-  return scene;
-}
 
 ExitCode report_sweep(const PageArguments& arguments) {
   const std::string page = arguments.page.empty() ? output_names(arguments.result).stem + ".html" : arguments.page;
@@ -35,7 +26,7 @@ ExitCode report_sweep(const PageArguments& arguments) {
   check_overwrites_page(page, arguments.result);
   std::string trouble;
   const Scene scene = scene_of_result(result, trouble);
-  const std::string html = report_page(result, scene, trouble);
+  const std::string html = report_page(result, scene, trouble, arguments.list);
   write_whole_file(page, html, false);
   print(fmt::format("wrote {} ({})\n", page, readable_bytes(static_cast<double>(html.size()))));
   return ExitCode::done;
@@ -52,6 +43,9 @@ void add_report_command(CLI::App& app, Action& action) {
       ->check(not_empty());
   command->add_option("-o,--output", arguments->page, "The page (the result's name with .html)")
       ->type_name("FILE")
+      ->check(not_empty());
+  command->add_option("--list", arguments->list, "Best grips: these of `wholehand rank` (the sweep's own)")
+      ->type_name("LIST.csv")
       ->check(not_empty());
   command->callback([arguments, &action] { action = [arguments] { return report_sweep(*arguments); }; });
 }

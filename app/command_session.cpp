@@ -8,6 +8,8 @@
 #include "app/output.h"
 #include "app/validators.h"
 #include "sweeps/files.h"
+#include "sweeps/folder_files.h"
+#include "sweeps/gnuplot.h"
 #include "sweeps/session_plot.h"
 #include "sweeps/session_report.h"
 
@@ -19,18 +21,25 @@ struct SessionArguments {
   bool json = false;
 };
 
+constexpr FolderTable TABLES[] = {{"session.csv", "grasp,vessel,start_s,"}, {"states.csv", "start_s,duration_s,state,vessel\n"}};
+constexpr const char* PICTURE = "session.svg";
+
 // The tables, and the picture where there is something to draw. What could not be drawn, and why.
 std::string write_session_files(const std::string& folder, const Recording& recording, const SessionReport& report) {
+  const std::string picture = folder + "/" + PICTURE;
+  const bool has_own_picture = is_own_picture(picture, is_there(folder, TABLES[0]));
   write_whole_file(folder + "/session.csv", grasps_csv(report), false);
   write_whole_file(folder + "/states.csv", states_csv(report), false);
-  const std::string picture = folder + "/session.svg";
-  std::remove(picture.c_str());  // of another recording
+  if (has_own_picture) std::remove(picture.c_str());  // of another recording
   return recording.ticks.empty() ? "" : draw_session(recording, report, picture);
 }
 
 ExitCode report_recording(const SessionArguments& arguments) {
   const Recording recording = read_recording(arguments.recording);
-  if (!arguments.folder.empty()) make_output_folder(arguments.folder);
+  if (!arguments.folder.empty()) {
+    make_output_folder(arguments.folder);
+    check_folder_files(arguments.folder, "session", TABLES, {&PICTURE, 1});
+  }
   if (!recording.note.empty()) std::fprintf(stderr, "wholehand: %s\n", recording.note.c_str());
   const SessionReport report = report_session(recording);
   const std::string trouble = arguments.folder.empty() ? "" : write_session_files(arguments.folder, recording, report);

@@ -14,6 +14,7 @@ namespace wholehand {
 using Action = std::function<ExitCode()>;
 
 void add_sweep_command(CLI::App& app, Action& action);
+void add_rank_command(CLI::App& app, Action& action);
 void add_report_command(CLI::App& app, Action& action);
 void add_grip_command(CLI::App& app, Action& action);
 void add_check_command(CLI::App& app, Action& action);
@@ -23,5 +24,7 @@ void add_live_command(CLI::App& app, Action& action);
 void add_session_command(CLI::App& app, Action& action);
 void add_view_command(CLI::App& app, Action& action);
 void add_devices_command(CLI::App& app, Action& action);
+void add_scenes_command(CLI::App& app, Action& action);
+void add_help_command(CLI::App& app, Action& action);
 
 }  // namespace wholehand

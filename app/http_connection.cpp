@@ -82,6 +82,10 @@ HttpConnection::Head HttpConnection::look_at_head(std::size_t size) {
     if (name.empty() || name.find_first_of(" \t") != name.npos || value.data() == name.data() + name.size())
       head = Head::not_allowed;
     if (is_header(name, "range") || is_header(name, "accept-encoding")) buffer_[at] = 'X';
+    // httplib decodes what it reads: a host is compared as it was sent, and none of ours has such a letter
+    if (is_header(name, "host") || is_header(name, "origin"))
+      std::replace(buffer_.begin() + (value.data() - buffer_.data()),
+                   buffer_.begin() + (value.data() + value.size() - buffer_.data()), '%', '!');
     if (is_header(name, "transfer-encoding") || is_header(name, "expect")) head = Head::not_allowed;
     if (is_header(name, "content-length")) {
       ++lengths;

@@ -1,6 +1,7 @@
 #include "app/live.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
@@ -26,11 +27,14 @@
 #include "app/view_control.h"
 #include "core/session.h"
 #include "core/tick_ring.h"
+#include "device/call_watch.h"
 #include "device/haptic_loop.h"
+#include "device/monotonic.h"
 #include "device/panic.h"
 #include "device/realtime.h"
 #include "device/replay_gripper.h"
 #include "device/view_gripper.h"
+#include "sweeps/cavity_notes.h"
 #include "sweeps/gains.h"
 #include "sweeps/interrupt.h"
 #include "sweeps/mesh_vessel.h"
@@ -46,6 +50,7 @@ constexpr std::size_t LEAST_RING = 4096;
 constexpr auto LOOK = std::chrono::milliseconds(50);  // between two looks at what has happened
 // of the recorder into the ring where what happens is displayed: a moment a look
 constexpr std::chrono::microseconds SHOWN_LOOK{static_cast<std::int64_t>(1e6 / DISPLAY_RATE)};
+constexpr int LOST_LOOKS = 3;  // in a row that find a call lost: after a stop of the process it may return yet
 constexpr const char* REPLAY = "replay:";
 
 std::string now_iso() {
@@ -89,6 +94,9 @@ Percentiles percentiles_of(const Histogram& times) {
   return {times.quantile(0.5), times.quantile(0.99), times.quantile(0.999), times.largest()};
 }
 
+// What the page of the view is told.
+const char* end_name(Fault fault) { return fault == Fault::none ? "done" : FAULT_NAMES[static_cast<std::size_t>(fault)]; }
+
 // `stiffness`: N/m of the hand's gap.
 std::string limits_json(const ViewLimits& limits, double stiffness) {
   return nlohmann::json{
@@ -115,13 +123,16 @@ class LiveRun {
     LoopOptions loop;
     loop.seconds = options_.seconds;
     loop.is_simulated = options_.no_clock;
+    if (!options_.no_clock) watch_ = std::make_unique<CallWatch>(*gripper_);
+    loop.watch = watch_.get();
     loop_ = std::make_unique<HapticLoop>(scene_.live, *gripper_, *session_, sink(), loop);
     if (target) open_stream(*target);
   }
 
   ExitCode run() {
     InterruptGuard interrupt;
-    const PanicGuard panic(*gripper_);
+    const PanicGuard panic(*gripper_, watch_.get());
+    interrupt.on_another(end_by_signal);  // at once, and not before the force is gone
     Board board(scene_);
     open_view();  // first: whose port is taken leaves no recording behind
     std::unique_ptr<RecordingWriter> writer;
@@ -137,16 +148,17 @@ class LiveRun {
     Recorder recorder(*ring_, std::move(writer), look, display ? SHOWN_LOOK : DRAIN_INTERVAL);
     loop_thread(interrupt, recorder, board);
     const LoopReport& report = loop_->report();
-    const bool is_recorded =
-        recorder.stop({percentiles_of(report.period), percentiles_of(report.step), report.missed, report.fault, ""});
+    const bool is_recorded = finish_recording(recorder, report);
     if (display) display->stop();
-    if (view_) view_->end(report.fault == Fault::none ? "done" : FAULT_NAMES[static_cast<std::size_t>(report.fault)]);
+    if (view_) view_->end(end_name(report.fault));
     tell_trouble(recorder);
     board.show(options_.json);
     show_status("");
-    tell(is_recorded);
+    tell(report, is_recorded, true);
+    if (watch_ && !watch_->comes_back()) leave_watch(report);
+    if (is_force_left(report) || (report.fault != Fault::none && report.fault != Fault::interrupted))
+      throw failure_error(fault_words(report));
     if (report.fault == Fault::interrupted) return ExitCode::interrupted;
-    if (report.fault != Fault::none) throw failure_error(fault_line(report, loop_->guard(), scene_.live));
     if (!is_recorded) throw failure_error("live: the session is over and the recording holds only its beginning");
     return ExitCode::done;
   }
@@ -172,7 +184,8 @@ class LiveRun {
     } else {
       scene_ = read_scene_file(find_scene(options_.scene.empty() ? DEFAULT_LIVE_SCENE : options_.scene));
     }
-    load_meshes(scene_, "core");
+    load_meshes(scene_);
+    say_cavity_notes(scene_);
     if (recording) scene_.live.rate = recording->info.rate;
     if (options_.rate > 0) scene_.live.rate = options_.rate;
     if (recording) {
@@ -218,6 +231,7 @@ class LiveRun {
     facts.title = scene_.name;
     facts.device = gripper_->limits().name;
     facts.rate = scene_.live.rate;
+    facts.most_force = gripper_->limits().grip;
     std::function<void(const std::string&)> control;
     if (input_) {
       facts.control_limits = limits_json(input_->limits(), scene_.force.k_open / input_->workspace().gap_slope());
@@ -248,37 +262,110 @@ class LiveRun {
       const HandlerStack stack;
       permitted.set_value(options_.no_clock ? std::vector<std::string>{} : make_realtime());
       loop_->run(interrupt.flag());
+      close_gripper();
       is_over = true;
     });
     for (const std::string& note : permitted.get_future().get()) {
       std::fprintf(stderr, "wholehand: live: %s\n", note.c_str());
       notes_.push_back(note);
     }
+    int lost = 0;
     while (!is_over) {
       std::this_thread::sleep_for(LOOK);
       tell_trouble(recorder);
-      try {
-        board.show(options_.json);
-      } catch (...) {  // nobody listens any more: the session ends first, and then that is told
+      tell_calls();
+      lost = watch_ && watch_->lasted() > CALL_LOST ? lost + 1 : 0;
+      if (lost == LOST_LOOKS) give_up(interrupt, recorder, board);
+      board.show(options_.json);
+      // nobody follows any more; without a clock there is nothing to follow, and the recording is what is wanted
+      if (is_output_abandoned() && !options_.no_clock && !interrupt.flag()) {
+        note("nobody reads the output any more, and the session ends");
         interrupt.flag() = true;
-        haptic.join();
-        throw;
       }
     }
     haptic.join();
+    tell_calls();
+    if (watch_ && watch_->count() > 1)
+      notes_.push_back(fmt::format("{} calls of the device did not return within {:g} ms", watch_->count(), CALL_PATIENCE * 1e3));
+  }
+
+  // By the haptic thread, which is watched, as it may not return from this either.
+  void close_gripper() noexcept {
+    if (watch_) watch_->enter(monotonic_now());
+    gripper_->close();
+    if (watch_) watch_->leave();
+  }
+
+  // The haptic thread is lost in a call of the device, and nothing that waits for it would end either: all is told, the recording
+  // is finished, and the process ends without taking anything apart.
+  [[noreturn]] void give_up(InterruptGuard& interrupt, Recorder& recorder, Board& board) {
+    interrupt.flag() = true;  // should the call return
+    const std::optional<LoopReport> ending = loop_->ending();
+    LoopReport report = ending.value_or(LoopReport{});
+    if (!ending) report.fault = Fault::late;
+    if (report.let_go == LetGo::not_asked || !ending) {
+      const ForceSize last = gripper_->noted();
+      report.let_go = watch_->outcome();
+      report.force = {{last.arm, 0, 0}, last.grip};
+    }
+    show_status("");
+    if (ending) fmt::print(stderr, "wholehand: {}\n", fault_words(report));
+    fmt::print(
+        stderr, "wholehand: live: a call of the device has not returned for {:g} s, and {}\n", CALL_LOST,
+        ending ? "the program ends without it" : "the session is given up; " + force_words(report, gripper_->limits().watchdog));
+    const bool is_recorded = finish_recording(recorder, report);
+    if (view_) view_->end(end_name(report.fault));
+    tell_trouble(recorder);
+    if (!ending) {  // what the loop knows is still its own
+      report.last = board.last();
+      report.ticks = board.count();
+    }
+    tell(report, is_recorded, ending.has_value());
+    std::fflush(stdout);
+    std::fflush(stderr);
+    _exit(static_cast<int>(ExitCode::failure));
+  }
+
+  // The second thread is lost in a call of the device: all is told, and taking the session apart would wait for it without end.
+  [[noreturn]] void leave_watch(const LoopReport& report) {
+    fmt::print(stderr, "wholehand: {}\n", fault_words(report));
+    fmt::print(stderr,
+               "wholehand: live: a second call of the device has not returned for {:g} s, and the program ends without it\n",
+               CALL_LOST);
+    std::fflush(stdout);
+    std::fflush(stderr);
+    _exit(static_cast<int>(ExitCode::failure));
+  }
+
+  std::string fault_words(const LoopReport& report) const {
+    return fault_line(report, loop_->guard(), scene_.live, gripper_->limits().watchdog);
+  }
+
+  // False: it holds only the beginning.
+  static bool finish_recording(Recorder& recorder, const LoopReport& report) {
+    return recorder.stop({percentiles_of(report.period), percentiles_of(report.step), report.missed, report.fault, ""});
+  }
+
+  void note(const std::string& line) {
+    show_status("");
+    std::fprintf(stderr, "wholehand: live: %s\n", line.c_str());
+    notes_.push_back(line);
   }
 
   void tell_trouble(Recorder& recorder) {
-    if (const auto trouble = recorder.trouble()) {
-      show_status("");
-      std::fprintf(stderr, "wholehand: live: %s\n", trouble->c_str());
-      notes_.push_back(*trouble);
-    }
+    if (const auto trouble = recorder.trouble()) note(*trouble);
   }
 
-  void tell(bool is_recorded) {
-    LiveSummary summary{scene_, gripper_->limits(), loop_->report(), 0, !options_.no_clock, notes_, options_.record, is_recorded};
-    summary.seconds = static_cast<double>(loop_->report().last.number) / scene_.live.rate;
+  void tell_calls() {
+    if (const auto news = watch_ ? watch_->news() : std::nullopt) note(*news);
+  }
+
+  // `has_times`: in `report`; false where the loop still has them.
+  void tell(const LoopReport& report, bool is_recorded, bool has_times) {
+    LiveSummary summary{scene_, gripper_->limits(), report,     0, has_times && !options_.no_clock,
+                        notes_, options_.record,    is_recorded};
+    summary.seconds = static_cast<double>(report.last.number) / scene_.live.rate;
+    summary.is_by_signal = InterruptGuard::signalled();
     print(options_.json ? live_json(summary) : live_text(summary));
   }
 
@@ -288,6 +375,7 @@ class LiveRun {
   std::vector<std::string> notes_;
   std::unique_ptr<ViewInput> input_;  // of the page where it is the gripper
   std::unique_ptr<Gripper> gripper_;
+  std::unique_ptr<CallWatch> watch_;
   std::unique_ptr<Session> session_;
   std::unique_ptr<TickRing> ring_;
   std::unique_ptr<HapticLoop> loop_;

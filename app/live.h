@@ -26,8 +26,10 @@ struct LiveOptions {
 
 inline constexpr const char* DEFAULT_LIVE_SCENE = "mixing_board";
 
-// Runs it and prints what happens, and at the end how it went. Returns done, or interrupted after a signal. Throws Error: (usage) what is asked
-// for is not allowed; (failure) the device cannot be opened, or the session ended by a fault: the line says which.
+// Runs it and prints what happens, and at the end how it went. Returns done, or interrupted after a signal or where nobody reads
+// the output any more (a session without a clock goes on). Throws Error: (usage) what is asked for is not allowed; (failure) the
+// device cannot be opened, or the session ended by a fault: the line says which. Where a call of the device does not return, it
+// ends the process itself, with the line and the exit code of a failure.
 ExitCode run_live(const LiveOptions& options);
 
 }  // namespace wholehand

@@ -1,6 +1,5 @@
 #include "app/live_board.h"
 
-#include <cstdio>
 #include <utility>
 
 #include "app/output.h"
@@ -17,6 +16,18 @@ void Board::look(std::span<const Tick> ticks) {
   const std::lock_guard lock(mutex_);
   for (std::string& line : lines) lines_.push_back(std::move(line));
   status_ = status;
+  last_ = ticks.back();
+  count_ += static_cast<std::int64_t>(ticks.size());
+}
+
+Tick Board::last() {
+  const std::lock_guard lock(mutex_);
+  return last_;
+}
+
+std::int64_t Board::count() {
+  const std::lock_guard lock(mutex_);
+  return count_;
 }
 
 void Board::show(bool quiet) {
@@ -30,7 +41,6 @@ void Board::show(bool quiet) {
   if (!lines.empty() && !quiet) {
     show_status("");
     for (const std::string& line : lines) print(line + "\n");
-    std::fflush(stdout);
   }
   show_status(status);
 }

@@ -1,6 +1,7 @@
 // What a live session has to say while it runs, from the recorder's thread to the main one.
 #pragma once
 
+#include <cstdint>
 #include <mutex>
 #include <span>
 #include <string>
@@ -18,10 +19,15 @@ class Board {
   void look(std::span<const Tick> ticks);
   // Prints what is new; `quiet`: only the status, and only on a terminal. Throws Error as print does.
   void show(bool quiet);
+  // The newest tick, and how many there were.
+  Tick last();
+  std::int64_t count();
 
  private:
   Narrator narrator_;
-  std::mutex mutex_;  // of the next two
+  std::mutex mutex_;  // of all that follows
+  Tick last_;
+  std::int64_t count_ = 0;
   std::vector<std::string> lines_;
   std::string status_;
 };

@@ -33,31 +33,6 @@ std::string board(const std::vector<MixedAmount>& amounts) {
 
 }  // namespace
 
-double total_spilt(const Scene& scene, const Tick& tick) {
-  double spilt = 0;
-  for (std::size_t v = 0; v < scene.vessels.size(); ++v) spilt += tick.spilt[v];
-  return spilt;
-}
-
-double total_arrived(const Scene& scene, const Tick& tick, std::string_view liquid) {
-  double arrived = 0;
-  for (std::size_t v = 0; v < scene.vessels.size(); ++v)
-    if (scene.vessels[v].liquid_name == liquid) arrived += tick.arrived[v];
-  return arrived;
-}
-
-std::vector<MixedAmount> mixing_board(const Scene& scene, const Tick& tick) {
-  std::vector<MixedAmount> amounts;
-  if (!scene.task) return amounts;
-  for (const auto& [liquid, wanted] : scene.task->amounts) {
-    MixedAmount amount{liquid, total_arrived(scene, tick, liquid), wanted, 0};
-    for (std::size_t v = 0; v < scene.vessels.size(); ++v)
-      if (scene.vessels[v].liquid_name == liquid) amount.spilt += tick.spilt[v];
-    amounts.push_back(amount);
-  }
-  return amounts;
-}
-
 Narrator::Narrator(const Scene& scene) : scene_(scene) {}
 
 std::string Narrator::stamp(const Tick& tick) const {
@@ -137,7 +112,7 @@ std::string live_text(const LiveSummary& summary) {
     text += fmt::format("  step       {}; late {}\n", percentiles(loop.step), loop.late);
   }
   for (const std::string& note : summary.notes) text += "  " + note + "\n";
-  if (loop.fault == Fault::interrupted) text += "  ended by a signal\n";
+  if (loop.fault == Fault::interrupted && summary.is_by_signal) text += "  ended by a signal\n";
   if (!summary.recording.empty())
     text += fmt::format("  recorded {}in {}\n", summary.is_recorded ? "" : "in part ", summary.recording);
   return text;
@@ -153,6 +128,7 @@ std::string live_json(const LiveSummary& summary) {
       {"seconds", summary.seconds},
       {"ticks", loop.ticks},
       {"fault", loop.fault == Fault::none ? nlohmann::ordered_json() : FAULT_NAMES[static_cast<std::size_t>(loop.fault)]},
+      {"force", force_words(loop, summary.gripper.watchdog)},
       {"grasps", last.grasps},
       {"lost", last.lost},
       {"destinations", last.destinations},
@@ -173,20 +149,34 @@ std::string live_json(const LiveSummary& summary) {
   json["notes"] = summary.notes;
   json["recorded_wholly"] = summary.is_recorded;
   json["recording"] = summary.recording.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(summary.recording);
-  return json.dump(2) + "\n";
+  // names of devices and files may be of any encoding
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-std::string fault_line(const LoopReport& report, const Guard& guard, const LiveData& live) {
+bool is_force_left(const LoopReport& report) { return report.let_go == LetGo::not_taken || report.let_go == LetGo::not_asked; }
+
+std::string force_words(const LoopReport& report, double watchdog) {
+  const Triple& arm = report.force.arm;
+  SafeLine line;
+  add_force_words(line, report.let_go, {std::hypot(arm[0], arm[1], arm[2]), std::abs(report.force.grip)}, watchdog,
+                  report.let_go_trouble);
+  return std::string(line.text());
+}
+
+std::string fault_line(const LoopReport& report, const Guard& guard, const LiveData& live, double watchdog) {
+  const double seconds = static_cast<double>(report.last.number) / live.rate;
+  if (report.fault == Fault::none || report.fault == Fault::interrupted)
+    return fmt::format("live: over after {:.3f} s; {}", seconds, force_words(report, watchdog));
   std::string words = report.trouble;
   if (report.fault == Fault::jump) words = guard.jump();
   if (report.fault == Fault::stale) words = "the same measurement came twice";
   if (report.fault == Fault::late)
-    words = fmt::format("{} steps in a row took longer than a period; [live] late_steps", live.late_steps);
+    words = fmt::format("{} steps in a row took longer than a period, or their reads longer than {:g} ms; [live] late_steps",
+                        live.late_steps, CALL_PATIENCE * 1e3);
   if (report.fault == Fault::not_finite) words = "a number that is none, or a rotation that is none";
   if (report.fault == Fault::ring_full) words = "the recording does not keep up";
-  return fmt::format("live: released after {:.3f} s: {}{}; no force is on the device",
-                     static_cast<double>(report.last.number) / live.rate, FAULT_NAMES[static_cast<std::size_t>(report.fault)],
-                     words.empty() ? "" : " (" + words + ")");
+  return fmt::format("live: released after {:.3f} s: {}{}; {}", seconds, FAULT_NAMES[static_cast<std::size_t>(report.fault)],
+                     words.empty() ? "" : " (" + words + ")", force_words(report, watchdog));
 }
 
 }  // namespace wholehand

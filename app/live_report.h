@@ -2,9 +2,9 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "core/amounts.h"
 #include "core/scene.h"
 #include "core/tick.h"
 #include "device/haptic_loop.h"
@@ -29,16 +29,6 @@ class Narrator {
   Tick last_;
 };
 
-// The paper's mixing board: of each liquid that a task wants what is in the target, m3.
-struct MixedAmount {
-  std::string liquid;
-  double arrived = 0, wanted = 0, spilt = 0;
-};
-std::vector<MixedAmount> mixing_board(const Scene& scene, const Tick& tick);
-// m3: of a liquid in the target, and of all vessels beside it. They allocate nothing.
-double total_arrived(const Scene& scene, const Tick& tick, std::string_view liquid);
-double total_spilt(const Scene& scene, const Tick& tick);
-
 // The report at the end, as text or as JSON (times in s). `notes`: lines on what was not permitted.
 struct LiveSummary {
   const Scene& scene;
@@ -47,13 +37,19 @@ struct LiveSummary {
   double seconds = 0;  // of the session's own time
   bool has_clock = true;
   std::vector<std::string> notes;
-  std::string recording;    // the file; empty: none
-  bool is_recorded = true;  // all of it
+  std::string recording;     // the file; empty: none
+  bool is_recorded = true;   // all of it
+  bool is_by_signal = true;  // what was interrupted; otherwise a note says by what
 };
 std::string live_text(const LiveSummary& summary);
 std::string live_json(const LiveSummary& summary);
 
-// "released after 2.004 s: read error (unplugged)": the line for a session that ended by a fault, with what was found and what is allowed.
-std::string fault_line(const LoopReport& report, const Guard& guard, const LiveData& live);
+// "released after 2.004 s: read error (unplugged); zero force was written": the line for a session that ended by a fault, with what was found,
+// what is allowed, and what became of the force. The same for a session that ended without one and left a force on the device.
+std::string fault_line(const LoopReport& report, const Guard& guard, const LiveData& live, double watchdog);
+// Whether the device did not take zero force at the end.
+bool is_force_left(const LoopReport& report);
+// What became of the force at the end of a session; `watchdog`: the device's, s.
+std::string force_words(const LoopReport& report, double watchdog);
 
 }  // namespace wholehand

@@ -15,8 +15,8 @@
 #include <memory>
 #include <system_error>
 
-#include "app/live_report.h"
 #include "app/scene_text.h"
+#include "core/amounts.h"
 #include "core/error.h"
 
 namespace wholehand {

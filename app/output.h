@@ -1,18 +1,23 @@
-// Standard output that does not fail silently.
+// Standard output and standard error that never stop the work: what cannot be written is lost, and told at the end.
 #pragma once
 
 #include <string>
 
 namespace wholehand {
 
-// Call first in main: a closed pipe becomes a write error instead of a signal, and files that are opened later do not take the place of
-// closed standard streams.
+// Call first in main. Files that are opened later do not take the place of closed standard streams; a closed pipe is no signal; and `stdout` and
+// `stderr` become streams on which no write fails, so that nobody who prints needs to think of it. What standard error does not take is
+// lost. What standard output does not take is lost too, and finish_output() tells so.
 void prepare_output();
 
-// Writes `text` to standard output. Throws Error (failure) where that fails.
+// Writes `text` to standard output at once.
 void print(const std::string& text);
 
-// Throws Error (failure) unless everything that was printed has been written.
+// Whether standard output is a pipe whose reader has gone, as far as it was noticed: nobody wants to read more. Where printing is all that is
+// left to do, this is the end of it.
+bool is_output_abandoned();
+
+// Flushes. Throws Error (failure) unless everything that was printed has been written, or its reader did not want it.
 void finish_output();
 
 }  // namespace wholehand

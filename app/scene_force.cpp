@@ -6,6 +6,24 @@
 #include "app/scene_parts.h"
 
 namespace wholehand {
+namespace {
+
+// Names of result variables, each once.
+void read_variables(const SceneTable& output, const char* key, std::string& place, std::vector<std::string>& names) {
+  const SceneFile& file = output.file();
+  place = file.text_of(output.place(key));
+  for (const toml::node& node : *output.array(key, 0, ranges::LARGEST_KEEP, "names of result variables")) {
+    const auto* name = node.as_string();
+    if (!name || !is_plain_name(name->get()))
+      file.refuse(place_of(node), fmt::format("a name in {} {}", key, found(node)), "allowed: names of result variables");
+    if (std::find(names.begin(), names.end(), name->get()) != names.end()) {
+      file.refuse(place_of(node), fmt::format("{} names {} a second time", key, in_quotes(name->get())), "allowed: each name once");
+    }
+    names.push_back(name->get());
+  }
+}
+
+}  // namespace
 
 void read_force(const SceneTable& root, ForceData& force) {
   const auto table = root.table(
@@ -41,26 +59,17 @@ void read_score(const SceneTable& root, bool has_tilts, ScoreWeights& weights) {
 }
 
 void read_output(const SceneTable& root, OutputData& output) {
-  const auto table = root.table("output", {"keep", "best"});
+  const auto table = root.table("output", {"keep", "also", "best"});
   if (!table) return;
   std::int64_t best = output.best;
   table->read("best", ranges::BEST, best);
   output.best = static_cast<int>(best);
-  const toml::array* names = table->array("keep", 0, ranges::LARGEST_KEEP, "names of result variables");
-  if (!names) return;
-  output.keep_place = table->file().text_of(table->place("keep"));
-  auto& keep = output.keep.emplace();
-  for (const toml::node& node : *names) {
-    const auto* name = node.as_string();
-    if (!name || !is_plain_name(name->get())) {
-      root.file().refuse(place_of(node), "a name in keep " + found(node), "allowed: names of result variables");
-    }
-    if (std::find(keep.begin(), keep.end(), name->get()) != keep.end()) {
-      root.file().refuse(place_of(node), fmt::format("keep names {} a second time", in_quotes(name->get())),
-                         "allowed: each name once");
-    }
-    keep.push_back(name->get());
+  if (table->has("keep") && table->has("also")) {
+    root.file().refuse(table->place("also"), "also beside keep",
+                       "allowed: one of the two; also adds to the usual variables, keep names all");
   }
+  if (table->has("keep")) read_variables(*table, "keep", output.keep_place, output.keep.emplace());
+  if (table->has("also")) read_variables(*table, "also", output.also_place, output.also);
 }
 
 }  // namespace wholehand

@@ -13,7 +13,7 @@ struct PlaneCurve {
   bool is_arc = false;
   Point a{}, b{}, center{};
   double radius = 0;           // distance of a from the center
-  double from = 0, sweep = 0;  // direction of a from the center, and the angle turned on the way to b, rad, |sweep| <= pi
+  double from = 0, sweep = 0;  // direction of a from the center, and the angle turned on the way to b, rad, to the left positive
 
   // Largest extent along the direction (cos angle, sin angle).
   double extent(double angle) const;
@@ -25,8 +25,23 @@ PlaneCurve make_line(const Point& a, const Point& b);
 // far from it too: a half circle with level ends.
 std::optional<PlaneCurve> make_arc(const Point& a, const Point& b, const Point& center);
 
+// The arc from a to b that passes `through`; its sweep may be more than a half turn. Nothing where the three lie on one line.
+std::optional<PlaneCurve> make_arc_through(const Point& a, const Point& through, const Point& b);
+
 double distance(const Point& p, const Point& q);
 double distance(const PlaneCurve& curve, const Point& p);
+double distance(const PlaneCurve& first, const PlaneCurve& second);  // 0 where they meet
+
+// Angle turned from an arc's start to the direction of p from its center, the arc's own way round, [0, 2 pi).
+double turned_to(const PlaneCurve& arc, const Point& p);
+
+// Where the supporting lines and circles cross. A line or circle that just misses a circle counts at its nearest point, so that rounding
+// loses no touching: who asks checks the points.
+struct Crossings {
+  std::array<Point, 2> points;
+  int count = 0;
+};
+Crossings support_crossings(const PlaneCurve& first, const PlaneCurve& second);
 
 // A point that lies on both curves to within `tolerance` and is further than `clearance` from `shared`, if there is one.
 std::optional<Point> meeting_point(const PlaneCurve& first, const PlaneCurve& second, double tolerance,

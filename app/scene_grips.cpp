@@ -155,16 +155,22 @@ void read_tilts(const SceneTable& root, std::vector<double>& tilts) {
 }
 
 void read_liquid(const SceneTable& root, std::optional<LiquidData>& liquid) {
-  const auto table = root.table("liquid", {"density_kg_m3", "fills", "pour"});
+  const auto table = root.table("liquid", {"density_kg_m3", "fills", "fills_ml", "pour"});
   if (!table) return;
   LiquidData data;
   table->read("density_kg_m3", ranges::LIQUID_DENSITY, data.density);
   table->read("pour", {{"away", Pour::away}, {"towards", Pour::towards}}, data.pour);
-  const std::string allowed = "an ascending list of fractions of the capacity, 0 to 1";
-  table->need("fills", allowed);
-  const toml::array* array = table->array("fills", 1, ranges::LARGEST_FILLS, allowed);
-  data.fills = list_values(root.file(), *array, "fills", ranges::FRACTION);
-  check_ascending(root.file(), *array, "fills", data.fills);
+  const bool in_ml = table->has("fills_ml");
+  if (in_ml && table->has("fills"))
+    root.file().refuse(table->place("fills_ml"), "fills_ml beside fills", "allowed: one of the two");
+  const char* key = in_ml ? "fills_ml" : "fills";
+  const std::string allowed = in_ml ? "an ascending list of volumes in mL"
+                                    : "an ascending list of fractions of the capacity, 0 to 1; or fills_ml, the same in mL";
+  table->need(key, allowed);
+  const toml::array* array = table->array(key, 1, ranges::LARGEST_FILLS, allowed);
+  std::vector<double>& values = in_ml ? data.volumes : data.fills;
+  values = list_values(root.file(), *array, key, in_ml ? ranges::FILL_VOLUME : ranges::FRACTION);
+  check_ascending(root.file(), *array, key, values);
   liquid = data;
 }
 

@@ -14,10 +14,10 @@ void read_hand(const SceneTable& root, HandData& hand);
 
 // ---- scene_vessel.cpp ----
 void read_vessels(const SceneTable& root, Scene& scene);
-// What other tables ask of vessels: [liquid] a wall, a vessel's own liquid a [liquid].
+// What other tables ask of vessels: [liquid] a cavity, a vessel's own liquid a [liquid].
 void check_vessels(const SceneTable& root, const Scene& scene);
 
-// ---- scene_shape.cpp, scene_outline.cpp ----
+// ---- scene_shape.cpp, scene_outline.cpp, scene_cavity.cpp ----
 struct Silhouette {
   std::vector<OutlineElement> elements;
   double largest_radius = 0;  // m
@@ -25,14 +25,20 @@ struct Silhouette {
 };
 Silhouette read_shape(const SceneTable& vessel, const std::string& shape);
 Silhouette read_outline(const SceneTable& vessel);
-// Of a mesh's cavity, as MeshData has it; empty where the vessel gives none.
-std::vector<OutlineElement> read_inner_outline(const SceneTable& vessel);
+// What the vessel holds: its wall and floor, or its inner outline, which lies within `silhouette`; of a mesh the latter alone, unchecked.
+void read_cavity(const SceneTable& table, const Silhouette& silhouette, VesselData& vessel);
 
 // ---- scene_grips.cpp ----
 // `turns`: some vessel is no body of revolution, so that without a word the azimuth goes round.
 void read_grips(const SceneTable& root, bool turns, GripsData& grips);
 void read_tilts(const SceneTable& root, std::vector<double>& tilts);
 void read_liquid(const SceneTable& root, std::optional<LiquidData>& liquid);
+
+// ---- scene_fills.cpp ----
+// What is in a vessel in the live task.
+void read_own_liquid(const SceneTable& vessel_table, VesselData& vessel);
+// Fills that are given in mL as fractions of each vessel's capacity. Vessels and [liquid] have been read and checked.
+void set_vessel_fills(const SceneTable& root, Scene& scene);
 
 // ---- scene_force.cpp ----
 void read_force(const SceneTable& root, ForceData& force);

@@ -61,6 +61,8 @@ constexpr Quantity OUTLINE_R{0, 5000, Unit::mm};
 constexpr Quantity OUTLINE_Y{-10000, 10000, Unit::mm};
 constexpr Quantity CENTER{-25000, 25000, Unit::mm};  // of an arc, r and y
 constexpr Quantity WALL{0.05, 100, Unit::mm};
+constexpr Quantity FLOOR{0.05, 10000, Unit::mm};  // height of a cavity's floor
+constexpr Quantity FILLET{0.01, 5000, Unit::mm};
 constexpr Quantity VESSEL_DENSITY{1, 25000};  // kg/m3
 constexpr Quantity MASS{1e-6, 1e6};           // kg
 constexpr Quantity CENTER_OF_MASS{-10000, 10000, Unit::mm};
@@ -71,6 +73,7 @@ constexpr Quantity PLACE{-10000, 10000, Unit::mm};
 
 constexpr Quantity LIQUID_DENSITY{1, 25000};  // kg/m3
 constexpr Quantity FRACTION{0, 1};            // fill, height fraction
+constexpr Quantity FILL_VOLUME{0, 1e10, Unit::ml};
 
 constexpr Quantity BASE_FORCE{0, 100};         // N
 constexpr Quantity FORCE_RANGE{0, 100};        // N

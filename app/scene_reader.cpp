@@ -48,6 +48,7 @@ void read_scene(const SceneTable& root, Scene& scene) {
   read_vessels(root, scene);
   read_liquid(root, scene.liquid);
   check_vessels(root, scene);
+  set_vessel_fills(root, scene);
   read_force(root, scene.force);
   const bool has_mesh =
       std::any_of(scene.vessels.begin(), scene.vessels.end(), [](const VesselData& vessel) { return vessel.mesh.has_value(); });

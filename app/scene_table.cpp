@@ -141,6 +141,14 @@ void SceneTable::read(std::string_view key, IntegerRange range, std::int64_t& va
   value = integer->get();
 }
 
+void SceneTable::read_flag(std::string_view key, bool& value) const {
+  const toml::node* node = find(key);
+  if (!node) return;
+  const auto* flag = node->as_boolean();
+  if (!flag) file_.refuse(place_of(*node), fmt::format("{} {}", key, found(*node)), "allowed: true or false");
+  value = flag->get();
+}
+
 void SceneTable::read_text(std::string_view key, std::size_t largest, std::string& value) const {
   const toml::node* node = find(key);
   if (!node) return;

@@ -74,6 +74,7 @@ class SceneTable {
   void read(std::string_view key, const Quantity& quantity, double& value) const;
   void read(std::string_view key, const Quantity& quantity, const std::string& form, std::span<double> values) const;
   void read(std::string_view key, IntegerRange range, std::int64_t& value) const;
+  void read_flag(std::string_view key, bool& value) const;
   void read_text(std::string_view key, std::size_t largest, std::string& value) const;
   void read_name(std::string_view key, std::string& value) const;
 

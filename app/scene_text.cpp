@@ -3,15 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <vector>
 
 #include "core/scene.h"
 
 namespace wholehand {
 namespace {
 
-constexpr std::size_t LARGEST_QUOTE = 60;          // bytes
-constexpr std::size_t LARGEST_NAME_COMPARED = 64;  // bytes
+constexpr std::size_t LARGEST_QUOTE = 60;  // bytes
 
 }  // namespace
 
@@ -47,31 +45,6 @@ std::string in_quotes(std::string_view text) {
   std::size_t end = LARGEST_QUOTE;
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // whole UTF-8 characters
   return fmt::format("'{}...'", one_line(text.substr(0, end)));
-}
-
-// Levenshtein distance, row by row. Names past 64 bytes are cut: they are no slip of the keyboard.
-std::string nearest_name(std::string_view name, std::span<const std::string_view> names) {
-  name = name.substr(0, LARGEST_NAME_COMPARED);
-  std::string nearest;
-  std::size_t smallest = SIZE_MAX;
-  for (const std::string_view known : names) {
-    std::vector<std::size_t> row(known.size() + 1);
-    for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
-    for (std::size_t i = 0; i < name.size(); ++i) {
-      std::size_t diagonal = row[0];
-      row[0] = i + 1;
-      for (std::size_t j = 0; j < known.size(); ++j) {
-        const std::size_t changed = diagonal + (name[i] == known[j] ? 0 : 1);
-        diagonal = row[j + 1];
-        row[j + 1] = std::min({changed, row[j] + 1, row[j + 1] + 1});
-      }
-    }
-    if (row.back() < smallest) {
-      smallest = row.back();
-      nearest = known;
-    }
-  }
-  return nearest;
 }
 
 bool is_plain_name(std::string_view name) {

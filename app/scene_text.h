@@ -1,11 +1,12 @@
 // Names and texts from outside, for messages.
 #pragma once
 
-#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/scene_ranges.h"
+#include "core/nearest_name.h"
 
 namespace wholehand {
 
@@ -14,9 +15,6 @@ std::string one_line(std::string_view text);
 
 // `text` in single quotes on one line, cut after 60 bytes (never inside a character).
 std::string in_quotes(std::string_view text);
-
-// Name of `names` with the smallest edit distance to `name`, the first of equally near ones; "" where there are none.
-std::string nearest_name(std::string_view name, std::span<const std::string_view> names);
 
 // Whether a name fits result files and file names: a letter, then letters, digits, '_', '-' or '.', at most LARGEST_NAME in all.
 bool is_plain_name(std::string_view name);

@@ -9,12 +9,14 @@
 namespace wholehand {
 namespace {
 
-constexpr std::array<std::string_view, 23> VESSEL_KEYS{
-    "name",          "shape",      "diameter_mm",       "height_mm",     "neck_mm",     "upright_mm",    "shoulder_mm", "outline",
-    "mesh",          "mesh_scale", "rotate_deg",        "origin",        "grid_mm",     "inner_outline", "wall_mm",     "surface",
-    "density_kg_m3", "mass_kg",    "center_of_mass_mm", "force_range_N", "guidance_mm", "place_mm",      "liquid"};
+constexpr std::array<std::string_view, 26> VESSEL_KEYS{
+    "name",        "shape",         "diameter_mm", "height_mm",         "neck_mm",       "upright_mm",
+    "shoulder_mm", "outline",       "mesh",        "mesh_scale",        "rotate_deg",    "up",
+    "close_holes", "origin",        "grid_mm",     "inner_outline",     "wall_mm",       "floor_mm",
+    "surface",     "density_kg_m3", "mass_kg",     "center_of_mass_mm", "force_range_N", "guidance_mm",
+    "place_mm",    "liquid"};
 constexpr std::array<std::string_view, 5> SHAPE_KEYS{"diameter_mm", "height_mm", "neck_mm", "upright_mm", "shoulder_mm"};
-constexpr std::array<std::string_view, 5> MESH_KEYS{"mesh_scale", "rotate_deg", "origin", "grid_mm", "inner_outline"};
+constexpr std::array<std::string_view, 6> MESH_KEYS{"mesh_scale", "up", "close_holes", "rotate_deg", "origin", "grid_mm"};
 
 void refuse_keys(const SceneTable& table, std::span<const std::string_view> keys, const std::string& without) {
   for (const auto key : keys) {
@@ -29,12 +31,13 @@ MeshData read_mesh(const SceneTable& table) {
   table.read_text("mesh", ranges::LARGEST_PATH, mesh.file);
   mesh.place = table.file().text_of(table.place("mesh"));
   table.read("mesh_scale", ranges::MESH_SCALE, mesh.scale);
+  table.read("up", {{"y", false}, {"z", true}}, mesh.z_is_up);
   table.read("rotate_deg", ranges::ROTATION, "[x, y, z]", mesh.rotate);
+  table.read_flag("close_holes", mesh.close_holes);
   table.read("origin", {{"base", true}, {"as_is", false}}, mesh.origin_at_base);
   if (table.has("grid_mm")) table.need("grid_mm", ranges::GRID_SPACING, mesh.grid_spacing.emplace());
-  mesh.inner = read_inner_outline(table);
   // what is in the file is hull and wall at once
-  for (const char* key : {"wall_mm", "surface"}) {
+  for (const char* key : {"wall_mm", "floor_mm", "surface"}) {
     if (table.has(key))
       table.file().refuse(table.place(key), fmt::format("{} of a mesh", key),
                           "allowed: with 'shape' and 'outline'; a mesh has the walls of its file, and a cavity by 'inner_outline'");
@@ -73,25 +76,6 @@ void read_form(const SceneTable& table, VesselData& vessel, Silhouette& silhouet
   vessel.height = silhouette.height;
 }
 
-void read_wall(const SceneTable& table, VesselData& vessel, const Silhouette& silhouette) {
-  table.read("wall_mm", ranges::WALL, vessel.wall);
-  if (table.has("wall_mm")) vessel.wall_place = table.file().text_of(table.place("wall_mm"));
-  table.read("surface", {{"solid", Surface::solid}, {"shell", Surface::shell}}, vessel.surface);
-  if (vessel.surface == Surface::shell && !table.has("wall_mm")) {
-    table.file().refuse(table.place("surface"), "surface = 'shell' without a wall", "allowed: with 'wall_mm'");
-  }
-  if (!table.has("wall_mm")) return;
-  // what the wall leaves inside is looked at more closely when the vessel is prepared
-  if (vessel.wall >= silhouette.largest_radius) {
-    table.file().refuse(table.place("wall_mm"), "wall_mm " + found(*table.find("wall_mm")),
-                        fmt::format("allowed: less than the vessel's largest radius, {:.6g} mm", silhouette.largest_radius * 1e3));
-  }
-  if (vessel.wall >= silhouette.height) {
-    table.file().refuse(table.place("wall_mm"), "wall_mm " + found(*table.find("wall_mm")),
-                        fmt::format("allowed: less than the vessel's height, {:.6g} mm", silhouette.height * 1e3));
-  }
-}
-
 void read_mass(const SceneTable& table, VesselData& vessel) {
   const bool has_mass = table.has("mass_kg"), has_center = table.has("center_of_mass_mm");
   if (has_mass != has_center) {
@@ -106,9 +90,9 @@ void read_mass(const SceneTable& table, VesselData& vessel) {
   if (has_mass) {
     table.need("mass_kg", ranges::MASS, vessel.mass.emplace());
     table.need("center_of_mass_mm", ranges::CENTER_OF_MASS, "[x, y, z]", vessel.center_of_mass);
-  } else if (!table.has("wall_mm") && !table.has("mesh")) {  // a mesh has its volume
+  } else if (!vessel.has_cavity() && !vessel.mesh) {  // a mesh has its volume
     table.file().refuse(table.place(), fmt::format("vessel '{}' has no mass", vessel.name),
-                        "allowed: 'wall_mm', or 'mass_kg' and 'center_of_mass_mm'");
+                        "allowed: 'wall_mm' or 'inner_outline', or 'mass_kg' and 'center_of_mass_mm'");
   }
 }
 
@@ -135,16 +119,12 @@ VesselData read_vessel(const SceneTable& table) {
   table.read_name("name", vessel.name);
   Silhouette silhouette;
   read_form(table, vessel, silhouette);
-  read_wall(table, vessel, silhouette);
+  read_cavity(table, silhouette, vessel);
   read_mass(table, vessel);
   if (table.has("force_range_N")) table.need("force_range_N", ranges::FORCE_RANGE, vessel.force_range.emplace());
   read_guidance(table, vessel);
   table.read("place_mm", ranges::PLACE, "[x, y, z]", vessel.place);
-  if (const auto liquid = table.table("liquid", {"name", "fill"})) {
-    liquid->need("name", "a name for the liquid");
-    liquid->read_name("name", vessel.liquid_name);
-    liquid->need("fill", ranges::FRACTION, vessel.liquid_fill);
-  }
+  read_own_liquid(table, vessel);
   return vessel;
 }
 
@@ -171,13 +151,14 @@ void read_vessels(const SceneTable& root, Scene& scene) {
 void check_vessels(const SceneTable& root, const Scene& scene) {
   for (const VesselData& vessel : scene.vessels) {
     const Place place{vessel.line, vessel.column};
-    if (vessel.mesh && vessel.mesh->inner.empty() && !vessel.liquid_name.empty()) {
+    if (vessel.mesh && vessel.inner.empty() && !vessel.liquid_name.empty()) {
       root.file().refuse(place, fmt::format("vessel '{}' has a liquid and is a mesh without 'inner_outline'", vessel.name),
                          "allowed: with 'inner_outline', the cavity that holds it");
     }
-    if (scene.liquid && !vessel.mesh && vessel.wall == 0) {
-      root.file().refuse(place, fmt::format("vessel '{}' has no 'wall_mm', and [liquid] asks what it holds", vessel.name),
-                         "allowed: 'wall_mm' in every shape and outline, or no [liquid]");
+    if (scene.liquid && !vessel.mesh && !vessel.has_cavity()) {
+      root.file().refuse(
+          place, fmt::format("vessel '{}' has no 'wall_mm' and no 'inner_outline', and [liquid] asks what it holds", vessel.name),
+          "allowed: one of them in every shape and outline, or no [liquid]");
     }
     if (!scene.liquid && !vessel.liquid_name.empty()) {
       root.file().refuse(place, fmt::format("vessel '{}' has a liquid, and the scene no [liquid]", vessel.name),

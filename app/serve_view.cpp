@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "app/browser.h"
+#include "app/output.h"
 #include "sweeps/interrupt.h"
 
 namespace wholehand {
@@ -13,7 +14,8 @@ void serve_view(ViewContent content, int port, bool address_on_standard_error) {
   InterruptGuard interrupt;
   ViewServer server(std::move(content), port);
   const BrowserWindow window(server.address(), address_on_standard_error);
-  while (!interrupt.flag()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  finish_output();  // whom the address does not reach has nothing to look at
+  while (!interrupt.flag() && !is_output_abandoned()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
 }
 
 }  // namespace wholehand

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "app/live_report.h"
+#include "core/amounts.h"
 #include "core/quaternion.h"
 
 namespace wholehand {
@@ -80,6 +80,7 @@ void write_vessel(Writer& out, const ViewFrame::Vessel& vessel) {
 
 void write_forces(Writer& out, const ViewFrame& frame) {
   out.number(",\"forces\":{\"feedback\":", frame.feedback);
+  out.number(",\"written\":", frame.written);
   out.number(",\"base\":", frame.base);
   out.number(",\"normal\":", frame.normal);
   out.number(",\"opening\":", frame.opening);
@@ -174,6 +175,7 @@ ViewFrame FrameMaker::make(const Tick& tick, const VesselPoses& poses, const Han
   }
   frame.stream = pouring_stream(live_, tick, table_);
   frame.feedback = tick.feedback;
+  frame.written = tick.written.grip;
   frame.base = is_held(tick.state) ? scene.force.base : 0;
   frame.normal = tick.normal_force;
   frame.opening = tick.opening_force;

@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/load.h"
 #include "core/mesh_body.h"
+#include "core/outline_points.h"
 #include "core/prepare.h"
 #include "sweeps/grip_report.h"
 #include "sweeps/hand_nodes.h"
@@ -27,30 +28,15 @@ using Json = nlohmann::ordered_json;
 // A vessel of the scene, what is needed of it beyond the evaluator: its cavity, and points that tell how low it reaches.
 struct ViewedVessel {
   core_f64::Vessel vessel;
-  std::vector<std::array<double, 2>> rings;  // (r, y) of its profile's corners, m; arcs by their chords' ends
+  std::vector<std::array<double, 2>> rings;  // (r, y) of its profile, m; arcs by their chords' ends
   std::vector<Triple> points;                // of a mesh
 };
-
-std::vector<std::array<double, 2>> rings_of(const PreparedVessel& prepared) {
-  std::vector<std::array<double, 2>> rings;
-  for (const PreparedElement& element : prepared.hull) {
-    rings.push_back(element.a);
-    if (element.side == 0) continue;
-    for (int k = 1; k < 16; ++k) {
-      // at equal heights: the sagitta is what a drawing does not show
-      const double y = element.a[1] + (element.b[1] - element.a[1]) * k / 16, rise = y - element.center[1];
-      rings.push_back(
-          {element.center[0] + element.side * std::sqrt(std::max(0.0, element.radius * element.radius - rise * rise)), y});
-    }
-  }
-  return rings;
-}
 
 ViewedVessel load_viewed(const Scene& scene, const VesselData& data, const core_f64::Quadrature& quadrature) {
   const PreparedVessel prepared = prepare_vessel(data, data.has_cavity());
   ViewedVessel viewed;
   viewed.vessel = core_f64::load_vessel(prepared, data, quadrature, false, scene.hand.handedness);
-  viewed.rings = rings_of(prepared);
+  viewed.rings = outline_points(prepared.hull, prepared.hull.size(), ARC_STEP);
   if (data.mesh) viewed.points = data.mesh->body->vertices;
   return viewed;
 }
@@ -164,19 +150,13 @@ class GripsView::Impl {
     return turned * glm::transpose(frame);
   }
 
+  // About the middle of the tips, and up so far that no glass is under the table on which it stands upright. The hand may be: that is seen.
   Vec3 place_of(const Seen& seen, const Mat3& turn) const {
     const std::size_t v = seen.wanted.vessel;
     const Vec3 pivot = to_vec3(seen.result.midpoint), home = to_vec3(scene_.vessels[v].place);
     Vec3 place = home + pivot - turn * pivot;
-    double lowest = place.y + lowest_of(vessels_[v], turn);
-    const HandData& hand = scene_.hand;
-    for (int f = 0; f < FINGER_COUNT; ++f) {
-      for (int k = 0; k < finger_joints(f); ++k) {
-        const double radius = hand.scale * seen.wanted.grip.hand_scale * hand.fingers[f].radii[k];
-        lowest = std::min(lowest, (place + turn * to_vec3(seen.result.proxies[finger_start(f) + k])).y - radius);
-      }
-    }
-    place.y += std::max(0.0, table_height(scene_) - lowest);
+    const double table = home.y + scene_.vessels[v].base;
+    place.y += std::max(0.0, table - (place.y + lowest_of(vessels_[v], turn)));
     return place;
   }
 
@@ -218,7 +198,8 @@ class GripsView::Impl {
     const GripInput& grip = seen.wanted.grip;
     const GripResult& result = seen.result;
     const ScoreTerms& terms = seen.score.terms;
-    Json json{{"vessel", seen.wanted.vessel}, {"label", seen.wanted.label}, {"score", seen.score.score}};
+    Json json{
+        {"vessel", seen.wanted.vessel}, {"label", seen.wanted.label}, {"score", seen.wanted.score.value_or(seen.score.score)}};
     json["terms"] = {{"fingers", terms.fingers}, {"contacts", terms.contacts}, {"depth", terms.depth}, {"posture", terms.posture}};
     if (!scene_.tilts.empty()) {
       json["terms"]["force"] = terms.force;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,11 +13,12 @@
 
 namespace wholehand {
 
-// A grip to be seen, and what it is called there.
+// A grip to be seen, what it is called there, and the score of the list that it is from; without one the core's is shown.
 struct ViewedGrip {
   std::size_t vessel = 0;
   GripInput grip;
   std::string label;
+  std::optional<double> score = std::nullopt;
 };
 
 // The grips of a scene with the core's numbers. From any thread.

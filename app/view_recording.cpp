@@ -95,6 +95,7 @@ ViewContent RecordingView::content(const std::string& title) const {
   facts.device = recording_.info.device.name;
   facts.duration = duration();
   facts.rate = recording_.info.rate;
+  facts.most_force = recording_.info.device.grip;
   ViewContent content;
   content.scene = view_scene_json(live_.scene, facts);
   for (const VesselData& vessel : live_.scene.vessels) content.meshes.push_back(mesh_bytes(vessel));

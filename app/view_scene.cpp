@@ -12,6 +12,7 @@
 #include "core/hand_view.h"
 #include "core/load.h"
 #include "core/mesh_body.h"
+#include "core/outline_points.h"
 #include "core/prepare.h"
 #include "sweeps/hand_nodes.h"
 
@@ -22,32 +23,10 @@ using Json = nlohmann::ordered_json;
 using Point2 = std::array<double, 2>;  // (r, y), m
 
 constexpr const char* MODES[] = {"live", "recording", "grips"};
-constexpr double ARC_STEP = radians(3);  // an arc is drawn as chords of so much: 15 um off on a beaker's 40 mm
-
-// Points along an element but its first.
-void append_points(const PreparedElement& element, std::vector<Point2>& points) {
-  if (element.side != 0) {
-    const auto angle = [&](const Point2& p) { return std::atan2(p[1] - element.center[1], p[0] - element.center[0]); };
-    const double from = angle(element.a), sweep = std::remainder(angle(element.b) - from, 2 * PI);
-    const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(sweep) / ARC_STEP)));
-    for (int k = 1; k < steps; ++k) {
-      const double at = from + sweep * k / steps;
-      points.push_back({element.center[0] + element.radius * std::cos(at), element.center[1] + element.radius * std::sin(at)});
-    }
-  }
-  points.push_back(element.b);
-}
-
-std::vector<Point2> polyline(const std::vector<PreparedElement>& elements, std::size_t count) {
-  std::vector<Point2> points;
-  if (count > 0) points.push_back(elements.front().a);
-  for (std::size_t k = 0; k < count; ++k) append_points(elements[k], points);
-  return points;
-}
 
 // From the middle of the floor up the inner wall to the rim.
 std::vector<Point2> inner_wall(const PreparedVessel& vessel) {
-  std::vector<Point2> points = polyline(vessel.cavity, vessel.cavity.size());
+  std::vector<Point2> points = outline_points(vessel.cavity, vessel.cavity.size(), ARC_STEP);
   if (!points.empty() && points.front()[0] > 1e-9) points.insert(points.begin(), {0, vessel.floor_height});
   return points;
 }
@@ -77,9 +56,10 @@ Json vessel_json(const Scene& scene, std::size_t v) {
     json["mesh"] = "meshes/" + std::to_string(v) + ".bin";
   } else {
     // solid glass is closed at its mouth, the hull's last element
-    json["outline"] = polyline(prepared.hull, prepared.hull.size() - (inner.empty() ? 0 : 1));
+    json["outline"] = outline_points(prepared.hull, prepared.hull.size() - (inner.empty() ? 0 : 1), ARC_STEP);
   }
   if (!inner.empty()) json["inner"] = inner;
+  json["base"] = data.base;
   json["height"] = data.height;
   json["radius"] = prepared.largest_radius;
   json["liquid"] = data.liquid_name.empty() ? Json(nullptr) : Json(data.liquid_name);
@@ -122,12 +102,13 @@ std::string view_scene_json(const Scene& scene, const ViewFacts& facts) {
   json["amounts"] = Json::array();
   json["tolerance_m3"] = nullptr;
   if (scene.task) {
-    json["target"] = {{"place", scene.task->target_place}, {"diameter", scene.task->target_diameter}};
+    json["target"] = {{"place", scene.task->target_place}, {"diameter", scene.task->target_diameter}, {"wall", TARGET_WALL}};
     json["destination"] = scene.task->destination;
     for (const auto& [liquid, volume] : scene.task->amounts) json["amounts"].push_back({{"liquid", liquid}, {"target_m3", volume}});
     json["tolerance_m3"] = scene.task->tolerance;
   }
-  json["force"] = {{"base", scene.force.base}, {"max", scene.force.max}};
+  json["force"] = {
+      {"base", scene.force.base}, {"max", scene.force.max}, {"most", facts.most_force > 0 ? facts.most_force : scene.force.max}};
   json["states"] = SESSION_STATE_NAMES;
   if (facts.mode == ViewMode::recording) json["duration"] = facts.duration;
   if (facts.mode != ViewMode::grips) json["rate"] = facts.rate;

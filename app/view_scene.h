@@ -17,6 +17,7 @@ struct ViewFacts {
   std::string title, device;
   std::string control_limits;        // empty: the page is no gripper
   double duration = 0, rate = 0;     // s, Hz: of a recording
+  double most_force = 0;             // N that may be written to the gripper's fingers; 0: there is no gripper
   std::string grips;                 // empty: none
   std::vector<double> fills, tilts;  // of grips: what is asked for, of the capacity and rad
 };

@@ -78,10 +78,10 @@ std::optional<Boundary> first_blocked(const std::vector<PreparedElement>& open, 
 }
 
 // Heights at which some curve begins or ends.
-std::vector<double> critical_heights(const std::vector<PreparedElement>& open, double wall, double mouth) {
-  std::set<double> heights{0.0, mouth};
+std::vector<double> critical_heights(const std::vector<PreparedElement>& open, double wall, double floor, double mouth) {
+  std::set<double> heights{floor, mouth};
   const auto add = [&](double y) {
-    if (y > 0 && y < mouth) heights.insert(y);
+    if (y > floor && y < mouth) heights.insert(y);
   };
   for (const auto& e : open) {
     for (const auto& end : {e.a, e.b}) {
@@ -170,14 +170,14 @@ std::vector<double> crossings(const std::vector<PreparedElement>& hull, double y
 std::vector<PreparedElement> inner_offset(const std::vector<PreparedElement>& hull, double wall, const VesselData& vessel) {
   const auto refuse = [&](const std::string& what) {
     return usage_error(
-        at_place(vessel.wall_place, "vessel '" + vessel.name + "': wall_mm = " + std::to_string(wall * 1e3) + ": " + what));
+        at_place(vessel.cavity_place, "vessel '" + vessel.name + "': wall_mm = " + std::to_string(wall * 1e3) + ": " + what));
   };
   const std::vector<PreparedElement> open(hull.begin(), hull.end() - 1);
   const double mouth = hull.back().a[1];
   const auto closed = [](const std::optional<Boundary>& b) { return !b || b->radius <= 0; };
   // each critical height, and 32 steps between two of them
   std::vector<double> heights;
-  const auto critical = critical_heights(open, wall, mouth);
+  const auto critical = critical_heights(open, wall, vessel.floor, mouth);
   constexpr int STEPS = 32;
   for (std::size_t i = 0; i + 1 < critical.size(); ++i)
     for (int k = 0; k < STEPS; ++k) heights.push_back(critical[i] + (critical[i + 1] - critical[i]) * k / STEPS);
@@ -212,7 +212,7 @@ std::vector<PreparedElement> inner_offset(const std::vector<PreparedElement>& hu
         finish(y);
         if (!curve && was_open)
           throw refuse("the wall closes the vessel at " + std::to_string(y * 1e3) +
-                       " mm; it must leave an opening up to the mouth");
+                       " mm; it must leave an opening up to the mouth, or floor_mm lie above");
         current = curve;
         begin = y;
         was_open = was_open || curve.has_value();
@@ -233,6 +233,10 @@ std::vector<PreparedElement> inner_offset(const std::vector<PreparedElement>& hu
   }
   finish(mouth);
   if (pieces.empty()) throw refuse("no room is left inside; it must be less than the radius and the height");
+  if (vessel.floor > 0 && pieces.front().a[1] > vessel.floor) {
+    throw refuse("the wall fills the vessel up to " + std::to_string(pieces.front().a[1] * 1e3) +
+                 " mm; floor_mm = " + std::to_string(vessel.floor * 1e3) + " must be that or more");
+  }
 
   // the cavity is one radius a height: no free room may lie beyond it
   const double floor = pieces.front().a[1];

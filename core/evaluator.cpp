@@ -338,11 +338,11 @@ class CoreEvaluator final : public wholehand::Evaluator {
     const std::size_t fills = wholehand::scene_fills(scene_);
     for (std::size_t f = 0; f < fills; ++f)
       for (const double tilt : scene_.tilts) {
-        const LiquidResult state = wet ? liquid(v, scene_.liquid->fills[f], tilt) : LiquidResult{};
+        const LiquidResult state = wet ? liquid(v, wholehand::vessel_fills(scene_, scene_.vessels[v])[f], tilt) : LiquidResult{};
         entry.liquids.push_back(state);
         entry.loads.push_back(load_of(entry, state));
       }
-    const LiquidResult most = wet ? liquid(v, scene_.liquid->fills.back(), 0) : LiquidResult{};
+    const LiquidResult most = wet ? liquid(v, wholehand::vessel_fills(scene_, scene_.vessels[v]).back(), 0) : LiquidResult{};
     entry.largest = load_of(entry, most);
     entry.largest_share = entry.largest.mass > 0 ? Real(most.mass) / entry.largest.mass : Real(0);
     entry.force.reference =

@@ -52,6 +52,7 @@ std::optional<PouringStream> pouring_stream(const LiveScene& live, const Tick& t
 // Height of the liquid in the target, a cylinder that stands on the table (m above it, at most to its mouth), and what is in it by a tick, m3.
 double target_level(const TaskData& task, double volume, double table);
 double target_volume(const Scene& scene, const Tick& tick);
+constexpr double TARGET_WALL = 1.8e-3;  // m, outside of its diameter (ours: a scene tells its mouth alone)
 
 // y of what the vessels stand on at the start: the lowest of their lowest points.
 double table_height(const Scene& scene);

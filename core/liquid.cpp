@@ -165,7 +165,8 @@ Real bottom_level(const Vessel& vessel, Real sine_tilt, Real cosine_tilt) {
   return lowest;
 }
 
-// Safeguarded Newton: the free surface is the volume's derivative by the level.
+// Safeguarded Newton: the free surface is the volume's derivative by the level. Where a wide body ends in a narrow neck, Newton's steps may
+// go to and fro between the two for ever, each within its bracket: so a step that is more than half of the last one is a bisection, too.
 LiquidState liquid_at(const Vessel& vessel, const Quadrature& quadrature, Real volume, Real sine_tilt, Real cosine_tilt) {
   LiquidState state;
   state.height = vessel.floor_height;
@@ -174,6 +175,7 @@ LiquidState liquid_at(const Vessel& vessel, const Quadrature& quadrature, Real v
   Real low = bottom_level(vessel, sine_tilt, cosine_tilt);
   Real high = lip_level(vessel, sine_tilt, cosine_tilt);
   Real level = high;
+  Real last_move = high - low;
   Slices below;
   for (int step = 0; step < LEVEL_STEPS; ++step) {
     below = liquid_below(vessel, quadrature, level, sine_tilt, cosine_tilt);
@@ -182,8 +184,10 @@ LiquidState liquid_at(const Vessel& vessel, const Quadrature& quadrature, Real v
     if (error > 0) high = level;
     if (error < 0) low = level;
     Real next = level - error / below.surface;
-    if (!(next > low && next < high)) next = Real(0.5) * (low + high);
+    const bool shrinks = Real(2) * std::abs(next - level) <= last_move;
+    if (!(next > low && next < high && shrinks)) next = Real(0.5) * (low + high);
     if (next == level) break;
+    last_move = std::abs(next - level);
     level = next;
   }
   state.volume = volume;

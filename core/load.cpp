@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/mesh_body.h"
+#include "core/touch.h"
 #include "core/trig.h"
 
 namespace CORE_NS {
@@ -57,8 +58,8 @@ Hand load_hand(const wholehand::PreparedHand& prepared, const wholehand::HandDat
   hand.joint_limit = to_vec(data.joint_limit);
   hand.max_angle = Real(data.max_angle);
   hand.paper_max_angle = Real(data.paper_max_angle);
-  hand.contact_tolerance = Real(data.contact_tolerance);
-  hand.depth_limit = Real(data.depth_limit);
+  hand.contact_tolerance = Real(wholehand::judged_contact_tolerance(data));
+  hand.depth_limit = Real(wholehand::judged_depth_limit(data));
   hand.scale = Real(data.scale);
   hand.gap_open = Real(prepared.gap_open);
   hand.gap_closed = Real(prepared.gap_closed);

@@ -66,7 +66,13 @@ FieldSet make_field_set(const std::vector<int>& kept, const Scene& scene) {
   return set;
 }
 
-std::size_t scene_fills(const Scene& scene) { return scene.liquid ? scene.liquid->fills.size() : 1; }
+std::size_t scene_fills(const Scene& scene) {
+  return scene.liquid ? std::max(scene.liquid->fills.size(), scene.liquid->volumes.size()) : 1;
+}
+
+const std::vector<double>& vessel_fills(const Scene& scene, const VesselData& vessel) {
+  return vessel.fills.empty() ? scene.liquid->fills : vessel.fills;
+}
 
 std::array<double, 6> effective_weights(const Scene& scene) {
   const ScoreWeights& w = scene.score;

@@ -47,6 +47,9 @@ struct PlaneChunk {
 // Number of fills a scene's states have: its liquid's, or 1 (the empty glass).
 std::size_t scene_fills(const Scene& scene);
 
+// The liquid's fills in a vessel, fractions of its capacity, strictly ascending. Only of a scene with liquid.
+const std::vector<double>& vessel_fills(const Scene& scene, const VesselData& vessel);
+
 // Weights of the six score terms in the order of FIELD_TERMS: the scene's, or without tilts those of the four remaining terms scaled to
 // sum to 1.
 std::array<double, 6> effective_weights(const Scene& scene);

@@ -109,7 +109,7 @@ PreparedVessel prepare_mesh(const VesselData& vessel, bool needs_cavity) {
   PreparedVessel prepared;
   prepared.mouth_height = vessel.height;
   if (needs_cavity) {
-    prepared.cavity = inner_cavity(vessel.mesh->inner);
+    prepared.cavity = prepare_cavity(vessel);
     prepared.floor_height = prepared.cavity.front().a[1];
     prepared.mouth_height = prepared.cavity.back().b[1];
     prepared.mouth_radius = prepared.cavity.back().b[0];
@@ -156,13 +156,18 @@ std::vector<PreparedElement> inner_cavity(const std::vector<OutlineElement>& inn
   return cavity;
 }
 
+std::vector<PreparedElement> prepare_cavity(const VesselData& vessel) {
+  if (!vessel.inner.empty()) return inner_cavity(vessel.inner);
+  return inner_offset(monotone_elements(vessel.outline), vessel.wall, vessel);
+}
+
 PreparedVessel prepare_vessel(const VesselData& vessel, bool needs_cavity) {
   if (vessel.mesh) return prepare_mesh(vessel, needs_cavity);
   PreparedVessel prepared;
   prepared.hull = monotone_elements(vessel.outline);
   prepared.mouth_height = prepared.hull.back().a[1];
   if (needs_cavity) {
-    prepared.cavity = inner_offset(prepared.hull, vessel.wall, vessel);
+    prepared.cavity = prepare_cavity(vessel);
     prepared.floor_height = prepared.cavity.front().a[1];
     prepared.mouth_radius = prepared.cavity.back().b[0];
   }

@@ -60,12 +60,16 @@ struct PreparedQuadrature {
 // Splits arcs at the poles of their circles, so that y is monotone along each element.
 std::vector<PreparedElement> monotone_elements(const std::vector<OutlineElement>& outline);
 
-// The inner wall: where the distance to the outline without its mouth equals `wall`, from the floor to the mouth. Throws Error (usage)
-// with the vessel's name where the wall leaves no cavity, closes it half way up, or makes it fold over itself.
+// The inner wall: where the distance to the outline without its mouth equals `wall`, from the vessel's `floor`, or where the wall leaves
+// room, to the mouth. Throws Error (usage) with the vessel's name where the wall leaves no cavity, fills it above the floor, closes it half
+// way up, or makes it fold over itself.
 std::vector<PreparedElement> inner_offset(const std::vector<PreparedElement>& hull, double wall, const VesselData& vessel);
 
-// The cavity of a mesh by its inner outline; its level elements, which hold nothing, are left out.
+// The cavity of an inner outline; its level elements, which hold nothing, are left out.
 std::vector<PreparedElement> inner_cavity(const std::vector<OutlineElement>& inner);
+
+// What a vessel with a cavity holds, by its inner outline or its wall; a mesh need not have been read. Throws as inner_offset.
+std::vector<PreparedElement> prepare_cavity(const VesselData& vessel);
 
 // A mesh has neither hull nor outline: its distance is its body's lattice. Throws Error: (usage) for what inner_offset refuses, (failure)
 // for a mesh that has not been read.

@@ -86,10 +86,11 @@ struct MeshData {
   std::string place;  // of the key, as above
   std::string file;
   double scale = 1;
-  Triple rotate{};  // rad
+  bool z_is_up = false;      // of the file: its z is turned to y before `rotate`
+  bool close_holes = false;  // small ones, before the mesh is used
+  Triple rotate{};           // rad
   bool origin_at_base = true;
-  std::optional<double> grid_spacing;  // m; absent: as wide as the wanted accuracy allows
-  std::vector<OutlineElement> inner;   // of the cavity: from [0, 0] up the axis to its floor, then rising to the mouth; empty: none
+  std::optional<double> grid_spacing;    // m; absent: as wide as the wanted accuracy allows
   std::shared_ptr<const MeshBody> body;  // the file once it is read (sweeps/mesh_vessel.h); null before
 };
 
@@ -104,8 +105,11 @@ struct VesselData {
   std::optional<MeshData> mesh;         // instead of an outline
   double base = 0;                      // y of the lowest point, m; not 0 only for a mesh whose origin is as it is
   double height = 0;                    // y of the mouth, m; of a mesh, of the highest point, once it is read
-  double wall = 0;                      // m; 0: none given (then no liquid, no shell, and the mass is given)
-  std::string wall_place;               // of the key, as above
+  // What it holds: the inner outline where there is one, else the room further than the wall from the outline and above the floor.
+  std::vector<OutlineElement> inner;  // from [0, 0] along the axis to the cavity's floor, then rising to its mouth; empty: none
+  double wall = 0;                    // m; beside an inner outline the thinnest place; 0: neither given, or a mesh
+  double floor = 0;                   // y of the cavity's floor, m; 0: where the wall leaves room
+  std::string cavity_place;           // of the key that gives the cavity, as above
   Surface surface = Surface::solid;
   double density = 2230;              // of the wall, kg/m3
   std::optional<double> mass;         // kg, with center_of_mass: both given or neither
@@ -118,12 +122,15 @@ struct VesselData {
   int line = 0;  // place in the scene file, for messages
   int column = 0;
 
-  bool has_cavity() const { return mesh ? !mesh->inner.empty() : wall > 0; }
+  std::vector<double> fills;  // of the scene's liquid, fractions of this vessel's capacity; empty where those of LiquidData hold
+
+  bool has_cavity() const { return !inner.empty() || wall > 0; }
 };
 
 struct LiquidData {
-  double density = 1000;      // kg/m3
-  std::vector<double> fills;  // fraction of the capacity upright to the brim, strictly ascending, at least one
+  double density = 1000;        // kg/m3
+  std::vector<double> fills;    // fractions of the capacity upright to the brim, strictly ascending; empty where volumes are given
+  std::vector<double> volumes;  // m3, strictly ascending; each vessel then has its own fractions. One of the two has entries
   Pour pour = Pour::away;
 };
 
@@ -162,6 +169,8 @@ struct ScoreWeights {
 struct OutputData {
   std::string keep_place;                        // as above
   std::optional<std::vector<std::string>> keep;  // variable names; absent: the default set
+  std::string also_place;                        // as above
+  std::vector<std::string> also;                 // further ones beside the default set
   int best = 20;
 };
 

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/load.h"
 #include "core/mesh_body.h"
+#include "core/planes.h"
 #include "core/prepare.h"
 #include "core/trig.h"
 
@@ -37,7 +38,7 @@ LiveVessel load_live_vessel(const Scene& scene, const VesselData& data, const co
   const bool is_left = scene.hand.handedness == Handedness::left;
   if (data.liquid_fill > 0 && !(scene.liquid && data.has_cavity())) {
     throw usage_error(at_place(scene.file, "vessel '" + data.name + "' has liquid in it; that needs [liquid] and " +
-                                               (data.mesh ? "'inner_outline'" : "'wall_mm'")));
+                                               (data.mesh ? "'inner_outline'" : "'wall_mm' or 'inner_outline'")));
   }
   LiveVessel live;
   const PreparedVessel prepared = prepare_vessel(data, data.has_cavity());
@@ -51,7 +52,7 @@ LiveVessel load_live_vessel(const Scene& scene, const VesselData& data, const co
   liquid.height = live.vessel.floor_height;
   if (scene.liquid) {
     live.volume = data.liquid_fill * live.vessel.capacity;
-    most = std::max(scene.liquid->fills.back(), data.liquid_fill) * live.vessel.capacity;
+    most = std::max(vessel_fills(scene, data).back(), data.liquid_fill) * live.vessel.capacity;
     liquid = core_f64::liquid_at(live.vessel, quadrature, most, 0, 1);
   }
   const double density = scene.liquid ? scene.liquid->density : 0;

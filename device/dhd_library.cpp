@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 
 #include "core/error.h"
 
@@ -26,7 +27,15 @@ struct Loaded {
   std::string problem;  // the loader's words, one line; empty if there is a handle
 };
 
+// Whether a path, not a bare name, leads to something that is no file: the loader would wait for a pipe without end.
+bool is_no_file(const std::string& path) {
+  std::error_code absent;
+  return path.find('/') != std::string::npos && std::filesystem::exists(path, absent) &&
+         !std::filesystem::is_regular_file(path, absent);
+}
+
 Loaded load(const std::string& path) {
+  if (is_no_file(path)) return {nullptr, path, path + ": is no file but a folder, device or pipe"};
   Loaded loaded{dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL), path, ""};
   if (loaded.handle) return loaded;
   const char* words = dlerror();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "core/tick.h"
+#include "device/let_go.h"
 
 namespace wholehand {
 
@@ -22,6 +24,7 @@ inline bool is_finite(const GripperState& state) {
 inline bool is_finite(const GripperForce& force) {
   return std::isfinite(force.arm[0]) && std::isfinite(force.arm[1]) && std::isfinite(force.arm[2]) && std::isfinite(force.grip);
 }
+inline bool is_none(const GripperForce& force) { return force.arm == Triple{} && force.grip == 0; }
 
 // What an open gripper is and can do. Forces are the largest that may ever be written to it.
 struct GripperLimits {
@@ -33,6 +36,7 @@ struct GripperLimits {
   double rate = 0;              // measurements a second at most, Hz
   bool has_rotation = true;     // false: GripperState::rotation stays NO_ROTATION
   bool is_left_handed = false;
+  double watchdog = 0;  // the device drops its force by itself where it hears nothing for so long, s; 0: it does not
 };
 
 // An open gripper. Open functions (open_sim, open_hid, ..) throw Error; the methods below are called from the haptic thread, do not throw,
@@ -50,13 +54,23 @@ class Gripper {
   virtual ReadOutcome read(GripperState& state, std::int64_t tick) noexcept = 0;
   // False: the device did not take it.
   virtual bool write(const GripperForce& force) noexcept = 0;
-  // No force, as the last thing that is written: returns when the device has it, or does not take it. May wait for some milliseconds.
-  virtual void let_go() noexcept { write({}); }
-  // Why the last read or write failed: a few words that stay where they are ("unplugged"). Never null.
+  // No force, as the last thing that is written: returns when the device has it, or does not take it. May wait for some milliseconds. What this,
+  // panic() and let_go_meanwhile() answer for a gripper whose forces go nowhere is that there is nothing; a device says otherwise.
+  virtual LetGo let_go() noexcept {
+    write({});
+    return LetGo::nothing;
+  }
+  // The last of all calls, after let_go(), made where the haptic thread is watched: the library of a device may not return from
+  // leaving it either. What is left to do afterwards is the destructor's, which nobody watches.
+  virtual void close() noexcept {}
+  // Why the last read, write or let_go failed: a few words that stay where they are until the next of these ("unplugged"). Never null.
   virtual const char* trouble() const noexcept { return ""; }
-  // Zero force as far as a signal handler may do that, from any thread, whatever the haptic thread was doing. A device that has
-  // nothing of this kind leaves it to its watchdog.
-  virtual void panic() noexcept {}
+  // Zero force as far as a signal handler may do that, from any thread, whatever the haptic thread was doing. Not asked: nothing of this
+  // kind is safe there.
+  virtual LetGo panic() noexcept { return LetGo::nothing; }
+  // Zero force from a second thread while the haptic thread is in a call that does not return. It may wait for as long as that call does; the
+  // session may go on afterwards, its next force beginning at zero.
+  virtual LetGo let_go_meanwhile() noexcept { return LetGo::nothing; }
   // What is on the screen after this tick. Only simulated users look.
   virtual void show(const Tick&) noexcept {}
   // The number that the next tick must have: a recording's, in which some may be missing. -1: the loop's own
@@ -64,8 +78,25 @@ class Gripper {
   virtual std::int64_t dictated_tick() const noexcept { return -1; }
   // Whether the one who holds it is done: a simulated user, a recording at its end.
   virtual bool is_done() const noexcept { return false; }
+  // Whether the recording has zero force in the tick that was read last though the method wanted one: the force began there, or anew after a stall.
+  virtual bool dictates_zero() const noexcept { return false; }
+
+  // The force of the last write that was begun, for whoever must say it from another thread or a signal handler: a write that fails half-way
+  // may have reached the device.
+  void note(const GripperForce& force) noexcept {
+    noted_arm_.store(std::hypot(force.arm[0], force.arm[1], force.arm[2]), std::memory_order_relaxed);
+    noted_grip_.store(std::abs(force.grip), std::memory_order_relaxed);
+  }
+  ForceSize noted() const noexcept {
+    return {noted_arm_.load(std::memory_order_relaxed), noted_grip_.load(std::memory_order_relaxed)};
+  }
+
+ private:
+  static_assert(std::atomic<double>::is_always_lock_free, "read in a signal handler");
+  std::atomic<double> noted_arm_{0}, noted_grip_{0};  // N
 };
 
+constexpr double PAPER_FORCE = 12, PAPER_GRIP = 8;  // N: limits of the gripper in the paper, and of those that stand in for it
 constexpr double READ_PATIENCE = 10e-3;  // s: several periods of any allowed rate, and shorter than a person's shortest reaction
 
 // A gripper that is attached, or would be there if something were not missing.

@@ -57,10 +57,16 @@ std::string Guard::jump() const {
   return fmt::format("its rotation by {:.3g} rad/s; allowed: up to {:g}", turn_speed_, JUMP_TURN);
 }
 
+std::int64_t Guard::stall_periods() const noexcept {
+  auto periods = static_cast<std::int64_t>(STALL / period_);
+  while (period_ * static_cast<double>(periods) < STALL) ++periods;
+  return periods;
+}
+
 GripperForce Guard::limit(const GripperForce& wanted, std::int64_t number) noexcept {
-  if (first_ >= 0 && period_ * static_cast<double>(number - limited_) >= STALL) {
-    first_ = -1;
-    written_ = {};
+  if (first_ >= 0 && number - limited_ >= stall_periods()) {
+    first_ = limited_ = number;
+    return written_ = {};
   }
   const bool is_first = first_ < 0;
   if (is_first) first_ = number;

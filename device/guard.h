@@ -24,8 +24,12 @@ class Guard {
 
   // The force to write: `wanted` no larger than the device's limits (the arm keeps its direction), times the ramp from zero over the first
   // ramp_s of ticks, and no further from the force before than slew_N_s allows, arm and grip each. A force that is no number is none. After
-  // ticks that were missed for STALL and longer, in which a device's own watchdog may have let go, it all begins at zero again.
+  // ticks that were missed for STALL and longer, in which a device's own watchdog may have let go, the first is zero, whatever the ramp, and it all
+  // begins again.
   GripperForce limit(const GripperForce& wanted, std::int64_t number) noexcept;
+
+  // The least number of periods that make a stall.
+  std::int64_t stall_periods() const noexcept;
 
  private:
   double force_, grip_;                                    // N
@@ -41,7 +45,7 @@ class Guard {
 };
 
 constexpr double ROTATION_TOLERANCE = 1e-3;  // a tenth of a degree of skew is a broken sensor
-constexpr double STALL = 15e-3;              // s: less than any watchdog that a device is given
+constexpr double STALL = 15e-3;              // s: less than the watchdog that a device is given
 constexpr double JUMP_TURN = 100;            // rad/s: a quick wrist turns at 30
 
 }  // namespace wholehand

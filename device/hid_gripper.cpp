@@ -56,11 +56,11 @@ class HidTransport final : public Transport {
   bool get_feature(std::span<std::uint8_t> report, std::size_t& length) noexcept override;
   bool set_feature(protocol::Bytes report) noexcept override;
   const char* trouble() const noexcept override { return trouble_; }
-  void panic(protocol::Bytes report) noexcept override {
+  bool panic(protocol::Bytes report) noexcept override {
     const int saved = errno;
-    // nothing is left to do where it fails: the device's watchdog has the rest
-    [[maybe_unused]] const ssize_t count = ::write(node_.fd(), report.data(), report.size());
+    const ssize_t count = ::write(node_.fd(), report.data(), report.size());
     errno = saved;
+    return count == static_cast<ssize_t>(report.size());
   }
 
  private:

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 
 #include "core/error.h"
 #include "device/dhd_library.h"
+#include "device/panic.h"
 #include "device/session_lock.h"
 
 namespace wholehand {
@@ -26,6 +28,7 @@ Rotation rotation_from_dhd(const double frame[3][3]) {
 
 namespace {
 
+constexpr const char* PLACE = "omega";    // of what is said of the library
 constexpr double WATCHDOG_STEP = 125e-6;  // s
 constexpr int WATCHDOG_STEPS = 255;
 constexpr std::array<double, 2> GAP{0, 25e-3};  // m, of the data sheets
@@ -41,18 +44,25 @@ struct Model {
 constexpr std::array<Model, 4> MODELS{
     {{35, "omega.7", false, 12, 8}, {37, "omega.7", true, 12, 8}, {104, "sigma.7", false, 12, 8}, {105, "sigma.7", true, 12, 8}}};
 
+bool is_plain(char letter) { return letter >= ' ' && letter <= '~'; }
+
+// What a vendor's library says is of no known encoding: letters beyond ASCII become '?', line ends a space.
+std::string printable(std::string text) {
+  for (char& letter : text)
+    if (!is_plain(letter)) letter = letter == '\n' ? ' ' : '?';
+  return text;
+}
+
 std::string last_error(const DhdLibrary& dhd) {
   const char* words = dhd.error_get_last_str();
-  std::string line = words && *words ? words : "no reason given";
-  std::replace(line.begin(), line.end(), '\n', ' ');
-  return line;
+  return printable(words && *words ? words : "no reason given");
 }
 
 std::string address_of(int number) { return number == 0 ? "omega" : fmt::format("omega:{}", number); }
 
 const char* hand_name(const Model& model) { return model.is_left_handed ? "left hand" : "right hand"; }
 
-// An open device; closed when it is destroyed.
+// An open device; closed when it is destroyed, unless it was before.
 class Connection {
  public:
   Connection(const DhdLibrary& dhd, int number) : dhd_(dhd), id_(dhd.open_id(static_cast<char>(number))) {
@@ -61,20 +71,25 @@ class Connection {
         "{}: cannot open device {}: {}; likely another program has it open, or you may not use it (device/udev/60-wholehand.rules)",
         address_of(number), number, last_error(dhd)));
   }
-  ~Connection() { dhd_.close(id()); }
+  ~Connection() { close(); }
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
   char id() const { return static_cast<char>(id_); }
+  void close() {
+    if (is_open_) dhd_.close(id());
+    is_open_ = false;
+  }
 
  private:
   const DhdLibrary& dhd_;
   int id_;
+  bool is_open_ = true;
 };
 
 std::string system_name(const DhdLibrary& dhd, char id) {
   const char* name = dhd.get_system_name(id);
-  return name && *name ? name : "unnamed device";
+  return name && *name ? printable(name) : "unnamed device";
 }
 
 const Model& model_of(const DhdLibrary& dhd, char id) {
@@ -106,9 +121,7 @@ std::string lock_name(int number) { return fmt::format("omega-{}", number); }
 
 bool is_finite(const Triple& vector) { return std::isfinite(vector[0]) && std::isfinite(vector[1]) && std::isfinite(vector[2]); }
 
-bool is_zero(const GripperForce& force) { return force.arm == Triple{} && force.grip == 0; }
-
-class OmegaGripper : public Gripper {
+class OmegaGripper final : public Gripper {
  public:
   OmegaGripper(const DhdLibrary& dhd, double watchdog, int number)
       : dhd_(dhd), lock_(lock_name(check_number(dhd_, number))), connection_(dhd_, number), id_(connection_.id()) {
@@ -126,12 +139,30 @@ class OmegaGripper : public Gripper {
     protect(watchdog);
   }
 
-  ~OmegaGripper() override {
-    if (is_enabled_) send(GripperForce{});
-    dhd_.stop(id_);
-  }
+  ~OmegaGripper() override { close(); }
 
   const GripperLimits& limits() const noexcept override { return limits_; }
+
+  // The SDK is thread-safe (docs/devices.md), so a second thread may call it; but a call that does not return may hold what others wait for.
+  LetGo let_go() noexcept override {
+    if (!is_enabled_) return LetGo::nothing;
+    if (send(GripperForce{})) return LetGo::written;
+    fail_by("force not taken");
+    return LetGo::not_taken;
+  }
+  LetGo let_go_meanwhile() noexcept override {
+    if (!is_enabled_) return LetGo::nothing;
+    return is_open_ && send(GripperForce{}) ? LetGo::written : LetGo::not_taken;
+  }
+  void close() noexcept override {
+    if (!is_open_) return;
+    // a force may be on until one of the two has taken it away; both are tried
+    if (is_enabled_ && send(GripperForce{})) is_enabled_ = false;
+    if (dhd_.stop(id_) >= 0) is_enabled_ = false;
+    is_open_ = false;  // before: no other thread may use a number that is given back
+    connection_.close();
+  }
+  LetGo panic() noexcept override { return is_enabled_ ? LetGo::not_asked : LetGo::nothing; }
 
   ReadOutcome read(GripperState& state, std::int64_t) noexcept override {
     GripperState fresh = state;
@@ -149,9 +180,13 @@ class OmegaGripper : public Gripper {
       if (is_enabled_) send(GripperForce{});
       return fail("a force that is not a number");
     }
-    if (!has_read_) return is_zero(force) || fail("no force before the first good read");
-    if (!is_enabled_ && dhd_.enable_force(1, id_) < 0) return fail_by("force cannot be enabled");
-    is_enabled_ = true;
+    if (!has_read_) return is_none(force) || fail("no force before the first good read");
+    if (!has_enabled_) {
+      // before the call: one that fails half-way may have switched it on, and zero is to be written then
+      is_enabled_ = true;
+      if (dhd_.enable_force(1, id_) < 0) return fail_by("force cannot be enabled");
+      has_enabled_ = true;
+    }
     return send(force) || fail_by("force not taken");
   }
 
@@ -161,6 +196,7 @@ class OmegaGripper : public Gripper {
   // Before any force: none enabled, the watchdog on, the device's own maxima set. One user of an omega.7 found the gripper's at 1 N.
   void protect(double watchdog) {
     const int steps = static_cast<int>(std::clamp(std::round(watchdog / WATCHDOG_STEP), 1.0, 1.0 * WATCHDOG_STEPS));
+    limits_.watchdog = steps * WATCHDOG_STEP;
     // the firmware is left to refuse; without expert mode, the calls below say so
     dhd_.enable_expert_mode();
     dhd_.enable_force(0, id_);
@@ -212,17 +248,22 @@ class OmegaGripper : public Gripper {
   bool fail_by(const char* what) noexcept {
     const char* words = dhd_.error_get_last_str();
     std::snprintf(trouble_.data(), trouble_.size(), "%s: %s", what, words && *words ? words : "no reason given");
-    std::replace(trouble_.begin(), trouble_.end(), '\n', ' ');
+    for (char* letter = trouble_.data(); *letter; ++letter)
+      if (!is_plain(*letter)) *letter = *letter == '\n' ? ' ' : '?';
     return false;
   }
 
+  const ExitGuard exits_{PLACE};  // first: until the library is left
   const DhdLibrary dhd_;
   const SessionLock lock_;
-  const Connection connection_;
+  Connection connection_;
   const char id_;
   GripperLimits limits_;
   double opening_ = 1;  // sign of a gripper force that opens
-  bool has_read_ = false, is_enabled_ = false;
+  bool has_read_ = false;
+  bool has_enabled_ = false;             // the device said so
+  std::atomic<bool> is_enabled_{false};  // a force may be on; of any thread
+  std::atomic<bool> is_open_{true};      // likewise
   std::uint32_t reads_ = 0;
   std::array<char, 160> trouble_{};
 };
@@ -251,11 +292,13 @@ GripperFound describe(const DhdLibrary& dhd, int number) {
 
 std::unique_ptr<Gripper> open_omega(const std::string& library, double watchdog_s, int number) {
   if (!(watchdog_s > 0)) throw usage_error("omega: the watchdog must be longer than 0 s");
+  const ExitGuard exits(PLACE);
   return std::make_unique<OmegaGripper>(load_dhd_library(library), watchdog_s, number);
 }
 
 std::vector<GripperFound> find_omega_grippers(const std::string& library) {
   std::vector<GripperFound> found;
+  const ExitGuard exits(PLACE);
   try {
     const DhdLibrary dhd = load_dhd_library(library);
     const int count = count_devices(dhd);

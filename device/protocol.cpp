@@ -152,6 +152,10 @@ const char* words(Wrong wrong) {
       return "a number out of its range";
     case Wrong::tripped:
       return "the device's watchdog has tripped";
+    case Wrong::older:
+      return "its sequence numbers go back";
+    case Wrong::clock:
+      return "its clock steps back";
   }
   return "";
 }
@@ -315,8 +319,13 @@ bool is_gripper(Bytes descriptor) noexcept {
   return false;
 }
 
+Wrong Measurements::check(const InputReport& report) const noexcept {
+  if (is_first_) return Wrong::nothing;
+  if (static_cast<std::int32_t>(report.sequence - last_sequence_) < 0) return Wrong::older;
+  return static_cast<std::int32_t>(report.time - last_time_) < 0 ? Wrong::clock : Wrong::nothing;
+}
+
 GripperState Measurements::state(const InputReport& report) noexcept {
-  // the difference as a signed number: a clock that steps back a little does not become one that went once round
   if (is_first_) {
     time_ = report.time;
     is_first_ = false;
@@ -324,6 +333,7 @@ GripperState Measurements::state(const InputReport& report) noexcept {
     time_ += static_cast<std::int32_t>(report.time - last_time_);
   }
   last_time_ = report.time;
+  last_sequence_ = report.sequence;
   GripperState state;
   for (std::size_t axis = 0; axis < 3; ++axis) state.position[axis] = report.position[axis] / METRE;
   if (has_rotation_) state.rotation = rotation_of(report.quaternion);

@@ -79,7 +79,7 @@ struct Watchdog {
 };
 
 // What is wrong with a report.
-enum class Wrong : std::uint8_t { nothing, length, id, version, magic, fault, not_homed, no_unit, range, tripped };
+enum class Wrong : std::uint8_t { nothing, length, id, version, magic, fault, not_homed, no_unit, range, tripped, older, clock };
 const char* words(Wrong wrong);  // "wrong length", ..: a few words that stay where they are
 
 // Decoding leaves the result alone unless it answers `nothing`; `decode_identity` fills in the version wherever it could be read. A
@@ -103,11 +103,14 @@ bool is_gripper(Bytes report_descriptor) noexcept;
 class Measurements {
  public:
   explicit Measurements(bool has_rotation) : has_rotation_(has_rotation) {}
+  // What is wrong with a report after the one that was turned last: an older sequence number, or a clock that has stepped back. Both wrap, and
+  // less than half a round ahead is later. The same number once more is for the loop to judge.
+  Wrong check(const InputReport& report) const noexcept;
   GripperState state(const InputReport& report) noexcept;
 
  private:
   bool has_rotation_, is_first_ = true;
-  std::uint32_t last_time_ = 0;
+  std::uint32_t last_time_ = 0, last_sequence_ = 0;
   std::int64_t time_ = 0;  // us
 };
 

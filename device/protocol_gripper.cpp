@@ -43,13 +43,18 @@ class ProtocolGripper final : public Gripper {
   const GripperLimits& limits() const noexcept override { return limits_; }
   ReadOutcome read(GripperState& state, std::int64_t) noexcept override;
   bool write(const GripperForce& force) noexcept override;
-  void let_go() noexcept override { transport_->send_now(release_); }
+  LetGo let_go() noexcept override {
+    if (transport_->send_now(release_)) return LetGo::written;
+    trouble_ = transport_->trouble();
+    return LetGo::not_taken;
+  }
   const char* trouble() const noexcept override { return trouble_; }
-  void panic() noexcept override {
+  LetGo panic() noexcept override {
     // first the flag: a write that comes between sends no force either
     has_panicked_.store(true);
-    transport_->panic(release_);
+    return let_go_meanwhile();
   }
+  LetGo let_go_meanwhile() noexcept override { return transport_->panic(release_) ? LetGo::written : LetGo::not_taken; }
 
   // The steps of the start; each throws Error (failure).
   void release();
@@ -82,6 +87,7 @@ ReadOutcome ProtocolGripper::next(GripperState& state, double patience) noexcept
   Wrong wrong = protocol::decode({buffer_.data(), length}, report);
   // it let go by itself, and stays so until the next session
   if (wrong == Wrong::nothing && (report.status & protocol::WATCHDOG_TRIPPED)) wrong = Wrong::tripped;
+  if (wrong == Wrong::nothing) wrong = measurements_.check(report);
   if (wrong != Wrong::nothing) {
     trouble_ = words(wrong);
     return ReadOutcome::error;
@@ -139,6 +145,7 @@ void ProtocolGripper::set_watchdog(double seconds) {
   if (has.period > wish.period || has.period < SHORTEST_OF_WISHED * wish.period)
     throw failure_error(
         fmt::format("{}: asked for a watchdog of {:g} ms, it keeps {:g} ms", limits_.address, wish.period / 1e3, has.period / 1e3));
+  limits_.watchdog = has.period / protocol::SECOND;
 }
 
 // Reports from before the release may still wait, and say that the watchdog of an earlier session tripped.

@@ -34,6 +34,12 @@ void keep_awake() {
 
 }  // namespace
 
+void outrank_realtime() noexcept {
+  sched_param parameters{};
+  parameters.sched_priority = PRIORITY + 1;
+  pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters);
+}
+
 std::vector<std::string> make_realtime() {
   std::vector<std::string> notes;
   sched_param parameters{};

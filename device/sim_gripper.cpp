@@ -16,9 +16,8 @@ namespace {
 using core_f64::Mat3;
 using core_f64::Vec3;
 
-constexpr double PAPER_FORCE = 12, PAPER_GRIP = 8;  // N
-constexpr double TREMOR_TIME = 0.02;                // s: the correlation of a tremor of about 8 Hz
-constexpr double COMPENSATION_TIME = 0.15;          // s in which the arm takes over a load that it feels
+constexpr double TREMOR_TIME = 0.02;        // s: the correlation of a tremor of about 8 Hz
+constexpr double COMPENSATION_TIME = 0.15;  // s in which the arm takes over a load that it feels
 
 std::array<double, 2> sim_gap(const Scene& scene, const core_f64::Hand& hand) {
   if (scene.device.has_gap) return scene.device.gap;

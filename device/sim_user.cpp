@@ -19,22 +19,20 @@ constexpr double REACH_TIME = 0.9, ENTER_TIME = 0.5, CLOSE_TIME = 0.9, SETTLE_TI
 constexpr double TILT_TIME = 3.6, MAINTAIN_TIME = 1.5, UPRIGHT_TIME = 1.2, LOWER_TIME = 0.9, OPEN_TIME = 0.5, WITHDRAW_TIME = 0.5;
 constexpr double SHOWN_TILT = radians(75);
 constexpr double LIFT = 0.12, APART = 0.12;  // height of lifting; distance from which the hand goes in
-constexpr double ABOVE_TARGET = 0.03;        // of the lip over the target's mouth
 constexpr double SQUEEZE = 8e-3;             // m that the fingers aim inside of the vessel
 constexpr double FELT = 0.3;                 // N: a contact
 constexpr double TILT_SPEED = radians(25);   // rad/s, the paper's 90 degrees in 3.6 s
 constexpr double QUICKEST_FLOW = 25e-6;      // m3/s that a person pours when there is much to pour
 constexpr double POUR_AHEAD = 0.8;           // s: how far before the amount is there the flow is made less
 constexpr double FLOW_BAND = 100e-6;         // m3/s of difference for the whole tilting speed
-constexpr double LARGEST_TILT = radians(140);
-constexpr double PATIENCE = 40;       // s of pouring after which a person gives up
-constexpr double LOOKS = 0.3;         // s before a vessel that slipped is seen to
-constexpr double CLEAR = 0.28;        // over the other vessels, on the way to the next
-constexpr double ABOVE_TABLE = 0.02;  // of the vessel's lowest part while it pours
+constexpr double PATIENCE = 40;              // s of pouring after which a person gives up
+constexpr double LOOKS = 0.3;                // s before a vessel that slipped is seen to
+constexpr double CLEAR = 0.28;               // over the other vessels, on the way to the next
 constexpr int ATTEMPTS = 3;
 
 // The best-scoring grip of a vessel among heights and rolls, or at a given height; false: none is feasible.
 bool choose_grip(const Scene& scene, const Evaluator& evaluator, std::size_t v, std::size_t task, SimJob& job) {
+  GripResult chosen;
   const VesselData& vessel = scene.vessels[v];
   std::vector<double> heights;
   if (!vessel.guidance.empty()) heights.push_back(vessel.guidance[task % vessel.guidance.size()].height);
@@ -57,10 +55,12 @@ bool choose_grip(const Scene& scene, const Evaluator& evaluator, std::size_t v, 
         best = score;
         job.grip = grip;
         job.gap = result.gap;
+        chosen = result;
       }
     }
   }
   job.grip.azimuth = 0;
+  if (best >= 0 && job.kind == SimJob::Kind::pour) job.path = PourPath(*scene.task, vessel, scene.hand, job.grip, chosen);
   return best >= 0;
 }
 
@@ -108,18 +108,10 @@ SimUser::SimUser(const LiveScene& live, std::vector<SimJob> jobs) : live_(live),
   begin(Phase::reach);
 }
 
-// The tips' middle at which the lip's lowest point is over the target's middle, the gripper tilted, and no part of the vessel under what it
-// stood on.
-Vec3 SimUser::over_target(double tilt) const noexcept {
-  const core_f64::Vessel& vessel = live_.vessels[job().vessel].vessel;
-  const double height = job().grip.height, up = vessel.mouth_height - height, out = vessel.mouth_radius;
-  const double c = std::cos(tilt), s = std::sin(tilt);
-  Vec3 target = in_hand_world(live_.scene.task->target_place);
-  // away from the user is -z; at no tilt the lip's point towards it counts
-  Vec3 middle = target + Vec3(0, ABOVE_TARGET - (up * c - out * s), up * s + out * c);
-  const double floor = live_.vessels[job().vessel].home.y + ABOVE_TABLE;
-  middle.y = std::max(middle.y, floor + height * c + vessel.bound_radius * s);
-  return middle;
+// How high the vessel is lifted off what it stands on: before it goes to a target, higher than that.
+double SimUser::lift() const noexcept {
+  if (job().kind != SimJob::Kind::pour) return LIFT;
+  return std::max(LIFT, job().path.middle(0).y - (live_.vessels[job().vessel].home.y + job().grip.height));
 }
 
 Vec3 SimUser::in_hand_world(const Triple& place) const noexcept { return to_vec3(mirrored(place, live_.scene.hand.handedness)); }
@@ -161,11 +153,11 @@ void SimUser::begin(Phase phase) noexcept {
       lasts_ = SETTLE_TIME;
       break;
     case Phase::lift:
-      move(wish_.middle + Vec3(0, LIFT, 0), LIFT_TIME);
+      move(wish_.middle + Vec3(0, lift(), 0), LIFT_TIME * lift() / LIFT);
       break;
     case Phase::carry:
       if (job().kind == SimJob::Kind::pour)
-        move(over_target(0), CARRY_TIME);
+        move(job().path.middle(0), CARRY_TIME);
       else if (is_carried)
         move(put + Vec3(0, LIFT, 0), CARRY_TIME);
       else
@@ -185,10 +177,10 @@ void SimUser::begin(Phase phase) noexcept {
       tilt_to_ = 0;
       break;
     case Phase::back:
-      move(put + Vec3(0, LIFT, 0), CARRY_TIME);
+      move(put + Vec3(0, lift(), 0), CARRY_TIME);
       break;
     case Phase::lower:
-      move(put, LOWER_TIME);
+      move(put, LOWER_TIME * lift() / LIFT);
       break;
     case Phase::open:
       gap_to_ = open;
@@ -206,8 +198,8 @@ void SimUser::pour(const SimSense& sense, double seconds) noexcept {
   const double flow = std::clamp(missing / POUR_AHEAD, 0.0, QUICKEST_FLOW);
   has_run_ = has_run_ || sense.flow > 0;
   const double speed = has_run_ ? TILT_SPEED * std::clamp((flow - sense.flow) / FLOW_BAND, -1.0, 1.0) : TILT_SPEED;
-  wish_.tilt = std::clamp(wish_.tilt + speed * seconds, 0.0, LARGEST_TILT);
-  wish_.middle = over_target(wish_.tilt);
+  wish_.tilt = std::clamp(wish_.tilt + speed * seconds, 0.0, SIM_LARGEST_TILT);
+  wish_.middle = job().path.middle(wish_.tilt);
   if (missing <= 0.3 * live_.scene.task->tolerance) time_ = lasts_;
 }
 
@@ -225,7 +217,7 @@ SimWish SimUser::next(const SimSense& sense, double seconds) noexcept {
   } else {
     wish_.middle = from_ + minimum_jerk(part) * (to_ - from_);
     wish_.tilt = tilt_from_ + minimum_jerk(part) * (tilt_to_ - tilt_from_);
-    if (phase_ == Phase::upright && pours) wish_.middle = over_target(wish_.tilt);
+    if (phase_ == Phase::upright && pours) wish_.middle = job().path.middle(wish_.tilt);
   }
   wish_.roll = roll_from_ + minimum_jerk(part) * (roll_to_ - roll_from_);
   wish_.gap = wish_.grips_by_force ? sense.gap : gap_from_ + minimum_jerk(part) * (gap_to_ - gap_from_);

@@ -5,6 +5,7 @@
 
 #include "core/result.h"
 #include "core/session.h"
+#include "device/pour_path.h"
 
 namespace wholehand {
 
@@ -16,6 +17,7 @@ struct SimJob {
   GripInput grip;     // where it is taken
   double gap = 0;     // of the hand there, m
   double amount = 0;  // m3 of its liquid that are to be in the target
+  PourPath path;      // where the tips' middle is while it pours
 };
 
 // What there is to do in a scene: its task, or each vessel shown. A vessel is taken at the height of the guidance point that is shown then,
@@ -59,7 +61,7 @@ class SimUser {
   void fail() noexcept;
   void go_on(bool feels) noexcept;
   void move(core_f64::Vec3 to, double seconds) noexcept;
-  core_f64::Vec3 over_target(double tilt) const noexcept;
+  double lift() const noexcept;
   core_f64::Vec3 in_hand_world(const Triple& place) const noexcept;
   void pour(const SimSense& sense, double seconds) noexcept;
   const SimJob& job() const noexcept { return jobs_[job_]; }

@@ -30,8 +30,8 @@ class Transport {
   virtual bool set_feature(protocol::Bytes report) noexcept = 0;
   // Why the last of the above failed: a few words that stay where they are.
   virtual const char* trouble() const noexcept = 0;
-  // Sends what it can of a report from a signal handler, whatever the above are doing.
-  virtual void panic(protocol::Bytes report) noexcept = 0;
+  // Sends a report from a signal handler or a second thread, whatever the above are doing. False: not taken.
+  virtual bool panic(protocol::Bytes report) noexcept = 0;
 };
 
 }  // namespace wholehand

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <charconv>
 #include <chrono>
@@ -16,6 +17,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "device/panic.h"
 #include "device/protocol.h"
 #include "device/protocol_gripper.h"
 
@@ -27,6 +29,7 @@ using Clock = std::chrono::steady_clock;
 // Input transfers in flight: the device's reports of 2 ms at the fastest rate allowed, so that a loop of 1 kHz always finds the newest.
 constexpr int IN_FLIGHT = 16;
 constexpr int OUT_PATIENCE = 10;                               // writes that find the one before still under way
+constexpr std::chrono::milliseconds STALE_OUTPUT{10};          // several periods of any loop that has not stood still
 constexpr unsigned CONTROL_PATIENCE = 500;                     // ms
 constexpr unsigned RELEASE_PATIENCE = 100;                     // ms
 constexpr unsigned PANIC_PATIENCE = 5;                         // ms
@@ -63,7 +66,7 @@ class UsbTransport final : public Transport {
   bool get_feature(std::span<std::uint8_t> report, std::size_t& length) noexcept override;
   bool set_feature(protocol::Bytes report) noexcept override;
   const char* trouble() const noexcept override { return trouble_; }
-  void panic(protocol::Bytes report) noexcept override;
+  bool panic(protocol::Bytes report) noexcept override;
 
  private:
   struct Incoming {
@@ -98,6 +101,10 @@ class UsbTransport final : public Transport {
   libusb_transfer* output_ = nullptr;
   std::array<std::uint8_t, protocol::OUTPUT_SIZE> output_bytes_{}, next_output_{};
   bool is_output_in_flight_ = false, has_next_output_ = false, has_output_failed_ = false, is_closing_ = false;
+  Clock::time_point next_since_;  // when the one that waits was handed in
+  int next_panics_ = 0;           // panics_ when its send() began
+  std::atomic<int> panics_{0};    // calls of panic(), of any thread
+  static_assert(std::atomic<int>::is_always_lock_free, "counted in a signal handler");
   int late_outputs_ = 0;
   bool has_input_failed_ = false;
   const char *input_trouble_ = "", *output_trouble_ = "";  // what the callbacks found
@@ -257,6 +264,10 @@ void UsbTransport::on_output(libusb_transfer* transfer) {
   }
   if (!self.has_next_output_) return;
   self.has_next_output_ = false;
+  // the process stood still meanwhile: the force of before must not come back
+  if (Clock::now() - self.next_since_ >= STALE_OUTPUT) return;
+  // nor may it follow the zero of a handler or a second thread
+  if (self.next_panics_ != self.panics_ || is_letting_go()) return;
   self.output_bytes_ = self.next_output_;
   if (!self.submit_output()) {
     self.has_output_failed_ = true;
@@ -266,6 +277,7 @@ void UsbTransport::on_output(libusb_transfer* transfer) {
 
 // One output is under way at a time, and one more waits, the newest: a device that is slow gets the force of now when it gets any.
 bool UsbTransport::send(protocol::Bytes report) noexcept {
+  const int panics = panics_;
   if (is_output_in_flight_ && !wait_for(0)) return false;
   if (has_output_failed_) {
     trouble_ = output_trouble_;
@@ -273,8 +285,11 @@ bool UsbTransport::send(protocol::Bytes report) noexcept {
   }
   auto& into = is_output_in_flight_ ? next_output_ : output_bytes_;
   std::copy_n(report.begin(), std::min(report.size(), into.size()), into.begin());
-  if (!is_output_in_flight_) return submit_output();
+  // a second thread has written zero while libusb was waited for
+  if (!is_output_in_flight_) return panics != panics_ || submit_output();
   has_next_output_ = true;
+  next_panics_ = panics;
+  next_since_ = Clock::now();
   return ++late_outputs_ <= OUT_PATIENCE || failed(0, "it takes no force");
 }
 
@@ -295,16 +310,18 @@ bool UsbTransport::send_now(protocol::Bytes report) noexcept {
 
 // Straight to the kernel, since libusb may be in the middle of something: the call waits for the transfer, which queues behind the one
 // that is under way, and is then the last.
-void UsbTransport::panic(protocol::Bytes report) noexcept {
-  if (descriptor_ < 0) return;
+bool UsbTransport::panic(protocol::Bytes report) noexcept {
+  ++panics_;
+  if (descriptor_ < 0) return false;
   const int saved = errno;
   usbdevfs_bulktransfer transfer{};  // goes to interrupt endpoints too
   transfer.ep = part_.out;
   transfer.len = static_cast<unsigned>(report.size());
   transfer.timeout = PANIC_PATIENCE;
   transfer.data = const_cast<std::uint8_t*>(report.data());
-  ioctl(descriptor_, USBDEVFS_BULK, &transfer);
+  const int count = ioctl(descriptor_, USBDEVFS_BULK, &transfer);
   errno = saved;
+  return count == static_cast<int>(report.size());
 }
 
 // ---- features ----

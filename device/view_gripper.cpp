@@ -13,8 +13,6 @@ namespace {
 
 using core_f64::Vec3;
 
-constexpr double PAPER_FORCE = 12, PAPER_GRIP = 8;  // N
-
 // The box about vessels, target and destination.
 struct Surroundings {
   Vec3 least{std::numeric_limits<double>::max()}, most{std::numeric_limits<double>::lowest()};

@@ -289,9 +289,9 @@ std::size_t GripBackend::bytes_per_grip() const {
 
 std::size_t GripBackend::table_bytes() const {
   const GripProgram& program = impl_->program();
-  std::size_t bytes = program.hand.size() + program.tilts.size() + program.fills.size() + program.quadrature.size();
+  std::size_t bytes = program.hand.size() + program.tilts.size() + program.quadrature.size();
   for (const VesselOnDevice& vessel : program.vessels) {
-    bytes += vessel.parameters.size() + vessel.outline.size() + vessel.grid.size();
+    bytes += vessel.parameters.size() + vessel.outline.size() + vessel.grid.size() + vessel.fills.size();
     for (const Buffer& states : vessel.states) bytes += states.size();
   }
   return bytes;

@@ -107,7 +107,6 @@ GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Ev
   tilt_count = static_cast<std::uint32_t>(scene.tilts.size());
   hand = upload(on, options.precision, arrays.hand);
   quadrature = upload(on, options.precision, arrays.quadrature);
-  fills = upload(on, options.precision, arrays.fills);
   tilts = upload(on, options.precision, arrays.tilts);
 
   std::vector<Constant> constants = common_constants();
@@ -151,6 +150,7 @@ void GripProgram::upload_vessel(std::size_t v, const SceneArrays& arrays, const 
   vessel.parameters = upload(on, options.precision, from.parameters);
   vessel.outline = upload(on, options.precision, outline);
   vessel.grid = Buffer::of(on, from.grid ? *from.grid : std::vector<std::uint32_t>(4));
+  vessel.fills = upload(on, options.precision, from.fills);
   upload_states(vessel, from.dry_loads, arrays.tilts);  // none where there is liquid
 }
 
@@ -205,7 +205,7 @@ void GripProgram::make_liquid(std::size_t v, const Scene& scene, const SceneArra
   if (arrays.vessels[v].cavity_count == 0 ||
       !liquid_fits_device(arrays.vessels[v].cavity_count, options.evaluator.quadrature_points)) {
     const VesselConstants constants = core.constants(v);
-    for (const double fill : scene.liquid->fills)
+    for (const double fill : arrays.vessels[v].fills)
       for (const double tilt : scene.tilts) {
         const LiquidResult state = core.liquid(v, fill, tilt);
         const double together = constants.mass + state.mass, share = together > 0 ? state.mass / together : 0;
@@ -224,7 +224,7 @@ void GripProgram::make_liquid(std::size_t v, const Scene& scene, const SceneArra
   commands.bind(BINDING_CAVITY, cavity);
   commands.bind(BINDING_QUADRATURE, quadrature);
   commands.bind(BINDING_TILTS, tilts);
-  commands.bind(BINDING_FILLS, fills);
+  commands.bind(BINDING_FILLS, vessel.fills);
   commands.bind(BINDING_CAPACITY, capacity);
   commands.bind(BINDING_LIQUID, liquids);
   commands.bind(BINDING_LOADS, loads_out);

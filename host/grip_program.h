@@ -13,7 +13,7 @@ namespace wholehand::host {
 // What a vessel needs on the device.
 struct VesselOnDevice {
   OutlineSource outline_source = OUTLINE_SPECIALIZED;
-  Buffer parameters, outline, grid;
+  Buffer parameters, outline, grid, fills;
   std::vector<Buffer> states;  // blocks of STATES_IN_BLOCK; empty without tilts
   std::optional<Kernel> grip;
   std::vector<LiquidResult> liquid;  // fill-major; empty without
@@ -30,7 +30,7 @@ struct GripProgram final : Program {
   void record(std::size_t vessel, const Chunk& chunk, std::size_t best, double floor_score, Commands& commands);
 
   Device on;  // first: destroyed last
-  Buffer hand, tilts, fills, quadrature;
+  Buffer hand, tilts, quadrature;
   std::vector<VesselOnDevice> vessels;
   std::optional<Kernel> force, score, select;
   std::uint32_t fill_count = 0, tilt_count = 0;

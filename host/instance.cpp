@@ -6,13 +6,19 @@
 #include <cstring>
 #include <filesystem>
 
+#include "core/memory_limit.h"
 #include "host/vulkan.h"
 
 namespace wholehand::host {
 namespace {
 
 constexpr const char* VALIDATION_LAYER = "VK_LAYER_KHRONOS_validation";
-constexpr const char* REMEDY = "install mesa-vulkan-drivers and libvulkan1, or use --on core";
+// A library for which there is no room looks like one that is not there.
+std::string remedy() {
+  const std::string limit = memory_limit_text();
+  return limit.empty() ? ": install mesa-vulkan-drivers and libvulkan1, or use --on core"
+                       : limit + "; raise that, or use --on core";
+}
 
 struct Messages {
   std::mutex mutex;
@@ -102,7 +108,7 @@ void rethrow(const vk::SystemError& error, const std::string& what) {
       throw DeviceLost(what + ": the Vulkan device was lost; try again, or use --on core");
     default:
       throw failure_error(what + ": the Vulkan driver answered " + vk::to_string(static_cast<vk::Result>(error.code().value())) +
-                          "; use --on core");
+                          memory_limit_text() + "; use --on core");
   }
 }
 
@@ -115,7 +121,7 @@ Instance::Instance(const DeviceOptions& options) {
   library.reset(dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL));
   if (!library) {
     const char* reason = dlerror();
-    throw failure_error(std::string("no Vulkan loader (") + (reason ? reason : name.c_str()) + "): " + REMEDY);
+    throw failure_error(std::string("no Vulkan loader (") + (reason ? reason : name.c_str()) + ")" + remedy());
   }
   context.emplace();
 
@@ -138,7 +144,7 @@ Instance::Instance(const DeviceOptions& options) {
     instance.emplace(*context, info);
   } catch (const vk::IncompatibleDriverError&) {
     const char* files = std::getenv("VK_DRIVER_FILES") ? "VK_DRIVER_FILES" : "VK_ICD_FILENAMES";
-    throw failure_error("no Vulkan driver" + (std::getenv(files) ? " in $" + std::string(files) : std::string()) + ": " + REMEDY);
+    throw failure_error("no Vulkan driver" + (std::getenv(files) ? " in $" + std::string(files) : std::string()) + remedy());
   } catch (const vk::SystemError& error) {
     rethrow(error, "opening Vulkan");
   }

@@ -27,6 +27,8 @@ std::uint64_t fnv1a(const std::vector<std::uint8_t>& bytes) {
 }
 
 std::vector<std::uint8_t> load(const std::string& file) {
+  std::error_code absent;
+  if (!std::filesystem::is_regular_file(file, absent)) return {};  // a pipe would be waited for
   std::ifstream in(file, std::ios::binary);
   FileHeader header;
   const FileHeader expected;
@@ -43,10 +45,11 @@ std::vector<std::uint8_t> load(const std::string& file) {
 void open_pipeline_cache(Device::Impl& impl, const std::string& folder) {
   std::vector<std::uint8_t> bytes;
   const std::string where = !folder.empty() ? folder : impl.info.kind == DeviceKind::cpu ? "" : cache_folder();
-  if (!where.empty()) {
+  if (!where.empty() && cache_limit() > 0) {
     const std::uint32_t driver = impl.physical->getProperties().driverVersion;
     impl.cache_file = where + "/" + impl.info.uuid + "-" + std::to_string(driver) + ".pipelines";
     bytes = load(impl.cache_file);
+    if (!bytes.empty()) touch_cached(impl.cache_file);
   }
   impl.cache.emplace(*impl.device, vk::PipelineCacheCreateInfo({}, bytes.size(), bytes.data()));
   impl.cache_size = bytes.size();
@@ -66,6 +69,11 @@ void save_pipeline_cache(Device::Impl& impl) noexcept {
     header.hash = fnv1a(bytes);
     const std::filesystem::path file(impl.cache_file);
     std::filesystem::create_directories(file.parent_path());
+    const std::uintmax_t size = sizeof header + bytes.size(), limit = cache_limit();
+    if (size > limit) {
+      return;
+    }
+    make_cache_room(file.parent_path().string(), size, limit);
     const std::string partial = impl.cache_file + "." + std::to_string(getpid());  // two runs at once: each its own
     std::ofstream out(partial, std::ios::binary);
     out.write(reinterpret_cast<const char*>(&header), sizeof header);

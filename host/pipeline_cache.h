@@ -1,5 +1,5 @@
 // Compiled pipelines kept between runs, one file per device and driver. For GPUs: lavapipe gives nothing to keep (Mesa caches for
-// it). No cache, a damaged one or a folder that cannot be written only costs the compilation.
+// it). They count towards cache_limit. No cache, a damaged one or a folder that cannot be written only costs the compilation.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace wholehand::host {
 
-// Makes impl.cache, from its file where there is one. `folder` empty: $XDG_CACHE_HOME/wholehand or ~/.cache/wholehand, nothing kept
+// Makes impl.cache, from its file where there is one. Throws Error (usage) as cache_limit does. `folder` empty: $XDG_CACHE_HOME/wholehand or ~/.cache/wholehand, nothing kept
 // on a CPU driver.
 void open_pipeline_cache(Device::Impl& impl, const std::string& folder);
 

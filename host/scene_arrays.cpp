@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "core/prepare.h"
+#include "core/touch.h"
 
 namespace wholehand::host {
 namespace {
@@ -33,8 +34,8 @@ std::vector<double> hand_table(const PreparedHand& prepared, const HandData& dat
   }
   put(HAND_THUMB_OPEN, prepared.thumb_open, data.max_angle);
   put(HAND_THUMB_SWING, prepared.thumb_swing, data.paper_max_angle);
-  put(HAND_FINGER_OPEN, prepared.finger_open, data.contact_tolerance);
-  put(HAND_FINGER_SWING, prepared.finger_swing, data.depth_limit);
+  put(HAND_FINGER_OPEN, prepared.finger_open, judged_contact_tolerance(data));
+  put(HAND_FINGER_SWING, prepared.finger_swing, judged_depth_limit(data));
   put(HAND_JOINT_LIMIT, data.joint_limit, data.scale);
   put(HAND_GAP, {prepared.gap_open, prepared.gap_closed, 0}, 0);
   std::copy(prepared.gap_table.begin(), prepared.gap_table.end(), table.begin() + 4 * HAND_TABLE);
@@ -83,7 +84,6 @@ SceneArrays make_scene_arrays(const Scene& scene, const Evaluator& core, const E
   SceneArrays arrays;
   arrays.hand = hand_table(prepare_hand(scene.hand, options.gap_table > 0 ? options.gap_table : GAP_TABLE_SIZE), scene.hand);
   for (const double tilt : scene.tilts) arrays.tilts.insert(arrays.tilts.end(), {std::sin(tilt), std::cos(tilt), tilt});
-  if (scene.liquid) arrays.fills = scene.liquid->fills;
   const PreparedQuadrature rule = prepare_quadrature(options.quadrature_points);
   for (std::size_t i = 0; i < rule.cosine.size(); ++i)
     arrays.quadrature.insert(arrays.quadrature.end(), {rule.cosine[i], rule.weight[i]});
@@ -118,6 +118,7 @@ SceneArrays make_scene_arrays(const Scene& scene, const Evaluator& core, const E
     p.cavity_count = vessel.cavity_count;
     p.quadrature_count = static_cast<std::uint32_t>(rule.cosine.size());
     if (const PreparedGrid* grid = core.grid(v)) set_grid(vessel, *grid);
+    if (scene.liquid) vessel.fills = vessel_fills(scene, data);
     for (std::size_t t = 0; !scene.liquid && t < scene.tilts.size(); ++t)
       vessel.dry_loads.insert(vessel.dry_loads.end(), {constants.mass, 0, 0, 0});
     arrays.vessels.push_back(std::move(vessel));

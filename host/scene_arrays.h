@@ -18,14 +18,14 @@ struct VesselArrays {
   std::shared_ptr<const std::vector<std::uint32_t>> grid;  // samples as layout.h has them, x fastest; null for an outline
   bool halves = false;                                     // .. two to a word
   std::vector<double> dry_loads;                           // LOAD_STRIDE a tilt, for a scene without liquid
+  std::vector<double> fills;                               // fractions of its capacity; empty without liquid
   int lid = -1;
   int outline_count = 0, cavity_count = 0;
 };
 
 struct SceneArrays {
-  std::vector<double> hand;   // 4 * HAND_VECTORS
-  std::vector<double> tilts;  // sine, cosine, tilt
-  std::vector<double> fills;
+  std::vector<double> hand;        // 4 * HAND_VECTORS
+  std::vector<double> tilts;       // sine, cosine, tilt
   std::vector<double> quadrature;  // cosine, weight
   std::vector<VesselArrays> vessels;
 };

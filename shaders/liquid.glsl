@@ -161,6 +161,7 @@ LiquidState liquid_at(Real volume, Real sine_tilt, Real cosine_tilt) {
   Real low = bottom_level(sine_tilt, cosine_tilt);
   Real high = lip_level(sine_tilt, cosine_tilt);
   Real level = high;
+  Real last_move = high - low;
   Slices below = Slices(Real(0), Real(0), Real(0), Real(0));
   for (int step = 0; step < LEVEL_STEPS; ++step) {
     below = liquid_below(level, sine_tilt, cosine_tilt);
@@ -169,8 +170,10 @@ LiquidState liquid_at(Real volume, Real sine_tilt, Real cosine_tilt) {
     if (error > Real(0)) high = level;
     if (error < Real(0)) low = level;
     Real next = level - error / below.surface;
-    if (!(next > low && next < high)) next = Real(0.5) * (low + high);
+    bool shrinks = Real(2) * abs(next - level) <= last_move;
+    if (!(next > low && next < high && shrinks)) next = Real(0.5) * (low + high);
     if (next == level) break;
+    last_move = abs(next - level);
     level = next;
   }
   state.volume = volume;

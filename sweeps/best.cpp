@@ -25,24 +25,6 @@ double listed(double told, const std::vector<double>& tilts) {
                            [told](double a, double b) { return std::abs(a - told) < std::abs(b - told); });
 }
 
-// Forces and tilts of grip i: the worst over the fills.
-void read_forces(const PlaneChunk& chunk, const FieldSet& fields, std::size_t i, int fills, const std::vector<double>& tilts,
-                 BestGrip& best) {
-  best.peak_force = best.largest_hold = -1;
-  best.safe_tilt = std::numeric_limits<double>::infinity();
-  for (int fill = 0; fill < fills; ++fill) {
-    const auto real = [&](int field) { return chunk.real(fields.plane[field] + fill, i); };
-    if (real(FIELD_PEAK_FORCE) > best.peak_force) {
-      best.peak_force = real(FIELD_PEAK_FORCE);
-      best.peak_tilt = listed(real(FIELD_PEAK_TILT), tilts);
-    }
-    best.largest_hold = std::max(best.largest_hold, real(FIELD_LARGEST_HOLD));
-    const double safe = listed(real(FIELD_SAFE_TILT), tilts);
-    if (std::isnan(safe) || safe < best.safe_tilt) best.safe_tilt = safe;
-    if (std::isnan(safe)) break;
-  }
-}
-
 BestGrip read_best(const PlaneChunk& chunk, const FieldSet& fields, std::size_t i, const Scene& scene) {
   const auto real = [&](int field, int plane = 0) { return chunk.real(fields.plane[field] + plane, i); };
   BestGrip best;
@@ -55,8 +37,7 @@ BestGrip read_best(const PlaneChunk& chunk, const FieldSet& fields, std::size_t 
   best.fingers_used = std::popcount(chunk.uint(fields.plane[FIELD_USED_MASK], i));
   best.antipodal = (chunk.uint(fields.plane[FIELD_STATUS], i) & STATUS_ANTIPODAL) != 0;
   best.points_touching = std::popcount(chunk.uint(fields.plane[FIELD_TOUCH_MASK], i));
-  best.peak_force = best.peak_tilt = best.largest_hold = best.safe_tilt = NOT_A_NUMBER;
-  if (!scene.tilts.empty()) read_forces(chunk, fields, i, static_cast<int>(scene_fills(scene)), scene.tilts, best);
+  set_worst(best, scene, real);
   return best;
 }
 
@@ -80,6 +61,23 @@ std::vector<int> best_fields(const Scene& scene) {
   return fields;
 }
 
+void set_worst(BestGrip& best, const Scene& scene, const std::function<double(int field, int fill)>& value) {
+  best.peak_force = best.peak_tilt = best.largest_hold = best.safe_tilt = NOT_A_NUMBER;
+  if (scene.tilts.empty()) return;
+  best.peak_force = best.largest_hold = -1;
+  best.safe_tilt = std::numeric_limits<double>::infinity();
+  for (int fill = 0; fill < static_cast<int>(scene_fills(scene)); ++fill) {
+    if (value(FIELD_PEAK_FORCE, fill) > best.peak_force) {
+      best.peak_force = value(FIELD_PEAK_FORCE, fill);
+      best.peak_tilt = listed(value(FIELD_PEAK_TILT, fill), scene.tilts);
+    }
+    best.largest_hold = std::max(best.largest_hold, value(FIELD_LARGEST_HOLD, fill));
+    const double safe = listed(value(FIELD_SAFE_TILT, fill), scene.tilts);
+    if (std::isnan(safe) || safe < best.safe_tilt) best.safe_tilt = safe;
+    if (std::isnan(safe)) break;
+  }
+}
+
 std::vector<BestGrip> evaluate_best(Backend& backend, const Scene& scene, const Plan& plan, std::size_t vessel,
                                     const std::vector<Candidate>& candidates) {
   std::vector<BestGrip> best(candidates.size());
@@ -96,6 +94,7 @@ std::vector<BestGrip> evaluate_best(Backend& backend, const Scene& scene, const 
       grip = read_best(chunk, backend.fields(), i, scene);
       grip.candidate = candidates[chunk.first + i];
       grip.grip = plan.grip(vessel, grip.candidate.index);
+      grip.rank = chunk.first + i + 1;
     }
   };
   const RunResult result = backend.run(request);
@@ -106,15 +105,17 @@ std::vector<BestGrip> evaluate_best(Backend& backend, const Scene& scene, const 
   return best;
 }
 
-std::string best_csv(const Scene& scene, const std::vector<std::vector<BestGrip>>& vessels) {
-  std::string csv =
-      "vessel,rank,height_mm,azimuth_deg,obliquity_deg,roll_deg,offset_mm,hand_scale,score,score_fingers,score_contacts,score_"
+std::string best_csv(const Scene& scene, const Plan& plan, const std::vector<std::vector<BestGrip>>& lists,
+                     const ListOrigin& origin) {
+  std::string csv(BEST_CSV_START);
+  csv +=
+      "azimuth_deg,obliquity_deg,roll_deg,offset_mm,hand_scale,score,score_fingers,score_contacts,score_"
       "depth,"
       "score_posture,score_force,score_hold,closure,gap_mm,fingers_used,points_touching,phalanx_depth_mm,palm_depth_mm,"
-      "peak_feedback_force_N,peak_feedback_tilt_deg,largest_hold_force_N,largest_safe_tilt_deg,antipodal\n";
-  for (std::size_t v = 0; v < vessels.size(); ++v) {
-    for (std::size_t rank = 0; rank < vessels[v].size(); ++rank) {
-      const BestGrip& best = vessels[v][rank];
+      "peak_feedback_force_N,peak_feedback_tilt_deg,largest_hold_force_N,largest_safe_tilt_deg,antipodal,grip,result,sweep\n";
+  for (std::size_t list = 0; list < lists.size(); ++list) {
+    const std::string& vessel = scene.vessels[list / plan.hand_scales()].name;
+    for (const BestGrip& best : lists[list]) {
       const GripInput& grip = best.grip;
       std::vector<double> numbers{grip.height * 1e3,  degrees(grip.azimuth), degrees(grip.obliquity),
                                   degrees(grip.roll), grip.offset * 1e3,     grip.hand_scale,
@@ -127,9 +128,9 @@ std::string best_csv(const Scene& scene, const std::vector<std::vector<BestGrip>
                      {best.closure, best.gap * 1e3, static_cast<double>(best.fingers_used),
                       static_cast<double>(best.points_touching), best.phalanx_depth * 1e3, best.palm_depth * 1e3, best.peak_force,
                       degrees(best.peak_tilt), best.largest_hold, degrees(best.safe_tilt), best.antipodal ? 1.0 : 0.0});
-      csv += fmt::format("{},{}", csv_text(scene.vessels[v].name), rank + 1);
+      csv += fmt::format("{},{}", csv_text(vessel), best.rank);
       for (const double number : numbers) csv += "," + csv_number(number);
-      csv += '\n';
+      csv += fmt::format(",{},{},{}\n", best.candidate.index, csv_text(origin.result), origin.sweep);
     }
   }
   return csv;
@@ -148,7 +149,7 @@ std::string best_table(const Scene& scene, const Plan& plan, const std::vector<B
   axis(PLACE_OBLIQUITY, "obliquity deg", [](const BestGrip& b) { return fixed(degrees(b.grip.obliquity), 1); });
   axis(PLACE_ROLL, "roll deg", [](const BestGrip& b) { return fixed(degrees(b.grip.roll), 1); });
   axis(PLACE_OFFSET, "offset mm", [](const BestGrip& b) { return fixed(b.grip.offset * 1e3, 1); });
-  axis(PLACE_HAND_SCALE, "hand scale", [](const BestGrip& b) { return fixed(b.grip.hand_scale, 3); });
+  if (plan.hand_scales() == 1) axis(PLACE_HAND_SCALE, "hand scale", [](const BestGrip& b) { return fixed(b.grip.hand_scale, 3); });
   columns.insert(columns.end(),
                  {
                      {"fingers", [](const BestGrip& b) { return std::to_string(b.fingers_used); }},
@@ -171,7 +172,7 @@ std::string best_table(const Scene& scene, const Plan& plan, const std::vector<B
   for (const Column& column : columns) table += "  " + column.title;
   table += '\n';
   for (std::size_t rank = 0; rank < std::min(rows, best.size()); ++rank) {
-    table += fmt::format("  {:>4}", rank + 1);
+    table += fmt::format("  {:>4}", best[rank].rank);
     for (const Column& column : columns) table += fmt::format("  {:>{}}", column.cell(best[rank]), column.title.size());
     table += '\n';
   }

@@ -1,7 +1,10 @@
 // The best grips of every vessel, for people: a file and a table.
 #pragma once
 
+#include <array>
+#include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/backend.h"
@@ -9,10 +12,14 @@
 
 namespace wholehand {
 
+// How the table of best_csv begins.
+inline constexpr std::string_view BEST_CSV_START = "vessel,rank,height_mm,";
+
 // One of the best grips with what is told of it. Forces and tilts are the worst over all fills; NaN where the scene has no tilts.
 struct BestGrip {
   Candidate candidate;
   GripInput grip;
+  std::size_t rank = 1;
   double score = 0;
   std::array<double, 6> terms{};  // fingers, contacts, depth, posture, force, hold
   double closure = 0;
@@ -34,10 +41,20 @@ std::vector<int> best_fields(const Scene& scene);
 std::vector<BestGrip> evaluate_best(Backend& backend, const Scene& scene, const Plan& plan, std::size_t vessel,
                                     const std::vector<Candidate>& candidates);
 
-// The file NAME.best.csv: one row per vessel and rank, units in the column names.
-std::string best_csv(const Scene& scene, const std::vector<std::vector<BestGrip>>& vessels);
+// Sets forces and tilts to the worst over the fills from FIELD_PEAK_FORCE, FIELD_PEAK_TILT, FIELD_LARGEST_HOLD and FIELD_SAFE_TILT of each.
+void set_worst(BestGrip& best, const Scene& scene, const std::function<double(int field, int fill)>& value);
 
-// The table of one vessel for a terminal: at most `rows` grips, only the axes that vary.
+// Which sweep a list is of: the name of its result without the folder, and its sweep_id (sweeps/grip_lists.h).
+struct ListOrigin {
+  std::string result, sweep;
+};
+
+// The file NAME.best.csv and those of `wholehand rank`: a row a grip, units in the column names; at the end the grip's number in the
+// sweep, the result and the sweep, by which the grips are found again. The lists are those of each vessel and hand scale (GripLists).
+std::string best_csv(const Scene& scene, const Plan& plan, const std::vector<std::vector<BestGrip>>& lists,
+                     const ListOrigin& origin);
+
+// The table of one list for a terminal: at most `rows` grips, only the axes that vary within it.
 std::string best_table(const Scene& scene, const Plan& plan, const std::vector<BestGrip>& best, std::size_t rows);
 
 }  // namespace wholehand

@@ -1,126 +1,143 @@
 #include "sweeps/check.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <memory>
 
+#include "core/error.h"
 #include "host/grip_backend.h"
-#include "sweeps/compare.h"
+#include "sweeps/check_sample.h"
 #include "sweeps/domain.h"
-#include "sweeps/plan.h"
+#include "sweeps/progress.h"
 
 namespace wholehand {
 namespace {
 
-constexpr std::size_t GRIPS_PER_VESSEL = 1536;
-
-// Grips spread evenly over the plan; a step that shares no factor with the axes' lengths, so that every axis varies.
-std::uint64_t sample_index(const Plan& plan, std::size_t i) {
-  const std::uint64_t all = plan.grips();
-  return all <= GRIPS_PER_VESSEL ? i : (i * 2654435761u + 12345u) % all;
-}
-
-std::vector<GripInput> sample_grips(const Plan& plan, std::size_t vessel) {
-  const std::uint64_t count = std::min<std::uint64_t>(plan.grips(), GRIPS_PER_VESSEL);
-  std::vector<GripInput> grips;
-  for (std::size_t i = 0; i < count; ++i) grips.push_back(plan.grip(vessel, sample_index(plan, i)));
-  return grips;
-}
-
-// Where a row is at its worst, as the options of `grip` (a state of the liquid: its fill and tilt).
-std::string place_of(const Comparison& row, const Scene& scene, const Plan& plan) {
-  const std::string& name = scene.vessels[row.vessel].name;
-  if (row.compared == 0) return "-";
+// Where a row is at its worst.
+CheckedQuantity located(const Comparison& row, const Scene& scene, const std::vector<CheckSample>& samples) {
+  CheckedQuantity quantity{row, "", {}, {}};
+  if (row.compared == 0 || row.worst == 0) return quantity;
+  quantity.vessel = scene.vessels[row.vessel].name;
   if (row.kernel == "liquid") {
     const std::size_t tilts = scene.tilts.size();
-    return fmt::format("{}, fill {:g}, tilt {:g} deg", name, scene.liquid->fills[row.grip / tilts],
-                       degrees(scene.tilts[row.grip % tilts]));
+    quantity.state = {scene.liquid ? vessel_fills(scene, scene.vessels[row.vessel])[row.grip / tilts] : 0,
+                      scene.tilts[row.grip % tilts]};
+  } else {
+    quantity.grip = samples[row.vessel].grips[row.grip];
   }
-  const GripInput grip = plan.grip(row.vessel, sample_index(plan, row.grip));
-  std::string place = fmt::format("{} --height-mm {:.9g}", name, grip.height * 1e3);
-  const auto add = [&place](const char* option, double value, double usual) {
-    if (value != usual) place += fmt::format(" {} {:.9g}", option, value);
-  };
-  add("--azimuth-deg", degrees(grip.azimuth), 0);
-  add("--obliquity-deg", degrees(grip.obliquity), 0);
-  add("--roll-deg", degrees(grip.roll), 0);
-  add("--offset-mm", grip.offset * 1e3, 0);
-  add("--hand-scale", grip.hand_scale, 1);
-  return place;
+  return quantity;
 }
 
-void print_comparison(const std::string& title, const Scene& scene, const Comparer& comparer, const Plan& plan) {
-  fmt::print("\n{}: {}\n", title, comparer.holds() ? "holds" : "DOES NOT HOLD");
-  fmt::print("  {:<11} {:<18} {:>12} {:>12} {:<6} {:>9} {:>9} {:>8}  {}\n", "kernel", "quantity", "worst", "tolerance", "",
-             "of its own", "compared", "outside", "worst at");
-  for (const Comparison& row : comparer.rows()) {
-    fmt::print("  {:<11} {:<18} {:>12.4g} {:>12.4g} {:<6} {:>9.3f} {:>9} {:>8}  {}\n", row.kernel, row.quantity, row.worst,
-               row.tolerance, row.unit, row.worst_ratio, row.compared, row.outside, place_of(row, scene, plan));
-  }
-  fmt::print(
-      "  {} grips; {} graze the glass and are left out; in {} a discrete outcome differs within the margin (at most 1 in 1,000 "
-      "may)\n",
-      comparer.grips(), comparer.grazing(), comparer.excluded());
+CheckedPair pair_of(const std::string& name, const std::string& question, const Comparer& comparer, const Scene& scene,
+                    const std::vector<CheckSample>& samples) {
+  CheckedPair pair;
+  pair.name = name;
+  pair.question = question;
+  for (const Comparison& row : comparer.rows()) pair.quantities.push_back(located(row, scene, samples));
+  pair.grips = comparer.grips();
+  pair.feasible = comparer.feasible();
+  pair.grazing = comparer.grazing();
+  pair.excluded = comparer.excluded();
+  pair.allowed = comparer.allowed();
+  pair.holds = comparer.holds();
+  return pair;
 }
+
+// The device in both precisions and the core in both, and what they are compared by.
+class Checking {
+ public:
+  Checking(const Scene& scene, const CheckOptions& options)
+      : scene_(scene),
+        fields_(all_fields(scene)),
+        core_(make_core_evaluator(scene)),
+        core_float_(make_core_float_evaluator(scene)),
+        translation_(scene, *core_, allowance(Precision::single)),
+        cost_(scene, *core_, float_against_double()),
+        exact_(scene, *core_, allowance(Precision::full)) {
+    const Scene& device_scene = options.device_scene ? *options.device_scene : scene;
+    const std::shared_ptr<const Evaluator> device_core = make_core_evaluator(device_scene);
+    host::GripBackendOptions backend_options;
+    backend_options.device = options.device;
+    on_float_ = std::make_unique<host::GripBackend>(device_scene, device_core, fields_, options.on, backend_options);
+    if (!on_float_->device().float64) return;
+    backend_options.precision = Precision::full;
+    on_double_ = std::make_unique<host::GripBackend>(device_scene, device_core, fields_, options.on, backend_options);
+  }
+
+  void add(std::size_t v, const std::vector<GripInput>& grips) {
+    const GatheredPlanes single = gather(*core_float_, fields_, v, grips), full = gather(*core_, fields_, v, grips);
+    translation_.add(v, grips, gather(*on_float_, v, grips), single);
+    cost_.add(v, grips, single, full);
+    if (on_double_) exact_.add(v, grips, gather(*on_double_, v, grips), full);
+    if (scene_.tilts.empty()) return;
+    const auto liquid_float = core_liquid(scene_, *core_float_, v), liquid = core_liquid(scene_, *core_, v);
+    translation_.add_liquid(v, on_float_->liquid(v), liquid_float);
+    cost_.add_liquid(v, liquid_float, liquid);
+    if (on_double_) exact_.add_liquid(v, on_double_->liquid(v), liquid);
+  }
+
+  void tell(CheckReport& report, const std::vector<CheckSample>& samples) const {
+    const BackendInfo& info = on_float_->info();
+    report.device = info.device;
+    report.driver = info.driver;
+    report.is_cpu = info.is_cpu;
+    report.has_double = on_double_ != nullptr;
+    report.translation = pair_of("device_float_core_float", "device float against core float (is the translation right?)",
+                                 translation_, scene_, samples);
+    report.cost = pair_of("core_float_core_double", "core float against core double (what does single precision cost?)", cost_,
+                          scene_, samples);
+    if (on_double_)
+      report.exact = pair_of("device_double_core_double", "device double against core double", exact_, scene_, samples);
+  }
+
+ private:
+  const Scene& scene_;
+  FieldSet fields_;
+  std::shared_ptr<const Evaluator> core_, core_float_;
+  std::unique_ptr<host::GripBackend> on_float_, on_double_;
+  Comparer translation_, cost_, exact_;
+};
 
 }  // namespace
 
-ExitCode run_check(const Scene& scene, const CheckOptions& options) {
+CheckReport check_scene(const Scene& scene, const CheckOptions& options) {
   if (options.on == "core") throw usage_error("check: --on core is what the devices are compared with; name a Vulkan device");
-  for (const std::string& line : domain_warnings(scene, Precision::single)) fmt::print(stderr, "wholehand: {}\n", line);
-  const FieldSet fields = all_fields(scene);
-  const std::shared_ptr<const Evaluator> core = make_core_evaluator(scene);
-  const std::shared_ptr<const Evaluator> core_float = make_core_float_evaluator(scene);
-  host::GripBackendOptions backend_options;
-  backend_options.device = options.device;
-  const Scene& device_scene = options.device_scene ? *options.device_scene : scene;
-  const std::shared_ptr<const Evaluator> device_core = make_core_evaluator(device_scene);
-  host::GripBackend on_float(device_scene, device_core, fields, options.on, backend_options);
-  fmt::print("{}: {} ({}){}, against the core; up to {} grips of each vessel, every plane\n",
-             scene.name.empty() ? "check" : scene.name, on_float.info().device, on_float.info().driver,
-             on_float.info().is_cpu ? ", a CPU driver" : "", GRIPS_PER_VESSEL);
-  std::fflush(stdout);
-  std::unique_ptr<host::GripBackend> on_double;
-  if (on_float.device().float64) {
-    backend_options.precision = Precision::full;
-    on_double = std::make_unique<host::GripBackend>(device_scene, device_core, fields, options.on, backend_options);
-  }
+  CheckReport report;
+  report.scene = scene.name;
+  report.warnings = domain_warnings(scene, Precision::single);
   const Plan plan(scene, true);
-  Comparer translation(scene, *core, allowance(Precision::single)), cost(scene, *core, float_against_double()),
-      exact(scene, *core, allowance(Precision::full));
+  Checking checking(scene, options);
+  std::vector<CheckSample> samples;
   for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
-    const auto grips = sample_grips(plan, v);
-    const GatheredPlanes gpu = gather(on_float, v, grips), single = gather(*core_float, fields, v, grips),
-                         full = gather(*core, fields, v, grips);
-    translation.add(v, grips, gpu, single);
-    cost.add(v, grips, single, full);
-    const auto liquid_float = core_liquid(scene, *core_float, v), liquid = core_liquid(scene, *core, v);
-    if (!scene.tilts.empty()) {
-      translation.add_liquid(v, on_float.liquid(v), liquid_float);
-      cost.add_liquid(v, liquid_float, liquid);
-    }
-    if (!on_double) continue;
-    exact.add(v, grips, gather(*on_double, v, grips), full);
-    if (!scene.tilts.empty()) exact.add_liquid(v, on_double->liquid(v), liquid);
+    const CheckSample& sample = samples.emplace_back(check_sample(scene, plan, v));
+    show_status("comparing the grips of " + scene.vessels[v].name);
+    checking.add(v, sample.grips);
+    report.vessels.push_back({scene.vessels[v].name, sample.own, sample.grips.size() - sample.own});
   }
-  print_comparison("device float against core float (is the translation right?)", scene, translation, plan);
-  print_comparison("core float against core double (what does single precision cost?)", scene, cost, plan);
-  if (on_double) {
-    print_comparison("device double against core double", scene, exact, plan);
-  } else {
-    fmt::print("\nthe device has no double precision: the third comparison is left out\n");
-  }
-  if (translation.feasible() == 0) {
-    fmt::print("\nno grip of the sample is feasible: nothing was compared\n");
-    return ExitCode::no;
-  }
-  const bool device = translation.holds() && (!on_double || exact.holds()), holds = device && cost.holds();
-  fmt::print("\n{}\n", holds    ? "the device computes what the core computes"
-                       : device ? "the device computes what the core computes, but single precision costs this scene more than the "
-                                  "tolerances; use --precision double"
-                                : "the device does NOT compute what the core computes");
-  return holds ? ExitCode::done : ExitCode::no;
+  show_status("");
+  checking.tell(report, samples);
+  return report;
+}
+
+CheckVerdict verdict_of(const CheckReport& report) {
+  if (report.translation.feasible == 0) return {false, "nothing was compared: no grip of the sample is feasible", ""};
+  const bool in_float = report.translation.holds, in_double = report.exact && report.exact->holds;
+  const bool double_fails = report.exact && !report.exact->holds;
+  if (in_float && report.cost.holds && !double_fails) return {true, "the device computes what the core computes", ""};
+  const char* remedy = in_double ? "use --precision double, which holds" : "use --on core";
+  if (!in_float)
+    return {false,
+            in_double      ? "in float the device does NOT compute what the core computes"
+            : double_fails ? "the device does NOT compute what the core computes, in float nor in double"
+                           : "the device does NOT compute what the core computes, and has no double precision",
+            remedy};
+  if (!report.cost.holds)
+    return {false,
+            std::string("single precision costs this scene more than the tolerances") +
+                (in_double      ? ""
+                 : double_fails ? ", and in double the device does NOT compute what the core computes"
+                                : ", and the device has no double precision"),
+            remedy};
+  return {false, "in double the device does NOT compute what the core computes",
+          "use --precision float, which holds, or --on core"};
 }
 
 }  // namespace wholehand

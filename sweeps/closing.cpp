@@ -6,12 +6,21 @@
 
 #include <algorithm>
 
+#include "sweeps/edge.h"
+#include "sweeps/grip_lists.h"
 #include "sweeps/readable.h"
 
 namespace wholehand {
 namespace {
 
+constexpr std::size_t TABLE_ROWS = 20;  // best grips shown of a list; its file has them all
+
 double seconds(const timeval& time) { return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec); }
+
+// Three digits, without an exponent where that is readable.
+std::string short_number(double value) {
+  return value >= 100 ? fmt::format("{:.0f}", value) : value >= 0.1 ? fmt::format("{:#.3g}", value) : fmt::format("{:.3g}", value);
+}
 
 }  // namespace
 
@@ -27,6 +36,40 @@ std::string opening_lines(const Scene& scene, const Plan& plan, const BackendInf
   if (plan.copies() > 1) {
     text += fmt::format("azimuth left out: the vessels are bodies of revolution, so one stands for all {}\n",
                         readable_count(static_cast<double>(plan.copies())));
+  }
+  return text;
+}
+
+std::string vessel_lines(const Scene& scene, const std::vector<VesselFacts>& facts) {
+  std::string text;
+  for (std::size_t v = 0; v < facts.size(); ++v) {
+    const std::string holds = scene.vessels[v].has_cavity() ? short_number(facts[v].capacity * 1e6) + " mL" : "nothing";
+    text += fmt::format("{}: holds {}, {} kg empty\n", scene.vessels[v].name, holds, short_number(facts[v].empty_mass));
+  }
+  return text;
+}
+
+std::string list_lines(const Scene& scene, const Plan& plan, std::size_t vessel, const std::vector<BestGrip>& best,
+                       const std::string& file) {
+  if (best.empty()) return "";
+  std::string text = best_table(scene, plan, best, TABLE_ROWS);
+  if (best.size() > TABLE_ROWS)
+    text +=
+        fmt::format("  .. {} more{}\n", best.size() - TABLE_ROWS, file.empty() ? "; -o names a file for them all" : " in " + file);
+  std::vector<Candidate> candidates;
+  for (const BestGrip& grip : best) candidates.push_back(grip.candidate);
+  const std::string edge = edge_line(edge_axes(scene, plan, vessel, candidates));
+  return edge.empty() ? text : text + "  " + edge + "\n";
+}
+
+std::string best_lines(const Scene& scene, const Plan& plan, std::size_t vessel, const std::vector<std::vector<BestGrip>>& lists,
+                       const std::string& file) {
+  std::string text;
+  for (std::size_t s = 0; s < plan.hand_scales(); ++s) {
+    const std::size_t list = vessel * plan.hand_scales() + s;
+    const std::string lines = list_lines(scene, plan, vessel, lists[list], file);
+    if (plan.hand_scales() > 1 && !lines.empty()) text += list_name(scene, plan, list) + ":\n";
+    text += lines;
   }
   return text;
 }

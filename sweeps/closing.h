@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "core/backend.h"
+#include "sweeps/best.h"
 #include "sweeps/plan.h"
+#include "sweeps/vessel_facts.h"
 
 namespace wholehand {
 
@@ -20,6 +22,18 @@ struct SweepTimes {
 
 // Grips and states, device, driver and precision, what is left out.
 std::string opening_lines(const Scene& scene, const Plan& plan, const BackendInfo& info);
+
+// What each vessel holds and weighs, a line each.
+std::string vessel_lines(const Scene& scene, const std::vector<VesselFacts>& facts);
+
+// What is printed of a list of a vessel's best grips: the table of the first, how many more are in `file` ("" where there is none), and whether the best
+// lies at an end of an axis. Empty for an empty list.
+std::string list_lines(const Scene& scene, const Plan& plan, std::size_t vessel, const std::vector<BestGrip>& best,
+                       const std::string& file);
+
+// The same of all lists of a vessel, with the hand scale above each where there are several. `lists`: of all vessels, as of GripLists.
+std::string best_lines(const Scene& scene, const Plan& plan, std::size_t vessel, const std::vector<std::vector<BestGrip>>& lists,
+                       const std::string& file);
 
 // The files with the size of the first, the times, and what the process took: CPU seconds and its largest memory.
 std::string closing_lines(const std::vector<std::string>& files, const SweepTimes& times);

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <optional>
 
-#include "sweeps/liquid_floors.h"
+#include "sweeps/binomial.h"
+#include "sweeps/load_floors.h"
 
 namespace wholehand {
 namespace {
@@ -136,55 +136,9 @@ double figure_difference(double a, double b) {
   return std::isnan(difference) ? std::numeric_limits<double>::infinity() : difference;
 }
 
-std::vector<LiquidResult> core_liquid(const Scene& scene, const Evaluator& core, std::size_t vessel) {
-  std::vector<LiquidResult> states;
-  if (!scene.liquid) return states;
-  for (const double fill : scene.liquid->fills)
-    for (const double tilt : scene.tilts) states.push_back(core.liquid(vessel, fill, tilt));
-  return states;
-}
-
 std::array<double, 2> loaded_center(const VesselConstants& glass, const LiquidResult& liquid) {
   const double mass = glass.mass + liquid.mass, share = mass > 0 ? liquid.mass / mass : 0;
   return {(1 - share) * glass.center_of_mass[1] + share * liquid.height, share * liquid.lean};
-}
-
-FieldSet all_fields(const Scene& scene) {
-  std::vector<int> every(FIELDS);
-  std::iota(every.begin(), every.end(), 0);
-  return make_field_set(every, scene);
-}
-
-GatheredPlanes gather(Backend& backend, std::size_t vessel, const std::vector<GripInput>& grips) {
-  GatheredPlanes planes;
-  planes.fields = backend.fields();
-  planes.count = grips.size();
-  planes.reals.resize(planes.fields.real_kept * grips.size());
-  planes.uints.resize(planes.fields.uint_kept * grips.size());
-  RunRequest request;
-  request.vessel = vessel;
-  request.last = grips.size();
-  request.grips = [&](std::size_t, std::uint64_t first, std::size_t count, GripInput* out) {
-    std::copy_n(grips.begin() + static_cast<std::ptrdiff_t>(first), count, out);
-  };
-  request.sink = [&](const PlaneChunk& chunk) {
-    for (int p = 0; p < planes.fields.real_kept; ++p)
-      for (std::size_t i = 0; i < chunk.count; ++i) planes.reals[p * planes.count + chunk.first + i] = chunk.real(p, i);
-    for (int p = 0; p < planes.fields.uint_kept; ++p)
-      for (std::size_t i = 0; i < chunk.count; ++i) planes.uints[p * planes.count + chunk.first + i] = chunk.uint(p, i);
-  };
-  backend.run(request);
-  return planes;
-}
-
-GatheredPlanes gather(const Evaluator& core, const FieldSet& fields, std::size_t vessel, const std::vector<GripInput>& grips) {
-  GatheredPlanes planes;
-  planes.fields = fields;
-  planes.count = grips.size();
-  planes.reals.resize(fields.real_planes * grips.size());
-  planes.uints.resize(fields.uint_planes * grips.size());
-  core.planes(vessel, grips.data(), grips.size(), fields, grips.size(), planes.reals.data(), planes.uints.data());
-  return planes;
 }
 
 Allowance allowance(Precision precision) {
@@ -274,9 +228,9 @@ void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, cons
     }
   }
   std::vector<double> floors(FIELDS, 0.0);
-  const LiquidFloors liquid(scene_, core_, vessel, volume_tolerance(vessel), truth);
+  const LoadFloors load(scene_, core_, vessel, volume_tolerance(vessel), ROUNDINGS * allowed_.epsilon, truth);
   const auto tolerance = [&](int field, std::size_t k, std::size_t i) {
-    return floors[field] + 2 * allowed_.stop_tolerance * rests(field, k) + liquid.of(field, k, i) +
+    return floors[field] + 2 * allowed_.stop_tolerance * rests(field, k) + load.of(field, k, i) +
            2 * spread[(fields.plane[field] + k) * n + i];
   };
   for (const Quantity& q : QUANTITIES) {
@@ -410,9 +364,11 @@ void Comparer::add_liquid(std::size_t vessel, const std::vector<LiquidResult>& a
   compare("height moment", "mL mm", 1e9, of_moment, [](const LiquidResult& r) { return r.volume * r.height; });
 }
 
+std::uint64_t allowed_flips(std::uint64_t grips) { return largest_plausible_count(grips, FLIP_SHARE, FLIP_SIGNIFICANCE); }
+
 bool Comparer::holds() const {
   const bool inside = std::all_of(rows_.begin(), rows_.end(), [](const Comparison& r) { return r.outside == 0; });
-  return inside && excluded_ * 1000 <= grips_ && (grazing_ < grips_ || grips_ == 0);
+  return inside && excluded_ <= allowed() && (grazing_ + excluded_ < grips_ || grips_ == 0);
 }
 
 }  // namespace wholehand

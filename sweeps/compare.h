@@ -13,31 +13,13 @@
 #include <string>
 #include <vector>
 
-#include "core/backend.h"
 #include "core/evaluator.h"
+#include "core/gather.h"
 
 namespace wholehand {
 
-// Every plane of some grips of one vessel; reals[plane * count + i].
-struct GatheredPlanes {
-  FieldSet fields;
-  std::size_t count = 0;
-  std::vector<double> reals;
-  std::vector<std::uint32_t> uints;
-  double real(int plane, std::size_t i) const { return reals[plane * count + i]; }
-  std::uint32_t uint(int field, std::size_t i) const { return uints[fields.plane[field] * count + i]; }
-};
-
-// Every field that the scene has.
-FieldSet all_fields(const Scene& scene);
-GatheredPlanes gather(Backend& backend, std::size_t vessel, const std::vector<GripInput>& grips);
-GatheredPlanes gather(const Evaluator& core, const FieldSet& fields, std::size_t vessel, const std::vector<GripInput>& grips);
-
 // |a - b|: 0 for two NaN or two infinities of one sign, infinite where one side alone is no number.
 double figure_difference(double a, double b);
-
-// Liquid of a vessel over the scene's fills and tilts by the core, fill-major, as Backend::liquid; empty without one.
-std::vector<LiquidResult> core_liquid(const Scene& scene, const Evaluator& core, std::size_t vessel);
 
 // Height and lean of the centre of mass of glass and liquid, m; the glass's own share to the side is left out, which no state changes.
 std::array<double, 2> loaded_center(const VesselConstants& glass, const LiquidResult& liquid);
@@ -71,6 +53,14 @@ Allowance allowance(Precision precision);
 // Float on one side, double on the other.
 Allowance float_against_double();
 
+// Within the margin, discrete outcomes may differ in FLIP_SHARE of the grips in the long run. A sample speaks against that where so many
+// that differ, or more, would come up in less than FLIP_SIGNIFICANCE of all samples if the share were just that. Strict, since grips beside
+// each other differ together, and since a check judges up to three comparisons and must not fail by chance.
+constexpr double FLIP_SHARE = 1e-3;
+constexpr double FLIP_SIGNIFICANCE = 1e-6;
+// How many of so many compared grips may differ: 1 of 1, 3 of 72, 6 of 400, 10 of 1,536, 18 of 4,608.
+std::uint64_t allowed_flips(std::uint64_t grips);
+
 // Gathers comparisons vessel by vessel.
 class Comparer {
  public:
@@ -88,7 +78,8 @@ class Comparer {
   std::uint64_t feasible() const { return feasible_; }  // by the core
   std::uint64_t excluded() const { return excluded_; }  // discrete outcomes differ within the margin
   const std::vector<Flip>& flips() const { return flips_; }
-  // No number outside its tolerance, at most one grip in 1,000 excluded, and not all of them grazing.
+  std::uint64_t allowed() const { return allowed_flips(grips_ - grazing_); }  // so many excluded are no evidence
+  // No number outside its tolerance, no more excluded than allowed, and not all of them left out.
   bool holds() const;
 
  private:

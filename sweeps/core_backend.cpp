@@ -166,11 +166,11 @@ BackendInfo core_info(Precision precision, int threads) {
 CoreBackend::CoreBackend(std::shared_ptr<const Evaluator> evaluator, const Scene& scene, const FieldSet& fields,
                          Precision precision, int threads)
     : evaluator_(std::move(evaluator)),
-      fills_(scene.liquid ? scene.liquid->fills : std::vector<double>{}),
       tilts_(scene.tilts),
       fields_(fields),
       threads_(threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))) {
   info_ = core_info(precision, threads_);
+  for (std::size_t v = 0; scene.liquid && v < scene.vessels.size(); ++v) fills_.push_back(vessel_fills(scene, scene.vessels[v]));
 }
 
 RunResult CoreBackend::run(const RunRequest& request) {
@@ -180,7 +180,8 @@ RunResult CoreBackend::run(const RunRequest& request) {
 
 std::vector<LiquidResult> CoreBackend::liquid(std::size_t vessel) {
   std::vector<LiquidResult> table;
-  for (const double fill : fills_) {
+  if (fills_.empty()) return table;
+  for (const double fill : fills_[vessel]) {
     for (const double tilt : tilts_) table.push_back(evaluator_->liquid(vessel, fill, tilt));
   }
   return table;

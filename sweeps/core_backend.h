@@ -28,7 +28,7 @@ class CoreBackend final : public Backend {
 
  private:
   std::shared_ptr<const Evaluator> evaluator_;
-  std::vector<double> fills_;  // of the liquid; empty without
+  std::vector<std::vector<double>> fills_;  // of the liquid in each vessel; empty without
   std::vector<double> tilts_;
   FieldSet fields_;
   BackendInfo info_;

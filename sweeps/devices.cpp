@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "host/cache_folder.h"
 #include "host/device.h"
 
 namespace wholehand {
@@ -28,6 +29,16 @@ ExitCode list_devices() {
   }
   fmt::print("core  the reference, double precision, all threads  <- --on core\n");
   return ExitCode::done;
+}
+
+std::string cache_text() {
+  const std::uintmax_t limit = host::cache_limit();
+  const std::string folder = host::cache_folder();
+  if (folder.empty()) return "cache  none: neither XDG_CACHE_HOME nor HOME is an absolute path\n";
+  const host::CacheUse use = host::cache_use(folder);
+  const std::string bound = limit > 0 ? fmt::format("at most {} MiB", limit / host::MEBIBYTE) : "not used";
+  return fmt::format("cache  {}  {:.1f} MiB in {} file{}, {} (WHOLEHAND_CACHE_MIB)\n", folder,
+                     static_cast<double>(use.bytes) / host::MEBIBYTE, use.files, use.files == 1 ? "" : "s", bound);
 }
 
 }  // namespace wholehand

@@ -40,7 +40,7 @@ double largest_hold(const Scene& scene, const VesselData& data) {
       core_f64::load_vessel(prepare_vessel(data, data.has_cavity()), data, rule, false, scene.hand.handedness);
   double mass = vessel.mass;
   if (scene.liquid && data.has_cavity())
-    mass += scene.liquid->density * scene.liquid->fills.back() * core_f64::lip_capacity(vessel, rule, 0, 1);
+    mass += scene.liquid->density * vessel_fills(scene, data).back() * core_f64::lip_capacity(vessel, rule, 0, 1);
   const auto& center = vessel.center_of_mass;
   const double lever = std::max(std::abs(center.y - data.base), std::abs(data.height - center.y)) + std::hypot(center.x, center.z);
   const double twist = force.torsion > 0 ? lever / (2 * force.torsion) : 0;  // without torsion infinite, or nothing
@@ -66,10 +66,6 @@ std::vector<std::string> domain_warnings(const Scene& scene, Precision precision
     warnings.push_back(beyond(fmt::format("hand scale {:.3g}", smallest), fmt::format("a smallest of {}", SMALLEST_HAND)));
   if (largest > LARGEST_HAND * (1 + rounding))
     warnings.push_back(beyond(fmt::format("hand scale {:.3g}", largest), fmt::format("a largest of {}", LARGEST_HAND)));
-  if (scene.hand.contact_tolerance < SMALLEST_CONTACT_TOLERANCE * (1 - rounding)) {
-    warnings.push_back(beyond(fmt::format("contact tolerance {:.3g} mm", scene.hand.contact_tolerance * 1e3),
-                              fmt::format("a smallest of {} mm", SMALLEST_CONTACT_TOLERANCE * 1e3)));
-  }
   const VesselData* far = nullptr;
   const VesselData* heavy = nullptr;
   double far_most = LARGEST_COORDINATE, hold_most = LARGEST_HOLD;

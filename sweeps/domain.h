@@ -27,9 +27,6 @@ constexpr double LARGEST_HAND = 100;
 // on an arc of 15 m, in 190 on one of 17 m.
 constexpr double LARGEST_COORDINATE = 10;
 
-// m: the stop tolerance of float. Below it rounding decides what touches: outcomes differ in 30 of 1,000 grips at 0.9 um, in none at 1 um.
-constexpr double SMALLEST_CONTACT_TOLERANCE = 1e-6;
-
 // N, of the forces that hold a vessel, (m g lever / (2 gamma) + m g / 2) / mu. They differ by up to 1.8e-6 of that (20 mN at 11 kN).
 constexpr double LARGEST_HOLD = 5e3;
 

@@ -11,6 +11,7 @@
 #include <numeric>
 
 #include "core/prepare.h"
+#include "core/touch.h"
 #include "host/grip_backend.h"
 #include "sweeps/core_backend.h"
 #include "sweeps/plan.h"
@@ -338,7 +339,7 @@ void ErrorMeasure::compare(const std::vector<GatheredPlanes>& planes, const Eval
       for (int j = 0; j < JOINT_COUNT; ++j) {
         const double own = a.real(a.fields.plane[FIELD_SEPARATION] + j, i), exact = b.real(b.fields.plane[FIELD_SEPARATION] + j, i);
         if (exact <= GRID_BAND) separation = std::max(separation, figure_difference(own, exact));
-        if ((flipped >> j & 1) != 0) margins.push_back(std::abs(exact - scene_.hand.contact_tolerance));
+        if ((flipped >> j & 1) != 0) margins.push_back(std::abs(exact - judged_contact_tolerance(scene_.hand)));
       }
       errors[ERROR_SEPARATION].add(1e6 * separation, v, i);
     }

@@ -11,6 +11,7 @@
 #include "sweeps/error_plot.h"
 #include "sweeps/error_table.h"
 #include "sweeps/files.h"
+#include "sweeps/folder_files.h"
 #include "sweeps/interrupt.h"
 #include "sweeps/progress.h"
 
@@ -20,6 +21,11 @@
 
 namespace wholehand {
 namespace {
+
+constexpr FolderTable ERROR_TIME_TABLES[] = {{"error-time.csv", "variant,backend,precision,"},
+                                             {"error-time-grips.csv", "vessel,index,height_m,"},
+                                             {"error-time.md", "# Error against run time"}};
+constexpr const char* ERROR_TIME_PICTURES[] = {"error-time.svg", "error-time-force.svg"};
 
 // What a device that is there can take part in, with notes on what it cannot.
 void choose_device_part(const Scene& scene, const std::string& on, VariantChoice& choice, ErrorContext& context) {
@@ -51,6 +57,7 @@ ExitCode run_error_time(const Scene& scene, const ErrorTimeOptions& options) {
                                                  vessel.name)));
   }
   make_output_folder(options.output);
+  check_folder_files(options.output, "error-time", ERROR_TIME_TABLES, ERROR_TIME_PICTURES);
   InterruptGuard interrupt;
   const int threads = options.threads > 0 ? options.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   VariantChoice choice;
@@ -104,7 +111,7 @@ ExitCode run_error_time(const Scene& scene, const ErrorTimeOptions& options) {
   write_whole_file(folder + "error-time-grips.csv", error_grips_csv(measure.grips()), false);
   write_whole_file(folder + "error-time.md", report, false);
   // pictures of another scene beside these tables would mislead
-  for (const char* name : {"error-time.svg", "error-time-force.svg"}) std::remove((folder + name).c_str());
+  for (const char* name : ERROR_TIME_PICTURES) std::remove((folder + name).c_str());
   const auto pictures = front_pictures(folder, rows, context);
   const std::string complaint = draw_fronts(pictures, rows);
   fmt::print("{}\n", report);

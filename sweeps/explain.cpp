@@ -7,8 +7,8 @@
 #include <memory>
 #include <vector>
 
+#include "core/gather.h"
 #include "host/grip_backend.h"
-#include "sweeps/compare.h"
 #include "sweeps/core_backend.h"
 #include "sweeps/readable.h"
 #include "sweeps/variables.h"

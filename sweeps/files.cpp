@@ -2,9 +2,11 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <linux/magic.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
+#include <sys/vfs.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,6 +15,8 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <optional>
+#include <system_error>
 #include <vector>
 
 #include "core/error.h"
@@ -26,6 +30,12 @@ std::string folder_of(const std::string& path) {
   const std::size_t slash = path.rfind('/');
   if (slash == std::string::npos) return ".";
   return slash == 0 ? "/" : path.substr(0, slash);
+}
+
+// Whether the folder of `name` does, whatever it is called: /dev/fd is one of them.
+bool lies_on_procfs(const std::filesystem::path& name) {
+  struct statfs system {};
+  return statfs(folder_of(name.string()).c_str(), &system) == 0 && system.f_type == PROC_SUPER_MAGIC;
 }
 
 // Root may write anywhere, and still not make a file in every folder.
@@ -45,20 +55,38 @@ void try_folder(const std::string& asked, const std::string& folder, const char*
 OutputNames output_names(const std::string& result) {
   OutputNames names;
   names.result = result;
-  names.partial = result + ".partial";
+  names.target = followed(result);
+  names.partial = names.target + ".partial";
   names.mark = names.partial + ".mark";
+  names.lock = names.partial + ".lock";
   names.stem = result.ends_with(".nc") && result.size() > 3 ? result.substr(0, result.size() - 3) : result;
   names.best = names.stem + ".best.csv";
   return names;
 }
 
+std::string followed(const std::string& path) {
+  constexpr int MOST_LINKS = 40;  // the kernel's own limit
+  std::filesystem::path name = path;
+  for (int links = 0; links < MOST_LINKS; ++links) {
+    std::error_code no_link;
+    const std::filesystem::path target = std::filesystem::read_symlink(name, no_link);
+    if (no_link || lies_on_procfs(name)) break;
+    name = target.is_absolute() ? target : name.parent_path() / target;
+  }
+  return name.string();
+}
+
 void check_output_path(const std::string& path, const char* option) {
+  if (path == "-") {
+    throw usage_error(fmt::format("{} -: standard output does not take a file; name one (./- where that is its name)", option));
+  }
+  const std::string target = followed(path);
   struct stat status {};
-  if (stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
+  if (lstat(target.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
     throw usage_error(
         fmt::format("{} {}: is a {}; name a file", option, path, S_ISDIR(status.st_mode) ? "directory" : "device or pipe"));
   }
-  const std::string folder = folder_of(path);
+  const std::string folder = folder_of(target);
   if (path.empty() || path.ends_with('/') || stat(folder.c_str(), &status) != 0 || !S_ISDIR(status.st_mode)) {
     throw usage_error(fmt::format("{} {}: {} is not a directory; create it or name another", option, path, folder));
   }
@@ -69,13 +97,16 @@ void check_output_path(const std::string& path, const char* option) {
   try_folder(path, folder, option);
 }
 
+bool is_same_file(const std::string& a, const std::string& b) {
+  struct stat one {
+  }, other{};
+  return stat(a.c_str(), &one) == 0 && stat(b.c_str(), &other) == 0 && one.st_dev == other.st_dev && one.st_ino == other.st_ino;
+}
+
 void check_not_the_scene(const std::string& path, const Scene& scene, const char* option) {
-  struct stat written {};
-  if (stat(path.c_str(), &written) != 0) return;
   const auto refuse = [&](const std::string& source, const std::string& what) {
-    struct stat status {};
-    if (stat(source.c_str(), &status) != 0 || status.st_dev != written.st_dev || status.st_ino != written.st_ino) return;
-    throw usage_error(fmt::format("{} {}: this is {}; name another file for the results", option, path, what));
+    if (is_same_file(path, source))
+      throw usage_error(fmt::format("{} {}: this is {}; name another file for the results", option, path, what));
   };
   refuse(scene.file, "the scene file itself");
   const std::filesystem::path folder = std::filesystem::path(scene.file).parent_path();
@@ -84,23 +115,45 @@ void check_not_the_scene(const std::string& path, const Scene& scene, const char
   }
 }
 
-void check_overwrites_kind(const std::string& path, const std::string& start, const char* what, const char* option) {
+namespace {
+
+// The first bytes of what is at `path`. Nothing: it is not there. What is no regular file has no bytes that anybody knows.
+std::optional<std::string> head_of(const std::string& path, std::size_t size) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0) return errno == ENOENT ? std::nullopt : std::optional<std::string>("?");
+  if (!S_ISREG(status.st_mode)) return "?";
+  if (status.st_size == 0) return "";
+  std::string head(size, '\0');
   std::ifstream file(path, std::ios::binary);
-  std::string head(start.size(), '\0');
   file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  if (file.gcount() == 0 || head == start) return;  // not there, empty, or its like
-  throw usage_error(fmt::format("{} {}: is there and is no {}; name another, or remove it", option, path, what));
+  head.resize(static_cast<std::size_t>(file.gcount()));
+  return head.empty() ? "?" : head;  // that cannot be read
 }
 
-void check_overwrites_result(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  char head[8] = {};
-  file.read(head, sizeof head);
-  if (file.gcount() == 0) return;  // not there, or empty
-  // the signature of HDF5, which NetCDF-4 files are made of
-  if (file.gcount() == 8 && std::memcmp(head, "\x89HDF\r\n\x1a\n", 8) == 0) return;
-  throw usage_error(fmt::format("-o {}: is there and is no result file; name another, or remove it", path));
+Error is_foreign(const std::string& path, const char* what, const char* option) {
+  return usage_error(fmt::format("{} {}: is there and is no {}; name another, or remove it", option, path, what));
 }
+
+}  // namespace
+
+void check_overwrites_kind(const std::string& path, std::string_view start, const char* what, const char* option) {
+  const std::optional<std::string> head = head_of(path, start.size());
+  if (head && !head->empty() && *head != start) throw is_foreign(path, what, option);
+}
+
+bool begins_with(const std::string& path, std::string_view start) { return head_of(path, start.size()) == start; }
+
+bool has_mark(const std::string& path, std::string_view mark) {
+  const std::optional<std::string> head = head_of(path, 1 << 16);
+  return head && head->find(mark) != std::string::npos;
+}
+
+void check_overwrites_marked(const std::string& path, std::string_view mark, const char* what, const char* option) {
+  const std::optional<std::string> head = head_of(path, 1);
+  if (head && !head->empty() && !has_mark(path, mark)) throw is_foreign(path, what, option);
+}
+
+void check_overwrites_result(const std::string& path) { check_overwrites_kind(path, NETCDF4_START, "result file", "-o"); }
 
 void make_output_folder(const std::string& path) {
   if (path.empty()) throw usage_error("-o: name a folder");
@@ -160,11 +213,22 @@ void rename_file(const std::string& from, const std::string& to) {
   }
 }
 
-void write_whole_file(const std::string& path, const std::string& text, bool durable) {
-  const std::string temporary = path + ".new";
-  unlink(temporary.c_str());  // left over from a process that was killed
+bool rename_onto_nothing(const std::string& from, const std::string& to) {
+  if (renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0) return true;
+  struct stat there {};
+  const bool is_there = lstat(to.c_str(), &there) == 0;
+  if (is_there && !(S_ISREG(there.st_mode) && there.st_size == 0)) return false;
+  rename_file(from, to);  // an empty file, or a file system that cannot refuse
+  return true;
+}
+
+std::string temporary_name(const std::string& path) { return fmt::format("{}.{}.new", followed(path), getpid()); }
+
+void write_whole_file(const std::string& path, const std::string& text, bool durable, const char* remedy) {
+  const std::string target = followed(path), temporary = temporary_name(path);
   const int file = open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  bool good = file >= 0;
+  const bool is_made = file >= 0;
+  bool good = is_made;
   for (std::size_t done = 0; good && done < text.size();) {
     const ssize_t written = write(file, text.data() + done, text.size() - done);
     if (written < 0 && errno == EINTR) continue;
@@ -173,18 +237,18 @@ void write_whole_file(const std::string& path, const std::string& text, bool dur
   }
   if (good && durable) good = fsync(file) == 0;
   const int error = errno;
-  if (file >= 0) close(file);
+  if (is_made) close(file);
   if (!good) {
-    unlink(temporary.c_str());
-    throw failure_error(fmt::format("cannot write {}: {}", path, std::strerror(error)));
+    if (is_made) unlink(temporary.c_str());
+    throw failure_error(fmt::format("cannot write {}: {}; {}", path, std::strerror(error), remedy));
   }
   try {
-    rename_file(temporary, path);
+    rename_file(temporary, target);
   } catch (...) {
     unlink(temporary.c_str());
     throw;
   }
-  if (durable) sync_folder_of(path);
+  if (durable) sync_folder_of(target);
 }
 
 }  // namespace wholehand

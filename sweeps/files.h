@@ -3,16 +3,23 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace wholehand {
 
 struct Scene;
 
-// Where the files of a sweep lie: NAME.nc and its companions, from the name of the result file.
+// How NetCDF-4 files begin, of any program: by the signature of HDF5, which they are made of.
+inline constexpr std::string_view NETCDF4_START{"\x89HDF\r\n\x1a\n", 8};
+
+// Where the files of a sweep lie: NAME.nc and its companions, from the name of the result file. Where that is a symbolic link, what is written on the
+// way lies beside the file that it names.
 struct OutputNames {
   std::string result;   // NAME.nc as the user gave it
+  std::string target;   // the file that this is or points to
   std::string partial;  // NAME.nc.partial while it is being written
   std::string mark;     // NAME.nc.partial.mark: how far it is whole
+  std::string lock;     // NAME.nc.partial.lock: who writes it
   std::string best;     // NAME.best.csv
   std::string heat_map(const std::string& vessel_part) const { return stem + "." + vessel_part + ".svg"; }
   std::string grip_glb(const std::string& vessel_part, std::size_t rank) const {
@@ -23,16 +30,32 @@ struct OutputNames {
 
 OutputNames output_names(const std::string& result);
 
-// Throws Error (usage) where `path` cannot become a file: its folder is missing or cannot be written to, or it is there and is not a
-// regular file (a directory, a device). `option` is the one that named it, for the message.
+// The file that `path` is or, where it is a symbolic link, points to in the end; that need not be there. Links of the kernel's own
+// (/proc/self/fd/1, and with it /dev/stdout and /dev/fd/1) are not followed.
+std::string followed(const std::string& path);
+
+// Throws Error (usage) where `path` cannot become a file: its folder is missing or cannot be written to, or it is there, or points to what is
+// there, and is not a regular file (a directory, a device), or it is "-". `option` is the one that named it, for the message.
 void check_output_path(const std::string& path, const char* option = "-o");
+
+// Whether both are there and are one file, by whatever names.
+bool is_same_file(const std::string& a, const std::string& b);
 
 // Throws Error (usage) where `path` is the scene file itself or a mesh of it, by whatever name.
 void check_not_the_scene(const std::string& path, const Scene& scene, const char* option = "-o");
 
 // Throws Error (usage) where a file with something in it is there that does not begin with `start`: it is not overwritten. `what`: what begins
 // so, for the message ("glTF binary").
-void check_overwrites_kind(const std::string& path, const std::string& start, const char* what, const char* option);
+void check_overwrites_kind(const std::string& path, std::string_view start, const char* what, const char* option);
+
+// Whether a regular file is there that begins so.
+bool begins_with(const std::string& path, std::string_view start);
+
+// Whether a regular file is there with `mark` in its first 64 KiB.
+bool has_mark(const std::string& path, std::string_view mark);
+
+// Throws Error (usage) where something is there that is neither empty nor has such a mark: it is not overwritten.
+void check_overwrites_marked(const std::string& path, std::string_view mark, const char* what, const char* option);
 
 // Throws Error (usage) where a file with something in it is there that is no result file (NetCDF-4, of any program): it is not overwritten.
 void check_overwrites_result(const std::string& path);
@@ -50,10 +73,18 @@ void check_room(const std::string& path, std::uint64_t bytes);
 // Flushes a folder's entries, so that a rename in it outlives a power failure. Errors are not reported: some file systems cannot.
 void sync_folder_of(const std::string& path);
 
-// Writes `text` to `path` under a temporary name and renames it; `durable` syncs in between. Throws Error (failure).
-void write_whole_file(const std::string& path, const std::string& text, bool durable);
+// Where what becomes the file that `path` is or points to is written on the way: a name beside it, of this process alone.
+std::string temporary_name(const std::string& path);
+
+// Writes `text` to the file that `path` is or points to, under its temporary_name, and renames it; `durable` syncs in between.
+// Throws Error (failure) with the remedy.
+void write_whole_file(const std::string& path, const std::string& text, bool durable,
+                      const char* remedy = "make room, or name another file");
 
 // Renames over whatever is there. Throws Error (failure).
 void rename_file(const std::string& from, const std::string& to);
+
+// Renames onto nothing, or onto an empty file. False: something else is there, and stays. Throws Error (failure).
+bool rename_onto_nothing(const std::string& from, const std::string& to);
 
 }  // namespace wholehand

@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -22,7 +21,6 @@ namespace {
 using GltfJson = nlohmann::json;
 
 constexpr int DEEPEST_GLTF = 64;  // tinygltf and others recurse; glTF itself needs 7
-constexpr std::size_t LONGEST_LINE = 600;
 constexpr std::uint32_t GLB_MAGIC = 0x46546C67, GLB_JSON = 0x4E4F534A, GLB_BIN = 0x004E4942;
 
 // ---- what is kept ----
@@ -128,23 +126,6 @@ class GltfTrim {
 
 // ---- bytes ----
 
-// Why the file cannot be read whole; empty where `bytes` is its contents.
-template <class Bytes>
-std::string read_bytes(const std::string& path, Bytes& bytes) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) return "there is no such file";
-  if (!std::filesystem::is_regular_file(status)) return "is not a file";
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error) return "cannot be read: " + error.message();
-  if (size > LARGEST_MESH_FILE)
-    return fmt::format("is {} MB large, and at most {} MB are read", size >> 20, LARGEST_MESH_FILE >> 20);
-  bytes.resize(static_cast<std::size_t>(size));
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size))) return "cannot be read";
-  return "";
-}
-
 std::uint32_t word_at(std::string_view bytes, std::size_t at) {
   std::uint32_t word = 0;
   for (int i = 3; i >= 0; --i) word = word << 8 | static_cast<unsigned char>(bytes[at + i]);
@@ -182,11 +163,30 @@ GltfChunks glb_chunks(const MeshFile& file, std::string_view bytes) {
 }
 
 GltfChunks chunks_of(const MeshFile& file, std::string_view bytes) {
-  if (bytes.empty()) file.refuse("is empty");
   if (bytes.size() >= 4 && word_at(bytes, 0) == GLB_MAGIC) return glb_chunks(file, bytes);
   const std::size_t first = bytes.find_first_not_of("\xEF\xBB\xBF \t\r\n");
   if (first == bytes.npos || bytes[first] != '{') file.refuse("is neither .glb nor .gltf: it starts with neither 'glTF' nor '{'");
   return {bytes, {}, false};
+}
+
+// Before it is parsed: the parser's own way to be asked about each value looks at all values before it, so that a long list takes the square of
+// its length.
+void check_depth(const MeshFile& file, std::string_view text) {
+  int depth = 0;
+  bool is_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (is_string) {
+      i += c == '\\';
+      is_string = c != '"';
+    } else if (c == '[' || c == '{') {
+      if (++depth > DEEPEST_GLTF) file.refuse(fmt::format("has JSON nested more than {} deep", DEEPEST_GLTF));
+    } else if (c == ']' || c == '}') {
+      --depth;
+    } else {
+      is_string = c == '"';
+    }
+  }
 }
 
 GltfJson parse_gltf(const MeshFile& file, std::string_view text) {
@@ -194,11 +194,9 @@ GltfJson parse_gltf(const MeshFile& file, std::string_view text) {
     file.refuse(
         fmt::format("has {} MB of JSON, and at most {} MB are read: export as .glb, or with the buffers as files of their own",
                     text.size() >> 20, LARGEST_MESH_JSON >> 20));
+  check_depth(file, text);
   try {
-    return GltfJson::parse(text.begin(), text.end(), [&](int depth, GltfJson::parse_event_t, GltfJson&) {
-      if (depth > DEEPEST_GLTF) file.refuse(fmt::format("has JSON nested more than {} deep", DEEPEST_GLTF));
-      return true;
-    });
+    return GltfJson::parse(text.begin(), text.end());
   } catch (const GltfJson::exception& error) {
     file.refuse(fmt::format("is damaged, or no glTF: {}", error.what()));
   }
@@ -285,7 +283,9 @@ bool neighbour_exists(const std::string& name, void* user) {
 }
 
 bool read_neighbour(std::vector<unsigned char>* bytes, std::string* error, const std::string& name, void* user) {
-  *error = read_bytes((static_cast<GltfNeighbours*>(user)->folder / name).string(), *bytes);
+  std::string contents;
+  *error = read_mesh_bytes((static_cast<GltfNeighbours*>(user)->folder / name).string(), contents);
+  bytes->assign(contents.begin(), contents.end());
   return error->empty();
 }
 
@@ -339,18 +339,7 @@ tinygltf::Model load_gltf(const MeshFile& file, const std::string& json, std::st
 
 }  // namespace
 
-void MeshFile::refuse(const std::string& message) const {
-  std::string line = message.substr(0, LONGEST_LINE);
-  while (!line.empty() && line.back() == '\n') line.pop_back();
-  for (char& c : line)
-    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-  throw usage_error(at_place(place, path + ": " + line));
-}
-
-tinygltf::Model read_gltf(const MeshFile& file) {
-  std::string bytes;
-  const std::string trouble = read_bytes(file.path, bytes);
-  if (!trouble.empty()) file.refuse(trouble);
+tinygltf::Model read_gltf(const MeshFile& file, std::string_view bytes) {
   const GltfChunks chunks = chunks_of(file, bytes);
   GltfJson root = parse_gltf(file, chunks.json);
   const GltfJson trimmed = GltfTrim(file).trimmed(root);

@@ -3,28 +3,19 @@
 
 #include <tiny_gltf.h>
 
-#include <string>
+#include <string_view>
 
-#include "core/scene.h"
+#include "sweeps/mesh_file.h"
 
 namespace wholehand {
 
-constexpr std::size_t LARGEST_MESH_FILE = 512u << 20;  // bytes, of the file and of all its buffers together
-constexpr std::size_t LARGEST_MESH_JSON = 64u << 20;   // bytes: parsed, JSON takes some twenty times its size
-
-// A mesh file and where the scene names it, for messages.
-struct MeshFile {
-  std::string path;
-  std::string place;  // in the scene file, may be empty
-
-  // Throws Error (usage): one line with place and path.
-  [[noreturn]] void refuse(const std::string& message) const;
-};
+constexpr std::size_t LARGEST_MESH_JSON = 64u << 20;  // bytes: parsed, JSON takes some twenty times its size
 
 // The file's scenes, nodes, meshes, accessors, buffer views and buffers, these with their bytes; nothing else of it. Every integer is
 // 0 to 2^31 - 1 or -1 where absent, every key has its type; indices into the lists are not checked. Throws Error (usage) for what
 // is no glTF 2, is truncated or too large, needs an extension that changes shapes, or has a buffer that cannot be read whole.
 // Buffers are read from the folder of the file and the folders in it, never from elsewhere.
-tinygltf::Model read_gltf(const MeshFile& file);
+// `bytes`: the file's contents.
+tinygltf::Model read_gltf(const MeshFile& file, std::string_view bytes);
 
 }  // namespace wholehand

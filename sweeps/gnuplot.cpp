@@ -3,18 +3,34 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <csignal>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <fstream>
+#include <span>
 #include <string_view>
 
-#include <sys/wait.h>
+#include <fcntl.h>
 #include <unistd.h>
+
+#include "sweeps/child_process.h"
+#include "sweeps/files.h"
 
 namespace wholehand {
 namespace {
 
-std::string temporary_name(const std::string& file) { return file + ".partial"; }
+constexpr std::string_view MARK = "<title>wholehand</title>", MARK_OF_VERSION_0_1 = "<title>Gnuplot</title>";
+
+// Makes the temporary file, so that gnuplot follows no link and waits at no pipe that lies there. False: it cannot be made.
+bool make_temporary(const std::string& temporary) {
+  const int made = open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  if (made >= 0) close(made);
+  return made >= 0;
+}
+
+void remove_temporaries(std::span<const std::string> files) {
+  for (const std::string& file : files) unlink(temporary_name(file).c_str());
+}
 
 // Gnuplot does not see that a disk is full.
 bool is_whole(const std::string& svg) {
@@ -27,21 +43,15 @@ bool is_whole(const std::string& svg) {
   return tail.find(END) != std::string::npos;
 }
 
-// A broken pipe is an exit status here, not a signal.
-class IgnorePipeSignal {
- public:
-  IgnorePipeSignal() {
-    struct sigaction ignore {};
-    ignore.sa_handler = SIG_IGN;
-    sigaction(SIGPIPE, &ignore, &before_);
-  }
-  ~IgnorePipeSignal() { sigaction(SIGPIPE, &before_, nullptr); }
-
- private:
-  struct sigaction before_ {};
-};
-
 }  // namespace
+
+bool is_own_picture(const std::string& path, bool is_beside_own) {
+  return has_mark(path, MARK) || (is_beside_own && has_mark(path, MARK_OF_VERSION_0_1));
+}
+
+void check_overwrites_picture(const std::string& path, bool is_beside_own) {
+  if (!is_own_picture(path, is_beside_own)) check_overwrites_marked(path, MARK, "picture of wholehand's", "-o");
+}
 
 // In gnuplot's single quotes a quote is doubled and nothing else is special; a line break would end the command.
 std::string gnuplot_quoted(const std::string& text) {
@@ -58,30 +68,36 @@ std::string gnuplot_output(const std::string& file) { return fmt::format("set ou
 std::string gnuplot_style(int width, int height) {
   return fmt::format(
       "set encoding utf8\n"
-      "set terminal svg size {},{} fixed noenhanced background '#ffffff' font 'DejaVu Sans,Arial,sans-serif' fontscale 1\n"
+      "set terminal svg size {},{} fixed noenhanced name 'wholehand' background '#ffffff' font 'DejaVu Sans,Arial,sans-serif' "
+      "fontscale 1\n"
       "set border linecolor '#202020'\nset tics textcolor '#202020' out nomirror\nset key textcolor '#202020'\n",
       width, height);
 }
 
-std::string draw_with_gnuplot(const std::string& script, const std::vector<std::string>& files) {
+std::string draw_with_gnuplot(const std::string& script, const std::vector<std::string>& files, std::chrono::milliseconds limit) {
   if (files.empty()) return {};
-  const IgnorePipeSignal ignore;
-  // flush first: the child must not inherit what the parent has still to print
-  std::fflush(nullptr);
-  FILE* pipe = popen("exec gnuplot >/dev/null 2>&1", "w");
-  if (!pipe) return "no pictures: cannot start gnuplot";
-  std::fwrite(script.data(), 1, script.size(), pipe);
-  const int status = pclose(pipe);
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 127) return "no pictures: gnuplot is not installed (package gnuplot-nox)";
-  bool drawn = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    if (make_temporary(temporary_name(files[k]))) continue;
+    const std::string reason = std::strerror(errno);
+    remove_temporaries(std::span(files).first(k));  // what lies there already is another's
+    return fmt::format("no pictures: cannot make {}: {}", temporary_name(files[k]), reason);
+  }
+  const ChildEnd end = run_child("gnuplot", script, limit);
+  if (end == ChildEnd::missing || end == ChildEnd::no_start) remove_temporaries(files);
+  if (end == ChildEnd::missing) return "no pictures: gnuplot is not installed (package gnuplot-nox)";
+  if (end == ChildEnd::no_start) return "no pictures: cannot start gnuplot";
+  bool drawn = end == ChildEnd::success;
   for (const std::string& file : files) {
     const std::string temporary = temporary_name(file);
     drawn = drawn && is_whole(temporary);
-    if (!drawn || std::rename(temporary.c_str(), file.c_str()) != 0) {
+    if (!drawn || std::rename(temporary.c_str(), followed(file).c_str()) != 0) {
       drawn = false;
       unlink(temporary.c_str());
     }
   }
+  if (end == ChildEnd::late)
+    return fmt::format("no pictures: gnuplot had not ended after {:g} s and was stopped",
+                       static_cast<double>(limit.count()) * 1e-3);
   return drawn ? "" : "no pictures: gnuplot failed to write " + files.front();
 }
 

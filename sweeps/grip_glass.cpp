@@ -17,13 +17,19 @@ constexpr int BONE_SAMPLES = 5;          // along a bone, of what covers it
 // One half of an outline as path commands after its first point; `side` -1 mirrors it. Backwards where asked.
 std::string half_outline(const DrawnView& view, const std::vector<PreparedElement>& elements, double side, bool backwards) {
   std::string path;
+  const std::array<double, 2>* last = nullptr;
+  const auto drawn = [&](const std::array<double, 2>& p) {
+    return point_text({view.origin[0] + side * 1e3 * p[0], view.origin[1] - 1e3 * p[1]});
+  };
   const auto to = [&](const PreparedElement& e) {
-    const auto& end = backwards ? e.a : e.b;
-    const Flat p{view.origin[0] + side * 1e3 * end[0], view.origin[1] - 1e3 * end[1]};
+    const auto &start = backwards ? e.b : e.a, &end = backwards ? e.a : e.b;
+    // level elements of a cavity are left out: the next one begins elsewhere
+    if (last && std::hypot(start[0] - (*last)[0], start[1] - (*last)[1]) > 1e-9) path += "L" + drawn(start);
+    last = &end;
     const bool anticlockwise = (e.side > 0) == (e.b[1] > e.a[1]);  // in (r, y); mirrored and backwards it stays so
-    path += e.side == 0 ? "L" + point_text(p)
+    path += e.side == 0 ? "L" + drawn(end)
                         : fmt::format("A{0} {0} 0 0 {1} {2}", number_text(1e3 * e.radius),
-                                      anticlockwise == (backwards == (side < 0)) ? 0 : 1, point_text(p));
+                                      anticlockwise == (backwards == (side < 0)) ? 0 : 1, drawn(end));
   };
   if (backwards) {
     std::for_each(elements.rbegin(), elements.rend(), to);

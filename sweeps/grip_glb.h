@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "sweeps/grip_report.h"
 
@@ -9,6 +10,9 @@ namespace wholehand {
 
 // How finely round things are cut: flat faces round the glass.
 constexpr int GLB_SEGMENTS = 64;
+
+// By what such a file is known as drawn here.
+inline constexpr std::string_view GRIP_GLB_MARK = "\"generator\":\"wholehand";
 
 // The bytes of a .glb (glTF 2.0: m, +y up). Nodes, each the child of the one before it where it is indented:
 //   pivot      at the middle between the tips; its rotation is animated over the report's tilts where there are two or more

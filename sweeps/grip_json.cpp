@@ -115,7 +115,7 @@ std::string grip_json(const GripReport& report) {
     json["score"] = report.answer.score.score;
     json["score_terms"] = score_terms(report);
   }
-  return json.dump();
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace wholehand

@@ -91,7 +91,7 @@ GripState state_of(const GripPlanes& planes, const Evaluator& core, const Scene&
                    const GripResult& result, std::size_t fill, std::size_t tilt) {
   const std::size_t place = fill * scene.tilts.size() + tilt;
   GripState state;
-  state.fill = scene.liquid ? scene.liquid->fills[fill] : 0;
+  state.fill = scene.liquid ? vessel_fills(scene, scene.vessels[vessel])[fill] : 0;
   state.tilt = scene.tilts[tilt];
   if (scene.liquid) state.liquid = planes.liquid.at(place);
   const StateResult loaded = core.state(vessel, grip, result, state.liquid, state.tilt);
@@ -116,18 +116,21 @@ std::size_t index_of(const std::vector<double>& values, double value) {
   return static_cast<std::size_t>(std::lower_bound(values.begin(), values.end(), value) - values.begin());
 }
 
-// The scene with these states. Its largest fill stays: the torque's reference is taken there.
-Scene with_states(const Scene& scene, const StateAxes& axes) {
+// The scene with these states of a vessel. Its largest fill stays: the torque's reference is taken there.
+Scene with_states(const Scene& scene, std::size_t vessel, const StateAxes& axes) {
   Scene changed = scene;
   changed.tilts = ascending(axes.tilts);
   if (!scene.liquid) return changed;
-  const double largest = scene.liquid->fills.back();
+  const double largest = vessel_fills(scene, scene.vessels[vessel]).back();
   std::vector<double> fills = axes.fills;
   fills.push_back(largest);
   changed.liquid->fills = ascending(fills);
+  changed.liquid->volumes.clear();
+  for (VesselData& other : changed.vessels) other.fills.clear();
   if (changed.liquid->fills.back() > largest) {
     throw usage_error(
-        fmt::format("--fill {}: a device takes at most the scene's largest fill, {}, where the torque's reference is taken; "
+        fmt::format("fill {} of the capacity (--fill, --fill-ml): a device takes at most the scene's largest fill, {}, where the "
+                    "torque's reference is taken; "
                     "use --on core",
                     changed.liquid->fills.back(), largest));
   }
@@ -136,9 +139,9 @@ Scene with_states(const Scene& scene, const StateAxes& axes) {
 
 }  // namespace
 
-StateAxes scene_axes(const Scene& scene) {
+StateAxes scene_axes(const Scene& scene, std::size_t vessel) {
   StateAxes axes;
-  if (scene.liquid) axes.fills = scene.liquid->fills;
+  if (scene.liquid) axes.fills = vessel_fills(scene, scene.vessels[vessel]);
   axes.tilts = scene.tilts;
   return axes;
 }
@@ -162,14 +165,14 @@ GripMethods backend_grip_methods(const Scene& scene, const BackendOpener& open) 
             answer.score = score_of(planes, scene_fills(scene));
             if (axes.tilts.empty()) return answer;
 
-            const StateAxes own = scene_axes(scene);
+            const StateAxes own = scene_axes(scene, vessel);
             const bool is_own = axes.fills == own.fills && axes.tilts == own.tilts;
-            const Scene asked = is_own ? scene : with_states(scene, axes);
+            const Scene asked = is_own ? scene : with_states(scene, vessel, axes);
             if (!is_own) planes = run_one(*open(asked, make_field_set(all_fields(), asked)), vessel, grip);
             const auto core = make_core_evaluator(asked);
             for (const double fill : axes.fills) {
               for (const double tilt : axes.tilts) {
-                const std::size_t fill_index = asked.liquid ? index_of(asked.liquid->fills, fill) : 0;
+                const std::size_t fill_index = asked.liquid ? index_of(vessel_fills(asked, asked.vessels[vessel]), fill) : 0;
                 answer.states.push_back(
                     state_of(planes, *core, asked, vessel, grip, answer.result, fill_index, index_of(asked.tilts, tilt)));
               }

@@ -37,8 +37,8 @@ struct GripMethods {
   std::function<GripAnswer(std::size_t vessel, const GripInput& grip, const StateAxes& axes)> answer;
 };
 
-// The scene's own fills and tilts.
-StateAxes scene_axes(const Scene& scene);
+// The scene's own fills of a vessel, and its tilts.
+StateAxes scene_axes(const Scene& scene, std::size_t vessel);
 
 // The core's kernels called directly. Shares the evaluator, which must have been made for `scene`.
 GripMethods core_grip_methods(const Scene& scene, std::shared_ptr<const Evaluator> evaluator, const std::string& device);

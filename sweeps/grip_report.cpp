@@ -25,7 +25,7 @@ GripReport make_grip_report(const Scene& scene, std::size_t vessel, const GripIn
   report.pour = pour_direction(scene, grip);
   report.has_liquid = scene.liquid.has_value();
   report.has_tilts = !scene.tilts.empty();
-  report.score_fills = scene_axes(scene).fills;
+  report.score_fills = scene_axes(scene, vessel).fills;
   return report;
 }
 

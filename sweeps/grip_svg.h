@@ -2,10 +2,14 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "sweeps/grip_report.h"
 
 namespace wholehand {
+
+// By what such a drawing is known as made here.
+inline constexpr std::string_view GRIP_SVG_MARK = "<title id=\"title\">Grip of ";
 
 // The text of an SVG of at most 180 mm by 250 mm, one unit of its coordinates a millimetre of the vessel; black on white, contact points in colours that
 // colour-blind readers tell apart and in shapes that do without colour. Third-angle projection: the front view from the side of the hand,

@@ -20,7 +20,8 @@ double now() {
 }
 
 std::atomic<double> first_came{0};
-static_assert(std::atomic<double>::is_always_lock_free);
+std::atomic<void (*)(int)> another{nullptr};
+static_assert(std::atomic<double>::is_always_lock_free && std::atomic<void (*)(int)>::is_always_lock_free);
 
 void on_signal(int signal) {
   // the time goes first: another thread may take the second signal at once
@@ -31,6 +32,7 @@ void on_signal(int signal) {
     return;
   }
   if (now() - first_came < ONE_WISH) return;
+  if (const auto act = another.load()) return act(signal);
   struct sigaction by_default {};
   by_default.sa_handler = SIG_DFL;
   sigaction(signal, &by_default, nullptr);
@@ -43,6 +45,7 @@ InterruptGuard::InterruptGuard() {
   stop = false;
   signal_came = false;
   first_came = 0;
+  another = nullptr;
   struct sigaction action {};
   action.sa_handler = on_signal;
   action.sa_flags = SA_RESTART;
@@ -56,6 +59,7 @@ InterruptGuard::~InterruptGuard() {
   sigaction(SIGINT, &interrupt_before_, nullptr);
   sigaction(SIGTERM, &terminate_before_, nullptr);
   sigaction(SIGHUP, &hangup_before_, nullptr);
+  another = nullptr;
 }
 
 std::atomic<bool>& InterruptGuard::flag() { return stop; }
@@ -64,6 +68,8 @@ void InterruptGuard::clear() {
   stop = false;
   if (signal_came) stop = true;
 }
+
+void InterruptGuard::on_another(void (*act)(int signal)) { another = act; }
 
 bool InterruptGuard::signalled() { return signal_came; }
 

@@ -8,7 +8,7 @@
 namespace wholehand {
 
 // While it lives, the first SIGINT, SIGTERM or SIGHUP sets `flag()`; another one that
-// comes a quarter of a second later or more ends the process as usual. At most one at a time.
+// comes a quarter of a second later or more ends the process as usual, unless somebody takes it. At most one at a time.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -20,6 +20,8 @@ class InterruptGuard {
   std::atomic<bool>& flag();
   // Takes the flag back, unless a signal has come meanwhile.
   void clear();
+  // From now on another signal is `act`'s, in the signal's handler. Null: it ends the process as usual.
+  void on_another(void (*act)(int signal));
   static bool signalled();
 
  private:

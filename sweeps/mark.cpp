@@ -1,11 +1,18 @@
 #include "sweeps/mark.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numeric>
+#include <optional>
+#include <system_error>
 
 #include "core/error.h"
 #include "sweeps/files.h"
@@ -15,25 +22,27 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int FORMAT = 1;
+constexpr int FORMAT = 2;
+
+Error unusable(const std::string& path, const std::string& why) {
+  return failure_error(fmt::format("{}: {}; start again without --resume", path, why));
+}
 
 json to_json(const VesselProgress& vessel) {
   json best = json::array();
   for (const Candidate& candidate : vessel.best) best.push_back({candidate.score, candidate.index});
   const GripCounts& counts = vessel.counts;
-  return {{"done", vessel.done},
-          {"best", best},
-          {"grips", counts.grips},
-          {"by_reason", counts.by_reason},
-          {"implausible", counts.implausible},
-          {"antipodal", counts.antipodal},
-          {"blocked", counts.blocked},
-          {"heat_map", vessel.heat_map}};  // NaN becomes null
+  json stretches = json::array();
+  for (const Stretch& stretch : vessel.stretches) stretches.push_back({stretch.first, stretch.last, stretch.checksum});
+  return {{"done", vessel.done},           {"stretches", stretches},        {"best", best},
+          {"grips", counts.grips},         {"by_reason", counts.by_reason}, {"implausible", counts.implausible},
+          {"antipodal", counts.antipodal}, {"blocked", counts.blocked},     {"heat_map", vessel.heat_map}};  // NaN becomes null
 }
 
 VesselProgress vessel_from(const json& text) {
   VesselProgress vessel;
   vessel.done = text.at("done");
+  for (const json& stretch : text.at("stretches")) vessel.stretches.push_back({stretch.at(0), stretch.at(1), stretch.at(2)});
   for (const json& candidate : text.at("best")) vessel.best.push_back({candidate.at(0), candidate.at(1)});
   GripCounts& counts = vessel.counts;
   counts.grips = text.at("grips");
@@ -49,33 +58,93 @@ VesselProgress vessel_from(const json& text) {
 
 }  // namespace
 
+void keep_stretch(std::vector<Stretch>& stretches, const Stretch& stretch) {
+  if (!stretches.empty() && stretches.back().first == stretch.first) {
+    stretches.back() = stretch;
+  } else {
+    stretches.push_back(stretch);
+  }
+}
+
 void save_mark(const std::string& path, const SweepMark& mark) {
   json vessels = json::array();
   for (const VesselProgress& vessel : mark.vessels) vessels.push_back(to_json(vessel));
-  const json text{{"format", FORMAT},
-                  {"identity", mark.identity},
-                  {"wall_seconds", mark.wall_seconds},
-                  {"kernel_seconds", mark.kernel_seconds},
-                  {"vessels", vessels}};
+  json in_place = json::array();
+  for (const FileRange& range : mark.in_place) in_place.push_back({range.offset, range.size});
+  const json content{{"identity", mark.identity}, {"wall_seconds", mark.wall_seconds}, {"kernel_seconds", mark.kernel_seconds},
+                     {"in_place", in_place},      {"structure", mark.structure},       {"vessels", vessels}};
   // a scene's text may hold any bytes
-  write_whole_file(path, text.dump(-1, ' ', false, json::error_handler_t::replace), true);
+  const std::string text = content.dump(-1, ' ', false, json::error_handler_t::replace);
+  write_whole_file(path, fmt::format("{}{} {}\n{}", MARK_START, FORMAT, checksum_text(text.data(), text.size()), text), true,
+                   "make room and go on with --resume, or name another file with -o");
 }
 
 bool load_mark(const std::string& path, SweepMark& mark) {
+  std::error_code absent;
+  if (!std::filesystem::exists(path, absent)) return false;
+  if (!std::filesystem::is_regular_file(path, absent)) throw unusable(path, "not a progress mark of this program");
   std::ifstream file(path, std::ios::binary);
-  if (!file) return false;
+  std::string start, text;
+  std::getline(file, start);
+  text.assign(std::istreambuf_iterator<char>(file), {});
+  if (!start.starts_with(fmt::format("{}{} ", MARK_START, FORMAT))) throw unusable(path, "not a progress mark of this program");
+  if (!start.ends_with(" " + checksum_text(text.data(), text.size()))) throw unusable(path, "is damaged: its checksum is another");
   try {
-    const json text = json::parse(file);
-    if (text.at("format") != FORMAT) throw std::runtime_error("another format");
-    mark.identity = text.at("identity").get<std::map<std::string, std::string>>();
-    mark.wall_seconds = text.at("wall_seconds");
-    mark.kernel_seconds = text.at("kernel_seconds");
+    const json content = json::parse(text);
+    mark.identity = content.at("identity").get<std::map<std::string, std::string>>();
+    mark.wall_seconds = content.at("wall_seconds");
+    mark.kernel_seconds = content.at("kernel_seconds");
+    mark.in_place.clear();
+    for (const json& range : content.at("in_place")) mark.in_place.push_back({range.at(0), range.at(1)});
+    mark.structure = content.at("structure");
     mark.vessels.clear();
-    for (const json& vessel : text.at("vessels")) mark.vessels.push_back(vessel_from(vessel));
-  } catch (const std::exception& error) {
-    throw failure_error(fmt::format("{}: not a progress mark of this program; start again without --resume", path));
+    for (const json& vessel : content.at("vessels")) mark.vessels.push_back(vessel_from(vessel));
+  } catch (const std::exception&) {
+    throw unusable(path, "not a progress mark of this program");
   }
   return true;
+}
+
+namespace {
+
+// What is wrong with one vessel's progress; empty: nothing.
+std::string contradiction(const VesselProgress& vessel, const MarkBounds& bounds) {
+  if (vessel.done > bounds.grips) return fmt::format("{} grips are done of {}", vessel.done, bounds.grips);
+  if (vessel.counts.grips != vessel.done) return fmt::format("{} grips are done and {} counted", vessel.done, vessel.counts.grips);
+  const auto& reasons = vessel.counts.by_reason;
+  const std::uint64_t reasoned = std::accumulate(reasons.begin(), reasons.end(), std::uint64_t{0});
+  if (bounds.has_reasons && reasoned != vessel.done) return fmt::format("{} grips are done and {} sorted", vessel.done, reasoned);
+  if (vessel.best.size() > bounds.best) return fmt::format("{} best grips are kept of {}", vessel.best.size(), bounds.best);
+  for (const Candidate& candidate : vessel.best) {
+    if (candidate.index >= vessel.done) return fmt::format("grip {} is one of the best of {}", candidate.index, vessel.done);
+  }
+  std::uint64_t end = 0;
+  for (const Stretch& stretch : vessel.stretches) {
+    if (stretch.first != end || stretch.last <= stretch.first)
+      return fmt::format("a stretch from {} follows {}", stretch.first, end);
+    end = stretch.last;
+  }
+  if (bounds.has_stretches && end != vessel.done) return fmt::format("{} grips are done and {} have a checksum", vessel.done, end);
+  return "";
+}
+
+}  // namespace
+
+void check_progress(const std::string& path, const SweepMark& mark, const MarkBounds& bounds) {
+  if (mark.vessels.size() != bounds.vessels)
+    throw unusable(path, fmt::format("says what cannot be: {} vessels of {}", mark.vessels.size(), bounds.vessels));
+  for (std::size_t v = 0; v < mark.vessels.size(); ++v) {
+    const std::string wrong = contradiction(mark.vessels[v], bounds);
+    if (!wrong.empty()) throw unusable(path, fmt::format("says what cannot be: of vessel {}, {}", v + 1, wrong));
+  }
+}
+
+bool has_structure(const std::string& partial, const SweepMark& mark) {
+  const int file = open(partial.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+  if (file < 0) return false;
+  const std::optional<std::string> structure = checksum_without(file, mark.in_place);
+  close(file);
+  return structure == mark.structure;
 }
 
 void check_identity(const std::string& partial, const SweepMark& mark, const std::map<std::string, std::string>& identity) {

@@ -5,9 +5,11 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/backend.h"
+#include "sweeps/checksum.h"
 
 namespace wholehand {
 
@@ -20,10 +22,17 @@ struct GripCounts {
   std::uint64_t blocked = 0;  // with a blocked finger
 };
 
+// Grips [first, last) of a vessel, and the checksum of all that the result file holds of them (sweeps/checksum.h).
+struct Stretch {
+  std::uint64_t first = 0, last = 0;
+  std::string checksum;
+};
+
 // What is known of one vessel's first `done` grips.
 struct VesselProgress {
   std::uint64_t done = 0;
-  std::vector<Candidate> best;  // the best first
+  std::vector<Stretch> stretches;  // one after the other, of 0 to `done`; none where the file holds nothing of the grips
+  std::vector<Candidate> best;     // the best first
   GripCounts counts;
   std::vector<double> heat_map;  // HeatMap::scores(); empty without one
 };
@@ -35,13 +44,36 @@ struct SweepMark {
   std::vector<VesselProgress> vessels;
   double wall_seconds = 0;  // of all sessions so far
   double kernel_seconds = 0;
+  std::vector<FileRange> in_place;  // of the partial file: where the values of grips and of the best grips lie, in its order
+  std::string structure;            // checksum_without of all else
 };
 
-// Replaces the mark's file as a whole, synced. Throws Error (failure).
+// What a sweep can have done at most.
+struct MarkBounds {
+  std::size_t vessels = 0;
+  std::uint64_t grips = 0;  // of a vessel
+  std::size_t best = 0;
+  bool has_stretches = true;
+  bool has_reasons = true;  // of grips that are not feasible
+};
+
+// Adds a stretch after the others, or in place of the last one, from which it has grown.
+void keep_stretch(std::vector<Stretch>& stretches, const Stretch& stretch);
+
+// Replaces the mark's file as a whole, synced, with a checksum of its own. Throws Error (failure).
 void save_mark(const std::string& path, const SweepMark& mark);
 
-// Reads a mark. False where there is none. Throws Error (failure) where it cannot be read as one.
+// How a mark begins.
+inline constexpr std::string_view MARK_START = "wholehand mark ";
+
+// Reads a mark. False where there is none. Throws Error (failure) where it cannot be read as one, or is not as it was written.
 bool load_mark(const std::string& path, SweepMark& mark);
+
+// Throws Error (failure) where a mark says what no sweep within these bounds can have done.
+void check_progress(const std::string& path, const SweepMark& mark, const MarkBounds& bounds);
+
+// Whether the partial file still has the structure that the mark vouches for, bit for bit: nothing else may open it, as HDF5 trusts what it reads.
+bool has_structure(const std::string& partial, const SweepMark& mark);
 
 // Throws Error (usage) that names the first difference between what was begun and what is asked for.
 void check_identity(const std::string& partial, const SweepMark& mark, const std::map<std::string, std::string>& identity);

@@ -5,9 +5,7 @@
 #include <unistd.h>
 #include <xxhash.h>
 
-#include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -28,7 +26,6 @@ namespace fs = std::filesystem;
 
 // Raised whenever samples, error or choice of a lattice, or the file, are made in another way: older files are then made again.
 constexpr std::uint32_t GRID_FORMAT = 2;
-constexpr auto STALE = std::chrono::hours(1);  // what is not whole by then never will be
 constexpr const char* GRID_SUFFIX = ".grid";
 constexpr const char* PARTIAL_SUFFIX = ".partial";
 
@@ -154,13 +151,9 @@ bool read_value(std::istream& in, T& value) {
   return static_cast<bool>(in.read(reinterpret_cast<char*>(&value), sizeof value));
 }
 
-void touch(const fs::path& file) {
-  std::error_code ignored;  // of a folder that may only be read
-  fs::last_write_time(file, fs::file_time_type::clock::now(), ignored);
-}
-
 // The lattice in a file; none where it is not there, not whole, not this one, or not what is wished.
 std::optional<MeshGrid> load_grid_file(const fs::path& file, const Digest& key, const MeshFacts& facts, const GridWish& wish) try {
+  if (!fs::is_regular_file(file)) return {};  // a pipe would be waited for
   std::ifstream in(file, std::ios::binary);
   GridHeader header;
   if (!in || !read_value(in, header)) return {};
@@ -174,7 +167,7 @@ std::optional<MeshGrid> load_grid_file(const fs::path& file, const Digest& key, 
   if (!in.read(reinterpret_cast<char*>(words.data()), static_cast<std::streamsize>(4 * count)) || !read_value(in, digest))
     return {};
   if (digest != file_digest(header, words)) return {};
-  touch(file);
+  host::touch_cached(file.string());
   MeshGrid found = lattice_of(header);
   found.grid.words = std::make_shared<const std::vector<std::uint32_t>>(std::move(words));
   return found;
@@ -182,43 +175,12 @@ std::optional<MeshGrid> load_grid_file(const fs::path& file, const Digest& key, 
   return {};
 }
 
-// Of this cache: a key, and one of its endings.
-bool is_cache_file(const fs::path& file) {
-  const std::string name = file.filename().string(), ending = file.extension().string();
-  return (ending == GRID_SUFFIX || ending == PARTIAL_SUFFIX) && name.find_first_not_of("0123456789abcdef") == 32;
-}
-
-// Removes what others left unfinished, and then the files unused for longest until so many bytes more may be there. Others may do the same
-// at the same time.
-void make_room(const fs::path& folder, std::uintmax_t bytes) {
-  struct Kept {
-    fs::file_time_type used;
-    std::uintmax_t size;
-    fs::path file;
-  };
-  std::vector<Kept> kept;
-  std::uintmax_t total = bytes;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    std::error_code gone;
-    if (!is_cache_file(entry.path()) || !entry.is_regular_file(gone)) continue;
-    const fs::file_time_type used = entry.last_write_time(gone);
-    const std::uintmax_t size = entry.file_size(gone);
-    if (gone) continue;
-    if (entry.path().extension() == GRID_SUFFIX) {
-      kept.push_back({used, size, entry.path()});
-      total += size;
-    } else if (fs::file_time_type::clock::now() - used > STALE) {
-      fs::remove(entry.path(), gone);
-    }
-  }
-  std::sort(kept.begin(), kept.end(), [](const Kept& a, const Kept& b) { return a.used < b.used; });
-  for (const Kept& oldest : kept) {
-    if (total <= MOST_CACHED_BYTES) return;
-    std::error_code ignored;
-    fs::remove(oldest.file, ignored);
-    total -= oldest.size;
-  }
-}
+// Where lattices are kept, and how much may be there.
+struct LatticeCache {
+  fs::path folder;           // empty: nowhere
+  std::uintmax_t limit = 0;  // bytes; 0: nothing is kept
+  fs::path grids() const { return folder / "grids"; }
+};
 
 // A new file that no other process writes; empty where none can be made.
 std::string new_partial(const fs::path& folder, const Digest& key) {
@@ -229,13 +191,14 @@ std::string new_partial(const fs::path& folder, const Digest& key) {
   return name;
 }
 
-void save_grid_file(const fs::path& folder, const Digest& key, const MeshGrid& made) try {
+void save_grid_file(const LatticeCache& cache, const Digest& key, const MeshGrid& made) try {
   const GridHeader header = header_of(made, key);
   const std::vector<std::uint32_t>& words = *made.grid.words;
   const std::uintmax_t size = sizeof header + 4 * words.size() + sizeof(Digest);
-  if (size > MOST_CACHED_BYTES) return;
+  if (size > cache.limit) return;
+  const fs::path folder = cache.grids();
   fs::create_directories(folder);
-  make_room(folder, size);
+  host::make_cache_room(cache.folder.string(), size, cache.limit);
   if (fs::space(folder).available < 2 * size) return;  // the disk is others' too
   const std::string partial = new_partial(folder, key);
   if (partial.empty()) return;
@@ -248,22 +211,18 @@ void save_grid_file(const fs::path& folder, const Digest& key, const MeshGrid& m
   std::error_code failed;
   if (out) fs::rename(partial, folder / (hex_of(key) + GRID_SUFFIX), failed);
   if (!out || failed) fs::remove(partial, failed);
+  host::make_cache_room(cache.folder.string(), 0, cache.limit);  // others may have stored at the same time
 } catch (const std::exception&) {
   // the next run makes it again
 }
 
-fs::path folder_of(const std::string& given) {
-  if (!given.empty()) return given;
-  const std::string own = host::cache_folder();
-  return own.empty() ? "" : own + "/grids";
-}
-
 }  // namespace
 
-MeshGrid cached_grid(const CheckedMesh& mesh, const GridWish& wish, const std::string& folder, const GridProgress& progress) {
-  const auto make = [&] { return grid_of_mesh(MeshDistance(mesh), mesh, wish, progress); };
-  const fs::path where = folder_of(folder);
-  if (where.empty()) return make();
+MeshGrid cached_grid(const CheckedMesh& mesh, const GridWish& wish, const std::string& folder, const GridProgress& progress,
+                     const GridForecast& forecast) {
+  const auto make = [&] { return grid_of_mesh(MeshDistance(mesh), mesh, wish, progress, forecast); };
+  const LatticeCache cache{folder.empty() ? host::cache_folder() : folder, host::cache_limit()};
+  if (cache.folder.empty() || cache.limit == 0) return make();
   const int bits = wish.bits.value_or(32);
   std::vector<Digest> keys;  // any file that holds the lattice has one of these
   if (!wish.spacing) {
@@ -272,11 +231,11 @@ MeshGrid cached_grid(const CheckedMesh& mesh, const GridWish& wish, const std::s
     keys = {lattice_digest(mesh, *lattice)};
   }
   for (const Digest& key : keys) {
-    if (auto found = load_grid_file(where / (hex_of(key) + GRID_SUFFIX), key, mesh.facts, wish)) return std::move(*found);
+    if (auto found = load_grid_file(cache.grids() / (hex_of(key) + GRID_SUFFIX), key, mesh.facts, wish)) return std::move(*found);
   }
   MeshGrid made = make();
   const bool by_tolerance = !made.at_limit && made.grid.halves == (bits == 16);
-  save_grid_file(where, wish.spacing || by_tolerance ? keys.front() : keys.back(), made);
+  save_grid_file(cache, wish.spacing || by_tolerance ? keys.front() : keys.back(), made);
   return made;
 }
 

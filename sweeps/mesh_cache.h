@@ -1,25 +1,22 @@
 // Lattices of meshes kept between runs: one may take half a minute.
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include "sweeps/mesh_grid.h"
 
 namespace wholehand {
 
-constexpr std::uintmax_t MOST_CACHED_BYTES = std::uintmax_t{2} << 30;  // of all lattices in a folder
-
-// grid_of_mesh's lattice, taken from a file of `folder` where one holds it, else made and put there. `folder` empty:
-// $XDG_CACHE_HOME/wholehand/grids, else ~/.cache/wholehand/grids. `progress` is called only where the lattice is made.
+// grid_of_mesh's lattice, taken from a file of `folder`/grids where one holds it, else made and put there. `folder` empty:
+// host::cache_folder(). `progress` and `forecast` are called only where the lattice is made.
 //
 // A file is found by the triangles and by what of the wish decides the lattice; one that is damaged, cut off or something else is made
-// again. Files appear whole, so that several processes may use one folder. Beyond MOST_CACHED_BYTES those unused for longest go first. No
+// again. Files appear whole, so that several processes may use one folder. Beyond host::cache_limit() those unused for longest go first. No
 // folder, one that cannot be written or a full disk cost nothing but the time.
 //
-// Throws what grid_of_mesh and MeshDistance throw.
+// Throws what grid_of_mesh, MeshDistance and host::cache_limit throw.
 MeshGrid cached_grid(const CheckedMesh& mesh, const GridWish& wish, const std::string& folder = "",
-                     const GridProgress& progress = {});
+                     const GridProgress& progress = {}, const GridForecast& forecast = {});
 
 // 32 hexadecimal digits that are equal where the triangles and the lattice's places and bits are, and hardly anywhere else.
 std::string mesh_key(const CheckedMesh& mesh, const PreparedGrid& grid);

@@ -8,13 +8,16 @@
 #include <glm/vec3.hpp>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "core/error.h"
+#include "sweeps/mesh_holes.h"
 
 namespace wholehand {
 namespace {
 
 constexpr double LARGE_MESH = 10;         // m: nothing that a hand holds
+constexpr double SMALL_MESH = 2e-3;       // m: likewise
 constexpr double LEAST_THICKNESS = 1e-9;  // volume over area, of the largest extent: below it, rounding
 constexpr double LEAST_HEIGHT = 1e-12;    // of a triangle, of its longest edge: below it, rounding
 
@@ -23,9 +26,32 @@ glm::dvec3 corner_of(const TriangleMesh& mesh, std::uint32_t vertex) {
   return {p[0], p[1], p[2]};
 }
 
+// Leaves out triangles that are there before, with the same corners in the same turn: copies one upon the other bound the same body, and make each
+// distance as many times as slow. Returns how many.
+std::size_t drop_repeated(TriangleMesh& mesh) {
+  const auto least_first = [&](std::uint32_t i) {
+    const auto& [a, b, c] = mesh.triangles[i];
+    if (a < b && a < c) return std::array{a, b, c};
+    return b < c ? std::array{b, c, a} : std::array{c, a, b};
+  };
+  std::vector<std::uint32_t> order(mesh.triangles.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
+    const auto one = least_first(i), other = least_first(j);
+    return one != other ? one < other : i < j;
+  });
+  std::vector<bool> is_repeated(order.size());
+  for (std::size_t i = 1; i < order.size(); ++i) is_repeated[order[i]] = least_first(order[i]) == least_first(order[i - 1]);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    if (!is_repeated[i]) mesh.triangles[kept++] = mesh.triangles[i];
+  mesh.triangles.resize(kept);
+  return order.size() - kept;
+}
+
 // The mesh with equal vertices joined and those that no triangle uses left out, nor triangles that are points or edges; the order is that of
 // the vertices' coordinates.
-TriangleMesh weld(const TriangleMesh& mesh) {
+TriangleMesh weld(const TriangleMesh& mesh, MeshFacts& facts) {
   std::vector<bool> used(mesh.vertices.size());
   for (const auto& triangle : mesh.triangles) {
     if (is_point_or_edge(mesh, triangle)) continue;
@@ -45,6 +71,9 @@ TriangleMesh weld(const TriangleMesh& mesh) {
     const auto& [a, b, c] = triangle;
     if (!is_point_or_edge(mesh, triangle)) welded.triangles.push_back({place[a], place[b], place[c]});
   }
+  facts.triangles = mesh.triangles.size();
+  facts.zero_triangles = mesh.triangles.size() - welded.triangles.size();
+  facts.joined_corners = order.size() - welded.vertices.size();
   return welded;
 }
 
@@ -65,6 +94,7 @@ std::uint64_t edge_use(std::uint32_t from, std::uint32_t to) {
 
 // Counts edges, and returns the mean of the open ones' middles; the box's middle where none is open.
 glm::dvec3 count_edges(const TriangleMesh& mesh, MeshFacts& facts) {
+  facts.open_edges = facts.non_manifold_edges = facts.inverted_pairs = 0;
   std::vector<std::uint64_t> uses;
   uses.reserve(3 * mesh.triangles.size());
   for (const auto& [a, b, c] : mesh.triangles) uses.insert(uses.end(), {edge_use(a, b), edge_use(b, c), edge_use(c, a)});
@@ -128,16 +158,62 @@ std::string span_text(const MeshFacts& facts, int axis) {
   return fmt::format("{:.4g} to {:.4g}", 1e3 * facts.low[axis], 1e3 * facts.high[axis]);
 }
 
+// Closes all holes, or says why not; without the wish only measures them.
+void note_holes(TriangleMesh& mesh, const std::string& name, bool close_holes, MeshFacts& facts) {
+  const MeshHoles holes = find_holes(mesh);
+  const double extent = largest_extent(facts);
+  for (const MeshHole& hole : holes.loops) {
+    facts.widest_hole = std::max(facts.widest_hole, hole.across);
+    if (close_holes && !is_small_hole(hole, extent))
+      throw usage_error(fmt::format(
+          "{}: close_holes: a hole is {:.4g} mm across, its edge {:.4g} mm long, and at most {:.4g} and {:.4g} mm are closed: "
+          "close it where the mesh was made, or leave out close_holes",
+          name, 1e3 * hole.across, 1e3 * hole.length, 1e3 * SMALL_HOLE * extent, 1e3 * SMALL_HOLE_EDGE * extent));
+  }
+  if (close_holes && holes.loose_edges > 0)
+    throw usage_error(
+        fmt::format("{}: close_holes: {} form no loop, as triangles beside them face opposite ways: let all face outward where the "
+                    "mesh was made, or leave out close_holes",
+                    name, count_text(holes.loose_edges, "open edge", "open edges")));
+  facts.holes = holes.loops.size();
+  facts.closable = holes.loose_edges == 0 && std::all_of(holes.loops.begin(), holes.loops.end(),
+                                                         [&](const MeshHole& hole) { return is_small_hole(hole, extent); });
+  if (!close_holes) return;
+  for (const MeshHole& hole : holes.loops) close_hole(hole, mesh);
+  facts.closed_holes = std::exchange(facts.holes, 0);
+  facts.widest_closed_hole = std::exchange(facts.widest_hole, 0);
+}
+
+// What an open mesh might do about it.
+std::string holes_text(const MeshFacts& facts) {
+  if (facts.holes == 0) return ": close them for a sure answer.";
+  const std::string holes =
+      fmt::format(": {}, up to {:.4g} mm across, ", count_text(facts.holes, "hole", "holes"), 1e3 * facts.widest_hole);
+  if (facts.closable) return holes + "which close_holes = true closes.";
+  if (facts.widest_hole > SMALL_HOLE * largest_extent(facts))
+    return holes + fmt::format("more than the {:.4g} mm that close_holes closes: close them for a sure answer.",
+                               1e3 * SMALL_HOLE * largest_extent(facts));
+  return holes + "which close_holes does not close, as an edge is too long or forms no loop: close them for a sure answer.";
+}
+
 }  // namespace
 
-CheckedMesh check_mesh(const TriangleMesh& mesh, const std::string& name) {
-  CheckedMesh checked{weld(mesh), {}};
+CheckedMesh check_mesh(const TriangleMesh& mesh, const std::string& name, bool close_holes) {
+  CheckedMesh checked;
   MeshFacts& facts = checked.facts;
-  facts.triangles = mesh.triangles.size();
-  facts.zero_triangles = mesh.triangles.size() - checked.mesh.triangles.size();
+  checked.mesh = weld(mesh, facts);
   if (checked.mesh.triangles.empty()) throw usage_error(name + ": has no triangle with an area");
   measure_extent(checked.mesh, facts);
-  measure_volume(checked.mesh, count_edges(checked.mesh, facts), facts);
+  glm::dvec3 rim = count_edges(checked.mesh, facts);
+  if (facts.non_manifold_edges > 0) {
+    facts.repeated_triangles = drop_repeated(checked.mesh);
+    if (facts.repeated_triangles > 0) rim = count_edges(checked.mesh, facts);
+  }
+  if (facts.open_edges > 0) {
+    note_holes(checked.mesh, name, close_holes, facts);
+    if (facts.closed_holes > 0) rim = count_edges(checked.mesh, facts);
+  }
+  measure_volume(checked.mesh, rim, facts);
   if (!(std::abs(facts.volume) > LEAST_THICKNESS * facts.area * largest_extent(facts))) {
     throw usage_error(name +
                       ": encloses no volume (a flat sheet, or surfaces that cancel), so it has no inside: give it a thickness");
@@ -157,21 +233,32 @@ std::string mesh_check_text(const MeshFacts& facts) {
                       count_text(facts.inverted_pairs, "inverted pair", "inverted pairs"),
                       count_text(facts.zero_triangles, "triangle without area", "triangles without area"), 1e6 * facts.volume,
                       1e3 * facts.center_of_mass[0], 1e3 * facts.center_of_mass[1], 1e3 * facts.center_of_mass[2]);
+  if (facts.joined_corners > 0)
+    text += fmt::format(" {} equal to others joined with them.", count_text(facts.joined_corners, "corner was", "corners were"));
+  if (facts.repeated_triangles > 0)
+    text += fmt::format(" {} there before and left out.", count_text(facts.repeated_triangles, "triangle was", "triangles were"));
+  if (facts.closed_holes > 0)
+    text += fmt::format(" {}, up to {:.4g} mm across.", count_text(facts.closed_holes, "hole was closed", "holes were closed"),
+                        1e3 * facts.widest_closed_hole);
   if (facts.was_inside_out) text += " It was inside out and has been turned round.";
   if (!facts.closed)
-    text += " What lies inside is judged by the winding number, which guesses across the holes: close them for a sure answer.";
+    text += " What lies inside is judged by the winding number, which guesses across the holes" + holes_text(facts);
   if (!facts.oriented) text += " Its triangles do not all face outward, so volume and centre of mass are not to be trusted.";
   return text;
 }
 
-// Exporters that forget the unit write millimetres, centimetres or inches.
-std::string mesh_size_warning(const MeshFacts& facts) {
+// Exporters that forget the unit write millimetres, centimetres or inches as if they were metres, or the other way about.
+std::string mesh_size_warning(const MeshFacts& facts, double scale) {
   const double extent = largest_extent(facts);
-  if (extent <= LARGE_MESH) return "";
-  const char* unit = extent > 20 ? "millimetres" : "centimetres";
-  const double scale = extent > 20 ? 0.001 : 0.01;
-  return fmt::format("it is {:.4g} m large: glTF counts in metres; if these are {}, set mesh_scale = {} ({:.4g} mm)", extent, unit,
-                     scale, 1e3 * scale * extent);
+  if (extent > SMALL_MESH && extent <= LARGE_MESH) return "";
+  const bool is_large = extent > LARGE_MESH;
+  double factor = is_large ? (extent > 20 ? 0.001 : 0.01) : extent >= 0.5e-3 ? 100 : extent >= 0.5e-6 ? 1000 : 1e6;
+  if (scale * factor > 0.999 && scale * factor < 1.001) factor = 1 / scale;  // so that 1 is written as 1
+  return fmt::format(
+      "it is {:.4g} {} large: its numbers{} are taken as metres; the likely scale is mesh_scale = {:.6g}, with which it is {:.4g} "
+      "mm large",
+      is_large ? extent : 1e3 * extent, is_large ? "m" : "mm", scale == 1 ? "" : fmt::format(" times {:.6g}", scale),
+      scale * factor, 1e3 * factor * extent);
 }
 
 }  // namespace wholehand

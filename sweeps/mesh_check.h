@@ -14,6 +14,13 @@ struct MeshFacts {
   std::size_t non_manifold_edges = 0;  // of three or more triangles
   std::size_t inverted_pairs = 0;      // edges of two triangles that turn opposite ways
   std::size_t zero_triangles = 0;      // without area, from corners in one place or in one line
+  std::size_t joined_corners = 0;      // vertices that were equal to another and are one with it now
+  std::size_t repeated_triangles = 0;  // left out: equal to another, corner by corner
+  std::size_t holes = 0;               // loops of open edges, of what is open still
+  double widest_hole = 0;              // of these, m across
+  bool closable = false;               // close_holes closes them all
+  std::size_t closed_holes = 0;        // small ones that were closed
+  double widest_closed_hole = 0;       // of these, m across
   bool closed = false;          // each edge belongs to an even number of triangles: a ray's crossings tell inside from outside
   bool oriented = false;        // each edge is used as often in one direction as in the other, give or take one
   bool was_inside_out = false;  // all triangles were turned round
@@ -29,14 +36,16 @@ struct CheckedMesh {
   MeshFacts facts;
 };
 
-// Joins vertices that are equal in all three coordinates, leaves out triangles with two corners in one place, and turns all round where
-// the volume is negative. `name` is for messages. Throws Error (usage) where no volume is left: a flat sheet, or two that cancel.
-CheckedMesh check_mesh(const TriangleMesh& mesh, const std::string& name);
+// Joins vertices that are equal in all three coordinates, leaves out triangles with two corners in one place and those that are there twice,
+// closes holes where `close_holes` is set (sweeps/mesh_holes.h), and turns all round where the volume is negative. `name` is for messages.
+// Throws Error (usage) where no volume is left: a flat sheet, or two that cancel; and where holes are to be closed and one is too large.
+CheckedMesh check_mesh(const TriangleMesh& mesh, const std::string& name, bool close_holes = false);
 
 // What was found as one paragraph, with what follows from it; ends without a line break.
 std::string mesh_check_text(const MeshFacts& facts);
 
-// A sentence where the mesh is so large (over 10 m) that its unit is hardly the metre, with the scale that is likely meant; else empty.
-std::string mesh_size_warning(const MeshFacts& facts);
+// A sentence where the mesh is so large (over 10 m) or so small (under 2 mm) that its unit is hardly the metre, with the scale that is likely
+// meant; else empty. `scale`: that by which the file's numbers were multiplied.
+std::string mesh_size_warning(const MeshFacts& facts, double scale = 1);
 
 }  // namespace wholehand

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <chrono>
 #include <cmath>
 #include <exception>
 #include <functional>
@@ -30,7 +31,13 @@ constexpr double SPACING_STEP = 1.25;                             // from one tr
 constexpr double FEWEST_SAMPLES = 6 * 6 * 6;                      // with which lay_lattice lays any
 constexpr double SAME_SPACING = 1e-4;                             // relative: finer is not sought
 constexpr double FAR_FOR_HALVES = 32;                             // m: half of what they hold, as a lattice reaches beyond its mesh
+constexpr double TIMED_SECONDS = 0.2;                             // of a lattice's work, before its time is told
 constexpr double MOST_SAMPLES = std::numeric_limits<int>::max();  // the kernels count in 32 bits
+
+// 0: all cores.
+int thread_count(int threads) {
+  return threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
 
 // Runs `work` for 0 .. count - 1 on several threads, in no order.
 void on_threads(int threads, int count, const std::function<void(int)>& work, const GridProgress& progress = {}) {
@@ -50,7 +57,7 @@ void on_threads(int threads, int count, const std::function<void(int)>& work, co
       if (!failure) failure = std::current_exception();
     }
   };
-  if (threads <= 0) threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  threads = thread_count(threads);
   {
     std::vector<std::jthread> others;
     for (int i = 1; i < std::min(threads, count); ++i) others.emplace_back(take, false);
@@ -163,6 +170,19 @@ double value_without_samples(const MeshDistance& distance, const PreparedGrid& g
   return value;
 }
 
+// Whether the error is larger than that at any of the points: the others need not be looked at then.
+bool any_error_above(const std::vector<Triple>& points, int threads, double tolerance,
+                     const std::function<double(const Triple&)>& value_at) {
+  std::atomic<bool> found{false};
+  constexpr int CHUNK = 16;
+  const auto count = static_cast<int>(points.size());
+  on_threads(threads, (count + CHUNK - 1) / CHUNK, [&](int chunk) {
+    for (int i = chunk * CHUNK; i < std::min(count, (chunk + 1) * CHUNK) && !found; ++i)
+      if (std::abs(value_at(points[i])) > tolerance) found = true;
+  });
+  return found;
+}
+
 double largest_error(const std::vector<Triple>& points, int threads, const std::function<double(const Triple&)>& value_at) {
   std::vector<double> errors(points.size());
   constexpr int CHUNK = 64;
@@ -190,11 +210,11 @@ PreparedGrid choose_grid(const MeshDistance& distance, const MeshFacts& facts, c
                          const GridWish& wish, const GridProgress& progress, bool& at_limit) {
   PreparedGrid grid = coarsest_lattice(facts, wish, at_limit);
   const auto value_at = [&](const Triple& p) { return value_without_samples(distance, grid, p); };
-  const auto error_of_grid = [&] {
+  const auto is_coarse = [&] {
     if (progress) progress(0);
-    return largest_error(points, wish.threads, value_at);
+    return any_error_above(points, wish.threads, wish.tolerance, value_at);
   };
-  while (error_of_grid() > wish.tolerance) {
+  while (is_coarse()) {
     const PreparedGrid finer = lay_lattice(facts, wish, grid.spacing / SPACING_STEP);
     if (!lattice_fits(finer, wish)) {
       at_limit = true;
@@ -258,6 +278,32 @@ void sample_lattice(const MeshDistance& distance, PreparedGrid& grid, int thread
   grid.words = std::make_shared<const std::vector<std::uint32_t>>(std::move(words));
 }
 
+double steady_seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+// Takes rows from all over the lattice, one a thread and then twice as many each time, until they took TIMED_SECONDS or are a 32nd of all:
+// from how long that took follows how long all will take. The samples are not kept.
+double seconds_of_rows(const MeshDistance& distance, const PreparedGrid& grid, int threads, const std::function<double()>& clock) {
+  const auto now = [&] { return clock ? clock() : steady_seconds(); };
+  const std::size_t all = static_cast<std::size_t>(grid.ny) * grid.nz,
+                    step = static_cast<std::size_t>(0.618 * static_cast<double>(all)) | 1u;
+  const auto take_row = [&](std::size_t number) {
+    std::vector<float> row(grid.nx);
+    const std::size_t place = number * step % all;
+    sample_row(distance, grid, static_cast<int>(place % grid.ny), static_cast<int>(place / grid.ny), row);
+  };
+  const double start = now();
+  double seconds = 0;
+  std::size_t done = 0;
+  for (std::size_t more = thread_count(threads); done < all; more = std::min(2 * more, all - done)) {
+    more = std::min(more, all - done);
+    on_threads(threads, static_cast<int>(more), [&](int i) { take_row(done + static_cast<std::size_t>(i)); });
+    done += more;
+    seconds = now() - start;
+    if (seconds >= TIMED_SECONDS || 32 * done >= all) break;
+  }
+  return forecast_seconds(done, all, seconds);
+}
+
 // The lattice as the kernels read it.
 core_f64::Vessel kernel_vessel(const PreparedGrid& grid) {
   core_f64::Vessel vessel;
@@ -274,11 +320,17 @@ std::optional<PreparedGrid> lattice_at(const MeshFacts& facts, const GridWish& w
   return lattice_fits(grid, wish) ? std::optional(grid) : std::nullopt;
 }
 
-MeshGrid grid_of_mesh(const MeshDistance& distance, const CheckedMesh& mesh, const GridWish& wish, const GridProgress& progress) {
+double forecast_seconds(std::size_t done, std::size_t all, double seconds) {
+  return done > 0 ? seconds * static_cast<double>(all) / static_cast<double>(done) : 0;
+}
+
+MeshGrid grid_of_mesh(const MeshDistance& distance, const CheckedMesh& mesh, const GridWish& wish, const GridProgress& progress,
+                      const GridForecast& forecast) {
   const std::vector<Triple> points = surface_points(distance, mesh.mesh, SURFACE_SAMPLES);
   MeshGrid made;
   made.grid =
       wish.spacing ? given_grid(mesh.facts, wish) : choose_grid(distance, mesh.facts, points, wish, progress, made.at_limit);
+  if (forecast.say) forecast.say(made.grid, seconds_of_rows(distance, made.grid, wish.threads, forecast.clock));
   sample_lattice(distance, made.grid, wish.threads, progress);
   const core_f64::Vessel vessel = kernel_vessel(made.grid);
   made.error = largest_error(points, wish.threads, [&](const Triple& p) {

@@ -41,12 +41,21 @@ std::optional<PreparedGrid> lattice_at(const MeshFacts& facts, const GridWish& w
 // sought. What it throws ends the work.
 using GridProgress = std::function<void(double share)>;
 
+// How long all of the work takes (s), where `done` of its `all` parts took `seconds`.
+double forecast_seconds(std::size_t done, std::size_t all, double seconds);
+
+// How long the samples of a lattice will take, by some of its own rows that are timed first.
+struct GridForecast {
+  std::function<void(const PreparedGrid& grid, double seconds)> say;  // called once, before the samples are taken; may be empty
+  std::function<double()> clock;                                      // s, ascending; empty: the machine's
+};
+
 // The lattice as core/prepare.h's prepare_grid lays one out, but only as wide in x, y and z as the mesh is. Without a spacing the
 // widest lattice whose error, rounding to 16 bits included, stays below the tolerance, or the finest that fits `most_bytes`: then `error`
 // may be above the tolerance. With 16 bits asked for, distances beyond 63.97 m are cut to that.
 // Throws Error (usage) where a given spacing does not fit, or none does.
 MeshGrid grid_of_mesh(const MeshDistance& distance, const CheckedMesh& mesh, const GridWish& wish,
-                      const GridProgress& progress = {});
+                      const GridProgress& progress = {}, const GridForecast& forecast = {});
 
 // What lies inside a lattice's surface.
 struct EnclosedVolume {

@@ -12,11 +12,12 @@
 
 #include "core/error.h"
 #include "core/load.h"
-#include "host/device.h"
+#include "host/cache_folder.h"
 #include "sweeps/mesh.h"
 #include "sweeps/mesh_cache.h"
 #include "sweeps/mesh_check.h"
 #include "sweeps/progress.h"
+#include "sweeps/readable.h"
 
 namespace wholehand {
 namespace {
@@ -26,7 +27,8 @@ constexpr double ROUNDED_OUTLINE = 0.1e-3;
 
 constexpr double OTHER_VOLUME = 0.05;  // of the mesh's: the lattice's volume is then another one, not a coarse one
 
-constexpr std::size_t LARGE_MESH_LATTICE = 16u << 20;  // bytes
+constexpr std::size_t OFF_SCALE_LATTICE = 4u << 20;   // bytes
+constexpr double LONG_WORK = 10, LONG_OPEN_WORK = 3;  // s
 
 // Of the points between axis and wall of a cavity: so many may be on the other side than the rest, where a fillet was left out.
 constexpr double OTHER_SIDE = 0.05;
@@ -64,7 +66,7 @@ CavityPoints count_cavity_points(const PreparedGrid& grid, const std::vector<Pre
 }
 
 void place_cavity(const VesselData& vessel, MeshBody& body) {
-  const std::vector<PreparedElement> cavity = inner_cavity(vessel.mesh->inner);
+  const std::vector<PreparedElement> cavity = prepare_cavity(vessel);
   double widest = 0, reach = 0;
   for (const PreparedElement& e : cavity) widest = std::max(widest, widest_on(e));
   for (const int k : {0, 2}) reach = std::max({reach, std::abs(body.low[k]), std::abs(body.high[k])});
@@ -95,12 +97,12 @@ void place_cavity(const VesselData& vessel, MeshBody& body) {
   body.holds_cavity = share > 0.5;
 }
 
-GridWish wish_of(const Scene& scene, const MeshData& data, bool is_large, const MeshOptions& options) {
+GridWish wish_of(const Scene& scene, const MeshData& data, bool is_off_scale, const MeshOptions& options) {
   GridWish wish;
   wish.spacing = data.grid_spacing;
   wish.margin = grid_margin(scene);
   // what no hand holds is most likely in another unit: an answer soon, not a fine one
-  wish.most_bytes = data.grid_spacing || !is_large ? options.most_bytes : std::min(options.most_bytes, LARGE_MESH_LATTICE);
+  wish.most_bytes = data.grid_spacing || !is_off_scale ? options.most_bytes : std::min(options.most_bytes, OFF_SCALE_LATTICE);
   wish.threads = options.threads;
   return wish;
 }
@@ -144,6 +146,13 @@ std::string set_volume(const MeshFacts& facts, MeshBody& body) {
       1e6 * enclosed.volume, 1e3 * enclosed.center[0], 1e3 * enclosed.center[1], 1e3 * enclosed.center[2]);
 }
 
+void note(const std::string& line) { fmt::print(stderr, "wholehand: {}\n", line); }
+
+// Wipes what was shown while work ran, also where that ends with an error.
+struct StatusLine {
+  ~StatusLine() { show_status(""); }
+};
+
 void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder, const MeshOptions& options,
                std::istream& lattices) {
   const MeshData& data = *vessel.mesh;
@@ -151,10 +160,13 @@ void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder
   const auto say = [&](const std::string& line) {
     if (options.say) options.say(name + ": " + line);
   };
-  CheckedMesh checked = check_mesh(read_mesh(data, folder), at_place(data.place, data.file));
+  const StatusLine status;
+  show_status(fmt::format("{}: reading {}", name, data.file));
+  CheckedMesh checked = check_mesh(read_mesh(data, folder), at_place(data.place, data.file), data.close_holes);
+  show_status("");
   const MeshFacts& facts = checked.facts;
   say(data.file + ": " + mesh_check_text(facts));
-  const std::string warning = mesh_size_warning(facts);
+  const std::string warning = mesh_size_warning(facts, data.scale);
   if (!warning.empty()) say(warning);
   auto body = std::make_shared<MeshBody>();
   GridWish wish = wish_of(scene, data, !warning.empty(), options);
@@ -165,9 +177,16 @@ void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder
     wish.bits = bits;
     wish.most_bytes = options.most_bytes;
   }
+  host::cache_limit();  // throws here: a wrong limit is not the fault of grid_mm
   try {
     const auto progress = [&](double share) { show_status(fmt::format("{}: distances to its mesh  {:.0f} %", name, 100 * share)); };
-    MeshGrid made = cached_grid(checked, wish, options.cache_folder, progress);
+    const auto announce = [&](const PreparedGrid& grid, double seconds) {
+      if (!is_long(seconds, facts.closed)) return;
+      show_status("");
+      const auto& tell = options.say ? options.say : options.forecast;
+      if (tell) tell(name + ": " + forecast_text(grid, seconds, facts.closed));
+    };
+    MeshGrid made = cached_grid(checked, wish, options.cache_folder, progress, {announce, options.clock});
     show_status("");
     body->grid = std::move(made.grid);
     body->grid_error = made.error;
@@ -192,6 +211,15 @@ void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder
 }
 
 }  // namespace
+
+bool is_long(double seconds, bool is_closed) { return seconds > (is_closed ? LONG_WORK : LONG_OPEN_WORK); }
+
+std::string forecast_text(const PreparedGrid& grid, double seconds, bool is_closed) {
+  return fmt::format(
+      "its lattice of {:.4g} mm has {} samples, which take about {}{}", 1e3 * grid.spacing,
+      readable_count(static_cast<double>(grid.nx) * grid.ny * grid.nz), readable_duration(seconds),
+      is_closed ? "; a larger grid_mm takes less" : ", as the mesh is open; a closed one, or a larger grid_mm, takes less");
+}
 
 bool has_meshes(const Scene& scene) {
   return std::any_of(scene.vessels.begin(), scene.vessels.end(), [](const VesselData& vessel) { return vessel.mesh.has_value(); });
@@ -225,13 +253,9 @@ std::string mesh_lattices(const Scene& scene) {
   return lattices;
 }
 
-std::size_t largest_lattice(const std::string& on) {
+std::size_t largest_lattice(std::uint64_t device_bytes) {
   const auto memory = static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-  const std::uint64_t most = std::min<std::uint64_t>(LARGEST_LATTICE, memory / 8);
-  if (on == "core") return most;
-  const std::vector<host::DeviceInfo> devices = host::list_devices();
-  const host::DeviceInfo& device = host::choose_device(devices, on);
-  return std::min<std::uint64_t>(most, std::min(device.max_storage_range, device.max_texel_range));
+  return std::min(std::min<std::uint64_t>(LARGEST_LATTICE, memory / 8), device_bytes);
 }
 
 void load_meshes(Scene& scene, const MeshOptions& options) {
@@ -245,6 +269,7 @@ std::string reload_meshes(Scene& scene, const std::string& scene_file, const std
   if (!has_meshes(scene)) return "";
   MeshOptions options;
   options.lattices = lattices;
+  options.forecast = note;
   Scene read = scene;
   read.file = scene_file;
   try {
@@ -258,11 +283,11 @@ std::string reload_meshes(Scene& scene, const std::string& scene_file, const std
   return "";
 }
 
-void load_meshes(Scene& scene, const std::string& on) {
+void load_meshes(Scene& scene, const std::function<std::uint64_t()>& device_bytes) {
   if (!has_meshes(scene)) return;
   MeshOptions options;
-  options.most_bytes = largest_lattice(on);
-  options.say = [](const std::string& line) { fmt::print(stderr, "wholehand: {}\n", line); };
+  options.most_bytes = largest_lattice(device_bytes ? device_bytes() : std::numeric_limits<std::uint64_t>::max());
+  options.say = note;
   load_meshes(scene, options);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -13,28 +14,33 @@ namespace wholehand {
 constexpr std::size_t LARGEST_LATTICE = 512u << 20;  // bytes of samples, whatever the device
 
 struct MeshOptions {
-  std::size_t most_bytes = LARGEST_LATTICE;     // of a lattice's samples: floats up to half of it, 16 bits each beyond
-  int threads = 0;                              // 0: all cores
-  std::string lattices;                         // as of mesh_lattices; not empty: these, whatever the scene asks for
-  std::string cache_folder;                     // of lattices, see cached_grid
-  std::function<void(const std::string&)> say;  // gets what was found of each mesh, a line a time; may be empty
+  std::size_t most_bytes = LARGEST_LATTICE;          // of a lattice's samples: floats up to half of it, 16 bits each beyond
+  int threads = 0;                                   // 0: all cores
+  std::string lattices;                              // as of mesh_lattices; not empty: these, whatever the scene asks for
+  std::string cache_folder;                          // of lattices, see cached_grid
+  std::function<void(const std::string&)> say;       // gets what was found of each mesh, a line a time; may be empty
+  std::function<void(const std::string&)> forecast;  // without `say`: gets only that a lattice takes long; may be empty
+  std::function<double()> clock;  // s, by which work is timed before it is told how long it takes; empty: the machine's
 };
 
-// What a lattice may take for `on` (core, vulkan or a device's name): its largest storage buffer, an eighth of the
-// machine's memory, or LARGEST_LATTICE, whichever is least. Throws Error
-// as choose_device does.
-std::size_t largest_lattice(const std::string& on);
+// Bytes that a lattice may take here: LARGEST_LATTICE, an eighth of the machine's memory, or `device_bytes`, whichever is least.
+std::size_t largest_lattice(std::uint64_t device_bytes);
+
+// Whether a lattice that takes so long is announced, by `forecast_text`: 10 s; of an open mesh 3 s.
+bool is_long(double seconds, bool is_closed);
+std::string forecast_text(const PreparedGrid& grid, double seconds, bool is_closed);
 
 // Reads, checks and samples the mesh of every vessel that has one and sets its body, base and height; files are looked for from the scene
 // file's folder. The lattice holds all that hands of the scene's sizes can touch. A body that is there already stays. Throws Error (usage),
 // one line with the place in the scene file: what read_mesh and check_mesh refuse, a lattice that is too large, an inner outline that is
 // not the mesh's.
 void load_meshes(Scene& scene, const MeshOptions& options);
-// For `on`, saying on stderr what was found.
-void load_meshes(Scene& scene, const std::string& on);
+// For a device whose buffers hold so many bytes, which is asked only where there is a mesh; for the core where nobody tells. Says on stderr what
+// was found.
+void load_meshes(Scene& scene, const std::function<std::uint64_t()>& device_bytes = nullptr);
 
 // For a scene read back from a result, whose file lay at `scene_file` and whose meshes had those keys and lattices (mesh_lattices). Returns
-// why the meshes are no longer those, "" where they are; then every body is there, else none.
+// why the meshes are no longer those, "" where they are; then every body is there, else none. Says on stderr where a lattice takes long.
 std::string reload_meshes(Scene& scene, const std::string& scene_file, const std::string& keys, const std::string& lattices);
 
 bool has_meshes(const Scene& scene);

@@ -1,8 +1,11 @@
 #include "sweeps/open_backend.h"
 
-#include <fmt/format.h>
+#include <algorithm>
+#include <limits>
+#include <vector>
 
 #include "core/error.h"
+#include "host/device.h"
 #include "host/grip_backend.h"
 #include "sweeps/core_backend.h"
 
@@ -17,6 +20,13 @@ std::unique_ptr<Backend> open_backend(const Scene& scene, const FieldSet& fields
   host::GripBackendOptions options;
   options.precision = precision;
   return std::make_unique<host::GripBackend>(scene, make_core_evaluator(scene), fields, on, options);
+}
+
+std::uint64_t largest_buffer(const std::string& on) {
+  if (on == "core") return std::numeric_limits<std::uint64_t>::max();
+  const std::vector<host::DeviceInfo> devices = host::list_devices();
+  const host::DeviceInfo& device = host::choose_device(devices, on);
+  return std::min(device.max_storage_range, device.max_texel_range);
 }
 
 }  // namespace wholehand

@@ -1,6 +1,7 @@
 // From the name that a user gives to what evaluates the grips.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -12,5 +13,8 @@ namespace wholehand {
 // core, 0 takes all. Throws Error (usage) for a device that is not there, (failure) for one that does not answer.
 std::unique_ptr<Backend> open_backend(const Scene& scene, const FieldSet& fields, const std::string& on, Precision precision,
                                       int threads);
+
+// Bytes that one buffer of `on` holds; the largest number for the core. Throws as open_backend does.
+std::uint64_t largest_buffer(const std::string& on);
 
 }  // namespace wholehand

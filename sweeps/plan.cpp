@@ -26,7 +26,7 @@ double stored_per_vessel(const Scene& scene) {
 }
 
 // A body of revolution about its axis in mass as well as in shape.
-bool is_symmetric(const VesselData& vessel) {
+bool is_body_of_revolution(const VesselData& vessel) {
   return !vessel.mesh && (!vessel.mass || (vessel.center_of_mass[0] == 0 && vessel.center_of_mass[2] == 0));
 }
 
@@ -80,13 +80,18 @@ Plan::Plan(const Scene& scene, bool keeps_vectors)
   for (const PlanAxis& axis : axes_) {
     if (axis.data.values.empty()) throw usage_error(fmt::format("{}: [grips] axis {} has no values", scene.file, axis.name));
   }
+  symmetric_ = std::all_of(scene.vessels.begin(), scene.vessels.end(), is_body_of_revolution);
+  const Axis& hands = axes_[PLACE_HAND_SCALE].data;
+  if (hands.values.size() > 1 && hands.values.size() <= MOST_HAND_SCALES && !(sobol_ && hands.is_range)) {
+    for (std::size_t place = 0; place < hands.values.size(); ++place) scale_order_.emplace_back(hands.values[place], place);
+    std::sort(scale_order_.begin(), scale_order_.end());
+  }
   if (sobol_) {
     grips_ = grips.count;
     return;
   }
   for (std::size_t k = 0; k < axes_.size(); ++k) counts_[k] = axes_[k].data.values.size();
-  const bool symmetric = std::all_of(scene.vessels.begin(), scene.vessels.end(), is_symmetric);
-  if (symmetric && !keeps_vectors) {
+  if (symmetric_ && !keeps_vectors) {
     copies_ = counts_[PLACE_AZIMUTH];
     counts_[PLACE_AZIMUTH] = 1;
   }
@@ -100,6 +105,16 @@ double Plan::axis_value(const PlanAxis& axis, const SobolPoint& point) const {
   if (axis.data.is_range) return axis.data.from + u * (axis.data.to - axis.data.from);
   if (values.size() == 1) return values[0];
   return values[std::min(values.size() - 1, static_cast<std::size_t>(u * static_cast<double>(values.size())))];
+}
+
+// A fraction counts from the lowest point to the mouth.
+std::array<double, 2> Plan::height_span(std::size_t vessel) const {
+  return height_is_fraction_ ? vessel_spans_[vessel] : std::array<double, 2>{0, 1};
+}
+
+double Plan::height(std::size_t vessel, double value) const {
+  const auto [base, unit] = height_span(vessel);
+  return base + value * unit;
 }
 
 void Plan::coordinates(int axis, std::uint64_t first, std::size_t count, double* out) const {
@@ -119,8 +134,7 @@ void Plan::coordinates(int axis, std::uint64_t first, std::size_t count, double*
 }
 
 void Plan::fill(std::size_t vessel, std::uint64_t first, std::size_t count, GripInput* out) const {
-  // a fraction counts from the lowest point to the mouth
-  const auto [base, height_unit] = height_is_fraction_ ? vessel_spans_[vessel] : std::array<double, 2>{0, 1};
+  const auto [base, height_unit] = height_span(vessel);
   if (sobol_) {
     std::array<SobolPoint, 256> points;
     for (std::size_t done = 0; done < count; done += points.size()) {
@@ -153,6 +167,28 @@ void Plan::fill(std::size_t vessel, std::uint64_t first, std::size_t count, Grip
       digit[k] = 0;
     }
   }
+}
+
+void Plan::hand_scales_of(std::uint64_t first, std::size_t count, std::size_t* out) const {
+  if (scale_order_.empty()) {
+    std::fill_n(out, count, 0);
+    return;
+  }
+  std::array<double, 256> values;
+  for (std::size_t done = 0; done < count; done += values.size()) {
+    const std::size_t n = std::min(values.size(), count - done);
+    coordinates(PLACE_HAND_SCALE, first + done, n, values.data());
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::pair<double, std::size_t> least{values[i], 0};
+      out[done + i] = std::lower_bound(scale_order_.begin(), scale_order_.end(), least)->second;
+    }
+  }
+}
+
+std::size_t Plan::hand_scale_of(std::uint64_t grip) const {
+  std::size_t place = 0;
+  hand_scales_of(grip, 1, &place);
+  return place;
 }
 
 GripInput Plan::grip(std::size_t vessel, std::uint64_t index) const {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/result.h"
@@ -13,7 +14,8 @@
 
 namespace wholehand {
 
-constexpr double LARGEST_SWEEP = 1e11;  // grips of all vessels that one sweep takes
+constexpr double LARGEST_SWEEP = 1e11;        // grips of all vessels that one sweep takes
+constexpr std::size_t MOST_HAND_SCALES = 64;  // with a list of best grips each; more are a range, and have one list
 
 // Places of the axes, in the order in which grips are numbered and the result file stores them, the slowest first. Height is the fastest:
 // a device evaluates neighbours together, and of all axes height changes the least in how a finger moves.
@@ -56,29 +58,46 @@ class Plan {
   Plan(const Scene& scene, bool keeps_vectors);
 
   bool is_sobol() const { return sobol_; }
+  bool height_is_fraction() const { return height_is_fraction_; }
   const std::array<PlanAxis, 6>& axes() const { return axes_; }
   std::uint64_t grips() const { return grips_; }    // evaluated per vessel
   std::uint64_t copies() const { return copies_; }  // stored grips per evaluated one
   std::uint64_t stored_grips() const { return grips_ * copies_; }
+  bool is_symmetric() const { return symmetric_; }  // every vessel is a body of revolution, in mass too: azimuth changes nothing
+
+  // The hands whose grips are not to be weighed against each other: the values of hand_scale, up to MOST_HAND_SCALES of them. A single one
+  // where the scene has one value, a continuous range, or more. Best grips are listed for each vessel and each of these.
+  std::size_t hand_scales() const { return scale_order_.empty() ? 1 : scale_order_.size(); }
+  double hand_scale(std::size_t place) const { return axes_[PLACE_HAND_SCALE].data.values[place]; }  // where there are several
+  // Places of the hand scales of grips first .. first + count - 1; 0 where there is one. Thread-safe.
+  void hand_scales_of(std::uint64_t first, std::size_t count, std::size_t* out) const;
+  std::size_t hand_scale_of(std::uint64_t grip) const;
 
   // Grips first .. first + count - 1 of a vessel into `out`. Thread-safe.
   void fill(std::size_t vessel, std::uint64_t first, std::size_t count, GripInput* out) const;
   GripInput grip(std::size_t vessel, std::uint64_t index) const;
+
+  // A vessel's height of a grip in m from the value of the height's axis.
+  double height(std::size_t vessel, double value) const;
 
   // Values of one axis (index into axes()) at grips first .. first + count - 1, before a height fraction meets a vessel.
   void coordinates(int axis, std::uint64_t first, std::size_t count, double* out) const;
 
  private:
   double axis_value(const PlanAxis& axis, const SobolPoint& point) const;
+  // Lowest point of the vessel and height above it where heights are fractions, else 0 and 1.
+  std::array<double, 2> height_span(std::size_t vessel) const;
 
   std::array<PlanAxis, 6> axes_;
   std::array<std::uint64_t, 6> counts_{};  // evaluated values of each axis of a grid
   bool sobol_ = false;
+  bool symmetric_ = false;
   bool height_is_fraction_ = false;
   Sobol sequence_;
   std::uint64_t grips_ = 0;
   std::uint64_t copies_ = 1;
-  std::vector<std::array<double, 2>> vessel_spans_;  // y of the lowest point and height above it, m
+  std::vector<std::pair<double, std::size_t>> scale_order_;  // hand scales, ascending, and their places; empty: a single one
+  std::vector<std::array<double, 2>> vessel_spans_;          // y of the lowest point and height above it, m
 };
 
 }  // namespace wholehand

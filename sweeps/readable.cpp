@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace wholehand {
 
@@ -28,5 +30,12 @@ std::string readable_count(double count) {
 }
 
 std::string readable_number(std::uint64_t count) { return readable_count(static_cast<double>(count)); }
+
+std::string readable_duration(double seconds) {
+  const double whole = std::ceil(std::clamp(seconds, 0.0, 1e9));
+  if (whole < 120) return fmt::format("{:.0f} s", whole);
+  if (whole < 7200) return fmt::format("{:.0f} min {:.0f} s", std::floor(whole / 60), std::fmod(whole, 60));
+  return fmt::format("{:.0f} h {:.0f} min", std::floor(whole / 3600), std::floor(std::fmod(whole, 3600) / 60));
+}
 
 }  // namespace wholehand

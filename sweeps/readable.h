@@ -12,4 +12,7 @@ std::string readable_bytes(double bytes);
 std::string readable_count(double count);
 std::string readable_number(std::uint64_t count);
 
+// "54 s", "3 min 20 s", "2 h 5 min": rounded up.
+std::string readable_duration(double seconds);
+
 }  // namespace wholehand

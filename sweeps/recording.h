@@ -97,6 +97,9 @@ class RecordingWriter {
  private:
   std::uint64_t put(const char* data, std::uint64_t size, std::uint64_t place, int& error);
   void append_block();
+  bool is_in_place() const;
+  bool is_all_there();
+  bool give_name();
   void give_up(int error);
 
   std::string path_, partial_;

@@ -102,7 +102,9 @@ class LayoutBuilder {
 
   void labels(const std::string& name, const std::string& along, const std::string& long_name,
               const std::vector<std::string>& values) {
-    variable(name, classic::Type::text, along + " text_length", false, "", long_name);
+    // without it xarray takes them for bytes, and finds none of them by its name
+    variable(name, classic::Type::text, along + " text_length", false, "", long_name)
+        .attributes.push_back(classic::text_attribute("_Encoding", "utf-8"));
     for (const std::string& value : values) {
       layout_.fixed += value;
       layout_.fixed.append(text_length_ - value.size(), '\0');

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "sweeps/files.h"
 #include "sweeps/recording.h"
 #include "sweeps/recording_fields.h"
 #include "sweeps/recording_layout.h"
@@ -121,7 +122,7 @@ std::string note_of(const Recording& recording, const classic::Header& header) {
 Recording read_recorded_file(const RecordedFile& file) {
   std::string start;
   file.read(start, std::min(file.size(), classic::LARGEST_HEADER), 0);
-  if (start.starts_with("\x89HDF\r\n\x1a\n"))
+  if (start.starts_with(NETCDF4_START))
     throw usage_error(
         "is a NetCDF-4 file, as sweeps write them, and no recording; one that another program has rewritten comes back by nccopy "
         "-k 64-bit-offset");

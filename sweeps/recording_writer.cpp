@@ -18,7 +18,7 @@
 namespace wholehand {
 namespace {
 
-std::string partial_recording(const std::string& path) { return path + ".partial"; }
+std::string partial_recording(const std::string& path) { return followed(path) + ".partial"; }
 
 Error is_in_the_way(const std::string& path, const std::string& partial) {
   return usage_error(fmt::format(
@@ -111,6 +111,7 @@ bool RecordingWriter::append(std::span<const Tick> ticks) {
 
 // Writes the block down, or as many whole records of it as the disk still takes.
 void RecordingWriter::append_block() {
+  if (!is_all_there()) return;
   int error = 0;
   const std::uint64_t end = bytes(), written = put(block_.data(), block_.size(), end, error);
   const auto added = static_cast<std::uint32_t>(written / header_.record_size);
@@ -129,8 +130,35 @@ void RecordingWriter::append_block() {
   }
 }
 
+// Whether the partial file has its name still.
+bool RecordingWriter::is_in_place() const {
+  struct stat open {
+  }, named{};
+  return fstat(file_, &open) == 0 && lstat(partial_.c_str(), &named) == 0 && named.st_dev == open.st_dev &&
+         named.st_ino == open.st_ino;
+}
+
+// Whether the partial file is where it was made, with all that was written to it: someone may have removed or cut it.
+bool RecordingWriter::is_all_there() {
+  struct stat open {};
+  if (fstat(file_, &open) != 0 || !trouble_.empty()) return trouble_.empty();
+  if (!is_in_place()) {
+    reason_ = "its file was removed or renamed";
+    trouble_ =
+        fmt::format("{}: recording ended: {} was removed or renamed meanwhile, and with it what was recorded", path_, partial_);
+  } else if (static_cast<std::uint64_t>(open.st_size) < bytes()) {
+    reason_ = "its file was cut";
+    trouble_ = fmt::format("{}: recording ended: {} was cut to {} of {} bytes meanwhile", path_, partial_, open.st_size, bytes());
+    // the ticks that are left, so that nothing later makes up the others
+    const std::uint64_t start = header_.record_begin, size = static_cast<std::uint64_t>(open.st_size);
+    header_.records = size > start ? static_cast<std::uint32_t>((size - start) / header_.record_size) : 0;
+  }
+  return trouble_.empty();
+}
+
 bool RecordingWriter::finish(RecordingEnd end) {
   if (file_ < 0) return false;
+  is_all_there();
   if (end.early.empty()) end.early = reason_;
   add_end(header_, end);
   const std::string start = classic::encode_header(header_);
@@ -138,16 +166,26 @@ bool RecordingWriter::finish(RecordingEnd end) {
   // in place, over bytes that the file has: a full disk does not prevent it
   const bool is_ended = put(start.data(), start.size(), 0, error) == start.size() && fsync(file_) == 0;
   if (!is_ended && trouble_.empty()) give_up(error != 0 ? error : errno);
+  const bool is_there = is_in_place();
   close(file_);
   file_ = -1;
+  return is_there && give_name() && is_ended;
+}
+
+// Renames the partial file; false: it stays where it is.
+bool RecordingWriter::give_name() {
+  std::string refusal;
   try {
-    rename_file(partial_, path_);
+    if (rename_onto_nothing(partial_, followed(path_))) {
+      sync_folder_of(followed(path_));
+      return true;
+    }
+    refusal = fmt::format("{}: something was put there meanwhile, and is not overwritten", path_);
   } catch (const Error& refused) {
-    trouble_ = fmt::format("{}; the recording is whole at {}", refused.what(), partial_);
-    return false;
+    refusal = refused.what();
   }
-  sync_folder_of(path_);
-  return is_ended;
+  trouble_ = fmt::format("{}; the recording is {} at {}", refusal, trouble_.empty() ? "whole" : "as far as it goes", partial_);
+  return false;
 }
 
 }  // namespace wholehand

@@ -121,8 +121,9 @@ std::string agreement_text(const ReportSource& source, const Agreement& agreemen
   if (!agreement.outcomes.empty()) {
     const std::uint64_t compared = agreement.grips - agreement.grazing, equal = compared - agreement.flipped - agreement.excluded;
     text += fmt::format(" Reasons, flags and masks are equal in {} of {}", readable_number(equal), readable_number(compared));
-    text +=
-        agreement.excluded > 0 ? fmt::format("; in {} they differ within the margin.", readable_number(agreement.excluded)) : ".";
+    text += agreement.excluded > 0 ? fmt::format("; in {} they differ within the margin, where {} may.",
+                                                 readable_number(agreement.excluded), readable_number(agreement.allowed))
+                                   : ".";
   }
   if (agreement.grazing > 0) text += fmt::format(" {} graze the glass and are left out.", readable_number(agreement.grazing));
   return text;
@@ -159,6 +160,7 @@ Agreement compare_with_core(const ReportSource& source, std::size_t vessel) {
   agreement.feasible = comparer.feasible();
   agreement.grazing = comparer.grazing();
   agreement.excluded = comparer.excluded();
+  agreement.allowed = comparer.allowed();
   return agreement;
 }
 

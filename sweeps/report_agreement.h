@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "sweeps/compare.h"
 #include "sweeps/report_source.h"
 
 namespace wholehand {
@@ -17,9 +18,10 @@ struct Agreement {
   std::uint64_t grips = 0, feasible = 0;
   std::uint64_t grazing = 0;   // left out: by the core, or within the tolerance of that
   std::uint64_t excluded = 0;  // a discrete outcome differs within the margin
+  std::uint64_t allowed = 0;   // .. in so many at most
   std::uint64_t flipped = 0;   // .. beyond it
   std::uint64_t outside = 0;   // numbers beyond their tolerance
-  bool holds() const { return flipped == 0 && outside == 0; }
+  bool holds() const { return flipped == 0 && outside == 0 && excluded <= allowed; }
 };
 
 // The vessel's grips at sample_places, computed anew by the core in double and compared by the tolerances of `wholehand check` for the

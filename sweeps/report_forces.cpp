@@ -14,20 +14,27 @@ namespace {
 constexpr std::size_t MOST_LINES = 8;
 
 // The number and its unit stay in one line.
-std::string fill_text(const Scene& scene, double fill) {
+std::string share_text(const Scene& scene, double fill) {
   return scene.liquid ? html_number(100 * fill, std::abs(100 * fill - std::round(100 * fill)) < 0.05 ? 0 : 1) + "\u00a0%" : "empty";
 }
 
+// A fill of a vessel as the scene gives it: in mL, or as a share of what the vessel holds.
+std::string fill_text(const Scene& scene, std::size_t vessel, std::size_t fill) {
+  if (!scene.liquid) return "empty";
+  if (scene.liquid->volumes.empty()) return share_text(scene, vessel_fills(scene, scene.vessels[vessel])[fill]);
+  return html_plain(scene.vessels[vessel].has_cavity() ? 1e6 * scene.liquid->volumes[fill] : 0) + "\u00a0mL";
+}
+
 // What is said of one fill's line to those who do not see it.
-std::string line_text(const Scene& scene, const FillForces& fill, const std::vector<double>& values) {
+std::string line_text(const Scene& scene, const std::string& fill, const std::vector<double>& values) {
   const auto largest = std::max_element(values.begin(), values.end());
-  return fmt::format("{}: {} N at {}°, at most {} N at {}°", fill_text(scene, fill.fill), html_number(values.front(), 2),
+  return fmt::format("{}: {} N at {}°, at most {} N at {}°", fill, html_number(values.front(), 2),
                      html_number(degrees(scene.tilts.front()), 0), html_number(*largest, 2),
                      html_number(degrees(scene.tilts[static_cast<std::size_t>(largest - values.begin())]), 0));
 }
 
-LineChart force_chart(const ReportSource& source, const std::vector<FillForces>& forces, std::vector<double> FillForces::*member,
-                      const std::vector<double>& pouring) {
+LineChart force_chart(const ReportSource& source, std::size_t vessel, const std::vector<FillForces>& forces,
+                      std::vector<double> FillForces::*member, const std::vector<double>& pouring) {
   const Scene& scene = source.scene;
   LineChart chart;
   chart.x_label = "tilt (°)";
@@ -37,11 +44,11 @@ LineChart force_chart(const ReportSource& source, const std::vector<FillForces>&
   for (std::size_t k = 0; k < shown.size(); ++k) {
     const FillForces& fill = forces[shown[k]];
     LineChart::Line line;
-    line.label = fill_text(scene, fill.fill);
+    line.label = fill_text(scene, vessel, shown[k]);
     line.y = fill.*member;
     line.shade = shown.size() > 1 ? static_cast<double>(k) / static_cast<double>(shown.size() - 1) : 0.3;
     if (shown[k] < pouring.size() && std::isfinite(pouring[shown[k]])) line.marked_x = degrees(pouring[shown[k]]);
-    chart.name.description += line_text(scene, fill, fill.*member) + ". ";
+    chart.name.description += line_text(scene, line.label, fill.*member) + ". ";
     chart.lines.push_back(line);
   }
   return chart;
@@ -91,11 +98,13 @@ std::string forces_caption(const Scene& scene, const std::vector<FillForces>& fo
   return caption;
 }
 
-void write_force_table(HtmlWriter& html, const Scene& scene, const std::vector<FillForces>& forces, const std::string& name) {
+void write_force_table(HtmlWriter& html, const Scene& scene, std::size_t vessel, const std::vector<FillForces>& forces) {
+  const std::string& name = scene.vessels[vessel].name;
   html.open("details").element("summary", "The same as numbers");
   std::vector<std::string> columns{"tilt (°)"};
   for (const char* force : {"feedback", "hold"})
-    for (const FillForces& fill : forces) columns.push_back(fmt::format("{}, {} (N)", force, fill_text(scene, fill.fill)));
+    for (std::size_t f = 0; f < forces.size(); ++f)
+      columns.push_back(fmt::format("{}, {} (N)", force, fill_text(scene, vessel, f)));
   HtmlTable table(html, fmt::format("Feedback and hold force of the best grip of {}", name), columns);
   for (std::size_t t = 0; t < scene.tilts.size(); ++t) {
     std::vector<std::string> cells{html_number(degrees(scene.tilts[t]), 1)};
@@ -118,7 +127,7 @@ std::vector<std::size_t> shown_fills(std::size_t count) {
 
 std::vector<FillForces> forces_of(const ReportSource& source, std::size_t vessel, const GripInput& grip) {
   std::vector<FillForces> forces;
-  const StateAxes axes = scene_axes(source.scene);
+  const StateAxes axes = scene_axes(source.scene, vessel);
   const GripAnswer answer = core_grip_methods(source.scene, source.core, "core").answer(vessel, grip, axes);
   if (answer.states.empty()) return forces;
   for (std::size_t f = 0; f < axes.fills.size(); ++f) {
@@ -149,18 +158,19 @@ void write_forces(HtmlWriter& html, const ReportSource& source, std::size_t vess
   const std::string& name = scene.vessels[vessel].name;
   const std::vector<double> pouring = scene.liquid ? source.result.pouring_tilts(vessel) : std::vector<double>{};
   const HoldExtent extent = hold_extent(forces);
-  html.element(
-      "p",
-      fmt::format("Of the best grip: {}. {}", grip_text(source.plan, grip),
-                  scene.liquid ? "Each line is a fill, as a share of what the vessel holds; the dot on it is where pouring starts."
-                               : "The vessel is empty."));
+  html.element("p",
+               fmt::format("Of the best grip: {}. {}", grip_text(source.plan, grip),
+                           !scene.liquid ? "The vessel is empty."
+                           : scene.liquid->volumes.empty()
+                               ? "Each line is a fill, as a share of what the vessel holds; the dot on it is where pouring starts."
+                               : "Each line is a fill; the dot on it is where pouring starts."));
   html.open("figure").open("div", {{"class", "charts"}});
-  LineChart feedback = force_chart(source, forces, &FillForces::feedback, pouring);
+  LineChart feedback = force_chart(source, vessel, forces, &FillForces::feedback, pouring);
   feedback.name.id = id + "-feedback";
   feedback.name.title = name + ": feedback force over the tilt";
   feedback.y_label = "feedback force (N)";
   feedback.limit = LineChart::Limit{scene.force.max, fmt::format("device {} N", html_plain(scene.force.max))};
-  LineChart hold = force_chart(source, forces, &FillForces::hold, pouring);
+  LineChart hold = force_chart(source, vessel, forces, &FillForces::hold, pouring);
   hold.name.id = id + "-hold";
   hold.name.title = name + ": hold force over the tilt";
   hold.y_label = "hold force per finger (N)";
@@ -174,7 +184,7 @@ void write_forces(HtmlWriter& html, const ReportSource& source, std::size_t vess
     html.close();
   }
   html.close().element("figcaption", forces_caption(scene, forces, extent)).close();
-  write_force_table(html, scene, forces, name);
+  write_force_table(html, scene, vessel, forces);
 }
 
 void write_pouring(HtmlWriter& html, const ReportSource& source, std::size_t vessel, const std::string& id) {
@@ -193,8 +203,8 @@ void write_pouring(HtmlWriter& html, const ReportSource& source, std::size_t ves
   HtmlTable table(html, fmt::format("Tilt at which {} starts to pour", scene.vessels[vessel].name),
                   {"fill", "liquid (mL)", "pours from (°)"});
   for (std::size_t f = 0; f < tilts.size(); ++f) {
-    const double fill = scene.liquid->fills[f];
-    table.row({fill_text(scene, fill), html_number(capacity * fill * 1e6, 0),
+    const double fill = vessel_fills(scene, scene.vessels[vessel])[f];
+    table.row({share_text(scene, fill), html_number(capacity * fill * 1e6, 0),
                std::isfinite(tilts[f]) ? html_number(degrees(tilts[f]), 1) : "nothing to pour"});
   }
   table.end();

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "sweeps/core_backend.h"
+#include "sweeps/grip_lists.h"
 #include "sweeps/grip_svg.h"
 #include "sweeps/hand_nodes.h"
 #include "sweeps/readable.h"
@@ -38,12 +39,12 @@ std::string touching_text(const GripResult& result) {
   return text;
 }
 
-void write_table(HtmlWriter& html, const ReportSource& source, std::size_t vessel, const ReportedGrips& best) {
+void write_table(HtmlWriter& html, const ReportSource& source, std::size_t list, const ReportedGrips& best) {
   const Plan& plan = source.plan;
   const bool has_tilts = !source.scene.tilts.empty();
   std::vector<std::string> columns{"rank", "score", "height (mm)"};
   const auto axis_column = [&](int place, const char* title) {
-    if (axis_varies(plan, place)) columns.push_back(title);
+    if (axis_varies(plan, place) && !(place == PLACE_HAND_SCALE && plan.hand_scales() > 1)) columns.push_back(title);
   };
   axis_column(PLACE_ROLL, "roll (°)");
   axis_column(PLACE_OBLIQUITY, "obliquity (°)");
@@ -60,13 +61,14 @@ void write_table(HtmlWriter& html, const ReportSource& source, std::size_t vesse
   }
   HtmlTable table(html,
                   fmt::format("The best {} of {}", best.grips.size() == 1 ? "grip" : fmt::format("{} grips", best.grips.size()),
-                              source.scene.vessels[vessel].name),
+                              list_name(source.scene, plan, list)),
                   columns);
   for (std::size_t rank = 0; rank < best.grips.size(); ++rank) {
     const BestGrip& b = best.grips[rank];
-    std::vector<std::string> cells{std::to_string(rank + 1), html_number(b.score, 3), html_number(b.grip.height * 1e3, 1)};
+    std::vector<std::string> cells{std::to_string(b.rank), html_number(b.score, 3), html_number(b.grip.height * 1e3, 1)};
     const auto axis_cell = [&](int place, double value, int digits) {
-      if (axis_varies(plan, place)) cells.push_back(html_number(value, digits));
+      if (axis_varies(plan, place) && !(place == PLACE_HAND_SCALE && plan.hand_scales() > 1))
+        cells.push_back(html_number(value, digits));
     };
     axis_cell(PLACE_ROLL, degrees(b.grip.roll), 1);
     axis_cell(PLACE_OBLIQUITY, degrees(b.grip.obliquity), 1);
@@ -89,10 +91,10 @@ void write_table(HtmlWriter& html, const ReportSource& source, std::size_t vesse
   table.end();
 }
 
-void write_drawings(HtmlWriter& html, const ReportSource& source, std::size_t vessel, const ReportedGrips& best) {
+void write_drawings(HtmlWriter& html, const ReportSource& source, std::size_t list, const ReportedGrips& best) {
   const GripMethods methods = core_grip_methods(source.scene, source.core, "core");
-  const std::string& name = source.scene.vessels[vessel].name;
-  const std::size_t count = std::min(DRAWN_GRIPS, best.grips.size());
+  const std::string name = list_name(source.scene, source.plan, list);
+  const std::size_t vessel = list / source.plan.hand_scales(), count = std::min(DRAWN_GRIPS, best.grips.size());
   HtmlWriter drawings;
   std::string trouble;
   std::size_t drawn = 0;
@@ -108,10 +110,10 @@ void write_drawings(HtmlWriter& html, const ReportSource& source, std::size_t ve
     ++drawn;
     const std::string alt =
         fmt::format("Front and side view of the hand on {}, grip {} of the best: {}. Points touching by finger: {}.", name,
-                    rank + 1, grip_text(source.plan, best.grips[rank].grip), touching_text(report.answer.result));
+                    best.grips[rank].rank, grip_text(source.plan, best.grips[rank].grip), touching_text(report.answer.result));
     drawings.open("div", {{"class", "drawing"}});
     drawings.empty("img", {{"src", svg_address(svg)}, {"alt", alt}});
-    drawings.element("p", fmt::format("{}: score {}; {}", rank + 1, html_number(best.grips[rank].score, 3),
+    drawings.element("p", fmt::format("{}: score {}; {}", best.grips[rank].rank, html_number(best.grips[rank].score, 3),
                                       grip_text(source.plan, best.grips[rank].grip)));
     drawings.close();
   }
@@ -156,39 +158,55 @@ std::string front_and_side(const std::string& drawing) {
   return part;
 }
 
-ReportedGrips read_grips(const ReportSource& source, std::size_t vessel) {
+ReportedGrips read_grips(const ReportSource& source, std::size_t list) {
+  const std::size_t scales = source.plan.hand_scales(), vessel = list / scales;
+  std::vector<RankedCandidate> ranked;
+  if (source.lists) {
+    ranked = (*source.lists)[list];
+  } else {
+    for (const Candidate& candidate : source.result.best(vessel, list % scales)) ranked.push_back({ranked.size() + 1, candidate});
+  }
   ReportedGrips best;
-  std::vector<Candidate> listed = source.result.best(vessel);
-  best.listed = listed.size();
-  listed.resize(std::min(listed.size(), TABLED_GRIPS));
+  best.listed = ranked.size();
+  ranked.resize(std::min(ranked.size(), TABLED_GRIPS));
+  std::vector<Candidate> candidates;
+  for (const RankedCandidate& grip : ranked) candidates.push_back(grip.candidate);
   if (source.core) {
     CoreBackend backend(source.core, source.scene, make_field_set(best_fields(source.scene), source.scene), Precision::full, 0);
-    best.grips = evaluate_best(backend, source.scene, source.plan, vessel, listed);
+    best.grips = evaluate_best(backend, source.scene, source.plan, vessel, candidates);
     best.is_whole = true;
   }
-  best.grips.resize(listed.size());
-  for (std::size_t rank = 0; rank < listed.size(); ++rank) {
-    best.grips[rank].candidate = listed[rank];
-    best.grips[rank].grip = source.plan.grip(vessel, listed[rank].index);
-    best.grips[rank].score = listed[rank].score;
+  best.grips.resize(ranked.size());
+  for (std::size_t k = 0; k < ranked.size(); ++k) {
+    best.grips[k].candidate = candidates[k];
+    best.grips[k].grip = source.plan.grip(vessel, candidates[k].index);
+    best.grips[k].score = candidates[k].score;
+    best.grips[k].rank = ranked[k].rank;
   }
   return best;
 }
 
-void write_grips(HtmlWriter& html, const ReportSource& source, std::size_t vessel, const ReportedGrips& best,
-                 const std::string& id) {
-  html.element("h3", "The best grips", {{"id", id + "-best"}});
+void write_grips(HtmlWriter& html, const ReportSource& source, std::size_t list, const ReportedGrips& best, const std::string& id) {
+  const std::size_t scales = source.plan.hand_scales();
+  const std::string of_hand =
+      scales == 1 ? "" : fmt::format(" at hand scale {}", html_plain(source.plan.hand_scale(list % scales)));
+  html.element("h3", "The best grips" + of_hand, {{"id", id + "-best"}});
   if (best.grips.empty()) {
-    html.element("p", source.result.lists_best() ? "There are none: no grip is feasible and plausible."
-                                                 : "The sweep was asked to list none.");
+    html.element("p", source.lists                 ? fmt::format("{} lists none.", source.lists_file)
+                      : source.result.lists_best() ? "There are none: no grip is feasible and plausible."
+                                                   : "The sweep was asked to list none.");
     return;
   }
-  if (source.core) write_drawings(html, source, vessel, best);
-  write_table(html, source, vessel, best);
-  std::string note = best.is_whole ? "Places and scores are the sweep's; the rest is the core's in double precision. Forces are "
-                                     "the largest over all fills, the safe tilt the smallest."
+  if (source.core) write_drawings(html, source, list, best);
+  write_table(html, source, list, best);
+  const std::string whose = source.lists ? fmt::format("Places and scores are those of {}", source.lists_file)
+                                         : std::string("Places and scores are the sweep's");
+  std::string note = best.is_whole ? whose +
+                                         "; the rest is the core's in double precision. Forces are the largest over all fills, the "
+                                         "safe tilt the smallest."
                                    : fmt::format("Fingers, forces and drawings are left out: {}.", source.no_core);
-  if (best.listed > best.grips.size()) note += fmt::format(" The sweep listed {} grips.", readable_number(best.listed));
+  if (best.listed > best.grips.size())
+    note += fmt::format(" {} listed {} grips.", source.lists ? source.lists_file : "The sweep", readable_number(best.listed));
   html.element("p", note, {{"class", "note"}});
 }
 

@@ -12,18 +12,17 @@ namespace wholehand {
 
 constexpr std::size_t DRAWN_GRIPS = 3, TABLED_GRIPS = 50;
 
-// The first TABLED_GRIPS of a vessel's listed grips. Their scores and places are the file's; what else is told of them is the core's, in double precision, where
-// there is one (is_whole).
+// The first TABLED_GRIPS of a list of grips (GripLists). Their ranks, scores and places are the list's; what else is told of them is the core's, in double
+// precision, where there is one (is_whole).
 struct ReportedGrips {
   std::vector<BestGrip> grips;  // the best first
-  std::size_t listed = 0;       // in the file
+  std::size_t listed = 0;       // in all
   bool is_whole = false;
 };
-ReportedGrips read_grips(const ReportSource& source, std::size_t vessel);
+ReportedGrips read_grips(const ReportSource& source, std::size_t list);
 
-// The table, and a figure with the drawings of the first DRAWN_GRIPS. What cannot be drawn is left out with a sentence.
-void write_grips(HtmlWriter& html, const ReportSource& source, std::size_t vessel, const ReportedGrips& best,
-                 const std::string& id);
+// The table, and a figure with the drawings of the first DRAWN_GRIPS. What cannot be drawn is left out with a sentence. `id`: of the list, in the page.
+void write_grips(HtmlWriter& html, const ReportSource& source, std::size_t list, const ReportedGrips& best, const std::string& id);
 
 // Of a drawing by grip_svg, the front and the side view with larger letters: to be seen beside others. The whole drawing where its views are
 // not found.

@@ -1,14 +1,18 @@
 #include "sweeps/report_page.h"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 
 #include <algorithm>
-#include <fstream>
+#include <cctype>
 #include <memory>
 #include <optional>
+#include <set>
+#include <string_view>
 
 #include "core/error.h"
+#include "sweeps/candidates.h"
+#include "sweeps/edge.h"
+#include "sweeps/files.h"
 #include "sweeps/readable.h"
 #include "sweeps/report_agreement.h"
 #include "sweeps/report_forces.h"
@@ -22,15 +26,33 @@
 namespace wholehand {
 namespace {
 
+constexpr std::string_view PAGE_MARK = "content=\"wholehand\"";
+
 // Ids are by number: a vessel's name may be anything.
 std::string vessel_id(std::size_t vessel) { return fmt::format("vessel{}", vessel + 1); }
 
 std::string page_title(const Scene& scene) { return scene.name.empty() ? "Grips of a scene" : "Grips of " + scene.name; }
 
+std::vector<Candidate> best_first(const std::vector<ReportedGrips>& lists) {
+  std::vector<Candidate> candidates;
+  for (const ReportedGrips& best : lists) {
+    for (const BestGrip& grip : best.grips) candidates.push_back(grip.candidate);
+  }
+  std::sort(candidates.begin(), candidates.end(), is_better);
+  return candidates;
+}
+
+// With a capital.
+std::string sentence(std::string line) {
+  line[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(line[0])));
+  return line;
+}
+
 void write_head(HtmlWriter& html, const Scene& scene) {
   html.open("head");
   html.empty("meta", {{"charset", "utf-8"}});
   html.empty("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
+  html.empty("meta", {{"name", "generator"}, {"content", "wholehand"}});
   html.empty("meta", {{"name", "color-scheme"}, {"content", "light dark"}});
   html.element("title", page_title(scene));
   html.open("style").markup(REPORT_STYLE).close();
@@ -107,34 +129,48 @@ class Page {
   void write_vessel(std::size_t v) {
     const std::string id = vessel_id(v);
     html_.open("section", {{"aria-labelledby", id}}).element("h2", scene_.vessels[v].name, {{"id", id}});
-    GripCounts counts;
-    const bool knows_reasons = read_counts(source_, v, counts);
-    if (!knows_reasons) counts.grips = source_.plan.grips();
-    const ReportedGrips best = read_grips(source_, v);
-    std::string summary = counts_line(counts, knows_reasons, source_.plan.copies()) + ".";
-    if (!best.grips.empty())
-      summary +=
-          fmt::format(" The best scores {}: {}.", html_number(best.grips[0].score, 3), grip_text(source_.plan, best.grips[0].grip));
-    html_.element("p", summary);
+    const std::size_t scales = source_.plan.hand_scales();
+    std::vector<ReportedGrips> lists;
+    for (std::size_t s = 0; s < scales; ++s) lists.push_back(read_grips(source_, v * scales + s));
+    write_summary(v, lists);
     html_.element("h3", "Score, fingers and force over height and roll", {{"id", id + "-maps"}});
     if (maps_.empty()) {
       html_.element("p", "The file does not have the score of each grip ([output] keep), so there is no map.");
     } else {
-      std::vector<Candidate> marked;
-      for (const BestGrip& grip : best.grips) marked.push_back(grip.candidate);
-      write_maps(html_, source_, v, maps_[v], scales_, marked, id);
+      write_maps(html_, source_, v, maps_[v], scales_, best_first(lists), id);
     }
-    write_grips(html_, source_, v, best, id);
-    if (const std::optional<GripInput> grip = best_grip(v, best)) write_forces(html_, source_, v, *grip, id);
+    for (std::size_t s = 0; s < scales; ++s)
+      write_grips(html_, source_, v * scales + s, lists[s], scales == 1 ? id : fmt::format("{}-hand{}", id, s + 1));
+    if (const std::optional<GripInput> grip = best_grip(v, lists)) write_forces(html_, source_, v, *grip, id);
     write_pouring(html_, source_, v, id);
     write_agreement(html_, source_, v, id);
     write_guidance(html_, source_, v, id);
     html_.close();
   }
 
-  // The listed one; of a sweep that listed none, that of the map.
-  std::optional<GripInput> best_grip(std::size_t v, const ReportedGrips& best) const {
-    if (!best.grips.empty()) return best.grips[0].grip;
+  // How many grips are what, the best of each hand, and whether it lies at an end of an axis.
+  void write_summary(std::size_t v, const std::vector<ReportedGrips>& lists) {
+    GripCounts counts;
+    const bool knows_reasons = read_counts(source_, v, counts);
+    if (!knows_reasons) counts.grips = source_.plan.grips();
+    html_.open("p").text(counts_line(counts, knows_reasons, source_.plan.copies()) + ".");
+    for (const ReportedGrips& best : lists) {
+      if (best.grips.empty()) continue;
+      const BestGrip& first = best.grips[0];
+      html_.text(fmt::format(" The best scores {}: {}.", html_number(first.score, 3), grip_text(source_.plan, first.grip)));
+    }
+    html_.close();
+    std::set<std::string> said;  // once for all hands
+    for (const ReportedGrips& best : lists) {
+      const std::string edge = edge_line(edge_axes(scene_, source_.plan, v, best_first({best})));
+      if (!edge.empty() && said.insert(edge).second) html_.element("p", sentence(edge));
+    }
+  }
+
+  // That of the list that begins best; where nothing is listed, that of the map.
+  std::optional<GripInput> best_grip(std::size_t v, const std::vector<ReportedGrips>& lists) const {
+    const std::vector<Candidate> listed = best_first(lists);
+    if (!listed.empty()) return source_.plan.grip(v, listed[0].index);
     const MapCell* cell = maps_.empty() ? nullptr : maps_[v].best();
     return cell ? std::optional(source_.plan.grip(v, cell->grip)) : std::nullopt;
   }
@@ -148,18 +184,13 @@ class Page {
 
 }  // namespace
 
-std::string report_page(SweepResult& result, const Scene& given, const std::string& trouble) {
+std::string report_page(SweepResult& result, const Scene& given, const std::string& trouble, const std::string& lists_file) {
   Scene scene = given;
-  // of a mesh that is not there the file alone knows the height
-  const std::vector<double> heights = result.vessel_heights(), bases = result.vessel_bases();
-  for (std::size_t v = 0; v < std::min({heights.size(), bases.size(), scene.vessels.size()}); ++v) {
-    if (!scene.vessels[v].mesh || scene.vessels[v].mesh->body) continue;
-    scene.vessels[v].height = heights[v];
-    scene.vessels[v].base = bases[v];
-  }
+  set_heights(result, scene);
   const Plan plan(scene, keeps_vectors(result.variables()));
   result.use(scene, plan);
-  ReportSource source{result, scene, plan, nullptr, trouble};
+  ReportSource source{result, scene, plan, nullptr, trouble, std::nullopt, lists_file.substr(lists_file.rfind('/') + 1)};
+  if (!lists_file.empty()) source.lists = read_grip_lists(lists_file, result, scene, plan);
   if (trouble.empty()) {
     try {
       source.core = make_core_evaluator(scene);
@@ -171,17 +202,10 @@ std::string report_page(SweepResult& result, const Scene& given, const std::stri
 }
 
 void check_overwrites_page(const std::string& path, const std::string& result) {
-  struct stat written {
-  }, read{};
-  if (stat(path.c_str(), &written) != 0) return;
-  if (stat(result.c_str(), &read) == 0 && written.st_dev == read.st_dev && written.st_ino == read.st_ino)
+  if (is_same_file(path, result))
     throw usage_error(fmt::format("-o {}: this is the result file itself; name another file for the page", path));
-  std::ifstream file(path, std::ios::binary);
-  std::string head(15, ' ');
-  file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  std::transform(head.begin(), head.end(), head.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (file.gcount() != 0 && !head.starts_with("<!doctype html"))
-    throw usage_error(fmt::format("-o {}: is there and is no HTML page; name another, or remove it", path));
+  // a page of version 0.1 has its title alone
+  if (!has_mark(path, "<title>Grips of ")) check_overwrites_marked(path, PAGE_MARK, "page of wholehand's", "-o");
 }
 
 }  // namespace wholehand

@@ -53,11 +53,14 @@ std::string states_text(const Scene& scene) {
                                                                   html_number(degrees(scene.tilts.back()), 0));
   if (!scene.liquid) return tilts + ", the vessels empty";
   std::vector<std::string> fills;
+  const bool has_volumes = !scene.liquid->volumes.empty();
+  for (const double volume : scene.liquid->volumes) fills.push_back(html_plain(1e6 * volume));
   for (const double fill : scene.liquid->fills) fills.push_back(html_number(100 * fill, 0));
-  const std::string shown = fills.size() > 12 ? fmt::format("{} fills from {} to {} %", fills.size(), fills.front(), fills.back())
-                                              : fmt::format("fills {} %", fmt::join(fills, ", "));
-  return fmt::format("{}; {} of what a vessel holds to the brim, {} kg/m³, poured {} the palm", tilts, shown,
-                     html_plain(scene.liquid->density), scene.liquid->pour == Pour::away ? "away from" : "towards");
+  const std::string shown = fills.size() > 12 ? fmt::format("{} fills from {} to {}", fills.size(), fills.front(), fills.back())
+                                              : fmt::format("fills {}", fmt::join(fills, ", "));
+  return fmt::format("{}; {} {}, {} kg/m³, poured {} the palm", tilts, shown,
+                     has_volumes ? "mL" : "% of what a vessel holds to the brim", html_plain(scene.liquid->density),
+                     scene.liquid->pour == Pour::away ? "away from" : "towards");
 }
 
 std::string hand_text(const Scene& scene) {
@@ -105,7 +108,13 @@ double widest(const ReportSource& source, const VesselData& vessel) {
     return std::max(body.high[0] - body.low[0], body.high[2] - body.low[2]);
   }
   if (vessel.outline.empty() || !source.core) return std::nan("");
-  return 2 * prepare_vessel(vessel, vessel.wall > 0).largest_radius;
+  return 2 * prepare_vessel(vessel, vessel.has_cavity()).largest_radius;
+}
+
+// An inner outline leaves walls of any thickness.
+std::string wall_text(const VesselData& vessel) {
+  if (!(vessel.wall > 0)) return "none";
+  return vessel.inner.empty() ? html_plain(vessel.wall * 1e3) : html_number(vessel.wall * 1e3, 2) + " and more";
 }
 
 // What was found of each mesh, a line each.
@@ -127,9 +136,8 @@ void write_vessels(HtmlWriter& html, const ReportSource& source) {
     const double mass = source.core ? source.core->empty_mass(v) : vessel.mass.value_or(std::nan(""));
     const double capacity = source.core && vessel.has_cavity() ? source.core->capacity(v) : std::nan("");
     table.row({vessel.name, form_text(vessel), html_number(widest(source, vessel) * 1e3, 1),
-               html_number((vessel.height - vessel.base) * 1e3, 1), vessel.wall > 0 ? html_plain(vessel.wall * 1e3) : "none",
-               html_number(mass * 1e3, 1), html_number(capacity * 1e6, 0),
-               html_plain(vessel.force_range.value_or(source.scene.force.range)),
+               html_number((vessel.height - vessel.base) * 1e3, 1), wall_text(vessel), html_number(mass * 1e3, 1),
+               html_number(capacity * 1e6, 0), html_plain(vessel.force_range.value_or(source.scene.force.range)),
                vessel.guidance.empty() ? "none" : std::to_string(vessel.guidance.size())});
   }
   table.end();

@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "sweeps/compare.h"
+#include "core/gather.h"
+#include "sweeps/grip_lists.h"
 #include "sweeps/report_html.h"
 #include "sweeps/sweep_result.h"
 
@@ -18,6 +20,8 @@ struct ReportSource {
   const Plan& plan;
   std::shared_ptr<const Evaluator> core;  // null: the scene cannot be evaluated here,
   std::string no_core;                    // and this is why
+  std::optional<GripLists> lists{};       // instead of the sweep's own,
+  std::string lists_file{};               // from this file
 };
 
 // So many places of `all`, spread without a pattern and the same each time; all of them where there are no more.

@@ -2,121 +2,43 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <netcdf.h>
 
 #include <cstring>
 #include <filesystem>
 #include <limits>
+#include <numeric>
 
 #include "core/error.h"
 #include "shaders/layout.h"
 #include "sweeps/mesh_vessel.h"
+#include "sweeps/result_definition.h"
 
 namespace wholehand {
 namespace {
 
 constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
+constexpr const char* JOINT_RADIUS = "joint_radius";
+constexpr const char* FILL_FRACTION = "fill_fraction";
+constexpr const char* FILL_VOLUME = "fill_volume";
+constexpr const char* HEIGHT_MEANING = "height of the thumb-index line in the vessel's frame";
 
-void check(int status, const std::string& path) {
-  if (status == NC_NOERR) return;
-  const char* why = status > 0 ? std::strerror(status) : nc_strerror(status);
-  throw failure_error(fmt::format("{}: cannot write the result file: {}; is the disk full?", path, why));
-}
-
-// The definition under way; closes the file whatever happens.
-class Definition {
+// The definition of a sweep's file.
+class SweepDefinition : ResultDefinition {
  public:
-  Definition(const std::string& path, const ResultContents& contents) : path_(path), contents_(contents) {
-    check(nc_create(path.c_str(), NC_NETCDF4 | NC_NOCLOBBER, &file_), path_);
-  }
-  ~Definition() {
-    if (file_ >= 0) nc_abort(file_);
-  }
-  Definition(const Definition&) = delete;
-  Definition& operator=(const Definition&) = delete;
+  SweepDefinition(const std::string& path, const ResultContents& contents) : ResultDefinition(path), contents_(contents) {}
 
   void write() {
     dimensions();
     attributes();
     coordinates();
+    fill_coordinates();
     vessel_variables();
     grip_variables();
     best_variables();
-    check(nc_enddef(file_), path_);
-    for (const auto& put : values_) put();
-    for (const int variable : grip_variables_) allocate(variable);
-    const int file = file_;
-    file_ = -1;
-    check(nc_close(file), path_);
+    finish(grip_variables_);
   }
 
  private:
-  using Names = std::vector<std::string>;
-
-  int dimension(const std::string& name, std::size_t length) {
-    int id = -1;
-    check(nc_def_dim(file_, name.c_str(), length, &id), path_);
-    return id;
-  }
-
-  int dimension_id(const std::string& name) {
-    int id = -1;
-    check(nc_inq_dimid(file_, name.c_str(), &id), path_);
-    return id;
-  }
-
-  void text(int variable, const char* name, const std::string& value) {
-    check(nc_put_att_text(file_, variable, name, value.size(), value.c_str()), path_);
-  }
-
-  void number(int variable, const char* name, double value) {
-    check(nc_put_att_double(file_, variable, name, NC_DOUBLE, 1, &value), path_);
-  }
-
-  // A variable with its units and name; contiguous, and not filled first: everything gets written.
-  int variable(const std::string& name, nc_type type, const Names& dims, const std::string& units, const std::string& long_name) {
-    std::vector<int> ids;
-    for (const std::string& dim : dims) ids.push_back(dimension_id(dim));
-    int id = -1;
-    check(nc_def_var(file_, name.c_str(), type, static_cast<int>(ids.size()), ids.data(), &id), path_);
-    if (type != NC_STRING) {
-      if (!ids.empty()) check(nc_def_var_chunking(file_, id, NC_CONTIGUOUS, nullptr), path_);
-      check(nc_def_var_fill(file_, id, NC_NOFILL, nullptr), path_);
-    }
-    if (!units.empty()) text(id, "units", units);
-    text(id, "long_name", long_name);
-    return id;
-  }
-
-  void fill_value(int variable, nc_type type) {
-    const float real = std::numeric_limits<float>::quiet_NaN();
-    const int missing = MISSING;
-    const signed char small = MISSING;
-    const long long large = MISSING;
-    const void* value = &real;
-    if (type == NC_DOUBLE) value = &NOT_A_NUMBER;
-    if (type == NC_BYTE) value = &small;
-    if (type == NC_INT) value = &missing;
-    if (type == NC_INT64) value = &large;
-    check(nc_put_att(file_, variable, "_FillValue", type, 1, value), path_);
-  }
-
-  void doubles(const std::string& name, const Names& dims, const std::string& units, const std::string& long_name,
-               std::vector<double> values) {
-    const int id = variable(name, NC_DOUBLE, dims, units, long_name);
-    fill_value(id, NC_DOUBLE);
-    values_.push_back([this, id, values = std::move(values)] { check(nc_put_var_double(file_, id, values.data()), path_); });
-  }
-
-  void labels(const std::string& name, const std::string& long_name, const Names& values) {
-    const int id = variable(name, NC_STRING, {name}, "", long_name);
-    values_.push_back([this, id, values] {
-      std::vector<const char*> pointers;
-      for (const std::string& value : values) pointers.push_back(value.c_str());
-      check(nc_put_var_string(file_, id, pointers.data()), path_);
-    });
-  }
-
   bool has_dimension(const char* name) const {
     for (const Variable* chosen : contents_.variables) {
       for (const char* dim : chosen->dims) {
@@ -126,21 +48,24 @@ class Definition {
     return false;
   }
 
+  // Whether each hand scale has best grips of its own.
+  bool has_best_scales() const { return contents_.best > 0 && contents_.plan.hand_scales() > 1; }
+
   void dimensions() {
     const Scene& scene = contents_.scene;
     dimension("vessel", scene.vessels.size());
-    if (!contents_.variables.empty()) {
-      if (contents_.plan.is_sobol()) {
-        dimension("point", contents_.plan.grips());
-      } else {
-        for (const PlanAxis& axis : contents_.plan.axes()) dimension(axis.name, axis.data.values.size());
-      }
+    if (!contents_.plan.is_sobol()) {
+      for (const PlanAxis& axis : contents_.plan.axes()) dimension(axis.name, axis.data.values.size());
+    } else if (has_points()) {
+      dimension("point", contents_.plan.grips());
     }
     if (scene.liquid || !scene.tilts.empty()) dimension("fill", scene_fills(scene));
     if (!scene.tilts.empty()) dimension("tilt", scene.tilts.size());
     dimension("joint", JOINT_COUNT);
     if (has_dimension("contact")) dimension("contact", 2);
     dimension("xyz", 3);
+    if (has_best_scales() && contents_.plan.is_sobol())
+      dimension(best_scale_dimension(contents_.plan), contents_.plan.hand_scales());
     if (contents_.best > 0) dimension("rank", contents_.best);
   }
 
@@ -158,7 +83,7 @@ class Definition {
     text(NC_GLOBAL, "precision", info.precision == Precision::single ? "float" : "double");
     text(NC_GLOBAL, "sampling", contents_.plan.is_sobol() ? "sobol" : "grid");
     const unsigned long long seed = scene.grips.seed;
-    check(nc_put_att_ulonglong(file_, NC_GLOBAL, "seed", NC_UINT64, 1, &seed), path_);
+    numbers(NC_GLOBAL, "seed", NC_UINT64, 1, &seed);
     number(NC_GLOBAL, WALL_TIME, NOT_A_NUMBER);
     number(NC_GLOBAL, KERNEL_TIME, NOT_A_NUMBER);
     if (has_meshes(scene)) {
@@ -177,24 +102,91 @@ class Definition {
     Names vessels;
     for (const VesselData& vessel : scene.vessels) vessels.push_back(vessel.name);
     labels("vessel", "vessel", vessels);
-    if (!contents_.variables.empty()) {
-      for (const PlanAxis& axis : contents_.plan.axes()) {
-        if (contents_.plan.is_sobol()) {
-          grip_variables_.push_back(variable(axis.name, NC_DOUBLE, {"point"}, axis.units, axis.long_name));
-          fill_value(grip_variables_.back(), NC_DOUBLE);
-        } else {
-          doubles(axis.name, {axis.name}, axis.units, axis.long_name, axis.data.values);
-        }
+    if (contents_.plan.is_sobol()) {
+      point_axes();
+      if (has_best_scales()) {
+        const std::string name = best_scale_dimension(contents_.plan);
+        doubles(name, {name}, "1", "size of the hand of a list of best grips, times the scene's own scale",
+                contents_.plan.axes()[PLACE_HAND_SCALE].data.values);
       }
-    }
-    if (scene.liquid || !scene.tilts.empty()) {
-      doubles("fill", {"fill"}, "1", "liquid as a fraction of the capacity, before any pours",
-              scene.liquid ? scene.liquid->fills : std::vector<double>{0});
+    } else {
+      grid_axes();
     }
     if (!scene.tilts.empty()) doubles("tilt", {"tilt"}, "rad", "tilt since the grasp", scene.tilts);
     labels("joint", "joint of the hand, in the order of the masks' bits", joint_names());
+    doubles(JOINT_RADIUS, {"joint"}, "m", "distance from the joint to the skin, times hand_scale", joint_radii());
     if (has_dimension("contact")) labels("contact", "tracked finger", {"thumb", "index"});
     labels("xyz", "direction of the vessel frame, y along the axis", {"x", "y", "z"});
+    if (contents_.best > 0) {
+      std::vector<int> ranks(contents_.best);
+      std::iota(ranks.begin(), ranks.end(), 1);
+      integers("rank", {"rank"}, "1", "place among the vessel's best grips, 1 the best", ranks);
+    }
+    Names all{JOINT_RADIUS};
+    if (has_own_heights()) all.push_back(HEIGHT);
+    if (scene.liquid) all.insert(all.end(), {FILL_FRACTION, FILL_VOLUME});
+    text(NC_GLOBAL, "coordinates", fmt::format("{}", fmt::join(all, " ")));
+  }
+
+  // Points are stored with the grips; without these there is nothing that they would be coordinates of.
+  bool has_points() const { return contents_.plan.is_sobol() && !contents_.variables.empty(); }
+
+  // Where heights are fractions every vessel has its own heights in m.
+  bool has_own_heights() const { return contents_.plan.height_is_fraction() && (has_points() || !contents_.plan.is_sobol()); }
+
+  void point_axes() {
+    if (!has_points()) return;
+    const auto per_point = [this](const std::string& name, const Names& dims, const std::string& units,
+                                  const std::string& meaning) {
+      grip_variables_.push_back(variable(name, NC_DOUBLE, dims, units, meaning));
+      fill_value(grip_variables_.back(), NC_DOUBLE);
+    };
+    for (const PlanAxis& axis : contents_.plan.axes()) per_point(axis.name, {"point"}, axis.units, axis.long_name);
+    if (has_own_heights()) per_point(HEIGHT, {"vessel", "point"}, "m", HEIGHT_MEANING);
+  }
+
+  void grid_axes() {
+    const Plan& plan = contents_.plan;
+    for (const PlanAxis& axis : plan.axes()) {
+      doubles(axis.name, {axis.name}, axis.units, axis.long_name, axis.data.values);
+      if (axis.axis != AXIS_HEIGHT || !has_own_heights()) continue;
+      std::vector<double> heights;
+      for (std::size_t v = 0; v < contents_.scene.vessels.size(); ++v)
+        for (const double value : axis.data.values) heights.push_back(plan.height(v, value));
+      doubles(HEIGHT, {"vessel", axis.name}, "m", HEIGHT_MEANING, heights);
+    }
+  }
+
+  // `fill` as the scene gives it, and of each vessel both the fraction and the volume.
+  void fill_coordinates() {
+    const Scene& scene = contents_.scene;
+    if (!scene.liquid && scene.tilts.empty()) return;
+    if (scene.liquid && !scene.liquid->volumes.empty()) {
+      doubles("fill", {"fill"}, "m3", "volume of the liquid, before any pours", scene.liquid->volumes);
+    } else {
+      doubles("fill", {"fill"}, "1", "liquid as a fraction of the capacity, before any pours",
+              scene.liquid ? scene.liquid->fills : std::vector<double>{0});
+    }
+    if (!scene.liquid) return;
+    std::vector<double> fractions, volumes;
+    for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
+      for (const double fill : vessel_fills(scene, scene.vessels[v])) {
+        fractions.push_back(fill);
+        volumes.push_back(fill * contents_.facts[v].capacity);
+      }
+    }
+    doubles(FILL_FRACTION, {"vessel", "fill"}, "1", "liquid as a fraction of the vessel's capacity, before any pours", fractions);
+    doubles(FILL_VOLUME, {"vessel", "fill"}, "m3", "volume of the liquid in the vessel, before any pours", volumes);
+  }
+
+  std::vector<double> joint_radii() const {
+    const HandData& hand = contents_.scene.hand;
+    std::vector<double> radii;
+    for (int finger = 0; finger < FINGER_COUNT; ++finger) {
+      const auto& own = hand.fingers[finger].radii;
+      for (std::size_t k = 0; k < (finger == 0 ? own.size() - 1 : own.size()); ++k) radii.push_back(hand.scale * own[k]);
+    }
+    return radii;
   }
 
   static Names joint_names() {
@@ -256,13 +248,26 @@ class Definition {
       const Names grip = grip_dimensions(contents_.plan);
       dims.insert(dims.end(), grip.begin(), grip.end());
       const int id = variable(chosen->name, type, dims, chosen->units, chosen->long_name);
-      fill_value(id, type);
+      if (chosen->has_missing()) fill_value(id, type);
+      if (chosen->bits > 0) mask_flags(id, *chosen);
       if (*chosen->comment) text(id, "comment", chosen->comment);
       if (std::strcmp(chosen->name, "reason") == 0) reason_flags(id);
       if (std::strcmp(chosen->name, "score") == 0) score_weights(id);
-      if (contents_.plan.is_sobol()) point_coordinates(id);
+      name_coordinates(id, *chosen);
       grip_variables_.push_back(id);
     }
+  }
+
+  // A bit's meaning is one word: a finger's or a joint's name.
+  void mask_flags(int id, const Variable& mask) {
+    std::vector<int> bits;
+    for (int k = 0; k < mask.bits; ++k) bits.push_back(1 << k);
+    const std::vector<signed char> small(bits.begin(), bits.end());
+    const bool is_byte = mask.type == NumberType::byte;
+    numbers(id, "flag_masks", is_byte ? NC_BYTE : NC_INT, bits.size(),
+            is_byte ? static_cast<const void*>(small.data()) : bits.data());
+    const Names names = mask.bits == JOINT_COUNT ? joint_names() : Names(FINGER_NAMES.begin(), FINGER_NAMES.end());
+    text(id, "flag_meanings", fmt::format("{}", fmt::join(names, " ")));
   }
 
   void reason_flags(int id) {
@@ -272,57 +277,52 @@ class Definition {
       meanings += fmt::format(" {}", REASON_NAMES[i]);
       values.push_back(static_cast<signed char>(i));
     }
-    check(nc_put_att_schar(file_, id, "flag_values", NC_BYTE, values.size(), values.data()), path_);
+    numbers(id, "flag_values", NC_BYTE, values.size(), values.data());
     text(id, "flag_meanings", meanings);
   }
 
   void score_weights(int id) {
     const auto weights = effective_weights(contents_.scene);
-    check(nc_put_att_double(file_, id, "score_weights", NC_DOUBLE, weights.size(), weights.data()), path_);
+    numbers(id, "score_weights", NC_DOUBLE, weights.size(), weights.data());
     text(id, "score_terms", "score_fingers score_contacts score_depth score_posture score_force score_hold");
   }
 
-  void point_coordinates(int id) {
+  // Coordinates of a variable that are no dimension of it.
+  void name_coordinates(int id, const Variable& chosen) {
     Names names;
-    for (const PlanAxis& axis : contents_.plan.axes()) names.push_back(axis.name);
-    text(id, "coordinates", fmt::format("{}", fmt::join(names, " ")));
+    if (contents_.plan.is_sobol()) {
+      for (const PlanAxis& axis : contents_.plan.axes()) names.push_back(axis.name);
+    }
+    if (has_own_heights()) names.push_back(HEIGHT);
+    for (const std::string_view dim : chosen.dims) {
+      if (dim == "joint") names.push_back(JOINT_RADIUS);
+      if (dim == "fill" && contents_.scene.liquid) names.insert(names.end(), {FILL_FRACTION, FILL_VOLUME});
+    }
+    if (!names.empty()) text(id, "coordinates", fmt::format("{}", fmt::join(names, " ")));
   }
 
   void best_variables() {
     if (contents_.best == 0) return;
+    Names lists{"vessel", "rank"};
+    if (has_best_scales()) lists.insert(lists.begin() + 1, best_scale_dimension(contents_.plan));
     const auto define = [&](const std::string& name, nc_type type, const char* units, const std::string& long_name) {
-      const int id = variable(name, type, {"vessel", "rank"}, units, long_name);
-      fill_value(id, type);
+      const int id = variable(name, type, lists, units, long_name);
       grip_variables_.push_back(id);
+      return id;
     };
-    define(BEST_GRIP, NC_INT64, "1", "best grips: index over all dimensions of the grips, the last one fastest");
-    define(BEST_SCORE, NC_DOUBLE, "1", "best grips: score");
+    // without a value for missing ones, so that it opens as the whole number that an index is
+    const int grip = define(BEST_GRIP, NC_INT64, "1", "best grips: index over all dimensions of the grips, the last one fastest");
+    text(grip, "comment", "-1 beyond the last feasible and plausible grip");
+    fill_value(define(BEST_SCORE, NC_DOUBLE, "1", "best grips: score"), NC_DOUBLE);
     for (const PlanAxis& axis : contents_.plan.axes()) {
       const bool is_height = axis.axis == AXIS_HEIGHT;
-      define(best_axis_name(axis), NC_DOUBLE, is_height ? "m" : axis.units.c_str(),
-             "best grips: " + (is_height ? std::string("height of the thumb-index line in the vessel's frame") : axis.long_name));
+      const std::string meaning = "best grips: " + (is_height ? std::string(HEIGHT_MEANING) : axis.long_name);
+      fill_value(define(best_axis_name(axis), NC_DOUBLE, is_height ? "m" : axis.units.c_str(), meaning), NC_DOUBLE);
     }
   }
 
-  // HDF5 gives a contiguous block its place in the file when something is first written to it.
-  void allocate(int id) {
-    int dims = 0;
-    std::array<int, NC_MAX_VAR_DIMS> ids{};
-    check(nc_inq_var(file_, id, nullptr, nullptr, &dims, ids.data(), nullptr), path_);
-    std::vector<std::size_t> last(dims);
-    for (int k = 0; k < dims; ++k) {
-      check(nc_inq_dimlen(file_, ids[k], &last[k]), path_);
-      --last[k];
-    }
-    const std::array<double, 1> zero{};  // large enough for every type
-    check(nc_put_var1(file_, id, last.data(), zero.data()), path_);
-  }
-
-  std::string path_;
   const ResultContents& contents_;
-  int file_ = -1;
-  std::vector<int> grip_variables_;            // written later, block by block
-  std::vector<std::function<void()>> values_;  // written once the definition stands
+  std::vector<int> grip_variables_;  // written later, block by block
 };
 
 }  // namespace
@@ -338,18 +338,24 @@ std::string best_axis_name(const PlanAxis& axis) {
   return "best_" + (axis.axis == AXIS_HEIGHT ? std::string("height") : axis.name);
 }
 
+std::string best_scale_dimension(const Plan& plan) { return plan.is_sobol() ? "listed_hand_scale" : "hand_scale"; }
+
 std::uint64_t result_size(const ResultContents& contents) {
   constexpr std::uint64_t STRUCTURE = 2 << 20;  // HDF5's own, generously
   const Scene& scene = contents.scene;
   const Plan& plan = contents.plan;
   const std::size_t real_size = contents.info.precision == Precision::single ? sizeof(float) : sizeof(double);
   const auto per_grip = static_cast<std::uint64_t>(bytes_per_grip(contents.variables, scene, real_size));
-  std::uint64_t numbers = contents.best * scene.vessels.size() * 8;
-  for (const PlanAxis& axis : plan.axes()) numbers += plan.is_sobol() ? plan.grips() : axis.data.values.size();
-  numbers += scene.vessels.size() * (10 + scene_fills(scene) * (1 + 5 * scene.tilts.size()));
+  std::uint64_t numbers = (contents.best * scene.vessels.size() * 8 + 1) * plan.hand_scales();
+  for (const PlanAxis& axis : plan.axes()) {
+    const std::uint64_t points = contents.variables.empty() ? 0 : plan.grips();
+    const std::uint64_t values = plan.is_sobol() ? points : axis.data.values.size();
+    numbers += axis.axis == AXIS_HEIGHT && plan.height_is_fraction() ? values * (1 + scene.vessels.size()) : values;
+  }
+  numbers += JOINT_COUNT + contents.best + scene.vessels.size() * (10 + scene_fills(scene) * (3 + 5 * scene.tilts.size()));
   return STRUCTURE + 2 * scene.text.size() + per_grip * plan.stored_grips() * scene.vessels.size() + numbers * sizeof(double);
 }
 
-void define_result_file(const std::string& path, const ResultContents& contents) { Definition(path, contents).write(); }
+void define_result_file(const std::string& path, const ResultContents& contents) { SweepDefinition(path, contents).write(); }
 
 }  // namespace wholehand

@@ -32,10 +32,15 @@ struct RankedGrip {
 // Dimensions of the grips: those of the plan's axes, or "point" for Sobol points.
 std::vector<std::string> grip_dimensions(const Plan& plan);
 
-// Variables of the best grips over (vessel, rank): index in the grips' dimensions, score, and the axes (heights in m always).
+// Height of the thumb-index line in the vessel's frame, m: an axis, or over (vessel, height's axis) where that has fractions.
+constexpr const char* HEIGHT = "height";
+
+// Variables of the best grips over (vessel, rank), or (vessel, hand scale, rank) where the plan has several hand scales: index in the grips'
+// dimensions, score, and the axes (heights in m always).
 constexpr const char* BEST_GRIP = "best_grip";
 constexpr const char* BEST_SCORE = "best_score";
 std::string best_axis_name(const PlanAxis& axis);
+std::string best_scale_dimension(const Plan& plan);  // of the hand scales; Sobol points have a variable of the plain name
 
 // Of a scene with meshes: from where relative mesh files are looked for, and what tells that they are still the same (sweeps/mesh_vessel.h).
 constexpr const char* SCENE_FILE = "scene_file";

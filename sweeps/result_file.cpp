@@ -3,11 +3,10 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <hdf5/serial/hdf5.h>
-#include <netcdf.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
@@ -16,6 +15,7 @@
 
 #include "core/error.h"
 #include "shaders/layout.h"
+#include "sweeps/guarded_file.h"
 
 namespace wholehand {
 namespace {
@@ -49,20 +49,10 @@ class Handle {
   herr_t (*close_)(hid_t);
 };
 
-// Whether this process is the only one that writes the file. A process that was killed a moment ago may not be gone quite.
-bool lock(int file) {
-  for (int attempt = 0; attempt < 50; ++attempt) {
-    if (flock(file, LOCK_EX | LOCK_NB) == 0) return true;
-    if (errno != EWOULDBLOCK) return true;  // a file system without locks
-    usleep(10000);
-  }
-  return false;
-}
-
 // HDF5 prints its own stack of errors unless told not to; ours are one line.
 void silence_hdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
-// The partial file is under this process's lock already; HDF5's own would collide with it.
+// HDF5's own lock is not needed under the result's, and not every file system has it.
 hid_t open_hdf5(const std::string& path, unsigned mode) {
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_file_locking(access, false, true);
@@ -93,29 +83,8 @@ std::array<double, 6> axis_values(const GripInput& grip) {
 ResultFile::ResultFile(const OutputNames& names, const ResultContents& contents, const FieldSet& fields, bool resume)
     : names_(names), contents_(contents), fields_(fields) {
   silence_hdf5();
+  if (!resume) create();
   file_ = open(names_.partial.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
-  if (file_ >= 0 && !lock(file_)) {
-    close(file_);
-    throw failure_error(
-        fmt::format("{}: another process is writing it; wait for it, or name another file with -o", names_.partial));
-  }
-  if (!resume) {
-    // a new file under the old name: never onto what somebody may still have open
-    if (file_ >= 0) close(file_);
-    file_ = -1;
-    unlink(names_.mark.c_str());
-    if (unlink(names_.partial.c_str()) != 0 && errno != ENOENT) fail("replace", errno);
-    // HDF5 does not survive a disk that fills up under it
-    check_room(names_.partial, result_size(contents_));
-    try {
-      define_result_file(names_.partial, contents_);
-    } catch (...) {
-      unlink(names_.partial.c_str());
-      throw;
-    }
-    file_ = open(names_.partial.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
-    if (file_ >= 0) lock(file_);
-  }
   if (file_ < 0) fail("open", errno);
   try {
     open_blocks();
@@ -127,6 +96,20 @@ ResultFile::ResultFile(const OutputNames& names, const ResultContents& contents,
   } catch (...) {
     close(file_);
     if (!resume) unlink(names_.partial.c_str());
+    throw;
+  }
+}
+
+// A new file under the old name: never onto what somebody may still have open.
+void ResultFile::create() {
+  unlink(names_.mark.c_str());
+  if (unlink(names_.partial.c_str()) != 0 && errno != ENOENT) fail("replace", errno);
+  // HDF5 does not survive a disk that fills up under it
+  check_room(names_.partial, result_size(contents_));
+  try {
+    define_result_file(names_.partial, contents_);
+  } catch (...) {
+    unlink(names_.partial.c_str());
     throw;
   }
 }
@@ -155,6 +138,7 @@ void ResultFile::open_blocks() {
     const auto& axes = contents_.plan.axes();
     if (contents_.plan.is_sobol() && !contents_.variables.empty()) {
       for (const PlanAxis& axis : axes) axis_offsets_.push_back(block_offset(file, axis.name));
+      if (contents_.plan.height_is_fraction()) height_offset_ = block_offset(file, HEIGHT);
     }
     if (contents_.best > 0) {
       best_offsets_ = {block_offset(file, BEST_GRIP), block_offset(file, BEST_SCORE)};
@@ -205,7 +189,7 @@ const void* ResultFile::plane_values(const Block& block, std::size_t plane, cons
   auto* bytes = reinterpret_cast<std::int8_t*>(buffer_.data());
   for (std::size_t i = 0; i < chunk.count; ++i) {
     const bool exists = variable.always || (status[i] & STATUS_REASON_MASK) == REASON_NONE;
-    const std::int32_t value = exists ? variable.value(chunk.uints[start + i]) : MISSING;
+    const std::int32_t value = exists ? variable.value(chunk.uints[start + i]) : variable.missing;
     if (variable.type == NumberType::word) {
       words[i] = value;
     } else {
@@ -215,24 +199,100 @@ const void* ResultFile::plane_values(const Block& block, std::size_t plane, cons
   return buffer_.data();
 }
 
-void ResultFile::write(const PlaneChunk& chunk) {
-  const Stopwatch stopwatch(seconds_);
+// Calls visit(run, place) for each run of grips that the file holds in one piece: planes of variables, then heights and axes of Sobol points.
+template <class Visit>
+void ResultFile::visit_runs(std::size_t vessel, std::uint64_t first, std::uint64_t count, std::uint64_t copy,
+                            const Visit& visit) const {
   const Plan& plan = contents_.plan;
+  std::size_t run = 0;
   for (const Block& block : blocks_) {
     for (std::size_t plane = 0; plane < block.planes; ++plane) {
-      const void* values = plane_values(block, plane, chunk);
-      const std::uint64_t place = (chunk.vessel * block.planes + plane) * plan.stored_grips() + chunk.first;
-      for (std::uint64_t copy = 0; copy < plan.copies(); ++copy) {
-        put(values, chunk.count * block.size, block.offset + (place + copy * plan.grips()) * block.size);
-      }
+      const std::uint64_t place = (vessel * block.planes + plane) * plan.stored_grips() + copy * plan.grips() + first;
+      visit(run++, FileRange{block.offset + place * block.size, count * block.size});
     }
   }
-  if (chunk.vessel > 0) return;  // every vessel has the same points
-  for (std::size_t axis = 0; axis < axis_offsets_.size(); ++axis) {
-    buffer_.resize(chunk.count * sizeof(double));
-    plan.coordinates(static_cast<int>(axis), chunk.first, chunk.count, reinterpret_cast<double*>(buffer_.data()));
-    put(buffer_.data(), buffer_.size(), axis_offsets_[axis] + chunk.first * sizeof(double));
+  if (height_offset_) {
+    const std::uint64_t place = *height_offset_ + (vessel * plan.grips() + first) * sizeof(double);
+    visit(run++, FileRange{place, count * sizeof(double)});
   }
+  if (vessel > 0) return;  // every vessel has the same points
+  for (const std::uint64_t offset : axis_offsets_) visit(run++, FileRange{offset + first * sizeof(double), count * sizeof(double)});
+}
+
+void ResultFile::write(const PlaneChunk& chunk) {
+  const Stopwatch stopwatch(seconds_);
+  if (chunk.vessel != stretch_vessel_ || chunk.first != stretch_.last || stretch_.first == stretch_.last) {
+    checksum_ = RunsChecksum();
+    stretch_ = {chunk.first, chunk.first, ""};
+    stretch_vessel_ = chunk.vessel;
+  }
+  std::vector<FileRange> places;
+  const std::uint64_t copies = contents_.plan.copies();
+  for (std::uint64_t copy = 0; copy < copies; ++copy) {
+    visit_runs(chunk.vessel, chunk.first, chunk.count, copy, [&](std::size_t, FileRange place) { places.push_back(place); });
+  }
+  const std::size_t runs = places.size() / copies;
+  const auto write_run = [&](std::size_t run, const void* values) {
+    checksum_.add(run, values, places[run].size);
+    for (std::uint64_t copy = 0; copy < copies; ++copy) put(values, places[run].size, places[copy * runs + run].offset);
+  };
+  std::size_t run = 0;
+  for (const Block& block : blocks_) {
+    for (std::size_t plane = 0; plane < block.planes; ++plane, ++run) write_run(run, plane_values(block, plane, chunk));
+  }
+  if (height_offset_) {
+    buffer_.resize(chunk.count * sizeof(double));
+    auto* heights = reinterpret_cast<double*>(buffer_.data());
+    contents_.plan.coordinates(PLACE_HEIGHT, chunk.first, chunk.count, heights);
+    for (std::size_t i = 0; i < chunk.count; ++i) heights[i] = contents_.plan.height(chunk.vessel, heights[i]);
+    write_run(run++, heights);
+  }
+  for (std::size_t axis = 0; run < runs; ++axis, ++run) {
+    buffer_.resize(chunk.count * sizeof(double));
+    contents_.plan.coordinates(static_cast<int>(axis), chunk.first, chunk.count, reinterpret_cast<double*>(buffer_.data()));
+    write_run(run, buffer_.data());
+  }
+  stretch_.last += chunk.count;
+}
+
+Stretch ResultFile::stretch() const { return {stretch_.first, stretch_.last, checksum_.text()}; }
+
+void ResultFile::end_stretch() { stretch_ = {}; }
+
+bool ResultFile::holds(std::size_t vessel, const Stretch& stretch) {
+  for (std::uint64_t copy = 0; copy < contents_.plan.copies(); ++copy) {
+    RunsChecksum found;
+    visit_runs(vessel, stretch.first, stretch.last - stretch.first, copy, [&](std::size_t run, FileRange place) {
+      if (!add_range(found, run, file_, place)) fail("read", errno);
+    });
+    if (found.text() != stretch.checksum) return false;
+  }
+  return true;
+}
+
+// What changes after the definition, in the file's order.
+std::vector<FileRange> ResultFile::written_in_place() const {
+  const Plan& plan = contents_.plan;
+  const std::uint64_t vessels = contents_.scene.vessels.size();
+  std::vector<FileRange> ranges;
+  for (const Block& block : blocks_) ranges.push_back({block.offset, vessels * block.planes * plan.stored_grips() * block.size});
+  for (const std::uint64_t offset : axis_offsets_) ranges.push_back({offset, plan.grips() * sizeof(double)});
+  if (height_offset_) ranges.push_back({*height_offset_, vessels * plan.grips() * sizeof(double)});
+  for (const std::uint64_t offset : best_offsets_) {
+    ranges.push_back({offset, vessels * plan.hand_scales() * contents_.best * sizeof(double)});
+  }
+  std::sort(ranges.begin(), ranges.end(), [](const FileRange& a, const FileRange& b) { return a.offset < b.offset; });
+  return ranges;
+}
+
+void ResultFile::vouch_for_structure(SweepMark& mark) {
+  if (structure_.empty()) {
+    const auto structure = checksum_without(file_, written_in_place());
+    if (!structure) fail("read", errno);
+    structure_ = *structure;
+  }
+  mark.structure = structure_;
+  mark.in_place = written_in_place();
 }
 
 void ResultFile::sync() {
@@ -248,26 +308,27 @@ void ResultFile::start_sync() {
 void ResultFile::write_ending(const std::vector<std::vector<RankedGrip>>& best, double wall_seconds, double kernel_seconds) {
   const Stopwatch stopwatch(seconds_);
   const std::size_t ranks = contents_.best;
-  for (std::size_t v = 0; v < best.size() && ranks > 0; ++v) {
+  for (std::size_t list = 0; list < best.size() && ranks > 0; ++list) {
     std::vector<std::int64_t> grips(ranks, MISSING);
     std::vector<std::vector<double>> reals(best_offsets_.size() - 1,
                                            std::vector<double>(ranks, std::numeric_limits<double>::quiet_NaN()));
-    for (std::size_t rank = 0; rank < std::min(ranks, best[v].size()); ++rank) {
-      const RankedGrip& ranked = best[v][rank];
+    for (std::size_t rank = 0; rank < std::min(ranks, best[list].size()); ++rank) {
+      const RankedGrip& ranked = best[list][rank];
       grips[rank] = static_cast<std::int64_t>(ranked.candidate.index);
       reals[0][rank] = ranked.candidate.score;
       const auto values = axis_values(ranked.grip);
       for (std::size_t axis = 0; axis < values.size(); ++axis) reals[1 + axis][rank] = values[axis];
     }
-    put(grips.data(), ranks * sizeof(std::int64_t), best_offsets_[0] + v * ranks * sizeof(std::int64_t));
+    put(grips.data(), ranks * sizeof(std::int64_t), best_offsets_[0] + list * ranks * sizeof(std::int64_t));
     for (std::size_t k = 0; k < reals.size(); ++k) {
-      put(reals[k].data(), ranks * sizeof(double), best_offsets_[k + 1] + v * ranks * sizeof(double));
+      put(reals[k].data(), ranks * sizeof(double), best_offsets_[k + 1] + list * ranks * sizeof(double));
     }
   }
   const Handle file(open_hdf5(names_.partial, H5F_ACC_RDWR), H5Fclose);
   if (file < 0 || !put_attribute(file, WALL_TIME, wall_seconds) || !put_attribute(file, KERNEL_TIME, kernel_seconds)) {
     fail("write", EIO);
   }
+  structure_.clear();  // the times are part of it
 }
 
 void ResultFile::finish() {
@@ -275,38 +336,16 @@ void ResultFile::finish() {
   const Stopwatch stopwatch(seconds_);
   close(file_);
   file_ = -1;
-  rename_file(names_.partial, names_.result);
-  sync_folder_of(names_.result);
-  unlink(names_.mark.c_str());
-}
-
-FinishedResult read_finished(const std::string& path, const std::vector<std::string>& variables) {
-  const auto refuse = [&path] {
-    return usage_error(
-        fmt::format("-o {}: is there and is no result of a sweep; name another file, or start without --resume", path));
-  };
-  struct File {
-    explicit File(const std::string& name) : status(nc_open(name.c_str(), NC_NOWRITE, &id)) {}
-    ~File() {
-      if (status == NC_NOERR) nc_close(id);
-    }
-    int id = -1, status;
-  } file(path);
-  if (file.status != NC_NOERR) throw refuse();
-  const auto text = [&](const char* name) {
-    std::size_t length = 0;
-    nc_type type = NC_NAT;
-    if (nc_inq_att(file.id, NC_GLOBAL, name, &type, &length) != NC_NOERR || type != NC_CHAR) throw refuse();
-    std::string value(length, ' ');
-    if (length > 0 && nc_get_att_text(file.id, NC_GLOBAL, name, value.data()) != NC_NOERR) throw refuse();
-    return value;
-  };
-  FinishedResult finished{text("scene"), text("backend"), text("precision"), {}};
-  for (const std::string& name : variables) {
-    int id = -1;
-    if (nc_inq_varid(file.id, name.c_str(), &id) != NC_NOERR) finished.missing.push_back(name);
+  try {
+    GuardedFile(names_.partial).read_all();
+  } catch (const Error& error) {
+    // what could not be tried says nothing of the file
+    const char* remedy = error.code == ExitCode::failure ? "go on with --resume" : "start again without --resume";
+    throw failure_error(fmt::format("{} (read back before it gets its name); {}", error.what(), remedy));
   }
-  return finished;
+  rename_file(names_.partial, names_.target);
+  sync_folder_of(names_.target);
+  unlink(names_.mark.c_str());
 }
 
 }  // namespace wholehand

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/planes.h"
+#include "sweeps/checksum.h"
 #include "sweeps/files.h"
+#include "sweeps/mark.h"
 #include "sweeps/result_contents.h"
 
 namespace wholehand {
@@ -20,8 +23,8 @@ namespace wholehand {
 // All methods throw Error (failure) with the file, the reason and what to do.
 class ResultFile {
  public:
-  // Creates NAME.nc.partial, or, to resume, opens the one that is there as it is. A partial file that another process is writing is
-  // refused. Contents must outlive the object, the same ones for a file that is resumed.
+  // Creates NAME.nc.partial, or, to resume, opens the one that is there as it is. Who holds the result's lock (sweeps/output_lock.h) alone may
+  // do that. Contents must outlive the object, the same ones for a file that is resumed.
   ResultFile(const OutputNames& names, const ResultContents& contents, const FieldSet& fields, bool resume);
   ~ResultFile();
   ResultFile(const ResultFile&) = delete;
@@ -30,14 +33,27 @@ class ResultFile {
   // Puts a chunk in its place, once per azimuth that it stands for.
   void write(const PlaneChunk& chunk);
 
+  // The grips that were written since the last end_stretch, all of one vessel and in their order, and their checksum. Others begin a stretch of
+  // their own.
+  Stretch stretch() const;
+  void end_stretch();
+  // Whether the file holds grips with this checksum: reads them back.
+  bool holds(std::size_t vessel, const Stretch& stretch);
+  // Whether the file holds anything of the grips.
+  bool has_grips() const { return !blocks_.empty(); }
+
+  // Puts into a mark what it vouches for besides; write_ending changes it.
+  void vouch_for_structure(SweepMark& mark);
+
   // Returns when everything written is on the disk; start_sync only sets the disk to it, so that other work goes on meanwhile.
   void sync();
   void start_sync();
 
-  // Writes the best grips (per vessel, the best first; what is missing of the ranks is filled) and the times.
+  // Writes the best grips (a list for each vessel and hand scale, in the order of GripLists, the best first; what is missing of the ranks is
+  // filled) and the times.
   void write_ending(const std::vector<std::vector<RankedGrip>>& best, double wall_seconds, double kernel_seconds);
 
-  // Syncs, closes, renames NAME.nc.partial to NAME.nc and removes the mark. The last call.
+  // Syncs, closes, has the NetCDF library read all of the file, renames NAME.nc.partial to NAME.nc and removes the mark. The last call.
   void finish();
 
   std::uint64_t bytes() const { return bytes_; }  // of values written by this process
@@ -53,7 +69,11 @@ class ResultFile {
     int plane = 0;         // first plane of the chunk
   };
 
+  void create();
   void open_blocks();
+  std::vector<FileRange> written_in_place() const;
+  template <class Visit>
+  void visit_runs(std::size_t vessel, std::uint64_t first, std::uint64_t count, std::uint64_t copy, const Visit& visit) const;
   void put(const void* data, std::size_t size, std::uint64_t offset);
   const void* plane_values(const Block& block, std::size_t plane, const PlaneChunk& chunk);
   [[noreturn]] void fail(const char* what, int error) const;
@@ -63,19 +83,16 @@ class ResultFile {
   FieldSet fields_;
   int file_ = -1;
   std::vector<Block> blocks_;
-  std::vector<std::uint64_t> axis_offsets_;  // of the axes' values at Sobol points; empty for a grid
-  std::vector<std::uint64_t> best_offsets_;  // best_grip, best_score, axes
-  std::vector<unsigned char> buffer_;        // values of one plane that need converting
+  std::vector<std::uint64_t> axis_offsets_;     // of the axes' values at Sobol points; empty for a grid
+  std::optional<std::uint64_t> height_offset_;  // of the vessels' heights in m at Sobol points, where their axis has fractions
+  std::vector<std::uint64_t> best_offsets_;     // best_grip, best_score, axes
+  std::vector<unsigned char> buffer_;           // values of one plane that need converting
+  RunsChecksum checksum_;                       // of the stretch that is being written
+  Stretch stretch_;
+  std::size_t stretch_vessel_ = 0;
+  std::string structure_;
   std::uint64_t bytes_ = 0;
   double seconds_ = 0;
 };
-
-// What a finished result file says it holds: the texts of `scene`, `backend` and `precision`, and `variables` that it lacks of those named.
-// Throws Error (usage) where it is not a result file.
-struct FinishedResult {
-  std::string scene, backend, precision;
-  std::vector<std::string> missing;
-};
-FinishedResult read_finished(const std::string& path, const std::vector<std::string>& variables);
 
 }  // namespace wholehand

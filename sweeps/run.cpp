@@ -1,28 +1,32 @@
 #include "sweeps/run.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <sys/stat.h>
 
 #include <algorithm>
 #include <csignal>
 #include <set>
+#include <utility>
 
 #include "core/prepare.h"
 #include "sweeps/best.h"
 #include "sweeps/best_glb.h"
-#include "sweeps/build_id.h"
-#include "sweeps/candidates.h"
+#include "sweeps/cavity_notes.h"
 #include "sweeps/closing.h"
+#include "sweeps/companions.h"
 #include "sweeps/domain.h"
 #include "sweeps/explain.h"
+#include "sweeps/grip_lists.h"
+#include "sweeps/hand_lists.h"
 #include "sweeps/heat_map_plot.h"
 #include "sweeps/interrupt.h"
 #include "sweeps/mesh_vessel.h"
 #include "sweeps/open_backend.h"
+#include "sweeps/output_lock.h"
 #include "sweeps/progress.h"
 #include "sweeps/readable.h"
 #include "sweeps/result_file.h"
+#include "sweeps/resume.h"
 #include "sweeps/tally.h"
 
 #ifndef WHOLEHAND_VERSION
@@ -34,8 +38,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t TABLE_ROWS = 20;  // best grips shown per vessel; the file has them all
-constexpr double MARK_SHARE = 0.02;     // of the time, at most, for marks
+constexpr double MARK_SHARE = 0.02;           // of the time, at most, for marks
+constexpr off_t LONG_CHECK = 1'000'000'000;   // bytes of a partial file: from here on it is said that they are read
+constexpr std::uint64_t MOST_STRETCHES = 64;  // of a vessel's grips with a checksum each, and one more for each --resume
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -60,107 +65,101 @@ class Sweep {
     }
     check_not_the_scene(names_.result, scene_);
     check_overwrites_result(names_.result);
+    check_companions(scene_, names_, best_wanted_ > 0, has_score(), options_.glb);
     struct stat partial {};
     const double reserved = stat(names_.partial.c_str(), &partial) == 0 ? static_cast<double>(partial.st_blocks) * 512 : 0;
     const std::size_t real_size = precision() == Precision::single ? sizeof(float) : sizeof(double);
     check_sweep_size(scene_, sweep_size(scene_, bytes_per_grip(variables_, scene_, real_size)),
-                     free_bytes(names_.result) + reserved);
+                     free_bytes(names_.target) + reserved);
   }
 
   bool is_finished() const {
     struct stat file {};
-    return options_.resume && stat(names_.partial.c_str(), &file) != 0 && stat(names_.result.c_str(), &file) == 0;
+    return options_.resume && stat(names_.partial.c_str(), &file) != 0 && stat(names_.result.c_str(), &file) == 0 &&
+           S_ISREG(file.st_mode);
   }
 
   ExitCode run() {
     // a file that grows past its limit is an error of the write, not the end of the process
     std::signal(SIGXFSZ, SIG_IGN);
+    // first, since it needs neither room nor a place to write to
+    if (is_finished()) return finished();
     check();
-    if (is_finished()) {
-      check_finished();
-      note(
-          fmt::format("{} is complete: nothing to go on with; the same command without --resume computes it again", names_.result));
-      return ExitCode::done;
-    }
+    const OutputLock lock(names_.lock);
+    if (is_finished()) return finished();  // by who had the lock until now
+    if (parts_.prepare) parts_.prepare();
     for (const std::string& line : domain_warnings(scene_, precision())) note(line);
+    say_cavity_notes(scene_);
     const Plan plan(scene_, keeps_vectors(variables_));
-    backend_ = parts_.open_backend(make_field_set(variable_fields(variables_), scene_));
-    fmt::print("{}", opening_lines(scene_, plan, backend_->info()));
+    backend_ = parts_.open_backend(make_field_set(swept_fields(plan), scene_));
+    std::vector<VesselFacts> facts = vessel_facts(scene_, *backend_, *parts_.open_evaluator());
+    fmt::print("{}{}", opening_lines(scene_, plan, backend_->info()), vessel_lines(scene_, facts));
     std::fflush(stdout);
     if (options_.explain) {
       fmt::print("{}", explain_sweep(scene_, plan, backend_->fields(), {options_.on, precision(), options_.threads}));
       std::fflush(stdout);
     }
-    const ResultContents contents{scene_,           plan,
-                                  variables_,       vessel_facts(scene_, *backend_, *parts_.open_evaluator()),
-                                  backend_->info(), WHOLEHAND_VERSION,
-                                  best_wanted_};
+    const ResultContents contents{scene_, plan, variables_, std::move(facts), backend_->info(), WHOLEHAND_VERSION, best_wanted_};
     const bool resumed = begin(plan);
     ResultFile file(names_, contents, backend_->fields(), resumed);
+    is_marked_ = resumed;
     InterruptGuard interrupt;  // an interrupt that comes when all grips are done lets the ending finish
-    if (!sweep(plan, file, interrupt)) return interrupted(plan);
+    if (!repair(plan, file, interrupt) || !sweep(plan, file, interrupt)) return interrupted(plan);
     finish(plan, file);
     return ExitCode::done;
   }
 
  private:
-  bool has_field(int field) const { return is_kept(backend_->fields(), field); }
-  bool has_heat_map() const { return has_field(FIELD_SCORE) && has_field(FIELD_STATUS); }
+  bool ranks_here(const Plan& plan) const { return best_wanted_ > 0 && plan.hand_scales() > 1; }
+  // What is read back: a device chooses the best of all hands together, so of several hand scales the scores are chosen from here.
+  std::vector<int> swept_fields(const Plan& plan) const {
+    const std::vector<int> kept = variable_fields(variables_);
+    std::set<int> fields(kept.begin(), kept.end());
+    if (ranks_here(plan)) fields.insert({FIELD_SCORE, FIELD_STATUS});
+    return {fields.begin(), fields.end()};
+  }
 
-  // The file that is whole must be of this sweep, as far as that is known without a device.
-  void check_finished() const {
-    std::vector<std::string> names;
-    for (const Variable* variable : variables_) names.push_back(variable->name);
-    const FinishedResult there = read_finished(names_.result, names);
-    const auto refuse = [this](const std::string& what) {
-      throw usage_error(fmt::format("--resume: {} is complete, of another {}; name another file, or start again without --resume",
-                                    names_.result, what));
-    };
-    if (there.scene != scene_.text) refuse("scene");
-    if ((there.backend == "core") != (options_.on == "core")) refuse("backend: " + there.backend);
-    if (there.precision != (precision() == Precision::single ? "float" : "double")) refuse("precision: " + there.precision);
-    if (!there.missing.empty()) refuse("set of variables: it lacks " + there.missing.front());
+  bool has_field(int field) const { return is_kept(backend_->fields(), field); }
+  bool has_heat_map() const { return has_score() && has_field(FIELD_SCORE) && has_field(FIELD_STATUS); }
+
+  bool has_score() const {
+    return std::any_of(variables_.begin(), variables_.end(), [](const Variable* v) { return v->field == FIELD_SCORE; });
+  }
+
+  ExitCode finished() const {
+    check_complete(names_.result, scene_, options_.on == "core", precision(), variables_);
+    note(fmt::format("{} is complete: nothing to go on with; the same command without --resume computes it again", names_.result));
+    return ExitCode::done;
   }
 
   Precision precision() const { return options_.precision.value_or(options_.on == "core" ? Precision::full : Precision::single); }
 
-  // What must be the same for a sweep to go on where another one stopped.
   std::map<std::string, std::string> identity(const Plan& plan) const {
-    const BackendInfo& info = backend_->info();
-    std::vector<std::string> names;
-    for (const Variable* variable : variables_) names.push_back(variable->name);
-    return {{"scene", scene_.text},
-            {"version", WHOLEHAND_VERSION},
-            {"build", build_id()},  // other code may give other bits
-            {"backend", info.backend},
-            // the core gives the same on any number of threads
-            {"device", info.backend == "core" ? "core" : info.device},
-            {"driver", info.driver},
-            {"precision", info.precision == Precision::single ? "float" : "double"},
-            {"number of best grips", std::to_string(best_wanted_)},
-            {"number of grips", fmt::format("{} x {} x {}", scene_.vessels.size(), plan.grips(), plan.copies())},
-            {"set of meshes", mesh_keys(scene_)},
-            {"set of variables", fmt::format("{}", fmt::join(names, " "))}};
+    return sweep_identity(scene_, plan, backend_->info(), best_wanted_, variables_);
+  }
+
+  // What a mark of this sweep can say at most.
+  MarkBounds bounds(const Plan& plan) const {
+    const bool has_stretches = !variables_.empty();
+    return {scene_.vessels.size(), plan.grips(), best_wanted_ * plan.hand_scales(), has_stretches,
+            has_stretches && has_field(FIELD_STATUS)};
   }
 
   // Sets the progress: from the mark of an earlier sweep if there is one to resume, else nothing done. True: resumed.
   bool begin(const Plan& plan) {
     for (std::size_t v = 0; v < scene_.vessels.size(); ++v) maps_.emplace_back(plan);
     SweepMark mark;
-    struct stat partial {};
-    const bool resumed = options_.resume && stat(names_.partial.c_str(), &partial) == 0 && load_mark(names_.mark, mark);
+    std::string line = options_.resume ? "" : lost_line(names_);
+    if (options_.resume) announce_check();
+    const bool resumed = options_.resume && load_usable_mark(names_, identity(plan), bounds(plan), mark, line);
+    if (!line.empty()) note(line);
     if (resumed) {
-      check_identity(names_.partial, mark, identity(plan));
-      if (mark.vessels.size() != scene_.vessels.size()) {
-        throw failure_error(names_.mark + ": not of this sweep; start again without --resume");
-      }
       mark_ = mark;
       for (std::size_t v = 0; v < maps_.size() && has_heat_map(); ++v) maps_[v].restore(mark_.vessels[v].heat_map);
       note(fmt::format("going on with {}: {} of {} grips are there", names_.partial, readable_number(done()),
                        readable_number(total(plan))));
     } else {
       if (options_.resume) note(fmt::format("nothing of {} is complete: starting from the first grip", names_.partial));
-      if (!options_.resume) say_what_is_lost();
       mark_.identity = identity(plan);
       mark_.vessels.resize(scene_.vessels.size());
     }
@@ -168,18 +167,11 @@ class Sweep {
     return resumed;
   }
 
-  void say_what_is_lost() const {
-    struct stat partial {};
-    SweepMark earlier;
-    try {
-      if (stat(names_.partial.c_str(), &partial) != 0 || !load_mark(names_.mark, earlier)) return;
-    } catch (const Error&) {
-      return;  // nothing could have gone on from there
-    }
-    std::uint64_t kept = 0;
-    for (const VesselProgress& vessel : earlier.vessels) kept += vessel.done;
-    note(fmt::format("{} held {} grips of a sweep that was interrupted: begun again without them (--resume goes on)",
-                     names_.partial, readable_number(kept)));
+  // Before a file is read that takes long.
+  void announce_check() const {
+    struct stat file {};
+    if (stat(names_.mark.c_str(), &file) != 0 || stat(names_.partial.c_str(), &file) != 0 || file.st_size <= LONG_CHECK) return;
+    note(fmt::format("checking {} of {}", readable_bytes(static_cast<double>(file.st_size)), names_.partial));
   }
 
   std::uint64_t total(const Plan& plan) const { return plan.grips() * scene_.vessels.size(); }
@@ -188,6 +180,43 @@ class Sweep {
     std::uint64_t sum = 0;
     for (const VesselProgress& vessel : mark_.vessels) sum += vessel.done;
     return sum;
+  }
+
+  // Computes again what the file no longer holds as it was written. False: interrupted; the mark still stands.
+  bool repair(const Plan& plan, ResultFile& file, InterruptGuard& interrupt) {
+    for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
+      for (const Stretch& stretch : mark_.vessels[v].stretches) {
+        if (interrupt.signalled()) return false;
+        if (file.holds(v, stretch)) continue;
+        const std::string place = fmt::format("{}: grips {} to {} of {}", names_.partial, readable_number(stretch.first),
+                                              readable_number(stretch.last - 1), scene_.vessels[v].name);
+        note(place + " are damaged: computing them again");
+        if (!compute_again(v, stretch, plan, file, interrupt)) return false;
+        if (!file.holds(v, stretch))
+          throw failure_error(place + " are not what they were, computed again; start again without --resume");
+      }
+    }
+    return true;
+  }
+
+  bool compute_again(std::size_t v, const Stretch& stretch, const Plan& plan, ResultFile& file, InterruptGuard& interrupt) {
+    RunRequest request = grips_of(v, plan, interrupt);
+    request.first = stretch.first;
+    request.last = stretch.last;
+    request.sink = [&file](const PlaneChunk& chunk) { file.write(chunk); };
+    const RunResult result = backend_->run(request);
+    file.end_stretch();
+    return result.done == stretch.last - stretch.first;
+  }
+
+  RunRequest grips_of(std::size_t v, const Plan& plan, InterruptGuard& interrupt) const {
+    RunRequest request;
+    request.vessel = v;
+    request.stop = &interrupt.flag();
+    request.grips = [&plan](std::size_t w, std::uint64_t first, std::size_t count, GripInput* out) {
+      plan.fill(w, first, count, out);
+    };
+    return request;
   }
 
   // Every vessel from where it stands to its end. False: interrupted, everything done so far is marked.
@@ -215,19 +244,16 @@ class Sweep {
     const std::uint64_t before = done();
     std::uint64_t delivered = 0;
     double sink_seconds = 0;
-    RunRequest request;
-    request.vessel = v;
+    RunRequest request = grips_of(v, plan, interrupt);
     request.first = vessel.done;
     request.last = plan.grips();
-    request.best = best_wanted_;
-    request.stop = &interrupt.flag();
-    request.grips = [&plan](std::size_t w, std::uint64_t first, std::size_t count, GripInput* out) {
-      plan.fill(w, first, count, out);
-    };
+    HandLists best(plan, best_wanted_, vessel.best);
+    request.best = ranks_here(plan) ? 0 : best_wanted_;
     request.sink = [&](const PlaneChunk& chunk) {
       const auto start = Clock::now();
       file.write(chunk);
       count_grips(chunk, backend_->fields(), vessel.counts);
+      if (ranks_here(plan)) best.offer(chunk, backend_->fields());
       if (has_heat_map()) maps_[v].add(plan, chunk, backend_->fields());
       delivered += chunk.count;
       progress.update(scene_.vessels[v].name, before + delivered);
@@ -243,11 +269,14 @@ class Sweep {
       throw failure_error(fmt::format("{}: handed over {} of {} grips", backend_->info().device, delivered, result.done));
     }
     if (delivered == 0) vessel.counts.grips += result.done;
-    BestCandidates best(best_wanted_);
-    best.offer(vessel.best);
-    best.offer(result.best);
-    vessel.best = best.sorted();
+    best.offer(result.best);  // none where they were chosen here
+    vessel.best = best.all();
     vessel.done += result.done;
+    if (file.has_grips() && result.done > 0) {  // an interrupt may come before the first chunk
+      const Stretch stretch = file.stretch();
+      keep_stretch(vessel.stretches, stretch);
+      if (stretch.last - stretch.first >= plan.grips() / MOST_STRETCHES) file.end_stretch();
+    }
     kernel_seconds_ += result.kernel_seconds;
     mark_.kernel_seconds += result.kernel_seconds;
     for (const std::string& line : result.notes) {
@@ -261,9 +290,11 @@ class Sweep {
   void save(ResultFile& file) {
     const auto start = Clock::now();
     file.sync();
+    file.vouch_for_structure(mark_);
     mark_.wall_seconds = wall_before_ + since(options_.started);
     for (std::size_t v = 0; v < maps_.size() && has_heat_map(); ++v) mark_.vessels[v].heat_map = maps_[v].scores();
     save_mark(names_.mark, mark_);
+    is_marked_ = true;
     last_mark_ = Clock::now();
     mark_interval_ = std::max(options_.mark_seconds, since(start) / MARK_SHARE);
   }
@@ -274,7 +305,7 @@ class Sweep {
     return ExitCode::interrupted;
   }
 
-  // The best grips with what is told of them; by a backend of their own where the sweep's does not read all of it back.
+  // The best grips of each list with what is told of them; by a backend of their own where the sweep's does not read all of it back.
   std::vector<std::vector<BestGrip>> best_grips(const Plan& plan) {
     const std::vector<int> needed = best_fields(scene_);
     const bool any =
@@ -285,7 +316,9 @@ class Sweep {
     }
     std::vector<std::vector<BestGrip>> best;
     for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
-      best.push_back(evaluate_best(other ? *other : *backend_, scene_, plan, v, mark_.vessels[v].best));
+      const HandLists lists(plan, best_wanted_, mark_.vessels[v].best);
+      for (std::size_t s = 0; s < plan.hand_scales(); ++s)
+        best.push_back(evaluate_best(other ? *other : *backend_, scene_, plan, v, lists.sorted(s)));
     }
     return best;
   }
@@ -310,30 +343,32 @@ class Sweep {
   void finish(const Plan& plan, ResultFile& file) {
     const auto best = best_grips(plan);
     std::vector<std::vector<RankedGrip>> ranked(best.size());
-    for (std::size_t v = 0; v < best.size(); ++v) {
-      for (const BestGrip& grip : best[v]) ranked[v].push_back({grip.candidate, grip.grip});
+    for (std::size_t list = 0; list < best.size(); ++list) {
+      for (const BestGrip& grip : best[list]) ranked[list].push_back({grip.candidate, grip.grip});
     }
     // the result's own name comes last: when it is there, all is
     std::vector<std::string> files = draw_maps(plan);
     if (best_wanted_ > 0) {
-      write_whole_file(names_.best, best_csv(scene_, best), false);
+      const ListOrigin origin = list_origin(names_.result, origin_of(scene_, WHOLEHAND_VERSION, backend_->info()));
+      write_whole_file(names_.best, best_csv(scene_, plan, best, origin), false);
       files.insert(files.begin(), names_.best);
-    } else {
+    } else if (is_best_list(names_.best)) {
       std::remove(names_.best.c_str());  // of the result that is replaced
     }
     if (options_.glb > 0) {
-      const BestGlb written = write_best_glb(scene_, parts_.open_evaluator(), best, options_.glb, names_);
+      const BestGlb written = write_best_glb(scene_, plan, parts_.open_evaluator(), best, options_.glb, names_);
       files.insert(files.end(), written.files.begin(), written.files.end());
       for (const std::string& line : written.notes) note(line);
     }
+    // The values are synced first. Then little time passes between the ending, which no earlier mark fits, and the mark that vouches for it.
+    if (is_marked_) save(file);
     file.write_ending(ranked, wall_before_ + since(options_.started), mark_.kernel_seconds);
+    if (is_marked_) save(file);  // which now vouches for the ending, too
     file.finish();
     files.insert(files.begin(), names_.result);
-    for (std::size_t v = 0; v < best.size(); ++v) {
-      fmt::print("\n{}: {}\n", scene_.vessels[v].name,
-                 counts_line(mark_.vessels[v].counts, has_field(FIELD_STATUS), plan.copies()));
-      if (!best[v].empty()) fmt::print("{}", best_table(scene_, plan, best[v], TABLE_ROWS));
-      if (best[v].size() > TABLE_ROWS) fmt::print("  .. {} more in {}\n", best[v].size() - TABLE_ROWS, names_.best);
+    for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
+      const std::string counts = counts_line(mark_.vessels[v].counts, has_field(FIELD_STATUS), plan.copies());
+      fmt::print("\n{}: {}\n{}", scene_.vessels[v].name, counts, best_lines(scene_, plan, v, best, names_.best));
     }
     // kernels that ran while the file was being written cost no time of their own
     const SweepTimes times{since(options_.started), std::min(wait_seconds_, kernel_seconds_), file.seconds(), file.bytes()};
@@ -349,6 +384,7 @@ class Sweep {
   std::unique_ptr<Backend> backend_;
   std::vector<HeatMap> maps_;  // one per vessel
   SweepMark mark_;
+  bool is_marked_ = false;  // there is a mark of this sweep
   double wall_before_ = 0;  // of earlier sessions, s
   double mark_interval_ = options_.mark_seconds;
   Clock::time_point last_mark_;
@@ -367,16 +403,11 @@ std::string default_output(const Scene& scene) {
 
 ExitCode run_sweep(const Scene& given, const SweepOptions& options) {
   Scene scene = given;
-  if (has_meshes(scene)) {  // what takes longer comes after what can be refused at once
-    const SweepParts none;
-    const Sweep unread(scene, options, none);
-    unread.check();
-    if (!unread.is_finished()) load_meshes(scene, options.on);
-  }
   const Precision precision = options.precision.value_or(options.on == "core" ? Precision::full : Precision::single);
   const SweepParts parts{
       [&](const FieldSet& fields) { return open_backend(scene, fields, options.on, precision, options.threads); },
       [&] { return make_core_evaluator(scene); },
+      [&] { load_meshes(scene, [&] { return largest_buffer(options.on); }); },
   };
   return run_sweep(scene, options, parts);
 }

@@ -30,6 +30,7 @@ struct SweepOptions {
 struct SweepParts {
   std::function<std::unique_ptr<Backend>(const FieldSet&)> open_backend;
   std::function<std::unique_ptr<Evaluator>()> open_evaluator;  // for what is known of a vessel whatever the grip
+  std::function<void()> prepare = {};  // what takes long and comes after all that can be refused at once (meshes); may be empty
 };
 
 // Sweeps every grip of the scene. Writes NAME.nc, NAME.best.csv, NAME.<vessel>.svg and NAME.<vessel>.<rank>.glb; prints the device, the best grips and counts

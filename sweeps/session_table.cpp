@@ -58,8 +58,10 @@ void write_heading(SessionText out, const SessionReport& report) {
                  info.scene_name.empty() ? info.scene_file : info.scene_name, info.device.name, info.rate,
                  info.start.empty() ? "" : ", ", info.start);
   if (report.fault != Fault::none)
-    fmt::format_to(out, "  {}{}\n", report.fault == Fault::interrupted ? "ended by a signal" : "let go by a fault: ",
-                   report.fault == Fault::interrupted ? "" : FAULT_NAMES[static_cast<std::size_t>(report.fault)]);
+    fmt::format_to(
+        out, "  {}{}\n",
+        report.fault == Fault::interrupted ? "ended by a signal, or as nobody read its output any more" : "let go by a fault: ",
+        report.fault == Fault::interrupted ? "" : FAULT_NAMES[static_cast<std::size_t>(report.fault)]);
   ColumnTable states;
   states.row({"state", "s"});
   for (std::size_t k = 0; k < report.time_in_state.size(); ++k)

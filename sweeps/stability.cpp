@@ -13,6 +13,7 @@
 #include "sweeps/csv.h"
 #include "sweeps/domain.h"
 #include "sweeps/files.h"
+#include "sweeps/folder_files.h"
 #include "sweeps/gains.h"
 #include "sweeps/gnuplot.h"
 #include "sweeps/grip_loop.h"
@@ -32,6 +33,12 @@ std::string newtons_per_metre(double limit) {
   return std::isfinite(limit) ? fmt::format("{:.0f}", limit) : std::string("no limit");
 }
 
+constexpr FolderTable STABILITY_TABLES[] = {{"wall.csv", "sheet,mass_kg,"},
+                                            {"wall_limits.csv", "sheet,mass_kg,"},
+                                            {"grip_loop.csv", "varied,base_N,"},
+                                            {"extreme.csv", "case,backend,precision,"},
+                                            {"stability.md", "# Stability"}};
+constexpr const char* STABILITY_PICTURES[] = {"wall.svg", "wall_integrators.svg", "grip_loop.svg"};
 constexpr std::array<double, 6> RATES{250, 500, 1000, 2000, 4000, 8000};
 
 // What a map of walls must show, whatever the machine: a passive wall that does not settle is a wrong kernel.
@@ -224,12 +231,10 @@ void write_extremes(std::back_insert_iterator<std::string> out, const std::vecto
   fmt::format_to(
       out,
       "\nFloat agrees with double in separations to 10 um in 999 of 1,000 grips, in joints in 99 of 100, in forces to 10 mN in 999 "
-      "of "
-      "1,000, for a hand scale of {:g} to {:g}, coordinates up to {:g} m, a contact tolerance of {:g} um and more, and hold forces "
-      "up to "
-      "{:g} kN, whatever the vessel's size (1 mm to 10 m) and tilt (docs/evidence.md); commands warn of a scene beyond that.\n",
-      float_domain::SMALLEST_HAND, float_domain::LARGEST_HAND, float_domain::LARGEST_COORDINATE,
-      float_domain::SMALLEST_CONTACT_TOLERANCE * 1e6, float_domain::LARGEST_HOLD * 1e-3);
+      "of 1,000, for a hand scale of {:g} to {:g}, coordinates up to {:g} m and hold forces up to {:g} kN, whatever the vessel's "
+      "size "
+      "(1 mm to 10 m) and tilt (docs/evidence.md); commands warn of a scene beyond that.\n",
+      float_domain::SMALLEST_HAND, float_domain::LARGEST_HAND, float_domain::LARGEST_COORDINATE, float_domain::LARGEST_HOLD * 1e-3);
 }
 
 }  // namespace
@@ -240,6 +245,7 @@ ExitCode run_stability(const StabilityOptions& options) {
   double kernel_seconds = 0;
   const WallRunner runner = open_wall_runner(options.on, info, kernel_seconds);
   make_output_folder(options.folder);  // when the device is there, so that a wrong one leaves none
+  check_folder_files(options.folder, "stability", STABILITY_TABLES, STABILITY_PICTURES);
   InterruptGuard interrupt;
   const auto interrupted = [] {
     show_status("");

@@ -3,14 +3,10 @@
 #include <fmt/format.h>
 #include <netcdf.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
-#include <csignal>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <functional>
@@ -23,24 +19,21 @@
 namespace wholehand {
 namespace {
 
-constexpr unsigned OPENING_SECONDS = 30;
 constexpr std::size_t AT_ONCE = 1 << 18;        // values
 constexpr std::uint64_t SEEK_IN_VALUES = 4096;  // reading one value alone takes as long as so many in a row
 
-// The path as the NetCDF library takes it: absolute, since it sees an address in what has one's form, and goes and asks for it.
-std::string readable_file(const std::string& path, double& bytes) {
+// Throws where the file is none that a sweep finished, as far as its name and its first bytes tell; returns the path.
+const std::string& check_is_result(const std::string& path) {
   struct stat status {};
   if (stat(path.c_str(), &status) != 0) {
-    const std::string why = std::strerror(errno), partial = output_names(path).partial;
+    const int error = errno;
+    const std::string partial = output_names(path).partial;
     if (stat(partial.c_str(), &status) == 0)
       throw usage_error(
           fmt::format("{}: {} is of a sweep that was not finished; finish it with wholehand sweep --resume", path, partial));
-    throw usage_error(fmt::format("{}: cannot be read: {}", path, why));
+    throw usage_error(fmt::format("{}: cannot be read: {}", path, std::strerror(error)));
   }
-  if (!S_ISREG(status.st_mode)) {
-    throw usage_error(fmt::format("{}: is a {}; name the result file of a sweep", path,
-                                  S_ISDIR(status.st_mode) ? "directory" : "device or pipe"));
-  }
+  if (!S_ISREG(status.st_mode)) return path;  // refused where it is opened
   std::ifstream file(path, std::ios::binary);
   char head[8] = {};
   if (!file) throw usage_error(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
@@ -49,53 +42,8 @@ std::string readable_file(const std::string& path, double& bytes) {
     throw usage_error(
         path + ": is a NetCDF file of the classic format, and no result of a sweep; a recording is read by wholehand session");
   }
-  if (std::memcmp(head, "\x89HDF\r\n\x1a\n", 8) != 0) throw usage_error(path + ": is no result file of a sweep (NetCDF-4)");
-  bytes = static_cast<double>(status.st_size);
-  char* absolute = realpath(path.c_str(), nullptr);
-  const std::string name = absolute ? absolute : path;
-  std::free(absolute);
-  return name;
-}
-
-// Reads the first value of a variable, and with it the part of the file where that lies; NetCDF's status.
-int try_to_read(int file, int id) {
-  int dims = 0;
-  nc_type type = NC_NAT;
-  int status = nc_inq_var(file, id, nullptr, &type, &dims, nullptr, nullptr);
-  if (status != NC_NOERR || type > NC_UINT64 || type == NC_CHAR) return status;
-  const std::vector<std::size_t> first(static_cast<std::size_t>(dims) + 1, 0);
-  double value = 0;
-  status = nc_get_var1_double(file, id, first.data(), &value);
-  return status == NC_ERANGE || status == NC_EINVALCOORDS ? NC_NOERR : status;  // no double, or no value at all
-}
-
-// Opens the file, and all that it says of its variables and a value of each; NetCDF's status.
-int try_to_open(const std::string& name) {
-  int file = -1, variables = 0;
-  int status = nc_open(name.c_str(), NC_NOWRITE, &file);
-  if (status == NC_NOERR) status = nc_inq_nvars(file, &variables);
-  for (int id = 0; id < variables && status == NC_NOERR; ++id) status = try_to_read(file, id);
-  return status;
-}
-
-// Throws where the file cannot be opened. HDF5 follows what a damaged one says to places that are not there, and forgets memory on the way:
-// so that is found out by a process that may die of it.
-void check_opens(const std::string& path, const std::string& name) {
-  constexpr int DIED = 255;
-  const pid_t child = fork();
-  if (child < 0) return;  // not to be found out
-  if (child == 0) {
-    for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGABRT, SIGILL, SIGALRM}) std::signal(signal, [](int) { _exit(DIED); });
-    alarm(OPENING_SECONDS);
-    const int status = try_to_open(name);  // NetCDF's are above -255; positive: of the system
-    _exit(status > 0 ? DIED : -status);
-  }
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
-  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : DIED;
-  if (code == 0) return;
-  throw usage_error(
-      fmt::format("{}: is damaged, or no NetCDF-4 file: {}", path, code == DIED ? "it cannot be read" : nc_strerror(-code)));
+  if (std::string_view(head, sizeof head) != NETCDF4_START) throw usage_error(path + ": is no result file of a sweep (NetCDF-4)");
+  return path;
 }
 
 std::uint64_t product(const std::vector<std::size_t>& lengths, std::size_t first) {
@@ -105,42 +53,28 @@ std::uint64_t product(const std::vector<std::size_t>& lengths, std::size_t first
 
 }  // namespace
 
-SweepResult::SweepResult(const std::string& path) : path_(path) {
-  const std::string name = readable_file(path, origin_.bytes);
-  check_opens(path, name);
-  const int status = nc_open(name.c_str(), NC_NOWRITE, &file_);
-  if (status != NC_NOERR) {
-    file_ = -1;
-    throw usage_error(fmt::format("{}: is damaged, or no NetCDF-4 file: {}", path, nc_strerror(status)));
+SweepResult::SweepResult(const std::string& path) : file_(check_is_result(path)) {
+  origin_.bytes = file_.bytes();
+  origin_.scene = text("scene");
+  if (text("program") != "wholehand") throw usage_error(path + ": is no result of a sweep: another program wrote it");
+  origin_.version = text("version");
+  origin_.backend = text("backend");
+  origin_.device = text("device");
+  origin_.driver = text("driver");
+  origin_.precision = text("precision") == "float" ? Precision::single : Precision::full;
+  origin_.scene_file = file_.text(SCENE_FILE).value_or("");
+  origin_.meshes = file_.text(MESHES).value_or("");
+  origin_.mesh_keys = file_.text(MESH_KEYS).value_or("");
+  origin_.mesh_lattices = file_.text(MESH_LATTICES).value_or("");
+  origin_.wall_seconds = number(WALL_TIME);
+  origin_.kernel_seconds = number(KERNEL_TIME);
+  if (!std::isfinite(origin_.wall_seconds)) {
+    throw usage_error(path + ": is of a sweep that was not finished; finish it with wholehand sweep --resume");
   }
-  try {
-    origin_.scene = text("scene");
-    if (text("program") != "wholehand") throw usage_error(path_ + ": is no result of a sweep: another program wrote it");
-    origin_.version = text("version");
-    origin_.backend = text("backend");
-    origin_.device = text("device");
-    origin_.driver = text("driver");
-    origin_.precision = text("precision") == "float" ? Precision::single : Precision::full;
-    origin_.scene_file = text_or_nothing(SCENE_FILE);
-    origin_.meshes = text_or_nothing(MESHES);
-    origin_.mesh_keys = text_or_nothing(MESH_KEYS);
-    origin_.mesh_lattices = text_or_nothing(MESH_LATTICES);
-    origin_.wall_seconds = number(WALL_TIME);
-    origin_.kernel_seconds = number(KERNEL_TIME);
-    if (!std::isfinite(origin_.wall_seconds)) {
-      throw usage_error(path_ + ": is of a sweep that was not finished; finish it with wholehand sweep --resume");
-    }
-    for (const Variable& variable : variable_catalogue()) {
-      int id = -1;
-      if (nc_inq_varid(file_, variable.name, &id) == NC_NOERR) variables_.push_back(&variable);
-    }
-  } catch (...) {
-    nc_close(file_);
-    throw;
+  for (const Variable& variable : variable_catalogue()) {
+    if (file_.find(variable.name)) variables_.push_back(&variable);
   }
 }
-
-SweepResult::~SweepResult() { nc_close(file_); }
 
 const Variable* SweepResult::find(const std::string& name) const {
   const auto found = std::find_if(variables_.begin(), variables_.end(), [&](const Variable* v) { return v->name == name; });
@@ -150,8 +84,8 @@ const Variable* SweepResult::find(const std::string& name) const {
 void SweepResult::use(const Scene& scene, const Plan& plan) {
   scene_ = &scene;
   plan_ = &plan;
-  if (shape_of(numbers_id("vessel_height")) != std::vector<std::size_t>{scene.vessels.size()})
-    throw usage_error(fmt::format("{}: has not the {} vessels of its own scene", path_, scene.vessels.size()));
+  if (numbers("vessel_height").shape != std::vector<std::size_t>{scene.vessels.size()})
+    throw usage_error(fmt::format("{}: has not the {} vessels of its own scene", path(), scene.vessels.size()));
   grip_shape_.clear();
   if (plan.is_sobol()) {
     grip_shape_.push_back(plan.grips());
@@ -170,7 +104,7 @@ void SweepResult::use(const Scene& scene, const Plan& plan) {
                                           : 3);
     }
     shape.insert(shape.end(), grip_shape_.begin(), grip_shape_.end());
-    checked_id(variable->name, shape);
+    check_shape(variable->name, shape);
   }
 }
 
@@ -178,8 +112,8 @@ void SweepResult::use(const Scene& scene, const Plan& plan) {
 // that begin and end at whole steps of an axis.
 void SweepResult::read(const Variable& variable, std::size_t vessel, std::size_t plane, std::uint64_t first, std::size_t count,
                        double* out) const {
-  const int id = numbers_id(variable.name);
-  const std::vector<std::size_t> shape = shape_of(id);
+  const GuardedFile::Stored& stored = numbers(variable.name);
+  const std::vector<std::size_t>& shape = stored.shape;
   const std::size_t outer = shape.size() - grip_shape_.size();  // vessel, and the variable's own
   std::vector<std::size_t> start(shape.size(), 0), length(shape.size(), 1);
   start[0] = vessel;
@@ -196,9 +130,7 @@ void SweepResult::read(const Variable& variable, std::size_t vessel, std::size_t
     }
     const std::uint64_t steps = std::min<std::uint64_t>(grip_shape_[axis] - start[outer + axis], count / step(axis));
     length[outer + axis] = steps;
-    const int status = nc_get_vara_double(file_, id, start.data(), length.data(), out);
-    if (status != NC_NOERR && status != NC_ERANGE)
-      throw usage_error(fmt::format("{}: {} cannot be read: {}", path_, variable.name, nc_strerror(status)));
+    file_.read(stored, start, length, out);
     const std::uint64_t done = steps * step(axis);
     first += done;
     count -= done;
@@ -230,106 +162,111 @@ std::vector<double> SweepResult::pick(const Variable& variable, std::size_t vess
   return values;
 }
 
-bool SweepResult::lists_best() const {
-  int id = -1;
-  return nc_inq_varid(file_, BEST_GRIP, &id) == NC_NOERR;
+bool SweepResult::lists_best() const { return file_.find(BEST_GRIP) != nullptr; }
+
+bool SweepResult::lists_all_hands_together() const {
+  const GuardedFile::Stored* grips = file_.find(BEST_GRIP);
+  return grips && plan_->hand_scales() > 1 && grips->shape.size() == 2;
 }
 
-std::vector<Candidate> SweepResult::best(std::size_t vessel) const {
+std::vector<Candidate> SweepResult::best(std::size_t vessel, std::size_t hand_scale) const {
   if (!lists_best()) return {};
-  const std::vector<std::size_t> shape = shape_of(numbers_id(BEST_GRIP));
-  if (shape.size() != 2) throw usage_error(fmt::format("{}: {} is not as a sweep writes it", path_, BEST_GRIP));
-  if (shape[1] > MOST_BEST)
-    throw usage_error(fmt::format("{}: {} lists {} grips a vessel, and a sweep at most {}", path_, BEST_GRIP, shape[1], MOST_BEST));
-  const std::vector<double> grips = row(BEST_GRIP, vessel, shape[1]), scores = row(BEST_SCORE, vessel, shape[1]);
+  std::vector<std::size_t> lists{vessel};
+  if (plan_->hand_scales() > 1) lists.push_back(hand_scale);
+  const std::size_t length = ranks(lists.size() + 1);
+  const std::vector<double> grips = row(BEST_GRIP, lists, length), scores = row(BEST_SCORE, lists, length);
   std::vector<Candidate> best;
   for (std::size_t rank = 0; rank < grips.size() && grips[rank] >= 0; ++rank) {
-    if (!(grips[rank] < static_cast<double>(plan_->grips())) || !std::isfinite(scores[rank]))
-      throw usage_error(fmt::format("{}: {} names a grip that the sweep did not have", path_, BEST_GRIP));
+    if (!(grips[rank] < static_cast<double>(plan_->grips())) || !std::isfinite(scores[rank]) ||
+        plan_->hand_scale_of(static_cast<std::uint64_t>(grips[rank])) != hand_scale)
+      throw usage_error(fmt::format("{}: {} names a grip that the sweep did not have", path(), BEST_GRIP));
     best.push_back({scores[rank], static_cast<std::uint64_t>(grips[rank])});
   }
   return best;
 }
 
 std::vector<double> SweepResult::pouring_tilts(std::size_t vessel) const {
-  return row("pouring_tilt", vessel, scene_fills(*scene_));
+  return row("pouring_tilt", {vessel}, scene_fills(*scene_));
 }
 
 std::vector<double> SweepResult::vessel_heights() const { return of_vessels("vessel_height"); }
 
 std::vector<double> SweepResult::vessel_bases() const { return of_vessels("vessel_base"); }
 
-std::vector<double> SweepResult::of_vessels(const char* name) const {
-  const int id = numbers_id(name);
-  const std::vector<std::size_t> shape = shape_of(id);
+std::size_t SweepResult::vessels() const {
+  const std::vector<std::size_t>& shape = numbers("vessel_height").shape;
   if (shape.size() != 1 || shape[0] > MOST_VESSELS)
-    throw usage_error(fmt::format("{}: {} is not as a sweep writes it", path_, name));
-  std::vector<double> values(shape[0]);
-  const int status = nc_get_var_double(file_, id, values.data());
-  if (status != NC_NOERR) throw usage_error(fmt::format("{}: {} cannot be read: {}", path_, name, nc_strerror(status)));
+    throw usage_error(fmt::format("{}: vessel_height is not as a sweep writes it", path()));
+  return shape[0];
+}
+
+std::vector<double> SweepResult::of_vessels(const char* name) const {
+  check_shape(name, {vessels()});
+  std::vector<double> values(vessels());
+  file_.read(numbers(name), std::vector<std::size_t>{0}, std::vector<std::size_t>{values.size()}, values.data());
   return values;
 }
 
-int SweepResult::numbers_id(const std::string& name) const {
-  int id = -1;
-  nc_type type = NC_NAT;
-  if (nc_inq_varid(file_, name.c_str(), &id) != NC_NOERR) throw usage_error(fmt::format("{}: lacks the variable {}", path_, name));
-  nc_inq_vartype(file_, id, &type);
-  const auto numbers = {NC_BYTE, NC_SHORT, NC_INT, NC_INT64, NC_FLOAT, NC_DOUBLE};
-  if (std::find(numbers.begin(), numbers.end(), type) == numbers.end())
-    throw usage_error(fmt::format("{}: {} is not as a sweep writes it", path_, name));
-  return id;
+const GuardedFile::Stored& SweepResult::numbers(const std::string& name) const {
+  const GuardedFile::Stored* stored = file_.find(name);
+  if (!stored) throw usage_error(fmt::format("{}: lacks the variable {}", path(), name));
+  const auto types = {NC_BYTE, NC_SHORT, NC_INT, NC_INT64, NC_FLOAT, NC_DOUBLE};
+  if (std::find(types.begin(), types.end(), stored->type) == types.end())
+    throw usage_error(fmt::format("{}: {} is not as a sweep writes it", path(), name));
+  return *stored;
 }
 
-std::vector<std::size_t> SweepResult::shape_of(int id) const {
-  int dims = 0;
-  nc_inq_varndims(file_, id, &dims);
-  std::vector<int> ids(dims);
-  nc_inq_vardimid(file_, id, ids.data());
-  std::vector<std::size_t> shape(dims);
-  for (int k = 0; k < dims; ++k) nc_inq_dimlen(file_, ids[k], &shape[k]);
-  return shape;
+void SweepResult::check_shape(const std::string& name, const std::vector<std::size_t>& shape) const {
+  if (numbers(name).shape != shape)
+    throw usage_error(fmt::format("{}: {} has not the shape that its own scene gives it", path(), name));
 }
 
-int SweepResult::checked_id(const std::string& name, const std::vector<std::size_t>& shape) const {
-  const int id = numbers_id(name);
-  if (shape_of(id) != shape) throw usage_error(fmt::format("{}: {} has not the shape that its own scene gives it", path_, name));
-  return id;
+// Grips in each list of the best, places that were filled included; `dimensions`: of such a variable.
+std::size_t SweepResult::ranks(std::size_t dimensions) const {
+  const std::vector<std::size_t>& shape = numbers(BEST_GRIP).shape;
+  if (lists_all_hands_together()) {
+    throw usage_error(fmt::format(
+        "{0}: is of a version with one list for all hand scales; sweep again, or use wholehand rank {0} -o LIST.csv", path()));
+  }
+  if (shape.size() != dimensions) throw usage_error(fmt::format("{}: {} is not as a sweep writes it", path(), BEST_GRIP));
+  if (shape.back() > MOST_BEST)
+    throw usage_error(
+        fmt::format("{}: {} lists {} grips a vessel, and a sweep at most {}", path(), BEST_GRIP, shape.back(), MOST_BEST));
+  return shape.back();
 }
 
-// A variable over (vessel, length) at one vessel.
-std::vector<double> SweepResult::row(const std::string& name, std::size_t vessel, std::size_t length) const {
-  const int id = checked_id(name, {scene_->vessels.size(), length});
+// A variable over (vessel, length), or (vessel, hand scale, length), at one vessel and hand scale.
+std::vector<double> SweepResult::row(const std::string& name, const std::vector<std::size_t>& lists, std::size_t length) const {
+  std::vector<std::size_t> shape{vessels()}, start = lists, count(lists.size(), 1);
+  if (lists.size() > 1) shape.push_back(plan_->hand_scales());
+  shape.push_back(length);
+  start.push_back(0);
+  count.push_back(length);
+  check_shape(name, shape);
   std::vector<double> values(length);
-  const std::size_t start[2] = {vessel, 0}, count[2] = {1, length};
-  const int status = nc_get_vara_double(file_, id, start, count, values.data());
-  if (status != NC_NOERR) throw usage_error(fmt::format("{}: {} cannot be read: {}", path_, name, nc_strerror(status)));
+  file_.read(numbers(name), start, count, values.data());
   return values;
 }
 
 std::string SweepResult::text(const char* name) const {
-  std::size_t length = 0;
-  nc_type type = NC_NAT;
-  if (nc_inq_att(file_, NC_GLOBAL, name, &type, &length) != NC_NOERR || type != NC_CHAR)
-    throw usage_error(fmt::format("{}: is no result of a sweep: it lacks the attribute {}", path_, name));
-  std::string value(length, ' ');
-  if (length > 0) nc_get_att_text(file_, NC_GLOBAL, name, value.data());
-  return value;
-}
-
-std::string SweepResult::text_or_nothing(const char* name) const {
-  return nc_inq_attid(file_, NC_GLOBAL, name, nullptr) == NC_NOERR ? text(name) : "";
+  const std::optional<std::string> value = file_.text(name);
+  if (!value) throw usage_error(fmt::format("{}: is no result of a sweep: it lacks the attribute {}", path(), name));
+  return *value;
 }
 
 double SweepResult::number(const char* name) const {
-  std::size_t length = 0;
-  nc_type type = NC_NAT;
-  double value = 0;
-  if (nc_inq_att(file_, NC_GLOBAL, name, &type, &length) != NC_NOERR || type != NC_DOUBLE || length != 1 ||
-      nc_get_att_double(file_, NC_GLOBAL, name, &value) != NC_NOERR) {
-    throw usage_error(fmt::format("{}: is no result of a sweep: it lacks the attribute {}", path_, name));
+  const std::optional<double> value = file_.number(name);
+  if (!value) throw usage_error(fmt::format("{}: is no result of a sweep: it lacks the attribute {}", path(), name));
+  return *value;
+}
+
+void set_heights(const SweepResult& result, Scene& scene) {
+  const std::vector<double> heights = result.vessel_heights(), bases = result.vessel_bases();
+  for (std::size_t v = 0; v < std::min({heights.size(), bases.size(), scene.vessels.size()}); ++v) {
+    if (!scene.vessels[v].mesh || scene.vessels[v].mesh->body) continue;
+    scene.vessels[v].height = heights[v];
+    scene.vessels[v].base = bases[v];
   }
-  return value;
 }
 
 }  // namespace wholehand

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "core/backend.h"
+#include "core/result.h"
+#include "sweeps/guarded_file.h"
 #include "sweeps/plan.h"
 #include "sweeps/variables.h"
 
@@ -28,18 +30,15 @@ struct SweepOrigin {
 constexpr std::size_t MOST_BEST = 100'000;  // grips listed of a vessel
 constexpr std::size_t MOST_VESSELS = 64;
 
-// Reads only; no value is taken from the file before it is known to have the type and shape that a sweep gives it. Not thread-safe, since
-// the NetCDF library is not.
+// The one reader of results, of local files only; a damaged one costs an error and no more (sweeps/guarded_file.h). No value is taken from the file
+// before it is known to have the type and shape that a sweep gives it. Not thread-safe.
 class SweepResult {
  public:
   // Opens the file. Throws Error (usage), one line with the file: it is not there or cannot be read, is no NetCDF-4 file or a damaged one, is
   // not of a sweep, or of one that was not finished.
   explicit SweepResult(const std::string& path);
-  ~SweepResult();
-  SweepResult(const SweepResult&) = delete;
-  SweepResult& operator=(const SweepResult&) = delete;
 
-  const std::string& path() const { return path_; }
+  const std::string& path() const { return file_.path(); }
   const SweepOrigin& origin() const { return origin_; }
 
   // The variables of the grips that the file has, in the catalogue's order; and one of them by its name, null where it has it not.
@@ -57,9 +56,12 @@ class SweepResult {
   std::vector<double> pick(const Variable& variable, std::size_t vessel, std::size_t plane,
                            const std::vector<std::uint64_t>& grips) const;
 
-  // Whether the sweep was asked to list its best grips; and those of a vessel, the best first, none where none is feasible and plausible.
+  // Whether the sweep was asked to list its best grips; and those of a vessel and, where the plan has several, of a hand scale, the best first, none
+  // where none is feasible and plausible.
   bool lists_best() const;
-  std::vector<Candidate> best(std::size_t vessel) const;
+  // Version 0.1 did, of several hand scales: best() then throws Error (usage).
+  bool lists_all_hands_together() const;
+  std::vector<Candidate> best(std::size_t vessel, std::size_t hand_scale = 0) const;
 
   // The tilts at which a vessel starts to pour, one for each of the scene's fills, rad; NaN where it never does.
   std::vector<double> pouring_tilts(std::size_t vessel) const;
@@ -69,22 +71,24 @@ class SweepResult {
   std::vector<double> vessel_bases() const;
 
  private:
-  int numbers_id(const std::string& name) const;
-  std::vector<std::size_t> shape_of(int id) const;
-  int checked_id(const std::string& name, const std::vector<std::size_t>& shape) const;
-  std::vector<double> row(const std::string& name, std::size_t vessel, std::size_t length) const;
+  std::size_t vessels() const;
+  std::size_t ranks(std::size_t dimensions) const;
+  const GuardedFile::Stored& numbers(const std::string& name) const;
+  void check_shape(const std::string& name, const std::vector<std::size_t>& shape) const;
+  std::vector<double> row(const std::string& name, const std::vector<std::size_t>& lists, std::size_t length) const;
   std::vector<double> of_vessels(const char* name) const;
   std::string text(const char* name) const;
-  std::string text_or_nothing(const char* name) const;
   double number(const char* name) const;
 
-  std::string path_;
-  int file_ = -1;
+  GuardedFile file_;
   SweepOrigin origin_;
   std::vector<const Variable*> variables_;
   const Scene* scene_ = nullptr;
   const Plan* plan_ = nullptr;
   std::vector<std::size_t> grip_shape_;  // lengths of the grips' dimensions, the slowest first
 };
+
+// Gives the vessels whose mesh is not there the heights that the file knows of them. Before `use`.
+void set_heights(const SweepResult& result, Scene& scene);
 
 }  // namespace wholehand

@@ -26,9 +26,8 @@ std::int32_t blocked(std::uint32_t status) { return static_cast<std::int32_t>((s
 std::int32_t unsettled(std::uint32_t status) { return static_cast<std::int32_t>((status >> STATUS_UNSETTLED_SHIFT) & 0x1F); }
 std::int32_t proxy_unsettled(std::uint32_t status) { return (status & STATUS_PROXY_UNSETTLED) != 0; }
 
-constexpr const char* FINGER_BITS = "bit f: finger f; 0 thumb, 1 index, 2 middle, 3 ring, 4 little";
-constexpr const char* JOINT_BITS = "bit j: joint j, as the variable joint names them";
-constexpr const char* YES_NO = "1: yes, 0: no";
+constexpr const char* FINGER_BITS = "bit f: finger f; 0 thumb, 1 index, 2 middle, 3 ring, 4 little; 0 where the grip is infeasible";
+constexpr const char* JOINT_BITS = "bit j: joint j, as the variable joint names them; 0 where the grip is infeasible";
 constexpr const char* INFINITE = "infinite where not antipodal";
 
 using Dims = std::vector<const char*>;
@@ -43,8 +42,15 @@ Variable byte(const char* name, const char* long_name, const char* comment, int 
   return {name, "1", long_name, comment, NumberType::byte, field, 0, {}, true, Need::nothing, value, false};
 }
 
-Variable word(const char* name, const char* long_name, const char* comment, int field) {
-  return {name, "1", long_name, comment, NumberType::word, field, 0, {}, true, Need::nothing, word_itself, false};
+// A bit for each finger.
+Variable finger_mask(const char* name, const char* long_name, int field, std::int32_t (*value)(std::uint32_t)) {
+  return {name, "1", long_name, FINGER_BITS, NumberType::byte, field, 0, {}, true, Need::nothing, value, false, FINGER_COUNT, 0};
+}
+
+// A bit for each joint.
+Variable joint_mask(const char* name, const char* long_name, int field) {
+  return {name, "1",           long_name,   JOINT_BITS, NumberType::word, field, 0, {},
+          true, Need::nothing, word_itself, false,      JOINT_COUNT,      0};
 }
 
 // A group of the catalogue: kept by default or on request, and what it needs.
@@ -94,11 +100,11 @@ std::vector<Variable> make_catalogue() {
                contact),
           byte("fingers_used", "number of fingers with a touching point", NO_COMMENT, FIELD_USED_MASK, bits_set),
           byte("points_touching", "number of touching points", NO_COMMENT, FIELD_TOUCH_MASK, bits_set),
-          byte("used_mask", "fingers with a touching point", FINGER_BITS, FIELD_USED_MASK, word_itself),
-          word("touch_mask", "points touching in the posed hand", JOINT_BITS, FIELD_TOUCH_MASK),
+          finger_mask("used_mask", "fingers with a touching point", FIELD_USED_MASK, word_itself),
+          joint_mask("touch_mask", "points touching in the posed hand", FIELD_TOUCH_MASK),
       });
   add(all, DEFAULT, Need::articulated,
-      {byte("blocked_mask", "fingers that are inside the vessel when open", FINGER_BITS, FIELD_STATUS, blocked)});
+      {finger_mask("blocked_mask", "fingers that are inside the vessel when open", FIELD_STATUS, blocked)});
   add(all, DEFAULT, Need::projection,
       {
           byte("projected_tip", "number of projected tips of fingers whose inner points touched before", NO_COMMENT, FIELD_TIP_MASK,
@@ -106,9 +112,9 @@ std::vector<Variable> make_catalogue() {
           byte("projected_finger", "number of projected points of fingers that did not touch before", NO_COMMENT, FIELD_FINGER_MASK,
                bits_set),
           byte("projected_inner", "number of other projected points", NO_COMMENT, FIELD_INNER_MASK, bits_set),
-          word("projected_tip_mask", "projected tips of fingers whose inner points touched before", JOINT_BITS, FIELD_TIP_MASK),
-          word("projected_finger_mask", "projected points of fingers that did not touch before", JOINT_BITS, FIELD_FINGER_MASK),
-          word("projected_inner_mask", "other projected points", JOINT_BITS, FIELD_INNER_MASK),
+          joint_mask("projected_tip_mask", "projected tips of fingers whose inner points touched before", FIELD_TIP_MASK),
+          joint_mask("projected_finger_mask", "projected points of fingers that did not touch before", FIELD_FINGER_MASK),
+          joint_mask("projected_inner_mask", "other projected points", FIELD_INNER_MASK),
       });
   add(all, DEFAULT, Need::tilts,
       {
@@ -139,7 +145,7 @@ std::vector<Variable> make_catalogue() {
           byte("proxy_unsettled", "whether a proxy took all its steps", YES_NO, FIELD_STATUS, proxy_unsettled),
       });
   add(all, ON_REQUEST, Need::articulated,
-      {byte("unsettled_mask", "fingers that took all their advancement steps", FINGER_BITS, FIELD_STATUS, unsettled)});
+      {finger_mask("unsettled_mask", "fingers that took all their advancement steps", FIELD_STATUS, unsettled)});
   add(all, ON_REQUEST, Need::tilts,
       {
           real("pivot_length", "m", "distance from the pivot to the centre of mass", NO_COMMENT, FIELD_PIVOT_LENGTH, 0, state),
@@ -192,29 +198,25 @@ std::size_t variable_planes(const Variable& variable, const Scene& scene) {
 }
 
 std::vector<const Variable*> choose_variables(const Scene& scene) {
+  const OutputData& output = scene.output;
+  const std::string& given = output.keep ? output.keep_place : output.also_place;
+  const std::string where = fmt::format("{}: [output] {}", given.empty() ? scene.file : given, output.keep ? "keep" : "also");
+  const std::vector<std::string>& named = output.keep ? *output.keep : output.also;
+  std::set<std::string> wanted(named.begin(), named.end());
   std::vector<const Variable*> chosen;
-  if (!scene.output.keep) {
-    for (const Variable& variable : catalogue()) {
-      if (variable.by_default && !missing_need(variable.need, scene)) chosen.push_back(&variable);
-    }
-    return chosen;
-  }
-  const std::string& place = scene.output.keep_place.empty() ? scene.file : scene.output.keep_place;
-  std::set<std::string> wanted(scene.output.keep->begin(), scene.output.keep->end());
   for (const Variable& variable : catalogue()) {
-    if (wanted.erase(variable.name) == 0) continue;
-    if (const char* lacking = missing_need(variable.need, scene)) {
-      throw usage_error(
-          fmt::format("{}: [output] keep: \"{}\" needs {}, which this scene does not have", place, variable.name, lacking));
-    }
-    chosen.push_back(&variable);
+    const char* lacking = missing_need(variable.need, scene);
+    const bool is_named = wanted.erase(variable.name) > 0;
+    if (is_named && lacking)
+      throw usage_error(fmt::format("{}: \"{}\" needs {}, which this scene does not have", where, variable.name, lacking));
+    if (is_named || (!output.keep && variable.by_default && !lacking)) chosen.push_back(&variable);
   }
   if (!wanted.empty()) {
     std::vector<std::string> known;
     for (const Variable& variable : catalogue()) {
       if (!missing_need(variable.need, scene)) known.push_back(variable.name);
     }
-    throw usage_error(fmt::format("{}: [output] keep: unknown variable{} \"{}\"; known: {}", place, wanted.size() > 1 ? "s" : "",
+    throw usage_error(fmt::format("{}: unknown variable{} \"{}\"; known: {}", where, wanted.size() > 1 ? "s" : "",
                                   fmt::join(wanted, "\", \""), fmt::join(known, ", ")));
   }
   return chosen;

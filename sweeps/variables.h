@@ -16,7 +16,9 @@ enum class NumberType { real, byte, word };  // real: float or double with the b
 // What a scene must have for a variable to exist.
 enum class Need { nothing, tilts, projection, articulated };
 
-constexpr int MISSING = -1;  // of bytes and words: what an infeasible grip lacks (reals: NaN)
+inline constexpr const char* YES_NO = "1: yes, 0: no";  // meaning of the bytes that are truths
+
+constexpr int MISSING = -1;  // of bytes and words: what an infeasible grip lacks (reals: NaN; masks: no bit)
 
 // One variable of the result file. Its dimensions are (vessel, `dims`.., the grip's axes).
 struct Variable {
@@ -30,9 +32,15 @@ struct Variable {
   std::vector<const char*> dims;  // of "fill", "tilt", "joint", "xyz", "contact"; the slowest first
   bool by_default;
   Need need;
-  // Bytes and words: value of a feasible grip from the field's word; an infeasible grip has MISSING. Reals: null.
+  // Bytes and words: value of a feasible grip from the field's word; an infeasible grip has `missing`. Reals: null.
   std::int32_t (*value)(std::uint32_t word) = nullptr;
   bool always = false;  // has a value for infeasible grips too
+  int bits = 0;         // of a mask: one for each finger or joint; 0: no mask
+  std::int32_t missing = MISSING;
+
+  // Whether one of its values stands for a missing one (_FillValue). Readers like xarray make reals of whole numbers that have one, and
+  // masks are for bit operations: theirs is a mask without bits.
+  bool has_missing() const { return type == NumberType::real || (bits == 0 && !always); }
 };
 
 // Every variable there is, in the order of the result file.
@@ -41,7 +49,8 @@ std::span<const Variable> variable_catalogue();
 // Planes of a variable in a scene, the product of its dims: 6 terms are 6 variables of 1 plane each.
 std::size_t variable_planes(const Variable& variable, const Scene& scene);
 
-// The variables that `[output] keep` names, or the default ones that the scene can have; in the catalogue's order, each once.
+// The variables that `[output] keep` names, or the default ones that the scene can have and those of `also`; in the catalogue's order,
+// each once.
 // Throws Error (usage) for a name that is unknown (with the known ones) or needs what the scene lacks (with what that is).
 std::vector<const Variable*> choose_variables(const Scene& scene);
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/capacity.h"
 #include "core/error.h"
 
 namespace wholehand {
@@ -9,11 +10,12 @@ namespace wholehand {
 std::vector<VesselFacts> vessel_facts(const Scene& scene, Backend& backend, const Evaluator& evaluator) {
   std::vector<VesselFacts> facts(scene.vessels.size());
   for (std::size_t v = 0; v < facts.size(); ++v) {
-    facts[v].capacity = evaluator.capacity(v);
+    facts[v].capacity = scene.liquid ? evaluator.capacity(v) : capacity_of(scene.vessels[v]);
     facts[v].empty_mass = evaluator.empty_mass(v);
     facts[v].empty_center_of_mass = evaluator.empty_center_of_mass(v);
     if (!scene.liquid) continue;
-    for (const double fill : scene.liquid->fills) facts[v].pouring_tilt.push_back(evaluator.pouring_tilt(v, fill));
+    for (const double fill : vessel_fills(scene, scene.vessels[v]))
+      facts[v].pouring_tilt.push_back(evaluator.pouring_tilt(v, fill));
     if (scene.tilts.empty()) continue;
     facts[v].liquid = backend.liquid(v);
     if (facts[v].liquid.size() != scene_fills(scene) * scene.tilts.size()) {

@@ -48,8 +48,9 @@ double height_in(const fs::path& path) {
   return 0;
 }
 
-BestGrip at_height(double height) {
+BestGrip at_height(double height, std::size_t rank = 1) {
   BestGrip best;
+  best.rank = rank;
   best.grip = {height, 0, 0, 0, 0, 1};
   return best;
 }
@@ -59,8 +60,8 @@ TEST_F(BestGlbTest, AFileForEachVesselAndRank) {
   scene.vessels.resize(2);
   scene.vessels[0].name = scene.vessels[1].name = "a b";
   const auto names = output_names(folder / "out.nc");
-  const BestGlb written = write_best_glb(scene, make_core_evaluator(scene),
-                                         {{at_height(0.05), at_height(0.06), at_height(0.07)}, {at_height(0.055)}}, 2, names);
+  const BestGlb written = write_best_glb(scene, Plan(scene, false), make_core_evaluator(scene),
+                                         {{at_height(0.05), at_height(0.06, 2), at_height(0.07, 3)}, {at_height(0.055)}}, 2, names);
   EXPECT_EQ(there(), (std::vector<std::string>{"out.a_b.1.glb", "out.a_b.2.glb", "out.a_b_2.1.glb"}));
   EXPECT_EQ(height_in(folder / "out.a_b.1.glb"), 0.05);
   EXPECT_EQ(height_in(folder / "out.a_b.2.glb"), 0.06);
@@ -71,10 +72,21 @@ TEST_F(BestGlbTest, AFileForEachVesselAndRank) {
   EXPECT_TRUE(written.notes.empty());
 }
 
+TEST_F(BestGlbTest, AFileForEachHandScale) {
+  Scene scene = three_beakers();
+  scene.vessels.resize(1);
+  scene.grips.hand_scale.values = {1, 0.9};
+  const BestGlb written = write_best_glb(scene, Plan(scene, false), make_core_evaluator(scene),
+                                         {{at_height(0.05)}, {at_height(0.06)}}, 2, output_names(folder / "out.nc"));
+  EXPECT_EQ(there(), (std::vector<std::string>{"out.beaker1.hand0.9.1.glb", "out.beaker1.hand1.1.glb"}));
+  EXPECT_EQ(height_in(folder / "out.beaker1.hand0.9.1.glb"), 0.06);
+  EXPECT_TRUE(written.notes.empty());
+}
+
 TEST_F(BestGlbTest, MeshVesselsToo) {
   const Scene scene = scene_of({vessel_of_mesh("mesh", turned_mesh(beaker1(), 48, 4e-3), 4e-3)});
-  const BestGlb written =
-      write_best_glb(scene, make_core_evaluator(scene), {{at_height(0.05)}}, 5, output_names(folder / "out.nc"));
+  const BestGlb written = write_best_glb(scene, Plan(scene, false), make_core_evaluator(scene), {{at_height(0.05)}}, 5,
+                                         output_names(folder / "out.nc"));
   EXPECT_EQ(there(), (std::vector<std::string>{"out.mesh.1.glb"}));
   EXPECT_EQ(height_in(folder / "out.mesh.1.glb"), 0.05);
   EXPECT_TRUE(written.notes.empty());
@@ -83,8 +95,8 @@ TEST_F(BestGlbTest, MeshVesselsToo) {
 TEST_F(BestGlbTest, WhatOnlyTheSweepsPrecisionHoldsIsLeftOut) {
   Scene scene = three_beakers();
   scene.vessels.resize(1);
-  const BestGlb written =
-      write_best_glb(scene, make_core_evaluator(scene), {{at_height(0.3), at_height(0.05)}}, 5, output_names(folder / "out.nc"));
+  const BestGlb written = write_best_glb(scene, Plan(scene, false), make_core_evaluator(scene),
+                                         {{at_height(0.3), at_height(0.05, 2)}}, 5, output_names(folder / "out.nc"));
   EXPECT_EQ(there(), (std::vector<std::string>{"out.beaker1.2.glb"}));
   ASSERT_EQ(written.notes.size(), 1u);
   EXPECT_NE(written.notes[0].find("out.beaker1.1.glb: the core finds the grip not feasible (misses)"), std::string::npos);

@@ -89,17 +89,22 @@ TEST(Best, CsvHasOneRowAVesselAndRankWithUnitsInItsHead) {
   grip.gap = 0.08;
   grip.safe_tilt = std::nan("");
   grip.largest_hold = std::numeric_limits<double>::infinity();
-  const auto rows = lines(best_csv(scene, {{grip, grip}, {grip}}));
+  grip.candidate.index = 41;
+  BestGrip next = grip;
+  next.rank = 2;
+  const Plan plan(scene, false);
+  const auto rows = lines(best_csv(scene, plan, {{grip, next}, {grip}}, {"a, b.nc", "sweep-0"}));
   ASSERT_EQ(rows.size(), 4u);
   EXPECT_TRUE(
       rows[0].starts_with("vessel,rank,height_mm,azimuth_deg,obliquity_deg,roll_deg,offset_mm,hand_scale,score,score_fingers,"));
   EXPECT_TRUE(rows[1].starts_with("first vessel,1,50,45,-10,-90,-2,1.1,0.75,")) << rows[1];
   EXPECT_TRUE(rows[2].starts_with("first vessel,2,"));
   EXPECT_TRUE(rows[3].starts_with("\"a, \"\"b\"\"\",1,")) << rows[3];
-  EXPECT_TRUE(rows[1].ends_with(",inf,,0")) << "no safe tilt: empty";
-  EXPECT_TRUE(rows[0].ends_with(",antipodal"));
+  EXPECT_TRUE(rows[1].ends_with(",inf,,0,41,\"a, b.nc\",sweep-0")) << "no safe tilt: empty";
+  EXPECT_TRUE(rows[0].ends_with(",antipodal,grip,result,sweep"));
+  EXPECT_TRUE(rows[0].starts_with(BEST_CSV_START));
   const auto commas = std::count(rows[0].begin(), rows[0].end(), ',');
-  EXPECT_EQ(std::count(rows[1].begin(), rows[1].end(), ','), commas);
+  EXPECT_EQ(std::count(rows[1].begin(), rows[1].end(), ','), commas + 1) << "one is in the name";
 }
 
 TEST(Best, TableShowsTheAxesThatVaryInColumns) {
@@ -109,7 +114,9 @@ TEST(Best, TableShowsTheAxesThatVaryInColumns) {
   BestGrip grip;
   grip.grip.height = 0.0612;
   grip.safe_tilt = std::nan("");
-  const auto rows = lines(best_table(scene, plan, {grip, grip, grip}, 2));
+  BestGrip next = grip;
+  next.rank = 2;
+  const auto rows = lines(best_table(scene, plan, {grip, next, next}, 2));
   ASSERT_EQ(rows.size(), 3u);
   for (const char* title : {"score", "height mm", "obliquity deg", "roll deg", "peak N", "safe deg"}) {
     EXPECT_NE(rows[0].find(title), std::string::npos) << title;
@@ -128,8 +135,8 @@ TEST(Best, SceneWithoutTiltsHasNoForces) {
   const BestGrip best = evaluate_best(backend, scene, plan, 0, {{0.9, 1}}).front();
   EXPECT_TRUE(std::isnan(best.peak_force));
   EXPECT_EQ(best_table(scene, plan, {best}, 1).find("peak N"), std::string::npos);
-  const std::string row = lines(best_csv(scene, {{best}}))[1];
-  EXPECT_TRUE(row.ends_with(best.antipodal ? ",,,,,1" : ",,,,,0")) << row;
+  const std::string row = lines(best_csv(scene, plan, {{best}}, {"a.nc", "s"}))[1];
+  EXPECT_TRUE(row.ends_with(best.antipodal ? ",,,,,1,1,a.nc,s" : ",,,,,0,1,a.nc,s")) << row;
   EXPECT_NE(best_table(scene, plan, {best}, 1).find("antipodal"), std::string::npos) << "nothing else says that it would slip";
 }
 

@@ -26,6 +26,12 @@ TEST(BlockSignals, BlocksUntilItGoesAlsoByAnException) {
   EXPECT_FALSE(is_blocked(SIGINT) || is_blocked(SIGTERM));
 }
 
+// What is blocked when a thread fails kills the process before its handler can say anything.
+TEST(BlockSignals, LeavesItsOwnFailuresToEachThread) {
+  const BlockSignals inherited;
+  for (const FailureSignal& failure : FAILURE_SIGNALS) EXPECT_FALSE(is_blocked(failure.number)) << failure.name;
+}
+
 TEST(BlockSignals, LeavesBlockedWhatWas) {
   sigset_t one, before;
   sigemptyset(&one);

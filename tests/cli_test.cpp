@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
@@ -30,7 +31,8 @@ constexpr const char* GRIP = "grip small --vessel tumbler --height-mm 50";
 TEST(CommandLine, TellsVersionAndHelp) {
   const Outcome version = run("PROGRAM --version 2>&1");
   EXPECT_EQ(version.code, 0);
-  EXPECT_EQ(version.output, "wholehand " WHOLEHAND_VERSION "\n");
+  EXPECT_EQ(version.output,
+            "wholehand " WHOLEHAND_VERSION "\nwholehand devices lists what there is to compute on and to feel with\n");
   for (const char* arguments : {"--help", "sweep --help", "report --help", "grip -h", "check --help", "devices --help"}) {
     const Outcome help = run(std::string("PROGRAM ") + arguments + " 2>&1");
     EXPECT_EQ(help.code, 0) << arguments;
@@ -38,10 +40,41 @@ TEST(CommandLine, TellsVersionAndHelp) {
   }
 }
 
+TEST(CommandLine, HelpIsTheSameAsACommand) {
+  for (const auto& [as_command, as_option] : std::vector<std::pair<std::string, std::string>>{
+           {"help", "--help"}, {"help sweep", "sweep --help"}, {"help stability wall", "stability wall --help"}}) {
+    const Outcome help = run("PROGRAM " + as_command + " 2>&1");
+    EXPECT_EQ(help.code, 0) << as_command;
+    EXPECT_EQ(help.output, run("PROGRAM " + as_option + " 2>&1").output) << as_command;
+  }
+}
+
+TEST(CommandLine, ListsTheShippedScenes) {
+  const Outcome scenes = run("PROGRAM scenes 2>&1");
+  EXPECT_EQ(scenes.code, 0);
+  EXPECT_NE(
+      scenes.output.find("\nthree_beakers  beaker1, beaker2, beaker3            Three laboratory vessels of about 250 to 400 mL, "),
+      std::string::npos)
+      << scenes.output;
+  EXPECT_EQ(std::count(scenes.output.begin(), scenes.output.end(), '\n'), 4);
+}
+
 TEST(CommandLine, RefusesWrongUsageWithOneLineAndCode2) {
   const std::vector<std::pair<std::string, std::string>> cases{
-      {"", "which command? sweep, report, grip, check, error-time, stability, live, session, view or devices"},
-      {"swep", "unknown command 'swep'"},
+      {"", "which command? sweep, rank, report, grip, check, "},
+      {"", ", scenes or help; see wholehand --help"},
+      {"swep", "unknown command 'swep' (did you mean 'sweep'?); the commands are sweep, rank, report, grip, check, "},
+      {"stab", "unknown command 'stab' (did you mean 'stability'?); the commands are "},
+      {"xyzzy", "unknown command 'xyzzy'; the commands are sweep, "},
+      {"help swep", "unknown command 'swep' (did you mean 'sweep'?); the commands are sweep, "},
+      {"help stability wal", "unknown command 'wal' (did you mean 'wall'?); the commands are wall"},
+      {"help sweep small", "wholehand sweep has no commands of its own, so no 'small'"},
+      {"sweep --presision float", "--presision (did you mean '--precision'?); see wholehand sweep --help"},
+      {"sweep --bset=5", "--bset=5 (did you mean '--best'?); see wholehand sweep --help"},
+      {"grip small --vessl tumbler --height-mm 50",
+       "--vessel is required; unknown option '--vessl' (did you mean '--vessel'?); see"},
+      {"stability wall --mass 1", "unknown option '--mass' (did you mean '--mass-kg'?); see wholehand stability wall --help"},
+      {"sweep three_beaker", "no scene file 'three_beaker' (did you mean 'three_beakers'?); give the path"},
       {"--bogus", "--bogus; see wholehand --help"},
       {"sweep --bogus", "--bogus; see wholehand sweep --help"},
       {"sweep small other", "other; see wholehand sweep --help"},
@@ -106,6 +139,8 @@ TEST(CommandLine, RefusesWrongUsageWithOneLineAndCode2) {
       {"check small --on no-such-device", "no-such-device"},
       {"check small --on core", "name a Vulkan device"},
       {"grip paper_pose --vessel beaker1 --height-mm 50 --fill 0.5", "has no [liquid]"},
+      {"grip paper_pose --vessel beaker1 --height-mm 50 --fill-ml 50", "--fill-ml: "},
+      {std::string(GRIP) + " --fill-ml 6000", "--fill-ml 6000: vessel 'tumbler' holds "},
       {std::string(GRIP) + " --glb", "--glb"},
       {std::string(GRIP) + " --glb ''", "must not be empty"},
       {std::string(GRIP) + " --svg ''", "must not be empty"},
@@ -136,7 +171,7 @@ TEST(CommandLine, NamesFileLineAndColumn) {
   std::ofstream(scene) << vessel << "wall_mm = 1.5\n[grips]\nheight_fraction = { from = 0, to = 1, count = 1000000 }\n"
                        << "roll_deg = { from = 0, to = 1, count = 1000000 }\n";
   expect_error("sweep " + scene, 2, scene + ":8:1: asks for ");
-  std::ofstream(scene) << "[[vessel]]\nname = \"m\"\nmesh = \"a.glb\"\n";
+  std::ofstream(scene) << "[[vessel]]\nname = \"m\"\nmesh = \"wholehand_no_such_mesh.glb\"\n";
   for (const char* command : {"grip @ --vessel m --height-mm 10", "sweep @", "check @", "live @ --no-clock --seconds 1"}) {
     std::string line = command;
     line.replace(line.find('@'), 1, scene);
@@ -198,8 +233,10 @@ TEST(CommandLine, SaysWhenAResultCannotBeWritten) {
   EXPECT_EQ(limited.code, 3) << limited.output;
   EXPECT_NE(limited.output.find("there is room for 4.1 kB"), std::string::npos) << limited.output;
   EXPECT_EQ(limited.output.find('\n'), limited.output.size() - 1) << limited.output;
-  for (const char* left : {"", ".partial", ".partial.mark", ".best.csv"})
+  for (const char* left : {"", ".partial", ".partial.mark", ".partial.lock", ".best.csv"})
     EXPECT_FALSE(std::filesystem::exists(result + left)) << left;
+  expect_error("sweep small --on core -o -", 2, "name one (./- where that is its name)");
+  expect_error("sweep small --on core -o /dev/stdout", 2, "is a device or pipe");
   expect_error("sweep small --on core -o /dev/full", 2, "/dev/full");
   expect_error("sweep small --on core -o /nonexistent/a.nc", 2, "/nonexistent");
   expect_error("sweep small --on core -o /proc/a.nc", 3, "cannot make a file in /proc");
@@ -225,10 +262,91 @@ TEST(CommandLine, SaysWhenItCannotWrite) {
   EXPECT_TRUE(std::filesystem::exists(result)) << "the result itself was written";
   for (const char* name : {".nc", ".best.csv", ".beaker1.svg", ".beaker2.svg", ".beaker3.svg"})
     std::filesystem::remove(result.substr(0, result.size() - 3) + name);
-  // a reader that ends at once: the writer's code goes out by a third descriptor
-  const Outcome broken = run("{ { PROGRAM " + std::string(GRIP) + " --json; echo code $? >&3; } | true; } 3>&1 2>&1");
-  EXPECT_NE(broken.output.find("code 3"), std::string::npos) << broken.output;
-  EXPECT_NE(broken.output.find("Broken pipe"), std::string::npos) << broken.output;
+}
+
+// The program's output goes into a pipe whose reader has gone; its code and what it says on stderr come back.
+Outcome run_unread(const std::string& arguments) {
+  return run("pipe=$(mktemp -u); mkfifo $pipe; exec 5<>$pipe 6>$pipe 5>&-; rm $pipe; PROGRAM " + arguments +
+             " 2>&1 >&6; echo code $?");
+}
+
+TEST(CommandLine, EndsQuietlyWhereNobodyReads) {
+  std::string folder = std::filesystem::temp_directory_path() / "wholehand_cli_XXXXXX";
+  ASSERT_NE(mkdtemp(folder.data()), nullptr);
+  for (const std::string& arguments : {std::string("--help"), std::string("scenes"), std::string(GRIP) + " --json"})
+    EXPECT_EQ(run_unread(arguments).output, "code 0\n") << arguments;
+  // what is asked for is done to its end
+  EXPECT_EQ(run_unread("sweep small --on core -o " + folder + "/s.nc").output, "code 0\n");
+  for (const char* name : {"s.nc", "s.best.csv", "s.tumbler.svg"})
+    EXPECT_TRUE(std::filesystem::exists(folder + "/" + name)) << name;
+  EXPECT_EQ(run_unread("live --no-clock --seconds 20 --record " + folder + "/l.nc").output, "code 0\n");
+  const Outcome whole = run("PROGRAM session " + folder + "/l.nc 2>&1");
+  EXPECT_EQ(whole.output.find("Session of 20.00"), 0u) << whole.output;
+  // what only somebody who follows it wants ends, as by Ctrl-C
+  EXPECT_EQ(run_unread("live --record " + folder + "/m.nc").output,
+            "wholehand: live: nobody reads the output any more, and the session ends\ncode 130\n");
+  const Outcome cut = run("PROGRAM session " + folder + "/m.nc 2>&1");
+  EXPECT_NE(cut.output.find("  ended by a signal, or as nobody read its output any more\n"), std::string::npos) << cut.output;
+  EXPECT_EQ(run_unread(std::string(GRIP) + " --view").output, "code 0\n");
+  std::filesystem::remove_all(folder);
+}
+
+TEST(CommandLine, WorksOnWithoutItsStreams) {
+  std::string folder = std::filesystem::temp_directory_path() / "wholehand_cli_XXXXXX";
+  ASSERT_NE(mkdtemp(folder.data()), nullptr);
+  const std::string scene = folder + "/s.toml";
+  // says on stderr that it begins anew
+  std::ofstream(scene) << "[[vessel]]\nname = \"v\"\nshape = \"cylinder\"\ndiameter_mm = 80\nheight_mm = 100\nwall_mm = 2\n"
+                       << "[grips]\nheight_mm = [50]\nroll_deg = [0]\n[output]\nkeep = [\"gap\"]\n";
+  for (const char* streams : {">/dev/null 2>&-", ">/dev/null 2>/dev/full", "<&- >/dev/null 2>&-"}) {
+    const Outcome swept = run("cd " + folder + " && PROGRAM sweep " + scene + " --on core --resume -o s.nc " + streams);
+    EXPECT_EQ(swept.code, 0) << streams;
+    EXPECT_TRUE(std::filesystem::remove(folder + "/s.nc")) << streams;
+  }
+  // what was to be printed and was not is a failure, at the end
+  for (const char* streams : {"<&- >&- 2>&-", ">/dev/full 2>/dev/full"}) {
+    EXPECT_EQ(run("PROGRAM live --view --seconds 0.5 --record " + folder + "/l.nc " + streams).code, 3) << streams;
+    const Outcome recorded = run("PROGRAM session " + folder + "/l.nc 2>&1");
+    EXPECT_EQ(recorded.output.find("Session of 0.50"), 0u) << recorded.output;
+    std::filesystem::remove(folder + "/l.nc");
+  }
+  std::filesystem::remove_all(folder);
+}
+
+// Libraries that find none left say that a driver is missing, or nothing.
+TEST(CommandLine, SaysThatTooFewFilesCanBeOpen) {
+  for (const std::string most : {"16", "8"}) {
+    for (const char* arguments : {"check small", "sweep small --on core"}) {
+      const Outcome few = run("sh -c 'ulimit -n " + most + "; exec PROGRAM " + arguments + "' 2>&1 >/dev/null");
+      EXPECT_EQ(few.code, 3) << few.output;
+      const std::string line =
+          "files that may be needed can be open at once: at most " + most + " may be; raise that limit (ulimit -n)\n";
+      EXPECT_NE(few.output.find(line), std::string::npos) << few.output;
+    }
+  }
+}
+
+TEST(CommandLine, SaysThatAFileGrewPastItsLimit) {
+  std::string folder = std::filesystem::temp_directory_path() / "wholehand_cli_XXXXXX";
+  ASSERT_NE(mkdtemp(folder.data()), nullptr);
+  ASSERT_EQ(run("PROGRAM sweep small --on core -o " + folder + "/a.nc 2>&1").code, 0);
+  const std::string grip = "grip small --vessel tumbler --height-mm 60";
+  for (const std::string& arguments : {"report " + folder + "/a.nc -o " + folder + "/p.html", grip + " --glb " + folder + "/g.glb",
+                                       grip + " --svg " + folder + "/g.svg", "rank " + folder + "/a.nc -o " + folder + "/l.csv"}) {
+    const Outcome outcome = run("ulimit -f 1; PROGRAM " + arguments + " 2>&1 >/dev/null");
+    EXPECT_EQ(outcome.code, 3) << arguments;
+    EXPECT_NE(outcome.output.find("File too large"), std::string::npos) << outcome.output;
+  }
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    EXPECT_TRUE(entry.path().filename().string().starts_with("a.")) << entry.path() << " is half written";
+  std::filesystem::remove_all(folder);
+}
+
+TEST(CommandLine, DoesNotWaitForAPipeToView) {
+  const std::string pipe = std::filesystem::temp_directory_path() / "wholehand_cli_pipe";
+  expect_error("view $(rm -f " + pipe + "; mkfifo " + pipe + "; echo " + pipe + ")", 2,
+               pipe + ": is a device or pipe; name a recording");
+  std::filesystem::remove(pipe);
 }
 
 TEST(CommandLine, RunsFromAnywhereAndWithStreamsClosed) {
@@ -273,6 +391,15 @@ TEST(CommandLine, ReportsASession) {
   EXPECT_EQ(report["grasps"][0]["grip_before_N"]["mean"], 3);
   for (const char* name : {"session.csv", "states.csv", "session.svg"})
     EXPECT_TRUE(std::filesystem::exists(folder + "/out/" + name)) << name;
+  // over its own files, and over nobody else's
+  EXPECT_EQ(run("PROGRAM session " + path + " -o " + folder + "/out 2>&1").code, 0);
+  for (const char* name : {"session.csv", "states.csv", "session.svg"}) {
+    const std::string other = folder + "/other_" + name;
+    std::filesystem::create_directory(other);
+    std::ofstream(other + "/" + name) << "mine";
+    expect_error("session " + path + " -o " + other, 2, std::string(name) + ": is there and is no ");
+    EXPECT_EQ(std::filesystem::file_size(other + "/" + name), 4u);
+  }
   // cut off in its last records: a note, and what is there
   std::filesystem::resize_file(path, std::filesystem::file_size(path) - 1000);
   const Outcome cut = run("PROGRAM session " + path + " 2>&1 >/dev/null");
@@ -298,7 +425,7 @@ TEST(CommandLine, WritesAPageForASweep) {
   EXPECT_EQ(run("PROGRAM report " + result + " -o " + page + " 2>&1").code, 0);
   const auto size = std::filesystem::file_size(result);
   expect_error("report " + result + " -o " + result, 2, "this is the result file itself");
-  expect_error("report " + result + " -o " + folder + "/s.best.csv", 2, "is no HTML page");
+  expect_error("report " + result + " -o " + folder + "/s.best.csv", 2, "is no page of wholehand's");
   expect_error("report " + result + " -o " + folder, 2, "is a directory; name a file");
   expect_error("report " + result + " -o /nonexistent/a.html", 2, "/nonexistent is not a directory");
   EXPECT_EQ(std::filesystem::file_size(result), size);
@@ -340,6 +467,8 @@ TEST(CommandLine, EvaluatesOneGrip) {
   ASSERT_EQ(grip["states"].size(), 6u);
   EXPECT_EQ(grip["states"][1]["fill"], 0.3);
   EXPECT_EQ(grip["states"][5]["fill"], 0.6);
+  const Outcome in_ml = run("PROGRAM " + std::string(GRIP) + " --fill-ml 100 --tilt-deg 0 --json 2>&1");
+  EXPECT_NEAR(nlohmann::json::parse(in_ml.output)["states"][0]["liquid_volume_m3"].get<double>(), 100e-6, 1e-15);
   EXPECT_DOUBLE_EQ(grip["states"][4]["tilt_rad"].get<double>(), 10 * 3.14159265358979323846 / 180);
 
   // a grip that is not feasible is an answer, not an error
@@ -391,8 +520,10 @@ TEST(CommandLine, DrawsAGrip) {
   const std::string notes = folder + "/notes";
   std::ofstream(notes) << "not to be lost";
   expect_error(std::string(GRIP) + " --svg " + notes, 2, "is there and is no drawing of wholehand's");
-  expect_error(std::string(GRIP) + " --glb " + notes, 2, "is there and is no glTF binary");
-  EXPECT_EQ(head_of(notes), "not ");
+  expect_error(std::string(GRIP) + " --glb " + notes, 2, "is there and is no glTF binary of wholehand's");
+  std::ofstream(notes) << "<svg><title>not to be lost</title></svg>";
+  expect_error(std::string(GRIP) + " --svg " + notes, 2, "is there and is no drawing of wholehand's");
+  EXPECT_EQ(head_of(notes), "<svg");
   const Outcome again = run("PROGRAM " + std::string(GRIP) + " --svg " + folder + "/a.svg 2>&1");
   EXPECT_EQ(again.code, 0) << again.output;
   EXPECT_NE(again.output.find("wrote " + folder + "/a.svg\n"), std::string::npos) << again.output;
@@ -401,6 +532,25 @@ TEST(CommandLine, DrawsAGrip) {
   EXPECT_NE(sweep.output.find("s.tumbler.1.glb .. "), std::string::npos) << sweep.output;
   EXPECT_EQ(head_of(folder + "/s.tumbler.2.glb"), "glTF");
   EXPECT_FALSE(std::filesystem::exists(folder + "/s.tumbler.3.glb"));
+  std::filesystem::remove_all(folder);
+}
+
+// Where liquid would stand in a solid stem, every command says so that evaluates the scene.
+TEST(CommandLine, ACavityThatReachesIntoAStemIsNoted) {
+  std::string folder = std::filesystem::temp_directory_path() / "wholehand_cli_XXXXXX";
+  ASSERT_NE(mkdtemp(folder.data()), nullptr);
+  const std::string scene = folder + "/wine.toml";
+  std::ofstream(scene)
+      << "[liquid]\nfills_ml = [0, 120]\n[[vessel]]\nname = \"wine\"\noutline = [{ line = [35, 0] }, { line = [35, 3] }, { line = "
+         "[5, 6] }, { line = [5, 80] }, { arc_through = [39, 110], to = [34, 140] }, { line = [0, 140] }]\nwall_mm = 2\n";
+  for (const std::string& command :
+       {"grip " + scene + " --vessel wine --height-mm 110", "sweep " + scene + " --on core -o " + folder + "/w.nc",
+        "check " + scene, "live " + scene + " --no-clock --seconds 0.01"}) {
+    const Outcome outcome = run("PROGRAM " + command + " 2>&1 >" + folder + "/out.txt");
+    const std::string note = "note: vessel 'wine': its cavity narrows to a radius of 3 mm at ";
+    EXPECT_NE(outcome.output.find(note), std::string::npos) << command << ": " << outcome.output;
+    EXPECT_EQ(outcome.output.find(note), outcome.output.rfind(note)) << "once";
+  }
   std::filesystem::remove_all(folder);
 }
 

@@ -22,6 +22,16 @@ TEST(Closing, OpeningSaysWhatIsEvaluatedAndWhere) {
   EXPECT_EQ(opening_lines(scene, Plan(scene, true), info), "sweep: 840 grips of 1 vessel\non llvmpipe (Mesa), double precision\n");
 }
 
+TEST(Closing, VesselsSayWhatTheyHoldAndWeigh) {
+  Scene scene = fake_scene();
+  scene.vessels[0].wall = 1e-3;
+  std::vector<VesselFacts> facts(2);
+  facts[0].capacity = 446.7e-6;
+  facts[0].empty_mass = 0.19;
+  facts[1].empty_mass = 1.23456;
+  EXPECT_EQ(vessel_lines(scene, facts), "first vessel: holds 447 mL, 0.190 kg empty\nsecond: holds nothing, 1.23 kg empty\n");
+}
+
 TEST(Closing, TimesAddUp) {
   const std::string text = closing_lines({"missing.nc", "missing.best.csv"}, {2.0, 1.25, 0.25, 50000000});
   EXPECT_EQ(text.substr(0, text.find("; CPU")),

@@ -245,6 +245,36 @@ TEST(Contact, TouchesWithinTheContactTolerance) {
   }
 }
 
+// A resting point is within one stop tolerance of the surface on either side, which no scene can tell from touching.
+TEST(Contact, WhatRestsTouchesWhateverTheTolerance) {
+  Scene scene = scene_of({beaker1(), beaker3()});
+  scene.hand.contact_tolerance = 0;
+  scene.hand.depth_limit = 0;
+  const auto core = make_core_evaluator(scene), single = make_core_float_evaluator(scene);
+  int resting = 0, plausible = 0, apart = 0, grips = 0;
+  for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
+    for (const GripInput& grip : sample_grips(scene.vessels[v], 300, 17)) {
+      GripResult full, rounded;
+      core->grip(v, grip, full);
+      single->grip(v, grip, rounded);
+      if (full.reason != Reason::none || full.grazing || rounded.grazing) continue;
+      ++grips;
+      for (std::size_t j = 0; j < JOINT_COUNT; ++j) {
+        const bool rests = std::abs(full.separation[j]) < STOP_TOLERANCE_F64;
+        resting += rests;
+        if (rests) {
+          EXPECT_TRUE(full.touch_mask >> j & 1) << "joint " << j << ": " << full.separation[j];
+        }
+      }
+      plausible += full.plausible;
+      apart += full.touch_mask != rounded.touch_mask || full.plausible != rounded.plausible;
+    }
+  }
+  EXPECT_GT(resting, 2 * grips) << "the tracked tips and more";
+  EXPECT_GT(5 * plausible, grips);
+  EXPECT_LE(apart, 3) << "of " << grips << " grips in float";
+}
+
 TEST(Contact, FingerIsUsedWhenAPointOfItTouches) {
   for (const Whole& whole : wholes()) {
     for_each_grip(whole, [&](const Evaluator&, double, const GripResult& result) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 namespace wholehand {
 namespace {
 
@@ -11,6 +14,27 @@ TEST(Csv, CellsAreQuotedWhereTheyMustBe) {
   EXPECT_EQ(csv_text("core, 2 threads"), "\"core, 2 threads\"");
   EXPECT_EQ(csv_text("a \"b\""), "\"a \"\"b\"\"\"");
   EXPECT_EQ(csv_text("two\nlines"), "\"two\nlines\"");
+}
+
+TEST(Csv, RowsAreReadAsTheyWereWritten) {
+  const std::vector<std::string> cells{"a", "", "core, 2 threads", "a \"b\"", "two\nlines", "é"};
+  std::string line;
+  for (const std::string& cell : cells) line += (line.empty() ? "" : ",") + csv_text(cell);
+  for (const std::string& text : {line, line + "\n", "\xEF\xBB\xBF" + line + "\r\n\r\n"}) {
+    const auto rows = parse_csv(text);
+    ASSERT_EQ(rows.size(), 1u) << text;
+    EXPECT_EQ(rows[0].cells, cells) << text;
+  }
+}
+
+TEST(Csv, RowsKnowTheirLines) {
+  const auto rows = parse_csv("a,b\n\n\"two\nlines\",c\r\nd");
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[0].line, 1u);
+  EXPECT_EQ(rows[1].line, 3u);
+  EXPECT_EQ(rows[2].line, 5u);
+  EXPECT_TRUE(parse_csv("").empty());
+  EXPECT_EQ(parse_csv("\"open,\nend")[0].cells, std::vector<std::string>{"open,\nend"});
 }
 
 }  // namespace

@@ -24,6 +24,7 @@
 #include "sweeps/error_plot.h"
 #include "sweeps/error_table.h"
 #include "sweeps/error_variants.h"
+#include "tests/support/result_reader.h"
 #include "tests/support/scenes.h"
 #include "tests/support/vulkan_listener.h"
 
@@ -421,6 +422,12 @@ TEST(ErrorTime, CommandRefusesBadInput) {
     EXPECT_EQ(code_of(std::string("error-time ") + arguments + " 2>&1 >/dev/null", &errors), 2) << arguments;
     EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 1) << errors;
   }
+  const TemporaryFolder folder;
+  std::ofstream(folder / "error-time.md") << "mine";
+  std::string errors;
+  EXPECT_EQ(code_of("error-time small --on core -o " + folder.path() + " 2>&1 >/dev/null", &errors), 2);
+  EXPECT_NE(errors.find("error-time.md: is there and is no table of wholehand error-time"), std::string::npos) << errors;
+  EXPECT_EQ(file_text(folder / "error-time.md"), "mine");
 }
 
 #endif

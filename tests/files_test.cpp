@@ -1,5 +1,6 @@
 #include "sweeps/files.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -78,6 +79,57 @@ TEST(Files, PathsThatCannotBecomeFilesAreRefused) {
   EXPECT_EQ(refused("/proc/new.nc"), ExitCode::failure) << "root may write anywhere, but no file can be made there";
 }
 
+TEST(Files, LinksAreFollowedToFiles) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "data");
+  std::filesystem::create_symlink("data/target", folder / "link");
+  std::filesystem::create_symlink("link", folder / "again");
+  EXPECT_EQ(followed(folder / "again"), folder / "data/target");
+  EXPECT_EQ(followed(folder / "plain"), folder / "plain");
+  EXPECT_EQ(refused(folder / "again"), ExitCode::done) << "what it points to need not be there";
+  const OutputNames names = output_names(folder / "again");
+  EXPECT_EQ(names.partial, folder / "data/target.partial") << "where it can be renamed from";
+  EXPECT_EQ(names.best, folder / "again.best.csv") << "beside the name that was given";
+  write_whole_file(folder / "again", "text", false);
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "again"));
+  EXPECT_EQ(file_text(folder / "data/target"), "text");
+  std::filesystem::create_symlink("/dev/null", folder / "null");
+  EXPECT_EQ(refused(folder / "null"), ExitCode::usage);
+  std::filesystem::create_symlink("round", folder / "round");
+  EXPECT_EQ(refused(folder / "round"), ExitCode::usage);
+  std::filesystem::create_symlink("missing/file", folder / "nowhere");
+  EXPECT_EQ(refused(folder / "nowhere"), ExitCode::usage);
+}
+
+TEST(Files, WhatIsNoRegularFileIsRefused) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_EQ(refused(folder / "pipe"), ExitCode::usage);
+  EXPECT_EQ(refused("/dev/stdout"), ExitCode::usage);
+  EXPECT_EQ(refused("-"), ExitCode::usage);
+  // standard output that is a file: what is printed goes there, and no result
+  const int file = open((folder / "out").c_str(), O_WRONLY | O_CREAT, 0600), before = dup(STDOUT_FILENO);
+  dup2(file, STDOUT_FILENO);
+  for (const char* path : {"/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"}) EXPECT_EQ(refused(path), ExitCode::usage) << path;
+  dup2(before, STDOUT_FILENO);
+  close(file);
+  close(before);
+  EXPECT_THROW(check_overwrites_kind(folder / "pipe", "x", "list", "-o"), Error) << "and does not wait for who writes";
+}
+
+TEST(Files, OnlyEmptyFilesAreRenamedOnto) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "from") << "new";
+  std::ofstream(folder / "there") << "old";
+  std::ofstream(folder / "empty").close();
+  EXPECT_FALSE(rename_onto_nothing(folder / "from", folder / "there"));
+  EXPECT_EQ(file_text(folder / "there"), "old");
+  EXPECT_TRUE(rename_onto_nothing(folder / "from", folder / "empty"));
+  EXPECT_TRUE(rename_onto_nothing(folder / "empty", folder / "nothing"));
+  EXPECT_EQ(file_text(folder / "nothing"), "new");
+  EXPECT_THROW(rename_onto_nothing(folder / "missing", folder / "other"), Error);
+}
+
 TEST(Files, WholeOrNotAtAll) {
   const TemporaryFolder folder;
   const std::string path = folder / "a";
@@ -89,7 +141,12 @@ TEST(Files, WholeOrNotAtAll) {
   EXPECT_THROW(write_whole_file("/proc/a", "x", false), Error);
   std::filesystem::create_directory(folder / "folder");
   EXPECT_THROW(write_whole_file(folder / "folder", "x", false), Error);
-  EXPECT_FALSE(file_exists(folder / "folder.new"));
+  std::ofstream(folder / "a.new") << "mine";
+  write_whole_file(path, "three", false);
+  EXPECT_EQ(file_text(folder / "a.new"), "mine") << "names of others on the way";
+  std::size_t files = 0;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path())) ++files;
+  EXPECT_EQ(files, 3u) << "nothing is left";
 }
 
 TEST(Files, RoomIsTriedAndGivenBack) {

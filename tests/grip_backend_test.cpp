@@ -58,6 +58,23 @@ TEST(GripBackend, StagedTransfersGiveTheSameBits) {
   }
 }
 
+TEST(GripBackend, EachVesselHasItsOwnFills) {
+  Scene scene = wet({beaker1(), beaker3()});
+  scene.liquid->fills.clear();
+  scene.liquid->volumes = {0, 60e-6};
+  scene.vessels[0].fills = {0, 0.12};
+  scene.vessels[1].fills = {0, 0.31};
+  const auto core = make_core_evaluator(scene);
+  const auto device = backend_of(scene, make_field_set(FEW, scene));
+  for (std::size_t v = 0; v < 2; ++v) {
+    const std::vector<LiquidResult> table = device->liquid(v);
+    ASSERT_EQ(table.size(), 6u);
+    const double capacity = core->capacity(v);
+    EXPECT_NEAR(table[3].volume, scene.vessels[v].fills[1] * capacity, 1e-6 * capacity);  // float
+    EXPECT_EQ(table[0].volume, 0);
+  }
+}
+
 TEST(GripBackend, TwoAtOnceDoNotDisturbEachOther) {
   const Scene scene = wet({beaker1(), beaker2(), beaker3()});
   const auto grips = sample_grips(scene.vessels[1], 2000, 3);

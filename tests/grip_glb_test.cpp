@@ -208,7 +208,7 @@ TEST(GripGlb, NoLiquidNoNode) {
   EXPECT_TRUE(empty.animations.empty());  // one tilt
   scene.liquid.reset();
   scene.tilts.clear();
-  const tinygltf::Model still = opened(grip_glb(scene, 0, report_of(scene, 0, GRIP, scene_axes(scene))));
+  const tinygltf::Model still = opened(grip_glb(scene, 0, report_of(scene, 0, GRIP, scene_axes(scene, 0))));
   EXPECT_EQ(index_of_node(still, "liquid"), -1);
   EXPECT_EQ(still.nodes.size(), 3u + 1 + 48);
 }
@@ -304,7 +304,7 @@ TEST(GripGlb, AMeshVesselHoldsItsLiquid) {
   const GripReport report = report_of(scene, 0, GRIP, one_state(0.5, 40));
   const double of_outline = volume_of(opened(grip_glb(scene, 0, report)), "liquid");
   scene.vessels[0] = vessel_of_mesh("mug", turned_mesh(beaker1(), 40, 5e-3), 0);
-  scene.vessels[0].mesh->inner = {line_to(0, 1.5), line_to(38.5, 1.5), line_to(38.5, 110)};
+  scene.vessels[0].inner = {line_to(0, 1.5), line_to(38.5, 1.5), line_to(38.5, 110)};
   const tinygltf::Model model = opened(grip_glb(scene, 0, report));
   EXPECT_NEAR(volume_of(model, "liquid") / of_outline, 1, 1e-9);
   EXPECT_EQ(model.nodes[index_of_node(model, "liquid")].extras.Get("tilt_rad").GetNumberAsDouble(), radians(40));

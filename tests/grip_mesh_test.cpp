@@ -110,7 +110,7 @@ TEST(GripMesh, WithoutAWallTheHullIsDrawn) {
 TEST(GripMesh, LiquidIsClosedAndHasTheLiquidsVolume) {
   for (const VesselData& vessel : VESSELS) {
     Scene scene = scene_of({vessel});
-    scene.liquid = LiquidData{1000, {1}, Pour::away};
+    scene.liquid = LiquidData{1000, {1}, {}, Pour::away};
     const auto core = make_core_evaluator(scene);
     for (const double fill : {0.02, 0.3, 0.6, 1.0}) {
       for (const double tilt : {0.0, 1.0, 12.0, 45.0, 75.0, 90.0, 110.0}) {
@@ -133,7 +133,7 @@ TEST(GripMesh, LiquidIsClosedAndHasTheLiquidsVolume) {
 // Centre of mass and surface: the liquid leans the way the core says, and nothing is above the level plane.
 TEST(GripMesh, LiquidLeansAsTheCoreSays) {
   Scene scene = scene_of({beaker3()});
-  scene.liquid = LiquidData{1000, {1}, Pour::away};
+  scene.liquid = LiquidData{1000, {1}, {}, Pour::away};
   const LiquidResult liquid = make_core_evaluator(scene)->liquid(0, 0.4, radians(50));
   const Triple n{0.6, 0, -0.8};
   const SurfaceMesh mesh = liquid_mesh(scene.vessels[0], liquid.volume, radians(50), n, 192);
@@ -175,7 +175,7 @@ TEST(GripMesh, AMeshVesselHoldsTheLiquidOfItsCavity) {
   const VesselData outline = beaker1();  // its cavity: radius 38.5 from 1.5 to 110 mm
   VesselData mesh = vessel_of_mesh("mesh", turned_mesh(outline, 48, 4e-3), 0);
   EXPECT_TRUE(liquid_mesh(mesh, 1e-4, 0, {1, 0, 0}, 64).triangles.empty());
-  mesh.mesh->inner = {line_to(0, 1.5), line_to(38.5, 1.5), line_to(38.5, 110)};
+  mesh.inner = {line_to(0, 1.5), line_to(38.5, 1.5), line_to(38.5, 110)};
   for (const double tilt : {0.0, 30.0, 80.0}) {
     const SurfaceMesh of_mesh = liquid_mesh(mesh, 1e-4, radians(tilt), {0.6, 0, -0.8}, 64),
                       of_outline = liquid_mesh(outline, 1e-4, radians(tilt), {0.6, 0, -0.8}, 64);

@@ -54,7 +54,7 @@ Scene plain_scene(bool has_liquid, bool has_tilts) {
   scene.name = "plain";
   scene.vessels.resize(1);
   scene.vessels[0].name = "glass";
-  if (has_liquid) scene.liquid = LiquidData{1000, {0, 0.5}, Pour::away};
+  if (has_liquid) scene.liquid = LiquidData{1000, {0, 0.5}, {}, Pour::away};
   if (has_tilts) scene.tilts = {0, 0.1};
   return scene;
 }
@@ -89,7 +89,7 @@ GripReport report_of(const Scene& scene, const GripResult& result) {
   evaluator->given_score.score = 0.75;
   evaluator->given_score.terms = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
   const GripInput grip{0.05, 0.1, 0.2, 0.3, 0.4, 1.1};
-  return make_grip_report(scene, 0, grip, scene_axes(scene), core_grip_methods(scene, evaluator, "fake"));
+  return make_grip_report(scene, 0, grip, scene_axes(scene, 0), core_grip_methods(scene, evaluator, "fake"));
 }
 
 std::vector<std::string> keys_of(const Json& json) {
@@ -266,7 +266,7 @@ TEST(GripReport, LiquidLeansWhereTheCoreSaysForEitherHand) {
       const Scene scene = cup_scene(hand, pour);
       const std::shared_ptr<const Evaluator> core = make_core_evaluator(scene);
       const GripInput grip{0.05, 0.7, 0.1, -0.5, 0.002, 1};
-      const GripReport report = make_grip_report(scene, 0, grip, scene_axes(scene), core_grip_methods(scene, core, "core"));
+      const GripReport report = make_grip_report(scene, 0, grip, scene_axes(scene, 0), core_grip_methods(scene, core, "core"));
       ASSERT_EQ(report.answer.result.reason, Reason::none);
       const Json json = Json::parse(grip_json(report));
       for (const auto& state : json["states"]) {
@@ -292,7 +292,7 @@ TEST(GripReport, PlanesGiveWhatTheCoreGives) {
   StateAxes other;
   other.fills = {0.5, 0.1};  // in any order, within the scene's largest
   other.tilts = {1.0, 0.25, 1.0};
-  for (const StateAxes& axes : {scene_axes(scene), other}) {
+  for (const StateAxes& axes : {scene_axes(scene, 0), other}) {
     for (const double height : {0.05, 0.2}) {  // held, and beside the cup
       const GripInput grip{height, 0.7, 0.1, -0.5, 0.002, 1};
       EXPECT_EQ(grip_json(make_grip_report(scene, 1, grip, axes, direct)),

@@ -21,7 +21,8 @@ namespace wholehand {
 namespace {
 
 GripReport report_of(const Scene& scene, std::size_t vessel, const GripInput& grip) {
-  return make_grip_report(scene, vessel, grip, scene_axes(scene), core_grip_methods(scene, make_core_evaluator(scene), "core"));
+  return make_grip_report(scene, vessel, grip, scene_axes(scene, vessel),
+                          core_grip_methods(scene, make_core_evaluator(scene), "core"));
 }
 
 std::string drawn(const Scene& scene, std::size_t vessel, const GripInput& grip) {
@@ -332,7 +333,7 @@ TEST(GripSvg, HolesAndEdgesOfAMesh) {
 
 TEST(GripSvg, TheCavityOfAMeshIsDashed) {
   VesselData mesh = vessel_of_mesh("mesh", turned_mesh(beaker1(), 48, 4e-3), 0);
-  mesh.mesh->inner = {line_to(0, 1.5), line_to(38.5, 1.5), line_to(38.5, 110)};
+  mesh.inner = {line_to(0, 1.5), line_to(38.5, 1.5), line_to(38.5, 110)};
   const std::string svg = drawn_as(three_beakers(), mesh, BESIDE), outline = drawn(three_beakers(), 0, BESIDE);
   expect_well_formed(svg);
   for (const char* view : {"front", "side", "top"})

@@ -227,6 +227,25 @@ TEST(Guard, AfterAStallItBeginsAtZeroAgain) {
   }
 }
 
+// Without a ramp, too: one force of zero, then what the slew allows from there.
+TEST(Guard, TheFirstForceAfterAStallIsZeroWithoutARamp) {
+  LiveData live;
+  live.ramp = 0;
+  live.slew = 1000;
+  for (const double rate : {250.0, 1000.0, 3000.0, 8000.0}) {
+    live.rate = rate;
+    Guard guard(live, limits_of(12, 8));
+    const std::int64_t stall = guard.stall_periods();
+    EXPECT_GE(static_cast<double>(stall) / rate, STALL);
+    EXPECT_LT(static_cast<double>(stall - 1) / rate, STALL);
+    for (int n = 0; n < 1000; ++n) guard.limit({{0, -4, 0}, 7}, n);
+    EXPECT_NEAR(guard.limit({{0, -4, 0}, 7}, 999 + stall - 1).grip, 7, ROUNDING);
+    const std::int64_t again = 999 + 2 * stall - 1;
+    EXPECT_EQ(size_of(guard.limit({{0, -4, 0}, 7}, again).arm), 0);
+    EXPECT_NEAR(guard.limit({{0, -4, 0}, 7}, again + 1).grip, live.slew / rate, ROUNDING);
+  }
+}
+
 TEST(Guard, AForceThatIsNoNumberIsNone) {
   LiveData live;
   live.ramp = 0;

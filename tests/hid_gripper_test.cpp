@@ -97,6 +97,12 @@ TEST(HidGripper, PanicLeavesNoForce) {
   check_panic(mock, [&mock] { return open_hid(mock.node(), PATIENT_WATCHDOG); });
 }
 
+TEST(HidGripper, ASecondThreadTakesTheForceAway) {
+  MockBench bench;
+  HidMock mock(bench);
+  check_let_go_meanwhile(mock, [&mock] { return open_hid(mock.node(), PATIENT_WATCHDOG); });
+}
+
 TEST(HidGripper, ForceThatIsNotTakenIsAnError) {
   MockBench bench;
   HidMock mock(bench);

@@ -2,11 +2,15 @@
 #include "host/pipeline_cache.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
+#include "host/cache_folder.h"
+#include "tests/support/environment.h"
 #include "tests/support/vulkan_kernels.h"
 
 namespace wholehand::host {
@@ -41,11 +45,32 @@ class HostPipelineCache : public testing::Test {
 TEST_F(HostPipelineCache, IsOneFileADevice) {
   use(folder);
   ASSERT_EQ(files().size(), 1u);
-  const auto written = fs::last_write_time(files()[0]);
-  use(folder);  // nothing to add: not written again
+  const auto used = fs::file_time_type::clock::now() - std::chrono::hours(1);
+  fs::last_write_time(files()[0], used);
+  struct stat written {
+  }, now{};
+  ASSERT_EQ(stat(files()[0].c_str(), &written), 0);
+  use(folder);  // nothing to add: not written again, and used
   ASSERT_EQ(files().size(), 1u);
-  EXPECT_EQ(fs::last_write_time(files()[0]), written);
+  ASSERT_EQ(stat(files()[0].c_str(), &now), 0);
+  EXPECT_EQ(now.st_ino, written.st_ino);
+  EXPECT_GT(fs::last_write_time(files()[0]), used);
   EXPECT_NE(files()[0].filename().string().find(Device().info().uuid), std::string::npos);
+}
+
+TEST_F(HostPipelineCache, CountsTowardsTheBoundOfTheCache) {
+  const fs::path lattice = folder / "grids" / (std::string(32, 'a') + ".grid");
+  fs::create_directories(lattice.parent_path());
+  std::ofstream(lattice) << "";
+  fs::resize_file(lattice, MEBIBYTE);
+  const ScopedVariable one("WHOLEHAND_CACHE_MIB", "1");
+  use(folder);
+  EXPECT_FALSE(fs::exists(lattice));
+  EXPECT_EQ(files().size(), 2u) << "the folder of lattices, and the pipelines";
+  fs::remove_all(folder);
+  const ScopedVariable none("WHOLEHAND_CACHE_MIB", "0");
+  use(folder);
+  EXPECT_FALSE(fs::exists(folder));
 }
 
 TEST_F(HostPipelineCache, DamageIsFoundAndMended) {
@@ -63,6 +88,15 @@ TEST_F(HostPipelineCache, DamageIsFoundAndMended) {
   flip.close();
   use(folder);
   EXPECT_EQ(fs::file_size(file), size);
+}
+
+TEST_F(HostPipelineCache, DoesNotWaitForAPipe) {
+  use(folder);
+  const fs::path file = files().at(0);
+  fs::remove(file);
+  ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
+  use(folder);
+  EXPECT_TRUE(fs::is_regular_file(file));
 }
 
 TEST_F(HostPipelineCache, UnwritableFolderCostsNothing) {

@@ -41,6 +41,19 @@ TEST(Interrupt, SecondSignalEndsTheProcess) {
   EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGINT);
 }
 
+TEST(Interrupt, SecondSignalIsItsWhoTakesIt) {
+  static volatile sig_atomic_t taken;
+  taken = 0;
+  InterruptGuard guard;
+  guard.on_another([](int signal) { taken = signal; });
+  raise(SIGINT);
+  raise(SIGTERM);
+  EXPECT_EQ(taken, 0) << "one wish";
+  usleep(300000);
+  raise(SIGTERM);
+  EXPECT_EQ(taken, SIGTERM);
+}
+
 // As `timeout` sends it: to the process and to its group.
 TEST(Interrupt, SignalThatComesTwiceIsOneWish) {
   const pid_t child = fork();

@@ -94,6 +94,34 @@ check "a broken CMakeLists.txt gives exit code 3" equal $? 3
 check "and CMake's words" has "$output" "CMakeLists.txt:6"
 sed -i '$d' "$tree/CMakeLists.txt"
 
+# ---- a user who may not write here ----
+check "(built)" equal "$("$tree/wholehand" 2>/dev/null)" "v2$work"
+others() {  # others COMMAND ...: as a user to whom the tree belongs as little as to anybody
+  if [ "$(id -u)" = 0 ]; then setpriv --reuid=65534 --regid=65534 --clear-groups "$@"; else "$@"; fi
+}
+sleep 0.05
+touch "$work/status"  # dpkg's, of which a newer one means that root has installed something
+sed "s|/var/lib/dpkg/status|$work/status|" "$source_dir/wholehand" >"$tree/wholehand.other"
+chmod 755 "$work" "$tree/wholehand.other"
+chmod -R a+rX,a-w "$tree"
+output=$(others "$tree/wholehand.other" x 2>&1)
+check "after root has installed a package the program runs, and nothing is said" equal "$output" "v2[x]$work"
+touch "$tree/core/version.h"
+output=$(others "$tree/wholehand" x 2>"$work/err")
+check "after root has changed a source the program of before runs" equal "$output" "v2[x]$work"
+check "with a note" has "$(cat "$work/err")" "wholehand: core has changed since the program was built, and you cannot write"
+check "in one line" equal "$(lines "$(cat "$work/err")")" 1
+output=$(others "$tree/wholehand" test 2>&1)
+check "who cannot write cannot build" equal "$? $output" "3 wholehand: cannot write $tree/build, which the build needs"
+chmod -R u+w "$tree"
+mv "$tree/build/default/wholehand" "$work/kept"
+chmod -R a-w "$tree"
+output=$(others "$tree/wholehand" 2>&1)
+check "nor run what is not built" equal "$? $output" "3 wholehand: cannot write $tree/build, which the build needs"
+chmod -R u+w "$tree"
+mv "$work/kept" "$tree/build/default/wholehand"
+rm "$tree/wholehand.other"
+
 # ---- two starts at once ----
 rm -rf "$tree/build"
 "$tree/wholehand" first >"$work/first" 2>&1 &

@@ -102,7 +102,8 @@ TEST(LiveReport, TheFaultLineSaysWhenAndWhy) {
   const LiveData live;
   GripperLimits limits;
   Guard guard(live, limits);
-  EXPECT_EQ(fault_line(report, guard, live), "live: released after 2.004 s: read error (unplugged); no force is on the device");
+  report.let_go = LetGo::written;
+  EXPECT_EQ(fault_line(report, guard, live, 0.02), "live: released after 2.004 s: read error (unplugged); zero force was written");
   GripperState state;
   state.sequence = 1;
   EXPECT_EQ(guard.check(ReadOutcome::value, state, 0), Fault::none);
@@ -110,8 +111,20 @@ TEST(LiveReport, TheFaultLineSaysWhenAndWhy) {
   state.gap = 12e-3;
   report.fault = guard.check(ReadOutcome::value, state, 1);
   report.trouble.clear();
-  EXPECT_EQ(fault_line(report, guard, live),
-            "live: released after 2.004 s: jump (its gap by 12 m/s; allowed: up to 5, [live] jump_m_s); no force is on the device");
+  EXPECT_EQ(fault_line(report, guard, live, 0.02),
+            "live: released after 2.004 s: jump (its gap by 12 m/s; allowed: up to 5, [live] jump_m_s); zero force was written");
+  report.let_go = LetGo::not_taken;
+  report.let_go_trouble = "unplugged";
+  report.force = {{0, -2.376, 0}, 0.004};
+  report.fault = Fault::interrupted;
+  EXPECT_TRUE(is_force_left(report));
+  EXPECT_EQ(
+      fault_line(report, guard, live, 0.031875),
+      "live: over after 2.004 s; zero force could not be written (unplugged); the last force was 2.38 N at the arm and 0 N at the "
+      "fingers; the device's own watchdog takes it away within 31.875 ms");
+  report.force = {};
+  EXPECT_EQ(fault_line(report, guard, live, 0.02),
+            "live: over after 2.004 s; zero force could not be written (unplugged); the last force was zero");
 }
 
 TEST(OpenGripper, RefusesOtherNames) {

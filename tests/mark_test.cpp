@@ -1,11 +1,16 @@
 #include "sweeps/mark.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cmath>
+#include <csignal>
+#include <filesystem>
 #include <fstream>
+#include <functional>
 
 #include "core/error.h"
+#include "tests/support/environment.h"
 #include "tests/support/result_reader.h"
 
 namespace wholehand {
@@ -20,8 +25,11 @@ SweepMark some_mark() {
   VesselProgress& vessel = mark.vessels[1];
   vessel.done = (std::uint64_t{1} << 40) + 1;
   vessel.best = {{0.1 + 0.2, 7}, {1e-17, ~std::uint64_t{0}}};
+  vessel.stretches = {{0, 5, "ab"}, {5, vessel.done, "cd"}};
   vessel.counts = {11, {1, 2, 3, 4, 5, 6, 7}, 8, 9, 10};
   vessel.heat_map = {1.0 / 7, NAN, 0};
+  mark.in_place = {{100, 20}, {std::uint64_t{1} << 50, 8}};
+  mark.structure = "0123";
   return mark;
 }
 
@@ -33,8 +41,13 @@ TEST(Mark, ComesBackBitForBit) {
   const SweepMark expected = some_mark();
   EXPECT_EQ(mark.identity, expected.identity);
   EXPECT_EQ(mark.wall_seconds, expected.wall_seconds);
+  EXPECT_EQ(mark.in_place, expected.in_place);
+  EXPECT_EQ(mark.structure, expected.structure);
   ASSERT_EQ(mark.vessels.size(), 2u);
   EXPECT_EQ(mark.vessels[0].done, 0u);
+  ASSERT_EQ(mark.vessels[1].stretches.size(), 2u);
+  EXPECT_EQ(mark.vessels[1].stretches[1].first, 5u);
+  EXPECT_EQ(mark.vessels[1].stretches[1].checksum, "cd");
   const VesselProgress &a = mark.vessels[1], &b = expected.vessels[1];
   EXPECT_EQ(a.done, b.done);
   ASSERT_EQ(a.best.size(), 2u);
@@ -58,6 +71,62 @@ TEST(Mark, MissingIsNoneAndDamagedIsAnError) {
   }
 }
 
+TEST(Mark, APipeIsNotWaitedFor) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "mark";
+  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+  SweepMark mark;
+  EXPECT_THROW(load_mark(path, mark), Error);
+}
+
+TEST(Mark, ADifferentByteAnywhereIsRefused) {
+  const TemporaryFolder folder;
+  save_mark(folder / "m", some_mark());
+  const std::string whole = file_text(folder / "m");
+  EXPECT_EQ(whole.rfind(MARK_START, 0), 0u);
+  SweepMark mark;
+  for (std::size_t at = 0; at < whole.size(); ++at) {
+    std::string damaged = whole;
+    damaged[at] = static_cast<char>(damaged[at] ^ 1);
+    std::ofstream(folder / "m") << damaged;
+    EXPECT_THROW(load_mark(folder / "m", mark), Error) << at;
+  }
+  std::ofstream(folder / "m") << whole.substr(0, whole.size() - 1);
+  EXPECT_THROW(load_mark(folder / "m", mark), Error);
+}
+
+TEST(Mark, WhatNoSweepCanHaveDoneIsRefused) {
+  SweepMark mark;
+  mark.vessels.resize(1);
+  VesselProgress& vessel = mark.vessels[0];
+  vessel.done = 10;
+  vessel.counts.grips = 10;
+  vessel.counts.by_reason = {4, 6};
+  vessel.best = {{0.5, 9}};
+  vessel.stretches = {{0, 7, "a"}, {7, 10, "b"}};
+  const MarkBounds bounds{1, 10, 1, true, true};
+  EXPECT_NO_THROW(check_progress("m", mark, bounds));
+  const auto refused = [&](const std::string& gist, const std::function<void(SweepMark&)>& change) {
+    SweepMark changed = mark;
+    change(changed);
+    try {
+      check_progress("m", changed, bounds);
+      ADD_FAILURE() << "accepted: " << gist;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(gist), std::string::npos) << error.what();
+    }
+  };
+  refused("2 vessels of 1", [](SweepMark& m) { m.vessels.resize(2); });
+  for (const std::uint64_t done : {std::uint64_t{11}, ~std::uint64_t{0}, std::uint64_t{1} << 63})
+    refused("grips are done of 10", [&](SweepMark& m) { m.vessels[0].done = done; });
+  refused("9 grips are done and 10 counted", [](SweepMark& m) { m.vessels[0].done = 9; });
+  refused("10 grips are done and 11 sorted", [](SweepMark& m) { m.vessels[0].counts.by_reason[2] = 1; });
+  refused("2 best grips are kept of 1", [](SweepMark& m) { m.vessels[0].best.push_back({0.4, 1}); });
+  refused("grip 10 is one of the best of 10", [](SweepMark& m) { m.vessels[0].best[0].index = 10; });
+  refused("a stretch from 6 follows 7", [](SweepMark& m) { m.vessels[0].stretches[1].first = 6; });
+  refused("10 grips are done and 7 have a checksum", [](SweepMark& m) { m.vessels[0].stretches.pop_back(); });
+}
+
 TEST(Mark, DifferenceIsNamed) {
   const SweepMark mark = some_mark();
   EXPECT_NO_THROW(check_identity("x.partial", mark, mark.identity));
@@ -75,6 +144,22 @@ TEST(Mark, DifferenceIsNamed) {
   other = mark.identity;
   other["new thing"] = "c";
   EXPECT_THROW(check_identity("x.partial", mark, other), Error);
+}
+
+// With no room on the disk, here by a limit on the size of files.
+TEST(Mark, WithoutRoomTheRemedyIsSaid) {
+  const TemporaryFolder folder;
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  std::string line;
+  try {
+    const FileSizeLimit limit(16);
+    save_mark(folder / "m", some_mark());
+  } catch (const Error& error) {
+    line = error.what();
+  }
+  std::signal(SIGXFSZ, handler);
+  EXPECT_NE(line.find("make room and go on with --resume, or name another file with -o"), std::string::npos) << line;
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << "nothing half written";
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 #include <stdlib.h>
+#include <sys/stat.h>
 
 #include <chrono>
 #include <filesystem>
@@ -16,6 +17,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "host/cache_folder.h"
 #include "sweeps/mesh_distance.h"
 #include "tests/support/environment.h"
 #include "tests/support/meshes.h"
@@ -29,19 +31,21 @@ class MeshCache : public testing::Test {
  protected:
   MeshCache() {
     std::string name = (fs::temp_directory_path() / "wholehand-XXXXXX").string();
-    folder = mkdtemp(name.data());
+    root = mkdtemp(name.data());
+    folder = root / "grids";
+    fs::create_directories(folder);
     wish.spacing = 20e-3;
   }
   ~MeshCache() override {
     std::error_code ignored;
     fs::permissions(folder, fs::perms::owner_all, ignored);
-    fs::remove_all(folder);
+    fs::remove_all(root);
   }
 
   // The cache's answer, and whether it had to be made.
   MeshGrid ask(const CheckedMesh& of, const GridWish& with) {
     was_made = false;
-    return cached_grid(of, with, folder.string(), [&](double) { was_made = true; });
+    return cached_grid(of, with, root.string(), [&](double) { was_made = true; });
   }
   MeshGrid ask() { return ask(mesh, wish); }
   std::vector<fs::path> files() const {
@@ -59,7 +63,7 @@ class MeshCache : public testing::Test {
 
   const CheckedMesh mesh = check_mesh(torus(0.05, 0.02, 20, 10), "torus");
   GridWish wish;
-  fs::path folder;
+  fs::path root, folder;  // of the cache, and of the lattices in it
   bool was_made = false;
 };
 
@@ -272,8 +276,8 @@ TEST_F(MeshCache, WhatIsUnusedForLongestGoesFirst) {
     return file;
   };
   fs::last_write_time(used, now - hours(5));
-  const fs::path oldest = add('a', ".grid", MOST_CACHED_BYTES / 2, hours(4)),
-                 old = add('b', ".grid", MOST_CACHED_BYTES / 2 - 2 * size - 1, hours(3)),
+  const fs::path oldest = add('a', ".grid", host::DEFAULT_CACHE_BYTES / 2, hours(4)),
+                 old = add('b', ".grid", host::DEFAULT_CACHE_BYTES / 2 - 2 * size - 11, hours(3)),
                  left_over = add('c', ".Ab3dEf.partial", 10, hours(2)), begun = add('d', ".Ab3dEf.partial", 10, hours(0)),
                  foreign = folder / "notes.grid";
   write(foreign, "keep me");
@@ -289,7 +293,7 @@ TEST_F(MeshCache, WhatIsUnusedForLongestGoesFirst) {
   ask();
   EXPECT_FALSE(fs::exists(oldest));
   for (const fs::path& file : {used, old, begun, foreign}) EXPECT_TRUE(fs::exists(file)) << file;
-  fs::resize_file(old, MOST_CACHED_BYTES + 1);
+  fs::resize_file(old, host::DEFAULT_CACHE_BYTES + 1);
   fs::last_write_time(old, now + hours(1));  // and a clock that was wrong
   wish.margin = 3e-7;
   ask();
@@ -298,13 +302,42 @@ TEST_F(MeshCache, WhatIsUnusedForLongestGoesFirst) {
   EXPECT_FALSE(was_made);
 }
 
+TEST_F(MeshCache, TheBoundIsTheUsers) {
+  const auto size = static_cast<std::uintmax_t>(4 * ask().grid.words->size() + 104);
+  ASSERT_EQ(fs::file_size(files().at(0)), size);
+  ASSERT_LT(size, host::MEBIBYTE);
+  const fs::path pipelines = root / (std::string(32, 'd') + "-7.pipelines");
+  write(pipelines, "");
+  fs::resize_file(pipelines, host::MEBIBYTE - size);
+  fs::last_write_time(files().at(0), fs::file_time_type::clock::now() - std::chrono::hours(1));  // clocks of files are coarse
+  wish.margin = 1e-7;                                                                            // as large
+  {
+    const ScopedVariable one("WHOLEHAND_CACHE_MIB", "1");
+    ask();
+    EXPECT_EQ(files().size(), 1u) << "the first lattice was unused for longest";
+    EXPECT_TRUE(fs::exists(pipelines)) << "two files fill the bound to the byte";
+    ask();
+    EXPECT_FALSE(was_made);
+  }
+  {
+    const ScopedVariable none("WHOLEHAND_CACHE_MIB", "0");
+    ask();
+    EXPECT_TRUE(was_made) << "what is there is not read";
+    wish.margin = 2e-7;
+    ask();
+    EXPECT_EQ(files().size(), 1u) << "nothing is written, nothing removed";
+  }
+  const ScopedVariable wrong("WHOLEHAND_CACHE_MIB", "2 GB");
+  EXPECT_THROW(ask(), Error);
+}
+
 TEST_F(MeshCache, ManyAtOnceDoNoHarm) {
   const MeshGrid plain = grid_of_mesh(MeshDistance(mesh), mesh, wish);
   std::vector<std::jthread> others;
   for (int t = 0; t < 4; ++t) {
     others.emplace_back([&] {
       for (int i = 0; i < 10; ++i) {
-        expect_same(plain, cached_grid(mesh, wish, folder.string()));
+        expect_same(plain, cached_grid(mesh, wish, root.string()));
         std::error_code ignored;
         for (const fs::path& file : files()) {
           if (i % 3 == 0 && file.extension() == ".grid") fs::remove(file, ignored);
@@ -345,6 +378,17 @@ TEST_F(MeshCache, TheKeyIsThatOfTrianglesAndLattice) {
   EXPECT_TRUE(keys.insert(mesh_key(other, grid)).second);
   other.mesh.triangles.pop_back();
   EXPECT_TRUE(keys.insert(mesh_key(other, grid)).second);
+}
+
+// A pipe in a file's place, which nobody writes to, would be waited for without end.
+TEST_F(MeshCache, DoesNotWaitForAPipe) {
+  const MeshGrid made = ask();
+  const fs::path file = files().at(0);
+  fs::remove(file);
+  ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
+  expect_same(ask(), made);
+  EXPECT_TRUE(was_made);
+  EXPECT_TRUE(fs::is_regular_file(file)) << "the lattice took its place";
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "core/error.h"
@@ -142,11 +143,121 @@ TEST(MeshCheck, WhatEnclosesNothingIsRefused) {
   EXPECT_EQ(refusal(thin), "taken");
 }
 
-TEST(MeshCheck, MillimetresAreNoticed) {
-  const auto warning = [](double height) { return mesh_size_warning(check_mesh(box_mesh({0, 0, 0}, {1, height, 1}), "b").facts); };
+TEST(MeshCheck, UnitsThatAreTooLargeOrTooSmallAreNoticed) {
+  const auto warning = [](double height, double scale = 1) {
+    return mesh_size_warning(check_mesh(box_mesh({0, 0, 0}, {height / 2, height, height / 2}), "b").facts, scale);
+  };
   EXPECT_EQ(warning(9.9), "");
-  EXPECT_EQ(warning(120), "it is 120 m large: glTF counts in metres; if these are millimetres, set mesh_scale = 0.001 (120 mm)");
-  EXPECT_TRUE(says(warning(12), "mesh_scale = 0.01 (120 mm)"));
+  EXPECT_EQ(warning(2.1e-3), "");
+  EXPECT_EQ(
+      warning(120),
+      "it is 120 m large: its numbers are taken as metres; the likely scale is mesh_scale = 0.001, with which it is 120 mm large");
+  EXPECT_TRUE(says(warning(12), "mesh_scale = 0.01, with which it is 120 mm"));
+  EXPECT_EQ(
+      warning(0.08e-3),
+      "it is 0.08 mm large: its numbers are taken as metres; the likely scale is mesh_scale = 1000, with which it is 80 mm large");
+  EXPECT_TRUE(says(warning(1.2e-3), "mesh_scale = 100, with which it is 120 mm"));
+  EXPECT_TRUE(says(warning(80e-9), "mesh_scale = 1e+06, with which it is 80 mm"));
+  // beside a scale that was given
+  EXPECT_TRUE(
+      says(warning(0.08e-3, 0.001), "its numbers times 0.001 are taken as metres; the likely scale is mesh_scale = 1, with"));
+  EXPECT_TRUE(says(warning(120, 0.01), "mesh_scale = 1e-05, with which it is 120 mm"));
+}
+
+TEST(MeshCheck, CopiesOfTrianglesAreLeftOut) {
+  TriangleMesh many = cube();
+  for (int i = 0; i < 5; ++i) many = joined(many, cube());
+  const CheckedMesh checked = check_mesh(many, "six");
+  EXPECT_EQ(checked.mesh.triangles.size(), 12u);
+  EXPECT_EQ(checked.facts.repeated_triangles, 60u);
+  EXPECT_EQ(checked.facts.non_manifold_edges, 0u);
+  EXPECT_TRUE(checked.facts.closed && checked.facts.oriented);
+  EXPECT_NEAR(checked.facts.volume, 0.006, 1e-17);
+  EXPECT_TRUE(says(mesh_check_text(checked.facts), "60 triangles were there before and left out."));
+  TriangleMesh both_sides = cube();
+  both_sides.triangles.push_back({both_sides.triangles[0][0], both_sides.triangles[0][2], both_sides.triangles[0][1]});
+  EXPECT_EQ(check_mesh(both_sides, "sides").facts.repeated_triangles, 0u) << "turned the other way it is another";
+}
+
+TEST(MeshCheck, JoinedCornersAreSaid) {
+  TriangleMesh loose;
+  for (const auto& triangle : cube().triangles)
+    for (const std::uint32_t corner : triangle) loose.vertices.push_back(cube().vertices[corner]);
+  for (std::uint32_t i = 0; i < 36; i += 3) loose.triangles.push_back({i, i + 1, i + 2});
+  const MeshFacts facts = check_mesh(loose, "soup").facts;
+  EXPECT_EQ(facts.joined_corners, 28u);
+  EXPECT_TRUE(says(mesh_check_text(facts), "28 corners were equal to others joined with them."));
+  EXPECT_FALSE(says(mesh_check_text(check_mesh(cube(), "box").facts), "joined"));
+}
+
+TEST(MeshCheck, HolesAreMeasuredAndOffered) {
+  TriangleMesh ball = icosphere(0.05, 4);
+  ball.triangles.pop_back();
+  const MeshFacts facts = check_mesh(ball, "ball").facts;
+  EXPECT_EQ(facts.holes, 1u);
+  EXPECT_TRUE(says(mesh_check_text(facts), ": 1 hole, up to ")) << mesh_check_text(facts);
+  EXPECT_TRUE(says(mesh_check_text(facts), "which close_holes = true closes."));
+  const MeshFacts bowl = check_mesh(open_hemisphere(0.05, 4), "bowl").facts;
+  EXPECT_TRUE(says(mesh_check_text(bowl), "1 hole, up to 141.4 mm across, more than the 10 mm that close_holes closes"))
+      << mesh_check_text(bowl);
+}
+
+// A small hole beside edges that form no loop: what the note says is what close_holes does.
+TEST(MeshCheck, WhatCannotBeClosedIsNotOffered) {
+  TriangleMesh ball = icosphere(0.05, 4);
+  const auto missing = ball.triangles.back();
+  ball.triangles.pop_back();
+  ball.triangles.erase(ball.triangles.begin());
+  const auto has_corner = [&](const auto& t, std::uint32_t corner) { return std::find(t.begin(), t.end(), corner) != t.end(); };
+  for (auto& t : ball.triangles) {
+    if (!has_corner(t, missing[0]) || !has_corner(t, missing[1])) continue;
+    std::swap(t[0], t[1]);
+    break;
+  }
+  const MeshFacts facts = check_mesh(ball, "ball").facts;
+  EXPECT_EQ(facts.holes, 1u);
+  EXPECT_TRUE(says(mesh_check_text(facts), "which close_holes does not close")) << mesh_check_text(facts);
+  EXPECT_THROW(check_mesh(ball, "ball", true), Error);
+}
+
+TEST(MeshCheck, SmallHolesAreClosedWhereThatIsWished) {
+  TriangleMesh ball = icosphere(0.05, 4);
+  const double whole = check_mesh(ball, "ball").facts.volume;
+  ball.triangles.pop_back();
+  std::erase_if(ball.triangles, [](const auto& t) { return t[0] == 5 || t[1] == 5 || t[2] == 5; });
+  for (const bool inside_out : {false, true}) {
+    if (inside_out)
+      for (auto& triangle : ball.triangles) std::swap(triangle[0], triangle[1]);
+    const CheckedMesh checked = check_mesh(ball, "ball", true);
+    EXPECT_TRUE(checked.facts.closed && checked.facts.oriented);
+    EXPECT_EQ(checked.facts.was_inside_out, inside_out);
+    EXPECT_EQ(checked.facts.closed_holes, 2u);
+    EXPECT_EQ(checked.facts.holes + checked.facts.open_edges, 0u);
+    // a cap of five triangles, 3.5 mm each, is flat now
+    EXPECT_NEAR(checked.facts.volume, whole, 5 * 3.5e-3 * 3.5e-3 * 0.2e-3);
+    EXPECT_TRUE(says(mesh_check_text(checked.facts), "2 holes were closed, up to ")) << mesh_check_text(checked.facts);
+  }
+}
+
+TEST(MeshCheck, LargeHolesAreRefusedWithTheirSize) {
+  const auto line = [](const TriangleMesh& mesh) -> std::string {
+    try {
+      check_mesh(mesh, "bowl.stl", true);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code, ExitCode::usage);
+      return error.what();
+    }
+    return "closed";
+  };
+  const std::string bowl = line(open_hemisphere(0.05, 4));
+  EXPECT_TRUE(says(bowl, "bowl.stl: close_holes: a hole is 141.4 mm across, its edge 314 mm")) << bowl;
+  EXPECT_TRUE(says(bowl, "at most 10 and 40 mm are closed: close it where the mesh was made")) << bowl;
+  TriangleMesh ball = icosphere(0.05, 4);
+  auto& beside = ball.triangles.back();
+  std::swap(beside[0], beside[1]);
+  ball.triangles.erase(ball.triangles.end() - 2);  // its neighbour
+  EXPECT_TRUE(says(line(ball), "bowl.stl: close_holes: 3 open edges form no loop")) << line(ball);
+  EXPECT_EQ(line(icosphere(0.05, 4)), "closed");
 }
 
 }  // namespace

@@ -306,5 +306,38 @@ TEST(MeshGrid, OverlappingBodiesEncloseTheirUnion) {
   EXPECT_NEAR(enclosed(icosphere(0.03, 4), 1e-3).volume, ball.facts.volume, 1e-3 * ball.facts.volume);
 }
 
+TEST(MeshGrid, TheForecastIsTheRateTimesTheWork) {
+  EXPECT_EQ(forecast_seconds(10, 1000, 0.5), 50);
+  EXPECT_EQ(forecast_seconds(1000, 1000, 7), 7);
+  EXPECT_EQ(forecast_seconds(0, 1000, 0), 0);
+  EXPECT_EQ(forecast_seconds(3, 3'000'000'000, 2), 2e9);
+}
+
+// By a clock that says how long the rows took: whatever the machine does meanwhile.
+TEST(MeshGrid, RowsAreTimedBeforeTheSamplesAreTaken) {
+  const CheckedMesh mesh = check_mesh(icosphere(0.05, 2), "ball");
+  GridWish wish;
+  wish.spacing = 5e-3;
+  wish.threads = 2;
+  const MeshGrid plain = grid_of_mesh(MeshDistance(mesh), mesh, wish);
+  for (const double step : {4.0, 0.0}) {
+    double now = 100, told = -1;
+    bool has_begun = false;
+    GridForecast forecast;
+    forecast.clock = [&] { return now += step; };
+    forecast.say = [&](const PreparedGrid& grid, double seconds) {
+      EXPECT_FALSE(has_begun);
+      EXPECT_EQ(told, -1) << "once";
+      EXPECT_EQ(grid.ny, plain.grid.ny);
+      told = seconds;
+    };
+    const MeshGrid made = grid_of_mesh(
+        MeshDistance(mesh), mesh, wish, [&](double share) { has_begun = share > 0; }, forecast);
+    // two rows, one a thread, took 4 s by that clock
+    EXPECT_EQ(told, step / 2 * plain.grid.ny * plain.grid.nz);
+    EXPECT_EQ(*made.grid.words, *plain.grid.words) << "timing changes no sample";
+  }
+}
+
 }  // namespace
 }  // namespace wholehand

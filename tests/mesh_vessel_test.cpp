@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "sweeps/mesh_check.h"
+#include "sweeps/open_backend.h"
 #include "tests/support/environment.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
@@ -38,6 +39,9 @@ class MeshVessel : public testing::Test {
     return vessel;
   }
 
+  // Seconds that each look at the clock takes; 0: the machine's clock.
+  double seconds_a_look_ = 0;
+
   // Read, in a scene with everything that a vessel can be asked.
   Scene loaded(std::vector<VesselData> vessels, const HandData& hand = {}) {
     Scene scene = wet_scene(std::move(vessels), Pose::articulated, hand);
@@ -45,6 +49,7 @@ class MeshVessel : public testing::Test {
     said_.clear();
     MeshOptions options;
     options.cache_folder = folder_.string();
+    if (seconds_a_look_ > 0) options.clock = [this, now = 0.0]() mutable { return now += seconds_a_look_; };
     options.say = [this](const std::string& line) { said_ += line + "\n"; };
     load_meshes(scene, options);
     return scene;
@@ -131,7 +136,7 @@ TEST_F(MeshVessel, ABeakerReadBackWeighsAndPoursAsItsOutline) {
   for (const VesselData& outline : {beaker1(), beaker2(), beaker3()}) {
     const int around = 256;
     VesselData mesh = of_file(outline.name, turned_mesh(outline, around, 0.5e-3), 2e-3);
-    mesh.mesh->inner = inner_of(outline);
+    mesh.inner = inner_of(outline);
     const Scene scene = loaded({mesh}), exact_scene = wet_scene({outline}, Pose::articulated);
     EXPECT_TRUE(scene.vessels[0].mesh->body->holds_cavity);
     EXPECT_NEAR(scene.vessels[0].height, outline.height, 1e-8);  // the file holds floats
@@ -162,7 +167,7 @@ TEST_F(MeshVessel, AFlaskReadBackConvergesAtSecondOrder) {
   for (const int level : {0, 1, 2}) {
     const double spacing = 6e-3 / (1 << level), chord = 6e-3 / (1 << level);
     VesselData mesh = of_file("flask", turned_mesh(outline, 48 << level, chord), spacing);
-    mesh.mesh->inner = inner_of(outline);
+    mesh.inner = inner_of(outline);
     mesh.mass = 0.1;  // that of the glass converges too, but not with the lattice
     mesh.center_of_mass = {0, 0.05, 0};
     VesselData same_mass = outline;
@@ -288,7 +293,7 @@ TEST_F(MeshVessel, ALeftHandHoldsTheMirrorImage) {
 TEST_F(MeshVessel, DevicesGiveWhatTheCoreGives) {
   for (const HandData& hand : {HandData{}, left_hand()}) {
     VesselData dry = of_file("mug", mug_mesh(), 1.5e-3), wet = of_file("beaker", turned_mesh(beaker3(), 64, 2e-3), 1.5e-3);
-    wet.mesh->inner = inner_of(beaker3());
+    wet.inner = inner_of(beaker3());
     const Scene scene = loaded({dry, wet, beaker1()}, hand);
     expect_parity(scene, "meshes");
   }
@@ -301,6 +306,62 @@ TEST_F(MeshVessel, DevicesGiveWhatTheCoreGives) {
   load_meshes(scene, options);
   EXPECT_TRUE(scene.vessels[0].mesh->body->grid.halves);
   expect_parity(scene, "halves");
+}
+
+TEST_F(MeshVessel, LongWorkIsSaidBeforeWithItsTime) {
+  seconds_a_look_ = 1;
+  const PreparedGrid grid = loaded({of_file("ball", icosphere(0.03, 2), 3e-3)}).vessels[0].mesh->body->grid;
+  const std::string said = said_;
+  const std::size_t before = said.find("its lattice of 3 mm has "), after = said.find("lattice of 3 mm, ");
+  ASSERT_NE(before, std::string::npos) << said;
+  EXPECT_LT(before, after) << said;
+  EXPECT_NE(said.find("samples, which take about "), std::string::npos) << said;
+  EXPECT_NE(said.find("a larger grid_mm takes less"), std::string::npos) << said;
+  EXPECT_GT(grid.ny * grid.nz, 12 * 64) << "one second for a row a thread is over 10 s of all";
+  loaded({of_file("ball", icosphere(0.03, 2), 3e-3)});
+  EXPECT_EQ(said_.find("which take about"), std::string::npos) << "it is in the cache";
+  seconds_a_look_ = 1e-9;
+  loaded({of_file("other", icosphere(0.031, 2), 3e-3)});
+  EXPECT_EQ(said_.find("which take about"), std::string::npos) << said_;
+}
+
+TEST_F(MeshVessel, WhatIsLongIsLessForAnOpenMesh) {
+  EXPECT_FALSE(is_long(10, true));
+  EXPECT_TRUE(is_long(10.1, true));
+  EXPECT_FALSE(is_long(3, false));
+  EXPECT_TRUE(is_long(3.1, false));
+  PreparedGrid grid;
+  grid.spacing = 1e-3;
+  grid.nx = 100;
+  grid.ny = 200;
+  grid.nz = 300;
+  EXPECT_EQ(forecast_text(grid, 53.2, false),
+            "its lattice of 1 mm has 6,000,000 samples, which take about 54 s, as the mesh is open; a closed one, or a larger "
+            "grid_mm, takes less");
+  EXPECT_EQ(forecast_text(grid, 503, true),
+            "its lattice of 1 mm has 6,000,000 samples, which take about 8 min 23 s; a larger grid_mm takes less");
+}
+
+TEST_F(MeshVessel, ATinyMeshIsWarnedOfAndGetsASmallLattice) {
+  TriangleMesh ball = icosphere(0.04e-3, 1);
+  const Scene scene = loaded({of_file("tiny", ball, 0)});
+  EXPECT_NE(said_.find("the likely scale is mesh_scale = 1000, with which it is 80 mm large"), std::string::npos) << said_;
+  EXPECT_LE(4 * scene.vessels[0].mesh->body->grid.words->size(), 4u << 20) << "an answer soon";
+}
+
+TEST_F(MeshVessel, HolesAreClosedWhereTheSceneSaysSo) {
+  TriangleMesh ball = icosphere(0.03, 4);
+  ball.triangles.pop_back();
+  VesselData vessel = of_file("ball", ball, 5e-3);
+  loaded({vessel});
+  EXPECT_NE(said_.find("which close_holes = true closes"), std::string::npos) << said_;
+  vessel.mesh->close_holes = true;
+  loaded({vessel});
+  EXPECT_NE(said_.find(", closed;"), std::string::npos) << said_;
+  EXPECT_NE(said_.find("1 hole was closed, up to "), std::string::npos) << said_;
+  VesselData bowl = of_file("bowl", open_hemisphere(0.03, 3), 5e-3);
+  bowl.mesh->close_holes = true;
+  EXPECT_NE(refusal(bowl).find("scene.toml:3:8: bowl.glb: close_holes: a hole is "), std::string::npos) << refusal(bowl);
 }
 
 TEST_F(MeshVessel, WithoutAnInnerOutlineItIsSolidAndDry) {
@@ -321,7 +382,7 @@ TEST_F(MeshVessel, AHollowMeshIsWeighedAsItIs) {
   VesselData shell;
   shell.outline = {line_to(40, 0), line_to(40, 110), line_to(38.5, 110), line_to(38.5, 1.5), line_to(0, 1.5)};
   VesselData vessel = of_file("hollow", turned_mesh(shell, 128, 1e-3), 0.7e-3);
-  vessel.mesh->inner = inner_of(beaker1());
+  vessel.inner = inner_of(beaker1());
   const auto core = make_core_evaluator(loaded({vessel}));
   const auto exact = make_core_evaluator(wet_scene({beaker1()}, Pose::articulated));
   // inner and outer wall shrink alike: 2 / 3 (pi / around)^2 of the glass
@@ -353,7 +414,7 @@ TEST_F(MeshVessel, AnInnerOutlineIsAsWideAsItsArcsReach) {
   VesselData hull;
   hull.outline = {line_to(52, 0), line_to(52, 70)};
   VesselData vessel = of_file("bowl", turned_mesh(hull, 64, 2e-3), 2e-3);
-  vessel.mesh->inner = {line_to(0, 5), line_to(30, 5), arc_to(50, 65, -350, 165)};
+  vessel.inner = {line_to(0, 5), line_to(30, 5), arc_to(50, 65, -350, 165)};
   EXPECT_EQ(refusal(vessel), "");
 }
 
@@ -388,7 +449,7 @@ TEST_F(MeshVessel, WhatCannotBeUsedIsRefusedInOneLine) {
 
   VesselData beaker = of_file("beaker", turned_mesh(beaker1(), 64, 2e-3), 2e-3);
   const auto with_inner = [&](double floor, double radius, double mouth) {
-    beaker.mesh->inner = {{false, {0, floor}, {}, 0, 0}, {false, {radius, floor}, {}, 0, 0}, {false, {radius, mouth}, {}, 0, 0}};
+    beaker.inner = {{false, {0, floor}, {}, 0, 0}, {false, {radius, floor}, {}, 0, 0}, {false, {radius, mouth}, {}, 0, 0}};
     return refusal(beaker);
   };
   EXPECT_EQ(with_inner(2e-3, 35e-3, 110e-3), "");
@@ -399,12 +460,12 @@ TEST_F(MeshVessel, WhatCannotBeUsedIsRefusedInOneLine) {
   VesselData shell;
   shell.outline = {line_to(40, 0), line_to(40, 110), line_to(38.5, 110), line_to(38.5, 1.5), line_to(0, 1.5)};
   VesselData cup = of_file("cup", joined(turned_mesh(shell, 64, 2e-3), box_mesh({0.039, 0.03, -0.005}, {0.07, 0.08, 0.005})), 1e-3);
-  cup.mesh->inner = inner_of(beaker1());
+  cup.inner = inner_of(beaker1());
   EXPECT_NE(refusal(cup).find("unless origin = \"as_is\""), std::string::npos) << refusal(cup);
   cup.mesh->origin_at_base = false;
   EXPECT_EQ(refusal(cup), "");
   VesselData ball = of_file("ball", icosphere(0.03, 3), 1e-3);
-  ball.mesh->inner = {{false, {0, 1e-3}, {}, 0, 0}, {false, {29e-3, 1e-3}, {}, 0, 0}, {false, {29e-3, 59e-3}, {}, 0, 0}};
+  ball.inner = {{false, {0, 1e-3}, {}, 0, 0}, {false, {29e-3, 1e-3}, {}, 0, 0}, {false, {29e-3, 59e-3}, {}, 0, 0}};
   EXPECT_NE(refusal(ball).find("passes through the mesh"), std::string::npos) << refusal(ball);
 }
 
@@ -451,10 +512,13 @@ TEST_F(MeshVessel, ASceneThatIsNotReadIsNotEvaluated) {
 }
 
 TEST_F(MeshVessel, ALatticeFitsTheDevice) {
-  EXPECT_LE(largest_lattice("core"), LARGEST_LATTICE);
-  EXPECT_GT(largest_lattice("vulkan"), 1u << 20);
-  EXPECT_LE(largest_lattice("vulkan"), largest_lattice("core"));
-  EXPECT_THROW(largest_lattice("no such device"), Error);
+  const std::uint64_t all = largest_buffer("core");
+  EXPECT_LE(largest_lattice(all), LARGEST_LATTICE);
+  EXPECT_EQ(largest_lattice(1000), 1000u);
+  const std::uint64_t device = largest_buffer("vulkan");
+  EXPECT_GT(device, 1u << 20);
+  EXPECT_LT(device, all);
+  EXPECT_THROW(largest_buffer("no such device"), Error);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "device/omega_gripper.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cmath>
@@ -236,6 +237,28 @@ TEST_F(OmegaGripperTest, WriteErrorsCarryTheSdksWords) {
   EXPECT_STREQ(gripper->trouble(), "force not taken: no power");
 }
 
+// It may be half switched on: zero is written, and what is told is what the device answered.
+TEST_F(OmegaGripperTest, AForceThatCannotBeEnabledIsTakenAway) {
+  for (const bool is_taken : {false, true}) {
+    const auto gripper = open();
+    GripperState state;
+    ASSERT_EQ(gripper->read(state, 0), ReadOutcome::value);
+    EXPECT_EQ(gripper->let_go(), LetGo::nothing);
+    sdk->forces.clear();
+    sdk->codes = {{"dhdEnableForce", -1}};
+    EXPECT_FALSE(gripper->write({{1, 0, 0}, 0}));
+    EXPECT_TRUE(sdk->forces.empty());
+    EXPECT_EQ(gripper->panic(), LetGo::not_asked);
+    if (!is_taken) sdk->codes["dhdSetForceAndTorqueAndGripperForce"] = -1;
+    EXPECT_EQ(gripper->let_go(), is_taken ? LetGo::written : LetGo::not_taken);
+    if (is_taken) {
+      ASSERT_EQ(sdk->forces.size(), 1u);
+      EXPECT_EQ(sdk->forces[0], (std::array<double, 7>{}));
+    }
+    sdk->codes.clear();
+  }
+}
+
 TEST_F(OmegaGripperTest, NotANumberIsHandedOnWhenRead) {
   const auto gripper = open();
   GripperState state;
@@ -450,6 +473,16 @@ TEST(DhdLibrary, SaysWhyOneThatIsThereDoesNotLoad) {
   { std::ofstream(text) << "no library"; }
   const std::string line = refusal([&] { load_dhd_library("", {text, "libnone_dhd.so"}); });
   expect_has(line, "cannot load Force Dimension's SDK: " + text + ":");
+}
+
+// The loader would wait without end for somebody to write to it.
+TEST(DhdLibrary, APipeIsNotWaitedFor) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "libdhd.so";
+  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+  expect_has(refusal([&] { load_dhd_library(path); }), path + ": is no file but a folder, device or pipe; get it from ");
+  const ScopedVariable variable("WHOLEHAND_DHD_LIBRARY", path.c_str());
+  expect_has(refusal([] { load_dhd_library(""); }), "(named by WHOLEHAND_DHD_LIBRARY): " + path + ": is no file");
 }
 
 TEST(DhdLibrary, WhatIsNamedIsNotReplaced) {

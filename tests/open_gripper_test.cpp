@@ -3,9 +3,15 @@
 #include "app/open_gripper.h"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
 #include <functional>
 #include <memory>
 #include <set>
@@ -41,7 +47,7 @@ class Patient final : public Gripper {
     if (written == 60 && at_work) at_work();
     return is_taken;
   }
-  void let_go() noexcept override { gripper_->let_go(); }
+  LetGo let_go() noexcept override { return gripper_->let_go(); }
   const char* trouble() const noexcept override { return gripper_->trouble(); }
 
   int patience = 100, written = 0;
@@ -172,6 +178,72 @@ TYPED_TEST(OpenGripperSession, UnpluggingEndsItAndSaysSo) {
   EXPECT_NE(carried.report.trouble.find("unplugged"), std::string::npos) << carried.report.trouble;
   EXPECT_EQ(carried.report.last.state, SessionState::released);
   EXPECT_EQ(carried.report.last.written.grip, 0);
+}
+
+// ---- a process that stands still ----
+
+// In and out of the beaker's side, a second and a half of every two pressed into it.
+GripperState pressing_state(double time) {
+  const double phase = std::fmod(time, 2.0),
+               in = std::clamp((phase - 0.3) / 0.05, 0.0, 1.0) - std::clamp((phase - 1.9) / 0.05, 0.0, 1.0);
+  GripperState state;
+  state.position = {0.121 - 0.010 * in, 0.055, 0};
+  state.gap = 25e-3;
+  return state;
+}
+
+// A session in a child, without an end.
+pid_t start_pressing(const std::string& address) {
+  const pid_t child = fork();
+  if (child != 0) return child;
+  Scene scene = carried_scene(RATE);
+  scene.live.ramp = 0;
+  scene.live.slew = 1e9;
+  scene.live.jump = 1e6;
+  scene.live.late_steps = 1 << 30;
+  Patient gripper(open_gripper(address, scene, 1, "", SLOW));
+  Session session(scene, gripper.limits().gap);
+  HapticLoop loop(scene.live, gripper, session, {}, {});
+  const std::atomic<bool> stop{false};
+  loop.run(stop);
+  std::fprintf(stderr, "the session ended: %s\n", loop.report().trouble.c_str());
+  _exit(3);
+}
+
+// Until `holds` of the last output, for ten seconds.
+template <class Holds>
+bool await_output(const MockGripper& mock, std::size_t least, const Holds& holds) {
+  for (int k = 0; k < 10000; ++k) {
+    const auto outputs = mock.outputs();
+    if (outputs.size() >= least && !outputs.empty() && holds(outputs.back())) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return false;
+}
+
+TYPED_TEST(OpenGripperSession, TheFirstForceAfterAStopIsZero) {
+  MockBench bench;
+  MockSettings settings;
+  settings.motion = pressing_state;
+  TypeParam mock(bench, settings);
+  const pid_t child = start_pressing(mock.address());
+  for (const int ms : {20, 60, 300}) {
+    const bool has_force = await_output(mock, 1, [](const auto& output) { return !is_no_force(output); });
+    EXPECT_TRUE(has_force);
+    if (!has_force) break;
+    kill(child, SIGSTOP);
+    int status = 0;
+    waitpid(child, &status, WUNTRACED);
+    std::this_thread::sleep_for(std::chrono::milliseconds(ms));  // what is under way arrives meanwhile
+    const std::size_t before = mock.outputs().size();
+    kill(child, SIGCONT);
+    EXPECT_TRUE(await_output(mock, before + 1, [](const auto&) { return true; }));
+    const auto outputs = mock.outputs();
+    ASSERT_GT(outputs.size(), before);
+    EXPECT_TRUE(is_no_force(outputs[before])) << "after " << ms << " ms: " << outputs[before].arm[0];
+  }
+  kill(child, SIGKILL);
+  waitpid(child, nullptr, 0);
 }
 
 // A recording that does not keep up: the force of that tick may still be on its way, and none must follow it at once.

@@ -19,11 +19,13 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #undef NDEBUG  // a failing assertion is wanted here
 #include <cassert>
 
+#include "core/block_signals.h"
 #include "device/haptic_loop.h"
 #include "tests/support/scenes.h"
 
@@ -32,7 +34,7 @@ namespace {
 
 // What survives the child.
 struct Log {
-  std::atomic<int> writes{0}, panics{0}, ended{0};
+  std::atomic<int> writes{0}, panics{0}, ended{0}, meanwhiles{0};
   std::atomic<double> grip{0};  // the last that was written; panic() writes 0
 };
 
@@ -55,6 +57,7 @@ class LoggingGripper : public Gripper {
     limits_.force = 12;
     limits_.grip = 8;
     limits_.gap = {0, 0.1};
+    limits_.watchdog = 20e-3;
   }
   const GripperLimits& limits() const noexcept override { return limits_; }
   ReadOutcome read(GripperState& state, std::int64_t tick) noexcept override {
@@ -69,15 +72,23 @@ class LoggingGripper : public Gripper {
     log_.grip = force.grip;
     return true;
   }
-  void panic() noexcept override {
+  LetGo panic() noexcept override {
     ++log_.panics;
     in_panic();
-    log_.grip = 0;
+    if (answer == LetGo::written) log_.grip = 0;
     ++log_.ended;
+    return answer;
+  }
+  LetGo let_go_meanwhile() noexcept override {
+    ++log_.meanwhiles;
+    in_meanwhile();
+    log_.grip = 0;
+    return LetGo::written;
   }
 
   std::function<void()> fail = [] {};
-  std::function<void()> in_panic = [] {};
+  std::function<void()> in_panic = [] {}, in_meanwhile = [] {};
+  LetGo answer = LetGo::written;  // of panic()
   std::int64_t fails_at = -1;
 
  private:
@@ -120,7 +131,8 @@ void expect_panic(const PanicOutcome& outcome, const Log& log, const std::string
   EXPECT_EQ(outcome.code, 3) << outcome.said;
   EXPECT_EQ(log.panics, 1);
   EXPECT_EQ(log.grip, 0);
-  EXPECT_NE(outcome.said.find("wholehand: live: the program failed (" + why + "); the force was let go, state released"),
+  EXPECT_NE(outcome.said.find("wholehand: live: the program failed (" + why +
+                              "); zero force was written, state released; please report it\n"),
             std::string::npos)
       << outcome.said;
 }
@@ -153,6 +165,8 @@ std::vector<Failure> failures() {
       {"bus error", [] { raise(SIGBUS); }, "SIGBUS"},
       {"arithmetic", [] { raise(SIGFPE); }, "SIGFPE"},
       {"instruction", [] { __builtin_trap(); }, "SIGILL"},
+      {"trap", [] { raise(SIGTRAP); }, "SIGTRAP"},
+      {"system call", [] { raise(SIGSYS); }, "SIGSYS"},
   };
 }
 
@@ -239,7 +253,19 @@ TEST(PanicGuard, AnotherThreadHasItsOwnStackToo) {
 
 // Signals that nobody handles and that would end the process at once.
 TEST(PanicGuard, LetsGoAtSignalsThatEndTheProcess) {
-  for (const int signal : {SIGQUIT, SIGALRM, SIGUSR1, SIGUSR2, SIGXCPU, SIGVTALRM, SIGPROF}) {
+  for (const auto& [signal, name] : std::vector<std::pair<int, std::string>>{{SIGQUIT, "SIGQUIT"},
+                                                                             {SIGALRM, "SIGALRM"},
+                                                                             {SIGUSR1, "SIGUSR1"},
+                                                                             {SIGUSR2, "SIGUSR2"},
+                                                                             {SIGXCPU, "SIGXCPU"},
+                                                                             {SIGVTALRM, "SIGVTALRM"},
+                                                                             {SIGPROF, "SIGPROF"},
+                                                                             {SIGPWR, "SIGPWR"},
+                                                                             {SIGIO, "SIGIO"},
+                                                                             {SIGSTKFLT, "SIGSTKFLT"},
+                                                                             {SIGRTMIN, "SIGRTMIN+0"},
+                                                                             {SIGRTMIN + 5, "SIGRTMIN+5"},
+                                                                             {SIGRTMAX, "SIGRTMIN+30"}}) {
     Shared log;
     const PanicOutcome outcome = run_in_child([&] {
       LoggingGripper gripper(*log);
@@ -250,7 +276,7 @@ TEST(PanicGuard, LetsGoAtSignalsThatEndTheProcess) {
     EXPECT_EQ(outcome.code, 3) << signal;
     EXPECT_EQ(log->panics, 1) << signal;
     EXPECT_EQ(log->grip, 0) << signal;
-    EXPECT_EQ(outcome.said.rfind("wholehand: live: ended by a signal (SIG", 0), 0u) << outcome.said;
+    EXPECT_EQ(outcome.said, "wholehand: live: ended by a signal (" + name + "); zero force was written, state released\n");
   }
 }
 
@@ -291,6 +317,158 @@ TEST(PanicGuard, APanicThatFailsIsGivenUp) {
     EXPECT_EQ(log->panics, 1);
     EXPECT_EQ(log->ended, 0);
   }
+}
+
+// A thread that started with its signals blocked fails like any other.
+TEST(PanicGuard, LetsGoWhenAThreadOfBlockedSignalsFails) {
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGSYS, SIGABRT}) {
+    Shared log;
+    const PanicOutcome outcome = run_in_child([&] {
+      LoggingGripper gripper(*log);
+      PanicGuard guard(gripper);
+      std::thread other;
+      {
+        const BlockSignals inherited;
+        other = std::thread([signal] { raise(signal); });
+      }
+      other.join();
+    });
+    EXPECT_EQ(outcome.code, 3) << signal << outcome.said;
+    EXPECT_EQ(log->panics, 1) << signal;
+  }
+}
+
+TEST(PanicGuard, WhatWasIgnoredStaysSo) {
+  Shared log;
+  const PanicOutcome outcome = run_in_child([&] {
+    std::signal(SIGQUIT, SIG_IGN);
+    LoggingGripper gripper(*log);
+    PanicGuard guard(gripper);
+    raise(SIGQUIT);
+  });
+  EXPECT_EQ(outcome.code, 0) << outcome.said;
+  EXPECT_EQ(log->panics, 0);
+}
+
+// The write that passes a file's limit fails, and whoever writes says so; afterwards all is as it was.
+TEST(PanicGuard, AFileThatGrowsTooLargeEndsNothing) {
+  Shared log;
+  const PanicOutcome outcome = run_in_child([&] {
+    LoggingGripper gripper(*log);
+    {
+      PanicGuard guard(gripper);
+      raise(SIGXFSZ);
+      raise(SIGPIPE);
+      ++log->ended;
+    }
+    raise(SIGXFSZ);
+  });
+  EXPECT_EQ(outcome.code, 1000 + SIGXFSZ) << outcome.said;
+  EXPECT_EQ(log->ended, 1);
+  EXPECT_EQ(log->panics, 0);
+}
+
+// ---- a library that ends the program ----
+
+TEST(PanicGuard, AnExitIsNoWayOutOfASession) {
+  for (const bool is_quick : {false, true}) {
+    Shared log;
+    const PanicOutcome outcome = run_in_child([&] {
+      LoggingGripper gripper(*log);
+      PanicGuard guard(gripper);
+      gripper.fails_at = 100;
+      gripper.fail = [&] {
+        gripper.write({{}, 5});
+        if (is_quick) std::quick_exit(0);
+        std::exit(0);
+      };
+      run_loop(gripper);
+    });
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_EQ(log->grip, 0);
+    EXPECT_EQ(log->panics, 1);
+    EXPECT_EQ(outcome.said, "wholehand: live: a library ended the program by exit(0); zero force was written, state released\n");
+  }
+}
+
+TEST(PanicGuard, AnExitAfterItIsAnExit) {
+  Shared log;
+  const PanicOutcome outcome = run_in_child([&] {
+    LoggingGripper gripper(*log);
+    { PanicGuard guard(gripper); }
+    std::exit(7);
+  });
+  EXPECT_EQ(outcome.code, 7);
+  EXPECT_EQ(outcome.said, "");
+}
+
+// ---- what is said of the force ----
+
+// The last force as the loop wrote it, whoever fails.
+TEST(PanicGuard, SaysWhatIsLeftOnADeviceThatTookNothing) {
+  for (const LetGo answer : {LetGo::not_taken, LetGo::not_asked, LetGo::nothing}) {
+    Shared log;
+    const PanicOutcome outcome = run_in_child([&] {
+      LoggingGripper gripper(*log);
+      gripper.answer = answer;
+      PanicGuard guard(gripper);
+      gripper.note({{1.2, -1.6, 0}, -2.379});
+      raise(SIGSEGV);
+    });
+    const std::string left =
+        "; the last force was 2 N at the arm and 2.38 N at the fingers; the device's own watchdog takes it away within 20 ms, "
+        "state "
+        "released; please report it\n";
+    const std::string words = answer == LetGo::not_taken ? "zero force could not be written" + left
+                              : answer == LetGo::not_asked
+                                  ? "zero force was not written, since the device's library cannot be called now" + left
+                                  : "no force is on a device, state released; please report it\n";
+    EXPECT_EQ(outcome.said, "wholehand: live: the program failed (SIGSEGV); " + words);
+    EXPECT_EQ(outcome.code, 3);
+  }
+}
+
+// What a signal handler must not do a second thread does.
+TEST(PanicGuard, TheWatchWritesWhatTheHandlerMustNot) {
+  for (const bool is_exit : {false, true}) {
+    Shared log;
+    const PanicOutcome outcome = run_in_child([&] {
+      LoggingGripper gripper(*log);
+      gripper.answer = LetGo::not_asked;
+      CallWatch watch(gripper);
+      PanicGuard guard(gripper, &watch);
+      gripper.write({{}, 5});
+      if (is_exit) std::exit(0);
+      raise(SIGSEGV);
+    });
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_EQ(log->meanwhiles, 1);
+    EXPECT_EQ(log->grip, 0);
+    EXPECT_NE(outcome.said.find("; zero force was written, state released"), std::string::npos) << outcome.said;
+  }
+}
+
+// The second thread does not come back either: the process ends without it, and says that nothing was written.
+TEST(PanicGuard, AWatchThatIsStuckIsNotWaitedFor) {
+  Shared log;
+  const PanicOutcome outcome = run_in_child([&] {
+    LoggingGripper gripper(*log);
+    gripper.answer = LetGo::not_asked;
+    gripper.in_meanwhile = [] {
+      for (;;) pause();
+    };
+    CallWatch watch(gripper);
+    PanicGuard guard(gripper, &watch);
+    gripper.note({{}, 5});
+    raise(SIGSEGV);
+  });
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_EQ(log->meanwhiles, 1);
+  EXPECT_NE(
+      outcome.said.find("zero force was not written, since the device's library cannot be called now; the last force was 0 N at "
+                        "the arm and 5 N at the fingers"),
+      std::string::npos)
+      << outcome.said;
 }
 
 TEST(PanicGuard, IsGoneWithItsEnd) {

@@ -56,7 +56,7 @@ TEST(Prepare, AMeshIsItsBodyAndItsInnerOutline) {
   vessel.base = -0.02;
   vessel.height = 0.08;
   // floor at -15 mm, a level step out, a quarter circle, and straight up to the mouth
-  vessel.mesh->inner = {line_to(0, -15), line_to(10, -15), arc_to(20, -5, 10, -5), line_to(20, 70)};
+  vessel.inner = {line_to(0, -15), line_to(10, -15), arc_to(20, -5, 10, -5), line_to(20, 70)};
   vessel.mesh->body = std::make_shared<MeshBody>(body);
   const PreparedVessel prepared = prepare_vessel(vessel, vessel.has_cavity());
   EXPECT_TRUE(prepared.hull.empty() && prepared.outline.empty());

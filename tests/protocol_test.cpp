@@ -211,9 +211,33 @@ TEST(Protocol, TimeGoesOnWhereTheClockWraps) {
   report.time = 0xFFFFFFF0;
   const double before = measurements.state(report).time;
   report.time = 0x10;
+  EXPECT_EQ(measurements.check(report), Wrong::nothing);
   EXPECT_NEAR(measurements.state(report).time - before, 32e-6, 1e-9);
-  report.time = 0x0E;  // and a step back is one
-  EXPECT_NEAR(measurements.state(report).time - before, 30e-6, 1e-9);
+}
+
+// Half a round ahead is later, and more is earlier.
+TEST(Protocol, NumbersThatGoBackAndClocksThatStepBackAreWrong) {
+  for (const std::uint32_t start : {1000u, 0u, 0xFFFFFFFFu}) {
+    Measurements measurements(true);
+    InputReport report = some_report();
+    report.sequence = report.time = start;
+    EXPECT_EQ(measurements.check(report), Wrong::nothing) << "the first may have any";
+    measurements.state(report);
+    const auto after = [&](std::uint32_t numbers, std::uint32_t us) {
+      InputReport next = report;
+      next.sequence += numbers;
+      next.time += us;
+      return measurements.check(next);
+    };
+    EXPECT_EQ(after(1, 1000), Wrong::nothing);
+    EXPECT_EQ(after(1, 0), Wrong::nothing) << "two within a microsecond";
+    EXPECT_EQ(after(0, 0), Wrong::nothing) << "the same once more is for the loop to judge";
+    EXPECT_EQ(after(0x7FFFFFFFu, 0x7FFFFFFFu), Wrong::nothing);
+    EXPECT_EQ(after(0x80000000u, 1), Wrong::older);
+    EXPECT_EQ(after(0xFFFFFFFFu, 1), Wrong::older);
+    EXPECT_EQ(after(1, 0xFFFFFFFFu), Wrong::clock);
+    EXPECT_EQ(after(1, 0x80000000u), Wrong::clock);
+  }
 }
 
 TEST(Protocol, ForcesNeverGrowByRounding) {

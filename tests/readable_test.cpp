@@ -17,5 +17,13 @@ TEST(Readable, BytesAndCounts) {
   EXPECT_EQ(readable_count(1e12), "1.0e+12");
 }
 
+TEST(Readable, Durations) {
+  EXPECT_EQ(readable_duration(0), "0 s");
+  EXPECT_EQ(readable_duration(10.2), "11 s");
+  EXPECT_EQ(readable_duration(119.5), "2 min 0 s");
+  EXPECT_EQ(readable_duration(503.2), "8 min 24 s");
+  EXPECT_EQ(readable_duration(7500), "2 h 5 min");
+}
+
 }  // namespace
 }  // namespace wholehand

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <netcdf.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -22,6 +21,7 @@
 #include "core/error.h"
 #include "sweeps/recorder.h"
 #include "sweeps/recording_fields.h"
+#include "tests/support/environment.h"
 #include "tests/support/special_values.h"
 
 namespace wholehand {
@@ -320,6 +320,13 @@ TEST(Recording, IsWhatTheNetcdfLibraryReads) {
   EXPECT_NE(contents(folder.file("header.txt")).find("double grip_force(tick) ;"), std::string::npos);
 }
 
+TEST(Recording, XarraySelectsByName) {
+  const Folder folder;
+  const std::string path = record(folder, RandomTicks(3).some(4, 2));
+  const std::string command = "/usr/bin/python3 " WHOLEHAND_SOURCE_DIR "/tests/xarray_recording_test.py '" + path + "' 'vessel 2'";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+}
+
 TEST(Recording, KeepsNumbersOfTicksThatSkip) {
   const Folder folder;
   std::vector<Tick> ticks(3);
@@ -351,17 +358,25 @@ TEST(Recording, OutlivesTheProcess) {
   const Folder folder;
   for (int round = 0; round < 5; ++round) {
     const std::string path = folder.file(fmt::format("{}.nc", round));
+    int begun[2] = {};
+    ASSERT_EQ(pipe(begun), 0);
     const pid_t child = fork();
     ASSERT_GE(child, 0);
     if (child == 0) {
       RecordingWriter writer(path, some_info(2));
       std::vector<Tick> block(64);
       for (std::int64_t number = 0;;) {
+        const bool is_first = number == 0;
         for (Tick& tick : block) tick.number = tick.device.sequence = static_cast<std::uint32_t>(++number);
         writer.append(block);
+        if (is_first && write(begun[1], "x", 1) != 1) _exit(1);
       }
     }
-    usleep(static_cast<useconds_t>(30000 + 7000 * round));
+    char first = 0;
+    ASSERT_EQ(read(begun[0], &first, 1), 1);  // however busy the machine is
+    close(begun[0]);
+    close(begun[1]);
+    usleep(static_cast<useconds_t>(10000 + 7000 * round));
     kill(child, SIGKILL);
     int status = 0;
     ASSERT_EQ(waitpid(child, &status, 0), child);
@@ -383,20 +398,6 @@ TEST(Recording, OutlivesTheProcess) {
     EXPECT_LT(static_cast<double>(bytes), (static_cast<double>(recording.ticks.size()) + 64) * per_tick + 20000);
   }
 }
-
-// The process's limit on file sizes, while it is there.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit limit{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FileSizeLimit() { setrlimit(RLIMIT_FSIZE, &before_); }
-
- private:
-  rlimit before_;
-};
 
 TEST(Recording, EndsWhereTheDiskIsFull) {
   const Folder folder;
@@ -463,6 +464,77 @@ TEST(Recording, OverwritesNothing) {
   std::filesystem::remove(path + ".partial");
   EXPECT_THROW(check_recording_path(folder.file("no/such/folder.nc")), Error);
   EXPECT_THROW(check_recording_path(folder.file("")), Error);
+}
+
+// What appears under the recording's name during the session is somebody's.
+TEST(Recording, WhatAppearsMeanwhileStays) {
+  const Folder folder;
+  const std::string path = folder.file("a.nc");
+  const auto ticks = RandomTicks(6).some(20, 2);
+  RecordingWriter writer(path, some_info(2));
+  EXPECT_TRUE(writer.append(ticks));
+  put_contents(path, "a letter");
+  EXPECT_FALSE(writer.finish(some_end()));
+  EXPECT_EQ(writer.trouble(),
+            path + ": something was put there meanwhile, and is not overwritten; the recording is whole at " + path + ".partial");
+  EXPECT_EQ(contents(path), "a letter");
+  expect_same(read_recording(path + ".partial").ticks, ticks);
+}
+
+TEST(Recording, APartialFileThatIsTakenAwayIsNotCalledWhole) {
+  const Folder folder;
+  const std::string path = folder.file("a.nc"), partial = path + ".partial";
+  const auto ticks = RandomTicks(7).some(40, 2);
+  {
+    RecordingWriter writer(path, some_info(2));
+    EXPECT_TRUE(writer.append(std::span(ticks).first(20)));
+    std::filesystem::remove(partial);
+    EXPECT_FALSE(writer.append(std::span(ticks).subspan(20)));
+    EXPECT_EQ(writer.trouble(),
+              path + ": recording ended: " + partial + " was removed or renamed meanwhile, and with it what was recorded");
+    EXPECT_FALSE(writer.finish(some_end()));
+  }
+  EXPECT_FALSE(std::filesystem::exists(path));
+  RecordingWriter writer(path, some_info(2));
+  EXPECT_TRUE(writer.append(ticks));
+  std::filesystem::rename(partial, folder.file("mine"));
+  put_contents(partial, "a letter");
+  EXPECT_FALSE(writer.finish(some_end()));
+  EXPECT_NE(writer.trouble().find("was removed or renamed"), std::string::npos);
+  EXPECT_EQ(contents(partial), "a letter");
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
+TEST(Recording, APartialFileThatIsCutIsNotCalledWhole) {
+  const Folder folder;
+  const std::string path = folder.file("a.nc");
+  const auto ticks = RandomTicks(8).some(40, 2);
+  RecordingWriter writer(path, some_info(2));
+  EXPECT_TRUE(writer.append(std::span(ticks).first(20)));
+  std::filesystem::resize_file(path + ".partial", writer.bytes() - 9 * writer.record_size() - 5);
+  EXPECT_FALSE(writer.append(std::span(ticks).subspan(20))) << "nothing behind a gap";
+  EXPECT_NE(writer.trouble().find(".partial was cut to "), std::string::npos) << writer.trouble();
+  writer.finish(some_end());
+  const Recording recording = read_recording(path);
+  expect_same(recording.ticks, {ticks.begin(), ticks.begin() + 10});
+  EXPECT_EQ(recording.note, path + " ended before the session: its file was cut");
+}
+
+TEST(Recording, ALinkIsFollowed) {
+  const Folder folder;
+  const std::string path = folder.file("a.nc"), target = folder.file("target.nc");
+  std::filesystem::create_symlink("target.nc", path);
+  const auto ticks = RandomTicks(9).some(5, 2);
+  {
+    RecordingWriter writer(path, some_info(2));
+    EXPECT_TRUE(std::filesystem::exists(target + ".partial"));
+    EXPECT_TRUE(writer.append(ticks));
+    EXPECT_TRUE(writer.finish(some_end()));
+  }
+  EXPECT_TRUE(std::filesystem::is_symlink(path));
+  expect_same(read_recording(target).ticks, ticks);
+  EXPECT_THROW(check_recording_path(path), Error) << "with something in it now";
+  EXPECT_THROW(check_recording_path("-"), Error);
 }
 
 TEST(Recording, RefusesOtherFiles) {

@@ -89,6 +89,7 @@ TEST(ReplayGripper, FailsWhereItFailedThen) {
   EXPECT_TRUE(gripper->write({}));
   EXPECT_EQ(gripper->read(state, 3), ReadOutcome::value);
   EXPECT_FALSE(gripper->write({}));
+  EXPECT_EQ(gripper->let_go(), LetGo::nothing) << "there is no device that could keep a force";
   EXPECT_EQ(gripper->read(state, 4), ReadOutcome::value);
   EXPECT_TRUE(gripper->write({}));
 }

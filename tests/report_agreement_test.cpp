@@ -116,6 +116,18 @@ TEST(Agreement, FindsAWrongOutcome) {
   }
 }
 
+// The rule of `wholehand check`: few outcomes that differ within the margin are no evidence, many are.
+TEST(Agreement, ManyOutcomesWithinTheMarginDoNotHold) {
+  Agreement agreement;
+  agreement.allowed = allowed_flips(SAMPLED_GRIPS);
+  agreement.excluded = agreement.allowed;
+  EXPECT_GT(agreement.allowed, 1u);
+  EXPECT_TRUE(agreement.holds());
+  ++agreement.excluded;
+  EXPECT_FALSE(agreement.holds());
+  EXPECT_EQ(compare_with_core(*SweptScene(RESULT_SCENE).source, 0).allowed, allowed_flips(216));
+}
+
 TEST(Agreement, OfManyGripsTakesASample) {
   const SweptScene swept(edited(RESULT_SCENE, "count = 12", "count = 30"));
   const Agreement agreement = compare_with_core(*swept.source, 0);

@@ -75,6 +75,12 @@ TEST(ReportForces, OfAnEmptyVesselThereIsOneLine) {
   EXPECT_TRUE(has(html, "feedback, empty (N)"));
 }
 
+TEST(ReportForces, VolumesAreCalledVolumes) {
+  const std::string html = forces_text(SweptScene(edited(RESULT_SCENE, "fills = [0, 0.6]", "fills_ml = [0, 12.5]")), 0);
+  EXPECT_TRUE(has(html, "feedback, 12.5\u00a0mL (N)") && has(html, "hold, 0\u00a0mL (N)"));
+  EXPECT_FALSE(has(html, "as a share of what the vessel holds"));
+}
+
 TEST(ReportForces, AGripThatNothingHoldsHasNoChartOfIt) {
   // without friction no force of two fingers holds anything
   const std::string html = forces_text(SweptScene(edited(RESULT_SCENE, "[tilts]", "[force]\nfriction = 0\n[tilts]")), 0);

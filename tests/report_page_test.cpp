@@ -9,7 +9,9 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "sweeps/report_html.h"
 #include "sweeps/report_scene.h"
+#include "sweeps/variables.h"
 #include "tests/support/environment.h"
 #include "tests/support/meshes.h"
 #include "tests/support/program.h"
@@ -34,6 +36,17 @@ void expect_well_built(const SweptScene& swept, const std::string& page) {
 }
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+// Of one height and two rolls the best is at an end of the rolls whatever it is.
+TEST(ReportPage, TellsThatTheBestIsAtTheEndOfAnAxis) {
+  const std::string rolls = edited(RESULT_SCENE, "[-90, -30, 0]", "[-30, 0]");
+  const std::string line = "<p>The best lies on the edge of roll_deg; widen it?</p>";
+  const std::string one_height = edited(edited(rolls, "{ from = 0.1, to = 0.95, count = 12 }", "0.5"), "[-10, 10]", "0");
+  const SweptScene swept(one_height);
+  EXPECT_TRUE(has(report_page(*swept.result, swept.scene, ""), line));
+  const SweptScene still(edited(one_height, "[-30, 0]", "0"));
+  EXPECT_FALSE(has(report_page(*still.result, still.scene, ""), "on the edge of"));
+}
 
 TEST(ReportPage, IsWellBuiltForEveryKindOfSweep) {
   const std::string keep = "best = 5\nkeep = ";
@@ -81,6 +94,25 @@ TEST(ReportPage, TellsInItsOrder) {
     ASSERT_NE(next, std::string::npos) << heading;
     at = next;
   }
+}
+
+TEST(ReportPage, EachHandScaleHasAListOfItsOwn) {
+  const SweptScene swept(edited(RESULT_SCENE, "roll_deg = [-90, -30, 0]", "roll_deg = [-90, 0]\nhand_scale = [0.9, 1.1]"));
+  const std::string page = page_of(swept);
+  const std::size_t small = page.find(">The best grips at hand scale 0.9</h3>");
+  const std::size_t large = page.find(">The best grips at hand scale 1.1</h3>", small);
+  ASSERT_NE(large, std::string::npos);
+  // each of its own grips: the score of its first is the first in its table
+  SweepResult result(swept.path);
+  const Plan plan(swept.scene, keeps_vectors(result.variables()));
+  result.use(swept.scene, plan);
+  for (const auto& [place, scale] : {std::pair<std::size_t, std::size_t>{small, 0}, {large, 1}}) {
+    const std::size_t row = page.find("<tbody>", page.find("<table", place));
+    ASSERT_NE(row, std::string::npos);
+    const std::string first = page.substr(row, page.find("</tr>", row) - row);
+    EXPECT_TRUE(has(first, html_number(result.best(0, scale).front().score, 3))) << first;
+  }
+  EXPECT_NE(html_number(result.best(0, 0).front().score, 3), html_number(result.best(0, 1).front().score, 3));
 }
 
 TEST(ReportPage, TellsOnWhatItRan) {
@@ -208,14 +240,17 @@ TEST(OverwritesPage, OnlyPagesAreWrittenOver) {
   };
   std::ofstream(folder / "result.nc") << "\x89HDF";
   std::ofstream(folder / "scene.toml") << RESULT_SCENE;
-  std::ofstream(folder / "page.html") << "<!DOCTYPE html>\n<html>";
-  std::ofstream(folder / "old.html") << "<!doctype HTML>";
+  const SweptScene swept(RESULT_SCENE);
+  std::ofstream(folder / "page.html") << page_of(swept);
+  std::ofstream(folder / "old.html") << "<!DOCTYPE html>\n<html><head><title>Grips of cups</title></head></html>";
+  std::ofstream(folder / "mine.html") << "<!DOCTYPE html>\n<html><head><title>My page</title></head></html>";
   std::ofstream(folder / "empty.html").close();
   std::filesystem::create_symlink("result.nc", folder / "link.html");
   EXPECT_EQ(refusal("new.html") + refusal("page.html") + refusal("old.html") + refusal("empty.html"), "");
   EXPECT_TRUE(has(refusal("result.nc"), "this is the result file itself"));
   EXPECT_TRUE(has(refusal("link.html"), "this is the result file itself"));
-  EXPECT_TRUE(has(refusal("scene.toml"), "is no HTML page"));
+  EXPECT_TRUE(has(refusal("scene.toml"), "is no page of wholehand's"));
+  EXPECT_TRUE(has(refusal("mine.html"), "is no page of wholehand's"));
 }
 
 }  // namespace

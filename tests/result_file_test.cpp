@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <cstring>
@@ -81,7 +82,7 @@ std::vector<double> expected_values(const SweepFile& setup, const Variable& vari
           continue;
         }
         const bool feasible = (fake_uint(v, grip, FIELD_STATUS) & STATUS_REASON_MASK) == REASON_NONE;
-        values.push_back(feasible || variable.always ? variable.value(fake_uint(v, grip, variable.field)) : MISSING);
+        values.push_back(feasible || variable.always ? variable.value(fake_uint(v, grip, variable.field)) : variable.missing);
       }
     }
   }
@@ -163,6 +164,10 @@ TEST(ResultFile, SobolPointsComeWithTheirAxes) {
     EXPECT_EQ(roll[i], setup.plan.grip(0, i).roll);
     EXPECT_EQ(height[i] * 0.14, setup.plan.grip(1, i).height);
   }
+  const auto in_metres = read_values(folder / "a.nc", "height");
+  ASSERT_EQ(in_metres.size(), 2 * 1001u);
+  for (std::size_t v = 0; v < 2; ++v)
+    for (std::size_t i = 0; i < 1001; ++i) EXPECT_EQ(in_metres[v * 1001 + i], setup.plan.grip(v, i).height);
 }
 
 TEST(ResultFile, EndingHoldsTheBestAndTheTimes) {
@@ -193,6 +198,38 @@ TEST(ResultFile, ExistingResultStaysUntilTheEnd) {
   file.finish();
   EXPECT_NE(file_text(folder / "a.nc"), "before");
   EXPECT_FALSE(file_exists(folder / "a.nc.partial"));
+}
+
+TEST(ResultFile, IsReadBeforeItGetsItsName) {
+  const TemporaryFolder folder;
+  SweepFile setup(fake_scene(), folder / "a.nc");
+  ResultFile file = setup.open();
+  setup.write_all(file);
+  std::fstream bytes(setup.names.partial, std::ios::in | std::ios::out | std::ios::binary);
+  bytes.seekp(8).write("damaged!", 8).flush();  // HDF5's first block
+  try {
+    file.finish();
+    ADD_FAILURE() << "it was not read";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ExitCode::failure);
+    EXPECT_NE(std::strstr(error.what(), "start again without --resume"), nullptr) << error.what();
+  }
+  EXPECT_FALSE(file_exists(folder / "a.nc"));
+  EXPECT_TRUE(file_exists(setup.names.partial));
+}
+
+TEST(ResultFile, TheBestOfAllHandScalesAreWrittenInPlace) {
+  const TemporaryFolder folder;
+  Scene scene = fake_scene();
+  scene.grips.hand_scale.values = {1.1, 0.9, 1};
+  SweepFile setup(scene, folder / "a.nc");
+  ResultFile file = setup.open();
+  SweepMark mark;
+  file.vouch_for_structure(mark);
+  constexpr std::uint64_t size = 2 * 3 * 3 * sizeof(double);  // vessels, hand scales, ranks
+  const auto lists =
+      std::count_if(mark.in_place.begin(), mark.in_place.end(), [](const FileRange& range) { return range.size == size; });
+  EXPECT_EQ(static_cast<std::size_t>(lists), 2 + setup.plan.axes().size());
 }
 
 TEST(ResultFile, ResumedInPartsIsTheSame) {
@@ -258,25 +295,62 @@ TEST(ResultFile, KilledAtAnyMomentItCanBeOpened) {
   }
 }
 
-TEST(ResultFile, TwoProcessesDoNotShareOne) {
+TEST(ResultFile, StretchesAreKnownAgainHoweverTheyWereWritten) {
   const TemporaryFolder folder;
-  SweepFile setup(fake_scene(), folder / "a.nc");
+  SweepFile one(fake_scene(), folder / "one.nc", Precision::full, 97),
+      other(fake_scene(), folder / "other.nc", Precision::full, 13);
+  ResultFile file = one.open(), pieces = other.open();
+  one.write(file, 1, 20, 170);
+  const Stretch stretch = file.stretch();
+  EXPECT_EQ(stretch.first, 20u);
+  EXPECT_EQ(stretch.last, 170u);
+  other.write(pieces, 1, 20, 90);
+  other.write(pieces, 1, 90, 170);
+  EXPECT_EQ(pieces.stretch().checksum, stretch.checksum) << "where chunks end does not count";
+  EXPECT_TRUE(file.holds(1, stretch));
+  EXPECT_FALSE(file.holds(0, stretch));
+  EXPECT_FALSE(file.holds(1, {20, 169, stretch.checksum}));
+  one.write(file, 1, 170, 200);
+  EXPECT_EQ(file.stretch().first, 20u) << "it grows";
+  EXPECT_TRUE(file.holds(1, stretch)) << "and the first part of it is what it was";
+  file.end_stretch();
+  one.write(file, 1, 200, 210);
+  EXPECT_EQ(file.stretch().first, 200u);
+}
+
+// Any byte of the file is vouched for: by a stretch, or as structure.
+TEST(ResultFile, EveryChangedByteIsNoticed) {
+  const TemporaryFolder folder;
+  Scene scene = fake_scene();
+  scene.grips.sampling = Sampling::sobol;
+  scene.grips.count = 60;
+  SweepFile setup(scene, folder / "a.nc");
   ResultFile file = setup.open();
-  for (const bool resume : {false, true}) {
-    EXPECT_EQ(in_child([&] {
-                try {
-                  SweepFile other(fake_scene(), folder / "a.nc");
-                  other.open(resume);
-                } catch (const Error& error) {
-                  return std::strstr(error.what(), "another process") ? static_cast<int>(error.code) : 99;
-                }
-                return 0;
-              }),
-              3);
+  std::vector<Stretch> stretches;
+  for (std::size_t v = 0; v < 2; ++v) {
+    setup.write(file, v, 0, setup.plan.grips());
+    stretches.push_back(file.stretch());
   }
-  setup.write_all(file);
-  file.finish();
-  expect_expected(setup, folder / "a.nc");
+  SweepMark mark;
+  file.vouch_for_structure(mark);
+  const auto is_as_written = [&] {
+    return has_structure(setup.names.partial, mark) && file.holds(0, stretches[0]) && file.holds(1, stretches[1]);
+  };
+  ASSERT_TRUE(is_as_written());
+  const std::string whole = file_text(setup.names.partial);
+  std::mt19937 random(3);
+  int missed = 0;
+  for (int k = 0; k < 120; ++k) {
+    const std::size_t at = random() % whole.size();
+    std::fstream bytes(setup.names.partial, std::ios::in | std::ios::out | std::ios::binary);
+    bytes.seekp(static_cast<std::streamoff>(at)).put(static_cast<char>(whole[at] ^ 4)).flush();
+    missed += is_as_written();
+    bytes.seekp(static_cast<std::streamoff>(at)).put(whole[at]).flush();
+  }
+  EXPECT_LE(missed, 3) << "only the best grips' places, which are written last, are not vouched for";
+  std::filesystem::resize_file(setup.names.partial, whole.size() - 1);
+  EXPECT_FALSE(is_as_written());
+  std::filesystem::resize_file(setup.names.partial, whole.size());
 }
 
 TEST(ResultFile, FileSizeLimitIsFoundBeforeTheFirstGrip) {

@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
@@ -14,10 +15,13 @@
 #include <fstream>
 #include <functional>
 #include <random>
+#include <sstream>
 
 #include "core/mesh_body.h"
+#include "shaders/layout.h"
 #include "sweeps/core_backend.h"
 #include "sweeps/files.h"
+#include "sweeps/mark.h"
 #include "sweeps/plan.h"
 #include "tests/support/fake_backend.h"
 #include "tests/support/result_reader.h"
@@ -36,7 +40,7 @@ struct Trial {
   SweepOptions options;
   Precision precision = Precision::full;
   std::size_t chunk = 50;
-  std::function<void()> before_chunk;
+  std::function<void()> before_run, before_chunk;
   std::string driver = "fake driver 1";
   int opened = 0;  // backends
 
@@ -49,6 +53,7 @@ struct Trial {
   ExitCode run_bare() {
     const SweepParts parts{[this](const FieldSet& fields) -> std::unique_ptr<Backend> {
                              auto backend = std::make_unique<FakeBackend>(scene, fields, precision, chunk);
+                             backend->before_run = before_run;
                              backend->before_chunk = before_chunk;
                              backend->info_.driver = driver;
                              ++opened;
@@ -99,6 +104,17 @@ int wait_for(pid_t child) {
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
+// The list beside a result without what each row ends with: the names of the result and of the sweep, which tell the backend.
+std::string list_beside(const std::string& result) {
+  std::istringstream rows(file_text(output_names(result).best));
+  std::string text;
+  for (std::string row; std::getline(rows, row);) {
+    for (int k = 0; k < 2; ++k) row.resize(std::min(row.size(), row.rfind(',')));
+    text += row + "\n";
+  }
+  return text;
+}
+
 class RunTest : public testing::Test {
  protected:
   TemporaryFolder folder;
@@ -113,7 +129,7 @@ class RunTest : public testing::Test {
 
   void expect_same_as(const std::string& reference, const std::string& other) {
     expect_same_values(reference, other);
-    EXPECT_EQ(file_text(output_names(reference).best), file_text(output_names(other).best));
+    EXPECT_EQ(list_beside(reference), list_beside(other));
     EXPECT_EQ(file_text(output_names(reference).heat_map("second")), file_text(output_names(other).heat_map("second")));
   }
 };
@@ -156,6 +172,79 @@ TEST_F(RunTest, BestGripsAreThoseOfTheWholeVessel) {
   EXPECT_EQ(better, 5);
 }
 
+// The best of a hand scale, by brute force over the stand-ins.
+std::vector<double> best_scores(const Scene& scene, const Plan& plan, std::size_t vessel, double hand_scale) {
+  std::vector<double> scores;
+  for (std::uint64_t i = 0; i < plan.grips(); ++i) {
+    const GripInput grip = plan.grip(vessel, i);
+    const std::uint32_t status = fake_uint(vessel, grip, FIELD_STATUS);
+    if (grip.hand_scale != hand_scale || (status & STATUS_REASON_MASK) != REASON_NONE || (status & STATUS_PLAUSIBLE) == 0) continue;
+    scores.push_back(fake_real(vessel, grip, FIELD_SCORE, 0));
+  }
+  std::sort(scores.rbegin(), scores.rend());
+  scores.resize(static_cast<std::size_t>(scene.output.best));
+  return scores;
+}
+
+TEST_F(RunTest, EachHandScaleHasAListOfItsOwn) {
+  for (const bool is_sobol : {false, true}) {
+    for (const bool keeps : {true, false}) {
+      Trial trial(folder / "a.nc");
+      trial.options.mark_seconds = 0;  // the lists go through marks too
+      trial.scene.grips.hand_scale.values = {1.1, 0.9, 1};
+      if (is_sobol) {
+        trial.scene.grips.sampling = Sampling::sobol;
+        trial.scene.grips.count = 400;
+      }
+      if (!keeps) trial.scene.output.keep = std::vector<std::string>{};
+      const TrialOutcome outcome = trial.run();
+      ASSERT_EQ(outcome.code, ExitCode::done) << outcome.error;
+      const Plan plan(trial.scene, false);
+      const auto best = read_values(folder / "a.nc", "best_score"), hands = read_values(folder / "a.nc", "best_hand_scale");
+      ASSERT_EQ(best.size(), 2u * 3 * 6);
+      const std::string dimension = is_sobol ? "listed_hand_scale" : "hand_scale";
+      EXPECT_EQ(dimension_names(folder / "a.nc", "best_score"), (std::vector<std::string>{"vessel", dimension, "rank"}));
+      EXPECT_EQ(read_values(folder / "a.nc", dimension), trial.scene.grips.hand_scale.values);
+      for (std::size_t list = 0; list < 6; ++list) {
+        const double hand = trial.scene.grips.hand_scale.values[list % 3];
+        const auto expected = best_scores(trial.scene, plan, list / 3, hand);
+        for (std::size_t rank = 0; rank < 6; ++rank) {
+          EXPECT_EQ(best[list * 6 + rank], expected[rank]);
+          EXPECT_EQ(hands[list * 6 + rank], hand);
+        }
+      }
+      EXPECT_TRUE(has(outcome.out, "\nfirst vessel, hand scale 1.1:\n  rank")) << outcome.out;
+      EXPECT_TRUE(has(outcome.out, "\nsecond, hand scale 0.9:\n  rank")) << outcome.out;
+      const std::string csv = file_text(folder / "a.best.csv");
+      EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 6 * 6);
+    }
+  }
+}
+
+TEST_F(RunTest, ARangeOfSobolHandsAndOneHandHaveOneList) {
+  Trial trial(folder / "a.nc");
+  trial.scene.grips.sampling = Sampling::sobol;
+  trial.scene.grips.count = 100;
+  trial.scene.grips.hand_scale = range_axis(0.9, 1.1, 2);
+  ASSERT_EQ(trial.run().code, ExitCode::done);
+  EXPECT_EQ(dimension_names(folder / "a.nc", "best_score"), (std::vector<std::string>{"vessel", "rank"}));
+  EXPECT_EQ(dimension_names(reference(), "best_score"), (std::vector<std::string>{"vessel", "rank"}));
+}
+
+TEST_F(RunTest, ABestAtTheEndOfAnAxisIsSaid) {
+  Trial trial(folder / "a.nc");
+  trial.scene.grips.height = trial.scene.grips.obliquity = range_axis(0.5, 0.5, 1);
+  trial.scene.grips.offset = range_axis(0, 0, 1);
+  trial.scene.grips.roll = range_axis(radians(-90), radians(0), 2);  // each of two values is an end
+  const std::string line = "\n  the best lies on the edge of roll_deg; widen it?\n", out = trial.run().out;
+  const std::size_t second = out.rfind("\nsecond: ");  // the first says what it holds
+  ASSERT_NE(second, std::string::npos) << out;
+  EXPECT_LT(out.find(line), second) << out;
+  EXPECT_NE(out.find(line, second), std::string::npos) << out;
+  trial.scene.grips.roll = range_axis(0, 0, 1);
+  EXPECT_FALSE(has(trial.run().out, "edge")) << "nothing was searched";
+}
+
 TEST_F(RunTest, EverythingCanBeLeftOutButTheBest) {
   Trial trial(folder / "a.nc");
   trial.scene.output.keep = std::vector<std::string>{};
@@ -166,7 +255,7 @@ TEST_F(RunTest, EverythingCanBeLeftOutButTheBest) {
   EXPECT_TRUE(has(outcome.out, "first vessel: 280 grips (each at 3 azimuths)\n")) << outcome.out;
   Trial whole(folder / "b.nc");
   ASSERT_EQ(whole.run().code, ExitCode::done);
-  EXPECT_EQ(file_text(folder / "a.best.csv"), file_text(folder / "b.best.csv"));
+  EXPECT_EQ(list_beside(folder / "a.nc"), list_beside(folder / "b.nc"));
   EXPECT_EQ(read_values(folder / "a.nc", "best_grip"), read_values(folder / "b.nc", "best_grip"));
 }
 
@@ -181,7 +270,7 @@ TEST_F(RunTest, MarksInBetweenChangeNothing) {
   none.options.mark_seconds = 0;
   none.scene.output.keep = std::vector<std::string>{};
   ASSERT_EQ(none.run().code, ExitCode::done);
-  EXPECT_EQ(file_text(folder / "b.best.csv"), file_text(folder / "reference.best.csv"));
+  EXPECT_EQ(list_beside(folder / "b.nc"), list_beside(folder / "reference.nc"));
 }
 
 TEST_F(RunTest, KilledAndResumedIsTheSameBitForBit) {
@@ -245,6 +334,26 @@ TEST_F(RunTest, InterruptLeavesAFileToGoOnWith) {
     EXPECT_EQ(resumed.out.substr(resumed.out.find("first vessel: ")).substr(0, 200),
               Trial(folder / "c.nc").run().out.substr(resumed.out.find("first vessel: ")).substr(0, 200))
         << "counts are those of the whole";
+    std::filesystem::remove(folder / "a.nc");
+  }
+}
+
+TEST_F(RunTest, AnInterruptBeforeTheFirstGripOfAVesselLosesNothing) {
+  const std::string expected = reference();
+  for (const int vessel : {1, 2}) {
+    Trial trial(folder / "a.nc");
+    int runs = 0;
+    trial.before_run = [&] {
+      if (++runs == vessel) raise(SIGINT);
+    };
+    const TrialOutcome outcome = trial.run();
+    EXPECT_EQ(outcome.code, ExitCode::interrupted) << outcome.error;
+    Trial rest(folder / "a.nc");
+    rest.options.resume = true;
+    const TrialOutcome resumed = rest.run();
+    EXPECT_EQ(resumed.code, ExitCode::done) << resumed.error;
+    EXPECT_TRUE(has(resumed.notes, "going on with")) << resumed.notes;
+    expect_same_as(expected, folder / "a.nc");
     std::filesystem::remove(folder / "a.nc");
   }
 }
@@ -347,13 +456,247 @@ TEST_F(RunTest, ResumeOfSomethingElseIsRefused) {
 }
 
 TEST_F(RunTest, DamagedMarkIsRefusedInOneLine) {
-  std::ofstream(folder / "a.nc.partial") << "x";
-  std::ofstream(folder / "a.nc.partial.mark") << "{";
+  std::ofstream(folder / "a.nc.partial") << NETCDF4_START;
+  std::ofstream(folder / "a.nc.partial.mark") << MARK_START << "2 00";
   Trial trial(folder / "a.nc");
   trial.options.resume = true;
   const TrialOutcome outcome = trial.run();
   EXPECT_EQ(outcome.code, ExitCode::failure);
   EXPECT_TRUE(has(outcome.error, "start again without --resume")) << outcome.error;
+}
+
+// Without pictures, which take most of a short sweep's time.
+Scene quick_scene() {
+  Scene scene = fake_scene();
+  scene.output.keep = {{"gap", "reason"}};
+  return scene;
+}
+
+// Damage of a partial file anywhere: what --resume makes of it is the undisturbed result, or it is refused; never something else.
+TEST_F(RunTest, ADamagedPartialFileIsNeverTrusted) {
+  const std::string expected = reference(quick_scene()), path = folder / "a.nc";
+  Trial begun(path);
+  begun.scene = quick_scene();
+  begun.options.mark_seconds = 0;
+  int chunks = 0;
+  begun.before_chunk = [&] {
+    if (++chunks == 9) raise(SIGINT);
+  };
+  ASSERT_EQ(begun.run().code, ExitCode::interrupted);
+  const std::string partial = file_text(path + ".partial"), mark = file_text(path + ".partial.mark");
+  const auto resume = [&](const std::string& damaged) {
+    std::ofstream(path + ".partial", std::ios::binary) << damaged;
+    std::ofstream(path + ".partial.mark", std::ios::binary) << mark;
+    Trial trial(path);
+    trial.scene = quick_scene();
+    trial.options.resume = true;
+    const TrialOutcome outcome = trial.run();
+    EXPECT_TRUE(outcome.code == ExitCode::done || !outcome.error.empty());
+    if (outcome.code == ExitCode::done) expect_same_values(expected, path);
+    std::filesystem::remove(path);
+    return outcome;
+  };
+  EXPECT_FALSE(has(resume(partial).notes, "damaged")) << "as it was left";
+  std::mt19937 random(4);
+  int noticed = 0;
+  for (int k = 0; k < 24; ++k) {
+    std::string damaged = partial;
+    const std::size_t at = random() % (partial.size() - 8);
+    damaged.replace(at, 8, "\x7f\xff\xff\xff\xff\xff\xff\xff", 8);
+    const TrialOutcome outcome = resume(damaged);
+    noticed += has(outcome.notes, "damaged");
+    EXPECT_EQ(outcome.code, ExitCode::done) << outcome.error;
+  }
+  EXPECT_GT(noticed, 8);
+  EXPECT_EQ(resume(partial.substr(0, partial.size() / 2)).code, ExitCode::done) << "cut";
+  EXPECT_EQ(resume("").code, ExitCode::done) << "emptied";
+}
+
+// Leaves a sweep to `path` interrupted after eight chunks, with four bytes of its grips changed since.
+void leave_damaged_grips(const std::string& path) {
+  Trial begun(path);
+  begun.options.mark_seconds = 0;
+  int chunks = 0;
+  begun.before_chunk = [&] {
+    if (++chunks == 9) raise(SIGINT);
+  };
+  ASSERT_EQ(begun.run().code, ExitCode::interrupted);
+  SweepMark mark;
+  ASSERT_TRUE(load_mark(path + ".partial.mark", mark));
+  std::fstream bytes(path + ".partial", std::ios::in | std::ios::out | std::ios::binary);
+  bytes.seekp(static_cast<std::streamoff>(mark.in_place[0].offset + 16)).write("\1\2\3\4", 4).flush();
+}
+
+TEST_F(RunTest, DamagedGripsAloneAreComputedAgain) {
+  const std::string expected = reference(), path = folder / "a.nc";
+  leave_damaged_grips(path);
+  Trial rest(path);
+  rest.options.resume = true;
+  const TrialOutcome outcome = rest.run();
+  EXPECT_EQ(outcome.code, ExitCode::done) << outcome.error;
+  EXPECT_TRUE(has(outcome.notes, "going on with")) << outcome.notes;
+  EXPECT_TRUE(has(outcome.notes, ".partial: grips 0 to ") && has(outcome.notes, " are damaged: computing them again"))
+      << outcome.notes;
+  expect_same_as(expected, path);
+}
+
+TEST_F(RunTest, AnInterruptWhileDamagedGripsAreComputedAgainLosesNothing) {
+  const std::string expected = reference(), path = folder / "a.nc";
+  leave_damaged_grips(path);
+  Trial repairing(path);
+  repairing.options.resume = true;
+  int runs = 0;
+  repairing.before_run = [&] {
+    if (++runs == 1) raise(SIGINT);
+  };
+  const TrialOutcome interrupted = repairing.run();
+  EXPECT_EQ(interrupted.code, ExitCode::interrupted) << interrupted.error;
+  EXPECT_TRUE(has(interrupted.notes, " are damaged: computing them again")) << interrupted.notes;
+  EXPECT_FALSE(file_exists(path));
+  Trial rest(path);
+  rest.options.resume = true;
+  const TrialOutcome outcome = rest.run();
+  EXPECT_EQ(outcome.code, ExitCode::done) << outcome.error;
+  EXPECT_TRUE(has(outcome.notes, "going on with") && has(outcome.notes, " are damaged: computing them again")) << outcome.notes;
+  expect_same_as(expected, path);
+}
+
+// A mark that was altered with a checksum that fits: what it says must go together all the same.
+TEST_F(RunTest, AMarkThatContradictsItselfIsRefused) {
+  const std::string path = folder / "a.nc";
+  Trial begun(path);
+  begun.options.mark_seconds = 0;
+  int chunks = 0;
+  begun.before_chunk = [&] {
+    if (++chunks == 8) raise(SIGINT);
+  };
+  ASSERT_EQ(begun.run().code, ExitCode::interrupted);
+  SweepMark mark;
+  ASSERT_TRUE(load_mark(path + ".partial.mark", mark));
+  for (const std::uint64_t done : {std::uint64_t{279}, ~std::uint64_t{0}, std::uint64_t{1} << 63}) {
+    SweepMark altered = mark;
+    altered.vessels[1].done = done;
+    save_mark(path + ".partial.mark", altered);
+    Trial rest(path);
+    rest.options.resume = true;
+    const TrialOutcome outcome = rest.run();
+    EXPECT_EQ(outcome.code, ExitCode::failure) << done;
+    EXPECT_TRUE(has(outcome.error, "says what cannot be")) << outcome.error;
+    EXPECT_FALSE(file_exists(path));
+  }
+}
+
+// Two starts at the same moment: one of them does the sweep, or both one after the other; the file is whole whatever they do.
+TEST_F(RunTest, TwoAtOnceAreOneAfterTheOtherOrOneIsRefused) {
+  const std::string expected = reference(quick_scene());
+  for (int round = 0; round < 15; ++round) {
+    int start[2];
+    ASSERT_EQ(pipe(start), 0);
+    pid_t children[2];
+    for (pid_t& child : children) {
+      child = fork();
+      if (child != 0) continue;
+      close(start[1]);
+      char byte = 0;
+      if (read(start[0], &byte, 1) != 0) _exit(98);
+      Trial trial(folder / "a.nc");
+      trial.scene = quick_scene();
+      _exit(wait_for(trial.start()));
+    }
+    close(start[0]);
+    close(start[1]);  // both start now
+    int done = 0;
+    for (const pid_t child : children) {
+      const int code = wait_for(child);
+      EXPECT_TRUE(code == 0 || code == 2) << code;
+      done += code == 0;
+    }
+    EXPECT_GE(done, 1);
+    expect_same_values(expected, folder / "a.nc");
+    for (const char* left : {".partial", ".partial.mark", ".partial.lock"})
+      EXPECT_FALSE(file_exists(folder / "a.nc" + left)) << left;
+    std::filesystem::remove(folder / "a.nc");
+  }
+}
+
+TEST_F(RunTest, WhoWritesAResultIsNamedAndUndisturbed) {
+  const std::string expected = reference(), path = folder / "a.nc";
+  Trial first(path);
+  TrialOutcome second, resumed;
+  int chunks = 0;
+  first.before_chunk = [&] {
+    if (++chunks != 4) return;
+    for (const bool resume : {false, true}) {
+      Trial other(path);
+      other.options.resume = resume;
+      try {
+        other.run_bare();
+        ADD_FAILURE() << "two at once";
+      } catch (const Error& error) {
+        EXPECT_EQ(error.code, ExitCode::usage);
+        EXPECT_TRUE(has(error.what(), "process " + std::to_string(getpid()) + " (")) << error.what();
+      }
+      EXPECT_EQ(other.opened, 0);
+    }
+  };
+  EXPECT_EQ(first.run().code, ExitCode::done);
+  EXPECT_GE(chunks, 4);
+  expect_same_as(expected, path);
+}
+
+TEST_F(RunTest, ALinkIsFollowedToItsFile) {
+  std::filesystem::create_directory(folder / "data");
+  std::filesystem::create_symlink("data/target.nc", folder / "a.nc");
+  for (int round = 0; round < 2; ++round) {  // the file new, then there
+    Trial trial(folder / "a.nc");
+    bool is_beside_target = false;
+    trial.before_chunk = [&] { is_beside_target = file_exists(folder / "data/target.nc.partial"); };
+    ASSERT_EQ(trial.run().code, ExitCode::done);
+    EXPECT_TRUE(is_beside_target);
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "a.nc"));
+    expect_same_values(reference(), folder / "data/target.nc");
+    EXPECT_TRUE(file_exists(folder / "a.best.csv"));
+  }
+}
+
+TEST_F(RunTest, CompanionsOfOthersAreRefusedBeforeAnyWork) {
+  for (const char* name : {"a.best.csv", "a.second.svg"}) {
+    std::ofstream(folder / name) << "mine";
+    Trial trial(folder / "a.nc");
+    const TrialOutcome outcome = trial.run();
+    EXPECT_EQ(outcome.code, ExitCode::usage);
+    EXPECT_TRUE(has(outcome.error, name)) << outcome.error;
+    EXPECT_EQ(trial.opened, 0);
+    EXPECT_EQ(file_text(folder / name), "mine");
+    std::filesystem::remove(folder / name);
+  }
+  // what a sweep without best grips would remove
+  std::ofstream(folder / "a.best.csv") << "mine";
+  Trial none(folder / "a.nc");
+  none.options.best = 0;
+  EXPECT_EQ(none.run().code, ExitCode::done);
+  EXPECT_EQ(file_text(folder / "a.best.csv"), "mine");
+  std::filesystem::remove(folder / "a.best.csv");
+  for (const int best : {3, 0}) {
+    Trial own(folder / "a.nc");
+    own.options.best = best;
+    const TrialOutcome outcome = own.run();
+    EXPECT_EQ(outcome.code, ExitCode::done) << outcome.error;
+    EXPECT_EQ(file_exists(folder / "a.best.csv"), best > 0) << "its own it replaces and removes";
+  }
+}
+
+TEST_F(RunTest, WhatIsCompleteNeedsNoRoom) {
+  const std::string whole = reference();
+  Trial trial(whole);
+  trial.options.resume = true;
+  const pid_t child = fork();
+  if (child == 0) {
+    const rlimit none{0, 0};
+    setrlimit(RLIMIT_FSIZE, &none);
+    _exit(wait_for(trial.start()));
+  }
+  EXPECT_EQ(wait_for(child), 0);
 }
 
 TEST_F(RunTest, WhatCannotBeWrittenIsRefusedBeforeAnyWork) {

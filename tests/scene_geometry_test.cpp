@@ -124,6 +124,36 @@ TEST(SceneGeometry, TouchingIsMeeting) {
   EXPECT_TRUE(meeting_point(make_line({0, 0}, {10, 0}), make_line({5, 3}, {5, 0}), 1e-6, std::nullopt, 0));  // end on the middle
 }
 
+TEST(SceneGeometry, DistanceOfTwoCurvesIsTheSmallestOfTheirPoints) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> place(-50, 50);
+  for (int i = 0; i < 500; ++i) {
+    const PlaneCurve first = curve_through(random, {place(random), place(random)});
+    const PlaneCurve second = curve_through(random, {place(random), place(random)});
+    double smallest = 1e300;
+    for (int k = 0; k <= 4000; ++k) smallest = std::min(smallest, distance(second, point_of(first, k / 4000.0)));
+    const double found = distance(first, second);
+    EXPECT_LE(found, smallest + 1e-12) << i;
+    EXPECT_GE(found, smallest - 0.02) << i;  // half a step of at most 62/4000
+    EXPECT_NEAR(found, distance(second, first), 1e-12) << i;
+  }
+}
+
+TEST(SceneGeometry, ArcsThroughPointsPassThem) {
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> place(-50, 50);
+  for (int i = 0; i < 2000; ++i) {
+    const Point a{place(random), place(random)}, p{place(random), place(random)}, b{place(random), place(random)};
+    const auto arc = make_arc_through(a, p, b);
+    ASSERT_TRUE(arc) << i;
+    if (arc->radius > 1e4) continue;
+    EXPECT_LE(distance(point_of(*arc, 0), a) + distance(point_of(*arc, 1), b), 1e-9);  // 1e4 and angles of 1e-15
+    EXPECT_LE(distance(*arc, p), 1e-9) << i;
+  }
+  EXPECT_FALSE(make_arc_through({0, 0}, {1, 1}, {3, 3}));
+  EXPECT_NEAR(make_arc_through({1, 0}, {-1, 0}, {0, -1})->sweep, 1.5 * PI, 1e-15);
+}
+
 TEST(SceneGeometry, TheSharedEndIsNoMeeting) {
   const Point shared{10, 0};
   const PlaneCurve first = make_line({0, 0}, shared);

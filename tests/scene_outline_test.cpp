@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -120,11 +121,16 @@ TEST(SceneOutline, AcceptsUnusualOutlines) {
 
 TEST(SceneOutline, RefusesOutlines) {
   const std::vector<std::pair<std::string, std::string>> cases{
-      {"@3, {}", "an element of outline = 3; allowed: {line = [r, y]} or {arc = [r, y], center = [r, y]}"},
+      {"@3, {}",
+       "an element of outline = 3; allowed: {line = [r, y]}, {arc = [r, y], center = [r, y]} or {arc_through = [r, y], to = [r, "
+       "y]}"},
       {"@{ line = [1, 2], arc = [1, 2] }, {}", "with both 'line' and 'arc'"},
       {"@{}, {}", "with neither 'line' nor 'arc'"},
       {"@{ arc = [1, 2] }, {}", "with 'arc' and no 'center'"},
       {"@{ line = [1, 2], center = [0, 0] }, {}", "with 'line' and 'center'"},
+      {"@{ arc_through = [1, 2] }, {}", "with 'arc_through' and no 'to'"},
+      {"@{ line = [1, 2], to = [1, 2] }, {}", "with 'to' and no 'arc_through'"},
+      {"@{ line = [1, 2], arc_through = [1, 2] }, {}", "with 'arc_through' and another form"},
       {"{ line = @[1] }, {}", "line has 1 entries; allowed: [r, y] in mm"},
       {"{ line = @3 }, {}", "line = 3; allowed: [r, y] in mm"},
       {"{ line = [@-1, 0] }, {}", "r of line = -1; allowed: 0 to 5000"},
@@ -175,6 +181,148 @@ TEST(SceneOutline, RefusesOutlines) {
                  "outline has 1 entries; allowed: 2 to 1000 entries");
   expect_refusal(outline_scene("{ line = [30, 0] }, { line = [30, 90] }, { line = [0, 90] }", "@30"),
                  "less than the vessel's largest radius, 30 mm");
+}
+
+// ---- arcs through a point ----
+
+// The one arc of an outline that begins at [30, 0].
+std::vector<OutlineElement> arc_of(const std::string& arc, double mouth) {
+  auto outline = scene_from(outline_scene("{ line = [30, 0] }, " + arc + ", { line = [0, " + std::to_string(mouth) + "] }"))
+                     .vessels[0]
+                     .outline;
+  outline.erase(outline.begin());
+  outline.pop_back();
+  return outline;
+}
+
+TEST(SceneOutline, ArcsThroughAPointLieOnTheCircleThroughThree) {
+  // a 3-4-5 circle about [27, 40]: 30 - 27 = 3, so r^2 = 1609
+  const auto shorter = arc_of("{ arc_through = [67, 37], to = [30, 80] }", 80);
+  ASSERT_EQ(shorter.size(), 1u);
+  EXPECT_TRUE(shorter[0].is_arc);
+  EXPECT_NEAR(shorter[0].center[0], 27e-3, 1e-15);
+  EXPECT_NEAR(shorter[0].center[1], 40e-3, 1e-15);
+  EXPECT_EQ(shorter[0].end, (std::array{30e-3, 80e-3}));
+  // the same circle the other way would leave the half plane
+  EXPECT_NE(refusal_of(outline_scene("{ line = [30, 0] }, { arc_through = [-13, 43], to = [30, 80] }, { line = [0, 80] }")),
+            "accepted");
+}
+
+TEST(SceneOutline, TheArcIsTheOneThroughThePoint) {
+  // from [30, 0] to [30, 20] on the circle about [40, 10]: the near side bends in, the far side is the longer way, in two arcs
+  const double near = 40 - std::sqrt(200), far = 40 + std::sqrt(200);
+  const auto inwards = arc_of("{ arc_through = [" + std::to_string(near) + ", 10], to = [30, 20] }", 20);
+  ASSERT_EQ(inwards.size(), 1u);
+  const auto around = scene_from(outline_scene("{ line = [30, -10] }, { line = [30, 0] }, { arc_through = [" + std::to_string(far) +
+                                               ", 10], to = [30, 20] }, { line = [30, 40] }, { line = [0, 40] }"))
+                          .vessels[0]
+                          .outline;
+  ASSERT_EQ(around.size(), 6u);
+  EXPECT_TRUE(around[2].is_arc && around[3].is_arc);
+  EXPECT_NEAR(around[2].end[0], far * 1e-3, 1e-9);  // far is rounded to 1e-6 mm above
+  EXPECT_NEAR(around[2].end[1], 10e-3, 1e-9);
+  EXPECT_NEAR(around[3].center[0], 40e-3, 1e-9);
+  EXPECT_EQ(around[3].end, (std::array{30e-3, 20e-3}));
+}
+
+TEST(SceneOutline, RefusesArcsThroughNoCircle) {
+  const auto refused = [](const std::string& arc, const std::string& gist) {
+    expect_refusal(outline_scene("{ line = [30, 0] }, " + arc + ", { line = [0, 60] }"), gist);
+  };
+  refused("{ arc_through = @[30, 25], to = [30, 60] }", "[30, 0], [30, 25] and [30, 60] lie on one line; allowed: a point beside");
+  refused("@{ arc_through = [30, 0], to = [30, 60] }", "two of the points [30, 0], [30, 0] and [30, 60] are one");
+  refused("{ arc_through = @[30.00001, 30], to = [30, 60] }", "the circle through these points has its center at");
+  expect_refusal(outline_scene("{ line = [30, 0] }, @{ arc_through = [60, 30], to = [30, 0] }, { line = [0, 0] }"), "are one");
+}
+
+// ---- fillets ----
+
+TEST(SceneOutline, FilletsAreTangentArcs) {
+  const auto outline =
+      scene_from(outline_scene("{ line = [30, 0], fillet_mm = 6 }, { line = [30, 60], fillet_mm = 2 }, { line = [0, 60] }"))
+          .vessels[0]
+          .outline;
+  ASSERT_EQ(outline.size(), 5u);
+  using Pair = std::array<double, 2>;
+  const std::vector<Pair> ends{{24, 0}, {30, 6}, {30, 58}, {28, 60}, {0, 60}};
+  for (std::size_t i = 0; i < 5; ++i)
+    for (const int k : {0, 1}) EXPECT_NEAR(outline[i].end[k], ends[i][k] * 1e-3, 1e-15) << i;
+  EXPECT_TRUE(outline[1].is_arc && outline[3].is_arc);
+  EXPECT_NEAR(outline[1].center[0], 24e-3, 1e-15);
+  EXPECT_NEAR(outline[1].center[1], 6e-3, 1e-15);
+  EXPECT_NEAR(outline[3].center[1], 58e-3, 1e-15);
+}
+
+TEST(SceneOutline, FilletOfASlantedCornerHasTheClosedForm) {
+  // the way turns by 60 degrees: the arc begins 10 tan(30 deg) before the corner
+  const auto outline =
+      scene_from(outline_scene("{ line = [40, 0], fillet_mm = 10 }, { line = [60, 34.641016151377549] }, { line = [0, "
+                               "34.641016151377549] }"))
+          .vessels[0]
+          .outline;
+  const double cut = 10 * std::tan(PI / 6);
+  EXPECT_NEAR(outline[0].end[0], (40 - cut) * 1e-3, 1e-15);
+  EXPECT_NEAR(outline[1].end[0], (40 + cut / 2) * 1e-3, 1e-15);
+  EXPECT_NEAR(outline[1].end[1], cut * std::sqrt(0.75) * 1e-3, 1e-15);
+  EXPECT_NEAR(outline[1].center[0], (40 - cut) * 1e-3, 1e-15);
+  EXPECT_NEAR(outline[1].center[1], 10e-3, 1e-15);
+}
+
+TEST(SceneOutline, FilletsBetweenLinesAndArcsAreTangentToBoth) {
+  // a ball of 30 about [0, 40] on a foot of 20: the hollow corner where they meet
+  const auto outline =
+      scene_from(outline_scene("{ line = [20, 0] }, { line = [20, 17.639320225002103], fillet_mm = 4 }, { arc = [18, 64], "
+                               "center = [0, 40] }, { line = [0, 64] }"))
+          .vessels[0]
+          .outline;
+  ASSERT_EQ(outline.size(), 5u);
+  const auto& center = outline[2].center;
+  EXPECT_NEAR(center[0], 24e-3, 1e-14) << "4 mm outside of the line";
+  EXPECT_NEAR(std::hypot(center[0], center[1] - 40e-3), 34e-3, 1e-14) << "4 mm outside of the ball";
+  EXPECT_NEAR(outline[2].end[0], center[0] * 30 / 34, 1e-14);
+  EXPECT_NEAR(outline[1].end[1], center[1], 1e-14);
+}
+
+TEST(SceneOutline, TwoFilletsMayUseUpTheElementBetweenThem) {
+  const auto outline = scene_from(
+                           "[[vessel]]\nname = \"v\"\nmass_kg = 1\ncenter_of_mass_mm = [0, 0, 0]\noutline = [{ line = [30, 0] }, "
+                           "{ line = [30, 60], fillet_mm = 2 }, { line = [26, 60], fillet_mm = 2 }, { line = [26, 50] }, "
+                           "{ line = [20, 50] }, { line = [20, 60] }, { line = [0, 60] }]")
+                           .vessels[0]
+                           .outline;
+  ASSERT_EQ(outline.size(), 8u);  // of seven elements one went and two came
+  EXPECT_TRUE(outline[2].is_arc && outline[3].is_arc);
+  EXPECT_NEAR(outline[2].end[0], 28e-3, 1e-15);
+}
+
+TEST(SceneOutline, RefusesFilletsWithTheLargestThatFits) {
+  const auto scene = [](const std::string& radius) {
+    return outline_scene("{ line = [30, 0], fillet_mm = " + radius + " }, { line = [30, 20] }, { line = [0, 20] }");
+  };
+  expect_refusal(scene("@20.5"),
+                 "fillet_mm = 20.5 at [30, 0]: it is too large for the elements it lies between; allowed: up to 20 there");
+  EXPECT_EQ(refusal_of(scene("19.9")), "accepted");
+  EXPECT_EQ(refusal_of(scene("20")), "accepted") << "which leaves nothing of the element";
+  // and would leave less than an element
+  const std::string line = refusal_of(scene("19.9999")), allowed = "allowed: up to ";
+  ASSERT_NE(line.find(allowed), std::string::npos) << line;
+  const std::string largest = line.substr(line.find(allowed) + allowed.size(), 8);
+  EXPECT_EQ(refusal_of(scene(largest.substr(0, largest.find(' ')))), "accepted") << line;
+  const auto refused = [](const std::string& elements, const std::string& gist) { expect_refusal(outline_scene(elements), gist); };
+  // what the first leaves is all that the second has
+  refused("{ line = [30, 0], fillet_mm = 12 }, { line = [30, 20], fillet_mm = @9 }, { line = [0, 20] }", "allowed: up to 8 there");
+  refused(
+      "{ line = [20, 0] }, { line = [20, 17.639320225002103], fillet_mm = @400 }, { arc = [18, 64], center = [0, 40] }, { line = "
+      "[0, 64] }",
+      "allowed: up to ");
+  refused("{ line = [20, 0], fillet_mm = @3 }, { line = [30, 0] }, { line = [30, 20] }, { line = [0, 20] }",
+          "run on into each other");
+  refused("{ line = [30, 0] }, { line = [30, 20] }, { line = [0, 20], fillet_mm = @3 }", "fillet_mm of the last element");
+  refused("{ line = [30, 0], fillet_mm = @0 }, { line = [30, 20] }, { line = [0, 20] }", "allowed: 0.01 to 5000");
+  expect_refusal(
+      "[[vessel]]\nname = \"v\"\nshape = \"cylinder\"\ndiameter_mm = 80\nheight_mm = 110\ninner_outline = [{ line = [0, 5], "
+      "fillet_mm = @1 }, { line = [30, 5] }, { line = [30, 110] }]",
+      "this corner is on the axis");
 }
 
 TEST(SceneOutline, TakesThousandElementsAndNoMore) {

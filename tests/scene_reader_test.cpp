@@ -180,6 +180,8 @@ center_of_mass_mm = [1, 50, 2]
 name = "scanned"
 mesh = "cup.glb"
 mesh_scale = 0.001
+up = "z"
+close_holes = true
 rotate_deg = [90, 0, -45]
 origin = "as_is"
 grid_mm = 1.5
@@ -208,13 +210,15 @@ inner_outline = [{ line = [0, -3] }, { line = [20, -3] }, { arc = [30, 7], cente
   ASSERT_TRUE(scanned.mesh);
   EXPECT_EQ(scanned.mesh->file, "cup.glb");
   EXPECT_EQ(scanned.mesh->scale, 0.001);
+  EXPECT_TRUE(scanned.mesh->z_is_up);
+  EXPECT_TRUE(scanned.mesh->close_holes);
   EXPECT_EQ(scanned.mesh->rotate, (Triple{radians(90), 0, radians(-45)}));
   EXPECT_FALSE(scanned.mesh->origin_at_base);
   EXPECT_EQ(scanned.mesh->grid_spacing, 1.5e-3);
-  ASSERT_EQ(scanned.mesh->inner.size(), 4u);
-  EXPECT_EQ(scanned.mesh->inner[0].end, (std::array<double, 2>{0, -3e-3}));
-  EXPECT_TRUE(scanned.mesh->inner[2].is_arc);
-  EXPECT_EQ(scanned.mesh->inner[2].center, (std::array<double, 2>{20e-3, 7e-3}));
+  ASSERT_EQ(scanned.inner.size(), 4u);
+  EXPECT_EQ(scanned.inner[0].end, (std::array<double, 2>{0, -3e-3}));
+  EXPECT_TRUE(scanned.inner[2].is_arc);
+  EXPECT_EQ(scanned.inner[2].center, (std::array<double, 2>{20e-3, 7e-3}));
   // every 15 degrees where no azimuth is given
   EXPECT_EQ(scene.grips.azimuth.values.size(), 24u);
   EXPECT_EQ(scene.grips.azimuth.values[1], radians(15));
@@ -269,6 +273,9 @@ best = 7
   EXPECT_EQ(scene.score.hold, 6);
   EXPECT_EQ(scene.output.keep, (std::vector<std::string>{"score", "gap"}));
   EXPECT_EQ(scene.output.best, 7);
+  EXPECT_EQ(scene_from("[output]\nalso = [\"joints\"]" + VESSEL).output.also, std::vector<std::string>{"joints"});
+  expect_refusal("[output]\nkeep = [\"score\"]\nalso = @[\"joints\"]" + VESSEL, "also beside keep");
+  expect_refusal("[output]\nalso = [\"joints\", @\"joints\"]" + VESSEL, "also names 'joints' a second time");
 }
 
 TEST(SceneReader, ReadsAxesOfEveryForm) {
@@ -392,17 +399,18 @@ const std::map<std::string, std::vector<std::string>> KEYS{
     {"[hand.little]", {"base_mm", "splay_deg", "arch_deg", "segments_mm", "radii_mm"}},
     {"[hand.angles]", {"thumb_abduction_deg", "thumb_mcp_deg", "thumb_ip_deg", "mcp_deg", "pip_deg", "dip_per_pip"}},
     {"[[vessel]]",
-     {"name",          "shape",      "diameter_mm",       "height_mm",     "neck_mm",     "upright_mm",    "shoulder_mm", "outline",
-      "mesh",          "mesh_scale", "rotate_deg",        "origin",        "grid_mm",     "inner_outline", "wall_mm",     "surface",
-      "density_kg_m3", "mass_kg",    "center_of_mass_mm", "force_range_N", "guidance_mm", "place_mm",      "liquid"}},
-    {"[liquid]", {"density_kg_m3", "fills", "pour"}},
+     {"name",     "shape",      "diameter_mm", "height_mm",     "neck_mm", "upright_mm",        "shoulder_mm",   "outline",
+      "mesh",     "mesh_scale", "rotate_deg",  "origin",        "grid_mm", "inner_outline",     "wall_mm",       "floor_mm",
+      "surface",  "up",         "close_holes", "density_kg_m3", "mass_kg", "center_of_mass_mm", "force_range_N", "guidance_mm",
+      "place_mm", "liquid"}},
+    {"[liquid]", {"density_kg_m3", "fills", "fills_ml", "pour"}},
     {"[force]", {"base_N", "range_N", "torque", "reference", "max_N", "k_open_N_m", "friction", "torsion_mm", "grip_strength_N"}},
     {"[grips]",
      {"height_mm", "height_fraction", "azimuth_deg", "obliquity_deg", "roll_deg", "offset_mm", "hand_scale", "sampling", "count",
       "seed"}},
     {"[tilts]", {"deg"}},
     {"[score]", {"fingers", "contacts", "depth", "posture", "force", "hold"}},
-    {"[output]", {"keep", "best"}},
+    {"[output]", {"keep", "also", "best"}},
     {"[live]", {"rate_Hz", "K_N_m", "B_Ns_m", "slip_mm", "ramp_s", "slew_N_s", "jump_m_s", "late_steps"}},
     {"[device]", {"gap_mm", "workspace_scale", "origin_mm", "axes", "clutch_button", "library"}},
     {"[task]", {"target", "amounts_ml", "destination_mm", "tolerance_ml"}},

@@ -31,5 +31,16 @@ TEST(SceneText, PlainNamesFitFiles) {
   EXPECT_FALSE(is_plain_name(std::string(65, 'a')));
 }
 
+TEST(SceneText, GuessesSlipsAndBeginningsOnly) {
+  const std::vector<std::string> names{"sweep", "stability", "three_beakers", "--tilt-deg"};
+  EXPECT_EQ(did_you_mean("swep", names), " (did you mean 'sweep'?)");
+  EXPECT_EQ(did_you_mean("stab", names), " (did you mean 'stability'?)");
+  EXPECT_EQ(did_you_mean("--tilt-degs", names), " (did you mean '--tilt-deg'?)");
+  EXPECT_EQ(did_you_mean("three-beaker", names), " (did you mean 'three_beakers'?)");
+  for (const char* other : {"", "s", "xyzzy", "swoosh", "--roll"}) EXPECT_EQ(did_you_mean(other, names), "") << other;
+  EXPECT_EQ(did_you_mean(std::string(1000, 's'), names), "");
+  EXPECT_EQ(did_you_mean("swep", std::vector<std::string>()), "");
+}
+
 }  // namespace
 }  // namespace wholehand

@@ -11,8 +11,11 @@
 #include "app/paths.h"
 #include "app/scene_reader.h"
 #include "core/error.h"
+#include "core/hand_view.h"
 #include "device/haptic_loop.h"
 #include "device/sim_user.h"
+#include "sweeps/hand_nodes.h"
+#include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {
@@ -66,6 +69,7 @@ TEST(SimGripper, CompletesTheTaskOfTheShippedScene) {
     const SimSession session = play(scene, seed);
     const Tick& last = session.report.last;
     EXPECT_EQ(session.report.fault, Fault::none);
+    EXPECT_EQ(session.report.let_go, LetGo::nothing) << "there is no device";
     EXPECT_EQ(last.state, SessionState::released) << "the user is done before the time is over";
     EXPECT_TRUE(last.task_done);
     EXPECT_EQ(last.grasps, 4);
@@ -80,6 +84,127 @@ TEST(SimGripper, CompletesTheTaskOfTheShippedScene) {
     for (const auto& [liquid, volume] : scene.task->amounts) wanted += volume;
     EXPECT_NEAR(arrived, wanted, 3 * scene.task->tolerance);
   }
+}
+
+// How far a point is from the glass of the target, a cylinder of TARGET_WALL that stands on the table; negative inside of it.
+double distance_to_target(const TaskData& task, double table, core_f64::Vec3 p) {
+  const auto box = [](double x, double y, double half_x, double half_y) {  // from its middle
+    const double dx = std::abs(x) - half_x, dy = std::abs(y) - half_y;
+    return std::hypot(std::max(dx, 0.0), std::max(dy, 0.0)) + std::min(0.0, std::max(dx, dy));
+  };
+  const Triple& mouth = task.target_place;
+  const double r = std::hypot(p.x - mouth[0], p.z - mouth[2]), inner = 0.5 * task.target_diameter, half = 0.5 * TARGET_WALL;
+  const double wall = box(r - inner - half, p.y - 0.5 * (mouth[1] + table), half, 0.5 * (mouth[1] - table));
+  return std::min(wall, box(r, p.y - table - half, inner, half));
+}
+
+// What moves with the held vessel, in its frame, and its least distance from the target's glass over all ticks. A tick is passed over only where
+// what has moved since it was last measured cannot have come nearer than that.
+struct HeldShape {
+  static constexpr double REACH = 0.3;  // m: nothing that is held is further from the vessel's origin
+  static constexpr double FAR = 0.02;   // m: what stays further off need not be known
+  std::vector<HeldBall> balls;
+  double least = FAR, last = -1, moved = 0;  // m
+  std::int64_t least_at = -1;
+  VesselPose before;
+
+  void follow(const TaskData& task, double table, const Tick& tick) {
+    double squares = 0;
+    for (std::size_t k = 0; k < 9; ++k) squares += std::pow(tick.vessel_rotation[k] - before.rotation[k], 2);
+    moved += glm::length(to_vec3(tick.vessel_place) - to_vec3(before.place)) + REACH * std::sqrt(squares);
+    before = {tick.vessel_place, tick.vessel_rotation};
+    if (last - moved > least) return;
+    last = 1;
+    moved = 0;
+    const auto place = to_vec3(tick.vessel_place);
+    const auto rotation = to_mat3(tick.vessel_rotation);
+    for (const HeldBall& ball : balls)
+      last = std::min(last, distance_to_target(task, table, place + rotation * ball.place) - ball.radius);
+    if (last >= least) return;
+    least = last;
+    least_at = tick.number;
+  }
+};
+
+// The hand's 24 points as drawn: of a hand that holds, in the vessel's frame; else in the world.
+std::vector<HeldBall> hand_balls(const Scene& scene, const HandView& hand, const VesselPose& frame) {
+  std::vector<HeldBall> balls;
+  const auto back = glm::transpose(to_mat3(frame.rotation));
+  for (int f = 0; f < FINGER_COUNT; ++f)
+    for (int k = 0; k < finger_joints(f); ++k)
+      balls.push_back({back * (to_vec3(hand.proxies[finger_start(f) + k]) - to_vec3(frame.place)),
+                       scene.hand.scale * scene.hand.fingers[f].radii[k]});
+  return balls;
+}
+
+struct Clearance {
+  HeldShape vessel, hand;
+};
+Clearance clearance(const Scene& scene, const SimSession& session) {
+  const LiveScene live(scene);
+  const TaskData& task = *scene.task;
+  const double table = table_height(scene);
+  VesselTracker tracker(scene);
+  Clearance all;
+  int grasps = 0;
+  for (const Tick& tick : session.ticks) {
+    tracker.follow(tick);
+    if (!is_held(tick.state)) {
+      const double near = distance_to_target(task, table, to_vec3(tick.middle)) - 0.2;  // further than that is no point of a hand
+      if (near > all.hand.least) continue;
+      for (const HeldBall& ball : hand_balls(scene, hand_view(live, tick, tracker.poses()), {}))
+        all.hand.least = std::min(all.hand.least, distance_to_target(task, table, ball.place) - ball.radius);
+      continue;
+    }
+    if (tick.grasps > grasps) {
+      grasps = tick.grasps;
+      all.vessel.balls = held_vessel(scene.vessels[tick.vessel], {}, Handedness::right);
+      all.hand.balls = hand_balls(scene, hand_view(live, tick, tracker.poses()), {tick.vessel_place, tick.vessel_rotation});
+      all.vessel.last = all.hand.last = -1;
+    }
+    all.vessel.follow(task, table, tick);
+    all.hand.follow(task, table, tick);
+  }
+  EXPECT_EQ(grasps, 4);
+  return all;
+}
+
+// Of both hands. The glass is sampled every 4 mm at most, so 2 mm of what is between its samples and a wall cannot be in the wall.
+TEST(SimGripper, KeepsVesselAndHandClearOfTheTargetsWall) {
+  Scene scene = shipped_live();
+  for (const Handedness handedness : {Handedness::right, Handedness::left}) {
+    scene.hand.handedness = handedness;
+    const SimSession session = play(scene, 1);
+    const Tick& last = session.report.last;
+    const Clearance all = clearance(scene, session);
+    EXPECT_GT(all.vessel.least, 4e-3) << "at " << static_cast<double>(all.vessel.least_at) / scene.live.rate << " s";
+    EXPECT_GT(all.hand.least, 4e-3) << "at " << static_cast<double>(all.hand.least_at) / scene.live.rate << " s";
+    EXPECT_LT(all.vessel.least, HeldShape::FAR) << "it is poured from near";
+    EXPECT_EQ(last.grasps, 4);
+    EXPECT_EQ(last.lost, 0);
+    EXPECT_TRUE(last.task_done);
+    for (std::size_t v = 0; v < scene.vessels.size(); ++v) EXPECT_EQ(last.spilt[v], 0) << v;
+  }
+}
+
+// Eight vertices, and yet no place on the sides is far from a point; of points that coincide nearly, one is kept.
+TEST(HeldVessel, AMeshIsSampledBetweenItsVertices) {
+  const Triple low{-0.03, 0, -0.02}, high{0.05, 0.1, 0.04};
+  const auto balls = held_vessel(vessel_of_mesh("box", box_mesh(low, high), 0), {}, Handedness::right);
+  EXPECT_LT(balls.size(), 20000u);
+  constexpr int STEPS = 7;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const Triple& side : {low, high})
+      for (int i = 0; i <= STEPS; ++i)
+        for (int k = 0; k <= STEPS; ++k) {
+          const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+          Triple place = side;
+          place[u] = low[u] + (high[u] - low[u]) * i / STEPS;
+          place[v] = low[v] + (high[v] - low[v]) * k / STEPS;
+          double nearest = 1;
+          for (const HeldBall& ball : balls) nearest = std::min(nearest, glm::length(ball.place - to_vec3(place)));
+          EXPECT_LT(nearest, 5e-3) << place[0] << ' ' << place[1] << ' ' << place[2];
+        }
 }
 
 // Lift, tilt, pour (the tilt maintained meanwhile), return, on each of the three beakers; then the fingers open and the vessel goes back.

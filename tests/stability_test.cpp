@@ -67,6 +67,11 @@ TEST(Stability, WrongUseIsOneLine) {
     EXPECT_EQ(said.find('\n'), said.size() - 1) << said;
   }
   EXPECT_FALSE(file_exists(folder / "report")) << "nothing was made";
+  std::ofstream(folder / "wall.csv") << "mine";
+  EXPECT_EQ(program("stability --on core -o " + folder.path(), folder / "said"), 2);
+  EXPECT_NE(file_text(folder / "said").find("wall.csv: is there and is no table of wholehand stability"), std::string::npos)
+      << file_text(folder / "said");
+  EXPECT_EQ(file_text(folder / "wall.csv"), "mine");
   program("stability wall --mass-kg 1", folder / "said");
   EXPECT_NE(file_text(folder / "said").find("see wholehand stability wall --help"), std::string::npos)
       << file_text(folder / "said");

@@ -133,6 +133,24 @@ TEST(SweepResultTest, ListsTheBestGripsInTheirOrder) {
   EXPECT_TRUE(swept.result->lists_best());
 }
 
+TEST(SweepResultTest, OneListForAllHandScalesIsSaid) {
+  const SweptScene swept(
+      edited(RESULT_SCENE, "roll_deg = [-90, -30, 0]", "roll_deg = [-90, -30, 0]\nsampling = \"sobol\"\ncount = 70"));
+  Scene hands = swept.scene;
+  hands.grips.hand_scale.values = {1.1, 0.9};
+  SweepResult result(swept.path);
+  const Plan plan(hands, keeps_vectors(result.variables()));
+  result.use(hands, plan);
+  EXPECT_TRUE(result.lists_all_hands_together());
+  EXPECT_FALSE(swept.result->lists_all_hands_together());
+  try {
+    result.best(0);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("one list for all hand scales; sweep again"), std::string::npos) << error.what();
+  }
+}
+
 TEST(SweepResultTest, AVesselThatNobodyCanHoldHasNoBest) {
   const SweptScene swept(edited(RESULT_SCENE, "diameter_mm = 70", "diameter_mm = 300"));
   EXPECT_TRUE(swept.result->best(0).empty());
@@ -200,6 +218,8 @@ TEST(SweepResultTest, DamageOfEveryKindIsSurvived) {
       SweepResult result(path);
       result.use(swept.scene, *swept.plan);
       result.best(0);
+      std::vector<double> scores(swept.plan->stored_grips());
+      result.read(*swept.result->find("score"), 1, 0, 0, scores.size(), scores.data());
     } catch (const Error& error) {
       EXPECT_EQ(error.code, ExitCode::usage);
       ++refused;

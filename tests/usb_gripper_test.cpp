@@ -96,6 +96,60 @@ TEST(UsbGripper, PanicLeavesNoForce) {
   check_panic(mock, [] { return open_usb("", PATIENT_WATCHDOG); });
 }
 
+TEST(UsbGripper, ASecondThreadTakesTheForceAway) {
+  MockBench bench;
+  UsbMock mock(bench);
+  check_let_go_meanwhile(mock, [] { return open_usb("", PATIENT_WATCHDOG); });
+}
+
+// One force is under way to a device that takes none, and another waits. `before`: what had arrived until then.
+void leave_a_force_waiting(UsbMock& mock, Gripper& gripper, GripperState& state, std::size_t& before) {
+  ASSERT_EQ(read_soon(gripper, state), ReadOutcome::value);
+  before = mock.outputs().size();
+  mock.misbehave(Mischief::takes_no_force);
+  ASSERT_TRUE(gripper.write({{1, 0, 0}, 0}));
+  ASSERT_TRUE(gripper.write({{2, 0, 0}, 0}));
+}
+
+// A force that waits for a slow device while the process stands still is not sent afterwards.
+TEST(UsbGripper, AForceThatWaitedIsNotSentAfterAStall) {
+  MockBench bench;
+  UsbMock mock(bench);
+  const auto gripper = open_usb("", PATIENT_WATCHDOG);
+  GripperState state;
+  std::size_t before = 0;
+  leave_a_force_waiting(mock, *gripper, state, before);
+  rest(0.02);
+  mock.misbehave(Mischief::none);
+  ASSERT_TRUE(arrives(mock, before + 1)) << "the kernel has it";
+  for (int k = 0; k < 10; ++k) ASSERT_EQ(read_soon(*gripper, state), ReadOutcome::value);
+  EXPECT_EQ(mock.outputs().size(), before + 1);
+  EXPECT_TRUE(gripper->write({}));
+  ASSERT_TRUE(arrives(mock, before + 2));
+  EXPECT_EQ(mock.outputs().back().arm, (std::array<std::int32_t, 3>{}));
+}
+
+// Nor after the zero of a signal handler or a second thread.
+TEST(UsbGripper, AForceThatWaitedDoesNotFollowTheZeroOfAnotherThread) {
+  for (const bool is_panic : {false, true}) {
+    MockBench bench;
+    UsbMock mock(bench);
+    const auto gripper = open_usb("", PATIENT_WATCHDOG);
+    GripperState state;
+    std::size_t before = 0;
+    leave_a_force_waiting(mock, *gripper, state, before);
+    mock.misbehave(Mischief::none);
+    EXPECT_EQ(is_panic ? gripper->panic() : gripper->let_go_meanwhile(), LetGo::written);
+    for (int k = 0; k < 10; ++k) ASSERT_EQ(read_soon(*gripper, state), ReadOutcome::value);
+    EXPECT_EQ(mock.outputs().size(), before + 2) << "the one under way and the zero";
+    EXPECT_TRUE(is_nothing(mock.outputs().back()));
+    EXPECT_FALSE(mock.has_force());
+    EXPECT_TRUE(gripper->write({{3, 0, 0}, 0}));
+    ASSERT_TRUE(arrives(mock, before + 3));
+    EXPECT_EQ(is_nothing(mock.outputs().back()), is_panic) << "a session goes on after the second thread's";
+  }
+}
+
 // One that is slow is not yet an error: its next force waits. One that never takes any is, after ten.
 TEST(UsbGripper, ForceThatIsNotTakenIsAnError) {
   MockBench bench;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string_view>
 
 #include "core/error.h"
 #include "tests/support/fake_backend.h"
@@ -120,6 +121,35 @@ TEST(Variables, KeepChoosesInTheCataloguesOrderEachOnce) {
   scene.output.keep = std::vector<std::string>{};
   EXPECT_TRUE(choose_variables(scene).empty());
   EXPECT_TRUE(variable_fields({}).empty());
+}
+
+TEST(Variables, AlsoAddsToTheUsualOnes) {
+  Scene scene = fake_scene();
+  const auto usual = names(choose_variables(scene));
+  scene.output.also = std::vector<std::string>{"joints", "score"};
+  auto more = names(choose_variables(scene));
+  EXPECT_EQ(more.size(), usual.size() + 1);
+  EXPECT_TRUE(holds(more, "joints"));
+  std::erase(more, "joints");
+  EXPECT_EQ(more, usual);
+  scene.output.also = std::vector<std::string>{"jonts"};
+  EXPECT_NE(refusal(scene).find("fake.toml: [output] also: unknown variable \"jonts\""), std::string::npos) << refusal(scene);
+  scene.output.also = std::vector<std::string>{"torque"};
+  scene.tilts.clear();
+  EXPECT_NE(refusal(scene).find("[output] also: \"torque\" needs [tilts]"), std::string::npos) << refusal(scene);
+}
+
+// Bit operations take whole numbers without exception: a missing value would be one with bits.
+TEST(Variables, MasksLackNothing) {
+  for (const Variable& variable : variable_catalogue()) {
+    const bool is_mask = std::string_view(variable.name).ends_with("_mask");
+    EXPECT_EQ(variable.bits > 0, is_mask) << variable.name;
+    if (is_mask) {
+      EXPECT_EQ(variable.missing, 0) << variable.name;
+      EXPECT_FALSE(variable.has_missing()) << variable.name;
+      EXPECT_EQ(variable.bits, variable.type == NumberType::byte ? FINGER_COUNT : JOINT_COUNT) << variable.name;
+    }
+  }
 }
 
 TEST(Variables, UnknownNamesAreListedWithTheKnown) {

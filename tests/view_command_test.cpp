@@ -1,5 +1,5 @@
 // The built program's views: `live --view`, `view` of recordings and results, `grip --view`; how they end, what they refuse, and that nobody who
-// watches, or does worse, costs the session a tick. With sweeps/best_reader.
+// watches, or does worse, costs the session a tick.
 // sanitizers: address thread
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -24,11 +24,11 @@
 #include "app/view_frame.h"
 #include "app/view_server.h"
 #include "core/error.h"
-#include "sweeps/best_reader.h"
 #include "sweeps/mesh_vessel.h"
 #include "sweeps/recording.h"
 #include "tests/support/http_client.h"
 #include "tests/support/program.h"
+#include "tests/support/result_reader.h"
 
 namespace wholehand {
 namespace {
@@ -297,24 +297,24 @@ TEST(ViewCommand, ShowsTheBestGripsOfASweep) {
   const ViewFolder folder;
   const std::string file = folder.file("best.nc");
   ASSERT_EQ(run("PROGRAM sweep small --on core --best 3 -o " + file + " >/dev/null").code, 0);
-  const RecordedBest best = read_best(file);
+  const auto heights = read_values(file, "best_height"), rolls = read_values(file, "best_roll"),
+             scores = read_values(file, "best_score");
   const Scene small = read_scene_file(find_scene("small"));
-  ASSERT_EQ(best.vessels.size(), small.vessels.size());
+  ASSERT_EQ(heights.size(), 3 * small.vessels.size());
   Viewed view("view " + file);
   const json scene = view.get("scene.json");
   EXPECT_EQ(scene["mode"], "grips");
   std::size_t g = 0;
-  for (std::size_t v = 0; v < best.vessels.size(); ++v) {
-    for (std::size_t k = 0; k < best.vessels[v].size(); ++k, ++g) {
-      const auto& ranked = best.vessels[v][k];
+  for (std::size_t v = 0; v < small.vessels.size(); ++v) {
+    for (std::size_t k = 0; k < 3; ++k, ++g) {
       ASSERT_LT(g, scene["grips"].size());
       EXPECT_EQ(scene["grips"][g]["label"], small.vessels[v].name + ", rank " + std::to_string(k + 1));
       EXPECT_EQ(scene["grips"][g]["vessel"], v);
-      EXPECT_EQ(scene["grips"][g]["height_m"], ranked.grip.height);
-      EXPECT_EQ(scene["grips"][g]["roll_rad"], ranked.grip.roll);
-      EXPECT_NEAR(scene["grips"][g]["score"].get<double>(), ranked.score, 1e-12) << "of a sweep in double precision";
+      EXPECT_EQ(scene["grips"][g]["height_m"], heights[g]);
+      EXPECT_EQ(scene["grips"][g]["roll_rad"], rolls[g]);
+      EXPECT_NEAR(scene["grips"][g]["score"].get<double>(), scores[g], 1e-12) << "of a sweep in double precision";
       if (k > 0) {
-        EXPECT_LE(ranked.score, best.vessels[v][k - 1].score);
+        EXPECT_LE(scores[g], scores[g - 1]);
       }
       const json frame = view.get("state?grip=" + std::to_string(g) + "&fill=0&tilt=0.3");
       EXPECT_EQ(frame["vessel"], v);
@@ -324,6 +324,18 @@ TEST(ViewCommand, ShowsTheBestGripsOfASweep) {
   EXPECT_EQ(g, scene["grips"].size());
   EXPECT_EQ(view.interrupt(), 0);
   EXPECT_EQ(view.err(), "");
+}
+
+TEST(ViewCommand, ShowsTheGripsOfAList) {
+  const ViewFolder folder;
+  const std::string file = folder.file("a.nc"), list = folder.file("list.csv");
+  ASSERT_EQ(run("PROGRAM sweep small --on core -o " + file + " >/dev/null").code, 0);
+  ASSERT_EQ(run("PROGRAM rank " + file + " --where 'roll_deg < 0' --best 2 -o " + list + " >/dev/null").code, 0);
+  Viewed view("view " + file + " --list " + list);
+  const json grips = view.get("scene.json")["grips"];
+  ASSERT_EQ(grips.size(), 2 * read_scene_file(find_scene("small")).vessels.size());
+  for (const json& grip : grips) EXPECT_LT(grip["roll_rad"].get<double>(), 0) << "as the condition has it";
+  EXPECT_EQ(view.interrupt(), 0);
 }
 
 TEST(ViewCommand, ShowsAGripBesideItsReport) {
@@ -379,21 +391,6 @@ TEST(ViewCommand, APortThatIsTakenIsNamedAndNothingIsLeft) {
                "--view-port " + std::to_string(live.at.port));
   EXPECT_TRUE(fs::is_empty(fs::path(folder.file("p.nc")).parent_path())) << "the next start would be refused";
   EXPECT_EQ(live.interrupt(), 130);
-}
-
-TEST(ReadBest, RefusesWhatIsNoFinishedResult) {
-  const ViewFolder folder;
-  const std::string recording = folder.file("session.nc");
-  ASSERT_EQ(run("PROGRAM live --no-clock --seconds 0.1 --record " + recording).code, 0);
-  for (const std::string& file : {recording, folder.file("missing"), std::string("/")}) {
-    try {
-      read_best(file);
-      ADD_FAILURE() << file;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.code, ExitCode::usage);
-      EXPECT_EQ(std::string(error.what()).rfind(file + ": ", 0), 0u) << error.what();
-    }
-  }
 }
 
 TEST(Browser, OpensNothingWhereNobodySitsBeforeIt) {

@@ -65,6 +65,7 @@ std::vector<Moment> moments(const Scene& scene) {
   for (std::int64_t n = 0; n < static_cast<std::int64_t>(script.seconds() * script.rate); ++n) {
     Tick tick;
     session.step(script.at(n), n, tick);
+    tick.written.grip = 0.5 * tick.wanted.grip;
     tracker.follow(tick);
     if (n % 50 == 0) seen.push_back({tick, tracker.poses()});
   }
@@ -127,10 +128,11 @@ TEST(ViewFrame, TellsEveryFieldOfATick) {
     }
     const json& forces = seen["forces"];
     EXPECT_EQ(keys_of(forces),
-              (std::set<std::string>{"feedback", "base", "normal", "opening", "user", "hold", "weight", "torque"}));
+              (std::set<std::string>{"feedback", "written", "base", "normal", "opening", "user", "hold", "weight", "torque"}));
     EXPECT_TRUE(is_seen(forces["feedback"], tick.feedback) && is_seen(forces["normal"], tick.normal_force) &&
                 is_seen(forces["opening"], tick.opening_force) && is_seen(forces["user"], tick.user_force) &&
                 is_seen(forces["weight"], tick.weight) && is_seen(forces["torque"], tick.torque));
+    EXPECT_TRUE(is_seen(forces["written"], tick.written.grip));
     EXPECT_TRUE(is_seen(forces["base"], is_held(tick.state) ? scene.force.base : 0));
     EXPECT_EQ(forces["hold"].is_null(), !std::isfinite(tick.hold_force));
     ASSERT_EQ(seen["amounts"].size(), 1u);
@@ -158,6 +160,7 @@ TEST(ViewFrame, WhatIsNoNumberIsNull) {
   frame.hold = Tick::NONE;
   EXPECT_FALSE(json::parse(frame_json(frame))["forces"].contains("hold_infinite")) << "there is none";
   EXPECT_TRUE(seen["forces"]["feedback"].is_null());
+  EXPECT_TRUE(seen["forces"]["written"].is_null()) << "there is no gripper";
   EXPECT_TRUE(seen["vessels"][0]["level"].is_null());
   EXPECT_TRUE(seen["vessels"][1].is_null());
 }
@@ -203,11 +206,14 @@ TEST(ViewScene, TellsWhatDoesNotChange) {
   EXPECT_EQ(seen["table_y"], 0);
   EXPECT_EQ(seen["target"]["place"], json(scene.task->target_place));
   EXPECT_EQ(seen["target"]["diameter"], scene.task->target_diameter);
+  EXPECT_EQ(seen["target"]["wall"], TARGET_WALL);
   EXPECT_EQ(seen["destination"], json(scene.task->destination));
   ASSERT_EQ(seen["amounts"].size(), 3u);
   EXPECT_EQ(seen["amounts"][0], json({{"liquid", "blue"}, {"target_m3", 50e-6}}));
   EXPECT_EQ(seen["tolerance_m3"], 5e-6);
-  EXPECT_EQ(seen["force"], json({{"base", 0.8}, {"max", 8.0}}));
+  EXPECT_EQ(seen["force"], json({{"base", 0.8}, {"max", 8.0}, {"most", 8.0}})) << "no gripper says less";
+  facts.most_force = 5;
+  EXPECT_EQ(json::parse(view_scene_json(scene, facts))["force"]["most"], 5.0);
   EXPECT_EQ(seen["states"], json({"free", "touching", "lift", "tilt", "maintain", "slipped", "released"}));
 }
 
@@ -238,6 +244,7 @@ TEST(ViewScene, OutlinesAndWallsAreThoseOfTheVessels) {
     EXPECT_EQ(vessel["name"], scene.vessels[v].name);
     EXPECT_EQ(vessel["place"], json(scene.vessels[v].place));
     EXPECT_EQ(vessel["liquid"], scene.vessels[v].liquid_name.empty() ? json(nullptr) : json(scene.vessels[v].liquid_name));
+    EXPECT_EQ(vessel["base"], scene.vessels[v].base);
     EXPECT_EQ(vessel["height"], scene.vessels[v].height);
     EXPECT_EQ(vessel["radius"], live.vessels[v].radius);
     EXPECT_FALSE(vessel.contains("mesh"));

@@ -1,4 +1,4 @@
-// Grips as the viewer shows them: those of `grip --json`, turned about the middle of the tips, above the table, with the states' own forces.
+// Grips as the viewer shows them: those of `grip --json`, turned about the middle of the tips, the glass on its table or above, with the states' own forces.
 // sanitizers: address
 #include "app/view_grips.h"
 
@@ -93,6 +93,18 @@ TEST(GripsView, AFrameIsWhatGripTells) {
   }
 }
 
+TEST(GripsView, TheScoreOfAListIsShown) {
+  std::vector<std::string> notes;
+  std::vector<ViewedGrip> grips = some_grips();
+  grips[1].score = 0.125;
+  const Scene scene = beakers();
+  const GripsView view(scene, grips, notes);
+  const json shown = json::parse(view.content("", scene_axes(scene, 0)).scene)["grips"];
+  EXPECT_EQ(shown[1]["score"], 0.125);
+  const double own = report_of(scene, grips[0], scene_axes(scene, 0))["score"];
+  EXPECT_NEAR(shown[0]["score"].get<double>(), own, 1e-12);
+}
+
 TEST(GripsView, ItTurnsTowardsWhereItPoursAndStaysAboveTheTable) {
   const Scene scene = beakers();
   std::vector<std::string> notes;
@@ -125,9 +137,27 @@ TEST(GripsView, ItTurnsTowardsWhereItPoursAndStaysAboveTheTable) {
           EXPECT_GT(p.y, -1e-4);
         }
       }
-      for (const Triple& joint : frame.hand.proxies) EXPECT_GT(joint[1], 5e-3) << "a joint's radius and more";
+      if (tilt == 0) {
+        EXPECT_EQ(pose.place, scene.vessels[grips[g].vessel].place) << "it stands";
+      }
     }
   }
+}
+
+// As high as it stands in the scene: a hand that reaches under its base is under the table.
+TEST(GripsView, AVesselStandsOnItsOwnTableWhereverTheHandIs) {
+  Scene scene = beakers();
+  scene.vessels[0].place = {0.1, 0.3, -0.2};
+  GripInput low;
+  low.height = 0.02;
+  low.roll = radians(-10);
+  std::vector<std::string> notes;
+  const GripsView view(scene, {{0, low, "low"}}, notes);
+  const ViewFrame frame = view.frame(0, 0, 0);
+  EXPECT_EQ(frame.vessels[0].pose.place, scene.vessels[0].place);
+  double lowest = 1;
+  for (const Triple& joint : frame.hand.proxies) lowest = std::min(lowest, joint[1]);
+  EXPECT_LT(lowest, 0.3);
 }
 
 TEST(GripsView, OnlyTheHeldVesselIsShown) {
@@ -146,14 +176,14 @@ TEST(GripsView, TheListTellsEachGripAndItsTerms) {
   std::vector<std::string> notes;
   const std::vector<ViewedGrip> grips = some_grips();
   const GripsView view(scene, grips, notes);
-  const ViewContent content = view.content("best", scene_axes(scene));
+  const ViewContent content = view.content("best", scene_axes(scene, 0));
   const json seen = json::parse(content.scene);
   EXPECT_EQ(seen["mode"], "grips");
   EXPECT_EQ(seen["fills"], json(scene.liquid->fills));
   EXPECT_EQ(seen["tilts"], json(scene.tilts));
   ASSERT_EQ(seen["grips"].size(), grips.size());
   for (std::size_t g = 0; g < grips.size(); ++g) {
-    const json &listed = seen["grips"][g], told = report_of(scene, grips[g], scene_axes(scene));
+    const json &listed = seen["grips"][g], told = report_of(scene, grips[g], scene_axes(scene, 0));
     EXPECT_EQ(listed["vessel"], grips[g].vessel);
     EXPECT_EQ(listed["label"], grips[g].label);
     EXPECT_EQ(listed["score"], told["score"]);
@@ -198,7 +228,8 @@ TEST(GripsView, WhatIsAskedForMovesTheSlidersAndNotTheForces) {
   std::vector<std::string> notes;
   const GripsView view(scene, {some_grips()[0]}, notes);
   const StateAxes asked{{0.3}, {0, radians(120)}};
-  const json seen = json::parse(view.content("one", asked).scene), own = json::parse(view.content("one", scene_axes(scene)).scene);
+  const json seen = json::parse(view.content("one", asked).scene),
+             own = json::parse(view.content("one", scene_axes(scene, 0)).scene);
   EXPECT_EQ(seen["fills"], json(asked.fills));
   EXPECT_EQ(seen["tilts"], json(asked.tilts));
   EXPECT_EQ(seen["grips"], own["grips"]);
@@ -208,7 +239,7 @@ TEST(GripsView, ASceneWithoutLiquidAndTiltsIsShownToo) {
   const Scene scene = scene_of({beaker1()});
   std::vector<std::string> notes;
   const GripsView view(scene, {some_grips()[0]}, notes);
-  const json seen = json::parse(view.content("bare", scene_axes(scene)).scene);
+  const json seen = json::parse(view.content("bare", scene_axes(scene, 0)).scene);
   EXPECT_EQ(seen["fills"], json({0.0}));
   EXPECT_TRUE(seen["tilts"].empty());
   EXPECT_FALSE(seen["grips"][0]["terms"].contains("force"));

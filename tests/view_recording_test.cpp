@@ -26,6 +26,7 @@ Recording recorded(const Scene& scene) {
   Recording recording;
   recording.info.rate = script.rate;
   recording.info.device.name = "a gripper";
+  recording.info.device.grip = 7;
   for (const VesselData& vessel : scene.vessels) recording.info.vessels.push_back({vessel.name, vessel.liquid_name, 3});
   Session session(scene, own_gap(scene.hand));
   for (std::int64_t n = 3; n < static_cast<std::int64_t>(script.seconds() * script.rate); ++n) {
@@ -93,6 +94,7 @@ TEST(RecordingView, AnswersAsJsonAndRefusesTooMuch) {
   EXPECT_EQ(seen["mode"], "recording");
   EXPECT_EQ(seen["title"], "mine.nc");
   EXPECT_EQ(seen["device"], "a gripper");
+  EXPECT_EQ(seen["force"]["most"], 7.0);
   EXPECT_EQ(seen["rate"], 1000);
   EXPECT_EQ(seen["duration"], view.duration());
   const json answer = json::parse(content.recording({{"from", "0.5"}, {"to", "0.6"}, {"rate", "30"}}));

@@ -140,14 +140,16 @@ TEST(ViewServer, AnotherHostOrOriginIsRefused) {
   const Served served;
   const std::string line = "GET /" + served.at->token + "/scene.json HTTP/1.1\r\n", port = ":" + std::to_string(served.at->port);
   for (const std::string& host : {"evil.example" + port, std::string("127.0.0.1"), "127.0.0.1:1" + port,
-                                  "127.0.0.1.evil.example" + port, "[::1]" + port, std::string("")})
+                                  "127.0.0.1.evil.example" + port, "[::1]" + port, std::string(""), "127.0.0.1%3a" + port.substr(1),
+                                  "127.0.0.1%3A" + port.substr(1), "%31" + std::string("27.0.0.1") + port, "localhos%74" + port})
     EXPECT_EQ(status_of(*served.at, line + "Host: " + host + "\r\n\r\n"), 403) << host;
   EXPECT_EQ(status_of(*served.at, line + "\r\n"), 403) << "none";
   EXPECT_EQ(status_of(*served.at, line + "Host: 127.0.0.1" + port + "\r\nHost: evil.example\r\n\r\n"), 403) << "two";
   EXPECT_EQ(status_of(*served.at, line + "Host: localhost" + port + "\r\n\r\n"), 200);
   const std::string own = line + "Host: 127.0.0.1" + port + "\r\nOrigin: ";
-  for (const std::string& origin : {std::string("http://evil.example"), std::string("null"), "https://127.0.0.1" + port,
-                                    std::string("http://127.0.0.1"), "http://localhost" + port})
+  for (const std::string& origin :
+       {std::string("http://evil.example"), std::string("null"), "https://127.0.0.1" + port, std::string("http://127.0.0.1"),
+        "http://localhost" + port, "http://127.0.0.1%3a" + port.substr(1), "http%3a//127.0.0.1" + port})
     EXPECT_EQ(status_of(*served.at, own + origin + "\r\n\r\n"), 403) << origin;
   EXPECT_EQ(status_of(*served.at, own + "http://127.0.0.1" + port + "\r\n\r\n"), 200);
 }

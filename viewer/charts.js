@@ -1,5 +1,5 @@
 // Lines over time, or over the tilt: forces, the force that holding needs, the tilt. Each row has its own scale; each line its name at its end.
-import {element, isNumber} from './format.js';
+import {element, feltForce, isNumber} from './format.js';
 import {cssColor, onThemeChange} from './theme.js';
 
 export const SPAN = 10;  // s
@@ -11,10 +11,10 @@ const ROWS = [
   {title: 'Force that holding needs, N', share: 0.25, least: 10, lines: [{key: 'hold', name: 'N‑hold', color: '--line-hold', width: 1.8, dash: []}]},
   {title: 'Tilt, °', share: 0.19, least: 90, lines: [{key: 'tilt', name: 'tilt', color: '--line-tilt', width: 1.6, dash: []}]},
 ];
-const LEFT = 30, RIGHT = 46, TOP = 16, BOTTOM = 20, BETWEEN = 24;  // px
+const TOP = 16, BOTTOM = 20, BETWEEN = 24, TICK = 6, NAME = 5;  // px: the last two beside the lines, to a number and to a name
 
 // What a chart keeps of a frame.
-export const record = (frame) => ({x: frame.t, normal: frame.forces.normal, user: frame.forces.user, feedback: frame.forces.feedback,
+export const record = (frame) => ({x: frame.t, normal: frame.forces.normal, user: frame.forces.user, feedback: feltForce(frame.forces),
   hold: frame.forces.hold, tilt: isNumber(frame.tilt) ? frame.tilt * 180 / Math.PI : null});
 
 // A step of 1, 2 or 5 times a power of ten of which `count` or fewer fit.
@@ -22,6 +22,8 @@ function niceStep(range, count) {
   const rough = range / count, power = 10 ** Math.floor(Math.log10(rough));
   return [1, 2, 5, 10].map((k) => k * power).find((step) => step >= rough * 0.999);
 }
+
+const tickText = (y) => String(Math.round(y * 1000) / 1000);
 
 export class Charts {
   // `overTilt`: x is the tilt in degrees, and the row of the tilt is left out.
@@ -54,42 +56,60 @@ export class Charts {
     pen.setTransform(scale, 0, 0, scale, 0, 0);
     pen.clearRect(0, 0, width, height);
     pen.font = `11px ${getComputedStyle(canvas).fontFamily}`;
+    this.texts = [];
     const inner = height - TOP - BOTTOM - BETWEEN * (this.rows.length - 1), whole = this.rows.reduce((sum, row) => sum + row.share, 0);
     const x0 = this.overTilt ? 0 : (this.now ?? 0) - SPAN, x1 = this.overTilt ? Math.max(1, ...this.records.map((r) => r.x)) : this.now ?? 0;
-    const toX = (x) => LEFT + (x - x0) / (x1 - x0 || 1) * (width - LEFT - RIGHT);
+    const seen = this.records.filter((r) => r.x >= x0 - 0.1 && r.x <= x1 + 1e-9);
+    const scales = this.rows.map((row) => this.scaleOf(row, seen, inner * row.share / whole));
+    const wide = (texts) => Math.ceil(Math.max(...texts.map((text) => pen.measureText(text).width)));
+    // the numbers' room on the left; the names' on the right, and half of what stands under the right end
+    const left = Math.max(wide(scales.flatMap(({ticks}) => ticks.map(tickText))) + TICK, wide(['−10']) / 2) + 1;
+    const right = width - 1 - Math.max(wide(this.rows.flatMap((row) => row.lines.map((line) => line.name))) + NAME, wide([this.footText(0, x1)]) / 2);
+    const toX = (x) => left + (x - x0) / (x1 - x0 || 1) * (right - left);
     let top = TOP;
     for (const [k, row] of this.rows.entries()) {
       const tall = inner * row.share / whole;
-      this.drawRow(pen, row, k, {top, bottom: top + tall, left: LEFT, right: width - RIGHT, toX, x0, x1});
+      this.tops[k] = scales[k].most;
+      this.drawRow(pen, row, seen, scales[k], {top, bottom: top + tall, left, right, toX});
       top += tall + BETWEEN;
     }
-    this.drawFoot(pen, {bottom: height - BOTTOM, top: TOP, left: LEFT, right: width - RIGHT, toX, x0, x1});
+    this.drawFoot(pen, {bottom: height - BOTTOM, top: TOP, left, right, toX, x0, x1});
   }
 
-  drawRow(pen, row, number, box) {
-    const seen = this.records.filter((r) => r.x >= box.x0 - 0.1 && r.x <= box.x1 + 1e-9);
+  // Up to where a row reaches that is so tall (px), and its numbers.
+  scaleOf(row, seen, tall) {
     let most = row.least;
     for (const line of row.lines) for (const r of seen) if (isNumber(r[line.key])) most = Math.max(most, r[line.key] * 1.05);
-    let step = niceStep(most, Math.max(2, Math.floor((box.bottom - box.top) / 24)));
+    let step = niceStep(most, Math.max(2, Math.floor(tall / 24)));
     if (row.least === 90 && step > 20) step = most > 90 ? 90 : 45;
-    most = Math.ceil(most / step - 1e-9) * step;
-    this.tops[number] = most;
+    const count = Math.ceil(most / step - 1e-9);
+    return {most: count * step, ticks: Array.from({length: count + 1}, (_, k) => k * step)};
+  }
+
+  // A text, and where it is: what a test looks for in the picture.
+  write(pen, text, x, y) {
+    pen.fillText(text, x, y);
+    const {actualBoundingBoxLeft, actualBoundingBoxRight, actualBoundingBoxAscent, actualBoundingBoxDescent} = pen.measureText(text);
+    this.texts.push({text, left: x - actualBoundingBoxLeft, right: x + actualBoundingBoxRight, top: y - actualBoundingBoxAscent, bottom: y + actualBoundingBoxDescent});
+  }
+
+  drawRow(pen, row, seen, {most, ticks}, box) {
     const toY = (y) => box.bottom - Math.max(-0.03, Math.min(1.03, y / most)) * (box.bottom - box.top);
     pen.fillStyle = cssColor('--soft');
     pen.textAlign = 'left';
     pen.textBaseline = 'alphabetic';
-    pen.fillText(row.title, box.left, box.top - 5);
+    this.write(pen, row.title, box.left, box.top - 5);
     pen.textAlign = 'right';
     pen.textBaseline = 'middle';
     pen.strokeStyle = cssColor('--grid');
     pen.lineWidth = 1;
-    for (let y = 0; y <= most + 1e-9; y += step) {
+    for (const y of ticks) {
       const at = Math.round(toY(y)) + 0.5;
       pen.beginPath();
       pen.moveTo(box.left, at);
       pen.lineTo(box.right, at);
       pen.stroke();
-      pen.fillText(String(Math.round(y * 1000) / 1000), box.left - 6, at);
+      this.write(pen, tickText(y), box.left - TICK, at);
     }
     const names = row.lines.map((line) => this.drawLine(pen, line, seen, box, toY)).filter(Boolean);
     this.drawNames(pen, names, box);
@@ -126,8 +146,14 @@ export class Charts {
     pen.textAlign = 'left';
     for (const {line, y} of names) {
       pen.fillStyle = cssColor(line.color);
-      pen.fillText(line.name, box.right + 5, y);
+      this.write(pen, line.name, box.right + NAME, y);
     }
+  }
+
+  // Under a line that is `k` from the end: seconds before it, or degrees.
+  footText(k, end) {
+    if (this.overTilt) return `${k}°`;
+    return k > 0 ? `−${k}` : this.live ? 'now' : `${end.toFixed(1)} s`;
   }
 
   drawFoot(pen, box) {
@@ -138,8 +164,7 @@ export class Charts {
       const x = this.overTilt ? k : box.x1 - k;
       if (this.overTilt ? x > box.x1 + 1e-9 : x < box.x0 - 1e-9) break;
       pen.textAlign = 'center';
-      const name = this.overTilt ? `${k}°` : k === 0 ? (this.live ? 'now' : `${box.x1.toFixed(1)} s`) : `−${k}`;
-      pen.fillText(name, box.toX(x), box.bottom + 6);
+      this.write(pen, this.footText(k, box.x1), box.toX(x), box.bottom + 6);
     }
     if (!this.overTilt || !isNumber(this.now)) return;
     pen.strokeStyle = cssColor('--ink');

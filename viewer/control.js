@@ -4,7 +4,7 @@ import {degrees, element, millimetres} from './format.js';
 
 const HAND = 0.1, NEAR = 48;           // m about the hand's middle in which a drag takes it, and px at least
 const INTERVAL = 1000 / 60;            // ms between two states that are sent
-const KEY_STEP = 0.006, KEY_TURN = 0.05;  // m and rad for each press of a key
+const KEY_SPEED = 0.15, KEY_TURN = 0.8;  // m/s and rad/s while a key is held
 const CLOSING = 0.5, OPENING = 1.2;    // of the gap's range, in a second
 const SQUEEZE = 0.004;                 // m, that a grasp goes on closing beyond where it held
 const HELD = ['lift', 'tilt', 'maintain'];
@@ -100,6 +100,7 @@ export class Control {
     const near = Math.max(NEAR, HAND / this.view.orbit.pixel());
     if (Math.hypot(event.clientX - at.x, event.clientY - at.y) > near) return false;
     this.pointer = event.pointerId;
+    this.view.isDragged = true;
     this.last = [event.clientX, event.clientY];
     this.view.stage.canvas.setPointerCapture(event.pointerId);
     this.view.stage.canvas.classList.add('holding');
@@ -116,6 +117,8 @@ export class Control {
   drop(event) {
     if (event.pointerId !== this.pointer) return;
     this.pointer = undefined;
+    this.view.isDragged = false;
+    this.view.stage.invalidate();
     this.view.stage.canvas.classList.remove('holding');
   }
 
@@ -196,27 +199,28 @@ export class Control {
     return {position: this.position.toArray(), rotation: [e[0], e[4], e[8], e[1], e[5], e[9], e[2], e[6], e[10]], gap: this.gap, buttons: 0, sequence: this.sequence};
   }
 
+  // What held keys do in `dt` s.
   keys() {
-    const by = (x, y, z) => () => { this.moveBy(new Vector3(x, y, z).multiplyScalar(KEY_STEP)); this.changed(); };
-    const turn = (name, way) => () => {
+    const by = (x, y, z) => (dt) => { this.moveBy(new Vector3(x, y, z).multiplyScalar(KEY_SPEED * dt)); this.changed(); };
+    const turn = (name, way) => (dt) => {
       const most = (name === 'tilt' ? LARGEST_TILT : LARGEST_TURN) * Math.PI / 180;
-      this[name] = Math.max(name === 'tilt' ? -Math.PI / 6 : -most, Math.min(most, this[name] + way * KEY_TURN));
+      this[name] = Math.max(name === 'tilt' ? -Math.PI / 6 : -most, Math.min(most, this[name] + way * KEY_TURN * dt));
       this.changed();
     };
-    const close = (way) => () => {
+    const close = (way) => (dt) => {
       const [closed, opened] = this.limits.gap;
       this.motion = 0;
-      this.gap = Math.max(closed, Math.min(opened, this.gap - way * 0.02 * (opened - closed)));
+      this.gap = Math.max(closed, Math.min(opened, this.gap - way * CLOSING * dt * (opened - closed)));
       this.changed();
     };
     return [
-      {keys: [' '], shown: 'Space', what: 'grasp, let go', act: () => this.toggle()},
-      {keys: ['d'], shown: 'A D', what: 'move left, right', act: by(1, 0, 0)}, {keys: ['a'], act: by(-1, 0, 0)},
-      {keys: ['w'], shown: 'W S', what: 'move away, towards you', act: by(0, 0, -1)}, {keys: ['s'], act: by(0, 0, 1)},
-      {keys: ['e'], shown: 'E Q', what: 'move up, down', act: by(0, 1, 0)}, {keys: ['q'], act: by(0, -1, 0)},
-      {keys: ['x'], shown: 'X Y', what: 'close, open', act: close(1)}, {keys: ['y'], act: close(-1)},
-      {keys: ['t'], shown: 'T R', what: 'tilt, tilt back', act: turn('tilt', 1)}, {keys: ['r'], act: turn('tilt', -1)},
-      {keys: ['v'], shown: 'V B', what: 'turn left, right', act: turn('turn', 1)}, {keys: ['b'], act: turn('turn', -1)},
+      {keys: [' '], shown: 'Space', what: 'grasp, let go', once: true, act: () => this.toggle()},
+      {keys: ['d'], shown: 'A D', what: 'move left, right', glide: by(1, 0, 0)}, {keys: ['a'], glide: by(-1, 0, 0)},
+      {keys: ['w'], shown: 'W S', what: 'move away, towards you', glide: by(0, 0, -1)}, {keys: ['s'], glide: by(0, 0, 1)},
+      {keys: ['e'], shown: 'E Q', what: 'move up, down', glide: by(0, 1, 0)}, {keys: ['q'], glide: by(0, -1, 0)},
+      {keys: ['x'], shown: 'X Y', what: 'close, open', glide: close(1)}, {keys: ['y'], glide: close(-1)},
+      {keys: ['t'], shown: 'T R', what: 'tilt, tilt back', glide: turn('tilt', 1)}, {keys: ['r'], glide: turn('tilt', -1)},
+      {keys: ['v'], shown: 'V B', what: 'turn left, right', glide: turn('turn', 1)}, {keys: ['b'], glide: turn('turn', -1)},
     ];
   }
 }

@@ -19,6 +19,10 @@ export function clock(seconds) {
   return `${minutes}:${((tenths - 600 * minutes) / 10).toFixed(1).padStart(4, '0')}`;
 }
 
+// What the fingers feel: what was written to the gripper; where there is none, what the method asks for. And what it asks for before any limit.
+export const feltForce = (forces) => (isNumber(forces.written) ? forces.written : forces.feedback);
+export const askedForce = (forces) => Math.max(forces.feedback, (forces.normal || 0) + (forces.opening || 0));
+
 // element('p', {class: 'x', text: 'y'}, child, ...)
 export function element(name, attributes = {}, ...children) {
   const made = document.createElement(name);

@@ -57,13 +57,29 @@ export class Grips {
     document.getElementById('grips-panel').hidden = false;
   }
 
+  // Whether any grip of the list has one; looked for once in each list.
+  has(key) {
+    if (this.lookedAt !== this.about) {
+      this.lookedAt = this.about;
+      this.varying = new Set(['azimuth_rad', 'offset_m'].filter((k) => this.about.grips.some((grip) => Math.abs(grip[k]) > 1e-9)));
+    }
+    return this.varying.has(key);
+  }
+
+  // Where a grip is taken; azimuth and offset where any grip of the list has one.
+  placeOf(grip) {
+    return [`${millimetres(grip.height_m)} mm`, `roll ${degrees(grip.roll_rad)}°`, `obliquity ${degrees(grip.obliquity_rad)}°`,
+      ...(this.has('azimuth_rad') ? [`azimuth ${degrees(grip.azimuth_rad)}°`] : []),
+      ...(this.has('offset_m') ? [`offset ${millimetres(grip.offset_m)} mm`] : [])].join(', ');
+  }
+
   makeOption(grip, k) {
     const bar = element('span', {class: 'score-fill'});
-    bar.style.width = `${100 * grip.score}%`;
+    bar.style.width = `${100 * Math.max(0, Math.min(1, grip.score))}%`;  // by weights of a list it may be more than 1
     const option = element('div', {class: 'grip', role: 'option', id: `grip-${k}`, 'aria-selected': 'false'},
       element('b', {text: grip.label}), element('span', {class: 'score'}, element('span', {class: 'score-bar', 'aria-hidden': 'true'}, bar), fixed(grip.score, 3)),
-      element('span', {class: 'more'}, element('small', {text: `${millimetres(grip.height_m)} mm, roll ${degrees(grip.roll_rad)}°, slant ${degrees(grip.obliquity_rad)}°`,
-        title: 'height of the thumb-index line, roll of the hand about it, obliquity'}),
+      element('span', {class: 'more'}, element('small', {text: this.placeOf(grip),
+        title: 'height of the thumb-index line, roll of the hand about it, the line’s angle to the horizontal, its azimuth and its offset from the axis'}),
       element('small', {text: `${grip.points} points`, title: `of ${grip.fingers} fingers`})));
     option.addEventListener('click', () => this.choose(k));
     return option;

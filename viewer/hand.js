@@ -14,7 +14,9 @@ const WRIST_HALF = 0.0145, WRIST_RADIUS = 0.0115, ARM_HALF = 0.017, ARM_RADIUS =
 const DECLARATIONS = `#define GLASS_SAMPLES ${GLASS_SAMPLES}\n${HAND_SHADER}`;
 const FADE = 'smoothstep(0.17, 0.98, arm)';
 
-// Teaches one of three's materials where the vertices are, and that the forearm fades.
+const UNDER_TABLE = 0.25;  // of what is under the table and seen from above
+
+// Teaches one of three's materials where the vertices are, that the forearm fades, and that the table covers what is under it.
 function taught(material, uniforms, isDepth) {
   material.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, uniforms);
@@ -22,13 +24,13 @@ function taught(material, uniforms, isDepth) {
     shader.vertexShader = isDepth ?
       shader.vertexShader.replace('#include <common>', `#include <common>\n${DECLARATIONS}`).replace('#include <begin_vertex>',
         `${place} vec3 transformed = hand_at;`) :
-      shader.vertexShader.replace('#include <common>', `#include <common>\n${DECLARATIONS}`).replace('#include <beginnormal_vertex>',
-        `${place} vec3 objectNormal = hand_normal;`).replace('#include <begin_vertex>', 'vec3 transformed = hand_at;');
-    shader.fragmentShader = shader.fragmentShader.replace('#include <common>', '#include <common>\nvarying float arm;');
+      shader.vertexShader.replace('#include <common>', `#include <common>\n${DECLARATIONS} varying float height;`).replace('#include <beginnormal_vertex>',
+        `${place} vec3 objectNormal = hand_normal; height = hand_at.y;`).replace('#include <begin_vertex>', 'vec3 transformed = hand_at;');
+    shader.fragmentShader = shader.fragmentShader.replace('#include <common>', `#include <common>\nvarying float arm${isDepth ? '' : ', height; uniform float table'};`);
     if (isDepth) {
       shader.fragmentShader = shader.fragmentShader.replace('void main() {', `void main() { if (${FADE} > 0.6) discard;`);
     } else {
-      shader.fragmentShader = shader.fragmentShader.replace('#include <fog_fragment>', `gl_FragColor.a *= 1.0 - ${FADE};`);
+      shader.fragmentShader = shader.fragmentShader.replace('#include <fog_fragment>', `gl_FragColor.a *= (1.0 - ${FADE}) * (height < table && cameraPosition.y > table ? ${UNDER_TABLE} : 1.0);`);
       // light that has gone through flesh warms what the sun only grazes
       shader.fragmentShader = shader.fragmentShader.replace('#include <lights_fragment_end>', `#include <lights_fragment_end>
         float graze = 1.0 - saturate(dot(normal, normalize(vViewPosition)));
@@ -58,7 +60,7 @@ class Skin {
       ball: {value: Array.from({length: BALLS}, () => new THREE.Vector4())},
       skin: {value: Array.from({length: BALLS}, () => new THREE.Vector3())},
       to_glass: {value: new THREE.Matrix4()}, from_glass: {value: new THREE.Matrix4()},
-      glass: {value: new Float32Array(GLASS_SAMPLES)}, glass_height: {value: 0},
+      glass: {value: new Float32Array(GLASS_SAMPLES)}, glass_height: {value: 0}, table: {value: 0},
     };
     this.mesh = new THREE.Mesh(geometry);
     this.mesh.frustumCulled = false;

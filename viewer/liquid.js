@@ -6,6 +6,7 @@ import {liquidColor} from './theme.js';
 import {ORDER} from './vessels.js';
 
 const CAVITY_SAMPLES = 256;
+export const LEAST_SEEN = 1e-8;  // m3 (of a stream: in a second): 0.01 mL and less is a film or a drop that nobody sees
 const INSET = 1.2e-4;  // m: apart from the glass, so that neither flickers
 
 const CAVITY = `
@@ -81,7 +82,7 @@ export class Liquid {
       uniforms: {...shared, cavity: {value: cavity}, low: {value: low}, high: {value: high}, vessel_from_here: this.matrix}}));
     this.surface.matrixAutoUpdate = false;
     this.add(vessel, this.surface, ORDER.liquid + 1);
-    this.show(null, [0, 1, 0]);
+    this.show(0, null, [0, 1, 0]);
   }
 
   add(vessel, mesh, order) {
@@ -89,9 +90,9 @@ export class Liquid {
     this.parts.push(mesh);
   }
 
-  // `level`: points p of the vessel frame with up . p = level are on the surface; null: empty.
-  show(level, up) {
-    const is = level !== null;
+  // `level`: points p of the vessel frame with up . p = level are on the surface; null: empty. A film is not drawn.
+  show(volume, level, up) {
+    const is = level !== null && volume > LEAST_SEEN;
     for (const mesh of this.parts) mesh.visible = is;
     if (!is) return;
     this.level.value = level;

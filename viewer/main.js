@@ -93,7 +93,7 @@ async function start() {
     if (control) control.show(frame);
   };
 
-  window.wholehand = {scene: about, frame: null, view, charts, get playback() { return playback; }, get grips() { return grips; }, get control() { return control; },
+  window.wholehand = {scene: about, frame: null, view, panels, charts, get playback() { return playback; }, get grips() { return grips; }, get control() { return control; },
     project: (joint) => view.project(window.wholehand.frame.joints[joint]),
     camera: () => view.seenFrom(),
   };
@@ -134,7 +134,7 @@ async function start() {
   if (view) {
     const buttons = wireTools(view);
     listenToKeys([...viewKeys(view, buttons), ...bindings], view.stage.canvas);
-    if (about.mode !== 'grips' && !control && !stillMode.matches) buttons.follow.click();
+    if (about.mode !== 'grips' && !stillMode.matches) buttons.follow.click();
     await view.load();
     let before = 0;
     setInterval(() => {

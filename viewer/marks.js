@@ -1,5 +1,5 @@
 // Marks that stay as large as they are on the screen: the 24 contact points by state, in shape and colour, and the guidance point. Those behind
-// something are pale.
+// something, or under the table, are pale.
 import * as THREE from './three.module.js';
 import {JOINTS} from './hand_shape.js';
 import {CONTACTS, GUIDANCE_COLOR, onThemeChange, schemeColor, darkMode} from './theme.js';
@@ -8,16 +8,17 @@ const KINDS = CONTACTS.map((contact) => contact.key);
 const GUIDANCE = KINDS.length;
 
 const VERTEX = `
-  attribute float kind, lift; uniform float pixels, size; varying float shape;
+  attribute float kind, lift; uniform float pixels, size, table; varying float shape, clear;
   void main() {
     shape = kind;
+    clear = position.y < table && cameraPosition.y > table ? 0.4 : 1.0;
     vec4 view = modelViewMatrix * vec4(position, 1.0);
     view.xyz *= max(0.2, 1.0 - lift / length(view.xyz));  // in front of the flesh that is about it, at the same place of the picture
     gl_Position = projectionMatrix * view;
     gl_PointSize = (kind < 0.5 ? 9.0 : kind > ${GUIDANCE}.0 - 0.5 ? 26.0 : 13.0) * size * pixels;
   }`;
 const FRAGMENT = `
-  uniform vec3 colors[${GUIDANCE + 1}]; uniform vec3 edge; uniform float opacity, pulse; varying float shape;
+  uniform vec3 colors[${GUIDANCE + 1}]; uniform vec3 edge; uniform float opacity, pulse; varying float shape, clear;
   void main() {
     vec2 p = (gl_PointCoord - 0.5) * 2.0;
     int kind = int(shape + 0.5);
@@ -29,7 +30,7 @@ const FRAGMENT = `
     float fill = 1.0 - smoothstep(0.74 - soft, 0.74 + soft, d), hole = 1.0 - smoothstep(0.36 - soft, 0.36 + soft, d);
     if (kind == ${GUIDANCE}) {
       float ring = smoothstep(0.62, 0.66, d) * (1.0 - smoothstep(0.92, 0.96, d)), dot_ = 1.0 - smoothstep(0.26, 0.32, d);
-      float alpha = max(dot_, ring * pulse) * opacity;
+      float alpha = max(dot_, ring * pulse) * opacity * clear;
       if (alpha < 0.01) discard;
       gl_FragColor = vec4(color, alpha);
       return;
@@ -39,7 +40,7 @@ const FRAGMENT = `
     vec3 ink = mix(edge, color, fill);
     ink = mix(ink, edge, is_hollow * hole);
     if (outer < 0.01) discard;
-    gl_FragColor = vec4(ink, outer * opacity);
+    gl_FragColor = vec4(ink, outer * opacity * clear);
   }`;
 
 export class Marks {
@@ -55,7 +56,7 @@ export class Marks {
     this.kinds = dynamic('kind', 1);
     this.lifts = dynamic('lift', 1);
     this.shared = {pixels: {value: 1}, size: {value: 1}, colors: {value: Array.from({length: GUIDANCE + 1}, () => new THREE.Color())},
-      edge: {value: new THREE.Color()}, pulse: {value: 1}};
+      edge: {value: new THREE.Color()}, pulse: {value: 1}, table: {value: 0}};
     const make = (opacity, depthFunc) => {
       const points = new THREE.Points(this.geometry, new THREE.ShaderMaterial({
         vertexShader: VERTEX, fragmentShader: FRAGMENT, transparent: true, depthWrite: false, depthFunc,

@@ -5,7 +5,7 @@ import {stillMode} from './theme.js';
 const FIELD_OF_VIEW = 30;  // degrees, vertical
 const LOWEST = -0.35, HIGHEST = Math.PI / 2 - 1e-3;
 const NEAREST = 0.08, FARTHEST = 6;
-const FILLED = 0.92;  // share of the room between tools and legend
+const FILLED = 0.92;  // share of the room below the tools
 const GLIDE = 0.12;  // s, time constant of the way to where the reader wants to be
 
 export class Orbit {
@@ -88,7 +88,7 @@ export class Orbit {
     return 2 * distance * Math.tan(this.camera.fov * Math.PI / 360) / Math.max(1, this.element.clientHeight);
   }
 
-  // Home is the view from a direction that shows these points of the world, as near as the room between the tools and the legend allows.
+  // Home is the view from a direction that shows these points of the world, as near as the room that the tools leave allows.
   setHome(points, azimuth, elevation) {
     this.home = {points: points.map((p) => new Vector3(...p)), azimuth, elevation};
   }

@@ -1,5 +1,5 @@
 // The numbers beside the picture: state, hand, forces, amounts, loop; and the legend of the contact points.
-import {degrees, element, fixed, isNumber, millilitres, millimetres, setText, whole} from './format.js';
+import {askedForce, degrees, element, feltForce, fixed, isNumber, millilitres, millimetres, setText, whole} from './format.js';
 import {CONTACTS, liquidColor} from './theme.js';
 
 const WAY = 5;  // states that a session goes through when all goes well; the others are exceptions
@@ -58,8 +58,8 @@ export class Panels {
 
   makeForce(place) {
     this.force = element('output', {class: 'force-value'});
-    this.forceParts = ['base', 'torque', 'opening', 'less'].map((name) => element('span', {class: `part ${name}`}));
-    const most = this.about.force.max;
+    this.forceParts = ['base', 'torque', 'opening', 'other', 'less', 'asked'].map((name) => element('span', {class: `part ${name}`}));
+    this.clamp = element('output', {class: 'clamp'});
     const bar = element('div', {class: 'force-bar', 'aria-hidden': 'true'}, ...this.forceParts);
     this.forceRows = {};
     const rows = element('dl', {class: 'forces'});
@@ -73,7 +73,7 @@ export class Panels {
         element('dd', {}, value, ' N')));
     }
     place.append(element('p', {class: 'force-line'}, element('span', {text: 'F'}), this.force, element('span', {class: 'unit', text: 'N'}),
-      element('small', {text: `of ${fixed(most, 1)} N at most`})), bar, rows);
+      element('small', {text: `of ${fixed(this.about.force.most, 1)} N at most`})), bar, element('p', {class: 'clamp-line'}, this.clamp), rows);
   }
 
   makeLegend(place) {
@@ -134,18 +134,25 @@ export class Panels {
     this.meters.tilt.set(frame.tilt, degrees(frame.tilt));
   }
 
-  // The bar: what F is made of, one after the other; a part that takes away is hatched over the end.
+  // The bar ends where F does: what it is made of, one after the other, then what is none of it (a surface before the grasp). A part that takes away
+  // is hatched over the end; what was asked for and not written is an outline behind it.
   showForce(forces) {
-    const {base, normal, opening, feedback} = forces, most = this.about.force.max;
-    const torque = isNumber(normal) ? normal - base : 0, more = isNumber(opening) ? opening : 0;
-    const parts = [[0, base], [base, base + Math.max(0, torque)], [normal || 0, (normal || 0) + Math.max(0, more)],
-      [(normal || 0) + Math.min(0, more), more < 0 ? normal : (normal || 0)]];
+    const {base, normal, opening} = forces, {most} = this.about.force, felt = feltForce(forces) || 0, asked = askedForce(forces) || 0;
+    const isClamped = asked > felt && fixed(asked, 2) !== fixed(felt, 2);
+    const torque = isNumber(normal) ? normal - base : 0, more = isNumber(opening) ? opening : 0, sum = (normal || 0) + Math.max(0, more);
+    const parts = [[0, base], [base, base + Math.max(0, torque)], [normal || 0, sum], [sum, felt]].map((ends) => ends.map((end) => Math.min(end, felt)));
+    parts.push([Math.max(felt, 0), Math.min(sum, more < 0 ? normal : 0)], [felt, isClamped ? asked : felt]);
     parts.forEach(([from, to], k) => {
       const low = Math.max(0, Math.min(1, from / most)), high = Math.max(0, Math.min(1, to / most));
+      this.forceParts[k].hidden = !(high > low);
       this.forceParts[k].style.left = `${100 * low}%`;
       this.forceParts[k].style.width = `${100 * Math.max(0, high - low) || 0}%`;
     });
-    setText(this.force, fixed(feedback, 2));
+    setText(this.force, fixed(feltForce(forces), 2));
+    // at the gripper's limit or the method's own maximum; below both it is the ramp or the slew
+    const atLimit = felt >= Math.min(most, forces.feedback) - 0.005;
+    const what = atLimit ? `clamped to ${fixed(felt, 2)} N` : `${fixed(felt, 2)} N so far`;
+    setText(this.clamp, isClamped ? `${what}, ${fixed(asked, 2)} N asked for` : '');
     for (const [key, digits] of [['base', 2], ['normal', 2], ['opening', 2], ['user', 2], ['hold', 1]]) {
       setText(this.forceRows[key], key === 'hold' && forces.hold_infinite ? '∞' : fixed(forces[key], digits));
     }

@@ -1,10 +1,9 @@
 // What pours: the stream through the air, the target container that fills, and the place where a vessel is to be carried.
 import * as THREE from './three.module.js';
-import {Liquid} from './liquid.js';
+import {LEAST_SEEN, Liquid} from './liquid.js';
 import {liquidColor, onThemeChange, schemeColor, GUIDANCE_COLOR} from './theme.js';
 import {Vessel} from './vessels.js';
 
-const WALL = 0.0018;         // m, of the target as it is drawn
 const FLOOR = 2e-4;
 const LEAST_HEIGHT = 0.03;   // m: a target whose mouth lies lower is drawn as a dish
 const START_SPEED = 0.25;    // m/s over the lip, for the stream's width
@@ -66,7 +65,7 @@ function targetVessel(target, tableY, scene) {
   const height = Math.max(LEAST_HEIGHT, y - tableY), base = y - height;
   const about = {
     name: 'target', place: [x, base, z], height, radius, liquid: null,
-    outline: [[0, 0], [radius + WALL, 0], [radius + WALL, height]],
+    outline: [[0, 0], [radius + target.wall, 0], [radius + target.wall, height]],
     inner: [[0, FLOOR], [radius, FLOOR], [radius, height]],
   };
   return new Vessel(about, scene);
@@ -107,7 +106,7 @@ export class Pour {
   }
 
   show(frame) {
-    const {stream} = frame, flows = stream !== null && stream !== undefined;
+    const {stream} = frame, flows = Boolean(stream) && stream.flow > LEAST_SEEN;
     this.stream.visible = flows;
     if (flows) {
       const uniforms = this.stream.material.uniforms;
@@ -124,7 +123,7 @@ export class Pour {
   fill(frame) {
     const area = Math.PI * (this.about.target.diameter / 2) ** 2, volume = frame.target_volume;
     const above = this.about.table_y - this.target.about.place[1] + volume / area;  // as high as the stream comes down to
-    this.filling.show(volume > 1e-9 ? Math.min(above, this.target.about.height) : null, [0, 1, 0]);
+    this.filling.show(volume, Math.min(above, this.target.about.height), [0, 1, 0]);
     const mixed = new THREE.Color(0, 0, 0), hue = new THREE.Color();
     const total = frame.amounts.reduce((sum, amount) => sum + amount.arrived, 0);
     if (total <= 0) return;

@@ -16,21 +16,21 @@ const BACKDROP = {
     void main() { gl_FragColor = vec4(mix(sky, horizon, smoothstep(0.1, 1.5, length(at * vec2(0.8, 1.0) - vec2(0.0, 0.25)))), 1.0); }`,
 };
 
-// A round table with a line every 100 mm that fades into the backdrop.
-const TABLE = {
-  transparent: true, depthWrite: false,
-  uniforms: {color: {value: new THREE.Color()}, line: {value: new THREE.Color()}, center: {value: new THREE.Vector3()}},
+// A round table with a line every 100 mm that fades into the backdrop. From below half of what is on it is seen through it.
+const tableMaterial = (radius) => new THREE.ShaderMaterial({
+  transparent: true, depthWrite: false, side: THREE.DoubleSide,
+  uniforms: {color: {value: new THREE.Color()}, line: {value: new THREE.Color()}, center: {value: new THREE.Vector3()}, radius: {value: radius}},
   vertexShader: `varying vec3 at; void main() { vec4 world = modelMatrix * vec4(position, 1.0); at = world.xyz;
     gl_Position = projectionMatrix * viewMatrix * world; }`,
-  fragmentShader: `uniform vec3 color, line, center; varying vec3 at;
+  fragmentShader: `uniform vec3 color, line, center; uniform float radius; varying vec3 at;
     void main() {
       vec2 cell = at.xz / 0.1, from = abs(fract(cell - 0.5) - 0.5) / fwidth(cell);
       float grid = 1.0 - min(min(from.x, from.y), 1.0);
-      float fade = 1.0 - smoothstep(0.25, 1.0, distance(at.xz, center.xz) / ${TABLE_RADIUS.toFixed(2)});
-      gl_FragColor = vec4(mix(color, line, grid * 0.55 * fade), fade);
+      float fade = 1.0 - smoothstep(0.25, 1.0, distance(at.xz, center.xz) / radius);
+      gl_FragColor = vec4(mix(color, line, grid * 0.55 * fade), fade * (gl_FrontFacing ? 1.0 : 0.5));
     }`,
   extensions: {derivatives: true},
-};
+});
 
 // Whether pictures are computed without a graphics card; `?quality=high` or `low` in the address comes first.
 function isPlain() {
@@ -109,18 +109,31 @@ export class Stage {
   }
 
   addTable() {
-    const disc = new THREE.CircleBufferGeometry(TABLE_RADIUS, 72).rotateX(-Math.PI / 2);
-    this.table = new THREE.Mesh(disc, new THREE.ShaderMaterial(TABLE));
-    this.table.renderOrder = -900;
+    this.tables = [];
+    this.table = this.addDisc(TABLE_RADIUS);
     this.shade = new THREE.Mesh(new THREE.CircleBufferGeometry(SHADOW_REACH, 32).rotateX(-Math.PI / 2), new THREE.ShadowMaterial({transparent: true, depthWrite: false}));
     this.shade.receiveShadow = true;
     this.shade.renderOrder = -890;
-    this.scene.add(this.table, this.shade);
+    this.scene.add(this.shade);
   }
 
-  setTable(center, height) {
-    this.table.position.set(center[0], height, center[2]);
-    this.table.material.uniforms.center.value.copy(this.table.position);
+  addDisc(radius) {
+    const disc = new THREE.Mesh(new THREE.CircleBufferGeometry(radius, 72).rotateX(-Math.PI / 2), tableMaterial(radius));
+    this.tables.push(disc);
+    this.scene.add(disc);
+    return disc;
+  }
+
+  setTable(center, height, disc = this.table) {
+    disc.position.set(center[0], height, center[2]);
+    disc.material.uniforms.center.value.copy(disc.position);
+  }
+
+  // What stands higher than the table stands on a small one of its own.
+  setShelves(shelves) {
+    for (const disc of this.tables.splice(1)) this.scene.remove(disc);
+    for (const {place, height, radius} of shelves) this.setTable(place, height, this.addDisc(radius));
+    this.paint();
   }
 
   paint() {
@@ -128,8 +141,10 @@ export class Stage {
     const linear = (color, name) => color.set(name).convertGammaToLinear(2.2);
     this.backdrop.material.uniforms.sky.value.set(colors.sky);
     this.backdrop.material.uniforms.horizon.value.set(colors.horizon);
-    this.table.material.uniforms.color.value.set(colors.table);
-    this.table.material.uniforms.line.value.set(colors.line);
+    for (const {material} of this.tables) {
+      material.uniforms.color.value.set(colors.table);
+      material.uniforms.line.value.set(colors.line);
+    }
     this.shade.material.opacity = colors.shadow;
     linear(this.hemisphere.color, colors.hemisphereSky);
     linear(this.hemisphere.groundColor, colors.hemisphereGround);
@@ -153,14 +168,16 @@ export class Stage {
     else this.invalidate();
   }
 
-  // What tools and legend leave free.
+  // What the tools leave free.
   covered() {
-    const box = this.canvas.getBoundingClientRect(), [tools, legend] = ['tools', 'legend'].map((id) => document.getElementById(id).getBoundingClientRect());
-    return {above: Math.max(0, tools.bottom - box.top), below: Math.max(0, box.bottom - legend.top)};
+    const box = this.canvas.getBoundingClientRect(), tools = document.getElementById('tools').getBoundingClientRect();
+    return {above: Math.max(0, tools.bottom - box.top), below: 0};
   }
 
   render() {
     for (const prepare of this.beforeRender) prepare();
+    // first what all else stands on; from below last, before it all
+    for (const disc of this.tables) disc.renderOrder = this.camera.position.y > disc.position.y ? -900 : 9000;
     this.renderer.render(this.scene, this.camera);
   }
 

@@ -10,6 +10,7 @@ import {Vessels} from './vessels.js';
 
 const FOLLOW = 0.7;  // s, time constant with which the picture's middle follows the hand
 const FOLLOWED = 0.2;   // m about the hand that are seen while it is followed
+const SHELF = 2.2;      // of a vessel's radius, of what it stands on above the table
 const HEADROOM = 0.09;  // m over the vessels of a scene, for the hand
 const BESIDE = 0.95;    // rad, from the forearm's side towards the index finger's
 const THUMB_TIP = 3, INDEX_TIP = 8;
@@ -19,7 +20,7 @@ export class View {
     this.about = about;
     this.stage = new Stage(canvas);
     this.orbit = this.stage.orbit;
-    this.tableY = about.table_y;
+    this.tableY = about.table_y;  // where vessels stand: in a scene the lowest of them, of a grip its own
     const {scene} = this.stage;
     this.vessels = new Vessels(scene, about.vessels);
     this.pour = new Pour(scene, about, this.vessels);
@@ -27,6 +28,7 @@ export class View {
     this.hand = new Hand(scene, about.joints);
     this.marks = new Marks(scene, about.joints);
     this.follows = false;
+    this.isDragged = false;  // the hand is, which the picture then must not follow
     this.frame = null;
     this.stage.beforeDraw.push((time, dt) => this.prepare(time, dt));
     this.stage.beforeRender.push(() => {
@@ -50,11 +52,12 @@ export class View {
     this.frame = frame;
     const size = this.size();
     this.vessels.place(frame, this.tableY);
-    frame.vessels.forEach((state, k) => state && this.liquids[k] && this.liquids[k].show(state.level, state.up));
+    frame.vessels.forEach((state, k) => state && this.liquids[k] && this.liquids[k].show(state.volume, state.level, state.up));
     this.hand.pose(frame, size);
     const near = frame.vessel >= 0 ? this.vessels.list[frame.vessel] : this.vessels.nearest(frame.joints);
     this.hand.skin.press(near && near.matrix, near && near.profile);
     this.pour.show(frame);
+    this.marks.shared.table.value = this.hand.skin.uniforms.table.value = this.tableY;
     this.marks.show(frame, size, this.guidancePlace(frame));
     this.middle = frame.joints.reduce((sum, p) => sum.add(new THREE.Vector3(...p)), new THREE.Vector3()).multiplyScalar(1 / frame.joints.length);
     this.stage.lightAt(this.middle);
@@ -75,7 +78,7 @@ export class View {
     let goesOn = this.pour.step(moving ? time : 0) && moving;
     if (this.frame && this.frame.guidance >= 0 && moving) this.marks.shared.pulse.value = 0.6 + 0.4 * Math.sin(4 * time);
     else this.marks.shared.pulse.value = 1;
-    if (this.follows && this.middle && this.orbit.pointers.size === 0) {
+    if (this.follows && this.middle && !this.isDragged && this.orbit.pointers.size === 0) {
       const share = moving ? 1 - Math.exp(-dt / FOLLOW) : 1;
       for (const axis of ['x', 'y', 'z']) this.orbit.aim[axis] += (this.middle[axis] - this.orbit.aim[axis]) * share;
       goesOn = goesOn || this.middle.distanceTo(new THREE.Vector3(this.orbit.aim.x, this.orbit.aim.y, this.orbit.aim.z)) > 1e-4;
@@ -91,6 +94,7 @@ export class View {
     };
     if (about.mode === 'grips') {
       const vessel = about.vessels[frame.vessel];
+      this.tableY = vessel.place[1] + vessel.base;
       const pivot = new THREE.Vector3(...frame.joints[THUMB_TIP]).add(new THREE.Vector3(...frame.joints[INDEX_TIP])).multiplyScalar(0.5);
       const far = Math.max(...frame.joints.map((p) => pivot.distanceTo(new THREE.Vector3(...p))), vessel.height * 0.6);
       for (const way of [[1, 0, 0], [0, 1, 0], [0, 0, 1]]) for (const sign of [-0.8, 0.8]) points.push(pivot.toArray().map((v, k) => v + sign * far * way[k]));
@@ -110,6 +114,8 @@ export class View {
       if (about.destination) ring(about.destination, 0.04);
       const middle = points.reduce((sum, p) => sum.map((v, k) => v + p[k] / points.length), [0, 0, 0]);
       this.stage.setTable(middle, this.tableY);
+      this.stage.setShelves(about.vessels.map(({place, base, radius}) => ({place, height: place[1] + base, radius: SHELF * radius}))
+        .filter(({height}) => height > this.tableY + 1e-4));
       this.orbit.setHome(points, 0.24, 0.5);
     }
     this.orbit.reset();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -20,6 +21,8 @@ struct StandInDhd {
   std::map<std::string, int> codes;   // what a function returns, by its name; 0 where there is none
   std::string error = "no error";     // dhdErrorGetLastStr
   unsigned int buttons = 0;
+  std::map<std::string, std::function<void()>> hooks{};  // called first by the function of that name, on the caller's thread
+  std::function<void(const std::array<double, 7>&)> on_force{};  // called last where a force is set
 
   // ---- what was done to it ----
   std::vector<std::string> calls;             // in order, without queries

@@ -1,4 +1,6 @@
-// A stand-in for Force Dimension's SDK: the documented functions, which do what a test has set and remember what was asked of them.
+// A stand-in for Force Dimension's SDK: the documented functions, which do what a test has set and remember what was asked of them. As the SDK's,
+// they may be called from several threads.
+#include <mutex>
 #include <string>
 
 #include "tests/stand_in/dhd_control.h"
@@ -10,6 +12,16 @@ StandInDhd& control() {
   return stand_in;
 }
 
+std::mutex& mutex() {
+  static std::mutex of_what_is_remembered;
+  return of_what_is_remembered;
+}
+
+void hook(const char* function) {
+  const auto found = control().hooks.find(function);
+  if (found != control().hooks.end()) found->second();
+}
+
 int code(const char* function) {
   const auto found = control().codes.find(function);
   return found == control().codes.end() ? 0 : found->second;
@@ -17,6 +29,7 @@ int code(const char* function) {
 
 // Remembers the call and gives what it is to return.
 int called(const char* function) {
+  const std::lock_guard lock(mutex());
   control().calls.push_back(function);
   return code(function);
 }
@@ -44,6 +57,7 @@ StandInDhd* stand_in_dhd() { return &control(); }
 
 int dhdGetDeviceCount() { return static_cast<int>(control().types.size()); }
 int dhdOpenID(char number) {
+  hook("dhdOpenID");
   const int result = called("dhdOpenID");
   if (result < 0) return result;
   control().opened.push_back(number);
@@ -51,10 +65,14 @@ int dhdOpenID(char number) {
 }
 int dhdOpen() { return dhdOpenID(0); }
 int dhdClose(char id) {
+  hook("dhdClose");
   control().closed.push_back(id);
   return called("dhdClose");
 }
-int dhdStop(char) { return called("dhdStop"); }
+int dhdStop(char) {
+  hook("dhdStop");
+  return called("dhdStop");
+}
 
 const char* dhdGetSystemName(char) { return control().name.c_str(); }
 void dhdGetSDKVersion(int* major, int* minor, int* release, int* revision) {
@@ -70,6 +88,7 @@ int dhdGetSystemType(char id) {
 }
 
 int dhdGetPositionAndOrientationFrame(double* x, double* y, double* z, double frame[3][3], char) {
+  hook("dhdGetPositionAndOrientationFrame");
   ++control().reads;
   for (std::size_t row = 0; row < 3; ++row) {
     for (std::size_t column = 0; column < 3; ++column) frame[row][column] = pose().frame[row][column];
@@ -89,10 +108,16 @@ int dhdGetGripperFingerPos(double* x, double* y, double* z, char) { return give(
 unsigned int dhdGetButtonMask(char) { return control().buttons; }
 
 int dhdSetForceAndTorqueAndGripperForce(double fx, double fy, double fz, double tx, double ty, double tz, double grip, char) {
-  control().forces.push_back({fx, fy, fz, tx, ty, tz, grip});
+  hook("dhdSetForceAndTorqueAndGripperForce");
+  {
+    const std::lock_guard lock(mutex());
+    control().forces.push_back({fx, fy, fz, tx, ty, tz, grip});
+    if (control().on_force) control().on_force(control().forces.back());
+  }
   return called("dhdSetForceAndTorqueAndGripperForce");
 }
 int dhdEnableForce(unsigned char is_enabled, char) {
+  hook("dhdEnableForce");
   control().calls.push_back(is_enabled ? "dhdEnableForce 1" : "dhdEnableForce 0");
   return is_enabled ? code("dhdEnableForce") : 0;
 }

@@ -1,7 +1,8 @@
-// Environment variables for the length of a test.
+// What a process inherits, changed for the length of a test: environment variables, the limit on file sizes.
 #pragma once
 
 #include <stdlib.h>
+#include <sys/resource.h>
 
 #include <optional>
 #include <string>
@@ -31,6 +32,22 @@ class ScopedVariable {
 
   std::string name_;
   std::optional<std::string> old_;
+};
+
+// A write past the limit fails, or ends the process where nobody ignores SIGXFSZ.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() { setrlimit(RLIMIT_FSIZE, &before_); }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  rlimit before_;
 };
 
 }  // namespace wholehand

@@ -124,6 +124,7 @@ FakeBackend::FakeBackend(const Scene& scene, const FieldSet& fields, Precision p
       evaluator_(scene) {}
 
 RunResult FakeBackend::run(const RunRequest& request) {
+  if (before_run) before_run();
   RunResult result;
   BestCandidates best(request.best);
   const std::size_t stride = chunk_ + 3;  // not the count
@@ -164,7 +165,7 @@ RunResult FakeBackend::run(const RunRequest& request) {
 std::vector<LiquidResult> FakeBackend::liquid(std::size_t vessel) {
   std::vector<LiquidResult> table;
   if (!scene_.liquid) return table;
-  for (const double fill : scene_.liquid->fills) {
+  for (const double fill : vessel_fills(scene_, scene_.vessels[vessel])) {
     for (const double tilt : scene_.tilts) table.push_back(evaluator_.liquid(vessel, fill, tilt));
   }
   return table;

@@ -56,7 +56,7 @@ class FakeBackend : public Backend {
   std::vector<LiquidResult> liquid(std::size_t vessel) override;
 
   BackendInfo info_;
-  std::function<void()> before_chunk;
+  std::function<void()> before_run, before_chunk;
   std::uint64_t evaluated = 0;  // grips
 
  private:

@@ -159,6 +159,9 @@ void check_wrong_reports(MockGripper& mock, const Open& open) {
       {Mischief::no_rotation, "a quaternion that is no rotation"},
       {Mischief::not_homed, "the device is not homed"},
       {Mischief::fault, "the device reports a fault of its own"},
+      {Mischief::number_back, "its sequence numbers go back"},
+      {Mischief::alternating, "its sequence numbers go back"},
+      {Mischief::clock_back, "its clock steps back"},
       {Mischief::garbage, "a report of the wrong id"},  // what one byte in 256 is not
   };
   for (const auto& [mischief, words] : cases) {
@@ -170,6 +173,7 @@ void check_wrong_reports(MockGripper& mock, const Open& open) {
     if (mischief != Mischief::garbage) {
       EXPECT_STREQ(gripper->trouble(), words);
     }
+    if (mischief == Mischief::alternating) continue;  // each second one is good
     // the state that was asked for is left alone, and good reports are good again
     GripperState state;
     state.sequence = 4711;
@@ -234,7 +238,9 @@ void check_unplugging(MockGripper& mock, const Open& open) {
   EXPECT_EQ(read_soon(*gripper, state), ReadOutcome::error);
   EXPECT_FALSE(gripper->write({{1, 0, 0}, 0}));
   EXPECT_STREQ(gripper->trouble(), "unplugged");
-  gripper->panic();
+  EXPECT_EQ(gripper->let_go(), LetGo::not_taken);
+  EXPECT_STREQ(gripper->trouble(), "unplugged");
+  EXPECT_EQ(gripper->panic(), LetGo::not_taken) << "nothing was written";
 }
 
 // A handler for a signal while it lives.
@@ -267,8 +273,11 @@ void check_panic(MockGripper& mock, const Open& open) {
   ASSERT_TRUE(arrives(mock, opened + 1));
   ASSERT_TRUE(mock.has_force());
   const std::size_t before = mock.outputs().size();
-  const Handler handler(SIGUSR1, [](int) { frightened->panic(); });
+  static LetGo outcome;
+  outcome = LetGo::nothing;
+  const Handler handler(SIGUSR1, [](int) { outcome = frightened->panic(); });
   raise(SIGUSR1);
+  EXPECT_EQ(outcome, LetGo::written);
   ASSERT_EQ(mock.outputs().size(), before + 1);
   EXPECT_TRUE(is_nothing(mock.outputs().back()));
   EXPECT_FALSE(mock.has_force());
@@ -277,6 +286,27 @@ void check_panic(MockGripper& mock, const Open& open) {
   EXPECT_TRUE(arrives(mock, before + 2));
   EXPECT_TRUE(is_nothing(mock.outputs().back()));
   EXPECT_FALSE(mock.has_force());
+}
+
+// From a second thread, and the session goes on afterwards.
+template <class Open>
+void check_let_go_meanwhile(MockGripper& mock, const Open& open) {
+  const auto gripper = open();
+  const std::size_t before = mock.outputs().size();
+  ASSERT_TRUE(gripper->write({{1, 2, 3}, 1}));
+  ASSERT_TRUE(arrives(mock, before + 1));
+  ASSERT_TRUE(mock.has_force());
+  std::thread([&gripper] { EXPECT_EQ(gripper->let_go_meanwhile(), LetGo::written); }).join();
+  ASSERT_TRUE(arrives(mock, before + 2));
+  EXPECT_TRUE(is_nothing(mock.outputs().back()));
+  EXPECT_FALSE(mock.has_force());
+  ASSERT_TRUE(gripper->write({{0, 0, 0.5}, 0}));
+  EXPECT_TRUE(arrives(mock, before + 3));
+  EXPECT_TRUE(mock.has_force());
+  EXPECT_EQ(gripper->let_go(), LetGo::written);
+  EXPECT_FALSE(mock.has_force());
+  mock.misbehave(Mischief::takes_no_force);
+  EXPECT_EQ(gripper->let_go_meanwhile(), LetGo::not_taken);
 }
 
 // A signal that somebody else handles is no error of the device. Not for USB: of an ioctl() that a signal interrupts umockdev loses the

@@ -1,5 +1,8 @@
 #include "tests/support/meshes.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
@@ -242,6 +245,75 @@ std::string glb_text(const TriangleMesh& mesh) {
         {{"buffer", 0}, {"byteOffset", positions}, {"byteLength", binary.size() - positions}}}},
       {"buffers", {{{"byteLength", binary.size()}}}}};
   return glb_text(json.dump(), binary);
+}
+
+std::string stl_text(const TriangleMesh& mesh) {
+  std::string bytes = "solid body: some writers of binary files begin so";
+  bytes.resize(80, ' ');
+  append(bytes, static_cast<std::uint32_t>(mesh.triangles.size()));
+  for (const auto& triangle : mesh.triangles) {
+    bytes.append(12, '\0');
+    for (const std::uint32_t i : triangle)
+      for (const double x : mesh.vertices[i]) append(bytes, static_cast<float>(x));
+    bytes.append(2, '\0');
+  }
+  return bytes;
+}
+
+std::string ascii_stl_text(const TriangleMesh& mesh) {
+  std::string text = "solid facet of a mesh\r\n";
+  for (const auto& triangle : mesh.triangles) {
+    text += "  facet normal 0 nan 0\r\n    outer loop\r\n";
+    for (const std::uint32_t i : triangle) {
+      const Triple& p = mesh.vertices[i];
+      text += fmt::format("      vertex {:.9g} {:.9g} {:.9g}\r\n", p[0], p[1], p[2]);
+    }
+    text += "    endloop\r\n  endfacet\r\n";
+  }
+  return text + "endsolid facet of a mesh\r\n";
+}
+
+std::string obj_text(const TriangleMesh& mesh) {
+  std::string text = "# a mesh\nmtllib other.mtl\no body\n";
+  for (const Triple& p : mesh.vertices) text += fmt::format("v {:.9g} {:.9g} {:.9g}\nvn 0 0 1\n", p[0], p[1], p[2]);
+  text += "usemtl red\n";
+  for (const auto& [a, b, c] : mesh.triangles) text += fmt::format("f {0}//{0} {1}//{1} {2}//{2}\n", a + 1, b + 1, c + 1);
+  return text;
+}
+
+std::string ply_text(const TriangleMesh& mesh, PlyWriting writing) {
+  const bool is_ascii = writing == PlyWriting::ascii;
+  std::string body;
+  const auto put = [&](auto value) {
+    if (is_ascii) {
+      body += fmt::format("{:.9g} ", static_cast<double>(value));
+      return;
+    }
+    std::string bytes;
+    append(bytes, value);
+    if (writing == PlyWriting::big_endian) std::reverse(bytes.begin(), bytes.end());
+    body += bytes;
+  };
+  for (const Triple& p : mesh.vertices) {
+    put(std::uint8_t{10});  // a colour, and an end of line where the header ends
+    for (const double x : p) put(static_cast<float>(x));
+    if (is_ascii) body += "\n";
+  }
+  for (const auto& triangle : mesh.triangles) {
+    put(std::uint8_t{3});
+    for (const std::uint32_t i : triangle) put(static_cast<std::int32_t>(i));
+    put(std::int16_t{-1});
+    if (is_ascii) body += "\n";
+  }
+  return fmt::format(
+             "ply\nformat {} 1.0\ncomment TextureFile other.png\nelement vertex {}\nproperty uchar red\nproperty float x\nproperty "
+             "float "
+             "y\nproperty float z\nelement face {}\nproperty list uchar int vertex_indices\nproperty short flags\nend_header\n",
+             is_ascii                            ? "ascii"
+             : writing == PlyWriting::big_endian ? "binary_big_endian"
+                                                 : "binary_little_endian",
+             mesh.vertices.size(), mesh.triangles.size()) +
+         body;
 }
 
 }  // namespace wholehand

@@ -34,4 +34,11 @@ std::string glb_text(const TriangleMesh& mesh);
 // A .glb of this JSON and these bytes.
 std::string glb_text(std::string json, std::string binary);
 
+// Other formats of the same triangles: single precision, or as many digits as that has.
+std::string stl_text(const TriangleMesh& mesh);  // binary
+std::string ascii_stl_text(const TriangleMesh& mesh);
+std::string obj_text(const TriangleMesh& mesh);
+enum class PlyWriting { ascii, little_endian, big_endian };
+std::string ply_text(const TriangleMesh& mesh, PlyWriting writing);
+
 }  // namespace wholehand

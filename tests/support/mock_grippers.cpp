@@ -158,6 +158,11 @@ MockGripper::Bytes MockGripper::measure() {
   protocol::InputReport report = protocol::report_of(state);
   report.time = static_cast<std::uint32_t>(time);
   report.heard = heard_;
+  odd_ = mischief_ == Mischief::number_back || mischief_ == Mischief::alternating ? odd_ + 1 : 0;
+  if (mischief_ == Mischief::number_back) report.sequence -= 2 * odd_;
+  if (mischief_ == Mischief::alternating) report.sequence = sequence_ - odd_ + odd_ % 2;
+  if (mischief_ == Mischief::clock_back) report.time = sent_time_ - 1000;
+  sent_time_ = report.time;
   if (has_force_) report.status |= protocol::FORCE_ON;
   if (has_tripped_) report.status |= protocol::WATCHDOG_TRIPPED;
   if (mischief_ == Mischief::not_homed) report.status &= static_cast<std::uint16_t>(~protocol::HOMED);

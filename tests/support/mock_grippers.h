@@ -52,6 +52,9 @@ enum class Mischief {
   wrong_id,
   garbage,        // random bytes of the right length
   same_sequence,  // measures once and sends that again and again
+  number_back,    // its sequence goes down
+  alternating,    // of two sequence numbers, in turn
+  clock_back,     // steps back by a millisecond each time
   no_rotation,    // a quaternion of zeros
   not_homed,
   fault,
@@ -115,6 +118,8 @@ class MockGripper {
   MockSettings settings_;
   double start_;
   std::uint32_t sequence_ = 0, heard_ = 0;
+  std::uint32_t odd_ = 0;            // measurements since its numbers went wrong
+  std::uint32_t sent_time_ = 0;      // us
   std::optional<double> kept_time_;  // of the one measurement that is repeated
   protocol::Watchdog watchdog_;
   bool has_force_ = false, has_tripped_ = false;

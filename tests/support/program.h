@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <string>
 
 #ifdef WHOLEHAND_PROGRAM
@@ -33,13 +35,18 @@ inline Outcome run(std::string command) {
 
 // Runs the program with stderr alone: one line, and nothing on stdout.
 inline void expect_error(const std::string& arguments, int code, const std::string& gist) {
-  const Outcome errors = run("PROGRAM " + arguments + " 2>&1 >/dev/null");
+  std::string out = std::filesystem::temp_directory_path() / "wholehand_stdout_XXXXXX";
+  const int file = mkstemp(out.data());
+  ASSERT_GE(file, 0) << out;
+  close(file);
+  const Outcome errors = run("PROGRAM " + arguments + " 2>&1 >" + out);
+  EXPECT_EQ(std::filesystem::file_size(out), 0u) << arguments << " printed something";
+  std::filesystem::remove(out);
   EXPECT_EQ(errors.code, code) << arguments << "\n" << errors.output;
   EXPECT_EQ(errors.output.rfind("wholehand: ", 0), 0u) << errors.output;
   ASSERT_FALSE(errors.output.empty()) << arguments;
   EXPECT_EQ(errors.output.find('\n'), errors.output.size() - 1) << errors.output;
   EXPECT_NE(errors.output.find(gist), std::string::npos) << errors.output << "lacks " << gist;
-  EXPECT_EQ(run("PROGRAM " + arguments + " 2>/dev/null").output, "") << arguments;
 }
 
 }  // namespace wholehand

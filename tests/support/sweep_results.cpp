@@ -7,6 +7,7 @@
 
 #include "app/scene_reader.h"
 #include "sweeps/core_backend.h"
+#include "sweeps/hand_lists.h"
 #include "sweeps/result_file.h"
 
 namespace wholehand {
@@ -59,17 +60,22 @@ void write_result(const Scene& scene, const std::string& path, Precision precisi
   const ResultContents contents{scene, plan, variables, vessel_facts(scene, backend, *core), backend.info(), "1.2.3", best_wanted};
   const OutputNames names = output_names(path);
   ResultFile file(names, contents, backend.fields(), false);
-  std::vector<std::vector<RankedGrip>> best(scene.vessels.size());
+  std::vector<std::vector<RankedGrip>> best;
   for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
+    HandLists lists(plan, best_wanted, {});
     RunRequest request;
     request.vessel = v;
     request.last = plan.grips();
-    request.best = best_wanted;
+    request.best = plan.hand_scales() > 1 ? static_cast<std::size_t>(plan.grips()) : best_wanted;
     request.grips = [&plan](std::size_t w, std::uint64_t first, std::size_t count, GripInput* out) {
       plan.fill(w, first, count, out);
     };
     request.sink = [&file](const PlaneChunk& chunk) { file.write(chunk); };
-    for (const Candidate& candidate : backend.run(request).best) best[v].push_back({candidate, plan.grip(v, candidate.index)});
+    lists.offer(backend.run(request).best);
+    for (std::size_t s = 0; s < plan.hand_scales(); ++s) {
+      best.emplace_back();
+      for (const Candidate& candidate : lists.sorted(s)) best.back().push_back({candidate, plan.grip(v, candidate.index)});
+    }
   }
   if (has_ending) file.write_ending(best, 12.5, 3.25);
   file.finish();

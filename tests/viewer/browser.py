@@ -114,14 +114,14 @@ class Browser:
             raise BrowserError(f"{method}: {message['error']['message']}")
         return message["result"]
 
-    def open(self, address, width=1200, height=800, **emulation):
+    def open(self, address, width=1200, height=800, scale=1, **emulation):
         target = self.call("Target.createTarget", url="about:blank")["targetId"]
         session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
         page = Page(self, session, target)
         self.pages[session] = page
         for domain in ["Page", "Runtime", "Log", "Network"]:
             page.call(f"{domain}.enable")
-        page.resize(width, height)
+        page.resize(width, height, scale)
         page.emulate(**emulation)
         page.go(address)
         return page
@@ -186,9 +186,14 @@ class Page:
                 raise BrowserError(f"{what or expression}: not in {seconds} s; errors: {self.errors}")
             time.sleep(0.05)
 
+    def picture(self, x=None, y=None, width=1, height=1):
+        """The page as a PNG, or a piece of it: bytes."""
+        piece = {} if x is None else {"clip": {"x": x, "y": y, "width": width, "height": height, "scale": 1}}
+        return base64.b64decode(self.call("Page.captureScreenshot", format="png", **piece)["data"])
+
     def screenshot(self, path):
         with open(path, "wb") as file:
-            file.write(base64.b64decode(self.call("Page.captureScreenshot", format="png")["data"]))
+            file.write(self.picture())
 
     def mouse(self, kind, x, y, button="left", **more):
         self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button=button, buttons=0 if kind == "mouseReleased" else 1,
@@ -208,10 +213,16 @@ class Page:
         self.call("Input.dispatchTouchEvent", type=kind, touchPoints=[{"x": x, "y": y, "id": k} for k, (x, y) in enumerate(points)])
 
     def key(self, key, modifiers=0):
-        code = KEYS.get(key, ord(key[0].upper()))
-        about = dict(key=key, windowsVirtualKeyCode=code, modifiers=modifiers, code=key if len(key) > 1 else "")
-        if len(key) == 1:
-            about["text"] = key
-        self.call("Input.dispatchKeyEvent", type="keyDown", **about)
-        about.pop("text", None)
-        self.call("Input.dispatchKeyEvent", type="keyUp", **about)
+        self.press(key, modifiers=modifiers)
+        self.let_go(key, modifiers=modifiers)
+
+    def press(self, key, modifiers=0, repeats=False):
+        text = {"text": key} if len(key) == 1 else {}
+        self.call("Input.dispatchKeyEvent", type="keyDown", autoRepeat=repeats, **text, **self._about(key, modifiers))
+
+    def let_go(self, key, modifiers=0):
+        self.call("Input.dispatchKeyEvent", type="keyUp", **self._about(key, modifiers))
+
+    @staticmethod
+    def _about(key, modifiers):
+        return dict(key=key, windowsVirtualKeyCode=KEYS.get(key, ord(key[0].upper())), modifiers=modifiers, code=key if len(key) > 1 else "")

@@ -7,6 +7,8 @@ POURED = 1e-6  # m3
 
 
 class ThePageAsGripper(ViewerTest):
+    scale = 0.5
+
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
@@ -63,21 +65,66 @@ class ThePageAsGripper(ViewerTest):
         self.assertGreater(after["sequence"], before["sequence"])
         self.wait_for_hand(page, after["position"])
 
+    def test_held_keys_glide_until_they_are_let_go(self):
+        page = self.open(self.live)
+        page.wait("wholehand.control && wholehand.control.isAtHand")
+        page.evaluate("""(() => { window.steps = []; window.looks = true;
+          const look = (now) => { const {position, tilt} = wholehand.control; steps.push([now / 1000, position.x, tilt]); if (looks) requestAnimationFrame(look); };
+          requestAnimationFrame(look); })()""")
+        page.wait("steps.length > 4")
+        for key in "dt":
+            page.press(key)
+        page.wait("[1, 2].every((k) => steps[steps.length - 4][k] > steps[0][k])", what="a hand under way")
+        for _ in range(20):  # the keyboard's own repeats change nothing
+            page.press("d", repeats=True)
+        steps = page.evaluate("steps")
+        page.let_go("d")
+        page.let_go("t")
+        for value, speed in [(1, 0.15), (2, 0.8)]:  # m/s and rad/s: in each picture as much as the one before it took
+            moving = [k for k in range(2, len(steps)) if steps[k - 2][value] > steps[0][value]]
+            self.assertGreater(len(moving), 1)
+            for k in moving:
+                took = min(0.1, steps[k - 1][0] - steps[k - 2][0])
+                self.assertAlmostEqual(steps[k][value] - steps[k - 1][value], speed * took, delta=1e-9)
+        at = "[wholehand.control.position.x, wholehand.control.tilt]"
+        rest = page.evaluate(at)
+        self.assertGreater(rest[0], steps[-1][1])
+        page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done))))")
+        self.assertEqual(page.evaluate(at), rest, "let go")
+        page.press("a")
+        page.wait(f"wholehand.control.position.x < {rest[0]} - 0.01", what="the way back")
+        rest = page.evaluate(f"dispatchEvent(new Event('blur')), {at}")
+        page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(done))))")
+        self.assertEqual(page.evaluate(at), rest, "another window has the focus")
+        page.press("a", repeats=True)  # what comes of a key that is held still
+        page.let_go("a")
+        self.assertEqual(page.evaluate(at), rest)
+        page.evaluate("looks = false")
+        slide(page, "control-tilt", 0)
+
+    def test_the_picture_follows_the_hand(self):
+        page = self.open(self.live)
+        self.assertEqual(page.evaluate("document.getElementById('follow').getAttribute('aria-pressed')"), "true")
+        self.go(page, 100, 150, 200)
+        page.wait("Math.hypot(...wholehand.camera().target.map((v, k) => v - wholehand.view.middle.toArray()[k])) < 5e-3", what="the hand in the middle")
+
     def test_a_drag_moves_the_hand_with_the_pointer(self):
         page = self.open(self.live)
         self.go(page, 0, 150, 200)
-        still(page)
         start = page.evaluate("(({x, y}) => [x, y])(wholehand.view.project(wholehand.view.middle.toArray()))")
+        page.mouse("mousePressed", *start)
+        still(page)  # it follows the hand no more
         tips = page.evaluate("wholehand.control.position.toArray()")
         seen = page.evaluate(f"(({{x, y}}) => [x, y])(wholehand.view.project({tips}))")
         camera = page.evaluate("wholehand.camera().position")
-        page.drag(start, (start[0] + 60, start[1] - 40))
+        page.mouse("mouseMoved", start[0] + 60, start[1] - 40)
         moved = page.evaluate("wholehand.control.position.toArray()")
+        self.wait_for_hand(page, moved)
         after = page.evaluate(f"(({{x, y}}) => [x, y])(wholehand.view.project({moved}))")
         # the drag is at the distance of the hand's middle, the tips are some centimetres nearer or farther
         self.assert_near(after, [seen[0] + 60, seen[1] - 40], 15, "pixels")
-        self.assertEqual(page.evaluate("wholehand.camera().position"), camera, "the view has not turned")
-        self.wait_for_hand(page, moved)
+        self.assertEqual(page.evaluate("wholehand.camera().position"), camera, "the view has not turned, nor followed")
+        page.mouse("mouseReleased", start[0] + 60, start[1] - 40)
 
     def test_a_page_that_is_loaded_again_goes_on_where_it_was(self):
         page = self.open(self.live)
@@ -135,6 +182,7 @@ class ThePageAsGripper(ViewerTest):
     def test_touch_does_the_same(self):
         page = self.open(self.live, 420, 800)
         page.resize(420, 800, mobile=True)
+        page.evaluate("document.getElementById('follow').click()")
         self.go(page, 0, 150, 200)
         still(page)
         page.evaluate("window.scrollTo(0, 0)")
@@ -148,6 +196,7 @@ class ThePageAsGripper(ViewerTest):
 
     def test_a_drag_beside_the_hand_turns_the_view(self):
         page = self.open(self.live)
+        page.evaluate("document.getElementById('follow').click()")
         self.go(page, 0, 150, 200)
         still(page)
         position = page.evaluate("wholehand.control.position.toArray()")

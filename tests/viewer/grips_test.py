@@ -2,9 +2,8 @@
 
 import json
 import math
-import os
 
-from support import Picture, ViewerTest, main, projected, slide, still, turned_back, minus, wholehand
+from support import ViewerTest, color_at, drawn, main, projected, slide, still, turned_back, minus, wholehand
 
 GRIP = ["three_beakers", "--vessel", "beaker1", "--height-mm", "58.5", "--roll-deg", "22"]
 DIGITS = 2e-7     # m: frames have the digits of a float, of places up to a metre
@@ -78,26 +77,52 @@ class AGrip(ViewerTest):
     def test_a_mark_in_its_color_is_drawn_where_a_tracked_tip_is(self):
         page = self.open(self.grip)
         still(page)
-        page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
-        path = os.path.join(self.folder, "tips.png")
-        page.screenshot(path)
-        picture = Picture(path)
+        drawn(page)
         wanted = page.evaluate("getComputedStyle(document.documentElement).getPropertyValue('--contact-4').trim()")
         wanted = [int(wanted[k:k + 2], 16) for k in (1, 3, 5)]
         self.assertEqual(page.evaluate("wholehand.frame.contacts[8]"), "K")
         at = page.evaluate(f"wholehand.project({INDEX_TIP})")
-        self.assert_near(picture.color(at["x"], at["y"]), wanted, 12, f"index tip at {at}")
+        self.assert_near(color_at(page, at["x"], at["y"]), wanted, 12, f"index tip at {at}")
 
     def test_no_mark_is_drawn_where_points_are_switched_off(self):
         page = self.open(self.grip)
         page.evaluate("document.getElementById('points').click()")
         still(page)
-        page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
-        path = os.path.join(self.folder, "no_tips.png")
-        page.screenshot(path)
+        drawn(page)
         at = page.evaluate(f"wholehand.project({INDEX_TIP})")
-        red, green, blue = Picture(path).color(at["x"], at["y"])
+        red, green, blue = color_at(page, at["x"], at["y"])
         self.assertTrue(red > green > blue, "skin")
+
+    def test_a_hand_that_reaches_under_the_base_is_seen_through_the_table(self):
+        page = self.open(self.grip)
+        scene, frame = page.evaluate("[wholehand.scene, wholehand.frame]")
+        vessel = scene["vessels"][frame["vessel"]]
+        self.assertEqual(frame["vessels"][frame["vessel"]]["place"], vessel["place"], "it stands")
+        self.assertEqual(page.evaluate("wholehand.view.stage.table.position.y"), vessel["place"][1] + vessel["base"])
+        page.evaluate("document.getElementById('points').click()")
+
+        def color(joints, with_hand, with_table):
+            """At the index finger's tip, of the hand alone on or under the table."""
+            page.evaluate(f"""(({{view, frame}}) => {{ view.show({{...frame, joints: {joints}}});
+              for (const {{group, shade}} of view.vessels.list) group.visible = shade.visible = false;
+              view.hand.skin.mesh.visible = {with_hand};
+              view.stage.table.visible = {with_table};
+              if (!{with_table}) view.hand.skin.uniforms.table.value = -9; }})(wholehand)""".replace("True", "true").replace("False", "false"))
+            drawn(page)
+            at = page.evaluate(f"wholehand.view.project({joints[INDEX_TIP]})")
+            return color_at(page, at["x"], at["y"])
+
+        lower = frame["joints"][INDEX_TIP][1] - vessel["place"][1] + 0.08
+        for elevation, down in [(0.5, lower), (-0.3, 0)]:
+            joints = [[x, y - down, z] for x, y, z in frame["joints"]]
+            x, y, z = joints[INDEX_TIP]
+            page.evaluate(f"wholehand.view.orbit.go({{elevation: {elevation}, x: {x}, y: {y}, z: {z}}}), wholehand.view.orbit.jump(), wholehand.view.stage.invalidate()")
+            hand, table, through, neither = (color(joints, *which) for which in [(True, False), (False, True), (True, True), (False, False)])
+            # of a quarter of the hand over the table, or of half of the table over all
+            expected = [t + 0.25 * (h - t) for t, h in zip(table, hand)] if down else [t + 0.5 * (h - n) for t, h, n in zip(table, hand, neither)]
+            self.assert_near(through, expected, 4, f"hand {hand}, table {table}, at {elevation}")
+            for what, other in [("the hand is seen", table), ("the table is before it", hand)]:
+                self.assertGreater(max(abs(a - b) for a, b in zip(through, other)), 8, f"{what}, at {elevation}")
 
     def test_sliders_show_liquid_and_force_at_once(self):
         page = self.open(self.grip)
@@ -138,6 +163,17 @@ class TheBestOfASweep(ViewerTest):
         for row, grip in zip(rows, scene["grips"]):
             self.assertIn(grip["label"], row)
             self.assertIn(f"{grip['score']:.3f}", row)
+            self.assertIn(f"obliquity {math.degrees(grip['obliquity_rad']):.0f}°".replace("-", "−").replace("−0°", "0°"), row)
+        # azimuth and offset where a grip of the list has one
+        said = page.evaluate("""(({grips}) => { const {about} = grips, of = (more) => {
+          grips.about = {...about, grips: about.grips.map((grip, k) => ({...grip, azimuth_rad: 0, offset_m: 0, ...(k === 1 ? more : {})}))};
+          return grips.placeOf(grips.about.grips[0]) + '; ' + grips.placeOf(grips.about.grips[1]); };
+          const found = [of({}), of({azimuth_rad: Math.PI / 6}), of({offset_m: -2.5e-3})];
+          grips.about = about;
+          return found; })(wholehand)""")
+        self.assertFalse("azimuth" in said[0] or "offset" in said[0], said[0])
+        self.assertRegex(said[1], "azimuth 0°; .*azimuth 30°$")
+        self.assertRegex(said[2], "offset 0.0 mm; .*offset −2.5 mm$")
 
     def test_a_click_or_a_key_shows_another_grip(self):
         page = self.open(self.best)

@@ -1,14 +1,47 @@
 """The page for everyone: every width, dark mode, reduced motion, the keyboard alone, a reader of the screen, a server that is gone."""
 
-import os
-
-from support import Picture, ViewerTest, main, still, wholehand
+from support import ViewerTest, color_at, main, still, wholehand
 
 GRIP = ["three_beakers", "--vessel", "beaker2", "--height-mm", "95", "--roll-deg", "30"]
 RECORDING = "a_recording_whose_name_is_longer_than_a_narrow_window_is_wide.nc"
-WIDTHS = [400, 560, 800, 861, 1024, 1366, 2000]
+WIDTHS = [400, 560, 800, 861, 1024, 1280, 1366, 2000]
 # Whatever a person may use
 USABLE = "[...document.querySelectorAll('button, input, select, [tabindex=\"0\"], a[href]')].filter((e) => e.offsetParent !== null || e.id === 'view')"
+# Texts that reach out of their part of the page, or are cut by what holds them; and those of the charts, which are in their canvas
+CUT = """[...document.querySelectorAll('#panels section, #legend, header')].filter((part) => part.offsetParent).flatMap((part) => {
+  const found = [], texts = document.createTreeWalker(part, NodeFilter.SHOW_TEXT);
+  while (texts.nextNode()) {
+    const range = document.createRange();
+    range.selectNodeContents(texts.currentNode);
+    for (const at of range.getClientRects()) {
+      if (at.width < 1) continue;
+      for (let holds = texts.currentNode.parentElement; holds !== part.parentElement; holds = holds.parentElement) {
+        if (holds !== part && getComputedStyle(holds).overflowX === 'visible') continue;
+        const box = holds.getBoundingClientRect();
+        if (at.left < box.left - 0.5 || at.right > box.right + 0.5) found.push(texts.currentNode.data);
+      }
+    }
+  }
+  return found;
+})"""
+CUT_IN_CHARTS = """(({canvas, texts}) => canvas.clientWidth === 0 ? [] :
+  texts.filter(({left, right, top, bottom}) => left < 0 || right > canvas.clientWidth || top < 0 || bottom > canvas.clientHeight))(wholehand.charts)"""
+# Vessels that are in the picture, as boxes about them, [left, top, right, bottom], px
+BOXES = """(({view, scene, frame}) => { const {left, top, width, height} = wholehand.camera().rectangle;
+  return scene.vessels.flatMap(({height: tall, radius}, k) => {
+    const {place, rotation} = frame.vessels[k] || {};
+    if (!place) return [];
+    const [ax, ay, az, w] = rotation, points = [];
+    for (const y of [0, tall]) for (let n = 0; n < 8; ++n) {
+      const v = [radius * Math.cos(n * Math.PI / 4), y, radius * Math.sin(n * Math.PI / 4)], q = [ax, ay, az];
+      const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+      const t = cross(q, v).map((c) => 2 * c), u = cross(q, t);
+      points.push(view.project(v.map((c, i) => place[i] + c + w * t[i] + u[i])));
+    }
+    const box = [Math.max(left, Math.min(...points.map((p) => p.x))), Math.max(top, Math.min(...points.map((p) => p.y))),
+      Math.min(left + width, Math.max(...points.map((p) => p.x))), Math.min(top + height, Math.max(...points.map((p) => p.y)))];
+    return box[0] < box[2] && box[1] < box[3] ? [box] : [];
+  }); })(wholehand)"""
 
 
 def luminance(color):
@@ -36,16 +69,23 @@ class ThePage(ViewerTest):
                 self.assertEqual(over, 0, f"{name} at {width}")
                 seen = page.evaluate("(({width, height}) => [width, height])(wholehand.camera().rectangle)")
                 self.assertTrue(seen[0] >= min(width, 400) and seen[1] >= 200, f"{name} at {width}: {seen}")
+                page.wait(f"wholehand.charts.canvas.width === wholehand.charts.canvas.clientWidth", what="the charts' new size")
+                if width >= 1280:  # narrower, the header's names and the list's may be shortened
+                    self.assertEqual(page.evaluate(CUT), [], f"{name} at {width}")
+                self.assertEqual(page.evaluate(CUT_IN_CHARTS), [], f"{name} at {width}")
+                legend = page.evaluate("(({left, top, right, bottom}) => [left, top, right, bottom])(document.getElementById('legend').getBoundingClientRect())")
+                boxes = page.evaluate(BOXES)
+                self.assertTrue(boxes, f"{name} at {width}: no vessel is seen")
+                for box in boxes:
+                    apart = box[2] <= legend[0] or box[0] >= legend[2] or box[3] <= legend[1] or box[1] >= legend[3]
+                    self.assertTrue(apart, f"{name} at {width}: {box} under the legend {legend}")
 
     def test_dark_mode_is_dark_and_light_is_light(self):
         for dark in [False, True]:
             page = self.open(self.pages["grips"], dark=dark)
             still(page)
-            path = os.path.join(self.folder, f"{dark}.png")
-            page.screenshot(path)
-            picture = Picture(path)
             for what, x, y in [("backdrop", 500, 130), ("header", 500, 20), ("panels", 1192, 500)]:
-                light = luminance(picture.color(x, y))
+                light = luminance(color_at(page, x, y))
                 self.assertTrue(light < 60 if dark else light > 200, f"{what} {light}")
 
     def test_a_change_of_the_scheme_is_followed(self):

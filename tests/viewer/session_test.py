@@ -50,18 +50,21 @@ WATCH = """(() => {
 
 
 class ASession(ViewerTest):
+    scale = 0.5
+
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
         with open(os.path.join(cls.folder, "one.toml"), "w") as file:
             file.write(SCENE)
         cls.live = cls.serve("live", "one.toml", "--view", "--record", "one.nc")
-        cls.page = cls.browser.open(cls.live.address, 700, 600)
+        cls.page = cls.browser.open(cls.live.address, 700, 600, cls.scale)
         cls.page.wait("window.wholehand && wholehand.frame", what="the first frame")
         cls.page.evaluate(WATCH)
         cls.page.wait("document.getElementById('link').dataset.status === 'over'", 3 * PATIENCE, "the session's end")
         cls.seen = cls.page.evaluate("({...seen, texts: [...seen.texts]})")
         cls.last = cls.page.evaluate("wholehand.frame")
+        cls.live_limit = 8  # N: the simulated gripper's
         cls.said = cls.page.evaluate("document.getElementById('link').textContent")
         cls.recording = cls.serve("view", "one.nc")
         cls.data = Dataset(os.path.join(cls.folder, "one.nc"))
@@ -98,6 +101,40 @@ class ASession(ViewerTest):
         level = self.page.evaluate("wholehand.view.pour.filling.level.value")
         self.assertAlmostEqual(level, volume / (3.141592653589793 * 0.06 ** 2), delta=1e-9)
 
+    def test_less_than_is_seen_is_not_drawn(self):
+        for volume, flow, is_seen in [(1e-15, 9.5e-9, False), (1.1e-8, 1.1e-8, True)]:
+            drawn = self.page.evaluate(f"""(({{view, frame}}) => {{
+              const stream = {{from: [0, 0.2, -0.2], to: [0, 0, -0.2], flow: {flow}}};
+              view.show({{...frame, vessel: 0, stream, target_volume: {volume}, vessels: frame.vessels.map((state) => ({{...state, volume: {volume}, up: [0, 1, 0], level: 0.0015}}))}});
+              return [...view.liquids[0].parts, ...view.pour.filling.parts, view.pour.stream].map((part) => part.visible); }})(wholehand)""")
+            self.assertEqual(set(drawn), {is_seen}, f"{volume} m3, {flow} m3/s")
+        self.page.evaluate("wholehand.view.show(wholehand.frame)")
+
+    def test_what_stands_higher_has_a_table_of_its_own(self):
+        tables = "(({view}) => { view.frameHome(); return view.stage.tables.map(({position}) => position.toArray()); })(wholehand)"
+        lift = "wholehand.scene.vessels[0].place[1] += {}"
+        self.assertEqual([at[1] for at in self.page.evaluate(tables)], [0])
+        self.page.evaluate(lift.format(0.25))
+        self.assertEqual(self.page.evaluate(tables)[1:], [[0.06, 0.25, 0]])
+        self.page.evaluate(lift.format(-0.25))
+        self.assertEqual(len(self.page.evaluate(tables)), 1)
+
+    def test_the_force_is_what_is_written_and_the_clamp_is_told(self):
+        most = self.page.evaluate("wholehand.scene.force.most")
+        self.assertEqual(most, self.live_limit)
+        for forces, said in [({"feedback": 10.93, "written": 8, "normal": 0, "opening": 0, "base": 0}, "clamped to 8.00 N, 10.93 N asked for"),
+                             ({"feedback": 8, "written": 8, "normal": 6, "opening": 3.5, "base": 0.8}, "clamped to 8.00 N, 9.50 N asked for"),
+                             ({"feedback": 5, "written": 5, "normal": 4, "opening": 3, "base": 0.8}, "clamped to 5.00 N, 7.00 N asked for"),
+                             ({"feedback": 5, "written": 2, "normal": 2.5, "opening": 2.5, "base": 0.8}, "2.00 N so far, 5.00 N asked for"),
+                             ({"feedback": 3.8, "written": 3.8, "normal": 0.8, "opening": 3, "base": 0.8}, "")]:
+            shown = self.page.evaluate(f"""((forces) => {{ wholehand.panels.showForce(forces);
+              const bar = document.querySelector('.force-bar').getBoundingClientRect();
+              const parts = [...document.querySelectorAll('.part:not(.asked)')].map((part) => part.getBoundingClientRect()).filter(({{width}}) => width > 0);
+              return [document.querySelector('.force-value').textContent, document.querySelector('.clamp').textContent,
+                (Math.max(...parts.map(({{right}}) => right)) - bar.left) / bar.width * {most}]; }})({forces})""")
+            self.assertEqual(shown[:2], [f"{forces['written']:.2f}", said])
+            self.assertAlmostEqual(shown[2], forces["written"], delta=0.01, msg="the bar ends there")
+
     def test_the_page_says_that_it_is_over(self):
         self.assertRegex(self.said, "^over")
 
@@ -131,7 +168,8 @@ class ASession(ViewerTest):
             if shown["state"] in HELD + ["touching"]:  # thumb and index finger are drawn at what was felt
                 for joint, tip in [(3, 0), (8, 1)]:
                     self.assert_near(shown["joints"][joint], self.value("proxies", at)[tip], 5e-4, f"tip {tip} at {at}")
-            text = f"{self.value('feedback_force', at):.2f}".replace("-0.00", "0.00").replace("-", "−")
+            self.assertAlmostEqual(shown["forces"]["written"], self.value("written_gripper_force", at), delta=1e-5, msg=f"written at {at}")
+            text = f"{self.value('written_gripper_force', at):.2f}".replace("-0.00", "0.00").replace("-", "−")
             page.wait(f"document.querySelector('.force-value').textContent === '{text}'", what=f"{text} N")
 
     def test_play_and_pause(self):

@@ -59,6 +59,9 @@ class Served:
 class ViewerTest(unittest.TestCase):
     """One browser and a folder for all tests of a class."""
 
+    # Device pixels a CSS pixel. Pictures are drawn in software: where no test looks at one, half as many a side cost a quarter.
+    scale = 1
+
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.mkdtemp(prefix="wholehand_viewer_")
@@ -74,7 +77,7 @@ class ViewerTest(unittest.TestCase):
 
     def open(self, served, width=1200, height=800, **emulation):
         """A page that shows its first frame, with nothing to complain about by the test's end."""
-        page = self.browser.open(served.address, width, height, **emulation)
+        page = self.browser.open(served.address, width, height, self.scale, **emulation)
         self.addCleanup(page.close)
         page.wait("window.wholehand && wholehand.frame", what="the first frame")
         self.addCleanup(lambda: self.assertEqual(page.errors, []))
@@ -89,6 +92,16 @@ class ViewerTest(unittest.TestCase):
 def still(page):
     """Waits until the camera has come to rest."""
     page.wait("wholehand.camera().isStill", what="the camera at rest")
+
+
+def drawn(page):
+    """Waits until what was asked for is in the picture."""
+    page.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+
+
+def color_at(page, x, y):
+    """Of the page where CSS pixel x, y is."""
+    return Picture(page.picture(int(x), int(y))).color(0, 0)
 
 
 def slide(page, name, value):
@@ -134,9 +147,7 @@ def turned_back(rotation, v):
 class Picture:
     """A PNG as Chromium writes it: 8 bits, RGB or RGBA."""
 
-    def __init__(self, path):
-        with open(path, "rb") as file:
-            data = file.read()
+    def __init__(self, data):
         at, packed = 8, b""
         while at < len(data):
             length, kind = struct.unpack(">I4s", data[at:at + 8])

@@ -1,4 +1,4 @@
-// How far forces may differ because the liquid's level is solved to a tolerance: by more, the less there is beside it that weighs.
+// How far forces may differ because of the load: the liquid's level is solved to a tolerance, and a tilt and a lever are rounded.
 #pragma once
 
 #include <cstddef>
@@ -12,21 +12,26 @@ namespace wholehand {
 struct GatheredPlanes;
 
 // For the states and grips of one vessel. The liquid's volume may differ by `volume` m3 between two evaluations and its moments by
-// `volume` times twice the vessel's height H; density rho, gravity g, total mass M of a state:
+// `volume` times twice the vessel's height H, and a number by the share `rounding` of what it is the sum or product of; density rho,
+// gravity g, total mass M of a state and M_max of the heaviest:
 //   mass           dm = rho volume
 //   centre of mass 3 dm H / M          moments twice, and the mass they are divided by once
 //   torque         g dm (3 H + L)      L: H and the hand's reach, which no pivot exceeds
+//                  + rounding g M_max (L + the centre of mass's way off)   however small the tilt's sine makes the torque itself
 //   normal force   range (torque's + tau / tau_ref times the same for tau_ref) / tau_ref
-//   hold force     (g dm / 2 + torque's / (2 gamma)) / mu + g dm / 2
-// and the score's terms and the score by what they divide these by. All zero where the scene has no liquid.
-class LiquidFloors {
+//   hold force     (g dm / 2 + the liquid's torque / (2 gamma)) / mu + g dm / 2
+// and the score's terms and the score by what they divide these by.
+class LoadFloors {
  public:
-  LiquidFloors(const Scene& scene, const Evaluator& core, std::size_t vessel, double volume, const GatheredPlanes& truth);
+  LoadFloors(const Scene& scene, const Evaluator& core, std::size_t vessel, double volume, double rounding,
+             const GatheredPlanes& truth);
 
   // Of plane `plane` of the field, in the field's unit.
   double of(int field, std::size_t plane, std::size_t grip) const;
 
  private:
+  void set_forces(const VesselConstants& constants, std::size_t vessel, const GatheredPlanes& truth);
+
   const Scene& scene_;
   double torque_ = 0, hold_ = 0;          // N m, N
   std::vector<double> center_;            // m, by state

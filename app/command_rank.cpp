@@ -1,0 +1,130 @@
+// wholehand rank: the best grips of a result by other weights and under conditions.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "app/commands.h"
+#include "app/output.h"
+#include "app/result_scene.h"
+#include "app/validators.h"
+#include "app/values.h"
+#include "sweeps/best_glb.h"
+#include "sweeps/closing.h"
+#include "sweeps/companions.h"
+#include "sweeps/files.h"
+#include "sweeps/rank.h"
+#include "sweeps/readable.h"
+
+namespace wholehand {
+namespace {
+
+struct RankArguments {
+  std::string result, weights, where, best, glb, output;
+};
+
+// What can be refused before any work.
+void check_list_file(const RankArguments& arguments, const Scene& scene) {
+  const std::string& path = arguments.output;
+  if (path.empty()) return;
+  check_output_path(path);
+  check_not_the_scene(path, scene);
+  if (is_same_file(path, arguments.result))
+    throw usage_error(fmt::format("-o {}: this is the result file itself; name another file for the list", path));
+  if (is_same_file(path, output_names(arguments.result).best))
+    throw usage_error(fmt::format("-o {}: this is the sweep's own list; name another file", path));
+  constexpr std::string_view LIST_END = ".best.csv";
+  const std::string result = path.ends_with(LIST_END) ? path.substr(0, path.size() - LIST_END.size()) + ".nc" : "";
+  if (begins_with(result, NETCDF4_START))
+    throw usage_error(fmt::format("-o {}: this is the own list of {}; name another file", path, result));
+  check_overwrites_kind(path, BEST_CSV_START, "list of grips", "-o");
+}
+
+// LIST.<vessel>.<rank>.glb beside LIST.csv.
+OutputNames glb_names(const std::string& list) {
+  OutputNames names;
+  names.stem = list.ends_with(".csv") ? list.substr(0, list.size() - 4) : list;
+  return names;
+}
+
+// As many as the sweep listed, or what its scene asks for, or 20 where that is none.
+std::size_t usual_length(const SweepResult& result, const Scene& scene, const Plan& plan) {
+  std::size_t most = 0;
+  if (result.lists_best() && !result.lists_all_hands_together())
+    for (const auto& list : lists_of_sweep(result, scene, plan)) most = std::max(most, list.size());
+  if (most > 0) return most;
+  return scene.output.best > 0 ? static_cast<std::size_t>(scene.output.best) : static_cast<std::size_t>(OutputData().best);
+}
+
+std::string ranking_text(const Scene& scene, const Plan& plan, const RankArguments& arguments, const Ranking& ranking) {
+  std::string text;
+  for (std::size_t list = 0; list < ranking.lists.size(); ++list) {
+    text += fmt::format("{}{}: ", list == 0 ? "" : "\n", list_name(scene, plan, list));
+    text += arguments.where.empty()
+                ? fmt::format("{} grips are feasible and plausible\n", readable_number(ranking.plausible[list]))
+                : fmt::format("{} of {} feasible, plausible grips match\n", readable_number(ranking.matching[list]),
+                              readable_number(ranking.plausible[list]));
+    text += list_lines(scene, plan, list / plan.hand_scales(), ranking.lists[list], arguments.output);
+  }
+  return text;
+}
+
+ExitCode rank(const RankArguments& arguments) {
+  const int glb = arguments.glb.empty() ? 0 : static_cast<int>(parse_integer(arguments.glb, "--glb", ranges::BEST));
+  if (glb > 0 && arguments.output.empty()) throw usage_error("--glb: -o names the list, and so these files; give it too");
+  SweepResult result(arguments.result);
+  std::string trouble;
+  Scene scene = scene_of_result(result, trouble);
+  if (!result.origin().scene_file.empty()) scene.file = result.origin().scene_file;
+  check_list_file(arguments, scene);
+  set_heights(result, scene);
+  const Plan plan(scene, keeps_vectors(result.variables()));
+  result.use(scene, plan);
+  RankRequest request{arguments.weights, arguments.where, 0};
+  request.best = arguments.best.empty() ? usual_length(result, scene, plan)
+                                        : static_cast<std::size_t>(parse_integer(arguments.best, "--best", {1, ranges::BEST.high}));
+  if (glb > static_cast<int>(request.best))
+    throw usage_error(fmt::format("--glb {0}: the best {1} of each list are kept; ask for --best {0} too", glb, request.best));
+  const auto open_core = [&]() -> std::shared_ptr<const Evaluator> {
+    if (!trouble.empty()) throw usage_error(result.path() + ": " + trouble);
+    return make_core_evaluator(scene);
+  };
+  const OutputNames names = glb_names(arguments.output);
+  check_best_glb(scene, plan, names, glb);
+  const std::shared_ptr<const Evaluator> core = glb > 0 ? open_core() : nullptr;
+  const Ranking ranking = rank_grips(result, scene, plan, request, open_core);
+  if (!ranking.note.empty()) std::fprintf(stderr, "wholehand: %s\n", ranking.note.c_str());
+  print(ranking_text(scene, plan, arguments, ranking));
+  if (arguments.output.empty()) return ExitCode::done;
+  std::vector<std::string> files{arguments.output};
+  write_whole_file(arguments.output, best_csv(scene, plan, ranking.lists, list_origin(arguments.result, result.origin())), false);
+  if (core) {
+    const BestGlb written = write_best_glb(scene, plan, core, ranking.lists, glb, names);
+    files.insert(files.end(), written.files.begin(), written.files.end());
+    for (const std::string& line : written.notes) std::fprintf(stderr, "wholehand: %s\n", line.c_str());
+  }
+  print(fmt::format("\nwrote {}\n", fmt::join(files, ", ")));
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_rank_command(CLI::App& app, Action& action) {
+  const auto arguments = std::make_shared<RankArguments>();
+  CLI::App* command = app.add_subcommand("rank", "The best grips of a sweep by other weights and under conditions");
+  const auto add = [command](const char* name, std::string& value, const char* type, const char* help) {
+    return command->add_option(name, value, help)->type_name(type)->check(not_empty());
+  };
+  add("result", arguments->result, "FILE.nc", "A result of `wholehand sweep`")->required();
+  add("--weights", arguments->weights, "TERM=W,..", "Weights of fingers, contacts, depth, posture, force, hold (the scene's)");
+  add("--where", arguments->where, "CONDITION", "Only grips that meet it: \"fingers_used >= 4 and palm_depth_mm < 2\"");
+  add("--best", arguments->best, "N", "Grips listed for each vessel (as many as the sweep listed)");
+  add("--glb", arguments->glb, "N", "Of these, so many for each vessel as glTF: LIST.<vessel>.<rank>.glb");
+  add("-o,--output", arguments->output, "LIST.csv", "Write the list, for --list of grip, view and report");
+  command->callback([arguments, &action] { action = [arguments] { return rank(*arguments); }; });
+}
+
+}  // namespace wholehand

@@ -1,0 +1,28 @@
+// wholehand scenes: the scenes that are shipped, which every command takes by name.
+#include <CLI/CLI.hpp>
+
+#include "app/commands.h"
+#include "app/output.h"
+#include "app/paths.h"
+#include "app/scene_list.h"
+
+namespace wholehand {
+namespace {
+
+ExitCode show_scenes() {
+  const std::vector<std::string> names = shipped_scenes();
+  if (names.empty()) throw failure_error("the shipped scenes are not where the program was built or installed; give a scene file");
+  std::vector<std::string> files;
+  for (const std::string& name : names) files.push_back(find_scene(scenes_dir() + "/" + name + ".toml"));
+  print(list_scenes(files));
+  return ExitCode::done;
+}
+
+}  // namespace
+
+void add_scenes_command(CLI::App& app, Action& action) {
+  CLI::App* command = app.add_subcommand("scenes", "The scenes that are shipped: name, vessels, what for");
+  command->callback([&action] { action = [] { return show_scenes(); }; });
+}
+
+}  // namespace wholehand

@@ -1,0 +1,56 @@
+#include "core/gather.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/scene.h"
+
+namespace wholehand {
+
+FieldSet all_fields(const Scene& scene) {
+  std::vector<int> every(FIELDS);
+  std::iota(every.begin(), every.end(), 0);
+  return make_field_set(every, scene);
+}
+
+GatheredPlanes gather(Backend& backend, std::size_t vessel, const std::vector<GripInput>& grips) {
+  GatheredPlanes planes;
+  planes.fields = backend.fields();
+  planes.count = grips.size();
+  planes.reals.resize(planes.fields.real_kept * grips.size());
+  planes.uints.resize(planes.fields.uint_kept * grips.size());
+  RunRequest request;
+  request.vessel = vessel;
+  request.last = grips.size();
+  request.grips = [&](std::size_t, std::uint64_t first, std::size_t count, GripInput* out) {
+    std::copy_n(grips.begin() + static_cast<std::ptrdiff_t>(first), count, out);
+  };
+  request.sink = [&](const PlaneChunk& chunk) {
+    for (int p = 0; p < planes.fields.real_kept; ++p)
+      for (std::size_t i = 0; i < chunk.count; ++i) planes.reals[p * planes.count + chunk.first + i] = chunk.real(p, i);
+    for (int p = 0; p < planes.fields.uint_kept; ++p)
+      for (std::size_t i = 0; i < chunk.count; ++i) planes.uints[p * planes.count + chunk.first + i] = chunk.uint(p, i);
+  };
+  backend.run(request);
+  return planes;
+}
+
+GatheredPlanes gather(const Evaluator& core, const FieldSet& fields, std::size_t vessel, const std::vector<GripInput>& grips) {
+  GatheredPlanes planes;
+  planes.fields = fields;
+  planes.count = grips.size();
+  planes.reals.resize(fields.real_planes * grips.size());
+  planes.uints.resize(fields.uint_planes * grips.size());
+  core.planes(vessel, grips.data(), grips.size(), fields, grips.size(), planes.reals.data(), planes.uints.data());
+  return planes;
+}
+
+std::vector<LiquidResult> core_liquid(const Scene& scene, const Evaluator& core, std::size_t vessel) {
+  std::vector<LiquidResult> states;
+  if (!scene.liquid) return states;
+  for (const double fill : vessel_fills(scene, scene.vessels[vessel]))
+    for (const double tilt : scene.tilts) states.push_back(core.liquid(vessel, fill, tilt));
+  return states;
+}
+
+}  // namespace wholehand

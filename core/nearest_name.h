@@ -1,0 +1,19 @@
+// What somebody who mistyped a name may have meant.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace wholehand {
+
+// Name of `names` with the smallest edit distance to `name`, the first of equally near ones; "" where there are none.
+std::string nearest_name(std::string_view name, std::span<const std::string_view> names);
+
+// " (did you mean 'sweep'?)" where a name of `names` begins with `name` or is a slip of the keyboard away from it (a third of the characters),
+// else "".
+std::string did_you_mean(std::string_view name, std::span<const std::string_view> names);
+std::string did_you_mean(std::string_view name, const std::vector<std::string>& names);
+
+}  // namespace wholehand

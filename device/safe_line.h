@@ -1,0 +1,61 @@
+// A line of text that a signal handler may put together: no allocation, no locale, no library call that is not safe there.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace wholehand {
+
+// What does not fit is left out.
+class SafeLine {
+ public:
+  SafeLine& add(std::string_view text) noexcept {
+    for (const char letter : text)
+      if (size_ < text_.size()) text_[size_++] = letter;
+    return *this;
+  }
+
+  // A number of up to `decimals` digits behind the point, without zeros at its end; 2^53 and more as "many", NaN as "nan".
+  SafeLine& add(double number, int decimals) noexcept {
+    if (number != number) return add("nan");
+    if (number < 0) return add("-").add(-number, decimals);
+    std::uint64_t unit = 1;
+    for (int k = 0; k < decimals; ++k) unit *= 10;
+    if (number * static_cast<double>(unit) >= 0x1p53) return add("many");
+    auto scaled = static_cast<std::uint64_t>(number * static_cast<double>(unit) + 0.5);
+    whole(scaled / unit);
+    scaled %= unit;
+    if (scaled == 0) return *this;
+    add(".");
+    while (scaled > 0) {
+      unit /= 10;
+      digit(scaled / unit);
+      scaled %= unit;
+    }
+    return *this;
+  }
+
+  std::string_view text() const noexcept { return {text_.data(), size_}; }
+
+ private:
+  void digit(std::uint64_t value) noexcept {
+    const char letter = static_cast<char>('0' + value);
+    add(std::string_view(&letter, 1));
+  }
+  void whole(std::uint64_t value) noexcept {
+    std::array<char, 20> digits{};
+    std::size_t at = digits.size();
+    do {
+      digits[--at] = static_cast<char>('0' + value % 10);
+      value /= 10;
+    } while (value > 0);
+    add(std::string_view(digits.data() + at, digits.size() - at));
+  }
+
+  std::array<char, 640> text_{};
+  std::size_t size_ = 0;
+};
+
+}  // namespace wholehand

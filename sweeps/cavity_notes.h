@@ -1,0 +1,18 @@
+// What a reader of a scene may not have meant about what its vessels hold.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/scene.h"
+
+namespace wholehand {
+
+// A line for each vessel whose cavity narrows below 10 mm of radius and widens again beneath, with how much lies there. Throws Error
+// (usage) for vessels that cannot be made ready.
+std::vector<std::string> cavity_notes(const Scene& scene);
+
+// The same on stderr, a line each.
+void say_cavity_notes(const Scene& scene);
+
+}  // namespace wholehand

@@ -1,0 +1,59 @@
+// The process behind a GuardedFile: it reads the file with the NetCDF library and answers over a socket.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace wholehand::guarded {
+
+constexpr std::size_t MOST_DIMENSIONS = 32;   // of a variable
+constexpr std::int32_t GOES_ON = 0x40000000;  // instead of a status: more is being read
+
+enum class Wish : std::uint32_t { block, everything };
+
+// A block of a variable, or everything. The answer to each begins with NetCDF's status (int32): of a block its values (double) follow unless the
+// status is an error; of everything there is one status a variable, and GOES_ON
+// whenever some of it was read.
+struct Request {
+  Wish wish = Wish::block;
+  std::int32_t variable = -1;
+  std::uint64_t dimensions = 0;
+  std::array<std::uint64_t, MOST_DIMENSIONS> start{}, count{};
+};
+
+// Whether `status` leaves the values usable: numbers out of a double's range are there all the same.
+bool is_usable(int status);
+
+// Sends and takes all of it; false: the other end is gone, or said nothing for `seconds` (0: no matter how long).
+bool send_all(int socket, const void* data, std::size_t size);
+bool take_all(int socket, void* data, std::size_t size, int seconds);
+
+// Opens the file and sends the status of that; if it is good, the catalogue: its size (uint64) and that many bytes. Then answers requests until the other
+// end closes. For a child process alone: takes over its streams, limits and signals, and does not return.
+[[noreturn]] void serve(int socket, const std::string& name);
+
+// The catalogue: entries one after the other, each a kind and what CatalogueReader takes after it.
+enum class Entry : std::uint32_t { variable, text, number };
+
+// Takes a catalogue apart. Throws std::runtime_error where it ends too early.
+class CatalogueReader {
+ public:
+  explicit CatalogueReader(const std::string& bytes) : bytes_(bytes) {}
+  bool is_at_end() const { return place_ == bytes_.size(); }
+  template <class T>
+  T value() {
+    T result{};
+    copy(&result, sizeof result);
+    return result;
+  }
+  std::string text();
+
+ private:
+  void copy(void* to, std::size_t size);
+  const std::string& bytes_;
+  std::size_t place_ = 0;
+};
+
+}  // namespace wholehand::guarded

@@ -1,0 +1,35 @@
+#include "sweeps/hand_lists.h"
+
+#include "shaders/layout.h"
+
+namespace wholehand {
+
+HandLists::HandLists(const Plan& plan, std::size_t size, const std::vector<Candidate>& candidates)
+    : plan_(plan), lists_(plan.hand_scales(), BestCandidates(size)) {
+  offer(candidates);
+}
+
+void HandLists::offer(const PlaneChunk& chunk, const FieldSet& fields) {
+  hands_.resize(chunk.count);
+  plan_.hand_scales_of(chunk.first, chunk.count, hands_.data());
+  for (std::size_t i = 0; i < chunk.count; ++i) {
+    const std::uint32_t status = chunk.uint(fields.plane[FIELD_STATUS], i);
+    const bool is_eligible = (status & STATUS_REASON_MASK) == REASON_NONE && (status & STATUS_PLAUSIBLE) != 0;
+    if (is_eligible) lists_[hands_[i]].offer({chunk.real(fields.plane[FIELD_SCORE], i), chunk.first + i});
+  }
+}
+
+void HandLists::offer(const std::vector<Candidate>& candidates) {
+  for (const Candidate& candidate : candidates) lists_[plan_.hand_scale_of(candidate.index)].offer(candidate);
+}
+
+std::vector<Candidate> HandLists::all() const {
+  std::vector<Candidate> all;
+  for (const BestCandidates& list : lists_) {
+    const std::vector<Candidate> sorted = list.sorted();
+    all.insert(all.end(), sorted.begin(), sorted.end());
+  }
+  return all;
+}
+
+}  // namespace wholehand

@@ -1,0 +1,37 @@
+// A mesh file before it is read: its bytes, and what kind they are of.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace wholehand {
+
+constexpr std::size_t LARGEST_MESH_FILE = 512u << 20;  // bytes, of the file and of all its buffers together
+
+enum class MeshFormat { gltf, stl, obj, ply };
+
+// A mesh file and where the scene names it, for messages.
+struct MeshFile {
+  std::string path;
+  std::string place;  // in the scene file, may be empty
+
+  // Each throws Error (usage): one line with place and path.
+  [[noreturn]] void refuse(const std::string& message) const;
+  [[noreturn]] void refuse_size() const;  // more than MOST_TRIANGLES, or three times as many vertices
+};
+
+// Why the file cannot be read whole, or is larger than LARGEST_MESH_FILE; empty where `bytes` is its contents.
+std::string read_mesh_bytes(const std::string& path, std::string& bytes);
+
+// The file's contents, at least one byte. Throws Error (usage).
+std::string mesh_bytes(const MeshFile& file);
+
+// By the first bytes and the name's ending (.glb, .gltf, .stl, .obj, .ply, in any case), which must not contradict each other; by the
+// ending alone where the bytes are of no kind. Throws Error (usage) where neither tells.
+MeshFormat mesh_format(const MeshFile& file, std::string_view bytes);
+
+// 84 bytes and 50 for each triangle, as many as bytes 80 to 83 say.
+bool is_binary_stl(std::string_view bytes);
+
+}  // namespace wholehand

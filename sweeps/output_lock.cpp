@@ -1,0 +1,104 @@
+#include "sweeps/output_lock.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <string_view>
+
+#include "core/error.h"
+
+namespace wholehand {
+namespace {
+
+constexpr std::string_view HOLDER = "wholehand process ";  // how the lock's file begins; then the number
+constexpr int ATTEMPTS = 50;  // 10 ms apart: a process that was killed a moment ago may not be gone quite
+
+enum class Taken { yes, no, retry };
+
+std::string content(int file) {
+  std::array<char, 64> text{};
+  const ssize_t size = pread(file, text.data(), text.size(), 0);
+  return {text.data(), static_cast<std::size_t>(size > 0 ? size : 0)};
+}
+
+// The process that the lock's file names; 0: none.
+pid_t holder(int file) {
+  const std::string text = content(file);
+  return text.starts_with(HOLDER) ? static_cast<pid_t>(std::atoi(text.c_str() + HOLDER.size())) : 0;
+}
+
+// "process 1234 (wholehand)".
+std::string process_text(pid_t process) {
+  if (process <= 0) return "another process";
+  std::string name;
+  std::getline(std::ifstream(fmt::format("/proc/{}/comm", process)), name);
+  return fmt::format("process {}", process) + (name.empty() ? "" : " (" + name + ")");
+}
+
+bool is_at(const std::string& path, int file) {
+  struct stat named {
+  }, open{};
+  return lstat(path.c_str(), &named) == 0 && fstat(file, &open) == 0 && named.st_dev == open.st_dev && named.st_ino == open.st_ino;
+}
+
+Taken try_lock(const std::string& path, int file) {
+  if (flock(file, LOCK_EX | LOCK_NB) != 0) {
+    if (errno == EWOULDBLOCK) return Taken::no;
+    const pid_t other = holder(file);  // no locks here
+    if (other > 0 && other != getpid() && (kill(other, 0) == 0 || errno == EPERM)) return Taken::no;
+  }
+  // who held it removed the file meanwhile: this lock is on nothing
+  return is_at(path, file) ? Taken::yes : Taken::retry;
+}
+
+}  // namespace
+
+OutputLock::OutputLock(const std::string& path) : path_(path) {
+  pid_t other = 0;
+  for (int attempt = 0; attempt < ATTEMPTS; ++attempt) {
+    file_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
+    const int error = errno;
+    const bool is_read_only = file_ < 0 && (error == EACCES || error == EPERM);
+    // another user's, left behind: it can be locked all the same
+    if (is_read_only) file_ = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    if (file_ < 0) {
+      throw failure_error(
+          fmt::format("{}: cannot make this lock: {}; make room, or name another file with -o", path, std::strerror(error)));
+    }
+    const std::string text = content(file_);
+    if (!text.empty() && !text.starts_with(HOLDER)) {
+      close(file_);
+      throw usage_error(fmt::format("{}: is there and is no lock of wholehand's; move it, or name another file with -o", path));
+    }
+    const Taken taken = try_lock(path, file_);
+    if (taken == Taken::yes && is_read_only) return;
+    if (taken == Taken::yes) {
+      const std::string line = fmt::format("{}{}\n", HOLDER, getpid());
+      // a full disk leaves the lock without a name in it, and a lock all the same
+      if (ftruncate(file_, 0) != 0 || pwrite(file_, line.data(), line.size(), 0) < 0) errno = 0;
+      return;
+    }
+    other = holder(file_);
+    close(file_);
+    file_ = -1;
+    if (taken == Taken::no) usleep(10000);
+  }
+  throw usage_error(fmt::format("{}: {} writes this result; wait for it, or name another file with -o", path, process_text(other)));
+}
+
+OutputLock::~OutputLock() {
+  if (file_ < 0) return;
+  unlink(path_.c_str());  // while it is held: who waits finds another file at this name
+  close(file_);
+}
+
+}  // namespace wholehand

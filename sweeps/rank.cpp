@@ -1,0 +1,326 @@
+#include "sweeps/rank.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <set>
+
+#include "core/error.h"
+#include "core/nearest_name.h"
+#include "shaders/layout.h"
+#include "sweeps/candidates.h"
+#include "sweeps/core_backend.h"
+
+namespace wholehand {
+namespace {
+
+constexpr std::size_t GRIPS_AT_ONCE = 1 << 16;  // grips read at once
+constexpr double LARGEST_WEIGHT = 1000;
+
+constexpr std::array<std::string_view, 6> TERMS{"fingers", "contacts", "depth", "posture", "force", "hold"};
+
+std::string variable_of(std::size_t term) { return fmt::format("score_{}", TERMS[term]); }
+
+bool has_term(const Scene& scene, std::size_t term) { return term < 4 || !scene.tilts.empty(); }
+
+// The variables of these names; throws for all that the file lacks.
+std::vector<const Variable*> needed(const SweepResult& result, const std::vector<std::string>& names) {
+  std::vector<const Variable*> variables;
+  std::vector<std::string> missing;
+  for (const std::string& name : names) {
+    variables.push_back(result.find(name));
+    if (!variables.back()) missing.push_back(name);
+  }
+  if (missing.empty()) return variables;
+  throw usage_error(
+      fmt::format("{}: lacks {}, which [output] keep of its scene left out; add {} to keep, or leave keep out, and sweep again",
+                  result.path(), fmt::join(missing, ", "), missing.size() == 1 ? "it" : "them"));
+}
+
+// Values that a condition may name beside the variables: numbers of sources from variable_catalogue().size() on, by PLACE_*; then the height in m.
+enum : std::size_t { SOURCE_AXIS = 0, SOURCE_HEIGHT = 6 };
+
+bool is_over(const Variable& variable, const char* dim) {
+  return std::any_of(variable.dims.begin(), variable.dims.end(), [dim](const char* name) { return std::strcmp(name, dim) == 0; });
+}
+
+std::string refusal_of(const Variable& variable, const SweepResult& result, const Scene& scene) {
+  if (is_over(variable, "xyz")) return "is a vector, and a condition takes numbers";
+  if (result.find(variable.name)) return "";
+  if (variable.need == Need::tilts && scene.tilts.empty()) return "needs [tilts], which the scene of this file does not have";
+  return "is not in the file; name it in [output] keep of the scene and sweep again";
+}
+
+// A value under its own name and, where it has a length or an angle, under that with the unit of a scene file.
+void add_names(std::vector<WhereName>& names, const WhereName& name) {
+  names.push_back(name);
+  if (name.units != "m" && name.units != "rad") return;
+  names.push_back(name);
+  names.back().name += name.units == "m" ? "_mm" : "_deg";
+  names.back().unit = name.units == "m" ? WhereUnit::mm : WhereUnit::deg;
+}
+
+// Scores of a block of grips: from the file where the weights are the sweep's own.
+class Scores {
+ public:
+  Scores(const SweepResult& result, const Scene& scene, const std::string& weights)
+      : result_(result), weights_(read_weights(weights, scene)) {
+    const bool is_own = weights_ == effective_weights(scene);
+    std::vector<std::string> names;
+    for (std::size_t term = 0; term < weights_.size(); ++term)
+      if (weights_[term] > 0) names.push_back(variable_of(term));
+    const bool has_terms = std::all_of(names.begin(), names.end(), [&](const std::string& name) { return result.find(name); });
+    if (is_own && (result.find("score") || !has_terms)) {
+      variables_ = needed(result, {"score"});
+      factors_ = {1};
+      return;
+    }
+    variables_ = needed(result, names);
+    for (const double weight : weights_)
+      if (weight > 0) factors_.push_back(weight);
+  }
+
+  void read(std::size_t vessel, std::uint64_t first, std::size_t count, double* out) {
+    std::fill_n(out, count, 0);
+    values_.resize(count);
+    for (std::size_t k = 0; k < variables_.size(); ++k) {
+      result_.read(*variables_[k], vessel, 0, first, count, values_.data());
+      for (std::size_t i = 0; i < count; ++i) out[i] += factors_[k] * values_[i];
+    }
+  }
+
+ private:
+  const SweepResult& result_;
+  std::array<double, 6> weights_;
+  std::vector<const Variable*> variables_;
+  std::vector<double> factors_, values_;
+};
+
+// The values that a condition needs, of a block of grips.
+class ConditionValues {
+ public:
+  ConditionValues(const SweepResult& result, const Scene& scene, const Plan& plan, const std::vector<WhereValue>& values)
+      : result_(result), scene_(scene), plan_(plan), wanted_(values), columns_(values.size()), row_(values.size()) {}
+
+  void read(std::size_t vessel, std::uint64_t first, std::size_t count) {
+    for (std::size_t k = 0; k < wanted_.size(); ++k) {
+      columns_[k].resize(count);
+      read_column(wanted_[k], vessel, first, count, columns_[k].data());
+    }
+  }
+
+  // Those of grip `i` of the block.
+  const double* row(std::size_t i) {
+    for (std::size_t k = 0; k < columns_.size(); ++k) row_[k] = columns_[k][i];
+    return row_.data();
+  }
+
+ private:
+  void read_column(const WhereValue& wanted, std::size_t vessel, std::uint64_t first, std::size_t count, double* out) {
+    const auto catalogue = variable_catalogue();
+    if (wanted.source >= catalogue.size()) {
+      read_axis(wanted.source - catalogue.size(), vessel, first, count, out);
+      return;
+    }
+    const Variable& variable = *result_.find(catalogue[wanted.source].name);
+    result_.read(variable, vessel, 0, first, count, out);
+    const std::size_t planes = variable_planes(variable, scene_);
+    plane_.resize(count);
+    for (std::size_t plane = 1; plane < planes; ++plane) {
+      result_.read(variable, vessel, plane, first, count, plane_.data());
+      for (std::size_t i = 0; i < count; ++i) {
+        const bool replaces = wanted.fold == WhereFold::least ? plane_[i] < out[i] : plane_[i] > out[i];
+        if (replaces || std::isnan(plane_[i])) out[i] = plane_[i];  // a comparison with NaN keeps it
+      }
+    }
+  }
+
+  void read_axis(std::size_t source, std::size_t vessel, std::uint64_t first, std::size_t count, double* out) {
+    if (source != SOURCE_HEIGHT) {
+      plan_.coordinates(static_cast<int>(source), first, count, out);
+      return;
+    }
+    grips_.resize(count);
+    plan_.fill(vessel, first, count, grips_.data());
+    for (std::size_t i = 0; i < count; ++i) out[i] = grips_[i].height;
+  }
+
+  const SweepResult& result_;
+  const Scene& scene_;
+  const Plan& plan_;
+  const std::vector<WhereValue>& wanted_;
+  std::vector<std::vector<double>> columns_;
+  std::vector<double> row_, plane_;
+  std::vector<GripInput> grips_;
+};
+
+// The variables that the rows of a list are made of.
+std::vector<std::string> row_variables(const Scene& scene) {
+  std::vector<std::string> names;
+  for (std::size_t term = 0; term < TERMS.size(); ++term)
+    if (has_term(scene, term)) names.push_back(variable_of(term));
+  names.insert(names.end(), {"closure", "gap", "fingers_used", "points_touching", "phalanx_depth", "palm_depth", "antipodal"});
+  if (!scene.tilts.empty())
+    names.insert(names.end(), {"peak_feedback_force", "peak_feedback_tilt", "largest_hold_force", "largest_safe_tilt"});
+  return names;
+}
+
+// Everything that is told of some grips, from the file.
+std::vector<BestGrip> read_rows(const SweepResult& result, const Scene& scene, const Plan& plan, std::size_t vessel,
+                                const std::vector<Candidate>& candidates) {
+  std::vector<std::uint64_t> grips;
+  for (const Candidate& candidate : candidates) grips.push_back(candidate.index);
+  const auto pick = [&](const std::string& name, std::size_t plane = 0) {
+    return result.pick(*result.find(name), vessel, plane, grips);
+  };
+  std::vector<BestGrip> best(grips.size());
+  for (std::size_t term = 0; term < TERMS.size(); ++term) {
+    if (!has_term(scene, term)) continue;
+    const auto values = pick(variable_of(term));
+    for (std::size_t i = 0; i < best.size(); ++i) best[i].terms[term] = values[i];
+  }
+  const auto closure = pick("closure"), gap = pick("gap"), fingers = pick("fingers_used"), points = pick("points_touching"),
+             phalanx = pick("phalanx_depth"), palm = pick("palm_depth"), antipodal = pick("antipodal");
+  std::array<std::vector<std::vector<double>>, 4> forces;  // of each fill
+  for (std::size_t fill = 0; fill < scene_fills(scene) && !scene.tilts.empty(); ++fill) {
+    std::size_t k = 0;
+    for (const char* name : {"peak_feedback_force", "peak_feedback_tilt", "largest_hold_force", "largest_safe_tilt"})
+      forces[k++].push_back(pick(name, fill));
+  }
+  for (std::size_t i = 0; i < best.size(); ++i) {
+    best[i].closure = closure[i];
+    best[i].gap = gap[i];
+    best[i].fingers_used = static_cast<int>(fingers[i]);
+    best[i].points_touching = static_cast<int>(points[i]);
+    best[i].phalanx_depth = phalanx[i];
+    best[i].palm_depth = palm[i];
+    best[i].antipodal = antipodal[i] != 0;
+    set_worst(best[i], scene, [&](int field, int fill) {
+      const std::size_t k = field == FIELD_PEAK_FORCE ? 0 : field == FIELD_PEAK_TILT ? 1 : field == FIELD_LARGEST_HOLD ? 2 : 3;
+      return forces[k][static_cast<std::size_t>(fill)][i];
+    });
+  }
+  for (std::size_t i = 0; i < best.size(); ++i) best[i].grip = plan.grip(vessel, grips[i]);
+  return best;
+}
+
+// The candidates of every list of a vessel, and how many grips they are of.
+void rank_vessel(const SweepResult& result, const Scene& scene, const Plan& plan, std::size_t vessel, Scores& scores,
+                 const Where* where, std::vector<BestCandidates>& best, Ranking& ranking) {
+  const Variable& plausible = *result.find("plausible");
+  const std::vector<WhereValue> none;
+  ConditionValues values(result, scene, plan, where ? where->values() : none);
+  const std::size_t scales = plan.hand_scales();
+  std::vector<double> is_plausible(GRIPS_AT_ONCE), score(GRIPS_AT_ONCE);
+  std::vector<std::size_t> hands(GRIPS_AT_ONCE);
+  for (std::uint64_t first = 0; first < plan.grips(); first += GRIPS_AT_ONCE) {
+    const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(GRIPS_AT_ONCE, plan.grips() - first));
+    result.read(plausible, vessel, 0, first, count, is_plausible.data());
+    scores.read(vessel, first, count, score.data());
+    plan.hand_scales_of(first, count, hands.data());
+    values.read(vessel, first, count);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (is_plausible[i] != 1) continue;  // infeasible ones have none
+      const std::size_t list = vessel * scales + hands[i];
+      ++ranking.plausible[list];
+      if (where && !where->holds(values.row(i))) continue;
+      ++ranking.matching[list];
+      best[list].offer({score[i], first + i});
+    }
+  }
+}
+
+}  // namespace
+
+std::array<double, 6> read_weights(const std::string& text, const Scene& scene) {
+  std::array<double, 6> weights = effective_weights(scene);
+  std::set<std::string_view> named;
+  std::string_view rest = text;
+  while (!rest.empty()) {
+    const std::size_t comma = std::min(rest.find(','), rest.size()), sign = std::min(rest.find('='), comma);
+    const std::string_view name = rest.substr(0, sign);
+    const std::string_view number = sign < comma ? rest.substr(sign + 1, comma - sign - 1) : std::string_view();
+    const bool is_last = comma == rest.size();
+    rest.remove_prefix(is_last ? comma : comma + 1);
+    const auto term = static_cast<std::size_t>(std::find(TERMS.begin(), TERMS.end(), name) - TERMS.begin());
+    if (term == TERMS.size()) {
+      throw usage_error(fmt::format("--weights: no term '{}'; the nearest is '{}' of {}", name.substr(0, 60),
+                                    nearest_name(name, TERMS), fmt::join(TERMS, ", ")));
+    }
+    if (!has_term(scene, term))
+      throw usage_error(fmt::format("--weights: {} needs [tilts], which the scene of this file does not have", name));
+    if (!named.insert(name).second) throw usage_error(fmt::format("--weights: {} is named twice", name));
+    double weight = -1;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), weight);
+    if (error != std::errc() || end != number.data() + number.size() || !(weight >= 0 && weight <= LARGEST_WEIGHT))
+      throw usage_error(fmt::format("--weights: {}={}; allowed: a number, 0 to {}", name, number.substr(0, 60), LARGEST_WEIGHT));
+    weights[term] = weight;
+    if (!is_last && rest.empty()) throw usage_error("--weights: ends with a comma; name a term after it");
+  }
+  if (std::all_of(weights.begin(), weights.end(), [](double weight) { return weight == 0; }))
+    throw usage_error("--weights: no term has a weight above 0");
+  return weights;
+}
+
+std::vector<WhereName> where_names(const SweepResult& result, const Scene& scene, const Plan& plan) {
+  std::vector<WhereName> names;
+  const auto catalogue = variable_catalogue();
+  for (std::size_t k = 0; k < catalogue.size(); ++k) {
+    const Variable& variable = catalogue[k];
+    const std::string_view name = variable.name, meaning = variable.comment;
+    WhereName entry{variable.name, variable.units, WhereKind::number, WhereUnit::own, "", refusal_of(variable, result, scene), k};
+    if (name.ends_with("_mask")) entry.kind = WhereKind::mask;
+    if (meaning == YES_NO) entry.kind = WhereKind::truth;
+    if (variable_planes(variable, scene) > 1) entry.over = fmt::format("{}", fmt::join(variable.dims, " and "));
+    add_names(names, entry);
+  }
+  const std::size_t first = catalogue.size() + SOURCE_AXIS;
+  for (std::size_t place = 0; place < plan.axes().size(); ++place) {
+    const PlanAxis& axis = plan.axes()[place];
+    if (axis.name == "height") continue;
+    WhereName entry{axis.name, axis.units, WhereKind::number, WhereUnit::own, "", "", first + place};
+    if (place == PLACE_AZIMUTH && plan.copies() > 1)
+      entry.refusal = "changes nothing in this sweep: the vessels are bodies of revolution, and one azimuth stands for all";
+    add_names(names, entry);
+  }
+  add_names(names, {"height", "m", WhereKind::number, WhereUnit::own, "", "", catalogue.size() + SOURCE_HEIGHT});
+  return names;
+}
+
+Ranking rank_grips(const SweepResult& result, const Scene& scene, const Plan& plan, const RankRequest& request,
+                   const std::function<std::shared_ptr<const Evaluator>()>& open_core) {
+  needed(result, {"plausible"});
+  Scores scores(result, scene, request.weights);
+  const std::vector<WhereName> names = where_names(result, scene, plan);
+  const std::unique_ptr<const Where> where = request.where.empty() ? nullptr : std::make_unique<Where>(request.where, names);
+  const std::size_t scales = plan.hand_scales(), lists = scene.vessels.size() * scales;
+  Ranking ranking{{}, std::vector<std::uint64_t>(lists, 0), std::vector<std::uint64_t>(lists, 0), ""};
+  std::vector<BestCandidates> best(lists, BestCandidates(request.best));
+  for (std::size_t v = 0; v < scene.vessels.size(); ++v) rank_vessel(result, scene, plan, v, scores, where.get(), best, ranking);
+  const auto rows = row_variables(scene);
+  const bool is_whole = std::all_of(rows.begin(), rows.end(), [&](const std::string& name) { return result.find(name); });
+  std::unique_ptr<CoreBackend> core;
+  if (!is_whole) {
+    core = std::make_unique<CoreBackend>(open_core(), scene, make_field_set(best_fields(scene), scene), Precision::full, 0);
+    ranking.note =
+        "the file does not keep all that the table shows: beside places and scores it is the core's, in double precision";
+  }
+  for (std::size_t list = 0; list < lists; ++list) {
+    const std::vector<Candidate> chosen = best[list].sorted();
+    auto grips =
+        is_whole ? read_rows(result, scene, plan, list / scales, chosen) : evaluate_best(*core, scene, plan, list / scales, chosen);
+    for (std::size_t i = 0; i < grips.size(); ++i) {
+      grips[i].candidate = chosen[i];
+      grips[i].score = chosen[i].score;
+      grips[i].rank = i + 1;
+    }
+    ranking.lists.push_back(std::move(grips));
+  }
+  return ranking;
+}
+
+}  // namespace wholehand

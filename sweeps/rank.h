@@ -1,0 +1,45 @@
+// The best grips of a result by other weights and under conditions, without another sweep: what `wholehand rank` does.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/evaluator.h"
+#include "sweeps/best.h"
+#include "sweeps/grip_lists.h"
+#include "sweeps/where.h"
+
+namespace wholehand {
+
+// Weights of the six terms, in the order of effective_weights, from "fingers=0.2,depth=0.5": the scene's own where one is not named; in a scene
+// without tilts, where they are scaled to sum to 1, those named are taken as they are and the others as scaled. Throws Error (usage) for a term that is not
+// known or not there, is named twice, or whose weight is no number from 0 to 1000; and where no weight is left.
+std::array<double, 6> read_weights(const std::string& text, const Scene& scene);
+
+// What a condition may name: every variable of the catalogue, and the axes. Whatever the file lacks is there with the reason.
+std::vector<WhereName> where_names(const SweepResult& result, const Scene& scene, const Plan& plan);
+
+struct RankRequest {
+  std::string weights;   // as of read_weights; empty: the sweep's own scores
+  std::string where;     // empty: all grips
+  std::size_t best = 0;  // grips a list at most
+};
+
+struct Ranking {
+  std::vector<std::vector<BestGrip>> lists;  // as of GripLists, the best first
+  std::vector<std::uint64_t> matching;       // grips of each list that are feasible, plausible and meet the condition,
+  std::vector<std::uint64_t> plausible;      // of so many that are feasible and plausible
+  std::string note;                          // for the user: what is not from the file; empty: everything is
+};
+
+// Goes through the file in blocks, so that memory does not depend on the number of grips. Only feasible, plausible grips are listed, by score, then by
+// their number, as a sweep lists them; with the sweep's own weights the scores are the file's. What else is told of them is the file's or, where
+// that lacks some of it, the core's. Throws Error (usage): read_weights, Where, or values that the file lacks, with what to keep.
+Ranking rank_grips(const SweepResult& result, const Scene& scene, const Plan& plan, const RankRequest& request,
+                   const std::function<std::shared_ptr<const Evaluator>()>& open_core);
+
+}  // namespace wholehand

@@ -1,0 +1,126 @@
+#include "sweeps/result_definition.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+#include <utility>
+
+#include "core/error.h"
+#include "sweeps/variables.h"
+
+namespace wholehand {
+
+ResultDefinition::ResultDefinition(const std::string& path) : path_(path) {
+  // absolute: the library takes a path of an address's form for one
+  check(nc_create(std::filesystem::absolute(path).c_str(), NC_NETCDF4 | NC_NOCLOBBER, &file_));
+}
+
+ResultDefinition::~ResultDefinition() {
+  if (file_ >= 0) nc_abort(file_);
+}
+
+void ResultDefinition::check(int status) const {
+  if (status == NC_NOERR) return;
+  const char* why = status > 0 ? std::strerror(status) : nc_strerror(status);
+  throw failure_error(fmt::format("{}: cannot write the result file: {}; is the disk full?", path_, why));
+}
+
+void ResultDefinition::finish(const std::vector<int>& later) {
+  check(nc_enddef(file_));
+  for (const auto& put : values_) put();
+  for (const int variable : later) allocate(variable);
+  const int file = file_;
+  file_ = -1;
+  check(nc_close(file));
+}
+
+void ResultDefinition::dimension(const std::string& name, std::size_t length) {
+  int id = -1;
+  check(nc_def_dim(file_, name.c_str(), length, &id));
+}
+
+int ResultDefinition::dimension_id(const std::string& name) {
+  int id = -1;
+  check(nc_inq_dimid(file_, name.c_str(), &id));
+  return id;
+}
+
+void ResultDefinition::text(int variable, const char* name, const std::string& value) {
+  check(nc_put_att_text(file_, variable, name, value.size(), value.c_str()));
+}
+
+void ResultDefinition::number(int variable, const char* name, double value) {
+  check(nc_put_att_double(file_, variable, name, NC_DOUBLE, 1, &value));
+}
+
+int ResultDefinition::variable(const std::string& name, nc_type type, const Names& dims, const std::string& units,
+                               const std::string& long_name) {
+  std::vector<int> ids;
+  for (const std::string& dim : dims) ids.push_back(dimension_id(dim));
+  int id = -1;
+  check(nc_def_var(file_, name.c_str(), type, static_cast<int>(ids.size()), ids.data(), &id));
+  if (type != NC_STRING) {
+    if (!ids.empty()) check(nc_def_var_chunking(file_, id, NC_CONTIGUOUS, nullptr));
+    check(nc_def_var_fill(file_, id, NC_NOFILL, nullptr));
+  }
+  if (!units.empty()) text(id, "units", units);
+  text(id, "long_name", long_name);
+  return id;
+}
+
+void ResultDefinition::numbers(int variable, const char* name, nc_type type, std::size_t count, const void* values) {
+  check(nc_put_att(file_, variable, name, type, count, values));
+}
+
+void ResultDefinition::fill_value(int variable, nc_type type) {
+  const double full = std::numeric_limits<double>::quiet_NaN();
+  const float real = std::numeric_limits<float>::quiet_NaN();
+  const int missing = MISSING;
+  const signed char small = MISSING;
+  const void* value = &real;
+  if (type == NC_DOUBLE) value = &full;
+  if (type == NC_BYTE) value = &small;
+  if (type == NC_INT) value = &missing;
+  numbers(variable, "_FillValue", type, 1, value);
+}
+
+void ResultDefinition::doubles(const std::string& name, const Names& dims, const std::string& units, const std::string& long_name,
+                               std::vector<double> values) {
+  const int id = variable(name, NC_DOUBLE, dims, units, long_name);
+  fill_value(id, NC_DOUBLE);
+  values_.push_back([this, id, values = std::move(values)] { check(nc_put_var_double(file_, id, values.data())); });
+}
+
+void ResultDefinition::integers(const std::string& name, const Names& dims, const std::string& units, const std::string& long_name,
+                                std::vector<int> values) {
+  const int id = variable(name, NC_INT, dims, units, long_name);
+  values_.push_back([this, id, values = std::move(values)] { check(nc_put_var_int(file_, id, values.data())); });
+}
+
+void ResultDefinition::labels(const std::string& name, const std::string& long_name, const Names& values) {
+  const int id = variable(name, NC_STRING, {name}, "", long_name);
+  values_.push_back([this, id, values] {
+    std::vector<const char*> pointers;
+    for (const std::string& value : values) pointers.push_back(value.c_str());
+    check(nc_put_var_string(file_, id, pointers.data()));
+  });
+}
+
+// HDF5 gives a contiguous block its place in the file when something is first written to it.
+void ResultDefinition::allocate(int id) {
+  int dims = 0;
+  std::array<int, NC_MAX_VAR_DIMS> ids{};
+  check(nc_inq_var(file_, id, nullptr, nullptr, &dims, ids.data(), nullptr));
+  std::vector<std::size_t> last(dims);
+  for (int k = 0; k < dims; ++k) {
+    check(nc_inq_dimlen(file_, ids[k], &last[k]));
+    --last[k];
+  }
+  const std::array<double, 1> zero{};  // large enough for every type
+  check(nc_put_var1(file_, id, last.data(), zero.data()));
+}
+
+}  // namespace wholehand

@@ -1,0 +1,56 @@
+// A NetCDF-4 file while it is defined: dimensions, attributes and variables, every one of them contiguous and in native byte order, so that
+// values can be put in their places later without the library.
+#pragma once
+
+#include <netcdf.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace wholehand {
+
+// Every method throws Error (failure) with the file's name. The file is discarded unless `finish` was called.
+class ResultDefinition {
+ public:
+  using Names = std::vector<std::string>;
+
+  // Creates the file, which must not be there.
+  explicit ResultDefinition(const std::string& path);
+  ~ResultDefinition();
+  ResultDefinition(const ResultDefinition&) = delete;
+  ResultDefinition& operator=(const ResultDefinition&) = delete;
+
+  void dimension(const std::string& name, std::size_t length);
+
+  // Attributes of a variable, or of the file (NC_GLOBAL).
+  void text(int variable, const char* name, const std::string& value);
+  void number(int variable, const char* name, double value);
+  void numbers(int variable, const char* name, nc_type type, std::size_t count, const void* values);
+  // What stands for a missing value: NaN or MISSING.
+  void fill_value(int variable, nc_type type);
+
+  // A variable with its units and name, whose values come later; not filled first.
+  int variable(const std::string& name, nc_type type, const Names& dims, const std::string& units, const std::string& long_name);
+
+  // Variables with their values, which `finish` writes. Labels are those of the dimension of their name.
+  void doubles(const std::string& name, const Names& dims, const std::string& units, const std::string& long_name,
+               std::vector<double> values);
+  void integers(const std::string& name, const Names& dims, const std::string& units, const std::string& long_name,
+                std::vector<int> values);
+  void labels(const std::string& name, const std::string& long_name, const Names& values);
+
+  // Ends the definition, writes what it has values of, gives the blocks of `later` their places and closes the file.
+  void finish(const std::vector<int>& later);
+
+ private:
+  void check(int status) const;
+  int dimension_id(const std::string& name);
+  void allocate(int variable);
+
+  std::string path_;
+  int file_ = -1;
+  std::vector<std::function<void()>> values_;  // written once the definition stands
+};
+
+}  // namespace wholehand

@@ -1,0 +1,78 @@
+#include "sweeps/resume.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sys/stat.h>
+
+#include "core/error.h"
+#include "sweeps/build_id.h"
+#include "sweeps/mesh_vessel.h"
+#include "sweeps/readable.h"
+#include "sweeps/sweep_result.h"
+
+#ifndef WHOLEHAND_VERSION
+#define WHOLEHAND_VERSION "unknown"
+#endif
+
+namespace wholehand {
+
+void check_complete(const std::string& result, const Scene& scene, bool on_core, Precision precision,
+                    const std::vector<const Variable*>& variables) {
+  const SweepResult there(result);
+  const SweepOrigin& origin = there.origin();
+  const auto refuse = [&result](const std::string& what) {
+    throw usage_error(
+        fmt::format("--resume: {} is complete, of another {}; name another file, or start again without --resume", result, what));
+  };
+  if (origin.scene != scene.text) refuse("scene");
+  if ((origin.backend == "core") != on_core) refuse("backend: " + origin.backend);
+  if (origin.precision != precision) refuse(origin.precision == Precision::single ? "precision: float" : "precision: double");
+  for (const Variable* variable : variables) {
+    if (!there.find(variable->name)) refuse(fmt::format("set of variables: it lacks {}", variable->name));
+  }
+}
+
+std::map<std::string, std::string> sweep_identity(const Scene& scene, const Plan& plan, const BackendInfo& info, std::size_t best,
+                                                  const std::vector<const Variable*>& variables) {
+  std::vector<std::string> names;
+  for (const Variable* variable : variables) names.push_back(variable->name);
+  return {{"scene", scene.text},
+          {"version", WHOLEHAND_VERSION},
+          {"build", build_id()},  // other code may give other bits
+          {"backend", info.backend},
+          // the core gives the same on any number of threads
+          {"device", info.backend == "core" ? "core" : info.device},
+          {"driver", info.driver},
+          {"precision", info.precision == Precision::single ? "float" : "double"},
+          {"number of best grips", std::to_string(best)},
+          {"number of grips", fmt::format("{} x {} x {}", scene.vessels.size(), plan.grips(), plan.copies())},
+          {"set of meshes", mesh_keys(scene)},
+          {"set of variables", fmt::format("{}", fmt::join(names, " "))}};
+}
+
+bool load_usable_mark(const OutputNames& names, const std::map<std::string, std::string>& identity, const MarkBounds& bounds,
+                      SweepMark& mark, std::string& note) {
+  struct stat partial {};
+  if (stat(names.partial.c_str(), &partial) != 0 || !load_mark(names.mark, mark)) return false;
+  check_identity(names.partial, mark, identity);
+  check_progress(names.mark, mark, bounds);
+  if (has_structure(names.partial, mark)) return true;
+  note = fmt::format("{} is damaged: it is not as the mark left it", names.partial);
+  return false;
+}
+
+std::string lost_line(const OutputNames& names) {
+  struct stat partial {};
+  SweepMark earlier;
+  try {
+    if (stat(names.partial.c_str(), &partial) != 0 || !load_mark(names.mark, earlier)) return "";
+  } catch (const Error&) {
+    return "";  // nothing could have gone on from there
+  }
+  std::uint64_t kept = 0;
+  for (const VesselProgress& vessel : earlier.vessels) kept += vessel.done;
+  return fmt::format("{} held {} grips of a sweep that was interrupted: begun again without them (--resume goes on)", names.partial,
+                     readable_number(kept));
+}
+
+}  // namespace wholehand

@@ -1,0 +1,94 @@
+// The built program's `rank`, and its lists handed back to grip and report.
+// sanitizers: address
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/support/program.h"
+#include "tests/support/result_reader.h"
+
+namespace wholehand {
+namespace {
+
+class CommandRank : public testing::Test {
+ protected:
+  void SetUp() override { ASSERT_EQ(run("PROGRAM sweep small --on core --best 4 -o " + result + " >/dev/null").code, 0); }
+
+  TemporaryFolder folder;
+  std::string result = folder / "a.nc", list = folder / "list.csv";
+};
+
+TEST_F(CommandRank, WithoutOptionsItIsTheSweepsOwnListByteForByte) {
+  const Outcome outcome = run("PROGRAM rank " + result + " -o " + list + " 2>&1");
+  ASSERT_EQ(outcome.code, 0) << outcome.output;
+  EXPECT_EQ(file_text(list), file_text(folder / "a.best.csv"));
+  EXPECT_NE(outcome.output.find("\n  rank  score"), std::string::npos) << outcome.output;
+  EXPECT_NE(outcome.output.find("wrote " + list), std::string::npos) << outcome.output;
+}
+
+TEST_F(CommandRank, AListIsHandedBack) {
+  ASSERT_EQ(run("PROGRAM rank " + result + " --weights posture=9 --where 'roll_deg < 0' --best 3 -o " + list + " >/dev/null").code,
+            0);
+  const std::string ranked = "PROGRAM grip " + result + " --vessel tumbler --rank 2 --json", by_list = ranked + " --list " + list;
+  const Outcome own = run(ranked), listed = run(by_list);
+  ASSERT_EQ(own.code, 0);
+  ASSERT_EQ(listed.code, 0);
+  EXPECT_NE(own.output, listed.output);
+  const auto told = nlohmann::json::parse(own.output)["grip"];
+  EXPECT_EQ(told["height_m"], read_values(result, "best_height")[1]);
+  EXPECT_EQ(told["roll_rad"], read_values(result, "best_roll")[1]);
+  EXPECT_EQ(told["obliquity_rad"], read_values(result, "best_obliquity")[1]);
+  EXPECT_LT(nlohmann::json::parse(listed.output)["grip"]["roll_rad"], 0) << "as the condition has it";
+  EXPECT_EQ(run(by_list + " --glb " + (folder / "g.glb") + " >/dev/null").code, 0);
+  EXPECT_TRUE(file_exists(folder / "g.glb"));
+  EXPECT_EQ(run(by_list + " --svg " + (folder / "g.svg") + " >/dev/null").code, 0);
+  EXPECT_EQ(run(ranked + " --svg " + (folder / "own.svg") + " >/dev/null").code, 0);
+  EXPECT_NE(file_text(folder / "g.svg"), file_text(folder / "own.svg"));
+  const Outcome page = run("PROGRAM report " + result + " --list " + list + " -o " + (folder / "p.html") + " 2>&1");
+  ASSERT_EQ(page.code, 0) << page.output;
+  EXPECT_NE(file_text(folder / "p.html").find("Places and scores are those of list.csv"), std::string::npos);
+}
+
+TEST_F(CommandRank, DrawingsBearTheNameOfTheList) {
+  ASSERT_EQ(run("PROGRAM rank " + result + " --glb 2 -o " + list + " 2>&1").code, 0);
+  EXPECT_TRUE(file_exists(folder / "list.tumbler.1.glb"));
+  EXPECT_TRUE(file_exists(folder / "list.tumbler.2.glb"));
+  EXPECT_FALSE(file_exists(folder / "list.tumbler.3.glb"));
+}
+
+TEST_F(CommandRank, WhatIsWrongIsOneLineAndNothingIsWritten) {
+  std::ofstream(folder / "mine.txt") << "mine";
+  std::ofstream(folder / "other.nc") << "\x89HDF\r\n\x1a\n";
+  std::filesystem::copy_file(folder / "a.best.csv", folder / "other.best.csv");
+  const std::string before = file_text(result), own = file_text(folder / "a.best.csv");
+  const std::pair<std::string, std::string> cases[] = {
+      {"rank /nonexistent.nc", "/nonexistent.nc: cannot be read"},
+      {"rank " + result + " -o " + result, "this is the result file itself"},
+      {"rank " + result + " -o " + (folder / "a.best.csv"), "this is the sweep's own list"},
+      {"rank " + result + " -o " + (folder / "mine.txt"), "is there and is no list of grips"},
+      {"rank " + result + " -o " + (folder / "other.best.csv"), "this is the own list of " + (folder / "other.nc")},
+      {"rank " + result + " --glb 1", "--glb: -o names the list"},
+      {"rank " + result + " --best 0", "--best '0'; allowed"},
+      {"rank " + result + " --where 'fingers_usd > 1' -o " + list,
+       "--where, column 1: no value 'fingers_usd'; the nearest is 'fingers_used'"},
+      {"rank " + result + " --weights 'finger=1'", "--weights: no term 'finger'"},
+      {"grip " + result + " --vessel tumbler", "is a result; which of its grips? give --rank"},
+      {"grip " + result + " --vessel tumbler --rank 5", "--rank 5: " + result + " lists 4 grips of tumbler"},
+      {"grip " + result + " --vessel tumbler --rank 1 --height-mm 5", "excludes"},
+      {"grip " + result + " --vessel tumbler --rank 1 --hand-scale 1", "--hand-scale: the sweep has one list for all"},
+      {"grip small --vessel tumbler --list x", "--list: which grip of it? give --rank"},
+      {"grip " + result + " --vessel tumbler --rank 1 --list " + (folder / "mine.txt"), "is no list of wholehand rank"},
+      {"view " + result + " --list " + (folder / "none.csv"), "none.csv: cannot be read"},
+      {"report " + result + " --list " + (folder / "mine.txt"), "is no list of wholehand rank"},
+  };
+  for (const auto& [arguments, gist] : cases) expect_error(arguments, 2, gist);
+  EXPECT_FALSE(file_exists(list));
+  EXPECT_EQ(file_text(result), before);
+  EXPECT_EQ(file_text(folder / "a.best.csv"), own);
+}
+
+}  // namespace
+}  // namespace wholehand
