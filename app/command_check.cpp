@@ -9,9 +9,9 @@
 #include "app/paths.h"
 #include "app/scene_reader.h"
 #include "app/validators.h"
+#include "core/domain.h"
 #include "sweeps/cavity_notes.h"
 #include "sweeps/check.h"
-#include "sweeps/domain.h"
 #include "sweeps/mesh_vessel.h"
 #include "sweeps/open_backend.h"
 

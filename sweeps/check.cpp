@@ -2,10 +2,10 @@
 
 #include <memory>
 
+#include "core/domain.h"
 #include "core/error.h"
 #include "host/grip_backend.h"
 #include "sweeps/check_sample.h"
-#include "sweeps/domain.h"
 #include "sweeps/progress.h"
 
 namespace wholehand {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "sweeps/domain.h"
+#include "core/domain.h"
 
 namespace wholehand {
 namespace {

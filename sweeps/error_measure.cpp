@@ -10,10 +10,10 @@
 #include <limits>
 #include <numeric>
 
+#include "core/core_backend.h"
 #include "core/prepare.h"
 #include "core/touch.h"
 #include "host/grip_backend.h"
-#include "sweeps/core_backend.h"
 #include "sweeps/plan.h"
 #include "sweeps/variables.h"
 

@@ -7,9 +7,9 @@
 #include <memory>
 #include <vector>
 
+#include "core/core_backend.h"
 #include "core/gather.h"
 #include "host/grip_backend.h"
-#include "sweeps/core_backend.h"
 #include "sweeps/readable.h"
 #include "sweeps/variables.h"
 

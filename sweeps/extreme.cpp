@@ -8,9 +8,9 @@
 #include <memory>
 #include <optional>
 
+#include "core/core_backend.h"
 #include "core/error.h"
 #include "host/grip_backend.h"
-#include "sweeps/core_backend.h"
 #include "sweeps/csv.h"
 #include "sweeps/plan.h"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/backend.h"
-#include "sweeps/candidates.h"
+#include "core/candidates.h"
 #include "sweeps/plan.h"
 
 namespace wholehand {

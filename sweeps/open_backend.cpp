@@ -4,10 +4,10 @@
 #include <limits>
 #include <vector>
 
+#include "core/core_backend.h"
 #include "core/error.h"
 #include "host/device.h"
 #include "host/grip_backend.h"
-#include "sweeps/core_backend.h"
 
 namespace wholehand {
 

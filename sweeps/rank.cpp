@@ -9,11 +9,11 @@
 #include <cstring>
 #include <set>
 
+#include "core/candidates.h"
+#include "core/core_backend.h"
 #include "core/error.h"
 #include "core/nearest_name.h"
 #include "shaders/layout.h"
-#include "sweeps/candidates.h"
-#include "sweeps/core_backend.h"
 
 namespace wholehand {
 namespace {

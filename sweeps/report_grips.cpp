@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "core/core_backend.h"
 #include "core/error.h"
-#include "sweeps/core_backend.h"
 #include "sweeps/grip_lists.h"
 #include "sweeps/grip_svg.h"
 #include "sweeps/hand_nodes.h"

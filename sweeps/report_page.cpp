@@ -9,8 +9,8 @@
 #include <set>
 #include <string_view>
 
+#include "core/candidates.h"
 #include "core/error.h"
-#include "sweeps/candidates.h"
 #include "sweeps/edge.h"
 #include "sweeps/files.h"
 #include "sweeps/readable.h"

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "sweeps/core_backend.h"
+#include "core/core_backend.h"
 
 namespace wholehand {
 

@@ -8,13 +8,13 @@
 #include <set>
 #include <utility>
 
+#include "core/domain.h"
 #include "core/prepare.h"
 #include "sweeps/best.h"
 #include "sweeps/best_glb.h"
 #include "sweeps/cavity_notes.h"
 #include "sweeps/closing.h"
 #include "sweeps/companions.h"
-#include "sweeps/domain.h"
 #include "sweeps/explain.h"
 #include "sweeps/grip_lists.h"
 #include "sweeps/hand_lists.h"

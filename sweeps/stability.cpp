@@ -9,9 +9,9 @@
 #include <cstdio>
 #include <iterator>
 
-#include "sweeps/core_backend.h"
+#include "core/core_backend.h"
+#include "core/domain.h"
 #include "sweeps/csv.h"
-#include "sweeps/domain.h"
 #include "sweeps/files.h"
 #include "sweeps/folder_files.h"
 #include "sweeps/gains.h"

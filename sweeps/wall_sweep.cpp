@@ -10,9 +10,9 @@
 #include <random>
 #include <thread>
 
+#include "core/core_backend.h"
 #include "core/wall_run.h"
 #include "host/wall_map.h"
-#include "sweeps/core_backend.h"
 #include "sweeps/gnuplot.h"
 
 namespace wholehand {

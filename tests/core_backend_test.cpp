@@ -1,5 +1,5 @@
 // sanitizers: address thread
-#include "sweeps/core_backend.h"
+#include "core/core_backend.h"
 
 #include <gtest/gtest.h>
 

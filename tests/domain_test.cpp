@@ -1,6 +1,6 @@
 // Where float is enough: the limits are named, and at them it is.
 // sanitizers: none
-#include "sweeps/domain.h"
+#include "core/domain.h"
 
 #include <gtest/gtest.h>
 

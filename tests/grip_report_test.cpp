@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "app/scene_reader.h"
+#include "core/core_backend.h"
 #include "core/error.h"
-#include "sweeps/core_backend.h"
 
 namespace wholehand {
 namespace {

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "core/domain.h"
 #include "sweeps/check_sample.h"
 #include "sweeps/compare.h"
-#include "sweeps/domain.h"
 #include "tests/support/random_scenes.h"
 #include "tests/support/vulkan_listener.h"
 #include "tests/support/whole_parity.h"

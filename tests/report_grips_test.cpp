@@ -6,7 +6,7 @@
 
 #include <regex>
 
-#include "sweeps/core_backend.h"
+#include "core/core_backend.h"
 #include "sweeps/grip_svg.h"
 #include "tests/support/sweep_results.h"
 

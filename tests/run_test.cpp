@@ -17,9 +17,9 @@
 #include <random>
 #include <sstream>
 
+#include "core/core_backend.h"
 #include "core/mesh_body.h"
 #include "shaders/layout.h"
-#include "sweeps/core_backend.h"
 #include "sweeps/files.h"
 #include "sweeps/mark.h"
 #include "sweeps/plan.h"

@@ -5,9 +5,9 @@
 
 #include "app/paths.h"
 #include "app/scene_reader.h"
+#include "core/core_backend.h"
 #include "core/evaluator.h"
 #include "host/grip_backend.h"
-#include "sweeps/core_backend.h"
 #include "tests/bench/bench.h"
 
 namespace wholehand::bench {

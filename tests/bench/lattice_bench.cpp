@@ -4,9 +4,9 @@
 
 #include <chrono>
 
+#include "core/core_backend.h"
 #include "core/evaluator.h"
 #include "host/grip_backend.h"
-#include "sweeps/core_backend.h"
 #include "tests/bench/bench.h"
 
 namespace wholehand::bench {

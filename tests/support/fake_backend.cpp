@@ -4,7 +4,7 @@
 #include <bit>
 #include <limits>
 
-#include "sweeps/candidates.h"
+#include "core/candidates.h"
 
 namespace wholehand {
 namespace {

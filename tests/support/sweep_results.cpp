@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "app/scene_reader.h"
-#include "sweeps/core_backend.h"
+#include "core/core_backend.h"
 #include "sweeps/hand_lists.h"
 #include "sweeps/result_file.h"
 

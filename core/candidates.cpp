@@ -1,4 +1,4 @@
-#include "sweeps/candidates.h"
+#include "core/candidates.h"
 
 #include <algorithm>
 

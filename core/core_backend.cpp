@@ -1,4 +1,4 @@
-#include "sweeps/core_backend.h"
+#include "core/core_backend.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include <mutex>
 #include <thread>
 
-#include "sweeps/candidates.h"
+#include "core/candidates.h"
 
 namespace wholehand {
 namespace {

@@ -1,4 +1,4 @@
-#include "sweeps/domain.h"
+#include "core/domain.h"
 
 #include <fmt/format.h>
 
