@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "app/output.h"
+#include "system/output.h"
 
 extern char** environ;
 

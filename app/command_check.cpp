@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "app/commands.h"
-#include "app/output.h"
 #include "app/paths.h"
 #include "app/scene_reader.h"
 #include "app/validators.h"
@@ -14,6 +13,7 @@
 #include "sweeps/check.h"
 #include "sweeps/mesh_vessel.h"
 #include "sweeps/open_backend.h"
+#include "system/output.h"
 
 namespace wholehand {
 namespace {

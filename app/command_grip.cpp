@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "app/commands.h"
-#include "app/output.h"
 #include "app/paths.h"
 #include "app/result_scene.h"
 #include "app/scene_fills.h"
@@ -25,13 +24,14 @@
 #include "core/capacity.h"
 #include "core/domain.h"
 #include "sweeps/cavity_notes.h"
-#include "sweeps/files.h"
 #include "sweeps/grip_glb.h"
 #include "sweeps/grip_lists.h"
 #include "sweeps/grip_report.h"
 #include "sweeps/grip_svg.h"
 #include "sweeps/mesh_vessel.h"
 #include "sweeps/open_backend.h"
+#include "system/files.h"
+#include "system/output.h"
 
 namespace wholehand {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "app/command_names.h"
 #include "app/commands.h"
-#include "app/output.h"
+#include "system/output.h"
 
 namespace wholehand {
 namespace {

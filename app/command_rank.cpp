@@ -8,16 +8,16 @@
 #include <memory>
 
 #include "app/commands.h"
-#include "app/output.h"
 #include "app/result_scene.h"
 #include "app/validators.h"
 #include "app/values.h"
 #include "sweeps/best_glb.h"
 #include "sweeps/closing.h"
 #include "sweeps/companions.h"
-#include "sweeps/files.h"
 #include "sweeps/rank.h"
-#include "sweeps/readable.h"
+#include "system/files.h"
+#include "system/output.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {

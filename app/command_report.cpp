@@ -5,12 +5,12 @@
 #include <memory>
 
 #include "app/commands.h"
-#include "app/output.h"
 #include "app/result_scene.h"
 #include "app/validators.h"
-#include "sweeps/files.h"
-#include "sweeps/readable.h"
 #include "sweeps/report_page.h"
+#include "system/files.h"
+#include "system/output.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {

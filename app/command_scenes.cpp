@@ -2,9 +2,9 @@
 #include <CLI/CLI.hpp>
 
 #include "app/commands.h"
-#include "app/output.h"
 #include "app/paths.h"
 #include "app/scene_list.h"
+#include "system/output.h"
 
 namespace wholehand {
 namespace {

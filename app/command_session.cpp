@@ -5,13 +5,13 @@
 #include <memory>
 
 #include "app/commands.h"
-#include "app/output.h"
 #include "app/validators.h"
-#include "sweeps/files.h"
-#include "sweeps/folder_files.h"
-#include "sweeps/gnuplot.h"
 #include "sweeps/session_plot.h"
 #include "sweeps/session_report.h"
+#include "system/files.h"
+#include "system/folder_files.h"
+#include "system/gnuplot.h"
+#include "system/output.h"
 
 namespace wholehand {
 namespace {

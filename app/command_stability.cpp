@@ -4,13 +4,13 @@
 #include <memory>
 
 #include "app/commands.h"
-#include "app/output.h"
 #include "app/paths.h"
 #include "app/scene_reader.h"
 #include "app/validators.h"
 #include "app/values.h"
 #include "sweeps/stability.h"
 #include "sweeps/wall.h"
+#include "system/output.h"
 
 namespace wholehand {
 namespace {

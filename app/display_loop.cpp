@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/block_signals.h"
+#include "system/block_signals.h"
 
 namespace wholehand {
 namespace {

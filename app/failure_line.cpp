@@ -14,8 +14,8 @@
 #include <string>
 #include <typeinfo>
 
-#include "core/failure_signals.h"
-#include "core/memory_limit.h"
+#include "system/failure_signals.h"
+#include "system/memory_limit.h"
 
 namespace wholehand {
 namespace {

@@ -20,10 +20,8 @@
 #include "app/live_view.h"
 #include "app/open_gripper.h"
 #include "app/osc_stream.h"
-#include "app/output.h"
 #include "app/paths.h"
 #include "app/scene_reader.h"
-#include "app/version.h"
 #include "app/view_control.h"
 #include "core/session.h"
 #include "core/tick_ring.h"
@@ -36,11 +34,13 @@
 #include "device/view_gripper.h"
 #include "sweeps/cavity_notes.h"
 #include "sweeps/gains.h"
-#include "sweeps/interrupt.h"
 #include "sweeps/mesh_vessel.h"
-#include "sweeps/progress.h"
 #include "sweeps/recorder.h"
 #include "sweeps/recording.h"
+#include "system/interrupt.h"
+#include "system/output.h"
+#include "system/progress.h"
+#include "system/version.h"
 
 namespace wholehand {
 namespace {

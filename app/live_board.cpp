@@ -2,8 +2,8 @@
 
 #include <utility>
 
-#include "app/output.h"
-#include "sweeps/progress.h"
+#include "system/output.h"
+#include "system/progress.h"
 
 namespace wholehand {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "sweeps/readable.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "app/http_connection.h"
-#include "core/block_signals.h"
 #include "core/error.h"
+#include "system/block_signals.h"
 
 namespace wholehand {
 namespace {

@@ -12,12 +12,12 @@
 #include "app/commands.h"
 #include "app/failure_line.h"
 #include "app/open_files.h"
-#include "app/output.h"
 #include "app/scene_text.h"
-#include "app/version.h"
 #include "core/error.h"
-#include "core/memory_limit.h"
 #include "host/device.h"
+#include "system/memory_limit.h"
+#include "system/output.h"
+#include "system/version.h"
 
 namespace {
 

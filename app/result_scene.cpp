@@ -6,8 +6,8 @@
 
 #include "app/scene_reader.h"
 #include "core/error.h"
-#include "sweeps/files.h"
 #include "sweeps/mesh_vessel.h"
+#include "system/files.h"
 
 namespace wholehand {
 

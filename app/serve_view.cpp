@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "app/browser.h"
-#include "app/output.h"
-#include "sweeps/interrupt.h"
+#include "system/interrupt.h"
+#include "system/output.h"
 
 namespace wholehand {
 

@@ -6,7 +6,6 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "app/version.h"
 #include "core/closure.h"
 #include "core/contact.h"
 #include "core/hand_view.h"
@@ -15,6 +14,7 @@
 #include "core/outline_points.h"
 #include "core/prepare.h"
 #include "sweeps/hand_nodes.h"
+#include "system/version.h"
 
 namespace wholehand {
 namespace {

@@ -5,9 +5,9 @@
 #include <cerrno>
 #include <ctime>
 
-#include "core/block_signals.h"
 #include "device/monotonic.h"
 #include "device/realtime.h"
+#include "system/block_signals.h"
 
 namespace wholehand {
 namespace {

@@ -7,8 +7,8 @@
 #include <poll.h>
 #include <unistd.h>
 
-#include "core/failure_signals.h"
 #include "device/safe_line.h"
+#include "system/failure_signals.h"
 
 namespace wholehand {
 namespace {

@@ -6,8 +6,8 @@
 #include <cstring>
 #include <filesystem>
 
-#include "core/memory_limit.h"
 #include "host/vulkan.h"
+#include "system/memory_limit.h"
 
 namespace wholehand::host {
 namespace {

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "host/cache_folder.h"
+#include "system/cache_folder.h"
 
 namespace wholehand::host {
 namespace {

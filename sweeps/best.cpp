@@ -10,8 +10,8 @@
 
 #include "core/error.h"
 #include "shaders/layout.h"
-#include "sweeps/csv.h"
 #include "sweeps/variables.h"
+#include "system/csv.h"
 
 namespace wholehand {
 namespace {

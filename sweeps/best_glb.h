@@ -7,7 +7,7 @@
 
 #include "core/evaluator.h"
 #include "sweeps/best.h"
-#include "sweeps/files.h"
+#include "system/files.h"
 
 namespace wholehand {
 

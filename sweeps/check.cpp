@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "host/grip_backend.h"
 #include "sweeps/check_sample.h"
-#include "sweeps/progress.h"
+#include "system/progress.h"
 
 namespace wholehand {
 namespace {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "sweeps/check.h"
-#include "sweeps/readable.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "sweeps/edge.h"
 #include "sweeps/grip_lists.h"
-#include "sweeps/readable.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {

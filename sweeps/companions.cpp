@@ -9,11 +9,11 @@
 #include "core/error.h"
 #include "core/scene.h"
 #include "sweeps/best.h"
-#include "sweeps/gnuplot.h"
 #include "sweeps/grip_glb.h"
 #include "sweeps/grip_lists.h"
 #include "sweeps/heat_map_plot.h"
 #include "sweeps/mark.h"
+#include "system/gnuplot.h"
 
 namespace wholehand {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "sweeps/files.h"
 #include "sweeps/plan.h"
+#include "system/files.h"
 
 namespace wholehand {
 

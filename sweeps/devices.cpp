@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "host/cache_folder.h"
 #include "host/device.h"
+#include "system/cache_folder.h"
 
 namespace wholehand {
 

@@ -9,8 +9,8 @@
 #include <limits>
 
 #include "sweeps/convergence.h"
-#include "sweeps/csv.h"
-#include "sweeps/readable.h"
+#include "system/csv.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {

@@ -10,10 +10,10 @@
 #include "host/device.h"
 #include "sweeps/error_plot.h"
 #include "sweeps/error_table.h"
-#include "sweeps/files.h"
-#include "sweeps/folder_files.h"
-#include "sweeps/interrupt.h"
-#include "sweeps/progress.h"
+#include "system/files.h"
+#include "system/folder_files.h"
+#include "system/interrupt.h"
+#include "system/progress.h"
 
 #ifndef WHOLEHAND_VERSION
 #define WHOLEHAND_VERSION "unknown"

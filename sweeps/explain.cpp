@@ -10,8 +10,8 @@
 #include "core/core_backend.h"
 #include "core/gather.h"
 #include "host/grip_backend.h"
-#include "sweeps/readable.h"
 #include "sweeps/variables.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {

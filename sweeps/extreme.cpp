@@ -11,8 +11,8 @@
 #include "core/core_backend.h"
 #include "core/error.h"
 #include "host/grip_backend.h"
-#include "sweeps/csv.h"
 #include "sweeps/plan.h"
+#include "system/csv.h"
 
 namespace wholehand {
 namespace {

@@ -14,9 +14,9 @@
 #include <set>
 
 #include "core/error.h"
-#include "sweeps/csv.h"
 #include "sweeps/heat_map_plot.h"
 #include "sweeps/mesh_vessel.h"
+#include "system/csv.h"
 
 namespace wholehand {
 namespace {

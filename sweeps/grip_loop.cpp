@@ -10,8 +10,8 @@
 
 #include "core/loop.h"
 #include "core/scene.h"
-#include "sweeps/gnuplot.h"
 #include "sweeps/wall.h"
+#include "system/gnuplot.h"
 
 namespace wholehand {
 namespace {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "sweeps/gnuplot.h"
+#include "system/gnuplot.h"
 
 namespace wholehand {
 namespace {

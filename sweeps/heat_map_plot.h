@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/scene.h"
-#include "sweeps/files.h"
 #include "sweeps/heat_map.h"
+#include "system/files.h"
 
 namespace wholehand {
 

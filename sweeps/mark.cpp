@@ -15,7 +15,7 @@
 #include <system_error>
 
 #include "core/error.h"
-#include "sweeps/files.h"
+#include "system/files.h"
 
 namespace wholehand {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/backend.h"
-#include "sweeps/checksum.h"
+#include "system/checksum.h"
 
 namespace wholehand {
 
@@ -22,7 +22,7 @@ struct GripCounts {
   std::uint64_t blocked = 0;  // with a blocked finger
 };
 
-// Grips [first, last) of a vessel, and the checksum of all that the result file holds of them (sweeps/checksum.h).
+// Grips [first, last) of a vessel, and the checksum of all that the result file holds of them (system/checksum.h).
 struct Stretch {
   std::uint64_t first = 0, last = 0;
   std::string checksum;

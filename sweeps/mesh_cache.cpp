@@ -16,8 +16,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "host/cache_folder.h"
 #include "sweeps/mesh_distance.h"
+#include "system/cache_folder.h"
 
 namespace wholehand {
 namespace {

@@ -12,12 +12,12 @@
 
 #include "core/error.h"
 #include "core/load.h"
-#include "host/cache_folder.h"
 #include "sweeps/mesh.h"
 #include "sweeps/mesh_cache.h"
 #include "sweeps/mesh_check.h"
-#include "sweeps/progress.h"
-#include "sweeps/readable.h"
+#include "system/cache_folder.h"
+#include "system/progress.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {

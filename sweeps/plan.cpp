@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "core/planes.h"
 #include "shaders/layout.h"
-#include "sweeps/readable.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {

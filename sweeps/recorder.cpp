@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/block_signals.h"
+#include "system/block_signals.h"
 
 namespace wholehand {
 namespace {

@@ -10,10 +10,10 @@
 #include <new>
 
 #include "core/error.h"
-#include "sweeps/files.h"
 #include "sweeps/recording.h"
 #include "sweeps/recording_fields.h"
 #include "sweeps/recording_layout.h"
+#include "system/files.h"
 
 namespace wholehand {
 namespace {

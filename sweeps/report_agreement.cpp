@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "shaders/layout.h"
-#include "sweeps/readable.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {

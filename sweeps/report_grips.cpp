@@ -12,7 +12,7 @@
 #include "sweeps/grip_lists.h"
 #include "sweeps/grip_svg.h"
 #include "sweeps/hand_nodes.h"
-#include "sweeps/readable.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {

@@ -10,8 +10,8 @@
 
 #include "shaders/layout.h"
 #include "sweeps/hand_nodes.h"
-#include "sweeps/readable.h"
 #include "sweeps/report_field.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {

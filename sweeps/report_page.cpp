@@ -12,8 +12,6 @@
 #include "core/candidates.h"
 #include "core/error.h"
 #include "sweeps/edge.h"
-#include "sweeps/files.h"
-#include "sweeps/readable.h"
 #include "sweeps/report_agreement.h"
 #include "sweeps/report_forces.h"
 #include "sweeps/report_grips.h"
@@ -22,6 +20,8 @@
 #include "sweeps/report_scene.h"
 #include "sweeps/report_style.h"
 #include "sweeps/tally.h"
+#include "system/files.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {

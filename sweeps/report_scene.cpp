@@ -10,8 +10,8 @@
 #include "core/mesh_body.h"
 #include "core/prepare.h"
 #include "sweeps/grip_methods.h"
-#include "sweeps/readable.h"
 #include "sweeps/result_contents.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {

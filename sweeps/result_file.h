@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "core/planes.h"
-#include "sweeps/checksum.h"
-#include "sweeps/files.h"
 #include "sweeps/mark.h"
 #include "sweeps/result_contents.h"
+#include "system/checksum.h"
+#include "system/files.h"
 
 namespace wholehand {
 
@@ -23,7 +23,7 @@ namespace wholehand {
 // All methods throw Error (failure) with the file, the reason and what to do.
 class ResultFile {
  public:
-  // Creates NAME.nc.partial, or, to resume, opens the one that is there as it is. Who holds the result's lock (sweeps/output_lock.h) alone may
+  // Creates NAME.nc.partial, or, to resume, opens the one that is there as it is. Who holds the result's lock (system/output_lock.h) alone may
   // do that. Contents must outlive the object, the same ones for a file that is resumed.
   ResultFile(const OutputNames& names, const ResultContents& contents, const FieldSet& fields, bool resume);
   ~ResultFile();

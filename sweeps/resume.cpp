@@ -5,10 +5,10 @@
 #include <sys/stat.h>
 
 #include "core/error.h"
-#include "sweeps/build_id.h"
 #include "sweeps/mesh_vessel.h"
-#include "sweeps/readable.h"
 #include "sweeps/sweep_result.h"
+#include "system/build_id.h"
+#include "system/readable.h"
 
 #ifndef WHOLEHAND_VERSION
 #define WHOLEHAND_VERSION "unknown"

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "core/backend.h"
-#include "sweeps/files.h"
 #include "sweeps/mark.h"
 #include "sweeps/plan.h"
 #include "sweeps/variables.h"
+#include "system/files.h"
 
 namespace wholehand {
 

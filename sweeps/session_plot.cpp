@@ -7,7 +7,7 @@
 #include <initializer_list>
 #include <iterator>
 
-#include "sweeps/gnuplot.h"
+#include "system/gnuplot.h"
 
 namespace wholehand {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <iterator>
 
-#include "sweeps/csv.h"
 #include "sweeps/session_report.h"
+#include "system/csv.h"
 
 namespace wholehand {
 namespace {

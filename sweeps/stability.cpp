@@ -11,15 +11,15 @@
 
 #include "core/core_backend.h"
 #include "core/domain.h"
-#include "sweeps/csv.h"
-#include "sweeps/files.h"
-#include "sweeps/folder_files.h"
 #include "sweeps/gains.h"
-#include "sweeps/gnuplot.h"
 #include "sweeps/grip_loop.h"
-#include "sweeps/interrupt.h"
-#include "sweeps/progress.h"
 #include "sweeps/wall_sweep.h"
+#include "system/csv.h"
+#include "system/files.h"
+#include "system/folder_files.h"
+#include "system/gnuplot.h"
+#include "system/interrupt.h"
+#include "system/progress.h"
 
 namespace wholehand {
 namespace {

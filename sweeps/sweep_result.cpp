@@ -13,8 +13,8 @@
 #include <numeric>
 
 #include "core/error.h"
-#include "sweeps/files.h"
 #include "sweeps/result_contents.h"
+#include "system/files.h"
 
 namespace wholehand {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "core/result.h"
 #include "shaders/layout.h"
-#include "sweeps/readable.h"
 #include "sweeps/variables.h"
+#include "system/readable.h"
 
 namespace wholehand {
 

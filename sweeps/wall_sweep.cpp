@@ -13,7 +13,7 @@
 #include "core/core_backend.h"
 #include "core/wall_run.h"
 #include "host/wall_map.h"
-#include "sweeps/gnuplot.h"
+#include "system/gnuplot.h"
 
 namespace wholehand {
 namespace {

@@ -1,6 +1,6 @@
 // No signal reaches threads that are started while it is there, whatever becomes of the start.
 // sanitizers: address
-#include "core/block_signals.h"
+#include "system/block_signals.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The build's own hash, against what binutils reads from the file.
-#include "sweeps/build_id.h"
+#include "system/build_id.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

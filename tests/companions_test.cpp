@@ -8,7 +8,7 @@
 #include <functional>
 
 #include "core/error.h"
-#include "sweeps/folder_files.h"
+#include "system/folder_files.h"
 #include "tests/support/fake_backend.h"
 #include "tests/support/result_reader.h"
 

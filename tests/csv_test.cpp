@@ -1,4 +1,4 @@
-#include "sweeps/csv.h"
+#include "system/csv.h"
 
 #include <gtest/gtest.h>
 

@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/block_signals.h"
+#include "system/block_signals.h"
 #include "tests/support/program.h"
 
 namespace wholehand {

@@ -1,4 +1,4 @@
-#include "sweeps/files.h"
+#include "system/files.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "sweeps/gnuplot.h"
+#include "system/gnuplot.h"
 
 #include <gtest/gtest.h>
 #include <poll.h>
@@ -9,7 +9,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "sweeps/files.h"
+#include "system/files.h"
 #include "tests/support/environment.h"
 #include "tests/support/result_reader.h"
 

@@ -1,6 +1,6 @@
 // sanitizers: address
 // Where the cache is, and its bound: what counts, what goes first, and what never goes.
-#include "host/cache_folder.h"
+#include "system/cache_folder.h"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>

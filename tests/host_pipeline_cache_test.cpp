@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "host/cache_folder.h"
+#include "system/cache_folder.h"
 #include "tests/support/environment.h"
 #include "tests/support/vulkan_kernels.h"
 

@@ -1,4 +1,4 @@
-#include "sweeps/interrupt.h"
+#include "system/interrupt.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -29,11 +29,11 @@
 #include <utility>
 #include <vector>
 
-#include "app/output.h"
 #include "core/error.h"
 #include "device/monotonic.h"
 #include "device/omega_gripper.h"
 #include "sweeps/recording.h"
+#include "system/output.h"
 #include "tests/support/scene_texts.h"
 #include "tests/support/stand_in_dhd.h"
 

@@ -17,8 +17,8 @@
 #include <vector>
 
 #include "core/error.h"
-#include "host/cache_folder.h"
 #include "sweeps/mesh_distance.h"
+#include "system/cache_folder.h"
 #include "tests/support/environment.h"
 #include "tests/support/meshes.h"
 

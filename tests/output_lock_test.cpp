@@ -1,5 +1,5 @@
 // One writer of a result at a time, whatever became of the one before.
-#include "sweeps/output_lock.h"
+#include "system/output_lock.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>

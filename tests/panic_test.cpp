@@ -25,8 +25,8 @@
 #undef NDEBUG  // a failing assertion is wanted here
 #include <cassert>
 
-#include "core/block_signals.h"
 #include "device/haptic_loop.h"
+#include "system/block_signals.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {

@@ -1,4 +1,4 @@
-#include "sweeps/progress.h"
+#include "system/progress.h"
 
 #include <gtest/gtest.h>
 

@@ -20,9 +20,9 @@
 #include "core/core_backend.h"
 #include "core/mesh_body.h"
 #include "shaders/layout.h"
-#include "sweeps/files.h"
 #include "sweeps/mark.h"
 #include "sweeps/plan.h"
+#include "system/files.h"
 #include "tests/support/fake_backend.h"
 #include "tests/support/result_reader.h"
 

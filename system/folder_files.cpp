@@ -1,7 +1,7 @@
-#include "sweeps/folder_files.h"
+#include "system/folder_files.h"
 
-#include "sweeps/files.h"
-#include "sweeps/gnuplot.h"
+#include "system/files.h"
+#include "system/gnuplot.h"
 
 namespace wholehand {
 

@@ -1,4 +1,4 @@
-#include "sweeps/gnuplot.h"
+#include "system/gnuplot.h"
 
 #include <fmt/format.h>
 
@@ -13,8 +13,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include "sweeps/child_process.h"
-#include "sweeps/files.h"
+#include "system/child_process.h"
+#include "system/files.h"
 
 namespace wholehand {
 namespace {

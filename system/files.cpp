@@ -1,4 +1,4 @@
-#include "sweeps/files.h"
+#include "system/files.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -21,7 +21,7 @@
 
 #include "core/error.h"
 #include "core/scene.h"
-#include "sweeps/readable.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {

@@ -1,4 +1,4 @@
-#include "sweeps/output_lock.h"
+#include "system/output_lock.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

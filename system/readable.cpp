@@ -1,4 +1,4 @@
-#include "sweeps/readable.h"
+#include "system/readable.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "app/version.h"
+#include "system/version.h"
 
 #ifndef WHOLEHAND_VERSION
 #define WHOLEHAND_VERSION "unknown"

@@ -1,4 +1,4 @@
-#include "sweeps/build_id.h"
+#include "system/build_id.h"
 
 #include <elf.h>
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "sweeps/checksum.h"
+#include "system/checksum.h"
 
 #include <fmt/format.h>
 #include <sys/stat.h>

@@ -6,7 +6,7 @@
 
 #include <csignal>
 
-#include "core/failure_signals.h"
+#include "system/failure_signals.h"
 
 namespace wholehand {
 

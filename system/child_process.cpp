@@ -1,4 +1,4 @@
-#include "sweeps/child_process.h"
+#include "system/child_process.h"
 
 #include <fcntl.h>
 #include <poll.h>

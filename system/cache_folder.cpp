@@ -1,4 +1,4 @@
-#include "host/cache_folder.h"
+#include "system/cache_folder.h"
 
 #include <fmt/format.h>
 
