@@ -6,9 +6,9 @@
 
 #include "app/commands.h"
 #include "app/paths.h"
-#include "app/scene_reader.h"
 #include "app/validators.h"
 #include "core/domain.h"
+#include "scene/reader.h"
 #include "sweeps/cavity_notes.h"
 #include "sweeps/check.h"
 #include "sweeps/mesh_vessel.h"

@@ -5,9 +5,9 @@
 
 #include "app/commands.h"
 #include "app/live.h"
-#include "app/scene_ranges.h"
 #include "app/validators.h"
 #include "app/values.h"
+#include "scene/ranges.h"
 
 namespace wholehand {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app/scene_text.h"
+#include "scene/text.h"
 
 namespace wholehand {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "app/commands.h"
 #include "app/paths.h"
-#include "app/scene_list.h"
+#include "scene/list.h"
 #include "system/output.h"
 
 namespace wholehand {

@@ -5,9 +5,9 @@
 
 #include "app/commands.h"
 #include "app/paths.h"
-#include "app/scene_reader.h"
 #include "app/validators.h"
 #include "app/values.h"
+#include "scene/reader.h"
 #include "sweeps/stability.h"
 #include "sweeps/wall.h"
 #include "system/output.h"

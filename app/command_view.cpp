@@ -9,12 +9,12 @@
 
 #include "app/commands.h"
 #include "app/result_scene.h"
-#include "app/scene_reader.h"
 #include "app/serve_view.h"
 #include "app/validators.h"
 #include "app/values.h"
 #include "app/view_grips.h"
 #include "app/view_recording.h"
+#include "scene/reader.h"
 #include "sweeps/grip_lists.h"
 #include "sweeps/grip_methods.h"
 #include "sweeps/mesh_vessel.h"

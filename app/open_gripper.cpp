@@ -2,14 +2,14 @@
 
 #include <fmt/format.h>
 
-#include "app/scene_ranges.h"
-#include "app/scene_text.h"
 #include "app/values.h"
 #include "core/error.h"
 #include "device/hid_gripper.h"
 #include "device/omega_gripper.h"
 #include "device/sim_gripper.h"
 #include "device/usb_gripper.h"
+#include "scene/ranges.h"
+#include "scene/text.h"
 
 namespace wholehand {
 namespace {

@@ -15,9 +15,9 @@
 #include <memory>
 #include <system_error>
 
-#include "app/scene_text.h"
 #include "core/amounts.h"
 #include "core/error.h"
+#include "scene/text.h"
 
 namespace wholehand {
 namespace {

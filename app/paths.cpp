@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "app/scene_text.h"
 #include "core/error.h"
+#include "scene/text.h"
 
 namespace wholehand {
 namespace fs = std::filesystem;
@@ -23,7 +23,7 @@ std::string scenes_dir() {
     // the source tree around a build folder
     fs::path above = program.parent_path();
     for (int level = 0; level < 4 && above.has_relative_path(); ++level, above = above.parent_path()) {
-      candidates.push_back(above / "sweeps/scenes");
+      candidates.push_back(above / "scene/examples");
     }
   }
   for (const fs::path& candidate : candidates) {
@@ -49,7 +49,7 @@ std::vector<std::string> extreme_scene_files() {
   std::error_code failed;
   const std::string dir = scenes_dir();
   if (dir.empty()) return files;
-  for (const auto& entry : fs::directory_iterator(fs::path(dir).parent_path().parent_path() / "tests/extreme", failed)) {
+  for (const auto& entry : fs::directory_iterator(fs::path(dir).parent_path() / "extreme", failed)) {
     if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
   }
   std::sort(files.begin(), files.end());

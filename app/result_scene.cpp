@@ -4,8 +4,8 @@
 #include <fstream>
 #include <system_error>
 
-#include "app/scene_reader.h"
 #include "core/error.h"
+#include "scene/reader.h"
 #include "sweeps/mesh_vessel.h"
 #include "system/files.h"
 

@@ -5,8 +5,8 @@
 #include <charconv>
 #include <string_view>
 
-#include "app/scene_text.h"
 #include "core/error.h"
+#include "scene/text.h"
 
 namespace wholehand {
 namespace {

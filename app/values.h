@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "app/scene_ranges.h"
 #include "core/backend.h"
 #include "core/scene.h"
+#include "scene/ranges.h"
 
 namespace wholehand {
 

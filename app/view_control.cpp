@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "app/scene_text.h"
 #include "core/error.h"
+#include "scene/text.h"
 
 namespace wholehand {
 namespace {

@@ -26,7 +26,7 @@ struct SweepOrigin {
   std::string scene_file, meshes, mesh_keys, mesh_lattices;
 };
 
-// What a scene may ask for and have (app/scene_ranges.h): more in a file is damage, found before room is made for it.
+// What a scene may ask for and have (scene/ranges.h): more in a file is damage, found before room is made for it.
 constexpr std::size_t MOST_BEST = 100'000;  // grips listed of a vessel
 constexpr std::size_t MOST_VESSELS = 64;
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/paths.h"
-#include "app/scene_reader.h"
+#include "scene/reader.h"
 #include "tests/support/vulkan_listener.h"
 
 namespace wholehand {

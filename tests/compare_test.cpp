@@ -10,7 +10,7 @@
 #include <memory>
 
 #include "app/paths.h"
-#include "app/scene_reader.h"
+#include "scene/reader.h"
 #include "sweeps/plan.h"
 
 namespace wholehand {

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "app/paths.h"
-#include "app/scene_reader.h"
+#include "scene/reader.h"
 #include "sweeps/compare.h"
 #include "tests/support/scenes.h"
 

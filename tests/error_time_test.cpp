@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "app/paths.h"
-#include "app/scene_reader.h"
+#include "scene/reader.h"
 #include "sweeps/error_measure.h"
 #include "sweeps/error_plot.h"
 #include "sweeps/error_table.h"

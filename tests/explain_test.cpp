@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "app/paths.h"
-#include "app/scene_reader.h"
+#include "scene/reader.h"
 #include "sweeps/compare.h"
 #include "sweeps/variables.h"
 #include "tests/support/vulkan_listener.h"

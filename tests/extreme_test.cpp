@@ -1,4 +1,4 @@
-// The scenes of tests/extreme: each says what makes it hard and what must come out, and that comes out.
+// The scenes of scene/extreme: each says what makes it hard and what must come out, and that comes out.
 // sanitizers: none
 #include <gtest/gtest.h>
 
@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "app/paths.h"
-#include "app/scene_reader.h"
 #include "core/force.h"
 #include "core/prepare.h"
+#include "scene/reader.h"
 #include "sweeps/extreme.h"
 #include "sweeps/plan.h"
 #include "tests/support/whole_parity.h"
@@ -337,7 +337,7 @@ const std::map<std::string, void (*)(const Answered&)> LOOKS{
     {"thousand_elements", thousand_elements},
 };
 
-const std::string FOLDER = std::string(WHOLEHAND_SOURCE_DIR) + "/tests/extreme/";
+const std::string FOLDER = std::string(WHOLEHAND_SOURCE_DIR) + "/scene/extreme/";
 
 Scene scene_named(const std::string& name) { return read_scene_file(FOLDER + name + ".toml"); }
 

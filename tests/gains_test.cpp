@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "app/paths.h"
-#include "app/scene_reader.h"
 #include "core/error.h"
+#include "scene/reader.h"
 #include "sweeps/grip_loop.h"
 
 namespace wholehand {

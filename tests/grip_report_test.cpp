@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "app/scene_reader.h"
 #include "core/core_backend.h"
 #include "core/error.h"
+#include "scene/reader.h"
 
 namespace wholehand {
 namespace {

@@ -23,8 +23,8 @@
 #include "app/live_report.h"
 #include "app/open_gripper.h"
 #include "app/paths.h"
-#include "app/scene_reader.h"
 #include "core/error.h"
+#include "scene/reader.h"
 #include "sweeps/recording.h"
 #include "tests/support/http_client.h"
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "app/paths.h"
-#include "app/scene_reader.h"
+#include "scene/reader.h"
 #include "sweeps/compare.h"
 #include "sweeps/plan.h"
 

@@ -7,7 +7,7 @@
 #include <bit>
 #include <cmath>
 
-#include "app/scene_reader.h"
+#include "scene/reader.h"
 #include "tests/support/sweep_results.h"
 
 namespace wholehand {

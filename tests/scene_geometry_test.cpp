@@ -1,5 +1,5 @@
 // Plane geometry of outlines: against closed forms and dense sampling.
-#include "app/scene_geometry.h"
+#include "scene/geometry.h"
 
 #include <gtest/gtest.h>
 

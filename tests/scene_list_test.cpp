@@ -1,4 +1,4 @@
-#include "app/scene_list.h"
+#include "scene/list.h"
 
 #include <gtest/gtest.h>
 

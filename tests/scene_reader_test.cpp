@@ -1,5 +1,5 @@
 // Scene files: every key, every default, the shipped scenes.
-#include "app/scene_reader.h"
+#include "scene/reader.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 namespace wholehand {
 namespace {
 
-std::string scenes_dir() { return WHOLEHAND_SOURCE_DIR "/sweeps/scenes/"; }
+std::string scenes_dir() { return WHOLEHAND_SOURCE_DIR "/scene/examples/"; }
 
 std::string text_of_file(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);

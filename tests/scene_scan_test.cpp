@@ -1,5 +1,5 @@
 // Text from anywhere: what would end the TOML parser or the program is refused like everything else.
-#include "app/scene_scan.h"
+#include "scene/scan.h"
 
 #include <gtest/gtest.h>
 

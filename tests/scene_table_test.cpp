@@ -1,5 +1,5 @@
 // What scene files are refused for, table by table, with the place to which the refusal points.
-#include "app/scene_table.h"
+#include "scene/table.h"
 
 #include <gtest/gtest.h>
 

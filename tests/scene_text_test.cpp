@@ -1,5 +1,5 @@
 // Names and texts from outside, for messages.
-#include "app/scene_text.h"
+#include "scene/text.h"
 
 #include <gtest/gtest.h>
 

@@ -9,11 +9,11 @@
 #include <set>
 
 #include "app/paths.h"
-#include "app/scene_reader.h"
 #include "core/error.h"
 #include "core/hand_view.h"
 #include "device/haptic_loop.h"
 #include "device/sim_user.h"
+#include "scene/reader.h"
 #include "sweeps/hand_nodes.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"

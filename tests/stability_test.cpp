@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "app/paths.h"
-#include "app/scene_reader.h"
+#include "scene/reader.h"
 #include "tests/support/result_reader.h"
 
 namespace wholehand {

@@ -10,9 +10,9 @@
 #include <fstream>
 #include <functional>
 
-#include "app/scene_ranges.h"
-#include "app/scene_reader.h"
 #include "core/error.h"
+#include "scene/ranges.h"
+#include "scene/reader.h"
 #include "tests/support/scenes.h"
 #include "tests/support/sweep_results.h"
 

@@ -20,10 +20,10 @@
 
 #include "app/browser.h"
 #include "app/paths.h"
-#include "app/scene_reader.h"
 #include "app/view_frame.h"
 #include "app/view_server.h"
 #include "core/error.h"
+#include "scene/reader.h"
 #include "sweeps/mesh_vessel.h"
 #include "sweeps/recording.h"
 #include "tests/support/http_client.h"

@@ -14,10 +14,10 @@
 #include <nlohmann/json.hpp>
 
 #include "app/paths.h"
-#include "app/scene_reader.h"
 #include "app/view_scene.h"
 #include "core/error.h"
 #include "core/mesh_body.h"
+#include "scene/reader.h"
 #include "sweeps/hand_nodes.h"
 #include "tests/support/live_script.h"
 #include "tests/support/scenes.h"

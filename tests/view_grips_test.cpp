@@ -11,9 +11,9 @@
 #include <nlohmann/json.hpp>
 
 #include "app/paths.h"
-#include "app/scene_reader.h"
 #include "core/contact.h"
 #include "core/error.h"
+#include "scene/reader.h"
 #include "sweeps/grip_report.h"
 #include "tests/support/scenes.h"
 

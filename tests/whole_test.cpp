@@ -14,8 +14,8 @@
 #include <string>
 
 #include "app/paths.h"
-#include "app/scene_reader.h"
 #include "host/grip_backend.h"
+#include "scene/reader.h"
 #include "sweeps/compare.h"
 #include "sweeps/plan.h"
 #include "sweeps/variables.h"

@@ -4,10 +4,10 @@
 #include <memory>
 
 #include "app/paths.h"
-#include "app/scene_reader.h"
 #include "core/core_backend.h"
 #include "core/evaluator.h"
 #include "host/grip_backend.h"
+#include "scene/reader.h"
 #include "tests/bench/bench.h"
 
 namespace wholehand::bench {

@@ -14,11 +14,11 @@
 #include <string>
 #include <vector>
 
-#include "app/scene_ranges.h"
-#include "app/scene_reader.h"
 #include "core/absent.h"
 #include "core/error.h"
 #include "core/evaluator.h"
+#include "scene/ranges.h"
+#include "scene/reader.h"
 
 namespace wholehand {
 namespace {

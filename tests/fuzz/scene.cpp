@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "app/scene_reader.h"
 #include "core/error.h"
+#include "scene/reader.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {

@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "app/scene_ranges.h"
 #include "core/absent.h"
+#include "scene/ranges.h"
 #include "tests/support/whole_parity.h"
 
 namespace wholehand {

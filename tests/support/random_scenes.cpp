@@ -7,9 +7,9 @@
 #include <set>
 #include <vector>
 
-#include "app/scene_reader.h"
 #include "core/error.h"
 #include "core/evaluator.h"
+#include "scene/reader.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {

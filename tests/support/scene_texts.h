@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <string>
 
-#include "app/scene_reader.h"
 #include "core/error.h"
+#include "scene/reader.h"
 
 namespace wholehand {
 

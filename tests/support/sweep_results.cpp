@@ -5,8 +5,8 @@
 
 #include <filesystem>
 
-#include "app/scene_reader.h"
 #include "core/core_backend.h"
+#include "scene/reader.h"
 #include "sweeps/hand_lists.h"
 #include "sweeps/result_file.h"
 

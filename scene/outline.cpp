@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "app/scene_elements.h"
+#include "scene/elements.h"
 
 namespace wholehand {
 namespace {

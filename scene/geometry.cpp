@@ -1,4 +1,4 @@
-#include "app/scene_geometry.h"
+#include "scene/geometry.h"
 
 #include <algorithm>
 #include <cmath>

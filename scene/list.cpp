@@ -1,4 +1,4 @@
-#include "app/scene_list.h"
+#include "scene/list.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <sstream>
 
-#include "app/scene_reader.h"
-#include "app/scene_text.h"
+#include "scene/reader.h"
+#include "scene/text.h"
 
 namespace wholehand {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "app/scene_parts.h"
+#include "scene/parts.h"
 
 namespace wholehand {
 namespace {

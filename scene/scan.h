@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "app/scene_table.h"
+#include "scene/table.h"
 
 namespace wholehand {
 

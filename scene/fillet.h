@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "app/scene_geometry.h"
+#include "scene/geometry.h"
 
 namespace wholehand {
 

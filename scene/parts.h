@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "app/scene_table.h"
 #include "core/scene.h"
+#include "scene/table.h"
 
 namespace wholehand {
 

@@ -1,4 +1,4 @@
-#include "app/scene_text.h"
+#include "scene/text.h"
 
 #include <fmt/format.h>
 

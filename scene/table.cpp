@@ -1,4 +1,4 @@
-#include "app/scene_table.h"
+#include "scene/table.h"
 
 #include <fmt/format.h>
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/scene_elements.h"
 #include "core/scene.h"
+#include "scene/elements.h"
 
 namespace wholehand {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/scene_scan.h"
+#include "scene/scan.h"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/scene_parts.h"
+#include "scene/parts.h"
 
 namespace wholehand {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/scene_reader.h"
+#include "scene/reader.h"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "app/scene_parts.h"
-#include "app/scene_scan.h"
 #include "core/error.h"
+#include "scene/parts.h"
+#include "scene/scan.h"
 
 namespace wholehand {
 namespace {

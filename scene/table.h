@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "app/scene_ranges.h"
-#include "app/scene_text.h"
+#include "scene/ranges.h"
+#include "scene/text.h"
 
 namespace wholehand {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "app/scene_geometry.h"
-#include "app/scene_parts.h"
+#include "scene/geometry.h"
+#include "scene/parts.h"
 
 namespace wholehand {
 

@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "app/scene_ranges.h"
 #include "core/nearest_name.h"
+#include "scene/ranges.h"
 
 namespace wholehand {
 

@@ -1,5 +1,5 @@
 // [hand]: the hand's size, limits, bones and trajectories.
-#include "app/scene_parts.h"
+#include "scene/parts.h"
 
 namespace wholehand {
 namespace {

@@ -1,11 +1,11 @@
-#include "app/scene_elements.h"
+#include "scene/elements.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/scene_fillet.h"
+#include "scene/fillet.h"
 
 namespace wholehand {
 namespace {

@@ -1,23 +1,23 @@
-#include "app/scene_fills.h"
+#include "scene/fills.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/scene_parts.h"
 #include "core/capacity.h"
 #include "core/error.h"
+#include "scene/parts.h"
 
 namespace wholehand {
 namespace {
 
-constexpr double ROUNDED = 1e-9;  // of the capacity: as much may a volume be above it
+constexpr double ROUNDED_VOLUME = 1e-9;  // of the capacity: as much may a volume be above it
 
 }  // namespace
 
 double fraction_of_capacity(const VesselData& vessel, double capacity, double volume, const std::string& asked) {
-  if (volume > capacity * (1 + ROUNDED)) {
+  if (volume > capacity * (1 + ROUNDED_VOLUME)) {
     // rounded down, so that what the message allows is allowed
     throw usage_error(
         fmt::format("{}: vessel '{}' holds {:.13g} mL; allowed: 0 to that", asked, vessel.name, std::floor(capacity * 1e9) / 1e3));

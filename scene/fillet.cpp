@@ -1,10 +1,10 @@
-#include "app/scene_fillet.h"
+#include "scene/fillet.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/scene_elements.h"
 #include "core/scene.h"
+#include "scene/elements.h"
 
 namespace wholehand {
 namespace {
