@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "app/view_frame.h"
-#include "core/hand_view.h"
+#include "live/hand_view.h"
 
 namespace wholehand {
 

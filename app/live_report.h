@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "core/amounts.h"
 #include "core/scene.h"
-#include "core/tick.h"
 #include "device/haptic_loop.h"
+#include "live/amounts.h"
+#include "live/tick.h"
 
 namespace wholehand {
 

@@ -15,8 +15,8 @@
 #include <memory>
 #include <system_error>
 
-#include "core/amounts.h"
 #include "core/error.h"
+#include "live/amounts.h"
 #include "scene/text.h"
 
 namespace wholehand {

@@ -8,7 +8,7 @@
 
 #include "app/display_loop.h"
 #include "app/osc_bundle.h"
-#include "core/session.h"
+#include "live/session.h"
 #include "sweeps/hand_nodes.h"
 
 namespace wholehand {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <iterator>
 
-#include "core/amounts.h"
-#include "core/quaternion.h"
+#include "live/amounts.h"
+#include "live/quaternion.h"
 
 namespace wholehand {
 namespace {

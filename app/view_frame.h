@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/hand_view.h"
+#include "live/hand_view.h"
 
 namespace wholehand {
 

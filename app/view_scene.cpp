@@ -8,11 +8,11 @@
 
 #include "core/closure.h"
 #include "core/contact.h"
-#include "core/hand_view.h"
 #include "core/load.h"
 #include "core/mesh_body.h"
 #include "core/outline_points.h"
 #include "core/prepare.h"
+#include "live/hand_view.h"
 #include "sweeps/hand_nodes.h"
 #include "system/version.h"
 

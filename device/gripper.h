@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "core/tick.h"
 #include "device/let_go.h"
+#include "live/tick.h"
 
 namespace wholehand {
 

@@ -8,11 +8,11 @@
 #include <optional>
 #include <string>
 
-#include "core/session.h"
 #include "device/call_watch.h"
 #include "device/gripper.h"
 #include "device/guard.h"
 #include "device/histogram.h"
+#include "live/session.h"
 
 namespace wholehand {
 

@@ -10,12 +10,12 @@
 namespace wholehand {
 
 // Between the SDK's frame (+x towards the person, +y to the right, +z up; so says CHAI3D, "Haptic devices", General conventions,
-// https://chai3d.org/download/doc/html/chapter6-haptic-devices.html) and the device frame of core/tick.h (+x right, +y up, +z towards
+// https://chai3d.org/download/doc/html/chapter6-haptic-devices.html) and the device frame of live/tick.h (+x right, +y up, +z towards
 // the person): the same axes under other names, so that lengths and handedness stay.
 Triple from_dhd(const Triple& vector);
 Triple to_dhd(const Triple& vector);
 // The gripper's own axes change names likewise. The SDK's gripper opens along its own y: the index finger of a right hand is at +y, that of
-// a left hand at -y (CHAI3D, src/tools/CToolGripper.cpp), which is the +x of core/tick.h for both. `frame` as the SDK fills it, its
+// a left hand at -y (CHAI3D, src/tools/CToolGripper.cpp), which is the +x of live/tick.h for both. `frame` as the SDK fills it, its
 // columns the gripper's axes.
 Rotation rotation_from_dhd(const double frame[3][3]);
 

@@ -7,11 +7,11 @@
 #include <unordered_set>
 
 #include "core/grip.h"
-#include "core/hand_view.h"
 #include "core/mesh_body.h"
 #include "core/outline_points.h"
 #include "core/prepare.h"
-#include "core/session.h"
+#include "live/hand_view.h"
+#include "live/session.h"
 
 namespace wholehand {
 

@@ -8,8 +8,8 @@
 #include <span>
 #include <string>
 
-#include "core/tick.h"
 #include "device/gripper.h"
+#include "live/tick.h"
 
 namespace wholehand::protocol {
 

@@ -7,8 +7,8 @@
 
 #include "core/loop.h"
 #include "core/prepare.h"
-#include "core/session.h"
 #include "device/sim_user.h"
+#include "live/session.h"
 
 namespace wholehand {
 namespace {

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/result.h"
-#include "core/session.h"
 #include "device/pour_path.h"
+#include "live/session.h"
 
 namespace wholehand {
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
-#include "core/tick.h"
 #include "device/protocol.h"
+#include "live/tick.h"
 
 namespace wholehand {
 

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "core/prepare.h"
-#include "core/quaternion.h"
 #include "device/follower.h"
+#include "live/quaternion.h"
 
 namespace wholehand {
 namespace {

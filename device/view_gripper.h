@@ -6,16 +6,16 @@
 #include <memory>
 #include <mutex>
 
-#include "core/newest.h"
-#include "core/workspace.h"
 #include "device/gripper.h"
+#include "live/newest.h"
+#include "live/workspace.h"
 
 namespace wholehand {
 
 // What the page wants at a moment: of the hand and in the scene's own world, whatever its [device] says.
 struct ViewControl {
   Triple position{};               // of the middle between the tips of thumb and index finger, m
-  Rotation rotation{NO_ROTATION};  // of the gripper's axes (core/tick.h), to ROTATION_TOLERANCE
+  Rotation rotation{NO_ROTATION};  // of the gripper's axes (live/tick.h), to ROTATION_TOLERANCE
   double gap = 0;                  // between the tips, m
   std::uint32_t buttons = 0;
   std::int64_t sequence = 0;  // rises with each control

@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "core/prepare.h"
-#include "core/workspace.h"
+#include "live/workspace.h"
 #include "sweeps/grip_loop.h"
 #include "sweeps/wall_sweep.h"
 

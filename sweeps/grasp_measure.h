@@ -7,7 +7,7 @@
 #include <span>
 
 #include "core/scene.h"
-#include "core/tick.h"
+#include "live/tick.h"
 
 namespace wholehand {
 

@@ -6,7 +6,7 @@
 #include "core/closure.h"
 #include "core/load.h"
 #include "core/prepare.h"
-#include "core/workspace.h"
+#include "live/workspace.h"
 
 namespace wholehand {
 namespace {

@@ -4,9 +4,9 @@
 #include <array>
 
 #include "core/hand.h"
-#include "core/quaternion.h"
 #include "core/result.h"
-#include "core/tick.h"
+#include "live/quaternion.h"
+#include "live/tick.h"
 
 namespace wholehand {
 

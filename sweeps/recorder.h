@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/tick_ring.h"
+#include "live/tick_ring.h"
 #include "sweeps/recording.h"
 
 namespace wholehand {

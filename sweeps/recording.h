@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/tick.h"
+#include "live/tick.h"
 #include "sweeps/classic_netcdf.h"
 
 namespace wholehand {

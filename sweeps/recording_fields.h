@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "core/tick.h"
+#include "live/tick.h"
 #include "sweeps/classic_netcdf.h"
 
 namespace wholehand {

@@ -1,7 +1,7 @@
 // The whole hand as it is seen live: the hand of the grip that the session holds, outside of every glass, without jumps; the liquid's surface
 // and the stream by closed forms.
 // sanitizers: address
-#include "core/hand_view.h"
+#include "live/hand_view.h"
 
 #include <gtest/gtest.h>
 

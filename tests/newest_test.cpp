@@ -1,5 +1,5 @@
 // sanitizers: address thread
-#include "core/newest.h"
+#include "live/newest.h"
 
 #include <gtest/gtest.h>
 

@@ -18,9 +18,9 @@
 #include <thread>
 
 #include "core/error.h"
-#include "core/session.h"
 #include "device/haptic_loop.h"
 #include "device/omega_gripper.h"
+#include "live/session.h"
 #include "tests/support/carried_beaker.h"
 #include "tests/support/mock_grippers.h"
 #include "tests/support/stand_in_dhd.h"

@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/hand_view.h"
+#include "live/hand_view.h"
 #include "sweeps/hand_nodes.h"
 #include "tests/support/live_script.h"
 #include "tests/support/scenes.h"

@@ -1,6 +1,6 @@
 // Liquid that runs, falls and arrives: against closed forms, and its sum at every tick.
 // sanitizers: address
-#include "core/pouring.h"
+#include "live/pouring.h"
 
 #include <gtest/gtest.h>
 

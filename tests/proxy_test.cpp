@@ -1,7 +1,7 @@
 // Proxies of the tracked tips: against closed forms and brute force, under friction, and on long walks among vessels, where no wall may be
 // crossed.
 // sanitizers: none
-#include "core/proxy.h"
+#include "live/proxy.h"
 
 #include <gtest/gtest.h>
 

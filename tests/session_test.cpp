@@ -1,7 +1,7 @@
 // A live session as a whole: its states, the forces before and after the grasp against closed forms and against a sweep, what pours, and that
 // the same states give the same forces.
 // sanitizers: address
-#include "core/session.h"
+#include "live/session.h"
 
 #include <gtest/gtest.h>
 

@@ -10,9 +10,9 @@
 
 #include "app/paths.h"
 #include "core/error.h"
-#include "core/hand_view.h"
 #include "device/haptic_loop.h"
 #include "device/sim_user.h"
+#include "live/hand_view.h"
 #include "scene/reader.h"
 #include "sweeps/hand_nodes.h"
 #include "tests/support/meshes.h"

@@ -1,5 +1,5 @@
 // sanitizers: address thread
-#include "core/tick_ring.h"
+#include "live/tick_ring.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // Where vessels are while a session tells of one at a time.
 // sanitizers: address
-#include "core/vessel_tracker.h"
+#include "live/vessel_tracker.h"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "core/session.h"
+#include "live/session.h"
 #include "tests/support/live_script.h"
 
 namespace wholehand {

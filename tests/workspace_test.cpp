@@ -1,6 +1,6 @@
 // From the gripper's own frame to the hand in the world and back.
 // sanitizers: address
-#include "core/workspace.h"
+#include "live/workspace.h"
 
 #include <gtest/gtest.h>
 

@@ -21,7 +21,7 @@ const DARK = {
 };
 export const sceneColors = () => (darkMode.matches ? DARK : LIGHT);
 
-// The 24 contact points: what a state is called, its colour and the shape of its mark (core/hand_view).
+// The 24 contact points: what a state is called, its colour and the shape of its mark (live/hand_view).
 export const CONTACTS = [
   {key: '.', name: 'free', color: ['#7b848f', '#98a3b0'], shape: 'ring'},
   {key: 't', name: 'touching', color: ['#d55e00', '#f08a3c'], shape: 'disc'},

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/scene.h"
-#include "core/tick.h"
+#include "live/tick.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "core/scene.h"
-#include "core/tick.h"
+#include "live/tick.h"
 
 namespace wholehand {
 

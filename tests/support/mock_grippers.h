@@ -18,8 +18,8 @@
 #include <thread>
 #include <vector>
 
-#include "core/tick.h"
 #include "device/protocol.h"
+#include "live/tick.h"
 
 struct _UMockdevTestbed;
 struct _UMockdevIoctlBase;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/scene.h"
-#include "core/tick.h"
+#include "live/tick.h"
 
 namespace wholehand {
 

@@ -1,4 +1,4 @@
-#include "core/workspace.h"
+#include "live/workspace.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "core/tick.h"
+#include "live/tick.h"
 
 namespace wholehand {
 

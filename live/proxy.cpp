@@ -1,4 +1,4 @@
-#include "core/proxy.h"
+#include "live/proxy.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/pouring.h"
+#include "live/pouring.h"
 
 #include <algorithm>
 #include <cmath>

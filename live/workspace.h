@@ -3,7 +3,7 @@
 
 #include "core/real.h"
 #include "core/scene.h"
-#include "core/tick.h"
+#include "live/tick.h"
 
 namespace wholehand {
 

@@ -1,4 +1,4 @@
-#include "core/tick.h"
+#include "live/tick.h"
 
 namespace wholehand {
 

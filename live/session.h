@@ -7,9 +7,9 @@
 
 #include "core/grip.h"
 #include "core/held.h"
-#include "core/pouring.h"
-#include "core/proxy.h"
-#include "core/workspace.h"
+#include "live/pouring.h"
+#include "live/proxy.h"
+#include "live/workspace.h"
 
 namespace wholehand {
 

@@ -1,4 +1,4 @@
-#include "core/vessel_tracker.h"
+#include "live/vessel_tracker.h"
 
 #include <algorithm>
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <optional>
 
-#include "core/session.h"
-#include "core/vessel_tracker.h"
+#include "live/session.h"
+#include "live/vessel_tracker.h"
 
 namespace wholehand {
 

@@ -1,4 +1,4 @@
-#include "core/amounts.h"
+#include "live/amounts.h"
 
 namespace wholehand {
 

@@ -8,7 +8,7 @@
 
 #include "core/liquid.h"
 #include "core/scene.h"
-#include "core/tick.h"
+#include "live/tick.h"
 
 namespace wholehand {
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/tick.h"
+#include "live/tick.h"
 
 namespace wholehand {
 

@@ -1,4 +1,4 @@
-#include "core/hand_view.h"
+#include "live/hand_view.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "core/contact.h"
-#include "core/tick.h"
+#include "live/tick.h"
 
 namespace wholehand {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <glm/gtc/quaternion.hpp>
 
-#include "core/workspace.h"
+#include "live/workspace.h"
 
 namespace wholehand {
 

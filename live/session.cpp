@@ -1,4 +1,4 @@
-#include "core/session.h"
+#include "live/session.h"
 
 #include <algorithm>
 #include <cmath>
