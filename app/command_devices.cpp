@@ -10,7 +10,7 @@
 #include "app/commands.h"
 #include "app/validators.h"
 #include "device/find_grippers.h"
-#include "sweeps/devices.h"
+#include "host/devices.h"
 
 namespace wholehand {
 namespace {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "sweeps/open_backend.h"
+#include "host/open_backend.h"
 
 namespace wholehand {
 namespace {

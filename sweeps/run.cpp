@@ -10,6 +10,7 @@
 
 #include "core/domain.h"
 #include "core/prepare.h"
+#include "host/open_backend.h"
 #include "sweeps/best.h"
 #include "sweeps/best_glb.h"
 #include "sweeps/cavity_notes.h"
@@ -20,7 +21,6 @@
 #include "sweeps/hand_lists.h"
 #include "sweeps/heat_map_plot.h"
 #include "sweeps/mesh_vessel.h"
-#include "sweeps/open_backend.h"
 #include "sweeps/result_file.h"
 #include "sweeps/resume.h"
 #include "sweeps/tally.h"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "sweeps/devices.h"
+#include "host/devices.h"
 #include "tests/support/environment.h"
 
 namespace wholehand::host {

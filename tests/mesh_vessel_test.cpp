@@ -9,8 +9,8 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "host/open_backend.h"
 #include "sweeps/mesh_check.h"
-#include "sweeps/open_backend.h"
 #include "tests/support/environment.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"

@@ -1,4 +1,4 @@
-#include "sweeps/open_backend.h"
+#include "host/open_backend.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "sweeps/devices.h"
+#include "host/devices.h"
 
 #include <fmt/format.h>
 
