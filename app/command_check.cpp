@@ -9,10 +9,10 @@
 #include "app/validators.h"
 #include "core/domain.h"
 #include "host/open_backend.h"
+#include "objects/vessel.h"
 #include "scene/reader.h"
 #include "sweeps/cavity_notes.h"
 #include "sweeps/check.h"
-#include "sweeps/mesh_vessel.h"
 #include "system/output.h"
 
 namespace wholehand {

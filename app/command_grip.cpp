@@ -21,6 +21,7 @@
 #include "core/capacity.h"
 #include "core/domain.h"
 #include "host/open_backend.h"
+#include "objects/vessel.h"
 #include "scene/fills.h"
 #include "scene/reader.h"
 #include "scene/text.h"
@@ -29,7 +30,6 @@
 #include "sweeps/grip_lists.h"
 #include "sweeps/grip_report.h"
 #include "sweeps/grip_svg.h"
-#include "sweeps/mesh_vessel.h"
 #include "system/files.h"
 #include "system/output.h"
 

@@ -5,8 +5,8 @@
 #include <system_error>
 
 #include "core/error.h"
+#include "objects/vessel.h"
 #include "scene/reader.h"
-#include "sweeps/mesh_vessel.h"
 #include "system/files.h"
 
 namespace wholehand {

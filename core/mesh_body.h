@@ -1,4 +1,4 @@
-// A vessel read from a mesh file, as the kernels and the drawings need it: plain data, made by sweeps/mesh_vessel.h.
+// A vessel read from a mesh file, as the kernels and the drawings need it: plain data, made by objects/vessel.h.
 #pragma once
 
 #include <array>

@@ -91,7 +91,7 @@ struct MeshData {
   Triple rotate{};           // rad
   bool origin_at_base = true;
   std::optional<double> grid_spacing;    // m; absent: as wide as the wanted accuracy allows
-  std::shared_ptr<const MeshBody> body;  // the file once it is read (sweeps/mesh_vessel.h); null before
+  std::shared_ptr<const MeshBody> body;  // the file once it is read (objects/vessel.h); null before
 };
 
 struct GuidancePoint {

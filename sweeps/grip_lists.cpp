@@ -14,8 +14,8 @@
 #include <set>
 
 #include "core/error.h"
+#include "objects/vessel.h"
 #include "sweeps/heat_map_plot.h"
-#include "sweeps/mesh_vessel.h"
 #include "system/csv.h"
 
 namespace wholehand {

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/mesh_body.h"
+#include "objects/edges.h"
 #include "sweeps/depth_map.h"
-#include "sweeps/mesh_edges.h"
 
 namespace wholehand {
 

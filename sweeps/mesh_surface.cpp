@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 #include <numeric>
 
-#include "sweeps/mesh_edges.h"
+#include "objects/edges.h"
 
 namespace wholehand {
 namespace {

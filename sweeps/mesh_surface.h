@@ -6,7 +6,7 @@
 
 namespace wholehand {
 
-// The body's triangles in their order. Across edges that are no creases (sweeps/mesh_edges.h) corners share a position and its normal, the
+// The body's triangles in their order. Across edges that are no creases (objects/edges.h) corners share a position and its normal, the
 // mean of the triangles' by their angles there; at creases, open edges and where more than two triangles meet positions are repeated.
 SurfaceMesh mesh_surface(const MeshBody& body);
 

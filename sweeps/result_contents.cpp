@@ -9,8 +9,8 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "objects/vessel.h"
 #include "shaders/layout.h"
-#include "sweeps/mesh_vessel.h"
 #include "sweeps/result_definition.h"
 
 namespace wholehand {

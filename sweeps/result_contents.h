@@ -42,7 +42,7 @@ constexpr const char* BEST_SCORE = "best_score";
 std::string best_axis_name(const PlanAxis& axis);
 std::string best_scale_dimension(const Plan& plan);  // of the hand scales; Sobol points have a variable of the plain name
 
-// Of a scene with meshes: from where relative mesh files are looked for, and what tells that they are still the same (sweeps/mesh_vessel.h).
+// Of a scene with meshes: from where relative mesh files are looked for, and what tells that they are still the same (objects/vessel.h).
 constexpr const char* SCENE_FILE = "scene_file";
 constexpr const char* MESHES = "meshes";
 constexpr const char* MESH_KEYS = "mesh_keys";

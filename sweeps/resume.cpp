@@ -5,7 +5,7 @@
 #include <sys/stat.h>
 
 #include "core/error.h"
-#include "sweeps/mesh_vessel.h"
+#include "objects/vessel.h"
 #include "sweeps/sweep_result.h"
 #include "system/build_id.h"
 #include "system/readable.h"

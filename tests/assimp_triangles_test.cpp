@@ -1,5 +1,5 @@
 // STL, OBJ and PLY files: the same triangles as glTF, or one line about why not.
-#include "sweeps/assimp_triangles.h"
+#include "objects/assimp_triangles.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@
 #include <fstream>
 
 #include "core/error.h"
-#include "sweeps/assimp_input.h"
-#include "sweeps/mesh_check.h"
+#include "objects/assimp_input.h"
+#include "objects/check.h"
 #include "tests/support/meshes.h"
 
 namespace wholehand {

@@ -1,7 +1,7 @@
 // sanitizers: address
 // (Embree starts workers that the thread sanitizer cannot see into, and then reports what they were given.)
 // Lattices of meshes on the disk: the same again to the bit, made anew where a file is not what it should be, and never in the way.
-#include "sweeps/mesh_cache.h"
+#include "objects/cache.h"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>
@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "sweeps/mesh_distance.h"
+#include "objects/distance.h"
 #include "system/cache_folder.h"
 #include "tests/support/environment.h"
 #include "tests/support/meshes.h"

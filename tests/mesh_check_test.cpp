@@ -1,5 +1,5 @@
 // What is said of a mesh before it is used.
-#include "sweeps/mesh_check.h"
+#include "objects/check.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // sanitizers: address
 // (Embree starts workers that the thread sanitizer cannot see into, and then reports what they were given.)
 // Distances to meshes against closed forms and the outline's own, and the side of a million points.
-#include "sweeps/mesh_distance.h"
+#include "objects/distance.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -16,7 +16,7 @@
 #include <numbers>
 
 #include "core/sdf.h"
-#include "sweeps/winding_tree.h"
+#include "objects/winding_tree.h"
 #include "tests/support/meshes.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/scenes.h"

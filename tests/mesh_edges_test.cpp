@@ -1,5 +1,5 @@
 // Edges of bodies: each once, with what lies on both sides, and where they are sharp.
-#include "sweeps/mesh_edges.h"
+#include "objects/edges.h"
 
 #include <gtest/gtest.h>
 

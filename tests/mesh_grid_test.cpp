@@ -1,7 +1,7 @@
 // sanitizers: address
 // (Embree starts workers that the thread sanitizer cannot see into, and then reports what they were given.)
 // Lattices of distances to meshes: what lies in them, how far they err, and when they are refused.
-#include "sweeps/mesh_grid.h"
+#include "objects/grid.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 
 #include "core/error.h"
 #include "core/sdf.h"
-#include "sweeps/mesh_distance.h"
+#include "objects/distance.h"
 #include "tests/support/meshes.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/scenes.h"

@@ -1,12 +1,12 @@
 // Holes: loops of open edges, their size, and what closes them.
-#include "sweeps/mesh_holes.h"
+#include "objects/holes.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "sweeps/mesh_check.h"
+#include "objects/check.h"
 #include "tests/support/meshes.h"
 
 namespace wholehand {

@@ -1,5 +1,5 @@
 // What glTF files become: triangles where they should be, or one line about why not.
-#include "sweeps/mesh.h"
+#include "objects/mesh.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -15,8 +15,8 @@
 #include <numbers>
 
 #include "core/error.h"
-#include "sweeps/gltf_file.h"
-#include "sweeps/mesh_check.h"
+#include "objects/check.h"
+#include "objects/gltf_file.h"
 #include "tests/support/meshes.h"
 
 namespace wholehand {

@@ -1,6 +1,6 @@
 // Vessels from mesh files: what is read, what the kernels make of it, and what is refused.
 // sanitizers: none (sampling its meshes would be most of a sanitized run; mesh_commands_test goes the same way)
-#include "sweeps/mesh_vessel.h"
+#include "objects/vessel.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 #include "core/error.h"
 #include "host/open_backend.h"
-#include "sweeps/mesh_check.h"
+#include "objects/check.h"
 #include "tests/support/environment.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"

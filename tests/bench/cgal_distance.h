@@ -1,9 +1,9 @@
-// Signed distance to a mesh by CGAL's AABB tree, beside which sweeps/mesh_distance.h is measured; only where libcgal-dev is installed.
+// Signed distance to a mesh by CGAL's AABB tree, beside which objects/distance.h is measured; only where libcgal-dev is installed.
 #pragma once
 
 #include <memory>
 
-#include "sweeps/mesh.h"
+#include "objects/mesh.h"
 
 namespace wholehand::bench {
 

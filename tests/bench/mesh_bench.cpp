@@ -8,8 +8,8 @@
 #include <cmath>
 #include <memory>
 
-#include "sweeps/mesh_distance.h"
-#include "sweeps/mesh_grid.h"
+#include "objects/distance.h"
+#include "objects/grid.h"
 #include "tests/bench/bench.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"

@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "core/error.h"
-#include "sweeps/mesh_check.h"
+#include "objects/check.h"
 
 namespace {
 

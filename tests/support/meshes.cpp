@@ -12,9 +12,9 @@
 #include <numbers>
 
 #include "core/prepare.h"
-#include "sweeps/mesh_check.h"
-#include "sweeps/mesh_distance.h"
-#include "sweeps/mesh_grid.h"
+#include "objects/check.h"
+#include "objects/distance.h"
+#include "objects/grid.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {

@@ -6,7 +6,7 @@
 
 #include "core/mesh_body.h"
 #include "core/scene.h"
-#include "sweeps/mesh.h"
+#include "objects/mesh.h"
 
 namespace wholehand {
 

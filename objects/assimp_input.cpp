@@ -1,4 +1,4 @@
-#include "sweeps/assimp_input.h"
+#include "objects/assimp_input.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "sweeps/mesh.h"
-#include "sweeps/mesh_words.h"
+#include "objects/mesh.h"
+#include "objects/words.h"
 
 namespace wholehand {
 namespace {

@@ -4,7 +4,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "sweeps/mesh.h"
+#include "objects/mesh.h"
 
 namespace wholehand {
 

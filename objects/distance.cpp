@@ -1,4 +1,4 @@
-#include "sweeps/mesh_distance.h"
+#include "objects/distance.h"
 
 #include <embree3/rtcore.h>
 #include <fmt/format.h>
@@ -12,7 +12,7 @@
 #include <optional>
 
 #include "core/error.h"
-#include "sweeps/winding_tree.h"
+#include "objects/winding_tree.h"
 
 namespace wholehand {
 // A ray's direction, exact in single precision, and two vectors across it.

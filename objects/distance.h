@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "core/scene.h"
-#include "sweeps/mesh_check.h"
+#include "objects/check.h"
 
 namespace wholehand {
 

@@ -5,7 +5,7 @@
 
 #include <string_view>
 
-#include "sweeps/mesh_file.h"
+#include "objects/file.h"
 
 namespace wholehand {
 

@@ -6,11 +6,11 @@
 #include <optional>
 
 #include "core/prepare.h"
-#include "sweeps/mesh_check.h"
+#include "objects/check.h"
 
 namespace wholehand {
 
-class MeshDistance;  // sweeps/mesh_distance.h
+class MeshDistance;  // objects/distance.h
 
 // What a lattice is to be.
 struct GridWish {

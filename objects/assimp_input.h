@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "sweeps/mesh_file.h"
+#include "objects/file.h"
 
 namespace wholehand {
 

@@ -1,4 +1,4 @@
-#include "sweeps/gltf_triangles.h"
+#include "objects/gltf_triangles.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
 
-#include "sweeps/gltf_file.h"
+#include "objects/gltf_file.h"
 
 namespace wholehand {
 namespace {

@@ -1,4 +1,4 @@
-#include "sweeps/gltf_file.h"
+#include "objects/gltf_file.h"
 
 #include <fmt/format.h>
 

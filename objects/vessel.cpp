@@ -1,4 +1,4 @@
-#include "sweeps/mesh_vessel.h"
+#include "objects/vessel.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -12,9 +12,9 @@
 
 #include "core/error.h"
 #include "core/load.h"
-#include "sweeps/mesh.h"
-#include "sweeps/mesh_cache.h"
-#include "sweeps/mesh_check.h"
+#include "objects/cache.h"
+#include "objects/check.h"
+#include "objects/mesh.h"
 #include "system/cache_folder.h"
 #include "system/progress.h"
 #include "system/readable.h"

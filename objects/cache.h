@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "sweeps/mesh_grid.h"
+#include "objects/grid.h"
 
 namespace wholehand {
 

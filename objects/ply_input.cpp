@@ -12,9 +12,9 @@
 #include <optional>
 #include <vector>
 
-#include "sweeps/assimp_input.h"
-#include "sweeps/mesh.h"
-#include "sweeps/mesh_words.h"
+#include "objects/assimp_input.h"
+#include "objects/mesh.h"
+#include "objects/words.h"
 
 namespace wholehand {
 namespace {

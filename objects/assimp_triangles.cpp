@@ -1,4 +1,4 @@
-#include "sweeps/assimp_triangles.h"
+#include "objects/assimp_triangles.h"
 
 #include <assimp/BaseImporter.h>
 #include <assimp/postprocess.h>
@@ -13,7 +13,7 @@
 #include <memory>
 #include <string_view>
 
-#include "sweeps/assimp_input.h"
+#include "objects/assimp_input.h"
 
 namespace wholehand {
 namespace {

@@ -1,4 +1,4 @@
-#include "sweeps/mesh_edges.h"
+#include "objects/edges.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "sweeps/mesh.h"
-#include "sweeps/mesh_file.h"
+#include "objects/file.h"
+#include "objects/mesh.h"
 
 namespace wholehand {
 

@@ -1,4 +1,4 @@
-#include "sweeps/mesh_file.h"
+#include "objects/file.h"
 
 #include <fmt/format.h>
 
@@ -12,7 +12,7 @@
 #include <system_error>
 
 #include "core/error.h"
-#include "sweeps/mesh.h"
+#include "objects/mesh.h"
 
 namespace wholehand {
 namespace {

@@ -1,4 +1,4 @@
-#include "sweeps/mesh.h"
+#include "objects/mesh.h"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
 
-#include "sweeps/assimp_triangles.h"
-#include "sweeps/gltf_triangles.h"
-#include "sweeps/mesh_file.h"
+#include "objects/assimp_triangles.h"
+#include "objects/file.h"
+#include "objects/gltf_triangles.h"
 
 namespace wholehand {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "sweeps/mesh.h"
+#include "objects/mesh.h"
 
 namespace wholehand {
 

@@ -1,4 +1,4 @@
-#include "sweeps/mesh_check.h"
+#include "objects/check.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "sweeps/mesh_holes.h"
+#include "objects/holes.h"
 
 namespace wholehand {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include "sweeps/mesh.h"
+#include "objects/mesh.h"
 
 namespace wholehand {
 
@@ -37,7 +37,7 @@ struct CheckedMesh {
 };
 
 // Joins vertices that are equal in all three coordinates, leaves out triangles with two corners in one place and those that are there twice,
-// closes holes where `close_holes` is set (sweeps/mesh_holes.h), and turns all round where the volume is negative. `name` is for messages.
+// closes holes where `close_holes` is set (objects/holes.h), and turns all round where the volume is negative. `name` is for messages.
 // Throws Error (usage) where no volume is left: a flat sheet, or two that cancel; and where holes are to be closed and one is too large.
 CheckedMesh check_mesh(const TriangleMesh& mesh, const std::string& name, bool close_holes = false);
 

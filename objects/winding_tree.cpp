@@ -1,4 +1,4 @@
-#include "sweeps/winding_tree.h"
+#include "objects/winding_tree.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "sweeps/mesh_file.h"
+#include "objects/file.h"
 
 namespace wholehand {
 

@@ -1,4 +1,4 @@
-#include "sweeps/mesh_grid.h"
+#include "objects/grid.h"
 
 #include <fmt/format.h>
 
@@ -19,8 +19,8 @@
 #include "core/error.h"
 #include "core/half.h"
 #include "core/sdf.h"
+#include "objects/distance.h"
 #include "shaders/layout.h"
-#include "sweeps/mesh_distance.h"
 
 namespace wholehand {
 namespace {

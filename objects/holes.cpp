@@ -1,4 +1,4 @@
-#include "sweeps/mesh_holes.h"
+#include "objects/holes.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "sweeps/mesh_words.h"
+#include "objects/words.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "sweeps/mesh_cache.h"
+#include "objects/cache.h"
 
 #include <fmt/format.h>
 #include <stdlib.h>
@@ -16,7 +16,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "sweeps/mesh_distance.h"
+#include "objects/distance.h"
 #include "system/cache_folder.h"
 
 namespace wholehand {
