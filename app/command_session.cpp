@@ -6,8 +6,8 @@
 
 #include "app/commands.h"
 #include "app/validators.h"
-#include "sweeps/session_plot.h"
-#include "sweeps/session_report.h"
+#include "recordings/session_plot.h"
+#include "recordings/session_report.h"
 #include "system/files.h"
 #include "system/folder_files.h"
 #include "system/gnuplot.h"

@@ -13,7 +13,7 @@ namespace wholehand {
 
 constexpr double WATCHDOG = 20e-3;  // s without a word from the host after which a device lets go: two of the host's own patience
 
-// sim, view, hid[:PATH], usb[:VID:PID] or omega[:N], as --device names them; a recording is opened by its own (sweeps/recording.h). `library`: of
+// sim, view, hid[:PATH], usb[:VID:PID] or omega[:N], as --device names them; a recording is opened by its own (recordings/recording.h). `library`: of
 // Force Dimension's SDK, empty: wherever it is found; `watchdog` in s; `view`: where the page's controls go in, which must outlive the
 // gripper; null: there is no page. Throws Error: (usage) another name, with those that are allowed, or no page; (failure) what opening it
 // throws.

@@ -7,7 +7,7 @@
 
 #include "app/view_frame.h"
 #include "app/view_server.h"
-#include "sweeps/recording.h"
+#include "recordings/recording.h"
 
 namespace wholehand {
 

@@ -15,7 +15,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "sweeps/recording.h"
+#include "recordings/recording.h"
 #include "tests/support/program.h"
 
 #ifdef WHOLEHAND_PROGRAM

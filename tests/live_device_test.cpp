@@ -32,7 +32,7 @@
 #include "core/error.h"
 #include "device/monotonic.h"
 #include "device/omega_gripper.h"
-#include "sweeps/recording.h"
+#include "recordings/recording.h"
 #include "system/output.h"
 #include "tests/support/scene_texts.h"
 #include "tests/support/stand_in_dhd.h"

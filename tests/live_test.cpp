@@ -24,8 +24,8 @@
 #include "app/open_gripper.h"
 #include "app/paths.h"
 #include "core/error.h"
+#include "recordings/recording.h"
 #include "scene/reader.h"
-#include "sweeps/recording.h"
 #include "tests/support/http_client.h"
 
 namespace wholehand {

@@ -1,5 +1,5 @@
 // sanitizers: address thread
-#include "sweeps/recording.h"
+#include "recordings/recording.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -19,8 +19,8 @@
 #include <random>
 
 #include "core/error.h"
-#include "sweeps/recorder.h"
-#include "sweeps/recording_fields.h"
+#include "recordings/fields.h"
+#include "recordings/recorder.h"
 #include "tests/support/environment.h"
 #include "tests/support/special_values.h"
 

@@ -1,5 +1,5 @@
 // sanitizers: address
-#include "sweeps/session_plot.h"
+#include "recordings/session_plot.h"
 
 #include <gtest/gtest.h>
 

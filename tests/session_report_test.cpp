@@ -1,6 +1,6 @@
 // Sessions made up from known courses: every number of the report is known beforehand.
 // sanitizers: address
-#include "sweeps/session_report.h"
+#include "recordings/session_report.h"
 
 #include <gtest/gtest.h>
 

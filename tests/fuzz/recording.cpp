@@ -9,8 +9,8 @@
 #include <string_view>
 
 #include "core/error.h"
-#include "sweeps/recording.h"
-#include "sweeps/session_report.h"
+#include "recordings/recording.h"
+#include "recordings/session_report.h"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "live/tick.h"
-#include "sweeps/classic_netcdf.h"
+#include "recordings/classic_netcdf.h"
 
 namespace wholehand {
 

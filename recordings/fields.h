@@ -7,7 +7,7 @@
 #include <string>
 
 #include "live/tick.h"
-#include "sweeps/classic_netcdf.h"
+#include "recordings/classic_netcdf.h"
 
 namespace wholehand {
 

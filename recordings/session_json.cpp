@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "sweeps/session_report.h"
+#include "recordings/session_report.h"
 
 namespace wholehand {
 namespace {

@@ -1,4 +1,4 @@
-#include "sweeps/recording_fields.h"
+#include "recordings/fields.h"
 
 #include <cmath>
 #include <cstring>

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "live/tick_ring.h"
-#include "sweeps/recording.h"
+#include "recordings/recording.h"
 
 namespace wholehand {
 

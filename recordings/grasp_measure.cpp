@@ -1,4 +1,4 @@
-#include "sweeps/grasp_measure.h"
+#include "recordings/grasp_measure.h"
 
 #include <algorithm>
 #include <cmath>

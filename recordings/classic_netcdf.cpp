@@ -1,4 +1,4 @@
-#include "sweeps/classic_netcdf.h"
+#include "recordings/classic_netcdf.h"
 
 #include <fmt/format.h>
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "sweeps/recording.h"
-#include "sweeps/session_report.h"
+#include "recordings/recording.h"
+#include "recordings/session_report.h"
 
 namespace wholehand {
 

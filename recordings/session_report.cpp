@@ -1,4 +1,4 @@
-#include "sweeps/session_report.h"
+#include "recordings/session_report.h"
 
 #include <algorithm>
 #include <cmath>

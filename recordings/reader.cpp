@@ -8,9 +8,9 @@
 #include <cstring>
 
 #include "core/error.h"
-#include "sweeps/recording.h"
-#include "sweeps/recording_fields.h"
-#include "sweeps/recording_layout.h"
+#include "recordings/fields.h"
+#include "recordings/layout.h"
+#include "recordings/recording.h"
 #include "system/files.h"
 
 namespace wholehand {

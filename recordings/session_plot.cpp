@@ -1,4 +1,4 @@
-#include "sweeps/session_plot.h"
+#include "recordings/session_plot.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "sweeps/recorder.h"
+#include "recordings/recorder.h"
 
 #include <algorithm>
 #include <utility>

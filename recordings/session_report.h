@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "sweeps/grasp_measure.h"
-#include "sweeps/recording.h"
+#include "recordings/grasp_measure.h"
+#include "recordings/recording.h"
 
 namespace wholehand {
 

@@ -1,4 +1,4 @@
-#include "sweeps/recording_layout.h"
+#include "recordings/layout.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "core/error.h"
-#include "sweeps/recording_fields.h"
+#include "recordings/fields.h"
 
 namespace wholehand {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "sweeps/session_report.h"
+#include "recordings/session_report.h"
 #include "system/csv.h"
 
 namespace wholehand {

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string>
 
-#include "sweeps/classic_netcdf.h"
-#include "sweeps/recording.h"
+#include "recordings/classic_netcdf.h"
+#include "recordings/recording.h"
 
 namespace wholehand {
 
