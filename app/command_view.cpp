@@ -14,10 +14,10 @@
 #include "app/values.h"
 #include "app/view_grips.h"
 #include "app/view_recording.h"
+#include "grips/methods.h"
 #include "objects/vessel.h"
 #include "scene/reader.h"
 #include "sweeps/grip_lists.h"
-#include "sweeps/grip_methods.h"
 
 namespace wholehand {
 namespace {

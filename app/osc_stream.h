@@ -8,8 +8,8 @@
 
 #include "app/display_loop.h"
 #include "app/osc_bundle.h"
+#include "grips/hand_nodes.h"
 #include "live/session.h"
-#include "sweeps/hand_nodes.h"
 
 namespace wholehand {
 

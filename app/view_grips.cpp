@@ -15,8 +15,8 @@
 #include "core/mesh_body.h"
 #include "core/outline_points.h"
 #include "core/prepare.h"
-#include "sweeps/grip_report.h"
-#include "sweeps/hand_nodes.h"
+#include "grips/hand_nodes.h"
+#include "grips/report.h"
 
 namespace wholehand {
 namespace {

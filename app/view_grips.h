@@ -9,7 +9,7 @@
 #include "app/view_frame.h"
 #include "app/view_server.h"
 #include "core/evaluator.h"
-#include "sweeps/grip_methods.h"
+#include "grips/methods.h"
 
 namespace wholehand {
 

@@ -12,8 +12,8 @@
 #include "core/mesh_body.h"
 #include "core/outline_points.h"
 #include "core/prepare.h"
+#include "grips/hand_nodes.h"
 #include "live/hand_view.h"
-#include "sweeps/hand_nodes.h"
 #include "system/version.h"
 
 namespace wholehand {

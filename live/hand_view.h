@@ -19,7 +19,7 @@ struct HandView {
   std::array<Triple, JOINT_COUNT> proxies{};  // of these, outside of all vessels: what is drawn
   std::array<PointContact, JOINT_COUNT> contact{};
   Triple wrist{}, rigged_wrist{};  // origins of the posed and the rigged hand's frames
-  Rotation rotation{NO_ROTATION};  // of that frame; of a left hand the one that sweeps/hand_nodes.h means
+  Rotation rotation{NO_ROTATION};  // of that frame; of a left hand the one that grips/hand_nodes.h means
   int vessel = -1;                 // in whose frame it is posed: touched, held or nearest; -1: none is near
 };
 

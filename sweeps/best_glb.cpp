@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "sweeps/grip_glb.h"
+#include "grips/glb.h"
 #include "sweeps/grip_lists.h"
 
 namespace wholehand {

@@ -8,8 +8,8 @@
 
 #include "core/error.h"
 #include "core/scene.h"
+#include "grips/glb.h"
 #include "sweeps/best.h"
-#include "sweeps/grip_glb.h"
 #include "sweeps/grip_lists.h"
 #include "sweeps/heat_map_plot.h"
 #include "sweeps/mark.h"

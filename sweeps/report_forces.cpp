@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sweeps/grip_methods.h"
+#include "grips/methods.h"
 #include "sweeps/report_lines.h"
 
 namespace wholehand {

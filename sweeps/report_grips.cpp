@@ -9,9 +9,9 @@
 
 #include "core/core_backend.h"
 #include "core/error.h"
+#include "grips/hand_nodes.h"
+#include "grips/svg.h"
 #include "sweeps/grip_lists.h"
-#include "sweeps/grip_svg.h"
-#include "sweeps/hand_nodes.h"
 #include "system/readable.h"
 
 namespace wholehand {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "grips/report.h"
 #include "sweeps/best.h"
-#include "sweeps/grip_report.h"
 #include "sweeps/report_source.h"
 
 namespace wholehand {

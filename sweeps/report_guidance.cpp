@@ -8,8 +8,8 @@
 #include <bit>
 #include <cmath>
 
+#include "grips/hand_nodes.h"
 #include "shaders/layout.h"
-#include "sweeps/hand_nodes.h"
 #include "sweeps/report_field.h"
 #include "system/readable.h"
 

@@ -9,7 +9,7 @@
 
 #include "core/mesh_body.h"
 #include "core/prepare.h"
-#include "sweeps/grip_methods.h"
+#include "grips/methods.h"
 #include "sweeps/result_contents.h"
 #include "system/readable.h"
 

@@ -1,5 +1,5 @@
 // The raster of a view: how near, how far it reaches, and its borders.
-#include "sweeps/depth_map.h"
+#include "grips/depth_map.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // A grip as glTF, opened again by tinygltf: nodes, places, bounds, the liquid's volume, and what the extras tell.
 // sanitizers: address
-#include "sweeps/grip_glb.h"
+#include "grips/glb.h"
 
 #include <gtest/gtest.h>
 #include <tiny_gltf.h>
@@ -13,8 +13,8 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
-#include "sweeps/grip_states.h"
-#include "sweeps/hand_nodes.h"
+#include "grips/hand_nodes.h"
+#include "grips/states.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
 

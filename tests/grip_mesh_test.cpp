@@ -1,6 +1,6 @@
 // Meshes of glass, liquid and bones: closed, outward, of the right size, and converging with the square of the step.
 // sanitizers: address
-#include "sweeps/grip_mesh.h"
+#include "grips/mesh.h"
 
 #include <gtest/gtest.h>
 

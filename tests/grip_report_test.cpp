@@ -1,5 +1,5 @@
 // One grip's report: the JSON's form, which fields exist, and that both ways to an answer agree.
-#include "sweeps/grip_report.h"
+#include "grips/report.h"
 
 #include <gtest/gtest.h>
 

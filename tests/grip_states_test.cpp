@@ -1,6 +1,6 @@
 // What a drawing tells of a point, and when there is nothing to draw.
 // sanitizers: address
-#include "sweeps/grip_states.h"
+#include "grips/states.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // A grip as a line drawing: well-formed, to scale, and every view shows what it should.
 // sanitizers: address
-#include "sweeps/grip_svg.h"
+#include "grips/svg.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The hand as nodes: names, positions and OpenXR's orientations against the rotation matrices of the specification, for either hand.
 // sanitizers: address
-#include "sweeps/hand_nodes.h"
+#include "grips/hand_nodes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Line drawings of meshes: contours where they are by closed forms, what is hidden left out, and never too many points.
-#include "sweeps/mesh_lines.h"
+#include "grips/mesh_lines.h"
 
 #include <gtest/gtest.h>
 

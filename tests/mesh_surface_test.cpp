@@ -1,5 +1,5 @@
 // Normals of mesh vessels: smooth where the surface is, split where it is sharp.
-#include "sweeps/mesh_surface.h"
+#include "grips/mesh_surface.h"
 
 #include <gtest/gtest.h>
 

@@ -20,8 +20,8 @@
 #include <vector>
 
 #include "core/error.h"
+#include "grips/hand_nodes.h"
 #include "live/hand_view.h"
-#include "sweeps/hand_nodes.h"
 #include "tests/support/live_script.h"
 #include "tests/support/scenes.h"
 

@@ -7,7 +7,7 @@
 #include <regex>
 
 #include "core/core_backend.h"
-#include "sweeps/grip_svg.h"
+#include "grips/svg.h"
 #include "tests/support/sweep_results.h"
 
 namespace wholehand {

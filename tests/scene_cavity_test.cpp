@@ -12,8 +12,8 @@
 #include "core/evaluator.h"
 #include "core/outline_points.h"
 #include "core/planes.h"
+#include "grips/glass.h"
 #include "sweeps/cavity_notes.h"
-#include "sweeps/grip_glass.h"
 #include "tests/support/scene_texts.h"
 
 namespace wholehand {

@@ -12,9 +12,9 @@
 #include "core/error.h"
 #include "device/haptic_loop.h"
 #include "device/sim_user.h"
+#include "grips/hand_nodes.h"
 #include "live/hand_view.h"
 #include "scene/reader.h"
-#include "sweeps/hand_nodes.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
 

@@ -17,8 +17,8 @@
 #include "app/view_scene.h"
 #include "core/error.h"
 #include "core/mesh_body.h"
+#include "grips/hand_nodes.h"
 #include "scene/reader.h"
-#include "sweeps/hand_nodes.h"
 #include "tests/support/live_script.h"
 #include "tests/support/scenes.h"
 

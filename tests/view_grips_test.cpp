@@ -13,8 +13,8 @@
 #include "app/paths.h"
 #include "core/contact.h"
 #include "core/error.h"
+#include "grips/report.h"
 #include "scene/reader.h"
-#include "sweeps/grip_report.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {

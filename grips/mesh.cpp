@@ -1,4 +1,4 @@
-#include "sweeps/grip_mesh.h"
+#include "grips/mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include "core/liquid.h"
 #include "core/load.h"
 #include "core/mesh_body.h"
-#include "sweeps/mesh_surface.h"
+#include "grips/mesh_surface.h"
 
 namespace wholehand {
 namespace {

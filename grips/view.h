@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "sweeps/mesh_lines.h"
+#include "grips/mesh_lines.h"
 
 namespace wholehand {
 

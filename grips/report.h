@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "sweeps/grip_methods.h"
+#include "grips/methods.h"
 
 namespace wholehand {
 

@@ -1,4 +1,4 @@
-#include "sweeps/depth_map.h"
+#include "grips/depth_map.h"
 
 #include <algorithm>
 #include <cmath>

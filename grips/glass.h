@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/prepare.h"
-#include "sweeps/grip_view.h"
+#include "grips/view.h"
 
 namespace wholehand {
 

@@ -1,4 +1,4 @@
-#include "sweeps/grip_states.h"
+#include "grips/states.h"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <string>
 
-#include "sweeps/grip_report.h"
+#include "grips/report.h"
 
 namespace wholehand {
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/mesh_body.h"
+#include "grips/depth_map.h"
 #include "objects/edges.h"
-#include "sweeps/depth_map.h"
 
 namespace wholehand {
 

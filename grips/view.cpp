@@ -1,4 +1,4 @@
-#include "sweeps/grip_view.h"
+#include "grips/view.h"
 
 #include <fmt/format.h>
 

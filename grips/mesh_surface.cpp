@@ -1,4 +1,4 @@
-#include "sweeps/mesh_surface.h"
+#include "grips/mesh_surface.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "sweeps/hand_nodes.h"
+#include "grips/hand_nodes.h"
 
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>

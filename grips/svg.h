@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "sweeps/grip_report.h"
+#include "grips/report.h"
 
 namespace wholehand {
 

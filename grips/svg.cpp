@@ -1,4 +1,4 @@
-#include "sweeps/grip_svg.h"
+#include "grips/svg.h"
 
 #include <fmt/format.h>
 
@@ -8,9 +8,9 @@
 #include <iterator>
 #include <numeric>
 
-#include "sweeps/grip_glass.h"
-#include "sweeps/grip_states.h"
-#include "sweeps/hand_nodes.h"
+#include "grips/glass.h"
+#include "grips/hand_nodes.h"
+#include "grips/states.h"
 
 namespace wholehand {
 namespace {

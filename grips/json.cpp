@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "sweeps/grip_report.h"
+#include "grips/report.h"
 
 namespace wholehand {
 namespace {

@@ -1,4 +1,4 @@
-#include "sweeps/grip_glass.h"
+#include "grips/glass.h"
 
 #include <fmt/format.h>
 

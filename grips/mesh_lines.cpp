@@ -1,4 +1,4 @@
-#include "sweeps/mesh_lines.h"
+#include "grips/mesh_lines.h"
 
 #include <algorithm>
 #include <cmath>
@@ -104,21 +104,21 @@ class EdgeChains {
 };
 
 // A stretch of a line between two of its points or on the way, seen or hidden.
-struct Stretch {
+struct LineStretch {
   std::vector<Flat> line;
   bool is_seen = false;
 };
 
 // Appends a piece to the last stretch where that is as it is.
-void extend(std::vector<Stretch>& stretches, const Flat& from, const Flat& to, bool is_seen) {
+void extend(std::vector<LineStretch>& stretches, const Flat& from, const Flat& to, bool is_seen) {
   if (stretches.empty() || stretches.back().is_seen != is_seen) stretches.push_back({{from}, is_seen});
   stretches.back().line.push_back(to);
 }
 
 // Stretches of this kind that are too short take the other.
-std::vector<Stretch> without_short(const std::vector<Stretch>& stretches, bool is_seen, double shortest) {
-  std::vector<Stretch> kept;
-  for (const Stretch& stretch : stretches) {
+std::vector<LineStretch> without_short(const std::vector<LineStretch>& stretches, bool is_seen, double shortest) {
+  std::vector<LineStretch> kept;
+  for (const LineStretch& stretch : stretches) {
     const bool is_short = stretch.is_seen == is_seen && line_length(stretch.line) < shortest && stretches.size() > 1;
     for (std::size_t i = 1; i < stretch.line.size(); ++i)
       extend(kept, stretch.line[i - 1], stretch.line[i], stretch.is_seen != is_short);
@@ -210,7 +210,7 @@ std::vector<std::vector<std::uint32_t>> MeshView::chains(bool of_contours) const
 // A line lies on what it bounds, so it is hidden only where all that is near it on the raster is nearer to the viewer.
 void MeshView::add_visible(const std::vector<std::uint32_t>& chain, std::vector<std::vector<Flat>>& lines) const {
   const double pixel = depths_.pixel();
-  std::vector<Stretch> stretches;
+  std::vector<LineStretch> stretches;
   for (std::size_t i = 1; i < chain.size(); ++i) {
     const Triple &a = points_[chain[i - 1]], &b = points_[chain[i]];
     const int steps = std::max(1, static_cast<int>(std::ceil(std::hypot(b[0] - a[0], b[1] - a[1]) / pixel)));
@@ -222,7 +222,7 @@ void MeshView::add_visible(const std::vector<std::uint32_t>& chain, std::vector<
     }
   }
   stretches = without_short(without_short(stretches, false, SHORT_GAP * pixel), true, SHORT_LINE * pixel);
-  for (const Stretch& stretch : stretches) {
+  for (const LineStretch& stretch : stretches) {
     if (stretch.is_seen) lines.push_back(simplified(stretch.line, LINE_DETAIL * pixel));
   }
 }

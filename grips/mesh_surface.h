@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/mesh_body.h"
-#include "sweeps/grip_mesh.h"
+#include "grips/mesh.h"
 
 namespace wholehand {
 

@@ -1,4 +1,4 @@
-#include "sweeps/grip_glb.h"
+#include "grips/glb.h"
 
 #include <fmt/format.h>
 #include <tiny_gltf.h>
@@ -12,9 +12,9 @@
 
 #include "core/error.h"
 #include "core/mesh_body.h"
-#include "sweeps/grip_mesh.h"
-#include "sweeps/grip_states.h"
-#include "sweeps/hand_nodes.h"
+#include "grips/hand_nodes.h"
+#include "grips/mesh.h"
+#include "grips/states.h"
 
 #ifndef WHOLEHAND_VERSION
 #define WHOLEHAND_VERSION "unknown"

@@ -1,4 +1,4 @@
-#include "sweeps/grip_methods.h"
+#include "grips/methods.h"
 
 #include <fmt/format.h>
 

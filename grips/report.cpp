@@ -1,4 +1,4 @@
-#include "sweeps/grip_report.h"
+#include "grips/report.h"
 
 #include <cmath>
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "grips/report.h"
 #include "shaders/layout.h"
-#include "sweeps/grip_report.h"
 
 namespace wholehand {
 namespace {
