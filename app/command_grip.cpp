@@ -14,10 +14,8 @@
 #include "app/commands.h"
 #include "app/paths.h"
 #include "app/result_scene.h"
-#include "app/serve_view.h"
 #include "app/validators.h"
 #include "app/values.h"
-#include "app/view_grips.h"
 #include "core/capacity.h"
 #include "core/domain.h"
 #include "grips/glb.h"
@@ -32,6 +30,8 @@
 #include "sweeps/grip_lists.h"
 #include "system/files.h"
 #include "system/output.h"
+#include "viewer/grips.h"
+#include "viewer/serve_view.h"
 
 namespace wholehand {
 namespace {

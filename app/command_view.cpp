@@ -9,15 +9,15 @@
 
 #include "app/commands.h"
 #include "app/result_scene.h"
-#include "app/serve_view.h"
 #include "app/validators.h"
 #include "app/values.h"
-#include "app/view_grips.h"
-#include "app/view_recording.h"
 #include "grips/methods.h"
 #include "objects/vessel.h"
 #include "scene/reader.h"
 #include "sweeps/grip_lists.h"
+#include "viewer/grips.h"
+#include "viewer/recording.h"
+#include "viewer/serve_view.h"
 
 namespace wholehand {
 namespace {

@@ -14,14 +14,10 @@
 #include <thread>
 #include <utility>
 
-#include "app/browser.h"
 #include "app/live_board.h"
 #include "app/live_report.h"
-#include "app/live_view.h"
 #include "app/open_gripper.h"
-#include "app/osc_stream.h"
 #include "app/paths.h"
-#include "app/view_control.h"
 #include "device/call_watch.h"
 #include "device/haptic_loop.h"
 #include "device/monotonic.h"
@@ -41,6 +37,10 @@
 #include "system/output.h"
 #include "system/progress.h"
 #include "system/version.h"
+#include "viewer/browser.h"
+#include "viewer/control.h"
+#include "viewer/live_view.h"
+#include "viewer/osc_stream.h"
 
 namespace wholehand {
 namespace {

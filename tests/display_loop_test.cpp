@@ -1,6 +1,6 @@
 // What a session shows at display rate: the newest tick, each once, the last one always.
 // sanitizers: address thread
-#include "app/display_loop.h"
+#include "viewer/display_loop.h"
 
 #include <gtest/gtest.h>
 

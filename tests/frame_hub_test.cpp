@@ -1,6 +1,6 @@
 // Frames from one who makes them to many who watch.
 // sanitizers: address thread
-#include "app/frame_hub.h"
+#include "viewer/frame_hub.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Bundles of OSC 1.0: against the specification's own examples byte by byte, and against liblo, which reads them its own way.
 // sanitizers: address
-#include "app/osc_bundle.h"
+#include "viewer/osc_bundle.h"
 
 #include <gtest/gtest.h>
 #include <lo/lo.h>

@@ -1,7 +1,7 @@
 // A session as OSC: every frame against the ticks it was made of, read by liblo, which has no part in sending it; and what happens where nobody
 // listens.
 // sanitizers: address
-#include "app/osc_stream.h"
+#include "viewer/osc_stream.h"
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>

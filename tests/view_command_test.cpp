@@ -18,10 +18,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/browser.h"
 #include "app/paths.h"
-#include "app/view_frame.h"
-#include "app/view_server.h"
 #include "core/error.h"
 #include "objects/vessel.h"
 #include "recordings/recording.h"
@@ -29,6 +26,9 @@
 #include "tests/support/http_client.h"
 #include "tests/support/program.h"
 #include "tests/support/result_reader.h"
+#include "viewer/browser.h"
+#include "viewer/frame.h"
+#include "viewer/server.h"
 
 namespace wholehand {
 namespace {

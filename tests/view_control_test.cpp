@@ -1,6 +1,6 @@
 // What the page posts: every control that is one, and every way in which a request is none.
 // sanitizers: address
-#include "app/view_control.h"
+#include "viewer/control.h"
 
 #include <gtest/gtest.h>
 

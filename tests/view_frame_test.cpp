@@ -1,6 +1,6 @@
 // Frames and scenes of a view as the page gets them: every field of docs/view.md, with its unit and frame, against the ticks that they come from.
 // sanitizers: address
-#include "app/view_frame.h"
+#include "viewer/frame.h"
 
 #include <gtest/gtest.h>
 
@@ -14,13 +14,13 @@
 #include <nlohmann/json.hpp>
 
 #include "app/paths.h"
-#include "app/view_scene.h"
 #include "core/error.h"
 #include "core/mesh_body.h"
 #include "grips/hand_nodes.h"
 #include "scene/reader.h"
 #include "tests/support/live_script.h"
 #include "tests/support/scenes.h"
+#include "viewer/scene.h"
 
 namespace wholehand {
 namespace {

@@ -1,6 +1,6 @@
 // Grips as the viewer shows them: those of `grip --json`, turned about the middle of the tips, the glass on its table or above, with the states' own forces.
 // sanitizers: address
-#include "app/view_grips.h"
+#include "viewer/grips.h"
 
 #include <gtest/gtest.h>
 

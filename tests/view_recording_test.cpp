@@ -1,6 +1,6 @@
 // A recording as the viewer shows it: at any moment what was recorded then.
 // sanitizers: address
-#include "app/view_recording.h"
+#include "viewer/recording.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

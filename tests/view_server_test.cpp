@@ -1,7 +1,7 @@
 // The viewer's server against a browser of our own: who gets in, what is there, and what becomes of those who send too much, too slowly, or stop
-// reading. With app/local_server and app/http_connection, which it is made of.
+// reading. With viewer/local_server and viewer/http_connection, which it is made of.
 // sanitizers: address thread
-#include "app/view_server.h"
+#include "viewer/server.h"
 
 #include <gtest/gtest.h>
 
@@ -14,10 +14,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/http_connection.h"
-#include "app/view_files.h"
 #include "core/error.h"
 #include "tests/support/http_client.h"
+#include "viewer/files.h"
+#include "viewer/http_connection.h"
 
 namespace wholehand {
 namespace {
@@ -87,7 +87,7 @@ TEST(ViewFiles, AreTheFilesThatWereBuiltIn) {
   EXPECT_NE(three->bytes.find("export {"), std::string::npos) << "an ES module";
   int page_files = 0;
   for (const EmbeddedFile& file : view_files()) {
-    std::ifstream on_disk(std::string(WHOLEHAND_SOURCE_DIR) + "/viewer/" + std::string(file.path), std::ios::binary);
+    std::ifstream on_disk(std::string(WHOLEHAND_SOURCE_DIR) + "/viewer/page/" + std::string(file.path), std::ios::binary);
     if (!on_disk) continue;
     ++page_files;
     EXPECT_TRUE(std::string(std::istreambuf_iterator<char>(on_disk), {}) == file.bytes) << file.path;

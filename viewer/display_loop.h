@@ -10,8 +10,8 @@
 #include <thread>
 #include <vector>
 
-#include "app/view_frame.h"
 #include "live/hand_view.h"
+#include "viewer/frame.h"
 
 namespace wholehand {
 

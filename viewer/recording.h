@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "app/view_frame.h"
-#include "app/view_server.h"
 #include "recordings/recording.h"
+#include "viewer/frame.h"
+#include "viewer/server.h"
 
 namespace wholehand {
 

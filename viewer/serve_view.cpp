@@ -1,12 +1,12 @@
-#include "app/serve_view.h"
+#include "viewer/serve_view.h"
 
 #include <chrono>
 #include <thread>
 #include <utility>
 
-#include "app/browser.h"
 #include "system/interrupt.h"
 #include "system/output.h"
+#include "viewer/browser.h"
 
 namespace wholehand {
 

@@ -1,4 +1,4 @@
-#include "app/browser.h"
+#include "viewer/browser.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "app/view_scene.h"
+#include "viewer/scene.h"
 
 #include <algorithm>
 #include <bit>

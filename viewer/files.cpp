@@ -1,4 +1,4 @@
-#include "app/view_files.h"
+#include "viewer/files.h"
 
 #include <algorithm>
 #include <array>

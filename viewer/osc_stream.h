@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "app/display_loop.h"
-#include "app/osc_bundle.h"
 #include "grips/hand_nodes.h"
 #include "live/session.h"
+#include "viewer/display_loop.h"
+#include "viewer/osc_bundle.h"
 
 namespace wholehand {
 

@@ -1,4 +1,4 @@
-#include "app/http_connection.h"
+#include "viewer/http_connection.h"
 
 #include <poll.h>
 #include <sys/socket.h>

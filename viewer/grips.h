@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "app/view_frame.h"
-#include "app/view_server.h"
 #include "core/evaluator.h"
 #include "grips/methods.h"
+#include "viewer/frame.h"
+#include "viewer/server.h"
 
 namespace wholehand {
 

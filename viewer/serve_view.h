@@ -1,7 +1,7 @@
 // A view of what does not change by itself.
 #pragma once
 
-#include "app/view_server.h"
+#include "viewer/server.h"
 
 namespace wholehand {
 

@@ -1,4 +1,4 @@
-#include "app/view_server.h"
+#include "viewer/server.h"
 
 #include <fmt/format.h>
 #include <sys/random.h>
@@ -11,9 +11,9 @@
 #include <string_view>
 #include <thread>
 
-#include "app/local_server.h"
-#include "app/view_files.h"
 #include "core/error.h"
+#include "viewer/files.h"
+#include "viewer/local_server.h"
 
 namespace wholehand {
 namespace {

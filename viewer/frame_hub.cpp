@@ -1,4 +1,4 @@
-#include "app/frame_hub.h"
+#include "viewer/frame_hub.h"
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-#include "app/view_grips.h"
+#include "viewer/grips.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,6 @@
 #include <optional>
 #include <utility>
 
-#include "app/view_scene.h"
 #include "core/error.h"
 #include "core/load.h"
 #include "core/mesh_body.h"
@@ -17,6 +16,7 @@
 #include "core/prepare.h"
 #include "grips/hand_nodes.h"
 #include "grips/report.h"
+#include "viewer/scene.h"
 
 namespace wholehand {
 namespace {

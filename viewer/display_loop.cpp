@@ -1,4 +1,4 @@
-#include "app/display_loop.h"
+#include "viewer/display_loop.h"
 
 #include <algorithm>
 

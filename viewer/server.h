@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/frame_hub.h"
+#include "viewer/frame_hub.h"
 
 namespace wholehand {
 

@@ -1,4 +1,4 @@
-#include "app/view_recording.h"
+#include "viewer/recording.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "app/view_scene.h"
 #include "core/error.h"
+#include "viewer/scene.h"
 
 namespace wholehand {
 namespace {

@@ -1,4 +1,4 @@
-#include "app/osc_bundle.h"
+#include "viewer/osc_bundle.h"
 
 #include <algorithm>
 #include <bit>

@@ -5,9 +5,9 @@
 #include <memory>
 #include <string>
 
-#include "app/display_loop.h"
-#include "app/view_scene.h"
-#include "app/view_server.h"
+#include "viewer/display_loop.h"
+#include "viewer/scene.h"
+#include "viewer/server.h"
 
 namespace wholehand {
 

@@ -1,4 +1,4 @@
-#include "app/view_frame.h"
+#include "viewer/frame.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "app/osc_stream.h"
+#include "viewer/osc_stream.h"
 
 #include <arpa/inet.h>
 #include <fmt/format.h>

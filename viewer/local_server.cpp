@@ -1,4 +1,4 @@
-#include "app/local_server.h"
+#include "viewer/local_server.h"
 
 #include <fmt/format.h>
 #include <pthread.h>
@@ -15,9 +15,9 @@
 #include <string_view>
 #include <vector>
 
-#include "app/http_connection.h"
 #include "core/error.h"
 #include "system/block_signals.h"
+#include "viewer/http_connection.h"
 
 namespace wholehand {
 namespace {

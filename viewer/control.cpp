@@ -1,4 +1,4 @@
-#include "app/view_control.h"
+#include "viewer/control.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "app/live_view.h"
+#include "viewer/live_view.h"
 
 #include <utility>
 
