@@ -8,11 +8,11 @@
 #include "app/paths.h"
 #include "app/validators.h"
 #include "core/domain.h"
+#include "evidence/check.h"
 #include "host/open_backend.h"
 #include "objects/vessel.h"
 #include "scene/reader.h"
 #include "sweeps/cavity_notes.h"
-#include "sweeps/check.h"
 #include "system/output.h"
 
 namespace wholehand {

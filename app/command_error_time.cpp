@@ -7,8 +7,8 @@
 #include "app/paths.h"
 #include "app/validators.h"
 #include "app/values.h"
+#include "evidence/error_time.h"
 #include "scene/reader.h"
-#include "sweeps/error_time.h"
 
 namespace wholehand {
 namespace {

@@ -7,7 +7,7 @@
 #include "app/commands.h"
 #include "app/result_scene.h"
 #include "app/validators.h"
-#include "sweeps/report_page.h"
+#include "report/page.h"
 #include "system/files.h"
 #include "system/output.h"
 #include "system/readable.h"

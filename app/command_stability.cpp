@@ -7,9 +7,9 @@
 #include "app/paths.h"
 #include "app/validators.h"
 #include "app/values.h"
+#include "evidence/stability.h"
+#include "evidence/wall.h"
 #include "scene/reader.h"
-#include "sweeps/stability.h"
-#include "sweeps/wall.h"
 #include "system/output.h"
 
 namespace wholehand {

@@ -1,6 +1,6 @@
 // The tail of the binomial distribution, and how many accidents a share of them explains.
 // sanitizers: address
-#include "sweeps/binomial.h"
+#include "evidence/binomial.h"
 
 #include <gtest/gtest.h>
 

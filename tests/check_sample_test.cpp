@@ -1,6 +1,6 @@
 // Which grips a check looks at.
 // sanitizers: address
-#include "sweeps/check_sample.h"
+#include "evidence/check_sample.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // sanitizers: none
-#include "sweeps/check.h"
+#include "evidence/check.h"
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,8 @@
 #include <cmath>
 
 #include "app/paths.h"
+#include "evidence/compare.h"
 #include "scene/reader.h"
-#include "sweeps/compare.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {

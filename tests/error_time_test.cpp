@@ -1,6 +1,6 @@
 // The tables of error against run time: what is compared and counted, that it is the same each time, and the command.
 // sanitizers: none
-#include "sweeps/error_time.h"
+#include "evidence/error_time.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -19,11 +19,11 @@
 #include <vector>
 
 #include "app/paths.h"
+#include "evidence/error_measure.h"
+#include "evidence/error_plot.h"
+#include "evidence/error_table.h"
+#include "evidence/error_variants.h"
 #include "scene/reader.h"
-#include "sweeps/error_measure.h"
-#include "sweeps/error_plot.h"
-#include "sweeps/error_table.h"
-#include "sweeps/error_variants.h"
 #include "tests/support/result_reader.h"
 #include "tests/support/scenes.h"
 #include "tests/support/vulkan_listener.h"

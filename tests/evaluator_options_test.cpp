@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/evaluator.h"
-#include "sweeps/compare.h"
-#include "sweeps/convergence.h"
+#include "evidence/compare.h"
+#include "evidence/convergence.h"
 #include "tests/support/sampled_outline.h"
 #include "tests/support/whole_parity.h"
 

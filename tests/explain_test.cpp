@@ -9,8 +9,8 @@
 #include <sstream>
 
 #include "app/paths.h"
+#include "evidence/compare.h"
 #include "scene/reader.h"
-#include "sweeps/compare.h"
 #include "sweeps/variables.h"
 #include "tests/support/vulkan_listener.h"
 

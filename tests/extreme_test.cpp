@@ -14,8 +14,8 @@
 #include "app/paths.h"
 #include "core/force.h"
 #include "core/prepare.h"
+#include "evidence/extreme.h"
 #include "scene/reader.h"
-#include "sweeps/extreme.h"
 #include "sweeps/plan.h"
 #include "tests/support/whole_parity.h"
 

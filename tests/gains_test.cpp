@@ -1,13 +1,13 @@
 // Nothing but loops.
 // sanitizers: none
-#include "sweeps/gains.h"
+#include "evidence/gains.h"
 
 #include <gtest/gtest.h>
 
 #include "app/paths.h"
 #include "core/error.h"
+#include "evidence/grip_loop.h"
 #include "scene/reader.h"
-#include "sweeps/grip_loop.h"
 
 namespace wholehand {
 namespace {

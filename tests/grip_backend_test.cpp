@@ -9,7 +9,7 @@
 #include <cmath>
 #include <thread>
 
-#include "sweeps/compare.h"
+#include "evidence/compare.h"
 #include "tests/support/scenes.h"
 #include "tests/support/vulkan_listener.h"
 

@@ -1,6 +1,6 @@
 // Nothing but loops.
 // sanitizers: none
-#include "sweeps/grip_loop.h"
+#include "evidence/grip_loop.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Correlations against closed forms and sums in long double; distances from guidance points against geometry.
 // sanitizers: address
-#include "sweeps/guidance_statistics.h"
+#include "report/guidance_statistics.h"
 
 #include <gtest/gtest.h>
 

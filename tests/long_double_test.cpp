@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "app/paths.h"
+#include "evidence/compare.h"
 #include "scene/reader.h"
-#include "sweeps/compare.h"
 #include "sweeps/plan.h"
 
 namespace core_ld {

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "sweeps/wall.h"
+#include "evidence/wall.h"
 
 namespace wholehand {
 namespace {

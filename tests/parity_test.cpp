@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "app/paths.h"
+#include "evidence/compare.h"
 #include "host/grip_backend.h"
 #include "scene/reader.h"
-#include "sweeps/compare.h"
 #include "sweeps/plan.h"
 #include "sweeps/variables.h"
 #include "tests/support/scenes.h"

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "core/domain.h"
-#include "sweeps/check_sample.h"
-#include "sweeps/compare.h"
+#include "evidence/check_sample.h"
+#include "evidence/compare.h"
 #include "tests/support/random_scenes.h"
 #include "tests/support/vulkan_listener.h"
 #include "tests/support/whole_parity.h"

@@ -1,6 +1,6 @@
 // The file's numbers beside the core's: what is right holds in either precision, and every wrong number is found.
 // sanitizers: address
-#include "sweeps/report_agreement.h"
+#include "report/agreement.h"
 
 #include <gtest/gtest.h>
 

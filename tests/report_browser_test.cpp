@@ -10,7 +10,7 @@
 #include <fstream>
 #include <regex>
 
-#include "sweeps/report_page.h"
+#include "report/page.h"
 #include "tests/support/sweep_results.h"
 
 namespace wholehand {

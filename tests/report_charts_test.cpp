@@ -8,8 +8,8 @@
 #include <map>
 #include <regex>
 
-#include "sweeps/report_field.h"
-#include "sweeps/report_lines.h"
+#include "report/field.h"
+#include "report/lines.h"
 #include "tests/support/special_values.h"
 
 namespace wholehand {

@@ -1,6 +1,6 @@
 // Forces over the tilt and pouring: the core's numbers, and a sentence for each thing that a scene does not have.
 // sanitizers: address
-#include "sweeps/report_forces.h"
+#include "report/forces.h"
 
 #include <gtest/gtest.h>
 

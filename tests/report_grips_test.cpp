@@ -1,6 +1,6 @@
 // The best grips: their numbers, their drawings cut out of the whole one, and what is said where there are none.
 // sanitizers: address
-#include "sweeps/report_grips.h"
+#include "report/grips.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Touching over the distance from guidance points: the file's grips by the core's contacts.
 // sanitizers: address
-#include "sweeps/report_guidance.h"
+#include "report/guidance.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Markup that cannot be broken by what is written into it.
 // sanitizers: address
-#include "sweeps/report_html.h"
+#include "report/html.h"
 
 #include <gtest/gtest.h>
 

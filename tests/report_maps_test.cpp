@@ -1,6 +1,6 @@
 // Maps against the file's values gone through one by one, and what is said where the file lacks some.
 // sanitizers: address
-#include "sweeps/report_maps.h"
+#include "report/maps.h"
 
 #include <gtest/gtest.h>
 

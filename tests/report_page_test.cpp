@@ -1,6 +1,6 @@
 // The whole page of many kinds of sweeps: well-formed, self-contained, and with a word for everything that is not there.
 // sanitizers: address
-#include "sweeps/report_page.h"
+#include "report/page.h"
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 #include <fstream>
 
 #include "core/error.h"
-#include "sweeps/report_html.h"
-#include "sweeps/report_scene.h"
+#include "report/html.h"
+#include "report/scene.h"
 #include "sweeps/variables.h"
 #include "tests/support/environment.h"
 #include "tests/support/meshes.h"

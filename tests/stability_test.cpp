@@ -1,6 +1,6 @@
 // The whole report, as a user asks for it.
 // sanitizers: none
-#include "sweeps/stability.h"
+#include "evidence/stability.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>

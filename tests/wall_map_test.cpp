@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "core/wall_run.h"
-#include "sweeps/wall.h"
+#include "evidence/wall.h"
 #include "tests/support/vulkan_listener.h"
 
 namespace wholehand {

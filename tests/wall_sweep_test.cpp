@@ -1,6 +1,6 @@
 // Maps of rendered walls against the theory that is drawn over them.
 // sanitizers: none
-#include "sweeps/wall_sweep.h"
+#include "evidence/wall_sweep.h"
 
 #include <gtest/gtest.h>
 

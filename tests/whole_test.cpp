@@ -14,9 +14,9 @@
 #include <string>
 
 #include "app/paths.h"
+#include "evidence/compare.h"
 #include "host/grip_backend.h"
 #include "scene/reader.h"
-#include "sweeps/compare.h"
 #include "sweeps/plan.h"
 #include "sweeps/variables.h"
 #include "tests/support/result_reader.h"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/scene.h"
-#include "sweeps/compare.h"
+#include "evidence/compare.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {

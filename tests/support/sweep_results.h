@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/backend.h"
-#include "sweeps/report_source.h"
+#include "report/source.h"
 #include "tests/support/result_reader.h"
 
 namespace wholehand {

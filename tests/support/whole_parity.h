@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "evidence/compare.h"
 #include "host/grip_backend.h"
-#include "sweeps/compare.h"
 #include "sweeps/variables.h"
 #include "tests/support/scenes.h"
 

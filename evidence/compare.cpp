@@ -1,0 +1,374 @@
+#include "evidence/compare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "evidence/binomial.h"
+#include "evidence/load_floors.h"
+
+namespace wholehand {
+namespace {
+
+// A row of the comparison: planes of one field, in a unit for people.
+struct Quantity {
+  int field;
+  const char* kernel;
+  const char* name;
+  const char* unit;
+  double scale;  // to the unit
+};
+
+const std::vector<Quantity> QUANTITIES{
+    {FIELD_T_INDEX, "closure", "index contact", "um", 1e6},
+    {FIELD_T_THUMB, "closure", "thumb contact", "um", 1e6},
+    {FIELD_GAP, "closure", "gap", "um", 1e6},
+    {FIELD_MIDPOINT, "closure", "midpoint", "um", 1e6},
+    {FIELD_CLOSURE, "closure", "closure", "1e-6", 1e6},
+    {FIELD_CONTACT_ANGLES, "closure", "contact angle", "urad", 1e6},
+    {FIELD_JOINTS, "hand", "rigged joints", "um", 1e6},
+    {FIELD_POSED, "projection", "posed joints", "um", 1e6},
+    {FIELD_SEPARATION, "sdf", "separation", "um", 1e6},
+    {FIELD_PROXIES, "contact", "proxies", "um", 1e6},
+    {FIELD_PHALANX_DEPTH, "contact", "phalanx depth", "um", 1e6},
+    {FIELD_PALM_DEPTH, "contact", "palm depth", "um", 1e6},
+    {FIELD_BONE_STRETCH, "contact", "bone stretch", "um", 1e6},
+    {FIELD_PIVOT_LENGTH, "force", "pivot length", "um", 1e6},
+    {FIELD_TORQUE, "force", "torque", "uN m", 1e6},
+    {FIELD_EXACT_TORQUE, "force", "exact torque", "uN m", 1e6},
+    {FIELD_NORMAL_FORCE, "force", "normal force", "mN", 1e3},
+    {FIELD_FEEDBACK_FORCE, "force", "feedback force", "mN", 1e3},
+    {FIELD_HOLD_FORCE, "force", "hold force", "mN", 1e3},
+    {FIELD_PEAK_FORCE, "force", "peak feedback", "mN", 1e3},
+    {FIELD_LARGEST_HOLD, "force", "largest hold", "mN", 1e3},
+    {FIELD_TERMS, "score", "terms", "1e-6", 1e6},
+    {FIELD_SCORE, "score", "score", "1e-6", 1e6},
+};
+
+constexpr const char* PEAK_TILT = "force short of peak";  // at the tilt that the other side tells
+constexpr const char* SAFE_TILT = "force beyond safe";    // where one side tells a larger safe tilt
+
+const std::vector<int> DISCRETE{FIELD_STATUS,      FIELD_TOUCH_MASK, FIELD_TIP_MASK,
+                                FIELD_FINGER_MASK, FIELD_INNER_MASK, FIELD_USED_MASK};
+
+// Roundings that one number gathers on its way through a kernel, as a share of the quantity's largest value.
+constexpr double ROUNDINGS = 64;
+
+// Whether an iteration of the grip took all its steps.
+constexpr std::uint32_t ALL_STEPS = STATUS_PROXY_UNSETTLED | 0x1Fu << STATUS_UNSETTLED_SHIFT;
+
+bool differs(const GatheredPlanes& a, const GatheredPlanes& b, std::size_t i, bool same_stop) {
+  return std::any_of(DISCRETE.begin(), DISCRETE.end(), [&](int field) {
+    const std::uint32_t left_out = field == FIELD_STATUS && !same_stop ? ALL_STEPS : 0;
+    return ((a.uint(field, i) ^ b.uint(field, i)) & ~left_out) != 0;
+  });
+}
+
+bool grazes(const GatheredPlanes& planes, std::size_t i) { return (planes.uint(FIELD_STATUS, i) & STATUS_GRAZING) != 0; }
+
+// The grip moved by `shift` m in every way that matters: along and about its axes, and in size.
+std::vector<GripInput> moved(const std::vector<GripInput>& grips, int way, double shift, double length) {
+  std::vector<GripInput> result = grips;
+  const double sign = way % 2 == 0 ? 1 : -1;
+  for (GripInput& grip : result) {
+    switch (way / 2) {
+      case 0:
+        grip.height += sign * shift;
+        break;
+      case 1:
+        grip.offset += sign * shift;
+        break;
+      case 2:
+        grip.roll += sign * shift / length;
+        break;
+      case 3:
+        grip.obliquity += sign * shift / length;
+        break;
+      default:
+        grip.hand_scale *= 1 + sign * shift / length;
+        break;
+    }
+  }
+  return result;
+}
+constexpr int WAYS = 10;
+
+// The scene with tips that are thicker by so much, which is what meeting the surface within a tolerance comes to.
+Scene with_tips(Scene scene, double thumb, double index) {
+  scene.hand.fingers[0].radii[3] += thumb / scene.hand.scale;
+  scene.hand.fingers[1].radii[4] += index / scene.hand.scale;
+  return scene;
+}
+
+// Whether the planes are there, and not only computed where they were.
+bool is_held(const GatheredPlanes& planes, int field) {
+  return planes.fields.has(field) && static_cast<std::size_t>(planes.fields.plane[field]) * planes.count < planes.reals.size();
+}
+
+// What the comparison of told tilts looks at.
+bool has_tilts(const FieldSet& fields) {
+  const auto needed = {FIELD_PEAK_TILT, FIELD_SAFE_TILT, FIELD_FEEDBACK_FORCE, FIELD_NORMAL_FORCE, FIELD_HOLD_FORCE};
+  return std::all_of(needed.begin(), needed.end(), [&](int field) { return fields.has(field); });
+}
+
+// Takes a difference into its row; true: over the tolerance.
+bool note_difference(Comparison& entry, double scale, std::size_t vessel, std::size_t grip, double difference, double tolerance) {
+  if (entry.worst == 0 && difference == 0) entry.tolerance = std::max(entry.tolerance, tolerance * scale);
+  if (difference > entry.worst / scale) {
+    entry.worst = difference * scale;
+    entry.tolerance = tolerance * scale;
+    entry.vessel = vessel;
+    entry.grip = grip;
+  }
+  entry.worst_ratio = std::max(entry.worst_ratio, difference == 0 ? 0 : difference / tolerance);
+  return difference > tolerance;
+}
+
+double tip_radius(const HandData& hand) { return hand.scale * std::max(hand.fingers[0].radii[3], hand.fingers[1].radii[4]); }
+
+}  // namespace
+
+double figure_difference(double a, double b) {
+  if (std::isnan(a) && std::isnan(b)) return 0;
+  if (a == b) return 0;  // infinities too
+  const double difference = std::abs(a - b);
+  return std::isnan(difference) ? std::numeric_limits<double>::infinity() : difference;
+}
+
+std::array<double, 2> loaded_center(const VesselConstants& glass, const LiquidResult& liquid) {
+  const double mass = glass.mass + liquid.mass, share = mass > 0 ? liquid.mass / mass : 0;
+  return {(1 - share) * glass.center_of_mass[1] + share * liquid.height, share * liquid.lean};
+}
+
+Allowance allowance(Precision precision) {
+  if (precision == Precision::single) return {std::numeric_limits<float>::epsilon(), STOP_TOLERANCE_F32, LEVEL_TOLERANCE_F32, true};
+  return {std::numeric_limits<double>::epsilon(), STOP_TOLERANCE_F64, LEVEL_TOLERANCE_F64, true};
+}
+
+Allowance float_against_double() {
+  Allowance allowed = allowance(Precision::single);
+  allowed.same_stop = false;
+  return allowed;
+}
+
+Comparer::Comparer(const Scene& scene, const Evaluator& core, Allowance allowed) : scene_(scene), core_(core), allowed_(allowed) {
+  const double stop = allowed.stop_tolerance;
+  for (const auto& [thumb, index] : {std::pair{stop, stop}, {stop, -stop}, {-stop, stop}, {-stop, -stop}})
+    other_tips_.push_back(make_core_evaluator(with_tips(scene, thumb, index)));
+  const FieldSet fields = all_fields(scene);
+  for (const Quantity& q : QUANTITIES)
+    if (fields.has(q.field)) row(q.kernel, q.name, q.unit);
+  if (has_tilts(fields)) {
+    row("force", PEAK_TILT, "mN");
+    row("force", SAFE_TILT, "mN");
+  }
+  row("whole", "discrete outcomes", "grips");
+}
+
+Comparison& Comparer::row(const std::string& kernel, const std::string& quantity, const std::string& unit) {
+  for (Comparison& existing : rows_)
+    if (existing.kernel == kernel && existing.quantity == quantity) return existing;
+  rows_.push_back({kernel, quantity, unit, 0, 0, 0, 0, 0, 0, 0});
+  return rows_.back();
+}
+
+void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, const GatheredPlanes& a, const GatheredPlanes& b) {
+  const FieldSet& fields = a.fields;
+  const std::size_t n = grips.size();
+  // a length over which the hand reaches, for turning shifts into angles
+  const double length = 0.1 * scene_.hand.scale;
+  const double size = length + scene_.vessels[vessel].height;
+  const double shift = allowed_.stop_tolerance + ROUNDINGS * allowed_.epsilon * size;
+  const GatheredPlanes truth = gather(core_, fields, vessel, grips);
+  std::vector<double> spread(truth.reals.size(), 0.0);
+  std::vector<char> undecided(n, 0), may_graze(n, 0);
+  const auto spread_to = [&](const GatheredPlanes& other, int first_plane, int planes) {
+    for (std::size_t k = first_plane * n; k < (first_plane + planes) * n; ++k) {
+      const double difference = figure_difference(other.reals[k], truth.reals[k]);
+      if (std::isfinite(difference)) spread[k] = std::max(spread[k], difference);  // else another outcome: undecided
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      undecided[i] |= differs(other, truth, i, allowed_.same_stop) ? 1 : 0;
+      may_graze[i] |= grazes(other, i) ? 1 : 0;
+    }
+  };
+  for (int way = 0; way < WAYS; ++way)
+    spread_to(gather(core_, fields, vessel, moved(grips, way, shift, length)), 0, fields.real_planes);
+  for (const auto& core : other_tips_) spread_to(gather(*core, fields, vessel, grips), 0, fields.real_planes);
+  // Beside an edge, the distances to edge and face differ by x^2 / 2r at x from where they are equal, so the face that is nearest after
+  // rounding may be another one up to here, and the normal with it.
+  const double corner = std::sqrt(2 * tip_radius(scene_.hand) * allowed_.epsilon * size);
+  const bool angles = fields.has(FIELD_CONTACT_ANGLES);
+  for (int way = 0; corner > shift && way < WAYS; ++way)
+    spread_to(gather(core_, fields, vessel, moved(grips, way, corner, length)), angles ? fields.plane[FIELD_CONTACT_ANGLES] : 0,
+              angles ? 2 : 0);
+  std::vector<char> left_out(n, 0);
+  Comparison& outcomes = row("whole", "discrete outcomes", "grips");
+  for (std::size_t i = 0; i < n; ++i) {
+    ++grips_;
+    feasible_ += (truth.uint(FIELD_STATUS, i) & STATUS_REASON_MASK) == REASON_NONE ? 1 : 0;
+    // by the core, or by a side where the core's own answer is that near to grazing: a side alone may not take a grip out
+    if (grazes(truth, i) || (may_graze[i] != 0 && (grazes(a, i) || grazes(b, i)))) {
+      ++grazing_;
+      left_out[i] = 1;
+      continue;
+    }
+    ++outcomes.compared;
+    if (!differs(a, b, i, allowed_.same_stop)) continue;
+    left_out[i] = 1;
+    flips_.push_back({vessel, i, undecided[i] != 0});
+    if (undecided[i] != 0) {
+      ++excluded_;
+    } else {
+      ++outcomes.outside;
+      outcomes.worst += 1;
+      outcomes.vessel = vessel;
+      outcomes.grip = i;
+    }
+  }
+  std::vector<double> floors(FIELDS, 0.0);
+  const LoadFloors load(scene_, core_, vessel, volume_tolerance(vessel), ROUNDINGS * allowed_.epsilon, truth);
+  const auto tolerance = [&](int field, std::size_t k, std::size_t i) {
+    return floors[field] + 2 * allowed_.stop_tolerance * rests(field, k) + load.of(field, k, i) +
+           2 * spread[(fields.plane[field] + k) * n + i];
+  };
+  for (const Quantity& q : QUANTITIES) {
+    if (!is_held(a, q.field) || !is_held(b, q.field)) continue;
+    Comparison& entry = row(q.kernel, q.name, q.unit);
+    const int planes = field_planes(q.field, scene_fills(scene_), scene_.tilts.size());
+    double largest = 0;
+    for (int p = 0; p < planes; ++p)
+      for (std::size_t i = 0; i < n; ++i) {
+        const double value = std::abs(truth.real(fields.plane[q.field] + p, i));
+        if (std::isfinite(value)) largest = std::max(largest, value);
+      }
+    floors[q.field] = ROUNDINGS * allowed_.epsilon * largest;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (left_out[i] != 0) continue;
+      ++entry.compared;
+      bool over = false;
+      for (int p = 0; p < planes; ++p) {
+        const int plane = fields.plane[q.field] + p;
+        const double difference = figure_difference(a.real(plane, i), b.real(plane, i));
+        over = note_difference(entry, q.scale, vessel, i, difference, tolerance(q.field, p, i)) || over;
+      }
+      entry.outside += over ? 1 : 0;
+    }
+  }
+  if (has_tilts(fields)) add_tilts(vessel, a, b, left_out, tolerance);
+}
+
+// How much of a length at which a finger rests is in plane `k` of the field. Each side ends anywhere within one stop tolerance of the
+// surface: such lengths may differ by two, however little the finger itself moves, and what is made of them likewise.
+double Comparer::rests(int field, std::size_t k) const {
+  switch (field) {
+    case FIELD_POSED:
+    case FIELD_SEPARATION:
+    case FIELD_PROXIES:
+    case FIELD_PHALANX_DEPTH:
+    case FIELD_PALM_DEPTH:
+    case FIELD_BONE_STRETCH:
+      return 1;
+    case FIELD_TERMS:
+      return k == 2 ? 1 / DEPTH_SCALE : 0;
+    case FIELD_SCORE: {
+      const auto& w = scene_.score;
+      const double whole = scene_.tilts.empty() ? w.fingers + w.contacts + w.depth + w.posture : 1;
+      return whole > 0 ? w.depth / whole / DEPTH_SCALE : 0;
+    }
+    default:
+      return 0;
+  }
+}
+
+// A tilt that is told is a choice among the listed ones: it must be as good a choice by the other side's forces, to their tolerances.
+void Comparer::add_tilts(std::size_t vessel, const GatheredPlanes& a, const GatheredPlanes& b, const std::vector<char>& left_out,
+                         const std::function<double(int field, std::size_t state, std::size_t grip)>& tolerance) {
+  const FieldSet& fields = a.fields;
+  Comparison& peak = row("force", PEAK_TILT, "mN");
+  Comparison& safe = row("force", SAFE_TILT, "mN");
+  const std::size_t tilts = scene_.tilts.size();
+  for (std::size_t i = 0; i < a.count; ++i) {
+    if (left_out[i] != 0 || (a.uint(FIELD_STATUS, i) & STATUS_REASON_MASK) != REASON_NONE) continue;
+    ++peak.compared;
+    ++safe.compared;
+    bool peak_over = false, safe_over = false;
+    for (int fill = 0; fill < static_cast<int>(scene_fills(scene_)); ++fill) {
+      const std::size_t first = fill * tilts;
+      const auto told = [&](const GatheredPlanes& side, int field) { return tilt_told(side.real(fields.plane[field] + fill, i)); };
+      const std::optional<std::size_t> told_a = told(a, FIELD_PEAK_TILT), told_b = told(b, FIELD_PEAK_TILT);
+      constexpr double WRONG = std::numeric_limits<double>::infinity();
+      if (told_a.value_or(0) == 0 || told_b.value_or(0) == 0) {
+        peak_over |= note_difference(peak, 1e3, vessel, i, WRONG, 0);
+        continue;
+      }
+      const std::size_t peak_a = first + *told_a - 1, peak_b = first + *told_b - 1;
+      const auto feedback = [&](std::size_t state) {
+        return b.real(fields.plane[FIELD_FEEDBACK_FORCE] + static_cast<int>(state), i);
+      };
+      peak_over |= note_difference(peak, 1e3, vessel, i, std::max(0.0, feedback(peak_b) - feedback(peak_a)),
+                                   tolerance(FIELD_FEEDBACK_FORCE, peak_a, i) + tolerance(FIELD_FEEDBACK_FORCE, peak_b, i));
+      const std::optional<std::size_t> safe_told_a = told(a, FIELD_SAFE_TILT), safe_told_b = told(b, FIELD_SAFE_TILT);
+      if (!safe_told_a || !safe_told_b) {
+        safe_over |= note_difference(safe, 1e3, vessel, i, WRONG, 0);
+        continue;
+      }
+      const std::size_t safe_a = *safe_told_a, safe_b = *safe_told_b;
+      if (safe_a == safe_b) continue;
+      // the first state that one side calls unsafe and the other does not
+      const GatheredPlanes& stricter = safe_a < safe_b ? a : b;
+      const std::size_t state = first + std::min(safe_a, safe_b);
+      const double normal = stricter.real(fields.plane[FIELD_NORMAL_FORCE] + static_cast<int>(state), i) - scene_.force.max;
+      const double hold = stricter.real(fields.plane[FIELD_HOLD_FORCE] + static_cast<int>(state), i) - scene_.force.grip_strength;
+      // the stricter side's own forces must say so too
+      const double by_normal = normal < 0 && !(hold > 0) ? std::numeric_limits<double>::infinity() : std::max(0.0, normal);
+      safe_over |= note_difference(safe, 1e3, vessel, i, by_normal, tolerance(FIELD_NORMAL_FORCE, state, i));
+      safe_over |= note_difference(safe, 1e3, vessel, i, std::max(0.0, hold), tolerance(FIELD_HOLD_FORCE, state, i));
+    }
+    peak.outside += peak_over ? 1 : 0;
+    safe.outside += safe_over ? 1 : 0;
+  }
+}
+
+// The place of a told tilt among the listed ones, from 1; 0 where none is told, and nothing where what is told is not one of them, which
+// are handed through and at most rounded to the coarser precision.
+std::optional<std::size_t> Comparer::tilt_told(double told) const {
+  if (std::isnan(told)) return 0;
+  const auto nearest = std::min_element(scene_.tilts.begin(), scene_.tilts.end(),
+                                        [told](double a, double b) { return std::abs(a - told) < std::abs(b - told); });
+  if (!(std::abs(*nearest - told) <= 4 * allowed_.epsilon * PI)) return std::nullopt;
+  return static_cast<std::size_t>(nearest - scene_.tilts.begin()) + 1;
+}
+
+double Comparer::volume_tolerance(std::size_t vessel) const {
+  return (4 * allowed_.level_tolerance + ROUNDINGS * allowed_.epsilon) * core_.constants(vessel).capacity;
+}
+
+// The level is solved to its tolerance of the capacity and sums of slices are rounded; a centre of mass is compared by its moment, since
+// the last drop's place means nothing.
+void Comparer::add_liquid(std::size_t vessel, const std::vector<LiquidResult>& a, const std::vector<LiquidResult>& b) {
+  if (a.empty()) return;
+  const double of_volume = volume_tolerance(vessel), of_moment = 2 * of_volume * scene_.vessels[vessel].height;
+  const auto compare = [&](const char* name, const char* unit, double scale, double tolerance, auto value) {
+    Comparison& entry = row("liquid", name, unit);
+    for (std::size_t s = 0; s < a.size(); ++s) {
+      const double difference = figure_difference(value(a[s]), value(b[s]));
+      ++entry.compared;
+      entry.outside += note_difference(entry, scale, vessel, s, difference, tolerance) ? 1 : 0;
+    }
+  };
+  compare("volume", "mL", 1e6, of_volume, [](const LiquidResult& r) { return r.volume; });
+  compare("poured", "mL", 1e6, of_volume, [](const LiquidResult& r) { return r.poured; });
+  compare("lean moment", "mL mm", 1e9, of_moment, [](const LiquidResult& r) { return r.volume * r.lean; });
+  compare("height moment", "mL mm", 1e9, of_moment, [](const LiquidResult& r) { return r.volume * r.height; });
+}
+
+std::uint64_t allowed_flips(std::uint64_t grips) { return largest_plausible_count(grips, FLIP_SHARE, FLIP_SIGNIFICANCE); }
+
+bool Comparer::holds() const {
+  const bool inside = std::all_of(rows_.begin(), rows_.end(), [](const Comparison& r) { return r.outside == 0; });
+  return inside && excluded_ <= allowed() && (grazing_ + excluded_ < grips_ || grips_ == 0);
+}
+
+}  // namespace wholehand

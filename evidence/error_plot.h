@@ -1,0 +1,28 @@
+// The Pareto fronts of `wholehand error-time` as pictures.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "evidence/error_table.h"
+
+namespace wholehand {
+
+struct FrontPicture {
+  std::string file;
+  std::string title;
+  std::string error_axis;  // its label, with the unit
+  double error_unit = 1;   // of ErrorRow's error to the axis'
+  double (ErrorRow::*error)() const;
+};
+
+// error-time.svg by length and error-time-force.svg by force, in `folder`; the second only where some row has a force.
+std::vector<FrontPicture> front_pictures(const std::string& folder, const std::vector<ErrorRow>& rows, const ErrorContext& context);
+
+// A script for gnuplot that draws every picture; one plot each, numbered points and their names where they are on the front.
+std::string front_script(const std::vector<FrontPicture>& pictures, const std::vector<ErrorRow>& rows);
+
+// As draw_with_gnuplot.
+std::string draw_fronts(const std::vector<FrontPicture>& pictures, const std::vector<ErrorRow>& rows);
+
+}  // namespace wholehand

@@ -1,0 +1,126 @@
+#include "evidence/error_time.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <thread>
+
+#include "core/prepare.h"
+#include "evidence/error_plot.h"
+#include "evidence/error_table.h"
+#include "host/device.h"
+#include "system/files.h"
+#include "system/folder_files.h"
+#include "system/interrupt.h"
+#include "system/progress.h"
+
+#ifndef WHOLEHAND_VERSION
+#define WHOLEHAND_VERSION "unknown"
+#endif
+
+namespace wholehand {
+namespace {
+
+constexpr FolderTable ERROR_TIME_TABLES[] = {{"error-time.csv", "variant,backend,precision,"},
+                                             {"error-time-grips.csv", "vessel,index,height_m,"},
+                                             {"error-time.md", "# Error against run time"}};
+constexpr const char* ERROR_TIME_PICTURES[] = {"error-time.svg", "error-time-force.svg"};
+
+// What a device that is there can take part in, with notes on what it cannot.
+void choose_device_part(const Scene& scene, const std::string& on, VariantChoice& choice, ErrorContext& context) {
+  const auto devices = host::list_devices();
+  const host::DeviceInfo& device = host::choose_device(devices, on);
+  context.device = device.name;
+  context.driver = device.driver;
+  choice.device = true;
+  choice.device_double = device.float64;
+  if (!device.float64) context.notes.push_back(device.name + " has no double precision: Vulkan double is left out");
+  choice.outline_constants = std::all_of(scene.vessels.begin(), scene.vessels.end(), [](const VesselData& vessel) {
+    return prepare_vessel(vessel, vessel.has_cavity()).outline.size() <= MAX_OUTLINE;
+  });
+  choice.device_outlines = choice.outline_constants || device.kind != host::DeviceKind::cpu;
+  if (!choice.device_outlines) {
+    context.notes.push_back(
+        fmt::format("{} takes no outlines of more than {} elements: its variants with one are left out", device.name, MAX_OUTLINE));
+  }
+}
+
+}  // namespace
+
+ExitCode run_error_time(const Scene& scene, const ErrorTimeOptions& options) {
+  for (const VesselData& vessel : scene.vessels) {
+    if (!vessel.mesh) continue;
+    throw usage_error(
+        at_place(vessel.mesh->place, fmt::format("vessel '{}' is a mesh; error-time measures what a lattice costs beside "
+                                                 "an exact outline, so it takes shapes and outlines",
+                                                 vessel.name)));
+  }
+  make_output_folder(options.output);
+  check_folder_files(options.output, "error-time", ERROR_TIME_TABLES, ERROR_TIME_PICTURES);
+  InterruptGuard interrupt;
+  const int threads = options.threads > 0 ? options.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  VariantChoice choice;
+  choice.quick = options.quick;
+  choice.threads = threads;
+  ErrorContext context;
+  context.scene = scene.name.empty() ? "scene" : scene.name;
+  context.version = WHOLEHAND_VERSION;
+  context.seed = options.seed;
+  context.quick = options.quick;
+  context.vessels = scene.vessels.size();
+  context.states = scene_fills(scene) * scene.tilts.size();
+  if (options.on != "core") choose_device_part(scene, options.on, choice, context);
+  MeasureOptions measure_options;
+  measure_options.on = options.on;
+  measure_options.threads = threads;
+  measure_options.seed = options.seed;
+  // of all vessels together, so that more of them do not take longer
+  measure_options.grips = std::clamp<std::size_t>((options.quick ? 768 : 6144) / scene.vessels.size(), 64, 4096);
+  if (options.quick) measure_options.run_seconds = 0.015;
+  measure_options.stop = &interrupt.flag();
+  ErrorMeasure measure(scene, measure_options);
+  context.grips = measure_options.grips * scene.vessels.size();
+  context.feasible = measure.feasible();
+  context.grazing = measure.grazing();
+  const auto variants = error_variants(scene, choice);
+  const auto rows = measure.measure(variants, [&](std::size_t k, const std::string& what) {
+    show_status(fmt::format("{} of {}  {}", k + 1, variants.size(), what));
+  });
+  if (interrupt.flag()) {
+    show_status("");
+    fmt::print(stderr, "wholehand: interrupted while comparing and timing {} variants; nothing was written\n", variants.size());
+    return ExitCode::interrupted;
+  }
+  show_status("");
+  if (options.on == "core" && !rows.empty()) {
+    context.device = rows.front().device;
+    context.driver = rows.front().driver;
+  }
+  for (const std::string& note : measure.notes()) context.notes.push_back(note);
+  const GripsData& asked = scene.grips;
+  const auto is_fixed = [](const Axis& axis) { return !axis.is_range && axis.values.size() == 1; };
+  if (is_fixed(asked.height) && is_fixed(asked.azimuth) && is_fixed(asked.obliquity) && is_fixed(asked.roll) &&
+      is_fixed(asked.offset) && is_fixed(asked.hand_scale)) {
+    context.notes.push_back(
+        "every axis of [grips] is one number, so all grips are the same one; give ranges for figures that mean more");
+  }
+  const std::string folder = options.output.back() == '/' ? options.output : options.output + "/";
+  const std::string report = error_report(rows, context);
+  write_whole_file(folder + "error-time.csv", error_csv(rows, context), false);
+  write_whole_file(folder + "error-time-grips.csv", error_grips_csv(measure.grips()), false);
+  write_whole_file(folder + "error-time.md", report, false);
+  // pictures of another scene beside these tables would mislead
+  for (const char* name : ERROR_TIME_PICTURES) std::remove((folder + name).c_str());
+  const auto pictures = front_pictures(folder, rows, context);
+  const std::string complaint = draw_fronts(pictures, rows);
+  fmt::print("{}\n", report);
+  if (!complaint.empty()) fmt::print(stderr, "wholehand: {}\n", complaint);
+  fmt::print("wrote {0}error-time.csv, {0}error-time-grips.csv, {0}error-time.md", folder);
+  if (complaint.empty())
+    for (const FrontPicture& picture : pictures) fmt::print(", {}", picture.file);
+  fmt::print("\n");
+  return ExitCode::done;
+}
+
+}  // namespace wholehand

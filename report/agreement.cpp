@@ -1,0 +1,190 @@
+#include "report/agreement.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <set>
+#include <string_view>
+
+#include "shaders/layout.h"
+#include "system/readable.h"
+
+namespace wholehand {
+namespace {
+
+// Bits of the status that the file has a variable for.
+struct StatusPart {
+  const char* variable;
+  std::uint32_t mask;
+  int shift;
+};
+constexpr StatusPart STATUS_PARTS[] = {
+    {"reason", STATUS_REASON_MASK, 0},
+    {"plausible", STATUS_PLAUSIBLE, 4},
+    {"antipodal", STATUS_ANTIPODAL, 5},
+    {"grazing", STATUS_GRAZING, 6},
+    {"proxy_unsettled", STATUS_PROXY_UNSETTLED, 7},
+    {"blocked_mask", 0x1Fu << STATUS_BLOCKED_SHIFT, STATUS_BLOCKED_SHIFT},
+    {"unsettled_mask", 0x1Fu << STATUS_UNSETTLED_SHIFT, STATUS_UNSETTLED_SHIFT},
+};
+// Variables that are a field's own word.
+constexpr const char* WORD_VARIABLES[] = {"used_mask", "touch_mask", "projected_tip_mask", "projected_finger_mask",
+                                          "projected_inner_mask"};
+
+// One vessel of the scene as a scene of its own, so that what the comparison makes ready is that vessel alone.
+Scene scene_of_vessel(const Scene& scene, std::size_t vessel) {
+  Scene one = scene;
+  one.vessels = {scene.vessels[vessel]};
+  return one;
+}
+
+// Fields of the reals that the file has something of. The tilts that are told can be judged by the forces of all states alone.
+std::vector<int> fields_of_file(const SweepResult& result) {
+  const bool has_states = result.find("feedback_force") && result.find("normal_force") && result.find("hold_force");
+  std::set<int> fields;
+  for (const Variable* variable : result.variables()) {
+    const bool is_told_tilt = variable->field == FIELD_PEAK_TILT || variable->field == FIELD_SAFE_TILT;
+    if (variable->type == NumberType::real && (has_states || !is_told_tilt)) fields.insert(variable->field);
+  }
+  std::vector<int> all(fields.begin(), fields.end());
+  all.insert(all.end(), {FIELD_STATUS, FIELD_TOUCH_MASK, FIELD_TIP_MASK, FIELD_FINGER_MASK, FIELD_INNER_MASK, FIELD_USED_MASK});
+  return all;
+}
+
+// The core's planes with everything in its place that the file holds. `outcomes`: names of the discrete ones among that.
+GatheredPlanes planes_of_file(const ReportSource& source, std::size_t vessel, const std::vector<std::uint64_t>& places,
+                              const GatheredPlanes& core, std::vector<std::string>& outcomes) {
+  GatheredPlanes planes = core;
+  planes.reals.resize(planes.fields.real_kept * places.size());  // what is not held is not compared
+  const SweepResult& result = source.result;
+  const std::size_t n = places.size();
+  for (const Variable* variable : result.variables()) {
+    if (variable->type != NumberType::real || !is_kept(core.fields, variable->field)) continue;
+    for (std::size_t p = 0; p < variable_planes(*variable, source.scene); ++p) {
+      const std::vector<double> values = result.pick(*variable, vessel, p, places);
+      const std::size_t plane = static_cast<std::size_t>(core.fields.plane[variable->field] + variable->plane) + p;
+      std::copy(values.begin(), values.end(), planes.reals.begin() + static_cast<std::ptrdiff_t>(plane * n));
+    }
+  }
+  const auto put = [&](const char* name, int field, std::uint32_t mask, int shift) {
+    const Variable* variable = result.find(name);
+    if (!variable) return;
+    outcomes.push_back(name);
+    const std::vector<double> values = result.pick(*variable, vessel, 0, places);
+    for (std::size_t i = 0; i < n; ++i) {
+      std::uint32_t& word = planes.uints[core.fields.plane[field] * n + i];
+      const auto bits = static_cast<std::uint32_t>(std::max(0.0, values[i]));  // missing: 0
+      word = (word & ~mask) | (bits << shift & mask);
+    }
+  };
+  for (const StatusPart& part : STATUS_PARTS) put(part.variable, FIELD_STATUS, part.mask, part.shift);
+  for (const char* name : WORD_VARIABLES)
+    if (const Variable* variable = result.find(name)) put(name, variable->field, ~0u, 0);
+  return planes;
+}
+
+// Three figures, without an exponent where that is readable.
+std::string three_figures(double value) { return fmt::format("{:.3g}", value); }
+
+std::string unit_for_people(const std::string& unit) {
+  if (unit == "1e-6") return "· 10⁻⁶";
+  return unit.starts_with("u") ? "µ" + unit.substr(1) : unit;
+}
+
+// The three that people ask for first, of those there are.
+std::string largest_differences(const Agreement& agreement) {
+  std::vector<std::string> parts;
+  for (const std::string_view wanted : {"gap", "score", "peak feedback", "largest hold"}) {
+    for (const Comparison& row : agreement.rows)
+      if (row.quantity == wanted)
+        parts.push_back(fmt::format("{} {} {}", row.quantity, three_figures(row.worst), unit_for_people(row.unit)));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string agreement_text(const ReportSource& source, const Agreement& agreement) {
+  const bool is_all = agreement.grips == source.plan.stored_grips();
+  const std::string stored = readable_number(source.plan.stored_grips());
+  std::string text =
+      is_all ? fmt::format("All grips ({})", stored) : fmt::format("{} of {} grips", readable_number(agreement.grips), stored);
+  text +=
+      fmt::format(", {} of them feasible, computed anew by the core in double precision: ", readable_number(agreement.feasible));
+  if (agreement.holds()) {
+    text += agreement.rows.empty() ? "they agree." : "every number agrees within its tolerance.";
+  } else {
+    text += fmt::format("{} numbers and {} discrete outcomes do NOT agree.", readable_number(agreement.outside),
+                        readable_number(agreement.flipped));
+  }
+  if (const std::string largest = largest_differences(agreement); !largest.empty())
+    text += fmt::format(" Largest differences: {}.", largest);
+  if (!agreement.outcomes.empty()) {
+    const std::uint64_t compared = agreement.grips - agreement.grazing, equal = compared - agreement.flipped - agreement.excluded;
+    text += fmt::format(" Reasons, flags and masks are equal in {} of {}", readable_number(equal), readable_number(compared));
+    text += agreement.excluded > 0 ? fmt::format("; in {} they differ within the margin, where {} may.",
+                                                 readable_number(agreement.excluded), readable_number(agreement.allowed))
+                                   : ".";
+  }
+  if (agreement.grazing > 0) text += fmt::format(" {} graze the glass and are left out.", readable_number(agreement.grazing));
+  return text;
+}
+
+}  // namespace
+
+Agreement compare_with_core(const ReportSource& source, std::size_t vessel) {
+  const Scene scene = scene_of_vessel(source.scene, vessel);
+  const auto core = make_core_evaluator(scene);
+  const std::vector<std::uint64_t> places = sample_places(source.plan.stored_grips(), SAMPLED_GRIPS);
+  std::vector<GripInput> grips;
+  for (const std::uint64_t place : places) grips.push_back(stored_grip(source.plan, source.scene, vessel, place));
+  const FieldSet fields = make_field_set(fields_of_file(source.result), scene);
+  const GatheredPlanes by_core = gather(*core, fields, 0, grips);
+  Agreement agreement;
+  const GatheredPlanes of_file = planes_of_file(source, vessel, places, by_core, agreement.outcomes);
+  Comparer comparer(scene, *core, allowance(source.result.origin().precision));
+  comparer.add(0, grips, of_file, by_core);
+  for (const Comparison& row : comparer.rows()) {
+    if (row.kernel == "whole") {
+      agreement.flipped = row.outside;
+    } else if (row.compared > 0) {
+      agreement.rows.push_back(row);
+      agreement.outside += row.outside;
+    }
+  }
+  for (const Variable* variable : source.result.variables()) {
+    const bool is_real = variable->type == NumberType::real && is_kept(fields, variable->field);
+    if (!is_real && std::find(agreement.outcomes.begin(), agreement.outcomes.end(), variable->name) == agreement.outcomes.end())
+      agreement.uncompared.emplace_back(variable->name);
+  }
+  agreement.grips = comparer.grips();
+  agreement.feasible = comparer.feasible();
+  agreement.grazing = comparer.grazing();
+  agreement.excluded = comparer.excluded();
+  agreement.allowed = comparer.allowed();
+  return agreement;
+}
+
+void write_agreement(HtmlWriter& html, const ReportSource& source, std::size_t vessel, const std::string& id) {
+  html.element("h3", "Agreement with the core", {{"id", id + "-agreement"}});
+  if (!source.core || source.result.variables().empty()) {
+    html.element("p", source.core ? "The file holds the best grips alone: there is nothing to compare."
+                                  : fmt::format("Left out: {}.", source.no_core));
+    return;
+  }
+  const Agreement agreement = compare_with_core(source, vessel);
+  html.element("p", agreement_text(source, agreement), {{"class", agreement.holds() ? "good" : "bad"}});
+  html.open("details").element("summary", "Each quantity");
+  HtmlTable table(html, fmt::format("{}: the file against the core, on the sample", source.scene.vessels[vessel].name),
+                  {"quantity", "unit", "largest difference", "tolerance there", "grips", "beyond"}, {1});
+  for (const Comparison& row : agreement.rows)
+    table.row({row.quantity, unit_for_people(row.unit), three_figures(row.worst), three_figures(row.tolerance),
+               readable_number(row.compared), readable_number(row.outside)});
+  table.end();
+  std::string note =
+      "A tolerance is what the core's own answer changes by when the grip is moved by what the precision of the sweep leaves open; "
+      "it is that of the grip with the largest difference.";
+  if (!agreement.uncompared.empty()) note += fmt::format(" Not compared: {}.", fmt::join(agreement.uncompared, ", "));
+  html.element("p", note, {{"class", "note"}}).close();
+}
+
+}  // namespace wholehand

@@ -1,0 +1,213 @@
+#include "report/forces.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "grips/methods.h"
+#include "report/lines.h"
+
+namespace wholehand {
+namespace {
+
+constexpr std::size_t MOST_LINES = 8;
+
+// The number and its unit stay in one line.
+std::string share_text(const Scene& scene, double fill) {
+  return scene.liquid ? html_number(100 * fill, std::abs(100 * fill - std::round(100 * fill)) < 0.05 ? 0 : 1) + "\u00a0%" : "empty";
+}
+
+// A fill of a vessel as the scene gives it: in mL, or as a share of what the vessel holds.
+std::string fill_text(const Scene& scene, std::size_t vessel, std::size_t fill) {
+  if (!scene.liquid) return "empty";
+  if (scene.liquid->volumes.empty()) return share_text(scene, vessel_fills(scene, scene.vessels[vessel])[fill]);
+  return html_plain(scene.vessels[vessel].has_cavity() ? 1e6 * scene.liquid->volumes[fill] : 0) + "\u00a0mL";
+}
+
+// What is said of one fill's line to those who do not see it.
+std::string line_text(const Scene& scene, const std::string& fill, const std::vector<double>& values) {
+  const auto largest = std::max_element(values.begin(), values.end());
+  return fmt::format("{}: {} N at {}°, at most {} N at {}°", fill, html_number(values.front(), 2),
+                     html_number(degrees(scene.tilts.front()), 0), html_number(*largest, 2),
+                     html_number(degrees(scene.tilts[static_cast<std::size_t>(largest - values.begin())]), 0));
+}
+
+LineChart force_chart(const ReportSource& source, std::size_t vessel, const std::vector<FillForces>& forces,
+                      std::vector<double> FillForces::*member, const std::vector<double>& pouring) {
+  const Scene& scene = source.scene;
+  LineChart chart;
+  chart.x_label = "tilt (°)";
+  chart.x_is_angle = true;
+  for (const double tilt : scene.tilts) chart.x.push_back(degrees(tilt));
+  const std::vector<std::size_t> shown = shown_fills(forces.size());
+  for (std::size_t k = 0; k < shown.size(); ++k) {
+    const FillForces& fill = forces[shown[k]];
+    LineChart::Line line;
+    line.label = fill_text(scene, vessel, shown[k]);
+    line.y = fill.*member;
+    line.shade = shown.size() > 1 ? static_cast<double>(k) / static_cast<double>(shown.size() - 1) : 0.3;
+    if (shown[k] < pouring.size() && std::isfinite(pouring[shown[k]])) line.marked_x = degrees(pouring[shown[k]]);
+    chart.name.description += line_text(scene, line.label, fill.*member) + ". ";
+    chart.lines.push_back(line);
+  }
+  return chart;
+}
+
+// How far the hold force goes over all fills and tilts.
+struct HoldExtent {
+  double highest = 0;  // of the finite ones, N
+  bool is_finite_once = false, is_finite_always = true;
+};
+
+HoldExtent hold_extent(const std::vector<FillForces>& forces) {
+  HoldExtent extent;
+  for (const FillForces& fill : forces) {
+    for (const double hold : fill.hold) {
+      const bool is_finite = std::isfinite(hold);
+      if (is_finite) extent.highest = std::max(extent.highest, hold);
+      extent.is_finite_once = extent.is_finite_once || is_finite;
+      extent.is_finite_always = extent.is_finite_always && is_finite;
+    }
+  }
+  return extent;
+}
+
+double highest_feedback(const std::vector<FillForces>& forces) {
+  double highest = 0;
+  for (const FillForces& fill : forces) highest = std::max(highest, *std::max_element(fill.feedback.begin(), fill.feedback.end()));
+  return highest;
+}
+
+std::string forces_caption(const Scene& scene, const std::vector<FillForces>& forces, const HoldExtent& extent) {
+  std::string caption = "Feedback: what the gripper renders. Hold: the force per finger that physics asks for.";
+  const double limit = scene.force.max, strength = scene.force.grip_strength;
+  if (highest_feedback(forces) < limit) caption += fmt::format(" The device's limit of {} N is not reached.", html_plain(limit));
+  if (!extent.is_finite_once) {
+    caption += " No force of two fingers holds the vessel in this grip, so there is no chart of it.";
+  } else {
+    if (!extent.is_finite_always)
+      caption += " Where a line of the hold force is missing, no force of two fingers holds the vessel.";
+    if (extent.highest < strength) caption += fmt::format(" The grip strength of {} N is not reached.", html_plain(strength));
+    if (extent.highest > 2 * strength)
+      caption += fmt::format(" The hold force goes up to {} N; its chart ends at twice the grip strength.",
+                             html_number(extent.highest, 0));
+  }
+  const std::size_t shown = shown_fills(forces.size()).size();
+  if (shown < forces.size()) caption += fmt::format(" {} of {} fills are drawn.", shown, forces.size());
+  return caption;
+}
+
+void write_force_table(HtmlWriter& html, const Scene& scene, std::size_t vessel, const std::vector<FillForces>& forces) {
+  const std::string& name = scene.vessels[vessel].name;
+  html.open("details").element("summary", "The same as numbers");
+  std::vector<std::string> columns{"tilt (°)"};
+  for (const char* force : {"feedback", "hold"})
+    for (std::size_t f = 0; f < forces.size(); ++f)
+      columns.push_back(fmt::format("{}, {} (N)", force, fill_text(scene, vessel, f)));
+  HtmlTable table(html, fmt::format("Feedback and hold force of the best grip of {}", name), columns);
+  for (std::size_t t = 0; t < scene.tilts.size(); ++t) {
+    std::vector<std::string> cells{html_number(degrees(scene.tilts[t]), 1)};
+    for (const FillForces& fill : forces) cells.push_back(html_number(fill.feedback[t], 3));
+    for (const FillForces& fill : forces) cells.push_back(html_number(fill.hold[t], 2));
+    table.row(cells);
+  }
+  table.end();
+  html.close();
+}
+
+}  // namespace
+
+std::vector<std::size_t> shown_fills(std::size_t count) {
+  std::vector<std::size_t> shown;
+  const std::size_t lines = std::min(count, MOST_LINES);
+  for (std::size_t k = 0; k < lines; ++k) shown.push_back(lines > 1 ? k * (count - 1) / (lines - 1) : 0);
+  return shown;
+}
+
+std::vector<FillForces> forces_of(const ReportSource& source, std::size_t vessel, const GripInput& grip) {
+  std::vector<FillForces> forces;
+  const StateAxes axes = scene_axes(source.scene, vessel);
+  const GripAnswer answer = core_grip_methods(source.scene, source.core, "core").answer(vessel, grip, axes);
+  if (answer.states.empty()) return forces;
+  for (std::size_t f = 0; f < axes.fills.size(); ++f) {
+    FillForces fill{axes.fills[f], {}, {}};
+    for (std::size_t t = 0; t < axes.tilts.size(); ++t) {
+      const StateResult& state = answer.states[f * axes.tilts.size() + t].state;
+      fill.feedback.push_back(state.feedback_force);
+      fill.hold.push_back(state.hold_force);
+    }
+    forces.push_back(fill);
+  }
+  return forces;
+}
+
+void write_forces(HtmlWriter& html, const ReportSource& source, std::size_t vessel, const GripInput& grip, const std::string& id) {
+  const Scene& scene = source.scene;
+  html.element("h3", "Forces over the tilt", {{"id", id + "-forces"}});
+  if (scene.tilts.empty() || !source.core) {
+    html.element("p",
+                 scene.tilts.empty() ? "The scene has no tilts, and so no forces." : fmt::format("Left out: {}.", source.no_core));
+    return;
+  }
+  const std::vector<FillForces> forces = forces_of(source, vessel, grip);
+  if (forces.empty()) {
+    html.element("p", "By the core the best grip is not feasible; see the agreement below.");
+    return;
+  }
+  const std::string& name = scene.vessels[vessel].name;
+  const std::vector<double> pouring = scene.liquid ? source.result.pouring_tilts(vessel) : std::vector<double>{};
+  const HoldExtent extent = hold_extent(forces);
+  html.element("p",
+               fmt::format("Of the best grip: {}. {}", grip_text(source.plan, grip),
+                           !scene.liquid ? "The vessel is empty."
+                           : scene.liquid->volumes.empty()
+                               ? "Each line is a fill, as a share of what the vessel holds; the dot on it is where pouring starts."
+                               : "Each line is a fill; the dot on it is where pouring starts."));
+  html.open("figure").open("div", {{"class", "charts"}});
+  LineChart feedback = force_chart(source, vessel, forces, &FillForces::feedback, pouring);
+  feedback.name.id = id + "-feedback";
+  feedback.name.title = name + ": feedback force over the tilt";
+  feedback.y_label = "feedback force (N)";
+  feedback.limit = LineChart::Limit{scene.force.max, fmt::format("device {} N", html_plain(scene.force.max))};
+  LineChart hold = force_chart(source, vessel, forces, &FillForces::hold, pouring);
+  hold.name.id = id + "-hold";
+  hold.name.title = name + ": hold force over the tilt";
+  hold.y_label = "hold force per finger (N)";
+  hold.limit =
+      LineChart::Limit{scene.force.grip_strength, fmt::format("grip strength {} N", html_plain(scene.force.grip_strength))};
+  if (extent.highest > 2 * scene.force.grip_strength) hold.highest = 2 * scene.force.grip_strength;
+  for (const LineChart* chart : {&feedback, &hold}) {
+    if (chart == &hold && !extent.is_finite_once) continue;
+    html.open("div", {{"class", "chart"}});
+    write_chart(html, *chart);
+    html.close();
+  }
+  html.close().element("figcaption", forces_caption(scene, forces, extent)).close();
+  write_force_table(html, scene, vessel, forces);
+}
+
+void write_pouring(HtmlWriter& html, const ReportSource& source, std::size_t vessel, const std::string& id) {
+  const Scene& scene = source.scene;
+  html.element("h3", "Where pouring starts", {{"id", id + "-pouring"}});
+  if (!scene.liquid) {
+    html.element("p", "The scene has no liquid.");
+    return;
+  }
+  const std::vector<double> tilts = source.result.pouring_tilts(vessel);
+  const double capacity = source.core && scene.vessels[vessel].has_cavity() ? source.core->capacity(vessel) : std::nan("");
+  if (std::none_of(tilts.begin(), tilts.end(), [](double tilt) { return std::isfinite(tilt); })) {
+    html.element("p", "There is nothing in this vessel that it could pour.");
+    return;
+  }
+  HtmlTable table(html, fmt::format("Tilt at which {} starts to pour", scene.vessels[vessel].name),
+                  {"fill", "liquid (mL)", "pours from (°)"});
+  for (std::size_t f = 0; f < tilts.size(); ++f) {
+    const double fill = vessel_fills(scene, scene.vessels[vessel])[f];
+    table.row({share_text(scene, fill), html_number(capacity * fill * 1e6, 0),
+               std::isfinite(tilts[f]) ? html_number(degrees(tilts[f]), 1) : "nothing to pour"});
+  }
+  table.end();
+}
+
+}  // namespace wholehand

@@ -1,0 +1,213 @@
+#include "report/grips.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+
+#include "core/core_backend.h"
+#include "core/error.h"
+#include "grips/hand_nodes.h"
+#include "grips/svg.h"
+#include "sweeps/grip_lists.h"
+#include "system/readable.h"
+
+namespace wholehand {
+namespace {
+
+// The number in `name="1.5"` after `from`; NaN where there is none.
+double attribute_after(const std::string& svg, std::size_t from, const std::string& name) {
+  const std::size_t at = svg.find(" " + name + "=\"", from);
+  return at == std::string::npos ? std::nan("") : std::strtod(svg.c_str() + at + name.size() + 3, nullptr);
+}
+
+void erase_group(std::string& svg, const std::string& id) {
+  const std::size_t begin = svg.find("<g id=\"" + id + "\">");
+  const std::size_t end = begin == std::string::npos ? begin : svg.find("</g>", begin);
+  if (end != std::string::npos) svg.erase(begin, end + 4 - begin);
+}
+
+// Which fingers touch, for those who do not see the drawing.
+std::string touching_text(const GripResult& result) {
+  std::string text;
+  for (int f = 0; f < FINGER_COUNT; ++f) {
+    const int touching = std::popcount(result.touch_mask >> finger_start(f) & ((1u << finger_joints(f)) - 1));
+    text += fmt::format("{}{} {} of {}", f == 0 ? "" : ", ", FINGER_NAMES[f], touching, finger_joints(f));
+  }
+  return text;
+}
+
+void write_table(HtmlWriter& html, const ReportSource& source, std::size_t list, const ReportedGrips& best) {
+  const Plan& plan = source.plan;
+  const bool has_tilts = !source.scene.tilts.empty();
+  std::vector<std::string> columns{"rank", "score", "height (mm)"};
+  const auto axis_column = [&](int place, const char* title) {
+    if (axis_varies(plan, place) && !(place == PLACE_HAND_SCALE && plan.hand_scales() > 1)) columns.push_back(title);
+  };
+  axis_column(PLACE_ROLL, "roll (°)");
+  axis_column(PLACE_OBLIQUITY, "obliquity (°)");
+  axis_column(PLACE_AZIMUTH, "azimuth (°)");
+  axis_column(PLACE_OFFSET, "offset (mm)");
+  axis_column(PLACE_HAND_SCALE, "hand scale");
+  if (best.is_whole) {
+    columns.insert(columns.end(), {"fingers", "points", "depth (mm)", "closure", "gap (mm)"});
+    if (has_tilts) {
+      columns.insert(columns.end(), {"peak force (N)", "at tilt (°)", "hold force (N)", "safe tilt (°)"});
+    } else {
+      columns.push_back("antipodal");
+    }
+  }
+  HtmlTable table(html,
+                  fmt::format("The best {} of {}", best.grips.size() == 1 ? "grip" : fmt::format("{} grips", best.grips.size()),
+                              list_name(source.scene, plan, list)),
+                  columns);
+  for (std::size_t rank = 0; rank < best.grips.size(); ++rank) {
+    const BestGrip& b = best.grips[rank];
+    std::vector<std::string> cells{std::to_string(b.rank), html_number(b.score, 3), html_number(b.grip.height * 1e3, 1)};
+    const auto axis_cell = [&](int place, double value, int digits) {
+      if (axis_varies(plan, place) && !(place == PLACE_HAND_SCALE && plan.hand_scales() > 1))
+        cells.push_back(html_number(value, digits));
+    };
+    axis_cell(PLACE_ROLL, degrees(b.grip.roll), 1);
+    axis_cell(PLACE_OBLIQUITY, degrees(b.grip.obliquity), 1);
+    axis_cell(PLACE_AZIMUTH, degrees(b.grip.azimuth), 1);
+    axis_cell(PLACE_OFFSET, b.grip.offset * 1e3, 1);
+    axis_cell(PLACE_HAND_SCALE, b.grip.hand_scale, 3);
+    if (best.is_whole) {
+      cells.insert(cells.end(), {std::to_string(b.fingers_used), std::to_string(b.points_touching),
+                                 html_number(std::max(b.phalanx_depth, b.palm_depth) * 1e3, 1), html_number(b.closure, 2),
+                                 html_number(b.gap * 1e3, 1)});
+      if (has_tilts) {
+        cells.insert(cells.end(), {html_number(b.peak_force, 2), html_number(degrees(b.peak_tilt), 0),
+                                   html_number(b.largest_hold, 1), html_number(degrees(b.safe_tilt), 0)});
+      } else {
+        cells.push_back(b.antipodal ? "yes" : "no");
+      }
+    }
+    table.row(cells);
+  }
+  table.end();
+}
+
+void write_drawings(HtmlWriter& html, const ReportSource& source, std::size_t list, const ReportedGrips& best) {
+  const GripMethods methods = core_grip_methods(source.scene, source.core, "core");
+  const std::string name = list_name(source.scene, source.plan, list);
+  const std::size_t vessel = list / source.plan.hand_scales(), count = std::min(DRAWN_GRIPS, best.grips.size());
+  HtmlWriter drawings;
+  std::string trouble;
+  std::size_t drawn = 0;
+  for (std::size_t rank = 0; rank < count; ++rank) {
+    const GripReport report = make_grip_report(source.scene, vessel, best.grips[rank].grip, {}, methods);
+    std::string svg;
+    try {
+      svg = front_and_side(grip_svg(source.scene, vessel, report));
+    } catch (const Error& error) {
+      trouble = error.what();
+      continue;
+    }
+    ++drawn;
+    const std::string alt =
+        fmt::format("Front and side view of the hand on {}, grip {} of the best: {}. Points touching by finger: {}.", name,
+                    best.grips[rank].rank, grip_text(source.plan, best.grips[rank].grip), touching_text(report.answer.result));
+    drawings.open("div", {{"class", "drawing"}});
+    drawings.empty("img", {{"src", svg_address(svg)}, {"alt", alt}});
+    drawings.element("p", fmt::format("{}: score {}; {}", best.grips[rank].rank, html_number(best.grips[rank].score, 3),
+                                      grip_text(source.plan, best.grips[rank].grip)));
+    drawings.close();
+  }
+  if (drawn > 0) {
+    html.open("figure").open("div", {{"class", "drawings"}}).markup(drawings.html()).close();
+    html.element("figcaption", fmt::format("The best {} of {}, from the side of the hand and from its right. Discs: points that "
+                                           "touch where they were; diamonds: points that were brought to the glass; rings: points "
+                                           "that do not touch. T thumb, I index, M middle, R ring, L little finger.",
+                                           drawn == 1 ? "grip" : fmt::format("{} grips", drawn), name));
+    html.close();
+  }
+  if (!trouble.empty())
+    html.element("p", fmt::format("{} of the best grips cannot be drawn: {}.", drawn == 0 ? "The first" : "Some", trouble));
+}
+
+}  // namespace
+
+std::string front_and_side(const std::string& drawing) {
+  constexpr double LARGER = 1.9;  // letters, times those of the whole drawing
+  const std::size_t head = drawing.find(">front</text>"), text = head == std::string::npos ? head : drawing.rfind("<text", head);
+  const std::size_t box = drawing.find(" viewBox=\"0 0 "), style = drawing.find("</style>"), font = drawing.find("font-size: ");
+  if (text == std::string::npos || box == std::string::npos || style == std::string::npos || font == std::string::npos)
+    return drawing;
+  const double letter = std::strtod(drawing.c_str() + font + 11, nullptr), head_y = attribute_after(drawing, text, "y");
+  char* next = nullptr;
+  const double width = std::strtod(drawing.c_str() + box + 14, &next), height = std::strtod(next, nullptr);
+  const double top = head_y - LARGER * letter;
+  if (!(letter > 0 && width > 0 && top > 0 && height > top)) return drawing;
+  std::string part = drawing;
+  part.insert(style, fmt::format("text {{ font-size: {:.2f}px }}\n", LARGER * letter));
+  for (const char* gone : {"top", "legend"}) erase_group(part, gone);
+  // the picture's own size does not matter: the page gives it one
+  const std::size_t size = part.find(" width=\""), box_end = part.find('"', part.find(" viewBox=\"") + 10);
+  // room at the right and below, into which the larger letters grow
+  const double wider = width + 2.2 * LARGER * letter, taller = height - top + LARGER * letter;
+  part.replace(size, box_end + 1 - size,
+               fmt::format(" width=\"{0:.2f}\" height=\"{1:.2f}\" viewBox=\"0 {2:.2f} {0:.2f} {1:.2f}\"", wider, taller, top));
+  const std::size_t ground = part.find("<rect ");
+  if (ground != std::string::npos)
+    part.replace(ground, part.find("/>", ground) + 2 - ground,
+                 fmt::format("<rect y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"#ffffff\"/>", top, wider, taller));
+  return part;
+}
+
+ReportedGrips read_grips(const ReportSource& source, std::size_t list) {
+  const std::size_t scales = source.plan.hand_scales(), vessel = list / scales;
+  std::vector<RankedCandidate> ranked;
+  if (source.lists) {
+    ranked = (*source.lists)[list];
+  } else {
+    for (const Candidate& candidate : source.result.best(vessel, list % scales)) ranked.push_back({ranked.size() + 1, candidate});
+  }
+  ReportedGrips best;
+  best.listed = ranked.size();
+  ranked.resize(std::min(ranked.size(), TABLED_GRIPS));
+  std::vector<Candidate> candidates;
+  for (const RankedCandidate& grip : ranked) candidates.push_back(grip.candidate);
+  if (source.core) {
+    CoreBackend backend(source.core, source.scene, make_field_set(best_fields(source.scene), source.scene), Precision::full, 0);
+    best.grips = evaluate_best(backend, source.scene, source.plan, vessel, candidates);
+    best.is_whole = true;
+  }
+  best.grips.resize(ranked.size());
+  for (std::size_t k = 0; k < ranked.size(); ++k) {
+    best.grips[k].candidate = candidates[k];
+    best.grips[k].grip = source.plan.grip(vessel, candidates[k].index);
+    best.grips[k].score = candidates[k].score;
+    best.grips[k].rank = ranked[k].rank;
+  }
+  return best;
+}
+
+void write_grips(HtmlWriter& html, const ReportSource& source, std::size_t list, const ReportedGrips& best, const std::string& id) {
+  const std::size_t scales = source.plan.hand_scales();
+  const std::string of_hand =
+      scales == 1 ? "" : fmt::format(" at hand scale {}", html_plain(source.plan.hand_scale(list % scales)));
+  html.element("h3", "The best grips" + of_hand, {{"id", id + "-best"}});
+  if (best.grips.empty()) {
+    html.element("p", source.lists                 ? fmt::format("{} lists none.", source.lists_file)
+                      : source.result.lists_best() ? "There are none: no grip is feasible and plausible."
+                                                   : "The sweep was asked to list none.");
+    return;
+  }
+  if (source.core) write_drawings(html, source, list, best);
+  write_table(html, source, list, best);
+  const std::string whose = source.lists ? fmt::format("Places and scores are those of {}", source.lists_file)
+                                         : std::string("Places and scores are the sweep's");
+  std::string note = best.is_whole ? whose +
+                                         "; the rest is the core's in double precision. Forces are the largest over all fills, the "
+                                         "safe tilt the smallest."
+                                   : fmt::format("Fingers, forces and drawings are left out: {}.", source.no_core);
+  if (best.listed > best.grips.size())
+    note += fmt::format(" {} listed {} grips.", source.lists ? source.lists_file : "The sweep", readable_number(best.listed));
+  html.element("p", note, {{"class", "note"}});
+}
+
+}  // namespace wholehand

@@ -1,0 +1,51 @@
+// Maps of a vessel in a report: over height and roll the best score, and the fingers and the force of the grip that has it.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "report/field.h"
+#include "report/source.h"
+#include "sweeps/heat_map.h"
+#include "sweeps/mark.h"
+
+namespace wholehand {
+
+struct MapCell {
+  CellKind kind = CellKind::absent;  // no feasible grip, only implausible ones, or a best one:
+  double score = 0;
+  std::uint64_t grip = 0;                                        // in the plan
+  double fingers = std::numeric_limits<double>::quiet_NaN();     // used
+  double peak_force = std::numeric_limits<double>::quiet_NaN();  // N, largest over all fills
+};
+
+struct GripMap {
+  MapAxis heights, rolls;
+  std::vector<MapCell> cells;  // height-major
+  bool knows_reasons = false;  // without them, a grip without a score is taken for an implausible one
+  bool has_fingers = false, has_forces = false;
+  bool is_by_core = false;      // some of fingers and forces
+  const MapCell* best() const;  // null where no grip is feasible and plausible
+};
+
+// The counts of a vessel's grips. False: the file does not have what they need.
+bool read_counts(const ReportSource& source, std::size_t vessel, GripCounts& counts);
+
+// Whether there is a score to map.
+bool has_map(const ReportSource& source);
+// The best of equal scores is the first. Fingers and forces that the file does not have are the core's, where there is one.
+GripMap read_map(const ReportSource& source, std::size_t vessel);
+
+// Colours for all vessels alike, so that their maps can be compared.
+struct MapScales {
+  ColorScale score, fingers, peak_force;
+};
+MapScales map_scales(const std::vector<GripMap>& maps);
+
+// A figure of the maps there are, with the listed grips marked. `id`: of the vessel, in the page.
+void write_maps(HtmlWriter& html, const ReportSource& source, std::size_t vessel, const GripMap& map, const MapScales& scales,
+                const std::vector<Candidate>& best, const std::string& id);
+
+}  // namespace wholehand

@@ -1,0 +1,211 @@
+#include "report/page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string_view>
+
+#include "core/candidates.h"
+#include "core/error.h"
+#include "report/agreement.h"
+#include "report/forces.h"
+#include "report/grips.h"
+#include "report/guidance.h"
+#include "report/maps.h"
+#include "report/scene.h"
+#include "report/style.h"
+#include "sweeps/edge.h"
+#include "sweeps/tally.h"
+#include "system/files.h"
+#include "system/readable.h"
+
+namespace wholehand {
+namespace {
+
+constexpr std::string_view PAGE_MARK = "content=\"wholehand\"";
+
+// Ids are by number: a vessel's name may be anything.
+std::string vessel_id(std::size_t vessel) { return fmt::format("vessel{}", vessel + 1); }
+
+std::string page_title(const Scene& scene) { return scene.name.empty() ? "Grips of a scene" : "Grips of " + scene.name; }
+
+std::vector<Candidate> best_first(const std::vector<ReportedGrips>& lists) {
+  std::vector<Candidate> candidates;
+  for (const ReportedGrips& best : lists) {
+    for (const BestGrip& grip : best.grips) candidates.push_back(grip.candidate);
+  }
+  std::sort(candidates.begin(), candidates.end(), is_better);
+  return candidates;
+}
+
+// With a capital.
+std::string sentence(std::string line) {
+  line[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(line[0])));
+  return line;
+}
+
+void write_head(HtmlWriter& html, const Scene& scene) {
+  html.open("head");
+  html.empty("meta", {{"charset", "utf-8"}});
+  html.empty("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
+  html.empty("meta", {{"name", "generator"}, {"content", "wholehand"}});
+  html.empty("meta", {{"name", "color-scheme"}, {"content", "light dark"}});
+  html.element("title", page_title(scene));
+  html.open("style").markup(REPORT_STYLE).close();
+  html.close();
+}
+
+void write_contents(HtmlWriter& html, const Scene& scene) {
+  html.open("nav", {{"aria-label", "Contents"}}).open("ul");
+  const auto link = [&html](const std::string& id, const std::string& text) {
+    html.open("li").element("a", text, {{"href", "#" + id}}).close();
+  };
+  link("asked", "What was asked");
+  link("ran", "How it ran");
+  for (std::size_t v = 0; v < scene.vessels.size(); ++v) link(vessel_id(v), scene.vessels[v].name);
+  link("words", "The words");
+  html.close().close();
+}
+
+void write_words(HtmlWriter& html) {
+  html.open("section", {{"aria-labelledby", "words"}}).element("h2", "The words", {{"id", "words"}}).open("dl");
+  const auto word = [&html](const char* name, const char* meaning) {
+    html.open("div").element("dt", name).element("dd", meaning).close();
+  };
+  word("height",
+       "where the line between the tips of thumb and index finger crosses the vessel's axis: above its base, or above the origin "
+       "of a mesh that keeps its own");
+  word("roll", "turn of the hand about that line; 0: beside the vessel, \u221290°: above");
+  word("obliquity", "angle of that line to the horizontal, the index finger above");
+  word("feasible", "both tips find the vessel, at a gap that the hand can make");
+  word("implausible", "a point of the hand would be deeper in the vessel than the scene allows");
+  word("antipodal", "both contacts lie within the cone of friction");
+  word("fingers, points", "fingers used of 5, points of the hand touching of 24");
+  word("depth", "of the deepest point of the hand inside");
+  word("closure", "of thumb and index finger; 0 open, 1 closed");
+  word("peak force", "largest force that the gripper renders over all tilts and fills");
+  word("hold force", "grip force per finger that physics asks for");
+  word("safe tilt", "up to it the force stays under the device's and the hold force under the user's");
+  word("score",
+       "weighted sum of terms from 0 to 1: fingers used, points touching, depth, posture, feedback force, hold force; 0 for an "
+       "implausible grip");
+  html.close().close();
+}
+
+class Page {
+ public:
+  explicit Page(const ReportSource& source) : source_(source), scene_(source.scene) {}
+
+  std::string write() {
+    html_.markup("<!DOCTYPE html>\n").open("html", {{"lang", "en"}, {"xmlns", "http://www.w3.org/1999/xhtml"}});
+    write_head(html_, scene_);
+    html_.open("body").open("header").element("h1", page_title(scene_));
+    html_.element("p",
+                  fmt::format("{} of {} vessel{}, scored by wholehand.",
+                              readable_count(static_cast<double>(source_.plan.stored_grips() * scene_.vessels.size())) + " grips",
+                              scene_.vessels.size(), scene_.vessels.size() == 1 ? "" : "s"),
+                  {{"class", "lead"}});
+    write_contents(html_, scene_);
+    html_.close().open("main");
+    write_scene(html_, source_);
+    write_origin(html_, source_);
+    if (has_map(source_))
+      for (std::size_t v = 0; v < scene_.vessels.size(); ++v) maps_.push_back(read_map(source_, v));
+    scales_ = map_scales(maps_);
+    for (std::size_t v = 0; v < scene_.vessels.size(); ++v) write_vessel(v);
+    write_words(html_);
+    html_.close();
+    html_.element("footer", fmt::format("Written by wholehand {} from {}.", WHOLEHAND_VERSION,
+                                        source_.result.path().substr(source_.result.path().rfind('/') + 1)));
+    html_.close().close();
+    return html_.html();
+  }
+
+ private:
+  void write_vessel(std::size_t v) {
+    const std::string id = vessel_id(v);
+    html_.open("section", {{"aria-labelledby", id}}).element("h2", scene_.vessels[v].name, {{"id", id}});
+    const std::size_t scales = source_.plan.hand_scales();
+    std::vector<ReportedGrips> lists;
+    for (std::size_t s = 0; s < scales; ++s) lists.push_back(read_grips(source_, v * scales + s));
+    write_summary(v, lists);
+    html_.element("h3", "Score, fingers and force over height and roll", {{"id", id + "-maps"}});
+    if (maps_.empty()) {
+      html_.element("p", "The file does not have the score of each grip ([output] keep), so there is no map.");
+    } else {
+      write_maps(html_, source_, v, maps_[v], scales_, best_first(lists), id);
+    }
+    for (std::size_t s = 0; s < scales; ++s)
+      write_grips(html_, source_, v * scales + s, lists[s], scales == 1 ? id : fmt::format("{}-hand{}", id, s + 1));
+    if (const std::optional<GripInput> grip = best_grip(v, lists)) write_forces(html_, source_, v, *grip, id);
+    write_pouring(html_, source_, v, id);
+    write_agreement(html_, source_, v, id);
+    write_guidance(html_, source_, v, id);
+    html_.close();
+  }
+
+  // How many grips are what, the best of each hand, and whether it lies at an end of an axis.
+  void write_summary(std::size_t v, const std::vector<ReportedGrips>& lists) {
+    GripCounts counts;
+    const bool knows_reasons = read_counts(source_, v, counts);
+    if (!knows_reasons) counts.grips = source_.plan.grips();
+    html_.open("p").text(counts_line(counts, knows_reasons, source_.plan.copies()) + ".");
+    for (const ReportedGrips& best : lists) {
+      if (best.grips.empty()) continue;
+      const BestGrip& first = best.grips[0];
+      html_.text(fmt::format(" The best scores {}: {}.", html_number(first.score, 3), grip_text(source_.plan, first.grip)));
+    }
+    html_.close();
+    std::set<std::string> said;  // once for all hands
+    for (const ReportedGrips& best : lists) {
+      const std::string edge = edge_line(edge_axes(scene_, source_.plan, v, best_first({best})));
+      if (!edge.empty() && said.insert(edge).second) html_.element("p", sentence(edge));
+    }
+  }
+
+  // That of the list that begins best; where nothing is listed, that of the map.
+  std::optional<GripInput> best_grip(std::size_t v, const std::vector<ReportedGrips>& lists) const {
+    const std::vector<Candidate> listed = best_first(lists);
+    if (!listed.empty()) return source_.plan.grip(v, listed[0].index);
+    const MapCell* cell = maps_.empty() ? nullptr : maps_[v].best();
+    return cell ? std::optional(source_.plan.grip(v, cell->grip)) : std::nullopt;
+  }
+
+  const ReportSource& source_;
+  const Scene& scene_;
+  HtmlWriter html_;
+  std::vector<GripMap> maps_;
+  MapScales scales_;
+};
+
+}  // namespace
+
+std::string report_page(SweepResult& result, const Scene& given, const std::string& trouble, const std::string& lists_file) {
+  Scene scene = given;
+  set_heights(result, scene);
+  const Plan plan(scene, keeps_vectors(result.variables()));
+  result.use(scene, plan);
+  ReportSource source{result, scene, plan, nullptr, trouble, std::nullopt, lists_file.substr(lists_file.rfind('/') + 1)};
+  if (!lists_file.empty()) source.lists = read_grip_lists(lists_file, result, scene, plan);
+  if (trouble.empty()) {
+    try {
+      source.core = make_core_evaluator(scene);
+    } catch (const Error& error) {
+      source.no_core = error.what();
+    }
+  }
+  return Page(source).write();
+}
+
+void check_overwrites_page(const std::string& path, const std::string& result) {
+  if (is_same_file(path, result))
+    throw usage_error(fmt::format("-o {}: this is the result file itself; name another file for the page", path));
+  // a page of version 0.1 has its title alone
+  if (!has_mark(path, "<title>Grips of ")) check_overwrites_marked(path, PAGE_MARK, "page of wholehand's", "-o");
+}
+
+}  // namespace wholehand

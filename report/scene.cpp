@@ -1,0 +1,221 @@
+#include "report/scene.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "core/mesh_body.h"
+#include "core/prepare.h"
+#include "grips/methods.h"
+#include "sweeps/result_contents.h"
+#include "system/readable.h"
+
+namespace wholehand {
+namespace {
+
+void write_pair(HtmlWriter& html, const char* name, const std::string& value) {
+  html.open("div").element("dt", name).element("dd", value).close();
+}
+
+// "height 10 to 95 % of the vessel's (64 values)", ..
+std::string grips_text(const ReportSource& source) {
+  const Plan& plan = source.plan;
+  std::vector<std::string> parts;
+  const auto add = [&](int place, const char* name, double scale, const std::string& unit) {
+    const Axis& axis = plan.axes()[place].data;
+    std::string text = fmt::format("{} {}", name, axis_text(axis, scale, unit));
+    if (!plan.is_sobol() && axis.values.size() > 1) text += fmt::format(" ({} values)", readable_number(axis.values.size()));
+    parts.push_back(text);
+  };
+  if (source.scene.grips.height_is_fraction) {
+    add(PLACE_HEIGHT, "height", 100, " % of the vessel's");
+  } else {
+    add(PLACE_HEIGHT, "height", 1e3, " mm");
+  }
+  add(PLACE_ROLL, "roll", degrees(1), "°");
+  add(PLACE_OBLIQUITY, "obliquity", degrees(1), "°");
+  add(PLACE_AZIMUTH, "azimuth", degrees(1), "°");
+  add(PLACE_OFFSET, "offset", 1e3, " mm");
+  add(PLACE_HAND_SCALE, "hand scale", 1, "");
+  const std::string kind = plan.is_sobol() ? fmt::format("{} points of a Sobol sequence", readable_number(plan.grips()))
+                                           : readable_number(plan.stored_grips());
+  return fmt::format("{}: {}", kind, fmt::join(parts, ", "));
+}
+
+std::string states_text(const Scene& scene) {
+  if (scene.tilts.empty()) return "none: the scene has no tilts";
+  const std::string tilts = scene.tilts.size() == 1 ? fmt::format("the tilt {}°", html_number(degrees(scene.tilts[0]), 0))
+                                                    : fmt::format("{} tilts from {}° to {}°", scene.tilts.size(),
+                                                                  html_number(degrees(scene.tilts.front()), 0),
+                                                                  html_number(degrees(scene.tilts.back()), 0));
+  if (!scene.liquid) return tilts + ", the vessels empty";
+  std::vector<std::string> fills;
+  const bool has_volumes = !scene.liquid->volumes.empty();
+  for (const double volume : scene.liquid->volumes) fills.push_back(html_plain(1e6 * volume));
+  for (const double fill : scene.liquid->fills) fills.push_back(html_number(100 * fill, 0));
+  const std::string shown = fills.size() > 12 ? fmt::format("{} fills from {} to {}", fills.size(), fills.front(), fills.back())
+                                              : fmt::format("fills {}", fmt::join(fills, ", "));
+  return fmt::format("{}; {} {}, {} kg/m³, poured {} the palm", tilts, shown,
+                     has_volumes ? "mL" : "% of what a vessel holds to the brim", html_plain(scene.liquid->density),
+                     scene.liquid->pour == Pour::away ? "away from" : "towards");
+}
+
+std::string hand_text(const Scene& scene) {
+  const char* pose = scene.pose == Pose::articulated
+                         ? "articulated: bones keep their lengths while the fingers come to rest on the vessel"
+                     : scene.pose == Pose::paper ? "as in the paper: each point is moved to the surface by itself"
+                                                 : "rigged: the fingers are not brought to the vessel";
+  return fmt::format("{}, scale {}; pose {}", scene.hand.handedness == Handedness::right ? "right" : "left",
+                     html_plain(scene.hand.scale), pose);
+}
+
+std::string force_text(const Scene& scene) {
+  const ForceData& force = scene.force;
+  return fmt::format(
+      "{} N, and with the torque up to {} N more (a vessel's own range comes first), at most {} N; torque {}, its reference {}",
+      html_plain(force.base), html_plain(force.range), html_plain(force.max),
+      force.torque == Torque::paper ? "as in the paper" : "exact",
+      force.reference == TorqueReference::per_object ? "per vessel" : "per grip");
+}
+
+std::string hold_text(const Scene& scene) {
+  const ForceData& force = scene.force;
+  return fmt::format("friction {}, torsion of a contact {} mm, grip strength {} N", html_plain(force.friction),
+                     html_plain(force.torsion * 1e3), html_plain(force.grip_strength));
+}
+
+std::string weights_text(const Scene& scene) {
+  const auto weights = effective_weights(scene);
+  const std::array<const char*, 6> names{"fingers", "contacts", "depth", "posture", "force", "hold"};
+  std::vector<std::string> parts;
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (weights[k] > 0) parts.push_back(fmt::format("{} {}", names[k], html_plain(weights[k])));
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string form_text(const VesselData& vessel) {
+  if (vessel.mesh) return "mesh " + vessel.mesh->file;
+  return fmt::format("outline of {} elements{}", vessel.outline.size(), vessel.surface == Surface::shell ? ", a shell" : "");
+}
+
+// Of an outline that can be made ready; NaN for a mesh that is not there.
+double widest(const ReportSource& source, const VesselData& vessel) {
+  if (vessel.mesh && vessel.mesh->body) {
+    const MeshBody& body = *vessel.mesh->body;
+    return std::max(body.high[0] - body.low[0], body.high[2] - body.low[2]);
+  }
+  if (vessel.outline.empty() || !source.core) return std::nan("");
+  return 2 * prepare_vessel(vessel, vessel.has_cavity()).largest_radius;
+}
+
+// An inner outline leaves walls of any thickness.
+std::string wall_text(const VesselData& vessel) {
+  if (!(vessel.wall > 0)) return "none";
+  return vessel.inner.empty() ? html_plain(vessel.wall * 1e3) : html_number(vessel.wall * 1e3, 2) + " and more";
+}
+
+// What was found of each mesh, a line each.
+void write_meshes(HtmlWriter& html, const std::string& lines) {
+  if (lines.empty()) return;
+  html.open("ul");
+  std::istringstream stream(lines);
+  for (std::string line; std::getline(stream, line);) html.element("li", line);
+  html.close();
+}
+
+void write_vessels(HtmlWriter& html, const ReportSource& source) {
+  HtmlTable table(html, "The vessels",
+                  {"vessel", "form", "width (mm)", "height (mm)", "wall (mm)", "mass (g)", "capacity (mL)", "force range (N)",
+                   "guidance points"},
+                  {1});
+  for (std::size_t v = 0; v < source.scene.vessels.size(); ++v) {
+    const VesselData& vessel = source.scene.vessels[v];
+    const double mass = source.core ? source.core->empty_mass(v) : vessel.mass.value_or(std::nan(""));
+    const double capacity = source.core && vessel.has_cavity() ? source.core->capacity(v) : std::nan("");
+    table.row({vessel.name, form_text(vessel), html_number(widest(source, vessel) * 1e3, 1),
+               html_number((vessel.height - vessel.base) * 1e3, 1), wall_text(vessel), html_number(mass * 1e3, 1),
+               html_number(capacity * 1e6, 0), html_plain(vessel.force_range.value_or(source.scene.force.range)),
+               vessel.guidance.empty() ? "none" : std::to_string(vessel.guidance.size())});
+  }
+  table.end();
+}
+
+}  // namespace
+
+void write_scene(HtmlWriter& html, const ReportSource& source) {
+  const Scene& scene = source.scene;
+  html.open("section", {{"aria-labelledby", "asked"}}).element("h2", "What was asked", {{"id", "asked"}});
+  html.open("dl");
+  write_pair(html, "Grips of each vessel", grips_text(source));
+  write_pair(html, "States of each grip", states_text(scene));
+  write_pair(html, "Hand", hand_text(scene));
+  if (!scene.tilts.empty()) write_pair(html, "Feedback force", force_text(scene));
+  write_pair(html, "Holding", hold_text(scene));
+  write_pair(html, "Score", "weights: " + weights_text(scene));
+  html.close();
+  write_vessels(html, source);
+  write_meshes(html, source.result.origin().meshes);
+  html.open("details").element("summary", "The scene as it was written").element("pre", scene.text, {{"tabindex", "0"}}).close();
+  html.close();
+}
+
+std::vector<std::string> left_out(const ReportSource& source) {
+  const Scene& scene = source.scene;
+  std::vector<std::string> sentences;
+  const auto any = [&scene](auto is) { return std::any_of(scene.vessels.begin(), scene.vessels.end(), is); };
+  if (source.plan.copies() > 1)
+    sentences.push_back(fmt::format("{} of {} azimuths: the vessels are bodies of revolution, so one stands for all.",
+                                    readable_number(source.plan.copies() - 1), readable_number(source.plan.copies())));
+  if (scene.pose == Pose::rigged) sentences.emplace_back("The projection of the fingers: the pose is rigged.");
+  if (scene.tilts.empty())
+    sentences.emplace_back("The forces: the scene has no tilts. Their weights in the score went to the other terms.");
+  if (!scene.liquid) sentences.emplace_back("The liquid: the scene has none.");
+  if (any([](const VesselData& v) { return v.surface == Surface::solid && v.wall > 0; }))
+    sentences.emplace_back("The inner wall as a thing to touch: the vessels are solid to the fingers.");
+  std::size_t possible = 0;
+  std::vector<std::string> missing;
+  for (const Variable& variable : variable_catalogue()) {
+    ++possible;
+    if (!source.result.find(variable.name)) missing.emplace_back(variable.name);
+  }
+  if (missing.size() == possible) {
+    sentences.emplace_back("Every variable of the grips: the file holds the best alone ([output] keep).");
+  } else if (!missing.empty()) {
+    sentences.push_back(fmt::format("{} of {} variables were not kept in the file ([output] keep): {}.", missing.size(), possible,
+                                    fmt::join(missing, ", ")));
+  }
+  return sentences;
+}
+
+void write_origin(HtmlWriter& html, const ReportSource& source) {
+  const SweepOrigin& origin = source.result.origin();
+  const std::size_t vessels = source.scene.vessels.size();
+  const double grips = static_cast<double>(source.plan.grips()) * static_cast<double>(vessels);
+  const double states =
+      grips * static_cast<double>(std::max<std::size_t>(1, source.scene.tilts.size() * scene_fills(source.scene)));
+  html.open("section", {{"aria-labelledby", "ran"}}).element("h2", "How it ran", {{"id", "ran"}});
+  html.open("dl");
+  write_pair(html, "Device", origin.device);
+  write_pair(html, "Driver", origin.driver);
+  write_pair(html, "Arithmetic",
+             fmt::format("{}, {} precision", origin.backend, origin.precision == Precision::single ? "single" : "double"));
+  write_pair(html, "Program", "wholehand " + origin.version);
+  write_pair(html, "Time",
+             fmt::format("{} s in all, {} s of it in kernels", html_number(origin.wall_seconds, 2),
+                         html_number(origin.kernel_seconds, 2)));
+  write_pair(
+      html, "Evaluated",
+      fmt::format("{} grips{}", readable_count(grips), states > grips ? fmt::format(", {} states", readable_count(states)) : ""));
+  write_pair(html, "Result file",
+             fmt::format("{}, {}", source.result.path().substr(source.result.path().rfind('/') + 1), readable_bytes(origin.bytes)));
+  html.close();
+  html.element("h3", "Left out");
+  html.open("ul");
+  for (const std::string& sentence : left_out(source)) html.element("li", sentence);
+  html.close().close();
+}
+
+}  // namespace wholehand

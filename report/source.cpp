@@ -1,0 +1,62 @@
+#include "report/source.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "core/core_backend.h"
+
+namespace wholehand {
+
+// A step that is prime, so that every axis varies.
+std::vector<std::uint64_t> sample_places(std::uint64_t all, std::size_t count) {
+  constexpr std::uint64_t STEP = 2654435761, START = 12345;
+  std::vector<std::uint64_t> places(std::min<std::uint64_t>(all, count));
+  for (std::size_t i = 0; i < places.size(); ++i) places[i] = all <= count ? i : (i * STEP + START) % all;
+  return places;
+}
+
+GripInput stored_grip(const Plan& plan, const Scene& scene, std::size_t vessel, std::uint64_t place) {
+  GripInput grip = plan.grip(vessel, place % plan.grips());
+  if (plan.copies() > 1) grip.azimuth = scene.grips.azimuth.values[place / plan.grips()];
+  return grip;
+}
+
+GatheredPlanes planes_by_core(const ReportSource& source, std::size_t vessel, const std::vector<GripInput>& grips,
+                              const std::vector<int>& fields) {
+  CoreBackend backend(source.core, source.scene, make_field_set(fields, source.scene), Precision::full, 0);
+  return gather(backend, vessel, grips);
+}
+
+std::string axis_text(const Axis& axis, double scale, const std::string& unit) {
+  constexpr std::size_t LISTED = 8;
+  const auto number = [&](double value) { return html_plain(value * scale); };
+  if (axis.is_range)
+    return axis.from == axis.to ? number(axis.from) + unit : fmt::format("{} to {}{}", number(axis.from), number(axis.to), unit);
+  if (axis.values.size() > LISTED) return fmt::format("{} to {}{}", number(axis.values.front()), number(axis.values.back()), unit);
+  std::vector<std::string> numbers;
+  for (const double value : axis.values) numbers.push_back(number(value));
+  return fmt::format("{}{}", fmt::join(numbers, ", "), unit);
+}
+
+bool axis_varies(const Plan& plan, int place) {
+  const Axis& data = plan.axes()[place].data;
+  if (plan.is_sobol()) return data.is_range ? data.from != data.to : data.values.size() > 1;
+  return data.values.size() > 1 && !(place == PLACE_AZIMUTH && plan.copies() > 1);
+}
+
+std::string grip_text(const Plan& plan, const GripInput& grip) {
+  std::string text = fmt::format("height {} mm", html_number(grip.height * 1e3, 1));
+  const auto add = [&](int place, const char* name, double value, int digits, const char* unit) {
+    if (axis_varies(plan, place)) text += fmt::format(", {} {}{}", name, html_number(value, digits), unit);
+  };
+  add(PLACE_ROLL, "roll", degrees(grip.roll), 1, "°");
+  add(PLACE_OBLIQUITY, "obliquity", degrees(grip.obliquity), 1, "°");
+  add(PLACE_AZIMUTH, "azimuth", degrees(grip.azimuth), 1, "°");
+  add(PLACE_OFFSET, "offset", grip.offset * 1e3, 1, " mm");
+  add(PLACE_HAND_SCALE, "hand scale", grip.hand_scale, 3, "");
+  return text;
+}
+
+}  // namespace wholehand

@@ -1,0 +1,46 @@
+// What a report is made of: the result file, the scene that it names, and the core for what the file does not hold.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/gather.h"
+#include "report/html.h"
+#include "sweeps/grip_lists.h"
+#include "sweeps/sweep_result.h"
+
+namespace wholehand {
+
+struct ReportSource {
+  const SweepResult& result;
+  const Scene& scene;
+  const Plan& plan;
+  std::shared_ptr<const Evaluator> core;  // null: the scene cannot be evaluated here,
+  std::string no_core;                    // and this is why
+  std::optional<GripLists> lists{};       // instead of the sweep's own,
+  std::string lists_file{};               // from this file
+};
+
+// So many places of `all`, spread without a pattern and the same each time; all of them where there are no more.
+std::vector<std::uint64_t> sample_places(std::uint64_t all, std::size_t count);
+
+// A grip by its place in the file, which repeats what one azimuth stands for.
+GripInput stored_grip(const Plan& plan, const Scene& scene, std::size_t vessel, std::uint64_t place);
+
+// Planes of some grips by the core in double, on all threads. Needs the core.
+GatheredPlanes planes_by_core(const ReportSource& source, std::size_t vessel, const std::vector<GripInput>& grips,
+                              const std::vector<int>& fields);
+
+// "10 to 20 mm", "12 mm", "10, 12, 15 mm".
+std::string axis_text(const Axis& axis, double scale, const std::string& unit);
+
+// "58.5 mm", "roll 22.0°, ..": the grip by those of its axes that vary in the sweep.
+std::string grip_text(const Plan& plan, const GripInput& grip);
+
+// Whether the grips of the sweep differ in an axis (PLACE_*).
+bool axis_varies(const Plan& plan, int place);
+
+}  // namespace wholehand
