@@ -9,7 +9,7 @@
 
 namespace wholehand {
 
-// Measured (docs/evidence.md, "Where float is enough"; tests/domain_test.cpp measures at the limits again): core in float against core in
+// Measured (docs/evidence.md, "Where float is enough"; tests/core/domain_test.cpp measures at the limits again): core in float against core in
 // double, 3,000 random grips each of a cylinder, a flask and a conical flask, sizes 1 mm to 10 m, tilts 0 to 180 degrees. Of grips that do
 // not graze and whose discrete outcomes are the same, separations differ by at most FLOAT_LENGTH in 999 of 1,000, joints in 99 of 100,
 // forces by at most FLOAT_FORCE in 999 of 1,000; and outcomes differ in about 1 of 1,000 at most.

@@ -11,6 +11,8 @@
 #include "core/held.h"
 #include "core/load.h"
 #include "core/mesh_body.h"
+#include "core/mirror.h"
+#include "core/prepare.h"
 #include "core/score.h"
 #include "core/trig.h"
 

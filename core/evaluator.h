@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/planes.h"
+#include "core/prepared.h"
 #include "core/result.h"
 #include "core/scene.h"
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/mesh_body.h"
+#include "core/mirror.h"
 #include "core/touch.h"
 #include "core/trig.h"
 

@@ -6,7 +6,7 @@
 #include "core/force.h"
 #include "core/hand.h"
 #include "core/liquid.h"
-#include "core/prepare.h"
+#include "core/prepared.h"
 #include "core/sdf.h"
 
 namespace CORE_NS {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/prepare.h"
+#include "core/prepared.h"
 
 namespace wholehand {
 

@@ -313,37 +313,4 @@ PreparedQuadrature prepare_quadrature(int points) {
   return rule;
 }
 
-GripInput mirrored(const GripInput& grip, Handedness handedness) {
-  if (handedness == Handedness::right) return grip;
-  GripInput result = grip;
-  // the line's direction mirrored in x has the azimuth pi - a, and the side direction d x y then changes sign
-  result.azimuth = PI - grip.azimuth;
-  result.offset = -grip.offset;
-  return result;
-}
-
-PreparedGrid mirrored(const PreparedGrid& grid, Handedness handedness) {
-  if (handedness == Handedness::right) return grid;
-  PreparedGrid result = grid;
-  result.origin[0] = -(grid.origin[0] + (grid.nx - 1) * grid.spacing);
-  const std::size_t rows = static_cast<std::size_t>(grid.ny) * grid.nz, nx = grid.nx;
-  std::vector<std::uint32_t> words(grid.words->size());
-  const auto half_at = [&](std::size_t at) { return (*grid.words)[at / 2] >> (at % 2 == 0 ? 0 : 16) & 0xFFFFu; };
-  for (std::size_t row = 0; row < rows; ++row)
-    for (std::size_t i = 0; i < nx; ++i) {
-      const std::size_t from = row * nx + i, to = row * nx + nx - 1 - i;
-      if (grid.halves) {
-        words[to / 2] |= half_at(from) << (to % 2 == 0 ? 0 : 16);
-      } else {
-        words[to] = (*grid.words)[from];
-      }
-    }
-  result.words = std::make_shared<const std::vector<std::uint32_t>>(std::move(words));
-  return result;
-}
-
-Triple mirrored(const Triple& point, Handedness handedness) {
-  return handedness == Handedness::right ? point : Triple{-point[0], point[1], point[2]};
-}
-
 }  // namespace wholehand

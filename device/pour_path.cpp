@@ -8,6 +8,7 @@
 
 #include "core/grip.h"
 #include "core/mesh_body.h"
+#include "core/mirror.h"
 #include "core/outline_points.h"
 #include "core/prepare.h"
 #include "live/hand_view.h"

@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/evaluator.h"
+#include "core/mirror.h"
 #include "core/prepare.h"
 
 namespace wholehand {

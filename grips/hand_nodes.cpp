@@ -5,6 +5,7 @@
 
 #include "core/closure.h"
 #include "core/load.h"
+#include "core/mirror.h"
 #include "core/prepare.h"
 #include "live/workspace.h"
 

@@ -2,19 +2,13 @@
 // outside. Every mesh but that of a mesh vessel is closed: two triangles meet in each edge, whose ends are the same numbers in both.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "core/prepare.h"
 #include "core/result.h"
+#include "grips/surface.h"
 
 namespace wholehand {
-
-struct SurfaceMesh {
-  std::vector<Triple> positions;
-  std::vector<Triple> normals;           // unit, one a position; positions are repeated where the surface has an edge
-  std::vector<std::uint32_t> triangles;  // three positions each
-};
 
 // An outline turned about +y: `segments` flat faces round (a multiple of 4 touches the largest extents along x and z), arcs in steps of
 // the same angle. Corners lie on the surface, so that all errors fall with the square of `segments`.

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/mesh_body.h"
-#include "grips/mesh.h"
+#include "grips/surface.h"
 
 namespace wholehand {
 

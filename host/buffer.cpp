@@ -28,7 +28,7 @@ std::optional<std::uint32_t> find_type(const vk::PhysicalDeviceMemoryProperties&
   return best;
 }
 
-std::uint32_t choose_type(const Device::Impl& device, std::uint32_t allowed, Memory memory) {
+std::uint32_t choose_type(const DeviceState& device, std::uint32_t allowed, Memory memory) {
   const vk::MemoryPropertyFlags direct = Flag::eHostVisible | Flag::eHostCoherent;  // coherent: nothing to flush
   std::optional<std::uint32_t> type;
   if (memory == Memory::upload) {
@@ -48,13 +48,13 @@ std::uint32_t choose_type(const Device::Impl& device, std::uint32_t allowed, Mem
 
 }  // namespace
 
-Buffer::Buffer(const Device& device, std::size_t bytes, Memory memory) : Buffer(device.impl(), bytes, memory) {}
+Buffer::Buffer(const Device& device, std::size_t bytes, Memory memory) : Buffer(device.state(), bytes, memory) {}
 
-Buffer::Buffer(Device::Impl& impl, std::size_t bytes, Memory memory) : impl_(std::make_unique<Impl>(Impl{impl, bytes})) {
+Buffer::Buffer(DeviceState& on, std::size_t bytes, Memory memory) : state_(std::make_unique<BufferState>(BufferState{on, bytes})) {
   const std::size_t allocated = std::max<std::size_t>(16, (bytes + 15) / 16 * 16);  // Vulkan knows no empty buffer
-  if (allocated > impl.info.max_allocation) {
+  if (allocated > on.info.max_allocation) {
     throw OutOfMemory("a buffer of " + std::to_string(bytes) + " bytes is more than the Vulkan device allocates at once (" +
-                      std::to_string(impl.info.max_allocation) + "); ask for less at a time");
+                      std::to_string(on.info.max_allocation) + "); ask for less at a time");
   }
   checked("allocating a buffer", [&] {
     vk::BufferCreateInfo info({}, allocated, vk::BufferUsageFlagBits::eTransferSrc | vk::BufferUsageFlagBits::eTransferDst);
@@ -62,23 +62,23 @@ Buffer::Buffer(Device::Impl& impl, std::size_t bytes, Memory memory) : impl_(std
       info.usage |= vk::BufferUsageFlagBits::eStorageBuffer | vk::BufferUsageFlagBits::eUniformBuffer |
                     vk::BufferUsageFlagBits::eUniformTexelBuffer;
     }
-    if (impl.families.size() > 1) {
+    if (on.families.size() > 1) {
       info.sharingMode = vk::SharingMode::eConcurrent;
-      info.setQueueFamilyIndices(impl.families);
+      info.setQueueFamilyIndices(on.families);
     }
-    impl_->buffer = vk::raii::Buffer(*impl.device, info);
-    const vk::MemoryRequirements needs = impl_->buffer.getMemoryRequirements();
-    const std::uint32_t type = choose_type(impl, needs.memoryTypeBits, memory);
-    impl_->memory = vk::raii::DeviceMemory(*impl.device, {needs.size, type});
-    impl_->buffer.bindMemory(*impl_->memory, 0);
-    if (memory != Memory::device || impl.info.unified_memory) {
-      impl_->mapped = static_cast<std::byte*>(impl_->memory.mapMemory(0, VK_WHOLE_SIZE));
-      impl_->cached = bool(impl.memory.memoryTypes[type].propertyFlags & Flag::eHostCached);
+    state_->buffer = vk::raii::Buffer(*on.device, info);
+    const vk::MemoryRequirements needs = state_->buffer.getMemoryRequirements();
+    const std::uint32_t type = choose_type(on, needs.memoryTypeBits, memory);
+    state_->memory = vk::raii::DeviceMemory(*on.device, {needs.size, type});
+    state_->buffer.bindMemory(*state_->memory, 0);
+    if (memory != Memory::device || on.info.unified_memory) {
+      state_->mapped = static_cast<std::byte*>(state_->memory.mapMemory(0, VK_WHOLE_SIZE));
+      state_->cached = bool(on.memory.memoryTypes[type].propertyFlags & Flag::eHostCached);
     }
   });
 }
 
-vk::BufferView Buffer::Impl::texels() {
+vk::BufferView BufferState::texels() {
   if (!*view) view = vk::raii::BufferView(*device.device, {{}, *buffer, vk::Format::eR32Uint, 0, VK_WHOLE_SIZE});
   return *view;
 }
@@ -88,10 +88,10 @@ Buffer::~Buffer() = default;
 Buffer::Buffer(Buffer&&) noexcept = default;
 Buffer& Buffer::operator=(Buffer&&) noexcept = default;
 
-std::size_t Buffer::size() const { return impl_ ? impl_->size : 0; }
-bool Buffer::fast_to_read() const { return impl_ && impl_->cached; }
+std::size_t Buffer::size() const { return state_ ? state_->size : 0; }
+bool Buffer::fast_to_read() const { return state_ && state_->cached; }
 std::span<std::byte> Buffer::mapped() const {
-  return impl_ && impl_->mapped ? std::span(impl_->mapped, impl_->size) : std::span<std::byte>();
+  return state_ && state_->mapped ? std::span(state_->mapped, state_->size) : std::span<std::byte>();
 }
 
 void Buffer::write(std::span<const std::byte> bytes) {
@@ -101,17 +101,17 @@ void Buffer::write(std::span<const std::byte> bytes) {
   if (bytes.empty()) {
     return;
   }
-  if (impl_->mapped) {
-    std::memcpy(impl_->mapped, bytes.data(), bytes.size());
+  if (state_->mapped) {
+    std::memcpy(state_->mapped, bytes.data(), bytes.size());
     return;
   }
-  Device::Impl& device = impl_->device;
+  DeviceState& device = state_->device;
   Buffer staging(device, bytes.size(), Memory::upload);
   staging.write(bytes);
   checked("writing a buffer", [&] {
     Recorder recorder(device, device.compute.family);
     recorder.begin();
-    recorder.copy(staging, *this, bytes.size());
+    recorder.copy(staging.state(), *state_, bytes.size());
     recorder.end();
     submit_and_wait(device, recorder);
   });
@@ -124,16 +124,16 @@ void Buffer::read(std::span<std::byte> bytes) const {
   if (bytes.empty()) {
     return;
   }
-  if (impl_->mapped) {
-    std::memcpy(bytes.data(), impl_->mapped, bytes.size());
+  if (state_->mapped) {
+    std::memcpy(bytes.data(), state_->mapped, bytes.size());
     return;
   }
-  Device::Impl& device = impl_->device;
+  DeviceState& device = state_->device;
   Buffer staging(device, bytes.size(), Memory::readback);
   checked("reading a buffer", [&] {
     Recorder recorder(device, device.compute.family);
     recorder.begin();
-    recorder.copy(*this, staging, bytes.size());
+    recorder.copy(*state_, staging.state(), bytes.size());
     recorder.end();
     submit_and_wait(device, recorder);
   });

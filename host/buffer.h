@@ -11,6 +11,8 @@
 
 namespace wholehand::host {
 
+struct BufferState;  // vulkan.h
+
 enum class Memory {
   device,    // fast for kernels; the host reaches it directly only where memory is unified
   upload,    // the host writes, the device copies from it
@@ -23,7 +25,7 @@ class Buffer {
  public:
   Buffer();
   Buffer(const Device& device, std::size_t bytes, Memory memory = Memory::device);
-  Buffer(Device::Impl& device, std::size_t bytes, Memory memory);
+  Buffer(DeviceState& device, std::size_t bytes, Memory memory);
   ~Buffer();
   Buffer(Buffer&&) noexcept;
   Buffer& operator=(Buffer&&) noexcept;
@@ -56,11 +58,10 @@ class Buffer {
     return values;
   }
 
-  struct Impl;  // vulkan.h, for host/ alone
-  Impl& impl() const { return *impl_; }
+  BufferState& state() const { return *state_; }  // for host/ alone
 
  private:
-  std::unique_ptr<Impl> impl_;
+  std::unique_ptr<BufferState> state_;
 };
 
 }  // namespace wholehand::host

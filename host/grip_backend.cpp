@@ -5,8 +5,10 @@
 #include <cmath>
 #include <thread>
 
+#include "core/mirror.h"
 #include "core/prepare.h"
 #include "host/grip_program.h"
+#include "host/stream.h"
 
 namespace wholehand::host {
 namespace {
@@ -27,13 +29,6 @@ std::vector<int> mirrored_planes(const Scene& scene, const FieldSet& fields) {
 }
 
 }  // namespace
-
-std::span<const std::uint32_t> find_shader(std::string_view name, Precision precision, OutlineSource outline) {
-  const int wanted = precision == Precision::full ? 1 : 0;
-  for (const EmbeddedShader& shader : embedded_shaders())
-    if (shader.name == name && shader.precision == wanted && shader.outline_source == outline) return shader.words;
-  throw failure_error("this build lacks the shader '" + std::string(name) + "'; build it again");
-}
 
 struct GripBackend::Impl {
   Impl(const Scene& scene_in, std::shared_ptr<const Evaluator> core_in, const FieldSet& fields_in, const std::string& selector,

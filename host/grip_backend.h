@@ -8,18 +8,9 @@
 #include "core/backend.h"
 #include "core/evaluator.h"
 #include "host/device.h"
-#include "host/shaders.h"
-#include "host/stream.h"
+#include "host/grip_options.h"
 
 namespace wholehand::host {
-
-struct GripBackendOptions {
-  Precision precision = Precision::single;
-  OutlineSource outline = OUTLINE_SPECIALIZED;  // outlines of more than MAX_OUTLINE elements always come from a buffer
-  EvaluatorOptions evaluator;                   // as the core's: grid instead of outline, tolerances, ..
-  DeviceOptions device;
-  StreamOptions stream;
-};
 
 // What the backend did not make because the scene does not need it, and how it reads the outline; for `--explain`.
 struct GripPipelines {
@@ -55,9 +46,5 @@ class GripBackend final : public Backend {
  private:
   std::unique_ptr<Impl> impl_;
 };
-
-// The embedded shader of that name in a precision; the variant for an outline source where it has any. Throws Error when the build
-// lacks it.
-std::span<const std::uint32_t> find_shader(std::string_view name, Precision precision, OutlineSource outline = OUTLINE_NONE);
 
 }  // namespace wholehand::host

@@ -8,6 +8,8 @@
 #include <functional>
 #include <thread>
 
+#include "host/run_once.h"
+
 namespace wholehand::host {
 namespace {
 

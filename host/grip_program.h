@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "host/grip_backend.h"
+#include "host/grip_options.h"
 #include "host/kernel.h"
 #include "host/scene_arrays.h"
 

@@ -42,39 +42,39 @@ std::vector<std::uint8_t> load(const std::string& file) {
 
 }  // namespace
 
-void open_pipeline_cache(Device::Impl& impl, const std::string& folder) {
+void open_pipeline_cache(DeviceState& device, const std::string& folder) {
   std::vector<std::uint8_t> bytes;
-  const std::string where = !folder.empty() ? folder : impl.info.kind == DeviceKind::cpu ? "" : cache_folder();
+  const std::string where = !folder.empty() ? folder : device.info.kind == DeviceKind::cpu ? "" : cache_folder();
   if (!where.empty() && cache_limit() > 0) {
-    const std::uint32_t driver = impl.physical->getProperties().driverVersion;
-    impl.cache_file = where + "/" + impl.info.uuid + "-" + std::to_string(driver) + ".pipelines";
-    bytes = load(impl.cache_file);
-    if (!bytes.empty()) touch_cached(impl.cache_file);
+    const std::uint32_t driver = device.physical->getProperties().driverVersion;
+    device.cache_file = where + "/" + device.info.uuid + "-" + std::to_string(driver) + ".pipelines";
+    bytes = load(device.cache_file);
+    if (!bytes.empty()) touch_cached(device.cache_file);
   }
-  impl.cache.emplace(*impl.device, vk::PipelineCacheCreateInfo({}, bytes.size(), bytes.data()));
-  impl.cache_size = bytes.size();
+  device.cache.emplace(*device.device, vk::PipelineCacheCreateInfo({}, bytes.size(), bytes.data()));
+  device.cache_size = bytes.size();
 }
 
-void save_pipeline_cache(Device::Impl& impl) noexcept {
-  if (impl.cache_file.empty() || !impl.cache) {
+void save_pipeline_cache(DeviceState& device) noexcept {
+  if (device.cache_file.empty() || !device.cache) {
     return;
   }
   try {
-    const std::vector<std::uint8_t> bytes = impl.cache->getData();
-    if (bytes.size() == impl.cache_size) {
+    const std::vector<std::uint8_t> bytes = device.cache->getData();
+    if (bytes.size() == device.cache_size) {
       return;
     }
     FileHeader header;
     header.size = bytes.size();
     header.hash = fnv1a(bytes);
-    const std::filesystem::path file(impl.cache_file);
+    const std::filesystem::path file(device.cache_file);
     std::filesystem::create_directories(file.parent_path());
     const std::uintmax_t size = sizeof header + bytes.size(), limit = cache_limit();
     if (size > limit) {
       return;
     }
     make_cache_room(file.parent_path().string(), size, limit);
-    const std::string partial = impl.cache_file + "." + std::to_string(getpid());  // two runs at once: each its own
+    const std::string partial = device.cache_file + "." + std::to_string(getpid());  // two runs at once: each its own
     std::ofstream out(partial, std::ios::binary);
     out.write(reinterpret_cast<const char*>(&header), sizeof header);
     out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));

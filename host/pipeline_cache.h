@@ -8,11 +8,11 @@
 
 namespace wholehand::host {
 
-// Makes impl.cache, from its file where there is one. Throws Error (usage) as cache_limit does. `folder` empty: $XDG_CACHE_HOME/wholehand or ~/.cache/wholehand, nothing kept
+// Makes device.cache, from its file where there is one. Throws Error (usage) as cache_limit does. `folder` empty: $XDG_CACHE_HOME/wholehand or ~/.cache/wholehand, nothing kept
 // on a CPU driver.
-void open_pipeline_cache(Device::Impl& impl, const std::string& folder);
+void open_pipeline_cache(DeviceState& device, const std::string& folder);
 
 // Writes the file again if pipelines were added. Never throws.
-void save_pipeline_cache(Device::Impl& impl) noexcept;
+void save_pipeline_cache(DeviceState& device) noexcept;
 
 }  // namespace wholehand::host

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstring>
 
+#include "core/mirror.h"
 #include "core/prepare.h"
 #include "core/touch.h"
 

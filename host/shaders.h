@@ -5,6 +5,8 @@
 #include <span>
 #include <string_view>
 
+#include "core/backend.h"
+
 namespace wholehand {
 
 // How a shader reads the vessel's outline (OUTLINE_SOURCE when it is compiled).
@@ -26,3 +28,11 @@ struct EmbeddedShader {
 std::span<const EmbeddedShader> embedded_shaders();
 
 }  // namespace wholehand
+
+namespace wholehand::host {
+
+// The embedded shader of that name in a precision; the variant for an outline source where it has any. Throws Error when the build
+// lacks it.
+std::span<const std::uint32_t> find_shader(std::string_view name, Precision precision, OutlineSource outline = OUTLINE_NONE);
+
+}  // namespace wholehand::host

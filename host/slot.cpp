@@ -12,7 +12,7 @@ std::size_t kept_bytes(const StreamOutput& output, std::size_t stride) {
 
 }  // namespace
 
-std::pair<std::size_t, std::size_t> Slot::bytes(const Device::Impl& device, const StreamRequest& request) {
+std::pair<std::size_t, std::size_t> Slot::bytes(const DeviceState& device, const StreamRequest& request) {
   const bool staged = !device.info.unified_memory;
   std::size_t per_item = 0, fixed = 0;
   for (const StreamInput& input : request.inputs) {
@@ -44,7 +44,7 @@ std::size_t Slot::largest_capacity(const DeviceInfo& device, const StreamRequest
   return items;
 }
 
-Slot::Slot(Device::Impl& device, const StreamRequest& request, std::size_t capacity)
+Slot::Slot(DeviceState& device, const StreamRequest& request, std::size_t capacity)
     : device_(device),
       compute_(device, device.compute.family),
       uploaded_(*device.device, vk::SemaphoreCreateInfo()),
@@ -104,7 +104,7 @@ void Slot::submit(const Chunk& next, const StreamRequest& request, Program& prog
   if (upload_) {
     upload_->begin();
     for (const Pair& pair : inputs_) {
-      upload_->copy(pair.on_host, pair.on_device, pair.bytes);
+      upload_->copy(pair.on_host.state(), pair.on_device.state(), pair.bytes);
     }
     upload_->end();
     const vk::CommandBuffer buffer = upload_->commands();
@@ -114,7 +114,7 @@ void Slot::submit(const Chunk& next, const StreamRequest& request, Program& prog
     download_->begin();
     for (const Pair& pair : outputs_) {
       if (pair.on_host.size() > 0) {
-        download_->copy(pair.on_device, pair.on_host, pair.bytes);
+        download_->copy(pair.on_device.state(), pair.on_host.state(), pair.bytes);
       }
     }
     download_->end();

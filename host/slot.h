@@ -3,18 +3,18 @@
 
 #include <chrono>
 
-#include "host/recorder.h"
-#include "host/stream.h"
+#include "host/step_recorder.h"
+#include "host/stream_request.h"
 
 namespace wholehand::host {
 
 class Slot {
  public:
   // Room for chunks of up to `capacity` items (a stride). Throws OutOfMemory.
-  Slot(Device::Impl& device, const StreamRequest& request, std::size_t capacity);
+  Slot(DeviceState& device, const StreamRequest& request, std::size_t capacity);
 
   // Bytes of a slot per item, and apart from items, staging included.
-  static std::pair<std::size_t, std::size_t> bytes(const Device::Impl& device, const StreamRequest& request);
+  static std::pair<std::size_t, std::size_t> bytes(const DeviceState& device, const StreamRequest& request);
   // Largest capacity that the device's limits of a buffer allow.
   static std::size_t largest_capacity(const DeviceInfo& device, const StreamRequest& request);
 
@@ -35,9 +35,9 @@ class Slot {
     std::size_t bytes = 0;  // to copy
   };
 
-  Device::Impl& device_;
+  DeviceState& device_;
   std::vector<Pair> inputs_, outputs_;
-  Recorder compute_;
+  StepRecorder compute_;
   std::optional<Recorder> upload_, download_;
   vk::raii::Semaphore uploaded_, computed_;
   vk::raii::Fence done_;

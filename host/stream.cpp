@@ -124,7 +124,7 @@ class Run {
         return false;
       }
     }
-    Device::Impl& device = stream_.program->device().impl();
+    DeviceState& device = stream_.program->device().state();
     const std::size_t slots = stream_.options.slots > 0 ? stream_.options.slots : device.info.unified_memory ? 2 : 3;
     if (flights_.empty()) {
       fit_slots(device, slots);
@@ -142,7 +142,7 @@ class Run {
 
   // Slots are made for the largest chunk of this request that memory, limits and need allow, and kept for the next run where they
   // suit.
-  void fit_slots(const Device::Impl& device, std::size_t slots) {
+  void fit_slots(const DeviceState& device, std::size_t slots) {
     const auto [per_item, fixed] = Slot::bytes(device, request_);
     const std::uint64_t budget = std::min<std::uint64_t>(stream_.options.slot_bytes, device.info.memory / (4 * slots));
     std::uint64_t most = std::min<std::uint64_t>(Slot::largest_capacity(device.info, request_), stream_.bound);

@@ -1,16 +1,16 @@
 // What host/'s own files share of Vulkan; included by no other folder.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 #include <vulkan/vulkan_raii.hpp>
 
-#include "host/buffer.h"
-#include "host/device.h"
-#include "host/kernel.h"
+#include "host/device_info.h"
 
 namespace wholehand::host {
 
@@ -49,7 +49,8 @@ struct QueueRef {
   vk::raii::Queue queue = nullptr;
 };
 
-struct Device::Impl {
+// What a Device holds.
+struct DeviceState {
   std::shared_ptr<Instance> instance;
   DeviceInfo info;
   std::optional<vk::raii::PhysicalDevice> physical;
@@ -63,11 +64,12 @@ struct Device::Impl {
   std::string cache_file;      // empty: not kept
   std::size_t cache_size = 0;  // as read from it
 
-  ~Impl();
+  ~DeviceState();
 };
 
-struct Buffer::Impl {
-  Device::Impl& device;
+// What a Buffer holds.
+struct BufferState {
+  DeviceState& device;
   std::size_t size;
   vk::raii::DeviceMemory memory = nullptr;
   vk::raii::Buffer buffer = nullptr;    // after its memory: destroyed first
@@ -78,7 +80,8 @@ struct Buffer::Impl {
   vk::BufferView texels();
 };
 
-struct Kernel::Impl {
+// What a Kernel holds.
+struct KernelState {
   std::string name;
   std::vector<std::pair<std::uint32_t, vk::DescriptorType>> bindings;
   std::array<std::uint32_t, 3> group_size{1, 1, 1};

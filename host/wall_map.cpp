@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "host/buffer.h"
-#include "host/grip_backend.h"
-#include "host/kernel.h"
+#include "host/run_once.h"
+#include "host/shaders.h"
 #include "shaders/layout.h"
 
 namespace wholehand::host {

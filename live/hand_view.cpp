@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/contact.h"
+#include "core/mirror.h"
 #include "core/prepare.h"
 
 namespace wholehand {

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/load.h"
 #include "core/mesh_body.h"
+#include "core/mirror.h"
 #include "core/planes.h"
 #include "core/prepare.h"
 #include "core/trig.h"

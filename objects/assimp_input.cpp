@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "objects/mesh.h"
+#include "objects/triangles.h"
 #include "objects/words.h"
 
 namespace wholehand {

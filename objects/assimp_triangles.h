@@ -4,7 +4,7 @@
 #include <string>
 
 #include "objects/file.h"
-#include "objects/mesh.h"
+#include "objects/triangles.h"
 
 namespace wholehand {
 

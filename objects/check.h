@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include "objects/mesh.h"
+#include "objects/triangles.h"
 
 namespace wholehand {
 

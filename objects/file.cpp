@@ -12,7 +12,7 @@
 #include <system_error>
 
 #include "core/error.h"
-#include "objects/mesh.h"
+#include "objects/triangles.h"
 
 namespace wholehand {
 namespace {

@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "objects/file.h"
-#include "objects/mesh.h"
+#include "objects/triangles.h"
 
 namespace wholehand {
 

@@ -56,11 +56,6 @@ void place_mesh(TriangleMesh& mesh, const MeshData& data, const MeshFile& file) 
 
 }  // namespace
 
-bool is_point_or_edge(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
-  const Triple &a = mesh.vertices[triangle[0]], &b = mesh.vertices[triangle[1]], &c = mesh.vertices[triangle[2]];
-  return a == b || b == c || c == a;
-}
-
 TriangleMesh read_mesh(const MeshData& data, const std::string& base_folder) {
   const MeshFile file{(std::filesystem::path(base_folder) / data.file).string(), data.place};
   const std::string bytes = mesh_bytes(file);

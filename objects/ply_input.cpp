@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "objects/assimp_input.h"
-#include "objects/mesh.h"
+#include "objects/triangles.h"
 #include "objects/words.h"
 
 namespace wholehand {

@@ -4,7 +4,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "objects/mesh.h"
+#include "objects/triangles.h"
 
 namespace wholehand {
 

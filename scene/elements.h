@@ -11,9 +11,6 @@
 
 namespace wholehand {
 
-constexpr double SHORTEST_ELEMENT = 1e-3;  // mm
-constexpr double TOUCHING = 1e-6;          // mm: elements nearer than this touch
-
 struct RawElement {
   PlaneCurve curve;
   Place place;

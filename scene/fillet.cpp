@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/scene.h"
-#include "scene/elements.h"
 
 namespace wholehand {
 namespace {

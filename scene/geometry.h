@@ -8,6 +8,9 @@ namespace wholehand {
 
 using Point = std::array<double, 2>;  // r, y
 
+constexpr double SHORTEST_ELEMENT = 1e-3;  // mm
+constexpr double TOUCHING = 1e-6;          // mm: elements nearer than this touch
+
 // A line segment or circular arc from a to b.
 struct PlaneCurve {
   bool is_arc = false;

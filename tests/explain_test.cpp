@@ -55,14 +55,14 @@ Explained explain(const Scene& scene, const std::string& on, Precision precision
 }
 
 // The shipped scene with few grips.
-Scene beakers() {
+Scene three_beakers() {
   Scene scene = read_scene_file(find_scene("three_beakers"));
   scene.grips.height.values = {0.03, 0.05, 0.07};
   return scene;
 }
 
 TEST(Explain, WholeSceneLeavesOutPlanesAndTheInnerWall) {
-  const Scene scene = beakers();
+  const Scene scene = three_beakers();
   const Explained explained = explain(scene, "vulkan");
   EXPECT_GT(explained.microseconds, 0);
   ASSERT_TRUE(explained.find("from a buffer")) << explained.text;
@@ -77,7 +77,7 @@ TEST(Explain, WholeSceneLeavesOutPlanesAndTheInnerWall) {
 }
 
 TEST(Explain, BareSceneHasALineForEachPartThatItLacks) {
-  Scene scene = beakers();
+  Scene scene = three_beakers();
   scene.pose = Pose::rigged;
   scene.liquid.reset();
   scene.tilts.clear();
@@ -98,7 +98,7 @@ TEST(Explain, BareSceneHasALineForEachPartThatItLacks) {
 }
 
 TEST(Explain, SaysWhereNothingCanBeSaved) {
-  Scene scene = beakers();
+  Scene scene = three_beakers();
   scene.liquid.reset();
   VesselData& vessel = scene.vessels[0];
   vessel.wall = 0;

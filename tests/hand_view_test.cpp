@@ -13,6 +13,7 @@
 
 #include "core/contact.h"
 #include "core/evaluator.h"
+#include "core/mirror.h"
 #include "tests/support/live_script.h"
 #include "tests/support/scenes.h"
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "host/run_once.h"
 #include "tests/support/vulkan_kernels.h"
 
 namespace wholehand::host {

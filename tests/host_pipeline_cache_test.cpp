@@ -107,7 +107,7 @@ TEST_F(HostPipelineCache, UnwritableFolderCostsNothing) {
 
 TEST_F(HostPipelineCache, CpuDriverKeepsNone) {
   const Device device;
-  EXPECT_EQ(device.impl().cache_file.empty(), device.info().kind == DeviceKind::cpu);
+  EXPECT_EQ(device.state().cache_file.empty(), device.info().kind == DeviceKind::cpu);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/mesh_body.h"
+#include "core/mirror.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {

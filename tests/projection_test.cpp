@@ -638,7 +638,7 @@ TEST(Rigged, HandIsTheSameInEveryPose) {
 // ---- paper ----
 
 // Rodrigues' rotation of p about the axis through `pivot`.
-Vec3 turned(const Vec3& p, const Vec3& pivot, const Vec3& axis, double angle) {
+Vec3 turned_about(const Vec3& p, const Vec3& pivot, const Vec3& axis, double angle) {
   const Vec3 arm = p - pivot;
   return pivot + std::cos(angle) * arm + std::sin(angle) * glm::cross(axis, arm) +
          (1 - std::cos(angle)) * glm::dot(axis, arm) * axis;
@@ -667,7 +667,7 @@ TEST(Paper, AngleIsTheFirstRootOfDenseSampling) {
           const std::size_t j = first_joint(finger) + k;
           const Vec3 p = vec(result.joints[j]);
           const auto separation = [&](double angle) {
-            return evaluator.distance(0, triple(turned(p, placed.mcp, u, angle))) - placed.radius[k];
+            return evaluator.distance(0, triple(turned_about(p, placed.mcp, u, angle))) - placed.radius[k];
           };
           if (separation(0) <= hand.contact_tolerance) {  // it touches: it stays, however deep
             EXPECT_EQ(result.posed[j], result.joints[j]) << one.name;
@@ -680,7 +680,8 @@ TEST(Paper, AngleIsTheFirstRootOfDenseSampling) {
           } else if (crossing.found) {
             ++found;
             // 1e-7 m: the stop tolerance over the least approach, 1e-9 / 0.05
-            ASSERT_LT(glm::distance(vec(result.posed[j]), turned(p, placed.mcp, u, crossing.at)), 1e-7 * std::max(1.0, hand.scale))
+            ASSERT_LT(glm::distance(vec(result.posed[j]), turned_about(p, placed.mcp, u, crossing.at)),
+                      1e-7 * std::max(1.0, hand.scale))
                 << one.name << ", joint " << j;
             EXPECT_NEAR(result.separation[j], 0, TOUCHING + 1e-15);
           } else {
@@ -752,7 +753,8 @@ TEST(Paper, AxisCarriesTheIndexTipTowardsTheThumbTip) {
     EXPECT_NEAR(std::abs(glm::dot(axis.direction, u)), 1, 1e-15);  // rounding
     EXPECT_NEAR(glm::length(axis.direction), 1, 1e-15);
     const double angle = 1e-6;  // so small that only the sense decides
-    EXPECT_LT(glm::distance(turned(index_tip, index_mcp, axis.direction, angle), thumb_tip), glm::distance(index_tip, thumb_tip));
+    EXPECT_LT(glm::distance(turned_about(index_tip, index_mcp, axis.direction, angle), thumb_tip),
+              glm::distance(index_tip, thumb_tip));
   }
 }
 

@@ -27,11 +27,11 @@ constexpr double FINGERTIP = 8e-3;  // m
 constexpr double SKIN = 1e-6;       // m: that carry_proxy gives a bare point
 
 // Vessels that stand somewhere, off the origin, so that a forgotten offset shows.
-struct Table {
+struct Tabletop {
   std::vector<core_f64::Vessel> vessels;
   Obstacles obstacles;
 
-  Table(const std::vector<VesselData>& data, const std::vector<Vec3>& places) {
+  Tabletop(const std::vector<VesselData>& data, const std::vector<Vec3>& places) {
     vessels.reserve(data.size());
     for (std::size_t k = 0; k < data.size(); ++k) {
       vessels.push_back(ready_vessel(data[k]));
@@ -71,7 +71,7 @@ std::vector<VesselData> beakers() {
 // ---- what is nearest ----
 
 TEST(NearestVessel, TakesTheNearestSolidOne) {
-  const Table table({beaker1(), beaker2(), beaker3()}, {Vec3(0), Vec3(0.3, 0, 0), Vec3(0, 0, 0.5)});
+  const Tabletop table({beaker1(), beaker2(), beaker3()}, {Vec3(0), Vec3(0.3, 0, 0), Vec3(0, 0, 0.5)});
   Random random(1);
   for (int k = 0; k < 2000; ++k) {
     const Vec3 p(random.uniform(-0.2, 0.6), random.uniform(-0.1, 0.3), random.uniform(-0.2, 0.8));
@@ -89,7 +89,7 @@ TEST(NearestVessel, TakesTheNearestSolidOne) {
 }
 
 TEST(NearestVessel, PassesOverWhatIsNotSolid) {
-  Table table({beaker1(), beaker2()}, {Vec3(0), Vec3(0.3, 0, 0)});
+  Tabletop table({beaker1(), beaker2()}, {Vec3(0), Vec3(0.3, 0, 0)});
   table.obstacles.standing[0].is_solid = false;
   EXPECT_EQ(nearest_vessel(table.obstacles, Vec3(0.05, 0.05, 0), 0).vessel, 1);
   table.obstacles.standing[1].is_solid = false;
@@ -99,7 +99,7 @@ TEST(NearestVessel, PassesOverWhatIsNotSolid) {
 // ---- without friction ----
 
 TEST(Proxy, IsTheTipWhereNothingIsTouched) {
-  const Table table({beaker1()}, {SOMEWHERE});
+  const Tabletop table({beaker1()}, {SOMEWHERE});
   Proxy before;
   before.place = SOMEWHERE + Vec3(0.2, 0.05, 0);
   const Vec3 tip = SOMEWHERE + Vec3(0.2, 0.3, 0.1);
@@ -113,7 +113,7 @@ TEST(Proxy, IsTheTipWhereNothingIsTouched) {
 // step gains less than 1e-9 m; at a depth D that is a sideways error of sqrt(2 D 1e-9), for 5 mm 3 um.
 TEST(Proxy, ComesToTheNearestPlaceOfASmoothSurface) {
   for (const double radius : {0.0, FINGERTIP}) {
-    const Table table({beaker1(), beaker2()}, {SOMEWHERE, SOMEWHERE + Vec3(0.3, 0, 0)});
+    const Tabletop table({beaker1(), beaker2()}, {SOMEWHERE, SOMEWHERE + Vec3(0.3, 0, 0)});
     const Vec3 center = table.obstacles.standing[1].place + Vec3(0, 42.5e-3, 0);
     Random random(7);
     for (int k = 0; k < 40; ++k) {
@@ -146,7 +146,7 @@ TEST(Proxy, NoPlaceNearbyIsNearerToTheTip) {
   Random random(11);
   int touching = 0;
   for (const VesselData& data : beakers()) {
-    const Table table({data}, {SOMEWHERE});
+    const Tabletop table({data}, {SOMEWHERE});
     for (const double radius : {0.0, 2e-3, FINGERTIP}) {
       for (int k = 0; k < 60; ++k) {
         // from outside or from within, to a few millimetres beyond the surface
@@ -188,7 +188,7 @@ TEST(Proxy, NoPlaceNearbyIsNearerToTheTip) {
 TEST(Proxy, IsTheNearestPlaceOfAllWhereTheVesselIsConvex) {
   const VesselData data = beaker1();
   const core_f64::Vessel vessel = ready_vessel(data);
-  const Table table({data}, {SOMEWHERE});
+  const Tabletop table({data}, {SOMEWHERE});
   constexpr double SPACING = 30e-6;
   Random random(3);
   for (const double radius : {0.0, FINGERTIP}) {
@@ -215,7 +215,7 @@ TEST(Proxy, IsTheNearestPlaceOfAllWhereTheVesselIsConvex) {
 // A tip that moves along a smooth surface takes its proxy along, bare or not, at an ordinary speed: no friction that nobody asked for. 10 um
 // behind would be 8 mN.
 TEST(Proxy, KeepsUpWithASlidingTip) {
-  const Table table({beaker1()}, {SOMEWHERE});
+  const Tabletop table({beaker1()}, {SOMEWHERE});
   for (const double radius : {0.0, FINGERTIP}) {
     for (const double rate : {1000.0, 8000.0}) {
       Proxy proxy;
@@ -238,7 +238,7 @@ TEST(Proxy, KeepsUpWithASlidingTip) {
 TEST(Proxy, TouchesOnlyWhatItIsAt) {
   Random random(21);
   for (const double radius : {0.0, FINGERTIP}) {
-    const Table table({shell_of(beaker1()), beaker3()}, {SOMEWHERE, SOMEWHERE + Vec3(0.1, 0, 0)});
+    const Tabletop table({shell_of(beaker1()), beaker3()}, {SOMEWHERE, SOMEWHERE + Vec3(0.1, 0, 0)});
     Proxy proxy;
     proxy.place = SOMEWHERE + Vec3(0, 0.3, 0);
     int touching = 0;
@@ -258,7 +258,7 @@ TEST(Proxy, TouchesOnlyWhatItIsAt) {
 
 // On the lid, a plane: the tip is at a depth and moves sideways. It sticks while the way is less than mu times the depth.
 TEST(Proxy, SticksWithinTheConeAndLagsBeyond) {
-  const Table table({beaker1()}, {SOMEWHERE});
+  const Tabletop table({beaker1()}, {SOMEWHERE});
   for (const double radius : {0.0, FINGERTIP}) {
     for (const double friction : {0.3, 0.6, 1.2}) {
       const double top = 110e-3 + radius, depth = 2e-3;
@@ -277,7 +277,7 @@ TEST(Proxy, SticksWithinTheConeAndLagsBeyond) {
 }
 
 TEST(Proxy, FrictionLetsGoWhenTheTipLeaves) {
-  const Table table({beaker1()}, {SOMEWHERE});
+  const Tabletop table({beaker1()}, {SOMEWHERE});
   const Vec3 top = SOMEWHERE + Vec3(0, 110e-3 + FINGERTIP, 0);
   Proxy proxy = carry_along(table.obstacles, top + Vec3(0, 5e-3, 0), top - Vec3(0, 2e-3, 0), 50, FINGERTIP, 0.6);
   const Vec3 away = top + Vec3(5e-3, 1e-3, 0);
@@ -298,7 +298,7 @@ bool is_within(const core_f64::Vessel& vessel, Vec3 p) {
 
 TEST(Proxy, StaysOnItsSideOfAThinWall) {
   for (const VesselData& data : {shell_of(beaker1()), shell_of(beaker2()), shell_of(beaker3())}) {
-    const Table table({data}, {SOMEWHERE});
+    const Tabletop table({data}, {SOMEWHERE});
     Random random(5);
     for (const double rate : {1000.0, 2000.0, 3000.0, 8000.0}) {
       for (const double radius : {0.0, FINGERTIP}) {
@@ -339,7 +339,7 @@ void walk(const std::vector<VesselData>& data, double radius, double speed, doub
   std::vector<Vec3> places;
   for (std::size_t k = 0; k < data.size(); ++k)
     places.push_back(SOMEWHERE + Vec3(0.101 * static_cast<double>(k), 0, k == 1 ? 0.02 : 0));
-  const Table table(data, places);
+  const Tabletop table(data, places);
   Random random(seed);
   Proxy proxy;
   proxy.place = SOMEWHERE + Vec3(0, 0.3, 0.1);
@@ -394,7 +394,7 @@ TEST(Proxy, IsNeverInsideOnLongWalks) {
 // ---- how it feels ----
 
 // The largest step of the coupling's force between two ticks along a way of straight pieces at 50 mm/s and 1 kHz.
-double largest_force_step(const Table& table, double radius, double friction, const std::vector<Vec3>& way, double& strongest) {
+double largest_force_step(const Tabletop& table, double radius, double friction, const std::vector<Vec3>& way, double& strongest) {
   Proxy proxy;
   proxy.place = way.front();
   Vec3 tip = way.front(), force(0);
@@ -468,7 +468,7 @@ TEST(Proxy, FeelsSmoothOverEdgesAndThroughCreases) {
   }
   for (const Way& way : ways) {
     for (const double friction : {0.0, 0.6}) {
-      const Table table({way.vessel}, {SOMEWHERE});
+      const Tabletop table({way.vessel}, {SOMEWHERE});
       std::vector<Vec3> points;
       for (const Vec3& p : way.points) points.push_back(SOMEWHERE + p);
       double strongest = 0;

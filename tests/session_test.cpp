@@ -15,6 +15,7 @@
 #include "core/error.h"
 #include "core/evaluator.h"
 #include "core/trig.h"
+#include "live/workspace.h"
 #include "tests/support/live_script.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
@@ -27,7 +28,6 @@ using core_f64::Vec3;
 
 constexpr double G = 9.80665;
 
-Vec3 vec(const Triple& t) { return Vec3(t[0], t[1], t[2]); }
 Triple mirrored_x(const Triple& t) { return {-t[0], t[1], t[2]}; }
 
 // All ticks of a way through a scene: the state of each by a function.
@@ -91,8 +91,10 @@ TEST(Session, HoldsFromWhenBothTipsTouch) {
   const std::vector<Tick> record = play(scene, script_for(scene));
   for (std::size_t k = 0; k < record.size(); ++k) {
     const Tick& tick = record[k];
-    const double thumb = core_f64::separation_at(vessel, vec(tick.tips[0]) - vec(scene.vessels[0].place), hand.radius[0][3]);
-    const double index = core_f64::separation_at(vessel, vec(tick.tips[1]) - vec(scene.vessels[0].place), hand.radius[1][4]);
+    const double thumb =
+        core_f64::separation_at(vessel, to_vec3(tick.tips[0]) - to_vec3(scene.vessels[0].place), hand.radius[0][3]);
+    const double index =
+        core_f64::separation_at(vessel, to_vec3(tick.tips[1]) - to_vec3(scene.vessels[0].place), hand.radius[1][4]);
     const bool both = thumb <= hand.contact_tolerance && index <= hand.contact_tolerance;
     EXPECT_EQ(is_held(tick.state), both) << k;
     if (both) break;
@@ -109,12 +111,13 @@ TEST(Session, TheVesselMovesWithTheHand) {
     if (!is_held(tick.state)) continue;
     if (!first) {
       first = &tick;
-      EXPECT_LT(glm::length(vec(tick.vessel_place) - vec(scene.vessels[0].place)), 1e-15);
+      EXPECT_LT(glm::length(to_vec3(tick.vessel_place) - to_vec3(scene.vessels[0].place)), 1e-15);
       EXPECT_LT(tick.tilt, 1e-15);
     }
     const Mat3 then = to_mat3(first->hand_rotation), now = to_mat3(tick.hand_rotation);
-    const Vec3 place = vec(tick.middle) + now * (glm::transpose(then) * (vec(first->vessel_place) - vec(first->middle)));
-    EXPECT_LT(glm::length(vec(tick.vessel_place) - place), 1e-15);
+    const Vec3 place =
+        to_vec3(tick.middle) + now * (glm::transpose(then) * (to_vec3(first->vessel_place) - to_vec3(first->middle)));
+    EXPECT_LT(glm::length(to_vec3(tick.vessel_place) - place), 1e-15);
     const Mat3 turn = now * glm::transpose(then);
     for (int k = 0; k < 3; ++k) EXPECT_LT(glm::length(to_mat3(tick.vessel_rotation)[k] - turn[k]), 1e-14);
     // the tilt is the angle between its axis and up; acos is good to 1e-8 at its ends
@@ -188,7 +191,7 @@ TEST(Session, LettingGoWithinAnotherVesselPushesNobody) {
     was_held = was_held || is_held(tick.state);
     slipped = slipped || tick.state == SessionState::slipped;
     if (was_held && !is_held(tick.state)) {
-      for (int k = 0; k < 2; ++k) ASSERT_LT(glm::length(vec(tick.coupling[k])), 1e-9) << tick.number;
+      for (int k = 0; k < 2; ++k) ASSERT_LT(glm::length(to_vec3(tick.coupling[k])), 1e-9) << tick.number;
     }
   }
   EXPECT_TRUE(was_held);
@@ -239,13 +242,13 @@ TEST(Session, SlipsWhenTheOpeningLeavesItsBand) {
     // and stands there after RETURN_TIME
     const std::int64_t slipped = tick.number;
     const Tick& back = record[static_cast<std::size_t>(slipped + std::lround(1000 * RETURN_TIME))];
-    EXPECT_LT(glm::length(vec(back.vessel_place) - vec(scene.vessels[0].place)), 1e-9);
+    EXPECT_LT(glm::length(to_vec3(back.vessel_place) - to_vec3(scene.vessels[0].place)), 1e-9);
     EXPECT_LT(back.tilt, 1e-9);
     // on the way there without a leap: at most the minimum jerk's largest speed, 15/8 of the mean
-    const double way = glm::length(vec(tick.vessel_place) - vec(scene.vessels[0].place));
+    const double way = glm::length(to_vec3(tick.vessel_place) - to_vec3(scene.vessels[0].place));
     for (std::int64_t n = slipped; n < slipped + 600; ++n) {
-      const double step = glm::length(vec(record[static_cast<std::size_t>(n + 1)].vessel_place) -
-                                      vec(record[static_cast<std::size_t>(n)].vessel_place));
+      const double step = glm::length(to_vec3(record[static_cast<std::size_t>(n + 1)].vessel_place) -
+                                      to_vec3(record[static_cast<std::size_t>(n)].vessel_place));
       if (record[static_cast<std::size_t>(n + 1)].state != SessionState::slipped) break;
       EXPECT_LE(step, 1.01 * 15.0 / 8 * way / (1000 * RETURN_TIME)) << n;
     }
@@ -456,8 +459,8 @@ TEST(Session, FeelsExactlyWhatTheSweepSays) {
             if (!is_held(tick.state)) continue;
             if (grasped == 0) {
               grasped = now.gap;
-              const Vec3 a = vec(tick.proxies[0]) - vec(scene.vessels[0].place),
-                         b = vec(tick.proxies[1]) - vec(scene.vessels[0].place);
+              const Vec3 a = to_vec3(tick.proxies[0]) - to_vec3(scene.vessels[0].place),
+                         b = to_vec3(tick.proxies[1]) - to_vec3(scene.vessels[0].place);
               const Vec3 d = glm::normalize(b - a);
               grip.azimuth = std::atan2(-d.z, d.x);
               grip.obliquity = std::asin(d.y);
@@ -635,11 +638,11 @@ TEST(Session, ALeftHandIsMirrored) {
     for (std::size_t k = 0; k < a.size(); ++k) {
       EXPECT_EQ(a[k].state, b[k].state);
       // 1e-12: the same to rounding
-      EXPECT_LT(glm::length(vec(a[k].wanted.arm) - vec(mirrored_x(b[k].wanted.arm))), 1e-12);
+      EXPECT_LT(glm::length(to_vec3(a[k].wanted.arm) - to_vec3(mirrored_x(b[k].wanted.arm))), 1e-12);
       EXPECT_NEAR(a[k].wanted.grip, b[k].wanted.grip, 1e-12);
-      EXPECT_LT(glm::length(vec(a[k].tips[1]) - vec(mirrored_x(b[k].tips[1]))), 1e-12);
-      EXPECT_LT(glm::length(vec(a[k].proxies[0]) - vec(mirrored_x(b[k].proxies[0]))), 1e-12);
-      EXPECT_LT(glm::length(vec(a[k].vessel_place) - vec(mirrored_x(b[k].vessel_place))), 1e-12);
+      EXPECT_LT(glm::length(to_vec3(a[k].tips[1]) - to_vec3(mirrored_x(b[k].tips[1]))), 1e-12);
+      EXPECT_LT(glm::length(to_vec3(a[k].proxies[0]) - to_vec3(mirrored_x(b[k].proxies[0]))), 1e-12);
+      EXPECT_LT(glm::length(to_vec3(a[k].vessel_place) - to_vec3(mirrored_x(b[k].vessel_place))), 1e-12);
       EXPECT_NEAR(a[k].torque, b[k].torque, 1e-12);
       EXPECT_EQ(a[k].touch_mask, b[k].touch_mask);
       EXPECT_NEAR(a[k].volume[0], b[k].volume[0], 1e-15);
@@ -695,7 +698,7 @@ TEST(Session, CountsWhatTheTaskAsks) {
   // carry the dry vessel there
   LiveScript script;
   script.vessel = scene.vessels[1].place;
-  const Vec3 way = vec(scene.task->destination) - vec(scene.vessels[1].place);
+  const Vec3 way = to_vec3(scene.task->destination) - to_vec3(scene.vessels[1].place);
   const auto at = [&](std::int64_t n) {
     GripperState state = script.at(std::min<std::int64_t>(n, 2250));
     if (n < 2250) state.gap = std::max(0.06, 0.127 - 5e-5 * static_cast<double>(n));

@@ -14,6 +14,7 @@
 #include "core/contact.h"
 #include "core/error.h"
 #include "grips/report.h"
+#include "live/workspace.h"
 #include "scene/reader.h"
 #include "tests/support/scenes.h"
 
@@ -23,8 +24,6 @@ namespace {
 using core_f64::Mat3;
 using core_f64::Vec3;
 using nlohmann::json;
-
-Vec3 vec(const Triple& t) { return Vec3(t[0], t[1], t[2]); }
 
 Scene beakers() { return read_scene_file(find_scene("three_beakers")); }
 
@@ -64,10 +63,10 @@ TEST(GripsView, AFrameIsWhatGripTells) {
         const ViewFrame::Vessel& vessel = frame.vessels[grips[g].vessel];
         const Mat3 back = glm::transpose(to_mat3(vessel.pose.rotation));
         for (std::size_t j = 0; j < JOINT_COUNT; ++j) {
-          const Vec3 seen = back * (vec(frame.hand.proxies[j]) - vec(vessel.pose.place)),
-                     rigged = back * (vec(frame.hand.rigged[j]) - vec(vessel.pose.place));
-          EXPECT_LT(glm::length(seen - vec(told["proxies_m"][j].get<Triple>())), 1e-14) << j;
-          EXPECT_LT(glm::length(rigged - vec(told["joints_m"][j].get<Triple>())), 1e-14) << j;
+          const Vec3 seen = back * (to_vec3(frame.hand.proxies[j]) - to_vec3(vessel.pose.place)),
+                     rigged = back * (to_vec3(frame.hand.rigged[j]) - to_vec3(vessel.pose.place));
+          EXPECT_LT(glm::length(seen - to_vec3(told["proxies_m"][j].get<Triple>())), 1e-14) << j;
+          EXPECT_LT(glm::length(rigged - to_vec3(told["joints_m"][j].get<Triple>())), 1e-14) << j;
           const PointContact contact = frame.hand.contact[j];
           EXPECT_EQ(contact != PointContact::free && contact != PointContact::tracked, told["touching"][j].get<bool>()) << j;
           if (j != THUMB_TIP && j != INDEX_TIP) {
@@ -84,7 +83,7 @@ TEST(GripsView, AFrameIsWhatGripTells) {
         EXPECT_EQ(frame.gap, told["gap_m"]);
         // the liquid's centre is under its surface, and the lean of both to the same side
         if (!vessel.surface) continue;
-        const Vec3 up = vec(vessel.surface->up), center = vec(state["liquid_com_m"].get<Triple>());
+        const Vec3 up = to_vec3(vessel.surface->up), center = to_vec3(state["liquid_com_m"].get<Triple>());
         EXPECT_LT(glm::dot(up, center), vessel.surface->level);
         EXPECT_NEAR(up.y, std::cos(frame.tilt), 1e-12);
         EXPECT_LE(up.x * center.x + up.z * center.z, 1e-9) << "up leans away from where it has gathered";
@@ -112,7 +111,7 @@ TEST(GripsView, ItTurnsTowardsWhereItPoursAndStaysAboveTheTable) {
   const GripsView view(scene, grips, notes);
   for (std::size_t g = 0; g < grips.size(); ++g) {
     const core_f64::Vessel glass = ready_vessel(scene.vessels[grips[g].vessel]);
-    const Vec3 pour = vec(pour_direction(scene, grips[g].grip)), pivot = vec(view.result(g).midpoint);
+    const Vec3 pour = to_vec3(pour_direction(scene, grips[g].grip)), pivot = to_vec3(view.result(g).midpoint);
     double before = -1;
     for (double tilt = 0; tilt <= PI; tilt += 0.05) {
       const ViewFrame frame = view.frame(g, 1, tilt);
@@ -121,7 +120,7 @@ TEST(GripsView, ItTurnsTowardsWhereItPoursAndStaysAboveTheTable) {
       EXPECT_LT(glm::length(turn[1] - std::cos(tilt) * Vec3(0, 1, 0) - std::sin(tilt) * pour), 1e-12);
       EXPECT_NEAR(glm::determinant(turn), 1, 1e-12);
       // the middle of the tips stays where it was, but for the lifting
-      const Vec3 middle = vec(pose.place) + turn * pivot;
+      const Vec3 middle = to_vec3(pose.place) + turn * pivot;
       EXPECT_NEAR(middle.x, pivot.x, 1e-12);
       EXPECT_NEAR(middle.z, pivot.z, 1e-12);
       if (before >= 0) {
@@ -133,7 +132,7 @@ TEST(GripsView, ItTurnsTowardsWhereItPoursAndStaysAboveTheTable) {
         for (double angle = 0; angle < 2 * PI; angle += 0.1) {
           double r = 0.1;
           while (r > 0 && core_f64::signed_distance(glass, Vec3(r * std::cos(angle), y, r * std::sin(angle))) > 0) r -= 1e-3;
-          const Vec3 p = vec(pose.place) + turn * Vec3(r * std::cos(angle), y, r * std::sin(angle));
+          const Vec3 p = to_vec3(pose.place) + turn * Vec3(r * std::cos(angle), y, r * std::sin(angle));
           EXPECT_GT(p.y, -1e-4);
         }
       }

@@ -56,7 +56,7 @@ struct LatticeImage {
 vk::Format format_of(int bits) { return bits == 16 ? vk::Format::eR16Sfloat : vk::Format::eR32Sfloat; }
 
 // What a way lacks on the device; empty: nothing. Images of either format and 256 texels a side are on every device.
-std::string lacks(const host::Device::Impl& device, const PreparedGrid& grid, int bits, int way) {
+std::string lacks(const host::DeviceState& device, const PreparedGrid& grid, int bits, int way) {
   const std::size_t largest = device.physical->getProperties().limits.maxTexelBufferElements;
   if (way == WAY_TEXELS && grid.words->size() * (grid.halves ? 2 : 1) > largest)
     return fmt::format("texel buffers end at {} texels", largest);
@@ -68,7 +68,7 @@ std::string lacks(const host::Device::Impl& device, const PreparedGrid& grid, in
 
 class Commands {
  public:
-  explicit Commands(host::Device::Impl& device)
+  explicit Commands(host::DeviceState& device)
       : device_(device),
         pool_(*device.device, {{}, device.compute.family}),
         buffers_(*device.device, {*pool_, vk::CommandBufferLevel::ePrimary, 1}) {
@@ -94,12 +94,12 @@ class Commands {
   }
 
  private:
-  host::Device::Impl& device_;
+  host::DeviceState& device_;
   vk::raii::CommandPool pool_;
   vk::raii::CommandBuffers buffers_;
 };
 
-vk::raii::DeviceMemory memory_for(const host::Device::Impl& device, const vk::MemoryRequirements& needs,
+vk::raii::DeviceMemory memory_for(const host::DeviceState& device, const vk::MemoryRequirements& needs,
                                   vk::MemoryPropertyFlags kind) {
   for (std::uint32_t type = 0; type < device.memory.memoryTypeCount; ++type)
     if ((needs.memoryTypeBits >> type & 1) != 0 && (device.memory.memoryTypes[type].propertyFlags & kind) == kind)
@@ -115,7 +115,7 @@ struct TexelBuffer {
 };
 
 TexelBuffer upload_texels(const host::Device& on, const PreparedGrid& grid, int bits) {
-  host::Device::Impl& device = on.impl();
+  host::DeviceState& device = on.state();
   const std::size_t bytes = grid.words->size() * sizeof(std::uint32_t);
   TexelBuffer made;
   made.buffer = vk::raii::Buffer(*device.device,
@@ -127,14 +127,14 @@ TexelBuffer upload_texels(const host::Device& on, const PreparedGrid& grid, int 
   host::Buffer staging(on, bytes, host::Memory::upload);
   staging.write(*grid.words);
   const Commands commands(device);
-  commands.record().copyBuffer(*staging.impl().buffer, *made.buffer, vk::BufferCopy(0, 0, bytes));
+  commands.record().copyBuffer(*staging.state().buffer, *made.buffer, vk::BufferCopy(0, 0, bytes));
   commands.end();
   commands.run();
   return made;
 }
 
 LatticeImage upload_image(const host::Device& on, const PreparedGrid& grid, int bits) {
-  host::Device::Impl& device = on.impl();
+  host::DeviceState& device = on.state();
   LatticeImage made;
   const vk::Extent3D size(grid.nx, grid.ny, grid.nz);
   made.image =
@@ -163,7 +163,7 @@ LatticeImage upload_image(const host::Device& on, const PreparedGrid& grid, int 
         vk::ImageMemoryBarrier(before, after, from, to, VK_QUEUE_FAMILY_IGNORED, VK_QUEUE_FAMILY_IGNORED, *made.image, all));
   };
   change(vk::ImageLayout::eUndefined, vk::ImageLayout::eTransferDstOptimal, {}, vk::AccessFlagBits::eTransferWrite);
-  commands.record().copyBufferToImage(*staging.impl().buffer, *made.image, vk::ImageLayout::eTransferDstOptimal,
+  commands.record().copyBufferToImage(*staging.state().buffer, *made.image, vk::ImageLayout::eTransferDstOptimal,
                                       vk::BufferImageCopy(0, 0, 0, {vk::ImageAspectFlagBits::eColor, 0, 0, 1}, {}, size));
   change(vk::ImageLayout::eTransferDstOptimal, vk::ImageLayout::eShaderReadOnlyOptimal, vk::AccessFlagBits::eTransferWrite,
          vk::AccessFlagBits::eShaderRead);
@@ -202,7 +202,7 @@ struct Lattice {
 class Reader {
  public:
   Reader(const Lattice& lattice, int way) : lattice_(lattice) {
-    host::Device::Impl& device = lattice.on.impl();
+    host::DeviceState& device = lattice.on.state();
     using Type = vk::DescriptorType;
     std::vector<std::tuple<std::uint32_t, Type, const host::Buffer*>> buffers{
         {BINDING_PARAMETERS, Type::eUniformBuffer, &lattice.parameters},
@@ -223,7 +223,7 @@ class Reader {
                                      vk::DescriptorPoolCreateInfo(vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, sizes));
     set_ = std::move(vk::raii::DescriptorSets(*device.device, {*pool_, *set_layout_})[0]);
     for (const auto& [binding, type, buffer] : buffers) {
-      const vk::DescriptorBufferInfo whole(*buffer->impl().buffer, 0, VK_WHOLE_SIZE);
+      const vk::DescriptorBufferInfo whole(*buffer->state().buffer, 0, VK_WHOLE_SIZE);
       device.device->updateDescriptorSets(vk::WriteDescriptorSet(*set_, binding, 0, type, {}, whole), {});
     }
     const vk::BufferView texels = *lattice.texels.view;
@@ -292,7 +292,7 @@ class Reader {
 
 void read_lattice(benchmark::State& state, const Options& options, int bits, int way) {
   const Lattice lattice(options, bits);
-  if (const std::string missing = lacks(lattice.on.impl(), *lattice.core->grid(0), bits, way); !missing.empty()) {
+  if (const std::string missing = lacks(lattice.on.state(), *lattice.core->grid(0), bits, way); !missing.empty()) {
     state.SkipWithError(missing.c_str());
     return;
   }
@@ -310,7 +310,7 @@ void read_lattice(benchmark::State& state, const Options& options, int bits, int
   state.SetItemsProcessed(state.iterations() * RAYS * RAY_STEPS);
   state.counters["ns"] = 1e9 * (reader_seconds - nothing_seconds) / runs;
   state.counters["buffer_ns"] = 1e9 * (buffer_seconds - nothing_seconds) / runs;
-  const auto bits_of_fraction = static_cast<int>(lattice.on.impl().physical->getProperties().limits.subTexelPrecisionBits);
+  const auto bits_of_fraction = static_cast<int>(lattice.on.state().physical->getProperties().limits.subTexelPrecisionBits);
   const double promised = 1e9 * std::ldexp(lattice.core->grid(0)->spacing, -1 - bits_of_fraction);
   state.SetLabel("over the storage buffer" + (way == WAY_FILTER ? fmt::format("; promised are {:.0f} nm", promised) : ""));
   state.counters["ratio"] = (buffer_seconds - nothing_seconds) / (reader_seconds - nothing_seconds);

@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "objects/check.h"
+#include "objects/mesh.h"
 
 namespace {
 

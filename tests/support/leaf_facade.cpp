@@ -9,6 +9,7 @@
 #include "core/liquid.h"
 #include "core/load.h"
 #include "core/loop.h"
+#include "core/prepare.h"
 #include "core/projection.h"
 #include "core/score.h"
 #include "core/trig.h"

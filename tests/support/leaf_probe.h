@@ -1,11 +1,11 @@
-// The shaders' leaf functions on a device, row by row, beside the core's (leaf_facade.h): what tests/parity_leaf_test.cpp compares.
+// The shaders' leaf functions on a device, row by row, beside the core's (leaf_facade.h): what tests/shaders/parity_leaf_test.cpp compares.
 #pragma once
 
 #include <string_view>
 #include <vector>
 
 #include "core/backend.h"
-#include "host/kernel.h"
+#include "host/run_once.h"
 #include "host/scene_arrays.h"
 #include "host/shaders.h"
 

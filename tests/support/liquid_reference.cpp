@@ -15,7 +15,7 @@ struct Node {
 };
 
 // Tanh-sinh: x = tanh(pi/2 sinh t). Takes algebraic and logarithmic ends; the step leaves under 1e-13 of the integrals here, which
-// tests/liquid_test.cpp shows against closed forms.
+// tests/core/liquid_test.cpp shows against closed forms.
 const std::vector<Node>& nodes() {
   static const std::vector<Node> all = [] {
     std::vector<Node> result;

@@ -1,4 +1,5 @@
 #include "tests/support/scenes.h"
+#include "core/result.h"
 
 #include <algorithm>
 #include <cmath>

@@ -10,6 +10,7 @@
 #include "core/grip.h"
 #include "core/load.h"
 #include "core/prepare.h"
+#include "core/result.h"
 #include "core/scene.h"
 
 namespace wholehand {

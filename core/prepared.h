@@ -1,0 +1,58 @@
+// What kernels need of a scene, as plain doubles: made by core/prepare.h.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/scene.h"
+#include "shaders/layout.h"
+
+namespace wholehand {
+
+// As core/sdf.h's Element: from a to b in (r, y), m; side 0: line, +1: arc on the half r >= center r, -1: on the other. `center` of a line
+// is its unit normal to the right of a -> b, which is outward on a hull.
+struct PreparedElement {
+  std::array<double, 2> a{}, b{}, center{};
+  double radius = 0;
+  int side = 0;
+};
+
+struct PreparedVessel {
+  std::vector<PreparedElement> hull;     // the outer outline, mouth included (last)
+  std::vector<PreparedElement> outline;  // what the signed distance is measured to: the hull, or the shell's outline
+  int lid = -1;                          // index of the mouth in `outline`; -1 for a shell
+  std::vector<PreparedElement> cavity;   // y ascending, empty without a wall
+  double floor_height = 0, mouth_height = 0, mouth_radius = 0;
+  double bound_height = 0, bound_radius = 0;
+  double largest_radius = 0;  // of the hull, or of the mesh about the axis
+};
+
+struct PreparedHand {
+  struct Finger {
+    Triple base{}, forward{}, palmward{};
+    std::array<double, 4> length{};
+    std::array<double, 5> radius{};
+  };
+  std::array<Finger, FINGER_COUNT> fingers{};
+  Triple thumb_open{}, thumb_swing{}, finger_open{}, finger_swing{};
+  double gap_open = 0, gap_closed = 0;
+  std::vector<double> gap_table;  // closures at equal steps of the gap
+};
+
+// A vessel's signed distance on a regular lattice, as core/sdf.h's Grid takes it: what every precision and device then reads.
+struct PreparedGrid {
+  Triple origin{};
+  double spacing = 1;
+  int nx = 0, ny = 0, nz = 0;
+  bool halves = false;
+  std::shared_ptr<const std::vector<std::uint32_t>> words;
+};
+
+// Gauss-Legendre of `points` on a cosine map: cosines of the angles and weights times sin(theta) pi / 2.
+struct PreparedQuadrature {
+  std::vector<double> cosine, weight;
+};
+
+}  // namespace wholehand

@@ -1,0 +1,17 @@
+// Triangles with normals, as viewers and glTF take them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/scene.h"
+
+namespace wholehand {
+
+struct SurfaceMesh {
+  std::vector<Triple> positions;
+  std::vector<Triple> normals;           // unit, one a position; positions are repeated where the surface has an edge
+  std::vector<std::uint32_t> triangles;  // three positions each
+};
+
+}  // namespace wholehand

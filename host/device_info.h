@@ -1,0 +1,72 @@
+// Vulkan devices: which are there, and which of them is meant. The loader is opened at run time, so a machine without Vulkan gets a
+// sentence and not a dynamic linker's complaint.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.h"
+
+namespace wholehand::host {
+
+// Memory for a buffer or a submit was refused; a smaller one may succeed.
+class OutOfMemory : public Error {
+ public:
+  explicit OutOfMemory(const std::string& line) : Error(ExitCode::failure, line) {}
+};
+
+// The device was lost, or did not finish in time (`hung`: it may still be at work, so what it uses must not be destroyed).
+class DeviceLost : public Error {
+ public:
+  explicit DeviceLost(const std::string& line, bool hung = false) : Error(ExitCode::failure, line), hung(hung) {}
+  bool hung;
+};
+
+enum class DeviceKind { discrete, integrated, virtual_gpu, cpu, other };  // in the order of preference
+const char* device_kind_name(DeviceKind kind);                            // "discrete GPU", .., "CPU"
+
+struct DeviceInfo {
+  std::size_t index = 0;  // in list_devices(): what "vulkan:INDEX" chooses
+  std::string name;       // "llvmpipe (LLVM 15.0.6, 256 bits)"
+  std::string driver;     // driver and version: "llvmpipe, Mesa 22.3.6 (LLVM 15.0.6)"
+  DeviceKind kind = DeviceKind::other;
+  std::string api_version;      // "1.3.230"
+  std::string uuid;             // of device, 32 hexadecimal digits
+  std::string unusable;         // why it cannot be used; empty: it can
+  bool float64 = false;         // shaders may compute in double
+  bool unified_memory = false;  // the host reads and writes the device's memory directly
+  bool timestamps = false;      // kernels are timed by the device (by the host's clock where it cannot)
+  std::uint32_t subgroup_size = 0;
+  std::uint64_t memory = 0;             // of the largest device-local heap, bytes
+  std::uint64_t max_allocation = 0;     // of one allocation, bytes
+  std::uint64_t max_storage_range = 0;  // of one storage buffer, bytes
+  std::uint64_t max_uniform_range = 0;  // of one uniform buffer, bytes
+  std::uint64_t max_texel_range = 0;    // of one texel buffer of uints, bytes: 256 KiB at least
+  std::uint32_t max_group_invocations = 0;
+  std::array<std::uint32_t, 3> max_group_count{};
+  std::uint32_t shared_memory = 0;  // of a work group, bytes
+};
+
+struct DeviceOptions {
+  bool validation = false;     // the validation layer; also on where the environment has WHOLEHAND_VALIDATION=1
+  std::string loader{};        // the library without which there is no Vulkan; empty: libvulkan.so.1 (a test names another)
+  bool unified_memory = true;  // false: stage every transfer, as a discrete GPU needs (for tests on a CPU driver)
+  std::string cache_folder{};  // of compiled pipelines; empty: $XDG_CACHE_HOME/wholehand, and none for a CPU driver
+};
+
+// Every device there, in the loader's order. Throws Error: no loader, no driver, no validation layer.
+std::vector<DeviceInfo> list_devices(const DeviceOptions& options = {});
+
+// The device of `devices` that `selector` names: "vulkan" the first discrete, then integrated, virtual, CPU one; "vulkan:1" the one
+// with that index; else the first of that order whose name contains `selector`, upper or lower case. Throws Error (usage) with the
+// names of those there when there is none: never another in its place.
+const DeviceInfo& choose_device(const std::vector<DeviceInfo>& devices, std::string_view selector);
+
+// Messages of the validation layer since the last call, of all devices of the process.
+std::vector<std::string> take_validation_messages();
+
+}  // namespace wholehand::host

@@ -1,0 +1,20 @@
+// How grips are computed on a device.
+#pragma once
+
+#include "core/backend.h"
+#include "core/evaluator.h"
+#include "host/device.h"
+#include "host/shaders.h"
+#include "host/stream_request.h"
+
+namespace wholehand::host {
+
+struct GripBackendOptions {
+  Precision precision = Precision::single;
+  OutlineSource outline = OUTLINE_SPECIALIZED;  // outlines of more than MAX_OUTLINE elements always come from a buffer
+  EvaluatorOptions evaluator;                   // as the core's: grid instead of outline, tolerances, ..
+  DeviceOptions device;
+  StreamOptions stream;
+};
+
+}  // namespace wholehand::host

@@ -1,0 +1,24 @@
+// A command buffer of dispatches, with the descriptor sets and timestamps that they need; for host/ alone.
+#pragma once
+
+#include <vector>
+
+#include "host/commands.h"
+#include "host/recorder.h"
+
+namespace wholehand::host {
+
+class StepRecorder : public Recorder {
+ public:
+  StepRecorder(DeviceState& device, std::uint32_t family);
+
+  void steps(const Commands& commands);  // with a timestamp before and after
+  double seconds() const;                // of the steps, by the device; negative where it has no timestamps
+
+ private:
+  vk::raii::QueryPool timestamps_ = nullptr;
+  vk::raii::DescriptorPool descriptor_pool_ = nullptr;
+  std::vector<vk::raii::DescriptorSet> sets_;  // after their pool: destroyed first
+};
+
+}  // namespace wholehand::host
