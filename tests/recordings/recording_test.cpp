@@ -323,7 +323,7 @@ TEST(Recording, IsWhatTheNetcdfLibraryReads) {
 TEST(Recording, XarraySelectsByName) {
   const Folder folder;
   const std::string path = record(folder, RandomTicks(3).some(4, 2));
-  const std::string command = "/usr/bin/python3 " WHOLEHAND_SOURCE_DIR "/tests/xarray_recording_test.py '" + path + "' 'vessel 2'";
+  const std::string command = "/usr/bin/python3 " WHOLEHAND_SOURCE_DIR "/tests/recordings/xarray_test.py '" + path + "' 'vessel 2'";
   EXPECT_EQ(std::system(command.c_str()), 0);
 }
 

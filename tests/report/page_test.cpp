@@ -32,7 +32,7 @@ void expect_well_built(const SweptScene& swept, const std::string& page) {
   const std::string path = swept.folder / "page.html";
   std::ofstream(path) << page;
   // Debian's own python3, whatever else there is
-  EXPECT_EQ(std::system(("/usr/bin/python3 " WHOLEHAND_SOURCE_DIR "/tests/report_page_test.py " + path).c_str()), 0);
+  EXPECT_EQ(std::system(("/usr/bin/python3 " WHOLEHAND_SOURCE_DIR "/tests/report/page_test.py " + path).c_str()), 0);
 }
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }

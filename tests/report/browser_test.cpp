@@ -64,7 +64,7 @@ class ReportBrowser : public testing::Test {
 };
 
 TEST_F(ReportBrowser, FitsEveryWidthInLightAndDark) {
-  const std::string script = "<script>" + file_text(WHOLEHAND_SOURCE_DIR "/tests/report_browser_test.js") + "</script></body>";
+  const std::string script = "<script>" + file_text(WHOLEHAND_SOURCE_DIR "/tests/report/browser_test.js") + "</script></body>";
   const std::string watched = edited(page, "</body>", script);
   for (const int width : {400, 800, 1400}) {
     for (const bool is_dark : {false, true}) {

@@ -807,7 +807,7 @@ TEST_F(RunTest, XarrayUnderstandsTheResult) {
       trial.precision = precision;
       ASSERT_EQ(trial.run().code, ExitCode::done);
       // Debian's own python3, which Debian's xarray belongs to
-      const std::string command = "/usr/bin/python3 " WHOLEHAND_SOURCE_DIR "/tests/xarray_test.py " + (folder / "a.nc");
+      const std::string command = "/usr/bin/python3 " WHOLEHAND_SOURCE_DIR "/tests/sweeps/xarray_test.py " + (folder / "a.nc");
       EXPECT_EQ(std::system(command.c_str()), 0);
     }
   }

@@ -1,4 +1,4 @@
-// The search of tests/search_test.cpp on a device.
+// The search of tests/core/search_test.cpp on a device.
 // sanitizers: none
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The backend around the kernels: ways of moving data, pipelines that are made side by side, what goes to the core instead. What the kernels
-// compute is compared in tests/parity_test.cpp.
+// compute is compared in tests/shaders/parity_test.cpp.
 // sanitizers: address thread
 #include "host/grip_backend.h"
 

@@ -1,4 +1,4 @@
-"""Reads a report as strictly as XML is read and checks how it is built: report_page_test.py PAGE.html"""
+"""Reads a report as strictly as XML is read and checks how it is built: page_test.py PAGE.html"""
 
 import sys
 import xml.etree.ElementTree as ElementTree

@@ -1,4 +1,4 @@
-"""Opens a recording with xarray and selects by name, as its users do: xarray_recording_test.py RECORDING.nc VESSEL"""
+"""Opens a recording with xarray and selects by name, as its users do: xarray_test.py RECORDING.nc VESSEL"""
 
 import sys
 
