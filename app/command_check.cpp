@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // wholehand check: is the device's answer the core's answer?
 #include <CLI/CLI.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // wholehand devices: what there is to compute on, and to feel with.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // wholehand error-time: what every shortcut costs in error and gains in time.
 #include <CLI/CLI.hpp>
 

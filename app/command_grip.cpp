@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // wholehand grip: one grip with every intermediate value.
 #include <fmt/format.h>
 #include <fmt/ranges.h>

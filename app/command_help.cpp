@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // wholehand help: how a command is used, as its --help says it.
 #include <CLI/CLI.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // wholehand live: a session with a gripper, or with a simulated one.
 #include <CLI/CLI.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The names of commands and of their options, for messages: as the command line knows them, so that no list is kept twice.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // wholehand rank: the best grips of a result by other weights and under conditions.
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // wholehand report: one page for a sweep.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // wholehand scenes: the scenes that are shipped, which every command takes by name.
 #include <CLI/CLI.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // wholehand session: what a recording says about the one who gripped.
 #include <CLI/CLI.hpp>
 

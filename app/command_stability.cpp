@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // wholehand stability: where a haptic loop stops being trustworthy.
 #include <CLI/CLI.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // wholehand sweep: every grip of a scene.
 #include <CLI/CLI.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // wholehand view: a recorded session, or the best grips of a sweep, in the browser.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The commands: each adds itself to the command line and, once that is parsed and names it, leaves what to do in `action`.
 #pragma once
 

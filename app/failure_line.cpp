@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/failure_line.h"
 
 #include <cxxabi.h>

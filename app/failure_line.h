@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A last line where the program itself fails, instead of an end by a signal without a word.
 #pragma once
 

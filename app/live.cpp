@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/live.h"
 
 #include <fmt/format.h>

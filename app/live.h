@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A live session from its command line: gripper, loop, recording, and what is told meanwhile.
 #pragma once
 

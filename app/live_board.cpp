@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/live_board.h"
 
 #include <utility>

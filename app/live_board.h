@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a live session has to say while it runs, from the recorder's thread to the main one.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/live_report.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a live session tells: events while it runs, numbers when it is over.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The command line: finds the command, runs it, and turns whatever goes wrong into one line and an exit code.
 #include <CLI/CLI.hpp>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/open_files.h"
 
 #include <fcntl.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Whether the process may open the files that it will need.
 #pragma once
 

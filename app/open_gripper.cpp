@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/open_gripper.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From `--device` to an open gripper.
 #pragma once
 

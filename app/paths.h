@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where the program finds the scenes that it ships.
 #pragma once
 

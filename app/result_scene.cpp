@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/result_scene.h"
 
 #include <filesystem>

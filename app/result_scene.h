@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The scene that a result file's own text describes.
 #pragma once
 

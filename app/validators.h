@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Checks of arguments that CLI11 makes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "app/values.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Numbers of a command line, strictly: the whole text is the number, it is finite and in its range.
 #pragma once
 

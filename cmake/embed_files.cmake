@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Puts files into the program as they are.
 #
 #   embed_files(TARGET HEADER FUNCTION PATH FILE [PATH FILE ...])

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # One library per folder. Every folder of the product stands on a floor, and uses folders of lower floors only: configuring fails on a link
 # that goes up or sideways, and the test Folders.* on an #include that does.
 set(WHOLEHAND_FLOORS

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Compiles compute shaders to SPIR-V and embeds them.
 #
 #   embed_shaders(TARGET HEADER FUNCTION GLOB ...)

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "core/absent.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where values must be there: docs/method.md, "Values that are absent", as a check on planes of either twin.
 #pragma once
 

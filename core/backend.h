@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Who evaluates many grips: the core on threads, or a Vulkan device. Both give the same planes in the same order.
 #pragma once
 

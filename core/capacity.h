@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a vessel holds upright, and where its cavity is narrow: facts of its cavity alone, in plain doubles. Off the tick path.
 #pragma once
 

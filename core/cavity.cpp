@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The inner offset of an outline as exact curves. At a height y every element blocks the radii within `wall` of it; the cavity reaches
 // from the axis to the first blocked radius. That boundary is made of few kinds of curve (the circle about an element's end, the
 // element's own offset on either side), each known in closed form, so that only the heights where one gives way to another are searched.

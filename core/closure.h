@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Kernel 3: close the two tracked fingers on the vessel and place the hand at them.
 #pragma once
 

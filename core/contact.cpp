@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "core/contact.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Kernel 4: which points touch, and where they belong.
 #pragma once
 

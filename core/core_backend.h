@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The reference core as a backend: chunks of grips on all threads.
 #pragma once
 

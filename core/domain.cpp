@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "core/domain.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The domain in which float agrees with double to 10 micrometres and 10 millinewtons, and what lies outside of it.
 #pragma once
 

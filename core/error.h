@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The one exception type of code that is not a kernel: a line for the user and the exit code that goes with it.
 #pragma once
 

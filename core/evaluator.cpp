@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The facade of core/evaluator.h at this precision.
 #include "core/evaluator.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Each precision's library has its own namespace; this is where the product names them.
 #include "core/evaluator.h"
 

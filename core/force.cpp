@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "core/force.h"
 
 #include <algorithm>

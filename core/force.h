@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Kernel 7: what the fingers feel, and what the physics asks for.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "core/gather.h"
 
 #include <algorithm>

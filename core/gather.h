@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // All planes of some grips in one place, whichever backend computes them: to compare, or to look up.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One grip through kernels 3, 4 and 5: the core's way of putting the leaf functions together. The shaders put the same leaves together
 // in shaders/grip.comp, streamed.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // 16-bit floats (IEEE 754 binary16): how a grid's samples may be stored.
 #pragma once
 

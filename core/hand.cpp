@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "core/hand.h"
 
 #include <algorithm>

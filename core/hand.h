@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Kernel 1: 24 joints from one number. Every finger is a planar chain: from its metacarpal base it runs along `forward` and curls
 // towards `palmward`, so that a segment at the cumulative angle a points along cos a forward + sin a palmward.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Kernel 7 on a vessel in the hand: its load at a fill and tilt, and what the fingers then feel. One piece for sweeps and live sessions.
 #pragma once
 

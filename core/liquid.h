@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Kernel 6: what is left in a tilted vessel, and where. Slices at the height y hold circular segments, whose areas and moments are
 // closed forms; they are integrated over y piece by piece of the cavity.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Prepared scenes in the kernels' own precision.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One axis of a sampled haptic loop: a device, with the finger on it, against a rendered wall. Place is counted into the wall, which begins
 // at 0; forces are positive into the wall.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A vessel read from a mesh file, as the kernels and the drawings need it: plain data, made by objects/vessel.h.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "core/mirror.h"
 
 #include <utility>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A left hand, as a right one in a mirrored scene.
 #pragma once
 

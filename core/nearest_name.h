@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What somebody who mistyped a name may have meant.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // An outline as points: what draws a vessel, or asks how far it reaches, needs no arcs.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Results of many grips, field by field: one plane of `stride` numbers per scalar, so that a plane is one write to the file.
 // The same shape comes from the core and from the GPU.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From a scene to what the kernels need, in plain doubles: outlines split into y-monotone elements, the cavity as the inner offset of
 // the outline, the shell, bounding spheres, the hand's frames and the table of its gap. Done once a scene, off the tick path.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What kernels need of a scene, as plain doubles: made by core/prepare.h.
 #pragma once
 

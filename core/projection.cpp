@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "core/projection.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Kernel 5: middle, ring and little finger come to rest on the vessel.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The kernels' number type. `core/` is compiled once per precision: REAL and CORE_NS come from the build
 // (double/core_f64 for the product, float/core_f32 and long double/core_ld for comparisons).
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What one grip gives, as plain doubles in SI units: the common answer of the core (either precision) and of the GPU.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A scene as plain data: what a scene file says, in SI units (m, kg, s, N, rad), before anything is computed from it.
 // Everything here is double, whatever the precision of the kernels that are prepared from it.
 #pragma once

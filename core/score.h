@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Scores of a grip: each term in [0, 1], larger is better; the weights come from the scene.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "core/sdf.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Kernel 2: signed distance to the vessel, negative inside, m.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How near is touching, and how deep is inside.
 #pragma once
 

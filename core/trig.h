@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Sine, cosine and arc cosine. Here the standard library's; the twin shaders/trig.glsl has polynomials, since Vulkan promises its
 // own sine only to 2^-11. That makes this pair the exception among the twins: same functions, different mathematics.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A rendered wall to be tried: plain numbers, for the core and for a device alike; SI.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "core/wall_run.h"
 
 #include "core/loop.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A rendered wall, sample after sample.
 #pragma once
 

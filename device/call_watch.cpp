@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "device/call_watch.h"
 
 #include <poll.h>

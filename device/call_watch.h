@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A second thread that looks at how long the haptic thread has been in a call of the device.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "device/dhd_library.h"
 
 #include <dlfcn.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Force Dimension's SDK, loaded at run time by whoever has it: nothing of the vendor's is needed to build or to run without such a device.
 #pragma once
 

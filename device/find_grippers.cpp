@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "device/find_grippers.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which grippers there are, of every kind.
 #pragma once
 

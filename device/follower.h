@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Going after a goal that jumps, without a jump: what makes the sixty steps a second of a mouse a motion at the rate of a force loop.
 #pragma once
 

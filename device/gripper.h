@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A two-finger haptic gripper, whatever is behind it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "device/guard.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What stands between the method and the fingers: whatever is wrong ends in no force, and what is right comes within limits.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "device/haptic_loop.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The haptic loop: ties a gripper to a session, tick by tick.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Open grippers over HID: hidapi on Linux hidraw nodes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "device/histogram.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Percentiles of times without keeping them: counts in bins of equal ratio.
 #pragma once
 

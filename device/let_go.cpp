@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "device/let_go.h"
 
 namespace wholehand {

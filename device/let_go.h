@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What became of a gripper's force when it was to go, and the words for it.
 #pragma once
 

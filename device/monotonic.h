@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The clock that loops and watches go by.
 #pragma once
 

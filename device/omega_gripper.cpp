@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "device/omega_gripper.h"
 
 #include <fmt/format.h>

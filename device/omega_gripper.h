@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Force Dimension's omega.7 and sigma.7, for the right and the left hand, through the vendor's SDK.
 #pragma once
 

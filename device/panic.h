@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // No force on the fingers when the program itself fails.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "device/pour_path.h"
 
 #include <algorithm>

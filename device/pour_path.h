@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How a held vessel is brought over a target and tilted there: as low as it and the hand keep clear of the target's wall.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "device/protocol.h"
 
 #include <fmt/format.h>

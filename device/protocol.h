@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The open gripper protocol on the wire, as pure functions: docs/gripper-protocol.md is the description, and its example is checked
 // against this file byte for byte. Little endian; a report's first byte is its id, over HID and over USB alike.
 #pragma once

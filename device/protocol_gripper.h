@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // An open gripper over either transport: start-up, watchdog, measurements and forces as docs/gripper-protocol.md has them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A thread that wakes on time, where the system permits it.
 #pragma once
 

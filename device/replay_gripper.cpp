@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "device/replay_gripper.h"
 
 #include <cstddef>

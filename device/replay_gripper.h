@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A recorded session in the place of a device.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A line of text that a signal handler may put together: no allocation, no locale, no library call that is not safe there.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "device/session_lock.h"
 
 #include <fcntl.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One session a device: a lock that ends with the process, whatever ends it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "device/sim_gripper.h"
 
 #include <algorithm>

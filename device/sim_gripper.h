@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A gripper with a virtual user on it: everything up to the wire can be run without a device.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "device/sim_user.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Who holds the simulated gripper: what a person would do with a scene, one intention after the other. No physics of the device here.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Reports to and from an open gripper, whatever carries them.
 #pragma once
 

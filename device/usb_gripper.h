@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Open grippers over plain USB: libusb, one vendor interface with an interrupt endpoint each way.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "device/view_gripper.h"
 
 #include <algorithm>

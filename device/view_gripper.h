@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The page of a live view in the place of a gripper: whoever drags the hand in a browser moves it, and feels nothing.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How many of many trials may fail before it is no accident.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "evidence/check.h"
 
 #include <memory>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Is the device's answer the core's answer? What `wholehand check` does.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What `wholehand check` found, as text and as JSON. The order of the JSON's keys is part of its format.
 #include <fmt/format.h>
 

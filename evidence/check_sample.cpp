@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "evidence/check_sample.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which grips `wholehand check` compares: the scene's own and, where these are few, others between and around them.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Two evaluations of the same grips side by side, quantity by quantity, with tolerances that come from how each grip's own answer moves.
 //
 // Arithmetic in float or double solves a nearby problem: every surface is met to within the stop tolerance, every position is rounded.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How fast an error falls with what causes it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "evidence/error_measure.h"
 
 #include <fmt/format.h>

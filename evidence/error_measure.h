@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a variant costs in error and takes in time, on the same grips and states as all others.
 #pragma once
 

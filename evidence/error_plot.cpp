@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "evidence/error_plot.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The Pareto fronts of `wholehand error-time` as pictures.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The rows of `wholehand error-time` as CSV and as a short report.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "evidence/error_time.h"
 
 #include <fmt/format.h>

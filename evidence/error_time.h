@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What every shortcut costs in error and gains in time: what `wholehand error-time` does.
 #pragma once
 

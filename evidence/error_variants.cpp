@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "evidence/error_variants.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The ways to evaluate a scene that `wholehand error-time` compares: each shortcut swept with the others at their defaults, and the
 // products that are of use.
 #pragma once

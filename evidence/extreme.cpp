@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "evidence/extreme.h"
 
 #include <fmt/format.h>

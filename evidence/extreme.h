@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Extreme scenes, on every backend, against the core in double.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "evidence/gains.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Gains that a live loop must not have: what a sampled wall or spring cannot be, on a light device.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "evidence/grip_loop.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The held state as a loop: a gripper that pushes the fingers apart with the feedback force, and a user who holds a grip force.
 #pragma once
 

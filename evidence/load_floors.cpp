@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "evidence/load_floors.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How far forces may differ because of the load: the liquid's level is solved to a tolerance, and a tilt and a lever are rounded.
 #pragma once
 

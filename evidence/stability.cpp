@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "evidence/stability.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The report on where a haptic loop, and the kernels, stop being trustworthy.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How stiff a wall one axis of a haptic device can render.
 #pragma once
 

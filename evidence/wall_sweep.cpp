@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "evidence/wall_sweep.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where a rendered wall settles, over its stiffness and everything that limits it: many presses at once, on a device or on the core.
 #pragma once
 

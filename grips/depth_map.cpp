@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grips/depth_map.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What is nearest at each place of a view along one direction, on a raster: which lines of a drawing are hidden, and what it covers.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grips/glass.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The vessel in a grip's line drawing: its outline, or the lines of its mesh.
 #pragma once
 

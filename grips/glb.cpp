@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grips/glb.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A grip as one glTF binary: the hand as OpenXR's joints, the glass, the liquid.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grips/hand_nodes.h"
 
 #include <cmath>

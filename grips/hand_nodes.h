@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The hand of a grip as the nodes of a scene graph: OpenXR's joints with its orientations (XR_EXT_hand_tracking).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A grip report as JSON. The order of the fields is part of the format.
 #include <nlohmann/json.hpp>
 

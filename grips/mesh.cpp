@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grips/mesh.h"
 
 #include <algorithm>

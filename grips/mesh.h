@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Triangle meshes of what a grip shows: the glass, the liquid in it, bones and contact points. m, right-handed, counter-clockwise from
 // outside. Every mesh but that of a mesh vessel is closed: two triangles meet in each edge, whose ends are the same numbers in both.
 #pragma once

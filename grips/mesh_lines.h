@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A mesh as a line drawing shows it from one side, without what is hidden.
 #pragma once
 

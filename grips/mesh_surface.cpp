@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grips/mesh_surface.h"
 
 #include <algorithm>

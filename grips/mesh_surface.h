@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A mesh vessel's body with normals, as viewers shade it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grips/methods.h"
 
 #include <fmt/format.h>

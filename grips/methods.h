@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where the answer to one grip comes from: the core, or a device's planes. The same questions to either.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "grips/report.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One grip with every intermediate value, for people and as JSON.
 #pragma once
 

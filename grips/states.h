@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How the points of a grip are told apart in its drawings.
 #pragma once
 

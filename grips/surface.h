@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Triangles with normals, as viewers and glTF take them.
 #pragma once
 

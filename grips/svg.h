@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A grip as a line drawing for papers: front, side and top view with a scale bar.
 #pragma once
 

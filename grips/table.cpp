@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A grip report as tables, in the units that people read: mm, degrees, mL, g.
 #include <fmt/format.h>
 

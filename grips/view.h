@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The views of a grip's line drawing, and how numbers and places are written in it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Memory that kernels read and write.
 #pragma once
 

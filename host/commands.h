@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The list of dispatches that one submit runs.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The device that is used: its queues and cache of pipelines.
 #include "host/device.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The Vulkan device that is used.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which of the devices is meant.
 #include "host/device_info.h"
 

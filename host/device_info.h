@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Vulkan devices: which are there, and which of them is meant. The loader is opened at run time, so a machine without Vulkan gets a
 // sentence and not a dynamic linker's complaint.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "host/devices.h"
 
 #include <fmt/format.h>

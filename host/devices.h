@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What there is to compute on: what `wholehand devices` does.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The kernels' way through a Vulkan device: a scene's tables, a pipeline per vessel, and grips streamed through grip, force, score and
 // select.
 #pragma once

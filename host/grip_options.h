@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How grips are computed on a device.
 #pragma once
 

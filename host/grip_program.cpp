@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "host/grip_program.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A scene on one device: buffers that all grips share, the vessels' pipelines, and the liquid's tables; for host/ alone.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Loader, instance, validation layer, and the devices there.
 #include <dlfcn.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A compute shader with its specialization constants, ready to be dispatched.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From the name that a user gives to what evaluates the grips.
 #pragma once
 

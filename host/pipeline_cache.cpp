@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "host/pipeline_cache.h"
 
 #include <unistd.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Compiled pipelines kept between runs, one file per device and driver. For GPUs: lavapipe gives nothing to keep (Mesa caches for
 // it). They count towards cache_limit. No cache, a damaged one or a folder that cannot be written only costs the compilation.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A command buffer that is recorded again and again; for host/ alone.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Work that is done once: submitted alone and waited for.
 #pragma once
 

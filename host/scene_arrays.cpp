@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "host/scene_arrays.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A scene as the arrays that shaders read (layout.h's bindings), in double; converted to the shader's reals when uploaded.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The compiled shaders that the binary carries (made by cmake/shaders.cmake).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One chunk in flight: its buffers, command buffers and what they wait for; for host/ alone.
 #pragma once
 

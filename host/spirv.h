@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a compute shader's SPIR-V says about itself: the bindings that it uses, its specialization constants and its group size.
 #pragma once
 

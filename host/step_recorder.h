@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A command buffer of dispatches, with the descriptor sets and timestamps that they need; for host/ alone.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Many items through a device in chunks, so that memory is bounded whatever their number and no submit is long: the host fills one
 // chunk and takes another's results while the device computes. Results come in ascending order and none is dropped: a chunk whose
 // device fails is evaluated again on a fresh one, then by the caller's fallback.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a stream (host/stream.h) is asked for, and what it answers.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What host/'s own files share of Vulkan; included by no other folder.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "host/wall_map.h"
 
 #include <algorithm>

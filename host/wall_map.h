@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Many rendered walls at once on a device.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "live/amounts.h"
 
 namespace wholehand {

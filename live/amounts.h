@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What of each liquid is where at a tick of a live session.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "live/hand_view.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The whole hand as it is seen in a live session: what a tick tells of two fingertips, as 24 points of which none is inside the glass.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The newest value from one thread to another, where what came between does not matter.
 #pragma once
 

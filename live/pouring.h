@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Liquid of a live session: what each vessel holds, what runs over its lip, what falls, what arrives in the target and what is spilt.
 #pragma once
 

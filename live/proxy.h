@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Tracked tips before the grasp: each has a proxy that stays outside of every vessel and is carried from step to step (Ruspini et al. 1997),
 // so that no wall is crossed between two steps, however thin.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Turns as four numbers, for those that take no matrix.
 #pragma once
 

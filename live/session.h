@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A live session as a pure state machine: from what the gripper says to what the fingers feel, one tick after the other. The same states
 // at the same ticks give the same forces to the bit.
 #pragma once

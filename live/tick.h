@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One tick of a live session as plain data: what the gripper said, what the session made of it, and what the fingers felt. It travels
 // through the ring to whoever records or shows it, and a recording is a list of them.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Ticks on their way from the haptic thread to whoever records or shows them.
 #pragma once
 

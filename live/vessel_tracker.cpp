@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "live/vessel_tracker.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where every vessel of a live session is. A tick tells only of the vessel that is touched, held or slipping; the others stand where they were
 // seen last.
 #pragma once

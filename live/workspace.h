@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From a gripper's own frame to the hand in the world: [device] of a scene.
 #pragma once
 

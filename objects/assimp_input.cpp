@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "objects/assimp_input.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // An STL, OBJ or PLY file looked through before assimp sees it: assimp 5.2 crashes on damaged PLY files, or never ends.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "objects/assimp_triangles.h"
 
 #include <assimp/BaseImporter.h>

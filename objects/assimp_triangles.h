@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // STL, OBJ and PLY files to triangles.
 #pragma once
 

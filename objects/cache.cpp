@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "objects/cache.h"
 
 #include <fmt/format.h>

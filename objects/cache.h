@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Lattices of meshes kept between runs: one may take half a minute.
 #pragma once
 

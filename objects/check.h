@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What is wrong with a mesh, said before it is used.
 #pragma once
 

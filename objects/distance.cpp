@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "objects/distance.h"
 
 #include <embree3/rtcore.h>

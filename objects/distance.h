@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Signed distance to a triangle mesh.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where the triangles of a body meet, for whatever draws it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "objects/file.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A mesh file before it is read: its bytes, and what kind they are of.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "objects/gltf_file.h"
 
 #include <fmt/format.h>

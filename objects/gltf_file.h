@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A glTF file looked through before tinygltf sees it: sizes, headers, depth, types and ranges first, and only the parts that a shape needs.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "objects/gltf_triangles.h"
 
 #include <fmt/format.h>

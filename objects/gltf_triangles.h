@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From a glTF file's scene to its triangles.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "objects/grid.h"
 
 #include <fmt/format.h>

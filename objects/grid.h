@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The lattice of signed distances to a mesh that the kernels read.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "objects/holes.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Small holes of a mesh, found and closed.
 #pragma once
 

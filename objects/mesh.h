@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The triangles of a mesh file (glTF, STL, OBJ or PLY), as a scene's [[vessel]] names it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // PLY for assimp; see assimp_input.h.
 #include <fmt/format.h>
 

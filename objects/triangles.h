@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Triangles with shared corners: what every reader of mesh files makes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From the mesh files that a scene names to the bodies that the kernels and the drawings take.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "objects/winding_tree.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Generalized winding numbers of open meshes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "objects/words.h"
 
 #include <fmt/format.h>

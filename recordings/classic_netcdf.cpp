@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "recordings/classic_netcdf.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // NetCDF's classic format with 64-bit offsets (CDF-2; NetCDF User's Guide, appendix B), as far as recordings need it: a header that says
 // where everything lies, then the fixed variables, then records that are only ever appended. Everything in it is big-endian.
 //

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What of a tick stands in a recording, and how.
 #pragma once
 

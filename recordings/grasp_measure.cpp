@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "recordings/grasp_measure.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What one grasp of a recorded session gives in the paper's terms. docs/session.md has every definition.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How a recording's file is laid out: from what is known about the session to a header, and back.
 #pragma once
 

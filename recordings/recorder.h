@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The thread that takes ticks from the haptic thread and writes them down.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Recordings of live sessions: every tick, and what is needed to understand or repeat it, in one NetCDF file (classic, 64-bit offsets).
 // docs/session.md describes its variables.
 #pragma once

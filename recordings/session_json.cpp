@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A session's report as JSON. The order of the fields is part of the format.
 #include <nlohmann/json.hpp>
 

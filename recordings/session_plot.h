@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A session as the paper's Fig. 8 shows it: forces, tilt and grip force over time, the states shaded.
 #pragma once
 

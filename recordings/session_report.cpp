@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "recordings/session_report.h"
 
 #include <algorithm>

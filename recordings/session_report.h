@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a recorded session says about the one who gripped: grasp by grasp, by vessel and over all. docs/session.md has every definition.
 #pragma once
 

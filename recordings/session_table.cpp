@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A session's report as tables: for people, and as CSV.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "report/agreement.h"
 
 #include <fmt/format.h>

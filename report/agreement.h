@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Whether the numbers of a result file are the core's, on a sample of its grips.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the charts of a report share: their colours, their axes and their text. Lines and letters take the page's colours, so that they
 // follow its light and its dark dress; sizes are those of a phone's column, and grow with the column.
 #pragma once

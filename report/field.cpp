@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "report/field.h"
 
 #include <fmt/format.h>

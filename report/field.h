@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A chart of a report: a field of cells that are coloured by their values.
 #pragma once
 

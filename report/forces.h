@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Forces of a vessel's best grip over the tilt in a report, and where the vessel starts to pour.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "report/grips.h"
 
 #include <fmt/format.h>

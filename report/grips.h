@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The best grips of a vessel in a report: a table of them, and drawings of the first.
 #pragma once
 

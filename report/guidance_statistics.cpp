@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "report/guidance_statistics.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How touching depends on how near to a guidance point a vessel is held: what the paper tells of people in its Table 1 and Fig. 7, of grips.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Writes HTML that is well-formed XML too: every element is closed, every text and attribute escaped, in this one place.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A chart of a report: lines over a common x.
 #pragma once
 

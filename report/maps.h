@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Maps of a vessel in a report: over height and roll the best score, and the fingers and the force of the grip that has it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One page for a sweep: what `wholehand report` writes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a report says first: what was asked, on what it ran, and what was left out.
 #pragma once
 

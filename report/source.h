@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a report is made of: the result file, the scene that it names, and the core for what the file does not hold.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The style sheet of a report: a phone's column to a wide screen, light and dark, and paper.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a vessel holds: wall_mm and floor_mm, or inner_outline = [{line = [0, y]}, ..], half the outline of the cavity in mm.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "scene/elements.h"
 
 #include <fmt/format.h>

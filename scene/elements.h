@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Elements of an outline as the file gives them, in mm: {line = [r, y]}, {arc = [r, y], center = [r, y]}, {arc_through = [r, y], to = [r, y]},
 // each from the end of the one before, and fillets at their ends.
 #pragma once

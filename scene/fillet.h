@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A fillet: the arc that takes a corner's place and runs on from one element and into the next without a bend.
 #pragma once
 

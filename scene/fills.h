@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Liquid in mL as a fraction of what a vessel holds.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // [force], [score] and [output]: what is made of the states, and what is kept.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "scene/geometry.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Plane geometry of an outline's elements: extent, distance, and where two of them meet. In the unit of its input.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // [grips], [tilts] and [liquid]: the values that a sweep goes through.
 #include <fmt/format.h>
 

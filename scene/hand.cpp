@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // [hand]: the hand's size, limits, bones and trajectories.
 #include "scene/parts.h"
 

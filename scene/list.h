@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What scene files are for, in a line each.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // outline = [{line = [r, y]}, {arc = [r, y], center = [r, y]}, ..]: half an outline in mm, from the axis at the base to the axis at the
 // mouth. The body lies to the left of its way: base, outwards, up, mouth. A curve from [0, 0] that stays off the axis, meets itself
 // nowhere and ends on the axis at its highest point runs that way round of itself, so its direction needs no check of its own.

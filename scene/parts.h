@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The parts of a scene file, one function a table. Each throws Error (usage) for what is not allowed there.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Reads scene files: TOML with exactly the keys of docs/scene.md into core/scene.h's plain data, in SI units.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A look through a scene file's text before the TOML parser has it: what toml++ 3.3 accepts or meets without surviving.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // [live], [device] and [task]: a session with a gripper.
 #include <fmt/format.h>
 

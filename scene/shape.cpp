@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Shapes of a few dimensions, as outlines.
 #include <fmt/format.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "scene/table.h"
 
 #include <fmt/format.h>

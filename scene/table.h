@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Checked access to the tables of a scene file: every key is known, of the right type and in its range, or the file is refused with
 // one line that says where, what was found and what is allowed.
 #pragma once

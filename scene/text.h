@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Names and texts from outside, for messages.
 #pragma once
 

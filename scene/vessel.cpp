@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // [[vessel]]: form, wall, mass, and what the live task needs.
 #include <fmt/format.h>
 

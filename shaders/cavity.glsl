@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The cavity's pieces and the quadrature's rule, from storage buffers: the liquid is computed once a vessel, so their loads do not show.
 #ifndef CAVITY_GLSL
 #define CAVITY_GLSL

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Twin of core/closure.cpp.
 #ifndef CLOSURE_GLSL
 #define CLOSURE_GLSL

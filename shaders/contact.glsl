@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Twin of core/contact.cpp.
 #ifndef CONTACT_GLSL
 #define CONTACT_GLSL

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A y-monotone line or arc in the (r, y) half plane, as core/sdf.h has it.
 #ifndef ELEMENT_GLSL
 #define ELEMENT_GLSL

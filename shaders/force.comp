@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Kernel 7 of one grip an invocation over fills and tilts, reduced to per-grip terms here. A dispatch goes through push.number states from
 // push.first on, fill by fill, as many as a uniform block holds: read from a storage buffer, lane by lane, they cost twice the time.
 // A fill that is cut goes on from what its planes hold.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Twin of core/force.cpp.
 #ifndef FORCE_GLSL
 #define FORCE_GLSL

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Kernels 3, 5 and 4 of one grip an invocation, streamed: points are examined as they come, so that no array of 24 points is held.
 #version 460
 #extension GL_GOOGLE_include_directive : require

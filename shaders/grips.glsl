@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Grips as the kernels read them, axis by axis.
 #ifndef GRIPS_GLSL
 #define GRIPS_GLSL

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Twin of core/hand.cpp.
 #ifndef HAND_GLSL
 #define HAND_GLSL

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The hand as the kernels read it (layout.h's HAND_* offsets). Uniform, so that constant places cost a broadcast.
 #ifndef HAND_TABLE_GLSL
 #define HAND_TABLE_GLSL

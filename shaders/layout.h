@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The one file that C++ and GLSL both include: bindings, group sizes, specialization constant ids, output fields, status bits and
 // named tolerances. Only the preprocessor's integers and numbers, and one parameter struct of scalars.
 #ifndef WHOLEHAND_LAYOUT_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The liquid of every fill and tilt of a vessel, one invocation a state, and what glass and liquid weigh together.
 #version 460
 #extension GL_GOOGLE_include_directive : require

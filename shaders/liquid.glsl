@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Twin of core/liquid.cpp.
 #ifndef LIQUID_GLSL
 #define LIQUID_GLSL

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The rendered wall, one invocation a case: push.number samples on from where the last dispatch left it, or from the start (push.first).
 // A dispatch is short, since drivers end an invocation's loops after so many iterations; what moves is kept between dispatches.
 // push.floor_low: whether these samples are late ones, whose largest energy is the answer.

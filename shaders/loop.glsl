@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Twin of core/loop.cpp.
 #ifndef LOOP_GLSL
 #define LOOP_GLSL

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where the vessel's outline comes from. Three ways, chosen when the shader is compiled, give the same numbers at very different cost
 // (docs/results/): 0 reads elements and their number from a storage buffer in the loop; 1 copies a uniform buffer into the invocation
 // once, the number specialized; 2 carries the coordinates as specialization constants, so that the distance folds into the pipeline.

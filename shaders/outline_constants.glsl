@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One specialization constant a number: GLSL has no arrays of them. Element i holds the ids CONST_OUTLINE + 8 i .. + 7.
 #if REAL_IS_DOUBLE
 #define ZERO 0.0lf

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Output planes: each field's first plane is a specialization constant, -1 where the field is left out.
 #ifndef PLANES_GLSL
 #define PLANES_GLSL

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Twin of core/projection.cpp.
 #ifndef PROJECTION_GLSL
 #define PROJECTION_GLSL

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The shaders' number type: every kernel is compiled with float and with double (REAL_IS_DOUBLE comes from the build).
 #ifndef REAL_GLSL
 #define REAL_GLSL

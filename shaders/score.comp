@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Scores of one grip an invocation, from the planes that the kernels before it wrote.
 #version 460
 #extension GL_GOOGLE_include_directive : require

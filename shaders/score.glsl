@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Twin of core/score.cpp.
 #ifndef SCORE_GLSL
 #define SCORE_GLSL

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Twin of core/sdf.cpp.
 #ifndef SDF_GLSL
 #define SDF_GLSL

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The best of many grips without reading all scores back: each invocation keeps the push.number best of up to SELECT_ENTRIES of them and
 // hands them on; the host dispatches again over what was handed on until one invocation is left. Higher scores first, of equal ones the
 // lower index, so that the answer does not depend on how grips fell to invocations. push.first is one of SELECT_*: from the scores, or

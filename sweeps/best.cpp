@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "sweeps/best.h"
 
 #include <fmt/format.h>

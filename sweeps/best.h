@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The best grips of every vessel, for people: a file and a table.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "sweeps/best_glb.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The best grips of a sweep as glTF.
 #pragma once
 

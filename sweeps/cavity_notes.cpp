@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "sweeps/cavity_notes.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a reader of a scene may not have meant about what its vessels hold.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a sweep says before and after its work.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "sweeps/companions.h"
 
 #include <fmt/format.h>

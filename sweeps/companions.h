@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The files beside a result: which are a sweep's own, and what may not be written over.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Whether a search found its best at an end of what it was given to search.
 #pragma once
 

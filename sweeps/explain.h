@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a sweep leaves out because its scene does not need it, and what that saves: measured there and then, both ways on one sample.
 #pragma once
 

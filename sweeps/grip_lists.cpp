@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "sweeps/grip_lists.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Lists of a sweep's grips, the best first: the sweep's own, and those that `wholehand rank` made of its result.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A NetCDF-4 file that is only read, and by a process of its own.
 #pragma once
 

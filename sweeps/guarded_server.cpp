@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "sweeps/guarded_server.h"
 
 #include <fcntl.h>

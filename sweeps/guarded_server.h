@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The process behind a GuardedFile: it reads the file with the NetCDF library and answers over a socket.
 #pragma once
 

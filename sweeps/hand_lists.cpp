@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "sweeps/hand_lists.h"
 
 #include "shaders/layout.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The best grips of a vessel while a sweep runs, a list for each hand scale.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "sweeps/heat_map.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The best score over height and roll of one vessel's grips, gathered while they are swept.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "sweeps/heat_map_plot.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Heat maps as pictures, drawn by gnuplot.
 #pragma once
 

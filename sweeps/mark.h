@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How far a sweep is, kept beside its partial result file, so that an interrupted one goes on where it stood.
 #pragma once
 

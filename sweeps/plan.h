@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which grips a sweep evaluates: a scene's axes as numbered grips, any of them at once, from any thread.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "sweeps/rank.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The best grips of a result by other weights and under conditions, without another sweep: what `wholehand rank` does.
 #pragma once
 

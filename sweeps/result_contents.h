@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a sweep's result file holds, and its definition as NetCDF-4.
 #pragma once
 

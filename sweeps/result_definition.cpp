@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "sweeps/result_definition.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A NetCDF-4 file while it is defined: dimensions, attributes and variables, every one of them contiguous and in native byte order, so that
 // values can be put in their places later without the library.
 #pragma once

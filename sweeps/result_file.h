@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The result file of a sweep while it is written: chunk by chunk, whole or not there, and never unreadable.
 #pragma once
 

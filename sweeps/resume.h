@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What an earlier sweep left, and whether a new one may go on with it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A sweep from a scene to its files: what `wholehand sweep` does.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Sobol points for sampling grips without a grid: a digital sequence in base 2, shifted by a seed.
 #pragma once
 

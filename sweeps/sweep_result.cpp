@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "sweeps/sweep_result.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A finished result file of a sweep, read back: for what is made of it afterwards.
 #pragma once
 

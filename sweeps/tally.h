@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What is gathered on the host while a vessel's chunks come in.
 #pragma once
 

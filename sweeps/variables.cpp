@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "sweeps/variables.h"
 
 #include <fmt/format.h>

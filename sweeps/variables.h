@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a result file can hold for every grip: the catalogue of variables, and a scene's choice from it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a result file tells of the vessels themselves.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "sweeps/where.h"
 
 #include <fmt/format.h>

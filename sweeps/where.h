@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Conditions on grips as text: "fingers_used >= 4 and palm_depth_mm < 2".
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Threads that are started while no signal reaches them: signals are the business of the threads that were there before. Only a thread's own failure
 // stays with it: while that is blocked, the system ends the process without calling a handler.
 #pragma once

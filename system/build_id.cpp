@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "system/build_id.h"
 
 #include <elf.h>

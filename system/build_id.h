@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which build of the program this is.
 #pragma once
 

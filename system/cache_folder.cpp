@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "system/cache_folder.h"
 
 #include <fmt/format.h>

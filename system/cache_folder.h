@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where the program keeps what it can make again, and how much of it: lattices of meshes in `grids`, compiled pipelines beside that.
 #pragma once
 

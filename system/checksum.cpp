@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "system/checksum.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Checksums of what a sweep wrote: of data in many places of a file, hashed while it is written or when it is read back.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "system/child_process.h"
 
 #include <fcntl.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Another program, fed and waited for, but not for ever.
 #pragma once
 

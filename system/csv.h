@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Cells of CSV files (RFC 4180).
 #pragma once
 

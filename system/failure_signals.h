@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The signals by which a program fails: its own doing, and raised in the thread that did it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "system/folder_files.h"
 
 #include "system/files.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a command writes into a folder that the user names: its own files are replaced, those of others are not.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Pictures by gnuplot: one process for all of them, each whole or not there.
 #pragma once
 

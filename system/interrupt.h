@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Ctrl-C, a terminal that closes and termination as a flag that work looks at between chunks.
 #pragma once
 

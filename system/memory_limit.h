@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The limit that whoever started the process has set on its memory, for messages: where memory is short, it is the likeliest reason.
 #pragma once
 

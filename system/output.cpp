@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "system/output.h"
 
 #include <fcntl.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Standard output and standard error that never stop the work: what cannot be written is lost, and told at the end.
 #pragma once
 

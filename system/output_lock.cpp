@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "system/output_lock.h"
 
 #include <fcntl.h>

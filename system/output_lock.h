@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Who may write a result: one process at a time.
 #pragma once
 

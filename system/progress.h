@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One line on the terminal while long work runs: how much is done, how fast, how long yet.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "system/version.h"
 
 #ifndef WHOLEHAND_VERSION

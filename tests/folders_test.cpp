@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The house's own rules, read from the sources: a folder includes lower floors only, and no two files need each other.
 // sanitizers: none
 #include <gtest/gtest.h>

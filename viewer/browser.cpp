@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/browser.h"
 
 #include <fcntl.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Telling a person where a view is, and opening it on a desktop.
 #pragma once
 

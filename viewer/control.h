@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the page posts, from JSON: docs/view.md.
 #pragma once
 

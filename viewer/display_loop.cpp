@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/display_loop.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a live session shows, at display rate: from the ticks that the recorder's thread hands on to whoever displays them. The haptic thread
 // knows nothing of it.
 #pragma once

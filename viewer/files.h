@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The viewer's page: the files of viewer/ and three.js, embedded by the build (cmake/embed_files.cmake).
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/frame.h"
 
 #include <fmt/format.h>

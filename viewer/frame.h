@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One moment as the viewer sees it, and as the JSON that the page takes; docs/view.md names the fields.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/frame_hub.h"
 
 #include <utility>

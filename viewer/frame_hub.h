@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The newest frame of a live view, from the one who makes them to all who watch.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/grips.h"
 
 #include <fmt/format.h>

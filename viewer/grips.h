@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Grips in the browser: single ones, or the best of a sweep, each at any fill and tilt.
 #pragma once
 

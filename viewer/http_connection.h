@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One connection of a browser, as httplib reads and writes it: with limits on what it may send and how long it may take.
 #pragma once
 

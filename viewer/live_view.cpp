@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/live_view.h"
 
 #include <utility>

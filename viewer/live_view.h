@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A live session in the browser: frames of its moments, and the server that hands them out.
 #pragma once
 

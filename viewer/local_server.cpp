@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/local_server.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // httplib's server for this machine only: so many connections at once and no more, on threads that are there from the start.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/osc_bundle.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Open Sound Control 1.0 (opensoundcontrol.stanford.edu/spec-1_0.html): bundles of messages, as they go into a datagram.
 #pragma once
 

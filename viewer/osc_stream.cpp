@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/osc_stream.h"
 
 #include <arpa/inet.h>

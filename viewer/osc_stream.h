@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A session for engines and patches, as Open Sound Control over UDP: docs/stream.md.
 #pragma once
 

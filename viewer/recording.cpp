@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/recording.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A recorded session in the browser: any moment of it.
 #pragma once
 

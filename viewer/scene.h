@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What of a scene does not change while it is viewed, as the JSON that the page takes; docs/view.md names the fields.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "viewer/serve_view.h"
 
 #include <chrono>

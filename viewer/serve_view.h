@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A view of what does not change by itself.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Serves a view to browsers on this machine: the page, what it shows, and what is done on it. docs/view.md is the protocol.
 #pragma once
 

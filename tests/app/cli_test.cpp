@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The built program: usage errors, exit codes, standard streams. What the commands compute is tested elsewhere.
 // sanitizers: address
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The built program's `rank`, and its lists handed back to grip and report.
 // sanitizers: address
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where the program itself fails: one line and exit code 3, whatever failed and on whatever thread. (A sanitizer has handlers of its own.)
 // sanitizers: none
 #include "app/failure_line.h"

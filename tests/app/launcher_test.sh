@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: MIT
 # The launcher, in a copy of its own with a program of a few lines: it builds, rebuilds, passes things on, and says what is wrong.
 # No network, and nothing is installed: apt-get, dpkg-query, id and sudo are stand-ins where they matter.
 #   launcher_test.sh SOURCE_DIR

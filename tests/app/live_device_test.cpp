@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // `live` with a device whose library fails in every way: forked children that run whole sessions against the stand-in for Force Dimension's SDK, and
 // a log of what it was given that the test shares with them. What is on the device at the end is held to what is said of it.
 // sanitizers: none

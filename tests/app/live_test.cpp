@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a live session tells, and the built program's `live`: options, exit codes, recording, replay, signals, disks that fill up.
 // sanitizers: address thread
 #include "app/live.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The built program on scenes with meshes: what each command says and does, and what it refuses.
 // sanitizers: address
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The whole way of a session through real libraries: hidapi and libusb on devices that umockdev plays, and Force Dimension's interface on its
 // stand-in. What is felt, and what is left on the device when something goes wrong.
 #include "app/open_gripper.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Numbers of a command line.
 #include "app/values.h"
 

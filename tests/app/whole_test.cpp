@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // sanitizers: none (it runs the program)
 // Every grip of the default sweep on either side; the program as a user runs it: a sweep on either side, killed, resumed.
 #include <gtest/gtest.h>

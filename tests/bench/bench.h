@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the benchmarks share. One executable, `./wholehand bench`, made of a file a topic; each figure is a ratio within one run.
 #pragma once
 

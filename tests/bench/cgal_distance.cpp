@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/bench/cgal_distance.h"
 
 #include <CGAL/AABB_face_graph_triangle_primitive.h>

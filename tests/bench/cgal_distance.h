@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Signed distance to a mesh by CGAL's AABB tree, beside which objects/distance.h is measured; only where libcgal-dev is installed.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How fast grips are scored, on the core and on Vulkan.
 #include <fmt/format.h>
 

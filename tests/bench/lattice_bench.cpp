@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Grips on a lattice of distances, as a mesh becomes one: the core on all threads and a device, in turns in one run, so that what else
 // the machine does is the same for both.
 #include <fmt/format.h>

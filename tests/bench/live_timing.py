@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: MIT
 """Wake-up latency and step time of `wholehand live` beside cyclictest (Debian's rt-tests), in turns in one run.
 
     tests/bench/live_timing.py [--rate HZ] [--seconds S] [--rounds N]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What is measured, and how fast. Every figure is a ratio within one run; the absolute ones belong to the machine.
 //   wholehand_bench [--csv FILE] [--on DEVICE] [Google Benchmark's own options]
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The shaders of tests/bench/shaders: embedded in the benchmarks alone.
 #pragma once
 

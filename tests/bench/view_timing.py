@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: MIT
 """What a view costs a session: wake-up latency and step time of `wholehand live` without a view and with 0, 1 and 4 viewers, in turns in one
 run; frames that a viewer gets, and the processor time beyond that of a session without a view.
 

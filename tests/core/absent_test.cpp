@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What may be absent or infinite in planes and what must not, by tampering with good ones, a value at a time.
 #include "core/absent.h"
 

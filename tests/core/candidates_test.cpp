@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "core/candidates.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The inner offset that makes shells and cavities.
 #include "core/sdf.h"
 

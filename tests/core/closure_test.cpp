@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Kernel 3: thumb and index finger close on a line through the vessel, and the hand is placed at them. Cylinders have closed forms.
 #include "core/closure.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Kernel 4: separations, who touches, proxies, depths and bone stretch.
 #include "core/contact.h"
 

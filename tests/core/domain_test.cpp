@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where float is enough: the limits are named, and at them it is.
 // sanitizers: none
 #include "core/domain.h"

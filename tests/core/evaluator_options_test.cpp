@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the evaluator's options cost: each approximation converges as its theory says, the named values change nothing.
 // sanitizers: none
 #include <gtest/gtest.h>

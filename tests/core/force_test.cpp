@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Kernel 7: the leaves against numbers worked out by hand, derivatives and searches; the whole against the specification in long double.
 #include "core/force.h"
 

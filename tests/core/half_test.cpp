@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Halves against the format's own definition.
 // sanitizers: address
 #include "core/half.h"

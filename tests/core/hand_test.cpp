@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Kernel 1: joints against the specification's rotation matrices, the gap and its inverse, hands that are refused.
 #include "core/hand.h"
 

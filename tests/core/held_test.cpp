@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Kernel 7 in the hand is kernel 7 of a sweep: one piece, asked both ways.
 // sanitizers: address
 #include "core/held.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Kernel 6 against closed forms and against the same volumes integrated another way round (tests/support/liquid_reference.h).
 #include "core/liquid.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The core in double against the same core in long double: what double precision itself costs.
 // sanitizers: none
 #include <gtest/gtest.h>

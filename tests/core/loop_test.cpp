@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The sampled haptic loop: its plant against closed forms, its limits against theory and published figures.
 // sanitizers: address
 #include "core/loop.h"

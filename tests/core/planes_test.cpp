@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which planes a field has, where they stand, and how a grip is read back from them.
 #include "core/planes.h"
 

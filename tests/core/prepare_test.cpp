@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the kernels are given: outlines split where y turns, the hand's frames, Gauss-Legendre points; and what is refused.
 #include "core/prepare.h"
 

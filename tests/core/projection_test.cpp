@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Kernel 5: middle, ring and little finger come to rest on the vessel. The poses are compared with a simulation of the
 // specification by dense sampling and bisection: nothing in it advances conservatively.
 #include "core/projection.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Scores: every term at its ends, the weights, and whole scores against states evaluated one by one; planes against single grips.
 #include "core/score.h"
 

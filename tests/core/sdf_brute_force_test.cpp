@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Kernel 2: the signed distance of solids and shells against brute force over sampled outlines.
 #include "core/sdf.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Kernel 2 on a lattice of samples in place of the outline.
 #include "core/sdf.h"
 

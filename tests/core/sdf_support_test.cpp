@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Kernel 2: what surrounds a point, how far it may go without passing a surface.
 #include "core/sdf.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Kernel 2: the signed distance in closed form, its gradient against differences, crossings, and the elements of an outline.
 #include "core/sdf.h"
 

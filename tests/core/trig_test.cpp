@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Sine, cosine, arc cosine and the angle between unit vectors, against the standard library in long double.
 #include "core/trig.h"
 

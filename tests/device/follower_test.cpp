@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Going after a goal: against the closed forms of a critically damped spring, and its bound on speed against every goal there is.
 // sanitizers: address
 #include "device/follower.h"

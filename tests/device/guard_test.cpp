@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The guard: each fault injected, each limit looked at tick by tick against its own definition.
 // sanitizers: address
 #include "device/guard.h"

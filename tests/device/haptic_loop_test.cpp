@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The loop around a session: every fault injected into it, the force that is written then, its clock, and what it does to the energy of a
 // device that is pressed against a wall.
 // sanitizers: address thread

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Open grippers over HID, end to end: hidapi on hidraw nodes that umockdev answers for.
 #include "device/hid_gripper.h"
 

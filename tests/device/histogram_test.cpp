@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Percentiles against those of the sorted times themselves.
 // sanitizers: address
 #include "device/histogram.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // omega.7 and sigma.7 against a stand-in for Force Dimension's SDK, and what is said where there is none.
 #include "device/omega_gripper.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // When the program itself fails: forked children that fail in every way, and a gripper that logs to memory shared with the test. (A sanitizer has
 // handlers of its own.)
 // sanitizers: none

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The wire format of open grippers: round trips, every way to be wrong, and docs/gripper-protocol.md byte for byte.
 #include "device/protocol.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The haptic thread's scheduling and locked memory: what is told is what is so.
 // sanitizers: none
 #include "device/realtime.h"

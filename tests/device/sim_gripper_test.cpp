@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The simulated user in simulated time: whole sessions, everything up to the wire.
 // sanitizers: address
 #include "device/sim_gripper.h"

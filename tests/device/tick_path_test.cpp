@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Nothing but work on the tick path: no allocation, no lock, no system call besides the clock's and the device's own. Everything between
 // the calls of the device is watched, from the first touch to the slip.
 // sanitizers: none

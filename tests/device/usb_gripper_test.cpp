@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Open grippers over USB, end to end: libusb on device nodes that umockdev answers for.
 #include "device/usb_gripper.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The tail of the binomial distribution, and how many accidents a share of them explains.
 // sanitizers: address
 #include "evidence/binomial.h"

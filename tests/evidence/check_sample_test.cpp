@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which grips a check looks at.
 // sanitizers: address
 #include "evidence/check_sample.h"

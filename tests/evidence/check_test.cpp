@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // sanitizers: none
 #include "evidence/check.h"
 

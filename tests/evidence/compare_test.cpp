@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the comparison of two evaluations lets pass and what it must not: answers that were tampered with, one number at a time.
 // sanitizers: address
 #include "evidence/compare.h"

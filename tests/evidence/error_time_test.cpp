@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The tables of error against run time: what is compared and counted, that it is the same each time, and the command.
 // sanitizers: none
 #include "evidence/error_time.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The scenes of scene/extreme: each says what makes it hard and what must come out, and that comes out.
 // sanitizers: none
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Nothing but loops.
 // sanitizers: none
 #include "evidence/gains.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The whole report, as a user asks for it.
 // sanitizers: none
 #include "evidence/stability.h"

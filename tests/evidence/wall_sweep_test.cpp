@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Maps of rendered walls against the theory that is drawn over them.
 // sanitizers: none
 #include "evidence/wall_sweep.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The leaf functions of loop and force with raw numbers: whatever is finite and within the ranges that their callers promise, the answers are
 // finite (an infinite hold force where nothing can hold apart), forces are within their limits, and friction never adds energy.
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Whatever a file holds, it is read as a recording and reported on, or refused: Error, with one line, is all that may come out.
 #include <sys/mman.h>
 #include <unistd.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Gives every file of a folder to a fuzz target, once: `replay FOLDER`. Fails where there is none.
 #include <cstddef>
 #include <cstdint>

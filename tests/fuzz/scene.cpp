@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Whatever the text, a scene is read or refused: Error, with one line, is all that may come out.
 #include <cstddef>
 #include <cstdint>

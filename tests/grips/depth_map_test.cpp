@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The raster of a view: how near, how far it reaches, and its borders.
 #include "grips/depth_map.h"
 

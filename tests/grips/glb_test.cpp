@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A grip as glTF, opened again by tinygltf: nodes, places, bounds, the liquid's volume, and what the extras tell.
 // sanitizers: address
 #include "grips/glb.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Line drawings of meshes: contours where they are by closed forms, what is hidden left out, and never too many points.
 #include "grips/mesh_lines.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Normals of mesh vessels: smooth where the surface is, split where it is sharp.
 #include "grips/mesh_surface.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Meshes of glass, liquid and bones: closed, outward, of the right size, and converging with the square of the step.
 // sanitizers: address
 #include "grips/mesh.h"

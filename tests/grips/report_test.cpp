@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One grip's report: the JSON's form, which fields exist, and that both ways to an answer agree.
 #include "grips/report.h"
 

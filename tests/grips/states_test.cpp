@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a drawing tells of a point, and when there is nothing to draw.
 // sanitizers: address
 #include "grips/states.h"

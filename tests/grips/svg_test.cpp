@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A grip as a line drawing: well-formed, to scale, and every view shows what it should.
 // sanitizers: address
 #include "grips/svg.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The backend around the kernels: ways of moving data, pipelines that are made side by side, what goes to the core instead. What the kernels
 // compute is compared in tests/shaders/parity_test.cpp.
 // sanitizers: address thread

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // sanitizers: address
 #include "host/kernel.h"
 

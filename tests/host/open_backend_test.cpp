@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "host/open_backend.h"
 
 #include <gtest/gtest.h>

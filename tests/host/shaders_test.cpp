@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The shaders that the binaries carry: every variant there, in order, and each valid by spirv-val's judgement.
 // sanitizers: none
 #include "host/shaders.h"

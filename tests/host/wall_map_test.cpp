@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Many rendered walls at once against the core's, one by one.
 // sanitizers: none
 #include "host/wall_map.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The whole hand as it is seen live: the hand of the grip that the session holds, outside of every glass, without jumps; the liquid's surface
 // and the stream by closed forms.
 // sanitizers: address

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // sanitizers: address thread
 #include "live/newest.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Liquid that runs, falls and arrives: against closed forms, and its sum at every tick.
 // sanitizers: address
 #include "live/pouring.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Proxies of the tracked tips: against closed forms and brute force, under friction, and on long walks among vessels, where no wall may be
 // crossed.
 // sanitizers: none

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A live session as a whole: its states, the forces before and after the grasp against closed forms and against a sweep, what pours, and that
 // the same states give the same forces.
 // sanitizers: address

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where vessels are while a session tells of one at a time.
 // sanitizers: address
 #include "live/vessel_tracker.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // From the gripper's own frame to the hand in the world and back.
 // sanitizers: address
 #include "live/workspace.h"

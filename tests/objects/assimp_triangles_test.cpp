@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // STL, OBJ and PLY files: the same triangles as glTF, or one line about why not.
 #include "objects/assimp_triangles.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // sanitizers: address
 // (Embree starts workers that the thread sanitizer cannot see into, and then reports what they were given.)
 // Lattices of meshes on the disk: the same again to the bit, made anew where a file is not what it should be, and never in the way.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What is said of a mesh before it is used.
 #include "objects/check.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // sanitizers: address
 // (Embree starts workers that the thread sanitizer cannot see into, and then reports what they were given.)
 // Distances to meshes against closed forms and the outline's own, and the side of a million points.

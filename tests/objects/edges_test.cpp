@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Edges of bodies: each once, with what lies on both sides, and where they are sharp.
 #include "objects/edges.h"
 

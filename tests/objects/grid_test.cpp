@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // sanitizers: address
 // (Embree starts workers that the thread sanitizer cannot see into, and then reports what they were given.)
 // Lattices of distances to meshes: what lies in them, how far they err, and when they are refused.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Holes: loops of open edges, their size, and what closes them.
 #include "objects/holes.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What glTF files become: triangles where they should be, or one line about why not.
 #include "objects/mesh.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Vessels from mesh files: what is read, what the kernels make of it, and what is refused.
 // sanitizers: none (sampling its meshes would be most of a sanitized run; mesh_commands_test goes the same way)
 #include "objects/vessel.h"

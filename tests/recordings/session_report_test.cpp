@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Sessions made up from known courses: every number of the report is known beforehand.
 // sanitizers: address
 #include "recordings/session_report.h"

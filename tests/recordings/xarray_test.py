@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Opens a recording with xarray and selects by name, as its users do: xarray_test.py RECORDING.nc VESSEL"""
 
 import sys

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The file's numbers beside the core's: what is right holds in either precision, and every wrong number is found.
 // sanitizers: address
 #include "report/agreement.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The page in headless Chromium: at the widths of a phone and of a desk, light, dark and on paper.
 // sanitizers: none
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Runs in a copy of a report, at its end, and leaves what it finds as lines in an attribute: an empty one where all is well.
 (() => {
   const page = document.documentElement;

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Forces over the tilt and pouring: the core's numbers, and a sentence for each thing that a scene does not have.
 // sanitizers: address
 #include "report/forces.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The best grips: their numbers, their drawings cut out of the whole one, and what is said where there are none.
 // sanitizers: address
 #include "report/grips.h"

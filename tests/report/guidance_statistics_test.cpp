@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Correlations against closed forms and sums in long double; distances from guidance points against geometry.
 // sanitizers: address
 #include "report/guidance_statistics.h"

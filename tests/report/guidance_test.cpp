@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Touching over the distance from guidance points: the file's grips by the core's contacts.
 // sanitizers: address
 #include "report/guidance.h"

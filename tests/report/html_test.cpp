@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Markup that cannot be broken by what is written into it.
 // sanitizers: address
 #include "report/html.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Maps against the file's values gone through one by one, and what is said where the file lacks some.
 // sanitizers: address
 #include "report/maps.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The whole page of many kinds of sweeps: well-formed, self-contained, and with a word for everything that is not there.
 // sanitizers: address
 #include "report/page.h"

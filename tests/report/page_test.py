@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Reads a report as strictly as XML is read and checks how it is built: page_test.py PAGE.html"""
 
 import sys

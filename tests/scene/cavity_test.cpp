@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a vessel of a scene file holds: wall_mm with floor_mm, inner outlines, and volumes of liquid.
 #include <fmt/format.h>
 #include <gtest/gtest.h>

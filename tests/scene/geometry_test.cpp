@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Plane geometry of outlines: against closed forms and dense sampling.
 #include "scene/geometry.h"
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "scene/list.h"
 
 #include <gtest/gtest.h>

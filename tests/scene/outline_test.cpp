@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Vessels' outlines: shapes that become outlines, and what an outline must hold.
 #include <gtest/gtest.h>
 

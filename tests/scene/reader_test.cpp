@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Scene files: every key, every default, the shipped scenes.
 #include "scene/reader.h"
 

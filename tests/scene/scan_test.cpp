@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Text from anywhere: what would end the TOML parser or the program is refused like everything else.
 #include "scene/scan.h"
 

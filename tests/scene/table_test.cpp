@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What scene files are refused for, table by table, with the place to which the refusal points.
 #include "scene/table.h"
 

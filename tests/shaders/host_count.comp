@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #version 450
 // Adds one to a counter per invocation.
 layout(local_size_x = 64) in;

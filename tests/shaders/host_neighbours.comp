@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #version 450
 // out[i] = weights.x * in[i - 1] + weights.y * in[(i + 1) mod count]: reads what other invocations of the step before wrote.
 #if REAL_IS_DOUBLE

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #version 450
 // out[i] = FACTOR * in[i] + OFFSET, out[stride + i] = index of the item, in the first `count` invocations.
 #if REAL_IS_DOUBLE

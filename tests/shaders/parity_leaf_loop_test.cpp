@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Leaf functions of loop.glsl against the core's (tests/support/leaf_parity.h).
 // sanitizers: none
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Leaf functions of sdf.glsl that work on one element of an outline or on one cell of a lattice, and those of contact.glsl, against the
 // core's (tests/support/leaf_parity.h). What is made of them is in parity_leaf_test.cpp.
 // sanitizers: none

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Every leaf function of the shaders against the core's (tests/support/leaf_parity.h); those of sdf.glsl's elements and lattice and of
 // contact.glsl's proxies are in parity_leaf_sdf_test.cpp.
 // sanitizers: none

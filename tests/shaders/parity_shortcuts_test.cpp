@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Shortcuts change nothing on the way of a grip on a device: how the outline is read, what is left out, what is selected, chunks, faults.
 // sanitizers: none
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A probe evaluates one leaf function (probe_table.h) per invocation: rows of push.stride numbers in, of push.number numbers out.
 #ifndef PROBE_GLSL
 #define PROBE_GLSL

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Leaf functions of sdf.glsl and contact.glsl.
 #version 460
 #extension GL_GOOGLE_include_directive : require

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The shaders of this folder, which evaluate one leaf function on a table: embedded in the tests, not in the product.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Which leaf function a probe evaluates, and how many numbers it takes and gives: read by the probe shaders and by the tests.
 #ifndef WHOLEHAND_PROBE_TABLE_H
 #define WHOLEHAND_PROBE_TABLE_H

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The search of tests/core/search_test.cpp on a device.
 // sanitizers: none
 #include <gtest/gtest.h>

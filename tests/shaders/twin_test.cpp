@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The twins core/<stem>.cpp and shaders/<stem>.glsl hold the same functions, in the same order, with the same parameters.
 // sanitizers: none
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a test sets and sees of the stand-in for Force Dimension's SDK (libdhd.cpp), which it finds by the symbol `stand_in_dhd`.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/support/adversarial.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Grips that look for trouble: at the ends of every range, on features of a vessel and a rounding beside them, along its axis, of the
 // smallest numbers there are; and others drawn from all of the range.
 #pragma once

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // How often this thread asks for memory: for what must not. Only in programs without sanitizers, which have a malloc of their own.
 #pragma once
 

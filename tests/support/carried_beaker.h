@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A short session for whatever carries it: a gripper closes on a beaker, lifts it, tilts it and lets go.
 #pragma once
 

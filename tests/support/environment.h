@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a process inherits, changed for the length of a test: environment variables, the limit on file sizes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Stand-ins for the kernels: cheap values that depend on every bit of a grip, so that a grip in the wrong place is seen.
 #pragma once
 

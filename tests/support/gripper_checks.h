@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What every open gripper must do, whatever carries its reports: each check opens a mock through the transport under test.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A browser that does as it likes: plain sockets, not the library that serves.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The core's leaf functions behind rows of plain doubles, in either precision: what the probes of tests/shaders are compared with.
 #pragma once
 

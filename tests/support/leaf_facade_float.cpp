@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The facade once more, over the core in float.
 #define REAL float
 #define CORE_NS core_f32

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/support/leaf_parity.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Leaf functions of the shaders beside the core's, on tables of inputs and in both precisions: the same inputs, rounded to that precision,
 // through a probe shader and through the core compiled with it.
 //

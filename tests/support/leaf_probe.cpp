@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/support/leaf_probe.h"
 
 #include <algorithm>

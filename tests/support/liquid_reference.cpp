@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/support/liquid_reference.h"
 
 #include <algorithm>

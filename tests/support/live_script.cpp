@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/support/live_script.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Bodies of triangles whose distance is known, and glTF files of them.
 #pragma once
 

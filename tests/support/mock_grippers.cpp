@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/support/mock_grippers.h"
 
 #include <fcntl.h>

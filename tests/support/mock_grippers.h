@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Open grippers that are not there: the device's side of docs/gripper-protocol.md over umockdev, so that hidapi and libusb find and use them
 // as they would real ones. They show what is done, not how fast: a call into umockdev takes up to a millisecond.
 //

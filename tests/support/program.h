@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The built program, run in a shell.
 #pragma once
 

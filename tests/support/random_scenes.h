@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Scenes of every kind that a scene file can describe, drawn by chance: what nobody thought of.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/support/result_reader.h"
 
 #include <gtest/gtest.h>

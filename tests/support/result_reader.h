@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Result files as tests read them back, and folders to put them in.
 #pragma once
 

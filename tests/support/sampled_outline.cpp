@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/support/sampled_outline.h"
 
 #include <algorithm>

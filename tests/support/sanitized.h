@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Whether a sanitizer watches: every access costs some twenty times as much, and a test may then look at less.
 #pragma once
 

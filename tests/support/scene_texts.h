@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Scene files in tests, and what they are refused for.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the tests are run on: vessels, hands and scenes built in C++ (no file, no reader), the same made ready for the core in
 // double precision, sampled grips, and the hand by rotation matrices: the specification read a second time.
 #pragma once

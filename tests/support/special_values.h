@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Numbers that are none.
 #pragma once
 

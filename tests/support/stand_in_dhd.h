@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The stand-in for Force Dimension's SDK as a test holds it.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/support/sweep_results.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Result files of real sweeps, small and without their companions.
 #pragma once
 

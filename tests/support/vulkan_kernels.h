@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Kernels of tests/shaders for the tests of host/.
 #pragma once
 

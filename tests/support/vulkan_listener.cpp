@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/support/vulkan_listener.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The validation layer in every test: a message fails the test that caused it. Including this header in one file of a test
 // executable installs it there.
 #pragma once

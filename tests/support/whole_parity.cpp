@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "tests/support/whole_parity.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Whole grips on a device against the core: scenes, grips and what is done with their planes.
 #pragma once
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The best grips of a sweep as glTF: which files there are, and what is in them.
 // sanitizers: address
 #include "sweeps/best_glb.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "sweeps/closing.h"
 
 #include <gtest/gtest.h>

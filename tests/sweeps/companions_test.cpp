@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What lies beside a result is written over only where a sweep wrote it.
 #include "sweeps/companions.h"
 

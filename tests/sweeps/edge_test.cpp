@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Best grips at the ends of the axes: which axes are named, and where an end is none.
 // sanitizers: address
 #include "sweeps/edge.h"

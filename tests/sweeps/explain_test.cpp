@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a sweep says it leaves out: each part that a scene lacks has its line, with bytes that are what the fields take, and no line is there
 // for what the scene has.
 // sanitizers: none

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Damaged files, and names that look like addresses: whatever a file says, reading it costs at most one line.
 // sanitizers: address
 #include "sweeps/guarded_file.h"

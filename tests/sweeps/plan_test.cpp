@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "sweeps/plan.h"
 
 #include <gtest/gtest.h>

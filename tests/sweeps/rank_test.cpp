@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Grips ranked anew from a result: against every grip of the file gone through one by one.
 // sanitizers: address
 #include "sweeps/rank.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "sweeps/result_contents.h"
 
 #include <gtest/gtest.h>

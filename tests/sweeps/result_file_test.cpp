@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "sweeps/result_file.h"
 
 #include <fcntl.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "sweeps/sobol.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Result files read back: every value in its place, and whatever is no finished result of its own scene refused in one line.
 // sanitizers: address
 #include "sweeps/sweep_result.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "sweeps/vessel_facts.h"
 
 #include <gtest/gtest.h>

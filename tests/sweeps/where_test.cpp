@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Conditions on grips: what they mean, and where the wrong ones are told to be wrong.
 // sanitizers: address
 #include "sweeps/where.h"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Opens a result file as its users do, with xarray, and checks that it explains itself: xarray_test.py RESULT.nc"""
 
 import sys

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // No signal reaches threads that are started while it is there, whatever becomes of the start.
 // sanitizers: address
 #include "system/block_signals.h"

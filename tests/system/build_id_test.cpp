@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The build's own hash, against what binutils reads from the file.
 #include "system/build_id.h"
 

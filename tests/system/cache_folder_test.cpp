@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // sanitizers: address
 // Where the cache is, and its bound: what counts, what goes first, and what never goes.
 #include "system/cache_folder.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 #include "system/csv.h"
 
 #include <gtest/gtest.h>

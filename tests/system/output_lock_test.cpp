@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // One writer of a result at a time, whatever became of the one before.
 #include "system/output_lock.h"
 

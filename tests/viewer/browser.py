@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """A headless Chromium that a test drives: DevTools' protocol over its pipe, with nothing but Python's standard library.
 
     with Browser() as browser:

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the page posts: every control that is one, and every way in which a request is none.
 // sanitizers: address
 #include "viewer/control.h"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """The page as the gripper: by sliders, keys, pointer and touch."""
 
 from support import ViewerTest, main, slide, still

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What a session shows at display rate: the newest tick, each once, the last one always.
 // sanitizers: address thread
 #include "viewer/display_loop.h"

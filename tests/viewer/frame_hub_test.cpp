@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Frames from one who makes them to many who watch.
 // sanitizers: address thread
 #include "viewer/frame_hub.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Frames and scenes of a view as the page gets them: every field of docs/view.md, with its unit and frame, against the ticks that they come from.
 // sanitizers: address
 #include "viewer/frame.h"

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """Grips in the viewer: one of `grip --view`, the best of a sweep; what is drawn against `grip --json`."""
 
 import json

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Bundles of OSC 1.0: against the specification's own examples byte by byte, and against liblo, which reads them its own way.
 // sanitizers: address
 #include "viewer/osc_bundle.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A session as OSC: every frame against the ticks it was made of, read by liblo, which has no part in sending it; and what happens where nobody
 // listens.
 // sanitizers: address

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """The page for everyone: every width, dark mode, reduced motion, the keyboard alone, a reader of the screen, a server that is gone."""
 
 from support import ViewerTest, color_at, main, still, wholehand

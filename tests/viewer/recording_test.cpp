@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A recording as the viewer shows it: at any moment what was recorded then.
 // sanitizers: address
 #include "viewer/recording.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The viewer's server against a browser of our own: who gets in, what is there, and what becomes of those who send too much, too slowly, or stop
 // reading. With viewer/local_server and viewer/http_connection, which it is made of.
 // sanitizers: address thread

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """A live session in the viewer, from reach to return; then the same session as a recording, played and scrubbed."""
 
 import os

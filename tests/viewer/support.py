@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 """What the viewer's tests share: the program with its view, places on the screen worked out anew, pictures."""
 
 import json

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Lines over time, or over the tilt: forces, the force that holding needs, the tilt. Each row has its own scale; each line its name at its end.
 import {element, feltForce, isNumber} from './format.js';
 import {cssColor, onThemeChange} from './theme.js';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The page as the gripper: drag the hand, close it, tilt it. What it sends is where the hand is to be in the world (docs/view.md).
 import {Matrix4, Quaternion, Vector3} from './three.module.js';
 import {degrees, element, millimetres} from './format.js';

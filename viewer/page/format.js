@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Numbers as people read them, and elements from a few words. A number that does not exist is a dash.
 
 const DASH = '–';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Held keys: what a key does goes on evenly while it is held, picture by picture, however the keyboard repeats; it ends with the key, or where the
 // window loses the focus, whose keys are then let go unheard.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The best grips of a sweep, or one grip: a list with the terms of the score, sliders for tilt and fill, and the forces over the tilt.
 import {degrees, element, fixed, millimetres} from './format.js';
 import {record} from './charts.js';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The hand as it is drawn: skin, shadow, and the ghost of the rigged hand.
 import * as THREE from './three.module.js';
 import {ARM_LITTLE, ARM_THUMB, BALLS, flats, HAND_SHADER, handGeometry, JOINTS, WEB, WEBS, WRIST_LITTLE, WRIST_THUMB} from './hand_shape.js';

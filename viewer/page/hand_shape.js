@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The hand's surface: balls about the joints, cones between them that touch both balls, and the skin of the palm over the balls in it. All of it is
 // written once in terms of which balls a vertex belongs to; where the balls are is told to the shader, so that a moving hand costs a few
 // numbers a picture.

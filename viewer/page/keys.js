@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Keys, and the help that lists them. A key acts wherever the focus is, but in fields that need it themselves. A binding has `act`, for each press and,
 // unless `once`, each repeat; or `glide`, for as long as the key is held.
 import {element} from './format.js';

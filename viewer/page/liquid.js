@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Liquid in a vessel. Its body is the cavity's wall, of which the shader leaves out what is above the level; its surface is a flat piece, of which the
 // shader leaves out what is outside the cavity. So a tilt or a pour costs a few numbers a picture, never a new geometry.
 import * as THREE from './three.module.js';

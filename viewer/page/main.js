@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Brings the parts together: loads the scene, makes the picture and the numbers, and feeds them with frames. What a test may ask for is
 // window.wholehand (docs/view.md).
 import {Charts, record, SPAN} from './charts.js';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Surfaces from meshes: smooth where neighbours lie almost in one plane, with an edge where they do not.
 import {BufferAttribute, BufferGeometry} from './three.module.js';
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The camera: turns about a point, comes closer, moves aside; by pointer, touch, wheel and keys. Angles in rad, lengths in m.
 import {PerspectiveCamera, Vector3} from './three.module.js';
 import {stillMode} from './theme.js';

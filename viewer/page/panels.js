@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The numbers beside the picture: state, hand, forces, amounts, loop; and the legend of the contact points.
 import {askedForce, degrees, element, feltForce, fixed, isNumber, millilitres, millimetres, setText, whole} from './format.js';
 import {CONTACTS, liquidColor} from './theme.js';

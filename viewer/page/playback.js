@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Playing a recording: play, pause, scrub, speed, and a strip that shows its states.
 import {clock} from './format.js';
 import {cssColor, onThemeChange} from './theme.js';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What pours: the stream through the air, the target container that fills, and the place where a vessel is to be carried.
 import * as THREE from './three.module.js';
 import {LEAST_SEEN, Liquid} from './liquid.js';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Half sections of vessels, [r, y] in m: looked up, rounded where glass would be, and turned into surfaces of revolution.
 import {BufferGeometry, Float32BufferAttribute} from './three.module.js';
 

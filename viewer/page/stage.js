@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // The stage: renderer, light, table, and when to draw. Nothing is drawn while nothing changes.
 import * as THREE from './three.module.js';
 import {Orbit} from './orbit.js';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Where frames come from: the server's stream of a live session, stretches of a recording, states of a grip.
 import {isNumber} from './format.js';
 

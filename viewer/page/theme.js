@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What the reader's system asks for, and every colour. Contact states and lines are told apart by hue and lightness as Okabe and Ito chose
 // them for all kinds of colour vision, and by a shape or a dash beside it.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Vessels: translucent glass with its wall, where they stand, and the shade under them.
 import * as THREE from './three.module.js';
 import {GLASS_SAMPLES, open, revolve, rounded, sample} from './profile.js';

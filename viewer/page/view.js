@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // A frame as a picture: puts hand, marks, vessels, liquids and stream where a frame says, and looks at them.
 import * as THREE from './three.module.js';
 import {Hand} from './hand.js';

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // Distances along rays as sphere tracing would ask for them, the lattice read in several ways. Each invocation goes along one ray in steps
 // that shrink towards its end; the points are the same for every way, and neighbouring invocations have neighbouring rays.
 #version 460

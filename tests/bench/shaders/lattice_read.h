@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: MIT
 // What lattice_read.comp and image_bench.cpp agree on.
 #ifndef WHOLEHAND_LATTICE_READ_H
 #define WHOLEHAND_LATTICE_READ_H
