@@ -3,18 +3,15 @@
 #include "core/evaluator.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "core/grip.h"
-#include "core/held.h"
 #include "core/load.h"
 #include "core/mesh_body.h"
 #include "core/mirror.h"
 #include "core/prepare.h"
-#include "core/score.h"
+#include "core/scene_states.h"
 #include "core/trig.h"
 
 namespace CORE_NS {
@@ -42,17 +39,6 @@ Vec3 to_vec(const Triple& t) { return Vec3(Real(t[0]), Real(t[1]), Real(t[2])); 
 
 Triple to_triple(Vec3 v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
 
-// A vessel with everything about it that no grip changes.
-struct VesselEntry {
-  Vessel vessel;
-  ForceScale force;
-  Load largest;             // upright at the largest fill, for the torque's reference
-  Real largest_share = 0;   // of the liquid in its mass
-  std::vector<Load> loads;  // fill-major over the tilts
-  std::vector<LiquidResult> liquids;
-  std::optional<wholehand::PreparedGrid> grid;
-};
-
 Limits limits_of(const wholehand::EvaluatorOptions& options) {
   Limits limits;
   if (options.stop_tolerance > 0) limits.stop_tolerance = Real(options.stop_tolerance);
@@ -62,18 +48,38 @@ Limits limits_of(const wholehand::EvaluatorOptions& options) {
   return limits;
 }
 
+bool is_antipodal(const GripAnswer& answer) { return (answer.status & STATUS_ANTIPODAL) != 0; }
+bool is_plausible(const GripAnswer& answer) { return (answer.status & STATUS_PLAUSIBLE) != 0; }
+// From here on there are a gap and a midpoint.
+bool has_closed(const Closing& closing) { return closing.reason == REASON_NONE || closing.reason >= REASON_TOO_WIDE; }
+
+// One grip's place in the planes.
+struct PlaneRow {
+  const FieldSet& fields;
+  std::size_t stride;
+  double* reals;
+  std::uint32_t* uints;
+
+  void clear() const {
+    for (int p = 0; p < fields.real_planes; ++p) reals[p * stride] = NOT_A_NUMBER;
+    for (int p = 0; p < fields.uint_planes; ++p) uints[p * stride] = 0;
+  }
+  void put(int field, int k, Real value) const {
+    if (fields.has(field)) reals[(fields.plane[field] + k) * stride] = static_cast<double>(value);
+  }
+  void put_mask(int field, std::uint32_t value) const {
+    if (fields.has(field)) uints[fields.plane[field] * stride] = value;
+  }
+};
+
 class CoreEvaluator final : public wholehand::Evaluator {
  public:
   CoreEvaluator(const Scene& scene, const wholehand::EvaluatorOptions& options)
       : scene_(scene),
         hand_(
             load_hand(wholehand::prepare_hand(scene.hand, options.gap_table > 0 ? options.gap_table : GAP_TABLE_SIZE), scene.hand)),
-        quadrature_(load_quadrature(wholehand::prepare_quadrature(options.quadrature_points))) {
-    for (const double tilt : scene.tilts) {
-      // a half turn's sine is 1e-16 in double: taken as it is, the kernels treat it as upright or inverted
-      tilt_sine_.push_back(sine(Real(tilt)));
-      tilt_cosine_.push_back(cosine(Real(tilt)));
-    }
+        quadrature_(load_quadrature(wholehand::prepare_quadrature(options.quadrature_points))),
+        states_(scene_) {
     hand_.limits = limits_of(options);
     const bool with_liquid = scene.liquid.has_value();
     for (const auto& data : scene.vessels) {
@@ -104,13 +110,13 @@ class CoreEvaluator final : public wholehand::Evaluator {
     result.trace_steps = closing.steps;
     result.advance_steps = answer.advance_steps;
     result.reason = static_cast<wholehand::Reason>(closing.reason);
-    if (closing.reason == REASON_NONE || closing.reason >= REASON_TOO_WIDE) {
+    if (has_closed(closing)) {
       result.gap = closing.gap;
       result.midpoint = back(closing.midpoint);
     }
     if (closing.reason != REASON_NONE) return;
-    result.plausible = (answer.status & STATUS_PLAUSIBLE) != 0;
-    result.antipodal = (answer.status & STATUS_ANTIPODAL) != 0;
+    result.plausible = is_plausible(answer);
+    result.antipodal = is_antipodal(answer);
     result.grazing = closing.grazing;
     result.contact_angles = {static_cast<double>(closing.thumb_angle), static_cast<double>(closing.index_angle)};
     result.closure = closing.closure;
@@ -152,12 +158,9 @@ class CoreEvaluator final : public wholehand::Evaluator {
   StateResult state(std::size_t v, const GripInput& input, const GripResult& result, const LiquidResult& liquid, double tilt,
                     double opening) const override {
     const VesselEntry& entry = entries_[v];
-    const GripInput grip = wholehand::mirrored(input, scene_.hand.handedness);
-    const Vec3 direction = grip_direction(Real(grip.azimuth), Real(grip.obliquity));
-    const Vec3 midpoint = to_vec(wholehand::mirrored(result.midpoint, scene_.hand.handedness));
     const Load load = load_of(entry, liquid);
-    const HeldForces forces =
-        force_state(entry, direction, midpoint, result.antipodal, load, sine(Real(tilt)), cosine(Real(tilt)), Real(opening));
+    const TiltAngle angle{sine(Real(tilt)), cosine(Real(tilt))};
+    const HeldForces forces = states_.forces(entry, pinch_of(input, result), load, angle, Real(opening));
     StateResult state;
     state.mass = load.mass;
     state.center_of_mass = wholehand::mirrored(to_triple(forces.center), scene_.hand.handedness);
@@ -174,92 +177,32 @@ class CoreEvaluator final : public wholehand::Evaluator {
     GripScore score;
     const VesselEntry& entry = entries_[v];
     if (result.reason != wholehand::Reason::none) return score;
-    const GripInput grip = wholehand::mirrored(input, scene_.hand.handedness);
-    const Vec3 direction = grip_direction(Real(grip.azimuth), Real(grip.obliquity));
-    const Vec3 midpoint = to_vec(wholehand::mirrored(result.midpoint, scene_.hand.handedness));
-    for (std::size_t fill = 0; fill < (tilt_sine_.empty() ? 0 : wholehand::scene_fills(scene_)); ++fill)
-      score.fills.push_back(fill_terms(entry, fill, direction, midpoint, result.antipodal, nullptr));
-    Real largest_feedback = 0, largest_hold = 0;
-    for (const FillTerms& terms : score.fills) {
-      largest_feedback = std::max(largest_feedback, Real(terms.peak_force));
-      largest_hold = std::max(largest_hold, Real(terms.largest_hold));
+    const Pinch pinch = pinch_of(input, result);
+    LargestForces largest;
+    for (std::size_t fill = 0; fill < states_.fills(); ++fill) {
+      score.fills.push_back(states_.fill_terms(entry, fill, pinch, [](std::size_t, const HeldForces&) {}));
+      largest.add(score.fills.back());
     }
-    const auto terms = score_terms(result.used_mask, result.touch_mask, Real(result.phalanx_depth), Real(result.palm_depth),
-                                   Real(result.closure), largest_feedback, largest_hold, entry.force.max);
+    const ScoredHand hand{result.used_mask, result.touch_mask, Real(result.phalanx_depth), Real(result.palm_depth),
+                          Real(result.closure)};
+    const auto terms = states_.score_terms(hand, largest, entry.force.max);
     score.terms = {terms[0], terms[1], terms[2], terms[3], terms[4], terms[5]};
-    score.score = result.plausible ? weighted(terms) : 0;
+    score.score = result.plausible ? states_.weighted(terms) : 0;
     return score;
   }
 
   void planes(std::size_t v, const GripInput* grips, std::size_t count, const FieldSet& fields, std::size_t stride, double* reals,
               std::uint32_t* uints) const override {
-    const VesselEntry& entry = entries_[v];
     const Wanted wanted{fields.has(FIELD_JOINTS), fields.has(FIELD_PROXIES) || fields.has(FIELD_BONE_STRETCH)};
     GripAnswer answer;
     for (std::size_t i = 0; i < count; ++i) {
-      for (int p = 0; p < fields.real_planes; ++p) reals[p * stride + i] = NOT_A_NUMBER;
-      for (int p = 0; p < fields.uint_planes; ++p) uints[p * stride + i] = 0;
-      const auto put = [&](int field, int k, Real value) {
-        if (fields.has(field)) reals[(fields.plane[field] + k) * stride + i] = static_cast<double>(value);
-      };
-      const auto put_mask = [&](int field, std::uint32_t value) {
-        if (fields.has(field)) uints[fields.plane[field] * stride + i] = value;
-      };
+      const PlaneRow row{fields, stride, reals + i, uints + i};
+      row.clear();
       evaluate(v, grips[i], wanted, answer);
-      const Closing& closing = answer.closing;
-      put_mask(FIELD_STATUS, answer.status);
-      put(FIELD_SCORE, 0, 0);
-      for (int k = 0; k < 6; ++k) put(FIELD_TERMS, k, 0);
-      const bool reached = closing.reason == REASON_NONE || closing.reason >= REASON_TOO_WIDE;
-      if (reached) {
-        put(FIELD_T_INDEX, 0, closing.t_index);
-        put(FIELD_T_THUMB, 0, closing.t_thumb);
-        put(FIELD_GAP, 0, closing.gap);
-        put_points(fields, FIELD_MIDPOINT, &closing.midpoint, 1, stride, reals + i);
-      }
-      if (closing.reason != REASON_NONE) continue;
-      put(FIELD_CLOSURE, 0, closing.closure);
-      put(FIELD_CONTACT_ANGLES, 0, closing.thumb_angle);
-      put(FIELD_CONTACT_ANGLES, 1, closing.index_angle);
-      put(FIELD_PHALANX_DEPTH, 0, answer.phalanx_depth);
-      put(FIELD_PALM_DEPTH, 0, answer.palm_depth);
-      put(FIELD_BONE_STRETCH, 0, answer.bone_stretch);
-      put_points(fields, FIELD_JOINTS, answer.joints.data(), JOINTS, stride, reals + i);
-      put_points(fields, FIELD_POSED, answer.posed.data(), JOINTS, stride, reals + i);
-      put_points(fields, FIELD_PROXIES, answer.proxies.data(), JOINTS, stride, reals + i);
-      for (int j = 0; j < JOINTS; ++j) put(FIELD_SEPARATION, j, answer.separation[j]);
-      put_mask(FIELD_TOUCH_MASK, answer.touch_mask);
-      put_mask(FIELD_TIP_MASK, answer.tip_mask);
-      put_mask(FIELD_FINGER_MASK, answer.finger_mask);
-      put_mask(FIELD_INNER_MASK, answer.inner_mask);
-      put_mask(FIELD_USED_MASK, answer.used_mask);
-
-      Real largest_feedback = 0, largest_hold = 0;
-      const bool antipodal = (answer.status & STATUS_ANTIPODAL) != 0;
-      const std::size_t fills = tilt_sine_.empty() ? 0 : wholehand::scene_fills(scene_);
-      for (std::size_t fill = 0; fill < fills; ++fill) {
-        const int k = static_cast<int>(fill);
-        const auto keep = [&](std::size_t tilt, const HeldForces& s) {
-          const int state = static_cast<int>(fill * tilt_sine_.size() + tilt);
-          put(FIELD_PIVOT_LENGTH, state, s.pivot_length);
-          put(FIELD_TORQUE, state, s.torque);
-          put(FIELD_EXACT_TORQUE, state, s.exact_torque);
-          put(FIELD_NORMAL_FORCE, state, s.normal);
-          put(FIELD_FEEDBACK_FORCE, state, s.feedback);
-          put(FIELD_HOLD_FORCE, state, s.hold);
-        };
-        const FillTerms terms = fill_terms(entry, fill, closing.direction, closing.midpoint, antipodal, keep);
-        put(FIELD_PEAK_FORCE, k, Real(terms.peak_force));
-        put(FIELD_PEAK_TILT, k, Real(terms.peak_tilt));
-        put(FIELD_LARGEST_HOLD, k, Real(terms.largest_hold));
-        put(FIELD_SAFE_TILT, k, Real(terms.safe_tilt));
-        largest_feedback = std::max(largest_feedback, Real(terms.peak_force));
-        largest_hold = std::max(largest_hold, Real(terms.largest_hold));
-      }
-      const auto terms = score_terms(answer.used_mask, answer.touch_mask, answer.phalanx_depth, answer.palm_depth, closing.closure,
-                                     largest_feedback, largest_hold, entry.force.max);
-      for (int k = 0; k < 6; ++k) put(FIELD_TERMS, k, terms[k]);
-      put(FIELD_SCORE, 0, (answer.status & STATUS_PLAUSIBLE) != 0 ? weighted(terms) : Real(0));
+      put_closing(row, answer);
+      if (answer.closing.reason != REASON_NONE) continue;
+      put_pose(row, answer);
+      put_score(row, entries_[v], answer, put_states(row, entries_[v], answer));
     }
   }
 
@@ -322,12 +265,82 @@ class CoreEvaluator final : public wholehand::Evaluator {
                   to_grip(wholehand::mirrored(input, scene_.hand.handedness)), Real(scene_.force.friction), wanted, answer);
   }
 
-  void put_points(const FieldSet& fields, int field, const Vec3* points, int count, std::size_t stride, double* out) const {
-    if (!fields.has(field)) return;
+  void put_points(const PlaneRow& row, int field, const Vec3* points, int count) const {
+    if (!row.fields.has(field)) return;
     for (int j = 0; j < count; ++j) {
       const Triple p = wholehand::mirrored(to_triple(points[j]), scene_.hand.handedness);
-      for (int k = 0; k < 3; ++k) out[(fields.plane[field] + 3 * j + k) * stride] = p[k];
+      for (int k = 0; k < 3; ++k) row.reals[(row.fields.plane[field] + 3 * j + k) * row.stride] = p[k];
     }
+  }
+
+  // What every grip has, feasible or not.
+  void put_closing(const PlaneRow& row, const GripAnswer& answer) const {
+    const Closing& closing = answer.closing;
+    row.put_mask(FIELD_STATUS, answer.status);
+    row.put(FIELD_SCORE, 0, 0);
+    for (int k = 0; k < 6; ++k) row.put(FIELD_TERMS, k, 0);
+    if (!has_closed(closing)) return;
+    row.put(FIELD_T_INDEX, 0, closing.t_index);
+    row.put(FIELD_T_THUMB, 0, closing.t_thumb);
+    row.put(FIELD_GAP, 0, closing.gap);
+    put_points(row, FIELD_MIDPOINT, &closing.midpoint, 1);
+  }
+
+  void put_pose(const PlaneRow& row, const GripAnswer& answer) const {
+    const Closing& closing = answer.closing;
+    row.put(FIELD_CLOSURE, 0, closing.closure);
+    row.put(FIELD_CONTACT_ANGLES, 0, closing.thumb_angle);
+    row.put(FIELD_CONTACT_ANGLES, 1, closing.index_angle);
+    row.put(FIELD_PHALANX_DEPTH, 0, answer.phalanx_depth);
+    row.put(FIELD_PALM_DEPTH, 0, answer.palm_depth);
+    row.put(FIELD_BONE_STRETCH, 0, answer.bone_stretch);
+    put_points(row, FIELD_JOINTS, answer.joints.data(), JOINTS);
+    put_points(row, FIELD_POSED, answer.posed.data(), JOINTS);
+    put_points(row, FIELD_PROXIES, answer.proxies.data(), JOINTS);
+    for (int j = 0; j < JOINTS; ++j) row.put(FIELD_SEPARATION, j, answer.separation[j]);
+    row.put_mask(FIELD_TOUCH_MASK, answer.touch_mask);
+    row.put_mask(FIELD_TIP_MASK, answer.tip_mask);
+    row.put_mask(FIELD_FINGER_MASK, answer.finger_mask);
+    row.put_mask(FIELD_INNER_MASK, answer.inner_mask);
+    row.put_mask(FIELD_USED_MASK, answer.used_mask);
+  }
+
+  LargestForces put_states(const PlaneRow& row, const VesselEntry& entry, const GripAnswer& answer) const {
+    LargestForces largest;
+    const Pinch pinch{answer.closing.direction, answer.closing.midpoint, is_antipodal(answer)};
+    for (std::size_t fill = 0; fill < states_.fills(); ++fill) {
+      const int k = static_cast<int>(fill);
+      const auto put_state = [&](std::size_t tilt, const HeldForces& s) {
+        const int state = static_cast<int>(fill * states_.tilts() + tilt);
+        row.put(FIELD_PIVOT_LENGTH, state, s.pivot_length);
+        row.put(FIELD_TORQUE, state, s.torque);
+        row.put(FIELD_EXACT_TORQUE, state, s.exact_torque);
+        row.put(FIELD_NORMAL_FORCE, state, s.normal);
+        row.put(FIELD_FEEDBACK_FORCE, state, s.feedback);
+        row.put(FIELD_HOLD_FORCE, state, s.hold);
+      };
+      const FillTerms terms = states_.fill_terms(entry, fill, pinch, put_state);
+      row.put(FIELD_PEAK_FORCE, k, Real(terms.peak_force));
+      row.put(FIELD_PEAK_TILT, k, Real(terms.peak_tilt));
+      row.put(FIELD_LARGEST_HOLD, k, Real(terms.largest_hold));
+      row.put(FIELD_SAFE_TILT, k, Real(terms.safe_tilt));
+      largest.add(terms);
+    }
+    return largest;
+  }
+
+  void put_score(const PlaneRow& row, const VesselEntry& entry, const GripAnswer& answer, LargestForces largest) const {
+    const ScoredHand hand{answer.used_mask, answer.touch_mask, answer.phalanx_depth, answer.palm_depth, answer.closing.closure};
+    const auto terms = states_.score_terms(hand, largest, entry.force.max);
+    for (int k = 0; k < 6; ++k) row.put(FIELD_TERMS, k, terms[k]);
+    row.put(FIELD_SCORE, 0, is_plausible(answer) ? states_.weighted(terms) : Real(0));
+  }
+
+  // How a grip of this result holds its vessel, in the world of the right hand.
+  Pinch pinch_of(const GripInput& input, const GripResult& result) const {
+    const GripInput grip = wholehand::mirrored(input, scene_.hand.handedness);
+    return {grip_direction(Real(grip.azimuth), Real(grip.obliquity)),
+            to_vec(wholehand::mirrored(result.midpoint, scene_.hand.handedness)), result.antipodal};
   }
 
   static Load load_of(const VesselEntry& entry, const LiquidResult& liquid) {
@@ -342,7 +355,6 @@ class CoreEvaluator final : public wholehand::Evaluator {
     for (std::size_t f = 0; f < fills; ++f)
       for (const double tilt : scene_.tilts) {
         const LiquidResult state = wet ? liquid(v, wholehand::vessel_fills(scene_, scene_.vessels[v])[f], tilt) : LiquidResult{};
-        entry.liquids.push_back(state);
         entry.loads.push_back(load_of(entry, state));
       }
     const LiquidResult most = wet ? liquid(v, wholehand::vessel_fills(scene_, scene_.vessels[v]).back(), 0) : LiquidResult{};
@@ -352,57 +364,10 @@ class CoreEvaluator final : public wholehand::Evaluator {
         object_reference(entry.largest, entry.force.gravity, Real(scene_.vessels[v].base), Real(scene_.vessels[v].height));
   }
 
-  HeldForces force_state(const VesselEntry& entry, Vec3 direction, Vec3 midpoint, bool antipodal, const Load& load, Real sine_tilt,
-                         Real cosine_tilt, Real opening) const {
-    return held_forces(entry.force, load, entry.largest, direction, midpoint, pour_direction(direction, pour_sense_), sine_tilt,
-                       cosine_tilt, antipodal, opening);
-  }
-
-  template <class Keep>
-  FillTerms fill_terms(const VesselEntry& entry, std::size_t fill, Vec3 direction, Vec3 midpoint, bool antipodal,
-                       const Keep& keep) const {
-    Real peak_force = -1, peak_tilt = 0, largest_hold = 0;
-    double safe_tilt = NOT_A_NUMBER;
-    bool safe = true;
-    for (std::size_t t = 0; t < tilt_sine_.size(); ++t) {
-      const Load& load = entry.loads[fill * tilt_sine_.size() + t];
-      const HeldForces state = force_state(entry, direction, midpoint, antipodal, load, tilt_sine_[t], tilt_cosine_[t], 0);
-      if (state.feedback > peak_force) {
-        peak_force = state.feedback;
-        peak_tilt = Real(scene_.tilts[t]);
-      }
-      largest_hold = std::max(largest_hold, state.hold);
-      safe = safe && state.normal < entry.force.max && state.hold <= Real(scene_.force.grip_strength);
-      if (safe) safe_tilt = scene_.tilts[t];
-      if constexpr (!std::is_same_v<Keep, std::nullptr_t>) keep(t, state);
-    }
-    return {static_cast<double>(peak_force), static_cast<double>(peak_tilt), static_cast<double>(largest_hold), safe_tilt};
-  }
-
-  std::array<Real, 6> score_terms(std::uint32_t used, std::uint32_t touching, Real phalanx, Real palm, Real closure, Real feedback,
-                                  Real hold, Real max) const {
-    const bool tilts = !tilt_sine_.empty();
-    return {fingers_term(std::popcount(used)),
-            contacts_term(std::popcount(touching)),
-            depth_term(phalanx, palm),
-            posture_term(closure),
-            tilts ? force_term(feedback, max) : Real(0),
-            tilts ? hold_term(hold, Real(scene_.force.grip_strength)) : Real(0)};
-  }
-
-  // A scene without tilts has no force and hold terms; the other weights are scaled to sum to 1.
-  Real weighted(const std::array<Real, 6>& terms) const {
-    const auto weights = wholehand::effective_weights(scene_);
-    Real sum = 0;
-    for (int k = 0; k < 6; ++k) sum += Real(weights[k]) * terms[k];
-    return sum;
-  }
-
   Scene scene_;
   Hand hand_;
   Quadrature quadrature_;
-  Real pour_sense_ = scene_.liquid && scene_.liquid->pour == wholehand::Pour::towards ? Real(-1) : Real(1);
-  std::vector<Real> tilt_sine_, tilt_cosine_;
+  SceneStates states_;
   std::vector<VesselEntry> entries_;
 };
 
