@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,99 +14,136 @@
 namespace wholehand {
 namespace {
 
+// A scene file, '@' where the refusal must point, and what that must say.
+struct RefusedScene {
+  const char* text;
+  const char* gist;
+};
+
+constexpr RefusedScene NO_TOML[] = {
+    {"[scene@\n", "allowed: TOML 1.0"},
+    {"a = @", "allowed: TOML 1.0"},
+};
+
+// The first of the file is named.
+constexpr RefusedScene UNKNOWN_KEYS[] = {
+    {"[@secne]", "unknown key 'secne' in the scene; the nearest known key is 'scene'"},
+    {"[scene]\n@pse = 1", "unknown key 'pse' in [scene]; the nearest known key is 'pose'"},
+    {"[scene]\npose = \"paper\"\n@zz = 1\naa = 1", "unknown key 'zz' in [scene]"},
+    {"[hand]\n@max_angle_dge = 3", "the nearest known key is 'max_angle_deg'"},
+    {"[hand.@thunb]", "unknown key 'thunb' in [hand]; the nearest known key is 'thumb'"},
+    {"[hand.thumb]\n@arch_deg = 3", "unknown key 'arch_deg' in [hand.thumb]"},
+    {"[hand.angles]\n@dip_deg = [0, 1]", "in [hand.angles]"},
+    {"[grips]\nroll_deg = { from = 1, to = 2, @cuont = 2 }", "unknown key 'cuont' in roll_deg; the nearest known key is 'count'"},
+};
+
+constexpr RefusedScene WRONG_TYPES[] = {
+    {"scene = @3", "scene = 3; allowed: a table"},
+    {"[scene]\npose = @3", "pose = 3; allowed: \"articulated\", \"paper\" or \"rigged\""},
+    {"[scene]\ngravity_m_s2 = @\"heavy\"", "gravity_m_s2 = 'heavy'; allowed: a number, 0 to 100"},
+    {"[scene]\ngravity_m_s2 = @true", "gravity_m_s2 = true; allowed: a number, 0 to 100"},
+    {"[scene]\ngravity_m_s2 = @[9.8]", "gravity_m_s2 is an array; allowed: a number, 0 to 100"},
+    {"[scene]\ngravity_m_s2 = @2020-01-01", "gravity_m_s2 is a date or time"},
+    {"[scene]\nname = @3", "name = 3; allowed: a string of 1 to 64"},
+    {"[scene]\nname = @\"a/b\"", "allowed: a name without '/'"},
+    {"[scene]\nname = @\"a\\nb\"", "name = 'a\\x0ab'; allowed: a string"},
+    {"[scene]\nname = @\"\"", "allowed: a string of 1 to 64"},
+    {"[hand]\njoint_limit_deg = @[80, 90]", "joint_limit_deg has 2 entries; allowed: [MCP, PIP, DIP], 3 numbers"},
+    {"[hand]\njoint_limit_deg = [80, @\"x\", 90]", "joint_limit_deg = 'x'; allowed: a number, 0 to 180"},
+    {"[hand]\nthumb = @[]", "thumb is an array; allowed: a table"},
+    {"[hand.thumb]\nsegments_mm = @[46, 31, 27, 20]", "segments_mm has 4 entries; allowed: from the base to the tip, 3 numbers"},
+    {"[hand.index]\nradii_mm = @[5, 5, 5, 5]", "radii_mm has 4 entries; allowed: from the base to the tip, 5 numbers"},
+    {"[output]\nbest = @2.0", "best = 2; allowed: a whole number, 0 to 100000"},
+    {"[output]\nkeep = @\"score\"", "keep = 'score'; allowed: names of result variables"},
+    {"[output]\nkeep = [\"score\", @3]", "a name in keep = 3"},
+    {"[output]\nkeep = [\"score\", @\"score\"]", "keep names 'score' a second time"},
+};
+
+constexpr RefusedScene OUT_OF_RANGE[] = {
+    {"[scene]\ngravity_m_s2 = @-1", "gravity_m_s2 = -1; allowed: 0 to 100"},
+    {"[scene]\ngravity_m_s2 = @100.5", "gravity_m_s2 = 100.5; allowed: 0 to 100"},
+    {"[scene]\ngravity_m_s2 = @nan", "gravity_m_s2 = nan; allowed: 0 to 100"},
+    {"[scene]\ngravity_m_s2 = @inf", "gravity_m_s2 = inf; allowed: 0 to 100"},
+    {"[scene]\ngravity_m_s2 = @-inf", "gravity_m_s2 = -inf; allowed: 0 to 100"},
+    {"[scene]\ngravity_m_s2 = @9223372036854775807", "allowed: 0 to 100"},
+    {"[hand]\nscale = @0.04", "scale = 0.04; allowed: 0.05 to 20"},
+    {"[hand]\nhandedness = @\"Right\"", "handedness = 'Right'; allowed: \"right\" or \"left\""},
+    {"[hand.angles]\nmcp_deg = [4, @200]", "mcp_deg = 200; allowed: -180 to 180"},
+    {"[force]\nfriction = @-0.1", "friction = -0.1; allowed: 0 to 10"},
+    {"[live]\nrate_Hz = @100", "rate_Hz = 100; allowed: 250 to 8000"},
+    {"[live]\nlate_steps = @0", "late_steps = 0; allowed: a whole number, 1 to 1000"},
+    {"[output]\nbest = @-1", "best = -1; allowed: a whole number, 0 to 100000"},
+    {"@[score]\nfingers = 0\ncontacts = 0\ndepth = 0\nposture = 0", "[score] weighs only force and hold, and there are no [tilts]"},
+};
+
+constexpr RefusedScene WRONG_AXES[] = {
+    {"[grips]\nroll_deg = @[]", "roll_deg has 0 entries; allowed: 1 to 1000000 entries"},
+    {"[grips]\nroll_deg = @\"all\"", "roll_deg = 'all'; allowed: a number, a list of 1 to 1000000 or {from, to, count}"},
+    {"[grips]\nroll_deg = [1, 2, @1]", "roll_deg: 1 a second time; allowed: each value once"},
+    {"[grips]\nroll_deg = [1, @400]", "a value of roll_deg = 400; allowed: -360 to 360"},
+    {"[grips]\nroll_deg = @{ from = 1, to = 2 }", "roll_deg lacks 'count'"},
+    {"[grips]\nroll_deg = @{ to = 2, count = 2 }", "roll_deg lacks 'from'"},
+    {"[grips]\nroll_deg = { from = 1, to = 2, count = @0 }", "count = 0; allowed: a whole number, 1 to 1000000"},
+    {"[grips]\nroll_deg = { from = 1, to = 2, count = @1000001 }", "count = 1000001; allowed: a whole number, 1 to 1000000"},
+    {"[grips]\nroll_deg = { from = 1, to = 2, count = @1 }", "roll_deg: 1 values from 1 to 2; allowed: one value where from = to"},
+    {"[grips]\nroll_deg = { from = 1, to = 1, count = @2 }", "roll_deg: 2 values from 1 to 1"},
+    {"[grips]\nroll_deg = { from = 2, to = @1, count = 2 }", "roll_deg: to = 1, below from; allowed: from <= to; from = 2"},
+    {"[grips]\nheight_mm = 3\nheight_fraction = @0.5", "height_fraction beside height_mm; allowed: one of the two"},
+    {"[grips]\nheight_fraction = @1.5", "height_fraction = 1.5; allowed: 0 to 1"},
+    {"[grips]\nsampling = @\"random\"", "sampling = 'random'; allowed: \"grid\" or \"sobol\""},
+    {"[grips]\ncount = @3", "count without sampling = \"sobol\""},
+    {"[grips]\nseed = @3", "seed without sampling = \"sobol\""},
+    {"@[grips]\nsampling = \"sobol\"", "[grips] lacks 'count'"},
+    {"[grips]\nsampling = \"sobol\"\ncount = @0", "count = 0; allowed: a whole number, 1 to 1000000000000000"},
+    {"[grips]\nsampling = \"sobol\"\ncount = 1\nseed = @-1", "seed = -1; allowed: a whole number, 0 to 9223372036854775807"},
+};
+
+constexpr RefusedScene WRONG_TILTS_AND_FILLS[] = {
+    {"@[tilts]", "[tilts] lacks 'deg'"},
+    {"[tilts]\ndeg = @[]", "deg has 0 entries; allowed: 1 to 2048 entries"},
+    {"[tilts]\ndeg = @3", "deg = 3; allowed: an ascending list"},
+    {"[tilts]\ndeg = [0, @181]", "a value of deg = 181; allowed: 0 to 180"},
+    {"[tilts]\ndeg = [0, 10, @10]", "deg: 10 after 10; allowed: values in ascending order, each once"},
+    {"[tilts]\ndeg = { from = 0, to = 10, count = @2049 }", "count = 2049; allowed: a whole number, 1 to 2048"},
+    {"@[liquid]", "[liquid] lacks 'fills'"},
+    {"[liquid]\nfills = @0.5", "fills = 0.5; allowed: an ascending list of fractions"},
+    {"[liquid]\nfills = [@-0.1]", "a value of fills = -0.1; allowed: 0 to 1"},
+    {"[liquid]\nfills = [0.5, @0.25]", "fills: 0.25 after 0.5; allowed: values in ascending order"},
+};
+
+constexpr RefusedScene WRONG_LIVE_DEVICE_AND_TASK[] = {
+    {"[device]\ngap_mm = @[25, 0]", "gap_mm = [25, 0]; allowed: [closed, open]"},
+    {"[device]\naxes = [\"x\", \"y\", @\"-x\"]", "an entry of axes = '-x'"},
+    {"[device]\naxes = [\"x\", \"y\", @\"w\"]", "an entry of axes = 'w'"},
+    {"[device]\naxes = @[\"x\"]", "axes has 1 entries"},
+    {"[device]\naxes = @[\"-x\", \"y\", \"z\"]", "mirrors the device"},
+    {"[device]\naxes = @[\"y\", \"x\", \"z\"]", "mirrors the device"},
+    {"@[task]", "[task] lacks 'target'"},
+    {"[task]\ntarget = @{ place_mm = [0, 0, 0] }", "[task.target] lacks 'diameter_mm'"},
+};
+
+struct RefusedSubject {
+  const char* name;
+  std::span<const RefusedScene> scenes;
+};
+
+constexpr RefusedSubject REFUSED_SUBJECTS[] = {
+    {"TOML itself", NO_TOML},
+    {"unknown keys", UNKNOWN_KEYS},
+    {"types", WRONG_TYPES},
+    {"ranges", OUT_OF_RANGE},
+    {"axes", WRONG_AXES},
+    {"tilts and fills", WRONG_TILTS_AND_FILLS},
+    {"live, device and task", WRONG_LIVE_DEVICE_AND_TASK},
+};
+
 TEST(SceneTable, RefusesWithPlaceFoundAndAllowed) {
-  const std::vector<std::pair<std::string, std::string>> cases{
-      // TOML itself
-      {"[scene@\n", "allowed: TOML 1.0"},
-      {"a = @", "allowed: TOML 1.0"},
-      // unknown keys, the first of the file
-      {"[@secne]", "unknown key 'secne' in the scene; the nearest known key is 'scene'"},
-      {"[scene]\n@pse = 1", "unknown key 'pse' in [scene]; the nearest known key is 'pose'"},
-      {"[scene]\npose = \"paper\"\n@zz = 1\naa = 1", "unknown key 'zz' in [scene]"},
-      {"[hand]\n@max_angle_dge = 3", "the nearest known key is 'max_angle_deg'"},
-      {"[hand.@thunb]", "unknown key 'thunb' in [hand]; the nearest known key is 'thumb'"},
-      {"[hand.thumb]\n@arch_deg = 3", "unknown key 'arch_deg' in [hand.thumb]"},
-      {"[hand.angles]\n@dip_deg = [0, 1]", "in [hand.angles]"},
-      {"[grips]\nroll_deg = { from = 1, to = 2, @cuont = 2 }", "unknown key 'cuont' in roll_deg; the nearest known key is 'count'"},
-      // types
-      {"scene = @3", "scene = 3; allowed: a table"},
-      {"[scene]\npose = @3", "pose = 3; allowed: \"articulated\", \"paper\" or \"rigged\""},
-      {"[scene]\ngravity_m_s2 = @\"heavy\"", "gravity_m_s2 = 'heavy'; allowed: a number, 0 to 100"},
-      {"[scene]\ngravity_m_s2 = @true", "gravity_m_s2 = true; allowed: a number, 0 to 100"},
-      {"[scene]\ngravity_m_s2 = @[9.8]", "gravity_m_s2 is an array; allowed: a number, 0 to 100"},
-      {"[scene]\ngravity_m_s2 = @2020-01-01", "gravity_m_s2 is a date or time"},
-      {"[scene]\nname = @3", "name = 3; allowed: a string of 1 to 64"},
-      {"[scene]\nname = @\"a/b\"", "allowed: a name without '/'"},
-      {"[scene]\nname = @\"a\\nb\"", "name = 'a\\x0ab'; allowed: a string"},
-      {"[scene]\nname = @\"\"", "allowed: a string of 1 to 64"},
-      {"[hand]\njoint_limit_deg = @[80, 90]", "joint_limit_deg has 2 entries; allowed: [MCP, PIP, DIP], 3 numbers"},
-      {"[hand]\njoint_limit_deg = [80, @\"x\", 90]", "joint_limit_deg = 'x'; allowed: a number, 0 to 180"},
-      {"[hand]\nthumb = @[]", "thumb is an array; allowed: a table"},
-      {"[hand.thumb]\nsegments_mm = @[46, 31, 27, 20]", "segments_mm has 4 entries; allowed: from the base to the tip, 3 numbers"},
-      {"[hand.index]\nradii_mm = @[5, 5, 5, 5]", "radii_mm has 4 entries; allowed: from the base to the tip, 5 numbers"},
-      {"[output]\nbest = @2.0", "best = 2; allowed: a whole number, 0 to 100000"},
-      {"[output]\nkeep = @\"score\"", "keep = 'score'; allowed: names of result variables"},
-      {"[output]\nkeep = [\"score\", @3]", "a name in keep = 3"},
-      {"[output]\nkeep = [\"score\", @\"score\"]", "keep names 'score' a second time"},
-      // ranges
-      {"[scene]\ngravity_m_s2 = @-1", "gravity_m_s2 = -1; allowed: 0 to 100"},
-      {"[scene]\ngravity_m_s2 = @100.5", "gravity_m_s2 = 100.5; allowed: 0 to 100"},
-      {"[scene]\ngravity_m_s2 = @nan", "gravity_m_s2 = nan; allowed: 0 to 100"},
-      {"[scene]\ngravity_m_s2 = @inf", "gravity_m_s2 = inf; allowed: 0 to 100"},
-      {"[scene]\ngravity_m_s2 = @-inf", "gravity_m_s2 = -inf; allowed: 0 to 100"},
-      {"[scene]\ngravity_m_s2 = @9223372036854775807", "allowed: 0 to 100"},
-      {"[hand]\nscale = @0.04", "scale = 0.04; allowed: 0.05 to 20"},
-      {"[hand]\nhandedness = @\"Right\"", "handedness = 'Right'; allowed: \"right\" or \"left\""},
-      {"[hand.angles]\nmcp_deg = [4, @200]", "mcp_deg = 200; allowed: -180 to 180"},
-      {"[force]\nfriction = @-0.1", "friction = -0.1; allowed: 0 to 10"},
-      {"[live]\nrate_Hz = @100", "rate_Hz = 100; allowed: 250 to 8000"},
-      {"[live]\nlate_steps = @0", "late_steps = 0; allowed: a whole number, 1 to 1000"},
-      {"[output]\nbest = @-1", "best = -1; allowed: a whole number, 0 to 100000"},
-      {"@[score]\nfingers = 0\ncontacts = 0\ndepth = 0\nposture = 0",
-       "[score] weighs only force and hold, and there are no [tilts]"},
-      // axes
-      {"[grips]\nroll_deg = @[]", "roll_deg has 0 entries; allowed: 1 to 1000000 entries"},
-      {"[grips]\nroll_deg = @\"all\"", "roll_deg = 'all'; allowed: a number, a list of 1 to 1000000 or {from, to, count}"},
-      {"[grips]\nroll_deg = [1, 2, @1]", "roll_deg: 1 a second time; allowed: each value once"},
-      {"[grips]\nroll_deg = [1, @400]", "a value of roll_deg = 400; allowed: -360 to 360"},
-      {"[grips]\nroll_deg = @{ from = 1, to = 2 }", "roll_deg lacks 'count'"},
-      {"[grips]\nroll_deg = @{ to = 2, count = 2 }", "roll_deg lacks 'from'"},
-      {"[grips]\nroll_deg = { from = 1, to = 2, count = @0 }", "count = 0; allowed: a whole number, 1 to 1000000"},
-      {"[grips]\nroll_deg = { from = 1, to = 2, count = @1000001 }", "count = 1000001; allowed: a whole number, 1 to 1000000"},
-      {"[grips]\nroll_deg = { from = 1, to = 2, count = @1 }",
-       "roll_deg: 1 values from 1 to 2; allowed: one value where from = to"},
-      {"[grips]\nroll_deg = { from = 1, to = 1, count = @2 }", "roll_deg: 2 values from 1 to 1"},
-      {"[grips]\nroll_deg = { from = 2, to = @1, count = 2 }", "roll_deg: to = 1, below from; allowed: from <= to; from = 2"},
-      {"[grips]\nheight_mm = 3\nheight_fraction = @0.5", "height_fraction beside height_mm; allowed: one of the two"},
-      {"[grips]\nheight_fraction = @1.5", "height_fraction = 1.5; allowed: 0 to 1"},
-      {"[grips]\nsampling = @\"random\"", "sampling = 'random'; allowed: \"grid\" or \"sobol\""},
-      {"[grips]\ncount = @3", "count without sampling = \"sobol\""},
-      {"[grips]\nseed = @3", "seed without sampling = \"sobol\""},
-      {"@[grips]\nsampling = \"sobol\"", "[grips] lacks 'count'"},
-      {"[grips]\nsampling = \"sobol\"\ncount = @0", "count = 0; allowed: a whole number, 1 to 1000000000000000"},
-      {"[grips]\nsampling = \"sobol\"\ncount = 1\nseed = @-1", "seed = -1; allowed: a whole number, 0 to 9223372036854775807"},
-      // tilts and fills
-      {"@[tilts]", "[tilts] lacks 'deg'"},
-      {"[tilts]\ndeg = @[]", "deg has 0 entries; allowed: 1 to 2048 entries"},
-      {"[tilts]\ndeg = @3", "deg = 3; allowed: an ascending list"},
-      {"[tilts]\ndeg = [0, @181]", "a value of deg = 181; allowed: 0 to 180"},
-      {"[tilts]\ndeg = [0, 10, @10]", "deg: 10 after 10; allowed: values in ascending order, each once"},
-      {"[tilts]\ndeg = { from = 0, to = 10, count = @2049 }", "count = 2049; allowed: a whole number, 1 to 2048"},
-      {"@[liquid]", "[liquid] lacks 'fills'"},
-      {"[liquid]\nfills = @0.5", "fills = 0.5; allowed: an ascending list of fractions"},
-      {"[liquid]\nfills = [@-0.1]", "a value of fills = -0.1; allowed: 0 to 1"},
-      {"[liquid]\nfills = [0.5, @0.25]", "fills: 0.25 after 0.5; allowed: values in ascending order"},
-      // live, device, task
-      {"[device]\ngap_mm = @[25, 0]", "gap_mm = [25, 0]; allowed: [closed, open]"},
-      {"[device]\naxes = [\"x\", \"y\", @\"-x\"]", "an entry of axes = '-x'"},
-      {"[device]\naxes = [\"x\", \"y\", @\"w\"]", "an entry of axes = 'w'"},
-      {"[device]\naxes = @[\"x\"]", "axes has 1 entries"},
-      {"[device]\naxes = @[\"-x\", \"y\", \"z\"]", "mirrors the device"},
-      {"[device]\naxes = @[\"y\", \"x\", \"z\"]", "mirrors the device"},
-      {"@[task]", "[task] lacks 'target'"},
-      {"[task]\ntarget = @{ place_mm = [0, 0, 0] }", "[task.target] lacks 'diameter_mm'"},
-  };
-  for (const auto& [text, gist] : cases) expect_refusal(text + "\n" + VESSEL, gist);
+  for (const RefusedSubject& subject : REFUSED_SUBJECTS) {
+    for (const auto& [text, gist] : subject.scenes) {
+      SCOPED_TRACE(std::string(subject.name) + ": " + text);
+      expect_refusal(std::string(text) + "\n" + VESSEL, gist);
+    }
+  }
 }
 
 TEST(SceneTable, RefusesVessels) {
