@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: MIT
+// A function's parameters are read from a row in their order, and its results written in theirs, as the probe shaders do: so a table of
+// names is all that a leaf function of plain parameters needs. Those whose rows hold something else have a function of their own here.
 #include "tests/support/leaf_facade.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
+#include <tuple>
+#include <type_traits>
 
 #include "core/closure.h"
 #include "core/contact.h"
@@ -23,472 +29,363 @@
 namespace CORE_NS {
 namespace {
 
-// One row, read and written as the probe shaders do.
-struct Row {
-  const double* from;
-  double* to;
+// What no row holds: the shaders have it as buffers and constants.
+struct Context {
+  Hand hand;
+  Quadrature quadrature;
+  Vessel vessel;
+};
 
-  Real given(int k) const { return static_cast<Real>(from[k]); }
-  Vec3 given3(int k) const { return Vec3(given(k), given(k + 1), given(k + 2)); }
-  Vec2 given2(int k) const { return Vec2(given(k), given(k + 1)); }
-  int given_int(int k) const { return static_cast<int>(std::nearbyint(from[k])); }
-  FingerFrame frame() const { return {given3(0), given3(3), given3(6)}; }
-  Element element() const { return {given2(0), given2(2), given2(4), given(6), given_int(7)}; }
-  void answer(int k, Real value) const { to[k] = static_cast<double>(value); }
-  void answer3(int k, Vec3 value) const {
-    for (int i = 0; i < 3; ++i) answer(k + i, value[i]);
+// A parameter through which a function answers.
+template <class T>
+struct Out {
+  T value{};
+  operator T&() { return value; }
+};
+
+// How a parameter is held until the call: context by reference, an answer until it is written, all else by value.
+template <class T>
+constexpr bool IS_CONTEXT = std::is_same_v<T, Hand> || std::is_same_v<T, Quadrature> || std::is_same_v<T, Vessel>;
+template <class T>
+struct Holder {
+  using Type = T;
+};
+template <class T>
+struct Holder<const T&> {
+  using Type = std::conditional_t<IS_CONTEXT<T>, const T&, T>;
+};
+template <class T>
+struct Holder<T&> {
+  using Type = Out<T>;
+};
+template <class T>
+using Held = typename Holder<T>::Type;
+
+struct Row {
+  const Context& context;
+  const double* next;
+
+  template <class T>
+  T take() {
+    if constexpr (std::is_same_v<T, const Hand&>) {
+      return context.hand;
+    } else if constexpr (std::is_same_v<T, const Quadrature&>) {
+      return context.quadrature;
+    } else if constexpr (std::is_same_v<T, const Vessel&>) {
+      return context.vessel;
+    } else {
+      T value{};
+      read(value);
+      return value;
+    }
   }
-  void answer_slices(Slices slices) const {
-    answer(0, slices.volume);
-    answer(1, slices.lean);
-    answer(2, slices.height);
-    answer(3, slices.surface);
+
+ private:
+  template <class... Ts>
+  void read_all(Ts&... values) {
+    (read(values), ...);
   }
-  void answer_points(FingerPoints points) const {
-    answer3(0, points.pip);
-    answer3(3, points.dip);
-    answer3(6, points.tip);
+  template <class T>
+  void read(Out<T>&) {}
+  void read(Real& value) { value = static_cast<Real>(*next++); }
+  void read(int& value) { value = static_cast<int>(std::nearbyint(*next++)); }
+  void read(bool& value) { value = std::nearbyint(*next++) != 0; }
+  void read(Vec2& value) { read_all(value.x, value.y); }
+  void read(Vec3& value) { read_all(value.x, value.y, value.z); }
+  void read(FingerFrame& value) { read_all(value.base, value.forward, value.palmward); }
+  void read(Element& value) { read_all(value.a, value.b, value.center, value.radius, value.side); }
+  void read(Support& value) {
+    read_all(value.distance, value.other, value.normal, value.planar);
+    value.element = 0;
   }
+  void read(Grip& value) { read_all(value.height, value.azimuth, value.obliquity, value.roll, value.offset, value.hand_scale); }
+  void read(FingerMotion& value) {
+    read_all(value.angles, value.closure, value.limit, value.joint, value.start, value.turned, value.room, value.steps,
+             value.before, value.blocked, value.unsettled);
+  }
+  void read(PaperAxis& value) {
+    read(value.direction);
+    value.exists = true;
+  }
+  void read(Load& value) {
+    value.mass = 1;
+    read_all(value.fixed, value.lean, value.height);
+  }
+  void read(Plant& value) { read_all(value.mass, value.damping, value.stiffness); }
+  void read(Motion& value) { read_all(value.place, value.speed); }
+  void read(Wall& value) {
+    read_all(value.stiffness, value.damping, value.period, value.encoder_step, value.force_limit, value.delay, value.is_bilateral);
+  }
+  void read(LoopState& value) {
+    read_all(value.motion, value.reading);
+    for (Real& force : value.waiting) read(force);
+  }
+};
+
+struct Answer {
+  double* next;
+
+  template <class... Ts>
+  void put_all(const Ts&... values) {
+    (put(values), ...);
+  }
+  template <class T>
+  void put_out(const T&) {}
+  template <class T>
+  void put_out(const Out<T>& answer) {
+    put(answer.value);
+  }
+  void put(Real value) { *next++ = static_cast<double>(value); }
+  void put(int value) { *next++ = value; }
+  void put(bool value) { *next++ = value ? 1 : 0; }
+  void put(Vec2 value) { put_all(value.x, value.y); }
+  void put(Vec3 value) { put_all(value.x, value.y, value.z); }
+  void put(const Mat3& value) { put_all(value[0], value[1], value[2]); }
+  void put(const FingerPoints& value) { put_all(value.pip, value.dip, value.tip); }
+  void put(const FingerFrame& value) { put_all(value.base, value.forward, value.palmward); }
+  void put(const Support& value) { put_all(value.distance, value.other, value.normal, value.element, value.planar); }
+  void put(const Contact& value) { put_all(value.separation, value.proxy, value.settled); }
+  void put(const Cell& value) { put_all(value.i, value.j, value.k, value.fraction, value.outside); }
+  void put(const Trace& value) { put_all(value.t, value.reason, value.normal, value.element); }
+  void put(const Placement& value) { put_all(value.rotation, value.translation); }
+  // 0 where the reason leaves a value open
+  void put(Closing value) {
+    const bool reached = value.reason == REASON_NONE || value.reason >= REASON_TOO_WIDE;
+    if (!reached) value.t_index = value.t_thumb = value.gap = 0, value.midpoint = Vec3(0);
+    if (value.reason != REASON_NONE) {
+      value.closure = value.thumb_angle = value.index_angle = 0;
+      value.grazing = false;
+      value.placement = {Mat3(0), Vec3(0), 0};
+    }
+    put_all(value.reason, value.direction, value.t_index, value.t_thumb, value.gap, value.midpoint, value.closure,
+            value.thumb_angle, value.index_angle, value.grazing, value.placement, value.placement.scale);
+  }
+  void put(const FingerMotion& value) {
+    put_all(value.angles, value.closure, value.limit, value.joint, value.start, value.turned, value.room, value.steps, value.before,
+            value.blocked, value.unsettled);
+  }
+  void put(const PaperAxis& value) { put_all(value.direction, value.exists); }
+  void put(const Slices& value) { put_all(value.volume, value.lean, value.height, value.surface); }
+  void put(const LiquidState& value) { put_all(value.volume, value.lean, value.height); }
+  void put(const Propagator& value) {
+    put_all(value.place_place, value.place_speed, value.place_force, value.speed_place, value.speed_speed, value.speed_force);
+  }
+  void put(const Motion& value) { put_all(value.place, value.speed); }
+  void put(const LoopState& value) {
+    put_all(value.motion, value.reading);
+    for (const Real force : value.waiting) put(force);
+  }
+  template <class... Ts>
+  void put(const std::tuple<Ts...>& values) {
+    std::apply([this](const auto&... each) { put_all(each...); }, values);
+  }
+};
+
+template <class Result, class... Parameters>
+void answer_one(Result (*function)(Parameters...), Row row, Answer& answer) {
+  std::tuple<Held<Parameters>...> given{row.take<Held<Parameters>>()...};
+  if constexpr (std::is_void_v<Result>) {
+    std::apply(function, given);
+  } else {
+    answer.put(std::apply(function, given));
+  }
+  std::apply([&](const auto&... held) { (answer.put_out(held), ...); }, given);
+}
+
+// Functions of the same row, whose answers follow each other.
+template <auto... FUNCTIONS>
+void answers_of(const Context& context, const double* given, double* to) {
+  Answer answer{to};
+  (answer_one(FUNCTIONS, Row{context, given}, answer), ...);
+}
+
+// ---- rows that are not a function's parameters ----
+
+Real closure_to_tolerance(const Hand& hand, Real gap) { return closure_of_gap(hand, gap, STOP_TOLERANCE); }
+
+std::tuple<Real, bool, bool, bool, Vec2> element_facts(const Element& element, Vec2 q, Real sign) {
+  return {std::sqrt(element_distance_squared(element, q)), element_crosses(element, q), element_spans(element, q),
+          element_convex(element, q), element_outward(element, q, sign)};
+}
+
+Trace trace_along(const Vessel& vessel, Vec3 origin, Real azimuth, Real obliquity, Real heading, Real radius) {
+  return trace_tip(vessel, origin, grip_direction(azimuth, obliquity), heading, radius);
+}
+
+std::tuple<Placement, Real, FingerFrame> placed_hand(const Hand& hand, Real closure, Real azimuth, Real obliquity, Real roll,
+                                                     Vec3 midpoint, Real scale) {
+  Real e1_x = 0;
+  const Placement placement = place_hand(hand, closure, grip_direction(azimuth, obliquity), roll, midpoint, scale, e1_x);
+  return {placement, e1_x, placed_frame(placement, hand.frame[1])};
+}
+
+Closing close_widened(const Hand& hand, const Vessel& vessel, Grip grip, Real index_more, Real thumb_more) {
+  Hand wider = hand;
+  wider.radius[1][4] += index_more / (hand.scale * grip.hand_scale);
+  wider.radius[0][3] += thumb_more / (hand.scale * grip.hand_scale);
+  return close_fingers(wider, vessel, grip);
+}
+
+Real step_of_finger(const Vessel& vessel, FingerFrame frame, Vec3 mcp, Vec3 lengths, Vec3 angles, Vec3 radii, Vec3 rates) {
+  const FingerPoints points = finger_points(frame, mcp, lengths, angles);
+  return finger_step(frame, mcp, points, watch_points(vessel, points, radii), lengths, rates);
+}
+
+std::tuple<Vec3, bool, bool> whole_motion(const Hand& hand, const Vessel& vessel, FingerFrame frame, Vec3 mcp, Vec3 lengths,
+                                          Vec3 radii, Real limit) {
+  FingerMotion motion = start_motion(hand, limit);
+  while (motion.joint < 3) {
+    const FingerPoints points = finger_points(frame, mcp, lengths, motion.angles);
+    motion = advance_finger(hand, motion, frame, mcp, points, watch_points(vessel, points, radii), lengths);
+  }
+  return {motion.angles, motion.blocked, motion.unsettled};
+}
+
+std::tuple<Real, Real> revolved(const Quadrature& quadrature, const Element& element) {
+  const Slices slices = revolved_element(quadrature, element);
+  return {slices.volume, slices.height};
+}
+
+std::tuple<Vec3, Vec3> directions(Vec3 direction, Real sense, Real sine, Real cosine) {
+  const Vec3 pour = pour_direction(direction, sense);
+  return {pour, up_direction(pour, sine, cosine)};
+}
+
+std::tuple<Real, Real, Real> torques(Real mass, Real gravity, Real length, Vec3 arm, Vec3 pour, Real sine, Real cosine) {
+  return {pendulum_torque(mass, gravity, length, sine), exact_pendulum_torque(mass, gravity, arm, pour, sine, cosine),
+          grip_reference(mass, gravity, length)};
+}
+
+std::tuple<Real, Real, Real> forces(Real base, Real range, Real torque, Real reference, Real k_open, Real squeeze, Real max) {
+  const Real normal = normal_force(base, range, torque, reference), opening = opening_force(k_open, squeeze);
+  return {normal, opening, feedback_force(normal, opening, max)};
+}
+
+std::tuple<Real, Real, Real, Real, Real, Real> score_terms(int fingers, int points, Real phalanx, Real palm, Real closure,
+                                                           Real feedback, Real max, Real hold, Real strength) {
+  return {fingers_term(fingers), contacts_term(points),     depth_term(phalanx, palm),
+          posture_term(closure), force_term(feedback, max), hold_term(hold, strength)};
+}
+
+Motion advanced(Plant plant, Motion motion, Real force, Real friction, Real time) {
+  const Propagator by = propagator(plant, time);
+  return friction > 0 ? advance_with_friction(plant, by, motion, force, friction, time) : advance(by, motion, force);
+}
+
+std::tuple<Real, Real> wall_answer(Real stiffness, Real damping, Real period, Real encoder_step, Real force_limit,
+                                   bool is_bilateral, Real place, Real rate) {
+  const Wall wall{stiffness, damping, period, encoder_step, force_limit, 0, is_bilateral};
+  const Real reading = read_encoder(place, wall.encoder_step);
+  return {reading, wall_force(wall, reading, rate)};
+}
+
+LoopState loop_step(Plant plant, Wall wall, LoopState state, Real press, Real friction) {
+  return step_loop(plant, propagator(plant, wall.period), wall, state, press, friction);
+}
+
+Real energy_of(Plant plant, Real stiffness, Motion motion, Real press) {
+  Wall wall;
+  wall.stiffness = stiffness;
+  return loop_energy(plant, wall, motion, press);
+}
+
+// ---- the table ----
+
+struct LeafEntry {
+  int probe;
+  void (*evaluate)(const Context&, const double* given, double* answer);
+};
+
+constexpr LeafEntry LEAVES[] = {
+    // trig
+    {PROBE_SINE_COSINE, answers_of<sine_cosine>},
+    {PROBE_ARC_COSINE, answers_of<arc_cosine>},
+    {PROBE_ANGLE_BETWEEN, answers_of<angle_between>},
+    // hand
+    {PROBE_TRAJECTORY, answers_of<thumb_angles, finger_angles>},
+    {PROBE_FINGER_POINTS, answers_of<finger_points>},
+    {PROBE_THUMB_POINTS, answers_of<thumb_points>},
+    {PROBE_SEGMENT_END, answers_of<segment_end>},
+    {PROBE_TIP_TO_TIP, answers_of<tip_to_tip, gap_at>},
+    {PROBE_CLOSURE_OF_GAP, answers_of<closure_to_tolerance>},
+    // sdf and contact
+    {PROBE_SIGNED_DISTANCE, answers_of<signed_distance>},
+    {PROBE_GRADIENT, answers_of<distance_gradient>},
+    {PROBE_SUPPORT, answers_of<support_at>},
+    {PROBE_SAFE_STEP, answers_of<safe_step>},
+    {PROBE_CONTACT, answers_of<contact_at>},
+    {PROBE_ELEMENT, answers_of<element_facts>},
+    {PROBE_PROXY, answers_of<proxy_of>},
+    {PROBE_LOCATE_CELL, answers_of<locate_cell>},
+    {PROBE_GRID_SAMPLE, answers_of<grid_sample>},
+    {PROBE_DISTANCE_BEYOND, answers_of<distance_beyond>},
+    {PROBE_MIX_REALS, answers_of<mix_reals>},
+    // closure
+    {PROBE_TRACE_TIP, answers_of<trace_along>},
+    {PROBE_PLACE_HAND, answers_of<placed_hand>},
+    {PROBE_CLOSE_FINGERS, answers_of<close_widened>},
+    // projection
+    {PROBE_SEGMENT_RATES, answers_of<segment_rates>},
+    {PROBE_QUARTER_TURN, answers_of<quarter_turn>},
+    {PROBE_NEAREST_POINT, answers_of<nearest_point>},
+    {PROBE_FINGER_STEP, answers_of<step_of_finger>},
+    {PROBE_FINGER_MOTION, answers_of<whole_motion>},
+    {PROBE_PAPER_AXIS, answers_of<paper_axis>},
+    {PROBE_TURNED_POINT, answers_of<turned_point>},
+    {PROBE_PROJECT_POINT, answers_of<project_point>},
+    {PROBE_TURN_JOINT, answers_of<turn_joint>},
+    {PROBE_PROJECTION_ROLE, answers_of<projection_role>},
+    // liquid
+    {PROBE_SEGMENT_AREA, answers_of<segment_area>},
+    {PROBE_SEGMENT_MOMENT, answers_of<segment_moment>},
+    {PROBE_ELEMENT_RADIUS, answers_of<element_radius>},
+    {PROBE_PLANE_CROSSINGS, answers_of<plane_crossings>},
+    {PROBE_PIECE_BELOW, answers_of<piece_below>},
+    {PROBE_INTEGRATE_SLICES, answers_of<integrate_slices>},
+    {PROBE_LIQUID_BELOW, answers_of<liquid_below>},
+    {PROBE_LIP_CAPACITY, answers_of<lip_level, bottom_level, lip_capacity>},
+    {PROBE_LIQUID_AT, answers_of<liquid_at>},
+    {PROBE_REVOLVED, answers_of<revolved>},
+    // force and score
+    {PROBE_DIRECTIONS, answers_of<directions>},
+    {PROBE_LOAD_CENTER, answers_of<load_center>},
+    {PROBE_TORQUES, answers_of<torques>},
+    {PROBE_FORCES, answers_of<forces>},
+    {PROBE_HOLD_FORCE, answers_of<hold_force>},
+    {PROBE_COUPLING_FORCE, answers_of<coupling_force>},
+    {PROBE_SCORE, answers_of<score_terms>},
+    // loop
+    {PROBE_PROPAGATOR, answers_of<propagator>},
+    {PROBE_STEPPED, answers_of<stepped_propagator>},
+    {PROBE_LET_GO, answers_of<let_go>},
+    {PROBE_ADVANCE, answers_of<advanced>},
+    {PROBE_WALL_FORCE, answers_of<wall_answer>},
+    {PROBE_STEP_LOOP, answers_of<loop_step>},
+    {PROBE_LOOP_ENERGY, answers_of<energy_of>},
 };
 
 class CoreLeaves final : public wholehand::Leaves {
  public:
   CoreLeaves(const wholehand::Scene& scene, std::size_t v, int grid_samples, int grid_bits)
-      : hand_(load_hand(wholehand::prepare_hand(scene.hand), scene.hand)),
-        quadrature_(load_quadrature(wholehand::prepare_quadrature(QUADRATURE_POINTS))) {
+      : context_{load_hand(wholehand::prepare_hand(scene.hand), scene.hand),
+                 load_quadrature(wholehand::prepare_quadrature(QUADRATURE_POINTS)),
+                 {}} {
     const wholehand::VesselData& data = scene.vessels[v];
     const wholehand::PreparedVessel prepared = wholehand::prepare_vessel(data, data.wall > 0);
-    vessel_ = load_vessel(prepared, data, quadrature_, scene.liquid.has_value(), scene.hand.handedness);
+    Vessel& vessel = context_.vessel;
+    vessel = load_vessel(prepared, data, context_.quadrature, scene.liquid.has_value(), scene.hand.handedness);
     if (grid_samples == 0) return;
-    use_grid(vessel_, load_grid(wholehand::prepare_grid(prepared, grid_samples, grid_bits == 16, wholehand::grid_margin(scene))));
+    use_grid(vessel, load_grid(wholehand::prepare_grid(prepared, grid_samples, grid_bits == 16, wholehand::grid_margin(scene))));
   }
 
   void evaluate(int probe, const double* given, double* answer) const override {
-    const Row row{given, answer};
-    if (probe < PROBE_SIGNED_DISTANCE) return probe < PROBE_TRAJECTORY ? trig(probe, row) : hand(probe, row);
-    if (probe < PROBE_TRACE_TIP || probe == PROBE_DISTANCE_BEYOND) return sdf(probe, row);
-    if (probe < PROBE_SEGMENT_RATES) return closure(probe, row);
-    if (probe < PROBE_SEGMENT_AREA) return projection(probe, row);
-    if (probe < PROBE_DIRECTIONS) return liquid(probe, row);
-    if (probe < PROBE_PROPAGATOR) return force(probe, row);
-    loop(probe, row);
+    const auto leaf = std::ranges::find(LEAVES, probe, &LeafEntry::probe);
+    if (leaf == std::end(LEAVES)) throw std::logic_error("no such probe");
+    leaf->evaluate(context_, given, answer);
   }
 
  private:
-  static void unknown() { throw std::logic_error("no such probe"); }
-
-  static void trig(int probe, const Row& row) {
-    switch (probe) {
-      case PROBE_SINE_COSINE: {
-        Real s = 0, c = 0;
-        sine_cosine(row.given(0), s, c);
-        row.answer(0, s);
-        row.answer(1, c);
-        break;
-      }
-      case PROBE_ARC_COSINE:
-        row.answer(0, arc_cosine(row.given(0)));
-        break;
-      case PROBE_ANGLE_BETWEEN:
-        row.answer(0, angle_between(row.given3(0), row.given3(3)));
-        break;
-      default:
-        unknown();
-    }
-  }
-
-  void hand(int probe, const Row& row) const {
-    switch (probe) {
-      case PROBE_TRAJECTORY:
-        row.answer3(0, thumb_angles(hand_, row.given(0)));
-        row.answer3(3, finger_angles(hand_, row.given(0)));
-        break;
-      case PROBE_FINGER_POINTS:
-        row.answer_points(finger_points(row.frame(), row.given3(9), row.given3(12), row.given3(15)));
-        break;
-      case PROBE_THUMB_POINTS:
-        row.answer_points(thumb_points(row.frame(), row.given3(9), row.given3(12)));
-        break;
-      case PROBE_SEGMENT_END:
-        row.answer3(0, segment_end(row.frame(), row.given3(9), row.given(12), row.given(13)));
-        break;
-      case PROBE_TIP_TO_TIP: {
-        Vec3 slope{};
-        row.answer3(0, tip_to_tip(hand_, row.given(0), slope));
-        row.answer3(3, slope);
-        row.answer(6, gap_at(hand_, row.given(0)));
-        break;
-      }
-      case PROBE_CLOSURE_OF_GAP:
-        row.answer(0, closure_of_gap(hand_, row.given(0), STOP_TOLERANCE));
-        break;
-      default:
-        unknown();
-    }
-  }
-
-  void sdf(int probe, const Row& row) const {
-    switch (probe) {
-      case PROBE_SIGNED_DISTANCE:
-        row.answer(0, signed_distance(vessel_, row.given3(0)));
-        break;
-      case PROBE_GRADIENT: {
-        int element = -1;
-        row.answer3(0, distance_gradient(vessel_, row.given3(0), element));
-        row.answer(3, Real(element));
-        break;
-      }
-      case PROBE_SUPPORT: {
-        const Support support = support_at(vessel_, row.given3(0));
-        row.answer(0, support.distance);
-        row.answer(1, support.other);
-        row.answer3(2, support.normal);
-        row.answer(5, Real(support.element));
-        row.answer(6, Real(support.planar));
-        break;
-      }
-      case PROBE_SAFE_STEP: {
-        const Support support{row.given(0), row.given(1), row.given3(2), 0, row.given_int(5) != 0};
-        row.answer(0, safe_step(support, row.given(6), row.given3(7), row.given(10), row.given(11)));
-        break;
-      }
-      case PROBE_CONTACT: {
-        const Contact contact = contact_at(vessel_, row.given3(0), row.given(3));
-        row.answer(0, contact.separation);
-        row.answer3(1, contact.proxy);
-        row.answer(4, Real(contact.settled));
-        break;
-      }
-      case PROBE_ELEMENT: {
-        const Element element = row.element();
-        const Vec2 q = row.given2(8);
-        const Vec2 outward = element_outward(element, q, row.given(10));
-        row.answer(0, std::sqrt(element_distance_squared(element, q)));
-        row.answer(1, Real(element_crosses(element, q)));
-        row.answer(2, Real(element_spans(element, q)));
-        row.answer(3, Real(element_convex(element, q)));
-        row.answer(4, outward.x);
-        row.answer(5, outward.y);
-        break;
-      }
-      case PROBE_PROXY: {
-        bool settled = false;
-        row.answer3(0, proxy_of(vessel_, row.given3(0), row.given(3), settled));
-        row.answer(3, Real(settled));
-        break;
-      }
-      case PROBE_LOCATE_CELL: {
-        const Cell cell = locate_cell(vessel_, row.given3(0));
-        row.answer3(0, Vec3(cell.i, cell.j, cell.k));
-        row.answer3(3, cell.fraction);
-        row.answer3(6, cell.outside);
-        break;
-      }
-      case PROBE_GRID_SAMPLE:
-        row.answer(0, grid_sample(vessel_, row.given_int(0), row.given_int(1), row.given_int(2)));
-        break;
-      case PROBE_DISTANCE_BEYOND:
-        row.answer(0, distance_beyond(row.given(0), row.given3(1)));
-        break;
-      case PROBE_MIX_REALS:
-        row.answer(0, mix_reals(row.given(0), row.given(1), row.given(2)));
-        break;
-      default:
-        unknown();
-    }
-  }
-
-  // 0 where the reason leaves a value open
-  static void answer_closing(const Row& row, Closing closing) {
-    const bool reached = closing.reason == REASON_NONE || closing.reason >= REASON_TOO_WIDE;
-    const bool closed = closing.reason == REASON_NONE;
-    row.answer(0, Real(closing.reason));
-    row.answer3(1, closing.direction);
-    row.answer(4, reached ? closing.t_index : Real(0));
-    row.answer(5, reached ? closing.t_thumb : Real(0));
-    row.answer(6, reached ? closing.gap : Real(0));
-    row.answer3(7, reached ? closing.midpoint : Vec3(0));
-    row.answer(10, closed ? closing.closure : Real(0));
-    row.answer(11, closed ? closing.thumb_angle : Real(0));
-    row.answer(12, closed ? closing.index_angle : Real(0));
-    row.answer(13, closed ? Real(closing.grazing) : Real(0));
-    for (int k = 0; k < 3; ++k) row.answer3(14 + 3 * k, closed ? closing.placement.rotation[k] : Vec3(0));
-    row.answer3(23, closed ? closing.placement.translation : Vec3(0));
-    row.answer(26, closed ? closing.placement.scale : Real(0));
-  }
-
-  void closure(int probe, const Row& row) const {
-    switch (probe) {
-      case PROBE_TRACE_TIP: {
-        const Trace trace =
-            trace_tip(vessel_, row.given3(0), grip_direction(row.given(3), row.given(4)), row.given(5), row.given(6));
-        row.answer(0, trace.t);
-        row.answer(1, Real(trace.reason));
-        row.answer3(2, trace.normal);
-        row.answer(5, Real(trace.element));
-        break;
-      }
-      case PROBE_PLACE_HAND: {
-        Real e1_x = 0;
-        const Placement placement = place_hand(hand_, row.given(0), grip_direction(row.given(1), row.given(2)), row.given(3),
-                                               row.given3(4), row.given(7), e1_x);
-        for (int k = 0; k < 3; ++k) row.answer3(3 * k, placement.rotation[k]);
-        row.answer3(9, placement.translation);
-        row.answer(12, e1_x);
-        const FingerFrame index = placed_frame(placement, hand_.frame[1]);
-        row.answer3(13, index.base);
-        row.answer3(16, index.forward);
-        row.answer3(19, index.palmward);
-        break;
-      }
-      case PROBE_CLOSE_FINGERS: {
-        const Grip grip{row.given(0), row.given(1), row.given(2), row.given(3), row.given(4), row.given(5)};
-        Hand hand = hand_;
-        hand.radius[1][4] += row.given(6) / (hand.scale * grip.hand_scale);
-        hand.radius[0][3] += row.given(7) / (hand.scale * grip.hand_scale);
-        answer_closing(row, close_fingers(hand, vessel_, grip));
-        break;
-      }
-      default:
-        unknown();
-    }
-  }
-
-  void projection(int probe, const Row& row) const {
-    switch (probe) {
-      case PROBE_SEGMENT_RATES:
-        row.answer3(0, segment_rates(row.given3(0), row.given_int(3)));
-        break;
-      case PROBE_QUARTER_TURN:
-        row.answer3(0, quarter_turn(row.frame(), row.given3(9)));
-        break;
-      case PROBE_NEAREST_POINT:
-        row.answer(0, Real(nearest_point(row.given3(0), row.given_int(3))));
-        break;
-      case PROBE_FINGER_STEP: {
-        const FingerPoints points = finger_points(row.frame(), row.given3(9), row.given3(12), row.given3(15));
-        const Watch watch = watch_points(vessel_, points, row.given3(18));
-        row.answer(0, finger_step(row.frame(), row.given3(9), points, watch, row.given3(12), row.given3(21)));
-        break;
-      }
-      case PROBE_FINGER_MOTION: {
-        FingerMotion motion = start_motion(hand_, row.given(18));
-        while (motion.joint < 3) {
-          const FingerPoints points = finger_points(row.frame(), row.given3(9), row.given3(12), motion.angles);
-          const Watch watch = watch_points(vessel_, points, row.given3(15));
-          motion = advance_finger(hand_, motion, row.frame(), row.given3(9), points, watch, row.given3(12));
-        }
-        row.answer3(0, motion.angles);
-        row.answer(3, Real(motion.blocked));
-        row.answer(4, Real(motion.unsettled));
-        break;
-      }
-      case PROBE_PAPER_AXIS: {
-        const PaperAxis axis = paper_axis(row.given3(0), row.given3(3), row.given3(6), row.given3(9));
-        row.answer3(0, axis.direction);
-        row.answer(3, Real(axis.exists));
-        break;
-      }
-      case PROBE_TURNED_POINT:
-        row.answer3(0, turned_point(row.given3(0), row.given3(3), row.given3(6), row.given(9)));
-        break;
-      case PROBE_PROJECT_POINT: {
-        bool unsettled = false;
-        row.answer3(0, project_point(vessel_, row.given3(0), row.given(3), row.given3(4), PaperAxis{row.given3(7), true},
-                                     row.given(10), unsettled));
-        row.answer(3, Real(unsettled));
-        break;
-      }
-      case PROBE_TURN_JOINT: {
-        const FingerMotion motion{row.given3(0),  row.given(3),           row.given(4),          row.given_int(5),
-                                  row.given(6),   row.given(7),           row.given(8),          row.given_int(9),
-                                  row.given3(10), row.given_int(13) != 0, row.given_int(14) != 0};
-        const FingerMotion next = turn_joint(hand_, motion, row.given_int(15));
-        row.answer3(0, next.angles);
-        row.answer(3, next.closure);
-        row.answer(4, next.limit);
-        row.answer(5, Real(next.joint));
-        row.answer(6, next.start);
-        row.answer(7, next.turned);
-        row.answer(8, next.room);
-        row.answer(9, Real(next.steps));
-        row.answer3(10, next.before);
-        row.answer(13, Real(next.blocked));
-        row.answer(14, Real(next.unsettled));
-        break;
-      }
-      case PROBE_PROJECTION_ROLE:
-        row.answer(0, Real(projection_role(row.given_int(0), row.given_int(1))));
-        break;
-      default:
-        unknown();
-    }
-  }
-
-  void liquid(int probe, const Row& row) const {
-    switch (probe) {
-      case PROBE_SEGMENT_AREA:
-        row.answer(0, segment_area(row.given(0), row.given(1)));
-        break;
-      case PROBE_SEGMENT_MOMENT:
-        row.answer(0, segment_moment(row.given(0), row.given(1)));
-        break;
-      case PROBE_ELEMENT_RADIUS:
-        row.answer(0, element_radius(row.element(), row.given(8)));
-        break;
-      case PROBE_PLANE_CROSSINGS: {
-        const Vec2 heights = plane_crossings(row.element(), row.given(8), row.given(9), row.given(10), row.given(11));
-        row.answer(0, heights.x);
-        row.answer(1, heights.y);
-        break;
-      }
-      case PROBE_PIECE_BELOW:
-        row.answer_slices(piece_below(quadrature_, row.element(), row.given(8), row.given(9), row.given(10)));
-        break;
-      case PROBE_INTEGRATE_SLICES:
-        row.answer_slices(
-            integrate_slices(quadrature_, row.element(), row.given(8), row.given(9), row.given(10), row.given(11), row.given(12)));
-        break;
-      case PROBE_LIQUID_BELOW:
-        row.answer_slices(liquid_below(vessel_, quadrature_, row.given(0), row.given(1), row.given(2)));
-        break;
-      case PROBE_LIP_CAPACITY:
-        row.answer(0, lip_level(vessel_, row.given(0), row.given(1)));
-        row.answer(1, bottom_level(vessel_, row.given(0), row.given(1)));
-        row.answer(2, lip_capacity(vessel_, quadrature_, row.given(0), row.given(1)));
-        break;
-      case PROBE_LIQUID_AT: {
-        const LiquidState state = liquid_at(vessel_, quadrature_, row.given(0), row.given(1), row.given(2));
-        row.answer(0, state.volume);
-        row.answer(1, state.lean);
-        row.answer(2, state.height);
-        break;
-      }
-      case PROBE_REVOLVED: {
-        const Slices slices = revolved_element(quadrature_, row.element());
-        row.answer(0, slices.volume);
-        row.answer(1, slices.height);
-        break;
-      }
-      default:
-        unknown();
-    }
-  }
-
-  static void answer_motion(const Row& row, Motion motion) {
-    row.answer(0, motion.place);
-    row.answer(1, motion.speed);
-  }
-
-  static void loop(int probe, const Row& row) {
-    const Plant plant{row.given(0), row.given(1), row.given(2)};
-    switch (probe) {
-      case PROBE_PROPAGATOR: {
-        const Propagator by = propagator(plant, row.given(3));
-        row.answer3(0, Vec3(by.place_place, by.place_speed, by.place_force));
-        row.answer3(3, Vec3(by.speed_place, by.speed_speed, by.speed_force));
-        break;
-      }
-      case PROBE_STEPPED: {
-        const Propagator by = stepped_propagator(plant, row.given(3), row.given_int(4), row.given_int(5));
-        row.answer3(0, Vec3(by.place_place, by.place_speed, by.place_force));
-        row.answer3(3, Vec3(by.speed_place, by.speed_speed, by.speed_force));
-        break;
-      }
-      case PROBE_LET_GO: {
-        const Wall wall{row.given(0), row.given(1),     row.given(2),         row.given(3),
-                        row.given(4), row.given_int(5), row.given_int(6) != 0};
-        const LoopState state = let_go(wall, row.given(7));
-        answer_motion(row, state.motion);
-        row.answer(2, state.reading);
-        for (int k = 0; k < LOOP_DELAYS; ++k) row.answer(3 + k, state.waiting[k]);
-        break;
-      }
-      case PROBE_ADVANCE: {
-        const Propagator by = propagator(plant, row.given(7));
-        const Motion motion{row.given(3), row.given(4)};
-        answer_motion(row, row.given(6) > 0 ? advance_with_friction(plant, by, motion, row.given(5), row.given(6), row.given(7))
-                                            : advance(by, motion, row.given(5)));
-        break;
-      }
-      case PROBE_WALL_FORCE: {
-        const Wall wall{row.given(0), row.given(1), row.given(2), row.given(3), row.given(4), 0, row.given_int(5) != 0};
-        const Real reading = read_encoder(row.given(6), wall.encoder_step);
-        row.answer(0, reading);
-        row.answer(1, wall_force(wall, reading, row.given(7)));
-        break;
-      }
-      case PROBE_STEP_LOOP: {
-        const Wall wall{row.given(3), row.given(4),     row.given(5),         row.given(6),
-                        row.given(7), row.given_int(8), row.given_int(9) != 0};
-        LoopState state;
-        state.motion = {row.given(10), row.given(11)};
-        state.reading = row.given(12);
-        for (int k = 0; k < LOOP_DELAYS; ++k) state.waiting[k] = row.given(13 + k);
-        state = step_loop(plant, propagator(plant, wall.period), wall, state, row.given(17), row.given(18));
-        answer_motion(row, state.motion);
-        row.answer(2, state.reading);
-        for (int k = 0; k < LOOP_DELAYS; ++k) row.answer(3 + k, state.waiting[k]);
-        break;
-      }
-      case PROBE_LOOP_ENERGY: {
-        Wall wall;
-        wall.stiffness = row.given(3);
-        row.answer(0, loop_energy(plant, wall, {row.given(4), row.given(5)}, row.given(6)));
-        break;
-      }
-      default:
-        unknown();
-    }
-  }
-
-  static void force(int probe, const Row& row) {
-    switch (probe) {
-      case PROBE_DIRECTIONS: {
-        const Vec3 pour = pour_direction(row.given3(0), row.given(3));
-        row.answer3(0, pour);
-        row.answer3(3, up_direction(pour, row.given(4), row.given(5)));
-        break;
-      }
-      case PROBE_LOAD_CENTER:
-        row.answer3(0, load_center(Load{Real(1), row.given3(0), row.given(3), row.given(4)}, row.given3(5)));
-        break;
-      case PROBE_TORQUES:
-        row.answer(0, pendulum_torque(row.given(0), row.given(1), row.given(2), row.given(9)));
-        row.answer(1, exact_pendulum_torque(row.given(0), row.given(1), row.given3(3), row.given3(6), row.given(9), row.given(10)));
-        row.answer(2, grip_reference(row.given(0), row.given(1), row.given(2)));
-        break;
-      case PROBE_FORCES: {
-        const Real normal = normal_force(row.given(0), row.given(1), row.given(2), row.given(3));
-        const Real opening = opening_force(row.given(4), row.given(5));
-        row.answer(0, normal);
-        row.answer(1, opening);
-        row.answer(2, feedback_force(normal, opening, row.given(6)));
-        break;
-      }
-      case PROBE_HOLD_FORCE:
-        row.answer(
-            0, hold_force(row.given(0), row.given(1), row.given3(2), row.given3(5), row.given3(8), row.given(11), row.given(12)));
-        break;
-      case PROBE_COUPLING_FORCE:
-        row.answer3(0, coupling_force(row.given3(0), row.given3(3), row.given3(6), row.given3(9), row.given(12), row.given(13)));
-        break;
-      case PROBE_SCORE:
-        row.answer(0, fingers_term(row.given_int(0)));
-        row.answer(1, contacts_term(row.given_int(1)));
-        row.answer(2, depth_term(row.given(2), row.given(3)));
-        row.answer(3, posture_term(row.given(4)));
-        row.answer(4, force_term(row.given(5), row.given(6)));
-        row.answer(5, hold_term(row.given(7), row.given(8)));
-        break;
-      default:
-        unknown();
-    }
-  }
-
-  Hand hand_;
-  Quadrature quadrature_;
-  Vessel vessel_;
+  Context context_;
 };
 
 }  // namespace
