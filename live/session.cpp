@@ -6,12 +6,9 @@
 
 #include <glm/gtc/quaternion.hpp>
 
-#include "core/error.h"
-#include "core/load.h"
+#include "core/closure.h"
+#include "core/liquid.h"
 #include "core/mesh_body.h"
-#include "core/mirror.h"
-#include "core/planes.h"
-#include "core/prepare.h"
 #include "core/trig.h"
 
 namespace wholehand {
@@ -20,11 +17,6 @@ using core_f64::Mat3;
 using core_f64::Vec3;
 
 namespace {
-
-Vec3 normalized_or(Vec3 v, Vec3 otherwise) {
-  const double length = glm::length(v);
-  return length > 1e-12 ? v / length : otherwise;
-}
 
 constexpr double THINNEST_SOLID = 1e-3;  // m: a hull has no wall, and what it has that is thinner is no way in
 
@@ -36,64 +28,7 @@ std::vector<double> volumes_of(const LiveScene& live) {
   return volumes;
 }
 
-LiveVessel load_live_vessel(const Scene& scene, const VesselData& data, const core_f64::Quadrature& quadrature) {
-  const bool is_left = scene.hand.handedness == Handedness::left;
-  if (data.liquid_fill > 0 && !(scene.liquid && data.has_cavity())) {
-    throw usage_error(at_place(scene.file, "vessel '" + data.name + "' has liquid in it; that needs [liquid] and " +
-                                               (data.mesh ? "'inner_outline'" : "'wall_mm' or 'inner_outline'")));
-  }
-  LiveVessel live;
-  const PreparedVessel prepared = prepare_vessel(data, data.has_cavity());
-  live.radius = prepared.largest_radius;
-  live.vessel = core_f64::load_vessel(prepared, data, quadrature, scene.liquid.has_value(), scene.hand.handedness);
-  if (data.mesh) core_f64::use_grid(live.vessel, core_f64::load_grid(mirrored(data.mesh->body->grid, scene.hand.handedness)));
-  live.force = core_f64::load_force(scene, data);
-  live.home = to_vec3(mirrored(data.place, scene.hand.handedness));
-  double most = 0;
-  core_f64::LiquidState liquid;
-  liquid.height = live.vessel.floor_height;
-  if (scene.liquid) {
-    live.volume = data.liquid_fill * live.vessel.capacity;
-    most = std::max(vessel_fills(scene, data).back(), data.liquid_fill) * live.vessel.capacity;
-    liquid = core_f64::liquid_at(live.vessel, quadrature, most, 0, 1);
-  }
-  const double density = scene.liquid ? scene.liquid->density : 0;
-  live.largest = core_f64::load_with(live.vessel, most * density, liquid.lean, liquid.height);
-  live.force.reference = core_f64::object_reference(live.largest, live.force.gravity, data.base, data.height);
-  for (const GuidancePoint& point : data.guidance) {
-    const double azimuth = is_left ? PI - point.azimuth : point.azimuth;
-    const Vec3 out = core_f64::grip_direction(azimuth, 0), axis(0, point.height, 0);
-    const core_f64::Trace trace = core_f64::trace_tip(live.vessel, axis, out, 1, 0);
-    live.guidance.push_back(trace.reason == REASON_NONE ? axis + trace.t * out : axis);
-  }
-  return live;
-}
-
-// By the cylinders about them.
-bool stand_in_each_other(const LiveVessel& a, double height_a, const LiveVessel& b, double height_b) {
-  const Vec3 apart = b.home - a.home;
-  return std::hypot(apart.x, apart.z) < a.radius + b.radius && apart.y < height_a && -apart.y < height_b;
-}
-
 }  // namespace
-
-LiveScene::LiveScene(const Scene& given) : scene(given) {
-  if (scene.vessels.empty() || scene.vessels.size() > LIVE_VESSELS) {
-    throw usage_error(at_place(scene.file, "a live session has 1 to " + std::to_string(LIVE_VESSELS) + " vessels; this scene has " +
-                                               std::to_string(scene.vessels.size())));
-  }
-  hand = core_f64::load_hand(prepare_hand(scene.hand), scene.hand);
-  quadrature = core_f64::load_quadrature(prepare_quadrature(QUADRATURE_POINTS));
-  for (const VesselData& data : scene.vessels) {
-    if (tutorial < 0 && scene.task && data.liquid_name.empty()) tutorial = static_cast<int>(vessels.size());
-    vessels.push_back(load_live_vessel(scene, data, quadrature));
-    for (std::size_t v = 0; v + 1 < vessels.size(); ++v) {
-      if (!stand_in_each_other(vessels[v], scene.vessels[v].height, vessels.back(), data.height)) continue;
-      throw usage_error(at_place(scene.file, "vessels '" + scene.vessels[v].name + "' and '" + data.name +
-                                                 "' stand in each other; a live session needs place_mm for each"));
-    }
-  }
-}
 
 Session::Session(const Scene& scene, std::array<double, 2> device_gap)
     : live_(std::make_unique<const LiveScene>(scene)),
@@ -204,60 +139,18 @@ void Session::approach(const HandPose& pose, Tick& tick) noexcept {
 
 // Both tips on the same vessel, one from each side, neither on its lid, at a gap that the hand can make: held from now on.
 bool Session::grasp(const HandPose& pose, double device_gap, Tick& tick) noexcept {
-  const core_f64::Hand& hand = live_->hand;
-  std::array<Vec3, 2> normals{};
-  std::array<int, 2> vessels{-1, -1};
-  for (int k = 0; k < 2; ++k) {
-    // a tip that is pressed through a thin wall still touches what its proxy rests on
-    const NearestVessel nearest = nearest_vessel(obstacles_, tips_[k], radii_[k]);
-    const bool is_near = nearest.vessel >= 0 && nearest.separation <= hand.contact_tolerance;
-    const int touched = proxies_[k].vessel >= 0 ? proxies_[k].vessel : is_near ? nearest.vessel : -1;
-    if (touched < 0) return false;
-    const auto& standing = obstacles_.standing[touched];
-    int element = -1;
-    normals[k] = core_f64::distance_gradient(*standing.vessel, proxies_[k].place - standing.place, element);
-    if (standing.vessel->lid >= 0 && element == standing.vessel->lid) return false;
-    vessels[k] = touched;
-  }
-  if (vessels[0] != vessels[1]) return false;
-  const int v = vessels[0];
-  const LiveVessel& live = live_->vessels[v];
-  const Vec3 place = obstacles_.standing[v].place;
-  const Vec3 apart = proxies_[1].place - proxies_[0].place;
-  const double gap = glm::length(apart);
-  // an open hand holds nothing: it could not let go
-  const double widest = hand.scale * hand.gap_open - 2 * hand.contact_tolerance,
-               narrowest = std::max(hand.scale * hand.gap_closed, radii_[0] + radii_[1]);
-  if (!(gap > narrowest && gap <= widest)) return false;
-  const Vec3 direction = apart / gap;
-  const double thumb = glm::dot(normals[0], -direction), index = glm::dot(normals[1], direction);
-  if (!(thumb > GRAZING_COSINE && index > GRAZING_COSINE)) return false;
-  double e1_x = 0;
-  core_f64::Closing closing = close_live_hand(hand, {proxies_[0].place, proxies_[1].place}, place, pose.rotation, e1_x);
-  closing.thumb_angle = core_f64::angle_between(normals[0], -direction);
-  closing.index_angle = core_f64::angle_between(normals[1], direction);
-  if (std::abs(e1_x) > LARGEST_E1_X) return false;
+  const std::optional<Touch> touch = touch_of_both_tips();
+  if (!touch) return false;
+  const std::optional<core_f64::Closing> closing = close_on(*touch, pose);
+  if (!closing) return false;
   core_f64::GripAnswer answer;
-  core_f64::rest_hand(hand, live.vessel, static_cast<core_f64::PoseKind>(static_cast<int>(live_->scene.pose)), closing,
-                      live_->scene.force.friction, {false, false}, answer);
-
-  grasp_ = Grasp{};
+  core_f64::rest_hand(live_->hand, live_->vessels[touch->vessel].vessel,
+                      static_cast<core_f64::PoseKind>(static_cast<int>(live_->scene.pose)), *closing, live_->scene.force.friction,
+                      {false, false}, answer);
+  keep_grasp(*touch, pose, answer);
   grasp_.device_gap = device_gap;
-  grasp_.is_antipodal = (answer.status & STATUS_ANTIPODAL) != 0;
-  grasp_.midpoint = closing.midpoint;
-  grasp_.direction = closing.direction;
-  grasp_.touch_mask = answer.touch_mask;
-  grasp_.used_mask = answer.used_mask;
-  for (int k = 0; k < 2; ++k) grasp_.proxies[k] = proxies_[k].place - place;
-  grasp_.turn = glm::transpose(pose.rotation);
-  grasp_.offset = grasp_.turn * (place - pose.middle);
-  if (live_->scene.task && !live.guidance.empty()) {
-    const Vec3 shown = live.guidance[tasks_done() % live.guidance.size()];
-    grasp_.guidance_distance = std::min(glm::length(grasp_.proxies[0] - radii_[0] * normals[0] - shown),
-                                        glm::length(grasp_.proxies[1] - radii_[1] * normals[1] - shown));
-  }
-  obstacles_.standing[v].is_solid = false;
-  vessel_ = v;
+  obstacles_.standing[touch->vessel].is_solid = false;
+  vessel_ = touch->vessel;
   state_ = SessionState::lift;
   is_turning_ = false;
   rest_ = SessionState::lift;
@@ -267,19 +160,100 @@ bool Session::grasp(const HandPose& pose, double device_gap, Tick& tick) noexcep
   return true;
 }
 
+std::optional<Session::Touch> Session::touch_of_both_tips() const noexcept {
+  Touch touch;
+  for (int k = 0; k < 2; ++k) {
+    // a tip that is pressed through a thin wall still touches what its proxy rests on
+    const NearestVessel nearest = nearest_vessel(obstacles_, tips_[k], radii_[k]);
+    const bool is_near = nearest.vessel >= 0 && nearest.separation <= live_->hand.contact_tolerance;
+    const int touched = proxies_[k].vessel >= 0 ? proxies_[k].vessel : is_near ? nearest.vessel : -1;
+    if (touched < 0) return std::nullopt;
+    const auto& standing = obstacles_.standing[touched];
+    int element = -1;
+    touch.normals[k] = core_f64::distance_gradient(*standing.vessel, proxies_[k].place - standing.place, element);
+    if (standing.vessel->lid >= 0 && element == standing.vessel->lid) return std::nullopt;
+    if (k > 0 && touched != touch.vessel) return std::nullopt;
+    touch.vessel = touched;
+  }
+  return touch;
+}
+
+// The hand closed on the proxies: none where it cannot, or where they lie on one side of the vessel.
+std::optional<core_f64::Closing> Session::close_on(const Touch& touch, const HandPose& pose) const noexcept {
+  const core_f64::Hand& hand = live_->hand;
+  const Vec3 apart = proxies_[1].place - proxies_[0].place;
+  const double gap = glm::length(apart);
+  // an open hand holds nothing: it could not let go
+  const double widest = hand.scale * hand.gap_open - 2 * hand.contact_tolerance,
+               narrowest = std::max(hand.scale * hand.gap_closed, radii_[0] + radii_[1]);
+  if (!(gap > narrowest && gap <= widest)) return std::nullopt;
+  const Vec3 direction = apart / gap;
+  const double thumb = glm::dot(touch.normals[0], -direction), index = glm::dot(touch.normals[1], direction);
+  if (!(thumb > GRAZING_COSINE && index > GRAZING_COSINE)) return std::nullopt;
+  double e1_x = 0;
+  core_f64::Closing closing =
+      close_live_hand(hand, {proxies_[0].place, proxies_[1].place}, obstacles_.standing[touch.vessel].place, pose.rotation, e1_x);
+  closing.thumb_angle = core_f64::angle_between(touch.normals[0], -direction);
+  closing.index_angle = core_f64::angle_between(touch.normals[1], direction);
+  if (std::abs(e1_x) > LARGEST_E1_X) return std::nullopt;
+  return closing;
+}
+
+void Session::keep_grasp(const Touch& touch, const HandPose& pose, const core_f64::GripAnswer& answer) noexcept {
+  const LiveVessel& live = live_->vessels[touch.vessel];
+  const Vec3 place = obstacles_.standing[touch.vessel].place;
+  grasp_ = Grasp{};
+  grasp_.is_antipodal = (answer.status & STATUS_ANTIPODAL) != 0;
+  grasp_.midpoint = answer.closing.midpoint;
+  grasp_.direction = answer.closing.direction;
+  grasp_.touch_mask = answer.touch_mask;
+  grasp_.used_mask = answer.used_mask;
+  for (int k = 0; k < 2; ++k) grasp_.proxies[k] = proxies_[k].place - place;
+  grasp_.turn = glm::transpose(pose.rotation);
+  grasp_.offset = grasp_.turn * (place - pose.middle);
+  if (live_->scene.task && !live.guidance.empty()) {
+    const Vec3 shown = live.guidance[tasks_done() % live.guidance.size()];
+    grasp_.guidance_distance = std::min(glm::length(grasp_.proxies[0] - radii_[0] * touch.normals[0] - shown),
+                                        glm::length(grasp_.proxies[1] - radii_[1] * touch.normals[1] - shown));
+  }
+}
+
 // In the hand: the vessel goes with it, its liquid runs, and the gripper feels kernel 7.
 void Session::hold(const HandPose& pose, double device_gap, double seconds, Tick& tick) noexcept {
   const LiveVessel& live = live_->vessels[vessel_];
   const Pose vessel{pose.middle + pose.rotation * grasp_.offset, pose.rotation * grasp_.turn};
+  const Leaning leaning = leaning_of(vessel);
+  tick.tilt = std::atan2(leaning.sine, leaning.cosine);
+  const core_f64::Load load = run_liquid(vessel, leaning, seconds, tick);
+  const core_f64::HeldForces held =
+      core_f64::held_forces(live.force, load, live.largest, grasp_.direction, grasp_.midpoint, leaning.lean, leaning.sine,
+                            leaning.cosine, grasp_.is_antipodal, grasp_.device_gap - device_gap);
+  if (seconds == 0) grasp_.normal = held.normal;  // the moment of grasp
+  state_ = turning(tick.tilt);
+  note_delivery(vessel.place);
+  tell_held(vessel, load.mass, held, tick);
+  if (has_let_go(device_gap)) slip(vessel);
+  if (state_ == SessionState::slipped) {
+    tick.wanted = {};
+    tick.feedback = tick.user_force = 0;
+    tick.weight = 0;
+  }
+}
+
+Session::Leaning Session::leaning_of(const Pose& vessel) const noexcept {
   const Vec3 up = glm::transpose(vessel.rotation) * Vec3(0, 1, 0);
   const double sine = std::sqrt(up.x * up.x + up.z * up.z), cosine = up.y;
   const bool is_upright = sine < UPRIGHT_SINE_F64;
   const double off_axis = std::hypot(grasp_.direction.x, grasp_.direction.z);
   const double sense = live_->scene.liquid && live_->scene.liquid->pour == Pour::towards ? -1 : 1;
   const Vec3 across = off_axis > DEGENERATE_SINE_F64 ? core_f64::pour_direction(grasp_.direction, sense) : Vec3(1, 0, 0);
-  const Vec3 lean = is_upright ? across : Vec3(-up.x / sine, 0, -up.z / sine);
-  tick.tilt = std::atan2(sine, cosine);
+  return {is_upright ? across : Vec3(-up.x / sine, 0, -up.z / sine), sine, cosine};
+}
 
+// What runs out goes; the answer is what the vessel weighs with the rest.
+core_f64::Load Session::run_liquid(const Pose& vessel, const Leaning& leaning, double seconds, Tick& tick) noexcept {
+  const LiveVessel& live = live_->vessels[vessel_];
+  const auto& [lean, sine, cosine] = leaning;
   core_f64::LiquidState liquid;
   liquid.height = live.vessel.floor_height;
   double density = 0;
@@ -290,20 +264,22 @@ void Session::hold(const HandPose& pose, double device_gap, double seconds, Tick
     tick.flow = pouring_.pour(vessel_, held_back, workspace_.across(lip), tick.number, seconds);
     liquid = core_f64::liquid_at(live.vessel, live_->quadrature, std::min(pouring_.volume(vessel_), held_back), sine, cosine);
   }
-  const core_f64::Load load = core_f64::load_with(live.vessel, density * pouring_.volume(vessel_), liquid.lean, liquid.height);
-  const core_f64::HeldForces held = core_f64::held_forces(live.force, load, live.largest, grasp_.direction, grasp_.midpoint, lean,
-                                                          sine, cosine, grasp_.is_antipodal, grasp_.device_gap - device_gap);
-  if (seconds == 0) grasp_.normal = held.normal;  // the moment of grasp
-  state_ = turning(tick.tilt);
+  return core_f64::load_with(live.vessel, density * pouring_.volume(vessel_), liquid.lean, liquid.height);
+}
 
-  const Vec3 home = obstacles_.standing[vessel_].place;
+// The tutorial's vessel at its destination, once.
+void Session::note_delivery(Vec3 place) noexcept {
   const Vec3 destination = live_->scene.task ? workspace_.across(to_vec3(live_->scene.task->destination)) : Vec3(0);
-  if (vessel_ == live_->tutorial && !is_tutored_ && glm::length(vessel.place - destination) <= DESTINATION_RADIUS) {
+  if (vessel_ == live_->tutorial && !is_tutored_ && glm::length(place - destination) <= DESTINATION_RADIUS) {
     grasp_.is_delivered = true;
     is_tutored_ = true;
     ++destinations_;
   }
-  tick.weight = load.mass * live.force.gravity * minimum_jerk((vessel.place.y - home.y) / FULL_WEIGHT);
+}
+
+void Session::tell_held(const Pose& vessel, double mass, const core_f64::HeldForces& held, Tick& tick) const noexcept {
+  const Vec3 home = obstacles_.standing[vessel_].place;
+  tick.weight = mass * live_->vessels[vessel_].force.gravity * minimum_jerk((vessel.place.y - home.y) / FULL_WEIGHT);
   tick.torque = held.torque;
   tick.exact_torque = held.exact_torque;
   tick.normal_force = held.normal;
@@ -319,17 +295,13 @@ void Session::hold(const HandPose& pose, double device_gap, double seconds, Tick
   tick.guidance_distance = grasp_.guidance_distance;
   for (int k = 0; k < 2; ++k) tick.proxies[k] = to_triple(workspace_.across(vessel.place + vessel.rotation * grasp_.proxies[k]));
   tell_vessel(vessel, tick);
+}
 
+bool Session::has_let_go(double device_gap) const noexcept {
   const std::array<double, 2> range = workspace_.device_gap();
   // of a vessel that the hand can hardly span it takes half of what is left: its noise opens no fingers
   const double open = std::max(range[1] - OPEN_MARGIN * (range[1] - range[0]), 0.5 * (grasp_.device_gap + range[1]));
-  if (device_gap - grasp_.device_gap > live_->scene.live.slip || (device_gap >= open && device_gap > grasp_.device_gap))
-    slip(vessel);
-  if (state_ == SessionState::slipped) {
-    tick.wanted = {};
-    tick.feedback = tick.user_force = 0;
-    tick.weight = 0;
-  }
+  return device_gap - grasp_.device_gap > live_->scene.live.slip || (device_gap >= open && device_gap > grasp_.device_gap);
 }
 
 // lift, tilt or maintain: it turns from when the tilt has changed by the step since it came to rest, until it has changed by less than a
@@ -409,39 +381,6 @@ void Session::tell(const HandPose& pose, double closure, Tick& tick) const noexc
 void Session::tell_vessel(const Pose& pose, Tick& tick) const noexcept {
   tick.vessel_place = to_triple(workspace_.across(pose.place));
   tick.vessel_rotation = to_rotation(workspace_.across(pose.rotation));
-}
-
-// As place_hand, with the axes given instead of line and roll: at roll 0 the little finger's side is against the gripper's second axis.
-core_f64::Placement place_live_hand(const core_f64::Hand& hand, double closure, const Mat3& rotation, Vec3 middle, double scale,
-                                    double& e1_x) {
-  Vec3 slope{};
-  const Vec3 apart = core_f64::tip_to_tip(hand, closure, slope);
-  const Vec3 e1 = apart / glm::length(apart);
-  e1_x = e1.x;
-  const Vec3 e2 = normalized_or(Vec3(1, 0, 0) - e1.x * e1, Vec3(0, 1, 0));
-  const Mat3 hand_axes(e1, e2, glm::cross(e1, e2)), gripper_axes(rotation[0], -rotation[1], -rotation[2]);
-  core_f64::Placement placement;
-  placement.scale = scale;
-  placement.rotation = gripper_axes * glm::transpose(hand_axes);
-  const Vec3 lengths(hand.length[0][0], hand.length[0][1], hand.length[0][2]);
-  const Vec3 thumb = core_f64::thumb_points(hand.frame[0], lengths, core_f64::thumb_angles(hand, closure)).tip;
-  placement.translation = middle - placement.rotation * (scale * (thumb + 0.5 * apart));
-  return placement;
-}
-
-core_f64::Closing close_live_hand(const core_f64::Hand& hand, const std::array<Vec3, 2>& contacts, Vec3 place, const Mat3& rotation,
-                                  double& e1_x) {
-  const Vec3 apart = contacts[1] - contacts[0];
-  core_f64::Closing closing;
-  closing.gap = glm::length(apart);
-  closing.direction = closing.gap > 1e-12 ? apart / closing.gap : rotation[0];
-  closing.midpoint = 0.5 * (contacts[0] + contacts[1]) - place;
-  const double gap = std::clamp(closing.gap / hand.scale, hand.gap_closed, hand.gap_open);
-  closing.closure = core_f64::closure_of_gap(hand, gap, hand.limits.stop_tolerance / hand.scale);
-  const Vec3 up = normalized_or(rotation[1] - glm::dot(rotation[1], closing.direction) * closing.direction, rotation[2]);
-  closing.placement = place_live_hand(hand, closing.closure, Mat3(closing.direction, up, glm::cross(closing.direction, up)),
-                                      closing.midpoint, hand.scale, e1_x);
-  return closing;
 }
 
 }  // namespace wholehand

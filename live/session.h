@@ -3,38 +3,20 @@
 // at the same ticks give the same forces to the bit.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
-#include <vector>
+#include <optional>
 
 #include "core/grip.h"
 #include "core/held.h"
+#include "live/live_hand.h"
+#include "live/live_scene.h"
 #include "live/pouring.h"
 #include "live/proxy.h"
 #include "live/workspace.h"
 
 namespace wholehand {
-
-// A vessel of the scene made ready for a session, in the world of the right hand.
-struct LiveVessel {
-  core_f64::Vessel vessel;
-  core_f64::ForceScale force;
-  core_f64::Load largest;                // upright at the scene's largest fill, or its own if that is more
-  std::vector<core_f64::Vec3> guidance;  // on its outer surface, vessel frame
-  core_f64::Vec3 home{};                 // where it stands at the start
-  double radius = 0;                     // at its widest, m
-  double volume = 0;                     // at the start, m3
-};
-
-// All that a session has that no tick changes. Throws Error (usage): no vessel or more than LIVE_VESSELS, a hand or a vessel that is
-// physically impossible, vessels that stand in each other.
-struct LiveScene {
-  explicit LiveScene(const Scene& scene);
-  Scene scene;
-  core_f64::Hand hand;
-  core_f64::Quadrature quadrature;
-  std::vector<LiveVessel> vessels;
-  int tutorial = -1;  // the vessel to be carried to the destination: the first without liquid, where there is a task; -1: none
-};
 
 class Session {
  public:
@@ -66,10 +48,28 @@ class Session {
     core_f64::Vec3 place{};
     core_f64::Mat3 rotation{1};
   };
+  // Both tips on one vessel, and its outward normals there.
+  struct Touch {
+    int vessel = -1;
+    std::array<core_f64::Vec3, 2> normals{};
+  };
+  // How the held vessel is tilted: towards `lean`, horizontal in its own frame.
+  struct Leaning {
+    core_f64::Vec3 lean{};
+    double sine = 0, cosine = 1;
+  };
 
   void approach(const HandPose& pose, Tick& tick) noexcept;
   bool grasp(const HandPose& pose, double device_gap, Tick& tick) noexcept;
+  std::optional<Touch> touch_of_both_tips() const noexcept;
+  std::optional<core_f64::Closing> close_on(const Touch& touch, const HandPose& pose) const noexcept;
+  void keep_grasp(const Touch& touch, const HandPose& pose, const core_f64::GripAnswer& answer) noexcept;
   void hold(const HandPose& pose, double device_gap, double seconds, Tick& tick) noexcept;
+  Leaning leaning_of(const Pose& vessel) const noexcept;
+  core_f64::Load run_liquid(const Pose& vessel, const Leaning& leaning, double seconds, Tick& tick) noexcept;
+  void note_delivery(core_f64::Vec3 place) noexcept;
+  void tell_held(const Pose& vessel, double mass, const core_f64::HeldForces& held, Tick& tick) const noexcept;
+  bool has_let_go(double device_gap) const noexcept;
   SessionState turning(double tilt) noexcept;
   void slip(const Pose& pose) noexcept;
   void come_back(Tick& tick) noexcept;
@@ -111,15 +111,5 @@ constexpr double RETURN_TIME = 0.5;           // s of a vessel on its way back
 constexpr double PUT_DOWN = 15e-3;            // m: let go so near to where it stood, it was put down and not lost
 constexpr double DESTINATION_RADIUS = 30e-3;  // m
 constexpr double FULL_WEIGHT = 5e-3;          // m of lifting over which the weight comes on
-
-// The hand whose gripper's axes are `rotation` and whose tips' middle is `middle` (vessel or world frame), at a closure; `scale` of the hand
-// in all. `e1_x` as place_hand's.
-core_f64::Placement place_live_hand(const core_f64::Hand& hand, double closure, const core_f64::Mat3& rotation,
-                                    core_f64::Vec3 middle, double scale, double& e1_x);
-// The hand with its tips at two contacts of a vessel that stands upright at `place` (all three in one frame; the answer is in the vessel's):
-// the gripper's axes, turned so that the first lies along the contacts. A gap beyond the hand's is taken for the nearest that it can make.
-// Sets all that rest_hand needs but the contacts' angles. `e1_x` as above.
-core_f64::Closing close_live_hand(const core_f64::Hand& hand, const std::array<core_f64::Vec3, 2>& contacts, core_f64::Vec3 place,
-                                  const core_f64::Mat3& rotation, double& e1_x);
 
 }  // namespace wholehand
