@@ -6,7 +6,6 @@
 #include <limits>
 #include <optional>
 
-#include "evidence/binomial.h"
 #include "evidence/load_floors.h"
 
 namespace wholehand {
@@ -142,17 +141,6 @@ std::array<double, 2> loaded_center(const VesselConstants& glass, const LiquidRe
   return {(1 - share) * glass.center_of_mass[1] + share * liquid.height, share * liquid.lean};
 }
 
-Allowance allowance(Precision precision) {
-  if (precision == Precision::single) return {std::numeric_limits<float>::epsilon(), STOP_TOLERANCE_F32, LEVEL_TOLERANCE_F32, true};
-  return {std::numeric_limits<double>::epsilon(), STOP_TOLERANCE_F64, LEVEL_TOLERANCE_F64, true};
-}
-
-Allowance float_against_double() {
-  Allowance allowed = allowance(Precision::single);
-  allowed.same_stop = false;
-  return allowed;
-}
-
 Comparer::Comparer(const Scene& scene, const Evaluator& core, Allowance allowed) : scene_(scene), core_(core), allowed_(allowed) {
   const double stop = allowed.stop_tolerance;
   for (const auto& [thumb, index] : {std::pair{stop, stop}, {stop, -stop}, {-stop, stop}, {-stop, -stop}})
@@ -174,24 +162,48 @@ Comparison& Comparer::row(const std::string& kernel, const std::string& quantity
   return rows_.back();
 }
 
+// How far the core's own answers move where grips and tips move by what either side may be off: of each number, and whether a grip's
+// outcome is another one then, or it grazes.
+struct Comparer::Spread {
+  std::vector<double> reals;
+  std::vector<char> undecided, may_graze;
+};
+
 void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, const GatheredPlanes& a, const GatheredPlanes& b) {
   const FieldSet& fields = a.fields;
+  const std::size_t n = grips.size();
+  const GatheredPlanes truth = gather(core_, fields, vessel, grips);
+  const Spread spread = spread_of(vessel, grips, truth);
+  const std::vector<char> left_out = add_outcomes(vessel, a, b, truth, spread);
+  std::vector<double> floors(FIELDS, 0.0);
+  for (const Quantity& q : QUANTITIES)
+    if (is_held(a, q.field) && is_held(b, q.field)) floors[q.field] = ROUNDINGS * allowed_.epsilon * largest_of(truth, q.field);
+  const LoadFloors load(scene_, core_, vessel, volume_tolerance(vessel), ROUNDINGS * allowed_.epsilon, truth);
+  const auto tolerance = [&](int field, std::size_t k, std::size_t i) {
+    return floors[field] + 2 * allowed_.stop_tolerance * rests(field, k) + load.of(field, k, i) +
+           2 * spread.reals[(fields.plane[field] + k) * n + i];
+  };
+  add_numbers(vessel, a, b, left_out, tolerance);
+  if (has_tilts(fields)) add_tilts(vessel, a, b, left_out, tolerance);
+}
+
+Comparer::Spread Comparer::spread_of(std::size_t vessel, const std::vector<GripInput>& grips, const GatheredPlanes& truth) const {
+  const FieldSet& fields = truth.fields;
   const std::size_t n = grips.size();
   // a length over which the hand reaches, for turning shifts into angles
   const double length = 0.1 * scene_.hand.scale;
   const double size = length + scene_.vessels[vessel].height;
   const double shift = allowed_.stop_tolerance + ROUNDINGS * allowed_.epsilon * size;
-  const GatheredPlanes truth = gather(core_, fields, vessel, grips);
-  std::vector<double> spread(truth.reals.size(), 0.0);
-  std::vector<char> undecided(n, 0), may_graze(n, 0);
+  Spread spread{std::vector<double>(truth.reals.size(), 0.0), std::vector<char>(n, 0), std::vector<char>(n, 0)};
   const auto spread_to = [&](const GatheredPlanes& other, int first_plane, int planes) {
     for (std::size_t k = first_plane * n; k < (first_plane + planes) * n; ++k) {
       const double difference = figure_difference(other.reals[k], truth.reals[k]);
-      if (std::isfinite(difference)) spread[k] = std::max(spread[k], difference);  // else another outcome: undecided
+      // else another outcome: undecided
+      if (std::isfinite(difference)) spread.reals[k] = std::max(spread.reals[k], difference);
     }
     for (std::size_t i = 0; i < n; ++i) {
-      undecided[i] |= differs(other, truth, i, allowed_.same_stop) ? 1 : 0;
-      may_graze[i] |= grazes(other, i) ? 1 : 0;
+      spread.undecided[i] |= differs(other, truth, i, allowed_.same_stop) ? 1 : 0;
+      spread.may_graze[i] |= grazes(other, i) ? 1 : 0;
     }
   };
   for (int way = 0; way < WAYS; ++way)
@@ -204,13 +216,19 @@ void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, cons
   for (int way = 0; corner > shift && way < WAYS; ++way)
     spread_to(gather(core_, fields, vessel, moved(grips, way, corner, length)), angles ? fields.plane[FIELD_CONTACT_ANGLES] : 0,
               angles ? 2 : 0);
-  std::vector<char> left_out(n, 0);
+  return spread;
+}
+
+// Answers by grip: whether its numbers are left out.
+std::vector<char> Comparer::add_outcomes(std::size_t vessel, const GatheredPlanes& a, const GatheredPlanes& b,
+                                         const GatheredPlanes& truth, const Spread& spread) {
+  std::vector<char> left_out(truth.count, 0);
   Comparison& outcomes = row("whole", "discrete outcomes", "grips");
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < left_out.size(); ++i) {
     ++grips_;
     feasible_ += (truth.uint(FIELD_STATUS, i) & STATUS_REASON_MASK) == REASON_NONE ? 1 : 0;
     // by the core, or by a side where the core's own answer is that near to grazing: a side alone may not take a grip out
-    if (grazes(truth, i) || (may_graze[i] != 0 && (grazes(a, i) || grazes(b, i)))) {
+    if (grazes(truth, i) || (spread.may_graze[i] != 0 && (grazes(a, i) || grazes(b, i)))) {
       ++grazing_;
       left_out[i] = 1;
       continue;
@@ -218,8 +236,8 @@ void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, cons
     ++outcomes.compared;
     if (!differs(a, b, i, allowed_.same_stop)) continue;
     left_out[i] = 1;
-    flips_.push_back({vessel, i, undecided[i] != 0});
-    if (undecided[i] != 0) {
+    flips_.push_back({vessel, i, spread.undecided[i] != 0});
+    if (spread.undecided[i] != 0) {
       ++excluded_;
     } else {
       ++outcomes.outside;
@@ -228,36 +246,37 @@ void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, cons
       outcomes.grip = i;
     }
   }
-  std::vector<double> floors(FIELDS, 0.0);
-  const LoadFloors load(scene_, core_, vessel, volume_tolerance(vessel), ROUNDINGS * allowed_.epsilon, truth);
-  const auto tolerance = [&](int field, std::size_t k, std::size_t i) {
-    return floors[field] + 2 * allowed_.stop_tolerance * rests(field, k) + load.of(field, k, i) +
-           2 * spread[(fields.plane[field] + k) * n + i];
-  };
+  return left_out;
+}
+
+double Comparer::largest_of(const GatheredPlanes& truth, int field) const {
+  double largest = 0;
+  for (int p = 0; p < field_planes(field, scene_fills(scene_), scene_.tilts.size()); ++p)
+    for (std::size_t i = 0; i < truth.count; ++i) {
+      const double value = std::abs(truth.real(truth.fields.plane[field] + p, i));
+      if (std::isfinite(value)) largest = std::max(largest, value);
+    }
+  return largest;
+}
+
+void Comparer::add_numbers(std::size_t vessel, const GatheredPlanes& a, const GatheredPlanes& b, const std::vector<char>& left_out,
+                           const Tolerance& tolerance) {
   for (const Quantity& q : QUANTITIES) {
     if (!is_held(a, q.field) || !is_held(b, q.field)) continue;
     Comparison& entry = row(q.kernel, q.name, q.unit);
     const int planes = field_planes(q.field, scene_fills(scene_), scene_.tilts.size());
-    double largest = 0;
-    for (int p = 0; p < planes; ++p)
-      for (std::size_t i = 0; i < n; ++i) {
-        const double value = std::abs(truth.real(fields.plane[q.field] + p, i));
-        if (std::isfinite(value)) largest = std::max(largest, value);
-      }
-    floors[q.field] = ROUNDINGS * allowed_.epsilon * largest;
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < left_out.size(); ++i) {
       if (left_out[i] != 0) continue;
       ++entry.compared;
       bool over = false;
       for (int p = 0; p < planes; ++p) {
-        const int plane = fields.plane[q.field] + p;
+        const int plane = a.fields.plane[q.field] + p;
         const double difference = figure_difference(a.real(plane, i), b.real(plane, i));
         over = note_difference(entry, q.scale, vessel, i, difference, tolerance(q.field, p, i)) || over;
       }
       entry.outside += over ? 1 : 0;
     }
   }
-  if (has_tilts(fields)) add_tilts(vessel, a, b, left_out, tolerance);
 }
 
 // How much of a length at which a finger rests is in plane `k` of the field. Each side ends anywhere within one stop tolerance of the
@@ -285,7 +304,7 @@ double Comparer::rests(int field, std::size_t k) const {
 
 // A tilt that is told is a choice among the listed ones: it must be as good a choice by the other side's forces, to their tolerances.
 void Comparer::add_tilts(std::size_t vessel, const GatheredPlanes& a, const GatheredPlanes& b, const std::vector<char>& left_out,
-                         const std::function<double(int field, std::size_t state, std::size_t grip)>& tolerance) {
+                         const Tolerance& tolerance) {
   const FieldSet& fields = a.fields;
   Comparison& peak = row("force", PEAK_TILT, "mN");
   Comparison& safe = row("force", SAFE_TILT, "mN");
@@ -364,8 +383,6 @@ void Comparer::add_liquid(std::size_t vessel, const std::vector<LiquidResult>& a
   compare("lean moment", "mL mm", 1e9, of_moment, [](const LiquidResult& r) { return r.volume * r.lean; });
   compare("height moment", "mL mm", 1e9, of_moment, [](const LiquidResult& r) { return r.volume * r.height; });
 }
-
-std::uint64_t allowed_flips(std::uint64_t grips) { return largest_plausible_count(grips, FLIP_SHARE, FLIP_SIGNIFICANCE); }
 
 bool Comparer::holds() const {
   const bool inside = std::all_of(rows_.begin(), rows_.end(), [](const Comparison& r) { return r.outside == 0; });

@@ -16,6 +16,7 @@
 
 #include "core/evaluator.h"
 #include "core/gather.h"
+#include "evidence/allowance.h"
 
 namespace wholehand {
 
@@ -41,27 +42,6 @@ struct Flip {
   bool inside = false;
 };
 
-// Which precision's rounding and stop tolerance the two sides have: the coarser of the two.
-struct Allowance {
-  double epsilon = 0;          // of the reals
-  double stop_tolerance = 0;   // m
-  double level_tolerance = 0;  // of the capacity
-  // Both sides stop at that tolerance. Where one goes on to a finer one, it may spend its steps on a corner of a lattice that the other
-  // was done with: which side took all of them is then no outcome.
-  bool same_stop = true;
-};
-Allowance allowance(Precision precision);
-// Float on one side, double on the other.
-Allowance float_against_double();
-
-// Within the margin, discrete outcomes may differ in FLIP_SHARE of the grips in the long run. A sample speaks against that where so many
-// that differ, or more, would come up in less than FLIP_SIGNIFICANCE of all samples if the share were just that. Strict, since grips beside
-// each other differ together, and since a check judges up to three comparisons and must not fail by chance.
-constexpr double FLIP_SHARE = 1e-3;
-constexpr double FLIP_SIGNIFICANCE = 1e-6;
-// How many of so many compared grips may differ: 1 of 1, 3 of 72, 6 of 400, 10 of 1,536, 18 of 4,608.
-std::uint64_t allowed_flips(std::uint64_t grips);
-
 // Gathers comparisons vessel by vessel.
 class Comparer {
  public:
@@ -84,8 +64,16 @@ class Comparer {
   bool holds() const;
 
  private:
+  struct Spread;
+  using Tolerance = std::function<double(int field, std::size_t state, std::size_t grip)>;
+  Spread spread_of(std::size_t vessel, const std::vector<GripInput>& grips, const GatheredPlanes& truth) const;
+  std::vector<char> add_outcomes(std::size_t vessel, const GatheredPlanes& a, const GatheredPlanes& b, const GatheredPlanes& truth,
+                                 const Spread& spread);
+  double largest_of(const GatheredPlanes& truth, int field) const;
+  void add_numbers(std::size_t vessel, const GatheredPlanes& a, const GatheredPlanes& b, const std::vector<char>& left_out,
+                   const Tolerance& tolerance);
   void add_tilts(std::size_t vessel, const GatheredPlanes& a, const GatheredPlanes& b, const std::vector<char>& left_out,
-                 const std::function<double(int field, std::size_t state, std::size_t grip)>& tolerance);
+                 const Tolerance& tolerance);
   double rests(int field, std::size_t k) const;
   double volume_tolerance(std::size_t vessel) const;
   std::optional<std::size_t> tilt_told(double told) const;
