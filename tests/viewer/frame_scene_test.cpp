@@ -14,6 +14,7 @@
 #include "app/paths.h"
 #include "core/mesh_body.h"
 #include "grips/hand_nodes.h"
+#include "live/hand_view.h"
 #include "scene/reader.h"
 #include "tests/support/live_script.h"
 #include "tests/support/scenes.h"
