@@ -9,6 +9,7 @@
 #include "core/evaluator.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
+#include "tests/support/vectors.h"
 
 namespace wholehand {
 namespace {
@@ -47,9 +48,6 @@ Long3 foot_of(const GripInput& grip) {
   const Long3 side = cross(direction_of(grip), {0, 1, 0});
   return Long3{0, grip.height, 0} + (grip.offset / length(side)) * side;
 }
-
-Long3 widened(const Vec3& p) { return {p.x, p.y, p.z}; }
-Long3 widened(const Triple& p) { return {p[0], p[1], p[2]}; }
 
 // ---- where the tips stop ----
 

@@ -14,6 +14,7 @@
 #include "core/evaluator.h"
 #include "tests/support/scenes.h"
 #include "tests/support/special_values.h"
+#include "tests/support/vectors.h"
 
 namespace wholehand {
 namespace {
@@ -23,13 +24,6 @@ using core_f64::Vec3;
 constexpr double G = 9.80665;
 // Rounding of a handful of products of numbers under 10.
 constexpr double ROUNDING = 1e-14;
-
-Vec3 random_unit(Random& random) {
-  for (;;) {
-    const Vec3 v(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-    if (glm::length(v) > 0.1 && glm::length(v) < 1) return glm::normalize(v);
-  }
-}
 
 Vec3 random_arm(Random& random) {
   return Vec3(random.uniform(-0.05, 0.05), random.uniform(-0.1, 0.1), random.uniform(-0.05, 0.05));
@@ -281,8 +275,6 @@ TEST(Force, CouplingNeverPulls) {
 }
 
 // ---- whole states ----
-
-Long3 widened(const Triple& t) { return {t[0], t[1], t[2]}; }
 
 struct ReferenceState {
   long double mass, pivot_length, torque, exact_torque, normal_force, feedback_force, hold_force;

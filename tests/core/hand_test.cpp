@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/evaluator.h"
 #include "tests/support/scenes.h"
+#include "tests/support/vectors.h"
 
 namespace wholehand {
 namespace {
@@ -21,8 +22,6 @@ constexpr double JOINT_ROUNDING = 1e-15;
 const std::array<const char*, 3> HAND_NAMES{"default", "odd", "large"};
 const std::array<HandData, 3> HANDS{HandData{}, odd_hand(), large_hand()};
 const std::array<double, 7> CLOSURES{0, 0.1, 1.0 / 3, 0.5, 0.75, 0.999, 1};
-
-Long3 widened(const Vec3& p) { return {p.x, p.y, p.z}; }
 
 // Joints of a hand at scale 1 by the leaf functions.
 std::array<Long3, JOINT_COUNT> core_joints(const core_f64::Hand& hand, double closure) {

@@ -11,13 +11,12 @@
 #include "core/evaluator.h"
 #include "core/load.h"
 #include "tests/support/scenes.h"
+#include "tests/support/vectors.h"
 
 namespace wholehand {
 namespace {
 
 using core_f64::Vec3;
-
-Vec3 vec(const Triple& t) { return Vec3(t[0], t[1], t[2]); }
 
 void expect_same(double a, double b, const char* what) {
   if (std::isinf(b)) {

@@ -13,6 +13,7 @@
 
 #include "core/evaluator.h"
 #include "tests/support/scenes.h"
+#include "tests/support/vectors.h"
 
 namespace wholehand {
 namespace {
@@ -27,8 +28,6 @@ constexpr double SAMPLE = 0.2e-3;  // m: no watched point moves further between 
 constexpr double DOUBT = 1e-7;     // m: separations that are nearer to a decision than this are left out, and counted
 constexpr double GRAZING = 0.05;   // approach speed over the largest speed under which a touch is left out, and counted
 
-Vec3 vec(const Triple& p) { return {p[0], p[1], p[2]}; }
-Triple triple(const Vec3& p) { return {p.x, p.y, p.z}; }
 std::size_t first_joint(int finger) { return static_cast<std::size_t>(finger == 0 ? 0 : 4 + 5 * (finger - 1)); }
 
 // One finger in the vessel frame, read off the rigged hand.

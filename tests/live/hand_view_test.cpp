@@ -17,6 +17,7 @@
 #include "core/mirror.h"
 #include "tests/support/live_script.h"
 #include "tests/support/scenes.h"
+#include "tests/support/vectors.h"
 
 namespace wholehand {
 namespace {
@@ -24,7 +25,6 @@ namespace {
 using core_f64::Mat3;
 using core_f64::Vec3;
 
-Vec3 vec(const Triple& t) { return Vec3(t[0], t[1], t[2]); }
 double distance_between(const Triple& a, const Triple& b) { return glm::length(vec(a) - vec(b)); }
 int finger_of(int joint) { return joint < 4 ? 0 : 1 + (joint - 4) / 5; }
 bool is_tracked(int joint) { return joint == THUMB_TIP || joint == INDEX_TIP; }

@@ -14,6 +14,7 @@
 
 #include "core/force.h"
 #include "tests/support/scenes.h"
+#include "tests/support/vectors.h"
 
 namespace wholehand {
 namespace {
@@ -47,13 +48,6 @@ struct Tabletop {
 const Vec3 SOMEWHERE(0.13, 0.02, -0.07);
 
 Vec3 around(double r, double y, double azimuth) { return Vec3(r * std::cos(azimuth), y, -r * std::sin(azimuth)); }
-
-Vec3 random_unit(Random& random) {
-  for (;;) {
-    const Vec3 v(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
-    if (glm::length(v) > 0.1 && glm::length(v) < 1) return glm::normalize(v);
-  }
-}
 
 // Carries a proxy along a straight way in steps, from where it is free.
 Proxy carry_along(const Obstacles& obstacles, Vec3 from, Vec3 to, int steps, double radius, double friction) {
