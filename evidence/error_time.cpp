@@ -47,9 +47,7 @@ void choose_device_part(const Scene& scene, const std::string& on, VariantChoice
   }
 }
 
-}  // namespace
-
-ExitCode run_error_time(const Scene& scene, const ErrorTimeOptions& options) {
+void check_no_mesh(const Scene& scene) {
   for (const VesselData& vessel : scene.vessels) {
     if (!vessel.mesh) continue;
     throw usage_error(
@@ -57,13 +55,9 @@ ExitCode run_error_time(const Scene& scene, const ErrorTimeOptions& options) {
                                                  "an exact outline, so it takes shapes and outlines",
                                                  vessel.name)));
   }
-  make_output_folder(options.output);
-  check_folder_files(options.output, "error-time", ERROR_TIME_TABLES, ERROR_TIME_PICTURES);
-  InterruptGuard interrupt;
-  const int threads = options.threads > 0 ? options.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  VariantChoice choice;
-  choice.quick = options.quick;
-  choice.threads = threads;
+}
+
+ErrorContext error_context_of(const Scene& scene, const ErrorTimeOptions& options) {
   ErrorContext context;
   context.scene = scene.name.empty() ? "scene" : scene.name;
   context.version = WHOLEHAND_VERSION;
@@ -71,7 +65,10 @@ ExitCode run_error_time(const Scene& scene, const ErrorTimeOptions& options) {
   context.quick = options.quick;
   context.vessels = scene.vessels.size();
   context.states = scene_fills(scene) * scene.tilts.size();
-  if (options.on != "core") choose_device_part(scene, options.on, choice, context);
+  return context;
+}
+
+MeasureOptions measure_options_of(const Scene& scene, const ErrorTimeOptions& options, int threads, InterruptGuard& interrupt) {
   MeasureOptions measure_options;
   measure_options.on = options.on;
   measure_options.threads = threads;
@@ -80,33 +77,18 @@ ExitCode run_error_time(const Scene& scene, const ErrorTimeOptions& options) {
   measure_options.grips = std::clamp<std::size_t>((options.quick ? 768 : 6144) / scene.vessels.size(), 64, 4096);
   if (options.quick) measure_options.run_seconds = 0.015;
   measure_options.stop = &interrupt.flag();
-  ErrorMeasure measure(scene, measure_options);
-  context.grips = measure_options.grips * scene.vessels.size();
-  context.feasible = measure.feasible();
-  context.grazing = measure.grazing();
-  const auto variants = error_variants(scene, choice);
-  const auto rows = measure.measure(variants, [&](std::size_t k, const std::string& what) {
-    show_status(fmt::format("{} of {}  {}", k + 1, variants.size(), what));
-  });
-  if (interrupt.flag()) {
-    show_status("");
-    fmt::print(stderr, "wholehand: interrupted while comparing and timing {} variants; nothing was written\n", variants.size());
-    return ExitCode::interrupted;
-  }
-  show_status("");
-  if (options.on == "core" && !rows.empty()) {
-    context.device = rows.front().device;
-    context.driver = rows.front().driver;
-  }
-  for (const std::string& note : measure.notes()) context.notes.push_back(note);
-  const GripsData& asked = scene.grips;
+  return measure_options;
+}
+
+bool asks_for_one_grip(const GripsData& asked) {
   const auto is_fixed = [](const Axis& axis) { return !axis.is_range && axis.values.size() == 1; };
-  if (is_fixed(asked.height) && is_fixed(asked.azimuth) && is_fixed(asked.obliquity) && is_fixed(asked.roll) &&
-      is_fixed(asked.offset) && is_fixed(asked.hand_scale)) {
-    context.notes.push_back(
-        "every axis of [grips] is one number, so all grips are the same one; give ranges for figures that mean more");
-  }
-  const std::string folder = options.output.back() == '/' ? options.output : options.output + "/";
+  return is_fixed(asked.height) && is_fixed(asked.azimuth) && is_fixed(asked.obliquity) && is_fixed(asked.roll) &&
+         is_fixed(asked.offset) && is_fixed(asked.hand_scale);
+}
+
+void write_error_results(const std::string& output, const std::vector<ErrorRow>& rows, const ErrorMeasure& measure,
+                         const ErrorContext& context) {
+  const std::string folder = output.back() == '/' ? output : output + "/";
   const std::string report = error_report(rows, context);
   write_whole_file(folder + "error-time.csv", error_csv(rows, context), false);
   write_whole_file(folder + "error-time-grips.csv", error_grips_csv(measure.grips()), false);
@@ -121,6 +103,44 @@ ExitCode run_error_time(const Scene& scene, const ErrorTimeOptions& options) {
   if (complaint.empty())
     for (const FrontPicture& picture : pictures) fmt::print(", {}", picture.file);
   fmt::print("\n");
+}
+
+}  // namespace
+
+ExitCode run_error_time(const Scene& scene, const ErrorTimeOptions& options) {
+  check_no_mesh(scene);
+  make_output_folder(options.output);
+  check_folder_files(options.output, "error-time", ERROR_TIME_TABLES, ERROR_TIME_PICTURES);
+  InterruptGuard interrupt;
+  VariantChoice choice;
+  choice.quick = options.quick;
+  choice.threads = options.threads > 0 ? options.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  ErrorContext context = error_context_of(scene, options);
+  if (options.on != "core") choose_device_part(scene, options.on, choice, context);
+  const MeasureOptions measure_options = measure_options_of(scene, options, choice.threads, interrupt);
+  ErrorMeasure measure(scene, measure_options);
+  context.grips = measure_options.grips * scene.vessels.size();
+  context.feasible = measure.feasible();
+  context.grazing = measure.grazing();
+  const auto variants = error_variants(scene, choice);
+  const auto rows = measure.measure(variants, [&](std::size_t k, const std::string& what) {
+    show_status(fmt::format("{} of {}  {}", k + 1, variants.size(), what));
+  });
+  show_status("");
+  if (interrupt.flag()) {
+    fmt::print(stderr, "wholehand: interrupted while comparing and timing {} variants; nothing was written\n", variants.size());
+    return ExitCode::interrupted;
+  }
+  if (options.on == "core" && !rows.empty()) {
+    context.device = rows.front().device;
+    context.driver = rows.front().driver;
+  }
+  for (const std::string& note : measure.notes()) context.notes.push_back(note);
+  if (asks_for_one_grip(scene.grips)) {
+    context.notes.push_back(
+        "every axis of [grips] is one number, so all grips are the same one; give ranges for figures that mean more");
+  }
+  write_error_results(options.output, rows, measure, context);
   return ExitCode::done;
 }
 

@@ -14,6 +14,7 @@
 #include "core/domain.h"
 #include "evidence/gains.h"
 #include "evidence/grip_loop.h"
+#include "evidence/wall_picture.h"
 #include "evidence/wall_sweep.h"
 #include "system/csv.h"
 #include "system/files.h"
@@ -238,75 +239,99 @@ void write_extremes(std::back_insert_iterator<std::string> out, const std::vecto
       float_domain::SMALLEST_HAND, float_domain::LARGEST_HAND, float_domain::LARGEST_COORDINATE, float_domain::LARGEST_HOLD * 1e-3);
 }
 
-}  // namespace
+// What a run finds.
+struct Stability {
+  BackendInfo info;  // where the walls were computed
+  std::vector<WallSheet> sheets;
+  double wall_seconds = 0;
+  WallFindings walls;
+  std::vector<GripLoopRow> grips;
+  std::vector<ExtremeRow> extremes;
+};
 
-ExitCode run_stability(const StabilityOptions& options) {
-  const auto path = [&options](const char* name) { return options.folder + "/" + name; };
-  BackendInfo info;
-  double kernel_seconds = 0;
-  const WallRunner runner = open_wall_runner(options.on, info, kernel_seconds);
-  make_output_folder(options.folder);  // when the device is there, so that a wrong one leaves none
-  check_folder_files(options.folder, "stability", STABILITY_TABLES, STABILITY_PICTURES);
-  InterruptGuard interrupt;
-  const auto interrupted = [] {
-    show_status("");
-    std::fprintf(stderr, "wholehand: interrupted; nothing was written\n");
-    return ExitCode::interrupted;
-  };
+// False: interrupted.
+bool compute_stability(const StabilityOptions& options, const WallRunner& runner, InterruptGuard& interrupt, Stability& stability) {
   show_status("limits by theory");
-  std::vector<WallSheet> sheets = wall_sheets(options.quick, options.seed);
+  stability.sheets = wall_sheets(options.quick, options.seed);
   const auto start = StabilityClock::now();
-  const std::size_t points = count_points(sheets);
-  const bool walls_done = run_walls(sheets, runner, [&](std::size_t done) {
+  const std::size_t points = count_points(stability.sheets);
+  const bool walls_done = run_walls(stability.sheets, runner, [&](std::size_t done) {
     show_status(fmt::format("walls {} of {}", done, points));
     return !interrupt.flag();
   });
-  if (!walls_done) return interrupted();
-  const double wall_seconds = seconds_since(start);
-  const WallFindings found = look_at(sheets);
+  if (!walls_done) return false;
+  stability.wall_seconds = seconds_since(start);
+  stability.walls = look_at(stability.sheets);
   show_status("held grips");
-  const std::vector<GripLoopRow> rows = grip_loop_rows(options.quick);
-  std::vector<ExtremeRow> extremes;
+  stability.grips = grip_loop_rows(options.quick);
   ExtremeOptions extreme_options;
   extreme_options.on = options.on;
   if (options.quick) extreme_options.grips = 40;
   for (const ExtremeCase& extreme : options.extremes) {
-    if (interrupt.flag()) return interrupted();
+    if (interrupt.flag()) return false;
     show_status(extreme.name);
     const auto found_there = evaluate_extreme(extreme, extreme_options);
-    extremes.insert(extremes.end(), found_there.begin(), found_there.end());
+    stability.extremes.insert(stability.extremes.end(), found_there.begin(), found_there.end());
   }
+  return !interrupt.flag();
+}
 
-  if (interrupt.flag()) return interrupted();
-  show_status("summary");
-
+std::string summary_of(const StabilityOptions& options, const Stability& stability) {
   std::string summary;
   auto out = std::back_inserter(summary);
+  const BackendInfo& info = stability.info;
   fmt::format_to(out, "# Stability\n\nwholehand {}, {} ({}), {}, seed {}, {} run.\n", WHOLEHAND_VERSION, info.device, info.driver,
                  info.precision == Precision::single ? "float" : "double", options.seed, options.quick ? "quick" : "full");
-  write_walls(out, sheets, found);
-  fmt::format_to(out, "\nThese walls took {:.1f} s.\n", wall_seconds);
-  write_grips(out, rows);
+  write_walls(out, stability.sheets, stability.walls);
+  fmt::format_to(out, "\nThese walls took {:.1f} s.\n", stability.wall_seconds);
+  write_grips(out, stability.grips);
   write_gains(out);
-  if (!options.extremes.empty()) write_extremes(out, options.extremes, extremes);
+  if (!options.extremes.empty()) write_extremes(out, options.extremes, stability.extremes);
+  return summary;
+}
 
+void write_stability_tables(const StabilityOptions& options, const Stability& stability) {
+  const auto path = [&options](const char* name) { return options.folder + "/" + name; };
   const std::string stamp = fmt::format("{},{}", WHOLEHAND_VERSION, options.seed);
-  const std::string run = fmt::format("{},{},{}", csv_text(info.device), csv_text(info.driver), stamp);
+  const std::string run = fmt::format("{},{},{}", csv_text(stability.info.device), csv_text(stability.info.driver), stamp);
   const std::string on_core = fmt::format("core,{},{}", csv_text(core_info(Precision::full, 1).driver), stamp);
-  write_whole_file(path("wall.csv"), wall_csv(sheets), false);
-  write_whole_file(path("wall_limits.csv"), wall_limits_csv(sheets, run), false);
-  write_whole_file(path("grip_loop.csv"), grip_loop_csv(rows, on_core), false);
-  if (!options.extremes.empty()) write_whole_file(path("extreme.csv"), extreme_csv(extremes), false);
+  write_whole_file(path("wall.csv"), wall_csv(stability.sheets), false);
+  write_whole_file(path("wall_limits.csv"), wall_limits_csv(stability.sheets, run), false);
+  write_whole_file(path("grip_loop.csv"), grip_loop_csv(stability.grips, on_core), false);
+  if (!options.extremes.empty()) write_whole_file(path("extreme.csv"), extreme_csv(stability.extremes), false);
+}
+
+void draw_stability_pictures(const std::string& folder, const std::vector<WallSheet>& sheets) {
   std::vector<std::string> pictures;
-  std::string script = grip_loop_script(options.folder, pictures);
-  script += wall_script(sheets, options.folder, pictures);
+  std::string script = grip_loop_script(folder, pictures);
+  script += wall_script(sheets, folder, pictures);
   for (const std::string& picture : pictures) std::remove(picture.c_str());  // one of another run beside these tables would mislead
   const std::string failure = draw_with_gnuplot(script, pictures);
   if (!failure.empty()) std::fprintf(stderr, "wholehand: %s\n", failure.c_str());
-  write_whole_file(path("stability.md"), summary, false);
+}
+
+}  // namespace
+
+ExitCode run_stability(const StabilityOptions& options) {
+  Stability stability;
+  double kernel_seconds = 0;
+  const WallRunner runner = open_wall_runner(options.on, stability.info, kernel_seconds);
+  make_output_folder(options.folder);  // when the device is there, so that a wrong one leaves none
+  check_folder_files(options.folder, "stability", STABILITY_TABLES, STABILITY_PICTURES);
+  InterruptGuard interrupt;
+  if (!compute_stability(options, runner, interrupt, stability)) {
+    show_status("");
+    std::fprintf(stderr, "wholehand: interrupted; nothing was written\n");
+    return ExitCode::interrupted;
+  }
+  show_status("summary");
+  const std::string summary = summary_of(options, stability);
+  write_stability_tables(options, stability);
+  draw_stability_pictures(options.folder, stability.sheets);
+  write_whole_file(options.folder + "/stability.md", summary, false);
   show_status("");
   fmt::print("{}\nwritten to {}\n", summary, options.folder);
-  return found.passive_unsettled == 0 && wrong_rows(extremes) == 0 ? ExitCode::done : ExitCode::no;
+  return stability.walls.passive_unsettled == 0 && wrong_rows(stability.extremes) == 0 ? ExitCode::done : ExitCode::no;
 }
 
 }  // namespace wholehand

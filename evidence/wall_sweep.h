@@ -61,7 +61,5 @@ std::size_t count_points(const std::vector<WallSheet>& sheets);
 std::string wall_csv(const std::vector<WallSheet>& sheets);  // a row a point
 // A row a column; each closes with the run's columns (`device,driver,version,seed`).
 std::string wall_limits_csv(const std::vector<WallSheet>& sheets, const std::string& run);
-// gnuplot: rates, damping, delay, encoder in one picture; integrators in another. Names of the files in `folder`.
-std::string wall_script(const std::vector<WallSheet>& sheets, const std::string& folder, std::vector<std::string>& files);
 
 }  // namespace wholehand
