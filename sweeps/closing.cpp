@@ -25,6 +25,8 @@ std::string short_number(double value) {
 
 }  // namespace
 
+void say_note(const std::string& line) { fmt::print(stderr, "wholehand: {}\n", line); }
+
 std::string opening_lines(const Scene& scene, const Plan& plan, const BackendInfo& info) {
   const auto grips = static_cast<double>(plan.grips() * scene.vessels.size());
   std::string text = fmt::format("{}: {} grips of {} vessel{}", scene.name.empty() ? "sweep" : scene.name, readable_count(grips),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a sweep says before and after its work.
+// What a sweep says before, beside and after its work.
 #pragma once
 
 #include <cstdint>
@@ -20,6 +20,9 @@ struct SweepTimes {
   double writing = 0;  // of values, syncing included
   std::uint64_t written_bytes = 0;
 };
+
+// A line beside the results, to stderr.
+void say_note(const std::string& line);
 
 // Grips and states, device, driver and precision, what is left out.
 std::string opening_lines(const Scene& scene, const Plan& plan, const BackendInfo& info);

@@ -14,17 +14,15 @@
 #include "host/open_backend.h"
 #include "objects/vessel.h"
 #include "sweeps/best.h"
-#include "sweeps/best_glb.h"
 #include "sweeps/cavity_notes.h"
 #include "sweeps/closing.h"
 #include "sweeps/companions.h"
 #include "sweeps/explain.h"
-#include "sweeps/grip_lists.h"
 #include "sweeps/hand_lists.h"
-#include "sweeps/heat_map_plot.h"
 #include "sweeps/result_file.h"
 #include "sweeps/resume.h"
 #include "sweeps/tally.h"
+#include "sweeps/write_companions.h"
 #include "system/interrupt.h"
 #include "system/output_lock.h"
 #include "system/progress.h"
@@ -44,8 +42,6 @@ constexpr off_t LONG_CHECK = 1'000'000'000;   // bytes of a partial file: from h
 constexpr std::uint64_t MOST_STRETCHES = 64;  // of a vessel's grips with a checksum each, and one more for each --resume
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-void note(const std::string& line) { fmt::print(stderr, "wholehand: {}\n", line); }
 
 class Sweep {
  public:
@@ -89,7 +85,7 @@ class Sweep {
     const OutputLock lock(names_.lock);
     if (is_finished()) return finished();  // by who had the lock until now
     if (parts_.prepare) parts_.prepare();
-    for (const std::string& line : domain_warnings(scene_, precision())) note(line);
+    for (const std::string& line : domain_warnings(scene_, precision())) say_note(line);
     say_cavity_notes(scene_);
     const Plan plan(scene_, keeps_vectors(variables_));
     backend_ = parts_.open_backend(make_field_set(swept_fields(plan), scene_));
@@ -129,7 +125,8 @@ class Sweep {
 
   ExitCode finished() const {
     check_complete(names_.result, scene_, options_.on == "core", precision(), variables_);
-    note(fmt::format("{} is complete: nothing to go on with; the same command without --resume computes it again", names_.result));
+    say_note(
+        fmt::format("{} is complete: nothing to go on with; the same command without --resume computes it again", names_.result));
     return ExitCode::done;
   }
 
@@ -153,14 +150,14 @@ class Sweep {
     std::string line = options_.resume ? "" : lost_line(names_);
     if (options_.resume) announce_check();
     const bool resumed = options_.resume && load_usable_mark(names_, identity(plan), bounds(plan), mark, line);
-    if (!line.empty()) note(line);
+    if (!line.empty()) say_note(line);
     if (resumed) {
       mark_ = mark;
       for (std::size_t v = 0; v < maps_.size() && has_heat_map(); ++v) maps_[v].restore(mark_.vessels[v].heat_map);
-      note(fmt::format("going on with {}: {} of {} grips are there", names_.partial, readable_number(done()),
-                       readable_number(total(plan))));
+      say_note(fmt::format("going on with {}: {} of {} grips are there", names_.partial, readable_number(done()),
+                           readable_number(total(plan))));
     } else {
-      if (options_.resume) note(fmt::format("nothing of {} is complete: starting from the first grip", names_.partial));
+      if (options_.resume) say_note(fmt::format("nothing of {} is complete: starting from the first grip", names_.partial));
       mark_.identity = identity(plan);
       mark_.vessels.resize(scene_.vessels.size());
     }
@@ -172,7 +169,7 @@ class Sweep {
   void announce_check() const {
     struct stat file {};
     if (stat(names_.mark.c_str(), &file) != 0 || stat(names_.partial.c_str(), &file) != 0 || file.st_size <= LONG_CHECK) return;
-    note(fmt::format("checking {} of {}", readable_bytes(static_cast<double>(file.st_size)), names_.partial));
+    say_note(fmt::format("checking {} of {}", readable_bytes(static_cast<double>(file.st_size)), names_.partial));
   }
 
   std::uint64_t total(const Plan& plan) const { return plan.grips() * scene_.vessels.size(); }
@@ -191,7 +188,7 @@ class Sweep {
         if (file.holds(v, stretch)) continue;
         const std::string place = fmt::format("{}: grips {} to {} of {}", names_.partial, readable_number(stretch.first),
                                               readable_number(stretch.last - 1), scene_.vessels[v].name);
-        note(place + " are damaged: computing them again");
+        say_note(place + " are damaged: computing them again");
         if (!compute_again(v, stretch, plan, file, interrupt)) return false;
         if (!file.holds(v, stretch))
           throw failure_error(place + " are not what they were, computed again; start again without --resume");
@@ -283,7 +280,7 @@ class Sweep {
     for (const std::string& line : result.notes) {
       if (!said_.insert(line).second) continue;
       progress.clear();
-      note(line);
+      say_note(line);
     }
   }
 
@@ -301,66 +298,20 @@ class Sweep {
   }
 
   ExitCode interrupted(const Plan& plan) const {
-    note(fmt::format("interrupted at {} of {} grips; the same command with --resume goes on with {}", readable_number(done()),
-                     readable_number(total(plan)), names_.partial));
+    say_note(fmt::format("interrupted at {} of {} grips; the same command with --resume goes on with {}", readable_number(done()),
+                         readable_number(total(plan)), names_.partial));
     return ExitCode::interrupted;
   }
 
-  // The best grips of each list with what is told of them; by a backend of their own where the sweep's does not read all of it back.
-  std::vector<std::vector<BestGrip>> best_grips(const Plan& plan) {
-    const std::vector<int> needed = best_fields(scene_);
-    const bool any =
-        std::any_of(mark_.vessels.begin(), mark_.vessels.end(), [](const VesselProgress& v) { return !v.best.empty(); });
-    std::unique_ptr<Backend> other;
-    if (any && !std::all_of(needed.begin(), needed.end(), [&](int field) { return has_field(field); })) {
-      other = parts_.open_backend(make_field_set(needed, scene_));
-    }
-    std::vector<std::vector<BestGrip>> best;
-    for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
-      const HandLists lists(plan, best_wanted_, mark_.vessels[v].best);
-      for (std::size_t s = 0; s < plan.hand_scales(); ++s)
-        best.push_back(evaluate_best(other ? *other : *backend_, scene_, plan, v, lists.sorted(s)));
-    }
-    return best;
-  }
-
-  // Draws the heat maps; returns their files.
-  std::vector<std::string> draw_maps(const Plan& plan) const {
-    if (!has_heat_map()) {
-      note("no heat maps: the score is not kept ([output] keep)");
-      return {};
-    }
-    const std::vector<HeatMapPicture> pictures = sweep_pictures(scene_, plan, maps_, names_);
-    const std::string failure = draw_heat_maps(pictures);
-    std::vector<std::string> files;
-    if (failure.empty()) {
-      for (const HeatMapPicture& picture : pictures) files.push_back(picture.file);
-    } else {
-      note(failure);
-    }
-    return files;
-  }
-
   void finish(const Plan& plan, ResultFile& file) {
-    const auto best = best_grips(plan);
+    const CompanionRequest request{scene_, plan, names_, parts_, best_wanted_, options_.glb};
+    const auto best = best_grips(request, mark_.vessels, *backend_);
     std::vector<std::vector<RankedGrip>> ranked(best.size());
     for (std::size_t list = 0; list < best.size(); ++list) {
       for (const BestGrip& grip : best[list]) ranked[list].push_back({grip.candidate, grip.grip});
     }
     // the result's own name comes last: when it is there, all is
-    std::vector<std::string> files = draw_maps(plan);
-    if (best_wanted_ > 0) {
-      const ListOrigin origin = list_origin(names_.result, origin_of(scene_, WHOLEHAND_VERSION, backend_->info()));
-      write_whole_file(names_.best, best_csv(scene_, plan, best, origin), false);
-      files.insert(files.begin(), names_.best);
-    } else if (is_best_list(names_.best)) {
-      std::remove(names_.best.c_str());  // of the result that is replaced
-    }
-    if (options_.glb > 0) {
-      const BestGlb written = write_best_glb(scene_, plan, parts_.open_evaluator(), best, options_.glb, names_);
-      files.insert(files.end(), written.files.begin(), written.files.end());
-      for (const std::string& line : written.notes) note(line);
-    }
+    std::vector<std::string> files = write_companions(request, best, has_heat_map() ? &maps_ : nullptr, backend_->info());
     // The values are synced first. Then little time passes between the ending, which no earlier mark fits, and the mark that vouches for it.
     if (is_marked_) save(file);
     file.write_ending(ranked, wall_before_ + since(options_.started), mark_.kernel_seconds);

@@ -3,14 +3,12 @@
 #pragma once
 
 #include <chrono>
-#include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 
 #include "core/backend.h"
 #include "core/error.h"
-#include "core/evaluator.h"
+#include "sweeps/sweep_parts.h"
 
 namespace wholehand {
 
@@ -25,13 +23,6 @@ struct SweepOptions {
   int threads = 0;          // of the core, 0: all
   double mark_seconds = 5;  // least time between two progress marks: what a crash may cost
   std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();  // of the process, for the closing lines
-};
-
-// What a sweep gets from elsewhere. Tests put in their own.
-struct SweepParts {
-  std::function<std::unique_ptr<Backend>(const FieldSet&)> open_backend;
-  std::function<std::unique_ptr<Evaluator>()> open_evaluator;  // for what is known of a vessel whatever the grip
-  std::function<void()> prepare = {};  // what takes long and comes after all that can be refused at once (meshes); may be empty
 };
 
 // Sweeps every grip of the scene. Writes NAME.nc, NAME.best.csv, NAME.<vessel>.svg and NAME.<vessel>.<rank>.glb; prints the device, the best grips and counts

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// What a sweep computes with.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "core/backend.h"
+#include "core/evaluator.h"
+
+namespace wholehand {
+
+// What a sweep gets from elsewhere. Tests put in their own.
+struct SweepParts {
+  std::function<std::unique_ptr<Backend>(const FieldSet&)> open_backend;
+  std::function<std::unique_ptr<Evaluator>()> open_evaluator;  // for what is known of a vessel whatever the grip
+  std::function<void()> prepare = {};  // what takes long and comes after all that can be refused at once (meshes); may be empty
+};
+
+}  // namespace wholehand

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "sweeps/write_companions.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "core/planes.h"
+#include "sweeps/best_glb.h"
+#include "sweeps/closing.h"
+#include "sweeps/companions.h"
+#include "sweeps/grip_lists.h"
+#include "sweeps/hand_lists.h"
+#include "sweeps/heat_map_plot.h"
+#include "sweeps/variables.h"
+
+#ifndef WHOLEHAND_VERSION
+#define WHOLEHAND_VERSION "unknown"
+#endif
+
+namespace wholehand {
+namespace {
+
+// Answers their files.
+std::vector<std::string> draw_companion_maps(const CompanionRequest& request, const std::vector<HeatMap>* maps) {
+  if (!maps) {
+    say_note("no heat maps: the score is not kept ([output] keep)");
+    return {};
+  }
+  const std::vector<HeatMapPicture> pictures = sweep_pictures(request.scene, request.plan, *maps, request.names);
+  const std::string failure = draw_heat_maps(pictures);
+  std::vector<std::string> files;
+  if (failure.empty()) {
+    for (const HeatMapPicture& picture : pictures) files.push_back(picture.file);
+  } else {
+    say_note(failure);
+  }
+  return files;
+}
+
+}  // namespace
+
+std::vector<std::vector<BestGrip>> best_grips(const CompanionRequest& request, const std::vector<VesselProgress>& vessels,
+                                              Backend& swept) {
+  const std::vector<int> needed = best_fields(request.scene);
+  const bool any = std::any_of(vessels.begin(), vessels.end(), [](const VesselProgress& v) { return !v.best.empty(); });
+  std::unique_ptr<Backend> other;
+  if (any && !std::all_of(needed.begin(), needed.end(), [&](int field) { return is_kept(swept.fields(), field); })) {
+    other = request.parts.open_backend(make_field_set(needed, request.scene));
+  }
+  std::vector<std::vector<BestGrip>> best;
+  for (std::size_t v = 0; v < request.scene.vessels.size(); ++v) {
+    const HandLists lists(request.plan, request.best, vessels[v].best);
+    for (std::size_t s = 0; s < request.plan.hand_scales(); ++s)
+      best.push_back(evaluate_best(other ? *other : swept, request.scene, request.plan, v, lists.sorted(s)));
+  }
+  return best;
+}
+
+std::vector<std::string> write_companions(const CompanionRequest& request, const std::vector<std::vector<BestGrip>>& best,
+                                          const std::vector<HeatMap>* maps, const BackendInfo& info) {
+  const OutputNames& names = request.names;
+  std::vector<std::string> files = draw_companion_maps(request, maps);
+  if (request.best > 0) {
+    const ListOrigin origin = list_origin(names.result, origin_of(request.scene, WHOLEHAND_VERSION, info));
+    write_whole_file(names.best, best_csv(request.scene, request.plan, best, origin), false);
+    files.insert(files.begin(), names.best);
+  } else if (is_best_list(names.best)) {
+    std::remove(names.best.c_str());  // of the result that is replaced
+  }
+  if (request.glb > 0) {
+    const BestGlb written = write_best_glb(request.scene, request.plan, request.parts.open_evaluator(), best, request.glb, names);
+    files.insert(files.end(), written.files.begin(), written.files.end());
+    for (const std::string& line : written.notes) say_note(line);
+  }
+  return files;
+}
+
+}  // namespace wholehand

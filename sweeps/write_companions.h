@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// What a sweep writes beside its result: pictures, the list of the best grips, and those as glTF.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/backend.h"
+#include "sweeps/best.h"
+#include "sweeps/heat_map.h"
+#include "sweeps/mark.h"
+#include "sweeps/plan.h"
+#include "sweeps/sweep_parts.h"
+#include "system/files.h"
+
+namespace wholehand {
+
+struct CompanionRequest {
+  const Scene& scene;
+  const Plan& plan;
+  const OutputNames& names;
+  const SweepParts& parts;
+  std::size_t best = 0;  // grips of each list
+  int glb = 0;           // of them as glTF
+};
+
+// The best grips of each list with what is told of them; by a backend of their own where the sweep's does not read all of it back.
+std::vector<std::vector<BestGrip>> best_grips(const CompanionRequest& request, const std::vector<VesselProgress>& vessels,
+                                              Backend& swept);
+
+// Answers the names of the files, as the closing lines have them. `maps` null: the score is not kept, and there are none. `info`: the sweep's.
+std::vector<std::string> write_companions(const CompanionRequest& request, const std::vector<std::vector<BestGrip>>& best,
+                                          const std::vector<HeatMap>* maps, const BackendInfo& info);
+
+}  // namespace wholehand
