@@ -166,97 +166,129 @@ std::vector<double> crossings(const std::vector<PreparedElement>& hull, double y
   return radii;
 }
 
+// The curve that bounds the room inside the wall, followed from the floor up to the mouth.
+class InnerWall {
+ public:
+  InnerWall(const std::vector<PreparedElement>& hull, double wall, const VesselData& vessel)
+      : hull_(hull), open_(hull.begin(), hull.end() - 1), wall_(wall), mouth_(hull.back().a[1]), vessel_(vessel) {}
+
+  void follow() {
+    const auto critical = critical_heights(open_, wall_, vessel_.floor, mouth_);
+    // each critical height, and 32 steps between two of them
+    constexpr int STEPS = 32;
+    std::vector<double> heights;
+    for (std::size_t i = 0; i + 1 < critical.size(); ++i)
+      for (int k = 0; k < STEPS; ++k) heights.push_back(critical[i] + (critical[i + 1] - critical[i]) * k / STEPS);
+    heights.push_back(mouth_);
+    for (std::size_t i = 0; i + 1 < heights.size(); ++i) {
+      if (i % STEPS == 0) near_ = elements_near(open_, wall_, heights[i], critical[i / STEPS + 1]);
+      if (heights[i + 1] - heights[i] > 1e-15) follow_step(heights[i], heights[i + 1]);
+    }
+    finish_piece(mouth_);
+  }
+
+  void check_room() const {
+    if (pieces_.empty()) throw refusal("no room is left inside; it must be less than the radius and the height");
+    if (vessel_.floor > 0 && pieces_.front().a[1] > vessel_.floor) {
+      throw refusal("the wall fills the vessel up to " + std::to_string(pieces_.front().a[1] * 1e3) +
+                    " mm; floor_mm = " + std::to_string(vessel_.floor * 1e3) + " must be that or more");
+    }
+  }
+
+  // The cavity is one radius a height: no free room may lie beyond it.
+  void check_folds() const {
+    const double floor = pieces_.front().a[1];
+    for (int i = 0; i < 128; ++i) {
+      const double y = floor + (mouth_ - floor) * (i + 0.5) / 128;
+      const auto radii = crossings(hull_, y);
+      const std::vector<std::size_t> within = elements_near(open_, wall_, y, y);  // no other is nearer than the wall
+      const double inner = first_blocked(open_, within, wall_, y).value_or(Boundary{}).radius;
+      for (std::size_t k = 0; k < radii.size(); k += 2) {
+        const double from = k == 0 ? inner : radii[k - 1];
+        for (int j = 0; j < 64; ++j) {
+          const double r = from + (radii[k] - from) * (j + 0.5) / 64;
+          if (distance_to(open_, within, r, y) > wall_ * (1 + 1e-9) + 1e-12)
+            throw refusal("the inner wall folds over itself at " + std::to_string(y * 1e3) +
+                          " mm; the cavity must have one radius at each height");
+        }
+      }
+    }
+  }
+
+  const std::vector<PreparedElement>& pieces() const { return pieces_; }
+
+ private:
+  Error refusal(const std::string& what) const {
+    return usage_error(
+        at_place(vessel_.cavity_place, "vessel '" + vessel_.name + "': wall_mm = " + std::to_string(wall_ * 1e3) + ": " + what));
+  }
+
+  // None: closed.
+  std::optional<Curve> curve_at(double y) const {
+    const auto blocked = first_blocked(open_, near_, wall_, y);
+    return !blocked || blocked->radius <= 0 ? std::nullopt : std::optional<Curve>(blocked->curve);
+  }
+
+  // From the curve just above `low` to the one just below `high`; between them at most one gives way.
+  void follow_step(double low, double high) {
+    const double inset = (high - low) * 1e-7;
+    double at = low + inset;
+    while (true) {
+      const std::optional<Curve> curve = curve_at(at);
+      if (curve != current_) {
+        const double y = at <= low + inset ? low : at;
+        finish_piece(y);
+        if (!curve && was_open_)
+          throw refusal("the wall closes the vessel at " + std::to_string(y * 1e3) +
+                        " mm; it must leave an opening up to the mouth, or floor_mm lie above");
+        current_ = curve;
+        begin_ = y;
+        was_open_ = was_open_ || curve.has_value();
+      }
+      if (curve_at(high - inset) == current_) break;
+      at = end_of_current(at, high - inset);
+    }
+  }
+
+  // Where the current curve ends, which is there at `below` and not at `above`: by bisection.
+  double end_of_current(double below, double above) const {
+    for (int step = 0; step < 200 && above - below > 1e-17; ++step) {
+      const double middle = 0.5 * (below + above);
+      if (middle <= below || middle >= above) break;
+      (curve_at(middle) == current_ ? below : above) = middle;
+    }
+    return above;
+  }
+
+  void finish_piece(double y) {
+    if (!current_ || !(y > begin_)) return;
+    PreparedElement piece =
+        piece_of(open_[current_->element], *current_, wall_, begin_ + (y - begin_) * 1e-9, y - (y - begin_) * 1e-9);
+    const double low = settle(piece, begin_), high = settle(piece, y);
+    piece.a = {std::max(0.0, low), begin_};
+    piece.b = {std::max(0.0, high), y};
+    pieces_.push_back(piece);
+  }
+
+  const std::vector<PreparedElement>& hull_;
+  std::vector<PreparedElement> open_;  // without the lid
+  double wall_, mouth_;
+  const VesselData& vessel_;
+  std::vector<std::size_t> near_;  // the same for all steps between two critical heights
+  std::vector<PreparedElement> pieces_;
+  std::optional<Curve> current_;  // none: closed
+  double begin_ = 0;
+  bool was_open_ = false;
+};
+
 }  // namespace
 
 std::vector<PreparedElement> inner_offset(const std::vector<PreparedElement>& hull, double wall, const VesselData& vessel) {
-  const auto refuse = [&](const std::string& what) {
-    return usage_error(
-        at_place(vessel.cavity_place, "vessel '" + vessel.name + "': wall_mm = " + std::to_string(wall * 1e3) + ": " + what));
-  };
-  const std::vector<PreparedElement> open(hull.begin(), hull.end() - 1);
-  const double mouth = hull.back().a[1];
-  const auto closed = [](const std::optional<Boundary>& b) { return !b || b->radius <= 0; };
-  // each critical height, and 32 steps between two of them
-  std::vector<double> heights;
-  const auto critical = critical_heights(open, wall, vessel.floor, mouth);
-  constexpr int STEPS = 32;
-  for (std::size_t i = 0; i + 1 < critical.size(); ++i)
-    for (int k = 0; k < STEPS; ++k) heights.push_back(critical[i] + (critical[i + 1] - critical[i]) * k / STEPS);
-  heights.push_back(mouth);
-
-  std::vector<PreparedElement> pieces;
-  std::optional<Curve> current;  // none: closed
-  double begin = 0;
-  bool was_open = false;
-  std::vector<std::size_t> near;  // the same for all steps between two critical heights
-  const auto finish = [&](double y) {
-    if (current && y > begin) {
-      PreparedElement piece = piece_of(open[current->element], *current, wall, begin + (y - begin) * 1e-9, y - (y - begin) * 1e-9);
-      const double low = settle(piece, begin), high = settle(piece, y);
-      piece.a = {std::max(0.0, low), begin};
-      piece.b = {std::max(0.0, high), y};
-      pieces.push_back(piece);
-    }
-  };
-  for (std::size_t i = 0; i + 1 < heights.size(); ++i) {
-    const double low = heights[i], high = heights[i + 1];
-    // the curve just above `low` and just below `high`; between them at most one gives way
-    const double inset = (high - low) * 1e-7;
-    if (i % STEPS == 0) near = elements_near(open, wall, low, critical[i / STEPS + 1]);
-    if (!(high - low > 1e-15)) continue;
-    double at = low + inset;
-    while (true) {
-      const auto here = first_blocked(open, near, wall, at);
-      const std::optional<Curve> curve = closed(here) ? std::nullopt : std::optional<Curve>(here->curve);
-      if (curve != current) {
-        const double y = at <= low + inset ? low : at;
-        finish(y);
-        if (!curve && was_open)
-          throw refuse("the wall closes the vessel at " + std::to_string(y * 1e3) +
-                       " mm; it must leave an opening up to the mouth, or floor_mm lie above");
-        current = curve;
-        begin = y;
-        was_open = was_open || curve.has_value();
-      }
-      const auto end = first_blocked(open, near, wall, high - inset);
-      const std::optional<Curve> end_curve = closed(end) ? std::nullopt : std::optional<Curve>(end->curve);
-      if (end_curve == current) break;
-      double below = at, above = high - inset;  // bisect for where `current` ends
-      for (int step = 0; step < 200 && above - below > 1e-17; ++step) {
-        const double middle = 0.5 * (below + above);
-        if (middle <= below || middle >= above) break;
-        const auto there = first_blocked(open, near, wall, middle);
-        const std::optional<Curve> curve_there = closed(there) ? std::nullopt : std::optional<Curve>(there->curve);
-        (curve_there == current ? below : above) = middle;
-      }
-      at = above;
-    }
-  }
-  finish(mouth);
-  if (pieces.empty()) throw refuse("no room is left inside; it must be less than the radius and the height");
-  if (vessel.floor > 0 && pieces.front().a[1] > vessel.floor) {
-    throw refuse("the wall fills the vessel up to " + std::to_string(pieces.front().a[1] * 1e3) +
-                 " mm; floor_mm = " + std::to_string(vessel.floor * 1e3) + " must be that or more");
-  }
-
-  // the cavity is one radius a height: no free room may lie beyond it
-  const double floor = pieces.front().a[1];
-  for (int i = 0; i < 128; ++i) {
-    const double y = floor + (mouth - floor) * (i + 0.5) / 128;
-    const auto radii = crossings(hull, y);
-    const std::vector<std::size_t> within = elements_near(open, wall, y, y);  // no other is nearer than the wall
-    const double inner = first_blocked(open, within, wall, y).value_or(Boundary{}).radius;
-    for (std::size_t k = 0; k < radii.size(); k += 2) {
-      const double from = k == 0 ? inner : radii[k - 1];
-      for (int j = 0; j < 64; ++j) {
-        const double r = from + (radii[k] - from) * (j + 0.5) / 64;
-        if (distance_to(open, within, r, y) > wall * (1 + 1e-9) + 1e-12)
-          throw refuse("the inner wall folds over itself at " + std::to_string(y * 1e3) +
-                       " mm; the cavity must have one radius at each height");
-      }
-    }
-  }
-  return pieces;
+  InnerWall inner(hull, wall, vessel);
+  inner.follow();
+  inner.check_room();
+  inner.check_folds();
+  return inner.pieces();
 }
 
 }  // namespace wholehand

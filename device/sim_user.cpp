@@ -133,12 +133,17 @@ void SimUser::begin(Phase phase) noexcept {
   roll_from_ = wish_.roll;
   roll_to_ = job().grip.roll;
   has_run_ = false;
+  plan_motion();
+}
+
+// Where the phase ends, and how long it lasts.
+void SimUser::plan_motion() noexcept {
   const double open = live_.hand.scale * live_.hand.gap_open;
   const Vec3 stand = live_.vessels[job().vessel].home, taken = stand + Vec3(0, job().grip.height, 0);
   const bool is_carried = job().kind == SimJob::Kind::carry;
   const Vec3 destination = live_.scene.task ? in_hand_world(live_.scene.task->destination) : Vec3(0);
   const Vec3 put = (is_carried ? destination : stand) + Vec3(0, job().grip.height, 0);
-  switch (phase) {
+  switch (phase_) {
     case Phase::reach:
       move(taken + Vec3(0, 0, APART), REACH_TIME);
       gap_to_ = open;

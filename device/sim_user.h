@@ -59,6 +59,7 @@ class SimUser {
  private:
   enum class Phase { reach, enter, close, settle, lift, carry, tilt, maintain, upright, back, lower, open, withdraw };
   void begin(Phase phase) noexcept;
+  void plan_motion() noexcept;
   void fail() noexcept;
   void go_on(bool feels) noexcept;
   void move(core_f64::Vec3 to, double seconds) noexcept;
