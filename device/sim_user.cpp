@@ -136,13 +136,19 @@ void SimUser::begin(Phase phase) noexcept {
   plan_motion();
 }
 
+// Of the middle of the tips.
+Vec3 SimUser::set_down_at() const noexcept {
+  const Vec3 destination = live_.scene.task ? in_hand_world(live_.scene.task->destination) : Vec3(0);
+  const Vec3 place = job().kind == SimJob::Kind::carry ? destination : live_.vessels[job().vessel].home;
+  return place + Vec3(0, job().grip.height, 0);
+}
+
 // Where the phase ends, and how long it lasts.
 void SimUser::plan_motion() noexcept {
   const double open = live_.hand.scale * live_.hand.gap_open;
-  const Vec3 stand = live_.vessels[job().vessel].home, taken = stand + Vec3(0, job().grip.height, 0);
+  const Vec3 taken = live_.vessels[job().vessel].home + Vec3(0, job().grip.height, 0);
   const bool is_carried = job().kind == SimJob::Kind::carry;
-  const Vec3 destination = live_.scene.task ? in_hand_world(live_.scene.task->destination) : Vec3(0);
-  const Vec3 put = (is_carried ? destination : stand) + Vec3(0, job().grip.height, 0);
+  const Vec3 put = set_down_at();
   switch (phase_) {
     case Phase::reach:
       move(taken + Vec3(0, 0, APART), REACH_TIME);

@@ -164,18 +164,18 @@ struct GripBackend::Impl {
     return result;
   }
 
+  // Where the best grips of a run are chosen.
+  struct Selection {
+    bool on_host = false;  // more than the device selects: every score is read back
+    std::size_t best = 0;  // by the device
+  };
+
   template <class Real>
-  RunResult run(const RunRequest& request) {
-    if (!outline_fits_device(arrays.vessels[request.vessel], program().on.info())) return run_on_core<Real>(request);
-    // more than the device selects: every score is read back
-    const bool on_host = request.best > SELECT_LARGEST;
-    const std::size_t best = on_host ? 0 : request.best;
-    const int real_kept = on_host ? std::max(fields.real_kept, fields.plane[FIELD_SCORE] + 1) : fields.real_kept;
-    const int uint_kept = on_host ? std::max(fields.uint_kept, fields.plane[FIELD_STATUS] + 1) : fields.uint_kept;
-    RunResult result;
+  StreamRequest buffers_for(const Selection& selection) const {
+    const int real_kept = selection.on_host ? std::max(fields.real_kept, fields.plane[FIELD_SCORE] + 1) : fields.real_kept;
+    const int uint_kept = selection.on_host ? std::max(fields.uint_kept, fields.plane[FIELD_STATUS] + 1) : fields.uint_kept;
+    const std::size_t best = selection.best;
     StreamRequest work;
-    work.first = request.first;
-    work.last = request.last;
     work.inputs = {{BINDING_GRIPS, GRIP_AXES * sizeof(Real)}};
     work.outputs = {{BINDING_REAL_OUT, fields.real_planes * sizeof(Real), real_kept * sizeof(Real)},
                     {BINDING_UINT_OUT, fields.uint_planes * sizeof(std::uint32_t), uint_kept * sizeof(std::uint32_t)}};
@@ -185,45 +185,65 @@ struct GripBackend::Impl {
       work.outputs.push_back(
           {BINDING_INDICES, sizeof(std::uint32_t), 0, 2 * best * sizeof(std::uint32_t), best * sizeof(std::uint32_t)});
     }
+    return work;
+  }
+
+  // Mirrored planes turned back where there are some, in `turned`.
+  template <class Real>
+  PlaneChunk planes_of(std::size_t vessel, const Chunk& chunk, const ChunkOutputs& outputs, std::vector<Real>& turned) const {
+    PlaneChunk planes{
+        vessel, chunk.first, chunk.count, chunk.stride, nullptr, nullptr, elements<const std::uint32_t>(outputs[1]).data()};
+    std::span<const Real> reals = elements<const Real>(outputs[0]);
+    if (!mirrored.empty()) {
+      turned.assign(reals.begin(), reals.end());
+      for (const int plane : mirrored)
+        for (std::size_t i = 0; i < chunk.count; ++i) turned[plane * chunk.stride + i] = -turned[plane * chunk.stride + i];
+      reals = turned;
+    }
+    if constexpr (sizeof(Real) == sizeof(float)) {
+      planes.floats = reals.data();
+    } else {
+      planes.doubles = reals.data();
+    }
+    return planes;
+  }
+
+  template <class Real>
+  void take_selected(const Chunk& chunk, const ChunkOutputs& outputs, std::size_t best, std::vector<Candidate>& candidates) const {
+    const std::span<const Real> scores = elements<const Real>(outputs[2]);
+    const std::span<const std::uint32_t> indices = elements<const std::uint32_t>(outputs[3]);
+    for (std::size_t i = 0; i < best && indices[i] != NO_GRIP; ++i)
+      candidates.push_back({static_cast<double>(scores[i]), chunk.first + indices[i]});
+  }
+
+  template <class Real>
+  RunResult run(const RunRequest& request) {
+    if (!outline_fits_device(arrays.vessels[request.vessel], program().on.info())) return run_on_core<Real>(request);
+    const bool on_host = request.best > SELECT_LARGEST;
+    const Selection selection{on_host, on_host ? 0 : request.best};
+    RunResult result;
+    StreamRequest work = buffers_for<Real>(selection);
+    work.first = request.first;
+    work.last = request.last;
     work.stop = request.stop;
     work.fill = [&](const Chunk& chunk, const ChunkInputs& inputs) { fill<Real>(request, chunk, inputs); };
     work.record = [&](Program& made, const Chunk& chunk, Commands& commands) {
       // grips come in ascending order, so of equal scores those already found stand first
-      const double floor_score = best > 0 && result.best.size() == best ? result.best.back().score : -1;
-      static_cast<GripProgram&>(made).record(request.vessel, chunk, best, floor_score, commands);
+      const bool is_full = selection.best > 0 && result.best.size() == selection.best;
+      const double floor_score = is_full ? result.best.back().score : -1;
+      static_cast<GripProgram&>(made).record(request.vessel, chunk, selection.best, floor_score, commands);
     };
     work.fallback = [&](const Chunk& chunk, std::span<const std::span<std::byte>> outputs) {
-      evaluate_on_core<Real>(request, chunk, outputs, best);
+      evaluate_on_core<Real>(request, chunk, outputs, selection.best);
     };
     std::vector<Real> turned;
     work.sink = [&](const Chunk& chunk, const ChunkOutputs& outputs) {
-      PlaneChunk planes{request.vessel,
-                        chunk.first,
-                        chunk.count,
-                        chunk.stride,
-                        nullptr,
-                        nullptr,
-                        elements<const std::uint32_t>(outputs[1]).data()};
-      std::span<const Real> reals = elements<const Real>(outputs[0]);
-      if (!mirrored.empty()) {
-        turned.assign(reals.begin(), reals.end());
-        for (const int plane : mirrored)
-          for (std::size_t i = 0; i < chunk.count; ++i) turned[plane * chunk.stride + i] = -turned[plane * chunk.stride + i];
-        reals = turned;
-      }
-      if constexpr (sizeof(Real) == sizeof(float)) {
-        planes.floats = reals.data();
-      } else {
-        planes.doubles = reals.data();
-      }
-      if (on_host) {
+      const PlaneChunk planes = planes_of(request.vessel, chunk, outputs, turned);
+      if (selection.on_host) {
         const auto chosen = best_of(planes, request.best);
         result.best.insert(result.best.end(), chosen.begin(), chosen.end());
-      } else if (best > 0) {
-        const std::span<const Real> scores = elements<const Real>(outputs[2]);
-        const std::span<const std::uint32_t> indices = elements<const std::uint32_t>(outputs[3]);
-        for (std::size_t i = 0; i < best && indices[i] != NO_GRIP; ++i)
-          result.best.push_back({static_cast<double>(scores[i]), chunk.first + indices[i]});
+      } else if (selection.best > 0) {
+        take_selected<Real>(chunk, outputs, selection.best, result.best);
       }
       keep_best(result.best, request.best);
       if (request.sink) request.sink(planes);

@@ -78,6 +78,22 @@ Slot::Slot(DeviceState& device, const StreamRequest& request, std::size_t capaci
 
 void Slot::submit(const Chunk& next, const StreamRequest& request, Program& program) {
   chunk = next;
+  const Commands commands = fill_and_record(request, program);
+  device_.device->resetFences(*done_);
+  compute_.begin();
+  compute_.steps(commands);
+  compute_.end();
+  if (upload_) {
+    submit_upload();
+  }
+  if (download_) {
+    record_download();
+  }
+  submit_compute();
+  submitted = std::chrono::steady_clock::now();
+}
+
+Commands Slot::fill_and_record(const StreamRequest& request, Program& program) {
   std::vector<std::span<std::byte>> spans;
   Commands commands;
   bytes_in = bytes_out = 0;
@@ -97,29 +113,31 @@ void Slot::submit(const Chunk& next, const StreamRequest& request, Program& prog
     request.fill(chunk, spans);
   }
   request.record(program, chunk, commands);
+  return commands;
+}
 
-  device_.device->resetFences(*done_);
-  compute_.begin();
-  compute_.steps(commands);
-  compute_.end();
-  if (upload_) {
-    upload_->begin();
-    for (const Pair& pair : inputs_) {
-      upload_->copy(pair.on_host.state(), pair.on_device.state(), pair.bytes);
-    }
-    upload_->end();
-    const vk::CommandBuffer buffer = upload_->commands();
-    device_.upload.queue.submit(vk::SubmitInfo({}, {}, buffer, *uploaded_));
+void Slot::submit_upload() {
+  upload_->begin();
+  for (const Pair& pair : inputs_) {
+    upload_->copy(pair.on_host.state(), pair.on_device.state(), pair.bytes);
   }
-  if (download_) {
-    download_->begin();
-    for (const Pair& pair : outputs_) {
-      if (pair.on_host.size() > 0) {
-        download_->copy(pair.on_device.state(), pair.on_host.state(), pair.bytes);
-      }
+  upload_->end();
+  const vk::CommandBuffer buffer = upload_->commands();
+  device_.upload.queue.submit(vk::SubmitInfo({}, {}, buffer, *uploaded_));
+}
+
+void Slot::record_download() {
+  download_->begin();
+  for (const Pair& pair : outputs_) {
+    if (pair.on_host.size() > 0) {
+      download_->copy(pair.on_device.state(), pair.on_host.state(), pair.bytes);
     }
-    download_->end();
   }
+  download_->end();
+}
+
+// The kernels, after what is uploaded and before what is downloaded.
+void Slot::submit_compute() {
   const vk::PipelineStageFlags at_compute = vk::PipelineStageFlagBits::eComputeShader | vk::PipelineStageFlagBits::eTransfer;
   const vk::PipelineStageFlags at_copy = vk::PipelineStageFlagBits::eTransfer;
   const vk::CommandBuffer buffer = compute_.commands();
@@ -135,7 +153,6 @@ void Slot::submit(const Chunk& next, const StreamRequest& request, Program& prog
     const vk::CommandBuffer copies = download_->commands();
     device_.download.queue.submit(vk::SubmitInfo(*computed_, at_copy, copies), *done_);
   }
-  submitted = std::chrono::steady_clock::now();
 }
 
 bool Slot::wait(double seconds) { return wait_for(device_, *done_, seconds); }

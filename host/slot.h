@@ -36,6 +36,11 @@ class Slot {
     std::size_t bytes = 0;  // to copy
   };
 
+  Commands fill_and_record(const StreamRequest& request, Program& program);
+  void submit_upload();
+  void record_download();
+  void submit_compute();
+
   DeviceState& device_;
   std::vector<Pair> inputs_, outputs_;
   StepRecorder compute_;

@@ -62,6 +62,93 @@ std::span<const std::uint32_t> pointers(std::uint32_t op, std::span<const std::u
   }
 }
 
+// What a module says before its functions, by result id, and which ids its functions use.
+struct ModuleParts {
+  std::map<std::uint32_t, std::uint32_t> binding, set, spec_id, constant;
+  std::map<std::uint32_t, ConstantKind> type;
+  std::map<std::uint32_t, BindingKind> buffers;  // variables
+  std::set<std::uint32_t> used;
+  std::array<std::uint32_t, 3> size_result{};
+  bool is_compute = false;
+};
+
+void read_decoration(std::span<const std::uint32_t> code, ModuleParts& parts) {
+  if (code[2] == DECORATION_BINDING) {
+    parts.binding[code[1]] = code[3];
+  } else if (code[2] == DECORATION_DESCRIPTOR_SET) {
+    parts.set[code[1]] = code[3];
+  } else if (code[2] == DECORATION_SPEC_ID) {
+    parts.spec_id[code[1]] = code[3];
+  }
+}
+
+void read_variable(std::span<const std::uint32_t> code, ModuleParts& parts) {
+  if (code[3] == STORAGE_UNIFORM || code[3] == STORAGE_BUFFER || code[3] == STORAGE_UNIFORM_CONSTANT) {
+    parts.buffers[code[2]] = code[3] == STORAGE_UNIFORM  ? BindingKind::uniform
+                             : code[3] == STORAGE_BUFFER ? BindingKind::storage
+                                                         : BindingKind::texels;
+  }
+}
+
+// One instruction outside of functions.
+void read_instruction(std::uint32_t op, std::span<const std::uint32_t> code, ModuleParts& parts, ShaderInterface& result) {
+  switch (op) {
+    case OpEntryPoint:
+      parts.is_compute |= code[1] == GL_COMPUTE;
+      break;
+    case OpCapability:
+      result.float64 |= code[1] == CAPABILITY_FLOAT64;
+      break;
+    case OpExecutionMode:
+      if (code[2] == MODE_LOCAL_SIZE) {
+        std::copy_n(code.begin() + 3, 3, result.group_size.begin());
+      }
+      break;
+    case OpExecutionModeId:
+      if (code[2] == MODE_LOCAL_SIZE_ID) {
+        std::copy_n(code.begin() + 3, 3, parts.size_result.begin());
+      }
+      break;
+    case OpDecorate:
+      read_decoration(code, parts);
+      break;
+    case OpTypeBool:
+      parts.type[code[1]] = ConstantKind::boolean;
+      break;
+    case OpTypeInt:
+      parts.type[code[1]] = code[3] ? ConstantKind::int32 : ConstantKind::uint32;
+      break;
+    case OpTypeFloat:
+      parts.type[code[1]] = code[2] == 64 ? ConstantKind::float64 : ConstantKind::float32;
+      break;
+    case OpConstant:
+    case OpSpecConstant:
+      parts.constant[code[2]] = code[3];
+      [[fallthrough]];
+    case OpSpecConstantTrue:
+    case OpSpecConstantFalse:
+      if (const auto id = parts.spec_id.find(code[2]); id != parts.spec_id.end()) {
+        result.constants[id->second] = parts.type.at(code[1]);
+      }
+      break;
+    case OpVariable:
+      read_variable(code, parts);
+      break;
+    default:
+      break;
+  }
+}
+
+void set_group_size(const ModuleParts& parts, ShaderInterface& result) {
+  for (std::size_t axis = 0; axis < 3; axis++) {
+    if (const std::uint32_t id = parts.size_result[axis]; id != 0) {
+      result.group_size[axis] = parts.constant.at(id);
+      const auto spec = parts.spec_id.find(id);
+      result.group_size_id[axis] = spec != parts.spec_id.end() ? spec->second : ShaderInterface::NO_ID;
+    }
+  }
+}
+
 }  // namespace
 
 ShaderInterface read_interface(std::span<const std::uint32_t> words, const std::string& name) {
@@ -70,14 +157,9 @@ ShaderInterface read_interface(std::span<const std::uint32_t> words, const std::
     throw broken("no SPIR-V");
   }
   ShaderInterface result;
-  std::map<std::uint32_t, std::uint32_t> binding, set, spec_id, constant;  // by result id
-  std::map<std::uint32_t, ConstantKind> type;
-  std::map<std::uint32_t, BindingKind> buffers;  // variables
-  std::set<std::uint32_t> used;
-  std::array<std::uint32_t, 3> size_result{};
-  bool compute = false, in_function = false;
+  ModuleParts parts;
+  bool in_function = false;
   std::uint32_t last = 0;
-
   for (std::size_t at = 5; at < words.size();) {
     const std::uint32_t op = words[at] & 0xFFFF, length = words[at] >> 16;
     if (length == 0 || at + length > words.size()) {
@@ -89,85 +171,25 @@ ShaderInterface read_interface(std::span<const std::uint32_t> words, const std::
     in_function |= op == OpFunction;
     if (in_function) {
       for (const std::uint32_t id : pointers(op, code)) {
-        used.insert(id);
+        parts.used.insert(id);
       }
-      continue;
-    }
-    switch (op) {
-      case OpEntryPoint:
-        compute |= code[1] == GL_COMPUTE;
-        break;
-      case OpCapability:
-        result.float64 |= code[1] == CAPABILITY_FLOAT64;
-        break;
-      case OpExecutionMode:
-        if (code[2] == MODE_LOCAL_SIZE) {
-          std::copy_n(code.begin() + 3, 3, result.group_size.begin());
-        }
-        break;
-      case OpExecutionModeId:
-        if (code[2] == MODE_LOCAL_SIZE_ID) {
-          std::copy_n(code.begin() + 3, 3, size_result.begin());
-        }
-        break;
-      case OpDecorate:
-        if (code[2] == DECORATION_BINDING) {
-          binding[code[1]] = code[3];
-        } else if (code[2] == DECORATION_DESCRIPTOR_SET) {
-          set[code[1]] = code[3];
-        } else if (code[2] == DECORATION_SPEC_ID) {
-          spec_id[code[1]] = code[3];
-        }
-        break;
-      case OpTypeBool:
-        type[code[1]] = ConstantKind::boolean;
-        break;
-      case OpTypeInt:
-        type[code[1]] = code[3] ? ConstantKind::int32 : ConstantKind::uint32;
-        break;
-      case OpTypeFloat:
-        type[code[1]] = code[2] == 64 ? ConstantKind::float64 : ConstantKind::float32;
-        break;
-      case OpConstant:
-      case OpSpecConstant:
-        constant[code[2]] = code[3];
-        [[fallthrough]];
-      case OpSpecConstantTrue:
-      case OpSpecConstantFalse:
-        if (const auto id = spec_id.find(code[2]); id != spec_id.end()) {
-          result.constants[id->second] = type.at(code[1]);
-        }
-        break;
-      case OpVariable:
-        if (code[3] == STORAGE_UNIFORM || code[3] == STORAGE_BUFFER || code[3] == STORAGE_UNIFORM_CONSTANT) {
-          buffers[code[2]] = code[3] == STORAGE_UNIFORM  ? BindingKind::uniform
-                             : code[3] == STORAGE_BUFFER ? BindingKind::storage
-                                                         : BindingKind::texels;
-        }
-        break;
-      default:
-        break;
+    } else {
+      read_instruction(op, code, parts, result);
     }
   }
-  if (!compute || last != OpFunctionEnd) {
-    throw broken(compute ? "damaged SPIR-V" : "no compute shader");
+  if (!parts.is_compute || last != OpFunctionEnd) {
+    throw broken(parts.is_compute ? "damaged SPIR-V" : "no compute shader");
   }
-  for (const auto& [id, kind] : buffers) {
-    if (used.contains(id)) {
-      if (set[id] != 0 || !binding.contains(id)) {
+  for (const auto& [id, kind] : parts.buffers) {
+    if (parts.used.contains(id)) {
+      if (parts.set[id] != 0 || !parts.binding.contains(id)) {
         throw broken("a buffer that is not in set 0");
       }
-      result.bindings.push_back({binding[id], kind});
+      result.bindings.push_back({parts.binding[id], kind});
     }
   }
   std::ranges::sort(result.bindings, {}, &ShaderBinding::binding);
-  for (std::size_t axis = 0; axis < 3; axis++) {
-    if (const std::uint32_t id = size_result[axis]; id != 0) {
-      result.group_size[axis] = constant.at(id);
-      const auto spec = spec_id.find(id);
-      result.group_size_id[axis] = spec != spec_id.end() ? spec->second : ShaderInterface::NO_ID;
-    }
-  }
+  set_group_size(parts, result);
   return result;
 }
 
