@@ -54,6 +54,7 @@ RecordedField flag_of(const char* name, const char* long_name, const std::array<
   return {name, "1", long_name, NOT_SAID, "", RecordedAs::flag, offset, 0, COUNT - 1, false, meanings.data()};
 }
 
+// In one piece however long, because it is one table: a row a field.
 std::vector<RecordedField> make_recorded_fields() {
   return {
       // ---- the device ----

@@ -99,9 +99,7 @@ double height_at(const LineChart& chart, const LineChart::Line& line, double x) 
   return line.y[i - 1] + t * (line.y[i] - line.y[i - 1]);
 }
 
-}  // namespace
-
-void write_chart(HtmlWriter& html, const LineChart& chart) {
+PlotArea area_of(const LineChart& chart) {
   double highest = chart.highest, lowest = 0;
   for (const auto& line : chart.lines) {
     for (const double y : line.y) {
@@ -117,6 +115,54 @@ void write_chart(HtmlWriter& html, const LineChart& chart) {
     const double step = ticks[1] - ticks[0];
     area.y_high = std::ceil(highest / step - 1e-9) * step;
   }
+  return area;
+}
+
+// The points of a line that are on the plot, and the path through them.
+struct DrawnLine {
+  std::vector<Point> points;
+  std::string path;
+};
+
+DrawnLine drawn_line(const PlotArea& area, const LineChart& chart, const LineChart::Line& line) {
+  DrawnLine drawn;
+  bool is_drawn = false;
+  for (std::size_t k = 0; k < line.y.size(); ++k) {
+    const bool is_there = std::isfinite(line.y[k]) && line.y[k] <= area.y_high;
+    if (is_there) {
+      const Point& p = drawn.points.emplace_back(Point{area.x(chart.x[k]), area.y(line.y[k])});
+      drawn.path += fmt::format("{}{} {}", is_drawn ? "L" : "M", chart_number(p[0]), chart_number(p[1]));
+    }
+    is_drawn = is_there;
+  }
+  return drawn;
+}
+
+void put_curve(HtmlWriter& html, const PlotArea& area, const LineChart& chart, const LineChart::Line& line, const DrawnLine& drawn,
+               const std::string& style) {
+  html.open("g", {{"style", style}});
+  html.empty("path", {{"class", "line"}, {"d", drawn.path}});
+  const auto dot = [&](double x, double y) {
+    html.empty("circle", {{"class", "dot"}, {"cx", chart_number(x)}, {"cy", chart_number(y)}, {"r", "3.5"}});
+  };
+  if (chart.x.size() == 1) dot(drawn.points[0][0], drawn.points[0][1]);
+  const double marked = line.marked_x ? height_at(chart, line, *line.marked_x) : std::nan("");
+  if (std::isfinite(marked) && marked <= area.y_high) dot(area.x(*line.marked_x), area.y(marked));
+  html.close();
+}
+
+void put_label(HtmlWriter& html, const LabelBox& box, const std::string& label, const std::string& style) {
+  const double middle = box.top + 0.5 * CHART_LETTER;
+  html.open("g", {{"style", style}});
+  put_line(html, box.left, middle, box.left + KEY_WIDTH - 4, middle, "key");
+  put_text(html, box.left + KEY_WIDTH, box.top + 0.85 * CHART_LETTER, label, "halo-text");
+  html.close();
+}
+
+}  // namespace
+
+void write_chart(HtmlWriter& html, const LineChart& chart) {
+  const PlotArea area = area_of(chart);
   open_chart(html, chart.name, area.bottom + 10 + 2.6 * CHART_LETTER);
   put_y_axis(html, area, round_ticks(area.y_low, area.y_high, 5), chart.y_label, true);
   put_x_axis(html, area, round_ticks(area.x_low, area.x_high, 6, chart.x_is_angle), chart.x_label);
@@ -127,41 +173,17 @@ void write_chart(HtmlWriter& html, const LineChart& chart) {
   std::vector<std::vector<Point>> drawn;
   std::vector<std::string> labels, styles;
   for (const auto& line : chart.lines) {
-    std::string path;
-    std::vector<Point> points;
-    bool is_drawn = false;
-    for (std::size_t k = 0; k < line.y.size(); ++k) {
-      const bool is_there = std::isfinite(line.y[k]) && line.y[k] <= area.y_high;
-      if (is_there) {
-        points.push_back({area.x(chart.x[k]), area.y(line.y[k])});
-        path += fmt::format("{}{} {}", is_drawn ? "L" : "M", chart_number(points.back()[0]), chart_number(points.back()[1]));
-      }
-      is_drawn = is_there;
-    }
-    if (points.empty()) continue;
+    DrawnLine curve = drawn_line(area, chart, line);
+    if (curve.points.empty()) continue;
     labels.push_back(line.label);
     // the palest shades are lost on white, the darkest on black
     styles.push_back(
         fmt::format("--day:{};--night:{}", sequential_color(0.78 * line.shade), sequential_color(0.3 + 0.7 * line.shade)));
-    html.open("g", {{"style", styles.back()}});
-    html.empty("path", {{"class", "line"}, {"d", path}});
-    const auto dot = [&](double x, double y) {
-      html.empty("circle", {{"class", "dot"}, {"cx", chart_number(x)}, {"cy", chart_number(y)}, {"r", "3.5"}});
-    };
-    if (chart.x.size() == 1) dot(points[0][0], points[0][1]);
-    const double marked = line.marked_x ? height_at(chart, line, *line.marked_x) : std::nan("");
-    if (std::isfinite(marked) && marked <= area.y_high) dot(area.x(*line.marked_x), area.y(marked));
-    html.close();
-    drawn.push_back(std::move(points));
+    put_curve(html, area, chart, line, curve, styles.back());
+    drawn.push_back(std::move(curve.points));
   }
   const std::vector<LabelBox> boxes = place_labels(area, drawn, labels);
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const double middle = boxes[i].top + 0.5 * CHART_LETTER;
-    html.open("g", {{"style", styles[i]}});
-    put_line(html, boxes[i].left, middle, boxes[i].left + KEY_WIDTH - 4, middle, "key");
-    put_text(html, boxes[i].left + KEY_WIDTH, boxes[i].top + 0.85 * CHART_LETTER, labels[i], "halo-text");
-    html.close();
-  }
+  for (std::size_t i = 0; i < boxes.size(); ++i) put_label(html, boxes[i], labels[i], styles[i]);
   html.close();
 }
 

@@ -65,6 +65,7 @@ void add(std::vector<Variable>& catalogue, bool by_default, Need need, std::vect
   }
 }
 
+// In one piece however long, because it is one table: a row a variable.
 std::vector<Variable> make_catalogue() {
   std::vector<Variable> all;
   const Dims fill{"fill"}, state{"fill", "tilt"}, vector{"xyz"}, joint{"joint"}, joint_vector{"joint", "xyz"}, contact{"contact"};
