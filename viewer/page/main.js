@@ -71,78 +71,114 @@ class History {
   }
 }
 
-async function start() {
-  const about = await loadScene();
+function setTitles(about) {
   document.title = `${about.title} · wholehand`;
   find('title').textContent = about.title;
-  find('subtitle').textContent = [{live: 'live session', recording: 'recording', grips: 'grips'}[about.mode], about.device, about.version].filter(Boolean).join(' · ');
-  const panels = new Panels(about), charts = new Charts(find('charts'), about.mode === 'grips');
-  const view = makeView(about);
-  let bindings = [], framed = false, control = null, playback = null, grips = null;
+  const mode = {live: 'live session', recording: 'recording', grips: 'grips'}[about.mode];
+  find('subtitle').textContent = [mode, about.device, about.version].filter(Boolean).join(' · ');
+}
 
+// Answers what shows a frame, and the numbers of a grip where there is one. `parts.view` is null where there is no picture.
+function makeShow(parts) {
+  const {view, panels} = parts;
   const showNumbers = seldom(PANELS_EVERY, (frame, grip) => panels.show(frame, grip));
-  const show = (frame, grip) => {
+  let framed = false;
+  return (frame, grip) => {
     window.wholehand.frame = frame;
     if (view) {
-      view.grip = grips ? grips.chosen : undefined;
+      view.grip = parts.grips ? parts.grips.chosen : undefined;
       view.show(frame);
-      if (!framed || (grips && view.homeOf !== frame.vessel)) view.frameHome();
+      if (!framed || (parts.grips && view.homeOf !== frame.vessel)) view.frameHome();
       view.homeOf = frame.vessel;
       framed = true;
     }
     showNumbers(frame, grip);
-    if (control) control.show(frame);
+    if (parts.control) parts.control.show(frame);
   };
+}
 
-  window.wholehand = {scene: about, frame: null, view, panels, charts, get playback() { return playback; }, get grips() { return grips; }, get control() { return control; },
+function offerToTests(parts) {
+  const {about, view, panels, charts} = parts;
+  window.wholehand = {scene: about, frame: null, view, panels, charts,
+    get playback() { return parts.playback; },
+    get grips() { return parts.grips; },
+    get control() { return parts.control; },
     project: (joint) => view.project(window.wholehand.frame.joints[joint]),
     camera: () => view.seenFrom(),
   };
+}
 
-  if (about.mode === 'live') {
-    const history = window.wholehand.history = new History(), drawCharts = seldom(CHARTS_EVERY, (frame) => charts.show(history.records, frame.t));
-    charts.live = true;
-    if (about.control && view) control = new Control(about, view, trouble);
-    listen((frame) => {
-      history.push(frame);
-      show(frame);
-      drawCharts(frame);
-    }, (status, reason) => {
-      find('link').dataset.status = status;
-      find('link').textContent = {live: 'live', waiting: 'waiting', over: reason ? `over: ${reason}` : 'over'}[status];
-    });
-    if (control) bindings = control.keys();
-  } else if (about.mode === 'recording') {
-    const drawCharts = seldom(CHARTS_EVERY, () => charts.show(recording.before(playback.t, SPAN).map(record), playback.t));
-    const recording = new Recording(about.duration, about.rate, () => playback && drawCharts());
-    playback = new Playback(recording, (frame) => {
-      trouble('');
-      show(frame);
-      drawCharts();
-    }, trouble);
-    bindings = playback.keys();
-    await playback.seek(0);
-  } else {
-    find('chart-title').textContent = 'Over the tilt';
-    grips = new Grips(about, (frame, grip) => {
-      trouble('');
-      show(frame, grip);
-    }, (records, tilt) => charts.show(records || [], tilt), trouble);
-    find('chart-panel').hidden = grips.largestTilt === 0;
-    bindings = grips.keys();
-    grips.choose(0);
-  }
-  if (view) {
-    const buttons = wireTools(view);
-    listenToKeys([...viewKeys(view, buttons), ...bindings], view.stage.canvas);
-    if (about.mode !== 'grips' && !stillMode.matches) buttons.follow.click();
-    await view.load();
-    let before = 0;
-    setInterval(() => {
-      panels.loop.frames.textContent = `${view.stage.pictures - before} a second`;
-      before = view.stage.pictures;
-    }, COUNT_EVERY);
-  }
+// This and the two that follow start one mode each, and answer its keys.
+function startLive(parts, show) {
+  const {about, view, charts} = parts;
+  const history = window.wholehand.history = new History();
+  const drawCharts = seldom(CHARTS_EVERY, (frame) => charts.show(history.records, frame.t));
+  charts.live = true;
+  if (about.control && view) parts.control = new Control(about, view, trouble);
+  listen((frame) => {
+    history.push(frame);
+    show(frame);
+    drawCharts(frame);
+  }, (status, reason) => {
+    find('link').dataset.status = status;
+    find('link').textContent = {live: 'live', waiting: 'waiting', over: reason ? `over: ${reason}` : 'over'}[status];
+  });
+  return parts.control ? parts.control.keys() : [];
+}
+
+async function startRecording(parts, show) {
+  const {about, charts} = parts;
+  const drawCharts = seldom(CHARTS_EVERY, () => charts.show(recording.before(parts.playback.t, SPAN).map(record), parts.playback.t));
+  const recording = new Recording(about.duration, about.rate, () => parts.playback && drawCharts());
+  parts.playback = new Playback(recording, (frame) => {
+    trouble('');
+    show(frame);
+    drawCharts();
+  }, trouble);
+  const bindings = parts.playback.keys();
+  await parts.playback.seek(0);
+  return bindings;
+}
+
+function startGrips(parts, show) {
+  const {about, charts} = parts;
+  find('chart-title').textContent = 'Over the tilt';
+  parts.grips = new Grips(about, (frame, grip) => {
+    trouble('');
+    show(frame, grip);
+  }, (records, tilt) => charts.show(records || [], tilt), trouble);
+  find('chart-panel').hidden = parts.grips.largestTilt === 0;
+  const bindings = parts.grips.keys();
+  parts.grips.choose(0);
+  return bindings;
+}
+
+function countPictures(view, panels) {
+  let before = 0;
+  setInterval(() => {
+    panels.loop.frames.textContent = `${view.stage.pictures - before} a second`;
+    before = view.stage.pictures;
+  }, COUNT_EVERY);
+}
+
+async function start() {
+  const about = await loadScene();
+  setTitles(about);
+  const panels = new Panels(about), charts = new Charts(find('charts'), about.mode === 'grips');
+  const view = makeView(about);
+  const parts = {about, panels, charts, view, control: null, playback: null, grips: null};
+  const show = makeShow(parts);
+  offerToTests(parts);
+  let bindings = [];
+  if (about.mode === 'live') bindings = startLive(parts, show);
+  else if (about.mode === 'recording') bindings = await startRecording(parts, show);
+  else bindings = startGrips(parts, show);
+  if (!view) return;
+  const buttons = wireTools(view);
+  listenToKeys([...viewKeys(view, buttons), ...bindings], view.stage.canvas);
+  if (about.mode !== 'grips' && !stillMode.matches) buttons.follow.click();
+  await view.load();
+  countPictures(view, panels);
 }
 
 start().catch((error) => trouble(error.message));
