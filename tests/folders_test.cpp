@@ -3,30 +3,23 @@
 // sanitizers: none
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <regex>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
+
+#include "tests/support/files.h"
 
 namespace wholehand {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string text_of(const fs::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 // WHOLEHAND_FLOORS of cmake/folders.cmake.
 std::map<std::string, int> floors() {
-  const std::string text = text_of(fs::path(WHOLEHAND_SOURCE_DIR) / "cmake/folders.cmake");
+  const std::string text = file_text(fs::path(WHOLEHAND_SOURCE_DIR) / "cmake/folders.cmake");
   const std::size_t begin = text.find("set(WHOLEHAND_FLOORS"), end = text.find(')', begin);
   const std::string list = text.substr(begin, end - begin);
   const std::regex entry("([a-z]+)=([0-9]+)");
@@ -54,7 +47,7 @@ std::vector<Include> all_includes() {
     for (const auto& entry : fs::directory_iterator(fs::path(WHOLEHAND_SOURCE_DIR) / folder)) {
       const std::string ending = entry.path().extension();
       if (ending != ".cpp" && ending != ".h") continue;
-      const auto here = includes_of(folder + "/" + entry.path().filename().string(), text_of(entry.path()));
+      const auto here = includes_of(folder + "/" + entry.path().filename().string(), file_text(entry.path()));
       found.insert(found.end(), here.begin(), here.end());
     }
   return found;

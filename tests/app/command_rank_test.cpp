@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tests/support/files.h"
 #include "tests/support/program.h"
 #include "tests/support/result_reader.h"
 

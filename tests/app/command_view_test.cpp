@@ -9,7 +9,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -24,6 +23,7 @@
 #include "objects/vessel.h"
 #include "recordings/recording.h"
 #include "scene/reader.h"
+#include "tests/support/files.h"
 #include "tests/support/http_client.h"
 #include "tests/support/program.h"
 #include "tests/support/result_reader.h"
@@ -37,25 +37,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-// A folder of its own, gone with the test.
-class ViewFolder {
- public:
-  ViewFolder() {
-    std::string pattern = (fs::temp_directory_path() / "wholehand-view-XXXXXX").string();
-    path_ = mkdtemp(pattern.data());
-  }
-  ~ViewFolder() { fs::remove_all(path_); }
-  std::string file(const std::string& name) const { return path_ + "/" + name; }
-
- private:
-  std::string path_;
-};
-
-std::string text_in(const std::string& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 // A program that shows a view, from when it has told its address.
 class Viewed {
  public:
@@ -63,7 +44,7 @@ class Viewed {
     process_ = fork();
     if (process_ == 0) {
       const std::string command =
-          std::string("exec ") + WHOLEHAND_PROGRAM + " " + arguments + " >" + folder_.file("out") + " 2>" + folder_.file("err");
+          std::string("exec ") + WHOLEHAND_PROGRAM + " " + arguments + " >" + (folder_ / "out") + " 2>" + (folder_ / "err");
       execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
       _exit(127);
     }
@@ -79,8 +60,8 @@ class Viewed {
   ~Viewed() {
     if (process_ > 0) kill(process_, SIGKILL), waitpid(process_, nullptr, 0);
   }
-  std::string out() const { return text_in(folder_.file("out")); }
-  std::string err() const { return text_in(folder_.file("err")); }
+  std::string out() const { return file_text(folder_ / "out"); }
+  std::string err() const { return file_text(folder_ / "err"); }
   int interrupt() {
     kill(process_, SIGINT);
     return wait();
@@ -96,7 +77,7 @@ class Viewed {
   ViewAddress at{""};
 
  private:
-  ViewFolder folder_;
+  TemporaryFolder folder_;
   pid_t process_ = 0;
 };
 
@@ -133,8 +114,8 @@ TEST(LiveView, ShowsASessionWhileItRuns) {
 
 // What is shown of a replay is what was recorded, tick by tick.
 TEST(LiveView, WhatIsShownIsWhatWasRecorded) {
-  const ViewFolder folder;
-  const std::string file = folder.file("a.nc");
+  const TemporaryFolder folder;
+  const std::string file = folder / "a.nc";
   ASSERT_EQ(run("PROGRAM live --no-clock --seconds 6 --record " + file).code, 0);
   const Recording recording = read_recording(file);
   Viewed live("live --view --device replay:" + file);
@@ -219,11 +200,11 @@ TEST(LiveView, ThePageMayBeTheGripper) {
 
 // k_open is of the device's gap, and what the page moves is the hand's.
 TEST(LiveView, ThePageIsToldTheStiffnessOfTheHandsGap) {
-  const ViewFolder folder;
-  std::string scene = text_in(find_scene("mixing_board"));
+  const TemporaryFolder folder;
+  std::string scene = file_text(find_scene("mixing_board"));
   scene.insert(scene.find("[force]\n") + 8, "k_open_N_m = 500\n");
-  std::ofstream(folder.file("half.toml")) << scene << "\n[device]\ngap_mm = [20, 60]\n";
-  Viewed live("live " + folder.file("half.toml") + " --view --device view --seconds 20");
+  std::ofstream(folder / "half.toml") << scene << "\n[device]\ngap_mm = [20, 60]\n";
+  Viewed live("live " + (folder / "half.toml") + " --view --device view --seconds 20");
   const json limits = live.get("scene.json")["control_limits"];
   const double range = limits["gap"][1].get<double>() - limits["gap"][0].get<double>();
   EXPECT_NEAR(limits["opening_N_m"].get<double>(), 500 * 0.04 / range, 1e-9);
@@ -241,8 +222,8 @@ TEST(LiveView, OnlyWithThePageAsGripperAreControlsTaken) {
 
 // 200 connections, eight viewers of whom one does not read, and requests of every kind, while every tick is recorded.
 TEST(LiveView, AStormOfConnectionsCostsTheSessionNothing) {
-  const ViewFolder folder;
-  const std::string file = folder.file("a.nc");
+  const TemporaryFolder folder;
+  const std::string file = folder / "a.nc";
   Viewed live("live --view --json --seconds 4 --record " + file);
   std::vector<HttpSocket> viewers, others;
   for (int k = 0; k < MOST_VIEWERS; ++k) {
@@ -272,8 +253,8 @@ TEST(LiveView, AStormOfConnectionsCostsTheSessionNothing) {
 // ---- recordings ----
 
 TEST(ViewCommand, ShowsARecordingAtAnyMoment) {
-  const ViewFolder folder;
-  const std::string file = folder.file("mine.nc");
+  const TemporaryFolder folder;
+  const std::string file = folder / "mine.nc";
   ASSERT_EQ(run("PROGRAM live --no-clock --seconds 12 --record " + file).code, 0);
   const Recording recording = read_recording(file);
   Viewed view("view " + file);
@@ -295,8 +276,8 @@ TEST(ViewCommand, ShowsARecordingAtAnyMoment) {
 // ---- grips ----
 
 TEST(ViewCommand, ShowsTheBestGripsOfASweep) {
-  const ViewFolder folder;
-  const std::string file = folder.file("best.nc");
+  const TemporaryFolder folder;
+  const std::string file = folder / "best.nc";
   ASSERT_EQ(run("PROGRAM sweep small --on core --best 3 -o " + file + " >/dev/null").code, 0);
   const auto heights = read_values(file, "best_height"), rolls = read_values(file, "best_roll"),
              scores = read_values(file, "best_score");
@@ -328,8 +309,8 @@ TEST(ViewCommand, ShowsTheBestGripsOfASweep) {
 }
 
 TEST(ViewCommand, ShowsTheGripsOfAList) {
-  const ViewFolder folder;
-  const std::string file = folder.file("a.nc"), list = folder.file("list.csv");
+  const TemporaryFolder folder;
+  const std::string file = folder / "a.nc", list = folder / "list.csv";
   ASSERT_EQ(run("PROGRAM sweep small --on core -o " + file + " >/dev/null").code, 0);
   ASSERT_EQ(run("PROGRAM rank " + file + " --where 'roll_deg < 0' --best 2 -o " + list + " >/dev/null").code, 0);
   Viewed view("view " + file + " --list " + list);
@@ -366,15 +347,15 @@ TEST(ViewCommand, ShowsAGripBesideItsReport) {
 // ---- refusals ----
 
 TEST(ViewCommand, RefusesWhatCannotBeShown) {
-  const ViewFolder folder;
-  const std::string text = folder.file("text"), empty = folder.file("empty"), cut = folder.file("cut.nc"),
-                    whole = folder.file("whole.nc"), none = folder.file("none.nc");
+  const TemporaryFolder folder;
+  const std::string text = folder / "text", empty = folder / "empty", cut = folder / "cut.nc", whole = folder / "whole.nc",
+                    none = folder / "none.nc";
   std::ofstream(text) << "not a recording\n";
   std::ofstream(empty) << "";
   ASSERT_EQ(run("PROGRAM sweep small --on core -o " + whole + " >/dev/null").code, 0);
   ASSERT_EQ(run("PROGRAM sweep small --on core --best 0 -o " + none + " >/dev/null").code, 0);
-  std::ofstream(cut, std::ios::binary) << text_in(whole).substr(0, 3000);
-  for (const std::string& file : {text, empty, cut, folder.file("missing"), std::string("/"), std::string("/dev/null")})
+  std::ofstream(cut, std::ios::binary) << file_text(whole).substr(0, 3000);
+  for (const std::string& file : {text, empty, cut, folder / "missing", std::string("/"), std::string("/dev/null")})
     expect_error("view " + file, 2, file);
   expect_error("view " + none, 2, "holds no best grips");
   expect_error("view " + whole + " --view-port 65536", 2, "--view-port");
@@ -386,11 +367,11 @@ TEST(ViewCommand, RefusesWhatCannotBeShown) {
 }
 
 TEST(ViewCommand, APortThatIsTakenIsNamedAndNothingIsLeft) {
-  const ViewFolder folder;
+  const TemporaryFolder folder;
   Viewed live("live --view --seconds 20");
-  expect_error("live --view --seconds 1 --view-port " + std::to_string(live.at.port) + " --record " + folder.file("p.nc"), 2,
+  expect_error("live --view --seconds 1 --view-port " + std::to_string(live.at.port) + " --record " + (folder / "p.nc"), 2,
                "--view-port " + std::to_string(live.at.port));
-  EXPECT_TRUE(fs::is_empty(fs::path(folder.file("p.nc")).parent_path())) << "the next start would be refused";
+  EXPECT_TRUE(fs::is_empty(fs::path(folder / "p.nc").parent_path())) << "the next start would be refused";
   EXPECT_EQ(live.interrupt(), 130);
 }
 

@@ -24,7 +24,6 @@
 #include <mutex>
 #include <new>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <string>
 #include <thread>
 #include <utility>
@@ -35,6 +34,7 @@
 #include "device/omega_gripper.h"
 #include "recordings/recording.h"
 #include "system/output.h"
+#include "tests/support/files.h"
 #include "tests/support/scene_texts.h"
 #include "tests/support/stand_in_dhd.h"
 
@@ -165,7 +165,7 @@ class DeviceSession {
   Ended wait() const {
     int status = 0;
     waitpid(child_, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status), text(err_), text(out_)};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status), file_text(err_), file_text(out_)};
   }
   Ended run(const std::function<void(StandIn&, DeviceLog&)>& plan) {
     start(plan);
@@ -178,10 +178,6 @@ class DeviceSession {
   SharedDeviceLog log;
 
  private:
-  static std::string text(const std::string& path) {
-    std::ifstream file(path);
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
   // not alarm(), which a session catches
   static void alarm_for_the_worst() {
     const rlimit cpu{60, 60};

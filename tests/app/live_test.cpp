@@ -11,10 +11,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <thread>
@@ -27,6 +25,7 @@
 #include "core/error.h"
 #include "recordings/recording.h"
 #include "scene/reader.h"
+#include "tests/support/files.h"
 #include "tests/support/http_client.h"
 
 namespace wholehand {
@@ -35,18 +34,6 @@ namespace {
 namespace fs = std::filesystem;
 
 // A folder of its own, gone with the test.
-class Folder {
- public:
-  Folder() {
-    std::string pattern = (fs::temp_directory_path() / "wholehand-live-XXXXXX").string();
-    path_ = mkdtemp(pattern.data());
-  }
-  ~Folder() { fs::remove_all(path_); }
-  std::string file(const std::string& name) const { return path_ + "/" + name; }
-
- private:
-  std::string path_;
-};
 
 Scene board_scene() { return read_scene_file(find_scene("mixing_board")); }
 
@@ -154,11 +141,6 @@ struct LiveOutcome {
   std::string output, errors;
 };
 
-std::string text_of(const std::string& path) {
-  std::ifstream file(path);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 // Starts the program with arguments as a shell takes them, standard output and errors into files. `limit`: of a file's size, 0: none.
 class Program {
  public:
@@ -170,7 +152,7 @@ class Program {
       setrlimit(RLIMIT_FSIZE, &size);
     }
     const std::string command =
-        std::string("exec ") + WHOLEHAND_PROGRAM + " live " + arguments + " >" + folder_.file("out") + " 2>" + folder_.file("err");
+        std::string("exec ") + WHOLEHAND_PROGRAM + " live " + arguments + " >" + (folder_ / "out") + " 2>" + (folder_ / "err");
     execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
     _exit(127);
   }
@@ -178,14 +160,14 @@ class Program {
   LiveOutcome wait() {
     int status = 0;
     waitpid(process_, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), text_of(folder_.file("out")),
-            text_of(folder_.file("err"))};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), file_text(folder_ / "out"),
+            file_text(folder_ / "err")};
   }
-  std::string out() const { return text_of(folder_.file("out")); }
-  std::string errors() const { return text_of(folder_.file("err")); }
+  std::string out() const { return file_text(folder_ / "out"); }
+  std::string errors() const { return file_text(folder_ / "err"); }
 
  private:
-  Folder folder_;
+  TemporaryFolder folder_;
   pid_t process_ = 0;
 };
 
@@ -307,8 +289,8 @@ TEST(Live, StreamsToWhoeverListens) {
 
 // What was felt is felt again, to the bit, and recorded again.
 TEST(Live, AReplayGivesTheSameForcesToTheBit) {
-  const Folder folder;
-  const std::string first = folder.file("first.nc"), second = folder.file("second.nc");
+  const TemporaryFolder folder;
+  const std::string first = folder / "first.nc", second = folder / "second.nc";
   // with a clock: a session in which periods may be missed
   ASSERT_EQ(Program("--seconds 4 --record " + first).wait().code, 0);
   const LiveOutcome again = Program("--no-clock --device replay:" + first + " --record " + second).wait();
@@ -330,8 +312,8 @@ TEST(Live, AReplayGivesTheSameForcesToTheBit) {
 
 TEST(Live, SignalsEndItCleanly) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
-    const Folder folder;
-    const std::string file = folder.file("a.nc");
+    const TemporaryFolder folder;
+    const std::string file = folder / "a.nc";
     Program program("--record " + file);
     // until something is held: a force is on the gripper then
     for (int k = 0; k < 600 && program.out().find("is held") == std::string::npos; ++k)
@@ -353,8 +335,8 @@ TEST(Live, SignalsEndItCleanly) {
 
 // The disk ends the recording, not the session; but what was asked for is not all there.
 TEST(Live, AFullDiskEndsTheRecordingAndNotTheSession) {
-  const Folder folder;
-  const std::string file = folder.file("a.nc");
+  const TemporaryFolder folder;
+  const std::string file = folder / "a.nc";
   const LiveOutcome outcome = Program("--no-clock --record " + file, 4 << 20).wait();
   EXPECT_EQ(outcome.code, 3) << outcome.errors;
   EXPECT_NE(outcome.output.find("all is done"), std::string::npos) << outcome.output;
@@ -374,8 +356,8 @@ void expect_refused(const std::string& arguments, int code, const std::string& g
 }
 
 TEST(Live, RefusesWhatIsNotAllowedInOneLine) {
-  const Folder folder;
-  std::ofstream(folder.file("notes.txt")) << "not a recording";
+  const TemporaryFolder folder;
+  std::ofstream(folder / "notes.txt") << "not a recording";
   expect_refused("--device robot", 2, "--device 'robot': allowed: sim");
   expect_refused("--rate 100", 2, "--rate");
   expect_refused("--rate 10000", 2, "--rate");
@@ -386,25 +368,24 @@ TEST(Live, RefusesWhatIsNotAllowedInOneLine) {
   expect_refused("--stream osc://127.0.0.1", 2, "there is no port");
   expect_refused("--stream osc://a..b:9000", 3, "host 'a..b' is not found");
   expect_refused("--no-clock --stream osc://127.0.0.1:9000", 2, "--stream: sends what happens as it happens");
-  expect_refused("--device replay:" + folder.file("none.nc"), 2, "none.nc");
-  expect_refused("--device replay:" + folder.file("notes.txt"), 2, "notes.txt");
-  expect_refused("--rate 2000 --device replay:" + folder.file("notes.txt"), 2, "--rate: a recording is replayed at its own rate");
+  expect_refused("--device replay:" + (folder / "none.nc"), 2, "none.nc");
+  expect_refused("--device replay:" + (folder / "notes.txt"), 2, "notes.txt");
+  expect_refused("--rate 2000 --device replay:" + (folder / "notes.txt"), 2, "--rate: a recording is replayed at its own rate");
   expect_refused("three_beakers", 2, "stand in each other");
   expect_refused("no_such_scene", 2, "no_such_scene");
-  expect_refused("--record " + folder.file("notes.txt"), 2, "notes.txt");
-  EXPECT_EQ(text_of(folder.file("notes.txt")), "not a recording") << "it is still there";
-  expect_refused("--record " + folder.file("none/a.nc"), 2, "none");
+  expect_refused("--record " + (folder / "notes.txt"), 2, "notes.txt");
+  EXPECT_EQ(file_text(folder / "notes.txt"), "not a recording") << "it is still there";
+  expect_refused("--record " + (folder / "none/a.nc"), 2, "none");
 }
 
 // From the theory of rendered walls: beyond it only who says so.
 TEST(Live, GainsThatAreNotStableAreRefused) {
-  const Folder folder;
-  std::string text = text_of(find_scene("mixing_board"));
-  std::ofstream(folder.file("stiff.toml")) << text << "\n[live]\nK_N_m = 5000\n";
-  expect_refused(folder.file("stiff.toml"), 2, "K_N_m = 5000 with B_Ns_m = 1, of which the device feels 2 times as much");
-  EXPECT_EQ(Program(folder.file("stiff.toml") + " --unsafe-gains --no-clock --seconds 1").wait().code, 0);
-  EXPECT_EQ(Program(folder.file("stiff.toml") + " --rate 8000 --no-clock --seconds 1").wait().code, 0)
-      << "a higher rate bears more";
+  const TemporaryFolder folder;
+  std::string text = file_text(find_scene("mixing_board"));
+  std::ofstream(folder / "stiff.toml") << text << "\n[live]\nK_N_m = 5000\n";
+  expect_refused(folder / "stiff.toml", 2, "K_N_m = 5000 with B_Ns_m = 1, of which the device feels 2 times as much");
+  EXPECT_EQ(Program((folder / "stiff.toml") + " --unsafe-gains --no-clock --seconds 1").wait().code, 0);
+  EXPECT_EQ(Program((folder / "stiff.toml") + " --rate 8000 --no-clock --seconds 1").wait().code, 0) << "a higher rate bears more";
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/environment.h"
+#include "tests/support/files.h"
 #include "tests/support/meshes.h"
 #include "tests/support/program.h"
 #include "tests/support/result_reader.h"

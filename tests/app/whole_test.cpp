@@ -20,6 +20,7 @@
 #include "scene/reader.h"
 #include "sweeps/plan.h"
 #include "sweeps/variables.h"
+#include "tests/support/files.h"
 #include "tests/support/result_reader.h"
 #include "tests/support/vulkan_listener.h"
 
@@ -107,11 +108,6 @@ bool wait_for_writing(const std::string& file, std::filesystem::file_time_type b
   return false;
 }
 
-std::string said(const std::string& output) {
-  std::ifstream in(output + ".said");
-  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-}
-
 // Interrupted, gone on with, killed in the middle of that, and gone on with again.
 TEST(Whole, InterruptedAndKilledSweepOnVulkanResumesToTheSameBits) {
   const TemporaryFolder folder;
@@ -132,7 +128,7 @@ TEST(Whole, InterruptedAndKilledSweepOnVulkanResumesToTheSameBits) {
   waitpid(first, &status, 0);
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 130);
-  const std::string line = said(broken);
+  const std::string line = file_text(broken + ".said");
   EXPECT_EQ(line.find("wholehand: interrupted at "), 0u) << line;
   EXPECT_EQ(line.find('\n'), line.size() - 1) << line;
 
@@ -143,7 +139,7 @@ TEST(Whole, InterruptedAndKilledSweepOnVulkanResumesToTheSameBits) {
   kill(second, SIGKILL);
   waitpid(second, &status, 0);
   EXPECT_TRUE(WIFSIGNALED(status)) << "it had ended before it was killed";
-  EXPECT_EQ(said(broken).find("wholehand: going on with "), 0u) << said(broken);
+  EXPECT_EQ(file_text(broken + ".said").find("wholehand: going on with "), 0u) << file_text(broken + ".said");
   EXPECT_FALSE(std::filesystem::exists(broken)) << "a killed sweep leaves no file that looks whole";
 
   ASSERT_EQ(run("sweep " + scene + " -o " + broken + " --resume >>" + folder.path() + "/out.txt 2>&1"), 0);
@@ -161,8 +157,7 @@ TEST(Whole, OtherToolsReadTheResult) {
   const std::string result = folder.path() + "/small.nc", out = folder.path() + "/out.txt";
   ASSERT_EQ(run("sweep small -o " + result + " >" + out), 0);
   ASSERT_EQ(std::system(("ncdump -h " + result + " >" + out).c_str()), 0);
-  std::ifstream listing(out);
-  const std::string text{std::istreambuf_iterator<char>(listing), std::istreambuf_iterator<char>()};
+  const std::string text = file_text(out);
   for (const char* part : {"vessel = 1 ;", "height = 3 ;", "azimuth = 2 ;", "obliquity = 3 ;", "roll = 4 ;", "score:long_name",
                            "gap:units = \"m\"", "gap:_FillValue", ":device = ", ":driver = ", ":scene = ", ":version = "})
     EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
@@ -172,10 +167,8 @@ TEST(Whole, OtherToolsReadTheResult) {
                                                "assert s.max() > 0.5 and s.min() >= 0, s\n"
                                                "assert float(d['gap'].sel(height=0.045, roll=0, method='nearest').max()) > 0.05\n"
                                                "assert d['gap'].attrs['long_name'] and d['height'].attrs['units'] == 'm'\n";
-  EXPECT_EQ(std::system(("/usr/bin/python3 " + folder.path() + "/look.py " + result + " >" + out + " 2>&1").c_str()), 0) << [&] {
-    std::ifstream in(out);
-    return std::string{std::istreambuf_iterator<char>(in), {}};
-  }();
+  EXPECT_EQ(std::system(("/usr/bin/python3 " + folder.path() + "/look.py " + result + " >" + out + " 2>&1").c_str()), 0)
+      << file_text(out);
 }
 
 #endif

@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "device/dhd_library.h"
+#include "tests/support/files.h"
 #include "tests/support/stand_in_dhd.h"
 
 namespace wholehand {

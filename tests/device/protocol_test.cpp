@@ -7,12 +7,13 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include "tests/support/files.h"
 
 namespace wholehand::protocol {
 namespace {
@@ -141,8 +142,7 @@ TEST(Protocol, GrippersAreKnownByTheirFirstCollection) {
 }
 
 TEST(Protocol, UdevRulesKnowTheInterface) {
-  std::ifstream file(WHOLEHAND_SOURCE_DIR "/device/udev/60-wholehand.rules");
-  const std::string rules{std::istreambuf_iterator<char>(file), {}};
+  const std::string rules = file_text(WHOLEHAND_SOURCE_DIR "/device/udev/60-wholehand.rules");
   char interface[16];
   std::snprintf(interface, sizeof interface, "*:%02x%02x%02x:*", USB_CLASS, USB_SUBCLASS, USB_PROTOCOL);
   EXPECT_NE(rules.find("ENV{ID_USB_INTERFACES}==\"" + std::string(interface) + "\""), std::string::npos) << interface;

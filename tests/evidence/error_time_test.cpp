@@ -25,6 +25,7 @@
 #include "evidence/error_table.h"
 #include "evidence/error_variants.h"
 #include "scene/reader.h"
+#include "tests/support/files.h"
 #include "tests/support/result_reader.h"
 #include "tests/support/scenes.h"
 #include "tests/support/vulkan_listener.h"
@@ -63,12 +64,6 @@ std::vector<std::vector<std::string>> cells_of(const std::string& csv) {
   }
   rows.pop_back();
   return rows;
-}
-
-std::string contents(const std::filesystem::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
 }
 
 MeasureOptions few_grips(std::uint64_t seed = 1) {
@@ -370,10 +365,10 @@ TEST(ErrorTime, FrontsAreDrawn) {
   const auto pictures = front_pictures(folder.string(), rows, {});
   ASSERT_EQ(pictures.size(), 2u);
   EXPECT_EQ(draw_fronts(pictures, rows), "");
-  const std::string drawn = contents(folder / "error-time.svg");
+  const std::string drawn = file_text(folder / "error-time.svg");
   for (const char* text : {"slow 'exact'", "fast rough", "middle", "time of a grip", "core double"})
     EXPECT_NE(drawn.find(text), drawn.npos) << text;
-  EXPECT_NE(contents(folder / "error-time-force.svg").find("</svg>"), std::string::npos);
+  EXPECT_NE(file_text(folder / "error-time-force.svg").find("</svg>"), std::string::npos);
   std::filesystem::remove_all(folder);
 }
 
@@ -396,11 +391,11 @@ TEST(ErrorTime, CommandWritesItsFiles) {
   std::string output;
   EXPECT_EQ(code_of("error-time small --quick --on core --threads 1 --seed 5 -o " + folder.string(), &output), 0);
   EXPECT_NE(output.find("## The fastest variant under an error"), output.npos) << output;
-  const std::string csv = contents(folder / "error-time.csv");
+  const std::string csv = file_text(folder / "error-time.csv");
   EXPECT_EQ(csv.substr(0, csv.find('\n')), COLUMNS);
   EXPECT_GT(cells_of(csv).size(), 15u);
   for (const char* name : {"error-time.svg", "error-time-force.svg", "error-time-grips.csv", "error-time.md"})
-    EXPECT_GT(contents(folder / name).size(), 500u) << name;
+    EXPECT_GT(file_text(folder / name).size(), 500u) << name;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     EXPECT_EQ(entry.path().string().find(".partial"), std::string::npos) << entry.path();
   std::filesystem::remove_all(folder);

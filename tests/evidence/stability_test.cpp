@@ -12,7 +12,7 @@
 
 #include "app/paths.h"
 #include "scene/reader.h"
-#include "tests/support/result_reader.h"
+#include "tests/support/files.h"
 
 namespace wholehand {
 namespace {

@@ -21,6 +21,7 @@
 #include "objects/distance.h"
 #include "system/cache_folder.h"
 #include "tests/support/environment.h"
+#include "tests/support/files.h"
 #include "tests/support/meshes.h"
 
 namespace wholehand {
@@ -53,10 +54,6 @@ class MeshCache : public testing::Test {
     std::vector<fs::path> found;
     for (const auto& entry : fs::directory_iterator(folder)) found.push_back(entry.path());
     return found;
-  }
-  static std::string bytes_of(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
   }
   static void write(const fs::path& file, const std::string& bytes) {
     std::ofstream(file, std::ios::binary | std::ios::trunc) << bytes;
@@ -184,7 +181,7 @@ TEST_F(MeshCache, ADamagedFileIsMadeAgain) {
   const MeshGrid made = ask();
   ASSERT_EQ(files().size(), 1u);
   const fs::path file = files()[0];
-  const std::string whole = bytes_of(file);
+  const std::string whole = file_text(file);
   ASSERT_EQ(whole.size(), 88 + 4 * made.grid.words->size() + 16);
   // each byte of the header, samples at both ends and in between, each byte of the hash
   std::vector<std::size_t> places;
@@ -198,7 +195,7 @@ TEST_F(MeshCache, ADamagedFileIsMadeAgain) {
       write(file, bytes);
       expect_same(made, ask());
       EXPECT_TRUE(was_made) << at;
-      ASSERT_EQ(bytes_of(file), whole) << at;
+      ASSERT_EQ(file_text(file), whole) << at;
     }
   }
 }
@@ -206,7 +203,7 @@ TEST_F(MeshCache, ADamagedFileIsMadeAgain) {
 TEST_F(MeshCache, ATruncatedOrForeignFileIsMadeAgain) {
   const MeshGrid made = ask();
   const fs::path file = files().at(0);
-  const std::string whole = bytes_of(file);
+  const std::string whole = file_text(file);
   std::vector<std::string> wrong{"", "short", std::string(200, '\0'), std::string(200, '\xFF'), whole + "x", whole + whole};
   for (const std::size_t size : {8u, 87u, 88u, 89u, 103u, 104u}) wrong.push_back(whole.substr(0, size));
   wrong.push_back(whole.substr(0, whole.size() - 1));
@@ -214,7 +211,7 @@ TEST_F(MeshCache, ATruncatedOrForeignFileIsMadeAgain) {
     write(file, bytes);
     expect_same(made, ask());
     EXPECT_TRUE(was_made) << bytes.size();
-    EXPECT_EQ(bytes_of(file), whole);
+    EXPECT_EQ(file_text(file), whole);
   }
   // another's lattice under this one's name
   wish.margin = 5e-3;

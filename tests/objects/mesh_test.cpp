@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -18,6 +17,7 @@
 #include "core/error.h"
 #include "objects/check.h"
 #include "objects/gltf_file.h"
+#include "tests/support/files.h"
 #include "tests/support/meshes.h"
 
 namespace wholehand {
@@ -29,16 +29,10 @@ constexpr int BYTE = 5120, UBYTE = 5121, SHORT = 5122, USHORT = 5123, UINT = 512
 constexpr int STRIP = 5, FAN = 6;
 constexpr double FLOAT_ROUNDING = 1e-7;  // m: single precision of some 10 cm
 
-// A folder for this process, which goes with it.
-struct Folder {
-  std::string path = testing::TempDir() + "wholehand-mesh-" + std::to_string(::getpid());
-  Folder() { std::filesystem::create_directories(path); }
-  ~Folder() { std::filesystem::remove_all(path); }
-};
-
+// For this process; it goes with it.
 const std::string& folder() {
-  static const Folder made;
-  return made.path;
+  static const TemporaryFolder made;
+  return made.path();
 }
 
 std::string write(const std::string& name, const std::string& bytes) {

@@ -2,7 +2,6 @@
 // sanitizers: address thread
 #include "recordings/recording.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <netcdf.h>
@@ -14,33 +13,18 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <random>
 
 #include "core/error.h"
 #include "recordings/fields.h"
 #include "recordings/recorder.h"
 #include "tests/support/environment.h"
+#include "tests/support/files.h"
 #include "tests/support/special_values.h"
 
 namespace wholehand {
 namespace {
-
-// A folder that goes with the test.
-class Folder {
- public:
-  Folder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "wholehand_recording_XXXXXX").string();
-    path_ = mkdtemp(pattern.data());
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  std::string file(const std::string& name) const { return path_ + "/" + name; }
-
- private:
-  std::string path_;
-};
 
 RecordingInfo some_info(std::size_t vessels) {
   RecordingInfo info;
@@ -130,15 +114,8 @@ void expect_same(const std::vector<Tick>& a, const std::vector<Tick>& b) {
   for (std::size_t k = 0; k < a.size(); ++k) expect_same(a[k], b[k], fmt::format("tick {}", k));
 }
 
-std::string contents(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-void put_contents(const std::string& path, const std::string& bytes) { std::ofstream(path, std::ios::binary) << bytes; }
-
-std::string record(const Folder& folder, const std::vector<Tick>& ticks, std::size_t vessels = 2) {
-  const std::string path = folder.file("session.nc");
+std::string record(const TemporaryFolder& folder, const std::vector<Tick>& ticks, std::size_t vessels = 2) {
+  const std::string path = folder / "session.nc";
   RecordingWriter writer(path, some_info(vessels));
   EXPECT_TRUE(writer.append(ticks));
   EXPECT_TRUE(writer.finish(some_end())) << writer.trouble();
@@ -182,7 +159,7 @@ TEST(Recording, FieldsCoverTheTick) {
 
 // docs/session.md has a line for each variable, with its units.
 TEST(Recording, VariablesAreInTheDocumentation) {
-  const std::string text = contents(WHOLEHAND_SOURCE_DIR "/docs/session.md");
+  const std::string text = file_text(WHOLEHAND_SOURCE_DIR "/docs/session.md");
   for (const RecordedField& field : recorded_fields()) {
     const std::size_t line = text.find(fmt::format("\n| `{}` | tick", field.name));
     ASSERT_NE(line, std::string::npos) << field.name;
@@ -192,9 +169,9 @@ TEST(Recording, VariablesAreInTheDocumentation) {
 
 TEST(Recording, GivesBackEveryBit) {
   for (const std::size_t vessels : {1u, 3u, 16u}) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const auto ticks = RandomTicks(7).some(3000, vessels);
-    const std::string path = folder.file("a.nc");
+    const std::string path = folder / "a.nc";
     RecordingWriter writer(path, some_info(vessels));
     // blocks of every size, none among them
     for (std::size_t first = 0, size = 0; first < ticks.size(); first += size++) {
@@ -213,11 +190,11 @@ TEST(Recording, GivesBackEveryBit) {
 }
 
 TEST(Recording, GivesBackWhatIsKnownOfTheSession) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const RecordingInfo info = some_info(3);
-  RecordingWriter writer(folder.file("a.nc"), info);
+  RecordingWriter writer(folder / "a.nc", info);
   EXPECT_TRUE(writer.finish(some_end()));
-  const Recording recording = read_recording(folder.file("a.nc"));
+  const Recording recording = read_recording(folder / "a.nc");
   EXPECT_TRUE(recording.ticks.empty());
   const RecordingInfo& got = recording.info;
   EXPECT_EQ(got.scene_name, info.scene_name);
@@ -256,7 +233,7 @@ TEST(Recording, GivesBackWhatIsKnownOfTheSession) {
 
 // By the library that everybody else reads it with.
 TEST(Recording, IsWhatTheNetcdfLibraryReads) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto ticks = RandomTicks(3).some(50, 2);
   const std::string path = record(folder, ticks);
   int file = -1, id = -1, format = 0;
@@ -317,19 +294,19 @@ TEST(Recording, IsWhatTheNetcdfLibraryReads) {
   EXPECT_EQ(nc_get_att_text(file, variable("fault"), "flag_meanings", meanings), NC_NOERR);
   EXPECT_STREQ(meanings, "none read_error timeout stale not_finite jump write_error late ring_full interrupted");
   nc_close(file);
-  EXPECT_EQ(std::system(("ncdump -h '" + path + "' > " + folder.file("header.txt")).c_str()), 0);
-  EXPECT_NE(contents(folder.file("header.txt")).find("double grip_force(tick) ;"), std::string::npos);
+  EXPECT_EQ(std::system(("ncdump -h '" + path + "' > " + (folder / "header.txt")).c_str()), 0);
+  EXPECT_NE(file_text(folder / "header.txt").find("double grip_force(tick) ;"), std::string::npos);
 }
 
 TEST(Recording, XarraySelectsByName) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string path = record(folder, RandomTicks(3).some(4, 2));
   const std::string command = "/usr/bin/python3 " WHOLEHAND_SOURCE_DIR "/tests/recordings/xarray_test.py '" + path + "' 'vessel 2'";
   EXPECT_EQ(std::system(command.c_str()), 0);
 }
 
 TEST(Recording, KeepsNumbersOfTicksThatSkip) {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::vector<Tick> ticks(3);
   ticks[0].number = 5;
   ticks[1].number = 6;
@@ -341,24 +318,24 @@ TEST(Recording, KeepsNumbersOfTicksThatSkip) {
 }
 
 TEST(Recording, IsReadableWhileItIsMade) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto ticks = RandomTicks(1).some(100, 2);
-  RecordingWriter writer(folder.file("a.nc"), some_info(2));
+  RecordingWriter writer(folder / "a.nc", some_info(2));
   for (std::size_t k = 0; k < 100; k += 25) {
-    EXPECT_EQ(read_recording(folder.file("a.nc.partial")).ticks.size(), k);
+    EXPECT_EQ(read_recording(folder / "a.nc.partial").ticks.size(), k);
     ASSERT_TRUE(writer.append(std::span(ticks).subspan(k, 25)));
   }
-  const Recording recording = read_recording(folder.file("a.nc.partial"));
+  const Recording recording = read_recording(folder / "a.nc.partial");
   expect_same(recording.ticks, ticks);
   EXPECT_FALSE(recording.end);
-  EXPECT_EQ(recording.note, folder.file("a.nc.partial") + " was not finished: the session was killed, or is still running");
+  EXPECT_EQ(recording.note, (folder / "a.nc.partial") + " was not finished: the session was killed, or is still running");
 }
 
 // Killed with SIGKILL, at whatever it was doing then: the file holds whole blocks, in order.
 TEST(Recording, OutlivesTheProcess) {
-  const Folder folder;
+  const TemporaryFolder folder;
   for (int round = 0; round < 5; ++round) {
-    const std::string path = folder.file(fmt::format("{}.nc", round));
+    const std::string path = (folder / fmt::format("{}.nc", round));
     int begun[2] = {};
     ASSERT_EQ(pipe(begun), 0);
     const pid_t child = fork();
@@ -401,9 +378,9 @@ TEST(Recording, OutlivesTheProcess) {
 }
 
 TEST(Recording, EndsWhereTheDiskIsFull) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto ticks = RandomTicks(5).some(500, 2);
-  const std::string path = folder.file("a.nc");
+  const std::string path = folder / "a.nc";
   std::size_t kept = 0;
   {
     const FileSizeLimit limit(100000);
@@ -429,21 +406,21 @@ TEST(Recording, EndsWhereTheDiskIsFull) {
 }
 
 TEST(Recording, SaysWhenItCannotStart) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const FileSizeLimit limit(1000);
   try {
-    RecordingWriter writer(folder.file("a.nc"), some_info(2));
+    RecordingWriter writer(folder / "a.nc", some_info(2));
     ADD_FAILURE() << "started";
   } catch (const Error& error) {
     EXPECT_EQ(error.code, ExitCode::failure);
     EXPECT_NE(std::string(error.what()).find("cannot record: File too large"), std::string::npos) << error.what();
   }
-  EXPECT_FALSE(std::filesystem::exists(folder.file("a.nc.partial")));
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.nc.partial"));
 }
 
 TEST(Recording, OverwritesNothing) {
-  const Folder folder;
-  const std::string path = folder.file("a.nc");
+  const TemporaryFolder folder;
+  const std::string path = folder / "a.nc";
   const auto refused = [&path] {
     try {
       RecordingWriter writer(path, some_info(2));
@@ -453,38 +430,38 @@ TEST(Recording, OverwritesNothing) {
     }
     return std::string("taken");
   };
-  put_contents(path, "a letter");
+  write_file(path, "a letter");
   EXPECT_NE(refused().find("is not overwritten"), std::string::npos);
-  EXPECT_EQ(contents(path), "a letter");
+  EXPECT_EQ(file_text(path), "a letter");
   std::filesystem::remove(path);
-  put_contents(path + ".partial", "");
+  write_file(path + ".partial", "");
   EXPECT_NE(refused().find("of a session that was killed or is still running"), std::string::npos);
   std::filesystem::remove(path + ".partial");
-  put_contents(path, "");  // as mktemp leaves it
+  write_file(path, "");  // as mktemp leaves it
   EXPECT_EQ(refused(), "taken");
   std::filesystem::remove(path + ".partial");
-  EXPECT_THROW(check_recording_path(folder.file("no/such/folder.nc")), Error);
-  EXPECT_THROW(check_recording_path(folder.file("")), Error);
+  EXPECT_THROW(check_recording_path(folder / "no/such/folder.nc"), Error);
+  EXPECT_THROW(check_recording_path(folder / ""), Error);
 }
 
 // What appears under the recording's name during the session is somebody's.
 TEST(Recording, WhatAppearsMeanwhileStays) {
-  const Folder folder;
-  const std::string path = folder.file("a.nc");
+  const TemporaryFolder folder;
+  const std::string path = folder / "a.nc";
   const auto ticks = RandomTicks(6).some(20, 2);
   RecordingWriter writer(path, some_info(2));
   EXPECT_TRUE(writer.append(ticks));
-  put_contents(path, "a letter");
+  write_file(path, "a letter");
   EXPECT_FALSE(writer.finish(some_end()));
   EXPECT_EQ(writer.trouble(),
             path + ": something was put there meanwhile, and is not overwritten; the recording is whole at " + path + ".partial");
-  EXPECT_EQ(contents(path), "a letter");
+  EXPECT_EQ(file_text(path), "a letter");
   expect_same(read_recording(path + ".partial").ticks, ticks);
 }
 
 TEST(Recording, APartialFileThatIsTakenAwayIsNotCalledWhole) {
-  const Folder folder;
-  const std::string path = folder.file("a.nc"), partial = path + ".partial";
+  const TemporaryFolder folder;
+  const std::string path = folder / "a.nc", partial = path + ".partial";
   const auto ticks = RandomTicks(7).some(40, 2);
   {
     RecordingWriter writer(path, some_info(2));
@@ -498,17 +475,17 @@ TEST(Recording, APartialFileThatIsTakenAwayIsNotCalledWhole) {
   EXPECT_FALSE(std::filesystem::exists(path));
   RecordingWriter writer(path, some_info(2));
   EXPECT_TRUE(writer.append(ticks));
-  std::filesystem::rename(partial, folder.file("mine"));
-  put_contents(partial, "a letter");
+  std::filesystem::rename(partial, folder / "mine");
+  write_file(partial, "a letter");
   EXPECT_FALSE(writer.finish(some_end()));
   EXPECT_NE(writer.trouble().find("was removed or renamed"), std::string::npos);
-  EXPECT_EQ(contents(partial), "a letter");
+  EXPECT_EQ(file_text(partial), "a letter");
   EXPECT_FALSE(std::filesystem::exists(path));
 }
 
 TEST(Recording, APartialFileThatIsCutIsNotCalledWhole) {
-  const Folder folder;
-  const std::string path = folder.file("a.nc");
+  const TemporaryFolder folder;
+  const std::string path = folder / "a.nc";
   const auto ticks = RandomTicks(8).some(40, 2);
   RecordingWriter writer(path, some_info(2));
   EXPECT_TRUE(writer.append(std::span(ticks).first(20)));
@@ -522,8 +499,8 @@ TEST(Recording, APartialFileThatIsCutIsNotCalledWhole) {
 }
 
 TEST(Recording, ALinkIsFollowed) {
-  const Folder folder;
-  const std::string path = folder.file("a.nc"), target = folder.file("target.nc");
+  const TemporaryFolder folder;
+  const std::string path = folder / "a.nc", target = folder / "target.nc";
   std::filesystem::create_symlink("target.nc", path);
   const auto ticks = RandomTicks(9).some(5, 2);
   {
@@ -539,13 +516,13 @@ TEST(Recording, ALinkIsFollowed) {
 }
 
 TEST(Recording, RefusesOtherFiles) {
-  const Folder folder;
-  EXPECT_REFUSED(folder.file("missing.nc"), "No such file");
+  const TemporaryFolder folder;
+  EXPECT_REFUSED(folder / "missing.nc", "No such file");
   EXPECT_REFUSED(std::string("/tmp"), "is a directory");
   EXPECT_REFUSED(std::string("/dev/null"), "is a device");
-  const std::string path = folder.file("other.nc");
+  const std::string path = folder / "other.nc";
   for (const std::string& bytes : {std::string(), std::string("CDF"), std::string("CDF\1"), std::string("some text\n")}) {
-    put_contents(path, bytes);
+    write_file(path, bytes);
     EXPECT_REFUSED(path, "is no recording");
   }
   for (const int mode : {NC_NETCDF4, NC_64BIT_OFFSET}) {
@@ -562,8 +539,8 @@ TEST(Recording, RefusesOtherFiles) {
 // A recording with some bytes of it changed.
 class Changed {
  public:
-  explicit Changed(std::size_t ticks) : path_(folder_.file("changed.nc")) {
-    whole_ = contents(record(folder_, RandomTicks(11).some(ticks, 2)));
+  explicit Changed(std::size_t ticks) : path_(folder_ / "changed.nc") {
+    whole_ = file_text(record(folder_, RandomTicks(11).some(ticks, 2)));
     header_ = classic::parse_header(whole_, whole_.size());
   }
 
@@ -608,11 +585,11 @@ class Changed {
 
  private:
   std::string& save() {
-    put_contents(path_, bytes_);
+    write_file(path_, bytes_);
     return path_;
   }
 
-  Folder folder_;
+  TemporaryFolder folder_;
   std::string path_, whole_, bytes_;
   classic::Header header_;
 };
@@ -701,9 +678,9 @@ TEST(Recording, ReadsWhatIsThereOfACutFile) {
   }
   // as some programs leave the count: the file's length tells
   const std::string& path = changed.with_byte(4, '\xff');
-  std::string bytes = contents(path);
+  std::string bytes = file_text(path);
   bytes.replace(4, 4, "\xff\xff\xff\xff");
-  put_contents(path, bytes);
+  write_file(path, bytes);
   EXPECT_EQ(read_recording(path).ticks.size(), 10u);
   // not even the header
   for (std::size_t length = 0; length < header.record_begin; length += length < 64 ? 1 : 97) refusal(changed.cut_at(length));
@@ -728,8 +705,8 @@ TEST(Recording, TakesNoHarmFromADamagedHeader) {
 }
 
 TEST(Recorder, WritesDownWhatGoesThroughTheRing) {
-  const Folder folder;
-  const std::string path = folder.file("a.nc");
+  const TemporaryFolder folder;
+  const std::string path = folder / "a.nc";
   TickRing ring(4096);
   std::vector<std::int64_t> seen;  // by the recorder's thread until it has stopped
   Recorder recorder(ring, std::make_unique<RecordingWriter>(path, some_info(2)), [&seen](std::span<const Tick> batch) {
@@ -751,8 +728,8 @@ TEST(Recorder, WritesDownWhatGoesThroughTheRing) {
 }
 
 TEST(Recorder, GoesOnDrainingWhenTheDiskIsFull) {
-  const Folder folder;
-  const std::string path = folder.file("a.nc");
+  const TemporaryFolder folder;
+  const std::string path = folder / "a.nc";
   const FileSizeLimit limit(200000);
   TickRing ring(1024);
   Recorder recorder(ring, std::make_unique<RecordingWriter>(path, some_info(2)));
@@ -793,13 +770,13 @@ TEST(Recorder, DrainsWithoutARecording) {
 
 // Dropped without a word, as when the session ends by an exception: what was in the ring is in the file.
 TEST(Recorder, FinishesWhenItGoes) {
-  const Folder folder;
+  const TemporaryFolder folder;
   TickRing ring(64);
   {
-    Recorder recorder(ring, std::make_unique<RecordingWriter>(folder.file("a.nc"), some_info(1)));
+    Recorder recorder(ring, std::make_unique<RecordingWriter>(folder / "a.nc", some_info(1)));
     for (Tick tick; tick.number < 50; ++tick.number) ring.push(tick);
   }
-  const Recording recording = read_recording(folder.file("a.nc"));
+  const Recording recording = read_recording(folder / "a.nc");
   EXPECT_EQ(recording.ticks.size(), 50u);
   EXPECT_TRUE(recording.end);
 }

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
+
+#include "tests/support/files.h"
 
 namespace wholehand {
 namespace {
@@ -59,8 +59,7 @@ TEST(SessionPlot, IsDrawn) {
     Recording recording = some_recording();
     recording.ticks.resize(ticks);
     EXPECT_EQ(draw_session(recording, report_session(recording), file), "");
-    std::ifstream stream(file);
-    const std::string svg{std::istreambuf_iterator<char>(stream), {}};
+    const std::string svg = file_text(file);
     EXPECT_NE(svg.find("</svg>"), std::string::npos);
     for (const char* part : {"feedback force / N", "tilt / deg", "grip force / N", "time / s", "maintain"})
       EXPECT_NE(svg.find(part), std::string::npos) << part;

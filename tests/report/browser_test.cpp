@@ -12,6 +12,7 @@
 #include <regex>
 
 #include "report/page.h"
+#include "tests/support/files.h"
 #include "tests/support/sweep_results.h"
 
 namespace wholehand {

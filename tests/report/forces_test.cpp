@@ -5,8 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
+#include "tests/support/files.h"
 #include "tests/support/sweep_results.h"
 
 namespace wholehand {
@@ -29,8 +28,6 @@ std::string pouring_text(const SweptScene& swept, std::size_t vessel) {
   EXPECT_TRUE(html.is_closed());
   return html.html();
 }
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 const std::string TILTS = "[tilts]\ndeg = [0, 45, 90, 135]", LIQUID = "[liquid]\nfills = [0, 0.6]";
 

@@ -8,6 +8,7 @@
 #include <bit>
 #include <cmath>
 
+#include "tests/support/result_reader.h"
 #include "tests/support/sweep_results.h"
 
 namespace wholehand {

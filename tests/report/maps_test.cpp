@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "scene/reader.h"
+#include "tests/support/result_reader.h"
 #include "tests/support/sweep_results.h"
 
 namespace wholehand {

@@ -14,6 +14,7 @@
 #include "report/scene.h"
 #include "sweeps/variables.h"
 #include "tests/support/environment.h"
+#include "tests/support/files.h"
 #include "tests/support/meshes.h"
 #include "tests/support/program.h"
 #include "tests/support/scenes.h"
@@ -35,8 +36,6 @@ void expect_well_built(const SweptScene& swept, const std::string& page) {
   // Debian's own python3, whatever else there is
   EXPECT_EQ(std::system(("/usr/bin/python3 " WHOLEHAND_SOURCE_DIR "/tests/report/page_test.py " + path).c_str()), 0);
 }
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 // Of one height and two rolls the best is at an end of the rolls whatever it is.
 TEST(ReportPage, TellsThatTheBestIsAtTheEndOfAnAxis) {

@@ -4,26 +4,18 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "core/error.h"
+#include "tests/support/files.h"
 #include "tests/support/scene_texts.h"
 
 namespace wholehand {
 namespace {
 
 std::string scenes_dir() { return WHOLEHAND_SOURCE_DIR "/scene/examples/"; }
-
-std::string text_of_file(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 TEST(SceneReader, LeavesEverythingElseAtItsDefault) {
   const Scene scene = scene_from(VESSEL);
@@ -429,7 +421,7 @@ TEST(SceneReader, EveryMisspeltKeyGetsTheRightOneSuggested) {
 }
 
 TEST(SceneReader, EveryKeyIsInTheReference) {
-  const std::string reference = text_of_file(std::string(WHOLEHAND_SOURCE_DIR) + "/docs/scene.md");
+  const std::string reference = file_text(std::string(WHOLEHAND_SOURCE_DIR) + "/docs/scene.md");
   for (const auto& [table, keys] : KEYS) {
     EXPECT_NE(reference.find("`" + table + "`"), std::string::npos) << table;
     for (const std::string& key : keys) EXPECT_NE(reference.find("`" + key + "`"), std::string::npos) << table << " " << key;
@@ -439,7 +431,7 @@ TEST(SceneReader, EveryKeyIsInTheReference) {
 TEST(SceneReader, ReadsTheShippedScenes) {
   const Scene beakers = read_scene_file(scenes_dir() + "three_beakers.toml");
   EXPECT_EQ(beakers.name, "three_beakers");
-  EXPECT_EQ(beakers.text, text_of_file(scenes_dir() + "three_beakers.toml"));
+  EXPECT_EQ(beakers.text, file_text(scenes_dir() + "three_beakers.toml"));
   ASSERT_EQ(beakers.vessels.size(), 3u);
   EXPECT_EQ(beakers.vessels[0].name, "beaker1");
   EXPECT_EQ(beakers.vessels[1].name, "beaker2");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Result files as tests read them back, and folders to put them in.
+// Result files as tests read them back.
 #pragma once
 
 #include <string>
@@ -16,22 +16,5 @@ std::vector<std::string> variable_names(const std::string& file);
 
 // Every variable of both files holds the same bits.
 void expect_same_values(const std::string& file, const std::string& other);
-
-// An empty folder that goes away with everything in it.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  std::string operator/(const std::string& name) const { return path_ + "/" + name; }
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
-
-std::string file_text(const std::string& path);
-bool file_exists(const std::string& path);
 
 }  // namespace wholehand

@@ -8,7 +8,7 @@
 
 #include "tests/stand_in/dhd_control.h"
 #include "tests/support/environment.h"
-#include "tests/support/result_reader.h"
+#include "tests/support/files.h"
 
 namespace wholehand {
 

@@ -9,7 +9,7 @@
 
 #include "core/backend.h"
 #include "report/source.h"
-#include "tests/support/result_reader.h"
+#include "tests/support/files.h"
 
 namespace wholehand {
 

@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "system/folder_files.h"
 #include "tests/support/fake_backend.h"
-#include "tests/support/result_reader.h"
+#include "tests/support/files.h"
 
 namespace wholehand {
 namespace {

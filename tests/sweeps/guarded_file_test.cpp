@@ -20,7 +20,9 @@
 
 #include "core/error.h"
 #include "sweeps/sweep_result.h"
+#include "tests/support/files.h"
 #include "tests/support/program.h"
+#include "tests/support/result_reader.h"
 #include "tests/support/sweep_results.h"
 
 namespace wholehand {

@@ -8,7 +8,7 @@
 #include <cstdlib>
 
 #include "tests/support/fake_backend.h"
-#include "tests/support/result_reader.h"
+#include "tests/support/files.h"
 
 namespace wholehand {
 namespace {

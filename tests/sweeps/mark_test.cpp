@@ -12,7 +12,7 @@
 
 #include "core/error.h"
 #include "tests/support/environment.h"
-#include "tests/support/result_reader.h"
+#include "tests/support/files.h"
 
 namespace wholehand {
 namespace {

@@ -11,6 +11,7 @@
 #include <map>
 
 #include "core/error.h"
+#include "tests/support/result_reader.h"
 #include "tests/support/sweep_results.h"
 
 namespace wholehand {

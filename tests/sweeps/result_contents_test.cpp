@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "tests/support/fake_backend.h"
+#include "tests/support/files.h"
 #include "tests/support/result_reader.h"
 
 namespace wholehand {

@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -25,6 +24,7 @@
 #include "sweeps/plan.h"
 #include "system/files.h"
 #include "tests/support/fake_backend.h"
+#include "tests/support/files.h"
 #include "tests/support/result_reader.h"
 
 namespace wholehand {
@@ -102,8 +102,6 @@ int wait_for(pid_t child) {
   waitpid(child, &status, 0);
   return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }
-
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 // The list beside a result without what each row ends with: the names of the result and of the sweep, which tell the backend.
 std::string list_beside(const std::string& result) {

@@ -14,6 +14,8 @@
 #include "core/error.h"
 #include "scene/ranges.h"
 #include "scene/reader.h"
+#include "tests/support/files.h"
+#include "tests/support/result_reader.h"
 #include "tests/support/scenes.h"
 #include "tests/support/sweep_results.h"
 

@@ -10,7 +10,7 @@
 #include <fstream>
 
 #include "core/error.h"
-#include "tests/support/result_reader.h"
+#include "tests/support/files.h"
 
 namespace wholehand {
 namespace {

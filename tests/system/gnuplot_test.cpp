@@ -12,7 +12,7 @@
 
 #include "system/files.h"
 #include "tests/support/environment.h"
-#include "tests/support/result_reader.h"
+#include "tests/support/files.h"
 
 namespace wholehand {
 namespace {

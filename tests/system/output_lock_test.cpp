@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "tests/support/result_reader.h"
+#include "tests/support/files.h"
 
 namespace wholehand {
 namespace {

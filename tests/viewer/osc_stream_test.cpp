@@ -13,7 +13,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <string>
@@ -23,6 +22,7 @@
 #include "core/error.h"
 #include "grips/hand_nodes.h"
 #include "live/hand_view.h"
+#include "tests/support/files.h"
 #include "tests/support/live_script.h"
 #include "tests/support/scenes.h"
 
@@ -206,8 +206,7 @@ void expect_frame(std::map<std::string, Message> messages, const Scene& scene, c
 
 // docs/stream.md has a line for each address, names left open.
 void expect_documented(const std::vector<Message>& messages, const Scene& scene) {
-  std::ifstream file(std::string(WHOLEHAND_SOURCE_DIR) + "/docs/stream.md");
-  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  const std::string page = file_text(std::string(WHOLEHAND_SOURCE_DIR) + "/docs/stream.md");
   for (const Message& message : messages) {
     std::string address = message.address;
     if (address.rfind("/wholehand/joint/", 0) == 0) address = "/wholehand/joint/JOINT";
