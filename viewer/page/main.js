@@ -128,7 +128,10 @@ function startLive(parts, show) {
 
 async function startRecording(parts, show) {
   const {about, charts} = parts;
-  const drawCharts = seldom(CHARTS_EVERY, () => charts.show(recording.before(parts.playback.t, SPAN).map(record), parts.playback.t));
+  const drawCharts = seldom(CHARTS_EVERY, () => {
+    const {t} = parts.playback;
+    charts.show(recording.before(t, SPAN).map(record), t);
+  });
   const recording = new Recording(about.duration, about.rate, () => parts.playback && drawCharts());
   parts.playback = new Playback(recording, (frame) => {
     trouble('');
