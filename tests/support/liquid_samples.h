@@ -2,12 +2,11 @@
 // Vessels with their cavities made ready and derived by hand, the functions of kernel 6 with the usual quadrature, and how exact they are.
 #pragma once
 
-#include "core/liquid.h"
-
 #include <cmath>
 #include <string>
 #include <vector>
 
+#include "core/liquid.h"
 #include "core/prepare.h"
 #include "tests/support/liquid_reference.h"
 #include "tests/support/scenes.h"
