@@ -33,3 +33,13 @@ function(embed_files target header function)
   add_library(${target} STATIC "${source}")
   target_include_directories(${target} PUBLIC "${PROJECT_SOURCE_DIR}")
 endfunction()
+
+# embed_folder(TARGET HEADER FUNCTION FOLDER [PATH FILE ...]): all files of the folder, each under its path in it, and the others.
+function(embed_folder target header function folder)
+  file(GLOB_RECURSE files RELATIVE "${PROJECT_SOURCE_DIR}/${folder}" CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${folder}/*")
+  set(pairs ${ARGN})
+  foreach(file IN LISTS files)
+    list(APPEND pairs "${file}" "${PROJECT_SOURCE_DIR}/${folder}/${file}")
+  endforeach()
+  embed_files(${target} ${header} ${function} ${pairs})
+endfunction()
