@@ -19,75 +19,120 @@ Real plane_real(int plane, uint fill, uint grip, Real absent) {
   return plane >= 0 ? real_out[(uint(plane) + fill) * push.stride + grip] : absent;
 }
 
+// Of one fill, over its tilts so far.
+struct FillTerms {
+  Real peak_force, peak_tilt, largest_hold, safe_tilt;
+  bool safe;
+};
+
+FillTerms no_terms() { return FillTerms(Real(-1), Real(0), Real(0), NOT_A_NUMBER, true); }
+
+// As the dispatch before left them, whose last tilt was `before`.
+FillTerms kept_terms(uint fill, uint grip, Real before) {
+  FillTerms terms = no_terms();
+  terms.peak_force = plane_real(PLANE_PEAK_FORCE, fill, grip, terms.peak_force);
+  terms.peak_tilt = plane_real(PLANE_PEAK_TILT, fill, grip, terms.peak_tilt);
+  terms.largest_hold = plane_real(PLANE_LARGEST_HOLD, fill, grip, terms.largest_hold);
+  terms.safe_tilt = plane_real(PLANE_SAFE_TILT, fill, grip, terms.safe_tilt);
+  terms.safe = terms.safe_tilt == before;
+  return terms;
+}
+
+// How a grip holds the vessel; `center` of the empty vessel's mass.
+struct Held {
+  Vec3 direction, pour, midpoint, center;
+  Real reference;
+  bool antipodal;
+};
+
+Real torque_reference(Held held) {
+  Real reference = scene.reference;
+  if (REFERENCE == REFERENCE_PER_GRIP) {
+    Load largest = Load(scene.largest_mass, (Real(1) - scene.largest_share) * held.center, Real(0), scene.largest_height);
+    reference = grip_reference(scene.largest_mass, scene.gravity, length(load_center(largest, held.pour) - held.midpoint));
+  }
+  return reference;
+}
+
+struct StateForces {
+  Real pivot_length, torque, exact_torque, normal, feedback, hold;
+};
+
+StateForces state_forces(Held held, Vec4 weight, Real sine_tilt, Real cosine_tilt) {
+  StateForces forces;
+  Real mass = weight.x;
+  Load load = Load(mass, (Real(1) - weight.y) * held.center, weight.z, weight.w);
+  Vec3 arm = load_center(load, held.pour) - held.midpoint;
+  forces.pivot_length = length(arm);
+  forces.torque = pendulum_torque(mass, scene.gravity, forces.pivot_length, sine_tilt);
+  forces.exact_torque = Real(0);
+  if (TORQUE == TORQUE_EXACT || PLANE_EXACT_TORQUE >= 0)
+    forces.exact_torque = exact_pendulum_torque(mass, scene.gravity, arm, held.pour, sine_tilt, cosine_tilt);
+  Real torque = TORQUE == TORQUE_EXACT ? abs(forces.exact_torque) : forces.torque;
+  forces.normal = normal_force(scene.force_base, scene.force_range, torque, held.reference);
+  forces.feedback = feedback_force(forces.normal, Real(0), scene.force_max);
+  Vec3 up = up_direction(held.pour, sine_tilt, cosine_tilt);
+  forces.hold = hold_force(mass, scene.gravity, arm, held.direction, up, scene.friction, scene.torsion);
+  if (!held.antipodal) forces.hold = INFINITE;
+  return forces;
+}
+
+void add_state(StateForces forces, Real angle, inout FillTerms terms) {
+  bool higher = forces.feedback > terms.peak_force;
+  terms.peak_tilt = higher ? angle : terms.peak_tilt;
+  terms.peak_force = higher ? forces.feedback : terms.peak_force;
+  terms.largest_hold = max(terms.largest_hold, forces.hold);
+  terms.safe = terms.safe && forces.normal < scene.force_max && forces.hold <= scene.grip_strength;
+  terms.safe_tilt = terms.safe ? angle : terms.safe_tilt;
+}
+
+void put_state(int state, uint grip, bool feasible, StateForces forces) {
+  put_real(PLANE_PIVOT_LENGTH, state, grip, feasible ? forces.pivot_length : NOT_A_NUMBER);
+  put_real(PLANE_TORQUE, state, grip, feasible ? forces.torque : NOT_A_NUMBER);
+  put_real(PLANE_EXACT_TORQUE, state, grip, feasible ? forces.exact_torque : NOT_A_NUMBER);
+  put_real(PLANE_NORMAL_FORCE, state, grip, feasible ? forces.normal : NOT_A_NUMBER);
+  put_real(PLANE_FEEDBACK_FORCE, state, grip, feasible ? forces.feedback : NOT_A_NUMBER);
+  put_real(PLANE_HOLD_FORCE, state, grip, feasible ? forces.hold : NOT_A_NUMBER);
+}
+
+void put_terms(uint fill, uint grip, bool feasible, FillTerms terms) {
+  put_real(PLANE_PEAK_FORCE, int(fill), grip, feasible ? terms.peak_force : NOT_A_NUMBER);
+  put_real(PLANE_PEAK_TILT, int(fill), grip, feasible ? terms.peak_tilt : NOT_A_NUMBER);
+  put_real(PLANE_LARGEST_HOLD, int(fill), grip, feasible ? terms.largest_hold : NOT_A_NUMBER);
+  put_real(PLANE_SAFE_TILT, int(fill), grip, feasible ? terms.safe_tilt : NOT_A_NUMBER);
+}
+
 void main() {
   uint grip = INVOCATION;
   if (grip >= push.count) return;
   uint status = uint_out[uint(PLANE_STATUS) * push.stride + grip];
   bool feasible = (status & STATUS_REASON_MASK) == REASON_NONE;
-  bool antipodal = (status & STATUS_ANTIPODAL) != 0u;
+  Held held;
+  held.antipodal = (status & STATUS_ANTIPODAL) != 0u;
   Real azimuth = grip_axis(AXIS_AZIMUTH, grip), obliquity = grip_axis(AXIS_OBLIQUITY, grip);
   Real sa, ca, sb, cb;
   sine_cosine(azimuth, sa, ca);
   sine_cosine(obliquity, sb, cb);
-  Vec3 direction = Vec3(cb * ca, sb, -cb * sa);
-  Vec3 pour = feasible ? pour_direction(direction, scene.pour_sense) : Vec3(1, 0, 0);
+  held.direction = Vec3(cb * ca, sb, -cb * sa);
+  held.pour = feasible ? pour_direction(held.direction, scene.pour_sense) : Vec3(1, 0, 0);
   uint at = uint(PLANE_MIDPOINT) * push.stride + grip;
-  Vec3 midpoint = Vec3(real_out[at], real_out[at + push.stride], real_out[at + 2u * push.stride]);
-  Vec3 center = Vec3(scene.center_x, scene.center_y, scene.center_z);
-  Real reference = scene.reference;
-  if (REFERENCE == REFERENCE_PER_GRIP) {
-    Load largest = Load(scene.largest_mass, (Real(1) - scene.largest_share) * center, Real(0), scene.largest_height);
-    reference = grip_reference(scene.largest_mass, scene.gravity, length(load_center(largest, pour) - midpoint));
-  }
-  Real peak_force = Real(-1), peak_tilt = Real(0), largest_hold = Real(0), safe_tilt = NOT_A_NUMBER;
-  bool safe = true;
+  held.midpoint = Vec3(real_out[at], real_out[at + push.stride], real_out[at + 2u * push.stride]);
+  held.center = Vec3(scene.center_x, scene.center_y, scene.center_z);
+  held.reference = torque_reference(held);
+  FillTerms terms = no_terms();
   uint fill = push.first / scene.tilts, tilt = push.first % scene.tilts;
   for (uint k = 0u; k < push.number; ++k) {
-    Vec4 held = states_in[2u * k], tilted = states_in[2u * k + 1u];
-    Real mass = held.x, sine_tilt = tilted.x, cosine_tilt = tilted.y, angle = tilted.z;
+    Vec4 weight = states_in[2u * k], tilted = states_in[2u * k + 1u];
     if (k == 0u && tilt > 0u) {
-      peak_force = plane_real(PLANE_PEAK_FORCE, fill, grip, peak_force);
-      peak_tilt = plane_real(PLANE_PEAK_TILT, fill, grip, peak_tilt);
-      largest_hold = plane_real(PLANE_LARGEST_HOLD, fill, grip, largest_hold);
-      safe_tilt = plane_real(PLANE_SAFE_TILT, fill, grip, safe_tilt);
-      safe = safe_tilt == tilted.w;
+      terms = kept_terms(fill, grip, tilted.w);
     } else if (tilt == 0u) {
-      peak_force = Real(-1);
-      peak_tilt = largest_hold = Real(0);
-      safe_tilt = NOT_A_NUMBER;
-      safe = true;
+      terms = no_terms();
     }
-    Load load = Load(mass, (Real(1) - held.y) * center, held.z, held.w);
-    Vec3 arm = load_center(load, pour) - midpoint;
-    Real pivot_length = length(arm);
-    Real torque = pendulum_torque(mass, scene.gravity, pivot_length, sine_tilt);
-    Real exact_torque = Real(0);
-    if (TORQUE == TORQUE_EXACT || PLANE_EXACT_TORQUE >= 0)
-      exact_torque = exact_pendulum_torque(mass, scene.gravity, arm, pour, sine_tilt, cosine_tilt);
-    Real normal = normal_force(scene.force_base, scene.force_range, TORQUE == TORQUE_EXACT ? abs(exact_torque) : torque, reference);
-    Real feedback = feedback_force(normal, Real(0), scene.force_max);
-    Real hold = hold_force(mass, scene.gravity, arm, direction, up_direction(pour, sine_tilt, cosine_tilt), scene.friction, scene.torsion);
-    if (!antipodal) hold = INFINITE;
-    bool higher = feedback > peak_force;
-    peak_tilt = higher ? angle : peak_tilt;
-    peak_force = higher ? feedback : peak_force;
-    largest_hold = max(largest_hold, hold);
-    safe = safe && normal < scene.force_max && hold <= scene.grip_strength;
-    safe_tilt = safe ? angle : safe_tilt;
-    int plane = int(push.first + k);
-    put_real(PLANE_PIVOT_LENGTH, plane, grip, feasible ? pivot_length : NOT_A_NUMBER);
-    put_real(PLANE_TORQUE, plane, grip, feasible ? torque : NOT_A_NUMBER);
-    put_real(PLANE_EXACT_TORQUE, plane, grip, feasible ? exact_torque : NOT_A_NUMBER);
-    put_real(PLANE_NORMAL_FORCE, plane, grip, feasible ? normal : NOT_A_NUMBER);
-    put_real(PLANE_FEEDBACK_FORCE, plane, grip, feasible ? feedback : NOT_A_NUMBER);
-    put_real(PLANE_HOLD_FORCE, plane, grip, feasible ? hold : NOT_A_NUMBER);
+    StateForces forces = state_forces(held, weight, tilted.x, tilted.y);
+    add_state(forces, tilted.z, terms);
+    put_state(int(push.first + k), grip, feasible, forces);
     bool ends = tilt + 1u == scene.tilts;
-    if (ends || k + 1u == push.number) {
-      put_real(PLANE_PEAK_FORCE, int(fill), grip, feasible ? peak_force : NOT_A_NUMBER);
-      put_real(PLANE_PEAK_TILT, int(fill), grip, feasible ? peak_tilt : NOT_A_NUMBER);
-      put_real(PLANE_LARGEST_HOLD, int(fill), grip, feasible ? largest_hold : NOT_A_NUMBER);
-      put_real(PLANE_SAFE_TILT, int(fill), grip, feasible ? safe_tilt : NOT_A_NUMBER);
-    }
+    if (ends || k + 1u == push.number) put_terms(fill, grip, feasible, terms);
     fill += ends ? 1u : 0u;
     tilt = ends ? 0u : tilt + 1u;
   }

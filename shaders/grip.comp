@@ -55,6 +55,153 @@ void examine_point(int f, int k, int j, Vec3 p, Real radius, Real separation, Re
   }
 }
 
+void put_closing(Closing closing) {
+  bool reached = closing.reason == REASON_NONE || closing.reason >= REASON_TOO_WIDE;
+  put_real(PLANE_T_INDEX, 0, grip, reached ? closing.t_index : NOT_A_NUMBER);
+  put_real(PLANE_T_THUMB, 0, grip, reached ? closing.t_thumb : NOT_A_NUMBER);
+  put_real(PLANE_GAP, 0, grip, reached ? closing.gap : NOT_A_NUMBER);
+  if (PLANE_MIDPOINT >= 0) put_point(PLANE_MIDPOINT, 0, grip, reached ? closing.midpoint : Vec3(NOT_A_NUMBER));
+}
+
+void put_masks() {
+  put_uint(PLANE_STATUS, grip, status);
+  put_uint(PLANE_TOUCH_MASK, grip, touch_mask);
+  put_uint(PLANE_TIP_MASK, grip, tip_mask);
+  put_uint(PLANE_FINGER_MASK, grip, finger_mask);
+  put_uint(PLANE_INNER_MASK, grip, inner_mask);
+  put_uint(PLANE_USED_MASK, grip, used_mask);
+}
+
+void put_whole(Real closure, Real thumb_angle, Real index_angle) {
+  put_real(PLANE_CLOSURE, 0, grip, closure);
+  put_real(PLANE_CONTACT_ANGLES, 0, grip, thumb_angle);
+  put_real(PLANE_CONTACT_ANGLES, 1, grip, index_angle);
+  put_real(PLANE_PHALANX_DEPTH, 0, grip, phalanx_depth);
+  put_real(PLANE_PALM_DEPTH, 0, grip, palm_depth);
+  put_real(PLANE_BONE_STRETCH, 0, grip, bone_stretch);
+}
+
+// What a grip that is infeasible has not.
+void put_nothing() {
+  phalanx_depth = palm_depth = bone_stretch = NOT_A_NUMBER;
+  put_whole(NOT_A_NUMBER, NOT_A_NUMBER, NOT_A_NUMBER);
+  for (int j = 0; j < JOINTS; ++j) {
+    if (PLANE_JOINTS >= 0) put_point(PLANE_JOINTS, j, grip, Vec3(NOT_A_NUMBER));
+    if (PLANE_POSED >= 0) put_point(PLANE_POSED, j, grip, Vec3(NOT_A_NUMBER));
+    if (PLANE_PROXIES >= 0) put_point(PLANE_PROXIES, j, grip, Vec3(NOT_A_NUMBER));
+    put_real(PLANE_SEPARATION, j, grip, NOT_A_NUMBER);
+  }
+}
+
+// A finger placed in the vessel frame at its grip's scale; its points as they are posed so far, of the thumb the last three.
+struct PlacedFinger {
+  FingerFrame frame;
+  Vec3 mcp, lengths, radii;
+  FingerPoints points;
+  Vec3 separations;
+  int before;  // see examine_point
+};
+
+PlacedFinger place_finger(int f, Closing closing, Vec3 rigged_angles) {
+  PlacedFinger finger;
+  finger.frame = placed_frame(closing.placement, hand_frame(f));
+  finger.mcp = finger.frame.base + (scale * hand_length(f, 0)) * finger.frame.forward;
+  finger.lengths = scale * Vec3(hand_length(f, 1), hand_length(f, 2), hand_length(f, 3));
+  finger.radii = scale * Vec3(hand_radius(f, 2), hand_radius(f, 3), hand_radius(f, 4));
+  finger.before = 0;
+  finger.separations = Vec3(0);
+  if (f == 0) {
+    Vec3 lengths = scale * Vec3(hand_length(0, 0), hand_length(0, 1), hand_length(0, 2));
+    finger.points = thumb_points(finger.frame, lengths, thumb_angles(closing.closure));
+    finger.mcp = finger.points.pip;
+    finger.points.pip = finger.points.dip;
+    finger.points.dip = finger.points.tip;
+  } else if (f == 1 || WANTS_RIGGED) {
+    finger.points = finger_points(finger.frame, finger.mcp, finger.lengths, rigged_angles);
+  }
+  return finger;
+}
+
+void put_rigged(int f, int first_joint, PlacedFinger finger) {
+  put_point(PLANE_JOINTS, first_joint, grip, finger.frame.base);
+  put_point(PLANE_JOINTS, first_joint + 1, grip, finger.mcp);
+  put_point(PLANE_JOINTS, first_joint + 2, grip, finger.points.pip);
+  put_point(PLANE_JOINTS, first_joint + 3, grip, finger.points.dip);
+  if (f > 0) put_point(PLANE_JOINTS, first_joint + 4, grip, finger.points.tip);
+}
+
+void pose_articulated(int f, Real closure, inout PlacedFinger finger) {
+  FingerMotion motion = start_motion(closure);
+  while (motion.joint < 3) {
+    finger.points = finger_points(finger.frame, finger.mcp, finger.lengths, motion.angles);
+    Watch watch = watch_points(finger.points, finger.radii);
+    finger.separations = watch.separations;
+    motion = advance_finger(motion, finger.frame, finger.mcp, finger.points, watch, finger.lengths);
+  }
+  if (motion.before.x <= HAND_CONTACT_TOLERANCE) finger.before |= 1 << 2;
+  if (motion.before.y <= HAND_CONTACT_TOLERANCE) finger.before |= 1 << 3;
+  if (motion.before.z <= HAND_CONTACT_TOLERANCE) finger.before |= 1 << 4;
+  if (motion.blocked) status |= 1u << (STATUS_BLOCKED_SHIFT + f);
+  if (motion.unsettled) status |= 1u << (STATUS_UNSETTLED_SHIFT + f);
+}
+
+// Before any of the points is examined: roles are judged on the state before.
+void pose_paper(int f, PaperAxis axis, inout PlacedFinger finger) {
+  [[dont_unroll]] for (int k = 2; k < 5; ++k) {
+    Vec3 p = k == 2 ? finger.points.pip : k == 3 ? finger.points.dip : finger.points.tip;
+    Real radius = scale * hand_radius(f, k);
+    bool unsettled = false;
+    if (separation_at(p, radius) <= HAND_CONTACT_TOLERANCE) {
+      finger.before |= 1 << k;
+    } else {
+      p = project_point(p, radius, finger.mcp, axis, HAND_PAPER_MAX_ANGLE, unsettled);
+    }
+    if (unsettled) status |= 1u << (STATUS_UNSETTLED_SHIFT + f);
+    if (k == 2) finger.points.pip = p;
+    if (k == 3) finger.points.dip = p;
+    if (k == 4) finger.points.tip = p;
+  }
+}
+
+// `known`: the finger came to rest with the separations of its last three points.
+void examine_finger(int f, int first_joint, bool known, inout PlacedFinger finger) {
+  int point_count = f == 0 ? 4 : 5;
+  [[dont_unroll]] for (int k = 0; k < point_count; ++k) {
+    Vec3 p = k == 0   ? finger.frame.base
+             : k == 1 ? finger.mcp
+             : k == 2 ? finger.points.pip
+             : k == 3 ? finger.points.dip
+                      : finger.points.tip;
+    Real radius = scale * hand_radius(f, k);
+    Real bone = k > 0 ? scale * hand_length(f, k - 1) : Real(0);
+    Real separation = k == 2 ? finger.separations.x : k == 3 ? finger.separations.y : finger.separations.z;
+    if (!known || k < 2) separation = separation_at(p, radius);
+    examine_point(f, k, first_joint + k, p, radius, separation, bone, finger.before);
+  }
+}
+
+// A loop over fingers, not unrolled: each kernel is compiled once.
+void rest_hand(Closing closing) {
+  Vec3 rigged_angles = finger_angles(closing.closure);
+  PaperAxis axis;
+  Vec3 thumb_tip;
+  [[dont_unroll]] for (int f = 0; f < FINGERS; ++f) {
+    int first_joint = f == 0 ? 0 : 5 * f - 1;
+    PlacedFinger finger = place_finger(f, closing, rigged_angles);
+    if (f == 0) thumb_tip = finger.points.tip;
+    if (f == 1 && POSE == POSE_PAPER) {
+      FingerFrame little = placed_frame(closing.placement, hand_frame(4));
+      Vec3 little_mcp = little.base + (scale * hand_length(4, 0)) * little.forward;
+      axis = paper_axis(finger.mcp, little_mcp, finger.points.tip, thumb_tip);
+    }
+    if (PLANE_JOINTS >= 0) put_rigged(f, first_joint, finger);
+    bool known = POSE == POSE_ARTICULATED && f >= 2;
+    if (known) pose_articulated(f, closing.closure, finger);
+    if (POSE == POSE_PAPER && f >= 2) pose_paper(f, axis, finger);
+    examine_finger(f, first_joint, known, finger);
+  }
+}
+
 void main() {
   grip = INVOCATION;
   if (grip >= push.count) return;
@@ -63,128 +210,19 @@ void main() {
                                        grip_axis(AXIS_ROLL, grip), grip_axis(AXIS_OFFSET, grip), grip_axis(AXIS_HAND_SCALE, grip)));
   status = uint(closing.reason);
   touch_mask = tip_mask = finger_mask = inner_mask = used_mask = 0u;
-  bool reached = closing.reason == REASON_NONE || closing.reason >= REASON_TOO_WIDE;
-  put_real(PLANE_T_INDEX, 0, grip, reached ? closing.t_index : NOT_A_NUMBER);
-  put_real(PLANE_T_THUMB, 0, grip, reached ? closing.t_thumb : NOT_A_NUMBER);
-  put_real(PLANE_GAP, 0, grip, reached ? closing.gap : NOT_A_NUMBER);
-  if (PLANE_MIDPOINT >= 0) put_point(PLANE_MIDPOINT, 0, grip, reached ? closing.midpoint : Vec3(NOT_A_NUMBER));
+  put_closing(closing);
   if (closing.reason != REASON_NONE) {
-    put_uint(PLANE_STATUS, grip, status);
-    put_uint(PLANE_TOUCH_MASK, grip, 0u);
-    put_uint(PLANE_TIP_MASK, grip, 0u);
-    put_uint(PLANE_FINGER_MASK, grip, 0u);
-    put_uint(PLANE_INNER_MASK, grip, 0u);
-    put_uint(PLANE_USED_MASK, grip, 0u);
-    put_real(PLANE_CLOSURE, 0, grip, NOT_A_NUMBER);
-    put_real(PLANE_CONTACT_ANGLES, 0, grip, NOT_A_NUMBER);
-    put_real(PLANE_CONTACT_ANGLES, 1, grip, NOT_A_NUMBER);
-    put_real(PLANE_PHALANX_DEPTH, 0, grip, NOT_A_NUMBER);
-    put_real(PLANE_PALM_DEPTH, 0, grip, NOT_A_NUMBER);
-    put_real(PLANE_BONE_STRETCH, 0, grip, NOT_A_NUMBER);
-    for (int j = 0; j < JOINTS; ++j) {
-      if (PLANE_JOINTS >= 0) put_point(PLANE_JOINTS, j, grip, Vec3(NOT_A_NUMBER));
-      if (PLANE_POSED >= 0) put_point(PLANE_POSED, j, grip, Vec3(NOT_A_NUMBER));
-      if (PLANE_PROXIES >= 0) put_point(PLANE_PROXIES, j, grip, Vec3(NOT_A_NUMBER));
-      put_real(PLANE_SEPARATION, j, grip, NOT_A_NUMBER);
-    }
+    put_masks();
+    put_nothing();
     return;
   }
   if (closing.grazing) status |= STATUS_GRAZING;
   bool held = scene.friction_angle > Real(0);
   if (held && closing.thumb_angle <= scene.friction_angle && closing.index_angle <= scene.friction_angle) status |= STATUS_ANTIPODAL;
-
   scale = closing.placement.scale;
   phalanx_depth = palm_depth = judged_depth = bone_stretch = Real(0);
-  Vec3 rigged_angles = finger_angles(closing.closure);
-  PaperAxis axis;
-  Vec3 thumb_tip, index_tip, index_mcp;
-  // loops over fingers and points, not unrolled: each kernel is compiled once
-  [[dont_unroll]] for (int f = 0; f < FINGERS; ++f) {
-    int first_joint = f == 0 ? 0 : 5 * f - 1;
-    int point_count = f == 0 ? 4 : 5;
-    FingerFrame frame = placed_frame(closing.placement, hand_frame(f));
-    Vec3 mcp = frame.base + (scale * hand_length(f, 0)) * frame.forward;
-    Vec3 lengths = scale * Vec3(hand_length(f, 1), hand_length(f, 2), hand_length(f, 3));
-    Vec3 radii = scale * Vec3(hand_radius(f, 2), hand_radius(f, 3), hand_radius(f, 4));
-    int before = 0;
-    FingerPoints points;
-    Vec3 separations = Vec3(0);
-    if (f == 0) {
-      points = thumb_points(frame, scale * Vec3(hand_length(0, 0), hand_length(0, 1), hand_length(0, 2)), thumb_angles(closing.closure));
-      mcp = points.pip;
-      points.pip = points.dip;
-      points.dip = points.tip;
-      thumb_tip = points.tip;
-    } else if (f == 1 || WANTS_RIGGED) {
-      points = finger_points(frame, mcp, lengths, rigged_angles);
-    }
-    if (f == 1) {
-      index_tip = points.tip;
-      index_mcp = mcp;
-      if (POSE == POSE_PAPER) {
-        FingerFrame little = placed_frame(closing.placement, hand_frame(4));
-        axis = paper_axis(index_mcp, little.base + (scale * hand_length(4, 0)) * little.forward, index_tip, thumb_tip);
-      }
-    }
-    if (PLANE_JOINTS >= 0) {
-      put_point(PLANE_JOINTS, first_joint, grip, frame.base);
-      put_point(PLANE_JOINTS, first_joint + 1, grip, mcp);
-      put_point(PLANE_JOINTS, first_joint + 2, grip, points.pip);
-      put_point(PLANE_JOINTS, first_joint + 3, grip, points.dip);
-      if (f > 0) put_point(PLANE_JOINTS, first_joint + 4, grip, points.tip);
-    }
-    bool known = POSE == POSE_ARTICULATED && f >= 2;
-    if (known) {
-      FingerMotion motion = start_motion(closing.closure);
-      while (motion.joint < 3) {
-        points = finger_points(frame, mcp, lengths, motion.angles);
-        Watch watch = watch_points(points, radii);
-        separations = watch.separations;
-        motion = advance_finger(motion, frame, mcp, points, watch, lengths);
-      }
-      if (motion.before.x <= HAND_CONTACT_TOLERANCE) before |= 1 << 2;
-      if (motion.before.y <= HAND_CONTACT_TOLERANCE) before |= 1 << 3;
-      if (motion.before.z <= HAND_CONTACT_TOLERANCE) before |= 1 << 4;
-      if (motion.blocked) status |= 1u << (STATUS_BLOCKED_SHIFT + f);
-      if (motion.unsettled) status |= 1u << (STATUS_UNSETTLED_SHIFT + f);
-    }
-    if (POSE == POSE_PAPER && f >= 2) {
-      // before any of them is examined: roles are judged on the state before
-      [[dont_unroll]] for (int k = 2; k < 5; ++k) {
-        Vec3 p = k == 2 ? points.pip : k == 3 ? points.dip : points.tip;
-        Real radius = scale * hand_radius(f, k);
-        bool unsettled = false;
-        if (separation_at(p, radius) <= HAND_CONTACT_TOLERANCE) {
-          before |= 1 << k;
-        } else {
-          p = project_point(p, radius, mcp, axis, HAND_PAPER_MAX_ANGLE, unsettled);
-        }
-        if (unsettled) status |= 1u << (STATUS_UNSETTLED_SHIFT + f);
-        if (k == 2) points.pip = p;
-        if (k == 3) points.dip = p;
-        if (k == 4) points.tip = p;
-      }
-    }
-    [[dont_unroll]] for (int k = 0; k < point_count; ++k) {
-      Vec3 p = k == 0 ? frame.base : k == 1 ? mcp : k == 2 ? points.pip : k == 3 ? points.dip : points.tip;
-      Real radius = scale * hand_radius(f, k);
-      Real bone = k > 0 ? scale * hand_length(f, k - 1) : Real(0);
-      Real separation = k == 2 ? separations.x : k == 3 ? separations.y : separations.z;
-      if (!known || k < 2) separation = separation_at(p, radius);
-      examine_point(f, k, first_joint + k, p, radius, separation, bone, before);
-    }
-  }
+  rest_hand(closing);
   if (judged_depth <= HAND_DEPTH_LIMIT) status |= STATUS_PLAUSIBLE;
-  put_uint(PLANE_STATUS, grip, status);
-  put_uint(PLANE_TOUCH_MASK, grip, touch_mask);
-  put_uint(PLANE_TIP_MASK, grip, tip_mask);
-  put_uint(PLANE_FINGER_MASK, grip, finger_mask);
-  put_uint(PLANE_INNER_MASK, grip, inner_mask);
-  put_uint(PLANE_USED_MASK, grip, used_mask);
-  put_real(PLANE_CLOSURE, 0, grip, closing.closure);
-  put_real(PLANE_CONTACT_ANGLES, 0, grip, closing.thumb_angle);
-  put_real(PLANE_CONTACT_ANGLES, 1, grip, closing.index_angle);
-  put_real(PLANE_PHALANX_DEPTH, 0, grip, phalanx_depth);
-  put_real(PLANE_PALM_DEPTH, 0, grip, palm_depth);
-  put_real(PLANE_BONE_STRETCH, 0, grip, bone_stretch);
+  put_masks();
+  put_whole(closing.closure, closing.thumb_angle, closing.index_angle);
 }
