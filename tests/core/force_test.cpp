@@ -21,7 +21,6 @@ namespace {
 
 using core_f64::Vec3;
 
-constexpr double G = 9.80665;
 // Rounding of a handful of products of numbers under 10.
 constexpr double ROUNDING = 1e-14;
 

@@ -16,7 +16,6 @@ namespace {
 
 using core_f64::Vec3;
 
-constexpr double G = 9.80665;
 constexpr double MILLILITRE = 1e-6;  // m3
 // Sums of some thousand parts of at most 1e-3 m3, each rounded to 1e-19.
 constexpr double ROUNDING = 1e-15;

@@ -41,6 +41,7 @@ HandData odd_hand();    // every number another than the default's, no two finge
 
 // ---- scenes ----
 
+constexpr double G = 9.80665;  // m/s2, what a scene has where it says nothing else
 std::vector<double> linspace(double from, double to, int count);
 Axis axis_of(double from, double to, int count);
 Scene three_beakers();  // the default scene
