@@ -35,7 +35,7 @@ Grip to_grip(const GripInput& g) {
   return {Real(g.height), Real(g.azimuth), Real(g.obliquity), Real(g.roll), Real(g.offset), Real(g.hand_scale)};
 }
 
-Vec3 to_vec(const Triple& t) { return Vec3(Real(t[0]), Real(t[1]), Real(t[2])); }
+Vec3 vec_of(const Triple& t) { return Vec3(Real(t[0]), Real(t[1]), Real(t[2])); }
 
 Triple to_triple(Vec3 v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
 
@@ -207,13 +207,13 @@ class CoreEvaluator final : public wholehand::Evaluator {
   }
 
   double distance(std::size_t v, const Triple& point) const override {
-    return signed_distance(entries_[v].vessel, to_vec(wholehand::mirrored(point, scene_.hand.handedness)));
+    return signed_distance(entries_[v].vessel, vec_of(wholehand::mirrored(point, scene_.hand.handedness)));
   }
 
   Triple gradient(std::size_t v, const Triple& point) const override {
     int element = -1;
     const Vec3 gradient =
-        distance_gradient(entries_[v].vessel, to_vec(wholehand::mirrored(point, scene_.hand.handedness)), element);
+        distance_gradient(entries_[v].vessel, vec_of(wholehand::mirrored(point, scene_.hand.handedness)), element);
     return wholehand::mirrored(to_triple(gradient), scene_.hand.handedness);
   }
 
@@ -340,7 +340,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
   Pinch pinch_of(const GripInput& input, const GripResult& result) const {
     const GripInput grip = wholehand::mirrored(input, scene_.hand.handedness);
     return {grip_direction(Real(grip.azimuth), Real(grip.obliquity)),
-            to_vec(wholehand::mirrored(result.midpoint, scene_.hand.handedness)), result.antipodal};
+            vec_of(wholehand::mirrored(result.midpoint, scene_.hand.handedness)), result.antipodal};
   }
 
   static Load load_of(const VesselEntry& entry, const LiquidResult& liquid) {

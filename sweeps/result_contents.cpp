@@ -17,7 +17,7 @@
 namespace wholehand {
 namespace {
 
-constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
+constexpr double NOT_YET_KNOWN = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* JOINT_RADIUS = "joint_radius";
 constexpr const char* FILL_FRACTION = "fill_fraction";
 constexpr const char* FILL_VOLUME = "fill_volume";
@@ -85,8 +85,8 @@ class SweepDefinition : ResultDefinition {
     text(NC_GLOBAL, "sampling", contents_.plan.is_sobol() ? "sobol" : "grid");
     const unsigned long long seed = scene.grips.seed;
     numbers(NC_GLOBAL, "seed", NC_UINT64, 1, &seed);
-    number(NC_GLOBAL, WALL_TIME, NOT_A_NUMBER);
-    number(NC_GLOBAL, KERNEL_TIME, NOT_A_NUMBER);
+    number(NC_GLOBAL, WALL_TIME, NOT_YET_KNOWN);
+    number(NC_GLOBAL, KERNEL_TIME, NOT_YET_KNOWN);
     if (has_meshes(scene)) {
       text(NC_GLOBAL, SCENE_FILE, std::filesystem::absolute(scene.file).lexically_normal().string());
       text(NC_GLOBAL, MESHES, mesh_lines(scene));
