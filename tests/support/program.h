@@ -16,6 +16,9 @@
 
 namespace wholehand {
 
+// A command that is quickly done.
+constexpr const char* SMALL_GRIP = "grip small --vessel tumbler --height-mm 50";
+
 struct Outcome {
   int code = -1;
   std::string output;  // as redirected by the command
