@@ -51,7 +51,8 @@ class UsbTransport final : public Transport {
   bool panic(protocol::Bytes report) noexcept override;
 
  private:
-  // Input transfers in flight: the device's reports of 2 ms at the fastest rate allowed, so that a loop of 1 kHz always finds the newest.
+  // Input transfers in flight: the device's reports of 2 ms at the fastest rate allowed, so that a loop of 1 kHz always finds the
+  // newest.
   static constexpr int IN_FLIGHT = 16;
 
   struct Incoming {

@@ -29,7 +29,8 @@ struct CompanionRequest {
 std::vector<std::vector<BestGrip>> best_grips(const CompanionRequest& request, const std::vector<VesselProgress>& vessels,
                                               Backend& swept);
 
-// Answers the names of the files, as the closing lines have them. `maps` null: the score is not kept, and there are none. `info`: the sweep's.
+// Answers the names of the files, as the closing lines have them. `maps` null: the score is not kept, and there are none. `info`: the
+// sweep's.
 std::vector<std::string> write_companions(const CompanionRequest& request, const std::vector<std::vector<BestGrip>>& best,
                                           const std::vector<HeatMap>* maps, const BackendInfo& info);
 
