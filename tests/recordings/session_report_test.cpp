@@ -6,90 +6,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <vector>
 
+#include "tests/support/recorded_session.h"
 #include "tests/support/special_values.h"
 
 namespace wholehand {
 namespace {
-
-// Ticks one after the other, each a copy of the last with changes.
-class RecordedSession {
- public:
-  explicit RecordedSession(double rate = 1000) {
-    recording.info.rate = rate;
-    recording.info.scene_name = "bench";
-    recording.info.device.name = "omega.7";
-    recording.info.vessels = {{"one", "water", 2}, {"two", "oil", 3}};
-    now_.device.gap = 0.02;
-  }
-
-  using Change = std::function<void(double t, Tick& tick)>;  // t: s since the start of this stretch
-
-  RecordedSession& stretch(double seconds, SessionState state, const Change& change = {}) {
-    const auto count = std::llround(seconds * recording.info.rate);
-    now_.state = state;
-    if (state == SessionState::free) now_.vessel = -1;
-    for (std::int64_t k = 0; k < count; ++k) {
-      if (change) change(static_cast<double>(k) / recording.info.rate, now_);
-      recording.ticks.push_back(now_);
-      ++now_.number;
-    }
-    return *this;
-  }
-  RecordedSession& hold(int vessel) {
-    now_.vessel = vessel;
-    ++now_.grasps;
-    return *this;
-  }
-  RecordedSession& skip(std::int64_t periods) {
-    now_.number += periods;
-    return *this;
-  }
-  RecordedSession& with(const std::function<void(Tick&)>& change) {
-    change(now_);
-    return *this;
-  }
-  SessionReport report() const { return report_session(recording); }
-
-  Recording recording;
-
- private:
-  Tick now_;
-};
-
-// From `from` to `to` in `seconds`.
-double ramp(double t, double seconds, double from, double to) { return from + (to - from) * std::min(1.0, t / seconds); }
-
-// A grasp of vessel 0: lifted for 1 s, tilted to `tilt` within 2 s, kept there for 1 s. `grip` and `normal` give the forces over the tilt for x
-// from 0 to 1, and keep their ends before and after.
-RecordedSession tilted(double tilt, const std::function<double(double)>& grip, const std::function<double(double)>& normal) {
-  RecordedSession session;
-  const auto forces = [&](double x, Tick& tick) {
-    tick.tilt = x * tilt;
-    tick.user_force = grip(x);
-    tick.normal_force = normal(x);
-  };
-  session.stretch(0.2, SessionState::free).hold(0);
-  session.stretch(1, SessionState::lift, [&](double, Tick& tick) { forces(0, tick); });
-  session.stretch(2, SessionState::tilt, [&](double t, Tick& tick) { forces(t / 2, tick); });
-  session.stretch(1, SessionState::maintain, [&](double, Tick& tick) { forces(1, tick); });
-  session.with([](Tick& tick) { tick.tilt = 0; });
-  session.stretch(0.5, SessionState::free);
-  return session;
-}
-
-double linear(double x, double from, double to) { return from + x * (to - from); }
-
-GraspReport only_grasp(const RecordedSession& session) {
-  const SessionReport report = session.report();
-  EXPECT_EQ(report.grasps.size(), 1u);
-  return report.grasps.at(0);
-}
 
 TEST(SessionReport, TimesOfStatesAndGrasps) {
   RecordedSession session;
@@ -124,12 +48,12 @@ TEST(SessionReport, ResponseTimeUntilTheGapIsAtRest) {
   for (const double rate : {500.0, 1000.0, 4000.0}) {
     for (const double step : {0.0, 10e-6}) {  // of an encoder
       RecordedSession session(rate);
-      session.stretch(0.3, SessionState::touching, [](double t, Tick& tick) { tick.device.gap = ramp(t, 0.3, 0.03, 0.02); })
+      session.stretch(0.3, SessionState::touching, [](double t, Tick& tick) { tick.device.gap = ramp_to(t, 0.3, 0.03, 0.02); })
           .hold(0);
       session.stretch(1, SessionState::lift, [step](double t, Tick& tick) {
-        tick.device.gap = ramp(t, 0.12, 0.02, 0.0224);
+        tick.device.gap = ramp_to(t, 0.12, 0.02, 0.0224);
         if (step > 0) tick.device.gap = step * std::round(tick.device.gap / step);
-        tick.user_force = ramp(t, 0.12, 0.8, 3.76);
+        tick.user_force = ramp_to(t, 0.12, 0.8, 3.76);
       });
       const GraspReport grasp = only_grasp(session);
       EXPECT_NEAR(grasp.response_time, 0.12, 0.011) << rate << " Hz, " << step;
@@ -175,7 +99,7 @@ TEST(SessionReport, ResponseTimeWithoutSomeMeasurements) {
   session.hold(0).stretch(1, SessionState::lift, [](double t, Tick& tick) {
     const bool is_missing = tick.number % 3 == 0;
     tick.read = is_missing ? ReadOutcome::timeout : ReadOutcome::value;
-    tick.device.gap = is_missing ? NOT_A_NUMBER : ramp(t, 0.2, 0.02, 0.025);
+    tick.device.gap = is_missing ? NOT_A_NUMBER : ramp_to(t, 0.2, 0.02, 0.025);
   });
   EXPECT_NEAR(only_grasp(session).response_time, 0.2, 0.012);
 }
@@ -198,8 +122,8 @@ TEST(SessionReport, GripForceBeforeDuringAndAfter) {
   EXPECT_EQ(grasp.during.count, 1u);
   EXPECT_NEAR(grasp.after.mean, 5, 1e-9);
   EXPECT_EQ(grasp.after.count, 1000u);
-  grasp = only_grasp(tilted(
-      radians(90), [](double x) { return linear(x, 2, 4); }, [](double) { return 0.8; }));
+  grasp = only_grasp(tilted_session(
+      radians(90), [](double x) { return linear_between(x, 2, 4); }, [](double) { return 0.8; }));
   EXPECT_NEAR(grasp.before.mean, 2, 1e-9);
   EXPECT_NEAR(grasp.before.deviation, 0, 1e-9);
   EXPECT_NEAR(grasp.during.mean, 3, 2e-3);
@@ -208,8 +132,8 @@ TEST(SessionReport, GripForceBeforeDuringAndAfter) {
 }
 
 TEST(SessionReport, WayToTheTiltThatIsMaintained) {
-  const RecordedSession session = tilted(
-      radians(80), [](double) { return 2; }, [](double x) { return linear(x, 0.8, 2); });
+  const RecordedSession session = tilted_session(
+      radians(80), [](double) { return 2; }, [](double x) { return linear_between(x, 0.8, 2); });
   const GraspReport grasp = only_grasp(session);
   EXPECT_NEAR(degrees(grasp.largest_tilt), 80, 1e-9);
   EXPECT_NEAR(grasp.tilt_start, 1.2, 1e-9);
@@ -223,7 +147,7 @@ TEST(SessionReport, WayBackDoesNotCount) {
   RecordedSession session;
   const auto to = [](double from, double until, double seconds) {
     return [=](double t, Tick& tick) {
-      tick.tilt = radians(ramp(t, seconds, from, until));
+      tick.tilt = radians(ramp_to(t, seconds, from, until));
       tick.normal_force = 0.8 + tick.tilt;
     };
   };
@@ -235,103 +159,6 @@ TEST(SessionReport, WayBackDoesNotCount) {
   EXPECT_NEAR(grasp.tilt_time, 3, 2e-3);
   EXPECT_NEAR(grasp.normal_increase, radians(90), 0.1);
   EXPECT_EQ(grasp.after.count, 0u);
-}
-
-TEST(SessionReport, TypeG1WhereGripRisesAsTheNormalForceDoes) {
-  const auto rise = [](double more) {
-    return only_grasp(tilted(
-        radians(90), [more](double x) { return linear(x, 3, 4.2 + more); }, [](double x) { return linear(x, 0.8, 2); }));
-  };
-  EXPECT_EQ(rise(0).course, GripCourse::equal);
-  EXPECT_EQ(rise(0.09).course, GripCourse::equal);
-  EXPECT_EQ(rise(-0.09).course, GripCourse::equal);
-  EXPECT_EQ(rise(0.11).course, GripCourse::more);
-  EXPECT_EQ(rise(-0.11).course, GripCourse::less);
-  EXPECT_NEAR(rise(0).grip_change, 1.2, 1e-3);
-}
-
-TEST(SessionReport, TypeG2WhereItRisesMore) {
-  EXPECT_EQ(only_grasp(tilted(
-                           radians(90), [](double x) { return linear(x, 3, 6); }, [](double x) { return linear(x, 0.8, 2); }))
-                .course,
-            GripCourse::more);
-}
-
-TEST(SessionReport, TypeG3WhereItRisesLessOrFalls) {
-  const auto normal = [](double x) { return linear(x, 0.8, 2); };
-  EXPECT_EQ(only_grasp(tilted(
-                           radians(90), [](double) { return 3; }, normal))
-                .course,
-            GripCourse::less);
-  EXPECT_EQ(only_grasp(tilted(
-                           radians(90), [](double x) { return linear(x, 3, 2); }, normal))
-                .course,
-            GripCourse::less);
-}
-
-TEST(SessionReport, TypeG4WhereItTurnsBack) {
-  const auto normal = [](double x) { return linear(x, 0.8, 2); };
-  const auto swing = [](double size) { return [size](double x) { return 3 + 1.2 * x + size * std::sin(4 * PI * x); }; };
-  const GraspReport grasp = only_grasp(tilted(radians(90), swing(0.5), normal));
-  EXPECT_EQ(grasp.course, GripCourse::complex);
-  EXPECT_GT(grasp.turning_back, 0.2);
-  // of the same ends: only the way between them differs
-  EXPECT_EQ(only_grasp(tilted(radians(90), swing(0.05), normal)).course, GripCourse::equal);
-  // up and down again
-  EXPECT_EQ(only_grasp(tilted(
-                           radians(90), [](double x) { return 3 + std::sin(PI * x); }, normal))
-                .course,
-            GripCourse::complex);
-  // what trembles ten times a second is no course
-  EXPECT_EQ(only_grasp(tilted(
-                           radians(90), [](double x) { return 3 + 1.2 * x + 0.15 * std::sin(40 * PI * x); }, normal))
-                .course,
-            GripCourse::equal);
-}
-
-// Beyond 90 degrees the torque falls again. A grip that follows it turns back with it, and is not complex for that.
-TEST(SessionReport, FollowingANormalForceThatFallsIsNotComplex) {
-  const auto normal = [](double x) { return 0.8 + std::sin(radians(140) * x); };
-  const GraspReport grasp = only_grasp(tilted(
-      radians(140), [&](double x) { return 2 + normal(x); }, normal));
-  EXPECT_EQ(grasp.course, GripCourse::equal);
-  EXPECT_NEAR(grasp.turning_back, 0, 1e-9);
-}
-
-// At F_max the gripper clamps: what the grip force then seems to do is not the user's doing.
-TEST(SessionReport, WhatSaturatesWhileItIsTiltedHasNoType) {
-  const auto grip = [](double) { return 3.0; };
-  const auto normal = [](double x) { return linear(x, 0.8, 2); };
-  RecordedSession session = tilted(radians(90), grip, normal);
-  session.recording.info.force_max = 8;
-  for (Tick& tick : session.recording.ticks) tick.feedback = is_held(tick.state) ? 5 : 0;
-  EXPECT_EQ(only_grasp(session).course, GripCourse::less);
-  EXPECT_EQ(only_grasp(session).saturated, 0);
-  for (Tick& tick : session.recording.ticks)
-    if (tick.state == SessionState::lift) tick.feedback = 8;
-  EXPECT_NEAR(only_grasp(session).saturated, 1, 1e-9);
-  EXPECT_EQ(only_grasp(session).course, GripCourse::less) << "before the tilt";
-  for (Tick& tick : session.recording.ticks)
-    if (tick.state == SessionState::maintain) tick.feedback = 8;
-  EXPECT_NEAR(only_grasp(session).saturated, 2, 1e-9);
-  EXPECT_EQ(only_grasp(session).course, GripCourse::not_analysed);
-  EXPECT_NE(session_table(session.report()).find("the feedback was at F_max for 2.000 s"), std::string::npos);
-}
-
-TEST(SessionReport, TiltsUnder30DegreesAreNotAnalysed) {
-  const auto of = [](double tilt) {
-    return only_grasp(tilted(
-        radians(tilt), [](double x) { return linear(x, 3, 6); }, [](double x) { return linear(x, 0.8, 2); }));
-  };
-  EXPECT_EQ(of(29).course, GripCourse::not_analysed);
-  EXPECT_EQ(of(31).course, GripCourse::more);
-  EXPECT_NEAR(of(29).grip_change, 3, 2e-3) << "measured all the same";
-  RecordedSession upright;
-  upright.hold(0).stretch(1, SessionState::lift);
-  const GraspReport grasp = only_grasp(upright);
-  EXPECT_EQ(grasp.course, GripCourse::not_analysed);
-  EXPECT_TRUE(std::isnan(grasp.tilt_start));
-  EXPECT_TRUE(std::isnan(grasp.grip_change));
 }
 
 TEST(SessionReport, HowGraspsEnd) {
@@ -394,12 +221,12 @@ TEST(SessionReport, LiquidGuidanceAndTask) {
   session.recording.info.tolerance = 2e-6;
   session.with([](Tick& tick) { tick.volume[0] = 200e-6; }).stretch(0.1, SessionState::free).hold(0);
   session.with([](Tick& tick) { tick.guidance_distance = 4e-3; });
-  session.stretch(1, SessionState::lift, [](double t, Tick& tick) { tick.volume[0] = ramp(t, 0.5, 200e-6, 90e-6); });
+  session.stretch(1, SessionState::lift, [](double t, Tick& tick) { tick.volume[0] = ramp_to(t, 0.5, 200e-6, 90e-6); });
   session.with([](Tick& tick) { tick.guidance_distance = NOT_A_NUMBER; });
   // it falls for a while after the grasp
   session.stretch(0.2, SessionState::free, [](double t, Tick& tick) {
-    tick.arrived[0] = ramp(t, 0.1, 0, 101e-6);
-    tick.spilt[0] = ramp(t, 0.1, 0, 9e-6);
+    tick.arrived[0] = ramp_to(t, 0.1, 0, 101e-6);
+    tick.spilt[0] = ramp_to(t, 0.1, 0, 9e-6);
   });
   session.hold(1).stretch(0.1, SessionState::lift).hold(0).stretch(0.1, SessionState::lift);
   session.with([](Tick& tick) {
@@ -472,7 +299,7 @@ TEST(SessionReport, OfNothingAndOfNoNumbers) {
   EXPECT_TRUE(empty.grasps.empty());
   EXPECT_NE(session_table(empty), "");
   EXPECT_FALSE(nlohmann::json::parse(session_json(empty)).empty());
-  RecordedSession session = tilted(
+  RecordedSession session = tilted_session(
       radians(90), [](double) { return NOT_A_NUMBER; }, [](double) { return NOT_A_NUMBER; });
   for (Tick& tick : session.recording.ticks) tick.device.gap = tick.volume[0] = NOT_A_NUMBER;
   const GraspReport grasp = only_grasp(session);
@@ -485,8 +312,8 @@ TEST(SessionReport, OfNothingAndOfNoNumbers) {
 }
 
 TEST(SessionReport, TableCsvAndJsonSayTheSame) {
-  const RecordedSession session = tilted(
-      radians(90), [](double x) { return linear(x, 3, 6); }, [](double x) { return linear(x, 0.8, 2); });
+  const RecordedSession session = tilted_session(
+      radians(90), [](double x) { return linear_between(x, 3, 6); }, [](double x) { return linear_between(x, 0.8, 2); });
   const SessionReport report = session.report();
   const auto json = nlohmann::json::parse(session_json(report));
   ASSERT_EQ(json["grasps"].size(), 1u);
