@@ -33,8 +33,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A folder of its own, gone with the test.
-
 Scene board_scene() { return read_scene_file(find_scene("mixing_board")); }
 
 // ---- what it tells ----

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "tests/support/refusal.h"
 #include "tests/support/sampled_outline.h"
 
 namespace wholehand {
@@ -97,13 +98,7 @@ TEST(Sdf, CavityOfACylinderInClosedForm) {
 }
 
 std::string refusal(const VesselData& vessel) {
-  try {
-    prepare_vessel(vessel, true);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code, ExitCode::usage);
-    return error.what();
-  }
-  return "";
+  return refusal_line([&] { prepare_vessel(vessel, true); });
 }
 
 TEST(Sdf, WallThickerThanTheRadiusIsRefused) {

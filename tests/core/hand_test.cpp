@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/evaluator.h"
+#include "tests/support/refusal.h"
 #include "tests/support/scenes.h"
 #include "tests/support/vectors.h"
 
@@ -50,13 +51,7 @@ std::array<Long3, JOINT_COUNT> core_joints(const core_f64::Hand& hand, double cl
 }
 
 std::string refusal(const HandData& hand) {
-  try {
-    prepare_hand(hand);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code, ExitCode::usage);
-    return error.what();
-  }
-  return "";
+  return refusal_line([&] { prepare_hand(hand); });
 }
 
 TEST(Hand, JointsFollowTheRotationMatrices) {

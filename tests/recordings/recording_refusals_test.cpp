@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "tests/support/files.h"
 #include "tests/support/recorded_ticks.h"
+#include "tests/support/refusal.h"
 #include "tests/support/special_values.h"
 
 namespace wholehand {
@@ -21,17 +22,9 @@ namespace {
 
 // What reading it is refused with: exit code 2 and one line that starts with the file.
 std::string refusal(const std::string& path) {
-  try {
-    read_recording(path);
-  } catch (const Error& error) {
-    const std::string line = error.what();
-    EXPECT_EQ(error.code, ExitCode::usage) << line;
-    EXPECT_EQ(line.rfind(path + ": ", 0), 0u) << line;
-    EXPECT_EQ(line.find('\n'), std::string::npos) << line;
-    return line;
-  }
-  ADD_FAILURE() << "was read";
-  return {};
+  const std::string line = refusal_line([&] { read_recording(path); });
+  EXPECT_EQ(line.rfind(path + ": ", 0), 0u) << (line.empty() ? "was read" : line);
+  return line;
 }
 
 #define EXPECT_REFUSED(path, gist)                               \

@@ -15,13 +15,13 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <memory>
 
 #include "core/error.h"
 #include "sweeps/sweep_result.h"
 #include "tests/support/files.h"
 #include "tests/support/program.h"
+#include "tests/support/refusal.h"
 #include "tests/support/result_reader.h"
 #include "tests/support/sweep_results.h"
 
@@ -35,18 +35,6 @@ const std::string& small_result() {
     return file_text(swept.path);
   }();
   return bytes;
-}
-
-// Runs `act`; where it throws, that is an Error of usage. The line, or nothing.
-std::string refusal(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code, ExitCode::usage) << error.what();
-    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
-    return error.what();
-  }
-  return "";
 }
 
 TEST(GuardedFile, GivesWhatTheLibraryGives) {
@@ -68,7 +56,7 @@ TEST(GuardedFile, GivesWhatTheLibraryGives) {
     EXPECT_TRUE(block[k] == expected || (std::isnan(block[k]) && std::isnan(expected))) << k;
   }
   EXPECT_NO_THROW(file.read_all());
-  EXPECT_NE(refusal([&] {
+  EXPECT_NE(refusal_line([&] {
               file.read(*gap, std::vector<std::size_t>{2, 0, 0, 0, 0, 0, 0}, std::vector<std::size_t>(7, 1), block.data());
             }).find("gap cannot be read"),
             std::string::npos)
@@ -91,7 +79,7 @@ TEST(GuardedFile, ADamagedHeapCostsOneLine) {
   int refused = 0;
   for (const std::size_t at : {8, 24, 27, 35, 40, 64, 91}) {
     write_damaged_heap(path, at);
-    refused += !refusal([&] { GuardedFile(path).read_all(); }).empty();
+    refused += !refusal_line([&] { GuardedFile(path).read_all(); }).empty();
   }
   EXPECT_GT(refused, 3);
 }
@@ -102,7 +90,7 @@ TEST(GuardedFile, EveryCommandThatReadsAResultRefusesADamagedOne) {
   const TemporaryFolder folder;
   const std::string path = folder / "damaged.nc";
   write_damaged_heap(path, 8);
-  ASSERT_FALSE(refusal([&] { GuardedFile(path).read_all(); }).empty());
+  ASSERT_FALSE(refusal_line([&] { GuardedFile(path).read_all(); }).empty());
   for (const std::string& arguments : {"view " + path, "report " + path, "rank " + path, "grip " + path + " --vessel cup --rank 1",
                                        "sweep small --on core --resume -o " + path})
     expect_error(arguments, 2, "damaged.nc: is damaged, or no NetCDF-4 file");
@@ -123,9 +111,9 @@ TEST(GuardedFile, AReaderThatDiesLaterCostsOneLine) {
   kill(children.back(), SIGSEGV);
   double value = 0;
   const std::vector<std::size_t> place(7, 0), one(7, 1);
-  EXPECT_EQ(refusal([&] { file->read(*gap, place, one, &value); }),
+  EXPECT_EQ(refusal_line([&] { file->read(*gap, place, one, &value); }),
             swept.path + ": is damaged, or no NetCDF-4 file: it cannot be read");
-  EXPECT_NE(refusal([&] { file->read_all(); }), "") << "and it stays so";
+  EXPECT_NE(refusal_line([&] { file->read_all(); }), "") << "and it stays so";
 }
 
 // Variables of one long axis, as Sobol points have them, are read in pieces.
@@ -147,11 +135,11 @@ TEST(GuardedFile, LongAxesAreReadInPieces) {
 
 TEST(GuardedFile, WhatIsNoRegularFileIsRefused) {
   const TemporaryFolder folder;
-  EXPECT_NE(refusal([&] { GuardedFile(folder.path()); }).find("is a directory"), std::string::npos);
-  EXPECT_NE(refusal([] { GuardedFile("/dev/null"); }).find("is a device or pipe"), std::string::npos);
-  EXPECT_NE(refusal([&] { GuardedFile(folder / "none"); }).find("No such file"), std::string::npos);
+  EXPECT_NE(refusal_line([&] { GuardedFile(folder.path()); }).find("is a directory"), std::string::npos);
+  EXPECT_NE(refusal_line([] { GuardedFile("/dev/null"); }).find("is a device or pipe"), std::string::npos);
+  EXPECT_NE(refusal_line([&] { GuardedFile(folder / "none"); }).find("No such file"), std::string::npos);
   std::ofstream(folder / "text") << "text";
-  EXPECT_NE(refusal([&] { GuardedFile(folder / "text"); }).find("is damaged, or no NetCDF-4 file"), std::string::npos);
+  EXPECT_NE(refusal_line([&] { GuardedFile(folder / "text"); }).find("is damaged, or no NetCDF-4 file"), std::string::npos);
 }
 
 // The process that reads holds nothing of the one that asks: what that closes is closed.
@@ -198,7 +186,7 @@ TEST(GuardedFile, ANameInTheFormOfAnAddressIsAFileAllTheSame) {
   std::filesystem::create_directories(host);
   std::ofstream(host + "/x.nc", std::ios::binary) << small_result();
   EXPECT_EQ(SweepResult(host + "/x.nc").vessel_heights().size(), 2u);
-  EXPECT_NE(refusal([&] { SweepResult(host + "/missing.nc"); }).find("No such file"), std::string::npos);
+  EXPECT_NE(refusal_line([&] { SweepResult(host + "/missing.nc"); }).find("No such file"), std::string::npos);
 #ifdef WHOLEHAND_PROGRAM
   expect_error("view " + host + "/missing.nc", 2, "missing.nc");
   const Outcome swept = run("PROGRAM sweep small --on core --resume -o " + host + "/new.nc 2>&1");

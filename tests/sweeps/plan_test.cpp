@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "tests/support/fake_backend.h"
+#include "tests/support/refusal.h"
 
 namespace wholehand {
 namespace {
@@ -23,13 +24,7 @@ bool same(const GripInput& a, const GripInput& b) {
 }
 
 std::string refusal(const Scene& scene, double bytes, double free, ExitCode code = ExitCode::usage) {
-  try {
-    check_sweep_size(scene, sweep_size(scene, bytes), free);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code, code);
-    return error.what();
-  }
-  return "";
+  return refusal_line([&] { check_sweep_size(scene, sweep_size(scene, bytes), free); }, code);
 }
 
 TEST(Plan, GridCountsWithAzimuthSlowestAndHeightFastest) {

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "tests/support/fake_backend.h"
+#include "tests/support/refusal.h"
 
 namespace wholehand {
 namespace {
@@ -24,14 +25,7 @@ bool holds(const std::vector<std::string>& all, const std::string& name) {
 }
 
 std::string refusal(const Scene& scene) {
-  try {
-    choose_variables(scene);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code, ExitCode::usage);
-    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-    return error.what();
-  }
-  return "";
+  return refusal_line([&] { choose_variables(scene); });
 }
 
 TEST(Variables, NamesAreUniqueAndEveryOneHasUnitsAndAName) {

@@ -5,14 +5,13 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <vector>
 
 #include "core/error.h"
 #include "device/guard.h"
 #include "tests/support/live_script.h"
+#include "tests/support/refusal.h"
 
 namespace wholehand {
 namespace {
@@ -25,18 +24,12 @@ json good() {
 }
 
 std::string refusal(const std::string& body) {
-  try {
-    parse_view_control(body);
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code, ExitCode::usage) << body;
-    const std::string line = error.what();
-    EXPECT_EQ(line.find_first_of("\r\n"), std::string::npos) << line;
-    EXPECT_EQ(line.rfind("control: ", 0), 0u) << line;
-    EXPECT_NE(line.find("allowed"), std::string::npos) << line;
-    return line;
-  }
-  ADD_FAILURE() << "taken: " << body;
-  return "";
+  const std::string line = refusal_line([&] { parse_view_control(body); });
+  EXPECT_NE(line, "") << "taken: " << body;
+  EXPECT_EQ(line.find('\r'), std::string::npos) << line;
+  EXPECT_EQ(line.rfind("control: ", 0), 0u) << line;
+  EXPECT_NE(line.find("allowed"), std::string::npos) << line;
+  return line;
 }
 
 std::string with(const char* key, const json& value) {
