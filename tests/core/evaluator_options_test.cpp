@@ -13,14 +13,9 @@
 #include "core/evaluator.h"
 #include "evidence/compare.h"
 #include "evidence/convergence.h"
+#include "tests/support/long_double.h"
 #include "tests/support/sampled_outline.h"
 #include "tests/support/whole_parity.h"
-
-namespace core_ld {
-
-std::unique_ptr<wholehand::Evaluator> make_evaluator(const wholehand::Scene& scene, const wholehand::EvaluatorOptions& options);
-
-}  // namespace core_ld
 
 namespace wholehand {
 namespace {

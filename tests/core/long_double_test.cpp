@@ -9,12 +9,7 @@
 #include "evidence/compare.h"
 #include "scene/reader.h"
 #include "sweeps/plan.h"
-
-namespace core_ld {
-
-std::unique_ptr<wholehand::Evaluator> make_evaluator(const wholehand::Scene& scene, const wholehand::EvaluatorOptions& options);
-
-}  // namespace core_ld
+#include "tests/support/long_double.h"
 
 namespace wholehand {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The scenes of scene/extreme: each says what makes it hard and what must come out, and that comes out.
+// The scenes of scene/extreme: each says what makes it hard and what must come out, and that comes out of the core.
 // sanitizers: none
 #include <gtest/gtest.h>
 
@@ -18,13 +18,8 @@
 #include "evidence/extreme.h"
 #include "scene/reader.h"
 #include "sweeps/plan.h"
+#include "tests/support/extreme_scenes.h"
 #include "tests/support/whole_parity.h"
-
-namespace core_ld {
-
-std::unique_ptr<wholehand::Evaluator> make_evaluator(const wholehand::Scene& scene, const wholehand::EvaluatorOptions& options);
-
-}  // namespace core_ld
 
 namespace wholehand {
 namespace {
@@ -34,51 +29,7 @@ constexpr double MICROMETRE = 1e-6;
 
 // ---- what must come out, scene by scene, of the core in double ----
 
-// A case with every grip of its first vessel and of the others, answered.
-struct Answered {
-  explicit Answered(const Scene& asked) : scene(asked), core(make_core_evaluator(asked)), fields(all_fields(asked)) {
-    const Plan plan(scene, true);
-    for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
-      grips.emplace_back(plan.grips());
-      plan.fill(v, 0, grips[v].size(), grips[v].data());
-      planes.push_back(gather(*core, fields, v, grips[v]));
-    }
-  }
-
-  std::uint32_t status(std::size_t v, std::size_t i) const { return planes[v].uint(FIELD_STATUS, i); }
-  std::uint32_t reason(std::size_t v, std::size_t i) const { return status(v, i) & STATUS_REASON_MASK; }
-  bool feasible(std::size_t v, std::size_t i) const { return reason(v, i) == REASON_NONE; }
-  bool antipodal(std::size_t v, std::size_t i) const { return (status(v, i) & STATUS_ANTIPODAL) != 0; }
-  double real(int field, std::size_t v, std::size_t i, std::size_t plane = 0) const {
-    return planes[v].real(fields.plane[field] + static_cast<int>(plane), i);
-  }
-  std::size_t states() const { return scene_fills(scene) * scene.tilts.size(); }
-
-  // Every feasible grip, and in every state.
-  void each(const std::function<void(std::size_t v, std::size_t i)>& look) const {
-    for (std::size_t v = 0; v < grips.size(); ++v)
-      for (std::size_t i = 0; i < grips[v].size(); ++i)
-        if (feasible(v, i)) look(v, i);
-  }
-  void each_state(const std::function<void(std::size_t v, std::size_t i, std::size_t state)>& look) const {
-    each([&](std::size_t v, std::size_t i) {
-      for (std::size_t s = 0; s < states(); ++s) look(v, i, s);
-    });
-  }
-  std::size_t count_feasible() const {
-    std::size_t count = 0;
-    each([&](std::size_t, std::size_t) { ++count; });
-    return count;
-  }
-
-  Scene scene;
-  std::unique_ptr<Evaluator> core;
-  FieldSet fields;
-  std::vector<std::vector<GripInput>> grips;
-  std::vector<GatheredPlanes> planes;
-};
-
-void along_the_axis(const Answered& a) {
+void along_the_axis(const AnsweredScene& a) {
   for (std::size_t i = 0; i < a.grips[0].size(); ++i) {
     const bool exactly = std::abs(a.grips[0][i].obliquity) == radians(90);
     EXPECT_EQ(a.reason(0, i), exactly ? REASON_DEGENERATE : REASON_ON_MOUTH) << i;
@@ -87,7 +38,7 @@ void along_the_axis(const Answered& a) {
 
 // The line passes the centre of mass; the middle of the tips, 8 and 7 mm thick, half a millimetre along it. So no torque topples the
 // block, whatever the tilt.
-void center_of_mass(const Answered& a) {
+void center_of_mass(const AnsweredScene& a) {
   EXPECT_EQ(a.count_feasible(), a.grips[0].size());
   a.each_state([&](std::size_t v, std::size_t i, std::size_t s) {
     const bool through = a.grips[v][i].height == 0.055;
@@ -97,10 +48,10 @@ void center_of_mass(const Answered& a) {
   });
 }
 
-void creases_and_rim(const Answered& a) { EXPECT_EQ(a.count_feasible(), a.grips[0].size()); }
+void creases_and_rim(const AnsweredScene& a) { EXPECT_EQ(a.count_feasible(), a.grips[0].size()); }
 
 // A bead of 1 mm between tips of 15 mm: their gap is theirs and little more.
-void one_millimetre(const Answered& a) {
+void one_millimetre(const AnsweredScene& a) {
   EXPECT_EQ(a.count_feasible(), a.grips[0].size());
   a.each([&](std::size_t v, std::size_t i) {
     EXPECT_GE(a.real(FIELD_GAP, v, i), 0.015);
@@ -108,12 +59,12 @@ void one_millimetre(const Answered& a) {
   });
 }
 
-void dwarf(const Answered& a) {
+void dwarf(const AnsweredScene& a) {
   EXPECT_GT(4 * a.count_feasible(), 3 * a.grips[0].size());
   a.each([&](std::size_t v, std::size_t i) { EXPECT_LT(a.real(FIELD_GAP, v, i), 1.28e-3); });
 }
 
-void giant(const Answered& a) {
+void giant(const AnsweredScene& a) {
   EXPECT_GT(4 * a.count_feasible(), 3 * a.grips[0].size());
   EXPECT_GT(a.core->constants(0).largest_mass, 4e5);  // kg
   a.each_state([&](std::size_t v, std::size_t i, std::size_t s) {
@@ -122,19 +73,19 @@ void giant(const Answered& a) {
   });
 }
 
-void tank_of_ten_metres(const Answered& a) {
+void tank_of_ten_metres(const AnsweredScene& a) {
   for (std::size_t i = 0; i < a.grips[0].size(); ++i) EXPECT_EQ(a.reason(0, i), REASON_TOO_WIDE) << i;
 }
 
-void pole_of_ten_metres(const Answered& a) { EXPECT_EQ(a.count_feasible(), a.grips[0].size()); }
+void pole_of_ten_metres(const AnsweredScene& a) { EXPECT_EQ(a.count_feasible(), a.grips[0].size()); }
 
 // The same hand on the same vessel at another size: the scene's lengths over `factor` are those of a beaker and a common hand.
-void like_a_beaker(const Answered& a, double factor) {
+void like_a_beaker(const AnsweredScene& a, double factor) {
   Scene common = a.scene;
   common.hand.scale /= factor;
   common.hand.contact_tolerance /= factor;
   common.vessels[0] = scaled(a.scene.vessels[0], 1 / factor);
-  const Answered b(common);
+  const AnsweredScene b(common);
   EXPECT_GT(4 * a.count_feasible(), 3 * a.grips[0].size());
   a.each([&](std::size_t v, std::size_t i) {
     ASSERT_TRUE(b.feasible(v, i)) << i;
@@ -144,13 +95,14 @@ void like_a_beaker(const Answered& a, double factor) {
     EXPECT_NEAR(a.real(FIELD_CLOSURE, v, i), b.real(FIELD_CLOSURE, v, i), off / 0.05);
   });
 }
-void small_hand(const Answered& a) { like_a_beaker(a, 0.1); }
-void large_hand(const Answered& a) { like_a_beaker(a, 10); }
+void small_hand(const AnsweredScene& a) { like_a_beaker(a, 0.1); }
+void large_hand(const AnsweredScene& a) { like_a_beaker(a, 10); }
 
-void tangent_to_the_wall(const Answered& a) {
+void tangent_to_the_wall(const AnsweredScene& a) {
   for (std::size_t i = 0; i < a.grips[0].size(); ++i) {
     const double offset = std::abs(a.grips[0][i].offset);
-    const bool within = offset<0.0469, beyond = offset> 0.047 + STOP;  // the index tip is 7 mm thick
+    const bool within = offset < 0.0469;  // the index tip is 7 mm thick
+    const bool beyond = offset > 0.047 + STOP;
     EXPECT_TRUE(!beyond || a.reason(0, i) == REASON_MISSES) << i;
     EXPECT_TRUE(!within || a.feasible(0, i)) << i;
   }
@@ -161,10 +113,10 @@ void tangent_to_the_wall(const Answered& a) {
   });
 }
 
-void edges_of_a_micrometre(const Answered& a) {
+void edges_of_a_micrometre(const AnsweredScene& a) {
   Scene smooth = a.scene;
   smooth.vessels[0].outline = cylinder("smooth", 60, 90, 1).outline;
-  const Answered b(smooth);
+  const AnsweredScene b(smooth);
   EXPECT_EQ(a.count_feasible(), b.count_feasible());
   a.each([&](std::size_t v, std::size_t i) {
     // a micrometre on either side, met aslant
@@ -172,13 +124,13 @@ void edges_of_a_micrometre(const Answered& a) {
   });
 }
 
-void thousand_elements(const Answered& a) {
+void thousand_elements(const AnsweredScene& a) {
   EXPECT_EQ(a.scene.vessels[0].outline.size(), 1000u);
   EXPECT_GE(prepare_vessel(a.scene.vessels[0], true).cavity.size(), 1000u);
   EXPECT_EQ(a.count_feasible(), a.grips[0].size());
 }
 
-void far_off(const Answered& a) {
+void far_off(const AnsweredScene& a) {
   EXPECT_GT(4 * a.count_feasible(), 3 * a.grips[0].size());
   bool clamped = false;
   a.each_state([&](std::size_t v, std::size_t i, std::size_t s) {
@@ -190,13 +142,13 @@ void far_off(const Answered& a) {
 }
 
 // The film of a cylinder of radius R and height H: pi (R^2 H - (R - w)^2 (H - w)).
-void thin_wall(const Answered& a) {
+void thin_wall(const AnsweredScene& a) {
   const double r = 0.03, h = 0.09, w = 1e-4, mass = 2230 * PI * (r * r * h - (r - w) * (r - w) * (h - w));
   EXPECT_NEAR(a.core->constants(0).mass, mass, 1e-10 * 2230 * PI * r * r * h);  // kg: the difference of two volumes
   EXPECT_EQ(a.count_feasible(), a.grips[0].size());
 }
 
-void fills_at_their_ends(const Answered& a) {
+void fills_at_their_ends(const AnsweredScene& a) {
   const double capacity = a.core->capacity(0);
   for (const double fill : a.scene.liquid->fills)
     for (const double tilt : {0.0, radians(1e-9)})
@@ -207,7 +159,7 @@ void fills_at_their_ends(const Answered& a) {
   EXPECT_NEAR(film.height, a.core->liquid(0, 0, 0).height, 1e-9);  // on the floor
 }
 
-void full_to_the_brim(const Answered& a) {
+void full_to_the_brim(const AnsweredScene& a) {
   const double capacity = a.core->capacity(0);
   EXPECT_EQ(a.core->liquid(0, 1, 0).volume, capacity);
   EXPECT_EQ(a.core->liquid(0, 1, PI).volume, 0);
@@ -222,10 +174,10 @@ void full_to_the_brim(const Answered& a) {
   EXPECT_LT(a.core->liquid(0, 1, radians(1)).volume, capacity);
 }
 
-void empty_glass(const Answered& a) {
+void empty_glass(const AnsweredScene& a) {
   Scene dry = a.scene;
   dry.liquid.reset();
-  const Answered b(dry);
+  const AnsweredScene b(dry);
   for (const int field : {FIELD_SCORE, FIELD_PEAK_FORCE, FIELD_LARGEST_HOLD})
     a.each([&](std::size_t v, std::size_t i) { EXPECT_EQ(a.real(field, v, i), b.real(field, v, i)) << field << " " << i; });
   for (const int field : {FIELD_TORQUE, FIELD_EXACT_TORQUE, FIELD_FEEDBACK_FORCE, FIELD_HOLD_FORCE})
@@ -233,7 +185,7 @@ void empty_glass(const Answered& a) {
   EXPECT_TRUE(std::isnan(a.core->pouring_tilt(0, 0)));
 }
 
-void right_angles(const Answered& a) {
+void right_angles(const AnsweredScene& a) {
   EXPECT_EQ(a.scene.tilts, (std::vector<double>{0, PI / 2, PI}));
   for (const std::size_t v : {0u, 1u}) {
     const double capacity = a.core->capacity(v);
@@ -247,7 +199,7 @@ void right_angles(const Answered& a) {
   }
 }
 
-void light_and_heavy(const Answered& a) {
+void light_and_heavy(const AnsweredScene& a) {
   EXPECT_EQ(*a.scene.vessels[0].mass, 1e-6);
   EXPECT_EQ(*a.scene.vessels[1].mass, 1000);
   a.each_state([&](std::size_t, std::size_t i, std::size_t s) {
@@ -258,7 +210,7 @@ void light_and_heavy(const Answered& a) {
   });
 }
 
-void no_friction(const Answered& a) {
+void no_friction(const AnsweredScene& a) {
   a.each_state([&](std::size_t v, std::size_t i, std::size_t s) {
     EXPECT_FALSE(a.antipodal(v, i));
     EXPECT_EQ(a.real(FIELD_HOLD_FORCE, v, i, s), HUGE_VAL);
@@ -269,7 +221,7 @@ void no_friction(const Answered& a) {
 }
 
 // Upright, a line across the axis meets the weight's; any other passes it.
-void no_torsion(const Answered& a) {
+void no_torsion(const AnsweredScene& a) {
   const double weight = a.core->constants(0).mass * a.scene.gravity;
   std::size_t finite = 0;
   a.each_state([&](std::size_t v, std::size_t i, std::size_t s) {
@@ -282,7 +234,7 @@ void no_torsion(const Answered& a) {
   EXPECT_GT(finite, 10u);
 }
 
-void no_range(const Answered& a) {
+void no_range(const AnsweredScene& a) {
   a.each_state([&](std::size_t v, std::size_t i, std::size_t s) {
     EXPECT_EQ(a.real(FIELD_FEEDBACK_FORCE, v, i, s), a.scene.force.base);
     EXPECT_EQ(a.real(FIELD_TORQUE, v, i, s), 0);
@@ -290,7 +242,7 @@ void no_range(const Answered& a) {
   });
 }
 
-void stiffest_gains(const Answered& a) {
+void stiffest_gains(const AnsweredScene& a) {
   Scene stiffer = a.scene;
   stiffer.force.k_open = 1e7;  // beyond what a scene may ask for
   const auto core = make_core_evaluator(stiffer);
@@ -311,7 +263,7 @@ void stiffest_gains(const Answered& a) {
 }
 
 // The scenes of the issue, and what is looked at in each.
-const std::map<std::string, void (*)(const Answered&)> LOOKS{
+const std::map<std::string, void (*)(const AnsweredScene&)> LOOKS{
     {"along_the_axis", along_the_axis},
     {"center_of_mass", center_of_mass},
     {"creases_and_rim", creases_and_rim},
@@ -338,13 +290,9 @@ const std::map<std::string, void (*)(const Answered&)> LOOKS{
     {"thousand_elements", thousand_elements},
 };
 
-const std::string FOLDER = std::string(WHOLEHAND_SOURCE_DIR) + "/scene/extreme/";
-
-Scene scene_named(const std::string& name) { return read_scene_file(FOLDER + name + ".toml"); }
-
 TEST(Extreme, EveryCaseHasAScene) {
   std::vector<std::string> found, wanted;
-  for (const auto& entry : std::filesystem::directory_iterator(FOLDER)) found.push_back(entry.path().filename());
+  for (const auto& entry : std::filesystem::directory_iterator(extreme_folder())) found.push_back(entry.path().filename());
   for (const auto& [name, look] : LOOKS) wanted.push_back(name + ".toml");
   std::sort(found.begin(), found.end());
   EXPECT_EQ(found, wanted);
@@ -353,7 +301,7 @@ TEST(Extreme, EveryCaseHasAScene) {
 
 TEST(Extreme, EverySceneSaysWhatIsHardAndWhatComesOut) {
   for (const auto& [name, look] : LOOKS) {
-    const ExtremeCase extreme = extreme_case(scene_named(name));
+    const ExtremeCase extreme = extreme_case(extreme_scene(name));
     EXPECT_EQ(extreme.name, name);
     EXPECT_GT(extreme.hard.size(), 10u) << name;
     EXPECT_GT(extreme.comes_out.size(), 10u) << name;
@@ -365,7 +313,7 @@ TEST(Extreme, EverySceneSaysWhatIsHardAndWhatComesOut) {
 
 TEST(Extreme, WhatASceneSaysComesOut) {
   for (const auto& [name, look] : LOOKS) {
-    const Answered answered(scene_named(name));
+    const AnsweredScene answered(extreme_scene(name));
     for (std::size_t v = 0; v < answered.planes.size(); ++v) {
       const GatheredPlanes& planes = answered.planes[v];
       EXPECT_EQ(describe(misplaced_values(answered.scene, planes.fields, planes.count, planes.count, planes.reals.data(),
@@ -376,85 +324,6 @@ TEST(Extreme, WhatASceneSaysComesOut) {
     SCOPED_TRACE(name);
     look(answered);
   }
-}
-
-// ---- every backend against the core in double, and that against long double ----
-
-// Where float is not within its tolerances, and why.
-const std::map<std::string, std::string> FLOAT_EXCEPTIONS{
-    {"along_the_axis", "2e-8 off the axis is nearer than float's DEGENERATE_SINE and further than double's"},
-    {"far_off", "at 25 m from an arc's centre float's distances step by 2 um, more than its stop tolerance: proxies do not settle"},
-};
-
-void expect_holds(const ExtremeRow& row) {
-  const std::string who = row.name + ", " + row.backend + (row.precision == Precision::single ? " float" : " double");
-  EXPECT_EQ(row.misplaced, 0u) << who << ": " << row.first_misplaced;
-  EXPECT_EQ(row.reasons[REASON_NOT_CONVERGED], 0u) << who;
-  EXPECT_EQ(row.unsettled_fingers, 0u) << who;
-  const bool excepted = row.precision == Precision::single && FLOAT_EXCEPTIONS.count(row.name) > 0;
-  EXPECT_EQ(row.holds, !excepted) << who << (excepted ? ": no longer an exception" : "");
-  if (row.precision == Precision::full) {
-    EXPECT_EQ(row.unsettled_proxies, 0u) << who;
-    EXPECT_EQ(row.touch_flips + row.feasible_flips, 0u) << who;
-  }
-  for (const Comparison& c : row.comparisons)
-    if (c.outside > 0 && !excepted)
-      ADD_FAILURE() << who << ": " << c.quantity << " worst " << c.worst << " " << c.unit << ", tolerance " << c.tolerance
-                    << " at #" << c.grip;
-}
-
-TEST(Extreme, EveryBackendHolds) {
-  std::vector<ExtremeRow> all;
-  for (const auto& [name, look] : LOOKS) {
-    ExtremeOptions options;
-    options.grips = 90;  // of each vessel
-    for (const ExtremeRow& row : evaluate_extreme(extreme_case(scene_named(name)), options)) {
-      expect_holds(row);
-      all.push_back(row);
-    }
-  }
-  EXPECT_EQ(all.size(), 4 * LOOKS.size());
-  const std::string csv = extreme_csv(all);
-  EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), all.size() + 1);
-}
-
-// What double itself costs where it is in question: all but the outline of a thousand elements, which adds nothing but time.
-TEST(Extreme, DoubleIsWithinItsTolerancesOfLongDouble) {
-  for (const auto& [name, look] : LOOKS) {
-    if (name == "thousand_elements") continue;
-    const Answered full(scene_named(name));
-    const auto wide = core_ld::make_evaluator(full.scene, {});
-    Comparer comparer(full.scene, *full.core, allowance(Precision::full));
-    for (std::size_t v = 0; v < full.planes.size(); ++v) {
-      comparer.add(v, full.grips[v], full.planes[v], gather(*wide, full.fields, v, full.grips[v]));
-      if (full.scene.liquid) comparer.add_liquid(v, core_liquid(full.scene, *full.core, v), core_liquid(full.scene, *wide, v));
-    }
-    EXPECT_TRUE(comparer.holds()) << name << "\n" << table_of(comparer);
-  }
-}
-
-// The CSV has a field for every column of its head.
-TEST(Extreme, RowsHaveTheColumnsOfTheHead) {
-  ExtremeOptions options;
-  options.on = "core";
-  const auto rows = evaluate_extreme(extreme_case(scene_named("center_of_mass")), options);
-  ASSERT_EQ(rows.size(), 2u);
-  EXPECT_GT(rows[0].trace_steps, 0);
-  EXPECT_GT(rows[0].advance_steps, 0);
-  EXPECT_EQ(rows[0].posed, 0);
-  EXPECT_GT(rows[1].posed, 0);
-  EXPECT_EQ(rows[0].grips, 4u);
-  const std::string csv = extreme_csv(rows);
-  std::size_t commas[3] = {0, 0, 0}, line = 0;
-  bool quoted = false;
-  for (const char c : csv) {
-    if (c == '"') quoted = !quoted;
-    if (c == ',' && !quoted) ++commas[line];
-    if (c == '\n') ++line;
-  }
-  EXPECT_EQ(line, 3u);
-  EXPECT_EQ(commas[1], commas[0]);
-  EXPECT_EQ(commas[2], commas[0]);
 }
 
 }  // namespace
