@@ -16,6 +16,7 @@
 
 #include "core/error.h"
 #include "tests/support/mock_grippers.h"
+#include "tests/support/patient_reads.h"
 
 namespace wholehand {
 
@@ -29,39 +30,6 @@ void expect_error(const Action& action, ExitCode code, const std::string& start)
     EXPECT_TRUE(std::string(error.what()).starts_with(start)) << error.what();
     EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
   }
-}
-
-inline constexpr double PATIENT_WATCHDOG = 1;  // s: a busy machine does not trip it
-
-inline void rest(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
-
-// A machine that is busy may let no report through within a read's patience: then again, a second long.
-inline ReadOutcome read_soon(Gripper& gripper, GripperState& state) {
-  ReadOutcome outcome = ReadOutcome::timeout;
-  for (int i = 0; i < 100 && outcome == ReadOutcome::timeout; ++i) outcome = gripper.read(state, i);
-  return outcome;
-}
-
-// The outcome once the good reports that still wait have been read.
-template <class Read>
-ReadOutcome first_failure(const Read& read) {
-  GripperState state;
-  ReadOutcome outcome = ReadOutcome::value;
-  for (int i = 0; i < 100 && outcome == ReadOutcome::value; ++i) outcome = read(state);
-  return outcome;
-}
-inline ReadOutcome first_error(Gripper& gripper) {
-  return first_failure([&gripper](GripperState& state) { return read_soon(gripper, state); });
-}
-
-inline bool is_nothing(const protocol::OutputReport& report) {
-  return report.flags == 0 && report.arm == std::array<std::int32_t, 3>{} && report.grip == 0;
-}
-
-// Whether so many reports of the host have arrived, now or in a while: a device takes one a frame.
-inline bool arrives(const MockGripper& mock, std::size_t count) {
-  for (int i = 0; i < 5000 && mock.outputs().size() < count; ++i) rest(0.0002);
-  return mock.outputs().size() >= count;
 }
 
 // Some hundred cycles: poses as the mock moves, forces as written, its watchdog set, nothing before the first force and nothing left.

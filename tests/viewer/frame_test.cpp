@@ -132,7 +132,7 @@ struct KeysOf {
   std::set<std::string> keys;
 };
 
-const std::vector<KeysOf> KEYS{
+const std::vector<KeysOf> FRAME_KEYS{
     {"", {"t",   "tick", "state",   "vessel", "joints", "rigged",  "wrist", "rigged_wrist",  "rotation", "contacts", "closure",
           "gap", "tilt", "vessels", "stream", "forces", "amounts", "spilt", "target_volume", "guidance", "done",     "timing"}},
     {"/forces", {"feedback", "written", "base", "normal", "opening", "user", "hold", "weight", "torque"}},
@@ -140,7 +140,7 @@ const std::vector<KeysOf> KEYS{
 
 void expect_fields(const json& seen, const Shown& shown) {
   const auto at = [&](const char* place) { return seen.value(json::json_pointer(place), json("missing")); };
-  for (const auto& [place, keys] : KEYS) EXPECT_EQ(keys_of(at(place)), keys) << place;
+  for (const auto& [place, keys] : FRAME_KEYS) EXPECT_EQ(keys_of(at(place)), keys) << place;
   for (const auto& [place, truth] : WHOLE_FIELDS) EXPECT_EQ(at(place), truth(shown)) << place;
   for (const auto& [place, truth] : NUMBER_FIELDS)
     EXPECT_TRUE(is_seen(at(place), truth(shown))) << place << " " << at(place) << " " << truth(shown);

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Reads of mock grippers on a machine that may be busy.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <thread>
+
+#include "device/gripper.h"
+#include "tests/support/mock_grippers.h"
+
+namespace wholehand {
+
+inline constexpr double PATIENT_WATCHDOG = 1;  // s: a busy machine does not trip it
+
+inline void rest(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
+
+// A machine that is busy may let no report through within a read's patience: then again, a second long.
+inline ReadOutcome read_soon(Gripper& gripper, GripperState& state) {
+  ReadOutcome outcome = ReadOutcome::timeout;
+  for (int i = 0; i < 100 && outcome == ReadOutcome::timeout; ++i) outcome = gripper.read(state, i);
+  return outcome;
+}
+
+// The outcome once the good reports that still wait have been read.
+template <class Read>
+ReadOutcome first_failure(const Read& read) {
+  GripperState state;
+  ReadOutcome outcome = ReadOutcome::value;
+  for (int i = 0; i < 100 && outcome == ReadOutcome::value; ++i) outcome = read(state);
+  return outcome;
+}
+inline ReadOutcome first_error(Gripper& gripper) {
+  return first_failure([&gripper](GripperState& state) { return read_soon(gripper, state); });
+}
+
+inline bool is_nothing(const protocol::OutputReport& report) {
+  return report.flags == 0 && report.arm == std::array<std::int32_t, 3>{} && report.grip == 0;
+}
+
+// Whether so many reports of the host have arrived, now or in a while: a device takes one a frame.
+inline bool arrives(const MockGripper& mock, std::size_t count) {
+  for (int i = 0; i < 5000 && mock.outputs().size() < count; ++i) rest(0.0002);
+  return mock.outputs().size() >= count;
+}
+
+}  // namespace wholehand
