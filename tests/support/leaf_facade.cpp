@@ -177,7 +177,7 @@ struct Answer {
   }
   template <class... Ts>
   void put(const std::tuple<Ts...>& values) {
-    std::apply([this](const auto&... each) { put_all(each...); }, values);
+    std::apply([this](const auto&... each) { this->put_all(each...); }, values);
   }
 };
 
