@@ -27,6 +27,7 @@
 #include "scene/reader.h"
 #include "tests/support/files.h"
 #include "tests/support/http_client.h"
+#include "tests/support/live_script.h"
 
 namespace wholehand {
 namespace {
@@ -187,11 +188,6 @@ TEST(Live, KeepsItsRateWithAClock) {
   EXPECT_GT(report["ticks"], 1250);
   EXPECT_NEAR(report["period_s"]["p50"], 8e-4, 2e-4);
   EXPECT_TRUE(report["fault"].is_null());
-}
-
-double ease(double time, double from, double to) {
-  const double s = std::clamp((time - from) / (to - from), 0.0, 1.0);
-  return s * s * (3 - 2 * s);
 }
 
 Triple between(const Triple& a, const Triple& b, double share) {

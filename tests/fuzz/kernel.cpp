@@ -20,6 +20,7 @@
 #include "core/evaluator.h"
 #include "scene/ranges.h"
 #include "scene/reader.h"
+#include "tests/fuzz/must.h"
 
 namespace wholehand {
 namespace {
@@ -187,12 +188,6 @@ std::vector<GripInput> grips_of(Choices& choose, const Scene& scene) {
     grip.hand_scale = choose.of(4) == 0 ? choose.in(ranges::SCALE) : std::clamp(spanning, ranges::SCALE.low, ranges::SCALE.high);
   }
   return grips;
-}
-
-void must(bool holds, const std::string& what) {
-  if (holds) return;
-  std::fprintf(stderr, "%s\n", what.c_str());
-  std::abort();
 }
 
 void check(const Scene& scene, const Evaluator& core, const std::vector<GripInput>& grips, const char* precision) {

@@ -5,12 +5,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
 
 #include "core/force.h"
 #include "core/loop.h"
+#include "tests/fuzz/must.h"
 
 namespace wholehand {
 namespace {
@@ -43,12 +42,6 @@ class Numbers {
   const std::uint8_t* data_;
   std::size_t size_, at_ = 0;
 };
-
-void must(bool holds, const char* what) {
-  if (holds) return;
-  std::fprintf(stderr, "%s\n", what);
-  std::abort();
-}
 
 void try_loop(Numbers& numbers) {
   using namespace core_f64;

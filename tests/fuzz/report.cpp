@@ -5,19 +5,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 
 #include "device/protocol.h"
+#include "tests/fuzz/must.h"
 
 namespace wholehand::protocol {
 namespace {
-
-void must(bool holds, const char* what) {
-  if (holds) return;
-  std::fprintf(stderr, "%s\n", what);
-  std::abort();
-}
 
 // Accepted reports have one encoding, whole: nothing in them is dropped or made up.
 template <class Encoded>

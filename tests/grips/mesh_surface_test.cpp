@@ -8,11 +8,10 @@
 
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
+#include "tests/support/vectors.h"
 
 namespace wholehand {
 namespace {
-
-double dot(const Triple& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 // The same triangles in the same places, with unit normals.
 void expect_same_triangles(const SurfaceMesh& surface, const MeshBody& body) {

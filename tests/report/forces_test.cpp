@@ -29,8 +29,6 @@ std::string pouring_text(const SweptScene& swept, std::size_t vessel) {
   return html.html();
 }
 
-const std::string TILTS = "[tilts]\ndeg = [0, 45, 90, 135]", LIQUID = "[liquid]\nfills = [0, 0.6]";
-
 TEST(ReportForces, AreTheCoresOverFillsAndTilts) {
   const SweptScene swept(RESULT_SCENE);
   const GripInput grip = best_of(swept, 1);
@@ -68,7 +66,7 @@ TEST(ReportForces, ALimitWithinIsDrawnAndNotSaid) {
 }
 
 TEST(ReportForces, OfAnEmptyVesselThereIsOneLine) {
-  const std::string html = forces_text(SweptScene(edited(RESULT_SCENE, LIQUID, "")), 0);
+  const std::string html = forces_text(SweptScene(edited(RESULT_SCENE, RESULT_LIQUID, "")), 0);
   EXPECT_TRUE(has(html, "The vessel is empty."));
   EXPECT_TRUE(has(html, "feedback, empty (N)"));
 }
@@ -88,7 +86,7 @@ TEST(ReportForces, AGripThatNothingHoldsHasNoChartOfIt) {
 }
 
 TEST(ReportForces, WithoutTiltsOrTheCoreThereAreNone) {
-  EXPECT_TRUE(has(forces_text(SweptScene(edited(RESULT_SCENE, TILTS, "")), 0), "has no tilts"));
+  EXPECT_TRUE(has(forces_text(SweptScene(edited(RESULT_SCENE, RESULT_TILTS, "")), 0), "has no tilts"));
   SweptScene swept(RESULT_SCENE);
   swept.source->core = nullptr;
   swept.source->no_core = "no mesh";
@@ -106,7 +104,7 @@ TEST(ReportPouring, TellsTheTiltOfEachFill) {
 }
 
 TEST(ReportPouring, WithoutLiquidThereIsNone) {
-  EXPECT_TRUE(has(pouring_text(SweptScene(edited(RESULT_SCENE, LIQUID, "")), 0), "The scene has no liquid."));
+  EXPECT_TRUE(has(pouring_text(SweptScene(edited(RESULT_SCENE, RESULT_LIQUID, "")), 0), "The scene has no liquid."));
   EXPECT_TRUE(has(pouring_text(SweptScene(edited(RESULT_SCENE, "fills = [0, 0.6]", "fills = [0]")), 0), "nothing in this vessel"));
 }
 

@@ -23,8 +23,6 @@
 namespace wholehand {
 namespace {
 
-const std::string TILTS = "[tilts]\ndeg = [0, 45, 90, 135]", LIQUID = "[liquid]\nfills = [0, 0.6]";
-
 std::string page_of(const SweptScene& swept, const std::string& trouble = "") {
   SweepResult result(swept.path);
   return report_page(result, swept.scene, trouble);
@@ -54,9 +52,9 @@ TEST(ReportPage, IsWellBuiltForEveryKindOfSweep) {
       {"usual", RESULT_SCENE},
       {"left hand, shell", edited(edited(RESULT_SCENE, "[liquid]", "[hand]\nhandedness = \"left\"\n[liquid]"), "wall_mm = 1.5",
                                   "wall_mm = 1.5\nsurface = \"shell\"")},
-      {"no tilts", edited(RESULT_SCENE, TILTS, "")},
-      {"no liquid", edited(RESULT_SCENE, LIQUID, "")},
-      {"neither", edited(edited(RESULT_SCENE, LIQUID, ""), TILTS, "")},
+      {"no tilts", edited(RESULT_SCENE, RESULT_TILTS, "")},
+      {"no liquid", edited(RESULT_SCENE, RESULT_LIQUID, "")},
+      {"neither", edited(edited(RESULT_SCENE, RESULT_LIQUID, ""), RESULT_TILTS, "")},
       {"rigged", edited(RESULT_SCENE, "name = \"cups\"", "name = \"cups\"\npose = \"rigged\"")},
       {"paper", edited(RESULT_SCENE, "name = \"cups\"", "pose = \"paper\"")},
       {"one grip", edited(edited(edited(edited(RESULT_SCENE, "{ from = 0.1, to = 0.95, count = 12 }", "0.5"), "[-90, -30, 0]", "0"),
@@ -221,8 +219,8 @@ TEST(LeftOut, NamesWhatTheSceneDoesNotNeed) {
   EXPECT_TRUE(has(usual, "The inner wall"));
   EXPECT_TRUE(has(usual, "hold_force"));
   EXPECT_FALSE(has(usual, "The liquid"));
-  EXPECT_TRUE(has(all(edited(RESULT_SCENE, LIQUID, "")), "The liquid: the scene has none."));
-  EXPECT_TRUE(has(all(edited(RESULT_SCENE, TILTS, "")), "The forces: the scene has no tilts."));
+  EXPECT_TRUE(has(all(edited(RESULT_SCENE, RESULT_LIQUID, "")), "The liquid: the scene has none."));
+  EXPECT_TRUE(has(all(edited(RESULT_SCENE, RESULT_TILTS, "")), "The forces: the scene has no tilts."));
   EXPECT_TRUE(has(all(edited(RESULT_SCENE, "name = \"cups\"", "pose = \"rigged\"")), "the pose is rigged"));
   EXPECT_TRUE(has(all(edited(RESULT_SCENE, "best = 5", "best = 5\nkeep = []")), "the file holds the best alone"));
 }

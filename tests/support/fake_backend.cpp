@@ -3,14 +3,12 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
 
 #include "core/candidates.h"
+#include "tests/support/special_values.h"
 
 namespace wholehand {
 namespace {
-
-constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
 
 std::uint64_t mix(std::uint64_t z) {
   z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;

@@ -11,13 +11,12 @@ namespace {
 
 constexpr double STILL_FROM = 3.8, STILL_TO = 4.6, END = 7;  // s of an ordinary user: tilted and still, and done
 
-// From 0 to 1 between two times, at rest at either end.
+}  // namespace
+
 double ease(double time, double from, double to) {
   const double s = std::clamp((time - from) / (to - from), 0.0, 1.0);
   return s * s * (3 - 2 * s);
 }
-
-}  // namespace
 
 Scene live_scene() {
   Scene scene = scene_of({beaker1(), beaker3()});

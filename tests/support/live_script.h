@@ -28,6 +28,9 @@ struct LiveScript {
   GripperState at(std::int64_t tick) const;
 };
 
+// From 0 to 1 between two times, at rest at either end.
+double ease(double time, double from, double to);
+
 // ---- rotations, row-major, of plain doubles ----
 wholehand::Rotation turned(char axis, double angle);
 wholehand::Rotation product(const wholehand::Rotation& a, const wholehand::Rotation& b);

@@ -13,6 +13,8 @@ namespace wholehand {
 inline core_f64::Vec3 vec(const Triple& p) { return {p[0], p[1], p[2]}; }
 inline Triple triple(const core_f64::Vec3& p) { return {p.x, p.y, p.z}; }
 
+inline double dot(const Triple& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
 inline Long3 widened(const core_f64::Vec3& p) { return {p.x, p.y, p.z}; }
 inline Long3 widened(const Triple& p) { return {p[0], p[1], p[2]}; }
 
