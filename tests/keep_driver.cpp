@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Linked into what runs under the leak sanitizer: keeps lavapipe and the validation layer loaded to the end of the process. Lavapipe leaks
-// 128 bytes when it is unloaded, and a leak in a library that is no longer there can be told from ours neither by a suppression nor by
-// a reader.
+// Linked into what runs under the leak sanitizer: keeps lavapipe and the validation layer loaded to the end of the process.
+// Lavapipe leaks
+// 128 bytes when it is unloaded, and a leak in a library that is no longer there can be told from ours neither by a suppression nor
+// by a reader.
 #include <dlfcn.h>
 
 namespace wholehand {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The built program's views: `live --view`, `view` of recordings and results, `grip --view`; how they end, what they refuse, and that nobody who
-// watches, or does worse, costs the session a tick.
+// The built program's views: `live --view`, `view` of recordings and results, `grip --view`; how they end, what they refuse, and
+// that nobody who watches, or does worse, costs the session a tick.
 // sanitizers: address thread
 #include <gtest/gtest.h>
 #include <signal.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where the program itself fails: one line and exit code 3, whatever failed and on whatever thread. (A sanitizer has handlers of its own.)
+// Where the program itself fails: one line and exit code 3, whatever failed and on whatever thread. (A sanitizer has handlers of
+// its own.)
 // sanitizers: none
 #include "app/failure_line.h"
 
@@ -135,8 +136,8 @@ void expect_last_line(const Outcome& outcome, const std::string& what) {
                                                                                                     << outcome.output;
 }
 
-// Memory that ends, for good or for one allocation, anywhere in a run: in the initialization of libraries, in C code that does not look, in
-// ours.
+// Memory that ends, for good or for one allocation, anywhere in a run: in the initialization of libraries, in C code that does not
+// look, in ours.
 TEST(FailureLine, EveryRunWithoutMemoryEndsByIt) {
   int failed = 0;
   for (const char* lasting : {"", "MALLOC_FAILS=1 "}) {
@@ -151,8 +152,8 @@ TEST(FailureLine, EveryRunWithoutMemoryEndsByIt) {
   EXPECT_GT(failed, 5) << "memory never ran out";
 }
 
-// A driver's compiler ends by itself where it finds no memory. A driver may also lose the work that it was given, in silence: the program
-// then says so after the 120 s for which it waits, and has 180.
+// A driver's compiler ends by itself where it finds no memory. A driver may also lose the work that it was given, in silence: the
+// program then says so after the 120 s for which it waits, and has 180.
 TEST(FailureLine, EveryRunWithinALimitOfMemoryEndsByIt) {
   int ended = 0;
   for (const auto& [on, limits] : std::vector<std::pair<std::string, std::vector<int>>>{{"core", {110, 115, 120, 125, 130}},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `live` with a device whose library fails in every way, and with signals: what is on the device at the end is held to what is said of
-// it.
+// `live` with a device whose library fails in every way, and with signals: what is on the device at the end is held to what is said
+// of it.
 // sanitizers: none
 #include "app/live.h"
 

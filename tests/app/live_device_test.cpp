@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// `live` with a device whose calls take long, in a process that stands still: what is on the device at the end is held to what is said of
-// it.
+// `live` with a device whose calls take long, in a process that stands still: what is on the device at the end is held to what is
+// said of it.
 // sanitizers: none
 #include <gtest/gtest.h>
 
@@ -155,7 +155,8 @@ TEST(LiveDevice, ACallThatTakesLongOnceHasTheForceTakenAwayMeanwhile) {
   }
 }
 
-// The second thread's own call never returns, though the haptic thread's does: the session runs to its end, and the end does not wait.
+// The second thread's own call never returns, though the haptic thread's does: the session runs to its end, and the end does not
+// wait.
 TEST(LiveDevice, ASecondThreadThatNeverReturnsIsNotWaitedFor) {
   DeviceSession session;
   session.options.seconds = 1;
@@ -176,7 +177,8 @@ TEST(LiveDevice, ASecondThreadThatNeverReturnsIsNotWaitedFor) {
   EXPECT_GT(read_recording(session.options.record).ticks.size(), 100u);
 }
 
-// A call that never returns, and a library that lets nobody else in: the device's watchdog has the force, and the recording is whole.
+// A call that never returns, and a library that lets nobody else in: the device's watchdog has the force, and the recording is
+// whole.
 TEST(LiveDevice, ACallThatNeverReturnsEndsTheSession) {
   DeviceSession session;
   session.options.record = session.file("session.nc");

@@ -140,7 +140,8 @@ struct LiveOutcome {
   std::string output, errors;
 };
 
-// Starts the program with arguments as a shell takes them, standard output and errors into files. `limit`: of a file's size, 0: none.
+// Starts the program with arguments as a shell takes them, standard output and errors into files. `limit`: of a file's size, 0:
+// none.
 class Program {
  public:
   explicit Program(const std::string& arguments, rlim_t limit = 0) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The whole way of a session through real libraries: hidapi and libusb on devices that umockdev plays, and Force Dimension's interface on its
-// stand-in. What is felt, and what is left on the device when something goes wrong.
+// The whole way of a session through real libraries: hidapi and libusb on devices that umockdev plays, and Force Dimension's
+// interface on its stand-in. What is felt, and what is left on the device when something goes wrong.
 #include "app/open_gripper.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +32,8 @@ namespace {
 constexpr double RATE = 250;  // Hz: umockdev answers within a millisecond or two
 constexpr double SLOW = 1;    // s: a watchdog that a busy machine does not trip
 
-// A machine that is busy with other tests may let no report through within a read's patience. That is no fault of what is tested here.
+// A machine that is busy with other tests may let no report through within a read's patience. That is no fault of what is tested
+// here.
 class Patient final : public Gripper {
  public:
   explicit Patient(std::unique_ptr<Gripper> gripper) : gripper_(std::move(gripper)) {}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A lattice in a storage buffer beside the same samples in a 3-D image: which of the two the shaders should read. Each way of an image is
-// measured in turns with the buffer, and held against the trilinear value in double precision.
+// A lattice in a storage buffer beside the same samples in a 3-D image: which of the two the shaders should read. Each way of an
+// image is measured in turns with the buffer, and held against the trilinear value in double precision.
 #include <fmt/format.h>
 
 #include <bit>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Grips on a lattice of distances, as a mesh becomes one: the core on all threads and a device, in turns in one run, so that what else
-// the machine does is the same for both.
+// Grips on a lattice of distances, as a mesh becomes one: the core on all threads and a device, in turns in one run, so that what
+// else the machine does is the same for both.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -14,8 +14,8 @@ namespace wholehand::bench {
 namespace {
 
 constexpr int HEIGHTS = 128;  // 55,296 grips of three vessels: a run of the device's is long beside its waits
-// Along the longest side of each vessel. The mesh reader, asked for 0.25 mm at the surface, chooses 172, 167 and 207 for the three beakers
-// tessellated (0.77, 0.98 and 0.81 mm): the finest of them.
+// Along the longest side of each vessel. The mesh reader, asked for 0.25 mm at the surface, chooses 172, 167 and 207 for the three
+// beakers tessellated (0.77, 0.98 and 0.81 mm): the finest of them.
 constexpr int READER_SAMPLES = 207;
 
 double seconds_of(Backend& backend, const Scene& scene, const Plan& plan) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Distances to a mesh of 100,000 triangles: how long its lattice takes, and how the rate and the answers of single distances compare
-// with CGAL's (Debian's libcgal-dev, 215 MB with the Boost headers it needs, and therefore in no list of packages: installed by hand
-// before configuring, or this comparison is left out).
+// Distances to a mesh of 100,000 triangles: how long its lattice takes, and how the rate and the answers of single distances
+// compare with CGAL's (Debian's libcgal-dev, 215 MB with the Boost headers it needs, and therefore in no list of packages:
+// installed by hand before configuring, or this comparison is left out).
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -203,8 +203,8 @@ TEST(Convergence, GapTableIsOfSecondOrder) {
   EXPECT_NEAR(sweep.order(), 2, 0.1) << sweep.errors.front() << " to " << sweep.errors.back();
 }
 
-// On each piece the cosine map leaves a smooth integrand: the error falls faster than any fixed power until rounding ends it. Of what
-// that promises the eighth power is asked for, between 4 points and 16.
+// On each piece the cosine map leaves a smooth integrand: the error falls faster than any fixed power until rounding ends it. Of
+// what that promises the eighth power is asked for, between 4 points and 16.
 TEST(Convergence, LiquidFallsFasterThanTheEighthPowerOfItsPoints) {
   for (const VesselData& data : {beaker1(), beaker2(), beaker3()}) {
     const Scene scene = wet_scene({data}, Pose::rigged);

@@ -254,7 +254,8 @@ TEST(Force, PourTowardsLeansTheLiquidTheOtherWay) {
 
 // ---- left hands ----
 
-// The same grip in the scene mirrored in x: the line's direction loses its sign in x, and what lies to one side of it is on the other.
+// The same grip in the scene mirrored in x: the line's direction loses its sign in x, and what lies to one side of it is on the
+// other.
 GripInput mirrored_grip(GripInput grip) {
   grip.azimuth = PI - grip.azimuth;
   grip.offset = -grip.offset;

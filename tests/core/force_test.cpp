@@ -158,8 +158,8 @@ struct Held {
   double friction, torsion;
 };
 
-// The smallest grip force by search: gravity along the line loads one contact and relieves the other by half of it each, the load across
-// and the moment about the line are shared in halves, and both contacts must stay inside their limit surfaces.
+// The smallest grip force by search: gravity along the line loads one contact and relieves the other by half of it each, the load
+// across and the moment about the line are shared in halves, and both contacts must stay inside their limit surfaces.
 double searched_hold_force(const Held& held) {
   const double weight = held.mass * G, along = glm::dot(held.direction, held.up);
   const double across = glm::length(weight * (held.up - along * held.direction)) / 2;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Kernel 6 tilted, against closed forms and against the same volumes integrated another way round (tests/support/liquid_reference.h).
+// Kernel 6 tilted, against closed forms and against the same volumes integrated another way round
+// (tests/support/liquid_reference.h).
 #include "core/liquid.h"
 
 #include <gtest/gtest.h>
@@ -225,8 +226,8 @@ TEST(Liquid, LevelHoldsItsVolumeAtEveryFillAndTilt) {
   }
 }
 
-// A wide body under a narrow neck. From about 65.17 % on, for less than a thousandth of the capacity, Newton's steps alone go to and fro
-// between the two until all are spent: each stays in a bracket that hardly shrinks.
+// A wide body under a narrow neck. From about 65.17 % on, for less than a thousandth of the capacity, Newton's steps alone go to
+// and fro between the two until all are spent: each stays in a bracket that hardly shrinks.
 TEST(Liquid, LevelBetweenAWideBodyAndANarrowNeckIsFound) {
   const VesselData thick = vessel_of("thick",
                                      {line_to(24.6689337, 0), line_to(24.6689337, 8.07939779), line_to(9.1716877, 16.206503),
@@ -275,7 +276,8 @@ TEST(Liquid, FreeSurfaceIsTheDerivativeOfTheVolumeByTheLevel) {
     for (int i = 0; i < 60; ++i) {
       const double tilt = i == 0 ? 0 : i == 1 ? PI / 2 : random.uniform(0, PI), step = 1e-6;
       const double level = random.uniform(-0.04, 0.1);
-      // a kink of the area within the step (a corner of the wall, the edge of mouth or floor) has no derivative: leave such levels out
+      // a kink of the area within the step (a corner of the wall, the edge of mouth or floor) has no derivative: leave such levels
+      // out
       const double before = liquid_under(s.vessel, level - step, tilt).surface,
                    after = liquid_under(s.vessel, level + step, tilt).surface;
       if (std::abs(after - before) > 1e-6) continue;

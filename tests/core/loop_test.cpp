@@ -153,7 +153,8 @@ TEST(Loop, LimitsAreThoseOfTheTable) {
   }
 }
 
-// Whatever is passive settles: masses, rates and dampings far apart, and with friction and an encoder within Abbott and Okamura's limit.
+// Whatever is passive settles: masses, rates and dampings far apart, and with friction and an encoder within Abbott and Okamura's
+// limit.
 TEST(Loop, PassiveWallsSettle) {
   for (const double mass : {0.005, 0.1, 2.0})
     for (const double damping : {0.05, 1.0, 20.0})
@@ -176,7 +177,8 @@ TEST(Loop, PassiveWallsSettle) {
   EXPECT_TRUE(settles(device, 0.98 * 1500));
 }
 
-// A passive spring never gains: the energy about its rest at the samples of one and the same phase falls, so its largest over a period does.
+// A passive spring never gains: the energy about its rest at the samples of one and the same phase falls, so its largest over a
+// period does.
 TEST(Loop, EnergyNeverGrowsWhereItIsPassive) {
   const Plant plant{0.1, 1, 0};
   Wall wall;
@@ -200,8 +202,8 @@ TEST(Loop, EnergyNeverGrowsWhereItIsPassive) {
   }
 }
 
-// Thrown against a wall stiffer than passive, a mass comes back faster than it went in, once, and never again; held by a spring of that
-// stiffness it swings ever wider.
+// Thrown against a wall stiffer than passive, a mass comes back faster than it went in, once, and never again; held by a spring of
+// that stiffness it swings ever wider.
 TEST(Loop, WallAndSpringAreToldApart) {
   const Plant plant{0.1, 1, 0};
   for (const bool is_spring : {false, true}) {
@@ -255,8 +257,8 @@ TEST(Loop, EulerConvergesToTheExactPropagator) {
   EXPECT_EQ(stepped_propagator(plant, 4e-3, LOOP_EXACT, 3).speed_place, exact.speed_place);
 }
 
-// One explicit step per sample adds the energy that it does not see: a free mass on an undamped spring gains (1 + k h^2 / m) a step, the
-// semi-implicit one gains nothing.
+// One explicit step per sample adds the energy that it does not see: a free mass on an undamped spring gains (1 + k h^2 / m) a
+// step, the semi-implicit one gains nothing.
 TEST(Loop, ExplicitEulerGainsWhatItsFormulaSays) {
   const Plant plant{0.2, 0, 500};
   const double h = 1e-3;

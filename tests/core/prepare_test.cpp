@@ -16,8 +16,8 @@ namespace wholehand {
 namespace {
 
 TEST(Prepare, ArcsAreSplitAtTheirPoles) {
-  // from the base outwards, an arc over the widest point of a circle about (0, 30), radius 30: y is monotone, one element; the circle
-  // about (20, 30) of radius 10 from its lowest to its highest point by the right: two quarters are one monotone half
+  // from the base outwards, an arc over the widest point of a circle about (0, 30), radius 30: y is monotone, one element; the
+  // circle about (20, 30) of radius 10 from its lowest to its highest point by the right: two quarters are one monotone half
   const VesselData vessel = vessel_of("v", {line_to(20, 20), arc_to(20, 40, 20, 30), line_to(0, 40)}, 0);
   for (const PreparedElement& element : monotone_elements(vessel.outline)) {
     if (element.side == 0) continue;

@@ -25,7 +25,8 @@ TEST(Sdf, GridHoldsTheDistanceAtItsSamples) {
     for (int j = 0; j < grid.ny; ++j) {
       for (int i = 0; i < grid.nx; ++i) {
         const Vec3 p = lattice_point(grid, i, j, k);
-        // a float holds half a unit of its 24th bit; 1e-15 m: the place of a sample is rounded to 1e-17 m, its cell coordinates to 1e-15
+        // a float holds half a unit of its 24th bit; 1e-15 m: the place of a sample is rounded to 1e-17 m, its cell coordinates to
+        // 1e-15
         const double exact = core_f64::signed_distance(outline, p);
         ASSERT_NEAR(core_f64::signed_distance(vessel, p), exact, 0x1p-24 * std::abs(exact) + 1e-15) << i << " " << j << " " << k;
       }
@@ -104,8 +105,9 @@ TEST(Sdf, GridOutsideItsBoxIsNeverMoreThanTheDistance) {
     ++compared;
     const double sdf = core_f64::signed_distance(vessel, p);
     ASSERT_NEAR(sdf, std::hypot(core_f64::signed_distance(vessel, clamped), glm::distance(p, clamped)), 1e-15);  // rounding
-    // the two ways meet at a right angle or more, so the hypotenuse lies between the true distance and 2^(-1/2) of it; interpolation
-    // is off by spacing^2 / 8 times the curvature of the distance, at most 1 / (2 spacing) two cells off: a 16th of a cell
+    // the two ways meet at a right angle or more, so the hypotenuse lies between the true distance and 2^(-1/2) of it;
+    // interpolation is off by spacing^2 / 8 times the curvature of the distance, at most 1 / (2 spacing) two cells off: a 16th of a
+    // cell
     const double exact = core_f64::signed_distance(outline, p);
     ASSERT_LE(sdf, exact + grid.spacing / 16) << p.x << " " << p.y << " " << p.z;
     ASSERT_GE(sdf, std::sqrt(0.5) * exact - grid.spacing / 16) << p.x << " " << p.y << " " << p.z;

@@ -40,8 +40,8 @@ TEST(Follower, OneStepEndsWhereManyDo) {
   }
 }
 
-// The lag of a second-order follower behind an even motion is 2 v / r; what is left of the steps in which the goal comes is their first
-// harmonic, step / pi, times 1 / (1 + (2 pi 60 / r)^2) = 1 / 40.5, and less of the others.
+// The lag of a second-order follower behind an even motion is 2 v / r; what is left of the steps in which the goal comes is their
+// first harmonic, step / pi, times 1 / (1 + (2 pi 60 / r)^2) = 1 / 40.5, and less of the others.
 TEST(Follower, MakesTheStepsOfAMouseSmooth) {
   const Pace pace{60, UNBOUNDED};
   constexpr double SPEED = 0.5, STEP = SPEED / 60;
@@ -76,8 +76,8 @@ TEST(Follower, IsNeverFasterThanAllowed) {
   EXPECT_GT(fastest, 1.5) << "and near to that";
 }
 
-// Far away each step is that from 2 speed / r, so the speed's fixed point is k (v (1 - s) - 2 s speed) = v with s = r dt, k = e^(-s): 1.5 % under
-// what is allowed at 1 kHz.
+// Far away each step is that from 2 speed / r, so the speed's fixed point is k (v (1 - s) - 2 s speed) = v with s = r dt, k =
+// e^(-s): 1.5 % under what is allowed at 1 kHz.
 TEST(Follower, FarAwayItGoesAtItsSpeedAndArrivesAtRest) {
   const Pace pace{60, 2};
   const double s = 0.06, k = std::exp(-s), speed = 2 * 2 * s * k / (1 - k + k * s);

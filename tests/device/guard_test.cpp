@@ -174,7 +174,8 @@ TEST(Guard, ClampsToTheDevicesLimitsAndKeepsTheArmsDirection) {
   }
 }
 
-// Whatever is wished: never over the limits, never over the ramp, never further from the force before than the slew, ticks skipped or not.
+// Whatever is wished: never over the limits, never over the ramp, never further from the force before than the slew, ticks skipped
+// or not.
 TEST(Guard, HoldsEveryLimitAgainstWildWishes) {
   LiveData live;
   live.rate = 3000;

@@ -20,7 +20,8 @@ namespace {
 
 using core_f64::Vec3;
 
-// A gripper that is a mass with damping on one axis, integrated exactly between ticks: what the loop writes acts on it until the next tick.
+// A gripper that is a mass with damping on one axis, integrated exactly between ticks: what the loop writes acts on it until the
+// next tick.
 class MassGripper : public Gripper {
  public:
   MassGripper(double rate, core_f64::Plant plant, Vec3 axis, Vec3 start, double speed, double press)
@@ -68,8 +69,8 @@ std::vector<Against> walls() {
   return {{"side", Vec3(-1, 0, 0), Vec3(0.113, 0.05, 0), 1}, {"lid", Vec3(0, -1, 0), Vec3(0, 0.119, 0), 2}};
 }
 
-// Whatever the speed it is thrown at, it comes back slower, where b > slope (K T / 2 + |B|): the energy of motion never grows over what it was
-// before the contact and what the press puts in.
+// Whatever the speed it is thrown at, it comes back slower, where b > slope (K T / 2 + |B|): the energy of motion never grows over
+// what it was before the contact and what the press puts in.
 TEST(Energy, NeverGrowsAgainstAPassiveWall) {
   for (const Against& against : walls()) {
     for (const double rate : {1000.0, 4000.0}) {
@@ -96,8 +97,8 @@ TEST(Energy, NeverGrowsAgainstAPassiveWall) {
                 Session session(run.scene, gripper.limits().gap);
                 HapticLoop loop(run.scene.live, gripper, session, {}, run.options);
                 loop.run(NEVER_STOPPED);
-                // total energy with the press's potential: it may only fall but for what is stored in the wall, which is gone when it is
-                // out of it, so each maximum of it in the air is lower than the one before
+                // total energy with the press's potential: it may only fall but for what is stored in the wall, which is gone when
+                // it is out of it, so each maximum of it in the air is lower than the one before
                 double last = std::numeric_limits<double>::infinity(), strongest = 0;
                 for (std::size_t k = 0; k < gripper.motions.size(); ++k) {
                   strongest = std::max(strongest, std::abs(gripper.forces[k]));

@@ -30,8 +30,8 @@ void press_at_once(LoopRig& run) {
   run.scene.live.jump = 1000;
 }
 
-// The process stands still while it waits for a measurement, while it writes, and between two ticks: the next force is none. At every rate, since
-// a stall is a time and no number of ticks.
+// The process stands still while it waits for a measurement, while it writes, and between two ticks: the next force is none. At
+// every rate, since a stall is a time and no number of ticks.
 TEST(HapticLoop, AfterAStallTheFirstForceIsZero) {
   for (const double rate : {250.0, 1000.0}) {
     for (const std::string place : {"read", "write", "sink"}) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// When the program itself fails: what is said of the force, and who writes it. (Not under a sanitizer, which has handlers of its own.)
+// When the program itself fails: what is said of the force, and who writes it. (Not under a sanitizer, which has handlers of its
+// own.)
 // sanitizers: none
 #include "device/panic.h"
 

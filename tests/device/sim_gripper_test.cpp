@@ -99,8 +99,8 @@ double distance_to_target(const TaskData& task, double table, core_f64::Vec3 p) 
   return std::min(wall, box(r, p.y - table - half, inner, half));
 }
 
-// What moves with the held vessel, in its frame, and its least distance from the target's glass over all ticks. A tick is passed over only where
-// what has moved since it was last measured cannot have come nearer than that.
+// What moves with the held vessel, in its frame, and its least distance from the target's glass over all ticks. A tick is passed
+// over only where what has moved since it was last measured cannot have come nearer than that.
 struct HeldShape {
   static constexpr double REACH = 0.3;  // m: nothing that is held is further from the vessel's origin
   static constexpr double FAR = 0.02;   // m: what stays further off need not be known
@@ -208,7 +208,8 @@ TEST(HeldVessel, AMeshIsSampledBetweenItsVertices) {
         }
 }
 
-// Lift, tilt, pour (the tilt maintained meanwhile), return, on each of the three beakers; then the fingers open and the vessel goes back.
+// Lift, tilt, pour (the tilt maintained meanwhile), return, on each of the three beakers; then the fingers open and the vessel goes
+// back.
 TEST(SimGripper, EachBeakerIsLiftedTiltedPouredAndReturned) {
   const Scene scene = shipped_live();
   const SimSession session = play(scene, 3);
@@ -294,7 +295,8 @@ TEST(SimGripper, WorksAtEveryRateAndWithAMappedGapAndALeftHand) {
   }
 }
 
-// A band of a hundredth of a millimetre: every grip is lost at once; after three attempts the user gives up instead of going on for ever.
+// A band of a hundredth of a millimetre: every grip is lost at once; after three attempts the user gives up instead of going on for
+// ever.
 TEST(SimGripper, GivesUpWhatCannotBeHeld) {
   Scene scene = beside_each_other(three_beakers());
   scene.vessels.resize(1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Nothing but work on the tick path: no allocation, no lock, no system call besides the clock's and the device's own. Everything between
-// the calls of the device is watched, from the first touch to the slip.
+// Nothing but work on the tick path: no allocation, no lock, no system call besides the clock's and the device's own. Everything
+// between the calls of the device is watched, from the first touch to the slip.
 // sanitizers: none
 #include <gtest/gtest.h>
 
@@ -227,7 +227,8 @@ TEST(TickPath, TheWatchSeesALock) {
 
 // ---- system calls ----
 
-// Runs the loop on the clock in a child under the eyes of its parent, and tells the numbers of the calls that it made while it was watched.
+// Runs the loop on the clock in a child under the eyes of its parent, and tells the numbers of the calls that it made while it was
+// watched.
 // False: this system does not let itself be watched.
 bool watched_calls(std::set<long>& calls, Seen& seen, const std::function<void()>& misbehave) {
   std::fflush(nullptr);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The page as a gripper: where controls put the hand, that the steps of a mouse pass the guard, and a whole session by posted controls.
+// The page as a gripper: where controls put the hand, that the steps of a mouse pass the guard, and a whole session by posted
+// controls.
 // sanitizers: address thread
 #include "device/view_gripper.h"
 

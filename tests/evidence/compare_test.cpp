@@ -171,7 +171,8 @@ TEST_F(Compare, FindsGrazingThatIsNone) {
   EXPECT_EQ(all, outcomes);
 }
 
-// A grip at which a point is just as far as the contact tolerance, again and again: its outcome is anybody's guess, the others' is not.
+// A grip at which a point is just as far as the contact tolerance, again and again: its outcome is anybody's guess, the others' is
+// not.
 TEST_F(Compare, LetsFewOutcomesDifferWithinTheMargin) {
   std::size_t at = 0;
   int joint = 0;

@@ -36,8 +36,8 @@ void along_the_axis(const AnsweredScene& a) {
   }
 }
 
-// The line passes the centre of mass; the middle of the tips, 8 and 7 mm thick, half a millimetre along it. So no torque topples the
-// block, whatever the tilt.
+// The line passes the centre of mass; the middle of the tips, 8 and 7 mm thick, half a millimetre along it. So no torque topples
+// the block, whatever the tilt.
 void center_of_mass(const AnsweredScene& a) {
   EXPECT_EQ(a.count_feasible(), a.grips[0].size());
   a.each_state([&](std::size_t v, std::size_t i, std::size_t s) {
@@ -89,7 +89,8 @@ void like_a_beaker(const AnsweredScene& a, double factor) {
   EXPECT_GT(4 * a.count_feasible(), 3 * a.grips[0].size());
   a.each([&](std::size_t v, std::size_t i) {
     ASSERT_TRUE(b.feasible(v, i)) << i;
-    // each of two tips stops within the tolerance of a wall that it meets at up to 45 degrees; the gap falls by 0.1 m over the closures
+    // each of two tips stops within the tolerance of a wall that it meets at up to 45 degrees; the gap falls by 0.1 m over the
+    // closures
     const double off = 8 * STOP * std::max(1.0, factor) / std::min(1.0, factor);
     EXPECT_NEAR(a.real(FIELD_GAP, v, i) / factor, b.real(FIELD_GAP, v, i), off);
     EXPECT_NEAR(a.real(FIELD_CLOSURE, v, i), b.real(FIELD_CLOSURE, v, i), off / 0.05);

@@ -74,7 +74,8 @@ TEST(Gains, NoUsualUserShakesAtTheLimit) {
   }
 }
 
-// Two tips push the arm; a finger's tip goes as many times as far as the finger: a gap of 25 mm that spans a hand's 128 mm is felt like 4.6 K.
+// Two tips push the arm; a finger's tip goes as many times as far as the finger: a gap of 25 mm that spans a hand's 128 mm is felt
+// like 4.6 K.
 TEST(Gains, AMappedDeviceFeelsTheStiffnessTimesTheSlope) {
   Scene scene;
   EXPECT_EQ(device_slope(scene, OWN_GAP), 2) << "the arm's";

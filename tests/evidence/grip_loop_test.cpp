@@ -42,8 +42,8 @@ TEST(GripLoop, LargestSpringIsThatOfTheSampledTheory) {
   }
 }
 
-// With a finger that is quick beside the user, what is left is an integral that is delayed: its limit is pi / 2 over the loop's gain. The
-// finger's own lag, (b / (k_f + k_open)) against the reaction, and half a sample come on top.
+// With a finger that is quick beside the user, what is left is an integral that is delayed: its limit is pi / 2 over the loop's
+// gain. The finger's own lag, (b / (k_f + k_open)) against the reaction, and half a sample come on top.
 TEST(GripLoop, LargestSpringOfASlowUserIsThatOfTheDelayedIntegral) {
   for (const double reaction : {0.3, 0.4, 0.6, 0.8}) {
     GripLoop loop;

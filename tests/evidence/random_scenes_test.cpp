@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scenes that nobody chose: float agrees with double to the comparisons' tolerances, or a sweep in float warns; and a device agrees with the
-// core. The whole of it: WHOLEHAND_RANDOM_SCENES=2000 and WHOLEHAND_RANDOM_DEVICE_SCENES=200 of the environment.
+// Scenes that nobody chose: float agrees with double to the comparisons' tolerances, or a sweep in float warns; and a device agrees
+// with the core. The whole of it: WHOLEHAND_RANDOM_SCENES=2000 and WHOLEHAND_RANDOM_DEVICE_SCENES=200 of the environment.
 // sanitizers: none
 #include <gtest/gtest.h>
 

@@ -30,9 +30,9 @@ void every_passive_point_settles(const std::vector<WallSheet>& sheets) {
   EXPECT_GT(passive, 1000u);
 }
 
-// The two points of a column that the limit lies between, on every sheet that theory covers: no encoder, no friction, exact motion. Float
-// moves the limit by less than the points are apart: a growth of 1e-7 a sample is what its roundings hide, and a millionth of K more
-// grows as fast.
+// The two points of a column that the limit lies between, on every sheet that theory covers: no encoder, no friction, exact motion.
+// Float moves the limit by less than the points are apart: a growth of 1e-7 a sample is what its roundings hide, and a millionth of
+// K more grows as fast.
 void the_linear_limit_lies_where_it_changes(const std::vector<WallSheet>& sheets) {
   std::size_t columns = 0;
   for (const char* name : {"stiffness_damping_rate", "delay", "finger"})

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Whatever a scene may say and wherever it is gripped, kernels answer with finite numbers where a value must be: bytes become a scene
-// that the reader takes (what it or the preparation refuses is passed over), grips within its ranges, and both precisions' answers.
+// Whatever a scene may say and wherever it is gripped, kernels answer with finite numbers where a value must be: bytes become a
+// scene that the reader takes (what it or the preparation refuses is passed over), grips within its ranges, and both precisions'
+// answers.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The leaf functions of loop and force with raw numbers: whatever is finite and within the ranges that their callers promise, the answers are
-// finite (an infinite hold force where nothing can hold apart), forces are within their limits, and friction never adds energy.
+// The leaf functions of loop and force with raw numbers: whatever is finite and within the ranges that their callers promise, the
+// answers are finite (an infinite hold force where nothing can hold apart), forces are within their limits, and friction never adds
+// energy.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -68,7 +69,8 @@ void try_loop(Numbers& numbers) {
     if (wall.force_limit > 0)
       for (const double force : state.waiting) must(std::abs(force) <= wall.force_limit, "a force beyond its limit");
   }
-  // nothing drives it: friction and damping only take energy, where a sample is no longer than the plant's fastest mode: few reversals, and found
+  // nothing drives it: friction and damping only take energy, where a sample is no longer than the plant's fastest mode: few
+  // reversals, and found
   if (wall.period * (std::sqrt(plant.stiffness / plant.mass) + plant.damping / plant.mass) > 1) return;
   const Motion before{place, speed};
   const Motion after = advance_with_friction(plant, by, before, 0, friction, wall.period);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The hand as nodes: names, positions and OpenXR's orientations against the rotation matrices of the specification, for either hand.
+// The hand as nodes: names, positions and OpenXR's orientations against the rotation matrices of the specification, for either
+// hand.
 // sanitizers: address
 #include "grips/hand_nodes.h"
 

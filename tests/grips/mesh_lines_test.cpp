@@ -130,8 +130,8 @@ TEST(MeshLines, AnOpenRimIsDrawn) {
   EXPECT_NEAR(length_of(bowl.front().contours) / (PI * 0.05 + 2 * 0.1), 1, 0.02);  // the rim twice, near and far
 }
 
-// Of a box without a lid the corners within are seen, from the back of its walls; of a closed one no edge between two faces that are turned
-// away is, not even where it lies on the contour.
+// Of a box without a lid the corners within are seen, from the back of its walls; of a closed one no edge between two faces that
+// are turned away is, not even where it lies on the contour.
 TEST(MeshLines, AnOpenBoxShowsItsInside) {
   TriangleMesh box = box_mesh({-0.02, 0, -0.02}, {0.02, 0.03, 0.02});
   std::erase_if(box.triangles, [&](const auto& t) {

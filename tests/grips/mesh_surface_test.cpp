@@ -29,7 +29,8 @@ TEST(MeshSurface, ASphereIsSmooth) {
   const SurfaceMesh surface = mesh_surface(body);
   expect_same_triangles(surface, body);
   EXPECT_EQ(surface.positions.size(), body.vertices.size());
-  // means of faces that lean to all sides by up to 1.4 / 16 / sqrt(3) = 0.0505 rad: to first order they cancel, and 0.0505^2 = 2.6e-3; no corner is quite regular
+  // means of faces that lean to all sides by up to 1.4 / 16 / sqrt(3) = 0.0505 rad: to first order they cancel, and 0.0505^2 =
+  // 2.6e-3; no corner is quite regular
   for (std::size_t i = 0; i < surface.positions.size(); ++i)
     ASSERT_GT(dot(surface.normals[i], surface.positions[i]) / 0.05, std::cos(3e-3));
 }

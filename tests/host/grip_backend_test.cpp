@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The backend around the kernels: ways of moving data, pipelines that are made side by side, what goes to the core instead. What the kernels
-// compute is compared in tests/shaders/parity_test.cpp.
+// The backend around the kernels: ways of moving data, pipelines that are made side by side, what goes to the core instead. What
+// the kernels compute is compared in tests/shaders/parity_test.cpp.
 // sanitizers: address thread
 #include "host/grip_backend.h"
 
@@ -99,7 +99,8 @@ VesselData faceted(int pieces) {
   return vessel_of("faceted", outline, 1);
 }
 
-// Drivers that run on the processor end a loop after 65,535 iterations without a word: an outline that is looped over goes to the core.
+// Drivers that run on the processor end a loop after 65,535 iterations without a word: an outline that is looped over goes to the
+// core.
 TEST(GripBackend, LongOutlinesGoToTheCoreOnACpuDriver) {
   for (const int pieces : {30, 31, 200, 900}) {
     const Scene scene = scene_of({faceted(pieces)});

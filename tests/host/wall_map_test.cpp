@@ -48,8 +48,8 @@ std::vector<WallCase> cases_of(const std::vector<WallTrial>& trials) {
   return cases;
 }
 
-// In double a settling loop ends in the same rest to what rounding leaves: 20,000 samples of a contraction forget every error but the last
-// ones'. Beyond its limit a loop is chaotic (it leaves the wall and returns), so that only the verdict is compared.
+// In double a settling loop ends in the same rest to what rounding leaves: 20,000 samples of a contraction forget every error but
+// the last ones'. Beyond its limit a loop is chaotic (it leaves the wall and returns), so that only the verdict is compared.
 TEST_F(WallMapTest, GivesTheCoresVerdicts) {
   const auto all = trials();
   const auto cases = cases_of(all);
@@ -78,8 +78,8 @@ TEST_F(WallMapTest, GivesTheCoresEnergies) {
     const auto energies = host::WallMap("vulkan", precision).late_energies(cases, SAMPLES, SAMPLES);
     for (std::size_t i = 0; i < cases.size(); ++i) {
       const double core = core_f64::late_energy(cases[i], SAMPLES, SAMPLES);
-      // a sample multiplies an error by at most 1 + K T^2 / m, which is 60 for the stiffest; few such samples fit in so short a run before
-      // the mass has left the wall
+      // a sample multiplies an error by at most 1 + K T^2 / m, which is 60 for the stiffest; few such samples fit in so short a run
+      // before the mass has left the wall
       const double growth = 1 + cases[i].wall_stiffness * cases[i].period * cases[i].period / cases[i].mass;
       const double once =
           cases[i].encoder_step > 0 ? 2e-2 : 256 * epsilon * growth * growth;  // a reading may be either of two steps

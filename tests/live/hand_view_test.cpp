@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The whole hand as it is seen live: the hand of the grip that the session holds, outside of every glass, without jumps; the liquid's surface
-// and the stream by closed forms.
+// The whole hand as it is seen live: the hand of the grip that the session holds, outside of every glass, without jumps; the
+// liquid's surface and the stream by closed forms.
 // sanitizers: address
 #include "live/hand_view.h"
 
@@ -53,8 +53,8 @@ Mat3 gripper_of(const GripInput& grip) {
   return Mat3(d, -f2, -glm::cross(d, f2));
 }
 
-// A tick that holds the first vessel by a grip, somewhere and turned somehow. Left hands: grips and results are the scene's, the gripper's
-// axes those of the mirrored one.
+// A tick that holds the first vessel by a grip, somewhere and turned somehow. Left hands: grips and results are the scene's, the
+// gripper's axes those of the mirrored one.
 struct HeldGrip {
   Tick tick;
   VesselPoses poses{};
@@ -172,7 +172,8 @@ Seen watch_script(const Scene& scene) {
       scene, [&](std::int64_t n) { return script.at(n); }, static_cast<std::int64_t>(script.seconds() * script.rate));
 }
 
-// The hand that the gripper moves is one body with its wrist; the posed hand, whose tips the glass keeps apart, has its own elsewhere.
+// The hand that the gripper moves is one body with its wrist; the posed hand, whose tips the glass keeps apart, has its own
+// elsewhere.
 TEST(HandView, TheRiggedHandHasItsOwnWrist) {
   const Scene scene = live_scene();
   const Seen seen = watch_script(scene);
@@ -233,8 +234,8 @@ TEST(HandView, NothingIsInsideTheGlassWhereverAFreeHandIs) {
   }
 }
 
-// The script's hand goes by less than 0.5 mm a tick, a fingertip, which is further out, by less than 1 mm: none comes to the glass at once. When the
-// vessel slips away through the fingers they may.
+// The script's hand goes by less than 0.5 mm a tick, a fingertip, which is further out, by less than 1 mm: none comes to the glass
+// at once. When the vessel slips away through the fingers they may.
 TEST(HandView, FingersComeToTheGlassWithoutAJump) {
   const Seen seen = watch_script(live_scene());
   for (std::size_t n = 1; n < seen.views.size() && seen.ticks[n].state != SessionState::slipped; ++n) {

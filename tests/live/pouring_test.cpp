@@ -112,8 +112,8 @@ TEST(Pouring, WhatMissesTheMouthByAHairIsSpilt) {
   }
 }
 
-// Several vessels, a lip that moves, hits and misses, ticks that are skipped, heights beyond the longest fall: at every tick nothing is
-// lost, and what is in the air is what left within the longest fall.
+// Several vessels, a lip that moves, hits and misses, ticks that are skipped, heights beyond the longest fall: at every tick
+// nothing is lost, and what is in the air is what left within the longest fall.
 TEST(Pouring, TheSumIsKeptAtEveryTick) {
   for (const double rate : {250.0, 1000.0}) {
     Random random(8);

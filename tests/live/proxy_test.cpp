@@ -63,8 +63,8 @@ TEST(Proxy, IsTheTipWhereNothingIsTouched) {
   EXPECT_EQ(proxy.element, -1);
 }
 
-// Closed forms: a cylinder's side pushes out radially, its lid straight up, the flask's ball along its radius. The search ends where a
-// step gains less than 1e-9 m; at a depth D that is a sideways error of sqrt(2 D 1e-9), for 5 mm 3 um.
+// Closed forms: a cylinder's side pushes out radially, its lid straight up, the flask's ball along its radius. The search ends
+// where a step gains less than 1e-9 m; at a depth D that is a sideways error of sqrt(2 D 1e-9), for 5 mm 3 um.
 TEST(Proxy, ComesToTheNearestPlaceOfASmoothSurface) {
   for (const double radius : {0.0, FINGERTIP}) {
     const Tabletop table({beaker1(), beaker2()}, {TABLETOP_PLACE, TABLETOP_PLACE + Vec3(0.3, 0, 0)});
@@ -139,8 +139,8 @@ TEST(Proxy, NoPlaceNearbyIsNearerToTheTip) {
   EXPECT_GT(touching, 300);
 }
 
-// The nearest feasible place of all, by a lattice over the half plane of the tip: where a tip pressed into a convex vessel by a little
-// must come to. 30 um lattice: the nearest lattice place is at most its diagonal further away.
+// The nearest feasible place of all, by a lattice over the half plane of the tip: where a tip pressed into a convex vessel by a
+// little must come to. 30 um lattice: the nearest lattice place is at most its diagonal further away.
 TEST(Proxy, IsTheNearestPlaceOfAllWhereTheVesselIsConvex) {
   const VesselData data = beaker1();
   const core_f64::Vessel vessel = ready_vessel(data);
@@ -168,8 +168,8 @@ TEST(Proxy, IsTheNearestPlaceOfAllWhereTheVesselIsConvex) {
   }
 }
 
-// A tip that moves along a smooth surface takes its proxy along, bare or not, at an ordinary speed: no friction that nobody asked for. 10 um
-// behind would be 8 mN.
+// A tip that moves along a smooth surface takes its proxy along, bare or not, at an ordinary speed: no friction that nobody asked
+// for. 10 um behind would be 8 mN.
 TEST(Proxy, KeepsUpWithASlidingTip) {
   const Tabletop table({beaker1()}, {TABLETOP_PLACE});
   for (const double radius : {0.0, FINGERTIP}) {

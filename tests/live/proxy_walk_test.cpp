@@ -66,8 +66,9 @@ TEST(Proxy, StaysOnItsSideOfAThinWall) {
   }
 }
 
-// Long walks of a tip that goes anywhere, through walls as well: its proxy is never inside of anything, and goes into a vessel or out of it
-// by its mouth alone. A proxy moves no more than PROXY_MOVES steps a tick, and one that changes sides was or is near the mouth.
+// Long walks of a tip that goes anywhere, through walls as well: its proxy is never inside of anything, and goes into a vessel or
+// out of it by its mouth alone. A proxy moves no more than PROXY_MOVES steps a tick, and one that changes sides was or is near the
+// mouth.
 void walk(const std::vector<VesselData>& data, double radius, double speed, double friction, std::uint64_t seed, int steps) {
   std::vector<Vec3> places;
   for (std::size_t k = 0; k < data.size(); ++k)
@@ -151,8 +152,8 @@ double largest_force_step(const Tabletop& table, double radius, double friction,
   return largest;
 }
 
-// Over a rim, through a crease, into and out of a vessel, pressed in by 2 mm: a step of 50 um is 40 mN, entering brings B v_n = 50 mN more,
-// and round an edge the direction turns by the step over what is left of the radius.
+// Over a rim, through a crease, into and out of a vessel, pressed in by 2 mm: a step of 50 um is 40 mN, entering brings B v_n = 50
+// mN more, and round an edge the direction turns by the step over what is left of the radius.
 TEST(Proxy, FeelsSmoothOverEdgesAndThroughCreases) {
   struct Way {
     std::string name;
@@ -164,7 +165,8 @@ TEST(Proxy, FeelsSmoothOverEdgesAndThroughCreases) {
   std::vector<Way> ways;
   for (const double radius : {0.0, 8.0}) {
     const double r = radius, d = 2, m = radius * 1e-3;
-    // a bare point that is pressed in leaves by the other side of an edge at once, with all its force: only what has a radius rounds it
+    // a bare point that is pressed in leaves by the other side of an edge at once, with all its force: only what has a radius
+    // rounds it
     if (radius > 0) {
       ways.push_back({"over the lid and its rim",
                       beaker1(),

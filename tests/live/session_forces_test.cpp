@@ -24,7 +24,8 @@ using core_f64::Vec3;
 
 // ---- forces before the grasp ----
 
-// The thumb, 8 mm of radius, pressed in by a depth from the side: K times the depth outwards, less B times the speed; nothing on the other tip.
+// The thumb, 8 mm of radius, pressed in by a depth from the side: K times the depth outwards, less B times the speed; nothing on
+// the other tip.
 TEST(Session, TheCouplingIsThatOfAWall) {
   Scene scene = scene_of({beaker1()});
   scene.force.friction = 0;
@@ -82,8 +83,8 @@ TEST(Session, APressThatGoesBackNeverPulls) {
   }
 }
 
-// A shell, bare points: a tip that closes at 1 m/s and is through the wall before the next tick still stands outside, and is still felt; and the
-// grasp comes about.
+// A shell, bare points: a tip that closes at 1 m/s and is through the wall before the next tick still stands outside, and is still
+// felt; and the grasp comes about.
 TEST(Session, AThinWallHoldsAFastFinger) {
   for (const double rate : {1000.0, 3000.0}) {
     HandData hand;
@@ -244,8 +245,8 @@ TEST(Session, FeelsExactlyWhatTheSweepSays) {
   EXPECT_GT(compared, 3000);
 }
 
-// The weight comes on over FULL_WEIGHT of lifting, and is then that of glass and liquid; the user's force is the feedback less what the torque
-// added since the grasp.
+// The weight comes on over FULL_WEIGHT of lifting, and is then that of glass and liquid; the user's force is the feedback less what
+// the torque added since the grasp.
 TEST(Session, TheWeightComesOnWithTheLift) {
   const Scene scene = live_scene();
   const auto evaluator = make_core_evaluator(scene);

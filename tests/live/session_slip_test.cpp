@@ -19,7 +19,8 @@ namespace {
 
 using core_f64::Vec3;
 
-// A hand that holds goes through other vessels. Where it lets go inside of one, that one is felt when the hand has left it, and not before.
+// A hand that holds goes through other vessels. Where it lets go inside of one, that one is felt when the hand has left it, and not
+// before.
 TEST(Session, LettingGoWithinAnotherVesselPushesNobody) {
   Scene scene = scene_of({beaker1(), beaker1()});
   scene.vessels[1].name = "other";

@@ -84,7 +84,8 @@ TEST(Session, TheVesselMovesWithTheHand) {
   EXPECT_NE(first->touch_mask & (1u << 8), 0u);  // the index's
 }
 
-// Turning by 5 degrees or more within half a second is tilt; then, within half a second of standing still, maintain, or lift where it is upright.
+// Turning by 5 degrees or more within half a second is tilt; then, within half a second of standing still, maintain, or lift where
+// it is upright.
 TEST(Session, ATiltThatStandsStillIsMaintained) {
   Scene scene = live_scene();
   const LiveScript script = script_for(scene);

@@ -180,7 +180,8 @@ TEST(MeshDistance, TurnedAndMovedCopiesGiveTheSame) {
   }
 }
 
-// As TurnedAndMovedCopiesGiveTheSame, but by the file's nodes and by the scene's scale and rotation: the distances scale with the body.
+// As TurnedAndMovedCopiesGiveTheSame, but by the file's nodes and by the scene's scale and rotation: the distances scale with the
+// body.
 TEST(MeshDistance, CopiesPlacedByNodesAndByTheSceneGiveTheSame) {
   const std::string path = testing::TempDir() + "wholehand-placed-" + std::to_string(::getpid()) + ".glb";
   const std::string plain = glb_text(turned_mesh(beaker3(), 60, 3e-3));

@@ -90,8 +90,9 @@ double band_error(const TriangleMesh& triangles, double spacing, const std::func
   return largest;
 }
 
-// Trilinear interpolation errs by h^2 / 8 times the sum of the second derivatives along the axes, which for a distance is at most the
-// sum of the curvatures' sizes of its level surface, here at the depth to which the cells' corners reach: 10 mm. Chords cut off a sagitta.
+// Trilinear interpolation errs by h^2 / 8 times the sum of the second derivatives along the axes, which for a distance is at most
+// the sum of the curvatures' sizes of its level surface, here at the depth to which the cells' corners reach: 10 mm. Chords cut off
+// a sagitta.
 TEST(MeshGrid, ASphereAndATorusAtSecondOrder) {
   struct Body {
     TriangleMesh mesh;
@@ -284,8 +285,8 @@ TEST(MeshGrid, SurfacesWithinAnotherBodyAreNoError) {
   const CheckedMesh mesh = check_mesh(joined(icosphere(0.05, 5), icosphere(0.02, 4)), "ball in a ball");
   GridWish wish;
   wish.spacing = 2e-3;
-  // a cell across the outer sphere is off by spacing^2 / (8 x 50 mm) = 10 um, an edge of chords as much again; on the inner one, where the
-  // sign does not change, by up to half a cell
+  // a cell across the outer sphere is off by spacing^2 / (8 x 50 mm) = 10 um, an edge of chords as much again; on the inner one,
+  // where the sign does not change, by up to half a cell
   EXPECT_LT(grid_of_mesh(MeshDistance(mesh), mesh, wish).error, 5e-5);
 }
 

@@ -155,7 +155,8 @@ TEST(Mesh, IsScaledThenTurnedThenSetDown) {
   data.scale = 0.1;
   data.rotate = {0, 0, std::numbers::pi / 2};
   EXPECT_NEAR(read_mesh(data, "").vertices[2][0], -0.2, GLTF_FLOAT_ROUNDING);
-  // first about x, then about the y that x has turned: the leg along z goes to -y by x; about the turned y it would stay in the plane
+  // first about x, then about the y that x has turned: the leg along z goes to -y by x; about the turned y it would stay in the
+  // plane
   data.rotate = {std::numbers::pi / 2, std::numbers::pi / 2, 0};
   const TriangleMesh turned = read_mesh(data, "");
   EXPECT_NEAR(turned.vertices[3][0], 0.3, GLTF_FLOAT_ROUNDING);  // z -> (Ry) x -> (Rx) x

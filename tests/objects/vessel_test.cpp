@@ -37,8 +37,8 @@ std::vector<GripInput> side_grips(double low, double high, int count) {
   return grips;
 }
 
-// Differences of two evaluators that should be one: root mean squares, which unlike largest values do not jump with where a contact falls
-// in its cell.
+// Differences of two evaluators that should be one: root mean squares, which unlike largest values do not jump with where a contact
+// falls in its cell.
 struct Differences {
   double gap = 0, midpoint = 0, force = 0;
   int feasible = 0;

@@ -59,8 +59,8 @@ TEST(SceneCavity, FloorIsAsThickAsItSays) {
 }
 
 TEST(SceneCavity, FloorCutsARoundBottom) {
-  // the inner wall is a ball of 38 about the same middle, but in the last millimetre, where the rim's edge at [a, 140] is the nearest: with
-  // s from the mouth down r = a - (4 - s^2)^(1/2)
+  // the inner wall is a ball of 38 about the same middle, but in the last millimetre, where the rim's edge at [a, 140] is the
+  // nearest: with s from the mouth down r = a - (4 - s^2)^(1/2)
   const Scene scene = scene_from(wine_glass("wall_mm = 2\nfloor_mm = 85"));
   const double a = std::sqrt(40.0 * 40 - 400);
   const double rim = PI * (a * a - 2 * a * (std::sqrt(3.0) / 2 + PI / 3) + 4 - 1.0 / 3);

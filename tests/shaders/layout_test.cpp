@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The numbers of shaders/layout.h, which C++ and GLSL both read: no id twice, no gap in an enumeration, the same values as the enums
-// and names of core/; and its structs, laid out alike in C++ and in the compiled shaders.
+// The numbers of shaders/layout.h, which C++ and GLSL both read: no id twice, no gap in an enumeration, the same values as the
+// enums and names of core/; and its structs, laid out alike in C++ and in the compiled shaders.
 // sanitizers: none
 #include "shaders/layout.h"
 

@@ -50,8 +50,8 @@ TEST_F(ParityLeaf, PlaceHand) {
   compare({"probe_closure", PROBE_PLACE_HAND, 8, outputs}, build.table, scene_of({beaker1()}, Pose::articulated, odd_hand()));
 }
 
-// Grips that close, and some for each reason not to. The core's tips are the inputs 6 and 7 larger (0 on the device): a tip's way is as
-// good as one that ends with another radius, each side for itself.
+// Grips that close, and some for each reason not to. The core's tips are the inputs 6 and 7 larger (0 on the device): a tip's way
+// is as good as one that ends with another radius, each side for itself.
 TEST_F(ParityLeaf, CloseFingers) {
   const Scene scene = vessels_scene();
   const Scene odd = scene_of({beaker1()}, Pose::articulated, odd_hand());
@@ -190,8 +190,8 @@ TEST_F(ParityLeaf, FingersOnTheirWay) {
           .vec(turned.direction())
           .uniform(0.05, 0.6);
     }
-    // the room that a point has over how fast it goes: a few hundredths of a metre over 0.02 m a unit at least. Which element bounds a step
-    // changes with the point: near those changes it may jump
+    // the room that a point has over how fast it goes: a few hundredths of a metre over 0.02 m a unit at least. Which element
+    // bounds a step changes with the point: near those changes it may jump
     compare({.shader = "probe_projection", .probe = PROBE_FINGER_STEP, .inputs = 24, .outputs = {{"step", 2}}, .sharp_share = 0.8},
             outside(steps.table, scene, v), scene, v);
     compare({.shader = "probe_projection",

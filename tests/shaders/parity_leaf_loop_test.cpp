@@ -14,9 +14,10 @@
 namespace wholehand {
 namespace {
 
-// Devices: mass 20 g to 2 kg, damping to 20 N s/m, a finger's spring to 5 kN/m; periods 0.1 ms to 4 ms. The fastest mode is then under
-// 6 / period, so that a propagator is doubled six times at most: each doubling may double its relative error, which is 64 roundings at
-// the end, twice the forward ones.
+// Devices: mass 20 g to 2 kg, damping to 20 N s/m, a finger's spring to 5 kN/m; periods 0.1 ms to 4 ms. The fastest mode is then
+// under
+// 6 / period, so that a propagator is doubled six times at most: each doubling may double its relative error, which is 64 roundings
+// at the end, twice the forward ones.
 constexpr double DOUBLED = 2;
 constexpr double MASS_LEAST = 0.02, PERIOD_MOST = 4e-3, SPRING_MOST = 5000;
 constexpr double FASTEST = 500;  // 1/s: (SPRING_MOST / MASS_LEAST)^(1/2)

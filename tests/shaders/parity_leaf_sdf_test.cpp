@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Leaf functions of sdf.glsl that work on one element of an outline or on one cell of a lattice, and those of contact.glsl, against the
-// core's (tests/support/leaf_parity.h). What is made of them is in parity_leaf_test.cpp.
+// Leaf functions of sdf.glsl that work on one element of an outline or on one cell of a lattice, and those of contact.glsl, against
+// the core's (tests/support/leaf_parity.h). What is made of them is in parity_leaf_test.cpp.
 // sanitizers: none
 #include <gtest/gtest.h>
 
@@ -23,9 +23,10 @@ constexpr double ONE_IN_A_THOUSAND = 1e-3;
 
 // ---- one element ----
 
-// On a lattice of 1/512 m with elements on every second of its points, whose circles have the radius 5 / 256 m and ends on 3-4-5 triangles,
-// no coordinate has more than 6 bits: sums, products and squares are exact, in float and fused or not. Every decision that takes no root
-// is the same or wrong: horizontal elements, the ends' heights, the ends, the surface itself, the half's edge, the centre.
+// On a lattice of 1/512 m with elements on every second of its points, whose circles have the radius 5 / 256 m and ends on 3-4-5
+// triangles, no coordinate has more than 6 bits: sums, products and squares are exact, in float and fused or not. Every decision
+// that takes no root is the same or wrong: horizontal elements, the ends' heights, the ends, the surface itself, the half's edge,
+// the centre.
 constexpr double UNIT = 1.0 / 256;
 constexpr int SIDE_UNITS = 16;
 constexpr double CENTER = 8 * UNIT;
@@ -63,7 +64,8 @@ std::vector<PreparedElement> plain_elements() {
   return elements;
 }
 
-// Whether q lies on the ray from an arc's centre through one of its ends: whether it is within the sector then hinges on a root, which
+// Whether q lies on the ray from an arc's centre through one of its ends: whether it is within the sector then hinges on a root,
+// which
 // Vulkan gives to some units. At the centre there is nothing to round.
 bool on_edge_of_sector(const double* given) {
   const double side = given[7], x = given[8] - given[4], y = given[9] - given[5], square = x * x + y * y;
@@ -173,8 +175,8 @@ TEST_F(ParityLeaf, Proxy) {
   }
 }
 
-// On the axis of a cylinder and at the centre of a flask's arc, where the gradient is +x because nothing else tells. One step then lands
-// on the surface to a few roundings, far within where it stops, so nothing is moved.
+// On the axis of a cylinder and at the centre of a flask's arc, where the gradient is +x because nothing else tells. One step then
+// lands on the surface to a few roundings, far within where it stops, so nothing is moved.
 TEST_F(ParityLeaf, ProxyOnTheAxis) {
   const Scene scene = three_beakers();
   for (const std::size_t v : {0, 1}) {

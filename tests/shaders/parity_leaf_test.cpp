@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Leaf functions of the shaders against the core's (tests/support/leaf_parity.h): trig, hand, distances and contact; those of sdf.glsl's
-// elements and lattice and of contact.glsl's proxies are in parity_leaf_sdf_test.cpp.
+// Leaf functions of the shaders against the core's (tests/support/leaf_parity.h): trig, hand, distances and contact; those of
+// sdf.glsl's elements and lattice and of contact.glsl's proxies are in parity_leaf_sdf_test.cpp.
 // sanitizers: none
 #include <gtest/gtest.h>
 
@@ -171,8 +171,8 @@ TEST_F(ParityLeaf, GridDistance) {
   compare(gradient, table, scene, VASE, way);
 }
 
-// Storage buffer in the loop, uniform buffer copied once, specialization constants: the same arithmetic, so the same bits here. Vulkan
-// does not promise that across pipelines: on another driver each is held to the core by the tests above.
+// Storage buffer in the loop, uniform buffer copied once, specialization constants: the same arithmetic, so the same bits here.
+// Vulkan does not promise that across pipelines: on another driver each is held to the core by the tests above.
 TEST_F(ParityLeaf, EverySourceOfTheOutlineGivesTheSameBits) {
   const Scene scene = vessels_scene();
   const bool same_bits = device->info().kind == host::DeviceKind::cpu;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shortcuts change nothing on the way of a grip on a device: how the outline is read, what is left out, what is selected, chunks, faults.
+// Shortcuts change nothing on the way of a grip on a device: how the outline is read, what is left out, what is selected, chunks,
+// faults.
 // sanitizers: none
 #include <gtest/gtest.h>
 
@@ -52,8 +53,8 @@ void expect_same_field(const GatheredPlanes& a, const GatheredPlanes& b, int fie
 // The first planes of fields, as asked for.
 using FieldPlanes = std::vector<std::pair<int, int>>;
 
-// Two pipelines' answers to the same grips: the same bits on a CPU driver. Elsewhere Vulkan does not promise that two pipelines round alike,
-// and what the comparison allows between two evaluations is asked for.
+// Two pipelines' answers to the same grips: the same bits on a CPU driver. Elsewhere Vulkan does not promise that two pipelines
+// round alike, and what the comparison allows between two evaluations is asked for.
 void expect_same_or_close(bool is_cpu, const Scene& scene, Precision precision, const std::vector<GripInput>& grips,
                           const GatheredPlanes& all, const GatheredPlanes& few, const FieldPlanes& compared,
                           const std::string& what) {

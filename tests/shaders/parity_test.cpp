@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The whole way of a grip on a device against the core, in float and in double; that a broken constant, or a hand moved by micrometres,
-// is noticed. Sanitized runs have the same way in parity_shortcuts_test.cpp.
+// The whole way of a grip on a device against the core, in float and in double; that a broken constant, or a hand moved by
+// micrometres, is noticed. Sanitized runs have the same way in parity_shortcuts_test.cpp.
 // sanitizers: none
 #include <gtest/gtest.h>
 
@@ -192,7 +192,8 @@ TEST(Parity, AConstantBrokenOnOneSideIsNoticed) {
   EXPECT_FALSE(passes(scene, limit, false)) << "a joint's largest turn";
 }
 
-// A joint out of place by 20 um is noticed, one coordinate of it alone too, and in nearly every grip; noise of single precision is not.
+// A joint out of place by 20 um is noticed, one coordinate of it alone too, and in nearly every grip; noise of single precision is
+// not.
 TEST(Parity, ShiftsAreNoticedAndNoiseIsNot) {
   const Scene scene = wet_scene({beaker3()}, Pose::articulated);
   const FieldSet fields = all_fields(scene);

@@ -31,8 +31,9 @@
 // probe_closure
 #define PROBE_TRACE_TIP 30   // origin, azimuth, obliquity, heading, radius; t, reason, normal, element
 #define PROBE_PLACE_HAND 31  // closure, azimuth, obliquity, roll, midpoint, scale; rotation, translation, e1.x, index frame
-// height, azimuth, obliquity, roll, offset, hand_scale, and what the core adds to the radii of index and thumb; reason, where it stands for
-// some: direction | t_index, t_thumb, gap, midpoint | closure, thumb_angle, index_angle, grazing, rotation, translation, scale
+// height, azimuth, obliquity, roll, offset, hand_scale, and what the core adds to the radii of index and thumb; reason, where it
+// stands for some: direction | t_index, t_thumb, gap, midpoint | closure, thumb_angle, index_angle, grazing, rotation, translation,
+// scale
 #define PROBE_CLOSE_FINGERS 32
 // probe_projection
 #define PROBE_SEGMENT_RATES 40    // swing, joint; rates

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// To be preloaded: memory that ends after some allocations. MALLOC_WORKS says how many are served; MALLOC_FAILS how many fail then (all).
+// To be preloaded: memory that ends after some allocations. MALLOC_WORKS says how many are served; MALLOC_FAILS how many fail then
+// (all).
 #include <atomic>
 #include <cerrno>
 #include <cstddef>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A stand-in for Force Dimension's SDK: the documented functions, which do what a test has set and remember what was asked of them. As the SDK's,
-// they may be called from several threads.
+// A stand-in for Force Dimension's SDK: the documented functions, which do what a test has set and remember what was asked of them.
+// As the SDK's, they may be called from several threads.
 #include <mutex>
 #include <string>
 

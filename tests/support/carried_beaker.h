@@ -27,7 +27,8 @@ inline Scene carried_scene(double rate) {
 
 constexpr double CARRY_LASTS = 3.2;  // s
 
-// Where the gripper is at a time, s: open until 0.4, closed on the glass from 0.8, up by 1.4, tilted by 40 degrees by 2.2, open again by 2.8.
+// Where the gripper is at a time, s: open until 0.4, closed on the glass from 0.8, up by 1.4, tilted by 40 degrees by 2.2, open
+// again by 2.8.
 // Device frame, the tips' middle at half of the beaker's height.
 inline GripperState carried_state(double time) {
   const auto part = [time](double from, double to) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Whole sessions of `live` in forked children with the stand-in for Force Dimension's library, which fails as the test wants, and a log of
-// what it was given that the test shares with them.
+// Whole sessions of `live` in forked children with the stand-in for Force Dimension's library, which fails as the test wants, and a
+// log of what it was given that the test shares with them.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -70,7 +70,8 @@ class SharedDeviceLog {
   DeviceLog* log_;
 };
 
-// The beaker stands where the device's thumb presses some millimetres into it, and stays there: a force of some newtons from the first tick on.
+// The beaker stands where the device's thumb presses some millimetres into it, and stays there: a force of some newtons from the
+// first tick on.
 constexpr const char* PRESSED_SCENE =
     "[device]\ngap_mm = [0, 25]\n[live]\nrate_Hz = 500\nramp_s = 0\nslew_N_s = 100000\njump_m_s = 1000\nlate_steps = 1000\n"
     "[[vessel]]\nname = \"v\"\nshape = \"cylinder\"\ndiameter_mm = 80\nheight_mm = 110\nwall_mm = 2\n";

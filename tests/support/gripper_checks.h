@@ -32,7 +32,8 @@ void expect_error(const Action& action, ExitCode code, const std::string& start)
   }
 }
 
-// Some hundred cycles: poses as the mock moves, forces as written, its watchdog set, nothing before the first force and nothing left.
+// Some hundred cycles: poses as the mock moves, forces as written, its watchdog set, nothing before the first force and nothing
+// left.
 template <class Open>
 void check_session(MockGripper& mock, const Open& open) {
   constexpr int CYCLES = 300;
@@ -163,8 +164,8 @@ void check_wrong_reports(MockGripper& mock, const Open& open) {
   EXPECT_EQ(first.time, again.time);
 }
 
-// Both sides let go: the host's read says so within its patience, the device by its watchdog of 200 ms, which stays tripped for this session
-// and not for the next.
+// Both sides let go: the host's read says so within its patience, the device by its watchdog of 200 ms, which stays tripped for
+// this session and not for the next.
 template <class Open>
 void check_silence(MockGripper& mock, const Open& open) {
   std::unique_ptr<Gripper> gripper = open();
@@ -278,8 +279,8 @@ void check_let_go_meanwhile(MockGripper& mock, const Open& open) {
   EXPECT_EQ(gripper->let_go_meanwhile(), LetGo::not_taken);
 }
 
-// A signal that somebody else handles is no error of the device. Not for USB: of an ioctl() that a signal interrupts umockdev loses the
-// error number.
+// A signal that somebody else handles is no error of the device. Not for USB: of an ioctl() that a signal interrupts umockdev loses
+// the error number.
 template <class Open>
 void check_signals(MockGripper& mock, const Open& open) {
   const Handler handler(SIGUSR1, [](int) {});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A function's parameters are read from a row in their order, and its results written in theirs, as the probe shaders do: so a table of
-// names is all that a leaf function of plain parameters needs. Those whose rows hold something else have a function of their own here.
+// A function's parameters are read from a row in their order, and its results written in theirs, as the probe shaders do: a leaf of
+// plain parameters needs but its name in a table. Those whose rows hold something else have a function of their own here.
 #include "tests/support/leaf_facade.h"
 
 #include <algorithm>

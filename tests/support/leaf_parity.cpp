@@ -9,11 +9,11 @@
 namespace wholehand {
 namespace {
 
-// A row's inputs count as known to so many roundings of the largest in their column: the longest leaf function rounds an input in a sum
-// of that column's size no more than this often on its way through (a finger's tip: base, three segments, radius).
+// A row's inputs count as known to so many roundings of the largest in their column: the longest leaf function rounds an input in a
+// sum of that column's size no more than this often on its way through (a finger's tip: base, three segments, radius).
 constexpr double BACKWARD = 4;
-// Of the scale of what comes out. A finger's chain is the longest sum: three segments with an angle, its sine and cosine (2 units each,
-// shaders/trig.glsl), two products and three sums each, at 1 unit; Vulkan's division and root add up to 3 units each.
+// Of the scale of what comes out. A finger's chain is the longest sum: three segments with an angle, its sine and cosine (2 units
+// each, shaders/trig.glsl), two products and three sums each, at 1 unit; Vulkan's division and root add up to 3 units each.
 constexpr double FORWARD = 32;
 // A tolerance that lets anything pass tests nothing: in float, nine of ten stay under this share of their scale.
 constexpr double SHARP = 1e-3;
@@ -86,7 +86,8 @@ Table ParityLeaf::spread_of(const Leaves& leaves, const Leaf& leaf, const Table&
   return spread;
 }
 
-// In place of a spread where nothing moves: only a decision that hinges on rounding may differ. The others are the same in either precision.
+// In place of a spread where nothing moves: only a decision that hinges on rounding may differ. The others are the same in either
+// precision.
 Table ParityLeaf::hinging_rows(const Leaf& leaf, const Table& table, const Table& b, const Table& truth) {
   const std::size_t width = leaf.outputs.size();
   Table spread(truth.size(), 0.0);

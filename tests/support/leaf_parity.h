@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Leaf functions of the shaders beside the core's, on tables of inputs and in both precisions: the same inputs, rounded to that precision,
-// through a probe shader and through the core compiled with it.
+// Leaf functions of the shaders beside the core's, on tables of inputs and in both precisions: the same inputs, rounded to that
+// precision, through a probe shader and through the core compiled with it.
 //
 // Arithmetic that rounds is taken for exact arithmetic on inputs a few roundings away. So a number may differ by
-//   2 x how far the core's double answer moves when each input moves by BACKWARD roundings (and one that stands for an early stop by
+//   2 x how far the core's double answer moves when each input moves by BACKWARD roundings (and one that stands for an early stop
+// by
 //   two stop tolerances), which is the conditioning at that very row, and
 //   FORWARD roundings of the quantity's scale, for the operations behind it.
 // A discrete answer may differ only where it differs between such neighbours too; such rows are counted and bounded.

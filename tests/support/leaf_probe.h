@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The shaders' leaf functions on a device, row by row, beside the core's (leaf_facade.h): what tests/shaders/parity_leaf_test.cpp compares.
+// The shaders' leaf functions on a device, row by row, beside the core's (leaf_facade.h): what tests/shaders/parity_leaf_test.cpp
+// compares.
 #pragma once
 
 #include <string_view>

@@ -124,7 +124,8 @@ Cavity beaker3_cavity() {
   const Wide wall = 1.5e-3L, base = 42.5e-3L, neck = 17e-3L, upright = 4e-3L, shoulder = 105e-3L;
   const Wide slant = std::hypot(base - neck, shoulder - upright);
   const Wide sine = (base - neck) / slant, cosine = (shoulder - upright) / slant;  // of the cone's angle to the axis
-  // the inner cone runs `wall` inside the line through (base, upright) and (neck, shoulder), whose inward normal is (-cosine, -sine)
+  // the inner cone runs `wall` inside the line through (base, upright) and (neck, shoulder), whose inward normal is (-cosine,
+  // -sine)
   const Wide meets = upright - wall * (1 - cosine) / sine;  // where it meets the inner upright wall
   const Wide leaves = shoulder - wall * sine;
   return {line_piece(wall, base - wall, meets, base - wall), line_piece(meets, base - wall, leaves, neck - wall * cosine),

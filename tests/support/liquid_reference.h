@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Liquid in a tilted cavity a second time, in long double and another way round: slices along the direction of the tilt (planes of
-// constant n, where the core takes slices of constant height), the height integrated inside them, tanh-sinh in both. And the volumes of
-// revolution of lines and arcs in closed form.
+// constant n, where the core takes slices of constant height), the height integrated inside them, tanh-sinh in both. And the
+// volumes of revolution of lines and arcs in closed form.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A user's way through a live session, tick by tick: comes near, touches, grasps, lifts, tilts until it pours, holds still, tilts back, lets
-// go. What the tests of the session, the loop and the tick path are run on.
+// A user's way through a live session, tick by tick: comes near, touches, grasps, lifts, tilts until it pours, holds still, tilts
+// back, lets go. What the tests of the session, the loop and the tick path are run on.
 #pragma once
 
 #include <array>

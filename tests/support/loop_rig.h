@@ -108,8 +108,8 @@ struct LoopRig {
   }
 };
 
-// What every fault must end in: no force in the tick of the fault, nothing after it, the fault told with the state released; and force before,
-// or the test would not see it go.
+// What every fault must end in: no force in the tick of the fault, nothing after it, the fault told with the state released; and
+// force before, or the test would not see it go.
 inline void expect_released(const LoopRig& run, const LoopReport& report, Fault fault, std::int64_t tick) {
   ASSERT_GE(run.gripper.written.size(), 2u);
   EXPECT_TRUE(is_zero(run.gripper.written.back()));

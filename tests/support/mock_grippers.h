@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Open grippers that are not there: the device's side of docs/gripper-protocol.md over umockdev, so that hidapi and libusb find and use them
-// as they would real ones. They show what is done, not how fast: a call into umockdev takes up to a millisecond.
+// Open grippers that are not there: the device's side of docs/gripper-protocol.md over umockdev, so that hidapi and libusb find and
+// use them as they would real ones. They show what is done, not how fast: a call into umockdev takes up to a millisecond.
 //
 // umockdev works by a preloaded library. A program that links this file starts itself again with it.
 #pragma once
@@ -69,8 +69,8 @@ struct MockSettings {
   std::uint8_t version = protocol::VERSION;
   bool keeps_watchdog = false;  // does not take another period
   bool is_gripper = true;       // false: something else, by its descriptors
-  // Position, rotation, gap and buttons at a time of the device's clock, s; the rest is the mock's own. From two threads, and under the
-  // mock's lock: it must depend on nothing else.
+  // Position, rotation, gap and buttons at a time of the device's clock, s; the rest is the mock's own. From two threads, and under
+  // the mock's lock: it must depend on nothing else.
   std::function<GripperState(double)> motion;
   MockSettings();
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A finger in the vessel frame, read off the rigged hand, and `articulated` simulated on it by dense sampling and bisection: nothing in it
-// advances conservatively. With the scenes and hands that kernel 5 is tested on.
+// A finger in the vessel frame, read off the rigged hand, and `articulated` simulated on it by dense sampling and bisection:
+// nothing in it advances conservatively. With the scenes and hands that kernel 5 is tested on.
 #pragma once
 
 #include <algorithm>

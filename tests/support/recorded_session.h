@@ -59,8 +59,8 @@ class RecordedSession {
 // From `from` to `to` in `seconds`.
 inline double ramp_to(double t, double seconds, double from, double to) { return from + (to - from) * std::min(1.0, t / seconds); }
 
-// A grasp of vessel 0: lifted for 1 s, tilted to `tilt` within 2 s, kept there for 1 s. `grip` and `normal` give the forces over the tilt for x
-// from 0 to 1, and keep their ends before and after.
+// A grasp of vessel 0: lifted for 1 s, tilted to `tilt` within 2 s, kept there for 1 s. `grip` and `normal` give the forces over
+// the tilt for x from 0 to 1, and keep their ends before and after.
 inline RecordedSession tilted_session(double tilt, const std::function<double(double)>& grip,
                                       const std::function<double(double)>& normal) {
   RecordedSession session;

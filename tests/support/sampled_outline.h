@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Outlines without core/: as curves from the scene's own data and as points, with the distance to them by brute force; and the points on
-// which distances are compared.
+// Outlines without core/: as curves from the scene's own data and as points, with the distance to them by brute force; and the
+// points on which distances are compared.
 #pragma once
 
 #include <cmath>

@@ -13,13 +13,14 @@
 
 namespace wholehand {
 
-// Two vessels with guidance points, a cup and a flask, of 3 x 2 x 3 x 12 grips with 2 fills and 4 tilts; made by editing it for other cases.
+// Two vessels with guidance points, a cup and a flask, of 3 x 2 x 3 x 12 grips with 2 fills and 4 tilts; made by editing it for
+// other cases.
 extern const std::string RESULT_SCENE;
 // Parts of it that may be edited away.
 inline const std::string RESULT_TILTS = "[tilts]\ndeg = [0, 45, 90, 135]", RESULT_LIQUID = "[liquid]\nfills = [0, 0.6]";
 
-// Sweeps the scene by the core, in either precision, and writes what `wholehand sweep` does to `path`. Without an ending it is as a sweep
-// that was interrupted leaves it.
+// Sweeps the scene by the core, in either precision, and writes what `wholehand sweep` does to `path`. Without an ending it is as a
+// sweep that was interrupted leaves it.
 void write_result(const Scene& scene, const std::string& path, Precision precision = Precision::full, bool has_ending = true);
 
 // `text` with the first `from` in it replaced; a test failure where there is none.

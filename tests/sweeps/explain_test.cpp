@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a sweep says it leaves out: each part that a scene lacks has its line, with bytes that are what the fields take, and no line is there
-// for what the scene has.
+// What a sweep says it leaves out: each part that a scene lacks has its line, with bytes that are what the fields take, and no line
+// is there for what the scene has.
 // sanitizers: none
 #include "sweeps/explain.h"
 

@@ -38,8 +38,8 @@ TEST(Sobol, EveryAlignedBlockIsStratifiedInEveryDimension) {
   }
 }
 
-// A (t, m, 2)-net in base 2: every elementary box of 2^(t - m) holds 2^t of 2^m points. t of a pair of the first six dimensions is 4
-// at most; the first two are a (0, m, 2)-net.
+// A (t, m, 2)-net in base 2: every elementary box of 2^(t - m) holds 2^t of 2^m points. t of a pair of the first six dimensions is
+// 4 at most; the first two are a (0, m, 2)-net.
 TEST(Sobol, EveryPairOfDimensionsIsANet) {
   constexpr int M = 10;
   const auto block = points(3, 0, 1 << M);

@@ -26,7 +26,8 @@ const std::vector<WhereName> NAMES{
     {"joints", "m", WhereKind::number, WhereUnit::own, "joint and xyz", "is a vector", 7},
 };
 
-// Whether it holds of a grip with 4 fingers, a palm 1.5 mm deep, a gap of 80 mm, a roll of -30 degrees, bits 3 and 23, antipodal, peak 5.
+// Whether it holds of a grip with 4 fingers, a palm 1.5 mm deep, a gap of 80 mm, a roll of -30 degrees, bits 3 and 23, antipodal,
+// peak 5.
 bool met(const std::string& text, double depth = 1.5 / 1e3) {
   const std::vector<double> grip{4, depth, 80 / 1e3, radians(-30), static_cast<double>((1 << 3) | (1 << 23)), 1, 5};
   const Where where(text, NAMES);

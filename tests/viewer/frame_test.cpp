@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Frames of a view as the page gets them: every field of docs/view.md, with its unit and frame, against the ticks that they come from.
+// Frames of a view as the page gets them: every field of docs/view.md, with its unit and frame, against the ticks that they come
+// from.
 // sanitizers: address
 #include "viewer/frame.h"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Grips as the viewer shows them: those of `grip --json`, turned about the middle of the tips, the glass on its table or above, with the states' own forces.
+// Grips as the viewer shows them: those of `grip --json`, turned about the middle of the tips, the glass on its table or above,
+// with the states' own forces.
 // sanitizers: address
 #include "viewer/grips.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The viewer's server against a browser of our own: what is there and who gets in. With viewer/local_server and viewer/http_connection,
-// which it is made of.
+// The viewer's server against a browser of our own: what is there and who gets in. With viewer/local_server and
+// viewer/http_connection, which it is made of.
 // sanitizers: address thread
 #include "viewer/server.h"
 
