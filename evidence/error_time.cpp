@@ -15,10 +15,7 @@
 #include "system/folder_files.h"
 #include "system/interrupt.h"
 #include "system/progress.h"
-
-#ifndef WHOLEHAND_VERSION
-#define WHOLEHAND_VERSION "unknown"
-#endif
+#include "system/version.h"
 
 namespace wholehand {
 namespace {
@@ -60,7 +57,7 @@ void check_no_mesh(const Scene& scene) {
 ErrorContext error_context_of(const Scene& scene, const ErrorTimeOptions& options) {
   ErrorContext context;
   context.scene = scene.name.empty() ? "scene" : scene.name;
-  context.version = WHOLEHAND_VERSION;
+  context.version = version();
   context.seed = options.seed;
   context.quick = options.quick;
   context.vessels = scene.vessels.size();

@@ -22,6 +22,7 @@
 #include "system/gnuplot.h"
 #include "system/interrupt.h"
 #include "system/progress.h"
+#include "system/version.h"
 
 namespace wholehand {
 namespace {
@@ -280,7 +281,7 @@ std::string summary_of(const StabilityOptions& options, const Stability& stabili
   std::string summary;
   auto out = std::back_inserter(summary);
   const BackendInfo& info = stability.info;
-  fmt::format_to(out, "# Stability\n\nwholehand {}, {} ({}), {}, seed {}, {} run.\n", WHOLEHAND_VERSION, info.device, info.driver,
+  fmt::format_to(out, "# Stability\n\nwholehand {}, {} ({}), {}, seed {}, {} run.\n", version(), info.device, info.driver,
                  info.precision == Precision::single ? "float" : "double", options.seed, options.quick ? "quick" : "full");
   write_walls(out, stability.sheets, stability.walls);
   fmt::format_to(out, "\nThese walls took {:.1f} s.\n", stability.wall_seconds);
@@ -292,7 +293,7 @@ std::string summary_of(const StabilityOptions& options, const Stability& stabili
 
 void write_stability_tables(const StabilityOptions& options, const Stability& stability) {
   const auto path = [&options](const char* name) { return options.folder + "/" + name; };
-  const std::string stamp = fmt::format("{},{}", WHOLEHAND_VERSION, options.seed);
+  const std::string stamp = fmt::format("{},{}", version(), options.seed);
   const std::string run = fmt::format("{},{},{}", csv_text(stability.info.device), csv_text(stability.info.driver), stamp);
   const std::string on_core = fmt::format("core,{},{}", csv_text(core_info(Precision::full, 1).driver), stamp);
   write_whole_file(path("wall.csv"), wall_csv(stability.sheets), false);

@@ -16,10 +16,7 @@
 #include "grips/hand_nodes.h"
 #include "grips/mesh.h"
 #include "grips/states.h"
-
-#ifndef WHOLEHAND_VERSION
-#define WHOLEHAND_VERSION "unknown"
-#endif
+#include "system/version.h"
 
 namespace wholehand {
 namespace {
@@ -65,7 +62,7 @@ class GlbBuilder {
  public:
   GlbBuilder() {
     model_.asset.version = "2.0";
-    model_.asset.generator = "wholehand " WHOLEHAND_VERSION;
+    model_.asset.generator = std::string("wholehand ") + version();
     model_.buffers.resize(1);
     model_.scenes.resize(1);
     model_.defaultScene = 0;

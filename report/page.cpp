@@ -23,6 +23,7 @@
 #include "sweeps/tally.h"
 #include "system/files.h"
 #include "system/readable.h"
+#include "system/version.h"
 
 namespace wholehand {
 namespace {
@@ -120,7 +121,7 @@ class Page {
     for (std::size_t v = 0; v < scene_.vessels.size(); ++v) write_vessel(v);
     write_words(html_);
     html_.close();
-    html_.element("footer", fmt::format("Written by wholehand {} from {}.", WHOLEHAND_VERSION,
+    html_.element("footer", fmt::format("Written by wholehand {} from {}.", version(),
                                         source_.result.path().substr(source_.result.path().rfind('/') + 1)));
     html_.close().close();
     return html_.html();

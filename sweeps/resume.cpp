@@ -10,10 +10,7 @@
 #include "sweeps/sweep_result.h"
 #include "system/build_id.h"
 #include "system/readable.h"
-
-#ifndef WHOLEHAND_VERSION
-#define WHOLEHAND_VERSION "unknown"
-#endif
+#include "system/version.h"
 
 namespace wholehand {
 
@@ -38,7 +35,7 @@ std::map<std::string, std::string> sweep_identity(const Scene& scene, const Plan
   std::vector<std::string> names;
   for (const Variable* variable : variables) names.push_back(variable->name);
   return {{"scene", scene.text},
-          {"version", WHOLEHAND_VERSION},
+          {"version", version()},
           {"build", build_id()},  // other code may give other bits
           {"backend", info.backend},
           // the core gives the same on any number of threads

@@ -27,10 +27,7 @@
 #include "system/output_lock.h"
 #include "system/progress.h"
 #include "system/readable.h"
-
-#ifndef WHOLEHAND_VERSION
-#define WHOLEHAND_VERSION "unknown"
-#endif
+#include "system/version.h"
 
 namespace wholehand {
 namespace {
@@ -96,7 +93,7 @@ class Sweep {
       fmt::print("{}", explain_sweep(scene_, plan, backend_->fields(), {options_.on, precision(), options_.threads}));
       std::fflush(stdout);
     }
-    const ResultContents contents{scene_, plan, variables_, std::move(facts), backend_->info(), WHOLEHAND_VERSION, best_wanted_};
+    const ResultContents contents{scene_, plan, variables_, std::move(facts), backend_->info(), version(), best_wanted_};
     const bool resumed = begin(plan);
     ResultFile file(names_, contents, backend_->fields(), resumed);
     is_marked_ = resumed;

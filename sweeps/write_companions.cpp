@@ -13,10 +13,7 @@
 #include "sweeps/hand_lists.h"
 #include "sweeps/heat_map_plot.h"
 #include "sweeps/variables.h"
-
-#ifndef WHOLEHAND_VERSION
-#define WHOLEHAND_VERSION "unknown"
-#endif
+#include "system/version.h"
 
 namespace wholehand {
 namespace {
@@ -62,7 +59,7 @@ std::vector<std::string> write_companions(const CompanionRequest& request, const
   const OutputNames& names = request.names;
   std::vector<std::string> files = draw_companion_maps(request, maps);
   if (request.best > 0) {
-    const ListOrigin origin = list_origin(names.result, origin_of(request.scene, WHOLEHAND_VERSION, info));
+    const ListOrigin origin = list_origin(names.result, origin_of(request.scene, version(), info));
     write_whole_file(names.best, best_csv(request.scene, request.plan, best, origin), false);
     files.insert(files.begin(), names.best);
   } else if (is_best_list(names.best)) {

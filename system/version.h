@@ -4,7 +4,7 @@
 
 namespace wholehand {
 
-// "0.1.0", from the build.
+// "0.1.1", from the build.
 const char* version();
 
 }  // namespace wholehand

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "system/version.h"
 #include "tests/support/files.h"
 #include "tests/support/program.h"
 
@@ -25,8 +26,8 @@ using wholehand::SMALL_GRIP;
 TEST(CommandLine, TellsVersionAndHelp) {
   const Outcome version = run("PROGRAM --version 2>&1");
   EXPECT_EQ(version.code, 0);
-  EXPECT_EQ(version.output,
-            "wholehand " WHOLEHAND_VERSION "\nwholehand devices lists what there is to compute on and to feel with\n");
+  EXPECT_EQ(version.output, std::string("wholehand ") + wholehand::version() +
+                                "\nwholehand devices lists what there is to compute on and to feel with\n");
   for (const char* arguments : {"--help", "sweep --help", "report --help", "grip -h", "check --help", "devices --help"}) {
     const Outcome help = run(std::string("PROGRAM ") + arguments + " 2>&1");
     EXPECT_EQ(help.code, 0) << arguments;
