@@ -13,15 +13,11 @@
 namespace wholehand {
 namespace {
 
-// The largest coordinate, arc's centre or arc's radius of an outline, m.
-double farthest(const VesselData& vessel) {
+// The largest coordinate, arc's centre or arc's radius of an outline from [0, 0] on, m.
+double farthest(const std::vector<OutlineElement>& outline) {
   double largest = 0;
-  if (vessel.mesh) {
-    for (int k = 0; k < 3; ++k)
-      largest = std::max({largest, std::abs(vessel.mesh->body->low[k]), std::abs(vessel.mesh->body->high[k])});
-  }
   std::array<double, 2> start{};
-  for (const OutlineElement& element : vessel.outline) {
+  for (const OutlineElement& element : outline) {
     largest = std::max({largest, std::abs(element.end[0]), std::abs(element.end[1])});
     if (element.is_arc) {
       largest = std::max({largest, std::abs(element.center[0]), std::abs(element.center[1]),
@@ -29,6 +25,18 @@ double farthest(const VesselData& vessel) {
     }
     start = element.end;
   }
+  return largest;
+}
+
+// The same of a vessel's surface.
+double farthest(const VesselData& vessel) {
+  double largest = 0;
+  if (vessel.mesh) {
+    for (int k = 0; k < 3; ++k)
+      largest = std::max({largest, std::abs(vessel.mesh->body->low[k]), std::abs(vessel.mesh->body->high[k])});
+  }
+  largest = std::max(largest, farthest(vessel.outline));
+  if (vessel.surface == Surface::shell) largest = std::max(largest, farthest(vessel.inner));  // a part of the surface then
   return largest;
 }
 

@@ -33,13 +33,13 @@ ExitCode list_devices() {
 }
 
 std::string cache_text() {
-  const std::uintmax_t limit = host::cache_limit();
-  const std::string folder = host::cache_folder();
+  const std::uintmax_t limit = cache_limit();
+  const std::string folder = cache_folder();
   if (folder.empty()) return "cache  none: neither XDG_CACHE_HOME nor HOME is an absolute path\n";
-  const host::CacheUse use = host::cache_use(folder);
-  const std::string bound = limit > 0 ? fmt::format("at most {} MiB", limit / host::MEBIBYTE) : "not used";
+  const CacheUse use = cache_use(folder);
+  const std::string bound = limit > 0 ? fmt::format("at most {} MiB", limit / MEBIBYTE) : "not used";
   return fmt::format("cache  {}  {:.1f} MiB in {} file{}, {} (WHOLEHAND_CACHE_MIB)\n", folder,
-                     static_cast<double>(use.bytes) / host::MEBIBYTE, use.files, use.files == 1 ? "" : "s", bound);
+                     static_cast<double>(use.bytes) / MEBIBYTE, use.files, use.files == 1 ? "" : "s", bound);
 }
 
 }  // namespace wholehand

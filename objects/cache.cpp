@@ -168,7 +168,7 @@ std::optional<MeshGrid> load_grid_file(const fs::path& file, const Digest& key, 
   if (!in.read(reinterpret_cast<char*>(words.data()), static_cast<std::streamsize>(4 * count)) || !read_value(in, digest))
     return {};
   if (digest != file_digest(header, words)) return {};
-  host::touch_cached(file.string());
+  touch_cached(file.string());
   MeshGrid found = lattice_of(header);
   found.grid.words = std::make_shared<const std::vector<std::uint32_t>>(std::move(words));
   return found;
@@ -199,7 +199,7 @@ void save_grid_file(const LatticeCache& cache, const Digest& key, const MeshGrid
   if (size > cache.limit) return;
   const fs::path folder = cache.grids();
   fs::create_directories(folder);
-  host::make_cache_room(cache.folder.string(), size, cache.limit);
+  make_cache_room(cache.folder.string(), size, cache.limit);
   if (fs::space(folder).available < 2 * size) return;  // the disk is others' too
   const std::string partial = new_partial(folder, key);
   if (partial.empty()) return;
@@ -212,7 +212,7 @@ void save_grid_file(const LatticeCache& cache, const Digest& key, const MeshGrid
   std::error_code failed;
   if (out) fs::rename(partial, folder / (hex_of(key) + GRID_SUFFIX), failed);
   if (!out || failed) fs::remove(partial, failed);
-  host::make_cache_room(cache.folder.string(), 0, cache.limit);  // others may have stored at the same time
+  make_cache_room(cache.folder.string(), 0, cache.limit);  // others may have stored at the same time
 } catch (const std::exception&) {
   // the next run makes it again
 }
@@ -222,7 +222,7 @@ void save_grid_file(const LatticeCache& cache, const Digest& key, const MeshGrid
 MeshGrid cached_grid(const CheckedMesh& mesh, const GridWish& wish, const std::string& folder, const GridProgress& progress,
                      const GridForecast& forecast) {
   const auto make = [&] { return grid_of_mesh(MeshDistance(mesh), mesh, wish, progress, forecast); };
-  const LatticeCache cache{folder.empty() ? host::cache_folder() : folder, host::cache_limit()};
+  const LatticeCache cache{folder.empty() ? cache_folder() : folder, cache_limit()};
   if (cache.folder.empty() || cache.limit == 0) return make();
   const int bits = wish.bits.value_or(32);
   std::vector<Digest> keys;  // any file that holds the lattice has one of these

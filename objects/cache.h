@@ -9,13 +9,13 @@
 namespace wholehand {
 
 // grid_of_mesh's lattice, taken from a file of `folder`/grids where one holds it, else made and put there. `folder` empty:
-// host::cache_folder(). `progress` and `forecast` are called only where the lattice is made.
+// cache_folder(). `progress` and `forecast` are called only where the lattice is made.
 //
 // A file is found by the triangles and by what of the wish decides the lattice; one that is damaged, cut off or something else is made
-// again. Files appear whole, so that several processes may use one folder. Beyond host::cache_limit() those unused for longest go first. No
+// again. Files appear whole, so that several processes may use one folder. Beyond cache_limit() those unused for longest go first. No
 // folder, one that cannot be written or a full disk cost nothing but the time.
 //
-// Throws what grid_of_mesh, MeshDistance and host::cache_limit throw.
+// Throws what grid_of_mesh, MeshDistance and cache_limit throw.
 MeshGrid cached_grid(const CheckedMesh& mesh, const GridWish& wish, const std::string& folder = "",
                      const GridProgress& progress = {}, const GridForecast& forecast = {});
 

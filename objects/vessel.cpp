@@ -178,7 +178,7 @@ void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder
     wish.bits = bits;
     wish.most_bytes = options.most_bytes;
   }
-  host::cache_limit();  // throws here: a wrong limit is not the fault of grid_mm
+  cache_limit();  // throws here: a wrong limit is not the fault of grid_mm
   try {
     const auto progress = [&](double share) { show_status(fmt::format("{}: distances to its mesh  {:.0f} %", name, 100 * share)); };
     const auto announce = [&](const PreparedGrid& grid, double seconds) {

@@ -10,15 +10,15 @@
 
 namespace wholehand {
 
-// ---- scene_hand.cpp ----
+// ---- hand.cpp ----
 void read_hand(const SceneTable& root, HandData& hand);
 
-// ---- scene_vessel.cpp ----
+// ---- vessel.cpp ----
 void read_vessels(const SceneTable& root, Scene& scene);
 // What other tables ask of vessels: [liquid] a cavity, a vessel's own liquid a [liquid].
 void check_vessels(const SceneTable& root, const Scene& scene);
 
-// ---- scene_shape.cpp, scene_outline.cpp, scene_cavity.cpp ----
+// ---- shape.cpp, outline.cpp, cavity.cpp ----
 struct Silhouette {
   std::vector<OutlineElement> elements;
   double largest_radius = 0;  // m
@@ -29,25 +29,25 @@ Silhouette read_outline(const SceneTable& vessel);
 // What the vessel holds: its wall and floor, or its inner outline, which lies within `silhouette`; of a mesh the latter alone, unchecked.
 void read_cavity(const SceneTable& table, const Silhouette& silhouette, VesselData& vessel);
 
-// ---- scene_grips.cpp ----
+// ---- grips.cpp ----
 // `turns`: some vessel is no body of revolution, so that without a word the azimuth goes round.
 void read_grips(const SceneTable& root, bool turns, GripsData& grips);
 void read_tilts(const SceneTable& root, std::vector<double>& tilts);
 void read_liquid(const SceneTable& root, std::optional<LiquidData>& liquid);
 
-// ---- scene_fills.cpp ----
+// ---- fills.cpp ----
 // What is in a vessel in the live task.
 void read_own_liquid(const SceneTable& vessel_table, VesselData& vessel);
 // Fills that are given in mL as fractions of each vessel's capacity. Vessels and [liquid] have been read and checked.
 void set_vessel_fills(const SceneTable& root, Scene& scene);
 
-// ---- scene_force.cpp ----
+// ---- force.cpp ----
 void read_force(const SceneTable& root, ForceData& force);
 // `has_tilts`: the force and hold terms count.
 void read_score(const SceneTable& root, bool has_tilts, ScoreWeights& weights);
 void read_output(const SceneTable& root, OutputData& output);
 
-// ---- scene_session.cpp ----
+// ---- session.cpp ----
 void read_live(const SceneTable& root, LiveData& live);
 void read_device(const SceneTable& root, DeviceData& device);
 void read_task(const SceneTable& root, const std::vector<VesselData>& vessels, std::optional<TaskData>& task);

@@ -14,7 +14,7 @@
 
 #include "core/error.h"
 
-namespace wholehand::host {
+namespace wholehand {
 namespace {
 
 namespace fs = std::filesystem;
@@ -32,7 +32,7 @@ struct CachedFile {
 
 bool is_digits(std::string_view text) { return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos; }
 
-// The names that mesh_cache.cpp and pipeline_cache.cpp give: 32 hexadecimal digits, then KEY.grid, KEY.XXXXXX.partial,
+// The names that objects/cache.cpp and host/pipeline_cache.cpp give: 32 hexadecimal digits, then KEY.grid, KEY.XXXXXX.partial,
 // DEVICE-DRIVER.pipelines, DEVICE-DRIVER.pipelines.PROCESS.
 bool is_kept_name(std::string_view name, bool& is_whole) {
   if (name.find_first_not_of("0123456789abcdef") != 32) return false;
@@ -121,4 +121,4 @@ void touch_cached(const std::string& file) noexcept try {
   // it then counts as used when it was made
 }
 
-}  // namespace wholehand::host
+}  // namespace wholehand

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-namespace wholehand::host {
+namespace wholehand {
 
 // $XDG_CACHE_HOME/wholehand, else ~/.cache/wholehand; empty where neither variable holds an absolute path. It need not exist.
 std::string cache_folder();
@@ -34,4 +34,4 @@ void make_cache_room(const std::string& folder, std::uintmax_t bytes, std::uintm
 // Sets the file's time of change to now, as that of its last use; of a file that may only be read it stays.
 void touch_cached(const std::string& file) noexcept;
 
-}  // namespace wholehand::host
+}  // namespace wholehand

@@ -158,6 +158,7 @@ void check_overwrites_result(const std::string& path) { check_overwrites_kind(pa
 
 void make_output_folder(const std::string& path) {
   if (path.empty()) throw usage_error("-o: name a folder");
+  if (path == "-") throw usage_error("-o -: a folder is made, and none goes to standard output; name one (./- is one too)");
   if (mkdir(path.c_str(), 0777) != 0 && errno != EEXIST) {
     const ExitCode code = errno == ENOENT || errno == ENOTDIR ? ExitCode::usage : ExitCode::failure;
     throw Error(code, fmt::format("-o {}: cannot make that folder: {}; name one elsewhere", path, std::strerror(errno)));

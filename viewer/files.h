@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The viewer's page: the files of viewer/ and three.js, embedded by the build (cmake/embed_files.cmake).
+// The viewer's page: the files of viewer/page/ and three.js, embedded by the build (cmake/embed_files.cmake).
 #pragma once
 
 #include <span>

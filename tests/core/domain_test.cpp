@@ -65,6 +65,17 @@ TEST(Domain, WarningsNameTheLimitAndTheRemedy) {
   EXPECT_EQ(only_warning(tilted({beaker1(), pole(5)})).find("vessel 'pole' is held by up to 1.7e+04 N: beyond 5000 N "), 0u);
 }
 
+// The inner wall of a shell is touched, that of a solid vessel is not.
+TEST(Domain, TheInnerWallOfAShellCounts) {
+  VesselData vessel = vessel_of("bowl", {line_to(35, 0), line_to(35, 100), line_to(0, 100)}, 0);
+  const double centre = std::sqrt(17e3 * 17e3 - 48.0 * 48.0);  // an arc of 17 m over 96 mm of height
+  vessel.inner = {line_to(0, 4), line_to(30, 4), arc_to(30, 100, 30 - centre, 52)};
+  vessel.wall = 4e-3;
+  EXPECT_TRUE(domain_warnings(tilted({vessel}), Precision::single).empty());
+  vessel.surface = Surface::shell;
+  EXPECT_EQ(only_warning(tilted({vessel})).find("vessel 'bowl' has coordinates of 17 m: beyond 10 m "), 0u);
+}
+
 // What is nearer than a finger comes to rest touches in either precision.
 TEST(Domain, ToleranceOfNothingHasNoLimit) {
   Scene scene = tilted({beaker1()});

@@ -274,8 +274,8 @@ TEST_F(MeshCache, WhatIsUnusedForLongestGoesFirst) {
     return file;
   };
   fs::last_write_time(used, now - hours(5));
-  const fs::path oldest = add('a', ".grid", host::DEFAULT_CACHE_BYTES / 2, hours(4)),
-                 old = add('b', ".grid", host::DEFAULT_CACHE_BYTES / 2 - 2 * size - 11, hours(3)),
+  const fs::path oldest = add('a', ".grid", DEFAULT_CACHE_BYTES / 2, hours(4)),
+                 old = add('b', ".grid", DEFAULT_CACHE_BYTES / 2 - 2 * size - 11, hours(3)),
                  left_over = add('c', ".Ab3dEf.partial", 10, hours(2)), begun = add('d', ".Ab3dEf.partial", 10, hours(0)),
                  foreign = folder / "notes.grid";
   write(foreign, "keep me");
@@ -291,7 +291,7 @@ TEST_F(MeshCache, WhatIsUnusedForLongestGoesFirst) {
   ask();
   EXPECT_FALSE(fs::exists(oldest));
   for (const fs::path& file : {used, old, begun, foreign}) EXPECT_TRUE(fs::exists(file)) << file;
-  fs::resize_file(old, host::DEFAULT_CACHE_BYTES + 1);
+  fs::resize_file(old, DEFAULT_CACHE_BYTES + 1);
   fs::last_write_time(old, now + hours(1));  // and a clock that was wrong
   wish.margin = 3e-7;
   ask();
@@ -303,10 +303,10 @@ TEST_F(MeshCache, WhatIsUnusedForLongestGoesFirst) {
 TEST_F(MeshCache, TheBoundIsTheUsers) {
   const auto size = static_cast<std::uintmax_t>(4 * ask().grid.words->size() + 104);
   ASSERT_EQ(fs::file_size(files().at(0)), size);
-  ASSERT_LT(size, host::MEBIBYTE);
+  ASSERT_LT(size, MEBIBYTE);
   const fs::path pipelines = root / (std::string(32, 'd') + "-7.pipelines");
   write(pipelines, "");
-  fs::resize_file(pipelines, host::MEBIBYTE - size);
+  fs::resize_file(pipelines, MEBIBYTE - size);
   fs::last_write_time(files().at(0), fs::file_time_type::clock::now() - std::chrono::hours(1));  // clocks of files are coarse
   wish.margin = 1e-7;                                                                            // as large
   {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Charts (report_axes, report_field, report_lines): values where they belong, colours in their order, words for those who do not
+// Charts (report/axes, report/field, report/lines): values where they belong, colours in their order, words for those who do not
 // see them.
 // sanitizers: address
 #include <gtest/gtest.h>

@@ -16,19 +16,19 @@
 #include "host/devices.h"
 #include "tests/support/environment.h"
 
-namespace wholehand::host {
+namespace wholehand {
 namespace {
 
 namespace fs = std::filesystem;
 
-class HostCacheFolder : public testing::Test {
+class CacheFolder : public testing::Test {
  protected:
-  HostCacheFolder() {
+  CacheFolder() {
     std::string name = (fs::temp_directory_path() / "wholehand-XXXXXX").string();
     folder = mkdtemp(name.data());
     fs::create_directories(folder / "grids");
   }
-  ~HostCacheFolder() override { fs::remove_all(folder); }
+  ~CacheFolder() override { fs::remove_all(folder); }
 
   // A file of so many bytes, last used so many hours ago.
   fs::path add(const std::string& name, std::uintmax_t bytes, int hours_ago) const {
@@ -44,7 +44,7 @@ class HostCacheFolder : public testing::Test {
   fs::path folder;
 };
 
-TEST_F(HostCacheFolder, IsWhereTheUserKeepsSuchThings) {
+TEST_F(CacheFolder, IsWhereTheUserKeepsSuchThings) {
   const ScopedVariable home("HOME", "/home/someone");
   {
     const ScopedVariable cache("XDG_CACHE_HOME", "/var/cache/someone");
@@ -56,7 +56,7 @@ TEST_F(HostCacheFolder, IsWhereTheUserKeepsSuchThings) {
   }
 }
 
-TEST_F(HostCacheFolder, IsNowhereWithoutAHome) {
+TEST_F(CacheFolder, IsNowhereWithoutAHome) {
   const ScopedVariable cache("XDG_CACHE_HOME", nullptr);
   for (const char* no_path : {static_cast<const char*>(nullptr), "", "here"}) {
     const ScopedVariable home("HOME", no_path);
@@ -64,7 +64,7 @@ TEST_F(HostCacheFolder, IsNowhereWithoutAHome) {
   }
 }
 
-TEST_F(HostCacheFolder, UnusedForLongestGoesFirst) {
+TEST_F(CacheFolder, UnusedForLongestGoesFirst) {
   const fs::path old = add("grids/" + key('a') + ".grid", 100, 5), pipelines = add(key('b') + "-123.pipelines", 100, 6),
                  recent = add("grids/" + key('c') + ".grid", 100, 1);
   EXPECT_EQ(cache_use(folder.string()).files, 3u);
@@ -80,7 +80,7 @@ TEST_F(HostCacheFolder, UnusedForLongestGoesFirst) {
   EXPECT_TRUE(fs::exists(pipelines)) << "used just now";
 }
 
-TEST_F(HostCacheFolder, OnlyFilesOfItsOwnNamesCountAndGo) {
+TEST_F(CacheFolder, OnlyFilesOfItsOwnNamesCountAndGo) {
   for (const std::string& name : std::vector<std::string>{
            key('a'), key('a') + ".txt", key('a') + "a.grid", "notes.grid", key('g') + ".grid", key('a') + "-x.pipelines",
            key('a') + "-1.pipelines.bak", key('a') + ".grid.old", "mine.pipelines"}) {
@@ -96,7 +96,7 @@ TEST_F(HostCacheFolder, OnlyFilesOfItsOwnNamesCountAndGo) {
   EXPECT_EQ(std::distance(fs::recursive_directory_iterator(folder), {}), all);
 }
 
-TEST_F(HostCacheFolder, WhatWasBegunLongAgoGoesAndWhatIsBeingWrittenStays) {
+TEST_F(CacheFolder, WhatWasBegunLongAgoGoesAndWhatIsBeingWrittenStays) {
   const fs::path left_over = add("grids/" + key('a') + ".Ab3dEf.partial", 10, 2),
                  begun = add("grids/" + key('b') + ".Ab3dEf.partial", 10, 0),
                  abandoned = add(key('c') + "-5.pipelines.4711", 10, 2), whole = add(key('d') + ".grid", 100, 0);
@@ -108,7 +108,7 @@ TEST_F(HostCacheFolder, WhatWasBegunLongAgoGoesAndWhatIsBeingWrittenStays) {
   EXPECT_FALSE(fs::exists(whole)) << "what is being written counts";
 }
 
-TEST_F(HostCacheFolder, AFileThatIsOpenStaysReadable) {
+TEST_F(CacheFolder, AFileThatIsOpenStaysReadable) {
   const fs::path file = add(key('a') + ".grid", 5000, 1);
   std::ifstream open(file, std::ios::binary);
   make_cache_room(folder.string(), 0, 0);
@@ -116,13 +116,13 @@ TEST_F(HostCacheFolder, AFileThatIsOpenStaysReadable) {
   EXPECT_EQ(std::distance(std::istreambuf_iterator<char>(open), {}), 5000);
 }
 
-TEST_F(HostCacheFolder, WithoutAFolderThereIsNothing) {
+TEST_F(CacheFolder, WithoutAFolderThereIsNothing) {
   EXPECT_EQ(cache_use("/proc/nonexistent").files, 0u);
   make_cache_room("/proc/nonexistent", 1, 0);
   touch_cached("/proc/nonexistent");
 }
 
-TEST_F(HostCacheFolder, TheLimitIsTheUsers) {
+TEST_F(CacheFolder, TheLimitIsTheUsers) {
   for (const char* given : {static_cast<const char*>(nullptr), ""}) {
     const ScopedVariable unset("WHOLEHAND_CACHE_MIB", given);
     EXPECT_EQ(cache_limit(), std::uintmax_t{1} << 30);
@@ -143,7 +143,7 @@ TEST_F(HostCacheFolder, TheLimitIsTheUsers) {
   }
 }
 
-TEST_F(HostCacheFolder, IsSaidInOneLine) {
+TEST_F(CacheFolder, IsSaidInOneLine) {
   const ScopedVariable cache("XDG_CACHE_HOME", folder.c_str()), limit("WHOLEHAND_CACHE_MIB", "300");
   fs::create_directories(folder / "wholehand/grids");
   EXPECT_EQ(cache_text(), "cache  " + folder.string() + "/wholehand  0.0 MiB in 0 files, at most 300 MiB (WHOLEHAND_CACHE_MIB)\n");
@@ -156,4 +156,4 @@ TEST_F(HostCacheFolder, IsSaidInOneLine) {
 }
 
 }  // namespace
-}  // namespace wholehand::host
+}  // namespace wholehand

@@ -64,6 +64,8 @@ TEST(Files, FoldersAreMadeOrRefused) {
   EXPECT_EQ(refused_folder(folder / "file"), ExitCode::usage);
   EXPECT_EQ(refused_folder(folder / "file/new"), ExitCode::usage);
   EXPECT_EQ(refused_folder(""), ExitCode::usage);
+  EXPECT_EQ(refused_folder("-"), ExitCode::usage) << "standard output";
+  EXPECT_FALSE(std::filesystem::exists("-"));
   EXPECT_EQ(refused_folder("/proc/wholehand"), ExitCode::usage) << "no such file or directory, says the kernel";
 }
 
