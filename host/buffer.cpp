@@ -51,7 +51,7 @@ std::uint32_t choose_type(const DeviceState& device, std::uint32_t allowed, Memo
 
 Buffer::Buffer(const Device& device, std::size_t bytes, Memory memory) : Buffer(device.state(), bytes, memory) {}
 
-Buffer::Buffer(DeviceState& on, std::size_t bytes, Memory memory) : state_(std::make_unique<BufferState>(BufferState{on, bytes})) {
+Buffer::Buffer(DeviceState& on, std::size_t bytes, Memory memory) : state_(new BufferState{on, bytes}) {
   const std::size_t allocated = std::max<std::size_t>(16, (bytes + 15) / 16 * 16);  // Vulkan knows no empty buffer
   if (allocated > on.info.max_allocation) {
     throw OutOfMemory("a buffer of " + std::to_string(bytes) + " bytes is more than the Vulkan device allocates at once (" +

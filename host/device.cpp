@@ -67,6 +67,7 @@ void open(DeviceState& state) {
 
 Device::Device(std::string_view selector, const DeviceOptions& options) : state_(std::make_unique<DeviceState>()) {
   state_->instance = acquire_instance(options);
+  state_->wait_seconds = options.wait_seconds;
   checked("opening the Vulkan device", [&] {
     vk::raii::PhysicalDevices physical(*state_->instance->instance);
     std::vector<DeviceInfo> devices;
@@ -81,7 +82,18 @@ Device::Device(std::string_view selector, const DeviceOptions& options) : state_
   });
 }
 
-DeviceState::~DeviceState() { save_pipeline_cache(*this); }
+DeviceState::~DeviceState() {
+  if (!hung) {
+    save_pipeline_cache(*this);
+    return;
+  }
+  // never freed, and not when the process ends: the driver's threads live on it
+  static auto& abandoned = *new std::vector<std::shared_ptr<Instance>>;
+  static std::mutex mutex;
+  const std::lock_guard lock(mutex);
+  abandoned.push_back(instance);
+  leave_behind(*this, *cache, *device);
+}
 Device::~Device() = default;
 Device::Device(Device&&) noexcept = default;
 Device& Device::operator=(Device&&) noexcept = default;

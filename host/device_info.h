@@ -20,7 +20,7 @@ class OutOfMemory : public Error {
   explicit OutOfMemory(const std::string& line) : Error(ExitCode::failure, line) {}
 };
 
-// The device was lost, or did not finish in time (`hung`: it may still be at work, so what it uses must not be destroyed).
+// The device was lost, or did not finish in time (`hung`: it may still be at work).
 class DeviceLost : public Error {
  public:
   explicit DeviceLost(const std::string& line, bool hung = false) : Error(ExitCode::failure, line), hung(hung) {}
@@ -56,6 +56,7 @@ struct DeviceOptions {
   bool validation = false;     // the validation layer; also on where the environment has WHOLEHAND_VALIDATION=1
   std::string loader{};        // the library without which there is no Vulkan; empty: libvulkan.so.1 (a test names another)
   bool unified_memory = true;  // false: stage every transfer, as a discrete GPU needs (for tests on a CPU driver)
+  double wait_seconds = 120;   // longest wait for what is run once and for a stream's first chunk: the driver may compile there
   std::string cache_folder{};  // of compiled pipelines; empty: $XDG_CACHE_HOME/wholehand, and none for a CPU driver
 };
 

@@ -85,8 +85,8 @@ std::array<std::uint32_t, 3> final_group_size(const ShaderInterface& shader, std
 }  // namespace
 
 Kernel::Kernel(const Device& device, std::span<const std::uint32_t> words, std::span<const Constant> constants, std::string name)
-    : state_(std::make_unique<KernelState>()) {
-  const DeviceState& on = device.state();
+    : state_(new KernelState{device.state()}) {
+  const DeviceState& on = state_->device;
   const ShaderInterface shader = read_interface(words, name);
   if (shader.float64 && !on.info.float64) {
     throw usage_error(on.info.name + " cannot compute in double precision (kernel " + name + "); use --precision float");

@@ -9,6 +9,11 @@ Recorder::Recorder(DeviceState& device, std::uint32_t family)
       pool_(*device.device, {vk::CommandPoolCreateFlagBits::eResetCommandBuffer, family}),
       buffers_(*device.device, {*pool_, vk::CommandBufferLevel::ePrimary, 1}) {}
 
+Recorder::~Recorder() {
+  leave_behind(device_, pool_);
+  for (vk::raii::CommandBuffer& buffer : buffers_) leave_behind(device_, buffer);
+}
+
 void Recorder::begin() { buffers_[0].begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit}); }
 
 void Recorder::end() {
@@ -32,11 +37,15 @@ bool wait_for(DeviceState& device, vk::Fence fence, double seconds) {
 }
 
 void submit_and_wait(DeviceState& device, const Recorder& recorder) {
-  const vk::raii::Fence done(*device.device, vk::FenceCreateInfo());
+  vk::raii::Fence done(*device.device, vk::FenceCreateInfo());
   const vk::CommandBuffer commands = recorder.commands();
   device.compute.queue.submit(vk::SubmitInfo({}, {}, commands, {}), *done);
-  if (!wait_for(device, *done, COMPILE_SECONDS)) {
-    throw DeviceLost("the Vulkan device did not finish within 120 s; try again, or use --on core", true);
+  if (!wait_for(device, *done, device.wait_seconds)) {
+    device.hung = true;
+    leave_behind(device, done);
+    throw DeviceLost("the Vulkan device did not finish within " + std::to_string(std::lround(device.wait_seconds)) +
+                         " s; try again, or use --on core",
+                     true);
   }
 }
 

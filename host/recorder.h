@@ -6,9 +6,6 @@
 
 namespace wholehand::host {
 
-// Longest wait for what is run once and for the first chunk of a stream: the driver may compile the kernel there.
-constexpr double COMPILE_SECONDS = 120;
-
 // What waits for what: everything that a command buffer of ours does, and how it reaches memory.
 constexpr vk::PipelineStageFlags WORK = vk::PipelineStageFlagBits::eComputeShader | vk::PipelineStageFlagBits::eTransfer;
 constexpr vk::AccessFlags WRITES = vk::AccessFlagBits::eShaderWrite | vk::AccessFlagBits::eTransferWrite;
@@ -18,6 +15,7 @@ constexpr vk::AccessFlags READS =
 class Recorder {
  public:
   Recorder(DeviceState& device, std::uint32_t family);
+  ~Recorder();
 
   void begin();
   void copy(const BufferState& from, const BufferState& to, std::size_t bytes);
@@ -40,7 +38,7 @@ class Recorder {
 // Waits for the fence. False: it was not signalled within `seconds`.
 bool wait_for(DeviceState& device, vk::Fence fence, double seconds);
 
-// Submits to the compute queue and waits. Throws DeviceLost.
+// Submits to the compute queue and waits. Throws DeviceLost; the device is marked where it hangs.
 void submit_and_wait(DeviceState& device, const Recorder& recorder);
 
 }  // namespace wholehand::host

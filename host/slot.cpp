@@ -76,6 +76,8 @@ Slot::Slot(DeviceState& device, const StreamRequest& request, std::size_t capaci
   }
 }
 
+Slot::~Slot() { leave_behind(device_, uploaded_, computed_, done_); }
+
 void Slot::submit(const Chunk& next, const StreamRequest& request, Program& program) {
   chunk = next;
   const Commands commands = fill_and_record(request, program);

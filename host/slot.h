@@ -13,6 +13,7 @@ class Slot {
  public:
   // Room for chunks of up to `capacity` items (a stride). Throws OutOfMemory.
   Slot(DeviceState& device, const StreamRequest& request, std::size_t capacity);
+  ~Slot();
 
   // Bytes of a slot per item, and apart from items, staging included.
   static std::pair<std::size_t, std::size_t> bytes(const DeviceState& device, const StreamRequest& request);

@@ -9,6 +9,11 @@ StepRecorder::StepRecorder(DeviceState& device, std::uint32_t family) : Recorder
   }
 }
 
+StepRecorder::~StepRecorder() {
+  for (vk::raii::DescriptorSet& set : sets_) leave_behind(device_, set);
+  leave_behind(device_, descriptor_pool_, timestamps_);
+}
+
 void StepRecorder::steps(const Commands& commands) {
   const vk::raii::CommandBuffer& out = buffer();
   std::uint32_t set_count = 0, storage = 0, uniform = 0, texels = 0;

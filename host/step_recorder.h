@@ -12,6 +12,7 @@ namespace wholehand::host {
 class StepRecorder : public Recorder {
  public:
   StepRecorder(DeviceState& device, std::uint32_t family);
+  ~StepRecorder();
 
   void steps(const Commands& commands);  // with a timestamp before and after
   double seconds() const;                // of the steps, by the device; negative where it has no timestamps

@@ -204,7 +204,8 @@ class Run {
   std::unique_ptr<Slot> wait() {
     Slot& slot = *flights_.front().slot;
     const double expected = 4 * seconds_per_item_ * static_cast<double>(slot.chunk.count);
-    const double limit = stream_.options.timeout_seconds + (result_.kernel_seconds > 0 ? expected : COMPILE_SECONDS);
+    const double limit =
+        stream_.options.timeout_seconds + (result_.kernel_seconds > 0 ? expected : stream_.program->device().state().wait_seconds);
     if (slot.fault == Fault::device_lost) {
       throw DeviceLost("injected");
     }
@@ -300,10 +301,7 @@ class Run {
     }
     flights_.clear();
     if (!done) {
-      for (auto& slot : stream_.idle) {
-        static_cast<void>(slot.release());
-      }
-      static_cast<void>(stream_.program.release());
+      stream_.program->device().state().hung = true;
     }
     stream_.idle.clear();
     if (!keep_program) {

@@ -54,6 +54,10 @@ struct QueueRef {
 struct DeviceState {
   std::shared_ptr<Instance> instance;
   DeviceInfo info;
+  double wait_seconds = 0;  // as in DeviceOptions
+  // It did not finish in time and may be at work for ever. To destroy it would wait for it, and to free what it uses would take
+  // memory from under its hands; all of that is left behind (see leave_behind).
+  bool hung = false;
   std::optional<vk::raii::PhysicalDevice> physical;
   std::optional<vk::raii::Device> device;
   QueueRef compute, upload, download;   // upload and download are `compute` where there is no queue for copies alone
@@ -68,6 +72,12 @@ struct DeviceState {
   ~DeviceState();
 };
 
+// For destructors: where the device hangs, these handles are given up and not destroyed.
+template <class... Handles>
+void leave_behind(const DeviceState& device, Handles&... handles) {
+  if (device.hung) (static_cast<void>(handles.release()), ...);
+}
+
 // What a Buffer holds.
 struct BufferState {
   DeviceState& device;
@@ -78,17 +88,21 @@ struct BufferState {
   std::byte* mapped = nullptr;
   bool cached = false;  // reading the mapping is fast
 
+  ~BufferState() { leave_behind(device, view, buffer, memory); }
   vk::BufferView texels();
 };
 
 // What a Kernel holds.
 struct KernelState {
-  std::string name;
-  std::vector<std::pair<std::uint32_t, vk::DescriptorType>> bindings;
+  const DeviceState& device;
+  std::string name{};
+  std::vector<std::pair<std::uint32_t, vk::DescriptorType>> bindings{};
   std::array<std::uint32_t, 3> group_size{1, 1, 1};
   vk::raii::DescriptorSetLayout set_layout = nullptr;
   vk::raii::PipelineLayout layout = nullptr;
   vk::raii::Pipeline pipeline = nullptr;
+
+  ~KernelState() { leave_behind(device, pipeline, layout, set_layout); }
 };
 
 }  // namespace wholehand::host

@@ -152,8 +152,8 @@ TEST(FailureLine, EveryRunWithoutMemoryEndsByIt) {
   EXPECT_GT(failed, 5) << "memory never ran out";
 }
 
-// A driver's compiler ends by itself where it finds no memory. A driver may also lose the work that it was given, in silence: the
-// program then says so after the 120 s for which it waits, and has 180.
+// A driver's compiler ends by itself where it finds no memory. A driver whose own thread could not be started never finishes; the
+// program waits for 120 s, says so and ends without the driver, and has 180.
 TEST(FailureLine, EveryRunWithinALimitOfMemoryEndsByIt) {
   int ended = 0;
   for (const auto& [on, limits] : std::vector<std::pair<std::string, std::vector<int>>>{{"core", {110, 115, 120, 125, 130}},
