@@ -4,14 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "core/fields.h"
+
 namespace wholehand {
-namespace {
-
-bool is_of_closing(int field) {
-  return field == FIELD_GAP || field == FIELD_MIDPOINT || field == FIELD_T_INDEX || field == FIELD_T_THUMB;
-}
-
-}  // namespace
 
 Misplaced misplaced_values(const Scene& scene, const FieldSet& fields, std::size_t count, std::size_t stride, const double* reals,
                            const std::uint32_t* uints, bool overflows) {
@@ -19,6 +14,7 @@ Misplaced misplaced_values(const Scene& scene, const FieldSet& fields, std::size
   const bool unheld = !(scene.force.friction > 0 && scene.force.torsion > 0);
   const std::uint32_t* status = uints + fields.plane[FIELD_STATUS] * stride;
   for (int field = 0; field < REAL_FIELDS; ++field) {
+    const Field& row = field_row(field);
     if (!fields.has(field) || fields.plane[field] >= fields.real_kept) continue;
     const int planes = field_planes(field, scene_fills(scene), scene.tilts.size());
     for (int p = 0; p < planes; ++p) {
@@ -27,13 +23,13 @@ Misplaced misplaced_values(const Scene& scene, const FieldSet& fields, std::size
         const double value = plane[i];
         const std::uint32_t reason = status[i] & STATUS_REASON_MASK;
         bool fits = std::isfinite(value);
-        if (field == FIELD_SCORE || field == FIELD_TERMS) {
+        if (row.absent == FieldAbsent::never) {
           fits = fits && (reason == REASON_NONE || value == 0);
-        } else if (reason != REASON_NONE && !(is_of_closing(field) && reason >= REASON_TOO_WIDE)) {
+        } else if (reason != REASON_NONE && !(row.absent == FieldAbsent::not_closed && reason >= REASON_TOO_WIDE)) {
           fits = std::isnan(value);
-        } else if (field == FIELD_SAFE_TILT) {
+        } else if (row.range == FieldRange::may_be_missing) {
           fits = fits || std::isnan(value);
-        } else if (field == FIELD_HOLD_FORCE || field == FIELD_LARGEST_HOLD) {
+        } else if (row.range == FieldRange::may_be_infinite) {
           const bool may = unheld || overflows || (status[i] & STATUS_ANTIPODAL) == 0;
           fits = fits || (may && value == std::numeric_limits<double>::infinity());
         }

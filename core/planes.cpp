@@ -3,38 +3,32 @@
 
 #include <algorithm>
 
+#include "core/fields.h"
+
 namespace wholehand {
 
 int field_planes(int field, std::size_t fills, std::size_t tilts) {
-  const int per_fill = tilts > 0 ? static_cast<int>(fills) : 0;
-  switch (field) {
-    case FIELD_MIDPOINT:
-      return 3;
-    case FIELD_CONTACT_ANGLES:
+  if (field >= REAL_FIELDS) return 1;
+  const std::size_t per_fill = tilts > 0 ? fills : 0;
+  switch (field_row(field).shape) {
+    case FieldShape::contacts:
       return 2;
-    case FIELD_JOINTS:
-    case FIELD_POSED:
-    case FIELD_PROXIES:
-      return 3 * JOINT_COUNT;
-    case FIELD_SEPARATION:
-      return JOINT_COUNT;
-    case FIELD_PEAK_FORCE:
-    case FIELD_PEAK_TILT:
-    case FIELD_LARGEST_HOLD:
-    case FIELD_SAFE_TILT:
-      return per_fill;
-    case FIELD_TERMS:
+    case FieldShape::vector:
+      return 3;
+    case FieldShape::terms:
       return 6;
-    case FIELD_PIVOT_LENGTH:
-    case FIELD_TORQUE:
-    case FIELD_EXACT_TORQUE:
-    case FIELD_NORMAL_FORCE:
-    case FIELD_FEEDBACK_FORCE:
-    case FIELD_HOLD_FORCE:
-      return per_fill * static_cast<int>(tilts);
-    default:
-      return 1;
+    case FieldShape::joints:
+      return JOINT_COUNT;
+    case FieldShape::joint_vectors:
+      return 3 * JOINT_COUNT;
+    case FieldShape::fills:
+      return static_cast<int>(per_fill);
+    case FieldShape::states:
+      return static_cast<int>(per_fill * tilts);
+    case FieldShape::one:
+      break;
   }
+  return 1;
 }
 
 namespace {

@@ -6,45 +6,11 @@
 #include <limits>
 #include <optional>
 
+#include "core/fields.h"
 #include "evidence/load_floors.h"
 
 namespace wholehand {
 namespace {
-
-// A row of the comparison: planes of one field, in a unit for people.
-struct Quantity {
-  int field;
-  const char* kernel;
-  const char* name;
-  const char* unit;
-  double scale;  // to the unit
-};
-
-const std::vector<Quantity> QUANTITIES{
-    {FIELD_T_INDEX, "closure", "index contact", "um", 1e6},
-    {FIELD_T_THUMB, "closure", "thumb contact", "um", 1e6},
-    {FIELD_GAP, "closure", "gap", "um", 1e6},
-    {FIELD_MIDPOINT, "closure", "midpoint", "um", 1e6},
-    {FIELD_CLOSURE, "closure", "closure", "1e-6", 1e6},
-    {FIELD_CONTACT_ANGLES, "closure", "contact angle", "urad", 1e6},
-    {FIELD_JOINTS, "hand", "rigged joints", "um", 1e6},
-    {FIELD_POSED, "projection", "posed joints", "um", 1e6},
-    {FIELD_SEPARATION, "sdf", "separation", "um", 1e6},
-    {FIELD_PROXIES, "contact", "proxies", "um", 1e6},
-    {FIELD_PHALANX_DEPTH, "contact", "phalanx depth", "um", 1e6},
-    {FIELD_PALM_DEPTH, "contact", "palm depth", "um", 1e6},
-    {FIELD_BONE_STRETCH, "contact", "bone stretch", "um", 1e6},
-    {FIELD_PIVOT_LENGTH, "force", "pivot length", "um", 1e6},
-    {FIELD_TORQUE, "force", "torque", "uN m", 1e6},
-    {FIELD_EXACT_TORQUE, "force", "exact torque", "uN m", 1e6},
-    {FIELD_NORMAL_FORCE, "force", "normal force", "mN", 1e3},
-    {FIELD_FEEDBACK_FORCE, "force", "feedback force", "mN", 1e3},
-    {FIELD_HOLD_FORCE, "force", "hold force", "mN", 1e3},
-    {FIELD_PEAK_FORCE, "force", "peak feedback", "mN", 1e3},
-    {FIELD_LARGEST_HOLD, "force", "largest hold", "mN", 1e3},
-    {FIELD_TERMS, "score", "terms", "1e-6", 1e6},
-    {FIELD_SCORE, "score", "score", "1e-6", 1e6},
-};
 
 constexpr const char* PEAK_TILT = "force short of peak";  // at the tilt that the other side tells
 constexpr const char* SAFE_TILT = "force beyond safe";    // where one side tells a larger safe tilt
@@ -146,8 +112,8 @@ Comparer::Comparer(const Scene& scene, const Evaluator& core, Allowance allowed)
   for (const auto& [thumb, index] : {std::pair{stop, stop}, {stop, -stop}, {-stop, stop}, {-stop, -stop}})
     other_tips_.push_back(make_core_evaluator(with_tips(scene, thumb, index)));
   const FieldSet fields = all_fields(scene);
-  for (const Quantity& q : QUANTITIES)
-    if (fields.has(q.field)) row(q.kernel, q.name, q.unit);
+  for (const Field& field : real_fields())
+    if (field.label && fields.has(field.number)) row(field.kernel, field.label, fine_unit(field).name);
   if (has_tilts(fields)) {
     row("force", PEAK_TILT, "mN");
     row("force", SAFE_TILT, "mN");
@@ -176,8 +142,9 @@ void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, cons
   const Spread spread = spread_of(vessel, grips, truth);
   const std::vector<char> left_out = add_outcomes(vessel, a, b, truth, spread);
   std::vector<double> floors(FIELDS, 0.0);
-  for (const Quantity& q : QUANTITIES)
-    if (is_held(a, q.field) && is_held(b, q.field)) floors[q.field] = ROUNDINGS * allowed_.epsilon * largest_of(truth, q.field);
+  for (int field = 0; field < REAL_FIELDS; ++field)
+    if (field_row(field).label && is_held(a, field) && is_held(b, field))
+      floors[field] = ROUNDINGS * allowed_.epsilon * largest_of(truth, field);
   const LoadFloors load(scene_, core_, vessel, volume_tolerance(vessel), ROUNDINGS * allowed_.epsilon, truth);
   const auto tolerance = [&](int field, std::size_t k, std::size_t i) {
     return floors[field] + 2 * allowed_.stop_tolerance * rests(field, k) + load.of(field, k, i) +
@@ -261,18 +228,19 @@ double Comparer::largest_of(const GatheredPlanes& truth, int field) const {
 
 void Comparer::add_numbers(std::size_t vessel, const GatheredPlanes& a, const GatheredPlanes& b, const std::vector<char>& left_out,
                            const Tolerance& tolerance) {
-  for (const Quantity& q : QUANTITIES) {
-    if (!is_held(a, q.field) || !is_held(b, q.field)) continue;
-    Comparison& entry = row(q.kernel, q.name, q.unit);
-    const int planes = field_planes(q.field, scene_fills(scene_), scene_.tilts.size());
+  for (const Field& field : real_fields()) {
+    if (!field.label || !is_held(a, field.number) || !is_held(b, field.number)) continue;
+    const FineUnit unit = fine_unit(field);
+    Comparison& entry = row(field.kernel, field.label, unit.name);
+    const int planes = field_planes(field.number, scene_fills(scene_), scene_.tilts.size());
     for (std::size_t i = 0; i < left_out.size(); ++i) {
       if (left_out[i] != 0) continue;
       ++entry.compared;
       bool over = false;
       for (int p = 0; p < planes; ++p) {
-        const int plane = a.fields.plane[q.field] + p;
+        const int plane = a.fields.plane[field.number] + p;
         const double difference = figure_difference(a.real(plane, i), b.real(plane, i));
-        over = note_difference(entry, q.scale, vessel, i, difference, tolerance(q.field, p, i)) || over;
+        over = note_difference(entry, unit.scale, vessel, i, difference, tolerance(field.number, p, i)) || over;
       }
       entry.outside += over ? 1 : 0;
     }
@@ -283,13 +251,6 @@ void Comparer::add_numbers(std::size_t vessel, const GatheredPlanes& a, const Ga
 // surface: such lengths may differ by two, however little the finger itself moves, and what is made of them likewise.
 double Comparer::rests(int field, std::size_t k) const {
   switch (field) {
-    case FIELD_POSED:
-    case FIELD_SEPARATION:
-    case FIELD_PROXIES:
-    case FIELD_PHALANX_DEPTH:
-    case FIELD_PALM_DEPTH:
-    case FIELD_BONE_STRETCH:
-      return 1;
     case FIELD_TERMS:
       return k == 2 ? 1 / DEPTH_SCALE : 0;
     case FIELD_SCORE: {
@@ -298,7 +259,7 @@ double Comparer::rests(int field, std::size_t k) const {
       return whole > 0 ? w.depth / whole / DEPTH_SCALE : 0;
     }
     default:
-      return 0;
+      return field_row(field).rests;
   }
 }
 

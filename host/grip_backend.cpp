@@ -6,6 +6,7 @@
 #include <cmath>
 #include <thread>
 
+#include "core/fields.h"
 #include "core/mirror.h"
 #include "core/prepare.h"
 #include "host/grip_program.h"
@@ -20,11 +21,11 @@ constexpr std::uint32_t NO_GRIP = 0xffffffffu;
 std::vector<int> mirrored_planes(const Scene& scene, const FieldSet& fields) {
   std::vector<int> planes;
   if (scene.hand.handedness == Handedness::right) return planes;
-  for (const int field : {FIELD_MIDPOINT, FIELD_JOINTS, FIELD_POSED, FIELD_PROXIES}) {
-    if (!fields.has(field)) continue;
-    const int points = field == FIELD_MIDPOINT ? 1 : JOINT_COUNT;
-    for (int j = 0; j < points; ++j)
-      if (fields.plane[field] + 3 * j < fields.real_kept) planes.push_back(fields.plane[field] + 3 * j);
+  for (const Field& field : real_fields()) {
+    if (!field.is_vector() || !fields.has(field.number)) continue;
+    const int first = fields.plane[field.number], count = field_planes(field.number, scene_fills(scene), scene.tilts.size());
+    for (int plane = first; plane < first + count && plane < fields.real_kept; plane += 3)
+      planes.push_back(plane);  // the x of each
   }
   return planes;
 }

@@ -103,41 +103,51 @@
 #define REFERENCE_PER_OBJECT 0
 #define REFERENCE_PER_GRIP 1
 
-// ---- output fields: planes real_out[plane * n + grip]; the number of planes of each in the comment ----
-#define FIELD_T_INDEX 0             // 1   m along the line, from its foot o
-#define FIELD_T_THUMB 1             // 1   m
-#define FIELD_GAP 2                 // 1   m
-#define FIELD_MIDPOINT 3            // 3   m, vessel frame
-#define FIELD_CLOSURE 4             // 1
-#define FIELD_CONTACT_ANGLES 5      // 2   rad: thumb, index
-#define FIELD_PHALANX_DEPTH 6       // 1   m
-#define FIELD_PALM_DEPTH 7          // 1   m
-#define FIELD_BONE_STRETCH 8        // 1   m
-#define FIELD_JOINTS 9              // 72  m: joint-major, x y z
-#define FIELD_POSED 10              // 72  m
-#define FIELD_PROXIES 11            // 72  m
-#define FIELD_SEPARATION 12         // 24  m
-#define FIELD_PEAK_FORCE 13         // fills  N
-#define FIELD_PEAK_TILT 14          // fills  rad
-#define FIELD_LARGEST_HOLD 15       // fills  N, infinite where not antipodal
-#define FIELD_SAFE_TILT 16          // fills  rad, NaN: no tilt
-#define FIELD_SCORE 17              // 1
-#define FIELD_TERMS 18              // 6   fingers, contacts, depth, posture, force, hold
-#define FIELD_PIVOT_LENGTH 19       // fills * tilts, fill-major  m
-#define FIELD_TORQUE 20             // fills * tilts  N m
-#define FIELD_EXACT_TORQUE 21       // fills * tilts  N m
-#define FIELD_NORMAL_FORCE 22       // fills * tilts  N
-#define FIELD_FEEDBACK_FORCE 23     // fills * tilts  N
-#define FIELD_HOLD_FORCE 24         // fills * tilts  N
+// ---- output fields ----
+// FIELD_name (C++) and PLANE_name (GLSL). Shapes, units and meaning are in core/fields.cpp.
+// Reals: planes real_out[plane * n + grip], as many as the field's shape says.
+#define REAL_FIELD_LIST(X) \
+  X(T_INDEX, 0) \
+  X(T_THUMB, 1) \
+  X(GAP, 2) \
+  X(MIDPOINT, 3) \
+  X(CLOSURE, 4) \
+  X(CONTACT_ANGLES, 5) \
+  X(PHALANX_DEPTH, 6) \
+  X(PALM_DEPTH, 7) \
+  X(BONE_STRETCH, 8) \
+  X(JOINTS, 9) \
+  X(POSED, 10) \
+  X(PROXIES, 11) \
+  X(SEPARATION, 12) \
+  X(PEAK_FORCE, 13) \
+  X(PEAK_TILT, 14) \
+  X(LARGEST_HOLD, 15) \
+  X(SAFE_TILT, 16) \
+  X(SCORE, 17) \
+  X(TERMS, 18) \
+  X(PIVOT_LENGTH, 19) \
+  X(TORQUE, 20) \
+  X(EXACT_TORQUE, 21) \
+  X(NORMAL_FORCE, 22) \
+  X(FEEDBACK_FORCE, 23) \
+  X(HOLD_FORCE, 24)
 #define REAL_FIELDS 25
-// uint_out[plane * n + grip], one plane each
-#define FIELD_STATUS 25
-#define FIELD_TOUCH_MASK 26
-#define FIELD_TIP_MASK 27
-#define FIELD_FINGER_MASK 28
-#define FIELD_INNER_MASK 29
-#define FIELD_USED_MASK 30
-#define FIELDS 31
+// Words: uint_out[plane * n + grip], one plane each.
+#define UINT_FIELD_LIST(X) \
+  X(STATUS, REAL_FIELDS + 0) \
+  X(TOUCH_MASK, REAL_FIELDS + 1) \
+  X(TIP_MASK, REAL_FIELDS + 2) \
+  X(FINGER_MASK, REAL_FIELDS + 3) \
+  X(INNER_MASK, REAL_FIELDS + 4) \
+  X(USED_MASK, REAL_FIELDS + 5)
+#define FIELDS (REAL_FIELDS + 6)
+#ifdef __cplusplus
+#define DECLARE_FIELD(name, number) inline constexpr int FIELD_##name = number;
+REAL_FIELD_LIST(DECLARE_FIELD)
+UINT_FIELD_LIST(DECLARE_FIELD)
+#undef DECLARE_FIELD
+#endif
 
 // ---- axes of a grip as the kernels read them: grips_in[axis * n + grip] ----
 #define AXIS_HEIGHT 0
@@ -201,7 +211,6 @@
 #define CONST_LID 4                 // index of the mouth's element in the outline, -1: none
 #define CONST_TORQUE 5
 #define CONST_REFERENCE 6
-#define CONST_PLANE 8               // + field: first plane, or -1: not computed
 #define CONST_STOP_TOLERANCE 40     // Real, m; this and the next five have the named values where nothing is given
 #define CONST_TRACE_STEPS 41
 #define CONST_ADVANCE_STEPS 42
@@ -210,6 +219,7 @@
 #define CONST_GRID_BITS 45          // of a sample: 32 or 16
 #define CONST_FRICTION 46           // of the loop: whether any case has friction, bool
 #define CONST_OUTLINE 64            // + OUTLINE_STRIDE * element + value, Real
+#define CONST_PLANE 320             // + field: first plane, or -1: not computed
 
 #define GROUP_SIZE 64
 // Entries that an invocation of the top-N selection goes through: with the shifts of a full list, fewer iterations than every driver grants.

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/fields.h"
 #include "shaders/layout.h"
 
 namespace wholehand {
@@ -29,18 +30,62 @@ std::int32_t proxy_unsettled(std::uint32_t status) { return (status & STATUS_PRO
 
 constexpr const char* FINGER_BITS = "bit f: finger f; 0 thumb, 1 index, 2 middle, 3 ring, 4 little; 0 where the grip is infeasible";
 constexpr const char* JOINT_BITS = "bit j: joint j, as the variable joint names them; 0 where the grip is infeasible";
-constexpr const char* INFINITE = "infinite where not antipodal";
 
 using Dims = std::vector<const char*>;
 constexpr const char* NO_COMMENT = "";
 
-Variable real(const char* name, const char* units, const char* long_name, const char* comment, int field, int plane = 0,
-              const Dims& dims = {}) {
-  return {name, units, long_name, comment, NumberType::real, field, plane, dims, true, Need::nothing, nullptr, false};
+Dims dims_of(FieldShape shape) {
+  switch (shape) {
+    case FieldShape::contacts:
+      return {"contact"};
+    case FieldShape::vector:
+      return {"xyz"};
+    case FieldShape::joints:
+      return {"joint"};
+    case FieldShape::joint_vectors:
+      return {"joint", "xyz"};
+    case FieldShape::fills:
+      return {"fill"};
+    case FieldShape::states:
+      return {"fill", "tilt"};
+    case FieldShape::one:
+    case FieldShape::terms:
+      break;
+  }
+  return {};
+}
+
+// A field of reals as one variable.
+Variable of_field(const Field& row) {
+  const bool of_tilts = row.shape == FieldShape::fills || row.shape == FieldShape::states;
+  return {row.variable,
+          row.units,
+          row.long_name,
+          row.comment,
+          NumberType::real,
+          row.number,
+          0,
+          dims_of(row.shape),
+          row.by_default,
+          of_tilts ? Need::tilts : Need::nothing,
+          nullptr,
+          row.absent == FieldAbsent::never};
+}
+Variable of_field(int field) { return of_field(field_row(field)); }
+
+// One of the six score terms.
+Variable term(const char* name, const char* long_name, const char* comment, int plane) {
+  return {name, "1", long_name, comment, NumberType::real, FIELD_TERMS, plane, {}, true, Need::nothing, nullptr, true};
 }
 
 Variable byte(const char* name, const char* long_name, const char* comment, int field, std::int32_t (*value)(std::uint32_t)) {
   return {name, "1", long_name, comment, NumberType::byte, field, 0, {}, true, Need::nothing, value, false};
+}
+
+// It has a value for infeasible grips too.
+Variable always(Variable variable) {
+  variable.always = true;
+  return variable;
 }
 
 // A bit for each finger.
@@ -54,52 +99,53 @@ Variable joint_mask(const char* name, const char* long_name, int field) {
           true, Need::nothing, word_itself, false,      JOINT_COUNT,      0};
 }
 
-// A group of the catalogue: kept by default or on request, and what it needs.
+// A group of the catalogue: kept by default or on request, and what it needs. A field of its own says both by itself.
 void add(std::vector<Variable>& catalogue, bool by_default, Need need, std::vector<Variable> group) {
   for (Variable& variable : group) {
-    variable.by_default = by_default;
-    variable.need = need;
-    const std::string_view name = variable.name;
-    variable.always = name == "score" || name.starts_with("score_") || name == "reason";
+    if (variable.type != NumberType::real || variable.field == FIELD_TERMS) {
+      variable.by_default = by_default;
+      variable.need = need;
+    }
     catalogue.push_back(std::move(variable));
   }
 }
 
-// In one piece however long, because it is one table: a row a variable.
+// The fields of reals that the catalogue does not have yet.
+void add_other_fields(std::vector<Variable>& catalogue) {
+  for (const Field& row : real_fields()) {
+    const bool is_there =
+        std::any_of(catalogue.begin(), catalogue.end(), [&](const Variable& variable) { return variable.field == row.number; });
+    if (!is_there) catalogue.push_back(of_field(row));
+  }
+}
+
+// In one piece however long, because it is one table: a row a variable, in the order of the result file.
 std::vector<Variable> make_catalogue() {
   std::vector<Variable> all;
-  const Dims fill{"fill"}, state{"fill", "tilt"}, vector{"xyz"}, joint{"joint"}, joint_vector{"joint", "xyz"}, contact{"contact"};
   add(all, DEFAULT, Need::nothing,
       {
-          real(
-              "score", "1", "score of the grip, larger is better",
-              "sum of weight x term over the score terms (attribute score_weights); 0 where the grip is infeasible (and so are its "
-              "terms) or implausible",
-              FIELD_SCORE),
-          real("score_fingers", "1", "score term: fingers used", "fingers used / 5", FIELD_TERMS, 0),
-          real("score_contacts", "1", "score term: points touching", "points touching / 24", FIELD_TERMS, 1),
-          real("score_depth", "1", "score term: depth of the hand in the vessel",
-               "1 - min(1, max(phalanx_depth, palm_depth) / 10 mm)", FIELD_TERMS, 2),
-          real("score_posture", "1", "score term: middle of the hand's range", "1 - |2 closure - 1|", FIELD_TERMS, 3),
+          of_field(FIELD_SCORE),
+          term("score_fingers", "score term: fingers used", "fingers used / 5", 0),
+          term("score_contacts", "score term: points touching", "points touching / 24", 1),
+          term("score_depth", "score term: depth of the hand in the vessel", "1 - min(1, max(phalanx_depth, palm_depth) / 10 mm)",
+               2),
+          term("score_posture", "score term: middle of the hand's range", "1 - |2 closure - 1|", 3),
       });
   add(all, DEFAULT, Need::tilts,
       {
-          real("score_force", "1", "score term: feedback force", "1 - (largest feedback force over all fills and tilts) / F_max",
-               FIELD_TERMS, 4),
-          real("score_hold", "1", "score term: force to hold",
-               "min(1, grip strength / largest hold force over all fills and tilts)", FIELD_TERMS, 5),
+          term("score_force", "score term: feedback force", "1 - (largest feedback force over all fills and tilts) / F_max", 4),
+          term("score_hold", "score term: force to hold", "min(1, grip strength / largest hold force over all fills and tilts)", 5),
       });
   add(all, DEFAULT, Need::nothing,
       {
-          byte("reason", "why the grip is infeasible", "none: it is feasible", FIELD_STATUS, reason),
+          always(byte("reason", "why the grip is infeasible", "none: it is feasible", FIELD_STATUS, reason)),
           byte("plausible", "whether the hand is nowhere deeper than the depth limit", YES_NO, FIELD_STATUS, plausible),
           byte("antipodal", "whether both contact angles lie within the friction cone", YES_NO, FIELD_STATUS, antipodal),
-          real("closure", "1", "closure of thumb and index finger: 0 open, 1 closed", NO_COMMENT, FIELD_CLOSURE),
-          real("gap", "m", "distance between the tips of thumb and index finger", NO_COMMENT, FIELD_GAP),
-          real("phalanx_depth", "m", "largest depth of a phalanx point in the vessel", NO_COMMENT, FIELD_PHALANX_DEPTH),
-          real("palm_depth", "m", "largest depth of a metacarpal base in the vessel", NO_COMMENT, FIELD_PALM_DEPTH),
-          real("contact_angles", "rad", "angle between contact normal and thumb-index line", NO_COMMENT, FIELD_CONTACT_ANGLES, 0,
-               contact),
+          of_field(FIELD_CLOSURE),
+          of_field(FIELD_GAP),
+          of_field(FIELD_PHALANX_DEPTH),
+          of_field(FIELD_PALM_DEPTH),
+          of_field(FIELD_CONTACT_ANGLES),
           byte("fingers_used", "number of fingers with a touching point", NO_COMMENT, FIELD_USED_MASK, bits_set),
           byte("points_touching", "number of touching points", NO_COMMENT, FIELD_TOUCH_MASK, bits_set),
           finger_mask("used_mask", "fingers with a touching point", FIELD_USED_MASK, word_itself),
@@ -120,28 +166,21 @@ std::vector<Variable> make_catalogue() {
       });
   add(all, DEFAULT, Need::tilts,
       {
-          real("peak_feedback_force", "N", "largest feedback force over all tilts", NO_COMMENT, FIELD_PEAK_FORCE, 0, fill),
-          real("peak_feedback_tilt", "rad", "first tilt at which the feedback force is largest", NO_COMMENT, FIELD_PEAK_TILT, 0,
-               fill),
-          real("largest_hold_force", "N", "largest force per finger that holding takes, over all tilts", INFINITE,
-               FIELD_LARGEST_HOLD, 0, fill),
-          real("largest_safe_tilt", "rad",
-               "largest tilt up to which the unclamped feedback force is below F_max and the hold force within the grip strength",
-               "NaN where no tilt is", FIELD_SAFE_TILT, 0, fill),
+          of_field(FIELD_PEAK_FORCE),
+          of_field(FIELD_PEAK_TILT),
+          of_field(FIELD_LARGEST_HOLD),
+          of_field(FIELD_SAFE_TILT),
       });
   add(all, ON_REQUEST, Need::nothing,
       {
-          real("t_index", "m", "place of the index tip on the thumb-index line", NO_COMMENT, FIELD_T_INDEX),
-          real("t_thumb", "m", "place of the thumb tip on the thumb-index line", NO_COMMENT, FIELD_T_THUMB),
-          real("midpoint", "m", "midpoint of the tips of thumb and index finger, vessel frame", NO_COMMENT, FIELD_MIDPOINT, 0,
-               vector),
-          real("bone_stretch", "m", "largest change of a bone's length between proxies against the rigged hand", NO_COMMENT,
-               FIELD_BONE_STRETCH),
-          real("joints", "m", "joints of the rigged hand, vessel frame", NO_COMMENT, FIELD_JOINTS, 0, joint_vector),
-          real("posed", "m", "joints of the posed hand, vessel frame", NO_COMMENT, FIELD_POSED, 0, joint_vector),
-          real("proxies", "m", "proxies of the posed hand's joints, vessel frame", NO_COMMENT, FIELD_PROXIES, 0, joint_vector),
-          real("separation", "m", "signed distance of the posed hand's joints to the vessel, less their radius", NO_COMMENT,
-               FIELD_SEPARATION, 0, joint),
+          of_field(FIELD_T_INDEX),
+          of_field(FIELD_T_THUMB),
+          of_field(FIELD_MIDPOINT),
+          of_field(FIELD_BONE_STRETCH),
+          of_field(FIELD_JOINTS),
+          of_field(FIELD_POSED),
+          of_field(FIELD_PROXIES),
+          of_field(FIELD_SEPARATION),
           byte("grazing", "whether a contact normal is within 1 degree of perpendicular to the thumb-index line", YES_NO,
                FIELD_STATUS, grazing),
           byte("proxy_unsettled", "whether a proxy took all its steps", YES_NO, FIELD_STATUS, proxy_unsettled),
@@ -150,16 +189,14 @@ std::vector<Variable> make_catalogue() {
       {finger_mask("unsettled_mask", "fingers that took all their advancement steps", FIELD_STATUS, unsettled)});
   add(all, ON_REQUEST, Need::tilts,
       {
-          real("pivot_length", "m", "distance from the pivot to the centre of mass", NO_COMMENT, FIELD_PIVOT_LENGTH, 0, state),
-          real("torque", "N m", "torque of the paper's eq. (1)", "m g L_pivot sin(tilt)", FIELD_TORQUE, 0, state),
-          real("exact_torque", "N m", "torque about the tilt direction, positive topples further", NO_COMMENT, FIELD_EXACT_TORQUE,
-               0, state),
-          real("normal_force", "N", "normal force", "F_base + F_range torque / reference torque", FIELD_NORMAL_FORCE, 0, state),
-          real("feedback_force", "N", "force that the gripper renders", "normal force clamped to [0, F_max]", FIELD_FEEDBACK_FORCE,
-               0, state),
-          real("hold_force", "N", "force per finger that a soft-finger pinch needs to hold the vessel", INFINITE, FIELD_HOLD_FORCE,
-               0, state),
+          of_field(FIELD_PIVOT_LENGTH),
+          of_field(FIELD_TORQUE),
+          of_field(FIELD_EXACT_TORQUE),
+          of_field(FIELD_NORMAL_FORCE),
+          of_field(FIELD_FEEDBACK_FORCE),
+          of_field(FIELD_HOLD_FORCE),
       });
+  add_other_fields(all);
   return all;
 }
 

@@ -50,7 +50,6 @@ void expect_enumeration(const std::string& prefix, std::size_t count) {
 
 TEST(Layout, EnumerationsAreCompleteAndUnique) {
   expect_enumeration("REASON", REASON_NAMES.size());
-  expect_enumeration("FIELD", FIELDS);
   expect_enumeration("AXIS", GRIP_AXES);
   expect_enumeration("BINDING", BINDINGS);
   expect_enumeration("POSE", 3);
@@ -60,8 +59,13 @@ TEST(Layout, EnumerationsAreCompleteAndUnique) {
 }
 
 TEST(Layout, RealFieldsComeBeforeUintFields) {
-  EXPECT_EQ(FIELD_STATUS, REAL_FIELDS);
-  EXPECT_LT(FIELD_HOLD_FORCE, REAL_FIELDS);
+  int next = 0;
+#define EXPECT_NEXT(name, number) EXPECT_EQ(number, next++) << #name;
+  REAL_FIELD_LIST(EXPECT_NEXT)
+  EXPECT_EQ(next, REAL_FIELDS);
+  UINT_FIELD_LIST(EXPECT_NEXT)
+  EXPECT_EQ(next, FIELDS);
+#undef EXPECT_NEXT
 }
 
 TEST(Layout, SpecializationConstantsDoNotOverlap) {

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// The output fields of a grip that are reals, as one table: whatever goes through all fields reads it from here. A new field is a line in
+// shaders/layout.h, a row of this table, and the lines that compute it in core/evaluator.cpp and in shaders/grip.comp.
+#pragma once
+
+#include <span>
+
+#include "shaders/layout.h"
+
+namespace wholehand {
+
+// Numbers of a field: how many planes, and what they stand for. Of states: fill-major; of joints: joint-major.
+enum class FieldShape { one, contacts, vector, terms, joints, joint_vectors, fills, states };
+
+// Where a field has no value (NaN). The score and its terms are 0 there.
+enum class FieldAbsent { infeasible, not_closed, never };
+
+// What the value of a feasible grip may be beside finite: infinite where nothing holds the vessel, NaN where no tilt qualifies.
+enum class FieldRange { finite, may_be_infinite, may_be_missing };
+
+struct Field {
+  int number;  // FIELD_*
+  FieldShape shape;
+  const char* variable;   // name in the result file; null: the file has variables of its own for it (sweeps/variables)
+  const char* units;      // of the values: "m", "rad", "N", "N m", "1"
+  const char* long_name;  // what it is, and its frame
+  const char* comment;    // formula, or what a special value means; may be empty
+  bool by_default;        // kept in a result file unless the scene says otherwise
+  const char* kernel;     // that computes it, in reports
+  const char* label;      // in comparisons; null: it is not compared number by number
+  double rests = 0;       // how much of a length at which a finger rests is in it; m per m
+  FieldAbsent absent = FieldAbsent::infeasible;
+  FieldRange range = FieldRange::finite;
+
+  // Whether it is points or vectors of the vessel frame, which a left hand mirrors.
+  bool is_vector() const { return shape == FieldShape::vector || shape == FieldShape::joint_vectors; }
+};
+
+// Every field of reals, in the order of the kernels that compute them.
+std::span<const Field> real_fields();
+// The row of FIELD_*, below REAL_FIELDS.
+const Field& field_row(int field);
+
+// The unit in which people read differences of such values, and the factor to it: "um" and 1e6 of m.
+struct FineUnit {
+  const char* name;
+  double scale;
+};
+FineUnit fine_unit(const Field& field);
+
+}  // namespace wholehand
