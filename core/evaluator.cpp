@@ -3,7 +3,6 @@
 #include "core/evaluator.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -299,11 +298,6 @@ class CoreEvaluator final : public wholehand::Evaluator {
     put_points(row, FIELD_POSED, answer.posed.data(), JOINTS);
     put_points(row, FIELD_PROXIES, answer.proxies.data(), JOINTS);
     for (int j = 0; j < JOINTS; ++j) row.put(FIELD_SEPARATION, j, answer.separation[j]);
-    Vec3 centroid{};
-    for (int j = 0; j < JOINTS; ++j)
-      if ((answer.touch_mask >> j & 1) != 0) centroid = centroid + answer.posed[j];
-    centroid = (1 / Real(std::popcount(answer.touch_mask))) * centroid;  // thumb and index tip always touch
-    put_points(row, FIELD_CONTACT_CENTROID, &centroid, 1);
     row.put_mask(FIELD_TOUCH_MASK, answer.touch_mask);
     row.put_mask(FIELD_TIP_MASK, answer.tip_mask);
     row.put_mask(FIELD_FINGER_MASK, answer.finger_mask);

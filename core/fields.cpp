@@ -41,8 +41,6 @@ constexpr Field ROWS[] = {
      "palm depth", 1},
     {FIELD_BONE_STRETCH, S::one, "bone_stretch", "m", "largest change of a bone's length between proxies against the rigged hand",
      NONE, ON_REQUEST, "contact", "bone stretch", 1},
-    {FIELD_CONTACT_CENTROID, S::vector, "contact_centroid", "m", "mean of the touching points of the posed hand, vessel frame",
-     NONE, ON_REQUEST, "contact", "contact centroid", 1},
     {FIELD_PIVOT_LENGTH, S::states, "pivot_length", "m", "distance from the pivot to the centre of mass", NONE, ON_REQUEST, "force",
      "pivot length"},
     {FIELD_TORQUE, S::states, "torque", "N m", "torque of the paper's eq. (1)", "m g L_pivot sin(tilt)", ON_REQUEST, "force",

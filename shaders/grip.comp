@@ -20,7 +20,7 @@ uint grip;
 Real scale;
 uint status, touch_mask, tip_mask, finger_mask, inner_mask, used_mask;
 Real phalanx_depth, palm_depth, judged_depth, bone_stretch;
-Vec3 previous_proxy, contact_sum;
+Vec3 previous_proxy;
 
 // Point k of finger f (joint j) at its posed place. `before`: bits of the finger's points that touched before they were projected.
 void examine_point(int f, int k, int j, Vec3 p, Real radius, Real separation, Real bone, inout int before) {
@@ -34,7 +34,6 @@ void examine_point(int f, int k, int j, Vec3 p, Real radius, Real separation, Re
   bool touching = near_enough || j == THUMB_TIP || j == INDEX_TIP;
   uint bit = touching ? 1u << j : 0u;
   touch_mask |= bit;
-  if (touching) contact_sum += p;
   used_mask |= touching ? 1u << f : 0u;
   if (POSE != POSE_RIGGED && f >= 2 && k >= 2) {
     bool projected = touching && (before & (1 << k)) == 0;
@@ -86,7 +85,6 @@ void put_whole(Real closure, Real thumb_angle, Real index_angle) {
 void put_nothing() {
   phalanx_depth = palm_depth = bone_stretch = NOT_A_NUMBER;
   put_whole(NOT_A_NUMBER, NOT_A_NUMBER, NOT_A_NUMBER);
-  if (PLANE_CONTACT_CENTROID >= 0) put_point(PLANE_CONTACT_CENTROID, 0, grip, Vec3(NOT_A_NUMBER));
   for (int j = 0; j < JOINTS; ++j) {
     if (PLANE_JOINTS >= 0) put_point(PLANE_JOINTS, j, grip, Vec3(NOT_A_NUMBER));
     if (PLANE_POSED >= 0) put_point(PLANE_POSED, j, grip, Vec3(NOT_A_NUMBER));
@@ -223,10 +221,8 @@ void main() {
   if (held && closing.thumb_angle <= scene.friction_angle && closing.index_angle <= scene.friction_angle) status |= STATUS_ANTIPODAL;
   scale = closing.placement.scale;
   phalanx_depth = palm_depth = judged_depth = bone_stretch = Real(0);
-  contact_sum = Vec3(0);
   rest_hand(closing);
   if (judged_depth <= HAND_DEPTH_LIMIT) status |= STATUS_PLAUSIBLE;
   put_masks();
   put_whole(closing.closure, closing.thumb_angle, closing.index_angle);
-  if (PLANE_CONTACT_CENTROID >= 0) put_point(PLANE_CONTACT_CENTROID, 0, grip, contact_sum / Real(bitCount(touch_mask)));
 }

@@ -131,9 +131,8 @@
   X(EXACT_TORQUE, 21) \
   X(NORMAL_FORCE, 22) \
   X(FEEDBACK_FORCE, 23) \
-  X(HOLD_FORCE, 24) \
-  X(CONTACT_CENTROID, 25)
-#define REAL_FIELDS 26
+  X(HOLD_FORCE, 24)
+#define REAL_FIELDS 25
 // Words: uint_out[plane * n + grip], one plane each.
 #define UINT_FIELD_LIST(X) \
   X(STATUS, REAL_FIELDS + 0) \
