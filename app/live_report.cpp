@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/vectors.h"
 #include "system/readable.h"
 
 namespace wholehand {
@@ -157,10 +158,8 @@ std::string live_json(const LiveSummary& summary) {
 bool is_force_left(const LoopReport& report) { return report.let_go == LetGo::not_taken || report.let_go == LetGo::not_asked; }
 
 std::string force_words(const LoopReport& report, double watchdog) {
-  const Triple& arm = report.force.arm;
   SafeLine line;
-  add_force_words(line, report.let_go, {std::hypot(arm[0], arm[1], arm[2]), std::abs(report.force.grip)}, watchdog,
-                  report.let_go_trouble);
+  add_force_words(line, report.let_go, {norm(report.force.arm), std::abs(report.force.grip)}, watchdog, report.let_go_trouble);
   return std::string(line.text());
 }
 

@@ -13,6 +13,7 @@
 #include "core/prepare.h"
 #include "core/scene_states.h"
 #include "core/trig.h"
+#include "core/vectors.h"
 
 namespace CORE_NS {
 
@@ -25,6 +26,8 @@ using wholehand::Handedness;
 using wholehand::LiquidResult;
 using wholehand::Scene;
 using wholehand::StateResult;
+using wholehand::to_triple;
+using wholehand::to_vec3;
 using wholehand::Triple;
 
 namespace {
@@ -34,10 +37,6 @@ constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
 Grip to_grip(const GripInput& g) {
   return {Real(g.height), Real(g.azimuth), Real(g.obliquity), Real(g.roll), Real(g.offset), Real(g.hand_scale)};
 }
-
-Vec3 vec_of(const Triple& t) { return Vec3(Real(t[0]), Real(t[1]), Real(t[2])); }
-
-Triple to_triple(Vec3 v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
 
 Limits limits_of(const wholehand::EvaluatorOptions& options) {
   Limits limits;
@@ -207,13 +206,13 @@ class CoreEvaluator final : public wholehand::Evaluator {
   }
 
   double distance(std::size_t v, const Triple& point) const override {
-    return signed_distance(entries_[v].vessel, vec_of(wholehand::mirrored(point, scene_.hand.handedness)));
+    return signed_distance(entries_[v].vessel, to_vec3<Real>(wholehand::mirrored(point, scene_.hand.handedness)));
   }
 
   Triple gradient(std::size_t v, const Triple& point) const override {
     int element = -1;
     const Vec3 gradient =
-        distance_gradient(entries_[v].vessel, vec_of(wholehand::mirrored(point, scene_.hand.handedness)), element);
+        distance_gradient(entries_[v].vessel, to_vec3<Real>(wholehand::mirrored(point, scene_.hand.handedness)), element);
     return wholehand::mirrored(to_triple(gradient), scene_.hand.handedness);
   }
 
@@ -340,7 +339,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
   Pinch pinch_of(const GripInput& input, const GripResult& result) const {
     const GripInput grip = wholehand::mirrored(input, scene_.hand.handedness);
     return {grip_direction(Real(grip.azimuth), Real(grip.obliquity)),
-            vec_of(wholehand::mirrored(result.midpoint, scene_.hand.handedness)), result.antipodal};
+            to_vec3<Real>(wholehand::mirrored(result.midpoint, scene_.hand.handedness)), result.antipodal};
   }
 
   static Load load_of(const VesselEntry& entry, const LiquidResult& liquid) {

@@ -9,12 +9,15 @@
 #include "core/mirror.h"
 #include "core/touch.h"
 #include "core/trig.h"
+#include "core/vectors.h"
 
 namespace CORE_NS {
+
+using wholehand::to_vec3;
+
 namespace {
 
-Vec3 to_vec(const wholehand::Triple& t) { return Vec3(Real(t[0]), Real(t[1]), Real(t[2])); }
-Vec2 to_vec(const std::array<double, 2>& t) { return Vec2(Real(t[0]), Real(t[1])); }
+Vec2 to_vec2(const std::array<double, 2>& t) { return Vec2(Real(t[0]), Real(t[1])); }
 
 // Mass and centre of mass of the wall: what the hull encloses less the cavity, by revolution of their elements; of a mesh, what it
 // encloses, less the cavity where that is enclosed too.
@@ -25,7 +28,7 @@ void weigh_wall(Vessel& vessel, const wholehand::PreparedVessel& prepared, const
   Vec3 moment(0);
   if (body) {
     volume = Real(body->volume);
-    moment = volume * to_vec(wholehand::mirrored(body->center_of_mass, handedness));
+    moment = volume * to_vec3<Real>(wholehand::mirrored(body->center_of_mass, handedness));
   }
   for (const auto& element : prepared.hull) {
     const Slices part = revolved_element(quadrature, load_element(element));
@@ -49,15 +52,15 @@ Hand load_hand(const wholehand::PreparedHand& prepared, const wholehand::HandDat
   Hand hand;
   for (int f = 0; f < FINGERS; ++f) {
     const auto& finger = prepared.fingers[f];
-    hand.frame[f] = {to_vec(finger.base), to_vec(finger.forward), to_vec(finger.palmward)};
+    hand.frame[f] = {to_vec3<Real>(finger.base), to_vec3<Real>(finger.forward), to_vec3<Real>(finger.palmward)};
     for (int k = 0; k < 4; ++k) hand.length[f][k] = Real(finger.length[k]);
     for (int k = 0; k < 5; ++k) hand.radius[f][k] = Real(finger.radius[k]);
   }
-  hand.thumb_open = to_vec(prepared.thumb_open);
-  hand.thumb_swing = to_vec(prepared.thumb_swing);
-  hand.finger_open = to_vec(prepared.finger_open);
-  hand.finger_swing = to_vec(prepared.finger_swing);
-  hand.joint_limit = to_vec(data.joint_limit);
+  hand.thumb_open = to_vec3<Real>(prepared.thumb_open);
+  hand.thumb_swing = to_vec3<Real>(prepared.thumb_swing);
+  hand.finger_open = to_vec3<Real>(prepared.finger_open);
+  hand.finger_swing = to_vec3<Real>(prepared.finger_swing);
+  hand.joint_limit = to_vec3<Real>(data.joint_limit);
   hand.max_angle = Real(data.max_angle);
   hand.paper_max_angle = Real(data.paper_max_angle);
   hand.contact_tolerance = Real(wholehand::judged_contact_tolerance(data));
@@ -81,9 +84,9 @@ Quadrature load_quadrature(const wholehand::PreparedQuadrature& prepared) {
 
 Element load_element(const wholehand::PreparedElement& element) {
   Element loaded;
-  loaded.a = to_vec(element.a);
-  loaded.b = to_vec(element.b);
-  loaded.center = to_vec(element.center);
+  loaded.a = to_vec2(element.a);
+  loaded.b = to_vec2(element.b);
+  loaded.center = to_vec2(element.center);
   loaded.radius = Real(element.radius);
   loaded.side = element.side;
   return loaded;
@@ -102,7 +105,7 @@ Vessel load_vessel(const wholehand::PreparedVessel& prepared, const wholehand::V
   vessel.mouth_radius = Real(prepared.mouth_radius);
   if (data.mass) {
     vessel.mass = Real(*data.mass);
-    vessel.center_of_mass = to_vec(wholehand::mirrored(data.center_of_mass, handedness));
+    vessel.center_of_mass = to_vec3<Real>(wholehand::mirrored(data.center_of_mass, handedness));
   } else {
     weigh_wall(vessel, prepared, data, quadrature, handedness);
   }
@@ -118,7 +121,7 @@ Vessel load_vessel(const wholehand::PreparedVessel& prepared, const wholehand::V
 
 Grid load_grid(const wholehand::PreparedGrid& prepared) {
   Grid grid;
-  grid.origin = to_vec(prepared.origin);
+  grid.origin = to_vec3<Real>(prepared.origin);
   grid.spacing = Real(prepared.spacing);
   grid.nx = prepared.nx;
   grid.ny = prepared.ny;

@@ -38,4 +38,14 @@ Triple mirrored(const Triple& point, Handedness handedness) {
   return handedness == Handedness::right ? point : Triple{-point[0], point[1], point[2]};
 }
 
+glm::dvec3 mirrored(const glm::dvec3& point, Handedness handedness) {
+  return handedness == Handedness::right ? point : glm::dvec3(-point.x, point.y, point.z);
+}
+
+glm::dmat3 mirrored(const glm::dmat3& rotation, Handedness handedness) {
+  if (handedness == Handedness::right) return rotation;
+  const glm::dmat3 mirror(-1, 0, 0, 0, 1, 0, 0, 0, 1);
+  return mirror * rotation * mirror;
+}
+
 }  // namespace wholehand

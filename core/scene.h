@@ -12,7 +12,9 @@
 
 namespace wholehand {
 
-using Triple = std::array<double, 3>;  // a point or vector, m unless said otherwise
+using Triple = std::array<double, 3>;    // a point or vector, m unless said otherwise
+using Rotation = std::array<double, 9>;  // row-major; its columns are the turned frame's axes
+constexpr Rotation NO_ROTATION{1, 0, 0, 0, 1, 0, 0, 0, 1};
 
 constexpr double PI = 3.14159265358979323846;
 constexpr double radians(double degrees) { return degrees * (PI / 180); }

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/vectors.h"
 #include "device/let_go.h"
 #include "live/tick.h"
 
@@ -85,7 +86,7 @@ class Gripper {
   // The force of the last write that was begun, for whoever must say it from another thread or a signal handler: a write that fails half-way
   // may have reached the device.
   void note(const GripperForce& force) noexcept {
-    noted_arm_.store(std::hypot(force.arm[0], force.arm[1], force.arm[2]), std::memory_order_relaxed);
+    noted_arm_.store(norm(force.arm), std::memory_order_relaxed);
     noted_grip_.store(std::abs(force.grip), std::memory_order_relaxed);
   }
   ForceSize noted() const noexcept {

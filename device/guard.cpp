@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/vectors.h"
+
 namespace wholehand {
 namespace {
 
@@ -19,8 +21,6 @@ bool is_rotation(const Rotation& r) {
       r[0] * (r[4] * r[8] - r[5] * r[7]) - r[1] * (r[3] * r[8] - r[5] * r[6]) + r[2] * (r[3] * r[7] - r[4] * r[6]);
   return holds && volume > 0;
 }
-
-double distance(const Triple& a, const Triple& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
 // Angle between two rotations: for small ones, the length of their difference over the root of two.
 double turned(const Rotation& a, const Rotation& b) {
@@ -75,7 +75,7 @@ GripperForce Guard::limit(const GripperForce& wanted, std::int64_t number) noexc
   const double seconds = period_ * static_cast<double>(is_first ? 1 : std::max<std::int64_t>(1, number - limited_));
   limited_ = number;
   const double most = slew_ * seconds;
-  const double size = std::hypot(wanted.arm[0], wanted.arm[1], wanted.arm[2]);
+  const double size = norm(wanted.arm);
   if (!std::isfinite(size) || !std::isfinite(wanted.grip)) {
     written_ = {};
     return written_;
@@ -83,7 +83,7 @@ GripperForce Guard::limit(const GripperForce& wanted, std::int64_t number) noexc
   const double factor = ramp * (size > force_ ? force_ / size : 1);
   Triple change{};
   for (int k = 0; k < 3; ++k) change[k] = factor * wanted.arm[k] - written_.arm[k];
-  const double changed = std::hypot(change[0], change[1], change[2]);
+  const double changed = norm(change);
   const double part = changed > most ? most / changed : 1;
   for (int k = 0; k < 3; ++k) written_.arm[k] += part * change[k];
   const double grip = ramp * std::clamp(wanted.grip, -grip_, grip_);

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <ctime>
 
+#include "core/vectors.h"
 #include "device/monotonic.h"
 #include "device/panic.h"
 
@@ -117,7 +118,7 @@ bool HapticLoop::step(std::int64_t number, double due) noexcept {
   session_.step(state_, number, tick);
   tick.read = outcome;
   tick.device = state_;
-  const double size = std::hypot(tick.wanted.arm[0], tick.wanted.arm[1], tick.wanted.arm[2]) + std::abs(tick.wanted.grip);
+  const double size = norm(tick.wanted.arm) + std::abs(tick.wanted.grip);
   if (!std::isfinite(size)) {
     release(Fault::not_finite, tick);
     return false;

@@ -12,6 +12,7 @@
 #include "core/mirror.h"
 #include "core/outline_points.h"
 #include "core/prepare.h"
+#include "core/vectors.h"
 #include "live/hand_view.h"
 #include "live/session.h"
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/quaternion.h"
+
 namespace wholehand::protocol {
 namespace {
 
@@ -77,9 +79,7 @@ Rotation rotation_of(const std::array<std::int32_t, 4>& quaternion) {
   for (const std::int32_t part : quaternion) square += static_cast<double>(part) * part;
   const double length = std::sqrt(square);
   const double w = quaternion[0] / length, x = quaternion[1] / length, y = quaternion[2] / length, z = quaternion[3] / length;
-  return {1 - 2 * (y * y + z * z), 2 * (x * y - w * z),     2 * (x * z + w * y),  //
-          2 * (x * y + w * z),     1 - 2 * (x * x + z * z), 2 * (y * z - w * x),  //
-          2 * (x * z - w * y),     2 * (y * z + w * x),     1 - 2 * (x * x + y * y)};
+  return to_rotation(glm::mat3_cast(glm::dquat(w, x, y, z)));
 }
 
 // The largest of the four parts is computed from the diagonal, the others from it: no part is a small difference of large ones.

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/vectors.h"
 
 namespace wholehand {
 namespace {
@@ -25,7 +26,7 @@ constexpr double SHORTEST_OF_WISHED = 0.5;  // a device rounds its watchdog peri
 // Forces beyond the device's limits are scaled to them, direction kept: the last guard before the wire.
 GripperForce limited(const GripperForce& force, const GripperLimits& limits) {
   GripperForce answer = force;
-  const double size = std::hypot(force.arm[0], force.arm[1], force.arm[2]);
+  const double size = norm(force.arm);
   if (size > limits.force)
     for (double& part : answer.arm) part *= limits.force / size;
   answer.grip = std::clamp(force.grip, -limits.grip, limits.grip);

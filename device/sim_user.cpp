@@ -9,6 +9,7 @@
 #include "core/evaluator.h"
 #include "core/mirror.h"
 #include "core/prepare.h"
+#include "core/vectors.h"
 
 namespace wholehand {
 

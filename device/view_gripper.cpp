@@ -6,8 +6,9 @@
 #include <limits>
 
 #include "core/prepare.h"
+#include "core/quaternion.h"
+#include "core/vectors.h"
 #include "device/follower.h"
-#include "live/quaternion.h"
 
 namespace wholehand {
 namespace {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/gather.h"
+#include "core/vectors.h"
 #include "shaders/layout.h"
 
 namespace wholehand {
@@ -20,7 +21,7 @@ LoadFloors::LoadFloors(const Scene& scene, const Evaluator& core, std::size_t ve
   const double height = scene.vessels[vessel].height, reach = height + 0.1 * scene.hand.scale;
   const double mass = scene.liquid ? scene.liquid->density * volume : 0;
   const Triple& center = constants.center_of_mass;
-  const double lever = reach + std::hypot(center[0], center[1], center[2]);
+  const double lever = reach + norm(center);
   const ForceData& force = scene.force;
   const double liquid_torque = scene.gravity * mass * (3 * height + reach);
   torque_ = liquid_torque + rounding * scene.gravity * constants.largest_mass * lever;

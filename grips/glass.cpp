@@ -8,6 +8,7 @@
 
 #include "core/liquid.h"
 #include "core/load.h"
+#include "core/vectors.h"
 
 namespace wholehand {
 namespace {
@@ -99,7 +100,7 @@ std::array<double, 2> DrawnGlass::extent_along(const Triple& axis) const {
   }
   std::array<double, 2> extent{HUGE_VAL, -HUGE_VAL};
   for (const Triple& p : body_->vertices) {
-    const double at = 1e3 * (axis[0] * p[0] + axis[1] * p[1] + axis[2] * p[2]);
+    const double at = 1e3 * dot(axis, p);
     extent = {std::min(extent[0], at), std::max(extent[1], at)};
   }
   return extent;
@@ -115,7 +116,7 @@ bool DrawnGlass::mesh_covers(const DrawnView& view, const Triple& a, const Tripl
   double depth = 0;
   for (int k = 0; k < BONE_SAMPLES; ++k) {
     const double t = (k + 0.5) / BONE_SAMPLES;
-    const Triple p{a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
+    const Triple p = point_between(a, b, t);
     const double cover = view.mesh->cover_of(p);
     if (cover != DepthMap::NOTHING) behind += cover > 0 ? 1 : -1;
     depth += view.depth(p) / BONE_SAMPLES;
@@ -127,7 +128,7 @@ bool DrawnGlass::mesh_covers(const DrawnView& view, const Triple& a, const Tripl
 
 bool DrawnGlass::covers(const DrawnView& view, const Triple& a, const Triple& b) const {
   if (body_) return mesh_covers(view, a, b);
-  const Triple p{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])};
+  const Triple p = midpoint(a, b);
   if (view.is_level()) return view.depth(p) < 0;
   return std::any_of(prepared_.hull.begin(), prepared_.hull.end(),
                      [&](const PreparedElement& e) { return widest_above(e, p[1]) > std::hypot(p[0], p[2]); });

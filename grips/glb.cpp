@@ -13,6 +13,7 @@
 
 #include "core/error.h"
 #include "core/mesh_body.h"
+#include "core/vectors.h"
 #include "grips/hand_nodes.h"
 #include "grips/mesh.h"
 #include "grips/states.h"
@@ -217,7 +218,7 @@ void add_hand_nodes(GlbBuilder& glb, int parent, const HandNodes& hand, const Gr
     if (j + 1 < JOINT_COUNT && hand.joints[j + 1].parent == j) {
       const Triple to_next = relative_position(joint, hand.joints[j + 1].position);
       const double near = BONE_SHARE * drawn_radius(joint.radius), far = BONE_SHARE * drawn_radius(hand.joints[j + 1].radius);
-      const double length = std::hypot(to_next[0], to_next[1], to_next[2]);
+      const double length = norm(to_next);
       const std::string name = fmt::format("{} bone", joint.name);
       glb.node(nodes[j]).mesh =
           glb.add_mesh(name, glb.add_primitive(capsule_mesh(length, near, far, BONE_SEGMENTS)), bone_material);

@@ -2,13 +2,12 @@
 #include "grips/hand_nodes.h"
 
 #include <cmath>
-#include <glm/gtc/quaternion.hpp>
 
 #include "core/closure.h"
 #include "core/load.h"
 #include "core/mirror.h"
 #include "core/prepare.h"
-#include "live/workspace.h"
+#include "core/vectors.h"
 
 namespace wholehand {
 namespace {
@@ -50,17 +49,6 @@ constexpr std::array<JointName, JOINT_COUNT> JOINT_NAMES{{
     {"pinky-finger-tip", "XR_HAND_JOINT_LITTLE_TIP_EXT"},
 }};
 
-Vec3 vector_of(const Triple& t) { return Vec3(t[0], t[1], t[2]); }
-Triple triple_of(Vec3 v) { return {v.x, v.y, v.z}; }
-glm::dquat quaternion_of(const Quaternion& q) { return glm::dquat(q[3], q[0], q[1], q[2]); }  // w first in glm's
-
-// A rotation of the right hand's scene in the left hand's: M R M with M = diag(-1, 1, 1). Its +y and +z are the mirrored ones; +x follows.
-Mat3 mirrored_rotation(Mat3 rotation, Handedness handedness) {
-  if (handedness == Handedness::right) return rotation;
-  const Mat3 mirror(-1, 0, 0, 0, 1, 0, 0, 0, 1);
-  return mirror * rotation * mirror;
-}
-
 // The joint's frame from the direction towards its finger's base and the axis about which the finger bends. A bone that lies along that
 // axis (a point that moved on its own, pose paper) keeps the back of the hand instead.
 Mat3 joint_rotation(Vec3 backward, Vec3 bend_axis, Vec3 back) {
@@ -73,8 +61,8 @@ Mat3 joint_rotation(Vec3 backward, Vec3 bend_axis, Vec3 back) {
 // Where the kernel placed the hand: from what the result keeps of it. All in the scene of the right hand.
 core_f64::Placement find_placement(const HandData& hand, const core_f64::Hand& ready, const GripInput& grip,
                                    const GripResult& result) {
-  const Vec3 thumb = vector_of(mirrored(result.posed[finger_start(1) - 1], hand.handedness));
-  const Vec3 index = vector_of(mirrored(result.posed[finger_start(2) - 1], hand.handedness));
+  const Vec3 thumb = to_vec3(mirrored(result.posed[finger_start(1) - 1], hand.handedness));
+  const Vec3 index = to_vec3(mirrored(result.posed[finger_start(2) - 1], hand.handedness));
   double e1_x = 0;
   return core_f64::place_hand(ready, result.closure, glm::normalize(index - thumb), grip.roll, 0.5 * (thumb + index),
                               hand.scale * grip.hand_scale, e1_x);
@@ -88,15 +76,16 @@ const char* openxr_name(int joint) { return JOINT_NAMES[joint].openxr; }
 HandNodes hand_nodes(const HandData& hand, const GripInput& grip, const GripResult& result) {
   const core_f64::Hand ready = core_f64::load_hand(prepare_hand(hand), hand);
   const core_f64::Placement placement = find_placement(hand, ready, grip, result);
-  const Mat3 rotation = mirrored_rotation(placement.rotation, hand.handedness);
-  return hand_nodes(hand, ready, mirrored(triple_of(placement.translation), hand.handedness), to_rotation(rotation), result.posed,
+  // its +y and +z are the mirrored ones; +x follows
+  const Mat3 rotation = mirrored(placement.rotation, hand.handedness);
+  return hand_nodes(hand, ready, mirrored(to_triple(placement.translation), hand.handedness), to_rotation(rotation), result.posed,
                     grip.hand_scale);
 }
 
 HandNodes hand_nodes(const HandData& hand, const core_f64::Hand& ready, const Triple& wrist, const Rotation& rotation,
                      const std::array<Triple, JOINT_COUNT>& points, double scale) {
-  const core_f64::Placement placement{mirrored_rotation(to_mat3(rotation), hand.handedness),
-                                      vector_of(mirrored(wrist, hand.handedness)), hand.scale * scale};
+  const core_f64::Placement placement{mirrored(to_mat3(rotation), hand.handedness), to_vec3(mirrored(wrist, hand.handedness)),
+                                      hand.scale * scale};
   HandNodes nodes;
   nodes.wrist.name = "wrist";
   nodes.wrist.openxr = "XR_HAND_JOINT_WRIST_EXT";
@@ -112,7 +101,7 @@ HandNodes hand_nodes(const HandData& hand, const core_f64::Hand& ready, const Tr
       const int j = finger_start(f) + k;
       const bool is_tip = k + 1 == finger_joints(f);
       if (!is_tip) {
-        const Vec3 bone = vector_of(mirrored(points[j], hand.handedness)) - vector_of(mirrored(points[j + 1], hand.handedness));
+        const Vec3 bone = to_vec3(mirrored(points[j], hand.handedness)) - to_vec3(mirrored(points[j + 1], hand.handedness));
         if (glm::length(bone) > NO_BONE) backward = glm::normalize(bone);
       }
       HandNode& node = nodes.joints[j];
@@ -120,7 +109,7 @@ HandNodes hand_nodes(const HandData& hand, const core_f64::Hand& ready, const Tr
       node.openxr = openxr_name(j);
       node.parent = k == 0 ? -1 : j - 1;
       node.position = points[j];
-      node.rotation = quaternion_of(mirrored_rotation(joint_rotation(backward, bend_axis, back), hand.handedness));
+      node.rotation = quaternion_of(mirrored(joint_rotation(backward, bend_axis, back), hand.handedness));
       node.radius = hand.scale * scale * hand.fingers[f].radii[k];
     }
   }
@@ -128,12 +117,11 @@ HandNodes hand_nodes(const HandData& hand, const core_f64::Hand& ready, const Tr
 }
 
 Triple relative_position(const HandNode& parent, const Triple& position) {
-  return triple_of(glm::conjugate(quaternion_of(parent.rotation)) * (vector_of(position) - vector_of(parent.position)));
+  return to_triple(glm::conjugate(to_quat(parent.rotation)) * (to_vec3(position) - to_vec3(parent.position)));
 }
 
 Quaternion relative_rotation(const HandNode& parent, const Quaternion& rotation) {
-  const glm::dquat q = glm::normalize(glm::conjugate(quaternion_of(parent.rotation)) * quaternion_of(rotation));
-  return {q.x, q.y, q.z, q.w};
+  return to_quaternion(glm::normalize(glm::conjugate(to_quat(parent.rotation)) * to_quat(rotation)));
 }
 
 }  // namespace wholehand

@@ -5,8 +5,8 @@
 #include <array>
 
 #include "core/hand.h"
+#include "core/quaternion.h"
 #include "core/result.h"
-#include "live/quaternion.h"
 #include "live/tick.h"
 
 namespace wholehand {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/vectors.h"
+
 namespace wholehand {
 namespace {
 
@@ -13,7 +15,6 @@ constexpr double LINE_DETAIL = 0.25;  // pixels
 constexpr double SHORT_GAP = 4;       // pixels: hidden for no longer, a line is drawn through
 constexpr double SHORT_LINE = 3;      // pixels: seen for no longer, a line that is hidden elsewhere is not drawn
 
-double dot_of(const Triple& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 double length_between(const Flat& a, const Flat& b) { return std::hypot(b[0] - a[0], b[1] - a[1]); }
 
 double line_length(const std::vector<Flat>& line) {
@@ -182,14 +183,14 @@ MeshView::MeshView(const MeshBody& body, const MeshEdges& edges, const Triple& r
       points_([&] {
         std::vector<Triple> points;
         points.reserve(body.vertices.size());
-        for (const Triple& p : body.vertices) points.push_back({dot_of(right, p), dot_of(up, p), dot_of(toward, p)});
+        for (const Triple& p : body.vertices) points.push_back({dot(right, p), dot(up, p), dot(toward, p)});
         return points;
       }()),
       depths_(points_, body.triangles, pixel) {}
 
-Triple MeshView::seen(const Triple& p) const { return {dot_of(right_, p), dot_of(up_, p), dot_of(toward_, p)}; }
+Triple MeshView::seen(const Triple& p) const { return {dot(right_, p), dot(up_, p), dot(toward_, p)}; }
 
-bool MeshView::faces_viewer(std::uint32_t triangle) const { return dot_of(edges_.normals[triangle], toward_) > EDGE_ON; }
+bool MeshView::faces_viewer(std::uint32_t triangle) const { return dot(edges_.normals[triangle], toward_) > EDGE_ON; }
 
 double MeshView::cover_of(const Triple& p) const {
   const Triple at = seen(p);
@@ -215,7 +216,7 @@ void MeshView::add_visible(const std::vector<std::uint32_t>& chain, std::vector<
   for (std::size_t i = 1; i < chain.size(); ++i) {
     const Triple &a = points_[chain[i - 1]], &b = points_[chain[i]];
     const int steps = std::max(1, static_cast<int>(std::ceil(std::hypot(b[0] - a[0], b[1] - a[1]) / pixel)));
-    const auto at = [&](double t) { return Triple{a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])}; };
+    const auto at = [&](double t) { return point_between(a, b, t); };
     for (int k = 0; k < steps; ++k) {
       const Triple from = at(static_cast<double>(k) / steps), to = at((k + 1.0) / steps), middle = at((k + 0.5) / steps);
       const bool is_seen = middle[2] >= depths_.least_near({middle[0], middle[1]}) - pixel;

@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 #include <numeric>
 
+#include "core/vectors.h"
 #include "objects/edges.h"
 
 namespace wholehand {
@@ -33,16 +34,13 @@ std::uint32_t corner_at(const MeshBody& body, std::uint32_t triangle, std::uint3
 
 // Of a triangle at its k-th corner, rad; 0 where it has no area.
 double corner_angle(const MeshBody& body, std::uint32_t triangle, int k) {
-  const auto point = [&](int n) {
-    const Triple& p = body.vertices[body.triangles[triangle][n % 3]];
-    return glm::dvec3(p[0], p[1], p[2]);
-  };
+  const auto point = [&](int n) { return to_vec3(body.vertices[body.triangles[triangle][n % 3]]); };
   const glm::dvec3 a = point(k + 1) - point(k), b = point(k + 2) - point(k);
   return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
 Triple unit_or(const Triple& v, const Triple& other) {
-  const double length = std::hypot(v[0], v[1], v[2]);
+  const double length = norm(v);
   if (length > 1e-9) return {v[0] / length, v[1] / length, v[2] / length};
   return other != Triple{} ? other : Triple{0, 1, 0};
 }

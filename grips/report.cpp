@@ -4,14 +4,13 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/vectors.h"
 
 namespace wholehand {
 namespace {
 
 constexpr double COINCIDENT = 1e-6;  // m
 constexpr double VERTICAL = 1e-9;    // sine of the angle to the axis, as the kernels' degenerate grips
-
-double norm(const Triple& v) { return std::hypot(v[0], v[1], v[2]); }
 
 }  // namespace
 

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <numeric>
 
+#include "core/vectors.h"
 #include "grips/glass.h"
 #include "grips/hand_nodes.h"
 #include "grips/states.h"
@@ -42,7 +43,7 @@ std::array<double, 2> extent_along(const Drawing& drawing, const Triple& axis) {
   std::array<double, 2> extent = drawing.glass.extent_along(axis);
   for (int j = 0; j < JOINT_COUNT; ++j) {
     const Triple& p = drawing.joints[j];
-    const double at = 1e3 * (axis[0] * p[0] + axis[1] * p[1] + axis[2] * p[2]);
+    const double at = 1e3 * dot(axis, p);
     extent = {std::min(extent[0], at - drawing.skin[j]), std::max(extent[1], at + drawing.skin[j])};
   }
   return extent;
@@ -101,7 +102,7 @@ std::vector<FingerRun> finger_runs(const Drawing& drawing, const DrawnView& view
     for (int k = 0; k + 1 < finger_joints(f); ++k) {
       const int j = finger_start(f) + k;
       const Triple &a = drawing.joints[j], &b = drawing.joints[j + 1];
-      const Triple middle{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])};
+      const Triple middle = midpoint(a, b);
       const bool is_behind = drawing.glass.covers(view, a, b);
       if (k > 0 && runs.back().is_behind == is_behind) {
         runs.back().last = j + 1;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "core/vectors.h"
 #include "grips/mesh_lines.h"
 
 namespace wholehand {
@@ -16,7 +17,7 @@ struct DrawnView {
   Flat origin{};
   std::shared_ptr<const MeshView> mesh;  // of a vessel that is one
 
-  double along(const Triple& axis, const Triple& p) const { return 1e3 * (axis[0] * p[0] + axis[1] * p[1] + axis[2] * p[2]); }
+  double along(const Triple& axis, const Triple& p) const { return 1e3 * dot(axis, p); }
   double depth(const Triple& p) const { return along(toward, p); }  // mm, larger is nearer
   Flat flat(const Triple& p) const { return {origin[0] + along(right, p), origin[1] - along(up, p)}; }
   bool is_level() const { return up[1] == 1; }  // front and side: the vessel's axis runs up

@@ -7,6 +7,7 @@
 #include "core/contact.h"
 #include "core/mirror.h"
 #include "core/prepare.h"
+#include "core/vectors.h"
 
 namespace wholehand {
 
@@ -29,11 +30,7 @@ struct Stance {
 };
 
 // Between the scene's world and that of the right hand; the same both ways.
-Mat3 across(const Mat3& rotation, Handedness handedness) {
-  if (handedness == Handedness::right) return rotation;
-  const Mat3 mirror(-1, 0, 0, 0, 1, 0, 0, 0, 1);
-  return mirror * rotation * mirror;
-}
+Mat3 across(const Mat3& rotation, Handedness handedness) { return mirrored(rotation, handedness); }
 Vec3 across(const Triple& point, Handedness handedness) { return to_vec3(mirrored(point, handedness)); }
 Triple back(Vec3 point, Handedness handedness) { return mirrored(to_triple(point), handedness); }
 

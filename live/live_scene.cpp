@@ -13,6 +13,7 @@
 #include "core/mirror.h"
 #include "core/planes.h"
 #include "core/prepare.h"
+#include "core/vectors.h"
 #include "live/tick.h"
 #include "live/workspace.h"
 

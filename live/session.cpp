@@ -10,6 +10,7 @@
 #include "core/liquid.h"
 #include "core/mesh_body.h"
 #include "core/trig.h"
+#include "core/vectors.h"
 
 namespace wholehand {
 

@@ -13,9 +13,6 @@ namespace wholehand {
 
 constexpr int LIVE_VESSELS = 16;  // at most in a live scene
 
-using Rotation = std::array<double, 9>;  // row-major; its columns are the turned frame's axes
-constexpr Rotation NO_ROTATION{1, 0, 0, 0, 1, 0, 0, 0, 1};
-
 // What a read gives: a value, nothing yet, or an error.
 enum class ReadOutcome : std::uint8_t { value, timeout, error };
 

@@ -5,22 +5,18 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/mirror.h"
+#include "core/vectors.h"
 
 namespace wholehand {
 
 using core_f64::Mat3;
 using core_f64::Vec3;
 
-Vec3 to_vec3(const Triple& v) { return {v[0], v[1], v[2]}; }
-Triple to_triple(Vec3 v) { return {v.x, v.y, v.z}; }
-// glm stores columns
-Mat3 to_mat3(const Rotation& r) { return Mat3(r[0], r[3], r[6], r[1], r[4], r[7], r[2], r[5], r[8]); }
-Rotation to_rotation(const Mat3& m) { return {m[0].x, m[1].x, m[2].x, m[0].y, m[1].y, m[2].y, m[0].z, m[1].z, m[2].z}; }
-
 Workspace::Workspace(const Scene& scene, std::array<double, 2> device_gap, std::array<double, 2> hand_gap)
     : origin_(to_vec3(scene.device.origin)),
       scale_(scene.device.workspace_scale),
-      is_mirrored_(scene.hand.handedness == Handedness::left),
+      handedness_(scene.hand.handedness),
       clutch_(scene.device.clutch_button),
       device_gap_(scene.device.has_gap ? scene.device.gap : device_gap),
       hand_gap_(hand_gap) {
@@ -62,13 +58,9 @@ Triple Workspace::to_device(Vec3 force) const noexcept { return to_triple(glm::t
 
 Vec3 Workspace::to_world(const Triple& force) const noexcept { return across(axes_ * to_vec3(force)); }
 
-Vec3 Workspace::across(Vec3 v) const noexcept { return is_mirrored_ ? Vec3(-v.x, v.y, v.z) : v; }
+Vec3 Workspace::across(Vec3 v) const noexcept { return mirrored(v, handedness_); }
 
-Mat3 Workspace::across(const Mat3& rotation) const noexcept {
-  if (!is_mirrored_) return rotation;
-  const Mat3 mirror(-1, 0, 0, 0, 1, 0, 0, 0, 1);
-  return mirror * rotation * mirror;
-}
+Mat3 Workspace::across(const Mat3& rotation) const noexcept { return mirrored(rotation, handedness_); }
 
 double coupling_slope(double workspace_scale, double gap_slope) { return std::max(2 * workspace_scale, gap_slope); }
 

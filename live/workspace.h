@@ -8,11 +8,6 @@
 
 namespace wholehand {
 
-core_f64::Vec3 to_vec3(const Triple& v);
-Triple to_triple(core_f64::Vec3 v);
-core_f64::Mat3 to_mat3(const Rotation& r);
-Rotation to_rotation(const core_f64::Mat3& m);
-
 // Where a gripper puts the hand: `middle` between the two tips, `rotation` of the gripper's axes, the hand's gap. A left hand is moved as the
 // right hand of the world mirrored in x, so these are of that world (docs/method.md).
 struct HandPose {
@@ -46,7 +41,7 @@ class Workspace {
   core_f64::Mat3 axes_{1};  // device to world
   core_f64::Vec3 origin_{};
   double scale_ = 1;
-  bool is_mirrored_ = false;
+  Handedness handedness_ = Handedness::right;
   int clutch_ = -1;
   std::array<double, 2> device_gap_{}, hand_gap_{};
   double slope_ = 1;

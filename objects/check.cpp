@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/vectors.h"
 #include "objects/holes.h"
 
 namespace wholehand {
@@ -22,10 +23,7 @@ constexpr double SMALL_MESH = 2e-3;       // m: likewise
 constexpr double LEAST_THICKNESS = 1e-9;  // volume over area, of the largest extent: below it, rounding
 constexpr double LEAST_HEIGHT = 1e-12;    // of a triangle, of its longest edge: below it, rounding
 
-glm::dvec3 corner_of(const TriangleMesh& mesh, std::uint32_t vertex) {
-  const Triple& p = mesh.vertices[vertex];
-  return {p[0], p[1], p[2]};
-}
+glm::dvec3 corner_of(const TriangleMesh& mesh, std::uint32_t vertex) { return to_vec3(mesh.vertices[vertex]); }
 
 // Leaves out triangles that are there before, with the same corners in the same turn: copies one upon the other bound the same body, and make each
 // distance as many times as slow. Returns how many.
@@ -135,7 +133,7 @@ void measure_volume(const TriangleMesh& mesh, const glm::dvec3& apex, MeshFacts&
     moment += part / 4 * (a + b + c);
   }
   const glm::dvec3 center = apex + (facts.volume != 0 ? moment / facts.volume : glm::dvec3(0));
-  facts.center_of_mass = {center.x, center.y, center.z};
+  facts.center_of_mass = to_triple(center);
 }
 
 double largest_extent(const MeshFacts& facts) {

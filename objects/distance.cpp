@@ -13,6 +13,7 @@
 #include <optional>
 
 #include "core/error.h"
+#include "core/vectors.h"
 #include "objects/winding_tree.h"
 
 namespace wholehand {
@@ -30,8 +31,6 @@ constexpr double THIN = 1e-24;         // squared: of the sine of a corner
 constexpr double CLEARLY_OFF = 1e-14;  // of the squared distance: an edge seen from a point turns clearly to one side
 constexpr double COARSE_OPENING = 2, FINE_OPENING = 8;  // of clusters: to 0.06, to 0.001
 constexpr double WINDING_DOUBT = 0.06;
-
-glm::dvec3 vector_of(const Triple& p) { return {p[0], p[1], p[2]}; }
 
 // Of a point at `from` from the start of a segment.
 inline double segment_distance_squared(const glm::dvec3& from, const glm::dvec3& along) {
@@ -89,7 +88,7 @@ struct MeshDistance::Parts {
   Parts(const Parts&) = delete;
   Parts& operator=(const Parts&) = delete;
 
-  glm::dvec3 corner(unsigned triangle, int k) const { return vector_of(mesh.vertices[mesh.triangles[triangle][k]]); }
+  glm::dvec3 corner(unsigned triangle, int k) const { return to_vec3(mesh.vertices[mesh.triangles[triangle][k]]); }
   double distance_squared(unsigned triangle, const glm::dvec3& p) const {
     return triangle_distance_squared(p, corner(triangle, 0), corner(triangle, 1), corner(triangle, 2));
   }
@@ -195,8 +194,8 @@ struct MeshQueries {
 MeshDistance::Parts::Parts(const CheckedMesh& checked)
     : mesh(checked.mesh),
       sign(sign_of(checked.facts)),
-      center((vector_of(checked.facts.low) + vector_of(checked.facts.high)) / 2.0),
-      extent(glm::length(vector_of(checked.facts.high) - center)) {
+      center((to_vec3(checked.facts.low) + to_vec3(checked.facts.high)) / 2.0),
+      extent(glm::length(to_vec3(checked.facts.high) - center)) {
   if (sign == MeshSign::winding) winding.emplace(mesh);
   device = rtcNewDevice(nullptr);
   if (device == nullptr) throw failure_error("Embree cannot be started: " + embree_trouble(nullptr));
@@ -238,9 +237,9 @@ MeshDistance::~MeshDistance() = default;
 MeshSign MeshDistance::sign() const { return parts_->sign; }
 
 double MeshDistance::distance(const Triple& p, std::uint32_t& nearest) const {
-  const glm::dvec3 there = vector_of(p) - parts_->center;
+  const glm::dvec3 there = to_vec3(p) - parts_->center;
   const double slack = SINGLE_SLACK * (glm::length(there) + parts_->extent);
-  MeshQueries::Closest search{*parts_, vector_of(p), parts_->distance_squared(nearest, vector_of(p)), slack, nearest};
+  MeshQueries::Closest search{*parts_, to_vec3(p), parts_->distance_squared(nearest, to_vec3(p)), slack, nearest};
   RTCPointQuery query{};
   query.x = static_cast<float>(there.x);
   query.y = static_cast<float>(there.y);
@@ -255,20 +254,20 @@ double MeshDistance::distance(const Triple& p, std::uint32_t& nearest) const {
 
 double MeshDistance::winding_number(const Triple& p) const {
   if (!parts_->winding) return is_inside(p) ? 1 : 0;
-  return parts_->winding->winding_number(vector_of(p), FINE_OPENING);
+  return parts_->winding->winding_number(to_vec3(p), FINE_OPENING);
 }
 
 // A ray that comes too near an edge for its crossing to be counted once for sure is given up for one in another direction. Where all
 // are, p lies on an edge, and either answer serves.
 bool MeshDistance::is_inside(const Triple& p) const {
   if (parts_->winding) {
-    const double coarse = parts_->winding->winding_number(vector_of(p), COARSE_OPENING);
+    const double coarse = parts_->winding->winding_number(to_vec3(p), COARSE_OPENING);
     return (std::abs(coarse - 0.5) > WINDING_DOUBT ? coarse : winding_number(p)) > 0.5;
   }
-  const glm::dvec3 there = vector_of(p) - parts_->center;
+  const glm::dvec3 there = to_vec3(p) - parts_->center;
   bool inside = false;
   for (const RayFrame& frame : ray_frames()) {
-    MeshQueries::Crossings ray{{}, parts_.get(), vector_of(p), &frame, 0, 0, false};
+    MeshQueries::Crossings ray{{}, parts_.get(), to_vec3(p), &frame, 0, 0, false};
     rtcInitIntersectContext(&ray.context);
     RTCRayHit hit{};
     hit.ray.org_x = static_cast<float>(there.x);

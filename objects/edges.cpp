@@ -8,6 +8,8 @@
 #include <tuple>
 #include <utility>
 
+#include "core/vectors.h"
+
 namespace wholehand {
 namespace {
 
@@ -24,10 +26,7 @@ struct EdgeUse {
   bool is_with(const EdgeUse& other) const { return low == other.low && high == other.high; }
 };
 
-glm::dvec3 vertex_of(const MeshBody& body, std::uint32_t vertex) {
-  const Triple& p = body.vertices[vertex];
-  return {p[0], p[1], p[2]};
-}
+glm::dvec3 vertex_of(const MeshBody& body, std::uint32_t vertex) { return to_vec3(body.vertices[vertex]); }
 
 double length_of(const MeshBody& body, const MeshEdge& edge) {
   return glm::length(vertex_of(body, edge.to) - vertex_of(body, edge.from));
@@ -58,7 +57,7 @@ std::vector<Triple> triangle_normals(const MeshBody& body) {
     const glm::dvec3 a = vertex_of(body, i), b = vertex_of(body, j), c = vertex_of(body, k), normal = glm::cross(b - a, c - a);
     const double doubled = glm::length(normal), edge = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
     const glm::dvec3 unit = doubled > NO_AREA * edge * edge ? normal / doubled : glm::dvec3(0);
-    normals.push_back({unit.x, unit.y, unit.z});
+    normals.push_back(to_triple(unit));
   }
   return normals;
 }
@@ -98,7 +97,7 @@ MeshEdges find_edges(const MeshBody& body) {
       continue;
     }
     const Triple &a = found.normals[edge.left], &b = found.normals[edge.right];
-    edge.is_crease = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] < std::cos(CREASE_ANGLE) && a != Triple{} && b != Triple{};
+    edge.is_crease = dot(a, b) < std::cos(CREASE_ANGLE) && a != Triple{} && b != Triple{};
   }
   return found;
 }

@@ -20,6 +20,7 @@
 #include "core/error.h"
 #include "core/half.h"
 #include "core/sdf.h"
+#include "core/vectors.h"
 #include "objects/distance.h"
 #include "shaders/layout.h"
 
@@ -70,10 +71,7 @@ void on_threads(int threads, int count, const std::function<void(int)>& work, co
 // Random points of the surface, as many a square metre everywhere; the same ones each time. Those that lie within are left out, where
 // bodies overlap: nobody touches them, and the distance is not 0 there.
 std::vector<Triple> surface_points(const MeshDistance& distance, const TriangleMesh& mesh, int count) {
-  const auto corner = [&](std::size_t triangle, int k) {
-    const Triple& p = mesh.vertices[mesh.triangles[triangle][k]];
-    return glm::dvec3(p[0], p[1], p[2]);
-  };
+  const auto corner = [&](std::size_t triangle, int k) { return to_vec3(mesh.vertices[mesh.triangles[triangle][k]]); };
   std::vector<double> area_up_to;
   double area = 0;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -92,8 +90,8 @@ std::vector<Triple> surface_points(const MeshDistance& distance, const TriangleM
     const double edge = std::sqrt(glm::length(normal));
     const glm::dvec3 aside = edge > 0 ? BESIDE * edge * glm::normalize(normal) : glm::dvec3(0);
     const glm::dvec3 front = p + aside, back = p - aside;
-    const bool is_buried = distance.is_inside({front.x, front.y, front.z}) && distance.is_inside({back.x, back.y, back.z});
-    if (!is_buried) points.push_back({p.x, p.y, p.z});
+    const bool is_buried = distance.is_inside(to_triple(front)) && distance.is_inside(to_triple(back));
+    if (!is_buried) points.push_back(to_triple(p));
   }
   return points;
 }

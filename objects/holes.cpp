@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/vectors.h"
+
 namespace wholehand {
 namespace {
 
@@ -38,13 +40,13 @@ void measure_hole(const TriangleMesh& mesh, MeshHole& hole) {
   Triple low = mesh.vertices[hole.corners[0]], high = low;
   for (std::size_t i = 0; i < hole.corners.size(); ++i) {
     const Triple &p = mesh.vertices[hole.corners[i]], &q = mesh.vertices[hole.corners[(i + 1) % hole.corners.size()]];
-    hole.length += std::hypot(q[0] - p[0], q[1] - p[1], q[2] - p[2]);
+    hole.length += distance(q, p);
     for (int k = 0; k < 3; ++k) {
       low[k] = std::min(low[k], p[k]);
       high[k] = std::max(high[k], p[k]);
     }
   }
-  hole.across = std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+  hole.across = distance(high, low);
 }
 
 // Follows open edges from vertex to vertex, each once.

@@ -9,6 +9,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <limits>
 
+#include "core/vectors.h"
 #include "objects/assimp_triangles.h"
 #include "objects/file.h"
 #include "objects/gltf_triangles.h"
@@ -31,8 +32,7 @@ void place_mesh(TriangleMesh& mesh, const MeshData& data, const MeshFile& file) 
   constexpr double FAR = std::numeric_limits<double>::infinity();
   Triple low{FAR, FAR, FAR}, high{-FAR, -FAR, -FAR};
   for (Triple& vertex : mesh.vertices) {
-    const glm::dvec3 upright =
-        data.z_is_up ? glm::dvec3(vertex[0], vertex[2], -vertex[1]) : glm::dvec3(vertex[0], vertex[1], vertex[2]);
+    const glm::dvec3 upright = data.z_is_up ? glm::dvec3(vertex[0], vertex[2], -vertex[1]) : to_vec3(vertex);
     const glm::dvec3 turned = turn * (data.scale * upright);
     for (int k = 0; k < 3; ++k) {
       if (!(std::abs(turned[k]) <= FARTHEST))

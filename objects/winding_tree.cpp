@@ -7,6 +7,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/vectors.h"
+
 namespace wholehand {
 namespace {
 
@@ -29,8 +31,7 @@ WindingTree::WindingTree(const TriangleMesh& mesh) : mesh_(mesh), middles_(mesh.
 }
 
 glm::dvec3 WindingTree::corner(std::uint32_t triangle, int k) const {
-  const Triple& p = mesh_.vertices[mesh_.triangles[triangle][k]];
-  return {p[0], p[1], p[2]};
+  return to_vec3(mesh_.vertices[mesh_.triangles[triangle][k]]);
 }
 
 // Halves by the median of the middles along the longest side, so the depth is at most 32.

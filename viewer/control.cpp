@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/error.h"
+#include "core/vectors.h"
 #include "scene/text.h"
 
 namespace wholehand {

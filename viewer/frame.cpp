@@ -6,8 +6,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "core/quaternion.h"
 #include "live/amounts.h"
-#include "live/quaternion.h"
 
 namespace wholehand {
 namespace {

@@ -15,6 +15,7 @@
 #include "core/mesh_body.h"
 #include "core/outline_points.h"
 #include "core/prepare.h"
+#include "core/vectors.h"
 #include "grips/hand_nodes.h"
 #include "grips/report.h"
 #include "viewer/scene.h"

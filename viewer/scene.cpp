@@ -13,6 +13,7 @@
 #include "core/mesh_body.h"
 #include "core/outline_points.h"
 #include "core/prepare.h"
+#include "core/vectors.h"
 #include "grips/hand_nodes.h"
 #include "live/hand_view.h"
 #include "system/version.h"
@@ -43,7 +44,7 @@ Json guidance_points(const VesselData& data, const PreparedVessel& prepared) {
     const core_f64::Vec3 out = core_f64::grip_direction(point.azimuth, 0), axis(0, point.height, 0);
     const core_f64::Trace trace = core_f64::trace_tip(vessel, axis, out, 1, 0);
     const core_f64::Vec3 at = trace.reason == REASON_NONE ? axis + trace.t * out : axis;
-    points.push_back({at.x, at.y, at.z});
+    points.push_back(to_triple(at));
   }
   return points;
 }

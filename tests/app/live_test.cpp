@@ -23,6 +23,7 @@
 #include "app/open_gripper.h"
 #include "app/paths.h"
 #include "core/error.h"
+#include "core/vectors.h"
 #include "recordings/recording.h"
 #include "scene/reader.h"
 #include "tests/support/files.h"
@@ -191,21 +192,15 @@ TEST(Live, KeepsItsRateWithAClock) {
   EXPECT_TRUE(report["fault"].is_null());
 }
 
-Triple between(const Triple& a, const Triple& b, double share) {
-  Triple place{};
-  for (int k = 0; k < 3; ++k) place[k] = a[k] + share * (b[k] - a[k]);
-  return place;
-}
-
 // What a page would post of a mouse that takes the board's first full beaker from its place, over the target, and tilts it there.
 nlohmann::json dragged(const Scene& scene, double time) {
   const Triple home = scene.vessels[1].place, mouth = scene.task->target_place;
   // at 75 degrees the lip is 4 cm below the tips and 5 cm further from the person
   const Triple held{home[0], home[1] + 0.07, home[2]}, lifted{home[0], home[1] + 0.3, home[2]},
       over{mouth[0], mouth[1] + 0.12, mouth[2] + 0.05};
-  Triple place = between({0, 0.07, 0.19}, held, ease(time, 0, 1));
-  place = between(place, lifted, ease(time, 2, 2.7));
-  place = between(place, over, ease(time, 2.7, 3.5));
+  Triple place = point_between({0, 0.07, 0.19}, held, ease(time, 0, 1));
+  place = point_between(place, lifted, ease(time, 2, 2.7));
+  place = point_between(place, over, ease(time, 2.7, 3.5));
   const double tilt = radians(75) * ease(time, 3.5, 4.7), c = std::cos(tilt), s = std::sin(tilt);
   return {{"position", place},
           {"rotation", {1, 0, 0, 0, c, s, 0, -s, c}},

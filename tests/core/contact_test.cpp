@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/evaluator.h"
+#include "core/vectors.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {
@@ -367,14 +368,13 @@ TEST(Contact, BoneStretchIsTheLargestOverTheBones) {
   for (const Whole& whole : wholes()) {
     double largest = 0;
     for_each_grip(whole, [&](const Evaluator&, double, const GripResult& result) {
-      const auto apart = [](const Triple& a, const Triple& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); };
       double stretch = 0;
       int bones = 0;
       for (std::size_t j = 0; j + 1 < JOINT_COUNT; ++j) {
         if (is_base(j + 1)) continue;  // the next finger
         ++bones;
-        stretch = std::max(
-            stretch, std::abs(apart(result.proxies[j], result.proxies[j + 1]) - apart(result.joints[j], result.joints[j + 1])));
+        stretch = std::max(stretch, std::abs(distance(result.proxies[j], result.proxies[j + 1]) -
+                                             distance(result.joints[j], result.joints[j + 1])));
       }
       EXPECT_EQ(bones, 19);
       EXPECT_NEAR(result.bone_stretch, stretch, 1e-14 * std::max(1.0, whole.scene.hand.scale))

@@ -10,8 +10,8 @@
 #include "core/closure.h"
 #include "core/evaluator.h"
 #include "core/load.h"
+#include "core/vectors.h"
 #include "tests/support/scenes.h"
-#include "tests/support/vectors.h"
 
 namespace wholehand {
 namespace {
@@ -57,7 +57,7 @@ TEST(HeldForces, AreThoseOfASweepsState) {
                   const StateResult state = evaluator->state(v, grip, result, liquid, tilt, squeeze);
                   const core_f64::HeldForces held = core_f64::held_forces(
                       scale, core_f64::load_with(vessel, liquid.mass, liquid.lean, liquid.height), largest, direction,
-                      vec(result.midpoint), core_f64::pour_direction(direction, pour == Pour::towards ? -1 : 1), std::sin(tilt),
+                      to_vec3(result.midpoint), core_f64::pour_direction(direction, pour == Pour::towards ? -1 : 1), std::sin(tilt),
                       std::cos(tilt), result.antipodal, squeeze);
                   expect_same(held.pivot_length, state.pivot_length, "pivot");
                   expect_same(held.torque, state.torque, "torque");
@@ -66,7 +66,7 @@ TEST(HeldForces, AreThoseOfASweepsState) {
                   expect_same(held.feedback, state.feedback_force, "feedback");
                   expect_same(held.hold, state.hold_force, "hold force");
                   expect_same(held.opening, scene.force.k_open * squeeze, "opening force");
-                  EXPECT_NEAR(glm::length(held.center - vec(state.center_of_mass)), 0, 1e-15);
+                  EXPECT_NEAR(glm::length(held.center - to_vec3(state.center_of_mass)), 0, 1e-15);
                 }
               }
             }

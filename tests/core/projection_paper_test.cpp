@@ -9,9 +9,9 @@
 #include <cmath>
 
 #include "core/evaluator.h"
+#include "core/vectors.h"
 #include "tests/support/placed_finger.h"
 #include "tests/support/scenes.h"
-#include "tests/support/vectors.h"
 
 namespace wholehand {
 namespace {
@@ -38,17 +38,17 @@ TEST(Paper, AngleIsTheFirstRootOfDenseSampling) {
   for (const ProjectionCase& one : paper_cases()) {
     const HandData& hand = one.scene.hand;
     for_each_grip(one, 120, [&](const Evaluator& evaluator, const GripInput& grip, const GripResult& result) {
-      const Vec3 index_mcp = vec(result.joints[5]), little_mcp = vec(result.joints[20]);
-      const Vec3 index_tip = vec(result.joints[INDEX_TIP]), thumb_tip = vec(result.joints[THUMB_TIP]);
+      const Vec3 index_mcp = to_vec3(result.joints[5]), little_mcp = to_vec3(result.joints[20]);
+      const Vec3 index_tip = to_vec3(result.joints[INDEX_TIP]), thumb_tip = to_vec3(result.joints[THUMB_TIP]);
       Vec3 u = glm::normalize(little_mcp - index_mcp);
       if (glm::dot(glm::cross(u, index_tip - index_mcp), thumb_tip - index_tip) < 0) u = -u;
       for (int finger = 2; finger < FINGER_COUNT; ++finger) {
         const Placed placed = placed_finger(hand, result, finger, grip.hand_scale);
         for (std::size_t k = 2; k < 5; ++k) {
           const std::size_t j = first_joint(finger) + k;
-          const Vec3 p = vec(result.joints[j]);
+          const Vec3 p = to_vec3(result.joints[j]);
           const auto separation = [&](double angle) {
-            return evaluator.distance(0, triple(turned_about(p, placed.mcp, u, angle))) - placed.radius[k];
+            return evaluator.distance(0, to_triple(turned_about(p, placed.mcp, u, angle))) - placed.radius[k];
           };
           if (separation(0) <= hand.contact_tolerance) {  // it touches: it stays, however deep
             EXPECT_EQ(result.posed[j], result.joints[j]) << one.name;
@@ -61,7 +61,7 @@ TEST(Paper, AngleIsTheFirstRootOfDenseSampling) {
           } else if (crossing.found) {
             ++found;
             // 1e-7 m: the stop tolerance over the least approach, 1e-9 / 0.05
-            ASSERT_LT(glm::distance(vec(result.posed[j]), turned_about(p, placed.mcp, u, crossing.at)),
+            ASSERT_LT(glm::distance(to_vec3(result.posed[j]), turned_about(p, placed.mcp, u, crossing.at)),
                       1e-7 * std::max(1.0, hand.scale))
                 << one.name << ", joint " << j;
             EXPECT_NEAR(result.separation[j], 0, FINGER_TOUCHING + 1e-15);
@@ -89,9 +89,9 @@ TEST(Paper, LargestTurnIsItsOwn) {
     evaluator->grip(0, grip, again);
     EXPECT_EQ(result.posed, again.posed);
     for (std::size_t j = 9; j < JOINT_COUNT; ++j) {
-      const double moves = glm::distance(vec(result.posed[j]), vec(result.joints[j]));
+      const double moves = glm::distance(to_vec3(result.posed[j]), to_vec3(result.joints[j]));
       const std::size_t mcp = first_joint(static_cast<int>(1 + (j - 4) / 5)) + 1;
-      const double arm = glm::distance(vec(result.joints[j]), vec(result.joints[mcp]));
+      const double arm = glm::distance(to_vec3(result.joints[j]), to_vec3(result.joints[mcp]));
       EXPECT_LE(moves, 2 * arm * std::sin(radians(2.5)) + 1e-15) << j;  // a chord of 5 degrees
       moved += moves > 0;
     }

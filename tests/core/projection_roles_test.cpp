@@ -9,9 +9,9 @@
 #include <cmath>
 
 #include "core/evaluator.h"
+#include "core/vectors.h"
 #include "tests/support/placed_finger.h"
 #include "tests/support/scenes.h"
-#include "tests/support/vectors.h"
 
 namespace wholehand {
 namespace {
@@ -178,7 +178,8 @@ TEST(Projection, FloatAgreesWithDouble) {
       ++feasible;
       const auto apart = [](const GripResult& a, const GripResult& b) {
         double largest = 0;
-        for (std::size_t j = 0; j < JOINT_COUNT; ++j) largest = std::max(largest, glm::distance(vec(a.posed[j]), vec(b.posed[j])));
+        for (std::size_t j = 0; j < JOINT_COUNT; ++j)
+          largest = std::max(largest, glm::distance(to_vec3(a.posed[j]), to_vec3(b.posed[j])));
         return largest;
       };
       double moves = 0;

@@ -8,9 +8,9 @@
 #include <cmath>
 
 #include "core/evaluator.h"
+#include "core/vectors.h"
 #include "tests/support/placed_finger.h"
 #include "tests/support/scenes.h"
-#include "tests/support/vectors.h"
 
 namespace wholehand {
 namespace {
@@ -41,7 +41,7 @@ Vec3 angles_of(const Placed& finger, const GripResult& result, int index, double
   out_of_plane = 0;
   for (int k = 0; k < 3; ++k) {
     const auto i = j + 1 + static_cast<std::size_t>(k);
-    const Vec3 bone = vec(result.posed[i + 1]) - vec(result.posed[i]);
+    const Vec3 bone = to_vec3(result.posed[i + 1]) - to_vec3(result.posed[i]);
     const double angle = std::atan2(glm::dot(bone, finger.palmward), glm::dot(bone, finger.forward));
     angles[k] = std::remainder(angle - before, 2 * PI);
     before = angle;
@@ -57,7 +57,7 @@ TEST(Articulated, BonesKeepTheirLengths) {
         const FingerData& data = one.scene.hand.fingers[static_cast<std::size_t>(finger)];
         for (std::size_t k = 0; k < (finger == 0 ? 3u : 4u); ++k) {
           const std::size_t j = first_joint(finger) + k;
-          const double bone = glm::distance(vec(result.posed[j + 1]), vec(result.posed[j]));
+          const double bone = glm::distance(to_vec3(result.posed[j + 1]), to_vec3(result.posed[j]));
           ASSERT_NEAR(bone, one.scene.hand.scale * grip.hand_scale * data.segments[k], 1e-12) << one.name << ", joint " << j;
         }
       }
@@ -143,7 +143,7 @@ TEST(Articulated, AgreesWithDenseSampling) {
         const auto expected = watched_points_by_matrices(placed, rest.angles), planar = watched_points(placed, rest.angles);
         for (std::size_t k = 0; k < 3; ++k) {
           ASSERT_LT(glm::distance(expected[k], planar[k]), 1e-12 * std::max(1.0, hand.scale));  // the simulation's own shortcut
-          const double off = glm::distance(vec(result.posed[first_joint(finger) + 2 + k]), expected[k]);
+          const double off = glm::distance(to_vec3(result.posed[first_joint(finger) + 2 + k]), expected[k]);
           worst = std::max(worst, off / std::max(1.0, hand.scale));
           // 1e-7 m: a touch is 1e-9 m early, at most 1e-9 / 0.05 along the way, and a finger touches three times at most
           ASSERT_LT(off, 1e-7 * std::max(1.0, hand.scale)) << one.name << ", finger " << finger << ", point " << k;
@@ -172,14 +172,15 @@ TEST(Articulated, BlockedFingersAreReportedAndStayOpen) {
             watched_points(placed, {static_cast<double>(open[0]), static_cast<double>(open[1]), static_cast<double>(open[2])});
         double least = 1;
         for (std::size_t k = 0; k < 3; ++k)
-          least = std::min(least, evaluator.distance(0, triple(points[k])) - placed.radius[k + 2]);
+          least = std::min(least, evaluator.distance(0, to_triple(points[k])) - placed.radius[k + 2]);
         if (std::abs(least) < 1e-12) continue;  // rounding of the open posture
         const bool is_blocked = result.status >> (STATUS_BLOCKED_SHIFT + finger) & 1;
         EXPECT_EQ(is_blocked, least < 0) << one.name << ", finger " << finger << ", separation " << least;
         ++(is_blocked ? blocked : free);
         if (!is_blocked) continue;
         for (std::size_t k = 0; k < 3; ++k) {
-          EXPECT_LT(glm::distance(points[k], vec(result.posed[first_joint(finger) + 2 + k])), 1e-12 * std::max(1.0, hand.scale));
+          EXPECT_LT(glm::distance(points[k], to_vec3(result.posed[first_joint(finger) + 2 + k])),
+                    1e-12 * std::max(1.0, hand.scale));
           EXPECT_EQ((result.tip_mask | result.finger_mask | result.inner_mask) >> (first_joint(finger) + 2 + k) & 1u, 0u);
         }
       }

@@ -2,6 +2,7 @@
 // The guard: each fault injected, each limit looked at tick by tick against its own definition.
 // sanitizers: address
 #include "device/guard.h"
+#include "core/vectors.h"
 
 #include <gtest/gtest.h>
 
@@ -40,8 +41,6 @@ GripperState state_at(std::uint32_t sequence) {
 Rotation turned_about_y(double angle) {
   return {std::cos(angle), 0, std::sin(angle), 0, 1, 0, -std::sin(angle), 0, std::cos(angle)};
 }
-
-double size_of(const Triple& v) { return std::hypot(v[0], v[1], v[2]); }
 
 // ---- faults ----
 
@@ -167,9 +166,9 @@ TEST(Guard, ClampsToTheDevicesLimitsAndKeepsTheArmsDirection) {
   for (int n = 0; n < 1000; ++n) {
     GripperForce wanted{{random.uniform(-20, 20), random.uniform(-20, 20), random.uniform(-20, 20)}, random.uniform(-8, 8)};
     const GripperForce force = guard.limit(wanted, n);
-    const double size = size_of(wanted.arm), factor = std::min(1.0, 5 / size);
+    const double size = norm(wanted.arm), factor = std::min(1.0, 5 / size);
     for (int k = 0; k < 3; ++k) EXPECT_NEAR(force.arm[k], factor * wanted.arm[k], ROUNDING);
-    EXPECT_LE(size_of(force.arm), 5 + ROUNDING);
+    EXPECT_LE(norm(force.arm), 5 + ROUNDING);
     EXPECT_NEAR(force.grip, std::clamp(wanted.grip, -2.0, 2.0), ROUNDING);
   }
 }
@@ -194,14 +193,14 @@ TEST(Guard, HoldsEveryLimitAgainstWildWishes) {
     const std::int64_t passed = n == 0 ? 1 : n % 5 == 0 ? 4 : 1;
     const double share = std::min(1.0, static_cast<double>(tick - first) / 3000 / live.ramp);
     // a force that the ramp of a moment ago allowed is within the ramp of now
-    EXPECT_LE(size_of(force.arm), 6 * share + ROUNDING);
+    EXPECT_LE(norm(force.arm), 6 * share + ROUNDING);
     EXPECT_LE(std::abs(force.grip), 3 * share + ROUNDING);
     const double most = 500 * static_cast<double>(passed) / 3000;
-    const double changed = std::hypot(force.arm[0] - before.arm[0], force.arm[1] - before.arm[1], force.arm[2] - before.arm[2]);
+    const double changed = distance(force.arm, before.arm);
     EXPECT_LE(changed, most + ROUNDING);
     EXPECT_LE(std::abs(force.grip - before.grip), most + ROUNDING);
     at_slew += changed > 0.999 * most;
-    at_limit += size_of(force.arm) > 0.999 * 6;
+    at_limit += norm(force.arm) > 0.999 * 6;
     before = force;
     tick += (n + 1) % 5 == 0 ? 4 : 1;
   }
@@ -243,7 +242,7 @@ TEST(Guard, TheFirstForceAfterAStallIsZeroWithoutARamp) {
     for (int n = 0; n < 1000; ++n) guard.limit({{0, -4, 0}, 7}, n);
     EXPECT_NEAR(guard.limit({{0, -4, 0}, 7}, 999 + stall - 1).grip, 7, ROUNDING);
     const std::int64_t again = 999 + 2 * stall - 1;
-    EXPECT_EQ(size_of(guard.limit({{0, -4, 0}, 7}, again).arm), 0);
+    EXPECT_EQ(norm(guard.limit({{0, -4, 0}, 7}, again).arm), 0);
     EXPECT_NEAR(guard.limit({{0, -4, 0}, 7}, again + 1).grip, live.slew / rate, ROUNDING);
   }
 }
@@ -258,7 +257,7 @@ TEST(Guard, AForceThatIsNoNumberIsNone) {
       GripperForce wanted{{1, 1, 1}, 1};
       (k < 3 ? wanted.arm[k] : wanted.grip) = bad;
       const GripperForce force = guard.limit(wanted, 1);
-      EXPECT_EQ(size_of(force.arm), 0);
+      EXPECT_EQ(norm(force.arm), 0);
       EXPECT_EQ(force.grip, 0);
       // and goes on from there within the slew
       EXPECT_LE(guard.limit({{1, 1, 1}, 1}, 2).grip, live.slew * 1e-3 + ROUNDING);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the loop does to the energy of a device that is pressed against a wall.
 // sanitizers: address thread
+#include "core/vectors.h"
 #include "device/haptic_loop.h"
 
 #include <gtest/gtest.h>

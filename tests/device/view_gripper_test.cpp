@@ -3,6 +3,7 @@
 // controls.
 // sanitizers: address thread
 #include "device/view_gripper.h"
+#include "core/vectors.h"
 
 #include <gtest/gtest.h>
 
@@ -28,8 +29,6 @@ const std::atomic<bool> NO_STOP{false};
 ViewControl control_at(Triple position, const Rotation& rotation, double gap, std::int64_t sequence) {
   return {position, rotation, gap, 0, sequence};
 }
-
-double apart(const Triple& a, const Triple& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
 // Passes a gripper on and lets somebody post before each read.
 class Posted final : public Gripper {
@@ -89,14 +88,14 @@ TEST(ViewGripper, RestsOpenInFrontOfAllVesselsUntilTheFirstControl) {
     for (const Tick& tick : ticks) {
       if (tick.state == SessionState::released) break;
       ASSERT_EQ(tick.state, SessionState::free);
-      ASSERT_LT(apart(tick.middle, start.position), 1e-12);
+      ASSERT_LT(distance(tick.middle, start.position), 1e-12);
       ASSERT_NEAR(tick.gap, input.limits().gap[1], 1e-12);
     }
-    EXPECT_LT(apart(start.position, input.limits().center), input.limits().reach);
+    EXPECT_LT(distance(start.position, input.limits().center), input.limits().reach);
     for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
       const VesselData& vessel = scene.vessels[v];
       EXPECT_GT(start.position[2] - vessel.place[2] - largest_radius(vessel), VIEW_CLEARANCE - 1e-12) << vessel.name;
-      EXPECT_LT(apart(vessel.place, input.limits().center) + VIEW_REACH - 0.2, input.limits().reach) << "in reach";
+      EXPECT_LT(distance(vessel.place, input.limits().center) + VIEW_REACH - 0.2, input.limits().reach) << "in reach";
     }
   }
 }
@@ -117,12 +116,12 @@ TEST(ViewGripper, TheHandGoesWhereTheControlSaysWhateverTheDevice) {
       const auto ticks = run(scene, gripper, 2);
       const Tick& last = ticks[ticks.size() - 2];
       // two seconds are 120 time constants; what is left is rounding, of lengths up to a metre times the scale
-      EXPECT_LT(apart(last.middle, place), 1e-12) << is_left << is_odd;
+      EXPECT_LT(distance(last.middle, place), 1e-12) << is_left << is_odd;
       EXPECT_NEAR(last.gap, 0.06, 1e-12) << is_left << is_odd;
       for (int k = 0; k < 9; ++k) EXPECT_NEAR(last.hand_rotation[k], rotation[k], 1e-12) << is_left << is_odd << k;
       const Triple& index = last.tips[1];
       const double ahead = (is_left ? -1 : 1) * 0.03;
-      EXPECT_LT(apart(index, {place[0] + ahead * rotation[0], place[1] + ahead * rotation[3], place[2] + ahead * rotation[6]}),
+      EXPECT_LT(distance(index, {place[0] + ahead * rotation[0], place[1] + ahead * rotation[3], place[2] + ahead * rotation[6]}),
                 1e-12)
           << "+x runs to the index finger of a right hand, to the thumb of a left one";
     }
@@ -144,7 +143,7 @@ TEST(ViewGripper, WhatIsBeyondTheLimitsIsMovedToThem) {
   EXPECT_EQ(state(limits.center, 1e9).gap, limits.gap[1]);
   for (const Triple& far : {Triple{100, 0, 0}, Triple{-3, 700, 2}, Triple{1e3, 1e3, -1e3}}) {
     const Triple place = state(far, 0.1).position;
-    EXPECT_NEAR(apart(place, limits.center), limits.reach, 1e-12);
+    EXPECT_NEAR(distance(place, limits.center), limits.reach, 1e-12);
     const double share = (place[0] - limits.center[0]) / (far[0] - limits.center[0]);
     for (int k = 0; k < 3; ++k)
       EXPECT_NEAR(place[k] - limits.center[k], share * (far[k] - limits.center[k]), 1e-9) << "straight back";
@@ -220,7 +219,7 @@ TEST(ViewGripper, NoControlIsAJump) {
         ASSERT_EQ(gripper->read(state, tick), ReadOutcome::value);
         ASSERT_EQ(guard.check(ReadOutcome::value, state, tick), Fault::none) << rate << " " << jump << " " << guard.jump();
         if (k == 0) first = state;
-        furthest = std::max(furthest, apart(state.position, first.position));
+        furthest = std::max(furthest, distance(state.position, first.position));
         tick += k % 100 == 99 ? 30 : 1;
       }
       EXPECT_GT(furthest, 0.1 * std::min(0.1, jump / 2 * static_cast<double>(tick) / rate)) << "it moved";

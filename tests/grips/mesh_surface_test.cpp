@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Normals of mesh vessels: smooth where the surface is, split where it is sharp.
 #include "grips/mesh_surface.h"
+#include "core/vectors.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +9,6 @@
 
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
-#include "tests/support/vectors.h"
 
 namespace wholehand {
 namespace {

@@ -2,6 +2,7 @@
 // Meshes of glass, liquid and bones: closed, outward, of the right size, and converging with the square of the step.
 // sanitizers: address
 #include "grips/mesh.h"
+#include "core/vectors.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +14,6 @@
 #include "core/evaluator.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
-#include "tests/support/vectors.h"
 
 namespace wholehand {
 namespace {

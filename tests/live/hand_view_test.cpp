@@ -3,6 +3,7 @@
 // liquid's surface and the stream by closed forms.
 // sanitizers: address
 #include "live/hand_view.h"
+#include "core/vectors.h"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +18,6 @@
 #include "core/mirror.h"
 #include "tests/support/live_script.h"
 #include "tests/support/scenes.h"
-#include "tests/support/vectors.h"
 
 namespace wholehand {
 namespace {
@@ -25,7 +25,7 @@ namespace {
 using core_f64::Mat3;
 using core_f64::Vec3;
 
-double distance_between(const Triple& a, const Triple& b) { return glm::length(vec(a) - vec(b)); }
+double distance_between(const Triple& a, const Triple& b) { return glm::length(to_vec3(a) - to_vec3(b)); }
 int finger_of(int joint) { return joint < 4 ? 0 : 1 + (joint - 4) / 5; }
 bool is_tracked(int joint) { return joint == THUMB_TIP || joint == INDEX_TIP; }
 bool touches(PointContact contact) { return contact != PointContact::free && contact != PointContact::tracked; }
@@ -39,7 +39,7 @@ double radius_of(const LiveScene& live, int joint) {
 double least_separation(const LiveScene& live, const VesselPoses& poses, const HandView& view, int joint) {
   double least = 1;
   for (std::size_t v = 0; v < live.vessels.size(); ++v) {
-    const Vec3 p = glm::transpose(to_mat3(poses[v].rotation)) * (vec(view.proxies[joint]) - vec(poses[v].place));
+    const Vec3 p = glm::transpose(to_mat3(poses[v].rotation)) * (to_vec3(view.proxies[joint]) - to_vec3(poses[v].place));
     least = std::min(least, core_f64::separation_at(live.vessels[v].vessel, p, radius_of(live, joint)));
   }
   return least;
@@ -66,7 +66,7 @@ HeldGrip hold(const Scene& scene, const GripInput& grip, const GripResult& resul
   VesselPose& pose = held.poses[0];
   pose = {{0.2, 0.3, -0.1}, product(turned('y', 0.4), product(turned('x', -1.2), turned('z', 0.3)))};
   const Mat3 turn = to_mat3(pose.rotation);
-  const auto out = [&](const Triple& p) { return to_triple(vec(pose.place) + turn * vec(p)); };
+  const auto out = [&](const Triple& p) { return to_triple(to_vec3(pose.place) + turn * to_vec3(p)); };
   Tick& tick = held.tick;
   tick.state = SessionState::tilt;
   tick.vessel = 0;
@@ -76,7 +76,7 @@ HeldGrip hold(const Scene& scene, const GripInput& grip, const GripResult& resul
   tick.gap = result.gap;
   tick.closure = result.closure;
   tick.tips = tick.proxies = {out(result.posed[THUMB_TIP]), out(result.posed[INDEX_TIP])};
-  tick.middle = to_triple(0.5 * (vec(tick.tips[0]) + vec(tick.tips[1])));
+  tick.middle = to_triple(0.5 * (to_vec3(tick.tips[0]) + to_vec3(tick.tips[1])));
   tick.touch_mask = result.touch_mask;
   return held;
 }
@@ -98,7 +98,7 @@ TEST(HandView, OfAHeldGripIsTheHandOfTheGrip) {
         const Mat3 turn = to_mat3(held.poses[0].rotation);
         EXPECT_EQ(view.vessel, 0);
         for (int j = 0; j < JOINT_COUNT; ++j) {
-          const auto seen = [&](const Triple& p) { return to_triple(vec(held.poses[0].place) + turn * vec(p)); };
+          const auto seen = [&](const Triple& p) { return to_triple(to_vec3(held.poses[0].place) + turn * to_vec3(p)); };
           // the closure is found to 1e-9 m of the gap; a finger that turns alone may carry that on tenfold
           EXPECT_LT(distance_between(view.rigged[j], seen(result.joints[j])), 1e-7) << j;
           EXPECT_LT(distance_between(view.posed[j], seen(result.posed[j])), 1e-7) << j;
@@ -317,7 +317,7 @@ TEST(LiquidSurface, OfACylinderStandsAtItsVolumeOverTheFloor) {
       ASSERT_TRUE(tilted);
       EXPECT_NEAR(tilted->level, level * std::cos(tilt), 1e-9);
       // up in the vessel's frame
-      const Vec3 up = to_mat3(turn) * vec(tilted->up);
+      const Vec3 up = to_mat3(turn) * to_vec3(tilted->up);
       EXPECT_LT(glm::length(up - Vec3(0, 1, 0)), 1e-15);
     }
   }
@@ -351,7 +351,7 @@ TEST(PouringStream, FallsFromTheLipsLowestPoint) {
     for (int k = 0; k < 720; ++k) {
       const double angle = k * PI / 360;
       const Vec3 rim(glass.mouth_radius * std::cos(angle), glass.mouth_height, glass.mouth_radius * std::sin(angle));
-      lowest = std::min(lowest, (vec(tick.vessel_place) + to_mat3(tick.vessel_rotation) * rim).y);
+      lowest = std::min(lowest, (to_vec3(tick.vessel_place) + to_mat3(tick.vessel_rotation) * rim).y);
     }
     // half a degree of the circle at most beside it: r (1 - cos 0.25 deg)
     EXPECT_LE(stream->from[1], lowest + 1e-12);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The forces of a live session, before the grasp against closed forms and after it against a sweep.
 // sanitizers: address
+#include "core/vectors.h"
 #include "live/session.h"
 
 #include <gtest/gtest.h>

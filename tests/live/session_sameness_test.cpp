@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A live session loses no liquid, gives the same forces for the same states, and of a left hand their mirror image.
 // sanitizers: address
+#include "core/vectors.h"
 #include "live/session.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // When a live session lets go: where the opening leaves its band, where the fingers open; and what the vessel then does.
 // sanitizers: address
+#include "core/vectors.h"
 #include "live/session.h"
 
 #include <gtest/gtest.h>

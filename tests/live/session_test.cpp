@@ -2,6 +2,7 @@
 // The states of a live session: held and tilted from the first tick on to which it is true; the clutch and the task.
 // sanitizers: address
 #include "live/session.h"
+#include "core/vectors.h"
 
 #include <gtest/gtest.h>
 

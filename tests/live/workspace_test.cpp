@@ -2,6 +2,7 @@
 // From the gripper's own frame to the hand in the world and back.
 // sanitizers: address
 #include "live/workspace.h"
+#include "core/vectors.h"
 
 #include <gtest/gtest.h>
 

@@ -3,6 +3,7 @@
 // (Embree starts workers that the thread sanitizer cannot see into, and then reports what they were given.)
 // Distances to meshes against closed forms and the outline's own, and the side of a million points.
 #include "objects/distance.h"
+#include "core/vectors.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -33,7 +34,7 @@ Triple random_point(Random& random, double reach) {
   return {x, y, random.uniform(-reach, reach)};
 }
 
-double sphere_distance(double radius, const Triple& p) { return std::hypot(p[0], p[1], p[2]) - radius; }
+double sphere_distance(double radius, const Triple& p) { return norm(p) - radius; }
 
 double torus_distance(double large, double small, const Triple& p) {
   return std::hypot(std::hypot(p[0], p[2]) - large, p[1]) - small;
@@ -47,7 +48,7 @@ double box_distance(const Triple& half, const Triple& p) {
     deepest = std::max(deepest, std::abs(p[k]) - half[k]);
     beyond[k] = std::max(std::abs(p[k]) - half[k], 0.0);
   }
-  return deepest <= 0 ? deepest : std::hypot(beyond[0], beyond[1], beyond[2]);
+  return deepest <= 0 ? deepest : norm(beyond);
 }
 
 double largest_difference(const VesselData& vessel, int around, double chord) {
@@ -279,7 +280,7 @@ TEST(MeshDistance, TheWindingTreeIsNearTheSum) {
   double coarse = 0, fine = 0;
   for (int i = 0; i < 1000; ++i) {
     const Triple p = random_point(random, 0.08);
-    const glm::dvec3 at(p[0], p[1], p[2]);
+    const glm::dvec3 at = to_vec3(p);
     const double exact = tree.winding_number(at, std::numeric_limits<double>::infinity());
     coarse = std::max(coarse, std::abs(tree.winding_number(at, 2) - exact));
     fine = std::max(fine, std::abs(tree.winding_number(at, 8) - exact));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Edges of bodies: each once, with what lies on both sides, and where they are sharp.
 #include "objects/edges.h"
+#include "core/vectors.h"
 
 #include <gtest/gtest.h>
 
@@ -51,8 +52,8 @@ TEST(MeshEdges, NormalsAreOutwardAndUnit) {
   const MeshEdges found = find_edges(body);
   for (std::size_t t = 0; t < body.triangles.size(); ++t) {
     const Triple &n = found.normals[t], &p = body.vertices[body.triangles[t][0]];
-    EXPECT_NEAR(std::hypot(n[0], n[1], n[2]), 1, 1e-12);
-    EXPECT_GT(n[0] * p[0] + n[1] * p[1] + n[2] * p[2], 0.99 * 0.05);  // a triangle of 9 degrees
+    EXPECT_NEAR(norm(n), 1, 1e-12);
+    EXPECT_GT(dot(n, p), 0.99 * 0.05);  // a triangle of 9 degrees
   }
 }
 

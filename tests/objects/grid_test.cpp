@@ -3,6 +3,7 @@
 // (Embree starts workers that the thread sanitizer cannot see into, and then reports what they were given.)
 // Lattices of distances to meshes: what lies in them, how far they err, and when they are refused.
 #include "objects/grid.h"
+#include "core/vectors.h"
 
 #include <gtest/gtest.h>
 
@@ -100,8 +101,7 @@ TEST(MeshGrid, ASphereAndATorusAtSecondOrder) {
     double curvature, sagitta;
   };
   const std::vector<Body> bodies{
-      {icosphere(0.05, 6), [](const Triple& p) { return std::hypot(p[0], p[1], p[2]) - 0.05; }, 2 / 0.04,
-       0.05 * std::pow(1.4 / 64, 2) / 6},
+      {icosphere(0.05, 6), [](const Triple& p) { return norm(p) - 0.05; }, 2 / 0.04, 0.05 * std::pow(1.4 / 64, 2) / 6},
       {torus(0.05, 0.02, 400, 200), [](const Triple& p) { return std::hypot(std::hypot(p[0], p[2]) - 0.05, p[1]) - 0.02; },
        1 / 0.01 + 1 / 0.02, 2 * (0.07 * std::pow(PI / 400, 2) / 2 + 0.02 * std::pow(PI / 200, 2) / 2)},
   };

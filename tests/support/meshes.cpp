@@ -13,6 +13,7 @@
 #include <numbers>
 
 #include "core/prepare.h"
+#include "core/vectors.h"
 #include "objects/check.h"
 #include "objects/distance.h"
 #include "objects/grid.h"
@@ -53,7 +54,7 @@ class Subdivision {
 
  private:
   Triple on_sphere(const Triple& p) const {
-    const double length = std::hypot(p[0], p[1], p[2]);
+    const double length = norm(p);
     return {radius_ * p[0] / length, radius_ * p[1] / length, radius_ * p[2] / length};
   }
 

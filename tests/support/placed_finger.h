@@ -11,8 +11,8 @@
 
 #include "core/evaluator.h"
 #include "core/real.h"
+#include "core/vectors.h"
 #include "tests/support/scenes.h"
-#include "tests/support/vectors.h"
 
 namespace wholehand {
 
@@ -36,11 +36,11 @@ inline Placed placed_finger(const HandData& hand, const GripResult& result, int 
   const FingerData& data = hand.fingers[static_cast<std::size_t>(finger)];
   for (std::size_t k = 0; k < 4; ++k) placed.length[k] = hand.scale * hand_scale * data.segments[k];
   for (std::size_t k = 0; k < 5; ++k) placed.radius[k] = hand.scale * hand_scale * data.radii[k];
-  placed.base = vec(result.joints[j]);
-  placed.mcp = vec(result.joints[j + 1]);
+  placed.base = to_vec3(result.joints[j]);
+  placed.mcp = to_vec3(result.joints[j + 1]);
   placed.forward = (placed.mcp - placed.base) / placed.length[0];
   // the whole finger lies in one plane; its tip is far from the metacarpal's line
-  const core_f64::Vec3 tip = vec(result.joints[j + 4]) - placed.base;
+  const core_f64::Vec3 tip = to_vec3(result.joints[j + 4]) - placed.base;
   placed.palmward = glm::normalize(tip - glm::dot(tip, placed.forward) * placed.forward);
   return placed;
 }
@@ -127,7 +127,7 @@ inline FingerRest simulate(const Evaluator& evaluator, const HandData& hand, con
     const auto points = watched_points(finger, angles);
     core_f64::Vec3 result{};
     for (std::size_t k = 0; k < 3; ++k)
-      result[static_cast<int>(k)] = evaluator.distance(0, triple(points[k])) - finger.radius[k + 2];
+      result[static_cast<int>(k)] = evaluator.distance(0, to_triple(points[k])) - finger.radius[k + 2];
     return result;
   };
   const auto least = [&](const core_f64::Vec3& s, int from) {

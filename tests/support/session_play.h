@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "core/vectors.h"
 #include "live/session.h"
 #include "live/workspace.h"
 #include "tests/support/live_script.h"

@@ -3,6 +3,7 @@
 // with the states' own forces.
 // sanitizers: address
 #include "viewer/grips.h"
+#include "core/vectors.h"
 
 #include <gtest/gtest.h>
 

@@ -5,18 +5,17 @@
 #include <array>
 #include <glm/gtc/quaternion.hpp>
 
-#include "live/workspace.h"
+#include "core/vectors.h"
 
 namespace wholehand {
 
 using Quaternion = std::array<double, 4>;  // x, y, z, w, as glTF orders it; unit
 
 // Unit, of what is a rotation but for rounding.
-inline glm::dquat to_quat(const core_f64::Mat3& rotation) { return glm::normalize(glm::quat_cast(rotation)); }
-inline Quaternion quaternion_of(const core_f64::Mat3& rotation) {
-  const glm::dquat q = to_quat(rotation);
-  return {q.x, q.y, q.z, q.w};
-}
+inline glm::dquat to_quat(const glm::dmat3& rotation) { return glm::normalize(glm::quat_cast(rotation)); }
+inline glm::dquat to_quat(const Quaternion& q) { return glm::dquat(q[3], q[0], q[1], q[2]); }  // glm takes w first
+inline Quaternion to_quaternion(const glm::dquat& q) { return {q.x, q.y, q.z, q.w}; }
+inline Quaternion quaternion_of(const glm::dmat3& rotation) { return to_quaternion(to_quat(rotation)); }
 inline Quaternion quaternion_of(const Rotation& rotation) { return quaternion_of(to_mat3(rotation)); }
 
 }  // namespace wholehand
