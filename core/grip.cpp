@@ -5,8 +5,13 @@
 #include <cmath>
 
 #include "core/contact.h"
+#include "core/joints.h"
 
 namespace CORE_NS {
+
+using wholehand::finger_joints;
+using wholehand::finger_start;
+
 namespace {
 
 // A finger placed in the vessel frame at its grip's scale.
@@ -44,7 +49,7 @@ void pose_articulated(const Hand& hand, const Vessel& vessel, const PlacedFinger
     motion = advance_finger(hand, motion, finger.frame, finger.mcp, points, watch, finger.lengths);
     answer.advance_steps = std::max(answer.advance_steps, motion.steps);
   }
-  const int j = first_joint(f);
+  const int j = finger_start(f);
   answer.posed[j + 2] = points.pip;
   answer.posed[j + 3] = points.dip;
   answer.posed[j + 4] = points.tip;
@@ -58,7 +63,7 @@ void pose_articulated(const Hand& hand, const Vessel& vessel, const PlacedFinger
 
 void pose_paper(const Hand& hand, const Vessel& vessel, const PlacedFinger& finger, int f, const FingerPoints& rigged,
                 PaperAxis axis, GripAnswer& answer, int& before) {
-  const int j = first_joint(f);
+  const int j = finger_start(f);
   const Vec3 separations = separations_of(vessel, rigged, finger);
   const std::array<Vec3, 3> points{rigged.pip, rigged.dip, rigged.tip};
   for (int k = 0; k < 3; ++k) {
@@ -80,9 +85,8 @@ void examine_pose(const Hand& hand, const Vessel& vessel, PoseKind pose, Wanted 
                   std::array<int, FINGERS>& before, GripAnswer& answer) {
   Real judged_depth = 0;
   for (int f = 0; f < FINGERS; ++f) {
-    const int count = f == 0 ? 4 : 5;
-    for (int k = 0; k < count; ++k) {
-      const int j = first_joint(f) + k;
+    for (int k = 0; k < finger_joints(f); ++k) {
+      const int j = finger_start(f) + k;
       const Real radius = scale * hand.radius[f][k];
       const bool known = pose == PoseKind::articulated && f >= 2 && k >= 2;
       if (!known) answer.separation[j] = separation_at(vessel, answer.posed[j], radius);
@@ -143,7 +147,7 @@ void rest_hand(const Hand& hand, const Vessel& vessel, PoseKind pose, const Clos
   const Vec3 angles = finger_angles(hand, closing.closure);
   std::array<PlacedFinger, FINGERS> fingers;
   for (int f = 1; f < FINGERS; ++f) {
-    const int j = first_joint(f);
+    const int j = finger_start(f);
     fingers[f] = place_finger(hand, closing.placement, f);
     answer.posed[j] = fingers[f].frame.base;
     answer.posed[j + 1] = fingers[f].mcp;
@@ -162,7 +166,7 @@ void rest_hand(const Hand& hand, const Vessel& vessel, PoseKind pose, const Clos
                                ? paper_axis(fingers[1].mcp, fingers[4].mcp, answer.posed[INDEX_TIP], answer.posed[THUMB_TIP])
                                : PaperAxis{};
     for (int f = 2; f < FINGERS; ++f) {
-      const int j = first_joint(f);
+      const int j = finger_start(f);
       if (pose == PoseKind::articulated) {
         pose_articulated(hand, vessel, fingers[f], f, answer, before[f]);
       } else {

@@ -29,9 +29,6 @@ struct GripAnswer {
   int advance_steps = 0;  // of the longest stage of a finger (pose articulated)
 };
 
-// First joint of a finger, and whether a joint is a metacarpal base.
-constexpr int first_joint(int finger) { return finger == 0 ? 0 : 4 + 5 * (finger - 1); }
-
 // Kernels 5 and 4 of a hand that has closed: `closing` tells where it is, without a reason against it. Allocates nothing.
 void rest_hand(const Hand& hand, const Vessel& vessel, PoseKind pose, const Closing& closing, Real friction, Wanted wanted,
                GripAnswer& answer);

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <unordered_set>
 
-#include "core/grip.h"
+#include "core/joints.h"
 #include "core/mesh_body.h"
 #include "core/mirror.h"
 #include "core/outline_points.h"
@@ -33,9 +33,8 @@ constexpr double STEEP = radians(5);  // tilted by less, all of it counts as ove
 constexpr int SMOOTHED = 4;           // degrees to either side
 
 double joint_radius(const HandData& hand, int joint) {
-  int finger = FINGER_COUNT - 1;
-  while (core_f64::first_joint(finger) > joint) --finger;
-  return hand.fingers[finger].radii[joint - core_f64::first_joint(finger)];
+  const int finger = finger_of(joint);
+  return hand.fingers[finger].radii[joint - finger_start(finger)];
 }
 
 // Tilted: the top goes to -z.

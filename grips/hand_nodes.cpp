@@ -4,10 +4,12 @@
 #include <cmath>
 
 #include "core/closure.h"
+#include "core/joints.h"
 #include "core/load.h"
 #include "core/mirror.h"
 #include "core/prepare.h"
 #include "core/vectors.h"
+#include "shaders/layout.h"
 
 namespace wholehand {
 namespace {
@@ -61,8 +63,8 @@ Mat3 joint_rotation(Vec3 backward, Vec3 bend_axis, Vec3 back) {
 // Where the kernel placed the hand: from what the result keeps of it. All in the scene of the right hand.
 core_f64::Placement find_placement(const HandData& hand, const core_f64::Hand& ready, const GripInput& grip,
                                    const GripResult& result) {
-  const Vec3 thumb = to_vec3(mirrored(result.posed[finger_start(1) - 1], hand.handedness));
-  const Vec3 index = to_vec3(mirrored(result.posed[finger_start(2) - 1], hand.handedness));
+  const Vec3 thumb = to_vec3(mirrored(result.posed[THUMB_TIP], hand.handedness));
+  const Vec3 index = to_vec3(mirrored(result.posed[INDEX_TIP], hand.handedness));
   double e1_x = 0;
   return core_f64::place_hand(ready, result.closure, glm::normalize(index - thumb), grip.roll, 0.5 * (thumb + index),
                               hand.scale * grip.hand_scale, e1_x);

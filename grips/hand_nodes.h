@@ -5,6 +5,7 @@
 #include <array>
 
 #include "core/hand.h"
+#include "core/joints.h"
 #include "core/quaternion.h"
 #include "core/result.h"
 #include "live/tick.h"
@@ -37,10 +38,6 @@ HandNodes hand_nodes(const HandData& hand, const core_f64::Hand& ready, const Tr
 // A joint's names as HandNode has them.
 const char* webxr_name(int joint);
 const char* openxr_name(int joint);
-
-// First joint of a finger, and how many it has.
-constexpr int finger_start(int finger) { return finger == 0 ? 0 : 5 * finger - 1; }
-constexpr int finger_joints(int finger) { return finger == 0 ? 4 : 5; }
 
 // A node's place relative to another's: what it takes to write it as that one's child.
 Triple relative_position(const HandNode& parent, const Triple& position);

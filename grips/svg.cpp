@@ -9,10 +9,12 @@
 #include <iterator>
 #include <numeric>
 
+#include "core/joints.h"
 #include "core/vectors.h"
 #include "grips/glass.h"
 #include "grips/hand_nodes.h"
 #include "grips/states.h"
+#include "shaders/layout.h"
 
 namespace wholehand {
 namespace {
@@ -181,7 +183,7 @@ bool covers(const Drawing& drawing, const DrawnView& view, const FingerRun& run,
 void draw_initials(std::string& svg, const Drawing& drawing, const DrawnView& view, const std::vector<FingerRun>& runs) {
   std::vector<Flat> taken;
   for (auto run = runs.rbegin(); run != runs.rend(); ++run) {
-    const int finger = run->last < finger_start(1) ? 0 : (run->last + 1) / 5;
+    const int finger = finger_of(run->last);
     if (run->last != finger_start(finger) + finger_joints(finger) - 1) continue;  // not the run with the tip
     const Flat tip = view.flat(drawing.joints[run->last]), before = view.flat(drawing.joints[run->last - 1]);
     const double length = std::hypot(tip[0] - before[0], tip[1] - before[1]);
@@ -210,7 +212,7 @@ void draw_view(std::string& svg, const Drawing& drawing, const DrawnView& view, 
   for (const FingerRun& run : runs) {
     if (!run.is_behind) draw_run(svg, drawing, view, run);
   }
-  const Flat thumb = view.flat(drawing.joints[finger_start(1) - 1]), index = view.flat(drawing.joints[finger_start(2) - 1]);
+  const Flat thumb = view.flat(drawing.joints[THUMB_TIP]), index = view.flat(drawing.joints[INDEX_TIP]);
   draw_line(svg, thumb, index, "axis");
   draw_initials(svg, drawing, view, runs);
   draw_text(svg, title, "head", view.name);

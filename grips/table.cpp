@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "core/joints.h"
 #include "grips/report.h"
 #include "shaders/layout.h"
 
@@ -17,8 +18,8 @@ constexpr std::array<const char*, 4> THUMB_JOINTS{"CMC", "MCP", "IP", "tip"};
 constexpr std::array<const char*, 5> FINGER_JOINTS{"CMC", "MCP", "PIP", "DIP", "tip"};
 
 std::string joint_name(int j) {
-  if (j < 4) return fmt::format("thumb {}", THUMB_JOINTS[j]);
-  return fmt::format("{} {}", FINGER_NAMES[1 + (j - 4) / 5], FINGER_JOINTS[(j - 4) % 5]);
+  const int f = finger_of(j), k = j - finger_start(f);
+  return fmt::format("{} {}", FINGER_NAMES[f], f == 0 ? THUMB_JOINTS[k] : FINGER_JOINTS[k]);
 }
 
 std::string millimetres(const Triple& p) { return fmt::format("{:9.3f} {:8.3f} {:8.3f}", p[0] * 1e3, p[1] * 1e3, p[2] * 1e3); }

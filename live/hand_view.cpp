@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/contact.h"
+#include "core/joints.h"
 #include "core/mirror.h"
 #include "core/prepare.h"
 #include "core/vectors.h"
@@ -18,7 +19,6 @@ namespace {
 
 constexpr double OPPOSED = 0.5;  // cosine between a contact's normal and the line of the tips: from here on fully opposed
 
-constexpr int finger_of(int joint) { return joint < 4 ? 0 : 1 + (joint - 4) / 5; }
 constexpr bool is_tracked(int joint) { return joint == THUMB_TIP || joint == INDEX_TIP; }
 
 // A vessel's pose in the world of the right hand, as kernels take it.
@@ -174,7 +174,7 @@ class View {
 
   double radius(int joint) const {
     const int finger = finger_of(joint);
-    return live_.hand.scale * live_.hand.radius[finger][joint - core_f64::first_joint(finger)];
+    return live_.hand.scale * live_.hand.radius[finger][joint - finger_start(finger)];
   }
 
   static constexpr double NEARBY = 0.1;  // m: a vessel so near with both tips is told

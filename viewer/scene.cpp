@@ -9,6 +9,7 @@
 
 #include "core/closure.h"
 #include "core/contact.h"
+#include "core/joints.h"
 #include "core/load.h"
 #include "core/mesh_body.h"
 #include "core/outline_points.h"

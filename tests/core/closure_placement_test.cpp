@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/evaluator.h"
+#include "core/joints.h"
 #include "tests/support/closing_hand.h"
 #include "tests/support/scenes.h"
 #include "tests/support/vectors.h"
@@ -106,7 +107,7 @@ TEST(Closure, AtRollZeroTheLittleFingerIsBelow) {
     ASSERT_EQ(result.reason, Reason::none);
     for (int k = 0; k < 5; ++k) {
       for (int finger = 2; finger < 5; ++finger) {  // each finger under the one before it
-        const auto joint = static_cast<std::size_t>(4 + 5 * (finger - 1) + k);
+        const auto joint = static_cast<std::size_t>(finger_start(finger) + k);
         EXPECT_LT(result.joints[joint][1], result.joints[joint - 5][1]) << "finger " << finger << ", joint " << k;
       }
     }

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/evaluator.h"
+#include "core/joints.h"
 #include "core/vectors.h"
 #include "tests/support/scenes.h"
 
@@ -21,11 +22,11 @@ using core_f64::Vessel;
 constexpr double ON_SURFACE = 1e-9;  // m: the specification's |sdf - r|
 
 double joint_radius(const HandData& hand, std::size_t joint) {
-  const std::size_t finger = joint < 4 ? 0 : 1 + (joint - 4) / 5;
-  return hand.fingers[finger].radii[finger == 0 ? joint : (joint - 4) % 5];
+  const int finger = finger_of(static_cast<int>(joint));
+  return hand.fingers[finger].radii[joint - finger_start(finger)];
 }
 
-bool is_base(std::size_t joint) { return joint == 0 || (joint >= 4 && (joint - 4) % 5 == 0); }
+bool is_base(int joint) { return joint == finger_start(finger_of(joint)); }
 
 Vec3 point_near(const VesselData& vessel, Random& random) {
   const double r = random.uniform(0, 1.3) * largest_radius(vessel), azimuth = random.uniform(-PI, PI);
@@ -282,7 +283,7 @@ TEST(Contact, FingerIsUsedWhenAPointOfItTouches) {
     for_each_grip(whole, [&](const Evaluator&, double, const GripResult& result) {
       std::uint32_t used = 0;
       for (std::size_t j = 0; j < JOINT_COUNT; ++j) {
-        if (result.touch_mask >> j & 1) used |= 1u << (j < 4 ? 0 : 1 + (j - 4) / 5);
+        if (result.touch_mask >> j & 1) used |= 1u << finger_of(static_cast<int>(j));
       }
       EXPECT_EQ(result.used_mask, used) << whole.name;
       EXPECT_EQ(used & 3u, 3u);  // thumb and index finger always

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/evaluator.h"
+#include "core/joints.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scenes.h"
 #include "tests/support/vectors.h"
@@ -40,7 +41,7 @@ std::array<Long3, JOINT_COUNT> core_joints(const core_f64::Hand& hand, double cl
     const Vec3 mcp = core_f64::segment_end(frame, frame.base, lengths[0], 0);
     const auto points =
         core_f64::finger_points(frame, mcp, {lengths[1], lengths[2], lengths[3]}, core_f64::finger_angles(hand, closure));
-    const std::size_t first = 4 + 5 * (f - 1);
+    const std::size_t first = finger_start(static_cast<int>(f));
     joints[first] = widened(frame.base);
     joints[first + 1] = widened(mcp);
     joints[first + 2] = widened(points.pip);
@@ -94,9 +95,9 @@ TEST(Hand, SegmentsKeepTheirLengths) {
     const core_f64::Hand hand = ready_hand(data);
     for (const double c : CLOSURES) {
       const auto joints = core_joints(hand, c);
-      for (std::size_t f = 0; f < FINGER_COUNT; ++f) {
-        const std::size_t first = f == 0 ? 0 : 4 + 5 * (f - 1), segments = f == 0 ? 3 : 4;
-        for (std::size_t k = 0; k < segments; ++k) {
+      for (int f = 0; f < FINGER_COUNT; ++f) {
+        const int first = finger_start(f);
+        for (int k = 0; k + 1 < finger_joints(f); ++k) {
           EXPECT_NEAR(static_cast<double>(length(joints[first + k + 1] - joints[first + k])), data.fingers[f].segments[k],
                       JOINT_ROUNDING)
               << "closure " << c << ", finger " << f << ", segment " << k;

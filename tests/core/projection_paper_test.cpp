@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Kernel 5 in pose `paper`: points turn about one axis until they touch.
+#include "core/joints.h"
 #include "core/projection.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +46,7 @@ TEST(Paper, AngleIsTheFirstRootOfDenseSampling) {
       for (int finger = 2; finger < FINGER_COUNT; ++finger) {
         const Placed placed = placed_finger(hand, result, finger, grip.hand_scale);
         for (std::size_t k = 2; k < 5; ++k) {
-          const std::size_t j = first_joint(finger) + k;
+          const std::size_t j = finger_start(finger) + k;
           const Vec3 p = to_vec3(result.joints[j]);
           const auto separation = [&](double angle) {
             return evaluator.distance(0, to_triple(turned_about(p, placed.mcp, u, angle))) - placed.radius[k];
@@ -90,7 +91,7 @@ TEST(Paper, LargestTurnIsItsOwn) {
     EXPECT_EQ(result.posed, again.posed);
     for (std::size_t j = 9; j < JOINT_COUNT; ++j) {
       const double moves = glm::distance(to_vec3(result.posed[j]), to_vec3(result.joints[j]));
-      const std::size_t mcp = first_joint(static_cast<int>(1 + (j - 4) / 5)) + 1;
+      const std::size_t mcp = finger_start(finger_of(static_cast<int>(j))) + 1;
       const double arm = glm::distance(to_vec3(result.joints[j]), to_vec3(result.joints[mcp]));
       EXPECT_LE(moves, 2 * arm * std::sin(radians(2.5)) + 1e-15) << j;  // a chord of 5 degrees
       moved += moves > 0;
@@ -109,7 +110,7 @@ TEST(Paper, RolesAreJudgedInTheRiggedHand) {
       GripResult state;
       rigged->grip(0, grip, state);
       for (std::size_t j = 9; j < JOINT_COUNT; ++j) {
-        const std::size_t k = (j - 4) % 5, first = j - k;
+        const std::size_t first = finger_start(finger_of(static_cast<int>(j))), k = j - first;
         const unsigned before = state.touch_mask >> first & 31u;
         const bool projected = (result.touch_mask >> j & 1) && !(before >> k & 1);
         const bool is_tip = k == 4 && (before & 15u) != 0, is_finger = !is_tip && before == 0;

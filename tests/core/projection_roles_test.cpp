@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Kernel 5: which points touch in which role, which grips are plausible, what pose `rigged` leaves as it is, and the same in float.
+#include "core/joints.h"
 #include "core/projection.h"
 
 #include <gtest/gtest.h>
@@ -41,7 +42,7 @@ TEST(Projection, RolesOfWholeGripsAreThoseOfTheStateBefore) {
     for_each_grip(one, 50, [&](const Evaluator& evaluator, const GripInput& grip, const GripResult& result) {
       EXPECT_EQ((result.tip_mask | result.finger_mask | result.inner_mask) & 0x1FFu, 0u);  // thumb and index finger
       for (int finger = 2; finger < FINGER_COUNT; ++finger) {
-        const std::size_t j = first_joint(finger);
+        const std::size_t j = finger_start(finger);
         const FingerRest rest = simulate(evaluator, hand, placed_finger(hand, result, finger, grip.hand_scale), result.closure);
         bool near = rest.doubtful;
         int before = (result.separation[j] <= tolerance ? 1 : 0) | (result.separation[j + 1] <= tolerance ? 2 : 0);

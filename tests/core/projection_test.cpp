@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/evaluator.h"
+#include "core/joints.h"
 #include "core/vectors.h"
 #include "tests/support/placed_finger.h"
 #include "tests/support/scenes.h"
@@ -34,7 +35,7 @@ std::array<Vec3, 3> watched_points_by_matrices(const Placed& finger, const Vec3&
 
 // Joint angles MCP, PIP, DIP of a finger as posed, and how far it leaves its plane (m).
 Vec3 angles_of(const Placed& finger, const GripResult& result, int index, double& out_of_plane) {
-  const std::size_t j = first_joint(index);
+  const std::size_t j = finger_start(index);
   const Vec3 normal = glm::cross(finger.forward, finger.palmward);
   Vec3 angles{};
   double before = 0;
@@ -56,7 +57,7 @@ TEST(Articulated, BonesKeepTheirLengths) {
       for (int finger = 0; finger < FINGER_COUNT; ++finger) {
         const FingerData& data = one.scene.hand.fingers[static_cast<std::size_t>(finger)];
         for (std::size_t k = 0; k < (finger == 0 ? 3u : 4u); ++k) {
-          const std::size_t j = first_joint(finger) + k;
+          const std::size_t j = finger_start(finger) + k;
           const double bone = glm::distance(to_vec3(result.posed[j + 1]), to_vec3(result.posed[j]));
           ASSERT_NEAR(bone, one.scene.hand.scale * grip.hand_scale * data.segments[k], 1e-12) << one.name << ", joint " << j;
         }
@@ -95,8 +96,8 @@ TEST(Articulated, ThumbAndIndexStayAsRigged) {
       for_each_grip(one, 40, [&](const Evaluator&, const GripInput&, const GripResult& result) {
         for (std::size_t j = 0; j <= INDEX_TIP; ++j) EXPECT_EQ(result.posed[j], result.joints[j]) << one.name;
         for (int finger = 2; finger < FINGER_COUNT; ++finger) {  // nor do bases and MCPs move
-          EXPECT_EQ(result.posed[first_joint(finger)], result.joints[first_joint(finger)]);
-          EXPECT_EQ(result.posed[first_joint(finger) + 1], result.joints[first_joint(finger) + 1]);
+          EXPECT_EQ(result.posed[finger_start(finger)], result.joints[finger_start(finger)]);
+          EXPECT_EQ(result.posed[finger_start(finger) + 1], result.joints[finger_start(finger) + 1]);
         }
       });
     }
@@ -112,7 +113,7 @@ TEST(Articulated, FreeFingerEndsNoDeeperThanTheStopTolerance) {
         ++free;
         const Placed placed = placed_finger(one.scene.hand, result, finger, grip.hand_scale);
         for (std::size_t k = 2; k < 5; ++k) {
-          const std::size_t j = first_joint(finger) + k;
+          const std::size_t j = finger_start(finger) + k;
           ASSERT_GE(result.separation[j], -FINGER_TOUCHING) << one.name << ", joint " << j;
           ASSERT_GE(evaluator.distance(0, result.posed[j]) - placed.radius[k], -FINGER_TOUCHING - 1e-15)
               << one.name << ", joint " << j;
@@ -143,7 +144,7 @@ TEST(Articulated, AgreesWithDenseSampling) {
         const auto expected = watched_points_by_matrices(placed, rest.angles), planar = watched_points(placed, rest.angles);
         for (std::size_t k = 0; k < 3; ++k) {
           ASSERT_LT(glm::distance(expected[k], planar[k]), 1e-12 * std::max(1.0, hand.scale));  // the simulation's own shortcut
-          const double off = glm::distance(to_vec3(result.posed[first_joint(finger) + 2 + k]), expected[k]);
+          const double off = glm::distance(to_vec3(result.posed[finger_start(finger) + 2 + k]), expected[k]);
           worst = std::max(worst, off / std::max(1.0, hand.scale));
           // 1e-7 m: a touch is 1e-9 m early, at most 1e-9 / 0.05 along the way, and a finger touches three times at most
           ASSERT_LT(off, 1e-7 * std::max(1.0, hand.scale)) << one.name << ", finger " << finger << ", point " << k;
@@ -179,9 +180,9 @@ TEST(Articulated, BlockedFingersAreReportedAndStayOpen) {
         ++(is_blocked ? blocked : free);
         if (!is_blocked) continue;
         for (std::size_t k = 0; k < 3; ++k) {
-          EXPECT_LT(glm::distance(points[k], to_vec3(result.posed[first_joint(finger) + 2 + k])),
+          EXPECT_LT(glm::distance(points[k], to_vec3(result.posed[finger_start(finger) + 2 + k])),
                     1e-12 * std::max(1.0, hand.scale));
-          EXPECT_EQ((result.tip_mask | result.finger_mask | result.inner_mask) >> (first_joint(finger) + 2 + k) & 1u, 0u);
+          EXPECT_EQ((result.tip_mask | result.finger_mask | result.inner_mask) >> (finger_start(finger) + 2 + k) & 1u, 0u);
         }
       }
     });
@@ -227,7 +228,7 @@ TEST(Articulated, FingerInTheAirTurnsEveryJointAsFarAsItMay) {
     for_each_grip(one, 200, [&](const Evaluator&, const GripInput& grip, const GripResult& result) {
       const Long3 reached = reference_finger_angles(hand, result.closure);
       for (int finger = 2; finger < FINGER_COUNT; ++finger) {
-        const std::size_t j = first_joint(finger);
+        const std::size_t j = finger_start(finger);
         if (std::min({result.separation[j + 2], result.separation[j + 3], result.separation[j + 4]}) < 1e-6) continue;
         ++in_air;
         double out_of_plane = 0;

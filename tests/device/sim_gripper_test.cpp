@@ -2,6 +2,7 @@
 // The simulated user in simulated time: whole sessions, everything up to the wire.
 // sanitizers: address
 #include "device/sim_gripper.h"
+#include "core/joints.h"
 #include "core/vectors.h"
 
 #include <gtest/gtest.h>

@@ -3,6 +3,7 @@
 // hand.
 // sanitizers: address
 #include "grips/hand_nodes.h"
+#include "core/joints.h"
 
 #include <gtest/gtest.h>
 

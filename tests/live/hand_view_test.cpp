@@ -3,6 +3,7 @@
 // liquid's surface and the stream by closed forms.
 // sanitizers: address
 #include "live/hand_view.h"
+#include "core/joints.h"
 #include "core/vectors.h"
 
 #include <gtest/gtest.h>
@@ -26,13 +27,12 @@ using core_f64::Mat3;
 using core_f64::Vec3;
 
 double distance_between(const Triple& a, const Triple& b) { return glm::length(to_vec3(a) - to_vec3(b)); }
-int finger_of(int joint) { return joint < 4 ? 0 : 1 + (joint - 4) / 5; }
 bool is_tracked(int joint) { return joint == THUMB_TIP || joint == INDEX_TIP; }
 bool touches(PointContact contact) { return contact != PointContact::free && contact != PointContact::tracked; }
 
 double radius_of(const LiveScene& live, int joint) {
   const int f = finger_of(joint);
-  return live.hand.scale * live.hand.radius[f][joint - core_f64::first_joint(f)];
+  return live.hand.scale * live.hand.radius[f][joint - finger_start(f)];
 }
 
 // The least separation of a drawn point from any vessel, in the scene's own world (right hands).

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "core/evaluator.h"
+#include "core/joints.h"
 #include "core/real.h"
 #include "core/vectors.h"
 #include "tests/support/scenes.h"
@@ -21,8 +22,6 @@ constexpr double FINGER_SAMPLE = 0.2e-3;  // m: no watched point moves further b
 constexpr double FINGER_DOUBT = 1e-7;     // m: separations that are nearer to a decision than this are left out, and counted
 constexpr double FINGER_GRAZING = 0.05;   // approach speed over the largest speed under which a touch is left out, and counted
 
-inline std::size_t first_joint(int finger) { return static_cast<std::size_t>(finger == 0 ? 0 : 4 + 5 * (finger - 1)); }
-
 // One finger in the vessel frame, read off the rigged hand.
 struct Placed {
   core_f64::Vec3 base, mcp, forward, palmward;
@@ -32,7 +31,7 @@ struct Placed {
 
 inline Placed placed_finger(const HandData& hand, const GripResult& result, int finger, double hand_scale) {
   Placed placed;
-  const std::size_t j = first_joint(finger);
+  const std::size_t j = finger_start(finger);
   const FingerData& data = hand.fingers[static_cast<std::size_t>(finger)];
   for (std::size_t k = 0; k < 4; ++k) placed.length[k] = hand.scale * hand_scale * data.segments[k];
   for (std::size_t k = 0; k < 5; ++k) placed.radius[k] = hand.scale * hand_scale * data.radii[k];

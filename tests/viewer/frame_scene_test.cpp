@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The scene of a view as the page gets it: what does not change while the frames come.
 // sanitizers: address
+#include "core/joints.h"
 #include "viewer/scene.h"
 
 #include <gtest/gtest.h>

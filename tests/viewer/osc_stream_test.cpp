@@ -2,6 +2,7 @@
 // A session as OSC: every frame against the ticks it was made of.
 // sanitizers: address
 #include "viewer/osc_stream.h"
+#include "core/joints.h"
 
 #include <gtest/gtest.h>
 #include <lo/lo.h>

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// How the 24 joints are numbered: the thumb's four from its base to its tip, then five of each other finger.
+#pragma once
+
+namespace wholehand {
+
+// The joints of a finger are finger_start(finger) + 0 .. finger_joints(finger) - 1.
+constexpr int finger_start(int finger) { return finger == 0 ? 0 : 5 * finger - 1; }
+constexpr int finger_joints(int finger) { return finger == 0 ? 4 : 5; }
+// The finger that a joint belongs to.
+constexpr int finger_of(int joint) { return (joint + 1) / 5; }
+
+}  // namespace wholehand

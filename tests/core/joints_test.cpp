@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "core/joints.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "core/scene.h"
+#include "shaders/layout.h"
+
+namespace wholehand {
+namespace {
+
+TEST(Joints, AreNumberedFingerByFinger) {
+  constexpr std::array<int, JOINT_COUNT> FINGER_OF_JOINT{0, 0, 0, 0, 1, 1, 1, 1, 1, 2, 2, 2, 2, 2, 3, 3, 3, 3, 3, 4, 4, 4, 4, 4};
+  constexpr std::array<int, FINGER_COUNT> START{0, 4, 9, 14, 19}, COUNT{4, 5, 5, 5, 5};
+  for (int j = 0; j < JOINT_COUNT; ++j) EXPECT_EQ(finger_of(j), FINGER_OF_JOINT[static_cast<std::size_t>(j)]) << j;
+  for (int f = 0; f < FINGER_COUNT; ++f) {
+    EXPECT_EQ(finger_start(f), START[static_cast<std::size_t>(f)]);
+    EXPECT_EQ(finger_joints(f), COUNT[static_cast<std::size_t>(f)]);
+  }
+  EXPECT_EQ(THUMB_TIP, finger_start(0) + finger_joints(0) - 1);
+  EXPECT_EQ(INDEX_TIP, finger_start(1) + finger_joints(1) - 1);
+}
+
+}  // namespace
+}  // namespace wholehand
