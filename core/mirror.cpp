@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "core/lattice.h"
+
 namespace wholehand {
 
 GripInput mirrored(const GripInput& grip, Handedness handedness) {
@@ -20,12 +22,11 @@ PreparedGrid mirrored(const PreparedGrid& grid, Handedness handedness) {
   result.origin[0] = -(grid.origin[0] + (grid.nx - 1) * grid.spacing);
   const std::size_t rows = static_cast<std::size_t>(grid.ny) * grid.nz, nx = grid.nx;
   std::vector<std::uint32_t> words(grid.words->size());
-  const auto half_at = [&](std::size_t at) { return (*grid.words)[at / 2] >> (at % 2 == 0 ? 0 : 16) & 0xFFFFu; };
   for (std::size_t row = 0; row < rows; ++row)
     for (std::size_t i = 0; i < nx; ++i) {
       const std::size_t from = row * nx + i, to = row * nx + nx - 1 - i;
       if (grid.halves) {
-        words[to / 2] |= half_at(from) << (to % 2 == 0 ? 0 : 16);
+        words[to / 2] |= placed_half(half_at(*grid.words, from), to);
       } else {
         words[to] = (*grid.words)[from];
       }

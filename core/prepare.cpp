@@ -2,13 +2,12 @@
 #include "core/prepare.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <utility>
 
 #include "core/error.h"
-#include "core/half.h"
 #include "core/hand.h"
+#include "core/lattice.h"
 #include "core/load.h"
 #include "core/mesh_body.h"
 
@@ -253,15 +252,8 @@ PreparedGrid prepare_grid(const PreparedVessel& prepared, int samples, bool halv
   grid.ny = count(high - low);
   grid.origin = {-widest - 2 * grid.spacing, low - 2 * grid.spacing, -widest - 2 * grid.spacing};
   const std::size_t plane = static_cast<std::size_t>(grid.nx) * grid.ny, all = plane * grid.nz;
-  std::vector<std::uint32_t> words(halves ? (all + 1) / 2 : all);
-  const auto store = [&](std::size_t at, float value) {
-    if (!halves) {
-      words[at] = std::bit_cast<std::uint32_t>(value);
-    } else {
-      const std::uint32_t half = half_bits(value * static_cast<float>(1 / HALF_UNIT));
-      words[at / 2] |= at % 2 == 0 ? half : half << 16;
-    }
-  };
+  std::vector<std::uint32_t> words(lattice_words(all, halves));
+  const auto store = [&](std::size_t at, float value) { words[word_of(at, halves)] |= sample_bits(value, at, halves); };
   const auto at_place = [&](int axis, int i) { return grid.origin[axis] + grid.spacing * i; };
   for (int k = 0; k < grid.nz; ++k)
     for (int j = 0; j < grid.ny; ++j)

@@ -48,7 +48,7 @@ struct PreparedGrid {
   double spacing = 1;
   int nx = 0, ny = 0, nz = 0;
   bool halves = false;
-  std::shared_ptr<const std::vector<std::uint32_t>> words;
+  std::shared_ptr<const std::vector<std::uint32_t>> words;  // core/lattice.h
 };
 
 // Gauss-Legendre of `points` on a cosine map: cosines of the angles and weights times sin(theta) pi / 2.

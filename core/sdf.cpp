@@ -5,7 +5,7 @@
 #include <bit>
 #include <cmath>
 
-#include "core/half.h"
+#include "core/lattice.h"
 
 namespace CORE_NS {
 
@@ -152,8 +152,7 @@ Real grid_sample(const Vessel& vessel, int i, int j, int k) {
   const Grid& grid = vessel.grid;
   const std::size_t at = (static_cast<std::size_t>(k) * grid.ny + j) * grid.nx + i;
   if (!grid.halves) return Real(std::bit_cast<float>((*grid.words)[at]));
-  const std::uint32_t pair = (*grid.words)[at / 2];
-  return Real(wholehand::half_value(static_cast<std::uint16_t>(at % 2 == 0 ? pair : pair >> 16))) * Real(HALF_UNIT);
+  return Real(wholehand::half_value(wholehand::half_at(*grid.words, at))) * Real(HALF_UNIT);
 }
 
 Real mix_reals(Real a, Real b, Real t) { return a + (b - a) * t; }

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <chrono>
 #include <cmath>
 #include <exception>
@@ -19,6 +18,7 @@
 
 #include "core/error.h"
 #include "core/half.h"
+#include "core/lattice.h"
 #include "core/sdf.h"
 #include "core/vectors.h"
 #include "objects/distance.h"
@@ -108,7 +108,7 @@ bool stores_halves(const PreparedGrid& grid, const MeshFacts& facts, const GridW
 // A sample as the kernels will read it.
 double stored_value(double value, bool halves) {
   const auto single = static_cast<float>(value);
-  return halves ? half_value(half_bits(single * static_cast<float>(1 / HALF_UNIT))) * HALF_UNIT : single;
+  return halves ? half_value(half_of(single)) * HALF_UNIT : single;
 }
 
 // Where the samples of a lattice lie, and in how many bits; none are taken yet.
@@ -254,18 +254,14 @@ void sample_row(const MeshDistance& distance, const PreparedGrid& grid, int j, i
 void store_row(const std::vector<float>& row, std::size_t first, bool halves, std::vector<std::uint32_t>& words) {
   for (std::size_t i = 0; i < row.size(); ++i) {
     const std::size_t at = first + i;
-    if (halves) {
-      const std::uint32_t half = half_bits(row[i] * static_cast<float>(1 / HALF_UNIT));
-      std::atomic_ref<std::uint32_t>(words[at / 2]).fetch_or(at % 2 == 0 ? half : half << 16, std::memory_order_relaxed);
-    } else {
-      words[at] = std::bit_cast<std::uint32_t>(row[i]);
-    }
+    std::atomic_ref<std::uint32_t> word(words[word_of(at, halves)]);
+    word.fetch_or(sample_bits(row[i], at, halves), std::memory_order_relaxed);
   }
 }
 
 void sample_lattice(const MeshDistance& distance, PreparedGrid& grid, int threads, const GridProgress& progress) {
   const auto nx = static_cast<std::size_t>(grid.nx), all = nx * grid.ny * grid.nz;
-  std::vector<std::uint32_t> words(grid.halves ? (all + 1) / 2 : all);
+  std::vector<std::uint32_t> words(lattice_words(all, grid.halves));
   const auto sample_plane = [&](int k) {
     std::vector<float> row(nx);
     for (int j = 0; j < grid.ny; ++j) {
