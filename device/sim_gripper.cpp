@@ -8,6 +8,7 @@
 
 #include "core/loop.h"
 #include "core/prepare.h"
+#include "core/random_bits.h"
 #include "device/sim_user.h"
 #include "live/session.h"
 
@@ -106,7 +107,7 @@ class SimGripper final : public Gripper {
   double tremble(double& state) noexcept {
     const double keep = std::exp(-period_ / TREMOR_TIME);
     // a uniform number of the same variance: reproducible everywhere, which a library's normal distribution is not
-    const double uniform = (static_cast<double>(random_() >> 11) * 0x1p-53 - 0.5) * std::sqrt(12.0);
+    const double uniform = (unit_interval(random_()) - 0.5) * std::sqrt(12.0);
     state = keep * state + std::sqrt(1 - keep * keep) * uniform;
     return state;
   }

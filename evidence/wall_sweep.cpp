@@ -12,6 +12,7 @@
 #include <thread>
 
 #include "core/core_backend.h"
+#include "core/random_bits.h"
 #include "core/wall_run.h"
 #include "host/wall_map.h"
 
@@ -49,7 +50,7 @@ WallColumn column_of(const WallDevice& device, int count, int integrator = LOOP_
 class Chance {
  public:
   explicit Chance(std::uint64_t seed) : engine_(seed) {}
-  double between(double low, double high) { return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53); }
+  double between(double low, double high) { return low + (high - low) * unit_interval(engine_()); }
   double evenly_in_logarithm(double low, double high) { return low * std::pow(high / low, between(0, 1)); }
 
  private:

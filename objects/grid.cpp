@@ -19,6 +19,7 @@
 #include "core/error.h"
 #include "core/half.h"
 #include "core/lattice.h"
+#include "core/random_bits.h"
 #include "core/sdf.h"
 #include "core/vectors.h"
 #include "objects/distance.h"
@@ -79,7 +80,7 @@ std::vector<Triple> surface_points(const MeshDistance& distance, const TriangleM
     area_up_to.push_back(area);
   }
   std::mt19937_64 random(5);
-  const auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+  const auto uniform = [&] { return unit_interval(random()); };
   std::vector<Triple> points;
   for (int n = 0; n < count; ++n) {
     const auto found = std::upper_bound(area_up_to.begin(), area_up_to.end() - 1, uniform() * area);

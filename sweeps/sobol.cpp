@@ -3,6 +3,8 @@
 
 #include <bit>
 
+#include "core/random_bits.h"
+
 namespace wholehand {
 namespace {
 
@@ -44,14 +46,6 @@ constexpr Directions make_directions() {
 }
 
 constexpr Directions DIRECTIONS = make_directions();
-
-// SplitMix64 (Steele, Lea & Flood 2014): neighbouring seeds give unrelated shifts.
-std::uint64_t split_mix(std::uint64_t& state) {
-  std::uint64_t z = (state += 0x9E3779B97F4A7C15u);
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-  return z ^ (z >> 31);
-}
 
 }  // namespace
 

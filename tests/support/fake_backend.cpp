@@ -5,21 +5,16 @@
 #include <bit>
 
 #include "core/candidates.h"
+#include "core/random_bits.h"
 #include "tests/support/special_values.h"
 
 namespace wholehand {
 namespace {
 
-std::uint64_t mix(std::uint64_t z) {
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-  return z ^ (z >> 31);
-}
-
 std::uint64_t hash(std::size_t vessel, const GripInput& grip, int salt) {
-  std::uint64_t h = mix(0x9E3779B97F4A7C15u * (vessel + 1) + static_cast<std::uint64_t>(salt));
+  std::uint64_t h = mixed_bits(SPLIT_MIX_STEP * (vessel + 1) + static_cast<std::uint64_t>(salt));
   for (const double value : {grip.height, grip.azimuth, grip.obliquity, grip.roll, grip.offset, grip.hand_scale}) {
-    h = mix(h ^ std::bit_cast<std::uint64_t>(value));
+    h = mixed_bits(h ^ std::bit_cast<std::uint64_t>(value));
   }
   return h;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/support/scenes.h"
+#include "core/random_bits.h"
 #include "core/result.h"
 
 #include <algorithm>
@@ -223,14 +224,7 @@ core_f64::Grip ready_grip(const GripInput& grip) {
 
 // ---- samples ----
 
-double Random::uniform(double low, double high) {
-  state_ += 0x9E3779B97F4A7C15ull;  // splitmix64
-  std::uint64_t z = state_;
-  z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ull;
-  z = (z ^ (z >> 27)) * 0x94D049BB133111EBull;
-  z ^= z >> 31;
-  return low + (high - low) * (static_cast<double>(z >> 11) * 0x1p-53);
-}
+double Random::uniform(double low, double high) { return low + (high - low) * unit_interval(split_mix(state_)); }
 
 std::vector<GripInput> sample_grips(const VesselData& vessel, int count, std::uint64_t seed) {
   Random random(seed);
