@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "core/candidates.h"
+#include "core/parallel.h"
 
 namespace wholehand {
 namespace {
@@ -166,10 +167,7 @@ BackendInfo core_info(Precision precision, int threads) {
 
 CoreBackend::CoreBackend(std::shared_ptr<const Evaluator> evaluator, const Scene& scene, const FieldSet& fields,
                          Precision precision, int threads)
-    : evaluator_(std::move(evaluator)),
-      tilts_(scene.tilts),
-      fields_(fields),
-      threads_(threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))) {
+    : evaluator_(std::move(evaluator)), tilts_(scene.tilts), fields_(fields), threads_(thread_count(threads)) {
   info_ = core_info(precision, threads_);
   for (std::size_t v = 0; scene.liquid && v < scene.vessels.size(); ++v) fills_.push_back(vessel_fills(scene, scene.vessels[v]));
 }

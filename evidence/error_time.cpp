@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <thread>
 
+#include "core/parallel.h"
 #include "core/prepare.h"
 #include "evidence/error_plot.h"
 #include "evidence/error_table.h"
@@ -111,7 +111,7 @@ ExitCode run_error_time(const Scene& scene, const ErrorTimeOptions& options) {
   InterruptGuard interrupt;
   VariantChoice choice;
   choice.quick = options.quick;
-  choice.threads = options.threads > 0 ? options.threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  choice.threads = thread_count(options.threads);
   ErrorContext context = error_context_of(scene, options);
   if (options.on != "core") choose_device_part(scene, options.on, choice, context);
   const MeasureOptions measure_options = measure_options_of(scene, options, choice.threads, interrupt);

@@ -4,14 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <iterator>
 #include <memory>
 #include <random>
-#include <thread>
 
 #include "core/core_backend.h"
+#include "core/parallel.h"
 #include "core/random_bits.h"
 #include "core/wall_run.h"
 #include "host/wall_map.h"
@@ -96,17 +95,11 @@ const std::vector<NamedDevice>& wall_devices() {
 
 WallRunner open_wall_runner(const std::string& on, BackendInfo& info, double& kernel_seconds) {
   if (on == "core") {
-    const unsigned threads = std::max(1u, std::thread::hardware_concurrency());
-    info = core_info(Precision::full, static_cast<int>(threads));
+    const int threads = thread_count();
+    info = core_info(Precision::full, threads);
     return [threads](const std::vector<WallCase>& cases, int samples, int late) {
       std::vector<double> energies(cases.size());
-      std::atomic<std::size_t> next{0};
-      std::vector<std::jthread> workers;
-      for (unsigned k = 0; k < threads; ++k)
-        workers.emplace_back([&] {
-          for (std::size_t i = next++; i < cases.size(); i = next++) energies[i] = core_f64::late_energy(cases[i], samples, late);
-        });
-      workers.clear();
+      in_parallel(cases.size(), threads, [&](std::size_t i) { energies[i] = core_f64::late_energy(cases[i], samples, late); });
       return energies;
     };
   }

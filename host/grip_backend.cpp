@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <thread>
 
 #include "core/fields.h"
 #include "core/mirror.h"
+#include "core/parallel.h"
 #include "core/prepare.h"
 #include "host/grip_program.h"
 #include "host/stream.h"
@@ -126,7 +126,7 @@ struct GripBackend::Impl {
   template <class Real>
   RunResult run_on_core(const RunRequest& request) {
     constexpr std::size_t SHARE = 1024;  // grips of a thread in a chunk
-    const std::size_t threads = std::max(1u, std::thread::hardware_concurrency()), stride = threads * SHARE;
+    const std::size_t stride = static_cast<std::size_t>(thread_count()) * SHARE;
     std::vector<GripInput> inputs(stride);
     std::vector<double> reals(fields.real_planes * stride);
     std::vector<Real> converted(reals.size());
@@ -139,14 +139,11 @@ struct GripBackend::Impl {
     for (std::uint64_t first = request.first; first < request.last && !(request.stop && request.stop->load()); first += stride) {
       const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(stride, request.last - first));
       request.grips(request.vessel, first, count, inputs.data());
-      std::vector<std::thread> workers;
-      for (std::size_t from = 0; from < count; from += SHARE) {
-        workers.emplace_back([&, from] {
-          core->planes(request.vessel, inputs.data() + from, std::min(SHARE, count - from), fields, stride, reals.data() + from,
-                       uints.data() + from);
-        });
-      }
-      for (std::thread& worker : workers) worker.join();
+      in_parallel((count + SHARE - 1) / SHARE, 0, [&](std::size_t share) {
+        const std::size_t from = share * SHARE;
+        core->planes(request.vessel, inputs.data() + from, std::min(SHARE, count - from), fields, stride, reals.data() + from,
+                     uints.data() + from);
+      });
       std::transform(reals.begin(), reals.end(), converted.begin(), [](double value) { return static_cast<Real>(value); });
       PlaneChunk planes{request.vessel, first, count, stride, nullptr, nullptr, uints.data()};
       if constexpr (sizeof(Real) == sizeof(float)) {

@@ -3,12 +3,10 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <bit>
-#include <exception>
 #include <functional>
-#include <thread>
 
+#include "core/parallel.h"
 #include "host/run_once.h"
 
 namespace wholehand::host {
@@ -68,28 +66,6 @@ void add_limits(std::vector<Constant>& constants, const GripBackendOptions& opti
 
 std::size_t real_size(Precision precision) { return precision == Precision::single ? sizeof(float) : sizeof(double); }
 
-// Every task, on as many threads as there are cores. The first failure is thrown on.
-void run_side_by_side(const std::vector<std::function<void()>>& tasks) {
-  std::vector<std::exception_ptr> failures(tasks.size());
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    for (std::size_t k = next++; k < tasks.size(); k = next++) {
-      try {
-        tasks[k]();
-      } catch (...) {
-        failures[k] = std::current_exception();
-      }
-    }
-  };
-  std::vector<std::thread> workers;
-  for (std::size_t w = 1; w < std::min<std::size_t>(std::max(1u, std::thread::hardware_concurrency()), tasks.size()); ++w)
-    workers.emplace_back(work);
-  work();
-  for (std::thread& worker : workers) worker.join();
-  for (const auto& failure : failures)
-    if (failure) std::rethrow_exception(failure);
-}
-
 }  // namespace
 
 // A loop over N elements in every distance of every step has no bound that such a driver would grant; an unrolled one is not counted.
@@ -139,7 +115,7 @@ GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Ev
   if (tilt_count > 0 && fields.has(FIELD_PEAK_FORCE)) make(force, "force", constants);
   make(score, "score", constants);
   make(select, "select", constants);
-  run_side_by_side(tasks);
+  in_parallel(tasks.size(), 0, [&](std::size_t k) { tasks[k](); });
   for (std::size_t v = 0; wet && v < vessels.size(); ++v) make_liquid(v, scene, arrays, core, options, *lip, *liquid);
 }
 

@@ -7,18 +7,17 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <exception>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
-#include <mutex>
 #include <random>
 #include <thread>
 
 #include "core/error.h"
 #include "core/half.h"
 #include "core/lattice.h"
+#include "core/parallel.h"
 #include "core/random_bits.h"
 #include "core/sdf.h"
 #include "core/vectors.h"
@@ -36,38 +35,6 @@ constexpr double SAME_SPACING = 1e-4;                             // relative: f
 constexpr double FAR_FOR_HALVES = 32;                             // m: half of what they hold, as a lattice reaches beyond its mesh
 constexpr double TIMED_SECONDS = 0.2;                             // of a lattice's work, before its time is told
 constexpr double MOST_SAMPLES = std::numeric_limits<int>::max();  // the kernels count in 32 bits
-
-// 0: all cores.
-int thread_count(int threads) {
-  return threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-}
-
-// Runs `work` for 0 .. count - 1 on several threads, in no order.
-void on_threads(int threads, int count, const std::function<void(int)>& work, const GridProgress& progress = {}) {
-  std::atomic<int> next{0}, done{0};
-  std::mutex failing;
-  std::exception_ptr failure;
-  const auto take = [&](bool is_first) {
-    try {
-      for (int i = next++; i < count; i = next++) {
-        work(i);
-        const int so_far = ++done;
-        if (is_first && progress) progress(static_cast<double>(so_far) / count);
-      }
-    } catch (...) {
-      next = count;  // the others stop after what they have begun
-      const std::lock_guard lock(failing);
-      if (!failure) failure = std::current_exception();
-    }
-  };
-  threads = thread_count(threads);
-  {
-    std::vector<std::jthread> others;
-    for (int i = 1; i < std::min(threads, count); ++i) others.emplace_back(take, false);
-    take(true);
-  }
-  if (failure) std::rethrow_exception(failure);
-}
 
 // Random points of the surface, as many a square metre everywhere; the same ones each time. Those that lie within are left out, where
 // bodies overlap: nobody touches them, and the distance is not 0 there.
@@ -174,10 +141,10 @@ double value_without_samples(const MeshDistance& distance, const PreparedGrid& g
 bool any_error_above(const std::vector<Triple>& points, int threads, double tolerance,
                      const std::function<double(const Triple&)>& value_at) {
   std::atomic<bool> found{false};
-  constexpr int CHUNK = 16;
-  const auto count = static_cast<int>(points.size());
-  on_threads(threads, (count + CHUNK - 1) / CHUNK, [&](int chunk) {
-    for (int i = chunk * CHUNK; i < std::min(count, (chunk + 1) * CHUNK) && !found; ++i)
+  constexpr std::size_t CHUNK = 16;
+  const std::size_t count = points.size();
+  in_parallel((count + CHUNK - 1) / CHUNK, threads, [&](std::size_t chunk) {
+    for (std::size_t i = chunk * CHUNK; i < std::min(count, (chunk + 1) * CHUNK) && !found; ++i)
       if (std::abs(value_at(points[i])) > tolerance) found = true;
   });
   return found;
@@ -185,10 +152,10 @@ bool any_error_above(const std::vector<Triple>& points, int threads, double tole
 
 double largest_error(const std::vector<Triple>& points, int threads, const std::function<double(const Triple&)>& value_at) {
   std::vector<double> errors(points.size());
-  constexpr int CHUNK = 64;
-  const auto count = static_cast<int>(points.size());
-  on_threads(threads, (count + CHUNK - 1) / CHUNK, [&](int chunk) {
-    for (int i = chunk * CHUNK; i < std::min(count, (chunk + 1) * CHUNK); ++i) errors[i] = std::abs(value_at(points[i]));
+  constexpr std::size_t CHUNK = 64;
+  const std::size_t count = points.size();
+  in_parallel((count + CHUNK - 1) / CHUNK, threads, [&](std::size_t chunk) {
+    for (std::size_t i = chunk * CHUNK; i < std::min(count, (chunk + 1) * CHUNK); ++i) errors[i] = std::abs(value_at(points[i]));
   });
   return count > 0 ? *std::max_element(errors.begin(), errors.end()) : 0;
 }
@@ -263,14 +230,17 @@ void store_row(const std::vector<float>& row, std::size_t first, bool halves, st
 void sample_lattice(const MeshDistance& distance, PreparedGrid& grid, int threads, const GridProgress& progress) {
   const auto nx = static_cast<std::size_t>(grid.nx), all = nx * grid.ny * grid.nz;
   std::vector<std::uint32_t> words(lattice_words(all, grid.halves));
-  const auto sample_plane = [&](int k) {
+  const auto sample_plane = [&](std::size_t k) {
     std::vector<float> row(nx);
     for (int j = 0; j < grid.ny; ++j) {
-      sample_row(distance, grid, j, k, row);
-      store_row(row, (static_cast<std::size_t>(k) * grid.ny + j) * nx, grid.halves, words);
+      sample_row(distance, grid, j, static_cast<int>(k), row);
+      store_row(row, (k * grid.ny + j) * nx, grid.halves, words);
     }
   };
-  on_threads(threads, grid.nz, sample_plane, progress);
+  const auto planes = static_cast<std::size_t>(grid.nz);
+  std::function<void(std::size_t)> tell;
+  if (progress) tell = [&](std::size_t done) { progress(static_cast<double>(done) / static_cast<double>(planes)); };
+  in_parallel(planes, threads, sample_plane, tell);
   grid.words = std::make_shared<const std::vector<std::uint32_t>>(std::move(words));
 }
 
@@ -292,7 +262,7 @@ double seconds_of_rows(const MeshDistance& distance, const PreparedGrid& grid, i
   std::size_t done = 0;
   for (std::size_t more = thread_count(threads); done < all; more = std::min(2 * more, all - done)) {
     more = std::min(more, all - done);
-    on_threads(threads, static_cast<int>(more), [&](int i) { take_row(done + static_cast<std::size_t>(i)); });
+    in_parallel(more, threads, [&](std::size_t i) { take_row(done + i); });
     done += more;
     seconds = now() - start;
     if (seconds >= TIMED_SECONDS || 32 * done >= all) break;
