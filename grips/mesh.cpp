@@ -91,16 +91,6 @@ struct LevelPlane {
   }
 };
 
-// The level under which the vessel holds the volume: bisection, as it rises with the level.
-double level_of(const core_f64::Vessel& vessel, const core_f64::Quadrature& quadrature, double volume, double sine, double cosine) {
-  double low = core_f64::bottom_level(vessel, sine, cosine), high = core_f64::lip_level(vessel, sine, cosine);
-  for (int step = 0; step < 100 && high - low > 1e-15; ++step) {
-    const double middle = 0.5 * (low + high);
-    (core_f64::liquid_below(vessel, quadrature, middle, sine, cosine).volume < volume ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
-}
-
 // One stretch of a piece of the wall. Heights on a cosine map, because where the plane leaves the wall the angle goes as a square root;
 // as many as keep the angle's steps at 2 pi / segments. A full stretch needs them only along an arc.
 Stretch make_stretch(const PreparedElement& piece, double low, double high, const LevelPlane& plane, int segments) {
@@ -298,7 +288,8 @@ SurfaceMesh liquid_mesh(const VesselData& vessel, double volume, double tilt, co
   const core_f64::Quadrature quadrature = core_f64::load_quadrature(prepare_quadrature(QUADRATURE_POINTS));
   const core_f64::Vessel ready = core_f64::load_vessel(prepared, vessel, quadrature, false, Handedness::right);
   LevelPlane plane{0, std::sin(tilt), std::cos(tilt)};
-  plane.level = level_of(ready, quadrature, volume, plane.sine, plane.cosine);
+  // `ready` has no capacity, so the level is solved to rounding
+  plane.level = core_f64::liquid_at(ready, quadrature, volume, plane.sine, plane.cosine).level;
   const std::vector<Stretch> stretches = wall_stretches(prepared.cavity, plane, segments);
   LiquidBuilder builder(pour, plane, segments);
   for (std::size_t i = 0; i < stretches.size(); ++i) {
