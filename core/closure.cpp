@@ -48,6 +48,7 @@ Trace trace_tip(const Vessel& vessel, Vec3 origin, Vec3 direction, Real heading,
 
 // Frames e (hand) and f (vessel) share their meaning: 1 along the tips, 2 to the little finger's side, 3 = 1 x 2.
 Placement place_hand(const Hand& hand, Real closure, Vec3 direction, Real roll, Vec3 midpoint, Real scale, Real& e1_x) {
+  // the hand's own frame: its lateral axis x, made perpendicular to the line of the tips, is e2
   Vec3 slope{};
   const Vec3 apart = tip_to_tip(hand, closure, slope);
   const Vec3 e1 = apart / glm::length(apart);
@@ -55,6 +56,7 @@ Placement place_hand(const Hand& hand, Real closure, Vec3 direction, Real roll, 
   const Vec3 e2_raw = Vec3(1, 0, 0) - e1.x * e1;
   const Vec3 e2 = e2_raw / glm::length(e2_raw);
   const Vec3 e3 = glm::cross(e1, e2);
+  // the frame it goes to: at roll 0 the little finger is below the line, and a roll turns it about the line
   const Vec3 down_raw = Vec3(0, -1, 0) + direction.y * direction;
   const Vec3 down = down_raw / glm::length(down_raw);
   const Vec3 side = glm::cross(direction, down);
@@ -67,6 +69,7 @@ Placement place_hand(const Hand& hand, Real closure, Vec3 direction, Real roll, 
   // columns of the rotation: f1 e1^T + f2 e2^T + f3 e3^T
   placement.rotation = Mat3(direction * e1.x + f2 * e2.x + f3 * e3.x, direction * e1.y + f2 * e2.y + f3 * e3.y,
                             direction * e1.z + f2 * e2.z + f3 * e3.z);
+  // the middle of the tips goes to the middle of the contacts
   const Vec3 thumb_lengths(hand.length[0][0], hand.length[0][1], hand.length[0][2]);
   const Vec3 thumb_tip = thumb_points(hand.frame[0], thumb_lengths, thumb_angles(hand, closure)).tip;
   const Vec3 middle = thumb_tip + Real(0.5) * apart;
@@ -92,11 +95,13 @@ Closing close_fingers(const Hand& hand, const Vessel& vessel, Grip grip) {
     closing.reason = REASON_DEGENERATE;
     return closing;
   }
+  // the line is nearest to the axis at the grip's height, and passes it there at the offset
   const Vec3 aside = Vec3(-d.z, 0, d.x) / off_axis;
   const Vec3 origin = Vec3(0, grip.height, 0) + grip.offset * aside;
   const Real scale = hand.scale * grip.hand_scale;
   const Real thumb_radius = scale * hand.radius[0][3];
   const Real index_radius = scale * hand.radius[1][4];
+  // both tips come from outside, along the line, to their first touch
   const Trace index = trace_tip(vessel, origin, d, Real(1), index_radius);
   const Trace thumb = trace_tip(vessel, origin, d, Real(-1), thumb_radius);
   closing.steps = std::max(index.steps, thumb.steps);
@@ -104,6 +109,7 @@ Closing close_fingers(const Hand& hand, const Vessel& vessel, Grip grip) {
   if (index.reason == REASON_NOT_CONVERGED || thumb.reason == REASON_NOT_CONVERGED) return closing;
   closing.reason = REASON_MISSES;
   if (index.reason == REASON_MISSES || thumb.reason == REASON_MISSES) return closing;
+  // the gap between them gives the closure, if the hand can make it
   closing.t_index = index.t;
   closing.t_thumb = thumb.t;
   closing.gap = index.t - thumb.t;
@@ -113,12 +119,15 @@ Closing close_fingers(const Hand& hand, const Vessel& vessel, Grip grip) {
   closing.reason = REASON_TOO_NARROW;
   if (closing.gap < scale * hand.gap_closed || closing.gap < thumb_radius + index_radius) return closing;
   closing.closure = closure_of_gap(hand, closing.gap / scale, hand.limits.stop_tolerance / scale);
+  // too narrow as well: the hand's lateral axis lies so near to the line of the tips that it gives no direction across
   Real e1_x = 0;
   closing.placement = place_hand(hand, closing.closure, d, grip.roll, closing.midpoint, scale, e1_x);
   if (std::abs(e1_x) > Real(LARGEST_E1_X)) return closing;
+  // a tip on the lid would rest on the open mouth
   closing.reason = REASON_ON_MOUTH;
   if (vessel.lid >= 0 && (index.element == vessel.lid || thumb.element == vessel.lid)) return closing;
   closing.reason = REASON_NONE;
+  // how squarely the tips press: what the friction cone is compared with, and where a hit is not sharp
   closing.index_angle = angle_between(index.normal, d);
   closing.thumb_angle = angle_between(thumb.normal, -d);
   closing.grazing =

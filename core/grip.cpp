@@ -132,9 +132,11 @@ void rest_hand(const Hand& hand, const Vessel& vessel, PoseKind pose, const Clos
   answer = GripAnswer{};
   answer.closing = closing;
   if (closing.grazing) answer.status |= STATUS_GRAZING;
+  // both contacts within the friction cone
   const Real cone = std::atan(friction);
   if (cone > 0 && closing.thumb_angle <= cone && closing.index_angle <= cone) answer.status |= STATUS_ANTIPODAL;
 
+  // the rigged hand: the thumb's chain starts at its base, that of another finger at its MCP
   const Real scale = closing.placement.scale;
   const Vec3 thumb_lengths = scale * Vec3(hand.length[0][0], hand.length[0][1], hand.length[0][2]);
   const FingerFrame thumb = placed_frame(closing.placement, hand.frame[0]);
@@ -151,6 +153,7 @@ void rest_hand(const Hand& hand, const Vessel& vessel, PoseKind pose, const Clos
     fingers[f] = place_finger(hand, closing.placement, f);
     answer.posed[j] = fingers[f].frame.base;
     answer.posed[j + 1] = fingers[f].mcp;
+    // in pose articulated the last three fingers close on their own: their rigged points are only there to be shown
     if (f == 1 || pose != PoseKind::articulated || wanted.joints) {
       const FingerPoints points = finger_points(fingers[f].frame, fingers[f].mcp, fingers[f].lengths, angles);
       answer.posed[j + 2] = points.pip;
@@ -160,6 +163,7 @@ void rest_hand(const Hand& hand, const Vessel& vessel, PoseKind pose, const Clos
   }
   if (wanted.joints) answer.joints = answer.posed;
 
+  // thumb and index stay; the other three come to rest on the vessel
   std::array<int, FINGERS> before{};
   if (pose != PoseKind::rigged) {
     const PaperAxis axis = pose == PoseKind::paper
@@ -175,6 +179,7 @@ void rest_hand(const Hand& hand, const Vessel& vessel, PoseKind pose, const Clos
       }
     }
   }
+  // what the posed hand touches, and how deep
   examine_pose(hand, vessel, pose, wanted, scale, before, answer);
 }
 

@@ -8,10 +8,13 @@
 
 namespace CORE_NS {
 
+// The predefined trajectory: each angle is open + c (closed - open) at the closure c.
 Vec3 thumb_angles(const Hand& hand, Real closure) { return hand.thumb_open + closure * hand.thumb_swing; }
 
 Vec3 finger_angles(const Hand& hand, Real closure) { return hand.finger_open + closure * hand.finger_swing; }
 
+// All joints of a finger turn about one axis, so its chain stays in a plane: p(k+1) = p(k) + L(k) (cos a forward + sin a palmward),
+// where a is the sum of the angles up to that joint.
 Vec3 segment_end(FingerFrame frame, Vec3 start, Real length, Real angle) {
   Real s = 0;
   Real c = 0;
@@ -37,6 +40,8 @@ FingerPoints thumb_points(FingerFrame frame, Vec3 lengths, Vec3 angles) {
   return points;
 }
 
+// T(c) = index tip - thumb tip. A segment turns at the rate r, the sum of the swings up to its joint, and so moves what is beyond it
+// by r times the segment turned a quarter. T' is the sum of these over the index finger less that over the thumb.
 Vec3 tip_to_tip(const Hand& hand, Real closure, Vec3& slope) {
   const FingerFrame index = hand.frame[1];
   const FingerFrame thumb = hand.frame[0];
@@ -59,11 +64,14 @@ Vec3 tip_to_tip(const Hand& hand, Real closure, Vec3& slope) {
   return finger.tip - opposing.tip;
 }
 
+// g(c) = |T(c)|.
 Real gap_at(const Hand& hand, Real closure) {
   Vec3 slope{};
   return glm::length(tip_to_tip(hand, closure, slope));
 }
 
+// Newton on g(c) = gap with g' = T . T' / g. As g falls all the way, the table's cell brackets the answer; a step that leaves the
+// bracket is replaced by its middle.
 Real closure_of_gap(const Hand& hand, Real gap, Real tolerance) {
   const int entries = static_cast<int>(hand.gap_table.size());
   const Real span = hand.gap_open - hand.gap_closed;

@@ -6,6 +6,11 @@
 
 namespace CORE_NS {
 
+// score = sum of weight x term (core/scene_states weighs them). Each term is in [0, 1] and larger is better:
+//   fingers   fingers used / 5                    contacts   points touching / 24
+//   depth     1 - min(1, deepest / 10 mm)         posture    1 - |2 c - 1|
+//   force     1 - largest feedback / F_max        hold       min(1, grip strength / largest hold force)
+// Degenerate: an F_max of 0 gives the force term 0; an infinite hold force gives the hold term 0.
 Real fingers_term(int fingers_used) { return Real(fingers_used) / Real(FINGERS); }
 
 Real contacts_term(int points_touching) { return Real(points_touching) / Real(JOINTS); }

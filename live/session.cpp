@@ -222,17 +222,22 @@ void Session::keep_grasp(const Touch& touch, const HandPose& pose, const core_f6
 // In the hand: the vessel goes with it, its liquid runs, and the gripper feels kernel 7.
 void Session::hold(const HandPose& pose, double device_gap, double seconds, Tick& tick) noexcept {
   const LiveVessel& live = live_->vessels[vessel_];
+  // the vessel keeps the place and the turn that it had in the gripper's axes at the grasp
   const Pose vessel{pose.middle + pose.rotation * grasp_.offset, pose.rotation * grasp_.turn};
   const Leaning leaning = leaning_of(vessel);
   tick.tilt = std::atan2(leaning.sine, leaning.cosine);
+  // what runs out in this tick no longer weighs
   const core_f64::Load load = run_liquid(vessel, leaning, seconds, tick);
+  // the opening since the grasp counts in the device's own gap
   const core_f64::HeldForces held =
       core_f64::held_forces(live.force, load, live.largest, grasp_.direction, grasp_.midpoint, leaning.lean, leaning.sine,
                             leaning.cosine, grasp_.is_antipodal, grasp_.device_gap - device_gap);
   if (seconds == 0) grasp_.normal = held.normal;  // the moment of grasp
+  // lift, tilt or maintain, and whether the tutorial's vessel has arrived
   state_ = turning(tick.tilt);
   note_delivery(vessel.place);
   tell_held(vessel, load.mass, held, tick);
+  // an open hand lets go in this very tick: nothing of the vessel is felt any more
   if (has_let_go(device_gap)) slip(vessel);
   if (state_ == SessionState::slipped) {
     tick.wanted = {};

@@ -24,17 +24,20 @@ Vec3 previous_proxy;
 
 // Point k of finger f (joint j) at its posed place. `before`: bits of the finger's points that touched before they were projected.
 void examine_point(int f, int k, int j, Vec3 p, Real radius, Real separation, Real bone, inout int before) {
+  // depths: a metacarpal base is palm; in pose paper the fingers that it moves are not judged
   Real depth = max(Real(0), -separation);
   bool is_base = k == 0;
   palm_depth = is_base ? max(palm_depth, depth) : palm_depth;
   phalanx_depth = is_base ? phalanx_depth : max(phalanx_depth, depth);
   if (f < 2 || POSE != POSE_PAPER) judged_depth = max(judged_depth, depth);
+  // touching: the tracked tips always do
   bool near_enough = separation <= HAND_CONTACT_TOLERANCE;
   if (k < 2 && near_enough) before |= 1 << k;
   bool touching = near_enough || j == THUMB_TIP || j == INDEX_TIP;
   uint bit = touching ? 1u << j : 0u;
   touch_mask |= bit;
   used_mask |= touching ? 1u << f : 0u;
+  // projected: it touches now and did not before
   if (POSE != POSE_RIGGED && f >= 2 && k >= 2) {
     bool projected = touching && (before & (1 << k)) == 0;
     int role = projection_role(k, before);
@@ -42,6 +45,7 @@ void examine_point(int f, int k, int j, Vec3 p, Real radius, Real separation, Re
     finger_mask |= projected && role == 1 ? bit : 0u;
     inner_mask |= projected && role == 2 ? bit : 0u;
   }
+  // what is kept of the point; its proxy only where it is inside
   if (PLANE_POSED >= 0) put_point(PLANE_POSED, j, grip, p);
   put_real(PLANE_SEPARATION, j, grip, separation);
   if (WANTS_PROXIES) {
@@ -187,13 +191,16 @@ void rest_hand(Closing closing) {
   Vec3 thumb_tip;
   [[dont_unroll]] for (int f = 0; f < FINGERS; ++f) {
     int first_joint = f == 0 ? 0 : 5 * f - 1;
+    // where the closed hand has it
     PlacedFinger finger = place_finger(f, closing, rigged_angles);
     if (f == 0) thumb_tip = finger.points.tip;
+    // the axis of pose paper needs thumb, index and little finger: they are known before the middle finger moves
     if (f == 1 && POSE == POSE_PAPER) {
       FingerFrame little = placed_frame(closing.placement, hand_frame(4));
       Vec3 little_mcp = little.base + (scale * hand_length(4, 0)) * little.forward;
       axis = paper_axis(finger.mcp, little_mcp, finger.points.tip, thumb_tip);
     }
+    // rigged points are kept before the pose moves them; then the finger comes to rest and is examined
     if (PLANE_JOINTS >= 0) put_rigged(f, first_joint, finger);
     bool known = POSE == POSE_ARTICULATED && f >= 2;
     if (known) pose_articulated(f, closing.closure, finger);
@@ -205,20 +212,24 @@ void rest_hand(Closing closing) {
 void main() {
   grip = INVOCATION;
   if (grip >= push.count) return;
+  // kernel 3: where the hand closes, or why it does not
   load_outline();
   Closing closing = close_fingers(Grip(grip_axis(AXIS_HEIGHT, grip), grip_axis(AXIS_AZIMUTH, grip), grip_axis(AXIS_OBLIQUITY, grip),
                                        grip_axis(AXIS_ROLL, grip), grip_axis(AXIS_OFFSET, grip), grip_axis(AXIS_HAND_SCALE, grip)));
   status = uint(closing.reason);
   touch_mask = tip_mask = finger_mask = inner_mask = used_mask = 0u;
   put_closing(closing);
+  // infeasible: the reason, and NaN for the rest
   if (closing.reason != REASON_NONE) {
     put_masks();
     put_nothing();
     return;
   }
+  // the contacts of the two tips
   if (closing.grazing) status |= STATUS_GRAZING;
   bool held = scene.friction_angle > Real(0);
   if (held && closing.thumb_angle <= scene.friction_angle && closing.index_angle <= scene.friction_angle) status |= STATUS_ANTIPODAL;
+  // kernels 5 and 4: the other fingers rest, all points are examined
   scale = closing.placement.scale;
   phalanx_depth = palm_depth = judged_depth = bone_stretch = Real(0);
   rest_hand(closing);
