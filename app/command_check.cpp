@@ -29,14 +29,14 @@ struct CheckArguments {
 void add_check_command(CLI::App& app, Action& action) {
   const auto arguments = std::make_shared<CheckArguments>();
   CLI::App* command =
-      app.add_subcommand("check", "Compare the device with the core in float and in double, kernel by kernel and whole");
-  command->add_option("scene", arguments->scene, "Scene file, or the name of a shipped one (three_beakers)")
+      app.add_subcommand("check", "Compare the device with the core, in float and in double: each kernel, and whole grips");
+  command->add_option("scene", arguments->scene, "Scene file or name of a shipped scene (default: three_beakers)")
       ->type_name("SCENE")
       ->check(not_empty());
-  command->add_option("--on", arguments->on, "vulkan (the best device, the default) or a device's name")
+  command->add_option("--on", arguments->on, "vulkan (the best device; the default) or the name of a device")
       ->type_name("DEVICE")
       ->check(not_empty());
-  command->add_flag("--json", arguments->json, "One JSON object in one line, whether it holds first");
+  command->add_flag("--json", arguments->json, "Print one JSON object in one line; the verdict comes first");
   command->callback([arguments, &action] {
     action = [arguments] {
       CheckOptions options;

@@ -34,8 +34,8 @@ ExitCode list_all_devices(const std::string& dhd_library) {
 
 void add_devices_command(CLI::App& app, Action& action) {
   const auto dhd_library = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("devices", "Vulkan devices and grippers, what each can do, and the cache");
-  command->add_option("--dhd-library", *dhd_library, "Force Dimension's SDK (libdhd.so), for omega.7 and sigma.7")
+  CLI::App* command = app.add_subcommand("devices", "List the Vulkan devices, the grippers, what each can do, and the cache");
+  command->add_option("--dhd-library", *dhd_library, "Path of Force Dimension's SDK (libdhd.so), for omega.7 and sigma.7")
       ->type_name("PATH")
       ->check(not_empty());
   command->callback([dhd_library, &action] { action = [dhd_library] { return list_all_devices(*dhd_library); }; });

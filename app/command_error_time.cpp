@@ -34,20 +34,20 @@ ExitCode error_time(const ErrorTimeArguments& arguments) {
 
 void add_error_time_command(CLI::App& app, Action& action) {
   const auto arguments = std::make_shared<ErrorTimeArguments>();
-  CLI::App* command = app.add_subcommand("error-time", "What every shortcut costs in error and gains in time");
-  command->add_option("scene", arguments->scene, "Scene file, or the name of a shipped one (three_beakers)")
+  CLI::App* command = app.add_subcommand("error-time", "Measure the error and the time of every shortcut");
+  command->add_option("scene", arguments->scene, "Scene file or name of a shipped scene (default: three_beakers)")
       ->type_name("SCENE")
       ->check(not_empty());
   command->add_option("-o,--output", arguments->output, "Folder for error-time.csv, its report and pictures")
       ->type_name("DIR")
       ->check(not_empty())
       ->required();
-  command->add_option("--on", arguments->on, "vulkan (the best device, the default), a device's name, or core: no device")
+  command->add_option("--on", arguments->on, "vulkan (the best device; the default), the name of a device, or core (no device)")
       ->type_name("DEVICE")
       ->check(not_empty());
-  command->add_flag("--quick", arguments->quick, "Fewer grips, variants and runs: a minute");
-  command->add_option("--seed", arguments->seed, "Of the random grips (1)")->type_name("N");
-  command->add_option("--threads", arguments->threads, "Threads of the core (all)")->type_name("N");
+  command->add_flag("--quick", arguments->quick, "Use fewer grips, variants and runs; this takes about a minute");
+  command->add_option("--seed", arguments->seed, "Seed of the random grips (default: 1)")->type_name("N");
+  command->add_option("--threads", arguments->threads, "Number of threads of the core (default: all)")->type_name("N");
   command->callback([arguments, &action] { action = [arguments] { return error_time(*arguments); }; });
 }
 

@@ -67,7 +67,8 @@ GripInput read_grip(const GripArguments& arguments) {
     return grip_through(parse_triple(arguments.thumb, "--thumb-mm", ranges::POINT),
                         parse_triple(arguments.index, "--index-mm", ranges::POINT), roll, hand_scale);
   }
-  if (arguments.height.empty()) throw usage_error("grip: where is it held? give --height-mm, or --thumb-mm and --index-mm");
+  if (arguments.height.empty())
+    throw usage_error("grip: the place of the grip is missing; give --height-mm, or --thumb-mm and --index-mm");
   GripInput grip;
   grip.height = parse_quantity(arguments.height, "--height-mm", ranges::GRIP_HEIGHT);
   grip.azimuth = parse_quantity(arguments.azimuth, "--azimuth-deg", ranges::ROTATION);
@@ -117,7 +118,7 @@ void check_drawing_files(const GripArguments& arguments, const Scene& scene) {
     return unresolved ? std::filesystem::path(path) : whole;
   };
   if (!arguments.glb.empty() && !arguments.svg.empty() && resolved(arguments.glb) == resolved(arguments.svg))
-    throw usage_error(fmt::format("--glb and --svg name one file, {}; name two", arguments.glb));
+    throw usage_error(fmt::format("--glb and --svg name the same file, {}; give two different names", arguments.glb));
 }
 
 // Both are made before either is written.
@@ -136,9 +137,9 @@ struct ChosenGrip {
 };
 
 ChosenGrip asked_grip(const GripArguments& arguments) {
-  if (!arguments.list.empty()) throw usage_error("--list: which grip of it? give --rank");
+  if (!arguments.list.empty()) throw usage_error("--list: the rank of the grip is missing; give --rank");
   if (is_result(arguments.scene))
-    throw usage_error(fmt::format("{}: is a result; which of its grips? give --rank", arguments.scene));
+    throw usage_error(fmt::format("{}: this is a result, and the rank of the grip is missing; give --rank", arguments.scene));
   ChosenGrip chosen;
   chosen.input = read_grip(arguments);
   chosen.scene = read_scene_file(find_scene(arguments.scene));
@@ -151,7 +152,7 @@ ChosenGrip asked_grip(const GripArguments& arguments) {
 std::size_t find_hand_scale(const GripArguments& arguments, const Plan& plan) {
   const std::optional<double> wanted = read_hand_scale(arguments);
   if (plan.hand_scales() == 1) {
-    if (wanted) throw usage_error("--hand-scale: the sweep has one list for all; leave it out");
+    if (wanted) throw usage_error("--hand-scale: the sweep has one list for all hand scales; leave the option out");
     return 0;
   }
   std::vector<double> known;
@@ -159,7 +160,7 @@ std::size_t find_hand_scale(const GripArguments& arguments, const Plan& plan) {
     known.push_back(plan.hand_scale(s));
     if (wanted && std::abs(*wanted - known.back()) <= 1e-6 * known.back()) return s;  // as they are printed
   }
-  throw usage_error(fmt::format("--hand-scale {}: the sweep has a list for each of {:.6g}; name one",
+  throw usage_error(fmt::format("--hand-scale {}: the sweep has one list for each of the hand scales {:.6g}; give one of them",
                                 arguments.hand_scale.empty() ? "is missing" : in_quotes(arguments.hand_scale),
                                 fmt::join(known, ", ")));
 }
@@ -218,39 +219,49 @@ ExitCode grip(const GripArguments& arguments) {
 
 void add_grip_command(CLI::App& app, Action& action) {
   const auto arguments = std::make_shared<GripArguments>();
-  CLI::App* command = app.add_subcommand("grip", "One grip with every intermediate value");
+  CLI::App* command = app.add_subcommand("grip", "Show one grip with every intermediate value");
   const auto add = [command](const char* name, auto& value, const char* type, const char* help) {
     return command->add_option(name, value, help)->type_name(type);
   };
-  add("scene", arguments->scene, "SCENE", "Scene file, or the name of a shipped one; with --rank a result of `wholehand sweep`")
+  add("scene", arguments->scene, "SCENE", "Scene file or name of a shipped scene; with --rank: a result of `wholehand sweep`")
       ->required();
   add("--vessel", arguments->vessel, "V", "Name of the vessel")->required();
   auto* height = add("--height-mm", arguments->height, "H",
-                     "Height of the thumb-index line in the vessel's frame: over the base, unless a mesh's origin is \"as_is\"");
-  auto* azimuth = add("--azimuth-deg", arguments->azimuth, "A", "Its direction about the vessel's axis (0)");
-  auto* obliquity = add("--obliquity-deg", arguments->obliquity, "B", "Its angle to the horizontal, the index above (0)");
-  auto* roll = add("--roll-deg", arguments->roll, "Q", "Turn of the hand about it: 0 beside the vessel, -90 above (0)");
-  auto* offset = add("--offset-mm", arguments->offset, "S", "Distance at which it passes the axis (0)");
-  add("--hand-scale", arguments->hand_scale, "K", "Size of the hand, times the scene's (1); with --rank whose list")
+                     "Height of the thumb-index line over the vessel's base; over the origin of a mesh whose origin is \"as_is\"");
+  auto* azimuth =
+      add("--azimuth-deg", arguments->azimuth, "A", "Direction of the thumb-index line about the vessel's axis (default: 0)");
+  auto* obliquity = add("--obliquity-deg", arguments->obliquity, "B",
+                        "Angle of the thumb-index line to the horizontal; above 0 the index finger is higher (default: 0)");
+  auto* roll = add("--roll-deg", arguments->roll, "Q",
+                   "Turn of the hand about the thumb-index line: 0 is beside the vessel, -90 above it (default: 0)");
+  auto* offset =
+      add("--offset-mm", arguments->offset, "S", "Distance at which the thumb-index line passes the vessel's axis (default: 0)");
+  add("--hand-scale", arguments->hand_scale, "K",
+      "Size of the hand, times the scene's own scale (default: 1); with --rank: the hand scale of the list")
       ->check(not_empty());
-  auto* thumb = add("--thumb-mm", arguments->thumb, "X,Y,Z", "Instead of these: a point of the line on the thumb's side");
-  auto* index = add("--index-mm", arguments->index, "X,Y,Z", "and one on the index finger's side");
+  auto* thumb = add("--thumb-mm", arguments->thumb, "X,Y,Z",
+                    "Instead of height, azimuth, obliquity and offset: a point of the thumb-index line on the thumb's side");
+  auto* index =
+      add("--index-mm", arguments->index, "X,Y,Z", "With --thumb-mm: a point of the thumb-index line on the index finger's side");
   thumb->needs(index);
   index->needs(thumb);
   for (auto* other : {height, azimuth, obliquity, offset}) thumb->excludes(other);
-  auto* rank = add("--rank", arguments->rank, "N", "Instead of these: that grip of the best in a result")->check(not_empty());
+  auto* rank =
+      add("--rank", arguments->rank, "N", "Instead of the options above: the grip of this rank in a result")->check(not_empty());
   for (auto* other : {height, azimuth, obliquity, roll, offset, thumb, index}) rank->excludes(other);
-  add("--list", arguments->list, "LIST.csv", "With --rank: of this list of `wholehand rank` (the sweep's own)")->check(not_empty());
-  auto* fill = add("--fill", arguments->fills, "F", "Fills, fractions of the capacity (the scene's)");
-  add("--fill-ml", arguments->volumes, "V", "The same in mL")->excludes(fill);
-  add("--tilt-deg", arguments->tilts, "T", "Tilts (the scene's)");
-  add("--on", arguments->on, "DEVICE", "core (the default), vulkan or a device's name");
-  add("--precision", arguments->precision, "P", "float or double (double on the core, float on Vulkan)");
-  add("--glb", arguments->glb, "FILE", "Write hand, vessel and liquid as glTF binary")->check(not_empty());
-  add("--svg", arguments->svg, "FILE", "Write front, side and top view as a drawing")->check(not_empty());
-  command->add_flag("--view", arguments->view, "Show it in the browser, at any fill and tilt, until Ctrl-C");
-  add("--view-port", arguments->view_port, "N", "Port of the view on 127.0.0.1 (any that is free)")->check(not_empty());
-  command->add_flag("--json", arguments->json, "One JSON object, SI units");
+  add("--list", arguments->list, "LIST.csv",
+      "With --rank: take the grip from this list of `wholehand rank` (default: the sweep's own list)")
+      ->check(not_empty());
+  auto* fill = add("--fill", arguments->fills, "F", "Fills, as fractions of the capacity (default: the scene's)");
+  add("--fill-ml", arguments->volumes, "V", "Instead of --fill: fills in mL")->excludes(fill);
+  add("--tilt-deg", arguments->tilts, "T", "Tilts (default: the scene's)");
+  add("--on", arguments->on, "DEVICE", "core (the default), vulkan or the name of a device");
+  add("--precision", arguments->precision, "P", "float or double (default: double on the core, float on Vulkan)");
+  add("--glb", arguments->glb, "FILE", "Write the hand, the vessel and the liquid as glTF binary")->check(not_empty());
+  add("--svg", arguments->svg, "FILE", "Write a drawing with the front, side and top view")->check(not_empty());
+  command->add_flag("--view", arguments->view, "Show the grip in the browser, at any fill and tilt, until Ctrl-C");
+  add("--view-port", arguments->view_port, "N", "Port of the view on 127.0.0.1 (default: any free port)")->check(not_empty());
+  command->add_flag("--json", arguments->json, "Print one JSON object, in SI units");
   command->callback([arguments, &action] { action = [arguments] { return grip(*arguments); }; });
 }
 

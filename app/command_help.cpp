@@ -29,8 +29,8 @@ ExitCode help(const CLI::App& app, const std::vector<std::string>& path) {
 
 void add_help_command(CLI::App& app, Action& action) {
   const auto path = std::make_shared<std::vector<std::string>>();
-  CLI::App* command = app.add_subcommand("help", "What a command does and which options it has");
-  command->add_option("command", *path, "A command (all of them)")->type_name("COMMAND");
+  CLI::App* command = app.add_subcommand("help", "Show what a command does and which options it has");
+  command->add_option("command", *path, "Name of a command (default: show all commands)")->type_name("COMMAND");
   command->callback([&app, path, &action] { action = [&app, path] { return help(app, *path); }; });
 }
 

@@ -34,24 +34,27 @@ ExitCode live(const LiveArguments& arguments) {
 void add_live_command(CLI::App& app, Action& action) {
   const auto arguments = std::make_shared<LiveArguments>();
   LiveOptions& options = arguments->options;
-  CLI::App* command = app.add_subcommand("live", "A session with a gripper: what it does is felt, and can be recorded");
+  CLI::App* command =
+      app.add_subcommand("live", "Run a session with a gripper: the user feels the forces, and the session can be recorded");
   const auto add = [command](const char* name, std::string& value, const char* type, const char* help) {
     return command->add_option(name, value, help)->type_name(type)->check(not_empty());
   };
-  add("scene", options.scene, "SCENE", "Scene file or name of a shipped scene (mixing_board; of a replay the recorded one)");
+  add("scene", options.scene, "SCENE",
+      "Scene file or name of a shipped scene (default: mixing_board; for a replay: the recorded scene)");
   add("--device", options.device, "DEVICE",
       "sim (the default), view (the page of --view), replay:FILE, hid[:PATH], usb[:VID:PID] or omega[:N]; see wholehand devices");
-  add("--rate", arguments->rate, "HZ", "Of the force loop (the scene's)");
-  add("--record", options.record, "FILE", "Keep every tick in a NetCDF file; see wholehand session");
-  add("--seconds", arguments->seconds, "S", "End after so long (when the simulated user is done, or on Ctrl-C)");
-  add("--seed", arguments->seed, "N", "Of the simulated user (1)");
-  add("--dhd-library", options.dhd_library, "PATH", "Force Dimension's SDK (libdhd.so), for omega.7 and sigma.7");
-  command->add_flag("--view", options.view, "Show it in the browser: prints the address, and opens it on a desktop");
-  add("--view-port", arguments->view_port, "N", "Port of the view on 127.0.0.1 (any that is free)");
-  add("--stream", options.stream, "URL", "Send it to osc://HOST:PORT at display rate, for engines and patches; see docs/stream.md");
-  command->add_flag("--unsafe-gains", options.unsafe_gains, "Allow gains that a light device may not bear");
-  command->add_flag("--no-clock", options.no_clock, "As fast as it goes, without a clock: sim and replay only");
-  command->add_flag("--json", options.json, "The report at the end as JSON, and nothing else");
+  add("--rate", arguments->rate, "HZ", "Rate of the force loop (default: the scene's)");
+  add("--record", options.record, "FILE", "Record every tick in a NetCDF file; see wholehand session");
+  add("--seconds", arguments->seconds, "S", "End after this time (default: when the simulated user is done, or on Ctrl-C)");
+  add("--seed", arguments->seed, "N", "Seed of the simulated user (default: 1)");
+  add("--dhd-library", options.dhd_library, "PATH", "Path of Force Dimension's SDK (libdhd.so), for omega.7 and sigma.7");
+  command->add_flag("--view", options.view, "Show the session in the browser: print the address, and open it on a desktop");
+  add("--view-port", arguments->view_port, "N", "Port of the view on 127.0.0.1 (default: any free port)");
+  add("--stream", options.stream, "URL",
+      "Send the session to osc://HOST:PORT at display rate, for engines and patches; see docs/stream.md");
+  command->add_flag("--unsafe-gains", options.unsafe_gains, "Allow gains that may make a light device unstable");
+  command->add_flag("--no-clock", options.no_clock, "Run as fast as possible, without a clock; only with sim and replay");
+  command->add_flag("--json", options.json, "Print the report at the end as JSON, and nothing else");
   command->callback([arguments, &action] { action = [arguments] { return live(*arguments); }; });
 }
 

@@ -28,7 +28,7 @@ std::string command_list(const CLI::App& app, const char* last) {
 
 std::string unknown_command(const CLI::App& app, const std::string& name) {
   const std::string known = command_list(app, "and");
-  if (known.empty()) return full_name(app) + " has no commands of its own, so no " + in_quotes(name);
+  if (known.empty()) return full_name(app) + " has no commands of its own; found " + in_quotes(name);
   return "unknown command " + in_quotes(name) + did_you_mean(name, names_of_commands(app)) + "; the commands are " + known;
 }
 

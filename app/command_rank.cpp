@@ -40,7 +40,7 @@ void check_list_file(const RankArguments& arguments, const Scene& scene) {
   constexpr std::string_view LIST_END = ".best.csv";
   const std::string result = path.ends_with(LIST_END) ? path.substr(0, path.size() - LIST_END.size()) + ".nc" : "";
   if (begins_with(result, NETCDF4_START))
-    throw usage_error(fmt::format("-o {}: this is the own list of {}; name another file", path, result));
+    throw usage_error(fmt::format("-o {}: this is the sweep's own list of {}; name another file", path, result));
   check_overwrites_kind(path, BEST_CSV_START, "list of grips", "-o");
 }
 
@@ -75,7 +75,8 @@ std::string ranking_text(const Scene& scene, const Plan& plan, const RankArgumen
 
 ExitCode rank(const RankArguments& arguments) {
   const int glb = arguments.glb.empty() ? 0 : static_cast<int>(parse_integer(arguments.glb, "--glb", ranges::BEST));
-  if (glb > 0 && arguments.output.empty()) throw usage_error("--glb: -o names the list, and so these files; give it too");
+  if (glb > 0 && arguments.output.empty())
+    throw usage_error("--glb: the name of the list is missing, which also names the glTF files; give -o LIST.csv");
   SweepResult result(arguments.result);
   std::string trouble;
   Scene scene = scene_of_result(result, trouble);
@@ -88,7 +89,7 @@ ExitCode rank(const RankArguments& arguments) {
   request.best = arguments.best.empty() ? usual_length(result, scene, plan)
                                         : static_cast<std::size_t>(parse_integer(arguments.best, "--best", {1, ranges::BEST.high}));
   if (glb > static_cast<int>(request.best))
-    throw usage_error(fmt::format("--glb {0}: the best {1} of each list are kept; ask for --best {0} too", glb, request.best));
+    throw usage_error(fmt::format("--glb {0}: each list keeps only its best {1} grips; give --best {0} too", glb, request.best));
   const auto open_core = [&]() -> std::shared_ptr<const Evaluator> {
     if (!trouble.empty()) throw usage_error(result.path() + ": " + trouble);
     return make_core_evaluator(scene);
@@ -115,16 +116,18 @@ ExitCode rank(const RankArguments& arguments) {
 
 void add_rank_command(CLI::App& app, Action& action) {
   const auto arguments = std::make_shared<RankArguments>();
-  CLI::App* command = app.add_subcommand("rank", "The best grips of a sweep by other weights and under conditions");
+  CLI::App* command = app.add_subcommand("rank", "List the best grips of a sweep by other weights and under conditions");
   const auto add = [command](const char* name, std::string& value, const char* type, const char* help) {
     return command->add_option(name, value, help)->type_name(type)->check(not_empty());
   };
-  add("result", arguments->result, "FILE.nc", "A result of `wholehand sweep`")->required();
-  add("--weights", arguments->weights, "TERM=W,..", "Weights of fingers, contacts, depth, posture, force, hold (the scene's)");
-  add("--where", arguments->where, "CONDITION", "Only grips that meet it: \"fingers_used >= 4 and palm_depth_mm < 2\"");
-  add("--best", arguments->best, "N", "Grips listed for each vessel (as many as the sweep listed)");
-  add("--glb", arguments->glb, "N", "Of these, so many for each vessel as glTF: LIST.<vessel>.<rank>.glb");
-  add("-o,--output", arguments->output, "LIST.csv", "Write the list, for --list of grip, view and report");
+  add("result", arguments->result, "FILE.nc", "Result of `wholehand sweep`")->required();
+  add("--weights", arguments->weights, "TERM=W,..",
+      "Weights of fingers, contacts, depth, posture, force, hold (default: the scene's)");
+  add("--where", arguments->where, "CONDITION",
+      "List only grips that meet this condition: \"fingers_used >= 4 and palm_depth_mm < 2\"");
+  add("--best", arguments->best, "N", "Number of grips to list for each vessel (default: as many as the sweep listed)");
+  add("--glb", arguments->glb, "N", "Write the best N grips of each vessel as glTF: LIST.<vessel>.<rank>.glb");
+  add("-o,--output", arguments->output, "LIST.csv", "Write the list; grip, view and report read it with --list");
   command->callback([arguments, &action] { action = [arguments] { return rank(*arguments); }; });
 }
 

@@ -37,15 +37,18 @@ ExitCode report_sweep(const PageArguments& arguments) {
 
 void add_report_command(CLI::App& app, Action& action) {
   const auto arguments = std::make_shared<PageArguments>();
-  CLI::App* command = app.add_subcommand("report", "One page that explains a sweep: maps, best grips, forces, agreement");
-  command->add_option("result", arguments->result, "A result of `wholehand sweep`")
+  CLI::App* command =
+      app.add_subcommand("report", "Write one page that explains a sweep: maps, best grips, forces, agreement with the core");
+  command->add_option("result", arguments->result, "Result of `wholehand sweep`")
       ->type_name("FILE.nc")
       ->required()
       ->check(not_empty());
-  command->add_option("-o,--output", arguments->page, "The page (the result's name with .html)")
+  command->add_option("-o,--output", arguments->page, "File of the page (default: the result's name with .html)")
       ->type_name("FILE")
       ->check(not_empty());
-  command->add_option("--list", arguments->list, "Best grips: these of `wholehand rank` (the sweep's own)")
+  command
+      ->add_option("--list", arguments->list,
+                   "Show the best grips of this list of `wholehand rank` (default: the sweep's own list)")
       ->type_name("LIST.csv")
       ->check(not_empty());
   command->callback([arguments, &action] { action = [arguments] { return report_sweep(*arguments); }; });

@@ -12,7 +12,8 @@ namespace {
 
 ExitCode show_scenes() {
   const std::vector<std::string> names = shipped_scenes();
-  if (names.empty()) throw failure_error("the shipped scenes are not where the program was built or installed; give a scene file");
+  if (names.empty())
+    throw failure_error("the shipped scenes are missing where the program was built or installed; give a scene file");
   std::vector<std::string> files;
   for (const std::string& name : names) files.push_back(find_scene(scenes_dir() + "/" + name + ".toml"));
   print(list_scenes(files));
@@ -22,7 +23,7 @@ ExitCode show_scenes() {
 }  // namespace
 
 void add_scenes_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("scenes", "The scenes that are shipped: name, vessels, what for");
+  CLI::App* command = app.add_subcommand("scenes", "List the shipped scenes: name, vessels, purpose");
   command->callback([&action] { action = [] { return show_scenes(); }; });
 }
 

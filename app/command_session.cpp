@@ -53,16 +53,16 @@ ExitCode report_recording(const SessionArguments& arguments) {
 
 void add_session_command(CLI::App& app, Action& action) {
   const auto arguments = std::make_shared<SessionArguments>();
-  CLI::App* command =
-      app.add_subcommand("session", "What the paper measured, from a recording: states, response, grip force, lost grips");
-  command->add_option("recording", arguments->recording, "A recording of `wholehand live --record`")
+  CLI::App* command = app.add_subcommand(
+      "session", "Compute from a recording what the paper measured: states, response times, grip forces, lost grips");
+  command->add_option("recording", arguments->recording, "Recording of `wholehand live --record`")
       ->type_name("FILE.nc")
       ->required()
       ->check(not_empty());
   command->add_option("-o,--output", arguments->folder, "Folder for session.csv, states.csv and session.svg")
       ->type_name("DIR")
       ->check(not_empty());
-  command->add_flag("--json", arguments->json, "One JSON object in one line");
+  command->add_flag("--json", arguments->json, "Print one JSON object in one line");
   command->callback([arguments, &action] { action = [arguments] { return report_recording(*arguments); }; });
 }
 

@@ -64,7 +64,8 @@ struct ReportArguments {
 
 ExitCode report_stability(const ReportArguments& arguments) {
   if (arguments.folder.empty()) {
-    throw usage_error("stability: -o DIR is required, or `stability wall` for one device; see wholehand stability --help");
+    throw usage_error(
+        "stability: the folder is missing; give -o DIR, or use `stability wall` for one device; see wholehand stability --help");
   }
   StabilityOptions options;
   options.folder = arguments.folder;
@@ -78,40 +79,42 @@ ExitCode report_stability(const ReportArguments& arguments) {
 }  // namespace
 
 void add_stability_command(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("stability", "Where a haptic loop and the kernels stop being trustworthy");
+  CLI::App* command =
+      app.add_subcommand("stability", "Find out where a haptic loop becomes unstable and where the kernels lose their accuracy");
   command->require_subcommand(0, 1);
   const auto report_arguments = std::make_shared<ReportArguments>();
   command->add_option("-o,--output", report_arguments->folder, "Folder for the tables, pictures and the summary")
       ->type_name("DIR")
       ->check(not_empty());
-  command->add_option("--on", report_arguments->on, "core, vulkan (the best device, the default) or a device's name")
+  command->add_option("--on", report_arguments->on, "core, vulkan (the best device; the default) or the name of a device")
       ->type_name("DEVICE")
       ->check(not_empty());
-  command->add_flag("--quick", report_arguments->quick, "Coarser maps, under a minute");
-  command->add_option("--seed", report_arguments->seed, "Of the devices and walls by chance (1)")->type_name("N");
+  command->add_flag("--quick", report_arguments->quick, "Use coarser maps; this takes less than a minute");
+  command->add_option("--seed", report_arguments->seed, "Seed of the random devices and walls (default: 1)")->type_name("N");
   command->callback([command, report_arguments, &action] {
     if (!command->get_subcommands().empty()) {
       for (const char* option : {"--output", "--on", "--quick", "--seed"})
         if (command->count(option) > 0)
-          throw usage_error(std::string("stability ") + option + ": of the report, not of `wall`; leave it out");
+          throw usage_error(std::string("stability ") + option +
+                            ": this option belongs to the report and not to `wall`; leave it out");
       return;
     }
     action = [report_arguments] { return report_stability(*report_arguments); };
   });
   const auto arguments = std::make_shared<WallArguments>();
-  CLI::App* wall_command = command->add_subcommand("wall", "The stiffest wall that a device can render");
+  CLI::App* wall_command = command->add_subcommand("wall", "Compute the stiffest wall that a device can render");
   const auto add = [wall_command](const char* name, auto& value, const char* type, const char* help) {
     return wall_command->add_option(name, value, help)->type_name(type)->check(not_empty());
   };
   add("--mass-kg", arguments->mass, "M", "Moving mass of one axis of the device")->required();
-  add("--damping-Nspm", arguments->damping, "b", "Its damping, N s/m")->required();
-  add("--rate-hz", arguments->rate, "F", "Samples a second")->required();
-  add("--wall-damping-Nspm", arguments->wall_damping, "B", "Damping of the rendered wall, N s/m (0)");
-  add("--delay-samples", arguments->delay, "n", "Whole samples between reading and force (0)");
-  add("--encoder-um", arguments->encoder, "D", "Step of the encoder at the handle, micrometres (0: exact)");
-  add("--coulomb-N", arguments->coulomb, "f", "Coulomb friction of the device (0)");
-  add("--finger", arguments->finger, "m,b,k", "Mass, damping and stiffness of the finger that holds it: kg, N s/m, N/m");
-  wall_command->add_flag("--json", arguments->json, "One JSON object in one line");
+  add("--damping-Nspm", arguments->damping, "b", "Damping of one axis of the device, N s/m")->required();
+  add("--rate-hz", arguments->rate, "F", "Rate of the loop, samples per second")->required();
+  add("--wall-damping-Nspm", arguments->wall_damping, "B", "Damping of the rendered wall, N s/m (default: 0)");
+  add("--delay-samples", arguments->delay, "n", "Number of whole samples between reading and force (default: 0)");
+  add("--encoder-um", arguments->encoder, "D", "Step of the encoder at the handle, micrometres (default: 0, exact)");
+  add("--coulomb-N", arguments->coulomb, "f", "Coulomb friction of the device (default: 0)");
+  add("--finger", arguments->finger, "m,b,k", "Mass, damping and stiffness of the finger that holds the device: kg, N s/m, N/m");
+  wall_command->add_flag("--json", arguments->json, "Print one JSON object in one line");
   wall_command->callback([arguments, &action] { action = [arguments] { return wall(*arguments); }; });
 }
 

@@ -38,22 +38,24 @@ ExitCode sweep(const SweepArguments& arguments) {
 void add_sweep_command(CLI::App& app, Action& action) {
   const auto arguments = std::make_shared<SweepArguments>();
   CLI::App* command = app.add_subcommand("sweep", "Score every grip of a scene, show the best, write the results");
-  command->add_option("scene", arguments->scene, "Scene file, or the name of a shipped one (three_beakers)")
+  command->add_option("scene", arguments->scene, "Scene file or name of a shipped scene (default: three_beakers)")
       ->type_name("SCENE")
       ->check(not_empty());
-  command->add_option("-o,--output", arguments->output, "Result file (the scene file's name with .nc)")
+  command->add_option("-o,--output", arguments->output, "Result file (default: the scene file's name with .nc)")
       ->type_name("FILE")
       ->check(not_empty());
-  command->add_option("--on", arguments->on, "core, vulkan (the best device, the default) or a device's name")
+  command->add_option("--on", arguments->on, "core, vulkan (the best device; the default) or the name of a device")
       ->type_name("DEVICE")
       ->check(not_empty());
-  command->add_option("--precision", arguments->precision, "float or double (float on Vulkan, double on the core)")->type_name("P");
-  command->add_option("--best", arguments->best, "Grips shown and listed for each vessel (the scene's)")->type_name("N");
-  command->add_option("--glb", arguments->glb, "Of these, so many for each vessel as glTF: NAME.<vessel>.<rank>.glb")
+  command->add_option("--precision", arguments->precision, "float or double (default: float on Vulkan, double on the core)")
+      ->type_name("P");
+  command->add_option("--best", arguments->best, "Number of grips to show and list for each vessel (default: the scene's)")
       ->type_name("N");
-  command->add_option("--threads", arguments->threads, "Threads of the core (all)")->type_name("N");
-  command->add_flag("--resume", arguments->resume, "Go on where an interrupted sweep ended");
-  command->add_flag("--explain", arguments->explain, "Tell what was left out and what that saved");
+  command->add_option("--glb", arguments->glb, "Write the best N grips of each vessel as glTF: NAME.<vessel>.<rank>.glb")
+      ->type_name("N");
+  command->add_option("--threads", arguments->threads, "Number of threads of the core (default: all)")->type_name("N");
+  command->add_flag("--resume", arguments->resume, "Continue an interrupted sweep where it ended");
+  command->add_flag("--explain", arguments->explain, "Print what the sweep left out and what this saved");
   command->callback([arguments, &action] { action = [arguments] { return sweep(*arguments); }; });
 }
 

@@ -46,7 +46,7 @@ void view_result(const std::string& path, const std::string& list_file, int port
   const Plan plan(scene, keeps_vectors(result.variables()));
   result.use(scene, plan);
   if (list_file.empty() && !result.lists_best())
-    throw usage_error(fmt::format("{}: holds no best grips; sweep with --best 1 or more", path));
+    throw usage_error(fmt::format("{}: this result lists no best grips; sweep with --best 1 or more", path));
   const GripLists lists = list_file.empty() ? lists_of_sweep(result, scene, plan) : read_grip_lists(list_file, result, scene, plan);
   std::vector<ViewedGrip> grips;
   std::vector<std::string> notes;
@@ -71,7 +71,8 @@ ExitCode view(const ViewArguments& arguments) {
   if (is_result(arguments.file)) {  // recordings are classic NetCDF
     view_result(arguments.file, arguments.list, port);
   } else {
-    if (!arguments.list.empty()) throw usage_error("--list: is for results of sweeps, and " + arguments.file + " is none");
+    if (!arguments.list.empty())
+      throw usage_error("--list: the option needs a result of a sweep, and " + arguments.file + " is not a result");
     view_recording(arguments.file, port);
   }
   return ExitCode::done;
@@ -81,15 +82,19 @@ ExitCode view(const ViewArguments& arguments) {
 
 void add_view_command(CLI::App& app, Action& action) {
   const auto arguments = std::make_shared<ViewArguments>();
-  CLI::App* command = app.add_subcommand("view", "A recorded session, or the best grips of a sweep, in the browser");
-  command->add_option("file", arguments->file, "A recording of `wholehand live --record`, or a result of `wholehand sweep`")
+  CLI::App* command = app.add_subcommand("view", "Show a recorded session, or the best grips of a sweep, in the browser");
+  command->add_option("file", arguments->file, "Recording of `wholehand live --record`, or result of `wholehand sweep`")
       ->type_name("FILE.nc")
       ->required()
       ->check(not_empty());
-  command->add_option("--list", arguments->list, "Of a result: these grips of `wholehand rank` (the sweep's own)")
+  command
+      ->add_option("--list", arguments->list,
+                   "With a result: show the grips of this list of `wholehand rank` (default: the sweep's own list)")
       ->type_name("LIST.csv")
       ->check(not_empty());
-  command->add_option("--view-port", arguments->port, "Port on 127.0.0.1 (any that is free)")->type_name("N")->check(not_empty());
+  command->add_option("--view-port", arguments->port, "Port on 127.0.0.1 (default: any free port)")
+      ->type_name("N")
+      ->check(not_empty());
   command->callback([arguments, &action] { action = [arguments] { return view(*arguments); }; });
 }
 

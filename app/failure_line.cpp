@@ -24,7 +24,7 @@ namespace {
 alignas(std::max_align_t) char failure_stack[64 * 1024];
 // what is said until prepare_words() has found a limit of memory
 char without_memory[200] = "out of memory; ask for less at once";
-char why[200] = "; unless memory had run out, please report it";  // after the signal, of a failure that nothing is known of
+char why[200] = "; please report it, unless memory ran out";  // after the signal, of a failure that nothing is known of
 std::atomic<bool> is_memory_short{false};
 std::atomic<pid_t> first_thread{0};  // that failed; 0: none
 static_assert(std::atomic<bool>::is_always_lock_free &&

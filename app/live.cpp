@@ -169,15 +169,17 @@ class LiveRun {
     const bool is_replay = is_replay_ = options_.device.rfind(REPLAY, 0) == 0;
     const bool is_sim = options_.device == "sim";
     if (options_.no_clock && !is_replay && !is_sim)
-      throw usage_error("--no-clock: a device keeps its own time; allowed with --device sim and replay:FILE");
+      throw usage_error("--no-clock: this device has a clock of its own; allowed: with --device sim and replay:FILE");
     if (options_.no_clock && options_.view)
-      throw usage_error("--view: shows what happens as it happens, which --no-clock leaves out; leave one of them out");
+      throw usage_error(
+          "--view: it shows a session in real time, and --no-clock does not run in real time; leave one of the two out");
     if (options_.no_clock && !options_.stream.empty())
-      throw usage_error("--stream: sends what happens as it happens, which --no-clock leaves out; leave one of them out");
+      throw usage_error(
+          "--stream: it sends a session in real time, and --no-clock does not run in real time; leave one of the two out");
     if (is_replay && options_.rate > 0) throw usage_error("--rate: a recording is replayed at its own rate; leave it out");
-    if (options_.device == REPLAY) throw usage_error("--device replay: needs a recording: --device replay:FILE");
+    if (options_.device == REPLAY) throw usage_error("--device replay: the recording is missing; give --device replay:FILE");
     if (is_replay && !options_.scene.empty())
-      notes_.push_back("replayed in another scene: the forces are what that one gives, not those that were felt");
+      notes_.push_back("the replay uses another scene: the forces are those of this scene, not the recorded forces");
     std::optional<Recording> recording;
     if (is_replay) recording = read_recording(options_.device.substr(std::string(REPLAY).size()));
     if (recording && options_.scene.empty()) {
@@ -198,7 +200,7 @@ class LiveRun {
     }
     const double most = gripper_->limits().rate;
     if (!is_replay && most > 0 && scene_.live.rate > most) {
-      throw usage_error(fmt::format("{:g} Hz: {} measures at most {:g} times a second; allowed: --rate up to that",
+      throw usage_error(fmt::format("{:g} Hz: {} measures at most {:g} times a second; allowed: a --rate up to this number",
                                     scene_.live.rate, gripper_->limits().name, most));
     }
   }
@@ -210,7 +212,7 @@ class LiveRun {
     refuse_unstable_gains(scene_, limits.gap, options_.unsafe_gains);
     const bool is_left = scene_.hand.handedness == Handedness::left;
     if (limits.is_left_handed != is_left) {
-      throw usage_error(fmt::format("{} is for the {} hand and the scene's [hand] is a {} one; say handedness = \"{}\" there",
+      throw usage_error(fmt::format("{} is for the {} hand, and the scene's [hand] is a {} hand; set handedness = \"{}\" in [hand]",
                                     limits.name, limits.is_left_handed ? "left" : "right", is_left ? "left" : "right",
                                     limits.is_left_handed ? "left" : "right"));
     }
@@ -280,7 +282,7 @@ class LiveRun {
       board.show(options_.json);
       // nobody follows any more; without a clock there is nothing to follow, and the recording is what is wanted
       if (is_output_abandoned() && !options_.no_clock && !interrupt.flag()) {
-        note("nobody reads the output any more, and the session ends");
+        note("nobody reads the output any more, so the session ends");
         interrupt.flag() = true;
       }
     }

@@ -102,7 +102,7 @@ std::string live_text(const LiveSummary& summary) {
                                  summary.seconds, readable_number(static_cast<std::uint64_t>(loop.ticks)), summary.scene.live.rate);
   text += fmt::format("  grasps {}, lost {}", last.grasps, last.lost);
   if (summary.scene.task)
-    text += fmt::format(", destinations {}; {}", last.destinations, last.task_done ? "all is done" : "not all is done");
+    text += fmt::format(", destinations {}; {}", last.destinations, last.task_done ? "the task is done" : "the task is not done");
   text += "\n";
   if (summary.scene.task) {
     text += fmt::format("  amounts    {}; spilt {:.1f} ml\n", board(mixing_board(summary.scene, last)),
@@ -166,17 +166,19 @@ std::string force_words(const LoopReport& report, double watchdog) {
 std::string fault_line(const LoopReport& report, const Guard& guard, const LiveData& live, double watchdog) {
   const double seconds = static_cast<double>(report.last.number) / live.rate;
   if (report.fault == Fault::none || report.fault == Fault::interrupted)
-    return fmt::format("live: over after {:.3f} s; {}", seconds, force_words(report, watchdog));
+    return fmt::format("live: the session ended after {:.3f} s; {}", seconds, force_words(report, watchdog));
   std::string words = report.trouble;
   if (report.fault == Fault::jump) words = guard.jump();
   if (report.fault == Fault::stale) words = "the same measurement came twice";
   if (report.fault == Fault::late)
-    words = fmt::format("{} steps in a row took longer than a period, or their reads longer than {:g} ms; [live] late_steps",
-                        live.late_steps, CALL_PATIENCE * 1e3);
-  if (report.fault == Fault::not_finite) words = "a number that is none, or a rotation that is none";
-  if (report.fault == Fault::ring_full) words = "the recording does not keep up";
-  return fmt::format("live: released after {:.3f} s: {}{}; {}", seconds, FAULT_NAMES[static_cast<std::size_t>(report.fault)],
-                     words.empty() ? "" : " (" + words + ")", force_words(report, watchdog));
+    words = fmt::format(
+        "{} steps in a row took longer than a period, or their reads took longer than {:g} ms; [live] late_steps sets this number",
+        live.late_steps, CALL_PATIENCE * 1e3);
+  if (report.fault == Fault::not_finite) words = "a value is not a number, or a rotation is not a unit quaternion";
+  if (report.fault == Fault::ring_full) words = "the recording is too slow for the loop";
+  return fmt::format("live: a fault ended the session after {:.3f} s: {}{}; {}", seconds,
+                     FAULT_NAMES[static_cast<std::size_t>(report.fault)], words.empty() ? "" : " (" + words + ")",
+                     force_words(report, watchdog));
 }
 
 }  // namespace wholehand

@@ -65,7 +65,7 @@ int run(int argc, char** argv) {
   CLI::App app{"Whole-hand grasping with a two-finger gripper: score the grips of a scene, look at one, check the devices.",
                "wholehand"};
   app.set_version_flag("--version", std::string("wholehand ") + wholehand::version() +
-                                        "\nwholehand devices lists what there is to compute on and to feel with");
+                                        "\n`wholehand devices` lists the devices that compute, and the grippers");
   app.require_subcommand(0, 1);
   app.footer(
       "The launcher also builds and runs the tests (test) and the benchmarks (bench).\n"
@@ -94,7 +94,9 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return refuse(app, error);
   }
-  if (!action) return report(ExitCode::usage, "which command? " + wholehand::command_list(app, "or") + "; see wholehand --help");
+  if (!action)
+    return report(ExitCode::usage,
+                  "the command is missing; allowed: " + wholehand::command_list(app, "or") + "; see wholehand --help");
   wholehand::check_open_files(OPEN_FILES);
   const ExitCode code = action();
   wholehand::finish_output();

@@ -24,9 +24,9 @@ void check_open_files(std::size_t needed) {
   if (opened.size() == needed) return;
   rlimit limit{};
   getrlimit(RLIMIT_NOFILE, &limit);
-  throw failure_error(
-      fmt::format("{} of the {} files that may be needed can be open at once: at most {} may be; raise that limit (ulimit -n)",
-                  opened.size(), needed, static_cast<unsigned long long>(limit.rlim_cur)));
+  throw failure_error(fmt::format(
+      "only {} of the {} files that the program may need can be open at once: the limit is {}; raise this limit (ulimit -n)",
+      opened.size(), needed, static_cast<unsigned long long>(limit.rlim_cur)));
 }
 
 }  // namespace wholehand

@@ -26,7 +26,7 @@ std::unique_ptr<Gripper> open_gripper(const std::string& device, const Scene& sc
   const bool is_bare = colon == std::string::npos;
   if (device == "sim") return open_sim(scene, seed);
   if (device == "view") {
-    if (!view) throw usage_error("--device view: the page is the gripper, and there is none; add --view");
+    if (!view) throw usage_error("--device view: the page of the view is the gripper, and there is no view; add --view");
     return open_view(scene, *view);
   }
   if (kind == "hid" && (is_bare || !which.empty())) return open_hid(which, watchdog);

@@ -62,8 +62,8 @@ std::string find_scene(const std::string& name) {
   std::error_code failed;
   if (name.empty()) {
     if (dir.empty())
-      throw failure_error(
-          fmt::format("the shipped scene '{}' is not where the program was built or installed; give a scene file", DEFAULT_SCENE));
+      throw failure_error(fmt::format(
+          "the shipped scene '{}' is missing where the program was built or installed; give a scene file", DEFAULT_SCENE));
     return (fs::path(dir) / (std::string(DEFAULT_SCENE) + ".toml")).string();
   }
   if (fs::exists(name, failed) && !fs::is_directory(name, failed)) return name;

@@ -79,7 +79,7 @@ TEST(CommandLine, EndsQuietlyWhereNobodyReads) {
   EXPECT_EQ(whole.output.find("Session of 20.00"), 0u) << whole.output;
   // what only somebody who follows it wants ends, as by Ctrl-C
   EXPECT_EQ(run_unread("live --record " + folder + "/m.nc").output,
-            "wholehand: live: nobody reads the output any more, and the session ends\ncode 130\n");
+            "wholehand: live: nobody reads the output any more, so the session ends\ncode 130\n");
   const Outcome cut = run("PROGRAM session " + folder + "/m.nc 2>&1");
   EXPECT_NE(cut.output.find("  ended by a signal, or as nobody read its output any more\n"), std::string::npos) << cut.output;
   EXPECT_EQ(run_unread(std::string(SMALL_GRIP) + " --view").output, "code 0\n");
@@ -113,7 +113,7 @@ TEST(CommandLine, SaysThatTooFewFilesCanBeOpen) {
       const Outcome few = run("sh -c 'ulimit -n " + most + "; exec PROGRAM " + arguments + "' 2>&1 >/dev/null");
       EXPECT_EQ(few.code, 3) << few.output;
       const std::string line =
-          "files that may be needed can be open at once: at most " + most + " may be; raise that limit (ulimit -n)\n";
+          "files that the program may need can be open at once: the limit is " + most + "; raise this limit (ulimit -n)\n";
       EXPECT_NE(few.output.find(line), std::string::npos) << few.output;
     }
   }

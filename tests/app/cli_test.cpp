@@ -27,7 +27,7 @@ TEST(CommandLine, TellsVersionAndHelp) {
   const Outcome version = run("PROGRAM --version 2>&1");
   EXPECT_EQ(version.code, 0);
   EXPECT_EQ(version.output, std::string("wholehand ") + wholehand::version() +
-                                "\nwholehand devices lists what there is to compute on and to feel with\n");
+                                "\n`wholehand devices` lists the devices that compute, and the grippers\n");
   for (const char* arguments : {"--help", "sweep --help", "report --help", "grip -h", "check --help", "devices --help"}) {
     const Outcome help = run(std::string("PROGRAM ") + arguments + " 2>&1");
     EXPECT_EQ(help.code, 0) << arguments;
@@ -56,14 +56,14 @@ TEST(CommandLine, ListsTheShippedScenes) {
 
 TEST(CommandLine, RefusesWrongUsageWithOneLineAndCode2) {
   const std::vector<std::pair<std::string, std::string>> cases{
-      {"", "which command? sweep, rank, report, grip, check, "},
+      {"", "the command is missing; allowed: sweep, rank, report, grip, check, "},
       {"", ", scenes or help; see wholehand --help"},
       {"swep", "unknown command 'swep' (did you mean 'sweep'?); the commands are sweep, rank, report, grip, check, "},
       {"stab", "unknown command 'stab' (did you mean 'stability'?); the commands are "},
       {"xyzzy", "unknown command 'xyzzy'; the commands are sweep, "},
       {"help swep", "unknown command 'swep' (did you mean 'sweep'?); the commands are sweep, "},
       {"help stability wal", "unknown command 'wal' (did you mean 'wall'?); the commands are wall"},
-      {"help sweep small", "wholehand sweep has no commands of its own, so no 'small'"},
+      {"help sweep small", "wholehand sweep has no commands of its own; found 'small'"},
       {"sweep --presision float", "--presision (did you mean '--precision'?); see wholehand sweep --help"},
       {"sweep --bset=5", "--bset=5 (did you mean '--best'?); see wholehand sweep --help"},
       {"grip small --vessl tumbler --height-mm 50",
@@ -115,7 +115,7 @@ TEST(CommandLine, RefusesWrongUsageWithOneLineAndCode2) {
       {"devices extra", "extra; see wholehand devices --help"},
       {"grip", "scene is required"},
       {"grip small", "--vessel is required"},
-      {"grip small --vessel tumbler", "where is it held? give --height-mm, or --thumb-mm and --index-mm"},
+      {"grip small --vessel tumbler", "the place of the grip is missing; give --height-mm, or --thumb-mm and --index-mm"},
       {"grip small --vessel tumblr --height-mm 50", "has no such vessel; the nearest is 'tumbler'"},
       {"grip small --vessel tumbler --height-mm 5x", "--height-mm '5x'; allowed: a number, -10000 to 20000"},
       {"grip small --vessel tumbler --height-mm nan", "--height-mm 'nan'"},
@@ -142,9 +142,10 @@ TEST(CommandLine, RefusesWrongUsageWithOneLineAndCode2) {
       {std::string(SMALL_GRIP) + " --glb /tmp", "--glb /tmp: is a directory; name a file"},
       {std::string(SMALL_GRIP) + " --svg /nonexistent/a.svg", "--svg /nonexistent/a.svg: /nonexistent is not a directory"},
       {std::string(SMALL_GRIP) + " --svg /dev/null", "--svg /dev/null: is a device or pipe"},
-      {std::string(SMALL_GRIP) + " --glb /tmp/wholehand_cli_one --svg /tmp/wholehand_cli_one", "--glb and --svg name one file"},
+      {std::string(SMALL_GRIP) + " --glb /tmp/wholehand_cli_one --svg /tmp/wholehand_cli_one",
+       "--glb and --svg name the same file"},
       {std::string(SMALL_GRIP) + " --glb /tmp/wholehand_cli_one --svg /tmp/../tmp/./wholehand_cli_one",
-       "--glb and --svg name one file"},
+       "--glb and --svg name the same file"},
       {"sweep small --glb -1", "--glb '-1'; allowed: a whole number, 0 to 100000"},
       {"sweep small --glb x", "--glb 'x'"},
       {"sweep small --best 2 --glb 3 --on core -o /tmp/wholehand_cli_none.nc", "--glb 3: the best 2 of each vessel are kept"},

@@ -85,7 +85,7 @@ TEST(FailureLine, IsSaidOnceWhateverFails) {
   for (const auto& [signal, fail] : failures) {
     const Said said = failing_child(fail);
     EXPECT_EQ(said.code, 3) << said.text;
-    EXPECT_EQ(said.text, FAILED + std::string(signal) + "; unless memory had run out, please report it\n");
+    EXPECT_EQ(said.text, FAILED + std::string(signal) + "; please report it, unless memory ran out\n");
   }
 }
 
@@ -121,7 +121,7 @@ TEST(FailureLine, OtherExceptionsAreNamed) {
   const Said said = failing_child([] { std::thread([] { throw std::runtime_error("a reason"); }).join(); });
   EXPECT_EQ(said.code, 3);
   EXPECT_NE(said.text.find("a reason"), std::string::npos) << said.text;
-  EXPECT_TRUE(said.text.ends_with(FAILED + std::string("ABRT); unless memory had run out, please report it\n"))) << said.text;
+  EXPECT_TRUE(said.text.ends_with(FAILED + std::string("ABRT); please report it, unless memory ran out\n"))) << said.text;
 }
 
 #ifdef WHOLEHAND_PROGRAM

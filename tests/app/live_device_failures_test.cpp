@@ -135,7 +135,7 @@ TEST(LiveDevice, AnEndWhoseZeroForceIsNotTakenIsAFailure) {
     };
   });
   EXPECT_EQ(ended.code, 3);
-  expect_said(ended, "wholehand: live: over after ");
+  expect_said(ended, "wholehand: live: the session ended after ");
   expect_said(ended, "zero force could not be written (force not taken: no error); the last force was ");
 }
 

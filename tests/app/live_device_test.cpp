@@ -127,7 +127,8 @@ TEST(LiveDevice, ACallThatAlwaysTakesLongEndsTheSession) {
     });
     EXPECT_EQ(ended.code, 3);
     expect_said(ended,
-                ": late (3 steps in a row took longer than a period, or their reads longer than 12 ms; [live] late_steps); ");
+                ": late (3 steps in a row took longer than a period, or their reads took longer than 12 ms; [live] late_steps sets "
+                "this number); ");
     expect_said(ended, "a call of the device did not return within 12 ms; meanwhile zero force was written\n");
     EXPECT_GT(session.log->largest(), 0.5);
     EXPECT_EQ(session.log->last().force, 0);
@@ -170,7 +171,7 @@ TEST(LiveDevice, ASecondThreadThatNeverReturnsIsNotWaitedFor) {
     };
   });
   EXPECT_EQ(ended.code, 3);
-  expect_said(ended, "wholehand: live: over after 1");
+  expect_said(ended, "wholehand: live: the session ended after 1");
   expect_said(ended, "; zero force was written\n");
   expect_said(ended, "wholehand: live: a second call of the device has not returned for 1 s, and the program ends without it\n");
   EXPECT_EQ(session.log->last().force, 0);
@@ -219,7 +220,7 @@ TEST(LiveDevice, ADeviceThatIsNotLeftIsGivenUp) {
       EXPECT_GT(session.log->largest(), 0.5);
       EXPECT_EQ(session.log->last().force, 0);
       expect_said(ended, is_fault ? ": read error (pose not read: no error); zero force was written\n"
-                                  : "wholehand: live: over after 0.500 s; zero force was written\n");
+                                  : "wholehand: live: the session ended after 0.500 s; zero force was written\n");
       expect_said(ended, GIVEN_UP);
       const auto report = nlohmann::json::parse(ended.printed);
       EXPECT_EQ(report["fault"], is_fault ? nlohmann::json("read error") : nlohmann::json());

@@ -91,7 +91,8 @@ TEST(LiveReport, TheFaultLineSaysWhenAndWhy) {
   GripperLimits limits;
   Guard guard(live, limits);
   report.let_go = LetGo::written;
-  EXPECT_EQ(fault_line(report, guard, live, 0.02), "live: released after 2.004 s: read error (unplugged); zero force was written");
+  EXPECT_EQ(fault_line(report, guard, live, 0.02),
+            "live: a fault ended the session after 2.004 s: read error (unplugged); zero force was written");
   GripperState state;
   state.sequence = 1;
   EXPECT_EQ(guard.check(ReadOutcome::value, state, 0), Fault::none);
@@ -100,19 +101,20 @@ TEST(LiveReport, TheFaultLineSaysWhenAndWhy) {
   report.fault = guard.check(ReadOutcome::value, state, 1);
   report.trouble.clear();
   EXPECT_EQ(fault_line(report, guard, live, 0.02),
-            "live: released after 2.004 s: jump (its gap by 12 m/s; allowed: up to 5, [live] jump_m_s); zero force was written");
+            "live: a fault ended the session after 2.004 s: jump (its gap by 12 m/s; allowed: up to 5, [live] jump_m_s); zero "
+            "force was written");
   report.let_go = LetGo::not_taken;
   report.let_go_trouble = "unplugged";
   report.force = {{0, -2.376, 0}, 0.004};
   report.fault = Fault::interrupted;
   EXPECT_TRUE(is_force_left(report));
-  EXPECT_EQ(
-      fault_line(report, guard, live, 0.031875),
-      "live: over after 2.004 s; zero force could not be written (unplugged); the last force was 2.38 N at the arm and 0 N at the "
-      "fingers; the device's own watchdog takes it away within 31.875 ms");
+  EXPECT_EQ(fault_line(report, guard, live, 0.031875),
+            "live: the session ended after 2.004 s; zero force could not be written (unplugged); the last force was 2.38 N at the "
+            "arm and 0 N at the "
+            "fingers; the device's own watchdog takes it away within 31.875 ms");
   report.force = {};
   EXPECT_EQ(fault_line(report, guard, live, 0.02),
-            "live: over after 2.004 s; zero force could not be written (unplugged); the last force was zero");
+            "live: the session ended after 2.004 s; zero force could not be written (unplugged); the last force was zero");
 }
 
 TEST(OpenGripper, RefusesOtherNames) {
@@ -176,8 +178,8 @@ TEST(Live, ShowsAWholeSessionWithoutADevice) {
   const LiveOutcome outcome = Program("--no-clock").wait();
   EXPECT_EQ(outcome.code, 0) << outcome.errors;
   EXPECT_EQ(outcome.errors, "");
-  for (const char* part :
-       {"tutorial is at its destination", "beaker3 is held at 130 mm", "grasps 4, lost 0, destinations 1; all is done", "red 7"})
+  for (const char* part : {"tutorial is at its destination", "beaker3 is held at 130 mm",
+                           "grasps 4, lost 0, destinations 1; the task is done", "red 7"})
     EXPECT_NE(outcome.output.find(part), std::string::npos) << outcome.output << "lacks " << part;
 }
 
@@ -329,7 +331,7 @@ TEST(Live, AFullDiskEndsTheRecordingAndNotTheSession) {
   const std::string file = folder / "a.nc";
   const LiveOutcome outcome = Program("--no-clock --record " + file, 4 << 20).wait();
   EXPECT_EQ(outcome.code, 3) << outcome.errors;
-  EXPECT_NE(outcome.output.find("all is done"), std::string::npos) << outcome.output;
+  EXPECT_NE(outcome.output.find("the task is done"), std::string::npos) << outcome.output;
   EXPECT_NE(outcome.output.find("recorded in part in " + file), std::string::npos) << outcome.output;
   EXPECT_EQ(outcome.errors.rfind("wholehand: live: ", 0), 0u) << "told as it happens: " << outcome.errors;
   EXPECT_NE(outcome.errors.find("File too large"), std::string::npos) << outcome.errors;
@@ -353,11 +355,11 @@ TEST(Live, RefusesWhatIsNotAllowedInOneLine) {
   expect_refused("--rate 10000", 2, "--rate");
   expect_refused("--seconds 0", 2, "--seconds");
   expect_refused("--no-clock --device hid", 2, "--no-clock");
-  expect_refused("--device view", 2, "--device view: the page is the gripper, and there is none; add --view");
+  expect_refused("--device view", 2, "--device view: the page of the view is the gripper, and there is no view; add --view");
   expect_refused("--stream http://127.0.0.1:9000", 2, "--stream 'http://127.0.0.1:9000': it does not begin with osc://");
   expect_refused("--stream osc://127.0.0.1", 2, "there is no port");
   expect_refused("--stream osc://a..b:9000", 3, "host 'a..b' is not found");
-  expect_refused("--no-clock --stream osc://127.0.0.1:9000", 2, "--stream: sends what happens as it happens");
+  expect_refused("--no-clock --stream osc://127.0.0.1:9000", 2, "--stream: it sends a session in real time");
   expect_refused("--device replay:" + (folder / "none.nc"), 2, "none.nc");
   expect_refused("--device replay:" + (folder / "notes.txt"), 2, "notes.txt");
   expect_refused("--rate 2000 --device replay:" + (folder / "notes.txt"), 2, "--rate: a recording is replayed at its own rate");
