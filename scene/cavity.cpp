@@ -17,7 +17,7 @@ void check_inner_element(const SceneFile& file, const RawElement& raw, bool is_f
   if (is_first) {
     if (!curve.is_arc && curve.b[0] == 0) return;
     file.refuse(raw.place, fmt::format("the inner outline begins at {}, off the axis", show(curve.b)),
-                "allowed: as the first element where the cavity's floor meets the axis, {line = [0, y]}");
+                "allowed: a first element {line = [0, y]}, where the cavity's floor meets the axis");
   }
   check_length(file, raw);
   const double top = curve.extent(PI / 2), bottom = -curve.extent(-PI / 2), leftmost = -curve.extent(PI);
@@ -30,8 +30,8 @@ void check_inner_element(const SceneFile& file, const RawElement& raw, bool is_f
                 "allowed: r >= 0");
   }
   if (is_last && (curve.b[0] <= TOUCHING || curve.b[1] <= curve.a[1])) {
-    file.refuse(raw.place, fmt::format("the inner outline ends at {}, which is no mouth", show(curve.b)),
-                "allowed: as the last element one that rises to the mouth's edge, off the axis");
+    file.refuse(raw.place, fmt::format("the inner outline ends at {}, which is not a mouth", show(curve.b)),
+                "allowed: a last element that rises to the mouth's edge, off the axis");
   }
   const bool ends_there = curve.b[0] <= TOUCHING;
   if (ends_there || (curve.a[0] > TOUCHING && leftmost <= TOUCHING)) {
@@ -115,8 +115,8 @@ void read_cavity(const SceneTable& table, const Silhouette& silhouette, VesselDa
   const bool has_inner = table.has("inner_outline"), has_wall = table.has("wall_mm");
   for (const char* key : {"wall_mm", "floor_mm"}) {
     if (has_inner && table.has(key))
-      file.refuse(table.place(key), fmt::format("{} beside inner_outline", key),
-                  "allowed: the inner outline alone, which says all");
+      file.refuse(table.place(key), fmt::format("both {} and inner_outline are given", key),
+                  "allowed: inner_outline alone, which describes the whole cavity");
   }
   if (table.has("floor_mm") && !has_wall)
     file.refuse(table.place("floor_mm"), "floor_mm without wall_mm",

@@ -49,8 +49,8 @@ PlaneCurve read_arc(const SceneTable& element, const Point& start) {
   const auto arc = make_arc(start, end, center);
   if (!arc && distance(start, end) >= SHORTEST_ELEMENT) {
     file.refuse(element.place(),
-                fmt::format("a half circle from {} to {}, which may go above or below its center", show(start), show(end)),
-                "allowed: two arcs in its place, or arc_through, to say which");
+                fmt::format("a half circle from {} to {} may pass above or below its center", show(start), show(end)),
+                "allowed: two arcs instead, or arc_through with a point on the way");
   }
   return arc.value_or(make_line(start, end));
 }
@@ -60,7 +60,7 @@ PlaneCurve read_arc_through(const SceneTable& element, const Point& start) {
   const Point through = read_end(element, "arc_through"), end = read_end(element, "to");
   const double nearest = std::min(distance(through, start), distance(through, end));
   if (nearest < SHORTEST_ELEMENT * (1 - ROUNDED_AWAY) || distance(start, end) < SHORTEST_ELEMENT * (1 - ROUNDED_AWAY)) {
-    file.refuse(element.place(), fmt::format("two of the points {}, {} and {} are one", show(start), show(through), show(end)),
+    file.refuse(element.place(), fmt::format("two of the points {}, {} and {} are the same", show(start), show(through), show(end)),
                 fmt::format("allowed: a start, a point on the way and an end at least {} mm from each other", SHORTEST_ELEMENT));
   }
   const auto arc = make_arc_through(start, through, end);
@@ -72,7 +72,7 @@ PlaneCurve read_arc_through(const SceneTable& element, const Point& start) {
   if (furthest > ranges::CENTER.high) {
     file.refuse(
         element.place("arc_through"), fmt::format("the circle through these points has its center at {}", show(arc->center)),
-        fmt::format("allowed: -{0} to {0} mm, which a point further from the line from start to end gives", ranges::CENTER.high));
+        fmt::format("allowed: -{0} to {0} mm; take a point further from the line between start and end", ranges::CENTER.high));
   }
   return *arc;
 }
@@ -86,14 +86,14 @@ RawElement read_element(const SceneFile& file, const toml::node& node, const std
   const bool is_through = element.has("arc_through"), has_to = element.has("to");
   const char* fault = is_line && is_arc                    ? "both 'line' and 'arc'"
                       : is_through && (is_line || is_arc)  ? "'arc_through' and another form"
-                      : !is_line && !is_arc && !is_through ? "neither 'line' nor 'arc'"
-                      : is_arc && !has_center              ? "'arc' and no 'center'"
+                      : !is_line && !is_arc && !is_through ? "none of 'line', 'arc' and 'arc_through'"
+                      : is_arc && !has_center              ? "'arc' but no 'center'"
                       : is_line && has_center              ? "'line' and 'center'"
                       : is_through && has_center           ? "'arc_through' and 'center'"
-                      : is_through && !has_to              ? "'arc_through' and no 'to'"
-                      : !is_through && has_to              ? "'to' and no 'arc_through'"
+                      : is_through && !has_to              ? "'arc_through' but no 'to'"
+                      : !is_through && has_to              ? "'to' but no 'arc_through'"
                                                            : nullptr;
-  if (fault) file.refuse(element.place(), fmt::format("{} with {}", what, fault), allowed);
+  if (fault) file.refuse(element.place(), fmt::format("{} has {}", what, fault), allowed);
   RawElement raw;
   raw.place = element.place();
   raw.by_sweep = is_through;
@@ -116,11 +116,12 @@ void round_corner(const SceneFile& file, std::vector<RawElement>& elements, std:
   };
   if (corner[0] == 0) refuse("this corner is on the axis", "at corners off the axis");
   if (corner_turn(first.curve, second.curve) == 0)
-    refuse("the two elements run on into each other, or straight back", "at corners between elements of different directions");
+    refuse("the two elements have the same direction, or opposite directions",
+           "at corners between elements of different directions");
   const auto fillet = make_fillet(first.curve, second.curve, first.fillet);
   if (!fillet) {
     const double largest = largest_fillet(first.curve, second.curve, first.fillet);
-    refuse("it is too large for the elements it lies between",
+    refuse("the fillet is too large for its two elements",
            largest >= ranges::FILLET.low ? "up to " + show(largest) + " there" : std::string("no fillet there"));
   }
   first.curve = fillet->first;
@@ -138,8 +139,8 @@ bool round_corners(const SceneFile& file, std::vector<RawElement>& elements) {
   for (std::size_t i = 0; i < elements.size(); ++i) {
     if (elements[i].fillet == 0) continue;
     if (i + 1 == elements.size()) {
-      file.refuse(elements[i].fillet_place, "fillet_mm of the last element, at whose end no corner is",
-                  "allowed: at the end of an element that another one follows");
+      file.refuse(elements[i].fillet_place, "fillet_mm of the last element, whose end is not a corner",
+                  "allowed: at the end of an element that another element follows");
     }
     any = true;
     round_corner(file, elements, i);
@@ -164,7 +165,7 @@ std::string show(const Point& p) { return fmt::format("[{}, {}]", show(p[0]), sh
 
 void check_length(const SceneFile& file, const RawElement& raw) {
   if (distance(raw.curve.a, raw.curve.b) >= SHORTEST_ELEMENT * (1 - ROUNDED_AWAY)) return;
-  file.refuse(raw.place, fmt::format("an element of no length, from {} to {}", show(raw.curve.a), show(raw.curve.b)),
+  file.refuse(raw.place, fmt::format("an element has no length: from {} to {}", show(raw.curve.a), show(raw.curve.b)),
               fmt::format("allowed: elements of at least {} mm", SHORTEST_ELEMENT));
 }
 

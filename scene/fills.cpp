@@ -20,8 +20,8 @@ constexpr double ROUNDED_VOLUME = 1e-9;  // of the capacity: as much may a volum
 double fraction_of_capacity(const VesselData& vessel, double capacity, double volume, const std::string& asked) {
   if (volume > capacity * (1 + ROUNDED_VOLUME)) {
     // rounded down, so that what the message allows is allowed
-    throw usage_error(
-        fmt::format("{}: vessel '{}' holds {:.13g} mL; allowed: 0 to that", asked, vessel.name, std::floor(capacity * 1e9) / 1e3));
+    throw usage_error(fmt::format("{}: vessel '{}' holds {:.13g} mL; allowed: 0 to this volume", asked, vessel.name,
+                                  std::floor(capacity * 1e9) / 1e3));
   }
   return capacity > 0 ? std::min(1.0, volume / capacity) : 0;
 }
@@ -36,7 +36,7 @@ void read_own_liquid(const SceneTable& vessel_table, VesselData& vessel) {
     liquid->need("fill", ranges::FRACTION, vessel.liquid_fill);
     return;
   }
-  if (liquid->has("fill")) file.refuse(liquid->place("fill_ml"), "fill_ml beside fill", "allowed: one of the two");
+  if (liquid->has("fill")) file.refuse(liquid->place("fill_ml"), "both fill_ml and fill are given", "allowed: one of the two");
   double volume = 0;
   liquid->need("fill_ml", ranges::FILL_VOLUME, volume);
   if (!vessel.has_cavity()) return;  // refused when all vessels are known

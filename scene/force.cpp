@@ -66,8 +66,8 @@ void read_output(const SceneTable& root, OutputData& output) {
   table->read("best", ranges::BEST, best);
   output.best = static_cast<int>(best);
   if (table->has("keep") && table->has("also")) {
-    root.file().refuse(table->place("also"), "also beside keep",
-                       "allowed: one of the two; also adds to the usual variables, keep names all");
+    root.file().refuse(table->place("also"), "both also and keep are given",
+                       "allowed: one of the two; also adds to the usual variables, keep replaces them");
   }
   if (table->has("keep")) read_variables(*table, "keep", output.keep_place, output.keep.emplace());
   if (table->has("also")) read_variables(*table, "also", output.also_place, output.also);

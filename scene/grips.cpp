@@ -28,7 +28,7 @@ Range read_range(const SceneFile& file, const toml::table& node, const std::stri
   if (needs_count) table.need("count", fmt::format("{{from, to, count}}, count {} to {}", counts.low, counts.high));
   if (table.has("count")) table.read("count", counts, range.count.emplace());
   if (range.from > range.to) {
-    file.refuse(table.place("to"), fmt::format("{}: to {}, below from", key, found(*table.find("to"))),
+    file.refuse(table.place("to"), fmt::format("{}: to {} is below from", key, found(*table.find("to"))),
                 fmt::format("allowed: from <= to; from = {}", range.from));
   }
   if (range.count && (*range.count == 1) != (range.from == range.to)) {
@@ -116,11 +116,11 @@ void read_grips(const SceneTable& root, bool turns, GripsData& grips) {
   for (const char* key : {"count", "seed"}) {
     if (table->has(key) && !is_sobol) {
       root.file().refuse(table->place(key), fmt::format("{} without sampling = \"sobol\"", key),
-                         "allowed: with sampling = \"sobol\"; a grid counts on each axis");
+                         "allowed: with sampling = \"sobol\"; a grid has a count for each axis");
     }
   }
   if (is_sobol) {
-    table->need("count", "with sampling = \"sobol\" the number of grips a vessel");
+    table->need("count", "the number of grips of each vessel, as sampling = \"sobol\"");
     std::int64_t count = 0, seed = 0;
     table->read("count", ranges::SOBOL_COUNT, count);
     table->read("seed", ranges::SEED, seed);
@@ -128,7 +128,7 @@ void read_grips(const SceneTable& root, bool turns, GripsData& grips) {
     grips.seed = static_cast<std::uint64_t>(seed);
   }
   if (table->has("height_mm") && table->has("height_fraction")) {
-    root.file().refuse(table->place("height_fraction"), "height_fraction beside height_mm", "allowed: one of the two");
+    root.file().refuse(table->place("height_fraction"), "both height_fraction and height_mm are given", "allowed: one of the two");
   }
   grips.height_is_fraction = !table->has("height_mm");
   read_axis(*table, "height_mm", ranges::GRIP_HEIGHT, is_sobol, grips.height);
@@ -163,7 +163,7 @@ void read_liquid(const SceneTable& root, std::optional<LiquidData>& liquid) {
   table->read("pour", {{"away", Pour::away}, {"towards", Pour::towards}}, data.pour);
   const bool in_ml = table->has("fills_ml");
   if (in_ml && table->has("fills"))
-    root.file().refuse(table->place("fills_ml"), "fills_ml beside fills", "allowed: one of the two");
+    root.file().refuse(table->place("fills_ml"), "both fills_ml and fills are given", "allowed: one of the two");
   const char* key = in_ml ? "fills_ml" : "fills";
   const std::string allowed = in_ml ? "an ascending list of volumes in mL"
                                     : "an ascending list of fractions of the capacity, 0 to 1; or fills_ml, the same in mL";

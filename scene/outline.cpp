@@ -21,11 +21,11 @@ void check_element(const SceneFile& file, const RawElement& raw, bool is_last) {
   if (is_last) {
     if (curve.b[0] != 0) {
       file.refuse(raw.place, fmt::format("the outline is open: it ends at {}, off the axis", show(curve.b)),
-                  "allowed: as the last element the mouth, a level line to the axis, {line = [0, y]}");
+                  "allowed: a last element {line = [0, y]}: the mouth, a level line to the axis");
     }
     if (curve.is_arc || curve.a[1] != curve.b[1]) {
-      file.refuse(raw.place, fmt::format("the last element, from {} to {}, is no level line", show(curve.a), show(curve.b)),
-                  "allowed: as the last element the mouth, a level line to the axis, {line = [0, y]}");
+      file.refuse(raw.place, fmt::format("the last element, from {} to {}, is not a level line", show(curve.a), show(curve.b)),
+                  "allowed: a last element {line = [0, y]}: the mouth, a level line to the axis");
     }
     return;
   }
@@ -50,7 +50,7 @@ void check_whole(const SceneFile& file, const std::vector<RawElement>& elements)
     const double top = raw.curve.extent(PI / 2);
     if (top > mouth + TOUCHING) {
       file.refuse(raw.place, fmt::format("the outline rises to y = {}, above its mouth at {}", show(top), show(mouth)),
-                  "allowed: nothing above the mouth, the last element");
+                  "allowed: no element above the mouth, which is the last element");
     }
   }
   for (std::size_t later = 1; later < elements.size(); ++later) {

@@ -48,7 +48,7 @@ class Scanner {
 
   // Follows keys, values and nesting, and counts the parts of keys.
   void note(char c) {
-    if (is_beyond_ascii()) file_.refuse(place_, "a character beyond ASCII outside texts and comments", "allowed: TOML 1.0");
+    if (is_beyond_ascii()) file_.refuse(place_, "a non-ASCII character outside strings and comments", "allowed: TOML 1.0");
     if (c == '=') {
       if (!in_key_) file_.refuse(place_, "'=' in a value", "allowed: TOML 1.0");
       in_key_ = false;
@@ -78,13 +78,13 @@ class Scanner {
     const char before = at_ == 0 ? '\n' : text_[at_ - 1];
     const bool is_apart =
         is_space(before) || before == '=' || before == '[' || before == '{' || before == ',' || (in_key_ && before == '.');
-    if (!is_apart && at_ != first_) file_.refuse(place_, fmt::format("{} right behind '{}'", c, before), "allowed: TOML 1.0");
+    if (!is_apart && at_ != first_) file_.refuse(place_, fmt::format("{} directly after '{}'", c, before), "allowed: TOML 1.0");
   }
 
   void close(char c) {
     if (open_.empty()) return;  // of a header, or an error that the parser tells
     if (open_.back() != (c == ']' ? '[' : '{')) {
-      file_.refuse(place_, fmt::format("'{}' where '{}' is open", c, open_.back()), "allowed: TOML 1.0");
+      file_.refuse(place_, fmt::format("found '{}', but '{}' is open", c, open_.back()), "allowed: TOML 1.0");
     }
     open_.pop_back();
   }
@@ -129,7 +129,8 @@ class Scanner {
     } else if (at_ < text_.size() && text_[at_] != '\n' && !is_beyond_ascii()) {
       step();
     }
-    if (is_beyond_ascii()) file_.refuse(place_, "a backslash before a character beyond ASCII", "allowed: TOML 1.0 without that");
+    if (is_beyond_ascii())
+      file_.refuse(place_, "a backslash before a non-ASCII character", "allowed: TOML 1.0 without such a backslash");
   }
 
   const SceneFile& file_;

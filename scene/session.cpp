@@ -36,7 +36,7 @@ void read_axes(const SceneTable& device, std::array<std::string, 3>& axes) {
   if (is_even != (turned % 2 == 0)) {
     device.file().refuse(place_of(*node),
                          fmt::format("axes = [\"{}\", \"{}\", \"{}\"] mirrors the device", axes[0], axes[1], axes[2]),
-                         "allowed: axes of which one more or one less is turned round");
+                         "allowed: axes with one '-' more or less");
   }
 }
 
@@ -97,9 +97,9 @@ void read_task(const SceneTable& root, const std::vector<VesselData>& vessels, s
   for (const auto& [key, node] : *amounts) {
     if (std::find(liquids.begin(), liquids.end(), key.str()) == liquids.end()) {
       const std::string nearest = nearest_name(key.str(), liquids);
-      root.file().refuse(
-          place_of(node), fmt::format("amounts_ml names {}, which no vessel holds", in_quotes(key.str())),
-          nearest.empty() ? "allowed: liquids of vessels, and none has any" : fmt::format("the nearest liquid is '{}'", nearest));
+      root.file().refuse(place_of(node), fmt::format("amounts_ml names {}, which no vessel holds", in_quotes(key.str())),
+                         nearest.empty() ? "allowed: the liquids of the vessels, and no vessel has a liquid"
+                                         : fmt::format("the nearest liquid is '{}'", nearest));
     }
     data.amounts.emplace_back(key.str(), read_number(root.file(), node, "amount of " + in_quotes(key.str()), ranges::AMOUNT));
   }

@@ -17,10 +17,10 @@ void check_dimensions(const SceneTable& vessel, const std::string& shape, std::i
   for (const auto key : DIMENSIONS) {
     const bool is_own = std::find(own.begin(), own.end(), key) != own.end();
     if (is_own || !vessel.has(key)) continue;
-    vessel.file().refuse(vessel.place(key), fmt::format("{} is no dimension of a {}", key, shape),
+    vessel.file().refuse(vessel.place(key), fmt::format("{} is not a dimension of a {}", key, shape),
                          fmt::format("allowed: {}", fmt::join(own, ", ")));
   }
-  for (const auto key : own) vessel.need(key, fmt::format("a {} has {}", shape, fmt::join(own, ", ")));
+  for (const auto key : own) vessel.need(key, fmt::format("a {} with {}", shape, fmt::join(own, ", ")));
 }
 
 OutlineElement line_to(double r, double y) {
@@ -33,7 +33,7 @@ OutlineElement line_to(double r, double y) {
 void check_order(const SceneTable& vessel, const char* less_key, double less, const char* more_key, double more) {
   if (less < more) return;
   vessel.file().refuse(vessel.place(less_key), fmt::format("{} {}", less_key, found(*vessel.find(less_key))),
-                       fmt::format("allowed: less than {}, {:.6g}", more_key, more * 1e3));
+                       fmt::format("allowed: less than {} = {:.6g}", more_key, more * 1e3));
 }
 
 Silhouette cylinder(const SceneTable& vessel) {

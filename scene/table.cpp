@@ -158,7 +158,7 @@ void SceneTable::read_text(std::string_view key, std::size_t largest, std::strin
   if (!text || text->get().empty() || text->get().size() > largest ||
       std::any_of(text->get().begin(), text->get().end(), is_control)) {
     file_.refuse(place_of(*node), fmt::format("{} {}", key, found(*node)),
-                 fmt::format("allowed: a string of 1 to {} characters, none of them a control character", largest));
+                 fmt::format("allowed: a string of 1 to {} characters, without control characters", largest));
   }
   value = text->get();
 }

@@ -40,8 +40,9 @@ MeshData read_mesh(const SceneTable& table) {
   // what is in the file is hull and wall at once
   for (const char* key : {"wall_mm", "floor_mm", "surface"}) {
     if (table.has(key))
-      table.file().refuse(table.place(key), fmt::format("{} of a mesh", key),
-                          "allowed: with 'shape' and 'outline'; a mesh has the walls of its file, and a cavity by 'inner_outline'");
+      table.file().refuse(
+          table.place(key), fmt::format("{} is given for a mesh", key),
+          "allowed: with 'shape' or 'outline'; a mesh has the walls of its file, and 'inner_outline' gives its cavity");
   }
   return mesh;
 }
@@ -85,7 +86,7 @@ void read_mass(const SceneTable& table, VesselData& vessel) {
     table.file().refuse(table.place(given), fmt::format("{} without {}", given, lacking), "allowed: both or neither");
   }
   if (has_mass && table.has("density_kg_m3")) {
-    table.file().refuse(table.place("density_kg_m3"), "density_kg_m3 beside mass_kg", "allowed: one of the two");
+    table.file().refuse(table.place("density_kg_m3"), "both density_kg_m3 and mass_kg are given", "allowed: one of the two");
   }
   table.read("density_kg_m3", ranges::VESSEL_DENSITY, vessel.density);
   if (has_mass) {
@@ -144,7 +145,7 @@ void read_vessels(const SceneTable& root, Scene& scene) {
     const auto [other, is_new] = lines.emplace(vessel.name, vessel.line);
     if (!is_new) {
       root.file().refuse(checked.place("name"), fmt::format("a second vessel '{}'", vessel.name),
-                         fmt::format("allowed: a name of its own, unlike that of the vessel in line {}", other->second));
+                         fmt::format("allowed: another name, as the vessel in line {} has this one", other->second));
     }
   }
 }
@@ -154,15 +155,15 @@ void check_vessels(const SceneTable& root, const Scene& scene) {
     const Place place{vessel.line, vessel.column};
     if (vessel.mesh && vessel.inner.empty() && !vessel.liquid_name.empty()) {
       root.file().refuse(place, fmt::format("vessel '{}' has a liquid and is a mesh without 'inner_outline'", vessel.name),
-                         "allowed: with 'inner_outline', the cavity that holds it");
+                         "allowed: with 'inner_outline', the cavity that holds the liquid");
     }
     if (scene.liquid && !vessel.mesh && !vessel.has_cavity()) {
       root.file().refuse(
-          place, fmt::format("vessel '{}' has no 'wall_mm' and no 'inner_outline', and [liquid] asks what it holds", vessel.name),
-          "allowed: one of them in every shape and outline, or no [liquid]");
+          place, fmt::format("vessel '{}' has no 'wall_mm' and no 'inner_outline', so [liquid] cannot fill it", vessel.name),
+          "allowed: one of the two keys in every shape and outline, or no [liquid]");
     }
     if (!scene.liquid && !vessel.liquid_name.empty()) {
-      root.file().refuse(place, fmt::format("vessel '{}' has a liquid, and the scene no [liquid]", vessel.name),
+      root.file().refuse(place, fmt::format("vessel '{}' has a liquid, but the scene has no [liquid]", vessel.name),
                          "allowed: both, or neither");
     }
   }

@@ -122,7 +122,7 @@ TEST(SceneCavity, RefusesWhatIsNoCavity) {
   refused("floor_mm = @10", "floor_mm without wall_mm");
   refused("wall_mm = 2\nfloor_mm = @110", "allowed: less than the vessel's height, 110 mm");
   refused("wall_mm = 2\nfloor_mm = @0", "allowed: 0.05 to 10000");
-  refused("wall_mm = @2\ninner_outline = [{ line = [0, 5] }, { line = [36, 110] }]", "wall_mm beside inner_outline");
+  refused("wall_mm = @2\ninner_outline = [{ line = [0, 5] }, { line = [36, 110] }]", "both wall_mm and inner_outline are given");
   refused("inner_outline = [{ line = [0, 5] }, { line = [36, 5] }, @{ line = [36, 100] }]",
           "the inner outline ends at [36, 100], and the mouth is at y = 110");
   refused("inner_outline = [@{ line = [0, -5] }, { line = [36, 110] }]", "begins at [0, -5], outside of the vessel");
@@ -223,9 +223,9 @@ TEST(SceneFills, VolumesAreFractionsOfEachVessel) {
 TEST(SceneFills, MoreThanAVesselHoldsIsRefused) {
   // pi x 20^2 x 100 mm3
   expect_refusal("[liquid]\nfills_ml = [0, 50, @125.7]\n" + TWO_VESSELS,
-                 "fills_ml: 125.7: vessel 'slim' holds 125.663 mL; allowed: 0 to that");
+                 "fills_ml: 125.7: vessel 'slim' holds 125.663 mL; allowed: 0 to this volume");
   EXPECT_EQ(refusal_of("[liquid]\nfills_ml = [125.663]\n" + TWO_VESSELS), "accepted");
-  expect_refusal("[liquid]\nfills = [0]\nfills_ml = @[1]\n" + TWO_VESSELS, "fills_ml beside fills");
+  expect_refusal("[liquid]\nfills = [0]\nfills_ml = @[1]\n" + TWO_VESSELS, "both fills_ml and fills are given");
   expect_refusal("[liquid]\nfills_ml = [2, @1]\n" + TWO_VESSELS, "allowed: values in ascending order");
   expect_refusal("[liquid]\nfills_ml = [@-1]\n" + TWO_VESSELS, "allowed: 0 to");
 }
@@ -236,7 +236,7 @@ TEST(SceneFills, WhatTheMessageAllowsIsAllowed) {
     return refusal_of("[liquid]\nfills_ml = [" + volume +
                       "]\n[[vessel]]\nname = \"vat\"\nshape = \"cylinder\"\ndiameter_mm = 500\nheight_mm = 392\nwall_mm = 1\n");
   };
-  EXPECT_NE(of_vat("80000").find("holds 76159.717 mL; allowed: 0 to that"), std::string::npos) << of_vat("80000");
+  EXPECT_NE(of_vat("80000").find("holds 76159.717 mL; allowed: 0 to this volume"), std::string::npos) << of_vat("80000");
   EXPECT_EQ(of_vat("76159.717"), "accepted");
 }
 
@@ -244,7 +244,7 @@ TEST(SceneFills, AVesselsOwnLiquidMayBeAVolume) {
   const std::string vessel = "[liquid]\nfills = [0]\n" + TWO_VESSELS + "liquid = { name = \"water\", ";
   EXPECT_NEAR(scene_from(vessel + "fill_ml = 62.8 }\n").vessels[1].liquid_fill * PI * 400 * 100, 62.8e3, 1e-9);
   expect_refusal(vessel + "fill_ml = @126 }\n", "vessel 'slim' holds 125.663 mL");
-  expect_refusal(vessel + "fill = 0.5, fill_ml = @1 }\n", "fill_ml beside fill");
+  expect_refusal(vessel + "fill = 0.5, fill_ml = @1 }\n", "both fill_ml and fill are given");
 }
 
 }  // namespace

@@ -125,34 +125,34 @@ TEST(SceneOutline, RefusesOutlines) {
       {"@3, {}",
        "an element of outline = 3; allowed: {line = [r, y]}, {arc = [r, y], center = [r, y]} or {arc_through = [r, y], to = [r, "
        "y]}"},
-      {"@{ line = [1, 2], arc = [1, 2] }, {}", "with both 'line' and 'arc'"},
-      {"@{}, {}", "with neither 'line' nor 'arc'"},
-      {"@{ arc = [1, 2] }, {}", "with 'arc' and no 'center'"},
-      {"@{ line = [1, 2], center = [0, 0] }, {}", "with 'line' and 'center'"},
-      {"@{ arc_through = [1, 2] }, {}", "with 'arc_through' and no 'to'"},
-      {"@{ line = [1, 2], to = [1, 2] }, {}", "with 'to' and no 'arc_through'"},
-      {"@{ line = [1, 2], arc_through = [1, 2] }, {}", "with 'arc_through' and another form"},
+      {"@{ line = [1, 2], arc = [1, 2] }, {}", "has both 'line' and 'arc'"},
+      {"@{}, {}", "has none of 'line', 'arc' and 'arc_through'"},
+      {"@{ arc = [1, 2] }, {}", "has 'arc' but no 'center'"},
+      {"@{ line = [1, 2], center = [0, 0] }, {}", "has 'line' and 'center'"},
+      {"@{ arc_through = [1, 2] }, {}", "has 'arc_through' but no 'to'"},
+      {"@{ line = [1, 2], to = [1, 2] }, {}", "has 'to' but no 'arc_through'"},
+      {"@{ line = [1, 2], arc_through = [1, 2] }, {}", "has 'arc_through' and another form"},
       {"{ line = @[1] }, {}", "line has 1 entries; allowed: [r, y] in mm"},
       {"{ line = @3 }, {}", "line = 3; allowed: [r, y] in mm"},
       {"{ line = [@-1, 0] }, {}", "r of line = -1; allowed: 0 to 5000"},
       {"{ line = [1, @nan] }, {}", "y of line = nan"},
       // open, off the axis, no mouth
       {"{ line = [30, 0] }, @{ line = [30, 90] }", "the outline is open: it ends at [30, 90], off the axis"},
-      {"{ line = [30, 0] }, @{ line = [0, 90] }", "the last element, from [30, 0] to [0, 90], is no level line"},
-      {"{ line = [30, 0] }, @{ arc = [0, 30], center = [0, 0] }", "the last element, from [30, 0] to [0, 30], is no level line"},
+      {"{ line = [30, 0] }, @{ line = [0, 90] }", "the last element, from [30, 0] to [0, 90], is not a level line"},
+      {"{ line = [30, 0] }, @{ arc = [0, 30], center = [0, 0] }", "the last element, from [30, 0] to [0, 30], is not a level line"},
       {"@{ line = [0, 30] }, { line = [30, 30] }, { line = [30, 90] }, { line = [0, 90] }",
        "comes back to the axis at [0, 30], before its mouth"},
       {"{ line = [30, 0] }, @{ line = [0, 20] }, { line = [30, 40] }, { line = [0, 40] }", "comes back to the axis at [0, 20]"},
       {"{ line = [5, 0] }, @{ arc = [5, 40], center = [20, 20] }, { line = [30, 40] }, { line = [30, 60] }, { line = [0, 60] }",
        "leaves its half plane: this arc reaches r = -5 at y = 20"},
       // lengths
-      {"{ line = [30, 0] }, @{ line = [30, 0] }, { line = [0, 0] }", "an element of no length, from [30, 0] to [30, 0]"},
+      {"{ line = [30, 0] }, @{ line = [30, 0] }, { line = [0, 0] }", "an element has no length: from [30, 0] to [30, 0]"},
       {"{ line = [30, 0] }, { line = [30, 90] }, @{ line = [30, 90.0001] }, { line = [0, 90.0001] }",
        "allowed: elements of at least 0.001 mm"},
       // arcs
       {"{ line = [30, 0] }, { arc = [30, 60], center = @[31, 31] }, { line = [0, 60] }", "from the arc's start and"},
       {"{ line = [30, 0] }, @{ arc = [50, 0], center = [40, 0] }, { line = [50, 60] }, { line = [0, 60] }",
-       "a half circle from [30, 0] to [50, 0], which may go above or below"},
+       "a half circle from [30, 0] to [50, 0] may pass above or below"},
       // the mouth
       {"{ line = [30, 0] }, @{ line = [40, 95] }, { line = [30, 90] }, { line = [0, 90] }",
        "the outline rises to y = 95, above its mouth at 90"},
@@ -301,7 +301,7 @@ TEST(SceneOutline, RefusesFilletsWithTheLargestThatFits) {
     return outline_scene("{ line = [30, 0], fillet_mm = " + radius + " }, { line = [30, 20] }, { line = [0, 20] }");
   };
   expect_refusal(scene("@20.5"),
-                 "fillet_mm = 20.5 at [30, 0]: it is too large for the elements it lies between; allowed: up to 20 there");
+                 "fillet_mm = 20.5 at [30, 0]: the fillet is too large for its two elements; allowed: up to 20 there");
   EXPECT_EQ(refusal_of(scene("19.9")), "accepted");
   EXPECT_EQ(refusal_of(scene("20")), "accepted") << "which leaves nothing of the element";
   // and would leave less than an element
@@ -317,7 +317,7 @@ TEST(SceneOutline, RefusesFilletsWithTheLargestThatFits) {
       "[0, 64] }",
       "allowed: up to ");
   refused("{ line = [20, 0], fillet_mm = @3 }, { line = [30, 0] }, { line = [30, 20] }, { line = [0, 20] }",
-          "run on into each other");
+          "the two elements have the same direction, or opposite directions");
   refused("{ line = [30, 0] }, { line = [30, 20] }, { line = [0, 20], fillet_mm = @3 }", "fillet_mm of the last element");
   refused("{ line = [30, 0], fillet_mm = @0 }, { line = [30, 20] }, { line = [0, 20] }", "allowed: 0.01 to 5000");
   expect_refusal(

@@ -262,7 +262,7 @@ best = 7
   EXPECT_EQ(scene.output.keep, (std::vector<std::string>{"score", "gap"}));
   EXPECT_EQ(scene.output.best, 7);
   EXPECT_EQ(scene_from("[output]\nalso = [\"joints\"]" + VESSEL).output.also, std::vector<std::string>{"joints"});
-  expect_refusal("[output]\nkeep = [\"score\"]\nalso = @[\"joints\"]" + VESSEL, "also beside keep");
+  expect_refusal("[output]\nkeep = [\"score\"]\nalso = @[\"joints\"]" + VESSEL, "both also and keep are given");
   expect_refusal("[output]\nalso = [\"joints\", @\"joints\"]" + VESSEL, "also names 'joints' a second time");
 }
 

@@ -35,23 +35,23 @@ TEST(SceneScan, SurvivesHostileText) {
   EXPECT_EQ(refusal_of("[grips]\nroll_deg = [ # a comment\n  +1,\n  .2e1]\n" + VESSEL).find("without a key"), std::string::npos);
   EXPECT_EQ(refusal_of("[ \"scene\" ]\nname = \"\"\"[=\"\"\"\n[ hand . thumb ]\n['tilts']\ndeg = [\n+1,\n 2.0]\n" + VESSEL),
             "accepted");
-  expect_refusal("a = [0,@}", "'}' where '[' is open; allowed: TOML 1.0");
-  expect_refusal("a = { b = [1], c = 3@] }", "']' where '{' is open; allowed: TOML 1.0");
+  expect_refusal("a = [0,@}", "found '}', but '[' is open; allowed: TOML 1.0");
+  expect_refusal("a = { b = [1], c = 3@] }", "found ']', but '{' is open; allowed: TOML 1.0");
   // strings that the parser would not see as such
-  expect_refusal("a = 9@\"\xc3\xa4\"", "\" right behind '9'; allowed: TOML 1.0");
-  expect_refusal("a = 9.@'\xc3\xa4'", "' right behind '.'; allowed: TOML 1.0");
+  expect_refusal("a = 9@\"\xc3\xa4\"", "\" directly after '9'; allowed: TOML 1.0");
+  expect_refusal("a = 9.@'\xc3\xa4'", "' directly after '.'; allowed: TOML 1.0");
   expect_refusal("a = 9@=\"\xc3\xa4\"", "'=' in a value; allowed: TOML 1.0");
-  expect_refusal("a = 9@[\"\xc3\xa4\"]", "[ right behind '9'; allowed: TOML 1.0");
-  expect_refusal("a = [{ b = 1, c = 2@{ } }]", "{ right behind '2'; allowed: TOML 1.0");
-  expect_refusal("a = \"x\"@\"\xc3\xa4\"", "\" right behind '\"'; allowed: TOML 1.0");
+  expect_refusal("a = 9@[\"\xc3\xa4\"]", "[ directly after '9'; allowed: TOML 1.0");
+  expect_refusal("a = [{ b = 1, c = 2@{ } }]", "{ directly after '2'; allowed: TOML 1.0");
+  expect_refusal("a = \"x\"@\"\xc3\xa4\"", "\" directly after '\"'; allowed: TOML 1.0");
   EXPECT_EQ(
       refusal_of("scene={\"name\"=\"\xc3\xa4\",'pose'=\"paper\"}\ngrips.roll_deg=[1,\n2]\nhand.\"thumb\".'splay_deg'=3\n" + VESSEL),
       "accepted");
   // characters beyond ASCII, of which the parser asks whether they are spaces
-  expect_refusal("[scene]\nn@\xca\xa3 = 1", "a character beyond ASCII outside texts and comments");
-  expect_refusal("[scene]\ngravity_m_s2 = 1@\xc3\xa4", "a character beyond ASCII outside texts and comments");
-  expect_refusal("[scene]\nname = \"\"\"\\@\xc3\xa4\"\"\"", "a backslash before a character beyond ASCII");
-  expect_refusal("[scene]\nname = \"\"\"\\\n  @\xc3\xa4\"\"\"", "a backslash before a character beyond ASCII");
+  expect_refusal("[scene]\nn@\xca\xa3 = 1", "a non-ASCII character outside strings and comments");
+  expect_refusal("[scene]\ngravity_m_s2 = 1@\xc3\xa4", "a non-ASCII character outside strings and comments");
+  expect_refusal("[scene]\nname = \"\"\"\\@\xc3\xa4\"\"\"", "a backslash before a non-ASCII character");
+  expect_refusal("[scene]\nname = \"\"\"\\\n  @\xc3\xa4\"\"\"", "a backslash before a non-ASCII character");
   EXPECT_EQ(refusal_of("\xEF\xBB\xBF# \xc3\xa4\n[scene]\nname = \"\xc3\xa4\\n\".\n").substr(0, 14), "test.toml:3:13");
   EXPECT_EQ(refusal_of("\xEF\xBB\xBF# \xc3\xa4\n[scene]\nname = '\xc3\xa4\\'\n" + VESSEL), "accepted");
   EXPECT_EQ(refusal_of("[scene]\nname = \"\"\"\\\n  a\"\"\"\n" + VESSEL), "accepted");
