@@ -22,7 +22,7 @@ BestGlb write_best_glb(const Scene& scene, const Plan& plan, std::shared_ptr<con
       const std::string file = names.grip_glb(parts[list], best[list][k].rank);
       const GripReport report = make_grip_report(scene, vessel, best[list][k].grip, scene_axes(scene, vessel), methods);
       if (report.answer.result.reason != Reason::none) {
-        written.notes.push_back(fmt::format("no {}: the core finds the grip not feasible ({})", file,
+        written.notes.push_back(fmt::format("{} is not written: the core finds that the grip is not feasible ({})", file,
                                             REASON_NAMES[static_cast<std::size_t>(report.answer.result.reason)]));
         continue;
       }

@@ -37,7 +37,7 @@ std::string opening_lines(const Scene& scene, const Plan& plan, const BackendInf
       fmt::format("\non {}{} ({}), {} precision\n", info.device, info.backend == "vulkan" && info.is_cpu ? ", a CPU driver" : "",
                   info.driver, info.precision == Precision::single ? "single" : "double");
   if (plan.copies() > 1) {
-    text += fmt::format("azimuth left out: the vessels are bodies of revolution, so one stands for all {}\n",
+    text += fmt::format("one azimuth stands for all {}: the vessels are bodies of revolution\n",
                         readable_count(static_cast<double>(plan.copies())));
   }
   return text;
@@ -58,7 +58,7 @@ std::string list_lines(const Scene& scene, const Plan& plan, std::size_t vessel,
   std::string text = best_table(scene, plan, best, TABLE_ROWS);
   if (best.size() > TABLE_ROWS)
     text +=
-        fmt::format("  .. {} more{}\n", best.size() - TABLE_ROWS, file.empty() ? "; -o names a file for them all" : " in " + file);
+        fmt::format("  .. {} more{}\n", best.size() - TABLE_ROWS, file.empty() ? "; -o FILE writes all of them" : " in " + file);
   std::vector<Candidate> candidates;
   for (const BestGrip& grip : best) candidates.push_back(grip.candidate);
   const std::string edge = edge_line(edge_axes(scene, plan, vessel, candidates));

@@ -43,10 +43,10 @@ void check_companions(const Scene& scene, const OutputNames& names, bool best, b
   const std::string other = names.result == names.stem ? names.stem + ".nc" : names.stem;
   if (begins_with(other, NETCDF4_START))
     throw usage_error(
-        fmt::format("-o {}: {} is there, whose list and pictures would have the same names; name another", names.result, other));
+        fmt::format("-o {}: {} exists, and its list and pictures have the same names; name another file", names.result, other));
   std::error_code not_there;
   if (std::filesystem::is_symlink(std::filesystem::symlink_status(names.partial, not_there)))
-    throw usage_error(fmt::format("-o {}: is a link, and what is written on the way replaces it; remove it", names.partial));
+    throw usage_error(fmt::format("-o {}: is a link, and the sweep would replace it with a file; remove it", names.partial));
   // what check_room reserved and nobody has defined yet is zeros
   if (!begins_with(names.partial, std::string_view("\0\0\0\0\0\0\0\0", 8)))
     check_overwrites_kind(names.partial, NETCDF4_START, "partial result", "-o");

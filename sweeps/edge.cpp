@@ -90,7 +90,7 @@ std::vector<std::string> edge_axes(const Scene& scene, const Plan& plan, std::si
 
 std::string edge_line(const std::vector<std::string>& axes) {
   if (axes.empty()) return "";
-  return fmt::format("the best lies on the edge of {}; widen {}?", fmt::join(axes, " and "), axes.size() == 1 ? "it" : "them");
+  return fmt::format("the best grip lies on the edge of {}; widen {}?", fmt::join(axes, " and "), axes.size() == 1 ? "it" : "them");
 }
 
 }  // namespace wholehand

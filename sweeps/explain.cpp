@@ -34,17 +34,18 @@ class Explainer {
 
   std::string run() {
     const Measured as_is = measure(scene_, fields_, OUTLINE_SPECIALIZED);
-    say("left out, with what that saves a grip (both ways on {} grips of {}; this sweep: {:.3f} us, {} B)\n", EXPLAIN_GRIPS,
-        scene_.vessels[0].name, microseconds(as_is), as_is.bytes);
+    say("what the sweep leaves out, and what this saves per grip (both ways ran on {} grips of {}; this sweep: {:.3f} us, {} B)\n",
+        EXPLAIN_GRIPS, scene_.vessels[0].name, microseconds(as_is), as_is.bytes);
     if (!on_core_) {
       if (scene_.vessels[0].mesh) {
-        say("  nothing of an outline: the distance is that of the mesh's lattice\n");
+        say("  nothing of the outline: the distance comes from the mesh's lattice\n");
       } else if (longest_outline() <= MAX_OUTLINE) {
         row("reading the outline: its numbers are constants of the pipeline", measure(scene_, fields_, OUTLINE_BUFFER), as_is,
             "from a buffer");
         row("", measure(scene_, fields_, OUTLINE_HOISTED), as_is, "copied from a uniform block");
       } else {
-        say("  nothing of an outline of more than {} elements: it is read from a buffer, or evaluated on the core\n", MAX_OUTLINE);
+        say("  nothing of the outline: it has more than {} elements, so it is read from a buffer or evaluated on the core\n",
+            MAX_OUTLINE);
       }
     }
     planes(as_is);
@@ -68,7 +69,7 @@ class Explainer {
     const bool is_noise = with.seconds - without.seconds < std::max(with.noise, without.noise);
     say("  {:<64} {:>8.3f} us {:>5} B  {}{}\n", what, microseconds(with) - microseconds(without),
         static_cast<long long>(with.bytes) - static_cast<long long>(without.bytes), variant,
-        is_noise ? " (no more than these runs' noise)" : "");
+        is_noise ? " (within the noise of these runs)" : "");
   }
 
   int longest_outline() const {
@@ -144,7 +145,7 @@ class Explainer {
   void liquid(const Measured& as_is) {
     if (scene_.liquid) return;
     if (std::any_of(scene_.vessels.begin(), scene_.vessels.end(), [](const VesselData& v) { return !v.has_cavity(); })) {
-      say("  the liquid kernels and their tables: a vessel without a wall holds none, a mesh without an inner outline neither\n");
+      say("  the liquid kernels and their tables: a vessel without a wall and a mesh without an inner outline hold no liquid\n");
       return;
     }
     // its forces need tilts: both ways have those of the row above where the scene has none
@@ -182,7 +183,7 @@ class Explainer {
     const Measured every = measure(scene_, fields_, OUTLINE_SPECIALIZED);
     sample_.swap(turned);
     const std::size_t others = plan_.copies() - 1;
-    row(fmt::format("{} of {} azimuths: one stands for all, round vessels", others, plan_.copies()),
+    row(fmt::format("{} of {} azimuths: the vessels are round, so one is enough", others, plan_.copies()),
         {every.seconds * static_cast<double>(others), every.bytes * others}, {}, "every azimuth");
   }
 

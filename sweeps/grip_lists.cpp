@@ -27,7 +27,7 @@ constexpr double LARGEST_LIST = 1 << 28;  // bytes: a million rows
 std::string list_text(const std::string& path) {
   struct stat status {};
   if (stat(path.c_str(), &status) != 0) throw usage_error(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
-  if (!S_ISREG(status.st_mode)) throw usage_error(fmt::format("{}: is no file; name a list of wholehand rank", path));
+  if (!S_ISREG(status.st_mode)) throw usage_error(fmt::format("{}: is not a file; name a list of wholehand rank", path));
   if (static_cast<double>(status.st_size) > LARGEST_LIST)
     throw usage_error(fmt::format("{}: is larger than any list of grips", path));
   std::ifstream file(path, std::ios::binary);
@@ -41,7 +41,7 @@ class ListReader {
       : path_(path), result_(result), scene_(scene), plan_(plan), rows_(parse_csv(list_text(path))) {}
 
   GripLists read() {
-    if (rows_.empty()) throw usage_error(path_ + ": is empty, and no list of wholehand rank");
+    if (rows_.empty()) throw usage_error(path_ + ": is empty, and not a list of wholehand rank");
     const std::size_t vessel = column("vessel"), rank = column("rank"), score = column("score"), grip = column("grip"),
                       sweep = column("sweep");
     const std::string id = sweep_id(result_.origin());
@@ -49,10 +49,10 @@ class ListReader {
     for (std::size_t k = 1; k < rows_.size(); ++k) {
       const CsvRow& row = rows_[k];
       if (row.cells.size() != rows_[0].cells.size())
-        refuse(row, fmt::format("{} cells where the head has {}", row.cells.size(), rows_[0].cells.size()));
+        refuse(row, fmt::format("the row has {} cells and the header has {}", row.cells.size(), rows_[0].cells.size()));
       if (row.cells[sweep] != id) {
-        refuse(row, fmt::format("is of another sweep ({}) than {} ({}): rank that result anew", row.cells[sweep].substr(0, 60),
-                                result_.path(), id));
+        refuse(row, fmt::format("the row is from another sweep ({}) than {} ({}); rank this result again",
+                                row.cells[sweep].substr(0, 60), result_.path(), id));
       }
       const auto number = whole(row, grip, plan_.grips() - 1, "grip");
       RankedCandidate ranked{whole(row, rank, MOST_BEST, "rank"), {real(row, score), number}};
@@ -73,7 +73,7 @@ class ListReader {
     const auto found = std::find(head.begin(), head.end(), name);
     if (found == head.end())
       throw usage_error(
-          fmt::format("{}: is no list of wholehand rank: it has no column {} (columns have commas between them)", path_, name));
+          fmt::format("{}: is not a list of wholehand rank: it has no column {} (commas must separate the columns)", path_, name));
     return static_cast<std::size_t>(found - head.begin());
   }
 
@@ -91,7 +91,7 @@ class ListReader {
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-      refuse(row, fmt::format("score '{}' is no number", text.substr(0, 60)));
+      refuse(row, fmt::format("score '{}' is not a number", text.substr(0, 60)));
     return value;
   }
 
@@ -102,9 +102,9 @@ class ListReader {
   }
 
   void put(std::vector<RankedCandidate>& list, const RankedCandidate& ranked, const CsvRow& row) {
-    if (!ranks_.insert({&list, ranked.rank}).second) refuse(row, fmt::format("rank {} a second time", ranked.rank));
+    if (!ranks_.insert({&list, ranked.rank}).second) refuse(row, fmt::format("rank {} appears twice", ranked.rank));
     if (!grips_.insert({&list, ranked.candidate.index}).second)
-      refuse(row, fmt::format("grip {} a second time", ranked.candidate.index));
+      refuse(row, fmt::format("grip {} appears twice", ranked.candidate.index));
     list.push_back(ranked);
   }
 

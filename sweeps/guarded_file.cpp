@@ -75,7 +75,7 @@ void GuardedFile::start(const std::string& name) {
 }
 
 void GuardedFile::fail(const std::string& why) const {
-  throw usage_error(fmt::format("{}: is damaged, or no NetCDF-4 file: {}", path_, why));
+  throw usage_error(fmt::format("{}: is damaged, or is not a NetCDF-4 file: {}", path_, why));
 }
 
 void GuardedFile::take(void* data, std::size_t size) const {
@@ -97,7 +97,7 @@ void GuardedFile::expect_good(const std::string& what) const {
 void GuardedFile::read_catalogue() {
   std::uint64_t size = 0;
   take(&size, sizeof size);
-  if (size > LARGEST_CATALOGUE) fail("it declares too much");
+  if (size > LARGEST_CATALOGUE) fail("its list of contents is too long");
   std::string bytes(size, ' ');
   take(bytes.data(), bytes.size());
   try {

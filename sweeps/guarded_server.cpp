@@ -305,14 +305,14 @@ void serve(int socket, const std::string& name) {
 
 std::string CatalogueReader::text() {
   const auto size = value<std::uint64_t>();
-  if (size > bytes_.size() - place_) throw std::runtime_error("a text that is too long");
+  if (size > bytes_.size() - place_) throw std::runtime_error("a text is too long");
   std::string result(size, ' ');
   copy(result.data(), size);
   return result;
 }
 
 void CatalogueReader::copy(void* to, std::size_t size) {
-  if (size > bytes_.size() - place_) throw std::runtime_error("a catalogue that ends too early");
+  if (size > bytes_.size() - place_) throw std::runtime_error("the list of contents ends too early");
   std::memcpy(to, bytes_.data() + place_, size);
   place_ += size;
 }

@@ -63,7 +63,8 @@ void HeatMap::add(const Plan& plan, const PlaneChunk& chunk, const FieldSet& fie
 }
 
 void HeatMap::restore(const std::vector<double>& scores) {
-  if (scores.size() != scores_.size()) throw failure_error("heat map of another size in the progress mark: drop --resume");
+  if (scores.size() != scores_.size())
+    throw failure_error("the heat map in the progress mark has another size; start again without --resume");
   scores_ = scores;
 }
 

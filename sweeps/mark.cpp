@@ -89,7 +89,7 @@ bool load_mark(const std::string& path, SweepMark& mark) {
   std::getline(file, start);
   text.assign(std::istreambuf_iterator<char>(file), {});
   if (!start.starts_with(fmt::format("{}{} ", MARK_START, FORMAT))) throw unusable(path, "not a progress mark of this program");
-  if (!start.ends_with(" " + checksum_text(text.data(), text.size()))) throw unusable(path, "is damaged: its checksum is another");
+  if (!start.ends_with(" " + checksum_text(text.data(), text.size()))) throw unusable(path, "is damaged: its checksum is wrong");
   try {
     const json content = json::parse(text);
     mark.identity = content.at("identity").get<std::map<std::string, std::string>>();
@@ -133,10 +133,10 @@ std::string contradiction(const VesselProgress& vessel, const MarkBounds& bounds
 
 void check_progress(const std::string& path, const SweepMark& mark, const MarkBounds& bounds) {
   if (mark.vessels.size() != bounds.vessels)
-    throw unusable(path, fmt::format("says what cannot be: {} vessels of {}", mark.vessels.size(), bounds.vessels));
+    throw unusable(path, fmt::format("contradicts itself: {} vessels of {}", mark.vessels.size(), bounds.vessels));
   for (std::size_t v = 0; v < mark.vessels.size(); ++v) {
     const std::string wrong = contradiction(mark.vessels[v], bounds);
-    if (!wrong.empty()) throw unusable(path, fmt::format("says what cannot be: of vessel {}, {}", v + 1, wrong));
+    if (!wrong.empty()) throw unusable(path, fmt::format("contradicts itself: of vessel {}, {}", v + 1, wrong));
   }
 }
 

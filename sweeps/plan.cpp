@@ -46,11 +46,12 @@ void check_sweep_size(const Scene& scene, const SweepSize& size, double free_byt
   const std::string asked = fmt::format("{}: asks for {} grips, {} states, {} of results", place_of_grips(scene),
                                         readable_count(size.grips), readable_count(size.states), readable_bytes(size.bytes));
   if (!(size.grips <= LARGEST_SWEEP)) {
-    throw usage_error(fmt::format("{}; one sweep takes {} grips: give [grips] fewer values", asked, readable_count(LARGEST_SWEEP)));
+    throw usage_error(
+        fmt::format("{}; one sweep takes at most {} grips: give [grips] fewer values", asked, readable_count(LARGEST_SWEEP)));
   }
   if (size.bytes > free_bytes) {
     throw failure_error(
-        fmt::format("{}, and there is room for {}: keep fewer variables ([output] keep), give [grips] fewer values, or "
+        fmt::format("{}, but there is room for only {}: keep fewer variables ([output] keep), give [grips] fewer values, or "
                     "name a file on another disk with -o",
                     asked, readable_bytes(free_bytes)));
   }
@@ -63,7 +64,7 @@ Plan::Plan(const Scene& scene, bool keeps_vectors)
   const GripsData& grips = scene.grips;
   check_sweep_size(scene, sweep_size(scene, 0), 0);
   if (sobol_ && (grips.count == 0 || grips.count > SOBOL_LARGEST_COUNT)) {
-    throw usage_error(fmt::format("{}: [grips] count = {}: Sobol sampling takes 1 to {} points a vessel", place_of_grips(scene),
+    throw usage_error(fmt::format("{}: [grips] count = {}: Sobol sampling takes 1 to {} points per vessel", place_of_grips(scene),
                                   grips.count, SOBOL_LARGEST_COUNT));
   }
   axes_ = {{

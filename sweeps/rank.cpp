@@ -38,7 +38,7 @@ std::vector<const Variable*> needed(const SweepResult& result, const std::vector
   }
   if (missing.empty()) return variables;
   throw usage_error(
-      fmt::format("{}: lacks {}, which [output] keep of its scene left out; add {} to keep, or leave keep out, and sweep again",
+      fmt::format("{}: lacks {}, as [output] keep of its scene does not name it; add {} to keep, or remove keep, and sweep again",
                   result.path(), fmt::join(missing, ", "), missing.size() == 1 ? "it" : "them"));
 }
 
@@ -249,7 +249,7 @@ std::array<double, 6> read_weights(const std::string& text, const Scene& scene) 
     rest.remove_prefix(is_last ? comma : comma + 1);
     const auto term = static_cast<std::size_t>(std::find(TERMS.begin(), TERMS.end(), name) - TERMS.begin());
     if (term == TERMS.size()) {
-      throw usage_error(fmt::format("--weights: no term '{}'; the nearest is '{}' of {}", name.substr(0, 60),
+      throw usage_error(fmt::format("--weights: there is no term '{}'; the nearest is '{}' of {}", name.substr(0, 60),
                                     nearest_name(name, TERMS), fmt::join(TERMS, ", ")));
     }
     if (!has_term(scene, term))
@@ -308,7 +308,7 @@ Ranking rank_grips(const SweepResult& result, const Scene& scene, const Plan& pl
   if (!is_whole) {
     core = std::make_unique<CoreBackend>(open_core(), scene, make_field_set(best_fields(scene), scene), Precision::full, 0);
     ranking.note =
-        "the file does not keep all that the table shows: beside places and scores it is the core's, in double precision";
+        "the file lacks some columns of the table: apart from places and scores, the core computed them in double precision";
   }
   for (std::size_t list = 0; list < lists; ++list) {
     const std::vector<Candidate> chosen = best[list].sorted();

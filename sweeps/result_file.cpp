@@ -342,7 +342,7 @@ void ResultFile::finish() {
   } catch (const Error& error) {
     // what could not be tried says nothing of the file
     const char* remedy = error.code == ExitCode::failure ? "go on with --resume" : "start again without --resume";
-    throw failure_error(fmt::format("{} (read back before it gets its name); {}", error.what(), remedy));
+    throw failure_error(fmt::format("{} (found when the sweep read the file back); {}", error.what(), remedy));
   }
   rename_file(names_.partial, names_.target);
   sync_folder_of(names_.target);

@@ -19,8 +19,8 @@ void check_complete(const std::string& result, const Scene& scene, bool on_core,
   const SweepResult there(result);
   const SweepOrigin& origin = there.origin();
   const auto refuse = [&result](const std::string& what) {
-    throw usage_error(
-        fmt::format("--resume: {} is complete, of another {}; name another file, or start again without --resume", result, what));
+    throw usage_error(fmt::format(
+        "--resume: {} is complete, but has another {}; name another file, or start again without --resume", result, what));
   };
   if (origin.scene != scene.text) refuse("scene");
   if ((origin.backend == "core") != on_core) refuse("backend: " + origin.backend);
@@ -55,7 +55,7 @@ bool load_usable_mark(const OutputNames& names, const std::map<std::string, std:
   check_identity(names.partial, mark, identity);
   check_progress(names.mark, mark, bounds);
   if (has_structure(names.partial, mark)) return true;
-  note = fmt::format("{} is damaged: it is not as the mark left it", names.partial);
+  note = fmt::format("{} is damaged: it changed after the progress mark was written", names.partial);
   return false;
 }
 
@@ -69,8 +69,8 @@ std::string lost_line(const OutputNames& names) {
   }
   std::uint64_t kept = 0;
   for (const VesselProgress& vessel : earlier.vessels) kept += vessel.done;
-  return fmt::format("{} held {} grips of a sweep that was interrupted: begun again without them (--resume goes on)", names.partial,
-                     readable_number(kept));
+  return fmt::format("{} held {} grips of an interrupted sweep; this sweep starts again without them (--resume keeps them)",
+                     names.partial, readable_number(kept));
 }
 
 }  // namespace wholehand

@@ -54,8 +54,8 @@ class Sweep {
   void check() const {
     check_output_path(names_.result);
     if (options_.glb > static_cast<int>(best_wanted_)) {
-      throw usage_error(
-          fmt::format("--glb {0}: the best {1} of each vessel are kept; ask for --best {0} too", options_.glb, best_wanted_));
+      throw usage_error(fmt::format("--glb {0}: the sweep keeps only the best {1} grips of each vessel; give --best {0} too",
+                                    options_.glb, best_wanted_));
     }
     check_not_the_scene(names_.result, scene_);
     check_overwrites_result(names_.result);
@@ -122,8 +122,8 @@ class Sweep {
 
   ExitCode finished() const {
     check_complete(names_.result, scene_, options_.on == "core", precision(), variables_);
-    say_note(
-        fmt::format("{} is complete: nothing to go on with; the same command without --resume computes it again", names_.result));
+    say_note(fmt::format("{} is complete, so nothing is left to do; the same command without --resume computes it again",
+                         names_.result));
     return ExitCode::done;
   }
 
@@ -151,10 +151,10 @@ class Sweep {
     if (resumed) {
       mark_ = mark;
       for (std::size_t v = 0; v < maps_.size() && has_heat_map(); ++v) maps_[v].restore(mark_.vessels[v].heat_map);
-      say_note(fmt::format("going on with {}: {} of {} grips are there", names_.partial, readable_number(done()),
+      say_note(fmt::format("continuing {}: {} of {} grips are there", names_.partial, readable_number(done()),
                            readable_number(total(plan))));
     } else {
-      if (options_.resume) say_note(fmt::format("nothing of {} is complete: starting from the first grip", names_.partial));
+      if (options_.resume) say_note(fmt::format("{} holds no complete grip: starting from the first grip", names_.partial));
       mark_.identity = identity(plan);
       mark_.vessels.resize(scene_.vessels.size());
     }
@@ -188,7 +188,7 @@ class Sweep {
         say_note(place + " are damaged: computing them again");
         if (!compute_again(v, stretch, plan, file, interrupt)) return false;
         if (!file.holds(v, stretch))
-          throw failure_error(place + " are not what they were, computed again; start again without --resume");
+          throw failure_error(place + " have other values when computed again; start again without --resume");
       }
     }
     return true;

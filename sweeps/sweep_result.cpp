@@ -40,10 +40,11 @@ const std::string& check_is_result(const std::string& path) {
   if (!file) throw usage_error(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
   file.read(head, sizeof head);
   if (std::memcmp(head, "CDF", 3) == 0) {
-    throw usage_error(
-        path + ": is a NetCDF file of the classic format, and no result of a sweep; a recording is read by wholehand session");
+    throw usage_error(path +
+                      ": is a NetCDF file of the classic format, and not a result of a sweep; wholehand session reads recordings");
   }
-  if (std::string_view(head, sizeof head) != NETCDF4_START) throw usage_error(path + ": is no result file of a sweep (NetCDF-4)");
+  if (std::string_view(head, sizeof head) != NETCDF4_START)
+    throw usage_error(path + ": is not a result file of a sweep (NetCDF-4)");
   return path;
 }
 
@@ -57,7 +58,7 @@ std::uint64_t product(const std::vector<std::size_t>& lengths, std::size_t first
 SweepResult::SweepResult(const std::string& path) : file_(check_is_result(path)) {
   origin_.bytes = file_.bytes();
   origin_.scene = text("scene");
-  if (text("program") != "wholehand") throw usage_error(path + ": is no result of a sweep: another program wrote it");
+  if (text("program") != "wholehand") throw usage_error(path + ": is not a result of a sweep: another program wrote it");
   origin_.version = text("version");
   origin_.backend = text("backend");
   origin_.device = text("device");
@@ -86,7 +87,7 @@ void SweepResult::use(const Scene& scene, const Plan& plan) {
   scene_ = &scene;
   plan_ = &plan;
   if (numbers("vessel_height").shape != std::vector<std::size_t>{scene.vessels.size()})
-    throw usage_error(fmt::format("{}: has not the {} vessels of its own scene", path(), scene.vessels.size()));
+    throw usage_error(fmt::format("{}: does not have the {} vessels of its own scene", path(), scene.vessels.size()));
   grip_shape_.clear();
   if (plan.is_sobol()) {
     grip_shape_.push_back(plan.grips());
@@ -219,7 +220,7 @@ const GuardedFile::Stored& SweepResult::numbers(const std::string& name) const {
 
 void SweepResult::check_shape(const std::string& name, const std::vector<std::size_t>& shape) const {
   if (numbers(name).shape != shape)
-    throw usage_error(fmt::format("{}: {} has not the shape that its own scene gives it", path(), name));
+    throw usage_error(fmt::format("{}: {} does not have the shape that its own scene asks for", path(), name));
 }
 
 // Grips in each list of the best, places that were filled included; `dimensions`: of such a variable.
@@ -227,12 +228,12 @@ std::size_t SweepResult::ranks(std::size_t dimensions) const {
   const std::vector<std::size_t>& shape = numbers(BEST_GRIP).shape;
   if (lists_all_hands_together()) {
     throw usage_error(fmt::format(
-        "{0}: is of a version with one list for all hand scales; sweep again, or use wholehand rank {0} -o LIST.csv", path()));
+        "{0}: is from a version with one list for all hand scales; sweep again, or use wholehand rank {0} -o LIST.csv", path()));
   }
   if (shape.size() != dimensions) throw usage_error(fmt::format("{}: {} is not as a sweep writes it", path(), BEST_GRIP));
   if (shape.back() > MOST_BEST)
     throw usage_error(
-        fmt::format("{}: {} lists {} grips a vessel, and a sweep at most {}", path(), BEST_GRIP, shape.back(), MOST_BEST));
+        fmt::format("{}: {} lists {} grips per vessel, and a sweep lists at most {}", path(), BEST_GRIP, shape.back(), MOST_BEST));
   return shape.back();
 }
 
@@ -251,13 +252,13 @@ std::vector<double> SweepResult::row(const std::string& name, const std::vector<
 
 std::string SweepResult::text(const char* name) const {
   const std::optional<std::string> value = file_.text(name);
-  if (!value) throw usage_error(fmt::format("{}: is no result of a sweep: it lacks the attribute {}", path(), name));
+  if (!value) throw usage_error(fmt::format("{}: is not a result of a sweep: it lacks the attribute {}", path(), name));
   return *value;
 }
 
 double SweepResult::number(const char* name) const {
   const std::optional<double> value = file_.number(name);
-  if (!value) throw usage_error(fmt::format("{}: is no result of a sweep: it lacks the attribute {}", path(), name));
+  if (!value) throw usage_error(fmt::format("{}: is not a result of a sweep: it lacks the attribute {}", path(), name));
   return *value;
 }
 

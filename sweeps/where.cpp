@@ -75,7 +75,7 @@ class WhereTokens {
     const char* end = text_.data() + text_.size();
     const auto [rest, error] = std::from_chars(begin, end, next_.number);
     const bool is_whole = error == std::errc() && (rest == end || (!is_name_start(*rest) && *rest != '.'));
-    if (!is_whole) refuse(next_.column, "no number that can be read; write 12, 0.5 or 2e-3");
+    if (!is_whole) refuse(next_.column, "this number cannot be read; write 12, 0.5 or 2e-3");
     next_.type = WhereToken::Type::number;
     put(static_cast<std::size_t>(rest - text_.data()));
   }
@@ -124,7 +124,7 @@ class WhereParser {
   void parse() {
     where_.root_ = condition_of(alternatives());
     if (tokens_.next().type != WhereToken::Type::end)
-      refuse(tokens_.next().column, fmt::format("{} where 'and', 'or' or the end is due", shown(tokens_.next())));
+      refuse(tokens_.next().column, fmt::format("found {}; expected 'and', 'or' or the end", shown(tokens_.next())));
   }
 
  private:
@@ -156,7 +156,7 @@ class WhereParser {
     if (part.node >= 0) return part.node;
     const bool is_condition = part.name && (part.operand.is_masked || part.name->kind != WhereKind::number);
     if (!is_condition)
-      refuse(part.column, fmt::format("{} is a number and no condition; compare it: {} > 0", part.text, part.text));
+      refuse(part.column, fmt::format("{} is a number and not a condition; compare it: {} > 0", part.text, part.text));
     return add({Operation::truth, -1, -1, part.operand, {}});
   }
 
@@ -233,7 +233,7 @@ class WhereParser {
     const double largest = std::numeric_limits<std::uint32_t>::max();
     if (token.type != WhereToken::Type::number || !(token.number >= 0 && token.number <= largest) ||
         token.number != std::floor(token.number))
-      refuse(token.column, fmt::format("{} where the bits of a mask are due: a whole number", shown(token)));
+      refuse(token.column, fmt::format("found {}; expected the bits of a mask, a whole number", shown(token)));
     part.operand.mask = static_cast<std::uint32_t>(token.number);
     part.operand.is_masked = true;
     part.text += " & " + token.text;
@@ -258,14 +258,15 @@ class WhereParser {
     }
     const bool is_word = token.text == "and" || token.text == "or" || token.text == "not";
     if (token.type != WhereToken::Type::name || is_word)
-      refuse(token.column, fmt::format("{} where a name or a number is due", shown(token)));
+      refuse(token.column, fmt::format("found {}; expected a name or a number", shown(token)));
     if ((token.text == "min" || token.text == "max") && tokens_.is("(")) return folded(token);
     return named(token, WhereFold::none);
   }
 
   void close(const WhereToken& opening) {
     if (!tokens_.is(")"))
-      refuse(tokens_.next().column, fmt::format("{} where the ')' of column {} is due", shown(tokens_.next()), opening.column));
+      refuse(tokens_.next().column,
+             fmt::format("found {}; expected the ')' for the '(' of column {}", shown(tokens_.next()), opening.column));
     tokens_.take();
   }
 
@@ -273,7 +274,7 @@ class WhereParser {
   Part folded(const WhereToken& function) {
     const WhereToken opening = tokens_.take(), token = tokens_.take();
     if (token.type != WhereToken::Type::name)
-      refuse(token.column, fmt::format("{} where {}() takes the name of a variable", shown(token), function.text));
+      refuse(token.column, fmt::format("found {}; expected the name of a variable in {}()", shown(token), function.text));
     Part part = named(token, function.text == "min" ? WhereFold::least : WhereFold::largest);
     close(opening);
     part.column = function.column;
@@ -309,8 +310,9 @@ class WhereParser {
     for (const WhereName& name : names_) {
       if (name.unit == WhereUnit::own && name.refusal.empty()) known.push_back(name.name);
     }
-    refuse(token.column, fmt::format("no value '{}'; the nearest is '{}'; known: {}, lengths also with _mm, angles with _deg",
-                                     token.text.substr(0, 60), nearest, fmt::join(known, ", ")));
+    refuse(token.column,
+           fmt::format("there is no value '{}'; the nearest is '{}'; known: {}, lengths also with _mm, angles with _deg",
+                       token.text.substr(0, 60), nearest, fmt::join(known, ", ")));
   }
 
   std::string known_masks() const {
@@ -324,7 +326,7 @@ class WhereParser {
   // Counts what is within each other, since each takes room on the stack.
   struct Depth {
     Depth(int& count, std::size_t column) : depth(count) {
-      if (++depth > DEEPEST) refuse(column, fmt::format("more than {} parentheses within each other", DEEPEST));
+      if (++depth > DEEPEST) refuse(column, fmt::format("more than {} nested parentheses", DEEPEST));
     }
     ~Depth() { --depth; }
     int& depth;

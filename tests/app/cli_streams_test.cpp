@@ -26,7 +26,7 @@ TEST(CommandLine, SaysWhenAResultCannotBeWritten) {
   const std::string result = std::filesystem::temp_directory_path() / "wholehand_cli_test.nc";
   const Outcome limited = run("ulimit -f 8; PROGRAM sweep small --on core -o " + result + " 2>&1 >/dev/null");
   EXPECT_EQ(limited.code, 3) << limited.output;
-  EXPECT_NE(limited.output.find("there is room for 4.1 kB"), std::string::npos) << limited.output;
+  EXPECT_NE(limited.output.find("there is room for only 4.1 kB"), std::string::npos) << limited.output;
   EXPECT_EQ(limited.output.find('\n'), limited.output.size() - 1) << limited.output;
   for (const char* left : {"", ".partial", ".partial.mark", ".partial.lock", ".best.csv"})
     EXPECT_FALSE(std::filesystem::exists(result + left)) << left;

@@ -110,7 +110,7 @@ TEST(CommandLine, RefusesWrongUsageWithOneLineAndCode2) {
       {"report /nonexistent.nc", "/nonexistent.nc: cannot be read: No such file or directory"},
       {"report /tmp", "/tmp: is a directory; name the result file of a sweep"},
       {"report /dev/null", "/dev/null: is a device or pipe; name the result file of a sweep"},
-      {"report /proc/self/status", "/proc/self/status: is no result file"},
+      {"report /proc/self/status", "/proc/self/status: is not a result file"},
       {"report a.nc b.nc", "b.nc; see wholehand report --help"},
       {"devices extra", "extra; see wholehand devices --help"},
       {"grip", "scene is required"},
@@ -148,7 +148,8 @@ TEST(CommandLine, RefusesWrongUsageWithOneLineAndCode2) {
        "--glb and --svg name the same file"},
       {"sweep small --glb -1", "--glb '-1'; allowed: a whole number, 0 to 100000"},
       {"sweep small --glb x", "--glb 'x'"},
-      {"sweep small --best 2 --glb 3 --on core -o /tmp/wholehand_cli_none.nc", "--glb 3: the best 2 of each vessel are kept"},
+      {"sweep small --best 2 --glb 3 --on core -o /tmp/wholehand_cli_none.nc",
+       "--glb 3: the sweep keeps only the best 2 grips of each vessel"},
   };
   for (const auto& [arguments, gist] : cases) expect_error(arguments, 2, gist);
 }

@@ -75,16 +75,16 @@ TEST_F(CommandRank, WhatIsWrongIsOneLineAndNothingIsWritten) {
       {"rank " + result + " --glb 1", "--glb: the name of the list is missing"},
       {"rank " + result + " --best 0", "--best '0'; allowed"},
       {"rank " + result + " --where 'fingers_usd > 1' -o " + list,
-       "--where, column 1: no value 'fingers_usd'; the nearest is 'fingers_used'"},
+       "--where, column 1: there is no value 'fingers_usd'; the nearest is 'fingers_used'"},
       {"rank " + result + " --weights 'finger=1'", "--weights: no term 'finger'"},
       {"grip " + result + " --vessel tumbler", "this is a result, and the rank of the grip is missing; give --rank"},
       {"grip " + result + " --vessel tumbler --rank 5", "--rank 5: " + result + " lists 4 grips of tumbler"},
       {"grip " + result + " --vessel tumbler --rank 1 --height-mm 5", "excludes"},
       {"grip " + result + " --vessel tumbler --rank 1 --hand-scale 1", "--hand-scale: the sweep has one list for all"},
       {"grip small --vessel tumbler --list x", "--list: the rank of the grip is missing; give --rank"},
-      {"grip " + result + " --vessel tumbler --rank 1 --list " + (folder / "mine.txt"), "is no list of wholehand rank"},
+      {"grip " + result + " --vessel tumbler --rank 1 --list " + (folder / "mine.txt"), "is not a list of wholehand rank"},
       {"view " + result + " --list " + (folder / "none.csv"), "none.csv: cannot be read"},
-      {"report " + result + " --list " + (folder / "mine.txt"), "is no list of wholehand rank"},
+      {"report " + result + " --list " + (folder / "mine.txt"), "is not a list of wholehand rank"},
   };
   for (const auto& [arguments, gist] : cases) expect_error(arguments, 2, gist);
   EXPECT_FALSE(file_exists(list));

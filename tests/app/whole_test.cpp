@@ -139,7 +139,7 @@ TEST(Whole, InterruptedAndKilledSweepOnVulkanResumesToTheSameBits) {
   kill(second, SIGKILL);
   waitpid(second, &status, 0);
   EXPECT_TRUE(WIFSIGNALED(status)) << "it had ended before it was killed";
-  EXPECT_EQ(file_text(broken + ".said").find("wholehand: going on with "), 0u) << file_text(broken + ".said");
+  EXPECT_EQ(file_text(broken + ".said").find("wholehand: continuing "), 0u) << file_text(broken + ".said");
   EXPECT_FALSE(std::filesystem::exists(broken)) << "a killed sweep leaves no file that looks whole";
 
   ASSERT_EQ(run("sweep " + scene + " -o " + broken + " --resume >>" + folder.path() + "/out.txt 2>&1"), 0);

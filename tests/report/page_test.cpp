@@ -38,7 +38,7 @@ void expect_well_built(const SweptScene& swept, const std::string& page) {
 // Of one height and two rolls the best is at an end of the rolls whatever it is.
 TEST(ReportPage, TellsThatTheBestIsAtTheEndOfAnAxis) {
   const std::string rolls = edited(RESULT_SCENE, "[-90, -30, 0]", "[-30, 0]");
-  const std::string line = "<p>The best lies on the edge of roll_deg; widen it?</p>";
+  const std::string line = "<p>The best grip lies on the edge of roll_deg; widen it?</p>";
   const std::string one_height = edited(edited(rolls, "{ from = 0.1, to = 0.95, count = 12 }", "0.5"), "[-10, 10]", "0");
   const SweptScene swept(one_height);
   EXPECT_TRUE(has(report_page(*swept.result, swept.scene, ""), line));

@@ -170,7 +170,7 @@ TEST(SceneCavity, SaysWhereLiquidWouldStandInAStem) {
   const auto inner = cavity_notes(scene_from(
       cylinder_with("inner_outline = [{ line = [0, 10] }, { line = [30, 10] }, { line = [4, 50] }, { line = [30, 110] }]")));
   ASSERT_EQ(inner.size(), 1u);
-  EXPECT_NE(inner[0].find("belongs there, let 'inner_outline' begin above it"), std::string::npos) << inner[0];
+  EXPECT_NE(inner[0].find("belongs there, let 'inner_outline' begin above this height"), std::string::npos) << inner[0];
   for (const std::string& keys : {std::string("wall_mm = 2\nfloor_mm = 85"), BOWL})
     EXPECT_TRUE(cavity_notes(scene_from(wine_glass(keys))).empty()) << keys;
   for (const char* shipped : {"three_beakers", "mixing_board", "paper_pose", "small"})

@@ -100,7 +100,8 @@ TEST_F(BestGlbTest, WhatOnlyTheSweepsPrecisionHoldsIsLeftOut) {
                                          {{at_height(0.3), at_height(0.05, 2)}}, 5, output_names(folder / "out.nc"));
   EXPECT_EQ(there(), (std::vector<std::string>{"out.beaker1.2.glb"}));
   ASSERT_EQ(written.notes.size(), 1u);
-  EXPECT_NE(written.notes[0].find("out.beaker1.1.glb: the core finds the grip not feasible (misses)"), std::string::npos);
+  EXPECT_NE(written.notes[0].find("out.beaker1.1.glb is not written: the core finds that the grip is not feasible (misses)"),
+            std::string::npos);
 }
 
 }  // namespace

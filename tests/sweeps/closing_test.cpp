@@ -14,7 +14,7 @@ TEST(Closing, OpeningSaysWhatIsEvaluatedAndWhere) {
   EXPECT_EQ(opening_lines(scene, Plan(scene, false), info),
             "fake: 560 grips of 2 vessels, 8 states each\n"
             "on llvmpipe, a CPU driver (Mesa), single precision\n"
-            "azimuth left out: the vessels are bodies of revolution, so one stands for all 3\n");
+            "one azimuth stands for all 3: the vessels are bodies of revolution\n");
   info.is_cpu = false;
   info.precision = Precision::full;
   scene.tilts.clear();

@@ -54,7 +54,7 @@ TEST(Companions, AResultWhoseCompanionsAreAnothersIsRefused) {
   const TemporaryFolder folder;
   std::ofstream(folder / "a.nc") << NETCDF4_START;
   const std::string line = companion_refusal(fake_scene(), output_names(folder / "a"), true, true, 0);
-  EXPECT_EQ(line.rfind("-o " + (folder / "a") + ": " + (folder / "a.nc") + " is there", 0), 0u) << line;
+  EXPECT_EQ(line.rfind("-o " + (folder / "a") + ": " + (folder / "a.nc") + " exists", 0), 0u) << line;
   EXPECT_EQ(companion_refusal(fake_scene(), output_names(folder / "a.nc"), true, true, 0), "");
   std::ofstream(folder / "b") << NETCDF4_START;
   EXPECT_NE(companion_refusal(fake_scene(), output_names(folder / "b.nc"), true, true, 0), "");

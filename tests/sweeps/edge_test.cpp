@@ -126,8 +126,8 @@ TEST(Edge, SobolPointsAreAtAnEndWithinHalfAStepOfAsManyGrips) {
 
 TEST(Edge, TheLineNamesThemAll) {
   EXPECT_EQ(edge_line({}), "");
-  EXPECT_EQ(edge_line({"roll_deg"}), "the best lies on the edge of roll_deg; widen it?");
-  EXPECT_EQ(edge_line({"height_mm", "roll_deg"}), "the best lies on the edge of height_mm and roll_deg; widen them?");
+  EXPECT_EQ(edge_line({"roll_deg"}), "the best grip lies on the edge of roll_deg; widen it?");
+  EXPECT_EQ(edge_line({"height_mm", "roll_deg"}), "the best grip lies on the edge of height_mm and roll_deg; widen them?");
 }
 
 }  // namespace

@@ -93,7 +93,7 @@ TEST(GuardedFile, EveryCommandThatReadsAResultRefusesADamagedOne) {
   ASSERT_FALSE(refusal_line([&] { GuardedFile(path).read_all(); }).empty());
   for (const std::string& arguments : {"view " + path, "report " + path, "rank " + path, "grip " + path + " --vessel cup --rank 1",
                                        "sweep small --on core --resume -o " + path})
-    expect_error(arguments, 2, "damaged.nc: is damaged, or no NetCDF-4 file");
+    expect_error(arguments, 2, "damaged.nc: is damaged, or is not a NetCDF-4 file");
 }
 
 #endif
@@ -112,7 +112,7 @@ TEST(GuardedFile, AReaderThatDiesLaterCostsOneLine) {
   double value = 0;
   const std::vector<std::size_t> place(7, 0), one(7, 1);
   EXPECT_EQ(refusal_line([&] { file->read(*gap, place, one, &value); }),
-            swept.path + ": is damaged, or no NetCDF-4 file: it cannot be read");
+            swept.path + ": is damaged, or is not a NetCDF-4 file: it cannot be read");
   EXPECT_NE(refusal_line([&] { file->read_all(); }), "") << "and it stays so";
 }
 
@@ -139,7 +139,7 @@ TEST(GuardedFile, WhatIsNoRegularFileIsRefused) {
   EXPECT_NE(refusal_line([] { GuardedFile("/dev/null"); }).find("is a device or pipe"), std::string::npos);
   EXPECT_NE(refusal_line([&] { GuardedFile(folder / "none"); }).find("No such file"), std::string::npos);
   std::ofstream(folder / "text") << "text";
-  EXPECT_NE(refusal_line([&] { GuardedFile(folder / "text"); }).find("is damaged, or no NetCDF-4 file"), std::string::npos);
+  EXPECT_NE(refusal_line([&] { GuardedFile(folder / "text"); }).find("is damaged, or is not a NetCDF-4 file"), std::string::npos);
 }
 
 // The process that reads holds nothing of the one that asks: what that closes is closed.

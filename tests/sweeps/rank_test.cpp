@@ -155,7 +155,7 @@ TEST(Rank, RowsAreTheFilesNumbersOrTheCores) {
   const SweptScene whole(RESULT_SCENE), part(edited(RESULT_SCENE, "best = 5", "best = 5\nkeep = [\"score\", \"plausible\"]"));
   const Ranking from_file = ranked(whole, {"", "", 5}), from_core = ranked(part, {"", "", 5});
   EXPECT_EQ(from_file.note, "");
-  EXPECT_NE(from_core.note.find("is the core's"), std::string::npos);
+  EXPECT_NE(from_core.note.find("the core computed them"), std::string::npos);
   const ListOrigin origin{"a.nc", "s"};
   EXPECT_EQ(best_csv(whole.scene, *whole.plan, from_file.lists, origin), best_csv(part.scene, *part.plan, from_core.lists, origin))
       << "of a sweep by the core in double precision they are the same";
@@ -163,16 +163,15 @@ TEST(Rank, RowsAreTheFilesNumbersOrTheCores) {
 
 TEST(Rank, WhatTheFileLacksIsRefusedWithWhatToKeep) {
   const SweptScene part(edited(RESULT_SCENE, "best = 5", "best = 5\nkeep = [\"score\", \"plausible\", \"joints\"]"));
-  EXPECT_NE(
-      rank_refusal(part, {"force=1", "", 5})
-          .find("lacks score_fingers, score_contacts, score_depth, score_posture, score_force, score_hold, which [output] keep"),
-      std::string::npos)
+  EXPECT_NE(rank_refusal(part, {"force=1", "", 5})
+                .find("lacks score_fingers, score_contacts, score_depth, score_posture, score_force, score_hold, as [output] keep"),
+            std::string::npos)
       << rank_refusal(part, {"force=1", "", 5});
   EXPECT_NE(rank_refusal(part, {"", "gap_mm < 80", 5}).find("column 1: gap_mm is not in the file; name it in [output] keep"),
             std::string::npos);
   EXPECT_NE(rank_refusal(part, {"", "max(joints) > 0", 5}).find("is a vector"), std::string::npos);
   const SweptScene none(edited(RESULT_SCENE, "best = 5", "best = 5\nkeep = [\"score\"]"));
-  EXPECT_NE(rank_refusal(none, {"", "", 5}).find("lacks plausible, which"), std::string::npos);
+  EXPECT_NE(rank_refusal(none, {"", "", 5}).find("lacks plausible, as"), std::string::npos);
   const SweptScene still(edited(RESULT_SCENE, "[tilts]\ndeg = [0, 45, 90, 135]", ""));
   EXPECT_NE(rank_refusal(still, {"", "max(peak_feedback_force) < 1", 5}).find("needs [tilts]"), std::string::npos);
   EXPECT_NE(rank_refusal(still, {"force=1", "", 5}).find("force needs [tilts]"), std::string::npos);
@@ -264,14 +263,14 @@ TEST(GripListsTest, OtherSweepsAndDamageAreRefusedWithTheirLine) {
   };
   expect_refused("", "is empty");
   expect_refused("a;b\n1;2\n", "it has no column vessel");
-  expect_refused(edited(csv, id, "sweep-0"), ":2: is of another sweep (sweep-0)");
-  expect_refused(edited(csv, "\ncup,2,", "\ncup,1,"), ":3: rank 1 a second time");
+  expect_refused(edited(csv, id, "sweep-0"), ":2: the row is from another sweep (sweep-0)");
+  expect_refused(edited(csv, "\ncup,2,", "\ncup,1,"), ":3: rank 1 appears twice");
   const std::size_t first = csv.find('\n') + 1, second = csv.find('\n', first) + 1;
-  expect_refused(csv.substr(0, second) + edited(csv.substr(first, second - first), "cup,1,", "cup,2,"), " a second time");
+  expect_refused(csv.substr(0, second) + edited(csv.substr(first, second - first), "cup,1,", "cup,2,"), " appears twice");
   expect_refused(edited(csv, "\ncup,2,", "\ncup,0,"), ":3: rank 0");
   expect_refused(edited(csv, "\ncup,2,", "\nmug,2,"), ":3: the sweep has no vessel 'mug'");
   expect_refused(edited(csv, ",result.nc," + id, "9999,result.nc," + id), ":2: grip '");
-  expect_refused(edited(csv, "\ncup,2,", "\ncup,2,,"), ":3: 30 cells where the head has 29");
+  expect_refused(edited(csv, "\ncup,2,", "\ncup,2,,"), ":3: the row has 30 cells and the header has 29");
 }
 
 TEST(GripListsTest, AnotherSceneDeviceOrPrecisionIsAnotherSweep) {

@@ -77,7 +77,7 @@ TEST_F(RunTest, InterruptLeavesAFileToGoOnWith) {
     rest.before_chunk = [&] { ++rest_chunks; };
     const TrialOutcome resumed = rest.run();
     EXPECT_EQ(resumed.code, ExitCode::done) << resumed.error;
-    EXPECT_TRUE(has(resumed.notes, "going on with")) << resumed.notes;
+    EXPECT_TRUE(has(resumed.notes, "continuing ")) << resumed.notes;
     EXPECT_LT(rest_chunks, 9) << "only what was missing, and the best";
     expect_same_as(expected, folder / "a.nc");
     EXPECT_EQ(resumed.out.substr(resumed.out.find("first vessel: ")).substr(0, 200),
@@ -101,7 +101,7 @@ TEST_F(RunTest, AnInterruptBeforeTheFirstGripOfAVesselLosesNothing) {
     rest.options.resume = true;
     const TrialOutcome resumed = rest.run();
     EXPECT_EQ(resumed.code, ExitCode::done) << resumed.error;
-    EXPECT_TRUE(has(resumed.notes, "going on with")) << resumed.notes;
+    EXPECT_TRUE(has(resumed.notes, "continuing ")) << resumed.notes;
     expect_same_as(expected, folder / "a.nc");
     std::filesystem::remove(folder / "a.nc");
   }
@@ -124,7 +124,7 @@ TEST_F(RunTest, ResumeOfWhatIsCompleteLeavesIt) {
   trial.options.resume = true;
   const TrialOutcome outcome = trial.run();
   EXPECT_EQ(outcome.code, ExitCode::done);
-  EXPECT_TRUE(has(outcome.notes, "is complete: nothing to go on with")) << outcome.notes;
+  EXPECT_TRUE(has(outcome.notes, "is complete, so nothing is left to do")) << outcome.notes;
   EXPECT_EQ(trial.opened, 0);
   EXPECT_EQ(std::filesystem::last_write_time(expected), written);
 }
@@ -141,16 +141,16 @@ TEST_F(RunTest, ResumeOfSomethingElseThatIsCompleteIsRefused) {
     EXPECT_TRUE(has(outcome.error, what)) << outcome.error;
     EXPECT_EQ(trial.opened, 0) << what;
   };
-  refused(whole, "of another scene", [](SweepTrial& trial) { trial.scene.text += "# changed"; });
-  refused(whole, "of another precision", [](SweepTrial& trial) {
+  refused(whole, "but has another scene", [](SweepTrial& trial) { trial.scene.text += "# changed"; });
+  refused(whole, "but has another precision", [](SweepTrial& trial) {
     trial.options.precision = read_text(trial.options.output, "", "precision") == "float" ? Precision::full : Precision::single;
   });
-  refused(whole, "of another backend",
+  refused(whole, "but has another backend",
           [](SweepTrial& trial) { trial.options.on = trial.options.on == "core" ? "vulkan" : "core"; });
   refused(whole, "it lacks joints", [](SweepTrial& trial) { trial.scene.output.keep = {{"joints"}}; });
   EXPECT_EQ(file_text(whole), before);
   std::ofstream(folder / "other.nc") << "not a result";
-  refused(folder / "other.nc", "is no result file", [](SweepTrial&) {});
+  refused(folder / "other.nc", "is not a result file", [](SweepTrial&) {});
 }
 
 TEST_F(RunTest, ResumeWithAnotherMeshIsRefused) {
@@ -277,7 +277,7 @@ TEST_F(RunTest, DamagedGripsAloneAreComputedAgain) {
   rest.options.resume = true;
   const TrialOutcome outcome = rest.run();
   EXPECT_EQ(outcome.code, ExitCode::done) << outcome.error;
-  EXPECT_TRUE(has(outcome.notes, "going on with")) << outcome.notes;
+  EXPECT_TRUE(has(outcome.notes, "continuing ")) << outcome.notes;
   EXPECT_TRUE(has(outcome.notes, ".partial: grips 0 to ") && has(outcome.notes, " are damaged: computing them again"))
       << outcome.notes;
   expect_same_as(expected, path);
@@ -300,7 +300,7 @@ TEST_F(RunTest, AnInterruptWhileDamagedGripsAreComputedAgainLosesNothing) {
   rest.options.resume = true;
   const TrialOutcome outcome = rest.run();
   EXPECT_EQ(outcome.code, ExitCode::done) << outcome.error;
-  EXPECT_TRUE(has(outcome.notes, "going on with") && has(outcome.notes, " are damaged: computing them again")) << outcome.notes;
+  EXPECT_TRUE(has(outcome.notes, "continuing ") && has(outcome.notes, " are damaged: computing them again")) << outcome.notes;
   expect_same_as(expected, path);
 }
 
@@ -324,7 +324,7 @@ TEST_F(RunTest, AMarkThatContradictsItselfIsRefused) {
     rest.options.resume = true;
     const TrialOutcome outcome = rest.run();
     EXPECT_EQ(outcome.code, ExitCode::failure) << done;
-    EXPECT_TRUE(has(outcome.error, "says what cannot be")) << outcome.error;
+    EXPECT_TRUE(has(outcome.error, "contradicts itself")) << outcome.error;
     EXPECT_FALSE(file_exists(path));
   }
 }

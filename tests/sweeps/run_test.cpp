@@ -31,7 +31,7 @@ TEST_F(RunTest, WritesAllFilesAndSaysWhatItDid) {
     EXPECT_FALSE(has(entry.path().string(), "partial")) << entry.path();
   }
   EXPECT_TRUE(has(outcome.out, "fake: 560 grips of 2 vessels, 8 states each\non fake device (fake driver 1), double precision\n"));
-  EXPECT_TRUE(has(outcome.out, "azimuth left out")) << outcome.out;
+  EXPECT_TRUE(has(outcome.out, "one azimuth stands for all")) << outcome.out;
   EXPECT_TRUE(has(outcome.out, "first vessel: ")) << outcome.out;
   EXPECT_TRUE(has(outcome.out, " of 280 grips (each at 3 azimuths) feasible (")) << outcome.out;
   EXPECT_TRUE(has(outcome.out, "everything else")) << outcome.out;
@@ -123,7 +123,7 @@ TEST_F(RunTest, ABestAtTheEndOfAnAxisIsSaid) {
   trial.scene.grips.height = trial.scene.grips.obliquity = range_axis(0.5, 0.5, 1);
   trial.scene.grips.offset = range_axis(0, 0, 1);
   trial.scene.grips.roll = range_axis(radians(-90), radians(0), 2);  // each of two values is an end
-  const std::string line = "\n  the best lies on the edge of roll_deg; widen it?\n", out = trial.run().out;
+  const std::string line = "\n  the best grip lies on the edge of roll_deg; widen it?\n", out = trial.run().out;
   const std::size_t second = out.rfind("\nsecond: ");  // the first says what it holds
   ASSERT_NE(second, std::string::npos) << out;
   EXPECT_LT(out.find(line), second) << out;

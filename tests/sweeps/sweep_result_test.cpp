@@ -179,9 +179,9 @@ TEST(SweepResultTest, WhatIsNoFinishedResultIsRefused) {
   expect_refused(folder.path(), "is a directory");
   expect_refused("/dev/null", "is a device or pipe");
   std::ofstream(folder / "empty.nc").close();
-  expect_refused(folder / "empty.nc", "no result file");
+  expect_refused(folder / "empty.nc", "is not a result file");
   std::ofstream(folder / "text.nc") << RESULT_SCENE;
-  expect_refused(folder / "text.nc", "no result file");
+  expect_refused(folder / "text.nc", "is not a result file");
   std::ofstream(folder / "classic.nc") << "CDF\x02";
   expect_refused(folder / "classic.nc", "wholehand session");
   write_result(scene, folder / "open.nc", Precision::full, false);
@@ -286,8 +286,8 @@ TEST(SweepResultTest, VariablesOfAnotherShapeOrTypeAreRefused) {
     nc_def_var(file, "vessel_height", NC_DOUBLE, 1, &dim, &id);
     return dim;
   };
-  expect_unusable("has not the 2 vessels", [&](int file) { put_heights(file, 3); });
-  expect_unusable("score has not the shape", [&](int file) {
+  expect_unusable("does not have the 2 vessels", [&](int file) { put_heights(file, 3); });
+  expect_unusable("score does not have the shape", [&](int file) {
     const int dim = put_heights(file, 2);
     int id = -1;
     nc_def_var(file, "score", NC_DOUBLE, 1, &dim, &id);
@@ -327,7 +327,7 @@ TEST(SweepResultTest, AbsurdLengthsAreRefusedBeforeRoomIsMade) {
   const std::string many_ranks = file_of(2, absurd);
   SweepResult ranked(many_ranks);
   ranked.use(scene, plan);
-  expect_refused(many_ranks, "best_grip lists 1125899906842624 grips a vessel, and a sweep at most 100000",
+  expect_refused(many_ranks, "best_grip lists 1125899906842624 grips per vessel, and a sweep lists at most 100000",
                  [&] { ranked.best(0); });
   const std::string many_vessels = file_of(65, 1);
   SweepResult peopled(many_vessels);
@@ -345,7 +345,7 @@ TEST(SweepResultTest, AnotherSceneThanTheFilesOwnIsRefused) {
   Scene other = swept.scene;
   other.grips.roll.values.push_back(1);
   const Plan plan(other, false);
-  expect_refused(swept.path, "has not the shape that its own scene gives it", [&] { swept.result->use(other, plan); });
+  expect_refused(swept.path, "does not have the shape that its own scene asks for", [&] { swept.result->use(other, plan); });
 }
 
 }  // namespace
