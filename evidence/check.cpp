@@ -100,7 +100,8 @@ class Checking {
 }  // namespace
 
 CheckReport check_scene(const Scene& scene, const CheckOptions& options) {
-  if (options.on == "core") throw usage_error("check: --on core is what the devices are compared with; name a Vulkan device");
+  if (options.on == "core")
+    throw usage_error("check: --on core is the reference that devices are compared with; name a Vulkan device");
   CheckReport report;
   report.scene = scene.name;
   report.warnings = domain_warnings(scene, Precision::single);

@@ -34,18 +34,17 @@ std::string place_text(const CheckedQuantity& quantity) {
 std::string pair_text(const CheckedPair& pair) {
   std::string text = fmt::format("\n{}: {}\n", pair.question, pair.holds ? "holds" : "DOES NOT HOLD");
   text += fmt::format("  {:<11} {:<18} {:>12} {:>12} {:<6} {:>9} {:>9} {:>8}  {}\n", "kernel", "quantity", "worst", "tolerance", "",
-                      "of its own", "compared", "outside", "worst at");
+                      "ratio", "compared", "outside", "worst at");
   for (const CheckedQuantity& quantity : pair.quantities) {
     const Comparison& row = quantity.row;
     text += fmt::format("  {:<11} {:<18} {:>12.4g} {:>12.4g} {:<6} {:>9.3f} {:>9} {:>8}  {}\n", row.kernel, row.quantity, row.worst,
                         row.tolerance, row.unit, row.worst_ratio, row.compared, row.outside, place_text(quantity));
   }
-  return text +
-         fmt::format(
-             "  {} grips; {} graze the glass and are left out; in {} a discrete outcome differs within the margin, and in {} it "
-             "may: 1 in 1,000, with a chance of 1 in 1,000,000 to fail that by accident\n",
-             readable_number(pair.grips), readable_number(pair.grazing), readable_number(pair.excluded),
-             readable_number(pair.allowed));
+  return text + fmt::format(
+                    "  {} grips; {} graze the glass and are left out; in {} a discrete outcome differs within the margin; at most "
+                    "{} may differ: a true share of 1 in 1,000 exceeds this number once in 1,000,000 checks\n",
+                    readable_number(pair.grips), readable_number(pair.grazing), readable_number(pair.excluded),
+                    readable_number(pair.allowed));
 }
 
 CheckJson finite_or_null(double value) { return std::isfinite(value) ? CheckJson(value) : CheckJson(nullptr); }
@@ -89,8 +88,9 @@ std::string check_text(const CheckReport& report) {
   const CheckVerdict verdict = verdict_of(report);
   std::string text = fmt::format("{}: {}{}{}\n", verdict.holds ? "holds" : "DOES NOT HOLD", verdict.text,
                                  verdict.advice.empty() ? "" : "; ", verdict.advice);
-  text += fmt::format("\n{} on {} ({}){}, every plane of\n", report.scene.empty() ? "check" : report.scene, report.device,
-                      report.driver, report.is_cpu ? ", a CPU driver" : "");
+  text += fmt::format("\n{} on {} ({}){}; the check compares every result plane of these grips:\n",
+                      report.scene.empty() ? "check" : report.scene, report.device, report.driver,
+                      report.is_cpu ? ", a CPU driver" : "");
   for (const CheckedVessel& vessel : report.vessels) {
     text += fmt::format(
         "  {}: {} grips of the scene{}\n", vessel.name, readable_number(vessel.own),

@@ -102,7 +102,7 @@ std::string fitted_orders(const std::vector<ErrorRow>& rows) {
   add_fitted_order(text, rows, SweptAxis::gap_table, "closure, maximum", "step of the gap table", "2", 0,
                    figure(ERROR_CLOSURE, &ErrorFigures::max));
   add_fitted_order(text, rows, SweptAxis::points, "volume, maximum", "1 / points of the liquid",
-                   "no fixed one: faster than any power", 1e-7, figure(ERROR_VOLUME, &ErrorFigures::max));
+                   "no fixed order: faster than any power", 1e-7, figure(ERROR_VOLUME, &ErrorFigures::max));
   return text;
 }
 
@@ -125,14 +125,18 @@ std::string flip_lines(const std::vector<ErrorRow>& rows, const ErrorContext& co
   for (const ErrorRow& row : rows)
     if (row.variant.answers_the_question() && row.errors[ERROR_GAP].compared == 0)
       nothing += (nothing.empty() ? "" : ", ") + row.variant.name;
-  if (!nothing.empty()) text += "\nNot chosen, for nothing of theirs compares: " + nothing + ".\n";
+  if (!nothing.empty()) text += "\nThese variants are not chosen, as none of their grips could be compared: " + nothing + ".\n";
   const std::string often =
       counted_variants(rows, [](const ErrorRow& row) { return row.flips_too_often() ? *row.feasible_flips : 0; });
-  if (!often.empty()) text += "\nNot chosen, for more than 1 grip in 1,000 is feasible on one side alone (grips): " + often + ".\n";
+  if (!often.empty())
+    text +=
+        "\nThese variants are not chosen, as more than 1 grip in 1,000 is feasible on one side only (number of grips): " + often +
+        ".\n";
   if (context.states == 0) return text;
   const std::string hold = counted_variants(rows, [](const ErrorRow& row) { return row.hold_flips; });
-  text += "\nHold force finite on one side alone (grips; more than 1 in 1,000 is an infinite error of force): " +
-          (hold.empty() ? "nowhere" : hold) + ".\n";
+  text +=
+      "\nThe hold force is finite on one side only (number of grips; more than 1 in 1,000 counts as an infinite error of force): " +
+      (hold.empty() ? "nowhere" : hold) + ".\n";
   return text;
 }
 
@@ -224,11 +228,10 @@ std::string error_report(const std::vector<ErrorRow>& rows, const ErrorContext& 
   text += "Reference: core double, exact outline, stop tolerance 1e-12 m, 64 points of the liquid.\n";
   for (const std::string& note : context.notes) text += fmt::format("Note: {}.\n", note);
   text +=
-      "\n## The fastest variant under an error\n\nThe error is the largest 99.9th percentile among separation, posed joints, "
-      "proxies, gap "
-      "and centre of mass;\nfor forces among feedback and hold force. Time is a grip's in kernels; of "
-      "variants\nthat the spread of their runs does not tell apart the first of the table is named.\n\n"
-      "| error under | variant | a grip | its error |\n|---|---|---|---|\n";
+      "\n## The fastest variant under an error\n\nThe error of lengths is the largest 99.9th percentile among separation, posed "
+      "joints, proxies, gap and centre of mass.\nThe error of forces is the largest among feedback and hold force. The time is the "
+      "kernel time of one grip.\nIf the spread of the runs does not separate some variants, the first of them is named.\n\n"
+      "| error under | variant | time per grip | its error |\n|---|---|---|---|\n";
   add_fastest(text, rows, &ErrorRow::length_error, {1, 10, 100}, length_error_text);
   if (context.states > 0) add_fastest(text, rows, &ErrorRow::force_error, {1e-3, 10e-3}, force_error_text);
   text += flip_lines(rows, context);
@@ -238,14 +241,14 @@ std::string error_report(const std::vector<ErrorRow>& rows, const ErrorContext& 
   text += fitted_orders(rows);
   if (const std::string times = left_out_times(rows); !times.empty()) {
     text +=
-        "\n## Left out, left in\n\nRatio: to the scene as it is, on the same side.\n\n| variant | left out (+: left in) | a grip | "
-        "ratio |\n|---|---|---|---|\n" +
+        "\n## Left out, left in\n\nThe ratio compares the time with the time of the unchanged scene, on the same side.\n\n| "
+        "variant | left out (+: left in) | time per grip | ratio |\n|---|---|---|---|\n" +
         times;
   }
   if (const std::string liquid = liquid_times(rows); !liquid.empty()) {
     text +=
-        "\n## The liquid\n\nMade ready once a vessel, so no part of a grip's time.\n\n"
-        "| points a piece | a state, core, one thread | largest volume error | largest centre of mass error "
+        "\n## The liquid\n\nThe liquid is prepared once per vessel, so it is not part of a grip's time.\n\n"
+        "| points per piece | time per state, core, one thread | largest volume error | largest centre of mass error "
         "|\n|---|---|---|---|\n" +
         liquid;
   }

@@ -40,17 +40,19 @@ void choose_device_part(const Scene& scene, const std::string& on, VariantChoice
   choice.device_outlines = choice.outline_constants || device.kind != host::DeviceKind::cpu;
   if (!choice.device_outlines) {
     context.notes.push_back(
-        fmt::format("{} takes no outlines of more than {} elements: its variants with one are left out", device.name, MAX_OUTLINE));
+        fmt::format("{} does not take outlines of more than {} elements: its variants with such an outline are left out",
+                    device.name, MAX_OUTLINE));
   }
 }
 
 void check_no_mesh(const Scene& scene) {
   for (const VesselData& vessel : scene.vessels) {
     if (!vessel.mesh) continue;
-    throw usage_error(
-        at_place(vessel.mesh->place, fmt::format("vessel '{}' is a mesh; error-time measures what a lattice costs beside "
-                                                 "an exact outline, so it takes shapes and outlines",
-                                                 vessel.name)));
+    throw usage_error(at_place(
+        vessel.mesh->place,
+        fmt::format(
+            "vessel '{}' is a mesh; error-time compares a lattice with an exact outline, so it takes only shapes and outlines",
+            vessel.name)));
   }
 }
 
@@ -135,7 +137,7 @@ ExitCode run_error_time(const Scene& scene, const ErrorTimeOptions& options) {
   for (const std::string& note : measure.notes()) context.notes.push_back(note);
   if (asks_for_one_grip(scene.grips)) {
     context.notes.push_back(
-        "every axis of [grips] is one number, so all grips are the same one; give ranges for figures that mean more");
+        "every axis of [grips] is one number, so all grips are the same grip; give ranges to get useful figures");
   }
   write_error_results(options.output, rows, measure, context);
   return ExitCode::done;

@@ -25,7 +25,7 @@ std::string line_after(const Scene& scene, const std::string& head) {
     if (scene.text.compare(at, head.size(), head) == 0) return scene.text.substr(at + head.size(), end - at - head.size());
     at = end + 1;
   }
-  throw usage_error(fmt::format("{}: no line '{}..', which every extreme scene has", scene.file, head));
+  throw usage_error(fmt::format("{}: lacks the line '{}..', which every extreme scene has", scene.file, head));
 }
 
 std::vector<GripInput> spread_grips(const Plan& plan, std::size_t vessel, std::size_t most) {

@@ -67,17 +67,16 @@ void refuse_unstable_gains(const Scene& scene, std::array<double, 2> device_gap,
   const double slope = device_slope(scene, device_gap);
   const auto refuse = [&](const std::string& what, double limit) {
     throw usage_error(
-        fmt::format("{}: not stable on a light device at {:g} Hz; allowed: at most {:.0f}, a higher [live] rate_Hz, or "
-                    "--unsafe-gains where the device is known to bear it (wholehand stability wall)",
+        fmt::format("{}: unstable on a light device at {:g} Hz; allowed: at most {:.0f}, a higher [live] rate_Hz, or "
+                    "--unsafe-gains if the device is known to stay stable (wholehand stability wall)",
                     what, live.rate, limit));
   };
   const double stiffness = wall_limit(live.rate, slope * live.damping) / slope;
   if (live.stiffness > stiffness) {
-    refuse(
-        fmt::format("[live] K_N_m = {:g} with B_Ns_m = {:g}, of which the device feels {:.3g} times as much (two tips at its arm, "
-                    "workspace_scale, gap_mm)",
-                    live.stiffness, live.damping, slope),
-        std::max(0.0, stiffness));
+    refuse(fmt::format("[live] K_N_m = {:g} with B_Ns_m = {:g}, and the device feels {:.3g} times these values (by two tips at its "
+                       "arm, workspace_scale, gap_mm)",
+                       live.stiffness, live.damping, slope),
+           std::max(0.0, stiffness));
   }
   for (GripLoop loop : light_grips(live.rate)) {
     loop.k_open = scene.force.k_open;

@@ -73,14 +73,15 @@ WallFindings look_at(const std::vector<WallSheet>& sheets) {
 }
 
 void write_walls(std::back_insert_iterator<std::string> out, const std::vector<WallSheet>& sheets, const WallFindings& found) {
-  fmt::format_to(
-      out,
-      "\n## The rendered wall\n\n"
-      "{} walls were pressed, 20,000 samples each; of {} that are passive by b > K T / 2 + |B|, {} did not settle. Of {} "
-      "devices, fingers, walls and rates by chance, {} settle 1 % below their linear limit and do not 1 % above.\n\n"
-      "Largest stiffness K in N/m without wall damping: in simulation / linear limit / passive. A device held by nobody is "
-      "the hardest case for the first two; only the passive limit holds whoever holds it.\n\n| device |",
-      found.points, found.passive, found.passive_unsettled, found.by_chance, found.chance_as_theory);
+  fmt::format_to(out,
+                 "\n## The rendered wall\n\n"
+                 "The simulation pressed {} walls for 20,000 samples each. Of these, {} are passive by b > K T / 2 + |B|; {} of "
+                 "the passive walls did not settle. Of {} random devices, fingers, walls and rates, {} settle 1 % below their "
+                 "linear limit and do not settle 1 % above it.\n\n"
+                 "The table shows the largest stiffness K in N/m without wall damping: in simulation / linear limit / passive "
+                 "limit. The first two limits are lowest for a device that nobody holds. Only the passive limit is valid for every "
+                 "hand that holds the device.\n\n| device |",
+                 found.points, found.passive, found.passive_unsettled, found.by_chance, found.chance_as_theory);
   for (const double rate : RATES) fmt::format_to(out, " {:g} Hz |", rate);
   fmt::format_to(out, "\n|---|");
   for (std::size_t k = 0; k < RATES.size(); ++k) fmt::format_to(out, "---|");
@@ -96,7 +97,7 @@ void write_walls(std::back_insert_iterator<std::string> out, const std::vector<W
                      newtons_per_metre(limits.passive));
     }
   }
-  fmt::format_to(out, "\n\nOne sample of delay, 1 kHz, {}:", wall_devices().front().name);
+  fmt::format_to(out, "\n\nThe linear limit over the delay, at 1 kHz, for {}:", wall_devices().front().name);
   WallDevice device;
   device.mass = wall_devices().front().mass;
   device.damping = wall_devices().front().damping;
@@ -107,7 +108,7 @@ void write_walls(std::back_insert_iterator<std::string> out, const std::vector<W
   fmt::format_to(out, ".\n");
   for (const WallSheet& sheet : sheets) {
     if (sheet.name != "integrator") continue;
-    fmt::format_to(out, "\nAn integrator instead of the exact motion between samples moves the limit (same device, 1 kHz):");
+    fmt::format_to(out, "\nIf an integrator replaces the exact motion between samples, the limit moves (same device, 1 kHz):");
     const char* separator = "";
     for (const WallColumn& column : sheet.columns) {
       const WallPoint& first = column.points.front();
@@ -131,10 +132,10 @@ void write_grips(std::back_insert_iterator<std::string> out, const std::vector<G
   fmt::format_to(
       out,
       "\n## The held grip\n\n"
-      "A gripper of {:g} g and {:g} N s/m, a finger of {:g} g, {:g} N s/m and {:g} N/m, a user who reacts after {:g} ms "
-      "with a time constant of {:g} ms and holds {:g} N more than F_base.\n\n"
-      "Largest k_open in N/m with grippers of several kinds: in simulation / by the sampled spring's theory, which has no user. "
-      "A user's delayed answer adds to the damping or takes from it, by the phase in which it comes.\n\n| gripper |",
+      "The model has a gripper of {:g} g and {:g} N s/m, a finger of {:g} g, {:g} N s/m and {:g} N/m, and a user who reacts after "
+      "{:g} ms with a time constant of {:g} ms and holds {:g} N more than F_base.\n\n"
+      "The table shows the largest k_open in N/m for several grippers: in simulation / by the theory of the sampled spring, which "
+      "has no user. The delayed answer of a user adds damping or removes damping; this depends on its phase.\n\n| gripper |",
       usual.device_mass * 1e3, usual.device_damping, usual.finger_mass * 1e3, usual.finger_damping, usual.finger_stiffness,
       usual.reaction * 1e3, usual.response * 1e3, usual.excess);
   for (const double rate : RATES) fmt::format_to(out, " {:g} Hz |", rate);
@@ -151,9 +152,9 @@ void write_grips(std::back_insert_iterator<std::string> out, const std::vector<G
     }
   }
   fmt::format_to(out,
-                 "\n\nA slow user shakes at softer springs, whatever the rate (what no longer dies away in simulation / theory; in "
-                 "the sessions below and the "
-                 "picture, softer springs too still shake when they end):");
+                 "\n\nA slow user oscillates with softer springs, at every rate. For each reaction time, this is the k_open at "
+                 "which the oscillation no longer dies away, in simulation / in theory (in the sessions below and in the picture, "
+                 "even softer springs still oscillate at the end):");
   const char* separator = "";
   for (const double reaction : {0.2, 0.3, 0.4, 0.6}) {
     GripLoop loop;
@@ -169,22 +170,22 @@ void write_grips(std::back_insert_iterator<std::string> out, const std::vector<G
     ++counts[static_cast<std::size_t>(row.result.outcome)];
     ++all;
   }
-  fmt::format_to(out, ".\n\nOf {} sessions over F_base, F_range, k_open, reaction, finger and tilt speed:", all);
+  fmt::format_to(out, ".\n\nThe outcomes of {} sessions that vary F_base, F_range, k_open, reaction, finger and tilt speed:", all);
   for (std::size_t k = 0; k < counts.size(); ++k) {
     fmt::format_to(out, "{} {} {:.1f} %", k == 0 ? "" : ",", GRIP_OUTCOME_NAMES[k],
                    100.0 * static_cast<double>(counts[k]) / static_cast<double>(std::max<std::size_t>(all, 1)));
   }
   const GripLoopResult result = hold_and_tilt(usual);
-  fmt::format_to(out, ". With all at their defaults it settles {:.0f} ms after the grasp, opens by {:.2f} mm in the tilt.\n",
+  fmt::format_to(out, ". With the default values the grip settles {:.0f} ms after the grasp and opens by {:.2f} mm in the tilt.\n",
                  result.response_time * 1e3, result.opened * 1e3);
 }
 
 void write_gains(std::back_insert_iterator<std::string> out) {
-  fmt::format_to(
-      out,
-      "\n## Live gains\n\nA live session refuses gains beyond these without `--unsafe-gains` (at the device, "
-      "without delay; K with B of 1 N s/m by the linear limit of the lightest device here that has a damping of 1 N s/m, k_open "
-      "by simulation with the lightest finger and users who react after 60 to 90 ms):\n\n| rate | K | k_open |\n|---|---|---|\n");
+  fmt::format_to(out,
+                 "\n## Live gains\n\nWithout `--unsafe-gains`, a live session refuses larger gains than these. The gains are for "
+                 "the device, without delay. K is for a B of 1 N s/m, from the linear limit of the lightest device here that has a "
+                 "damping of 1 N s/m. k_open is from the simulation with the lightest finger and users who react after 60 to 90 "
+                 "ms.\n\n| rate | K | k_open |\n|---|---|---|\n");
   for (const double rate : RATES) {
     const GainLimits limits = gain_limits(rate, 1);
     fmt::format_to(out, "| {:g} Hz | {} | {} |\n", rate, newtons_per_metre(limits.stiffness), newtons_per_metre(limits.k_open));
@@ -205,14 +206,13 @@ void write_extremes(std::back_insert_iterator<std::string> out, const std::vecto
     grips += row.grips;
     misplaced += row.misplaced;
   }
-  fmt::format_to(
-      out,
-      "\n## Extreme scenes\n\n{} scenes, {} grips on all sides together; {} values are not finite where they should be. "
-      "Largest differences from the core in double, of the grips whose outcomes agree: core float / device float / device "
-      "double.\n\n"
-      "| scene | what must come out | feasible | separation, um | joints, um | feedback, mN | hold, mN | beyond the "
-      "tolerances of `check` |\n|---|---|---|---|---|---|---|---|\n",
-      cases.size(), grips, misplaced);
+  fmt::format_to(out,
+                 "\n## Extreme scenes\n\nThere are {} scenes, with {} grips on all sides together; {} values are not finite where "
+                 "they should be. The table shows the largest differences from the core in double, for the grips whose outcomes "
+                 "agree: core float / device float / device double.\n\n"
+                 "| scene | what must come out | feasible | separation, um | joints, um | feedback, mN | hold, mN | beyond the "
+                 "tolerances of `check` |\n|---|---|---|---|---|---|---|---|\n",
+                 cases.size(), grips, misplaced);
   for (const ExtremeCase& extreme : cases) {
     std::array<std::string, 4> cells;
     std::string feasible, beyond;
@@ -231,13 +231,13 @@ void write_extremes(std::back_insert_iterator<std::string> out, const std::vecto
     fmt::format_to(out, "| {} | {} | {} | {} | {} | {} | {} | {} |\n", extreme.name, extreme.comes_out, feasible, cells[0],
                    cells[1], cells[2], cells[3], beyond);
   }
-  fmt::format_to(
-      out,
-      "\nFloat agrees with double in separations to 10 um in 999 of 1,000 grips, in joints in 99 of 100, in forces to 10 mN in 999 "
-      "of 1,000, for a hand scale of {:g} to {:g}, coordinates up to {:g} m and hold forces up to {:g} kN, whatever the vessel's "
-      "size "
-      "(1 mm to 10 m) and tilt (docs/evidence.md); commands warn of a scene beyond that.\n",
-      float_domain::SMALLEST_HAND, float_domain::LARGEST_HAND, float_domain::LARGEST_COORDINATE, float_domain::LARGEST_HOLD * 1e-3);
+  fmt::format_to(out,
+                 "\nFloat agrees with double to 10 um in the separations of 999 of 1,000 grips, to 10 um in the joints of 99 of "
+                 "100 grips, and to 10 mN in the forces of 999 of 1,000 grips. This is true for a hand scale of {:g} to {:g}, "
+                 "coordinates up to {:g} m and hold forces up to {:g} kN, at every size (1 mm to 10 m) and tilt of the vessel "
+                 "(docs/evidence.md). Commands warn of a scene outside of this range.\n",
+                 float_domain::SMALLEST_HAND, float_domain::LARGEST_HAND, float_domain::LARGEST_COORDINATE,
+                 float_domain::LARGEST_HOLD * 1e-3);
 }
 
 // What a run finds.

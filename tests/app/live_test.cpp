@@ -375,7 +375,7 @@ TEST(Live, GainsThatAreNotStableAreRefused) {
   const TemporaryFolder folder;
   std::string text = file_text(find_scene("mixing_board"));
   std::ofstream(folder / "stiff.toml") << text << "\n[live]\nK_N_m = 5000\n";
-  expect_refused(folder / "stiff.toml", 2, "K_N_m = 5000 with B_Ns_m = 1, of which the device feels 2 times as much");
+  expect_refused(folder / "stiff.toml", 2, "K_N_m = 5000 with B_Ns_m = 1, and the device feels 2 times these values");
   EXPECT_EQ(Program((folder / "stiff.toml") + " --unsafe-gains --no-clock --seconds 1").wait().code, 0);
   EXPECT_EQ(Program((folder / "stiff.toml") + " --rate 8000 --no-clock --seconds 1").wait().code, 0) << "a higher rate bears more";
 }

@@ -122,9 +122,9 @@ TEST(ErrorTime, WhatDoesNotCompareIsNotChosen) {
   ErrorContext context;
   context.states = 10;
   const std::string report = error_report(rows, context);
-  for (const char* text :
-       {"| 1 um | limp |", "| 1 mN | sound |", "nothing of theirs compares: mute.\n", "on one side alone (grips): fickle (3).\n",
-        "infinite error of force): limp (3).\n", "With so few grips compared (1), the 99.9th percentile is the largest"})
+  for (const char* text : {"| 1 um | limp |", "| 1 mN | sound |", "none of their grips could be compared: mute.\n",
+                           "on one side only (number of grips): fickle (3).\n", "infinite error of force): limp (3).\n",
+                           "With so few grips compared (1), the 99.9th percentile is the largest"})
     EXPECT_NE(report.find(text), report.npos) << text << " in " << report;
   const std::string script = front_script(front_pictures("", rows, context), rows);
   EXPECT_EQ(script.find("mute"), script.npos);
