@@ -108,11 +108,11 @@ std::string agreement_text(const ReportSource& source, const Agreement& agreemen
   const bool is_all = agreement.grips == source.plan.stored_grips();
   const std::string stored = readable_number(source.plan.stored_grips());
   std::string text =
-      is_all ? fmt::format("All grips ({})", stored) : fmt::format("{} of {} grips", readable_number(agreement.grips), stored);
-  text +=
-      fmt::format(", {} of them feasible, computed anew by the core in double precision: ", readable_number(agreement.feasible));
+      is_all ? fmt::format("The core computed all {} grips again in double precision", stored)
+             : fmt::format("The core computed {} of {} grips again in double precision", readable_number(agreement.grips), stored);
+  text += fmt::format("; {} of them are feasible. ", readable_number(agreement.feasible));
   if (agreement.holds()) {
-    text += agreement.rows.empty() ? "they agree." : "every number agrees within its tolerance.";
+    text += agreement.rows.empty() ? "They agree." : "Every number agrees within its tolerance.";
   } else {
     text += fmt::format("{} numbers and {} discrete outcomes do NOT agree.", readable_number(agreement.outside),
                         readable_number(agreement.flipped));
@@ -121,12 +121,12 @@ std::string agreement_text(const ReportSource& source, const Agreement& agreemen
     text += fmt::format(" Largest differences: {}.", largest);
   if (!agreement.outcomes.empty()) {
     const std::uint64_t compared = agreement.grips - agreement.grazing, equal = compared - agreement.flipped - agreement.excluded;
-    text += fmt::format(" Reasons, flags and masks are equal in {} of {}", readable_number(equal), readable_number(compared));
-    text += agreement.excluded > 0 ? fmt::format("; in {} they differ within the margin, where {} may.",
+    text += fmt::format(" Reasons, flags and masks are equal in {} of {} grips", readable_number(equal), readable_number(compared));
+    text += agreement.excluded > 0 ? fmt::format("; in {} they differ within the margin, and in {} they may.",
                                                  readable_number(agreement.excluded), readable_number(agreement.allowed))
                                    : ".";
   }
-  if (agreement.grazing > 0) text += fmt::format(" {} graze the glass and are left out.", readable_number(agreement.grazing));
+  if (agreement.grazing > 0) text += fmt::format(" {} grips graze the glass and are left out.", readable_number(agreement.grazing));
   return text;
 }
 
@@ -168,23 +168,23 @@ Agreement compare_with_core(const ReportSource& source, std::size_t vessel) {
 void write_agreement(HtmlWriter& html, const ReportSource& source, std::size_t vessel, const std::string& id) {
   html.element("h3", "Agreement with the core", {{"id", id + "-agreement"}});
   if (!source.core || source.result.variables().empty()) {
-    html.element("p", source.core ? "The file holds the best grips alone: there is nothing to compare."
-                                  : fmt::format("Left out: {}.", source.no_core));
+    html.element("p", source.core ? "The file holds only the best grips, so there is nothing to compare."
+                                  : fmt::format("This part is left out: {}.", source.no_core));
     return;
   }
   const Agreement agreement = compare_with_core(source, vessel);
   html.element("p", agreement_text(source, agreement), {{"class", agreement.holds() ? "good" : "bad"}});
   html.open("details").element("summary", "Each quantity");
-  HtmlTable table(html, fmt::format("{}: the file against the core, on the sample", source.scene.vessels[vessel].name),
+  HtmlTable table(html, fmt::format("{}: the file compared with the core, on the sample", source.scene.vessels[vessel].name),
                   {"quantity", "unit", "largest difference", "tolerance there", "grips", "beyond"}, {1});
   for (const Comparison& row : agreement.rows)
     table.row({row.quantity, unit_for_people(row.unit), three_figures(row.worst), three_figures(row.tolerance),
                readable_number(row.compared), readable_number(row.outside)});
   table.end();
   std::string note =
-      "A tolerance is what the core's own answer changes by when the grip is moved by what the precision of the sweep leaves open; "
-      "it is that of the grip with the largest difference.";
-  if (!agreement.uncompared.empty()) note += fmt::format(" Not compared: {}.", fmt::join(agreement.uncompared, ", "));
+      "The tolerance is the change of the core's own answer when the grip moves by as much as the precision of the sweep leaves "
+      "open. The table shows the tolerance of the grip with the largest difference.";
+  if (!agreement.uncompared.empty()) note += fmt::format(" These are not compared: {}.", fmt::join(agreement.uncompared, ", "));
   html.element("p", note, {{"class", "note"}}).close();
 }
 

@@ -81,11 +81,12 @@ double highest_feedback(const std::vector<FillForces>& forces) {
 }
 
 std::string forces_caption(const Scene& scene, const std::vector<FillForces>& forces, const HoldExtent& extent) {
-  std::string caption = "Feedback: what the gripper renders. Hold: the force per finger that physics asks for.";
+  std::string caption =
+      "The feedback force is what the gripper renders. The hold force is what each finger must press with to hold the vessel.";
   const double limit = scene.force.max, strength = scene.force.grip_strength;
   if (highest_feedback(forces) < limit) caption += fmt::format(" The device's limit of {} N is not reached.", html_plain(limit));
   if (!extent.is_finite_once) {
-    caption += " No force of two fingers holds the vessel in this grip, so there is no chart of it.";
+    caption += " No force of two fingers holds the vessel in this grip, so the hold force has no chart.";
   } else {
     if (!extent.is_finite_always)
       caption += " Where a line of the hold force is missing, no force of two fingers holds the vessel.";
@@ -147,24 +148,25 @@ void write_forces(HtmlWriter& html, const ReportSource& source, std::size_t vess
   const Scene& scene = source.scene;
   html.element("h3", "Forces over the tilt", {{"id", id + "-forces"}});
   if (scene.tilts.empty() || !source.core) {
-    html.element("p",
-                 scene.tilts.empty() ? "The scene has no tilts, and so no forces." : fmt::format("Left out: {}.", source.no_core));
+    html.element("p", scene.tilts.empty() ? "The scene has no tilts, so there are no forces."
+                                          : fmt::format("This part is left out: {}.", source.no_core));
     return;
   }
   const std::vector<FillForces> forces = forces_of(source, vessel, grip);
   if (forces.empty()) {
-    html.element("p", "By the core the best grip is not feasible; see the agreement below.");
+    html.element("p", "The core finds that the best grip is not feasible; see the agreement below.");
     return;
   }
   const std::string& name = scene.vessels[vessel].name;
   const std::vector<double> pouring = scene.liquid ? source.result.pouring_tilts(vessel) : std::vector<double>{};
   const HoldExtent extent = hold_extent(forces);
-  html.element("p",
-               fmt::format("Of the best grip: {}. {}", grip_text(source.plan, grip),
-                           !scene.liquid ? "The vessel is empty."
-                           : scene.liquid->volumes.empty()
-                               ? "Each line is a fill, as a share of what the vessel holds; the dot on it is where pouring starts."
-                               : "Each line is a fill; the dot on it is where pouring starts."));
+  html.element(
+      "p",
+      fmt::format("The forces of the best grip: {}. {}", grip_text(source.plan, grip),
+                  !scene.liquid ? "The vessel is empty."
+                  : scene.liquid->volumes.empty()
+                      ? "Each line is one fill, as a share of what the vessel holds. The dot on a line shows where pouring starts."
+                      : "Each line is one fill. The dot on a line shows where pouring starts."));
   html.open("figure").open("div", {{"class", "charts"}});
   LineChart feedback = force_chart(source, vessel, forces, &FillForces::feedback, pouring);
   feedback.name.id = id + "-feedback";
@@ -198,7 +200,7 @@ void write_pouring(HtmlWriter& html, const ReportSource& source, std::size_t ves
   const std::vector<double> tilts = source.result.pouring_tilts(vessel);
   const double capacity = source.core && scene.vessels[vessel].has_cavity() ? source.core->capacity(vessel) : std::nan("");
   if (std::none_of(tilts.begin(), tilts.end(), [](double tilt) { return std::isfinite(tilt); })) {
-    html.element("p", "There is nothing in this vessel that it could pour.");
+    html.element("p", "This vessel has nothing to pour.");
     return;
   }
   HtmlTable table(html, fmt::format("Tilt at which {} starts to pour", scene.vessels[vessel].name),

@@ -120,10 +120,11 @@ void write_drawings(HtmlWriter& html, const ReportSource& source, std::size_t li
   }
   if (drawn > 0) {
     html.open("figure").open("div", {{"class", "drawings"}}).markup(drawings.html()).close();
-    html.element("figcaption", fmt::format("The best {} of {}, from the side of the hand and from its right. Discs: points that "
-                                           "touch where they were; diamonds: points that were brought to the glass; rings: points "
-                                           "that do not touch. T thumb, I index, M middle, R ring, L little finger.",
-                                           drawn == 1 ? "grip" : fmt::format("{} grips", drawn), name));
+    html.element("figcaption",
+                 fmt::format("The best {} of {}, seen from the side of the hand and from its right. Discs are points that touch "
+                             "where they were. Diamonds are points that were brought to the glass. Rings are points that do not "
+                             "touch. T: thumb, I: index, M: middle, R: ring, L: little finger.",
+                             drawn == 1 ? "grip" : fmt::format("{} grips", drawn), name));
     html.close();
   }
   if (!trouble.empty())
@@ -193,18 +194,18 @@ void write_grips(HtmlWriter& html, const ReportSource& source, std::size_t list,
       scales == 1 ? "" : fmt::format(" at hand scale {}", html_plain(source.plan.hand_scale(list % scales)));
   html.element("h3", "The best grips" + of_hand, {{"id", id + "-best"}});
   if (best.grips.empty()) {
-    html.element("p", source.lists                 ? fmt::format("{} lists none.", source.lists_file)
-                      : source.result.lists_best() ? "There are none: no grip is feasible and plausible."
-                                                   : "The sweep was asked to list none.");
+    html.element("p", source.lists                 ? fmt::format("{} lists no grips.", source.lists_file)
+                      : source.result.lists_best() ? "There are no best grips: no grip is feasible and plausible."
+                                                   : "The sweep was not asked to list grips.");
     return;
   }
   if (source.core) write_drawings(html, source, list, best);
   write_table(html, source, list, best);
-  const std::string whose = source.lists ? fmt::format("Places and scores are those of {}", source.lists_file)
-                                         : std::string("Places and scores are the sweep's");
+  const std::string whose = source.lists ? fmt::format("Places and scores come from {}", source.lists_file)
+                                         : std::string("Places and scores come from the sweep");
   std::string note = best.is_whole ? whose +
-                                         "; the rest is the core's in double precision. Forces are the largest over all fills, the "
-                                         "safe tilt the smallest."
+                                         ". The core computed the rest in double precision. The forces are the largest over all "
+                                         "fills, and the safe tilt is the smallest."
                                    : fmt::format("Fingers, forces and drawings are left out: {}.", source.no_core);
   if (best.listed > best.grips.size())
     note += fmt::format(" {} listed {} grips.", source.lists ? source.lists_file : "The sweep", readable_number(best.listed));

@@ -94,12 +94,12 @@ FieldChart points_chart(const GuidanceStatistics& statistics) {
 void write_charts(HtmlWriter& html, const GuidanceStatistics& statistics, const std::string& name, const std::string& id) {
   FieldChart fingers = fingers_chart(statistics), points = points_chart(statistics);
   fingers.name = {id + "-guided-fingers", name + ": fingers used over the distance from the guidance point",
-                  fmt::format("Share of the grips in each stretch of distance that use so many fingers, and their mean. On average "
-                              "{} fingers are used; correlation with the distance: {}.",
+                  fmt::format("For each range of distance: the share of grips by the number of fingers used, and the mean number. "
+                              "A grip uses {} fingers on average; correlation with the distance: {}.",
                               html_number(statistics.mean_fingers, 2), r_text(statistics.fingers))};
   points.name = {id + "-guided-points", name + ": points touching over the distance from the guidance point",
-                 "Share of the grips in each stretch of distance in which each of the hand's 24 points touches. The table has the "
-                 "share over all distances and the correlation of each point."};
+                 "For each range of distance: the share of grips in which each of the hand's 24 points touches. The table shows "
+                 "the share over all distances and the correlation of each point."};
   if (has_empty_bin(statistics)) fingers.absent = points.absent = "no grip";
   std::vector<std::string> counts;
   for (const DistanceBin& bin : statistics.bins)
@@ -107,18 +107,19 @@ void write_charts(HtmlWriter& html, const GuidanceStatistics& statistics, const 
   html.open("figure").open("div", {{"class", "charts"}});
   html.open("div", {{"class", "chart"}});
   write_chart(html, fingers);
-  html.element("p", fmt::format("Grips in each stretch of distance: {}.", fmt::join(counts, ", ")), {{"class", "note"}}).close();
+  html.element("p", fmt::format("Grips in each range of distance: {}.", fmt::join(counts, ", ")), {{"class", "note"}}).close();
   html.open("div", {{"class", "chart"}});
   write_chart(html, points);
   html.close().close();
-  html.element("figcaption",
-               "Of the grips in each stretch of distance, how many use so many fingers, and in how many each point touches.");
+  html.element(
+      "figcaption",
+      "The share of grips by the number of fingers used, and the share in which each point touches, for each range of distance.");
   html.close();
 }
 
 void write_point_table(HtmlWriter& html, const GuidanceStatistics& statistics, const std::string& name) {
-  HtmlTable table(html, fmt::format("Touching of {} and the distance, n = {}", name, readable_number(statistics.grips)),
-                  {"point", "touches (%)", "mean distance touching (mm)", "mean distance free (mm)", "point-biserial r"});
+  HtmlTable table(html, fmt::format("Points that touch {}, and the distance, n = {}", name, readable_number(statistics.grips)),
+                  {"point", "touches (%)", "mean distance when touching (mm)", "mean distance when free (mm)", "point-biserial r"});
   for (int j = 0; j < JOINT_COUNT; ++j) {
     const PointTouch& point = statistics.points[j];
     table.row({point_name(j), html_number(100.0 * static_cast<double>(point.touching) / static_cast<double>(statistics.grips), 1),
@@ -185,7 +186,7 @@ void write_guidance(HtmlWriter& html, const ReportSource& source, std::size_t ve
     return;
   }
   if (!source.core) {
-    html.element("p", fmt::format("Left out: {}.", source.no_core));
+    html.element("p", fmt::format("This part is left out: {}.", source.no_core));
     return;
   }
   const GuidedSample sample = guided_grips(source, vessel);
@@ -194,17 +195,17 @@ void write_guidance(HtmlWriter& html, const ReportSource& source, std::size_t ve
     points.push_back(fmt::format("{} mm, {}°", in_mm(point.height), html_number(degrees(point.azimuth), 0)));
   const GuidanceStatistics statistics = guidance_statistics(sample.grips);
   std::string text = fmt::format(
-      "Guidance points (height, azimuth): {}. A grip's distance is from the nearer of its two contacts, on the skin, to the "
-      "nearest of the points. n = {} feasible and plausible grips",
+      "Guidance points (height, azimuth): {}. The distance of a grip is measured from the nearer of its two contacts, on the skin, "
+      "to the nearest guidance point. n = {} feasible and plausible grips",
       fmt::join(points, "; "), readable_number(statistics.grips));
   text += sample.looked_at < source.plan.stored_grips()
-              ? fmt::format(" of {} looked at, of {} in all.", readable_number(sample.looked_at),
+              ? fmt::format(" of {} examined grips, of {} grips in all.", readable_number(sample.looked_at),
                             readable_number(source.plan.stored_grips()))
               : fmt::format(" of {}.", readable_number(sample.looked_at));
-  if (sample.is_by_core) text += " The file does not have all of what touches: it is the core's.";
+  if (sample.is_by_core) text += " The file lacks some of the points that touch, so the core computed them.";
   html.element("p", text);
   if (statistics.grips == 0) {
-    html.element("p", "With no such grip there is nothing to count.");
+    html.element("p", "There is no such grip, so there is nothing to count.");
     return;
   }
   html.element("p", fmt::format("Distances go from {} to {} mm; {} fingers are used on average. Fingers used and distance: {}.",
@@ -214,9 +215,8 @@ void write_guidance(HtmlWriter& html, const ReportSource& source, std::size_t ve
   write_charts(html, statistics, data.name, id);
   write_point_table(html, statistics, data.name);
   html.element("p",
-               "A point that touches always or never has no correlation. The grips are those of a sweep, evenly spread and not "
-               "chosen by anyone: "
-               "coefficients describe them and are no test of significance.",
+               "A point that always touches or never touches has no correlation. The grips come from a sweep: they are evenly "
+               "spread, and nobody chose them. The coefficients describe these grips and are not a test of significance.",
                {{"class", "note"}});
 }
 

@@ -143,16 +143,15 @@ std::string maps_caption(const ReportSource& source, const GripMap& map) {
   std::string caption;
   const std::string others = other_axes(source.plan);
   if (source.plan.is_sobol()) {
-    caption = "Each cell shows the best of the points that lie in it; the sweep has points and no grid. ";
+    caption = "Each cell shows the best of the points that lie in it, as the sweep has points and no grid. ";
   } else if (!others.empty()) {
     caption = fmt::format("Each cell shows the best grip over {}. ", others);
   }
   caption += "All maps of a vessel show the same grips; colours mean the same for all vessels.";
-  if (map.is_by_core)
-    caption += " The file does not have all of fingers and forces: what it lacks is computed by the core in double precision.";
+  if (map.is_by_core) caption += " The file lacks some of the fingers and forces; the core computed them in double precision.";
   if (!map.has_fingers) caption += " The file does not have the fingers used.";
   if (source.scene.tilts.empty()) {
-    caption += " The scene has no tilts, and so no forces.";
+    caption += " The scene has no tilts, so there are no forces.";
   } else if (!map.has_forces) {
     caption += " The file does not have the forces.";
   }
@@ -258,7 +257,7 @@ void write_maps(HtmlWriter& html, const ReportSource& source, std::size_t vessel
   const MapCell* top = map.best();
   const std::string& name = source.scene.vessels[vessel].name;
   if (!top) {
-    html.element("p", "No grip of this vessel is feasible and plausible: there is nothing to map.");
+    html.element("p", "No grip of this vessel is feasible and plausible, so there is nothing to map.");
     return;
   }
   if (map.cells.size() == 1) {
@@ -277,14 +276,14 @@ void write_maps(HtmlWriter& html, const ReportSource& source, std::size_t vessel
         html, frame, map, &MapCell::fingers, scales.fingers,
         {id + "-fingers", name + ": fingers used over height and roll",
          fmt::format(
-             "Heat map of the number of fingers that the best grip of each height and roll uses: {}, of the best grip of all {}.",
+             "Heat map of the number of fingers that the best grip of each height and roll uses: {}; the best grip of all uses {}.",
              extent_text(map, &MapCell::fingers, 0), html_number(top->fingers, 0))});
   }
   if (map.has_forces) {
     write_map(html, frame, map, &MapCell::peak_force, scales.peak_force,
               {id + "-force", name + ": peak feedback force over height and roll",
                fmt::format("Heat map of the largest feedback force over all tilts and fills of the best grip of each height and "
-                           "roll: {} N, of the best grip of all {} N.",
+                           "roll: {} N; the best grip of all has {} N.",
                            extent_text(map, &MapCell::peak_force, 2), html_number(top->peak_force, 2))});
   }
   html.close().element("figcaption", maps_caption(source, map)).close();

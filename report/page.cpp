@@ -78,23 +78,26 @@ void write_words(HtmlWriter& html) {
   const auto word = [&html](const char* name, const char* meaning) {
     html.open("div").element("dt", name).element("dd", meaning).close();
   };
+  word("thumb-index line", "line from the tip of the thumb to the tip of the index finger");
   word("height",
-       "where the line between the tips of thumb and index finger crosses the vessel's axis: above its base, or above the origin "
-       "of a mesh that keeps its own");
-  word("roll", "turn of the hand about that line; 0: beside the vessel, \u221290°: above");
-  word("obliquity", "angle of that line to the horizontal, the index finger above");
+       "height at which the thumb-index line crosses the vessel's axis, or passes it if there is an offset; above the vessel's "
+       "base, or above the origin of a mesh that keeps its own origin");
+  word("roll", "turn of the hand about the thumb-index line; at 0 the hand is beside the vessel, at \u221290° above it");
+  word("obliquity", "angle of the thumb-index line to the horizontal; above 0 the index finger is higher than the thumb");
   word("feasible", "both tips find the vessel, at a gap that the hand can make");
   word("implausible", "a point of the hand would be deeper in the vessel than the scene allows");
-  word("antipodal", "both contacts lie within the cone of friction");
-  word("fingers, points", "fingers used of 5, points of the hand touching of 24");
-  word("depth", "of the deepest point of the hand inside");
-  word("closure", "of thumb and index finger; 0 open, 1 closed");
+  word("antipodal", "both contacts lie within the friction cone");
+  word("fingers, points", "number of fingers used, of 5; number of points of the hand that touch, of 24");
+  word("depth", "how deep the deepest point of the hand is inside the vessel");
+  word("closure", "posture of thumb and index finger as one number: 0 is open, 1 is closed");
   word("peak force", "largest force that the gripper renders over all tilts and fills");
-  word("hold force", "grip force per finger that physics asks for");
-  word("safe tilt", "up to it the force stays under the device's and the hold force under the user's");
+  word("hold force", "force with which each of two soft fingers must press to hold the vessel");
+  word("safe tilt",
+       "largest tilt up to which the normal force is under the device's limit and the hold force is at most the user's grip "
+       "strength");
   word("score",
-       "weighted sum of terms from 0 to 1: fingers used, points touching, depth, posture, feedback force, hold force; 0 for an "
-       "implausible grip");
+       "sum of six terms from 0 to 1, each times its weight: fingers used, points touching, depth, posture, feedback force, hold "
+       "force; an infeasible or implausible grip scores 0");
   html.close().close();
 }
 
@@ -159,7 +162,7 @@ class Page {
     for (const ReportedGrips& best : lists) {
       if (best.grips.empty()) continue;
       const BestGrip& first = best.grips[0];
-      html_.text(fmt::format(" The best scores {}: {}.", html_number(first.score, 3), grip_text(source_.plan, first.grip)));
+      html_.text(fmt::format(" The best grip scores {}: {}.", html_number(first.score, 3), grip_text(source_.plan, first.grip)));
     }
     html_.close();
     std::set<std::string> said;  // once for all hands

@@ -32,7 +32,7 @@ std::string grips_text(const ReportSource& source) {
     parts.push_back(text);
   };
   if (source.scene.grips.height_is_fraction) {
-    add(PLACE_HEIGHT, "height", 100, " % of the vessel's");
+    add(PLACE_HEIGHT, "height", 100, " % of the vessel's height");
   } else {
     add(PLACE_HEIGHT, "height", 1e3, " mm");
   }
@@ -52,7 +52,7 @@ std::string states_text(const Scene& scene) {
                                                     : fmt::format("{} tilts from {}° to {}°", scene.tilts.size(),
                                                                   html_number(degrees(scene.tilts.front()), 0),
                                                                   html_number(degrees(scene.tilts.back()), 0));
-  if (!scene.liquid) return tilts + ", the vessels empty";
+  if (!scene.liquid) return tilts + "; the vessels are empty";
   std::vector<std::string> fills;
   const bool has_volumes = !scene.liquid->volumes.empty();
   for (const double volume : scene.liquid->volumes) fills.push_back(html_plain(1e6 * volume));
@@ -76,7 +76,8 @@ std::string hand_text(const Scene& scene) {
 std::string force_text(const Scene& scene) {
   const ForceData& force = scene.force;
   return fmt::format(
-      "{} N, and with the torque up to {} N more (a vessel's own range comes first), at most {} N; torque {}, its reference {}",
+      "{} N, and with the torque up to {} N more (a vessel's own range replaces this number), at most {} N; the torque is {}, and "
+      "its reference is {}",
       html_plain(force.base), html_plain(force.range), html_plain(force.max),
       force.torque == Torque::paper ? "as in the paper" : "exact",
       force.reference == TorqueReference::per_object ? "per vessel" : "per grip");
@@ -173,9 +174,9 @@ std::vector<std::string> left_out(const ReportSource& source) {
   if (scene.pose == Pose::rigged) sentences.emplace_back("The projection of the fingers: the pose is rigged.");
   if (scene.tilts.empty())
     sentences.emplace_back("The forces: the scene has no tilts. Their weights in the score went to the other terms.");
-  if (!scene.liquid) sentences.emplace_back("The liquid: the scene has none.");
+  if (!scene.liquid) sentences.emplace_back("The liquid: the scene has no liquid.");
   if (any([](const VesselData& v) { return v.surface == Surface::solid && v.wall > 0; }))
-    sentences.emplace_back("The inner wall as a thing to touch: the vessels are solid to the fingers.");
+    sentences.emplace_back("The inner wall: for the fingers the vessels are solid.");
   std::size_t possible = 0;
   std::vector<std::string> missing;
   for (const Variable& variable : variable_catalogue()) {
@@ -183,7 +184,7 @@ std::vector<std::string> left_out(const ReportSource& source) {
     if (!source.result.find(variable.name)) missing.emplace_back(variable.name);
   }
   if (missing.size() == possible) {
-    sentences.emplace_back("Every variable of the grips: the file holds the best alone ([output] keep).");
+    sentences.emplace_back("Every variable of the grips: the file holds only the best grips ([output] keep).");
   } else if (!missing.empty()) {
     sentences.push_back(fmt::format("{} of {} variables were not kept in the file ([output] keep): {}.", missing.size(), possible,
                                     fmt::join(missing, ", ")));

@@ -51,7 +51,7 @@ TEST_F(CommandRank, AListIsHandedBack) {
   EXPECT_NE(file_text(folder / "g.svg"), file_text(folder / "own.svg"));
   const Outcome page = run("PROGRAM report " + result + " --list " + list + " -o " + (folder / "p.html") + " 2>&1");
   ASSERT_EQ(page.code, 0) << page.output;
-  EXPECT_NE(file_text(folder / "p.html").find("Places and scores are those of list.csv"), std::string::npos);
+  EXPECT_NE(file_text(folder / "p.html").find("Places and scores come from list.csv"), std::string::npos);
 }
 
 TEST_F(CommandRank, DrawingsBearTheNameOfTheList) {

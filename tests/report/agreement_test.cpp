@@ -139,15 +139,15 @@ TEST(Agreement, OfManyGripsTakesASample) {
 
 TEST(Agreement, IsToldInWords) {
   const std::string html = written_agreement(SweptScene(RESULT_SCENE), 0);
-  EXPECT_NE(html.find("All grips (216)"), std::string::npos);
-  EXPECT_NE(html.find("every number agrees within its tolerance"), std::string::npos);
+  EXPECT_NE(html.find("The core computed all 216 grips again"), std::string::npos);
+  EXPECT_NE(html.find("Every number agrees within its tolerance"), std::string::npos);
   EXPECT_NE(html.find("Reasons, flags and masks are equal in"), std::string::npos);
   EXPECT_NE(written_agreement(SweptScene(edited(RESULT_SCENE, "best = 5", "best = 5\nkeep = []")), 0).find("nothing to compare"),
             std::string::npos);
   SweptScene swept(RESULT_SCENE);
   swept.source->core = nullptr;
   swept.source->no_core = "no mesh";
-  EXPECT_NE(written_agreement(swept, 0).find("Left out: no mesh."), std::string::npos);
+  EXPECT_NE(written_agreement(swept, 0).find("This part is left out: no mesh."), std::string::npos);
 }
 
 TEST(SamplePlaces, AreOnceEachAndTheSameEachTime) {

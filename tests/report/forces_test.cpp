@@ -90,7 +90,7 @@ TEST(ReportForces, WithoutTiltsOrTheCoreThereAreNone) {
   SweptScene swept(RESULT_SCENE);
   swept.source->core = nullptr;
   swept.source->no_core = "no mesh";
-  EXPECT_TRUE(has(forces_text(swept, 0), "Left out: no mesh."));
+  EXPECT_TRUE(has(forces_text(swept, 0), "This part is left out: no mesh."));
 }
 
 TEST(ReportPouring, TellsTheTiltOfEachFill) {
@@ -105,7 +105,8 @@ TEST(ReportPouring, TellsTheTiltOfEachFill) {
 
 TEST(ReportPouring, WithoutLiquidThereIsNone) {
   EXPECT_TRUE(has(pouring_text(SweptScene(edited(RESULT_SCENE, RESULT_LIQUID, "")), 0), "The scene has no liquid."));
-  EXPECT_TRUE(has(pouring_text(SweptScene(edited(RESULT_SCENE, "fills = [0, 0.6]", "fills = [0]")), 0), "nothing in this vessel"));
+  EXPECT_TRUE(
+      has(pouring_text(SweptScene(edited(RESULT_SCENE, "fills = [0, 0.6]", "fills = [0]")), 0), "This vessel has nothing to pour"));
 }
 
 TEST(ShownFills, AreSpreadFromFirstToLast) {

@@ -72,10 +72,11 @@ TEST(ReportGrips, ManyAreCutAndCounted) {
 }
 
 TEST(ReportGrips, NoneAskedAndNoneThereAreSaid) {
-  EXPECT_NE(written_grips(SweptScene(edited(RESULT_SCENE, "best = 5", "best = 0")), 0).find("asked to list none"),
+  EXPECT_NE(written_grips(SweptScene(edited(RESULT_SCENE, "best = 5", "best = 0")), 0).find("not asked to list grips"),
             std::string::npos);
-  EXPECT_NE(written_grips(SweptScene(edited(RESULT_SCENE, "diameter_mm = 70", "diameter_mm = 300")), 0).find("There are none"),
-            std::string::npos);
+  EXPECT_NE(
+      written_grips(SweptScene(edited(RESULT_SCENE, "diameter_mm = 70", "diameter_mm = 300")), 0).find("There are no best grips"),
+      std::string::npos);
 }
 
 TEST(ReportGrips, WithoutTheCoreThePlacesRemain) {

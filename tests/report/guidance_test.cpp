@@ -73,7 +73,7 @@ TEST(GuidedGrips, WithoutMasksInTheFileAreTheCores) {
     EXPECT_EQ(all.grips[i].touch_mask, other.grips[i].touch_mask);
     EXPECT_EQ(all.grips[i].fingers, other.grips[i].fingers);
   }
-  EXPECT_NE(written_guidance(few, 0).find("does not have all of what touches"), std::string::npos);
+  EXPECT_NE(written_guidance(few, 0).find("lacks some of the points that touch"), std::string::npos);
 }
 
 TEST(ReportGuidance, HasARowForEachPointOfTheHand) {
@@ -98,7 +98,7 @@ TEST(ReportGuidance, WhereThereIsNothingToTellItIsSaid) {
   SweptScene swept(RESULT_SCENE);
   swept.source->core = nullptr;
   swept.source->no_core = "no mesh";
-  EXPECT_NE(written_guidance(swept, 0).find("Left out: no mesh."), std::string::npos);
+  EXPECT_NE(written_guidance(swept, 0).find("This part is left out: no mesh."), std::string::npos);
 }
 
 TEST(ReportGuidance, OneGripHasNoCorrelation) {

@@ -185,11 +185,11 @@ TEST(ReportPage, OfAMeshSaysWhetherItIsStillThere) {
       "[grips]\nheight_fraction = [0.3, 0.4, 0.5, 0.6]\nroll_deg = [-60, -30, 0]\n[tilts]\ndeg = [0, 45, 90]\n");
   ASSERT_EQ(run("PROGRAM sweep " + folder + "/cup.toml --on core -o " + result + " 2>&1").code, 0);
   const std::string whole = report();
-  EXPECT_TRUE(has(whole, "every number agrees within its tolerance"));
+  EXPECT_TRUE(has(whole, "Every number agrees within its tolerance"));
   EXPECT_TRUE(has(whole, "point-biserial r"));
   std::filesystem::remove(folder + "/cup.glb");
   const std::string gone = report();
-  EXPECT_TRUE(has(gone, "Left out: "));
+  EXPECT_TRUE(has(gone, "This part is left out: "));
   EXPECT_TRUE(has(gone, "best score over height and roll"));
   EXPECT_FALSE(has(gone, "<img"));
   put("cup.glb", glb_text(turned_mesh(beaker1(), 40, 2e-3)));
@@ -219,10 +219,10 @@ TEST(LeftOut, NamesWhatTheSceneDoesNotNeed) {
   EXPECT_TRUE(has(usual, "The inner wall"));
   EXPECT_TRUE(has(usual, "hold_force"));
   EXPECT_FALSE(has(usual, "The liquid"));
-  EXPECT_TRUE(has(all(edited(RESULT_SCENE, RESULT_LIQUID, "")), "The liquid: the scene has none."));
+  EXPECT_TRUE(has(all(edited(RESULT_SCENE, RESULT_LIQUID, "")), "The liquid: the scene has no liquid."));
   EXPECT_TRUE(has(all(edited(RESULT_SCENE, RESULT_TILTS, "")), "The forces: the scene has no tilts."));
   EXPECT_TRUE(has(all(edited(RESULT_SCENE, "name = \"cups\"", "pose = \"rigged\"")), "the pose is rigged"));
-  EXPECT_TRUE(has(all(edited(RESULT_SCENE, "best = 5", "best = 5\nkeep = []")), "the file holds the best alone"));
+  EXPECT_TRUE(has(all(edited(RESULT_SCENE, "best = 5", "best = 5\nkeep = []")), "the file holds only the best grips"));
 }
 
 TEST(OverwritesPage, OnlyPagesAreWrittenOver) {
