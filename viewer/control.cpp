@@ -52,7 +52,8 @@ Rotation rotation_of(const Rotation& given) {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) skew = std::max(skew, std::abs(off[i][j]));
   if (skew > 2 * CONTROL_SKEW || glm::determinant(m) <= 0) {
-    throw usage_error("control: 'rotation' is none; allowed: three unit columns at right angles, right-handed, row by row");
+    throw usage_error(
+        "control: 'rotation' is not a rotation; allowed: three unit columns at right angles, right-handed, row by row");
   }
   m[0] = glm::normalize(m[0]);
   m[1] = glm::normalize(m[1] - glm::dot(m[0], m[1]) * m[0]);
@@ -64,10 +65,10 @@ Rotation rotation_of(const Rotation& given) {
 
 ViewControl parse_view_control(std::string_view body) {
   if (body.size() > LARGEST_CONTROL) {
-    throw usage_error(fmt::format("control: {} bytes; allowed: {} at most", body.size(), LARGEST_CONTROL));
+    throw usage_error(fmt::format("control: {} bytes; allowed: at most {}", body.size(), LARGEST_CONTROL));
   }
   const json object = json::parse(body, nullptr, false);
-  if (object.is_discarded() || !object.is_object()) throw usage_error(fmt::format("control: this is no JSON object; {}", KEYS));
+  if (object.is_discarded() || !object.is_object()) throw usage_error(fmt::format("control: this is not a JSON object; {}", KEYS));
   for (const char* key : {"position", "rotation", "gap", "buttons", "sequence"}) {
     if (!object.contains(key)) throw usage_error(fmt::format("control: '{}' is missing; {}", key, KEYS));
   }

@@ -68,7 +68,7 @@ class GripsView::Impl {
       Seen seen{wanted, {}, {}, {}};
       evaluator_->grip(wanted.vessel, wanted.grip, seen.result);
       if (seen.result.reason != Reason::none) {
-        notes.push_back(fmt::format("{} is not shown: the core finds it not feasible ({})", wanted.label,
+        notes.push_back(fmt::format("{} is not shown: the core finds that it is not feasible ({})", wanted.label,
                                     REASON_NAMES[static_cast<std::size_t>(seen.result.reason)]));
         continue;
       }

@@ -126,7 +126,8 @@ int LocalServer::bind(int port) {
   if (bound <= 0) {
     const std::string why = errno != 0 ? std::string(": ") + std::strerror(errno) : "";
     if (port == 0) throw failure_error("the viewer finds no port to listen on at 127.0.0.1" + why);
-    throw usage_error(fmt::format("--view-port {}: cannot listen there{}; leave it out for any that is free", port, why));
+    throw usage_error(
+        fmt::format("--view-port {}: cannot listen on this port{}; leave the option out for any free port", port, why));
   }
   ::listen(svr_sock_, WAITING);
   return bound;

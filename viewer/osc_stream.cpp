@@ -44,7 +44,7 @@ Addresses find_host(const OscTarget& target) {
   addrinfo* found = nullptr;
   const int error = getaddrinfo(target.host.c_str(), std::to_string(target.port).c_str(), &hints, &found);
   if (error != 0) {
-    throw failure_error(fmt::format("--stream: host {} is not found: {}; name one that is, or its address", in_quotes(target.host),
+    throw failure_error(fmt::format("--stream: host {} is not found: {}; give another host, or its address", in_quotes(target.host),
                                     error == EAI_SYSTEM ? std::strerror(errno) : gai_strerror(error)));
   }
   return {found, freeaddrinfo};
@@ -82,7 +82,7 @@ float number(double value) { return std::isfinite(value) ? static_cast<float>(va
 OscTarget parse_osc_url(const std::string& url) {
   const auto refuse = [&url](const char* found) {
     throw usage_error(
-        fmt::format("--stream {}: {}; allowed: osc://HOST:PORT, osc://127.0.0.1:9000 for instance", in_quotes(url), found));
+        fmt::format("--stream {}: {}; allowed: osc://HOST:PORT, for example osc://127.0.0.1:9000", in_quotes(url), found));
   };
   if (url.rfind(SCHEME, 0) != 0) refuse("it does not begin with osc://");
   const std::string rest = url.substr(SCHEME.size());
@@ -98,11 +98,11 @@ OscTarget parse_osc_url(const std::string& url) {
     return is_alphanumeric || c == '.' || c == '-' || c == '_' || (has_brackets && (c == ':' || c == '%'));
   };
   if (target.host.size() > LARGEST_HOST || !std::all_of(target.host.begin(), target.host.end(), is_of_host))
-    refuse("its host is none");
+    refuse("its host is not valid");
   const char *port = rest.data() + colon + 1, *end = rest.data() + rest.size();
   const auto [stop, error] = std::from_chars(port, end, target.port);
   if (error != std::errc{} || stop != end || target.port < 1 || target.port > 65535)
-    refuse("its port is no whole number from 1 to 65535");
+    refuse("its port is not a whole number from 1 to 65535");
   return target;
 }
 
@@ -120,7 +120,7 @@ OscStream::OscStream(const OscTarget& target, const LiveScene& live) : live_(liv
   std::memcpy(to_.data(), address.ai_addr, to_.size());
   if (!is_of_this_machine(address)) {
     note_ =
-        fmt::format("--stream: the session goes, unencrypted, to {} port {}, beyond this machine", numeric(address), target.port);
+        fmt::format("--stream: the session goes unencrypted to {} port {}, outside of this machine", numeric(address), target.port);
   }
   socket_ = open_socket(address);
 }

@@ -33,7 +33,7 @@ RecordingView::RecordingView(const Scene& scene, Recording recording)
       live_(at_rate(scene, recording_.info.rate)),
       history_(live_.scene, recording_.ticks) {
   if (live_.vessels.size() != recording_.info.vessels.size())
-    throw usage_error("view: the recording is of another scene than it says");
+    throw usage_error("view: the recording does not belong to the scene that it names");
 }
 
 double RecordingView::duration() const { return static_cast<double>(recording_.ticks.back().number + 1) / recording_.info.rate; }

@@ -30,7 +30,7 @@ constexpr std::chrono::milliseconds SIGN_OF_LIFE{1000};
 std::string new_token() {
   std::array<unsigned char, 16> bytes{};
   if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
-    throw failure_error("no random numbers are to be had");
+    throw failure_error("no random numbers are available");
   std::string token;
   for (const unsigned char byte : bytes) token += fmt::format("{:02x}", byte);
   return token;
@@ -144,9 +144,9 @@ class ViewServer::Pages {
     const std::string_view rest = path.substr(head);
     if (request.method == "POST" && rest == "control" && content_.control) {
       if (request.get_header_value("Content-Type").rfind("application/json", 0) == 0) return Handled::Unhandled;
-      refuse(response, 415, "a control is application/json");
+      refuse(response, 415, "a control must be application/json");
     } else if (request.method != "GET") {
-      refuse(response, 405, "only GET, and POST of a control");
+      refuse(response, 405, "allowed: GET, and POST of a control");
     } else {
       answer(response, [&] { get(rest, request, response); });
     }
@@ -179,7 +179,7 @@ class ViewServer::Pages {
   }
 
   void stream(Response& response) {
-    if (!content_.frames->join()) return refuse(response, 503, fmt::format("{} watch already", MOST_VIEWERS));
+    if (!content_.frames->join()) return refuse(response, 503, fmt::format("{} viewers watch already", MOST_VIEWERS));
     const auto watcher = std::make_shared<Watcher>(*content_.frames);
     response.set_chunked_content_provider("text/event-stream",
                                           [watcher](std::size_t, httplib::DataSink& sink) { return watcher->write(sink); });

@@ -260,7 +260,8 @@ TEST(GripsView, WhatIsNotFeasibleIsLeftOutWithAWord) {
   const GripsView view(beakers(), grips, notes);
   EXPECT_EQ(view.size(), grips.size() - 1);
   ASSERT_EQ(notes.size(), 1u);
-  EXPECT_NE(notes[0].find("in the air is not shown: the core finds it not feasible (misses)"), std::string::npos) << notes[0];
+  EXPECT_NE(notes[0].find("in the air is not shown: the core finds that it is not feasible (misses)"), std::string::npos)
+      << notes[0];
   EXPECT_THROW(GripsView(beakers(), {grips.back()}, notes), Error);
 }
 

@@ -204,7 +204,8 @@ TEST(ViewServer, APortThatIsTakenIsRefused) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code, ExitCode::usage);
-    EXPECT_EQ(std::string(error.what()).rfind("--view-port " + std::to_string(served.at->port) + ": cannot listen there", 0), 0u)
+    EXPECT_EQ(std::string(error.what()).rfind("--view-port " + std::to_string(served.at->port) + ": cannot listen on this port", 0),
+              0u)
         << error.what();
   }
 }

@@ -9,7 +9,7 @@ const ROWS = [
     {key: 'normal', name: 'Fₙ', color: '--line-normal', width: 1.6, dash: []},
     {key: 'user', name: 'grip', color: '--line-user', width: 1.6, dash: [5, 3]},
     {key: 'feedback', name: 'F', color: '--line-force', width: 2.4, dash: []}]},
-  {title: 'Force that holding needs, N', share: 0.25, least: 10, lines: [{key: 'hold', name: 'N‑hold', color: '--line-hold', width: 1.8, dash: []}]},
+  {title: 'Hold force, N', share: 0.25, least: 10, lines: [{key: 'hold', name: 'N‑hold', color: '--line-hold', width: 1.8, dash: []}]},
   {title: 'Tilt, °', share: 0.19, least: 90, lines: [{key: 'tilt', name: 'tilt', color: '--line-tilt', width: 1.6, dash: []}]},
 ];
 const TOP = 16, BOTTOM = 20, BETWEEN = 24, TICK = 6, NAME = 5;  // px: the last two beside the lines, to a number and to a name
@@ -31,7 +31,7 @@ export class Charts {
   constructor(place, overTilt) {
     this.rows = overTilt ? ROWS.slice(0, 2).map((row) => ({...row, lines: row.lines.slice(-1)})) : ROWS;  // there F is F_n, and the grip stays
     this.overTilt = overTilt;
-    this.canvas = element('canvas', {role: 'img', 'aria-label': overTilt ? 'Forces over the tilt' : 'Forces, force that holding needs and tilt over the last ten seconds'});
+    this.canvas = element('canvas', {role: 'img', 'aria-label': overTilt ? 'Forces over the tilt' : 'Forces, hold force and tilt over the last ten seconds'});
     place.append(this.canvas);
     this.records = [];
     this.tops = this.rows.map((row) => row.least);

@@ -51,12 +51,12 @@ export class Control {
       this.sliders[name] = {input, value, read, text};
       return element('div', {class: 'slider'}, element('label', {for: `control-${name}`, text: label}), input, value);
     };
-    this.grasp = element('button', {type: 'button', class: 'grasp', text: 'Grasp', title: 'Close until it holds, or let go (Space)'});
+    this.grasp = element('button', {type: 'button', class: 'grasp', text: 'Grasp', title: 'Close the hand until it holds, or let go (Space)'});
     this.grasp.addEventListener('click', () => this.toggle());
     const axis = (k) => [() => this.position.getComponent(k) * 1e3, (mm) => this.moveTo(k, mm / 1e3), () => millimetres(this.position.getComponent(k), 0) + ' mm'];
     const range = (k) => [-reach, reach].map((way) => Math.round((this.limits.center[k] + way) * 1e3));
     place.append(
-      element('p', {class: 'hint', text: 'Drag the hand to move it, with Shift over the table; drag beside it to look around.'}), this.grasp,
+      element('p', {class: 'hint', text: 'Drag the hand to move it. Hold Shift to move it over the table. Drag beside it to look around.'}), this.grasp,
       add('close', 'Close', 0, 100, 0.5, () => 100 * (opened - this.gap) / (opened - closed), (v) => { this.gap = opened - (opened - closed) * v / 100; },
         () => `${Math.round(100 * (opened - this.gap) / (opened - closed))} %`),
       add('tilt', 'Tilt', -30, LARGEST_TILT, 1, () => this.tilt * 180 / Math.PI, (v) => { this.tilt = v * Math.PI / 180; }, () => `${degrees(this.tilt)}°`),

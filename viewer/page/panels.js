@@ -65,9 +65,9 @@ export class Panels {
     this.forceRows = {};
     const rows = element('dl', {class: 'forces'});
     for (const [key, symbol, sub, what, kind] of [
-      ['base', 'F', 'base', 'from the grasp on', 'base'], ['normal', 'F', 'n', 'with what the tilt adds', 'torque'],
+      ['base', 'F', 'base', 'from the grasp on', 'base'], ['normal', 'F', 'n', 'with the torque', 'torque'],
       ['opening', 'F', 'o', 'from squeezing further', 'opening'], ['user', 'Grip', '', 'the user’s own', 'user'],
-      ['hold', 'N', 'hold', 'what physics asks for', 'hold']]) {
+      ['hold', 'N', 'hold', 'needed to hold', 'hold']]) {
       const value = element('output', {});
       this.forceRows[key] = value;
       rows.append(element('div', {class: `force-row ${kind}`}, element('dt', {}, element('i', {class: 'swatch', 'aria-hidden': 'true'}), symbol, element('sub', {text: sub}), element('small', {text: what})),

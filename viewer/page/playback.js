@@ -123,9 +123,9 @@ export class Playback {
   keys() {
     return [
       {keys: [' '], shown: 'Space', what: 'play or pause', once: true, act: () => this.toggle()},
-      {keys: [','], shown: ', .', what: 'a tenth of a second back, on', act: () => this.seek(this.t - NUDGE)},
+      {keys: [','], shown: ', .', what: 'a tenth of a second back, forward', act: () => this.seek(this.t - NUDGE)},
       {keys: ['.'], act: () => this.seek(this.t + NUDGE)},
-      {keys: ['<'], shown: '< >', what: 'a second back, on', act: () => this.seek(this.t - LEAP)},
+      {keys: ['<'], shown: '< >', what: 'a second back, forward', act: () => this.seek(this.t - LEAP)},
       {keys: ['>'], act: () => this.seek(this.t + LEAP)},
     ];
   }

@@ -46,7 +46,7 @@ function isPlain() {
 function makeRenderer(canvas, plain) {
   const wish = {alpha: false, antialias: !plain, powerPreference: 'high-performance'};
   const context = canvas.getContext('webgl2', wish) || canvas.getContext('webgl', wish);
-  if (!context) throw new Error('This browser has no WebGL. The numbers go on; the picture cannot be drawn.');
+  if (!context) throw new Error('This browser has no WebGL. The page shows the numbers, but it cannot draw the picture.');
   const renderer = new THREE.WebGLRenderer({canvas, context});
   renderer.gammaOutput = true;
   renderer.gammaFactor = 2.2;

@@ -29,7 +29,7 @@ export function listen(frame, status) {
     status('live');
   };
   source.onerror = () => {
-    status(source.readyState === EventSource.CLOSED ? 'over' : 'waiting', wasOpen ? 'the connection is gone' : 'no more viewers are let in');
+    status(source.readyState === EventSource.CLOSED ? 'over' : 'waiting', wasOpen ? 'the connection is lost' : 'too many viewers are connected');
   };
   source.onmessage = (event) => {
     const isFirst = newest === null;
