@@ -228,7 +228,8 @@ void lay_out(Header& header, std::uint64_t room) {
 
 Header parse_header(std::string_view start, std::uint64_t file_size) {
   if (!start.starts_with(MAGIC))
-    throw usage_error("is no recording (NetCDF classic with 64-bit offsets; nccopy -k 64-bit-offset brings back a rewritten one)");
+    throw usage_error(
+        "is not a recording (NetCDF classic with 64-bit offsets; nccopy -k 64-bit-offset converts a rewritten recording back)");
   HeaderBytes bytes(start);
   bytes.take(MAGIC.size());
   Header header;
@@ -239,7 +240,7 @@ Header parse_header(std::string_view start, std::uint64_t file_size) {
     dimension.length = bytes.word();
     // they are known by their names from here on
     if (std::any_of(header.dimensions.data(), &dimension, [&](const Dimension& other) { return other.name == dimension.name; }))
-      throw usage_error("is damaged: two dimensions of one name");
+      throw usage_error("is damaged: two dimensions have the same name");
   }
   header.attributes = take_attributes(bytes);
   const std::uint32_t count = bytes.list(VARIABLES_TAG, 32);

@@ -178,7 +178,7 @@ class LayoutBuilder {
 
 // ---- the way back ----
 
-Error lacks(std::string_view what) { return usage_error(fmt::format("is no recording of a session: it lacks {}", what)); }
+Error lacks(std::string_view what) { return usage_error(fmt::format("is not a recording of a session: it lacks {}", what)); }
 
 std::string printable(std::string text) {
   std::replace_if(
@@ -233,7 +233,7 @@ std::vector<std::string> recorded_labels(const Header& header, const FixedValues
   const auto& variable = fixed_variable(header, name, classic::Type::text, fmt::format("{} text_length", along).c_str());
   const std::string bytes = fixed_values(variable);
   const std::uint64_t length = length_of(header, "text_length");
-  if (length == 0) throw lacks("texts of some length");
+  if (length == 0) throw lacks("texts with a length above 0");
   std::vector<std::string> labels;
   for (std::uint64_t at = 0; at + length <= variable.values; at += length) {
     std::string label = bytes.substr(at, length);
@@ -254,7 +254,7 @@ std::vector<double> recorded_reals(const Header& header, const FixedValues& fixe
 void read_labels_and_amounts(RecordingInfo& info, const Header& header, const FixedValues& fixed_values) {
   const std::uint64_t vessels = length_of(header, "vessel"), amounts = length_of(header, "amount");
   if (vessels < 1 || vessels > LIVE_VESSELS) throw lacks(fmt::format("1 to {} vessels", LIVE_VESSELS));
-  if (amounts > MOST_AMOUNTS) throw usage_error(fmt::format("has {} amounts; at most {} can be", amounts, MOST_AMOUNTS));
+  if (amounts > MOST_AMOUNTS) throw usage_error(fmt::format("has {} amounts; allowed: at most {}", amounts, MOST_AMOUNTS));
   const auto names = recorded_labels(header, fixed_values, "vessel", "vessel");
   const auto liquids = recorded_labels(header, fixed_values, "liquid", "vessel");
   const auto ranges = recorded_reals(header, fixed_values, "force_range", "vessel");
@@ -299,7 +299,7 @@ std::string dimension_names(const Header& header, const classic::Variable& varia
 
 RecordingInfo info_of(const Header& header, const FixedValues& fixed_values) {
   const Attribute* content = header.attribute("content");
-  if (!content || content->bytes != CONTENT) throw usage_error("is no recording of a session, but another NetCDF file");
+  if (!content || content->bytes != CONTENT) throw usage_error("is not a recording of a session, but another NetCDF file");
   RecordingInfo info;
   info.scene_name = recorded_line(header, "scene_name");
   info.scene_file = recorded_line(header, "scene_file");
@@ -310,8 +310,7 @@ RecordingInfo info_of(const Header& header, const FixedValues& fixed_values) {
   if (std::from_chars(seed.data(), seed.data() + seed.size(), info.seed).ptr != seed.data() + seed.size() || seed.empty())
     throw lacks("a seed that is a whole number");
   info.rate = recorded_number(header, "rate_Hz");
-  if (!(info.rate > 0 && info.rate <= LARGEST_RATE))
-    throw usage_error(fmt::format("has a rate of {} Hz, which cannot be", info.rate));
+  if (!(info.rate > 0 && info.rate <= LARGEST_RATE)) throw usage_error(fmt::format("has an impossible rate of {} Hz", info.rate));
   const auto gap = recorded_numbers(header, "device_gap_m", 2);
   info.device = {recorded_line(header, "device"),
                  recorded_line(header, "device_address"),
@@ -322,7 +321,7 @@ RecordingInfo info_of(const Header& header, const FixedValues& fixed_values) {
                  recorded_yes(header, "device_has_rotation"),
                  recorded_yes(header, "device_is_left_handed")};
   if (!(info.device.force >= 0 && info.device.grip >= 0 && gap[0] <= gap[1]))
-    throw usage_error("has a device whose forces or gap cannot be");
+    throw usage_error("has a device with impossible forces or an impossible gap");
   info.force_base = recorded_number(header, "force_base_N");
   info.force_max = recorded_number(header, "force_max_N");
   info.tolerance = recorded_number(header, "tolerance_m3");
@@ -336,10 +335,10 @@ std::optional<RecordingEnd> end_of(const Header& header) {
   end.period = recorded_percentiles(header, PERIOD_PERCENTILES);
   end.step = recorded_percentiles(header, STEP_PERCENTILES);
   const double missed = recorded_number(header, "missed_periods");
-  if (!(missed >= 0 && missed < 1e15)) throw usage_error(fmt::format("has {} missed periods, which cannot be", missed));
+  if (!(missed >= 0 && missed < 1e15)) throw usage_error(fmt::format("has {} missed periods, which is impossible", missed));
   end.missed = static_cast<std::int64_t>(missed);
   const auto fault = std::find(FAULT_NAMES.begin(), FAULT_NAMES.end(), recorded_text(header, "fault"));
-  if (fault == FAULT_NAMES.end()) throw usage_error("has a fault that there is not");
+  if (fault == FAULT_NAMES.end()) throw usage_error("has an unknown fault");
   end.fault = static_cast<Fault>(fault - FAULT_NAMES.begin());
   end.early = recorded_line(header, "ended_early");
   return end;

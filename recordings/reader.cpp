@@ -50,8 +50,8 @@ class RecordedFile {
       const ssize_t got = pread(file_, bytes.data() + done, count - done, static_cast<off_t>(place + done));
       if (got < 0 && errno == EINTR) continue;
       if (got <= 0) {
-        throw usage_error(
-            fmt::format("{}: cannot be read: {}", path_, got < 0 ? std::strerror(errno) : "it got shorter in the meantime"));
+        throw usage_error(fmt::format("{}: cannot be read: {}", path_,
+                                      got < 0 ? std::strerror(errno) : "the file became shorter while it was read"));
       }
       done += static_cast<std::uint64_t>(got);
     }
@@ -81,7 +81,7 @@ std::vector<PlacedField> place_fields(const classic::Header& header, std::size_t
     if (!variable || !variable->is_record || variable->type != type || dimension_names(header, *variable) != dimensions ||
         variable->values != recorded_values(field, vessels)) {
       throw usage_error(
-          fmt::format("is no recording of a session: it lacks the variable {}({}) of its type", field.name, dimensions));
+          fmt::format("is not a recording of a session: it lacks the variable {}({}) of the right type", field.name, dimensions));
     }
     places.push_back({&field, variable->begin - header.record_begin});
   }
@@ -100,13 +100,13 @@ std::vector<Tick> read_ticks(const RecordedFile& file, const classic::Header& he
       Tick& tick = ticks[first + k];
       for (const auto& [field, place] : places) {
         if (!load_field(block.data() + k * header.record_size + place, *field, tick, vessels))
-          throw usage_error(fmt::format("record {}: {} is none that it can have", first + k, field->name));
+          throw usage_error(fmt::format("record {}: {} has an impossible value", first + k, field->name));
       }
       if (tick.vessel >= static_cast<int>(vessels))
         throw usage_error(fmt::format("record {}: vessel_index {} of {} vessels", first + k, tick.vessel, vessels));
       if (first + k > 0 && tick.number <= ticks[first + k - 1].number)
-        throw usage_error(
-            fmt::format("record {}: tick {} after {} does not ascend", first + k, tick.number, ticks[first + k - 1].number));
+        throw usage_error(fmt::format("record {}: tick {} follows tick {}, and ticks must ascend", first + k, tick.number,
+                                      ticks[first + k - 1].number));
     }
   }
   return ticks;
@@ -125,8 +125,8 @@ Recording read_recorded_file(const RecordedFile& file) {
   file.read(start, std::min(file.size(), classic::LARGEST_HEADER), 0);
   if (start.starts_with(NETCDF4_START))
     throw usage_error(
-        "is a NetCDF-4 file, as sweeps write them, and no recording; one that another program has rewritten comes back by nccopy "
-        "-k 64-bit-offset");
+        "is a NetCDF-4 file, as sweeps write them, and not a recording; if another program has rewritten a recording, convert it "
+        "by nccopy -k 64-bit-offset");
   const classic::Header header = classic::parse_header(start, file.size());
   Recording recording;
   recording.info = info_of(header, [&file](const classic::Variable& variable) {

@@ -61,7 +61,7 @@ void write_heading(SessionText out, const SessionReport& report) {
   if (report.fault != Fault::none)
     fmt::format_to(
         out, "  {}{}\n",
-        report.fault == Fault::interrupted ? "ended by a signal, or as nobody read its output any more" : "let go by a fault: ",
+        report.fault == Fault::interrupted ? "ended by a signal, or because nobody read its output any more" : "ended by a fault: ",
         report.fault == Fault::interrupted ? "" : FAULT_NAMES[static_cast<std::size_t>(report.fault)]);
   ColumnTable states;
   states.row({"state", "s"});
@@ -90,9 +90,9 @@ void write_grasps(SessionText out, const SessionReport& report) {
   table.write(out);
   for (const GraspReport& grasp : report.grasps) {
     if (!(grasp.saturated > 0)) continue;
-    fmt::format_to(out,
-                   "  {} at {:.3f} s: the feedback was at F_max for {:.3f} s, where the gripper renders neither torque nor grip\n",
-                   report.info.vessels[static_cast<std::size_t>(grasp.vessel)].name, grasp.start, grasp.saturated);
+    fmt::format_to(
+        out, "  {} at {:.3f} s: the feedback was at F_max for {:.3f} s; at F_max the gripper renders neither torque nor grip\n",
+        report.info.vessels[static_cast<std::size_t>(grasp.vessel)].name, grasp.start, grasp.saturated);
   }
   fmt::format_to(out, "\nBy vessel, mean +- deviation over grasps: times in s, forces in N\n");
   ColumnTable summary;

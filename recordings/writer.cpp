@@ -23,7 +23,7 @@ std::string partial_recording(const std::string& path) { return followed(path) +
 
 Error is_in_the_way(const std::string& path, const std::string& partial) {
   return usage_error(fmt::format(
-      "--record {}: {} is there, of a session that was killed or is still running; move it, remove it, or name another file", path,
+      "--record {}: {} exists, from a session that was killed or is still running; move it, remove it, or name another file", path,
       partial));
 }
 
@@ -38,8 +38,7 @@ void check_recording_path(const std::string& path) {
   check_output_path(path, "--record");
   struct stat status {};
   if (stat(path.c_str(), &status) == 0 && status.st_size > 0) {
-    throw usage_error(
-        fmt::format("--record {}: is there, and what it holds is not overwritten; name another file, or remove it", path));
+    throw usage_error(fmt::format("--record {}: the file exists and is not overwritten; name another file, or remove it", path));
   }
   const std::string partial = partial_recording(path);
   if (lstat(partial.c_str(), &status) == 0) throw is_in_the_way(path, partial);
@@ -89,7 +88,7 @@ std::uint64_t RecordingWriter::put(const char* data, std::uint64_t size, std::ui
 
 void RecordingWriter::give_up(int error) {
   reason_ = error == 0 ? "it holds as many ticks as a file can" : std::strerror(error);
-  trouble_ = fmt::format("{}: recording ended: {}; it is whole up to here", path_, reason_);
+  trouble_ = fmt::format("{}: recording ended: {}; it is complete up to here", path_, reason_);
 }
 
 std::uint64_t RecordingWriter::bytes() const { return header_.record_begin + header_.records * header_.record_size; }
@@ -146,10 +145,11 @@ bool RecordingWriter::is_all_there() {
   if (!is_in_place()) {
     reason_ = "its file was removed or renamed";
     trouble_ =
-        fmt::format("{}: recording ended: {} was removed or renamed meanwhile, and with it what was recorded", path_, partial_);
+        fmt::format("{}: recording ended: {} was removed or renamed during the session, with all recorded ticks", path_, partial_);
   } else if (static_cast<std::uint64_t>(open.st_size) < bytes()) {
     reason_ = "its file was cut";
-    trouble_ = fmt::format("{}: recording ended: {} was cut to {} of {} bytes meanwhile", path_, partial_, open.st_size, bytes());
+    trouble_ =
+        fmt::format("{}: recording ended: {} was cut to {} of {} bytes during the session", path_, partial_, open.st_size, bytes());
     // the ticks that are left, so that nothing later makes up the others
     const std::uint64_t start = header_.record_begin, size = static_cast<std::uint64_t>(open.st_size);
     header_.records = size > start ? static_cast<std::uint32_t>((size - start) / header_.record_size) : 0;
@@ -181,11 +181,11 @@ bool RecordingWriter::give_name() {
       sync_folder_of(followed(path_));
       return true;
     }
-    refusal = fmt::format("{}: something was put there meanwhile, and is not overwritten", path_);
+    refusal = fmt::format("{}: another file appeared there during the session, and is not overwritten", path_);
   } catch (const Error& refused) {
     refusal = refused.what();
   }
-  trouble_ = fmt::format("{}; the recording is {} at {}", refusal, trouble_.empty() ? "whole" : "as far as it goes", partial_);
+  trouble_ = fmt::format("{}; the {} recording is {}", refusal, trouble_.empty() ? "complete" : "incomplete", partial_);
   return false;
 }
 

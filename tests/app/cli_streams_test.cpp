@@ -81,7 +81,7 @@ TEST(CommandLine, EndsQuietlyWhereNobodyReads) {
   EXPECT_EQ(run_unread("live --record " + folder + "/m.nc").output,
             "wholehand: live: nobody reads the output any more, so the session ends\ncode 130\n");
   const Outcome cut = run("PROGRAM session " + folder + "/m.nc 2>&1");
-  EXPECT_NE(cut.output.find("  ended by a signal, or as nobody read its output any more\n"), std::string::npos) << cut.output;
+  EXPECT_NE(cut.output.find("  ended by a signal, or because nobody read its output any more\n"), std::string::npos) << cut.output;
   EXPECT_EQ(run_unread(std::string(SMALL_GRIP) + " --view").output, "code 0\n");
 }
 

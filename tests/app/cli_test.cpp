@@ -102,7 +102,7 @@ TEST(CommandLine, RefusesWrongUsageWithOneLineAndCode2) {
       {"session /nonexistent.nc", "/nonexistent.nc: cannot be read: No such file or directory"},
       {"session /tmp", "/tmp: is a directory; name a recording"},
       {"session /dev/null", "/dev/null: is a device or pipe; name a recording"},
-      {"session /proc/self/status", "/proc/self/status: is no recording"},
+      {"session /proc/self/status", "/proc/self/status: is not a recording"},
       {"session a.nc b.nc", "b.nc; see wholehand session --help"},
       {"report", "result is required"},
       {"report ''", "must not be empty"},

@@ -58,7 +58,7 @@ TEST(Recorder, GoesOnDrainingWhenTheDiskIsFull) {
   if (recorder.trouble()) ++told;
   EXPECT_EQ(told, 1u) << "once, and while the session goes on";
   ASSERT_TRUE(trouble);
-  EXPECT_EQ(*trouble, path + ": recording ended: File too large; it is whole up to here");
+  EXPECT_EQ(*trouble, path + ": recording ended: File too large; it is complete up to here");
   EXPECT_EQ(ring.size(), 0u);
   const Recording recording = read_recording(path);
   EXPECT_GT(recording.ticks.size(), 100u);

@@ -75,7 +75,7 @@ TEST(Recording, EndsWhereTheDiskIsFull) {
     RecordingWriter writer(path, recorded_info(2));
     EXPECT_TRUE(writer.append(std::span(ticks).first(20)));
     EXPECT_FALSE(writer.append(std::span(ticks).subspan(20)));
-    EXPECT_EQ(writer.trouble(), path + ": recording ended: File too large; it is whole up to here");
+    EXPECT_EQ(writer.trouble(), path + ": recording ended: File too large; it is complete up to here");
     kept = writer.records();
     EXPECT_GT(kept, 100u) << "what still fits is kept";
     EXPECT_LE(writer.bytes(), 100000u);
@@ -123,7 +123,7 @@ TEST(Recording, OverwritesNothing) {
   EXPECT_EQ(file_text(path), "a letter");
   std::filesystem::remove(path);
   write_file(path + ".partial", "");
-  EXPECT_NE(refused().find("of a session that was killed or is still running"), std::string::npos);
+  EXPECT_NE(refused().find("exists, from a session that was killed or is still running"), std::string::npos);
   std::filesystem::remove(path + ".partial");
   write_file(path, "");  // as mktemp leaves it
   EXPECT_EQ(refused(), "taken");
@@ -142,7 +142,8 @@ TEST(Recording, WhatAppearsMeanwhileStays) {
   write_file(path, "a letter");
   EXPECT_FALSE(writer.finish(recorded_end()));
   EXPECT_EQ(writer.trouble(),
-            path + ": something was put there meanwhile, and is not overwritten; the recording is whole at " + path + ".partial");
+            path + ": another file appeared there during the session, and is not overwritten; the complete recording is " + path +
+                ".partial");
   EXPECT_EQ(file_text(path), "a letter");
   expect_same_ticks(read_recording(path + ".partial").ticks, ticks);
 }
@@ -157,7 +158,7 @@ TEST(Recording, APartialFileThatIsTakenAwayIsNotCalledWhole) {
     std::filesystem::remove(partial);
     EXPECT_FALSE(writer.append(std::span(ticks).subspan(20)));
     EXPECT_EQ(writer.trouble(),
-              path + ": recording ended: " + partial + " was removed or renamed meanwhile, and with it what was recorded");
+              path + ": recording ended: " + partial + " was removed or renamed during the session, with all recorded ticks");
     EXPECT_FALSE(writer.finish(recorded_end()));
   }
   EXPECT_FALSE(std::filesystem::exists(path));

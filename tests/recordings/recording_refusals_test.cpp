@@ -41,7 +41,7 @@ TEST(Recording, RefusesOtherFiles) {
   const std::string path = folder / "other.nc";
   for (const std::string& bytes : {std::string(), std::string("CDF"), std::string("CDF\1"), std::string("some text\n")}) {
     write_file(path, bytes);
-    EXPECT_REFUSED(path, "is no recording");
+    EXPECT_REFUSED(path, "is not a recording");
   }
   for (const int mode : {NC_NETCDF4, NC_64BIT_OFFSET}) {
     std::filesystem::remove(path);
@@ -133,21 +133,22 @@ TEST(Recording, RefusesWhatLacksSomething) {
 
 TEST(Recording, RefusesWhatCannotBe) {
   Changed changed(4);
-  EXPECT_REFUSED(changed.with_value("tick", 2, as_real(1)), "record 2: tick 1 after");
-  EXPECT_REFUSED(changed.with_value("tick", 2, as_real(NOT_A_NUMBER)), "record 2: tick is none");
-  EXPECT_REFUSED(changed.with_value("tick", 0, as_real(-1)), "record 0: tick is none");
-  EXPECT_REFUSED(changed.with_value("tick", 3, as_real(1e300)), "record 3: tick is none");
-  EXPECT_REFUSED(changed.with_value("tick", 3, as_real(5000.5)), "record 3: tick is none");
-  EXPECT_REFUSED(changed.with_value("state", 1, "\x07"), "record 1: state is none");
-  EXPECT_REFUSED(changed.with_value("read", 1, "\x03"), "record 1: read is none");
-  EXPECT_REFUSED(changed.with_value("fault", 1, "\x0a"), "record 1: fault is none");
-  EXPECT_REFUSED(changed.with_value("task_done", 1, "\xff"), "record 1: task_done is none");
+  EXPECT_REFUSED(changed.with_value("tick", 2, as_real(1)), "record 2: tick 1 follows");
+  EXPECT_REFUSED(changed.with_value("tick", 2, as_real(NOT_A_NUMBER)), "record 2: tick has an impossible value");
+  EXPECT_REFUSED(changed.with_value("tick", 0, as_real(-1)), "record 0: tick has an impossible value");
+  EXPECT_REFUSED(changed.with_value("tick", 3, as_real(1e300)), "record 3: tick has an impossible value");
+  EXPECT_REFUSED(changed.with_value("tick", 3, as_real(5000.5)), "record 3: tick has an impossible value");
+  EXPECT_REFUSED(changed.with_value("state", 1, "\x07"), "record 1: state has an impossible value");
+  EXPECT_REFUSED(changed.with_value("read", 1, "\x03"), "record 1: read has an impossible value");
+  EXPECT_REFUSED(changed.with_value("fault", 1, "\x0a"), "record 1: fault has an impossible value");
+  EXPECT_REFUSED(changed.with_value("task_done", 1, "\xff"), "record 1: task_done has an impossible value");
   EXPECT_REFUSED(changed.with_value("vessel_index", 1, std::string("\0\0\0\2", 4)), "record 1: vessel_index 2 of 2 vessels");
-  EXPECT_REFUSED(changed.with_value("vessel_index", 1, "\xff\xff\xff\xfe"), "record 1: vessel_index is none");
-  EXPECT_REFUSED(changed.with_value("grasps", 1, "\xff\xff\xff\xff"), "record 1: grasps is none");
-  EXPECT_REFUSED(changed.with_value("step_time", 1, as_real(NOT_A_NUMBER)), "record 1: step_time is none");
-  EXPECT_REFUSED(changed.with_value("latency", 1, as_real(INFINITE)), "record 1: latency is none");
-  EXPECT_REFUSED(changed.with_value("written_arm_force", 1, as_real(NOT_A_NUMBER)), "record 1: written_arm_force is none");
+  EXPECT_REFUSED(changed.with_value("vessel_index", 1, "\xff\xff\xff\xfe"), "record 1: vessel_index has an impossible value");
+  EXPECT_REFUSED(changed.with_value("grasps", 1, "\xff\xff\xff\xff"), "record 1: grasps has an impossible value");
+  EXPECT_REFUSED(changed.with_value("step_time", 1, as_real(NOT_A_NUMBER)), "record 1: step_time has an impossible value");
+  EXPECT_REFUSED(changed.with_value("latency", 1, as_real(INFINITE)), "record 1: latency has an impossible value");
+  EXPECT_REFUSED(changed.with_value("written_arm_force", 1, as_real(NOT_A_NUMBER)),
+                 "record 1: written_arm_force has an impossible value");
   EXPECT_NO_THROW(read_recording(changed.with_value("hold_force", 1, as_real(NOT_A_NUMBER))));
 }
 
