@@ -130,9 +130,8 @@ Scene with_states(const Scene& scene, std::size_t vessel, const StateAxes& axes)
   for (VesselData& other : changed.vessels) other.fills.clear();
   if (changed.liquid->fills.back() > largest) {
     throw usage_error(
-        fmt::format("fill {} of the capacity (--fill, --fill-ml): a device takes at most the scene's largest fill, {}, where the "
-                    "torque's reference is taken; "
-                    "use --on core",
+        fmt::format("fill {} of the capacity (--fill, --fill-ml): a device takes at most the scene's largest fill, {}, which gives "
+                    "the torque reference; use --on core",
                     changed.liquid->fills.back(), largest));
   }
   return changed;

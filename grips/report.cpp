@@ -42,9 +42,10 @@ Triple pour_direction(const Scene& scene, const GripInput& grip) {
 GripInput grip_through(const Triple& thumb, const Triple& index, double roll, double hand_scale) {
   const Triple across{index[0] - thumb[0], index[1] - thumb[1], index[2] - thumb[2]};
   const double apart = norm(across), level = std::hypot(across[0], across[2]);
-  if (!(apart > COINCIDENT)) throw usage_error("--thumb-mm and --index-mm are one point; give two points of the vessel's surface");
+  if (!(apart > COINCIDENT))
+    throw usage_error("--thumb-mm and --index-mm are the same point; give two points of the vessel's surface");
   if (!(level > VERTICAL * apart))
-    throw usage_error("--thumb-mm and --index-mm lie above one another; the line between them must not be vertical");
+    throw usage_error("--thumb-mm and --index-mm lie one above the other; the line between them must not be vertical");
   GripInput grip;
   grip.obliquity = std::atan2(across[1], level);
   grip.azimuth = std::atan2(-across[2], across[0]) + 0.0;  // no negative zero

@@ -56,9 +56,10 @@ void write_closing(Buffer out, const GripReport& report) {
   fmt::format_to(out, "  bone stretch   {:.3f} mm\n", r.bone_stretch * 1e3);
   fmt::format_to(out, "  fingers used   {}\n", finger_list(r.used_mask));
   const std::uint32_t blocked = r.status >> STATUS_BLOCKED_SHIFT & 0x1F, unsettled = r.status >> STATUS_UNSETTLED_SHIFT & 0x1F;
-  if (blocked != 0) fmt::format_to(out, "  blocked        {}: inside when open\n", finger_list(blocked));
-  if (unsettled != 0) fmt::format_to(out, "  not settled    {}: took all its steps\n", finger_list(unsettled));
-  if ((r.status & STATUS_PROXY_UNSETTLED) != 0) fmt::format_to(out, "  not settled    a proxy: took all its steps\n");
+  if (blocked != 0) fmt::format_to(out, "  blocked        {}: inside the vessel even when open\n", finger_list(blocked));
+  if (unsettled != 0) fmt::format_to(out, "  not settled    {}: used all its steps and is not at rest\n", finger_list(unsettled));
+  if ((r.status & STATUS_PROXY_UNSETTLED) != 0)
+    fmt::format_to(out, "  not settled    a proxy: used all its steps and is not at rest\n");
 }
 
 void write_joints(Buffer out, const GripResult& r) {

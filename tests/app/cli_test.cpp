@@ -124,7 +124,7 @@ TEST(CommandLine, RefusesWrongUsageWithOneLineAndCode2) {
       {"grip small --vessel tumbler --index-mm 1,2,3", "--index-mm requires --thumb-mm"},
       {"grip small --vessel tumbler --thumb-mm 1,2,3 --index-mm 4,5,6 --height-mm 4", "excludes"},
       {"grip small --vessel tumbler --thumb-mm 1,2 --index-mm 4,5,6", "--thumb-mm '1,2'; allowed: three numbers x,y,z"},
-      {"grip small --vessel tumbler --thumb-mm 1,2,3 --index-mm 1,2,3", "are one point"},
+      {"grip small --vessel tumbler --thumb-mm 1,2,3 --index-mm 1,2,3", "are the same point"},
       {"grip small --vessel tumbler --thumb-mm 1,2,3 --index-mm 1,9,3", "must not be vertical"},
       {std::string(SMALL_GRIP) + " --tilt-deg 181", "--tilt-deg '181'; allowed: a number, 0 to 180"},
       {std::string(SMALL_GRIP) + " --fill 0.5 1.1", "--fill '1.1'; allowed: a number, 0 to 1"},
