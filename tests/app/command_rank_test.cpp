@@ -76,7 +76,7 @@ TEST_F(CommandRank, WhatIsWrongIsOneLineAndNothingIsWritten) {
       {"rank " + result + " --best 0", "--best '0'; allowed"},
       {"rank " + result + " --where 'fingers_usd > 1' -o " + list,
        "--where, column 1: there is no value 'fingers_usd'; the nearest is 'fingers_used'"},
-      {"rank " + result + " --weights 'finger=1'", "--weights: no term 'finger'"},
+      {"rank " + result + " --weights 'finger=1'", "--weights: there is no term 'finger'"},
       {"grip " + result + " --vessel tumbler", "this is a result, and the rank of the grip is missing; give --rank"},
       {"grip " + result + " --vessel tumbler --rank 5", "--rank 5: " + result + " lists 4 grips of tumbler"},
       {"grip " + result + " --vessel tumbler --rank 1 --height-mm 5", "excludes"},

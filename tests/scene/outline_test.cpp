@@ -231,9 +231,9 @@ TEST(SceneOutline, RefusesArcsThroughNoCircle) {
     expect_refusal(outline_scene("{ line = [30, 0] }, " + arc + ", { line = [0, 60] }"), gist);
   };
   refused("{ arc_through = @[30, 25], to = [30, 60] }", "[30, 0], [30, 25] and [30, 60] lie on one line; allowed: a point beside");
-  refused("@{ arc_through = [30, 0], to = [30, 60] }", "two of the points [30, 0], [30, 0] and [30, 60] are one");
+  refused("@{ arc_through = [30, 0], to = [30, 60] }", "two of the points [30, 0], [30, 0] and [30, 60] are the same");
   refused("{ arc_through = @[30.00001, 30], to = [30, 60] }", "the circle through these points has its center at");
-  expect_refusal(outline_scene("{ line = [30, 0] }, @{ arc_through = [60, 30], to = [30, 0] }, { line = [0, 0] }"), "are one");
+  expect_refusal(outline_scene("{ line = [30, 0] }, @{ arc_through = [60, 30], to = [30, 0] }, { line = [0, 0] }"), "are the same");
 }
 
 // ---- fillets ----
