@@ -2,13 +2,14 @@
 // wholehand check: is the device's answer the core's answer?
 #include <CLI/CLI.hpp>
 
-#include <cstdio>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "app/commands.h"
 #include "app/paths.h"
+#include "app/remedy.h"
 #include "app/validators.h"
-#include "core/domain.h"
 #include "evidence/check.h"
 #include "host/open_backend.h"
 #include "objects/vessel.h"
@@ -43,10 +44,10 @@ void add_check_command(CLI::App& app, Action& action) {
       options.on = arguments->on;
       Scene scene = read_scene_file(find_scene(arguments->scene));
       load_meshes(scene, [&] { return largest_buffer(options.on); });
-      for (const std::string& line : domain_warnings(scene, Precision::single))
-        std::fprintf(stderr, "wholehand: %s\n", line.c_str());
+      const std::vector<std::string> warnings = say_float_warnings(scene, Precision::single);
       say_cavity_notes(scene);
-      const CheckReport report = check_scene(scene, options);
+      CheckReport report = check_scene(scene, options);
+      report.warnings = warnings;
       print(arguments->json ? check_json(report) : check_text(report));
       return verdict_of(report).holds ? ExitCode::done : ExitCode::no;
     };

@@ -9,9 +9,10 @@
 #include <string>
 
 #include "app/commands.h"
+#include "app/device_list.h"
 #include "app/validators.h"
 #include "device/find_grippers.h"
-#include "host/devices.h"
+#include "system/cache_folder.h"
 
 namespace wholehand {
 namespace {
@@ -20,12 +21,12 @@ namespace {
 ExitCode list_all_devices(const std::string& dhd_library) {
   std::optional<Error> problem;
   try {
-    list_devices();
+    print_devices();
   } catch (const Error& error) {
     problem = error;
   }
   std::fflush(stdout);  // a device's library may end the program
-  fmt::print("{}{}", list_grippers(find_grippers(dhd_library)), cache_text());
+  fmt::print("{}{}", gripper_lines(find_grippers(dhd_library)), cache_text());
   if (problem) throw *problem;
   return ExitCode::done;
 }

@@ -14,11 +14,11 @@
 
 #include "app/commands.h"
 #include "app/paths.h"
+#include "app/remedy.h"
 #include "app/result_scene.h"
 #include "app/validators.h"
 #include "app/values.h"
 #include "core/capacity.h"
-#include "core/domain.h"
 #include "grips/glb.h"
 #include "grips/report.h"
 #include "grips/svg.h"
@@ -199,7 +199,7 @@ ExitCode grip(const GripArguments& arguments) {
   load_meshes(asked, [&] { return largest_buffer(arguments.on); });  // lattices as wide as this hand needs
   scene.vessels = asked.vessels;
   say_cavity_notes(scene);
-  for (const std::string& line : domain_warnings(asked, precision)) std::fprintf(stderr, "wholehand: %s\n", line.c_str());
+  say_float_warnings(asked, precision);
   const GripReport report = make_grip_report(scene, vessel, input, axes, open_grip_methods(scene, arguments.on, precision));
   write_drawings(arguments, scene, vessel, report);
   if (arguments.json && arguments.on != "core") std::fprintf(stderr, "wholehand: on %s\n", report.device.c_str());

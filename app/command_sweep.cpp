@@ -6,6 +6,7 @@
 
 #include "app/commands.h"
 #include "app/paths.h"
+#include "app/remedy.h"
 #include "app/validators.h"
 #include "app/values.h"
 #include "scene/reader.h"
@@ -30,6 +31,7 @@ ExitCode sweep(const SweepArguments& arguments) {
     options.threads = static_cast<int>(parse_integer(arguments.threads, "--threads", ranges::THREADS));
   options.resume = arguments.resume;
   options.explain = arguments.explain;
+  options.warn = say_float_warnings;
   return run_sweep(read_scene_file(find_scene(arguments.scene)), options);
 }
 

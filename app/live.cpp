@@ -53,6 +53,7 @@ constexpr auto LOOK = std::chrono::milliseconds(50);  // between two looks at wh
 constexpr std::chrono::microseconds SHOWN_LOOK{static_cast<std::int64_t>(1e6 / DISPLAY_RATE)};
 constexpr int LOST_LOOKS = 3;  // in a row that find a call lost: after a stop of the process it may return yet
 constexpr const char* REPLAY = "replay:";
+constexpr const char* RECORD = "--record";
 
 std::string now_iso() {
   const std::time_t now = std::time(nullptr);
@@ -115,7 +116,7 @@ class LiveRun {
   explicit LiveRun(const LiveOptions& options) : options_(options) {
     std::optional<OscTarget> target;
     if (!options_.stream.empty()) target = parse_osc_url(options_.stream);
-    if (!options_.record.empty()) check_recording_path(options_.record);
+    if (!options_.record.empty()) check_recording_path(options_.record, RECORD);
     open();
     check_gripper();
     session_ = std::make_unique<Session>(scene_, gripper_->limits().gap);
@@ -138,7 +139,7 @@ class LiveRun {
     open_view();  // first: whose port is taken leaves no recording behind
     std::unique_ptr<RecordingWriter> writer;
     if (!options_.record.empty())
-      writer = std::make_unique<RecordingWriter>(options_.record, info_of(scene_, gripper_->limits(), options_.seed));
+      writer = std::make_unique<RecordingWriter>(options_.record, info_of(scene_, gripper_->limits(), options_.seed), RECORD);
     tell_address();
     std::optional<DisplayLoop> display;
     if (!displays_.empty()) display.emplace(session_->live(), displays_);

@@ -13,6 +13,7 @@
 #include "app/commands.h"
 #include "app/failure_line.h"
 #include "app/open_files.h"
+#include "app/remedy.h"
 #include "core/error.h"
 #include "host/device.h"
 #include "scene/text.h"
@@ -119,7 +120,7 @@ int main(int argc, char** argv) {
     wholehand::prepare_output();
     return run(argc, argv);
   } catch (const wholehand::Error& error) {
-    return report(error.code, error.what());
+    return report(error.code, wholehand::line_of(error));
   } catch (const std::system_error& error) {
     if (error.code() == std::errc::resource_unavailable_try_again)
       return report(ExitCode::failure,

@@ -57,7 +57,7 @@ double largest_hold(const Scene& scene, const VesselData& data) {
 }
 
 std::string beyond(const std::string& what, const std::string& limit) {
-  return fmt::format("{}: beyond {} float may be more than 10 um or 10 mN from double; use --precision double", what, limit);
+  return fmt::format("{}: beyond {} float may be more than 10 um or 10 mN from double", what, limit);
 }
 
 }  // namespace

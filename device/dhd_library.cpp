@@ -17,10 +17,9 @@ const std::vector<std::string> DHD_LIBRARY_NAMES{"libdhd.so.3", "libdhd.so", "li
 
 namespace {
 
-constexpr const char* REMEDY =
-    "get it from https://www.forcedimension.com/software/sdk and name its path (--dhd-library, [device] library of the scene, or "
-    "the "
-    "environment variable WHOLEHAND_DHD_LIBRARY)";
+Error is_unusable(const std::string& why) {
+  return failure_error(why + "; get it from https://www.forcedimension.com/software/sdk and name its path", Remedy::name_library);
+}
 
 struct Loaded {
   void* handle = nullptr;
@@ -48,9 +47,7 @@ Loaded load(const std::string& path) {
 // `from` tells who named the path.
 Loaded load_named(const std::string& path, const std::string& from) {
   Loaded loaded = load(path);
-  if (!loaded.handle) {
-    throw failure_error(fmt::format("cannot load Force Dimension's SDK{}: {}; {}", from, loaded.problem, REMEDY));
-  }
+  if (!loaded.handle) throw is_unusable(fmt::format("cannot load Force Dimension's SDK{}: {}", from, loaded.problem));
   return loaded;
 }
 
@@ -63,8 +60,8 @@ Loaded load_first(const std::vector<std::string>& names) {
     const bool is_absent = loaded.problem.rfind(name + ": cannot open shared object file", 0) == 0;
     if (!is_absent && reason.empty()) reason = loaded.problem;
   }
-  if (!reason.empty()) throw failure_error(fmt::format("cannot load Force Dimension's SDK: {}; {}", reason, REMEDY));
-  throw failure_error(fmt::format("Force Dimension's SDK is not there (looked for {}); {}", fmt::join(names, ", "), REMEDY));
+  if (!reason.empty()) throw is_unusable("cannot load Force Dimension's SDK: " + reason);
+  throw is_unusable(fmt::format("Force Dimension's SDK is not there (looked for {})", fmt::join(names, ", ")));
 }
 
 template <class Function>
@@ -76,8 +73,8 @@ bool find_symbol(const Loaded& loaded, const char* symbol, Function*& function) 
 template <class Function>
 void need_symbol(const Loaded& loaded, const char* symbol, Function*& function) {
   if (find_symbol(loaded, symbol, function)) return;
-  throw failure_error(fmt::format("{} lacks the function {}: it is not Force Dimension's SDK, or too old a release; {}",
-                                  loaded.path, symbol, REMEDY));
+  throw is_unusable(
+      fmt::format("{} lacks the function {}: it is not Force Dimension's SDK, or too old a release", loaded.path, symbol));
 }
 
 }  // namespace

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "device/find_grippers.h"
 
-#include <fmt/format.h>
-
 #include "device/hid_gripper.h"
 #include "device/omega_gripper.h"
 #include "device/usb_gripper.h"
@@ -28,25 +26,11 @@ std::vector<GripperFound> or_missing(std::vector<GripperFound> found, const char
 
 std::vector<GripperFound> find_grippers(const std::string& dhd_library) {
   std::vector<GripperFound> all{{"sim", "a virtual user, always there", "", ""},
-                                {"view", "the page of `live --view`: dragged in a browser, felt by nobody", "", ""}};
+                                {"view", "the page of a live view: dragged in a browser, felt by nobody", "", ""}};
   append(all, or_missing(find_hid_grippers(), "hid", "no HID device speaks the open gripper protocol"));
   append(all, or_missing(find_usb_grippers(), "usb", "no USB device has an interface of the open gripper protocol"));
   append(all, find_omega_grippers(dhd_library));
   return all;
-}
-
-std::string list_grippers(const std::vector<GripperFound>& found) {
-  std::string lines;
-  for (const GripperFound& gripper : found) {
-    if (gripper.address.empty()) {
-      lines += fmt::format("{}  cannot be opened: {}\n", gripper.name, gripper.missing);
-      continue;
-    }
-    lines += fmt::format("{}  {}  <- --device {}\n", gripper.address, gripper.name, gripper.address);
-    if (!gripper.summary.empty()) lines += fmt::format("  {}\n", gripper.summary);
-    if (!gripper.missing.empty()) lines += fmt::format("  missing: {}\n", gripper.missing);
-  }
-  return lines;
 }
 
 }  // namespace wholehand

@@ -13,7 +13,4 @@ namespace wholehand {
 // `dhd_library`: path of Force Dimension's SDK, or empty (see load_dhd_library). Does not throw.
 std::vector<GripperFound> find_grippers(const std::string& dhd_library);
 
-// As lines for people, each ended.
-std::string list_grippers(const std::vector<GripperFound>& found);
-
 }  // namespace wholehand

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.h"
 #include "core/vectors.h"
 #include "device/let_go.h"
 #include "live/tick.h"
@@ -31,7 +32,7 @@ inline bool is_none(const GripperForce& force) { return force.arm == Triple{} &&
 // What an open gripper is and can do. Forces are the largest that may ever be written to it.
 struct GripperLimits {
   std::string name;             // for people, e.g. "omega.7"
-  std::string address;          // what --device would open it again by, e.g. "hid:/dev/hidraw0"
+  std::string address;          // what would open it again (app/open_gripper.h), e.g. "hid:/dev/hidraw0"
   double force = 0;             // magnitude at the arm, N
   double grip = 0;              // at the fingers, N
   std::array<double, 2> gap{};  // closed, open, m
@@ -103,10 +104,11 @@ constexpr double READ_PATIENCE = 10e-3;  // s: several periods of any allowed ra
 
 // A gripper that is attached, or would be there if something were not missing.
 struct GripperFound {
-  std::string address;  // for --device; empty where it cannot be opened
+  std::string address;  // what opens it (app/open_gripper.h); empty where it cannot be opened
   std::string name;
-  std::string summary;  // limits and rate in one line; empty where they could not be read
-  std::string missing;  // what is missing to open it, and the remedy; empty: nothing
+  std::string summary;           // limits and rate in one line; empty where they could not be read
+  std::string missing;           // what is missing to open it, and the remedy; empty: nothing
+  Remedy remedy = Remedy::none;  // of what is missing
 };
 
 }  // namespace wholehand

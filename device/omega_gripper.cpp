@@ -285,6 +285,7 @@ GripperFound describe(const DhdLibrary& dhd, int number) {
                                 model.grip, GAP[0] * 1e3, GAP[1] * 1e3, major, minor, release, dhd.path);
   } catch (const Error& error) {
     found.missing = error.what();
+    found.remedy = error.remedy;
   }
   return found;
 }
@@ -305,7 +306,7 @@ std::vector<GripperFound> find_omega_grippers(const std::string& library) {
     const int count = count_devices(dhd);
     for (int number = 0; number < count; ++number) found.push_back(describe(dhd, number));
   } catch (const Error& error) {
-    found.push_back({"", "omega", "", error.what()});
+    found.push_back({"", "omega", "", error.what(), error.remedy});
   }
   return found;
 }

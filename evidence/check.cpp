@@ -3,7 +3,6 @@
 
 #include <memory>
 
-#include "core/domain.h"
 #include "core/error.h"
 #include "evidence/check_sample.h"
 #include "host/grip_backend.h"
@@ -104,7 +103,6 @@ CheckReport check_scene(const Scene& scene, const CheckOptions& options) {
     throw usage_error("check: --on core is the reference that devices are compared with; name a Vulkan device");
   CheckReport report;
   report.scene = scene.name;
-  report.warnings = domain_warnings(scene, Precision::single);
   const Plan plan(scene, true);
   Checking checking(scene, options);
   std::vector<CheckSample> samples;

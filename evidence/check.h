@@ -49,7 +49,7 @@ struct CheckedVessel {
 struct CheckReport {
   std::string scene, device, driver;
   bool is_cpu = false, has_double = false;
-  std::vector<std::string> warnings;  // what of the scene is beyond float's domain
+  std::vector<std::string> warnings;  // what of the scene is beyond float's domain: set by the caller, who knows the remedy
   std::vector<CheckedVessel> vessels;
   CheckedPair translation;           // device in float, core in float
   CheckedPair cost;                  // core in float, core in double

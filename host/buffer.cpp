@@ -42,7 +42,7 @@ std::uint32_t choose_type(const DeviceState& device, std::uint32_t allowed, Memo
     type = find_type(device.memory, allowed, Flag::eDeviceLocal, {}, Flag::eHostVisible);
   }
   if (!type) {
-    throw failure_error("the Vulkan device " + device.info.name + " has no memory of the kind needed; use --on core");
+    throw failure_error("the Vulkan device " + device.info.name + " has no memory of the kind needed", Remedy::core);
   }
   return *type;
 }

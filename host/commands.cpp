@@ -59,8 +59,8 @@ void Commands::dispatch(const Kernel& kernel, std::array<std::uint32_t, 3> group
     const std::uint64_t limit = largest_range(device, type);
     if (buffer.size() > limit) {
       throw failure_error("kernel " + kernel.name() + ": buffer " + std::to_string(binding) + " has " +
-                          std::to_string(buffer.size()) + " bytes and " + device.name + " takes " + std::to_string(limit) +
-                          "; use --on core");
+                              std::to_string(buffer.size()) + " bytes and " + device.name + " takes " + std::to_string(limit),
+                          Remedy::core);
     }
     for (std::size_t axis = 0; axis < 3; axis++) {
       if (groups[axis] > device.max_group_count[axis]) {

@@ -17,13 +17,14 @@ namespace wholehand::host {
 // Memory for a buffer or a submit was refused; a smaller one may succeed.
 class OutOfMemory : public Error {
  public:
-  explicit OutOfMemory(const std::string& line) : Error(ExitCode::failure, line) {}
+  explicit OutOfMemory(const std::string& line, Remedy remedy = Remedy::none) : Error(ExitCode::failure, line, remedy) {}
 };
 
 // The device was lost, or did not finish in time (`hung`: it may still be at work).
 class DeviceLost : public Error {
  public:
-  explicit DeviceLost(const std::string& line, bool hung = false) : Error(ExitCode::failure, line), hung(hung) {}
+  explicit DeviceLost(const std::string& line, Remedy remedy = Remedy::none, bool hung = false)
+      : Error(ExitCode::failure, line, remedy), hung(hung) {}
   bool hung;
 };
 

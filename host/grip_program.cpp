@@ -79,8 +79,8 @@ GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Ev
                          const std::string& selector, const GripBackendOptions& options)
     : on(selector, options.device), vessels(scene.vessels.size()), precision_(options.precision) {
   if (options.precision == Precision::full && !on.info().float64) {
-    throw usage_error("--precision double: " + on.info().name +
-                      " has no double precision (shaderFloat64); use float or another device");
+    throw usage_error("device " + on.info().name + " has no double precision (shaderFloat64); use another device",
+                      Remedy::or_float_precision);
   }
   fill_count = static_cast<std::uint32_t>(scene_fills(scene));
   tilt_count = static_cast<std::uint32_t>(scene.tilts.size());

@@ -15,10 +15,9 @@ namespace {
 
 constexpr const char* VALIDATION_LAYER = "VK_LAYER_KHRONOS_validation";
 // A library for which there is no room looks like one that is not there.
-std::string remedy() {
+std::string first_remedy() {
   const std::string limit = memory_limit_text();
-  return limit.empty() ? ": install mesa-vulkan-drivers and libvulkan1, or use --on core"
-                       : limit + "; raise that, or use --on core";
+  return limit.empty() ? ": install mesa-vulkan-drivers and libvulkan1" : limit + "; raise that";
 }
 
 struct Messages {
@@ -104,12 +103,13 @@ void rethrow(const vk::SystemError& error, const std::string& what) {
     case vk::Result::eErrorOutOfHostMemory:
     case vk::Result::eErrorOutOfDeviceMemory:
     case vk::Result::eErrorTooManyObjects:
-      throw OutOfMemory(what + ": out of memory on the Vulkan device; close other programs or use --on core");
+      throw OutOfMemory(what + ": out of memory on the Vulkan device; close other programs", Remedy::or_core);
     case vk::Result::eErrorDeviceLost:
-      throw DeviceLost(what + ": the Vulkan device was lost; try again, or use --on core");
+      throw DeviceLost(what + ": the Vulkan device was lost; try again", Remedy::or_core);
     default:
       throw failure_error(what + ": the Vulkan driver answered " + vk::to_string(static_cast<vk::Result>(error.code().value())) +
-                          memory_limit_text() + "; use --on core");
+                              memory_limit_text(),
+                          Remedy::core);
   }
 }
 
@@ -122,7 +122,8 @@ Instance::Instance(const DeviceOptions& options) {
   library.reset(dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL));
   if (!library) {
     const char* reason = dlerror();
-    throw failure_error(std::string("no Vulkan loader (") + (reason ? reason : name.c_str()) + ")" + remedy());
+    throw failure_error(std::string("no Vulkan loader (") + (reason ? reason : name.c_str()) + ")" + first_remedy(),
+                        Remedy::or_core);
   }
   context.emplace();
 
@@ -145,7 +146,8 @@ Instance::Instance(const DeviceOptions& options) {
     instance.emplace(*context, info);
   } catch (const vk::IncompatibleDriverError&) {
     const char* files = std::getenv("VK_DRIVER_FILES") ? "VK_DRIVER_FILES" : "VK_ICD_FILENAMES";
-    throw failure_error("no Vulkan driver" + (std::getenv(files) ? " in $" + std::string(files) : std::string()) + remedy());
+    throw failure_error("no Vulkan driver" + (std::getenv(files) ? " in $" + std::string(files) : std::string()) + first_remedy(),
+                        Remedy::or_core);
   } catch (const vk::SystemError& error) {
     rethrow(error, "opening Vulkan");
   }

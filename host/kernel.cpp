@@ -89,13 +89,14 @@ Kernel::Kernel(const Device& device, std::span<const std::uint32_t> words, std::
   const DeviceState& on = state_->device;
   const ShaderInterface shader = read_interface(words, name);
   if (shader.float64 && !on.info.float64) {
-    throw usage_error(on.info.name + " cannot compute in double precision (kernel " + name + "); use --precision float");
+    throw usage_error(on.info.name + " cannot compute in double precision (kernel " + name + ")", Remedy::float_precision);
   }
   state_->group_size = final_group_size(shader, constants);
   const std::uint64_t invocations = std::uint64_t(state_->group_size[0]) * state_->group_size[1] * state_->group_size[2];
   if (invocations == 0 || invocations > on.info.max_group_invocations) {
     throw failure_error("kernel " + name + ": groups of " + std::to_string(invocations) + " invocations, and " + on.info.name +
-                        " takes 1 to " + std::to_string(on.info.max_group_invocations) + "; use --on core");
+                            " takes 1 to " + std::to_string(on.info.max_group_invocations),
+                        Remedy::core);
   }
   std::vector<vk::DescriptorSetLayoutBinding> layout;
   for (const ShaderBinding& binding : shader.bindings) {

@@ -43,9 +43,9 @@ void submit_and_wait(DeviceState& device, const Recorder& recorder) {
   if (!wait_for(device, *done, device.wait_seconds)) {
     device.hung = true;
     leave_behind(device, done);
-    throw DeviceLost("the Vulkan device did not finish within " + std::to_string(std::lround(device.wait_seconds)) +
-                         " s; try again, or use --on core",
-                     true);
+    throw DeviceLost(
+        "the Vulkan device did not finish within " + std::to_string(std::lround(device.wait_seconds)) + " s; try again",
+        Remedy::or_core, true);
   }
 }
 

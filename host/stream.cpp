@@ -151,7 +151,8 @@ class Run {
     most = most / stream_.multiple() * stream_.multiple();
     if (most == 0) {
       throw failure_error("results of " + std::to_string(per_item) + " bytes an item do not fit the Vulkan device " +
-                          device.info.name + "; keep fewer variables, or use --on core");
+                              device.info.name + "; keep fewer variables",
+                          Remedy::or_core);
     }
     const std::size_t needed = stream_.round_up(std::min<std::uint64_t>(most, request_.last - request_.first));
     if (stream_.inputs != request_.inputs || stream_.outputs != request_.outputs || stream_.capacity < needed ||
@@ -210,7 +211,7 @@ class Run {
       throw DeviceLost("injected");
     }
     if (slot.fault == Fault::timeout || !checked("waiting for a chunk", [&] { return slot.wait(limit); })) {
-      throw DeviceLost("device timed out", true);
+      throw DeviceLost("device timed out", Remedy::none, true);
     }
     const auto now = Clock::now();
     double seconds = checked("timing a chunk", [&] { return slot.seconds(); });
@@ -313,7 +314,8 @@ class Run {
     const Chunk chunk = front().chunk;
     if (!request_.fallback) {
       throw failure_error("the Vulkan device failed at " + range_of(chunk) +
-                          (result_.notes.empty() ? "" : " (" + result_.notes.back() + ")") + "; try again, or use --on core");
+                              (result_.notes.empty() ? "" : " (" + result_.notes.back() + ")") + "; try again",
+                          Remedy::or_core);
     }
     std::vector<std::vector<std::byte>> kept;
     std::vector<std::span<std::byte>> writable;

@@ -56,7 +56,7 @@ std::vector<Real> planes_of(std::span<const WallCase> cases) {
 struct WallMap::Impl {
   Impl(const std::string& selector, Precision wanted, const DeviceOptions& options) : on(selector, options), precision(wanted) {
     if (precision == Precision::full && !on.info().float64) {
-      throw usage_error("device " + on.info().name + " has no double precision; use --precision float");
+      throw usage_error("device " + on.info().name + " has no double precision", Remedy::float_precision);
     }
   }
 

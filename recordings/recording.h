@@ -67,8 +67,9 @@ struct RecordingEnd {
 };
 
 // Throws Error (usage) where no recording can be made at `path`: there is a file with something in it already (a recording cannot be made
-// again, so none is ever overwritten), or a partial one of a session that was killed or is still running.
-void check_recording_path(const std::string& path);
+// again, so none is ever overwritten), or a partial one of a session that was killed or is still running. `option` is the one that named
+// it, for the message.
+void check_recording_path(const std::string& path, const char* option = "recording");
 
 // A recording that is being made. It lies at PATH.partial, and at PATH once it is finished. Whatever becomes of the process, the partial
 // file is a whole recording of all blocks that were appended: records are only added, and counted in the file once they are in it.
@@ -76,7 +77,7 @@ class RecordingWriter {
  public:
   // Throws Error: (usage) as check_recording_path, (failure) the file cannot be made. A file that grows past the process's limit is an error
   // of the write from here on, not the end of the process.
-  RecordingWriter(const std::string& path, const RecordingInfo& info);
+  RecordingWriter(const std::string& path, const RecordingInfo& info, const char* option = "recording");
   ~RecordingWriter();
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;

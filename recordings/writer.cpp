@@ -21,9 +21,9 @@ namespace {
 
 std::string partial_recording(const std::string& path) { return followed(path) + ".partial"; }
 
-Error is_in_the_way(const std::string& path, const std::string& partial) {
+Error is_in_the_way(const std::string& path, const std::string& partial, const char* option) {
   return usage_error(fmt::format(
-      "--record {}: {} exists, from a session that was killed or is still running; move it, remove it, or name another file", path,
+      "{} {}: {} exists, from a session that was killed or is still running; move it, remove it, or name another file", option, path,
       partial));
 }
 
@@ -34,21 +34,21 @@ void append_record(std::string& block, const Tick& tick, double rate, std::size_
 
 }  // namespace
 
-void check_recording_path(const std::string& path) {
-  check_output_path(path, "--record");
+void check_recording_path(const std::string& path, const char* option) {
+  check_output_path(path, option);
   struct stat status {};
   if (stat(path.c_str(), &status) == 0 && status.st_size > 0) {
-    throw usage_error(fmt::format("--record {}: the file exists and is not overwritten; name another file, or remove it", path));
+    throw usage_error(fmt::format("{} {}: the file exists and is not overwritten; name another file, or remove it", option, path));
   }
   const std::string partial = partial_recording(path);
-  if (lstat(partial.c_str(), &status) == 0) throw is_in_the_way(path, partial);
+  if (lstat(partial.c_str(), &status) == 0) throw is_in_the_way(path, partial, option);
 }
 
-RecordingWriter::RecordingWriter(const std::string& path, const RecordingInfo& info)
+RecordingWriter::RecordingWriter(const std::string& path, const RecordingInfo& info, const char* option)
     : path_(path), partial_(partial_recording(path)), rate_(info.rate), vessels_(info.vessels.size()) {
   if (vessels_ < 1 || vessels_ > LIVE_VESSELS)
     throw usage_error(fmt::format("{}: a recording has 1 to {} vessels", path, LIVE_VESSELS));
-  check_recording_path(path);
+  check_recording_path(path, option);
   std::signal(SIGXFSZ, SIG_IGN);
   RecordingLayout layout = layout_recording(info);
   header_ = std::move(layout.header);
@@ -57,7 +57,7 @@ RecordingWriter::RecordingWriter(const std::string& path, const RecordingInfo& i
   start.resize(header_.record_begin - layout.fixed.size(), '\0');
   start += layout.fixed;
   file_ = open(partial_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
-  if (file_ < 0 && errno == EEXIST) throw is_in_the_way(path, partial_);
+  if (file_ < 0 && errno == EEXIST) throw is_in_the_way(path, partial_, option);
   int error = file_ < 0 ? errno : 0;
   if (file_ >= 0 && put(start.data(), start.size(), 0, error) < start.size()) {
     close(file_);

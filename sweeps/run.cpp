@@ -9,7 +9,6 @@
 #include <set>
 #include <utility>
 
-#include "core/domain.h"
 #include "core/prepare.h"
 #include "host/open_backend.h"
 #include "objects/vessel.h"
@@ -82,7 +81,7 @@ class Sweep {
     const OutputLock lock(names_.lock);
     if (is_finished()) return finished();  // by who had the lock until now
     if (parts_.prepare) parts_.prepare();
-    for (const std::string& line : domain_warnings(scene_, precision())) say_note(line);
+    if (options_.warn) options_.warn(scene_, precision());
     say_cavity_notes(scene_);
     const Plan plan(scene_, keeps_vectors(variables_));
     backend_ = parts_.open_backend(make_field_set(swept_fields(plan), scene_));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -20,7 +21,9 @@ struct SweepOptions {
   int glb = 0;                         // so many of the best of each vessel are written as glTF
   bool resume = false;
   bool explain = false;
-  int threads = 0;          // of the core, 0: all
+  int threads = 0;  // of the core, 0: all
+  // Called once meshes are read: says what the user should know of the scene in that precision. May be empty.
+  std::function<void(const Scene&, Precision)> warn = {};
   double mark_seconds = 5;  // least time between two progress marks: what a crash may cost
   std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();  // of the process, for the closing lines
 };

@@ -95,6 +95,16 @@ CacheUse cache_use(const std::string& folder) {
   return use;
 }
 
+std::string cache_text() {
+  const std::uintmax_t limit = cache_limit();
+  const std::string folder = cache_folder();
+  if (folder.empty()) return "cache  none: neither XDG_CACHE_HOME nor HOME is an absolute path\n";
+  const CacheUse use = cache_use(folder);
+  const std::string bound = limit > 0 ? fmt::format("at most {} MiB", limit / MEBIBYTE) : "not used";
+  return fmt::format("cache  {}  {:.1f} MiB in {} file{}, {} (WHOLEHAND_CACHE_MIB)\n", folder,
+                     static_cast<double>(use.bytes) / MEBIBYTE, use.files, use.files == 1 ? "" : "s", bound);
+}
+
 void make_cache_room(const std::string& folder, std::uintmax_t bytes, std::uintmax_t limit) noexcept try {
   std::vector<CachedFile> files = cached_files(folder);
   std::sort(files.begin(), files.end(), [](const CachedFile& a, const CachedFile& b) { return a.used < b.used; });

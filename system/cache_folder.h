@@ -26,6 +26,9 @@ struct CacheUse {
 // Of the files in `folder` that the program keeps there, finished or begun. Files with other names are not counted.
 CacheUse cache_use(const std::string& folder);
 
+// A line about what is kept between runs: where, how large, and how large it may become. Throws Error (usage) as cache_limit does.
+std::string cache_text();
+
 // Removes what was begun over an hour ago, then the files whose time of change is oldest, until so many bytes more fit below `limit`. Whoever
 // uses a file sets that time (touch_cached). Files with other names stay. Several processes may do this at once, and a file that one of
 // them is reading stays readable to it. Never throws.

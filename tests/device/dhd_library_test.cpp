@@ -19,7 +19,7 @@ TEST(DhdLibrary, SaysWhereToGetIt) {
   const std::string line = omega_refusal([] { load_dhd_library("", {"libnone_dhd.so.3", "libnone_dhd.so"}); });
   expect_has(line, "Force Dimension's SDK is not there (looked for libnone_dhd.so.3, libnone_dhd.so)");
   expect_has(line, "https://www.forcedimension.com/software/sdk");
-  expect_has(line, "--dhd-library, [device] library of the scene, or the environment variable WHOLEHAND_DHD_LIBRARY");
+  expect_has(line, "and name its path");
 }
 
 TEST(DhdLibrary, TakesTheFirstThatIsThere) {

@@ -26,19 +26,5 @@ TEST(FindGrippers, SimAndThePageAreAlwaysThereAndOmegaWithItsSdk) {
   }
 }
 
-TEST(FindGrippers, ListsWhatCanBeOpenedAndWhatIsMissing) {
-  EXPECT_EQ(list_grippers({{"sim", "a virtual user", "", ""},
-                           {"omega:1", "omega.7, left hand", "up to 12 N", ""},
-                           {"hid:/dev/hidraw0", "grip", "up to 2 N", "a udev rule"},
-                           {"", "usb", "", "none attached"}}),
-            "sim  a virtual user  <- --device sim\n"
-            "omega:1  omega.7, left hand  <- --device omega:1\n"
-            "  up to 12 N\n"
-            "hid:/dev/hidraw0  grip  <- --device hid:/dev/hidraw0\n"
-            "  up to 2 N\n"
-            "  missing: a udev rule\n"
-            "usb  cannot be opened: none attached\n");
-}
-
 }  // namespace
 }  // namespace wholehand

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "core/error.h"
-#include "host/devices.h"
 #include "tests/support/environment.h"
 
 namespace wholehand {

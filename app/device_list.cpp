@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "host/devices.h"
+#include "app/device_list.h"
 
 #include <fmt/format.h>
 
-#include "host/device.h"
-#include "system/cache_folder.h"
+#include "app/remedy.h"
+#include "host/device_info.h"
 
 namespace wholehand {
 
-ExitCode list_devices() {
+void print_devices() {
   const auto devices = host::list_devices();
   if (devices.empty()) throw failure_error("no Vulkan device; install a driver (mesa-vulkan-drivers has one for CPUs)");
   const host::DeviceInfo& first = host::choose_device(devices, "vulkan");
@@ -29,17 +29,21 @@ ExitCode list_devices() {
                device.shared_memory / 1024);
   }
   fmt::print("core  the reference, double precision, all threads  <- --on core\n");
-  return ExitCode::done;
 }
 
-std::string cache_text() {
-  const std::uintmax_t limit = cache_limit();
-  const std::string folder = cache_folder();
-  if (folder.empty()) return "cache  none: neither XDG_CACHE_HOME nor HOME is an absolute path\n";
-  const CacheUse use = cache_use(folder);
-  const std::string bound = limit > 0 ? fmt::format("at most {} MiB", limit / MEBIBYTE) : "not used";
-  return fmt::format("cache  {}  {:.1f} MiB in {} file{}, {} (WHOLEHAND_CACHE_MIB)\n", folder,
-                     static_cast<double>(use.bytes) / MEBIBYTE, use.files, use.files == 1 ? "" : "s", bound);
+std::string gripper_lines(const std::vector<GripperFound>& found) {
+  std::string lines;
+  for (const GripperFound& gripper : found) {
+    const std::string missing = gripper.missing + remedy_words(gripper.remedy);
+    if (gripper.address.empty()) {
+      lines += fmt::format("{}  cannot be opened: {}\n", gripper.name, missing);
+      continue;
+    }
+    lines += fmt::format("{}  {}  <- --device {}\n", gripper.address, gripper.name, gripper.address);
+    if (!gripper.summary.empty()) lines += fmt::format("  {}\n", gripper.summary);
+    if (!missing.empty()) lines += fmt::format("  missing: {}\n", missing);
+  }
+  return lines;
 }
 
 }  // namespace wholehand

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// How the user asks for what would help: the one place where what libraries say becomes words about options.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/backend.h"
+#include "core/error.h"
+#include "core/scene.h"
+
+namespace wholehand {
+
+// What follows the line: "; use --on core". Empty for none.
+const char* remedy_words(Remedy remedy);
+
+// The whole line for the user.
+std::string line_of(const Error& error);
+
+// What of the scene is beyond float's domain (domain_warnings), a line each, with the remedy: printed to stderr and returned. Throws as
+// domain_warnings does.
+std::vector<std::string> say_float_warnings(const Scene& scene, Precision precision);
+
+}  // namespace wholehand
