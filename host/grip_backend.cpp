@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 
+#include "core/candidates.h"
+#include "core/core_backend.h"
 #include "core/fields.h"
 #include "core/mirror.h"
-#include "core/parallel.h"
 #include "core/prepare.h"
 #include "host/grip_program.h"
 #include "host/stream.h"
@@ -114,51 +114,42 @@ struct GripBackend::Impl {
   }
 
   static void keep_best(std::vector<Candidate>& candidates, std::size_t best) {
-    const auto first = [](const Candidate& a, const Candidate& b) {
-      return a.score > b.score || (a.score == b.score && a.index < b.index);
-    };
     const std::size_t kept = std::min(best, candidates.size());
-    std::partial_sort(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(kept), candidates.end(), first);
+    std::partial_sort(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(kept), candidates.end(), is_better);
     candidates.resize(kept);
   }
 
   // A whole run by the core, on all threads, where the device cannot be trusted with the vessel.
   template <class Real>
   RunResult run_on_core(const RunRequest& request) {
-    constexpr std::size_t SHARE = 1024;  // grips of a thread in a chunk
-    const std::size_t stride = static_cast<std::size_t>(thread_count()) * SHARE;
-    std::vector<GripInput> inputs(stride);
-    std::vector<double> reals(fields.real_planes * stride);
-    std::vector<Real> converted(reals.size());
-    std::vector<std::uint32_t> uints(fields.uint_planes * stride);
-    RunResult result;
+    FieldSet all = fields;  // all kept: the best are chosen here, from planes that the caller need not want
+    all.real_kept = all.real_planes;
+    all.uint_kept = all.uint_planes;
+    std::vector<Candidate> best;
+    std::vector<float> converted;
+    RunRequest asked = request;
+    asked.best = 0;  // of what is handed over: two scores may be one in float
+    asked.sink = [&](const PlaneChunk& chunk) {
+      PlaneChunk planes = chunk;
+      if constexpr (sizeof(Real) == sizeof(float)) {
+        converted.resize(all.real_planes * chunk.stride);
+        std::transform(chunk.doubles, chunk.doubles + converted.size(), converted.begin(),
+                       [](double value) { return static_cast<float>(value); });
+        planes.doubles = nullptr;
+        planes.floats = converted.data();
+      }
+      if (request.best > 0) {
+        const auto chosen = best_of(planes, request.best);
+        best.insert(best.end(), chosen.begin(), chosen.end());
+        keep_best(best, request.best);
+      }
+      if (request.sink) request.sink(planes);
+    };
+    RunResult result = CoreBackend(core, scene, all, Precision::full, 0).run(asked);
+    result.best = std::move(best);
     result.notes.push_back(scene.vessels[request.vessel].name + ": an outline of " +
                            std::to_string(arrays.vessels[request.vessel].outline_count) + " elements is evaluated on the core: " +
                            info.device + " ends loops over more than " + std::to_string(MAX_OUTLINE) + " too early");
-    const auto start = std::chrono::steady_clock::now();
-    for (std::uint64_t first = request.first; first < request.last && !(request.stop && request.stop->load()); first += stride) {
-      const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(stride, request.last - first));
-      request.grips(request.vessel, first, count, inputs.data());
-      in_parallel((count + SHARE - 1) / SHARE, 0, [&](std::size_t share) {
-        const std::size_t from = share * SHARE;
-        core->planes(request.vessel, inputs.data() + from, std::min(SHARE, count - from), fields, stride, reals.data() + from,
-                     uints.data() + from);
-      });
-      std::transform(reals.begin(), reals.end(), converted.begin(), [](double value) { return static_cast<Real>(value); });
-      PlaneChunk planes{request.vessel, first, count, stride, nullptr, nullptr, uints.data()};
-      if constexpr (sizeof(Real) == sizeof(float)) {
-        planes.floats = converted.data();
-      } else {
-        planes.doubles = converted.data();
-      }
-      const auto chosen = best_of(planes, request.best);
-      result.best.insert(result.best.end(), chosen.begin(), chosen.end());
-      keep_best(result.best, request.best);
-      if (request.sink) request.sink(planes);
-      result.done += count;
-      ++result.chunks;
-    }
-    result.kernel_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
   }
 
