@@ -10,6 +10,7 @@
 #include "app/paths.h"
 #include "app/remedy.h"
 #include "app/validators.h"
+#include "app/vulkan_environment.h"
 #include "evidence/check.h"
 #include "host/open_backend.h"
 #include "objects/vessel.h"
@@ -42,6 +43,7 @@ void add_check_command(CLI::App& app, Action& action) {
     action = [arguments] {
       CheckOptions options;
       options.on = arguments->on;
+      prepare_vulkan_environment(options.on);
       Scene scene = read_scene_file(find_scene(arguments->scene));
       load_meshes(scene, [&] { return largest_buffer(options.on); });
       const std::vector<std::string> warnings = say_float_warnings(scene, Precision::single);

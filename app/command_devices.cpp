@@ -11,6 +11,7 @@
 #include "app/commands.h"
 #include "app/device_list.h"
 #include "app/validators.h"
+#include "app/vulkan_environment.h"
 #include "device/find_grippers.h"
 #include "system/cache_folder.h"
 
@@ -20,6 +21,7 @@ namespace {
 // Without a Vulkan device the grippers are listed all the same, before that is told.
 ExitCode list_all_devices(const std::string& dhd_library) {
   std::optional<Error> problem;
+  prepare_vulkan_environment();
   try {
     print_devices();
   } catch (const Error& error) {

@@ -8,6 +8,7 @@
 #include "app/paths.h"
 #include "app/validators.h"
 #include "app/values.h"
+#include "app/vulkan_environment.h"
 #include "evidence/error_time.h"
 #include "scene/reader.h"
 
@@ -27,6 +28,7 @@ ExitCode error_time(const ErrorTimeArguments& arguments) {
   if (!arguments.seed.empty()) options.seed = static_cast<std::uint64_t>(parse_integer(arguments.seed, "--seed", ranges::SEED));
   if (!arguments.threads.empty())
     options.threads = static_cast<int>(parse_integer(arguments.threads, "--threads", ranges::THREADS));
+  prepare_vulkan_environment(options.on);
   return run_error_time(read_scene_file(find_scene(arguments.scene)), options);
 }
 

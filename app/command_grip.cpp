@@ -18,6 +18,7 @@
 #include "app/result_scene.h"
 #include "app/validators.h"
 #include "app/values.h"
+#include "app/vulkan_environment.h"
 #include "core/capacity.h"
 #include "grips/glb.h"
 #include "grips/report.h"
@@ -189,6 +190,7 @@ ChosenGrip ranked_grip(const GripArguments& arguments) {
 }
 
 ExitCode grip(const GripArguments& arguments) {
+  prepare_vulkan_environment(arguments.on);
   const int port = parse_view_port(arguments.view_port, arguments.view);
   auto [scene, vessel, input] = arguments.rank.empty() ? asked_grip(arguments) : ranked_grip(arguments);
   const StateAxes axes = read_states(arguments, scene, vessel);

@@ -8,6 +8,7 @@
 #include "app/paths.h"
 #include "app/validators.h"
 #include "app/values.h"
+#include "app/vulkan_environment.h"
 #include "evidence/stability.h"
 #include "evidence/wall.h"
 #include "scene/reader.h"
@@ -73,6 +74,7 @@ ExitCode report_stability(const ReportArguments& arguments) {
   options.quick = arguments.quick;
   options.seed = static_cast<std::uint64_t>(parse_integer(arguments.seed, "--seed", wall_ranges::SEED));
   for (const std::string& file : extreme_scene_files()) options.extremes.push_back(extreme_case(read_scene_file(file)));
+  prepare_vulkan_environment(options.on);
   return run_stability(options);
 }
 

@@ -9,6 +9,7 @@
 #include "app/remedy.h"
 #include "app/validators.h"
 #include "app/values.h"
+#include "app/vulkan_environment.h"
 #include "scene/reader.h"
 #include "sweeps/run.h"
 
@@ -32,6 +33,7 @@ ExitCode sweep(const SweepArguments& arguments) {
   options.resume = arguments.resume;
   options.explain = arguments.explain;
   options.warn = say_float_warnings;
+  prepare_vulkan_environment(options.on);
   return run_sweep(read_scene_file(find_scene(arguments.scene)), options);
 }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
 
 #include "host/vulkan.h"
 #include "system/memory_limit.h"
@@ -39,31 +38,6 @@ VKAPI_ATTR VkBool32 VKAPI_CALL collect(VkDebugUtilsMessageSeverityFlagBitsEXT, V
 bool wants_validation(const DeviceOptions& options) {
   const char* value = std::getenv("WHOLEHAND_VALIDATION");
   return options.validation || (value && *value && std::strcmp(value, "0") != 0);
-}
-
-// What Mesa's drivers read from the environment when they are loaded; a user's own settings are left as they are.
-void prepare_mesa() {
-  // Where it cannot make its disk cache, Mesa complains on stderr; then it had better not try. All that is lost is time: kernels
-  // are compiled again in the next run.
-  const char* cache = std::getenv("XDG_CACHE_HOME");
-  const char* home = std::getenv("HOME");
-  const std::string folder = cache ? cache : home ? std::string(home) + "/.cache" : "";
-  std::error_code error;
-  if (!std::getenv("MESA_SHADER_CACHE_DIR") && !folder.empty()) {
-    std::filesystem::create_directories(folder + "/mesa_shader_cache", error);
-    if (error) {
-      setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
-    }
-  }
-  // Lavapipe computes on vectors of 256 bits unless told otherwise, also where the CPU has 512. Measured with 512: 10 to 15 % less
-  // CPU time where products dominate, the same where square roots and divisions do. (To compare, switch Mesa's disk cache off with
-  // MESA_SHADER_CACHE_DISABLE=true: it hands out what was compiled for another width.)
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
-      __builtin_cpu_supports("avx512vl")) {
-    setenv("LP_NATIVE_VECTOR_WIDTH", "512", 0);
-  }
-#endif
 }
 
 std::string version_string(std::uint32_t version) {
@@ -116,7 +90,6 @@ void rethrow(const vk::SystemError& error, const std::string& what) {
 void Instance::Unload::operator()(void* handle) const { dlclose(handle); }
 
 Instance::Instance(const DeviceOptions& options) {
-  prepare_mesa();
   // vk::raii::Context opens the loader again, but could not say why it failed
   const std::string name = options.loader.empty() ? "libvulkan.so.1" : options.loader;
   library.reset(dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL));

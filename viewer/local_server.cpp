@@ -27,9 +27,8 @@ constexpr int WAITING = 128;               // connections that the kernel keeps 
 constexpr std::size_t STACK = 512 * 1024;  // bytes a thread: a live session locks all memory, stacks of 8 MiB would be 256
 constexpr int MOST_REQUESTS = 10000;       // on one connection
 constexpr int SEND_BUFFER = 64 * 1024;     // bytes: half a second of frames; who has not read them is behind
-thread_local bool is_one_too_many = false;
 
-// Small threads that work, or else say no at once.
+// Small threads that work. One piece of work too many is done at once by the thread that brings it.
 class Workers final : public httplib::TaskQueue {
  public:
   explicit Workers(std::size_t count) {
@@ -48,15 +47,13 @@ class Workers final : public httplib::TaskQueue {
   void enqueue(std::function<void()> work) override {
     {
       const std::lock_guard lock(mutex_);
-      is_one_too_many = busy_ + work_.size() >= threads_.size();
-      if (!is_one_too_many) work_.push_back(std::move(work));
+      if (busy_ + work_.size() < threads_.size()) {
+        work_.push_back(std::move(work));
+        wake_.notify_one();
+        return;
+      }
     }
-    if (!is_one_too_many) {
-      wake_.notify_one();
-      return;
-    }
-    work();
-    is_one_too_many = false;
+    work();  // on the thread that takes connections, by which LocalServer knows it
   }
 
   void shutdown() override {
@@ -135,7 +132,10 @@ int LocalServer::bind(int port) {
 
 void LocalServer::start() {
   const BlockSignals inherited;
-  listening_ = std::thread([this] { listen_after_bind(); });
+  listening_ = std::thread([this] {
+    taking_ = std::this_thread::get_id();
+    listen_after_bind();
+  });
   while (!is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
@@ -153,7 +153,7 @@ void LocalServer::stop_all() {
 
 bool LocalServer::process_and_close_socket(socket_t socket) {
   bool is_served = false;
-  if (is_one_too_many) {
+  if (std::this_thread::get_id() == taking_) {
     answer(socket, "503 Service Unavailable", "too many connections\n");
   } else {
     const std::lock_guard lock(mutex_);

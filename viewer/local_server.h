@@ -38,6 +38,8 @@ class LocalServer final : public httplib::Server {
   bool is_over_ = false;
   std::set<socket_t> open_;
   std::thread listening_;
+  // Of the thread that takes connections, set by itself before the first one. What it is given to serve is one too many.
+  std::thread::id taking_;
 };
 
 }  // namespace wholehand

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <thread>
 
+#include "app/vulkan_environment.h"
 #include "core/error.h"
 #include "host/device.h"
 #include "tests/bench/bench.h"
@@ -79,6 +80,7 @@ int run(int argc, char** argv) {
 }  // namespace wholehand::bench
 
 int main(int argc, char** argv) {
+  wholehand::prepare_vulkan_environment();
   try {
     return wholehand::bench::run(argc, argv);
   } catch (const wholehand::Error& error) {
