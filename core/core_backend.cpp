@@ -26,8 +26,8 @@ constexpr const char* COMPILER = "g++ " __VERSION__;
 
 using Clock = std::chrono::steady_clock;
 
-// Planes of one chunk, kept and scratch.
-struct Slot {
+// Room for the planes of one chunk, kept and scratch.
+struct PlaneRoom {
   std::vector<double> reals;
   std::vector<std::uint32_t> uints;
   bool ready = false;
@@ -42,7 +42,7 @@ class CoreRun {
         request_(request),
         slots_(2 * static_cast<std::size_t>(threads)),
         best_(request.best) {
-    for (Slot& slot : slots_) {
+    for (PlaneRoom& slot : slots_) {
       slot.reals.resize(fields.real_planes * CHUNK);
       slot.uints.resize(fields.uint_planes * CHUNK);
     }
@@ -92,7 +92,7 @@ class CoreRun {
         return;
       }
       const std::uint64_t chunk = taken_++;
-      Slot& slot = slots_[chunk % slots_.size()];
+      PlaneRoom& slot = slots_[chunk % slots_.size()];
       if (busy_++ == 0) busy_since_ = Clock::now();
       lock.unlock();
       std::exception_ptr failure;
@@ -113,7 +113,7 @@ class CoreRun {
     }
   }
 
-  void offer(const Slot& slot, std::uint64_t chunk, BestCandidates& best) const {
+  void offer(const PlaneRoom& slot, std::uint64_t chunk, BestCandidates& best) const {
     const double* score = slot.reals.data() + fields_.plane[FIELD_SCORE] * CHUNK;
     const std::uint32_t* status = slot.uints.data() + fields_.plane[FIELD_STATUS] * CHUNK;
     for (std::size_t i = 0; i < count_of(chunk); ++i) {
@@ -126,7 +126,7 @@ class CoreRun {
   void deliver() {
     std::unique_lock lock(mutex_);
     for (;;) {
-      Slot& slot = slots_[delivered_ % slots_.size()];
+      PlaneRoom& slot = slots_[delivered_ % slots_.size()];
       changed_.wait(lock, [&] { return failure_ || slot.ready || (ended_ && delivered_ == taken_); });
       if (failure_ || !slot.ready) return;
       lock.unlock();
@@ -148,7 +148,7 @@ class CoreRun {
 
   std::mutex mutex_;  // guards all below; a slot's planes belong to one thread at a time
   std::condition_variable changed_;
-  std::vector<Slot> slots_;
+  std::vector<PlaneRoom> slots_;
   BestCandidates best_;
   std::uint64_t taken_ = 0;      // chunks handed out
   std::uint64_t delivered_ = 0;  // chunks that the sink has had

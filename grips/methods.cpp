@@ -12,9 +12,9 @@
 namespace wholehand {
 namespace {
 
-GripAnswer answer_by_core(const Scene& scene, const Evaluator& evaluator, std::size_t vessel, const GripInput& grip,
-                          const StateAxes& axes) {
-  GripAnswer answer;
+GripFindings answer_by_core(const Scene& scene, const Evaluator& evaluator, std::size_t vessel, const GripInput& grip,
+                            const StateAxes& axes) {
+  GripFindings answer;
   evaluator.grip(vessel, grip, answer.result);
   if (answer.result.reason != Reason::none) return answer;
   for (const double fill : axes.fills) {
@@ -158,7 +158,7 @@ GripMethods backend_grip_methods(const Scene& scene, const BackendOpener& open) 
   const std::string device = info.device + (info.backend == "vulkan" && info.is_cpu ? ", a CPU driver" : "") +
                              (info.precision == Precision::single ? ", float" : ", double");
   return {device, [scene, open, backend](std::size_t vessel, const GripInput& grip, const StateAxes& axes) {
-            GripAnswer answer;
+            GripFindings answer;
             GripPlanes planes = run_one(*backend, vessel, grip);
             answer.result = decode_grip(planes.chunk, planes.fields, 0);
             if (answer.result.reason != Reason::none) return answer;

@@ -20,7 +20,7 @@ struct GripState {
 };
 
 // Everything that is told of one grip. `states` and `score` are empty where the grip is not feasible.
-struct GripAnswer {
+struct GripFindings {
   GripResult result;
   std::vector<GripState> states;  // fill-major, in the order asked
   GripScore score;                // over the scene's own fills and tilts
@@ -35,7 +35,7 @@ struct StateAxes {
 // Answers one grip of one vessel of the scene that it was made for.
 struct GripMethods {
   std::string device;  // what answers, for people
-  std::function<GripAnswer(std::size_t vessel, const GripInput& grip, const StateAxes& axes)> answer;
+  std::function<GripFindings(std::size_t vessel, const GripInput& grip, const StateAxes& axes)> answer;
 };
 
 // The scene's own fills of a vessel, and its tilts.

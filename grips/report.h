@@ -12,7 +12,7 @@ namespace wholehand {
 struct GripReport {
   std::string scene, vessel, device;
   GripInput grip;
-  GripAnswer answer;
+  GripFindings answer;
   Triple pour{};  // horizontal direction towards which the vessel is tilted, unit, vessel frame; zero for a vertical line
   bool has_liquid = false;
   bool has_tilts = false;           // the scene's: without them there are no force and hold terms

@@ -3,7 +3,7 @@
 
 #include <bit>
 
-#include "host/recorder.h"
+#include "host/command_recorder.h"
 #include "host/vulkan.h"
 
 namespace wholehand::host {
@@ -110,7 +110,7 @@ void Buffer::write(std::span<const std::byte> bytes) {
   Buffer staging(device, bytes.size(), Memory::upload);
   staging.write(bytes);
   checked("writing a buffer", [&] {
-    Recorder recorder(device, device.compute.family);
+    CommandRecorder recorder(device, device.compute.family);
     recorder.begin();
     recorder.copy(staging.state(), *state_, bytes.size());
     recorder.end();
@@ -132,7 +132,7 @@ void Buffer::read(std::span<std::byte> bytes) const {
   DeviceState& device = state_->device;
   Buffer staging(device, bytes.size(), Memory::readback);
   checked("reading a buffer", [&] {
-    Recorder recorder(device, device.compute.family);
+    CommandRecorder recorder(device, device.compute.family);
     recorder.begin();
     recorder.copy(*state_, staging.state(), bytes.size());
     recorder.end();

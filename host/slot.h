@@ -26,7 +26,7 @@ class Slot {
   void deliver(const StreamRequest& request) const;
 
   Chunk chunk;
-  Fault fault = Fault::none;  // to be met when it is waited for
+  SubmitFault fault = SubmitFault::none;  // to be met when it is waited for
   std::chrono::steady_clock::time_point submitted;
   std::uint64_t bytes_in = 0, bytes_out = 0;
 
@@ -45,7 +45,7 @@ class Slot {
   DeviceState& device_;
   std::vector<Pair> inputs_, outputs_;
   StepRecorder compute_;
-  std::optional<Recorder> upload_, download_;
+  std::optional<CommandRecorder> upload_, download_;
   vk::raii::Semaphore uploaded_, computed_;
   vk::raii::Fence done_;
 };

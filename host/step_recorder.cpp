@@ -3,7 +3,7 @@
 
 namespace wholehand::host {
 
-StepRecorder::StepRecorder(DeviceState& device, std::uint32_t family) : Recorder(device, family) {
+StepRecorder::StepRecorder(DeviceState& device, std::uint32_t family) : CommandRecorder(device, family) {
   if (device.timestamp_period > 0 && family == device.compute.family) {
     timestamps_ = vk::raii::QueryPool(*device.device, {{}, vk::QueryType::eTimestamp, 2});
   }

@@ -4,12 +4,12 @@
 
 #include <vector>
 
+#include "host/command_recorder.h"
 #include "host/commands.h"
-#include "host/recorder.h"
 
 namespace wholehand::host {
 
-class StepRecorder : public Recorder {
+class StepRecorder : public CommandRecorder {
  public:
   StepRecorder(DeviceState& device, std::uint32_t family);
   ~StepRecorder();

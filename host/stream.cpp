@@ -191,9 +191,9 @@ class Run {
     Job& job = front();
     Slot& slot = *stream_.idle.back();
     attempted_ = job.chunk.count;
-    slot.fault = stream_.options.inject ? stream_.options.inject(stream_.submits) : Fault::none;
+    slot.fault = stream_.options.inject ? stream_.options.inject(stream_.submits) : SubmitFault::none;
     stream_.submits++;
-    if (slot.fault == Fault::out_of_memory) {
+    if (slot.fault == SubmitFault::out_of_memory) {
       throw OutOfMemory("injected");
     }
     checked("submitting a chunk", [&] { slot.submit(job.chunk, request_, *stream_.program); });
@@ -207,10 +207,10 @@ class Run {
     const double expected = 4 * seconds_per_item_ * static_cast<double>(slot.chunk.count);
     const double limit =
         stream_.options.timeout_seconds + (result_.kernel_seconds > 0 ? expected : stream_.program->device().state().wait_seconds);
-    if (slot.fault == Fault::device_lost) {
+    if (slot.fault == SubmitFault::device_lost) {
       throw DeviceLost("injected");
     }
-    if (slot.fault == Fault::timeout || !checked("waiting for a chunk", [&] { return slot.wait(limit); })) {
+    if (slot.fault == SubmitFault::timeout || !checked("waiting for a chunk", [&] { return slot.wait(limit); })) {
       throw DeviceLost("device timed out", Remedy::none, true);
     }
     const auto now = Clock::now();

@@ -54,7 +54,7 @@ std::span<T> elements(std::span<Byte> bytes) {
   return {reinterpret_cast<T*>(bytes.data()), bytes.size() / sizeof(T)};
 }
 
-enum class Fault { none, out_of_memory, device_lost, timeout };
+enum class SubmitFault { none, out_of_memory, device_lost, timeout };
 
 struct StreamOptions {
   double target_seconds = 0.05;    // of device time a chunk: desktop drivers kill submits of seconds
@@ -63,7 +63,7 @@ struct StreamOptions {
   std::size_t slot_bytes = std::size_t(64) << 20;  // of all buffers of one chunk in flight
   std::size_t slots = 0;        // chunks in flight; 0: 2 with unified memory, else 3 (one in each direction, one computing)
   double timeout_seconds = 10;  // beyond the expected time of a chunk: the device is taken for hung
-  std::function<Fault(std::size_t submit)> inject;  // tests: what becomes of the n-th submit of the stream
+  std::function<SubmitFault(std::size_t submit)> inject;  // tests: what becomes of the n-th submit of the stream
 };
 
 struct StreamRequest {

@@ -130,7 +130,7 @@ std::vector<std::size_t> shown_fills(std::size_t count) {
 std::vector<FillForces> forces_of(const ReportSource& source, std::size_t vessel, const GripInput& grip) {
   std::vector<FillForces> forces;
   const StateAxes axes = scene_axes(source.scene, vessel);
-  const GripAnswer answer = core_grip_methods(source.scene, source.core, "core").answer(vessel, grip, axes);
+  const GripFindings answer = core_grip_methods(source.scene, source.core, "core").answer(vessel, grip, axes);
   if (answer.states.empty()) return forces;
   for (std::size_t f = 0; f < axes.fills.size(); ++f) {
     FillForces fill{axes.fills[f], {}, {}};

@@ -89,7 +89,10 @@ StreamOptions with_faults(const std::string& faults) {
   StreamOptions options;
   options.inject = [faults](std::size_t submit) {
     const char letter = submit < faults.size() ? faults[submit] : '.';
-    return letter == 'm' ? Fault::out_of_memory : letter == 'l' ? Fault::device_lost : letter == 't' ? Fault::timeout : Fault::none;
+    return letter == 'm'   ? SubmitFault::out_of_memory
+           : letter == 'l' ? SubmitFault::device_lost
+           : letter == 't' ? SubmitFault::timeout
+                           : SubmitFault::none;
   };
   return options;
 }

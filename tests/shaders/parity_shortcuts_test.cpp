@@ -309,9 +309,10 @@ TEST_F(ParityStream, ChunksDoNotChangeValues) {
 TEST_F(ParityStream, FaultsDoNotChangeValues) {
   const Streamed sound = stream_through(scene, grips, tiny());
   EXPECT_TRUE(sound.notes.empty());
-  for (const host::Fault fault : {host::Fault::out_of_memory, host::Fault::device_lost, host::Fault::timeout}) {
+  for (const host::SubmitFault fault :
+       {host::SubmitFault::out_of_memory, host::SubmitFault::device_lost, host::SubmitFault::timeout}) {
     host::StreamOptions options = tiny();
-    options.inject = [fault](std::size_t submit) { return submit == 3 ? fault : host::Fault::none; };
+    options.inject = [fault](std::size_t submit) { return submit == 3 ? fault : host::SubmitFault::none; };
     const Streamed mended = stream_through(scene, grips, options);
     EXPECT_FALSE(mended.notes.empty());
     expect_same_planes(sound.planes, mended.planes, "fault " + std::to_string(static_cast<int>(fault)));
@@ -321,7 +322,7 @@ TEST_F(ParityStream, FaultsDoNotChangeValues) {
 // No device lasts: the core's answers, in the device's precision, through the same sink.
 TEST_F(ParityStream, WithoutDeviceTheCoreAnswers) {
   host::StreamOptions options = tiny();
-  options.inject = [](std::size_t) { return host::Fault::device_lost; };
+  options.inject = [](std::size_t) { return host::SubmitFault::device_lost; };
   const Streamed streamed = stream_through(scene, grips, options);
   EXPECT_FALSE(streamed.notes.empty());
   GatheredPlanes core = gather(*make_core_evaluator(scene), streamed.planes.fields, 0, grips);

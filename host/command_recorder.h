@@ -12,10 +12,10 @@ constexpr vk::AccessFlags WRITES = vk::AccessFlagBits::eShaderWrite | vk::Access
 constexpr vk::AccessFlags READS =
     vk::AccessFlagBits::eShaderRead | vk::AccessFlagBits::eUniformRead | vk::AccessFlagBits::eTransferRead;
 
-class Recorder {
+class CommandRecorder {
  public:
-  Recorder(DeviceState& device, std::uint32_t family);
-  ~Recorder();
+  CommandRecorder(DeviceState& device, std::uint32_t family);
+  ~CommandRecorder();
 
   void begin();
   void copy(const BufferState& from, const BufferState& to, std::size_t bytes);
@@ -39,6 +39,6 @@ class Recorder {
 bool wait_for(DeviceState& device, vk::Fence fence, double seconds);
 
 // Submits to the compute queue and waits. Throws DeviceLost; the device is marked where it hangs.
-void submit_and_wait(DeviceState& device, const Recorder& recorder);
+void submit_and_wait(DeviceState& device, const CommandRecorder& recorder);
 
 }  // namespace wholehand::host

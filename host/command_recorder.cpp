@@ -1,31 +1,31 @@
 // SPDX-License-Identifier: MIT
-#include "host/recorder.h"
+#include "host/command_recorder.h"
 
 #include <cmath>
 
 namespace wholehand::host {
-Recorder::Recorder(DeviceState& device, std::uint32_t family)
+CommandRecorder::CommandRecorder(DeviceState& device, std::uint32_t family)
     : device_(device),
       pool_(*device.device, {vk::CommandPoolCreateFlagBits::eResetCommandBuffer, family}),
       buffers_(*device.device, {*pool_, vk::CommandBufferLevel::ePrimary, 1}) {}
 
-Recorder::~Recorder() {
+CommandRecorder::~CommandRecorder() {
   leave_behind(device_, pool_);
   for (vk::raii::CommandBuffer& buffer : buffers_) leave_behind(device_, buffer);
 }
 
-void Recorder::begin() { buffers_[0].begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit}); }
+void CommandRecorder::begin() { buffers_[0].begin({vk::CommandBufferUsageFlagBits::eOneTimeSubmit}); }
 
-void Recorder::end() {
+void CommandRecorder::end() {
   barrier(WORK | vk::PipelineStageFlagBits::eHost, READS | WRITES | vk::AccessFlagBits::eHostRead | vk::AccessFlagBits::eHostWrite);
   buffers_[0].end();
 }
 
-void Recorder::barrier(vk::PipelineStageFlags to_stages, vk::AccessFlags to_access) {
+void CommandRecorder::barrier(vk::PipelineStageFlags to_stages, vk::AccessFlags to_access) {
   buffers_[0].pipelineBarrier(WORK, to_stages, {}, vk::MemoryBarrier(WRITES, to_access), {}, {});
 }
 
-void Recorder::copy(const BufferState& from, const BufferState& to, std::size_t bytes) {
+void CommandRecorder::copy(const BufferState& from, const BufferState& to, std::size_t bytes) {
   if (bytes > 0) {
     buffers_[0].copyBuffer(*from.buffer, *to.buffer, vk::BufferCopy(0, 0, bytes));
   }
@@ -36,7 +36,7 @@ bool wait_for(DeviceState& device, vk::Fence fence, double seconds) {
   return device.device->waitForFences(fence, true, nanoseconds) == vk::Result::eSuccess;
 }
 
-void submit_and_wait(DeviceState& device, const Recorder& recorder) {
+void submit_and_wait(DeviceState& device, const CommandRecorder& recorder) {
   vk::raii::Fence done(*device.device, vk::FenceCreateInfo());
   const vk::CommandBuffer commands = recorder.commands();
   device.compute.queue.submit(vk::SubmitInfo({}, {}, commands, {}), *done);
