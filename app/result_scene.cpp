@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/result_scene.h"
 
-#include <filesystem>
-#include <fstream>
-#include <system_error>
-
 #include "core/error.h"
 #include "objects/vessel.h"
 #include "scene/reader.h"
@@ -12,14 +8,7 @@
 
 namespace wholehand {
 
-bool is_result(const std::string& path) {
-  std::error_code absent;
-  if (!std::filesystem::is_regular_file(path, absent)) return false;  // a pipe would be waited for
-  std::ifstream file(path, std::ios::binary);
-  std::string start(NETCDF4_START.size(), ' ');
-  file.read(start.data(), static_cast<std::streamsize>(start.size()));
-  return start == NETCDF4_START;
-}
+bool is_result(const std::string& path) { return begins_with(path, NETCDF4_START); }
 
 Scene scene_of_result(const SweepResult& result, std::string& trouble) {
   const SweepOrigin& origin = result.origin();

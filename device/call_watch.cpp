@@ -6,9 +6,9 @@
 #include <cerrno>
 #include <ctime>
 
-#include "device/monotonic.h"
 #include "device/realtime.h"
 #include "system/block_signals.h"
+#include "system/clock.h"
 
 namespace wholehand {
 namespace {

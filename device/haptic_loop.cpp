@@ -9,8 +9,8 @@
 #include <ctime>
 
 #include "core/vectors.h"
-#include "device/monotonic.h"
 #include "device/panic.h"
+#include "system/clock.h"
 
 namespace wholehand {
 namespace {

@@ -11,18 +11,17 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
+#include <cmath>
 #include <cstring>
 #include <utility>
 
 #include "core/error.h"
 #include "device/protocol.h"
 #include "device/protocol_gripper.h"
+#include "system/clock.h"
 
 namespace wholehand {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr int HIDRAW_QUEUE = 63;  // the kernel's ring of 64 entries, one of them free
 
@@ -109,17 +108,17 @@ std::unique_ptr<HidTransport> HidTransport::open(const std::string& path, std::s
 }
 
 ReadOutcome HidTransport::receive(std::span<std::uint8_t> into, std::size_t& length, double patience) noexcept {
-  const Clock::time_point end = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(patience));
+  const double end = monotonic_now() + patience;
   for (;;) {
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now()).count();
+    const double left = std::ceil((end - monotonic_now()) * 1e3);  // ms
     errno = 0;
-    const int count = hid_read_timeout(device_, into.data(), into.size(), static_cast<int>(std::max<long>(left, 0)));
+    const int count = hid_read_timeout(device_, into.data(), into.size(), static_cast<int>(std::max(left, 0.0)));
     if (count > 0) {
       length = static_cast<std::size_t>(count);
       return ReadOutcome::value;
     }
     if (count == 0) return ReadOutcome::timeout;
-    if (errno == EINTR && Clock::now() < end) continue;  // a signal that somebody handles elsewhere
+    if (errno == EINTR && monotonic_now() < end) continue;  // a signal that somebody handles elsewhere
     if (errno == EINTR) return ReadOutcome::timeout;
     // no error number: poll() found the node hung up
     trouble_ = errno == 0 || errno == EIO || errno == ENODEV ? "unplugged" : "read error";

@@ -6,17 +6,16 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
 #include "core/error.h"
 #include "core/vectors.h"
+#include "system/clock.h"
 
 namespace wholehand {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using protocol::Wrong;
 
 constexpr double START_PATIENCE = 1;  // s: for the first measurement; a device may have something to finish
@@ -152,11 +151,10 @@ void ProtocolGripper::set_watchdog(double seconds) {
 
 // Reports from before the release may still wait, and say that the watchdog of an earlier session tripped.
 void ProtocolGripper::wait_for_measurement() {
-  const Clock::time_point end =
-      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(START_PATIENCE));
+  const double end = monotonic_now() + START_PATIENCE;
   GripperState state;
   const char* last_error = nullptr;
-  while (Clock::now() < end) {
+  while (monotonic_now() < end) {
     const ReadOutcome outcome = next(state, READ_PATIENCE);
     if (outcome == ReadOutcome::value) {
       trouble_ = "";

@@ -11,14 +11,13 @@
 
 #include "device/panic.h"
 #include "device/protocol_gripper.h"
+#include "system/clock.h"
 
 namespace wholehand {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr int OUT_PATIENCE = 10;                               // writes that find the one before still under way
-constexpr std::chrono::milliseconds STALE_OUTPUT{10};          // several periods of any loop that has not stood still
+constexpr double STALE_OUTPUT = 10e-3;                         // s: several periods of any loop that has not stood still
 constexpr unsigned CONTROL_PATIENCE = 500;                     // ms
 constexpr unsigned RELEASE_PATIENCE = 100;                     // ms
 constexpr unsigned PANIC_PATIENCE = 5;                         // ms
@@ -146,16 +145,16 @@ bool UsbTransport::wait_for(double seconds) noexcept {
 }
 
 bool UsbTransport::wait_while(const bool& is_busy, double seconds) noexcept {
-  const Clock::time_point end = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  const double end = monotonic_now() + seconds;
   while (is_busy) {
-    const double left = std::chrono::duration<double>(end - Clock::now()).count();
+    const double left = end - monotonic_now();
     if (left <= 0 || !wait_for(left)) return false;
   }
   return true;
 }
 
 ReadOutcome UsbTransport::receive(std::span<std::uint8_t> into, std::size_t& length, double patience) noexcept {
-  const Clock::time_point end = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(patience));
+  const double end = monotonic_now() + patience;
   for (bool has_looked = false;; has_looked = true) {
     if (count_ > 0) {
       const Report& report = reports_[first_];
@@ -169,7 +168,7 @@ ReadOutcome UsbTransport::receive(std::span<std::uint8_t> into, std::size_t& len
       trouble_ = input_trouble_;
       return ReadOutcome::error;
     }
-    const double left = std::chrono::duration<double>(end - Clock::now()).count();
+    const double left = end - monotonic_now();
     if (has_looked && left <= 0) return ReadOutcome::timeout;
     if (!wait_for(left)) return ReadOutcome::error;
   }
@@ -197,7 +196,7 @@ void UsbTransport::on_output(libusb_transfer* transfer) {
   if (!self.has_next_output_) return;
   self.has_next_output_ = false;
   // the process stood still meanwhile: the force of before must not come back
-  if (Clock::now() - self.next_since_ >= STALE_OUTPUT) return;
+  if (monotonic_now() - self.next_since_ >= STALE_OUTPUT) return;
   // nor may it follow the zero of a handler or a second thread
   if (self.next_panics_ != self.panics_ || is_letting_go()) return;
   self.output_bytes_ = self.next_output_;
@@ -221,7 +220,7 @@ bool UsbTransport::send(protocol::Bytes report) noexcept {
   if (!is_output_in_flight_) return panics != panics_ || submit_output();
   has_next_output_ = true;
   next_panics_ = panics;
-  next_since_ = Clock::now();
+  next_since_ = monotonic_now();
   return ++late_outputs_ <= OUT_PATIENCE || failed(0, "it takes no force");
 }
 

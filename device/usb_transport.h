@@ -6,7 +6,6 @@
 
 #include <array>
 #include <atomic>
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -87,9 +86,9 @@ class UsbTransport final : public Transport {
   libusb_transfer* output_ = nullptr;
   std::array<std::uint8_t, protocol::OUTPUT_SIZE> output_bytes_{}, next_output_{};
   bool is_output_in_flight_ = false, has_next_output_ = false, has_output_failed_ = false, is_closing_ = false;
-  std::chrono::steady_clock::time_point next_since_;  // when the one that waits was handed in
-  int next_panics_ = 0;                               // panics_ when its send() began
-  std::atomic<int> panics_{0};                        // calls of panic(), of any thread
+  double next_since_ = 0;       // s of the clock, when the one that waits was handed in
+  int next_panics_ = 0;         // panics_ when its send() began
+  std::atomic<int> panics_{0};  // calls of panic(), of any thread
   static_assert(std::atomic<int>::is_always_lock_free, "counted in a signal handler");
   int late_outputs_ = 0;
   bool has_input_failed_ = false;

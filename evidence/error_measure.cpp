@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 
 #include "core/core_backend.h"
 #include "host/grip_backend.h"
 #include "sweeps/plan.h"
 #include "sweeps/variables.h"
+#include "system/clock.h"
 
 namespace wholehand {
 namespace {
@@ -171,9 +171,9 @@ ErrorRow ErrorMeasure::compared_row(const ErrorVariant& variant) {
   row.driver = opened.backend->info().driver;
   std::vector<GatheredPlanes> planes;
   std::vector<std::vector<LiquidResult>> liquid;
-  const auto start = std::chrono::steady_clock::now();
+  const double start = monotonic_now();
   for (std::size_t v = 0; v < grips_.size(); ++v) liquid.push_back(opened.backend->liquid(v));
-  const double liquid_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double liquid_seconds = monotonic_now() - start;
   if (variant.on_core && !liquid.front().empty())
     row.liquid_seconds = liquid_seconds / static_cast<double>(liquid.size() * liquid.front().size());
   for (std::size_t v = 0; v < grips_.size(); ++v) planes.push_back(gather(*opened.backend, v, grips_[v]));

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <iterator>
@@ -16,6 +15,7 @@
 #include "evidence/grip_loop.h"
 #include "evidence/wall_picture.h"
 #include "evidence/wall_sweep.h"
+#include "system/clock.h"
 #include "system/csv.h"
 #include "system/files.h"
 #include "system/folder_files.h"
@@ -26,11 +26,6 @@
 
 namespace wholehand {
 namespace {
-
-using StabilityClock = std::chrono::steady_clock;
-double seconds_since(StabilityClock::time_point start) {
-  return std::chrono::duration<double>(StabilityClock::now() - start).count();
-}
 
 std::string newtons_per_metre(double limit) {
   return std::isfinite(limit) ? fmt::format("{:.0f}", limit) : std::string("no limit");
@@ -254,14 +249,14 @@ struct Stability {
 bool compute_stability(const StabilityOptions& options, const WallRunner& runner, InterruptGuard& interrupt, Stability& stability) {
   show_status("limits by theory");
   stability.sheets = wall_sheets(options.quick, options.seed);
-  const auto start = StabilityClock::now();
+  const double start = monotonic_now();
   const std::size_t points = count_points(stability.sheets);
   const bool walls_done = run_walls(stability.sheets, runner, [&](std::size_t done) {
     show_status(fmt::format("walls {} of {}", done, points));
     return !interrupt.flag();
   });
   if (!walls_done) return false;
-  stability.wall_seconds = seconds_since(start);
+  stability.wall_seconds = monotonic_now() - start;
   stability.walls = look_at(stability.sheets);
   show_status("held grips");
   stability.grips = grip_loop_rows(options.quick);

@@ -2,7 +2,6 @@
 #include "host/grip_backend.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include "core/candidates.h"
 #include "core/core_backend.h"
@@ -11,6 +10,7 @@
 #include "core/prepare.h"
 #include "host/grip_program.h"
 #include "host/stream.h"
+#include "system/clock.h"
 
 namespace wholehand::host {
 namespace {
@@ -259,9 +259,9 @@ struct GripBackend::Impl {
 
 GripBackend::GripBackend(const Scene& scene, std::shared_ptr<const Evaluator> core, const FieldSet& fields,
                          const std::string& selector, const GripBackendOptions& options) {
-  const auto start = std::chrono::steady_clock::now();
+  const double start = monotonic_now();
   impl_ = std::make_unique<Impl>(scene, std::move(core), fields, selector, options);
-  impl_->setup_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  impl_->setup_seconds = monotonic_now() - start;
 }
 
 GripBackend::~GripBackend() = default;

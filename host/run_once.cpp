@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host/run_once.h"
 
-#include <chrono>
-
 #include "host/step_recorder.h"
+#include "system/clock.h"
 
 namespace wholehand::host {
 
@@ -14,10 +13,10 @@ double run_once(const Device& device, const Commands& commands) {
     recorder.begin();
     recorder.steps(commands);
     recorder.end();
-    const auto start = std::chrono::steady_clock::now();
+    const double start = monotonic_now();
     submit_and_wait(on, recorder);
-    const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - start;
-    return recorder.seconds() >= 0 ? recorder.seconds() : waited.count();
+    const double waited = monotonic_now() - start;
+    return recorder.seconds() >= 0 ? recorder.seconds() : waited;
   });
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "host/slot.h"
+#include "system/clock.h"
 
 #include <algorithm>
 #include <limits>
@@ -92,7 +93,7 @@ void Slot::submit(const Chunk& next, const StreamRequest& request, Program& prog
     record_download();
   }
   submit_compute();
-  submitted = std::chrono::steady_clock::now();
+  submitted = monotonic_now();
 }
 
 Commands Slot::fill_and_record(const StreamRequest& request, Program& program) {

@@ -2,8 +2,6 @@
 // One chunk in flight: its buffers, command buffers and what they wait for; for host/ alone.
 #pragma once
 
-#include <chrono>
-
 #include "host/step_recorder.h"
 #include "host/stream_request.h"
 
@@ -27,7 +25,7 @@ class Slot {
 
   Chunk chunk;
   SubmitFault fault = SubmitFault::none;  // to be met when it is waited for
-  std::chrono::steady_clock::time_point submitted;
+  double submitted = 0;                   // when, s of the clock
   std::uint64_t bytes_in = 0, bytes_out = 0;
 
  private:

@@ -6,11 +6,11 @@
 #include <deque>
 
 #include "host/slot.h"
+#include "system/clock.h"
 
 namespace wholehand::host {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 constexpr std::size_t MAX_LOSSES = 3;  // of the device in one run; after that it is given up
 
 std::string range_of(const Chunk& chunk) {
@@ -213,10 +213,10 @@ class Run {
     if (slot.fault == SubmitFault::timeout || !checked("waiting for a chunk", [&] { return slot.wait(limit); })) {
       throw DeviceLost("device timed out", Remedy::none, true);
     }
-    const auto now = Clock::now();
+    const double now = monotonic_now();
     double seconds = checked("timing a chunk", [&] { return slot.seconds(); });
     if (seconds < 0) {
-      seconds = std::chrono::duration<double>(now - std::max(slot.submitted, last_done_)).count();
+      seconds = now - std::max(slot.submitted, last_done_);
     }
     last_done_ = now;
     adapt(slot.chunk.count, std::max(seconds, 1e-9));
@@ -344,7 +344,7 @@ class Run {
   std::size_t losses_ = 0;
   bool shrinking_ = false;       // smaller slots are to be made once nothing is in flight
   double seconds_per_item_ = 0;  // of the last chunk
-  Clock::time_point last_done_{};
+  double last_done_ = 0;         // when a chunk was, s of the clock
 };
 
 }  // namespace

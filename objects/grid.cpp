@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
@@ -23,6 +22,7 @@
 #include "core/vectors.h"
 #include "objects/distance.h"
 #include "shaders/layout.h"
+#include "system/clock.h"
 
 namespace wholehand {
 namespace {
@@ -244,12 +244,10 @@ void sample_lattice(const MeshDistance& distance, PreparedGrid& grid, int thread
   grid.words = std::make_shared<const std::vector<std::uint32_t>>(std::move(words));
 }
 
-double steady_seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-
 // Takes rows from all over the lattice, one a thread and then twice as many each time, until they took TIMED_SECONDS or are a 32nd of all:
 // from how long that took follows how long all will take. The samples are not kept.
 double seconds_of_rows(const MeshDistance& distance, const PreparedGrid& grid, int threads, const std::function<double()>& clock) {
-  const auto now = [&] { return clock ? clock() : steady_seconds(); };
+  const auto now = [&] { return clock ? clock() : monotonic_now(); };
   const std::size_t all = static_cast<std::size_t>(grid.ny) * grid.nz,
                     step = static_cast<std::size_t>(0.618 * static_cast<double>(all)) | 1u;
   const auto take_row = [&](std::size_t number) {

@@ -36,11 +36,9 @@ void append_record(std::string& block, const Tick& tick, double rate, std::size_
 
 void check_recording_path(const std::string& path, const char* option) {
   check_output_path(path, option);
-  struct stat status {};
-  if (stat(path.c_str(), &status) == 0 && status.st_size > 0) {
-    throw usage_error(fmt::format("{} {}: the file exists and is not overwritten; name another file, or remove it", option, path));
-  }
+  check_overwrites_nothing(path, option);
   const std::string partial = partial_recording(path);
+  struct stat status {};
   if (lstat(partial.c_str(), &status) == 0) throw is_in_the_way(path, partial, option);
 }
 

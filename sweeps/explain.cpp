@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 #include <vector>
 
@@ -12,6 +11,7 @@
 #include "core/gather.h"
 #include "host/grip_backend.h"
 #include "sweeps/variables.h"
+#include "system/clock.h"
 #include "system/readable.h"
 
 namespace wholehand {
@@ -100,9 +100,9 @@ class Explainer {
       request.grips = [this](std::size_t, std::uint64_t first, std::size_t count, GripInput* out) {
         std::copy_n(sample_.begin() + static_cast<std::ptrdiff_t>(first), count, out);
       };
-      const auto start = std::chrono::steady_clock::now();
+      const double start = monotonic_now();
       backend->run(request);
-      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      const double seconds = monotonic_now() - start;
       if (run > 0) runs.push_back(seconds);  // the first compiles
     }
     std::sort(runs.begin(), runs.end());

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <limits>
@@ -17,21 +16,20 @@
 #include "core/error.h"
 #include "shaders/layout.h"
 #include "sweeps/guarded_file.h"
+#include "system/clock.h"
 
 namespace wholehand {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 // Adds the time of a scope to a sum.
 class Stopwatch {
  public:
   explicit Stopwatch(double& sum) : sum_(sum) {}
-  ~Stopwatch() { sum_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+  ~Stopwatch() { sum_ += monotonic_now() - start_; }
 
  private:
   double& sum_;
-  Clock::time_point start_ = Clock::now();
+  double start_ = monotonic_now();
 };
 
 // An HDF5 identifier that closes itself.

@@ -22,6 +22,7 @@
 #include "sweeps/resume.h"
 #include "sweeps/tally.h"
 #include "sweeps/write_companions.h"
+#include "system/clock.h"
 #include "system/interrupt.h"
 #include "system/output_lock.h"
 #include "system/progress.h"
@@ -31,13 +32,11 @@
 namespace wholehand {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr double MARK_SHARE = 0.02;           // of the time, at most, for marks
 constexpr off_t LONG_CHECK = 1'000'000'000;   // bytes of a partial file: from here on it is said that they are read
 constexpr std::uint64_t MOST_STRETCHES = 64;  // of a vessel's grips with a checksum each, and one more for each --resume
 
-double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double since(double start) { return monotonic_now() - start; }
 
 class Sweep {
  public:
@@ -216,7 +215,7 @@ class Sweep {
   // Every vessel from where it stands to its end. False: interrupted, everything done so far is marked.
   bool sweep(const Plan& plan, ResultFile& file, InterruptGuard& interrupt) {
     Progress progress(total(plan), done());
-    last_mark_ = Clock::now();
+    last_mark_ = monotonic_now();
     for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
       while (mark_.vessels[v].done < plan.grips()) {
         run_stretch(v, plan, file, interrupt, progress);
@@ -244,7 +243,7 @@ class Sweep {
     HandLists best(plan, best_wanted_, vessel.best);
     request.best = ranks_here(plan) ? 0 : best_wanted_;
     request.sink = [&](const PlaneChunk& chunk) {
-      const auto start = Clock::now();
+      const double start = monotonic_now();
       file.write(chunk);
       count_grips(chunk, backend_->fields(), vessel.counts);
       if (ranks_here(plan)) best.offer(chunk, backend_->fields());
@@ -254,7 +253,7 @@ class Sweep {
       if (since(last_mark_) >= mark_interval_) interrupt.flag() = true;
       sink_seconds += since(start);
     };
-    const auto start = Clock::now();
+    const double start = monotonic_now();
     const RunResult result = backend_->run(request);
     wait_seconds_ += since(start) - sink_seconds;
     interrupt.clear();
@@ -282,14 +281,14 @@ class Sweep {
 
   // Everything up to here onto the disk, then the mark that says so.
   void save(ResultFile& file) {
-    const auto start = Clock::now();
+    const double start = monotonic_now();
     file.sync();
     file.vouch_for_structure(mark_);
     mark_.wall_seconds = wall_before_ + since(options_.started);
     for (std::size_t v = 0; v < maps_.size() && has_heat_map(); ++v) mark_.vessels[v].heat_map = maps_[v].scores();
     save_mark(names_.mark, mark_);
     is_marked_ = true;
-    last_mark_ = Clock::now();
+    last_mark_ = monotonic_now();
     mark_interval_ = std::max(options_.mark_seconds, since(start) / MARK_SHARE);
   }
 
@@ -335,7 +334,7 @@ class Sweep {
   bool is_marked_ = false;  // there is a mark of this sweep
   double wall_before_ = 0;  // of earlier sessions, s
   double mark_interval_ = options_.mark_seconds;
-  Clock::time_point last_mark_;
+  double last_mark_ = 0;     // s of the clock
   double wait_seconds_ = 0;  // in the backend, less what it spent in the sink
   double kernel_seconds_ = 0;
   std::set<std::string> said_;

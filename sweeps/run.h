@@ -2,7 +2,6 @@
 // A sweep from a scene to its files: what `wholehand sweep` does.
 #pragma once
 
-#include <chrono>
 #include <functional>
 #include <optional>
 #include <string>
@@ -10,6 +9,7 @@
 #include "core/backend.h"
 #include "core/error.h"
 #include "sweeps/sweep_parts.h"
+#include "system/clock.h"
 
 namespace wholehand {
 
@@ -24,8 +24,8 @@ struct SweepOptions {
   int threads = 0;  // of the core, 0: all
   // Called once meshes are read: says what the user should know of the scene in that precision. May be empty.
   std::function<void(const Scene&, Precision)> warn = {};
-  double mark_seconds = 5;  // least time between two progress marks: what a crash may cost
-  std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();  // of the process, for the closing lines
+  double mark_seconds = 5;           // least time between two progress marks: what a crash may cost
+  double started = monotonic_now();  // s of the clock: when the work was asked for, for the closing lines
 };
 
 // Sweeps every grip of the scene. Writes NAME.nc, NAME.best.csv, NAME.<vessel>.svg and NAME.<vessel>.<rank>.glb; prints the device, the best grips and counts

@@ -142,6 +142,14 @@ void check_overwrites_kind(const std::string& path, std::string_view start, cons
   if (head && !head->empty() && *head != start) throw is_foreign(path, what, option);
 }
 
+void check_overwrites_nothing(const std::string& path, const char* option) {
+  const std::optional<std::string> head = head_of(path, 1);
+  if (head && !head->empty()) {
+    throw usage_error(
+        fmt::format("{} {}: is there, and what it holds is not overwritten; name another file, or remove it", option, path));
+  }
+}
+
 bool begins_with(const std::string& path, std::string_view start) { return head_of(path, start.size()) == start; }
 
 bool has_mark(const std::string& path, std::string_view mark) {

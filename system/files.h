@@ -49,6 +49,9 @@ void check_not_the_scene(const std::string& path, const Scene& scene, const char
 // so, for the message ("glTF binary").
 void check_overwrites_kind(const std::string& path, std::string_view start, const char* what, const char* option);
 
+// Throws Error (usage) where a file with something in it is there, whatever it is.
+void check_overwrites_nothing(const std::string& path, const char* option);
+
 // Whether a regular file is there that begins so.
 bool begins_with(const std::string& path, std::string_view start);
 

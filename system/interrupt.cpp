@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "system/interrupt.h"
 
-#include <ctime>
+#include "system/clock.h"
 
 namespace wholehand {
 namespace {
@@ -14,12 +14,6 @@ static_assert(std::atomic<bool>::is_always_lock_free);  // or a signal handler c
 // second wish.
 constexpr double ONE_WISH = 0.25;  // s
 
-double now() {
-  timespec time{};
-  clock_gettime(CLOCK_MONOTONIC, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
 std::atomic<double> first_came{0};
 std::atomic<void (*)(int)> another{nullptr};
 static_assert(std::atomic<double>::is_always_lock_free && std::atomic<void (*)(int)>::is_always_lock_free);
@@ -27,12 +21,12 @@ static_assert(std::atomic<double>::is_always_lock_free && std::atomic<void (*)(i
 void on_signal(int signal) {
   // the time goes first: another thread may take the second signal at once
   double never = 0;
-  first_came.compare_exchange_strong(never, now());
+  first_came.compare_exchange_strong(never, monotonic_now());
   if (!signal_came.exchange(true)) {
     stop = true;
     return;
   }
-  if (now() - first_came < ONE_WISH) return;
+  if (monotonic_now() - first_came < ONE_WISH) return;
   if (const auto act = another.load()) return act(signal);
   struct sigaction by_default {};
   by_default.sa_handler = SIG_DFL;

@@ -38,12 +38,11 @@ std::string Progress::line(const std::string& what, std::uint64_t total, std::ui
 
 void Progress::update(const std::string& what, std::uint64_t done) {
   if (!shown_) return;
-  const auto now = Clock::now();
-  if (now - last_ < std::chrono::milliseconds(100)) return;
+  const double now = monotonic_now();
+  if (now - last_ < 0.1) return;
   last_ = now;
   drawn_ = true;
-  const double seconds = std::chrono::duration<double>(now - start_).count();
-  fmt::print(stderr, "\r{}\033[K", line(what, total_, before_, done, seconds));
+  fmt::print(stderr, "\r{}\033[K", line(what, total_, before_, done, now - start_));
   std::fflush(stderr);
 }
 

@@ -2,9 +2,10 @@
 // One line on the terminal while long work runs: how much is done, how fast, how long yet.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <string>
+
+#include "system/clock.h"
 
 namespace wholehand {
 
@@ -30,10 +31,9 @@ class Progress {
   static std::string line(const std::string& what, std::uint64_t total, std::uint64_t before, std::uint64_t done, double seconds);
 
  private:
-  using Clock = std::chrono::steady_clock;
   std::uint64_t total_, before_;
   bool shown_, drawn_ = false;
-  Clock::time_point start_ = Clock::now(), last_ = start_ + std::chrono::milliseconds(400);
+  double start_ = monotonic_now(), last_ = start_ + 0.4;  // s
 };
 
 }  // namespace wholehand

@@ -11,8 +11,8 @@
 #include <thread>
 #include <vector>
 
-#include "device/monotonic.h"
 #include "device/replay_gripper.h"
+#include "system/clock.h"
 #include "tests/support/loop_rig.h"
 
 namespace wholehand {

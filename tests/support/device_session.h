@@ -26,8 +26,8 @@
 
 #include "app/live.h"
 #include "core/error.h"
-#include "device/monotonic.h"
 #include "device/omega_gripper.h"
+#include "system/clock.h"
 #include "system/output.h"
 #include "tests/support/files.h"
 #include "tests/support/stand_in_dhd.h"

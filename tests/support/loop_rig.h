@@ -11,7 +11,7 @@
 
 #include "core/loop.h"
 #include "device/haptic_loop.h"
-#include "device/monotonic.h"
+#include "system/clock.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The clock that loops and watches go by.
+// The one clock: of loops, watches and everything that is timed. Waits on a condition or a queue take std::chrono's, which is the same.
 #pragma once
 
 #include <ctime>
 
 namespace wholehand {
 
-// s since some moment; never steps.
+// s since some moment; never steps. A signal handler may ask, too.
 inline double monotonic_now() noexcept {
   timespec time{};
   clock_gettime(CLOCK_MONOTONIC, &time);
