@@ -145,8 +145,7 @@ void check_overwrites_kind(const std::string& path, std::string_view start, cons
 void check_overwrites_nothing(const std::string& path, const char* option) {
   const std::optional<std::string> head = head_of(path, 1);
   if (head && !head->empty()) {
-    throw usage_error(
-        fmt::format("{} {}: is there, and what it holds is not overwritten; name another file, or remove it", option, path));
+    throw usage_error(fmt::format("{} {}: the file exists and is not overwritten; name another file, or remove it", option, path));
   }
 }
 
