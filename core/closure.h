@@ -20,7 +20,7 @@ struct Placement {
 };
 
 // One side's sphere tracing: the coordinate along the line; REASON_NONE, REASON_NOT_CONVERGED or REASON_MISSES; where it touches, the
-// outward normal and the element touched (-1: a grid).
+// outward normal and the element touched (-1: a lattice).
 struct Trace {
   Real t = 0;
   int reason = 0;

@@ -86,12 +86,12 @@ class CoreEvaluator final : public wholehand::Evaluator {
       const wholehand::PreparedVessel prepared = wholehand::prepare_vessel(data, data.has_cavity());
       entry.vessel = load_vessel(prepared, data, quadrature_, with_liquid, scene.hand.handedness);
       if (data.mesh) {
-        entry.grid = wholehand::mirrored(data.mesh->body->grid, scene.hand.handedness);
-      } else if (options.grid_samples > 0) {
-        entry.grid =
-            wholehand::prepare_grid(prepared, options.grid_samples, options.grid_bits == 16, wholehand::grid_margin(scene));
+        entry.lattice = wholehand::mirrored(data.mesh->body->lattice, scene.hand.handedness);
+      } else if (options.lattice_samples > 0) {
+        entry.lattice = wholehand::prepare_lattice(prepared, options.lattice_samples, options.lattice_bits == 16,
+                                                   wholehand::lattice_margin(scene));
       }
-      if (entry.grid) use_grid(entry.vessel, load_grid(*entry.grid));
+      if (entry.lattice) use_lattice(entry.vessel, load_lattice(*entry.lattice));
       entry.vessel.limits = hand_.limits;
       entry.force = load_force(scene, data);
       entries_.push_back(std::move(entry));
@@ -246,14 +246,16 @@ class CoreEvaluator final : public wholehand::Evaluator {
 
   double gap_at(double closure) const override { return hand_.scale * CORE_NS::gap_at(hand_, Real(closure)); }
 
-  const wholehand::PreparedGrid* grid(std::size_t v) const override { return entries_[v].grid ? &*entries_[v].grid : nullptr; }
+  const wholehand::PreparedLattice* lattice(std::size_t v) const override {
+    return entries_[v].lattice ? &*entries_[v].lattice : nullptr;
+  }
 
   std::size_t table_bytes() const override {
     std::size_t bytes = sizeof hand_ + hand_.gap_table.size() * sizeof(Real) + 2 * quadrature_.count * sizeof(Real);
     for (const VesselEntry& entry : entries_) {
       bytes += entry.vessel.cavity.size() * sizeof(Element) + entry.vessel.lip_capacity.size() * sizeof(Real) +
                entry.loads.size() * sizeof(Load);
-      bytes += entry.grid ? entry.grid->words->size() * sizeof(std::uint32_t) : entry.vessel.outline.size() * sizeof(Element);
+      bytes += entry.lattice ? entry.lattice->words->size() * sizeof(std::uint32_t) : entry.vessel.outline.size() * sizeof(Element);
     }
     return bytes;
   }

@@ -15,12 +15,12 @@
 
 namespace wholehand {
 
-struct PreparedGrid;  // core/prepare.h
+struct PreparedLattice;  // core/prepare.h
 
 // How a scene is evaluated, beyond what it says: for measuring shortcuts, not for users.
 struct EvaluatorOptions {
-  int grid_samples = 0;  // > 0: replace each outline by a regular grid of that many samples along its longest side
-  int grid_bits = 32;    // of a sample: 32, or 16 (half precision)
+  int lattice_samples = 0;  // > 0: replace each outline by a regular lattice of that many samples along its longest side
+  int lattice_bits = 32;    // of a sample: 32, or 16 (half precision)
   int quadrature_points = QUADRATURE_POINTS;  // liquid: Gauss-Legendre points a piece, 2..64
   double stop_tolerance = 0;                  // m; 0: the precision's named one
   int trace_steps = 0, advance_steps = 0;     // at most; 0: the named numbers
@@ -72,8 +72,8 @@ class Evaluator {
   virtual double gap_at(double closure) const = 0;                         // g(c) at hand scale 1 times the scene's, m
 
   // The samples that stand for a vessel's outline; null where none do.
-  virtual const PreparedGrid* grid(std::size_t vessel) const;
-  // Bytes of all that the kernels read: outlines or grids, cavities, tables of hand, lips, states and quadrature.
+  virtual const PreparedLattice* lattice(std::size_t vessel) const;
+  // Bytes of all that the kernels read: outlines or lattices, cavities, tables of hand, lips, states and quadrature.
   virtual std::size_t table_bytes() const { return 0; }
 };
 

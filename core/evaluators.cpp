@@ -11,7 +11,7 @@ std::unique_ptr<wholehand::Evaluator> make_evaluator(const wholehand::Scene&, co
 
 namespace wholehand {
 
-const PreparedGrid* Evaluator::grid(std::size_t) const { return nullptr; }
+const PreparedLattice* Evaluator::lattice(std::size_t) const { return nullptr; }
 
 std::unique_ptr<Evaluator> make_core_evaluator(const Scene& scene, const EvaluatorOptions& options) {
   return core_f64::make_evaluator(scene, options);

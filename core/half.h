@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// 16-bit floats (IEEE 754 binary16): how a grid's samples may be stored.
+// 16-bit floats (IEEE 754 binary16): how a lattice's samples may be stored.
 #pragma once
 
 #include <bit>

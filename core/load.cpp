@@ -119,21 +119,21 @@ Vessel load_vessel(const wholehand::PreparedVessel& prepared, const wholehand::V
   return vessel;
 }
 
-Grid load_grid(const wholehand::PreparedGrid& prepared) {
-  Grid grid;
-  grid.origin = to_vec3<Real>(prepared.origin);
-  grid.spacing = Real(prepared.spacing);
-  grid.nx = prepared.nx;
-  grid.ny = prepared.ny;
-  grid.nz = prepared.nz;
-  grid.halves = prepared.halves;
-  grid.words = prepared.words;
-  return grid;
+Lattice load_lattice(const wholehand::PreparedLattice& prepared) {
+  Lattice lattice;
+  lattice.origin = to_vec3<Real>(prepared.origin);
+  lattice.spacing = Real(prepared.spacing);
+  lattice.nx = prepared.nx;
+  lattice.ny = prepared.ny;
+  lattice.nz = prepared.nz;
+  lattice.halves = prepared.halves;
+  lattice.words = prepared.words;
+  return lattice;
 }
 
-void use_grid(Vessel& vessel, Grid grid) {
-  vessel.grid = std::move(grid);
-  vessel.is_grid = true;
+void use_lattice(Vessel& vessel, Lattice lattice) {
+  vessel.lattice = std::move(lattice);
+  vessel.is_lattice = true;
   vessel.lid = -1;
 }
 

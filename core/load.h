@@ -22,10 +22,10 @@ Vessel load_vessel(const wholehand::PreparedVessel& prepared, const wholehand::V
                    bool with_liquid, wholehand::Handedness handedness);
 
 // The samples are shared, not copied.
-Grid load_grid(const wholehand::PreparedGrid& prepared);
+Lattice load_lattice(const wholehand::PreparedLattice& prepared);
 
-// Puts the grid in the outline's place: no lid, and the distance is the lattice's.
-void use_grid(Vessel& vessel, Grid grid);
+// Puts the lattice in the outline's place: no lid, and the distance is the lattice's.
+void use_lattice(Vessel& vessel, Lattice lattice);
 
 // The scene's force constants for a vessel; `reference` is filled by the caller.
 ForceScale load_force(const wholehand::Scene& scene, const wholehand::VesselData& data);

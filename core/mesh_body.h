@@ -19,8 +19,8 @@ struct MeshBody {
   double volume = 0;                                    // enclosed, m3, > 0
   Triple center_of_mass{};                              // of that volume
   bool holds_cavity = false;  // the inner outline lies within the enclosed volume: what it encloses is no glass
-  PreparedGrid grid;          // signed distance; of the right hand's scene
-  double grid_error = 0;      // of the lattice at the surface, m
+  PreparedLattice lattice;    // signed distance; of the right hand's scene
+  double lattice_error = 0;   // of the lattice at the surface, m
   std::string facts;          // what the check found, in one paragraph
   std::string key;            // of the triangles and the lattice, hexadecimal: equal where both are equal
 };

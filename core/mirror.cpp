@@ -16,19 +16,19 @@ GripInput mirrored(const GripInput& grip, Handedness handedness) {
   return result;
 }
 
-PreparedGrid mirrored(const PreparedGrid& grid, Handedness handedness) {
-  if (handedness == Handedness::right) return grid;
-  PreparedGrid result = grid;
-  result.origin[0] = -(grid.origin[0] + (grid.nx - 1) * grid.spacing);
-  const std::size_t rows = static_cast<std::size_t>(grid.ny) * grid.nz, nx = grid.nx;
-  std::vector<std::uint32_t> words(grid.words->size());
+PreparedLattice mirrored(const PreparedLattice& lattice, Handedness handedness) {
+  if (handedness == Handedness::right) return lattice;
+  PreparedLattice result = lattice;
+  result.origin[0] = -(lattice.origin[0] + (lattice.nx - 1) * lattice.spacing);
+  const std::size_t rows = static_cast<std::size_t>(lattice.ny) * lattice.nz, nx = lattice.nx;
+  std::vector<std::uint32_t> words(lattice.words->size());
   for (std::size_t row = 0; row < rows; ++row)
     for (std::size_t i = 0; i < nx; ++i) {
       const std::size_t from = row * nx + i, to = row * nx + nx - 1 - i;
-      if (grid.halves) {
-        words[to / 2] |= placed_half(half_at(*grid.words, from), to);
+      if (lattice.halves) {
+        words[to / 2] |= placed_half(half_at(*lattice.words, from), to);
       } else {
-        words[to] = (*grid.words)[from];
+        words[to] = (*lattice.words)[from];
       }
     }
   result.words = std::make_shared<const std::vector<std::uint32_t>>(std::move(words));

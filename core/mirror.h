@@ -14,6 +14,6 @@ GripInput mirrored(const GripInput& grip, Handedness handedness);
 Triple mirrored(const Triple& point, Handedness handedness);
 glm::dvec3 mirrored(const glm::dvec3& point, Handedness handedness);
 glm::dmat3 mirrored(const glm::dmat3& rotation, Handedness handedness);
-PreparedGrid mirrored(const PreparedGrid& grid, Handedness handedness);
+PreparedLattice mirrored(const PreparedLattice& lattice, Handedness handedness);
 
 }  // namespace wholehand

@@ -232,7 +232,7 @@ PreparedHand prepare_hand(const HandData& hand, int gap_entries) {
   return prepared;
 }
 
-PreparedGrid prepare_grid(const PreparedVessel& prepared, int samples, bool halves, double margin) {
+PreparedLattice prepare_lattice(const PreparedVessel& prepared, int samples, bool halves, double margin) {
   core_f64::Vessel vessel;
   double widest = 0, low = 0, high = 0;
   for (const PreparedElement& e : prepared.outline) {
@@ -244,28 +244,28 @@ PreparedGrid prepare_grid(const PreparedVessel& prepared, int samples, bool halv
   widest += margin;
   low -= margin;
   high += margin;
-  PreparedGrid grid;
-  grid.halves = halves;
-  grid.spacing = std::max(2 * widest, high - low) / (samples - 5);
-  const auto count = [&](double length) { return static_cast<int>(std::ceil(length / grid.spacing)) + 5; };
-  grid.nx = grid.nz = count(2 * widest);
-  grid.ny = count(high - low);
-  grid.origin = {-widest - 2 * grid.spacing, low - 2 * grid.spacing, -widest - 2 * grid.spacing};
-  const std::size_t plane = static_cast<std::size_t>(grid.nx) * grid.ny, all = plane * grid.nz;
+  PreparedLattice lattice;
+  lattice.halves = halves;
+  lattice.spacing = std::max(2 * widest, high - low) / (samples - 5);
+  const auto count = [&](double length) { return static_cast<int>(std::ceil(length / lattice.spacing)) + 5; };
+  lattice.nx = lattice.nz = count(2 * widest);
+  lattice.ny = count(high - low);
+  lattice.origin = {-widest - 2 * lattice.spacing, low - 2 * lattice.spacing, -widest - 2 * lattice.spacing};
+  const std::size_t plane = static_cast<std::size_t>(lattice.nx) * lattice.ny, all = plane * lattice.nz;
   std::vector<std::uint32_t> words(lattice_words(all, halves));
   const auto store = [&](std::size_t at, float value) { words[word_of(at, halves)] |= sample_bits(value, at, halves); };
-  const auto at_place = [&](int axis, int i) { return grid.origin[axis] + grid.spacing * i; };
-  for (int k = 0; k < grid.nz; ++k)
-    for (int j = 0; j < grid.ny; ++j)
+  const auto at_place = [&](int axis, int i) { return lattice.origin[axis] + lattice.spacing * i; };
+  for (int k = 0; k < lattice.nz; ++k)
+    for (int j = 0; j < lattice.ny; ++j)
       for (int i = 0; i <= k; ++i) {
         // a body of revolution is its own mirror image where x and z change places, and so is the lattice
         const double x = at_place(0, i), z = at_place(2, k);
         const float value = static_cast<float>(core_f64::profile_distance(vessel, {std::sqrt(x * x + z * z), at_place(1, j)}));
-        store(k * plane + static_cast<std::size_t>(j) * grid.nx + i, value);
-        if (i != k) store(i * plane + static_cast<std::size_t>(j) * grid.nx + k, value);
+        store(k * plane + static_cast<std::size_t>(j) * lattice.nx + i, value);
+        if (i != k) store(i * plane + static_cast<std::size_t>(j) * lattice.nx + k, value);
       }
-  grid.words = std::make_shared<const std::vector<std::uint32_t>>(std::move(words));
-  return grid;
+  lattice.words = std::make_shared<const std::vector<std::uint32_t>>(std::move(words));
+  return lattice;
 }
 
 double widest_on(const PreparedElement& element) {
@@ -274,12 +274,12 @@ double widest_on(const PreparedElement& element) {
   return std::max({element.a[0], element.b[0], is_widest_between ? element.center[0] + element.radius : 0.0});
 }
 
-double grid_margin(const Scene& scene) {
+double lattice_margin(const Scene& scene) {
   double radius = 0, scale = scene.grips.hand_scale.is_range ? scene.grips.hand_scale.to : 0;
   for (const FingerData& finger : scene.hand.fingers)
     radius = std::max(radius, *std::max_element(finger.radii.begin(), finger.radii.end()));
   for (const double value : scene.grips.hand_scale.values) scale = std::max(scale, value);
-  return scene.hand.scale * scale * radius + GRID_BAND;
+  return scene.hand.scale * scale * radius + LATTICE_BAND;
 }
 
 // Newton on the Legendre polynomial from the usual cosine start.

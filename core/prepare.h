@@ -37,12 +37,12 @@ double widest_on(const PreparedElement& element);
 
 // Samples of the distance to the vessel's outline, taken in double, `samples` along the longest side; the lattice reaches `margin` (m) and
 // two cells beyond the vessel. Stored with 32 bits each or with 16 (`halves`).
-PreparedGrid prepare_grid(const PreparedVessel& vessel, int samples, bool halves, double margin = 0);
+PreparedLattice prepare_lattice(const PreparedVessel& vessel, int samples, bool halves, double margin = 0);
 
-// The margin with which a lattice holds every point of the scene's hand whose skin is within GRID_BAND of a vessel: beyond it only a bound
+// The margin with which a lattice holds every point of the scene's hand whose skin is within LATTICE_BAND of a vessel: beyond it only a bound
 // of the distance is known.
-constexpr double GRID_BAND = 1e-3;  // m
-double grid_margin(const Scene& scene);
+constexpr double LATTICE_BAND = 1e-3;  // m
+double lattice_margin(const Scene& scene);
 
 PreparedQuadrature prepare_quadrature(int points);
 

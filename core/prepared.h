@@ -42,8 +42,8 @@ struct PreparedHand {
   std::vector<double> gap_table;  // closures at equal steps of the gap
 };
 
-// A vessel's signed distance on a regular lattice, as core/sdf.h's Grid takes it: what every precision and device then reads.
-struct PreparedGrid {
+// A vessel's signed distance on a regular lattice, as core/sdf.h's Lattice takes it: what every precision and device then reads.
+struct PreparedLattice {
   Triple origin{};
   double spacing = 1;
   int nx = 0, ny = 0, nz = 0;

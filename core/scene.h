@@ -93,8 +93,8 @@ struct MeshData {
   bool close_holes = false;  // small ones, before the mesh is used
   Triple rotate{};           // rad
   bool origin_at_base = true;
-  std::optional<double> grid_spacing;    // m; absent: as wide as the wanted accuracy allows
-  std::shared_ptr<const MeshBody> body;  // the file once it is read (objects/vessel.h); null before
+  std::optional<double> lattice_spacing;  // m; absent: as wide as the wanted accuracy allows
+  std::shared_ptr<const MeshBody> body;   // the file once it is read (objects/vessel.h); null before
 };
 
 struct GuidancePoint {

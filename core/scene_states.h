@@ -24,7 +24,7 @@ struct VesselEntry {
   Load largest;             // upright at the largest fill, for the torque's reference
   Real largest_share = 0;   // of the liquid in its mass
   std::vector<Load> loads;  // fill-major over the tilts
-  std::optional<wholehand::PreparedGrid> grid;
+  std::optional<wholehand::PreparedLattice> lattice;
 };
 
 // The line that the tips hold a vessel on, vessel frame, m.

@@ -20,8 +20,8 @@ struct Element {
 };
 
 // Samples on a regular lattice, x fastest: sample (k * ny + j) * nx + i at origin + spacing * (i, j, k). They are stored alike for every
-// precision and device (core/prepare.h's PreparedGrid): as floats, or as halves in units of HALF_UNIT.
-struct Grid {
+// precision and device (core/prepare.h's PreparedLattice): as floats, or as halves in units of HALF_UNIT.
+struct Lattice {
   Vec3 origin{};
   Real spacing = 1;
   int nx = 0, ny = 0, nz = 0;
@@ -31,10 +31,10 @@ struct Grid {
 
 // A vessel made ready for the kernels (core/prepare.h tells where each part comes from). Vessel frame, m.
 struct Vessel {
-  bool is_grid = false;
+  bool is_lattice = false;
   std::vector<Element> outline;  // closed with the axis; what the distance is measured to
-  int lid = -1;                  // index of the mouth's element in `outline`; -1: none (shell, grid)
-  Grid grid;
+  int lid = -1;                  // index of the mouth's element in `outline`; -1: none (shell, lattice)
+  Lattice lattice;
   Limits limits;
   Real bound_height = 0;  // centre (0, bound_height, 0) and radius of a sphere that holds the vessel
   Real bound_radius = 0;
@@ -58,13 +58,13 @@ struct Nearest {
 };
 
 // What is known of the surroundings of a point: its signed distance and the unit gradient `normal`; and, where `planar`, that the nearest
-// element lies wholly beyond the plane at that distance with that normal, while every other element is at least `other` away. m. On a grid
+// element lies wholly beyond the plane at that distance with that normal, while every other element is at least `other` away. m. On a lattice
 // the normal is left at zero: nothing there is planar, and the gradient costs as much as the distance (distance_gradient has it).
 struct Support {
   Real distance = 0;
   Real other = 0;
   Vec3 normal{};
-  int element = -1;  // the nearest; -1 for a grid
+  int element = -1;  // the nearest; -1 for a lattice
   bool planar = false;
 };
 
@@ -93,18 +93,18 @@ Real profile_distance(const Vessel& vessel, Vec2 q);
 Vec2 profile_gradient(const Vessel& vessel, Vec2 q, int& element);
 // The cell of p, a value of the lattice, and the value at t in [0, 1] between two.
 Cell locate_cell(const Vessel& vessel, Vec3 p);
-Real grid_sample(const Vessel& vessel, int i, int j, int k);
+Real lattice_sample(const Vessel& vessel, int i, int j, int k);
 Real mix_reals(Real a, Real b, Real t);
 // The distance from a point off the box, from the value at the nearest point of it and the way from there, m: never more than the true
 // one, so that no step along a ray passes over what the box holds. `value` itself where the way is zero.
 Real distance_beyond(Real value, Vec3 outside);
 // Trilinear value of the lattice; off the box distance_beyond of the clamped one.
-Real grid_distance(const Vessel& vessel, Vec3 p);
-// Unit gradient of grid_distance; +x where it vanishes.
-Vec3 grid_gradient(const Vessel& vessel, Vec3 p);
+Real lattice_distance(const Vessel& vessel, Vec3 p);
+// Unit gradient of lattice_distance; +x where it vanishes.
+Vec3 lattice_gradient(const Vessel& vessel, Vec3 p);
 // Signed distance to the vessel at p, m: exact for an outline. Never NaN for finite p.
 Real signed_distance(const Vessel& vessel, Vec3 p);
-// Unit gradient towards increasing distance; `element` is the nearest element's index (-1 for a grid). On the axis the radial
+// Unit gradient towards increasing distance; `element` is the nearest element's index (-1 for a lattice). On the axis the radial
 // direction is +x.
 Vec3 distance_gradient(const Vessel& vessel, Vec3 p, int& element);
 

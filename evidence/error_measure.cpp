@@ -45,7 +45,7 @@ std::vector<std::vector<GripInput>> random_error_grips(const Scene& scene, std::
 }
 
 bool same_evaluator_options(const EvaluatorOptions& a, const EvaluatorOptions& b) {
-  return a.grid_samples == b.grid_samples && a.grid_bits == b.grid_bits && a.quadrature_points == b.quadrature_points &&
+  return a.lattice_samples == b.lattice_samples && a.lattice_bits == b.lattice_bits && a.quadrature_points == b.quadrature_points &&
          a.stop_tolerance == b.stop_tolerance && a.trace_steps == b.trace_steps && a.advance_steps == b.advance_steps &&
          a.gap_table == b.gap_table;
 }
@@ -85,7 +85,7 @@ ErrorMeasure::ErrorMeasure(const Scene& scene, const MeasureOptions& options)
       grips_(random_error_grips(scene, options.grips, options.seed)),
       reference_(scene, grips_, {options.threads, options.seed}) {}
 
-// The one used last again where it is the same: those with a grid are large and slow to make.
+// The one used last again where it is the same: those with a lattice are large and slow to make.
 std::shared_ptr<const Evaluator> ErrorMeasure::evaluator(const ErrorVariant& variant, Precision precision) {
   const Scene& scene = variant.scene ? *variant.scene : scene_;
   if (precision == Precision::single) return make_core_float_evaluator(scene, variant.options);
@@ -178,7 +178,7 @@ ErrorRow ErrorMeasure::compared_row(const ErrorVariant& variant) {
     row.liquid_seconds = liquid_seconds / static_cast<double>(liquid.size() * liquid.front().size());
   for (std::size_t v = 0; v < grips_.size(); ++v) planes.push_back(gather(*opened.backend, v, grips_[v]));
   reference_.compare(planes, *opened.core, row);
-  if (variant.on_core && variant.options.grid_samples > 0) row.distance = reference_.compare_distance(*opened.core);
+  if (variant.on_core && variant.options.lattice_samples > 0) row.distance = reference_.compare_distance(*opened.core);
   if (variant.comparable.states && !scene_.tilts.empty() && scene_.liquid) reference_.compare_liquid(liquid, *opened.core, row);
   return row;
 }

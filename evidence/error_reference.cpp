@@ -90,7 +90,7 @@ ErrorReference::ErrorReference(const Scene& scene, const std::vector<std::vector
       if (!is_feasible_status(status)) continue;
       for (int j = 0; j < JOINT_COUNT; ++j) {
         const FieldSet& fields = truth_[v].fields;
-        if (!(std::abs(truth_[v].real(fields.plane[FIELD_SEPARATION] + j, i)) <= GRID_BAND)) continue;
+        if (!(std::abs(truth_[v].real(fields.plane[FIELD_SEPARATION] + j, i)) <= LATTICE_BAND)) continue;
         Triple& point = nearby_[v].emplace_back();
         for (int k = 0; k < 3; ++k) point[k] = truth_[v].real(fields.plane[FIELD_POSED] + 3 * j + k, i);
       }
@@ -130,7 +130,7 @@ void ErrorReference::compare(const std::vector<GatheredPlanes>& planes, const Ev
       double separation = 0;
       for (int j = 0; j < JOINT_COUNT; ++j) {
         const double own = a.real(a.fields.plane[FIELD_SEPARATION] + j, i), exact = b.real(b.fields.plane[FIELD_SEPARATION] + j, i);
-        if (exact <= GRID_BAND) separation = std::max(separation, figure_difference(own, exact));
+        if (exact <= LATTICE_BAND) separation = std::max(separation, figure_difference(own, exact));
         if ((flipped >> j & 1) != 0) margins.push_back(std::abs(exact - judged_contact_tolerance(scene_.hand)));
       }
       errors[ERROR_SEPARATION].add(1e6 * separation, v, i);
@@ -146,7 +146,7 @@ void ErrorReference::compare(const std::vector<GatheredPlanes>& planes, const Ev
   double reach = 0;
   for (const VesselData& vessel : scene_.vessels) reach = std::max(reach, 0.1 * scene_.hand.scale + vessel.height);
   row.touch_margin = 2 * std::min(row.variant.stop_tolerance(), allowed.stop_tolerance) + 64 * allowed.epsilon * reach;
-  if (row.variant.options.grid_samples > 0) row.touch_margin += nearby_distance_error(core);
+  if (row.variant.options.lattice_samples > 0) row.touch_margin += nearby_distance_error(core);
   row.touch_flips_outside = static_cast<std::uint64_t>(
       std::count_if(margins.begin(), margins.end(), [&](double margin) { return margin > row.touch_margin; }));
 }
@@ -178,7 +178,7 @@ void ErrorReference::compare_liquid(const std::vector<std::vector<LiquidResult>>
 // The signed distance itself, inside and as far out as a touching point's centre.
 ErrorFigures ErrorReference::compare_distance(const Evaluator& core) const {
   constexpr std::size_t POINTS = 4096;
-  const double margin = grid_margin(scene_);
+  const double margin = lattice_margin(scene_);
   std::vector<SobolPoint> points(POINTS);
   Sobol(seed_).points(0, POINTS, points.data());
   QuantityErrors errors;

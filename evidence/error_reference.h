@@ -41,7 +41,7 @@ class ErrorReference {
   std::shared_ptr<const Evaluator> reference_;
   std::vector<GatheredPlanes> truth_;
   std::vector<std::vector<LiquidResult>> true_liquid_;
-  // by vessel: where the reference has joints whose skin is within GRID_BAND of the surface
+  // by vessel: where the reference has joints whose skin is within LATTICE_BAND of the surface
   std::vector<std::vector<Triple>> nearby_;
   std::uint64_t feasible_ = 0, grazing_ = 0;
 };

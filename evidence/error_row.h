@@ -14,7 +14,7 @@
 namespace wholehand {
 
 enum ErrorQuantity : int {
-  ERROR_SEPARATION,  // um, of points that the reference has inside or within GRID_BAND of the surface
+  ERROR_SEPARATION,  // um, of points that the reference has inside or within LATTICE_BAND of the surface
   ERROR_POSED,       // um, distance between posed joints
   ERROR_PROXY,       // um, distance between proxies
   ERROR_CLOSURE,
@@ -58,10 +58,10 @@ struct ErrorRow {
   std::uint64_t hold_flips = 0;  // compared grips whose hold force is finite on one side alone, in some state
   double seconds_per_grip = 0;   // in the kernels of a sweep, median of the runs
   double spread = 0;             // s, between the quartiles of the runs
-  ErrorFigures distance{};       // um, of a grid on the core at points about the glass
+  ErrorFigures distance{};       // um, of a lattice on the core at points about the glass
   double touch_margin = 0;       // m: a touch flip nearer to the contact tolerance is inside it
   double liquid_seconds = 0;     // of one state's liquid on the core; 0: none
-  std::size_t memory_bytes = 0;  // tables and grids, and inputs and planes of a sweep of one vessel's grips
+  std::size_t memory_bytes = 0;  // tables and lattices, and inputs and planes of a sweep of one vessel's grips
   std::string device, driver;
 
   // Largest of the lengths' 99.9th percentiles, um (separation, posed joints, proxies, gap, centre of mass), and of the forces', N; a hold

@@ -91,11 +91,11 @@ std::string fitted_orders(const std::vector<ErrorRow>& rows) {
   const auto figure = [](ErrorQuantity quantity, double ErrorFigures::*which) {
     return [quantity, which](const ErrorRow& row) { return row.errors[quantity].*which; };
   };
-  add_fitted_order(text, rows, SweptAxis::grid, "distance at random points, median", "spacing of the grid", "2, away from creases",
-                   0, [](const ErrorRow& row) { return row.distance.median; });
-  add_fitted_order(text, rows, SweptAxis::grid, "distance at random points, maximum", "spacing of the grid", "1, at creases", 0,
+  add_fitted_order(text, rows, SweptAxis::lattice, "distance at random points, median", "spacing of the grid",
+                   "2, away from creases", 0, [](const ErrorRow& row) { return row.distance.median; });
+  add_fitted_order(text, rows, SweptAxis::lattice, "distance at random points, maximum", "spacing of the grid", "1, at creases", 0,
                    [](const ErrorRow& row) { return row.distance.max; });
-  add_fitted_order(text, rows, SweptAxis::grid, "gap, median", "spacing of the grid", "2, where no crease is near", 0,
+  add_fitted_order(text, rows, SweptAxis::lattice, "gap, median", "spacing of the grid", "2, where no crease is near", 0,
                    figure(ERROR_GAP, &ErrorFigures::median));
   add_fitted_order(text, rows, SweptAxis::tolerance, "gap, maximum", "stop tolerance", "1", 0,
                    figure(ERROR_GAP, &ErrorFigures::max));
@@ -176,12 +176,12 @@ std::string error_csv(const std::vector<ErrorRow>& rows, const ErrorContext& con
   csv += ",touch_flips,touch_flips_outside_margin,feasible_flips,device,driver,seed\n";
   for (const ErrorRow& row : rows) {
     const ErrorVariant& v = row.variant;
-    const bool grid = v.options.grid_samples > 0;
+    const bool lattice = v.options.lattice_samples > 0;
     auto out = std::back_inserter(csv);
     fmt::format_to(out, "{},{},{},{},{},{},{},{:.9g},{},{},{:.6g},{:.6g},{}", csv_text(v.name), v.on_core ? "core" : "vulkan",
                    v.precision == Precision::single ? "float" : "double", v.on_core ? fmt::format("{}", v.threads) : "",
-                   grid ? "grid" : "outline", grid ? fmt::format("{}", v.options.grid_samples) : "",
-                   grid ? fmt::format("{}", v.options.grid_bits) : "", v.stop_tolerance(),
+                   lattice ? "grid" : "outline", lattice ? fmt::format("{}", v.options.lattice_samples) : "",
+                   lattice ? fmt::format("{}", v.options.lattice_bits) : "", v.stop_tolerance(),
                    context.states > 0 ? fmt::format("{}", v.options.quadrature_points) : "", csv_text(v.left_out),
                    row.seconds_per_grip, row.spread, row.memory_bytes);
     for (const ErrorFigures& error : row.errors)

@@ -9,7 +9,7 @@
 namespace wholehand {
 namespace {
 
-constexpr double LARGEST_GRIDS = 1 << 30;  // bytes of all vessels' lattices, were they cubes
+constexpr double LARGEST_LATTICES = 1 << 30;  // bytes of all vessels' lattices, were they cubes
 constexpr const char* VARIANT_POSES[] = {"articulated", "paper", "rigged"};
 
 // A backend in a precision, with what it is called.
@@ -45,7 +45,7 @@ class VariantList {
     steps();
     gap_tables();
     points();
-    grids();
+    lattices();
     pipelines();
     questions();
   }
@@ -128,21 +128,21 @@ class VariantList {
     }
   }
 
-  void grids() {
+  void lattices() {
     std::vector<VariantSide> sides{core_};
     for (const VariantSide& side : device_)
       if (side.precision == Precision::single || !quick()) sides.push_back(side);
     for (const int samples : {32, 64, 128, 256}) {
       if (quick() && samples > 128) continue;
       for (const int bits : {32, 16}) {
-        if (static_cast<double>(scene_.vessels.size()) * std::pow(samples, 3) * bits / 8 > LARGEST_GRIDS) continue;
+        if (static_cast<double>(scene_.vessels.size()) * std::pow(samples, 3) * bits / 8 > LARGEST_LATTICES) continue;
         for (const VariantSide& side : sides) {
           if (quick() && bits == 16 && (!side.on_core || samples != 64)) continue;
           if (quick() && !side.on_core && samples == 32) continue;
           ErrorVariant& variant = add(side, fmt::format("grid {}^3 x {} bits", samples, bits));
-          variant.options.grid_samples = samples;
-          variant.options.grid_bits = bits;
-          variant.axis = bits == 32 ? SweptAxis::grid : SweptAxis::none;
+          variant.options.lattice_samples = samples;
+          variant.options.lattice_bits = bits;
+          variant.axis = bits == 32 ? SweptAxis::lattice : SweptAxis::none;
           variant.step = 1.0 / (samples - 5);  // cells between the lattice's margins
         }
       }

@@ -21,7 +21,7 @@ struct Comparable {
 };
 
 // What of the approximations is swept, for the convergence that is fitted; `step` is what the error should be a power of.
-enum class SweptAxis { none, grid, tolerance, gap_table, points };
+enum class SweptAxis { none, lattice, tolerance, gap_table, points };
 
 struct ErrorVariant {
   std::string name;

@@ -239,8 +239,8 @@ nlohmann::ordered_json vessel_extras(const VesselData& vessel) {
   if (vessel.mesh) {
     extras["mesh"] = std::filesystem::path(vessel.mesh->file).filename().string();
     extras["base_m"] = vessel.base;
-    extras["lattice_spacing_m"] = vessel.mesh->body->grid.spacing;
-    extras["lattice_error_m"] = vessel.mesh->body->grid_error;
+    extras["lattice_spacing_m"] = vessel.mesh->body->lattice.spacing;
+    extras["lattice_error_m"] = vessel.mesh->body->lattice_error;
   } else {
     extras["wall_m"] = vessel.wall;
   }

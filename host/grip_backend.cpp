@@ -296,7 +296,7 @@ std::size_t GripBackend::table_bytes() const {
   const GripProgram& program = impl_->program();
   std::size_t bytes = program.hand.size() + program.tilts.size() + program.quadrature.size();
   for (const VesselOnDevice& vessel : program.vessels) {
-    bytes += vessel.parameters.size() + vessel.outline.size() + vessel.grid.size() + vessel.fills.size();
+    bytes += vessel.parameters.size() + vessel.outline.size() + vessel.lattice.size() + vessel.fills.size();
     for (const Buffer& states : vessel.states) bytes += states.size();
   }
   return bytes;

@@ -37,7 +37,7 @@ class GripBackend final : public Backend {
   const DeviceInfo& device() const;
   // Bytes of a chunk's buffers per grip: inputs and planes.
   std::size_t bytes_per_grip() const;
-  // Bytes of what all grips share on the device: outlines or grids, hand, states, quadrature.
+  // Bytes of what all grips share on the device: outlines or lattices, hand, states, quadrature.
   std::size_t table_bytes() const;
   // Seconds that creating the device and the pipelines took.
   double setup_seconds() const;

@@ -13,7 +13,7 @@ namespace wholehand::host {
 struct GripBackendOptions {
   Precision precision = Precision::single;
   OutlineSource outline = OUTLINE_SPECIALIZED;  // outlines of more than MAX_OUTLINE elements always come from a buffer
-  EvaluatorOptions evaluator;                   // as the core's: grid instead of outline, tolerances, ..
+  EvaluatorOptions evaluator;                   // as the core's: lattice instead of outline, tolerances, ..
   DeviceOptions device;
   StreamOptions stream;
 };

@@ -70,7 +70,7 @@ std::size_t real_size(Precision precision) { return precision == Precision::sing
 
 // A loop over N elements in every distance of every step has no bound that such a driver would grant; an unrolled one is not counted.
 bool outline_fits_device(const VesselArrays& vessel, const DeviceInfo& device) {
-  return device.kind != DeviceKind::cpu || vessel.grid || vessel.outline_count <= MAX_OUTLINE;
+  return device.kind != DeviceKind::cpu || vessel.lattice || vessel.outline_count <= MAX_OUTLINE;
 }
 
 bool liquid_fits_device(int cavity_count, int points) { return cavity_count * iterations_per_piece(points) < LOOP_BUDGET; }
@@ -122,13 +122,13 @@ GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Ev
 void GripProgram::upload_vessel(std::size_t v, const SceneArrays& arrays, const GripBackendOptions& options) {
   const VesselArrays& from = arrays.vessels[v];
   VesselOnDevice& vessel = vessels[v];
-  // with a grid the outline is not read: one pipeline for all vessels, which a driver compiles once
-  vessel.outline_source = from.grid || from.outline_count > MAX_OUTLINE ? OUTLINE_BUFFER : options.outline;
+  // with a lattice the outline is not read: one pipeline for all vessels, which a driver compiles once
+  vessel.outline_source = from.lattice || from.outline_count > MAX_OUTLINE ? OUTLINE_BUFFER : options.outline;
   std::vector<double> outline = from.outline;
   outline.resize(std::max<std::size_t>(outline.size(), OUTLINE_STRIDE * MAX_OUTLINE));  // the uniform block has a fixed size
   vessel.parameters = upload(on, options.precision, from.parameters);
   vessel.outline = upload(on, options.precision, outline);
-  vessel.grid = Buffer::of(on, from.grid ? *from.grid : std::vector<std::uint32_t>(4));
+  vessel.lattice = Buffer::of(on, from.lattice ? *from.lattice : std::vector<std::uint32_t>(4));
   vessel.fills = upload(on, options.precision, from.fills);
   upload_states(vessel, from.dry_loads, arrays.tilts);  // none where there is liquid
 }
@@ -158,11 +158,11 @@ void GripProgram::make_grip_kernel(std::size_t v, const Scene& scene, const Scen
   constants.push_back({CONST_POSE, std::int32_t(scene.pose == Pose::articulated ? POSE_ARTICULATED
                                                 : scene.pose == Pose::paper     ? POSE_PAPER
                                                                                 : POSE_RIGGED)});
-  constants.push_back({CONST_SDF_KIND, std::int32_t(from.grid ? SDF_GRID : SDF_OUTLINE)});
+  constants.push_back({CONST_SDF_KIND, std::int32_t(from.lattice ? SDF_LATTICE : SDF_OUTLINE)});
   constants.push_back({CONST_OUTLINE_COUNT, std::int32_t(from.outline_count)});
-  if (from.halves) constants.push_back({CONST_GRID_BITS, std::int32_t(16)});
+  if (from.halves) constants.push_back({CONST_LATTICE_BITS, std::int32_t(16)});
   add_limits(constants, options);
-  constants.push_back({CONST_LID, std::int32_t(from.grid ? -1 : from.lid)});
+  constants.push_back({CONST_LID, std::int32_t(from.lattice ? -1 : from.lid)});
   if (vessel.outline_source == OUTLINE_SPECIALIZED) {
     for (std::size_t i = 0; i < from.outline.size(); ++i) {
       const auto id = static_cast<std::uint32_t>(CONST_OUTLINE + i);
@@ -225,7 +225,7 @@ void GripProgram::record(std::size_t v, const Chunk& chunk, std::size_t best, do
   commands.bind(BINDING_PARAMETERS, vessel.parameters);
   commands.bind(BINDING_HAND, hand);
   commands.bind(BINDING_OUTLINE, vessel.outline);
-  commands.bind(BINDING_GRID, vessel.grid);
+  commands.bind(BINDING_LATTICE, vessel.lattice);
   commands.dispatch(*vessel.grip, groups_for(on, *vessel.grip, count), Push{count, stride, 0, 0});
   if (force) {
     const std::uint32_t states = fill_count * tilt_count;

@@ -14,7 +14,7 @@ namespace wholehand::host {
 // What a vessel needs on the device.
 struct VesselOnDevice {
   OutlineSource outline_source = OUTLINE_SPECIALIZED;
-  Buffer parameters, outline, grid, fills;
+  Buffer parameters, outline, lattice, fills;
   std::vector<Buffer> states;  // blocks of STATES_IN_BLOCK; empty without tilts
   std::optional<Kernel> grip;
   std::vector<LiquidResult> liquid;  // fill-major; empty without

@@ -44,17 +44,17 @@ std::vector<double> hand_table(const PreparedHand& prepared, const HandData& dat
   return table;
 }
 
-void set_grid(VesselArrays& arrays, const PreparedGrid& grid) {
-  arrays.grid = grid.words;
-  arrays.halves = grid.halves;
+void set_lattice(VesselArrays& arrays, const PreparedLattice& lattice) {
+  arrays.lattice = lattice.words;
+  arrays.halves = lattice.halves;
   auto& p = arrays.parameters;
-  p.grid_x = grid.origin[0];
-  p.grid_y = grid.origin[1];
-  p.grid_z = grid.origin[2];
-  p.grid_spacing = grid.spacing;
-  p.grid_nx = grid.nx;
-  p.grid_ny = grid.ny;
-  p.grid_nz = grid.nz;
+  p.lattice_x = lattice.origin[0];
+  p.lattice_y = lattice.origin[1];
+  p.lattice_z = lattice.origin[2];
+  p.lattice_spacing = lattice.spacing;
+  p.lattice_nx = lattice.nx;
+  p.lattice_ny = lattice.ny;
+  p.lattice_nz = lattice.nz;
   arrays.lid = -1;
 }
 
@@ -119,7 +119,7 @@ SceneArrays make_scene_arrays(const Scene& scene, const Evaluator& core, const E
     p.outline_count = vessel.outline_count;
     p.cavity_count = vessel.cavity_count;
     p.quadrature_count = static_cast<std::uint32_t>(rule.cosine.size());
-    if (const PreparedGrid* grid = core.grid(v)) set_grid(vessel, *grid);
+    if (const PreparedLattice* lattice = core.lattice(v)) set_lattice(vessel, *lattice);
     if (scene.liquid) vessel.fills = vessel_fills(scene, data);
     for (std::size_t t = 0; !scene.liquid && t < scene.tilts.size(); ++t)
       vessel.dry_loads.insert(vessel.dry_loads.end(), {constants.mass, 0, 0, 0});
@@ -141,9 +141,9 @@ Parameters<Real> convert(const Parameters<double>& from) {
   std::memcpy(&to, target.data(), sizeof target);
   to.outline_count = from.outline_count;
   to.cavity_count = from.cavity_count;
-  to.grid_nx = from.grid_nx;
-  to.grid_ny = from.grid_ny;
-  to.grid_nz = from.grid_nz;
+  to.lattice_nx = from.lattice_nx;
+  to.lattice_ny = from.lattice_ny;
+  to.lattice_nz = from.lattice_nz;
   to.fills = from.fills;
   to.tilts = from.tilts;
   to.quadrature_count = from.quadrature_count;

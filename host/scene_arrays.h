@@ -14,12 +14,12 @@ namespace wholehand::host {
 
 struct VesselArrays {
   Parameters<double> parameters{};
-  std::vector<double> outline;                             // OUTLINE_STRIDE an element
-  std::vector<double> cavity;                              // likewise, y ascending
-  std::shared_ptr<const std::vector<std::uint32_t>> grid;  // samples as layout.h has them, x fastest; null for an outline
-  bool halves = false;                                     // .. two to a word
-  std::vector<double> dry_loads;                           // LOAD_STRIDE a tilt, for a scene without liquid
-  std::vector<double> fills;                               // fractions of its capacity; empty without liquid
+  std::vector<double> outline;                                // OUTLINE_STRIDE an element
+  std::vector<double> cavity;                                 // likewise, y ascending
+  std::shared_ptr<const std::vector<std::uint32_t>> lattice;  // samples as layout.h has them, x fastest; null for an outline
+  bool halves = false;                                        // .. two to a word
+  std::vector<double> dry_loads;                              // LOAD_STRIDE a tilt, for a scene without liquid
+  std::vector<double> fills;                                  // fractions of its capacity; empty without liquid
   int lid = -1;
   int outline_count = 0, cavity_count = 0;
 };
@@ -31,7 +31,7 @@ struct SceneArrays {
   std::vector<VesselArrays> vessels;
 };
 
-// `core` is the evaluator of the same scene with the same options: capacities, masses, references and grids come from it.
+// `core` is the evaluator of the same scene with the same options: capacities, masses, references and lattices come from it.
 SceneArrays make_scene_arrays(const Scene& scene, const Evaluator& core, const EvaluatorOptions& options = {});
 
 // A parameter block in the shader's reals.

@@ -33,7 +33,8 @@ LiveVessel load_live_vessel(const Scene& scene, const VesselData& data, const co
   const PreparedVessel prepared = prepare_vessel(data, data.has_cavity());
   live.radius = prepared.largest_radius;
   live.vessel = core_f64::load_vessel(prepared, data, quadrature, scene.liquid.has_value(), scene.hand.handedness);
-  if (data.mesh) core_f64::use_grid(live.vessel, core_f64::load_grid(mirrored(data.mesh->body->grid, scene.hand.handedness)));
+  if (data.mesh)
+    core_f64::use_lattice(live.vessel, core_f64::load_lattice(mirrored(data.mesh->body->lattice, scene.hand.handedness)));
   live.force = core_f64::load_force(scene, data);
   live.home = to_vec3(mirrored(data.place, scene.hand.handedness));
   double most = 0;

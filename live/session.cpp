@@ -42,7 +42,7 @@ Session::Session(const Scene& scene, std::array<double, 2> device_gap)
   for (const VesselData& data : live_->scene.vessels) {
     if (data.surface == Surface::shell) obstacles_.thinnest = std::min(obstacles_.thinnest, data.wall);
     if (data.mesh)
-      obstacles_.thinnest = std::min(obstacles_.thinnest, data.mesh->body->grid.spacing);  // thinner walls it does not hold
+      obstacles_.thinnest = std::min(obstacles_.thinnest, data.mesh->body->lattice.spacing);  // thinner walls it does not hold
   }
 }
 

@@ -26,8 +26,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // Raised whenever samples, error or choice of a lattice, or the file, are made in another way: older files are then made again.
-constexpr std::uint32_t GRID_FORMAT = 2;
-constexpr const char* GRID_SUFFIX = ".grid";
+constexpr std::uint32_t LATTICE_FORMAT = 2;
+constexpr const char* LATTICE_SUFFIX = ".grid";
 constexpr const char* PARTIAL_SUFFIX = ".partial";
 
 using Digest = std::array<std::uint64_t, 2>;  // XXH3 of 128 bits
@@ -65,23 +65,23 @@ std::string hex_of(const Digest& digest) { return fmt::format("{:016x}{:016x}", 
 
 Hash hash_of(const CheckedMesh& mesh) {
   Hash hash;
-  hash.add(GRID_FORMAT);
+  hash.add(LATTICE_FORMAT);
   hash.add_all(mesh.mesh.vertices);
   hash.add_all(mesh.mesh.triangles);
   return hash;
 }
 
-Digest lattice_digest(const CheckedMesh& mesh, const PreparedGrid& grid) {
+Digest lattice_digest(const CheckedMesh& mesh, const PreparedLattice& lattice) {
   Hash hash = hash_of(mesh);
-  for (const double x : grid.origin) hash.add(x);
-  hash.add(grid.spacing);
-  for (const int count : {grid.nx, grid.ny, grid.nz, grid.halves ? 16 : 32}) hash.add(count);
+  for (const double x : lattice.origin) hash.add(x);
+  hash.add(lattice.spacing);
+  for (const int count : {lattice.nx, lattice.ny, lattice.nz, lattice.halves ? 16 : 32}) hash.add(count);
   return hash.digest();
 }
 
 // Of a lattice whose spacing is chosen. Where the tolerance alone decides it is the same with any memory that holds it (`most_bytes` 0);
 // else the memory is part of the wish.
-Digest choice_digest(const CheckedMesh& mesh, const GridWish& wish, int bits, std::uint64_t most_bytes) {
+Digest choice_digest(const CheckedMesh& mesh, const LatticeWish& wish, int bits, std::uint64_t most_bytes) {
   Hash hash = hash_of(mesh);
   hash.add(wish.tolerance);
   hash.add(wish.margin);
@@ -92,46 +92,46 @@ Digest choice_digest(const CheckedMesh& mesh, const GridWish& wish, int bits, st
 
 // ---- files: this, the samples' words, and the hash of both ----
 
-struct GridHeader {
+struct LatticeHeader {
   std::array<char, 8> magic{'w', 'h', 'g', 'r', 'i', 'd', '0', '1'};
   Digest key{};
-  std::uint32_t format = GRID_FORMAT, bits = 0;
+  std::uint32_t format = LATTICE_FORMAT, bits = 0;
   std::int32_t nx = 0, ny = 0, nz = 0;
   std::uint32_t at_limit = 0;
   Triple origin{};
   double spacing = 0, error = 0;
 };
-static_assert(sizeof(GridHeader) == 88);
+static_assert(sizeof(LatticeHeader) == 88);
 
-GridHeader header_of(const MeshGrid& made, const Digest& key) {
-  GridHeader header;
+LatticeHeader header_of(const MeshLattice& made, const Digest& key) {
+  LatticeHeader header;
   header.key = key;
-  header.bits = made.grid.halves ? 16 : 32;
-  header.nx = made.grid.nx;
-  header.ny = made.grid.ny;
-  header.nz = made.grid.nz;
+  header.bits = made.lattice.halves ? 16 : 32;
+  header.nx = made.lattice.nx;
+  header.ny = made.lattice.ny;
+  header.nz = made.lattice.nz;
   header.at_limit = made.at_limit ? 1 : 0;
-  header.origin = made.grid.origin;
-  header.spacing = made.grid.spacing;
+  header.origin = made.lattice.origin;
+  header.spacing = made.lattice.spacing;
   header.error = made.error;
   return header;
 }
 
 // Without samples.
-MeshGrid lattice_of(const GridHeader& header) {
-  MeshGrid found;
-  found.grid.origin = header.origin;
-  found.grid.spacing = header.spacing;
-  found.grid.nx = header.nx;
-  found.grid.ny = header.ny;
-  found.grid.nz = header.nz;
-  found.grid.halves = header.bits == 16;
+MeshLattice lattice_of(const LatticeHeader& header) {
+  MeshLattice found;
+  found.lattice.origin = header.origin;
+  found.lattice.spacing = header.spacing;
+  found.lattice.nx = header.nx;
+  found.lattice.ny = header.ny;
+  found.lattice.nz = header.nz;
+  found.lattice.halves = header.bits == 16;
   found.error = header.error;
   found.at_limit = header.at_limit != 0;
   return found;
 }
 
-Digest file_digest(const GridHeader& header, const std::vector<std::uint32_t>& words) {
+Digest file_digest(const LatticeHeader& header, const std::vector<std::uint32_t>& words) {
   Hash hash;
   hash.add(&header, sizeof header);
   hash.add(words.data(), 4 * words.size());
@@ -139,7 +139,7 @@ Digest file_digest(const GridHeader& header, const std::vector<std::uint32_t>& w
 }
 
 // How many words a file of this size holds after such a header; 0: it cannot be whole.
-std::size_t words_in(const GridHeader& header, std::uintmax_t size) {
+std::size_t words_in(const LatticeHeader& header, std::uintmax_t size) {
   const double samples = static_cast<double>(header.nx) * header.ny * header.nz;
   const double words = header.bits == 16 ? std::ceil(samples / 2) : samples;
   const bool is_whole =
@@ -153,15 +153,16 @@ bool read_value(std::istream& in, T& value) {
 }
 
 // The lattice in a file; none where it is not there, not whole, not this one, or not what is wished.
-std::optional<MeshGrid> load_grid_file(const fs::path& file, const Digest& key, const MeshFacts& facts, const GridWish& wish) try {
+std::optional<MeshLattice> load_lattice_file(const fs::path& file, const Digest& key, const MeshFacts& facts,
+                                             const LatticeWish& wish) try {
   if (!fs::is_regular_file(file)) return {};  // a pipe would be waited for
   std::ifstream in(file, std::ios::binary);
-  GridHeader header;
+  LatticeHeader header;
   if (!in || !read_value(in, header)) return {};
-  if (header.magic != GridHeader().magic || header.format != GRID_FORMAT || header.key != key) return {};
+  if (header.magic != LatticeHeader().magic || header.format != LATTICE_FORMAT || header.key != key) return {};
   if (!(header.spacing > 0)) return {};
   const std::size_t count = words_in(header, fs::file_size(file));
-  const std::optional<PreparedGrid> wished = lattice_at(facts, wish, header.spacing);
+  const std::optional<PreparedLattice> wished = lattice_at(facts, wish, header.spacing);
   if (count == 0 || !wished || wished->halves != (header.bits == 16)) return {};
   std::vector<std::uint32_t> words(count);
   Digest digest{};
@@ -169,8 +170,8 @@ std::optional<MeshGrid> load_grid_file(const fs::path& file, const Digest& key, 
     return {};
   if (digest != file_digest(header, words)) return {};
   touch_cached(file.string());
-  MeshGrid found = lattice_of(header);
-  found.grid.words = std::make_shared<const std::vector<std::uint32_t>>(std::move(words));
+  MeshLattice found = lattice_of(header);
+  found.lattice.words = std::make_shared<const std::vector<std::uint32_t>>(std::move(words));
   return found;
 } catch (const std::exception&) {
   return {};
@@ -180,7 +181,7 @@ std::optional<MeshGrid> load_grid_file(const fs::path& file, const Digest& key, 
 struct LatticeCache {
   fs::path folder;           // empty: nowhere
   std::uintmax_t limit = 0;  // bytes; 0: nothing is kept
-  fs::path grids() const { return folder / "grids"; }
+  fs::path lattices() const { return folder / "grids"; }
 };
 
 // A new file that no other process writes; empty where none can be made.
@@ -192,12 +193,12 @@ std::string new_partial(const fs::path& folder, const Digest& key) {
   return name;
 }
 
-void save_grid_file(const LatticeCache& cache, const Digest& key, const MeshGrid& made) try {
-  const GridHeader header = header_of(made, key);
-  const std::vector<std::uint32_t>& words = *made.grid.words;
+void save_lattice_file(const LatticeCache& cache, const Digest& key, const MeshLattice& made) try {
+  const LatticeHeader header = header_of(made, key);
+  const std::vector<std::uint32_t>& words = *made.lattice.words;
   const std::uintmax_t size = sizeof header + 4 * words.size() + sizeof(Digest);
   if (size > cache.limit) return;
-  const fs::path folder = cache.grids();
+  const fs::path folder = cache.lattices();
   fs::create_directories(folder);
   make_cache_room(cache.folder.string(), size, cache.limit);
   if (fs::space(folder).available < 2 * size) return;  // the disk is others' too
@@ -210,7 +211,7 @@ void save_grid_file(const LatticeCache& cache, const Digest& key, const MeshGrid
   out.write(reinterpret_cast<const char*>(&digest), sizeof digest);
   out.close();
   std::error_code failed;
-  if (out) fs::rename(partial, folder / (hex_of(key) + GRID_SUFFIX), failed);
+  if (out) fs::rename(partial, folder / (hex_of(key) + LATTICE_SUFFIX), failed);
   if (!out || failed) fs::remove(partial, failed);
   make_cache_room(cache.folder.string(), 0, cache.limit);  // others may have stored at the same time
 } catch (const std::exception&) {
@@ -219,27 +220,28 @@ void save_grid_file(const LatticeCache& cache, const Digest& key, const MeshGrid
 
 }  // namespace
 
-MeshGrid cached_grid(const CheckedMesh& mesh, const GridWish& wish, const std::string& folder, const GridProgress& progress,
-                     const GridForecast& forecast) {
-  const auto make = [&] { return grid_of_mesh(MeshDistance(mesh), mesh, wish, progress, forecast); };
+MeshLattice cached_lattice(const CheckedMesh& mesh, const LatticeWish& wish, const std::string& folder,
+                           const LatticeProgress& progress, const LatticeForecast& forecast) {
+  const auto make = [&] { return lattice_of_mesh(MeshDistance(mesh), mesh, wish, progress, forecast); };
   const LatticeCache cache{folder.empty() ? cache_folder() : folder, cache_limit()};
   if (cache.folder.empty() || cache.limit == 0) return make();
   const int bits = wish.bits.value_or(32);
   std::vector<Digest> keys;  // any file that holds the lattice has one of these
   if (!wish.spacing) {
     keys = {choice_digest(mesh, wish, bits, 0), choice_digest(mesh, wish, wish.bits.value_or(0), wish.most_bytes)};
-  } else if (const std::optional<PreparedGrid> lattice = lattice_at(mesh.facts, wish, *wish.spacing)) {
+  } else if (const std::optional<PreparedLattice> lattice = lattice_at(mesh.facts, wish, *wish.spacing)) {
     keys = {lattice_digest(mesh, *lattice)};
   }
   for (const Digest& key : keys) {
-    if (auto found = load_grid_file(cache.grids() / (hex_of(key) + GRID_SUFFIX), key, mesh.facts, wish)) return std::move(*found);
+    if (auto found = load_lattice_file(cache.lattices() / (hex_of(key) + LATTICE_SUFFIX), key, mesh.facts, wish))
+      return std::move(*found);
   }
-  MeshGrid made = make();
-  const bool by_tolerance = !made.at_limit && made.grid.halves == (bits == 16);
-  save_grid_file(cache, wish.spacing || by_tolerance ? keys.front() : keys.back(), made);
+  MeshLattice made = make();
+  const bool by_tolerance = !made.at_limit && made.lattice.halves == (bits == 16);
+  save_lattice_file(cache, wish.spacing || by_tolerance ? keys.front() : keys.back(), made);
   return made;
 }
 
-std::string mesh_key(const CheckedMesh& mesh, const PreparedGrid& grid) { return hex_of(lattice_digest(mesh, grid)); }
+std::string mesh_key(const CheckedMesh& mesh, const PreparedLattice& lattice) { return hex_of(lattice_digest(mesh, lattice)); }
 
 }  // namespace wholehand

@@ -42,9 +42,9 @@ struct CavityPoints {
   int off_wall = 0, of_wall = 0;  // points of the cavity's wall itself: further from the glass than its inner wall may be; all
 };
 
-CavityPoints count_cavity_points(const PreparedGrid& grid, const std::vector<PreparedElement>& cavity) {
+CavityPoints count_cavity_points(const PreparedLattice& lattice, const std::vector<PreparedElement>& cavity) {
   core_f64::Vessel vessel;
-  core_f64::use_grid(vessel, core_f64::load_grid(grid));
+  core_f64::use_lattice(vessel, core_f64::load_lattice(lattice));
   CavityPoints points;
   constexpr int HEIGHTS = 16, AZIMUTHS = 8;  // of each piece
   for (const PreparedElement& piece : cavity) {
@@ -81,7 +81,7 @@ void place_cavity(const VesselData& vessel, MeshBody& body) {
         "mm, {:.4g} from the axis); give it in the vessel's frame",
         1e3 * floor, 1e3 * mouth, 1e3 * widest, 1e3 * body.low[1], 1e3 * body.high[1], 1e3 * reach));
   }
-  const CavityPoints points = count_cavity_points(body.grid, cavity);
+  const CavityPoints points = count_cavity_points(body.lattice, cavity);
   const double share = static_cast<double>(points.inside) / points.all;
   if (std::min(share, 1 - share) > OTHER_SIDE) {
     refuse(
@@ -98,25 +98,25 @@ void place_cavity(const VesselData& vessel, MeshBody& body) {
   body.holds_cavity = share > 0.5;
 }
 
-GridWish wish_of(const Scene& scene, const MeshData& data, bool is_off_scale, const MeshOptions& options) {
-  GridWish wish;
-  wish.spacing = data.grid_spacing;
-  wish.margin = grid_margin(scene);
+LatticeWish wish_of(const Scene& scene, const MeshData& data, bool is_off_scale, const MeshOptions& options) {
+  LatticeWish wish;
+  wish.spacing = data.lattice_spacing;
+  wish.margin = lattice_margin(scene);
   // what no hand holds is most likely in another unit: an answer soon, not a fine one
-  wish.most_bytes = data.grid_spacing || !is_off_scale ? options.most_bytes : std::min(options.most_bytes, OFF_SCALE_LATTICE);
+  wish.most_bytes = data.lattice_spacing || !is_off_scale ? options.most_bytes : std::min(options.most_bytes, OFF_SCALE_LATTICE);
   wish.threads = options.threads;
   return wish;
 }
 
-int bits_of(const PreparedGrid& grid) { return grid.halves ? 16 : 32; }
+int bits_of(const PreparedLattice& lattice) { return lattice.halves ? 16 : 32; }
 
 std::string lattice_text(const MeshBody& body) {
-  const double tolerance = GridWish{}.tolerance;
-  const PreparedGrid& grid = body.grid;
+  const double tolerance = LatticeWish{}.tolerance;
+  const PreparedLattice& lattice = body.lattice;
   std::string text = fmt::format(
       "lattice of {:.4g} mm, {} x {} x {} samples of {} bits; at {} points of the surface distances are within {:.2g} mm",
-      1e3 * grid.spacing, grid.nx, grid.ny, grid.nz, bits_of(grid), SURFACE_SAMPLES, 1e3 * body.grid_error);
-  if (body.grid_error > tolerance)
+      1e3 * lattice.spacing, lattice.nx, lattice.ny, lattice.nz, bits_of(lattice), SURFACE_SAMPLES, 1e3 * body.lattice_error);
+  if (body.lattice_error > tolerance)
     text += fmt::format(", more than the {:.2g} mm aimed at: a smaller grid_mm is more exact, as far as memory allows",
                         1e3 * tolerance);
   return text;
@@ -136,7 +136,7 @@ std::string mass_text(const VesselData& vessel, const MeshBody& body) {
 std::string set_volume(const MeshFacts& facts, MeshBody& body) {
   body.volume = facts.volume;
   body.center_of_mass = facts.center_of_mass;
-  const EnclosedVolume enclosed = enclosed_volume(body.grid, facts.area);
+  const EnclosedVolume enclosed = enclosed_volume(body.lattice, facts.area);
   const double off = enclosed.volume - facts.volume;
   if (!(std::abs(off) > OTHER_VOLUME * facts.volume + enclosed.doubt)) return "";
   body.volume = enclosed.volume;
@@ -170,7 +170,7 @@ void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder
   const std::string warning = mesh_size_warning(facts, data.scale);
   if (!warning.empty()) say(warning);
   auto body = std::make_shared<MeshBody>();
-  GridWish wish = wish_of(scene, data, !warning.empty(), options);
+  LatticeWish wish = wish_of(scene, data, !warning.empty(), options);
   double spacing = 0;
   int bits = 0;
   if (lattices >> spacing >> bits && spacing > 0 && (bits == 16 || bits == 32)) {
@@ -181,17 +181,17 @@ void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder
   cache_limit();  // throws here: a wrong limit is not the fault of grid_mm
   try {
     const auto progress = [&](double share) { show_status(fmt::format("{}: distances to its mesh  {:.0f} %", name, 100 * share)); };
-    const auto announce = [&](const PreparedGrid& grid, double seconds) {
+    const auto announce = [&](const PreparedLattice& lattice, double seconds) {
       if (!is_long(seconds, facts.closed)) return;
       show_status("");
       const auto& tell = options.say ? options.say : options.forecast;
-      if (tell) tell(name + ": " + forecast_text(grid, seconds, facts.closed));
+      if (tell) tell(name + ": " + forecast_text(lattice, seconds, facts.closed));
     };
-    MeshGrid made = cached_grid(checked, wish, options.cache_folder, progress, {announce, options.clock});
+    MeshLattice made = cached_lattice(checked, wish, options.cache_folder, progress, {announce, options.clock});
     show_status("");
-    body->grid = std::move(made.grid);
-    body->grid_error = made.error;
-    body->key = mesh_key(checked, body->grid);
+    body->lattice = std::move(made.lattice);
+    body->lattice_error = made.error;
+    body->key = mesh_key(checked, body->lattice);
   } catch (const Error& error) {
     if (error.code != ExitCode::usage) throw;
     throw usage_error(at_place(data.place, name + ": grid_mm: " + error.what()));
@@ -215,10 +215,10 @@ void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder
 
 bool is_long(double seconds, bool is_closed) { return seconds > (is_closed ? LONG_WORK : LONG_OPEN_WORK); }
 
-std::string forecast_text(const PreparedGrid& grid, double seconds, bool is_closed) {
+std::string forecast_text(const PreparedLattice& lattice, double seconds, bool is_closed) {
   return fmt::format(
-      "its lattice of {:.4g} mm has {} samples, which take about {}{}", 1e3 * grid.spacing,
-      readable_count(static_cast<double>(grid.nx) * grid.ny * grid.nz), readable_duration(seconds),
+      "its lattice of {:.4g} mm has {} samples, which take about {}{}", 1e3 * lattice.spacing,
+      readable_count(static_cast<double>(lattice.nx) * lattice.ny * lattice.nz), readable_duration(seconds),
       is_closed ? "; a larger grid_mm takes less" : ", as the mesh is open; a closed one, or a larger grid_mm, takes less");
 }
 
@@ -248,8 +248,8 @@ std::string mesh_lattices(const Scene& scene) {
   std::string lattices;
   for (const VesselData& vessel : scene.vessels) {
     if (!vessel.mesh || !vessel.mesh->body) continue;
-    const PreparedGrid& grid = vessel.mesh->body->grid;
-    lattices += fmt::format("{}{} {}", lattices.empty() ? "" : " ", grid.spacing, bits_of(grid));
+    const PreparedLattice& lattice = vessel.mesh->body->lattice;
+    lattices += fmt::format("{}{} {}", lattices.empty() ? "" : " ", lattice.spacing, bits_of(lattice));
   }
   return lattices;
 }

@@ -18,7 +18,7 @@ struct MeshOptions {
   std::size_t most_bytes = LARGEST_LATTICE;          // of a lattice's samples: floats up to half of it, 16 bits each beyond
   int threads = 0;                                   // 0: all cores
   std::string lattices;                              // as of mesh_lattices; not empty: these, whatever the scene asks for
-  std::string cache_folder;                          // of lattices, see cached_grid
+  std::string cache_folder;                          // of lattices, see cached_lattice
   std::function<void(const std::string&)> say;       // gets what was found of each mesh, a line a time; may be empty
   std::function<void(const std::string&)> forecast;  // without `say`: gets only that a lattice takes long; may be empty
   std::function<double()> clock;  // s, by which work is timed before it is told how long it takes; empty: the machine's
@@ -29,7 +29,7 @@ std::size_t largest_lattice(std::uint64_t device_bytes);
 
 // Whether a lattice that takes so long is announced, by `forecast_text`: 10 s; of an open mesh 3 s.
 bool is_long(double seconds, bool is_closed);
-std::string forecast_text(const PreparedGrid& grid, double seconds, bool is_closed);
+std::string forecast_text(const PreparedLattice& lattice, double seconds, bool is_closed);
 
 // Reads, checks and samples the mesh of every vessel that has one and sets its body, base and height; files are looked for from the scene
 // file's folder. The lattice holds all that hands of the scene's sizes can touch. A body that is there already stays. Throws Error (usage),

@@ -69,7 +69,7 @@ constexpr Quantity MASS{1e-6, 1e6};           // kg
 constexpr Quantity CENTER_OF_MASS{-10000, 10000, Unit::mm};
 constexpr Quantity MESH_SCALE{1e-6, 1e6};
 constexpr Quantity ROTATION{-360, 360, Unit::deg};  // also azimuth and roll
-constexpr Quantity GRID_SPACING{0.05, 100, Unit::mm};
+constexpr Quantity LATTICE_SPACING{0.05, 100, Unit::mm};
 constexpr Quantity PLACE{-10000, 10000, Unit::mm};
 
 constexpr Quantity LIQUID_DENSITY{1, 25000};  // kg/m3

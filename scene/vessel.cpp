@@ -36,7 +36,7 @@ MeshData read_mesh(const SceneTable& table) {
   table.read("rotate_deg", ranges::ROTATION, "[x, y, z]", mesh.rotate);
   table.read_flag("close_holes", mesh.close_holes);
   table.read("origin", {{"base", true}, {"as_is", false}}, mesh.origin_at_base);
-  if (table.has("grid_mm")) table.need("grid_mm", ranges::GRID_SPACING, mesh.grid_spacing.emplace());
+  if (table.has("grid_mm")) table.need("grid_mm", ranges::LATTICE_SPACING, mesh.lattice_spacing.emplace());
   // what is in the file is hull and wall at once
   for (const char* key : {"wall_mm", "floor_mm", "surface"}) {
     if (table.has(key))

@@ -64,9 +64,9 @@ Trace trace_tip(Vec3 origin, Vec3 direction, Real heading, Real radius) {
       break;
     }
   }
-  if (SDF_KIND == SDF_GRID && trace.reason == REASON_NONE) {  // out of the loop: once for all lanes, wherever each of them ended
+  if (SDF_KIND == SDF_LATTICE && trace.reason == REASON_NONE) {  // out of the loop: once for all lanes, wherever each of them ended
     precise Vec3 place = origin + trace.t * direction;
-    trace.normal = grid_gradient(place);
+    trace.normal = lattice_gradient(place);
   }
   return trace;
 }

@@ -97,7 +97,7 @@
 #define POSE_PAPER 1
 #define POSE_RIGGED 2
 #define SDF_OUTLINE 0
-#define SDF_GRID 1
+#define SDF_LATTICE 1
 #define TORQUE_PAPER 0
 #define TORQUE_EXACT 1
 #define REFERENCE_PER_OBJECT 0
@@ -165,7 +165,7 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define BINDING_UINT_OUT 3          // uint[planes * n]
 #define BINDING_HAND 4              // uniform: vec4[HAND_VECTORS]
 #define BINDING_OUTLINE 5           // readonly: Real[OUTLINE_STRIDE * count], storage or uniform by variant
-#define BINDING_GRID 6              // texel buffer of uint: a float's bits each, or two halves in units of HALF_UNIT, the first in the low bits
+#define BINDING_LATTICE 6           // texel buffer of uint: a float's bits each, or two halves in units of HALF_UNIT, the first in the low bits
 #define BINDING_CAVITY 7            // readonly: Real[OUTLINE_STRIDE * pieces], y ascending
 #define BINDING_TILTS 8             // readonly: Real[3 * tilts]: sine, cosine, tilt
 #define BINDING_FILLS 9             // readonly: Real[fills]: fraction of capacity
@@ -216,7 +216,7 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define CONST_ADVANCE_STEPS 42
 #define CONST_GAP_STEPS 43
 #define CONST_GAP_TABLE_SIZE 44
-#define CONST_GRID_BITS 45          // of a sample: 32 or 16
+#define CONST_LATTICE_BITS 45       // of a sample: 32 or 16
 #define CONST_FRICTION 46           // of the loop: whether any case has friction, bool
 #define CONST_OUTLINE 64            // + OUTLINE_STRIDE * element + value, Real
 #define CONST_PLANE 320             // + field: first plane, or -1: not computed
@@ -237,7 +237,7 @@ template <class Real>
 struct Parameters {
   Real bound_height;      // m: centre and radius of a sphere that holds the vessel
   Real bound_radius;
-  Real grid_x, grid_y, grid_z, grid_spacing;  // m
+  Real lattice_x, lattice_y, lattice_z, lattice_spacing;  // m
   Real mouth_height, mouth_radius;            // of the cavity, m
   Real floor_height;      // m
   Real capacity;          // m3
@@ -260,7 +260,7 @@ struct Parameters {
   uint
 #endif
       outline_count,      // for the variant that reads its outline from a buffer
-      cavity_count, grid_nx, grid_ny, grid_nz, fills, tilts, quadrature_count;
+      cavity_count, lattice_nx, lattice_ny, lattice_nz, fills, tilts, quadrature_count;
 };
 
 // Push constants: grips of this chunk, distance between planes; first state and states for dispatches that are split.

@@ -49,7 +49,7 @@ Element outline_element(int i) { return outline_copy[i]; }
 
 #endif
 
-layout(constant_id = CONST_GRID_BITS) const int GRID_BITS = 32;
-layout(binding = BINDING_GRID) uniform usamplerBuffer grid_words;
+layout(constant_id = CONST_LATTICE_BITS) const int LATTICE_BITS = 32;
+layout(binding = BINDING_LATTICE) uniform usamplerBuffer lattice_words;
 
 #endif

@@ -144,23 +144,23 @@ struct Cell {
 };
 
 Cell locate_cell(Vec3 p) {
-  Vec3 origin = Vec3(scene.grid_x, scene.grid_y, scene.grid_z);
-  Vec3 counts = Vec3(Real(scene.grid_nx - 1u), Real(scene.grid_ny - 1u), Real(scene.grid_nz - 1u));
-  Vec3 clamped = min(max(p, origin), origin + counts * scene.grid_spacing);
-  Vec3 lattice = min(max((clamped - origin) / scene.grid_spacing, Vec3(0)), counts);
+  Vec3 origin = Vec3(scene.lattice_x, scene.lattice_y, scene.lattice_z);
+  Vec3 counts = Vec3(Real(scene.lattice_nx - 1u), Real(scene.lattice_ny - 1u), Real(scene.lattice_nz - 1u));
+  Vec3 clamped = min(max(p, origin), origin + counts * scene.lattice_spacing);
+  Vec3 steps = min(max((clamped - origin) / scene.lattice_spacing, Vec3(0)), counts);
   Cell cell;
-  cell.i = min(int(lattice.x), int(scene.grid_nx) - 2);
-  cell.j = min(int(lattice.y), int(scene.grid_ny) - 2);
-  cell.k = min(int(lattice.z), int(scene.grid_nz) - 2);
-  cell.fraction = lattice - Vec3(Real(cell.i), Real(cell.j), Real(cell.k));
+  cell.i = min(int(steps.x), int(scene.lattice_nx) - 2);
+  cell.j = min(int(steps.y), int(scene.lattice_ny) - 2);
+  cell.k = min(int(steps.z), int(scene.lattice_nz) - 2);
+  cell.fraction = steps - Vec3(Real(cell.i), Real(cell.j), Real(cell.k));
   cell.outside = p - clamped;
   return cell;
 }
 
-Real grid_sample(int i, int j, int k) {
-  uint at = uint((k * int(scene.grid_ny) + j) * int(scene.grid_nx) + i);
-  if (GRID_BITS == 32) return Real(uintBitsToFloat(texelFetch(grid_words, int(at)).x));
-  vec2 pair = unpackHalf2x16(texelFetch(grid_words, int(at >> 1)).x);
+Real lattice_sample(int i, int j, int k) {
+  uint at = uint((k * int(scene.lattice_ny) + j) * int(scene.lattice_nx) + i);
+  if (LATTICE_BITS == 32) return Real(uintBitsToFloat(texelFetch(lattice_words, int(at)).x));
+  vec2 pair = unpackHalf2x16(texelFetch(lattice_words, int(at >> 1)).x);
   return Real((at & 1u) == 0u ? pair.x : pair.y) * HALF_UNIT;
 }
 
@@ -174,27 +174,27 @@ Real distance_beyond(Real value, Vec3 outside) {
   return squared > Real(0) ? sqrt(held * held + squared) : value;
 }
 
-Real grid_distance(Vec3 p) {
+Real lattice_distance(Vec3 p) {
   Cell cell = locate_cell(p);
   Vec3 f = cell.fraction;
-  Real c00 = mix_reals(grid_sample(cell.i, cell.j, cell.k), grid_sample(cell.i + 1, cell.j, cell.k), f.x);
-  Real c10 = mix_reals(grid_sample(cell.i, cell.j + 1, cell.k), grid_sample(cell.i + 1, cell.j + 1, cell.k), f.x);
-  Real c01 = mix_reals(grid_sample(cell.i, cell.j, cell.k + 1), grid_sample(cell.i + 1, cell.j, cell.k + 1), f.x);
-  Real c11 = mix_reals(grid_sample(cell.i, cell.j + 1, cell.k + 1), grid_sample(cell.i + 1, cell.j + 1, cell.k + 1), f.x);
+  Real c00 = mix_reals(lattice_sample(cell.i, cell.j, cell.k), lattice_sample(cell.i + 1, cell.j, cell.k), f.x);
+  Real c10 = mix_reals(lattice_sample(cell.i, cell.j + 1, cell.k), lattice_sample(cell.i + 1, cell.j + 1, cell.k), f.x);
+  Real c01 = mix_reals(lattice_sample(cell.i, cell.j, cell.k + 1), lattice_sample(cell.i + 1, cell.j, cell.k + 1), f.x);
+  Real c11 = mix_reals(lattice_sample(cell.i, cell.j + 1, cell.k + 1), lattice_sample(cell.i + 1, cell.j + 1, cell.k + 1), f.x);
   return distance_beyond(mix_reals(mix_reals(c00, c10, f.y), mix_reals(c01, c11, f.y), f.z), cell.outside);
 }
 
-Vec3 grid_gradient(Vec3 p) {
+Vec3 lattice_gradient(Vec3 p) {
   Cell cell = locate_cell(p);
   Vec3 f = cell.fraction;
-  Real s000 = grid_sample(cell.i, cell.j, cell.k), s100 = grid_sample(cell.i + 1, cell.j, cell.k);
-  Real s010 = grid_sample(cell.i, cell.j + 1, cell.k), s110 = grid_sample(cell.i + 1, cell.j + 1, cell.k);
-  Real s001 = grid_sample(cell.i, cell.j, cell.k + 1), s101 = grid_sample(cell.i + 1, cell.j, cell.k + 1);
-  Real s011 = grid_sample(cell.i, cell.j + 1, cell.k + 1), s111 = grid_sample(cell.i + 1, cell.j + 1, cell.k + 1);
+  Real s000 = lattice_sample(cell.i, cell.j, cell.k), s100 = lattice_sample(cell.i + 1, cell.j, cell.k);
+  Real s010 = lattice_sample(cell.i, cell.j + 1, cell.k), s110 = lattice_sample(cell.i + 1, cell.j + 1, cell.k);
+  Real s001 = lattice_sample(cell.i, cell.j, cell.k + 1), s101 = lattice_sample(cell.i + 1, cell.j, cell.k + 1);
+  Real s011 = lattice_sample(cell.i, cell.j + 1, cell.k + 1), s111 = lattice_sample(cell.i + 1, cell.j + 1, cell.k + 1);
   Vec3 slope = Vec3(mix_reals(mix_reals(s100 - s000, s110 - s010, f.y), mix_reals(s101 - s001, s111 - s011, f.y), f.z),
                     mix_reals(mix_reals(s010 - s000, s110 - s100, f.x), mix_reals(s011 - s001, s111 - s101, f.x), f.z),
                     mix_reals(mix_reals(s001 - s000, s101 - s100, f.x), mix_reals(s011 - s010, s111 - s110, f.x), f.y));
-  slope /= scene.grid_spacing;
+  slope /= scene.lattice_spacing;
   if (cell.outside.x != Real(0)) slope.x = Real(0);
   if (cell.outside.y != Real(0)) slope.y = Real(0);
   if (cell.outside.z != Real(0)) slope.z = Real(0);
@@ -208,15 +208,15 @@ Vec3 grid_gradient(Vec3 p) {
 }
 
 Real signed_distance(Vec3 p) {
-  if (SDF_KIND == SDF_GRID) return grid_distance(p);
+  if (SDF_KIND == SDF_LATTICE) return lattice_distance(p);
   precise Real r = sqrt(p.x * p.x + p.z * p.z);
   return profile_distance(Vec2(r, p.y));
 }
 
 Vec3 distance_gradient(Vec3 p, out int element) {
-  if (SDF_KIND == SDF_GRID) {
+  if (SDF_KIND == SDF_LATTICE) {
     element = -1;
-    return grid_gradient(p);
+    return lattice_gradient(p);
   }
   precise Real r = sqrt(p.x * p.x + p.z * p.z);
   Vec2 gradient = profile_gradient(Vec2(r, p.y), element);
@@ -228,8 +228,8 @@ Support support_at(Vec3 p) {
   Support support;
   support.element = -1;
   support.planar = false;
-  if (SDF_KIND == SDF_GRID) {
-    support.distance = grid_distance(p);
+  if (SDF_KIND == SDF_LATTICE) {
+    support.distance = lattice_distance(p);
     support.other = support.distance;
     support.normal = Vec3(0);
     return support;

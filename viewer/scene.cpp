@@ -40,7 +40,7 @@ Json guidance_points(const VesselData& data, const PreparedVessel& prepared) {
   if (data.guidance.empty()) return points;
   const core_f64::Quadrature quadrature = core_f64::load_quadrature(prepare_quadrature(QUADRATURE_POINTS));
   core_f64::Vessel vessel = core_f64::load_vessel(prepared, data, quadrature, false, Handedness::right);
-  if (data.mesh) core_f64::use_grid(vessel, core_f64::load_grid(data.mesh->body->grid));
+  if (data.mesh) core_f64::use_lattice(vessel, core_f64::load_lattice(data.mesh->body->lattice));
   for (const GuidancePoint& point : data.guidance) {
     const core_f64::Vec3 out = core_f64::grip_direction(point.azimuth, 0), axis(0, point.height, 0);
     const core_f64::Trace trace = core_f64::trace_tip(vessel, axis, out, 1, 0);

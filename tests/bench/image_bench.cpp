@@ -57,9 +57,9 @@ struct LatticeImage {
 vk::Format format_of(int bits) { return bits == 16 ? vk::Format::eR16Sfloat : vk::Format::eR32Sfloat; }
 
 // What a way lacks on the device; empty: nothing. Images of either format and 256 texels a side are on every device.
-std::string lacks(const host::DeviceState& device, const PreparedGrid& grid, int bits, int way) {
+std::string lacks(const host::DeviceState& device, const PreparedLattice& lattice, int bits, int way) {
   const std::size_t largest = device.physical->getProperties().limits.maxTexelBufferElements;
-  if (way == WAY_TEXELS && grid.words->size() * (grid.halves ? 2 : 1) > largest)
+  if (way == WAY_TEXELS && lattice.words->size() * (lattice.halves ? 2 : 1) > largest)
     return fmt::format("texel buffers end at {} texels", largest);
   const vk::FormatFeatureFlags has = device.physical->getFormatProperties(format_of(bits)).optimalTilingFeatures;
   if (way == WAY_FILTER && !(has & vk::FormatFeatureFlagBits::eSampledImageFilterLinear))
@@ -115,9 +115,9 @@ struct TexelBuffer {
   vk::raii::BufferView view = nullptr;
 };
 
-TexelBuffer upload_texels(const host::Device& on, const PreparedGrid& grid, int bits) {
+TexelBuffer upload_texels(const host::Device& on, const PreparedLattice& lattice, int bits) {
   host::DeviceState& device = on.state();
-  const std::size_t bytes = grid.words->size() * sizeof(std::uint32_t);
+  const std::size_t bytes = lattice.words->size() * sizeof(std::uint32_t);
   TexelBuffer made;
   made.buffer = vk::raii::Buffer(*device.device,
                                  {{}, bytes, vk::BufferUsageFlagBits::eUniformTexelBuffer | vk::BufferUsageFlagBits::eTransferDst});
@@ -126,7 +126,7 @@ TexelBuffer upload_texels(const host::Device& on, const PreparedGrid& grid, int 
   const std::size_t most = device.physical->getProperties().limits.maxTexelBufferElements * std::size_t(bits / 8);
   made.view = vk::raii::BufferView(*device.device, {{}, *made.buffer, format_of(bits), 0, std::min(bytes, most)});
   host::Buffer staging(on, bytes, host::Memory::upload);
-  staging.write(*grid.words);
+  staging.write(*lattice.words);
   const Commands commands(device);
   commands.record().copyBuffer(*staging.state().buffer, *made.buffer, vk::BufferCopy(0, 0, bytes));
   commands.end();
@@ -134,10 +134,10 @@ TexelBuffer upload_texels(const host::Device& on, const PreparedGrid& grid, int 
   return made;
 }
 
-LatticeImage upload_image(const host::Device& on, const PreparedGrid& grid, int bits) {
+LatticeImage upload_image(const host::Device& on, const PreparedLattice& lattice, int bits) {
   host::DeviceState& device = on.state();
   LatticeImage made;
-  const vk::Extent3D size(grid.nx, grid.ny, grid.nz);
+  const vk::Extent3D size(lattice.nx, lattice.ny, lattice.nz);
   made.image =
       vk::raii::Image(*device.device, vk::ImageCreateInfo({}, vk::ImageType::e3D, format_of(bits), size, 1, 1,
                                                           vk::SampleCountFlagBits::e1, vk::ImageTiling::eOptimal,
@@ -146,7 +146,7 @@ LatticeImage upload_image(const host::Device& on, const PreparedGrid& grid, int 
   made.image.bindMemory(*made.memory, 0);
   const vk::ImageSubresourceRange all(vk::ImageAspectFlagBits::eColor, 0, 1, 0, 1);
   made.view = vk::raii::ImageView(*device.device, {{}, *made.image, vk::ImageViewType::e3D, format_of(bits), {}, all});
-  const vk::Filter filter = lacks(device, grid, bits, WAY_FILTER).empty() ? vk::Filter::eLinear : vk::Filter::eNearest;
+  const vk::Filter filter = lacks(device, lattice, bits, WAY_FILTER).empty() ? vk::Filter::eLinear : vk::Filter::eNearest;
   made.sampler = vk::raii::Sampler(*device.device, {{},
                                                     filter,
                                                     filter,
@@ -155,8 +155,8 @@ LatticeImage upload_image(const host::Device& on, const PreparedGrid& grid, int 
                                                     vk::SamplerAddressMode::eClampToEdge,
                                                     vk::SamplerAddressMode::eClampToEdge});
 
-  host::Buffer staging(on, grid.words->size() * sizeof(std::uint32_t), host::Memory::upload);
-  staging.write(*grid.words);
+  host::Buffer staging(on, lattice.words->size() * sizeof(std::uint32_t), host::Memory::upload);
+  staging.write(*lattice.words);
   const Commands commands(device);
   const auto change = [&](vk::ImageLayout from, vk::ImageLayout to, vk::AccessFlags before, vk::AccessFlags after) {
     commands.record().pipelineBarrier(
@@ -177,18 +177,18 @@ LatticeImage upload_image(const host::Device& on, const PreparedGrid& grid, int 
 struct Lattice {
   Lattice(const Options& options, int bits) : on(options.device), bits(bits) {
     EvaluatorOptions evaluator;
-    evaluator.grid_samples = SAMPLES;
-    evaluator.grid_bits = bits;
+    evaluator.lattice_samples = SAMPLES;
+    evaluator.lattice_bits = bits;
     Scene scene = scene_of({beaker1()});
     core = make_core_evaluator(scene, evaluator);
     parameters = host::Buffer::of(
         on, std::vector{host::convert<float>(host::make_scene_arrays(scene, *core, evaluator).vessels[0].parameters)});
-    words = host::Buffer::of(on, *core->grid(0)->words);
+    words = host::Buffer::of(on, *core->lattice(0)->words);
     ray_values = make_rays();
     rays = host::Buffer::of(on, ray_values);
     distances = host::Buffer(on, sizeof(float) * RAYS * RAY_STEPS);
-    image = upload_image(on, *core->grid(0), bits);
-    texels = upload_texels(on, *core->grid(0), bits);
+    image = upload_image(on, *core->lattice(0), bits);
+    texels = upload_texels(on, *core->lattice(0), bits);
   }
   host::Device on;
   int bits;
@@ -209,7 +209,7 @@ class Reader {
         {BINDING_PARAMETERS, Type::eUniformBuffer, &lattice.parameters},
         {BINDING_GRIPS, Type::eStorageBuffer, &lattice.rays},
         {BINDING_REAL_OUT, Type::eStorageBuffer, &lattice.distances},
-        {BINDING_GRID, Type::eStorageBuffer, &lattice.words}};
+        {BINDING_LATTICE, Type::eStorageBuffer, &lattice.words}};
     std::vector<vk::DescriptorSetLayoutBinding> layout;
     for (const auto& [binding, type, buffer] : buffers) layout.emplace_back(binding, type, 1, vk::ShaderStageFlagBits::eCompute);
     layout.emplace_back(BINDING_IMAGE, Type::eCombinedImageSampler, 1, vk::ShaderStageFlagBits::eCompute);
@@ -239,7 +239,7 @@ class Reader {
     const vk::raii::ShaderModule module(*device.device, {{}, words.size_bytes(), words.data()});
     const std::array<std::int32_t, 3> values{GROUP_SIZE, way, lattice.bits};
     const std::array<vk::SpecializationMapEntry, 3> entries{
-        vk::SpecializationMapEntry{CONST_GROUP_SIZE, 0, 4}, {CONST_WAY, 4, 4}, {CONST_GRID_BITS, 8, 4}};
+        vk::SpecializationMapEntry{CONST_GROUP_SIZE, 0, 4}, {CONST_WAY, 4, 4}, {CONST_LATTICE_BITS, 8, 4}};
     const vk::SpecializationInfo special(3, entries.data(), sizeof values, values.data());
     const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main", &special);
     pipeline_ = vk::raii::Pipeline(*device.device, nullptr, vk::ComputePipelineCreateInfo({}, stage, *layout_));
@@ -293,7 +293,7 @@ class Reader {
 
 void read_lattice(benchmark::State& state, const Options& options, int bits, int way) {
   const Lattice lattice(options, bits);
-  if (const std::string missing = lacks(lattice.on.state(), *lattice.core->grid(0), bits, way); !missing.empty()) {
+  if (const std::string missing = lacks(lattice.on.state(), *lattice.core->lattice(0), bits, way); !missing.empty()) {
     state.SkipWithError(missing.c_str());
     return;
   }
@@ -312,7 +312,7 @@ void read_lattice(benchmark::State& state, const Options& options, int bits, int
   state.counters["ns"] = 1e9 * (reader_seconds - nothing_seconds) / runs;
   state.counters["buffer_ns"] = 1e9 * (buffer_seconds - nothing_seconds) / runs;
   const auto bits_of_fraction = static_cast<int>(lattice.on.state().physical->getProperties().limits.subTexelPrecisionBits);
-  const double promised = 1e9 * std::ldexp(lattice.core->grid(0)->spacing, -1 - bits_of_fraction);
+  const double promised = 1e9 * std::ldexp(lattice.core->lattice(0)->spacing, -1 - bits_of_fraction);
   state.SetLabel("over the storage buffer" + (way == WAY_FILTER ? fmt::format("; promised are {:.0f} nm", promised) : ""));
   state.counters["ratio"] = (buffer_seconds - nothing_seconds) / (reader_seconds - nothing_seconds);
   state.counters["error_nm"] = 1e9 * error;

@@ -29,8 +29,8 @@ void lattice_grips(benchmark::State& state, const Options& options, int samples,
   const Scene scene = grips_scene(HEIGHTS);
   const Plan plan(scene, false);
   host::GripBackendOptions on_device;
-  on_device.evaluator.grid_samples = samples;
-  on_device.evaluator.grid_bits = bits;
+  on_device.evaluator.lattice_samples = samples;
+  on_device.evaluator.lattice_bits = bits;
   CoreBackend core(make_core_evaluator(scene, on_device.evaluator), scene, make_field_set(KEPT, scene), Precision::full, 0);
   host::GripBackend device(scene, make_core_evaluator(scene, on_device.evaluator), make_field_set(KEPT, scene), options.device,
                            on_device);

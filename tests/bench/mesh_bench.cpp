@@ -10,7 +10,7 @@
 #include <memory>
 
 #include "objects/distance.h"
-#include "objects/grid.h"
+#include "objects/lattice.h"
 #include "tests/bench/bench.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
@@ -32,9 +32,9 @@ const CheckedMesh& flask() {
 }
 
 // The widest spacing with at least so many samples.
-MeshGrid lattice_of(const MeshDistance& distance, int samples) {
-  const double margin = grid_margin(three_beakers());
-  GridWish wish;
+MeshLattice lattice_of(const MeshDistance& distance, int samples) {
+  const double margin = lattice_margin(three_beakers());
+  LatticeWish wish;
   wish.margin = margin;
   const MeshFacts& facts = flask().facts;
   const auto count = [&](double spacing) {
@@ -45,22 +45,22 @@ MeshGrid lattice_of(const MeshDistance& distance, int samples) {
   double low = 1e-4, high = 1e-2;
   while (high - low > 1e-9) (count((low + high) / 2) >= samples ? low : high) = (low + high) / 2;
   wish.spacing = low;
-  return grid_of_mesh(distance, flask(), wish);
+  return lattice_of_mesh(distance, flask(), wish);
 }
 
 // As many samples as 128 in each direction have, on all threads, Embree's tree included; a sweep pays this once a mesh.
 void mesh_lattice(benchmark::State& state) {
   flask();
-  MeshGrid made;
+  MeshLattice made;
   for (auto _ : state) {
     const MeshDistance distance(flask());
     made = lattice_of(distance, LATTICE_SAMPLES);
-    benchmark::DoNotOptimize(made.grid.words);
+    benchmark::DoNotOptimize(made.lattice.words);
   }
-  const double samples = static_cast<double>(made.grid.nx) * made.grid.ny * made.grid.nz;
+  const double samples = static_cast<double>(made.lattice.nx) * made.lattice.ny * made.lattice.nz;
   state.SetItemsProcessed(static_cast<std::int64_t>(samples) * state.iterations());
   state.counters["triangles"] = static_cast<double>(flask().facts.triangles);
-  state.counters["spacing_mm"] = 1e3 * made.grid.spacing;
+  state.counters["spacing_mm"] = 1e3 * made.lattice.spacing;
   state.counters["error_mm"] = 1e3 * made.error;
 }
 

@@ -231,13 +231,13 @@ TEST(Closure, AntipodalNeedsBothTips) {
 
 // ---- on a lattice ----
 
-TEST(Closure, GridGivesTheOutlinesAnswerAtEveryAzimuth) {
+TEST(Closure, LatticeGivesTheOutlinesAnswerAtEveryAzimuth) {
   // tips of a small hand: tracing must not step into the vessel on its way from outside the lattice
   HandData bare;
   for (FingerData& finger : bare.fingers) finger.radii = {};
   for (const VesselData& vessel : {beaker1(), beaker3()}) {
     const Scene scene = scene_of({vessel}, Pose::rigged, bare);
-    const auto outline = make_core_evaluator(scene), grid = make_core_evaluator(scene, {.grid_samples = 60});
+    const auto outline = make_core_evaluator(scene), lattice = make_core_evaluator(scene, {.lattice_samples = 60});
     int compared = 0;
     for (GripInput grip : sample_grips(vessel, 300, 28)) {
       grip.height = vessel.height * (0.3 + 0.4 * std::abs(std::sin(100 * grip.roll)));  // away from edges
@@ -245,7 +245,7 @@ TEST(Closure, GridGivesTheOutlinesAnswerAtEveryAzimuth) {
       grip.offset /= 2;
       GripResult exact, sampled;
       outline->grip(0, grip, exact);
-      grid->grip(0, grip, sampled);
+      lattice->grip(0, grip, sampled);
       if (exact.reason != Reason::none) continue;
       ++compared;
       ASSERT_EQ(sampled.reason, Reason::none);

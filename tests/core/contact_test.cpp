@@ -163,7 +163,7 @@ TEST(Contact, ProxyInAShellsWallLeavesItOnTheNearerSide) {
 }
 
 TEST(Contact, ProxyOnALatticeSettlesOrSaysSo) {
-  const Vessel vessel = grid_vessel(vase(), 60);
+  const Vessel vessel = lattice_vessel(vase(), 60);
   Random random(34);
   int penetrating = 0, unsettled = 0;
   for (int n = 0; n < 2000; ++n) {

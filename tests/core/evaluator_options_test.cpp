@@ -98,43 +98,43 @@ struct Sweep {
 };
 
 // Largest error of the distance at the points, by the lattice's spacing.
-Sweep grid_errors(const VesselData& data, const std::vector<Vec3>& points, const std::vector<int>& resolutions) {
+Sweep lattice_errors(const VesselData& data, const std::vector<Vec3>& points, const std::vector<int>& resolutions) {
   const core_f64::Vessel outline = ready_vessel(data);
   Sweep sweep;
   for (const int samples : resolutions) {
-    const core_f64::Vessel vessel = grid_vessel(data, samples);
+    const core_f64::Vessel vessel = lattice_vessel(data, samples);
     double worst = 0;
     for (const Vec3& p : points)
       worst = std::max(worst, std::abs(core_f64::signed_distance(vessel, p) - core_f64::signed_distance(outline, p)));
-    sweep.steps.push_back(vessel.grid.spacing);
+    sweep.steps.push_back(vessel.lattice.spacing);
     sweep.errors.push_back(worst);
   }
   return sweep;
 }
 
 // Trilinear interpolation is off by h^2 / 8 times the second derivatives where there are any.
-TEST(Convergence, GridIsOfSecondOrderAwayFromCreases) {
+TEST(Convergence, LatticeIsOfSecondOrderAwayFromCreases) {
   Random random(71);
   std::vector<Vec3> points;
   while (points.size() <
          20000) {  // beside the straight wall, within the finest lattice; further than a cell from base, lid and axis
     points.push_back(around({random.uniform(25e-3, 41e-3), random.uniform(35e-3, 75e-3)}, random.uniform(-PI, PI)));
   }
-  const Sweep sweep = grid_errors(beaker1(), points, {40, 57, 80, 113});
+  const Sweep sweep = lattice_errors(beaker1(), points, {40, 57, 80, 113});
   EXPECT_NEAR(sweep.order(), 2, 0.1) << sweep.errors.front() << " to " << sweep.errors.back() << " m";
   for (std::size_t k = 0; k < sweep.errors.size(); ++k)
     EXPECT_LT(sweep.errors[k], 1.05 * sweep.steps[k] * sweep.steps[k] / 8 / 25e-3);  // curvature 1 / r, at most
 }
 
 // Inside a corner the nearest face changes, and the slope with it: a kink that no lattice holds, off by up to a share of h.
-TEST(Convergence, GridIsOfFirstOrderAtCreases) {
+TEST(Convergence, LatticeIsOfFirstOrderAtCreases) {
   Random random(72);
   std::vector<Vec3> points;
   while (points.size() < 20000) {
     const double in = random.uniform(5e-3, 20e-3);
     points.push_back(around({40e-3 - in, in}, random.uniform(-PI, PI)));
   }
-  const Sweep sweep = grid_errors(beaker1(), points, {40, 57, 80, 113});
+  const Sweep sweep = lattice_errors(beaker1(), points, {40, 57, 80, 113});
   EXPECT_NEAR(sweep.order(), 1, 0.15) << sweep.errors.front() << " to " << sweep.errors.back() << " m";
   for (std::size_t k = 0; k < sweep.errors.size(); ++k) EXPECT_LT(sweep.errors[k], sweep.steps[k]);
 }

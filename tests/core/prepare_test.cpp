@@ -76,24 +76,24 @@ TEST(Prepare, AMeshIsItsBodyAndItsInnerOutline) {
 
 TEST(Prepare, AMirroredLatticeIsTheMirrorImageToTheBit) {
   for (const bool halves : {false, true}) {
-    PreparedGrid grid;
-    grid.origin = {-0.3, 0.1, 0.2};
-    grid.spacing = 0.1;
-    grid.nx = 3;
-    grid.ny = 2;
-    grid.nz = 2;
-    grid.halves = halves;
-    grid.words = std::make_shared<const std::vector<std::uint32_t>>(
+    PreparedLattice lattice;
+    lattice.origin = {-0.3, 0.1, 0.2};
+    lattice.spacing = 0.1;
+    lattice.nx = 3;
+    lattice.ny = 2;
+    lattice.nz = 2;
+    lattice.halves = halves;
+    lattice.words = std::make_shared<const std::vector<std::uint32_t>>(
         halves ? std::vector<std::uint32_t>{0x00010000, 0x00030002, 0x00050004, 0x00070006, 0x00090008, 0x000B000A}
                : std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11});
-    const PreparedGrid image = mirrored(grid, Handedness::left);
+    const PreparedLattice image = mirrored(lattice, Handedness::left);
     EXPECT_NEAR(image.origin[0], 0.1, 1e-15);
-    EXPECT_EQ(image.origin[1], grid.origin[1]);
+    EXPECT_EQ(image.origin[1], lattice.origin[1]);
     EXPECT_EQ(*image.words,
               halves ? (std::vector<std::uint32_t>{0x00010002, 0x00050000, 0x00030004, 0x00070008, 0x000B0006, 0x0009000A})
                      : (std::vector<std::uint32_t>{2, 1, 0, 5, 4, 3, 8, 7, 6, 11, 10, 9}));
-    EXPECT_EQ(mirrored(grid, Handedness::right).words, grid.words);
-    EXPECT_EQ(*mirrored(image, Handedness::left).words, *grid.words);
+    EXPECT_EQ(mirrored(lattice, Handedness::right).words, lattice.words);
+    EXPECT_EQ(*mirrored(image, Handedness::left).words, *lattice.words);
   }
 }
 

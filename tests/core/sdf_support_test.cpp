@@ -30,21 +30,21 @@ Vec3 swept(const Element& element, double t, double azimuth) {
   return around(q, azimuth);
 }
 
-TEST(Sdf, SupportIsTheDistanceAndItsGradientButOfAGridTheDistanceAlone) {
+TEST(Sdf, SupportIsTheDistanceAndItsGradientButOfALatticeTheDistanceAlone) {
   for (const VesselData& data : {beaker1(), vase(), ledges(), shell_of(vase())}) {
-    const Vessel vessel = ready_vessel(data), grid = grid_vessel(data, 16);
+    const Vessel vessel = ready_vessel(data), lattice = lattice_vessel(data, 16);
     Random random(14);
     for (int n = 0; n < 1000; ++n) {
       const Vec3 p = around(point_in_box(data, random), random.uniform(-PI, PI));
-      for (const Vessel* each : {&vessel, &grid}) {
+      for (const Vessel* each : {&vessel, &lattice}) {
         const core_f64::Support support = core_f64::support_at(*each, p);
         int element = -2;
         EXPECT_EQ(support.distance, core_f64::signed_distance(*each, p));
         const Vec3 gradient = core_f64::distance_gradient(*each, p, element);
-        EXPECT_EQ(support.normal, each == &grid ? Vec3(0) : gradient);
+        EXPECT_EQ(support.normal, each == &lattice ? Vec3(0) : gradient);
         EXPECT_EQ(support.element, element);
       }
-      EXPECT_FALSE(core_f64::support_at(grid, p).planar);
+      EXPECT_FALSE(core_f64::support_at(lattice, p).planar);
     }
   }
 }

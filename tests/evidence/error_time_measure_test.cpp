@@ -121,7 +121,7 @@ TEST(ErrorTime, RowsHaveTheirColumns) {
 }
 
 // Half the bytes a sample.
-TEST(ErrorTime, MemoryTellsGridsApart) {
+TEST(ErrorTime, MemoryTellsLatticesApart) {
   const Scene scene = scene_of({beaker1()});
   ErrorMeasure measure(scene, few_grips());
   const auto variants = error_variants(scene, {true, 1, false, false, false, false});
@@ -162,7 +162,7 @@ TEST(ErrorTime, MarginIsNotTheVariantsOwnError) {
 TEST(ErrorTime, GroupsChangeNoError) {
   const Scene scene = read_scene_file(find_scene("small"));
   auto variants = error_variants(scene, {true, 1, true, false, true, true});
-  std::erase_if(variants, [](const ErrorVariant& v) { return v.axis == SweptAxis::points || v.axis == SweptAxis::grid; });
+  std::erase_if(variants, [](const ErrorVariant& v) { return v.axis == SweptAxis::points || v.axis == SweptAxis::lattice; });
   variants.resize(6);
   const auto table = [&](std::size_t group, std::size_t bytes) {
     MeasureOptions options = few_grips();

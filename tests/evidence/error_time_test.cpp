@@ -154,7 +154,7 @@ TEST(ErrorTime, VariantsLeaveOutWhatTheSceneLacks) {
     EXPECT_EQ(variant.name.find("liquid"), std::string::npos) << variant.name;
     EXPECT_EQ(variant.name.find("shell"), std::string::npos) << variant.name;
     EXPECT_FALSE(!variant.on_core && variant.precision == Precision::full) << variant.name;
-    EXPECT_FALSE(!variant.on_core && variant.options.grid_samples == 0) << variant.name;
+    EXPECT_FALSE(!variant.on_core && variant.options.lattice_samples == 0) << variant.name;
   }
   for (const ErrorVariant& variant : error_variants(three_beakers(), {false, 2, false, false, false, false}))
     EXPECT_TRUE(variant.on_core);

@@ -291,7 +291,7 @@ TEST(GripGlb, AMeshVesselIsItsMesh) {
   EXPECT_EQ(extras.Get("name").Get<std::string>(), "mug");
   EXPECT_EQ(extras.Get("mesh").Get<std::string>(), "mug.glb");
   EXPECT_EQ(extras.Get("lattice_spacing_m").GetNumberAsDouble(), 5e-3);
-  EXPECT_EQ(extras.Get("lattice_error_m").GetNumberAsDouble(), scene.vessels[0].mesh->body->grid_error);
+  EXPECT_EQ(extras.Get("lattice_error_m").GetNumberAsDouble(), scene.vessels[0].mesh->body->lattice_error);
   EXPECT_GT(extras.Get("lattice_error_m").GetNumberAsDouble(), 0);
   EXPECT_NEAR(extras.Get("base_m").GetNumberAsDouble(), 0.02, 1e-12);
   EXPECT_NEAR(extras.Get("height_m").GetNumberAsDouble(), 0.13 - 0.02, 1e-12);

@@ -33,7 +33,7 @@ TEST(HostSpirv, InterfaceIsReadFromTheShader) {
   EXPECT_FALSE(other.float64);
 
   const ShaderInterface grip = read_interface(find_shader("grip", Precision::single, OUTLINE_SPECIALIZED), "grip");
-  const auto lattice = std::ranges::find(grip.bindings, std::uint32_t{BINDING_GRID}, &ShaderBinding::binding);
+  const auto lattice = std::ranges::find(grip.bindings, std::uint32_t{BINDING_LATTICE}, &ShaderBinding::binding);
   ASSERT_NE(lattice, grip.bindings.end());
   EXPECT_EQ(lattice->kind, BindingKind::texels);
 }

@@ -45,11 +45,11 @@ class MeshCache : public testing::Test {
   }
 
   // The cache's answer, and whether it had to be made.
-  MeshGrid ask(const CheckedMesh& of, const GridWish& with) {
+  MeshLattice ask(const CheckedMesh& of, const LatticeWish& with) {
     was_made = false;
-    return cached_grid(of, with, root.string(), [&](double) { was_made = true; });
+    return cached_lattice(of, with, root.string(), [&](double) { was_made = true; });
   }
-  MeshGrid ask() { return ask(mesh, wish); }
+  MeshLattice ask() { return ask(mesh, wish); }
   std::vector<fs::path> files() const {
     std::vector<fs::path> found;
     for (const auto& entry : fs::directory_iterator(folder)) found.push_back(entry.path());
@@ -60,49 +60,49 @@ class MeshCache : public testing::Test {
   }
 
   const CheckedMesh mesh = check_mesh(torus(0.05, 0.02, 20, 10), "torus");
-  GridWish wish;
+  LatticeWish wish;
   fs::path root, folder;  // of the cache, and of the lattices in it
   bool was_made = false;
 };
 
-void expect_same(const MeshGrid& a, const MeshGrid& b) {
-  EXPECT_EQ(a.grid.origin, b.grid.origin);
-  EXPECT_EQ(a.grid.spacing, b.grid.spacing);
-  EXPECT_EQ((std::array{a.grid.nx, a.grid.ny, a.grid.nz}), (std::array{b.grid.nx, b.grid.ny, b.grid.nz}));
-  EXPECT_EQ(a.grid.halves, b.grid.halves);
-  EXPECT_EQ(*a.grid.words, *b.grid.words);
+void expect_same(const MeshLattice& a, const MeshLattice& b) {
+  EXPECT_EQ(a.lattice.origin, b.lattice.origin);
+  EXPECT_EQ(a.lattice.spacing, b.lattice.spacing);
+  EXPECT_EQ((std::array{a.lattice.nx, a.lattice.ny, a.lattice.nz}), (std::array{b.lattice.nx, b.lattice.ny, b.lattice.nz}));
+  EXPECT_EQ(a.lattice.halves, b.lattice.halves);
+  EXPECT_EQ(*a.lattice.words, *b.lattice.words);
   EXPECT_EQ(a.error, b.error);
   EXPECT_EQ(a.at_limit, b.at_limit);
 }
 
 TEST_F(MeshCache, GivesTheSameToTheBitWithoutMakingIt) {
-  std::vector<GridWish> wishes(5, wish);
+  std::vector<LatticeWish> wishes(5, wish);
   wishes[1].bits = 16;
   wishes[2].spacing.reset();
   wishes[2].tolerance = 2e-3;
   wishes[3] = wishes[2];
   wishes[3].most_bytes = 6'000;  // halves, and not fine enough
   wishes[4].margin = 8e-3;
-  for (const GridWish& each : wishes) {
-    const MeshGrid plain = grid_of_mesh(MeshDistance(mesh), mesh, each), made = ask(mesh, each);
+  for (const LatticeWish& each : wishes) {
+    const MeshLattice plain = lattice_of_mesh(MeshDistance(mesh), mesh, each), made = ask(mesh, each);
     EXPECT_TRUE(was_made);
     expect_same(plain, made);
-    const MeshGrid again = ask(mesh, each);
+    const MeshLattice again = ask(mesh, each);
     EXPECT_FALSE(was_made);
     expect_same(made, again);
   }
   EXPECT_EQ(files().size(), wishes.size());
   EXPECT_TRUE(ask(mesh, wishes[3]).at_limit);
-  EXPECT_TRUE(ask(mesh, wishes[3]).grid.halves);
+  EXPECT_TRUE(ask(mesh, wishes[3]).lattice.halves);
 }
 
 TEST_F(MeshCache, EveryPartOfTheWishAndEveryVertexCounts) {
-  const auto is_new = [&](const CheckedMesh& of, const GridWish& with) {
+  const auto is_new = [&](const CheckedMesh& of, const LatticeWish& with) {
     ask(of, with);
     return was_made;
   };
   EXPECT_TRUE(is_new(mesh, wish));
-  GridWish other = wish;
+  LatticeWish other = wish;
   other.spacing = 20.001e-3;
   EXPECT_TRUE(is_new(mesh, other));
   other = wish;
@@ -131,7 +131,7 @@ TEST_F(MeshCache, EveryPartOfTheWishAndEveryVertexCounts) {
 }
 
 TEST_F(MeshCache, WhatDoesNotChangeTheLatticeDoesNotCount) {
-  const MeshGrid given = ask();
+  const MeshLattice given = ask();
   wish.threads = 1;
   wish.tolerance = 1e-9;
   wish.most_bytes = 1u << 22;
@@ -140,10 +140,10 @@ TEST_F(MeshCache, WhatDoesNotChangeTheLatticeDoesNotCount) {
   EXPECT_FALSE(was_made);
   wish.spacing.reset();
   wish.tolerance = 2e-3;
-  const MeshGrid chosen = ask();
+  const MeshLattice chosen = ask();
   EXPECT_TRUE(was_made);
   EXPECT_FALSE(chosen.at_limit);
-  const std::size_t words = chosen.grid.words->size();
+  const std::size_t words = chosen.lattice.words->size();
   for (const std::size_t most : {4 * words, 8 * words, std::size_t{1} << 30}) {  // any memory that holds it
     wish.most_bytes = most;
     wish.bits = most == 4 * words ? std::optional<int>(32) : std::nullopt;
@@ -155,21 +155,21 @@ TEST_F(MeshCache, WhatDoesNotChangeTheLatticeDoesNotCount) {
 TEST_F(MeshCache, MemoryThatDecidesCounts) {
   wish.spacing.reset();
   wish.tolerance = 2e-3;
-  const std::size_t words = ask().grid.words->size();
+  const std::size_t words = ask().lattice.words->size();
   wish.most_bytes = 8 * words - 4;
-  EXPECT_TRUE(ask().grid.halves);
+  EXPECT_TRUE(ask().lattice.halves);
   EXPECT_TRUE(was_made);
   wish.most_bytes = words;
   EXPECT_TRUE(ask().at_limit);
   EXPECT_TRUE(was_made);
   wish.most_bytes = words - 400;
-  EXPECT_LE(4 * ask().grid.words->size(), words - 400);
+  EXPECT_LE(4 * ask().lattice.words->size(), words - 400);
   EXPECT_TRUE(was_made);
   wish.bits = 32;  // good enough, but coarser than what more memory begins with
   wish.most_bytes = 2 * words;
   EXPECT_TRUE(ask().at_limit);
   wish.most_bytes = 4 * words;
-  EXPECT_EQ(ask().grid.words->size(), words);
+  EXPECT_EQ(ask().lattice.words->size(), words);
   EXPECT_FALSE(was_made);
   wish.most_bytes = 100;
   EXPECT_THROW(ask(), Error);
@@ -178,11 +178,11 @@ TEST_F(MeshCache, MemoryThatDecidesCounts) {
 }
 
 TEST_F(MeshCache, ADamagedFileIsMadeAgain) {
-  const MeshGrid made = ask();
+  const MeshLattice made = ask();
   ASSERT_EQ(files().size(), 1u);
   const fs::path file = files()[0];
   const std::string whole = file_text(file);
-  ASSERT_EQ(whole.size(), 88 + 4 * made.grid.words->size() + 16);
+  ASSERT_EQ(whole.size(), 88 + 4 * made.lattice.words->size() + 16);
   // each byte of the header, samples at both ends and in between, each byte of the hash
   std::vector<std::size_t> places;
   for (std::size_t i = 0; i < 88; ++i) places.push_back(i);
@@ -201,7 +201,7 @@ TEST_F(MeshCache, ADamagedFileIsMadeAgain) {
 }
 
 TEST_F(MeshCache, ATruncatedOrForeignFileIsMadeAgain) {
-  const MeshGrid made = ask();
+  const MeshLattice made = ask();
   const fs::path file = files().at(0);
   const std::string whole = file_text(file);
   std::vector<std::string> wrong{"", "short", std::string(200, '\0'), std::string(200, '\xFF'), whole + "x", whole + whole};
@@ -231,11 +231,11 @@ TEST_F(MeshCache, ATruncatedOrForeignFileIsMadeAgain) {
 }
 
 TEST_F(MeshCache, AFolderThatCannotBeWrittenCostsNothing) {
-  const MeshGrid plain = grid_of_mesh(MeshDistance(mesh), mesh, wish);
-  expect_same(plain, cached_grid(mesh, wish, "/proc/nonexistent"));
+  const MeshLattice plain = lattice_of_mesh(MeshDistance(mesh), mesh, wish);
+  expect_same(plain, cached_lattice(mesh, wish, "/proc/nonexistent"));
   write(folder / "file", "not a folder");
-  expect_same(plain, cached_grid(mesh, wish, (folder / "file").string()));
-  expect_same(plain, cached_grid(mesh, wish, (folder / "file" / "below").string()));
+  expect_same(plain, cached_lattice(mesh, wish, (folder / "file").string()));
+  expect_same(plain, cached_lattice(mesh, wish, (folder / "file" / "below").string()));
 }
 
 TEST_F(MeshCache, AFolderThatMayOnlyBeReadIsRead) {
@@ -249,14 +249,14 @@ TEST_F(MeshCache, IsKeptWhereTheUserKeepsSuchThings) {
   const ScopedVariable home("HOME", folder.c_str());
   {
     const ScopedVariable cache("XDG_CACHE_HOME", (folder / "xdg").c_str());
-    cached_grid(mesh, wish);
+    cached_lattice(mesh, wish);
     EXPECT_EQ(std::distance(fs::directory_iterator(folder / "xdg/wholehand/grids"), {}), 1);
   }
   const ScopedVariable cache("XDG_CACHE_HOME", nullptr);
-  cached_grid(mesh, wish);
+  cached_lattice(mesh, wish);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder / ".cache/wholehand/grids"), {}), 1);
   const ScopedVariable nowhere("HOME", nullptr);
-  EXPECT_FALSE(cached_grid(mesh, wish).grid.words->empty());
+  EXPECT_FALSE(cached_lattice(mesh, wish).lattice.words->empty());
 }
 
 // Files without contents, which take no room on the disk, fill the cache up.
@@ -301,7 +301,7 @@ TEST_F(MeshCache, WhatIsUnusedForLongestGoesFirst) {
 }
 
 TEST_F(MeshCache, TheBoundIsTheUsers) {
-  const auto size = static_cast<std::uintmax_t>(4 * ask().grid.words->size() + 104);
+  const auto size = static_cast<std::uintmax_t>(4 * ask().lattice.words->size() + 104);
   ASSERT_EQ(fs::file_size(files().at(0)), size);
   ASSERT_LT(size, MEBIBYTE);
   const fs::path pipelines = root / (std::string(32, 'd') + "-7.pipelines");
@@ -330,12 +330,12 @@ TEST_F(MeshCache, TheBoundIsTheUsers) {
 }
 
 TEST_F(MeshCache, ManyAtOnceDoNoHarm) {
-  const MeshGrid plain = grid_of_mesh(MeshDistance(mesh), mesh, wish);
+  const MeshLattice plain = lattice_of_mesh(MeshDistance(mesh), mesh, wish);
   std::vector<std::jthread> others;
   for (int t = 0; t < 4; ++t) {
     others.emplace_back([&] {
       for (int i = 0; i < 10; ++i) {
-        expect_same(plain, cached_grid(mesh, wish, root.string()));
+        expect_same(plain, cached_lattice(mesh, wish, root.string()));
         std::error_code ignored;
         for (const fs::path& file : files()) {
           if (i % 3 == 0 && file.extension() == ".grid") fs::remove(file, ignored);
@@ -349,15 +349,15 @@ TEST_F(MeshCache, ManyAtOnceDoNoHarm) {
 }
 
 TEST_F(MeshCache, TheKeyIsThatOfTrianglesAndLattice) {
-  const PreparedGrid grid = ask().grid;
-  std::set<std::string> keys{mesh_key(mesh, grid)};
+  const PreparedLattice lattice = ask().lattice;
+  std::set<std::string> keys{mesh_key(mesh, lattice)};
   EXPECT_EQ(keys.begin()->size(), 32u);
   EXPECT_EQ(keys.begin()->find_first_not_of("0123456789abcdef"), std::string::npos);
   const CheckedMesh same = check_mesh(torus(0.05, 0.02, 20, 10), "another name");
-  keys.insert(mesh_key(same, grid_of_mesh(MeshDistance(same), same, wish).grid));
+  keys.insert(mesh_key(same, lattice_of_mesh(MeshDistance(same), same, wish).lattice));
   EXPECT_EQ(keys.size(), 1u);
   for (int part = 0; part < 8; ++part) {
-    PreparedGrid other = grid;
+    PreparedLattice other = lattice;
     if (part < 3) other.origin[part] += 1e-12;
     if (part == 3) other.spacing += 1e-12;
     if (part == 4) ++other.nx;
@@ -369,18 +369,18 @@ TEST_F(MeshCache, TheKeyIsThatOfTrianglesAndLattice) {
   for (std::size_t i = 0; i < mesh.mesh.vertices.size(); i += 17) {
     CheckedMesh other = mesh;
     other.mesh.vertices[i][i % 3] += 1e-12;
-    EXPECT_TRUE(keys.insert(mesh_key(other, grid)).second) << i;
+    EXPECT_TRUE(keys.insert(mesh_key(other, lattice)).second) << i;
   }
   CheckedMesh other = mesh;
   std::swap(other.mesh.triangles[1][1], other.mesh.triangles[1][2]);
-  EXPECT_TRUE(keys.insert(mesh_key(other, grid)).second);
+  EXPECT_TRUE(keys.insert(mesh_key(other, lattice)).second);
   other.mesh.triangles.pop_back();
-  EXPECT_TRUE(keys.insert(mesh_key(other, grid)).second);
+  EXPECT_TRUE(keys.insert(mesh_key(other, lattice)).second);
 }
 
 // A pipe in a file's place, which nobody writes to, would be waited for without end.
 TEST_F(MeshCache, DoesNotWaitForAPipe) {
-  const MeshGrid made = ask();
+  const MeshLattice made = ask();
   const fs::path file = files().at(0);
   fs::remove(file);
   ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);

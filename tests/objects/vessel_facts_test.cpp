@@ -20,14 +20,14 @@ namespace {
 
 TEST_F(MeshVessel, LongWorkIsSaidBeforeWithItsTime) {
   seconds_a_look_ = 1;
-  const PreparedGrid grid = loaded({of_file("ball", icosphere(0.03, 2), 3e-3)}).vessels[0].mesh->body->grid;
+  const PreparedLattice lattice = loaded({of_file("ball", icosphere(0.03, 2), 3e-3)}).vessels[0].mesh->body->lattice;
   const std::string said = said_;
   const std::size_t before = said.find("its lattice of 3 mm has "), after = said.find("lattice of 3 mm, ");
   ASSERT_NE(before, std::string::npos) << said;
   EXPECT_LT(before, after) << said;
   EXPECT_NE(said.find("samples, which take about "), std::string::npos) << said;
   EXPECT_NE(said.find("a larger grid_mm takes less"), std::string::npos) << said;
-  EXPECT_GT(grid.ny * grid.nz, 12 * 64) << "one second for a row a thread is over 10 s of all";
+  EXPECT_GT(lattice.ny * lattice.nz, 12 * 64) << "one second for a row a thread is over 10 s of all";
   loaded({of_file("ball", icosphere(0.03, 2), 3e-3)});
   EXPECT_EQ(said_.find("which take about"), std::string::npos) << "it is in the cache";
   seconds_a_look_ = 1e-9;
@@ -40,15 +40,15 @@ TEST_F(MeshVessel, WhatIsLongIsLessForAnOpenMesh) {
   EXPECT_TRUE(is_long(10.1, true));
   EXPECT_FALSE(is_long(3, false));
   EXPECT_TRUE(is_long(3.1, false));
-  PreparedGrid grid;
-  grid.spacing = 1e-3;
-  grid.nx = 100;
-  grid.ny = 200;
-  grid.nz = 300;
-  EXPECT_EQ(forecast_text(grid, 53.2, false),
+  PreparedLattice lattice;
+  lattice.spacing = 1e-3;
+  lattice.nx = 100;
+  lattice.ny = 200;
+  lattice.nz = 300;
+  EXPECT_EQ(forecast_text(lattice, 53.2, false),
             "its lattice of 1 mm has 6,000,000 samples, which take about 54 s, as the mesh is open; a closed one, or a larger "
             "grid_mm, takes less");
-  EXPECT_EQ(forecast_text(grid, 503, true),
+  EXPECT_EQ(forecast_text(lattice, 503, true),
             "its lattice of 1 mm has 6,000,000 samples, which take about 8 min 23 s; a larger grid_mm takes less");
 }
 
@@ -56,7 +56,7 @@ TEST_F(MeshVessel, ATinyMeshIsWarnedOfAndGetsASmallLattice) {
   TriangleMesh ball = icosphere(0.04e-3, 1);
   const Scene scene = loaded({of_file("tiny", ball, 0)});
   EXPECT_NE(said_.find("the likely scale is mesh_scale = 1000, with which it is 80 mm large"), std::string::npos) << said_;
-  EXPECT_LE(4 * scene.vessels[0].mesh->body->grid.words->size(), 4u << 20) << "an answer soon";
+  EXPECT_LE(4 * scene.vessels[0].mesh->body->lattice.words->size(), 4u << 20) << "an answer soon";
 }
 
 TEST_F(MeshVessel, HolesAreClosedWhereTheSceneSaysSo) {
@@ -150,9 +150,9 @@ TEST_F(MeshVessel, SaysWhatItIs) {
 
 TEST_F(MeshVessel, WhatCannotBeUsedIsRefusedInOneLine) {
   VesselData vessel = of_file("ball", icosphere(0.03, 3), 0.05e-3);
-  vessel.mesh->grid_spacing = 0.05e-3;
+  vessel.mesh->lattice_spacing = 0.05e-3;
   EXPECT_NE(refusal(vessel).find("grid_mm: a lattice of 0.05 mm"), std::string::npos);
-  vessel.mesh->grid_spacing = 1e-3;
+  vessel.mesh->lattice_spacing = 1e-3;
   EXPECT_EQ(refusal(vessel), "");
   vessel.mesh->file = "none.glb";
   EXPECT_EQ(refusal(vessel).rfind("scene.toml:3:8: ", 0), 0u) << refusal(vessel);
@@ -205,7 +205,7 @@ TEST_F(MeshVessel, AResultsLatticesAreMadeAgainWhateverTheMemory) {
   EXPECT_EQ(lattices.substr(lattices.size() - 3), " 16");
   Scene again = scene_of({ball});
   EXPECT_EQ(reload_meshes(again, swept.file, keys, lattices), "");
-  EXPECT_EQ(*again.vessels[0].mesh->body->grid.words, *swept.vessels[0].mesh->body->grid.words);
+  EXPECT_EQ(*again.vessels[0].mesh->body->lattice.words, *swept.vessels[0].mesh->body->lattice.words);
   Scene untold = scene_of({ball});
   EXPECT_NE(reload_meshes(untold, swept.file, keys, "").find("by which lattices"), std::string::npos);
   of_file("ball", torus(0.03, 0.01, 14, 6), 0);

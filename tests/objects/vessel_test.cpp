@@ -135,7 +135,7 @@ TEST_F(MeshVessel, TurnedAndMovedCopiesGiveTheSameGrips) {
   const double spacing = 1e-3;
   const Scene plain = loaded({of_file("mug", mug, spacing)});
   const auto there = make_core_evaluator(plain);
-  const double error = plain.vessels[0].mesh->body->grid_error;
+  const double error = plain.vessels[0].mesh->body->lattice_error;
 
   // a file that lies on its side, stood up by the scene; centred by the scene again
   const TriangleMesh lying = placed_mesh(mug, {-PI / 2, 0, 0}, {0.5, -0.2, 0.1});
@@ -190,13 +190,14 @@ TEST_F(MeshVessel, ALeftHandHoldsTheMirrorImage) {
   for (auto& triangle : image.triangles) std::swap(triangle[1], triangle[2]);
   const Scene right = loaded({of_file("mug", mug, 1e-3)}), left = loaded({of_file("image", image, 1e-3)}, left_hand());
   const auto a = make_core_evaluator(right), b = make_core_evaluator(left);
-  const double error = right.vessels[0].mesh->body->grid_error;
+  const double error = right.vessels[0].mesh->body->lattice_error;
   Random random(3);
   int compared = 0;
   for (int i = 0; i < 500; ++i) {
     const Triple p{random.uniform(-0.07, 0.07), random.uniform(-0.01, 0.12), random.uniform(-0.05, 0.05)};
     const double distance = a->distance(0, p);
-    if (distance > grid_margin(right)) continue;  // off the box it is a bound, and the boxes are not each other's image to a cell
+    if (distance > lattice_margin(right))
+      continue;  // off the box it is a bound, and the boxes are not each other's image to a cell
     ++compared;
     EXPECT_NEAR(distance, b->distance(0, {-p[0], p[1], p[2]}), 2 * error);
   }
@@ -236,7 +237,7 @@ TEST_F(MeshVessel, DevicesGiveWhatTheCoreGives) {
   options.cache_folder = folder_.string();
   options.most_bytes = 3u << 20;  // floats would take more than half of it
   load_meshes(scene, options);
-  EXPECT_TRUE(scene.vessels[0].mesh->body->grid.halves);
+  EXPECT_TRUE(scene.vessels[0].mesh->body->lattice.halves);
   expect_parity(scene, "halves");
 }
 

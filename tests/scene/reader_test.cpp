@@ -202,7 +202,7 @@ inner_outline = [{ line = [0, -3] }, { line = [20, -3] }, { arc = [30, 7], cente
   EXPECT_TRUE(scanned.mesh->close_holes);
   EXPECT_EQ(scanned.mesh->rotate, (Triple{radians(90), 0, radians(-45)}));
   EXPECT_FALSE(scanned.mesh->origin_at_base);
-  EXPECT_EQ(scanned.mesh->grid_spacing, 1.5e-3);
+  EXPECT_EQ(scanned.mesh->lattice_spacing, 1.5e-3);
   ASSERT_EQ(scanned.inner.size(), 4u);
   EXPECT_EQ(scanned.inner[0].end, (std::array<double, 2>{0, -3e-3}));
   EXPECT_TRUE(scanned.inner[2].is_arc);

@@ -147,14 +147,14 @@ Offsets parameter_offsets() {
   using P = Parameters<Real>;
   Offsets offsets;
 #define OFFSET(member) offsets[#member] = offsetof(P, member)
-  OFFSET(bound_height), OFFSET(bound_radius), OFFSET(grid_x), OFFSET(grid_y), OFFSET(grid_z), OFFSET(grid_spacing);
+  OFFSET(bound_height), OFFSET(bound_radius), OFFSET(lattice_x), OFFSET(lattice_y), OFFSET(lattice_z), OFFSET(lattice_spacing);
   OFFSET(mouth_height), OFFSET(mouth_radius), OFFSET(floor_height), OFFSET(capacity), OFFSET(vessel_mass);
   OFFSET(center_x), OFFSET(center_y), OFFSET(center_z), OFFSET(liquid_density), OFFSET(gravity);
   OFFSET(force_base), OFFSET(force_range), OFFSET(force_max), OFFSET(reference);
   OFFSET(largest_mass), OFFSET(largest_share), OFFSET(largest_height);
   OFFSET(friction), OFFSET(torsion), OFFSET(friction_angle), OFFSET(grip_strength), OFFSET(pour_sense);
   OFFSET(weight_fingers), OFFSET(weight_contacts), OFFSET(weight_depth), OFFSET(weight_posture), OFFSET(weight_force);
-  OFFSET(weight_hold), OFFSET(outline_count), OFFSET(cavity_count), OFFSET(grid_nx), OFFSET(grid_ny), OFFSET(grid_nz);
+  OFFSET(weight_hold), OFFSET(outline_count), OFFSET(cavity_count), OFFSET(lattice_nx), OFFSET(lattice_ny), OFFSET(lattice_nz);
   OFFSET(fills), OFFSET(tilts), OFFSET(quadrature_count);
 #undef OFFSET
   return offsets;

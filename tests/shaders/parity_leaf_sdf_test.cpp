@@ -200,10 +200,10 @@ TEST_F(ParityLeaf, ProxyOnTheAxis) {
 TEST_F(ParityLeaf, Lattice) {
   const Scene scene = vessels_scene();
   const Way way{OUTLINE_SPECIALIZED, 40};
-  const auto core = make_core_evaluator(scene, {.grid_samples = way.grid_samples});
-  const core_f64::Grid grid = core_f64::load_grid(*core->grid(VASE));
-  const std::array<int, 3> counts{grid.nx, grid.ny, grid.nz};
-  const auto place = [&](int axis, double at) { return grid.origin[axis] + grid.spacing * at; };
+  const auto core = make_core_evaluator(scene, {.lattice_samples = way.lattice_samples});
+  const core_f64::Lattice lattice = core_f64::load_lattice(*core->lattice(VASE));
+  const std::array<int, 3> counts{lattice.nx, lattice.ny, lattice.nz};
+  const auto place = [&](int axis, double at) { return lattice.origin[axis] + lattice.spacing * at; };
   Builder points(240), samples(241), mixed(242), beyond(243);
   for (int i = 0; i < 1500; ++i) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -236,12 +236,12 @@ TEST_F(ParityLeaf, Lattice) {
   // both twins read the same stored bits, so a sample is the same number or wrong
   for (const int bits : {32, 16}) {
     compare({.shader = "probe_sdf",
-             .probe = PROBE_GRID_SAMPLE,
+             .probe = PROBE_LATTICE_SAMPLE,
              .inputs = 3,
              .outputs = {{"sample", REACH, true}},
              .fixed = {0, 1, 2},
              .exact = true},
-            samples.table, scene, VASE, {way.source, way.grid_samples, bits});
+            samples.table, scene, VASE, {way.source, way.lattice_samples, bits});
   }
   compare({"probe_sdf", PROBE_DISTANCE_BEYOND, 4, {{"distance", 2 * REACH}}}, beyond.table, scene);
   compare({"probe_sdf", PROBE_MIX_REALS, 3, {{"mixed", 2 * REACH}}}, mixed.table, scene);

@@ -160,7 +160,7 @@ TEST_F(ParityLeaf, SignedDistance) {
   }
 }
 
-TEST_F(ParityLeaf, GridDistance) {
+TEST_F(ParityLeaf, LatticeDistance) {
   const Scene scene = vessels_scene();
   const Table table = points_about(scene.vessels[VASE], 30);
   const Way way{OUTLINE_SPECIALIZED, 40};

@@ -102,14 +102,14 @@ TEST(Parity, StatesOfManyBlocks) {
   expect_parity(scene, "many_dry", 60);
 }
 
-TEST(Parity, GridDistance) {
+TEST(Parity, LatticeDistance) {
   const Scene scene = scene_of({beaker2()});
   const FieldSet fields = all_fields(scene);
   const auto grips = grips_of(scene, 0, 100);
   for (const int bits : {32, 16}) {
     GripBackendOptions options;
-    options.evaluator.grid_samples = 64;
-    options.evaluator.grid_bits = bits;
+    options.evaluator.lattice_samples = 64;
+    options.evaluator.lattice_bits = bits;
     const auto backend = backend_of(scene, fields, Precision::full, options);
     const auto core = make_core_evaluator(scene, options.evaluator);
     Comparer comparer(scene, *core, allowance(Precision::full));

@@ -58,7 +58,7 @@ void main() {
     answer3(3, cell.fraction);
     answer3(6, cell.outside);
   }
-  if (PROBE == PROBE_GRID_SAMPLE) answer(0, grid_sample(given_int(0), given_int(1), given_int(2)));
+  if (PROBE == PROBE_LATTICE_SAMPLE) answer(0, lattice_sample(given_int(0), given_int(1), given_int(2)));
   if (PROBE == PROBE_DISTANCE_BEYOND) answer(0, distance_beyond(given(0), given3(1)));
   if (PROBE == PROBE_MIX_REALS) answer(0, mix_reals(given(0), given(1), given(2)));
 }

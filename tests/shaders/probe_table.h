@@ -25,7 +25,7 @@
 #define PROBE_ELEMENT 25          // element, q, sign; distance, crosses, spans, convex, outward
 #define PROBE_PROXY 26            // point, radius; proxy, settled
 #define PROBE_LOCATE_CELL 27      // point; cell, fraction, outside
-#define PROBE_GRID_SAMPLE 28      // i, j, k; sample
+#define PROBE_LATTICE_SAMPLE 28   // i, j, k; sample
 #define PROBE_MIX_REALS 29        // a, b, t; mixed
 #define PROBE_DISTANCE_BEYOND 97  // value, way off the box; distance
 // probe_closure

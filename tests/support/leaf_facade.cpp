@@ -317,7 +317,7 @@ constexpr LeafEntry LEAVES[] = {
     {PROBE_ELEMENT, answers_of<element_facts>},
     {PROBE_PROXY, answers_of<proxy_of>},
     {PROBE_LOCATE_CELL, answers_of<locate_cell>},
-    {PROBE_GRID_SAMPLE, answers_of<grid_sample>},
+    {PROBE_LATTICE_SAMPLE, answers_of<lattice_sample>},
     {PROBE_DISTANCE_BEYOND, answers_of<distance_beyond>},
     {PROBE_MIX_REALS, answers_of<mix_reals>},
     // closure
@@ -366,7 +366,7 @@ constexpr LeafEntry LEAVES[] = {
 
 class CoreLeaves final : public wholehand::Leaves {
  public:
-  CoreLeaves(const wholehand::Scene& scene, std::size_t v, int grid_samples, int grid_bits)
+  CoreLeaves(const wholehand::Scene& scene, std::size_t v, int lattice_samples, int lattice_bits)
       : context_{load_hand(wholehand::prepare_hand(scene.hand), scene.hand),
                  load_quadrature(wholehand::prepare_quadrature(QUADRATURE_POINTS)),
                  {}} {
@@ -374,8 +374,9 @@ class CoreLeaves final : public wholehand::Leaves {
     const wholehand::PreparedVessel prepared = wholehand::prepare_vessel(data, data.wall > 0);
     Vessel& vessel = context_.vessel;
     vessel = load_vessel(prepared, data, context_.quadrature, scene.liquid.has_value(), scene.hand.handedness);
-    if (grid_samples == 0) return;
-    use_grid(vessel, load_grid(wholehand::prepare_grid(prepared, grid_samples, grid_bits == 16, wholehand::grid_margin(scene))));
+    if (lattice_samples == 0) return;
+    use_lattice(vessel, load_lattice(wholehand::prepare_lattice(prepared, lattice_samples, lattice_bits == 16,
+                                                                wholehand::lattice_margin(scene))));
   }
 
   void evaluate(int probe, const double* given, double* answer) const override {
@@ -393,8 +394,8 @@ class CoreLeaves final : public wholehand::Leaves {
 
 namespace wholehand {
 
-std::unique_ptr<Leaves> MAKE_LEAVES(const Scene& scene, std::size_t vessel, int grid_samples, int grid_bits) {
-  return std::make_unique<CORE_NS::CoreLeaves>(scene, vessel, grid_samples, grid_bits);
+std::unique_ptr<Leaves> MAKE_LEAVES(const Scene& scene, std::size_t vessel, int lattice_samples, int lattice_bits) {
+  return std::make_unique<CORE_NS::CoreLeaves>(scene, vessel, lattice_samples, lattice_bits);
 }
 
 }  // namespace wholehand

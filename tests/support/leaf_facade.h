@@ -17,8 +17,8 @@ class Leaves {
   virtual void evaluate(int probe, const double* given, double* answer) const = 0;
 };
 
-// For a scene's hand and one of its vessels; grid_samples > 0: the vessel's outline sampled on a grid.
-std::unique_ptr<Leaves> make_double_leaves(const Scene& scene, std::size_t vessel, int grid_samples = 0, int grid_bits = 32);
-std::unique_ptr<Leaves> make_float_leaves(const Scene& scene, std::size_t vessel, int grid_samples = 0, int grid_bits = 32);
+// For a scene's hand and one of its vessels; lattice_samples > 0: the vessel's outline sampled on a lattice.
+std::unique_ptr<Leaves> make_double_leaves(const Scene& scene, std::size_t vessel, int lattice_samples = 0, int lattice_bits = 32);
+std::unique_ptr<Leaves> make_float_leaves(const Scene& scene, std::size_t vessel, int lattice_samples = 0, int lattice_bits = 32);
 
 }  // namespace wholehand

@@ -107,10 +107,10 @@ void ParityLeaf::compare(const Leaf& leaf, const Table& exact_table, const Scene
     const bool single = precision == Precision::single;
     const Table table = rounded(exact_table, precision);
     const std::size_t rows = table.size() / leaf.inputs, width = leaf.outputs.size();
-    const auto reference = make_double_leaves(scene, vessel, way.grid_samples, way.grid_bits);
-    const auto leaves = single ? make_float_leaves(scene, vessel, way.grid_samples, way.grid_bits)
-                               : make_double_leaves(scene, vessel, way.grid_samples, way.grid_bits);
-    const LeafProbe probe(*device, scene, vessel, precision, way.source, way.grid_samples, way.grid_bits);
+    const auto reference = make_double_leaves(scene, vessel, way.lattice_samples, way.lattice_bits);
+    const auto leaves = single ? make_float_leaves(scene, vessel, way.lattice_samples, way.lattice_bits)
+                               : make_double_leaves(scene, vessel, way.lattice_samples, way.lattice_bits);
+    const LeafProbe probe(*device, scene, vessel, precision, way.source, way.lattice_samples, way.lattice_bits);
     const Table a = probe.run(leaf.shader, leaf.probe, table, rows, leaf.inputs, static_cast<int>(width));
     const Table b = on_core(*leaves, leaf, table);
     const double epsilon = single ? FLT_EPSILON : DBL_EPSILON;

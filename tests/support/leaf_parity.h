@@ -64,8 +64,8 @@ std::vector<Output> together(const Lists&... lists) {
 // How the vessel's distance is found.
 struct Way {
   OutlineSource source = OUTLINE_SPECIALIZED;
-  int grid_samples = 0;
-  int grid_bits = 32;
+  int lattice_samples = 0;
+  int lattice_bits = 32;
 };
 
 using Table = std::vector<double>;

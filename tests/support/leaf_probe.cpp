@@ -28,11 +28,11 @@ std::span<const std::uint32_t> find_probe(std::string_view name, Precision preci
 }  // namespace
 
 LeafProbe::LeafProbe(const host::Device& device, const Scene& scene, std::size_t v, Precision precision, OutlineSource source,
-                     int grid_samples, int grid_bits)
+                     int lattice_samples, int lattice_bits)
     : device_(device), precision_(precision), source_(source) {
   EvaluatorOptions options;
-  options.grid_samples = grid_samples;
-  options.grid_bits = grid_bits;
+  options.lattice_samples = lattice_samples;
+  options.lattice_bits = lattice_bits;
   const auto core = make_core_evaluator(scene, options);
   const host::SceneArrays arrays = host::make_scene_arrays(scene, *core, options);
   const host::VesselArrays& vessel = arrays.vessels[v];
@@ -43,11 +43,11 @@ LeafProbe::LeafProbe(const host::Device& device, const Scene& scene, std::size_t
   }
   hand_ = upload(device, precision, arrays.hand);
   outline_ = upload(device, precision, vessel.outline, std::size_t(OUTLINE_STRIDE) * MAX_OUTLINE);
-  grid_ = host::Buffer::of(device, vessel.grid ? *vessel.grid : std::vector<std::uint32_t>(4));
+  lattice_ = host::Buffer::of(device, vessel.lattice ? *vessel.lattice : std::vector<std::uint32_t>(4));
   cavity_ = upload(device, precision, vessel.cavity);
   quadrature_ = upload(device, precision, arrays.quadrature);
-  constants_ = {{CONST_SDF_KIND, std::int32_t(vessel.grid ? SDF_GRID : SDF_OUTLINE)},
-                {CONST_GRID_BITS, std::int32_t(grid_bits)},
+  constants_ = {{CONST_SDF_KIND, std::int32_t(vessel.lattice ? SDF_LATTICE : SDF_OUTLINE)},
+                {CONST_LATTICE_BITS, std::int32_t(lattice_bits)},
                 {CONST_OUTLINE_COUNT, std::int32_t(vessel.outline_count)},
                 {CONST_LID, std::int32_t(vessel.lid)}};
   if (source != OUTLINE_SPECIALIZED) return;
@@ -73,7 +73,7 @@ std::vector<double> LeafProbe::run(std::string_view shader, int probe, const std
   commands.bind(BINDING_PARAMETERS, parameters_);
   commands.bind(BINDING_HAND, hand_);
   commands.bind(BINDING_OUTLINE, outline_);
-  commands.bind(BINDING_GRID, grid_);
+  commands.bind(BINDING_LATTICE, lattice_);
   commands.bind(BINDING_CAVITY, cavity_);
   commands.bind(BINDING_QUADRATURE, quadrature_);
   commands.bind(BINDING_GRIPS, in);

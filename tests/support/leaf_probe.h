@@ -16,9 +16,9 @@ namespace wholehand {
 // A scene's hand and one vessel of it on a device, in one precision.
 class LeafProbe {
  public:
-  // `source`: how the outline is read by those shaders that read it. grid_samples > 0: its distance sampled on a grid.
+  // `source`: how the outline is read by those shaders that read it. lattice_samples > 0: its distance sampled on a lattice.
   LeafProbe(const host::Device& device, const Scene& scene, std::size_t vessel, Precision precision, OutlineSource source,
-            int grid_samples = 0, int grid_bits = 32);
+            int lattice_samples = 0, int lattice_bits = 32);
 
   // `rows` rows of `given` (inputs numbers each) through a probe of tests/shaders/`shader`; outputs numbers each.
   std::vector<double> run(std::string_view shader, int probe, const std::vector<double>& given, std::size_t rows, int inputs,
@@ -29,7 +29,7 @@ class LeafProbe {
   Precision precision_;
   OutlineSource source_;
   std::vector<host::Constant> constants_;
-  host::Buffer parameters_, hand_, outline_, grid_, cavity_, quadrature_;
+  host::Buffer parameters_, hand_, outline_, lattice_, cavity_, quadrature_;
 };
 
 }  // namespace wholehand

@@ -31,7 +31,7 @@ class MeshVessel : public testing::Test {
     vessel.mesh.emplace();
     vessel.mesh->place = "scene.toml:3:8";
     vessel.mesh->file = name + ".glb";
-    if (spacing > 0) vessel.mesh->grid_spacing = spacing;
+    if (spacing > 0) vessel.mesh->lattice_spacing = spacing;
     return vessel;
   }
 

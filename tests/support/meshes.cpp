@@ -16,7 +16,7 @@
 #include "core/vectors.h"
 #include "objects/check.h"
 #include "objects/distance.h"
-#include "objects/grid.h"
+#include "objects/lattice.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {
@@ -195,12 +195,12 @@ VesselData vessel_of_mesh(const std::string& name, const TriangleMesh& mesh, dou
   auto body = std::make_shared<MeshBody>(body_of(mesh));
   if (spacing > 0) {
     const CheckedMesh checked = check_mesh(mesh, name);
-    GridWish wish;
+    LatticeWish wish;
     wish.spacing = spacing;
-    wish.margin = grid_margin(Scene());
-    const MeshGrid made = grid_of_mesh(MeshDistance(checked), checked, wish);
-    body->grid = made.grid;
-    body->grid_error = made.error;
+    wish.margin = lattice_margin(Scene());
+    const MeshLattice made = lattice_of_mesh(MeshDistance(checked), checked, wish);
+    body->lattice = made.lattice;
+    body->lattice_error = made.error;
   }
   VesselData vessel;
   vessel.name = name;

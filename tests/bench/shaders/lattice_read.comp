@@ -15,12 +15,12 @@ layout(binding = BINDING_IMAGE) uniform sampler3D image;
 layout(binding = BINDING_TEXELS) uniform samplerBuffer texels;
 
 Real fetched(int i, int j, int k) {
-  Real unit = GRID_BITS == 16 ? HALF_UNIT : Real(1);
-  if (WAY == WAY_TEXELS) return Real(texelFetch(texels, (k * int(scene.grid_ny) + j) * int(scene.grid_nx) + i).x) * unit;
+  Real unit = LATTICE_BITS == 16 ? HALF_UNIT : Real(1);
+  if (WAY == WAY_TEXELS) return Real(texelFetch(texels, (k * int(scene.lattice_ny) + j) * int(scene.lattice_nx) + i).x) * unit;
   return Real(texelFetch(image, ivec3(i, j, k), 0).x) * unit;
 }
 
-// grid_distance of sdf.glsl with another way to a sample.
+// lattice_distance of sdf.glsl with another way to a sample.
 Real fetched_distance(Vec3 p) {
   Cell cell = locate_cell(p);
   Vec3 f = cell.fraction;
@@ -33,18 +33,18 @@ Real fetched_distance(Vec3 p) {
 
 // The sampler's own interpolation: texel (i, j, k) has its centre half a texel further.
 Real filtered_distance(Vec3 p) {
-  Vec3 origin = Vec3(scene.grid_x, scene.grid_y, scene.grid_z);
-  Vec3 counts = Vec3(Real(scene.grid_nx), Real(scene.grid_ny), Real(scene.grid_nz));
-  Vec3 clamped = min(max(p, origin), origin + (counts - Real(1)) * scene.grid_spacing);
-  Vec3 place = ((clamped - origin) / scene.grid_spacing + Real(0.5)) / counts;
-  return distance_beyond(Real(textureLod(image, vec3(place), 0.0).x) * (GRID_BITS == 16 ? HALF_UNIT : Real(1)), p - clamped);
+  Vec3 origin = Vec3(scene.lattice_x, scene.lattice_y, scene.lattice_z);
+  Vec3 counts = Vec3(Real(scene.lattice_nx), Real(scene.lattice_ny), Real(scene.lattice_nz));
+  Vec3 clamped = min(max(p, origin), origin + (counts - Real(1)) * scene.lattice_spacing);
+  Vec3 place = ((clamped - origin) / scene.lattice_spacing + Real(0.5)) / counts;
+  return distance_beyond(Real(textureLod(image, vec3(place), 0.0).x) * (LATTICE_BITS == 16 ? HALF_UNIT : Real(1)), p - clamped);
 }
 
 Real distance_by(Vec3 p) {
   if (WAY == WAY_NOTHING) return p.x + p.y + p.z;
   if (WAY == WAY_FETCH || WAY == WAY_TEXELS) return fetched_distance(p);
   if (WAY == WAY_FILTER) return filtered_distance(p);
-  return grid_distance(p);
+  return lattice_distance(p);
 }
 
 void main() {

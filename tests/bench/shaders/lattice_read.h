@@ -5,7 +5,7 @@
 
 #define CONST_WAY 7    // specialization constant: one of these
 #define WAY_NOTHING 0  // the points alone
-#define WAY_BUFFER 1   // grid_distance of shaders/sdf.glsl
+#define WAY_BUFFER 1   // lattice_distance of shaders/sdf.glsl
 #define WAY_FETCH 2    // the same from texels of a 3-D image
 #define WAY_FILTER 3   // the image's own linear interpolation
 #define WAY_TEXELS 4   // the same from a uniform texel buffer

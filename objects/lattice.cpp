@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "objects/grid.h"
+#include "objects/lattice.h"
 
 #include <fmt/format.h>
 
@@ -64,13 +64,13 @@ std::vector<Triple> surface_points(const MeshDistance& distance, const TriangleM
   return points;
 }
 
-double samples_of(const PreparedGrid& grid) { return static_cast<double>(grid.nx) * grid.ny * grid.nz; }
+double samples_of(const PreparedLattice& lattice) { return static_cast<double>(lattice.nx) * lattice.ny * lattice.nz; }
 
-bool stores_halves(const PreparedGrid& grid, const MeshFacts& facts, const GridWish& wish) {
+bool stores_halves(const PreparedLattice& lattice, const MeshFacts& facts, const LatticeWish& wish) {
   if (wish.bits) return *wish.bits == 16;
   double squared = 0;
   for (int k = 0; k < 3; ++k) squared += std::pow(facts.high[k] - facts.low[k] + 2 * wish.margin, 2);
-  return 4 * samples_of(grid) > static_cast<double>(wish.most_bytes) / 2 && std::sqrt(squared) < FAR_FOR_HALVES;
+  return 4 * samples_of(lattice) > static_cast<double>(wish.most_bytes) / 2 && std::sqrt(squared) < FAR_FOR_HALVES;
 }
 
 // A sample as the kernels will read it.
@@ -80,35 +80,36 @@ double stored_value(double value, bool halves) {
 }
 
 // Where the samples of a lattice lie, and in how many bits; none are taken yet.
-PreparedGrid lay_lattice(const MeshFacts& facts, const GridWish& wish, double spacing) {
-  PreparedGrid grid;
-  grid.spacing = spacing;
+PreparedLattice lay_lattice(const MeshFacts& facts, const LatticeWish& wish, double spacing) {
+  PreparedLattice lattice;
+  lattice.spacing = spacing;
   std::array<int, 3> counts{};
   for (int k = 0; k < 3; ++k) {
     const double length = facts.high[k] - facts.low[k] + 2 * wish.margin;
     counts[k] = static_cast<int>(std::min(std::ceil(length / spacing) + 5, 1e9));
-    grid.origin[k] = facts.low[k] - wish.margin - 2 * spacing;
+    lattice.origin[k] = facts.low[k] - wish.margin - 2 * spacing;
   }
-  grid.nx = counts[0];
-  grid.ny = counts[1];
-  grid.nz = counts[2];
-  grid.halves = stores_halves(grid, facts, wish);
-  return grid;
+  lattice.nx = counts[0];
+  lattice.ny = counts[1];
+  lattice.nz = counts[2];
+  lattice.halves = stores_halves(lattice, facts, wish);
+  return lattice;
 }
 
-bool lattice_fits(const PreparedGrid& grid, const GridWish& wish) {
-  const double words = grid.halves ? std::ceil(samples_of(grid) / 2) : samples_of(grid);
-  return samples_of(grid) <= MOST_SAMPLES && 4 * words <= static_cast<double>(wish.most_bytes);
+bool lattice_fits(const PreparedLattice& lattice, const LatticeWish& wish) {
+  const double words = lattice.halves ? std::ceil(samples_of(lattice) / 2) : samples_of(lattice);
+  return samples_of(lattice) <= MOST_SAMPLES && 4 * words <= static_cast<double>(wish.most_bytes);
 }
 
-Triple lattice_place(const PreparedGrid& grid, int i, int j, int k) {
-  return {grid.origin[0] + grid.spacing * i, grid.origin[1] + grid.spacing * j, grid.origin[2] + grid.spacing * k};
+Triple lattice_place(const PreparedLattice& lattice, int i, int j, int k) {
+  return {lattice.origin[0] + lattice.spacing * i, lattice.origin[1] + lattice.spacing * j,
+          lattice.origin[2] + lattice.spacing * k};
 }
 
 // Of a lattice that fits and a smaller spacing with which none does: the finest that fits.
-PreparedGrid finest_lattice(const MeshFacts& facts, const GridWish& wish, PreparedGrid fits, double too_fine) {
+PreparedLattice finest_lattice(const MeshFacts& facts, const LatticeWish& wish, PreparedLattice fits, double too_fine) {
   while (fits.spacing - too_fine > SAME_SPACING * fits.spacing) {
-    const PreparedGrid between = lay_lattice(facts, wish, 0.5 * (fits.spacing + too_fine));
+    const PreparedLattice between = lay_lattice(facts, wish, 0.5 * (fits.spacing + too_fine));
     if (lattice_fits(between, wish)) {
       fits = between;
     } else {
@@ -119,11 +120,11 @@ PreparedGrid finest_lattice(const MeshFacts& facts, const GridWish& wish, Prepar
 }
 
 // The trilinear value at p of samples that are taken now.
-double value_without_samples(const MeshDistance& distance, const PreparedGrid& grid, const Triple& p) {
+double value_without_samples(const MeshDistance& distance, const PreparedLattice& lattice, const Triple& p) {
   std::array<int, 3> cell{};
   Triple at{};
   for (int k = 0; k < 3; ++k) {
-    const double steps = (p[k] - grid.origin[k]) / grid.spacing;
+    const double steps = (p[k] - lattice.origin[k]) / lattice.spacing;
     cell[k] = static_cast<int>(std::floor(steps));
     at[k] = steps - cell[k];
   }
@@ -131,8 +132,8 @@ double value_without_samples(const MeshDistance& distance, const PreparedGrid& g
   for (int n = 0; n < 8; ++n) {
     const int x = n & 1, y = n >> 1 & 1, z = n >> 2;
     const double weight = (x != 0 ? at[0] : 1 - at[0]) * (y != 0 ? at[1] : 1 - at[1]) * (z != 0 ? at[2] : 1 - at[2]);
-    const double sample = distance.signed_distance(lattice_place(grid, cell[0] + x, cell[1] + y, cell[2] + z));
-    value += weight * stored_value(sample, grid.halves);
+    const double sample = distance.signed_distance(lattice_place(lattice, cell[0] + x, cell[1] + y, cell[2] + z));
+    value += weight * stored_value(sample, lattice.halves);
   }
   return value;
 }
@@ -161,57 +162,58 @@ double largest_error(const std::vector<Triple>& points, int threads, const std::
 }
 
 // Where the search for a spacing starts: coarser than it would be where only that fits.
-PreparedGrid coarsest_lattice(const MeshFacts& facts, const GridWish& wish, bool& at_limit) {
+PreparedLattice coarsest_lattice(const MeshFacts& facts, const LatticeWish& wish, bool& at_limit) {
   double spacing = 0;
   for (int k = 0; k < 3; ++k) spacing = std::max(spacing, (facts.high[k] - facts.low[k]) / COARSEST_CELLS);
-  PreparedGrid grid = lay_lattice(facts, wish, spacing);
-  at_limit = !lattice_fits(grid, wish);
-  while (!lattice_fits(grid, wish) && samples_of(grid) > FEWEST_SAMPLES)
-    grid = lay_lattice(facts, wish, grid.spacing * SPACING_STEP);
-  if (!lattice_fits(grid, wish)) throw usage_error(fmt::format("no lattice of distances fits {} bytes", wish.most_bytes));
-  return grid;
+  PreparedLattice lattice = lay_lattice(facts, wish, spacing);
+  at_limit = !lattice_fits(lattice, wish);
+  while (!lattice_fits(lattice, wish) && samples_of(lattice) > FEWEST_SAMPLES)
+    lattice = lay_lattice(facts, wish, lattice.spacing * SPACING_STEP);
+  if (!lattice_fits(lattice, wish)) throw usage_error(fmt::format("no lattice of distances fits {} bytes", wish.most_bytes));
+  return lattice;
 }
 
 // Finer and finer until the error is small enough or no more samples fit.
-PreparedGrid choose_grid(const MeshDistance& distance, const MeshFacts& facts, const std::vector<Triple>& points,
-                         const GridWish& wish, const GridProgress& progress, bool& at_limit) {
-  PreparedGrid grid = coarsest_lattice(facts, wish, at_limit);
-  const auto value_at = [&](const Triple& p) { return value_without_samples(distance, grid, p); };
+PreparedLattice choose_lattice(const MeshDistance& distance, const MeshFacts& facts, const std::vector<Triple>& points,
+                               const LatticeWish& wish, const LatticeProgress& progress, bool& at_limit) {
+  PreparedLattice lattice = coarsest_lattice(facts, wish, at_limit);
+  const auto value_at = [&](const Triple& p) { return value_without_samples(distance, lattice, p); };
   const auto is_coarse = [&] {
     if (progress) progress(0);
     return any_error_above(points, wish.threads, wish.tolerance, value_at);
   };
   while (is_coarse()) {
-    const PreparedGrid finer = lay_lattice(facts, wish, grid.spacing / SPACING_STEP);
+    const PreparedLattice finer = lay_lattice(facts, wish, lattice.spacing / SPACING_STEP);
     if (!lattice_fits(finer, wish)) {
       at_limit = true;
-      return finest_lattice(facts, wish, grid, finer.spacing);
+      return finest_lattice(facts, wish, lattice, finer.spacing);
     }
-    grid = finer;
+    lattice = finer;
   }
-  return grid;
+  return lattice;
 }
 
-PreparedGrid given_grid(const MeshFacts& facts, const GridWish& wish) {
-  const PreparedGrid grid = lay_lattice(facts, wish, *wish.spacing);
-  if (lattice_fits(grid, wish)) return grid;
+PreparedLattice given_lattice(const MeshFacts& facts, const LatticeWish& wish) {
+  const PreparedLattice lattice = lay_lattice(facts, wish, *wish.spacing);
+  if (lattice_fits(lattice, wish)) return lattice;
   bool at_limit = false;
-  const double least = finest_lattice(facts, wish, coarsest_lattice(facts, wish, at_limit), grid.spacing).spacing;
+  const double least = finest_lattice(facts, wish, coarsest_lattice(facts, wish, at_limit), lattice.spacing).spacing;
   throw usage_error(fmt::format(
       "a lattice of {:.4g} mm has {:.3g} samples of {} bytes, and {} MB are free for them: the finest that fits has {:.4g} mm",
-      1e3 * grid.spacing, samples_of(grid), grid.halves ? 2 : 4, wish.most_bytes >> 20, 1e3 * least * (1 + 5 * SAME_SPACING)));
+      1e3 * lattice.spacing, samples_of(lattice), lattice.halves ? 2 : 4, wish.most_bytes >> 20,
+      1e3 * least * (1 + 5 * SAME_SPACING)));
 }
 
 // One row of samples along x. What is nearest to one sample is near to the next; and where a closed surface is farther away than the
 // next sample, that one is on the same side.
-void sample_row(const MeshDistance& distance, const PreparedGrid& grid, int j, int k, std::vector<float>& row) {
+void sample_row(const MeshDistance& distance, const PreparedLattice& lattice, int j, int k, std::vector<float>& row) {
   const bool keeps_side = distance.sign() != MeshSign::winding;
   std::uint32_t nearest = 0;
   double away = 0;
   bool inside = false;
-  for (int i = 0; i < grid.nx; ++i) {
-    const Triple p = lattice_place(grid, i, j, k);
-    const bool same_side = i > 0 && keeps_side && away > grid.spacing * (1 + 1e-6);
+  for (int i = 0; i < lattice.nx; ++i) {
+    const Triple p = lattice_place(lattice, i, j, k);
+    const bool same_side = i > 0 && keeps_side && away > lattice.spacing * (1 + 1e-6);
     away = distance.distance(p, nearest);
     if (!same_side) inside = distance.is_inside(p);
     row[i] = static_cast<float>(inside ? -away : away);
@@ -227,33 +229,34 @@ void store_row(const std::vector<float>& row, std::size_t first, bool halves, st
   }
 }
 
-void sample_lattice(const MeshDistance& distance, PreparedGrid& grid, int threads, const GridProgress& progress) {
-  const auto nx = static_cast<std::size_t>(grid.nx), all = nx * grid.ny * grid.nz;
-  std::vector<std::uint32_t> words(lattice_words(all, grid.halves));
+void sample_lattice(const MeshDistance& distance, PreparedLattice& lattice, int threads, const LatticeProgress& progress) {
+  const auto nx = static_cast<std::size_t>(lattice.nx), all = nx * lattice.ny * lattice.nz;
+  std::vector<std::uint32_t> words(lattice_words(all, lattice.halves));
   const auto sample_plane = [&](std::size_t k) {
     std::vector<float> row(nx);
-    for (int j = 0; j < grid.ny; ++j) {
-      sample_row(distance, grid, j, static_cast<int>(k), row);
-      store_row(row, (k * grid.ny + j) * nx, grid.halves, words);
+    for (int j = 0; j < lattice.ny; ++j) {
+      sample_row(distance, lattice, j, static_cast<int>(k), row);
+      store_row(row, (k * lattice.ny + j) * nx, lattice.halves, words);
     }
   };
-  const auto planes = static_cast<std::size_t>(grid.nz);
+  const auto planes = static_cast<std::size_t>(lattice.nz);
   std::function<void(std::size_t)> tell;
   if (progress) tell = [&](std::size_t done) { progress(static_cast<double>(done) / static_cast<double>(planes)); };
   in_parallel(planes, threads, sample_plane, tell);
-  grid.words = std::make_shared<const std::vector<std::uint32_t>>(std::move(words));
+  lattice.words = std::make_shared<const std::vector<std::uint32_t>>(std::move(words));
 }
 
 // Takes rows from all over the lattice, one a thread and then twice as many each time, until they took TIMED_SECONDS or are a 32nd of all:
 // from how long that took follows how long all will take. The samples are not kept.
-double seconds_of_rows(const MeshDistance& distance, const PreparedGrid& grid, int threads, const std::function<double()>& clock) {
+double seconds_of_rows(const MeshDistance& distance, const PreparedLattice& lattice, int threads,
+                       const std::function<double()>& clock) {
   const auto now = [&] { return clock ? clock() : monotonic_now(); };
-  const std::size_t all = static_cast<std::size_t>(grid.ny) * grid.nz,
+  const std::size_t all = static_cast<std::size_t>(lattice.ny) * lattice.nz,
                     step = static_cast<std::size_t>(0.618 * static_cast<double>(all)) | 1u;
   const auto take_row = [&](std::size_t number) {
-    std::vector<float> row(grid.nx);
+    std::vector<float> row(lattice.nx);
     const std::size_t place = number * step % all;
-    sample_row(distance, grid, static_cast<int>(place % grid.ny), static_cast<int>(place / grid.ny), row);
+    sample_row(distance, lattice, static_cast<int>(place % lattice.ny), static_cast<int>(place / lattice.ny), row);
   };
   const double start = now();
   double seconds = 0;
@@ -269,36 +272,41 @@ double seconds_of_rows(const MeshDistance& distance, const PreparedGrid& grid, i
 }
 
 // The lattice as the kernels read it.
-core_f64::Vessel kernel_vessel(const PreparedGrid& grid) {
+core_f64::Vessel kernel_vessel(const PreparedLattice& lattice) {
   core_f64::Vessel vessel;
-  vessel.is_grid = true;
-  vessel.grid = {
-      {grid.origin[0], grid.origin[1], grid.origin[2]}, grid.spacing, grid.nx, grid.ny, grid.nz, grid.halves, grid.words};
+  vessel.is_lattice = true;
+  vessel.lattice = {{lattice.origin[0], lattice.origin[1], lattice.origin[2]},
+                    lattice.spacing,
+                    lattice.nx,
+                    lattice.ny,
+                    lattice.nz,
+                    lattice.halves,
+                    lattice.words};
   return vessel;
 }
 
 }  // namespace
 
-std::optional<PreparedGrid> lattice_at(const MeshFacts& facts, const GridWish& wish, double spacing) {
-  const PreparedGrid grid = lay_lattice(facts, wish, spacing);
-  return lattice_fits(grid, wish) ? std::optional(grid) : std::nullopt;
+std::optional<PreparedLattice> lattice_at(const MeshFacts& facts, const LatticeWish& wish, double spacing) {
+  const PreparedLattice lattice = lay_lattice(facts, wish, spacing);
+  return lattice_fits(lattice, wish) ? std::optional(lattice) : std::nullopt;
 }
 
 double forecast_seconds(std::size_t done, std::size_t all, double seconds) {
   return done > 0 ? seconds * static_cast<double>(all) / static_cast<double>(done) : 0;
 }
 
-MeshGrid grid_of_mesh(const MeshDistance& distance, const CheckedMesh& mesh, const GridWish& wish, const GridProgress& progress,
-                      const GridForecast& forecast) {
+MeshLattice lattice_of_mesh(const MeshDistance& distance, const CheckedMesh& mesh, const LatticeWish& wish,
+                            const LatticeProgress& progress, const LatticeForecast& forecast) {
   const std::vector<Triple> points = surface_points(distance, mesh.mesh, SURFACE_SAMPLES);
-  MeshGrid made;
-  made.grid =
-      wish.spacing ? given_grid(mesh.facts, wish) : choose_grid(distance, mesh.facts, points, wish, progress, made.at_limit);
-  if (forecast.say) forecast.say(made.grid, seconds_of_rows(distance, made.grid, wish.threads, forecast.clock));
-  sample_lattice(distance, made.grid, wish.threads, progress);
-  const core_f64::Vessel vessel = kernel_vessel(made.grid);
+  MeshLattice made;
+  made.lattice =
+      wish.spacing ? given_lattice(mesh.facts, wish) : choose_lattice(distance, mesh.facts, points, wish, progress, made.at_limit);
+  if (forecast.say) forecast.say(made.lattice, seconds_of_rows(distance, made.lattice, wish.threads, forecast.clock));
+  sample_lattice(distance, made.lattice, wish.threads, progress);
+  const core_f64::Vessel vessel = kernel_vessel(made.lattice);
   made.error = largest_error(points, wish.threads, [&](const Triple& p) {
-    return core_f64::grid_distance(vessel, {p[0], p[1], p[2]});
+    return core_f64::lattice_distance(vessel, {p[0], p[1], p[2]});
   });
   if (progress) progress(1);
   return made;
@@ -307,11 +315,11 @@ MeshGrid grid_of_mesh(const MeshDistance& distance, const CheckedMesh& mesh, con
 // A sample stands for a cell about it, of which a wall at the distance d across leaves 1/2 - d / spacing. Along any line across two walls
 // that are a cell apart or more those shares add up to the way between them; of walls that are nearer they add up to more, by up to a
 // quarter of a cell. A sample half a cell from a wall has a neighbour across it; one that has none is at a wall within another body.
-EnclosedVolume enclosed_volume(const PreparedGrid& grid, double area) {
-  const core_f64::Vessel vessel = kernel_vessel(grid);
+EnclosedVolume enclosed_volume(const PreparedLattice& lattice, double area) {
+  const core_f64::Vessel vessel = kernel_vessel(lattice);
   const auto is_inside = [&](int i, int j, int k) {
-    const bool is_there = i >= 0 && j >= 0 && k >= 0 && i < grid.nx && j < grid.ny && k < grid.nz;
-    return is_there && std::signbit(core_f64::grid_sample(vessel, i, j, k));  // -0 on a wall within
+    const bool is_there = i >= 0 && j >= 0 && k >= 0 && i < lattice.nx && j < lattice.ny && k < lattice.nz;
+    return is_there && std::signbit(core_f64::lattice_sample(vessel, i, j, k));  // -0 on a wall within
   };
   const auto is_deep = [&](int i, int j, int k) {
     return is_inside(i, j, k) && is_inside(i - 1, j, k) && is_inside(i + 1, j, k) && is_inside(i, j - 1, k) &&
@@ -319,19 +327,19 @@ EnclosedVolume enclosed_volume(const PreparedGrid& grid, double area) {
   };
   double sum = 0;
   Triple moment{};
-  for (int k = 0; k < grid.nz; ++k)
-    for (int j = 0; j < grid.ny; ++j)
-      for (int i = 0; i < grid.nx; ++i) {
-        double share = std::clamp(0.5 - core_f64::grid_sample(vessel, i, j, k) / grid.spacing, 0.0, 1.0);
+  for (int k = 0; k < lattice.nz; ++k)
+    for (int j = 0; j < lattice.ny; ++j)
+      for (int i = 0; i < lattice.nx; ++i) {
+        double share = std::clamp(0.5 - core_f64::lattice_sample(vessel, i, j, k) / lattice.spacing, 0.0, 1.0);
         if (share == 0) continue;
         if (share < 1 && is_deep(i, j, k)) share = 1;
         sum += share;
-        const Triple place = lattice_place(grid, i, j, k);
+        const Triple place = lattice_place(lattice, i, j, k);
         for (int axis = 0; axis < 3; ++axis) moment[axis] += share * place[axis];
       }
   EnclosedVolume enclosed;
-  enclosed.volume = sum * std::pow(grid.spacing, 3);
-  enclosed.doubt = area * grid.spacing / 8;  // a quarter of a cell for two walls
+  enclosed.volume = sum * std::pow(lattice.spacing, 3);
+  enclosed.doubt = area * lattice.spacing / 8;  // a quarter of a cell for two walls
   for (int axis = 0; axis < 3; ++axis) enclosed.center[axis] = sum > 0 ? moment[axis] / sum : 0;
   return enclosed;
 }

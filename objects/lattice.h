@@ -14,7 +14,7 @@ namespace wholehand {
 class MeshDistance;  // objects/distance.h
 
 // What a lattice is to be.
-struct GridWish {
+struct LatticeWish {
   std::optional<double> spacing;  // m, > 0; absent: as wide as `tolerance` allows
   double tolerance = 0.25e-3;     // m, for the error at the surface
   double margin = 0;              // m beyond the mesh that the lattice reaches, and two cells more
@@ -27,8 +27,8 @@ struct GridWish {
   int threads = 0;  // 0: all cores
 };
 
-struct MeshGrid {
-  PreparedGrid grid;
+struct MeshLattice {
+  PreparedLattice lattice;
   double error = 0;       // m: the largest trilinear value found at random points of the outer surface, where it should be 0
   bool at_limit = false;  // `most_bytes` had a say in choosing the spacing: with more it would be smaller
 };
@@ -36,27 +36,28 @@ struct MeshGrid {
 constexpr int SURFACE_SAMPLES = 4096;  // points of the surface at which a lattice's error is measured
 
 // Where the samples of a lattice with this spacing (m, > 0) would lie, and in how many bits, without samples; none where it does not fit.
-std::optional<PreparedGrid> lattice_at(const MeshFacts& facts, const GridWish& wish, double spacing);
+std::optional<PreparedLattice> lattice_at(const MeshFacts& facts, const LatticeWish& wish, double spacing);
 
 // Called with the share of the work that is done, from 0 to 1, ascending, by the thread that asked for the work; 0 as long as a spacing is
 // sought. What it throws ends the work.
-using GridProgress = std::function<void(double share)>;
+using LatticeProgress = std::function<void(double share)>;
 
 // How long all of the work takes (s), where `done` of its `all` parts took `seconds`.
 double forecast_seconds(std::size_t done, std::size_t all, double seconds);
 
 // How long the samples of a lattice will take, by some of its own rows that are timed first.
-struct GridForecast {
-  std::function<void(const PreparedGrid& grid, double seconds)> say;  // called once, before the samples are taken; may be empty
-  std::function<double()> clock;                                      // s, ascending; empty: the machine's
+struct LatticeForecast {
+  std::function<void(const PreparedLattice& lattice, double seconds)>
+      say;                        // called once, before the samples are taken; may be empty
+  std::function<double()> clock;  // s, ascending; empty: the machine's
 };
 
-// The lattice as core/prepare.h's prepare_grid lays one out, but only as wide in x, y and z as the mesh is. Without a spacing the
+// The lattice as core/prepare.h's prepare_lattice lays one out, but only as wide in x, y and z as the mesh is. Without a spacing the
 // widest lattice whose error, rounding to 16 bits included, stays below the tolerance, or the finest that fits `most_bytes`: then `error`
 // may be above the tolerance. With 16 bits asked for, distances beyond 63.97 m are cut to that.
 // Throws Error (usage) where a given spacing does not fit, or none does.
-MeshGrid grid_of_mesh(const MeshDistance& distance, const CheckedMesh& mesh, const GridWish& wish,
-                      const GridProgress& progress = {}, const GridForecast& forecast = {});
+MeshLattice lattice_of_mesh(const MeshDistance& distance, const CheckedMesh& mesh, const LatticeWish& wish,
+                            const LatticeProgress& progress = {}, const LatticeForecast& forecast = {});
 
 // What lies inside a lattice's surface.
 struct EnclosedVolume {
@@ -66,6 +67,6 @@ struct EnclosedVolume {
 };
 
 // Bodies that overlap count once, as hands feel them. `area`: of the mesh, m2.
-EnclosedVolume enclosed_volume(const PreparedGrid& grid, double area);
+EnclosedVolume enclosed_volume(const PreparedLattice& lattice, double area);
 
 }  // namespace wholehand

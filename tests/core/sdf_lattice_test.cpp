@@ -15,16 +15,18 @@ namespace {
 
 using core_f64::Vessel;
 
-Vec3 lattice_point(const core_f64::Grid& grid, double i, double j, double k) { return grid.origin + grid.spacing * Vec3{i, j, k}; }
+Vec3 lattice_point(const core_f64::Lattice& lattice, double i, double j, double k) {
+  return lattice.origin + lattice.spacing * Vec3{i, j, k};
+}
 
-TEST(Sdf, GridHoldsTheDistanceAtItsSamples) {
-  const Vessel outline = ready_vessel(vase()), vessel = grid_vessel(vase(), 24);
-  const core_f64::Grid& grid = vessel.grid;
-  ASSERT_EQ(grid.words->size(), static_cast<std::size_t>(grid.nx * grid.ny * grid.nz));
-  for (int k = 0; k < grid.nz; ++k) {
-    for (int j = 0; j < grid.ny; ++j) {
-      for (int i = 0; i < grid.nx; ++i) {
-        const Vec3 p = lattice_point(grid, i, j, k);
+TEST(Sdf, LatticeHoldsTheDistanceAtItsSamples) {
+  const Vessel outline = ready_vessel(vase()), vessel = lattice_vessel(vase(), 24);
+  const core_f64::Lattice& lattice = vessel.lattice;
+  ASSERT_EQ(lattice.words->size(), static_cast<std::size_t>(lattice.nx * lattice.ny * lattice.nz));
+  for (int k = 0; k < lattice.nz; ++k) {
+    for (int j = 0; j < lattice.ny; ++j) {
+      for (int i = 0; i < lattice.nx; ++i) {
+        const Vec3 p = lattice_point(lattice, i, j, k);
         // a float holds half a unit of its 24th bit; 1e-15 m: the place of a sample is rounded to 1e-17 m, its cell coordinates to
         // 1e-15
         const double exact = core_f64::signed_distance(outline, p);
@@ -34,16 +36,16 @@ TEST(Sdf, GridHoldsTheDistanceAtItsSamples) {
   }
 }
 
-TEST(Sdf, GridOfHalvesIsOffByTheirSpacing) {
+TEST(Sdf, LatticeOfHalvesIsOffByTheirSpacing) {
   for (const VesselData& data : {vase(), beaker2()}) {
-    const Vessel floats = grid_vessel(data, 41), halves = grid_vessel(data, 41, 16);
-    const core_f64::Grid& grid = halves.grid;
-    EXPECT_EQ(grid.words->size(), (floats.grid.words->size() + 1) / 2);
+    const Vessel floats = lattice_vessel(data, 41), halves = lattice_vessel(data, 41, 16);
+    const core_f64::Lattice& lattice = halves.lattice;
+    EXPECT_EQ(lattice.words->size(), (floats.lattice.words->size() + 1) / 2);
     int differ = 0;
-    for (int k = 0; k < grid.nz; ++k) {
-      for (int j = 0; j < grid.ny; ++j) {
-        for (int i = 0; i < grid.nx; ++i) {
-          const double exact = core_f64::grid_sample(floats, i, j, k), stored = core_f64::grid_sample(halves, i, j, k);
+    for (int k = 0; k < lattice.nz; ++k) {
+      for (int j = 0; j < lattice.ny; ++j) {
+        for (int i = 0; i < lattice.nx; ++i) {
+          const double exact = core_f64::lattice_sample(floats, i, j, k), stored = core_f64::lattice_sample(halves, i, j, k);
           differ += stored != exact;
           // half a unit of the 11th bit, or of 2^-24 in units of 2^-10 m
           ASSERT_NEAR(stored, exact, std::max(0x1p-11 * std::abs(exact), 0x1p-35)) << i << " " << j << " " << k;
@@ -54,36 +56,36 @@ TEST(Sdf, GridOfHalvesIsOffByTheirSpacing) {
     // a mean of samples is off by no more than they are
     Random random(11);
     for (int n = 0; n < 5000; ++n) {
-      const Vec3 p =
-          lattice_point(grid, random.uniform(0, grid.nx - 1), random.uniform(0, grid.ny - 1), random.uniform(0, grid.nz - 1));
+      const Vec3 p = lattice_point(lattice, random.uniform(0, lattice.nx - 1), random.uniform(0, lattice.ny - 1),
+                                   random.uniform(0, lattice.nz - 1));
       const double exact = core_f64::signed_distance(floats, p);
-      ASSERT_NEAR(core_f64::signed_distance(halves, p), exact, 0x1p-11 * (std::abs(exact) + 2 * grid.spacing));
+      ASSERT_NEAR(core_f64::signed_distance(halves, p), exact, 0x1p-11 * (std::abs(exact) + 2 * lattice.spacing));
     }
   }
 }
 
-TEST(Sdf, GridIsTrilinearBetweenItsSamples) {
-  const Vessel vessel = grid_vessel(vase(), 24);
-  const core_f64::Grid& grid = vessel.grid;
+TEST(Sdf, LatticeIsTrilinearBetweenItsSamples) {
+  const Vessel vessel = lattice_vessel(vase(), 24);
+  const core_f64::Lattice& lattice = vessel.lattice;
   Random random(9);
   for (int n = 0; n < 1000; ++n) {
-    const int i = static_cast<int>(random.uniform(0, grid.nx - 1)), j = static_cast<int>(random.uniform(0, grid.ny - 1)),
-              k = static_cast<int>(random.uniform(0, grid.nz - 1));
+    const int i = static_cast<int>(random.uniform(0, lattice.nx - 1)), j = static_cast<int>(random.uniform(0, lattice.ny - 1)),
+              k = static_cast<int>(random.uniform(0, lattice.nz - 1));
     const double u = random.uniform(0, 1), v = random.uniform(0, 1), w = random.uniform(0, 1);
     double expected = 0;
     for (int corner = 0; corner < 8; ++corner) {
       const int di = corner & 1, dj = corner >> 1 & 1, dk = corner >> 2;
-      expected += (di ? u : 1 - u) * (dj ? v : 1 - v) * (dk ? w : 1 - w) * core_f64::grid_sample(vessel, i + di, j + dj, k + dk);
+      expected += (di ? u : 1 - u) * (dj ? v : 1 - v) * (dk ? w : 1 - w) * core_f64::lattice_sample(vessel, i + di, j + dj, k + dk);
     }
-    ASSERT_NEAR(core_f64::signed_distance(vessel, lattice_point(grid, i + u, j + v, k + w)), expected, 1e-15);  // as above
+    ASSERT_NEAR(core_f64::signed_distance(vessel, lattice_point(lattice, i + u, j + v, k + w)), expected, 1e-15);  // as above
   }
 }
 
-TEST(Sdf, GridReachesTwoCellsBeyondTheVessel) {
+TEST(Sdf, LatticeReachesTwoCellsBeyondTheVessel) {
   const VesselData data = beaker3();
-  const core_f64::Grid grid = grid_vessel(data, 24).grid;
-  const Vec3 low = grid.origin, high = lattice_point(grid, grid.nx - 1, grid.ny - 1, grid.nz - 1);
-  const double r = largest_radius(data), reach = 2 * grid.spacing - 1e-12;
+  const core_f64::Lattice lattice = lattice_vessel(data, 24).lattice;
+  const Vec3 low = lattice.origin, high = lattice_point(lattice, lattice.nx - 1, lattice.ny - 1, lattice.nz - 1);
+  const double r = largest_radius(data), reach = 2 * lattice.spacing - 1e-12;
   EXPECT_LE(low.x, -r - reach);
   EXPECT_LE(low.y, -reach);
   EXPECT_LE(low.z, -r - reach);
@@ -92,10 +94,10 @@ TEST(Sdf, GridReachesTwoCellsBeyondTheVessel) {
   EXPECT_GE(high.z, r + reach);
 }
 
-TEST(Sdf, GridOutsideItsBoxIsNeverMoreThanTheDistance) {
-  const Vessel outline = ready_vessel(beaker3()), vessel = grid_vessel(beaker3(), 32);
-  const core_f64::Grid& grid = vessel.grid;
-  const Vec3 low = grid.origin, high = lattice_point(grid, grid.nx - 1, grid.ny - 1, grid.nz - 1);
+TEST(Sdf, LatticeOutsideItsBoxIsNeverMoreThanTheDistance) {
+  const Vessel outline = ready_vessel(beaker3()), vessel = lattice_vessel(beaker3(), 32);
+  const core_f64::Lattice& lattice = vessel.lattice;
+  const Vec3 low = lattice.origin, high = lattice_point(lattice, lattice.nx - 1, lattice.ny - 1, lattice.nz - 1);
   Random random(10);
   int compared = 0;
   for (int n = 0; n < 20000; ++n) {
@@ -109,19 +111,19 @@ TEST(Sdf, GridOutsideItsBoxIsNeverMoreThanTheDistance) {
     // interpolation is off by spacing^2 / 8 times the curvature of the distance, at most 1 / (2 spacing) two cells off: a 16th of a
     // cell
     const double exact = core_f64::signed_distance(outline, p);
-    ASSERT_LE(sdf, exact + grid.spacing / 16) << p.x << " " << p.y << " " << p.z;
-    ASSERT_GE(sdf, std::sqrt(0.5) * exact - grid.spacing / 16) << p.x << " " << p.y << " " << p.z;
+    ASSERT_LE(sdf, exact + lattice.spacing / 16) << p.x << " " << p.y << " " << p.z;
+    ASSERT_GE(sdf, std::sqrt(0.5) * exact - lattice.spacing / 16) << p.x << " " << p.y << " " << p.z;
   }
   EXPECT_GT(compared, 10000);
 }
 
-TEST(Sdf, GridIsContinuousAtItsBox) {
-  const Vessel vessel = grid_vessel(vase(), 24);
-  const core_f64::Grid& grid = vessel.grid;
-  for (const Vec3 p :
-       {lattice_point(grid, 0, 3.3, 4.1), lattice_point(grid, grid.nx - 1, 3.3, 4.1), lattice_point(grid, 2.5, 0, 6.2),
-        lattice_point(grid, 2.5, grid.ny - 1, 6.2), lattice_point(grid, 7.7, 3.3, 0), lattice_point(grid, 7.7, 3.3, grid.nz - 1),
-        lattice_point(grid, 0, 0, 0), lattice_point(grid, grid.nx - 1, grid.ny - 1, grid.nz - 1)}) {
+TEST(Sdf, LatticeIsContinuousAtItsBox) {
+  const Vessel vessel = lattice_vessel(vase(), 24);
+  const core_f64::Lattice& lattice = vessel.lattice;
+  for (const Vec3 p : {lattice_point(lattice, 0, 3.3, 4.1), lattice_point(lattice, lattice.nx - 1, 3.3, 4.1),
+                       lattice_point(lattice, 2.5, 0, 6.2), lattice_point(lattice, 2.5, lattice.ny - 1, 6.2),
+                       lattice_point(lattice, 7.7, 3.3, 0), lattice_point(lattice, 7.7, 3.3, lattice.nz - 1),
+                       lattice_point(lattice, 0, 0, 0), lattice_point(lattice, lattice.nx - 1, lattice.ny - 1, lattice.nz - 1)}) {
     const double here = core_f64::signed_distance(vessel, p);
     for (int k = 0; k < 6; ++k) {
       Vec3 step{};
@@ -131,15 +133,15 @@ TEST(Sdf, GridIsContinuousAtItsBox) {
   }
 }
 
-TEST(Sdf, GridGradientIsItsDifferenceQuotient) {
-  const Vessel vessel = grid_vessel(vase(), 24);
-  const core_f64::Grid& grid = vessel.grid;
+TEST(Sdf, LatticeGradientIsItsDifferenceQuotient) {
+  const Vessel vessel = lattice_vessel(vase(), 24);
+  const core_f64::Lattice& lattice = vessel.lattice;
   const double h = 1e-7;
   Random random(12);
   for (int n = 0; n < 2000; ++n) {
     // inside a cell; across its faces the slope jumps
     const auto coordinate = [&random](int count) { return std::floor(random.uniform(0, count - 1)) + random.uniform(0.01, 0.99); };
-    const Vec3 p = lattice_point(grid, coordinate(grid.nx), coordinate(grid.ny), coordinate(grid.nz));
+    const Vec3 p = lattice_point(lattice, coordinate(lattice.nx), coordinate(lattice.ny), coordinate(lattice.nz));
     Vec3 difference;
     for (int k = 0; k < 3; ++k) {
       Vec3 step{};
@@ -156,20 +158,20 @@ TEST(Sdf, GridGradientIsItsDifferenceQuotient) {
   }
 }
 
-TEST(Sdf, GridGradientOutsideItsBoxIsItsDifferenceQuotient) {
-  const Vessel vessel = grid_vessel(vase(), 24);
-  const core_f64::Grid& grid = vessel.grid;
-  const Vec3 low = grid.origin, high = lattice_point(grid, grid.nx - 1, grid.ny - 1, grid.nz - 1);
+TEST(Sdf, LatticeGradientOutsideItsBoxIsItsDifferenceQuotient) {
+  const Vessel vessel = lattice_vessel(vase(), 24);
+  const core_f64::Lattice& lattice = vessel.lattice;
+  const Vec3 low = lattice.origin, high = lattice_point(lattice, lattice.nx - 1, lattice.ny - 1, lattice.nz - 1);
   const double h = 1e-7;
   Random random(14);
   int compared = 0;
   for (int n = 0; n < 4000; ++n) {
     const Vec3 p{random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.5), random.uniform(-0.3, 0.3)};
-    const Vec3 inner = glm::clamp(p, low, high), steps = (inner - grid.origin) / grid.spacing;
+    const Vec3 inner = glm::clamp(p, low, high), steps = (inner - lattice.origin) / lattice.spacing;
     bool near_a_face = p == inner;
     for (int k = 0; k < 3; ++k) {
       const double to_face =
-          p[k] == inner[k] ? std::abs(steps[k] - std::round(steps[k])) * grid.spacing : std::abs(p[k] - inner[k]);
+          p[k] == inner[k] ? std::abs(steps[k] - std::round(steps[k])) * lattice.spacing : std::abs(p[k] - inner[k]);
       near_a_face = near_a_face || to_face < 2 * h;  // across it the slope jumps
     }
     if (near_a_face) continue;
@@ -187,8 +189,8 @@ TEST(Sdf, GridGradientOutsideItsBoxIsItsDifferenceQuotient) {
   EXPECT_GT(compared, 2000);
 }
 
-TEST(Sdf, GridGradientOutsideItsBoxIsUnitAndPointsAway) {
-  const Vessel vessel = grid_vessel(beaker1(), 24);
+TEST(Sdf, LatticeGradientOutsideItsBoxIsUnitAndPointsAway) {
+  const Vessel vessel = lattice_vessel(beaker1(), 24);
   for (const Vec3 p : {Vec3{0.5, 0.05, 0}, Vec3{0, 0.05, -0.5}, Vec3{0, 1, 0}, Vec3{0.3, -0.4, 0.2}}) {
     int element = 0;
     const Vec3 g = core_f64::distance_gradient(vessel, p, element);
@@ -197,17 +199,17 @@ TEST(Sdf, GridGradientOutsideItsBoxIsUnitAndPointsAway) {
   }
 }
 
-TEST(Sdf, GridGradientIsXWhereItVanishes) {
+TEST(Sdf, LatticeGradientIsXWhereItVanishes) {
   Vessel vessel;
-  vessel.is_grid = true;
+  vessel.is_lattice = true;
   const std::vector<std::uint32_t> quarters(8, std::bit_cast<std::uint32_t>(0.25f));
-  vessel.grid = {{0, 0, 0}, 1, 2, 2, 2, false, std::make_shared<const std::vector<std::uint32_t>>(quarters)};
+  vessel.lattice = {{0, 0, 0}, 1, 2, 2, 2, false, std::make_shared<const std::vector<std::uint32_t>>(quarters)};
   int element = 0;
   EXPECT_EQ(core_f64::distance_gradient(vessel, {0.5, 0.5, 0.5}, element), (Vec3{1, 0, 0}));
   EXPECT_EQ(core_f64::signed_distance(vessel, {0.5, 0.5, 0.5}), 0.25);
 }
 
-TEST(Sdf, GridErrorFallsWithTheSquareOfItsSpacing) {
+TEST(Sdf, LatticeErrorFallsWithTheSquareOfItsSpacing) {
   // on the cone and the neck, further from creases than the coarsest cell's diagonal
   const Vessel outline = ready_vessel(beaker3());
   std::vector<Vec3> points;
@@ -218,12 +220,12 @@ TEST(Sdf, GridErrorFallsWithTheSquareOfItsSpacing) {
   }
   std::vector<double> worst, spacing;
   for (const int samples : {30, 60, 120}) {
-    const Vessel vessel = grid_vessel(beaker3(), samples);
+    const Vessel vessel = lattice_vessel(beaker3(), samples);
     double largest = 0;
     for (const Vec3& p : points)
       largest = std::max(largest, std::abs(core_f64::signed_distance(vessel, p) - core_f64::signed_distance(outline, p)));
     worst.push_back(largest);
-    spacing.push_back(vessel.grid.spacing);
+    spacing.push_back(vessel.lattice.spacing);
   }
   for (std::size_t i = 1; i < worst.size(); ++i) {
     const double order = std::log(worst[i - 1] / worst[i]) / std::log(spacing[i - 1] / spacing[i]);
