@@ -17,8 +17,8 @@ const char* remedy_words(Remedy remedy);
 // The whole line for the user.
 std::string line_of(const Error& error);
 
-// What of the scene is beyond float's domain (domain_warnings), a line each, with the remedy: printed to stderr and returned. Throws as
-// domain_warnings does.
+// What of the scene is beyond float's domain (domain_warnings), a line each, with the remedy: printed to stderr and returned.
+// Throws as domain_warnings does.
 std::vector<std::string> say_float_warnings(const Scene& scene, Precision precision);
 
 }  // namespace wholehand

@@ -33,8 +33,8 @@ constexpr double LARGEST_HOLD = 5e3;
 
 }  // namespace float_domain
 
-// What of the scene is beyond the domain: a sentence for each limit, with the limit; the remedy is Remedy::double_precision. Empty in
-// double, and within. Throws Error (usage) for vessels that cannot be made ready.
+// What of the scene is beyond the domain: a sentence for each limit, with the limit; the remedy is Remedy::double_precision.
+// Empty in double, and within. Throws Error (usage) for vessels that cannot be made ready.
 std::vector<std::string> domain_warnings(const Scene& scene, Precision precision);
 
 }  // namespace wholehand

@@ -20,8 +20,8 @@ enum class Remedy {
   name_library,        // to name the path of Force Dimension's SDK, with which the line ends
 };
 
-// `what()` is one line: what went wrong, where, and what to do. Caught in main, printed to stderr as `wholehand: <line>`, with the words
-// of the remedy after it.
+// `what()` is one line: what went wrong, where, and what to do. Caught in main, printed to stderr as `wholehand: <line>`, with
+// the words of the remedy after it.
 class Error : public std::runtime_error {
  public:
   Error(ExitCode code, const std::string& line, Remedy remedy = Remedy::none)

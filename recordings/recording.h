@@ -66,9 +66,9 @@ struct RecordingEnd {
   std::string early;          // why the recording ended before the session; empty: it did not. Set by the writer, too
 };
 
-// Throws Error (usage) where no recording can be made at `path`: there is a file with something in it already (a recording cannot be made
-// again, so none is ever overwritten), or a partial one of a session that was killed or is still running. `option` is the one that named
-// it, for the message.
+// Throws Error (usage) where no recording can be made at `path`: there is a file with something in it already (a recording cannot
+// be made again, so none is ever overwritten), or a partial one of a session that was killed or is still running. `option` is the
+// one that named it, for the message.
 void check_recording_path(const std::string& path, const char* option = "recording");
 
 // A recording that is being made. It lies at PATH.partial, and at PATH once it is finished. Whatever becomes of the process, the partial
