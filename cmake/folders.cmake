@@ -5,8 +5,8 @@ set(WHOLEHAND_FLOORS
   shaders=0
   core=1
   system=2 scene=2 live=2
-  host=3 device=3 objects=3 recordings=3
-  grips=4
+  host=3 device=3 objects=3 charts=3
+  recordings=4 grips=4
   sweeps=5 viewer=5
   evidence=6
   report=7

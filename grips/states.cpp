@@ -9,7 +9,8 @@
 
 namespace wholehand {
 
-const std::array<PointStyle, 3> POINT_STYLES{{{"touching", {213, 94, 0}}, {"projected", {0, 114, 178}}, {"free", {255, 255, 255}}}};
+const std::array<PointStyle, 3> POINT_STYLES{
+    {{"touching", okabe_ito::VERMILION}, {"projected", okabe_ito::BLUE}, {"free", {255, 255, 255}}}};
 
 PointState point_state(const GripResult& result, int joint) {
   const std::uint32_t projected = result.tip_mask | result.finger_mask | result.inner_mask;

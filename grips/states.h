@@ -5,16 +5,17 @@
 #include <array>
 #include <string>
 
+#include "charts/colors.h"
 #include "grips/report.h"
 
 namespace wholehand {
 
 enum class PointState { touching, projected, free };
 
-// A state's name, and its colour of Okabe and Ito's set, which colour-blind readers tell apart.
+// A state's name and its colour.
 struct PointStyle {
   const char* name;
-  std::array<int, 3> color;  // sRGB, 0..255
+  Rgb color;
 };
 extern const std::array<PointStyle, 3> POINT_STYLES;  // by PointState
 

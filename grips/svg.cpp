@@ -9,6 +9,8 @@
 #include <iterator>
 #include <numeric>
 
+#include "charts/colors.h"
+#include "charts/markup.h"
 #include "core/joints.h"
 #include "core/vectors.h"
 #include "grips/glass.h"
@@ -49,24 +51,6 @@ std::array<double, 2> extent_along(const Drawing& drawing, const Triple& axis) {
     extent = {std::min(extent[0], at - drawing.skin[j]), std::max(extent[1], at + drawing.skin[j])};
   }
   return extent;
-}
-
-std::string xml_text(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '&') {
-      safe += "&amp;";
-    } else if (c == '<') {
-      safe += "&lt;";
-    } else if (c == '>') {
-      safe += "&gt;";
-    } else if (static_cast<unsigned char>(c) < 0x20) {
-      safe += ' ';  // not allowed in XML
-    } else {
-      safe += c;
-    }
-  }
-  return safe;
 }
 
 // ---- the hand ----
@@ -147,8 +131,8 @@ void draw_run(std::string& svg, const Drawing& drawing, const DrawnView& view, c
 // ---- words and measures ----
 
 void draw_text(std::string& svg, const Flat& p, const char* style, const std::string& text) {
-  svg +=
-      fmt::format("<text class=\"{}\" x=\"{}\" y=\"{}\">{}</text>\n", style, number_text(p[0]), number_text(p[1]), xml_text(text));
+  svg += fmt::format("<text class=\"{}\" x=\"{}\" y=\"{}\">{}</text>\n", style, number_text(p[0]), number_text(p[1]),
+                     markup_escaped(text));
 }
 
 // A measure between two points with ticks across its ends, the words beside its middle.
@@ -274,10 +258,7 @@ void draw_legend(std::string& svg, const Drawing& drawing, Flat at) {
 }
 
 std::string style_sheet(const Drawing& drawing) {
-  const auto color = [](PointState state) {
-    const auto& c = POINT_STYLES[static_cast<std::size_t>(state)].color;
-    return fmt::format("#{:02x}{:02x}{:02x}", c[0], c[1], c[2]);
-  };
+  const auto color = [](PointState state) { return color_text(POINT_STYLES[static_cast<std::size_t>(state)].color); };
   const double w = drawing.line;
   return fmt::format(
       "<style>\n"
@@ -347,8 +328,8 @@ std::string grip_svg(const Scene& scene, std::size_t vessel, const GripReport& r
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.1f}mm\" height=\"{:.1f}mm\" viewBox=\"0 0 {:.2f} {:.2f}\" role=\"img\" "
       "aria-labelledby=\"title desc\">\n<title id=\"title\">{}</title>\n<desc id=\"desc\">{}</desc>\n",
-      sheet_width / unit, sheet_height / unit, sheet_width, sheet_height, xml_text("Grip of " + drawing.vessel),
-      xml_text(spoken(drawing, glass_wide[1] - glass_wide[0], glass_high[1] - glass_high[0])));
+      sheet_width / unit, sheet_height / unit, sheet_width, sheet_height, markup_escaped("Grip of " + drawing.vessel),
+      markup_escaped(spoken(drawing, glass_wide[1] - glass_wide[0], glass_high[1] - glass_high[0])));
   svg += style_sheet(drawing);
   svg += fmt::format("<rect width=\"{:.2f}\" height=\"{:.2f}\" fill=\"#ffffff\"/>\n", sheet_width, sheet_height);
   for (DrawnView* view : {&above, &front, &beside}) drawing.glass.look(*view, PAPER_DETAIL * unit);

@@ -165,7 +165,7 @@ Agreement compare_with_core(const ReportSource& source, std::size_t vessel) {
   return agreement;
 }
 
-void write_agreement(HtmlWriter& html, const ReportSource& source, std::size_t vessel, const std::string& id) {
+void write_agreement(MarkupWriter& html, const ReportSource& source, std::size_t vessel, const std::string& id) {
   html.element("h3", "Agreement with the core", {{"id", id + "-agreement"}});
   if (!source.core || source.result.variables().empty()) {
     html.element("p", source.core ? "The file holds only the best grips, so there is nothing to compare."

@@ -29,6 +29,6 @@ struct Agreement {
 // precision of the file. Needs the core.
 Agreement compare_with_core(const ReportSource& source, std::size_t vessel);
 
-void write_agreement(HtmlWriter& html, const ReportSource& source, std::size_t vessel, const std::string& id);
+void write_agreement(MarkupWriter& html, const ReportSource& source, std::size_t vessel, const std::string& id);
 
 }  // namespace wholehand

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "charts/lines.h"
 #include "grips/methods.h"
-#include "report/lines.h"
 
 namespace wholehand {
 namespace {
@@ -16,22 +16,23 @@ constexpr std::size_t MOST_LINES = 8;
 
 // The number and its unit stay in one line.
 std::string share_text(const Scene& scene, double fill) {
-  return scene.liquid ? html_number(100 * fill, std::abs(100 * fill - std::round(100 * fill)) < 0.05 ? 0 : 1) + "\u00a0%" : "empty";
+  return scene.liquid ? shown_number(100 * fill, std::abs(100 * fill - std::round(100 * fill)) < 0.05 ? 0 : 1) + "\u00a0%"
+                      : "empty";
 }
 
 // A fill of a vessel as the scene gives it: in mL, or as a share of what the vessel holds.
 std::string fill_text(const Scene& scene, std::size_t vessel, std::size_t fill) {
   if (!scene.liquid) return "empty";
   if (scene.liquid->volumes.empty()) return share_text(scene, vessel_fills(scene, scene.vessels[vessel])[fill]);
-  return html_plain(scene.vessels[vessel].has_cavity() ? 1e6 * scene.liquid->volumes[fill] : 0) + "\u00a0mL";
+  return plain_number(scene.vessels[vessel].has_cavity() ? 1e6 * scene.liquid->volumes[fill] : 0) + "\u00a0mL";
 }
 
 // What is said of one fill's line to those who do not see it.
 std::string line_text(const Scene& scene, const std::string& fill, const std::vector<double>& values) {
   const auto largest = std::max_element(values.begin(), values.end());
-  return fmt::format("{}: {} N at {}°, at most {} N at {}°", fill, html_number(values.front(), 2),
-                     html_number(degrees(scene.tilts.front()), 0), html_number(*largest, 2),
-                     html_number(degrees(scene.tilts[static_cast<std::size_t>(largest - values.begin())]), 0));
+  return fmt::format("{}: {} N at {}°, at most {} N at {}°", fill, shown_number(values.front(), 2),
+                     shown_number(degrees(scene.tilts.front()), 0), shown_number(*largest, 2),
+                     shown_number(degrees(scene.tilts[static_cast<std::size_t>(largest - values.begin())]), 0));
 }
 
 LineChart force_chart(const ReportSource& source, std::size_t vessel, const std::vector<FillForces>& forces,
@@ -84,23 +85,23 @@ std::string forces_caption(const Scene& scene, const std::vector<FillForces>& fo
   std::string caption =
       "The feedback force is what the gripper renders. The hold force is what each finger must press with to hold the vessel.";
   const double limit = scene.force.max, strength = scene.force.grip_strength;
-  if (highest_feedback(forces) < limit) caption += fmt::format(" The device's limit of {} N is not reached.", html_plain(limit));
+  if (highest_feedback(forces) < limit) caption += fmt::format(" The device's limit of {} N is not reached.", plain_number(limit));
   if (!extent.is_finite_once) {
     caption += " No force of two fingers holds the vessel in this grip, so the hold force has no chart.";
   } else {
     if (!extent.is_finite_always)
       caption += " Where a line of the hold force is missing, no force of two fingers holds the vessel.";
-    if (extent.highest < strength) caption += fmt::format(" The grip strength of {} N is not reached.", html_plain(strength));
+    if (extent.highest < strength) caption += fmt::format(" The grip strength of {} N is not reached.", plain_number(strength));
     if (extent.highest > 2 * strength)
       caption += fmt::format(" The hold force goes up to {} N; its chart ends at twice the grip strength.",
-                             html_number(extent.highest, 0));
+                             shown_number(extent.highest, 0));
   }
   const std::size_t shown = shown_fills(forces.size()).size();
   if (shown < forces.size()) caption += fmt::format(" {} of {} fills are drawn.", shown, forces.size());
   return caption;
 }
 
-void write_force_table(HtmlWriter& html, const Scene& scene, std::size_t vessel, const std::vector<FillForces>& forces) {
+void write_force_table(MarkupWriter& html, const Scene& scene, std::size_t vessel, const std::vector<FillForces>& forces) {
   const std::string& name = scene.vessels[vessel].name;
   html.open("details").element("summary", "The same as numbers");
   std::vector<std::string> columns{"tilt (°)"};
@@ -109,9 +110,9 @@ void write_force_table(HtmlWriter& html, const Scene& scene, std::size_t vessel,
       columns.push_back(fmt::format("{}, {} (N)", force, fill_text(scene, vessel, f)));
   HtmlTable table(html, fmt::format("Feedback and hold force of the best grip of {}", name), columns);
   for (std::size_t t = 0; t < scene.tilts.size(); ++t) {
-    std::vector<std::string> cells{html_number(degrees(scene.tilts[t]), 1)};
-    for (const FillForces& fill : forces) cells.push_back(html_number(fill.feedback[t], 3));
-    for (const FillForces& fill : forces) cells.push_back(html_number(fill.hold[t], 2));
+    std::vector<std::string> cells{shown_number(degrees(scene.tilts[t]), 1)};
+    for (const FillForces& fill : forces) cells.push_back(shown_number(fill.feedback[t], 3));
+    for (const FillForces& fill : forces) cells.push_back(shown_number(fill.hold[t], 2));
     table.row(cells);
   }
   table.end();
@@ -144,7 +145,8 @@ std::vector<FillForces> forces_of(const ReportSource& source, std::size_t vessel
   return forces;
 }
 
-void write_forces(HtmlWriter& html, const ReportSource& source, std::size_t vessel, const GripInput& grip, const std::string& id) {
+void write_forces(MarkupWriter& html, const ReportSource& source, std::size_t vessel, const GripInput& grip,
+                  const std::string& id) {
   const Scene& scene = source.scene;
   html.element("h3", "Forces over the tilt", {{"id", id + "-forces"}});
   if (scene.tilts.empty() || !source.core) {
@@ -172,13 +174,13 @@ void write_forces(HtmlWriter& html, const ReportSource& source, std::size_t vess
   feedback.name.id = id + "-feedback";
   feedback.name.title = name + ": feedback force over the tilt";
   feedback.y_label = "feedback force (N)";
-  feedback.limit = LineChart::Limit{scene.force.max, fmt::format("device {} N", html_plain(scene.force.max))};
+  feedback.limit = LineChart::Limit{scene.force.max, fmt::format("device {} N", plain_number(scene.force.max))};
   LineChart hold = force_chart(source, vessel, forces, &FillForces::hold, pouring);
   hold.name.id = id + "-hold";
   hold.name.title = name + ": hold force over the tilt";
   hold.y_label = "hold force per finger (N)";
   hold.limit =
-      LineChart::Limit{scene.force.grip_strength, fmt::format("grip strength {} N", html_plain(scene.force.grip_strength))};
+      LineChart::Limit{scene.force.grip_strength, fmt::format("grip strength {} N", plain_number(scene.force.grip_strength))};
   if (extent.highest > 2 * scene.force.grip_strength) hold.highest = 2 * scene.force.grip_strength;
   for (const LineChart* chart : {&feedback, &hold}) {
     if (chart == &hold && !extent.is_finite_once) continue;
@@ -190,7 +192,7 @@ void write_forces(HtmlWriter& html, const ReportSource& source, std::size_t vess
   write_force_table(html, scene, vessel, forces);
 }
 
-void write_pouring(HtmlWriter& html, const ReportSource& source, std::size_t vessel, const std::string& id) {
+void write_pouring(MarkupWriter& html, const ReportSource& source, std::size_t vessel, const std::string& id) {
   const Scene& scene = source.scene;
   html.element("h3", "Where pouring starts", {{"id", id + "-pouring"}});
   if (!scene.liquid) {
@@ -207,8 +209,8 @@ void write_pouring(HtmlWriter& html, const ReportSource& source, std::size_t ves
                   {"fill", "liquid (mL)", "pours from (°)"});
   for (std::size_t f = 0; f < tilts.size(); ++f) {
     const double fill = vessel_fills(scene, scene.vessels[vessel])[f];
-    table.row({share_text(scene, fill), html_number(capacity * fill * 1e6, 0),
-               std::isfinite(tilts[f]) ? html_number(degrees(tilts[f]), 1) : "nothing to pour"});
+    table.row({share_text(scene, fill), shown_number(capacity * fill * 1e6, 0),
+               std::isfinite(tilts[f]) ? shown_number(degrees(tilts[f]), 1) : "nothing to pour"});
   }
   table.end();
 }

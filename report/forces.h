@@ -18,10 +18,10 @@ struct FillForces {
 std::vector<FillForces> forces_of(const ReportSource& source, std::size_t vessel, const GripInput& grip);
 
 // Charts and a table of them; a sentence in their place where there are none.
-void write_forces(HtmlWriter& html, const ReportSource& source, std::size_t vessel, const GripInput& grip, const std::string& id);
+void write_forces(MarkupWriter& html, const ReportSource& source, std::size_t vessel, const GripInput& grip, const std::string& id);
 
 // The tilts at which pouring starts.
-void write_pouring(HtmlWriter& html, const ReportSource& source, std::size_t vessel, const std::string& id);
+void write_pouring(MarkupWriter& html, const ReportSource& source, std::size_t vessel, const std::string& id);
 
 // Of many fills, so many as lines that are told apart: the first, the last, and some between.
 std::vector<std::size_t> shown_fills(std::size_t count);

@@ -40,7 +40,7 @@ std::string touching_text(const GripResult& result) {
   return text;
 }
 
-void write_table(HtmlWriter& html, const ReportSource& source, std::size_t list, const ReportedGrips& best) {
+void write_table(MarkupWriter& html, const ReportSource& source, std::size_t list, const ReportedGrips& best) {
   const Plan& plan = source.plan;
   const bool has_tilts = !source.scene.tilts.empty();
   std::vector<std::string> columns{"rank", "score", "height (mm)"};
@@ -66,10 +66,10 @@ void write_table(HtmlWriter& html, const ReportSource& source, std::size_t list,
                   columns);
   for (std::size_t rank = 0; rank < best.grips.size(); ++rank) {
     const BestGrip& b = best.grips[rank];
-    std::vector<std::string> cells{std::to_string(b.rank), html_number(b.score, 3), html_number(b.grip.height * 1e3, 1)};
+    std::vector<std::string> cells{std::to_string(b.rank), shown_number(b.score, 3), shown_number(b.grip.height * 1e3, 1)};
     const auto axis_cell = [&](int place, double value, int digits) {
       if (axis_varies(plan, place) && !(place == PLACE_HAND_SCALE && plan.hand_scales() > 1))
-        cells.push_back(html_number(value, digits));
+        cells.push_back(shown_number(value, digits));
     };
     axis_cell(PLACE_ROLL, degrees(b.grip.roll), 1);
     axis_cell(PLACE_OBLIQUITY, degrees(b.grip.obliquity), 1);
@@ -78,11 +78,11 @@ void write_table(HtmlWriter& html, const ReportSource& source, std::size_t list,
     axis_cell(PLACE_HAND_SCALE, b.grip.hand_scale, 3);
     if (best.is_whole) {
       cells.insert(cells.end(), {std::to_string(b.fingers_used), std::to_string(b.points_touching),
-                                 html_number(std::max(b.phalanx_depth, b.palm_depth) * 1e3, 1), html_number(b.closure, 2),
-                                 html_number(b.gap * 1e3, 1)});
+                                 shown_number(std::max(b.phalanx_depth, b.palm_depth) * 1e3, 1), shown_number(b.closure, 2),
+                                 shown_number(b.gap * 1e3, 1)});
       if (has_tilts) {
-        cells.insert(cells.end(), {html_number(b.peak_force, 2), html_number(degrees(b.peak_tilt), 0),
-                                   html_number(b.largest_hold, 1), html_number(degrees(b.safe_tilt), 0)});
+        cells.insert(cells.end(), {shown_number(b.peak_force, 2), shown_number(degrees(b.peak_tilt), 0),
+                                   shown_number(b.largest_hold, 1), shown_number(degrees(b.safe_tilt), 0)});
       } else {
         cells.push_back(b.antipodal ? "yes" : "no");
       }
@@ -92,11 +92,11 @@ void write_table(HtmlWriter& html, const ReportSource& source, std::size_t list,
   table.end();
 }
 
-void write_drawings(HtmlWriter& html, const ReportSource& source, std::size_t list, const ReportedGrips& best) {
+void write_drawings(MarkupWriter& html, const ReportSource& source, std::size_t list, const ReportedGrips& best) {
   const GripMethods methods = core_grip_methods(source.scene, source.core, "core");
   const std::string name = list_name(source.scene, source.plan, list);
   const std::size_t vessel = list / source.plan.hand_scales(), count = std::min(DRAWN_GRIPS, best.grips.size());
-  HtmlWriter drawings;
+  MarkupWriter drawings;
   std::string trouble;
   std::size_t drawn = 0;
   for (std::size_t rank = 0; rank < count; ++rank) {
@@ -114,12 +114,12 @@ void write_drawings(HtmlWriter& html, const ReportSource& source, std::size_t li
                     best.grips[rank].rank, grip_text(source.plan, best.grips[rank].grip), touching_text(report.answer.result));
     drawings.open("div", {{"class", "drawing"}});
     drawings.empty("img", {{"src", svg_address(svg)}, {"alt", alt}});
-    drawings.element("p", fmt::format("{}: score {}; {}", best.grips[rank].rank, html_number(best.grips[rank].score, 3),
+    drawings.element("p", fmt::format("{}: score {}; {}", best.grips[rank].rank, shown_number(best.grips[rank].score, 3),
                                       grip_text(source.plan, best.grips[rank].grip)));
     drawings.close();
   }
   if (drawn > 0) {
-    html.open("figure").open("div", {{"class", "drawings"}}).markup(drawings.html()).close();
+    html.open("figure").open("div", {{"class", "drawings"}}).markup(drawings.written()).close();
     html.element("figcaption",
                  fmt::format("The best {} of {}, seen from the side of the hand and from its right. Discs are points that touch "
                              "where they were. Diamonds are points that were brought to the glass. Rings are points that do not "
@@ -188,10 +188,11 @@ ReportedGrips read_grips(const ReportSource& source, std::size_t list) {
   return best;
 }
 
-void write_grips(HtmlWriter& html, const ReportSource& source, std::size_t list, const ReportedGrips& best, const std::string& id) {
+void write_grips(MarkupWriter& html, const ReportSource& source, std::size_t list, const ReportedGrips& best,
+                 const std::string& id) {
   const std::size_t scales = source.plan.hand_scales();
   const std::string of_hand =
-      scales == 1 ? "" : fmt::format(" at hand scale {}", html_plain(source.plan.hand_scale(list % scales)));
+      scales == 1 ? "" : fmt::format(" at hand scale {}", plain_number(source.plan.hand_scale(list % scales)));
   html.element("h3", "The best grips" + of_hand, {{"id", id + "-best"}});
   if (best.grips.empty()) {
     html.element("p", source.lists                 ? fmt::format("{} lists no grips.", source.lists_file)

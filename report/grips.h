@@ -23,7 +23,8 @@ struct ReportedGrips {
 ReportedGrips read_grips(const ReportSource& source, std::size_t list);
 
 // The table, and a figure with the drawings of the first DRAWN_GRIPS. What cannot be drawn is left out with a sentence. `id`: of the list, in the page.
-void write_grips(HtmlWriter& html, const ReportSource& source, std::size_t list, const ReportedGrips& best, const std::string& id);
+void write_grips(MarkupWriter& html, const ReportSource& source, std::size_t list, const ReportedGrips& best,
+                 const std::string& id);
 
 // Of a drawing by grip_svg, the front and the side view with larger letters: to be seen beside others. The whole drawing where its views are
 // not found.

@@ -9,8 +9,8 @@
 #include <bit>
 #include <cmath>
 
+#include "charts/field.h"
 #include "grips/hand_nodes.h"
-#include "report/field.h"
 #include "shaders/layout.h"
 #include "system/readable.h"
 
@@ -26,10 +26,10 @@ std::string point_name(int joint) {
 }
 
 std::string r_text(const Correlation& correlation) {
-  return correlation.r ? html_number(*correlation.r, 2) : "none, " + correlation.why;
+  return correlation.r ? shown_number(*correlation.r, 2) : "none, " + correlation.why;
 }
 
-std::string in_mm(double metres, int digits = 1) { return html_number(metres * 1e3, digits); }
+std::string in_mm(double metres, int digits = 1) { return shown_number(metres * 1e3, digits); }
 
 // A field over the bins of the distance.
 FieldChart distance_chart(const GuidanceStatistics& statistics) {
@@ -91,12 +91,12 @@ FieldChart points_chart(const GuidanceStatistics& statistics) {
   return chart;
 }
 
-void write_charts(HtmlWriter& html, const GuidanceStatistics& statistics, const std::string& name, const std::string& id) {
+void write_charts(MarkupWriter& html, const GuidanceStatistics& statistics, const std::string& name, const std::string& id) {
   FieldChart fingers = fingers_chart(statistics), points = points_chart(statistics);
   fingers.name = {id + "-guided-fingers", name + ": fingers used over the distance from the guidance point",
                   fmt::format("For each range of distance: the share of grips by the number of fingers used, and the mean number. "
                               "A grip uses {} fingers on average; correlation with the distance: {}.",
-                              html_number(statistics.mean_fingers, 2), r_text(statistics.fingers))};
+                              shown_number(statistics.mean_fingers, 2), r_text(statistics.fingers))};
   points.name = {id + "-guided-points", name + ": points touching over the distance from the guidance point",
                  "For each range of distance: the share of grips in which each of the hand's 24 points touches. The table shows "
                  "the share over all distances and the correlation of each point."};
@@ -117,14 +117,14 @@ void write_charts(HtmlWriter& html, const GuidanceStatistics& statistics, const 
   html.close();
 }
 
-void write_point_table(HtmlWriter& html, const GuidanceStatistics& statistics, const std::string& name) {
+void write_point_table(MarkupWriter& html, const GuidanceStatistics& statistics, const std::string& name) {
   HtmlTable table(html, fmt::format("Points that touch {}, and the distance, n = {}", name, readable_number(statistics.grips)),
                   {"point", "touches (%)", "mean distance when touching (mm)", "mean distance when free (mm)", "point-biserial r"});
   for (int j = 0; j < JOINT_COUNT; ++j) {
     const PointTouch& point = statistics.points[j];
-    table.row({point_name(j), html_number(100.0 * static_cast<double>(point.touching) / static_cast<double>(statistics.grips), 1),
+    table.row({point_name(j), shown_number(100.0 * static_cast<double>(point.touching) / static_cast<double>(statistics.grips), 1),
                in_mm(point.distance_touching), in_mm(point.distance_free),
-               point.correlation.r ? html_number(*point.correlation.r, 2) : point.correlation.why});
+               point.correlation.r ? shown_number(*point.correlation.r, 2) : point.correlation.why});
   }
   table.end();
 }
@@ -178,7 +178,7 @@ GuidedSample guided_grips(const ReportSource& source, std::size_t vessel) {
   return sample;
 }
 
-void write_guidance(HtmlWriter& html, const ReportSource& source, std::size_t vessel, const std::string& id) {
+void write_guidance(MarkupWriter& html, const ReportSource& source, std::size_t vessel, const std::string& id) {
   const VesselData& data = source.scene.vessels[vessel];
   html.element("h3", "Touching, and the distance from a guidance point", {{"id", id + "-guidance"}});
   if (data.guidance.empty()) {
@@ -192,7 +192,7 @@ void write_guidance(HtmlWriter& html, const ReportSource& source, std::size_t ve
   const GuidedSample sample = guided_grips(source, vessel);
   std::vector<std::string> points;
   for (const GuidancePoint& point : data.guidance)
-    points.push_back(fmt::format("{} mm, {}°", in_mm(point.height), html_number(degrees(point.azimuth), 0)));
+    points.push_back(fmt::format("{} mm, {}°", in_mm(point.height), shown_number(degrees(point.azimuth), 0)));
   const GuidanceStatistics statistics = guidance_statistics(sample.grips);
   std::string text = fmt::format(
       "Guidance points (height, azimuth): {}. The distance of a grip is measured from the nearer of its two contacts, on the skin, "
@@ -209,8 +209,8 @@ void write_guidance(HtmlWriter& html, const ReportSource& source, std::size_t ve
     return;
   }
   html.element("p", fmt::format("Distances go from {} to {} mm; {} fingers are used on average. Fingers used and distance: {}.",
-                                in_mm(statistics.nearest), in_mm(statistics.farthest), html_number(statistics.mean_fingers, 2),
-                                statistics.fingers.r ? fmt::format("Pearson's r = {}", html_number(*statistics.fingers.r, 2))
+                                in_mm(statistics.nearest), in_mm(statistics.farthest), shown_number(statistics.mean_fingers, 2),
+                                statistics.fingers.r ? fmt::format("Pearson's r = {}", shown_number(*statistics.fingers.r, 2))
                                                      : "no correlation (" + statistics.fingers.why + ")"));
   write_charts(html, statistics, data.name, id);
   write_point_table(html, statistics, data.name);

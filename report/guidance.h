@@ -22,6 +22,6 @@ struct GuidedSample {
 // Needs the core and a vessel with guidance points.
 GuidedSample guided_grips(const ReportSource& source, std::size_t vessel);
 
-void write_guidance(HtmlWriter& html, const ReportSource& source, std::size_t vessel, const std::string& id);
+void write_guidance(MarkupWriter& html, const ReportSource& source, std::size_t vessel, const std::string& id);
 
 }  // namespace wholehand

@@ -121,7 +121,7 @@ FieldChart map_frame(const ReportSource& source, std::size_t vessel, const GripM
   return chart;
 }
 
-void write_map(HtmlWriter& html, FieldChart& frame, const GripMap& map, double MapCell::*value, const ColorScale& scale,
+void write_map(MarkupWriter& html, FieldChart& frame, const GripMap& map, double MapCell::*value, const ColorScale& scale,
                const ChartName& name) {
   frame.name = name;
   frame.scale = scale;
@@ -136,7 +136,7 @@ void write_map(HtmlWriter& html, FieldChart& frame, const GripMap& map, double M
 std::string extent_text(const GripMap& map, double MapCell::*value, int digits) {
   double low = 0, high = 0;
   value_range({map}, value, low, high);
-  return fmt::format("{} to {}", html_number(low, digits), html_number(high, digits));
+  return fmt::format("{} to {}", shown_number(low, digits), shown_number(high, digits));
 }
 
 std::string maps_caption(const ReportSource& source, const GripMap& map) {
@@ -252,7 +252,7 @@ MapScales map_scales(const std::vector<GripMap>& maps) {
   return scales;
 }
 
-void write_maps(HtmlWriter& html, const ReportSource& source, std::size_t vessel, const GripMap& map, const MapScales& scales,
+void write_maps(MarkupWriter& html, const ReportSource& source, std::size_t vessel, const GripMap& map, const MapScales& scales,
                 const std::vector<Candidate>& best, const std::string& id) {
   const MapCell* top = map.best();
   const std::string& name = source.scene.vessels[vessel].name;
@@ -262,7 +262,7 @@ void write_maps(HtmlWriter& html, const ReportSource& source, std::size_t vessel
   }
   if (map.cells.size() == 1) {
     html.element("p", fmt::format("The sweep has one height and one roll, so there is no map: its best score is {} ({}).",
-                                  html_number(top->score, 3), cell_text(source, vessel, *top)));
+                                  shown_number(top->score, 3), cell_text(source, vessel, *top)));
     return;
   }
   FieldChart frame = map_frame(source, vessel, map, best);
@@ -277,14 +277,14 @@ void write_maps(HtmlWriter& html, const ReportSource& source, std::size_t vessel
         {id + "-fingers", name + ": fingers used over height and roll",
          fmt::format(
              "Heat map of the number of fingers that the best grip of each height and roll uses: {}; the best grip of all uses {}.",
-             extent_text(map, &MapCell::fingers, 0), html_number(top->fingers, 0))});
+             extent_text(map, &MapCell::fingers, 0), shown_number(top->fingers, 0))});
   }
   if (map.has_forces) {
     write_map(html, frame, map, &MapCell::peak_force, scales.peak_force,
               {id + "-force", name + ": peak feedback force over height and roll",
                fmt::format("Heat map of the largest feedback force over all tilts and fills of the best grip of each height and "
                            "roll: {} N; the best grip of all has {} N.",
-                           extent_text(map, &MapCell::peak_force, 2), html_number(top->peak_force, 2))});
+                           extent_text(map, &MapCell::peak_force, 2), shown_number(top->peak_force, 2))});
   }
   html.close().element("figcaption", maps_caption(source, map)).close();
 }

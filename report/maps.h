@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "report/field.h"
+#include "charts/field.h"
 #include "report/source.h"
 #include "sweeps/heat_map.h"
 #include "sweeps/mark.h"
@@ -46,7 +46,7 @@ struct MapScales {
 MapScales map_scales(const std::vector<GripMap>& maps);
 
 // A figure of the maps there are, with the listed grips marked. `id`: of the vessel, in the page.
-void write_maps(HtmlWriter& html, const ReportSource& source, std::size_t vessel, const GripMap& map, const MapScales& scales,
+void write_maps(MarkupWriter& html, const ReportSource& source, std::size_t vessel, const GripMap& map, const MapScales& scales,
                 const std::vector<Candidate>& best, const std::string& id);
 
 }  // namespace wholehand

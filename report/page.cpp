@@ -10,6 +10,7 @@
 #include <set>
 #include <string_view>
 
+#include "charts/style.h"
 #include "core/candidates.h"
 #include "core/error.h"
 #include "report/agreement.h"
@@ -50,18 +51,18 @@ std::string sentence(std::string line) {
   return line;
 }
 
-void write_head(HtmlWriter& html, const Scene& scene) {
+void write_head(MarkupWriter& html, const Scene& scene) {
   html.open("head");
   html.empty("meta", {{"charset", "utf-8"}});
   html.empty("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
   html.empty("meta", {{"name", "generator"}, {"content", "wholehand"}});
   html.empty("meta", {{"name", "color-scheme"}, {"content", "light dark"}});
   html.element("title", page_title(scene));
-  html.open("style").markup(REPORT_STYLE).close();
+  html.open("style").markup(REPORT_STYLE).markup(CHART_RULES).markup(LINE_RULES).close();
   html.close();
 }
 
-void write_contents(HtmlWriter& html, const Scene& scene) {
+void write_contents(MarkupWriter& html, const Scene& scene) {
   html.open("nav", {{"aria-label", "Contents"}}).open("ul");
   const auto link = [&html](const std::string& id, const std::string& text) {
     html.open("li").element("a", text, {{"href", "#" + id}}).close();
@@ -73,7 +74,7 @@ void write_contents(HtmlWriter& html, const Scene& scene) {
   html.close().close();
 }
 
-void write_words(HtmlWriter& html) {
+void write_words(MarkupWriter& html) {
   html.open("section", {{"aria-labelledby", "words"}}).element("h2", "The words", {{"id", "words"}}).open("dl");
   const auto word = [&html](const char* name, const char* meaning) {
     html.open("div").element("dt", name).element("dd", meaning).close();
@@ -127,7 +128,7 @@ class Page {
     html_.element("footer", fmt::format("Written by wholehand {} from {}.", version(),
                                         source_.result.path().substr(source_.result.path().rfind('/') + 1)));
     html_.close().close();
-    return html_.html();
+    return html_.written();
   }
 
  private:
@@ -162,7 +163,7 @@ class Page {
     for (const ReportedGrips& best : lists) {
       if (best.grips.empty()) continue;
       const BestGrip& first = best.grips[0];
-      html_.text(fmt::format(" The best grip scores {}: {}.", html_number(first.score, 3), grip_text(source_.plan, first.grip)));
+      html_.text(fmt::format(" The best grip scores {}: {}.", shown_number(first.score, 3), grip_text(source_.plan, first.grip)));
     }
     html_.close();
     std::set<std::string> said;  // once for all hands
@@ -182,7 +183,7 @@ class Page {
 
   const ReportSource& source_;
   const Scene& scene_;
-  HtmlWriter html_;
+  MarkupWriter html_;
   std::vector<GripMap> maps_;
   MapScales scales_;
 };

@@ -17,7 +17,7 @@
 namespace wholehand {
 namespace {
 
-void write_pair(HtmlWriter& html, const char* name, const std::string& value) {
+void write_pair(MarkupWriter& html, const char* name, const std::string& value) {
   html.open("div").element("dt", name).element("dd", value).close();
 }
 
@@ -48,19 +48,19 @@ std::string grips_text(const ReportSource& source) {
 
 std::string states_text(const Scene& scene) {
   if (scene.tilts.empty()) return "none: the scene has no tilts";
-  const std::string tilts = scene.tilts.size() == 1 ? fmt::format("the tilt {}°", html_number(degrees(scene.tilts[0]), 0))
+  const std::string tilts = scene.tilts.size() == 1 ? fmt::format("the tilt {}°", shown_number(degrees(scene.tilts[0]), 0))
                                                     : fmt::format("{} tilts from {}° to {}°", scene.tilts.size(),
-                                                                  html_number(degrees(scene.tilts.front()), 0),
-                                                                  html_number(degrees(scene.tilts.back()), 0));
+                                                                  shown_number(degrees(scene.tilts.front()), 0),
+                                                                  shown_number(degrees(scene.tilts.back()), 0));
   if (!scene.liquid) return tilts + "; the vessels are empty";
   std::vector<std::string> fills;
   const bool has_volumes = !scene.liquid->volumes.empty();
-  for (const double volume : scene.liquid->volumes) fills.push_back(html_plain(1e6 * volume));
-  for (const double fill : scene.liquid->fills) fills.push_back(html_number(100 * fill, 0));
+  for (const double volume : scene.liquid->volumes) fills.push_back(plain_number(1e6 * volume));
+  for (const double fill : scene.liquid->fills) fills.push_back(shown_number(100 * fill, 0));
   const std::string shown = fills.size() > 12 ? fmt::format("{} fills from {} to {}", fills.size(), fills.front(), fills.back())
                                               : fmt::format("fills {}", fmt::join(fills, ", "));
   return fmt::format("{}; {} {}, {} kg/m³, poured {} the palm", tilts, shown,
-                     has_volumes ? "mL" : "% of what a vessel holds to the brim", html_plain(scene.liquid->density),
+                     has_volumes ? "mL" : "% of what a vessel holds to the brim", plain_number(scene.liquid->density),
                      scene.liquid->pour == Pour::away ? "away from" : "towards");
 }
 
@@ -70,7 +70,7 @@ std::string hand_text(const Scene& scene) {
                      : scene.pose == Pose::paper ? "as in the paper: each point is moved to the surface by itself"
                                                  : "rigged: the fingers are not brought to the vessel";
   return fmt::format("{}, scale {}; pose {}", scene.hand.handedness == Handedness::right ? "right" : "left",
-                     html_plain(scene.hand.scale), pose);
+                     plain_number(scene.hand.scale), pose);
 }
 
 std::string force_text(const Scene& scene) {
@@ -78,15 +78,15 @@ std::string force_text(const Scene& scene) {
   return fmt::format(
       "{} N, and with the torque up to {} N more (a vessel's own range replaces this number), at most {} N; the torque is {}, and "
       "its reference is {}",
-      html_plain(force.base), html_plain(force.range), html_plain(force.max),
+      plain_number(force.base), plain_number(force.range), plain_number(force.max),
       force.torque == Torque::paper ? "as in the paper" : "exact",
       force.reference == TorqueReference::per_object ? "per vessel" : "per grip");
 }
 
 std::string hold_text(const Scene& scene) {
   const ForceData& force = scene.force;
-  return fmt::format("friction {}, torsion of a contact {} mm, grip strength {} N", html_plain(force.friction),
-                     html_plain(force.torsion * 1e3), html_plain(force.grip_strength));
+  return fmt::format("friction {}, torsion of a contact {} mm, grip strength {} N", plain_number(force.friction),
+                     plain_number(force.torsion * 1e3), plain_number(force.grip_strength));
 }
 
 std::string weights_text(const Scene& scene) {
@@ -94,7 +94,7 @@ std::string weights_text(const Scene& scene) {
   const std::array<const char*, 6> names{"fingers", "contacts", "depth", "posture", "force", "hold"};
   std::vector<std::string> parts;
   for (std::size_t k = 0; k < names.size(); ++k)
-    if (weights[k] > 0) parts.push_back(fmt::format("{} {}", names[k], html_plain(weights[k])));
+    if (weights[k] > 0) parts.push_back(fmt::format("{} {}", names[k], plain_number(weights[k])));
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
@@ -116,11 +116,11 @@ double widest(const ReportSource& source, const VesselData& vessel) {
 // An inner outline leaves walls of any thickness.
 std::string wall_text(const VesselData& vessel) {
   if (!(vessel.wall > 0)) return "none";
-  return vessel.inner.empty() ? html_plain(vessel.wall * 1e3) : html_number(vessel.wall * 1e3, 2) + " and more";
+  return vessel.inner.empty() ? plain_number(vessel.wall * 1e3) : shown_number(vessel.wall * 1e3, 2) + " and more";
 }
 
 // What was found of each mesh, a line each.
-void write_meshes(HtmlWriter& html, const std::string& lines) {
+void write_meshes(MarkupWriter& html, const std::string& lines) {
   if (lines.empty()) return;
   html.open("ul");
   std::istringstream stream(lines);
@@ -128,7 +128,7 @@ void write_meshes(HtmlWriter& html, const std::string& lines) {
   html.close();
 }
 
-void write_vessels(HtmlWriter& html, const ReportSource& source) {
+void write_vessels(MarkupWriter& html, const ReportSource& source) {
   HtmlTable table(html, "The vessels",
                   {"vessel", "form", "width (mm)", "height (mm)", "wall (mm)", "mass (g)", "capacity (mL)", "force range (N)",
                    "guidance points"},
@@ -137,9 +137,9 @@ void write_vessels(HtmlWriter& html, const ReportSource& source) {
     const VesselData& vessel = source.scene.vessels[v];
     const double mass = source.core ? source.core->empty_mass(v) : vessel.mass.value_or(std::nan(""));
     const double capacity = source.core && vessel.has_cavity() ? source.core->capacity(v) : std::nan("");
-    table.row({vessel.name, form_text(vessel), html_number(widest(source, vessel) * 1e3, 1),
-               html_number((vessel.height - vessel.base) * 1e3, 1), wall_text(vessel), html_number(mass * 1e3, 1),
-               html_number(capacity * 1e6, 0), html_plain(vessel.force_range.value_or(source.scene.force.range)),
+    table.row({vessel.name, form_text(vessel), shown_number(widest(source, vessel) * 1e3, 1),
+               shown_number((vessel.height - vessel.base) * 1e3, 1), wall_text(vessel), shown_number(mass * 1e3, 1),
+               shown_number(capacity * 1e6, 0), plain_number(vessel.force_range.value_or(source.scene.force.range)),
                vessel.guidance.empty() ? "none" : std::to_string(vessel.guidance.size())});
   }
   table.end();
@@ -147,7 +147,7 @@ void write_vessels(HtmlWriter& html, const ReportSource& source) {
 
 }  // namespace
 
-void write_scene(HtmlWriter& html, const ReportSource& source) {
+void write_scene(MarkupWriter& html, const ReportSource& source) {
   const Scene& scene = source.scene;
   html.open("section", {{"aria-labelledby", "asked"}}).element("h2", "What was asked", {{"id", "asked"}});
   html.open("dl");
@@ -192,7 +192,7 @@ std::vector<std::string> left_out(const ReportSource& source) {
   return sentences;
 }
 
-void write_origin(HtmlWriter& html, const ReportSource& source) {
+void write_origin(MarkupWriter& html, const ReportSource& source) {
   const SweepOrigin& origin = source.result.origin();
   const std::size_t vessels = source.scene.vessels.size();
   const double grips = static_cast<double>(source.plan.grips()) * static_cast<double>(vessels);
@@ -206,8 +206,8 @@ void write_origin(HtmlWriter& html, const ReportSource& source) {
              fmt::format("{}, {} precision", origin.backend, origin.precision == Precision::single ? "single" : "double"));
   write_pair(html, "Program", "wholehand " + origin.version);
   write_pair(html, "Time",
-             fmt::format("{} s in all, {} s of it in kernels", html_number(origin.wall_seconds, 2),
-                         html_number(origin.kernel_seconds, 2)));
+             fmt::format("{} s in all, {} s of it in kernels", shown_number(origin.wall_seconds, 2),
+                         shown_number(origin.kernel_seconds, 2)));
   write_pair(
       html, "Evaluated",
       fmt::format("{} grips{}", readable_count(grips), states > grips ? fmt::format(", {} states", readable_count(states)) : ""));

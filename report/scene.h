@@ -10,10 +10,10 @@
 namespace wholehand {
 
 // The scene in words and as it was written.
-void write_scene(HtmlWriter& html, const ReportSource& source);
+void write_scene(MarkupWriter& html, const ReportSource& source);
 
 // Device, times and size; the sentences of `left_out`.
-void write_origin(HtmlWriter& html, const ReportSource& source);
+void write_origin(MarkupWriter& html, const ReportSource& source);
 
 // What the sweep did not compute or keep, because its scene does not need it: a sentence each.
 std::vector<std::string> left_out(const ReportSource& source);

@@ -32,7 +32,7 @@ GatheredPlanes planes_by_core(const ReportSource& source, std::size_t vessel, co
 
 std::string axis_text(const Axis& axis, double scale, const std::string& unit) {
   constexpr std::size_t LISTED = 8;
-  const auto number = [&](double value) { return html_plain(value * scale); };
+  const auto number = [&](double value) { return plain_number(value * scale); };
   if (axis.is_range)
     return axis.from == axis.to ? number(axis.from) + unit : fmt::format("{} to {}{}", number(axis.from), number(axis.to), unit);
   if (axis.values.size() > LISTED) return fmt::format("{} to {}{}", number(axis.values.front()), number(axis.values.back()), unit);
@@ -48,9 +48,9 @@ bool axis_varies(const Plan& plan, int place) {
 }
 
 std::string grip_text(const Plan& plan, const GripInput& grip) {
-  std::string text = fmt::format("height {} mm", html_number(grip.height * 1e3, 1));
+  std::string text = fmt::format("height {} mm", shown_number(grip.height * 1e3, 1));
   const auto add = [&](int place, const char* name, double value, int digits, const char* unit) {
-    if (axis_varies(plan, place)) text += fmt::format(", {} {}{}", name, html_number(value, digits), unit);
+    if (axis_varies(plan, place)) text += fmt::format(", {} {}{}", name, shown_number(value, digits), unit);
   };
   add(PLACE_ROLL, "roll", degrees(grip.roll), 1, "°");
   add(PLACE_OBLIQUITY, "obliquity", degrees(grip.obliquity), 1, "°");

@@ -47,25 +47,7 @@ figcaption { margin-top: 0.4rem; max-width: 52rem; }
 .drawing img { display: block; width: 100%; height: auto; background: #fff; border: 1px solid var(--rule); border-radius: 4px; }
 .drawing p { font-size: 0.88rem; margin: 0.3rem 0 0; }
 svg { display: block; width: 100%; height: auto; overflow: visible; }
-svg text { font-size: 11px; fill: var(--ink); font-family: inherit; }
-svg .mid { text-anchor: middle; }
-svg .end { text-anchor: end; }
-svg .frame { stroke: var(--soft); stroke-width: 1; fill: none; }
-svg .grid { stroke: var(--rule); stroke-width: 0.7; fill: none; }
-svg .limit { stroke: var(--bad); stroke-width: 1.2; stroke-dasharray: 5 3; fill: none; }
-svg .ground { fill: var(--none); }
-svg .hollow { fill: var(--hollow); }
-svg .cell { shape-rendering: crispEdges; }
-svg .line { stroke: var(--day); stroke-width: 2; fill: none; stroke-linejoin: round; }
-svg .key { stroke: var(--day); stroke-width: 2.5; }
-svg .halo-text { paint-order: stroke; stroke: var(--page); stroke-width: 3px; stroke-linejoin: round; }
-svg .dot { fill: var(--day); stroke: var(--page); stroke-width: 1; }
-svg .mark { fill: #fff; stroke: #000; stroke-width: 0.8; }
-svg .halo { fill: none; stroke: #fff; stroke-width: 3.4; }
-svg .ring { fill: none; stroke: #000; stroke-width: 1.4; }
 @media (prefers-color-scheme: dark) {
-  svg .line, svg .key { stroke: var(--night); }
-  svg .dot { fill: var(--night); }
   .drawing img { filter: invert(0.9) hue-rotate(180deg); }
 }
 .wide { overflow-x: auto; margin: 0.6rem 0 1rem; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The style sheet of a report: a phone's column to a wide screen, light and dark, and paper.
+// The style sheet of a report: a phone's column to a wide screen, light and dark, and paper. Its charts have theirs (charts/style.h).
 #pragma once
 
 namespace wholehand {

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <regex>
@@ -17,6 +16,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/scenes.h"
+#include "tests/support/xml.h"
 
 namespace wholehand {
 namespace {
@@ -28,52 +28,6 @@ GripReport report_of(const Scene& scene, std::size_t vessel, const GripInput& gr
 
 std::string drawn(const Scene& scene, std::size_t vessel, const GripInput& grip) {
   return grip_svg(scene, vessel, report_of(scene, vessel, grip));
-}
-
-// name, then name="value" any number of times, then perhaps a slash.
-bool is_tag(const std::string& tag) {
-  std::size_t at = 0;
-  const auto name = [&] {
-    const std::size_t from = at;
-    while (at < tag.size() && (std::isalpha(static_cast<unsigned char>(tag[at])) || tag[at] == '-' || tag[at] == ':')) ++at;
-    return at > from;
-  };
-  if (!name()) return false;
-  while (at < tag.size() && tag[at] == ' ') {
-    ++at;
-    if (!name() || tag.compare(at, 2, "=\"") != 0) return false;
-    const std::size_t end = tag.find('"', at + 2);
-    if (end == std::string::npos || tag.find_first_of("<&", at) < end) return false;
-    at = end + 1;
-  }
-  return at == tag.size() || (tag[at] == '/' && at + 1 == tag.size());
-}
-
-// Every tag is closed in its order, attributes are quoted, text has no bare '&', and there is no number that is none.
-void expect_well_formed(const std::string& xml) {
-  std::vector<std::string> open;
-  std::size_t at = 0;
-  while ((at = xml.find('<', at)) != std::string::npos) {
-    const std::size_t end = xml.find('>', at);
-    ASSERT_NE(end, std::string::npos);
-    std::string tag = xml.substr(at + 1, end - at - 1);
-    at = end;
-    if (tag[0] == '/') {
-      ASSERT_FALSE(open.empty());
-      EXPECT_EQ(tag.substr(1), open.back());
-      open.pop_back();
-      continue;
-    }
-    EXPECT_TRUE(is_tag(tag)) << tag;
-    if (!tag.ends_with('/')) open.push_back(tag.substr(0, tag.find(' ')));
-  }
-  EXPECT_TRUE(open.empty());
-  for (std::size_t amp = xml.find('&'); amp != std::string::npos; amp = xml.find('&', amp + 1)) {
-    EXPECT_TRUE(xml.compare(amp, 5, "&amp;") == 0 || xml.compare(amp, 4, "&lt;") == 0 || xml.compare(amp, 4, "&gt;") == 0);
-  }
-  EXPECT_EQ(xml.find("nan"), std::string::npos);
-  EXPECT_EQ(xml.find("inf"), std::string::npos);
-  EXPECT_EQ(xml.find("-0.00"), std::string::npos);
 }
 
 std::string group(const std::string& svg, const std::string& id) {
@@ -116,10 +70,10 @@ TEST(GripSvg, IsWellFormedForEveryVesselAndRoll) {
 
 TEST(GripSvg, HasTheWordsOfAScreenReader) {
   Scene scene = three_beakers();
-  scene.vessels[0].name = "a <b> & \"c\"";
+  scene.vessels[0].name = "a <b> & \"c\"\x01\xff";
   const std::string svg = drawn(scene, 0, BESIDE);
   expect_well_formed(svg);
-  EXPECT_NE(svg.find("<title id=\"title\">Grip of a &lt;b&gt; &amp; \"c\"</title>"), std::string::npos);
+  EXPECT_NE(svg.find("<title id=\"title\">Grip of a &lt;b&gt; &amp; &quot;c&quot;\uFFFD\uFFFD</title>"), std::string::npos);
   EXPECT_NE(svg.find("aria-labelledby=\"title desc\""), std::string::npos);
   EXPECT_NE(svg.find("80 mm wide and 110 mm high, between thumb and index finger 58.5 mm above its base"), std::string::npos);
   EXPECT_NE(svg.find("The thumb touches with 1 of its 4 points."), std::string::npos) << svg.substr(0, 1500);

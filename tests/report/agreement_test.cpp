@@ -22,10 +22,10 @@ std::set<std::string> quantities(const Agreement& agreement) {
 }
 
 std::string written_agreement(const SweptScene& swept, std::size_t vessel) {
-  HtmlWriter html;
+  MarkupWriter html;
   write_agreement(html, *swept.source, vessel, "v");
   EXPECT_TRUE(html.is_closed());
-  return html.html();
+  return html.written();
 }
 
 TEST(Agreement, OfTheCoresOwnSweepIsExact) {

@@ -16,17 +16,17 @@ GripInput best_of(const SweptScene& swept, std::size_t vessel) {
 }
 
 std::string forces_text(const SweptScene& swept, std::size_t vessel) {
-  HtmlWriter html;
+  MarkupWriter html;
   write_forces(html, *swept.source, vessel, best_of(swept, vessel), "v");
   EXPECT_TRUE(html.is_closed());
-  return html.html();
+  return html.written();
 }
 
 std::string pouring_text(const SweptScene& swept, std::size_t vessel) {
-  HtmlWriter html;
+  MarkupWriter html;
   write_pouring(html, *swept.source, vessel, "v");
   EXPECT_TRUE(html.is_closed());
-  return html.html();
+  return html.written();
 }
 
 TEST(ReportForces, AreTheCoresOverFillsAndTilts) {
@@ -98,8 +98,8 @@ TEST(ReportPouring, TellsTheTiltOfEachFill) {
   const std::string html = pouring_text(swept, 1);
   EXPECT_TRUE(has(html, "<th scope=\"row\">0\u00a0%</th>\n<td>0</td>\n<td>nothing to pour</td>")) << html;
   const double tilt = degrees(swept.source->core->pouring_tilt(1, 0.6)), volume = 0.6e6 * swept.source->core->capacity(1);
-  EXPECT_TRUE(
-      has(html, "<th scope=\"row\">60\u00a0%</th>\n<td>" + html_number(volume, 0) + "</td>\n<td>" + html_number(tilt, 1) + "</td>"))
+  EXPECT_TRUE(has(
+      html, "<th scope=\"row\">60\u00a0%</th>\n<td>" + shown_number(volume, 0) + "</td>\n<td>" + shown_number(tilt, 1) + "</td>"))
       << html;
 }
 

@@ -15,10 +15,10 @@ namespace wholehand {
 namespace {
 
 std::string written_grips(const SweptScene& swept, std::size_t vessel) {
-  HtmlWriter html;
+  MarkupWriter html;
   write_grips(html, *swept.source, vessel, read_grips(*swept.source, vessel), "v");
   EXPECT_TRUE(html.is_closed());
-  return html.html();
+  return html.written();
 }
 
 std::size_t times_in(const std::string& text, const std::string& part) {

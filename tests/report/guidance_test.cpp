@@ -15,11 +15,11 @@ namespace wholehand {
 namespace {
 
 std::string written_guidance(const SweptScene& swept, std::size_t vessel) {
-  HtmlWriter html;
+  MarkupWriter html;
   write_guidance(html, *swept.source, vessel, "v");
   EXPECT_TRUE(html.is_closed());
-  EXPECT_EQ(html.html().find("nan"), std::string::npos);
-  return html.html();
+  EXPECT_EQ(html.written().find("nan"), std::string::npos);
+  return html.written();
 }
 
 TEST(GuidedGrips, AreTheFeasibleAndPlausibleOnes) {
@@ -86,7 +86,7 @@ TEST(ReportGuidance, HasARowForEachPointOfTheHand) {
   EXPECT_EQ(rows, 24u);
   const GuidanceStatistics statistics = guidance_statistics(guided_grips(*swept.source, 0).grips);
   EXPECT_NE(html.find("n = " + std::to_string(statistics.grips)), std::string::npos);
-  EXPECT_NE(html.find("r = " + html_number(*statistics.fingers.r, 2)), std::string::npos);
+  EXPECT_NE(html.find("r = " + shown_number(*statistics.fingers.r, 2)), std::string::npos);
   EXPECT_NE(html.find("55.0 mm, 0°; 35.0 mm, 180°"), std::string::npos);
 }
 

@@ -95,11 +95,11 @@ TEST(ReportMaps, WithoutTheCoreWhatTheFileLacksIsLeftOut) {
   swept.source->core = nullptr;
   const GripMap map = read_map(*swept.source, 0);
   EXPECT_FALSE(map.has_fingers || map.has_forces);
-  HtmlWriter html;
+  MarkupWriter html;
   write_maps(html, *swept.source, 0, map, map_scales({map}), swept.result->best(0), "v");
-  EXPECT_NE(html.html().find("does not have the fingers used"), std::string::npos);
-  EXPECT_NE(html.html().find("does not have the forces"), std::string::npos);
-  EXPECT_EQ(html.html().find("v-fingers-title"), std::string::npos);
+  EXPECT_NE(html.written().find("does not have the fingers used"), std::string::npos);
+  EXPECT_NE(html.written().find("does not have the forces"), std::string::npos);
+  EXPECT_EQ(html.written().find("v-fingers-title"), std::string::npos);
 }
 
 TEST(ReportMaps, NoScoreNoMap) {
@@ -121,9 +121,9 @@ TEST(ReportMaps, SobolPointsAreBinned) {
     best = std::max(best, cell.score);
   }
   EXPECT_EQ(best, *std::max_element(scores.begin(), scores.begin() + 600));
-  HtmlWriter html;
+  MarkupWriter html;
   write_maps(html, *swept.source, 0, map, map_scales({map}), swept.result->best(0), "v");
-  EXPECT_NE(html.html().find("the sweep has points and no grid"), std::string::npos);
+  EXPECT_NE(html.written().find("the sweep has points and no grid"), std::string::npos);
 }
 
 TEST(ReportMaps, CountsAreThoseOfTheFile) {
@@ -177,17 +177,17 @@ TEST(ReportMaps, DamagedValuesAreNoBest) {
 
 TEST(ReportMaps, OneGripAndNoGripGetASentence) {
   const SweptScene one(edited(edited(RESULT_SCENE, "{ from = 0.1, to = 0.95, count = 12 }", "0.5"), "[-90, -30, 0]", "0"));
-  HtmlWriter html;
+  MarkupWriter html;
   const GripMap map = read_map(*one.source, 0);
   write_maps(html, *one.source, 0, map, map_scales({map}), {}, "v");
-  EXPECT_NE(html.html().find("one height and one roll"), std::string::npos);
-  EXPECT_EQ(html.html().find("<svg"), std::string::npos);
+  EXPECT_NE(html.written().find("one height and one roll"), std::string::npos);
+  EXPECT_EQ(html.written().find("<svg"), std::string::npos);
   const SweptScene none(edited(RESULT_SCENE, "diameter_mm = 70", "diameter_mm = 300"));
-  HtmlWriter other;
+  MarkupWriter other;
   const GripMap empty = read_map(*none.source, 0);
   EXPECT_EQ(empty.best(), nullptr);
   write_maps(other, *none.source, 0, empty, map_scales({empty}), {}, "v");
-  EXPECT_NE(other.html().find("nothing to map"), std::string::npos);
+  EXPECT_NE(other.written().find("nothing to map"), std::string::npos);
 }
 
 }  // namespace

@@ -108,9 +108,9 @@ TEST(ReportPage, EachHandScaleHasAListOfItsOwn) {
     const std::size_t row = page.find("<tbody>", page.find("<table", place));
     ASSERT_NE(row, std::string::npos);
     const std::string first = page.substr(row, page.find("</tr>", row) - row);
-    EXPECT_TRUE(has(first, html_number(result.best(0, scale).front().score, 3))) << first;
+    EXPECT_TRUE(has(first, shown_number(result.best(0, scale).front().score, 3))) << first;
   }
-  EXPECT_NE(html_number(result.best(0, 0).front().score, 3), html_number(result.best(0, 1).front().score, 3));
+  EXPECT_NE(shown_number(result.best(0, 0).front().score, 3), shown_number(result.best(0, 1).front().score, 3));
 }
 
 TEST(ReportPage, TellsOnWhatItRan) {

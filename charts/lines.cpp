@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "report/lines.h"
+#include "charts/lines.h"
 
 #include <fmt/format.h>
 
@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 #include <utility>
+
+#include "charts/colors.h"
 
 namespace wholehand {
 namespace {
@@ -138,37 +140,37 @@ DrawnLine drawn_line(const PlotArea& area, const LineChart& chart, const LineCha
   return drawn;
 }
 
-void put_curve(HtmlWriter& html, const PlotArea& area, const LineChart& chart, const LineChart::Line& line, const DrawnLine& drawn,
+void put_curve(MarkupWriter& svg, const PlotArea& area, const LineChart& chart, const LineChart::Line& line, const DrawnLine& drawn,
                const std::string& style) {
-  html.open("g", {{"style", style}});
-  html.empty("path", {{"class", "line"}, {"d", drawn.path}});
+  svg.open("g", {{"style", style}});
+  svg.empty("path", {{"class", "line"}, {"d", drawn.path}});
   const auto dot = [&](double x, double y) {
-    html.empty("circle", {{"class", "dot"}, {"cx", chart_number(x)}, {"cy", chart_number(y)}, {"r", "3.5"}});
+    svg.empty("circle", {{"class", "dot"}, {"cx", chart_number(x)}, {"cy", chart_number(y)}, {"r", "3.5"}});
   };
   if (chart.x.size() == 1) dot(drawn.points[0][0], drawn.points[0][1]);
   const double marked = line.marked_x ? height_at(chart, line, *line.marked_x) : std::nan("");
   if (std::isfinite(marked) && marked <= area.y_high) dot(area.x(*line.marked_x), area.y(marked));
-  html.close();
+  svg.close();
 }
 
-void put_label(HtmlWriter& html, const LabelBox& box, const std::string& label, const std::string& style) {
+void put_label(MarkupWriter& svg, const LabelBox& box, const std::string& label, const std::string& style) {
   const double middle = box.top + 0.5 * CHART_LETTER;
-  html.open("g", {{"style", style}});
-  put_line(html, box.left, middle, box.left + KEY_WIDTH - 4, middle, "key");
-  put_text(html, box.left + KEY_WIDTH, box.top + 0.85 * CHART_LETTER, label, "halo-text");
-  html.close();
+  svg.open("g", {{"style", style}});
+  put_line(svg, box.left, middle, box.left + KEY_WIDTH - 4, middle, "key");
+  put_text(svg, box.left + KEY_WIDTH, box.top + 0.85 * CHART_LETTER, label, "halo-text");
+  svg.close();
 }
 
 }  // namespace
 
-void write_chart(HtmlWriter& html, const LineChart& chart) {
+void write_chart(MarkupWriter& svg, const LineChart& chart) {
   const PlotArea area = area_of(chart);
-  open_chart(html, chart.name, area.bottom + 10 + 2.6 * CHART_LETTER);
-  put_y_axis(html, area, round_ticks(area.y_low, area.y_high, 5), chart.y_label, true);
-  put_x_axis(html, area, round_ticks(area.x_low, area.x_high, 6, chart.x_is_angle), chart.x_label);
+  open_chart(svg, chart.name, area.bottom + 10 + 2.6 * CHART_LETTER);
+  put_y_axis(svg, area, round_ticks(area.y_low, area.y_high, 5), chart.y_label, true);
+  put_x_axis(svg, area, round_ticks(area.x_low, area.x_high, 6, chart.x_is_angle), chart.x_label);
   if (chart.limit && chart.limit->y <= area.y_high) {
-    put_line(html, area.left, area.y(chart.limit->y), area.right, area.y(chart.limit->y), "limit");
-    put_text(html, area.right, area.y(chart.limit->y) - 4, chart.limit->label, "end");
+    put_line(svg, area.left, area.y(chart.limit->y), area.right, area.y(chart.limit->y), "limit");
+    put_text(svg, area.right, area.y(chart.limit->y) - 4, chart.limit->label, "end");
   }
   std::vector<std::vector<Point>> drawn;
   std::vector<std::string> labels, styles;
@@ -179,12 +181,12 @@ void write_chart(HtmlWriter& html, const LineChart& chart) {
     // the palest shades are lost on white, the darkest on black
     styles.push_back(
         fmt::format("--day:{};--night:{}", sequential_color(0.78 * line.shade), sequential_color(0.3 + 0.7 * line.shade)));
-    put_curve(html, area, chart, line, curve, styles.back());
+    put_curve(svg, area, chart, line, curve, styles.back());
     drawn.push_back(std::move(curve.points));
   }
   const std::vector<LabelBox> boxes = place_labels(area, drawn, labels);
-  for (std::size_t i = 0; i < boxes.size(); ++i) put_label(html, boxes[i], labels[i], styles[i]);
-  html.close();
+  for (std::size_t i = 0; i < boxes.size(); ++i) put_label(svg, boxes[i], labels[i], styles[i]);
+  svg.close();
 }
 
 }  // namespace wholehand

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Charts (report/axes, report/field, report/lines): values where they belong, colours in their order, words for those who do not
+// Charts (charts/axes, charts/colors, charts/field, charts/lines): values where they belong, colours in their order, words for those who do not
 // see them.
 // sanitizers: address
 #include <gtest/gtest.h>
@@ -10,20 +10,16 @@
 #include <map>
 #include <regex>
 
-#include "report/field.h"
-#include "report/lines.h"
+#include "charts/colors.h"
+#include "charts/field.h"
+#include "charts/lines.h"
 #include "tests/support/special_values.h"
+#include "tests/support/xml.h"
 
 namespace wholehand {
 namespace {
 
 constexpr double TENTH = 0.051;  // units: coordinates are written to a tenth
-
-int count_of(const std::string& text, const std::string& part) {
-  int count = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
-  return count;
-}
 
 // ---- axes ----
 
@@ -79,12 +75,12 @@ FieldChart two_by_three() {
 }
 
 std::string written(const FieldChart& chart) {
-  HtmlWriter html;
+  MarkupWriter html;
   write_chart(html, chart);
   EXPECT_TRUE(html.is_closed());
-  EXPECT_EQ(html.html().find("nan"), std::string::npos);
-  EXPECT_EQ(html.html().find("inf"), std::string::npos);
-  return html.html();
+  EXPECT_EQ(html.written().find("nan"), std::string::npos);
+  EXPECT_EQ(html.written().find("inf"), std::string::npos);
+  return html.written();
 }
 
 // The rectangles of the cells by their colour: left, bottom, right, top.
@@ -209,12 +205,12 @@ LineChart three_lines() {
 }
 
 std::string written(const LineChart& chart) {
-  HtmlWriter html;
+  MarkupWriter html;
   write_chart(html, chart);
   EXPECT_TRUE(html.is_closed());
-  EXPECT_EQ(html.html().find("nan"), std::string::npos);
-  EXPECT_EQ(html.html().find("inf"), std::string::npos);
-  return html.html();
+  EXPECT_EQ(html.written().find("nan"), std::string::npos);
+  EXPECT_EQ(html.written().find("inf"), std::string::npos);
+  return html.written();
 }
 
 std::vector<std::string> paths_in(const std::string& svg) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// A chart of a report: a field of cells that are coloured by their values.
+// A chart: a field of cells that are coloured by their values.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "report/axes.h"
+#include "charts/axes.h"
 
 namespace wholehand {
 
@@ -38,6 +38,6 @@ struct FieldChart {
   std::vector<Mark> marks;
   std::string mark;  // what a mark means
 };
-void write_chart(HtmlWriter& html, const FieldChart& chart);
+void write_chart(MarkupWriter& svg, const FieldChart& chart);
 
 }  // namespace wholehand

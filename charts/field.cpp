@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "report/field.h"
+#include "charts/field.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+
+#include "charts/colors.h"
 
 namespace wholehand {
 namespace {
@@ -32,7 +34,7 @@ std::string shade_color(const ColorScale& scale, int shade) {
 
 // Cells of one colour are one path, and those above one another one rectangle: a chart of many cells stays small. Each reaches a little under
 // its neighbours, so that a printer leaves no seams.
-void put_cells(HtmlWriter& html, const FieldChart& chart, const PlotArea& area) {
+void put_cells(MarkupWriter& svg, const FieldChart& chart, const PlotArea& area) {
   constexpr double UNDER = 0.3;            // units
   constexpr int HOLLOW = -1, ABSENT = -2;  // the ground shows what is absent
   std::map<int, std::string> paths;        // by shade
@@ -55,62 +57,62 @@ void put_cells(HtmlWriter& html, const FieldChart& chart, const PlotArea& area) 
   }
   for (const auto& [shade, path] : paths) {
     if (shade == HOLLOW) {
-      html.empty("path", {{"class", "cell hollow"}, {"d", path}});
+      svg.empty("path", {{"class", "cell hollow"}, {"d", path}});
     } else {
-      html.empty("path", {{"class", "cell"}, {"fill", shade_color(chart.scale, shade)}, {"d", path}});
+      svg.empty("path", {{"class", "cell"}, {"fill", shade_color(chart.scale, shade)}, {"d", path}});
     }
   }
 }
 
 // A grey and what it means, from `x` on. Returns where that ends.
-double put_swatch(HtmlWriter& html, double x, double y, const char* style, const std::string& label) {
-  html.empty("rect", {{"x", chart_number(x)}, {"y", chart_number(y - 9)}, {"width", "12"}, {"height", "10"}, {"class", style}});
-  put_text(html, x + 16, y, label, "start");
+double put_swatch(MarkupWriter& svg, double x, double y, const char* style, const std::string& label) {
+  svg.empty("rect", {{"x", chart_number(x)}, {"y", chart_number(y - 9)}, {"width", "12"}, {"height", "10"}, {"class", style}});
+  put_text(svg, x + 16, y, label, "start");
   return x + 22 + CHART_LETTER_WIDTH * static_cast<double>(label.size());
 }
 
-void put_scale(HtmlWriter& html, const FieldChart& chart, const PlotArea& area, double y) {
+void put_scale(MarkupWriter& svg, const FieldChart& chart, const PlotArea& area, double y) {
   const ColorScale& scale = chart.scale;
   double x = area.left;
-  put_text(html, x, y, scale.label, "start");
+  put_text(svg, x, y, scale.label, "start");
   const double right = area.right;
   if (scale.steps > 0) {
     const double width = 22;
     x = right - width * scale.steps;
     for (int step = 0; step < scale.steps; ++step, x += width) {
-      html.empty("rect", {{"x", chart_number(x)},
-                          {"y", chart_number(y - 9)},
-                          {"width", chart_number(width)},
-                          {"height", "10"},
-                          {"fill", shade_color(scale, step)}});
-      put_text(html, x + 0.5 * width, y + 2 + CHART_LETTER, html_number(scale.low + step, 0), "mid");
+      svg.empty("rect", {{"x", chart_number(x)},
+                         {"y", chart_number(y - 9)},
+                         {"width", chart_number(width)},
+                         {"height", "10"},
+                         {"fill", shade_color(scale, step)}});
+      put_text(svg, x + 0.5 * width, y + 2 + CHART_LETTER, shown_number(scale.low + step, 0), "mid");
     }
     return;
   }
   const double width = 132, left = right - width;
   for (int shade = 0; shade < SHADES; shade += 2) {
     const double from = left + width * shade / SHADES;
-    html.empty("rect", {{"x", chart_number(from)},
-                        {"y", chart_number(y - 9)},
-                        {"width", chart_number(width * 2 / SHADES + 0.3)},
-                        {"height", "10"},
-                        {"fill", shade_color(scale, shade + 1)}});
+    svg.empty("rect", {{"x", chart_number(from)},
+                       {"y", chart_number(y - 9)},
+                       {"width", chart_number(width * 2 / SHADES + 0.3)},
+                       {"height", "10"},
+                       {"fill", shade_color(scale, shade + 1)}});
   }
-  put_text(html, left, y + 2 + CHART_LETTER, html_number(scale.low, scale.digits), "start");
-  put_text(html, right, y + 2 + CHART_LETTER, html_number(scale.high, scale.digits), "end");
+  put_text(svg, left, y + 2 + CHART_LETTER, shown_number(scale.low, scale.digits), "start");
+  put_text(svg, right, y + 2 + CHART_LETTER, shown_number(scale.high, scale.digits), "end");
 }
 
-void put_mark(HtmlWriter& html, double x, double y, bool is_first) {
+void put_mark(MarkupWriter& svg, double x, double y, bool is_first) {
   if (is_first) {
-    html.empty("circle", {{"class", "halo"}, {"cx", chart_number(x)}, {"cy", chart_number(y)}, {"r", "6"}});
-    html.empty("circle", {{"class", "ring"}, {"cx", chart_number(x)}, {"cy", chart_number(y)}, {"r", "6"}});
+    svg.empty("circle", {{"class", "halo"}, {"cx", chart_number(x)}, {"cy", chart_number(y)}, {"r", "6"}});
+    svg.empty("circle", {{"class", "ring"}, {"cx", chart_number(x)}, {"cy", chart_number(y)}, {"r", "6"}});
   }
-  html.empty("circle", {{"class", "mark"}, {"cx", chart_number(x)}, {"cy", chart_number(y)}, {"r", "2.2"}});
+  svg.empty("circle", {{"class", "mark"}, {"cx", chart_number(x)}, {"cy", chart_number(y)}, {"r", "2.2"}});
 }
 
 }  // namespace
 
-void write_chart(HtmlWriter& html, const FieldChart& chart) {
+void write_chart(MarkupWriter& svg, const FieldChart& chart) {
   const bool has_names = !chart.rows.empty();
   const double tall = has_names ? chart.row_height * static_cast<double>(chart.rows.size()) : 236;
   PlotArea area{
@@ -118,36 +120,36 @@ void write_chart(HtmlWriter& html, const FieldChart& chart) {
       chart.y_edges.back()};
   double below = area.bottom + 8 + 4 * CHART_LETTER;
   const bool has_greys = !chart.absent.empty() || !chart.hollow.empty() || !chart.marks.empty();
-  open_chart(html, chart.name, below + 2 * CHART_LETTER + (has_greys ? 1.4 * CHART_LETTER : 0));
-  html.empty("rect", {{"class", "ground"},
-                      {"x", chart_number(area.left)},
-                      {"y", chart_number(area.top)},
-                      {"width", chart_number(area.right - area.left)},
-                      {"height", chart_number(area.bottom - area.top)}});
-  put_cells(html, chart, area);
-  put_x_axis(html, area, cell_ticks(chart.x_edges, 6, chart.x_is_angle), chart.x_label);
+  open_chart(svg, chart.name, below + 2 * CHART_LETTER + (has_greys ? 1.4 * CHART_LETTER : 0));
+  svg.empty("rect", {{"class", "ground"},
+                     {"x", chart_number(area.left)},
+                     {"y", chart_number(area.top)},
+                     {"width", chart_number(area.right - area.left)},
+                     {"height", chart_number(area.bottom - area.top)}});
+  put_cells(svg, chart, area);
+  put_x_axis(svg, area, cell_ticks(chart.x_edges, 6, chart.x_is_angle), chart.x_label);
   if (has_names) {
     for (std::size_t r = 0; r < chart.rows.size(); ++r)
-      put_text(html, area.left - 6, area.y(0.5 * (chart.y_edges[r] + chart.y_edges[r + 1])) + 0.35 * CHART_LETTER, chart.rows[r],
+      put_text(svg, area.left - 6, area.y(0.5 * (chart.y_edges[r] + chart.y_edges[r + 1])) + 0.35 * CHART_LETTER, chart.rows[r],
                "end");
-    put_text(html, 2, area.top - 12, chart.y_label, "start");
+    put_text(svg, 2, area.top - 12, chart.y_label, "start");
   } else {
-    put_y_axis(html, area, cell_ticks(chart.y_edges, 6, false), chart.y_label, false);
+    put_y_axis(svg, area, cell_ticks(chart.y_edges, 6, false), chart.y_label, false);
   }
   for (auto mark = chart.marks.rbegin(); mark != chart.marks.rend(); ++mark)
-    put_mark(html, area.x(mark->x), area.y(mark->y), mark->is_first);
-  put_scale(html, chart, area, below);
+    put_mark(svg, area.x(mark->x), area.y(mark->y), mark->is_first);
+  put_scale(svg, chart, area, below);
   if (has_greys) {
     below += 2.6 * CHART_LETTER + 2;
     double x = 2;
-    if (!chart.hollow.empty()) x = put_swatch(html, x, below, "hollow", chart.hollow);
-    if (!chart.absent.empty()) x = put_swatch(html, x, below, "ground", chart.absent);
+    if (!chart.hollow.empty()) x = put_swatch(svg, x, below, "hollow", chart.hollow);
+    if (!chart.absent.empty()) x = put_swatch(svg, x, below, "ground", chart.absent);
     if (!chart.marks.empty()) {
-      put_mark(html, x + 6, below - 4, chart.marks.front().is_first);
-      put_text(html, x + 16, below, chart.mark, "start");
+      put_mark(svg, x + 6, below - 4, chart.marks.front().is_first);
+      put_text(svg, x + 16, below, chart.mark, "start");
     }
   }
-  html.close();
+  svg.close();
 }
 
 }  // namespace wholehand

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A chart of a report: lines over a common x.
+// A chart: lines over a common x.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "report/axes.h"
+#include "charts/axes.h"
 
 namespace wholehand {
 
@@ -30,6 +30,6 @@ struct LineChart {
   std::optional<Limit> limit;  // a level line, shown where it is within the chart
   double highest = 0;          // of the y that is shown; 0: of all lines
 };
-void write_chart(HtmlWriter& html, const LineChart& chart);
+void write_chart(MarkupWriter& svg, const LineChart& chart);
 
 }  // namespace wholehand

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "charts/markup.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+
+namespace wholehand {
+namespace {
+
+constexpr const char* REPLACEMENT = "\uFFFD";
+
+// Length of the UTF-8 character at the start of `text`; 0 where there is none, or one that XML does not know.
+std::size_t character_length(std::string_view text) {
+  const auto byte = [text](std::size_t i) { return i < text.size() ? static_cast<std::uint8_t>(text[i]) : 0u; };
+  const std::uint32_t lead = byte(0);
+  const std::size_t length = lead < 0x80                   ? 1
+                             : lead >= 0xC2 && lead < 0xE0 ? 2
+                             : lead >= 0xE0 && lead < 0xF0 ? 3
+                             : lead >= 0xF0 && lead < 0xF5 ? 4
+                                                           : 0;
+  if (length == 0) return 0;
+  std::uint32_t code = length == 1 ? lead : lead & (0xFFu >> (length + 1));
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xC0u) != 0x80u) return 0;
+    code = code << 6 | (byte(i) & 0x3Fu);
+  }
+  const bool is_shortest = length < 3 || code >= (length == 3 ? 0x800u : 0x10000u);
+  const bool is_allowed = code == '\t' || code == '\n' || code == '\r' || (code >= 0x20 && code < 0x7F) ||
+                          (code >= 0xA0 && code < 0xD800) || (code >= 0xE000 && code < 0xFFFE) ||
+                          (code >= 0x10000 && code <= 0x10FFFF);
+  return is_shortest && is_allowed ? length : 0;
+}
+
+// Whether white space after it would be seen.
+bool is_in_line(std::string_view tag) {
+  const auto tags = {"a", "b", "code", "span", "strong", "tspan"};
+  return std::find(tags.begin(), tags.end(), tag) != tags.end();
+}
+
+}  // namespace
+
+std::string markup_escaped(std::string_view text) {
+  std::string safe;
+  safe.reserve(text.size() + text.size() / 8);
+  while (!text.empty()) {
+    const std::size_t length = character_length(text);
+    switch (length == 1 ? text.front() : '\0') {
+      case '&':
+        safe += "&amp;";
+        break;
+      case '<':
+        safe += "&lt;";
+        break;
+      case '>':
+        safe += "&gt;";
+        break;
+      case '"':
+        safe += "&quot;";
+        break;
+      case '\'':
+        safe += "&#39;";
+        break;
+      case '\r':  // both parsers make line feeds of it
+        safe += "&#13;";
+        break;
+      default:
+        if (length == 0) {
+          safe += REPLACEMENT;
+        } else {
+          safe += text.substr(0, length);
+        }
+    }
+    text.remove_prefix(length == 0 ? 1 : length);
+  }
+  return safe;
+}
+
+void MarkupWriter::tag(const char* tag, const Attributes& attributes, const char* end) {
+  text_ += '<';
+  text_ += tag;
+  for (const auto& [name, value] : attributes) {
+    text_ += ' ';
+    text_ += name;
+    text_ += "=\"";
+    text_ += markup_escaped(value);
+    text_ += '"';
+  }
+  text_ += end;
+}
+
+MarkupWriter& MarkupWriter::open(const char* name, const Attributes& attributes) {
+  tag(name, attributes, ">");
+  open_.push_back(name);
+  return *this;
+}
+
+MarkupWriter& MarkupWriter::close() {
+  assert(!open_.empty());
+  text_ += "</";
+  text_ += open_.back();
+  text_ += is_in_line(open_.back()) ? ">" : ">\n";
+  open_.pop_back();
+  return *this;
+}
+
+MarkupWriter& MarkupWriter::text(std::string_view text) {
+  text_ += markup_escaped(text);
+  return *this;
+}
+
+MarkupWriter& MarkupWriter::element(const char* name, std::string_view content, const Attributes& attributes) {
+  return open(name, attributes).text(content).close();
+}
+
+MarkupWriter& MarkupWriter::empty(const char* name, const Attributes& attributes) {
+  tag(name, attributes, "/>\n");
+  return *this;
+}
+
+MarkupWriter& MarkupWriter::markup(std::string_view markup) {
+  text_ += markup;
+  return *this;
+}
+
+std::string shown_number(double value, int digits) {
+  if (std::isnan(value)) return "\u2013";
+  if (std::isinf(value)) return value > 0 ? "\u221E" : "\u2212\u221E";
+  std::string text = fmt::format("{:.{}f}", std::abs(value), digits);
+  const bool is_zero = text.find_first_not_of("0.") == std::string::npos;
+  return value < 0 && !is_zero ? "\u2212" + text : text;
+}
+
+std::string plain_number(double value) {
+  const std::string text = fmt::format("{:.6g}", std::abs(value));
+  return value < 0 && text != "0" ? "\u2212" + text : text;
+}
+
+}  // namespace wholehand
