@@ -11,8 +11,8 @@
 #include "recordings/session_report.h"
 #include "system/files.h"
 #include "system/folder_files.h"
-#include "system/gnuplot.h"
 #include "system/output.h"
+#include "system/pictures.h"
 
 namespace wholehand {
 namespace {

@@ -105,6 +105,14 @@ void put_line(MarkupWriter& svg, double x1, double y1, double x2, double y2, con
                      {"d", fmt::format("M{} {}L{} {}", chart_number(x1), chart_number(y1), chart_number(x2), chart_number(y2))}});
 }
 
+void put_frame(MarkupWriter& svg, const PlotArea& area) {
+  svg.empty("rect", {{"class", "frame"},
+                     {"x", chart_number(area.left)},
+                     {"y", chart_number(area.top)},
+                     {"width", chart_number(area.right - area.left)},
+                     {"height", chart_number(area.bottom - area.top)}});
+}
+
 void put_x_axis(MarkupWriter& svg, const PlotArea& area, const std::vector<double>& ticks, const std::string& label) {
   const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : 1;
   for (const double tick : ticks) {

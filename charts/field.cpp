@@ -8,6 +8,7 @@
 #include <map>
 
 #include "charts/colors.h"
+#include "charts/picture.h"
 
 namespace wholehand {
 namespace {
@@ -89,17 +90,26 @@ void put_scale(MarkupWriter& svg, const FieldChart& chart, const PlotArea& area,
     }
     return;
   }
-  const double width = 132, left = right - width;
+  const double width = std::max(132.0, 0.45 * (right - area.left)), left = right - width;
   for (int shade = 0; shade < SHADES; shade += 2) {
     const double from = left + width * shade / SHADES;
     svg.empty("rect", {{"x", chart_number(from)},
                        {"y", chart_number(y - 9)},
-                       {"width", chart_number(width * 2 / SHADES + 0.3)},
+                       {"width", chart_number(width * 2 / SHADES + (shade + 2 < SHADES ? 0.3 : 0))},
                        {"height", "10"},
                        {"fill", shade_color(scale, shade + 1)}});
   }
-  put_text(svg, left, y + 2 + CHART_LETTER, shown_number(scale.low, scale.digits), "start");
-  put_text(svg, right, y + 2 + CHART_LETTER, shown_number(scale.high, scale.digits), "end");
+  const std::string low = shown_number(scale.low, scale.digits), high = shown_number(scale.high, scale.digits);
+  put_text(svg, left, y + 2 + CHART_LETTER, low, "start");
+  put_text(svg, right, y + 2 + CHART_LETTER, high, "end");
+  if (!(scale.high > scale.low)) return;
+  // numbers between where they do not touch those at the ends
+  for (const double tick : round_ticks(scale.low, scale.high, std::max(1, static_cast<int>(width / 30)))) {
+    const std::string text = shown_number(tick, scale.digits);
+    const double at = left + width * (tick - scale.low) / (scale.high - scale.low), half = 0.5 * text_width(text) + 6;
+    if (at - half > left + text_width(low) && at + half < right - text_width(high))
+      put_text(svg, at, y + 2 + CHART_LETTER, text, "mid");
+  }
 }
 
 void put_mark(MarkupWriter& svg, double x, double y, bool is_first) {
@@ -110,17 +120,29 @@ void put_mark(MarkupWriter& svg, double x, double y, bool is_first) {
   svg.empty("circle", {{"class", "mark"}, {"cx", chart_number(x)}, {"cy", chart_number(y)}, {"r", "2.2"}});
 }
 
-}  // namespace
+// Where the parts of a chart are that begins at y = `top`.
+struct FieldPlaces {
+  PlotArea area;
+  double scale = 0, greys = 0, end = 0;  // y
+};
 
-void write_chart(MarkupWriter& svg, const FieldChart& chart) {
+FieldPlaces field_places(const FieldChart& chart, double top) {
   const bool has_names = !chart.rows.empty();
-  const double tall = has_names ? chart.row_height * static_cast<double>(chart.rows.size()) : 236;
-  PlotArea area{
-      has_names ? 104.0 : 46.0, 26, CHART_WIDTH - 8, 26 + tall, chart.x_edges.front(), chart.x_edges.back(), chart.y_edges.front(),
-      chart.y_edges.back()};
-  double below = area.bottom + 8 + 4 * CHART_LETTER;
+  const double tall = has_names ? chart.row_height * static_cast<double>(chart.rows.size()) : chart.plot_height;
+  FieldPlaces places;
+  places.area = {has_names ? 104.0 : 46.0, top + 26,
+                 chart.width - 8,          top + 26 + tall,
+                 chart.x_edges.front(),    chart.x_edges.back(),
+                 chart.y_edges.front(),    chart.y_edges.back()};
+  places.scale = places.area.bottom + 8 + 4 * CHART_LETTER;
+  places.greys = places.scale + 2.6 * CHART_LETTER + 2;
   const bool has_greys = !chart.absent.empty() || !chart.hollow.empty() || !chart.marks.empty();
-  open_chart(svg, chart.name, below + 2 * CHART_LETTER + (has_greys ? 1.4 * CHART_LETTER : 0));
+  places.end = places.scale + 2 * CHART_LETTER + (has_greys ? 1.4 * CHART_LETTER : 0);
+  return places;
+}
+
+void put_field(MarkupWriter& svg, const FieldChart& chart, const FieldPlaces& places) {
+  const PlotArea& area = places.area;
   svg.empty("rect", {{"class", "ground"},
                      {"x", chart_number(area.left)},
                      {"y", chart_number(area.top)},
@@ -128,28 +150,43 @@ void write_chart(MarkupWriter& svg, const FieldChart& chart) {
                      {"height", chart_number(area.bottom - area.top)}});
   put_cells(svg, chart, area);
   put_x_axis(svg, area, cell_ticks(chart.x_edges, 6, chart.x_is_angle), chart.x_label);
-  if (has_names) {
+  if (!chart.rows.empty()) {
     for (std::size_t r = 0; r < chart.rows.size(); ++r)
       put_text(svg, area.left - 6, area.y(0.5 * (chart.y_edges[r] + chart.y_edges[r + 1])) + 0.35 * CHART_LETTER, chart.rows[r],
                "end");
     put_text(svg, 2, area.top - 12, chart.y_label, "start");
   } else {
-    put_y_axis(svg, area, cell_ticks(chart.y_edges, 6, false), chart.y_label, false);
+    put_y_axis(svg, area, cell_ticks(chart.y_edges, std::max(6, static_cast<int>((area.bottom - area.top) / 34)), false),
+               chart.y_label, false);
   }
   for (auto mark = chart.marks.rbegin(); mark != chart.marks.rend(); ++mark)
     put_mark(svg, area.x(mark->x), area.y(mark->y), mark->is_first);
-  put_scale(svg, chart, area, below);
-  if (has_greys) {
-    below += 2.6 * CHART_LETTER + 2;
-    double x = 2;
-    if (!chart.hollow.empty()) x = put_swatch(svg, x, below, "hollow", chart.hollow);
-    if (!chart.absent.empty()) x = put_swatch(svg, x, below, "ground", chart.absent);
-    if (!chart.marks.empty()) {
-      put_mark(svg, x + 6, below - 4, chart.marks.front().is_first);
-      put_text(svg, x + 16, below, chart.mark, "start");
-    }
+  put_scale(svg, chart, area, places.scale);
+  double x = 2;
+  if (!chart.hollow.empty()) x = put_swatch(svg, x, places.greys, "hollow", chart.hollow);
+  if (!chart.absent.empty()) x = put_swatch(svg, x, places.greys, "ground", chart.absent);
+  if (!chart.marks.empty()) {
+    put_mark(svg, x + 6, places.greys - 4, chart.marks.front().is_first);
+    put_text(svg, x + 16, places.greys, chart.mark, "start");
   }
+}
+
+}  // namespace
+
+void write_chart(MarkupWriter& svg, const FieldChart& chart) {
+  const FieldPlaces places = field_places(chart, 0);
+  open_chart(svg, chart.name, places.end);
+  put_field(svg, chart, places);
   svg.close();
+}
+
+std::string chart_picture(const FieldChart& chart, double scale) {
+  MarkupWriter svg;
+  const double top = open_picture(svg, {chart.name.title, chart.name.description, chart.width, field_places(chart, 0).end, scale});
+  const FieldPlaces places = field_places(chart, top);
+  put_field(svg, chart, places);
+  put_frame(svg, places.area);
+  return svg.close().written();
 }
 
 }  // namespace wholehand

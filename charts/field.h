@@ -27,6 +27,8 @@ struct FieldChart {
   bool x_is_angle = false;
   std::vector<std::string> rows;  // names of the cells along y, from the first on, in place of a scale; empty: a scale
   double row_height = 13;         // of named rows, units
+  double width = CHART_WIDTH;     // of all of it, units
+  double plot_height = 236;       // of cells without names, units
   std::vector<double> values;     // y-major
   std::vector<CellKind> kinds;    // of the same size
   std::string absent, hollow;     // what the greys mean; empty: there are none
@@ -38,6 +40,9 @@ struct FieldChart {
   std::vector<Mark> marks;
   std::string mark;  // what a mark means
 };
+// For a page: an <svg> in it.
 void write_chart(MarkupWriter& svg, const FieldChart& chart);
+// The text of a picture of its own, `scale` pixels a unit. The name's id is not used.
+std::string chart_picture(const FieldChart& chart, double scale);
 
 }  // namespace wholehand

@@ -10,6 +10,7 @@
 #include <functional>
 
 #include "shaders/layout.h"
+#include "sweeps/heat_map_plot.h"
 
 namespace wholehand {
 namespace {
@@ -241,10 +242,7 @@ MapScales map_scales(const std::vector<GripMap>& maps) {
   MapScales scales{
       {"best score", 0, 1, 2, 0}, {"fingers used", 0, FINGER_COUNT, 0, FINGER_COUNT + 1}, {"peak force (N)", 0, 1, 1, 0}};
   double low = 0, high = 0;
-  if (value_range(maps, &MapCell::score, low, high)) {
-    scales.score.low = std::floor(low * 20) / 20;
-    scales.score.high = std::max(std::ceil(high * 20) / 20, scales.score.low + 0.05);
-  }
+  if (value_range(maps, &MapCell::score, low, high)) scales.score = score_scale(low, high);
   if (value_range(maps, &MapCell::peak_force, low, high)) {
     scales.peak_force.low = std::floor(low * 2) / 2;
     scales.peak_force.high = std::max(std::ceil(high * 2) / 2, scales.peak_force.low + 0.5);

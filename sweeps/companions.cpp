@@ -14,7 +14,7 @@
 #include "sweeps/grip_lists.h"
 #include "sweeps/heat_map_plot.h"
 #include "sweeps/mark.h"
-#include "system/gnuplot.h"
+#include "system/pictures.h"
 
 namespace wholehand {
 namespace {

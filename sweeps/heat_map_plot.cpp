@@ -6,29 +6,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-
-#include "system/gnuplot.h"
 
 namespace wholehand {
 namespace {
 
-// Viridis, sampled: equal steps look equal, in grey print and to colour-blind readers too.
-constexpr const char* PALETTE =
-    "set palette defined (0 '#440154', 1 '#482878', 2 '#3e4a89', 3 '#31688e', 4 '#26828e', 5 '#1f9e89', 6 '#35b779', "
-    "7 '#6ece58', 8 '#b5de2b', 9 '#fde725')\n";
-constexpr const char* INFEASIBLE_COLOR = "#d4d4d4";
-constexpr const char* IMPLAUSIBLE_COLOR = "#8c8c8c";
-
-struct Range {
-  double low = 0, high = 1;
-};
+constexpr double MAP_WIDTH = 480, MAP_HEIGHT = 280, MAP_SCALE = 1.5;  // units of the picture and of its cells; pixels a unit
 
 // A cell whose best grip is implausible has score 0: not a low score but none.
-bool has_score(double score) { return score > 0; }
+bool has_score(double score) { return score > 0 && std::isfinite(score); }
 
-// Of all pictures, widened to whole twentieths.
-Range score_range(const std::vector<HeatMapPicture>& pictures) {
+CellKind kind_of(double score) {
+  if (std::isnan(score)) return CellKind::absent;
+  return has_score(score) ? CellKind::filled : CellKind::hollow;
+}
+
+// Of all pictures.
+ColorScale common_scale(const std::vector<HeatMapPicture>& pictures) {
   double low = INFINITY, high = -INFINITY;
   for (const HeatMapPicture& picture : pictures) {
     for (const double score : picture.map->scores()) {
@@ -37,10 +30,51 @@ Range score_range(const std::vector<HeatMapPicture>& pictures) {
       high = std::max(high, score);
     }
   }
-  if (low > high) return {};
-  low = std::floor(low * 20) / 20;
-  high = std::ceil(high * 20) / 20;
-  return {low, high > low ? high : low + 0.05};
+  return low <= high ? score_scale(low, high) : ColorScale{"best score", 0, 1, 2, 0};
+}
+
+// What the map shows, in sentences for those who do not see it.
+std::string spoken(const FieldChart& chart) {
+  const auto count = [&chart](CellKind kind) { return std::count(chart.kinds.begin(), chart.kinds.end(), kind); };
+  const std::size_t columns = chart.x_edges.size() - 1;
+  const std::size_t cells = chart.kinds.size();
+  std::string text = fmt::format("Heat map of the best score over roll and height, {} cells.", cells);
+  std::size_t best = cells;
+  double least = INFINITY;
+  for (std::size_t i = 0; i < cells; ++i) {
+    if (chart.kinds[i] != CellKind::filled) continue;
+    least = std::min(least, chart.values[i]);
+    if (best == cells || chart.values[i] > chart.values[best]) best = i;
+  }
+  if (best < cells) {
+    const std::size_t row = best / columns, column = best % columns;
+    text +=
+        fmt::format(" Scores from {} to {}, the highest at a roll of {}\u00b0 and a height of {} mm.", shown_number(least, 3),
+                    shown_number(chart.values[best], 3), shown_number(0.5 * (chart.x_edges[column] + chart.x_edges[column + 1]), 1),
+                    shown_number(0.5 * (chart.y_edges[row] + chart.y_edges[row + 1]), 1));
+  }
+  return text + fmt::format(" Cells with only implausible grips: {}. Cells without a feasible grip: {}.", count(CellKind::hollow),
+                            count(CellKind::absent));
+}
+
+FieldChart map_chart(const HeatMapPicture& picture, const ColorScale& scale) {
+  const HeatMap& map = *picture.map;
+  FieldChart chart;
+  chart.x_label = "roll (\u00b0)";
+  chart.y_label = "height (mm)";
+  chart.x_is_angle = true;
+  chart.width = MAP_WIDTH;
+  chart.plot_height = MAP_HEIGHT;
+  for (std::size_t r = 0; r <= map.rolls().cells(); ++r) chart.x_edges.push_back(degrees(map.rolls().edge(r)));
+  for (std::size_t h = 0; h <= map.heights().cells(); ++h)
+    chart.y_edges.push_back((picture.height_zero + map.heights().edge(h) * picture.height_unit) * 1e3);
+  chart.values = map.scores();
+  for (const double score : chart.values) chart.kinds.push_back(kind_of(score));
+  chart.hollow = "only implausible grips";
+  chart.absent = "no feasible grip";
+  chart.scale = scale;
+  chart.name = {"", picture.title, spoken(chart)};
+  return chart;
 }
 
 }  // namespace
@@ -90,56 +124,17 @@ std::vector<HeatMapPicture> sweep_pictures(const Scene& scene, const Plan& plan,
   return pictures;
 }
 
-std::string heat_map_script(const std::vector<HeatMapPicture>& pictures) {
-  std::string script;
-  auto out = std::back_inserter(script);
-  const Range range = score_range(pictures);
-  script += gnuplot_style(720, 515);
-  fmt::format_to(out,
-                 "{}set cbrange [{}:{}]\n"
-                 "set xlabel 'roll / deg' textcolor '#202020'\nset ylabel 'height / mm' textcolor '#202020'\n"
-                 "set cblabel 'best score' textcolor '#202020'\n"
-                 "set style fill solid 1.0 noborder\n"
-                 "set key at graph 1, screen 0.025 right bottom horizontal textcolor '#202020'\n"
-                 "set lmargin 11\nset rmargin 13\nset bmargin 6\n"
-                 "set object 1 rectangle from graph 0,0 to graph 1,1 behind fillcolor '{}' fillstyle solid noborder\n",
-                 PALETTE, range.low, range.high, INFEASIBLE_COLOR);
-  for (const HeatMapPicture& picture : pictures) {
-    const HeatMap& map = *picture.map;
-    const MapAxis &heights = map.heights(), &rolls = map.rolls();
-    const auto y = [&](std::size_t edge) { return (picture.height_zero + heights.edge(edge) * picture.height_unit) * 1e3; };  // mm
-    const auto x = [&](std::size_t edge) { return degrees(rolls.edge(edge)); };
-    fmt::format_to(out, "{}set title {} textcolor '#202020'\nset xrange [{}:{}]\nset yrange [{}:{}]\n",
-                   gnuplot_output(picture.file), gnuplot_quoted(picture.title), x(0), x(rolls.cells()), y(0), y(heights.cells()));
-    fmt::format_to(out,
-                   "plot '-' using 1:2:3:4:5:6:7 with boxxyerror fillcolor palette notitle, "
-                   "'-' using 1:2:3:4:5:6 with boxxyerror fillcolor '{}' notitle, "
-                   "NaN with boxes fillcolor '{}' title 'only implausible grips', "
-                   "NaN with boxes fillcolor '{}' title 'no feasible grip'\n",
-                   IMPLAUSIBLE_COLOR, IMPLAUSIBLE_COLOR, INFEASIBLE_COLOR);
-    for (const bool scored : {true, false}) {
-      bool any = false;
-      for (std::size_t h = 0; h < heights.cells(); ++h) {
-        for (std::size_t r = 0; r < rolls.cells(); ++r) {
-          const double score = map.score(h, r);
-          if (std::isnan(score) || has_score(score) != scored) continue;
-          any = true;
-          fmt::format_to(out, "{:.6g} {:.6g} {:.6g} {:.6g} {:.6g} {:.6g} {:.4f}\n", 0.5 * (x(r) + x(r + 1)),
-                         0.5 * (y(h) + y(h + 1)), x(r), x(r + 1), y(h), y(h + 1), score);
-        }
-      }
-      fmt::format_to(out, "{}e\n", any ? "" : "NaN NaN NaN NaN NaN NaN NaN\n");  // gnuplot refuses an empty block
-    }
-    fmt::format_to(out, "set output\n");
-  }
-  return script;
+ColorScale score_scale(double low, double high) {
+  low = std::floor(low * 20) / 20;
+  return {"best score", low, std::max(std::ceil(high * 20) / 20, low + 0.05), 2, 0};
 }
 
-std::string draw_heat_maps(const std::vector<HeatMapPicture>& pictures) {
-  if (pictures.empty()) return {};
-  std::vector<std::string> files;
-  for (const HeatMapPicture& picture : pictures) files.push_back(picture.file);
-  return draw_with_gnuplot(heat_map_script(pictures), files);
+std::vector<PictureFile> heat_map_files(const std::vector<HeatMapPicture>& pictures) {
+  const ColorScale scale = common_scale(pictures);
+  std::vector<PictureFile> files;
+  for (const HeatMapPicture& picture : pictures)
+    files.push_back({picture.file, chart_picture(map_chart(picture, scale), MAP_SCALE)});
+  return files;
 }
 
 }  // namespace wholehand

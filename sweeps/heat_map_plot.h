@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Heat maps as pictures, drawn by gnuplot.
+// Heat maps as pictures.
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "charts/field.h"
 #include "core/scene.h"
 #include "sweeps/heat_map.h"
 #include "system/files.h"
+#include "system/pictures.h"
 
 namespace wholehand {
 
@@ -20,13 +22,11 @@ struct HeatMapPicture {
   double height_zero = 0;  // m: the height where that axis is 0
 };
 
-// Draws all pictures in one gnuplot process, with one colour scale for all. Each is written under a temporary name and renamed, so
-// none is ever half there. Returns an empty string, or why there are none: a sentence for the user (gnuplot is not installed, or
-// failed); a sweep's results do not depend on its pictures.
-std::string draw_heat_maps(const std::vector<HeatMapPicture>& pictures);
+// The pictures drawn, with one colour scale for all.
+std::vector<PictureFile> heat_map_files(const std::vector<HeatMapPicture>& pictures);
 
-// The script that gnuplot gets, with the data inline.
-std::string heat_map_script(const std::vector<HeatMapPicture>& pictures);
+// Colours of scores from `low` to `high`, to whole twentieths.
+ColorScale score_scale(double low, double high);
 
 // The pictures of a sweep, one per vessel, with titles that say what each cell is the largest of. Vessels whose names make the same
 // file name are told apart by a number.

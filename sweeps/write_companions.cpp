@@ -25,7 +25,7 @@ std::vector<std::string> draw_companion_maps(const CompanionRequest& request, co
     return {};
   }
   const std::vector<HeatMapPicture> pictures = sweep_pictures(request.scene, request.plan, *maps, request.names);
-  const std::string failure = draw_heat_maps(pictures);
+  const std::string failure = write_pictures(heat_map_files(pictures));
   std::vector<std::string> files;
   if (failure.empty()) {
     for (const HeatMapPicture& picture : pictures) files.push_back(picture.file);

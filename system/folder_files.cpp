@@ -2,7 +2,7 @@
 #include "system/folder_files.h"
 
 #include "system/files.h"
-#include "system/gnuplot.h"
+#include "system/pictures.h"
 
 namespace wholehand {
 

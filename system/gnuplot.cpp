@@ -20,8 +20,6 @@
 namespace wholehand {
 namespace {
 
-constexpr std::string_view MARK = "<title>wholehand</title>", MARK_OF_VERSION_0_1 = "<title>Gnuplot</title>";
-
 // Makes the temporary file, so that gnuplot follows no link and waits at no pipe that lies there. False: it cannot be made.
 bool make_temporary(const std::string& temporary) {
   const int made = open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
@@ -45,14 +43,6 @@ bool is_whole(const std::string& svg) {
 }
 
 }  // namespace
-
-bool is_own_picture(const std::string& path, bool is_beside_own) {
-  return has_mark(path, MARK) || (is_beside_own && has_mark(path, MARK_OF_VERSION_0_1));
-}
-
-void check_overwrites_picture(const std::string& path, bool is_beside_own) {
-  if (!is_own_picture(path, is_beside_own)) check_overwrites_marked(path, MARK, "picture of wholehand's", "-o");
-}
 
 // In gnuplot's single quotes a quote is doubled and nothing else is special; a line break would end the command.
 std::string gnuplot_quoted(const std::string& text) {

@@ -8,12 +8,6 @@
 
 namespace wholehand {
 
-// Whether a picture is there that was drawn here. `is_beside_own`: beside a file of ours; there it may also be one of version 0.1, whose title
-// is that of anybody who draws with gnuplot.
-bool is_own_picture(const std::string& path, bool is_beside_own);
-// Throws Error (usage) where something is there that is neither empty nor such a picture: it is not overwritten.
-void check_overwrites_picture(const std::string& path, bool is_beside_own);
-
 // For a plain single-quoted string of gnuplot; line breaks become spaces.
 std::string gnuplot_quoted(const std::string& text);
 

@@ -4,11 +4,16 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdlib>
+#include <filesystem>
+#include <iterator>
+#include <regex>
 
 #include "tests/support/fake_backend.h"
 #include "tests/support/files.h"
+#include "tests/support/xml.h"
 
 namespace wholehand {
 namespace {
@@ -24,55 +29,127 @@ HeatMap small_map() {
   return map;
 }
 
-int count(const std::string& text, const std::string& part) {
-  int n = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
-  return n;
+std::string drawn(const HeatMapPicture& picture) {
+  const std::vector<PictureFile> files = heat_map_files({picture});
+  EXPECT_EQ(files.size(), 1u);
+  expect_well_formed(files[0].svg);
+  return files[0].svg;
+}
+
+// Left, bottom, right and top of every filled rectangle; runs of cells of one colour above one another are one.
+std::vector<std::array<double, 4>> cells_of(const std::string& svg, const std::string& attribute) {
+  std::vector<std::array<double, 4>> cells;
+  const std::regex path("<path class=\"" + attribute + "[^>]* d=\"([^\"]*)\""),
+      rectangle(R"(M([\d.]+) ([\d.]+)H([\d.]+)V([\d.]+)H)");
+  for (std::sregex_iterator p(svg.begin(), svg.end(), path), end; p != end; ++p) {
+    const std::string data = (*p)[1];
+    for (std::sregex_iterator r(data.begin(), data.end(), rectangle); r != end; ++r)
+      cells.push_back({std::stod((*r)[1]), std::stod((*r)[2]), std::stod((*r)[3]), std::stod((*r)[4])});
+  }
+  return cells;
+}
+
+// What a screen reader says.
+std::string said(const std::string& svg) {
+  const std::size_t from = svg.find("<desc id=\"text\">");
+  return svg.substr(from, svg.find("</desc>", from) - from);
 }
 
 TEST(HeatMapPlot, DrawsEveryPicture) {
   const TemporaryFolder folder;
   const HeatMap map = small_map();
   const std::vector<HeatMapPicture> pictures{{folder / "a.svg", "beaker1: best score", &map, 0.11},
-                                             {folder / "b.svg", "it's \"b\" \\ <c> & $d `e`", &map, 0.14}};
-  ASSERT_EQ(draw_heat_maps(pictures), "");
+                                             {folder / "b.svg", "it's \"b\" \\ <c> & $d `e` \xff", &map, 0.14}};
+  ASSERT_EQ(write_pictures(heat_map_files(pictures)), "");
   for (const HeatMapPicture& picture : pictures) {
     const std::string svg = file_text(picture.file);
-    EXPECT_NE(svg.find("<svg"), std::string::npos);
-    EXPECT_NE(svg.find("</svg>"), std::string::npos);
-    for (const char* text : {"roll / deg", "height / mm", "best score", "no feasible grip", "only implausible grips"}) {
-      EXPECT_NE(svg.find(text), std::string::npos) << text;
-    }
-    EXPECT_NE(svg.find("#ffffff"), std::string::npos) << "a background of its own, for dark pages";
-    EXPECT_GE(count(svg, "<polygon"), 26) << "a cell each";
-    EXPECT_FALSE(file_exists(picture.file + ".partial"));
+    expect_well_formed(svg);
+    EXPECT_TRUE(svg.starts_with("<?xml"));
+    EXPECT_TRUE(has(svg, "xmlns=\"http://www.w3.org/2000/svg\""));
+    for (const char* text : {"roll (°)", "height (mm)", "best score", "no feasible grip", "only implausible grips"})
+      EXPECT_TRUE(has(svg, text)) << text;
+    EXPECT_TRUE(has(svg, "fill=\"#ffffff\"")) << "a ground of its own, for dark pages";
+    EXPECT_FALSE(has(svg, "var(")) << "programs for papers know no variables";
+    EXPECT_EQ(cells_of(svg, "cell\"").size(), 26u) << "a cell each";
+    EXPECT_EQ(cells_of(svg, "cell hollow\"").size(), 1u);
+    EXPECT_TRUE(is_own_picture(picture.file, false));
   }
-  EXPECT_NE(file_text(folder / "b.svg").find("it's"), std::string::npos);
-  EXPECT_NE(file_text(folder / "b.svg").find("&lt;c>"), std::string::npos);
+  EXPECT_TRUE(has(file_text(folder / "b.svg"), ">it&#39;s &quot;b&quot; \\ &lt;c&gt; &amp; $d `e` \uFFFD</title>"));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2) << "nothing else is left";
+}
+
+TEST(HeatMapPlot, CellsAreWhereTheirGripsAre) {
+  const HeatMap map = small_map();
+  const std::string svg = drawn({"a.svg", "a", &map, 0.11});
+  auto cells = cells_of(svg, "cell\"");
+  const auto hollow = cells_of(svg, "cell hollow\"").at(0);
+  double left = 1e9, bottom = 0, right = 0, top = 1e9;
+  for (const auto& cell : cells) {
+    left = std::min(left, cell[0]);
+    bottom = std::max(bottom, cell[1]);
+    right = std::max(right, cell[2]);
+    top = std::min(top, cell[3]);
+  }
+  // the implausible cell is the second of the lowest row, and the first is left out
+  EXPECT_NEAR(hollow[1], bottom, 0.11);
+  EXPECT_NEAR(hollow[0], left + (right - left) / 4, 1);
+  EXPECT_NEAR(hollow[1] - hollow[3], (bottom - top) / 7, 1);
+  EXPECT_TRUE(has(said(svg), "28 cells. Scores from 0.430 to 0.805, the highest at")) << said(svg);
+  EXPECT_TRUE(has(said(svg), "only implausible grips: 1. Cells without a feasible grip: 1.")) << said(svg);
 }
 
 TEST(HeatMapPlot, ScaleIsCommonAndOfRealScoresAlone) {
   const HeatMap map = small_map();
-  EXPECT_NE(heat_map_script({{"a.svg", "a", &map, 1}}).find("set cbrange [0.4:0.85]"), std::string::npos);
+  HeatMap low = small_map();
+  low.restore(std::vector<double>(28, 0.23));
+  for (const PictureFile& file : heat_map_files({{"a.svg", "a", &map, 1}, {"b.svg", "b", &low, 1}})) {
+    EXPECT_TRUE(has(file.svg, ">0.20</text>"));
+    EXPECT_TRUE(has(file.svg, ">0.85</text>"));
+  }
+  const std::string alone = drawn({"a.svg", "a", &map, 1});
+  EXPECT_TRUE(has(alone, ">0.40</text>")) << "no score of 0 counts";
+  EXPECT_TRUE(has(alone, ">0.85</text>"));
+  EXPECT_EQ(score_scale(0.5, 0.5).high, 0.55) << "a scale of one score has a width";
 }
 
 TEST(HeatMapPlot, MapWithoutAnyGripIsGrey) {
-  const TemporaryFolder folder;
   const HeatMap empty{Plan(fake_scene(), false)};
-  ASSERT_EQ(draw_heat_maps({{folder / "empty.svg", "empty", &empty, 0.11}}), "");
-  EXPECT_NE(file_text(folder / "empty.svg").find("no feasible grip"), std::string::npos);
+  const std::string svg = drawn({"empty.svg", "empty", &empty, 0.11});
+  EXPECT_TRUE(has(svg, "no feasible grip"));
+  EXPECT_TRUE(cells_of(svg, "cell").empty());
+  EXPECT_TRUE(has(said(svg), "Cells without a feasible grip: 28.")) << said(svg);
+  EXPECT_FALSE(has(said(svg), "highest"));
+}
+
+TEST(HeatMapPlot, OneCellIsAMapToo) {
+  Scene scene = fake_scene();
+  scene.grips.height = {{0.5}};
+  scene.grips.roll = {{0.0}};
+  HeatMap map{Plan(scene, false)};
+  ASSERT_EQ(map.scores().size(), 1u);
+  map.restore({0.7});
+  EXPECT_EQ(cells_of(drawn({"a.svg", "a", &map, 0.11}), "cell\"").size(), 1u);
+}
+
+TEST(HeatMapPlot, WhatIsNoNumberHasNoColour) {
+  HeatMap map = small_map();
+  for (const double score : {HUGE_VAL, -HUGE_VAL, -1.0}) {
+    std::vector<double> scores(28, score);
+    scores[5] = 0.6;
+    map.restore(scores);
+    const std::string svg = drawn({"a.svg", "a", &map, 0.11});
+    EXPECT_EQ(cells_of(svg, "cell\"").size(), 1u) << score;
+    EXPECT_TRUE(has(svg, ">0.65</text>")) << score;
+  }
 }
 
 TEST(HeatMapPlot, FailureIsASentenceAndLeavesNothing) {
   const HeatMap map = small_map();
   const TemporaryFolder folder;
-  EXPECT_NE(draw_heat_maps({{folder / "missing/a.svg", "a", &map, 1}}), "");
-  const std::string path = std::getenv("PATH");
-  setenv("PATH", folder.path().c_str(), 1);
-  const std::string failure = draw_heat_maps({{folder / "a.svg", "a", &map, 1}});
-  setenv("PATH", path.c_str(), 1);
-  EXPECT_NE(failure.find("gnuplot-nox"), std::string::npos) << failure;
-  EXPECT_FALSE(file_exists(folder / "a.svg"));
+  const std::string failure = write_pictures(heat_map_files({{folder / "missing/a.svg", "a", &map, 1}}));
+  EXPECT_EQ(failure, "no picture: cannot write " + (folder / "missing/a.svg") +
+                         ": No such file or directory; make room, or name another file");
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 TEST(HeatMapPlot, PicturesOfASweepSayWhatIsMaximised) {
@@ -100,12 +177,12 @@ TEST(HeatMapPlot, FractionsCountFromTheVesselsBase) {
   scene.vessels[1].height = 0.14;
   const std::vector<HeatMap> maps(2, small_map());
   const auto pictures = sweep_pictures(scene, Plan(scene, false), maps, output_names("y.nc"));
+  EXPECT_EQ(pictures[1].height_zero, -0.06);
+  EXPECT_DOUBLE_EQ(pictures[1].height_unit, 0.2);
+  // the middle of the highest row, which has the best
   const MapAxis& heights = maps[1].heights();
-  const auto height = [](double fraction) { return (-0.06 + 0.2 * fraction) * 1e3; };
-  EXPECT_NE(heat_map_script({pictures[1]})
-                .find(fmt::format("set yrange [{}:{}]", height(heights.edge(0)), height(heights.edge(heights.cells())))),
-            std::string::npos)
-      << heat_map_script({pictures[1]});
+  const double best = -60 + 0.5 * (heights.edge(6) + heights.edge(7)) * 200;
+  EXPECT_TRUE(has(said(drawn(pictures[1])), fmt::format("a height of {:.1f} mm", best))) << said(drawn(pictures[1]));
 }
 
 TEST(HeatMapPlot, VesselNamesBecomeFileNames) {

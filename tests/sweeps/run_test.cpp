@@ -263,14 +263,16 @@ TEST_F(RunTest, VesselsWhoseNamesBecomeTheSameFileKeepApart) {
   EXPECT_TRUE(file_exists(folder / "a.a_b_2.svg"));
 }
 
-TEST_F(RunTest, MissingGnuplotCostsThePicturesAlone) {
+TEST_F(RunTest, APictureThatCannotBeWrittenIsMissingAlone) {
   SweepTrial trial(folder / "a.nc");
-  const std::string path = std::getenv("PATH");
-  setenv("PATH", folder.path().c_str(), 1);
+  const std::string picture = output_names(folder / "a.nc").heat_map("second"), in_the_way = temporary_name(picture);
+  std::ofstream(in_the_way) << "mine";
   const TrialOutcome outcome = trial.run();
-  setenv("PATH", path.c_str(), 1);
   EXPECT_EQ(outcome.code, ExitCode::done);
-  EXPECT_TRUE(has(outcome.notes, "gnuplot-nox")) << outcome.notes;
+  EXPECT_TRUE(has(outcome.notes, "no picture: cannot write " + picture + ": File exists")) << outcome.notes;
+  EXPECT_FALSE(file_exists(picture));
+  EXPECT_EQ(file_text(in_the_way), "mine");
+  EXPECT_TRUE(file_exists(output_names(folder / "a.nc").heat_map("first_vessel")));
   EXPECT_TRUE(file_exists(folder / "a.nc"));
 }
 
