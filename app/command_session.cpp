@@ -32,7 +32,7 @@ std::string write_session_files(const std::string& folder, const Recording& reco
   write_whole_file(folder + "/session.csv", grasps_csv(report), false);
   write_whole_file(folder + "/states.csv", states_csv(report), false);
   if (has_own_picture) std::remove(picture.c_str());  // of another recording
-  return recording.ticks.empty() ? "" : draw_session(recording, report, picture);
+  return recording.ticks.empty() ? "" : write_pictures({{picture, session_picture(recording, report)}});
 }
 
 ExitCode report_recording(const SessionArguments& arguments) {

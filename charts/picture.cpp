@@ -13,7 +13,7 @@ namespace wholehand {
 namespace {
 
 constexpr double TITLE_LETTER = 13;   // units, as the style sheet has it
-constexpr double TITLE_WIDER = 1.35;  // than other text: it is larger and bold
+constexpr double TITLE_WIDER = 1.28;  // than other text: it is larger and bold
 constexpr double TITLE_SIDE = 2;      // units, free at its left and at its right
 
 // As long a beginning as has room, whole words of it where there is more than one; at least a letter.
@@ -43,7 +43,7 @@ std::vector<std::string> title_lines(std::string title, double room) {
 
 double open_picture(MarkupWriter& svg, const PictureFrame& frame) {
   const std::vector<std::string> lines = title_lines(frame.title, frame.width - 2 * TITLE_SIDE);
-  const double step = 1.3 * TITLE_LETTER, under = 8 + step * static_cast<double>(lines.size()), height = under + frame.height;
+  const double step = 1.3 * TITLE_LETTER, under = 10 + step * static_cast<double>(lines.size()), height = under + frame.height;
   svg.markup("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
   svg.open("svg", {{"xmlns", "http://www.w3.org/2000/svg"},
                    {"width", chart_number(frame.scale * frame.width)},

@@ -7,58 +7,124 @@
 #include <cmath>
 #include <iterator>
 
-#include "system/gnuplot.h"
+#include "charts/colors.h"
+#include "charts/picture.h"
+#include "charts/plot.h"
 
 namespace wholehand {
 namespace {
 
-constexpr int FRONT_WIDTH = 980, FRONT_HEIGHT = 560;
+constexpr double FRONT_LEFT = 46, FRONT_RIGHT = 440, FRONT_HEIGHT = 330, FRONT_SCALE = 1.35;  // units of the plot; pixels a unit
+constexpr double NAMES_LEFT = FRONT_RIGHT + 22, NAMES_STEP = 14;                              // of what stands beside it
 constexpr double LEAST_ERROR_SHOWN = 1e-9;  // of the axis' unit: where an error of 0 stands
 
-// Okabe and Ito's colours, which colour-blind readers tell apart, and a mark of its own for each.
+// Colours that colour-blind readers tell apart, and a mark of its own for each.
 struct FrontGroup {
   const char* name;
   bool on_core;
   Precision precision;
-  const char* color;
-  int mark;
+  Rgb color;
+  MarkShape mark;
 };
-constexpr FrontGroup FRONT_GROUPS[] = {{"core double", true, Precision::full, "#0072b2", 7},
-                                       {"core float", true, Precision::single, "#56b4e9", 5},
-                                       {"Vulkan double", false, Precision::full, "#e69f00", 9},
-                                       {"Vulkan float", false, Precision::single, "#d55e00", 13}};
+constexpr FrontGroup FRONT_GROUPS[] = {{"core double", true, Precision::full, okabe_ito::BLUE, MarkShape::disc},
+                                       {"core float", true, Precision::single, okabe_ito::SKY_BLUE, MarkShape::square},
+                                       {"Vulkan double", false, Precision::full, okabe_ito::ORANGE, MarkShape::triangle},
+                                       {"Vulkan float", false, Precision::single, okabe_ito::VERMILION, MarkShape::diamond}};
 
 bool is_of_group(const ErrorRow& row, const FrontGroup& group) {
   return row.variant.on_core == group.on_core && row.variant.precision == group.precision;
 }
 
-// An axis about the values, from a 1, 2 or 5 to another, with a tic at each of these, or at the decades where there are many.
-struct FrontAxis {
-  double low = 0, high = 0;
-  std::string tics;
-};
+std::array<double, 2> front_place(const FrontPicture& picture, const ErrorRow& row) {
+  return {std::max((row.*picture.error)() * picture.error_unit, LEAST_ERROR_SHOWN), row.seconds_per_grip * 1e6};
+}
 
-FrontAxis front_axis(const std::vector<double>& values) {
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  FrontAxis axis;
-  std::vector<double> places;
-  for (int decade = static_cast<int>(std::floor(std::log10(*least))) - 1; std::pow(10, decade) <= 10 * *most; ++decade)
-    for (const double step : {1.0, 2.0, 5.0}) places.push_back(step * std::pow(10, decade));
-  for (const double place : places) {
-    if (place <= *least / 1.1) axis.low = place;
-    if (place >= *most * 1.1 && axis.high == 0) axis.high = place;
+bool has_front_place(const FrontPicture& picture, const ErrorRow& row) {
+  return std::isfinite((row.*picture.error)()) && row.seconds_per_grip > 0;
+}
+
+// About the values of a coordinate, from a 1, 2 or 5 to another.
+PlotAxis front_axis(const std::string& label, const std::vector<std::array<double, 2>>& places, std::size_t coordinate) {
+  PlotAxis axis;
+  axis.label = label;
+  axis.is_logarithmic = axis.has_grid = true;
+  double least = INFINITY, most = 0;
+  for (const auto& place : places) {
+    least = std::min(least, place[coordinate]);
+    most = std::max(most, place[coordinate]);
   }
-  const bool decades_only = axis.high / axis.low > 1000;
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    if (places[k] < 0.999 * axis.low || places[k] > 1.001 * axis.high || (decades_only && k % 3 != 0)) continue;
-    axis.tics += fmt::format("{}'{:g}' {:g}", axis.tics.empty() ? "" : ", ", places[k], places[k]);
-  }
+  const TickRange range = round_logarithmic_range(least, most);
+  axis.low = range.low;
+  axis.high = range.high;
   return axis;
 }
 
-void add_front_points(std::string& script, const std::vector<std::pair<double, double>>& points) {
-  for (const auto& [x, y] : points) fmt::format_to(std::back_inserter(script), "{:.6g} {:.6g}\n", x, y);
-  script += points.empty() ? "NaN NaN\ne\n" : "e\n";
+// Two layers of a group: what is beaten, small, and what is not, large. None where it has no row.
+void add_group(Plot& plot, const FrontPicture& picture, const std::vector<ErrorRow>& rows,
+               const std::vector<const ErrorRow*>& front, const FrontGroup& group) {
+  PlotLayer beaten, best;
+  beaten.color = best.color = color_text(group.color);
+  beaten.mark = best.mark = group.mark;
+  beaten.mark_size = 2.4;
+  best.mark_size = 4.6;
+  best.label = group.name;
+  for (const ErrorRow& row : rows) {
+    if (!is_of_group(row, group) || !has_front_place(picture, row)) continue;
+    const bool is_best = std::find(front.begin(), front.end(), &row) != front.end();
+    (is_best ? best : beaten).points.push_back(front_place(picture, row));
+  }
+  if (beaten.points.empty() && best.points.empty()) return;
+  plot.layers.push_back(beaten);
+  plot.layers.push_back(best);
+}
+
+Plot front_plot(const FrontPicture& picture, const std::vector<ErrorRow>& rows, const std::vector<const ErrorRow*>& front) {
+  Plot plot;
+  std::vector<std::array<double, 2>> places;
+  for (const ErrorRow& row : rows)
+    if (has_front_place(picture, row)) places.push_back(front_place(picture, row));
+  plot.x = front_axis(picture.error_axis, places, 0);
+  plot.y = front_axis("time of a grip (\u00b5s)", places, 1);
+  PlotLayer line;
+  line.label = "not beaten: named below";
+  line.color = "#a0a0a0";
+  line.line = 1.2;
+  for (const ErrorRow* row : front) line.points.push_back(front_place(picture, *row));
+  plot.layers.push_back(line);
+  for (const FrontGroup& group : FRONT_GROUPS) add_group(plot, picture, rows, front, group);
+  for (std::size_t k = 0; k < front.size(); ++k) {
+    const auto [x, y] = front_place(picture, *front[k]);
+    plot.notes.push_back({x, y, std::to_string(k + 1)});
+  }
+  return plot;
+}
+
+// The picture: the plot, and beside it, where they cannot cover each other, the legend and the names.
+std::string front_picture(const FrontPicture& picture, const std::vector<ErrorRow>& rows) {
+  const std::vector<const ErrorRow*> front = pareto_front(rows, picture.error);
+  const Plot plot = front_plot(picture, rows, front);
+  const double under_legend = 26 + LEGEND_STEP * (static_cast<double>(std::size(FRONT_GROUPS)) + 3);
+  double wide = text_width(plot.layers.front().label) + 25;
+  std::string named;
+  for (std::size_t k = 0; k < front.size(); ++k) {
+    wide = std::max(wide, 22 + text_width(front[k]->variant.name));
+    named += fmt::format("{} {}: {}", k == 0 ? "" : ";", k + 1, front[k]->variant.name);
+  }
+  const double names_end = under_legend + NAMES_STEP * static_cast<double>(front.size());
+  MarkupWriter svg;
+  const std::string description =
+      fmt::format("Time of a grip against the {}, of all variants. No other variant is both faster and more exact than these:{}.",
+                  picture.error_axis, named);
+  const double top = open_picture(svg, {picture.title, description, NAMES_LEFT + wide + 6,
+                                        std::max(26 + FRONT_HEIGHT + 3.6 * CHART_LETTER, names_end), FRONT_SCALE});
+  put_plot(svg, plot, {FRONT_LEFT, top + 26, FRONT_RIGHT, top + 26 + FRONT_HEIGHT});
+  put_legend(svg, plot.layers, NAMES_LEFT, top + 26 + CHART_LETTER, NAMES_LEFT);
+  double y = top + under_legend;
+  for (std::size_t k = 0; k < front.size(); ++k, y += NAMES_STEP) {
+    put_text(svg, NAMES_LEFT + 14, y, std::to_string(k + 1), "end");
+    put_text(svg, NAMES_LEFT + 22, y, front[k]->variant.name, "start");
+  }
+  return svg.close().written();
 }
 
 }  // namespace
@@ -71,74 +137,19 @@ std::vector<FrontPicture> front_pictures(const std::string& folder, const std::v
   const auto has = [&](double (ErrorRow::*error)() const) { return !pareto_front(rows, error).empty(); };
   if (has(&ErrorRow::length_error))
     pictures.push_back({at + "error-time.svg", "Error of lengths against run time: " + scene,
-                        "largest 99.9th percentile of a length's error / \u00b5m", 1, &ErrorRow::length_error});
+                        "largest 99.9th percentile of a length's error (\u00b5m)", 1, &ErrorRow::length_error});
   if (has(&ErrorRow::force_error))
     pictures.push_back({at + "error-time-force.svg", "Error of forces against run time: " + scene,
-                        "largest 99.9th percentile of a force's error / N", 1, &ErrorRow::force_error});
+                        "largest 99.9th percentile of a force's error (N)", 1, &ErrorRow::force_error});
   return pictures;
 }
 
-std::string front_script(const std::vector<FrontPicture>& pictures, const std::vector<ErrorRow>& rows) {
-  std::string script = gnuplot_style(FRONT_WIDTH, FRONT_HEIGHT);
-  auto out = std::back_inserter(script);
-  script +=
-      "set logscale xy\nset grid linetype 1 linecolor '#dcdcdc'\nset ylabel 'time of a grip / \u00b5s' textcolor '#202020'\n"
-      "set lmargin 9\nset rmargin at screen 0.62\nset bmargin 4\n"
-      "set key at screen 0.645, screen 0.92 left top Left reverse samplen 1 textcolor '#202020'\n";
-  for (const FrontPicture& picture : pictures) {
-    const auto x_of = [&](const ErrorRow& row) { return std::max((row.*picture.error)() * picture.error_unit, LEAST_ERROR_SHOWN); };
-    const auto y_of = [](const ErrorRow& row) { return row.seconds_per_grip * 1e6; };
-    const auto has_place = [&](const ErrorRow& row) { return std::isfinite((row.*picture.error)()) && row.seconds_per_grip > 0; };
-    const auto front = pareto_front(rows, picture.error);
-    std::vector<double> xs, ys;
-    for (const ErrorRow& row : rows) {
-      if (!has_place(row)) continue;
-      xs.push_back(x_of(row));
-      ys.push_back(y_of(row));
-    }
-    if (xs.empty()) continue;
-    const FrontAxis x_axis = front_axis(xs), y_axis = front_axis(ys);
-    fmt::format_to(out, "unset label\n{}set title {} textcolor '#202020'\nset xlabel {} textcolor '#202020'\n",
-                   gnuplot_output(picture.file), gnuplot_quoted(picture.title), gnuplot_quoted(picture.error_axis));
-    fmt::format_to(out, "set xrange [{:g}:{:g}]\nset yrange [{:g}:{:g}]\nset xtics ({})\nset ytics ({})\n", x_axis.low, x_axis.high,
-                   y_axis.low, y_axis.high, x_axis.tics, y_axis.tics);
-    // the names stand beside the plot, where they cannot cover each other
-    const double apart = std::min(0.034, 0.6 / static_cast<double>(std::max<std::size_t>(front.size(), 1)));
-    for (std::size_t k = 0; k < front.size(); ++k) {
-      fmt::format_to(out, "set label {} '{}' at {:.6g},{:.6g} offset 0.8,0.7 font ',11' textcolor '#202020' front\n", 2 * k + 1,
-                     k + 1, x_of(*front[k]), y_of(*front[k]));
-      fmt::format_to(out, "set label {} {} at screen 0.65, screen {:.4f} left font ',11' textcolor '#202020'\n", 2 * k + 2,
-                     gnuplot_quoted(fmt::format("{:>2}  {}", k + 1, front[k]->variant.name)),
-                     0.66 - apart * static_cast<double>(k));
-    }
-    std::string plots = "plot '-' using 1:2 with lines linewidth 1.5 linecolor '#a0a0a0' title 'not beaten: named below'";
-    std::string data;
-    std::vector<std::pair<double, double>> points;
-    for (const ErrorRow* row : front) points.push_back({x_of(*row), y_of(*row)});
-    add_front_points(data, points);
-    for (const FrontGroup& group : FRONT_GROUPS) {
-      std::vector<std::pair<double, double>> all, best;
-      for (const ErrorRow& row : rows) {
-        if (!is_of_group(row, group) || !has_place(row)) continue;
-        const bool is_best = std::find(front.begin(), front.end(), &row) != front.end();
-        (is_best ? best : all).push_back({x_of(row), y_of(row)});
-      }
-      if (all.empty() && best.empty()) continue;
-      for (const bool large : {false, true}) {
-        fmt::format_to(std::back_inserter(plots), ", '-' using 1:2 with points pointtype {} pointsize {} linecolor '{}' {}",
-                       group.mark, large ? 1.4 : 0.65, group.color, large ? fmt::format("title '{}'", group.name) : "notitle");
-        add_front_points(data, large ? best : all);
-      }
-    }
-    script += plots + "\n" + data + "set output\n";
-  }
-  return script;
-}
-
-std::string draw_fronts(const std::vector<FrontPicture>& pictures, const std::vector<ErrorRow>& rows) {
-  std::vector<std::string> files;
-  for (const FrontPicture& picture : pictures) files.push_back(picture.file);
-  return draw_with_gnuplot(front_script(pictures, rows), files);
+std::vector<PictureFile> front_files(const std::vector<FrontPicture>& pictures, const std::vector<ErrorRow>& rows) {
+  std::vector<PictureFile> files;
+  for (const FrontPicture& picture : pictures)
+    if (std::any_of(rows.begin(), rows.end(), [&](const ErrorRow& row) { return has_front_place(picture, row); }))
+      files.push_back({picture.file, front_picture(picture, rows)});
+  return files;
 }
 
 }  // namespace wholehand

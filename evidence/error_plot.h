@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "evidence/error_table.h"
+#include "system/pictures.h"
 
 namespace wholehand {
 
@@ -20,10 +21,7 @@ struct FrontPicture {
 // error-time.svg by length and error-time-force.svg by force, in `folder`; the second only where some row has a force.
 std::vector<FrontPicture> front_pictures(const std::string& folder, const std::vector<ErrorRow>& rows, const ErrorContext& context);
 
-// A script for gnuplot that draws every picture; one plot each, numbered points and their names where they are on the front.
-std::string front_script(const std::vector<FrontPicture>& pictures, const std::vector<ErrorRow>& rows);
-
-// As draw_with_gnuplot.
-std::string draw_fronts(const std::vector<FrontPicture>& pictures, const std::vector<ErrorRow>& rows);
+// Every picture drawn that has a point: all variants, numbered where they are on the front, with the names of these beside it.
+std::vector<PictureFile> front_files(const std::vector<FrontPicture>& pictures, const std::vector<ErrorRow>& rows);
 
 }  // namespace wholehand

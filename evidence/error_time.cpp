@@ -14,6 +14,7 @@
 #include "system/files.h"
 #include "system/folder_files.h"
 #include "system/interrupt.h"
+#include "system/pictures.h"
 #include "system/progress.h"
 #include "system/version.h"
 
@@ -95,7 +96,7 @@ void write_error_results(const std::string& output, const std::vector<ErrorRow>&
   // pictures of another scene beside these tables would mislead
   for (const char* name : ERROR_TIME_PICTURES) std::remove((folder + name).c_str());
   const auto pictures = front_pictures(folder, rows, context);
-  const std::string complaint = draw_fronts(pictures, rows);
+  const std::string complaint = write_pictures(front_files(pictures, rows));
   fmt::print("{}\n", report);
   if (!complaint.empty()) fmt::print(stderr, "wholehand: {}\n", complaint);
   fmt::print("wrote {0}error-time.csv, {0}error-time-grips.csv, {0}error-time.md", folder);

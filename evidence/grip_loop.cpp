@@ -12,7 +12,6 @@
 #include "core/loop.h"
 #include "core/scene.h"
 #include "evidence/wall.h"
-#include "system/gnuplot.h"
 
 namespace wholehand {
 namespace {
@@ -21,7 +20,6 @@ constexpr double TO_GRASP = 2, TO_SETTLE = 2, LAST = 0.5;  // s
 constexpr double STILL_SPEED = 2e-3, STILL_TIME = 0.05;    // m/s, s: the paper gives no criterion; docs/evidence.md
 constexpr double FLIES_APART = 1;                          // m: no hand is that wide
 constexpr double LINEAR_TIME = 20;                         // s: a hundred reactions
-constexpr std::array<const char*, GRIP_OUTCOMES> OUTCOME_COLORS{"#a6cee3", "#5b8db8", "#e08a1e", "#bdbdbd", "#7a1f1f"};
 
 core_f64::Plant held_plant(const GripLoop& loop) {
   return {loop.device_mass + loop.finger_mass, loop.device_damping + loop.finger_damping, loop.finger_stiffness};
@@ -249,41 +247,6 @@ std::string grip_loop_csv(const std::vector<GripLoopRow>& rows, const std::strin
                    number(r.opened * 1e3), number(r.swing * 1e3), number(sampled), number(reaction_k_open(l)), run);
   }
   return csv;
-}
-
-// Where a user of slow or quick reaction holds, oscillates or loses, over k_open; the theory of the user's loop as a line.
-std::string grip_loop_script(const std::string& folder, std::vector<std::string>& files) {
-  std::array<std::string, GRIP_OUTCOMES> points;
-  std::string user;
-  for (int column = 0; column <= 60; ++column) {
-    GripLoop loop;
-    loop.reaction = std::max(0.002, 0.01 * column);
-    for (int k = 0; k < 48; ++k) {
-      loop.k_open = 50 * std::pow(400.0, k / 47.0);
-      const auto outcome = static_cast<std::size_t>(hold_and_tilt(loop).outcome);
-      points[outcome] += fmt::format("{:.4g} {:.5g}\n", loop.reaction, loop.k_open);
-    }
-    const double limit = reaction_k_open(loop);
-    if (std::isfinite(limit)) user += fmt::format("{:.4g} {:.5g}\n", loop.reaction, limit);
-  }
-  files.push_back(folder + "/grip_loop.svg");
-  std::string script = gnuplot_style(760, 480) + gnuplot_output(files.back());
-  script +=
-      "set title 'Holding and tilting at 1 kHz: who holds, and who shakes' textcolor '#202020'\n"
-      "set xlabel 'reaction time of the user / s' textcolor '#202020'\nset ylabel 'k_open / (N/m)' textcolor '#202020'\n"
-      "set logscale y\nset xrange [0:0.62]\nset yrange [40:30000]\nset key outside right top samplen 1.5\nplot ";
-  std::string data;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    if (points[k].empty()) continue;
-    script += fmt::format("'-' with points pointtype 5 pointsize 0.55 linecolor '{}' title '{}', ", OUTCOME_COLORS[k],
-                          GRIP_OUTCOME_NAMES[k]);
-    data += points[k] + "e\n";
-  }
-  script +=
-      "'-' with lines linewidth 2 linecolor '#1f4e79' title 'user, by theory', "
-      "'-' with lines linewidth 2 dashtype 2 linecolor '#404040' title 'sampling, by theory'\n";
-  const double sampled = sampled_k_open(GripLoop{});
-  return script + data + user + fmt::format("e\n0 {:.6g}\n0.62 {:.6g}\ne\nset output\nreset\n", sampled, sampled);
 }
 
 }  // namespace wholehand

@@ -62,6 +62,5 @@ struct GripLoopRow {
 };
 std::vector<GripLoopRow> grip_loop_rows(bool quick);
 std::string grip_loop_csv(const std::vector<GripLoopRow>& rows, const std::string& run);  // `run` as for wall_limits_csv
-std::string grip_loop_script(const std::string& folder, std::vector<std::string>& files);
 
 }  // namespace wholehand

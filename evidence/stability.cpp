@@ -13,14 +13,15 @@
 #include "core/domain.h"
 #include "evidence/gains.h"
 #include "evidence/grip_loop.h"
+#include "evidence/grip_loop_picture.h"
 #include "evidence/wall_picture.h"
 #include "evidence/wall_sweep.h"
 #include "system/clock.h"
 #include "system/csv.h"
 #include "system/files.h"
 #include "system/folder_files.h"
-#include "system/gnuplot.h"
 #include "system/interrupt.h"
+#include "system/pictures.h"
 #include "system/progress.h"
 #include "system/version.h"
 
@@ -298,11 +299,12 @@ void write_stability_tables(const StabilityOptions& options, const Stability& st
 }
 
 void draw_stability_pictures(const std::string& folder, const std::vector<WallSheet>& sheets) {
-  std::vector<std::string> pictures;
-  std::string script = grip_loop_script(folder, pictures);
-  script += wall_script(sheets, folder, pictures);
-  for (const std::string& picture : pictures) std::remove(picture.c_str());  // one of another run beside these tables would mislead
-  const std::string failure = draw_with_gnuplot(script, pictures);
+  const std::vector<PictureFile> pictures{{folder + "/grip_loop.svg", grip_loop_picture()},
+                                          {folder + "/wall_integrators.svg", integrator_picture(sheets)},
+                                          {folder + "/wall.svg", wall_picture(sheets)}};
+  for (const PictureFile& picture : pictures)
+    std::remove(picture.path.c_str());  // one of another run beside these tables would mislead
+  const std::string failure = write_pictures(pictures);
   if (!failure.empty()) std::fprintf(stderr, "wholehand: %s\n", failure.c_str());
 }
 

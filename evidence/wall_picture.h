@@ -9,7 +9,8 @@
 
 namespace wholehand {
 
-// gnuplot: rates, damping, delay, encoder in one picture; integrators in another. Names of the files in `folder`.
-std::string wall_script(const std::vector<WallSheet>& sheets, const std::string& folder, std::vector<std::string>& files);
+// Texts of pictures: rates, damping, delay and encoder; and integrators.
+std::string wall_picture(const std::vector<WallSheet>& sheets);
+std::string integrator_picture(const std::vector<WallSheet>& sheets);
 
 }  // namespace wholehand

@@ -9,10 +9,7 @@
 
 namespace wholehand {
 
-// gnuplot's commands for `file`; there is at least one tick.
-std::string session_plot_script(const Recording& recording, const SessionReport& report, const std::string& file);
-
-// Draws it. Returns an empty string, or why it is not there: a sentence for the user.
-std::string draw_session(const Recording& recording, const SessionReport& report, const std::string& file);
+// The text of the picture; there is at least one tick.
+std::string session_picture(const Recording& recording, const SessionReport& report);
 
 }  // namespace wholehand

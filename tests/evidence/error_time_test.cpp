@@ -4,19 +4,21 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "charts/colors.h"
 #include "evidence/error_plot.h"
 #include "evidence/error_table.h"
 #include "evidence/error_variants.h"
+#include "tests/support/drawn.h"
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 #include "tests/support/vulkan_listener.h"
+#include "tests/support/xml.h"
 
 namespace wholehand {
 namespace {
@@ -126,9 +128,10 @@ TEST(ErrorTime, WhatDoesNotCompareIsNotChosen) {
                            "on one side only (number of grips): fickle (3).\n", "infinite error of force): limp (3).\n",
                            "With so few grips compared (1), the 99.9th percentile is the largest"})
     EXPECT_NE(report.find(text), report.npos) << text << " in " << report;
-  const std::string script = front_script(front_pictures("", rows, context), rows);
-  EXPECT_EQ(script.find("mute"), script.npos);
-  EXPECT_EQ(script.find("fickle"), script.npos);
+  for (const PictureFile& file : front_files(front_pictures("", rows, context), rows)) {
+    EXPECT_FALSE(has(file.svg, "mute"));
+    EXPECT_FALSE(has(file.svg, "fickle"));
+  }
   EXPECT_TRUE(front_pictures("", {rows[1]}, context).empty());
 }
 
@@ -161,18 +164,30 @@ TEST(ErrorTime, VariantsLeaveOutWhatTheSceneLacks) {
 }
 
 TEST(ErrorTime, FrontsAreDrawn) {
-  std::vector<ErrorRow> rows{row_of("slow 'exact'", 9, 0), row_of("fast rough", 1, 50), row_of("middle", 4, 5)};
+  std::vector<ErrorRow> rows{row_of("slow 'exact'", 9, 0), row_of("fast <rough>", 1, 50), row_of("middle", 4, 5),
+                             row_of("beaten", 8, 50)};
   rows[1].errors[ERROR_FEEDBACK] = figures_of({1e-3}, {"0:0"});
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / "wholehand_fronts";
-  std::filesystem::create_directories(folder);
-  const auto pictures = front_pictures(folder.string(), rows, {});
+  const TemporaryFolder folder;
+  const auto pictures = front_pictures(folder.path(), rows, {});
   ASSERT_EQ(pictures.size(), 2u);
-  EXPECT_EQ(draw_fronts(pictures, rows), "");
-  const std::string drawn = file_text(folder / "error-time.svg");
-  for (const char* text : {"slow 'exact'", "fast rough", "middle", "time of a grip", "core double"})
-    EXPECT_NE(drawn.find(text), drawn.npos) << text;
-  EXPECT_NE(file_text(folder / "error-time-force.svg").find("</svg>"), std::string::npos);
-  std::filesystem::remove_all(folder);
+  EXPECT_EQ(write_pictures(front_files(pictures, rows)), "");
+  const std::string svg = file_text(folder / "error-time.svg");
+  expect_well_formed(svg);
+  expect_well_formed(file_text(folder / "error-time-force.svg"));
+  for (const char* text : {">slow &#39;exact&#39;</text>", ">fast &lt;rough&gt;</text>", ">middle</text>",
+                           "time of a grip (\u00b5s)", "core double", "length&#39;s error (\u00b5m)"})
+    EXPECT_TRUE(has(svg, text)) << text;
+  EXPECT_FALSE(has(svg, ">beaten</text>")) << "only the front is named";
+  EXPECT_EQ(drawn_marks(svg, color_text(okabe_ito::BLUE)), rows.size() + 1) << "and one in the legend";
+  // the axes end at a 1, 2 or 5 beyond the values: 0.5 to 10 us; an error of 0 stands at 1e-9 um
+  const DrawnAxes axes = drawn_axes(svg).at(0);
+  const auto front = drawn_lines(svg, "#a0a0a0").at(0);
+  ASSERT_EQ(front.size(), 3u);
+  const auto fast = axes.share(front[0]), middle = axes.share(front[1]), slow = axes.share(front[2]);
+  EXPECT_NEAR(fast[1], std::log(1 / 0.5) / std::log(10 / 0.5), 1e-3);
+  EXPECT_NEAR(middle[1], std::log(4 / 0.5) / std::log(10 / 0.5), 1e-3);
+  EXPECT_NEAR(slow[0], std::log(1e-9 / 5e-10) / std::log(100 / 5e-10), 1e-3);
+  EXPECT_NEAR(fast[0], std::log(50 / 5e-10) / std::log(100 / 5e-10), 1e-3);
 }
 
 }  // namespace

@@ -4,10 +4,14 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
+#include <cmath>
 #include <string>
 
+#include "charts/colors.h"
+#include "system/pictures.h"
+#include "tests/support/drawn.h"
 #include "tests/support/files.h"
+#include "tests/support/xml.h"
 
 namespace wholehand {
 namespace {
@@ -30,40 +34,78 @@ Recording some_recording() {
   return recording;
 }
 
-std::size_t count(const std::string& text, const std::string& part) {
-  std::size_t found = 0;
-  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size()) ++found;
-  return found;
+std::string drawn_session(const Recording& recording) {
+  const std::string svg = session_picture(recording, report_session(recording));
+  expect_well_formed(svg);
+  return svg;
 }
 
 TEST(SessionPlot, ShowsForcesTiltAndStates) {
-  const Recording recording = some_recording();
-  const std::string script = session_plot_script(recording, report_session(recording), "/tmp/a.svg");
-  EXPECT_EQ(count(script, "\nplot "), 3u);
-  EXPECT_EQ(count(script, "set object "), 2u) << "a shade for each state but free";
-  EXPECT_NE(script.find("from first 10.000000, graph 0 to first 20.000000, graph 1"), std::string::npos);
-  EXPECT_NE(script.find("set label 'T' at first 25.000000"), std::string::npos);
-  EXPECT_NE(script.find("it''s a bench"), std::string::npos);
-  EXPECT_NE(script.find("\n23.456000 7.25\n"), std::string::npos) << "one tick that stands out is drawn";
-  EXPECT_LT(script.size(), 400000u) << "not every tick";
-  // while nothing is held there is no tilt and no grip force
-  const std::string grip = script.substr(script.find("$grip << EOD"));
-  EXPECT_EQ(grip.find("\n5.0"), std::string::npos);
-  EXPECT_NE(grip.find("\n15.0"), std::string::npos);
+  const std::string svg = drawn_session(some_recording());
+  const auto axes = drawn_axes(svg);
+  ASSERT_EQ(axes.size(), 3u);
+  for (const char* part : {"feedback force (N)", "tilt (°)", "grip force (N)", "time (s)", "maintain (M)", "touching",
+                           "normal force", "Session in it&#39;s a bench, on omega.7"})
+    EXPECT_TRUE(has(svg, part)) << part;
+  EXPECT_TRUE(has(svg, std::string(PICTURE_MARK)));
+  EXPECT_LT(svg.size(), 100000u) << "not every tick";
+  // a shade for each state but free, in each panel; its letter above the uppermost
+  const auto lift = drawn_boxes(svg, tint(okabe_ito::SKY_BLUE, 0.28)), tilt = drawn_boxes(svg, tint(okabe_ito::ORANGE, 0.45));
+  ASSERT_EQ(lift.size(), 3u);
+  ASSERT_EQ(tilt.size(), 3u);
+  EXPECT_EQ(count_of(svg, "class=\"cell\""), 6);
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    EXPECT_NEAR((lift[k][0] - axes[k].left) / axes[k].width, 0.25, 1e-3);
+    EXPECT_NEAR((lift[k][2] - axes[k].left) / axes[k].width, 0.5, 1e-3);
+    EXPECT_NEAR(lift[k][3] - lift[k][1], axes[k].height, 0.1);
+  }
+  const auto letter = drawn_text(svg, "T");
+  EXPECT_NEAR((letter[0] - axes[0].left) / axes[0].width, 0.625, 1e-3);
+  EXPECT_LT(letter[1], axes[0].top);
 }
 
-TEST(SessionPlot, IsDrawn) {
-  const std::string file = (std::filesystem::temp_directory_path() / "wholehand_session_plot_test.svg").string();
-  std::filesystem::remove(file);
-  for (const std::size_t ticks : {std::size_t{40000}, std::size_t{1}}) {
-    Recording recording = some_recording();
+TEST(SessionPlot, OneTickThatStandsOutIsDrawn) {
+  const std::string svg = drawn_session(some_recording());
+  const auto axes = drawn_axes(svg);
+  const auto lines = drawn_lines(svg, "#000000");
+  double highest = 0;
+  for (const auto& line : lines) {
+    for (const auto& point : line) {
+      const auto [x, y] = axes[0].share(point);
+      if (!(y > highest && y <= 1)) continue;
+      highest = y;
+      EXPECT_TRUE(y < 0.9 || std::abs(x - 23.456 / 40) < 1e-3) << x;
+    }
+  }
+  EXPECT_NEAR(highest, 1 / 1.05, 2e-3) << "with a twentieth of room";
+}
+
+// While nothing is held there is no tilt and no grip force.
+TEST(SessionPlot, WhatIsNotHeldHasNoLine) {
+  const std::string svg = drawn_session(some_recording());
+  const DrawnAxes grip = drawn_axes(svg).at(2);
+  int held = 0;
+  for (const auto& line : drawn_lines(svg, "#000000")) {
+    if (line[0][1] < grip.top) continue;
+    ++held;
+    for (const auto& point : line) {
+      EXPECT_GE(grip.share(point)[0], 0.25 - 1e-3);
+      EXPECT_LE(grip.share(point)[0], 0.75 + 1e-3);
+    }
+  }
+  EXPECT_EQ(held, 1);
+}
+
+TEST(SessionPlot, OfOneTickAndOfNoNumbersIsDrawn) {
+  const Recording whole = some_recording();
+  for (const std::size_t ticks : {std::size_t{2000}, std::size_t{1}}) {
+    Recording recording = whole;
     recording.ticks.resize(ticks);
-    EXPECT_EQ(draw_session(recording, report_session(recording), file), "");
-    const std::string svg = file_text(file);
-    EXPECT_NE(svg.find("</svg>"), std::string::npos);
-    for (const char* part : {"feedback force / N", "tilt / deg", "grip force / N", "time / s", "maintain"})
-      EXPECT_NE(svg.find(part), std::string::npos) << part;
-    std::filesystem::remove(file);
+    EXPECT_EQ(drawn_axes(drawn_session(recording)).size(), 3u);
+    for (Tick& tick : recording.ticks) tick.feedback = tick.tilt = Tick::NONE;
+    EXPECT_EQ(drawn_axes(drawn_session(recording)).size(), 3u);
+    recording.ticks[0].feedback = HUGE_VAL;
+    EXPECT_EQ(drawn_axes(drawn_session(recording)).size(), 3u);
   }
 }
 
