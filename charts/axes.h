@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What all charts share: their axes and their text. Their looks are classes of CHART_RULES (charts/style.h), so that in a page they follow
-// its light and its dark dress. Sizes are those of a phone's column, and grow with what shows them.
+// What all charts share: their axes and their text. Their looks are classes of CHART_RULES (charts/style.h), so that in a page they
+// follow its light and its dark dress. Sizes are those of a phone's column, and grow with what shows them.
 #pragma once
 
 #include <cmath>

@@ -33,8 +33,8 @@ std::string shade_color(const ColorScale& scale, int shade) {
   return sequential_color(last > 0 ? static_cast<double>(shade) / last : 1);
 }
 
-// Cells of one colour are one path, and those above one another one rectangle: a chart of many cells stays small. Each reaches a little under
-// its neighbours, so that a printer leaves no seams.
+// Cells of one colour are one path, and those above one another one rectangle: a chart of many cells stays small. Each reaches a
+// little under its neighbours, so that a printer leaves no seams.
 void put_cells(MarkupWriter& svg, const FieldChart& chart, const PlotArea& area) {
   constexpr double UNDER = 0.3;            // units
   constexpr int HOLLOW = -1, ABSENT = -2;  // the ground shows what is absent
@@ -106,7 +106,7 @@ void put_scale(MarkupWriter& svg, const FieldChart& chart, const PlotArea& area,
   // numbers between where they do not touch those at the ends
   for (const double tick : round_ticks(scale.low, scale.high, std::max(1, static_cast<int>(width / 30)))) {
     const std::string text = shown_number(tick, scale.digits);
-    const double at = left + width * (tick - scale.low) / (scale.high - scale.low), half = 0.5 * text_width(text) + 6;
+    const double at = left + width * (tick - scale.low) / (scale.high - scale.low), half = 0.5 * text_width(text) + 3;
     if (at - half > left + text_width(low) && at + half < right - text_width(high))
       put_text(svg, at, y + 2 + CHART_LETTER, text, "mid");
   }

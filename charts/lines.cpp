@@ -57,8 +57,8 @@ double way_to_others(const Point& p, const std::vector<std::vector<Point>>& line
   return least;
 }
 
-// A place for each line's label: beside the line where it is furthest from the others, nearer to it than to them, on no line and no other
-// label.
+// A place for each line's label: beside the line where it is furthest from the others, nearer to it than to them, on no line and no
+// other label.
 std::vector<LabelBox> place_labels(const PlotArea& area, const std::vector<std::vector<Point>>& lines,
                                    const std::vector<std::string>& labels) {
   std::vector<LabelBox> placed;

@@ -9,8 +9,8 @@
 
 namespace wholehand {
 
-// Text for an element or a quoted attribute: markup's characters as references; what XML cannot hold (control characters, bytes that are no
-// UTF-8) as U+FFFD.
+// Text for an element or a quoted attribute: markup's characters as references; what XML cannot hold (control characters, bytes
+// that are no UTF-8) as U+FFFD.
 std::string markup_escaped(std::string_view text);
 
 // Elements in their order, HTML's and, in an SVG, SVG's. What is opened must be closed, innermost first.

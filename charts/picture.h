@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A picture of its own, as a file holds it: an SVG with its title, a white ground and its own style, so that it reads the same in print and on
-// a dark page.
+// A picture of its own, as a file holds it: an SVG with its title, a white ground and its own style, so that it reads the same in
+// print and on a dark page.
 #pragma once
 
 #include <string>

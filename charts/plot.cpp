@@ -138,10 +138,10 @@ NoteBox note_box(const PlotArea& area, const PlotNote& note, const std::vector<N
   const double half = 0.5 * text_width(note.text), x = area.x(note.x), y = area.y(note.y);
   NoteBox best;
   double least = std::numeric_limits<double>::infinity();
-  for (const double apart : {6.0, 12.0}) {
-    for (const auto& [dx, dy] :
-         {std::pair{0.7, -0.7}, {-0.7, -0.7}, {0.7, 0.7}, {-0.7, 0.7}, {1.0, 0.0}, {-1.0, 0.0}, {0.0, -1.0}, {0.0, 1.0}}) {
-      const double middle_x = x + dx * (apart + half), middle_y = y + dy * (apart + HALF_HEIGHT);
+  for (const double apart : {7.0, 13.0}) {
+    for (const auto& [dx, dy] : {std::pair{1, -1}, {-1, -1}, {1, 1}, {-1, 1}, {1, 0}, {-1, 0}, {0, -1}, {0, 1}}) {
+      const double way = (dx != 0 && dy != 0 ? 0.7 : 1) * apart;  // as far from the point where it is askew
+      const double middle_x = x + dx * (way + half), middle_y = y + dy * (way + HALF_HEIGHT);
       const NoteBox box{middle_x - half, middle_y - HALF_HEIGHT, middle_x + half, middle_y + HALF_HEIGHT};
       const NoteBox all{area.left, area.top, area.right, area.bottom};
       double cost = 0.5 * apart + 10 * (4 * half * HALF_HEIGHT - overlap_of(box, all));

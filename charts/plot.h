@@ -57,8 +57,8 @@ struct PlotPlace {
 
 void put_plot(MarkupWriter& svg, const Plot& plot, const PlotPlace& place);
 
-// The labelled layers from the left to the right, in as many rows as it takes. `y`: the foot of the first row's letters. Returns that of the
-// last.
+// The labelled layers from the left to the right, in as many rows as it takes. `y`: the foot of the first row's letters. Returns
+// that of the last.
 double put_legend(MarkupWriter& svg, const std::vector<PlotLayer>& layers, double left, double y, double right);
 constexpr double LEGEND_STEP = 15;  // from row to row, units
 // How much it takes, from above its first row to below its last.

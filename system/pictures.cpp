@@ -9,13 +9,13 @@
 namespace wholehand {
 namespace {
 
-constexpr std::string_view MARK_OF_VERSION_0_1_1 = "<title>wholehand</title>";
+constexpr std::string_view MARK_BY_GNUPLOT = "<title>wholehand</title>";
 constexpr std::string_view MARK_OF_VERSION_0_1_0 = "<title>Gnuplot</title>";
 
 }  // namespace
 
 bool is_own_picture(const std::string& path, bool is_beside_own) {
-  return has_mark(path, PICTURE_MARK) || has_mark(path, MARK_OF_VERSION_0_1_1) ||
+  return has_mark(path, PICTURE_MARK) || has_mark(path, MARK_BY_GNUPLOT) ||
          (is_beside_own && has_mark(path, MARK_OF_VERSION_0_1_0));
 }
 

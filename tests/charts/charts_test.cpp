@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Charts (charts/axes, charts/colors, charts/field, charts/lines): values where they belong, colours in their order, words for those who do not
-// see them.
+// Charts (charts/axes, charts/colors, charts/field, charts/lines): values where they belong, colours in their order, words for
+// those who do not see them.
 // sanitizers: address
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Plots and pictures of their own (charts/plot, charts/picture): areas, lines and marks where their values are, on linear and logarithmic
-// axes, whatever the values are.
+// Plots and pictures of their own (charts/plot, charts/picture): areas, lines and marks where their values are, on linear and
+// logarithmic axes, whatever the values are.
 // sanitizers: address
 #include "charts/plot.h"
 

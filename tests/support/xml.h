@@ -30,7 +30,8 @@ inline bool is_tag(const std::string& tag) {
   return at == tag.size() || (tag[at] == '/' && at + 1 == tag.size());
 }
 
-// Every tag is closed in its order, attributes are quoted, there is no bare '&' and no control character, and there is no number that is none.
+// Every tag is closed in its order, attributes are quoted, there is no bare '&' and no control character, and there is no number
+// that is none.
 inline void expect_well_formed(const std::string& xml) {
   std::vector<std::string> open;
   std::size_t at = 0;
