@@ -22,9 +22,9 @@ namespace {
 std::string partial_recording(const std::string& path) { return followed(path) + ".partial"; }
 
 Error is_in_the_way(const std::string& path, const std::string& partial, const char* option) {
-  return usage_error(fmt::format(
-      "{} {}: {} exists, from a session that was killed or is still running; move it, remove it, or name another file", option, path,
-      partial));
+  return usage_error(
+      fmt::format("{} {}: {} exists, from a session that was killed or is still running; move it, remove it, or name another file",
+                  option, path, partial));
 }
 
 void append_record(std::string& block, const Tick& tick, double rate, std::size_t vessels) {
