@@ -21,7 +21,6 @@
 #include "core/score.h"
 #include "core/trig.h"
 #include "tests/shaders/probe_table.h"
-
 #ifndef MAKE_LEAVES
 #define MAKE_LEAVES make_double_leaves
 #endif
@@ -375,8 +374,8 @@ class CoreLeaves final : public wholehand::Leaves {
     Vessel& vessel = context_.vessel;
     vessel = load_vessel(prepared, data, context_.quadrature, scene.liquid.has_value(), scene.hand.handedness);
     if (lattice_samples == 0) return;
-    use_lattice(vessel, load_lattice(wholehand::prepare_lattice(prepared, lattice_samples, lattice_bits == 16,
-                                                                wholehand::lattice_margin(scene))));
+    const double margin = wholehand::lattice_margin(scene);
+    use_lattice(vessel, load_lattice(wholehand::prepare_lattice(prepared, lattice_samples, lattice_bits == 16, margin)));
   }
 
   void evaluate(int probe, const double* given, double* answer) const override {
