@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How the user asks for what would help: the one place where what libraries say becomes words about options.
+// How the user asks for what would help: here a Remedy becomes words about options.
 #pragma once
 
 #include <string>

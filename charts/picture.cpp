@@ -51,9 +51,9 @@ double open_picture(MarkupWriter& svg, const PictureFrame& frame) {
                    {"viewBox", fmt::format("0 0 {} {}", chart_number(frame.width), chart_number(height))},
                    {"role", "img"},
                    {"aria-labelledby", "title text"}});
+  svg.markup(PICTURE_MARK).markup("\n");  // before what a scene or recording names, which may be long
   svg.element("title", frame.title, {{"id", "title"}});
   svg.element("desc", frame.description, {{"id", "text"}});
-  svg.markup(PICTURE_MARK).markup("\n");
   svg.open("style").markup("\n" + picture_rules()).close();
   svg.empty("rect", {{"width", chart_number(frame.width)}, {"height", chart_number(height)}, {"fill", "#ffffff"}});
   for (std::size_t k = 0; k < lines.size(); ++k)

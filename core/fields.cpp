@@ -66,8 +66,7 @@ constexpr Field ROWS[] = {
      "terms", 0, A::never},
     {FIELD_SCORE, S::one, "score", "1", "score of the grip, larger is better",
      "sum of weight x term over the score terms (attribute score_weights); 0 where the grip is infeasible (and so are its terms) "
-     "or "
-     "implausible",
+     "or implausible",
      DEFAULT, "score", "score", 0, A::never},
 };
 static_assert(std::size(ROWS) == REAL_FIELDS, "a row for each field of reals in shaders/layout.h");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How the samples of a lattice lie in its 32-bit words, which shaders read too: a float in each, or two halves in units of HALF_UNIT, the
-// first of them in the low bits.
+// How the samples of a lattice lie in its 32-bit words, which shaders read too: a float in each, or two halves in units of HALF_UNIT,
+// the first of them in the low bits.
 #pragma once
 
 #include <bit>

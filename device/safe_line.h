@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -25,7 +26,7 @@ class SafeLine {
     std::uint64_t unit = 1;
     for (int k = 0; k < decimals; ++k) unit *= 10;
     if (number * static_cast<double>(unit) >= 0x1p53) return add("many");
-    auto scaled = static_cast<std::uint64_t>(number * static_cast<double>(unit) + 0.5);
+    auto scaled = static_cast<std::uint64_t>(std::llround(number * static_cast<double>(unit)));
     whole(scaled / unit);
     scaled %= unit;
     if (scaled == 0) return *this;

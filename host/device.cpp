@@ -3,6 +3,7 @@
 #include "host/device.h"
 
 #include <algorithm>
+#include <mutex>
 
 #include "host/pipeline_cache.h"
 #include "host/vulkan.h"

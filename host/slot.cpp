@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "host/slot.h"
-#include "system/clock.h"
 
 #include <algorithm>
 #include <limits>
+
+#include "system/clock.h"
 
 namespace wholehand::host {
 namespace {

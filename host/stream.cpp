@@ -305,7 +305,7 @@ class Run {
       stream_.program->device().state().hung = true;
     }
     stream_.idle.clear();
-    if (!keep_program) {
+    if (!done || !keep_program) {
       stream_.program.reset();
     }
   }

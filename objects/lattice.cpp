@@ -11,7 +11,6 @@
 #include <glm/vec3.hpp>
 #include <limits>
 #include <random>
-#include <thread>
 
 #include "core/error.h"
 #include "core/half.h"

@@ -25,13 +25,9 @@ std::vector<std::string> draw_companion_maps(const CompanionRequest& request, co
     return {};
   }
   const std::vector<HeatMapPicture> pictures = sweep_pictures(request.scene, request.plan, *maps, request.names);
-  const std::string failure = write_pictures(heat_map_files(pictures));
   std::vector<std::string> files;
-  if (failure.empty()) {
-    for (const HeatMapPicture& picture : pictures) files.push_back(picture.file);
-  } else {
-    say_note(failure);
-  }
+  const std::string failure = write_pictures(heat_map_files(pictures), &files);
+  if (!failure.empty()) say_note(failure);
   return files;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The one clock: of loops, watches and everything that is timed. Waits on a condition or a queue take std::chrono's, which is the
-// same.
+// The one clock: of loops, watches and everything above core/ that is timed. Waits on a condition or a queue take std::chrono's, which
+// is the same.
 #pragma once
 
 #include <ctime>

@@ -3,7 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "core/error.h"
+#include <exception>
+
 #include "system/files.h"
 
 namespace wholehand {
@@ -23,13 +24,14 @@ void check_overwrites_picture(const std::string& path, bool is_beside_own) {
   if (!is_own_picture(path, is_beside_own)) check_overwrites_marked(path, PICTURE_MARK, "picture of wholehand's", "-o");
 }
 
-std::string write_pictures(const std::vector<PictureFile>& pictures) {
+std::string write_pictures(const std::vector<PictureFile>& pictures, std::vector<std::string>* written) {
   std::string first;
   std::size_t missing = 0;
   for (const PictureFile& picture : pictures) {
     try {
       write_whole_file(picture.path, picture.svg, false);
-    } catch (const Error& error) {
+      if (written) written->push_back(picture.path);
+    } catch (const std::exception& error) {
       if (missing++ == 0) first = error.what();
     }
   }

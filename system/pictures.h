@@ -23,7 +23,7 @@ bool is_own_picture(const std::string& path, bool is_beside_own);
 void check_overwrites_picture(const std::string& path, bool is_beside_own);
 
 // Writes each of them as write_whole_file does. Returns an empty string, or why they are not all there: a sentence for the user, as
-// no result depends on its pictures.
-std::string write_pictures(const std::vector<PictureFile>& pictures);
+// no result depends on its pictures. `written` gets the paths of those that are.
+std::string write_pictures(const std::vector<PictureFile>& pictures, std::vector<std::string>* written = nullptr);
 
 }  // namespace wholehand

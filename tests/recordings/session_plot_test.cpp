@@ -106,6 +106,10 @@ TEST(SessionPlot, OfOneTickAndOfNoNumbersIsDrawn) {
     EXPECT_EQ(drawn_axes(drawn_session(recording)).size(), 3u);
     recording.ticks[0].feedback = HUGE_VAL;
     EXPECT_EQ(drawn_axes(drawn_session(recording)).size(), 3u);
+    for (const double tilt : {1e8, 1e300}) {  // of a damaged recording: no tick for each 30 degrees of it
+      for (Tick& tick : recording.ticks) tick.tilt = tilt;
+      EXPECT_LT(drawn_session(recording).size(), 100000u) << tilt;
+    }
   }
 }
 
