@@ -15,6 +15,7 @@
 #include "core/error.h"
 #include "core/half.h"
 #include "core/lattice.h"
+#include "core/load.h"
 #include "core/parallel.h"
 #include "core/random_bits.h"
 #include "core/sdf.h"
@@ -273,14 +274,7 @@ double seconds_of_rows(const MeshDistance& distance, const PreparedLattice& latt
 // The lattice as the kernels read it.
 core_f64::Vessel kernel_vessel(const PreparedLattice& lattice) {
   core_f64::Vessel vessel;
-  vessel.is_lattice = true;
-  vessel.lattice = {{lattice.origin[0], lattice.origin[1], lattice.origin[2]},
-                    lattice.spacing,
-                    lattice.nx,
-                    lattice.ny,
-                    lattice.nz,
-                    lattice.halves,
-                    lattice.words};
+  core_f64::use_lattice(vessel, core_f64::load_lattice(lattice));
   return vessel;
 }
 

@@ -74,7 +74,8 @@ FieldChart two_by_three() {
   return chart;
 }
 
-std::string written(const FieldChart& chart) {
+template <class Chart>
+std::string written(const Chart& chart) {
   MarkupWriter html;
   write_chart(html, chart);
   EXPECT_TRUE(html.is_closed());
@@ -202,15 +203,6 @@ LineChart three_lines() {
     chart.lines.push_back(line);
   }
   return chart;
-}
-
-std::string written(const LineChart& chart) {
-  MarkupWriter html;
-  write_chart(html, chart);
-  EXPECT_TRUE(html.is_closed());
-  EXPECT_EQ(html.written().find("nan"), std::string::npos);
-  EXPECT_EQ(html.written().find("inf"), std::string::npos);
-  return html.written();
 }
 
 std::vector<std::string> paths_in(const std::string& svg) {

@@ -3,7 +3,6 @@
 // (Embree starts workers that the thread sanitizer cannot see into, and then reports what they were given.)
 // Lattices of distances to meshes: what lies in them, how far they err, and when they are refused.
 #include "objects/lattice.h"
-#include "core/vectors.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +15,9 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/load.h"
 #include "core/sdf.h"
+#include "core/vectors.h"
 #include "objects/distance.h"
 #include "tests/support/meshes.h"
 #include "tests/support/sanitized.h"
@@ -29,14 +30,7 @@ constexpr double ROUNDING = 1e-15;  // m: double precision of some 10 cm
 
 core_f64::Vessel kernel_lattice(const PreparedLattice& lattice) {
   core_f64::Vessel vessel;
-  vessel.is_lattice = true;
-  vessel.lattice = {{lattice.origin[0], lattice.origin[1], lattice.origin[2]},
-                    lattice.spacing,
-                    lattice.nx,
-                    lattice.ny,
-                    lattice.nz,
-                    lattice.halves,
-                    lattice.words};
+  core_f64::use_lattice(vessel, core_f64::load_lattice(lattice));
   return vessel;
 }
 
