@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/vectors.h"
+#include "device/call_watch.h"
 
 namespace wholehand {
 namespace {
@@ -40,12 +41,15 @@ Fault Guard::check(ReadOutcome read, const GripperState& state, std::int64_t num
   if (has_state_ && state.sequence == state_.sequence) return Fault::stale;
   if (!is_finite(state) || !is_rotation(state.rotation)) return Fault::not_finite;
   if (has_state_) {
-    const double seconds = period_ * static_cast<double>(std::max<std::int64_t>(1, number - number_));
+    const double seconds = period_ * static_cast<double>(std::max<std::int64_t>(1, number - taken_));
     arm_speed_ = distance(state.position, state_.position) / seconds;
     gap_speed_ = std::abs(state.gap - state_.gap) / seconds;
     turn_speed_ = turned(state.rotation, state_.rotation) / seconds;
     if (arm_speed_ > jump_ || gap_speed_ > jump_ || turn_speed_ > JUMP_TURN) return Fault::jump;
   }
+  // A process that stands still inside of a read gets its measurement late. The numbers tell a replay so too.
+  const bool is_after_gap = has_state_ && period_ * static_cast<double>(number - number_) >= CALL_PATIENCE;
+  taken_ = is_after_gap ? number_ : number;
   has_state_ = true;
   state_ = state;
   number_ = number;

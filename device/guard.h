@@ -17,7 +17,8 @@ class Guard {
 
   // Why the tick of that number must not go on; Fault::none: it may. In this order: the read failed; the measurement before came once more; a
   // number that is none or a rotation that is none (its columns must be unit and right-handed to ROTATION_TOLERANCE); the arm or the gap
-  // moved faster than [live] jump_m_s, or the rotation faster than JUMP_TURN.
+  // moved faster than [live] jump_m_s, or the rotation faster than JUMP_TURN. A measurement that comes after missed ticks of CALL_PATIENCE and
+  // longer may have been taken before them. What moved since then is compared with the whole time.
   Fault check(ReadOutcome read, const GripperState& state, std::int64_t number) noexcept;
 
   // What jumped, how fast, and what is allowed, for the fault of that name.
@@ -39,6 +40,7 @@ class Guard {
   bool has_state_ = false;                                 // a measurement came before
   GripperState state_;                                     // it
   std::int64_t number_ = 0;                                // its tick
+  std::int64_t taken_ = 0;                                 // the earliest tick in which it may have been taken
   std::int64_t first_ = -1;                                // tick of the first force; -1: none yet
   std::int64_t limited_ = 0;                               // tick of the force before
   GripperForce written_;                                   // that force

@@ -124,6 +124,28 @@ TEST(Guard, TellsAJump) {
   }
 }
 
+// A measurement that came after a gap of 40 ticks may be of the tick before it: what moves 1 m/s is then 41 mm further a tick later, and no jump.
+// One tick later the allowed way is that of one tick again. A gap shorter than CALL_PATIENCE changes nothing.
+TEST(Guard, AMeasurementAfterAGapMayBeOld) {
+  const auto check = [](Guard& guard, std::int64_t tick, double place) {
+    GripperState state = state_at(static_cast<std::uint32_t>(tick));
+    state.position[1] += place;
+    return guard.check(ReadOutcome::value, state, tick);
+  };
+  for (const double allowed : {1.0, 0.999}) {
+    Guard guard(LiveData{}, limits_of(12, 8));
+    ASSERT_EQ(check(guard, 0, 0), Fault::none);
+    ASSERT_EQ(check(guard, 40, 0), Fault::none);
+    EXPECT_EQ(check(guard, 41, 5e-3 * 41 / allowed * 0.9995), allowed == 1.0 ? Fault::none : Fault::jump);
+    if (allowed < 1.0) continue;
+    EXPECT_EQ(check(guard, 42, 5e-3 * 41 * 0.9995 + 5.01e-3), Fault::jump);
+  }
+  Guard guard(LiveData{}, limits_of(12, 8));
+  ASSERT_EQ(check(guard, 0, 0), Fault::none);
+  ASSERT_EQ(check(guard, 11, 0), Fault::none);
+  EXPECT_EQ(check(guard, 12, 5.01e-3), Fault::jump);
+}
+
 TEST(Guard, TheFirstMeasurementMayBeAnywhere) {
   Guard guard(LiveData{}, limits_of(12, 8));
   GripperState far = state_at(0);

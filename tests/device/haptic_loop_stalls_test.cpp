@@ -93,6 +93,35 @@ TEST(HapticLoop, TheTickAfterAStallHasTheClocksNumber) {
   EXPECT_EQ(report.ticks + report.missed, run.sunk[run.sunk.size() - 2].number + 1);
 }
 
+// A measurement that was taken before a stall of its read is told after it. A hand that moves at 0.4 m/s has not jumped in the tick after, which
+// would be 40 times as fast; and a replay, which knows the numbers alone, says the same.
+TEST(HapticLoop, AStallInsideOfAReadIsNoJump) {
+  LoopRig run;
+  press_at_once(run);
+  run.scene.live.jump = 5;
+  run.gripper.at = [](std::int64_t tick) {
+    GripperState state = pressing(tick);
+    state.position[1] = 0.3 + 4e-4 * static_cast<double>(tick);
+    return state;
+  };
+  run.gripper.tamper = [&](std::int64_t, GripperState&) {
+    if (run.gripper.ticks.size() == 40) std::this_thread::sleep_for(std::chrono::milliseconds(40));
+    return ReadOutcome::value;
+  };
+  run.gripper.done = [&] { return run.gripper.ticks.size() > 60; };
+  ASSERT_EQ(run.go().fault, Fault::none);
+  ASSERT_GE(run.sunk[39].number - run.sunk[38].number, 40);
+  LoopRig again;
+  again.scene = run.scene;
+  again.options.seconds = 0;
+  Session session(again.scene, run.gripper.limits().gap);
+  const auto replay = make_replay(run.sunk, run.gripper.limits());
+  HapticLoop loop(again.scene.live, *replay, session, again.sink, again.options);
+  loop.run(NEVER_STOPPED);
+  EXPECT_EQ(loop.report().fault, Fault::none) << loop.guard().jump();
+  EXPECT_EQ(again.sunk.size(), run.sunk.size());
+}
+
 // What a session with stalls wrote, its replay writes.
 TEST(HapticLoop, AReplayOfStallsWritesTheSame) {
   LoopRig run;
