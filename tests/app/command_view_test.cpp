@@ -25,6 +25,7 @@
 #include "scene/reader.h"
 #include "tests/support/files.h"
 #include "tests/support/http_client.h"
+#include "tests/support/patient_board.h"
 #include "tests/support/program.h"
 #include "tests/support/result_reader.h"
 #include "viewer/browser.h"
@@ -86,7 +87,8 @@ bool is_same(const json& seen, double truth) { return seen.get<float>() == stati
 // ---- live ----
 
 TEST(LiveView, ShowsASessionWhileItRuns) {
-  Viewed live("live --view --seconds 3");
+  const TemporaryFolder folder;
+  Viewed live("live " + patient_board(folder) + " --view --seconds 3");
   const json scene = live.get("scene.json");
   EXPECT_EQ(scene["mode"], "live");
   EXPECT_EQ(scene["title"], "mixing_board");
@@ -144,14 +146,16 @@ TEST(LiveView, WhatIsShownIsWhatWasRecorded) {
 }
 
 TEST(LiveView, WithJsonTheAddressIsNotInTheReport) {
-  Viewed live("live --view --json --seconds 0.2");
+  const TemporaryFolder folder;
+  Viewed live("live " + patient_board(folder) + " --view --json --seconds 0.2");
   EXPECT_EQ(live.wait(), 0);
   EXPECT_EQ(json::parse(live.out())["fault"], json());
   EXPECT_EQ(live.err().rfind("view: http://127.0.0.1:", 0), 0u) << live.err();
 }
 
 TEST(LiveView, ASignalEndsItAndSaysSo) {
-  Viewed live("live --view");
+  const TemporaryFolder folder;
+  Viewed live("live " + patient_board(folder) + " --view");
   HttpSocket socket(live.at.port);
   socket.send(live.at.request("frames"));
   EXPECT_FALSE(socket.read_event().empty());
@@ -164,7 +168,8 @@ TEST(LiveView, ASignalEndsItAndSaysSo) {
 
 // What is posted moves the hand that is seen.
 TEST(LiveView, ThePageMayBeTheGripper) {
-  Viewed live("live --view --device view --seconds 20");
+  const TemporaryFolder folder;
+  Viewed live("live " + patient_board(folder) + " --view --device view --seconds 20");
   const json scene = live.get("scene.json");
   EXPECT_EQ(scene["control"], true);
   const json start = scene["control_limits"]["start"];
@@ -203,7 +208,7 @@ TEST(LiveView, ThePageIsToldTheStiffnessOfTheHandsGap) {
   const TemporaryFolder folder;
   std::string scene = file_text(find_scene("mixing_board"));
   scene.insert(scene.find("[force]\n") + 8, "k_open_N_m = 500\n");
-  std::ofstream(folder / "half.toml") << scene << "\n[device]\ngap_mm = [20, 60]\n";
+  std::ofstream(folder / "half.toml") << scene << "\n[device]\ngap_mm = [20, 60]\n[live]\nlate_steps = 1000\n";
   Viewed live("live " + (folder / "half.toml") + " --view --device view --seconds 20");
   const json limits = live.get("scene.json")["control_limits"];
   const double range = limits["gap"][1].get<double>() - limits["gap"][0].get<double>();
@@ -212,7 +217,8 @@ TEST(LiveView, ThePageIsToldTheStiffnessOfTheHandsGap) {
 }
 
 TEST(LiveView, OnlyWithThePageAsGripperAreControlsTaken) {
-  Viewed live("live --view --seconds 20");
+  const TemporaryFolder folder;
+  Viewed live("live " + patient_board(folder) + " --view --seconds 20");
   EXPECT_EQ(live.get("scene.json")["control"], false);
   HttpSocket socket(live.at.port);
   socket.send(live.at.post("{}"));
@@ -224,7 +230,7 @@ TEST(LiveView, OnlyWithThePageAsGripperAreControlsTaken) {
 TEST(LiveView, AStormOfConnectionsCostsTheSessionNothing) {
   const TemporaryFolder folder;
   const std::string file = folder / "a.nc";
-  Viewed live("live --view --json --seconds 4 --record " + file);
+  Viewed live("live " + patient_board(folder) + " --view --json --seconds 4 --record " + file);
   std::vector<HttpSocket> viewers, others;
   for (int k = 0; k < MOST_VIEWERS; ++k) {
     viewers.emplace_back(live.at.port, k == 0 ? 4096 : 0);
@@ -367,8 +373,8 @@ TEST(ViewCommand, RefusesWhatCannotBeShown) {
 }
 
 TEST(ViewCommand, APortThatIsTakenIsNamedAndNothingIsLeft) {
-  const TemporaryFolder folder;
-  Viewed live("live --view --seconds 20");
+  const TemporaryFolder folder, boards;
+  Viewed live("live " + patient_board(boards) + " --view --seconds 20");
   expect_error("live --view --seconds 1 --view-port " + std::to_string(live.at.port) + " --record " + (folder / "p.nc"), 2,
                "--view-port " + std::to_string(live.at.port));
   EXPECT_TRUE(fs::is_empty(fs::path(folder / "p.nc").parent_path())) << "the next start would be refused";

@@ -29,6 +29,7 @@
 #include "tests/support/files.h"
 #include "tests/support/http_client.h"
 #include "tests/support/live_script.h"
+#include "tests/support/patient_board.h"
 
 namespace wholehand {
 namespace {
@@ -184,7 +185,8 @@ TEST(Live, ShowsAWholeSessionWithoutADevice) {
 }
 
 TEST(Live, KeepsItsRateWithAClock) {
-  const LiveOutcome outcome = Program("--json --seconds 2 --rate 1250").wait();
+  const TemporaryFolder folder;
+  const LiveOutcome outcome = Program(patient_board(folder) + " --json --seconds 2 --rate 1250").wait();
   ASSERT_EQ(outcome.code, 0) << outcome.errors;
   const auto report = nlohmann::json::parse(outcome.output);
   EXPECT_EQ(report["rate_Hz"], 1250);
@@ -213,8 +215,9 @@ nlohmann::json dragged(const Scene& scene, double time) {
 
 // Everything between a mouse and the target container but the mouse: requests, parser, gripper, loop.
 TEST(Live, WhatAPagePostsGraspsLiftsTiltsAndPours) {
+  const TemporaryFolder folder;
   const Scene scene = board_scene();
-  Program program("--view --device view --json --seconds 7");
+  Program program(patient_board(folder) + " --view --device view --json --seconds 7");
   for (int k = 0; k < 400 && program.errors().find("/\n") == std::string::npos; ++k)
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   const ViewAddress page(program.errors());
@@ -265,7 +268,9 @@ TEST(Live, StreamsToWhoeverListens) {
         return 0;
       },
       &heard);
-  Program program("--json --seconds 2 --stream osc://localhost:" + std::to_string(lo_server_get_port(server)));
+  const TemporaryFolder folder;
+  Program program(patient_board(folder) +
+                  " --json --seconds 2 --stream osc://localhost:" + std::to_string(lo_server_get_port(server)));
   while (heard.state != "released" && lo_server_recv_noblock(server, 20000) > 0) {
   }
   while (lo_server_recv_noblock(server, 200) > 0) {
@@ -284,7 +289,8 @@ TEST(Live, AReplayGivesTheSameForcesToTheBit) {
   const TemporaryFolder folder;
   const std::string first = folder / "first.nc", second = folder / "second.nc";
   // with a clock: a session in which periods may be missed
-  ASSERT_EQ(Program("--seconds 4 --record " + first).wait().code, 0);
+  const LiveOutcome once = Program(patient_board(folder) + " --seconds 4 --record " + first).wait();
+  ASSERT_EQ(once.code, 0) << once.errors;
   const LiveOutcome again = Program("--no-clock --device replay:" + first + " --record " + second).wait();
   ASSERT_EQ(again.code, 0) << again.errors;
   const Recording a = read_recording(first), b = read_recording(second);
@@ -306,7 +312,7 @@ TEST(Live, SignalsEndItCleanly) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const TemporaryFolder folder;
     const std::string file = folder / "a.nc";
-    Program program("--record " + file);
+    Program program(patient_board(folder) + " --record " + file);
     // until something is held: a force is on the gripper then
     for (int k = 0; k < 600 && program.out().find("is held") == std::string::npos; ++k)
       std::this_thread::sleep_for(std::chrono::milliseconds(50));

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The page as the gripper: by sliders, keys, pointer and touch."""
 
-from support import ViewerTest, main, slide, still
+from support import ViewerTest, main, patient_board, slide, still
 
 FAR = 0.02  # m: what follows smoothly has arrived, all but this
 POURED = 1e-6  # m3
@@ -13,7 +13,7 @@ class ThePageAsGripper(ViewerTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        cls.live = cls.serve("live", "mixing_board", "--view", "--device", "view")
+        cls.live = cls.serve("live", patient_board(cls.folder), "--view", "--device", "view")
 
     def hand(self, page):
         """Middle between the tips of thumb and index finger, as drawn."""

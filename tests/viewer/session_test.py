@@ -31,6 +31,9 @@ target = { place_mm = [0, 60, -200], diameter_mm = 120 }
 amounts_ml = { red = 20 }
 destination_mm = [-200, 0, 0]
 tolerance_ml = 5
+
+[live]
+late_steps = 1000  # on however busy a machine
 """
 HELD = ["lift", "tilt", "maintain"]
 # What the page shows, kept at each picture: states in their order, and the largest of what changes

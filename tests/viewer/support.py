@@ -29,6 +29,15 @@ def wholehand(*arguments, folder=None):
     return done.stdout
 
 
+def patient_board(folder):
+    """The scene mixing_board, whose session no busy machine ends by late ticks."""
+    shipped = os.path.join(os.path.dirname(__file__), "../../scene/examples/mixing_board.toml")
+    path = os.path.join(folder, "mixing_board.toml")
+    with open(shipped) as scene, open(path, "w") as file:
+        file.write(scene.read() + "\n[live]\nlate_steps = 1000\n")
+    return path
+
+
 class Served:
     """A command that serves a view."""
 
