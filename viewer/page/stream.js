@@ -2,16 +2,19 @@
 // Where frames come from: the server's stream of a live session, stretches of a recording, states of a grip.
 import {isNumber} from './format.js';
 
-async function json(address) {
-  let answer;
+// What `read` makes of the answer. A connection can end before the answer and within its body: fetch and body fail the same way.
+export async function request(address, read) {
   try {
-    answer = await fetch(address, {cache: 'no-store'});
+    const answer = await fetch(address, {cache: 'no-store'});
+    if (answer.ok) return await read(answer);
+    throw new Error((await answer.text()).trim().split('\n')[0] || `${address}: ${answer.status}`);
   } catch (error) {
-    throw new Error('wholehand does not answer any more.');
+    if (error instanceof TypeError) throw new Error('wholehand does not answer any more.');
+    throw error;
   }
-  if (!answer.ok) throw new Error((await answer.text()).trim().split('\n')[0] || `${address}: ${answer.status}`);
-  return answer.json();
 }
+
+const json = (address) => request(address, (answer) => answer.json());
 
 export const loadScene = () => json('scene.json');
 

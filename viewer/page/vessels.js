@@ -3,6 +3,7 @@
 import * as THREE from './three.module.js';
 import {GLASS_SAMPLES, open, revolve, rounded, sample} from './profile.js';
 import {creased} from './mesh.js';
+import {request} from './stream.js';
 import {onThemeChange, sceneColors} from './theme.js';
 
 // What is see-through is drawn from the back to the front; within a vessel in this order, the liquid between.
@@ -65,9 +66,7 @@ function walls(vessel) {
 }
 
 async function meshGeometry(address) {
-  const answer = await fetch(address);
-  if (!answer.ok) throw new Error(`${address}: ${await answer.text()}`);
-  const data = await answer.arrayBuffer();
+  const data = await request(address, (answer) => answer.arrayBuffer());
   const [vertices, triangles] = new Uint32Array(data, 0, 2);
   return creased(new Float32Array(data, 8, 3 * vertices), new Uint32Array(data, 8 + 12 * vertices, 3 * triangles));
 }
