@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: MIT
+#include "core/effort.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace CORE_NS {
+
+namespace {
+
+constexpr Real NEVER = std::numeric_limits<Real>::infinity();
+constexpr Real ROUNDING = SINGLE ? Real(1e-5) : Real(1e-11);  // of numbers of size 1 after the pivots of a solve
+constexpr Real LEAST_LENGTH = Real(1e-3);                     // m: of a single contact, which has no extent
+
+template <class Six>
+Real dot6(const Six& a, const Six& b) {
+  Real sum = 0;
+  for (std::size_t k = 0; k < 6; ++k) sum += a[k] * b[k];
+  return sum;
+}
+
+Vec3 first(const std::array<Real, 6>& six) { return Vec3(six[0], six[1], six[2]); }
+Vec3 second(const std::array<Real, 6>& six) { return Vec3(six[3], six[4], six[5]); }
+std::array<Real, 6> joined(Vec3 a, Vec3 b) { return {a.x, a.y, a.z, b.x, b.y, b.z}; }
+
+}  // namespace
+
+Wrench wrench_at(Vec3 place, Vec3 force) { return {force, glm::cross(place, force)}; }
+
+EffortSolver::EffortSolver(std::span<const ContactPoint> contacts, const HandStrength& hand, Vec3 center)
+    : contacts_(contacts), hand_(hand), center_(center) {
+  unit_force_ = *std::max_element(hand.digits.begin(), hand.digits.end());
+  if (!(unit_force_ > 0)) unit_force_ = 1;
+  unit_length_ = std::max(LEAST_LENGTH, hand.torsion);
+  for (const ContactPoint& contact : contacts) unit_length_ = std::max(unit_length_, glm::distance(contact.place, center));
+}
+
+// The wrench that balances a load, in the solver's units.
+EffortSolver::Vec6 EffortSolver::wanted_for(const Wrench& load) const {
+  const Vec3 moment = load.moment - glm::cross(center_, load.force);
+  return joined(-load.force / unit_force_, -moment / (unit_force_ * unit_length_));
+}
+
+// What a contact's unit normal force can do along a direction (a, b), b times the unit of length:
+//   v = a + b x p,  h = n.v + mu s,  s = sqrt(|v - (n.v) n|^2 + gamma^2 (b.n)^2)
+// attained with the tangential force mu t / s and the moment mu gamma^2 (b.n) / s.
+Real EffortSolver::press(const ContactPoint& contact, const Vec6& direction, Vec6* wrench, ContactForce* force) const {
+  const Vec3 arm = (contact.place - center_) / unit_length_, n = contact.normal;
+  const Vec3 turning = second(direction);
+  const Vec3 velocity = first(direction) + glm::cross(turning, arm);
+  const Real along = glm::dot(n, velocity), gamma = hand_.torsion / unit_length_, spin = gamma * glm::dot(turning, n);
+  const Vec3 across = velocity - along * n;
+  const Real root = std::sqrt(glm::dot(across, across) + spin * spin);
+  if (wrench) {
+    const Real share = root > 0 ? hand_.friction / root : Real(0);
+    const Vec3 pushed = n + share * across;
+    const Real torsion = share * gamma * spin;
+    *wrench = joined(pushed, glm::cross(arm, pushed) + torsion * n);
+    if (force) *force = {pushed, torsion * unit_length_};
+  }
+  return along + hand_.friction * root;
+}
+
+// Of each digit the contact that does most along a direction, where it does more than nothing.
+EffortSolver::Best EffortSolver::best_contacts(const Vec6& direction) const {
+  Best best;
+  best.fill(-1);
+  std::array<Real, DIGITS> most{};
+  for (std::size_t i = 0; i < contacts_.size(); ++i) {
+    const auto digit = static_cast<std::size_t>(contacts_[i].digit);
+    const Real value = press(contacts_[i], direction, nullptr, nullptr);
+    if (!(value > most[digit])) continue;
+    most[digit] = value;
+    best[digit] = static_cast<int>(i);
+  }
+  return best;
+}
+
+// h(u), and the point of Z where it is attained.
+Real EffortSolver::support(const Vec6& direction, Vec6& point) const {
+  const Best best = best_contacts(direction);
+  point = {};
+  for (std::size_t digit = 0; digit < DIGITS; ++digit) {
+    if (best[digit] < 0) continue;
+    Vec6 wrench;
+    press(contacts_[static_cast<std::size_t>(best[digit])], direction, &wrench, nullptr);
+    for (std::size_t k = 0; k < 6; ++k) point[k] += hand_.digits[digit] / unit_force_ * wrench[k];
+  }
+  return dot6(direction, point);
+}
+
+EffortSolver::Vec6 EffortSolver::levels(const Vec6& wanted) const {
+  Vec6 levels{};
+  for (std::size_t r = 0; r < 6; ++r) levels[r] = dot6(inverse_[r], wanted);
+  return levels;
+}
+
+// Six artificial columns of great cost, at right angles and with equal shares of `wanted`: a basis with a level of 0 would be degenerate from
+// the start. They are the columns of the reflection that takes (1, .., 1) / sqrt 6 to the unit vector along `wanted`.
+void EffortSolver::begin(const Vec6& wanted) {
+  const Real size = std::sqrt(dot6(wanted, wanted));
+  Vec6 mirror{};
+  Real square = 0;
+  for (std::size_t k = 0; k < 6; ++k) {
+    mirror[k] = wanted[k] / size - std::sqrt(Real(1) / 6);
+    square += mirror[k] * mirror[k];
+  }
+  for (std::size_t r = 0; r < 6; ++r) {
+    for (std::size_t k = 0; k < 6; ++k) {
+      const Real reflected = square > 0 ? 2 * mirror[r] * mirror[k] / square : Real(0);
+      columns_[r].point[k] = (r == k ? Real(1) : Real(0)) - reflected;
+    }
+    columns_[r].cost = UNRESISTED_EFFORT;
+    inverse_[r] = columns_[r].point;  // the reflection is its own inverse
+  }
+  has_basis_ = true;
+}
+
+// The column takes the place of the one whose level comes to zero first; of equal ones the dearest. False: there is none.
+bool EffortSolver::enter(const Column& column, const Vec6& wanted) {
+  const Vec6 turned = levels(column.point), now = levels(wanted);
+  Real largest = 0;
+  for (const Real value : turned) largest = std::max(largest, std::abs(value));
+  std::size_t leaves = 6;
+  Real least = NEVER;
+  for (std::size_t r = 0; r < 6; ++r) {
+    if (!(turned[r] > ROUNDING * largest)) continue;
+    const Real ratio = std::max(Real(0), now[r]) / turned[r];
+    const bool is_tie = leaves < 6 && std::abs(ratio - least) <= ROUNDING * least;
+    const bool is_better = leaves < 6 && (columns_[r].cost > columns_[leaves].cost ||
+                                          (columns_[r].cost == columns_[leaves].cost && turned[r] > turned[leaves]));
+    if (is_tie ? is_better : ratio < least) {
+      leaves = r;
+      least = ratio;
+    }
+  }
+  if (leaves == 6) return false;
+  for (Real& value : inverse_[leaves]) value /= turned[leaves];
+  for (std::size_t r = 0; r < 6; ++r) {
+    if (r == leaves) continue;
+    for (std::size_t k = 0; k < 6; ++k) inverse_[r][k] -= turned[r] * inverse_[leaves][k];
+  }
+  columns_[leaves] = column;
+  return true;
+}
+
+// The inverse anew from the columns, by elimination with row pivots: rank-one updates gather rounding. False: it is singular.
+bool EffortSolver::invert() {
+  std::array<std::array<Real, 12>, 6> rows{};
+  for (std::size_t r = 0; r < 6; ++r)
+    for (std::size_t k = 0; k < 6; ++k) {
+      rows[r][k] = columns_[k].point[r];
+      rows[r][6 + k] = r == k ? Real(1) : Real(0);
+    }
+  for (std::size_t c = 0; c < 6; ++c) {
+    std::size_t best = c;
+    for (std::size_t r = c + 1; r < 6; ++r)
+      if (std::abs(rows[r][c]) > std::abs(rows[best][c])) best = r;
+    if (!(std::abs(rows[best][c]) > 0)) return false;
+    std::swap(rows[c], rows[best]);
+    const Real pivot = rows[c][c];
+    for (Real& value : rows[c]) value /= pivot;
+    for (std::size_t r = 0; r < 6; ++r) {
+      if (r == c) continue;
+      const Real factor = rows[r][c];
+      for (std::size_t k = 0; k < 12; ++k) rows[r][k] -= factor * rows[c][k];
+    }
+  }
+  for (std::size_t r = 0; r < 6; ++r)
+    for (std::size_t k = 0; k < 6; ++k) inverse_[r][k] = rows[r][6 + k];
+  return true;
+}
+
+// What the levels cost, and the share of them that no contact carries.
+EffortSolver::Cost EffortSolver::cost_of(const Vec6& levels) const {
+  Cost cost;
+  for (std::size_t r = 0; r < 6; ++r) {
+    const Real level = std::max(Real(0), levels[r]);
+    const bool is_artificial = columns_[r].cost > 1;
+    (is_artificial ? cost.artificial : cost.real) += level;
+    cost.least = std::min(cost.least, levels[r]);
+  }
+  return cost;
+}
+
+Real EffortSolver::bound(const Wrench& load) const {
+  if (!has_basis_) return NEVER;
+  const Vec6 wanted = wanted_for(load);
+  const Real rounding = ROUNDING * std::sqrt(dot6(wanted, wanted));
+  const Cost cost = cost_of(levels(wanted));
+  return cost.least < -rounding || cost.artificial > rounding ? NEVER : cost.real;
+}
+
+// u = costs times inverse: what the basis says a wrench is worth. A point of Z that is worth more than 1 enters. (-w).u / h(u) is a lower bound of
+// the effort for any u, and the basis' cost an upper one once no artificial column carries anything.
+Effort EffortSolver::solve(const Wrench& load, Real tolerance) {
+  Effort answer;
+  last_ = {};
+  const Vec6 wanted = wanted_for(load);
+  const Real size = std::sqrt(dot6(wanted, wanted));
+  if (!(size > 0)) {
+    has_basis_ = false;
+    return answer;
+  }
+  if (!has_basis_ || !std::isfinite(bound(load))) begin(wanted);
+  Vec6 best{};  // the direction of the greatest lower bound
+  for (;; ++answer.pivots) {
+    const Cost cost = cost_of(levels(wanted));
+    const Real upper = cost.real + UNRESISTED_EFFORT * cost.artificial;
+    Column column;
+    for (std::size_t r = 0; r < 6; ++r)
+      for (std::size_t k = 0; k < 6; ++k) column.direction[k] += columns_[r].cost * inverse_[r][k];
+    const Real height = support(column.direction, column.point), value = dot6(column.direction, wanted);
+    if (value > 0 && value > answer.low * height) {
+      answer.low = height > 0 ? value / height : NEVER;
+      best = column.direction;
+    }
+    if (!std::isfinite(answer.low) || upper - answer.low <= tolerance * upper) break;
+    if (answer.pivots == EFFORT_PIVOTS || !(height > 1) || !enter(column, wanted)) break;
+  }
+  if (invert()) {
+    last_ = levels(wanted);
+    const Cost cost = cost_of(last_);
+    if (cost.artificial <= ROUNDING * size) {
+      answer.effort = cost.real;
+      answer.low = std::min(answer.low, answer.effort);
+      return answer;
+    }
+  }
+  has_basis_ = false;
+  answer.effort = NEVER;
+  if (answer.pivots < EFFORT_PIVOTS) answer.low = NEVER;
+  const Real largest = std::max(glm::length(first(best)), glm::length(second(best)));
+  answer.escape = joined(-first(best) / largest, -second(best) / (largest * unit_length_));
+  return answer;
+}
+
+void EffortSolver::forces(std::span<ContactForce> forces) const {
+  for (ContactForce& force : forces) force = {};
+  if (!has_basis_) return;
+  for (std::size_t r = 0; r < 6; ++r) {
+    if (columns_[r].cost > 1 || !(last_[r] > 0)) continue;
+    const Best best = best_contacts(columns_[r].direction);
+    for (std::size_t digit = 0; digit < DIGITS; ++digit) {
+      if (best[digit] < 0) continue;
+      const auto contact = static_cast<std::size_t>(best[digit]);
+      Vec6 wrench;
+      ContactForce unit;
+      press(contacts_[contact], columns_[r].direction, &wrench, &unit);
+      const Real size = last_[r] * hand_.digits[digit];
+      forces[contact].force += size * unit.force;
+      forces[contact].torsion += size * unit.torsion;
+    }
+  }
+}
+
+}  // namespace CORE_NS

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// Kernel 10: the least part of the hand's strength that balances a load, with a certificate.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "core/real.h"
+
+namespace CORE_NS {
+
+constexpr int DIGITS = FINGERS + 1;  // thumb, index, middle, ring, little, palm
+constexpr int PALM = FINGERS;
+constexpr int EFFORT_PIVOTS = 400;             // at most; then the bracket is what it is
+constexpr Real EFFORT_TOLERANCE = Real(1e-3);  // of the bracket's width, relative
+constexpr Real UNRESISTED_EFFORT =
+    Real(1e6);  // a load that takes more times its own size, in normal forces, counts as not resisted
+
+// Where a digit presses. Vessel frame, m.
+struct ContactPoint {
+  Vec3 place{};   // on the surface
+  Vec3 normal{};  // unit, into the object
+  int digit = 0;  // below DIGITS
+};
+
+// A force at the frame's origin and a moment about it, N and N m.
+struct Wrench {
+  Vec3 force{}, moment{};
+};
+Wrench wrench_at(Vec3 place, Vec3 force);
+
+// What every contact and digit can do. A contact with the normal force N carries a tangential force f and a moment tau about the normal with
+// (|f| / (mu N))^2 + (tau / (mu gamma N))^2 <= 1. The normal forces of a digit's contacts add up to its strength at most.
+struct HandStrength {
+  Real friction = 0;                  // mu
+  Real torsion = 0;                   // gamma, m
+  std::array<Real, DIGITS> digits{};  // N; 0: this digit does not press
+};
+
+struct ContactForce {
+  Vec3 force{};      // on the object, N
+  Real torsion = 0;  // moment about the inward normal, N m
+};
+
+// The least effort lies in [low, effort], and forces of `effort` balance the load. Not resisted by any force: both infinite, and `escape` is the
+// motion of the object (velocity of the solver's center, m/s, and angular velocity, rad/s, scaled together) along which the load pushes it and no
+// contact opposes. `low` stays finite where EFFORT_PIVOTS ended the search before that was certain.
+struct Effort {
+  Real effort = 0, low = 0;
+  std::array<Real, 6> escape{};
+  int pivots = 0;
+};
+
+// The gauge of Z, the Minkowski sum over the digits of strength x conv({0} and the wrenches of its contacts at unit normal force), at the
+// wrench that balances a load: revised simplex with six rows, whose columns are points of Z that its support function finds. Keeps its
+// last basis, from which the next load of the same contacts begins. Allocates nothing. `contacts` must outlive it.
+class EffortSolver {
+ public:
+  // Moments are about `center` inside of it, and lengths in units of the furthest contact from there: both change the way and not the answer.
+  EffortSolver(std::span<const ContactPoint> contacts, const HandStrength& hand, Vec3 center);
+
+  // Ends where effort - low <= tolerance x effort, or after EFFORT_PIVOTS. No load: 0.
+  Effort solve(const Wrench& load, Real tolerance = EFFORT_TOLERANCE);
+  // An upper bound of the effort for this load from the last basis alone; infinite where this basis does not hold it, or there is none.
+  Real bound(const Wrench& load) const;
+  // The forces that balance the last load that was solved, at its effort: one for each contact, `forces` as long as the contacts. Nothing
+  // where the load was not resisted.
+  void forces(std::span<ContactForce> forces) const;
+
+ private:
+  using Vec6 = std::array<Real, 6>;
+  struct Column {
+    Vec6 point{};      // of Z, or of an artificial direction
+    Vec6 direction{};  // whose support it is
+    Real cost = 1;
+  };
+
+  // Levels of the basis: what contacts and artificial columns carry, and the least of them.
+  struct Cost {
+    Real real = 0, artificial = 0, least = 0;
+  };
+  using Best = std::array<int, DIGITS>;  // a contact each; -1: none
+
+  Vec6 wanted_for(const Wrench& load) const;
+  Best best_contacts(const Vec6& direction) const;
+  Cost cost_of(const Vec6& levels) const;
+  Real press(const ContactPoint& contact, const Vec6& direction, Vec6* wrench, ContactForce* force) const;
+  Real support(const Vec6& direction, Vec6& point) const;
+  Vec6 levels(const Vec6& wanted) const;
+  void begin(const Vec6& wanted);
+  bool enter(const Column& column, const Vec6& wanted);
+  bool invert();
+
+  std::span<const ContactPoint> contacts_;
+  HandStrength hand_;
+  Vec3 center_;
+  Real unit_force_ = 1, unit_length_ = 1;  // N, m
+  std::array<Column, 6> columns_{};
+  std::array<Vec6, 6> inverse_{};  // rows
+  Vec6 last_{};                    // levels of the last load
+  bool has_basis_ = false;
+};
+
+}  // namespace CORE_NS
