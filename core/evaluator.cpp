@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/contacts.h"
 #include "core/grip.h"
 #include "core/load.h"
 #include "core/mesh_body.h"
@@ -188,6 +189,20 @@ class CoreEvaluator final : public wholehand::Evaluator {
     score.terms = {terms[0], terms[1], terms[2], terms[3], terms[4], terms[5]};
     score.score = result.plausible ? states_.weighted(terms) : 0;
     return score;
+  }
+
+  std::vector<wholehand::GripContact> contacts(std::size_t v, const GripResult& result) const override {
+    const auto mirror = [&](const Triple& triple) { return wholehand::mirrored(triple, scene_.hand.handedness); };
+    std::array<Vec3, JOINTS> posed;
+    for (std::size_t j = 0; j < JOINTS; ++j) posed[j] = to_vec3<Real>(mirror(result.posed[j]));
+    std::array<PressingJoint, JOINTS> pressing;
+    const int count = find_contacts(entries_[v].vessel, posed, result.touch_mask, pressing);
+    std::vector<wholehand::GripContact> contacts;
+    for (int i = 0; i < count; ++i) {
+      const ContactPoint& contact = pressing[i].contact;
+      contacts.push_back({pressing[i].joint, contact.digit, mirror(to_triple(contact.place)), mirror(to_triple(contact.normal))});
+    }
+    return contacts;
   }
 
   void planes(std::size_t v, const GripInput* grips, std::size_t count, const FieldSet& fields, std::size_t stride, double* reals,

@@ -55,6 +55,9 @@ class Evaluator {
   // Scores over the scene's fills and tilts.
   virtual GripScore score(std::size_t vessel, const GripInput& grip, const GripResult& result) const = 0;
 
+  // Where the posed hand of a feasible grip presses (kernel 9). An evaluator that knows no contacts has none.
+  virtual std::vector<GripContact> contacts(std::size_t vessel, const GripResult& result) const;
+
   // `count` grips into planes of `stride` doubles (uints likewise). Infeasible grips get NaN reals from the
   // first that does not exist (t, gap and midpoint do from too_wide on); score and terms 0.
   virtual void planes(std::size_t vessel, const GripInput* grips, std::size_t count, const FieldSet& fields, std::size_t stride,

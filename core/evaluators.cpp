@@ -13,6 +13,8 @@ namespace wholehand {
 
 const PreparedLattice* Evaluator::lattice(std::size_t) const { return nullptr; }
 
+std::vector<GripContact> Evaluator::contacts(std::size_t, const GripResult&) const { return {}; }
+
 std::unique_ptr<Evaluator> make_core_evaluator(const Scene& scene, const EvaluatorOptions& options) {
   return core_f64::make_evaluator(scene, options);
 }

@@ -57,6 +57,12 @@ struct LiquidResult {
   double poured = 0;            // m3
 };
 
+// Where the hand presses on the vessel: nearest point of the surface (m) and unit normal into the vessel, vessel frame.
+struct GripContact {
+  int joint = 0, digit = 0;  // the digit is a finger, or FINGER_COUNT for the palm
+  Triple point{}, normal{};
+};
+
 // One state of one grip.
 struct StateResult {
   double mass = 0;                                              // vessel and liquid, kg
