@@ -202,7 +202,8 @@ ExitCode grip(const GripArguments& arguments) {
   scene.vessels = asked.vessels;
   say_cavity_notes(scene);
   say_float_warnings(asked, precision);
-  const GripReport report = make_grip_report(scene, vessel, input, axes, open_grip_methods(scene, arguments.on, precision));
+  GripReport report = make_grip_report(scene, vessel, input, axes, open_grip_methods(scene, arguments.on, precision));
+  add_holding(report, scene, vessel);
   write_drawings(arguments, scene, vessel, report);
   if (arguments.json && arguments.on != "core") std::fprintf(stderr, "wholehand: on %s\n", report.device.c_str());
   print(arguments.json ? grip_json(report) + "\n" : grip_table(report));

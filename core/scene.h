@@ -149,6 +149,11 @@ struct ForceData {
   double grip_strength = 40;  // N
 };
 
+// The largest sum of normal forces of each digit's contacts, N: thumb, index, middle, ring, little, palm. docs/method.md has the sources.
+struct StrengthData {
+  std::array<double, FINGER_COUNT + 1> digits{40, 25, 35, 25, 14, 80};
+};
+
 // Values of one axis of the grips. A range keeps its ends so that Sobol points can fill it continuously.
 struct Axis {
   std::vector<double> values{0.0};  // SI; never empty
@@ -208,6 +213,7 @@ struct Scene {
   HandData hand;
   std::vector<VesselData> vessels;
   std::optional<LiquidData> liquid;
+  StrengthData strength;
   ForceData force;  // a scene without [force] has these defaults
   GripsData grips;
   std::vector<double> tilts;  // rad, strictly ascending in [0, pi]; empty: no [tilts], no force kernel

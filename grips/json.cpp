@@ -68,6 +68,33 @@ Json state_json(const GripReport& report, const GripState& s) {
   return json;
 }
 
+const char* digit_name(int digit) { return digit < FINGER_COUNT ? FINGER_NAMES[static_cast<std::size_t>(digit)] : "palm"; }
+
+void add_state_hold(Json& json, const StateHold& hold) {
+  json["effort"] = finite_or_null(hold.effort);
+  json["effort_low"] = finite_or_null(hold.low);
+  json["tips_effort"] = finite_or_null(hold.tips);
+  json["worst_direction"] = hold.escape ? Json(*hold.escape) : Json(nullptr);
+  json["contacts"] = Json::array();
+  for (const HeldContact& contact : hold.contacts) {
+    json["contacts"].push_back({{"digit", digit_name(contact.digit)},
+                                {"joint", contact.joint},
+                                {"point_m", contact.point},
+                                {"normal", contact.normal},
+                                {"force_N", contact.force},
+                                {"torsion_Nm", contact.torsion}});
+  }
+}
+
+void add_grip_hold(Json& json, const GripHold& hold) {
+  json["worst_effort"] = finite_or_null(hold.worst);
+  json["worst_effort_fill"] = hold.worst_fill;
+  json["worst_effort_tilt_rad"] = hold.worst_tilt;
+  json["tips_worst_effort"] = finite_or_null(hold.tips_worst);
+  json["push_N"] = hold.push;
+  json["friction_needed"] = finite_or_null(hold.friction_needed);
+}
+
 Json score_terms(const GripReport& report) {
   const ScoreTerms& terms = report.answer.score.terms;
   Json json{{"fingers", terms.fingers}, {"contacts", terms.contacts}, {"depth", terms.depth}, {"posture", terms.posture}};
@@ -112,7 +139,11 @@ std::string grip_json(const GripReport& report) {
     json["palm_depth_m"] = result.palm_depth;
     json["bone_stretch_m"] = result.bone_stretch;
     json["states"] = Json::array();
-    for (const GripState& state : report.answer.states) json["states"].push_back(state_json(report, state));
+    for (std::size_t k = 0; k < report.answer.states.size(); ++k) {
+      json["states"].push_back(state_json(report, report.answer.states[k]));
+      if (k < report.holds.size()) add_state_hold(json["states"].back(), report.holds[k]);
+    }
+    if (report.hold) add_grip_hold(json, *report.hold);
     json["score"] = report.answer.score.score;
     json["score_terms"] = score_terms(report);
   }

@@ -29,6 +29,14 @@ GripReport make_grip_report(const Scene& scene, std::size_t vessel, const GripIn
   return report;
 }
 
+void add_holding(GripReport& report, const Scene& scene, std::size_t vessel) {
+  if (report.answer.result.reason != Reason::none) return;
+  const auto evaluator = make_core_evaluator(scene);
+  const Holding holding(scene, *evaluator, vessel, report.grip, report.answer.result, report.pour);
+  for (const GripState& state : report.answer.states) report.holds.push_back(holding.state(state));
+  report.hold = holding.over_states();
+}
+
 // y x d for the direction d of the right hand's line; a left hand is that of the scene mirrored in x, which turns the sign.
 Triple pour_direction(const Scene& scene, const GripInput& grip) {
   const double away = scene.hand.handedness == Handedness::right ? 1 : -1;

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "grips/holding.h"
 #include "grips/methods.h"
 
 namespace wholehand {
@@ -17,11 +18,16 @@ struct GripReport {
   bool has_liquid = false;
   bool has_tilts = false;           // the scene's: without them there are no force and hold terms
   std::vector<double> score_fills;  // fills of the score's terms
+  std::vector<StateHold> holds;     // of answer.states; empty until add_holding
+  std::optional<GripHold> hold;     // over the scene's states; nothing without tilts
 };
 
 // Evaluates the grip.
 GripReport make_grip_report(const Scene& scene, std::size_t vessel, const GripInput& grip, const StateAxes& axes,
                             const GripMethods& methods);
+
+// What holding takes of the whole hand, by the core in double, whatever device answered. Does nothing for an infeasible grip.
+void add_holding(GripReport& report, const Scene& scene, std::size_t vessel);
 
 // One JSON object in one line, SI units, points in the vessel frame; docs/grip.md names the fields. What does not exist up to the
 // reason of an infeasible grip is absent; an infinite hold force and the centre of no liquid are null. Doubles read back as they were.

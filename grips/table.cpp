@@ -89,6 +89,52 @@ void write_states(Buffer out, const GripReport& report) {
   }
 }
 
+// A share of the hand's strength, in percent.
+std::string percent(double effort) {
+  return std::isfinite(effort) ? fmt::format("{:.2f} %", effort * 100) : std::string("no force holds it");
+}
+
+std::string contact_name(const HeldContact& contact) {
+  return joint_name(contact.joint) + (contact.digit == FINGER_COUNT ? ", palm" : "");
+}
+
+// What each digit presses, of the states that were asked for the one that takes most; of those that no force holds the first.
+void write_contacts(Buffer out, const GripReport& report) {
+  if (report.holds.empty()) return;
+  std::size_t most = 0;
+  for (std::size_t k = 1; k < report.holds.size(); ++k)
+    if (report.holds[k].effort > report.holds[most].effort) most = k;
+  const StateHold& hold = report.holds[most];
+  const GripState& state = report.answer.states[most];
+  fmt::format_to(out, "\n  effort         {} of the hand's strength at fill {:.3g}, {:.2f} deg; two tips alone: {}\n",
+                 percent(hold.effort), state.fill, degrees(state.tilt), percent(hold.tips));
+  if (hold.escape) {
+    const auto& v = *hold.escape;
+    fmt::format_to(out, "  unopposed      moving along ({:.3f}, {:.3f}, {:.3f}) m/s, turning by ({:.3f}, {:.3f}, {:.3f}) rad/s\n",
+                   v[0], v[1], v[2], v[3], v[4], v[5]);
+    return;
+  }
+  fmt::format_to(out, "  {:<18}{:^27} {:^27}{:>9}\n", "presses at", "place, mm", "force, N", "mN m");
+  for (const HeldContact& contact : hold.contacts) {
+    if (contact.force == Triple{}) continue;
+    fmt::format_to(out, "  {:<18}{} {:9.3f} {:8.3f} {:8.3f} {:8.3f}\n", contact_name(contact), millimetres(contact.point),
+                   contact.force[0], contact.force[1], contact.force[2], contact.torsion * 1e3);
+  }
+}
+
+void write_hold(Buffer out, const GripReport& report) {
+  if (!report.hold) return;
+  const GripHold& hold = *report.hold;
+  fmt::format_to(out, "\n  worst effort   {}, at fill {:.3g} and {:.1f} deg; two tips alone: {}\n", percent(hold.worst),
+                 hold.worst_fill, degrees(hold.worst_tilt), percent(hold.tips_worst));
+  fmt::format_to(out, "  friction       {}\n",
+                 std::isfinite(hold.friction_needed)
+                     ? fmt::format("{:.3f} is the least that holds that state", hold.friction_needed)
+                     : std::string("none up to 10 holds that state"));
+  fmt::format_to(out, "  push           {:.2f} N at the centre of mass, upright and fullest, in the worst of six directions\n",
+                 hold.push);
+}
+
 void write_score(Buffer out, const GripReport& report) {
   const GripScore& score = report.answer.score;
   fmt::format_to(out, "\n  score          {:.6f}\n", score.score);
@@ -120,6 +166,8 @@ std::string grip_table(const GripReport& report) {
   if (report.answer.result.reason != Reason::none) return text;
   write_joints(out, report.answer.result);
   write_states(out, report);
+  write_contacts(out, report);
+  write_hold(out, report);
   write_score(out, report);
   return text;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// [force], [score] and [output]: what is made of the states, and what is kept.
+// [force], [strength], [score] and [output]: what is made of the states, and what is kept.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -39,6 +39,13 @@ void read_force(const SceneTable& root, ForceData& force) {
   table->read("friction", ranges::FRICTION, force.friction);
   table->read("torsion_mm", ranges::TORSION, force.torsion);
   table->read("grip_strength_N", ranges::GRIP_STRENGTH, force.grip_strength);
+}
+
+void read_strength(const SceneTable& root, StrengthData& strength) {
+  constexpr std::array<const char*, FINGER_COUNT + 1> KEYS{"thumb_N", "index_N", "middle_N", "ring_N", "little_N", "palm_N"};
+  const auto table = root.table("strength", {KEYS.begin(), KEYS.end()});
+  if (!table) return;
+  for (std::size_t digit = 0; digit < KEYS.size(); ++digit) table->read(KEYS[digit], ranges::GRIP_STRENGTH, strength.digits[digit]);
 }
 
 void read_score(const SceneTable& root, bool has_tilts, ScoreWeights& weights) {

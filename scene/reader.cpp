@@ -51,6 +51,7 @@ void read_scene(const SceneTable& root, Scene& scene) {
   check_vessels(root, scene);
   set_vessel_fills(root, scene);
   read_force(root, scene.force);
+  read_strength(root, scene.strength);
   const bool has_mesh =
       std::any_of(scene.vessels.begin(), scene.vessels.end(), [](const VesselData& vessel) { return vessel.mesh.has_value(); });
   read_grips(root, has_mesh, scene.grips);
@@ -77,7 +78,7 @@ Scene parse_scene(std::string_view text, const std::string& name) {
   scene.text = text;
   const SceneTable root(
       file, table, "the scene",
-      {"scene", "hand", "vessel", "liquid", "force", "grips", "tilts", "score", "output", "live", "device", "task"});
+      {"scene", "hand", "vessel", "liquid", "force", "strength", "grips", "tilts", "score", "output", "live", "device", "task"});
   read_scene(root, scene);
   return scene;
 }

@@ -70,6 +70,8 @@ constexpr RefusedScene OUT_OF_RANGE[] = {
     {"[hand]\nhandedness = @\"Right\"", "handedness = 'Right'; allowed: \"right\" or \"left\""},
     {"[hand.angles]\nmcp_deg = [4, @200]", "mcp_deg = 200; allowed: -180 to 180"},
     {"[force]\nfriction = @-0.1", "friction = -0.1; allowed: 0 to 10"},
+    {"[strength]\nthumb_N = @0", "thumb_N = 0; allowed: 0.1 to 10000"},
+    {"[strength]\npalm_N = @-3", "palm_N = -3; allowed: 0.1 to 10000"},
     {"[live]\nrate_Hz = @100", "rate_Hz = 100; allowed: 250 to 8000"},
     {"[live]\nlate_steps = @0", "late_steps = 0; allowed: a whole number, 1 to 1000"},
     {"[output]\nbest = @-1", "best = -1; allowed: a whole number, 0 to 100000"},

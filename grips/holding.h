@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// What holding a vessel takes of the whole hand: kernels 9 and 10 over the states of one grip.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "core/effort.h"
+#include "grips/methods.h"
+
+namespace wholehand {
+
+// One place where the hand presses, with what it presses there. Vessel frame; force on the vessel.
+struct HeldContact {
+  int joint = 0, digit = 0;  // the digit is a finger, or FINGER_COUNT for the palm
+  Triple point{}, normal{};  // m; unit, into the vessel
+  Triple force{};            // N
+  double torsion = 0;        // moment about `normal`, N m
+};
+
+// One state. The least effort lies in [low, effort]; both are infinite where no force of the hand holds the vessel. `forces` of its contacts attain
+// `effort`; where that is infinite they are zero, and `escape` is how the vessel gets away: velocity of the centre of mass (m/s) and
+// angular velocity (rad/s), scaled together.
+struct StateHold {
+  double effort = 0, low = 0;
+  double tips = 0;  // the effort of thumb and index tip alone
+  std::optional<std::array<double, 6>> escape;
+  std::vector<HeldContact> contacts;
+};
+
+// A grip over the scene's own fills and tilts. The effort is a share of the strength: up to 1 the hand holds.
+struct GripHold {
+  double worst = 0, worst_fill = 0, worst_tilt = 0;  // the first state of the largest effort: fraction, rad
+  double tips_worst = 0;
+  double push = 0;  // N: upright and fullest, what may push at the centre of mass along each of +-x, +-y, +-z beside the weight
+  double friction_needed = 0;  // the least mu that holds that worst state; infinite: none up to 10
+  int states = 0, skipped = 0, pivots = 0;
+};
+
+class Holding {
+ public:
+  // Of a feasible grip; `pour` is the report's. `scene` and `evaluator`, made for it, must outlive this.
+  Holding(const Scene& scene, const Evaluator& evaluator, std::size_t vessel, const GripInput& grip, const GripResult& result,
+          const Triple& pour);
+
+  StateHold state(const GripState& state) const;
+  // Nothing where the scene has no tilts.
+  std::optional<GripHold> over_states() const;
+
+ private:
+  core_f64::Wrench load(const StateResult& state, double tilt) const;
+  GripState loaded(double fill, double tilt) const;
+  double push() const;
+  double push_along(const core_f64::Wrench& weight, const core_f64::Vec3& center, const core_f64::Vec3& direction) const;
+  double friction_for(const core_f64::Wrench& load) const;
+
+  const Scene& scene_;
+  const Evaluator& evaluator_;
+  std::size_t vessel_;
+  GripInput grip_;
+  GripResult result_;
+  Triple pour_;
+  std::vector<int> joints_;  // of the contacts
+  std::vector<core_f64::ContactPoint> contacts_, tips_;
+  core_f64::HandStrength hand_;
+  core_f64::Vec3 center_{};  // of the contacts
+};
+
+}  // namespace wholehand
