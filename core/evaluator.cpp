@@ -13,6 +13,7 @@
 #include "core/mirror.h"
 #include "core/prepare.h"
 #include "core/scene_states.h"
+#include "core/touch.h"
 #include "core/trig.h"
 #include "core/vectors.h"
 
@@ -94,6 +95,8 @@ class CoreEvaluator final : public wholehand::Evaluator {
       }
       if (entry.lattice) use_lattice(entry.vessel, load_lattice(*entry.lattice));
       entry.vessel.limits = hand_.limits;
+      entry.vessel.on_table = scene.table.has_value();
+      if (scene.table) entry.vessel.table_top = Real(wholehand::table_top(scene, data));
       entry.force = load_force(scene, data);
       entries_.push_back(std::move(entry));
       fill_states(entries_.size() - 1);
@@ -134,6 +137,8 @@ class CoreEvaluator final : public wholehand::Evaluator {
     result.phalanx_depth = answer.phalanx_depth;
     result.palm_depth = answer.palm_depth;
     result.bone_stretch = answer.bone_stretch;
+    result.through_table = (answer.status & STATUS_THROUGH_TABLE) != 0;
+    if (scene_.table) result.table_depth = answer.table_depth;
   }
 
   LiquidResult liquid(std::size_t v, double fill, double tilt) const override {
@@ -310,6 +315,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
     row.put(FIELD_PHALANX_DEPTH, 0, answer.phalanx_depth);
     row.put(FIELD_PALM_DEPTH, 0, answer.palm_depth);
     row.put(FIELD_BONE_STRETCH, 0, answer.bone_stretch);
+    row.put(FIELD_TABLE_DEPTH, 0, answer.table_depth);
     put_points(row, FIELD_JOINTS, answer.joints.data(), JOINTS);
     put_points(row, FIELD_POSED, answer.posed.data(), JOINTS);
     put_points(row, FIELD_PROXIES, answer.proxies.data(), JOINTS);

@@ -6,6 +6,7 @@
 
 #include "core/contact.h"
 #include "core/joints.h"
+#include "core/table.h"
 
 namespace CORE_NS {
 
@@ -125,6 +126,26 @@ void examine_pose(const Hand& hand, const Vessel& vessel, PoseKind pose, Wanted 
   if (judged_depth <= hand.depth_limit) answer.status |= STATUS_PLAUSIBLE;
 }
 
+// Kernel 8: how far the posed hand reaches below the top of the table, and the open hand at the same place, which it has to come from.
+// The open hand's bases, and the MCPs of its fingers, are those of the posed one.
+void examine_table(const Hand& hand, const Vessel& vessel, const Placement& placement, GripAnswer& answer) {
+  Real depth = -NO_DISTANCE;
+  for (int f = 0; f < FINGERS; ++f) {
+    const PlacedFinger finger = place_finger(hand, placement, f);
+    for (int k = 0; k < finger_joints(f); ++k)
+      depth = std::max(depth, depth_in_table(vessel, answer.posed[finger_start(f) + k], finger.radius[k]));
+    // the thumb's chain starts at its base: its points beyond are one earlier
+    const int first = f == 0 ? 1 : 2;
+    const Vec3 radii(finger.radius[first], finger.radius[first + 1], finger.radius[first + 2]);
+    const Vec3 thumb_lengths = placement.scale * Vec3(hand.length[0][0], hand.length[0][1], hand.length[0][2]);
+    const FingerPoints open = f == 0 ? thumb_points(finger.frame, thumb_lengths, thumb_angles(hand, Real(0)))
+                                     : finger_points(finger.frame, finger.mcp, finger.lengths, finger_angles(hand, Real(0)));
+    depth = std::max(depth, finger_in_table(vessel, open, radii));
+  }
+  answer.table_depth = depth;
+  if (depth > 0) answer.status = (answer.status | STATUS_THROUGH_TABLE) & ~std::uint32_t(STATUS_PLAUSIBLE);
+}
+
 }  // namespace
 
 void rest_hand(const Hand& hand, const Vessel& vessel, PoseKind pose, const Closing& closing, Real friction, Wanted wanted,
@@ -181,6 +202,7 @@ void rest_hand(const Hand& hand, const Vessel& vessel, PoseKind pose, const Clos
   }
   // what the posed hand touches, and how deep
   examine_pose(hand, vessel, pose, wanted, scale, before, answer);
+  if (vessel.on_table) examine_table(hand, vessel, closing.placement, answer);
 }
 
 void evaluate_grip(const Hand& hand, const Vessel& vessel, PoseKind pose, Grip grip, Real friction, Wanted wanted,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One grip through kernels 3, 4 and 5: the core's way of putting the leaf functions together. The shaders put the same leaves together
+// One grip through kernels 3, 4, 5 and 8: the core's way of putting the leaf functions together. The shaders put the same leaves together
 // in shaders/grip.comp, streamed.
 #pragma once
 
@@ -26,10 +26,11 @@ struct GripAnswer {
   std::array<Real, JOINTS> separation{};
   std::uint32_t touch_mask = 0, tip_mask = 0, finger_mask = 0, inner_mask = 0, used_mask = 0;
   Real phalanx_depth = 0, palm_depth = 0, bone_stretch = 0;
+  Real table_depth = 0;   // where the vessel is on a table
   int advance_steps = 0;  // of the longest stage of a finger (pose articulated)
 };
 
-// Kernels 5 and 4 of a hand that has closed: `closing` tells where it is, without a reason against it. Allocates nothing.
+// Kernels 5, 4 and, on a table, 8 of a hand that has closed: `closing` tells where it is, without a reason against it. Allocates nothing.
 void rest_hand(const Hand& hand, const Vessel& vessel, PoseKind pose, const Closing& closing, Real friction, Wanted wanted,
                GripAnswer& answer);
 // The whole. Allocates nothing. Fields as in wholehand::GripResult; where not wanted they keep their zeros. `friction` decides `antipodal`.

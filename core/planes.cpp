@@ -31,6 +31,11 @@ int field_planes(int field, std::size_t fills, std::size_t tilts) {
   return 1;
 }
 
+int field_planes(int field, const Scene& scene) {
+  if (field < REAL_FIELDS && field_row(field).of_table && !scene.table) return 0;
+  return field_planes(field, scene_fills(scene), scene.tilts.size());
+}
+
 namespace {
 
 // What must be computed for a score, and for any force.
@@ -40,11 +45,10 @@ const std::vector<int> SCORE_NEEDS{FIELD_STATUS,     FIELD_TOUCH_MASK, FIELD_USE
 }  // namespace
 
 FieldSet make_field_set(const std::vector<int>& kept, const Scene& scene) {
-  const std::size_t fills = scene_fills(scene), tilts = scene.tilts.size();
   FieldSet set;
   set.plane.fill(-1);
   const auto place = [&](int field, bool is_kept) {
-    const int planes = field_planes(field, fills, tilts);
+    const int planes = field_planes(field, scene);
     if (planes == 0 || set.plane[field] >= 0) return;
     int& next = field < REAL_FIELDS ? set.real_planes : set.uint_planes;
     set.plane[field] = next;
@@ -55,7 +59,7 @@ FieldSet make_field_set(const std::vector<int>& kept, const Scene& scene) {
   place(FIELD_SCORE, false);
   for (const int field : SCORE_NEEDS) {
     // the midpoint serves the forces alone
-    if (field == FIELD_MIDPOINT && tilts == 0) continue;
+    if (field == FIELD_MIDPOINT && scene.tilts.empty()) continue;
     place(field, false);
   }
   return set;
@@ -91,6 +95,7 @@ GripResult decode_grip(const PlaneChunk& chunk, const FieldSet& fields, std::siz
   result.plausible = (result.status & STATUS_PLAUSIBLE) != 0;
   result.antipodal = (result.status & STATUS_ANTIPODAL) != 0;
   result.grazing = (result.status & STATUS_GRAZING) != 0;
+  result.through_table = (result.status & STATUS_THROUGH_TABLE) != 0;
   result.contact_angles = {real(FIELD_CONTACT_ANGLES, 0), real(FIELD_CONTACT_ANGLES, 1)};
   result.closure = real(FIELD_CLOSURE);
   result.gap = real(FIELD_GAP);
@@ -108,6 +113,7 @@ GripResult decode_grip(const PlaneChunk& chunk, const FieldSet& fields, std::siz
   result.phalanx_depth = real(FIELD_PHALANX_DEPTH);
   result.palm_depth = real(FIELD_PALM_DEPTH);
   result.bone_stretch = real(FIELD_BONE_STRETCH);
+  if (fields.has(FIELD_TABLE_DEPTH)) result.table_depth = real(FIELD_TABLE_DEPTH);
   return result;
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "core/scene.h"
@@ -27,9 +28,10 @@ extern const std::array<const char*, 7> REASON_NAMES;  // "" for none
 // Fields exist up to the reason: gap and midpoint from too_wide on, everything else only where the reason is none.
 struct GripResult {
   Reason reason = Reason::none;
-  bool plausible = false;                  // not deeper than the depth limit
+  bool plausible = false;                  // not deeper than the depth limit, and not through the table
   bool antipodal = false;                  // both contact angles within atan(mu)
   bool grazing = false;                    // a contact normal within 1 degree of perpendicular to the thumb-index line
+  bool through_table = false;              // the hand, posed or open, reaches below the table and its clearance
   std::array<double, 2> contact_angles{};  // thumb, index: between outward normal and line, rad
   double closure = 0;
   double gap = 0;  // m
@@ -42,10 +44,11 @@ struct GripResult {
   std::uint32_t tip_mask = 0;    // projected, by role
   std::uint32_t finger_mask = 0;
   std::uint32_t inner_mask = 0;
-  std::uint32_t used_mask = 0;               // bit f: finger f has a touching point
-  std::uint32_t status = 0;                  // STATUS_* bits of shaders/layout.h
-  double phalanx_depth = 0, palm_depth = 0;  // m, >= 0
-  double bone_stretch = 0;                   // m
+  std::uint32_t used_mask = 0;                                    // bit f: finger f has a touching point
+  std::uint32_t status = 0;                                       // STATUS_* bits of shaders/layout.h
+  double phalanx_depth = 0, palm_depth = 0;                       // m, >= 0
+  double bone_stretch = 0;                                        // m
+  double table_depth = std::numeric_limits<double>::quiet_NaN();  // m, more than 0: through_table; NaN without a table
   // Iterations, of the core alone (a device does not tell): of the longer trace of a tip, and of a finger's longest stage.
   int trace_steps = 0, advance_steps = 0;
 };

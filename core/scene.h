@@ -182,6 +182,11 @@ struct OutputData {
   int best = 20;
 };
 
+// The level plane at a vessel's lowest point, on which it stands until it is lifted.
+struct TableData {
+  double clearance = 2e-3;  // m, that the hand must keep above it
+};
+
 struct LiveData {
   double rate = 1000, stiffness = 800, damping = 1, slip = 8e-3, ramp = 0.5, slew = 2000, jump = 5;
   int late_steps = 3;
@@ -219,6 +224,7 @@ struct Scene {
   std::vector<double> tilts;  // rad, strictly ascending in [0, pi]; empty: no [tilts], no force kernel
   ScoreWeights score;
   OutputData output;
+  std::optional<TableData> table;
   LiveData live;
   DeviceData device;
   std::optional<TaskData> task;

@@ -46,6 +46,8 @@ struct Vessel {
   Real mass = 0;                   // empty, kg
   Vec3 center_of_mass{};           // empty
   std::vector<Real> lip_capacity;  // m3 at whole degrees 0..180; empty where the scene has no liquid
+  bool on_table = false;           // the scene has a table
+  Real table_top = 0;              // its height and the clearance
 };
 
 // The nearest element's number and squared distance, as the search carries them; the squared distance of the nearest one that is

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How near is touching, and how deep is inside.
+// How near is touching, how deep is inside, and how low is through the table.
 #pragma once
 
 #include <algorithm>
@@ -16,5 +16,8 @@ constexpr double LEAST_CONTACT = 4e-6;
 // What the kernels compare separations and depths with, m: the scene's, but no less than that.
 inline double judged_contact_tolerance(const HandData& hand) { return std::max(hand.contact_tolerance, LEAST_CONTACT); }
 inline double judged_depth_limit(const HandData& hand) { return std::max(hand.depth_limit, LEAST_CONTACT); }
+
+// The height in the vessel frame that the hand's skin must stay above, m. Only of a scene with a table.
+inline double table_top(const Scene& scene, const VesselData& vessel) { return vessel.base + scene.table->clearance; }
 
 }  // namespace wholehand

@@ -51,8 +51,12 @@ void write_closing(Buffer out, const GripReport& report) {
   fmt::format_to(out, "  closure        {:.6f}\n", r.closure);
   fmt::format_to(out, "  contact angles thumb {:.3f}, index {:.3f} deg, antipodal: {}{}\n", degrees(r.contact_angles[0]),
                  degrees(r.contact_angles[1]), yes_no(r.antipodal), r.grazing ? ", grazing" : "");
-  fmt::format_to(out, "  plausible      {}: phalanges {:.3f} mm deep, palm {:.3f} mm\n", yes_no(r.plausible), r.phalanx_depth * 1e3,
-                 r.palm_depth * 1e3);
+  fmt::format_to(out, "  plausible      {}: phalanges {:.3f} mm deep, palm {:.3f} mm{}\n", yes_no(r.plausible),
+                 r.phalanx_depth * 1e3, r.palm_depth * 1e3, r.through_table ? "; the hand goes through the table" : "");
+  if (!std::isnan(r.table_depth)) {
+    fmt::format_to(out, "  table          {:.3f} mm {} the table and its clearance\n", std::abs(r.table_depth) * 1e3,
+                   r.through_table ? "below" : "above");
+  }
   fmt::format_to(out, "  bone stretch   {:.3f} mm\n", r.bone_stretch * 1e3);
   fmt::format_to(out, "  fingers used   {}\n", finger_list(r.used_mask));
   const std::uint32_t blocked = r.status >> STATUS_BLOCKED_SHIFT & 0x1F, unsettled = r.status >> STATUS_UNSETTLED_SHIFT & 0x1F;

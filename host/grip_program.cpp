@@ -160,6 +160,7 @@ void GripProgram::make_grip_kernel(std::size_t v, const Scene& scene, const Scen
                                                                                 : POSE_RIGGED)});
   constants.push_back({CONST_SDF_KIND, std::int32_t(from.lattice ? SDF_LATTICE : SDF_OUTLINE)});
   constants.push_back({CONST_OUTLINE_COUNT, std::int32_t(from.outline_count)});
+  if (scene.table) constants.push_back({CONST_TABLE, std::int32_t(1)});
   if (from.halves) constants.push_back({CONST_LATTICE_BITS, std::int32_t(16)});
   add_limits(constants, options);
   constants.push_back({CONST_LID, std::int32_t(from.lattice ? -1 : from.lid)});

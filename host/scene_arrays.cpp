@@ -68,6 +68,7 @@ void set_scene_scalars(Parameters<double>& p, const Scene& scene, const VesselDa
   p.torsion = scene.force.torsion;
   p.friction_angle = std::atan(scene.force.friction);
   p.grip_strength = scene.force.grip_strength;
+  p.table_top = scene.table ? table_top(scene, vessel) : 0;
   p.pour_sense = scene.liquid && scene.liquid->pour == Pour::towards ? -1 : 1;
   const auto weights = effective_weights(scene);
   p.weight_fingers = weights[0];

@@ -74,7 +74,7 @@ void write_contents(MarkupWriter& html, const Scene& scene) {
   html.close().close();
 }
 
-void write_words(MarkupWriter& html) {
+void write_words(MarkupWriter& html, bool has_table) {
   html.open("section", {{"aria-labelledby", "words"}}).element("h2", "The words", {{"id", "words"}}).open("dl");
   const auto word = [&html](const char* name, const char* meaning) {
     html.open("div").element("dt", name).element("dd", meaning).close();
@@ -86,7 +86,9 @@ void write_words(MarkupWriter& html) {
   word("roll", "turn of the hand about the thumb-index line; at 0 the hand is beside the vessel, at \u221290° above it");
   word("obliquity", "angle of the thumb-index line to the horizontal; above 0 the index finger is higher than the thumb");
   word("feasible", "both tips find the vessel, at a gap that the hand can make");
-  word("implausible", "a point of the hand would be deeper in the vessel than the scene allows");
+  word("implausible",
+       has_table ? "a point of the hand would be deeper in the vessel than the scene allows, or the hand would go through the table"
+                 : "a point of the hand would be deeper in the vessel than the scene allows");
   word("antipodal", "both contacts lie within the friction cone");
   word("fingers, points", "number of fingers used, of 5; number of points of the hand that touch, of 24");
   word("depth", "how deep the deepest point of the hand is inside the vessel");
@@ -123,7 +125,7 @@ class Page {
       for (std::size_t v = 0; v < scene_.vessels.size(); ++v) maps_.push_back(read_map(source_, v));
     scales_ = map_scales(maps_);
     for (std::size_t v = 0; v < scene_.vessels.size(); ++v) write_vessel(v);
-    write_words(html_);
+    write_words(html_, scene_.table.has_value());
     html_.close();
     html_.element("footer", fmt::format("Written by wholehand {} from {}.", version(),
                                         source_.result.path().substr(source_.result.path().rfind('/') + 1)));

@@ -69,8 +69,10 @@ std::string hand_text(const Scene& scene) {
                          ? "articulated: bones keep their lengths while the fingers come to rest on the vessel"
                      : scene.pose == Pose::paper ? "as in the paper: each point is moved to the surface by itself"
                                                  : "rigged: the fingers are not brought to the vessel";
-  return fmt::format("{}, scale {}; pose {}", scene.hand.handedness == Handedness::right ? "right" : "left",
-                     plain_number(scene.hand.scale), pose);
+  const std::string table =
+      scene.table ? fmt::format("; it must stay {} mm above the table", plain_number(scene.table->clearance * 1e3)) : "";
+  return fmt::format("{}, scale {}; pose {}{}", scene.hand.handedness == Handedness::right ? "right" : "left",
+                     plain_number(scene.hand.scale), pose, table);
 }
 
 std::string force_text(const Scene& scene) {
@@ -175,11 +177,13 @@ std::vector<std::string> left_out(const ReportSource& source) {
   if (scene.tilts.empty())
     sentences.emplace_back("The forces: the scene has no tilts. Their weights in the score went to the other terms.");
   if (!scene.liquid) sentences.emplace_back("The liquid: the scene has no liquid.");
+  if (!scene.table) sentences.emplace_back("The table: the scene has no table, so a hand may reach below the base of a vessel.");
   if (any([](const VesselData& v) { return v.surface == Surface::solid && v.wall > 0; }))
     sentences.emplace_back("The inner wall: for the fingers the vessels are solid.");
   std::size_t possible = 0;
   std::vector<std::string> missing;
   for (const Variable& variable : variable_catalogue()) {
+    if (variable.need == Need::table && !scene.table) continue;
     ++possible;
     if (!source.result.find(variable.name)) missing.emplace_back(variable.name);
   }

@@ -2,6 +2,7 @@
 // The parts of a scene file, one function a table. Each throws Error (usage) for what is not allowed there.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,9 @@ void read_strength(const SceneTable& root, StrengthData& strength);
 // `has_tilts`: the force and hold terms count.
 void read_score(const SceneTable& root, bool has_tilts, ScoreWeights& weights);
 void read_output(const SceneTable& root, OutputData& output);
+
+// ---- tabletop.cpp ----
+void read_tabletop(const SceneTable& root, std::optional<TableData>& tabletop);
 
 // ---- session.cpp ----
 void read_live(const SceneTable& root, LiveData& live);

@@ -93,6 +93,8 @@ constexpr IntegerRange AXIS_COUNT{1, LARGEST_AXIS};
 constexpr IntegerRange SOBOL_COUNT{1, 1000000000000000};
 constexpr IntegerRange SEED{0, INT64_MAX};
 
+constexpr Quantity TABLE_CLEARANCE{0, 100, Unit::mm};
+
 constexpr Quantity WEIGHT{0, 1000};
 constexpr IntegerRange BEST{0, 100000};
 

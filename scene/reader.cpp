@@ -58,6 +58,7 @@ void read_scene(const SceneTable& root, Scene& scene) {
   read_tilts(root, scene.tilts);
   read_score(root, !scene.tilts.empty(), scene.score);
   read_output(root, scene.output);
+  read_tabletop(root, scene.table);
   read_live(root, scene.live);
   read_device(root, scene.device);
   read_task(root, scene.vessels, scene.task);
@@ -76,9 +77,9 @@ Scene parse_scene(std::string_view text, const std::string& name) {
   scene.name = stem_of(name);
   scene.file = name;
   scene.text = text;
-  const SceneTable root(
-      file, table, "the scene",
-      {"scene", "hand", "vessel", "liquid", "force", "strength", "grips", "tilts", "score", "output", "live", "device", "task"});
+  const SceneTable root(file, table, "the scene",
+                        {"scene", "hand", "vessel", "liquid", "force", "strength", "grips", "tilts", "score", "output", "table",
+                         "live", "device", "task"});
   read_scene(root, scene);
   return scene;
 }

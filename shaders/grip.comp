@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Kernels 3, 5 and 4 of one grip an invocation, streamed: points are examined as they come, so that no array of 24 points is held.
+// Kernels 3, 5, 4 and 8 of one grip an invocation, streamed: points are examined as they come, so that no array of 24 points is held.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -8,6 +8,7 @@
 #include "grips.glsl"
 #include "planes.glsl"
 #include "projection.glsl"
+#include "table.glsl"
 
 layout(local_size_x_id = CONST_GROUP_SIZE) in;
 layout(constant_id = CONST_POSE) const int POSE = POSE_ARTICULATED;
@@ -19,7 +20,7 @@ const bool WANTS_RIGGED = POSE != POSE_ARTICULATED || PLANE_JOINTS >= 0;
 uint grip;
 Real scale;
 uint status, touch_mask, tip_mask, finger_mask, inner_mask, used_mask;
-Real phalanx_depth, palm_depth, judged_depth, bone_stretch;
+Real phalanx_depth, palm_depth, judged_depth, bone_stretch, table_depth;
 Vec3 previous_proxy;
 
 // Point k of finger f (joint j) at its posed place. `before`: bits of the finger's points that touched before they were projected.
@@ -30,6 +31,7 @@ void examine_point(int f, int k, int j, Vec3 p, Real radius, Real separation, Re
   palm_depth = is_base ? max(palm_depth, depth) : palm_depth;
   phalanx_depth = is_base ? phalanx_depth : max(phalanx_depth, depth);
   if (f < 2 || POSE != POSE_PAPER) judged_depth = max(judged_depth, depth);
+  if (ON_TABLE) table_depth = max(table_depth, depth_in_table(p, radius));
   // touching: the tracked tips always do
   bool near_enough = separation <= HAND_CONTACT_TOLERANCE;
   if (k < 2 && near_enough) before |= 1 << k;
@@ -83,11 +85,12 @@ void put_whole(Real closure, Real thumb_angle, Real index_angle) {
   put_real(PLANE_PHALANX_DEPTH, 0, grip, phalanx_depth);
   put_real(PLANE_PALM_DEPTH, 0, grip, palm_depth);
   put_real(PLANE_BONE_STRETCH, 0, grip, bone_stretch);
+  put_real(PLANE_TABLE_DEPTH, 0, grip, table_depth);
 }
 
 // What a grip that is infeasible has not.
 void put_nothing() {
-  phalanx_depth = palm_depth = bone_stretch = NOT_A_NUMBER;
+  phalanx_depth = palm_depth = bone_stretch = table_depth = NOT_A_NUMBER;
   put_whole(NOT_A_NUMBER, NOT_A_NUMBER, NOT_A_NUMBER);
   for (int j = 0; j < JOINTS; ++j) {
     if (PLANE_JOINTS >= 0) put_point(PLANE_JOINTS, j, grip, Vec3(NOT_A_NUMBER));
@@ -184,6 +187,20 @@ void examine_finger(int f, int first_joint, bool known, inout PlacedFinger finge
   }
 }
 
+// The finger open at the same place, which it has to come from: its base, and an MCP other than the thumb's, are the posed finger's.
+void examine_open_finger(int f, PlacedFinger finger) {
+  FingerPoints open;
+  Vec3 radii = finger.radii;
+  if (f == 0) {
+    Vec3 lengths = scale * Vec3(hand_length(0, 0), hand_length(0, 1), hand_length(0, 2));
+    open = thumb_points(finger.frame, lengths, thumb_angles(Real(0)));
+    radii = scale * Vec3(hand_radius(0, 1), hand_radius(0, 2), hand_radius(0, 3));
+  } else {
+    open = finger_points(finger.frame, finger.mcp, finger.lengths, finger_angles(Real(0)));
+  }
+  table_depth = max(table_depth, finger_in_table(open, radii));
+}
+
 // A loop over fingers, not unrolled: each kernel is compiled once.
 void rest_hand(Closing closing) {
   Vec3 rigged_angles = finger_angles(closing.closure);
@@ -206,6 +223,7 @@ void rest_hand(Closing closing) {
     if (known) pose_articulated(f, closing.closure, finger);
     if (POSE == POSE_PAPER && f >= 2) pose_paper(f, axis, finger);
     examine_finger(f, first_joint, known, finger);
+    if (ON_TABLE) examine_open_finger(f, finger);
   }
 }
 
@@ -229,11 +247,13 @@ void main() {
   if (closing.grazing) status |= STATUS_GRAZING;
   bool held = scene.friction_angle > Real(0);
   if (held && closing.thumb_angle <= scene.friction_angle && closing.index_angle <= scene.friction_angle) status |= STATUS_ANTIPODAL;
-  // kernels 5 and 4: the other fingers rest, all points are examined
+  // kernels 5, 4 and 8: the other fingers rest, all points are examined
   scale = closing.placement.scale;
   phalanx_depth = palm_depth = judged_depth = bone_stretch = Real(0);
+  table_depth = -NO_DISTANCE;
   rest_hand(closing);
   if (judged_depth <= HAND_DEPTH_LIMIT) status |= STATUS_PLAUSIBLE;
+  if (ON_TABLE && table_depth > Real(0)) status = (status | STATUS_THROUGH_TABLE) & ~STATUS_PLAUSIBLE;
   put_masks();
   put_whole(closing.closure, closing.thumb_angle, closing.index_angle);
 }

@@ -90,6 +90,7 @@
 #define STATUS_GRAZING 0x40         // a contact normal within 1 degree of perpendicular to the line
 #define STATUS_PROXY_UNSETTLED 0x80 // a proxy took all its steps
 #define STATUS_BLOCKED_SHIFT 8      // bits 8..12: finger f was inside when open
+#define STATUS_THROUGH_TABLE 0x2000 // bit 13: the hand, posed or open, reaches below the table and its clearance
 #define STATUS_UNSETTLED_SHIFT 16   // bits 16..20: finger f took all its advancement steps
 
 // ---- kinds, as specialization constants ----
@@ -131,8 +132,9 @@
   X(EXACT_TORQUE, 21) \
   X(NORMAL_FORCE, 22) \
   X(FEEDBACK_FORCE, 23) \
-  X(HOLD_FORCE, 24)
-#define REAL_FIELDS 25
+  X(HOLD_FORCE, 24) \
+  X(TABLE_DEPTH, 25)
+#define REAL_FIELDS 26
 // Words: uint_out[plane * n + grip], one plane each.
 #define UINT_FIELD_LIST(X) \
   X(STATUS, REAL_FIELDS + 0) \
@@ -211,6 +213,7 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define CONST_LID 4                 // index of the mouth's element in the outline, -1: none
 #define CONST_TORQUE 5
 #define CONST_REFERENCE 6
+#define CONST_TABLE 7               // whether the scene has a table, bool
 #define CONST_STOP_TOLERANCE 40     // Real, m; this and the next five have the named values where nothing is given
 #define CONST_TRACE_STEPS 41
 #define CONST_ADVANCE_STEPS 42
@@ -253,6 +256,7 @@ struct Parameters {
   Real friction_angle;    // atan(mu), rad
   Real grip_strength;     // N
   Real pour_sense;        // +1 away, -1 towards
+  Real table_top;         // m, the table's height and the clearance
   Real weight_fingers, weight_contacts, weight_depth, weight_posture, weight_force, weight_hold;
 #ifdef __cplusplus
   std::uint32_t

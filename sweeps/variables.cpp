@@ -23,6 +23,7 @@ std::int32_t bits_set(std::uint32_t word) { return std::popcount(word); }
 std::int32_t reason(std::uint32_t status) { return static_cast<std::int32_t>(status & STATUS_REASON_MASK); }
 std::int32_t plausible(std::uint32_t status) { return (status & STATUS_PLAUSIBLE) != 0; }
 std::int32_t antipodal(std::uint32_t status) { return (status & STATUS_ANTIPODAL) != 0; }
+std::int32_t through_table(std::uint32_t status) { return (status & STATUS_THROUGH_TABLE) != 0; }
 std::int32_t grazing(std::uint32_t status) { return (status & STATUS_GRAZING) != 0; }
 std::int32_t blocked(std::uint32_t status) { return static_cast<std::int32_t>((status >> STATUS_BLOCKED_SHIFT) & 0x1F); }
 std::int32_t unsettled(std::uint32_t status) { return static_cast<std::int32_t>((status >> STATUS_UNSETTLED_SHIFT) & 0x1F); }
@@ -67,7 +68,9 @@ Variable of_field(const Field& row) {
           0,
           dims_of(row.shape),
           row.by_default,
-          of_tilts ? Need::tilts : Need::nothing,
+          of_tilts       ? Need::tilts
+          : row.of_table ? Need::table
+                         : Need::nothing,
           nullptr,
           row.absent == FieldAbsent::never};
 }
@@ -196,6 +199,12 @@ std::vector<Variable> make_catalogue() {
           of_field(FIELD_FEEDBACK_FORCE),
           of_field(FIELD_HOLD_FORCE),
       });
+  add(all, ON_REQUEST, Need::table,
+      {
+          of_field(FIELD_TABLE_DEPTH),
+          byte("through_table", "whether the hand goes through the table, which makes the grip implausible", YES_NO, FIELD_STATUS,
+               through_table),
+      });
   add_other_fields(all);
   return all;
 }
@@ -214,6 +223,8 @@ const char* missing_need(Need need, const Scene& scene) {
       return scene.pose == Pose::rigged ? "a [scene] pose other than \"rigged\"" : nullptr;
     case Need::articulated:
       return scene.pose != Pose::articulated ? "[scene] pose = \"articulated\"" : nullptr;
+    case Need::table:
+      return scene.table ? nullptr : "[table]";
     case Need::nothing:
       break;
   }

@@ -16,7 +16,9 @@ namespace {
 
 // One grip that is feasible and antipodal, one that is too wide, one that misses.
 struct Absent : testing::Test {
-  Absent() : scene(wet_scene({beaker1()}, Pose::articulated)), fields(all_fields(scene)) {
+  Absent() : scene(wet_scene({beaker1()}, Pose::articulated)) {
+    scene.table.emplace();
+    fields = all_fields(scene);
     const std::vector<GripInput> grips{{0.055, 0, 0, 0, 0, 1}, {0.055, 0, 0, 0, 0, 0.3}, {0.3, 0, 0, 0, 0, 1}};
     planes = gather(*make_core_evaluator(scene), fields, 0, grips);
     EXPECT_NE(status(0) & STATUS_ANTIPODAL, 0u);

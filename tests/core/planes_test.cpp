@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <vector>
 
@@ -14,7 +15,7 @@
 namespace wholehand {
 namespace {
 
-int planes_of(int field, const Scene& scene) { return field_planes(field, scene_fills(scene), scene.tilts.size()); }
+int planes_of(int field, const Scene& scene) { return field_planes(field, scene); }
 
 // Planes of a kind of field (reals or uints) stand side by side without a gap: kept ones first.
 void expect_packed(const FieldSet& fields, const std::vector<int>& kept, const Scene& scene, bool reals) {
@@ -137,6 +138,18 @@ TEST(Planes, ForceFieldsDoNotExistWithoutTilts) {
   EXPECT_TRUE(fields.has(FIELD_SCORE));
 }
 
+TEST(Planes, TheTablesFieldExistsOnlyOnATable) {
+  Scene scene = three_beakers();
+  EXPECT_FALSE(make_field_set({FIELD_TABLE_DEPTH}, scene).has(FIELD_TABLE_DEPTH));
+  EXPECT_EQ(field_planes(FIELD_TABLE_DEPTH, scene), 0);
+  scene.table.emplace();
+  const FieldSet fields = make_field_set({FIELD_TABLE_DEPTH}, scene);
+  EXPECT_TRUE(fields.has(FIELD_TABLE_DEPTH));
+  EXPECT_EQ(fields.real_kept, 1);
+  EXPECT_FALSE(make_field_set({FIELD_SCORE}, scene).has(FIELD_TABLE_DEPTH)) << "the status has what the score needs of it";
+  for (int field = 0; field < FIELDS; ++field) expect_packed({field}, scene);
+}
+
 // ---- reading back ----
 
 struct Evaluated {
@@ -198,6 +211,8 @@ TEST(Planes, DecodedGripIsTheGrip) {
     EXPECT_EQ(decoded.phalanx_depth, expected.phalanx_depth) << i;
     EXPECT_EQ(decoded.palm_depth, expected.palm_depth) << i;
     EXPECT_EQ(decoded.bone_stretch, expected.bone_stretch) << i;
+    EXPECT_EQ(decoded.through_table, expected.through_table) << i;
+    EXPECT_TRUE(std::isnan(decoded.table_depth) && std::isnan(expected.table_depth)) << i;
   }
   EXPECT_GT(feasible, 5);
 }

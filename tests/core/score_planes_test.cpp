@@ -70,7 +70,7 @@ void expect_grip_in_planes(const Scene& scene, const Evaluator& evaluator, std::
       const bool scored = field == FIELD_SCORE || field == FIELD_TERMS;
       const bool reached = r.reason >= Reason::too_wide &&
                            (field == FIELD_T_INDEX || field == FIELD_T_THUMB || field == FIELD_GAP || field == FIELD_MIDPOINT);
-      for (int plane = 0; plane < field_planes(field, fills, tilts); ++plane) {
+      for (int plane = 0; plane < field_planes(field, scene); ++plane) {
         if (scored) {
           EXPECT_EQ(p.real(field, plane, i), 0) << where;
         } else {
@@ -96,6 +96,8 @@ void expect_grip_in_planes(const Scene& scene, const Evaluator& evaluator, std::
   expect_same_plane_value(p.real(FIELD_PHALANX_DEPTH, 0, i), r.phalanx_depth, where + " phalanx depth");
   expect_same_plane_value(p.real(FIELD_PALM_DEPTH, 0, i), r.palm_depth, where + " palm depth");
   expect_same_plane_value(p.real(FIELD_BONE_STRETCH, 0, i), r.bone_stretch, where + " bone stretch");
+  EXPECT_EQ((r.status & STATUS_THROUGH_TABLE) != 0, r.through_table) << where;
+  if (scene.table) expect_same_plane_value(p.real(FIELD_TABLE_DEPTH, 0, i), r.table_depth, where + " table depth");
   for (int k = 0; k < 2; ++k)
     expect_same_plane_value(p.real(FIELD_CONTACT_ANGLES, k, i), r.contact_angles[k], where + " contact angle");
   for (int j = 0; j < JOINT_COUNT; ++j) {
@@ -211,13 +213,14 @@ TEST(Score, StrideBeyondTheCountLeavesTheRestAlone) {
 }
 
 TEST(Score, LeavingFieldsOutChangesNothingInTheOthers) {
-  const Scene scene = hard_scene();
+  Scene scene = hard_scene();
+  scene.table.emplace();
   const auto evaluator = make_core_evaluator(scene);
   const std::vector<GripInput> grips = grips_with_hopeless_ones(scene.vessels[0], 70);
   const Planes all = evaluate_planes(scene, *evaluator, 0, grips, every_field(), grips.size());
   for (int field = 0; field < FIELDS; ++field) {
     const Planes alone = evaluate_planes(scene, *evaluator, 0, grips, {field}, grips.size());
-    const int count = field_planes(field, scene_fills(scene), scene.tilts.size());
+    const int count = field_planes(field, scene);
     ASSERT_TRUE(alone.fields.has(field)) << field;
     for (std::size_t i = 0; i < grips.size(); ++i) {
       for (int plane = 0; plane < count; ++plane) {

@@ -101,13 +101,12 @@ std::vector<std::string> keys_of(const Json& json) {
 
 TEST(GripReport, JsonHasEveryFieldInOrder) {
   const Json json = Json::parse(grip_json(report_of(plain_scene(true, true), feasible_result())));
-  EXPECT_EQ(
-      keys_of(json),
-      (std::vector<std::string>{
-          "vessel",    "grip",       "feasible",     "reason",          "plausible",    "antipodal",      "contact_angles_rad",
-          "closure",   "gap_m",      "midpoint_m",   "joints_m",        "posed_m",      "separation_m",   "touching",
-          "proxies_m", "projected",  "fingers_used", "phalanx_depth_m", "palm_depth_m", "bone_stretch_m", "states",
-          "score",     "score_terms"}));
+  EXPECT_EQ(keys_of(json),
+            (std::vector<std::string>{
+                "vessel",    "grip",      "feasible",     "reason",          "plausible",    "antipodal",      "contact_angles_rad",
+                "closure",   "gap_m",     "midpoint_m",   "joints_m",        "posed_m",      "separation_m",   "touching",
+                "proxies_m", "projected", "fingers_used", "phalanx_depth_m", "palm_depth_m", "bone_stretch_m", "table_depth_m",
+                "states",    "score",     "score_terms"}));
   EXPECT_EQ(json["vessel"], "glass");
   EXPECT_EQ(json["grip"].dump(),
             R"({"height_m":0.05,"azimuth_rad":0.1,"obliquity_rad":0.2,"roll_rad":0.3,"offset_m":0.4,"hand_scale":1.1})");
@@ -169,6 +168,24 @@ TEST(GripReport, WhatASceneLacksIsLeftOut) {
   const Json still = Json::parse(grip_json(report_of(plain_scene(true, false), feasible_result())));
   EXPECT_EQ(still["states"].size(), 0u);
   EXPECT_EQ(keys_of(still["score_terms"]), (std::vector<std::string>{"fingers", "contacts", "depth", "posture"}));
+}
+
+TEST(GripReport, TellsOfTheTable) {
+  GripResult result = feasible_result();
+  EXPECT_TRUE(Json::parse(grip_json(report_of(plain_scene(false, false), result)))["table_depth_m"].is_null());
+  EXPECT_EQ(grip_table(report_of(plain_scene(false, false), result)).find("table"), std::string::npos);
+  result.table_depth = -0.0125;
+  EXPECT_EQ(Json::parse(grip_json(report_of(plain_scene(false, false), result)))["table_depth_m"], -0.0125);
+  const std::string above = grip_table(report_of(plain_scene(false, false), result));
+  EXPECT_NE(above.find("  table          12.500 mm above the table and its clearance\n"), std::string::npos) << above;
+  result.table_depth = 0.03;
+  result.through_table = true;
+  result.plausible = false;
+  const std::string below = grip_table(report_of(plain_scene(false, false), result));
+  EXPECT_NE(below.find("  table          30.000 mm below the table and its clearance\n"), std::string::npos) << below;
+  EXPECT_NE(below.find("  plausible      no: phalanges 1.000 mm deep, palm 2.000 mm; the hand goes through the table\n"),
+            std::string::npos)
+      << below;
 }
 
 TEST(GripReport, InfeasibleGripsHaveTheFieldsUpToTheReason) {
@@ -284,7 +301,8 @@ TEST(GripReport, LiquidLeansWhereTheCoreSaysForEitherHand) {
 }
 
 TEST(GripReport, PlanesGiveWhatTheCoreGives) {
-  const Scene scene = cup_scene("left", "away");
+  Scene scene = cup_scene("left", "away");
+  scene.table.emplace();
   const BackendOpener open = [](const Scene& opened, const FieldSet& fields) -> std::unique_ptr<Backend> {
     return std::make_unique<CoreBackend>(make_core_evaluator(opened), opened, fields, Precision::full, 1);
   };

@@ -219,6 +219,9 @@ TEST(LeftOut, NamesWhatTheSceneDoesNotNeed) {
   EXPECT_TRUE(has(usual, "The inner wall"));
   EXPECT_TRUE(has(usual, "hold_force"));
   EXPECT_FALSE(has(usual, "The liquid"));
+  EXPECT_TRUE(has(usual, "The table: the scene has no table"));
+  EXPECT_FALSE(has(usual, "table_depth"));
+  EXPECT_FALSE(has(all(edited(RESULT_SCENE, RESULT_TILTS, RESULT_TILTS + std::string("\n[table]\n"))), "The table"));
   EXPECT_TRUE(has(all(edited(RESULT_SCENE, RESULT_LIQUID, "")), "The liquid: the scene has no liquid."));
   EXPECT_TRUE(has(all(edited(RESULT_SCENE, RESULT_TILTS, "")), "The forces: the scene has no tilts."));
   EXPECT_TRUE(has(all(edited(RESULT_SCENE, "name = \"cups\"", "pose = \"rigged\"")), "the pose is rigged"));

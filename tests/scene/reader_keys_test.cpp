@@ -40,6 +40,7 @@ const std::map<std::string, std::vector<std::string>> SCENE_KEYS{
     {"[tilts]", {"deg"}},
     {"[score]", {"fingers", "contacts", "depth", "posture", "force", "hold"}},
     {"[output]", {"keep", "also", "best"}},
+    {"[table]", {"clearance_mm"}},
     {"[live]", {"rate_Hz", "K_N_m", "B_Ns_m", "slip_mm", "ramp_s", "slew_N_s", "jump_m_s", "late_steps"}},
     {"[device]", {"gap_mm", "workspace_scale", "origin_mm", "axes", "clutch_button", "library"}},
     {"[task]", {"target", "amounts_ml", "destination_mm", "tolerance_ml"}},

@@ -36,6 +36,7 @@ TEST(SceneReader, LeavesEverythingElseAtItsDefault) {
   EXPECT_EQ(vessel.column, 1);
   EXPECT_FALSE(scene.liquid);
   EXPECT_FALSE(scene.task);
+  EXPECT_FALSE(scene.table);
   EXPECT_TRUE(scene.tilts.empty());
   EXPECT_EQ(scene.force.range, 3);
   EXPECT_EQ(scene.force.torsion, 5e-3);
@@ -264,6 +265,20 @@ best = 7
   EXPECT_EQ(scene_from("[output]\nalso = [\"joints\"]" + VESSEL).output.also, std::vector<std::string>{"joints"});
   expect_refusal("[output]\nkeep = [\"score\"]\nalso = @[\"joints\"]" + VESSEL, "both also and keep are given");
   expect_refusal("[output]\nalso = [\"joints\", @\"joints\"]" + VESSEL, "also names 'joints' a second time");
+}
+
+TEST(SceneReader, ReadsTheTable) {
+  const Scene usual = scene_from("[table]\n" + VESSEL);
+  ASSERT_TRUE(usual.table);
+  EXPECT_EQ(usual.table->clearance, 2e-3);
+  EXPECT_EQ(scene_from("[table]\nclearance_mm = 0" + VESSEL).table->clearance, 0);
+  EXPECT_EQ(scene_from("[table]\nclearance_mm = 7.5" + VESSEL).table->clearance, 7.5e-3);
+  EXPECT_EQ(scene_from("[table]\nclearance_mm = 100" + VESSEL).table->clearance, 0.1);
+  expect_refusal("[table]\nclearance_mm = @-0.1" + VESSEL, "clearance_mm = -0.1; allowed: 0 to 100");
+  expect_refusal("[table]\nclearance_mm = @100.1" + VESSEL, "clearance_mm = 100.1; allowed: 0 to 100");
+  expect_refusal("[table]\nclearance_mm = @nan" + VESSEL, "allowed: 0 to 100");
+  expect_refusal("[table]\nclearance_mm = @\"2\"" + VESSEL, "clearance_mm = '2'; allowed: a number");
+  expect_refusal("table = @2" + VESSEL, "table = 2; allowed: a table");
 }
 
 TEST(SceneReader, ReadsAxesOfEveryForm) {

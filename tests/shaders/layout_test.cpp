@@ -84,9 +84,9 @@ TEST(Layout, SpecializationConstantsDoNotOverlap) {
 TEST(Layout, StatusBitsDoNotOverlap) {
   const unsigned fingers = (1u << FINGERS) - 1;
   unsigned used = 0;
-  for (const unsigned bits :
-       {unsigned(STATUS_REASON_MASK), unsigned(STATUS_PLAUSIBLE), unsigned(STATUS_ANTIPODAL), unsigned(STATUS_GRAZING),
-        unsigned(STATUS_PROXY_UNSETTLED), fingers << STATUS_BLOCKED_SHIFT, fingers << STATUS_UNSETTLED_SHIFT}) {
+  for (const unsigned bits : {unsigned(STATUS_REASON_MASK), unsigned(STATUS_PLAUSIBLE), unsigned(STATUS_ANTIPODAL),
+                              unsigned(STATUS_GRAZING), unsigned(STATUS_PROXY_UNSETTLED), unsigned(STATUS_THROUGH_TABLE),
+                              fingers << STATUS_BLOCKED_SHIFT, fingers << STATUS_UNSETTLED_SHIFT}) {
     EXPECT_EQ(used & bits, 0u) << std::hex << bits;
     used |= bits;
   }
@@ -152,7 +152,7 @@ Offsets parameter_offsets() {
   OFFSET(center_x), OFFSET(center_y), OFFSET(center_z), OFFSET(liquid_density), OFFSET(gravity);
   OFFSET(force_base), OFFSET(force_range), OFFSET(force_max), OFFSET(reference);
   OFFSET(largest_mass), OFFSET(largest_share), OFFSET(largest_height);
-  OFFSET(friction), OFFSET(torsion), OFFSET(friction_angle), OFFSET(grip_strength), OFFSET(pour_sense);
+  OFFSET(friction), OFFSET(torsion), OFFSET(friction_angle), OFFSET(grip_strength), OFFSET(pour_sense), OFFSET(table_top);
   OFFSET(weight_fingers), OFFSET(weight_contacts), OFFSET(weight_depth), OFFSET(weight_posture), OFFSET(weight_force);
   OFFSET(weight_hold), OFFSET(outline_count), OFFSET(cavity_count), OFFSET(lattice_nx), OFFSET(lattice_ny), OFFSET(lattice_nz);
   OFFSET(fills), OFFSET(tilts), OFFSET(quadrature_count);

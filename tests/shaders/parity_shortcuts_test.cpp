@@ -187,6 +187,32 @@ TEST(ParityShortcuts, LiquidAndTiltsLeftOutChangeNothingInTheRest) {
   }
 }
 
+// Whether a grip is plausible is the table's, and with it the score.
+TEST(ParityShortcuts, TheTableLeftOutChangesNothingInTheRest) {
+  const Scene bare = wet_scene({beaker1()}, Pose::articulated);
+  Scene table = bare;
+  table.table.emplace();
+  const auto grips = grips_of(bare, 0, 200);
+  const auto without = backend_of(bare, all_fields(bare), Precision::single);
+  const auto with = backend_of(table, all_fields(table), Precision::single);
+  EXPECT_LT(without->bytes_per_grip(), with->bytes_per_grip());
+  const GatheredPlanes all = gather(*with, 0, grips), fewer = gather(*without, 0, grips);
+  std::vector<int> fields = fields_of(fewer.fields);
+  std::erase(fields, FIELD_SCORE);
+  std::erase(fields, FIELD_STATUS);
+  expect_same_or_close(with->info().is_cpu, table, Precision::single, grips, all, fewer, whole_fields(fields, bare), "device");
+  std::size_t through = 0;
+  for (std::size_t i = 0; i < grips.size(); ++i) {
+    EXPECT_EQ(fewer.uint(FIELD_STATUS, i) & STATUS_THROUGH_TABLE, 0u);
+    if ((all.uint(FIELD_STATUS, i) & STATUS_THROUGH_TABLE) == 0) continue;
+    ++through;
+    EXPECT_EQ(all.uint(FIELD_STATUS, i) & STATUS_PLAUSIBLE, 0u);
+    EXPECT_EQ(all.real(all.fields.plane[FIELD_SCORE], i), 0);
+  }
+  EXPECT_GT(through, 20u);
+  EXPECT_LT(through, grips.size() - 20);
+}
+
 // ---- top-N ----
 
 TEST(ParityShortcuts, BestAreThoseOfTheFullSort) {

@@ -83,6 +83,16 @@ TEST(Parity, LeftHandOffCenterVessel) {
   expect_parity(scene, "left");
 }
 
+TEST(Parity, HandsOnATable) {
+  Scene scene = wet_scene({beaker1(), vase()}, Pose::articulated, left_hand());
+  scene.table = TableData{5e-3};
+  expect_parity(scene, "table");
+  scene = scene_of({ledges()}, Pose::paper, odd_hand());
+  scene.table = TableData{0};
+  scene.vessels[0].base = -10e-3;
+  expect_parity(scene, "table_paper");
+}
+
 // Another hand in every number, vessels without a cavity, no liquid, no tilts.
 TEST(Parity, OddHandDryAndUntilted) {
   expect_parity(scene_of({ledges()}, Pose::articulated, odd_hand()), "odd");

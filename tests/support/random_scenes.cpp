@@ -190,6 +190,8 @@ std::string random_scene_text(std::uint64_t seed) {
   const int vessels = draw.chance(0.7) ? 1 : 2;
   for (int v = 0; v < vessels; ++v)
     text += random_vessel(draw, v, draw.chance(0.9) ? std::clamp(size * draw.between(0.7, 1.2), 1.0, 5000.0) : draw.over(2, 5000));
+  // last, so that the rest of a scene is what it was before there were tables
+  if (draw.chance(0.3)) text += "[table]\n" + key("clearance_mm", draw.between(0, 10));
   return text;
 }
 

@@ -85,7 +85,7 @@ TEST(Explain, BareSceneHasALineForEachPartThatItLacks) {
   scene.grips.azimuth.values = {0, 0.5, 1};
   for (const char* on : {"core", "vulkan"}) {
     const Explained explained = explain(scene, on, Precision::full);
-    for (const char* lacked : {"projection", "force kernel", "the liquid", "2 of 3 azimuths", "inner wall"})
+    for (const char* lacked : {"projection", "force kernel", "the liquid", "above a table", "2 of 3 azimuths", "inner wall"})
       EXPECT_TRUE(explained.find(lacked)) << lacked << "\n" << explained.text;
     EXPECT_EQ(explained.find("from a buffer") != nullptr, std::string(on) == "vulkan") << explained.text;
     // two of three azimuths are two grips more for each that is computed
@@ -96,6 +96,17 @@ TEST(Explain, BareSceneHasALineForEachPartThatItLacks) {
     ASSERT_TRUE(explained.find("force kernel"));
     EXPECT_GT(explained.find("force kernel")->bytes, 0) << explained.text;
   }
+}
+
+TEST(Explain, SaysWhatATableCosts) {
+  Scene scene = three_beakers();
+  scene.table.emplace();
+  scene.output.also = {"table_depth"};
+  const Explained explained = explain(scene, "core");
+  EXPECT_FALSE(explained.find("above a table")) << explained.text;
+  // on the core planes are doubles
+  EXPECT_TRUE(std::regex_search(explained.text, std::regex("not left out: the table, which costs -?[0-9.]+ us and 8 B per grip\n")))
+      << explained.text;
 }
 
 TEST(Explain, SaysWhereNothingCanBeSaved) {

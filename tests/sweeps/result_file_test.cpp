@@ -41,6 +41,7 @@ TEST(ResultFile, OddShapesAndEveryVariable) {
   scene.grips.height = range_axis(0.1, 0.9, 3);
   scene.grips.roll.values = {0.5};
   scene.grips.offset = range_axis(0, 0.01, 5);
+  scene.table.emplace();
   scene.output.keep.emplace();
   for (const Variable& variable : variable_catalogue()) scene.output.keep->push_back(variable.name);
   SweepFile setup(scene, folder / "a.nc", Precision::full, 11);

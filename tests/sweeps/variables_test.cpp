@@ -166,6 +166,15 @@ TEST(Variables, WhatTheSceneCannotHaveIsRefused) {
   EXPECT_NE(refusal(scene).find("pose other than \"rigged\""), std::string::npos) << refusal(scene);
   scene.output.keep = {{"blocked_mask"}};
   EXPECT_NE(refusal(scene).find("pose = \"articulated\""), std::string::npos) << refusal(scene);
+  for (const char* name : {"table_depth", "through_table"}) {
+    scene.table.reset();
+    scene.output.keep = {{name}};
+    EXPECT_NE(refusal(scene).find("needs [table], which this scene does not have"), std::string::npos) << refusal(scene);
+    scene.table.emplace();
+    EXPECT_EQ(names(choose_variables(scene)), std::vector<std::string>{name});
+    scene.output.keep.reset();
+    EXPECT_FALSE(holds(names(choose_variables(scene)), name)) << "it is kept on request";
+  }
 }
 
 TEST(Variables, WordsAreTakenApart) {
@@ -182,6 +191,8 @@ TEST(Variables, WordsAreTakenApart) {
   EXPECT_EQ(value("antipodal", status | STATUS_ANTIPODAL), 1);
   EXPECT_EQ(value("grazing", STATUS_GRAZING), 1);
   EXPECT_EQ(value("proxy_unsettled", STATUS_PROXY_UNSETTLED), 1);
+  EXPECT_EQ(value("through_table", status), 0);
+  EXPECT_EQ(value("through_table", status | STATUS_THROUGH_TABLE), 1);
   EXPECT_EQ(value("blocked_mask", status), 0x14);
   EXPECT_EQ(value("unsettled_mask", status), 0x3);
   EXPECT_EQ(value("reason", status | REASON_TOO_NARROW), REASON_TOO_NARROW);

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// Kernel 8: the table that the vessel stands on, a level plane that the hand must stay above.
+#pragma once
+
+#include "core/hand.h"
+#include "core/sdf.h"
+
+namespace CORE_NS {
+
+// How far the skin of a point of `radius` m at p reaches below the top of the vessel's table and its clearance, m; negative: it stays
+// above. Only of a vessel that is on a table.
+Real depth_in_table(const Vessel& vessel, Vec3 p, Real radius);
+// The largest of the depths of three points with the radii of PIP, DIP and tip (of a thumb: MCP, IP and tip), m.
+Real finger_in_table(const Vessel& vessel, FingerPoints points, Vec3 radii);
+
+}  // namespace CORE_NS
