@@ -3,21 +3,25 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
+#include "core/counted_tilts.h"
 #include "core/fields.h"
 
 namespace wholehand {
 
-Misplaced misplaced_values(const Scene& scene, const FieldSet& fields, std::size_t count, std::size_t stride, const double* reals,
-                           const std::uint32_t* uints, bool overflows) {
+Misplaced misplaced_values(const Scene& scene, std::size_t vessel, const FieldSet& fields, std::size_t count, std::size_t stride,
+                           const double* reals, const std::uint32_t* uints, bool overflows) {
   Misplaced found;
   const bool unheld = !(scene.force.friction > 0 && scene.force.torsion > 0);
+  const std::vector<std::size_t> counted = counted_tilts(scene, vessel);
   const std::uint32_t* status = uints + fields.plane[FIELD_STATUS] * stride;
   for (int field = 0; field < REAL_FIELDS; ++field) {
     const Field& row = field_row(field);
     if (!fields.has(field) || fields.plane[field] >= fields.real_kept) continue;
     const int planes = field_planes(field, scene_fills(scene), scene.tilts.size());
     for (int p = 0; p < planes; ++p) {
+      const bool is_left_out = row.shape == FieldShape::states && p % scene.tilts.size() >= counted[p / scene.tilts.size()];
       const double* plane = reals + (fields.plane[field] + p) * stride;
       for (std::size_t i = 0; i < count; ++i) {
         const double value = plane[i];
@@ -25,7 +29,8 @@ Misplaced misplaced_values(const Scene& scene, const FieldSet& fields, std::size
         bool fits = std::isfinite(value);
         if (row.absent == FieldAbsent::never) {
           fits = fits && (reason == REASON_NONE || value == 0);
-        } else if (reason != REASON_NONE && !(row.absent == FieldAbsent::not_closed && reason >= REASON_TOO_WIDE)) {
+        } else if (is_left_out ||
+                   (reason != REASON_NONE && !(row.absent == FieldAbsent::not_closed && reason >= REASON_TOO_WIDE))) {
           fits = std::isnan(value);
         } else if (row.range == FieldRange::may_be_missing) {
           fits = fits || std::isnan(value);

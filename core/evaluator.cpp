@@ -2,16 +2,16 @@
 // The facade of core/evaluator.h at this precision.
 #include "core/evaluator.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "core/contacts.h"
+#include "core/counted_tilts.h"
 #include "core/grip.h"
 #include "core/load.h"
 #include "core/mesh_body.h"
 #include "core/mirror.h"
 #include "core/prepare.h"
+#include "core/remaining.h"
 #include "core/scene_states.h"
 #include "core/touch.h"
 #include "core/trig.h"
@@ -148,10 +148,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
     if (vessel.lip_capacity.empty()) return result;
     const Real s = sine(Real(tilt)), c = cosine(Real(tilt));
     const Real filled = Real(fill) * vessel.capacity;
-    Real volume = std::min(filled, lip_capacity(vessel, quadrature_, s, c));
-    const int before = std::clamp(static_cast<int>(std::floor(wholehand::degrees(tilt) * (1 + 1e-15))), 0, WHOLE_DEGREES - 1);
-    for (int degree = 0; degree <= before; ++degree) volume = std::min(volume, vessel.lip_capacity[degree]);
-    const LiquidState state = liquid_at(vessel, quadrature_, volume, s, c);
+    const LiquidState state = liquid_at(vessel, quadrature_, remaining_volume(vessel, quadrature_, filled, tilt, s, c), s, c);
     result.volume = state.volume;
     result.mass = state.volume * Real(scene_.liquid->density);
     result.lean = state.lean;
@@ -369,7 +366,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
     return load_with(entry.vessel, Real(liquid.mass), Real(liquid.lean), Real(liquid.height));
   }
 
-  // Liquid and load of every state, and the torque's reference: upright at the largest fill.
+  // Liquid and load of every state, which states count, and the torque's reference: upright at the largest fill.
   void fill_states(std::size_t v) {
     VesselEntry& entry = entries_[v];
     const bool wet = scene_.liquid.has_value();
@@ -379,6 +376,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
         const LiquidResult state = wet ? liquid(v, wholehand::vessel_fills(scene_, scene_.vessels[v])[f], tilt) : LiquidResult{};
         entry.loads.push_back(load_of(entry, state));
       }
+    entry.counted_tilts = wholehand::counted_tilts(scene_, v);
     const LiquidResult most = wet ? liquid(v, wholehand::vessel_fills(scene_, scene_.vessels[v]).back(), 0) : LiquidResult{};
     entry.largest = load_of(entry, most);
     entry.largest_share = entry.largest.mass > 0 ? Real(most.mass) / entry.largest.mass : Real(0);

@@ -52,14 +52,14 @@ class Evaluator {
   virtual StateResult state(std::size_t vessel, const GripInput& grip, const GripResult& result, const LiquidResult& liquid,
                             double tilt, double opening = 0) const = 0;
 
-  // Scores over the scene's fills and tilts.
+  // Scores over the scene's fills and the tilts that count there (core/counted_tilts.h).
   virtual GripScore score(std::size_t vessel, const GripInput& grip, const GripResult& result) const = 0;
 
   // Where the posed hand of a feasible grip presses (kernel 9). An evaluator that knows no contacts has none.
   virtual std::vector<GripContact> contacts(std::size_t vessel, const GripResult& result) const;
 
   // `count` grips into planes of `stride` doubles (uints likewise). Infeasible grips get NaN reals from the
-  // first that does not exist (t, gap and midpoint do from too_wide on); score and terms 0.
+  // first that does not exist (t, gap and midpoint do from too_wide on); score and terms 0. States that are left out are NaN.
   virtual void planes(std::size_t vessel, const GripInput* grips, std::size_t count, const FieldSet& fields, std::size_t stride,
                       double* reals, std::uint32_t* uints) const = 0;
 

@@ -75,7 +75,7 @@ struct StateResult {
   double normal_force = 0, feedback_force = 0, hold_force = 0;  // N; hold is infinity where the pinch is not antipodal
 };
 
-// Per-fill terms of a grip over all tilts. An angle is NaN where no tilt qualifies.
+// Per-fill terms of a grip over the tilts that count. An angle is NaN where no tilt qualifies.
 struct FillTerms {
   double peak_force = 0;    // largest feedback force, N
   double peak_tilt = 0;     // the first tilt at which it occurs, rad

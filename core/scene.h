@@ -221,7 +221,8 @@ struct Scene {
   StrengthData strength;
   ForceData force;  // a scene without [force] has these defaults
   GripsData grips;
-  std::vector<double> tilts;  // rad, strictly ascending in [0, pi]; empty: no [tilts], no force kernel
+  std::vector<double> tilts;           // rad, strictly ascending in [0, pi]; empty: no [tilts], no force kernel
+  std::optional<double> until_poured;  // share of a fill, (0, 1]: tilts beyond the first at which it is out are left out
   ScoreWeights score;
   OutputData output;
   std::optional<TableData> table;

@@ -21,9 +21,10 @@ namespace CORE_NS {
 struct VesselEntry {
   Vessel vessel;
   ForceScale force;
-  Load largest;             // upright at the largest fill, for the torque's reference
-  Real largest_share = 0;   // of the liquid in its mass
-  std::vector<Load> loads;  // fill-major over the tilts
+  Load largest;                            // upright at the largest fill, for the torque's reference
+  Real largest_share = 0;                  // of the liquid in its mass
+  std::vector<Load> loads;                 // fill-major over the tilts
+  std::vector<std::size_t> counted_tilts;  // at each fill, from the first on; the others are left out
   std::optional<wholehand::PreparedLattice> lattice;
 };
 
@@ -61,7 +62,7 @@ class SceneStates {
 
   // With another load than the states', at an opening g_grasp - g of the device, m.
   HeldForces forces(const VesselEntry& entry, const Pinch& pinch, const Load& load, TiltAngle tilt, Real opening) const;
-  // Over the tilts at one fill. `keep(tilt, forces)` is told of each state.
+  // Over the tilts that count at one fill. `keep(tilt, forces)` is told of each of these states.
   template <class Keep>
   wholehand::FillTerms fill_terms(const VesselEntry& entry, std::size_t fill, const Pinch& pinch, const Keep& keep) const;
 
@@ -81,7 +82,7 @@ wholehand::FillTerms SceneStates::fill_terms(const VesselEntry& entry, std::size
   Real peak_force = -1, peak_tilt = 0, largest_hold = 0;
   double safe_tilt = std::numeric_limits<double>::quiet_NaN();
   bool safe = true;
-  for (std::size_t t = 0; t < tilts_.size(); ++t) {
+  for (std::size_t t = 0; t < entry.counted_tilts[fill]; ++t) {
     const HeldForces state = forces(entry, pinch, entry.loads[fill * tilts_.size() + t], tilts_[t], 0);
     if (state.feedback > peak_force) {
       peak_force = state.feedback;

@@ -84,7 +84,8 @@ class ExtremeTally {
       const bool feasible = (true_status & STATUS_REASON_MASK) == REASON_NONE;
       compared[i] = same && feasible && ((status | true_status) & STATUS_GRAZING) == 0 ? 1 : 0;
     }
-    const Misplaced misplaced = misplaced_values(scene_, own.fields, own.count, own.count, own.reals.data(), own.uints.data());
+    const Misplaced misplaced =
+        misplaced_values(scene_, vessel, own.fields, own.count, own.count, own.reals.data(), own.uints.data());
     if (row_.misplaced == 0) row_.first_misplaced = describe(misplaced);
     row_.misplaced += misplaced.count;
     if (!comparer_) return;

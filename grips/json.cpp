@@ -59,11 +59,11 @@ Json state_json(const GripReport& report, const GripState& s) {
   json["poured_m3"] = s.liquid.poured;
   json["mass_kg"] = s.state.mass;
   json["com_m"] = s.state.center_of_mass;
-  json["pivot_length_m"] = s.state.pivot_length;
-  json["torque_Nm"] = s.state.torque;
-  json["exact_torque_Nm"] = s.state.exact_torque;
-  json["normal_force_N"] = s.state.normal_force;
-  json["feedback_force_N"] = s.state.feedback_force;
+  json["pivot_length_m"] = finite_or_null(s.state.pivot_length);
+  json["torque_Nm"] = finite_or_null(s.state.torque);
+  json["exact_torque_Nm"] = finite_or_null(s.state.exact_torque);
+  json["normal_force_N"] = finite_or_null(s.state.normal_force);
+  json["feedback_force_N"] = finite_or_null(s.state.feedback_force);
   json["hold_force_N"] = finite_or_null(s.state.hold_force);
   return json;
 }

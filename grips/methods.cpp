@@ -4,24 +4,44 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
+#include "core/counted_tilts.h"
 #include "core/error.h"
 #include "host/open_backend.h"
 
 namespace wholehand {
 namespace {
 
+// At each of the fills that are asked for, how many of the tilts count.
+std::vector<std::size_t> asked_tilts(const Scene& scene, std::size_t vessel, const StateAxes& axes) {
+  if (axes.tilts == scene.tilts) return counted_tilts(scene, vessel, axes.fills);
+  return std::vector<std::size_t>(axes.fills.size(), axes.tilts.size());
+}
+
+// What the planes of such a state hold.
+void leave_out(GripState& state) {
+  constexpr double NONE = std::numeric_limits<double>::quiet_NaN();
+  StateResult& forces = state.state;
+  forces.pivot_length = forces.torque = forces.exact_torque = NONE;
+  forces.normal_force = forces.feedback_force = forces.hold_force = NONE;
+  state.counts = false;
+}
+
 GripFindings answer_by_core(const Scene& scene, const Evaluator& evaluator, std::size_t vessel, const GripInput& grip,
                             const StateAxes& axes) {
   GripFindings answer;
   evaluator.grip(vessel, grip, answer.result);
   if (answer.result.reason != Reason::none) return answer;
-  for (const double fill : axes.fills) {
-    for (const double tilt : axes.tilts) {
+  const std::vector<std::size_t> counted = asked_tilts(scene, vessel, axes);
+  for (std::size_t f = 0; f < axes.fills.size(); ++f) {
+    for (std::size_t t = 0; t < axes.tilts.size(); ++t) {
+      const double fill = axes.fills[f], tilt = axes.tilts[t];
       GripState state{fill, tilt, {}, {}};
       if (scene.liquid) state.liquid = evaluator.liquid(vessel, fill, tilt);
       state.state = evaluator.state(vessel, grip, answer.result, state.liquid, tilt);
+      if (t >= counted[f]) leave_out(state);
       answer.states.push_back(state);
     }
   }
@@ -121,6 +141,7 @@ std::size_t index_of(const std::vector<double>& values, double value) {
 Scene with_states(const Scene& scene, std::size_t vessel, const StateAxes& axes) {
   Scene changed = scene;
   changed.tilts = ascending(axes.tilts);
+  if (axes.tilts != scene.tilts) changed.until_poured.reset();
   if (!scene.liquid) return changed;
   const double largest = vessel_fills(scene, scene.vessels[vessel]).back();
   std::vector<double> fills = axes.fills;
@@ -170,11 +191,14 @@ GripMethods backend_grip_methods(const Scene& scene, const BackendOpener& open) 
             const Scene asked = is_own ? scene : with_states(scene, vessel, axes);
             if (!is_own) planes = run_one(*open(asked, make_field_set(all_fields(), asked)), vessel, grip);
             const auto core = make_core_evaluator(asked);
+            const std::vector<std::size_t> counted = counted_tilts(asked, vessel);
             for (const double fill : axes.fills) {
+              const std::size_t fill_index = asked.liquid ? index_of(vessel_fills(asked, asked.vessels[vessel]), fill) : 0;
               for (const double tilt : axes.tilts) {
-                const std::size_t fill_index = asked.liquid ? index_of(vessel_fills(asked, asked.vessels[vessel]), fill) : 0;
-                answer.states.push_back(
-                    state_of(planes, *core, asked, vessel, grip, answer.result, fill_index, index_of(asked.tilts, tilt)));
+                const std::size_t tilt_index = index_of(asked.tilts, tilt);
+                GripState state = state_of(planes, *core, asked, vessel, grip, answer.result, fill_index, tilt_index);
+                if (tilt_index >= counted[fill_index]) leave_out(state);
+                answer.states.push_back(state);
               }
             }
             return answer;

@@ -17,6 +17,7 @@ struct GripState {
   double fill = 0, tilt = 0;
   LiquidResult liquid;
   StateResult state;
+  bool counts = true;  // false: the scene leaves it out ([tilts] until_poured), and what depends on the grip's forces is NaN
 };
 
 // Everything that is told of one grip. `states` and `score` are empty where the grip is not feasible.
@@ -26,7 +27,8 @@ struct GripFindings {
   GripScore score;                // over the scene's own fills and tilts
 };
 
-// Fills and tilts of the states that are asked for. Without liquid the one fill is 0.
+// Fills and tilts of the states that are asked for. Without liquid the one fill is 0. A scene leaves out states of its own list of
+// tilts; of another list all states count.
 struct StateAxes {
   std::vector<double> fills{0.0};
   std::vector<double> tilts;  // rad; empty: no states

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "core/counted_tilts.h"
 #include "core/error.h"
 #include "core/vectors.h"
 
@@ -26,6 +27,8 @@ GripReport make_grip_report(const Scene& scene, std::size_t vessel, const GripIn
   report.has_liquid = scene.liquid.has_value();
   report.has_tilts = !scene.tilts.empty();
   report.score_fills = scene_axes(scene, vessel).fills;
+  report.score_tilts = scene.tilts.size();
+  report.counted_tilts = counted_tilts(scene, vessel);
   return report;
 }
 

@@ -16,10 +16,12 @@ struct GripReport {
   GripFindings answer;
   Triple pour{};  // horizontal direction towards which the vessel is tilted, unit, vessel frame; zero for a vertical line
   bool has_liquid = false;
-  bool has_tilts = false;           // the scene's: without them there are no force and hold terms
-  std::vector<double> score_fills;  // fills of the score's terms
-  std::vector<StateHold> holds;     // of answer.states; empty until add_holding
-  std::optional<GripHold> hold;     // over the scene's states; nothing without tilts
+  bool has_tilts = false;                  // the scene's: without them there are no force and hold terms
+  std::vector<double> score_fills;         // fills of the score's terms
+  std::size_t score_tilts = 0;             // the scene's,
+  std::vector<std::size_t> counted_tilts;  // and how many of them count at each of those fills
+  std::vector<StateHold> holds;            // of answer.states; empty until add_holding
+  std::optional<GripHold> hold;            // over the scene's states; nothing without tilts
 };
 
 // Evaluates the grip.
@@ -30,7 +32,8 @@ GripReport make_grip_report(const Scene& scene, std::size_t vessel, const GripIn
 void add_holding(GripReport& report, const Scene& scene, std::size_t vessel);
 
 // One JSON object in one line, SI units, points in the vessel frame; docs/grip.md names the fields. What does not exist up to the
-// reason of an infeasible grip is absent; an infinite hold force and the centre of no liquid are null. Doubles read back as they were.
+// reason of an infeasible grip is absent; an infinite hold force, the centre of no liquid and the forces of a state that is left
+// out are null. Doubles read back as they were.
 std::string grip_json(const GripReport& report);
 
 // The same as tables, in mm, degrees, mL and g.

@@ -86,9 +86,13 @@ void write_states(Buffer out, const GripReport& report) {
   fmt::format_to(out, "  {:>5}{:>7}{:>9}{:>9}{:>9} {:>27}{:>9}{:>10}{:>10}{:>9}{:>9}{:>9}\n", "", "deg", "mL", "mL", "g", "mm",
                  "mm", "mN m", "mN m", "N", "N", "N");
   for (const GripState& s : report.answer.states) {
-    fmt::format_to(out, "  {:5.3g}{:7.2f} {:8.3f} {:8.3f} {:8.3f} {}{:9.3f} {:9.4f} {:9.4f} {:8.4f} {:8.4f} {}\n", s.fill,
-                   degrees(s.tilt), s.liquid.volume * 1e6, s.liquid.poured * 1e6, s.state.mass * 1e3,
-                   millimetres(s.state.center_of_mass), s.state.pivot_length * 1e3, s.state.torque * 1e3,
+    fmt::format_to(out, "  {:5.3g}{:7.2f} {:8.3f} {:8.3f} {:8.3f} {}", s.fill, degrees(s.tilt), s.liquid.volume * 1e6,
+                   s.liquid.poured * 1e6, s.state.mass * 1e3, millimetres(s.state.center_of_mass));
+    if (!s.counts) {
+      fmt::format_to(out, "  left out by until_poured\n");
+      continue;
+    }
+    fmt::format_to(out, "{:9.3f} {:9.4f} {:9.4f} {:8.4f} {:8.4f} {}\n", s.state.pivot_length * 1e3, s.state.torque * 1e3,
                    s.state.exact_torque * 1e3, s.state.normal_force, s.state.feedback_force, newtons(s.state.hold_force));
   }
 }
@@ -148,9 +152,11 @@ void write_score(Buffer out, const GripReport& report) {
   fmt::format_to(out, "\n");
   for (std::size_t f = 0; f < score.fills.size(); ++f) {
     const FillTerms& terms = score.fills[f];
+    const std::size_t counted = report.counted_tilts.at(f);
+    const std::string tilts = counted == report.score_tilts ? "all" : fmt::format("{} of {}", counted, report.score_tilts);
     fmt::format_to(
-        out, "  over all tilts fill {:.3g}: peak force {:.4f} N at {:.1f} deg, largest hold {} N, {}\n", report.score_fills.at(f),
-        terms.peak_force, degrees(terms.peak_tilt),
+        out, "  over {} tilts fill {:.3g}: peak force {:.4f} N at {:.1f} deg, largest hold {} N, {}\n", tilts,
+        report.score_fills.at(f), terms.peak_force, degrees(terms.peak_tilt),
         std::isfinite(terms.largest_hold) ? fmt::format("{:.4f}", terms.largest_hold) : "infinite",
         std::isnan(terms.safe_tilt) ? "safe at no tilt" : fmt::format("safe up to {:.1f} deg", degrees(terms.safe_tilt)));
   }

@@ -93,6 +93,7 @@ GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Ev
   constants.push_back({CONST_TORQUE, std::int32_t(scene.force.torque == Torque::exact ? TORQUE_EXACT : TORQUE_PAPER)});
   constants.push_back({CONST_REFERENCE, std::int32_t(scene.force.reference == TorqueReference::per_grip ? REFERENCE_PER_GRIP
                                                                                                         : REFERENCE_PER_OBJECT)});
+  if (scene.until_poured) constants.push_back({CONST_UNTIL_POURED, std::int32_t(1)});
 
   // making a pipeline takes a core a tenth of a second, so they are made side by side
   std::optional<Kernel> lip, liquid;
@@ -130,11 +131,13 @@ void GripProgram::upload_vessel(std::size_t v, const SceneArrays& arrays, const 
   vessel.outline = upload(on, options.precision, outline);
   vessel.lattice = Buffer::of(on, from.lattice ? *from.lattice : std::vector<std::uint32_t>(4));
   vessel.fills = upload(on, options.precision, from.fills);
-  upload_states(vessel, from.dry_loads, arrays.tilts);  // none where there is liquid
+  upload_states(v, arrays, from.dry_loads);  // none where there is liquid
 }
 
-// `loads` of every fill and tilt, `tilts` as the other kernels read them.
-void GripProgram::upload_states(VesselOnDevice& vessel, const std::vector<double>& loads, const std::vector<double>& tilts) {
+// `loads` of every fill and tilt.
+void GripProgram::upload_states(std::size_t v, const SceneArrays& arrays, const std::vector<double>& loads) {
+  const std::vector<double>& tilts = arrays.tilts;
+  const std::vector<std::size_t>& counted = arrays.vessels[v].counted_tilts;
   const std::size_t states = loads.size() / LOAD_STRIDE;
   for (std::size_t first = 0; first < states; first += STATES_IN_BLOCK) {
     std::vector<double> block(std::size_t{STATE_STRIDE} * STATES_IN_BLOCK);
@@ -143,9 +146,10 @@ void GripProgram::upload_states(VesselOnDevice& vessel, const std::vector<double
       const std::size_t tilt = state % tilt_count;
       std::copy_n(loads.data() + LOAD_STRIDE * state, LOAD_STRIDE, out);
       std::copy_n(tilts.data() + 3 * tilt, 3, out + LOAD_STRIDE);
+      if (tilt >= counted[state / tilt_count]) out[6] = -1;
       out[7] = tilt > 0 ? tilts[3 * tilt - 1] : -1;
     }
-    vessel.states.push_back(upload(on, precision_, block));
+    vessels[v].states.push_back(upload(on, precision_, block));
   }
 }
 
@@ -192,7 +196,7 @@ void GripProgram::make_liquid(std::size_t v, const Scene& scene, const SceneArra
         vessel.liquid.push_back(state);
         loads.insert(loads.end(), {together, share, share * state.lean, share * state.height});
       }
-    upload_states(vessel, loads, arrays.tilts);
+    upload_states(v, arrays, loads);
     return;
   }
   const std::size_t real = real_size(options.precision);
@@ -217,7 +221,7 @@ void GripProgram::make_liquid(std::size_t v, const Scene& scene, const SceneArra
     const double* at = values.data() + LIQUID_STRIDE * s;
     vessel.liquid.push_back({at[0], at[1], at[2], at[3], at[4]});
   }
-  upload_states(vessel, download(loads_out, options.precision, LOAD_STRIDE * states), arrays.tilts);
+  upload_states(v, arrays, download(loads_out, options.precision, LOAD_STRIDE * states));
 }
 
 void GripProgram::record(std::size_t v, const Chunk& chunk, std::size_t best, double floor_score, Commands& commands) {

@@ -43,7 +43,7 @@ struct GripProgram final : Program {
                         const GripBackendOptions& options);
   void make_liquid(std::size_t v, const Scene& scene, const SceneArrays& arrays, const Evaluator& core,
                    const GripBackendOptions& options, const Kernel& lip, const Kernel& liquid);
-  void upload_states(VesselOnDevice& vessel, const std::vector<double>& loads, const std::vector<double>& tilts);
+  void upload_states(std::size_t v, const SceneArrays& arrays, const std::vector<double>& loads);
 };
 
 // Whether grips of a vessel stay within those iterations: on a CPU driver an outline must be unrolled, so up to MAX_OUTLINE elements.

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstring>
 
+#include "core/counted_tilts.h"
 #include "core/mirror.h"
 #include "core/prepare.h"
 #include "core/touch.h"
@@ -122,6 +123,7 @@ SceneArrays make_scene_arrays(const Scene& scene, const Evaluator& core, const E
     p.quadrature_count = static_cast<std::uint32_t>(rule.cosine.size());
     if (const PreparedLattice* lattice = core.lattice(v)) set_lattice(vessel, *lattice);
     if (scene.liquid) vessel.fills = vessel_fills(scene, data);
+    vessel.counted_tilts = counted_tilts(scene, v);
     for (std::size_t t = 0; !scene.liquid && t < scene.tilts.size(); ++t)
       vessel.dry_loads.insert(vessel.dry_loads.end(), {constants.mass, 0, 0, 0});
     arrays.vessels.push_back(std::move(vessel));

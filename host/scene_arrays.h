@@ -2,6 +2,7 @@
 // A scene as the arrays that shaders read (layout.h's bindings), in double; converted to the shader's reals when uploaded.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct VesselArrays {
   bool halves = false;                                        // .. two to a word
   std::vector<double> dry_loads;                              // LOAD_STRIDE a tilt, for a scene without liquid
   std::vector<double> fills;                                  // fractions of its capacity; empty without liquid
+  std::vector<std::size_t> counted_tilts;                     // at each fill, from the first on; the others are left out
   int lid = -1;
   int outline_count = 0, cavity_count = 0;
 };

@@ -66,6 +66,7 @@ HoldExtent hold_extent(const std::vector<FillForces>& forces) {
   HoldExtent extent;
   for (const FillForces& fill : forces) {
     for (const double hold : fill.hold) {
+      if (std::isnan(hold)) continue;  // left out
       const bool is_finite = std::isfinite(hold);
       if (is_finite) extent.highest = std::max(extent.highest, hold);
       extent.is_finite_once = extent.is_finite_once || is_finite;
@@ -96,6 +97,12 @@ std::string forces_caption(const Scene& scene, const std::vector<FillForces>& fo
       caption += fmt::format(" The hold force goes up to {} N; its chart ends at twice the grip strength.",
                              shown_number(extent.highest, 0));
   }
+  const bool leaves_out =
+      std::any_of(forces.begin(), forces.end(), [](const FillForces& fill) { return std::isnan(fill.feedback.back()); });
+  if (scene.until_poured && leaves_out)
+    caption +=
+        fmt::format(" A line ends at the first tilt at which {}\u00a0% of its fill has poured; the tilts beyond are left out.",
+                    plain_number(100 * *scene.until_poured));
   const std::size_t shown = shown_fills(forces.size()).size();
   if (shown < forces.size()) caption += fmt::format(" {} of {} fills are drawn.", shown, forces.size());
   return caption;

@@ -12,7 +12,7 @@ namespace wholehand {
 // Feedback and hold force of one fill, N; hold infinite where no force holds.
 struct FillForces {
   double fill = 0;
-  std::vector<double> feedback, hold;  // over the scene's tilts
+  std::vector<double> feedback, hold;  // over the scene's tilts; NaN at those that are left out
 };
 // By the core. Empty where the grip is not feasible or the scene has no tilts.
 std::vector<FillForces> forces_of(const ReportSource& source, std::size_t vessel, const GripInput& grip);

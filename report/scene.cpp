@@ -59,9 +59,13 @@ std::string states_text(const Scene& scene) {
   for (const double fill : scene.liquid->fills) fills.push_back(shown_number(100 * fill, 0));
   const std::string shown = fills.size() > 12 ? fmt::format("{} fills from {} to {}", fills.size(), fills.front(), fills.back())
                                               : fmt::format("fills {}", fmt::join(fills, ", "));
-  return fmt::format("{}; {} {}, {} kg/m³, poured {} the palm", tilts, shown,
+  const std::string left_out = scene.until_poured
+                                   ? fmt::format("; tilts beyond the first at which {} % of a fill has poured are left out",
+                                                 plain_number(100 * *scene.until_poured))
+                                   : "";
+  return fmt::format("{}; {} {}, {} kg/m³, poured {} the palm{}", tilts, shown,
                      has_volumes ? "mL" : "% of what a vessel holds to the brim", plain_number(scene.liquid->density),
-                     scene.liquid->pour == Pour::away ? "away from" : "towards");
+                     scene.liquid->pour == Pour::away ? "away from" : "towards", left_out);
 }
 
 std::string hand_text(const Scene& scene) {

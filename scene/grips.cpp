@@ -100,6 +100,19 @@ void read_axis(const SceneTable& grips, const char* key, const Quantity& quantit
   }
 }
 
+// The tilts of [tilts].
+std::vector<double> listed_tilts(const SceneTable& table) {
+  constexpr std::int64_t LARGEST = ranges::LARGEST_TILTS;
+  const std::string allowed = fmt::format("an ascending list of 1 to {} or {{from, to, count}}", LARGEST);
+  const toml::node& node = table.need("deg", allowed);
+  if (const toml::table* range = node.as_table())
+    return range_values(read_range(table.file(), *range, "deg", ranges::TILT, {1, LARGEST}, true), Unit::deg);
+  const toml::array* array = table.array("deg", 1, LARGEST, allowed);
+  const std::vector<double> tilts = list_values(table.file(), *array, "deg", ranges::TILT);
+  check_ascending(table.file(), *array, "deg", tilts);
+  return tilts;
+}
+
 }  // namespace
 
 void read_grips(const SceneTable& root, bool turns, GripsData& grips) {
@@ -140,19 +153,16 @@ void read_grips(const SceneTable& root, bool turns, GripsData& grips) {
   read_axis(*table, "hand_scale", ranges::SCALE, is_sobol, grips.hand_scale);
 }
 
-void read_tilts(const SceneTable& root, std::vector<double>& tilts) {
-  const auto table = root.table("tilts", {"deg"});
+void read_tilts(const SceneTable& root, Scene& scene) {
+  const auto table = root.table("tilts", {"deg", "until_poured"});
   if (!table) return;
-  constexpr std::int64_t LARGEST = ranges::LARGEST_TILTS;
-  const std::string allowed = fmt::format("an ascending list of 1 to {} or {{from, to, count}}", LARGEST);
-  const toml::node& node = table->need("deg", allowed);
-  if (const toml::table* range = node.as_table()) {
-    tilts = range_values(read_range(root.file(), *range, "deg", ranges::TILT, {1, LARGEST}, true), Unit::deg);
-    return;
+  scene.tilts = listed_tilts(*table);
+  if (!table->has("until_poured")) return;
+  table->read("until_poured", ranges::POURED_SHARE, scene.until_poured.emplace());
+  if (!scene.liquid) {
+    root.file().refuse(table->place("until_poured"), "until_poured without [liquid]",
+                       "allowed: in a scene with [liquid], of whose fills it is a share");
   }
-  const toml::array* array = table->array("deg", 1, LARGEST, allowed);
-  tilts = list_values(root.file(), *array, "deg", ranges::TILT);
-  check_ascending(root.file(), *array, "deg", tilts);
 }
 
 void read_liquid(const SceneTable& root, std::optional<LiquidData>& liquid) {

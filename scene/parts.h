@@ -33,7 +33,8 @@ void read_cavity(const SceneTable& table, const Silhouette& silhouette, VesselDa
 // ---- grips.cpp ----
 // `turns`: some vessel is no body of revolution, so that without a word the azimuth goes round.
 void read_grips(const SceneTable& root, bool turns, GripsData& grips);
-void read_tilts(const SceneTable& root, std::vector<double>& tilts);
+// [liquid] has been read: `until_poured` needs it.
+void read_tilts(const SceneTable& root, Scene& scene);
 void read_liquid(const SceneTable& root, std::optional<LiquidData>& liquid);
 
 // ---- fills.cpp ----

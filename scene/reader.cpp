@@ -55,7 +55,7 @@ void read_scene(const SceneTable& root, Scene& scene) {
   const bool has_mesh =
       std::any_of(scene.vessels.begin(), scene.vessels.end(), [](const VesselData& vessel) { return vessel.mesh.has_value(); });
   read_grips(root, has_mesh, scene.grips);
-  read_tilts(root, scene.tilts);
+  read_tilts(root, scene);
   read_score(root, !scene.tilts.empty(), scene.score);
   read_output(root, scene.output);
   read_tabletop(root, scene.table);

@@ -13,13 +13,14 @@
 layout(local_size_x_id = CONST_GROUP_SIZE) in;
 layout(constant_id = CONST_TORQUE) const int TORQUE = TORQUE_PAPER;
 layout(constant_id = CONST_REFERENCE) const int REFERENCE = REFERENCE_PER_OBJECT;
+layout(constant_id = CONST_UNTIL_POURED) const bool UNTIL_POURED = false;
 layout(std140, binding = BINDING_STATES) uniform StateBlock { Vec4 states_in[2 * STATES_IN_BLOCK]; };
 
 Real plane_real(int plane, uint fill, uint grip, Real absent) {
   return plane >= 0 ? real_out[(uint(plane) + fill) * push.stride + grip] : absent;
 }
 
-// Of one fill, over its tilts so far.
+// Of one fill, over those of its tilts so far that count.
 struct FillTerms {
   Real peak_force, peak_tilt, largest_hold, safe_tilt;
   bool safe;
@@ -129,8 +130,9 @@ void main() {
       terms = no_terms();
     }
     StateForces forces = state_forces(held, weight, tilted.x, tilted.y);
-    add_state(forces, tilted.z, terms);
-    put_state(int(push.first + k), grip, feasible, forces);
+    bool counts = !UNTIL_POURED || tilted.z >= Real(0);
+    if (counts) add_state(forces, tilted.z, terms);
+    put_state(int(push.first + k), grip, feasible && counts, forces);
     bool ends = tilt + 1u == scene.tilts;
     if (ends || k + 1u == push.number) put_terms(fill, grip, feasible, terms);
     fill += ends ? 1u : 0u;

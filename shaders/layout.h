@@ -198,7 +198,8 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 // Load of one fill and tilt: mass, the liquid's share of it, lean and height of the liquid's centre of mass.
 #define LOAD_STRIDE 4
 
-// A state as the force kernel reads it: its load; sine, cosine and angle of its tilt, and the angle of the tilt before (-1: none).
+// A state as the force kernel reads it: its load; sine, cosine and angle of its tilt (angle -1: the state is left out), and the
+// angle of the tilt before (-1: none).
 #define STATE_STRIDE 8
 #define STATES_IN_BLOCK 256         // in double 16 KiB, the smallest uniform range that Vulkan grants
 
@@ -214,6 +215,7 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define CONST_TORQUE 5
 #define CONST_REFERENCE 6
 #define CONST_TABLE 7               // whether the scene has a table, bool
+#define CONST_UNTIL_POURED 8        // of the forces: whether states may be left out, bool
 #define CONST_STOP_TOLERANCE 40     // Real, m; this and the next five have the named values where nothing is given
 #define CONST_TRACE_STEPS 41
 #define CONST_ADVANCE_STEPS 42

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/core_backend.h"
+#include "core/counted_tilts.h"
 #include "core/gather.h"
 #include "host/grip_backend.h"
 #include "sweeps/variables.h"
@@ -54,6 +55,7 @@ class Explainer {
     force(as_is);
     liquid(as_is);
     table(as_is);
+    poured();
     azimuth();
     return text_;
   }
@@ -174,6 +176,19 @@ class Explainer {
     other.table.emplace();
     row("keeping the hand above a table: the scene has no table",
         measure(other, make_field_set(kept_fields(), other), OUTLINE_SPECIALIZED), as_is, "a table");
+  }
+
+  // Told, not measured: a device goes through these states all the same.
+  void poured() {
+    if (!scene_.until_poured) return;
+    const std::size_t tilts = scene_.tilts.size();
+    for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
+      const std::vector<std::size_t> counted = counted_tilts(scene_, v);
+      std::size_t left_out = 0;
+      for (const std::size_t count : counted) left_out += tilts - count;
+      say("  {} of {} states of {}: their tilts are beyond the one at which {:.6g} of the fill has poured (until_poured)\n",
+          left_out, counted.size() * tilts, scene_.vessels[v].name, *scene_.until_poured);
+    }
   }
 
   static std::vector<double> some_tilts() {

@@ -251,7 +251,8 @@ class SweepDefinition : ResultDefinition {
       const int id = variable(chosen->name, type, dims, chosen->units, chosen->long_name);
       if (chosen->has_missing()) fill_value(id, type);
       if (chosen->bits > 0) mask_flags(id, *chosen);
-      if (*chosen->comment) text(id, "comment", chosen->comment);
+      const std::string comment = variable_comment(*chosen, contents_.scene);
+      if (!comment.empty()) text(id, "comment", comment);
       if (std::strcmp(chosen->name, "reason") == 0) reason_flags(id);
       if (std::strcmp(chosen->name, "score") == 0) score_weights(id);
       name_coordinates(id, *chosen);

@@ -233,6 +233,16 @@ const char* missing_need(Need need, const Scene& scene) {
 
 }  // namespace
 
+std::string variable_comment(const Variable& variable, const Scene& scene) {
+  std::string comment = variable.comment;
+  if (variable.type != NumberType::real || variable.need != Need::tilts || !scene.until_poured) return comment;
+  if (!comment.empty()) comment += "; ";
+  const bool has_states =
+      std::any_of(variable.dims.begin(), variable.dims.end(), [](const char* dim) { return std::strcmp(dim, "tilt") == 0; });
+  return comment + fmt::format("{} the tilts beyond the first at which {:.6g} of the fill has poured (until_poured)",
+                               has_states ? "NaN at" : "leaves out", *scene.until_poured);
+}
+
 std::span<const Variable> variable_catalogue() { return catalogue(); }
 
 std::size_t variable_planes(const Variable& variable, const Scene& scene) {

@@ -28,7 +28,7 @@ struct Absent : testing::Test {
   std::uint32_t& status(std::size_t grip) { return planes.uints[fields.plane[FIELD_STATUS] * planes.count + grip]; }
   double& value(int field, std::size_t grip) { return planes.reals[fields.plane[field] * planes.count + grip]; }
   Misplaced look(bool overflows = false) const {
-    return misplaced_values(scene, fields, planes.count, planes.count, planes.reals.data(), planes.uints.data(), overflows);
+    return misplaced_values(scene, 0, fields, planes.count, planes.count, planes.reals.data(), planes.uints.data(), overflows);
   }
   // What is found with the value changed, which is then put back.
   std::uint64_t with(int field, std::size_t grip, double changed) {

@@ -317,7 +317,7 @@ TEST(Extreme, WhatASceneSaysComesOut) {
     const AnsweredScene answered(extreme_scene(name));
     for (std::size_t v = 0; v < answered.planes.size(); ++v) {
       const GatheredPlanes& planes = answered.planes[v];
-      EXPECT_EQ(describe(misplaced_values(answered.scene, planes.fields, planes.count, planes.count, planes.reals.data(),
+      EXPECT_EQ(describe(misplaced_values(answered.scene, v, planes.fields, planes.count, planes.count, planes.reals.data(),
                                           planes.uints.data())),
                 "")
           << name;

@@ -198,7 +198,7 @@ void check(const Scene& scene, const Evaluator& core, const std::vector<GripInpu
   std::vector<double> reals(fields.real_planes * grips.size());
   std::vector<std::uint32_t> uints(fields.uint_planes * grips.size());
   core.planes(0, grips.data(), grips.size(), fields, grips.size(), reals.data(), uints.data());
-  const Misplaced misplaced = misplaced_values(scene, fields, grips.size(), grips.size(), reals.data(), uints.data(), true);
+  const Misplaced misplaced = misplaced_values(scene, 0, fields, grips.size(), grips.size(), reals.data(), uints.data(), true);
   must(misplaced.count == 0, fmt::format("{}: {}\n{}", precision, describe(misplaced), scene.text));
   const VesselConstants constants = core.constants(0);
   for (const double value : {constants.capacity, constants.mass, constants.center_of_mass[0], constants.center_of_mass[1],

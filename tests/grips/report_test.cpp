@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/core_backend.h"
+#include "core/counted_tilts.h"
 #include "core/error.h"
 #include "scene/reader.h"
 
@@ -300,6 +301,40 @@ TEST(GripReport, LiquidLeansWhereTheCoreSaysForEitherHand) {
   }
 }
 
+// A state that the scene leaves out has its liquid and no forces. Of tilts that are asked for none is left out.
+TEST(GripReport, StatesThatAreLeftOutHaveNoForces) {
+  Scene scene = cup_scene("right", "away");
+  scene.tilts = {0, 0.5, 1.0, 1.5, 2.0, 2.5};
+  scene.until_poured = 0.4;
+  const GripMethods methods = core_grip_methods(scene, make_core_evaluator(scene), "core");
+  const GripInput grip{0.05, 0.7, 0.1, -0.5, 0.002, 1};
+  const StateAxes own = scene_axes(scene, 0);
+  const GripReport report = make_grip_report(scene, 0, grip, own, methods);
+  const std::vector<std::size_t> counted = counted_tilts(scene, 0);
+  const Json states = Json::parse(grip_json(report))["states"];
+  ASSERT_EQ(states.size(), own.fills.size() * 6);
+  std::size_t left_out = 0;
+  for (std::size_t k = 0; k < states.size(); ++k) {
+    const bool is_left_out = k % 6 >= counted[k / 6];
+    left_out += is_left_out ? 1 : 0;
+    EXPECT_EQ(report.answer.states[k].counts, !is_left_out);
+    for (const char* name : {"pivot_length_m", "torque_Nm", "exact_torque_Nm", "normal_force_N", "feedback_force_N"})
+      EXPECT_EQ(states[k][name].is_null(), is_left_out) << k << name;
+    EXPECT_TRUE(states[k]["mass_kg"].is_number() && states[k]["poured_m3"].is_number());
+  }
+  ASSERT_GT(left_out, 0u);
+  const std::string table = grip_table(report);
+  std::size_t rows = 0;
+  for (std::size_t at = table.find("left out by until_poured"); at != std::string::npos; at = table.find("left out by", at + 1))
+    ++rows;
+  EXPECT_EQ(rows, left_out) << table;
+  EXPECT_NE(table.find("over " + std::to_string(counted.back()) + " of 6 tilts"), std::string::npos) << table;
+  StateAxes asked = own;
+  asked.tilts = {2.5};
+  for (const GripState& state : make_grip_report(scene, 0, grip, asked, methods).answer.states)
+    EXPECT_TRUE(state.counts && std::isfinite(state.state.torque));
+}
+
 TEST(GripReport, PlanesGiveWhatTheCoreGives) {
   Scene scene = cup_scene("left", "away");
   scene.table.emplace();
@@ -317,6 +352,18 @@ TEST(GripReport, PlanesGiveWhatTheCoreGives) {
       EXPECT_EQ(grip_json(make_grip_report(scene, 1, grip, axes, direct)),
                 grip_json(make_grip_report(scene, 1, grip, axes, planes)));
     }
+  }
+  Scene cut = scene;
+  cut.tilts = {0, 0.5, 1.0, 1.5, 2.0};
+  cut.until_poured = 0.4;
+  const GripMethods cut_direct = core_grip_methods(cut, make_core_evaluator(cut), "core"),
+                    cut_planes = backend_grip_methods(cut, open);
+  StateAxes half = scene_axes(cut, 0);
+  half.fills = {0.5};
+  for (const StateAxes& axes : {scene_axes(cut, 0), half, other}) {
+    const GripInput grip{0.05, 0.7, 0.1, -0.5, 0.002, 1};
+    EXPECT_EQ(grip_json(make_grip_report(cut, 1, grip, axes, cut_direct)),
+              grip_json(make_grip_report(cut, 1, grip, axes, cut_planes)));
   }
   other.fills = {0.9};
   EXPECT_THROW(planes.answer(0, {0.05, 0, 0, 0, 0, 1}, other), Error);

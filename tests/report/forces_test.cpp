@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/support/files.h"
 #include "tests/support/sweep_results.h"
 
@@ -55,6 +57,19 @@ TEST(ReportForces, HaveTwoChartsAndATableOfTheirNumbers) {
   EXPECT_TRUE(has(html, "feedback, 60\u00a0% (N)") && has(html, "hold, 0\u00a0% (N)"));
   EXPECT_TRUE(has(html, "limit of 8 N is not reached."));
   EXPECT_TRUE(has(html, "id=\"v-feedback-title\"") && has(html, "id=\"v-hold-title\""));
+}
+
+TEST(ReportForces, LinesEndWhereTheShareIsOut) {
+  const SweptScene swept(edited(RESULT_SCENE, RESULT_TILTS, RESULT_TILTS + "\nuntil_poured = 0.5"));
+  const auto forces = forces_of(*swept.source, 0, best_of(swept, 0));
+  ASSERT_EQ(forces.size(), 2u);
+  EXPECT_TRUE(std::isfinite(forces[0].feedback.back())) << "nothing to pour";
+  EXPECT_TRUE(std::isfinite(forces[1].feedback.front()));
+  EXPECT_TRUE(std::isnan(forces[1].feedback.back()) && std::isnan(forces[1].hold.back()));
+  const std::string html = forces_text(swept, 0);
+  EXPECT_TRUE(has(html, "A line ends at the first tilt at which 50\u00a0% of its fill has poured"));
+  EXPECT_FALSE(has(html, "Where a line of the hold force is missing"));
+  EXPECT_FALSE(has(forces_text(SweptScene(RESULT_SCENE), 0), "A line ends"));
 }
 
 TEST(ReportForces, ALimitWithinIsDrawnAndNotSaid) {

@@ -37,7 +37,7 @@ const std::map<std::string, std::vector<std::string>> SCENE_KEYS{
     {"[grips]",
      {"height_mm", "height_fraction", "azimuth_deg", "obliquity_deg", "roll_deg", "offset_mm", "hand_scale", "sampling", "count",
       "seed"}},
-    {"[tilts]", {"deg"}},
+    {"[tilts]", {"deg", "until_poured"}},
     {"[score]", {"fingers", "contacts", "depth", "posture", "force", "hold"}},
     {"[output]", {"keep", "also", "best"}},
     {"[table]", {"clearance_mm"}},

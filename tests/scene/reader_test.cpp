@@ -38,6 +38,7 @@ TEST(SceneReader, LeavesEverythingElseAtItsDefault) {
   EXPECT_FALSE(scene.task);
   EXPECT_FALSE(scene.table);
   EXPECT_TRUE(scene.tilts.empty());
+  EXPECT_FALSE(scene.until_poured);
   EXPECT_EQ(scene.force.range, 3);
   EXPECT_EQ(scene.force.torsion, 5e-3);
   EXPECT_EQ(scene.grips.sampling, Sampling::grid);
@@ -311,6 +312,14 @@ deg = { from = 0, to = 150, count = 31 }
   for (int i = 0; i < 31; ++i) EXPECT_EQ(scene.tilts[i], radians(5 * i));
   EXPECT_EQ(scene_from("[grips]\nheight_fraction = [0, 1]" + VESSEL).grips.height.values, (std::vector<double>{0, 1}));
   EXPECT_EQ(scene_from("[tilts]\ndeg = [0, 45, 180]" + VESSEL).tilts, (std::vector<double>{0, radians(45), radians(180)}));
+}
+
+TEST(SceneReader, ReadsTheShareThatIsPoured) {
+  const std::string tilts = "[liquid]\nfills = [0.5]\n[tilts]\ndeg = [0, 45]\n";
+  EXPECT_FALSE(scene_from(tilts + VESSEL).until_poured);
+  EXPECT_EQ(scene_from(tilts + "until_poured = 0.25" + VESSEL).until_poured, 0.25);
+  EXPECT_EQ(scene_from(tilts + "until_poured = 1" + VESSEL).until_poured, 1);
+  EXPECT_EQ(scene_from("[tilts]\nuntil_poured = 0.5\ndeg = [0]\n[liquid]\nfills = [1]" + VESSEL).until_poured, 0.5);
 }
 
 TEST(SceneReader, ReadsSobolRangesWithAndWithoutCount) {

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "app/paths.h"
+#include "core/absent.h"
+#include "core/counted_tilts.h"
 #include "evidence/compare.h"
 #include "host/grip_backend.h"
 #include "scene/reader.h"
@@ -112,6 +114,29 @@ TEST(Parity, StatesOfManyBlocks) {
   expect_parity(scene, "many_dry", 60);
 }
 
+// States that are left out: of liquid by the device and by the core, within a block of the force kernel and in all of one.
+TEST(Parity, TiltsUntilTheLiquidIsOut) {
+  Scene scene = wet_scene({beaker1(), beaker2(), facets()}, Pose::articulated);
+  for (const double share : {0.3, 1.0}) {
+    scene.until_poured = share;
+    expect_parity(scene, "until_poured");
+  }
+  Scene many = wet_scene({beaker2()}, Pose::rigged);
+  many.tilts = linspace(0, PI, 600);
+  many.until_poured = 0.5;
+  many.force.max = many.force.base + 0.3 * many.force.range;  // so that safe tilts end among those that count
+  expect_parity(many, "many_until_poured", 60);
+  ASSERT_LT(2 * 600 + counted_tilts(many, 0)[2], 6u * STATES_IN_BLOCK) << "the seventh block is left out, all of it";
+  const FieldSet fields = all_fields(many);
+  const auto grips = grips_of(many, 0, 60);
+  for (const Precision precision : {Precision::single, Precision::full}) {
+    const auto backend = backend_of(many, fields, precision);
+    const GatheredPlanes planes = gather(*backend, 0, grips);
+    EXPECT_EQ(describe(misplaced_values(many, 0, fields, planes.count, planes.count, planes.reals.data(), planes.uints.data())),
+              "");
+  }
+}
+
 TEST(Parity, LatticeDistance) {
   const Scene scene = scene_of({beaker2()});
   const FieldSet fields = all_fields(scene);
@@ -200,6 +225,11 @@ TEST(Parity, AConstantBrokenOnOneSideIsNoticed) {
   EXPECT_FALSE(passes(scene, wall, false)) << "wall";
   EXPECT_FALSE(passes(scene, friction, false)) << "friction";
   EXPECT_FALSE(passes(scene, limit, false)) << "a joint's largest turn";
+  Scene some = scene;
+  some.until_poured = 0.5;
+  EXPECT_TRUE(passes(some, some, true));
+  EXPECT_FALSE(passes(some, scene, true)) << "states that are left out";
+  EXPECT_FALSE(passes(scene, some, false)) << "states that are not left out";
 }
 
 // A joint out of place by 20 um is noticed, one coordinate of it alone too, and in nearly every grip; noise of single precision is

@@ -147,7 +147,7 @@ Searched search(std::size_t grips, const std::function<Answer(const Scene&)>& ma
         const auto asked = adversarial_grips(scenes[s], v, std::min(CHUNK, share - first), 1000 * s + 100 * v + 7919 * first);
         const GatheredPlanes planes = answer(v, asked);
         const Misplaced misplaced =
-            misplaced_values(scenes[s], planes.fields, planes.count, planes.count, planes.reals.data(), planes.uints.data());
+            misplaced_values(scenes[s], v, planes.fields, planes.count, planes.count, planes.reals.data(), planes.uints.data());
         if (misplaced.count > 0) {
           const GripInput& g = asked[misplaced.grip];
           ADD_FAILURE() << "scene " << s << ", vessel " << v << ": " << describe(misplaced) << "\nheight " << g.height

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "app/paths.h"
+#include "core/counted_tilts.h"
 #include "evidence/compare.h"
 #include "scene/reader.h"
 #include "sweeps/variables.h"
@@ -73,6 +74,7 @@ TEST(Explain, WholeSceneLeavesOutPlanesAndTheInnerWall) {
   const long long whole = (GRIP_AXES + every.real_planes) * 4LL + every.uint_planes * 4LL;
   EXPECT_EQ(explained.find("result planes not computed")->bytes, whole - explained.bytes) << explained.text;
   EXPECT_TRUE(explained.find("inner wall")) << explained.text;
+  EXPECT_EQ(explained.text.find("until_poured"), std::string::npos) << explained.text;
   for (const char* had : {"projection", "force kernel", "the liquid", "azimuth"})
     EXPECT_FALSE(explained.find(had)) << explained.text;
 }
@@ -107,6 +109,19 @@ TEST(Explain, SaysWhatATableCosts) {
   // on the core planes are doubles
   EXPECT_TRUE(std::regex_search(explained.text, std::regex("not left out: the table, which costs -?[0-9.]+ us and 8 B per grip\n")))
       << explained.text;
+}
+
+TEST(Explain, CountsTheStatesThatAreLeftOut) {
+  Scene scene = three_beakers();
+  scene.until_poured = 0.5;
+  const std::string text = explain(scene, "core").text;
+  for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
+    std::size_t left_out = 0;
+    for (const std::size_t counted : counted_tilts(scene, v)) left_out += scene.tilts.size() - counted;
+    ASSERT_GT(left_out, 0u);
+    const std::string line = "  " + std::to_string(left_out) + " of 155 states of " + scene.vessels[v].name + ": ";
+    EXPECT_NE(text.find(line), std::string::npos) << line << "\n" << text;
+  }
 }
 
 TEST(Explain, SaysWhereNothingCanBeSaved) {

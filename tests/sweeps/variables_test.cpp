@@ -202,6 +202,26 @@ TEST(Variables, WordsAreTakenApart) {
   EXPECT_EQ(value("projected_inner", 0x101), 2);
 }
 
+// Of a scene that leaves out none, every comment is as it stands in the catalogue.
+TEST(Variables, CommentsTellWhichTiltsAreLeftOut) {
+  Scene scene = fake_scene();
+  for (const Variable& variable : variable_catalogue()) EXPECT_EQ(variable_comment(variable, scene), variable.comment);
+  scene.until_poured = 0.25;
+  const auto comment = [&](std::string_view name) {
+    for (const Variable& variable : variable_catalogue())
+      if (name == variable.name) return variable_comment(variable, scene);
+    return std::string("no such variable");
+  };
+  const std::string tilts = "the tilts beyond the first at which 0.25 of the fill has poured (until_poured)";
+  EXPECT_EQ(comment("feedback_force"), "normal force clamped to [0, F_max]; NaN at " + tilts);
+  EXPECT_EQ(comment("pivot_length"), "NaN at " + tilts);
+  EXPECT_EQ(comment("peak_feedback_force"), "leaves out " + tilts);
+  EXPECT_EQ(comment("largest_hold_force"), "infinite where not antipodal; leaves out " + tilts);
+  EXPECT_TRUE(comment("score_hold").ends_with("; leaves out " + tilts));
+  EXPECT_EQ(comment("gap"), "");
+  EXPECT_EQ(comment("score_depth").find("until_poured"), std::string::npos);
+}
+
 TEST(Variables, BytesPerGripAreThoseOfTheFile) {
   Scene scene = fake_scene();
   scene.output.keep = {{"score", "joints", "reason", "touch_mask", "torque"}};

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// How much of a fill is left in a vessel that was tilted so far: the smallest that its lip held back on the way.
+#pragma once
+
+#include "core/liquid.h"
+
+namespace CORE_NS {
+
+// Of `filled` m3 at a tilt (rad, 0..pi, with its sine and cosine), m3. The way counts at every whole degree. The vessel has a
+// cavity and was loaded with liquid.
+Real remaining_volume(const Vessel& vessel, const Quadrature& quadrature, Real filled, double tilt, Real sine_tilt,
+                      Real cosine_tilt);
+
+}  // namespace CORE_NS
