@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/counted_tilts.h"
 #include "core/force.h"
 #include "core/vectors.h"
 
@@ -17,7 +18,7 @@ using core_f64::EffortSolver;
 using core_f64::Vec3;
 using core_f64::Wrench;
 
-constexpr double INFINITE = std::numeric_limits<double>::infinity();
+constexpr double INFINITE = std::numeric_limits<double>::infinity(), NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
 constexpr double MOST_FRICTION = 10, FRICTION_STEP = 1e-3;
 constexpr double PUSH_STEP = 1e-4;    // relative
 constexpr double MOST_PUSH = 1e6;     // N
@@ -47,6 +48,7 @@ Wrench Holding::load(const StateResult& state, double tilt) const {
 }
 
 StateHold Holding::state(const GripState& state) const {
+  if (!state.counts) return {NOT_A_NUMBER, NOT_A_NUMBER, NOT_A_NUMBER, std::nullopt, {}};
   const Wrench weight = load(state.state, state.tilt);
   EffortSolver solver(contacts_, hand_, center_);
   const Effort found = solver.solve(weight);
@@ -93,8 +95,11 @@ std::optional<GripHold> Holding::over_states() const {
     largest = found.effort;
     return 2;
   };
-  for (const double fill : axes.fills) {
-    for (const double tilt : axes.tilts) {
+  const std::vector<std::size_t> counted = counted_tilts(scene_, vessel_);
+  for (std::size_t f = 0; f < axes.fills.size(); ++f) {
+    const double fill = axes.fills[f];
+    for (std::size_t t = 0; t < counted[f]; ++t) {
+      const double tilt = axes.tilts[t];
       const Wrench weight = load(loaded(fill, tilt).state, tilt);
       ++hold.states;
       int tips_pivots = 0;

@@ -67,7 +67,9 @@ void expect_effort(const std::vector<ContactPoint>& contacts, const HandStrength
     const double rounding = 1e-7 * answer;
     EXPECT_LE(found.low, answer + rounding);
     EXPECT_GE(found.effort, answer - rounding);
-    if (found.pivots < core_f64::EFFORT_PIVOTS) EXPECT_LE(found.effort - found.low, tolerance * found.effort + rounding);
+    if (found.pivots < core_f64::EFFORT_PIVOTS) {
+      EXPECT_LE(found.effort - found.low, tolerance * found.effort + rounding);
+    }
     EXPECT_NEAR(found.effort, answer, 2e-3 * answer);
   }
 }

@@ -116,8 +116,9 @@ TEST(Holding, TheWorstIsTheWorstOfAllStates) {
       EXPECT_EQ(report.hold->states, static_cast<int>(report.holds.size()));
       for (std::size_t k = 0; k < report.holds.size(); ++k) {
         const GripState& state = report.answer.states[k];
-        if (state.fill == report.hold->worst_fill && state.tilt == report.hold->worst_tilt)
+        if (state.fill == report.hold->worst_fill && state.tilt == report.hold->worst_tilt) {
           EXPECT_TRUE(near(report.holds[k].effort, worst));
+        }
       }
     }
 }
@@ -185,6 +186,23 @@ TEST(Holding, FollowsTheScene) {
   ASSERT_EQ(other.holds.size(), report.holds.size());
   for (std::size_t k = 0; k < other.holds.size(); ++k)
     EXPECT_NEAR(other.holds[k].effort, report.holds[k].effort, 2e-3 * report.holds[k].effort) << k;
+}
+
+// A state that until_poured leaves out has no effort and is not the worst.
+TEST(Holding, LeavesOutWhatTheSceneLeavesOut) {
+  Scene scene = few_states();
+  scene.until_poured = 0.2;
+  const GripReport report = held_report(scene, 0, beside(0.055));
+  double worst = 0;
+  int left_out = 0;
+  for (std::size_t k = 0; k < report.holds.size(); ++k) {
+    EXPECT_EQ(std::isnan(report.holds[k].effort), !report.answer.states[k].counts) << k;
+    left_out += !report.answer.states[k].counts;
+    if (report.answer.states[k].counts) worst = std::max(worst, report.holds[k].effort);
+  }
+  EXPECT_GT(left_out, 0);
+  EXPECT_NEAR(report.hold->worst, worst, 2e-3 * worst);
+  EXPECT_EQ(report.hold->states, static_cast<int>(report.holds.size()) - left_out);
 }
 
 TEST(Holding, IsInTheJson) {
