@@ -50,7 +50,8 @@ Real EffortSolver::press(const ContactPoint& contact, const Vec6& direction, Vec
   const Vec3 turning = second(direction);
   const Vec3 velocity = first(direction) + glm::cross(turning, arm);
   const Real along = glm::dot(n, velocity), gamma = hand_.torsion / unit_length_, spin = gamma * glm::dot(turning, n);
-  const Vec3 across = velocity - along * n;
+  // at right angles to n even where it is next to nothing beside `along`
+  const Vec3 across = glm::cross(glm::cross(n, velocity), n);
   const Real root = std::sqrt(glm::dot(across, across) + spin * spin);
   if (wrench) {
     const Real share = root > 0 ? hand_.friction / root : Real(0);
@@ -221,6 +222,11 @@ Effort EffortSolver::solve(const Wrench& load, Real tolerance) {
   }
   if (invert()) {
     last_ = levels(wanted);
+    Vec6 rest = wanted;  // what rounding of the inverse leaves unbalanced, where columns are nearly parallel
+    for (std::size_t r = 0; r < 6; ++r)
+      for (std::size_t k = 0; k < 6; ++k) rest[k] -= last_[r] * columns_[r].point[k];
+    const Vec6 more = levels(rest);
+    for (std::size_t r = 0; r < 6; ++r) last_[r] += more[r];
     const Cost cost = cost_of(last_);
     if (cost.artificial <= ROUNDING * size) {
       answer.effort = cost.real;
