@@ -45,7 +45,8 @@ struct ContactForce {
 
 // The least effort lies in [low, effort], and forces of `effort` balance the load. Not resisted by any force: both infinite, and `escape` is the
 // motion of the object (velocity of the solver's center, m/s, and angular velocity, rad/s, scaled together) along which the load pushes it and no
-// contact opposes. `low` stays finite where EFFORT_PIVOTS ended the search before that was certain.
+// contact opposes: the support value of -escape is small beside the load's power. `low` stays finite where EFFORT_PIVOTS ended the search before that
+// was certain.
 struct Effort {
   Real effort = 0, low = 0;
   std::array<Real, 6> escape{};
