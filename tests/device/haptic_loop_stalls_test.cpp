@@ -90,7 +90,8 @@ TEST(HapticLoop, TheTickAfterAStallHasTheClocksNumber) {
   EXPECT_GE(run.sunk[39].number - run.sunk[38].number, 100);
   EXPECT_LE(static_cast<double>(run.sunk.back().number), 1e3 * ended) << "no number is ahead of the clock";
   EXPECT_GE(report.missed, 99);
-  EXPECT_EQ(report.ticks + report.missed, run.sunk[run.sunk.size() - 2].number + 1);
+  // up to the end, which may miss periods as well
+  EXPECT_EQ(report.ticks + report.missed, run.sunk.back().number);
 }
 
 // A measurement that was taken before a stall of its read is told after it. A hand that moves at 0.4 m/s has not jumped in the tick after, which
