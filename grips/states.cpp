@@ -31,4 +31,11 @@ const GripState* drawn_liquid(const GripReport& report) {
   return found == states.end() ? nullptr : &*found;
 }
 
+std::optional<std::size_t> hardest_state(const GripReport& report) {
+  const auto& holds = report.holds;
+  if (holds.empty()) return std::nullopt;
+  const auto takes_less = [](const StateHold& a, const StateHold& b) { return a.effort < b.effort; };
+  return static_cast<std::size_t>(std::max_element(holds.begin(), holds.end(), takes_less) - holds.begin());
+}
+
 }  // namespace wholehand

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// How the points of a grip are told apart in its drawings.
+// What of a grip its drawings and tables show: how its points are told apart, and which of its states.
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <optional>
 #include <string>
 
 #include "charts/colors.h"
@@ -27,5 +29,9 @@ void check_drawable(const GripReport& report, const std::string& option);
 
 // The first of the report's states that has liquid; null where none has.
 const GripState* drawn_liquid(const GripReport& report);
+
+// The place in `holds` of the state that takes most effort, the first where several take as much: the first of those that no force
+// holds, if there are any. Nothing where there are no holds.
+std::optional<std::size_t> hardest_state(const GripReport& report);
 
 }  // namespace wholehand

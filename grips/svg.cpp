@@ -13,6 +13,7 @@
 #include "charts/markup.h"
 #include "core/joints.h"
 #include "core/vectors.h"
+#include "grips/forces.h"
 #include "grips/glass.h"
 #include "grips/hand_nodes.h"
 #include "grips/states.h"
@@ -25,6 +26,7 @@ constexpr double PAPER_WIDTH = 180;    // mm, at most
 constexpr double PAPER_HEIGHT = 250;   // mm, at most
 constexpr double LEGEND_WIDTH = 24;    // letters
 constexpr double LEGEND_HEIGHT = 19;   // letters
+constexpr double FORCES_HEIGHT = 3;    // letters, what the legend says of forces
 constexpr double PAPER_FONT = 2.8;     // mm: 8 pt
 constexpr double PAPER_LINE = 0.25;    // mm
 constexpr double SMALLEST_SKIN = 1.5;  // mm: a bare point is still seen
@@ -35,14 +37,16 @@ constexpr double PAPER_DETAIL = 0.1;  // mm, of a mesh
 struct Drawing {
   const GripReport& report;
   DrawnGlass glass;
+  DrawnForces forces;
   std::string vessel;
   double base = 0;                           // m
   std::array<Triple, JOINT_COUNT> joints{};  // m
   std::array<double, JOINT_COUNT> skin{};    // mm
+  double unit = 0;                           // mm of the vessel on a mm of paper
   double font = 0, line = 0;                 // mm of the vessel
 };
 
-// Extent of hand and glass along a direction, mm.
+// Extent of hand, glass and arrows along a direction, mm.
 std::array<double, 2> extent_along(const Drawing& drawing, const Triple& axis) {
   std::array<double, 2> extent = drawing.glass.extent_along(axis);
   for (int j = 0; j < JOINT_COUNT; ++j) {
@@ -50,6 +54,7 @@ std::array<double, 2> extent_along(const Drawing& drawing, const Triple& axis) {
     const double at = 1e3 * dot(axis, p);
     extent = {std::min(extent[0], at - drawing.skin[j]), std::max(extent[1], at + drawing.skin[j])};
   }
+  drawing.forces.widen(extent, axis, drawing.unit);
   return extent;
 }
 
@@ -198,6 +203,7 @@ void draw_view(std::string& svg, const Drawing& drawing, const DrawnView& view, 
   }
   const Flat thumb = view.flat(drawing.joints[THUMB_TIP]), index = view.flat(drawing.joints[INDEX_TIP]);
   draw_line(svg, thumb, index, "axis");
+  drawing.forces.draw(svg, view, drawing.unit);
   draw_initials(svg, drawing, view, runs);
   draw_text(svg, title, "head", view.name);
   svg += "</g>\n";
@@ -232,6 +238,7 @@ std::string spoken(const Drawing& drawing, double width, double height) {
     text += fmt::format(" The {} touches with {} of its {} points.", f == 0 ? "thumb" : std::string(FINGER_NAMES[f]) + " finger",
                         touching, finger_joints(f));
   }
+  if (!drawing.forces.empty()) text += " Arrows show the forces of the hand: " + drawing.forces.words() + ".";
   return text;
 }
 
@@ -249,6 +256,13 @@ void draw_legend(std::string& svg, const Drawing& drawing, Flat at) {
     at[1] += step;
     svg += marker({at[0] + 0.5 * drawing.font, at[1] - 0.35 * drawing.font}, static_cast<PointState>(s), drawing.font);
     draw_text(svg, {at[0] + 1.4 * drawing.font, at[1]}, "start", words[s]);
+  }
+  if (!drawing.forces.empty()) {
+    at[1] += step;
+    const Flat head = DrawnForces::draw_longest(svg, {at[0], at[1] - 0.35 * drawing.font}, drawing.unit);
+    draw_text(svg, {head[0] + 0.6 * drawing.font, at[1]}, "start", "force on the vessel");
+    at[1] += step;
+    draw_text(svg, at, "start", drawing.forces.words());
   }
   at[1] += step;
   draw_text(svg, at, "start", "T thumb, I index, M middle, R ring, L little");
@@ -279,22 +293,47 @@ std::string style_sheet(const Drawing& drawing) {
       ".touching {{ fill: {touching}; stroke: #202020; stroke-width: {thin:.3f} }}\n"
       ".projected {{ fill: {projected}; stroke: #202020; stroke-width: {thin:.3f} }}\n"
       ".free {{ fill: {free}; stroke: #606060; stroke-width: {line:.3f} }}\n"
-      "</style>\n",
+      "{forces}</style>\n",
       fmt::arg("font", drawing.font), fmt::arg("line", w), fmt::arg("thick", 1.4 * w), fmt::arg("thin", 0.6 * w),
       fmt::arg("halo", 4 * w), fmt::arg("dash", 3 * w), fmt::arg("long_dash", 10 * w), fmt::arg("double_line", 2.4 * w),
       fmt::arg("touching", color(PointState::touching)), fmt::arg("projected", color(PointState::projected)),
-      fmt::arg("free", color(PointState::free)));
+      fmt::arg("free", color(PointState::free)), fmt::arg("forces", drawing.forces.empty() ? "" : DrawnForces::style(w)));
 }
 
 Drawing make_drawing(const Scene& scene, std::size_t vessel, const GripReport& report) {
   const VesselData& data = scene.vessels[vessel];
-  Drawing drawing{report, DrawnGlass(data), data.name, data.base};
+  Drawing drawing{report, DrawnGlass(data), DrawnForces(report), data.name, data.base};
   const HandNodes hand = hand_nodes(scene.hand, report.grip, report.answer.result);
   for (int j = 0; j < JOINT_COUNT; ++j) {
     drawing.joints[j] = hand.joints[j].position;
     drawing.skin[j] = std::max(SMALLEST_SKIN, 1e3 * hand.joints[j].radius);
   }
   return drawing;
+}
+
+// How far the views reach, mm of the vessel: along the thumb-index line, away from the hand, up.
+struct ViewExtents {
+  std::array<double, 2> wide{}, deep{}, high{};
+  double width() const { return wide[1] - wide[0]; }
+  double depth() const { return deep[1] - deep[0]; }
+  double height() const { return high[1] - high[0]; }
+};
+
+// Sets the scale by which the sheet fits on a page; in letters, margins, gaps and measures take 11 across and 10 down. Arrows have
+// their length on paper, so the extents grow with the scale, and each step adds less than half of the last.
+ViewExtents fit_page(Drawing& drawing, const std::array<Triple, 3>& axes, double legend_height) {
+  ViewExtents extents;
+  for (int step = 0; step < 60; ++step) {
+    extents = {extent_along(drawing, axes[0]), extent_along(drawing, axes[1]), extent_along(drawing, axes[2])};
+    const double width = extents.width(), depth = extents.depth(), height = extents.height(), before = drawing.unit;
+    drawing.unit = std::max(
+        {(width + depth) / (PAPER_WIDTH - 11 * PAPER_FONT), width / (PAPER_WIDTH - (5 + LEGEND_WIDTH) * PAPER_FONT),
+         (depth + height) / (PAPER_HEIGHT - 10 * PAPER_FONT), height / (PAPER_HEIGHT - (10 + legend_height) * PAPER_FONT)});
+    if (drawing.unit == before) break;
+  }
+  drawing.font = PAPER_FONT * drawing.unit;
+  drawing.line = PAPER_LINE * drawing.unit;
+  return extents;
 }
 
 }  // namespace
@@ -310,20 +349,15 @@ std::string grip_svg(const Scene& scene, std::size_t vessel, const GripReport& r
       above{"top", across, away, up, {}, {}};
 
   const auto glass_wide = drawing.glass.extent_along(across), glass_high = drawing.glass.extent_along(up);
-  const auto wide = extent_along(drawing, across), deep = extent_along(drawing, away), high = extent_along(drawing, up);
-  const double width = wide[1] - wide[0], depth = deep[1] - deep[0], height = high[1] - high[0];
-  // mm of the vessel on a mm of paper; in letters, margins, gaps and measures take 11 across and 10 down
-  const double unit =
-      std::max({(width + depth) / (PAPER_WIDTH - 11 * PAPER_FONT), width / (PAPER_WIDTH - (5 + LEGEND_WIDTH) * PAPER_FONT),
-                (depth + height) / (PAPER_HEIGHT - 10 * PAPER_FONT), height / (PAPER_HEIGHT - (10 + LEGEND_HEIGHT) * PAPER_FONT)});
-  const double f = drawing.font = PAPER_FONT * unit;
-  drawing.line = PAPER_LINE * unit;
+  const double legend_height = LEGEND_HEIGHT + (drawing.forces.empty() ? 0 : FORCES_HEIGHT);
+  const ViewExtents extents = fit_page(drawing, {across, away, up}, legend_height);
+  const double width = extents.width(), depth = extents.depth(), height = extents.height(), unit = drawing.unit, f = drawing.font;
   const double left = 2 * f, top_row = 3 * f, right_column = left + width + 3 * f;
-  const double first_row = std::max(depth, LEGEND_HEIGHT * f), second_row = top_row + first_row + 3 * f;
+  const double first_row = std::max(depth, legend_height * f), second_row = top_row + first_row + 3 * f;
   const double sheet_width = right_column + std::max(depth + 6 * f, LEGEND_WIDTH * f), sheet_height = second_row + height + 4 * f;
-  above.origin = {left - wide[0], top_row + (first_row - depth) + deep[1]};
-  front.origin = {left - wide[0], second_row + high[1]};
-  beside.origin = {right_column - deep[0], second_row + high[1]};
+  above.origin = {left - extents.wide[0], top_row + (first_row - depth) + extents.deep[1]};
+  front.origin = {left - extents.wide[0], second_row + extents.high[1]};
+  beside.origin = {right_column - extents.deep[0], second_row + extents.high[1]};
 
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.1f}mm\" height=\"{:.1f}mm\" viewBox=\"0 0 {:.2f} {:.2f}\" role=\"img\" "

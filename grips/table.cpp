@@ -7,6 +7,7 @@
 
 #include "core/joints.h"
 #include "grips/report.h"
+#include "grips/states.h"
 #include "shaders/layout.h"
 
 namespace wholehand {
@@ -106,14 +107,12 @@ std::string contact_name(const HeldContact& contact) {
   return joint_name(contact.joint) + (contact.digit == FINGER_COUNT ? ", palm" : "");
 }
 
-// What each digit presses, of the states that were asked for the one that takes most; of those that no force holds the first.
+// What each digit presses in the hardest of the states that were asked for.
 void write_contacts(Buffer out, const GripReport& report) {
-  if (report.holds.empty()) return;
-  std::size_t most = 0;
-  for (std::size_t k = 1; k < report.holds.size(); ++k)
-    if (report.holds[k].effort > report.holds[most].effort) most = k;
-  const StateHold& hold = report.holds[most];
-  const GripState& state = report.answer.states[most];
+  const auto hardest = hardest_state(report);
+  if (!hardest) return;
+  const StateHold& hold = report.holds[*hardest];
+  const GripState& state = report.answer.states[*hardest];
   fmt::format_to(out, "\n  effort         {} of the hand's strength at fill {:.3g}, {:.2f} deg; two tips alone: {}\n",
                  percent(hold.effort), state.fill, degrees(state.tilt), percent(hold.tips));
   if (hold.escape) {

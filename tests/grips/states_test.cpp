@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <optional>
 #include <string>
 
 #include "core/error.h"
@@ -57,6 +59,17 @@ TEST(GripStates, TheFirstStateWithLiquidIsDrawn) {
   EXPECT_EQ(drawn_liquid(report), nullptr);
   report.answer.states[1].liquid.volume = report.answer.states[2].liquid.volume = 1e-4;
   EXPECT_EQ(drawn_liquid(report), &report.answer.states[1]);
+}
+
+TEST(GripStates, TheHardestStateIsTheFirstOfThoseThatTakeMost) {
+  GripReport report;
+  EXPECT_EQ(hardest_state(report), std::nullopt);
+  report.holds.resize(5);
+  EXPECT_EQ(hardest_state(report), 0u);
+  report.holds[1].effort = report.holds[2].effort = 0.5;
+  EXPECT_EQ(hardest_state(report), 1u);
+  report.holds[3].effort = report.holds[4].effort = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(hardest_state(report), 3u);
 }
 
 }  // namespace
