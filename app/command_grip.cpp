@@ -43,7 +43,7 @@ struct GripArguments {
   std::string rank, list;
   std::vector<std::string> fills, volumes, tilts;
   std::string on = "core", precision, glb, svg, view_port;
-  bool json = false, view = false;
+  bool json = false, view = false, quality = false;
 };
 
 std::size_t find_vessel(const Scene& scene, const std::string& name) {
@@ -204,6 +204,7 @@ ExitCode grip(const GripArguments& arguments) {
   say_float_warnings(asked, precision);
   GripReport report = make_grip_report(scene, vessel, input, axes, open_grip_methods(scene, arguments.on, precision));
   add_holding(report, scene, vessel);
+  if (arguments.quality) add_quality(report, scene, vessel);
   write_drawings(arguments, scene, vessel, report);
   if (arguments.json && arguments.on != "core") std::fprintf(stderr, "wholehand: on %s\n", report.device.c_str());
   print(arguments.json ? grip_json(report) + "\n" : grip_table(report));
@@ -260,6 +261,8 @@ void add_grip_command(CLI::App& app, Action& action) {
   add("--tilt-deg", arguments->tilts, "T", "Tilts (default: the scene's)");
   add("--on", arguments->on, "DEVICE", "core (the default), vulkan or the name of a device");
   add("--precision", arguments->precision, "P", "float or double (default: double on the core, float on Vulkan)");
+  command->add_flag("--quality", arguments->quality,
+                    "Measure the grasp as Ferrari and Canny do: epsilon and the volume of the wrenches; takes seconds");
   add("--glb", arguments->glb, "FILE", "Write the hand, the vessel and the liquid as glTF binary")->check(not_empty());
   add("--svg", arguments->svg, "FILE", "Write a drawing with the front, side and top view")->check(not_empty());
   command->add_flag("--view", arguments->view, "Show the grip in the browser, at any fill and tilt, until Ctrl-C");

@@ -95,6 +95,13 @@ void add_grip_hold(Json& json, const GripHold& hold) {
   json["friction_needed"] = finite_or_null(hold.friction_needed);
 }
 
+void add_grip_quality(Json& json, const GripQuality& quality) {
+  json["epsilon"] = quality.wrenches.epsilon;
+  json["wrench_volume"] = quality.wrenches.volume;
+  json["torque_scale_m"] = quality.scale;
+  json["torque_center_m"] = quality.center;
+}
+
 Json score_terms(const GripReport& report) {
   const ScoreTerms& terms = report.answer.score.terms;
   Json json{{"fingers", terms.fingers}, {"contacts", terms.contacts}, {"depth", terms.depth}, {"posture", terms.posture}};
@@ -145,6 +152,7 @@ std::string grip_json(const GripReport& report) {
       if (k < report.holds.size()) add_state_hold(json["states"].back(), report.holds[k]);
     }
     if (report.hold) add_grip_hold(json, *report.hold);
+    if (report.quality) add_grip_quality(json, *report.quality);
     json["score"] = report.answer.score.score;
     json["score_terms"] = score_terms(report);
   }

@@ -40,6 +40,11 @@ void add_holding(GripReport& report, const Scene& scene, std::size_t vessel) {
   report.hold = holding.over_states();
 }
 
+void add_quality(GripReport& report, const Scene& scene, std::size_t vessel) {
+  if (report.answer.result.reason != Reason::none) return;
+  report.quality = grip_quality(scene, *make_core_evaluator(scene), vessel, report.answer.result);
+}
+
 // y x d for the direction d of the right hand's line; a left hand is that of the scene mirrored in x, which turns the sign.
 Triple pour_direction(const Scene& scene, const GripInput& grip) {
   const double away = scene.hand.handedness == Handedness::right ? 1 : -1;

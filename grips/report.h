@@ -6,6 +6,7 @@
 
 #include "grips/holding.h"
 #include "grips/methods.h"
+#include "grips/quality.h"
 
 namespace wholehand {
 
@@ -22,6 +23,7 @@ struct GripReport {
   std::vector<std::size_t> counted_tilts;  // and how many of them count at each of those fills
   std::vector<StateHold> holds;            // of answer.states; empty until add_holding
   std::optional<GripHold> hold;            // over the scene's states; nothing without tilts
+  std::optional<GripQuality> quality;      // nothing until add_quality
 };
 
 // Evaluates the grip.
@@ -30,6 +32,9 @@ GripReport make_grip_report(const Scene& scene, std::size_t vessel, const GripIn
 
 // What holding takes of the whole hand, by the core in double, whatever device answered. Does nothing for an infeasible grip.
 void add_holding(GripReport& report, const Scene& scene, std::size_t vessel);
+
+// Measures of the grasp, by the core in double too; takes seconds. Does nothing for an infeasible grip.
+void add_quality(GripReport& report, const Scene& scene, std::size_t vessel);
 
 // One JSON object in one line, SI units, points in the vessel frame; docs/grip.md names the fields. What does not exist up to the
 // reason of an infeasible grip is absent; an infinite hold force, the centre of no liquid and the forces of a state that is left

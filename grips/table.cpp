@@ -142,6 +142,15 @@ void write_hold(Buffer out, const GripReport& report) {
                  hold.push);
 }
 
+void write_quality(Buffer out, const GripReport& report) {
+  if (!report.quality) return;
+  const GripQuality& quality = *report.quality;
+  const auto& [epsilon, volume] = quality.wrenches;
+  fmt::format_to(out, "\n  epsilon        {:.4g} to {:.4g}, moments over {:.3f} mm about {} mm\n", epsilon[0], epsilon[1],
+                 quality.scale * 1e3, millimetres(quality.center));
+  fmt::format_to(out, "  wrench volume  {:.4g} to {:.4g}\n", volume[0], volume[1]);
+}
+
 void write_score(Buffer out, const GripReport& report) {
   const GripScore& score = report.answer.score;
   fmt::format_to(out, "\n  score          {:.6f}\n", score.score);
@@ -177,6 +186,7 @@ std::string grip_table(const GripReport& report) {
   write_states(out, report);
   write_contacts(out, report);
   write_hold(out, report);
+  write_quality(out, report);
   write_score(out, report);
   return text;
 }

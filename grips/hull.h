@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// The convex hull of points in six dimensions, by Qhull.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace wholehand {
+
+using Point6 = std::array<double, 6>;
+
+// One face, a simplex: normal . x <= offset holds for the whole hull.
+struct HullFacet {
+  Point6 normal{};  // unit, outward
+  double offset = 0;
+  double volume = 0;  // of the pyramid over it whose tip is the apex
+};
+
+struct Hull {
+  std::vector<HullFacet> facets;
+  double moved = 0;  // Qhull moves the points by up to this length, so that all faces are simplices
+};
+
+// The pyramids fill the hull if `apex` lies inside of it. Points in a plane have a hull as thin as
+// they are moved. Nothing where Qhull finds none. Prints nothing.
+std::optional<Hull> hull_of(std::vector<Point6> points, const Point6& apex);
+
+}  // namespace wholehand
