@@ -9,6 +9,7 @@
 
 #include "core/evaluator.h"
 #include "core/joints.h"
+#include "core/mirror.h"
 #include "core/vectors.h"
 #include "tests/support/scenes.h"
 
@@ -86,12 +87,12 @@ TEST(Contacts, OfAGripLieOnItsVessel) {
       for (int k = 0; k < 3; ++k) EXPECT_EQ(contact.normal[k], -outward[k]);
     }
   }
-  // mirrored in x: azimuth 0 of the left hand is that of the right seen in a mirror
+  // the mirrored grip, by the left hand
   GripInput grip;
   grip.height = 0.05;
   GripResult result, mirror;
   evaluator->grip(0, grip, result);
-  other->grip(0, grip, mirror);
+  other->grip(0, mirrored(grip, Handedness::left), mirror);
   const auto rights = evaluator->contacts(0, result), lefts = other->contacts(0, mirror);
   ASSERT_EQ(rights.size(), lefts.size());
   for (std::size_t k = 0; k < rights.size(); ++k) {
