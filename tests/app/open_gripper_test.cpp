@@ -232,6 +232,7 @@ TYPED_TEST(OpenGripperSession, TheFirstForceAfterAStopIsZero) {
   TypeParam mock(bench, settings);
   const pid_t child = start_pressing(mock.address());
   std::deque<int> stops{50, 100, 300};  // ms; the mock needs its turn for what was under way
+  int within = 0;                       // stops in a row that met a write
   for (int k = 0; !stops.empty() && k < 20; ++k) {
     const bool has_force = await_output(mock, 1, [](const auto& output) { return !is_no_force(output); });
     EXPECT_TRUE(has_force);
@@ -249,8 +250,10 @@ TYPED_TEST(OpenGripperSession, TheFirstForceAfterAStopIsZero) {
     if (!is_between) continue;
     const auto outputs = mock.outputs();
     ASSERT_GT(outputs.size(), before);
-    EXPECT_TRUE(is_no_force(outputs[before])) << "after " << stops.front() << " ms: " << outputs[before].arm[0];
-    stops.pop_front();
+    // a write within which the process was stopped still hands over its force (docs/method.md): not thrice in a row
+    within = is_no_force(outputs[before]) ? 0 : within + 1;
+    ASSERT_LT(within, 3) << "after " << stops.front() << " ms: " << outputs[before].arm[0];
+    if (within == 0) stops.pop_front();
   }
   EXPECT_TRUE(stops.empty());
   kill(child, SIGKILL);

@@ -133,7 +133,7 @@ int HidMock::on_write(UMockdevIoctlBase*, UMockdevIoctlClient* client, HidMock* 
   return true;
 }
 
-int HidMock::on_ioctl(UMockdevIoctlBase*, UMockdevIoctlClient* client, HidMock* self) {
+int HidMock::on_ioctl(UMockdevIoctlBase*, UMockdevIoctlClient* client, HidMock* self) try {
   const std::lock_guard guard(self->lock_);
   const unsigned long request = umockdev_ioctl_client_get_request(client);
   if (_IOC_TYPE(request) != 'H') return false;
@@ -161,6 +161,8 @@ int HidMock::on_ioctl(UMockdevIoctlBase*, UMockdevIoctlClient* client, HidMock* 
   } else {
     return false;
   }
+  return true;
+} catch (const umockdev::ClientGone&) {
   return true;
 }
 

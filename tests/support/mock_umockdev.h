@@ -20,9 +20,14 @@ struct Unref {
 };
 using Data = std::unique_ptr<UMockdevIoctlData, Unref<UMockdevIoctlData>>;
 
+// Thrown where a client ended in the midst of an exchange: nobody waits for its answer.
+struct ClientGone {};
+
 // What the pointer at `offset` of that memory points to, as memory of this process.
 inline Data resolve(UMockdevIoctlData* data, std::size_t offset, std::size_t size) {
-  return Data(umockdev_ioctl_data_resolve(data, offset, size, nullptr));
+  Data resolved(umockdev_ioctl_data_resolve(data, offset, size, nullptr));
+  if (!resolved) throw ClientGone{};
+  return resolved;
 }
 
 inline void complete(UMockdevIoctlClient* client, long result, int error = 0) {

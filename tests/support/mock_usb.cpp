@@ -172,7 +172,7 @@ void UsbMock::bulk(UMockdevIoctlClient* client) {
   complete(client, static_cast<long>(size), is_taken ? 0 : ETIMEDOUT);
 }
 
-int UsbMock::on_ioctl(UMockdevIoctlBase*, UMockdevIoctlClient* client, UsbMock* self) {
+int UsbMock::on_ioctl(UMockdevIoctlBase*, UMockdevIoctlClient* client, UsbMock* self) try {
   const std::lock_guard guard(self->lock_);
   switch (umockdev_ioctl_client_get_request(client)) {
     case USBDEVFS_GET_CAPABILITIES: {
@@ -203,6 +203,8 @@ int UsbMock::on_ioctl(UMockdevIoctlBase*, UMockdevIoctlClient* client, UsbMock* 
     default:
       return false;
   }
+} catch (const umockdev::ClientGone&) {
+  return true;
 }
 
 }  // namespace wholehand
