@@ -93,9 +93,10 @@ class Sweep {
     }
     const ResultContents contents{scene_, plan, variables_, std::move(facts), backend_->info(), version(), best_wanted_};
     const bool resumed = begin(plan);
+    // An interrupt that comes while the file is laid out waits for the first grips. One that comes when all are done lets the ending finish.
+    InterruptGuard interrupt;
     ResultFile file(names_, contents, backend_->fields(), resumed);
     is_marked_ = resumed;
-    InterruptGuard interrupt;  // an interrupt that comes when all grips are done lets the ending finish
     if (!repair(plan, file, interrupt) || !sweep(plan, file, interrupt)) return interrupted(plan);
     finish(plan, file);
     return ExitCode::done;
