@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "app/commands.h"
+#include "app/driver_watch.h"
 #include "app/paths.h"
 #include "app/remedy.h"
 #include "app/result_scene.h"
@@ -202,7 +203,11 @@ ExitCode grip(const GripArguments& arguments) {
   scene.vessels = asked.vessels;
   say_cavity_notes(scene);
   say_float_warnings(asked, precision);
-  GripReport report = make_grip_report(scene, vessel, input, axes, open_grip_methods(scene, arguments.on, precision));
+  GripReport report;
+  {
+    const DriverWatch watch(arguments.on);
+    report = make_grip_report(scene, vessel, input, axes, open_grip_methods(scene, arguments.on, precision));
+  }
   add_holding(report, scene, vessel);
   if (arguments.quality) add_quality(report, scene, vessel);
   write_drawings(arguments, scene, vessel, report);
