@@ -30,8 +30,15 @@ Wrench wrench_at(Vec3 place, Vec3 force) { return {force, glm::cross(place, forc
 
 EffortSolver::EffortSolver(std::span<const ContactPoint> contacts, const HandStrength& hand, Vec3 center)
     : contacts_(contacts), hand_(hand), center_(center) {
-  unit_force_ = *std::max_element(hand.digits.begin(), hand.digits.end());
-  if (!(unit_force_ > 0)) unit_force_ = 1;
+  // of the digits that press: how strong the others are changes nothing
+  Real strongest = 0, weakest = NEVER;
+  for (const ContactPoint& contact : contacts) {
+    const Real strength = hand.digits[static_cast<std::size_t>(contact.digit)];
+    strongest = std::max(strongest, strength);
+    if (strength > 0) weakest = std::min(weakest, strength);
+  }
+  unit_force_ = strongest > 0 ? strongest : Real(1);
+  dear_ = UNRESISTED_EFFORT * (strongest > 0 ? strongest / weakest : Real(1));
   unit_length_ = std::max(LEAST_LENGTH, hand.torsion);
   for (const ContactPoint& contact : contacts) unit_length_ = std::max(unit_length_, glm::distance(contact.place, center));
 }
@@ -112,7 +119,7 @@ void EffortSolver::begin(const Vec6& wanted) {
       const Real reflected = square > 0 ? 2 * mirror[r] * mirror[k] / square : Real(0);
       columns_[r].point[k] = (r == k ? Real(1) : Real(0)) - reflected;
     }
-    columns_[r].cost = UNRESISTED_EFFORT;
+    columns_[r].cost = dear_;
     inverse_[r] = columns_[r].point;  // the reflection is its own inverse
   }
   has_basis_ = true;
@@ -208,7 +215,7 @@ Effort EffortSolver::solve(const Wrench& load, Real tolerance) {
   Vec6 best{};  // the direction of the greatest lower bound
   for (;; ++answer.pivots) {
     const Cost cost = cost_of(levels(wanted));
-    const Real upper = cost.real + UNRESISTED_EFFORT * cost.artificial;
+    const Real upper = cost.real + dear_ * cost.artificial;
     Column column;
     for (std::size_t r = 0; r < 6; ++r)
       for (std::size_t k = 0; k < 6; ++k) column.direction[k] += columns_[r].cost * inverse_[r][k];

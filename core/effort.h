@@ -97,6 +97,7 @@ class EffortSolver {
   HandStrength hand_;
   Vec3 center_;
   Real unit_force_ = 1, unit_length_ = 1;  // N, m
+  Real dear_ = UNRESISTED_EFFORT;          // cost of an artificial column
   std::array<Column, 6> columns_{};
   std::array<Vec6, 6> inverse_{};  // rows
   Vec6 last_{};                    // levels of the last load

@@ -100,7 +100,7 @@ void write_states(Buffer out, const GripReport& report) {
 
 // A share of the hand's strength, in percent.
 std::string percent(double effort) {
-  return std::isfinite(effort) ? fmt::format("{:.2f} %", effort * 100) : std::string("no force holds it");
+  return std::isfinite(effort) ? fmt::format("{:.2f} % of the hand's strength", effort * 100) : std::string("no force holds it");
 }
 
 std::string contact_name(const HeldContact& contact) {
@@ -113,8 +113,8 @@ void write_contacts(Buffer out, const GripReport& report) {
   if (!hardest) return;
   const StateHold& hold = report.holds[*hardest];
   const GripState& state = report.answer.states[*hardest];
-  fmt::format_to(out, "\n  effort         {} of the hand's strength at fill {:.3g}, {:.2f} deg; two tips alone: {}\n",
-                 percent(hold.effort), state.fill, degrees(state.tilt), percent(hold.tips));
+  fmt::format_to(out, "\n  effort         {}, at fill {:.3g}, {:.2f} deg; two tips alone: {}\n", percent(hold.effort), state.fill,
+                 degrees(state.tilt), percent(hold.tips));
   if (hold.escape) {
     const auto& v = *hold.escape;
     fmt::format_to(out, "  unopposed      moving along ({:.3f}, {:.3f}, {:.3f}) m/s, turning by ({:.3f}, {:.3f}, {:.3f}) rad/s\n",

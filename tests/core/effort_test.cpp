@@ -140,6 +140,20 @@ TEST(Effort, WithoutFrictionOrTorsion) {
   expect_effort(two_tips(), unit_strength(MU, 0), weight_at({0, -0.02, 0.01}), NEVER_HELD, "beside it nothing resists the turn");
 }
 
+// A smooth wall that two weak digits hold with 25 times the load each: held, however strong the digits are that do not touch.
+TEST(Effort, StrengthOfDigitsThatDoNotPressChangesNothing) {
+  constexpr double SMOOTH = 0.02;
+  const auto tips = two_tips();
+  for (const double strength : {0.1, 10000.0}) {
+    HandStrength hand{SMOOTH, GAMMA, {0.1, 0.1, 14, 35, strength, strength}};
+    EffortSolver solver(tips, hand, {});
+    EXPECT_NEAR(solver.solve(weight_at({})).effort, WEIGHT * 25 / 0.1, 2e-3 * WEIGHT * 25 / 0.1) << strength;
+    hand.digits[1] = strength;
+    EffortSolver uneven(tips, hand, {});
+    EXPECT_NEAR(uneven.solve(weight_at({})).effort, WEIGHT * 25 / 0.1, 2e-3 * WEIGHT * 25 / 0.1) << strength;
+  }
+}
+
 TEST(Effort, NothingToHoldIsNoEffort) {
   EffortSolver solver({}, unit_strength(), {});
   const Effort found = solver.solve({});
