@@ -218,7 +218,7 @@ struct Scene {
   HandData hand;
   std::vector<VesselData> vessels;
   std::optional<LiquidData> liquid;
-  StrengthData strength;
+  std::optional<StrengthData> strength;  // absent: no effort is computed
   ForceData force;  // a scene without [force] has these defaults
   GripsData grips;
   std::vector<double> tilts;           // rad, strictly ascending in [0, pi]; empty: no [tilts], no force kernel

@@ -38,7 +38,7 @@ Holding::Holding(const Scene& scene, const Evaluator& evaluator, std::size_t ves
   if (!contacts_.empty()) center_ /= static_cast<double>(contacts_.size());
   hand_.friction = scene.force.friction;
   hand_.torsion = scene.force.torsion;
-  hand_.digits = scene.strength.digits;
+  hand_.digits = scene.strength.value().digits;
 }
 
 // The weight at the centre of mass. Up in the vessel frame at a tilt t: cos t y - sin t n.

@@ -40,7 +40,7 @@ struct GripHold {
 
 class Holding {
  public:
-  // Of a feasible grip; `pour` is the report's. `scene` and `evaluator`, made for it, must outlive this.
+  // Of a feasible grip in a scene with strengths; `pour` is the report's. `scene` and `evaluator`, made for it, must outlive this.
   Holding(const Scene& scene, const Evaluator& evaluator, std::size_t vessel, const GripInput& grip, const GripResult& result,
           const Triple& pour);
 

@@ -41,11 +41,12 @@ void read_force(const SceneTable& root, ForceData& force) {
   table->read("grip_strength_N", ranges::GRIP_STRENGTH, force.grip_strength);
 }
 
-void read_strength(const SceneTable& root, StrengthData& strength) {
+void read_strength(const SceneTable& root, std::optional<StrengthData>& strength) {
   constexpr std::array<const char*, FINGER_COUNT + 1> KEYS{"thumb_N", "index_N", "middle_N", "ring_N", "little_N", "palm_N"};
   const auto table = root.table("strength", {KEYS.begin(), KEYS.end()});
   if (!table) return;
-  for (std::size_t digit = 0; digit < KEYS.size(); ++digit) table->read(KEYS[digit], ranges::GRIP_STRENGTH, strength.digits[digit]);
+  auto& digits = strength.emplace().digits;
+  for (std::size_t digit = 0; digit < KEYS.size(); ++digit) table->read(KEYS[digit], ranges::GRIP_STRENGTH, digits[digit]);
 }
 
 void read_score(const SceneTable& root, bool has_tilts, ScoreWeights& weights) {

@@ -45,7 +45,7 @@ void set_vessel_fills(const SceneTable& root, Scene& scene);
 
 // ---- force.cpp ----
 void read_force(const SceneTable& root, ForceData& force);
-void read_strength(const SceneTable& root, StrengthData& strength);
+void read_strength(const SceneTable& root, std::optional<StrengthData>& strength);
 // `has_tilts`: the force and hold terms count.
 void read_score(const SceneTable& root, bool has_tilts, ScoreWeights& weights);
 void read_output(const SceneTable& root, OutputData& output);

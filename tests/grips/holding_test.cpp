@@ -40,7 +40,7 @@ std::vector<core_f64::ContactPoint> contacts_of(const StateHold& hold) {
 }
 
 core_f64::HandStrength strength_of(const Scene& scene) {
-  return {scene.force.friction, scene.force.torsion, scene.strength.digits};
+  return {scene.force.friction, scene.force.torsion, scene.strength->digits};
 }
 
 Wrench weight_of(const Scene& scene, const GripReport& report, const GripState& state) {
@@ -50,6 +50,7 @@ Wrench weight_of(const Scene& scene, const GripReport& report, const GripState& 
 
 Scene few_states() {
   Scene scene = three_beakers();
+  scene.strength.emplace();
   scene.tilts = {0, radians(20), radians(45), radians(75), radians(120)};
   return scene;
 }
@@ -80,7 +81,7 @@ TEST(Holding, ForcesOfAStateCarryTheVessel) {
       EXPECT_LT(glm::length(force), 1e-9 * glm::length(weight.force));
       EXPECT_LT(glm::length(moment), 1e-9 * glm::length(weight.force));  // arms are below 1 m
       for (std::size_t digit = 0; digit < pressed.size(); ++digit)
-        EXPECT_LE(pressed[digit], hold.effort * scene.strength.digits[digit] * (1 + 1e-9));
+        EXPECT_LE(pressed[digit], hold.effort * scene.strength->digits[digit] * (1 + 1e-9));
     }
   }
   EXPECT_GT(held, 30);
@@ -163,7 +164,7 @@ TEST(Holding, PushAndFrictionAreAtTheirLimits) {
   };
   EXPECT_LE(effort_at(hold.friction_needed), 1 + 1e-3);
   EXPECT_GT(effort_at(hold.friction_needed - 2e-3), 1);
-  scene.strength.digits.fill(0.1);
+  scene.strength->digits.fill(0.1);
   EXPECT_EQ(held_report(scene, 0, beside(0.06, 20)).hold->push, 0) << "not even the weight";
 }
 
@@ -171,11 +172,16 @@ TEST(Holding, PushAndFrictionAreAtTheirLimits) {
 TEST(Holding, FollowsTheScene) {
   Scene scene = few_states();
   const GripReport report = held_report(scene, 0, beside(0.055));
-  for (double& strength : scene.strength.digits) strength *= 2;
+  for (double& strength : scene.strength->digits) strength *= 2;
   const GripReport strong = held_report(scene, 0, beside(0.055));
   EXPECT_NEAR(strong.hold->worst, report.hold->worst / 2, 2e-3 * report.hold->worst);
   scene.tilts.clear();
   EXPECT_FALSE(held_report(scene, 0, beside(0.055)).hold);
+  Scene unknown = few_states();
+  unknown.strength.reset();
+  const GripReport without = held_report(unknown, 0, beside(0.055));
+  EXPECT_TRUE(without.holds.empty()) << "no strength is known";
+  EXPECT_FALSE(without.hold);
   const GripReport missed = held_report(few_states(), 0, beside(5));
   EXPECT_TRUE(missed.holds.empty());
   EXPECT_FALSE(missed.hold);

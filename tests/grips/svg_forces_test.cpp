@@ -145,6 +145,7 @@ TEST(GripSvgForces, EachContactThatPressesHasItsArrow) {
       Scene scene = three_beakers();
       scene.hand.handedness = handedness;
       scene.tilts = {0, radians(40)};
+      scene.strength.emplace();
       GripReport report = bare_report(scene, 0, {0.0585, azimuth, 0.1, 0.38, 0, 1});
       ASSERT_EQ(report.answer.result.reason, Reason::none);
       add_holding(report, scene, 0);

@@ -345,9 +345,11 @@ obliquity_deg = { from = 5, to = 5 }
 
 TEST(SceneReader, ReadsStrengths) {
   const std::string vessel = "[[vessel]]\nname = \"v\"\nshape = \"cylinder\"\ndiameter_mm = 80\nheight_mm = 110\nwall_mm = 2\n";
-  EXPECT_EQ(scene_from(vessel).strength.digits, (std::array<double, 6>{40, 25, 35, 25, 14, 80}));
+  EXPECT_FALSE(scene_from(vessel).strength);
+  EXPECT_EQ(scene_from("[strength]\n" + vessel).strength.value().digits, (std::array<double, 6>{40, 25, 35, 25, 14, 80}));
   EXPECT_EQ(scene_from("[strength]\nthumb_N = 41\nindex_N = 26\nmiddle_N = 36\nring_N = 27\nlittle_N = 15\npalm_N = 81\n" + vessel)
-                .strength.digits,
+                .strength.value()
+                .digits,
             (std::array<double, 6>{41, 26, 36, 27, 15, 81}));
 }
 
