@@ -5,6 +5,7 @@
 #include <array>
 #include <optional>
 
+#include "live/hand_hold.h"
 #include "live/session.h"
 #include "live/vessel_tracker.h"
 
@@ -22,6 +23,7 @@ struct HandView {
   Triple wrist{}, rigged_wrist{};  // origins of the posed and the rigged hand's frames
   Rotation rotation{NO_ROTATION};  // of that frame; of a left hand the one that grips/hand_nodes.h means
   int vessel = -1;                 // in whose frame it is posed: touched, held or nearest; -1: none is near
+  std::optional<HandHold> hold;    // of a held vessel, in a scene with strengths
 };
 
 // Held: kernels 4 and 5 on what the session kept of the grasp, so that it is the hand of that grip, with the tick's own touch mask. Else the

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/contact.h"
+#include "core/effort.h"
 #include "core/evaluator.h"
 #include "core/mirror.h"
 #include "tests/support/live_script.h"
@@ -170,6 +171,120 @@ Seen watch_script(const Scene& scene) {
   script.vessel = scene.vessels[0].place;
   return watch(
       scene, [&](std::int64_t n) { return script.at(n); }, static_cast<std::int64_t>(script.seconds() * script.rate));
+}
+
+// ---- what holding takes of the whole hand ----
+
+// The weight that the vessel has in its own frame, by what sweeps know of glass and liquid.
+core_f64::Wrench weight_in(const Scene& scene, const Evaluator& evaluator, const Tick& tick) {
+  const VesselConstants glass = evaluator.constants(0);
+  const Vec3 up = glm::transpose(to_mat3(tick.vessel_rotation)) * Vec3(0, 1, 0);
+  const Vec3 lean = glm::normalize(Vec3(-up.x, 0, -up.z));
+  const LiquidResult liquid =
+      tick.volume[0] > 0 ? evaluator.liquid(0, tick.volume[0] / glass.capacity, std::acos(up.y)) : LiquidResult{};
+  const Vec3 moment = glass.mass * to_vec3(glass.center_of_mass) + liquid.mass * (liquid.lean * lean + Vec3(0, liquid.height, 0));
+  const double mass = glass.mass + liquid.mass;
+  return core_f64::wrench_at(moment / mass, -mass * scene.gravity * up);
+}
+
+// The forces lie in their cones and carry the weight, and no digit presses with more than its share.
+void expect_carried(const Scene& scene, const HandHold& hold, double weight) {
+  Vec3 sum(0);
+  std::array<double, core_f64::DIGITS> pressed{};
+  for (const HandPress& press : hold.presses) {
+    const Vec3 force = to_vec3(press.force), normal = to_vec3(press.normal);
+    const double along = glm::dot(force, normal);
+    EXPECT_NEAR(glm::length(normal), 1, 1e-9);
+    EXPECT_LE(glm::length(force - along * normal), scene.force.friction * along + 1e-9 * weight);
+    pressed[static_cast<std::size_t>(press.digit)] += along;
+    sum += force;
+  }
+  EXPECT_LT(glm::length(sum - Vec3(0, weight, 0)), 1e-9 * weight) << "to the rounding of a solve";
+  for (std::size_t f = 0; f < pressed.size(); ++f)
+    EXPECT_LE(pressed[f], hold.effort * scene.strength->digits[f] * (1 + 1e-9)) << "digit " << f;
+}
+
+TEST(HandView, HoldsWithTheEffortOfTheGrip) {
+  int compared = 0, unheld = 0;
+  for (const HandData& hand : {HandData{}, left_hand()}) {
+    Scene scene = scene_of({beaker1()}, Pose::articulated, hand);
+    scene.liquid = LiquidData{1000, {0.5}, {}, Pour::away};
+    scene.strength = StrengthData{{30, 20, 25, 15, 10, 60}};
+    const LiveScene live(scene);
+    const auto evaluator = make_core_evaluator(scene);
+    for (const GripInput& grip : sample_grips(scene.vessels[0], 40, 6)) {
+      GripResult result;
+      evaluator->grip(0, grip, result);
+      if (result.reason != Reason::none) continue;
+      HeldGrip held = hold(scene, grip, result);
+      held.tick.volume[0] = compared % 2 == 0 ? 0 : 0.2 * evaluator->capacity(0);
+      const HandView view = hand_view(live, held.tick, held.poses);
+      ASSERT_TRUE(view.hold);
+      ++compared;
+      std::vector<core_f64::ContactPoint> contacts, tips;
+      for (const GripContact& contact : evaluator->contacts(0, result)) {
+        contacts.push_back({to_vec3(contact.point), to_vec3(contact.normal), contact.digit});
+        if (is_tracked(contact.joint)) tips.push_back(contacts.back());
+      }
+      const core_f64::HandStrength strength{scene.force.friction, scene.force.torsion, scene.strength->digits};
+      const core_f64::Wrench weight = weight_in(scene, *evaluator, held.tick);
+      const auto effort = core_f64::EffortSolver(contacts, strength, Vec3(0)).solve(weight),
+                 of_tips = core_f64::EffortSolver(tips, strength, Vec3(0)).solve(weight);
+      EXPECT_EQ(view.hold->strength, 20);
+      EXPECT_EQ(std::isinf(view.hold->tips), std::isinf(of_tips.effort));
+      if (std::isfinite(of_tips.effort)) {
+        EXPECT_NEAR(view.hold->tips / of_tips.effort, 1, 2e-3);  // two brackets of 1e-3
+      }
+      if (std::isinf(effort.effort)) {
+        ++unheld;
+        EXPECT_TRUE(std::isinf(view.hold->effort) && std::isinf(view.hold->force()) && view.hold->presses.empty());
+        continue;
+      }
+      EXPECT_NEAR(view.hold->effort / effort.effort, 1, 2e-3);
+      EXPECT_LE(view.hold->low, effort.effort);
+      EXPECT_GE(view.hold->effort, effort.low * (1 - 1e-6));  // hands that are 1e-7 m apart
+      EXPECT_DOUBLE_EQ(view.hold->force(), 20 * view.hold->effort);
+      expect_carried(scene, *view.hold, glm::length(weight.force));
+      const Mat3 turn = to_mat3(held.poses[0].rotation);
+      for (const HandPress& press : view.hold->presses) {
+        const Vec3 place = glm::transpose(turn) * (to_vec3(press.place) - to_vec3(held.poses[0].place));
+        EXPECT_TRUE(std::any_of(contacts.begin(), contacts.end(), [&](const core_f64::ContactPoint& contact) {
+          return contact.digit == press.digit && glm::length(contact.place - place) < 1e-6 &&
+                 glm::length(turn * contact.normal - to_vec3(press.normal)) < 1e-4;  // on an arc of 5 mm, and ten times as much
+        }));
+      }
+    }
+  }
+  EXPECT_GT(compared, 30);
+  EXPECT_LT(unheld, compared);
+}
+
+// On an upright wall, with the tips level on either side of the axis, two tips need what kernel 7 says. All others help.
+TEST(HandView, TwoTipsHoldAsKernelSevenSays) {
+  Scene scene = live_scene();
+  scene.strength.emplace();
+  const double glass = make_core_evaluator(scene)->empty_mass(0);
+  const Seen seen = watch_script(scene);
+  int held = 0;
+  double least = 1;
+  for (std::size_t n = 0; n < seen.ticks.size(); n += 23) {
+    const Tick& tick = seen.ticks[n];
+    const std::optional<HandHold>& hold = seen.views[n].hold;
+    ASSERT_EQ(hold.has_value(), is_held(tick.state)) << n;
+    if (!hold) continue;
+    ++held;
+    EXPECT_NEAR(hold->tips_force() / tick.hold_force, 1, 2e-3) << n;  // the bracket, and fingertips that are not quite level
+    EXPECT_LE(hold->low, hold->tips) << n;
+    least = std::min(least, hold->effort / hold->tips);
+    expect_carried(scene, *hold, (glass + 1000 * tick.volume[0]) * scene.gravity);
+  }
+  EXPECT_GT(held, 50);
+  EXPECT_LT(least, 0.9) << "the other fingers help";
+}
+
+TEST(HandView, WithoutStrengthsNothingIsSolved) {
+  const Seen seen = watch_script(live_scene());
+  for (const HandView& view : seen.views) ASSERT_FALSE(view.hold);
 }
 
 // The hand that the gripper moves is one body with its wrist; the posed hand, whose tips the glass keeps apart, has its own
