@@ -19,8 +19,8 @@ struct HandPress {
   Triple force{};            // on the vessel, N
 };
 
-// Efforts are shares of the strength, infinite where no force holds the vessel. The least effort lies in [low, effort], and the forces of
-// `presses` attain `effort`.
+// Efforts are shares of the strength, infinite where no force holds the vessel. The least effort lies in [low, effort], and the
+// forces of `presses` attain `effort`.
 struct HandHold {
   double effort = 0, low = 0;
   double tips = 0;      // the effort of thumb and index tip alone
@@ -32,8 +32,8 @@ struct HandHold {
   double tips_force() const { return tips * strength; }
 };
 
-// Of a tick that holds a vessel, which is at `vessel`; `posed` are the joints that rest on it. World frame of the scene. Nothing where the
-// scene has no strengths, or nothing is held. A function of these alone, so that a recording shows what its session did.
+// Of a tick that holds a vessel, which is at `vessel`; `posed` are the joints that rest on it. World frame of the scene. Nothing
+// where the scene has no strengths, or nothing is held. A function of these alone, so that a recording shows what its session did.
 std::optional<HandHold> hand_hold(const LiveScene& live, const Tick& tick, const VesselPose& vessel,
                                   const std::array<Triple, JOINT_COUNT>& posed);
 

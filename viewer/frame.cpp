@@ -93,6 +93,30 @@ void write_forces(Writer& out, const ViewFrame& frame) {
   out.text("}");
 }
 
+void write_presses(Writer& out, const std::vector<HandPress>& presses) {
+  bool is_first = true;
+  for (const HandPress& press : presses) {
+    out.text(is_first ? "{\"digit\":" : ",{\"digit\":");
+    is_first = false;
+    out.whole(press.digit);
+    out.numbers(",\"place\":", press.place);
+    out.numbers(",\"normal\":", press.normal);
+    out.numbers(",\"force\":", press.force);
+    out.text("}");
+  }
+}
+
+// What is infinite is null there.
+void write_holding(Writer& out, const HandHold& hold) {
+  out.number(",\"holding\":{\"effort\":", hold.effort);
+  out.number(",\"effort_low\":", hold.low);
+  out.number(",\"tips_effort\":", hold.tips);
+  out.number(",\"tips_hold\":", hold.tips_force());
+  out.text(",\"contacts\":[");
+  write_presses(out, hold.presses);
+  out.text("]}");
+}
+
 }  // namespace
 
 std::string frame_json(const ViewFrame& frame) {
@@ -135,6 +159,7 @@ std::string frame_json(const ViewFrame& frame) {
     out.text("null");
   }
   write_forces(out, frame);
+  if (frame.hand.hold) write_holding(out, *frame.hand.hold);
   out.text(",\"amounts\":[");
   for (std::size_t k = 0; k < frame.arrived.size(); ++k) {
     out.number(k > 0 ? ",{\"arrived\":" : "{\"arrived\":", frame.arrived[k]);
@@ -181,7 +206,7 @@ ViewFrame FrameMaker::make(const Tick& tick, const VesselPoses& poses, const Han
   frame.normal = tick.normal_force;
   frame.opening = tick.opening_force;
   frame.user = tick.user_force;
-  frame.hold = tick.hold_force;
+  frame.hold = hand.hold ? hand.hold->force() : tick.hold_force;
   frame.weight = tick.weight;
   frame.torque = tick.torque;
   for (const MixedAmount& amount : mixing_board(scene, tick)) frame.arrived.push_back(amount.arrived);

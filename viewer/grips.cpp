@@ -17,6 +17,7 @@
 #include "core/prepare.h"
 #include "core/vectors.h"
 #include "grips/hand_nodes.h"
+#include "grips/holding.h"
 #include "grips/report.h"
 #include "viewer/scene.h"
 
@@ -65,7 +66,7 @@ class GripsView::Impl {
         quadrature_(core_f64::load_quadrature(prepare_quadrature(QUADRATURE_POINTS))) {
     for (const VesselData& data : scene_.vessels) vessels_.push_back(load_viewed(scene_, data, quadrature_));
     for (const ViewedGrip& wanted : grips) {
-      Seen seen{wanted, {}, {}, {}};
+      Seen seen{wanted, {}, {}, {}, {}};
       evaluator_->grip(wanted.vessel, wanted.grip, seen.result);
       if (seen.result.reason != Reason::none) {
         notes.push_back(fmt::format("{} is not shown: the core finds that it is not feasible ({})", wanted.label,
@@ -74,6 +75,10 @@ class GripsView::Impl {
       }
       seen.score = evaluator_->score(wanted.vessel, wanted.grip, seen.result);
       seen.wrist = hand_nodes(scene_.hand, wanted.grip, seen.result).wrist.position;
+      if (scene_.strength) {
+        seen.holding = std::make_unique<Holding>(scene_, *evaluator_, wanted.vessel, wanted.grip, seen.result,
+                                                 to_triple(pour_of(wanted.grip)));
+      }
       seen_.push_back(std::move(seen));
     }
     if (seen_.empty()) throw usage_error("view: there is no feasible grip to show");
@@ -139,13 +144,18 @@ class GripsView::Impl {
     GripResult result;
     GripScore score;
     Triple wrist{};
+    std::unique_ptr<const Holding> holding;  // in a scene with strengths
   };
+
+  // Of a line that is vertical some direction.
+  Vec3 pour_of(const GripInput& grip) const {
+    const Vec3 to = to_vec3(pour_direction(scene_, grip));
+    return glm::length(to) < 0.5 ? Vec3(1, 0, 0) : to;
+  }
 
   // About the horizontal axis that turns up to where it pours.
   Mat3 turn_of(const Seen& seen, double tilt) const {
-    Vec3 to = to_vec3(pour_direction(scene_, seen.wanted.grip));
-    if (glm::length(to) < 0.5) to = Vec3(1, 0, 0);
-    const Vec3 up(0, 1, 0), across = glm::cross(up, to);
+    const Vec3 to = pour_of(seen.wanted.grip), up(0, 1, 0), across = glm::cross(up, to);
     const double c = std::cos(tilt), s = std::sin(tilt);
     // columns: where x, y, z of the frame (to, up, across) go
     const Mat3 frame(to, up, across), turned(c * to - s * up, s * to + c * up, across);
@@ -194,6 +204,22 @@ class GripsView::Impl {
     frame.hold = state.hold_force;
     frame.weight = state.mass * scene_.gravity;
     frame.torque = state.torque;
+    if (!seen.holding) return;
+    frame.hand.hold = hold_of(seen.holding->state({fill, tilt, liquid, state}), frame.vessels[seen.wanted.vessel].pose);
+    frame.hold = frame.hand.hold->force();
+  }
+
+  // In the world, where the vessel is.
+  HandHold hold_of(const StateHold& state, const VesselPose& pose) const {
+    const Mat3 turn = to_mat3(pose.rotation);
+    const auto turned = [&](const Triple& v) { return to_triple(turn * to_vec3(v)); };
+    HandHold hold{state.effort, state.low, state.tips, tip_strength(*scene_.strength), {}};
+    for (const HeldContact& contact : state.contacts) {
+      if (contact.force == Triple{}) continue;
+      const Triple place = to_triple(to_vec3(pose.place) + turn * to_vec3(contact.point));
+      hold.presses.push_back({contact.digit, place, turned(contact.normal), turned(contact.force)});
+    }
+    return hold;
   }
 
   Json grip_json(const Seen& seen) const {

@@ -63,6 +63,13 @@ TEST(ViewScene, TellsWhatDoesNotChange) {
   EXPECT_EQ(seen["states"], json({"free", "touching", "lift", "tilt", "maintain", "slipped", "released"}));
 }
 
+TEST(ViewScene, StrengthsAreThereWhereTheSceneHasThem) {
+  Scene scene = live_scene();
+  EXPECT_FALSE(json::parse(view_scene_json(scene, {})).contains("strength"));
+  scene.strength = StrengthData{{1, 2, 3, 4, 5, 6}};
+  EXPECT_EQ(json::parse(view_scene_json(scene, {}))["strength"], json({1.0, 2.0, 3.0, 4.0, 5.0, 6.0}));
+}
+
 TEST(ViewScene, ATitleMayBeAnyBytes) {
   ViewFacts facts;
   facts.title = "m\xfc.nc";  // a file's name in Latin-1

@@ -211,6 +211,59 @@ TEST(ViewFrame, TellsEveryFieldOfATick) {
   for (const char* state : {"free", "lift", "tilt", "maintain", "slipped"}) EXPECT_TRUE(states.count(state)) << state;
 }
 
+void expect_pressed(const json& seen, const HandPress& press) {
+  EXPECT_EQ(keys_of(seen), (std::set<std::string>{"digit", "place", "normal", "force"}));
+  EXPECT_EQ(seen["digit"], press.digit);
+  expect_seen(seen["place"], press.place, "place");
+  expect_seen(seen["normal"], press.normal, "normal");
+  expect_seen(seen["force"], press.force, "force");
+}
+
+// In a scene with strengths: what the whole hand takes, and the hold force of it.
+TEST(ViewFrame, TellsWhatHoldingTakesOfTheHand) {
+  Scene scene = live_scene();
+  scene.strength.emplace();
+  const LiveScene live(scene);
+  FrameMaker maker(live);
+  int held = 0;
+  for (const auto& [tick, poses] : moments(scene)) {
+    SCOPED_TRACE("tick " + std::to_string(tick.number));
+    const HandView hand = hand_view(live, tick, poses);
+    const json seen = json::parse(frame_json(maker.make(tick, poses, hand, {})));
+    ASSERT_EQ(seen.contains("holding"), is_held(tick.state));
+    if (!is_held(tick.state)) {
+      EXPECT_TRUE(seen["forces"]["hold"].is_null());
+      continue;
+    }
+    ++held;
+    const json& holding = seen["holding"];
+    EXPECT_EQ(keys_of(holding), (std::set<std::string>{"effort", "effort_low", "tips_effort", "tips_hold", "contacts"}));
+    EXPECT_TRUE(is_seen(holding["effort"], hand.hold->effort));
+    EXPECT_TRUE(is_seen(holding["effort_low"], hand.hold->low));
+    EXPECT_TRUE(is_seen(holding["tips_effort"], hand.hold->tips));
+    EXPECT_TRUE(is_seen(holding["tips_hold"], 25 * hand.hold->tips)) << "the index finger is the weaker one";
+    EXPECT_TRUE(is_seen(seen["forces"]["hold"], 25 * hand.hold->effort));
+    ASSERT_EQ(holding["contacts"].size(), hand.hold->presses.size());
+    for (std::size_t k = 0; k < hand.hold->presses.size(); ++k) expect_pressed(holding["contacts"][k], hand.hold->presses[k]);
+  }
+  EXPECT_GT(held, 20);
+}
+
+TEST(ViewFrame, WhatNoForceHoldsIsNull) {
+  constexpr double INFINITE = std::numeric_limits<double>::infinity();
+  ViewFrame frame;
+  frame.hand.hold = HandHold{INFINITE, INFINITE, INFINITE, 25, {}};
+  frame.hold = frame.hand.hold->force();
+  const json seen = json::parse(frame_json(frame));
+  EXPECT_EQ(seen["holding"], json({{"effort", nullptr},
+                                   {"effort_low", nullptr},
+                                   {"tips_effort", nullptr},
+                                   {"tips_hold", nullptr},
+                                   {"contacts", json::array()}}));
+  EXPECT_TRUE(seen["forces"]["hold"].is_null());
+  EXPECT_EQ(seen["forces"]["hold_infinite"], true);
+}
+
 TEST(ViewFrame, WhatIsNoNumberIsNull) {
   ViewFrame frame;
   frame.hold = std::numeric_limits<double>::infinity();
