@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::string_view SCHEME = "osc://";
 constexpr std::size_t LARGEST_HOST = 253;  // of a name in the DNS
-constexpr float UNHOLDABLE = -1;           // the hold force that is infinite
+constexpr float UNHOLDABLE = -1;           // a hold force or an effort that is infinite
 
 using Addresses = std::unique_ptr<addrinfo, void (*)(addrinfo*)>;
 
@@ -76,6 +76,7 @@ int open_socket(const addrinfo& address) {
 }
 
 float number(double value) { return std::isfinite(value) ? static_cast<float>(value) : 0; }
+float holding_number(double value) { return std::isinf(value) ? UNHOLDABLE : number(value); }
 
 }  // namespace
 
@@ -134,7 +135,7 @@ void OscStream::show(const DisplayMoment& moment) noexcept {
   put("/wholehand/state", {static_cast<std::int32_t>(state), std::string_view(SESSION_STATE_NAMES[state])});
   put_hand(moment);
   put_vessels(moment.tick, moment.poses);
-  put_forces(moment.tick);
+  put_forces(moment);
   put_task(moment.tick);
   put("/wholehand/end", {tick_});
   flush();
@@ -194,16 +195,25 @@ void OscStream::put_vessels(const Tick& tick, const VesselPoses& poses) noexcept
   }
 }
 
-void OscStream::put_forces(const Tick& tick) noexcept {
+void OscStream::put_forces(const DisplayMoment& moment) noexcept {
+  const Tick& tick = moment.tick;
+  const std::optional<HandHold>& hold = moment.hand.hold;
   const float base = is_held(tick.state) ? number(live_.scene.force.base) : 0;
   put("/wholehand/force/feedback", {number(tick.feedback)});
   put("/wholehand/force/base", {base});
   put("/wholehand/force/normal", {number(tick.normal_force)});
   put("/wholehand/force/opening", {number(tick.opening_force)});
   put("/wholehand/force/user", {number(tick.user_force)});
-  put("/wholehand/force/hold", {std::isinf(tick.hold_force) ? UNHOLDABLE : number(tick.hold_force)});
+  put("/wholehand/force/hold", {holding_number(hold ? hold->force() : tick.hold_force)});
   put("/wholehand/force/weight", {number(tick.weight)});
   put("/wholehand/force/torque", {number(tick.torque)});
+  if (live_.scene.strength) put_holding(hold);
+}
+
+void OscStream::put_holding(const std::optional<HandHold>& hold) noexcept {
+  put("/wholehand/force/tips_hold", {hold ? holding_number(hold->tips_force()) : 0});
+  put("/wholehand/hand/effort", {hold ? holding_number(hold->effort) : 0});
+  put("/wholehand/hand/tips_effort", {hold ? holding_number(hold->tips) : 0});
 }
 
 void OscStream::put_task(const Tick& tick) noexcept {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -54,7 +55,8 @@ class OscStream final : public Display {
   void flush() noexcept;
   void put_hand(const DisplayMoment& moment) noexcept;
   void put_vessels(const Tick& tick, const VesselPoses& poses) noexcept;
-  void put_forces(const Tick& tick) noexcept;
+  void put_forces(const DisplayMoment& moment) noexcept;
+  void put_holding(const std::optional<HandHold>& hold) noexcept;
   void put_task(const Tick& tick) noexcept;
 
   const LiveScene& live_;

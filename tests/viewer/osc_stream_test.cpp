@@ -43,6 +43,11 @@ void expect_place(const OscMessage& pose, const Triple& place) {
   for (int k = 0; k < 3; ++k) EXPECT_EQ(number(pose, k), static_cast<float>(place[k])) << pose.address;
 }
 
+// -1 for what is infinite, 0 where there is none.
+void expect_holding(const OscMessage& message, double truth) {
+  EXPECT_EQ(number(message), std::isnan(truth) ? 0 : std::isinf(truth) ? -1 : static_cast<float>(truth)) << message.address;
+}
+
 void expect_frame(std::map<std::string, OscMessage> messages, const Scene& scene, const DisplayMoment& moment) {
   const Tick& tick = moment.tick;
   const auto take = [&messages](const std::string& address) {
@@ -93,9 +98,14 @@ void expect_frame(std::map<std::string, OscMessage> messages, const Scene& scene
   EXPECT_EQ(number(take("/wholehand/force/normal")), static_cast<float>(tick.normal_force));
   EXPECT_EQ(number(take("/wholehand/force/opening")), static_cast<float>(tick.opening_force));
   EXPECT_EQ(number(take("/wholehand/force/user")), static_cast<float>(tick.user_force));
-  EXPECT_EQ(number(take("/wholehand/force/hold")), std::isnan(tick.hold_force)   ? 0
-                                                   : std::isinf(tick.hold_force) ? -1
-                                                                                 : static_cast<float>(tick.hold_force));
+  const std::optional<HandHold>& hold = moment.hand.hold;
+  expect_holding(take("/wholehand/force/hold"), hold ? hold->force() : tick.hold_force);
+  if (scene.strength) {
+    EXPECT_EQ(hold.has_value(), is_held(tick.state));
+    expect_holding(take("/wholehand/force/tips_hold"), hold ? hold->tips_force() : Tick::NONE);
+    expect_holding(take("/wholehand/hand/effort"), hold ? hold->effort : Tick::NONE);
+    expect_holding(take("/wholehand/hand/tips_effort"), hold ? hold->tips : Tick::NONE);
+  }
   EXPECT_EQ(number(take("/wholehand/force/weight")), static_cast<float>(tick.weight));
   EXPECT_EQ(number(take("/wholehand/force/torque")), static_cast<float>(tick.torque));
   const OscMessage amount = take("/wholehand/amount/water");
@@ -127,6 +137,7 @@ TEST(OscStream, FramesSayWhatTheTicksDo) {
   for (const bool is_left : {false, true}) {
     Scene scene = live_scene();
     if (is_left) scene.hand = left_hand();
+    if (is_left) scene.strength.emplace();
     PlayedSession played(scene);
     OscListener listener;
     OscStream stream(listener.target(), played.session.live());
@@ -192,6 +203,24 @@ TEST(OscStream, NumbersThatDoNotExistAreNumbersAllTheSame) {
   stream.show(played.moment());
   messages = by_address(listener.frame());
   EXPECT_EQ(number(messages["/wholehand/force/hold"]), 0) << "nothing is held";
+}
+
+TEST(OscStream, AHandThatHoldsNothingHasNoNumbersOfIt) {
+  Scene scene = live_scene();
+  scene.strength.emplace();
+  PlayedSession played(scene);
+  OscListener listener;
+  OscStream stream(listener.target(), played.session.live());
+  const DisplayMoment moment = played.at(0);
+  constexpr double INFINITE = std::numeric_limits<double>::infinity();
+  const char* const addresses[] = {"/wholehand/force/hold", "/wholehand/force/tips_hold", "/wholehand/hand/effort",
+                                   "/wholehand/hand/tips_effort"};
+  for (const bool is_holding : {false, true}) {
+    if (is_holding) played.hand.hold = HandHold{INFINITE, INFINITE, INFINITE, 25, {}};
+    stream.show(moment);
+    auto messages = by_address(listener.frame());
+    for (const char* address : addresses) EXPECT_EQ(number(messages[address]), is_holding ? -1 : 0) << address;
+  }
 }
 
 }  // namespace
