@@ -23,7 +23,6 @@ namespace wholehand {
 namespace {
 
 constexpr double LEAST_DRAWN_RADIUS = 1.5e-3;  // m
-constexpr double BONE_SHARE = 0.6;             // of the joints' radii: thinner than the balls, so that these show
 constexpr int BONE_SEGMENTS = 20;              // round a bone
 constexpr int BALL_SEGMENTS = 32;              // round a contact point
 constexpr double TURN_SPEED = 0.5;             // of the animation, rad/s
@@ -217,7 +216,7 @@ void add_hand_nodes(GlbBuilder& glb, int parent, const HandNodes& hand, const Gr
     place_node(glb.node(nodes[j]), relative_position(above, joint.position), relative_rotation(above, joint.rotation));
     if (j + 1 < JOINT_COUNT && hand.joints[j + 1].parent == j) {
       const Triple to_next = relative_position(joint, hand.joints[j + 1].position);
-      const double near = BONE_SHARE * drawn_radius(joint.radius), far = BONE_SHARE * drawn_radius(hand.joints[j + 1].radius);
+      const double near = drawn_radius(joint.radius), far = drawn_radius(hand.joints[j + 1].radius);
       const double length = norm(to_next);
       const std::string name = fmt::format("{} bone", joint.name);
       glb.node(nodes[j]).mesh =
@@ -230,7 +229,7 @@ void add_hand_nodes(GlbBuilder& glb, int parent, const HandNodes& hand, const Gr
                                             {"separation_m", result.separation[j]}});
     const int contact = glb.add_node(fmt::format("{} contact", joint.name), nodes[j]);
     glb.node(contact).mesh = ball_of(state);
-    glb.node(contact).scale.assign(3, drawn_radius(joint.radius));
+    glb.node(contact).scale.assign(3, GLB_BALL_SHARE * drawn_radius(joint.radius));
   }
 }
 

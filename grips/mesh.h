@@ -26,7 +26,7 @@ SurfaceMesh liquid_mesh(const VesselData& vessel, double volume, double tilt, co
 // A ball of radius 1 m at the origin.
 SurfaceMesh ball_mesh(int segments);
 
-// Hull of two balls: radius `near` m at the origin and `far` m at `length` m along -z.
+// Rounded cone, the hull of two balls: radius `near` m at the origin and `far` m at `length` m along -z.
 SurfaceMesh capsule_mesh(double length, double near, double far, int segments);
 
 }  // namespace wholehand

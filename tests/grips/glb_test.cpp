@@ -136,7 +136,7 @@ TEST(GripGlb, JointsAreWhereTheHandIs) {
       const glm::dmat3 expected = glm::mat3_cast(glm::dquat(q[3], q[0], q[1], q[2]));
       for (int axis = 0; axis < 3; ++axis) EXPECT_LT(glm::length(glm::dvec3(place->second[axis]) - expected[axis]), 1e-6);
       const tinygltf::Node& contact = model.nodes[index_of_node(model, std::string(hand.joints[j].name) + " contact")];
-      EXPECT_DOUBLE_EQ(contact.scale[0], hand.joints[j].radius);
+      EXPECT_DOUBLE_EQ(contact.scale[0], GLB_BALL_SHARE * hand.joints[j].radius);
       const std::string state = model.nodes[index_of_node(model, hand.joints[j].name)].extras.Get("state").Get<std::string>();
       EXPECT_EQ(model.meshes[contact.mesh].name, state);
       EXPECT_EQ(state, POINT_STYLES[static_cast<std::size_t>(point_state(report.answer.result, j))].name);
@@ -156,9 +156,55 @@ TEST(GripGlb, BonesReachTheNextJoint) {
     const tinygltf::Node& next = model.nodes[child];
     EXPECT_NEAR(next.translation[0], 0, 1e-12) << node.name;
     EXPECT_NEAR(next.translation[1], 0, 1e-12) << node.name;
-    const double far = -accessor.minValues[2] + next.translation[2];  // what the capsule goes beyond it
-    EXPECT_GT(far, 0.5 * 7e-3) << node.name;
-    EXPECT_LT(far, 0.7 * 8e-3) << node.name;
+    const double far = -accessor.minValues[2] + next.translation[2];                       // what the bone goes beyond it
+    EXPECT_NEAR(far, next.extras.Get("radius_m").GetNumberAsDouble(), 1e-8) << node.name;  // floats of less than 0.1 m
+  }
+  EXPECT_EQ(bones, 19);
+}
+
+// The hull of two balls is the union of all balls between them: the distance of a point to it is the least of theirs. It is convex
+// along the bone, so thirds find it.
+double rounded_cone_distance(const glm::dvec3& p, const glm::dvec3& to, double near, double far) {
+  const auto at = [&](double t) { return glm::length(p - t * to) - (near + t * (far - near)); };
+  double low = 0, high = 1;
+  for (int k = 0; k < 120; ++k) {
+    const double a = low + (high - low) / 3, b = high - (high - low) / 3;
+    (at(a) < at(b) ? high : low) = at(a) < at(b) ? b : a;
+  }
+  return at(0.5 * (low + high));
+}
+
+TEST(GripGlb, BonesAreTheRoundedConesOfTheirJoints) {
+  Scene scene = three_beakers();
+  for (FingerData& finger : scene.hand.fingers) finger.radii = {9e-3, 8e-3, 6.5e-3, 7e-3, 5e-3};
+  scene.hand.fingers[0].radii = {10e-3, 9e-3, 6e-3, 7e-3, 0};
+  const tinygltf::Model model = opened(grip_glb(scene, 0, report_of(scene, 0, GRIP, one_state(0.5, 0))));
+  int bones = 0;
+  for (const tinygltf::Node& node : model.nodes) {
+    if (node.mesh < 0 || !model.meshes[node.mesh].name.ends_with(" bone")) continue;
+    ++bones;
+    const tinygltf::Node& next = model.nodes[node.children.back()];
+    const glm::dvec3 to(next.translation[0], next.translation[1], next.translation[2]);
+    const double near = node.extras.Get("radius_m").GetNumberAsDouble(), far = next.extras.Get("radius_m").GetNumberAsDouble();
+    EXPECT_NE(near, far);
+    const tinygltf::Primitive& bone = model.meshes[node.mesh].primitives[0];
+    const std::vector<double> places = numbers(model, bone.attributes.at("POSITION")), corners = numbers(model, bone.indices);
+    const auto corner = [&](std::size_t k) {
+      const auto at = 3 * static_cast<std::size_t>(corners[k]);
+      return glm::dvec3(places[at], places[at + 1], places[at + 2]);
+    };
+    // of 20 faces round, and of arcs in steps of the same angle: each of both takes 1 - cos(pi / 20) of the radius between corners
+    const double within = 2 * std::max(near, far) * (1 - std::cos(PI / 20));
+    double deepest = 0;
+    for (std::size_t t = 0; t < corners.size(); t += 3) {
+      // floats of less than 0.1 m are 4e-9 m apart at most, and so are three coordinates together within 1e-8
+      for (std::size_t k = 0; k < 3; ++k) ASSERT_NEAR(rounded_cone_distance(corner(t + k), to, near, far), 0, 1e-8) << node.name;
+      const double middle = rounded_cone_distance((corner(t) + corner(t + 1) + corner(t + 2)) / 3.0, to, near, far);
+      EXPECT_LT(middle, 1e-8) << node.name;
+      EXPECT_GT(middle, -within) << node.name;
+      deepest = std::min(deepest, middle);
+    }
+    EXPECT_LT(deepest, -0.1 * within) << "the surface is round, and the faces are flat";
   }
   EXPECT_EQ(bones, 19);
 }
@@ -266,7 +312,7 @@ TEST(GripGlb, BarePointsAreStillSeen) {
   for (FingerData& finger : scene.hand.fingers) finger.radii = {};
   scene.pose = Pose::paper;
   const tinygltf::Model model = opened(grip_glb(scene, 0, report_of(scene, 0, {0.05, 0, 0, 0, 0, 1}, one_state(0.5, 0))));
-  EXPECT_DOUBLE_EQ(model.nodes[index_of_node(model, "thumb-tip contact")].scale[0], 1.5e-3);
+  EXPECT_DOUBLE_EQ(model.nodes[index_of_node(model, "thumb-tip contact")].scale[0], GLB_BALL_SHARE * 1.5e-3);
   EXPECT_EQ(model.nodes[index_of_node(model, "thumb-tip")].extras.Get("radius_m").GetNumberAsDouble(), 0);
 }
 

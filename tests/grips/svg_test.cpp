@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <map>
 #include <regex>
 #include <string>
@@ -107,6 +109,46 @@ TEST(GripSvg, ViewsAreToScale) {
       EXPECT_EQ(count(svg, ">80 mm<") + count(svg, ">110 mm<"), 2);
     }
   }
+}
+
+// The outline of a bone's rounded cone is that of two discs: lines that touch both.
+TEST(GripSvg, BonesAreTheOutlinesOfRoundedCones) {
+  Scene scene = three_beakers();
+  for (FingerData& finger : scene.hand.fingers) finger.radii = {9e-3, 8e-3, 6.5e-3, 7e-3, 5e-3};
+  scene.hand.fingers[0].radii = {10e-3, 9e-3, 6e-3, 7e-3, 0};
+  const std::string svg = drawn(scene, 0, BESIDE), n = "([-0-9.]+)", p = n + " " + n, arc = "A" + p + " 0 ([01]) 0 " + p;
+  const std::regex run("class=\"flesh\" d=\"([^\"]*)\"/>\n<path class=\"bone\" d=\"([^\"]*)\""), point("[ML]" + p);
+  const std::regex shape("M[^M]*Z"), hull("M" + p + "L" + p + arc + "L" + p + arc + "Z");
+  int bones = 0;
+  for (std::sregex_iterator found(svg.begin(), svg.end(), run), end; found != end; ++found) {
+    const std::string shapes = (*found)[1], line = (*found)[2];
+    std::vector<glm::dvec2> joints;
+    for (std::sregex_iterator at(line.begin(), line.end(), point); at != end; ++at)
+      joints.push_back({std::stod((*at)[1]), std::stod((*at)[2])});
+    std::size_t k = 0;
+    for (std::sregex_iterator at(shapes.begin(), shapes.end(), shape); at != end; ++at, ++k) {
+      const std::string text = (*at)[0];
+      std::smatch part;
+      ASSERT_LT(k + 1, joints.size());
+      if (!std::regex_match(text, part, hull)) continue;  // along the view: one disc covers the other
+      ++bones;
+      const auto pair = [&](std::size_t first) { return glm::dvec2(std::stod(part[first]), std::stod(part[first + 1])); };
+      const glm::dvec2 a = joints[k], b = joints[k + 1];
+      const glm::dvec2 starts[] = {pair(1), pair(10)}, ends[] = {pair(3), pair(8)};
+      const double far = std::stod(part[5]), near = std::stod(part[12]), length = glm::length(b - a);
+      // two decimals: each place is up to 0.0071 mm off, a difference of two twice as much
+      constexpr double ROUNDED = 0.0142 + 0.005;
+      for (int side = 0; side < 2; ++side) {
+        const glm::dvec2 touched = starts[side] - a;
+        EXPECT_NEAR(glm::length(touched), near, ROUNDED) << text;
+        EXPECT_NEAR(glm::length(ends[side] - b), far, ROUNDED) << text;
+        EXPECT_NEAR(glm::dot(ends[side] - starts[side], touched) / near, 0, ROUNDED * (1 + length / near)) << text;
+      }
+      EXPECT_GT(glm::length(starts[0] - starts[1]), near) << "one on either side";
+    }
+    EXPECT_EQ(k + 1, joints.size());
+  }
+  EXPECT_GT(bones, 40);
 }
 
 // Whatever is held, the sheet fits on a page and its letters are 8 points.

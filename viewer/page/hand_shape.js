@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The hand's surface: balls about the joints, cones between them that touch both balls, and the skin of the palm over the balls in it. All of it is
-// written once in terms of which balls a vertex belongs to; where the balls are is told to the shader, so that a moving hand costs a few
-// numbers a picture.
+// The hand's surface: balls about the joints, the rounded cones between them that touch both balls, and the skin of the palm over the
+// balls in it. All of it is written once in terms of which balls a vertex belongs to; where the balls are is told to the shader, so
+// that a moving hand costs a few numbers a picture.
 import {BufferGeometry, Float32BufferAttribute} from './three.module.js';
 
 export const JOINTS = 24;
@@ -146,7 +146,7 @@ export const HAND_SHADER = `
       vec3 along = b.xyz - a.xyz;
       float far = max(length(along), 1e-5);
       along /= far;
-      float lean = asin(clamp((a.w - b.w) / far, -0.95, 0.95));
+      float lean = asin(clamp((a.w - b.w) / far, -1.0, 1.0));
       vec3 aside = normalize(cross(along, abs(along.y) < 0.8 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0)));
       float over = balls.w < 0.5 ? mix(-1.5707963, lean, position.z) : mix(lean, 1.5707963, position.z);
       normal = cos(over) * (position.x * aside + position.y * cross(along, aside)) + sin(over) * along;
