@@ -10,6 +10,8 @@ GRIP = ["three_beakers", "--vessel", "beaker1", "--height-mm", "58.5", "--roll-d
 DIGITS = 2e-7     # m: frames have the digits of a float, of places up to a metre
 ON_SCREEN = 0.5   # px: the page projects in float where the test does in double
 THUMB_TIP, INDEX_TIP = 3, 8
+STRENGTH = 25     # N, of the index finger in the scene: the weaker one of the two tips
+BRACKETS = 2e-3   # relative: an effort is found to 1e-3, and a tilt that is rounded otherwise may end elsewhere in that
 
 
 class AGrip(ViewerTest):
@@ -85,9 +87,9 @@ class AGrip(ViewerTest):
         at = page.evaluate(f"wholehand.project({INDEX_TIP})")
         self.assert_near(color_at(page, at["x"], at["y"]), wanted, 12, f"index tip at {at}")
 
-    def test_no_mark_is_drawn_where_points_are_switched_off(self):
+    def test_no_mark_is_drawn_where_points_and_forces_are_switched_off(self):
         page = self.open(self.grip)
-        page.evaluate("document.getElementById('points').click()")
+        page.evaluate("document.getElementById('points').click(), document.getElementById('arrows').click()")
         still(page)
         drawn(page)
         at = page.evaluate(f"wholehand.project({INDEX_TIP})")
@@ -100,7 +102,7 @@ class AGrip(ViewerTest):
         vessel = scene["vessels"][frame["vessel"]]
         self.assertEqual(frame["vessels"][frame["vessel"]]["place"], vessel["place"], "it stands")
         self.assertEqual(page.evaluate("wholehand.view.stage.table.position.y"), vessel["place"][1] + vessel["base"])
-        page.evaluate("document.getElementById('points').click()")
+        page.evaluate("document.getElementById('points').click(), document.getElementById('arrows').click()")
 
         def color(joints, with_hand, with_table):
             """At the index finger's tip, of the hand alone on or under the table."""
@@ -134,8 +136,10 @@ class AGrip(ViewerTest):
             page.wait(f"Math.abs(wholehand.frame.tilt - {math.radians(tilt)}) < 1e-6 && "
                       f"Math.abs(wholehand.frame.vessels[0].volume - {told['liquid_volume_m3']}) < 1e-9", what=f"{fill}, {tilt}")
             forces = page.evaluate("wholehand.frame.forces")
-            for name, key in [("feedback", "feedback_force_N"), ("normal", "normal_force_N"), ("hold", "hold_force_N")]:
+            for name, key in [("feedback", "feedback_force_N"), ("normal", "normal_force_N")]:
                 self.assertAlmostEqual(forces[name], told[key], delta=1e-6 * max(1, told[key]), msg=name)
+            hold = STRENGTH * told["effort"]
+            self.assertAlmostEqual(forces["hold"], hold, delta=BRACKETS * hold, msg="hold")
             page.wait(f"document.querySelector('.force-value').textContent === '{told['feedback_force_N']:.2f}'", what="the number")
 
     def test_the_curve_over_the_tilt_is_that_of_grip_json(self):
@@ -146,7 +150,35 @@ class AGrip(ViewerTest):
         tilts = [f"{record[0]:.9g}" for record in records]
         told = json.loads(wholehand("grip", *GRIP, "--json", "--fill", str(fill), "--tilt-deg", *tilts))["states"]
         for record, state in zip(records, told):
-            self.assert_near(record[1:], [state["feedback_force_N"], state["hold_force_N"]], 1e-4, f"{record[0]} degrees")
+            hold = STRENGTH * state["effort"]
+            self.assertAlmostEqual(record[1], state["feedback_force_N"], delta=1e-4, msg=f"{record[0]} degrees")
+            self.assertAlmostEqual(record[2], hold, delta=BRACKETS * hold, msg=f"{record[0]} degrees")
+
+    def test_arrows_are_the_contact_forces_of_grip_json(self):
+        page = self.open(self.grip)
+        told = json.loads(wholehand("grip", *GRIP, "--json", "--fill", "0.5", "--tilt-deg", "0"))["states"][0]
+        slide(page, "fill", 0.5)
+        page.wait(f"Math.abs(wholehand.frame.vessels[0].volume - {told['liquid_volume_m3']}) < 1e-9", what="the fill")
+        still(page)
+        drawn(page)
+        frame = page.evaluate("wholehand.frame")
+        holding, vessel = frame["holding"], frame["vessels"][0]
+        pressing = [contact for contact in told["contacts"] if any(contact["force_N"])]
+        largest = max(math.hypot(*contact["force_N"]) for contact in pressing)
+        self.assertEqual(len(holding["contacts"]), len(pressing))
+        for seen, contact in zip(holding["contacts"], pressing):
+            self.assert_near(turned_back(vessel["rotation"], minus(seen["place"], vessel["place"])), contact["point_m"], 2 * DIGITS, "place")
+            self.assert_near(turned_back(vessel["rotation"], seen["force"]), contact["force_N"], 1e-5 * largest, "force")
+        arrows = page.evaluate("""wholehand.view.arrows.list.filter(({arrow}) => arrow.visible).map(({arrow, parts: [, head]}) => {
+          const end = head.position.clone().setY(head.position.y + head.scale.y);
+          return {length: end.y, place: arrow.localToWorld(end).toArray()}; })""")
+        self.assertEqual(len(arrows), len(pressing))
+        for arrow, seen, contact in zip(arrows, holding["contacts"], pressing):
+            self.assert_near(arrow["place"], seen["place"], 2 * DIGITS, "the head is at the contact")
+            self.assertAlmostEqual(arrow["length"] / 0.045, math.hypot(*contact["force_N"]) / largest, delta=1e-4)
+        shown = page.evaluate("(({effort, tipsEffort, arrow}) => [effort, tipsEffort, arrow].map((place) => place.textContent))(wholehand.panels.forceRows)")
+        percent = [f"{100 * effort:.{1 if effort < 0.1 else 0}f} %" for effort in (holding["effort"], holding["tips_effort"])]
+        self.assertEqual(shown, percent + [f"{largest:.2f}"])
 
 
 class TheBestOfASweep(ViewerTest):

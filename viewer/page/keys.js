@@ -22,6 +22,7 @@ export function viewKeys(view, buttons) {
     {keys: ['3'], once: true, act: () => buttons.top.click()},
     {keys: ['g'], once: true, shown: 'G', what: 'ghost of the hand before it came to rest on the glass', act: () => buttons.ghost.click()},
     {keys: ['c'], once: true, shown: 'C', what: 'contact points', act: () => buttons.points.click()},
+    ...(buttons.arrows.hidden ? [] : [{keys: ['h'], once: true, shown: 'H', what: 'forces of the hand on the vessel', act: () => buttons.arrows.click()}]),
     {keys: ['f'], once: true, shown: 'F', what: 'keep the hand in the middle', act: () => buttons.follow.click()},
   ];
 }

@@ -34,7 +34,8 @@ function makeView(about) {
 }
 
 function wireTools(view) {
-  const buttons = {ghost: find('ghost'), points: find('points'), follow: find('follow')};
+  const buttons = {ghost: find('ghost'), points: find('points'), arrows: find('arrows'), follow: find('follow')};
+  buttons.arrows.hidden = !view.about.strength;
   for (const button of document.querySelectorAll('[data-view]')) {
     const name = button.dataset.view;
     buttons[name] = button;
@@ -53,6 +54,7 @@ function wireTools(view) {
   });
   toggle(buttons.ghost, (isOn) => view.setGhost(isOn));
   toggle(buttons.points, (isOn) => view.marks.setVisible(isOn));
+  toggle(buttons.arrows, (isOn) => view.arrows.setVisible(isOn));
   toggle(buttons.follow, (isOn) => view.setFollow(isOn));
   return buttons;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The numbers beside the picture: state, hand, forces, amounts, loop; and the legend of the contact points.
-import {askedForce, degrees, element, feltForce, fixed, isNumber, millilitres, millimetres, setText, whole} from './format.js';
+import {askedForce, degrees, element, feltForce, fixed, isNumber, millilitres, millimetres, percent, setText, whole} from './format.js';
 import {CONTACTS, liquidColor} from './theme.js';
 
 const WAY = 5;  // states that a session goes through when all goes well; the others are exceptions
@@ -63,15 +63,18 @@ export class Panels {
     this.clamp = element('output', {class: 'clamp'});
     const bar = element('div', {class: 'force-bar', 'aria-hidden': 'true'}, ...this.forceParts);
     this.forceRows = {};
-    const rows = element('dl', {class: 'forces'});
-    for (const [key, symbol, sub, what, kind] of [
+    const rows = element('dl', {class: 'forces'}), {strength} = this.about;
+    for (const [key, symbol, sub, what, kind, unit = 'N'] of [
       ['base', 'F', 'base', 'from the grasp on', 'base'], ['normal', 'F', 'n', 'with the torque', 'torque'],
       ['opening', 'F', 'o', 'from squeezing further', 'opening'], ['user', 'Grip', '', 'the user’s own', 'user'],
-      ['hold', 'N', 'hold', 'needed to hold', 'hold']]) {
+      ['hold', 'N', 'hold', strength ? 'of the whole hand' : 'needed to hold', 'hold'],
+      // whose unit is in its text, which may be words
+      ...(strength ? [['tipsHold', 'N', 'tips', 'of two tips alone', 'tips'], ['effort', 'Effort', '', 'of the whole hand', 'effort', ''],
+        ['tipsEffort', 'Effort', '', 'of two tips alone', 'effort', ''], ['arrow', 'Arrow', '', 'the longest', 'arrow']] : [])]) {
       const value = element('output', {});
       this.forceRows[key] = value;
       rows.append(element('div', {class: `force-row ${kind}`}, element('dt', {}, element('i', {class: 'swatch', 'aria-hidden': 'true'}), symbol, element('sub', {text: sub}), element('small', {text: what})),
-        element('dd', {}, value, ' N')));
+        element('dd', {}, value, unit && ` ${unit}`)));
     }
     place.append(element('p', {class: 'force-line'}, element('span', {text: 'F'}), this.force, element('span', {class: 'unit', text: 'N'}),
       element('small', {text: `of ${fixed(this.about.force.most, 1)} N at most`})), bar, element('p', {class: 'clamp-line'}, this.clamp), rows);
@@ -114,6 +117,7 @@ export class Panels {
   show(frame, grip) {
     this.showState(frame, grip);
     this.showForce(frame.forces);
+    if (this.about.strength) this.showHolding(frame.holding);
     CONTACTS.forEach((contact, k) => setText(this.counts[k], String([...frame.contacts].filter((c) => c === contact.key).length)));
     if (this.amounts) this.showAmounts(frame);
     const {timing} = frame;
@@ -157,6 +161,16 @@ export class Panels {
     for (const [key, digits] of [['base', 2], ['normal', 2], ['opening', 2], ['user', 2], ['hold', 1]]) {
       setText(this.forceRows[key], key === 'hold' && forces.hold_infinite ? '∞' : fixed(forces[key], digits));
     }
+  }
+
+  // Shares of the strength. What is null there is infinite; without `holding` nothing is held.
+  showHolding(holding) {
+    const share = (effort) => (effort === null ? 'no force holds it' : `${percent(effort, effort < 0.1 ? 1 : 0)} %`);
+    const longest = holding && holding.contacts.length ? Math.max(...holding.contacts.map(({force}) => Math.hypot(...force))) : null;
+    setText(this.forceRows.tipsHold, holding && holding.tips_hold === null ? '∞' : fixed(holding && holding.tips_hold, 1));
+    setText(this.forceRows.effort, holding ? share(holding.effort) : fixed(null));
+    setText(this.forceRows.tipsEffort, holding ? share(holding.tips_effort) : fixed(null));
+    setText(this.forceRows.arrow, fixed(longest, 2));
   }
 
   showAmounts(frame) {

@@ -31,6 +31,7 @@ export const CONTACTS = [
   {key: 'K', name: 'tracked, touching', color: ['#00785a', '#2fc79a'], shape: 'filled square'},
 ];
 export const GUIDANCE_COLOR = ['#b5478f', '#e58cc4'];
+export const FORCE_COLOR = ['#009e73', '#3fdcae'];  // of the arrows, as `grip --svg` draws them
 export const schemeColor = (pair) => pair[darkMode.matches ? 1 : 0];
 
 const WATER = '#4a9fd8';

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A frame as a picture: puts hand, marks, vessels, liquids and stream where a frame says, and looks at them.
 import * as THREE from './three.module.js';
+import {Arrows} from './arrows.js';
 import {Hand} from './hand.js';
 import {Liquid} from './liquid.js';
 import {Marks} from './marks.js';
@@ -28,6 +29,7 @@ export class View {
     this.liquids = this.vessels.list.slice(0, this.vessels.count).map((vessel) => (vessel.about.inner ? new Liquid(vessel) : null));
     this.hand = new Hand(scene, about.joints);
     this.marks = new Marks(scene, about.joints);
+    this.arrows = new Arrows(scene);
     this.follows = false;
     this.isDragged = false;  // the hand is, which the picture then must not follow
     this.frame = null;
@@ -60,6 +62,7 @@ export class View {
     this.pour.show(frame);
     this.marks.shared.table.value = this.hand.skin.uniforms.table.value = this.tableY;
     this.marks.show(frame, size, this.guidancePlace(frame));
+    this.arrows.show(frame.holding ? frame.holding.contacts : []);
     this.middle = frame.joints.reduce((sum, p) => sum.add(new THREE.Vector3(...p)), new THREE.Vector3()).multiplyScalar(1 / frame.joints.length);
     this.stage.lightAt(this.middle);
     this.stage.invalidate();
