@@ -12,6 +12,7 @@
 #include "core/evaluator.h"
 #include "live/workspace.h"
 #include "tests/support/live_script.h"
+#include "tests/support/recorded_ticks.h"
 #include "tests/support/scenes.h"
 #include "tests/support/session_play.h"
 
@@ -102,6 +103,14 @@ TEST(Session, MissedTicksAreOnlyTime) {
   // four ticks of 150 ms time constant
   EXPECT_NEAR(some.back().volume[0] / all.back().volume[0], 1, 0.01);
   EXPECT_NEAR(liquid_in_sight(some.back(), 0), some[0].volume[0], 1e-15);
+}
+
+// Who shows a session finds the effort, from the tick: what is felt and recorded is the same to the bit.
+TEST(Session, StrengthsChangeNoTick) {
+  Scene scene = live_scene();
+  const std::vector<Tick> without = play_session(scene, script_for(scene));
+  scene.strength = StrengthData{{1, 2, 3, 4, 5, 6}};
+  expect_same_ticks(play_session(scene, script_for(scene)), without);
 }
 
 TEST(Session, ALeftHandIsMirrored) {

@@ -56,7 +56,8 @@ TEST(RecordingView, AFrameIsTheNewestTickByThen) {
 }
 
 TEST(RecordingView, TellsWhatWasRecorded) {
-  const Scene scene = live_scene();
+  Scene scene = live_scene();
+  scene.strength.emplace();  // what holding takes is not recorded: it is found again
   const Recording recording = recorded(scene);
   const RecordingView view(scene, recording);
   const LiveScene live(scene);
@@ -70,6 +71,7 @@ TEST(RecordingView, TellsWhatWasRecorded) {
     const ViewFrame seen = view.frames(time, time, 0).at(0);
     const ViewFrame truth = maker.make(tick, tracker.poses(), hand_view(live, tick, tracker.poses()), seen.timing);
     EXPECT_EQ(frame_json(seen), frame_json(truth)) << tick.number;
+    EXPECT_EQ(seen.hand.hold.has_value(), is_held(tick.state)) << tick.number;
     EXPECT_EQ(seen.timing.step, tick.step_time);
     EXPECT_EQ(seen.timing.missed, tick.number - 3 - static_cast<std::int64_t>(k));
     if (time > 1.1) {
