@@ -164,7 +164,7 @@ TEST(GripGlb, BonesReachTheNextJoint) {
 
 // The hull of two balls is the union of all balls between them: the distance of a point to it is the least of theirs. It is convex
 // along the bone, so thirds find it.
-double rounded_cone_distance(const glm::dvec3& p, const glm::dvec3& to, double near, double far) {
+double hull_of_balls_distance(const glm::dvec3& p, const glm::dvec3& to, double near, double far) {
   const auto at = [&](double t) { return glm::length(p - t * to) - (near + t * (far - near)); };
   double low = 0, high = 1;
   for (int k = 0; k < 120; ++k) {
@@ -198,8 +198,8 @@ TEST(GripGlb, BonesAreTheRoundedConesOfTheirJoints) {
     double deepest = 0;
     for (std::size_t t = 0; t < corners.size(); t += 3) {
       // floats of less than 0.1 m are 4e-9 m apart at most, and so are three coordinates together within 1e-8
-      for (std::size_t k = 0; k < 3; ++k) ASSERT_NEAR(rounded_cone_distance(corner(t + k), to, near, far), 0, 1e-8) << node.name;
-      const double middle = rounded_cone_distance((corner(t) + corner(t + 1) + corner(t + 2)) / 3.0, to, near, far);
+      for (std::size_t k = 0; k < 3; ++k) ASSERT_NEAR(hull_of_balls_distance(corner(t + k), to, near, far), 0, 1e-8) << node.name;
+      const double middle = hull_of_balls_distance((corner(t) + corner(t + 1) + corner(t + 2)) / 3.0, to, near, far);
       EXPECT_LT(middle, 1e-8) << node.name;
       EXPECT_GT(middle, -within) << node.name;
       deepest = std::min(deepest, middle);
