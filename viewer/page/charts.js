@@ -9,14 +9,16 @@ const ROWS = [
     {key: 'normal', name: 'Fₙ', color: '--line-normal', width: 1.6, dash: []},
     {key: 'user', name: 'grip', color: '--line-user', width: 1.6, dash: [5, 3]},
     {key: 'feedback', name: 'F', color: '--line-force', width: 2.4, dash: []}]},
-  {title: 'Hold force, N', share: 0.25, least: 10, lines: [{key: 'hold', name: 'N‑hold', color: '--line-hold', width: 1.8, dash: []}]},
+  {title: 'Hold force, N', share: 0.25, least: 10, lines: [
+    {key: 'tips', name: 'two tips', color: '--line-hold', width: 1.4, dash: [5, 3]},
+    {key: 'hold', name: 'N‑hold', color: '--line-hold', width: 1.8, dash: []}]},
   {title: 'Tilt, °', share: 0.19, least: 90, lines: [{key: 'tilt', name: 'tilt', color: '--line-tilt', width: 1.6, dash: []}]},
 ];
 const TOP = 16, BOTTOM = 20, BETWEEN = 24, TICK = 6, NAME = 5;  // px: the last two beside the lines, to a number and to a name
 
 // What a chart keeps of a frame.
 export const record = (frame) => ({x: frame.t, normal: frame.forces.normal, user: frame.forces.user, feedback: feltForce(frame.forces),
-  hold: frame.forces.hold, tilt: isNumber(frame.tilt) ? frame.tilt * 180 / Math.PI : null});
+  hold: frame.forces.hold, tips: frame.holding ? frame.holding.tips_hold : null, tilt: isNumber(frame.tilt) ? frame.tilt * 180 / Math.PI : null});
 
 // A step of 1, 2 or 5 times a power of ten of which `count` or fewer fit.
 function niceStep(range, count) {
@@ -27,9 +29,10 @@ function niceStep(range, count) {
 const tickText = (y) => String(Math.round(y * 1000) / 1000);
 
 export class Charts {
-  // `overTilt`: x is the tilt in degrees, and the row of the tilt is left out.
-  constructor(place, overTilt) {
-    this.rows = overTilt ? ROWS.slice(0, 2).map((row) => ({...row, lines: row.lines.slice(-1)})) : ROWS;  // there F is F_n, and the grip stays
+  // `overTilt`: x is the tilt in degrees, and the row of the tilt is left out. `hasTips`: what two tips need is a line of its own.
+  constructor(place, overTilt, hasTips) {
+    const rows = ROWS.map((row) => ({...row, lines: row.lines.filter((line) => hasTips || line.key !== 'tips')}));
+    this.rows = overTilt ? [{...rows[0], lines: rows[0].lines.slice(-1)}, rows[1]] : rows;  // there F is F_n, and the grip stays
     this.overTilt = overTilt;
     this.canvas = element('canvas', {role: 'img', 'aria-label': overTilt ? 'Forces over the tilt' : 'Forces, hold force and tilt over the last ten seconds'});
     place.append(this.canvas);

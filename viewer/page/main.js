@@ -169,7 +169,7 @@ function countPictures(view, panels) {
 async function start() {
   const about = await loadScene();
   setTitles(about);
-  const panels = new Panels(about), charts = new Charts(find('charts'), about.mode === 'grips');
+  const panels = new Panels(about), charts = new Charts(find('charts'), about.mode === 'grips', Boolean(about.strength));
   const view = makeView(about);
   const parts = {about, panels, charts, view, control: null, playback: null, grips: null};
   const show = makeShow(parts);
