@@ -12,6 +12,7 @@
 #include <bit>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "core/contact.h"
@@ -280,6 +281,34 @@ TEST(HandView, TwoTipsHoldAsKernelSevenSays) {
   }
   EXPECT_GT(held, 50);
   EXPECT_LT(least, 0.9) << "the other fingers help";
+}
+
+// No weight takes no effort, and smooth tips hold nothing that weighs: numbers all the same.
+TEST(HandView, HoldsAtTheEdges) {
+  Scene scene = scene_of({beaker1()});
+  scene.strength.emplace();
+  const auto evaluator = make_core_evaluator(scene);
+  Scene weightless = scene, smooth = scene;
+  weightless.gravity = 0;
+  smooth.force.friction = 0;
+  const LiveScene afloat(weightless), slippery(smooth);
+  int compared = 0;
+  for (const GripInput& grip : sample_grips(scene.vessels[0], 40, 7)) {
+    GripResult result;
+    evaluator->grip(0, grip, result);
+    if (result.reason != Reason::none) continue;
+    ++compared;
+    const HeldGrip held = hold(scene, grip, result);
+    const HandView light = hand_view(afloat, held.tick, held.poses), sliding = hand_view(slippery, held.tick, held.poses);
+    ASSERT_TRUE(light.hold && sliding.hold);
+    EXPECT_EQ(light.hold->effort, 0);
+    EXPECT_EQ(light.hold->tips_force(), 0);
+    EXPECT_TRUE(light.hold->presses.empty());
+    EXPECT_EQ(sliding.hold->tips_force(), std::numeric_limits<double>::infinity());
+    EXPECT_GE(sliding.hold->force(), 0);
+    EXPECT_EQ(sliding.hold->presses.empty(), std::isinf(sliding.hold->effort));
+  }
+  EXPECT_GT(compared, 10);
 }
 
 TEST(HandView, WithoutStrengthsNothingIsSolved) {
