@@ -167,7 +167,8 @@ class AGrip(ViewerTest):
         largest = max(math.hypot(*contact["force_N"]) for contact in pressing)
         self.assertEqual(len(holding["contacts"]), len(pressing))
         for seen, contact in zip(holding["contacts"], pressing):
-            self.assert_near(turned_back(vessel["rotation"], minus(seen["place"], vessel["place"])), contact["point_m"], 2 * DIGITS, "place")
+            place = turned_back(vessel["rotation"], minus(seen["place"], vessel["place"]))
+            self.assert_near(place, contact["point_m"], 2 * DIGITS, "place")
             self.assert_near(turned_back(vessel["rotation"], seen["force"]), contact["force_N"], 1e-5 * largest, "force")
         arrows = page.evaluate("""wholehand.view.arrows.list.filter(({arrow}) => arrow.visible).map(({arrow, parts: [, head]}) => {
           const end = head.position.clone().setY(head.position.y + head.scale.y);
@@ -176,7 +177,8 @@ class AGrip(ViewerTest):
         for arrow, seen, contact in zip(arrows, holding["contacts"], pressing):
             self.assert_near(arrow["place"], seen["place"], 2 * DIGITS, "the head is at the contact")
             self.assertAlmostEqual(arrow["length"] / 0.045, math.hypot(*contact["force_N"]) / largest, delta=1e-4)
-        shown = page.evaluate("(({effort, tipsEffort, arrow}) => [effort, tipsEffort, arrow].map((place) => place.textContent))(wholehand.panels.forceRows)")
+        shown = page.evaluate("(({effort, tipsEffort, arrow}) => [effort, tipsEffort, arrow].map((place) => place.textContent))"
+                              "(wholehand.panels.forceRows)")
         percent = [f"{100 * effort:.{1 if effort < 0.1 else 0}f} %" for effort in (holding["effort"], holding["tips_effort"])]
         self.assertEqual(shown, percent + [f"{largest:.2f}"])
 

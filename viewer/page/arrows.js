@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The forces of the hand on the vessel: arrows whose heads lie at the contacts. The largest has a fixed length, the others are in proportion.
-// What is behind something is pale.
+// The forces of the hand on the vessel: arrows whose heads lie at the contacts. The largest has a fixed length, the others are in
+// proportion. What is behind something is pale.
 import * as THREE from './three.module.js';
 import {FORCE_COLOR, onThemeChange, schemeColor} from './theme.js';
 
