@@ -11,6 +11,8 @@ namespace {
 
 constexpr Real NEVER = std::numeric_limits<Real>::infinity();
 constexpr Real ROUNDING = SINGLE ? Real(1e-5) : Real(1e-11);  // of numbers of size 1 after the pivots of a solve
+constexpr Real LEAST_PIVOT = SINGLE ? Real(1e-4) : Real(1e-9);   // of the largest of its column
+constexpr int FRESH_PIVOTS = 50;                              // after so many the inverse is made anew
 constexpr Real LEAST_LENGTH = Real(1e-3);                     // m: of a single contact, which has no extent
 
 template <class Six>
@@ -104,8 +106,8 @@ EffortSolver::Vec6 EffortSolver::levels(const Vec6& wanted) const {
   return levels;
 }
 
-// Six artificial columns of great cost, at right angles and with equal shares of `wanted`: a basis with a level of 0 would be degenerate from
-// the start. They are the columns of the reflection that takes (1, .., 1) / sqrt 6 to the unit vector along `wanted`.
+// Six artificial columns, which no contact carries, at right angles and with equal shares of `wanted`: a basis with a level of 0 would be
+// degenerate from the start. They are the columns of the reflection that takes (1, .., 1) / sqrt 6 to the unit vector along `wanted`.
 void EffortSolver::begin(const Vec6& wanted) {
   const Real size = std::sqrt(dot6(wanted, wanted));
   Vec6 mirror{};
@@ -119,32 +121,37 @@ void EffortSolver::begin(const Vec6& wanted) {
       const Real reflected = square > 0 ? 2 * mirror[r] * mirror[k] / square : Real(0);
       columns_[r].point[k] = (r == k ? Real(1) : Real(0)) - reflected;
     }
-    columns_[r].cost = dear_;
+    columns_[r].is_artificial = true;
     inverse_[r] = columns_[r].point;  // the reflection is its own inverse
   }
   has_basis_ = true;
 }
 
-// The column takes the place of the one whose level comes to zero first; of equal ones the dearest. False: there is none.
+// The column takes the place of the one whose level comes to zero first; of equal ones an artificial one. An artificial column that carries
+// nothing leaves before any other, lest it carry something afterwards. False: there is none.
 bool EffortSolver::enter(const Column& column, const Vec6& wanted) {
   const Vec6 turned = levels(column.point), now = levels(wanted);
+  const Real rounding = ROUNDING * std::sqrt(dot6(wanted, wanted));
   Real largest = 0;
   for (const Real value : turned) largest = std::max(largest, std::abs(value));
   std::size_t leaves = 6;
   Real least = NEVER;
   for (std::size_t r = 0; r < 6; ++r) {
-    if (!(turned[r] > ROUNDING * largest)) continue;
-    const Real ratio = std::max(Real(0), now[r]) / turned[r];
+    const bool is_idle = columns_[r].is_artificial && now[r] <= rounding && turned[r] < -LEAST_PIVOT * largest;
+    if (!is_idle && !(turned[r] > LEAST_PIVOT * largest)) continue;
+    const Real ratio = is_idle ? Real(0) : std::max(Real(0), now[r]) / turned[r];
     const bool is_tie = leaves < 6 && std::abs(ratio - least) <= ROUNDING * least;
-    const bool is_better = leaves < 6 && (columns_[r].cost > columns_[leaves].cost ||
-                                          (columns_[r].cost == columns_[leaves].cost && turned[r] > turned[leaves]));
+    const bool is_better =
+        leaves < 6 && (columns_[r].is_artificial != columns_[leaves].is_artificial ? columns_[r].is_artificial
+                                                                                  : std::abs(turned[r]) > std::abs(turned[leaves]));
     if (is_tie ? is_better : ratio < least) {
       leaves = r;
       least = ratio;
     }
   }
   if (leaves == 6) return false;
-  for (Real& value : inverse_[leaves]) value /= turned[leaves];
+  const Real pivot = turned[leaves];
+  for (Real& value : inverse_[leaves]) value /= pivot;
   for (std::size_t r = 0; r < 6; ++r) {
     if (r == leaves) continue;
     for (std::size_t k = 0; k < 6; ++k) inverse_[r][k] -= turned[r] * inverse_[leaves][k];
@@ -185,8 +192,7 @@ EffortSolver::Cost EffortSolver::cost_of(const Vec6& levels) const {
   Cost cost;
   for (std::size_t r = 0; r < 6; ++r) {
     const Real level = std::max(Real(0), levels[r]);
-    const bool is_artificial = columns_[r].cost > 1;
-    (is_artificial ? cost.artificial : cost.real) += level;
+    (columns_[r].is_artificial ? cost.artificial : cost.real) += level;
     cost.least = std::min(cost.least, levels[r]);
   }
   return cost;
@@ -200,8 +206,19 @@ Real EffortSolver::bound(const Wrench& load) const {
   return cost.least < -rounding || cost.artificial > rounding ? NEVER : cost.real;
 }
 
-// u = costs times inverse: what the basis says a wrench is worth. A point of Z that is worth more than 1 enters. (-w).u / h(u) is a lower bound of
-// the effort for any u, and the basis' cost an upper one once no artificial column carries anything.
+// What the basis says a wrench is worth: u = costs times inverse. Costs are 1 for artificial columns and 0 for the others while artificial
+// columns carry something, and the other way round after that: one great cost for the artificial columns would take as many digits of u.
+EffortSolver::Column EffortSolver::priced(bool is_short) const {
+  Column column;
+  for (std::size_t r = 0; r < 6; ++r) {
+    if (columns_[r].is_artificial != is_short) continue;
+    for (std::size_t k = 0; k < 6; ++k) column.direction[k] += inverse_[r][k];
+  }
+  return column;
+}
+
+// (-w).u / h(u) is a lower bound of the effort for any u, and the levels' sum an upper one once no artificial column carries anything. A
+// point of Z that is worth more than the columns of the basis enters.
 Effort EffortSolver::solve(const Wrench& load, Real tolerance) {
   Effort answer;
   last_ = {};
@@ -214,20 +231,20 @@ Effort EffortSolver::solve(const Wrench& load, Real tolerance) {
   if (!has_basis_ || !std::isfinite(bound(load))) begin(wanted);
   Vec6 best{};  // the direction of the greatest lower bound
   for (;; ++answer.pivots) {
+    if (answer.pivots % FRESH_PIVOTS == FRESH_PIVOTS - 1 && !invert()) break;
     const Cost cost = cost_of(levels(wanted));
-    const Real upper = cost.real + dear_ * cost.artificial;
-    Column column;
-    for (std::size_t r = 0; r < 6; ++r)
-      for (std::size_t k = 0; k < 6; ++k) column.direction[k] += columns_[r].cost * inverse_[r][k];
+    const bool is_short = cost.artificial > ROUNDING * size;
+    Column column = priced(is_short);
     const Real height = support(column.direction, column.point), value = dot6(column.direction, wanted);
     if (value > 0 && value > answer.low * height) {
       answer.low = height > 0 ? value / height : NEVER;
       best = column.direction;
     }
-    if (!std::isfinite(answer.low) || upper - answer.low <= tolerance * upper) break;
-    if (answer.pivots == EFFORT_PIVOTS || !(height > 1) || !enter(column, wanted)) break;
+    if (answer.low > dear_ * size) answer.low = NEVER;
+    if (!std::isfinite(answer.low) || (!is_short && cost.real - answer.low <= tolerance * cost.real)) break;
+    if (answer.pivots == EFFORT_PIVOTS || !(height > (is_short ? Real(0) : Real(1))) || !enter(column, wanted)) break;
   }
-  if (invert()) {
+  if (std::isfinite(answer.low) && invert()) {
     last_ = levels(wanted);
     Vec6 rest = wanted;  // what rounding of the inverse leaves unbalanced, where columns are nearly parallel
     for (std::size_t r = 0; r < 6; ++r)
@@ -253,7 +270,7 @@ void EffortSolver::forces(std::span<ContactForce> forces) const {
   for (ContactForce& force : forces) force = {};
   if (!has_basis_) return;
   for (std::size_t r = 0; r < 6; ++r) {
-    if (columns_[r].cost > 1 || !(last_[r] > 0)) continue;
+    if (columns_[r].is_artificial || !(last_[r] > 0)) continue;
     const Best best = best_contacts(columns_[r].direction);
     for (std::size_t digit = 0; digit < DIGITS; ++digit) {
       if (best[digit] < 0) continue;

@@ -74,7 +74,7 @@ class EffortSolver {
   struct Column {
     Vec6 point{};      // of Z, or of an artificial direction
     Vec6 direction{};  // whose support it is
-    Real cost = 1;
+    bool is_artificial = false;
   };
 
   // Levels of the basis: what contacts and artificial columns carry, and the least of them.
@@ -88,6 +88,7 @@ class EffortSolver {
   Cost cost_of(const Vec6& levels) const;
   Real press(const ContactPoint& contact, const Vec6& direction, Vec6* wrench, ContactForce* force) const;
   Real support(const Vec6& direction, Vec6& point) const;
+  Column priced(bool is_short) const;
   Vec6 levels(const Vec6& wanted) const;
   void begin(const Vec6& wanted);
   bool enter(const Column& column, const Vec6& wanted);
@@ -97,7 +98,7 @@ class EffortSolver {
   HandStrength hand_;
   Vec3 center_;
   Real unit_force_ = 1, unit_length_ = 1;  // N, m
-  Real dear_ = UNRESISTED_EFFORT;          // cost of an artificial column
+  Real dear_ = UNRESISTED_EFFORT;          // times the load's own size, an effort that counts as infinite
   std::array<Column, 6> columns_{};
   std::array<Vec6, 6> inverse_{};  // rows
   Vec6 last_{};                    // levels of the last load
