@@ -14,6 +14,10 @@ constexpr Real ROUNDING = SINGLE ? Real(1e-5) : Real(1e-11);  // of numbers of s
 constexpr Real LEAST_PIVOT = SINGLE ? Real(1e-4) : Real(1e-9);   // of the largest of its column
 constexpr int FRESH_PIVOTS = 50;                              // after so many the inverse is made anew
 constexpr Real LEAST_LENGTH = Real(1e-3);                     // m: of a single contact, which has no extent
+// A basis costs at most so many times what an artificial column of the load's size does: the first one costs sqrt 6 times, and pivots go down.
+// What costs more is rounding, of a friction of 1e-200 for example.
+constexpr Real FIRST_COST = Real(3);
+constexpr Real UNBALANCED = SINGLE ? Real(1e-2) : Real(1e-7);  // of a load: forces that leave more of it are no answer
 
 template <class Six>
 Real dot6(const Six& a, const Six& b) {
@@ -206,6 +210,14 @@ Real EffortSolver::bound(const Wrench& load) const {
   return cost.least < -rounding || cost.artificial > rounding ? NEVER : cost.real;
 }
 
+// What the last levels leave of a wrench, levels below zero being none.
+Real EffortSolver::unbalanced(const Vec6& wanted) const {
+  Vec6 rest = wanted;
+  for (std::size_t r = 0; r < 6; ++r)
+    for (std::size_t k = 0; k < 6; ++k) rest[k] -= std::max(Real(0), last_[r]) * columns_[r].point[k];
+  return std::sqrt(dot6(rest, rest));
+}
+
 // What the basis says a wrench is worth: u = costs times inverse. Costs are 1 for artificial columns and 0 for the others while artificial
 // columns carry something, and the other way round after that: one great cost for the artificial columns would take as many digits of u.
 EffortSolver::Column EffortSolver::priced(bool is_short) const {
@@ -229,7 +241,8 @@ Effort EffortSolver::solve(const Wrench& load, Real tolerance) {
     return answer;
   }
   if (!has_basis_ || !std::isfinite(bound(load))) begin(wanted);
-  Vec6 best{};  // the direction of the greatest lower bound
+  Vec6 best{};            // the direction of the greatest lower bound
+  bool is_fresh = false;  // the inverse
   for (;; ++answer.pivots) {
     if (answer.pivots % FRESH_PIVOTS == FRESH_PIVOTS - 1 && !invert()) break;
     const Cost cost = cost_of(levels(wanted));
@@ -242,9 +255,17 @@ Effort EffortSolver::solve(const Wrench& load, Real tolerance) {
     }
     if (answer.low > dear_ * size) answer.low = NEVER;
     if (!std::isfinite(answer.low) || (!is_short && cost.real - answer.low <= tolerance * cost.real)) break;
-    if (answer.pivots == EFFORT_PIVOTS || !(height > (is_short ? Real(0) : Real(1))) || !enter(column, wanted)) break;
+    if (answer.pivots == EFFORT_PIVOTS) break;
+    if (height > (is_short ? Real(0) : Real(1)) && enter(column, wanted)) {
+      is_fresh = false;
+    } else if (is_fresh || !invert()) {  // what ends the search may be the rounding that the inverse has gathered
+      break;
+    } else {
+      is_fresh = true;
+    }
   }
-  if (std::isfinite(answer.low) && invert()) {
+  bool is_certain = !std::isfinite(answer.low);
+  if (!is_certain && invert()) {
     last_ = levels(wanted);
     Vec6 rest = wanted;  // what rounding of the inverse leaves unbalanced, where columns are nearly parallel
     for (std::size_t r = 0; r < 6; ++r)
@@ -252,15 +273,17 @@ Effort EffortSolver::solve(const Wrench& load, Real tolerance) {
     const Vec6 more = levels(rest);
     for (std::size_t r = 0; r < 6; ++r) last_[r] += more[r];
     const Cost cost = cost_of(last_);
-    if (cost.artificial <= ROUNDING * size) {
+    const bool is_held = cost.artificial <= ROUNDING * size && cost.real <= FIRST_COST * dear_ * size;
+    if (is_held && unbalanced(wanted) <= UNBALANCED * size) {
       answer.effort = cost.real;
       answer.low = std::min(answer.low, answer.effort);
       return answer;
     }
+    is_certain = !is_held && answer.pivots < EFFORT_PIVOTS;
   }
   has_basis_ = false;
   answer.effort = NEVER;
-  if (answer.pivots < EFFORT_PIVOTS) answer.low = NEVER;
+  if (is_certain) answer.low = NEVER;
   const Real largest = std::max(glm::length(first(best)), glm::length(second(best)));
   answer.escape = joined(-first(best) / largest, -second(best) / (largest * unit_length_));
   return answer;

@@ -45,8 +45,8 @@ struct ContactForce {
 
 // The least effort lies in [low, effort], and forces of `effort` balance the load. Not resisted by any force: both infinite, and `escape` is the
 // motion of the object (velocity of the solver's center, m/s, and angular velocity, rad/s, scaled together) along which the load pushes it and no
-// contact opposes: the support value of -escape is small beside the load's power. `low` stays finite where EFFORT_PIVOTS ended the search before that
-// was certain.
+// contact opposes: the support value of -escape is small beside the load's power. `low` stays finite where EFFORT_PIVOTS or rounding ended the
+// search before that was certain.
 struct Effort {
   Real effort = 0, low = 0;
   std::array<Real, 6> escape{};
@@ -90,6 +90,7 @@ class EffortSolver {
   Real support(const Vec6& direction, Vec6& point) const;
   Column priced(bool is_short) const;
   Vec6 levels(const Vec6& wanted) const;
+  Real unbalanced(const Vec6& wanted) const;
   void begin(const Vec6& wanted);
   bool enter(const Column& column, const Vec6& wanted);
   bool invert();
