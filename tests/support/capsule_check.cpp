@@ -25,7 +25,17 @@ SkinSphere sphere_along(const CheckedBone& bone, int step) {
   return sphere;
 }
 
-double distance_between(const Triple& a, const Triple& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+double distance_between(const Triple& a, const Triple& b) {
+  const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+  return std::sqrt(x * x + y * y + z * z);
+}
+
+// That of two bones is never more: neither has skin further from its middle than half its length and its larger radius.
+double most_overlap(const CheckedBone& a, const CheckedBone& b) {
+  double reach = 0;
+  for (const CheckedBone* bone : {&a, &b}) reach += bone->length() / 2 + std::max(bone->start_radius, bone->end_radius);
+  return reach - distance_between(sphere_along(a, BONE_STEPS / 2).center, sphere_along(b, BONE_STEPS / 2).center);
+}
 
 double overlap_of(const CheckedBone& a, const CheckedBone& b) {
   double largest = -INFINITE;
@@ -82,6 +92,7 @@ CapsuleCheck check_capsules(const Scene& scene, const Evaluator& evaluator, std:
     for (std::size_t b = 0; b < a; ++b) {
       const CheckedBone &one = check.bones[a], &other = check.bones[b];
       if (one.finger == other.finger || one.is_metacarpal || other.is_metacarpal) continue;
+      if (most_overlap(one, other) <= check.overlap) continue;
       const double overlap = overlap_of(one, other);
       if (overlap <= check.overlap) continue;
       check.overlap = overlap;
