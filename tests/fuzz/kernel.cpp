@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <memory>
 #include <numeric>
 #include <string>
@@ -21,62 +20,13 @@
 #include "core/evaluator.h"
 #include "scene/ranges.h"
 #include "scene/reader.h"
+#include "tests/fuzz/choices.h"
 #include "tests/fuzz/must.h"
 
 namespace wholehand {
 namespace {
 
 constexpr int LARGEST_ELEMENTS = 10, LARGEST_STATES = 3, GRIPS = 6;
-
-// Bytes as choices and numbers; past their end all are 0.
-class Choices {
- public:
-  Choices(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
-
-  int of(int count) { return byte() % count; }
-  bool yes() { return of(2) == 1; }
-
-  double share() { return (byte() + 256.0 * byte()) / 65535; }
-
-  // A number of the range: a share of it, an end, one beside one that was, or eight bytes as they stand.
-  double in(const Quantity& range) {
-    static constexpr double NUDGES[] = {0, 1e-17, -1e-12, 1e-9, -1e-6, 1e-3, 5e-324, 1e-300};
-    double value = 0;
-    switch (of(6)) {
-      case 0:
-        value = range.low;
-        break;
-      case 1:
-        value = range.high;
-        break;
-      case 2:
-        value = numbers_[of(KEPT)] * (yes() ? 1 : -1) + NUDGES[of(8)];
-        break;
-      case 3: {
-        std::uint8_t bytes[sizeof value];
-        for (std::uint8_t& b : bytes) b = byte();
-        std::memcpy(&value, bytes, sizeof value);
-        break;
-      }
-      default:
-        value = range.low + share() * (range.high - range.low);
-    }
-    value = std::isfinite(value) ? std::clamp(value, range.low, range.high) : range.low;
-    return keep(value);
-  }
-
-  // One that later numbers may be equal or near to.
-  double keep(double value) { return numbers_[next_++ % KEPT] = value; }
-
- private:
-  static constexpr int KEPT = 16;
-  std::uint8_t byte() { return at_ < size_ ? data_[at_++] : 0; }
-
-  const std::uint8_t* data_;
-  std::size_t size_, at_ = 0;
-  double numbers_[KEPT] = {};
-  std::size_t next_ = 0;
-};
 
 std::string key(const char* name, double value) { return fmt::format("{} = {:.17g}\n", name, value); }
 
@@ -165,11 +115,28 @@ std::string scene_of(Choices& choose) {
   if (choose.yes()) {
     text += "[force]\n" + key("base_N", choose.in(ranges::BASE_FORCE)) + key("range_N", choose.in(ranges::FORCE_RANGE)) +
             key("max_N", choose.in(ranges::MAX_FORCE)) + key("friction", choose.in(ranges::FRICTION)) +
-            key("torsion_mm", choose.in(ranges::TORSION)) + key("grip_strength_N", choose.in(ranges::GRIP_STRENGTH));
+            key("torsion_mm", choose.in(ranges::TORSION));
+    const double strength = choose.in(ranges::GRIP_STRENGTH);
     if (choose.yes()) text += "torque = \"exact\"\n";
     if (choose.yes()) text += "reference = \"per_grip\"\n";
+    text += "[strength]\n" + key("thumb_N", strength);
   }
   return text + "[tilts]\n" + ascending(choose, "deg", ranges::TILT);
+}
+
+// A further key of a table that the scene has.
+void add_key(std::string& text, const std::string& table, const std::string& key) {
+  const std::size_t at = text.find(table + "\n");
+  if (at != std::string::npos) text.insert(at + table.size() + 1, key);
+}
+
+// What was added to scenes later: chosen after all else, so that a seed that was found before is still the scene that it was.
+void add_later_keys(Choices& choose, std::string& text) {
+  for (const char* digit : {"index_N", "middle_N", "ring_N", "little_N", "palm_N"})
+    if (choose.yes()) add_key(text, "[strength]", key(digit, choose.in(ranges::GRIP_STRENGTH)));
+  if (choose.yes() && text.find("[liquid]") != std::string::npos)
+    add_key(text, "[tilts]", key("until_poured", choose.in(ranges::POURED_SHARE)));
+  if (choose.yes()) text += "[table]\n" + key("clearance_mm", choose.in(ranges::TABLE_CLEARANCE));
 }
 
 std::vector<GripInput> grips_of(Choices& choose, const Scene& scene) {
@@ -221,8 +188,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace wholehand;
   Choices choose(data, size);
   try {
-    const Scene scene = parse_scene(scene_of(choose), "fuzz.toml");
-    const std::vector<GripInput> grips = grips_of(choose, scene);
+    std::string text = scene_of(choose);
+    const std::vector<GripInput> grips = grips_of(choose, parse_scene(text, "fuzz.toml"));
+    add_later_keys(choose, text);
+    const Scene scene = parse_scene(text, "fuzz.toml");
     check(scene, *make_core_evaluator(scene), grips, "double");
     check(scene, *make_core_float_evaluator(scene), grips, "float");
   } catch (const Error& error) {
