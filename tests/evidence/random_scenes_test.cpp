@@ -60,19 +60,23 @@ Comparer compared(const Scene& scene, const Evaluator& core, Allowance allowed, 
 
 TEST(RandomScenes, AreTheSameEachTimeAndOfEveryKind) {
   EXPECT_EQ(random_scene(3).text, random_scene(3).text);
-  std::size_t arcs = 0, shells = 0, left = 0, dry = 0, still = 0, poses[3] = {};
+  std::size_t arcs = 0, shells = 0, left = 0, dry = 0, still = 0, strong = 0, on_a_table = 0, until_poured = 0, poses[3] = {};
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     const Scene scene = random_scene(seed);
     ++poses[static_cast<int>(scene.pose)];
     left += scene.hand.handedness == Handedness::left;
     dry += !scene.liquid;
     still += scene.tilts.empty();
+    strong += scene.strength.has_value();
+    on_a_table += scene.table.has_value();
+    until_poured += scene.until_poured.has_value();
     for (const VesselData& vessel : scene.vessels) {
       shells += vessel.surface == Surface::shell;
       for (const OutlineElement& element : vessel.outline) arcs += element.is_arc;
     }
   }
-  for (const std::size_t count : {arcs, shells, left, dry, still, poses[0], poses[1], poses[2]}) EXPECT_GT(count, 5u);
+  for (const std::size_t count : {arcs, shells, left, dry, still, strong, on_a_table, until_poured, poses[0], poses[1], poses[2]})
+    EXPECT_GT(count, 5u);
 }
 
 TEST(RandomScenes, WhereFloatIsNotEnoughASweepWarns) {

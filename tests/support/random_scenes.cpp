@@ -134,7 +134,7 @@ std::string random_hand(Draw& draw, double scale) {
 }
 
 std::string random_forces(Draw& draw) {
-  std::string text;
+  std::string text, strength;
   if (draw.chance(0.6)) {
     text += fmt::format("[liquid]\nfills = {}\n", ascending(draw, 1 + draw.of(3), 0, 1));
     if (draw.chance(0.4)) text += key("density_kg_m3", draw.over(1, 25000));
@@ -147,9 +147,10 @@ std::string random_forces(Draw& draw) {
     if (draw.chance(0.5)) text += key("max_N", draw.chance(0.1) ? 0 : draw.over(0.1, 1000));
     if (draw.chance(0.5)) text += key("friction", draw.chance(0.2) ? 0 : draw.over(0.01, 10));
     if (draw.chance(0.5)) text += key("torsion_mm", draw.chance(0.2) ? 0 : draw.over(0.01, 100));
-    if (draw.chance(0.5)) text += key("grip_strength_N", draw.over(0.1, 10000));
+    if (draw.chance(0.5)) strength = "[strength]\n" + key("thumb_N", draw.over(0.1, 10000));
     if (draw.chance(0.5)) text += "torque = \"exact\"\n";
     if (draw.chance(0.5)) text += "reference = \"per_grip\"\n";
+    text += strength;
   }
   if (draw.chance(0.8)) text += fmt::format("[tilts]\ndeg = {}\n", ascending(draw, 1 + draw.of(4), 0, 180));
   if (draw.chance(0.2))
@@ -177,6 +178,21 @@ std::string random_grips(Draw& draw, double size) {
   return text;
 }
 
+// A further key of a table that the scene has.
+void add_key(std::string& text, const std::string& table, const std::string& key) {
+  const std::size_t at = text.find(table + "\n");
+  if (at != std::string::npos) text.insert(at + table.size() + 1, key);
+}
+
+// Drawn last, so that the rest of a scene is what it was before there were these keys.
+void add_later_keys(Draw& draw, std::string& text) {
+  if (draw.chance(0.3)) text += "[table]\n" + key("clearance_mm", draw.between(0, 10));
+  if (draw.chance(0.3) && text.find("[liquid]") != std::string::npos)
+    add_key(text, "[tilts]", key("until_poured", draw.chance(0.2) ? 1 : draw.over(1e-3, 1)));
+  for (const char* digit : {"index_N", "middle_N", "ring_N", "little_N", "palm_N"})
+    if (draw.chance(0.5)) add_key(text, "[strength]", key(digit, draw.chance(0.2) ? draw.over(0.1, 10000) : draw.over(5, 100)));
+}
+
 std::string random_scene_text(std::uint64_t seed) {
   Draw draw(seed);
   std::string text = fmt::format("[scene]\nname = \"random-{}\"\npose = \"{}\"\n", seed,
@@ -190,8 +206,7 @@ std::string random_scene_text(std::uint64_t seed) {
   const int vessels = draw.chance(0.7) ? 1 : 2;
   for (int v = 0; v < vessels; ++v)
     text += random_vessel(draw, v, draw.chance(0.9) ? std::clamp(size * draw.between(0.7, 1.2), 1.0, 5000.0) : draw.over(2, 5000));
-  // last, so that the rest of a scene is what it was before there were tables
-  if (draw.chance(0.3)) text += "[table]\n" + key("clearance_mm", draw.between(0, 10));
+  add_later_keys(draw, text);
   return text;
 }
 
