@@ -13,11 +13,14 @@
 #include <vector>
 
 #include "app/paths.h"
+#include "core/effort.h"
 #include "core/force.h"
+#include "core/joints.h"
 #include "core/prepare.h"
 #include "evidence/extreme.h"
 #include "scene/reader.h"
 #include "sweeps/plan.h"
+#include "tests/support/capsule_check.h"
 #include "tests/support/extreme_scenes.h"
 #include "tests/support/whole_parity.h"
 
@@ -26,6 +29,36 @@ namespace {
 
 constexpr double STOP = STOP_TOLERANCE_F64;
 constexpr double MICROMETRE = 1e-6;
+
+// ---- the effort of a grip, its vessel upright and empty ----
+
+// `tips_only`: thumb and index tip press alone.
+core_f64::Effort upright_effort(const AnsweredScene& a, std::size_t v, std::size_t i, const core_f64::HandStrength& hand,
+                                bool tips_only = false) {
+  std::vector<core_f64::ContactPoint> contacts;
+  for (const GripContact& at : a.core->contacts(v, a.result(v, i))) {
+    const bool is_tip = at.joint == finger_start(0) + 3 || at.joint == finger_start(1) + 4;
+    if (tips_only && !is_tip) continue;
+    contacts.push_back({{at.point[0], at.point[1], at.point[2]}, {at.normal[0], at.normal[1], at.normal[2]}, at.digit});
+  }
+  const VesselConstants vessel = a.core->constants(v);
+  const core_f64::Vec3 center(vessel.center_of_mass[0], vessel.center_of_mass[1], vessel.center_of_mass[2]);
+  core_f64::EffortSolver solver(contacts, hand, center);
+  return solver.solve(core_f64::wrench_at(center, {0, -vessel.mass * a.scene.gravity, 0}));
+}
+
+core_f64::HandStrength even_strength(const AnsweredScene& a, double strength) {
+  core_f64::HandStrength hand{a.scene.force.friction, a.scene.force.torsion, {}};
+  hand.digits.fill(strength);
+  return hand;
+}
+
+core_f64::HandStrength scene_strength(const AnsweredScene& a) {
+  return {a.scene.force.friction, a.scene.force.torsion, a.scene.strength->digits};
+}
+
+// Prices of 1e6, or as much times as the digits differ in strength, each rounded by 1e-16.
+constexpr double EFFORT_ROUNDED = 1e-6;
 
 // ---- what must come out, scene by scene, of the core in double ----
 
@@ -219,6 +252,65 @@ void no_friction(const AnsweredScene& a) {
     EXPECT_TRUE(std::isnan(a.real(FIELD_SAFE_TILT, v, i)));
     EXPECT_TRUE(std::isfinite(a.real(FIELD_FEEDBACK_FORCE, v, i, s)));
   });
+  a.each([&](std::size_t v, std::size_t i) {
+    const core_f64::Effort tips = upright_effort(a, v, i, scene_strength(a), true);
+    EXPECT_EQ(tips.low, HUGE_VAL) << i;
+    EXPECT_EQ(tips.effort, HUGE_VAL) << i;
+  });
+}
+
+// From the weakest to the strongest hand less effort; the two are alike but for the size of all strengths.
+void weak_and_strong(const AnsweredScene& a) {
+  std::size_t held = 0;
+  a.each([&](std::size_t v, std::size_t i) {
+    const core_f64::Effort weak = upright_effort(a, v, i, even_strength(a, 0.1)),
+                           mixed = upright_effort(a, v, i, scene_strength(a)),
+                           strong = upright_effort(a, v, i, even_strength(a, 10000));
+    EXPECT_EQ(std::isfinite(weak.effort), std::isfinite(strong.effort)) << i;
+    if (a.antipodal(v, i)) {
+      EXPECT_TRUE(std::isfinite(weak.effort)) << i;
+    }
+    if (!std::isfinite(weak.effort)) return;
+    ++held;
+    EXPECT_NEAR(weak.effort, 1e5 * strong.effort, EFFORT_ROUNDED * weak.effort) << i;
+    EXPECT_LE(strong.low, mixed.effort * (1 + EFFORT_ROUNDED)) << i;
+    EXPECT_LE(mixed.low, weak.effort * (1 + EFFORT_ROUNDED)) << i;
+  });
+  EXPECT_GT(held, 10u);
+}
+
+void most_friction(const AnsweredScene& a) {
+  core_f64::HandStrength usual = scene_strength(a);
+  usual.friction = 0.6;
+  std::size_t held = 0;
+  a.each([&](std::size_t v, std::size_t i) {
+    const core_f64::Effort rough = upright_effort(a, v, i, scene_strength(a)), smooth = upright_effort(a, v, i, usual);
+    EXPECT_LE(rough.low, smooth.effort * (1 + EFFORT_ROUNDED)) << i;
+    if ((a.status(v, i) & STATUS_GRAZING) != 0) return;
+    EXPECT_TRUE(a.antipodal(v, i)) << i;
+    EXPECT_TRUE(std::isfinite(rough.effort)) << i;
+    held += std::isfinite(smooth.effort) ? 1 : 0;
+  });
+  EXPECT_GT(held, 10u);
+}
+
+void far_above_the_table(const AnsweredScene& a) {
+  Scene bare = a.scene;
+  bare.table->clearance = 0;
+  const AnsweredScene b(bare);
+  std::size_t plausible = 0, through = 0;
+  a.each([&](std::size_t v, std::size_t i) {
+    const double depth = a.real(FIELD_TABLE_DEPTH, v, i);
+    EXPECT_NEAR(depth, b.real(FIELD_TABLE_DEPTH, v, i) + 0.1, 1e-15) << i;
+    EXPECT_EQ((a.status(v, i) & STATUS_THROUGH_TABLE) != 0, depth > 0) << i;
+    through += depth > 0 ? 1 : 0;
+    if ((a.status(v, i) & STATUS_PLAUSIBLE) == 0) return;
+    ++plausible;
+    const CapsuleCheck check = check_capsules(a.scene, *a.core, v, a.grips[v][i], a.result(v, i));
+    EXPECT_GE(check.lowest, 0.1 - 1e-12) << i;
+  });
+  EXPECT_GT(plausible, 3u);
+  EXPECT_GT(through, 10u);
 }
 
 // Upright, a line across the axis meets the weight's; any other passes it.
@@ -231,6 +323,11 @@ void no_torsion(const AnsweredScene& a) {
     const double needed = meets ? weight / (2 * a.scene.force.friction) : HUGE_VAL;
     EXPECT_TRUE(hold == needed || std::abs(hold - needed) < 1e-14 * weight) << i << " " << hold;
     finite += meets ? 1 : 0;
+    if (a.scene.tilts[s] != 0) return;
+    // N, of each tip: strengths of 1
+    const core_f64::Effort tips = upright_effort(a, v, i, even_strength(a, 1), true);
+    EXPECT_LE(tips.low, needed * (1 + EFFORT_ROUNDED)) << i;
+    EXPECT_GE(tips.effort, needed * (1 - EFFORT_ROUNDED)) << i;
   });
   EXPECT_GT(finite, 10u);
 }
@@ -271,12 +368,14 @@ const std::map<std::string, void (*)(const AnsweredScene&)> LOOKS{
     {"dwarf", dwarf},
     {"edges_of_a_micrometre", edges_of_a_micrometre},
     {"empty_glass", empty_glass},
+    {"far_above_the_table", far_above_the_table},
     {"far_off", far_off},
     {"fills_at_their_ends", fills_at_their_ends},
     {"full_to_the_brim", full_to_the_brim},
     {"giant", giant},
     {"large_hand", large_hand},
     {"light_and_heavy", light_and_heavy},
+    {"most_friction", most_friction},
     {"no_friction", no_friction},
     {"no_range", no_range},
     {"no_torsion", no_torsion},
@@ -289,6 +388,7 @@ const std::map<std::string, void (*)(const AnsweredScene&)> LOOKS{
     {"tank_of_ten_metres", tank_of_ten_metres},
     {"thin_wall", thin_wall},
     {"thousand_elements", thousand_elements},
+    {"weak_and_strong", weak_and_strong},
 };
 
 TEST(Extreme, EveryCaseHasAScene) {

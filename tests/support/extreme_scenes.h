@@ -49,6 +49,11 @@ struct AnsweredScene {
   double real(int field, std::size_t v, std::size_t i, std::size_t plane = 0) const {
     return planes[v].real(fields.plane[field] + static_cast<int>(plane), i);
   }
+  GripResult result(std::size_t v, std::size_t i) const {
+    GripResult answer;
+    core->grip(v, grips[v][i], answer);
+    return answer;
+  }
   std::size_t states() const { return scene_fills(scene) * scene.tilts.size(); }
 
   // Every feasible grip, and in every state.
