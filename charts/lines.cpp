@@ -120,30 +120,45 @@ PlotArea area_of(const LineChart& chart) {
   return area;
 }
 
-// The points of a line that are on the plot, and the path through them.
+// The points of a line that are on the plot, the path through them, and those of them that have an infinite neighbour.
 struct DrawnLine {
   std::vector<Point> points;
   std::string path;
+  std::vector<Point> ends;
 };
 
 DrawnLine drawn_line(const PlotArea& area, const LineChart& chart, const LineChart::Line& line) {
   DrawnLine drawn;
   bool is_drawn = false;
+  const auto is_infinite = [&line](std::size_t k) { return k < line.y.size() && std::isinf(line.y[k]); };
   for (std::size_t k = 0; k < line.y.size(); ++k) {
     const bool is_there = std::isfinite(line.y[k]) && line.y[k] <= area.y_high;
     if (is_there) {
       const Point& p = drawn.points.emplace_back(Point{area.x(chart.x[k]), area.y(line.y[k])});
       drawn.path += fmt::format("{}{} {}", is_drawn ? "L" : "M", chart_number(p[0]), chart_number(p[1]));
+      if ((k > 0 && is_infinite(k - 1)) || is_infinite(k + 1)) drawn.ends.push_back(p);
     }
     is_drawn = is_there;
   }
   return drawn;
 }
 
+void put_cross(MarkupWriter& svg, const Point& at) {
+  constexpr double HALF = 4;  // of its width, units
+  const auto corner = [&at](double x, double y) { return chart_number(at[0] + x * HALF) + " " + chart_number(at[1] + y * HALF); };
+  const std::string path = fmt::format("M{}L{}M{}L{}", corner(-1, -1), corner(1, 1), corner(-1, 1), corner(1, -1));
+  svg.empty("path", {{"class", "line end-of-line"}, {"d", path}});
+}
+
 void put_curve(MarkupWriter& svg, const PlotArea& area, const LineChart& chart, const LineChart::Line& line, const DrawnLine& drawn,
                const std::string& style) {
   svg.open("g", {{"style", style}});
-  svg.empty("path", {{"class", "line"}, {"d", drawn.path}});
+  MarkupWriter::Attributes curve{{"class", "line"}, {"d", drawn.path}};
+  if (line.is_dashed) curve.emplace_back("stroke-dasharray", "5 3");
+  svg.empty("path", curve);
+  if (line.marks_ends) {
+    for (const Point& end : drawn.ends) put_cross(svg, end);
+  }
   const auto dot = [&](double x, double y) {
     svg.empty("circle", {{"class", "dot"}, {"cx", chart_number(x)}, {"cy", chart_number(y)}, {"r", "3.5"}});
   };

@@ -21,6 +21,8 @@ struct LineChart {
     std::vector<double> y;           // NaN or infinite: a gap
     double shade = 0;                // 0..1: its colour
     std::optional<double> marked_x;  // a dot on the line
+    bool is_dashed = false;
+    bool marks_ends = false;  // a cross at each point beyond which the line is infinite
   };
   std::vector<Line> lines;
   struct Limit {

@@ -232,6 +232,48 @@ TEST(LineChart, InfiniteValuesAreGaps) {
   EXPECT_EQ(svg.find(">2 %</text>"), std::string::npos);
 }
 
+// The middles of the crosses.
+std::vector<std::array<double, 2>> crosses_in(const std::string& svg) {
+  std::vector<std::array<double, 2>> crosses;
+  const std::regex path(R"re(<path class="line end-of-line" d="M([\d.]+) ([\d.]+)L([\d.]+) ([\d.]+)M)re");
+  for (std::sregex_iterator p(svg.begin(), svg.end(), path), end; p != end; ++p)
+    crosses.push_back({0.5 * (std::stod((*p)[1]) + std::stod((*p)[3])), 0.5 * (std::stod((*p)[2]) + std::stod((*p)[4]))});
+  return crosses;
+}
+
+// The numbers of a path, two a point.
+std::vector<double> path_numbers(const std::string& path) {
+  std::vector<double> numbers;
+  const std::regex number(R"([\d.]+)");
+  for (std::sregex_iterator n(path.begin(), path.end(), number), end; n != end; ++n) numbers.push_back(std::stod(n->str()));
+  return numbers;
+}
+
+TEST(LineChart, ACrossStandsWhereALineBecomesInfiniteAndNowhereElse) {
+  LineChart chart = three_lines();
+  chart.lines.resize(1);
+  chart.lines[0].y[3] = INFINITE;
+  chart.lines[0].y[5] = std::nan("");  // left out: the line has an end there and no cross
+  EXPECT_TRUE(crosses_in(written(chart)).empty()) << "not asked for";
+  chart.lines[0].marks_ends = true;
+  const std::string svg = written(chart);
+  const auto crosses = crosses_in(svg);
+  ASSERT_EQ(crosses.size(), 2u) << "before the gap and after it";
+  const std::vector<double> numbers = path_numbers(paths_in(svg)[0]);
+  ASSERT_EQ(numbers.size(), 8u) << "points 0, 1, 2 and 4";
+  for (const int axis : {0, 1}) {
+    EXPECT_NEAR(crosses[0][axis], numbers[4 + axis], 2 * TENTH);
+    EXPECT_NEAR(crosses[1][axis], numbers[6 + axis], 2 * TENTH);
+  }
+}
+
+TEST(LineChart, OneOfTwoLinesMayBeDashed) {
+  LineChart chart = three_lines();
+  EXPECT_EQ(count_of(written(chart), "stroke-dasharray"), 0);
+  chart.lines[1].is_dashed = true;
+  EXPECT_EQ(count_of(written(chart), "stroke-dasharray"), 1);
+}
+
 TEST(LineChart, LabelsLieApartAndWithin) {
   for (const bool is_crowded : {false, true}) {
     LineChart chart = three_lines();
