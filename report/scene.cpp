@@ -11,6 +11,7 @@
 #include "core/mesh_body.h"
 #include "core/prepare.h"
 #include "grips/methods.h"
+#include "report/strength.h"
 #include "sweeps/result_contents.h"
 #include "system/readable.h"
 
@@ -91,8 +92,15 @@ std::string force_text(const Scene& scene) {
 
 std::string hold_text(const Scene& scene) {
   const ForceData& force = scene.force;
-  return fmt::format("friction {}, torsion of a contact {} mm, grip strength {} N", plain_number(force.friction),
-                     plain_number(force.torsion * 1e3), plain_number(force.grip_strength));
+  const std::string contact =
+      fmt::format("friction {}, torsion of a contact {} mm", plain_number(force.friction), plain_number(force.torsion * 1e3));
+  if (!scene.strength) return fmt::format("{}, grip strength {} N", contact, plain_number(grip_strength(scene)));
+  std::vector<std::string> digits;
+  for (std::size_t digit = 0; digit < scene.strength->digits.size(); ++digit) {
+    const char* name = digit < FINGER_COUNT ? FINGER_NAMES[digit] : "palm";
+    digits.push_back(fmt::format("{} {}", name, plain_number(scene.strength->digits[digit])));
+  }
+  return fmt::format("{}, strength in N: {}", contact, fmt::join(digits, ", "));
 }
 
 std::string weights_text(const Scene& scene) {
@@ -180,6 +188,7 @@ std::vector<std::string> left_out(const ReportSource& source) {
   if (scene.pose == Pose::rigged) sentences.emplace_back("The projection of the fingers: the pose is rigged.");
   if (scene.tilts.empty())
     sentences.emplace_back("The forces: the scene has no tilts. Their weights in the score went to the other terms.");
+  if (!scene.strength && !scene.tilts.empty()) sentences.emplace_back("The effort of the whole hand: the scene has no [strength].");
   if (!scene.liquid) sentences.emplace_back("The liquid: the scene has no liquid.");
   if (!scene.table) sentences.emplace_back("The table: the scene has no table, so a hand may reach below the base of a vessel.");
   if (any([](const VesselData& v) { return v.surface == Surface::solid && v.wall > 0; }))
