@@ -88,7 +88,7 @@ bool value_range(const std::vector<GripMap>& maps, double MapCell::*value, doubl
   high = -INFINITY;
   for (const GripMap& map : maps) {
     for (const MapCell& cell : map.cells) {
-      if (cell.kind != CellKind::filled || !std::isfinite(cell.*value)) continue;
+      if ((value != &MapCell::effort && cell.kind != CellKind::filled) || !std::isfinite(cell.*value)) continue;
       low = std::min(low, cell.*value);
       high = std::max(high, cell.*value);
     }
@@ -133,11 +133,47 @@ void write_map(MarkupWriter& html, FieldChart& frame, const GripMap& map, double
   html.close();
 }
 
+// No effort (NaN) and a damaged one are passed over.
+void take_effort(MapCell& cell, double effort, std::uint64_t grip) {
+  if (!(effort >= 0) || cell.effort <= effort) return;
+  cell.effort = effort;
+  cell.effort_grip = grip;
+}
+
 // "0.41 to 0.87": lowest and highest over the filled cells.
 std::string extent_text(const GripMap& map, double MapCell::*value, int digits) {
   double low = 0, high = 0;
   value_range({map}, value, low, high);
   return fmt::format("{} to {}", shown_number(low, digits), shown_number(high, digits));
+}
+
+// The map of the least worst effort has greys of its own: dark where a grip is plausible and nothing holds the vessel.
+void write_effort_map(MarkupWriter& html, const ReportSource& source, std::size_t vessel, FieldChart frame, const GripMap& map,
+                      const ColorScale& scale, ChartName name) {
+  frame.kinds.clear();
+  frame.hollow.clear();
+  frame.absent.clear();
+  const MapCell* least = nullptr;
+  std::size_t infinite = 0;
+  for (const MapCell& cell : map.cells) {
+    frame.kinds.push_back(std::isfinite(cell.effort) ? CellKind::filled
+                          : std::isinf(cell.effort)  ? CellKind::hollow
+                                                     : CellKind::absent);
+    infinite += std::isinf(cell.effort);
+    if (frame.kinds.back() == CellKind::hollow) frame.hollow = "nothing holds";
+    if (frame.kinds.back() == CellKind::absent) frame.absent = "none plausible";
+    if (std::isfinite(cell.effort) && (!least || cell.effort < least->effort)) least = &cell;
+  }
+  name.description = "Heat map of the least worst effort over height and roll";
+  if (least) {
+    name.description += fmt::format(": {}. The least is at {}.", extent_text(map, &MapCell::effort, 2),
+                                    grip_text(source.plan, source.plan.grip(vessel, least->effort_grip)));
+  } else {
+    name.description += ": no grip holds the vessel.";
+  }
+  if (infinite > 0)
+    name.description += fmt::format(" In {} of {} cells no force of the hand holds the vessel.", infinite, map.cells.size());
+  write_map(html, frame, map, &MapCell::effort, scale, name);
 }
 
 std::string maps_caption(const ReportSource& source, const GripMap& map) {
@@ -148,8 +184,20 @@ std::string maps_caption(const ReportSource& source, const GripMap& map) {
   } else if (!others.empty()) {
     caption = fmt::format("Each cell shows the best grip over {}. ", others);
   }
-  caption += "All maps of a vessel show the same grips; colours mean the same for all vessels.";
+  caption += map.has_efforts
+                 ? "The maps of the score, the fingers and the force show the same grips; colours mean the same for all "
+                   "vessels."
+                 : "All maps of a vessel show the same grips; colours mean the same for all vessels.";
   if (map.is_by_core) caption += " The file lacks some of the fingers and forces; the core computed them in double precision.";
+  if (map.has_efforts) {
+    caption +=
+        " The map of the effort shows the least worst effort, which another grip may have. Where it is above 1, the hand is too "
+        "weak.";
+    double low = 0, high = 0;
+    if (value_range({map}, &MapCell::effort, low, high) && high > MOST_MAPPED_EFFORT)
+      caption += fmt::format(" Efforts above {} have the colour of {}.", plain_number(MOST_MAPPED_EFFORT),
+                             plain_number(MOST_MAPPED_EFFORT));
+  }
   if (!map.has_fingers) caption += " The file does not have the fingers used.";
   if (source.scene.tilts.empty()) {
     caption += " The scene has no tilts, so there are no forces.";
@@ -193,7 +241,9 @@ bool read_counts(const ReportSource& source, std::size_t vessel, GripCounts& cou
 
 bool has_map(const ReportSource& source) { return source.result.find("score") != nullptr; }
 
-GripMap read_map(const ReportSource& source, std::size_t vessel) {
+const Variable* effort_variable(const ReportSource& source) { return source.result.find("worst_effort"); }
+
+GripMap read_map(const ReportSource& source, std::size_t vessel, const Variable* effort) {
   const auto& axes = source.plan.axes();
   const std::uint64_t points = source.plan.is_sobol() ? source.plan.grips() : 0;
   GripMap map{MapAxis(axes[PLACE_HEIGHT].data, points), MapAxis(axes[PLACE_ROLL].data, points), {}};
@@ -206,10 +256,12 @@ GripMap read_map(const ReportSource& source, std::size_t vessel) {
     for (std::size_t plane = 0; variable && plane < planes; ++plane) wanted.push_back({variable, plane});
     return place;
   };
-  const std::size_t reason_at = add(reason, 1), fingers_at = add(fingers, 1), force_at = add(force, scene_fills(source.scene));
+  const std::size_t reason_at = add(reason, 1), fingers_at = add(fingers, 1), effort_at = add(effort, 1),
+                    force_at = add(force, scene_fills(source.scene));
   map.knows_reasons = reason != nullptr;
   map.has_fingers = fingers != nullptr;
   map.has_forces = force != nullptr;
+  map.has_efforts = effort != nullptr;
   std::vector<double> heights(CHUNK_OF_GRIPS), rolls(CHUNK_OF_GRIPS);
   read_columns(source, vessel, wanted,
                [&](std::uint64_t first, std::size_t count, const std::vector<std::vector<double>>& columns) {
@@ -218,6 +270,7 @@ GripMap read_map(const ReportSource& source, std::size_t vessel) {
                  for (std::size_t i = 0; i < count; ++i) {
                    if (reason && columns[reason_at][i] != 0) continue;
                    MapCell& cell = map.cells[map.heights.cell(heights[i]) * map.rolls.cells() + map.rolls.cell(rolls[i])];
+                   if (effort) take_effort(cell, columns[effort_at][i], first + i);
                    const double value = columns[0][i];
                    if (!(value > 0 && std::isfinite(value))) {  // implausible
                      if (cell.kind == CellKind::absent) cell.kind = CellKind::hollow;
@@ -239,13 +292,19 @@ GripMap read_map(const ReportSource& source, std::size_t vessel) {
 }
 
 MapScales map_scales(const std::vector<GripMap>& maps) {
-  MapScales scales{
-      {"best score", 0, 1, 2, 0}, {"fingers used", 0, FINGER_COUNT, 0, FINGER_COUNT + 1}, {"peak force (N)", 0, 1, 1, 0}};
+  MapScales scales{{"best score", 0, 1, 2, 0},
+                   {"fingers used", 0, FINGER_COUNT, 0, FINGER_COUNT + 1},
+                   {"peak force (N)", 0, 1, 1, 0},
+                   {"worst effort", 0, 1, 2, 0}};
   double low = 0, high = 0;
   if (value_range(maps, &MapCell::score, low, high)) scales.score = score_scale(low, high);
   if (value_range(maps, &MapCell::peak_force, low, high)) {
     scales.peak_force.low = std::floor(low * 2) / 2;
     scales.peak_force.high = std::max(std::ceil(high * 2) / 2, scales.peak_force.low + 0.5);
+  }
+  if (value_range(maps, &MapCell::effort, low, high)) {
+    scales.effort.low = std::min(std::floor(low * 20) / 20, MOST_MAPPED_EFFORT - 0.05);
+    scales.effort.high = std::max(std::min(std::ceil(high * 20) / 20, MOST_MAPPED_EFFORT), scales.effort.low + 0.05);
   }
   return scales;
 }
@@ -283,6 +342,10 @@ void write_maps(MarkupWriter& html, const ReportSource& source, std::size_t vess
                fmt::format("Heat map of the largest feedback force over all tilts and fills of the best grip of each height and "
                            "roll: {} N; the best grip of all has {} N.",
                            extent_text(map, &MapCell::peak_force, 2), shown_number(top->peak_force, 2))});
+  }
+  if (map.has_efforts) {
+    write_effort_map(html, source, vessel, frame, map, scales.effort,
+                     {id + "-worst-effort", name + ": least worst effort over height and roll", ""});
   }
   html.close().element("figcaption", maps_caption(source, map)).close();
 }

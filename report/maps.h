@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Maps of a vessel in a report: over height and roll the best score, and the fingers and the force of the grip that has it.
+// Maps of a vessel in a report: over height and roll the best score, and the fingers and the force of the grip that has it; and the least
+// worst effort, whichever grip has that.
 #pragma once
 
 #include <cstdint>
@@ -20,13 +21,15 @@ struct MapCell {
   std::uint64_t grip = 0;                                        // in the plan
   double fingers = std::numeric_limits<double>::quiet_NaN();     // used
   double peak_force = std::numeric_limits<double>::quiet_NaN();  // N, largest over all fills
+  double effort = std::numeric_limits<double>::quiet_NaN();      // least worst effort of a plausible grip; infinite: nothing holds
+  std::uint64_t effort_grip = 0;                                 // the first grip that has it
 };
 
 struct GripMap {
   MapAxis heights, rolls;
   std::vector<MapCell> cells;  // height-major
   bool knows_reasons = false;  // without them, a grip without a score is taken for an implausible one
-  bool has_fingers = false, has_forces = false;
+  bool has_fingers = false, has_forces = false, has_efforts = false;
   bool is_by_core = false;      // some of fingers and forces
   const MapCell* best() const;  // null where no grip is feasible and plausible
 };
@@ -36,13 +39,20 @@ bool read_counts(const ReportSource& source, std::size_t vessel, GripCounts& cou
 
 // Whether there is a score to map.
 bool has_map(const ReportSource& source);
-// The best of equal scores is the first. Fingers and forces that the file does not have are the core's, where there is one.
-GripMap read_map(const ReportSource& source, std::size_t vessel);
+// The variable with the worst effort of each grip; null where the file does not have it.
+const Variable* effort_variable(const ReportSource& source);
+// The best of equal scores is the first. Fingers and forces that the file does not have are the core's, where there is one. `effort`: one
+// real a grip, infinite where nothing holds the vessel and NaN where there is no plausible grip; null: there are no efforts.
+GripMap read_map(const ReportSource& source, std::size_t vessel, const Variable* effort);
+inline GripMap read_map(const ReportSource& source, std::size_t vessel) {
+  return read_map(source, vessel, effort_variable(source));
+}
 
 // Colours for all vessels alike, so that their maps can be compared.
 struct MapScales {
-  ColorScale score, fingers, peak_force;
+  ColorScale score, fingers, peak_force, effort;
 };
+constexpr double MOST_MAPPED_EFFORT = 2;  // greater ones have its colour
 MapScales map_scales(const std::vector<GripMap>& maps);
 
 // A figure of the maps there are, with the listed grips marked. `id`: of the vessel, in the page.

@@ -5,8 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
+#include <memory>
 
 #include "scene/reader.h"
 #include "tests/support/result_reader.h"
@@ -150,6 +153,99 @@ TEST(ReportMaps, CountsAreThoseOfTheFile) {
   }
   GripCounts counts;
   EXPECT_FALSE(read_counts(*SweptScene(edited(RESULT_SCENE, "best = 5", "best = 5\nkeep = [\"reason\"]")).source, 0, counts));
+}
+
+// Any variable of one real a grip stands for the worst effort here: its values are the test's.
+struct MappedEfforts {
+  explicit MappedEfforts(const std::function<double(std::uint64_t stored)>& effort) : swept(RESULT_SCENE) {
+    for (std::uint64_t i = 0; i < 2 * swept.plan->stored_grips(); ++i) values.push_back(effort(i));
+    swept.change("gap", values);
+    map = std::make_unique<GripMap>(read_map(*swept.source, 0, swept.result->find("gap")));
+  }
+  std::string written() const {
+    MarkupWriter html;
+    write_maps(html, *swept.source, 0, *map, map_scales({*map}), swept.result->best(0), "v");
+    EXPECT_TRUE(html.is_closed());
+    return html.written();
+  }
+  SweptScene swept;
+  std::vector<double> values;
+  std::unique_ptr<GripMap> map;
+};
+
+TEST(ReportMaps, EffortOfACellIsTheLeastOfItsGrips) {
+  // no order in it, some infinite, some missing
+  const MappedEfforts efforts([](std::uint64_t i) {
+    const std::uint64_t k = i * 7919 % 101;
+    return k < 30 ? INFINITY : k < 50 ? std::nan("") : static_cast<double>(k) / 100;
+  });
+  const SweptScene& swept = efforts.swept;
+  const auto reasons = read_values(swept.path, "reason");
+  int finite = 0, infinite = 0, missing = 0;
+  for (std::size_t h = 0; h < 12; ++h) {
+    for (std::size_t r = 0; r < 3; ++r) {
+      double least = std::nan("");
+      for (std::uint64_t i = 0; i < swept.plan->grips(); ++i) {
+        const GripInput grip = swept.plan->grip(0, i);
+        const bool is_here = std::abs(grip.height - swept.scene.grips.height.values[h] * swept.scene.vessels[0].height) < 1e-9 &&
+                             std::abs(grip.roll - swept.scene.grips.roll.values[r]) < 1e-9;
+        if (is_here && reasons[i] == 0 && !std::isnan(efforts.values[i])) least = std::fmin(least, efforts.values[i]);
+      }
+      const MapCell& cell = efforts.map->cells[h * 3 + r];
+      (std::isnan(least) ? missing : std::isinf(least) ? infinite : finite) += 1;
+      if (std::isnan(least)) {
+        EXPECT_TRUE(std::isnan(cell.effort));
+        continue;
+      }
+      EXPECT_EQ(cell.effort, least);
+      EXPECT_EQ(efforts.values[cell.effort_grip], least);
+    }
+  }
+  EXPECT_GT(finite, 0);
+  EXPECT_GT(infinite + missing, 0);
+}
+
+TEST(ReportMaps, EffortsThatNothingHoldsAndMissingOnesAreDrawnApart) {
+  const MappedEfforts efforts([](std::uint64_t i) { return i % 3 == 0 ? INFINITY : i % 3 == 1 ? std::nan("") : 0.3; });
+  const std::string html = efforts.written();
+  const std::size_t at = html.find("id=\"v-worst-effort-title\"");
+  ASSERT_NE(at, std::string::npos);
+  const std::string chart = html.substr(at);
+  EXPECT_NE(chart.find(">worst effort</text>"), std::string::npos);
+  const auto has_kind = [&](const auto& is) {
+    return std::any_of(efforts.map->cells.begin(), efforts.map->cells.end(), [&](const MapCell& cell) { return is(cell.effort); });
+  };
+  // the legend names what there is and nothing else
+  EXPECT_EQ(chart.find(">nothing holds</text>") != std::string::npos, has_kind([](double e) { return std::isinf(e); }));
+  EXPECT_EQ(chart.find(">none plausible</text>") != std::string::npos, has_kind([](double e) { return std::isnan(e); }));
+  const MappedEfforts never([](std::uint64_t) { return INFINITY; });
+  EXPECT_NE(never.written().find("no grip holds the vessel. In "), std::string::npos);
+  EXPECT_NE(never.written().find(">nothing holds</text>"), std::string::npos);
+}
+
+TEST(ReportMaps, GreatEffortsHaveTheColourOfTheLargestShown) {
+  const MappedEfforts efforts([](std::uint64_t i) { return i % 2 == 0 ? 0.21 : 700; });
+  const MapScales scales = map_scales({*efforts.map});
+  EXPECT_EQ(scales.effort.low, 0.2);
+  EXPECT_LE(scales.effort.high, MOST_MAPPED_EFFORT);
+  const MappedEfforts all([](std::uint64_t) { return 700; });
+  EXPECT_EQ(map_scales({*all.map}).effort.high, MOST_MAPPED_EFFORT);
+  EXPECT_NE(all.written().find("Efforts above 2 have the colour of 2."), std::string::npos);
+}
+
+TEST(ReportMaps, DamagedEffortsAreNone) {
+  const MappedEfforts efforts([](std::uint64_t i) { return i % 2 == 0 ? -1.0 : -INFINITY; });
+  for (const MapCell& cell : efforts.map->cells) EXPECT_TRUE(std::isnan(cell.effort));
+}
+
+TEST(ReportMaps, WithoutEffortsThereIsNoMapOfThem) {
+  const SweptScene swept(RESULT_SCENE);
+  EXPECT_EQ(effort_variable(*swept.source), nullptr);
+  const GripMap map = read_map(*swept.source, 0);
+  EXPECT_FALSE(map.has_efforts);
+  MarkupWriter html;
+  write_maps(html, *swept.source, 0, map, map_scales({map}), {}, "v");
+  EXPECT_EQ(html.written().find("effort"), std::string::npos);
 }
 
 TEST(ReportMaps, ColoursMeanTheSameForAllVessels) {
