@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// How far a grip is from each of its limits, and the sentence that says so.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "grips/report.h"
+
+namespace wholehand {
+
+// What a grip can fail by: the strength of the hand, the friction of the vessel, the table below it, the force of the gripper.
+enum class Limit { effort, friction, table, force };
+
+// How many times over the grip keeps to a limit: more than 1 within it, less than 1 beyond it; infinite where nothing comes near.
+struct Margin {
+  Limit limit = Limit::effort;
+  double value = 0;
+};
+
+constexpr double TABLE_MARGIN_STEP = 10e-3;  // m of room above the table that add 1 to its margin, as the score's depth term has it
+
+// The margins that the grip has, in the order of the limits: 1 / worst effort, mu / friction needed, 1 + room / TABLE_MARGIN_STEP,
+// F_max / largest normal force. Effort and friction are absent without [strength] or tilts, the table without [table], the force
+// without tilts. Friction is absent too where no friction is enough. `report` has the scene's own states.
+std::vector<Margin> grip_margins(const Scene& scene, const GripReport& report);
+
+// The smallest, the first of equal ones; nothing where there is none or all are infinite.
+std::optional<Margin> smallest_margin(const std::vector<Margin>& margins);
+
+// "This grip is good because ..; friction would fail first, because .. (margin 1.9)." The reasons are the two terms of the score that add
+// most to it, without the term that the smallest margin is about. Of a feasible grip; empty for another one.
+std::string verdict(const Scene& scene, const GripReport& report);
+
+}  // namespace wholehand

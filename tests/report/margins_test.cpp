@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+// The margins of a grip by their definitions, and the sentence for each limit that can come first.
+// sanitizers: address
+#include "report/margins.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "tests/support/files.h"
+
+namespace wholehand {
+namespace {
+
+constexpr double ENDLESS_NUMBER = std::numeric_limits<double>::infinity();
+
+// A grip that keeps to every limit, and its scene: margins 4 (strength), 3 (friction), 1.6 (table), 2 (gripper).
+struct JudgedGrip {
+  JudgedGrip() {
+    scene.force.friction = 0.6;
+    scene.force.max = 8;
+    scene.tilts = {0, radians(90)};
+    scene.score = {0.30, 0.10, 0.20, 0.10, 0.15, 0.15};
+    report.has_liquid = true;
+    report.hold = GripHold{};
+    report.hold->worst = 0.25;
+    report.hold->worst_fill = 0.6;
+    report.hold->worst_tilt = radians(90);
+    report.hold->friction_needed = 0.2;
+    GripResult& result = report.answer.result;
+    result.table_depth = -6e-3;
+    result.used_mask = 0b10111;
+    result.touch_mask = 0xFFF;
+    result.phalanx_depth = 0.4e-3;
+    result.palm_depth = 0.1e-3;
+    result.closure = 0.45;
+    report.answer.states.resize(3);
+    report.answer.states[0].state.normal_force = 4;
+    report.answer.states[1].state.normal_force = -2;
+    report.answer.states[2].state.normal_force = 50;  // left out
+    report.answer.states[2].counts = false;
+    report.answer.score.terms = {0.8, 0.5, 0.96, 0.9, 0.5, 0.8};
+  }
+
+  Scene scene;
+  GripReport report;
+
+  std::string text() const { return verdict(scene, report); }
+  double margin(Limit limit) const {
+    for (const Margin& margin : grip_margins(scene, report))
+      if (margin.limit == limit) return margin.value;
+    return std::nan("");
+  }
+};
+
+TEST(ReportMargins, AreTheirDefinitions) {
+  const JudgedGrip grip;
+  const auto margins = grip_margins(grip.scene, grip.report);
+  ASSERT_EQ(margins.size(), 4u);
+  // 1e-12: quotients of a few roundings
+  EXPECT_NEAR(grip.margin(Limit::effort), 1 / 0.25, 1e-12);
+  EXPECT_NEAR(grip.margin(Limit::friction), 0.6 / 0.2, 1e-12);
+  EXPECT_NEAR(grip.margin(Limit::table), 1 + 6.0 / 10, 1e-12);
+  EXPECT_NEAR(grip.margin(Limit::force), 8.0 / 4, 1e-12) << "the state of 50 N is left out";
+}
+
+TEST(ReportMargins, AreOneAtTheirLimits) {
+  JudgedGrip grip;
+  grip.report.hold->worst = 1;
+  grip.report.hold->friction_needed = grip.scene.force.friction;
+  grip.report.answer.result.table_depth = 0;
+  grip.report.answer.states[0].state.normal_force = grip.scene.force.max;
+  for (const Margin& margin : grip_margins(grip.scene, grip.report)) EXPECT_EQ(margin.value, 1);
+}
+
+TEST(ReportMargins, FallAsTheGripGetsWorse) {
+  JudgedGrip good, bad;
+  bad.report.hold->worst *= 2;
+  bad.report.hold->friction_needed *= 2;
+  bad.report.answer.result.table_depth += 2e-3;
+  bad.report.answer.states[0].state.normal_force *= 2;
+  for (const Limit limit : {Limit::effort, Limit::friction, Limit::table, Limit::force})
+    EXPECT_LT(bad.margin(limit), good.margin(limit));
+}
+
+TEST(ReportMargins, WhatTheSceneDoesNotHaveHasNone) {
+  JudgedGrip grip;
+  grip.report.hold.reset();
+  grip.report.answer.result.table_depth = std::nan("");
+  ASSERT_EQ(grip_margins(grip.scene, grip.report).size(), 1u);
+  EXPECT_EQ(grip_margins(grip.scene, grip.report)[0].limit, Limit::force);
+  grip.report.answer.states.clear();
+  EXPECT_TRUE(grip_margins(grip.scene, grip.report).empty());
+  EXPECT_FALSE(smallest_margin({}));
+  EXPECT_FALSE(has(grip.text(), "margin"));
+}
+
+TEST(ReportMargins, TheSmallestDecidesAndTheFirstOfEqualOnes) {
+  EXPECT_EQ(smallest_margin({{Limit::effort, 4}, {Limit::table, 1.2}, {Limit::force, 3}})->limit, Limit::table);
+  EXPECT_EQ(smallest_margin({{Limit::friction, 2}, {Limit::table, 2}, {Limit::force, 2}})->limit, Limit::friction);
+  EXPECT_EQ(smallest_margin({{Limit::effort, ENDLESS_NUMBER}, {Limit::force, 7}})->limit, Limit::force);
+  EXPECT_FALSE(smallest_margin({{Limit::effort, ENDLESS_NUMBER}, {Limit::force, ENDLESS_NUMBER}})) << "nothing comes near";
+}
+
+TEST(ReportVerdict, NamesTheTable) {
+  EXPECT_EQ(
+      JudgedGrip().text(),
+      "This grip is good because 4 of 5 fingers touch the vessel and the hand is at most 0.4 mm deep in the vessel; the table "
+      "would be in the way first, because the hand has 6.0 mm of room above its clearance (margin 1.60).");
+  JudgedGrip grip;
+  grip.report.answer.result.table_depth = 1.5e-3;
+  EXPECT_TRUE(has(grip.text(), "; the table is in the way, because the hand is 1.5 mm too low (margin 0.85)."));
+}
+
+TEST(ReportVerdict, NamesTheStrengthOfTheHand) {
+  JudgedGrip grip;
+  grip.report.hold->worst = 0.8;
+  EXPECT_TRUE(has(grip.text(),
+                  "; the strength of the hand would fail first, because the hardest state takes 80\u00a0% of the hand's "
+                  "strength (margin 1.25)."));
+  grip.report.hold->worst = 1.6;
+  EXPECT_TRUE(has(grip.text(),
+                  "; the strength of the hand fails, because the hardest state takes 160\u00a0% of the hand's strength "
+                  "(margin 0.62)."))
+      << grip.text();
+}
+
+TEST(ReportVerdict, NamesTheStateThatNothingHolds) {
+  JudgedGrip grip;
+  grip.report.hold->worst = grip.report.hold->friction_needed = ENDLESS_NUMBER;
+  EXPECT_TRUE(has(grip.text(), "; no force of the hand holds the vessel at a tilt of 90° and a fill of 60\u00a0%."));
+  grip.report.has_liquid = false;
+  EXPECT_TRUE(has(grip.text(), "; no force of the hand holds the vessel at a tilt of 90°."));
+}
+
+TEST(ReportVerdict, NamesTheFriction) {
+  JudgedGrip grip;
+  grip.report.hold->friction_needed = 0.5;
+  EXPECT_TRUE(has(grip.text(),
+                  "; friction would fail first, because the grip needs a friction of 0.50 and the vessel has 0.6 (margin 1.20)."));
+  grip.report.hold->worst = 1.1;
+  grip.report.hold->friction_needed = 0.8;
+  EXPECT_TRUE(
+      has(grip.text(), "; friction fails, because the grip needs a friction of 0.80 and the vessel has 0.6 (margin 0.75)."));
+}
+
+// The hand is too weak at any friction: friction is not what fails.
+TEST(ReportVerdict, AFrictionThatDoesNotExistIsNotBlamed) {
+  JudgedGrip grip;
+  grip.report.hold->worst = 1.1;
+  grip.report.hold->friction_needed = ENDLESS_NUMBER;
+  EXPECT_TRUE(has(grip.text(), "; the strength of the hand fails, because"));
+}
+
+TEST(ReportVerdict, NamesTheGripper) {
+  JudgedGrip grip;
+  grip.report.answer.states[1].state.normal_force = 6.4;
+  EXPECT_TRUE(has(grip.text(),
+                  "; the force of the gripper would reach its limit first, because the feedback force is up to 6.4 N and "
+                  "the gripper gives 8 N (margin 1.25)."));
+  grip.report.answer.states[1].state.normal_force = 10;
+  EXPECT_TRUE(has(grip.text(),
+                  "; the force of the gripper is beyond its limit, because the feedback force is up to 10.0 N and the "
+                  "gripper gives 8 N (margin 0.80)."));
+}
+
+TEST(ReportVerdict, ItsReasonsAreTheTermsThatAddMost) {
+  JudgedGrip grip;
+  const auto reasons = [&grip](const ScoreTerms& terms) {
+    grip.report.answer.score.terms = terms;
+    const std::string text = grip.text();
+    return text.substr(0, text.find(';'));
+  };
+  // weights 0.3, 0.1, 0.2, 0.1, 0.15, 0.15
+  EXPECT_EQ(reasons({0, 1, 0, 0.9, 0, 0}),
+            "This grip is good because 12 of 24 points of the hand touch the vessel and the hand is "
+            "near the middle of its range (closure 0.45)");
+  EXPECT_EQ(reasons({0, 0, 0, 0, 0.5, 0.6}),
+            "This grip is good because the hardest state takes 25\u00a0% of the hand's strength and "
+            "the gripper renders at most 4.0 N of its 8 N");
+  EXPECT_EQ(reasons({0.1, 0, 0, 0, 0, 0}), "This grip is good because 4 of 5 fingers touch the vessel");
+  EXPECT_EQ(reasons({0, 0, 0, 0, 0, 0}), "Nothing speaks for this grip");
+}
+
+// A grip is not praised for what it would fail by.
+TEST(ReportVerdict, ItsReasonIsNotItsLimit) {
+  JudgedGrip grip;
+  grip.report.answer.score.terms = {0.1, 0, 0, 0, 1, 1};
+  grip.report.hold->worst = 0.9;
+  EXPECT_TRUE(has(grip.text(), "good because the gripper renders at most 4.0 N of its 8 N and 4 of 5 fingers"));
+  grip.report.hold->worst = 0.25;
+  grip.report.answer.states[0].state.normal_force = 7;
+  EXPECT_TRUE(has(grip.text(), "good because the hardest state takes 25\u00a0% of the hand's strength and 4 of 5 fingers"));
+}
+
+TEST(ReportVerdict, WithoutStrengthTwoFingersSpeak) {
+  JudgedGrip grip;
+  grip.report.hold.reset();
+  grip.report.answer.score.terms = {0, 0, 0, 0, 0, 1};
+  grip.report.answer.score.fills = {{1, 0, 12.34, 0}, {1, 0, 2, 0}};
+  EXPECT_TRUE(has(grip.text(), "good because two fingers hold the vessel with 12.3 N each;"));
+}
+
+TEST(ReportVerdict, OfAnInfeasibleGripThereIsNone) {
+  JudgedGrip grip;
+  grip.report.answer.result.reason = Reason::misses;
+  EXPECT_EQ(grip.text(), "");
+}
+
+}  // namespace
+}  // namespace wholehand
