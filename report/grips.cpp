@@ -10,13 +10,24 @@
 
 #include "core/core_backend.h"
 #include "core/error.h"
+#include "grips/forces.h"
 #include "grips/hand_nodes.h"
 #include "grips/svg.h"
+#include "report/holding.h"
+#include "report/margins.h"
 #include "sweeps/grip_lists.h"
 #include "system/readable.h"
 
 namespace wholehand {
 namespace {
+
+constexpr const char* MARGINS_NOTE =
+    "A margin says how many times over a grip keeps to a limit. The margin of the hand's strength is 1 / (worst effort). The "
+    "margin "
+    "of friction is the friction of the vessel over the friction that is needed. The margin of the table is 1, plus 1 for each 10 "
+    "mm "
+    "of room above its clearance. The margin of the gripper is its largest force over the largest feedback force. The smallest "
+    "margin says what would fail first. A limit that the scene does not have has no margin.";
 
 // The number in `name="1.5"` after `from`; NaN where there is none.
 double attribute_after(const std::string& svg, std::size_t from, const std::string& name) {
@@ -93,14 +104,16 @@ void write_table(MarkupWriter& html, const ReportSource& source, std::size_t lis
 }
 
 void write_drawings(MarkupWriter& html, const ReportSource& source, std::size_t list, const ReportedGrips& best) {
-  const GripMethods methods = core_grip_methods(source.scene, source.core, "core");
   const std::string name = list_name(source.scene, source.plan, list);
   const std::size_t vessel = list / source.plan.hand_scales(), count = std::min(DRAWN_GRIPS, best.grips.size());
   MarkupWriter drawings;
   std::string trouble;
   std::size_t drawn = 0;
+  bool has_forces = false;
+  std::vector<RankedReport> reports;
   for (std::size_t rank = 0; rank < count; ++rank) {
-    const GripReport report = make_grip_report(source.scene, vessel, best.grips[rank].grip, {}, methods);
+    reports.push_back({best.grips[rank].rank, grip_with_holding(source, vessel, best.grips[rank].grip)});
+    const GripReport& report = reports.back().report;
     std::string svg;
     try {
       svg = front_and_side(grip_svg(source.scene, vessel, report));
@@ -109,23 +122,31 @@ void write_drawings(MarkupWriter& html, const ReportSource& source, std::size_t 
       continue;
     }
     ++drawn;
-    const std::string alt =
-        fmt::format("Front and side view of the hand on {}, grip {} of the best: {}. Points touching by finger: {}.", name,
-                    best.grips[rank].rank, grip_text(source.plan, best.grips[rank].grip), touching_text(report.answer.result));
+    const DrawnForces forces(report);
+    const std::string arrows = forces.empty() ? "" : fmt::format(" Arrows show the forces of the hand: {}.", forces.words());
+    const std::string alt = fmt::format(
+        "Front and side view of the hand on {}, grip {} of the best: {}. Points touching by finger: {}.{}", name,
+        best.grips[rank].rank, grip_text(source.plan, best.grips[rank].grip), touching_text(report.answer.result), arrows);
     drawings.open("div", {{"class", "drawing"}});
     drawings.empty("img", {{"src", svg_address(svg)}, {"alt", alt}});
-    drawings.element("p", fmt::format("{}: score {}; {}", best.grips[rank].rank, shown_number(best.grips[rank].score, 3),
-                                      grip_text(source.plan, best.grips[rank].grip)));
+    has_forces = has_forces || !forces.empty();
+    drawings.element("p", fmt::format("{}: score {}; {}{}", best.grips[rank].rank, shown_number(best.grips[rank].score, 3),
+                                      grip_text(source.plan, best.grips[rank].grip), forces.empty() ? "" : "; " + forces.words()));
+    drawings.element("p", verdict(source.scene, report));
     drawings.close();
   }
   if (drawn > 0) {
     html.open("figure").open("div", {{"class", "drawings"}}).markup(drawings.written()).close();
-    html.element("figcaption",
-                 fmt::format("The best {} of {}, seen from the side of the hand and from its right. Discs are points that touch "
-                             "where they were. Diamonds are points that were brought to the glass. Rings are points that do not "
-                             "touch. T: thumb, I: index, M: middle, R: ring, L: little finger.",
-                             drawn == 1 ? "grip" : fmt::format("{} grips", drawn), name));
+    html.element(
+        "figcaption",
+        fmt::format("The best {} of {}, seen from the side of the hand and from its right. Discs are points that touch "
+                    "where they were. Diamonds are points that were brought to the glass. Rings are points that do not "
+                    "touch. T: thumb, I: index, M: middle, R: ring, L: little finger.{}",
+                    drawn == 1 ? "grip" : fmt::format("{} grips", drawn), name,
+                    has_forces ? " Arrows show the forces of the hand on the vessel in the state that takes most effort." : ""));
     html.close();
+    html.element("p", MARGINS_NOTE, {{"class", "note"}});
+    write_digits(html, source.scene, reports, name);
   }
   if (!trouble.empty())
     html.element("p", fmt::format("{} of the best grips cannot be drawn: {}.", drawn == 0 ? "The first" : "Some", trouble));

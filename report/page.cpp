@@ -17,6 +17,7 @@
 #include "report/forces.h"
 #include "report/grips.h"
 #include "report/guidance.h"
+#include "report/holding.h"
 #include "report/maps.h"
 #include "report/scene.h"
 #include "report/style.h"
@@ -74,7 +75,7 @@ void write_contents(MarkupWriter& html, const Scene& scene) {
   html.close().close();
 }
 
-void write_words(MarkupWriter& html, bool has_table) {
+void write_words(MarkupWriter& html, bool has_table, bool has_efforts) {
   html.open("section", {{"aria-labelledby", "words"}}).element("h2", "The words", {{"id", "words"}}).open("dl");
   const auto word = [&html](const char* name, const char* meaning) {
     html.open("div").element("dt", name).element("dd", meaning).close();
@@ -98,6 +99,13 @@ void write_words(MarkupWriter& html, bool has_table) {
   word("safe tilt",
        "largest tilt up to which the normal force is under the device's limit and the hold force is at most the user's grip "
        "strength");
+  if (has_efforts) {
+    word("effort",
+         "least share of its strength that the digit nearest to its limit must give so that all contacts of the hand hold the "
+         "vessel; up to 1 the hand holds; infinite where no force does");
+    word("worst effort", "largest effort over all tilts and fills; the state that has it is the hardest");
+    word("margin", "how many times over a grip keeps to a limit; below 1 it does not");
+  }
   word("score",
        "sum of six terms from 0 to 1, each times its weight: fingers used, points touching, depth, posture, feedback force, hold "
        "force; an infeasible or implausible grip scores 0");
@@ -125,7 +133,9 @@ class Page {
       for (std::size_t v = 0; v < scene_.vessels.size(); ++v) maps_.push_back(read_map(source_, v));
     scales_ = map_scales(maps_);
     for (std::size_t v = 0; v < scene_.vessels.size(); ++v) write_vessel(v);
-    write_words(html_, scene_.table.has_value());
+    const bool has_efforts = scene_.strength && !scene_.tilts.empty();
+    if (has_efforts) write_protocols(html_);
+    write_words(html_, scene_.table.has_value(), has_efforts);
     html_.close();
     html_.element("footer", fmt::format("Written by wholehand {} from {}.", version(),
                                         source_.result.path().substr(source_.result.path().rfind('/') + 1)));
@@ -141,7 +151,11 @@ class Page {
     std::vector<ReportedGrips> lists;
     for (std::size_t s = 0; s < scales; ++s) lists.push_back(read_grips(source_, v * scales + s));
     write_summary(v, lists);
-    html_.element("h3", "Score, fingers and force over height and roll", {{"id", id + "-maps"}});
+    const bool has_efforts = !maps_.empty() && maps_[v].has_efforts;
+    html_.element(
+        "h3",
+        has_efforts ? "Score, fingers, force and effort over height and roll" : "Score, fingers and force over height and roll",
+        {{"id", id + "-maps"}});
     if (maps_.empty()) {
       html_.element("p", "The file does not have the score of each grip ([output] keep), so there is no map.");
     } else {
@@ -149,7 +163,10 @@ class Page {
     }
     for (std::size_t s = 0; s < scales; ++s)
       write_grips(html_, source_, v * scales + s, lists[s], scales == 1 ? id : fmt::format("{}-hand{}", id, s + 1));
-    if (const std::optional<GripInput> grip = best_grip(v, lists)) write_forces(html_, source_, v, *grip, id);
+    if (const std::optional<GripInput> grip = best_grip(v, lists)) {
+      write_forces(html_, source_, v, *grip, id);
+      write_efforts(html_, source_, v, *grip, id);
+    }
     write_pouring(html_, source_, v, id);
     write_agreement(html_, source_, v, id);
     write_guidance(html_, source_, v, id);

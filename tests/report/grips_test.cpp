@@ -56,6 +56,17 @@ TEST(ReportGrips, TableHasARowForEachAndADrawingForTheFirst) {
   EXPECT_EQ(html.find("azimuth (°)"), std::string::npos) << "one stands for all";
 }
 
+TEST(ReportGrips, EachDrawingHasItsForcesAndAVerdict) {
+  const std::string html = written_grips(SweptScene(edited(RESULT_SCENE, "[tilts]", "[strength]\n[tilts]")), 0);
+  EXPECT_GT(times_in(html, "class=%22force%22"), 2 * DRAWN_GRIPS) << "arrows in two views";
+  EXPECT_EQ(times_in(html, "<p>This grip is good because "), DRAWN_GRIPS);
+  EXPECT_EQ(times_in(html, "; longest arrow "), DRAWN_GRIPS);
+  EXPECT_EQ(times_in(html, " Arrows show the forces of the hand: longest arrow "), 2 * DRAWN_GRIPS) << "page and drawing say so";
+  EXPECT_EQ(times_in(html, "Arrows show the forces of the hand on the vessel in the state that takes most effort."), 1u);
+  const std::string without = written_grips(SweptScene(RESULT_SCENE), 0);
+  EXPECT_EQ(times_in(without, "class=%22force%22") + times_in(without, "longest arrow") + times_in(without, "Arrows"), 0u);
+}
+
 TEST(ReportGrips, WithoutTiltsTheyAreAntipodalOrNot) {
   const std::string html = written_grips(SweptScene(edited(RESULT_SCENE, "[tilts]\ndeg = [0, 45, 90, 135]", "")), 0);
   EXPECT_NE(html.find(">antipodal</th>"), std::string::npos);

@@ -72,6 +72,12 @@ TEST(ReportPage, IsWellBuiltForEveryKindOfSweep) {
       {"nothing kept", edited(RESULT_SCENE, "best = 5", keep + "[]")},
       {"nothing kept nor listed", edited(RESULT_SCENE, "best = 5", "best = 0\nkeep = []")},
       {"score kept", edited(RESULT_SCENE, "best = 5", "best = 0\nkeep = [\"score\"]")},
+      {"strength", edited(RESULT_SCENE, "[tilts]", "[strength]\n[table]\n[tilts]")},
+      {"strength, no liquid", edited(edited(RESULT_SCENE, RESULT_LIQUID, ""), "[tilts]", "[strength]\n[tilts]")},
+      {"strength, nothing holds", edited(RESULT_SCENE, "[tilts]", "[strength]\n[force]\nfriction = 0\n[tilts]")},
+      {"strength, no tilts", edited(RESULT_SCENE, RESULT_TILTS, "[strength]")},
+      {"strength, tilts left out", edited(RESULT_SCENE, RESULT_TILTS, RESULT_TILTS + "\nuntil_poured = 0.5\n[strength]")},
+      {"strength, one tilt", edited(RESULT_SCENE, RESULT_TILTS, "[tilts]\ndeg = [60]\n[strength]")},
       {"vectors kept", edited(RESULT_SCENE, "best = 5", keep + "[\"posed\", \"score\", \"reason\"]")},
   };
   for (const auto& [kind, text] : kinds) {
@@ -92,6 +98,31 @@ TEST(ReportPage, TellsInItsOrder) {
     ASSERT_NE(next, std::string::npos) << heading;
     at = next;
   }
+}
+
+TEST(ReportPage, OfAHandWithStrengthTellsWhatHoldingTakes) {
+  const SweptScene swept(edited(RESULT_SCENE, "[tilts]", "[strength]\n[tilts]"));
+  const std::string page = page_of(swept);
+  std::size_t at = 0;
+  for (const char* part :
+       {">cup</h2>", ">The best grips</h3>", "This grip is good because ", "(margin ", "A margin says how many times over",
+        ">Normal force of each digit, and its share of the strength, in the hardest state of cup</caption>",
+        ">Forces over the tilt</h3>", ">Effort over the tilt</h3>", ">Where pouring starts</h3>", ">flask</h2>",
+        ">What others call a held grasp</h2>", ">The words</h2>", ">effort</dt>"}) {
+    const std::size_t next = page.find(part, at);
+    ASSERT_NE(next, std::string::npos) << part;
+    at = next;
+  }
+  EXPECT_TRUE(has(page, "strength in N: thumb 40, index 25, middle 35, ring 25, little 14, palm 80"));
+  EXPECT_EQ(has(page, "least worst effort over height and roll"), swept.result->find("worst_effort") != nullptr);
+}
+
+TEST(ReportPage, WithoutStrengthEffortIsNotSpokenOf) {
+  const std::string page = page_of(SweptScene(RESULT_SCENE));
+  EXPECT_TRUE(has(page, "The effort of the whole hand: the scene has no [strength]."));
+  for (const char* part : {">Effort over the tilt</h3>", "What others call", ">effort</dt>", "Normal force of each digit"})
+    EXPECT_FALSE(has(page, part)) << part;
+  EXPECT_TRUE(has(page, "This grip is good because ")) << "the gripper has its limit all the same";
 }
 
 TEST(ReportPage, EachHandScaleHasAListOfItsOwn) {
