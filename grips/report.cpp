@@ -34,8 +34,12 @@ GripReport make_grip_report(const Scene& scene, std::size_t vessel, const GripIn
 
 void add_holding(GripReport& report, const Scene& scene, std::size_t vessel) {
   if (report.answer.result.reason != Reason::none || !scene.strength) return;
-  const auto evaluator = make_core_evaluator(scene);
-  const Holding holding(scene, *evaluator, vessel, report.grip, report.answer.result, report.pour);
+  add_holding(report, scene, vessel, *make_core_evaluator(scene));
+}
+
+void add_holding(GripReport& report, const Scene& scene, std::size_t vessel, const Evaluator& evaluator) {
+  if (report.answer.result.reason != Reason::none || !scene.strength) return;
+  const Holding holding(scene, evaluator, vessel, report.grip, report.answer.result, report.pour);
   for (const GripState& state : report.answer.states) report.holds.push_back(holding.state(state));
   report.hold = holding.over_states();
 }

@@ -32,6 +32,8 @@ GripReport make_grip_report(const Scene& scene, std::size_t vessel, const GripIn
 
 // What holding takes of the whole hand, by the core in double, whatever device answered. Does nothing for an infeasible grip.
 void add_holding(GripReport& report, const Scene& scene, std::size_t vessel);
+// The same with an evaluator that was made for `scene` before: for many grips of it.
+void add_holding(GripReport& report, const Scene& scene, std::size_t vessel, const Evaluator& evaluator);
 
 // Measures of the grasp, by the core in double too; takes seconds. Does nothing for an infeasible grip.
 void add_quality(GripReport& report, const Scene& scene, std::size_t vessel);

@@ -21,14 +21,6 @@
 namespace wholehand {
 namespace {
 
-constexpr const char* MARGINS_NOTE =
-    "A margin says how many times over a grip keeps to a limit. The margin of the hand's strength is 1 / (worst effort). The "
-    "margin "
-    "of friction is the friction of the vessel over the friction that is needed. The margin of the table is 1, plus 1 for each 10 "
-    "mm "
-    "of room above its clearance. The margin of the gripper is its largest force over the largest feedback force. The smallest "
-    "margin says what would fail first. A limit that the scene does not have has no margin.";
-
 // The number in `name="1.5"` after `from`; NaN where there is none.
 double attribute_after(const std::string& svg, std::size_t from, const std::string& name) {
   const std::size_t at = svg.find(" " + name + "=\"", from);
@@ -103,37 +95,39 @@ void write_table(MarkupWriter& html, const ReportSource& source, std::size_t lis
   table.end();
 }
 
-void write_drawings(MarkupWriter& html, const ReportSource& source, std::size_t list, const ReportedGrips& best) {
+// One grip's drawing with what it shows in words; throws Error where it cannot be drawn.
+void draw_grip(MarkupWriter& html, const ReportSource& source, std::size_t list, const BestGrip& best, const GripReport& report) {
+  const std::string svg = front_and_side(grip_svg(source.scene, list / source.plan.hand_scales(), report));
+  const DrawnForces forces(report);
+  const std::string arrows = forces.empty() ? "" : fmt::format(" Arrows show the forces of the hand: {}.", forces.words());
+  const std::string alt =
+      fmt::format("Front and side view of the hand on {}, grip {} of the best: {}. Points touching by finger: {}.{}",
+                  list_name(source.scene, source.plan, list), best.rank, grip_text(source.plan, best.grip),
+                  touching_text(report.answer.result), arrows);
+  html.open("div", {{"class", "drawing"}});
+  html.empty("img", {{"src", svg_address(svg)}, {"alt", alt}});
+  html.element("p", fmt::format("{}: score {}; {}{}", best.rank, shown_number(best.score, 3), grip_text(source.plan, best.grip),
+                                forces.empty() ? "" : "; " + forces.words()));
+  if (const std::string text = verdict(source.scene, report); !text.empty()) html.element("p", text);
+  html.close();
+}
+
+void write_drawings(MarkupWriter& html, const ReportSource& source, std::size_t list, const ReportedGrips& best,
+                    const std::vector<RankedReport>& reports) {
   const std::string name = list_name(source.scene, source.plan, list);
-  const std::size_t vessel = list / source.plan.hand_scales(), count = std::min(DRAWN_GRIPS, best.grips.size());
   MarkupWriter drawings;
   std::string trouble;
   std::size_t drawn = 0;
   bool has_forces = false;
-  std::vector<RankedReport> reports;
-  for (std::size_t rank = 0; rank < count; ++rank) {
-    reports.push_back({best.grips[rank].rank, grip_with_holding(source, vessel, best.grips[rank].grip)});
-    const GripReport& report = reports.back().report;
-    std::string svg;
+  for (std::size_t rank = 0; rank < std::min(DRAWN_GRIPS, best.grips.size()); ++rank) {
     try {
-      svg = front_and_side(grip_svg(source.scene, vessel, report));
+      draw_grip(drawings, source, list, best.grips[rank], reports[rank].report);
     } catch (const Error& error) {
       trouble = error.what();
       continue;
     }
     ++drawn;
-    const DrawnForces forces(report);
-    const std::string arrows = forces.empty() ? "" : fmt::format(" Arrows show the forces of the hand: {}.", forces.words());
-    const std::string alt = fmt::format(
-        "Front and side view of the hand on {}, grip {} of the best: {}. Points touching by finger: {}.{}", name,
-        best.grips[rank].rank, grip_text(source.plan, best.grips[rank].grip), touching_text(report.answer.result), arrows);
-    drawings.open("div", {{"class", "drawing"}});
-    drawings.empty("img", {{"src", svg_address(svg)}, {"alt", alt}});
-    has_forces = has_forces || !forces.empty();
-    drawings.element("p", fmt::format("{}: score {}; {}{}", best.grips[rank].rank, shown_number(best.grips[rank].score, 3),
-                                      grip_text(source.plan, best.grips[rank].grip), forces.empty() ? "" : "; " + forces.words()));
-    drawings.element("p", verdict(source.scene, report));
-    drawings.close();
+    has_forces = has_forces || !DrawnForces(reports[rank].report).empty();
   }
   if (drawn > 0) {
     html.open("figure").open("div", {{"class", "drawings"}}).markup(drawings.written()).close();
@@ -145,11 +139,25 @@ void write_drawings(MarkupWriter& html, const ReportSource& source, std::size_t 
                     drawn == 1 ? "grip" : fmt::format("{} grips", drawn), name,
                     has_forces ? " Arrows show the forces of the hand on the vessel in the state that takes most effort." : ""));
     html.close();
-    html.element("p", MARGINS_NOTE, {{"class", "note"}});
-    write_digits(html, source.scene, reports, name);
   }
   if (!trouble.empty())
     html.element("p", fmt::format("{} of the best grips cannot be drawn: {}.", drawn == 0 ? "The first" : "Some", trouble));
+}
+
+// What holds the grips and what limits them, by the core. Nothing in a scene without [strength] or without tilts.
+void write_limits(MarkupWriter& html, const ReportSource& source, std::size_t list, const std::vector<RankedReport>& reports) {
+  const std::string name = list_name(source.scene, source.plan, list);
+  const std::size_t drawn = std::min(DRAWN_GRIPS, reports.size());
+  if (!source.scene.strength || source.scene.tilts.empty()) return;
+  write_digits(html, source.scene, {reports.begin(), reports.begin() + static_cast<std::ptrdiff_t>(drawn)}, name);
+  write_margins(html, source.scene, reports, name);
+  if (reports.size() == drawn) return;
+  html.open("details").element("summary", "Why each of the other grips is good, and what would fail first").open("ul");
+  for (std::size_t k = drawn; k < reports.size(); ++k) {
+    const std::string text = verdict(source.scene, reports[k].report);
+    html.element("li", fmt::format("{}: {}", reports[k].rank, text.empty() ? "The core finds that it is not feasible." : text));
+  }
+  html.close().close();
 }
 
 }  // namespace
@@ -221,7 +229,11 @@ void write_grips(MarkupWriter& html, const ReportSource& source, std::size_t lis
                                                    : "The sweep was not asked to list grips.");
     return;
   }
-  if (source.core) write_drawings(html, source, list, best);
+  std::vector<RankedReport> reports;
+  if (source.core) {
+    for (const BestGrip& grip : best.grips) reports.push_back({grip.rank, grip_with_holding(source, list / scales, grip.grip)});
+    write_drawings(html, source, list, best, reports);
+  }
   write_table(html, source, list, best);
   const std::string whose = source.lists ? fmt::format("Places and scores come from {}", source.lists_file)
                                          : std::string("Places and scores come from the sweep");
@@ -232,6 +244,7 @@ void write_grips(MarkupWriter& html, const ReportSource& source, std::size_t lis
   if (best.listed > best.grips.size())
     note += fmt::format(" {} listed {} grips.", source.lists ? source.lists_file : "The sweep", readable_number(best.listed));
   html.element("p", note, {{"class", "note"}});
+  write_limits(html, source, list, reports);
 }
 
 }  // namespace wholehand

@@ -103,7 +103,7 @@ void write_effort_table(MarkupWriter& html, const Scene& scene, const std::strin
 GripReport grip_with_holding(const ReportSource& source, std::size_t vessel, const GripInput& grip) {
   GripReport report = make_grip_report(source.scene, vessel, grip, scene_axes(source.scene, vessel),
                                        core_grip_methods(source.scene, source.core, "core"));
-  add_holding(report, source.scene, vessel);
+  add_holding(report, source.scene, vessel, *source.core);
   return report;
 }
 

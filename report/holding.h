@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "grips/report.h"
+#include "report/margins.h"
 #include "report/source.h"
 
 namespace wholehand {
@@ -22,10 +22,6 @@ struct DigitLoad {
 std::array<DigitLoad, FINGER_COUNT + 1> digit_loads(const Scene& scene, const StateHold& hold);
 
 // A table of them for some grips, each in its hardest state; nothing where no grip has holds. `name`: of the list of grips.
-struct RankedReport {
-  std::size_t rank = 1;
-  GripReport report;
-};
 void write_digits(MarkupWriter& html, const Scene& scene, const std::vector<RankedReport>& grips, const std::string& name);
 
 // Efforts of the fullest fill over the scene's tilts: of the whole hand, and of the tips of thumb and index finger alone. Infinite where

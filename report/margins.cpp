@@ -10,13 +10,21 @@
 #include <cmath>
 #include <limits>
 
-#include "charts/markup.h"
 #include "core/planes.h"
+#include "report/html.h"
 
 namespace wholehand {
 namespace {
 
-constexpr double ENDLESS = std::numeric_limits<double>::infinity();
+constexpr const char* MARGINS_NOTE =
+    "A margin says how many times over a grip keeps to a limit. The margin of the hand's strength is 1 / (worst effort). The "
+    "margin of "
+    "friction is the friction of the vessel over the friction that is needed. The margin of the table is 1, plus 1 for each 10 mm "
+    "of "
+    "room above its clearance. The margin of the gripper is its largest force over the largest feedback force. The smallest margin "
+    "says what would fail first. A dash stands for a limit that the scene does not have, or that is not what fails.";
+
+constexpr double ENDLESS = std::numeric_limits<double>::infinity(), NO_NUMBER = std::numeric_limits<double>::quiet_NaN();
 
 // Places of the terms in effective_weights.
 enum Term : std::size_t { FINGERS_TERM, CONTACTS_TERM, DEPTH_TERM, POSTURE_TERM, FORCE_TERM, HOLD_TERM, TERM_COUNT };
@@ -26,16 +34,10 @@ double times_within(double limit, double used) { return used > 0 ? limit / used 
 
 // Unclamped, over the states that count; NaN without states.
 double largest_normal_force(const GripReport& report) {
-  double largest = std::numeric_limits<double>::quiet_NaN();
+  double largest = NO_NUMBER;
   for (const GripState& state : report.answer.states) {
     if (state.counts && !(largest >= state.state.normal_force)) largest = state.state.normal_force;
   }
-  return largest;
-}
-
-double largest_pinch_force(const GripReport& report) {
-  double largest = 0;
-  for (const FillTerms& fill : report.answer.score.fills) largest = std::max(largest, fill.largest_hold);
   return largest;
 }
 
@@ -43,6 +45,11 @@ std::string percent_text(double share) { return shown_number(100 * share, share 
 
 std::string strength_share(double effort) {
   return fmt::format("the hardest state takes {} of the hand's strength", percent_text(effort));
+}
+
+std::string depth_reason(double millimetres) {
+  if (millimetres < 0.05) return "the hand does not reach into the glass";
+  return fmt::format("the hand is at most {} mm deep in the glass", shown_number(millimetres, 1));
 }
 
 std::string term_reason(const Scene& scene, const GripReport& report, std::size_t term) {
@@ -53,16 +60,14 @@ std::string term_reason(const Scene& scene, const GripReport& report, std::size_
     case CONTACTS_TERM:
       return fmt::format("{} of {} points of the hand touch the vessel", std::popcount(result.touch_mask), JOINT_COUNT);
     case DEPTH_TERM:
-      return fmt::format("the hand is at most {} mm deep in the vessel",
-                         shown_number(1e3 * std::max(result.phalanx_depth, result.palm_depth), 1));
+      return depth_reason(1e3 * std::max(result.phalanx_depth, result.palm_depth));
     case POSTURE_TERM:
       return fmt::format("the hand is near the middle of its range (closure {})", shown_number(result.closure, 2));
     case FORCE_TERM:
       return fmt::format("the gripper renders at most {} N of its {} N",
                          shown_number(std::max(0.0, largest_normal_force(report)), 1), plain_number(scene.force.max));
     default:
-      return report.hold ? strength_share(report.hold->worst)
-                         : fmt::format("two fingers hold the vessel with {} N each", shown_number(largest_pinch_force(report), 1));
+      return strength_share(report.hold->worst);
   }
 }
 
@@ -120,11 +125,10 @@ std::string limit_text(const Scene& scene, const GripReport& report, const Margi
 
 std::vector<Margin> grip_margins(const Scene& scene, const GripReport& report) {
   std::vector<Margin> margins;
-  if (report.hold) {
-    margins.push_back({Limit::effort, times_within(1, report.hold->worst)});
-    if (std::isfinite(report.hold->friction_needed))
-      margins.push_back({Limit::friction, times_within(scene.force.friction, report.hold->friction_needed)});
-  }
+  if (!report.hold) return margins;
+  margins.push_back({Limit::effort, times_within(1, report.hold->worst)});
+  if (std::isfinite(report.hold->friction_needed))
+    margins.push_back({Limit::friction, times_within(scene.force.friction, report.hold->friction_needed)});
   const double table_depth = report.answer.result.table_depth, force = largest_normal_force(report);
   if (!std::isnan(table_depth)) margins.push_back({Limit::table, 1 - table_depth / TABLE_MARGIN_STEP});
   if (!std::isnan(force)) margins.push_back({Limit::force, times_within(scene.force.max, force)});
@@ -139,7 +143,7 @@ std::optional<Margin> smallest_margin(const std::vector<Margin>& margins) {
 }
 
 std::string verdict(const Scene& scene, const GripReport& report) {
-  if (report.answer.result.reason != Reason::none) return "";
+  if (!report.hold) return "";
   const std::optional<Margin> weakest = smallest_margin(grip_margins(scene, report));
   std::vector<std::string> reasons;
   for (const std::size_t term :
@@ -150,6 +154,28 @@ std::string verdict(const Scene& scene, const GripReport& report) {
       reasons.empty() ? "Nothing speaks for this grip" : fmt::format("This grip is good because {}", fmt::join(reasons, " and "));
   if (weakest) text += "; " + limit_text(scene, report, *weakest);
   return text + ".";
+}
+
+void write_margins(MarkupWriter& html, const Scene& scene, const std::vector<RankedReport>& grips, const std::string& name) {
+  if (std::none_of(grips.begin(), grips.end(), [](const RankedReport& grip) { return grip.report.hold.has_value(); })) return;
+  HtmlTable table(html, "Limits of the best grips of " + name,
+                  {"rank", "worst effort", "two tips", "held push (N)", "friction needed", "margin of strength", "of friction",
+                   "of the table", "of the gripper"});
+  for (const auto& [rank, report] : grips) {
+    if (!report.hold) continue;
+    std::vector<std::string> cells{std::to_string(rank), shown_number(report.hold->worst, 3),
+                                   shown_number(report.hold->tips_worst, 3), shown_number(report.hold->push, 1),
+                                   shown_number(report.hold->friction_needed, 2)};
+    const std::vector<Margin> margins = grip_margins(scene, report);
+    for (const Limit limit : {Limit::effort, Limit::friction, Limit::table, Limit::force}) {
+      const auto found =
+          std::find_if(margins.begin(), margins.end(), [limit](const Margin& margin) { return margin.limit == limit; });
+      cells.push_back(shown_number(found == margins.end() ? NO_NUMBER : found->value, 2));
+    }
+    table.row(cells);
+  }
+  table.end();
+  html.element("p", MARGINS_NOTE, {{"class", "note"}});
 }
 
 }  // namespace wholehand
