@@ -61,7 +61,8 @@ class ReportBrowser : public testing::Test {
     return std::regex_search(dom, found, std::regex("<html[^>]* " + name + "=\"([^\"]*)\"")) ? found[1].str() : "missing";
   }
 
-  SweptScene swept{RESULT_SCENE, Precision::single};
+  // with [strength], as its page has every part that there is
+  SweptScene swept{edited(RESULT_SCENE, "[tilts]", "[strength]\n[tilts]"), Precision::single};
   std::string browser, page;
 };
 
@@ -79,7 +80,8 @@ TEST_F(ReportBrowser, FitsEveryWidthInLightAndDark) {
       EXPECT_EQ(attribute(dom, "data-ground"), is_dark ? "dark" : "light");
       const std::string headings = attribute(dom, "data-headings");
       for (const char* heading :
-           {"Grips of cups", "What was asked", "How it ran", "cup", "flask", "Agreement with the core", "The words"})
+           {"Grips of cups", "What was asked", "How it ran", "cup", "flask", "Effort over the tilt", "Agreement with the core",
+            "What others call a held grasp", "The words"})
         EXPECT_NE(("|" + headings + "|").find("|" + std::string(heading) + "|"), std::string::npos) << headings;
     }
   }
