@@ -158,6 +158,35 @@ TEST(WriteEfforts, WhatTwoTipsCannotHoldIsSaid) {
   EXPECT_FALSE(has(html, ">two tips</text>"));
 }
 
+// On a wall that narrows upwards by more than the friction, nothing holds the vessel upright; upside down its wall rests on the hand.
+TEST(WriteEfforts, ALineEndsWithACrossWhereNothingHolds) {
+  const SweptScene swept(
+      edited(edited(edited(strong_scene(), "shape = \"flask\"", "shape = \"conical\"\nupright_mm = 4\nshoulder_mm = 105"),
+                    "[tilts]", "[force]\nfriction = 0.1\n[tilts]"),
+             "[0, 45, 90, 135]", "[0, 45, 90, 135, 180]"));
+  GripInput grip;
+  grip.height = 0.05;
+  const TiltEfforts efforts = efforts_over_tilt(*swept.source, 1, grip);
+  ASSERT_EQ(efforts.whole.size(), 5u);
+  EXPECT_TRUE(std::isinf(efforts.tips.front()) && std::isfinite(efforts.tips.back()));
+  MarkupWriter html;
+  write_efforts(html, *swept.source, 1, grip, "v");
+  EXPECT_TRUE(has(html.written(), "end-of-line"));
+  EXPECT_TRUE(has(html.written(), " A cross marks where a line ends because no force holds the vessel beyond."));
+  EXPECT_TRUE(has(html.written(), "Two tips: ∞ at 0°, at most "));
+  EXPECT_TRUE(has(html.written(), " where a force holds the vessel, and infinite elsewhere."));
+}
+
+TEST(WriteEfforts, GreatEffortsEndTheChartAndAreSaid) {
+  const SweptScene swept(edited(strong_scene(), "[strength]", "[strength]\nthumb_N = 1\nindex_N = 1"));
+  const TiltEfforts efforts = efforts_over_tilt(*swept.source, 0, first_grip(swept, 0));
+  const double highest = *std::max_element(efforts.tips.begin(), efforts.tips.end());
+  ASSERT_GT(highest, 3);
+  const std::string html = efforts_html(swept, 0);
+  EXPECT_TRUE(has(html, " The efforts go up to " + shown_number(highest, 1) + "; the chart ends at 3.")) << html;
+  EXPECT_FALSE(has(efforts_html(SweptScene(strong_scene()), 0), "The efforts go up to"));
+}
+
 TEST(WriteEfforts, LeftOutTiltsAreMissingNotInfinite) {
   const SweptScene swept(edited(strong_scene(), RESULT_TILTS, RESULT_TILTS + "\nuntil_poured = 0.5"));
   const TiltEfforts efforts = efforts_over_tilt(*swept.source, 0, first_grip(swept, 0));
