@@ -154,6 +154,15 @@ struct StatusLine {
   ~StatusLine() { show_status(""); }
 };
 
+// Of a shape or an outline the scene's reader checks it.
+void check_above_table(const Scene& scene, const MeshData& data, const std::string& name, double height) {
+  if (!scene.table || scene.table->clearance < height) return;
+  throw usage_error(
+      at_place(data.place, fmt::format("{}: its mesh is {:.6g} mm high, and clearance_mm = {:.6g} reaches its top; allowed: "
+                                       "a clearance of less than this height",
+                                       name, 1e3 * height, 1e3 * scene.table->clearance)));
+}
+
 void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder, const MeshOptions& options,
                std::istream& lattices) {
   const MeshData& data = *vessel.mesh;
@@ -169,6 +178,7 @@ void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder
   say(data.file + ": " + mesh_check_text(facts));
   const std::string warning = mesh_size_warning(facts, data.scale);
   if (!warning.empty()) say(warning);
+  check_above_table(scene, data, name, facts.high[1] - facts.low[1]);
   auto body = std::make_shared<MeshBody>();
   LatticeWish wish = wish_of(scene, data, !warning.empty(), options);
   double spacing = 0;

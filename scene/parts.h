@@ -51,7 +51,8 @@ void read_score(const SceneTable& root, bool has_tilts, ScoreWeights& weights);
 void read_output(const SceneTable& root, OutputData& output);
 
 // ---- tabletop.cpp ----
-void read_tabletop(const SceneTable& root, std::optional<TableData>& tabletop);
+// Vessels have been read: each reaches above the clearance.
+void read_tabletop(const SceneTable& root, const std::vector<VesselData>& vessels, std::optional<TableData>& tabletop);
 
 // ---- session.cpp ----
 void read_live(const SceneTable& root, LiveData& live);

@@ -58,7 +58,7 @@ void read_scene(const SceneTable& root, Scene& scene) {
   read_tilts(root, scene);
   read_score(root, !scene.tilts.empty(), scene.score);
   read_output(root, scene.output);
-  read_tabletop(root, scene.table);
+  read_tabletop(root, scene.vessels, scene.table);
   read_live(root, scene.live);
   read_device(root, scene.device);
   read_task(root, scene.vessels, scene.task);

@@ -222,6 +222,27 @@ TEST_F(MeshVessel, ALeftHandHoldsTheMirrorImage) {
   EXPECT_GT(std::abs(a->empty_center_of_mass(0)[0]), 1e-4);
 }
 
+TEST_F(MeshVessel, ATableAboveItsTopIsRefused) {
+  Scene scene = scene_of({of_file("mug", mug_mesh(), 1.5e-3)});
+  scene.file = (folder_ / "scene.toml").string();
+  scene.table = TableData{1};  // m
+  MeshOptions options;
+  options.cache_folder = folder_.string();
+  try {
+    load_meshes(scene, options);
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ExitCode::usage);
+    const std::string line = error.what();
+    EXPECT_NE(line.find("clearance_mm = 1000 reaches its top; allowed: a clearance of less than this height"), std::string::npos)
+        << line;
+    EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+  }
+  scene.table = TableData{};
+  load_meshes(scene, options);
+  EXPECT_GT(scene.vessels[0].height - scene.vessels[0].base, scene.table->clearance);
+}
+
 // Dry meshes and wet ones beside an outline, in both hands; the lattices in both storages.
 TEST_F(MeshVessel, DevicesGiveWhatTheCoreGives) {
   for (const HandData& hand : {HandData{}, left_hand()}) {

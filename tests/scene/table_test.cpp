@@ -2,6 +2,7 @@
 // What scene files are refused for, table by table, with the place to which the refusal points.
 #include "scene/table.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <span>
@@ -119,6 +120,23 @@ constexpr RefusedScene WRONG_TILTS_AND_FILLS[] = {
     {"[liquid]\nfills = [0.5, @0.25]", "fills: 0.25 after 0.5; allowed: values in ascending order"},
 };
 
+constexpr RefusedScene WRONG_STRENGTHS_AND_TABLES[] = {
+    {"[strength]\nindex_N = @0", "index_N = 0; allowed: 0.1 to 10000"},
+    {"[strength]\nmiddle_N = @-0.1", "middle_N = -0.1; allowed: 0.1 to 10000"},
+    {"[strength]\nring_N = @0.099", "ring_N = 0.099; allowed: 0.1 to 10000"},
+    {"[strength]\nlittle_N = @10001", "little_N = 10001; allowed: 0.1 to 10000"},
+    {"[strength]\npalm_N = @nan", "palm_N = nan; allowed: 0.1 to 10000"},
+    {"[strength]\nthumb_N = @inf", "thumb_N = inf; allowed: 0.1 to 10000"},
+    {"[strength]\nthumb_N = @\"strong\"", "thumb_N = 'strong'; allowed: a number, 0.1 to 10000"},
+    {"[strength]\nthumb_N = @0\nindex_N = 0\nmiddle_N = 0\nring_N = 0\nlittle_N = 0\npalm_N = 0",
+     "thumb_N = 0; allowed: 0.1 to 10000"},
+    {"strength = @40", "strength = 40; allowed: a table"},
+    {"[table]\nclearance_mm = @-1", "clearance_mm = -1; allowed: 0 to 100"},
+    {"[table]\nclearance_mm = @101", "clearance_mm = 101; allowed: 0 to 100"},
+    {"[table]\nclearance_mm = @nan", "clearance_mm = nan; allowed: 0 to 100"},
+    {"table = @true", "table = true; allowed: a table"},
+};
+
 constexpr RefusedScene WRONG_LIVE_DEVICE_AND_TASK[] = {
     {"[device]\ngap_mm = @[25, 0]", "gap_mm = [25, 0]; allowed: [closed, open]"},
     {"[device]\naxes = [\"x\", \"y\", @\"-x\"]", "an entry of axes = '-x'"},
@@ -142,6 +160,7 @@ constexpr RefusedSubject REFUSED_SUBJECTS[] = {
     {"ranges", OUT_OF_RANGE},
     {"axes", WRONG_AXES},
     {"tilts and fills", WRONG_TILTS_AND_FILLS},
+    {"strengths and tables", WRONG_STRENGTHS_AND_TABLES},
     {"live, device and task", WRONG_LIVE_DEVICE_AND_TASK},
 };
 
@@ -152,6 +171,22 @@ TEST(SceneTable, RefusesWithPlaceFoundAndAllowed) {
       expect_refusal(std::string(text) + "\n" + VESSEL, gist);
     }
   }
+}
+
+// A table that reaches the mouth, with the clearance of the file and with the usual one of 2 mm.
+TEST(SceneTable, RefusesATableAboveAVesselsMouth) {
+  const auto vessel = [](const char* name, double height) {
+    return fmt::format(
+        "\n[[vessel]]\nname = \"{}\"\nshape = \"cylinder\"\ndiameter_mm = 80\nheight_mm = {}\nmass_kg = 1\n"
+        "center_of_mass_mm = [0, 1, 0]\n",
+        name, height);
+  };
+  expect_refusal("[table]\nclearance_mm = @60" + vessel("tall", 110) + vessel("low", 50),
+                 "clearance_mm = 60 reaches the mouth of vessel 'low'; allowed: less than the vessel's height, 50 mm");
+  expect_refusal("[table]\nclearance_mm = @50" + vessel("low", 50), "allowed: less than the vessel's height, 50 mm");
+  expect_refusal("@[table]" + vessel("dish", 2), "clearance_mm = 2 reaches the mouth of vessel 'dish'");
+  EXPECT_EQ(scene_from("[table]\nclearance_mm = 49.9" + vessel("low", 50)).table->clearance, 49.9e-3);
+  EXPECT_EQ(scene_from("[table]" + vessel("dish", 2.1)).table->clearance, 2e-3);
 }
 
 TEST(SceneTable, RefusesVessels) {
