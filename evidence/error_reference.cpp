@@ -9,8 +9,10 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <string_view>
 
 #include "core/core_backend.h"
+#include "core/fields.h"
 #include "core/prepare.h"
 #include "core/touch.h"
 #include "evidence/compare.h"
@@ -18,6 +20,27 @@
 
 namespace wholehand {
 namespace {
+
+// A quantity that is one number of a grip, by the name of its field. A name that core/fields does not have is passed over.
+struct HandQuantity {
+  ErrorQuantity quantity;
+  std::string_view field;
+  double scale = 1;
+  bool of_states = false;  // and relative: it spans powers of ten, and may be infinite
+};
+
+constexpr HandQuantity HAND_QUANTITIES[] = {
+    {ERROR_TABLE_DEPTH, "table_depth", 1e6}, {ERROR_SELF_DEPTH, "self_depth", 1e6},
+    {ERROR_EFFORT, "worst_effort", 1, true}, {ERROR_TIPS_EFFORT, "tips_worst_effort", 1, true},
+    {ERROR_PUSH, "push", 1, true},           {ERROR_FRICTION_NEEDED, "friction_needed", 1, true},
+};
+
+// FIELD_* of that name, -1: none.
+int field_named(std::string_view name) {
+  for (const Field& field : real_fields())
+    if (field.variable && name == field.variable) return field.number;
+  return -1;
+}
 
 bool is_feasible_status(std::uint32_t status) { return (status & STATUS_REASON_MASK) == REASON_NONE; }
 
@@ -72,6 +95,8 @@ FieldSet compared_fields(const Scene& scene) {
   if (!scene.tilts.empty())
     fields.insert(fields.end(), {scene.force.torque == Torque::exact ? FIELD_EXACT_TORQUE : FIELD_TORQUE, FIELD_FEEDBACK_FORCE,
                                  FIELD_HOLD_FORCE});
+  for (const HandQuantity& asked : HAND_QUANTITIES)
+    if (const int field = field_named(asked.field); field >= 0 && field_planes(field, scene) > 0) fields.push_back(field);
   return make_field_set(fields, scene);
 }
 
@@ -134,6 +159,17 @@ void ErrorReference::compare(const std::vector<GatheredPlanes>& planes, const Ev
         if ((flipped >> j & 1) != 0) margins.push_back(std::abs(exact - judged_contact_tolerance(scene_.hand)));
       }
       errors[ERROR_SEPARATION].add(1e6 * separation, v, i);
+      for (const HandQuantity& asked : HAND_QUANTITIES) {
+        const int field = field_named(asked.field);
+        if (field < 0 || !a.fields.has(field) || !b.fields.has(field) || (asked.of_states && !forces)) continue;
+        // other points press, and that is an outcome
+        if (asked.of_states && flipped != 0) continue;
+        double error = plane_difference(a, b, field, 1, i, asked.of_states);
+        if (std::isnan(error)) continue;
+        const double exact = std::abs(b.real(b.fields.plane[field], i));
+        if (asked.of_states) error = exact > 0 ? error / exact : error;
+        errors[asked.quantity].add(asked.scale * error, v, i);
+      }
     }
   }
   for (int q = 0; q < ERROR_QUANTITIES; ++q) row.errors[q] = figures_of(errors[q].values, errors[q].where);

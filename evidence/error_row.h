@@ -24,6 +24,13 @@ enum ErrorQuantity : int {
   ERROR_TORQUE,    // N m, the one that the scene renders
   ERROR_FEEDBACK,  // N
   ERROR_HOLD,      // N, where it is finite on both sides
+  // Of the whole hand; nothing compares where the scene or its fields lack one.
+  ERROR_TABLE_DEPTH,      // um
+  ERROR_SELF_DEPTH,       // um, overlap of two fingers
+  ERROR_EFFORT,           // these four relative, where they are finite on both sides: the effort of the worst state,
+  ERROR_TIPS_EFFORT,      // .. of the two tips alone,
+  ERROR_PUSH,             // .. what may push,
+  ERROR_FRICTION_NEEDED,  // .. and the least friction
   ERROR_QUANTITIES
 };
 

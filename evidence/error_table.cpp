@@ -16,8 +16,9 @@
 namespace wholehand {
 namespace {
 
-constexpr const char* ERROR_NAMES[ERROR_QUANTITIES] = {"separation_um", "posed_um", "proxy_um",  "closure",    "gap_um",
-                                                       "volume_ml",     "com_um",   "torque_Nm", "feedback_N", "hold_N"};
+constexpr const char* ERROR_NAMES[ERROR_QUANTITIES] = {
+    "separation_um", "posed_um", "proxy_um",       "closure",       "gap_um",       "volume_ml",   "com_um", "torque_Nm",
+    "feedback_N",    "hold_N",   "table_depth_um", "self_depth_um", "worst_effort", "tips_effort", "push",   "friction_needed"};
 
 std::string error_number_cell(double value) { return std::isnan(value) ? "" : fmt::format("{:.9g}", value); }
 

@@ -38,6 +38,12 @@ const char* const COLUMNS =
     "torque_Nm_median,torque_Nm_p999,torque_Nm_max,torque_Nm_worst_grip,"
     "feedback_N_median,feedback_N_p999,feedback_N_max,feedback_N_worst_grip,"
     "hold_N_median,hold_N_p999,hold_N_max,hold_N_worst_grip,"
+    "table_depth_um_median,table_depth_um_p999,table_depth_um_max,table_depth_um_worst_grip,"
+    "self_depth_um_median,self_depth_um_p999,self_depth_um_max,self_depth_um_worst_grip,"
+    "worst_effort_median,worst_effort_p999,worst_effort_max,worst_effort_worst_grip,"
+    "tips_effort_median,tips_effort_p999,tips_effort_max,tips_effort_worst_grip,"
+    "push_median,push_p999,push_max,push_worst_grip,"
+    "friction_needed_median,friction_needed_p999,friction_needed_max,friction_needed_worst_grip,"
     "touch_flips,touch_flips_outside_margin,feasible_flips,device,driver,seed";
 
 // Cells of a CSV, quotes resolved.
@@ -118,6 +124,27 @@ TEST(ErrorTime, RowsHaveTheirColumns) {
   EXPECT_GT(rows[2].errors[ERROR_GAP].median, rows[1].errors[ERROR_GAP].median);
   EXPECT_EQ(*rows[0].touch_flips, 0u);
   EXPECT_GT(rows[2].memory_bytes, rows[0].memory_bytes);
+}
+
+// The depth below the table is a height of the hand: it is compared where there is a table, and what tells fingers where to rest tells it
+// too. Fields that the scene lacks leave their cells empty.
+TEST(ErrorTime, WholeHandsAreCompared) {
+  Scene scene = three_beakers();
+  scene.tilts.clear();
+  const auto none = ErrorMeasure(scene, few_grips()).measure(error_variants(scene, {true, 1, false, false, false, false}).front());
+  EXPECT_EQ(none.errors[ERROR_TABLE_DEPTH].compared, 0u);
+  scene.table = TableData{};
+  const auto variants = error_variants(scene, {false, 1, false, false, false, false});
+  ErrorMeasure measure(scene, few_grips());
+  const ErrorRow exact = measure.measure(find(variants, "core double: 1 thread")),
+                 loose = measure.measure(find(variants, "core double: tolerance 1e-3 m"));
+  const std::uint64_t compared = exact.errors[ERROR_TABLE_DEPTH].compared;
+  EXPECT_EQ(compared, exact.errors[ERROR_SEPARATION].compared);
+  EXPECT_GT(compared, 100u);
+  EXPECT_LT(exact.errors[ERROR_TABLE_DEPTH].max, 0.1);  // um: two stop tolerances of 1e-9 m, by the slopes of the grips
+  EXPECT_GT(loose.errors[ERROR_TABLE_DEPTH].max, 10);   // .. and of 1e-3 m
+  EXPECT_LT(loose.errors[ERROR_TABLE_DEPTH].max, 1e5);
+  EXPECT_EQ(exact.errors[ERROR_EFFORT].compared, 0u);  // without tilts no state
 }
 
 // Half the bytes a sample.
