@@ -96,6 +96,12 @@ std::span<const Field> real_fields() { return ROWS; }
 
 const Field& field_row(int field) { return ROWS[PLACES[static_cast<std::size_t>(field)]]; }
 
+int field_of_variable(std::string_view variable) {
+  for (const Field& field : ROWS)
+    if (field.variable && variable == field.variable) return field.number;
+  return -1;
+}
+
 FineUnit fine_unit(const Field& field) {
   const std::string_view units = field.units;
   if (units == "m") return {"um", 1e6};

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <span>
+#include <string_view>
 
 #include "shaders/layout.h"
 
@@ -42,6 +43,8 @@ struct Field {
 std::span<const Field> real_fields();
 // The row of FIELD_*, below REAL_FIELDS.
 const Field& field_row(int field);
+// FIELD_* of a variable of the result file; -1: no field of reals has this name.
+int field_of_variable(std::string_view variable);
 
 // The unit in which people read differences of such values, and the factor to it: "um" and 1e6 of m.
 struct FineUnit {

@@ -35,13 +35,6 @@ constexpr HandQuantity HAND_QUANTITIES[] = {
     {ERROR_PUSH, "push", 1, true},           {ERROR_FRICTION_NEEDED, "friction_needed", 1, true},
 };
 
-// FIELD_* of that name, -1: none.
-int field_named(std::string_view name) {
-  for (const Field& field : real_fields())
-    if (field.variable && name == field.variable) return field.number;
-  return -1;
-}
-
 bool is_feasible_status(std::uint32_t status) { return (status & STATUS_REASON_MASK) == REASON_NONE; }
 
 // The errors of one quantity, with their places.
@@ -96,7 +89,7 @@ FieldSet compared_fields(const Scene& scene) {
     fields.insert(fields.end(), {scene.force.torque == Torque::exact ? FIELD_EXACT_TORQUE : FIELD_TORQUE, FIELD_FEEDBACK_FORCE,
                                  FIELD_HOLD_FORCE});
   for (const HandQuantity& asked : HAND_QUANTITIES)
-    if (const int field = field_named(asked.field); field >= 0 && field_planes(field, scene) > 0) fields.push_back(field);
+    if (const int field = field_of_variable(asked.field); field >= 0 && field_planes(field, scene) > 0) fields.push_back(field);
   return make_field_set(fields, scene);
 }
 
@@ -160,7 +153,7 @@ void ErrorReference::compare(const std::vector<GatheredPlanes>& planes, const Ev
       }
       errors[ERROR_SEPARATION].add(1e6 * separation, v, i);
       for (const HandQuantity& asked : HAND_QUANTITIES) {
-        const int field = field_named(asked.field);
+        const int field = field_of_variable(asked.field);
         if (field < 0 || !a.fields.has(field) || !b.fields.has(field) || (asked.of_states && !forces)) continue;
         // other points press, and that is an outcome
         if (asked.of_states && flipped != 0) continue;
