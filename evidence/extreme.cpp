@@ -11,6 +11,7 @@
 
 #include "core/core_backend.h"
 #include "core/error.h"
+#include "core/fields.h"
 #include "host/grip_backend.h"
 #include "sweeps/plan.h"
 #include "system/csv.h"
@@ -101,6 +102,15 @@ class ExtremeTally {
     largest(row_.torque, FIELD_EXACT_TORQUE);
     largest(row_.feedback, FIELD_FEEDBACK_FORCE);
     largest(row_.hold, FIELD_HOLD_FORCE);
+    // those of the whole hand, as far as there are fields of them
+    const auto named = [&](double& to, const char* variable) {
+      if (const int field = field_of_variable(variable); field >= 0) largest(to, field);
+    };
+    named(row_.table_depth, "table_depth");
+    named(row_.self_depth, "self_depth");
+    named(row_.effort, "worst_effort");
+    named(row_.push, "push");
+    named(row_.friction_needed, "friction_needed");
   }
 
   // Liquid over fills and tilts; `vessel_by` is what the backend knows of the empty vessel.
@@ -217,7 +227,8 @@ std::string extreme_csv(const std::vector<ExtremeRow>& rows) {
       "blocked,"
       "unsettled_fingers,unsettled_proxies,trace_steps,advance_steps,gap_um,separation_um,posed_um,proxy_um,volume_ml,com_um,"
       "torque_Nm,"
-      "feedback_N,hold_N,touch_flips,touch_flips_outside,feasible_flips,feasible_flips_outside,misplaced,holds,device,driver\n";
+      "feedback_N,hold_N,table_depth_um,self_depth_um,worst_effort,push_N,friction_needed,touch_flips,touch_flips_outside,feasible_"
+      "flips,feasible_flips_outside,misplaced,holds,device,driver\n";
   for (const ExtremeRow& row : rows) {
     text += fmt::format("{},{},{},{},{}", row.name, row.backend, row.precision == Precision::single ? "float" : "double", row.grips,
                         row.feasible);
@@ -226,7 +237,8 @@ std::string extreme_csv(const std::vector<ExtremeRow>& rows) {
       text += fmt::format(",{}", number);
     for (const int steps : {row.trace_steps, row.advance_steps}) text += steps < 0 ? "," : fmt::format(",{}", steps);
     for (const double difference : {row.gap * 1e6, row.separation * 1e6, row.posed * 1e6, row.proxy * 1e6, row.volume * 1e6,
-                                    row.center_of_mass * 1e6, row.torque, row.feedback, row.hold})
+                                    row.center_of_mass * 1e6, row.torque, row.feedback, row.hold, row.table_depth * 1e6,
+                                    row.self_depth * 1e6, row.effort, row.push, row.friction_needed})
       text += fmt::format(",{:.4g}", difference);
     for (const std::uint64_t number :
          {row.touch_flips, row.touch_flips_outside, row.feasible_flips, row.feasible_flips_outside, row.misplaced})

@@ -40,6 +40,8 @@ struct ExtremeRow {
   int trace_steps = -1, advance_steps = -1;  // largest of a trace and of a finger's stage; -1: a device, which does not tell
   double gap = 0, separation = 0, posed = 0, proxy = 0, center_of_mass = 0;  // m; that of vessel and liquid
   double volume = 0, torque = 0, feedback = 0, hold = 0;                     // m3, N m, N, N
+  double table_depth = 0, self_depth = 0;                                    // m
+  double effort = 0, push = 0, friction_needed = 0;                          // of the worst state; N
   std::uint64_t touch_flips = 0, touch_flips_outside = 0;  // grips that do not graze; outside: beyond the comparer's margin
   std::uint64_t feasible_flips = 0, feasible_flips_outside = 0;
   std::uint64_t misplaced = 0;  // values that are not finite and should be: 0
