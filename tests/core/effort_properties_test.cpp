@@ -287,6 +287,25 @@ TEST(EffortProperties, DegenerateHandsAreSound) {
   }
 }
 
+// Digits of 0.1 N beside digits of 10 kN, at the named tolerance: the prices round by 1e5 times more than of even digits, too coarse for FINE.
+TEST(EffortProperties, HandsOfUnevenStrengthAreSound) {
+  int resisted = 0;
+  for (std::uint64_t seed = 0; seed < EFFORT_SETS; ++seed) {
+    ContactSet set = contact_set(seed);
+    Random random(seed);
+    for (double& digit : set.hand.digits) digit = std::pow(10, random.uniform(-1, 4));
+    const Effort found = expect_sound(set, core_f64::EFFORT_TOLERANCE, "uneven, seed " + std::to_string(seed));
+    // as strong as the weakest digit, and as the strongest
+    ContactSet weak = set, strong = set;
+    weak.hand.digits.fill(*std::min_element(set.hand.digits.begin(), set.hand.digits.end()));
+    strong.hand.digits.fill(*std::max_element(set.hand.digits.begin(), set.hand.digits.end()));
+    expect_not_above(effort_of(strong), found, seed);
+    expect_not_above(found, effort_of(weak), seed);
+    resisted += std::isfinite(found.effort) ? 1 : 0;
+  }
+  EXPECT_GT(resisted, 800);
+}
+
 TEST(EffortProperties, LoadsOfAnySizeAreAlike) {
   for (std::uint64_t seed = 0; seed < EFFORT_SETS; ++seed) {
     const ContactSet set = contact_set(seed);
