@@ -10,10 +10,10 @@ namespace CORE_NS {
 namespace {
 
 constexpr Real NEVER = std::numeric_limits<Real>::infinity();
-constexpr Real ROUNDING = SINGLE ? Real(1e-5) : Real(1e-11);  // of numbers of size 1 after the pivots of a solve
-constexpr Real LEAST_PIVOT = SINGLE ? Real(1e-4) : Real(1e-9);   // of the largest of its column
-constexpr int FRESH_PIVOTS = 50;                              // after so many the inverse is made anew
-constexpr Real LEAST_LENGTH = Real(1e-3);                     // m: of a single contact, which has no extent
+constexpr Real ROUNDING = SINGLE ? Real(1e-5) : Real(1e-11);    // of numbers of size 1 after the pivots of a solve
+constexpr Real LEAST_PIVOT = SINGLE ? Real(1e-4) : Real(1e-9);  // of the largest of its column
+constexpr int FRESH_PIVOTS = 50;                                // after so many the inverse is made anew
+constexpr Real LEAST_LENGTH = Real(1e-3);                       // m: of a single contact, which has no extent
 // A basis costs at most so many times what an artificial column of the load's size does: the first one costs sqrt 6 times, and pivots go down.
 // What costs more is rounding, of a friction of 1e-200 for example.
 constexpr Real FIRST_COST = Real(3);
@@ -145,9 +145,9 @@ bool EffortSolver::enter(const Column& column, const Vec6& wanted) {
     if (!is_idle && !(turned[r] > LEAST_PIVOT * largest)) continue;
     const Real ratio = is_idle ? Real(0) : std::max(Real(0), now[r]) / turned[r];
     const bool is_tie = leaves < 6 && std::abs(ratio - least) <= ROUNDING * least;
-    const bool is_better =
-        leaves < 6 && (columns_[r].is_artificial != columns_[leaves].is_artificial ? columns_[r].is_artificial
-                                                                                  : std::abs(turned[r]) > std::abs(turned[leaves]));
+    const bool is_better = leaves < 6 && (columns_[r].is_artificial != columns_[leaves].is_artificial
+                                              ? columns_[r].is_artificial
+                                              : std::abs(turned[r]) > std::abs(turned[leaves]));
     if (is_tie ? is_better : ratio < least) {
       leaves = r;
       least = ratio;

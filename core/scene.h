@@ -219,7 +219,7 @@ struct Scene {
   std::vector<VesselData> vessels;
   std::optional<LiquidData> liquid;
   std::optional<StrengthData> strength;  // absent: no effort is computed
-  ForceData force;  // a scene without [force] has these defaults
+  ForceData force;                       // a scene without [force] has these defaults
   GripsData grips;
   std::vector<double> tilts;           // rad, strictly ascending in [0, pi]; empty: no [tilts], no force kernel
   std::optional<double> until_poured;  // share of a fill, (0, 1]: tilts beyond the first at which it is out are left out

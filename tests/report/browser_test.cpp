@@ -79,9 +79,8 @@ TEST_F(ReportBrowser, FitsEveryWidthInLightAndDark) {
       EXPECT_EQ(attribute(dom, "data-width"), std::to_string(width));
       EXPECT_EQ(attribute(dom, "data-ground"), is_dark ? "dark" : "light");
       const std::string headings = attribute(dom, "data-headings");
-      for (const char* heading :
-           {"Grips of cups", "What was asked", "How it ran", "cup", "flask", "Effort over the tilt", "Agreement with the core",
-            "What others call a held grasp", "The words"})
+      for (const char* heading : {"Grips of cups", "What was asked", "How it ran", "cup", "flask", "Effort over the tilt",
+                                  "Agreement with the core", "What others call a held grasp", "The words"})
         EXPECT_NE(("|" + headings + "|").find("|" + std::string(heading) + "|"), std::string::npos) << headings;
     }
   }
