@@ -131,6 +131,20 @@ void EffortSolver::begin(const Vec6& wanted) {
   has_basis_ = true;
 }
 
+// The basis of another load, for this one: a column that this load wants less than nothing of is turned round, which no contact carries then.
+void EffortSolver::turn(const Vec6& wanted) {
+  const Vec6 now = levels(wanted);
+  const Real rounding = ROUNDING * std::sqrt(dot6(wanted, wanted));
+  for (std::size_t r = 0; r < 6; ++r) {
+    if (!(now[r] < -rounding)) continue;
+    columns_[r].is_artificial = true;
+    for (std::size_t k = 0; k < 6; ++k) {
+      columns_[r].point[k] = -columns_[r].point[k];
+      inverse_[r][k] = -inverse_[r][k];
+    }
+  }
+}
+
 // The column takes the place of the one whose level comes to zero first; of equal ones an artificial one. An artificial column that carries
 // nothing leaves before any other, lest it carry something afterwards. False: there is none.
 bool EffortSolver::enter(const Column& column, const Vec6& wanted) {
@@ -240,7 +254,11 @@ Effort EffortSolver::solve(const Wrench& load, Real tolerance) {
     has_basis_ = false;
     return answer;
   }
-  if (!has_basis_ || !std::isfinite(bound(load))) begin(wanted);
+  if (has_basis_) {
+    turn(wanted);
+  } else {
+    begin(wanted);
+  }
   Vec6 best{};            // the direction of the greatest lower bound
   bool is_fresh = false;  // the inverse
   for (;; ++answer.pivots) {

@@ -92,6 +92,7 @@ class EffortSolver {
   Vec6 levels(const Vec6& wanted) const;
   Real unbalanced(const Vec6& wanted) const;
   void begin(const Vec6& wanted);
+  void turn(const Vec6& wanted);
   bool enter(const Column& column, const Vec6& wanted);
   bool invert();
 
