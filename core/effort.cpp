@@ -131,17 +131,16 @@ void EffortSolver::begin(const Vec6& wanted) {
   has_basis_ = true;
 }
 
-// The basis of another load, for this one: a column that this load wants less than nothing of is turned round, which no contact carries then.
-void EffortSolver::turn(const Vec6& wanted) {
+// The last basis for another load: a column whose level would be negative gives way to an artificial one the other way, of unit length.
+void EffortSolver::restart(const Vec6& wanted) {
   const Vec6 now = levels(wanted);
   const Real rounding = ROUNDING * std::sqrt(dot6(wanted, wanted));
   for (std::size_t r = 0; r < 6; ++r) {
     if (!(now[r] < -rounding)) continue;
+    const Real length = std::sqrt(dot6(columns_[r].point, columns_[r].point));
+    for (Real& value : columns_[r].point) value /= -length;
+    for (Real& value : inverse_[r]) value *= -length;
     columns_[r].is_artificial = true;
-    for (std::size_t k = 0; k < 6; ++k) {
-      columns_[r].point[k] = -columns_[r].point[k];
-      inverse_[r][k] = -inverse_[r][k];
-    }
   }
 }
 
@@ -245,7 +244,7 @@ EffortSolver::Column EffortSolver::priced(bool is_short) const {
 
 // (-w).u / h(u) is a lower bound of the effort for any u, and the levels' sum an upper one once no artificial column carries anything. A
 // point of Z that is worth more than the columns of the basis enters.
-Effort EffortSolver::solve(const Wrench& load, Real tolerance) {
+Effort EffortSolver::solve(const Wrench& load, Real tolerance, Real enough, Real too_much) {
   Effort answer;
   last_ = {};
   const Vec6 wanted = wanted_for(load);
@@ -255,10 +254,11 @@ Effort EffortSolver::solve(const Wrench& load, Real tolerance) {
     return answer;
   }
   if (has_basis_) {
-    turn(wanted);
+    restart(wanted);
   } else {
     begin(wanted);
   }
+  bool is_beyond = false;
   Vec6 best{};            // the direction of the greatest lower bound
   bool is_fresh = false;  // the inverse
   for (;; ++answer.pivots) {
@@ -270,10 +270,14 @@ Effort EffortSolver::solve(const Wrench& load, Real tolerance) {
     if (value > 0 && value > answer.low * height) {
       answer.low = height > 0 ? value / height : NEVER;
       best = column.direction;
+      cut_ = best;
+      cut_height_ = height;
     }
     if (answer.low > dear_ * size) answer.low = NEVER;
-    if (!std::isfinite(answer.low) || (!is_short && cost.real - answer.low <= tolerance * cost.real)) break;
-    if (answer.pivots == EFFORT_PIVOTS) break;
+    if (!std::isfinite(answer.low)) break;
+    if (!is_short && (cost.real <= enough || cost.real - answer.low <= tolerance * cost.real)) break;
+    is_beyond = answer.low > too_much;
+    if (is_beyond || answer.pivots == EFFORT_PIVOTS) break;
     if (height > (is_short ? Real(0) : Real(1)) && enter(column, wanted)) {
       is_fresh = false;
     } else if (is_fresh || !invert()) {  // what ends the search may be the rounding that the inverse has gathered
@@ -299,13 +303,16 @@ Effort EffortSolver::solve(const Wrench& load, Real tolerance) {
     }
     is_certain = !is_held && answer.pivots < EFFORT_PIVOTS;
   }
-  has_basis_ = false;
   answer.effort = NEVER;
+  if (is_beyond) return answer;
+  has_basis_ = false;
   if (is_certain) answer.low = NEVER;
   const Real largest = std::max(glm::length(first(best)), glm::length(second(best)));
   answer.escape = joined(-first(best) / largest, -second(best) / (largest * unit_length_));
   return answer;
 }
+
+Real EffortSolver::excess(const Wrench& load) const { return dot6(cut_, wanted_for(load)) - cut_height_; }
 
 void EffortSolver::forces(std::span<ContactForce> forces) const {
   for (ContactForce& force : forces) force = {};

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <span>
 
 #include "core/real.h"
@@ -61,8 +62,13 @@ class EffortSolver {
   // Moments are about `center` inside of it, and lengths in units of the furthest contact from there: both change the way and not the answer.
   EffortSolver(std::span<const ContactPoint> contacts, const HandStrength& hand, Vec3 center);
 
-  // Ends where effort - low <= tolerance x effort, or after EFFORT_PIVOTS. No load: 0.
-  Effort solve(const Wrench& load, Real tolerance = EFFORT_TOLERANCE);
+  // Ends where effort - low <= tolerance x effort, or after EFFORT_PIVOTS. No load: 0. Also ends, with the bracket that it then has, where effort
+  // <= enough, or low > too_much (`effort` is then infinite): whether the effort is larger than a number needs no more.
+  Effort solve(const Wrench& load, Real tolerance = EFFORT_TOLERANCE, Real enough = 0,
+               Real too_much = std::numeric_limits<Real>::infinity());
+  // How far a load lies beyond what the direction of the last solve's lower bound allows, (-w).u - h(u) in the solver's units: more than 0
+  // means an effort above 1. Affine in the load. -1 before any solve.
+  Real excess(const Wrench& load) const;
   // An upper bound of the effort for this load from the last basis alone; infinite where this basis does not hold it, or there is none.
   Real bound(const Wrench& load) const;
   // The forces that balance the last load that was solved, at its effort: one for each contact, `forces` as long as the contacts. Nothing
@@ -92,7 +98,7 @@ class EffortSolver {
   Vec6 levels(const Vec6& wanted) const;
   Real unbalanced(const Vec6& wanted) const;
   void begin(const Vec6& wanted);
-  void turn(const Vec6& wanted);
+  void restart(const Vec6& wanted);
   bool enter(const Column& column, const Vec6& wanted);
   bool invert();
 
@@ -104,6 +110,8 @@ class EffortSolver {
   std::array<Column, 6> columns_{};
   std::array<Vec6, 6> inverse_{};  // rows
   Vec6 last_{};                    // levels of the last load
+  Vec6 cut_{};                     // u of the last lower bound
+  Real cut_height_ = 1;            // h(u)
   bool has_basis_ = false;
 };
 
