@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "core/grip_effort.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace CORE_NS {
+
+namespace {
+
+constexpr Real UNHELD = std::numeric_limits<Real>::infinity();
+constexpr Real PUSH_STEP = Real(1e-3);  // of an effort that is compared with 1, and of the force
+
+Wrench sum(const Wrench& a, const Wrench& b) { return {a.force + b.force, a.moment + b.moment}; }
+
+// Whether the effort for a load is up to 1, to the solver's tolerance. The last basis or the last cut may tell without a pivot.
+bool is_held(EffortSolver& solver, const Wrench& load, int& pivots) {
+  if (solver.bound(load) <= 1) return true;
+  if (solver.excess(load) > 0) return false;
+  const Effort found = solver.solve(load, EFFORT_TOLERANCE, 1, 1);
+  pivots += found.pivots;
+  return found.effort <= 1;
+}
+
+}  // namespace
+
+// Up in the vessel frame at a tilt t: cos t y - sin t n.
+Wrench GripLoads::weight(const Load& load, StateTilt tilt) const {
+  return wrench_at(load_center(load, pour), -load.mass * gravity * up_direction(pour, tilt.sine, tilt.cosine));
+}
+
+Vec3 contacts_center(std::span<const ContactPoint> contacts) {
+  Vec3 center(0);
+  for (const ContactPoint& contact : contacts) center += contact.place;
+  return contacts.empty() ? center : center / static_cast<Real>(contacts.size());
+}
+
+// From the fullest fill and the furthest tilt on, where the effort is mostly largest. Each state begins with the basis of the last: where this basis
+// holds the load within the largest effort so far, nothing is solved, and a solve ends as soon as it shows the same.
+GripEffort grip_effort(std::span<const ContactPoint> contacts, std::span<const ContactPoint> tips, const HandStrength& hand,
+                       const GripLoads& loads, std::span<FillEffort> fills) {
+  GripEffort grip;
+  const Vec3 center = contacts_center(contacts);
+  EffortSolver whole(contacts, hand, center), pinch(tips, hand, center);
+  for (std::size_t fill = fills.size(); fill-- > 0;) {
+    fills[fill] = {};
+    for (std::size_t tilt = loads.counted[fill]; tilt-- > 0;) {
+      const Wrench weight = loads.weight(fill, tilt);
+      ++grip.states;
+      Real& most = fills[fill].tips;
+      if (pinch.bound(weight) > most) most = std::max(most, pinch.solve(weight, EFFORT_TOLERANCE, most).effort);
+      if (whole.bound(weight) <= grip.worst) {
+        ++grip.skipped;
+        continue;
+      }
+      if (std::isinf(grip.worst)) continue;
+      const Effort found = whole.solve(weight, EFFORT_TOLERANCE, grip.worst);
+      grip.pivots += found.pivots;
+      grip.skipped += found.pivots == 0;
+      if (!(found.effort > grip.worst)) continue;
+      grip.worst = found.effort;
+      grip.fill = fill;
+      grip.tilt = tilt;
+    }
+    grip.tips_worst = std::max(grip.tips_worst, fills[fill].tips);
+  }
+  // once the worst is known, most grips need nothing more
+  for (std::size_t fill = 0; fill < fills.size(); ++fill) {
+    std::size_t& held = fills[fill].held;
+    const std::size_t counted = loads.counted[fill];
+    if (grip.worst <= 1) {
+      held = counted;
+      continue;
+    }
+    while (held < counted && is_held(whole, loads.weight(fill, held), grip.pivots)) ++held;
+  }
+  return grip;
+}
+
+// The effort is convex along a line of loads, so that each direction u that certifies an effort above 1 cuts the line: (-w).u <= h(u) is affine in
+// the load. The cuts come down to the largest force from above, and each axis begins at the least force so far.
+Real push_held(std::span<const ContactPoint> contacts, const HandStrength& hand, const Wrench& weight, Vec3 center) {
+  EffortSolver solver(contacts, hand, contacts_center(contacts));
+  const Effort alone = solver.solve(weight);
+  if (!(alone.effort <= 1)) return 0;
+  Real least = MOST_PUSH;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const Real sense : {Real(1), Real(-1)}) {
+      Vec3 direction(0);
+      direction[axis] = sense;
+      for (int cut = 0; cut < PUSH_CUTS; ++cut) {
+        const Wrench both = sum(weight, wrench_at(center, least * direction));
+        if (solver.bound(both) <= 1) break;
+        const Effort found = solver.solve(both, PUSH_STEP, 1);
+        if (found.effort <= 1) break;
+        if (found.effort <= 1 + PUSH_STEP) {
+          // between two held loads everything is held
+          least *= (1 - alone.effort) / (found.effort - alone.effort);
+          break;
+        }
+        const Real free = solver.excess(weight), over = solver.excess(both);
+        if (!(over > 0) || !(free < 0)) return free < 0 ? least : Real(0);
+        least *= -free / (over - free);
+      }
+    }
+  return least;
+}
+
+// More friction holds everything that less holds.
+Real friction_needed(std::span<const ContactPoint> contacts, const HandStrength& hand, const Wrench& load) {
+  const Vec3 center = contacts_center(contacts);
+  const auto holds = [&](Real friction) {
+    HandStrength other = hand;
+    other.friction = friction;
+    return EffortSolver(contacts, other, center).solve(load, EFFORT_TOLERANCE, 1, 1).effort <= 1;
+  };
+  if (holds(0)) return 0;
+  if (!holds(MOST_FRICTION)) return UNHELD;
+  Real low = 0, high = MOST_FRICTION;
+  while (high - low > FRICTION_STEP) {
+    const Real middle = (low + high) / 2;
+    (holds(middle) ? high : low) = middle;
+  }
+  return high;
+}
+
+}  // namespace CORE_NS

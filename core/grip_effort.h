@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Kernel 10 over the states of one grip: the worst effort, what the tips need, what may push, and the friction that is needed.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "core/effort.h"
+#include "core/force.h"
+
+namespace CORE_NS {
+
+constexpr Real MOST_PUSH = Real(1e6);       // N
+constexpr Real MOST_FRICTION = 10;
+constexpr Real FRICTION_STEP = Real(1e-3);  // of the friction that is needed
+constexpr int PUSH_CUTS = 32;               // at most, a direction
+
+// Sine and cosine of a tilt.
+struct StateTilt {
+  Real sine = 0, cosine = 1;
+};
+
+// The loads of a vessel as one grip holds it. A fill counts its first `counted` tilts. Vessel frame.
+struct GripLoads {
+  std::span<const Load> loads;  // fill-major over the tilts
+  std::span<const StateTilt> tilts;
+  std::span<const std::size_t> counted;  // one for each fill
+  Vec3 pour{};                           // unit, level
+  Real gravity = 0;                      // m/s2
+
+  Wrench weight(const Load& load, StateTilt tilt) const;
+  Wrench weight(std::size_t fill, std::size_t tilt) const { return weight(loads[fill * tilts.size() + tilt], tilts[tilt]); }
+};
+
+// One fill.
+struct FillEffort {
+  Real tips = 0;         // the largest effort of thumb and index tip alone
+  std::size_t held = 0;  // tilts from the first on at which the whole hand holds with an effort up to 1
+};
+
+// Over the states that count. Without states, or without weight: 0.
+struct GripEffort {
+  Real worst = 0;                  // to EFFORT_TOLERANCE; infinite where a state is not resisted
+  std::size_t fill = 0, tilt = 0;  // a state of that effort
+  Real tips_worst = 0;
+  int states = 0;   // that count
+  int skipped = 0;  // of them, those that needed no pivot of the whole hand
+  int pivots = 0;   // of the whole hand
+};
+
+// The mean place of the contacts, about which moments are taken; the origin without contacts.
+Vec3 contacts_center(std::span<const ContactPoint> contacts);
+
+// The whole hand presses with `contacts`, thumb and index tip alone with `tips`. `fills` has one entry for each fill. Allocates nothing.
+GripEffort grip_effort(std::span<const ContactPoint> contacts, std::span<const ContactPoint> tips, const HandStrength& hand,
+                       const GripLoads& loads, std::span<FillEffort> fills);
+
+// The largest force, N, that may act at `center` along each of +-x, +-y, +-z beside `weight` with an effort up to 1: the least of the six, at
+// most MOST_PUSH. 0 where the weight alone takes more.
+Real push_held(std::span<const ContactPoint> contacts, const HandStrength& hand, const Wrench& weight, Vec3 center);
+
+// The least friction with which the effort for a load is up to 1, to FRICTION_STEP, never too small by more than the tolerance of the
+// effort; `hand.friction` itself does not matter. Infinite: none up to MOST_FRICTION.
+Real friction_needed(std::span<const ContactPoint> contacts, const HandStrength& hand, const Wrench& load);
+
+}  // namespace CORE_NS
