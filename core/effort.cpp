@@ -253,7 +253,8 @@ Effort EffortSolver::solve(const Wrench& load, Real tolerance, Real enough, Real
     has_basis_ = false;
     return answer;
   }
-  if (has_basis_) {
+  const bool is_warm = has_basis_;
+  if (is_warm) {
     restart(wanted);
   } else {
     begin(wanted);
@@ -306,10 +307,22 @@ Effort EffortSolver::solve(const Wrench& load, Real tolerance, Real enough, Real
   answer.effort = NEVER;
   if (is_beyond) return answer;
   has_basis_ = false;
+  if (is_warm) {  // a basis of another load may end in a corner; what nothing holds is to be told from the start
+    const int pivots = answer.pivots;
+    answer = solve(load, tolerance, enough, too_much);
+    answer.pivots += pivots;
+    return answer;
+  }
   if (is_certain) answer.low = NEVER;
   const Real largest = std::max(glm::length(first(best)), glm::length(second(best)));
   answer.escape = joined(-first(best) / largest, -second(best) / (largest * unit_length_));
   return answer;
+}
+
+Real EffortSolver::low(const Wrench& load) const {
+  const Real value = dot6(cut_, wanted_for(load));
+  if (!(value > 0)) return 0;
+  return cut_height_ > 0 ? value / cut_height_ : NEVER;
 }
 
 Real EffortSolver::excess(const Wrench& load) const { return dot6(cut_, wanted_for(load)) - cut_height_; }

@@ -69,6 +69,8 @@ class EffortSolver {
   // How far a load lies beyond what the direction of the last solve's lower bound allows, (-w).u - h(u) in the solver's units: more than 0
   // means an effort above 1. Affine in the load. -1 before any solve.
   Real excess(const Wrench& load) const;
+  // A lower bound of the effort for another load, from the same direction.
+  Real low(const Wrench& load) const;
   // An upper bound of the effort for this load from the last basis alone; infinite where this basis does not hold it, or there is none.
   Real bound(const Wrench& load) const;
   // The forces that balance the last load that was solved, at its effort: one for each contact, `forces` as long as the contacts. Nothing

@@ -10,7 +10,14 @@ namespace CORE_NS {
 namespace {
 
 constexpr Real UNHELD = std::numeric_limits<Real>::infinity();
+constexpr Real RISE_TOLERANCE = Real(0.05);  // of an effort that only tells where to look next
+constexpr int RISE_STEPS = 6;
 constexpr Real PUSH_STEP = Real(1e-3);  // of an effort that is compared with 1, and of the force
+
+struct Worst {
+  Real effort = 0;
+  std::size_t fill = 0, tilt = 0;
+};
 
 Wrench sum(const Wrench& a, const Wrench& b) { return {a.force + b.force, a.moment + b.moment}; }
 
@@ -21,6 +28,47 @@ bool is_held(EffortSolver& solver, const Wrench& load, int& pivots) {
   const Effort found = solver.solve(load, EFFORT_TOLERANCE, 1, 1);
   pivots += found.pivots;
   return found.effort <= 1;
+}
+
+// The largest effort over the states of fills first..last - 1. A direction u that certifies one state bounds the effort of all others from below,
+// (-w).u / h(u): the search goes where this bound is largest, not yet exactly, and solves exactly where it stays. Each other state is then compared
+// with that effort alone: mostly the last basis holds it with less, or does after a pivot or two.
+void find_worst(EffortSolver& solver, const GripLoads& loads, std::size_t first, std::size_t last, Worst& worst, GripEffort& grip) {
+  const Real margin = 1 + EFFORT_TOLERANCE / 2;
+  const auto rise = [&](std::size_t fill, std::size_t tilt) {
+    for (int step = 0; step < RISE_STEPS; ++step) {
+      const Effort found = solver.solve(loads.weight(fill, tilt), RISE_TOLERANCE);
+      grip.pivots += found.pivots;
+      if (std::isinf(found.effort)) break;
+      const std::size_t fill_before = fill, tilt_before = tilt;
+      Real most = found.low * (1 + RISE_TOLERANCE);
+      for (std::size_t f = first; f < last; ++f)
+        for (std::size_t t = 0; t < loads.counted[f]; ++t) {
+          const Real low = solver.low(loads.weight(f, t));
+          if (!(low > most)) continue;
+          most = low;
+          fill = f;
+          tilt = t;
+        }
+      if (fill == fill_before && tilt == tilt_before) break;
+    }
+    const Effort found = solver.solve(loads.weight(fill, tilt), EFFORT_TOLERANCE / 2);
+    grip.pivots += found.pivots;
+    if (found.effort > worst.effort) worst = {found.effort, fill, tilt};
+  };
+  for (std::size_t fill = last; fill-- > first;)
+    for (std::size_t tilt = loads.counted[fill]; tilt-- > 0;) {
+      if (worst.effort == 0) rise(last - 1, loads.counted[last - 1] / 2);
+      const Wrench weight = loads.weight(fill, tilt);
+      if (std::isinf(worst.effort) || solver.bound(weight) <= worst.effort * margin) {
+        ++grip.skipped;
+        continue;
+      }
+      const Effort found = solver.solve(weight, EFFORT_TOLERANCE / 2, worst.effort * margin, worst.effort * margin);
+      grip.pivots += found.pivots;
+      grip.skipped += found.pivots == 0;
+      if (found.effort > worst.effort * margin) rise(fill, tilt);
+    }
 }
 
 }  // namespace
@@ -36,34 +84,22 @@ Vec3 contacts_center(std::span<const ContactPoint> contacts) {
   return contacts.empty() ? center : center / static_cast<Real>(contacts.size());
 }
 
-// From the fullest fill and the furthest tilt on, where the effort is mostly largest. Each state begins with the basis of the last: where this basis
-// holds the load within the largest effort so far, nothing is solved, and a solve ends as soon as it shows the same.
 GripEffort grip_effort(std::span<const ContactPoint> contacts, std::span<const ContactPoint> tips, const HandStrength& hand,
                        const GripLoads& loads, std::span<FillEffort> fills) {
-  GripEffort grip;
+  GripEffort grip, pinch;
   const Vec3 center = contacts_center(contacts);
-  EffortSolver whole(contacts, hand, center), pinch(tips, hand, center);
-  for (std::size_t fill = fills.size(); fill-- > 0;) {
-    fills[fill] = {};
-    for (std::size_t tilt = loads.counted[fill]; tilt-- > 0;) {
-      const Wrench weight = loads.weight(fill, tilt);
-      ++grip.states;
-      Real& most = fills[fill].tips;
-      if (pinch.bound(weight) > most) most = std::max(most, pinch.solve(weight, EFFORT_TOLERANCE, most).effort);
-      if (whole.bound(weight) <= grip.worst) {
-        ++grip.skipped;
-        continue;
-      }
-      if (std::isinf(grip.worst)) continue;
-      const Effort found = whole.solve(weight, EFFORT_TOLERANCE, grip.worst);
-      grip.pivots += found.pivots;
-      grip.skipped += found.pivots == 0;
-      if (!(found.effort > grip.worst)) continue;
-      grip.worst = found.effort;
-      grip.fill = fill;
-      grip.tilt = tilt;
-    }
-    grip.tips_worst = std::max(grip.tips_worst, fills[fill].tips);
+  EffortSolver whole(contacts, hand, center), two(tips, hand, center);
+  Worst worst;
+  find_worst(whole, loads, 0, fills.size(), worst, grip);
+  grip.worst = worst.effort;
+  grip.fill = worst.fill;
+  grip.tilt = worst.tilt;
+  for (std::size_t fill = 0; fill < fills.size(); ++fill) {
+    Worst most;
+    find_worst(two, loads, fill, fill + 1, most, pinch);
+    fills[fill] = {most.effort, 0};
+    grip.states += static_cast<int>(loads.counted[fill]);
+    grip.tips_worst = std::max(grip.tips_worst, most.effort);
   }
   // once the worst is known, most grips need nothing more
   for (std::size_t fill = 0; fill < fills.size(); ++fill) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "grips/holding.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/counted_tilts.h"
 #include "core/force.h"
+#include "core/grip_effort.h"
 #include "core/vectors.h"
 
 namespace wholehand {
@@ -15,14 +15,11 @@ namespace {
 using core_f64::ContactPoint;
 using core_f64::Effort;
 using core_f64::EffortSolver;
+using core_f64::Load;
 using core_f64::Vec3;
 using core_f64::Wrench;
 
-constexpr double INFINITE = std::numeric_limits<double>::infinity(), NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
-constexpr double MOST_FRICTION = 10, FRICTION_STEP = 1e-3;
-constexpr double PUSH_STEP = 1e-4;    // relative
-constexpr double MOST_PUSH = 1e6;     // N
-constexpr double SEARCH_STEP = 1e-4;  // of an effort that is compared with 1
+constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
@@ -33,9 +30,8 @@ Holding::Holding(const Scene& scene, const Evaluator& evaluator, std::size_t ves
     joints_.push_back(found.joint);
     contacts_.push_back({to_vec3<double>(found.point), to_vec3<double>(found.normal), found.digit});
     if (found.joint == THUMB_TIP || found.joint == INDEX_TIP) tips_.push_back(contacts_.back());
-    center_ += contacts_.back().place;
   }
-  if (!contacts_.empty()) center_ /= static_cast<double>(contacts_.size());
+  center_ = core_f64::contacts_center(contacts_);
   hand_.friction = scene.force.friction;
   hand_.torsion = scene.force.torsion;
   hand_.digits = scene.strength.value().digits;
@@ -79,92 +75,41 @@ GripState Holding::loaded(double fill, double tilt) const {
   return state;
 }
 
-// Each state begins with the basis of the last. Where this basis holds the next load within the largest effort so far, nothing is solved.
+// Vessel and liquid over the scene's states, as the grip holds them.
+std::vector<Load> Holding::loads(const StateAxes& axes) const {
+  const VesselConstants constants = evaluator_.constants(vessel_);
+  std::vector<Load> loads;
+  for (const double fill : axes.fills)
+    for (const double tilt : axes.tilts) {
+      const LiquidResult liquid = scene_.liquid ? evaluator_.liquid(vessel_, fill, tilt) : LiquidResult{};
+      const double mass = constants.mass + liquid.mass, share = mass > 0 ? liquid.mass / mass : 0;
+      loads.push_back({mass, (1 - share) * to_vec3<double>(constants.center_of_mass), share * liquid.lean, share * liquid.height});
+    }
+  return loads;
+}
+
 std::optional<GripHold> Holding::over_states() const {
   const StateAxes axes = scene_axes(scene_, vessel_);
   if (axes.tilts.empty()) return std::nullopt;
-  GripHold hold;
-  hold.worst = hold.tips_worst = -1;
-  EffortSolver whole(contacts_, hand_, center_), tips(tips_, hand_, center_);
-  Wrench worst;
-  const auto look = [](EffortSolver& solver, const Wrench& weight, double& largest, int& pivots) {
-    if (solver.bound(weight) <= largest) return 0;
-    const Effort found = solver.solve(weight);
-    pivots += found.pivots;
-    if (!(found.effort > largest)) return 1;
-    largest = found.effort;
-    return 2;
-  };
+  const std::vector<Load> all = loads(axes);
+  std::vector<core_f64::StateTilt> tilts;
+  for (const double tilt : axes.tilts) tilts.push_back({std::sin(tilt), std::cos(tilt)});
   const std::vector<std::size_t> counted = counted_tilts(scene_, vessel_);
-  for (std::size_t f = 0; f < axes.fills.size(); ++f) {
-    const double fill = axes.fills[f];
-    for (std::size_t t = 0; t < counted[f]; ++t) {
-      const double tilt = axes.tilts[t];
-      const Wrench weight = load(loaded(fill, tilt).state, tilt);
-      ++hold.states;
-      int tips_pivots = 0;
-      if (std::isfinite(hold.tips_worst)) look(tips, weight, hold.tips_worst, tips_pivots);
-      if (std::isinf(hold.worst)) continue;
-      const int seen = look(whole, weight, hold.worst, hold.pivots);
-      hold.skipped += seen == 0;
-      if (seen < 2) continue;
-      hold.worst_fill = fill;
-      hold.worst_tilt = tilt;
-      worst = weight;
-    }
-  }
-  hold.push = push();
-  hold.friction_needed = friction_for(worst);
+  const core_f64::GripLoads states{all, tilts, counted, to_vec3<double>(pour_), scene_.gravity};
+  std::vector<core_f64::FillEffort> fills(axes.fills.size());
+  const core_f64::GripEffort found = core_f64::grip_effort(contacts_, tips_, hand_, states, fills);
+  GripHold hold;
+  hold.worst = found.worst;
+  hold.worst_fill = axes.fills[found.fill];
+  hold.worst_tilt = axes.tilts[found.tilt];
+  hold.tips_worst = found.tips_worst;
+  hold.states = found.states;
+  hold.skipped = found.skipped;
+  hold.pivots = found.pivots;
+  const StateResult upright = loaded(axes.fills.back(), 0).state;
+  hold.push = core_f64::push_held(contacts_, hand_, load(upright, 0), to_vec3<double>(upright.center_of_mass));
+  hold.friction_needed = core_f64::friction_needed(contacts_, hand_, states.weight(found.fill, found.tilt));
   return hold;
-}
-
-double Holding::push() const {
-  const double fullest = scene_axes(scene_, vessel_).fills.back();
-  const StateResult upright = loaded(fullest, 0).state;
-  const Wrench weight = load(upright, 0);
-  double least = INFINITE;
-  for (int axis = 0; axis < 3; ++axis)
-    for (const double sense : {1.0, -1.0}) {
-      Vec3 direction(0);
-      direction[axis] = sense;
-      least = std::min(least, push_along(weight, to_vec3<double>(upright.center_of_mass), direction));
-    }
-  return least;
-}
-
-// The effort is convex along a line of loads: what holds weight and push, holds everything between.
-double Holding::push_along(const Wrench& weight, const Vec3& center, const Vec3& direction) const {
-  EffortSolver solver(contacts_, hand_, center_);
-  const auto is_held = [&](double force) {
-    const Wrench push = core_f64::wrench_at(center, force * direction);
-    const Wrench both{weight.force + push.force, weight.moment + push.moment};
-    return solver.bound(both) <= 1 || solver.solve(both, SEARCH_STEP).effort <= 1;
-  };
-  if (!is_held(0)) return 0;
-  double low = 0, high = 1;
-  for (; high < MOST_PUSH && is_held(high); high *= 2) low = high;
-  while (high - low > PUSH_STEP * high) {
-    const double middle = 0.5 * (low + high);
-    (is_held(middle) ? low : high) = middle;
-  }
-  return low;
-}
-
-// More friction holds everything that less holds.
-double Holding::friction_for(const Wrench& load) const {
-  const auto is_held = [&](double friction) {
-    core_f64::HandStrength hand = hand_;
-    hand.friction = friction;
-    return EffortSolver(contacts_, hand, center_).solve(load, SEARCH_STEP).effort <= 1;
-  };
-  if (is_held(0)) return 0;
-  if (!is_held(MOST_FRICTION)) return INFINITE;
-  double low = 0, high = MOST_FRICTION;
-  while (high - low > FRICTION_STEP) {
-    const double middle = 0.5 * (low + high);
-    (is_held(middle) ? high : low) = middle;
-  }
-  return high;
 }
 
 }  // namespace wholehand

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/effort.h"
+#include "core/force.h"
 #include "grips/methods.h"
 
 namespace wholehand {
@@ -31,7 +32,7 @@ struct StateHold {
 
 // A grip over the scene's own fills and tilts. The effort is a share of the strength: up to 1 the hand holds.
 struct GripHold {
-  double worst = 0, worst_fill = 0, worst_tilt = 0;  // the first state of the largest effort: fraction, rad
+  double worst = 0, worst_fill = 0, worst_tilt = 0;  // a state of the largest effort: fraction, rad
   double tips_worst = 0;
   double push = 0;  // N: upright and fullest, what may push at the centre of mass along each of +-x, +-y, +-z beside the weight
   double friction_needed = 0;  // the least mu that holds that worst state; infinite: none up to 10
@@ -51,9 +52,7 @@ class Holding {
  private:
   core_f64::Wrench load(const StateResult& state, double tilt) const;
   GripState loaded(double fill, double tilt) const;
-  double push() const;
-  double push_along(const core_f64::Wrench& weight, const core_f64::Vec3& center, const core_f64::Vec3& direction) const;
-  double friction_for(const core_f64::Wrench& load) const;
+  std::vector<core_f64::Load> loads(const StateAxes& axes) const;
 
   const Scene& scene_;
   const Evaluator& evaluator_;

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+// Kernel 10 over the states of a grip, against every state solved by itself from nothing.
+#include "core/grip_effort.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/counted_tilts.h"
+#include "core/evaluator.h"
+#include "core/planes.h"
+#include "core/vectors.h"
+#include "tests/support/scenes.h"
+
+namespace wholehand {
+namespace {
+
+using core_f64::ContactPoint;
+using core_f64::EFFORT_TOLERANCE;
+using core_f64::EffortSolver;
+using core_f64::FillEffort;
+using core_f64::grip_effort;
+using core_f64::GripEffort;
+using core_f64::GripLoads;
+using core_f64::HandStrength;
+using core_f64::Vec3;
+using core_f64::Wrench;
+
+// A grip's contacts and the loads of all its states.
+struct LoadedGrip {
+  std::vector<ContactPoint> contacts, tips;
+  HandStrength hand;
+  std::vector<core_f64::Load> states;
+  std::vector<core_f64::StateTilt> tilts;
+  std::vector<std::size_t> counted;
+  Vec3 pour{};
+  double gravity = 0;
+
+  GripLoads loads() const { return {states, tilts, counted, pour, gravity}; }
+  std::size_t fills() const { return counted.size(); }
+};
+
+LoadedGrip held_grip(const Scene& scene, const Evaluator& evaluator, std::size_t vessel, const GripInput& grip,
+                     const GripResult& result) {
+  LoadedGrip held;
+  for (const GripContact& found : evaluator.contacts(vessel, result)) {
+    held.contacts.push_back({to_vec3<double>(found.point), to_vec3<double>(found.normal), found.digit});
+    if (found.joint == THUMB_TIP || found.joint == INDEX_TIP) held.tips.push_back(held.contacts.back());
+  }
+  held.hand = {scene.force.friction, scene.force.torsion, scene.strength->digits};
+  held.counted = counted_tilts(scene, vessel);
+  held.gravity = scene.gravity;
+  const Vec3 line(std::cos(grip.azimuth) * std::cos(grip.obliquity), std::sin(grip.obliquity),
+                  -std::sin(grip.azimuth) * std::cos(grip.obliquity));
+  held.pour = core_f64::pour_direction(line, scene.hand.handedness == Handedness::left ? -1 : 1);
+  for (const double tilt : scene.tilts) held.tilts.push_back({std::sin(tilt), std::cos(tilt)});
+  for (const double fill : vessel_fills(scene, scene.vessels[vessel]))
+    for (const double tilt : scene.tilts) {
+      const StateResult state = evaluator.state(vessel, grip, result, evaluator.liquid(vessel, fill, tilt), tilt);
+      held.states.push_back({state.mass, to_vec3<double>(state.center_of_mass), 0, 0});
+    }
+  return held;
+}
+
+// Plausible grips at random of each vessel of the shipped scene.
+std::vector<LoadedGrip> random_grips(std::size_t count, Handedness handedness, std::uint64_t seed) {
+  Scene scene = three_beakers();
+  scene.strength.emplace();
+  scene.hand.handedness = handedness;
+  const auto evaluator = make_core_evaluator(scene);
+  Random random(seed);
+  std::vector<LoadedGrip> grips;
+  while (grips.size() < count) {
+    const std::size_t vessel = grips.size() % scene.vessels.size();
+    GripInput grip;
+    grip.height = random.uniform(0.1, 0.95) * scene.vessels[vessel].height;
+    grip.obliquity = radians(random.uniform(-20, 20));
+    grip.roll = radians(random.uniform(-90, 30));
+    GripResult result;
+    evaluator->grip(vessel, grip, result);
+    if (result.plausible) grips.push_back(held_grip(scene, *evaluator, vessel, grip, result));
+  }
+  return grips;
+}
+
+double effort_of(const std::vector<ContactPoint>& contacts, const HandStrength& hand, const Wrench& load) {
+  return EffortSolver(contacts, hand, core_f64::contacts_center(contacts)).solve(load).effort;
+}
+
+// Both are brackets of EFFORT_TOLERANCE, and a state is left out where it is within as much of the worst.
+void expect_same_effort(double found, double wanted, const std::string& where) {
+  if (std::isinf(wanted)) {
+    EXPECT_EQ(found, wanted) << where;
+  } else {
+    EXPECT_NEAR(found, wanted, 2 * EFFORT_TOLERANCE * wanted) << where;
+  }
+}
+
+class GripEffortOf : public testing::TestWithParam<Handedness> {};
+
+TEST_P(GripEffortOf, IsTheLargestOfAllStates) {
+  int unheld = 0, above_one = 0;
+  for (const LoadedGrip& grip : random_grips(45, GetParam(), 7)) {
+    const GripLoads loads = grip.loads();
+    std::vector<FillEffort> fills(grip.fills());
+    const GripEffort found = grip_effort(grip.contacts, grip.tips, grip.hand, loads, fills);
+    double worst = 0, tips_worst = 0;
+    int states = 0;
+    for (std::size_t fill = 0; fill < fills.size(); ++fill) {
+      const std::string where = "fill " + std::to_string(fill);
+      double tips = 0;
+      // 1 is compared with brackets: a state whose effort is as near to it may count either way
+      std::size_t surely_held = 0, perhaps_held = 0;
+      for (std::size_t tilt = 0; tilt < grip.counted[fill]; ++tilt, ++states) {
+        const double effort = effort_of(grip.contacts, grip.hand, loads.weight(fill, tilt));
+        worst = std::max(worst, effort);
+        tips = std::max(tips, effort_of(grip.tips, grip.hand, loads.weight(fill, tilt)));
+        if (surely_held == tilt && effort <= 1 - 2 * EFFORT_TOLERANCE) ++surely_held;
+        if (perhaps_held == tilt && effort <= 1 + 2 * EFFORT_TOLERANCE) ++perhaps_held;
+      }
+      expect_same_effort(fills[fill].tips, tips, where);
+      EXPECT_GE(fills[fill].held, surely_held) << where;
+      EXPECT_LE(fills[fill].held, perhaps_held) << where;
+      tips_worst = std::max(tips_worst, tips);
+    }
+    expect_same_effort(found.worst, worst, "whole hand");
+    expect_same_effort(found.tips_worst, tips_worst, "tips");
+    expect_same_effort(effort_of(grip.contacts, grip.hand, loads.weight(found.fill, found.tilt)), worst, "its own state");
+    EXPECT_EQ(found.states, states);
+    EXPECT_LE(found.skipped, found.states);
+    unheld += std::isinf(worst);
+    above_one += worst > 1;
+  }
+  EXPECT_GT(above_one, unheld);  // both sides of 1 are among them
+  EXPECT_LT(above_one, 45);
+}
+
+INSTANTIATE_TEST_SUITE_P(Hands, GripEffortOf, testing::Values(Handedness::right, Handedness::left));
+
+// Twice the strength is half the effort, and more friction never takes more.
+TEST(GripEffort, FallsWithStrengthAndFriction) {
+  for (const LoadedGrip& grip : random_grips(15, Handedness::right, 11)) {
+    std::vector<FillEffort> fills(grip.fills());
+    const double once = grip_effort(grip.contacts, grip.tips, grip.hand, grip.loads(), fills).worst;
+    HandStrength stronger = grip.hand, rougher = grip.hand;
+    for (double& strength : stronger.digits) strength *= 2;
+    rougher.friction *= 1.5;
+    expect_same_effort(2 * grip_effort(grip.contacts, grip.tips, stronger, grip.loads(), fills).worst, once, "stronger");
+    EXPECT_LE(grip_effort(grip.contacts, grip.tips, rougher, grip.loads(), fills).worst, once * (1 + 2 * EFFORT_TOLERANCE));
+  }
+}
+
+// Bisection of single solves, which knows no cuts: the push to 1e-3 of itself and the tolerance of an effort, which the weight's share of
+// the effort magnifies by 1 / (1 - effort).
+TEST(GripEffort, PushIsWhatBisectionFinds) {
+  int pushed = 0;
+  for (const LoadedGrip& grip : random_grips(30, Handedness::right, 13)) {
+    const std::size_t fullest = grip.fills() - 1;
+    const Wrench weight = grip.loads().weight(fullest, 0);
+    const Vec3 center = grip.states[fullest * grip.tilts.size()].fixed;
+    const double found = core_f64::push_held(grip.contacts, grip.hand, weight, center);
+    const double alone = effort_of(grip.contacts, grip.hand, weight);
+    const auto is_held = [&](double force) {
+      for (int side = 0; side < 6; ++side) {
+        Vec3 direction(0);
+        direction[side / 2] = side % 2 ? -1 : 1;
+        const Wrench push = core_f64::wrench_at(center, force * direction);
+        if (!(effort_of(grip.contacts, grip.hand, {weight.force + push.force, weight.moment + push.moment}) <= 1)) return false;
+      }
+      return true;
+    };
+    if (!is_held(0)) {
+      EXPECT_EQ(found, 0);
+      continue;
+    }
+    double low = 0, high = 1000;
+    for (int step = 0; step < 30; ++step) {
+      const double middle = (low + high) / 2;
+      (is_held(middle) ? low : high) = middle;
+    }
+    EXPECT_NEAR(found, low, (1e-3 + 4 * EFFORT_TOLERANCE / (1 - alone)) * low + 1e-6);
+    pushed += low > 0;
+  }
+  EXPECT_GT(pushed, 10);
+}
+
+// The hand holds with the friction that is said, to the tolerance of an effort, and does not with one step less.
+TEST(GripEffort, FrictionNeededIsTheLeast) {
+  int finite = 0;
+  for (const LoadedGrip& grip : random_grips(30, Handedness::right, 17)) {
+    std::vector<FillEffort> fills(grip.fills());
+    const GripEffort found = grip_effort(grip.contacts, grip.tips, grip.hand, grip.loads(), fills);
+    const Wrench worst = grip.loads().weight(found.fill, found.tilt);
+    const double friction = core_f64::friction_needed(grip.contacts, grip.hand, worst);
+    const auto effort_with = [&](double mu) {
+      HandStrength hand = grip.hand;
+      hand.friction = mu;
+      return effort_of(grip.contacts, hand, worst);
+    };
+    if (std::isinf(friction)) {
+      EXPECT_GT(effort_with(core_f64::MOST_FRICTION), 1 - EFFORT_TOLERANCE);
+      continue;
+    }
+    EXPECT_LE(effort_with(friction), 1 + EFFORT_TOLERANCE);
+    if (friction > core_f64::FRICTION_STEP) {
+      EXPECT_GT(effort_with(friction - core_f64::FRICTION_STEP), 1 - EFFORT_TOLERANCE);
+    }
+    ++finite;
+  }
+  EXPECT_GT(finite, 10);
+}
+
+// A thumb alone holds nothing that hangs from it.
+TEST(GripEffort, OneContactHoldsNothing) {
+  LoadedGrip grip = random_grips(1, Handedness::right, 19).front();
+  grip.contacts.resize(1);
+  std::vector<FillEffort> fills(grip.fills());
+  const GripEffort found = grip_effort(grip.contacts, grip.contacts, grip.hand, grip.loads(), fills);
+  EXPECT_EQ(found.worst, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(found.tips_worst, std::numeric_limits<double>::infinity());
+  for (const FillEffort& fill : fills) EXPECT_EQ(fill.held, 0u);
+}
+
+}  // namespace
+}  // namespace wholehand
