@@ -14,8 +14,8 @@ constexpr Real ROUNDING = SINGLE ? Real(1e-5) : Real(1e-11);    // of numbers of
 constexpr Real LEAST_PIVOT = SINGLE ? Real(1e-4) : Real(1e-9);  // of the largest of its column
 constexpr int FRESH_PIVOTS = 50;                                // after so many the inverse is made anew
 constexpr Real LEAST_LENGTH = Real(1e-3);                       // m: of a single contact, which has no extent
-// A basis costs at most so many times what an artificial column of the load's size does: the first one costs sqrt 6 times, and pivots go down.
-// What costs more is rounding, of a friction of 1e-200 for example.
+// A basis costs at most so many times what an artificial column of the load's size does: the first one costs sqrt 6 times, and
+// pivots go down. What costs more is rounding, of a friction of 1e-200 for example.
 constexpr Real FIRST_COST = Real(3);
 constexpr Real UNBALANCED = SINGLE ? Real(1e-2) : Real(1e-7);  // of a load: forces that leave more of it are no answer
 
@@ -110,8 +110,9 @@ EffortSolver::Vec6 EffortSolver::levels(const Vec6& wanted) const {
   return levels;
 }
 
-// Six artificial columns, which no contact carries, at right angles and with equal shares of `wanted`: a basis with a level of 0 would be
-// degenerate from the start. They are the columns of the reflection that takes (1, .., 1) / sqrt 6 to the unit vector along `wanted`.
+// Six artificial columns, which no contact carries, at right angles and with equal shares of `wanted`: a basis with a level of 0
+// would be degenerate from the start. They are the columns of the reflection that takes (1, .., 1) / sqrt 6 to the unit vector
+// along `wanted`.
 void EffortSolver::begin(const Vec6& wanted) {
   const Real size = std::sqrt(dot6(wanted, wanted));
   Vec6 mirror{};
@@ -131,7 +132,8 @@ void EffortSolver::begin(const Vec6& wanted) {
   has_basis_ = true;
 }
 
-// The last basis for another load: a column whose level would be negative gives way to an artificial one the other way, of unit length.
+// The last basis for another load: a column whose level would be negative gives way to an artificial one the other way, of unit
+// length.
 void EffortSolver::restart(const Vec6& wanted) {
   const Vec6 now = levels(wanted);
   const Real rounding = ROUNDING * std::sqrt(dot6(wanted, wanted));
@@ -144,8 +146,8 @@ void EffortSolver::restart(const Vec6& wanted) {
   }
 }
 
-// The column takes the place of the one whose level comes to zero first; of equal ones an artificial one. An artificial column that carries
-// nothing leaves before any other, lest it carry something afterwards. False: there is none.
+// The column takes the place of the one whose level comes to zero first; of equal ones an artificial one. An artificial column that
+// carries nothing leaves before any other, lest it carry something afterwards. False: there is none.
 bool EffortSolver::enter(const Column& column, const Vec6& wanted) {
   const Vec6 turned = levels(column.point), now = levels(wanted);
   const Real rounding = ROUNDING * std::sqrt(dot6(wanted, wanted));
@@ -231,8 +233,9 @@ Real EffortSolver::unbalanced(const Vec6& wanted) const {
   return std::sqrt(dot6(rest, rest));
 }
 
-// What the basis says a wrench is worth: u = costs times inverse. Costs are 1 for artificial columns and 0 for the others while artificial
-// columns carry something, and the other way round after that: one great cost for the artificial columns would take as many digits of u.
+// What the basis says a wrench is worth: u = costs times inverse. Costs are 1 for artificial columns and 0 for the others while
+// artificial columns carry something, and the other way round after that: one great cost for the artificial columns would take as
+// many digits of u.
 EffortSolver::Column EffortSolver::priced(bool is_short) const {
   Column column;
   for (std::size_t r = 0; r < 6; ++r) {
@@ -242,8 +245,8 @@ EffortSolver::Column EffortSolver::priced(bool is_short) const {
   return column;
 }
 
-// (-w).u / h(u) is a lower bound of the effort for any u, and the levels' sum an upper one once no artificial column carries anything. A
-// point of Z that is worth more than the columns of the basis enters.
+// (-w).u / h(u) is a lower bound of the effort for any u, and the levels' sum an upper one once no artificial column carries
+// anything. A point of Z that is worth more than the columns of the basis enters.
 Effort EffortSolver::solve(const Wrench& load, Real tolerance, Real enough, Real too_much) {
   Effort answer;
   last_ = {};

@@ -31,8 +31,9 @@ struct Wrench {
 };
 Wrench wrench_at(Vec3 place, Vec3 force);
 
-// What every contact and digit can do. A contact with the normal force N carries a tangential force f and a moment tau about the normal with
-// (|f| / (mu N))^2 + (tau / (mu gamma N))^2 <= 1. The normal forces of a digit's contacts add up to its strength at most.
+// What every contact and digit can do. A contact with the normal force N carries a tangential force f and a moment tau about the
+// normal with (|f| / (mu N))^2 + (tau / (mu gamma N))^2 <= 1. The normal forces of a digit's contacts add up to its strength at
+// most.
 struct HandStrength {
   Real friction = 0;                  // mu
   Real torsion = 0;                   // gamma, m
@@ -44,37 +45,40 @@ struct ContactForce {
   Real torsion = 0;  // moment about the inward normal, N m
 };
 
-// The least effort lies in [low, effort], and forces of `effort` balance the load. Not resisted by any force: both infinite, and `escape` is the
-// motion of the object (velocity of the solver's center, m/s, and angular velocity, rad/s, scaled together) along which the load pushes it and no
-// contact opposes: the support value of -escape is small beside the load's power. `low` stays finite where EFFORT_PIVOTS or rounding ended the
-// search before that was certain.
+// The least effort lies in [low, effort], and forces of `effort` balance the load. Not resisted by any force: both infinite, and
+// `escape` is the motion of the object (velocity of the solver's center, m/s, and angular velocity, rad/s, scaled together) along
+// which the load pushes it and no contact opposes: the support value of -escape is small beside the load's power. `low` stays
+// finite where EFFORT_PIVOTS or rounding ended the search before that was certain.
 struct Effort {
   Real effort = 0, low = 0;
   std::array<Real, 6> escape{};
   int pivots = 0;
 };
 
-// The gauge of Z, the Minkowski sum over the digits of strength x conv({0} and the wrenches of its contacts at unit normal force), at the
-// wrench that balances a load: revised simplex with six rows, whose columns are points of Z that its support function finds. Keeps its
-// last basis, from which the next load of the same contacts begins. Allocates nothing. `contacts` must outlive it.
+// The gauge of Z, the Minkowski sum over the digits of strength x conv({0} and the wrenches of its contacts at unit normal force),
+// at the wrench that balances a load: revised simplex with six rows, whose columns are points of Z that its support function finds.
+// Keeps its last basis, from which the next load of the same contacts begins. Allocates nothing. `contacts` must outlive it.
 class EffortSolver {
  public:
-  // Moments are about `center` inside of it, and lengths in units of the furthest contact from there: both change the way and not the answer.
+  // Moments are about `center` inside of it, and lengths in units of the furthest contact from there: both change the way and not
+  // the answer.
   EffortSolver(std::span<const ContactPoint> contacts, const HandStrength& hand, Vec3 center);
 
-  // Ends where effort - low <= tolerance x effort, or after EFFORT_PIVOTS. No load: 0. Also ends, with the bracket that it then has, where effort
-  // <= enough, or low > too_much (`effort` is then infinite): whether the effort is larger than a number needs no more.
+  // Ends where effort - low <= tolerance x effort, or after EFFORT_PIVOTS. No load: 0. Also ends, with the bracket that it then
+  // has, where effort <= enough, or low > too_much (`effort` is then infinite): whether the effort is larger than a number needs no
+  // more.
   Effort solve(const Wrench& load, Real tolerance = EFFORT_TOLERANCE, Real enough = 0,
                Real too_much = std::numeric_limits<Real>::infinity());
-  // How far a load lies beyond what the direction of the last solve's lower bound allows, (-w).u - h(u) in the solver's units: more than 0
-  // means an effort above 1. Affine in the load. -1 before any solve.
+  // How far a load lies beyond what the direction of the last solve's lower bound allows, (-w).u - h(u) in the solver's units: more
+  // than 0 means an effort above 1. Affine in the load. -1 before any solve.
   Real excess(const Wrench& load) const;
   // A lower bound of the effort for another load, from the same direction.
   Real low(const Wrench& load) const;
-  // An upper bound of the effort for this load from the last basis alone; infinite where this basis does not hold it, or there is none.
+  // An upper bound of the effort for this load from the last basis alone; infinite where this basis does not hold it, or there is
+  // none.
   Real bound(const Wrench& load) const;
-  // The forces that balance the last load that was solved, at its effort: one for each contact, `forces` as long as the contacts. Nothing
-  // where the load was not resisted.
+  // The forces that balance the last load that was solved, at its effort: one for each contact, `forces` as long as the contacts.
+  // Nothing where the load was not resisted.
   void forces(std::span<ContactForce> forces) const;
 
  private:

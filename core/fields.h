@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The output fields of a grip that are reals, as one table: whatever goes through all fields reads it from here. A new field is a
-// line in shaders/layout.h, a row of this table, and the lines that compute it: in core/evaluator.cpp, and in the .comp that writes it.
+// line in shaders/layout.h, a row of this table, and the lines that compute it: in core/evaluator.cpp, and in the .comp that writes
+// it.
 #pragma once
 
 #include <span>
@@ -10,8 +11,8 @@
 
 namespace wholehand {
 
-// Numbers of a field: how many planes, and what they stand for. Of contacts: thumb, index; of joints: joint-major, x y z; of states:
-// fill-major.
+// Numbers of a field: how many planes, and what they stand for. Of contacts: thumb, index; of joints: joint-major, x y z; of
+// states: fill-major.
 enum class FieldShape { one, contacts, vector, terms, joints, joint_vectors, fills, states };
 
 // Where a field has no value (NaN). The score and its terms are 0 there.

@@ -30,9 +30,10 @@ bool is_held(EffortSolver& solver, const Wrench& load, int& pivots) {
   return found.effort <= 1;
 }
 
-// The largest effort over the states of fills first..last - 1. A direction u that certifies one state bounds the effort of all others from below,
-// (-w).u / h(u): the search goes where this bound is largest, not yet exactly, and solves exactly where it stays. Each other state is then compared
-// with that effort alone: mostly the last basis holds it with less, or does after a pivot or two.
+// The largest effort over the states of fills first..last - 1. A direction u that certifies one state bounds the effort of all
+// others from below, (-w).u / h(u): the search goes where this bound is largest, not yet exactly, and solves exactly where it
+// stays. Each other state is then compared with that effort alone: mostly the last basis holds it with less, or does after a pivot
+// or two.
 void find_worst(EffortSolver& solver, const GripLoads& loads, std::size_t first, std::size_t last, Worst& worst, GripEffort& grip) {
   const Real margin = 1 + EFFORT_TOLERANCE / 2;
   const auto rise = [&](std::size_t fill, std::size_t tilt) {
@@ -114,8 +115,8 @@ GripEffort grip_effort(std::span<const ContactPoint> contacts, std::span<const C
   return grip;
 }
 
-// The effort is convex along a line of loads, so that each direction u that certifies an effort above 1 cuts the line: (-w).u <= h(u) is affine in
-// the load. The cuts come down to the largest force from above, and each axis begins at the least force so far.
+// The effort is convex along a line of loads, so that each direction u that certifies an effort above 1 cuts the line: (-w).u <=
+// h(u) is affine in the load. The cuts come down to the largest force from above, and each axis begins at the least force so far.
 Real push_held(std::span<const ContactPoint> contacts, const HandStrength& hand, const Wrench& weight, Vec3 center) {
   EffortSolver solver(contacts, hand, contacts_center(contacts));
   const Effort alone = solver.solve(weight);

@@ -51,16 +51,17 @@ struct GripEffort {
 // The mean place of the contacts, about which moments are taken; the origin without contacts.
 Vec3 contacts_center(std::span<const ContactPoint> contacts);
 
-// The whole hand presses with `contacts`, thumb and index tip alone with `tips`. `fills` has one entry for each fill. Allocates nothing.
+// The whole hand presses with `contacts`, thumb and index tip alone with `tips`. `fills` has one entry for each fill. Allocates
+// nothing.
 GripEffort grip_effort(std::span<const ContactPoint> contacts, std::span<const ContactPoint> tips, const HandStrength& hand,
                        const GripLoads& loads, std::span<FillEffort> fills);
 
-// The largest force, N, that may act at `center` along each of +-x, +-y, +-z beside `weight` with an effort up to 1: the least of the six, at
-// most MOST_PUSH. 0 where the weight alone takes more.
+// The largest force, N, that may act at `center` along each of +-x, +-y, +-z beside `weight` with an effort up to 1: the least of
+// the six, at most MOST_PUSH. 0 where the weight alone takes more.
 Real push_held(std::span<const ContactPoint> contacts, const HandStrength& hand, const Wrench& weight, Vec3 center);
 
-// The least friction with which the effort for a load is up to 1, to FRICTION_STEP, never too small by more than the tolerance of the
-// effort; `hand.friction` itself does not matter. Infinite: none up to MOST_FRICTION.
+// The least friction with which the effort for a load is up to 1, to FRICTION_STEP, never too small by more than the tolerance of
+// the effort; `hand.friction` itself does not matter. Infinite: none up to MOST_FRICTION.
 Real friction_needed(std::span<const ContactPoint> contacts, const HandStrength& hand, const Wrench& load);
 
 }  // namespace CORE_NS

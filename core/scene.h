@@ -149,7 +149,8 @@ struct ForceData {
   double grip_strength = 40;  // N
 };
 
-// The largest sum of normal forces of each digit's contacts, N: thumb, index, middle, ring, little, palm. docs/method.md has the sources.
+// The largest sum of normal forces of each digit's contacts, N: thumb, index, middle, ring, little, palm. docs/method.md has the
+// sources.
 struct StrengthData {
   std::array<double, FINGER_COUNT + 1> digits{40, 25, 35, 25, 14, 80};
 };

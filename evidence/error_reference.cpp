@@ -47,8 +47,8 @@ struct QuantityErrors {
   }
 };
 
-// Largest difference between the planes of a field at one grip. With `finite`, infinite values on either side are passed over (a hold force is
-// infinite where the pinch is not antipodal, which is an outcome and not a number): NaN where none is left.
+// Largest difference between the planes of a field at one grip. With `finite`, infinite values on either side are passed over (a
+// hold force is infinite where the pinch is not antipodal, which is an outcome and not a number): NaN where none is left.
 double plane_difference(const GatheredPlanes& a, const GatheredPlanes& b, int field, int planes, std::size_t i, bool finite) {
   double worst = finite ? std::numeric_limits<double>::quiet_NaN() : 0;
   for (int p = 0; p < planes; ++p) {
@@ -169,8 +169,8 @@ void ErrorReference::compare(const std::vector<GatheredPlanes>& planes, const Ev
   if (comparable.outcomes) row.feasible_flips = feasible_flips;
   if (!comparable.pose) return;
   row.touch_flips = touch_flips;
-  // what a point at rest where the reference has it may be told wrongly. A tolerance looser than the precision's named one is no excuse, and
-  // fingers that came to rest elsewhere are none
+  // what a point at rest where the reference has it may be told wrongly. A tolerance looser than the precision's named one is no
+  // excuse, and fingers that came to rest elsewhere are none
   const Allowance allowed = allowance(row.variant.precision);
   double reach = 0;
   for (const VesselData& vessel : scene_.vessels) reach = std::max(reach, 0.1 * scene_.hand.scale + vessel.height);

@@ -34,7 +34,8 @@ enum ErrorQuantity : int {
   ERROR_QUANTITIES
 };
 
-// Over grips, each with the largest difference among its points or states; over states for the liquid's two. NaN where nothing compares.
+// Over grips, each with the largest difference among its points or states; over states for the liquid's two. NaN where nothing
+// compares.
 struct ErrorFigures {
   double median, p999, max;
   std::string worst;  // vessel:index of the sampled grip, or of the state, fill-major
@@ -49,8 +50,9 @@ struct TimeFigures {
   double median = 0, spread = 0;  // s; the spread is between the quartiles
 };
 
-// Of a variant: in units of the base's median beside it (runs interleaved with the variant's), times the base's median over all its runs, so
-// that a machine that is slower for minutes makes nobody slow who is timed then. Without a base, or one that took no time: as they are.
+// Of a variant: in units of the base's median beside it (runs interleaved with the variant's), times the base's median over all its
+// runs, so that a machine that is slower for minutes makes nobody slow who is timed then. Without a base, or one that took no time:
+// as they are.
 TimeFigures time_figures(std::vector<double> runs, const std::vector<double>& base_beside = {},
                          const std::vector<double>& base_all = {});
 
@@ -71,8 +73,8 @@ struct ErrorRow {
   std::size_t memory_bytes = 0;  // tables and lattices, and inputs and planes of a sweep of one vessel's grips
   std::string device, driver;
 
-  // Largest of the lengths' 99.9th percentiles, um (separation, posed joints, proxies, gap, centre of mass), and of the forces', N; a hold
-  // force on one side alone is wrong by infinity. NaN: the variant answers another question, or nothing of it compares.
+  // Largest of the lengths' 99.9th percentiles, um (separation, posed joints, proxies, gap, centre of mass), and of the forces', N;
+  // a hold force on one side alone is wrong by infinity. NaN: the variant answers another question, or nothing of it compares.
   double length_error() const;
   double force_error() const;
   // On more than one grip in 1,000 it is of another mind whether they are feasible at all: what its errors leave out is no detail.

@@ -19,8 +19,8 @@ struct ExtremeCase {
   Scene scene;
 };
 
-// From a scene whose file begins with `# Hard: ..` and `# Comes out: ..`; its name is the file's, without .toml. Throws Error (usage)
-// where one of the lines is missing.
+// From a scene whose file begins with `# Hard: ..` and `# Comes out: ..`; its name is the file's, without .toml. Throws Error
+// (usage) where one of the lines is missing.
 ExtremeCase extreme_case(const Scene& scene);
 
 struct ExtremeOptions {
@@ -29,8 +29,8 @@ struct ExtremeOptions {
   std::size_t grips = 200;  // of each vessel, at most; spread over the scene's
 };
 
-// One case on one backend. Differences are the largest from the core in double over all vessels, of the feasible grips whose discrete
-// outcomes are the same and that do not graze; 0 for the core in double itself.
+// One case on one backend. Differences are the largest from the core in double over all vessels, of the feasible grips whose
+// discrete outcomes are the same and that do not graze; 0 for the core in double itself.
 struct ExtremeRow {
   std::string name, backend, device, driver;
   Precision precision = Precision::full;

@@ -112,7 +112,8 @@ class View {
     return core_f64::separation_at(live_.vessels[v].vessel, stances_[v].inward(tips_[k]), radius(k == 0 ? THUMB_TIP : INDEX_TIP));
   }
 
-  // From 0 where the tips are not at either side of a vessel to 1 where they are opposed: a grasp asks for some of it (GRAZING_COSINE).
+  // From 0 where the tips are not at either side of a vessel to 1 where they are opposed: a grasp asks for some of it
+  // (GRAZING_COSINE).
   double opposition(int v) const {
     const Vec3 apart = tips_[1] - tips_[0];
     const double gap = glm::length(apart);
@@ -127,8 +128,8 @@ class View {
     return std::clamp((least - GRAZING_COSINE) / (OPPOSED - GRAZING_COSINE), 0.0, 1.0);
   }
 
-  // The hand with its tips at their proxies; its other fingers as the scene's pose has it, where they have begun to come to the vessel
-  // (`share` > 0). A finger that is not at the glass yet and was inside it when open stays on its trajectory.
+  // The hand with its tips at their proxies; its other fingers as the scene's pose has it, where they have begun to come to the
+  // vessel (`share` > 0). A finger that is not at the glass yet and was inside it when open stays on its trajectory.
   void pose(const core_f64::Hand& hand, double share) {
     const int v = std::max(0, view_.vessel);
     const Stance& stance = stances_[v];

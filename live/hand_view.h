@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The whole hand as it is seen in a live session: what a tick tells of two fingertips, as 24 points of which none is inside the glass.
+// The whole hand as it is seen in a live session: what a tick tells of two fingertips, as 24 points of which none is inside the
+// glass.
 #pragma once
 
 #include <array>
@@ -26,17 +27,17 @@ struct HandView {
   std::optional<HandHold> hold;    // of a held vessel, in a scene with strengths
 };
 
-// Held: kernels 4 and 5 on what the session kept of the grasp, so that it is the hand of that grip, with the tick's own touch mask. Else the
-// hand is rigged and moved out of the glass, point by point; its other fingers begin to come to the vessel (by as much of their largest
-// angle) as both tips approach it from either side, and are at it when both touch. The tracked tips are at the tick's proxies, and where a
-// vessel comes back through the hand, outside of it. A hand that holds goes through other vessels, as the session lets it. Pure; `poses` are those of
-// the same moment.
+// Held: kernels 4 and 5 on what the session kept of the grasp, so that it is the hand of that grip, with the tick's own touch mask.
+// Else the hand is rigged and moved out of the glass, point by point; its other fingers begin to come to the vessel (by as much of
+// their largest angle) as both tips approach it from either side, and are at it when both touch. The tracked tips are at the tick's
+// proxies, and where a vessel comes back through the hand, outside of it. A hand that holds goes through other vessels, as the
+// session lets it. Pure; `poses` are those of the same moment.
 HandView hand_view(const LiveScene& live, const Tick& tick, const VesselPoses& poses);
 
 constexpr double CLOSING_IN = 20e-3;  // m: nearer than this with both tips, fingers begin to come to the vessel (ours)
 
-// The liquid's surface in a vessel: the plane up . p = level, vessel frame, m. Nothing where there is no liquid. Of more than its lip holds
-// back at that tilt, what is above runs over: the surface is at the lip.
+// The liquid's surface in a vessel: the plane up . p = level, vessel frame, m. Nothing where there is no liquid. Of more than its
+// lip holds back at that tilt, what is above runs over: the surface is at the lip.
 struct LiquidSurface {
   Triple up{};
   double level = 0;
@@ -44,15 +45,16 @@ struct LiquidSurface {
 std::optional<LiquidSurface> liquid_surface(const core_f64::Vessel& vessel, const core_f64::Quadrature& quadrature, double volume,
                                             const Rotation& rotation);
 
-// What runs over the held vessel's lip: from its lowest point straight down to the surface in the target, where it arrives, or to `table` (y of it, m). Nothing
-// where nothing flows.
+// What runs over the held vessel's lip: from its lowest point straight down to the surface in the target, where it arrives, or to
+// `table` (y of it, m). Nothing where nothing flows.
 struct PouringStream {
   Triple from{}, to{};
   double flow = 0;  // m3/s
 };
 std::optional<PouringStream> pouring_stream(const LiveScene& live, const Tick& tick, double table);
 
-// Height of the liquid in the target, a cylinder that stands on the table (m above it, at most to its mouth), and what is in it by a tick, m3.
+// Height of the liquid in the target, a cylinder that stands on the table (m above it, at most to its mouth), and what is in it by
+// a tick, m3.
 double target_level(const TaskData& task, double volume, double table);
 double target_volume(const Scene& scene, const Tick& tick);
 constexpr double TARGET_WALL = 1.8e-3;  // m, outside of its diameter (ours: a scene tells its mouth alone)

@@ -33,7 +33,8 @@ constexpr double LONG_WORK = 10, LONG_OPEN_WORK = 3;  // s
 
 // Of the points between axis and wall of a cavity: so many may be on the other side than the rest, where a fillet was left out.
 constexpr double OTHER_SIDE = 0.05;
-// How far a cavity's wall may be from that of a hollow mesh: m, or a share of its radius if that is more. Cups are drawn with rounded numbers.
+// How far a cavity's wall may be from that of a hollow mesh: m, or a share of its radius if that is more. Cups are drawn with
+// rounded numbers.
 constexpr double OFF_WALL = 3e-3, OFF_WALL_SHARE = 0.1;
 
 // How many of the points between axis and wall of a cavity lie within the mesh.

@@ -24,8 +24,8 @@ std::array<DigitLoad, FINGER_COUNT + 1> digit_loads(const Scene& scene, const St
 // A table of them for some grips, each in its hardest state; nothing where no grip has holds. `name`: of the list of grips.
 void write_digits(MarkupWriter& html, const Scene& scene, const std::vector<RankedReport>& grips, const std::string& name);
 
-// Efforts of the fullest fill over the scene's tilts: of the whole hand, and of the tips of thumb and index finger alone. Infinite where
-// no force holds the vessel, NaN at tilts that are left out.
+// Efforts of the fullest fill over the scene's tilts: of the whole hand, and of the tips of thumb and index finger alone. Infinite
+// where no force holds the vessel, NaN at tilts that are left out.
 struct TiltEfforts {
   std::vector<double> whole, tips;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Maps of a vessel in a report: over height and roll the best score, and the fingers and the force of the grip that has it; and the least
-// worst effort, whichever grip has that.
+// Maps of a vessel in a report: over height and roll the best score, and the fingers and the force of the grip that has it; and the
+// least worst effort, whichever grip has that.
 #pragma once
 
 #include <cstdint>
@@ -41,8 +41,9 @@ bool read_counts(const ReportSource& source, std::size_t vessel, GripCounts& cou
 bool has_map(const ReportSource& source);
 // The variable with the worst effort of each grip; null where the file does not have it.
 const Variable* effort_variable(const ReportSource& source);
-// The best of equal scores is the first. Fingers and forces that the file does not have are the core's, where there is one. `effort`: one
-// real a grip, infinite where nothing holds the vessel and NaN where there is no plausible grip; null: there are no efforts.
+// The best of equal scores is the first. Fingers and forces that the file does not have are the core's, where there is one.
+// `effort`: one real a grip, infinite where nothing holds the vessel and NaN where there is no plausible grip; null: there are no
+// efforts.
 GripMap read_map(const ReportSource& source, std::size_t vessel, const Variable* effort);
 inline GripMap read_map(const ReportSource& source, std::size_t vessel) {
   return read_map(source, vessel, effort_variable(source));

@@ -23,15 +23,15 @@ struct Margin {
 constexpr double TABLE_MARGIN_STEP = 10e-3;  // m of room above the table that add 1 to its margin, as the score's depth term has it
 
 // The margins that the grip has, in the order of the limits: 1 / worst effort, mu / friction needed, 1 + room / TABLE_MARGIN_STEP,
-// F_max / largest normal force. The table is absent without [table], and friction where none is enough. There are none for a grip without
-// holds: the scene has no [strength] or no tilts, or the grip is not feasible. `report` has the scene's own states.
+// F_max / largest normal force. The table is absent without [table], and friction where none is enough. There are none for a grip
+// without holds: the scene has no [strength] or no tilts, or the grip is not feasible. `report` has the scene's own states.
 std::vector<Margin> grip_margins(const Scene& scene, const GripReport& report);
 
 // The smallest, the first of equal ones; nothing where there is none or all are infinite.
 std::optional<Margin> smallest_margin(const std::vector<Margin>& margins);
 
-// "This grip is good because ..; friction would fail first, because .. (margin 1.9)." The reasons are the two terms of the score that add
-// most to it, without the term that the smallest margin is about. Empty for a grip without holds.
+// "This grip is good because ..; friction would fail first, because .. (margin 1.9)." The reasons are the two terms of the score
+// that add most to it, without the term that the smallest margin is about. Empty for a grip without holds.
 std::string verdict(const Scene& scene, const GripReport& report);
 
 // A grip of a list, with its place there.

@@ -27,7 +27,8 @@ struct Silhouette {
 };
 Silhouette read_shape(const SceneTable& vessel, const std::string& shape);
 Silhouette read_outline(const SceneTable& vessel);
-// What the vessel holds: its wall and floor, or its inner outline, which lies within `silhouette`; of a mesh the latter alone, unchecked.
+// What the vessel holds: its wall and floor, or its inner outline, which lies within `silhouette`; of a mesh the latter alone,
+// unchecked.
 void read_cavity(const SceneTable& table, const Silhouette& silhouette, VesselData& vessel);
 
 // ---- grips.cpp ----

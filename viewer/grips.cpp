@@ -162,7 +162,8 @@ class GripsView::Impl {
     return turned * glm::transpose(frame);
   }
 
-  // About the middle of the tips, and up so far that no glass is under the table on which it stands upright. The hand may be: that is seen.
+  // About the middle of the tips, and up so far that no glass is under the table on which it stands upright. The hand may be: that
+  // is seen.
   Vec3 place_of(const Seen& seen, const Mat3& turn) const {
     const std::size_t v = seen.wanted.vessel;
     const Vec3 pivot = to_vec3(seen.result.midpoint), home = to_vec3(scene_.vessels[v].place);

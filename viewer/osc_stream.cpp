@@ -150,7 +150,8 @@ void OscStream::put(std::string_view address, std::span<const OscValue> values) 
   }
 }
 
-// A quaternion and its negative are the same turn; the one that is nearer to what was sent before lets receivers smooth it number by number.
+// A quaternion and its negative are the same turn; the one that is nearer to what was sent before lets receivers smooth it number
+// by number.
 void OscStream::put_pose(std::string_view address, const Triple& place, const Quaternion& turn, Quaternion& before) noexcept {
   double dot = 0;
   for (std::size_t k = 0; k < 4; ++k) dot += turn[k] * before[k];

@@ -35,8 +35,8 @@ class OscStream final : public Display {
   // A line that the user must see: the session goes to another machine. Empty: it does not.
   const std::string& note() const { return note_; }
 
-  // Sends a frame, in as many datagrams of DATAGRAM bytes as it takes. One that the system does not take at once, or that nobody listens for,
-  // is lost. Waits for nothing.
+  // Sends a frame, in as many datagrams of DATAGRAM bytes as it takes. One that the system does not take at once, or that nobody
+  // listens for, is lost. Waits for nothing.
   void show(const DisplayMoment& moment) noexcept override;
 
   // Bytes: less than any network between two machines cuts in two, and than any receiver's buffer.

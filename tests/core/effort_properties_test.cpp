@@ -29,9 +29,9 @@ using core_f64::Wrench;
 constexpr std::uint64_t EFFORT_SETS = 1200;
 constexpr double FINE = 1e-9;
 
-// What rounding may widen a bracket by, or move it by where the same question is put in other numbers. A direction of the load that hardly
-// any contact resists has a price of up to UNRESISTED_EFFORT = 1e6, and rounding of 1e-16 in the load or a contact costs 1e6 times that;
-// a basis of nearly parallel columns multiplies it by 100 or so. Found in 6,000 sets: 2e-8 at most.
+// What rounding may widen a bracket by, or move it by where the same question is put in other numbers. A direction of the load that
+// hardly any contact resists has a price of up to UNRESISTED_EFFORT = 1e6, and rounding of 1e-16 in the load or a contact costs 1e6
+// times that; a basis of nearly parallel columns multiplies it by 100 or so. Found in 6,000 sets: 2e-8 at most.
 constexpr double ROUNDED = 1e-7;
 constexpr double SUMMED = 1e-12;   // rounding of sums of some 10 numbers of the size of the forces
 constexpr double BALANCED = 1e-9;  // of the load. Found: 6e-12 at most, from bases of nearly parallel columns
@@ -87,17 +87,17 @@ void expect_forces_hold(const ContactSet& set, const EffortSolver& solver, const
     EXPECT_LE(pressed[digit], found.effort * set.hand.digits[digit] * (1 + SUMMED)) << which << " digit " << digit;
 }
 
-// What a contact of unit normal force can take up of a motion at most, in W: the most of force.velocity + moment.turning over its cone,
-// against the motion.
+// What a contact of unit normal force can take up of a motion at most, in W: the most of force.velocity + moment.turning over its
+// cone, against the motion.
 double opposed(const ContactPoint& contact, const core_f64::HandStrength& hand, Vec3 velocity, Vec3 turning) {
   const Vec3 against = -(velocity + glm::cross(turning, contact.place - ABOUT));
   const double along = glm::dot(against, contact.normal), spin = hand.torsion * glm::dot(turning, contact.normal);
   return along + hand.friction * std::hypot(glm::length(against - along * contact.normal), spin);
 }
 
-// Along its escape the load does work, and contacts next to none against it. A normal force N of a contact does N times `opposed` at most, so
-// normal forces of 100 times the load's own size would not be enough. Most escapes show 1e5 to 1e6 times. They show less, in proportion,
-// where the load is near one that is resisted: of 6,000 loads at random 150 times at least.
+// Along its escape the load does work, and contacts next to none against it. A normal force N of a contact does N times `opposed`
+// at most, so normal forces of 100 times the load's own size would not be enough. Most escapes show 1e5 to 1e6 times. They show
+// less, in proportion, where the load is near one that is resisted: of 6,000 loads at random 150 times at least.
 constexpr double OPPOSED = 1e-2;
 
 void expect_escape(const ContactSet& set, const Effort& found, const std::string& which) {
@@ -119,7 +119,8 @@ Effort expect_sound(const ContactSet& set, double tolerance, const std::string& 
   EXPECT_FALSE(std::isnan(found.effort) || std::isnan(found.low)) << which;
   EXPECT_GE(found.low, 0) << which;
   EXPECT_LE(found.low, found.effort) << which;
-  // FINE is near rounding: without friction, where Z has corners, one of a hundred solves turns round among equal bases until the cap
+  // FINE is near rounding: without friction, where Z has corners, one of a hundred solves turns round among equal bases until the
+  // cap
   EXPECT_TRUE(tolerance <= FINE || found.pivots < core_f64::EFFORT_PIVOTS) << which;
   if (std::isfinite(found.effort)) {
     EXPECT_LE(found.effort - found.low, std::max(tolerance, rounded) * found.effort) << which;
@@ -263,11 +264,12 @@ TEST(EffortProperties, NothingToHoldWithIsInfinite) {
   }
 }
 
-// Contacts without friction resist in few directions: prices stay at 1e6 in the others, and nearly parallel normals multiply their rounding
-// by up to 1e5. Found: a bracket 3e-6 of its effort wide, of three contacts.
+// Contacts without friction resist in few directions: prices stay at 1e6 in the others, and nearly parallel normals multiply their
+// rounding by up to 1e5. Found: a bracket 3e-6 of its effort wide, of three contacts.
 constexpr double ROUNDED_WITHOUT_FRICTION = 1e-5;
 
-// Without friction, without torsion, without either, with digits that do not press: each with a load that can be balanced and one at random.
+// Without friction, without torsion, without either, with digits that do not press: each with a load that can be balanced and one
+// at random.
 TEST(EffortProperties, DegenerateHandsAreSound) {
   for (std::uint64_t seed = 0; seed < EFFORT_SETS; ++seed) {
     ContactSet set = contact_set(seed);
@@ -287,7 +289,8 @@ TEST(EffortProperties, DegenerateHandsAreSound) {
   }
 }
 
-// Digits of 0.1 N beside digits of 10 kN, at the named tolerance: the prices round by 1e5 times more than of even digits, too coarse for FINE.
+// Digits of 0.1 N beside digits of 10 kN, at the named tolerance: the prices round by 1e5 times more than of even digits, too
+// coarse for FINE.
 TEST(EffortProperties, HandsOfUnevenStrengthAreSound) {
   int resisted = 0;
   for (std::uint64_t seed = 0; seed < EFFORT_SETS; ++seed) {

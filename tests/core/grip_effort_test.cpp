@@ -154,8 +154,8 @@ TEST(GripEffort, FallsWithStrengthAndFriction) {
   }
 }
 
-// Bisection of single solves, which knows no cuts: the push to 1e-3 of itself and the tolerance of an effort, which the weight's share of
-// the effort magnifies by 1 / (1 - effort).
+// Bisection of single solves, which knows no cuts: the push to 1e-3 of itself and the tolerance of an effort, which the weight's
+// share of the effort magnifies by 1 / (1 - effort).
 TEST(GripEffort, PushIsWhatBisectionFinds) {
   int pushed = 0;
   for (const LoadedGrip& grip : random_grips(30, Handedness::right, 13)) {

@@ -55,7 +55,8 @@ Scene few_states() {
   return scene;
 }
 
-// The contact forces carry the weight, no digit gives more than its share, and the whole hand never takes more than two of its tips.
+// The contact forces carry the weight, no digit gives more than its share, and the whole hand never takes more than two of its
+// tips.
 TEST(Holding, ForcesOfAStateCarryTheVessel) {
   const Scene scene = few_states();
   int held = 0;

@@ -158,7 +158,8 @@ TEST(WriteEfforts, WhatTwoTipsCannotHoldIsSaid) {
   EXPECT_FALSE(has(html, ">two tips</text>"));
 }
 
-// On a wall that narrows upwards by more than the friction, nothing holds the vessel upright; upside down its wall rests on the hand.
+// On a wall that narrows upwards by more than the friction, nothing holds the vessel upright; upside down its wall rests on the
+// hand.
 TEST(WriteEfforts, ALineEndsWithACrossWhereNothingHolds) {
   const SweptScene swept(
       edited(edited(edited(strong_scene(), "shape = \"flask\"", "shape = \"conical\"\nupright_mm = 4\nshoulder_mm = 105"),

@@ -32,8 +32,8 @@ struct CapsuleCheck {
   std::array<int, 2> overlapping{};  // these two, of `bones`
 };
 
-// Looks at a feasible grip of a vessel. Every value is found at some of a bone's points, so the true one is never below `depth` and `overlap`
-// and never above `lowest`: what fails here fails.
+// Looks at a feasible grip of a vessel. Every value is found at some of a bone's points, so the true one is never below `depth` and
+// `overlap` and never above `lowest`: what fails here fails.
 CapsuleCheck check_capsules(const Scene& scene, const Evaluator& evaluator, std::size_t vessel, const GripInput& grip,
                             const GripResult& result);
 
