@@ -8,7 +8,6 @@
 
 #include "charts/lines.h"
 #include "grips/methods.h"
-#include "report/strength.h"
 
 namespace wholehand {
 namespace {
@@ -86,7 +85,7 @@ double highest_feedback(const std::vector<FillForces>& forces) {
 std::string forces_caption(const Scene& scene, const std::vector<FillForces>& forces, const HoldExtent& extent) {
   std::string caption =
       "The feedback force is what the gripper renders. The hold force is what each finger must press with to hold the vessel.";
-  const double limit = scene.force.max, strength = grip_strength(scene);
+  const double limit = scene.force.max, strength = scene.force.grip_strength;
   if (highest_feedback(forces) < limit) caption += fmt::format(" The device's limit of {} N is not reached.", plain_number(limit));
   if (!extent.is_finite_once) {
     caption += " No force of two fingers holds the vessel in this grip, so the hold force has no chart.";
@@ -187,7 +186,7 @@ void write_forces(MarkupWriter& html, const ReportSource& source, std::size_t ve
   hold.name.id = id + "-hold";
   hold.name.title = name + ": hold force over the tilt";
   hold.y_label = "hold force per finger (N)";
-  const double strength = grip_strength(scene);
+  const double strength = scene.force.grip_strength;
   hold.limit = LineChart::Limit{strength, fmt::format("grip strength {} N", plain_number(strength))};
   if (extent.highest > 2 * strength) hold.highest = 2 * strength;
   for (const LineChart* chart : {&feedback, &hold}) {

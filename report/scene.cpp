@@ -11,7 +11,6 @@
 #include "core/mesh_body.h"
 #include "core/prepare.h"
 #include "grips/methods.h"
-#include "report/strength.h"
 #include "sweeps/result_contents.h"
 #include "system/readable.h"
 
@@ -92,15 +91,15 @@ std::string force_text(const Scene& scene) {
 
 std::string hold_text(const Scene& scene) {
   const ForceData& force = scene.force;
-  const std::string contact =
-      fmt::format("friction {}, torsion of a contact {} mm", plain_number(force.friction), plain_number(force.torsion * 1e3));
-  if (!scene.strength) return fmt::format("{}, grip strength {} N", contact, plain_number(grip_strength(scene)));
+  const std::string pinch = fmt::format("friction {}, torsion of a contact {} mm, grip strength {} N", plain_number(force.friction),
+                                        plain_number(force.torsion * 1e3), plain_number(force.grip_strength));
+  if (!scene.strength) return pinch;
   std::vector<std::string> digits;
   for (std::size_t digit = 0; digit < scene.strength->digits.size(); ++digit) {
     const char* name = digit < FINGER_COUNT ? FINGER_NAMES[digit] : "palm";
     digits.push_back(fmt::format("{} {}", name, plain_number(scene.strength->digits[digit])));
   }
-  return fmt::format("{}, strength in N: {}", contact, fmt::join(digits, ", "));
+  return fmt::format("{}, strength of the digits in N: {}", pinch, fmt::join(digits, ", "));
 }
 
 std::string weights_text(const Scene& scene) {

@@ -9,7 +9,6 @@
 #include <cmath>
 
 #include "grips/states.h"
-#include "report/strength.h"
 #include "tests/support/files.h"
 #include "tests/support/sweep_results.h"
 
@@ -29,15 +28,6 @@ std::string efforts_html(const SweptScene& swept, std::size_t vessel) {
   write_efforts(html, *swept.source, vessel, first_grip(swept, vessel), "v");
   EXPECT_TRUE(html.is_closed());
   return html.written();
-}
-
-TEST(GripStrength, IsThatOfTheWeakerFingerOfAPinch) {
-  Scene scene;
-  EXPECT_EQ(grip_strength(scene), 40);
-  scene.strength = StrengthData{};
-  EXPECT_EQ(grip_strength(scene), 25);
-  scene.strength->digits = {7, 25, 1, 1, 1, 1};
-  EXPECT_EQ(grip_strength(scene), 7);
 }
 
 TEST(DigitLoads, AreSumsOfNormalForces) {
