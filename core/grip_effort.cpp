@@ -42,7 +42,7 @@ void find_worst(EffortSolver& solver, const GripLoads& loads, std::size_t first,
       grip.pivots += found.pivots;
       if (std::isinf(found.effort)) break;
       const std::size_t fill_before = fill, tilt_before = tilt;
-      Real most = found.low * (1 + RISE_TOLERANCE);
+      Real most = found.effort;  // what is certainly more is worse than this state
       for (std::size_t f = first; f < last; ++f)
         for (std::size_t t = 0; t < loads.counted[f]; ++t) {
           const Real low = solver.low(loads.weight(f, t));
@@ -137,7 +137,7 @@ Real push_held(std::span<const ContactPoint> contacts, const HandStrength& hand,
           break;
         }
         const Real free = solver.excess(weight), over = solver.excess(both);
-        if (!(over > 0) || !(free < 0)) return free < 0 ? least : Real(0);
+        if (!(over > 0) || !(free < 0)) return 0;  // rounding: no push is certain
         least *= -free / (over - free);
       }
     }

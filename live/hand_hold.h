@@ -27,7 +27,8 @@ struct HandHold {
   double strength = 0;  // of the weaker one of thumb and index finger, N
   std::vector<HandPress> presses;
 
-  // The hold force: with at most so much does each of thumb and index finger press, in the whole hand and by themselves, N.
+  // The hold force, N, in the whole hand and of the two tips alone: what the weaker of thumb and index finger presses with at most. The
+  // other one may press with effort times its own strength.
   double force() const { return effort * strength; }
   double tips_force() const { return tips * strength; }
 };

@@ -70,15 +70,16 @@ std::string term_reason(const Scene& scene, const GripReport& report, std::size_
   }
 }
 
-// The terms that add most to the score, the most first; at most two. A term that adds nothing is no reason.
-std::vector<std::size_t> best_terms(const Scene& scene, const ScoreTerms& terms, std::optional<Limit> weakest) {
+// The terms that add most to the score, the most first; at most two. A term that adds nothing is no reason, nor is holding where the
+// worst effort is more than the hand has.
+std::vector<std::size_t> best_terms(const Scene& scene, const ScoreTerms& terms, double worst, std::optional<Limit> weakest) {
   const std::array<double, 6> weights = effective_weights(scene),
                               values{terms.fingers, terms.contacts, terms.depth, terms.posture, terms.force, terms.hold};
   const auto adds = [&](std::size_t term) { return weights[term] * values[term]; };
   std::vector<std::size_t> found;
   for (std::size_t term = 0; term < TERM_COUNT; ++term) {
     const bool is_weak = (term == FORCE_TERM && weakest == Limit::force) ||
-                         (term == HOLD_TERM && (weakest == Limit::effort || weakest == Limit::friction));
+                         (term == HOLD_TERM && (weakest == Limit::effort || weakest == Limit::friction || !(worst <= 1)));
     if (!is_weak && adds(term) > 0) found.push_back(term);
   }
   std::stable_sort(found.begin(), found.end(), [&](std::size_t a, std::size_t b) { return adds(a) > adds(b); });
@@ -146,7 +147,7 @@ std::string verdict(const Scene& scene, const GripReport& report) {
   const std::optional<Margin> weakest = smallest_margin(grip_margins(scene, report));
   std::vector<std::string> reasons;
   for (const std::size_t term :
-       best_terms(scene, report.answer.score.terms, weakest ? std::optional(weakest->limit) : std::nullopt)) {
+       best_terms(scene, report.answer.score.terms, report.hold->worst, weakest ? std::optional(weakest->limit) : std::nullopt)) {
     reasons.push_back(term_reason(scene, report, term));
   }
   std::string text =

@@ -228,5 +228,15 @@ TEST(WriteMargins, WithoutHoldsThereIsNoTable) {
   EXPECT_EQ(html.written(), "");
 }
 
+TEST(ReportVerdict, HoldingIsNoReasonWhereItTakesMoreThanTheHandHas) {
+  JudgedGrip grip;
+  grip.scene.score.hold = 2;  // holding by two tips adds most to the score
+  grip.report.answer.result.table_depth = 5e-3;
+  grip.report.hold->worst = 0.9;
+  EXPECT_NE(grip.text().find("takes 90"), std::string::npos) << grip.text();
+  grip.report.hold->worst = 1.2;
+  EXPECT_EQ(grip.text().find("takes 120"), std::string::npos) << grip.text();
+}
+
 }  // namespace
 }  // namespace wholehand
