@@ -23,9 +23,8 @@ constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-Holding::Holding(const Scene& scene, const Evaluator& evaluator, std::size_t vessel, const GripInput& grip,
-                 const GripResult& result, const Triple& pour)
-    : scene_(scene), evaluator_(evaluator), vessel_(vessel), grip_(grip), result_(result), pour_(pour) {
+Holding::Holding(const Scene& scene, const Evaluator& evaluator, std::size_t vessel, const GripResult& result, const Triple& pour)
+    : scene_(scene), evaluator_(evaluator), vessel_(vessel), pour_(pour) {
   for (const GripContact& found : evaluator.contacts(vessel, result)) {
     joints_.push_back(found.joint);
     contacts_.push_back({to_vec3<double>(found.point), to_vec3<double>(found.normal), found.digit});
@@ -68,34 +67,24 @@ StateHold Holding::state(const GripState& state) const {
   return hold;
 }
 
-GripState Holding::loaded(double fill, double tilt) const {
-  GripState state{fill, tilt, {}, {}};
-  if (scene_.liquid) state.liquid = evaluator_.liquid(vessel_, fill, tilt);
-  state.state = evaluator_.state(vessel_, grip_, result_, state.liquid, tilt);
-  return state;
-}
-
-// Vessel and liquid over the scene's states, as the grip holds them.
-std::vector<Load> Holding::loads(const StateAxes& axes) const {
+// Vessel and liquid, at one fill and tilt.
+Load Holding::load_at(double fill, double tilt) const {
   const VesselConstants constants = evaluator_.constants(vessel_);
-  std::vector<Load> loads;
-  for (const double fill : axes.fills)
-    for (const double tilt : axes.tilts) {
-      const LiquidResult liquid = scene_.liquid ? evaluator_.liquid(vessel_, fill, tilt) : LiquidResult{};
-      const double mass = constants.mass + liquid.mass, share = mass > 0 ? liquid.mass / mass : 0;
-      loads.push_back({mass, (1 - share) * to_vec3<double>(constants.center_of_mass), share * liquid.lean, share * liquid.height});
-    }
-  return loads;
+  const LiquidResult liquid = scene_.liquid ? evaluator_.liquid(vessel_, fill, tilt) : LiquidResult{};
+  const double mass = constants.mass + liquid.mass, share = mass > 0 ? liquid.mass / mass : 0;
+  return {mass, (1 - share) * to_vec3<double>(constants.center_of_mass), share * liquid.lean, share * liquid.height};
 }
 
 std::optional<GripHold> Holding::over_states() const {
   const StateAxes axes = scene_axes(scene_, vessel_);
   if (axes.tilts.empty()) return std::nullopt;
-  const std::vector<Load> all = loads(axes);
+  std::vector<Load> loads;
+  for (const double fill : axes.fills)
+    for (const double tilt : axes.tilts) loads.push_back(load_at(fill, tilt));
   std::vector<core_f64::StateTilt> tilts;
   for (const double tilt : axes.tilts) tilts.push_back({std::sin(tilt), std::cos(tilt)});
   const std::vector<std::size_t> counted = counted_tilts(scene_, vessel_);
-  const core_f64::GripLoads states{all, tilts, counted, to_vec3<double>(pour_), scene_.gravity};
+  const core_f64::GripLoads states{loads, tilts, counted, to_vec3<double>(pour_), scene_.gravity};
   std::vector<core_f64::FillEffort> fills(axes.fills.size());
   const core_f64::GripEffort found = core_f64::grip_effort(contacts_, tips_, hand_, states, fills);
   GripHold hold;
@@ -106,8 +95,8 @@ std::optional<GripHold> Holding::over_states() const {
   hold.states = found.states;
   hold.skipped = found.skipped;
   hold.pivots = found.pivots;
-  const StateResult upright = loaded(axes.fills.back(), 0).state;
-  hold.push = core_f64::push_held(contacts_, hand_, load(upright, 0), to_vec3<double>(upright.center_of_mass));
+  const Load fullest = load_at(axes.fills.back(), 0);
+  hold.push = core_f64::push_held(contacts_, hand_, states.weight(fullest, {}), core_f64::load_center(fullest, states.pour));
   hold.friction_needed = core_f64::friction_needed(contacts_, hand_, states.weight(found.fill, found.tilt));
   return hold;
 }

@@ -43,8 +43,7 @@ struct GripHold {
 class Holding {
  public:
   // Of a feasible grip in a scene with strengths; `pour` is the report's. `scene` and `evaluator`, made for it, must outlive this.
-  Holding(const Scene& scene, const Evaluator& evaluator, std::size_t vessel, const GripInput& grip, const GripResult& result,
-          const Triple& pour);
+  Holding(const Scene& scene, const Evaluator& evaluator, std::size_t vessel, const GripResult& result, const Triple& pour);
 
   StateHold state(const GripState& state) const;
   // Nothing where the scene has no tilts.
@@ -52,14 +51,11 @@ class Holding {
 
  private:
   core_f64::Wrench load(const StateResult& state, double tilt) const;
-  GripState loaded(double fill, double tilt) const;
-  std::vector<core_f64::Load> loads(const StateAxes& axes) const;
+  core_f64::Load load_at(double fill, double tilt) const;
 
   const Scene& scene_;
   const Evaluator& evaluator_;
   std::size_t vessel_;
-  GripInput grip_;
-  GripResult result_;
   Triple pour_;
   std::vector<int> joints_;  // of the contacts
   std::vector<core_f64::ContactPoint> contacts_, tips_;

@@ -39,7 +39,7 @@ void add_holding(GripReport& report, const Scene& scene, std::size_t vessel) {
 
 void add_holding(GripReport& report, const Scene& scene, std::size_t vessel, const Evaluator& evaluator) {
   if (report.answer.result.reason != Reason::none || !scene.strength) return;
-  const Holding holding(scene, evaluator, vessel, report.grip, report.answer.result, report.pour);
+  const Holding holding(scene, evaluator, vessel, report.answer.result, report.pour);
   for (const GripState& state : report.answer.states) report.holds.push_back(holding.state(state));
   report.hold = holding.over_states();
 }

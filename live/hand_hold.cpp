@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/contacts.h"
+#include "core/grip_effort.h"
 #include "core/held.h"
 #include "core/mirror.h"
 #include "core/vectors.h"
@@ -55,13 +56,12 @@ std::optional<HandHold> hand_hold(const LiveScene& live, const Tick& tick, const
   const int count =
       core_f64::find_contacts(live.vessels[static_cast<std::size_t>(tick.vessel)].vessel, joints, tick.touch_mask, pressing);
   std::vector<ContactPoint> contacts, tips;
-  Vec3 center(0);
   for (int i = 0; i < count; ++i) {
     const auto& [joint, contact] = pressing[static_cast<std::size_t>(i)];
     contacts.push_back(contact);
     if (joint == THUMB_TIP || joint == INDEX_TIP) tips.push_back(contact);
-    center += contact.place / static_cast<double>(count);
   }
+  const Vec3 center = core_f64::contacts_center(contacts);
   const core_f64::HandStrength hand{scene.force.friction, scene.force.torsion, scene.strength->digits};
   const Wrench weight = weight_of(live, tick, back * Vec3(0, 1, 0));
   EffortSolver solver(contacts, hand, center);

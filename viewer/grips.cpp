@@ -76,8 +76,7 @@ class GripsView::Impl {
       seen.score = evaluator_->score(wanted.vessel, wanted.grip, seen.result);
       seen.wrist = hand_nodes(scene_.hand, wanted.grip, seen.result).wrist.position;
       if (scene_.strength) {
-        seen.holding = std::make_unique<Holding>(scene_, *evaluator_, wanted.vessel, wanted.grip, seen.result,
-                                                 to_triple(pour_of(wanted.grip)));
+        seen.holding = std::make_unique<Holding>(scene_, *evaluator_, wanted.vessel, seen.result, to_triple(pour_of(wanted.grip)));
       }
       seen_.push_back(std::move(seen));
     }
