@@ -144,11 +144,11 @@ void write_drawings(MarkupWriter& html, const ReportSource& source, std::size_t 
     html.element("p", fmt::format("{} of the best grips cannot be drawn: {}.", drawn == 0 ? "The first" : "Some", trouble));
 }
 
-// What holds the grips and what limits them, by the core. Nothing in a scene without [strength] or without tilts.
+// What holds the grips and what limits them, by the core. Nothing without tells_efforts.
 void write_limits(MarkupWriter& html, const ReportSource& source, std::size_t list, const std::vector<RankedReport>& reports) {
   const std::string name = list_name(source.scene, source.plan, list);
   const std::size_t drawn = std::min(DRAWN_GRIPS, reports.size());
-  if (!source.scene.strength || source.scene.tilts.empty()) return;
+  if (!tells_efforts(source.scene)) return;
   write_digits(html, source.scene, {reports.begin(), reports.begin() + static_cast<std::ptrdiff_t>(drawn)}, name);
   write_margins(html, source.scene, reports, name);
   if (reports.size() == drawn) return;
@@ -231,7 +231,10 @@ void write_grips(MarkupWriter& html, const ReportSource& source, std::size_t lis
   }
   std::vector<RankedReport> reports;
   if (source.core) {
-    for (const BestGrip& grip : best.grips) reports.push_back({grip.rank, grip_with_holding(source, list / scales, grip.grip)});
+    // all of them are told of where there are efforts, and otherwise the drawn ones alone are needed
+    const std::size_t asked = tells_efforts(source.scene) ? best.grips.size() : std::min(DRAWN_GRIPS, best.grips.size());
+    for (std::size_t k = 0; k < asked; ++k)
+      reports.push_back({best.grips[k].rank, grip_with_holding(source, list / scales, best.grips[k].grip)});
     write_drawings(html, source, list, best, reports);
   }
   write_table(html, source, list, best);

@@ -100,6 +100,8 @@ void write_effort_table(MarkupWriter& html, const Scene& scene, const std::strin
 
 }  // namespace
 
+bool tells_efforts(const Scene& scene) { return scene.strength && !scene.tilts.empty(); }
+
 GripReport grip_with_holding(const ReportSource& source, std::size_t vessel, const GripInput& grip) {
   GripReport report = make_grip_report(source.scene, vessel, grip, scene_axes(source.scene, vessel),
                                        core_grip_methods(source.scene, source.core, "core"));
@@ -145,10 +147,10 @@ TiltEfforts efforts_over_tilt(const ReportSource& source, std::size_t vessel, co
   TiltEfforts efforts;
   const Scene& scene = source.scene;
   const StateAxes axes = scene_axes(scene, vessel);
-  if (!scene.strength || axes.tilts.empty()) return efforts;
+  if (!tells_efforts(scene)) return efforts;
   const GripFindings answer = core_grip_methods(scene, source.core, "core").answer(vessel, grip, axes);
   if (answer.result.reason != Reason::none) return efforts;
-  const Holding holding(scene, *source.core, vessel, grip, answer.result, pour_direction(scene, grip));
+  const Holding holding(scene, *source.core, vessel, answer.result, pour_direction(scene, grip));
   for (std::size_t t = 0; t < axes.tilts.size(); ++t) {
     const StateHold hold = holding.state(answer.states[(axes.fills.size() - 1) * axes.tilts.size() + t]);
     efforts.whole.push_back(hold.effort);
@@ -160,7 +162,7 @@ TiltEfforts efforts_over_tilt(const ReportSource& source, std::size_t vessel, co
 void write_efforts(MarkupWriter& html, const ReportSource& source, std::size_t vessel, const GripInput& grip,
                    const std::string& id) {
   const Scene& scene = source.scene;
-  if (!scene.strength || scene.tilts.empty()) return;
+  if (!tells_efforts(scene)) return;
   html.element("h3", "Effort over the tilt", {{"id", id + "-efforts"}});
   if (!source.core) {
     html.element("p", fmt::format("This part is left out: {}.", source.no_core));

@@ -133,7 +133,7 @@ class Page {
       for (std::size_t v = 0; v < scene_.vessels.size(); ++v) maps_.push_back(read_map(source_, v));
     scales_ = map_scales(maps_);
     for (std::size_t v = 0; v < scene_.vessels.size(); ++v) write_vessel(v);
-    const bool has_efforts = scene_.strength && !scene_.tilts.empty();
+    const bool has_efforts = tells_efforts(scene_);
     if (has_efforts) write_protocols(html_);
     write_words(html_, scene_.table.has_value(), has_efforts);
     html_.close();
