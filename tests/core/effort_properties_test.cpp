@@ -12,6 +12,7 @@
 
 #include "core/effort.h"
 #include "tests/support/contact_sets.h"
+#include "tests/support/force_sums.h"
 #include "tests/support/special_values.h"
 #include "tests/support/vectors.h"
 
@@ -67,24 +68,15 @@ void expect_not_above(const Effort& a, const Effort& b, std::uint64_t seed) {
 void expect_forces_hold(const ContactSet& set, const EffortSolver& solver, const Effort& found, const std::string& which) {
   std::vector<ContactForce> forces(set.contacts.size());
   solver.forces(forces);
-  Wrench rest = set.load;
-  std::array<double, DIGITS> pressed{};
-  for (std::size_t i = 0; i < forces.size(); ++i) {
-    const ContactPoint& contact = set.contacts[i];
-    const ContactForce& force = forces[i];
-    const double normal = glm::dot(contact.normal, force.force), most = set.hand.friction * normal;
-    const double across = glm::length(force.force - normal * contact.normal);
-    const double twist = set.hand.torsion > 0 ? force.torsion / set.hand.torsion : 0;
-    EXPECT_GE(normal, 0) << which;
-    EXPECT_LE(std::hypot(across, twist), most + SUMMED * normal) << which;
-    EXPECT_TRUE(set.hand.torsion > 0 || force.torsion == 0) << which;
-    pressed[static_cast<std::size_t>(contact.digit)] += normal;
-    rest.force += force.force;
-    rest.moment += glm::cross(contact.place, force.force) + force.torsion * contact.normal;
+  const ForceSums sums = sums_of_forces(set.contacts, forces, set.hand.torsion, set.load);
+  for (const ContactLoad& contact : sums.contacts) {
+    EXPECT_GE(contact.normal, 0) << which;
+    EXPECT_LE(contact.across, (set.hand.friction + SUMMED) * contact.normal) << which;
+    EXPECT_FALSE(contact.twists_in_vain) << which;
   }
-  EXPECT_LE(wrench_size(rest, ABOUT, LEVER), BALANCED * wrench_size(set.load, ABOUT, LEVER)) << which;
+  EXPECT_LE(wrench_size(sums.rest, ABOUT, LEVER), BALANCED * wrench_size(set.load, ABOUT, LEVER)) << which;
   for (std::size_t digit = 0; digit < DIGITS; ++digit)
-    EXPECT_LE(pressed[digit], found.effort * set.hand.digits[digit] * (1 + SUMMED)) << which << " digit " << digit;
+    EXPECT_LE(sums.pressed[digit], found.effort * set.hand.digits[digit] * (1 + SUMMED)) << which << " digit " << digit;
 }
 
 // What a contact of unit normal force can take up of a motion at most, in W: the most of force.velocity + moment.turning over its

@@ -15,6 +15,7 @@
 #include "core/effort.h"
 #include "tests/fuzz/choices.h"
 #include "tests/fuzz/must.h"
+#include "tests/support/force_sums.h"
 
 namespace wholehand {
 namespace {
@@ -122,28 +123,20 @@ std::string told(const EffortCase& asked, const Wrench& load, const Effort& foun
 void check_forces(const EffortCase& asked, const EffortSolver& solver, const Wrench& load, const Effort& found) {
   std::vector<ContactForce> forces(asked.contacts.size());
   solver.forces(forces);
-  Wrench rest = load;
-  std::array<double, DIGITS> pressed{};
+  const ForceSums sums = sums_of_forces(asked.contacts, forces, asked.hand.torsion, load);
   double all = 0;
-  for (std::size_t i = 0; i < forces.size(); ++i) {
-    const ContactPoint& contact = asked.contacts[i];
-    const double normal = glm::dot(contact.normal, forces[i].force);
-    const double across = glm::length(forces[i].force - normal * contact.normal);
-    const double gamma = asked.hand.torsion, twist = gamma > 0 ? forces[i].torsion / gamma : 0;
-    const double rounded = SUMMED * glm::length(forces[i].force);
-    must(normal >= 0, "a contact pulls\n" + told(asked, load, found));
-    must(std::hypot(across, twist) <= asked.hand.friction * normal + rounded, "out of its cone\n" + told(asked, load, found));
-    must(gamma > 0 || forces[i].torsion == 0, "a torsion without torsion\n" + told(asked, load, found));
-    pressed[static_cast<std::size_t>(contact.digit)] += normal;
-    all += glm::length(forces[i].force);
-    rest.force += forces[i].force;
-    rest.moment += glm::cross(contact.place, forces[i].force) + forces[i].torsion * contact.normal;
+  for (const ContactLoad& contact : sums.contacts) {
+    must(contact.normal >= 0, "a contact pulls\n" + told(asked, load, found));
+    must(contact.across <= asked.hand.friction * contact.normal + SUMMED * contact.size,
+         "out of its cone\n" + told(asked, load, found));
+    must(!contact.twists_in_vain, "a torsion without torsion\n" + told(asked, load, found));
+    all += contact.size;
   }
-  const double size = size_about(asked, load), left = size_about(asked, rest);
+  const double size = size_about(asked, load), left = size_about(asked, sums.rest);
   must(left <= BALANCED * size + SUMMED * all,
        fmt::format("{} of {} N are not balanced, of forces of {} N\n", left, size, all) + told(asked, load, found));
   for (std::size_t digit = 0; digit < DIGITS; ++digit)
-    must(pressed[digit] <= found.effort * asked.hand.digits[digit] * (1 + SUMMED),
+    must(sums.pressed[digit] <= found.effort * asked.hand.digits[digit] * (1 + SUMMED),
          "a digit presses more\n" + told(asked, load, found));
 }
 

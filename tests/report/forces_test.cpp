@@ -13,13 +13,9 @@
 namespace wholehand {
 namespace {
 
-GripInput best_of(const SweptScene& swept, std::size_t vessel) {
-  return swept.plan->grip(vessel, swept.result->best(vessel).at(0).index);
-}
-
 std::string forces_text(const SweptScene& swept, std::size_t vessel) {
   MarkupWriter html;
-  write_forces(html, *swept.source, vessel, best_of(swept, vessel), "v");
+  write_forces(html, *swept.source, vessel, swept.best_grip(vessel), "v");
   EXPECT_TRUE(html.is_closed());
   return html.written();
 }
@@ -33,7 +29,7 @@ std::string pouring_text(const SweptScene& swept, std::size_t vessel) {
 
 TEST(ReportForces, AreTheCoresOverFillsAndTilts) {
   const SweptScene swept(RESULT_SCENE);
-  const GripInput grip = best_of(swept, 1);
+  const GripInput grip = swept.best_grip(1);
   const Evaluator& core = *swept.source->core;
   GripResult result;
   core.grip(1, grip, result);
@@ -61,7 +57,7 @@ TEST(ReportForces, HaveTwoChartsAndATableOfTheirNumbers) {
 
 TEST(ReportForces, LinesEndWhereTheShareIsOut) {
   const SweptScene swept(edited(RESULT_SCENE, RESULT_TILTS, RESULT_TILTS + "\nuntil_poured = 0.5"));
-  const auto forces = forces_of(*swept.source, 0, best_of(swept, 0));
+  const auto forces = forces_of(*swept.source, 0, swept.best_grip(0));
   ASSERT_EQ(forces.size(), 2u);
   EXPECT_TRUE(std::isfinite(forces[0].feedback.back())) << "nothing to pour";
   EXPECT_TRUE(std::isfinite(forces[1].feedback.front()));

@@ -19,13 +19,9 @@ constexpr double BRACKET = 1e-3;  // relative width of the bracket to which an e
 
 std::string strong_scene() { return edited(RESULT_SCENE, "[tilts]", "[strength]\n[tilts]"); }
 
-GripInput first_grip(const SweptScene& swept, std::size_t vessel) {
-  return swept.plan->grip(vessel, swept.result->best(vessel).at(0).index);
-}
-
 std::string efforts_html(const SweptScene& swept, std::size_t vessel) {
   MarkupWriter html;
-  write_efforts(html, *swept.source, vessel, first_grip(swept, vessel), "v");
+  write_efforts(html, *swept.source, vessel, swept.best_grip(vessel), "v");
   EXPECT_TRUE(html.is_closed());
   return html.written();
 }
@@ -53,7 +49,7 @@ TEST(DigitLoads, AreSumsOfNormalForces) {
 TEST(DigitLoads, TheLargestShareIsTheEffort) {
   const SweptScene swept(strong_scene());
   for (std::size_t vessel = 0; vessel < 2; ++vessel) {
-    const GripReport report = grip_with_holding(*swept.source, vessel, first_grip(swept, vessel));
+    const GripReport report = grip_with_holding(*swept.source, vessel, swept.best_grip(vessel));
     ASSERT_EQ(report.holds.size(), 8u) << "2 fills, 4 tilts";
     int held = 0;
     for (const StateHold& hold : report.holds) {
@@ -71,7 +67,7 @@ TEST(DigitLoads, TheLargestShareIsTheEffort) {
 TEST(WriteDigits, HasARowForEachDigitAndTwoColumnsForEachGrip) {
   const SweptScene swept(strong_scene());
   std::vector<RankedReport> grips;
-  for (const std::size_t rank : {1, 2}) grips.push_back({rank, grip_with_holding(*swept.source, 0, first_grip(swept, 0))});
+  for (const std::size_t rank : {1, 2}) grips.push_back({rank, grip_with_holding(*swept.source, 0, swept.best_grip(0))});
   MarkupWriter html;
   write_digits(html, swept.scene, grips, "cup");
   EXPECT_TRUE(html.is_closed());
@@ -90,7 +86,7 @@ TEST(WriteDigits, HasARowForEachDigitAndTwoColumnsForEachGrip) {
 TEST(EffortsOverTilt, AreThoseOfTheFullestFill) {
   const SweptScene swept(strong_scene());
   for (std::size_t vessel = 0; vessel < 2; ++vessel) {
-    const GripInput grip = first_grip(swept, vessel);
+    const GripInput grip = swept.best_grip(vessel);
     const TiltEfforts efforts = efforts_over_tilt(*swept.source, vessel, grip);
     const GripReport report = grip_with_holding(*swept.source, vessel, grip);
     ASSERT_EQ(efforts.whole.size(), 4u);
@@ -111,7 +107,7 @@ TEST(EffortsOverTilt, TwiceTheStrengthIsHalfTheEffort) {
   const SweptScene swept(strong_scene()),
       strong(edited(strong_scene(), "[strength]",
                     "[strength]\nthumb_N = 80\nindex_N = 50\nmiddle_N = 70\nring_N = 50\nlittle_N = 28\npalm_N = 160"));
-  const GripInput grip = first_grip(swept, 0);
+  const GripInput grip = swept.best_grip(0);
   const TiltEfforts once = efforts_over_tilt(*swept.source, 0, grip), twice = efforts_over_tilt(*strong.source, 0, grip);
   for (std::size_t t = 0; t < 4; ++t) EXPECT_NEAR(twice.whole[t], 0.5 * once.whole[t], BRACKET * once.whole[t]);
 }
@@ -119,11 +115,11 @@ TEST(EffortsOverTilt, TwiceTheStrengthIsHalfTheEffort) {
 TEST(EffortsOverTilt, AreMissingWhereThereAreNone) {
   const SweptScene without(RESULT_SCENE), still(edited(strong_scene(), RESULT_TILTS, ""));
   for (const SweptScene* swept : {&without, &still}) {
-    EXPECT_TRUE(efforts_over_tilt(*swept->source, 0, first_grip(*swept, 0)).whole.empty());
+    EXPECT_TRUE(efforts_over_tilt(*swept->source, 0, swept->best_grip(0)).whole.empty());
     EXPECT_EQ(efforts_html(*swept, 0), "") << "what a scene does not need is not spoken of";
   }
   const SweptScene swept(strong_scene());
-  GripInput beyond = first_grip(swept, 0);
+  GripInput beyond = swept.best_grip(0);
   beyond.height = 10;
   EXPECT_TRUE(efforts_over_tilt(*swept.source, 0, beyond).whole.empty());
 }
@@ -135,7 +131,7 @@ TEST(WriteEfforts, HasTwoLinesTheLimitAndTheNumbers) {
                            ">all of the strength</text>", "with the vessel filled to 60\u00a0%", ">two tips over whole hand</th>"})
     EXPECT_TRUE(has(html, part)) << part << html;
   EXPECT_TRUE(has(html, "stroke-dasharray"));
-  const TiltEfforts efforts = efforts_over_tilt(*swept.source, 0, first_grip(swept, 0));
+  const TiltEfforts efforts = efforts_over_tilt(*swept.source, 0, swept.best_grip(0));
   EXPECT_TRUE(has(html, "<td>" + shown_number(efforts.whole[1], 3) + "</td>\n<td>" + shown_number(efforts.tips[1], 3) + "</td>"));
 }
 
@@ -170,7 +166,7 @@ TEST(WriteEfforts, ALineEndsWithACrossWhereNothingHolds) {
 
 TEST(WriteEfforts, GreatEffortsEndTheChartAndAreSaid) {
   const SweptScene swept(edited(strong_scene(), "[strength]", "[strength]\nthumb_N = 1\nindex_N = 1"));
-  const TiltEfforts efforts = efforts_over_tilt(*swept.source, 0, first_grip(swept, 0));
+  const TiltEfforts efforts = efforts_over_tilt(*swept.source, 0, swept.best_grip(0));
   const double highest = *std::max_element(efforts.tips.begin(), efforts.tips.end());
   ASSERT_GT(highest, 3);
   const std::string html = efforts_html(swept, 0);
@@ -180,7 +176,7 @@ TEST(WriteEfforts, GreatEffortsEndTheChartAndAreSaid) {
 
 TEST(WriteEfforts, LeftOutTiltsAreMissingNotInfinite) {
   const SweptScene swept(edited(strong_scene(), RESULT_TILTS, RESULT_TILTS + "\nuntil_poured = 0.5"));
-  const TiltEfforts efforts = efforts_over_tilt(*swept.source, 0, first_grip(swept, 0));
+  const TiltEfforts efforts = efforts_over_tilt(*swept.source, 0, swept.best_grip(0));
   ASSERT_EQ(efforts.whole.size(), 4u);
   EXPECT_TRUE(std::isfinite(efforts.whole.front()));
   EXPECT_TRUE(std::isnan(efforts.whole.back()) && std::isnan(efforts.tips.back()));

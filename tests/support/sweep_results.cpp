@@ -126,6 +126,8 @@ void SweptScene::open() {
   source = std::make_unique<ReportSource>(ReportSource{*result, scene, *plan, make_core_evaluator(scene), ""});
 }
 
+GripInput SweptScene::best_grip(std::size_t vessel) const { return plan->grip(vessel, result->best(vessel).at(0).index); }
+
 void SweptScene::change(const std::string& variable, const std::vector<double>& values) {
   source.reset();
   result.reset();

@@ -37,6 +37,7 @@ struct SweptScene {
   std::unique_ptr<Plan> plan;
   std::unique_ptr<ReportSource> source;
 
+  GripInput best_grip(std::size_t vessel) const;
   // Overwrites values of a variable of the file, from its first on, and reads it anew.
   void change(const std::string& variable, const std::vector<double>& values);
 
