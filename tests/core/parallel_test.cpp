@@ -70,9 +70,17 @@ TEST(Parallel, TheSmallestFailureIsThrownOn) {
     }
     EXPECT_LT(begun, 100000) << "it goes on after a failure";
   }
-  EXPECT_THROW(in_parallel(
-                   3, 2, [](std::size_t) {}, [](std::size_t) { throw std::runtime_error("no further"); }),
-               std::runtime_error);
+}
+
+// The other thread waits until the caller has a number, or it could take all of them before the caller comes.
+TEST(Parallel, AFailureOfTheCallersReportIsThrownOn) {
+  const std::thread::id caller = std::this_thread::get_id();
+  std::atomic<bool> has_begun{false};
+  const auto work = [&](std::size_t) {
+    if (std::this_thread::get_id() == caller) has_begun = true;
+    while (!has_begun) std::this_thread::yield();
+  };
+  EXPECT_THROW(in_parallel(3, 2, work, [](std::size_t) { throw std::runtime_error("no further"); }), std::runtime_error);
 }
 
 }  // namespace
