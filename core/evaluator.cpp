@@ -3,10 +3,14 @@
 #include "core/evaluator.h"
 
 #include <limits>
+#include <optional>
+#include <span>
+#include <vector>
 
 #include "core/contacts.h"
 #include "core/counted_tilts.h"
 #include "core/grip.h"
+#include "core/grip_effort.h"
 #include "core/load.h"
 #include "core/mesh_body.h"
 #include "core/mirror.h"
@@ -82,6 +86,10 @@ class CoreEvaluator final : public wholehand::Evaluator {
         quadrature_(load_quadrature(wholehand::prepare_quadrature(options.quadrature_points))),
         states_(scene_) {
     hand_.limits = limits_of(options);
+    strength_.friction = Real(scene.force.friction);
+    strength_.torsion = Real(scene.force.torsion);
+    if (scene.strength)
+      for (std::size_t digit = 0; digit < DIGITS; ++digit) strength_.digits[digit] = Real(scene.strength->digits[digit]);
     const bool with_liquid = scene.liquid.has_value();
     for (const auto& data : scene.vessels) {
       VesselEntry entry;
@@ -181,10 +189,17 @@ class CoreEvaluator final : public wholehand::Evaluator {
     if (result.reason != wholehand::Reason::none) return score;
     const Pinch pinch = pinch_of(input, result);
     LargestForces largest;
+    std::vector<FillEffort> fill_efforts(states_.fills());
+    if (has_effort_ && result.plausible) {
+      const HeldHand hand = held_hand(entry, posed_of(result), result.touch_mask);
+      largest.effort = effort_over_states(hand, states_.loads(entry, pinch), fill_efforts).worst;
+    }
     for (std::size_t fill = 0; fill < states_.fills(); ++fill) {
-      score.fills.push_back(states_.fill_terms(entry, fill, pinch, [](std::size_t, const HeldForces&) {}));
+      const FillEffort* effort = largest.effort ? &fill_efforts[fill] : nullptr;
+      score.fills.push_back(states_.fill_terms(entry, fill, pinch, effort, [](std::size_t, const HeldForces&) {}));
       largest.add(score.fills.back());
     }
+    if (has_effort_ && !largest.effort) largest.effort = std::numeric_limits<Real>::infinity();
     const ScoredHand hand{result.used_mask, result.touch_mask, Real(result.phalanx_depth), Real(result.palm_depth),
                           Real(result.closure)};
     const auto terms = states_.score_terms(hand, largest, entry.force.max);
@@ -195,10 +210,8 @@ class CoreEvaluator final : public wholehand::Evaluator {
 
   std::vector<wholehand::GripContact> contacts(std::size_t v, const GripResult& result) const override {
     const auto mirror = [&](const Triple& triple) { return wholehand::mirrored(triple, scene_.hand.handedness); };
-    std::array<Vec3, JOINTS> posed;
-    for (std::size_t j = 0; j < JOINTS; ++j) posed[j] = to_vec3<Real>(mirror(result.posed[j]));
     std::array<PressingJoint, JOINTS> pressing;
-    const int count = find_contacts(entries_[v].vessel, posed, result.touch_mask, pressing);
+    const int count = find_contacts(entries_[v].vessel, posed_of(result), result.touch_mask, pressing);
     std::vector<wholehand::GripContact> contacts;
     for (int i = 0; i < count; ++i) {
       const ContactPoint& contact = pressing[i].contact;
@@ -211,6 +224,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
               std::uint32_t* uints) const override {
     const Wanted wanted{fields.has(FIELD_JOINTS), fields.has(FIELD_PROXIES) || fields.has(FIELD_BONE_STRETCH)};
     GripAnswer answer;
+    std::vector<FillEffort> fill_efforts(states_.fills());
     for (std::size_t i = 0; i < count; ++i) {
       const PlaneRow row{fields, stride, reals + i, uints + i};
       row.clear();
@@ -218,7 +232,10 @@ class CoreEvaluator final : public wholehand::Evaluator {
       put_closing(row, answer);
       if (answer.closing.reason != REASON_NONE) continue;
       put_pose(row, answer);
-      put_score(row, entries_[v], answer, put_states(row, entries_[v], answer));
+      const std::optional<Real> effort = put_efforts(row, entries_[v], answer, fill_efforts);
+      LargestForces largest = put_states(row, entries_[v], answer, effort ? fill_efforts.data() : nullptr);
+      if (has_effort_) largest.effort = effort.value_or(std::numeric_limits<Real>::infinity());
+      put_score(row, entries_[v], answer, largest);
     }
   }
 
@@ -324,7 +341,82 @@ class CoreEvaluator final : public wholehand::Evaluator {
     row.put_mask(FIELD_USED_MASK, answer.used_mask);
   }
 
-  LargestForces put_states(const PlaneRow& row, const VesselEntry& entry, const GripAnswer& answer) const {
+  // Where a posed hand presses: all of it, and the tips of thumb and index finger alone.
+  struct HeldHand {
+    std::array<ContactPoint, JOINTS> contacts;
+    std::array<ContactPoint, 2> tips;
+    std::size_t count = 0, tip_count = 0;
+    std::span<const ContactPoint> all() const { return {contacts.data(), count}; }
+    std::span<const ContactPoint> pinch() const { return {tips.data(), tip_count}; }
+  };
+
+  std::array<Vec3, JOINTS> posed_of(const GripResult& result) const {
+    std::array<Vec3, JOINTS> posed;
+    for (std::size_t j = 0; j < JOINTS; ++j)
+      posed[j] = to_vec3<Real>(wholehand::mirrored(result.posed[j], scene_.hand.handedness));
+    return posed;
+  }
+
+  HeldHand held_hand(const VesselEntry& entry, const std::array<Vec3, JOINTS>& posed, std::uint32_t touch_mask) const {
+    HeldHand hand;
+    std::array<PressingJoint, JOINTS> pressing;
+    hand.count = static_cast<std::size_t>(find_contacts(entry.vessel, posed, touch_mask, pressing));
+    for (std::size_t i = 0; i < hand.count; ++i) {
+      hand.contacts[i] = pressing[i].contact;
+      if (pressing[i].joint == THUMB_TIP || pressing[i].joint == INDEX_TIP) hand.tips[hand.tip_count++] = pressing[i].contact;
+    }
+    return hand;
+  }
+
+  GripEffort effort_over_states(const HeldHand& hand, const GripLoads& loads, std::span<FillEffort> fills) const {
+    return grip_effort(hand.all(), hand.pinch(), strength_, loads, fills);
+  }
+
+  // What holding takes of a plausible grip: the worst effort, and `fills`. Nothing of any other, and in a scene without efforts.
+  std::optional<Real> put_efforts(const PlaneRow& row, const VesselEntry& entry, const GripAnswer& answer,
+                                  std::span<FillEffort> fills) const {
+    if (!has_effort_ || !is_plausible(answer)) return std::nullopt;
+    const HeldHand hand = held_hand(entry, answer.posed, answer.touch_mask);
+    const GripLoads loads = states_.loads(entry, {answer.closing.direction, answer.closing.midpoint, is_antipodal(answer)});
+    const GripEffort found = effort_over_states(hand, loads, fills);
+    const bool wet = scene_.liquid.has_value();
+    const auto v = static_cast<std::size_t>(&entry - entries_.data());
+    row.put(FIELD_WORST_EFFORT, 0, found.worst);
+    row.put(FIELD_WORST_EFFORT_FILL, 0, wet ? Real(wholehand::vessel_fills(scene_, scene_.vessels[v])[found.fill]) : Real(0));
+    row.put(FIELD_WORST_EFFORT_TILT, 0, Real(scene_.tilts[found.tilt]));
+    row.put(FIELD_TIPS_WORST_EFFORT, 0, found.tips_worst);
+    if (row.fields.has(FIELD_PUSH)) {
+      const Wrench weight = loads.weight(entry.largest, {});
+      row.put(FIELD_PUSH, 0, push_held(hand.all(), strength_, weight, load_center(entry.largest, loads.pour)));
+    }
+    if (row.fields.has(FIELD_FRICTION_NEEDED))
+      row.put(FIELD_FRICTION_NEEDED, 0, friction_needed(hand.all(), strength_, loads.weight(found.fill, found.tilt)));
+    put_state_efforts(row, hand, loads);
+    return found.worst;
+  }
+
+  // State by state, where they are asked for.
+  void put_state_efforts(const PlaneRow& row, const HeldHand& hand, const GripLoads& loads) const {
+    const bool of_all = row.fields.has(FIELD_EFFORT) || row.fields.has(FIELD_EFFORT_LOW);
+    const bool of_tips = row.fields.has(FIELD_TIPS_EFFORT);
+    if (!of_all && !of_tips) return;
+    const Vec3 center = contacts_center(hand.all());
+    EffortSolver whole(hand.all(), strength_, center), tips(hand.pinch(), strength_, center);
+    for (std::size_t fill = 0; fill < states_.fills(); ++fill)
+      for (std::size_t tilt = 0; tilt < loads.counted[fill]; ++tilt) {
+        const int state = static_cast<int>(fill * states_.tilts() + tilt);
+        const Wrench weight = loads.weight(fill, tilt);
+        if (of_all) {
+          const Effort found = whole.solve(weight);
+          row.put(FIELD_EFFORT, state, found.effort);
+          row.put(FIELD_EFFORT_LOW, state, found.low);
+        }
+        if (of_tips) row.put(FIELD_TIPS_EFFORT, state, tips.solve(weight).effort);
+      }
+  }
+
+  LargestForces put_states(const PlaneRow& row, const VesselEntry& entry, const GripAnswer& answer,
+                           const FillEffort* efforts) const {
     LargestForces largest;
     const Pinch pinch{answer.closing.direction, answer.closing.midpoint, is_antipodal(answer)};
     for (std::size_t fill = 0; fill < states_.fills(); ++fill) {
@@ -338,7 +430,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
         row.put(FIELD_FEEDBACK_FORCE, state, s.feedback);
         row.put(FIELD_HOLD_FORCE, state, s.hold);
       };
-      const FillTerms terms = states_.fill_terms(entry, fill, pinch, put_state);
+      const FillTerms terms = states_.fill_terms(entry, fill, pinch, efforts ? efforts + fill : nullptr, put_state);
       row.put(FIELD_PEAK_FORCE, k, Real(terms.peak_force));
       row.put(FIELD_PEAK_TILT, k, Real(terms.peak_tilt));
       row.put(FIELD_LARGEST_HOLD, k, Real(terms.largest_hold));
@@ -388,6 +480,8 @@ class CoreEvaluator final : public wholehand::Evaluator {
   Hand hand_;
   Quadrature quadrature_;
   SceneStates states_;
+  HandStrength strength_;
+  bool has_effort_ = wholehand::has_effort(scene_);
   std::vector<VesselEntry> entries_;
 };
 

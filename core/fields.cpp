@@ -12,6 +12,8 @@ using A = FieldAbsent;
 using R = FieldRange;
 constexpr bool DEFAULT = true, ON_REQUEST = false;
 constexpr const char* NONE = "";
+constexpr const char* EFFORT = "NaN where the grip is implausible";
+constexpr const char* UNRESISTED = "infinite where no force of the hand holds the vessel; NaN where the grip is implausible";
 constexpr const char* INFINITE = "infinite where not antipodal";
 
 constexpr Field ROWS[] = {
@@ -60,12 +62,34 @@ constexpr Field ROWS[] = {
     {FIELD_LARGEST_HOLD, S::fills, "largest_hold_force", "N", "largest force per finger that holding takes, over all tilts",
      INFINITE, DEFAULT, "force", "largest hold", 0, A::infeasible, R::may_be_infinite},
     {FIELD_SAFE_TILT, S::fills, "largest_safe_tilt", "rad",
-     "largest tilt up to which the unclamped feedback force is below F_max and the hold force within the grip strength",
-     "NaN where no tilt is", DEFAULT, "force", nullptr, 0, A::infeasible, R::may_be_missing},
+     "largest tilt up to which the unclamped feedback force is below F_max and the vessel is held: with strengths an effort up to 1, "
+     "without them a hold force up to 40 N",
+     "NaN where no tilt is; with strengths also where the grip is implausible", DEFAULT, "force", nullptr, 0, A::infeasible, R::may_be_missing},
     {FIELD_TABLE_DEPTH, S::one, "table_depth", "m",
      "largest depth of the skin of the hand, posed or open, below the table and its clearance",
      "up to 0: the hand stays above; more: the grip is implausible", ON_REQUEST, "table", "table depth", 1, A::infeasible,
      R::finite, true},
+    {FIELD_WORST_EFFORT, S::one, "worst_effort", "1", "largest effort over all fills and tilts", UNRESISTED, DEFAULT, "effort",
+     nullptr, 0, A::infeasible, R::may_be_infinite, false, true},
+    {FIELD_WORST_EFFORT_FILL, S::one, "worst_effort_fill", "1", "fill of a state of the largest effort, of the capacity", EFFORT,
+     DEFAULT, "effort", nullptr, 0, A::infeasible, R::finite, false, true},
+    {FIELD_WORST_EFFORT_TILT, S::one, "worst_effort_tilt", "rad", "tilt of that state", EFFORT, DEFAULT, "effort", nullptr, 0,
+     A::infeasible, R::finite, false, true},
+    {FIELD_TIPS_WORST_EFFORT, S::one, "tips_worst_effort", "1",
+     "largest effort over all fills and tilts, of thumb and index tip alone", UNRESISTED, DEFAULT, "effort", nullptr, 0,
+     A::infeasible, R::may_be_infinite, false, true},
+    {FIELD_PUSH, S::one, "push", "N",
+     "largest force at the centre of mass, along any axis of the vessel frame, that is held beside the weight upright and fullest",
+     EFFORT, DEFAULT, "effort", nullptr, 0, A::infeasible, R::finite, false, true},
+    {FIELD_FRICTION_NEEDED, S::one, "friction_needed", "1", "least friction with which the state of the largest effort is held",
+     "infinite where none up to 10 does; NaN where the grip is implausible", DEFAULT, "effort", nullptr, 0, A::infeasible,
+     R::may_be_infinite, false, true},
+    {FIELD_EFFORT, S::states, "effort", "1", "least part of the hand's strength that holds the vessel", UNRESISTED, ON_REQUEST,
+     "effort", nullptr, 0, A::infeasible, R::may_be_infinite, false, true},
+    {FIELD_EFFORT_LOW, S::states, "effort_low", "1", "lower bound of the effort", UNRESISTED, ON_REQUEST, "effort", nullptr, 0,
+     A::infeasible, R::may_be_infinite, false, true},
+    {FIELD_TIPS_EFFORT, S::states, "tips_effort", "1", "effort of thumb and index tip alone", UNRESISTED, ON_REQUEST, "effort",
+     nullptr, 0, A::infeasible, R::may_be_infinite, false, true},
     {FIELD_TERMS, S::terms, nullptr, "1", "score terms: fingers, contacts, depth, posture, force, hold", NONE, DEFAULT, "score",
      "terms", 0, A::never},
     {FIELD_SCORE, S::one, "score", "1", "score of the grip, larger is better",

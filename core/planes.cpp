@@ -33,6 +33,7 @@ int field_planes(int field, std::size_t fills, std::size_t tilts) {
 
 int field_planes(int field, const Scene& scene) {
   if (field < REAL_FIELDS && field_row(field).of_table && !scene.table) return 0;
+  if (field < REAL_FIELDS && field_row(field).of_strength && !has_effort(scene)) return 0;
   return field_planes(field, scene_fills(scene), scene.tilts.size());
 }
 
@@ -64,6 +65,8 @@ FieldSet make_field_set(const std::vector<int>& kept, const Scene& scene) {
   }
   return set;
 }
+
+bool has_effort(const Scene& scene) { return scene.strength && !scene.tilts.empty(); }
 
 std::size_t scene_fills(const Scene& scene) {
   return scene.liquid ? std::max(scene.liquid->fills.size(), scene.liquid->volumes.size()) : 1;

@@ -17,6 +17,10 @@ SceneStates::SceneStates(const wholehand::Scene& scene)
 
 std::size_t SceneStates::fills() const { return tilts_.empty() ? 0 : wholehand::scene_fills(scene_); }
 
+GripLoads SceneStates::loads(const VesselEntry& entry, const Pinch& pinch) const {
+  return {entry.loads, tilts_, entry.counted_tilts, pour_direction(pinch.direction, pour_sense_), entry.force.gravity};
+}
+
 HeldForces SceneStates::forces(const VesselEntry& entry, const Pinch& pinch, const Load& load, TiltAngle tilt, Real opening) const {
   return held_forces(entry.force, load, entry.largest, pinch.direction, pinch.midpoint,
                      pour_direction(pinch.direction, pour_sense_), tilt.sine, tilt.cosine, pinch.is_antipodal, opening);
@@ -29,7 +33,9 @@ std::array<Real, 6> SceneStates::score_terms(const ScoredHand& hand, LargestForc
           depth_term(hand.phalanx_depth, hand.palm_depth),
           posture_term(hand.closure),
           has_forces ? force_term(largest.feedback, max) : Real(0),
-          has_forces ? hold_term(largest.hold, Real(scene_.force.grip_strength)) : Real(0)};
+          largest.effort ? effort_term(*largest.effort)
+          : has_forces   ? hold_term(largest.hold, Real(scene_.force.grip_strength))
+                         : Real(0)};
 }
 
 // A scene without tilts has no force and hold terms; the other weights are scaled to sum to 1.

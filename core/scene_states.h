@@ -10,7 +10,9 @@
 #include <optional>
 #include <vector>
 
+#include "core/grip_effort.h"
 #include "core/held.h"
+#include "core/planes.h"
 #include "core/prepare.h"
 #include "core/result.h"
 #include "core/scene.h"
@@ -34,13 +36,12 @@ struct Pinch {
   bool is_antipodal = false;
 };
 
-struct TiltAngle {
-  Real sine = 0, cosine = 1;
-};
+using TiltAngle = StateTilt;
 
 // Over all states of a grip, N.
 struct LargestForces {
   Real feedback = 0, hold = 0;
+  std::optional<Real> effort;  // the worst, in a scene with efforts
   void add(const wholehand::FillTerms& terms) {
     feedback = std::max(feedback, Real(terms.peak_force));
     hold = std::max(hold, Real(terms.largest_hold));
@@ -60,11 +61,16 @@ class SceneStates {
   std::size_t fills() const;  // none without tilts
   std::size_t tilts() const { return tilts_.size(); }
 
+  // The states of a vessel as a grip holds it. `entry` and this must outlive the answer.
+  GripLoads loads(const VesselEntry& entry, const Pinch& pinch) const;
+
   // With another load than the states', at an opening g_grasp - g of the device, m.
   HeldForces forces(const VesselEntry& entry, const Pinch& pinch, const Load& load, TiltAngle tilt, Real opening) const;
-  // Over the tilts that count at one fill. `keep(tilt, forces)` is told of each of these states.
+  // Over the tilts that count at one fill. `keep(tilt, forces)` is told of each of these states. `effort` is that
+  // fill's in a scene with efforts; null there for an implausible grip.
   template <class Keep>
-  wholehand::FillTerms fill_terms(const VesselEntry& entry, std::size_t fill, const Pinch& pinch, const Keep& keep) const;
+  wholehand::FillTerms fill_terms(const VesselEntry& entry, std::size_t fill, const Pinch& pinch, const FillEffort* effort,
+                                  const Keep& keep) const;
 
   // In the order of FIELD_TERMS; `max` is the vessel's largest force, N.
   std::array<Real, 6> score_terms(const ScoredHand& hand, LargestForces largest, Real max) const;
@@ -78,10 +84,11 @@ class SceneStates {
 
 template <class Keep>
 wholehand::FillTerms SceneStates::fill_terms(const VesselEntry& entry, std::size_t fill, const Pinch& pinch,
-                                             const Keep& keep) const {
+                                             const FillEffort* effort, const Keep& keep) const {
   Real peak_force = -1, peak_tilt = 0, largest_hold = 0;
   double safe_tilt = std::numeric_limits<double>::quiet_NaN();
-  bool safe = true;
+  const bool by_effort = wholehand::has_effort(scene_);
+  bool safe = !by_effort || effort;
   for (std::size_t t = 0; t < entry.counted_tilts[fill]; ++t) {
     const HeldForces state = forces(entry, pinch, entry.loads[fill * tilts_.size() + t], tilts_[t], 0);
     if (state.feedback > peak_force) {
@@ -89,7 +96,8 @@ wholehand::FillTerms SceneStates::fill_terms(const VesselEntry& entry, std::size
       peak_tilt = Real(scene_.tilts[t]);
     }
     largest_hold = std::max(largest_hold, state.hold);
-    safe = safe && state.normal < entry.force.max && state.hold <= Real(scene_.force.grip_strength);
+    safe = safe && state.normal < entry.force.max &&
+           (by_effort ? t < effort->held : state.hold <= Real(scene_.force.grip_strength));
     if (safe) safe_tilt = scene_.tilts[t];
     keep(t, state);
   }

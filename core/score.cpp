@@ -10,6 +10,7 @@ namespace CORE_NS {
 //   fingers   fingers used / 5                    contacts   points touching / 24
 //   depth     1 - min(1, deepest / 10 mm)         posture    1 - |2 c - 1|
 //   force     1 - largest feedback / F_max        hold       min(1, grip strength / largest hold force)
+// In a scene with efforts the hold term is 1 / (1 + worst effort).
 // Degenerate: an F_max of 0 gives the force term 0; an infinite hold force gives the hold term 0.
 Real fingers_term(int fingers_used) { return Real(fingers_used) / Real(FINGERS); }
 
@@ -26,5 +27,7 @@ Real force_term(Real largest_feedback, Real max) { return max > 0 ? Real(1) - la
 Real hold_term(Real largest_hold, Real grip_strength) {
   return largest_hold > grip_strength ? grip_strength / largest_hold : Real(1);
 }
+
+Real effort_term(Real worst_effort) { return Real(1) / (Real(1) + worst_effort); }
 
 }  // namespace CORE_NS

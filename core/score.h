@@ -18,4 +18,7 @@ Real force_term(Real largest_feedback, Real max);
 // min(1, grip strength / largest hold force over all states), N; 0 where the hold force is infinite.
 Real hold_term(Real largest_hold, Real grip_strength);
 
+// The same in a scene with efforts: 1 / (1 + worst effort); 0 where it is infinite.
+Real effort_term(Real worst_effort);
+
 }  // namespace CORE_NS

@@ -133,8 +133,17 @@
   X(NORMAL_FORCE, 22) \
   X(FEEDBACK_FORCE, 23) \
   X(HOLD_FORCE, 24) \
-  X(TABLE_DEPTH, 25)
-#define REAL_FIELDS 26
+  X(TABLE_DEPTH, 25) \
+  X(WORST_EFFORT, 26) \
+  X(WORST_EFFORT_FILL, 27) \
+  X(WORST_EFFORT_TILT, 28) \
+  X(TIPS_WORST_EFFORT, 29) \
+  X(PUSH, 30) \
+  X(FRICTION_NEEDED, 31) \
+  X(EFFORT, 32) \
+  X(EFFORT_LOW, 33) \
+  X(TIPS_EFFORT, 34)
+#define REAL_FIELDS 35
 // Words: uint_out[plane * n + grip], one plane each.
 #define UINT_FIELD_LIST(X) \
   X(STATUS, REAL_FIELDS + 0) \

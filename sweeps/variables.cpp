@@ -68,7 +68,8 @@ Variable of_field(const Field& row) {
           0,
           dims_of(row.shape),
           row.by_default,
-          of_tilts       ? Need::tilts
+          row.of_strength ? Need::strength
+          : of_tilts     ? Need::tilts
           : row.of_table ? Need::table
                          : Need::nothing,
           nullptr,
@@ -225,6 +226,8 @@ const char* missing_need(Need need, const Scene& scene) {
       return scene.pose != Pose::articulated ? "[scene] pose = \"articulated\"" : nullptr;
     case Need::table:
       return scene.table ? nullptr : "[table]";
+    case Need::strength:
+      return !scene.strength ? "[strength]" : scene.tilts.empty() ? "[tilts]" : nullptr;
     case Need::nothing:
       break;
   }
@@ -235,7 +238,8 @@ const char* missing_need(Need need, const Scene& scene) {
 
 std::string variable_comment(const Variable& variable, const Scene& scene) {
   std::string comment = variable.comment;
-  if (variable.type != NumberType::real || variable.need != Need::tilts || !scene.until_poured) return comment;
+  const bool is_of_states = variable.need == Need::tilts || variable.need == Need::strength;
+  if (variable.type != NumberType::real || !is_of_states || !scene.until_poured) return comment;
   if (!comment.empty()) comment += "; ";
   const bool has_states =
       std::any_of(variable.dims.begin(), variable.dims.end(), [](const char* dim) { return std::strcmp(dim, "tilt") == 0; });
