@@ -8,11 +8,11 @@
 namespace wholehand {
 namespace {
 
-constexpr std::size_t ROWS = 6;  // five coordinates, and the sum of the shares
+constexpr std::size_t EQUATIONS = 6;  // five coordinates, and the sum of the shares
 constexpr int ROUNDS = 60;       // of points that enter; then the point counts as extreme
 constexpr double REST = 1e-9;    // of the largest point
 
-using Row = std::array<double, ROWS>;
+using Row = std::array<double, EQUATIONS>;
 
 double product(const Row& a, const Row& b) { return std::inner_product(a.begin(), a.end(), b.begin(), 0.0); }
 
@@ -27,13 +27,13 @@ std::vector<double> closest_shares(const std::vector<Row>& columns, Row wanted) 
       for (std::size_t k = 0; k < i; ++k) {
         const double along = product(directions[k], directions[i]);
         upper[k][i] += along;
-        for (std::size_t r = 0; r < ROWS; ++r) directions[i][r] -= along * directions[k][r];
+        for (std::size_t r = 0; r < EQUATIONS; ++r) directions[i][r] -= along * directions[k][r];
       }
     upper[i][i] = std::sqrt(product(directions[i], directions[i]));
     if (!(upper[i][i] > 1e-12)) return {};
     for (double& value : directions[i]) value /= upper[i][i];
     shares[i] = product(directions[i], wanted);
-    for (std::size_t r = 0; r < ROWS; ++r) wanted[r] -= shares[i] * directions[i][r];
+    for (std::size_t r = 0; r < EQUATIONS; ++r) wanted[r] -= shares[i] * directions[i][r];
   }
   for (std::size_t i = count; i-- > 0;) {
     for (std::size_t k = i + 1; k < count; ++k) shares[i] -= upper[i][k] * shares[k];
@@ -63,7 +63,7 @@ bool is_sum_of(const std::vector<Row>& columns, const std::vector<std::size_t>& 
     };
     for (const std::size_t i : kept) look(i);
     look(columns.size());
-    if (best > columns.size() || used.size() == ROWS) return false;
+    if (best > columns.size() || used.size() == EQUATIONS) return false;
     used.push_back(best);
     shares.push_back(0);
     for (;;) {
@@ -86,7 +86,7 @@ bool is_sum_of(const std::vector<Row>& columns, const std::vector<std::size_t>& 
     }
     rest = columns[point];
     for (std::size_t i = 0; i < used.size(); ++i)
-      for (std::size_t r = 0; r < ROWS; ++r) rest[r] -= shares[i] * column(used[i])[r];
+      for (std::size_t r = 0; r < EQUATIONS; ++r) rest[r] -= shares[i] * column(used[i])[r];
   }
   return false;
 }
