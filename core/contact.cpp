@@ -33,4 +33,13 @@ Contact contact_at(const Vessel& vessel, Vec3 p, Real radius) {
   return contact;
 }
 
+// q = x - sdf(x) grad sdf(x); n = -grad sdf(x): with an exact distance its gradient at the nearest point is that at x.
+bool presses_at(const Vessel& vessel, Vec3 p, Vec3& place, Vec3& normal) {
+  int element = -1;
+  const Vec3 outward = distance_gradient(vessel, p, element);
+  place = p - signed_distance(vessel, p) * outward;
+  normal = -outward;
+  return vessel.lid < 0 || element != vessel.lid;
+}
+
 }  // namespace CORE_NS

@@ -19,5 +19,8 @@ Real separation_at(const Vessel& vessel, Vec3 p, Real radius);
 Vec3 proxy_of(const Vessel& vessel, Vec3 p, Real radius, bool& settled);
 // The whole kernel for one point.
 Contact contact_at(const Vessel& vessel, Vec3 p, Real radius);
+// Where a point that touches presses: the surface's nearest place and the inward unit normal there. False: on the lid that closes the mouth of a
+// solid vessel, where nothing is.
+bool presses_at(const Vessel& vessel, Vec3 p, Vec3& place, Vec3& normal);
 
 }  // namespace CORE_NS

@@ -38,4 +38,12 @@ Contact contact_at(Vec3 p, Real radius) {
   return contact;
 }
 
+bool presses_at(Vec3 p, out Vec3 place, out Vec3 normal) {
+  int element = -1;
+  Vec3 outward = distance_gradient(p, element);
+  place = p - signed_distance(p) * outward;
+  normal = -outward;
+  return LID < 0 || element != LID;
+}
+
 #endif
