@@ -8,18 +8,18 @@
 namespace wholehand {
 namespace {
 
-constexpr std::size_t EQUATIONS = 6;  // five coordinates, and the sum of the shares
-constexpr int ROUNDS = 60;       // of points that enter; then the point counts as extreme
-constexpr double REST = 1e-9;    // of the largest point
+constexpr std::size_t SHARE_ROWS = 6;  // five coordinates, and the sum of the shares
+constexpr int SHARE_ROUNDS = 60;       // of points that enter; then the point counts as extreme
+constexpr double LEAST_REST = 1e-9;    // of the largest point
 
-using Row = std::array<double, EQUATIONS>;
+using ShareRow = std::array<double, SHARE_ROWS>;
 
-double product(const Row& a, const Row& b) { return std::inner_product(a.begin(), a.end(), b.begin(), 0.0); }
+double product(const ShareRow& a, const ShareRow& b) { return std::inner_product(a.begin(), a.end(), b.begin(), 0.0); }
 
 // Shares of so many columns that come closest to `wanted`, by orthogonal directions. Empty: the columns depend on each other.
-std::vector<double> closest_shares(const std::vector<Row>& columns, Row wanted) {
+std::vector<double> closest_shares(const std::vector<ShareRow>& columns, ShareRow wanted) {
   const std::size_t count = columns.size();
-  std::vector<Row> directions = columns;
+  std::vector<ShareRow> directions = columns;
   std::vector<std::vector<double>> upper(count, std::vector<double>(count, 0.0));
   std::vector<double> shares(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -27,13 +27,13 @@ std::vector<double> closest_shares(const std::vector<Row>& columns, Row wanted) 
       for (std::size_t k = 0; k < i; ++k) {
         const double along = product(directions[k], directions[i]);
         upper[k][i] += along;
-        for (std::size_t r = 0; r < EQUATIONS; ++r) directions[i][r] -= along * directions[k][r];
+        for (std::size_t r = 0; r < SHARE_ROWS; ++r) directions[i][r] -= along * directions[k][r];
       }
     upper[i][i] = std::sqrt(product(directions[i], directions[i]));
     if (!(upper[i][i] > 1e-12)) return {};
     for (double& value : directions[i]) value /= upper[i][i];
     shares[i] = product(directions[i], wanted);
-    for (std::size_t r = 0; r < EQUATIONS; ++r) wanted[r] -= shares[i] * directions[i][r];
+    for (std::size_t r = 0; r < SHARE_ROWS; ++r) wanted[r] -= shares[i] * directions[i][r];
   }
   for (std::size_t i = count; i-- > 0;) {
     for (std::size_t k = i + 1; k < count; ++k) shares[i] -= upper[i][k] * shares[k];
@@ -44,18 +44,18 @@ std::vector<double> closest_shares(const std::vector<Row>& columns, Row wanted) 
 
 // Least squares with shares that are not negative (Lawson and Hanson 1974): columns enter while one has a part in the rest, and leave where their
 // share would be negative.
-bool is_sum_of(const std::vector<Row>& columns, const std::vector<std::size_t>& kept, std::size_t point) {
+bool is_sum_of(const std::vector<ShareRow>& columns, const std::vector<std::size_t>& kept, std::size_t point) {
   std::vector<std::size_t> used;
   std::vector<double> shares;
-  Row rest = columns[point];
-  const Row origin{0, 0, 0, 0, 0, 1};
+  ShareRow rest = columns[point];
+  const ShareRow origin{0, 0, 0, 0, 0, 1};
   const auto column = [&](std::size_t i) { return i == columns.size() ? origin : columns[i]; };
-  for (int round = 0; round < ROUNDS; ++round) {
-    if (std::sqrt(product(rest, rest)) <= REST) return true;
+  for (int round = 0; round < SHARE_ROUNDS; ++round) {
+    if (std::sqrt(product(rest, rest)) <= LEAST_REST) return true;
     std::size_t best = columns.size() + 1;
     double most = 0;
     const auto look = [&](std::size_t i) {
-      const Row candidate = column(i);
+      const ShareRow candidate = column(i);
       const double part = product(candidate, rest) / std::sqrt(product(candidate, candidate));
       if (i == point || !(part > most) || std::find(used.begin(), used.end(), i) != used.end()) return;
       most = part;
@@ -63,11 +63,11 @@ bool is_sum_of(const std::vector<Row>& columns, const std::vector<std::size_t>& 
     };
     for (const std::size_t i : kept) look(i);
     look(columns.size());
-    if (best > columns.size() || used.size() == EQUATIONS) return false;
+    if (best > columns.size() || used.size() == SHARE_ROWS) return false;
     used.push_back(best);
     shares.push_back(0);
     for (;;) {
-      std::vector<Row> chosen;
+      std::vector<ShareRow> chosen;
       for (const std::size_t i : used) chosen.push_back(column(i));
       const std::vector<double> wanted = closest_shares(chosen, columns[point]);
       if (wanted.empty()) return false;
@@ -86,7 +86,7 @@ bool is_sum_of(const std::vector<Row>& columns, const std::vector<std::size_t>& 
     }
     rest = columns[point];
     for (std::size_t i = 0; i < used.size(); ++i)
-      for (std::size_t r = 0; r < EQUATIONS; ++r) rest[r] -= shares[i] * column(used[i])[r];
+      for (std::size_t r = 0; r < SHARE_ROWS; ++r) rest[r] -= shares[i] * column(used[i])[r];
   }
   return false;
 }
@@ -100,10 +100,10 @@ std::vector<std::size_t> extreme_points(const std::vector<Point5>& points) {
     for (const double value : point) square += value * value;
     largest = std::max(largest, std::sqrt(square));
   }
-  std::vector<Row> columns;
+  std::vector<ShareRow> columns;
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    Row& column = columns.emplace_back(Row{0, 0, 0, 0, 0, 1});
+    ShareRow& column = columns.emplace_back(ShareRow{0, 0, 0, 0, 0, 1});
     bool is_zero = true;
     for (std::size_t k = 0; k < points[i].size(); ++k) {
       column[k] = largest > 0 ? points[i][k] / largest : 0;

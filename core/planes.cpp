@@ -41,7 +41,8 @@ namespace {
 
 // What must be computed for a score, and for any force.
 const std::vector<int> SCORE_NEEDS{FIELD_STATUS,     FIELD_TOUCH_MASK, FIELD_USED_MASK,    FIELD_CLOSURE, FIELD_PHALANX_DEPTH,
-                                   FIELD_PALM_DEPTH, FIELD_PEAK_FORCE, FIELD_LARGEST_HOLD, FIELD_MIDPOINT};
+                                   FIELD_PALM_DEPTH, FIELD_PEAK_FORCE, FIELD_LARGEST_HOLD, FIELD_MIDPOINT,
+                                   FIELD_WORST_EFFORT};
 
 }  // namespace
 

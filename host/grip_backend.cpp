@@ -7,6 +7,7 @@
 #include "core/core_backend.h"
 #include "core/fields.h"
 #include "core/mirror.h"
+#include "core/parallel.h"
 #include "core/prepare.h"
 #include "host/grip_program.h"
 #include "host/stream.h"
@@ -30,6 +31,18 @@ std::vector<int> mirrored_planes(const Scene& scene, const FieldSet& fields) {
   return planes;
 }
 
+// Kept planes that no kernel of the device writes: the core adds them. Empty where there are none.
+FieldSet fields_of_core(const FieldSet& fields) {
+  FieldSet lacking;
+  lacking.plane.fill(-1);
+  for (const int field : {FIELD_PUSH, FIELD_FRICTION_NEEDED, FIELD_EFFORT, FIELD_EFFORT_LOW, FIELD_TIPS_EFFORT}) {
+    if (!fields.has(field) || fields.plane[field] >= fields.real_kept) continue;
+    lacking.plane[field] = fields.plane[field];
+    lacking.real_planes = lacking.real_kept = fields.real_kept;
+  }
+  return lacking;
+}
+
 }  // namespace
 
 struct GripBackend::Impl {
@@ -41,6 +54,7 @@ struct GripBackend::Impl {
         options(options_in),
         arrays(make_scene_arrays(scene, *core, options.evaluator)),
         mirrored(mirrored_planes(scene, fields)),
+        of_core(fields_of_core(fields)),
         stream([this, selector] { return std::make_unique<GripProgram>(scene, arrays, *core, fields, selector, options); },
                with_select_multiple(options.stream)) {
     info.backend = "vulkan";
@@ -166,7 +180,7 @@ struct GripBackend::Impl {
     const std::size_t best = selection.best;
     StreamRequest work;
     work.inputs = {{BINDING_GRIPS, GRIP_AXES * sizeof(Real)}};
-    work.outputs = {{BINDING_REAL_OUT, fields.real_planes * sizeof(Real), real_kept * sizeof(Real)},
+    work.outputs = {{BINDING_REAL_OUT, (fields.real_planes + contact_planes(fields)) * sizeof(Real), real_kept * sizeof(Real)},
                     {BINDING_UINT_OUT, fields.uint_planes * sizeof(std::uint32_t), uint_kept * sizeof(std::uint32_t)}};
     if (best > 0) {
       // two halves for the passes of the selection, each of groups * best entries
@@ -177,14 +191,35 @@ struct GripBackend::Impl {
     return work;
   }
 
-  // Mirrored planes turned back where there are some, in `turned`.
+  // Planes that the device does not compute, by the core on all threads.
   template <class Real>
-  PlaneChunk planes_of(std::size_t vessel, const Chunk& chunk, const ChunkOutputs& outputs, std::vector<Real>& turned) const {
+  void add_planes_of_core(const RunRequest& request, const Chunk& chunk, std::vector<Real>& reals) const {
+    constexpr std::size_t PIECE = 64;
+    std::vector<GripInput> inputs(chunk.count);
+    request.grips(request.vessel, chunk.first, chunk.count, inputs.data());
+    in_parallel((chunk.count + PIECE - 1) / PIECE, 0, [&](std::size_t piece) {
+      const std::size_t first = piece * PIECE, count = std::min(PIECE, chunk.count - first);
+      std::vector<double> values(of_core.real_planes * count);
+      std::vector<std::uint32_t> no_values(count);
+      core->planes(request.vessel, inputs.data() + first, count, of_core, count, values.data(), no_values.data());
+      for (const Field& field : real_fields()) {
+        if (!of_core.has(field.number)) continue;
+        const int from = of_core.plane[field.number], planes = field_planes(field.number, scene);
+        for (int plane = from; plane < from + planes; ++plane)
+          for (std::size_t i = 0; i < count; ++i) reals[plane * chunk.stride + first + i] = static_cast<Real>(values[plane * count + i]);
+      }
+    });
+  }
+
+  // Mirrored planes turned back where there are some, and those of the core, in `turned`.
+  template <class Real>
+  PlaneChunk planes_of(const RunRequest& request, const Chunk& chunk, const ChunkOutputs& outputs, std::vector<Real>& turned) const {
     PlaneChunk planes{
-        vessel, chunk.first, chunk.count, chunk.stride, nullptr, nullptr, elements<const std::uint32_t>(outputs[1]).data()};
+        request.vessel, chunk.first, chunk.count, chunk.stride, nullptr, nullptr, elements<const std::uint32_t>(outputs[1]).data()};
     std::span<const Real> reals = elements<const Real>(outputs[0]);
-    if (!mirrored.empty()) {
+    if (!mirrored.empty() || of_core.real_planes > 0) {
       turned.assign(reals.begin(), reals.end());
+      if (of_core.real_planes > 0) add_planes_of_core(request, chunk, turned);
       for (const int plane : mirrored)
         for (std::size_t i = 0; i < chunk.count; ++i) turned[plane * chunk.stride + i] = -turned[plane * chunk.stride + i];
       reals = turned;
@@ -227,7 +262,7 @@ struct GripBackend::Impl {
     };
     std::vector<Real> turned;
     work.sink = [&](const Chunk& chunk, const ChunkOutputs& outputs) {
-      const PlaneChunk planes = planes_of(request.vessel, chunk, outputs, turned);
+      const PlaneChunk planes = planes_of(request, chunk, outputs, turned);
       if (selection.on_host) {
         const auto chosen = best_of(planes, request.best);
         result.best.insert(result.best.end(), chosen.begin(), chosen.end());
@@ -251,6 +286,7 @@ struct GripBackend::Impl {
   GripBackendOptions options;
   SceneArrays arrays;
   std::vector<int> mirrored;
+  FieldSet of_core;
   std::vector<GripInput> grips;
   Stream stream;
   BackendInfo info;
@@ -289,7 +325,7 @@ GripPipelines GripBackend::pipelines(std::size_t vessel) const {
 const DeviceInfo& GripBackend::device() const { return impl_->program().on.info(); }
 
 std::size_t GripBackend::bytes_per_grip() const {
-  return (GRIP_AXES + impl_->fields.real_planes) * impl_->real_size() + impl_->fields.uint_planes * sizeof(std::uint32_t);
+  return (GRIP_AXES + impl_->fields.real_planes + contact_planes(impl_->fields)) * impl_->real_size() + impl_->fields.uint_planes * sizeof(std::uint32_t);
 }
 
 std::size_t GripBackend::table_bytes() const {
@@ -297,7 +333,8 @@ std::size_t GripBackend::table_bytes() const {
   std::size_t bytes = program.hand.size() + program.tilts.size() + program.quadrature.size();
   for (const VesselOnDevice& vessel : program.vessels) {
     bytes += vessel.parameters.size() + vessel.outline.size() + vessel.lattice.size() + vessel.fills.size();
-    for (const Buffer& states : vessel.states) bytes += states.size();
+    for (const auto* blocks : {&vessel.states, &vessel.worst_states, &vessel.safe_states})
+      for (const Buffer& states : *blocks) bytes += states.size();
   }
   return bytes;
 }

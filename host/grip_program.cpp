@@ -73,6 +73,8 @@ bool outline_fits_device(const VesselArrays& vessel, const DeviceInfo& device) {
   return device.kind != DeviceKind::cpu || vessel.lattice || vessel.outline_count <= MAX_OUTLINE;
 }
 
+int contact_planes(const FieldSet& fields) { return fields.has(FIELD_WORST_EFFORT) ? CONTACT_STRIDE * JOINTS : 0; }
+
 bool liquid_fits_device(int cavity_count, int points) { return cavity_count * iterations_per_piece(points) < LOOP_BUDGET; }
 
 GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Evaluator& core, const FieldSet& fields,
@@ -95,11 +97,21 @@ GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Ev
                                                                                                         : REFERENCE_PER_OBJECT)});
   if (scene.until_poured) constants.push_back({CONST_UNTIL_POURED, std::int32_t(1)});
 
+  struct EffortKernel {
+    std::optional<Kernel>* kernel;
+    int task;
+    std::vector<Constant> constants;
+  };
+  has_efforts_ = contact_planes(fields) > 0;
+  std::vector<EffortKernel> efforts{{&worst_effort, EFFORT_WORST, {}}};
+  if (fields.has(FIELD_TIPS_WORST_EFFORT)) efforts.push_back({&tips_effort, EFFORT_TIPS, {}});
+  if (fields.has(FIELD_SAFE_TILT)) efforts.push_back({&safe_effort, EFFORT_SAFE, {}});
+
   // making a pipeline takes a core a tenth of a second, so they are made side by side
   std::optional<Kernel> lip, liquid;
   std::vector<std::function<void()>> tasks;
   for (std::size_t v = 0; v < vessels.size(); ++v) {
-    upload_vessel(v, arrays, options);  // through the one queue: not side by side
+    upload_vessel(v, scene, arrays, options);  // through the one queue: not side by side
     if (outline_fits_device(arrays.vessels[v], on.info()))
       tasks.push_back([&, v] { make_grip_kernel(v, scene, arrays, fields, options); });
   }
@@ -108,6 +120,14 @@ GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Ev
         [&kernel, name, &values, &options, this] { kernel.emplace(on, find_shader(name, options.precision), values, name); });
   };
   const std::vector<Constant> common = common_constants();
+  if (has_efforts_) {
+    for (auto& [kernel, task, values] : efforts) {
+      values = constants;
+      values.push_back({CONST_CONTACTS, std::int32_t(fields.real_planes)});
+      values.push_back({CONST_EFFORT_TASK, std::int32_t(task)});
+      make(*kernel, "effort", values);
+    }
+  }
   const bool wet = scene.liquid && tilt_count > 0;
   if (wet) {
     make(lip, "lip", common);
@@ -120,7 +140,7 @@ GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Ev
   for (std::size_t v = 0; wet && v < vessels.size(); ++v) make_liquid(v, scene, arrays, core, options, *lip, *liquid);
 }
 
-void GripProgram::upload_vessel(std::size_t v, const SceneArrays& arrays, const GripBackendOptions& options) {
+void GripProgram::upload_vessel(std::size_t v, const Scene& scene, const SceneArrays& arrays, const GripBackendOptions& options) {
   const VesselArrays& from = arrays.vessels[v];
   VesselOnDevice& vessel = vessels[v];
   // with a lattice the outline is not read: one pipeline for all vessels, which a driver compiles once
@@ -131,26 +151,40 @@ void GripProgram::upload_vessel(std::size_t v, const SceneArrays& arrays, const 
   vessel.outline = upload(on, options.precision, outline);
   vessel.lattice = Buffer::of(on, from.lattice ? *from.lattice : std::vector<std::uint32_t>(4));
   vessel.fills = upload(on, options.precision, from.fills);
-  upload_states(v, arrays, from.dry_loads);  // none where there is liquid
+  upload_states(v, scene, arrays, from.dry_loads);  // none where there is liquid
+}
+
+std::vector<Buffer> GripProgram::upload_blocks(const std::vector<double>& states) {
+  constexpr std::size_t BLOCK = std::size_t{STATE_STRIDE} * STATES_IN_BLOCK;
+  std::vector<Buffer> blocks;
+  for (std::size_t first = 0; first < states.size(); first += BLOCK) {
+    std::vector<double> block(BLOCK);
+    std::copy_n(states.begin() + static_cast<std::ptrdiff_t>(first), std::min(BLOCK, states.size() - first), block.begin());
+    blocks.push_back(upload(on, precision_, block));
+  }
+  return blocks;
 }
 
 // `loads` of every fill and tilt.
-void GripProgram::upload_states(std::size_t v, const SceneArrays& arrays, const std::vector<double>& loads) {
+void GripProgram::upload_states(std::size_t v, const Scene& scene, const SceneArrays& arrays, const std::vector<double>& loads) {
   const std::vector<double>& tilts = arrays.tilts;
   const std::vector<std::size_t>& counted = arrays.vessels[v].counted_tilts;
-  const std::size_t states = loads.size() / LOAD_STRIDE;
-  for (std::size_t first = 0; first < states; first += STATES_IN_BLOCK) {
-    std::vector<double> block(std::size_t{STATE_STRIDE} * STATES_IN_BLOCK);
-    for (std::size_t state = first; state < std::min(states, first + STATES_IN_BLOCK); ++state) {
-      double* out = block.data() + STATE_STRIDE * (state - first);
-      const std::size_t tilt = state % tilt_count;
-      std::copy_n(loads.data() + LOAD_STRIDE * state, LOAD_STRIDE, out);
-      std::copy_n(tilts.data() + 3 * tilt, 3, out + LOAD_STRIDE);
-      if (tilt >= counted[state / tilt_count]) out[6] = -1;
-      out[7] = tilt > 0 ? tilts[3 * tilt - 1] : -1;
-    }
-    vessels[v].states.push_back(upload(on, precision_, block));
+  std::vector<double> states(loads.size() / LOAD_STRIDE * STATE_STRIDE);
+  for (std::size_t state = 0; state < loads.size() / LOAD_STRIDE; ++state) {
+    double* out = states.data() + STATE_STRIDE * state;
+    const std::size_t tilt = state % tilt_count;
+    std::copy_n(loads.data() + LOAD_STRIDE * state, LOAD_STRIDE, out);
+    std::copy_n(tilts.data() + 3 * tilt, 3, out + LOAD_STRIDE);
+    if (tilt >= counted[state / tilt_count]) out[6] = -1;
+    out[7] = tilt > 0 ? tilts[3 * tilt - 1] : -1;
   }
+  vessels[v].states = upload_blocks(states);
+  if (!has_efforts_ || loads.empty()) return;
+  const EffortStates efforts = effort_states(scene, v, arrays.vessels[v], loads);
+  vessels[v].worst_count = static_cast<std::uint32_t>(efforts.worst.size() / STATE_STRIDE);
+  vessels[v].safe_count = static_cast<std::uint32_t>(efforts.safe.size() / STATE_STRIDE);
+  vessels[v].worst_states = upload_blocks(efforts.worst);
+  vessels[v].safe_states = upload_blocks(efforts.safe);
 }
 
 void GripProgram::make_grip_kernel(std::size_t v, const Scene& scene, const SceneArrays& arrays, const FieldSet& fields,
@@ -166,6 +200,7 @@ void GripProgram::make_grip_kernel(std::size_t v, const Scene& scene, const Scen
   constants.push_back({CONST_OUTLINE_COUNT, std::int32_t(from.outline_count)});
   if (scene.table) constants.push_back({CONST_TABLE, std::int32_t(1)});
   if (from.halves) constants.push_back({CONST_LATTICE_BITS, std::int32_t(16)});
+  if (has_efforts_) constants.push_back({CONST_CONTACTS, std::int32_t(fields.real_planes)});
   add_limits(constants, options);
   constants.push_back({CONST_LID, std::int32_t(from.lattice ? -1 : from.lid)});
   if (vessel.outline_source == OUTLINE_SPECIALIZED) {
@@ -196,7 +231,7 @@ void GripProgram::make_liquid(std::size_t v, const Scene& scene, const SceneArra
         vessel.liquid.push_back(state);
         loads.insert(loads.end(), {together, share, share * state.lean, share * state.height});
       }
-    upload_states(v, arrays, loads);
+    upload_states(v, scene, arrays, loads);
     return;
   }
   const std::size_t real = real_size(options.precision);
@@ -221,7 +256,22 @@ void GripProgram::make_liquid(std::size_t v, const Scene& scene, const SceneArra
     const double* at = values.data() + LIQUID_STRIDE * s;
     vessel.liquid.push_back({at[0], at[1], at[2], at[3], at[4]});
   }
-  upload_states(v, arrays, download(loads_out, options.precision, LOAD_STRIDE * states));
+  upload_states(v, scene, arrays, download(loads_out, options.precision, LOAD_STRIDE * states));
+}
+
+// After the forces: a safe tilt of theirs is lowered where the hand no longer holds.
+void GripProgram::record_efforts(std::size_t v, std::uint32_t count, std::uint32_t stride, Commands& commands) const {
+  const auto go_through = [&](const Kernel& kernel, const std::vector<Buffer>& blocks, std::uint32_t states) {
+    for (std::uint32_t first = 0; first < states; first += STATES_IN_BLOCK) {
+      commands.bind(BINDING_STATES, blocks[first / STATES_IN_BLOCK]);
+      commands.dispatch(kernel, groups_for(on, kernel, count),
+                        Push{count, stride, first, std::min<std::uint32_t>(STATES_IN_BLOCK, states - first)});
+    }
+  };
+  const VesselOnDevice& vessel = vessels[v];
+  go_through(*worst_effort, vessel.worst_states, vessel.worst_count);
+  if (tips_effort) go_through(*tips_effort, vessel.worst_states, vessel.worst_count);
+  if (safe_effort) go_through(*safe_effort, vessel.safe_states, vessel.safe_count);
 }
 
 void GripProgram::record(std::size_t v, const Chunk& chunk, std::size_t best, double floor_score, Commands& commands) {
@@ -240,6 +290,7 @@ void GripProgram::record(std::size_t v, const Chunk& chunk, std::size_t best, do
                         Push{count, stride, first, std::min<std::uint32_t>(STATES_IN_BLOCK, states - first)});
     }
   }
+  if (has_efforts_) record_efforts(v, count, stride, commands);
   commands.dispatch(*score, groups_for(on, *score, count), Push{count, stride, 0, 0});
   if (best == 0) return;
   const auto wanted = static_cast<std::uint32_t>(best);

@@ -16,6 +16,8 @@ struct VesselOnDevice {
   OutlineSource outline_source = OUTLINE_SPECIALIZED;
   Buffer parameters, outline, lattice, fills;
   std::vector<Buffer> states;  // blocks of STATES_IN_BLOCK; empty without tilts
+  std::vector<Buffer> worst_states, safe_states;  // likewise, of the efforts; empty without them
+  std::uint32_t worst_count = 0, safe_count = 0;  // states in them
   std::optional<Kernel> grip;
   std::vector<LiquidResult> liquid;  // fill-major; empty without
 };
@@ -34,17 +36,24 @@ struct GripProgram final : Program {
   Buffer hand, tilts, quadrature;
   std::vector<VesselOnDevice> vessels;
   std::optional<Kernel> force, score, select;
+  std::optional<Kernel> worst_effort, tips_effort, safe_effort;  // in a scene with efforts
   std::uint32_t fill_count = 0, tilt_count = 0;
 
  private:
   Precision precision_;
-  void upload_vessel(std::size_t v, const SceneArrays& arrays, const GripBackendOptions& options);
+  bool has_efforts_ = false;
+  void upload_vessel(std::size_t v, const Scene& scene, const SceneArrays& arrays, const GripBackendOptions& options);
   void make_grip_kernel(std::size_t v, const Scene& scene, const SceneArrays& arrays, const FieldSet& fields,
                         const GripBackendOptions& options);
   void make_liquid(std::size_t v, const Scene& scene, const SceneArrays& arrays, const Evaluator& core,
                    const GripBackendOptions& options, const Kernel& lip, const Kernel& liquid);
-  void upload_states(std::size_t v, const SceneArrays& arrays, const std::vector<double>& loads);
+  void upload_states(std::size_t v, const Scene& scene, const SceneArrays& arrays, const std::vector<double>& loads);
+  std::vector<Buffer> upload_blocks(const std::vector<double>& states);
+  void record_efforts(std::size_t v, std::uint32_t count, std::uint32_t stride, Commands& commands) const;
 };
+
+// Planes of reals that a chunk has besides those of its fields: where joints press, in a scene with efforts.
+int contact_planes(const FieldSet& fields);
 
 // Whether grips of a vessel stay within those iterations: on a CPU driver an outline must be unrolled, so up to MAX_OUTLINE elements.
 bool outline_fits_device(const VesselArrays& vessel, const DeviceInfo& device);

@@ -6,9 +6,12 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <limits>
 
 #include "core/counted_tilts.h"
+#include "core/extreme_points.h"
 #include "core/mirror.h"
+#include "core/planes.h"
 #include "core/prepare.h"
 #include "core/touch.h"
 
@@ -68,7 +71,17 @@ void set_scene_scalars(Parameters<double>& p, const Scene& scene, const VesselDa
   p.friction = scene.force.friction;
   p.torsion = scene.force.torsion;
   p.friction_angle = std::atan(scene.force.friction);
-  p.grip_strength = scene.force.grip_strength;
+  // with efforts a safe tilt does not depend on the pinch
+  p.grip_strength = has_effort(scene) ? std::numeric_limits<double>::infinity() : scene.force.grip_strength;
+  if (scene.strength) {
+    const auto& digits = scene.strength->digits;
+    p.thumb_strength = digits[0];
+    p.index_strength = digits[1];
+    p.middle_strength = digits[2];
+    p.ring_strength = digits[3];
+    p.little_strength = digits[4];
+    p.palm_strength = digits[5];
+  }
   p.table_top = scene.table ? table_top(scene, vessel) : 0;
   p.pour_sense = scene.liquid && scene.liquid->pour == Pour::towards ? -1 : 1;
   const auto weights = effective_weights(scene);
@@ -129,6 +142,48 @@ SceneArrays make_scene_arrays(const Scene& scene, const Evaluator& core, const E
     arrays.vessels.push_back(std::move(vessel));
   }
   return arrays;
+}
+
+namespace {
+
+// A load at a tilt in numbers on which the wrench depends in proportion, whatever the grip: kg, and kg by a length of 100 mm. With y upwards and n
+// the pour direction its force is along cos y - sin n; the glass's own centre, where it lies on the axis, and the liquid's have moments along n x y.
+Point5 load_point(const double* load, double sine, double cosine, const Parameters<double>& vessel) {
+  constexpr double LENGTH = 0.1;
+  const double mass = load[0], own = 1 - load[1];
+  double moment = load[2] * cosine + load[3] * sine;
+  if (vessel.center_x == 0 && vessel.center_z == 0) {
+    moment += own * vessel.center_y * sine;
+    return {mass * cosine, mass * sine, mass * moment / LENGTH, 0, 0};
+  }
+  return {mass * cosine, mass * sine, mass * moment / LENGTH, mass * own * cosine, mass * own * sine};
+}
+
+}  // namespace
+
+// The worst state is mostly a full one far over: those come first, so that the others are soon passed by.
+EffortStates effort_states(const Scene& scene, std::size_t v, const VesselArrays& vessel, const std::vector<double>& loads) {
+  EffortStates found;
+  std::vector<Point5> points;
+  std::vector<double> states;  // with the angle and the fill
+  for (std::size_t state = 0; state < loads.size() / LOAD_STRIDE; ++state) {
+    const std::size_t fill = state / scene.tilts.size(), tilt = state % scene.tilts.size();
+    if (tilt >= vessel.counted_tilts[fill]) continue;
+    const double* load = loads.data() + LOAD_STRIDE * state;
+    const double sine = std::sin(scene.tilts[tilt]), cosine = std::cos(scene.tilts[tilt]);
+    const double fraction = scene.liquid ? vessel_fills(scene, scene.vessels[v])[fill] : 0;
+    points.push_back(load_point(load, sine, cosine, vessel.parameters));
+    states.insert(states.end(), {load[0], load[1], load[2], load[3], sine, cosine, scene.tilts[tilt], fraction});
+    found.safe.insert(found.safe.end(), {load[0], load[1], load[2], load[3], sine, cosine, tilt > 0 ? scene.tilts[tilt - 1] : -1,
+                                         static_cast<double>(fill)});
+  }
+  std::vector<std::size_t> extreme = extreme_points(points);
+  if (extreme.empty()) extreme.push_back(0);  // nothing to hold: the first state
+  for (std::size_t i = extreme.size(); i-- > 0;) {
+    const auto state = states.begin() + static_cast<std::ptrdiff_t>(STATE_STRIDE * extreme[i]);
+    found.worst.insert(found.worst.end(), state, state + STATE_STRIDE);
+  }
+  return found;
 }
 
 // Reals first, whole numbers after them, each a scalar: the block is the same list in both.

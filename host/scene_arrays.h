@@ -36,6 +36,13 @@ struct SceneArrays {
 // `core` is the evaluator of the same scene with the same options: capacities, masses, references and lattices come from it.
 SceneArrays make_scene_arrays(const Scene& scene, const Evaluator& core, const EvaluatorOptions& options = {});
 
+// States as the effort kernel reads them, STATE_STRIDE each: those that can be the worst, and all that count.
+struct EffortStates {
+  std::vector<double> worst, safe;
+};
+// `loads` of every fill and tilt, LOAD_STRIDE each: of a scene with liquid they come from the device.
+EffortStates effort_states(const Scene& scene, std::size_t v, const VesselArrays& vessel, const std::vector<double>& loads);
+
 // A parameter block in the shader's reals.
 template <class Real>
 Parameters<Real> convert(const Parameters<double>& from);

@@ -11,6 +11,7 @@
 #include "table.glsl"
 
 layout(local_size_x_id = CONST_GROUP_SIZE) in;
+layout(constant_id = CONST_CONTACTS) const int CONTACTS = -1;
 layout(constant_id = CONST_POSE) const int POSE = POSE_ARTICULATED;
 
 const bool WANTS_PROXIES = PLANE_PROXIES >= 0 || PLANE_BONE_STRETCH >= 0;
@@ -22,6 +23,14 @@ Real scale;
 uint status, touch_mask, tip_mask, finger_mask, inner_mask, used_mask;
 Real phalanx_depth, palm_depth, judged_depth, bone_stretch, table_depth;
 Vec3 previous_proxy;
+
+// Kernel 9, for the efforts.
+void put_contact(int j, Vec3 p, bool touching) {
+  Vec3 place, normal;
+  bool presses = presses_at(p, place, normal) && touching;
+  put_point(CONTACTS, 2 * j, grip, presses ? place : Vec3(0));
+  put_point(CONTACTS, 2 * j + 1, grip, presses ? normal : Vec3(0));
+}
 
 // Point k of finger f (joint j) at its posed place. `before`: bits of the finger's points that touched before they were projected.
 void examine_point(int f, int k, int j, Vec3 p, Real radius, Real separation, Real bone, inout int before) {
@@ -47,6 +56,7 @@ void examine_point(int f, int k, int j, Vec3 p, Real radius, Real separation, Re
     finger_mask |= projected && role == 1 ? bit : 0u;
     inner_mask |= projected && role == 2 ? bit : 0u;
   }
+  if (CONTACTS >= 0) put_contact(j, p, touching);
   // what is kept of the point; its proxy only where it is inside
   if (PLANE_POSED >= 0) put_point(PLANE_POSED, j, grip, p);
   put_real(PLANE_SEPARATION, j, grip, separation);

@@ -212,6 +212,15 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define STATE_STRIDE 8
 #define STATES_IN_BLOCK 256         // in double 16 KiB, the smallest uniform range that Vulkan grants
 
+// A state as the effort kernel reads it: its load; sine and cosine of its tilt; then, for EFFORT_SAFE, the angle of the tilt before (-1: none)
+// and the number of its fill, else the angle of its tilt and its fill as a fraction.
+// Where a joint presses: the place on the surface and the inward normal there; both 0 where it does not.
+#define CONTACT_STRIDE 6
+#define EFFORT_WORST 0              // the largest effort of the whole hand
+#define EFFORT_TIPS 1               // that of thumb and index tip alone
+#define EFFORT_SAFE 2               // up to which tilt the whole hand holds, for each fill
+#define DEVICE_PIVOTS 200           // of a solve: STATES_IN_BLOCK times as many stay within the iterations that every driver grants
+
 // Liquid of one fill and tilt: volume, mass, lean, height, poured.
 #define LIQUID_STRIDE 5
 
@@ -225,6 +234,8 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define CONST_REFERENCE 6
 #define CONST_TABLE 7               // whether the scene has a table, bool
 #define CONST_UNTIL_POURED 8        // of the forces: whether states may be left out, bool
+#define CONST_CONTACTS 20           // first of CONTACT_STRIDE * JOINTS planes, scratch: where joints press; -1: not computed
+#define CONST_EFFORT_TASK 21        // of the efforts: EFFORT_WORST, EFFORT_TIPS or EFFORT_SAFE
 #define CONST_STOP_TOLERANCE 40     // Real, m; this and the next five have the named values where nothing is given
 #define CONST_TRACE_STEPS 41
 #define CONST_ADVANCE_STEPS 42
@@ -266,6 +277,7 @@ struct Parameters {
   Real friction, torsion; // mu, gamma (m)
   Real friction_angle;    // atan(mu), rad
   Real grip_strength;     // N
+  Real thumb_strength, index_strength, middle_strength, ring_strength, little_strength, palm_strength;  // N
   Real pour_sense;        // +1 away, -1 towards
   Real table_top;         // m, the table's height and the clearance
   Real weight_fingers, weight_contacts, weight_depth, weight_posture, weight_force, weight_hold;

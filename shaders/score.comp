@@ -27,6 +27,11 @@ void main() {
       }
       terms[4] = force_term(largest_feedback, scene.force_max);
       terms[5] = hold_term(largest_hold, scene.grip_strength);
+      // that of an implausible grip is 0
+      if (PLANE_WORST_EFFORT >= 0) {
+        bool is_plausible = (status & STATUS_PLAUSIBLE) != 0u;
+        terms[5] = is_plausible ? effort_term(real_out[uint(PLANE_WORST_EFFORT) * push.stride + grip]) : Real(0);
+      }
     }
     precise Real sum = scene.weight_fingers * terms[0];
     sum += scene.weight_contacts * terms[1];

@@ -21,4 +21,6 @@ Real hold_term(Real largest_hold, Real grip_strength) {
   return largest_hold > grip_strength ? grip_strength / largest_hold : Real(1);
 }
 
+Real effort_term(Real worst_effort) { return Real(1) / (Real(1) + worst_effort); }
+
 #endif

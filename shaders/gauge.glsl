@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+// Twin of core/gauge.cpp: what contacts and digits can do, and the basis of the simplex method that finds an effort.
+#ifndef GAUGE_GLSL
+#define GAUGE_GLSL
+
+#extension GL_EXT_control_flow_attributes : require
+
+#include "real.glsl"
+
+#if REAL_IS_DOUBLE
+#define ROUNDING 1e-11lf
+#define LEAST_PIVOT 1e-9lf
+#else
+#define ROUNDING 1e-5
+#define LEAST_PIVOT 1e-4
+#endif
+#define UNRESISTED_EFFORT Real(1000000)
+#define EFFORT_TOLERANCE RATIO(1, 1000)
+#define LEAST_LENGTH RATIO(1, 1000)
+#define DIGITS (FINGERS + 1)
+
+struct Six {
+  Vec3 first, second;
+};
+
+struct Cost {
+  Real real, artificial, least;
+};
+
+// Columns are points of Z or artificial; rows of the inverse. Indices are constants wherever loops are unrolled: registers then.
+struct Basis {
+  Six points[6];
+  Six inverse[6];
+  bool is_artificial[6];
+};
+
+Basis basis;
+
+Real dot6(Six a, Six b) { return dot(a.first, b.first) + dot(a.second, b.second); }
+
+Real value_of(int k, Six six) { return k < 3 ? six.first[k] : six.second[k - 3]; }
+
+Real press(Vec3 arm, Vec3 normal, Real friction, Real gamma, Six direction) {
+  Vec3 velocity = direction.first + cross(direction.second, arm);
+  Real spin = gamma * dot(direction.second, normal);
+  Vec3 across = cross(cross(normal, velocity), normal);
+  return dot(normal, velocity) + friction * sqrt(dot(across, across) + spin * spin);
+}
+
+Six pressed(Vec3 arm, Vec3 normal, Real friction, Real gamma, Six direction) {
+  Vec3 velocity = direction.first + cross(direction.second, arm);
+  Real spin = gamma * dot(direction.second, normal);
+  Vec3 across = cross(cross(normal, velocity), normal);
+  Real root = sqrt(dot(across, across) + spin * spin);
+  Real share = root > Real(0) ? friction / root : Real(0);
+  Vec3 pushed = normal + share * across;
+  return Six(pushed, cross(arm, pushed) + (share * gamma * spin) * normal);
+}
+
+void levels_of(Six wanted, out Real levels[6]) {
+  [[unroll]] for (int r = 0; r < 6; ++r) levels[r] = dot6(basis.inverse[r], wanted);
+}
+
+void begin(Six wanted) {
+  Real size = sqrt(dot6(wanted, wanted));
+  Real equal = sqrt(Real(1) / Real(6));
+  Six mirror = Six(wanted.first / size - Vec3(equal), wanted.second / size - Vec3(equal));
+  Real square = dot6(mirror, mirror);
+  Real scale = square > Real(0) ? Real(2) / square : Real(0);
+  [[unroll]] for (int r = 0; r < 6; ++r) {
+    Real along = value_of(r, mirror) * scale;
+    Six column = Six(-along * mirror.first, -along * mirror.second);
+    if (r < 3) {
+      column.first[r < 3 ? r : 0] += Real(1);
+    } else {
+      column.second[r < 3 ? 0 : r - 3] += Real(1);
+    }
+    basis.points[r] = column;
+    basis.inverse[r] = column;
+    basis.is_artificial[r] = true;
+  }
+}
+
+// The last basis for another load: a column whose level would be negative gives way to an artificial one the other way, of unit length.
+void restart(Six wanted) {
+  Real rounding = ROUNDING * sqrt(dot6(wanted, wanted));
+  [[unroll]] for (int r = 0; r < 6; ++r) {
+    bool is_turned = dot6(basis.inverse[r], wanted) < -rounding;
+    Real size = is_turned ? -sqrt(dot6(basis.points[r], basis.points[r])) : Real(1);
+    basis.is_artificial[r] = basis.is_artificial[r] || is_turned;
+    basis.points[r] = Six(basis.points[r].first / size, basis.points[r].second / size);
+    basis.inverse[r] = Six(basis.inverse[r].first * size, basis.inverse[r].second * size);
+  }
+}
+
+Cost cost_of(Real levels[6]) {
+  Cost cost = Cost(Real(0), Real(0), Real(0));
+  [[unroll]] for (int r = 0; r < 6; ++r) {
+    Real level = max(Real(0), levels[r]);
+    cost.real += basis.is_artificial[r] ? Real(0) : level;
+    cost.artificial += basis.is_artificial[r] ? level : Real(0);
+    cost.least = min(cost.least, levels[r]);
+  }
+  return cost;
+}
+
+Six priced(bool is_short) {
+  Six direction = Six(Vec3(0), Vec3(0));
+  [[unroll]] for (int r = 0; r < 6; ++r) {
+    Real cost = basis.is_artificial[r] == is_short ? Real(1) : Real(0);
+    direction.first += cost * basis.inverse[r].first;
+    direction.second += cost * basis.inverse[r].second;
+  }
+  return direction;
+}
+
+bool enter(Six point, Real levels[6], Real rounding) {
+  Real turned[6];
+  levels_of(point, turned);
+  Real largest = Real(0);
+  [[unroll]] for (int r = 0; r < 6; ++r) largest = max(largest, abs(turned[r]));
+  int leaves = 6;
+  Real least = NO_DISTANCE, pivot = Real(0);
+  bool is_artificial = false;
+  Six row = Six(Vec3(0), Vec3(0));
+  [[unroll]] for (int r = 0; r < 6; ++r) {
+    bool is_idle = basis.is_artificial[r] && levels[r] <= rounding && turned[r] < -LEAST_PIVOT * largest;
+    bool may_leave = is_idle || turned[r] > LEAST_PIVOT * largest;
+    Real ratio = is_idle ? Real(0) : max(Real(0), levels[r]) / turned[r];
+    bool is_tie = leaves < 6 && abs(ratio - least) <= ROUNDING * least;
+    bool is_better = basis.is_artificial[r] != is_artificial ? basis.is_artificial[r] : abs(turned[r]) > abs(pivot);
+    bool is_chosen = may_leave && (is_tie ? is_better : ratio < least);
+    leaves = is_chosen ? r : leaves;
+    least = is_chosen ? ratio : least;
+    pivot = is_chosen ? turned[r] : pivot;
+    is_artificial = is_chosen ? basis.is_artificial[r] : is_artificial;
+    row.first = is_chosen ? basis.inverse[r].first : row.first;
+    row.second = is_chosen ? basis.inverse[r].second : row.second;
+  }
+  if (leaves == 6) return false;
+  row = Six(row.first / pivot, row.second / pivot);
+  [[unroll]] for (int r = 0; r < 6; ++r) {
+    bool is_this = r == leaves;
+    basis.inverse[r].first = is_this ? row.first : basis.inverse[r].first - turned[r] * row.first;
+    basis.inverse[r].second = is_this ? row.second : basis.inverse[r].second - turned[r] * row.second;
+    basis.points[r].first = is_this ? point.first : basis.points[r].first;
+    basis.points[r].second = is_this ? point.second : basis.points[r].second;
+    basis.is_artificial[r] = !is_this && basis.is_artificial[r];
+  }
+  return true;
+}
+
+// X + (1 - X B) X of the inverse X: rounding that rank-one updates gathered is squared. False: there is too much of it.
+bool refine() {
+  Six rows[6];
+  Real most = Real(0);
+  [[unroll]] for (int r = 0; r < 6; ++r) {
+    Six row = basis.inverse[r];
+    rows[r] = row;
+    [[unroll]] for (int c = 0; c < 6; ++c) {
+      Real error = (r == c ? Real(1) : Real(0)) - dot6(row, basis.points[c]);
+      most = max(most, abs(error));
+      rows[r].first += error * basis.inverse[c].first;
+      rows[r].second += error * basis.inverse[c].second;
+    }
+  }
+  bool is_near = most < Real(0.1);
+  [[unroll]] for (int r = 0; r < 6; ++r) {
+    basis.inverse[r].first = is_near ? rows[r].first : basis.inverse[r].first;
+    basis.inverse[r].second = is_near ? rows[r].second : basis.inverse[r].second;
+  }
+  return is_near;
+}
+
+// With what the inverse's rounding leaves unbalanced.
+void balanced_levels(Six wanted, out Real levels[6]) {
+  levels_of(wanted, levels);
+  Six rest = wanted;
+  [[unroll]] for (int r = 0; r < 6; ++r) {
+    rest.first -= levels[r] * basis.points[r].first;
+    rest.second -= levels[r] * basis.points[r].second;
+  }
+  Real more[6];
+  levels_of(rest, more);
+  [[unroll]] for (int r = 0; r < 6; ++r) levels[r] += more[r];
+}
+
+#endif
