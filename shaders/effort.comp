@@ -10,6 +10,11 @@
 #include "planes.glsl"
 #include "trig.glsl"
 
+#define HALF_TOLERANCE (Real(0.5) * EFFORT_TOLERANCE)
+#define RISE_TOLERANCE RATIO(1, 20)  // of an effort that only tells where to look next
+#define RISE_STEPS 4
+#define FRESH_PIVOTS 30  // after so many the inverse is refined
+
 layout(local_size_x_id = CONST_GROUP_SIZE) in;
 layout(constant_id = CONST_CONTACTS) const int CONTACTS = -1;
 layout(constant_id = CONST_EFFORT_TASK) const int TASK = EFFORT_WORST;
@@ -101,61 +106,76 @@ Six wanted_for(Vec4 weight, Vec4 tilted) {
 }
 
 struct Solve {
-  Six wanted;
-  Real size, low, effort;
+  Six wanted, cut;  // the direction of the last lower bound
+  Real size, low, effort, cut_height;
   int pivots;
-  bool done, is_beyond;
+  bool done, is_known, is_beyond;
 };
 
-Solve start(Vec4 weight, Vec4 tilted) {
+Solve start(Six wanted) {
   Solve solve;
-  solve.wanted = wanted_for(weight, tilted);
+  solve.wanted = wanted;
   solve.size = sqrt(dot6(solve.wanted, solve.wanted));
+  solve.cut = Six(Vec3(0), Vec3(0));
+  solve.cut_height = Real(1);
   solve.low = solve.effort = Real(0);
   solve.pivots = 0;
-  solve.done = solve.is_beyond = false;
+  solve.done = solve.is_known = solve.is_beyond = false;
   return solve;
 }
 
 // An upper bound by the last basis; infinite where it does not hold the load, or there is none.
-Real bound(Solve solve, bool has_basis) {
+Real bound(Six wanted, bool has_basis) {
   Real levels[6];
-  levels_of(solve.wanted, levels);
+  levels_of(wanted, levels);
   Cost cost = cost_of(levels);
-  Real rounding = ROUNDING * solve.size;
-  bool holds = has_basis && cost.least >= -rounding && cost.artificial <= rounding;
-  return solve.size > Real(0) ? (holds ? cost.real : INFINITE) : Real(0);
+  Real rounding = ROUNDING * sqrt(dot6(wanted, wanted));
+  return has_basis && cost.least >= -rounding && cost.artificial <= rounding ? cost.real : INFINITE;
 }
 
 // One pivot of core/effort.cpp's solve.
-void step(inout Solve solve, Real enough, Real too_much) {
+void step(inout Solve solve, Real tolerance, Real enough, Real too_much, bool is_solving) {
   Real levels[6];
   levels_of(solve.wanted, levels);
   Cost cost = cost_of(levels);
   bool is_short = cost.artificial > ROUNDING * solve.size;
   Six direction = priced(is_short), point;
   Real height = support(direction, point), value = dot6(direction, solve.wanted);
-  if (value > Real(0) && value > solve.low * height) solve.low = height > Real(0) ? value / height : INFINITE;
+  bool is_higher = value > Real(0) && value > solve.low * height;
+  solve.low = is_higher ? (height > Real(0) ? value / height : INFINITE) : solve.low;
+  solve.cut.first = is_higher ? direction.first : solve.cut.first;
+  solve.cut.second = is_higher ? direction.second : solve.cut.second;
+  solve.cut_height = is_higher ? height : solve.cut_height;
   bool is_never = solve.low > dear * solve.size;
   solve.is_beyond = solve.low > too_much;
-  bool is_known = !is_short && (cost.real <= enough || cost.real - solve.low <= EFFORT_TOLERANCE * cost.real);
-  solve.done = is_never || solve.is_beyond || is_known || solve.pivots == DEVICE_PIVOTS || !(height > (is_short ? Real(0) : Real(1)));
+  solve.is_known = !is_short && (cost.real <= enough || cost.real - solve.low <= tolerance * cost.real);
+  solve.done = is_never || solve.is_beyond || solve.is_known || solve.pivots == DEVICE_PIVOTS || !(height > (is_short ? Real(0) : Real(1)));
   solve.effort = is_never || solve.is_beyond || is_short ? INFINITE : cost.real;
-  if (!solve.done) solve.done = !enter(point, levels, ROUNDING * solve.size);
+  bool is_entered = enter(point, levels, ROUNDING * solve.size, is_solving && !solve.done);
+  solve.done = solve.done || !is_entered;
   solve.pivots += 1;
 }
 
-// The effort anew from a better inverse.
+// The effort anew, less the rounding of the inverse.
 void finish(inout Solve solve) {
-  bool is_refined = refine();
   Real levels[6];
   balanced_levels(solve.wanted, levels);
   Cost cost = cost_of(levels);
-  bool holds = is_refined && cost.artificial <= ROUNDING * solve.size && solve.effort < INFINITE;
+  bool holds = cost.artificial <= ROUNDING * solve.size && solve.effort < INFINITE;
   solve.effort = holds ? cost.real : INFINITE;
 }
 
 Real kept(int plane, int offset, uint grip) { return plane >= 0 ? real_out[uint(plane + offset) * push.stride + grip] : NOT_A_NUMBER; }
+
+// The state that the last lower bound's direction bounds most, where that is more than `most`.
+uint highest(Solve solve, Real most, uint state) {
+  for (uint i = 0u; i < push.number; ++i) {
+    Real low = dot6(solve.cut, wanted_for(states_in[2u * i], states_in[2u * i + 1u])) / solve.cut_height;
+    state = low > most ? i : state;
+    most = max(most, low);
+  }
+  return state;
+}
 
 void put_worst(Real worst, Vec4 tilted, uint grip) {
   put_real(TASK == EFFORT_TIPS ? PLANE_TIPS_WORST_EFFORT : PLANE_WORST_EFFORT, 0, grip, worst);
@@ -199,40 +219,64 @@ void main() {
     if (push.first == 0u) put_worst(worst, states_in[1], grip);
     worst = kept(TASK == EFFORT_TIPS ? PLANE_TIPS_WORST_EFFORT : PLANE_WORST_EFFORT, 0, grip);
   }
+  // first the search goes where the direction of a lower bound is highest, not yet exactly; then each other state is compared with what it found
+  int rises = RISE_STEPS;
+  bool is_rising = TASK != EFFORT_SAFE;
+  uint state = 0u;
+  int pivots = 0;  // since the inverse was refined
   Solve solve;
+  Six wanted;
   bool has_basis = false, is_warm = false, is_solving = false;
   uint k = has_grip ? 0u : push.number;
   while (k < push.number) {
-    Real enough = TASK == EFFORT_SAFE ? Real(1) : worst;
+    Real enough = TASK == EFFORT_SAFE ? Real(1) : is_rising ? Real(0) : worst * (Real(1) + HALF_TOLERANCE);
     // states that the last basis shows to be small, or that nothing depends on, are passed by
+    bool is_new = !is_solving;
     while (k < push.number && !is_solving) {
-      Vec4 tilted = states_in[2u * k + 1u];
-      solve = start(states_in[2u * k], tilted);
+      state = is_rising ? state : k;
+      Vec4 tilted = states_in[2u * state + 1u];
+      wanted = wanted_for(states_in[2u * state], tilted);
       bool is_past = TASK == EFFORT_SAFE && tilted.z >= Real(0) && !(kept(PLANE_SAFE_TILT, int(tilted.w), grip) >= tilted.z);
-      is_solving = !is_past && !(bound(solve, has_basis) <= enough);
+      bool is_small = dot6(wanted, wanted) == Real(0) || (!is_rising && bound(wanted, has_basis) <= enough);
+      is_solving = !is_past && !is_small;
+      is_rising = is_rising && is_solving;
       k += is_solving ? 0u : 1u;
-      if (is_solving) {
-        if (!has_basis) begin(solve.wanted);
-        restart(solve.wanted);
-        is_warm = has_basis;
-        has_basis = true;
-      }
     }
-    if (is_solving) step(solve, enough, TASK == EFFORT_SAFE ? Real(1) : INFINITE);
+    // without a loop or a branch: those copy the basis
+    is_new = is_new && is_solving;
+    is_warm = is_new ? has_basis : is_warm;
+    if (is_new) solve = start(wanted);
+    restart(solve.wanted, ROUNDING * solve.size, is_new && !has_basis, is_new && has_basis);
+    has_basis = has_basis || is_new;
+    Real tolerance = is_rising && rises > 0 ? RISE_TOLERANCE : HALF_TOLERANCE;
+    [[dont_unroll]] for (bool once = is_solving && pivots >= FRESH_PIVOTS; once; once = false) {
+      refine();
+      pivots = 0;
+    }
+    pivots += is_solving ? 1 : 0;
+    step(solve, tolerance, enough, TASK == EFFORT_SAFE ? Real(1) : INFINITE, is_solving);
     [[dont_unroll]] for (bool once = is_solving && solve.done; once; once = false) {
       finish(solve);
-      Vec4 tilted = states_in[2u * k + 1u];
-      has_basis = solve.effort < INFINITE || solve.is_beyond;
+      Vec4 tilted = states_in[2u * state + 1u];
+      has_basis = (solve.effort < INFINITE && solve.is_known) || solve.is_beyond;
       is_solving = false;
-      // a basis of another load may end in a corner: what nothing holds is told from the start
+      // a basis of another load may end in a corner: what is not known then is told from the start
       bool is_told = has_basis || !is_warm;
+      bool is_coarse = is_rising && rises > 0 && has_basis;
+      [[dont_unroll]] for (bool rise = is_coarse; rise; rise = false) {
+        uint next = highest(solve, solve.low * (Real(1) + RISE_TOLERANCE), state);
+        rises = next == state ? 0 : rises - 1;
+        state = next;
+      }
+      if (is_coarse || !is_told) continue;
       if (TASK == EFFORT_SAFE) {
-        if (is_told && solve.effort > Real(1)) put_real(PLANE_SAFE_TILT, int(tilted.w), grip, tilted.z < Real(0) ? NOT_A_NUMBER : tilted.z);
-      } else if (is_told && solve.effort > worst) {
+        if (solve.effort > Real(1)) put_real(PLANE_SAFE_TILT, int(tilted.w), grip, tilted.z < Real(0) ? NOT_A_NUMBER : tilted.z);
+      } else if (solve.effort > worst) {
         worst = solve.effort;
         put_worst(worst, tilted, grip);
       }
-      k += is_told ? 1u : 0u;
+      k += is_rising ? 0u : 1u;
+      is_rising = false;
     }
   }
 }

@@ -61,7 +61,9 @@ void levels_of(Six wanted, out Real levels[6]) {
   [[unroll]] for (int r = 0; r < 6; ++r) levels[r] = dot6(basis.inverse[r], wanted);
 }
 
-void begin(Six wanted) {
+// Where `anew`: six artificial columns at right angles with equal shares of `wanted`. Where `warm`: the last basis for another load, where a column
+// whose level would be negative gives way to an artificial one the other way. Both without branches: each would copy the basis.
+void restart(Six wanted, Real rounding, bool anew, bool warm) {
   Real size = sqrt(dot6(wanted, wanted));
   Real equal = sqrt(Real(1) / Real(6));
   Six mirror = Six(wanted.first / size - Vec3(equal), wanted.second / size - Vec3(equal));
@@ -69,27 +71,19 @@ void begin(Six wanted) {
   Real scale = square > Real(0) ? Real(2) / square : Real(0);
   [[unroll]] for (int r = 0; r < 6; ++r) {
     Real along = value_of(r, mirror) * scale;
-    Six column = Six(-along * mirror.first, -along * mirror.second);
+    Vec3 first = -along * mirror.first, second = -along * mirror.second;
     if (r < 3) {
-      column.first[r < 3 ? r : 0] += Real(1);
+      first[r < 3 ? r : 0] += Real(1);
     } else {
-      column.second[r < 3 ? 0 : r - 3] += Real(1);
+      second[r < 3 ? 0 : r - 3] += Real(1);
     }
-    basis.points[r] = column;
-    basis.inverse[r] = column;
-    basis.is_artificial[r] = true;
-  }
-}
-
-// The last basis for another load: a column whose level would be negative gives way to an artificial one the other way, of unit length.
-void restart(Six wanted) {
-  Real rounding = ROUNDING * sqrt(dot6(wanted, wanted));
-  [[unroll]] for (int r = 0; r < 6; ++r) {
-    bool is_turned = dot6(basis.inverse[r], wanted) < -rounding;
-    Real size = is_turned ? -sqrt(dot6(basis.points[r], basis.points[r])) : Real(1);
-    basis.is_artificial[r] = basis.is_artificial[r] || is_turned;
-    basis.points[r] = Six(basis.points[r].first / size, basis.points[r].second / size);
-    basis.inverse[r] = Six(basis.inverse[r].first * size, basis.inverse[r].second * size);
+    bool is_turned = warm && dot6(basis.inverse[r], wanted) < -rounding;
+    Real sense = is_turned ? Real(-1) : Real(1);
+    basis.is_artificial[r] = basis.is_artificial[r] || is_turned || anew;
+    basis.points[r].first = anew ? first : sense * basis.points[r].first;
+    basis.points[r].second = anew ? second : sense * basis.points[r].second;
+    basis.inverse[r].first = anew ? first : sense * basis.inverse[r].first;
+    basis.inverse[r].second = anew ? second : sense * basis.inverse[r].second;
   }
 }
 
@@ -114,7 +108,8 @@ Six priced(bool is_short) {
   return direction;
 }
 
-bool enter(Six point, Real levels[6], Real rounding) {
+// Without branches, as `restart`; nothing where not `allowed`. False: no column leaves.
+bool enter(Six point, Real levels[6], Real rounding, bool allowed) {
   Real turned[6];
   levels_of(point, turned);
   Real largest = Real(0);
@@ -137,21 +132,24 @@ bool enter(Six point, Real levels[6], Real rounding) {
     row.first = is_chosen ? basis.inverse[r].first : row.first;
     row.second = is_chosen ? basis.inverse[r].second : row.second;
   }
-  if (leaves == 6) return false;
-  row = Six(row.first / pivot, row.second / pivot);
+  leaves = allowed ? leaves : 6;
+  bool is_found = leaves < 6;
+  Real share = is_found ? Real(1) / pivot : Real(0);
+  row = Six(row.first * share, row.second * share);
   [[unroll]] for (int r = 0; r < 6; ++r) {
     bool is_this = r == leaves;
-    basis.inverse[r].first = is_this ? row.first : basis.inverse[r].first - turned[r] * row.first;
-    basis.inverse[r].second = is_this ? row.second : basis.inverse[r].second - turned[r] * row.second;
+    Real turn = is_found ? turned[r] : Real(0);
+    basis.inverse[r].first = is_this ? row.first : basis.inverse[r].first - turn * row.first;
+    basis.inverse[r].second = is_this ? row.second : basis.inverse[r].second - turn * row.second;
     basis.points[r].first = is_this ? point.first : basis.points[r].first;
     basis.points[r].second = is_this ? point.second : basis.points[r].second;
     basis.is_artificial[r] = !is_this && basis.is_artificial[r];
   }
-  return true;
+  return is_found;
 }
 
-// X + (1 - X B) X of the inverse X: rounding that rank-one updates gathered is squared. False: there is too much of it.
-bool refine() {
+// X + (1 - X B) X of the inverse X: rounding that rank-one updates gathered is squared, where there is not too much of it.
+void refine() {
   Six rows[6];
   Real most = Real(0);
   [[unroll]] for (int r = 0; r < 6; ++r) {
@@ -169,7 +167,6 @@ bool refine() {
     basis.inverse[r].first = is_near ? rows[r].first : basis.inverse[r].first;
     basis.inverse[r].second = is_near ? rows[r].second : basis.inverse[r].second;
   }
-  return is_near;
 }
 
 // With what the inverse's rounding leaves unbalanced.
