@@ -13,7 +13,7 @@
 #define HALF_TOLERANCE (Real(0.5) * EFFORT_TOLERANCE)
 #define RISE_TOLERANCE RATIO(1, 20)  // of an effort that only tells where to look next
 #define RISE_STEPS 4
-#define FRESH_PIVOTS 30  // after so many the inverse is refined
+#define FRESH_PIVOTS 20  // after so many the inverse is refined
 
 layout(local_size_x_id = CONST_GROUP_SIZE) in;
 layout(constant_id = CONST_CONTACTS) const int CONTACTS = -1;
@@ -255,6 +255,12 @@ void main() {
     }
     pivots += is_solving ? 1 : 0;
     step(solve, tolerance, enough, TASK == EFFORT_SAFE ? Real(1) : INFINITE, is_solving);
+    // where no column enters and the effort is not known, rounding may have gathered: once more from a refined inverse
+    bool is_told_apart = solve.is_known || solve.is_beyond || solve.low > dear * solve.size;
+    if (is_solving && solve.done && !is_told_apart && pivots > 1 && solve.pivots < DEVICE_PIVOTS) {
+      solve.done = false;
+      pivots = FRESH_PIVOTS;
+    }
     [[dont_unroll]] for (bool once = is_solving && solve.done; once; once = false) {
       finish(solve);
       Vec4 tilted = states_in[2u * state + 1u];
@@ -271,7 +277,7 @@ void main() {
       if (is_coarse || !is_told) continue;
       if (TASK == EFFORT_SAFE) {
         if (solve.effort > Real(1)) put_real(PLANE_SAFE_TILT, int(tilted.w), grip, tilted.z < Real(0) ? NOT_A_NUMBER : tilted.z);
-      } else if (solve.effort > worst) {
+      } else if (solve.effort > max(enough, worst)) {
         worst = solve.effort;
         put_worst(worst, tilted, grip);
       }

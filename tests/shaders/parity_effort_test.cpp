@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+// The effort kernel on a device against the core. Paths of pivots are not compared: what both say lies within the tolerances of both.
+// sanitizers: none
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/fields.h"
+#include "core/gather.h"
+#include "host/grip_backend.h"
+#include "tests/support/scenes.h"
+#include "tests/support/whole_parity.h"
+
+namespace wholehand {
+namespace {
+
+// Of the term 1 / (1 + e), which is finite where an effort is not. Each side solves to half of the tolerance 1e-3 and passes by states that are worse
+// by up to another half; a single state's effort has all of it: together 2e-3 of e, times e / (1 + e)^2, at most 1/4. In float the places of contacts end within 1e-6 m of arms of 5 mm and
+// more, twice: another 4e-4 of e.
+double term_tolerance(Precision precision) { return (precision == Precision::single ? 2.4e-3 : 2e-3) / 4; }
+
+double term_of(double effort) { return 1 / (1 + effort); }
+
+const std::vector<int> KEPT{FIELD_WORST_EFFORT, FIELD_WORST_EFFORT_FILL, FIELD_WORST_EFFORT_TILT, FIELD_TIPS_WORST_EFFORT,
+                            FIELD_SAFE_TILT,    FIELD_EFFORT,            FIELD_SCORE,             FIELD_TERMS,
+                            FIELD_STATUS,       FIELD_TOUCH_MASK};
+
+Scene strong_scene(std::vector<VesselData> vessels, const HandData& hand = {}) {
+  Scene scene = wet_scene(std::move(vessels), Pose::articulated, hand);
+  scene.strength = StrengthData{};
+  scene.hand.depth_limit = 20e-3;  // most grips are plausible
+  scene.force.max = 1e3;           // a safe tilt is up to the effort alone
+  return scene;
+}
+
+struct Compared {
+  int grips = 0, outside = 0, infinite = 0, beyond = 0;  // beyond: with a worst effort above 1
+  double worst = 0;
+};
+
+// Whether the core's effort of a state is as near to 1 as both sides may be off.
+bool is_near_one(double effort) { return std::abs(effort - 1) <= 3e-3; }
+
+Compared compare_efforts(const Scene& scene, Precision precision, int count, const std::string& name) {
+  const FieldSet fields = make_field_set(KEPT, scene);
+  const auto backend = backend_of(scene, fields, precision);
+  const auto core = core_of(scene, precision);
+  const double tolerance = term_tolerance(precision);
+  Compared all;
+  for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
+    const auto grips = grips_of(scene, v, count);
+    const GatheredPlanes device = gather(*backend, v, grips), truth = gather(*core, fields, v, grips);
+    for (std::size_t i = 0; i < grips.size(); ++i) {
+      const std::string which = name + " vessel " + std::to_string(v) + " grip " + std::to_string(i);
+      // another contact is another question
+      if (device.uint(FIELD_STATUS, i) != truth.uint(FIELD_STATUS, i)) continue;
+      if (device.uint(FIELD_TOUCH_MASK, i) != truth.uint(FIELD_TOUCH_MASK, i)) continue;
+      const auto real = [&](const GatheredPlanes& planes, int field, int k = 0) { return planes.real(fields.plane[field] + k, i); };
+      const double worst = real(truth, FIELD_WORST_EFFORT);
+      bool is_outside = false;
+      for (const int field : {FIELD_WORST_EFFORT, FIELD_TIPS_WORST_EFFORT}) {
+        const double a = real(device, field), b = real(truth, field);
+        EXPECT_EQ(std::isnan(a), std::isnan(b)) << which;
+        if (std::isnan(a) || std::isnan(b)) continue;
+        const double difference = std::abs(term_of(a) - term_of(b));
+        is_outside = is_outside || difference > tolerance;
+        all.worst = std::max(all.worst, difference);
+      }
+      for (int fill = 0; fill < static_cast<int>(scene_fills(scene)); ++fill) {
+        const double a = real(device, FIELD_SAFE_TILT, fill), b = real(truth, FIELD_SAFE_TILT, fill);
+        if ((std::isnan(a) && std::isnan(b)) || std::abs(a - b) <= 1e-6) continue;
+        // the first tilt that one of them calls unsafe
+        const double lower = std::isnan(a) || std::isnan(b) ? -1 : std::min(a, b);
+        const auto tilt = std::upper_bound(scene.tilts.begin(), scene.tilts.end(), lower + 1e-6) - scene.tilts.begin();
+        const int state = fill * static_cast<int>(scene.tilts.size()) + static_cast<int>(tilt);
+        is_outside = is_outside || !is_near_one(real(truth, FIELD_EFFORT, state));
+      }
+      if (std::isnan(worst)) continue;
+      // both name a state, whose effort is the worst but for what they pass by
+      const double named = real(device, FIELD_WORST_EFFORT_TILT), fraction = real(device, FIELD_WORST_EFFORT_FILL);
+      const auto tilt = std::find_if(scene.tilts.begin(), scene.tilts.end(), [&](double t) { return std::abs(t - named) < 1e-6; });
+      if (tilt == scene.tilts.end()) {
+        ADD_FAILURE() << which << ": " << named;
+        continue;
+      }
+      int fill = 0;
+      while (scene.liquid && std::abs(scene.liquid->fills[static_cast<std::size_t>(fill)] - fraction) > 1e-6) ++fill;
+      const int state = fill * static_cast<int>(scene.tilts.size()) + static_cast<int>(tilt - scene.tilts.begin());
+      is_outside = is_outside || std::abs(term_of(real(truth, FIELD_EFFORT, state)) - term_of(worst)) > tolerance;
+      EXPECT_NEAR(real(device, FIELD_TERMS, 5), term_of(real(device, FIELD_WORST_EFFORT)), 1e-6) << which;
+      ++all.grips;
+      all.outside += is_outside ? 1 : 0;
+      all.infinite += std::isinf(worst) ? 1 : 0;
+      all.beyond += worst > 1 ? 1 : 0;
+    }
+  }
+  testing::Test::RecordProperty(name, std::to_string(all.grips) + " grips, " + std::to_string(all.worst));
+  return all;
+}
+
+// In float a contact at the limit of what holds may take an effort or none: of a hundred grips one at most.
+void expect_same_efforts(const Scene& scene, const std::string& name, int count = COUNT) {
+  for (const Precision precision : {Precision::single, Precision::full}) {
+    const Compared all = compare_efforts(scene, precision, count, name + (precision == Precision::single ? "_float" : "_double"));
+    EXPECT_GT(all.grips, count / 10) << name << ": too few plausible grips to tell anything";
+    EXPECT_LE(100 * all.outside, precision == Precision::single ? all.grips : 0)
+        << name << ": " << all.outside << " of " << all.grips << ", worst " << all.worst;
+  }
+}
+
+TEST(ParityEffort, OfWetVessels) { expect_same_efforts(strong_scene({beaker1(), beaker2(), beaker3(), vase()}), "wet"); }
+
+TEST(ParityEffort, OfALeftHandAndACenterOffTheAxis) {
+  expect_same_efforts(strong_scene({lopsided(), beaker2()}, left_hand()), "left");
+}
+
+TEST(ParityEffort, OfWeakHandsThatLetGo) {
+  Scene scene = strong_scene({beaker1(), beaker3()});
+  for (double& digit : scene.strength->digits) digit *= 0.1;
+  scene.tilts = linspace(0, PI, 13);
+  expect_same_efforts(scene, "weak");
+  const Compared all = compare_efforts(scene, Precision::full, COUNT, "weak_counts");
+  EXPECT_GT(all.beyond, all.infinite);  // else no safe tilt was looked for
+}
+
+// More states than a block of the kernel holds, and states that are left out.
+TEST(ParityEffort, OfManyStates) {
+  Scene scene = strong_scene({beaker2()});
+  for (double& digit : scene.strength->digits) digit *= 0.1;
+  scene.tilts = linspace(0, PI, 300);
+  scene.until_poured = 0.5;
+  expect_same_efforts(scene, "many", 60);
+}
+
+TEST(ParityEffort, OfDryVessels) {
+  Scene scene = strong_scene({beaker1()});
+  scene.liquid.reset();
+  expect_same_efforts(scene, "dry");
+}
+
+TEST(ParityEffort, WithoutGravityNothingIsNeeded) {
+  Scene scene = strong_scene({beaker1()});
+  scene.gravity = 0;
+  expect_same_efforts(scene, "weightless");
+}
+
+}  // namespace
+}  // namespace wholehand
