@@ -301,11 +301,17 @@ void Comparer::add_tilts(std::size_t vessel, const GatheredPlanes& a, const Gath
       const GatheredPlanes& stricter = safe_a < safe_b ? a : b;
       const std::size_t state = first + std::min(safe_a, safe_b);
       const double normal = stricter.real(fields.plane[FIELD_NORMAL_FORCE] + static_cast<int>(state), i) - scene_.force.max;
-      const double hold = stricter.real(fields.plane[FIELD_HOLD_FORCE] + static_cast<int>(state), i) - scene_.force.grip_strength;
+      // with efforts, in shares of the strength
+      const bool by_effort = has_effort(scene_) && fields.has(FIELD_EFFORT);
+      const int held_by = by_effort ? FIELD_EFFORT : FIELD_HOLD_FORCE;
+      const double hold = stricter.real(fields.plane[held_by] + static_cast<int>(state), i) - (by_effort ? 1 : scene_.force.grip_strength);
       // the stricter side's own forces must say so too
-      const double by_normal = normal < 0 && !(hold > 0) ? std::numeric_limits<double>::infinity() : std::max(0.0, normal);
+      // the effort of one state and that of the search may differ
+      const double least_hold = by_effort ? -EFFORT_SHARE : 0;
+      const double by_normal = normal < 0 && !(hold > least_hold) ? std::numeric_limits<double>::infinity() : std::max(0.0, normal);
       safe_over |= note_difference(safe, 1e3, vessel, i, by_normal, tolerance(FIELD_NORMAL_FORCE, state, i));
-      safe_over |= note_difference(safe, 1e3, vessel, i, std::max(0.0, hold), tolerance(FIELD_HOLD_FORCE, state, i));
+      const double of_hold = by_effort ? EFFORT_SHARE : tolerance(FIELD_HOLD_FORCE, state, i);
+      safe_over |= note_difference(safe, 1e3, vessel, i, std::max(0.0, hold), of_hold);
     }
     peak.outside += peak_over ? 1 : 0;
     safe.outside += safe_over ? 1 : 0;

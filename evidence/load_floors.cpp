@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/gather.h"
+#include "core/planes.h"
 #include "core/vectors.h"
 #include "shaders/layout.h"
 
@@ -62,7 +63,8 @@ void LoadFloors::set_forces(const VesselConstants& constants, std::size_t vessel
 double LoadFloors::of(int field, std::size_t plane, std::size_t grip) const {
   const double force = torque_ * force_per_torque_[grip];
   const double force_term = scene_.force.max > 0 ? force / scene_.force.max : 0;
-  const double hold_term = scene_.force.grip_strength > 0 ? hold_ / scene_.force.grip_strength : 0;
+  const double by_strength = scene_.force.grip_strength > 0 ? hold_ / scene_.force.grip_strength : 0;
+  const double hold_term = has_effort(scene_) ? EFFORT_SHARE / 4 : by_strength;
   switch (field) {
     case FIELD_PIVOT_LENGTH:
       return center_[plane];
