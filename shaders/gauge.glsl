@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Twin of core/gauge.cpp: what contacts and digits can do, and the basis of the simplex method that finds an effort.
+// What core/effort.cpp does within a solve: what a contact can do, and the basis of the simplex method. No twin of its functions: the basis lies in
+// registers, and nothing branches that copies it.
 #ifndef GAUGE_GLSL
 #define GAUGE_GLSL
 
