@@ -146,7 +146,7 @@ struct ForceData {
   double k_open = 600;        // N/m of the device's gap
   double friction = 0.6;      // mu
   double torsion = 5e-3;      // gamma, m
-  double grip_strength = 40;  // N
+  double grip_strength = 40;  // N, of two fingers, where the scene has no strengths; no key of a scene
 };
 
 // The largest sum of normal forces of each digit's contacts, N: thumb, index, middle, ring, little, palm. docs/method.md has the
@@ -172,7 +172,7 @@ struct GripsData {
 };
 
 struct ScoreWeights {
-  double fingers = 0.30, contacts = 0.10, depth = 0.20, posture = 0.10, force = 0.15, hold = 0.15;
+  double fingers = 0.20, contacts = 0.10, depth = 0.15, posture = 0.10, force = 0.15, hold = 0.30;
 };
 
 struct OutputData {

@@ -30,6 +30,10 @@ void read_force(const SceneTable& root, ForceData& force) {
   const auto table = root.table(
       "force", {"base_N", "range_N", "torque", "reference", "max_N", "k_open_N_m", "friction", "torsion_mm", "grip_strength_N"});
   if (!table) return;
+  if (table->has("grip_strength_N")) {
+    root.file().refuse(table->place("grip_strength_N"), "grip_strength_N of [force] is no longer read",
+                       "allowed: a table [strength] with the strength of each digit (thumb_N, index_N, ..)");
+  }
   table->read("base_N", ranges::BASE_FORCE, force.base);
   table->read("range_N", ranges::FORCE_RANGE, force.range);
   table->read("torque", {{"paper", Torque::paper}, {"exact", Torque::exact}}, force.torque);
@@ -38,7 +42,6 @@ void read_force(const SceneTable& root, ForceData& force) {
   table->read("k_open_N_m", ranges::OPENING_STIFFNESS, force.k_open);
   table->read("friction", ranges::FRICTION, force.friction);
   table->read("torsion_mm", ranges::TORSION, force.torsion);
-  table->read("grip_strength_N", ranges::GRIP_STRENGTH, force.grip_strength);
 }
 
 void read_strength(const SceneTable& root, std::optional<StrengthData>& strength) {

@@ -78,7 +78,7 @@ double weighted(const Scene& scene, const ScoreTerms& t) {
 }
 
 TEST(Score, WeightsAreTheScenes) {
-  const std::array<double, 6> standard{0.30, 0.10, 0.20, 0.10, 0.15, 0.15};
+  const std::array<double, 6> standard{0.20, 0.10, 0.15, 0.10, 0.15, 0.30};
   EXPECT_EQ(effective_weights(three_beakers()), standard);
   Scene scene = three_beakers();
   scene.score = {1, 2, 3, 4, 5, 6};  // they need not sum to 1
@@ -88,7 +88,7 @@ TEST(Score, WeightsAreTheScenes) {
 
 TEST(Score, WithoutTiltsTheRemainingWeightsSumToOne) {
   const auto weights = effective_weights(scene_of({beaker1()}));
-  const std::array<double, 6> expected{0.30 / 0.7, 0.10 / 0.7, 0.20 / 0.7, 0.10 / 0.7, 0, 0};
+  const std::array<double, 6> expected{0.20 / 0.55, 0.10 / 0.55, 0.15 / 0.55, 0.10 / 0.55, 0, 0};
   for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(weights[k], expected[k], ROUNDING) << k;
   EXPECT_EQ(weights[4], 0);
   EXPECT_EQ(weights[5], 0);

@@ -32,7 +32,7 @@ const std::map<std::string, std::vector<std::string>> SCENE_KEYS{
       "surface",  "up",         "close_holes", "density_kg_m3", "mass_kg", "center_of_mass_mm", "force_range_N", "guidance_mm",
       "place_mm", "liquid"}},
     {"[liquid]", {"density_kg_m3", "fills", "fills_ml", "pour"}},
-    {"[force]", {"base_N", "range_N", "torque", "reference", "max_N", "k_open_N_m", "friction", "torsion_mm", "grip_strength_N"}},
+    {"[force]", {"base_N", "range_N", "torque", "reference", "max_N", "k_open_N_m", "friction", "torsion_mm"}},
     {"[strength]", {"thumb_N", "index_N", "middle_N", "ring_N", "little_N", "palm_N"}},
     {"[grips]",
      {"height_mm", "height_fraction", "azimuth_deg", "obliquity_deg", "roll_deg", "offset_mm", "hand_scale", "sampling", "count",

@@ -46,7 +46,7 @@ TEST(SceneReader, LeavesEverythingElseAtItsDefault) {
   EXPECT_EQ(scene.grips.height.values, std::vector<double>{0.5});
   EXPECT_EQ(scene.grips.azimuth.values, std::vector<double>{0.0});
   EXPECT_EQ(scene.grips.hand_scale.values, std::vector<double>{1.0});
-  EXPECT_EQ(scene.score.fingers, 0.30);
+  EXPECT_EQ(scene.score.fingers, 0.20);
   EXPECT_FALSE(scene.output.keep);
   EXPECT_EQ(scene.output.best, 20);
   EXPECT_EQ(scene.live.rate, 1000);
@@ -230,7 +230,6 @@ max_N = 12
 k_open_N_m = 500
 friction = 0.5
 torsion_mm = 4
-grip_strength_N = 60
 [score]
 fingers = 1
 contacts = 2
@@ -254,7 +253,6 @@ best = 7
   EXPECT_EQ(scene.force.k_open, 500);
   EXPECT_EQ(scene.force.friction, 0.5);
   EXPECT_EQ(scene.force.torsion, 4e-3);
-  EXPECT_EQ(scene.force.grip_strength, 60);
   EXPECT_EQ(scene.score.fingers, 1);
   EXPECT_EQ(scene.score.contacts, 2);
   EXPECT_EQ(scene.score.depth, 3);
