@@ -58,7 +58,8 @@ EffortSolver::Vec6 EffortSolver::wanted_for(const Wrench& load) const {
 // What a contact's unit normal force can do along a direction (a, b), b times the unit of length:
 //   v = a + b x p,  h = n.v + mu s,  s = sqrt(|v - (n.v) n|^2 + gamma^2 (b.n)^2)
 // attained with the tangential force mu t / s and the moment mu gamma^2 (b.n) / s.
-Real EffortSolver::press(const ContactPoint& contact, const Vec6& direction, Vec6* wrench, ContactForce* force) const {
+Real EffortSolver::press(const ContactPoint& contact, const Vec6& direction, Real friction, Vec6* wrench,
+                         ContactForce* force) const {
   const Vec3 arm = (contact.place - center_) / unit_length_, n = contact.normal;
   const Vec3 turning = second(direction);
   const Vec3 velocity = first(direction) + glm::cross(turning, arm);
@@ -67,13 +68,13 @@ Real EffortSolver::press(const ContactPoint& contact, const Vec6& direction, Vec
   const Vec3 across = glm::cross(glm::cross(n, velocity), n);
   const Real root = std::sqrt(glm::dot(across, across) + spin * spin);
   if (wrench) {
-    const Real share = root > 0 ? hand_.friction / root : Real(0);
+    const Real share = root > 0 ? friction / root : Real(0);
     const Vec3 pushed = n + share * across;
     const Real torsion = share * gamma * spin;
     *wrench = joined(pushed, glm::cross(arm, pushed) + torsion * n);
     if (force) *force = {pushed, torsion * unit_length_};
   }
-  return along + hand_.friction * root;
+  return along + friction * root;
 }
 
 // Of each digit the contact that does most along a direction, where it does more than nothing.
@@ -83,7 +84,7 @@ EffortSolver::Best EffortSolver::best_contacts(const Vec6& direction) const {
   std::array<Real, DIGITS> most{};
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const auto digit = static_cast<std::size_t>(contacts_[i].digit);
-    const Real value = press(contacts_[i], direction, nullptr, nullptr);
+    const Real value = press(contacts_[i], direction, hand_.friction, nullptr, nullptr);
     if (!(value > most[digit])) continue;
     most[digit] = value;
     best[digit] = static_cast<int>(i);
@@ -94,14 +95,53 @@ EffortSolver::Best EffortSolver::best_contacts(const Vec6& direction) const {
 // h(u), and the point of Z where it is attained.
 Real EffortSolver::support(const Vec6& direction, Vec6& point) const {
   const Best best = best_contacts(direction);
-  point = {};
+  for (std::size_t k = 0; k < 6; ++k) point[k] = -displaced_[k];
   for (std::size_t digit = 0; digit < DIGITS; ++digit) {
     if (best[digit] < 0) continue;
     Vec6 wrench;
-    press(contacts_[static_cast<std::size_t>(best[digit])], direction, &wrench, nullptr);
+    press(contacts_[static_cast<std::size_t>(best[digit])], direction, hand_.friction, &wrench, nullptr);
     for (std::size_t k = 0; k < 6; ++k) point[k] += hand_.digits[digit] / unit_force_ * wrench[k];
   }
   return dot6(direction, point);
+}
+
+// The largest factor F with w + F d in Z is one over the gauge of Z - w at d.
+void EffortSolver::displace(const Wrench& alone) {
+  displaced_ = wanted_for(alone);
+  has_basis_ = false;
+}
+
+void EffortSolver::raise_friction(Real friction) { hand_.friction = friction; }
+
+EffortSolver::Reach EffortSolver::reach(const Vec6& direction, Real friction) const {
+  std::array<Reach, DIGITS> most{};
+  for (const ContactPoint& contact : contacts_) {
+    Reach& best = most[static_cast<std::size_t>(contact.digit)];
+    const Real along = press(contact, direction, 0, nullptr, nullptr);
+    const Real slope = press(contact, direction, 1, nullptr, nullptr) - along;
+    const Real height = along + friction * slope;
+    if (height > best.height) best = {height, slope};
+  }
+  Reach sum;
+  for (std::size_t digit = 0; digit < DIGITS; ++digit) {
+    sum.height += hand_.digits[digit] / unit_force_ * most[digit].height;
+    sum.slope += hand_.digits[digit] / unit_force_ * most[digit].slope;
+  }
+  return sum;
+}
+
+// h(u) is convex and piecewise linear in the friction, so that Newton's method from above comes down to the root and ends in it.
+Real EffortSolver::least_friction(const Wrench& load, Real most) const {
+  const Real value = dot6(cut_, wanted_for(load));
+  Real friction = most;
+  for (;;) {
+    const Reach now = reach(cut_, friction);
+    if (friction == most && now.height < value) return NEVER;
+    if (!(now.height > value) || !(now.slope > 0)) return friction;
+    const Real next = std::max(Real(0), friction - (now.height - value) / now.slope);
+    if (!(next < friction)) return friction;
+    friction = next;
+  }
 }
 
 EffortSolver::Vec6 EffortSolver::levels(const Vec6& wanted) const {
@@ -341,7 +381,7 @@ void EffortSolver::forces(std::span<ContactForce> forces) const {
       const auto contact = static_cast<std::size_t>(best[digit]);
       Vec6 wrench;
       ContactForce unit;
-      press(contacts_[contact], columns_[r].direction, &wrench, &unit);
+      press(contacts_[contact], columns_[r].direction, hand_.friction, &wrench, &unit);
       const Real size = last_[r] * hand_.digits[digit];
       forces[contact].force += size * unit.force;
       forces[contact].torsion += size * unit.torsion;

@@ -69,6 +69,15 @@ class EffortSolver {
   // more.
   Effort solve(const Wrench& load, Real tolerance = EFFORT_TOLERANCE, Real enough = 0,
                Real too_much = std::numeric_limits<Real>::infinity());
+  // From here on `solve` asks which part of the hand's strength is left for: `alone` is carried with all of the strength, and the
+  // answer for another load is 1 / the largest factor of it that is carried too. `alone` must be held with an effort below 1.
+  // There are no forces of such an answer.
+  void displace(const Wrench& alone);
+  // More friction than before. The last basis stays one: what less friction carries, more does.
+  void raise_friction(Real friction);
+  // The friction at which the direction of the last solve's lower bound allows a load just so: less does not hold it. Infinite: more
+  // than `most` is needed.
+  Real least_friction(const Wrench& load, Real most) const;
   // How far a load lies beyond what the direction of the last solve's lower bound allows, (-w).u - h(u) in the solver's units: more
   // than 0 means an effort above 1. Affine in the load. -1 before any solve.
   Real excess(const Wrench& load) const;
@@ -93,13 +102,18 @@ class EffortSolver {
   struct Cost {
     Real real = 0, artificial = 0, least = 0;
   };
+  // h(u) at a friction, and how it grows with it.
+  struct Reach {
+    Real height = 0, slope = 0;
+  };
   using Best = std::array<int, DIGITS>;  // a contact each; -1: none
 
   Vec6 wanted_for(const Wrench& load) const;
   Best best_contacts(const Vec6& direction) const;
   Cost cost_of(const Vec6& levels) const;
-  Real press(const ContactPoint& contact, const Vec6& direction, Vec6* wrench, ContactForce* force) const;
+  Real press(const ContactPoint& contact, const Vec6& direction, Real friction, Vec6* wrench, ContactForce* force) const;
   Real support(const Vec6& direction, Vec6& point) const;
+  Reach reach(const Vec6& direction, Real friction) const;
   Column priced(bool is_short) const;
   Vec6 levels(const Vec6& wanted) const;
   Real unbalanced(const Vec6& wanted) const;
@@ -115,6 +129,7 @@ class EffortSolver {
   Real dear_ = UNRESISTED_EFFORT;          // times the load's own size, an effort that counts as infinite
   std::array<Column, 6> columns_{};
   std::array<Vec6, 6> inverse_{};  // rows
+  Vec6 displaced_{};               // what points of Z are less
   Vec6 last_{};                    // levels of the last load
   Vec6 cut_{};                     // u of the last lower bound
   Real cut_height_ = 1;            // h(u)

@@ -12,14 +12,11 @@ namespace {
 constexpr Real UNHELD = std::numeric_limits<Real>::infinity();
 constexpr Real RISE_TOLERANCE = Real(0.05);  // of an effort that only tells where to look next
 constexpr int RISE_STEPS = 6;
-constexpr Real PUSH_STEP = Real(1e-3);  // of an effort that is compared with 1, and of the force
 
 struct Worst {
   Real effort = 0;
   std::size_t fill = 0, tilt = 0;
 };
-
-Wrench sum(const Wrench& a, const Wrench& b) { return {a.force + b.force, a.moment + b.moment}; }
 
 // Whether the effort for a load is up to 1, to the solver's tolerance. The last basis or the last cut may tell without a pivot.
 bool is_held(EffortSolver& solver, const Wrench& load, int& pivots) {
@@ -115,51 +112,39 @@ GripEffort grip_effort(std::span<const ContactPoint> contacts, std::span<const C
   return grip;
 }
 
-// The effort is convex along a line of loads, so that each direction u that certifies an effort above 1 cuts the line: (-w).u <=
-// h(u) is affine in the load. The cuts come down to the largest force from above, and each axis begins at the least force so far.
+// The largest push along a direction is one over the gauge, at that direction, of what the hand can carry beside the weight.
 Real push_held(std::span<const ContactPoint> contacts, const HandStrength& hand, const Wrench& weight, Vec3 center) {
   EffortSolver solver(contacts, hand, contacts_center(contacts));
-  const Effort alone = solver.solve(weight);
-  if (!(alone.effort <= 1)) return 0;
-  Real least = MOST_PUSH;
+  if (!(solver.solve(weight, EFFORT_TOLERANCE, 1, 1).effort < 1)) return 0;
+  solver.displace(weight);
+  Real worst = 1 / MOST_PUSH;
   for (int axis = 0; axis < 3; ++axis)
     for (const Real sense : {Real(1), Real(-1)}) {
       Vec3 direction(0);
       direction[axis] = sense;
-      for (int cut = 0; cut < PUSH_CUTS; ++cut) {
-        const Wrench both = sum(weight, wrench_at(center, least * direction));
-        if (solver.bound(both) <= 1) break;
-        const Effort found = solver.solve(both, PUSH_STEP, 1);
-        if (found.effort <= 1) break;
-        if (found.effort <= 1 + PUSH_STEP) {
-          // between two held loads everything is held
-          least *= (1 - alone.effort) / (found.effort - alone.effort);
-          break;
-        }
-        const Real free = solver.excess(weight), over = solver.excess(both);
-        if (!(over > 0) || !(free < 0)) return 0;  // rounding: no push is certain
-        least *= -free / (over - free);
-      }
+      const Wrench push = wrench_at(center, direction);
+      if (!(solver.bound(push) <= worst)) worst = std::max(worst, solver.solve(push, EFFORT_TOLERANCE, worst).effort);
     }
-  return least;
+  return 1 / worst;
 }
 
-// More friction holds everything that less holds.
+// More friction holds everything that less holds. A direction that certifies an effort above 1 says which friction is needed at
+// least: the search goes there, and a step further, so that it ends.
 Real friction_needed(std::span<const ContactPoint> contacts, const HandStrength& hand, const Wrench& load) {
-  const Vec3 center = contacts_center(contacts);
-  const auto holds = [&](Real friction) {
-    HandStrength other = hand;
-    other.friction = friction;
-    return EffortSolver(contacts, other, center).solve(load, EFFORT_TOLERANCE, 1, 1).effort <= 1;
-  };
-  if (holds(0)) return 0;
-  if (!holds(MOST_FRICTION)) return UNHELD;
-  Real low = 0, high = MOST_FRICTION;
-  while (high - low > FRICTION_STEP) {
-    const Real middle = (low + high) / 2;
-    (holds(middle) ? high : low) = middle;
+  HandStrength rough = hand;
+  rough.friction = 0;
+  EffortSolver solver(contacts, rough, contacts_center(contacts));
+  constexpr Real tolerance = EFFORT_TOLERANCE / 2;
+  Real friction = 0, step = FRICTION_STEP;
+  // a bracket of that width about 1 does not say more
+  while (!(solver.solve(load, tolerance, 1, 1).effort * (1 - tolerance) <= 1)) {
+    if (friction >= MOST_FRICTION) return UNHELD;
+    const Real least = solver.least_friction(load, MOST_FRICTION);
+    if (!(least > friction)) step *= 2;  // rounding ended the search before its direction was certain
+    friction = std::min(MOST_FRICTION, std::max(friction, least) + step);
+    solver.raise_friction(friction);
   }
-  return high;
+  return friction;
 }
 
 }  // namespace CORE_NS

@@ -13,7 +13,6 @@ namespace CORE_NS {
 constexpr Real MOST_PUSH = Real(1e6);  // N
 constexpr Real MOST_FRICTION = 10;
 constexpr Real FRICTION_STEP = Real(1e-3);  // of the friction that is needed
-constexpr int PUSH_CUTS = 32;               // at most, a direction
 
 // Sine and cosine of a tilt.
 struct StateTilt {
