@@ -111,7 +111,10 @@ void EffortSolver::displace(const Wrench& alone) {
   has_basis_ = false;
 }
 
-void EffortSolver::raise_friction(Real friction) { hand_.friction = friction; }
+void EffortSolver::set_friction(Real friction) {
+  if (friction < hand_.friction) has_basis_ = false;
+  hand_.friction = friction;
+}
 
 EffortSolver::Reach EffortSolver::reach(const Vec6& direction, Real friction) const {
   std::array<Reach, DIGITS> most{};
@@ -130,18 +133,24 @@ EffortSolver::Reach EffortSolver::reach(const Vec6& direction, Real friction) co
   return sum;
 }
 
-// h(u) is convex and piecewise linear in the friction, so that Newton's method from above comes down to the root and ends in it.
+// h(u) is convex and piecewise linear in the friction: from below, the first step of Newton's method leads beyond the root; from above
+// its steps come down to the root and end in it.
 Real EffortSolver::least_friction(const Wrench& load, Real most) const {
   const Real value = dot6(cut_, wanted_for(load));
-  Real friction = most;
-  for (;;) {
-    const Reach now = reach(cut_, friction);
-    if (friction == most && now.height < value) return NEVER;
-    if (!(now.height > value) || !(now.slope > 0)) return friction;
-    const Real next = std::max(Real(0), friction - (now.height - value) / now.slope);
-    if (!(next < friction)) return friction;
-    friction = next;
+  Real friction = hand_.friction;
+  Reach now = reach(cut_, friction);
+  if (now.height < value) {
+    friction = now.slope > 0 ? std::min(most, friction + (value - now.height) / now.slope) : most;
+    now = reach(cut_, friction);
+    if (now.height < value && friction == most) return NEVER;
   }
+  while (now.height > value && now.slope > 0) {
+    const Real next = std::max(Real(0), friction - (now.height - value) / now.slope);
+    if (!(next < friction)) break;
+    friction = next;
+    now = reach(cut_, friction);
+  }
+  return friction;
 }
 
 EffortSolver::Vec6 EffortSolver::levels(const Vec6& wanted) const {

@@ -73,10 +73,10 @@ class EffortSolver {
   // answer for another load is 1 / the largest factor of it that is carried too. `alone` must be held with an effort below 1.
   // There are no forces of such an answer.
   void displace(const Wrench& alone);
-  // More friction than before. The last basis stays one: what less friction carries, more does.
-  void raise_friction(Real friction);
-  // The friction at which the direction of the last solve's lower bound allows a load just so: less does not hold it. Infinite: more
-  // than `most` is needed.
+  // Where friction grows the last basis stays one: what less friction carries, more does.
+  void set_friction(Real friction);
+  // The friction, up to `most`, at which the direction of the last solve's lower bound allows a load just so: less does not hold it.
+  // Infinite: more is needed.
   Real least_friction(const Wrench& load, Real most) const;
   // How far a load lies beyond what the direction of the last solve's lower bound allows, (-w).u - h(u) in the solver's units: more
   // than 0 means an effort above 1. Affine in the load. -1 before any solve.

@@ -352,8 +352,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
 
   std::array<Vec3, JOINTS> posed_of(const GripResult& result) const {
     std::array<Vec3, JOINTS> posed;
-    for (std::size_t j = 0; j < JOINTS; ++j)
-      posed[j] = to_vec3<Real>(wholehand::mirrored(result.posed[j], scene_.hand.handedness));
+    for (std::size_t j = 0; j < JOINTS; ++j) posed[j] = to_vec3<Real>(wholehand::mirrored(result.posed[j], scene_.hand.handedness));
     return posed;
   }
 
@@ -390,7 +389,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
       row.put(FIELD_PUSH, 0, push_held(hand.all(), strength_, weight, load_center(entry.largest, loads.pour)));
     }
     if (row.fields.has(FIELD_FRICTION_NEEDED))
-      row.put(FIELD_FRICTION_NEEDED, 0, friction_needed(hand.all(), strength_, loads.weight(found.fill, found.tilt)));
+      row.put(FIELD_FRICTION_NEEDED, 0, friction_needed(hand.all(), strength_, loads, found.fill, found.tilt));
     put_state_efforts(row, hand, loads);
     return found.worst;
   }

@@ -62,9 +62,11 @@ constexpr Field ROWS[] = {
     {FIELD_LARGEST_HOLD, S::fills, "largest_hold_force", "N", "largest force per finger that holding takes, over all tilts",
      INFINITE, DEFAULT, "force", "largest hold", 0, A::infeasible, R::may_be_infinite},
     {FIELD_SAFE_TILT, S::fills, "largest_safe_tilt", "rad",
-     "largest tilt up to which the unclamped feedback force is below F_max and the vessel is held: with strengths an effort up to 1, "
+     "largest tilt up to which the unclamped feedback force is below F_max and the vessel is held: with strengths an effort up to "
+     "1, "
      "without them a hold force up to 40 N",
-     "NaN where no tilt is; with strengths also where the grip is implausible", DEFAULT, "force", nullptr, 0, A::infeasible, R::may_be_missing},
+     "NaN where no tilt is; with strengths also where the grip is implausible", DEFAULT, "force", nullptr, 0, A::infeasible,
+     R::may_be_missing},
     {FIELD_TABLE_DEPTH, S::one, "table_depth", "m",
      "largest depth of the skin of the hand, posed or open, below the table and its clearance",
      "up to 0: the hand stays above; more: the grip is implausible", ON_REQUEST, "table", "table depth", 1, A::infeasible,
@@ -81,7 +83,7 @@ constexpr Field ROWS[] = {
     {FIELD_PUSH, S::one, "push", "N",
      "largest force at the centre of mass, along any axis of the vessel frame, that is held beside the weight upright and fullest",
      EFFORT, DEFAULT, "effort", nullptr, 0, A::infeasible, R::finite, false, true},
-    {FIELD_FRICTION_NEEDED, S::one, "friction_needed", "1", "least friction with which the state of the largest effort is held",
+    {FIELD_FRICTION_NEEDED, S::one, "friction_needed", "1", "least friction with which every state is held",
      "infinite where none up to 10 does; NaN where the grip is implausible", DEFAULT, "effort", nullptr, 0, A::infeasible,
      R::may_be_infinite, false, true},
     {FIELD_EFFORT, S::states, "effort", "1", "least part of the hand's strength that holds the vessel", UNRESISTED, ON_REQUEST,

@@ -34,7 +34,7 @@ struct Field {
   double rests = 0;       // how much of a length at which a finger rests is in it; m per m
   FieldAbsent absent = FieldAbsent::infeasible;
   FieldRange range = FieldRange::finite;
-  bool of_table = false;  // only in a scene with a table
+  bool of_table = false;     // only in a scene with a table
   bool of_strength = false;  // only in a scene with strengths and tilts, and of plausible grips
 
   // Whether it is points or vectors of the vessel frame, which a left hand mirrors.

@@ -128,22 +128,38 @@ Real push_held(std::span<const ContactPoint> contacts, const HandStrength& hand,
   return 1 / worst;
 }
 
-// More friction holds everything that less holds. A direction that certifies an effort above 1 says which friction is needed at
-// least: the search goes there, and a step further, so that it ends.
-Real friction_needed(std::span<const ContactPoint> contacts, const HandStrength& hand, const Wrench& load) {
-  HandStrength rough = hand;
-  rough.friction = 0;
-  EffortSolver solver(contacts, rough, contacts_center(contacts));
-  constexpr Real tolerance = EFFORT_TOLERANCE / 2;
-  Real friction = 0, step = FRICTION_STEP;
-  // a bracket of that width about 1 does not say more
-  while (!(solver.solve(load, tolerance, 1, 1).effort * (1 - tolerance) <= 1)) {
-    if (friction >= MOST_FRICTION) return UNHELD;
-    const Real least = solver.least_friction(load, MOST_FRICTION);
-    if (!(least > friction)) step *= 2;  // rounding ended the search before its direction was certain
-    friction = std::min(MOST_FRICTION, std::max(friction, least) + step);
-    solver.raise_friction(friction);
-  }
+// More friction holds everything that less holds, so that one way through the states is enough. A direction that certifies an effort
+// above 1 says which friction is needed at least: the search goes there, and a step further, so that it ends. The direction of an
+// effort at another friction says so too: with that of the worst state the search begins.
+Real friction_needed(std::span<const ContactPoint> contacts, const HandStrength& hand, const GripLoads& loads, std::size_t fill,
+                     std::size_t tilt) {
+  constexpr Real tolerance = EFFORT_TOLERANCE / 2;  // a bracket of that width about 1 does not say more
+  EffortSolver solver(contacts, hand, contacts_center(contacts));
+  Real friction = hand.friction;
+  const auto raise_for = [&](const Wrench& weight) {
+    Real low = friction, high = MOST_FRICTION;  // less than `low` does not hold
+    for (int raises = 0;; ++raises) {
+      const bool is_held = solver.bound(weight) <= 1 || solver.solve(weight, tolerance, 1, 1).effort * (1 - tolerance) <= 1;
+      if (is_held && friction <= low + FRICTION_STEP) return true;
+      if (!is_held && friction >= MOST_FRICTION) return false;
+      if (is_held) {
+        high = friction;
+      } else {
+        low = std::max(friction, solver.least_friction(weight, MOST_FRICTION));
+      }
+      friction = std::max(low + FRICTION_STEP, raises < QUICK_RAISES ? Real(0) : (low + high) / 2);
+      friction = std::min(MOST_FRICTION, friction);
+      solver.set_friction(friction);
+    }
+  };
+  const Wrench worst = loads.weight(fill, tilt);
+  if (solver.solve(worst, RISE_TOLERANCE).effort == 0) return 0;
+  friction = std::min(MOST_FRICTION, solver.least_friction(worst, MOST_FRICTION));
+  solver.set_friction(friction);
+  if (!raise_for(worst)) return UNHELD;
+  for (fill = loads.counted.size(); fill-- > 0;)
+    for (tilt = loads.counted[fill]; tilt-- > 0;)
+      if (!raise_for(loads.weight(fill, tilt))) return UNHELD;
   return friction;
 }
 

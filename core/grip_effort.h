@@ -13,6 +13,7 @@ namespace CORE_NS {
 constexpr Real MOST_PUSH = Real(1e6);  // N
 constexpr Real MOST_FRICTION = 10;
 constexpr Real FRICTION_STEP = Real(1e-3);  // of the friction that is needed
+constexpr int QUICK_RAISES = 20;            // of the friction for one state, after which its range is halved
 
 // Sine and cosine of a tilt.
 struct StateTilt {
@@ -59,8 +60,9 @@ GripEffort grip_effort(std::span<const ContactPoint> contacts, std::span<const C
 // the six, at most MOST_PUSH. 0 where the weight alone takes more.
 Real push_held(std::span<const ContactPoint> contacts, const HandStrength& hand, const Wrench& weight, Vec3 center);
 
-// The least friction with which the effort for a load is up to 1, to FRICTION_STEP, never too small by more than the tolerance of
-// the effort; `hand.friction` itself does not matter. Infinite: none up to MOST_FRICTION.
-Real friction_needed(std::span<const ContactPoint> contacts, const HandStrength& hand, const Wrench& load);
+// The least friction with which the effort of every state that counts is up to 1, to FRICTION_STEP, never too small by more than the
+// tolerance of the effort; neither `hand.friction` nor the state with which the search begins matters beyond that. Infinite: none up to MOST_FRICTION.
+Real friction_needed(std::span<const ContactPoint> contacts, const HandStrength& hand, const GripLoads& loads, std::size_t fill,
+                     std::size_t tilt);
 
 }  // namespace CORE_NS

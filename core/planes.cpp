@@ -40,9 +40,8 @@ int field_planes(int field, const Scene& scene) {
 namespace {
 
 // What must be computed for a score, and for any force.
-const std::vector<int> SCORE_NEEDS{FIELD_STATUS,     FIELD_TOUCH_MASK, FIELD_USED_MASK,    FIELD_CLOSURE, FIELD_PHALANX_DEPTH,
-                                   FIELD_PALM_DEPTH, FIELD_PEAK_FORCE, FIELD_LARGEST_HOLD, FIELD_MIDPOINT,
-                                   FIELD_WORST_EFFORT};
+const std::vector<int> SCORE_NEEDS{FIELD_STATUS,     FIELD_TOUCH_MASK, FIELD_USED_MASK,    FIELD_CLOSURE,  FIELD_PHALANX_DEPTH,
+                                   FIELD_PALM_DEPTH, FIELD_PEAK_FORCE, FIELD_LARGEST_HOLD, FIELD_MIDPOINT, FIELD_WORST_EFFORT};
 
 }  // namespace
 

@@ -96,8 +96,8 @@ wholehand::FillTerms SceneStates::fill_terms(const VesselEntry& entry, std::size
       peak_tilt = Real(scene_.tilts[t]);
     }
     largest_hold = std::max(largest_hold, state.hold);
-    safe = safe && state.normal < entry.force.max &&
-           (by_effort ? t < effort->held : state.hold <= Real(scene_.force.grip_strength));
+    safe =
+        safe && state.normal < entry.force.max && (by_effort ? t < effort->held : state.hold <= Real(scene_.force.grip_strength));
     if (safe) safe_tilt = scene_.tilts[t];
     keep(t, state);
   }

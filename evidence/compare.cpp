@@ -304,7 +304,8 @@ void Comparer::add_tilts(std::size_t vessel, const GatheredPlanes& a, const Gath
       // with efforts, in shares of the strength
       const bool by_effort = has_effort(scene_) && fields.has(FIELD_EFFORT);
       const int held_by = by_effort ? FIELD_EFFORT : FIELD_HOLD_FORCE;
-      const double hold = stricter.real(fields.plane[held_by] + static_cast<int>(state), i) - (by_effort ? 1 : scene_.force.grip_strength);
+      const double hold =
+          stricter.real(fields.plane[held_by] + static_cast<int>(state), i) - (by_effort ? 1 : scene_.force.grip_strength);
       // the stricter side's own forces must say so too
       // the effort of one state and that of the search may differ
       const double least_hold = by_effort ? -EFFORT_SHARE : 0;

@@ -136,8 +136,8 @@ void write_hold(Buffer out, const GripReport& report) {
                  hold.worst_fill, degrees(hold.worst_tilt), percent(hold.tips_worst));
   fmt::format_to(out, "  friction       {}\n",
                  std::isfinite(hold.friction_needed)
-                     ? fmt::format("{:.3f} is the least that holds that state", hold.friction_needed)
-                     : std::string("none up to 10 holds that state"));
+                     ? fmt::format("{:.3f} is the least that holds all states", hold.friction_needed)
+                     : std::string("none up to 10 holds all states"));
   fmt::format_to(out, "  push           {:.2f} N at the centre of mass, upright and fullest, in the worst of six directions\n",
                  hold.push);
 }

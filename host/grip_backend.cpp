@@ -35,7 +35,7 @@ std::vector<int> mirrored_planes(const Scene& scene, const FieldSet& fields) {
 FieldSet fields_of_core(const FieldSet& fields) {
   FieldSet lacking;
   lacking.plane.fill(-1);
-  for (const int field : {FIELD_PUSH, FIELD_FRICTION_NEEDED, FIELD_EFFORT, FIELD_EFFORT_LOW, FIELD_TIPS_EFFORT}) {
+  for (const int field : {FIELD_EFFORT, FIELD_EFFORT_LOW, FIELD_TIPS_EFFORT}) {
     if (!fields.has(field) || fields.plane[field] >= fields.real_kept) continue;
     lacking.plane[field] = fields.plane[field];
     lacking.real_planes = lacking.real_kept = fields.real_kept;
@@ -206,14 +206,16 @@ struct GripBackend::Impl {
         if (!of_core.has(field.number)) continue;
         const int from = of_core.plane[field.number], planes = field_planes(field.number, scene);
         for (int plane = from; plane < from + planes; ++plane)
-          for (std::size_t i = 0; i < count; ++i) reals[plane * chunk.stride + first + i] = static_cast<Real>(values[plane * count + i]);
+          for (std::size_t i = 0; i < count; ++i)
+            reals[plane * chunk.stride + first + i] = static_cast<Real>(values[plane * count + i]);
       }
     });
   }
 
   // Mirrored planes turned back where there are some, and those of the core, in `turned`.
   template <class Real>
-  PlaneChunk planes_of(const RunRequest& request, const Chunk& chunk, const ChunkOutputs& outputs, std::vector<Real>& turned) const {
+  PlaneChunk planes_of(const RunRequest& request, const Chunk& chunk, const ChunkOutputs& outputs,
+                       std::vector<Real>& turned) const {
     PlaneChunk planes{
         request.vessel, chunk.first, chunk.count, chunk.stride, nullptr, nullptr, elements<const std::uint32_t>(outputs[1]).data()};
     std::span<const Real> reals = elements<const Real>(outputs[0]);
@@ -325,7 +327,8 @@ GripPipelines GripBackend::pipelines(std::size_t vessel) const {
 const DeviceInfo& GripBackend::device() const { return impl_->program().on.info(); }
 
 std::size_t GripBackend::bytes_per_grip() const {
-  return (GRIP_AXES + impl_->fields.real_planes + contact_planes(impl_->fields)) * impl_->real_size() + impl_->fields.uint_planes * sizeof(std::uint32_t);
+  return (GRIP_AXES + impl_->fields.real_planes + contact_planes(impl_->fields)) * impl_->real_size() +
+         impl_->fields.uint_planes * sizeof(std::uint32_t);
 }
 
 std::size_t GripBackend::table_bytes() const {

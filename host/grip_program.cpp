@@ -99,13 +99,16 @@ GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Ev
 
   struct EffortKernel {
     std::optional<Kernel>* kernel;
+    const char* name;
     int task;
     std::vector<Constant> constants;
   };
   has_efforts_ = contact_planes(fields) > 0;
-  std::vector<EffortKernel> efforts{{&worst_effort, EFFORT_WORST, {}}};
-  if (fields.has(FIELD_TIPS_WORST_EFFORT)) efforts.push_back({&tips_effort, EFFORT_TIPS, {}});
-  if (fields.has(FIELD_SAFE_TILT)) efforts.push_back({&safe_effort, EFFORT_SAFE, {}});
+  std::vector<EffortKernel> efforts{{&worst_effort, "effort", EFFORT_WORST, {}}};
+  if (fields.has(FIELD_TIPS_WORST_EFFORT)) efforts.push_back({&tips_effort, "effort", EFFORT_TIPS, {}});
+  if (fields.has(FIELD_SAFE_TILT)) efforts.push_back({&safe_effort, "effort", EFFORT_SAFE, {}});
+  if (fields.has(FIELD_PUSH)) efforts.push_back({&push_reserve, "reserve", EFFORT_PUSH, {}});
+  if (fields.has(FIELD_FRICTION_NEEDED)) efforts.push_back({&friction_reserve, "reserve", EFFORT_FRICTION, {}});
 
   // making a pipeline takes a core a tenth of a second, so they are made side by side
   std::optional<Kernel> lip, liquid;
@@ -121,11 +124,11 @@ GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Ev
   };
   const std::vector<Constant> common = common_constants();
   if (has_efforts_) {
-    for (auto& [kernel, task, values] : efforts) {
+    for (auto& [kernel, name, task, values] : efforts) {
       values = constants;
       values.push_back({CONST_CONTACTS, std::int32_t(fields.real_planes)});
       values.push_back({CONST_EFFORT_TASK, std::int32_t(task)});
-      make(*kernel, "effort", values);
+      make(*kernel, name, values);
     }
   }
   const bool wet = scene.liquid && tilt_count > 0;
@@ -271,6 +274,8 @@ void GripProgram::record_efforts(std::size_t v, std::uint32_t count, std::uint32
   const VesselOnDevice& vessel = vessels[v];
   go_through(*worst_effort, vessel.worst_states, vessel.worst_count);
   if (tips_effort) go_through(*tips_effort, vessel.worst_states, vessel.worst_count);
+  if (push_reserve) go_through(*push_reserve, vessel.worst_states, 1);
+  if (friction_reserve) go_through(*friction_reserve, vessel.worst_states, vessel.worst_count);
   if (safe_effort) go_through(*safe_effort, vessel.safe_states, vessel.safe_count);
 }
 

@@ -15,7 +15,7 @@ namespace wholehand::host {
 struct VesselOnDevice {
   OutlineSource outline_source = OUTLINE_SPECIALIZED;
   Buffer parameters, outline, lattice, fills;
-  std::vector<Buffer> states;  // blocks of STATES_IN_BLOCK; empty without tilts
+  std::vector<Buffer> states;                     // blocks of STATES_IN_BLOCK; empty without tilts
   std::vector<Buffer> worst_states, safe_states;  // likewise, of the efforts; empty without them
   std::uint32_t worst_count = 0, safe_count = 0;  // states in them
   std::optional<Kernel> grip;
@@ -36,7 +36,7 @@ struct GripProgram final : Program {
   Buffer hand, tilts, quadrature;
   std::vector<VesselOnDevice> vessels;
   std::optional<Kernel> force, score, select;
-  std::optional<Kernel> worst_effort, tips_effort, safe_effort;  // in a scene with efforts
+  std::optional<Kernel> worst_effort, tips_effort, safe_effort, push_reserve, friction_reserve;  // in a scene with efforts
   std::uint32_t fill_count = 0, tilt_count = 0;
 
  private:

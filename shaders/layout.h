@@ -219,6 +219,8 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define EFFORT_WORST 0              // the largest effort of the whole hand
 #define EFFORT_TIPS 1               // that of thumb and index tip alone
 #define EFFORT_SAFE 2               // up to which tilt the whole hand holds, for each fill
+#define EFFORT_PUSH 3               // of the kernel of reserves: the largest force beside the weight
+#define EFFORT_FRICTION 4           // .. the least friction with which all states are held
 #define DEVICE_PIVOTS 200           // of a solve: STATES_IN_BLOCK times as many stay within the iterations that every driver grants
 
 // Liquid of one fill and tilt: volume, mass, lean, height, poured.
@@ -235,7 +237,7 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define CONST_TABLE 7               // whether the scene has a table, bool
 #define CONST_UNTIL_POURED 8        // of the forces: whether states may be left out, bool
 #define CONST_CONTACTS 20           // first of CONTACT_STRIDE * JOINTS planes, scratch: where joints press; -1: not computed
-#define CONST_EFFORT_TASK 21        // of the efforts: EFFORT_WORST, EFFORT_TIPS or EFFORT_SAFE
+#define CONST_EFFORT_TASK 21        // of the efforts and reserves: EFFORT_WORST .. EFFORT_FRICTION
 #define CONST_STOP_TOLERANCE 40     // Real, m; this and the next five have the named values where nothing is given
 #define CONST_TRACE_STEPS 41
 #define CONST_ADVANCE_STEPS 42

@@ -69,9 +69,9 @@ Variable of_field(const Field& row) {
           dims_of(row.shape),
           row.by_default,
           row.of_strength ? Need::strength
-          : of_tilts     ? Need::tilts
-          : row.of_table ? Need::table
-                         : Need::nothing,
+          : of_tilts      ? Need::tilts
+          : row.of_table  ? Need::table
+                          : Need::nothing,
           nullptr,
           row.absent == FieldAbsent::never};
 }
@@ -138,7 +138,8 @@ std::vector<Variable> make_catalogue() {
   add(all, DEFAULT, Need::tilts,
       {
           term("score_force", "score term: feedback force", "1 - (largest feedback force over all fills and tilts) / F_max", 4),
-          term("score_hold", "score term: force to hold", "with strengths 1 / (1 + worst_effort), else min(1, 40 N / largest hold force over all fills and tilts)", 5),
+          term("score_hold", "score term: force to hold",
+               "with strengths 1 / (1 + worst_effort), else min(1, 40 N / largest hold force over all fills and tilts)", 5),
       });
   add(all, DEFAULT, Need::nothing,
       {

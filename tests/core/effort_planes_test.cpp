@@ -15,8 +15,14 @@
 namespace wholehand {
 namespace {
 
-const std::vector<int> EFFORT_FIELDS{FIELD_WORST_EFFORT, FIELD_WORST_EFFORT_FILL, FIELD_WORST_EFFORT_TILT,
-                                     FIELD_TIPS_WORST_EFFORT, FIELD_PUSH, FIELD_FRICTION_NEEDED, FIELD_EFFORT, FIELD_EFFORT_LOW,
+const std::vector<int> EFFORT_FIELDS{FIELD_WORST_EFFORT,
+                                     FIELD_WORST_EFFORT_FILL,
+                                     FIELD_WORST_EFFORT_TILT,
+                                     FIELD_TIPS_WORST_EFFORT,
+                                     FIELD_PUSH,
+                                     FIELD_FRICTION_NEEDED,
+                                     FIELD_EFFORT,
+                                     FIELD_EFFORT_LOW,
                                      FIELD_TIPS_EFFORT};
 
 Scene effort_scene() {

@@ -35,7 +35,8 @@ TEST(ExtremePoints, OfACircleAreAllOfIt) {
   for (int i = 0; i < 180; ++i) points.push_back({std::cos(radians(2.0 * i)), 0, 0, std::sin(radians(2.0 * i))});
   EXPECT_EQ(extreme_points(points).size(), 180u);
   // the middle of a side of the polygon lies 1.5e-4 within the circle
-  for (int i = 0; i < 180; ++i) points.push_back({0.9998 * std::cos(radians(2.0 * i + 1)), 0, 0, 0.9998 * std::sin(radians(2.0 * i + 1))});
+  for (int i = 0; i < 180; ++i)
+    points.push_back({0.9998 * std::cos(radians(2.0 * i + 1)), 0, 0, 0.9998 * std::sin(radians(2.0 * i + 1))});
   EXPECT_EQ(extreme_points(points).size(), 180u);
 }
 

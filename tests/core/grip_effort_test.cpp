@@ -194,12 +194,11 @@ TEST(GripEffort, FrictionNeededIsTheLeast) {
   for (const LoadedGrip& grip : random_grips(30, Handedness::right, 17)) {
     std::vector<FillEffort> fills(grip.fills());
     const GripEffort found = grip_effort(grip.contacts, grip.tips, grip.hand, grip.loads(), fills);
-    const Wrench worst = grip.loads().weight(found.fill, found.tilt);
-    const double friction = core_f64::friction_needed(grip.contacts, grip.hand, worst);
+    const double friction = core_f64::friction_needed(grip.contacts, grip.hand, grip.loads(), found.fill, found.tilt);
     const auto effort_with = [&](double mu) {
       HandStrength hand = grip.hand;
       hand.friction = mu;
-      return effort_of(grip.contacts, hand, worst);
+      return grip_effort(grip.contacts, grip.tips, hand, grip.loads(), fills).worst;
     };
     if (std::isinf(friction)) {
       EXPECT_GT(effort_with(core_f64::MOST_FRICTION), 1 - EFFORT_TOLERANCE);

@@ -125,7 +125,7 @@ TEST(Holding, TheWorstIsTheWorstOfAllStates) {
     }
 }
 
-// At the push the worst of six directions takes all of the strength, and a little more friction than needed holds the worst state.
+// At the push the worst of six directions takes all of the strength, and the friction that is needed just holds all states.
 TEST(Holding, PushAndFrictionAreAtTheirLimits) {
   Scene scene = few_states();
   const GripReport report = held_report(scene, 0, beside(0.06, 20));
@@ -135,12 +135,9 @@ TEST(Holding, PushAndFrictionAreAtTheirLimits) {
   const auto contacts = contacts_of(report.holds.front());
   const StateAxes axes = scene_axes(scene, 0);
   const GripState* full = nullptr;
-  const GripState* worst = nullptr;
-  for (const GripState& state : report.answer.states) {
+  for (const GripState& state : report.answer.states)
     if (state.fill == axes.fills.back() && state.tilt == 0) full = &state;
-    if (state.fill == hold.worst_fill && state.tilt == hold.worst_tilt) worst = &state;
-  }
-  ASSERT_TRUE(full && worst);
+  ASSERT_TRUE(full);
   const Wrench weight = weight_of(scene, report, *full);
   const auto most_effort = [&](double push) {
     double most = 0;
@@ -158,10 +155,13 @@ TEST(Holding, PushAndFrictionAreAtTheirLimits) {
   EXPECT_GT(most_effort(1.002 * hold.push), 1 - 1e-3);
 
   ASSERT_TRUE(std::isfinite(hold.friction_needed));
-  const auto effort_at = [&](double friction) {
+  const auto effort_at = [&](double friction) {  // the largest of all states
     core_f64::HandStrength hand = strength_of(scene);
     hand.friction = friction;
-    return EffortSolver(contacts, hand, {}).solve(weight_of(scene, report, *worst), 1e-5).effort;
+    double most = 0;
+    for (const GripState& state : report.answer.states)
+      most = std::max(most, EffortSolver(contacts, hand, {}).solve(weight_of(scene, report, state), 1e-5).effort);
+    return most;
   };
   EXPECT_LE(effort_at(hold.friction_needed), 1 + 1e-3);
   EXPECT_GT(effort_at(hold.friction_needed - 2e-3), 1);

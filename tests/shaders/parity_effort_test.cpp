@@ -25,9 +25,18 @@ double term_tolerance(Precision precision) { return (precision == Precision::sin
 
 double term_of(double effort) { return 1 / (1 + effort); }
 
-const std::vector<int> KEPT{FIELD_WORST_EFFORT, FIELD_WORST_EFFORT_FILL, FIELD_WORST_EFFORT_TILT, FIELD_TIPS_WORST_EFFORT,
-                            FIELD_SAFE_TILT,    FIELD_EFFORT,            FIELD_SCORE,             FIELD_TERMS,
-                            FIELD_STATUS,       FIELD_TOUCH_MASK};
+const std::vector<int> KEPT{FIELD_WORST_EFFORT,
+                            FIELD_WORST_EFFORT_FILL,
+                            FIELD_WORST_EFFORT_TILT,
+                            FIELD_TIPS_WORST_EFFORT,
+                            FIELD_PUSH,
+                            FIELD_FRICTION_NEEDED,
+                            FIELD_SAFE_TILT,
+                            FIELD_EFFORT,
+                            FIELD_SCORE,
+                            FIELD_TERMS,
+                            FIELD_STATUS,
+                            FIELD_TOUCH_MASK};
 
 Scene strong_scene(std::vector<VesselData> vessels, const HandData& hand = {}) {
   Scene scene = wet_scene(std::move(vessels), Pose::articulated, hand);
@@ -44,6 +53,15 @@ struct Compared {
 
 // Whether the core's effort of a state is as near to 1 as both sides may be off.
 bool is_near_one(double effort) { return std::abs(effort - 1) <= 3e-3; }
+
+// A push is 1 / an effort, to the same tolerance. In float the contacts' places move the limit of what is held, weight and push together.
+bool is_same_push(double a, double b, double weight, Precision precision) {
+  return std::abs(a - b) <= (precision == Precision::single ? 2.4e-3 * (std::max(a, b) + weight) : 2e-3 * std::max(a, b));
+}
+
+// Each side ends up to a step of 1e-3 above a certified bound, and at an effort within 1e-3 of 1. The friction goes with the effort at
+// least as its inverse where friction is what limits a hold.
+bool is_same_friction(double a, double b) { return a == b || std::abs(a - b) <= 1e-3 + 2.4e-3 * std::max(a, b); }
 
 Compared compare_efforts(const Scene& scene, Precision precision, int count, const std::string& name) {
   const FieldSet fields = make_field_set(KEPT, scene);
@@ -62,6 +80,12 @@ Compared compare_efforts(const Scene& scene, Precision precision, int count, con
       const auto real = [&](const GatheredPlanes& planes, int field, int k = 0) { return planes.real(fields.plane[field] + k, i); };
       const double worst = real(truth, FIELD_WORST_EFFORT);
       bool is_outside = false;
+      const double weight = core->constants(v).largest_mass * scene.gravity;
+      if (!std::isnan(worst)) {
+        const double push = real(device, FIELD_PUSH), true_push = real(truth, FIELD_PUSH);
+        const double friction = real(device, FIELD_FRICTION_NEEDED), true_friction = real(truth, FIELD_FRICTION_NEEDED);
+        is_outside = !is_same_push(push, true_push, weight, precision) || !is_same_friction(friction, true_friction);
+      }
       for (const int field : {FIELD_WORST_EFFORT, FIELD_TIPS_WORST_EFFORT}) {
         const double a = real(device, field), b = real(truth, field);
         EXPECT_EQ(std::isnan(a), std::isnan(b)) << which;

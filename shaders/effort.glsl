@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+// What the kernels of efforts share: the contacts of a grip in registers, the support function of Z, and a solve pivot by pivot.
+#ifndef EFFORT_GLSL
+#define EFFORT_GLSL
+
+#include "force.glsl"
+#include "gauge.glsl"
+#include "grips.glsl"
+#include "planes.glsl"
+#include "trig.glsl"
+
+#define HALF_TOLERANCE (Real(0.5) * EFFORT_TOLERANCE)
+#define RISE_TOLERANCE RATIO(1, 20)  // of an effort that only tells where to look next
+#define FRESH_PIVOTS 20  // after so many the inverse is refined
+
+layout(local_size_x_id = CONST_GROUP_SIZE) in;
+layout(constant_id = CONST_CONTACTS) const int CONTACTS = -1;
+layout(constant_id = CONST_EFFORT_TASK) const int TASK = EFFORT_WORST;
+layout(std140, binding = BINDING_STATES) uniform StateBlock { Vec4 states_in[2 * STATES_IN_BLOCK]; };
+
+// The grips of the group that there is something to do for, one after another: all lanes of a vector run until the slowest is done.
+shared uint busy_grips[GROUP_SIZE];
+shared uint busy_count;
+
+// What a grip holds with: contacts about `center` in units of length, 0 where there is none; strengths in units of force.
+Vec3 arms[JOINTS], normals[JOINTS];
+Vec3 center, pour;
+Real unit_length, unit_force, gamma, dear;
+Real friction;
+Real shares[DIGITS];
+Six displaced;  // what points of Z are less, see EffortSolver::displace
+
+int digit_of(int joint) {
+  int finger = joint < 4 ? 0 : (joint + 1) / 5;
+  return joint == 0 || joint == 5 * finger - 1 ? FINGERS : finger;
+}
+
+bool is_pressing(int joint) {
+  return (TASK != EFFORT_TIPS || joint == THUMB_TIP || joint == INDEX_TIP) && dot(normals[joint], normals[joint]) > Real(0);
+}
+
+Vec3 contact_vector(int vector, uint grip) {
+  uint at = uint(CONTACTS + 3 * vector) * push.stride + grip;
+  return Vec3(real_out[at], real_out[at + push.stride], real_out[at + 2u * push.stride]);
+}
+
+void load_contacts(uint grip) {
+  shares = Real[](scene.thumb_strength, scene.index_strength, scene.middle_strength, scene.ring_strength, scene.little_strength,
+                  scene.palm_strength);
+  Real count = Real(0), strongest = Real(0), weakest = NO_DISTANCE;
+  center = Vec3(0);
+  friction = scene.friction;
+  displaced = Six(Vec3(0), Vec3(0));
+  [[unroll]] for (int j = 0; j < JOINTS; ++j) {
+    arms[j] = contact_vector(2 * j, grip);
+    normals[j] = contact_vector(2 * j + 1, grip);
+    bool presses = is_pressing(j);
+    center += presses ? arms[j] : Vec3(0);
+    count += presses ? Real(1) : Real(0);
+    strongest = presses ? max(strongest, shares[digit_of(j)]) : strongest;
+    weakest = presses ? min(weakest, shares[digit_of(j)]) : weakest;
+  }
+  center /= max(count, Real(1));
+  unit_length = max(LEAST_LENGTH, scene.torsion);
+  [[unroll]] for (int j = 0; j < JOINTS; ++j) {
+    arms[j] = is_pressing(j) ? arms[j] - center : Vec3(0);
+    unit_length = max(unit_length, length(arms[j]));
+  }
+  unit_force = strongest > Real(0) ? strongest : Real(1);
+  dear = UNRESISTED_EFFORT * (strongest > Real(0) ? strongest / weakest : Real(1));
+  gamma = scene.torsion / unit_length;
+  [[unroll]] for (int j = 0; j < JOINTS; ++j) arms[j] /= unit_length;
+  [[unroll]] for (int digit = 0; digit < DIGITS; ++digit) shares[digit] /= unit_force;
+}
+
+// h(u), and the point of Z where it is attained: of each digit the contact that does most, where it does more than nothing.
+Real support(Six direction, out Six point) {
+  point = Six(-displaced.first, -displaced.second);
+  Real most[DIGITS];
+  Vec3 arm[DIGITS], normal[DIGITS];
+  [[unroll]] for (int digit = 0; digit < DIGITS; ++digit) {
+    most[digit] = Real(0);
+    arm[digit] = Vec3(0);
+    normal[digit] = Vec3(0);
+  }
+  [[unroll]] for (int j = 0; j < JOINTS; ++j) {
+    if (TASK == EFFORT_TIPS && j != THUMB_TIP && j != INDEX_TIP) continue;
+    int digit = digit_of(j);
+    Real value = press(arms[j], normals[j], friction, gamma, direction);
+    bool is_more = value > most[digit];
+    most[digit] = is_more ? value : most[digit];
+    arm[digit] = is_more ? arms[j] : arm[digit];
+    normal[digit] = is_more ? normals[j] : normal[digit];
+  }
+  [[unroll]] for (int digit = 0; digit < DIGITS; ++digit) {
+    Six wrench = pressed(arm[digit], normal[digit], friction, gamma, direction);
+    point.first += shares[digit] * wrench.first;
+    point.second += shares[digit] * wrench.second;
+  }
+  return dot6(direction, point);
+}
+
+// The wrench that balances the weight, in the units of force and length.
+Six wanted_for(Vec4 weight, Vec4 tilted) {
+  Load load = Load(weight.x, (Real(1) - weight.y) * Vec3(scene.center_x, scene.center_y, scene.center_z), weight.z, weight.w);
+  Vec3 lift = (weight.x * scene.gravity / unit_force) * up_direction(pour, tilted.x, tilted.y);
+  return Six(lift, cross((load_center(load, pour) - center) / unit_length, lift));
+}
+
+struct Solve {
+  Six wanted, cut;  // the direction of the last lower bound
+  Real size, low, effort, cut_height;
+  int pivots;
+  bool done, is_known, is_beyond;
+};
+
+Solve start(Six wanted) {
+  Solve solve;
+  solve.wanted = wanted;
+  solve.size = sqrt(dot6(solve.wanted, solve.wanted));
+  solve.cut = Six(Vec3(0), Vec3(0));
+  solve.cut_height = Real(1);
+  solve.low = solve.effort = Real(0);
+  solve.pivots = 0;
+  solve.done = solve.is_known = solve.is_beyond = false;
+  return solve;
+}
+
+// An upper bound by the last basis; infinite where it does not hold the load, or there is none.
+Real bound(Six wanted, bool has_basis) {
+  Real levels[6];
+  levels_of(wanted, levels);
+  Cost cost = cost_of(levels);
+  Real rounding = ROUNDING * sqrt(dot6(wanted, wanted));
+  return has_basis && cost.least >= -rounding && cost.artificial <= rounding ? cost.real : INFINITE;
+}
+
+// One pivot of core/effort.cpp's solve.
+void step(inout Solve solve, Real tolerance, Real enough, Real too_much, bool is_solving) {
+  Real levels[6];
+  levels_of(solve.wanted, levels);
+  Cost cost = cost_of(levels);
+  bool is_short = cost.artificial > ROUNDING * solve.size;
+  Six direction = priced(is_short), point;
+  Real height = support(direction, point), value = dot6(direction, solve.wanted);
+  bool is_higher = value > Real(0) && value > solve.low * height;
+  solve.low = is_higher ? (height > Real(0) ? value / height : INFINITE) : solve.low;
+  solve.cut.first = is_higher ? direction.first : solve.cut.first;
+  solve.cut.second = is_higher ? direction.second : solve.cut.second;
+  solve.cut_height = is_higher ? height : solve.cut_height;
+  bool is_never = solve.low > dear * solve.size;
+  solve.is_beyond = solve.low > too_much;
+  solve.is_known = !is_short && (cost.real <= enough || cost.real - solve.low <= tolerance * cost.real);
+  solve.done = is_never || solve.is_beyond || solve.is_known || solve.pivots == DEVICE_PIVOTS || !(height > (is_short ? Real(0) : Real(1)));
+  solve.effort = is_never || solve.is_beyond || is_short ? INFINITE : cost.real;
+  bool is_entered = enter(point, levels, ROUNDING * solve.size, is_solving && !solve.done);
+  solve.done = solve.done || !is_entered;
+  solve.pivots += 1;
+}
+
+// The effort anew, less the rounding of the inverse.
+void finish(inout Solve solve) {
+  Real levels[6];
+  balanced_levels(solve.wanted, levels);
+  Cost cost = cost_of(levels);
+  bool holds = cost.artificial <= ROUNDING * solve.size && solve.effort < INFINITE;
+  solve.effort = holds ? cost.real : INFINITE;
+}
+
+Real kept(int plane, int offset, uint grip) { return plane >= 0 ? real_out[uint(plane + offset) * push.stride + grip] : NOT_A_NUMBER; }
+
+#endif

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+// What one plausible grip an invocation has in reserve, as push_held and friction_needed of core/grip_effort.cpp: the largest force beside the
+// weight, or the least friction with which every state of a uniform block is held.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "effort.glsl"
+
+#define MOST_PUSH Real(1000000)
+#define MOST_FRICTION Real(10)
+#define FRICTION_STEP RATIO(1, 1000)
+#define QUICK_RAISES 20  // of the friction for one state, after which its range is halved
+#define PUSHES 7u        // the weight alone, and a force along six directions
+
+// h(u) at a friction, and how it grows with it.
+void reach(Six direction, Real at, out Real height, out Real slope) {
+  Real most[DIGITS], slopes[DIGITS];
+  [[unroll]] for (int digit = 0; digit < DIGITS; ++digit) most[digit] = slopes[digit] = Real(0);
+  [[unroll]] for (int j = 0; j < JOINTS; ++j) {
+    int digit = digit_of(j);
+    Real along = press(arms[j], normals[j], Real(0), gamma, direction);
+    Real across = press(arms[j], normals[j], Real(1), gamma, direction) - along;
+    bool is_more = along + at * across > most[digit];
+    most[digit] = is_more ? along + at * across : most[digit];
+    slopes[digit] = is_more ? across : slopes[digit];
+  }
+  height = slope = Real(0);
+  [[unroll]] for (int digit = 0; digit < DIGITS; ++digit) {
+    height += shares[digit] * most[digit];
+    slope += shares[digit] * slopes[digit];
+  }
+}
+
+// The friction at which h(u) comes to a value: Newton's method, as EffortSolver::least_friction.
+Real least_friction(Six direction, Real value) {
+  Real least = friction;
+  for (int turn = 0; turn < JOINTS; ++turn) {
+    Real height, slope;
+    reach(direction, least, height, slope);
+    if (turn > 0 && !(height > value)) return height < value && least >= MOST_FRICTION ? INFINITE : least;
+    Real step = (height - value) / slope;
+    Real next = slope > Real(0) ? clamp(least - step, Real(0), MOST_FRICTION) : height < value ? MOST_FRICTION : least;
+    if (next == least) break;
+    least = next;
+  }
+  return least;
+}
+
+// The weight upright at the largest fill, or a force of 1 N along an axis at its centre.
+Six wanted_push(uint k) {
+  Vec3 fixed_center = (Real(1) - scene.largest_share) * Vec3(scene.center_x, scene.center_y, scene.center_z);
+  Vec3 at = load_center(Load(scene.largest_mass, fixed_center, Real(0), scene.largest_height), pour);
+  Vec3 lift = Vec3(Real(0), scene.largest_mass * scene.gravity / unit_force, Real(0));
+  if (k > 0u) {
+    lift = Vec3(0);
+    lift[(k - 1u) / 2u] = ((k & 1u) == 1u ? Real(-1) : Real(1)) / unit_force;
+  }
+  return Six(lift, cross((at - center) / unit_length, lift));
+}
+
+int plane_of_task() { return TASK == EFFORT_PUSH ? PLANE_PUSH : PLANE_FRICTION_NEEDED; }
+
+bool is_busy(uint grip) {
+  uint status = uint_out[uint(PLANE_STATUS) * push.stride + grip];
+  if ((status & (STATUS_REASON_MASK | STATUS_PLAUSIBLE)) == STATUS_PLAUSIBLE)
+    return TASK == EFFORT_PUSH || push.first == 0u || kept(plane_of_task(), 0, grip) < INFINITE;
+  put_real(plane_of_task(), 0, grip, NOT_A_NUMBER);
+  return false;
+}
+
+void main() {
+  if (gl_LocalInvocationIndex == 0u) busy_count = 0u;
+  barrier();
+  if (INVOCATION < push.count && is_busy(INVOCATION)) busy_grips[atomicAdd(busy_count, 1u)] = INVOCATION;
+  barrier();
+  bool has_grip = gl_LocalInvocationIndex < busy_count;
+  uint grip = 0u;
+  // loops of one turn instead of branches, as in effort.comp
+  [[dont_unroll]] for (bool once = has_grip; once; once = false) {
+    grip = busy_grips[gl_LocalInvocationIndex];
+    load_contacts(grip);
+    Real sa, ca, sb, cb;
+    sine_cosine(grip_axis(AXIS_AZIMUTH, grip), sa, ca);
+    sine_cosine(grip_axis(AXIS_OBLIQUITY, grip), sb, cb);
+    pour = pour_direction(Vec3(cb * ca, sb, -cb * sa), scene.pour_sense);
+  }
+  // the friction begins where the worst state's direction puts it, and goes on there in the blocks that follow
+  uint hardest = 0u;
+  bool is_first = TASK == EFFORT_FRICTION && push.first == 0u;
+  [[dont_unroll]] for (bool once = has_grip && TASK == EFFORT_FRICTION; once; once = false) {
+    if (!is_first) friction = kept(PLANE_FRICTION_NEEDED, 0, grip);
+    Real fill = kept(PLANE_WORST_EFFORT_FILL, 0, grip), tilt = kept(PLANE_WORST_EFFORT_TILT, 0, grip);
+    for (uint i = 0u; i < push.number; ++i) hardest = states_in[2u * i + 1u].w == fill && states_in[2u * i + 1u].z == tilt ? i : hardest;
+  }
+  uint number = TASK == EFFORT_PUSH ? PUSHES : push.number;
+  Real worst = Real(1) / MOST_PUSH;  // of the pushes' efforts
+  Real low = friction, high = MOST_FRICTION;  // of this state: less friction than `low` does not hold
+  int raises = 0;
+  int pivots = 0;  // since the inverse was refined
+  Solve solve;
+  Six wanted;
+  bool has_basis = false, is_warm = false, is_solving = false;
+  uint k = has_grip ? 0u : number;
+  while (k < number) {
+    bool is_push = TASK == EFFORT_PUSH && k > 0u;
+    Real enough = is_push ? worst : is_first ? Real(0) : Real(1), too_much = is_push || is_first ? INFINITE : Real(1);
+    bool is_new = !is_solving;
+    while (k < number && !is_solving) {
+      uint state = k == 0u ? hardest : k <= hardest ? k - 1u : k;
+      wanted = TASK == EFFORT_PUSH ? wanted_push(k) : wanted_for(states_in[2u * state], states_in[2u * state + 1u]);
+      if (k > 0u) enough = TASK == EFFORT_PUSH ? worst : Real(1);
+      if (k > 0u) too_much = TASK == EFFORT_PUSH ? INFINITE : Real(1);
+      bool may_pass = TASK == EFFORT_PUSH || friction <= low + FRICTION_STEP;
+      is_solving = dot6(wanted, wanted) > Real(0) && !(may_pass && bound(wanted, has_basis) <= enough);
+      if (is_solving) continue;
+      k += 1u;
+      low = friction;
+      high = MOST_FRICTION;
+      raises = 0;
+    }
+    is_new = is_new && is_solving;
+    is_warm = is_new ? has_basis : is_warm;
+    if (is_new) solve = start(wanted);
+    restart(solve.wanted, ROUNDING * solve.size, is_new && !has_basis, is_new && has_basis);
+    has_basis = has_basis || is_new;
+    [[dont_unroll]] for (bool once = is_solving && pivots >= FRESH_PIVOTS; once; once = false) {
+      refine();
+      pivots = 0;
+    }
+    pivots += is_solving ? 1 : 0;
+    step(solve, is_first ? RISE_TOLERANCE : HALF_TOLERANCE, enough, too_much, is_solving);
+    bool is_told_apart = solve.is_known || solve.is_beyond || solve.low > dear * solve.size;
+    if (is_solving && solve.done && !is_told_apart && pivots > 1 && solve.pivots < DEVICE_PIVOTS) {
+      solve.done = false;
+      pivots = FRESH_PIVOTS;
+    }
+    [[dont_unroll]] for (bool once = is_solving && solve.done; once; once = false) {
+      finish(solve);
+      has_basis = (solve.effort < INFINITE && solve.is_known) || solve.is_beyond;
+      is_solving = false;
+      if (!has_basis && is_warm && !is_first) continue;  // once more from the start
+      bool is_held = solve.effort * (Real(1) - HALF_TOLERANCE) <= Real(1);
+      if (TASK == EFFORT_PUSH) {
+        bool is_alone = k == 0u;
+        worst = is_alone ? (solve.effort < Real(1) ? worst : INFINITE) : max(worst, solve.effort);
+        k = worst < INFINITE ? k + 1u : number;
+        if (is_alone) displaced = solve.wanted;
+        has_basis = has_basis && !is_alone;
+      } else if (is_first) {
+        friction = min(MOST_FRICTION, least_friction(solve.cut, dot6(solve.cut, solve.wanted)));
+        low = friction;
+        is_first = false;
+        has_basis = false;
+      } else if (is_held && friction <= low + FRICTION_STEP) {
+        k += 1u;
+        low = friction;
+        high = MOST_FRICTION;
+        raises = 0;
+      } else if (!is_held && friction >= MOST_FRICTION) {
+        friction = INFINITE;
+        k = number;
+      } else {
+        Real before = friction;
+        if (is_held) {
+          high = friction;
+        } else {
+          low = max(friction, least_friction(solve.cut, dot6(solve.cut, solve.wanted)));
+        }
+        friction = min(MOST_FRICTION, max(low + FRICTION_STEP, raises < QUICK_RAISES ? Real(0) : (low + high) / Real(2)));
+        has_basis = has_basis && friction >= before;
+        raises += 1;
+      }
+    }
+  }
+  [[dont_unroll]] for (bool once = has_grip; once; once = false)
+    put_real(plane_of_task(), 0, grip, TASK == EFFORT_FRICTION ? (is_first ? Real(0) : friction) : worst < INFINITE ? Real(1) / worst : Real(0));
+}
