@@ -20,7 +20,8 @@ Misplaced misplaced_values(const Scene& scene, std::size_t vessel, const FieldSe
     const Field& row = field_row(field);
     if (!fields.has(field) || fields.plane[field] >= fields.real_kept) continue;
     const int planes = field_planes(field, scene_fills(scene), scene.tilts.size());
-    const bool needs_plausible = row.of_strength || (field == FIELD_SAFE_TILT && has_effort(scene));
+    const bool is_hold = field == FIELD_HOLD_FORCE || field == FIELD_LARGEST_HOLD;
+    const bool of_effort = row.of_strength || ((is_hold || field == FIELD_SAFE_TILT) && has_effort(scene));
     for (int p = 0; p < planes; ++p) {
       const bool is_left_out = row.shape == FieldShape::states && p % scene.tilts.size() >= counted[p / scene.tilts.size()];
       const double* plane = reals + (fields.plane[field] + p) * stride;
@@ -30,7 +31,7 @@ Misplaced misplaced_values(const Scene& scene, std::size_t vessel, const FieldSe
         bool fits = std::isfinite(value);
         if (row.absent == FieldAbsent::never) {
           fits = fits && (reason == REASON_NONE || value == 0);
-        } else if (needs_plausible && !(status[i] & STATUS_PLAUSIBLE)) {
+        } else if (of_effort && !(status[i] & STATUS_PLAUSIBLE)) {
           fits = std::isnan(value);
         } else if (is_left_out ||
                    (reason != REASON_NONE && !(row.absent == FieldAbsent::not_closed && reason >= REASON_TOO_WIDE))) {
@@ -38,7 +39,7 @@ Misplaced misplaced_values(const Scene& scene, std::size_t vessel, const FieldSe
         } else if (row.range == FieldRange::may_be_missing) {
           fits = fits || std::isnan(value);
         } else if (row.range == FieldRange::may_be_infinite) {
-          const bool may = row.of_strength || unheld || overflows || (status[i] & STATUS_ANTIPODAL) == 0;
+          const bool may = of_effort || unheld || overflows || (status[i] & STATUS_ANTIPODAL) == 0;
           fits = fits || (may && value == std::numeric_limits<double>::infinity());
         }
         if (fits) continue;

@@ -96,6 +96,14 @@ std::vector<std::string> domain_warnings(const Scene& scene, Precision precision
     warnings.push_back(
         beyond(fmt::format("vessel '{}' is held by up to {:.2g} N", heavy->name, hold_most), fmt::format("{} N", LARGEST_HOLD)));
   }
+  if (has_effort(scene)) {
+    const auto [weakest, strongest] = std::minmax_element(scene.strength->digits.begin(), scene.strength->digits.end());
+    if (*strongest > LARGEST_STRENGTH_RATIO * *weakest * (1 + rounding)) {
+      warnings.push_back(
+          fmt::format("digits have strengths of {:.3g} and {:.3g} N: beyond a ratio of {} efforts in float may be others", *weakest,
+                      *strongest, LARGEST_STRENGTH_RATIO));
+    }
+  }
   return warnings;
 }
 

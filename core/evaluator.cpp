@@ -179,7 +179,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
     state.exact_torque = forces.exact_torque;
     state.normal_force = forces.normal;
     state.feedback_force = forces.feedback;
-    state.hold_force = forces.hold;
+    state.hold_force = has_effort_ ? tips_hold(entry, input, result, load, angle) : forces.hold;
     return state;
   }
 
@@ -397,7 +397,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
   // State by state, where they are asked for.
   void put_state_efforts(const PlaneRow& row, const HeldHand& hand, const GripLoads& loads) const {
     const bool of_all = row.fields.has(FIELD_EFFORT) || row.fields.has(FIELD_EFFORT_LOW);
-    const bool of_tips = row.fields.has(FIELD_TIPS_EFFORT);
+    const bool of_tips = row.fields.has(FIELD_TIPS_EFFORT) || row.fields.has(FIELD_HOLD_FORCE);
     if (!of_all && !of_tips) return;
     const Vec3 center = contacts_center(hand.all());
     EffortSolver whole(hand.all(), strength_, center), tips(hand.pinch(), strength_, center);
@@ -410,8 +410,20 @@ class CoreEvaluator final : public wholehand::Evaluator {
           row.put(FIELD_EFFORT, state, found.effort);
           row.put(FIELD_EFFORT_LOW, state, found.low);
         }
-        if (of_tips) row.put(FIELD_TIPS_EFFORT, state, tips.solve(weight).effort);
+        if (!of_tips) continue;
+        const Real effort = tips.solve(weight).effort;
+        row.put(FIELD_TIPS_EFFORT, state, effort);
+        row.put(FIELD_HOLD_FORCE, state, states_.tips_hold(effort));
       }
+  }
+
+  // What each tip must press in a state of a feasible grip.
+  Real tips_hold(const VesselEntry& entry, const GripInput& input, const GripResult& result, const Load& load,
+                 TiltAngle tilt) const {
+    const HeldHand hand = held_hand(entry, posed_of(result), result.touch_mask);
+    const GripLoads loads = states_.loads(entry, pinch_of(input, result));
+    EffortSolver tips(hand.pinch(), strength_, contacts_center(hand.pinch()));
+    return states_.tips_hold(tips.solve(loads.weight(load, tilt)).effort);
   }
 
   LargestForces put_states(const PlaneRow& row, const VesselEntry& entry, const GripAnswer& answer,
@@ -427,7 +439,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
         row.put(FIELD_EXACT_TORQUE, state, s.exact_torque);
         row.put(FIELD_NORMAL_FORCE, state, s.normal);
         row.put(FIELD_FEEDBACK_FORCE, state, s.feedback);
-        row.put(FIELD_HOLD_FORCE, state, s.hold);
+        if (!has_effort_) row.put(FIELD_HOLD_FORCE, state, s.hold);
       };
       const FillTerms terms = states_.fill_terms(entry, fill, pinch, efforts ? efforts + fill : nullptr, put_state);
       row.put(FIELD_PEAK_FORCE, k, Real(terms.peak_force));

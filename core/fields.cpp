@@ -14,7 +14,10 @@ constexpr bool DEFAULT = true, ON_REQUEST = false;
 constexpr const char* NONE = "";
 constexpr const char* EFFORT = "NaN where the grip is implausible";
 constexpr const char* UNRESISTED = "infinite where no force of the hand holds the vessel; NaN where the grip is implausible";
-constexpr const char* INFINITE = "infinite where not antipodal";
+constexpr const char* HOLD =
+    "infinite where no such force holds the vessel: without strengths where the pinch is not antipodal; with strengths NaN where "
+    "the "
+    "grip is implausible";
 
 constexpr Field ROWS[] = {
     {FIELD_T_INDEX, S::one, "t_index", "m", "place of the index tip on the thumb-index line", NONE, ON_REQUEST, "closure",
@@ -53,14 +56,15 @@ constexpr Field ROWS[] = {
      "force", "normal force"},
     {FIELD_FEEDBACK_FORCE, S::states, "feedback_force", "N", "force that the gripper renders", "normal force clamped to [0, F_max]",
      ON_REQUEST, "force", "feedback force"},
-    {FIELD_HOLD_FORCE, S::states, "hold_force", "N", "force per finger that a soft-finger pinch needs to hold the vessel", INFINITE,
+    {FIELD_HOLD_FORCE, S::states, "hold_force", "N", "force with which each of two tips must press to hold the vessel", HOLD,
      ON_REQUEST, "force", "hold force", 0, A::infeasible, R::may_be_infinite},
     {FIELD_PEAK_FORCE, S::fills, "peak_feedback_force", "N", "largest feedback force over all tilts", NONE, DEFAULT, "force",
      "peak feedback"},
     {FIELD_PEAK_TILT, S::fills, "peak_feedback_tilt", "rad", "first tilt at which the feedback force is largest", NONE, DEFAULT,
      "force", nullptr},
-    {FIELD_LARGEST_HOLD, S::fills, "largest_hold_force", "N", "largest force per finger that holding takes, over all tilts",
-     INFINITE, DEFAULT, "force", "largest hold", 0, A::infeasible, R::may_be_infinite},
+    {FIELD_LARGEST_HOLD, S::fills, "largest_hold_force", "N",
+     "largest force with which each of two tips must press, over all tilts", HOLD, DEFAULT, "force", "largest hold", 0,
+     A::infeasible, R::may_be_infinite},
     {FIELD_SAFE_TILT, S::fills, "largest_safe_tilt", "rad",
      "largest tilt up to which the unclamped feedback force is below F_max and the vessel is held: with strengths an effort up to "
      "1, "

@@ -61,6 +61,8 @@ FieldSet make_field_set(const std::vector<int>& kept, const Scene& scene) {
   for (const int field : SCORE_NEEDS) {
     // the midpoint serves the forces alone
     if (field == FIELD_MIDPOINT && scene.tilts.empty()) continue;
+    // with efforts the hold term is the whole hand's
+    if (field == FIELD_LARGEST_HOLD && has_effort(scene)) continue;
     place(field, false);
   }
   return set;

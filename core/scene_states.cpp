@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/scene_states.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "core/planes.h"
@@ -24,6 +25,11 @@ GripLoads SceneStates::loads(const VesselEntry& entry, const Pinch& pinch) const
 HeldForces SceneStates::forces(const VesselEntry& entry, const Pinch& pinch, const Load& load, TiltAngle tilt, Real opening) const {
   return held_forces(entry.force, load, entry.largest, pinch.direction, pinch.midpoint,
                      pour_direction(pinch.direction, pour_sense_), tilt.sine, tilt.cosine, pinch.is_antipodal, opening);
+}
+
+Real SceneStates::tips_hold(Real tips_effort) const {
+  const auto& digits = scene_.strength.value().digits;
+  return tips_effort * Real(std::min(digits[0], digits[1]));
 }
 
 std::array<Real, 6> SceneStates::score_terms(const ScoredHand& hand, LargestForces largest, Real max) const {

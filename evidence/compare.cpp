@@ -72,6 +72,12 @@ bool is_held(const GatheredPlanes& planes, int field) {
   return planes.fields.has(field) && static_cast<std::size_t>(planes.fields.plane[field]) * planes.count < planes.reals.size();
 }
 
+// Whether a field is compared number by number. With efforts a hold force is one, and brackets of efforts are not told apart here.
+bool is_told(const Scene& scene, const Field& field) {
+  const bool is_hold = field.number == FIELD_HOLD_FORCE || field.number == FIELD_LARGEST_HOLD;
+  return field.label && !(is_hold && has_effort(scene));
+}
+
 // What the comparison of told tilts looks at.
 bool has_tilts(const FieldSet& fields) {
   const auto needed = {FIELD_PEAK_TILT, FIELD_SAFE_TILT, FIELD_FEEDBACK_FORCE, FIELD_NORMAL_FORCE, FIELD_HOLD_FORCE};
@@ -113,7 +119,7 @@ Comparer::Comparer(const Scene& scene, const Evaluator& core, Allowance allowed)
     other_tips_.push_back(make_core_evaluator(with_tips(scene, thumb, index)));
   const FieldSet fields = all_fields(scene);
   for (const Field& field : real_fields())
-    if (field.label && fields.has(field.number)) row(field.kernel, field.label, fine_unit(field).name);
+    if (is_told(scene, field) && fields.has(field.number)) row(field.kernel, field.label, fine_unit(field).name);
   if (has_tilts(fields)) {
     row("force", PEAK_TILT, "mN");
     row("force", SAFE_TILT, "mN");
@@ -229,7 +235,7 @@ double Comparer::largest_of(const GatheredPlanes& truth, int field) const {
 void Comparer::add_numbers(std::size_t vessel, const GatheredPlanes& a, const GatheredPlanes& b, const std::vector<char>& left_out,
                            const Tolerance& tolerance) {
   for (const Field& field : real_fields()) {
-    if (!field.label || !is_held(a, field.number) || !is_held(b, field.number)) continue;
+    if (!is_told(scene_, field) || !is_held(a, field.number) || !is_held(b, field.number)) continue;
     const FineUnit unit = fine_unit(field);
     Comparison& entry = row(field.kernel, field.label, unit.name);
     const int planes = field_planes(field.number, scene_fills(scene_), scene_.tilts.size());

@@ -123,7 +123,8 @@ GripState state_of(const GripPlanes& planes, const Evaluator& core, const Scene&
   state.state.exact_torque = planes.real(FIELD_EXACT_TORQUE, place);
   state.state.normal_force = planes.real(FIELD_NORMAL_FORCE, place);
   state.state.feedback_force = planes.real(FIELD_FEEDBACK_FORCE, place);
-  state.state.hold_force = planes.real(FIELD_HOLD_FORCE, place);
+  // with efforts it is the core's, of implausible grips too
+  state.state.hold_force = has_effort(scene) ? loaded.hold_force : planes.real(FIELD_HOLD_FORCE, place);
   return state;
 }
 

@@ -32,10 +32,12 @@ std::vector<int> mirrored_planes(const Scene& scene, const FieldSet& fields) {
 }
 
 // Kept planes that no kernel of the device writes: the core adds them. Empty where there are none.
-FieldSet fields_of_core(const FieldSet& fields) {
+FieldSet fields_of_core(const Scene& scene, const FieldSet& fields) {
   FieldSet lacking;
   lacking.plane.fill(-1);
-  for (const int field : {FIELD_EFFORT, FIELD_EFFORT_LOW, FIELD_TIPS_EFFORT}) {
+  std::vector<int> by_core{FIELD_EFFORT, FIELD_EFFORT_LOW, FIELD_TIPS_EFFORT};
+  if (has_effort(scene)) by_core.insert(by_core.end(), {FIELD_HOLD_FORCE, FIELD_LARGEST_HOLD});
+  for (const int field : by_core) {
     if (!fields.has(field) || fields.plane[field] >= fields.real_kept) continue;
     lacking.plane[field] = fields.plane[field];
     lacking.real_planes = lacking.real_kept = fields.real_kept;
@@ -54,7 +56,7 @@ struct GripBackend::Impl {
         options(options_in),
         arrays(make_scene_arrays(scene, *core, options.evaluator)),
         mirrored(mirrored_planes(scene, fields)),
-        of_core(fields_of_core(fields)),
+        of_core(fields_of_core(scene, fields)),
         stream([this, selector] { return std::make_unique<GripProgram>(scene, arrays, *core, fields, selector, options); },
                with_select_multiple(options.stream)) {
     info.backend = "vulkan";

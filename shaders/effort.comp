@@ -4,7 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "effort.glsl"
+#include "effort_solve.glsl"
 
 #define RISE_STEPS 4
 

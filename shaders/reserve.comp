@@ -4,7 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "effort.glsl"
+#include "effort_solve.glsl"
 
 #define MOST_PUSH Real(1000000)
 #define MOST_FRICTION Real(10)

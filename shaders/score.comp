@@ -23,7 +23,7 @@ void main() {
       Real largest_feedback = Real(0), largest_hold = Real(0);
       for (uint fill = 0u; fill < scene.fills; ++fill) {
         largest_feedback = max(largest_feedback, real_out[(uint(PLANE_PEAK_FORCE) + fill) * push.stride + grip]);
-        largest_hold = max(largest_hold, real_out[(uint(PLANE_LARGEST_HOLD) + fill) * push.stride + grip]);
+        if (PLANE_WORST_EFFORT < 0) largest_hold = max(largest_hold, real_out[(uint(PLANE_LARGEST_HOLD) + fill) * push.stride + grip]);
       }
       terms[4] = force_term(largest_feedback, scene.force_max);
       terms[5] = hold_term(largest_hold, scene.grip_strength);

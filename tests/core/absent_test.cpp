@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/fields.h"
 #include "tests/support/special_values.h"
 #include "tests/support/whole_parity.h"
 
@@ -55,6 +56,7 @@ TEST_F(Absent, WhatTheCoreSaysIsWhereItShouldBe) {
 
 TEST_F(Absent, AFeasibleGripHasFiniteValuesEverywhere) {
   for (int field = 0; field < REAL_FIELDS; ++field) {
+    if (field_row(field).of_strength) continue;  // this scene has none
     EXPECT_EQ(with(field, 0, NOT_A_NUMBER), field == FIELD_SAFE_TILT ? 0u : 1u) << field;
     EXPECT_EQ(with(field, 0, INFINITE), 1u) << field;
     EXPECT_EQ(with(field, 0, -INFINITE), 1u) << field;

@@ -244,15 +244,33 @@ void light_and_heavy(const AnsweredScene& a) {
   });
 }
 
+// The same without [strength]: what holds it is a pinch of two tips.
+AnsweredScene pinched(const AnsweredScene& a) {
+  Scene scene = a.scene;
+  scene.strength.reset();
+  return AnsweredScene(scene);
+}
+
 void no_friction(const AnsweredScene& a) {
+  const AnsweredScene pinch = pinched(a);
+  pinch.each_state([&](std::size_t v, std::size_t i, std::size_t s) {
+    EXPECT_EQ(pinch.real(FIELD_HOLD_FORCE, v, i, s), HUGE_VAL);
+    EXPECT_EQ(pinch.real(FIELD_TERMS, v, i, 5), 0);
+    EXPECT_TRUE(std::isnan(pinch.real(FIELD_SAFE_TILT, v, i)));
+  });
   a.each_state([&](std::size_t v, std::size_t i, std::size_t s) {
     EXPECT_FALSE(a.antipodal(v, i));
-    EXPECT_EQ(a.real(FIELD_HOLD_FORCE, v, i, s), HUGE_VAL);
-    EXPECT_EQ(a.real(FIELD_TERMS, v, i, 5), 0);
-    EXPECT_TRUE(std::isnan(a.real(FIELD_SAFE_TILT, v, i)));
+    const double hold = a.real(FIELD_HOLD_FORCE, v, i, s);
+    EXPECT_TRUE((a.status(v, i) & STATUS_PLAUSIBLE) != 0 ? hold == HUGE_VAL : std::isnan(hold)) << i << " " << hold;
     EXPECT_TRUE(std::isfinite(a.real(FIELD_FEEDBACK_FORCE, v, i, s)));
   });
   a.each([&](std::size_t v, std::size_t i) {
+    // a hand that is all round it holds it, upright a finger under the base does
+    EXPECT_EQ(a.real(FIELD_TERMS, v, i, 5) > 0, std::isfinite(a.real(FIELD_WORST_EFFORT, v, i))) << i;
+    const bool is_upright = upright_effort(a, v, i, scene_strength(a), false).effort <= 1;
+    if ((a.status(v, i) & STATUS_PLAUSIBLE) != 0) {
+      EXPECT_EQ(std::isfinite(a.real(FIELD_SAFE_TILT, v, i)), is_upright) << i;
+    }
     const core_f64::Effort tips = upright_effort(a, v, i, scene_strength(a), true);
     EXPECT_EQ(tips.low, HUGE_VAL) << i;
     EXPECT_EQ(tips.effort, HUGE_VAL) << i;
@@ -317,8 +335,9 @@ void far_above_the_table(const AnsweredScene& a) {
 void no_torsion(const AnsweredScene& a) {
   const double weight = a.core->constants(0).mass * a.scene.gravity;
   std::size_t finite = 0;
+  const AnsweredScene pinch = pinched(a);
   a.each_state([&](std::size_t v, std::size_t i, std::size_t s) {
-    const double hold = a.real(FIELD_HOLD_FORCE, v, i, s);
+    const double hold = pinch.real(FIELD_HOLD_FORCE, v, i, s);
     const bool meets = a.antipodal(v, i) && a.grips[v][i].offset == 0 && a.scene.tilts[s] == 0;
     const double needed = meets ? weight / (2 * a.scene.force.friction) : HUGE_VAL;
     EXPECT_TRUE(hold == needed || std::abs(hold - needed) < 1e-14 * weight) << i << " " << hold;

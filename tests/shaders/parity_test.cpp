@@ -33,6 +33,7 @@ TEST(Parity, ArticulatedHand) {
 // Wide ranges by Sobol points: off the axis, in hands of several sizes, a shell's rim, a near-empty glass.
 TEST(Parity, SobolScene) {
   Scene scene = read_scene_file(find_scene("three_beakers"));
+  scene.strength.reset();
   for (VesselData& vessel : scene.vessels) vessel.surface = Surface::shell;
   scene.liquid->fills = {0.01, 1};
   scene.tilts = linspace(0, PI, 5);

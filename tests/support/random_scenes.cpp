@@ -147,7 +147,7 @@ std::string random_forces(Draw& draw) {
     if (draw.chance(0.5)) text += key("max_N", draw.chance(0.1) ? 0 : draw.over(0.1, 1000));
     if (draw.chance(0.5)) text += key("friction", draw.chance(0.2) ? 0 : draw.over(0.01, 10));
     if (draw.chance(0.5)) text += key("torsion_mm", draw.chance(0.2) ? 0 : draw.over(0.01, 100));
-    if (draw.chance(0.5)) strength = "[strength]\n" + key("thumb_N", draw.over(0.1, 10000));
+    if (draw.chance(0.5)) strength = "[strength]\n" + key("thumb_N", draw.chance(0.2) ? draw.over(0.1, 10000) : draw.over(5, 100));
     if (draw.chance(0.5)) text += "torque = \"exact\"\n";
     if (draw.chance(0.5)) text += "reference = \"per_grip\"\n";
     text += strength;

@@ -42,6 +42,7 @@ TEST(ResultFile, OddShapesAndEveryVariable) {
   scene.grips.roll.values = {0.5};
   scene.grips.offset = range_axis(0, 0.01, 5);
   scene.table.emplace();
+  scene.strength.emplace();
   scene.output.keep.emplace();
   for (const Variable& variable : variable_catalogue()) scene.output.keep->push_back(variable.name);
   SweepFile setup(scene, folder / "a.nc", Precision::full, 11);

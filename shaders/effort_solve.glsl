@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the kernels of efforts share: the contacts of a grip in registers, the support function of Z, and a solve pivot by pivot.
-#ifndef EFFORT_GLSL
-#define EFFORT_GLSL
+#ifndef EFFORT_SOLVE_GLSL
+#define EFFORT_SOLVE_GLSL
 
 #include "force.glsl"
 #include "gauge.glsl"
