@@ -181,6 +181,7 @@ struct OutputData {
   std::string also_place;                        // as above
   std::vector<std::string> also;                 // further ones beside the default set
   int best = 20;
+  double apart = 25e-3;  // m, that some joint of the hand moves from one of the best grips to any other; 0: any two differ
 };
 
 // The level plane at a vessel's lowest point, on which it stands until it is lifted.

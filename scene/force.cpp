@@ -71,11 +71,12 @@ void read_score(const SceneTable& root, bool has_tilts, ScoreWeights& weights) {
 }
 
 void read_output(const SceneTable& root, OutputData& output) {
-  const auto table = root.table("output", {"keep", "also", "best"});
+  const auto table = root.table("output", {"keep", "also", "best", "apart_mm"});
   if (!table) return;
   std::int64_t best = output.best;
   table->read("best", ranges::BEST, best);
   output.best = static_cast<int>(best);
+  table->read("apart_mm", ranges::APART, output.apart);
   if (table->has("keep") && table->has("also")) {
     root.file().refuse(table->place("also"), "both also and keep are given",
                        "allowed: one of the two; also adds to the usual variables, keep replaces them");

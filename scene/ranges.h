@@ -98,6 +98,7 @@ constexpr Quantity TABLE_CLEARANCE{0, 100, Unit::mm};
 
 constexpr Quantity WEIGHT{0, 1000};
 constexpr IntegerRange BEST{0, 100000};
+constexpr Quantity APART{0, 10000, Unit::mm};
 
 constexpr Quantity RATE{250, 8000};             // Hz
 constexpr Quantity COUPLING_STIFFNESS{0, 1e5};  // N/m

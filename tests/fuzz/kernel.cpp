@@ -137,6 +137,7 @@ void add_later_keys(Choices& choose, std::string& text) {
   if (choose.yes() && text.find("[liquid]") != std::string::npos)
     add_key(text, "[tilts]", key("until_poured", choose.in(ranges::POURED_SHARE)));
   if (choose.yes()) text += "[table]\n" + key("clearance_mm", choose.in(ranges::TABLE_CLEARANCE));
+  if (choose.yes()) text += "[output]\n" + key("apart_mm", choose.in(ranges::APART));
 }
 
 std::vector<GripInput> grips_of(Choices& choose, const Scene& scene) {

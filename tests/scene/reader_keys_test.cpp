@@ -39,7 +39,7 @@ const std::map<std::string, std::vector<std::string>> SCENE_KEYS{
       "seed"}},
     {"[tilts]", {"deg", "until_poured"}},
     {"[score]", {"fingers", "contacts", "depth", "posture", "force", "hold"}},
-    {"[output]", {"keep", "also", "best"}},
+    {"[output]", {"keep", "also", "best", "apart_mm"}},
     {"[table]", {"clearance_mm"}},
     {"[live]", {"rate_Hz", "K_N_m", "B_Ns_m", "slip_mm", "ramp_s", "slew_N_s", "jump_m_s", "late_steps"}},
     {"[device]", {"gap_mm", "workspace_scale", "origin_mm", "axes", "clutch_button", "library"}},

@@ -49,6 +49,7 @@ TEST(SceneReader, LeavesEverythingElseAtItsDefault) {
   EXPECT_EQ(scene.score.fingers, 0.20);
   EXPECT_FALSE(scene.output.keep);
   EXPECT_EQ(scene.output.best, 20);
+  EXPECT_EQ(scene.output.apart, 25e-3);
   EXPECT_EQ(scene.live.rate, 1000);
   EXPECT_FALSE(scene.device.has_gap);
 }
@@ -240,6 +241,7 @@ hold = 6
 [output]
 keep = ["score", "gap"]
 best = 7
+apart_mm = 40
 )" + VESSEL);
   ASSERT_TRUE(scene.liquid);
   EXPECT_EQ(scene.liquid->density, 789);
@@ -261,6 +263,7 @@ best = 7
   EXPECT_EQ(scene.score.hold, 6);
   EXPECT_EQ(scene.output.keep, (std::vector<std::string>{"score", "gap"}));
   EXPECT_EQ(scene.output.best, 7);
+  EXPECT_EQ(scene.output.apart, 40e-3);
   EXPECT_EQ(scene_from("[output]\nalso = [\"joints\"]" + VESSEL).output.also, std::vector<std::string>{"joints"});
   expect_refusal("[output]\nkeep = [\"score\"]\nalso = @[\"joints\"]" + VESSEL, "both also and keep are given");
   expect_refusal("[output]\nalso = [\"joints\", @\"joints\"]" + VESSEL, "also names 'joints' a second time");

@@ -77,6 +77,7 @@ constexpr RefusedScene OUT_OF_RANGE[] = {
     {"[live]\nrate_Hz = @100", "rate_Hz = 100; allowed: 250 to 8000"},
     {"[live]\nlate_steps = @0", "late_steps = 0; allowed: a whole number, 1 to 1000"},
     {"[output]\nbest = @-1", "best = -1; allowed: a whole number, 0 to 100000"},
+    {"[output]\napart_mm = @-1", "apart_mm = -1; allowed: 0 to 10000"},
     {"@[score]\nfingers = 0\ncontacts = 0\ndepth = 0\nposture = 0", "[score] weighs only force and hold, and there are no [tilts]"},
 };
 
