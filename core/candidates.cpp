@@ -18,6 +18,10 @@ void BestCandidates::offer(const Candidate& candidate) {
   }
 }
 
+bool BestCandidates::takes(const Candidate& candidate) const {
+  return heap_.size() < size_ || (size_ > 0 && is_better(candidate, heap_.front()));
+}
+
 void BestCandidates::offer(const std::vector<Candidate>& candidates) {
   for (const Candidate& candidate : candidates) offer(candidate);
 }

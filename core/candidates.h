@@ -18,7 +18,8 @@ class BestCandidates {
   explicit BestCandidates(std::size_t size) : size_(size) {}
   void offer(const Candidate& candidate);
   void offer(const std::vector<Candidate>& candidates);
-  std::vector<Candidate> sorted() const;  // the best first
+  bool takes(const Candidate& candidate) const;  // whether it would get in
+  std::vector<Candidate> sorted() const;         // the best first
 
  private:
   std::size_t size_;

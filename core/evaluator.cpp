@@ -220,6 +220,15 @@ class CoreEvaluator final : public wholehand::Evaluator {
     return contacts;
   }
 
+  std::optional<wholehand::PosedHand> posed(std::size_t v, const GripInput& grip) const override {
+    GripAnswer answer;
+    evaluate(v, grip, {false, false}, answer);
+    if (answer.closing.reason != REASON_NONE) return std::nullopt;
+    wholehand::PosedHand hand;
+    for (int j = 0; j < JOINTS; ++j) hand[j] = wholehand::mirrored(to_triple(answer.posed[j]), scene_.hand.handedness);
+    return hand;
+  }
+
   void planes(std::size_t v, const GripInput* grips, std::size_t count, const FieldSet& fields, std::size_t stride, double* reals,
               std::uint32_t* uints) const override {
     const Wanted wanted{fields.has(FIELD_JOINTS), fields.has(FIELD_PROXIES) || fields.has(FIELD_BONE_STRETCH)};

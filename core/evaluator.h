@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/planes.h"
@@ -57,6 +58,9 @@ class Evaluator {
 
   // Where the posed hand of a feasible grip presses (kernel 9). An evaluator that knows no contacts has none.
   virtual std::vector<GripContact> contacts(std::size_t vessel, const GripResult& result) const;
+
+  // The joints of a grip's posed hand alone, vessel frame, m; nothing where the grip is infeasible.
+  virtual std::optional<PosedHand> posed(std::size_t vessel, const GripInput& grip) const;
 
   // `count` grips into planes of `stride` doubles (uints likewise). Infeasible grips get NaN reals from the
   // first that does not exist (t, gap and midpoint do from too_wide on); score and terms 0. States that are left out are NaN.

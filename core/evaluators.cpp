@@ -15,6 +15,13 @@ const PreparedLattice* Evaluator::lattice(std::size_t) const { return nullptr; }
 
 std::vector<GripContact> Evaluator::contacts(std::size_t, const GripResult&) const { return {}; }
 
+std::optional<PosedHand> Evaluator::posed(std::size_t vessel, const GripInput& input) const {
+  GripResult result;
+  grip(vessel, input, result);
+  if (result.reason != Reason::none) return std::nullopt;
+  return result.posed;
+}
+
 std::unique_ptr<Evaluator> make_core_evaluator(const Scene& scene, const EvaluatorOptions& options) {
   return core_f64::make_evaluator(scene, options);
 }

@@ -25,6 +25,8 @@ struct GripInput {
 enum class Reason : std::uint32_t { none, degenerate, not_converged, misses, too_wide, too_narrow, on_mouth };
 extern const std::array<const char*, 7> REASON_NAMES;  // "" for none
 
+using PosedHand = std::array<Triple, JOINT_COUNT>;  // vessel frame, m
+
 // Fields exist up to the reason: gap and midpoint from too_wide on, everything else only where the reason is none.
 struct GripResult {
   Reason reason = Reason::none;
@@ -37,7 +39,7 @@ struct GripResult {
   double gap = 0;  // m
   Triple midpoint{};
   std::array<Triple, JOINT_COUNT> joints{};  // rigged hand, vessel frame, m
-  std::array<Triple, JOINT_COUNT> posed{};
+  PosedHand posed{};
   std::array<Triple, JOINT_COUNT> proxies{};
   std::array<double, JOINT_COUNT> separation{};
   std::uint32_t touch_mask = 0;  // bit j: joint j touches in the posed hand

@@ -11,6 +11,9 @@
 
 namespace wholehand {
 
+// Adds the feasible, plausible grips of a chunk whose score and status are kept.
+void add_eligible(const PlaneChunk& chunk, const FieldSet& fields, std::vector<Candidate>& eligible);
+
 class HandLists {
  public:
   // The `size` best of each of the plan's hand scales; begins with those of `candidates`, in any order. The plan must outlive the object.

@@ -23,28 +23,53 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int FORMAT = 2;
+constexpr int FORMAT = 3;
 
 Error unusable(const std::string& path, const std::string& why) {
   return failure_error(fmt::format("{}: {}; start again without --resume", path, why));
 }
 
+json to_json(const std::vector<Candidate>& candidates) {
+  json all = json::array();
+  for (const Candidate& candidate : candidates) all.push_back({candidate.score, candidate.index});
+  return all;
+}
+
+std::vector<Candidate> candidates_from(const json& text) {
+  std::vector<Candidate> all;
+  for (const json& candidate : text) all.push_back({candidate.at(0), candidate.at(1)});
+  return all;
+}
+
+json to_json(const ListProgress& list) {
+  const auto decided = list.decided ? std::vector<Candidate>{*list.decided} : std::vector<Candidate>{};
+  return {{"chosen", to_json(list.chosen)}, {"decided", to_json(decided)}, {"is_complete", list.is_complete}};
+}
+
+ListProgress list_from(const json& text) {
+  ListProgress list{candidates_from(text.at("chosen")), {}, text.at("is_complete")};
+  for (const Candidate& decided : candidates_from(text.at("decided"))) list.decided = decided;
+  return list;
+}
+
 json to_json(const VesselProgress& vessel) {
-  json best = json::array();
-  for (const Candidate& candidate : vessel.best) best.push_back({candidate.score, candidate.index});
+  json lists = json::array();
+  for (const ListProgress& list : vessel.lists) lists.push_back(to_json(list));
   const GripCounts& counts = vessel.counts;
   json stretches = json::array();
   for (const Stretch& stretch : vessel.stretches) stretches.push_back({stretch.first, stretch.last, stretch.checksum});
-  return {{"done", vessel.done},           {"stretches", stretches},        {"best", best},
+  return {{"done", vessel.done},           {"stretches", stretches},        {"best", to_json(vessel.best)},
           {"grips", counts.grips},         {"by_reason", counts.by_reason}, {"implausible", counts.implausible},
-          {"antipodal", counts.antipodal}, {"blocked", counts.blocked},     {"heat_map", vessel.heat_map}};  // NaN becomes null
+          {"antipodal", counts.antipodal}, {"blocked", counts.blocked},     {"heat_map", vessel.heat_map},
+          {"lists", lists}};  // NaN becomes null
 }
 
 VesselProgress vessel_from(const json& text) {
   VesselProgress vessel;
   vessel.done = text.at("done");
   for (const json& stretch : text.at("stretches")) vessel.stretches.push_back({stretch.at(0), stretch.at(1), stretch.at(2)});
-  for (const json& candidate : text.at("best")) vessel.best.push_back({candidate.at(0), candidate.at(1)});
+  vessel.best = candidates_from(text.at("best"));
+  for (const json& list : text.at("lists")) vessel.lists.push_back(list_from(list));
   GripCounts& counts = vessel.counts;
   counts.grips = text.at("grips");
   counts.by_reason = text.at("by_reason");
@@ -118,6 +143,13 @@ std::string contradiction(const VesselProgress& vessel, const MarkBounds& bounds
   if (vessel.best.size() > bounds.best) return fmt::format("{} best grips are kept of {}", vessel.best.size(), bounds.best);
   for (const Candidate& candidate : vessel.best) {
     if (candidate.index >= vessel.done) return fmt::format("grip {} is one of the best of {}", candidate.index, vessel.done);
+  }
+  if (!vessel.lists.empty() && (vessel.lists.size() != bounds.lists || vessel.done < bounds.grips))
+    return fmt::format("{} of {} lists are begun at {} grips", vessel.lists.size(), bounds.lists, vessel.done);
+  for (const ListProgress& list : vessel.lists) {
+    if (list.chosen.size() > bounds.listed) return fmt::format("{} grips are chosen of {}", list.chosen.size(), bounds.listed);
+    for (const Candidate& candidate : list.chosen)
+      if (candidate.index >= vessel.done) return fmt::format("grip {} is chosen of {}", candidate.index, vessel.done);
   }
   std::uint64_t end = 0;
   for (const Stretch& stretch : vessel.stretches) {

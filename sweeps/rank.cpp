@@ -10,11 +10,11 @@
 #include <cstring>
 #include <set>
 
-#include "core/candidates.h"
 #include "core/core_backend.h"
 #include "core/error.h"
 #include "core/nearest_name.h"
 #include "shaders/layout.h"
+#include "sweeps/list_chooser.h"
 
 namespace wholehand {
 namespace {
@@ -210,30 +210,48 @@ std::vector<BestGrip> read_rows(const SweepResult& result, const Scene& scene, c
   return best;
 }
 
-// The candidates of every list of a vessel, and how many grips they are of.
-void rank_vessel(const SweepResult& result, const Scene& scene, const Plan& plan, std::size_t vessel, Scores& scores,
-                 const Where* where, std::vector<BestCandidates>& best, Ranking& ranking) {
+// Goes through the grips of a vessel and offers those of its lists; counts them in the first pass.
+void offer_grips(const SweepResult& result, const Scene& scene, const Plan& plan, std::size_t vessel, Scores& scores,
+                 const Where* where, ListChooser& chooser, Ranking* counted) {
   const Variable& plausible = *result.find("plausible");
   const std::vector<WhereValue> none;
   ConditionValues values(result, scene, plan, where ? where->values() : none);
   const std::size_t scales = plan.hand_scales();
   std::vector<double> is_plausible(GRIPS_AT_ONCE), score(GRIPS_AT_ONCE);
   std::vector<std::size_t> hands(GRIPS_AT_ONCE);
+  std::vector<Candidate> offered;
   for (std::uint64_t first = 0; first < plan.grips(); first += GRIPS_AT_ONCE) {
     const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(GRIPS_AT_ONCE, plan.grips() - first));
     result.read(plausible, vessel, 0, first, count, is_plausible.data());
     scores.read(vessel, first, count, score.data());
     plan.hand_scales_of(first, count, hands.data());
     values.read(vessel, first, count);
+    offered.clear();
     for (std::size_t i = 0; i < count; ++i) {
       if (is_plausible[i] != 1) continue;  // infeasible ones have none
       const std::size_t list = vessel * scales + hands[i];
-      ++ranking.plausible[list];
+      if (counted) ++counted->plausible[list];
       if (where && !where->holds(values.row(i))) continue;
-      ++ranking.matching[list];
-      best[list].offer({score[i], first + i});
+      if (counted) ++counted->matching[list];
+      offered.push_back({score[i], first + i});
     }
+    chooser.offer(offered);
   }
+}
+
+// The lists of a vessel, and how many grips they are of.
+std::vector<ListProgress> rank_vessel(const SweepResult& result, const Scene& scene, const Plan& plan, std::size_t vessel,
+                                      Scores& scores, const Where* where, const RankRequest& request, const Evaluator* core,
+                                      Ranking& ranking) {
+  const std::size_t pool = request.pool > 0 ? request.pool : usual_pool(plan, request.best, request.apart);
+  ListChooser chooser(plan, core, vessel, {request.best, request.apart, pool, 0});
+  Ranking* counted = &ranking;
+  do {
+    offer_grips(result, scene, plan, vessel, scores, where, chooser, counted);
+    chooser.end_pass();
+    counted = nullptr;
+  } while (!chooser.is_complete());
+  return chooser.progress();
 }
 
 }  // namespace
@@ -301,18 +319,21 @@ Ranking rank_grips(const SweepResult& result, const Scene& scene, const Plan& pl
   const std::unique_ptr<const Where> where = request.where.empty() ? nullptr : std::make_unique<Where>(request.where, names);
   const std::size_t scales = plan.hand_scales(), lists = scene.vessels.size() * scales;
   Ranking ranking{{}, std::vector<std::uint64_t>(lists, 0), std::vector<std::uint64_t>(lists, 0), ""};
-  std::vector<BestCandidates> best(lists, BestCandidates(request.best));
-  for (std::size_t v = 0; v < scene.vessels.size(); ++v) rank_vessel(result, scene, plan, v, scores, where.get(), best, ranking);
+  const std::shared_ptr<const Evaluator> posing = request.apart > 0 ? open_core() : nullptr;
+  std::vector<ListProgress> best;
+  for (std::size_t v = 0; v < scene.vessels.size(); ++v)
+    for (ListProgress& list : rank_vessel(result, scene, plan, v, scores, where.get(), request, posing.get(), ranking))
+      best.push_back(std::move(list));
   const auto rows = row_variables(scene);
   const bool is_whole = std::all_of(rows.begin(), rows.end(), [&](const std::string& name) { return result.find(name); });
   std::unique_ptr<CoreBackend> core;
   if (!is_whole) {
-    core = std::make_unique<CoreBackend>(open_core(), scene, make_field_set(best_fields(scene), scene), Precision::full, 0);
+    core = std::make_unique<CoreBackend>(posing ? posing : open_core(), scene, make_field_set(best_fields(scene), scene), Precision::full, 0);
     ranking.note =
         "the file lacks some columns of the table: apart from places and scores, the core computed them in double precision";
   }
   for (std::size_t list = 0; list < lists; ++list) {
-    const std::vector<Candidate> chosen = best[list].sorted();
+    const std::vector<Candidate>& chosen = best[list].chosen;
     auto grips =
         is_whole ? read_rows(result, scene, plan, list / scales, chosen) : evaluate_best(*core, scene, plan, list / scales, chosen);
     for (std::size_t i = 0; i < grips.size(); ++i) {

@@ -28,6 +28,8 @@ struct RankRequest {
   std::string weights;   // as of read_weights; empty: the sweep's own scores
   std::string where;     // empty: all grips
   std::size_t best = 0;  // grips a list at most
+  double apart = 0;      // m, that some joint of the hand moves from one listed grip to any other (sweeps/list_chooser.h)
+  std::size_t pool = 0;  // grips of a list that one pass keeps; 0: usual_pool
 };
 
 struct Ranking {
@@ -37,7 +39,7 @@ struct Ranking {
   std::string note;                          // for the user: what is not from the file; empty: everything is
 };
 
-// Goes through the file in blocks, so that memory does not depend on the number of grips. Only feasible, plausible grips are listed, by score, then by
+// Goes through the file in blocks, as often as ListChooser needs, so that memory does not depend on the number of grips. Only feasible, plausible grips are listed, by score, then by
 // their number, as a sweep lists them; with the sweep's own weights the scores are the file's. What else is told of them is the file's or, where
 // that lacks some of it, the core's. Throws Error (usage): read_weights, Where, or values that the file lacks, with what to keep.
 Ranking rank_grips(const SweepResult& result, const Scene& scene, const Plan& plan, const RankRequest& request,

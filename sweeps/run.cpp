@@ -18,6 +18,7 @@
 #include "sweeps/companions.h"
 #include "sweeps/explain.h"
 #include "sweeps/hand_lists.h"
+#include "sweeps/list_chooser.h"
 #include "sweeps/result_file.h"
 #include "sweeps/resume.h"
 #include "sweeps/tally.h"
@@ -84,7 +85,9 @@ class Sweep {
     say_cavity_notes(scene_);
     const Plan plan(scene_, keeps_vectors(variables_));
     backend_ = parts_.open_backend(make_field_set(swept_fields(plan), scene_));
-    std::vector<VesselFacts> facts = vessel_facts(scene_, *backend_, *parts_.open_evaluator());
+    evaluator_ = parts_.open_evaluator();
+    std::vector<VesselFacts> facts = vessel_facts(scene_, *backend_, *evaluator_);
+    if (scene_.output.apart == 0) evaluator_.reset();
     fmt::print("{}{}", opening_lines(scene_, plan, backend_->info()), vessel_lines(scene_, facts));
     std::fflush(stdout);
     if (options_.explain) {
@@ -103,8 +106,15 @@ class Sweep {
   }
 
  private:
-  bool ranks_here(const Plan& plan) const { return best_wanted_ > 0 && plan.hand_scales() > 1; }
-  // What is read back: a device chooses the best of all hands together, so of several hand scales the scores are chosen from here.
+  // Whether the best grips have to differ.
+  bool is_choosy() const { return best_wanted_ > 0 && scene_.output.apart > 0; }
+  // Grips of a list that one pass keeps.
+  std::size_t pool(const Plan& plan) const {
+    return options_.pool > 0 && is_choosy() ? options_.pool : usual_pool(plan, best_wanted_, scene_.output.apart);
+  }
+  bool ranks_here(const Plan& plan) const { return best_wanted_ > 0 && (is_choosy() || plan.hand_scales() > 1); }
+  // What is read back: a device chooses a few of the best of all hands together. Of several hand scales, and where grips have to differ, the
+  // scores are chosen from here.
   std::vector<int> swept_fields(const Plan& plan) const {
     const std::vector<int> kept = variable_fields(variables_);
     std::set<int> fields(kept.begin(), kept.end());
@@ -135,7 +145,12 @@ class Sweep {
   // What a mark of this sweep can say at most.
   MarkBounds bounds(const Plan& plan) const {
     const bool has_stretches = !variables_.empty();
-    return {scene_.vessels.size(), plan.grips(), best_wanted_ * plan.hand_scales(), has_stretches,
+    return {scene_.vessels.size(),
+            plan.grips(),
+            (is_choosy() ? std::max(best_wanted_, pool(plan)) : best_wanted_) * plan.hand_scales(),
+            is_choosy() ? plan.hand_scales() : 0,
+            best_wanted_,
+            has_stretches,
             has_stretches && has_field(FIELD_STATUS)};
   }
 
@@ -228,6 +243,8 @@ class Sweep {
         if (since(last_mark_) >= mark_interval_ && done() < total(plan)) save(file);
       }
       file.start_sync();
+      progress.clear();
+      if (is_choosy() && !choose(v, plan, file, interrupt)) return false;
     }
     return true;
   }
@@ -241,7 +258,7 @@ class Sweep {
     RunRequest request = grips_of(v, plan, interrupt);
     request.first = vessel.done;
     request.last = plan.grips();
-    HandLists best(plan, best_wanted_, vessel.best);
+    HandLists best(plan, is_choosy() ? pool(plan) : best_wanted_, vessel.best);
     request.best = ranks_here(plan) ? 0 : best_wanted_;
     request.sink = [&](const PlaneChunk& chunk) {
       const double start = monotonic_now();
@@ -273,11 +290,67 @@ class Sweep {
     }
     kernel_seconds_ += result.kernel_seconds;
     mark_.kernel_seconds += result.kernel_seconds;
-    for (const std::string& line : result.notes) {
+    say_once(result.notes, progress);
+  }
+
+  void say_once(const std::vector<std::string>& notes, Progress& progress) {
+    for (const std::string& line : notes) {
       if (!said_.insert(line).second) continue;
       progress.clear();
       say_note(line);
     }
+  }
+
+  // The lists of a vessel whose grips were all computed, out of the best of them and in further passes over all where it takes these.
+  // False: interrupted; the mark has what is decided.
+  bool choose(std::size_t v, const Plan& plan, ResultFile& file, InterruptGuard& interrupt) {
+    VesselProgress& vessel = mark_.vessels[v];
+    const bool is_first = vessel.lists.empty();
+    ListChooser chooser(plan, evaluator_.get(), v, {best_wanted_, scene_.output.apart, pool(plan), options_.threads}, vessel.lists);
+    if (is_first) {
+      chooser.offer(vessel.best);
+      end_pass(chooser, vessel);
+    }
+    while (!chooser.is_complete()) {
+      if (interrupt.signalled() || !pass_again(v, plan, chooser, interrupt)) {
+        save(file);
+        return false;
+      }
+      end_pass(chooser, vessel);
+      if (since(last_mark_) >= mark_interval_) save(file);
+    }
+    return true;
+  }
+
+  static void end_pass(ListChooser& chooser, VesselProgress& vessel) {
+    chooser.end_pass();
+    vessel.lists = chooser.progress();
+    vessel.best = chooser.chosen();
+  }
+
+  // All grips of a vessel once more, for the chooser alone. False: interrupted.
+  bool pass_again(std::size_t v, const Plan& plan, ListChooser& chooser, InterruptGuard& interrupt) {
+    Progress progress(plan.grips(), 0);
+    std::uint64_t delivered = 0;
+    RunRequest request = grips_of(v, plan, interrupt);
+    request.last = plan.grips();
+    std::vector<Candidate> eligible;
+    request.sink = [&](const PlaneChunk& chunk) {
+      const double start = monotonic_now();
+      eligible.clear();
+      add_eligible(chunk, backend_->fields(), eligible);
+      chooser.offer(eligible);
+      delivered += chunk.count;
+      progress.update(scene_.vessels[v].name + ", again for different best grips", delivered);
+      wait_seconds_ -= since(start);
+    };
+    const double start = monotonic_now();
+    const RunResult result = backend_->run(request);
+    wait_seconds_ += since(start);
+    kernel_seconds_ += result.kernel_seconds;
+    mark_.kernel_seconds += result.kernel_seconds;
+    say_once(result.notes, progress);
+    return result.done == plan.grips();
   }
 
   // Everything up to here onto the disk, then the mark that says so.
@@ -330,6 +403,7 @@ class Sweep {
   std::size_t best_wanted_;
   std::vector<const Variable*> variables_;
   std::unique_ptr<Backend> backend_;
+  std::unique_ptr<Evaluator> evaluator_;  // that poses the hands of the best grips; null where these need not differ
   std::vector<HeatMap> maps_;  // one per vessel
   SweepMark mark_;
   bool is_marked_ = false;  // there is a mark of this sweep

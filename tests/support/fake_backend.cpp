@@ -57,6 +57,7 @@ Scene fake_scene() {
   scene.grips.roll = range_axis(radians(-90), radians(30), 4);
   scene.grips.offset.values = {0, 5e-3};
   scene.output.best = 6;
+  scene.output.apart = 0;
   return scene;
 }
 
@@ -83,6 +84,15 @@ std::uint32_t fake_uint(std::size_t vessel, const GripInput& grip, int field) {
   if (reason != REASON_NONE) return 0;
   return static_cast<std::uint32_t>(h) & (field == FIELD_USED_MASK ? 0x1Fu : 0xFFFFFFu);
 }
+
+std::optional<PosedHand> fake_hand(std::size_t vessel, const GripInput& grip) {
+  if (fake_reason(vessel, grip) != REASON_NONE) return std::nullopt;
+  PosedHand hand;
+  for (int j = 0; j < JOINT_COUNT; ++j) hand[j] = {grip.height + grip.offset + 0.01 * j, grip.obliquity, grip.roll};
+  return hand;
+}
+
+std::optional<PosedHand> FakeEvaluator::posed(std::size_t vessel, const GripInput& grip) const { return fake_hand(vessel, grip); }
 
 LiquidResult FakeEvaluator::liquid(std::size_t vessel, double fill, double tilt) const {
   const double volume = fill * capacity(vessel) * (1 - tilt / 10);

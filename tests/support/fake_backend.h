@@ -20,6 +20,9 @@ double fake_real(std::size_t vessel, const GripInput& grip, int field, int plane
 // Status and masks. One grip in five is infeasible, for each of the reasons; one in four of the others is implausible.
 std::uint32_t fake_uint(std::size_t vessel, const GripInput& grip, int field);
 
+// A hand that is moved as a whole: (height, obliquity, roll) as a place, the offset added to the height; nothing of an infeasible grip.
+std::optional<PosedHand> fake_hand(std::size_t vessel, const GripInput& grip);
+
 class FakeEvaluator : public Evaluator {
  public:
   explicit FakeEvaluator(const Scene& scene) : scene_(scene) {}
@@ -38,6 +41,7 @@ class FakeEvaluator : public Evaluator {
     return {1e-4 * k, 0.1 * k, {0, 0.05 * k, 0}, 0, 0, 0, 0};
   }
   double pouring_tilt(std::size_t, double fill) const override;
+  std::optional<PosedHand> posed(std::size_t vessel, const GripInput& grip) const override;
   double gap_at(double closure) const override { return 0.1 * (1 - closure); }
 
   // Called before every chunk, from any thread: to wait, or to throw.

@@ -49,6 +49,7 @@ deg = [0, 45, 90, 135]
 
 [output]
 best = 5
+apart_mm = 0
 )toml";
 
 void write_result(const Scene& scene, const std::string& path, Precision precision, bool has_ending) {
