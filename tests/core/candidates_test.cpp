@@ -54,5 +54,16 @@ TEST(Candidates, FewerThanWantedAreAllKept) {
   EXPECT_TRUE(none.sorted().empty());
 }
 
+TEST(Candidates, WhatIsTakenIsKnownBefore) {
+  BestCandidates best(20);
+  for (const Candidate& candidate : many()) {
+    const bool takes = best.takes(candidate);
+    best.offer(candidate);
+    const std::vector<Candidate> kept = best.sorted();
+    EXPECT_EQ(takes, std::any_of(kept.begin(), kept.end(), [&](const Candidate& other) { return other.index == candidate.index; }));
+  }
+  EXPECT_FALSE(BestCandidates(0).takes({1, 0}));
+}
+
 }  // namespace
 }  // namespace wholehand

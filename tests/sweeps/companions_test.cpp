@@ -38,7 +38,7 @@ TEST(Companions, ForeignFilesAreRefusedAndOwnOnesAreNot) {
         Case{"a.second.svg", "<?xml version=\"1.0\"?>\n<svg>\n<title>wholehand</title>", "<svg><title>my drawing</title></svg>"},
         Case{"a.first_vessel.2.glb", "glTF....JSON{\"asset\":{\"generator\":\"wholehand 1\"}}", "glTF....JSON{\"asset\":{}}"},
         Case{"a.nc.partial", "\x89HDF\r\n\x1a\n", "a text of mine"},
-        Case{"a.nc.partial.mark", "wholehand mark 2 00\n{}", "a text of mine"}}) {
+        Case{"a.nc.partial.mark", "wholehand mark 3 00\n{}", "a text of mine"}}) {
     const std::string path = folder / name;
     std::ofstream(path) << foreign;
     const std::string line = companion_refusal(scene, names, true, true, 2);

@@ -29,6 +29,7 @@ SweepMark some_mark() {
   vessel.stretches = {{0, 5, "ab"}, {5, vessel.done, "cd"}};
   vessel.counts = {11, {1, 2, 3, 4, 5, 6, 7}, 8, 9, 10};
   vessel.heat_map = {1.0 / 7, NAN, 0};
+  vessel.lists = {{{{1.0 / 9, 3}, {0.1, 4}}, Candidate{0.1, 9}, false}, {{}, {}, true}};
   mark.in_place = {{100, 20}, {std::uint64_t{1} << 50, 8}};
   mark.structure = "0123";
   return mark;
@@ -55,6 +56,17 @@ TEST(Mark, ComesBackBitForBit) {
   EXPECT_EQ(a.best[0].score, b.best[0].score);
   EXPECT_EQ(a.best[1].score, b.best[1].score);
   EXPECT_EQ(a.best[1].index, b.best[1].index);
+  ASSERT_EQ(a.lists.size(), 2u);
+  ASSERT_EQ(a.lists[0].chosen.size(), 2u);
+  EXPECT_EQ(a.lists[0].chosen[0].score, 1.0 / 9);
+  EXPECT_EQ(a.lists[0].chosen[1].index, 4u);
+  ASSERT_TRUE(a.lists[0].decided);
+  EXPECT_EQ(a.lists[0].decided->score, 0.1);
+  EXPECT_EQ(a.lists[0].decided->index, 9u);
+  EXPECT_FALSE(a.lists[0].is_complete);
+  EXPECT_TRUE(a.lists[1].chosen.empty());
+  EXPECT_FALSE(a.lists[1].decided);
+  EXPECT_TRUE(a.lists[1].is_complete);
   EXPECT_EQ(a.counts.by_reason, b.counts.by_reason);
   EXPECT_EQ(a.counts.blocked, 10u);
   ASSERT_EQ(a.heat_map.size(), 3u);
@@ -105,7 +117,8 @@ TEST(Mark, WhatNoSweepCanHaveDoneIsRefused) {
   vessel.counts.by_reason = {4, 6};
   vessel.best = {{0.5, 9}};
   vessel.stretches = {{0, 7, "a"}, {7, 10, "b"}};
-  const MarkBounds bounds{1, 10, 1, true, true};
+  vessel.lists = {{{{0.5, 9}}, Candidate{0.5, 9}, false}, {}};
+  const MarkBounds bounds{1, 10, 1, 2, 1, true, true};
   EXPECT_NO_THROW(check_progress("m", mark, bounds));
   const auto refused = [&](const std::string& gist, const std::function<void(SweepMark&)>& change) {
     SweepMark changed = mark;
@@ -126,6 +139,15 @@ TEST(Mark, WhatNoSweepCanHaveDoneIsRefused) {
   refused("grip 10 is one of the best of 10", [](SweepMark& m) { m.vessels[0].best[0].index = 10; });
   refused("a stretch from 6 follows 7", [](SweepMark& m) { m.vessels[0].stretches[1].first = 6; });
   refused("10 grips are done and 7 have a checksum", [](SweepMark& m) { m.vessels[0].stretches.pop_back(); });
+  refused("1 of 2 lists are begun at 10 grips", [](SweepMark& m) { m.vessels[0].lists.pop_back(); });
+  refused("2 of 2 lists are begun at 7 grips", [](SweepMark& m) {
+    VesselProgress& v = m.vessels[0];
+    v.done = v.counts.grips = 7;
+    v.counts.by_reason = {7};
+    v.best[0].index = 6;
+  });
+  refused("2 grips are chosen of 1", [](SweepMark& m) { m.vessels[0].lists[1].chosen = {{0.4, 1}, {0.3, 1}}; });
+  refused("grip 10 is chosen of 10", [](SweepMark& m) { m.vessels[0].lists[0].chosen[0].index = 10; });
 }
 
 TEST(Mark, DifferenceIsNamed) {

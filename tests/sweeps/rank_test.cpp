@@ -9,9 +9,13 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <optional>
 
 #include "core/error.h"
+#include "sweeps/different_grips.h"
+#include "sweeps/run.h"
 #include "tests/support/result_reader.h"
+#include "tests/support/scene_texts.h"
 #include "tests/support/sweep_results.h"
 
 namespace wholehand {
@@ -317,6 +321,84 @@ TEST(Rank, EachHandScaleHasAListOfItsOwn) {
     }
     EXPECT_EQ(list_name(swept.scene, *swept.plan, 3), "flask, hand scale 0.9");
     EXPECT_EQ(list_file_parts(swept.scene, *swept.plan)[1], "cup.hand0.9");
+  }
+}
+
+// Grips of a list by the definition: each compared with all before, at the hands of the core's whole answers.
+std::vector<std::uint64_t> different(const SweptScene& swept, std::size_t vessel, const std::vector<std::uint64_t>& in_order,
+                                     std::size_t best, double apart) {
+  const auto core = make_core_evaluator(swept.scene);
+  std::vector<std::uint64_t> taken;
+  std::vector<std::optional<PosedHand>> hands;
+  for (const std::uint64_t grip : in_order) {
+    if (taken.size() == best) break;
+    GripResult whole;
+    core->grip(vessel, swept.plan->grip(vessel, grip), whole);
+    const std::optional<PosedHand> hand = whole.reason == Reason::none ? std::optional(whole.posed) : std::nullopt;
+    if (!std::all_of(hands.begin(), hands.end(), [&](const auto& other) { return are_different(hand, other, apart); })) continue;
+    taken.push_back(grip);
+    hands.push_back(hand);
+  }
+  return taken;
+}
+
+TEST(Rank, DifferentGripsAreThoseOfTheDefinition) {
+  for (const Precision precision : {Precision::single, Precision::full}) {
+    const SweptScene swept(RESULT_SCENE, precision);
+    for (const char* weights : {"depth=0.4", "force=0.6,contacts=0"}) {
+      const auto used = read_weights(weights, swept.scene);
+      for (const bool all : {true, false}) {
+        const auto matches = [&](FileValues& file, std::uint64_t grip) { return all || file.of("fingers_used", 0, grip) >= 3; };
+        for (const double apart : {5e-3, 25e-3, 80e-3}) {
+          for (const std::size_t pool : {std::size_t{1}, std::size_t{3}, std::size_t{0}}) {
+            const Ranking ranking = ranked(swept, {weights, all ? "" : "fingers_used >= 3", 8, apart, pool});
+            const std::size_t vessels = all ? 2 : 1;  // the condition above looks at the first vessel
+            for (std::size_t v = 0; v < vessels; ++v) {
+              const auto in_order = by_hand(swept, v, used, matches, swept.plan->grips());
+              EXPECT_EQ(numbers_of(ranking.lists[v]), different(swept, v, in_order, 8, apart)) << apart << " " << pool;
+              if (all) {
+                EXPECT_EQ(ranking.matching[v], in_order.size()) << "counted in one pass alone";
+              }
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(Rank, NearGripsAreLeftOut) {
+  const SweptScene swept(RESULT_SCENE);
+  const Ranking near = ranked(swept, {"", "", 8}), apart = ranked(swept, {"", "", 8, 80e-3, 0});
+  for (std::size_t v = 0; v < 2; ++v) {
+    ASSERT_FALSE(near.lists[v].empty());
+    EXPECT_EQ(numbers_of(near.lists[v])[0], numbers_of(apart.lists[v])[0]) << "the best is the best";
+    EXPECT_NE(numbers_of(near.lists[v]), numbers_of(apart.lists[v]));
+  }
+}
+
+TEST(Rank, WithTheSweepsDistanceItIsTheSweepsOwnList) {
+  const TemporaryFolder folder;
+  Scene scene = scene_from(edited(RESULT_SCENE, "apart_mm = 0", "apart_mm = 40"));
+  SweepOptions options;
+  options.output = folder / "a.nc";
+  options.on = "core";
+  for (const Precision precision : {Precision::full, Precision::single}) {
+    options.precision = precision;
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(run_sweep(scene, options), ExitCode::done);
+    testing::internal::GetCapturedStdout();
+    SweepResult result(options.output);
+    const Plan plan(scene, keeps_vectors(result.variables()));
+    result.use(scene, plan);
+    const Ranking ranking =
+        rank_grips(result, scene, plan, {"", "", 5, scene.output.apart, 2}, [&] { return make_core_evaluator(scene); });
+    for (std::size_t v = 0; v < 2; ++v) {
+      std::vector<std::uint64_t> own;
+      for (const Candidate& candidate : result.best(v)) own.push_back(candidate.index);
+      EXPECT_EQ(numbers_of(ranking.lists[v]), own);
+      EXPECT_FALSE(own.empty());
+    }
   }
 }
 

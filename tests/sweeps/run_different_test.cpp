@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+// Sweeps whose best grips have to differ, against a choice among all grips at hand.
+// sanitizers: address thread
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+
+#include "core/candidates.h"
+#include "sweeps/different_grips.h"
+#include "sweeps/mark.h"
+#include "sweeps/variables.h"
+#include "tests/support/fake_backend.h"
+#include "tests/support/sweep_trial.h"
+
+namespace wholehand {
+namespace {
+
+constexpr double APART = 0.3;  // as fake hands lie: a handful of grips is near each other
+
+Scene choosy_scene() {
+  Scene scene = fake_scene();
+  scene.output.apart = APART;
+  return scene;
+}
+
+// The listed grips of a vessel and hand scale (0: any) by the definition, over the stand-ins.
+std::vector<std::uint64_t> listed(const Scene& scene, const Plan& plan, std::size_t vessel, double hand_scale) {
+  std::vector<Candidate> grips;
+  for (std::uint64_t i = 0; i < plan.grips(); ++i) {
+    const GripInput grip = plan.grip(vessel, i);
+    const std::uint32_t status = fake_uint(vessel, grip, FIELD_STATUS);
+    if ((status & STATUS_REASON_MASK) != REASON_NONE || (status & STATUS_PLAUSIBLE) == 0) continue;
+    if (hand_scale != 0 && grip.hand_scale != hand_scale) continue;
+    grips.push_back({fake_real(vessel, grip, FIELD_SCORE, 0), i});
+  }
+  std::sort(grips.begin(), grips.end(), is_better);
+  std::vector<std::uint64_t> taken;
+  for (const Candidate& grip : grips) {
+    const auto hand = fake_hand(vessel, plan.grip(vessel, grip.index));
+    const bool differs = std::all_of(taken.begin(), taken.end(), [&](std::uint64_t other) {
+      return are_different(hand, fake_hand(vessel, plan.grip(vessel, other)), scene.output.apart);
+    });
+    if (differs && taken.size() < static_cast<std::size_t>(scene.output.best)) taken.push_back(grip.index);
+  }
+  return taken;
+}
+
+void expect_listed(const std::string& file, const Scene& scene) {
+  const Plan plan(scene, keeps_vectors(choose_variables(scene)));
+  const auto grips = read_values(file, "best_grip"), scores = read_values(file, "best_score");
+  const auto best = static_cast<std::size_t>(scene.output.best);
+  ASSERT_EQ(grips.size(), scene.vessels.size() * plan.hand_scales() * best);
+  for (std::size_t list = 0; list * best < grips.size(); ++list) {
+    const std::size_t v = list / plan.hand_scales();
+    const double hand = plan.hand_scales() > 1 ? plan.hand_scale(list % plan.hand_scales()) : 0;
+    const auto expected = listed(scene, plan, v, hand);
+    for (std::size_t rank = 0; rank < best; ++rank) {
+      const std::size_t at = list * best + rank;
+      EXPECT_EQ(grips[at], rank < expected.size() ? static_cast<double>(expected[rank]) : -1) << list << " " << rank;
+      if (rank < expected.size()) {
+        EXPECT_EQ(scores[at], fake_real(v, plan.grip(v, expected[rank]), FIELD_SCORE, 0));
+      }
+    }
+  }
+}
+
+TEST_F(RunTest, DifferentBestGripsAreThoseOfTheDefinition) {
+  std::size_t not_the_best = 0;
+  for (const bool is_sobol : {false, true}) {
+    for (const bool several_hands : {false, true}) {
+      for (const bool keeps : {true, false}) {
+        for (const std::size_t pool : {std::size_t{1}, std::size_t{5}, std::size_t{0}}) {
+          for (const int best : {3, 40}) {
+            SweepTrial trial(folder / "a.nc");
+            trial.scene = choosy_scene();
+            trial.scene.output.best = best;
+            if (keeps) {
+              trial.scene.output.keep = {{"gap"}};
+            } else {
+              trial.scene.output.keep = std::vector<std::string>{};
+            }
+            if (several_hands) trial.scene.grips.hand_scale.values = {1.1, 0.9};
+            if (is_sobol) {
+              trial.scene.grips.sampling = Sampling::sobol;
+              trial.scene.grips.count = 300;
+            }
+            trial.options.pool = pool;
+            const TrialOutcome outcome = trial.run();
+            ASSERT_EQ(outcome.code, ExitCode::done) << outcome.error;
+            expect_listed(folder / "a.nc", trial.scene);
+            const auto chosen = read_values(folder / "a.nc", "best_grip");
+            trial.scene.output.apart = 0;
+            ASSERT_EQ(trial.run().code, ExitCode::done);
+            not_the_best += chosen != read_values(folder / "a.nc", "best_grip");
+            expect_listed(folder / "a.nc", trial.scene);
+          }
+        }
+      }
+    }
+  }
+  EXPECT_EQ(not_the_best, 2u * 2 * 2 * 3 * 2) << "else the scene says nothing";
+}
+
+TEST_F(RunTest, InSinglePrecisionTheListIsTheSame) {
+  SweepTrial trial(folder / "a.nc");
+  trial.scene = choosy_scene();
+  trial.precision = Precision::single;
+  trial.options.precision = Precision::single;
+  trial.options.pool = 5;
+  ASSERT_EQ(trial.run().code, ExitCode::done);
+  expect_listed(folder / "a.nc", trial.scene);  // the stand-ins' scores are the same in both
+}
+
+TEST_F(RunTest, AnInterruptInAnyPassLosesNothing) {
+  const std::string expected = reference(choosy_scene());
+  int runs = 0;
+  {
+    SweepTrial whole(folder / "b.nc");
+    whole.scene = choosy_scene();
+    whole.options.pool = 1;
+    whole.before_run = [&] { ++runs; };
+    ASSERT_EQ(whole.run().code, ExitCode::done);
+    expect_same_as(expected, folder / "b.nc");
+  }
+  ASSERT_GT(runs, 8) << "two vessels, their further passes, and the best grips";
+  for (int stop = 1; stop <= runs - 2; ++stop) {
+    for (const bool at_once : {true, false}) {
+      SweepTrial trial(folder / "a.nc");
+      trial.scene = choosy_scene();
+      trial.options.pool = 1;
+      trial.options.mark_seconds = 0;
+      int run = 0, chunk = 0;
+      trial.before_run = [&] {
+        if (++run == stop && at_once) raise(SIGINT);
+        chunk = 0;
+      };
+      trial.before_chunk = [&] {
+        if (run == stop && !at_once && ++chunk == 3) raise(SIGINT);
+      };
+      const TrialOutcome outcome = trial.run();
+      ASSERT_EQ(outcome.code, ExitCode::interrupted) << stop << outcome.error;
+      SweepTrial rest(folder / "a.nc");
+      rest.scene = choosy_scene();
+      rest.options.pool = 1;
+      rest.options.resume = true;
+      int runs_of_rest = 0;
+      rest.before_run = [&] { ++runs_of_rest; };
+      const TrialOutcome resumed = rest.run();
+      ASSERT_EQ(resumed.code, ExitCode::done) << stop << resumed.error;
+      EXPECT_LE(runs_of_rest, runs - stop + 1) << "passes that were ended are not made again";
+      expect_same_as(expected, folder / "a.nc");
+      std::filesystem::remove(folder / "a.nc");
+    }
+  }
+}
+
+TEST_F(RunTest, OnePassIsEnoughWhereTheListFills) {
+  SweepTrial trial(folder / "a.nc");
+  trial.scene = choosy_scene();
+  int runs = 0;
+  trial.before_run = [&] { ++runs; };
+  ASSERT_EQ(trial.run().code, ExitCode::done);
+  EXPECT_EQ(runs, 2 + 2) << "each vessel, and its best grips once more";
+}
+
+}  // namespace
+}  // namespace wholehand
