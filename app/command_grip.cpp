@@ -44,7 +44,7 @@ struct GripArguments {
   std::string rank, list;
   std::vector<std::string> fills, volumes, tilts;
   std::string on = "core", precision, glb, svg, view_port;
-  bool json = false, view = false, quality = false;
+  bool json = false, view = false, quality = false, refined = false;
 };
 
 std::size_t find_vessel(const Scene& scene, const std::string& name) {
@@ -139,6 +139,7 @@ struct ChosenGrip {
 };
 
 ChosenGrip asked_grip(const GripArguments& arguments) {
+  if (arguments.refined) throw usage_error("--refined: the rank of the grip is missing; give --rank");
   if (!arguments.list.empty()) throw usage_error("--list: the rank of the grip is missing; give --rank");
   if (is_result(arguments.scene))
     throw usage_error(fmt::format("{}: this is a result, and the rank of the grip is missing; give --rank", arguments.scene));
@@ -167,6 +168,14 @@ std::size_t find_hand_scale(const GripArguments& arguments, const Plan& plan) {
                                 fmt::join(known, ", ")));
 }
 
+// Where the sweep refined the grip of a rank.
+GripInput refined_grip(const SweepResult& result, const Plan& plan, std::size_t vessel, std::size_t list, std::size_t rank) {
+  const auto refined = result.refined(vessel, list % plan.hand_scales());
+  if (!refined[rank - 1])
+    throw usage_error(fmt::format("--refined: {} has no refined grip of rank {}; sweep again without --no-refine", result.path(), rank));
+  return *refined[rank - 1];
+}
+
 // A grip of a sweep's best, or of a list that was made of its result.
 ChosenGrip ranked_grip(const GripArguments& arguments) {
   const auto rank = static_cast<std::size_t>(parse_integer(arguments.rank, "--rank", {1, ranges::BEST.high}));
@@ -178,12 +187,14 @@ ChosenGrip ranked_grip(const GripArguments& arguments) {
   const Plan plan(chosen.scene, keeps_vectors(result.variables()));
   result.use(chosen.scene, plan);
   const bool is_own = arguments.list.empty();
+  if (arguments.refined && !is_own) throw usage_error("--refined: only the sweep's own list has refined grips; leave --list out");
   const GripLists lists =
       is_own ? lists_of_sweep(result, chosen.scene, plan) : read_grip_lists(arguments.list, result, chosen.scene, plan);
   const std::size_t place = chosen.vessel * plan.hand_scales() + find_hand_scale(arguments, plan);
   for (const RankedCandidate& ranked : lists[place]) {
     if (ranked.rank != rank) continue;
     chosen.input = plan.grip(chosen.vessel, ranked.candidate.index);
+    if (arguments.refined) chosen.input = refined_grip(result, plan, chosen.vessel, place, rank);
     return chosen;
   }
   throw usage_error(fmt::format("--rank {}: {} lists {} grip{} of {}", rank, is_own ? result.path() : arguments.list,
@@ -261,6 +272,7 @@ void add_grip_command(CLI::App& app, Action& action) {
   add("--list", arguments->list, "LIST.csv",
       "With --rank: take the grip from this list of `wholehand rank` (default: the sweep's own list)")
       ->check(not_empty());
+  command->add_flag("--refined", arguments->refined, "With --rank: the grip where the sweep refined it, not where it swept it");
   auto* fill = add("--fill", arguments->fills, "F", "Fills, as fractions of the capacity (default: the scene's)");
   add("--fill-ml", arguments->volumes, "V", "Instead of --fill: fills in mL")->excludes(fill);
   add("--tilt-deg", arguments->tilts, "T", "Tilts (default: the scene's)");

@@ -18,7 +18,7 @@ namespace {
 
 struct SweepArguments {
   std::string scene, output, on = "vulkan", precision, best, glb, threads;
-  bool resume = false, explain = false;
+  bool resume = false, explain = false, no_refine = false;
 };
 
 ExitCode sweep(const SweepArguments& arguments) {
@@ -32,6 +32,7 @@ ExitCode sweep(const SweepArguments& arguments) {
     options.threads = static_cast<int>(parse_integer(arguments.threads, "--threads", ranges::THREADS));
   options.resume = arguments.resume;
   options.explain = arguments.explain;
+  options.refine = !arguments.no_refine;
   options.warn = say_float_warnings;
   prepare_vulkan_environment(options.on);
   return run_sweep(read_scene_file(find_scene(arguments.scene)), options);
@@ -60,6 +61,7 @@ void add_sweep_command(CLI::App& app, Action& action) {
   command->add_option("--threads", arguments->threads, "Number of threads of the core (default: all)")->type_name("N");
   command->add_flag("--resume", arguments->resume, "Continue an interrupted sweep where it ended");
   command->add_flag("--explain", arguments->explain, "Print what the sweep left out and what this saved");
+  command->add_flag("--no-refine", arguments->no_refine, "Do not look for better grips near the best ones");
   command->callback([arguments, &action] { action = [arguments] { return sweep(*arguments); }; });
 }
 

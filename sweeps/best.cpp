@@ -113,7 +113,8 @@ std::string best_csv(const Scene& scene, const Plan& plan, const std::vector<std
       "azimuth_deg,obliquity_deg,roll_deg,offset_mm,hand_scale,score,score_fingers,score_contacts,score_"
       "depth,"
       "score_posture,score_force,score_hold,closure,gap_mm,fingers_used,points_touching,phalanx_depth_mm,palm_depth_mm,"
-      "peak_feedback_force_N,peak_feedback_tilt_deg,largest_hold_force_N,largest_safe_tilt_deg,antipodal,grip,result,sweep\n";
+      "peak_feedback_force_N,peak_feedback_tilt_deg,largest_hold_force_N,largest_safe_tilt_deg,antipodal,refined_score,refined_height_mm,"
+      "refined_azimuth_deg,refined_obliquity_deg,refined_roll_deg,refined_offset_mm,grip,result,sweep\n";
   for (std::size_t list = 0; list < lists.size(); ++list) {
     const std::string& vessel = scene.vessels[list / plan.hand_scales()].name;
     for (const BestGrip& best : lists[list]) {
@@ -129,6 +130,11 @@ std::string best_csv(const Scene& scene, const Plan& plan, const std::vector<std
                      {best.closure, best.gap * 1e3, static_cast<double>(best.fingers_used),
                       static_cast<double>(best.points_touching), best.phalanx_depth * 1e3, best.palm_depth * 1e3, best.peak_force,
                       degrees(best.peak_tilt), best.largest_hold, degrees(best.safe_tilt), best.antipodal ? 1.0 : 0.0});
+      const GripInput& refined = best.refined;
+      const bool is_refined = !std::isnan(best.refined_score);
+      for (const double number : {best.refined_score, refined.height * 1e3, degrees(refined.azimuth), degrees(refined.obliquity),
+                                  degrees(refined.roll), refined.offset * 1e3})
+        numbers.push_back(is_refined ? number : NOT_A_NUMBER);
       csv += fmt::format("{},{}", csv_text(vessel), best.rank);
       for (const double number : numbers) csv += "," + csv_number(number);
       csv += fmt::format(",{},{},{}\n", best.candidate.index, csv_text(origin.result), origin.sweep);
@@ -139,6 +145,8 @@ std::string best_csv(const Scene& scene, const Plan& plan, const std::vector<std
 
 std::string best_table(const Scene& scene, const Plan& plan, const std::vector<BestGrip>& best, std::size_t rows) {
   std::vector<Column> columns{{"score", [](const BestGrip& b) { return fixed(b.score, 3); }}};
+  if (std::any_of(best.begin(), best.end(), [](const BestGrip& b) { return !std::isnan(b.refined_score); }))
+    columns.push_back({"refined", [](const BestGrip& b) { return fixed(b.refined_score, 3); }});
   const auto axis = [&](int place, const char* title, std::string (*cell)(const BestGrip&)) {
     const Axis& data = plan.axes()[place].data;
     const bool varies = plan.is_sobol() ? data.is_range || data.values.size() > 1

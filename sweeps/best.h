@@ -4,6 +4,7 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,6 +33,8 @@ struct BestGrip {
   double peak_tilt = 0;                      // of it, rad
   double largest_hold = 0;                   // N, may be infinite
   double safe_tilt = 0;                      // smallest over the fills, rad; NaN where a fill has none
+  GripInput refined{};                       // the best place near the grip (sweeps/refine.h), where there is a score of it
+  double refined_score = std::numeric_limits<double>::quiet_NaN();
 };
 
 // FIELD_* that a BestGrip is read from.

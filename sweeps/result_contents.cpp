@@ -321,6 +321,15 @@ class SweepDefinition : ResultDefinition {
       const std::string meaning = "best grips: " + (is_height ? std::string(HEIGHT_MEANING) : axis.long_name);
       fill_value(define(best_axis_name(axis), NC_DOUBLE, is_height ? "m" : axis.units.c_str(), meaning), NC_DOUBLE);
     }
+    const int refined = define(REFINED_SCORE, NC_DOUBLE, "1", "best grips: score where it is largest within half a step of the axes");
+    text(refined, "comment", "by the core in double precision");
+    fill_value(refined, NC_DOUBLE);
+    for (const PlanAxis& axis : contents_.plan.axes()) {
+      if (!is_refined_axis(axis)) continue;
+      const bool is_height = axis.axis == AXIS_HEIGHT;
+      const std::string meaning = "refined best grips: " + (is_height ? std::string(HEIGHT_MEANING) : axis.long_name);
+      fill_value(define(refined_axis_name(axis), NC_DOUBLE, is_height ? "m" : axis.units.c_str(), meaning), NC_DOUBLE);
+    }
   }
 
   const ResultContents& contents_;
@@ -340,6 +349,10 @@ std::string best_axis_name(const PlanAxis& axis) {
   return "best_" + (axis.axis == AXIS_HEIGHT ? std::string("height") : axis.name);
 }
 
+std::string refined_axis_name(const PlanAxis& axis) { return "best_refined_" + best_axis_name(axis).substr(5); }
+
+bool is_refined_axis(const PlanAxis& axis) { return axis.axis != AXIS_HAND_SCALE; }
+
 std::string best_scale_dimension(const Plan& plan) { return plan.is_sobol() ? "listed_hand_scale" : "hand_scale"; }
 
 std::uint64_t result_size(const ResultContents& contents) {
@@ -348,7 +361,7 @@ std::uint64_t result_size(const ResultContents& contents) {
   const Plan& plan = contents.plan;
   const std::size_t real_size = contents.info.precision == Precision::single ? sizeof(float) : sizeof(double);
   const auto per_grip = static_cast<std::uint64_t>(bytes_per_grip(contents.variables, scene, real_size));
-  std::uint64_t numbers = (contents.best * scene.vessels.size() * 8 + 1) * plan.hand_scales();
+  std::uint64_t numbers = (contents.best * scene.vessels.size() * 14 + 1) * plan.hand_scales();
   for (const PlanAxis& axis : plan.axes()) {
     const std::uint64_t points = contents.variables.empty() ? 0 : plan.grips();
     const std::uint64_t values = plan.is_sobol() ? points : axis.data.values.size();

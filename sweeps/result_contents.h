@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,8 @@ struct ResultContents {
 struct RankedGrip {
   Candidate candidate;
   GripInput grip;
+  GripInput refined{};
+  double refined_score = std::numeric_limits<double>::quiet_NaN();  // and then there is no refined grip
 };
 
 // Dimensions of the grips: those of the plan's axes, or "point" for Sobol points.
@@ -37,10 +40,13 @@ std::vector<std::string> grip_dimensions(const Plan& plan);
 constexpr const char* HEIGHT = "height";
 
 // Variables of the best grips over (vessel, rank), or (vessel, hand scale, rank) where the plan has several hand scales: index in the grips'
-// dimensions, score, and the axes (heights in m always).
+// dimensions, score, and the axes (heights in m always); of the refined grips score and axes, but for the hand scale, which stays.
 constexpr const char* BEST_GRIP = "best_grip";
 constexpr const char* BEST_SCORE = "best_score";
 std::string best_axis_name(const PlanAxis& axis);
+constexpr const char* REFINED_SCORE = "best_refined_score";
+std::string refined_axis_name(const PlanAxis& axis);
+bool is_refined_axis(const PlanAxis& axis);
 std::string best_scale_dimension(const Plan& plan);  // of the hand scales; Sobol points have a variable of the plain name
 
 // Of a scene with meshes: from where relative mesh files are looked for, and what tells that they are still the same (objects/vessel.h).

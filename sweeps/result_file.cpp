@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <limits>
@@ -142,6 +143,9 @@ void ResultFile::open_blocks() {
     if (contents_.best > 0) {
       best_offsets_ = {block_offset(file, BEST_GRIP), block_offset(file, BEST_SCORE)};
       for (const PlanAxis& axis : axes) best_offsets_.push_back(block_offset(file, best_axis_name(axis)));
+      best_offsets_.push_back(block_offset(file, REFINED_SCORE));
+      for (const PlanAxis& axis : axes)
+        if (is_refined_axis(axis)) best_offsets_.push_back(block_offset(file, refined_axis_name(axis)));
     }
   } catch (const Error& error) {
     throw failure_error(fmt::format("{}: {}; start again without --resume", names_.partial, error.what()));
@@ -317,6 +321,12 @@ void ResultFile::write_ending(const std::vector<std::vector<RankedGrip>>& best, 
       reals[0][rank] = ranked.candidate.score;
       const auto values = axis_values(ranked.grip);
       for (std::size_t axis = 0; axis < values.size(); ++axis) reals[1 + axis][rank] = values[axis];
+      if (std::isnan(ranked.refined_score)) continue;
+      const auto refined = axis_values(ranked.refined);
+      std::size_t k = 1 + values.size();
+      reals[k++][rank] = ranked.refined_score;
+      for (std::size_t axis = 0; axis < refined.size(); ++axis)
+        if (is_refined_axis(contents_.plan.axes()[axis])) reals[k++][rank] = refined[axis];
     }
     put(grips.data(), ranks * sizeof(std::int64_t), best_offsets_[0] + list * ranks * sizeof(std::int64_t));
     for (std::size_t k = 0; k < reals.size(); ++k) {

@@ -19,6 +19,7 @@
 #include "sweeps/explain.h"
 #include "sweeps/hand_lists.h"
 #include "sweeps/list_chooser.h"
+#include "sweeps/refine.h"
 #include "sweeps/result_file.h"
 #include "sweeps/resume.h"
 #include "sweeps/tally.h"
@@ -87,7 +88,7 @@ class Sweep {
     backend_ = parts_.open_backend(make_field_set(swept_fields(plan), scene_));
     evaluator_ = parts_.open_evaluator();
     std::vector<VesselFacts> facts = vessel_facts(scene_, *backend_, *evaluator_);
-    if (scene_.output.apart == 0) evaluator_.reset();
+    if (!is_choosy() && !refines()) evaluator_.reset();
     fmt::print("{}{}", opening_lines(scene_, plan, backend_->info()), vessel_lines(scene_, facts));
     std::fflush(stdout);
     if (options_.explain) {
@@ -108,6 +109,7 @@ class Sweep {
  private:
   // Whether the best grips have to differ.
   bool is_choosy() const { return best_wanted_ > 0 && scene_.output.apart > 0; }
+  bool refines() const { return best_wanted_ > 0 && options_.refine; }
   // Grips of a list that one pass keeps.
   std::size_t pool(const Plan& plan) const {
     return options_.pool > 0 && is_choosy() ? options_.pool : usual_pool(plan, best_wanted_, scene_.output.apart);
@@ -374,10 +376,11 @@ class Sweep {
 
   void finish(const Plan& plan, ResultFile& file) {
     const CompanionRequest request{scene_, plan, names_, parts_, best_wanted_, options_.glb};
-    const auto best = best_grips(request, mark_.vessels, *backend_);
+    auto best = best_grips(request, mark_.vessels, *backend_);
+    if (refines()) refine_lists(*evaluator_, plan, options_.threads, best);
     std::vector<std::vector<RankedGrip>> ranked(best.size());
     for (std::size_t list = 0; list < best.size(); ++list) {
-      for (const BestGrip& grip : best[list]) ranked[list].push_back({grip.candidate, grip.grip});
+      for (const BestGrip& grip : best[list]) ranked[list].push_back({grip.candidate, grip.grip, grip.refined, grip.refined_score});
     }
     // the result's own name comes last: when it is there, all is
     std::vector<std::string> files = write_companions(request, best, has_heat_map() ? &maps_ : nullptr, backend_->info());
@@ -403,7 +406,7 @@ class Sweep {
   std::size_t best_wanted_;
   std::vector<const Variable*> variables_;
   std::unique_ptr<Backend> backend_;
-  std::unique_ptr<Evaluator> evaluator_;  // that poses the hands of the best grips; null where these need not differ
+  std::unique_ptr<Evaluator> evaluator_;  // that poses and refines the best grips; null where neither is asked for
   std::vector<HeatMap> maps_;  // one per vessel
   SweepMark mark_;
   bool is_marked_ = false;  // there is a mark of this sweep

@@ -21,6 +21,7 @@ struct SweepOptions {
   int glb = 0;                         // so many of the best of each vessel are written as glTF
   bool resume = false;
   bool explain = false;
+  bool refine = true;  // the best grips, see sweeps/refine.h
   int threads = 0;  // of the core, 0: all
   // Called once meshes are read: says what the user should know of the scene in that precision. May be empty.
   std::function<void(const Scene&, Precision)> warn = {};

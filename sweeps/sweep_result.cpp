@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -14,6 +15,7 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "sweeps/refine.h"
 #include "sweeps/result_contents.h"
 #include "system/files.h"
 
@@ -185,6 +187,32 @@ std::vector<Candidate> SweepResult::best(std::size_t vessel, std::size_t hand_sc
     best.push_back({scores[rank], static_cast<std::uint64_t>(grips[rank])});
   }
   return best;
+}
+
+std::vector<std::optional<GripInput>> SweepResult::refined(std::size_t vessel, std::size_t hand_scale) const {
+  constexpr double ROUNDING = 1e-9;  // m or rad; a box ends within 1e-12 of where it ended in the sweep
+  const std::vector<Candidate> listed = best(vessel, hand_scale);
+  std::vector<std::optional<GripInput>> refined(listed.size());
+  if (listed.empty() || !file_.find(REFINED_SCORE)) return refined;
+  std::vector<std::size_t> lists{vessel};
+  if (plan_->hand_scales() > 1) lists.push_back(hand_scale);
+  const std::size_t length = ranks(lists.size() + 1);
+  const std::vector<double> scores = row(REFINED_SCORE, lists, length);
+  std::array<std::vector<double>, REFINED_COORDINATES> coordinates;
+  for (std::size_t k = 0; k < coordinates.size(); ++k)
+    coordinates[k] = row(refined_axis_name(plan_->axes()[static_cast<std::size_t>(REFINED_PLACES[k])]), lists, length);
+  for (std::size_t rank = 0; rank < listed.size(); ++rank) {
+    if (std::isnan(scores[rank])) continue;
+    const RefineBox box = refine_box(*plan_, vessel, listed[rank].index);
+    std::array<double, REFINED_COORDINATES> place{};
+    for (std::size_t k = 0; k < place.size(); ++k) {
+      place[k] = coordinates[k][rank];
+      if (!(place[k] >= box.low[k] - ROUNDING && place[k] <= box.high[k] + ROUNDING))
+        throw usage_error(fmt::format("{}: {} names a grip that the sweep did not refine", path(), REFINED_SCORE));
+    }
+    refined[rank] = with_coordinates(plan_->grip(vessel, listed[rank].index), place);
+  }
+  return refined;
 }
 
 std::vector<double> SweepResult::pouring_tilts(std::size_t vessel) const {

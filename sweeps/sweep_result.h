@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -63,6 +64,9 @@ class SweepResult {
   // Version 0.1 did, of several hand scales: best() then throws Error (usage).
   bool lists_all_hands_together() const;
   std::vector<Candidate> best(std::size_t vessel, std::size_t hand_scale = 0) const;
+
+  // Where the sweep refined the grips of best(), in their order; nothing where it did not, as before there were such.
+  std::vector<std::optional<GripInput>> refined(std::size_t vessel, std::size_t hand_scale = 0) const;
 
   // The tilts at which a vessel starts to pour, one for each of the scene's fills, rad; NaN where it never does.
   std::vector<double> pouring_tilts(std::size_t vessel) const;

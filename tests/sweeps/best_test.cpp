@@ -93,6 +93,8 @@ TEST(Best, CsvHasOneRowAVesselAndRankWithUnitsInItsHead) {
   grip.candidate.index = 41;
   BestGrip next = grip;
   next.rank = 2;
+  next.refined = {0.051, radians(44), radians(-9), radians(-88), -1e-3, 1.1};
+  next.refined_score = 0.875;
   const Plan plan(scene, false);
   const auto rows = lines(best_csv(scene, plan, {{grip, next}, {grip}}, {"a, b.nc", "sweep-0"}));
   ASSERT_EQ(rows.size(), 4u);
@@ -101,8 +103,11 @@ TEST(Best, CsvHasOneRowAVesselAndRankWithUnitsInItsHead) {
   EXPECT_TRUE(rows[1].starts_with("first vessel,1,50,45,-10,-90,-2,1.1,0.75,")) << rows[1];
   EXPECT_TRUE(rows[2].starts_with("first vessel,2,"));
   EXPECT_TRUE(rows[3].starts_with("\"a, \"\"b\"\"\",1,")) << rows[3];
-  EXPECT_TRUE(rows[1].ends_with(",inf,,0,41,\"a, b.nc\",sweep-0")) << "no safe tilt: empty";
-  EXPECT_TRUE(rows[0].ends_with(",antipodal,grip,result,sweep"));
+  EXPECT_TRUE(rows[1].ends_with(",inf,,0,,,,,,,41,\"a, b.nc\",sweep-0")) << "no safe tilt, not refined: empty";
+  EXPECT_TRUE(rows[2].ends_with(",inf,,0,0.875,51,44,-9,-88,-1,41,\"a, b.nc\",sweep-0")) << rows[2];
+  EXPECT_TRUE(
+      rows[0].ends_with(",antipodal,refined_score,refined_height_mm,refined_azimuth_deg,refined_obliquity_deg,refined_roll_deg,"
+                        "refined_offset_mm,grip,result,sweep"));
   EXPECT_TRUE(rows[0].starts_with(BEST_CSV_START));
   const auto commas = std::count(rows[0].begin(), rows[0].end(), ',');
   EXPECT_EQ(std::count(rows[1].begin(), rows[1].end(), ','), commas + 1) << "one is in the name";
@@ -126,6 +131,12 @@ TEST(Best, TableShowsTheAxesThatVaryInColumns) {
   EXPECT_NE(rows[1].find("61.2"), std::string::npos);
   for (const std::string& row : rows) EXPECT_EQ(row.size(), rows[0].size());
   EXPECT_LE(rows[0].size(), 132u);
+  EXPECT_EQ(rows[0].find("refined"), std::string::npos);
+  next.refined_score = 0.8764;
+  const auto refined = lines(best_table(scene, plan, {grip, next}, 2));
+  EXPECT_LT(refined[0].find("score"), refined[0].find("refined"));
+  EXPECT_EQ(refined[1].find("0.876"), std::string::npos) << "not every grip need be refined";
+  EXPECT_NE(refined[2].find("0.876"), std::string::npos);
 }
 
 TEST(Best, SceneWithoutTiltsHasNoForces) {
@@ -137,7 +148,7 @@ TEST(Best, SceneWithoutTiltsHasNoForces) {
   EXPECT_TRUE(std::isnan(best.peak_force));
   EXPECT_EQ(best_table(scene, plan, {best}, 1).find("peak N"), std::string::npos);
   const std::string row = lines(best_csv(scene, plan, {{best}}, {"a.nc", "s"}))[1];
-  EXPECT_TRUE(row.ends_with(best.antipodal ? ",,,,,1,1,a.nc,s" : ",,,,,0,1,a.nc,s")) << row;
+  EXPECT_TRUE(row.ends_with(best.antipodal ? ",,,,,1,,,,,,,1,a.nc,s" : ",,,,,0,,,,,,,1,a.nc,s")) << row;
   EXPECT_NE(best_table(scene, plan, {best}, 1).find("antipodal"), std::string::npos) << "nothing else says that it would slip";
 }
 
