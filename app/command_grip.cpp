@@ -173,7 +173,7 @@ GripInput refined_grip(const SweepResult& result, const Plan& plan, std::size_t 
   const auto refined = result.refined(vessel, list % plan.hand_scales());
   if (!refined[rank - 1])
     throw usage_error(fmt::format("--refined: {} has no refined grip of rank {}; sweep again without --no-refine", result.path(), rank));
-  return *refined[rank - 1];
+  return refined[rank - 1]->grip;
 }
 
 // A grip of a sweep's best, or of a list that was made of its result.

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <set>
 
 #include "core/core_backend.h"
@@ -70,8 +71,8 @@ void add_names(std::vector<WhereName>& names, const WhereName& name) {
 class Scores {
  public:
   Scores(const SweepResult& result, const Scene& scene, const std::string& weights)
-      : result_(result), weights_(read_weights(weights, scene)) {
-    const bool is_own = weights_ == effective_weights(scene);
+      : result_(result), scene_(scene), weights_(read_weights(weights, scene)) {
+    const bool is_own = is_sweeps_own();
     std::vector<std::string> names;
     for (std::size_t term = 0; term < weights_.size(); ++term)
       if (weights_[term] > 0) names.push_back(variable_of(term));
@@ -86,6 +87,9 @@ class Scores {
       if (weight > 0) factors_.push_back(weight);
   }
 
+  // Whether the weights are those of the sweep.
+  bool is_sweeps_own() const { return weights_ == effective_weights(scene_); }
+
   void read(std::size_t vessel, std::uint64_t first, std::size_t count, double* out) {
     std::fill_n(out, count, 0);
     values_.resize(count);
@@ -97,6 +101,7 @@ class Scores {
 
  private:
   const SweepResult& result_;
+  const Scene& scene_;
   std::array<double, 6> weights_;
   std::vector<const Variable*> variables_;
   std::vector<double> factors_, values_;
@@ -208,6 +213,23 @@ std::vector<BestGrip> read_rows(const SweepResult& result, const Scene& scene, c
   }
   for (std::size_t i = 0; i < best.size(); ++i) best[i].grip = plan.grip(vessel, grips[i]);
   return best;
+}
+
+// Sets what the sweep refined of the grips that it listed, too.
+void set_refined(const SweepResult& result, const Plan& plan, std::size_t list, std::vector<BestGrip>& grips) {
+  if (!result.lists_best() || result.lists_all_hands_together()) return;
+  const std::size_t vessel = list / plan.hand_scales(), scale = list % plan.hand_scales();
+  const std::vector<Candidate> listed = result.best(vessel, scale);
+  const auto refined = result.refined(vessel, scale);
+  std::map<std::uint64_t, RefinedGrip> of_grip;
+  for (std::size_t rank = 0; rank < listed.size(); ++rank)
+    if (refined[rank]) of_grip[listed[rank].index] = *refined[rank];
+  for (BestGrip& grip : grips) {
+    const auto there = of_grip.find(grip.candidate.index);
+    if (there == of_grip.end()) continue;
+    grip.refined = there->second.grip;
+    grip.refined_score = there->second.score;
+  }
 }
 
 // Goes through the grips of a vessel and offers those of its lists; counts them in the first pass.
@@ -341,6 +363,7 @@ Ranking rank_grips(const SweepResult& result, const Scene& scene, const Plan& pl
       grips[i].score = chosen[i].score;
       grips[i].rank = i + 1;
     }
+    if (scores.is_sweeps_own()) set_refined(result, plan, list, grips);
     ranking.lists.push_back(std::move(grips));
   }
   return ranking;

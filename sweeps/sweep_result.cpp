@@ -189,10 +189,10 @@ std::vector<Candidate> SweepResult::best(std::size_t vessel, std::size_t hand_sc
   return best;
 }
 
-std::vector<std::optional<GripInput>> SweepResult::refined(std::size_t vessel, std::size_t hand_scale) const {
+std::vector<std::optional<RefinedGrip>> SweepResult::refined(std::size_t vessel, std::size_t hand_scale) const {
   constexpr double ROUNDING = 1e-9;  // m or rad; a box ends within 1e-12 of where it ended in the sweep
   const std::vector<Candidate> listed = best(vessel, hand_scale);
-  std::vector<std::optional<GripInput>> refined(listed.size());
+  std::vector<std::optional<RefinedGrip>> refined(listed.size());
   if (listed.empty() || !file_.find(REFINED_SCORE)) return refined;
   std::vector<std::size_t> lists{vessel};
   if (plan_->hand_scales() > 1) lists.push_back(hand_scale);
@@ -210,7 +210,7 @@ std::vector<std::optional<GripInput>> SweepResult::refined(std::size_t vessel, s
       if (!(place[k] >= box.low[k] - ROUNDING && place[k] <= box.high[k] + ROUNDING))
         throw usage_error(fmt::format("{}: {} names a grip that the sweep did not refine", path(), REFINED_SCORE));
     }
-    refined[rank] = with_coordinates(plan_->grip(vessel, listed[rank].index), place);
+    refined[rank] = RefinedGrip{with_coordinates(plan_->grip(vessel, listed[rank].index), place), scores[rank]};
   }
   return refined;
 }

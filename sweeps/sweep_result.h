@@ -32,6 +32,12 @@ struct SweepOrigin {
 constexpr std::size_t MOST_BEST = 100'000;  // grips listed of a vessel
 constexpr std::size_t MOST_VESSELS = 64;
 
+// Where one of the best grips scores most within half a step of its axes.
+struct RefinedGrip {
+  GripInput grip;
+  double score = 0;
+};
+
 // The one reader of results, of local files only; a damaged one costs an error and no more (sweeps/guarded_file.h). No value is taken from the file
 // before it is known to have the type and shape that a sweep gives it. Not thread-safe.
 class SweepResult {
@@ -66,7 +72,7 @@ class SweepResult {
   std::vector<Candidate> best(std::size_t vessel, std::size_t hand_scale = 0) const;
 
   // Where the sweep refined the grips of best(), in their order; nothing where it did not, as before there were such.
-  std::vector<std::optional<GripInput>> refined(std::size_t vessel, std::size_t hand_scale = 0) const;
+  std::vector<std::optional<RefinedGrip>> refined(std::size_t vessel, std::size_t hand_scale = 0) const;
 
   // The tilts at which a vessel starts to pour, one for each of the scene's fills, rad; NaN where it never does.
   std::vector<double> pouring_tilts(std::size_t vessel) const;

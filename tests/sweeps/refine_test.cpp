@@ -26,6 +26,7 @@ TEST(Refine, ABoxEndsHalfWayToTheNeighboursAndNeverBeyondTheAxis) {
   Scene scene = fake_scene();
   scene.vessels[0].mass = 0.1;  // with its mass off the axis, so that azimuth matters
   scene.vessels[0].center_of_mass = {0.01, 0, 0};
+  scene.grips.height_is_fraction = false;
   scene.grips.roll = Axis{};
   scene.grips.roll.values = {0.5, -1, 0.1};  // in no order, at unequal steps
   scene.grips.hand_scale.values = {0.9, 1.1};
@@ -84,6 +85,7 @@ TEST(Refine, HeightsInFractionsAreMovedInTheVesselsMetres) {
 TEST(Refine, SobolPointsMoveByHalfOfTheirMeanSpacing) {
   Scene scene = fake_scene();
   scene.grips.sampling = Sampling::sobol;
+  scene.grips.height_is_fraction = false;
   scene.grips.count = 256;  // of four ranges: 4 to each
   const Plan plan(scene, false);
   for (std::uint64_t i = 0; i < plan.grips(); ++i) {
@@ -213,10 +215,11 @@ TEST(Refine, ASweepSaysBothScoresAndTheResultGivesTheGripsBack) {
         EXPECT_EQ(refined[rank].has_value(), !std::isnan(scores[at]));
         if (!refined[rank]) continue;
         ++there;
-        EXPECT_EQ(refined[rank]->height, heights[at]);
+        EXPECT_EQ(refined[rank]->grip.height, heights[at]);
+        EXPECT_EQ(refined[rank]->score, scores[at]);
         GripResult answer;
-        core->grip(v, *refined[rank], answer);
-        EXPECT_EQ(core->score(v, *refined[rank], answer).score, scores[at]) << "all five coordinates are there, to the bit";
+        core->grip(v, refined[rank]->grip, answer);
+        EXPECT_EQ(core->score(v, refined[rank]->grip, answer).score, scores[at]) << "all five coordinates are there, to the bit";
         EXPECT_GE(scores[at], result.best(v)[rank].score - 1e-12) << "the sums of a score's terms may be rounded apart";
       }
     }
