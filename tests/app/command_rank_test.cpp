@@ -61,6 +61,25 @@ TEST_F(CommandRank, DrawingsBearTheNameOfTheList) {
   EXPECT_FALSE(file_exists(folder / "list.tumbler.3.glb"));
 }
 
+TEST_F(CommandRank, NearGripsAreListedOnRequestAlone) {
+  const std::string near = folder / "near.csv", far = folder / "far.csv";
+  ASSERT_EQ(run("PROGRAM rank " + result + " --apart-mm 0 -o " + near + " >/dev/null").code, 0);
+  ASSERT_EQ(run("PROGRAM rank " + result + " --apart-mm 60 -o " + far + " >/dev/null").code, 0);
+  EXPECT_NE(file_text(near), file_text(folder / "a.best.csv"));
+  EXPECT_NE(file_text(far), file_text(folder / "a.best.csv"));
+}
+
+TEST_F(CommandRank, TheRefinedGripIsEvaluatedOnRequest) {
+  const std::string grip = "PROGRAM grip " + result + " --vessel tumbler --rank 1 --json";
+  const auto swept = nlohmann::json::parse(run(grip).output), refined = nlohmann::json::parse(run(grip + " --refined").output);
+  EXPECT_EQ(swept["grip"]["height_m"], read_values(result, "best_height")[0]);
+  EXPECT_EQ(refined["grip"]["height_m"], read_values(result, "best_refined_height")[0]);
+  EXPECT_EQ(refined["grip"]["roll_rad"], read_values(result, "best_refined_roll")[0]);
+  EXPECT_EQ(refined["score"], read_values(result, "best_refined_score")[0]);
+  ASSERT_EQ(run("PROGRAM sweep small --on core --best 4 --no-refine -o " + result + " >/dev/null").code, 0);
+  expect_error("grip " + result + " --vessel tumbler --rank 1 --refined", 2, "has no refined grip of rank 1");
+}
+
 TEST_F(CommandRank, WhatIsWrongIsOneLineAndNothingIsWritten) {
   std::ofstream(folder / "mine.txt") << "mine";
   std::ofstream(folder / "other.nc") << "\x89HDF\r\n\x1a\n";
@@ -74,6 +93,7 @@ TEST_F(CommandRank, WhatIsWrongIsOneLineAndNothingIsWritten) {
       {"rank " + result + " -o " + (folder / "other.best.csv"), "this is the sweep's own list of " + (folder / "other.nc")},
       {"rank " + result + " --glb 1", "--glb: the name of the list is missing"},
       {"rank " + result + " --best 0", "--best '0'; allowed"},
+      {"rank " + result + " --apart-mm=-1", "--apart-mm '-1'; allowed: a number, 0 to 10000"},
       {"rank " + result + " --where 'fingers_usd > 1' -o " + list,
        "--where, column 1: there is no value 'fingers_usd'; the nearest is 'fingers_used'"},
       {"rank " + result + " --weights 'finger=1'", "--weights: there is no term 'finger'"},
@@ -81,6 +101,9 @@ TEST_F(CommandRank, WhatIsWrongIsOneLineAndNothingIsWritten) {
       {"grip " + result + " --vessel tumbler --rank 5", "--rank 5: " + result + " lists 4 grips of tumbler"},
       {"grip " + result + " --vessel tumbler --rank 1 --height-mm 5", "excludes"},
       {"grip " + result + " --vessel tumbler --rank 1 --hand-scale 1", "--hand-scale: the sweep has one list for all"},
+      {"grip small --vessel tumbler --height-mm 50 --refined", "--refined: the rank of the grip is missing; give --rank"},
+      {"grip " + result + " --vessel tumbler --rank 1 --refined --list " + (folder / "a.best.csv"),
+       "--refined: only the sweep's own list has refined grips"},
       {"grip small --vessel tumbler --list x", "--list: the rank of the grip is missing; give --rank"},
       {"grip " + result + " --vessel tumbler --rank 1 --list " + (folder / "mine.txt"), "is not a list of wholehand rank"},
       {"view " + result + " --list " + (folder / "none.csv"), "none.csv: cannot be read"},
