@@ -87,6 +87,17 @@ TEST_F(MeshCommands, SweepAndCheckRunOnTheLattice) {
   EXPECT_EQ(checked.code, 0) << checked.output;
 }
 
+TEST_F(MeshCommands, WithoutItsMeshAResultIsRankedHoweverNearTheGripsAre) {
+  const std::string result = path("cup.nc");
+  ASSERT_EQ(run("PROGRAM sweep " + path("cup.toml") + " --on core -o " + result + " >/dev/null 2>&1").code, 0);
+  EXPECT_EQ(run("PROGRAM rank " + result + " >/dev/null").code, 0);
+  std::filesystem::remove(path("cup.glb"));
+  expect_error("rank " + result, 2, "--apart-mm 0 lists grips without it, however near they are to each other");
+  const Outcome near = run("PROGRAM rank " + result + " --apart-mm 0 2>&1");
+  EXPECT_EQ(near.code, 0) << near.output;
+  EXPECT_NE(near.output.find("cup: 8 grips are feasible and plausible"), std::string::npos) << near.output;
+}
+
 TEST_F(MeshCommands, ASessionHoldsAMesh) {
   const Outcome live = run("PROGRAM live " + path("cup.toml") + " --device sim --no-clock --seconds 10 2>&1");
   EXPECT_EQ(live.code, 0) << live.output;
