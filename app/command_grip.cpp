@@ -172,7 +172,8 @@ std::size_t find_hand_scale(const GripArguments& arguments, const Plan& plan) {
 GripInput refined_grip(const SweepResult& result, const Plan& plan, std::size_t vessel, std::size_t list, std::size_t rank) {
   const auto refined = result.refined(vessel, list % plan.hand_scales());
   if (!refined[rank - 1])
-    throw usage_error(fmt::format("--refined: {} has no refined grip of rank {}; sweep again without --no-refine", result.path(), rank));
+    throw usage_error(
+        fmt::format("--refined: {} has no refined grip of rank {}; sweep again without --no-refine", result.path(), rank));
   return refined[rank - 1]->grip;
 }
 

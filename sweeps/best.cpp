@@ -113,8 +113,9 @@ std::string best_csv(const Scene& scene, const Plan& plan, const std::vector<std
       "azimuth_deg,obliquity_deg,roll_deg,offset_mm,hand_scale,score,score_fingers,score_contacts,score_"
       "depth,"
       "score_posture,score_force,score_hold,closure,gap_mm,fingers_used,points_touching,phalanx_depth_mm,palm_depth_mm,"
-      "peak_feedback_force_N,peak_feedback_tilt_deg,largest_hold_force_N,largest_safe_tilt_deg,antipodal,refined_score,refined_height_mm,"
-      "refined_azimuth_deg,refined_obliquity_deg,refined_roll_deg,refined_offset_mm,grip,result,sweep\n";
+      "peak_feedback_force_N,peak_feedback_tilt_deg,largest_hold_force_N,largest_safe_tilt_deg,antipodal,"
+      "refined_score,refined_height_mm,refined_azimuth_deg,refined_obliquity_deg,refined_roll_deg,refined_offset_mm,"
+      "grip,result,sweep\n";
   for (std::size_t list = 0; list < lists.size(); ++list) {
     const std::string& vessel = scene.vessels[list / plan.hand_scales()].name;
     for (const BestGrip& best : lists[list]) {

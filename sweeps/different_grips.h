@@ -14,8 +14,8 @@
 
 namespace wholehand {
 
-// Whether some joint of one posed hand is more than `apart` (m) away from the same joint of the other. A grip without a hand, infeasible on
-// the core, differs from every other. With `apart` 0 any two grips differ.
+// Whether some joint of one posed hand is more than `apart` (m) away from the same joint of the other. A grip without a hand,
+// infeasible on the core, differs from every other. With `apart` 0 any two grips differ.
 bool are_different(const std::optional<PosedHand>& a, const std::optional<PosedHand>& b, double apart);
 
 // The first `size` grips of those offered that differ from every grip before. They are offered in the order of is_better.
@@ -35,7 +35,8 @@ class DifferentGrips {
   std::size_t size_;
   double apart_;
   std::vector<Candidate> chosen_;
-  std::map<Cell, std::vector<PosedHand>> hands_;  // by the cell in which one of their joints lies: hands that are near have near cells
+  // By the cell in which one of their joints lies: hands that are near have cells side by side.
+  std::map<Cell, std::vector<PosedHand>> hands_;
 };
 
 }  // namespace wholehand

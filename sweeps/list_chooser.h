@@ -30,20 +30,21 @@ struct ListRequest {
 // So many grips does a pass keep for each list.
 std::size_t usual_pool(const Plan& plan, std::size_t best, double apart);
 
-// A list is defined thus: go through the feasible, plausible grips of its vessel and hand scale in the order of is_better, and take each that
-// differs from all taken before, until there are `best`. That order is known only when every grip has come in, and not all can be kept.
+// A list is defined thus: go through the feasible, plausible grips of its vessel and hand scale in the order of is_better, and take
+// each that differs from all taken before, until there are `best`. That order is known only when every grip has come in, and not
+// all can be kept.
 //
 // So a pass keeps the best `pool` grips of those that are not decided and differ from all chosen so far, and its end goes through
 // these in order. That is the same: a grip that the pass did not keep is near a chosen one, or stands behind every grip of a full
-// pool. When the pool is used up and was full, all up to its last grip is decided, and another pass goes on from there. The first of a full pool
-// is always taken, so there are at most `best` passes. Memory is that of `pool` + `best` grips a list.
+// pool. When the pool is used up and was full, all up to its last grip is decided, and another pass goes on from there. The first
+// of a full pool is always taken, so there are at most `best` passes. Memory is that of `pool` + `best` grips a list.
 //
 // Scores are those of whoever evaluated the grips. Hands are the core's in double precision, whatever computed the scores, so that
 // every backend and `rank` have one rule.
 class ListChooser {
  public:
-  // The lists of each hand scale of a vessel. `core` may be null where apart is 0. `progress`: of a chooser that goes on; empty: nothing is
-  // known. Plan and core must outlive the object.
+  // The lists of each hand scale of a vessel. `core` may be null where apart is 0. `progress`: of a chooser that goes on; empty:
+  // nothing is known. Plan and core must outlive the object.
   ListChooser(const Plan& plan, const Evaluator* core, std::size_t vessel, const ListRequest& request,
               std::vector<ListProgress> progress = {});
 

@@ -350,7 +350,8 @@ Ranking rank_grips(const SweepResult& result, const Scene& scene, const Plan& pl
   const bool is_whole = std::all_of(rows.begin(), rows.end(), [&](const std::string& name) { return result.find(name); });
   std::unique_ptr<CoreBackend> core;
   if (!is_whole) {
-    core = std::make_unique<CoreBackend>(posing ? posing : open_core(), scene, make_field_set(best_fields(scene), scene), Precision::full, 0);
+    core = std::make_unique<CoreBackend>(posing ? posing : open_core(), scene, make_field_set(best_fields(scene), scene),
+                                         Precision::full, 0);
     ranking.note =
         "the file lacks some columns of the table: apart from places and scores, the core computed them in double precision";
   }

@@ -39,9 +39,10 @@ struct Ranking {
   std::string note;                          // for the user: what is not from the file; empty: everything is
 };
 
-// Goes through the file in blocks, as often as ListChooser needs, so that memory does not depend on the number of grips. Only feasible, plausible grips are listed, by score, then by
-// their number, as a sweep lists them; with the sweep's own weights the scores are the file's. What else is told of them is the file's or, where
-// that lacks some of it, the core's. Throws Error (usage): read_weights, Where, or values that the file lacks, with what to keep.
+// Goes through the file in blocks, as often as ListChooser needs, so that memory does not depend on the number of grips. Only
+// feasible, plausible grips are listed, by score, then by their number, as a sweep lists them; with the sweep's own weights the
+// scores are the file's. What else is told of them is the file's or, where that lacks some of it, the core's. Throws Error (usage):
+// read_weights, Where, or values that the file lacks, with what to keep.
 Ranking rank_grips(const SweepResult& result, const Scene& scene, const Plan& plan, const RankRequest& request,
                    const std::function<std::shared_ptr<const Evaluator>()>& open_core);
 

@@ -25,16 +25,17 @@ constexpr double SMALLEST_REFINE_STEP = 1.0 / 16;  // of the way to an end of th
 std::array<double, REFINED_COORDINATES> coordinates_of(const GripInput& grip);
 GripInput with_coordinates(const GripInput& grip, const std::array<double, REFINED_COORDINATES>& coordinates);
 
-// Between what each coordinate of a grip may move: half-way to the neighbouring values of its axis, m and rad. An axis with one value stays, and
-// so does azimuth where it changes nothing. No grip leaves the span of its axis. Sobol points have no neighbours on a range; there a step is its
-// length / count^(1/d), with d ranges.
+// Between what each coordinate of a grip may move: half-way to the neighbouring values of its axis, m and rad. An axis with one
+// value stays, and so does azimuth where it changes nothing. No grip leaves the span of its axis. Sobol points have no neighbours
+// on a range; there a step is its length / count^(1/d), with d ranges.
 struct RefineBox {
   std::array<double, REFINED_COORDINATES> low{}, high{};
 };
 RefineBox refine_box(const Plan& plan, std::size_t vessel, std::uint64_t grip);
 
-// The best place that a pattern search finds in a box, from `start` on: it tries a step in each coordinate, both ways, keeps what scores more, and
-// halves the step where nothing does. The same on every machine, at most REFINE_EVALUATIONS calls of `score`. Never below the start's.
+// The best place that a pattern search finds in a box, from `start` on: it tries a step in each coordinate, both ways, keeps what
+// scores more, and halves the step where nothing does. The same on every machine, at most REFINE_EVALUATIONS calls of `score`.
+// Never below the start's.
 struct RefinedPlace {
   std::array<double, REFINED_COORDINATES> place{};
   double score = 0;
@@ -43,8 +44,9 @@ struct RefinedPlace {
 RefinedPlace search_box(const std::array<double, REFINED_COORDINATES>& start, const RefineBox& box,
                         const std::function<double(const std::array<double, REFINED_COORDINATES>&)>& score);
 
-// Sets `refined` and `refined_score` of the first MOST_REFINED grips of each list by the core: whatever scored them, a refined score is the
-// core's in double precision. They stay NaN where the core finds no feasible, plausible grip in the box. The order of the lists stays.
+// Sets `refined` and `refined_score` of the first MOST_REFINED grips of each list by the core: whatever scored them, a refined
+// score is the core's in double precision. They stay NaN where the core finds no feasible, plausible grip in the box. The order of
+// the lists stays.
 void refine_lists(const Evaluator& core, const Plan& plan, int threads, std::vector<std::vector<BestGrip>>& lists);
 
 }  // namespace wholehand

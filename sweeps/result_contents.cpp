@@ -321,7 +321,8 @@ class SweepDefinition : ResultDefinition {
       const std::string meaning = "best grips: " + (is_height ? std::string(HEIGHT_MEANING) : axis.long_name);
       fill_value(define(best_axis_name(axis), NC_DOUBLE, is_height ? "m" : axis.units.c_str(), meaning), NC_DOUBLE);
     }
-    const int refined = define(REFINED_SCORE, NC_DOUBLE, "1", "best grips: score where it is largest within half a step of the axes");
+    const int refined =
+        define(REFINED_SCORE, NC_DOUBLE, "1", "best grips: score where it is largest within half a step of the axes");
     text(refined, "comment", "by the core in double precision");
     fill_value(refined, NC_DOUBLE);
     for (const PlanAxis& axis : contents_.plan.axes()) {

@@ -115,8 +115,8 @@ class Sweep {
     return options_.pool > 0 && is_choosy() ? options_.pool : usual_pool(plan, best_wanted_, scene_.output.apart);
   }
   bool ranks_here(const Plan& plan) const { return best_wanted_ > 0 && (is_choosy() || plan.hand_scales() > 1); }
-  // What is read back: a device chooses a few of the best of all hands together. Of several hand scales, and where grips have to differ, the
-  // scores are chosen from here.
+  // What is read back: a device chooses a few of the best of all hands together. Of several hand scales, and where grips have to
+  // differ, the scores are chosen from here.
   std::vector<int> swept_fields(const Plan& plan) const {
     const std::vector<int> kept = variable_fields(variables_);
     std::set<int> fields(kept.begin(), kept.end());
@@ -303,8 +303,8 @@ class Sweep {
     }
   }
 
-  // The lists of a vessel whose grips were all computed, out of the best of them and in further passes over all where it takes these.
-  // False: interrupted; the mark has what is decided.
+  // The lists of a vessel whose grips were all computed, out of the best of them and in further passes over all where it takes
+  // these. False: interrupted; the mark has what is decided.
   bool choose(std::size_t v, const Plan& plan, ResultFile& file, InterruptGuard& interrupt) {
     VesselProgress& vessel = mark_.vessels[v];
     const bool is_first = vessel.lists.empty();

@@ -20,7 +20,8 @@ double fake_real(std::size_t vessel, const GripInput& grip, int field, int plane
 // Status and masks. One grip in five is infeasible, for each of the reasons; one in four of the others is implausible.
 std::uint32_t fake_uint(std::size_t vessel, const GripInput& grip, int field);
 
-// A hand that is moved as a whole: (height, obliquity, roll) as a place, the offset added to the height; nothing of an infeasible grip.
+// A hand that is moved as a whole: (height, obliquity, roll) as a place, the offset added to the height; nothing of an infeasible
+// grip.
 std::optional<PosedHand> fake_hand(std::size_t vessel, const GripInput& grip);
 
 class FakeEvaluator : public Evaluator {

@@ -32,14 +32,15 @@ std::vector<Candidate> by_definition(const Plan& plan, std::size_t vessel, std::
   return taken;
 }
 
-// Grips of the second vessel with few distinct scores; one in four is left out, as if it were implausible. Half of the draws have grips that the
-// core finds infeasible, too.
+// Grips of the second vessel with few distinct scores; one in four is left out, as if it were implausible. Half of the draws have
+// grips that the core finds infeasible, too.
 std::vector<Candidate> drawn_grips(const Plan& plan, std::mt19937& random) {
   std::vector<Candidate> grips;
   const int scores = 1 + static_cast<int>(random() % 30);
   const bool all = random() % 2 == 0;
   for (std::uint64_t i = 0; i < plan.grips(); ++i)
-    if (random() % 4 != 0 && (all || fake_hand(1, plan.grip(1, i)))) grips.push_back({static_cast<double>(static_cast<int>(random()) % scores) / scores, i});
+    if (random() % 4 != 0 && (all || fake_hand(1, plan.grip(1, i))))
+      grips.push_back({static_cast<double>(random() % static_cast<unsigned>(scores)) / scores, i});
   std::shuffle(grips.begin(), grips.end(), random);
   return grips;
 }

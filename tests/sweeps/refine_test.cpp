@@ -141,7 +141,8 @@ TEST(Refine, TheSearchIsBoundedNeverWorseAndEndsOnAPlain) {
   EXPECT_EQ(search_box({}, point, [](const Place&) { return 0.5; }).evaluations, 1) << "nowhere to go";
 }
 
-// Refined grips of a real scene: inside their boxes, with the score that the core gives them, and not below the core's own of the grip.
+// Refined grips of a real scene: inside their boxes, with the score that the core gives them, and not below the core's own of the
+// grip.
 TEST(Refine, RefinedGripsHaveTheScoreThatIsSaid) {
   const Scene scene = scene_from(edited(RESULT_SCENE, "apart_mm = 0", "apart_mm = 25"));
   const Plan plan(scene, false);

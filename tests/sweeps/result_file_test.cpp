@@ -151,7 +151,8 @@ TEST(ResultFile, TheBestOfAllHandScalesAreWrittenInPlace) {
   constexpr std::uint64_t size = 2 * 3 * 3 * sizeof(double);  // vessels, hand scales, ranks
   const auto lists =
       std::count_if(mark.in_place.begin(), mark.in_place.end(), [](const FileRange& range) { return range.size == size; });
-  EXPECT_EQ(static_cast<std::size_t>(lists), 2 + setup.plan.axes().size() + 1 + REFINED_COORDINATES) << "grip, score, axes; refined score and axes";
+  EXPECT_EQ(static_cast<std::size_t>(lists), 2 + setup.plan.axes().size() + 1 + REFINED_COORDINATES)
+      << "grip, score, axes; refined score and axes";
 }
 
 }  // namespace
