@@ -57,7 +57,13 @@ std::string fixed(double value, int digits) { return std::isnan(value) ? "-" : f
 
 std::vector<int> best_fields(const Scene& scene) {
   std::vector<int> fields{FIELD_GAP, FIELD_CLOSURE, FIELD_PHALANX_DEPTH, FIELD_PALM_DEPTH};
-  if (!scene.tilts.empty()) fields.insert(fields.end(), {FIELD_PEAK_FORCE, FIELD_PEAK_TILT, FIELD_LARGEST_HOLD, FIELD_SAFE_TILT});
+  if (!scene.tilts.empty()) fields.insert(fields.end(), {FIELD_PEAK_FORCE, FIELD_PEAK_TILT, FIELD_SAFE_TILT});
+  if (has_effort(scene)) {
+    fields.insert(fields.end(), {FIELD_WORST_EFFORT, FIELD_WORST_EFFORT_FILL, FIELD_WORST_EFFORT_TILT, FIELD_TIPS_WORST_EFFORT,
+                                 FIELD_PUSH, FIELD_FRICTION_NEEDED});
+  } else if (!scene.tilts.empty()) {
+    fields.push_back(FIELD_LARGEST_HOLD);
+  }
   fields.insert(fields.end(), {FIELD_SCORE, FIELD_TERMS, FIELD_STATUS, FIELD_TOUCH_MASK, FIELD_USED_MASK});
   return fields;
 }
@@ -72,11 +78,18 @@ void set_worst(BestGrip& best, const Scene& scene, const std::function<double(in
       best.peak_force = value(FIELD_PEAK_FORCE, fill);
       best.peak_tilt = listed(value(FIELD_PEAK_TILT, fill), scene.tilts);
     }
-    best.largest_hold = std::max(best.largest_hold, value(FIELD_LARGEST_HOLD, fill));
+    if (!has_effort(scene)) best.largest_hold = std::max(best.largest_hold, value(FIELD_LARGEST_HOLD, fill));
     const double safe = listed(value(FIELD_SAFE_TILT, fill), scene.tilts);
     if (std::isnan(safe) || safe < best.safe_tilt) best.safe_tilt = safe;
-    if (std::isnan(safe)) break;
   }
+  if (!has_effort(scene)) return;
+  best.efforts = {value(FIELD_WORST_EFFORT, 0),
+                  value(FIELD_WORST_EFFORT_FILL, 0),
+                  listed(value(FIELD_WORST_EFFORT_TILT, 0), scene.tilts),
+                  value(FIELD_TIPS_WORST_EFFORT, 0),
+                  value(FIELD_PUSH, 0),
+                  value(FIELD_FRICTION_NEEDED, 0)};
+  best.largest_hold = best.efforts.tips_worst * std::min(scene.strength->digits[0], scene.strength->digits[1]);
 }
 
 std::vector<BestGrip> evaluate_best(Backend& backend, const Scene& scene, const Plan& plan, std::size_t vessel,
@@ -114,6 +127,7 @@ std::string best_csv(const Scene& scene, const Plan& plan, const std::vector<std
       "depth,"
       "score_posture,score_force,score_hold,closure,gap_mm,fingers_used,points_touching,phalanx_depth_mm,palm_depth_mm,"
       "peak_feedback_force_N,peak_feedback_tilt_deg,largest_hold_force_N,largest_safe_tilt_deg,antipodal,"
+      "worst_effort,worst_effort_fill,worst_effort_tilt_deg,tips_worst_effort,push_N,friction_needed,"
       "refined_score,refined_height_mm,refined_azimuth_deg,refined_obliquity_deg,refined_roll_deg,refined_offset_mm,"
       "grip,result,sweep\n";
   for (std::size_t list = 0; list < lists.size(); ++list) {
@@ -131,6 +145,9 @@ std::string best_csv(const Scene& scene, const Plan& plan, const std::vector<std
                      {best.closure, best.gap * 1e3, static_cast<double>(best.fingers_used),
                       static_cast<double>(best.points_touching), best.phalanx_depth * 1e3, best.palm_depth * 1e3, best.peak_force,
                       degrees(best.peak_tilt), best.largest_hold, degrees(best.safe_tilt), best.antipodal ? 1.0 : 0.0});
+      const GripEfforts& efforts = best.efforts;
+      numbers.insert(numbers.end(), {efforts.worst, efforts.fill, degrees(efforts.tilt), efforts.tips_worst, efforts.push,
+                                     efforts.friction_needed});
       const GripInput& refined = best.refined;
       const bool is_refined = !std::isnan(best.refined_score);
       for (const double number : {best.refined_score, refined.height * 1e3, degrees(refined.azimuth), degrees(refined.obliquity),
@@ -177,6 +194,10 @@ std::string best_table(const Scene& scene, const Plan& plan, const std::vector<B
                                       {"hold N", [](const BestGrip& b) { return fixed(b.largest_hold, 1); }},
                                       {"safe deg", [](const BestGrip& b) { return fixed(degrees(b.safe_tilt), 0); }},
                                   });
+  }
+  if (has_effort(scene)) {
+    columns.push_back({"effort", [](const BestGrip& b) { return fixed(b.efforts.worst, 3); }});
+    columns.push_back({"push N", [](const BestGrip& b) { return fixed(b.efforts.push, 1); }});
   }
   std::string table = "  rank";
   for (const Column& column : columns) table += "  " + column.title;

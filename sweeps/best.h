@@ -17,6 +17,14 @@ namespace wholehand {
 // How the table of best_csv begins.
 inline constexpr std::string_view BEST_CSV_START = "vessel,rank,height_mm,";
 
+// What holding takes of the whole hand over all fills and tilts (docs/method.md, 10).
+struct GripEfforts {
+  double worst = std::numeric_limits<double>::quiet_NaN(), fill = worst, tilt = worst;  // a state of it: fraction, rad
+  double tips_worst = worst;
+  double push = worst;  // N
+  double friction_needed = worst;
+};
+
 // One of the best grips with what is told of it. Forces and tilts are the worst over all fills; NaN where the scene has no tilts.
 struct BestGrip {
   Candidate candidate;
@@ -31,8 +39,9 @@ struct BestGrip {
   double phalanx_depth = 0, palm_depth = 0;  // m
   double peak_force = 0;                     // largest feedback force, N
   double peak_tilt = 0;                      // of it, rad
-  double largest_hold = 0;                   // N, may be infinite
+  double largest_hold = 0;                   // of each of two tips, N, may be infinite
   double safe_tilt = 0;                      // smallest over the fills, rad; NaN where a fill has none
+  GripEfforts efforts;                       // NaN in a scene without efforts
   GripInput refined{};                       // the best place near the grip (sweeps/refine.h), where there is a score of it
   double refined_score = std::numeric_limits<double>::quiet_NaN();
 };
@@ -45,7 +54,8 @@ std::vector<int> best_fields(const Scene& scene);
 std::vector<BestGrip> evaluate_best(Backend& backend, const Scene& scene, const Plan& plan, std::size_t vessel,
                                     const std::vector<Candidate>& candidates);
 
-// Sets forces and tilts to the worst over the fills from FIELD_PEAK_FORCE, FIELD_PEAK_TILT, FIELD_LARGEST_HOLD and FIELD_SAFE_TILT of each.
+// Sets forces and tilts to the worst over the fills from FIELD_PEAK_FORCE, FIELD_PEAK_TILT, FIELD_LARGEST_HOLD and FIELD_SAFE_TILT of
+// each. With efforts it sets these too, and the hold force follows from that of the tips: FIELD_LARGEST_HOLD is not asked for then.
 void set_worst(BestGrip& best, const Scene& scene, const std::function<double(int field, int fill)>& value);
 
 // Which sweep a list is of: the name of its result without the folder, and its sweep_id (sweeps/grip_lists.h).

@@ -58,10 +58,11 @@ json to_json(const VesselProgress& vessel) {
   const GripCounts& counts = vessel.counts;
   json stretches = json::array();
   for (const Stretch& stretch : vessel.stretches) stretches.push_back({stretch.first, stretch.last, stretch.checksum});
-  return {{"done", vessel.done},           {"stretches", stretches},        {"best", to_json(vessel.best)},
-          {"grips", counts.grips},         {"by_reason", counts.by_reason}, {"implausible", counts.implausible},
-          {"antipodal", counts.antipodal}, {"blocked", counts.blocked},     {"heat_map", vessel.heat_map},
-          {"lists", lists}};  // NaN becomes null
+  return {{"done", vessel.done},           {"stretches", stretches},
+          {"best", to_json(vessel.best)},  {"grips", counts.grips},
+          {"by_reason", counts.by_reason}, {"implausible", counts.implausible},
+          {"antipodal", counts.antipodal}, {"blocked", counts.blocked},
+          {"heat_map", vessel.heat_map},   {"lists", lists}};  // NaN becomes null
 }
 
 VesselProgress vessel_from(const json& text) {

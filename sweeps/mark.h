@@ -33,8 +33,8 @@ struct Stretch {
 // What is known of one vessel's first `done` grips.
 struct VesselProgress {
   std::uint64_t done = 0;
-  std::vector<Stretch> stretches;  // one after the other, of 0 to `done`; none where the file holds nothing of the grips
-  std::vector<Candidate> best;     // the best first; of a vessel whose lists are chosen, those that are listed
+  std::vector<Stretch> stretches;   // one after the other, of 0 to `done`; none where the file holds nothing of the grips
+  std::vector<Candidate> best;      // the best first; of a vessel whose lists are chosen, those that are listed
   std::vector<ListProgress> lists;  // after the first pass over its grips, where lists take more (sweeps/list_chooser.h)
   GripCounts counts;
   std::vector<double> heat_map;  // HeatMap::scores(); empty without one
@@ -55,9 +55,9 @@ struct SweepMark {
 struct MarkBounds {
   std::size_t vessels = 0;
   std::uint64_t grips = 0;  // of a vessel
-  std::size_t best = 0;    // grips kept
-  std::size_t lists = 0;   // with progress of their own, each of
-  std::size_t listed = 0;  // grips at most
+  std::size_t best = 0;     // grips kept
+  std::size_t lists = 0;    // with progress of their own, each of
+  std::size_t listed = 0;   // grips at most
   bool has_stretches = true;
   bool has_reasons = true;  // of grips that are not feasible
 };

@@ -13,7 +13,9 @@
 
 #include "core/core_backend.h"
 #include "core/error.h"
+#include "core/fields.h"
 #include "core/nearest_name.h"
+#include "core/planes.h"
 #include "shaders/layout.h"
 #include "sweeps/list_chooser.h"
 
@@ -165,14 +167,19 @@ class ConditionValues {
   std::vector<GripInput> grips_;
 };
 
+// Whether set_worst looks at it.
+bool is_of_states(int field) {
+  return field < REAL_FIELDS && (field_row(field).shape == FieldShape::fills || field_row(field).of_strength);
+}
+
 // The variables that the rows of a list are made of.
 std::vector<std::string> row_variables(const Scene& scene) {
   std::vector<std::string> names;
   for (std::size_t term = 0; term < TERMS.size(); ++term)
     if (has_term(scene, term)) names.push_back(variable_of(term));
   names.insert(names.end(), {"closure", "gap", "fingers_used", "points_touching", "phalanx_depth", "palm_depth", "antipodal"});
-  if (!scene.tilts.empty())
-    names.insert(names.end(), {"peak_feedback_force", "peak_feedback_tilt", "largest_hold_force", "largest_safe_tilt"});
+  for (const int field : best_fields(scene))
+    if (is_of_states(field)) names.push_back(field_row(field).variable);
   return names;
 }
 
@@ -192,11 +199,11 @@ std::vector<BestGrip> read_rows(const SweepResult& result, const Scene& scene, c
   }
   const auto closure = pick("closure"), gap = pick("gap"), fingers = pick("fingers_used"), points = pick("points_touching"),
              phalanx = pick("phalanx_depth"), palm = pick("palm_depth"), antipodal = pick("antipodal");
-  std::array<std::vector<std::vector<double>>, 4> forces;  // of each fill
-  for (std::size_t fill = 0; fill < scene_fills(scene) && !scene.tilts.empty(); ++fill) {
-    std::size_t k = 0;
-    for (const char* name : {"peak_feedback_force", "peak_feedback_tilt", "largest_hold_force", "largest_safe_tilt"})
-      forces[k++].push_back(pick(name, fill));
+  std::map<int, std::vector<std::vector<double>>> of_states;  // by field and plane
+  for (const int field : best_fields(scene)) {
+    if (!is_of_states(field)) continue;
+    for (int plane = 0; plane < field_planes(field, scene); ++plane)
+      of_states[field].push_back(pick(field_row(field).variable, static_cast<std::size_t>(plane)));
   }
   for (std::size_t i = 0; i < best.size(); ++i) {
     best[i].closure = closure[i];
@@ -206,10 +213,7 @@ std::vector<BestGrip> read_rows(const SweepResult& result, const Scene& scene, c
     best[i].phalanx_depth = phalanx[i];
     best[i].palm_depth = palm[i];
     best[i].antipodal = antipodal[i] != 0;
-    set_worst(best[i], scene, [&](int field, int fill) {
-      const std::size_t k = field == FIELD_PEAK_FORCE ? 0 : field == FIELD_PEAK_TILT ? 1 : field == FIELD_LARGEST_HOLD ? 2 : 3;
-      return forces[k][static_cast<std::size_t>(fill)][i];
-    });
+    set_worst(best[i], scene, [&](int field, int plane) { return of_states.at(field)[static_cast<std::size_t>(plane)][i]; });
   }
   for (std::size_t i = 0; i < best.size(); ++i) best[i].grip = plan.grip(vessel, grips[i]);
   return best;

@@ -45,9 +45,7 @@ void refine(const Evaluator& core, const Plan& plan, std::size_t vessel, BestGri
 
 }  // namespace
 
-Coordinates coordinates_of(const GripInput& grip) {
-  return {grip.height, grip.azimuth, grip.obliquity, grip.roll, grip.offset};
-}
+Coordinates coordinates_of(const GripInput& grip) { return {grip.height, grip.azimuth, grip.obliquity, grip.roll, grip.offset}; }
 
 GripInput with_coordinates(const GripInput& grip, const Coordinates& coordinates) {
   return {coordinates[0], coordinates[1], coordinates[2], coordinates[3], coordinates[4], grip.hand_scale};
@@ -106,9 +104,8 @@ void refine_lists(const Evaluator& core, const Plan& plan, int threads, std::vec
   std::vector<std::pair<std::size_t, std::size_t>> all;  // list, rank
   for (std::size_t list = 0; list < lists.size(); ++list)
     for (std::size_t rank = 0; rank < std::min(lists[list].size(), MOST_REFINED); ++rank) all.emplace_back(list, rank);
-  in_parallel(all.size(), threads, [&](std::size_t i) {
-    refine(core, plan, all[i].first / plan.hand_scales(), lists[all[i].first][all[i].second]);
-  });
+  in_parallel(all.size(), threads,
+              [&](std::size_t i) { refine(core, plan, all[i].first / plan.hand_scales(), lists[all[i].first][all[i].second]); });
 }
 
 }  // namespace wholehand

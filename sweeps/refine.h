@@ -14,7 +14,7 @@
 
 namespace wholehand {
 
-constexpr int REFINED_COORDINATES = 5;             // height, azimuth, obliquity, roll, offset: the hand stays
+constexpr int REFINED_COORDINATES = 5;  // height, azimuth, obliquity, roll, offset: the hand stays
 constexpr std::array<PlanPlace, REFINED_COORDINATES> REFINED_PLACES{PLACE_HEIGHT, PLACE_AZIMUTH, PLACE_OBLIQUITY, PLACE_ROLL,
                                                                     PLACE_OFFSET};
 constexpr int REFINE_EVALUATIONS = 60;             // of a grip at most

@@ -407,7 +407,7 @@ class Sweep {
   std::vector<const Variable*> variables_;
   std::unique_ptr<Backend> backend_;
   std::unique_ptr<Evaluator> evaluator_;  // that poses and refines the best grips; null where neither is asked for
-  std::vector<HeatMap> maps_;  // one per vessel
+  std::vector<HeatMap> maps_;             // one per vessel
   SweepMark mark_;
   bool is_marked_ = false;  // there is a mark of this sweep
   double wall_before_ = 0;  // of earlier sessions, s

@@ -22,10 +22,10 @@ struct SweepOptions {
   bool resume = false;
   bool explain = false;
   bool refine = true;  // the best grips, see sweeps/refine.h
-  int threads = 0;  // of the core, 0: all
+  int threads = 0;     // of the core, 0: all
   // Called once meshes are read: says what the user should know of the scene in that precision. May be empty.
   std::function<void(const Scene&, Precision)> warn = {};
-  std::size_t pool = 0;      // grips of a list that a pass keeps (sweeps/list_chooser.h); 0: usual_pool
+  std::size_t pool = 0;              // grips of a list that a pass keeps (sweeps/list_chooser.h); 0: usual_pool
   double mark_seconds = 5;           // least time between two progress marks: what a crash may cost
   double started = monotonic_now();  // s of the clock: when the work was asked for, for the closing lines
 };

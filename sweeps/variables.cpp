@@ -274,7 +274,9 @@ std::vector<const Variable*> choose_variables(const Scene& scene) {
     const bool is_named = wanted.erase(variable.name) > 0;
     if (is_named && lacking)
       throw usage_error(fmt::format("{}: \"{}\" needs {}, which this scene does not have", where, variable.name, lacking));
-    if (is_named || (!output.keep && variable.by_default && !lacking)) chosen.push_back(&variable);
+    // tips_worst_effort says it in the strength of the tips
+    const bool is_said = variable.field == FIELD_LARGEST_HOLD && has_effort(scene);
+    if (is_named || (!output.keep && variable.by_default && !lacking && !is_said)) chosen.push_back(&variable);
   }
   if (!wanted.empty()) {
     std::vector<std::string> known;

@@ -274,7 +274,7 @@ TEST(GripListsTest, OtherSweepsAndDamageAreRefusedWithTheirLine) {
   expect_refused(edited(csv, "\ncup,2,", "\ncup,0,"), ":3: rank 0");
   expect_refused(edited(csv, "\ncup,2,", "\nmug,2,"), ":3: the sweep has no vessel 'mug'");
   expect_refused(edited(csv, ",result.nc," + id, "9999,result.nc," + id), ":2: grip '");
-  expect_refused(edited(csv, "\ncup,2,", "\ncup,2,,"), ":3: the row has 36 cells and the header has 35");
+  expect_refused(edited(csv, "\ncup,2,", "\ncup,2,,"), ":3: the row has 42 cells and the header has 41");
 }
 
 TEST(GripListsTest, AnotherSceneDeviceOrPrecisionIsAnotherSweep) {

@@ -216,7 +216,11 @@ TEST(Variables, CommentsTellWhichTiltsAreLeftOut) {
   EXPECT_EQ(comment("feedback_force"), "normal force clamped to [0, F_max]; NaN at " + tilts);
   EXPECT_EQ(comment("pivot_length"), "NaN at " + tilts);
   EXPECT_EQ(comment("peak_feedback_force"), "leaves out " + tilts);
-  EXPECT_EQ(comment("largest_hold_force"), "infinite where not antipodal; leaves out " + tilts);
+  EXPECT_EQ(
+      comment("largest_hold_force"),
+      "infinite where no such force holds the vessel: without strengths where the pinch is not antipodal; with strengths NaN where "
+      "the grip is implausible; leaves out " +
+          tilts);
   EXPECT_TRUE(comment("score_hold").ends_with("; leaves out " + tilts));
   EXPECT_EQ(comment("gap"), "");
   EXPECT_EQ(comment("score_depth").find("until_poured"), std::string::npos);
