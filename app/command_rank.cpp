@@ -93,8 +93,8 @@ ExitCode rank(const RankArguments& arguments) {
   request.apart = arguments.apart.empty() ? scene.output.apart : parse_quantity(arguments.apart, "--apart-mm", ranges::APART);
   const auto open_core = [&]() -> std::shared_ptr<const Evaluator> {
     if (!trouble.empty() && request.apart > 0 && glb == 0)
-      throw usage_error(fmt::format("{}: {}; --apart-mm 0 lists grips without it, however near they are to each other",
-                                    result.path(), trouble));
+      throw usage_error(
+          fmt::format("{}: {}; --apart-mm 0 lists grips without it, however near they are to each other", result.path(), trouble));
     if (!trouble.empty()) throw usage_error(result.path() + ": " + trouble);
     return make_core_evaluator(scene);
   };

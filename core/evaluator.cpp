@@ -192,7 +192,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
     std::vector<FillEffort> fill_efforts(states_.fills());
     if (has_effort_ && result.plausible) {
       const HeldHand hand = held_hand(entry, posed_of(result), result.touch_mask);
-      largest.effort = effort_over_states(hand, states_.loads(entry, pinch), fill_efforts).worst;
+      largest.effort = effort_over_states(hand, true, states_.loads(entry, pinch), fill_efforts).worst;
     }
     for (std::size_t fill = 0; fill < states_.fills(); ++fill) {
       const FillEffort* effort = largest.effort ? &fill_efforts[fill] : nullptr;
@@ -376,8 +376,8 @@ class CoreEvaluator final : public wholehand::Evaluator {
     return hand;
   }
 
-  GripEffort effort_over_states(const HeldHand& hand, const GripLoads& loads, std::span<FillEffort> fills) const {
-    return grip_effort(hand.all(), hand.pinch(), strength_, loads, fills);
+  GripEffort effort_over_states(const HeldHand& hand, bool of_tips, const GripLoads& loads, std::span<FillEffort> fills) const {
+    return grip_effort(hand.all(), of_tips ? std::optional(hand.pinch()) : std::nullopt, strength_, loads, fills);
   }
 
   // What holding takes of a plausible grip: the worst effort, and `fills`. Nothing of any other, and in a scene without efforts.
@@ -385,8 +385,9 @@ class CoreEvaluator final : public wholehand::Evaluator {
                                   std::span<FillEffort> fills) const {
     if (!has_effort_ || !is_plausible(answer)) return std::nullopt;
     const HeldHand hand = held_hand(entry, answer.posed, answer.touch_mask);
+    const bool of_tips = row.fields.has(FIELD_TIPS_WORST_EFFORT) || row.fields.has(FIELD_LARGEST_HOLD);
     const GripLoads loads = states_.loads(entry, {answer.closing.direction, answer.closing.midpoint, is_antipodal(answer)});
-    const GripEffort found = effort_over_states(hand, loads, fills);
+    const GripEffort found = effort_over_states(hand, of_tips, loads, fills);
     const bool wet = scene_.liquid.has_value();
     const auto v = static_cast<std::size_t>(&entry - entries_.data());
     row.put(FIELD_WORST_EFFORT, 0, found.worst);

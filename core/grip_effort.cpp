@@ -82,20 +82,21 @@ Vec3 contacts_center(std::span<const ContactPoint> contacts) {
   return contacts.empty() ? center : center / static_cast<Real>(contacts.size());
 }
 
-GripEffort grip_effort(std::span<const ContactPoint> contacts, std::span<const ContactPoint> tips, const HandStrength& hand,
-                       const GripLoads& loads, std::span<FillEffort> fills) {
+GripEffort grip_effort(std::span<const ContactPoint> contacts, std::optional<std::span<const ContactPoint>> tips,
+                       const HandStrength& hand, const GripLoads& loads, std::span<FillEffort> fills) {
   GripEffort grip, pinch;
   const Vec3 center = contacts_center(contacts);
-  EffortSolver whole(contacts, hand, center), two(tips, hand, center);
+  EffortSolver whole(contacts, hand, center), two(tips.value_or(std::span<const ContactPoint>()), hand, center);
   Worst worst;
   find_worst(whole, loads, 0, fills.size(), worst, grip);
   grip.worst = worst.effort;
   grip.fill = worst.fill;
   grip.tilt = worst.tilt;
+  if (!tips) grip.tips_worst = std::numeric_limits<Real>::quiet_NaN();
   for (std::size_t fill = 0; fill < fills.size(); ++fill) {
     Worst most;
-    find_worst(two, loads, fill, fill + 1, most, pinch);
-    fills[fill] = {most.effort, 0};
+    if (tips) find_worst(two, loads, fill, fill + 1, most, pinch);
+    fills[fill] = {tips ? most.effort : grip.tips_worst, 0};
     grip.states += static_cast<int>(loads.counted[fill]);
     grip.tips_worst = std::max(grip.tips_worst, most.effort);
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 
 #include "core/effort.h"
@@ -51,10 +52,10 @@ struct GripEffort {
 // The mean place of the contacts, about which moments are taken; the origin without contacts.
 Vec3 contacts_center(std::span<const ContactPoint> contacts);
 
-// The whole hand presses with `contacts`, thumb and index tip alone with `tips`. `fills` has one entry for each fill. Allocates
-// nothing.
-GripEffort grip_effort(std::span<const ContactPoint> contacts, std::span<const ContactPoint> tips, const HandStrength& hand,
-                       const GripLoads& loads, std::span<FillEffort> fills);
+// The whole hand presses with `contacts`, thumb and index tip alone with `tips`; their efforts are NaN without tips. `fills` has one
+// entry for each fill. Allocates nothing.
+GripEffort grip_effort(std::span<const ContactPoint> contacts, std::optional<std::span<const ContactPoint>> tips,
+                       const HandStrength& hand, const GripLoads& loads, std::span<FillEffort> fills);
 
 // The largest force, N, that may act at `center` along each of +-x, +-y, +-z beside `weight` with an effort up to 1: the least of
 // the six, at most MOST_PUSH. 0 where the weight alone takes more.

@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "core/planes.h"
+#include "shaders/layout.h"
 
 namespace wholehand {
 namespace {
@@ -26,18 +28,33 @@ std::pair<double, double> half_way_to_neighbours(std::vector<double> values, dou
   return {value + 0.5 * (below - value), value + 0.5 * (above - value)};
 }
 
-double core_score(const Evaluator& core, std::size_t vessel, const GripInput& grip) {
-  GripResult result;
-  core.grip(vessel, grip, result);
-  if (result.reason != Reason::none || !result.plausible) return SCORE_OF_NONE;
-  return core.score(vessel, grip, result).score;
-}
+// Scores by the core of what a score needs, and of no more.
+class CoreScore {
+ public:
+  CoreScore(const Evaluator& core, const Scene& scene)
+      : core_(core),
+        fields_(make_field_set({FIELD_SCORE, FIELD_STATUS}, scene)),
+        reals_(static_cast<std::size_t>(fields_.real_planes)),
+        uints_(static_cast<std::size_t>(fields_.uint_planes)) {}
 
-void refine(const Evaluator& core, const Plan& plan, std::size_t vessel, BestGrip& best) {
+  double operator()(std::size_t vessel, const GripInput& grip) {
+    core_.planes(vessel, &grip, 1, fields_, 1, reals_.data(), uints_.data());
+    const std::uint32_t status = uints_[static_cast<std::size_t>(fields_.plane[FIELD_STATUS])];
+    const bool is_plausible = (status & (STATUS_REASON_MASK | STATUS_PLAUSIBLE)) == STATUS_PLAUSIBLE;
+    return is_plausible ? reals_[static_cast<std::size_t>(fields_.plane[FIELD_SCORE])] : SCORE_OF_NONE;
+  }
+
+ private:
+  const Evaluator& core_;
+  FieldSet fields_;
+  std::vector<double> reals_;
+  std::vector<std::uint32_t> uints_;
+};
+
+void refine(CoreScore score, const Plan& plan, std::size_t vessel, BestGrip& best) {
   const RefineBox box = refine_box(plan, vessel, best.candidate.index);
-  const RefinedPlace found = search_box(coordinates_of(best.grip), box, [&](const Coordinates& place) {
-    return core_score(core, vessel, with_coordinates(best.grip, place));
-  });
+  const RefinedPlace found = search_box(
+      coordinates_of(best.grip), box, [&](const Coordinates& place) { return score(vessel, with_coordinates(best.grip, place)); });
   if (found.score == SCORE_OF_NONE) return;
   best.refined = with_coordinates(best.grip, found.place);
   best.refined_score = found.score;
@@ -100,12 +117,14 @@ RefinedPlace search_box(const Coordinates& start, const RefineBox& box, const st
   return found;
 }
 
-void refine_lists(const Evaluator& core, const Plan& plan, int threads, std::vector<std::vector<BestGrip>>& lists) {
+void refine_lists(const Evaluator& core, const Scene& scene, const Plan& plan, int threads,
+                  std::vector<std::vector<BestGrip>>& lists) {
   std::vector<std::pair<std::size_t, std::size_t>> all;  // list, rank
   for (std::size_t list = 0; list < lists.size(); ++list)
     for (std::size_t rank = 0; rank < std::min(lists[list].size(), MOST_REFINED); ++rank) all.emplace_back(list, rank);
+  const CoreScore score(core, scene);
   in_parallel(all.size(), threads,
-              [&](std::size_t i) { refine(core, plan, all[i].first / plan.hand_scales(), lists[all[i].first][all[i].second]); });
+              [&](std::size_t i) { refine(score, plan, all[i].first / plan.hand_scales(), lists[all[i].first][all[i].second]); });
 }
 
 }  // namespace wholehand

@@ -47,6 +47,7 @@ RefinedPlace search_box(const std::array<double, REFINED_COORDINATES>& start, co
 // Sets `refined` and `refined_score` of the first MOST_REFINED grips of each list by the core: whatever scored them, a refined
 // score is the core's in double precision. They stay NaN where the core finds no feasible, plausible grip in the box. The order of
 // the lists stays.
-void refine_lists(const Evaluator& core, const Plan& plan, int threads, std::vector<std::vector<BestGrip>>& lists);
+void refine_lists(const Evaluator& core, const Scene& scene, const Plan& plan, int threads,
+                  std::vector<std::vector<BestGrip>>& lists);
 
 }  // namespace wholehand

@@ -377,7 +377,7 @@ class Sweep {
   void finish(const Plan& plan, ResultFile& file) {
     const CompanionRequest request{scene_, plan, names_, parts_, best_wanted_, options_.glb};
     auto best = best_grips(request, mark_.vessels, *backend_);
-    if (refines()) refine_lists(*evaluator_, plan, options_.threads, best);
+    if (refines()) refine_lists(*evaluator_, scene_, plan, options_.threads, best);
     std::vector<std::vector<RankedGrip>> ranked(best.size());
     for (std::size_t list = 0; list < best.size(); ++list) {
       for (const BestGrip& grip : best[list]) ranked[list].push_back({grip.candidate, grip.grip, grip.refined, grip.refined_score});

@@ -75,6 +75,7 @@ TEST(Explain, WholeSceneLeavesOutPlanesAndTheInnerWall) {
   const long long whole = (GRIP_AXES + every.real_planes) * 4LL + every.uint_planes * 4LL;
   EXPECT_EQ(explained.find("result planes not computed")->bytes, whole - explained.bytes) << explained.text;
   EXPECT_TRUE(explained.find("inner wall")) << explained.text;
+  EXPECT_TRUE(explained.find("the scene has no strengths")) << explained.text;
   EXPECT_EQ(explained.text.find("until_poured"), std::string::npos) << explained.text;
   for (const char* had : {"projection", "force kernel", "the liquid", "azimuth"})
     EXPECT_FALSE(explained.find(had)) << explained.text;
@@ -83,6 +84,7 @@ TEST(Explain, WholeSceneLeavesOutPlanesAndTheInnerWall) {
 TEST(Explain, BareSceneHasALineForEachPartThatItLacks) {
   Scene scene = three_beakers();
   scene.pose = Pose::rigged;
+  scene.table.reset();
   scene.liquid.reset();
   scene.tilts.clear();
   scene.grips.azimuth.values = {0, 0.5, 1};
@@ -110,6 +112,30 @@ TEST(Explain, SaysWhatATableCosts) {
   // on the core planes are doubles
   EXPECT_TRUE(std::regex_search(explained.text, std::regex("not left out: the table, which costs -?[0-9.]+ us and 8 B per grip\n")))
       << explained.text;
+}
+
+TEST(Explain, SaysWhatEffortsCost) {
+  Scene scene = three_beakers();
+  scene.tilts = {0, radians(60)};
+  scene.liquid.reset();
+  scene.vessels.resize(1);
+  scene.table.reset();
+  scene.strength.emplace();
+  const Explained explained = explain(scene, "core");
+  EXPECT_FALSE(explained.find("the scene has no strengths")) << explained.text;
+  std::smatch match;
+  ASSERT_TRUE(
+      std::regex_search(explained.text, match, std::regex("not left out: the efforts, which cost ([0-9.]+) us and ([0-9]+) B")))
+      << explained.text;
+  EXPECT_GT(std::stod(match[1]), 0);
+  // worst effort, its fill and tilt, that of the tips, push and friction, less the largest hold force: five doubles more
+  EXPECT_EQ(std::stoi(match[2]), 5 * 8) << explained.text;
+  ASSERT_TRUE(std::regex_search(explained.text, match,
+                                std::regex("of ([0-9]+) plausible grips .* takes ([0-9.]+) pivots a state; ([0-9]+) %")))
+      << explained.text;
+  EXPECT_GT(std::stoi(match[1]), 10);
+  EXPECT_GT(std::stod(match[2]), 0);
+  EXPECT_LE(std::stoi(match[3]), 100);
 }
 
 TEST(Explain, CountsTheStatesThatAreLeftOut) {

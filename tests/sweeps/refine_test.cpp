@@ -158,8 +158,8 @@ TEST(Refine, RefinedGripsHaveTheScoreThatIsSaid) {
     }
   }
   auto again = lists;
-  refine_lists(*core, plan, 1, lists);
-  refine_lists(*core, plan, 2, again);
+  refine_lists(*core, scene, plan, 1, lists);
+  refine_lists(*core, scene, plan, 2, again);
   for (std::size_t v = 0; v < lists.size(); ++v) {
     for (std::size_t k = 0; k < lists[v].size(); ++k) {
       const BestGrip& best = lists[v][k];
