@@ -147,6 +147,8 @@ class CoreEvaluator final : public wholehand::Evaluator {
     result.bone_stretch = answer.bone_stretch;
     result.through_table = (answer.status & STATUS_THROUGH_TABLE) != 0;
     if (scene_.table) result.table_depth = answer.table_depth;
+    result.self_overlap = (answer.status & STATUS_SELF_OVERLAP) != 0;
+    if (hand_.between > 0) result.self_depth = answer.self_depth;
   }
 
   LiquidResult liquid(std::size_t v, double fill, double tilt) const override {
@@ -211,11 +213,13 @@ class CoreEvaluator final : public wholehand::Evaluator {
   std::vector<wholehand::GripContact> contacts(std::size_t v, const GripResult& result) const override {
     const auto mirror = [&](const Triple& triple) { return wholehand::mirrored(triple, scene_.hand.handedness); };
     std::array<PressingJoint, JOINTS> pressing;
-    const int count = find_contacts(entries_[v].vessel, posed_of(result), result.touch_mask, pressing);
+    const std::array<Vec3, JOINTS> posed = posed_of(result);
+    const int count = find_contacts(hand_, entries_[v].vessel, posed, placed_scale(hand_, posed), result.touch_mask, pressing);
     std::vector<wholehand::GripContact> contacts;
     for (int i = 0; i < count; ++i) {
       const ContactPoint& contact = pressing[i].contact;
-      contacts.push_back({pressing[i].joint, contact.digit, mirror(to_triple(contact.place)), mirror(to_triple(contact.normal))});
+      contacts.push_back({pressing[i].joint, pressing[i].between, contact.digit, mirror(to_triple(contact.place)),
+                          mirror(to_triple(contact.normal))});
     }
     return contacts;
   }
@@ -339,6 +343,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
     row.put(FIELD_PALM_DEPTH, 0, answer.palm_depth);
     row.put(FIELD_BONE_STRETCH, 0, answer.bone_stretch);
     row.put(FIELD_TABLE_DEPTH, 0, answer.table_depth);
+    row.put(FIELD_SELF_DEPTH, 0, answer.self_depth);
     put_points(row, FIELD_JOINTS, answer.joints.data(), JOINTS);
     put_points(row, FIELD_POSED, answer.posed.data(), JOINTS);
     put_points(row, FIELD_PROXIES, answer.proxies.data(), JOINTS);
@@ -368,10 +373,12 @@ class CoreEvaluator final : public wholehand::Evaluator {
   HeldHand held_hand(const VesselEntry& entry, const std::array<Vec3, JOINTS>& posed, std::uint32_t touch_mask) const {
     HeldHand hand;
     std::array<PressingJoint, JOINTS> pressing;
-    hand.count = static_cast<std::size_t>(find_contacts(entry.vessel, posed, touch_mask, pressing));
+    hand.count =
+        static_cast<std::size_t>(find_contacts(hand_, entry.vessel, posed, placed_scale(hand_, posed), touch_mask, pressing));
     for (std::size_t i = 0; i < hand.count; ++i) {
       hand.contacts[i] = pressing[i].contact;
-      if (pressing[i].joint == THUMB_TIP || pressing[i].joint == INDEX_TIP) hand.tips[hand.tip_count++] = pressing[i].contact;
+      const bool is_tip = pressing[i].joint == THUMB_TIP || pressing[i].joint == INDEX_TIP;
+      if (is_tip && pressing[i].between == 0) hand.tips[hand.tip_count++] = pressing[i].contact;
     }
     return hand;
   }

@@ -35,6 +35,7 @@ struct Field {
   FieldAbsent absent = FieldAbsent::infeasible;
   FieldRange range = FieldRange::finite;
   bool of_table = false;     // only in a scene with a table
+  bool of_between = false;   // only of a hand with spheres between its joints
   bool of_strength = false;  // only in a scene with strengths and tilts, and of plausible grips
 
   // Whether it is points or vectors of the vessel frame, which a left hand mirrors.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/body.h"
 #include "core/contact.h"
 #include "core/joints.h"
 #include "core/table.h"
@@ -40,12 +41,17 @@ Vec3 separations_of(const Vessel& vessel, const FingerPoints& points, const Plac
 // Sets the three joints beyond an MCP, and which of a finger's five points touched before they were projected.
 void pose_articulated(const Hand& hand, const Vessel& vessel, const PlacedFinger& finger, int f, GripAnswer& answer, int& before) {
   const Vec3 radii(finger.radius[2], finger.radius[3], finger.radius[4]);
+  const std::array<Real, 4> bone_radii{finger.radius[1], finger.radius[2], finger.radius[3], finger.radius[4]};
   FingerMotion motion = start_motion(hand, answer.closing.closure);
   FingerPoints points;
   Vec3 separations{};
   while (motion.joint < 3) {
     points = finger_points(finger.frame, finger.mcp, finger.lengths, motion.angles);
-    const Watch watch = watch_points(vessel, points, radii);
+    Watch watch = watch_points(vessel, points, radii);
+    if (hand.between > 0) {
+      watch_between(vessel, hand.between, finger.frame, finger.mcp, points, bone_radii, finger.lengths,
+                    segment_rates(hand.finger_swing, motion.joint), watch);
+    }
     separations = watch.separations;
     motion = advance_finger(hand, motion, finger.frame, finger.mcp, points, watch, finger.lengths);
     answer.advance_steps = std::max(answer.advance_steps, motion.steps);
@@ -81,8 +87,9 @@ void pose_paper(const Hand& hand, const Vessel& vessel, const PlacedFinger& fing
 }
 
 // Kernel 4 on the posed hand: masks, depths, proxies and how far these stretch the bones. A finger's base and MCP do not move, so
-// whether they touched before is found here; an articulated finger came to rest with its separations known.
-void examine_pose(const Hand& hand, const Vessel& vessel, PoseKind pose, Wanted wanted, Real scale,
+// whether they touched before is found here; an articulated finger came to rest with its separations known. The depth that decides whether
+// the grip is plausible.
+Real examine_pose(const Hand& hand, const Vessel& vessel, PoseKind pose, Wanted wanted, Real scale,
                   std::array<int, FINGERS>& before, GripAnswer& answer) {
   Real judged_depth = 0;
   for (int f = 0; f < FINGERS; ++f) {
@@ -123,7 +130,25 @@ void examine_pose(const Hand& hand, const Vessel& vessel, PoseKind pose, Wanted 
       }
     }
   }
-  if (judged_depth <= hand.depth_limit) answer.status |= STATUS_PLAUSIBLE;
+  return judged_depth;
+}
+
+// Kernel 8: the spheres between the joints of the posed hand have depths as the joints have. The depth that decides, as above.
+Real examine_between(const Hand& hand, const Vessel& vessel, PoseKind pose, Real scale, GripAnswer& answer) {
+  Real judged_depth = 0;
+  for (int f = 0; f < FINGERS; ++f)
+    for (int bone = 0; bone + 1 < finger_joints(f); ++bone) {
+      const int j = finger_start(f) + bone;
+      for (int k = 1; k <= hand.between; ++k) {
+        const Ball ball = ball_between(answer.posed[j], answer.posed[j + 1], scale * hand.radius[f][bone],
+                                       scale * hand.radius[f][bone + 1], Real(k) / Real(hand.between + 1));
+        const Real depth = std::max(Real(0), -separation_at(vessel, ball.place, ball.radius));
+        Real& of_part = bone == 0 ? answer.palm_depth : answer.phalanx_depth;
+        of_part = std::max(of_part, depth);
+        if (f < 2 || pose != PoseKind::paper) judged_depth = std::max(judged_depth, depth);
+      }
+    }
+  return judged_depth;
 }
 
 // Kernel 8: how far the posed hand reaches below the top of the table, and the open hand at the same place, which it has to come from.
@@ -147,6 +172,23 @@ void examine_table(const Hand& hand, const Vessel& vessel, const Placement& plac
 }
 
 }  // namespace
+
+// Two phalanges of the thumb and three of each finger: 78 pairs.
+Real digits_overlap(const Hand& hand, const std::array<Vec3, JOINTS>& posed, Real scale) {
+  Real deepest = -NO_DISTANCE;
+  for (int f = 0; f < FINGERS; ++f)
+    for (int bone = 1; bone + 1 < finger_joints(f); ++bone) {
+      const int j = finger_start(f) + bone;
+      const Vec2 radii = scale * Vec2(hand.radius[f][bone], hand.radius[f][bone + 1]);
+      for (int g = f + 1; g < FINGERS; ++g)
+        for (int other = 1; other < 4; ++other) {
+          const int i = finger_start(g) + other;
+          const Vec2 other_radii = scale * Vec2(hand.radius[g][other], hand.radius[g][other + 1]);
+          deepest = std::max(deepest, bones_overlap(posed[j], posed[j + 1], radii, posed[i], posed[i + 1], other_radii));
+        }
+    }
+  return deepest;
+}
 
 void rest_hand(const Hand& hand, const Vessel& vessel, PoseKind pose, const Closing& closing, Real friction, Wanted wanted,
                GripAnswer& answer) {
@@ -201,7 +243,14 @@ void rest_hand(const Hand& hand, const Vessel& vessel, PoseKind pose, const Clos
     }
   }
   // what the posed hand touches, and how deep
-  examine_pose(hand, vessel, pose, wanted, scale, before, answer);
+  Real judged_depth = examine_pose(hand, vessel, pose, wanted, scale, before, answer);
+  if (hand.between > 0) judged_depth = std::max(judged_depth, examine_between(hand, vessel, pose, scale, answer));
+  if (judged_depth <= hand.depth_limit) answer.status |= STATUS_PLAUSIBLE;
+  if (hand.between > 0) {
+    answer.self_depth = digits_overlap(hand, answer.posed, scale);
+    if (answer.self_depth > hand.depth_limit)
+      answer.status = (answer.status | STATUS_SELF_OVERLAP) & ~std::uint32_t(STATUS_PLAUSIBLE);
+  }
   if (vessel.on_table) examine_table(hand, vessel, closing.placement, answer);
 }
 

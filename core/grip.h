@@ -27,12 +27,16 @@ struct GripAnswer {
   std::uint32_t touch_mask = 0, tip_mask = 0, finger_mask = 0, inner_mask = 0, used_mask = 0;
   Real phalanx_depth = 0, palm_depth = 0, bone_stretch = 0;
   Real table_depth = 0;   // where the vessel is on a table
+  Real self_depth = 0;    // of a hand with spheres between its joints
   int advance_steps = 0;  // of the longest stage of a finger (pose articulated)
 };
 
-// Kernels 5, 4 and, on a table, 8 of a hand that has closed: `closing` tells where it is, without a reason against it. Allocates nothing.
+// Kernels 5, 4 and, of a hand with spheres between its joints or on a table, 8 of a hand that has closed: `closing` tells where it is, without a reason against it. Allocates nothing.
 void rest_hand(const Hand& hand, const Vessel& vessel, PoseKind pose, const Closing& closing, Real friction, Wanted wanted,
                GripAnswer& answer);
+// How deep the phalanges of two digits lie in each other, m: the largest overlap of any two bones, less than 0 where all are apart. `scale`: of
+// the placed hand.
+Real digits_overlap(const Hand& hand, const std::array<Vec3, JOINTS>& posed, Real scale);
 // The whole. Allocates nothing. Fields as in wholehand::GripResult; where not wanted they keep their zeros. `friction` decides `antipodal`.
 void evaluate_grip(const Hand& hand, const Vessel& vessel, PoseKind pose, Grip grip, Real friction, Wanted wanted,
                    GripAnswer& answer);

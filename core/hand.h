@@ -27,6 +27,7 @@ struct Hand {
   Vec3 joint_limit{};                                 // MCP, PIP, DIP: rad
   Real max_angle = 0, paper_max_angle = 0;            // rad
   Real contact_tolerance = 0, depth_limit = 0;        // m, not scaled
+  int between = 0;                                    // spheres on a bone between its joints
   Real scale = 1;
   Real gap_open = 0, gap_closed = 0;  // g(0), g(1) at scale 1, m
   std::vector<Real> gap_table;        // closure at equal steps of the gap from g(0) to g(1), two entries or more

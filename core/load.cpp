@@ -65,6 +65,7 @@ Hand load_hand(const wholehand::PreparedHand& prepared, const wholehand::HandDat
   hand.paper_max_angle = Real(data.paper_max_angle);
   hand.contact_tolerance = Real(wholehand::judged_contact_tolerance(data));
   hand.depth_limit = Real(wholehand::judged_depth_limit(data));
+  hand.between = data.between;
   hand.scale = Real(data.scale);
   hand.gap_open = Real(prepared.gap_open);
   hand.gap_closed = Real(prepared.gap_closed);

@@ -33,6 +33,7 @@ int field_planes(int field, std::size_t fills, std::size_t tilts) {
 
 int field_planes(int field, const Scene& scene) {
   if (field < REAL_FIELDS && field_row(field).of_table && !scene.table) return 0;
+  if (field < REAL_FIELDS && field_row(field).of_between && scene.hand.between == 0) return 0;
   if (field < REAL_FIELDS && field_row(field).of_strength && !has_effort(scene)) return 0;
   return field_planes(field, scene_fills(scene), scene.tilts.size());
 }
@@ -118,6 +119,8 @@ GripResult decode_grip(const PlaneChunk& chunk, const FieldSet& fields, std::siz
   result.phalanx_depth = real(FIELD_PHALANX_DEPTH);
   result.palm_depth = real(FIELD_PALM_DEPTH);
   result.bone_stretch = real(FIELD_BONE_STRETCH);
+  result.self_overlap = (result.status & STATUS_SELF_OVERLAP) != 0;
+  if (fields.has(FIELD_SELF_DEPTH)) result.self_depth = real(FIELD_SELF_DEPTH);
   if (fields.has(FIELD_TABLE_DEPTH)) result.table_depth = real(FIELD_TABLE_DEPTH);
   return result;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/body.h"
 #include "core/trig.h"
 
 namespace CORE_NS {
@@ -54,7 +55,37 @@ Watch watch_points(const Vessel& vessel, FingerPoints points, Vec3 radii) {
   watch.dip = support_at(vessel, points.dip);
   watch.tip = support_at(vessel, points.tip);
   watch.separations = Vec3(watch.pip.distance, watch.dip.distance, watch.tip.distance) - radii;
+  watch.clear = watch.separations;
   return watch;
+}
+
+// A sphere moves as its place on the bone does: velocities and the bounds of speed and acceleration go evenly from end to end.
+void watch_between(const Vessel& vessel, int between, FingerFrame frame, Vec3 mcp, FingerPoints points,
+                   const std::array<Real, 4>& radii, Vec3 lengths, Vec3 rates, Watch& watch) {
+  const Vec3 sweep = glm::abs(rates) * lengths;
+  const Vec3 bend = rates * rates * lengths;
+  Vec3 start = mcp;
+  Vec3 velocity(0);
+  Real speed = 0;
+  Real acceleration = 0;
+  for (int bone = 0; bone < 3; ++bone) {
+    const Vec3 end = bone == 0 ? points.pip : bone == 1 ? points.dip : points.tip;
+    const Vec3 turn = rates[bone] * quarter_turn(frame, end - start);
+    for (int k = 1; k <= between; ++k) {
+      const Real share = Real(k) / Real(between + 1);
+      const Ball ball = ball_between(start, end, radii[bone], radii[bone + 1], share);
+      const Support support = support_at(vessel, ball.place);
+      const Real separation = support.distance - ball.radius;
+      watch.clear[bone] = std::min(watch.clear[bone], separation);
+      const Real step =
+          safe_step(support, separation, velocity + share * turn, speed + share * sweep[bone], acceleration + share * bend[bone]);
+      watch.between_step = std::min(watch.between_step, step);
+    }
+    start = end;
+    velocity += turn;
+    speed += sweep[bone];
+    acceleration += bend[bone];
+  }
 }
 
 FingerMotion turn_joint(const Hand& hand, FingerMotion motion, int joint) {
@@ -75,11 +106,11 @@ FingerMotion turn_joint(const Hand& hand, FingerMotion motion, int joint) {
 FingerMotion advance_finger(const Hand& hand, FingerMotion motion, FingerFrame frame, Vec3 mcp, FingerPoints points, Watch watch,
                             Vec3 lengths) {
   FingerMotion next = motion;
-  const Vec3 separations = watch.separations;
+  const Vec3 separations = watch.clear;
   if (next.joint < 0) {
     const int nearest = nearest_point(separations, 0);
     const Real clear = std::min(separations.x, std::min(separations.y, separations.z));
-    next.before = separations;
+    next.before = watch.separations;
     if (next.closure == 0 && clear < 0) {
       next.blocked = true;
       next.joint = 3;
@@ -100,13 +131,14 @@ FingerMotion advance_finger(const Hand& hand, FingerMotion motion, FingerFrame f
       }
     }
   }
-  if (next.joint >= 3) return next;
+  if (next.joint >= 3 || (hand.between > 0 && next.joint != motion.joint)) return next;
   if (next.steps >= hand.limits.advance_steps) {
     next.unsettled = true;
     next.joint = 3;
     return next;
   }
-  const Real step = finger_step(frame, mcp, points, watch, lengths, segment_rates(hand.finger_swing, next.joint));
+  const Vec3 rates = segment_rates(hand.finger_swing, next.joint);
+  const Real step = std::min(finger_step(frame, mcp, points, watch, lengths, rates), watch.between_step);
   next.steps = next.steps + 1;
   if (next.joint < 0) {
     next.closure = std::min(next.closure + step, next.limit);

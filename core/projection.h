@@ -2,6 +2,8 @@
 // Kernel 5: middle, ring and little finger come to rest on the vessel.
 #pragma once
 
+#include <array>
+
 #include "core/hand.h"
 #include "core/sdf.h"
 
@@ -27,10 +29,12 @@ struct PaperAxis {
   bool exists = false;
 };
 
-// What surrounds the three watched points PIP, DIP and tip.
+// What surrounds the three watched points PIP, DIP and tip, and the spheres on the bones that end there.
 struct Watch {
   Support pip, dip, tip;
-  Vec3 separations{};  // distance less radius, m
+  Vec3 separations{};               // distance less radius, m
+  Vec3 clear{};                     // the least separation of a point and the spheres of the bone that ends there, m
+  Real between_step = NO_DISTANCE;  // the spheres' smallest safe step
 };
 
 // Rates at which the segments beyond PIP, DIP and DIP's end turn: cumulative joint swings along the trajectory (joint -1; rad per unit
@@ -46,9 +50,14 @@ int nearest_point(Vec3 separations, int first);
 FingerMotion start_motion(const Hand& hand, Real limit);
 // PIP, DIP and tip among the surroundings, with the radii given.
 Watch watch_points(const Vessel& vessel, FingerPoints points, Vec3 radii);
+// Adds the spheres between the joints to the watch, `between` on each of the three moving bones; radii: MCP, PIP, DIP, tip. Their step is for
+// the rates given, whose unit is the step's.
+void watch_between(const Vessel& vessel, int between, FingerFrame frame, Vec3 mcp, FingerPoints points,
+                   const std::array<Real, 4>& radii, Vec3 lengths, Vec3 rates, Watch& watch);
 // The motion with `joint` about to turn alone (3: at rest).
 FingerMotion turn_joint(const Hand& hand, FingerMotion motion, int joint);
 // One step of conservative advancement: given the points at the motion's angles and what surrounds them, the motion after its next move.
+// Where spheres are watched and another joint's turn comes, it does not move yet: their step was that of the joint before.
 FingerMotion advance_finger(const Hand& hand, FingerMotion motion, FingerFrame frame, Vec3 mcp, FingerPoints points, Watch watch,
                             Vec3 lengths);
 // Pose `paper`: the axis through MCPs, and a point turned about it.

@@ -33,6 +33,7 @@ struct GripResult {
   bool plausible = false;                  // not deeper than the depth limit, and not through the table
   bool antipodal = false;                  // both contact angles within atan(mu)
   bool grazing = false;                    // a contact normal within 1 degree of perpendicular to the thumb-index line
+  bool self_overlap = false;               // two fingers lie deeper in each other than the depth limit
   bool through_table = false;              // the hand, posed or open, reaches below the table and its clearance
   std::array<double, 2> contact_angles{};  // thumb, index: between outward normal and line, rad
   double closure = 0;
@@ -46,10 +47,12 @@ struct GripResult {
   std::uint32_t tip_mask = 0;    // projected, by role
   std::uint32_t finger_mask = 0;
   std::uint32_t inner_mask = 0;
-  std::uint32_t used_mask = 0;                                    // bit f: finger f has a touching point
-  std::uint32_t status = 0;                                       // STATUS_* bits of shaders/layout.h
-  double phalanx_depth = 0, palm_depth = 0;                       // m, >= 0
-  double bone_stretch = 0;                                        // m
+  std::uint32_t used_mask = 0;               // bit f: finger f has a touching point
+  std::uint32_t status = 0;                  // STATUS_* bits of shaders/layout.h
+  double phalanx_depth = 0, palm_depth = 0;  // m, >= 0
+  double bone_stretch = 0;                   // m
+  double self_depth =
+      std::numeric_limits<double>::quiet_NaN();  // m, of two fingers in each other; NaN without spheres between the joints
   double table_depth = std::numeric_limits<double>::quiet_NaN();  // m, more than 0: through_table; NaN without a table
   // Iterations, of the core alone (a device does not tell): of the longer trace of a tip, and of a finger's longest stage.
   int trace_steps = 0, advance_steps = 0;
@@ -64,7 +67,8 @@ struct LiquidResult {
 
 // Where the hand presses on the vessel: nearest point of the surface (m) and unit normal into the vessel, vessel frame.
 struct GripContact {
-  int joint = 0, digit = 0;  // the digit is a finger, or FINGER_COUNT for the palm
+  int joint = 0, between = 0;  // between: number of a sphere of the bone that ends at the joint; 0: the joint
+  int digit = 0;               // the digit is a finger, or FINGER_COUNT for the palm
   Triple point{}, normal{};
 };
 

@@ -146,6 +146,7 @@ std::string grip_json(const GripReport& report) {
     json["palm_depth_m"] = result.palm_depth;
     json["bone_stretch_m"] = result.bone_stretch;
     json["table_depth_m"] = finite_or_null(result.table_depth);
+    json["self_depth_m"] = finite_or_null(result.self_depth);
     json["states"] = Json::array();
     for (std::size_t k = 0; k < report.answer.states.size(); ++k) {
       json["states"].push_back(state_json(report, report.answer.states[k]));

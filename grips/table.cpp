@@ -58,6 +58,11 @@ void write_closing(Buffer out, const GripReport& report) {
     fmt::format_to(out, "  table          {:.3f} mm {} the table and its clearance\n", std::abs(r.table_depth) * 1e3,
                    r.through_table ? "below" : "above");
   }
+  if (!std::isnan(r.self_depth)) {
+    fmt::format_to(out, "  fingers        {:.3f} mm {}{}\n", std::abs(r.self_depth) * 1e3,
+                   r.self_depth > 0 ? "in each other" : "apart from each other at least",
+                   r.self_overlap ? ": deeper than the depth limit" : "");
+  }
   fmt::format_to(out, "  bone stretch   {:.3f} mm\n", r.bone_stretch * 1e3);
   fmt::format_to(out, "  fingers used   {}\n", finger_list(r.used_mask));
   const std::uint32_t blocked = r.status >> STATUS_BLOCKED_SHIFT & 0x1F, unsettled = r.status >> STATUS_UNSETTLED_SHIFT & 0x1F;

@@ -202,6 +202,7 @@ void GripProgram::make_grip_kernel(std::size_t v, const Scene& scene, const Scen
   constants.push_back({CONST_SDF_KIND, std::int32_t(from.lattice ? SDF_LATTICE : SDF_OUTLINE)});
   constants.push_back({CONST_OUTLINE_COUNT, std::int32_t(from.outline_count)});
   if (scene.table) constants.push_back({CONST_TABLE, std::int32_t(1)});
+  if (scene.hand.between > 0) constants.push_back({CONST_BETWEEN, std::int32_t(scene.hand.between)});
   if (from.halves) constants.push_back({CONST_LATTICE_BITS, std::int32_t(16)});
   if (has_efforts_) constants.push_back({CONST_CONTACTS, std::int32_t(fields.real_planes)});
   add_limits(constants, options);

@@ -53,13 +53,13 @@ std::optional<HandHold> hand_hold(const LiveScene& live, const Tick& tick, const
   std::array<Vec3, JOINT_COUNT> joints;
   for (std::size_t j = 0; j < JOINT_COUNT; ++j) joints[j] = back * (to_vec3(mirrored(posed[j], handedness)) - place);
   std::array<core_f64::PressingJoint, JOINT_COUNT> pressing;
-  const int count =
-      core_f64::find_contacts(live.vessels[static_cast<std::size_t>(tick.vessel)].vessel, joints, tick.touch_mask, pressing);
+  const int count = core_f64::find_contacts(live.hand, live.vessels[static_cast<std::size_t>(tick.vessel)].vessel, joints,
+                                            core_f64::placed_scale(live.hand, joints), tick.touch_mask, pressing);
   std::vector<ContactPoint> contacts, tips;
   for (int i = 0; i < count; ++i) {
-    const auto& [joint, contact] = pressing[static_cast<std::size_t>(i)];
+    const auto& [joint, between, contact] = pressing[static_cast<std::size_t>(i)];
     contacts.push_back(contact);
-    if (joint == THUMB_TIP || joint == INDEX_TIP) tips.push_back(contact);
+    if (between == 0 && (joint == THUMB_TIP || joint == INDEX_TIP)) tips.push_back(contact);
   }
   const Vec3 center = core_f64::contacts_center(contacts);
   const core_f64::HandStrength hand{scene.force.friction, scene.force.torsion, scene.strength->digits};

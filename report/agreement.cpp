@@ -28,6 +28,7 @@ constexpr StatusPart STATUS_PARTS[] = {
     {"proxy_unsettled", STATUS_PROXY_UNSETTLED, 7},
     {"blocked_mask", 0x1Fu << STATUS_BLOCKED_SHIFT, STATUS_BLOCKED_SHIFT},
     {"through_table", STATUS_THROUGH_TABLE, 13},
+    {"self_overlap", STATUS_SELF_OVERLAP, 14},
     {"unsettled_mask", 0x1Fu << STATUS_UNSETTLED_SHIFT, STATUS_UNSETTLED_SHIFT},
 };
 // Variables that are a field's own word.

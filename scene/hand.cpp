@@ -29,7 +29,7 @@ void read_angle(const SceneTable& angles, const char* key, AngleRange& range) {
 void read_hand(const SceneTable& root, HandData& hand) {
   const auto table =
       root.table("hand", {"scale", "handedness", "contact_tolerance_mm", "max_angle_deg", "paper_max_angle_deg", "depth_limit_mm",
-                          "joint_limit_deg", "thumb", "index", "middle", "ring", "little", "angles"});
+                          "between", "joint_limit_deg", "thumb", "index", "middle", "ring", "little", "angles"});
   if (!table) return;
   hand.place = table->file().text_of(table->place());
   table->read("scale", ranges::SCALE, hand.scale);
@@ -38,6 +38,9 @@ void read_hand(const SceneTable& root, HandData& hand) {
   table->read("max_angle_deg", ranges::TURN, hand.max_angle);
   table->read("paper_max_angle_deg", ranges::TURN, hand.paper_max_angle);
   table->read("depth_limit_mm", ranges::DEPTH_LIMIT, hand.depth_limit);
+  std::int64_t between = hand.between;
+  table->read("between", ranges::BETWEEN, between);
+  hand.between = static_cast<int>(between);
   table->read("joint_limit_deg", ranges::TURN, "[MCP, PIP, DIP]", hand.joint_limit);
   for (int f = 0; f < FINGER_COUNT; ++f) read_finger(*table, f, hand.fingers[f]);
 

@@ -90,6 +90,7 @@ constexpr Quantity OFFSET{-10000, 10000, Unit::mm};
 constexpr Quantity POINT{-25000, 25000, Unit::mm};  // a fingertip given on the command line
 constexpr Quantity TILT{0, 180, Unit::deg};
 constexpr Quantity POURED_SHARE{1e-6, 1};
+constexpr IntegerRange BETWEEN{0, 8};
 constexpr IntegerRange AXIS_COUNT{1, LARGEST_AXIS};
 constexpr IntegerRange SOBOL_COUNT{1, 1000000000000000};
 constexpr IntegerRange SEED{0, INT64_MAX};

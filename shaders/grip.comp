@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#include "body.glsl"
 #include "closure.glsl"
 #include "contact.glsl"
 #include "grips.glsl"
@@ -21,25 +22,30 @@ const bool WANTS_RIGGED = POSE != POSE_ARTICULATED || PLANE_JOINTS >= 0;
 uint grip;
 Real scale;
 uint status, touch_mask, tip_mask, finger_mask, inner_mask, used_mask;
-Real phalanx_depth, palm_depth, judged_depth, bone_stretch, table_depth;
+Real phalanx_depth, palm_depth, judged_depth, bone_stretch, table_depth, self_depth;
+Vec3 chain[JOINTS];  // the posed hand, where it has spheres between its joints
 Vec3 previous_proxy;
 
-// Kernel 9, for the efforts.
-void put_contact(int j, Vec3 p, bool touching) {
+// Kernel 9, for the efforts. Whether the point presses.
+bool put_contact(int j, Vec3 p, bool touching) {
   Vec3 place, normal;
   bool presses = presses_at(p, place, normal) && touching;
   put_point(CONTACTS, 2 * j, grip, presses ? place : Vec3(0));
   put_point(CONTACTS, 2 * j + 1, grip, presses ? normal : Vec3(0));
+  return presses;
+}
+
+// A depth in the vessel, of the palm or of the rest of finger f. In pose paper the fingers that it moves are not judged.
+void add_depth(int f, bool is_palm, Real separation) {
+  Real depth = max(Real(0), -separation);
+  palm_depth = is_palm ? max(palm_depth, depth) : palm_depth;
+  phalanx_depth = is_palm ? phalanx_depth : max(phalanx_depth, depth);
+  if (f < 2 || POSE != POSE_PAPER) judged_depth = max(judged_depth, depth);
 }
 
 // Point k of finger f (joint j) at its posed place. `before`: bits of the finger's points that touched before they were projected.
 void examine_point(int f, int k, int j, Vec3 p, Real radius, Real separation, Real bone, inout int before) {
-  // depths: a metacarpal base is palm; in pose paper the fingers that it moves are not judged
-  Real depth = max(Real(0), -separation);
-  bool is_base = k == 0;
-  palm_depth = is_base ? max(palm_depth, depth) : palm_depth;
-  phalanx_depth = is_base ? phalanx_depth : max(phalanx_depth, depth);
-  if (f < 2 || POSE != POSE_PAPER) judged_depth = max(judged_depth, depth);
+  add_depth(f, k == 0, separation);
   if (ON_TABLE) table_depth = max(table_depth, depth_in_table(p, radius));
   // touching: the tracked tips always do
   bool near_enough = separation <= HAND_CONTACT_TOLERANCE;
@@ -96,11 +102,12 @@ void put_whole(Real closure, Real thumb_angle, Real index_angle) {
   put_real(PLANE_PALM_DEPTH, 0, grip, palm_depth);
   put_real(PLANE_BONE_STRETCH, 0, grip, bone_stretch);
   put_real(PLANE_TABLE_DEPTH, 0, grip, table_depth);
+  put_real(PLANE_SELF_DEPTH, 0, grip, self_depth);
 }
 
 // What a grip that is infeasible has not.
 void put_nothing() {
-  phalanx_depth = palm_depth = bone_stretch = table_depth = NOT_A_NUMBER;
+  phalanx_depth = palm_depth = bone_stretch = table_depth = self_depth = NOT_A_NUMBER;
   put_whole(NOT_A_NUMBER, NOT_A_NUMBER, NOT_A_NUMBER);
   for (int j = 0; j < JOINTS; ++j) {
     if (PLANE_JOINTS >= 0) put_point(PLANE_JOINTS, j, grip, Vec3(NOT_A_NUMBER));
@@ -152,6 +159,10 @@ void pose_articulated(int f, Real closure, inout PlacedFinger finger) {
   while (motion.joint < 3) {
     finger.points = finger_points(finger.frame, finger.mcp, finger.lengths, motion.angles);
     Watch watch = watch_points(finger.points, finger.radii);
+    if (BETWEEN > 0) {
+      watch_between(BETWEEN, finger.frame, finger.mcp, finger.points, Vec4(scale * hand_radius(f, 1), finger.radii), finger.lengths,
+                    segment_rates(hand_table[HAND_FINGER_SWING].xyz, motion.joint), watch);
+    }
     finger.separations = watch.separations;
     motion = advance_finger(motion, finger.frame, finger.mcp, finger.points, watch, finger.lengths);
   }
@@ -180,21 +191,70 @@ void pose_paper(int f, PaperAxis axis, inout PlacedFinger finger) {
   }
 }
 
+// Point k of a finger, from its base to its tip.
+Vec3 point_of(PlacedFinger finger, int k) {
+  return k == 0   ? finger.frame.base
+         : k == 1 ? finger.mcp
+         : k == 2 ? finger.points.pip
+         : k == 3 ? finger.points.dip
+                  : finger.points.tip;
+}
+
 // `known`: the finger came to rest with the separations of its last three points.
 void examine_finger(int f, int first_joint, bool known, inout PlacedFinger finger) {
   int point_count = f == 0 ? 4 : 5;
   [[dont_unroll]] for (int k = 0; k < point_count; ++k) {
-    Vec3 p = k == 0   ? finger.frame.base
-             : k == 1 ? finger.mcp
-             : k == 2 ? finger.points.pip
-             : k == 3 ? finger.points.dip
-                      : finger.points.tip;
+    Vec3 p = point_of(finger, k);
     Real radius = scale * hand_radius(f, k);
     Real bone = k > 0 ? scale * hand_length(f, k - 1) : Real(0);
     Real separation = k == 2 ? finger.separations.x : k == 3 ? finger.separations.y : finger.separations.z;
     if (!known || k < 2) separation = separation_at(p, radius);
     examine_point(f, k, first_joint + k, p, radius, separation, bone, finger.before);
   }
+}
+
+// The spheres between the joints of a finger whose joints are examined: depths, and contacts in the places of joints that do not touch, as
+// core/contacts.cpp has it.
+void examine_between(int f, int first_joint, PlacedFinger finger) {
+  int bones = f == 0 ? 3 : 4;
+  uint vacant = ~(touch_mask >> first_joint) & ((2u << bones) - 1u);
+  [[dont_unroll]] for (int i = 0; i < bones * BETWEEN; ++i) {
+    int bone = i / BETWEEN;
+    Real share = Real(i - bone * BETWEEN + 1) / Real(BETWEEN + 1);
+    Ball ball = ball_between(point_of(finger, bone), point_of(finger, bone + 1), scale * hand_radius(f, bone),
+                             scale * hand_radius(f, bone + 1), share);
+    Real separation = separation_at(ball.place, ball.radius);
+    add_depth(f, bone == 0, separation);
+    uint places = vacant & (bone == 0 ? 1u : ~1u);
+    bool touching = CONTACTS >= 0 && separation <= HAND_CONTACT_TOLERANCE && places != 0u;
+    // a loop of one turn is passed by where no lane takes it
+    [[dont_unroll]] for (bool once = touching; once; once = false) {
+      int place = findLSB(places);
+      if (put_contact(first_joint + place, ball.place, true)) vacant &= ~(1u << place);
+    }
+  }
+}
+
+void keep_chain(int f, int first_joint, PlacedFinger finger) {
+  int point_count = f == 0 ? 4 : 5;
+  [[dont_unroll]] for (int k = 0; k < point_count; ++k) chain[first_joint + k] = point_of(finger, k);
+}
+
+// As core/grip.cpp has it; in one loop over the pairs of phalanges, of which there are two of the thumb and three of each finger.
+Real digits_overlap() {
+  Real deepest = -NO_DISTANCE;
+  [[dont_unroll]] for (int first = 0; first < 11; ++first) {
+    int f = (first + 1) / 3, bone = first < 2 ? first + 1 : first + 2 - 3 * f;
+    int j = (f == 0 ? 0 : 5 * f - 1) + bone;
+    Vec2 radii = scale * Vec2(hand_radius(f, bone), hand_radius(f, bone + 1));
+    [[dont_unroll]] for (int second = 3 * f + 2; second < 14; ++second) {
+      int g = (second + 1) / 3, other = second + 2 - 3 * g;
+      int i = 5 * g - 1 + other;
+      Vec2 other_radii = scale * Vec2(hand_radius(g, other), hand_radius(g, other + 1));
+      deepest = max(deepest, bones_overlap(chain[j], chain[j + 1], radii, chain[i], chain[i + 1], other_radii));
+    }
+  }
+  return deepest;
 }
 
 // The finger open at the same place, which it has to come from: its base, and an MCP other than the thumb's, are the posed finger's.
@@ -233,6 +293,10 @@ void rest_hand(Closing closing) {
     if (known) pose_articulated(f, closing.closure, finger);
     if (POSE == POSE_PAPER && f >= 2) pose_paper(f, axis, finger);
     examine_finger(f, first_joint, known, finger);
+    if (BETWEEN > 0) {
+      examine_between(f, first_joint, finger);
+      keep_chain(f, first_joint, finger);
+    }
     if (ON_TABLE) examine_open_finger(f, finger);
   }
 }
@@ -263,6 +327,8 @@ void main() {
   table_depth = -NO_DISTANCE;
   rest_hand(closing);
   if (judged_depth <= HAND_DEPTH_LIMIT) status |= STATUS_PLAUSIBLE;
+  self_depth = BETWEEN > 0 ? digits_overlap() : Real(0);
+  if (BETWEEN > 0 && self_depth > HAND_DEPTH_LIMIT) status = (status | STATUS_SELF_OVERLAP) & ~STATUS_PLAUSIBLE;
   if (ON_TABLE && table_depth > Real(0)) status = (status | STATUS_THROUGH_TABLE) & ~STATUS_PLAUSIBLE;
   put_masks();
   put_whole(closing.closure, closing.thumb_angle, closing.index_angle);

@@ -74,6 +74,7 @@
 #define JOINTS 24
 #define THUMB_TIP 3
 #define INDEX_TIP 8
+#define MOST_BETWEEN 8              // spheres on a bone between its joints
 
 // ---- why a grip is not feasible, in the order of decision (status, low 4 bits) ----
 #define REASON_NONE 0
@@ -91,6 +92,7 @@
 #define STATUS_PROXY_UNSETTLED 0x80 // a proxy took all its steps
 #define STATUS_BLOCKED_SHIFT 8      // bits 8..12: finger f was inside when open
 #define STATUS_THROUGH_TABLE 0x2000 // bit 13: the hand, posed or open, reaches below the table and its clearance
+#define STATUS_SELF_OVERLAP 0x4000  // bit 14: two fingers lie deeper in each other than the depth limit
 #define STATUS_UNSETTLED_SHIFT 16   // bits 16..20: finger f took all its advancement steps
 
 // ---- kinds, as specialization constants ----
@@ -142,8 +144,9 @@
   X(FRICTION_NEEDED, 31) \
   X(EFFORT, 32) \
   X(EFFORT_LOW, 33) \
-  X(TIPS_EFFORT, 34)
-#define REAL_FIELDS 35
+  X(TIPS_EFFORT, 34) \
+  X(SELF_DEPTH, 35)
+#define REAL_FIELDS 36
 // Words: uint_out[plane * n + grip], one plane each.
 #define UINT_FIELD_LIST(X) \
   X(STATUS, REAL_FIELDS + 0) \
@@ -214,7 +217,8 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 
 // A state as the effort kernel reads it: its load; sine and cosine of its tilt; then, for EFFORT_SAFE, the angle of the tilt before (-1: none)
 // and the number of its fill, else the angle of its tilt and its fill as a fraction.
-// Where a joint presses: the place on the surface and the inward normal there; both 0 where it does not.
+// Where a joint presses: the place on the surface and the inward normal there; both 0 where it does not. A sphere between joints has the place
+// of a joint of its digit that does not touch.
 #define CONTACT_STRIDE 6
 #define EFFORT_WORST 0              // the largest effort of the whole hand
 #define EFFORT_TIPS 1               // that of thumb and index tip alone
@@ -236,6 +240,7 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define CONST_REFERENCE 6
 #define CONST_TABLE 7               // whether the scene has a table, bool
 #define CONST_UNTIL_POURED 8        // of the forces: whether states may be left out, bool
+#define CONST_BETWEEN 9             // spheres on a bone between its joints, 0..MOST_BETWEEN
 #define CONST_CONTACTS 20           // first of CONTACT_STRIDE * JOINTS planes, scratch: where joints press; -1: not computed
 #define CONST_EFFORT_TASK 21        // of the efforts and reserves: EFFORT_WORST .. EFFORT_FRICTION
 #define CONST_STOP_TOLERANCE 40     // Real, m; this and the next five have the named values where nothing is given

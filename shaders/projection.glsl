@@ -3,6 +3,7 @@
 #ifndef PROJECTION_GLSL
 #define PROJECTION_GLSL
 
+#include "body.glsl"
 #include "hand.glsl"
 #include "sdf.glsl"
 
@@ -22,6 +23,8 @@ struct FingerMotion {
 struct Watch {
   Support pip, dip, tip;
   Vec3 separations;
+  Vec3 clear;
+  Real between_step;
 };
 
 struct PaperAxis {
@@ -83,7 +86,37 @@ Watch watch_points(FingerPoints points, Vec3 radii) {
   watch.dip = support_at(points.dip);
   watch.tip = support_at(points.tip);
   watch.separations = Vec3(watch.pip.distance, watch.dip.distance, watch.tip.distance) - radii;
+  watch.clear = watch.separations;
+  watch.between_step = NO_DISTANCE;
   return watch;
+}
+
+// One loop over the spheres of all bones: the distance is compiled once.
+void watch_between(int between, FingerFrame frame, Vec3 mcp, FingerPoints points, Vec4 radii, Vec3 lengths, Vec3 rates,
+                   inout Watch watch) {
+  Vec3 sweep = abs(rates) * lengths;
+  Vec3 bend = rates * rates * lengths;
+  Vec3 pip_turn = rates.x * quarter_turn(frame, points.pip - mcp);
+  Vec3 dip_turn = rates.y * quarter_turn(frame, points.dip - points.pip);
+  Vec3 tip_turn = rates.z * quarter_turn(frame, points.tip - points.dip);
+  [[dont_unroll]] for (int i = 0; i < 3 * between; ++i) {
+    int bone = i / between;
+    Real share = Real(i - bone * between + 1) / Real(between + 1);
+    Vec3 start = bone == 0 ? mcp : bone == 1 ? points.pip : points.dip;
+    Vec3 end = bone == 0 ? points.pip : bone == 1 ? points.dip : points.tip;
+    Real start_radius = bone == 0 ? radii.x : bone == 1 ? radii.y : radii.z;
+    Real end_radius = bone == 0 ? radii.y : bone == 1 ? radii.z : radii.w;
+    Vec3 velocity = bone == 0 ? share * pip_turn : bone == 1 ? pip_turn + share * dip_turn : pip_turn + dip_turn + share * tip_turn;
+    Real speed = bone == 0 ? share * sweep.x : bone == 1 ? sweep.x + share * sweep.y : sweep.x + sweep.y + share * sweep.z;
+    Real acceleration = bone == 0 ? share * bend.x : bone == 1 ? bend.x + share * bend.y : bend.x + bend.y + share * bend.z;
+    Ball ball = ball_between(start, end, start_radius, end_radius, share);
+    Support support = support_at(ball.place);
+    Real separation = support.distance - ball.radius;
+    watch.clear.x = bone == 0 ? min(watch.clear.x, separation) : watch.clear.x;
+    watch.clear.y = bone == 1 ? min(watch.clear.y, separation) : watch.clear.y;
+    watch.clear.z = bone == 2 ? min(watch.clear.z, separation) : watch.clear.z;
+    watch.between_step = min(watch.between_step, safe_step(support, separation, velocity, speed, acceleration));
+  }
 }
 
 FingerMotion turn_joint(FingerMotion motion, int joint) {
@@ -102,11 +135,11 @@ FingerMotion turn_joint(FingerMotion motion, int joint) {
 
 FingerMotion advance_finger(FingerMotion motion, FingerFrame frame, Vec3 mcp, FingerPoints points, Watch watch, Vec3 lengths) {
   FingerMotion next = motion;
-  Vec3 separations = watch.separations;
+  Vec3 separations = watch.clear;
   if (next.joint < 0) {
     int nearest = nearest_point(separations, 0);
     Real clear = min(separations.x, min(separations.y, separations.z));
-    next.before = separations;
+    next.before = watch.separations;
     if (next.closure == Real(0) && clear < Real(0)) {
       next.blocked = true;
       next.joint = 3;
@@ -127,13 +160,14 @@ FingerMotion advance_finger(FingerMotion motion, FingerFrame frame, Vec3 mcp, Fi
       }
     }
   }
-  if (next.joint >= 3) return next;
+  if (next.joint >= 3 || (BETWEEN > 0 && next.joint != motion.joint)) return next;
   if (next.steps >= LIMIT_ADVANCE_STEPS) {
     next.unsettled = true;
     next.joint = 3;
     return next;
   }
-  Real step = finger_step(frame, mcp, points, watch, lengths, segment_rates(hand_table[HAND_FINGER_SWING].xyz, next.joint));
+  Vec3 rates = segment_rates(hand_table[HAND_FINGER_SWING].xyz, next.joint);
+  Real step = min(finger_step(frame, mcp, points, watch, lengths, rates), watch.between_step);
   next.steps = next.steps + 1;
   if (next.joint < 0) {
     next.closure = min(next.closure + step, next.limit);

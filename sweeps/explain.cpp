@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -59,6 +60,7 @@ class Explainer {
     force(as_is);
     liquid(as_is);
     table(as_is);
+    body(as_is);
     efforts(as_is);
     poured();
     azimuth();
@@ -186,6 +188,55 @@ class Explainer {
     other.table.emplace();
     row("keeping the hand above a table: the scene has no table",
         measure(other, make_field_set(kept_fields(), other), OUTLINE_SPECIALIZED), as_is, "a table");
+  }
+
+  // The same of the spheres between the joints: with strengths they press too, and the hand rests elsewhere, so that efforts are left out here.
+  void body(Measured as_is) {
+    Scene other = scene_;
+    if (scene_.strength) {
+      other.strength.reset();
+      as_is = measure(other, make_field_set(kept_fields(), other), OUTLINE_SPECIALIZED);
+    }
+    const int between = scene_.hand.between;
+    other.hand.between = between > 0 ? 0 : 2;
+    const Measured changed = measure(other, make_field_set(kept_fields(), other), OUTLINE_SPECIALIZED);
+    if (between == 0) {
+      row("spheres between the joints, and fingers in each other", changed, as_is, "2 on a bone");
+    } else {
+      say("  not left out: {} spheres on each bone, which cost {:.3f} us and {} B per grip ({:.2f} x without them)\n", between,
+          microseconds(as_is) - microseconds(changed), static_cast<long long>(as_is.bytes) - static_cast<long long>(changed.bytes),
+          as_is.seconds / changed.seconds);
+    }
+    gaps();
+  }
+
+  // How far the skin of a bone is outside of its spheres, where two that are h apart meet.
+  void gaps() {
+    const HandData& hand = scene_.hand;
+    double deepest = 0, length = 0;
+    int apart = 0, bones = 0;
+    for (int f = 0; f < FINGER_COUNT; ++f) {
+      const FingerData& finger = hand.fingers[static_cast<std::size_t>(f)];
+      for (std::size_t bone = 0; bone < (f == 0 ? 3u : 4u); ++bone) {
+        const double half = hand.scale * finger.segments[bone] / (hand.between + 1) / 2;
+        const double radius = hand.scale * std::min(finger.radii[bone], finger.radii[bone + 1]);
+        ++bones;
+        if (half >= radius) {
+          ++apart;
+        } else if (const double gap = radius - std::sqrt(radius * radius - half * half); gap > deepest) {
+          deepest = gap;
+          length = hand.scale * finger.segments[bone];
+        }
+      }
+    }
+    if (apart < bones) {
+      say("    between two spheres the skin of a bone lies up to {:.2f} mm outside of both (a bone of {:.1f} mm)", deepest * 1e3,
+          length * 1e3);
+      if (apart > 0) say("; on {} of {} bones the spheres do not meet", apart, bones);
+      say("\n");
+    } else {
+      say("    on none of the bones the spheres meet\n");
+    }
   }
 
   // The same of the efforts, and what the search for the worst of them takes.

@@ -24,6 +24,7 @@ std::int32_t reason(std::uint32_t status) { return static_cast<std::int32_t>(sta
 std::int32_t plausible(std::uint32_t status) { return (status & STATUS_PLAUSIBLE) != 0; }
 std::int32_t antipodal(std::uint32_t status) { return (status & STATUS_ANTIPODAL) != 0; }
 std::int32_t through_table(std::uint32_t status) { return (status & STATUS_THROUGH_TABLE) != 0; }
+std::int32_t self_overlap(std::uint32_t status) { return (status & STATUS_SELF_OVERLAP) != 0; }
 std::int32_t grazing(std::uint32_t status) { return (status & STATUS_GRAZING) != 0; }
 std::int32_t blocked(std::uint32_t status) { return static_cast<std::int32_t>((status >> STATUS_BLOCKED_SHIFT) & 0x1F); }
 std::int32_t unsettled(std::uint32_t status) { return static_cast<std::int32_t>((status >> STATUS_UNSETTLED_SHIFT) & 0x1F); }
@@ -68,10 +69,11 @@ Variable of_field(const Field& row) {
           0,
           dims_of(row.shape),
           row.by_default,
-          row.of_strength ? Need::strength
-          : of_tilts      ? Need::tilts
-          : row.of_table  ? Need::table
-                          : Need::nothing,
+          row.of_strength  ? Need::strength
+          : of_tilts       ? Need::tilts
+          : row.of_table   ? Need::table
+          : row.of_between ? Need::between
+                           : Need::nothing,
           nullptr,
           row.absent == FieldAbsent::never};
 }
@@ -207,6 +209,13 @@ std::vector<Variable> make_catalogue() {
           byte("through_table", "whether the hand goes through the table, which makes the grip implausible", YES_NO, FIELD_STATUS,
                through_table),
       });
+  add(all, ON_REQUEST, Need::between,
+      {
+          of_field(FIELD_SELF_DEPTH),
+          byte("self_overlap",
+               "whether two fingers lie deeper in each other than the depth limit, which makes the grip implausible", YES_NO,
+               FIELD_STATUS, self_overlap),
+      });
   add_other_fields(all);
   return all;
 }
@@ -227,6 +236,8 @@ const char* missing_need(Need need, const Scene& scene) {
       return scene.pose != Pose::articulated ? "[scene] pose = \"articulated\"" : nullptr;
     case Need::table:
       return scene.table ? nullptr : "[table]";
+    case Need::between:
+      return scene.hand.between > 0 ? nullptr : "[hand] between";
     case Need::strength:
       return !scene.strength ? "[strength]" : scene.tilts.empty() ? "[tilts]" : nullptr;
     case Need::nothing:

@@ -160,6 +160,24 @@ TEST(ParityEffort, OfManyStates) {
   expect_same_efforts(scene, "many", 60);
 }
 
+// Of these a part is held by spheres between joints.
+TEST(ParityEffort, OfAHandWithSpheresBetweenItsJoints) {
+  for (const int between : {2, 5}) {
+    Scene scene = strong_scene({beaker1(), beaker3()});
+    scene.hand.between = between;
+    const auto core = make_core_evaluator(scene);
+    int pressing = 0;
+    for (const GripInput& grip : grips_of(scene, 0, 40)) {
+      GripResult result;
+      core->grip(0, grip, result);
+      if (!result.plausible) continue;
+      for (const GripContact& contact : core->contacts(0, result)) pressing += contact.between > 0;
+    }
+    EXPECT_GT(pressing, 20);
+    expect_same_efforts(scene, "between" + std::to_string(between), 100);
+  }
+}
+
 TEST(ParityEffort, OfDryVessels) {
   Scene scene = strong_scene({beaker1()});
   scene.liquid.reset();

@@ -96,6 +96,21 @@ TEST(Parity, HandsOnATable) {
   expect_parity(scene, "table_paper");
 }
 
+TEST(Parity, SpheresBetweenJoints) {
+  Scene scene = wet_scene({beaker1(), beaker2(), shell_of(beaker3())}, Pose::articulated);
+  scene.hand.between = 2;
+  expect_parity(scene, "between");
+  scene = wet_scene({vase()}, Pose::articulated, left_hand());
+  scene.hand.between = 8;
+  scene.table = TableData{5e-3};
+  expect_parity(scene, "between_left");
+  for (const Pose pose : {Pose::paper, Pose::rigged}) {
+    scene = scene_of({ledges()}, pose, odd_hand());
+    scene.hand.between = pose == Pose::paper ? 1 : 3;
+    expect_parity(scene, "between_" + std::to_string(scene.hand.between));
+  }
+}
+
 // Another hand in every number, vessels without a cavity, no liquid, no tilts.
 TEST(Parity, OddHandDryAndUntilted) {
   expect_parity(scene_of({ledges()}, Pose::articulated, odd_hand()), "odd");

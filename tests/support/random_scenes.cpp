@@ -192,6 +192,7 @@ void add_later_keys(Draw& draw, std::string& text) {
   for (const char* digit : {"index_N", "middle_N", "ring_N", "little_N", "palm_N"})
     if (draw.chance(0.5)) add_key(text, "[strength]", key(digit, draw.chance(0.2) ? draw.over(0.1, 10000) : draw.over(5, 100)));
   if (draw.chance(0.3)) text += "[output]\n" + key("apart_mm", draw.chance(0.2) ? 0 : draw.over(1, 100));
+  if (draw.chance(0.4)) add_key(text, "[hand]", fmt::format("between = {}\n", draw.of(9)));
 }
 
 std::string random_scene_text(std::uint64_t seed) {

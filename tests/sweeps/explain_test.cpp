@@ -85,12 +85,14 @@ TEST(Explain, BareSceneHasALineForEachPartThatItLacks) {
   Scene scene = three_beakers();
   scene.pose = Pose::rigged;
   scene.table.reset();
+  scene.hand.between = 0;
   scene.liquid.reset();
   scene.tilts.clear();
   scene.grips.azimuth.values = {0, 0.5, 1};
   for (const char* on : {"core", "vulkan"}) {
     const Explained explained = explain(scene, on, Precision::full);
-    for (const char* lacked : {"projection", "force kernel", "the liquid", "above a table", "2 of 3 azimuths", "inner wall"})
+    for (const char* lacked : {"projection", "force kernel", "the liquid", "above a table", "2 of 3 azimuths", "inner wall",
+                               "spheres between the joints"})
       EXPECT_TRUE(explained.find(lacked)) << lacked << "\n" << explained.text;
     EXPECT_EQ(explained.find("from a buffer") != nullptr, std::string(on) == "vulkan") << explained.text;
     // two of three azimuths are two grips more for each that is computed
@@ -101,6 +103,27 @@ TEST(Explain, BareSceneHasALineForEachPartThatItLacks) {
     ASSERT_TRUE(explained.find("force kernel"));
     EXPECT_GT(explained.find("force kernel")->bytes, 0) << explained.text;
   }
+}
+
+TEST(Explain, SaysWhatSpheresBetweenJointsCostAndLeaveOpen) {
+  Scene scene = three_beakers();
+  scene.vessels.resize(1);
+  scene.hand.between = 2;
+  scene.output.also = {"self_depth"};
+  const Explained explained = explain(scene, "core");
+  EXPECT_FALSE(explained.find("spheres between the joints")) << explained.text;
+  EXPECT_TRUE(std::regex_search(
+      explained.text,
+      std::regex("not left out: 2 spheres on each bone, which cost -?[0-9.]+ us and 8 B per grip \\([0-9.]+ x without")))
+      << explained.text;
+  // the default hand: h = 44.63 / 3 mm and r = 7.5 mm of the middle finger's first phalanx, r - sqrt(r^2 - h^2 / 4) = 6.54 mm; the
+  // metacarpal bones of the four fingers are longer than six times their radius of 8 mm
+  EXPECT_NE(explained.text.find("up to 6.54 mm outside of both (a bone of 44.6 mm); on 4 of 19 bones the spheres do not meet"),
+            std::string::npos)
+      << explained.text;
+  scene.hand.between = 8;
+  EXPECT_NE(explain(scene, "core").text.find("up to 1.00 mm outside of both (a bone of 68.1 mm)\n"), std::string::npos)
+      << explain(scene, "core").text;
 }
 
 TEST(Explain, SaysWhatATableCosts) {

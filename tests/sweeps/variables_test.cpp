@@ -175,6 +175,15 @@ TEST(Variables, WhatTheSceneCannotHaveIsRefused) {
     scene.output.keep.reset();
     EXPECT_FALSE(holds(names(choose_variables(scene)), name)) << "it is kept on request";
   }
+  for (const char* name : {"self_depth", "self_overlap"}) {
+    scene.hand.between = 0;
+    scene.output.keep = {{name}};
+    EXPECT_NE(refusal(scene).find("needs [hand] between, which this scene does not have"), std::string::npos) << refusal(scene);
+    scene.hand.between = 1;
+    EXPECT_EQ(names(choose_variables(scene)), std::vector<std::string>{name});
+    scene.output.keep.reset();
+    EXPECT_FALSE(holds(names(choose_variables(scene)), name)) << "it is kept on request";
+  }
 }
 
 TEST(Variables, WordsAreTakenApart) {
@@ -193,6 +202,8 @@ TEST(Variables, WordsAreTakenApart) {
   EXPECT_EQ(value("proxy_unsettled", STATUS_PROXY_UNSETTLED), 1);
   EXPECT_EQ(value("through_table", status), 0);
   EXPECT_EQ(value("through_table", status | STATUS_THROUGH_TABLE), 1);
+  EXPECT_EQ(value("self_overlap", status), 0);
+  EXPECT_EQ(value("self_overlap", status | STATUS_SELF_OVERLAP), 1);
   EXPECT_EQ(value("blocked_mask", status), 0x14);
   EXPECT_EQ(value("unsettled_mask", status), 0x3);
   EXPECT_EQ(value("reason", status | REASON_TOO_NARROW), REASON_TOO_NARROW);
