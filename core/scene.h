@@ -56,7 +56,7 @@ struct HandData {
   double max_angle = radians(45);                                             // articulated: largest further turn of one joint
   double paper_max_angle = radians(5);                                        // paper: largest turn of a point
   double depth_limit = 5e-3;                                                  // m
-  int between = 0;                                                            // spheres on each bone between its two joints
+  int between = 2;                                                            // spheres on each bone between its two joints
   std::array<double, 3> joint_limit{radians(90), radians(100), radians(80)};  // MCP, PIP, DIP, rad
   std::array<FingerData, FINGER_COUNT> fingers{{
       {{-22e-3, -9e-3, -18e-3}, radians(10), 0, {46.22e-3, 31.57e-3, 27.34e-3, 0}, {8e-3, 8e-3, 8e-3, 8e-3, 0}},

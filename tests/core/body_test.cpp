@@ -12,8 +12,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/effort.h"
 #include "core/gather.h"
 #include "core/joints.h"
+#include "core/vectors.h"
 #include "tests/support/capsule_check.h"
 #include "tests/support/hard_scene.h"
 #include "tests/support/scenes.h"
@@ -295,6 +297,53 @@ TEST(Body, SpheresPressWhereTheirDigitHasRoom) {
   });
   EXPECT_GT(pressing, 300);
   EXPECT_GT(left_out, 0) << "in none is a digit's room too small";
+}
+
+// What the room of a digit costs: the effort with the contacts that there are, and with every sphere that touches.
+TEST(Body, SpheresThatHaveNoRoomHardlyMatter) {
+  int grips = 0, with_spheres = 0, fewer = 0, much = 0;
+  double most = 0;
+  for (const VesselData& vessel : {beaker1(), beaker2(), beaker3()}) {
+    const BodyScene on(scene_of({vessel}), 2);
+    const core_f64::HandStrength hand{0.6, 5e-3, StrengthData{}.digits};
+    for (const GripInput& grip : sample_grips(vessel, 150, 31)) {
+      GripResult result;
+      on.core->grip(0, grip, result);
+      if (!result.plausible) continue;
+      std::vector<core_f64::ContactPoint> some, all;
+      for (const GripContact& contact : on.core->contacts(0, result)) {
+        some.push_back({to_vec3<double>(contact.point), to_vec3<double>(contact.normal), contact.digit});
+        if (contact.between == 0) all.push_back(some.back());
+      }
+      with_spheres += all.size() < some.size();
+      for (const FoundBall& ball : balls_of(on, grip, result)) {
+        if (ball.separation > on.scene.hand.contact_tolerance) continue;
+        const Vec3 outward = to_vec3<double>(on.core->gradient(0, ball.place));
+        all.push_back({to_vec3<double>(ball.place) - (ball.separation + ball.radius) * outward, -outward,
+                       ball.is_metacarpal ? FINGER_COUNT : ball.digit});
+      }
+      ++grips;
+      const Vec3 center(0, 50e-3, 0), up(std::sin(1.0), std::cos(1.0), 0);
+      const auto effort = [&](const std::vector<core_f64::ContactPoint>& contacts) {
+        core_f64::EffortSolver solver(contacts, hand, center);
+        return solver.solve(core_f64::wrench_at(center, -2.0 * up)).effort;
+      };
+      const double of_some = effort(some), of_all = effort(all);
+      if (std::isinf(of_some) && std::isinf(of_all)) continue;
+      EXPECT_GE(of_some, of_all * (1 - 1e-3)) << "contacts more never raise an effort";
+      fewer += all.size() > some.size();
+      much += of_some > 1.01 * of_all;
+      most = std::max(most, of_some / of_all - 1);
+    }
+  }
+  RecordProperty("grips", grips);
+  RecordProperty("with_spheres", with_spheres);
+  RecordProperty("fewer", fewer);
+  RecordProperty("much", much);
+  RecordProperty("most", std::to_string(most));
+  EXPECT_GT(with_spheres, 50);
+  EXPECT_GT(fewer, 20);
+  EXPECT_LE(100 * much, grips);
 }
 
 TEST(Body, WithoutSpheresThereIsNothingOfThem) {

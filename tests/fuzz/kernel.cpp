@@ -138,6 +138,7 @@ void add_later_keys(Choices& choose, std::string& text) {
     add_key(text, "[tilts]", key("until_poured", choose.in(ranges::POURED_SHARE)));
   if (choose.yes()) text += "[table]\n" + key("clearance_mm", choose.in(ranges::TABLE_CLEARANCE));
   if (choose.yes()) text += "[output]\n" + key("apart_mm", choose.in(ranges::APART));
+  if (choose.yes()) add_key(text, "[hand]", fmt::format("between = {}\n", choose.of(static_cast<int>(ranges::BETWEEN.high) + 1)));
 }
 
 std::vector<GripInput> grips_of(Choices& choose, const Scene& scene) {

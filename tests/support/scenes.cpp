@@ -204,13 +204,18 @@ Scene scene_of(std::vector<VesselData> vessels, Pose pose, const HandData& hand)
   scene.name = "test";
   scene.pose = pose;
   scene.hand = hand;
+  scene.hand.between = 0;
   scene.vessels = std::move(vessels);
   return scene;
 }
 
 // ---- made ready for core_f64 ----
 
-core_f64::Hand ready_hand(const HandData& hand) { return core_f64::load_hand(prepare_hand(hand), hand); }
+core_f64::Hand ready_hand(const HandData& hand) {
+  core_f64::Hand ready = core_f64::load_hand(prepare_hand(hand), hand);
+  ready.between = 0;
+  return ready;
+}
 
 core_f64::Vessel ready_vessel(const VesselData& vessel, bool with_liquid) {
   const PreparedVessel prepared = prepare_vessel(vessel, vessel.wall > 0);

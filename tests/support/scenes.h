@@ -45,7 +45,8 @@ constexpr double G = 9.80665;  // m/s2, what a scene has where it says nothing e
 std::vector<double> linspace(double from, double to, int count);
 Axis axis_of(double from, double to, int count);
 Scene three_beakers();  // the default scene
-// A scene with these vessels and hand, the default in everything else: no liquid, no tilts.
+// A scene with these vessels and hand, the default in everything else: no liquid, no tilts; the hand is its 24 points
+// alone, without spheres between them.
 Scene scene_of(std::vector<VesselData> vessels, Pose pose = Pose::articulated, const HandData& hand = {});
 
 // ---- made ready for core_f64 ----

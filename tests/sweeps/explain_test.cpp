@@ -122,7 +122,7 @@ TEST(Explain, SaysWhatSpheresBetweenJointsCostAndLeaveOpen) {
             std::string::npos)
       << explained.text;
   scene.hand.between = 8;
-  EXPECT_NE(explain(scene, "core").text.find("up to 1.00 mm outside of both (a bone of 68.1 mm)\n"), std::string::npos)
+  EXPECT_NE(explain(scene, "core").text.find("up to 0.95 mm outside of both (a bone of 68.1 mm)\n"), std::string::npos)
       << explain(scene, "core").text;
 }
 
