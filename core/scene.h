@@ -190,6 +190,16 @@ struct TableData {
   double clearance = 2e-3;  // m, that the hand must keep above it
 };
 
+// How far a person grips from where the plan says: standard deviations, and how many such deviations of each of the best grips are scored.
+struct RobustData {
+  double height = 0, offset = 0;                // m
+  double azimuth = 0, obliquity = 0, roll = 0;  // rad
+  double friction = 0;
+  double hand_scale = 0;  // of the grip's
+  int count = 64;
+  std::uint64_t seed = 1;
+};
+
 struct LiveData {
   double rate = 1000, stiffness = 800, damping = 1, slip = 8e-3, ramp = 0.5, slew = 2000, jump = 5;
   int late_steps = 3;
@@ -229,6 +239,7 @@ struct Scene {
   ScoreWeights score;
   OutputData output;
   std::optional<TableData> table;
+  std::optional<RobustData> robust;  // absent: no robust scores
   LiveData live;
   DeviceData device;
   std::optional<TaskData> task;

@@ -55,6 +55,9 @@ void read_output(const SceneTable& root, OutputData& output);
 // Vessels have been read: each reaches above the clearance.
 void read_tabletop(const SceneTable& root, const std::vector<VesselData>& vessels, std::optional<TableData>& tabletop);
 
+// ---- robust.cpp ----
+void read_robust(const SceneTable& root, std::optional<RobustData>& robust);
+
 // ---- session.cpp ----
 void read_live(const SceneTable& root, LiveData& live);
 void read_device(const SceneTable& root, DeviceData& device);

@@ -97,6 +97,12 @@ constexpr IntegerRange SEED{0, INT64_MAX};
 
 constexpr Quantity TABLE_CLEARANCE{0, 100, Unit::mm};
 
+constexpr Quantity LENGTH_DEVIATION{0, 100, Unit::mm};
+constexpr Quantity ANGLE_DEVIATION{0, 90, Unit::deg};
+constexpr Quantity FRICTION_DEVIATION{0, 1};
+constexpr Quantity SCALE_DEVIATION{0, 0.3};
+constexpr IntegerRange DEVIATION_COUNT{8, 4096};
+
 constexpr Quantity WEIGHT{0, 1000};
 constexpr IntegerRange BEST{0, 100000};
 constexpr Quantity APART{0, 10000, Unit::mm};

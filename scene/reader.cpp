@@ -59,6 +59,7 @@ void read_scene(const SceneTable& root, Scene& scene) {
   read_score(root, !scene.tilts.empty(), scene.score);
   read_output(root, scene.output);
   read_tabletop(root, scene.vessels, scene.table);
+  read_robust(root, scene.robust);
   read_live(root, scene.live);
   read_device(root, scene.device);
   read_task(root, scene.vessels, scene.task);
@@ -79,7 +80,7 @@ Scene parse_scene(std::string_view text, const std::string& name) {
   scene.text = text;
   const SceneTable root(file, table, "the scene",
                         {"scene", "hand", "vessel", "liquid", "force", "strength", "grips", "tilts", "score", "output", "table",
-                         "live", "device", "task"});
+                         "robust", "live", "device", "task"});
   read_scene(root, scene);
   return scene;
 }

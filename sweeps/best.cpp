@@ -128,8 +128,9 @@ std::string best_csv(const Scene& scene, const Plan& plan, const std::vector<std
       "score_posture,score_force,score_hold,closure,gap_mm,fingers_used,points_touching,phalanx_depth_mm,palm_depth_mm,"
       "peak_feedback_force_N,peak_feedback_tilt_deg,largest_hold_force_N,largest_safe_tilt_deg,antipodal,"
       "worst_effort,worst_effort_fill,worst_effort_tilt_deg,tips_worst_effort,push_N,friction_needed,"
-      "refined_score,refined_height_mm,refined_azimuth_deg,refined_obliquity_deg,refined_roll_deg,refined_offset_mm,"
-      "grip,result,sweep\n";
+      "refined_score,refined_height_mm,refined_azimuth_deg,refined_obliquity_deg,refined_roll_deg,refined_offset_mm,";
+  if (scene.robust) csv += "robust_mean,robust_low,";
+  csv += "grip,result,sweep\n";
   for (std::size_t list = 0; list < lists.size(); ++list) {
     const std::string& vessel = scene.vessels[list / plan.hand_scales()].name;
     for (const BestGrip& best : lists[list]) {
@@ -153,6 +154,7 @@ std::string best_csv(const Scene& scene, const Plan& plan, const std::vector<std
       for (const double number : {best.refined_score, refined.height * 1e3, degrees(refined.azimuth), degrees(refined.obliquity),
                                   degrees(refined.roll), refined.offset * 1e3})
         numbers.push_back(is_refined ? number : NOT_A_NUMBER);
+      if (scene.robust) numbers.insert(numbers.end(), {best.robust_mean, best.robust_low});
       csv += fmt::format("{},{}", csv_text(vessel), best.rank);
       for (const double number : numbers) csv += "," + csv_number(number);
       csv += fmt::format(",{},{},{}\n", best.candidate.index, csv_text(origin.result), origin.sweep);
@@ -165,6 +167,10 @@ std::string best_table(const Scene& scene, const Plan& plan, const std::vector<B
   std::vector<Column> columns{{"score", [](const BestGrip& b) { return fixed(b.score, 3); }}};
   if (std::any_of(best.begin(), best.end(), [](const BestGrip& b) { return !std::isnan(b.refined_score); }))
     columns.push_back({"refined", [](const BestGrip& b) { return fixed(b.refined_score, 3); }});
+  if (scene.robust) {
+    columns.push_back({"robust", [](const BestGrip& b) { return fixed(b.robust_mean, 3); }});
+    columns.push_back({"robust low", [](const BestGrip& b) { return fixed(b.robust_low, 3); }});
+  }
   const auto axis = [&](int place, const char* title, std::string (*cell)(const BestGrip&)) {
     const Axis& data = plan.axes()[place].data;
     const bool varies = plan.is_sobol() ? data.is_range || data.values.size() > 1

@@ -236,6 +236,20 @@ void set_refined(const SweepResult& result, const Plan& plan, std::size_t list, 
   }
 }
 
+// The same of the robust scores.
+void set_robust(const SweepResult& result, const Plan& plan, std::size_t list, std::vector<BestGrip>& grips) {
+  if (!result.lists_best() || result.lists_all_hands_together()) return;
+  const std::size_t vessel = list / plan.hand_scales(), scale = list % plan.hand_scales();
+  const std::vector<Candidate> listed = result.best(vessel, scale);
+  const auto robust = result.robust(vessel, scale);
+  for (std::size_t rank = 0; rank < robust.size(); ++rank)
+    for (BestGrip& grip : grips)
+      if (grip.candidate.index == listed[rank].index) {
+        grip.robust_mean = robust[rank][0];
+        grip.robust_low = robust[rank][1];
+      }
+}
+
 // Goes through the grips of a vessel and offers those of its lists; counts them in the first pass.
 void offer_grips(const SweepResult& result, const Scene& scene, const Plan& plan, std::size_t vessel, Scores& scores,
                  const Where* where, ListChooser& chooser, Ranking* counted) {
@@ -368,7 +382,10 @@ Ranking rank_grips(const SweepResult& result, const Scene& scene, const Plan& pl
       grips[i].score = chosen[i].score;
       grips[i].rank = i + 1;
     }
-    if (scores.is_sweeps_own()) set_refined(result, plan, list, grips);
+    if (scores.is_sweeps_own()) {
+      set_refined(result, plan, list, grips);
+      set_robust(result, plan, list, grips);
+    }
     ranking.lists.push_back(std::move(grips));
   }
   return ranking;

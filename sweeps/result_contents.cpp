@@ -331,6 +331,10 @@ class SweepDefinition : ResultDefinition {
       const std::string meaning = "refined best grips: " + (is_height ? std::string(HEIGHT_MEANING) : axis.long_name);
       fill_value(define(refined_axis_name(axis), NC_DOUBLE, is_height ? "m" : axis.units.c_str(), meaning), NC_DOUBLE);
     }
+    if (!contents_.scene.robust) return;
+    const std::string over = fmt::format("over {} random deviations by [robust]", contents_.scene.robust->count);
+    for (const auto& [name, what] : {std::pair{ROBUST_MEAN, "mean of the score "}, {ROBUST_LOW, "10th percentile of the score "}})
+      fill_value(define(name, NC_DOUBLE, "1", "best grips: " + (what + over)), NC_DOUBLE);
   }
 
   const ResultContents& contents_;

@@ -31,6 +31,7 @@ struct RankedGrip {
   GripInput grip;
   GripInput refined{};
   double refined_score = std::numeric_limits<double>::quiet_NaN();  // and then there is no refined grip
+  double robust_mean = refined_score, robust_low = refined_score;
 };
 
 // Dimensions of the grips: those of the plan's axes, or "point" for Sobol points.
@@ -40,11 +41,14 @@ std::vector<std::string> grip_dimensions(const Plan& plan);
 constexpr const char* HEIGHT = "height";
 
 // Variables of the best grips over (vessel, rank), or (vessel, hand scale, rank) where the plan has several hand scales: index in the grips'
-// dimensions, score, and the axes (heights in m always); of the refined grips score and axes, but for the hand scale, which stays.
+// dimensions, score, and the axes (heights in m always); of the refined grips score and axes, but for the hand scale, which stays;
+// with [robust] their robust scores.
 constexpr const char* BEST_GRIP = "best_grip";
 constexpr const char* BEST_SCORE = "best_score";
 std::string best_axis_name(const PlanAxis& axis);
 constexpr const char* REFINED_SCORE = "best_refined_score";
+constexpr const char* ROBUST_MEAN = "best_robust_mean";
+constexpr const char* ROBUST_LOW = "best_robust_low";
 std::string refined_axis_name(const PlanAxis& axis);
 bool is_refined_axis(const PlanAxis& axis);
 std::string best_scale_dimension(const Plan& plan);  // of the hand scales; Sobol points have a variable of the plain name

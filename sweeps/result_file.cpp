@@ -146,6 +146,8 @@ void ResultFile::open_blocks() {
       best_offsets_.push_back(block_offset(file, REFINED_SCORE));
       for (const PlanAxis& axis : axes)
         if (is_refined_axis(axis)) best_offsets_.push_back(block_offset(file, refined_axis_name(axis)));
+      if (contents_.scene.robust)
+        best_offsets_.insert(best_offsets_.end(), {block_offset(file, ROBUST_MEAN), block_offset(file, ROBUST_LOW)});
     }
   } catch (const Error& error) {
     throw failure_error(fmt::format("{}: {}; start again without --resume", names_.partial, error.what()));
@@ -321,6 +323,10 @@ void ResultFile::write_ending(const std::vector<std::vector<RankedGrip>>& best, 
       reals[0][rank] = ranked.candidate.score;
       const auto values = axis_values(ranked.grip);
       for (std::size_t axis = 0; axis < values.size(); ++axis) reals[1 + axis][rank] = values[axis];
+      if (contents_.scene.robust) {
+        reals[reals.size() - 2][rank] = ranked.robust_mean;
+        reals[reals.size() - 1][rank] = ranked.robust_low;
+      }
       if (std::isnan(ranked.refined_score)) continue;
       const auto refined = axis_values(ranked.refined);
       std::size_t k = 1 + values.size();

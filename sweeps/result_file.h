@@ -86,7 +86,7 @@ class ResultFile {
   std::vector<Block> blocks_;
   std::vector<std::uint64_t> axis_offsets_;     // of the axes' values at Sobol points; empty for a grid
   std::optional<std::uint64_t> height_offset_;  // of the vessels' heights in m at Sobol points, where their axis has fractions
-  std::vector<std::uint64_t> best_offsets_;     // best_grip, best_score, axes; refined score, axes
+  std::vector<std::uint64_t> best_offsets_;     // best_grip, best_score, axes; refined score, axes; robust scores
   std::vector<unsigned char> buffer_;           // values of one plane that need converting
   RunsChecksum checksum_;                       // of the stretch that is being written
   Stretch stretch_;

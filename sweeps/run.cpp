@@ -22,6 +22,7 @@
 #include "sweeps/refine.h"
 #include "sweeps/result_file.h"
 #include "sweeps/resume.h"
+#include "sweeps/robust.h"
 #include "sweeps/tally.h"
 #include "sweeps/write_companions.h"
 #include "system/clock.h"
@@ -378,9 +379,11 @@ class Sweep {
     const CompanionRequest request{scene_, plan, names_, parts_, best_wanted_, options_.glb};
     auto best = best_grips(request, mark_.vessels, *backend_);
     if (refines()) refine_lists(*evaluator_, scene_, plan, options_.threads, best);
+    add_robust_scores(parts_.open_other, scene_, plan, best);
     std::vector<std::vector<RankedGrip>> ranked(best.size());
     for (std::size_t list = 0; list < best.size(); ++list) {
-      for (const BestGrip& grip : best[list]) ranked[list].push_back({grip.candidate, grip.grip, grip.refined, grip.refined_score});
+      for (const BestGrip& grip : best[list])
+        ranked[list].push_back({grip.candidate, grip.grip, grip.refined, grip.refined_score, grip.robust_mean, grip.robust_low});
     }
     // the result's own name comes last: when it is there, all is
     std::vector<std::string> files = write_companions(request, best, has_heat_map() ? &maps_ : nullptr, backend_->info());
@@ -433,6 +436,9 @@ ExitCode run_sweep(const Scene& given, const SweepOptions& options) {
       [&](const FieldSet& fields) { return open_backend(scene, fields, options.on, precision, options.threads); },
       [&] { return make_core_evaluator(scene); },
       [&] { load_meshes(scene, [&] { return largest_buffer(options.on); }); },
+      [&](const Scene& other, const FieldSet& fields) {
+        return open_backend(other, fields, options.on, precision, options.threads);
+      },
   };
   return run_sweep(scene, options, parts);
 }

@@ -15,6 +15,8 @@ struct SweepParts {
   std::function<std::unique_ptr<Backend>(const FieldSet&)> open_backend;
   std::function<std::unique_ptr<Evaluator>()> open_evaluator;  // for what is known of a vessel whatever the grip
   std::function<void()> prepare = {};  // what takes long and comes after all that can be refused at once (meshes); may be empty
+  // Of a scene that differs from the sweep's in its friction alone; needed for [robust].
+  std::function<std::unique_ptr<Backend>(const Scene&, const FieldSet&)> open_other = {};
 };
 
 }  // namespace wholehand

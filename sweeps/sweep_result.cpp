@@ -215,6 +215,18 @@ std::vector<std::optional<RefinedGrip>> SweepResult::refined(std::size_t vessel,
   return refined;
 }
 
+std::vector<std::array<double, 2>> SweepResult::robust(std::size_t vessel, std::size_t hand_scale) const {
+  const std::vector<Candidate> listed = best(vessel, hand_scale);
+  if (listed.empty() || !scene_->robust) return {};
+  std::vector<std::size_t> lists{vessel};
+  if (plan_->hand_scales() > 1) lists.push_back(hand_scale);
+  const std::size_t length = ranks(lists.size() + 1);
+  const std::vector<double> means = row(ROBUST_MEAN, lists, length), lows = row(ROBUST_LOW, lists, length);
+  std::vector<std::array<double, 2>> robust;
+  for (std::size_t rank = 0; rank < listed.size(); ++rank) robust.push_back({means[rank], lows[rank]});
+  return robust;
+}
+
 std::vector<double> SweepResult::pouring_tilts(std::size_t vessel) const {
   return row("pouring_tilt", {vessel}, scene_fills(*scene_));
 }

@@ -2,6 +2,7 @@
 // A finished result file of a sweep, read back: for what is made of it afterwards.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -73,6 +74,10 @@ class SweepResult {
 
   // Where the sweep refined the grips of best(), in their order; nothing where it did not, as before there were such.
   std::vector<std::optional<RefinedGrip>> refined(std::size_t vessel, std::size_t hand_scale = 0) const;
+
+  // Mean and 10th percentile of the robust score of the grips of best(), in their order; nothing in a scene without [robust]. NaN where a
+  // grip has none.
+  std::vector<std::array<double, 2>> robust(std::size_t vessel, std::size_t hand_scale = 0) const;
 
   // The tilts at which a vessel starts to pour, one for each of the scene's fills, rad; NaN where it never does.
   std::vector<double> pouring_tilts(std::size_t vessel) const;

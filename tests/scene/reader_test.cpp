@@ -269,6 +269,34 @@ apart_mm = 40
   expect_refusal("[output]\nalso = [\"joints\", @\"joints\"]" + VESSEL, "also names 'joints' a second time");
 }
 
+TEST(SceneReader, ReadsRobust) {
+  EXPECT_FALSE(scene_from(VESSEL).robust);
+  const Scene usual = scene_from("[robust]\nroll_deg = 3" + VESSEL);
+  ASSERT_TRUE(usual.robust);
+  EXPECT_EQ(usual.robust->roll, radians(3));
+  EXPECT_EQ(usual.robust->count, 64);
+  EXPECT_EQ(usual.robust->seed, 1u);
+  EXPECT_EQ(usual.robust->height, 0);
+  const Scene all = scene_from(
+      "[robust]\nheight_mm = 3\nazimuth_deg = 4\nobliquity_deg = 5\noffset_mm = 6\nfriction = 0.07\nhand_scale = 0.08\n"
+      "count = 128\nseed = 9" +
+      VESSEL);
+  EXPECT_EQ(all.robust->height, 3e-3);
+  EXPECT_EQ(all.robust->azimuth, radians(4));
+  EXPECT_EQ(all.robust->obliquity, radians(5));
+  EXPECT_EQ(all.robust->offset, 6e-3);
+  EXPECT_EQ(all.robust->friction, 0.07);
+  EXPECT_EQ(all.robust->hand_scale, 0.08);
+  EXPECT_EQ(all.robust->count, 128);
+  EXPECT_EQ(all.robust->seed, 9u);
+}
+
+TEST(SceneReader, ReadsSpheresBetweenJoints) {
+  EXPECT_EQ(scene_from(VESSEL).hand.between, 2);
+  EXPECT_EQ(scene_from("[hand]\nbetween = 0" + VESSEL).hand.between, 0);
+  EXPECT_EQ(scene_from("[hand]\nbetween = 8" + VESSEL).hand.between, 8);
+}
+
 TEST(SceneReader, ReadsTheTable) {
   const Scene usual = scene_from("[table]\n" + VESSEL);
   ASSERT_TRUE(usual.table);

@@ -192,6 +192,14 @@ void add_later_keys(Draw& draw, std::string& text) {
   for (const char* digit : {"index_N", "middle_N", "ring_N", "little_N", "palm_N"})
     if (draw.chance(0.5)) add_key(text, "[strength]", key(digit, draw.chance(0.2) ? draw.over(0.1, 10000) : draw.over(5, 100)));
   if (draw.chance(0.3)) text += "[output]\n" + key("apart_mm", draw.chance(0.2) ? 0 : draw.over(1, 100));
+  if (draw.chance(0.2)) {
+    text += "[robust]\n" + key("roll_deg", draw.over(0.01, 90));
+    for (const char* name : {"height_mm", "azimuth_deg", "obliquity_deg", "offset_mm"})
+      if (draw.chance(0.5)) text += key(name, draw.between(0, 30));
+    if (draw.chance(0.3)) text += key("hand_scale", draw.between(0, 0.3));
+    if (draw.chance(0.3)) text += key("friction", draw.between(0, 1));
+    text += fmt::format("count = {}\nseed = {}\n", 8 + draw.of(20), draw.of(1000));
+  }
   if (draw.chance(0.4)) add_key(text, "[hand]", fmt::format("between = {}\n", draw.of(9)));
 }
 

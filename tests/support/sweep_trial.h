@@ -50,7 +50,11 @@ struct SweepTrial {
                              ++opened;
                              return backend;
                            },
-                           [this] { return std::make_unique<FakeEvaluator>(scene); }};
+                           [this] { return std::make_unique<FakeEvaluator>(scene); },
+                           {},
+                           [this](const Scene& other, const FieldSet& fields) -> std::unique_ptr<Backend> {
+                             return std::make_unique<FakeBackend>(other, fields, precision, chunk);
+                           }};
     return run_sweep(scene, options, parts);
   }
 

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "sweeps/robust.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "core/error.h"
+#include "core/planes.h"
+#include "shaders/layout.h"
+#include "sweeps/sobol.h"
+
+namespace wholehand {
+namespace {
+
+constexpr double SQUARE_ROOT_OF_2_PI = 2.5066282746310005024;
+
+// Acklam's approximation, relative error below 1.15e-9.
+double approximate_quantile(double p) {
+  constexpr std::array<double, 6> A{-3.969683028665376e+01, 2.209460984245205e+02,  -2.759285104469687e+02,
+                                    1.383577518672690e+02,  -3.066479806614716e+01, 2.506628277459239e+00};
+  constexpr std::array<double, 5> B{-5.447609879822406e+01, 1.615858368580409e+02, -1.556989798598866e+02, 6.680131188771972e+01,
+                                    -1.328068155288572e+01};
+  constexpr std::array<double, 6> C{-7.784894002430293e-03, -3.223964580411365e-01, -2.400758277161838e+00,
+                                    -2.549732539343734e+00, 4.374664141464968e+00,  2.938163982698783e+00};
+  constexpr std::array<double, 4> D{7.784695709041462e-03, 3.224671290700398e-01, 2.445134137142996e+00, 3.754408661907416e+00};
+  constexpr double TAIL = 0.02425;
+  const auto horner = [](const auto& coefficients, double x) {
+    return std::accumulate(coefficients.begin(), coefficients.end(), 0.0, [x](double sum, double c) { return sum * x + c; });
+  };
+  if (p < TAIL) {
+    const double q = std::sqrt(-2 * std::log(p));
+    return horner(C, q) / (horner(D, q) * q + 1);
+  }
+  const double q = p - 0.5, r = q * q;
+  return horner(A, r) * q / (horner(B, r) * r + 1);
+}
+
+// What a candidate is evaluated as: grips of one vessel, `count` of each list entry, one after the other.
+struct RobustGrips {
+  std::vector<BestGrip*> best;
+  std::vector<std::vector<double>> scores;  // of each
+};
+
+void evaluate(Backend& backend, std::size_t vessel, const std::vector<Deviation>& all, std::size_t first, std::size_t last,
+              RobustGrips& grips) {
+  const std::size_t each = last - first;
+  RunRequest request;
+  request.vessel = vessel;
+  request.last = grips.best.size() * each;
+  request.grips = [&](std::size_t, std::uint64_t from, std::size_t count, GripInput* out) {
+    for (std::size_t i = 0; i < count; ++i) out[i] = deviated(grips.best[(from + i) / each]->grip, all[first + (from + i) % each]);
+  };
+  const FieldSet& fields = backend.fields();
+  request.sink = [&](const PlaneChunk& chunk) {
+    for (std::size_t i = 0; i < chunk.count; ++i) {
+      const std::uint64_t at = chunk.first + i;
+      const std::uint32_t status = chunk.uint(fields.plane[FIELD_STATUS], i);
+      const bool is_plausible = (status & (STATUS_REASON_MASK | STATUS_PLAUSIBLE)) == STATUS_PLAUSIBLE;
+      grips.scores[at / each][first + at % each] = is_plausible ? chunk.real(fields.plane[FIELD_SCORE], i) : 0;
+    }
+  };
+  const RunResult result = backend.run(request);
+  if (result.done != request.last) {
+    throw failure_error(
+        fmt::format("{}: evaluated {} of the {} deviations of the best grips", backend.info().device, result.done, request.last));
+  }
+}
+
+}  // namespace
+
+double normal_quantile(double p) {
+  if (!(p > 0 && p < 1)) return p > 0 ? std::numeric_limits<double>::infinity() : -std::numeric_limits<double>::infinity();
+  if (p > 0.5) return -normal_quantile(1 - p);
+  const double x = approximate_quantile(p);
+  const double error = 0.5 * std::erfc(-x / std::sqrt(2.0)) - p;
+  const double step = error * SQUARE_ROOT_OF_2_PI * std::exp(x * x / 2);
+  return x - step / (1 + x * step / 2);
+}
+
+std::vector<Deviation> deviations(const RobustData& robust) {
+  std::vector<SobolPoint> points(static_cast<std::size_t>(robust.count));
+  Sobol(robust.seed).points(0, points.size(), points.data());
+  std::vector<Deviation> all;
+  for (const SobolPoint& point : points) {
+    const auto of = [&](int axis, double deviation) { return deviation * normal_quantile(point[static_cast<std::size_t>(axis)]); };
+    Deviation deviation;
+    deviation.added.height = of(AXIS_HEIGHT, robust.height);
+    deviation.added.azimuth = of(AXIS_AZIMUTH, robust.azimuth);
+    deviation.added.obliquity = of(AXIS_OBLIQUITY, robust.obliquity);
+    deviation.added.roll = of(AXIS_ROLL, robust.roll);
+    deviation.added.offset = of(AXIS_OFFSET, robust.offset);
+    deviation.hand_factor = std::max(LEAST_HAND_FACTOR, 1 + of(AXIS_HAND_SCALE, robust.hand_scale));
+    all.push_back(deviation);
+  }
+  return all;
+}
+
+std::vector<double> robust_frictions(const Scene& scene) {
+  const double spread = scene.robust->friction;
+  if (!(spread > 0)) return {scene.force.friction};
+  std::vector<double> levels;
+  for (int level = 0; level < FRICTION_LEVELS; ++level)
+    levels.push_back(std::max(0.0, scene.force.friction + spread * normal_quantile((level + 0.5) / FRICTION_LEVELS)));
+  return levels;
+}
+
+GripInput deviated(const GripInput& grip, const Deviation& deviation) {
+  const GripInput& added = deviation.added;
+  return {grip.height + added.height, grip.azimuth + added.azimuth, grip.obliquity + added.obliquity,
+          grip.roll + added.roll,     grip.offset + added.offset,   grip.hand_scale * deviation.hand_factor};
+}
+
+RobustScore robust_score(std::vector<double> scores) {
+  std::sort(scores.begin(), scores.end());
+  const double place = 0.1 * static_cast<double>(scores.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, scores.size() - 1);
+  const double share = place - static_cast<double>(below);
+  const double sum = std::accumulate(scores.begin(), scores.end(), 0.0);
+  return {sum / static_cast<double>(scores.size()), scores[below] + share * (scores[above] - scores[below])};
+}
+
+void add_robust_scores(const OpenBackend& open, const Scene& scene, const Plan& plan, std::vector<std::vector<BestGrip>>& lists) {
+  if (!scene.robust) return;
+  const std::vector<Deviation> all = deviations(*scene.robust);
+  std::vector<RobustGrips> vessels(scene.vessels.size());
+  for (std::size_t list = 0; list < lists.size(); ++list) {
+    RobustGrips& grips = vessels[list / plan.hand_scales()];
+    for (std::size_t rank = 0; rank < std::min(lists[list].size(), MOST_ROBUST); ++rank) {
+      grips.best.push_back(&lists[list][rank]);
+      grips.scores.emplace_back(all.size());
+    }
+  }
+  if (std::all_of(vessels.begin(), vessels.end(), [](const RobustGrips& grips) { return grips.best.empty(); })) return;
+  const std::vector<double> frictions = robust_frictions(scene);
+  for (std::size_t level = 0; level < frictions.size(); ++level) {
+    Scene other = scene;
+    other.force.friction = frictions[level];
+    const std::unique_ptr<Backend> backend = open(other, make_field_set({FIELD_SCORE, FIELD_STATUS}, other));
+    const std::size_t first = level * all.size() / frictions.size(), last = (level + 1) * all.size() / frictions.size();
+    for (std::size_t v = 0; v < vessels.size(); ++v)
+      if (!vessels[v].best.empty()) evaluate(*backend, v, all, first, last, vessels[v]);
+  }
+  for (RobustGrips& grips : vessels)
+    for (std::size_t i = 0; i < grips.best.size(); ++i) {
+      const RobustScore score = robust_score(grips.scores[i]);
+      grips.best[i]->robust_mean = score.mean;
+      grips.best[i]->robust_low = score.low;
+    }
+}
+
+}  // namespace wholehand

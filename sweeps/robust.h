@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// What a grip scores when a person does not grip exactly where the plan says: its score over random deviations of the grip, of the friction
+// and of the hand's size.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "core/backend.h"
+#include "core/scene.h"
+#include "sweeps/best.h"
+#include "sweeps/plan.h"
+
+namespace wholehand {
+
+constexpr int FRICTION_LEVELS = 8;         // values that a friction with a deviation takes, all equally likely
+constexpr double LEAST_HAND_FACTOR = 0.1;  // of the hand's size, however large its deviation
+constexpr std::size_t MOST_ROBUST = 100;   // grips of a list, from the best one on
+
+// The number that a standard normal variable is below with the probability p, 0 < p < 1. To 1e-9: P. J. Acklam's rational approximation and
+// one step of Halley's method. Infinite at 0 and 1.
+double normal_quantile(double p);
+
+// One deviation: what is added to a grip's coordinates (m, rad), and by what its hand scale is multiplied.
+struct Deviation {
+  GripInput added{0, 0, 0, 0, 0, 0};  // but for hand_scale
+  double hand_factor = 1;
+};
+
+// The `count` deviations of a scene, the same for every grip: Sobol points shifted by the seed, each coordinate through normal_quantile. With a
+// deviation of the friction those from `level` * count / FRICTION_LEVELS on have the friction of that level, see robust_frictions.
+std::vector<Deviation> deviations(const RobustData& robust);
+// The friction of each level, mu plus its deviation times the quantile of the middle of that eighth, not below 0; of one level where the
+// friction has no deviation.
+std::vector<double> robust_frictions(const Scene& scene);
+GripInput deviated(const GripInput& grip, const Deviation& deviation);
+
+// Mean and 10th percentile of scores. Of n scores in ascending order, from number 0 on, the percentile lies at 0.1 (n - 1), between two of
+// them linearly.
+struct RobustScore {
+  double mean = 0, low = 0;
+};
+RobustScore robust_score(std::vector<double> scores);
+
+// Opens what evaluates grips of a scene that differs from the sweep's in its friction alone.
+using OpenBackend = std::function<std::unique_ptr<Backend>(const Scene&, const FieldSet&)>;
+
+// Sets the robust scores of the first MOST_ROBUST grips of each list, in a scene that asks for them; else nothing. A deviation that is
+// infeasible or implausible scores 0. The same bits however many grips the backend takes at once. Throws Error (failure) where the backend
+// delivers fewer.
+void add_robust_scores(const OpenBackend& open, const Scene& scene, const Plan& plan, std::vector<std::vector<BestGrip>>& lists);
+
+}  // namespace wholehand
