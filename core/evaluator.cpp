@@ -86,6 +86,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
         quadrature_(load_quadrature(wholehand::prepare_quadrature(options.quadrature_points))),
         states_(scene_) {
     hand_.limits = limits_of(options);
+    if (options.effort_tolerance > 0) effort_tolerance_ = Real(options.effort_tolerance);
     strength_.friction = Real(scene.force.friction);
     strength_.torsion = Real(scene.force.torsion);
     if (scene.strength)
@@ -384,7 +385,8 @@ class CoreEvaluator final : public wholehand::Evaluator {
   }
 
   GripEffort effort_over_states(const HeldHand& hand, bool of_tips, const GripLoads& loads, std::span<FillEffort> fills) const {
-    return grip_effort(hand.all(), of_tips ? std::optional(hand.pinch()) : std::nullopt, strength_, loads, fills);
+    return grip_effort(hand.all(), of_tips ? std::optional(hand.pinch()) : std::nullopt, strength_, loads, fills,
+                       effort_tolerance_);
   }
 
   // What holding takes of a plausible grip: the worst effort, and `fills`. Nothing of any other, and in a scene without efforts.
@@ -403,10 +405,11 @@ class CoreEvaluator final : public wholehand::Evaluator {
     row.put(FIELD_TIPS_WORST_EFFORT, 0, found.tips_worst);
     if (row.fields.has(FIELD_PUSH)) {
       const Wrench weight = loads.weight(entry.largest, {});
-      row.put(FIELD_PUSH, 0, push_held(hand.all(), strength_, weight, load_center(entry.largest, loads.pour)));
+      const Vec3 at = load_center(entry.largest, loads.pour);
+      row.put(FIELD_PUSH, 0, push_held(hand.all(), strength_, weight, at, effort_tolerance_));
     }
     if (row.fields.has(FIELD_FRICTION_NEEDED))
-      row.put(FIELD_FRICTION_NEEDED, 0, friction_needed(hand.all(), strength_, loads, found.fill, found.tilt));
+      row.put(FIELD_FRICTION_NEEDED, 0, friction_needed(hand.all(), strength_, loads, found.fill, found.tilt, effort_tolerance_));
     put_state_efforts(row, hand, loads);
     return found.worst;
   }
@@ -423,12 +426,12 @@ class CoreEvaluator final : public wholehand::Evaluator {
         const int state = static_cast<int>(fill * states_.tilts() + tilt);
         const Wrench weight = loads.weight(fill, tilt);
         if (of_all) {
-          const Effort found = whole.solve(weight);
+          const Effort found = whole.solve(weight, effort_tolerance_);
           row.put(FIELD_EFFORT, state, found.effort);
           row.put(FIELD_EFFORT_LOW, state, found.low);
         }
         if (!of_tips) continue;
-        const Real effort = tips.solve(weight).effort;
+        const Real effort = tips.solve(weight, effort_tolerance_).effort;
         row.put(FIELD_TIPS_EFFORT, state, effort);
         row.put(FIELD_HOLD_FORCE, state, states_.tips_hold(effort));
       }
@@ -440,7 +443,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
     const HeldHand hand = held_hand(entry, posed_of(result), result.touch_mask);
     const GripLoads loads = states_.loads(entry, pinch_of(input, result));
     EffortSolver tips(hand.pinch(), strength_, contacts_center(hand.pinch()));
-    return states_.tips_hold(tips.solve(loads.weight(load, tilt)).effort);
+    return states_.tips_hold(tips.solve(loads.weight(load, tilt), effort_tolerance_).effort);
   }
 
   LargestForces put_states(const PlaneRow& row, const VesselEntry& entry, const GripAnswer& answer,
@@ -509,6 +512,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
   Quadrature quadrature_;
   SceneStates states_;
   HandStrength strength_;
+  Real effort_tolerance_ = EFFORT_TOLERANCE;
   bool has_effort_ = wholehand::has_effort(scene_);
   std::vector<VesselEntry> entries_;
 };

@@ -24,6 +24,7 @@ struct EvaluatorOptions {
   int lattice_bits = 32;    // of a sample: 32, or 16 (half precision)
   int quadrature_points = QUADRATURE_POINTS;  // liquid: Gauss-Legendre points a piece, 2..64
   double stop_tolerance = 0;                  // m; 0: the precision's named one
+  double effort_tolerance = 0;                // of an effort's bracket, relative; 0: EFFORT_TOLERANCE
   int trace_steps = 0, advance_steps = 0;     // at most; 0: the named numbers
   int gap_table = 0;  // > 0: the closure by interpolation in a table of so many entries, 2..GAP_TABLE_LARGEST; 0: solved
 };

@@ -19,10 +19,10 @@ struct Worst {
 };
 
 // Whether the effort for a load is up to 1, to the solver's tolerance. The last basis or the last cut may tell without a pivot.
-bool is_held(EffortSolver& solver, const Wrench& load, int& pivots) {
+bool is_held(EffortSolver& solver, const Wrench& load, Real tolerance, int& pivots) {
   if (solver.bound(load) <= 1) return true;
   if (solver.excess(load) > 0) return false;
-  const Effort found = solver.solve(load, EFFORT_TOLERANCE, 1, 1);
+  const Effort found = solver.solve(load, tolerance, 1, 1);
   pivots += found.pivots;
   return found.effort <= 1;
 }
@@ -31,8 +31,10 @@ bool is_held(EffortSolver& solver, const Wrench& load, int& pivots) {
 // others from below, (-w).u / h(u): the search goes where this bound is largest, not yet exactly, and solves exactly where it
 // stays. Each other state is then compared with that effort alone: mostly the last basis holds it with less, or does after a pivot
 // or two.
-void find_worst(EffortSolver& solver, const GripLoads& loads, std::size_t first, std::size_t last, Worst& worst, GripEffort& grip) {
-  const Real margin = 1 + EFFORT_TOLERANCE / 2;
+// The tolerance has two halves: an effort is within one of its state's, and a state is passed by within the other of the worst.
+void find_worst(EffortSolver& solver, const GripLoads& loads, std::size_t first, std::size_t last, Real tolerance, Worst& worst,
+                GripEffort& grip) {
+  const Real half = tolerance / 2, margin = 1 + half;
   const auto rise = [&](std::size_t fill, std::size_t tilt) {
     for (int step = 0; step < RISE_STEPS; ++step) {
       const Effort found = solver.solve(loads.weight(fill, tilt), RISE_TOLERANCE);
@@ -50,7 +52,7 @@ void find_worst(EffortSolver& solver, const GripLoads& loads, std::size_t first,
         }
       if (fill == fill_before && tilt == tilt_before) break;
     }
-    const Effort found = solver.solve(loads.weight(fill, tilt), EFFORT_TOLERANCE / 2);
+    const Effort found = solver.solve(loads.weight(fill, tilt), half);
     grip.pivots += found.pivots;
     if (found.effort > worst.effort) worst = {found.effort, fill, tilt};
   };
@@ -62,7 +64,7 @@ void find_worst(EffortSolver& solver, const GripLoads& loads, std::size_t first,
         ++grip.skipped;
         continue;
       }
-      const Effort found = solver.solve(weight, EFFORT_TOLERANCE / 2, worst.effort * margin, worst.effort * margin);
+      const Effort found = solver.solve(weight, half, worst.effort * margin, worst.effort * margin);
       grip.pivots += found.pivots;
       grip.skipped += found.pivots == 0;
       if (found.effort > worst.effort * margin) rise(fill, tilt);
@@ -83,19 +85,19 @@ Vec3 contacts_center(std::span<const ContactPoint> contacts) {
 }
 
 GripEffort grip_effort(std::span<const ContactPoint> contacts, std::optional<std::span<const ContactPoint>> tips,
-                       const HandStrength& hand, const GripLoads& loads, std::span<FillEffort> fills) {
+                       const HandStrength& hand, const GripLoads& loads, std::span<FillEffort> fills, Real tolerance) {
   GripEffort grip, pinch;
   const Vec3 center = contacts_center(contacts);
   EffortSolver whole(contacts, hand, center), two(tips.value_or(std::span<const ContactPoint>()), hand, center);
   Worst worst;
-  find_worst(whole, loads, 0, fills.size(), worst, grip);
+  find_worst(whole, loads, 0, fills.size(), tolerance, worst, grip);
   grip.worst = worst.effort;
   grip.fill = worst.fill;
   grip.tilt = worst.tilt;
   if (!tips) grip.tips_worst = std::numeric_limits<Real>::quiet_NaN();
   for (std::size_t fill = 0; fill < fills.size(); ++fill) {
     Worst most;
-    if (tips) find_worst(two, loads, fill, fill + 1, most, pinch);
+    if (tips) find_worst(two, loads, fill, fill + 1, tolerance, most, pinch);
     fills[fill] = {tips ? most.effort : grip.tips_worst, 0};
     grip.states += static_cast<int>(loads.counted[fill]);
     grip.tips_worst = std::max(grip.tips_worst, most.effort);
@@ -108,15 +110,16 @@ GripEffort grip_effort(std::span<const ContactPoint> contacts, std::optional<std
       held = counted;
       continue;
     }
-    while (held < counted && is_held(whole, loads.weight(fill, held), grip.pivots)) ++held;
+    while (held < counted && is_held(whole, loads.weight(fill, held), tolerance, grip.pivots)) ++held;
   }
   return grip;
 }
 
 // The largest push along a direction is one over the gauge, at that direction, of what the hand can carry beside the weight.
-Real push_held(std::span<const ContactPoint> contacts, const HandStrength& hand, const Wrench& weight, Vec3 center) {
+Real push_held(std::span<const ContactPoint> contacts, const HandStrength& hand, const Wrench& weight, Vec3 center,
+               Real tolerance) {
   EffortSolver solver(contacts, hand, contacts_center(contacts));
-  if (!(solver.solve(weight, EFFORT_TOLERANCE, 1, 1).effort < 1)) return 0;
+  if (!(solver.solve(weight, tolerance, 1, 1).effort < 1)) return 0;
   solver.displace(weight);
   Real worst = 1 / MOST_PUSH;
   for (int axis = 0; axis < 3; ++axis)
@@ -124,7 +127,7 @@ Real push_held(std::span<const ContactPoint> contacts, const HandStrength& hand,
       Vec3 direction(0);
       direction[axis] = sense;
       const Wrench push = wrench_at(center, direction);
-      if (!(solver.bound(push) <= worst)) worst = std::max(worst, solver.solve(push, EFFORT_TOLERANCE, worst).effort);
+      if (!(solver.bound(push) <= worst)) worst = std::max(worst, solver.solve(push, tolerance, worst).effort);
     }
   return 1 / worst;
 }
@@ -133,14 +136,14 @@ Real push_held(std::span<const ContactPoint> contacts, const HandStrength& hand,
 // above 1 says which friction is needed at least: the search goes there, and a step further, so that it ends. The direction of an
 // effort at another friction says so too: with that of the worst state the search begins.
 Real friction_needed(std::span<const ContactPoint> contacts, const HandStrength& hand, const GripLoads& loads, std::size_t fill,
-                     std::size_t tilt) {
-  constexpr Real tolerance = EFFORT_TOLERANCE / 2;  // a bracket of that width about 1 does not say more
+                     std::size_t tilt, Real tolerance) {
+  const Real half = tolerance / 2;  // a bracket of that width about 1 does not say more
   EffortSolver solver(contacts, hand, contacts_center(contacts));
   Real friction = hand.friction;
   const auto raise_for = [&](const Wrench& weight) {
     Real low = friction, high = MOST_FRICTION;  // less than `low` does not hold
     for (int raises = 0;; ++raises) {
-      const bool is_held = solver.bound(weight) <= 1 || solver.solve(weight, tolerance, 1, 1).effort * (1 - tolerance) <= 1;
+      const bool is_held = solver.bound(weight) <= 1 || solver.solve(weight, half, 1, 1).effort * (1 - half) <= 1;
       if (is_held && friction <= low + FRICTION_STEP) return true;
       if (!is_held && friction >= MOST_FRICTION) return false;
       if (is_held) {

@@ -41,7 +41,7 @@ struct FillEffort {
 
 // Over the states that count. Without states, or without weight: 0.
 struct GripEffort {
-  Real worst = 0;                  // to EFFORT_TOLERANCE; infinite where a state is not resisted
+  Real worst = 0;                  // to the tolerance that was asked for; infinite where a state is not resisted
   std::size_t fill = 0, tilt = 0;  // a state of that effort
   Real tips_worst = 0;
   int states = 0;   // that count
@@ -53,17 +53,19 @@ struct GripEffort {
 Vec3 contacts_center(std::span<const ContactPoint> contacts);
 
 // The whole hand presses with `contacts`, thumb and index tip alone with `tips`; their efforts are NaN without tips. `fills` has one
-// entry for each fill. Allocates nothing.
+// entry for each fill. `tolerance` is the relative width of an effort's bracket, here and below. Allocates nothing.
 GripEffort grip_effort(std::span<const ContactPoint> contacts, std::optional<std::span<const ContactPoint>> tips,
-                       const HandStrength& hand, const GripLoads& loads, std::span<FillEffort> fills);
+                       const HandStrength& hand, const GripLoads& loads, std::span<FillEffort> fills,
+                       Real tolerance = EFFORT_TOLERANCE);
 
 // The largest force, N, that may act at `center` along each of +-x, +-y, +-z beside `weight` with an effort up to 1: the least of
 // the six, at most MOST_PUSH. 0 where the weight alone takes more.
-Real push_held(std::span<const ContactPoint> contacts, const HandStrength& hand, const Wrench& weight, Vec3 center);
+Real push_held(std::span<const ContactPoint> contacts, const HandStrength& hand, const Wrench& weight, Vec3 center,
+               Real tolerance = EFFORT_TOLERANCE);
 
 // The least friction with which the effort of every state that counts is up to 1, to FRICTION_STEP, never too small by more than the
 // tolerance of the effort; neither `hand.friction` nor the state with which the search begins matters beyond that. Infinite: none up to MOST_FRICTION.
 Real friction_needed(std::span<const ContactPoint> contacts, const HandStrength& hand, const GripLoads& loads, std::size_t fill,
-                     std::size_t tilt);
+                     std::size_t tilt, Real tolerance = EFFORT_TOLERANCE);
 
 }  // namespace CORE_NS

@@ -46,8 +46,8 @@ std::vector<std::vector<GripInput>> random_error_grips(const Scene& scene, std::
 
 bool same_evaluator_options(const EvaluatorOptions& a, const EvaluatorOptions& b) {
   return a.lattice_samples == b.lattice_samples && a.lattice_bits == b.lattice_bits && a.quadrature_points == b.quadrature_points &&
-         a.stop_tolerance == b.stop_tolerance && a.trace_steps == b.trace_steps && a.advance_steps == b.advance_steps &&
-         a.gap_table == b.gap_table;
+         a.stop_tolerance == b.stop_tolerance && a.effort_tolerance == b.effort_tolerance && a.trace_steps == b.trace_steps &&
+         a.advance_steps == b.advance_steps && a.gap_table == b.gap_table;
 }
 
 }  // namespace
@@ -166,7 +166,9 @@ ErrorRow ErrorMeasure::compared_row(const ErrorVariant& variant) {
   row.variant = variant;
   row.errors.fill(figures_of({}, {}));
   const Scene& scene = variant.scene ? *variant.scene : scene_;
-  const Opened opened = open(variant, compared_fields(scene));
+  // a device has no states' efforts of its own
+  const bool brackets = variant.axis == SweptAxis::effort && variant.on_core;
+  const Opened opened = open(variant, compared_fields(scene, brackets));
   row.device = opened.backend->info().device;
   row.driver = opened.backend->info().driver;
   std::vector<GatheredPlanes> planes;

@@ -47,13 +47,14 @@ struct QuantityErrors {
   }
 };
 
-// Largest difference between the planes of a field at one grip. With `finite`, infinite values on either side are passed over (a
-// hold force is infinite where the pinch is not antipodal, which is an outcome and not a number): NaN where none is left.
+// Largest difference between the planes of a field at one grip. With `finite`, values that neither side has and infinite ones on
+// either side are passed over (a hold force is infinite where the pinch is not antipodal, which is an outcome and not a number): NaN
+// where none is left.
 double plane_difference(const GatheredPlanes& a, const GatheredPlanes& b, int field, int planes, std::size_t i, bool finite) {
   double worst = finite ? std::numeric_limits<double>::quiet_NaN() : 0;
   for (int p = 0; p < planes; ++p) {
     const double x = a.real(a.fields.plane[field] + p, i), y = b.real(b.fields.plane[field] + p, i);
-    if (finite && (std::isinf(x) || std::isinf(y))) continue;
+    if (finite && (std::isinf(x) || std::isinf(y) || (std::isnan(x) && std::isnan(y)))) continue;
     worst = std::fmax(worst, figure_difference(x, y));
   }
   return worst;
@@ -64,6 +65,17 @@ bool differs_in_infinity(const GatheredPlanes& a, const GatheredPlanes& b, int f
   for (int p = 0; p < planes; ++p)
     if (std::isinf(a.real(a.fields.plane[field] + p, i)) != std::isinf(b.real(b.fields.plane[field] + p, i))) return true;
   return false;
+}
+
+// Largest width of the brackets of a grip's efforts, in units of their upper ends. NaN where no state is held.
+double widest_bracket(const GatheredPlanes& planes, int states, std::size_t i) {
+  double widest = std::numeric_limits<double>::quiet_NaN();
+  for (int state = 0; state < states; ++state) {
+    const double effort = planes.real(planes.fields.plane[FIELD_EFFORT] + state, i);
+    const double low = planes.real(planes.fields.plane[FIELD_EFFORT_LOW] + state, i);
+    if (std::isfinite(effort) && effort > 0) widest = std::fmax(widest, (effort - low) / effort);
+  }
+  return widest;
 }
 
 // Largest distance between the points of a field at one grip.
@@ -83,13 +95,14 @@ double point_difference(const GatheredPlanes& a, const GatheredPlanes& b, int fi
 
 }  // namespace
 
-FieldSet compared_fields(const Scene& scene) {
+FieldSet compared_fields(const Scene& scene, bool brackets) {
   std::vector<int> fields{FIELD_GAP, FIELD_CLOSURE, FIELD_POSED, FIELD_PROXIES, FIELD_STATUS, FIELD_TOUCH_MASK, FIELD_SEPARATION};
   if (!scene.tilts.empty())
     fields.insert(fields.end(), {scene.force.torque == Torque::exact ? FIELD_EXACT_TORQUE : FIELD_TORQUE, FIELD_FEEDBACK_FORCE,
                                  FIELD_HOLD_FORCE});
   for (const HandQuantity& asked : HAND_QUANTITIES)
     if (const int field = field_of_variable(asked.field); field >= 0 && field_planes(field, scene) > 0) fields.push_back(field);
+  if (brackets) fields.insert(fields.end(), {FIELD_EFFORT, FIELD_EFFORT_LOW});
   return make_field_set(fields, scene);
 }
 
@@ -140,6 +153,8 @@ void ErrorReference::compare(const std::vector<GatheredPlanes>& planes, const Ev
         if (!std::isnan(hold)) errors[ERROR_HOLD].add(hold, v, i);
         row.hold_flips += differs_in_infinity(a, b, FIELD_HOLD_FORCE, states, i) ? 1 : 0;
       }
+      if (a.fields.has(FIELD_EFFORT_LOW))
+        if (const double width = widest_bracket(a, states, i); !std::isnan(width)) errors[ERROR_EFFORT_BRACKET].add(width, v, i);
       if (!comparable.pose) continue;
       errors[ERROR_POSED].add(1e6 * point_difference(a, b, FIELD_POSED, i), v, i);
       errors[ERROR_PROXY].add(1e6 * point_difference(a, b, FIELD_PROXIES, i), v, i);

@@ -12,8 +12,8 @@
 
 namespace wholehand {
 
-// What is compared of a grip.
-FieldSet compared_fields(const Scene& scene);
+// What is compared of a grip. With `brackets` also both bounds of each state's effort.
+FieldSet compared_fields(const Scene& scene, bool brackets = false);
 
 struct ReferenceOptions {
   int threads = 1;

@@ -43,6 +43,7 @@ TimeFigures time_figures(std::vector<double> runs, const std::vector<double>& ba
 }
 
 double ErrorRow::length_error() const {
+  if (variant.axis == SweptAxis::effort) return NO_FIGURE;
   if (!variant.answers_the_question() || errors[ERROR_GAP].compared == 0) return NO_FIGURE;
   double worst = 0;
   for (const int q : {ERROR_SEPARATION, ERROR_POSED, ERROR_PROXY, ERROR_GAP, ERROR_COM})

@@ -31,6 +31,7 @@ enum ErrorQuantity : int {
   ERROR_TIPS_EFFORT,      // .. of the two tips alone,
   ERROR_PUSH,             // .. what may push,
   ERROR_FRICTION_NEEDED,  // .. and the least friction
+  ERROR_EFFORT_BRACKET,   // relative width of a state's bracket by the variant itself, where it varies the efforts' tolerance
   ERROR_QUANTITIES
 };
 
@@ -74,7 +75,8 @@ struct ErrorRow {
   std::string device, driver;
 
   // Largest of the lengths' 99.9th percentiles, um (separation, posed joints, proxies, gap, centre of mass), and of the forces', N;
-  // a hold force on one side alone is wrong by infinity. NaN: the variant answers another question, or nothing of it compares.
+  // a hold force on one side alone is wrong by infinity. NaN: the variant answers another question, nothing of it compares, or, for
+  // lengths, it varies what no length depends on.
   double length_error() const;
   double force_error() const;
   // On more than one grip in 1,000 it is of another mind whether they are feasible at all: what its errors leave out is no detail.

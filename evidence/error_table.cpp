@@ -16,9 +16,10 @@
 namespace wholehand {
 namespace {
 
-constexpr const char* ERROR_NAMES[ERROR_QUANTITIES] = {
-    "separation_um", "posed_um", "proxy_um",       "closure",       "gap_um",       "volume_ml",   "com_um", "torque_Nm",
-    "feedback_N",    "hold_N",   "table_depth_um", "self_depth_um", "worst_effort", "tips_effort", "push",   "friction_needed"};
+constexpr const char* ERROR_NAMES[ERROR_QUANTITIES] = {"separation_um",   "posed_um",      "proxy_um",     "closure",     "gap_um",
+                                                       "volume_ml",       "com_um",        "torque_Nm",    "feedback_N",  "hold_N",
+                                                       "table_depth_um",  "self_depth_um", "worst_effort", "tips_effort", "push",
+                                                       "friction_needed", "effort_bracket"};
 
 std::string error_number_cell(double value) { return std::isnan(value) ? "" : fmt::format("{:.9g}", value); }
 
@@ -102,6 +103,8 @@ std::string fitted_orders(const std::vector<ErrorRow>& rows) {
                    figure(ERROR_GAP, &ErrorFigures::max));
   add_fitted_order(text, rows, SweptAxis::gap_table, "closure, maximum", "step of the gap table", "2", 0,
                    figure(ERROR_CLOSURE, &ErrorFigures::max));
+  add_fitted_order(text, rows, SweptAxis::effort, "worst effort, maximum", "tolerance of efforts",
+                   "no fixed order: never more than the tolerance", 0, figure(ERROR_EFFORT, &ErrorFigures::max));
   add_fitted_order(text, rows, SweptAxis::points, "volume, maximum", "1 / points of the liquid",
                    "no fixed order: faster than any power", 1e-7, figure(ERROR_VOLUME, &ErrorFigures::max));
   return text;
@@ -167,22 +170,35 @@ std::string liquid_times(const std::vector<ErrorRow>& rows) {
   return text;
 }
 
+std::string effort_times(const std::vector<ErrorRow>& rows) {
+  const auto figure = [](const ErrorFigures& figures) {
+    return figures.compared > 0 ? fmt::format("{:.2g}", figures.max) : std::string();
+  };
+  std::string text;
+  for (const ErrorRow& row : rows)
+    if (row.variant.axis == SweptAxis::effort)
+      text += fmt::format("| {} | {} | {} | {} |\n", row.variant.name, grip_time_text(row.seconds_per_grip),
+                          figure(row.errors[ERROR_EFFORT]), figure(row.errors[ERROR_EFFORT_BRACKET]));
+  return text;
+}
+
 }  // namespace
 
 std::string error_csv(const std::vector<ErrorRow>& rows, const ErrorContext& context) {
   std::string csv =
-      "variant,backend,precision,threads,sdf,resolution,storage_bits,tolerance,points,left_out,seconds_per_grip,spread,memory_"
-      "bytes";
+      "variant,backend,precision,threads,sdf,resolution,storage_bits,tolerance,effort_tolerance,points,left_out,"
+      "seconds_per_grip,spread,memory_bytes";
   for (const char* name : ERROR_NAMES) csv += fmt::format(",{0}_median,{0}_p999,{0}_max,{0}_worst_grip", name);
   csv += ",touch_flips,touch_flips_outside_margin,feasible_flips,device,driver,seed\n";
   for (const ErrorRow& row : rows) {
     const ErrorVariant& v = row.variant;
     const bool lattice = v.options.lattice_samples > 0;
     auto out = std::back_inserter(csv);
-    fmt::format_to(out, "{},{},{},{},{},{},{},{:.9g},{},{},{:.6g},{:.6g},{}", csv_text(v.name), v.on_core ? "core" : "vulkan",
+    fmt::format_to(out, "{},{},{},{},{},{},{},{:.9g},{},{},{},{:.6g},{:.6g},{}", csv_text(v.name), v.on_core ? "core" : "vulkan",
                    v.precision == Precision::single ? "float" : "double", v.on_core ? fmt::format("{}", v.threads) : "",
                    lattice ? "grid" : "outline", lattice ? fmt::format("{}", v.options.lattice_samples) : "",
                    lattice ? fmt::format("{}", v.options.lattice_bits) : "", v.stop_tolerance(),
+                   context.efforts ? fmt::format("{:.9g}", v.effort_tolerance()) : "",
                    context.states > 0 ? fmt::format("{}", v.options.quadrature_points) : "", csv_text(v.left_out),
                    row.seconds_per_grip, row.spread, row.memory_bytes);
     for (const ErrorFigures& error : row.errors)
@@ -226,7 +242,8 @@ std::string error_report(const std::vector<ErrorRow>& rows, const ErrorContext& 
                       readable_number(context.grips), context.vessels, context.vessels == 1 ? "" : "s",
                       readable_number(context.feasible), readable_number(context.grazing),
                       context.states > 0 ? fmt::format(", {} states of fill and tilt each", context.states) : "", rows.size());
-  text += "Reference: core double, exact outline, stop tolerance 1e-12 m, 64 points of the liquid.\n";
+  text += fmt::format("Reference: core double, exact outline, stop tolerance 1e-12 m, 64 points of the liquid{}.\n",
+                      context.efforts ? fmt::format(", efforts to {:g}", reference_options().effort_tolerance) : "");
   for (const std::string& note : context.notes) text += fmt::format("Note: {}.\n", note);
   text +=
       "\n## The fastest variant under an error\n\nThe error of lengths is the largest 99.9th percentile among separation, posed "
@@ -245,6 +262,13 @@ std::string error_report(const std::vector<ErrorRow>& rows, const ErrorContext& 
         "\n## Left out, left in\n\nThe ratio compares the time with the time of the unchanged scene, on the same side.\n\n| "
         "variant | left out (+: left in) | time per grip | ratio |\n|---|---|---|---|\n" +
         times;
+  }
+  if (const std::string efforts = effort_times(rows); !efforts.empty()) {
+    text +=
+        "\n## Efforts\n\nBoth figures are relative. The difference is that of the worst effort from the reference's. A bracket is "
+        "the distance between the two bounds of a state's effort; a device does not keep it.\n\n"
+        "| variant | time per grip | largest difference | widest bracket |\n|---|---|---|---|\n" +
+        efforts;
   }
   if (const std::string liquid = liquid_times(rows); !liquid.empty()) {
     text +=

@@ -17,6 +17,7 @@ struct ErrorContext {
   std::uint64_t grips = 0, feasible = 0, grazing = 0;  // of all vessels, by the reference
   std::size_t vessels = 0, states = 0;
   bool quick = false;
+  bool efforts = false;  // the scene has them
   std::vector<std::string> notes;
 };
 

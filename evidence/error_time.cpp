@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "core/parallel.h"
+#include "core/planes.h"
 #include "core/prepare.h"
 #include "evidence/error_plot.h"
 #include "evidence/error_table.h"
@@ -63,6 +64,7 @@ ErrorContext error_context_of(const Scene& scene, const ErrorTimeOptions& option
   context.version = version();
   context.seed = options.seed;
   context.quick = options.quick;
+  context.efforts = has_effort(scene);
   context.vessels = scene.vessels.size();
   context.states = scene_fills(scene) * scene.tilts.size();
   return context;

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/effort.h"
+#include "core/planes.h"
+
 namespace wholehand {
 namespace {
 
@@ -45,6 +48,7 @@ class VariantList {
     steps();
     gap_tables();
     points();
+    effort_tolerances();
     lattices();
     pipelines();
     questions();
@@ -124,6 +128,20 @@ class VariantList {
         variant.options.quadrature_points = points;
         variant.axis = SweptAxis::points;
         variant.step = 1.0 / points;
+      }
+    }
+  }
+
+  // The tolerance of the efforts, 1e-3 among them: the others are read beside it. Rounding of single precision is beyond 1e-5.
+  void effort_tolerances() {
+    if (!has_effort(scene_)) return;
+    for (const VariantSide& side : with_outlines(false, !quick())) {
+      for (const int digits : {1, 2, 3, 5}) {
+        if ((digits == 5 && side.precision == Precision::single) || (quick() && !side.on_core && digits != 1)) continue;
+        ErrorVariant& variant = add(side, fmt::format("effort tolerance 1e-{}", digits));
+        variant.options.effort_tolerance = std::stod(fmt::format("1e-{}", digits));
+        variant.axis = SweptAxis::effort;
+        variant.step = variant.options.effort_tolerance;
       }
     }
   }
@@ -223,11 +241,16 @@ double ErrorVariant::stop_tolerance() const {
   return precision == Precision::single ? STOP_TOLERANCE_F32 : STOP_TOLERANCE_F64;
 }
 
+double ErrorVariant::effort_tolerance() const {
+  return options.effort_tolerance > 0 ? options.effort_tolerance : core_f64::EFFORT_TOLERANCE;
+}
+
 EvaluatorOptions reference_options() {
   EvaluatorOptions options;
   options.quadrature_points = 64;
   options.stop_tolerance = 1e-12;  // a few thousand roundings of a distance
   options.trace_steps = options.advance_steps = 100000;
+  options.effort_tolerance = 1e-7;  // a hundredth of the finest variant's
   return options;
 }
 

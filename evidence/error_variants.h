@@ -21,7 +21,7 @@ struct Comparable {
 };
 
 // What of the approximations is swept, for the convergence that is fitted; `step` is what the error should be a power of.
-enum class SweptAxis { none, lattice, tolerance, gap_table, points };
+enum class SweptAxis { none, lattice, tolerance, gap_table, points, effort };
 
 struct ErrorVariant {
   std::string name;
@@ -37,7 +37,8 @@ struct ErrorVariant {
   double step = 0;
 
   bool answers_the_question() const { return comparable.pose && comparable.states && comparable.outcomes; }
-  double stop_tolerance() const;  // m
+  double stop_tolerance() const;    // m
+  double effort_tolerance() const;  // relative
 };
 
 struct VariantChoice {

@@ -46,16 +46,18 @@ void add_planes(std::vector<Constant>& constants, const FieldSet& fields) {
   for (int f = 0; f < FIELDS; ++f) constants.push_back({std::uint32_t(CONST_PLANE + f), std::int32_t(fields.plane[f])});
 }
 
+void add_real(std::vector<Constant>& constants, std::uint32_t id, double value, Precision precision) {
+  if (precision == Precision::single) {
+    constants.push_back({id, static_cast<float>(value)});
+  } else {
+    constants.push_back({id, value});
+  }
+}
+
 // Only what differs from the shaders' own named values.
 void add_limits(std::vector<Constant>& constants, const GripBackendOptions& options) {
   const EvaluatorOptions& asked = options.evaluator;
-  if (asked.stop_tolerance > 0) {
-    if (options.precision == Precision::single) {
-      constants.push_back({CONST_STOP_TOLERANCE, static_cast<float>(asked.stop_tolerance)});
-    } else {
-      constants.push_back({CONST_STOP_TOLERANCE, asked.stop_tolerance});
-    }
-  }
+  if (asked.stop_tolerance > 0) add_real(constants, CONST_STOP_TOLERANCE, asked.stop_tolerance, options.precision);
   if (asked.trace_steps > 0) constants.push_back({CONST_TRACE_STEPS, std::int32_t(asked.trace_steps)});
   if (asked.advance_steps > 0) constants.push_back({CONST_ADVANCE_STEPS, std::int32_t(asked.advance_steps)});
   if (asked.gap_table > 0) {
@@ -128,6 +130,8 @@ GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Ev
       values = constants;
       values.push_back({CONST_CONTACTS, std::int32_t(fields.real_planes)});
       values.push_back({CONST_EFFORT_TASK, std::int32_t(task)});
+      const double tolerance = options.evaluator.effort_tolerance;
+      if (tolerance > 0) add_real(values, CONST_EFFORT_TOLERANCE, tolerance, options.precision);
       make(*kernel, name, values);
     }
   }
@@ -208,14 +212,8 @@ void GripProgram::make_grip_kernel(std::size_t v, const Scene& scene, const Scen
   add_limits(constants, options);
   constants.push_back({CONST_LID, std::int32_t(from.lattice ? -1 : from.lid)});
   if (vessel.outline_source == OUTLINE_SPECIALIZED) {
-    for (std::size_t i = 0; i < from.outline.size(); ++i) {
-      const auto id = static_cast<std::uint32_t>(CONST_OUTLINE + i);
-      if (options.precision == Precision::single) {
-        constants.push_back({id, static_cast<float>(from.outline[i])});
-      } else {
-        constants.push_back({id, from.outline[i]});
-      }
-    }
+    for (std::size_t i = 0; i < from.outline.size(); ++i)
+      add_real(constants, static_cast<std::uint32_t>(CONST_OUTLINE + i), from.outline[i], options.precision);
   }
   vessel.grip.emplace(on, find_shader("grip", options.precision, vessel.outline_source), constants, "grip");
 }

@@ -16,9 +16,10 @@
 #define LEAST_PIVOT 1e-4
 #endif
 #define UNRESISTED_EFFORT Real(1000000)
-#define EFFORT_TOLERANCE RATIO(1, 1000)
 #define LEAST_LENGTH RATIO(1, 1000)
 #define DIGITS (FINGERS + 1)
+
+layout(constant_id = CONST_EFFORT_TOLERANCE) const Real EFFORT_TOLERANCE = RATIO(1, 1000);
 
 struct Six {
   Vec3 first, second;

@@ -250,6 +250,7 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define CONST_GAP_TABLE_SIZE 44
 #define CONST_LATTICE_BITS 45       // of a sample: 32 or 16
 #define CONST_FRICTION 46           // of the loop: whether any case has friction, bool
+#define CONST_EFFORT_TOLERANCE 47   // Real, of an effort's bracket; 1e-3 where nothing is given
 #define CONST_OUTLINE 64            // + OUTLINE_STRIDE * element + value, Real
 #define CONST_PLANE 320             // + field: first plane, or -1: not computed
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -137,6 +138,41 @@ TEST_P(GripEffortOf, IsTheLargestOfAllStates) {
   }
   EXPECT_GT(above_one, unheld);  // both sides of 1 are among them
   EXPECT_LT(above_one, 45);
+}
+
+// The two halves of a tolerance together are no more than it, and what is to be known less closely takes fewer pivots. A single
+// effort lies in its bracket, which is no wider than the tolerance of its upper end.
+TEST_P(GripEffortOf, IsWithinTheToleranceOfTheFinest) {
+  constexpr std::array<double, 4> tolerances{1e-1, 1e-2, 1e-3, 1e-5};
+  constexpr double FINEST = 1e-8;
+  std::array<int, 4> pivots{}, single_pivots{};
+  int finite = 0;
+  for (const LoadedGrip& grip : random_grips(45, GetParam(), 23)) {
+    const GripLoads loads = grip.loads();
+    std::vector<FillEffort> fills(grip.fills());
+    const GripEffort finest = grip_effort(grip.contacts, grip.tips, grip.hand, loads, fills, FINEST);
+    finite += std::isfinite(finest.worst);
+    for (std::size_t k = 0; k < tolerances.size(); ++k) {
+      const GripEffort found = grip_effort(grip.contacts, grip.tips, grip.hand, loads, fills, tolerances[k]);
+      pivots[k] += found.pivots;
+      const core_f64::Effort single =
+          EffortSolver(grip.contacts, grip.hand, core_f64::contacts_center(grip.contacts)).solve(loads.weight(0, 0), tolerances[k]);
+      single_pivots[k] += single.pivots;
+      if (std::isfinite(single.effort)) {
+        EXPECT_LE(single.effort - single.low, tolerances[k] * single.effort * (1 + 1e-9));
+      }
+      if (std::isinf(finest.worst)) {
+        EXPECT_EQ(found.worst, finest.worst);
+        continue;
+      }
+      EXPECT_NEAR(found.worst, finest.worst, (tolerances[k] + FINEST) * finest.worst) << tolerances[k];
+    }
+  }
+  EXPECT_GT(finite, 10);
+  for (std::size_t k = 1; k < tolerances.size(); ++k) {
+    EXPECT_GT(pivots[k], pivots[k - 1]) << tolerances[k];
+    EXPECT_GT(single_pivots[k], single_pivots[k - 1]) << tolerances[k];
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Hands, GripEffortOf, testing::Values(Handedness::right, Handedness::left));

@@ -27,7 +27,8 @@ namespace wholehand {
 namespace {
 
 const char* const COLUMNS =
-    "variant,backend,precision,threads,sdf,resolution,storage_bits,tolerance,points,left_out,seconds_per_grip,spread,memory_bytes,"
+    "variant,backend,precision,threads,sdf,resolution,storage_bits,tolerance,effort_tolerance,points,left_out,"
+    "seconds_per_grip,spread,memory_bytes,"
     "separation_um_median,separation_um_p999,separation_um_max,separation_um_worst_grip,"
     "posed_um_median,posed_um_p999,posed_um_max,posed_um_worst_grip,"
     "proxy_um_median,proxy_um_p999,proxy_um_max,proxy_um_worst_grip,"
@@ -44,6 +45,7 @@ const char* const COLUMNS =
     "tips_effort_median,tips_effort_p999,tips_effort_max,tips_effort_worst_grip,"
     "push_median,push_p999,push_max,push_worst_grip,"
     "friction_needed_median,friction_needed_p999,friction_needed_max,friction_needed_worst_grip,"
+    "effort_bracket_median,effort_bracket_p999,effort_bracket_max,effort_bracket_worst_grip,"
     "touch_flips,touch_flips_outside_margin,feasible_flips,device,driver,seed";
 
 // Cells of a CSV, quotes resolved.
@@ -145,6 +147,47 @@ TEST(ErrorTime, WholeHandsAreCompared) {
   EXPECT_GT(loose.errors[ERROR_TABLE_DEPTH].max, 10);   // .. and of 1e-3 m
   EXPECT_LT(loose.errors[ERROR_TABLE_DEPTH].max, 1e5);
   EXPECT_EQ(exact.errors[ERROR_EFFORT].compared, 0u);  // without tilts no state
+}
+
+// A bracket of the tolerance's width holds the effort: no worst effort is further from the finest one than that. What holds with
+// other contacts is an outcome, and a finger that rests a nanometre elsewhere moves an effort by a millionth.
+TEST(ErrorTime, NoEffortIsWrongByMoreThanItsTolerance) {
+  Scene scene = three_beakers();
+  scene.strength.emplace();
+  ErrorMeasure measure(scene, few_grips());
+  const auto variants = error_variants(scene, {true, 1, false, false, false, false});
+  std::vector<ErrorRow> rows;
+  double before = 0;
+  for (const char* tolerance : {"1e-5", "1e-3", "1e-2", "1e-1"}) {
+    rows.push_back(measure.measure(find(variants, std::string("core double: effort tolerance ") + tolerance)));
+    const ErrorFigures &error = rows.back().errors[ERROR_EFFORT], &bracket = rows.back().errors[ERROR_EFFORT_BRACKET];
+    EXPECT_EQ(rows.back().variant.axis, SweptAxis::effort);
+    EXPECT_EQ(rows.back().variant.effort_tolerance(), std::stod(tolerance));
+    EXPECT_GT(error.compared, 50u);
+    EXPECT_LE(error.max, std::stod(tolerance) + 1e-6) << tolerance;
+    EXPECT_GT(error.max, before) << "coarser, and no better";
+    before = error.max;
+    EXPECT_GE(bracket.compared, error.compared);
+    EXPECT_LE(bracket.max, std::stod(tolerance) * (1 + 1e-9)) << tolerance;
+    EXPECT_GT(bracket.max, std::stod(tolerance) / 10) << "no tighter than asked";
+    EXPECT_TRUE(std::isnan(rows.back().length_error())) << "no length depends on it";
+    EXPECT_EQ(*rows.back().touch_flips, 0u);
+  }
+  EXPECT_EQ(measure.measure(find(variants, "core double: 1 thread")).errors[ERROR_EFFORT_BRACKET].compared, 0u);
+  const std::string report = error_report(rows, {});
+  EXPECT_NE(report.find("| core double: effort tolerance 1e-1 | "), report.npos) << report;
+}
+
+// The tolerance reaches a device's kernels. Its rounding alone is a hundredth of this one.
+TEST(ErrorTime, ADeviceTakesTheToleranceOfEfforts) {
+  Scene scene = three_beakers();
+  scene.strength.emplace();
+  const auto variants = error_variants(scene, {true, 1, true, false, true, true});
+  const ErrorFigures error =
+      ErrorMeasure(scene, few_grips()).measure(find(variants, "Vulkan float: effort tolerance 1e-1")).errors[ERROR_EFFORT];
+  EXPECT_GT(error.compared, 20u);
+  EXPECT_LE(error.p999, 0.1 + 1e-3);
+  EXPECT_GT(error.max, 5e-3) << "the default's would be below 1e-3";
 }
 
 // Half the bytes a sample.

@@ -87,18 +87,20 @@ TEST(ErrorTime, ReportNamesTheFastestUnderEachError) {
 }
 
 TEST(ErrorTime, ReportHasItsHeadings) {
-  ErrorRow points = row_of("liquid", 1, 0), left_out = row_of("smaller", 1, 0);
+  ErrorRow points = row_of("liquid", 1, 0), left_out = row_of("smaller", 1, 0), effort = row_of("rough", 1, 0);
+  effort.variant.axis = SweptAxis::effort;
   points.variant.axis = SweptAxis::points;
   points.liquid_seconds = 1e-6;
   left_out.variant.left_out = "much";
   ErrorContext context;
   context.scene = "cups";
-  std::istringstream report(error_report({row_of("core", 1, 0), points, left_out}, context));
+  std::istringstream report(error_report({row_of("core", 1, 0), points, effort, left_out}, context));
   std::vector<std::string> headings;
   for (std::string line; std::getline(report, line);)
     if (line.starts_with('#')) headings.push_back(line);
-  EXPECT_EQ(headings, (std::vector<std::string>{"# Error against run time: cups", "## The fastest variant under an error",
-                                                "## Observed orders of convergence", "## Left out, left in", "## The liquid"}));
+  EXPECT_EQ(headings,
+            (std::vector<std::string>{"# Error against run time: cups", "## The fastest variant under an error",
+                                      "## Observed orders of convergence", "## Left out, left in", "## Efforts", "## The liquid"}));
 }
 
 // What answers where others do not, or nowhere, is not the best for having few answers to be wrong in.
@@ -138,15 +140,17 @@ TEST(ErrorTime, WhatDoesNotCompareIsNotChosen) {
 // ---- variants ----
 
 TEST(ErrorTime, VariantsHaveNamesOfTheirOwn) {
-  const Scene scene = three_beakers();
+  Scene scene = three_beakers();
+  scene.strength.emplace();
   for (const bool quick : {false, true}) {
     const auto variants = error_variants(scene, {quick, 2, true, true, true, true});
     std::set<std::string> names;
     for (const ErrorVariant& variant : variants) EXPECT_TRUE(names.insert(variant.name).second) << variant.name;
-    for (const char* name : {"core double: 1 thread", "Vulkan double", "core double: tolerance 1e-3 m", "core double: 16 steps",
-                             "core double: gap table 257", "core double: liquid 4 points", "core double: grid 64^3 x 16 bits",
-                             "Vulkan float: grid 128^3 x 32 bits", "Vulkan float: outline from a buffer",
-                             "core double: pose rigged", "core double: shell", "Vulkan float: without liquid"})
+    for (const char* name :
+         {"core double: 1 thread", "Vulkan double", "core double: tolerance 1e-3 m", "core double: 16 steps",
+          "core double: gap table 257", "core double: liquid 4 points", "core double: grid 64^3 x 16 bits",
+          "Vulkan float: grid 128^3 x 32 bits", "core double: effort tolerance 1e-5", "Vulkan float: effort tolerance 1e-1",
+          "Vulkan float: outline from a buffer", "core double: pose rigged", "core double: shell", "Vulkan float: without liquid"})
       EXPECT_TRUE(names.contains(name)) << name << (quick ? ", quick" : "");
   }
 }
@@ -156,6 +160,7 @@ TEST(ErrorTime, VariantsLeaveOutWhatTheSceneLacks) {
   for (const ErrorVariant& variant : error_variants(scene, {false, 1, true, false, false, false})) {
     EXPECT_EQ(variant.name.find("liquid"), std::string::npos) << variant.name;
     EXPECT_EQ(variant.name.find("shell"), std::string::npos) << variant.name;
+    EXPECT_EQ(variant.name.find("effort"), std::string::npos) << variant.name;
     EXPECT_FALSE(!variant.on_core && variant.precision == Precision::full) << variant.name;
     EXPECT_FALSE(!variant.on_core && variant.options.lattice_samples == 0) << variant.name;
   }
