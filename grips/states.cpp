@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.h"
 
@@ -32,10 +33,13 @@ const GripState* drawn_liquid(const GripReport& report) {
 }
 
 std::optional<std::size_t> hardest_state(const GripReport& report) {
-  const auto& holds = report.holds;
-  if (holds.empty()) return std::nullopt;
-  const auto takes_less = [](const StateHold& a, const StateHold& b) { return a.effort < b.effort; };
-  return static_cast<std::size_t>(std::max_element(holds.begin(), holds.end(), takes_less) - holds.begin());
+  std::optional<std::size_t> hardest;
+  for (std::size_t k = 0; k < report.holds.size(); ++k) {
+    // against NaN every comparison is false: one in the first place would stay there
+    const double effort = report.holds[k].effort;
+    if (!std::isnan(effort) && (!hardest || effort > report.holds[*hardest].effort)) hardest = k;
+  }
+  return hardest;
 }
 
 }  // namespace wholehand

@@ -31,7 +31,7 @@ void check_drawable(const GripReport& report, const std::string& option);
 const GripState* drawn_liquid(const GripReport& report);
 
 // The place in `holds` of the state that takes most effort, the first where several take as much: the first of those that no force
-// holds, if there are any. Nothing where there are no holds.
+// holds, if there are any. A state whose effort is NaN is passed over. Nothing where no other is.
 std::optional<std::size_t> hardest_state(const GripReport& report);
 
 }  // namespace wholehand

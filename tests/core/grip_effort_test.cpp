@@ -249,6 +249,57 @@ TEST(GripEffort, FrictionNeededIsTheLeast) {
   EXPECT_GT(finite, 10);
 }
 
+// What has poured no longer counts: the states beyond are neither the worst nor held, and the search asks for none of them.
+TEST(GripEffort, OnlyCountedTiltsAreAsked) {
+  Scene scene = three_beakers();
+  scene.strength.emplace();
+  ASSERT_FALSE(scene.until_poured);
+  const auto evaluator = make_core_evaluator(scene);
+  Scene poured = scene;
+  poured.until_poured = 0.5;
+  int fewer = 0, held = 0, checked = 0;
+  Random random(29);
+  while (checked < 30) {
+    const std::size_t vessel = static_cast<std::size_t>(checked) % scene.vessels.size();
+    GripInput input;
+    input.height = random.uniform(0.1, 0.95) * scene.vessels[vessel].height;
+    input.roll = radians(random.uniform(-90, 30));
+    GripResult result;
+    evaluator->grip(vessel, input, result);
+    if (!result.plausible) continue;
+    ++checked;
+    LoadedGrip grip = held_grip(scene, *evaluator, vessel, input, result);
+    std::vector<FillEffort> fills(grip.fills());
+    const std::vector<std::size_t> all_tilts = grip.counted;
+    grip.counted = counted_tilts(poured, vessel);
+    // what does not count is made so heavy that it would be seen
+    for (std::size_t fill = 0; fill < grip.fills(); ++fill)
+      for (std::size_t tilt = grip.counted[fill]; tilt < grip.tilts.size(); ++tilt)
+        grip.states[fill * grip.tilts.size() + tilt].mass *= 1000;
+    LoadedGrip of_all = grip;
+    of_all.counted = all_tilts;
+    const GripEffort all = grip_effort(of_all.contacts, of_all.tips, of_all.hand, of_all.loads(), fills);
+    const GripEffort found = grip_effort(grip.contacts, grip.tips, grip.hand, grip.loads(), fills);
+    double worst = 0;
+    int states = 0;
+    for (std::size_t fill = 0; fill < grip.fills(); ++fill) {
+      EXPECT_LE(fills[fill].held, grip.counted[fill]);
+      fewer += grip.counted[fill] < grip.tilts.size();
+      for (std::size_t tilt = 0; tilt < grip.counted[fill]; ++tilt, ++states)
+        worst = std::max(worst, effort_of(grip.contacts, grip.hand, grip.loads().weight(fill, tilt)));
+    }
+    EXPECT_EQ(found.states, states);
+    EXPECT_LT(found.tilt, grip.counted[found.fill]);
+    expect_same_effort(found.worst, worst, "of those that count");
+    if (std::isfinite(found.worst)) {
+      EXPECT_GT(all.worst, 10 * found.worst);
+      ++held;
+    }
+  }
+  EXPECT_GT(fewer, 0);
+  EXPECT_GT(held, 10);
+}
+
 // A thumb alone holds nothing that hangs from it.
 TEST(GripEffort, OneContactHoldsNothing) {
   LoadedGrip grip = random_grips(1, Handedness::right, 19).front();

@@ -72,5 +72,23 @@ TEST(GripStates, TheHardestStateIsTheFirstOfThoseThatTakeMost) {
   EXPECT_EQ(hardest_state(report), 3u);
 }
 
+// Wherever it stands, an effort that is not known is not the hardest.
+TEST(GripStates, AStateWithoutAnEffortIsNotTheHardest) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  GripReport report;
+  report.holds.resize(3);
+  report.holds[1].effort = 0.2;
+  report.holds[2].effort = 0.4;
+  for (const std::size_t unknown : {0, 1}) {
+    GripReport some = report;
+    some.holds[unknown].effort = none;
+    EXPECT_EQ(hardest_state(some), 2u) << unknown;
+  }
+  report.holds[2].effort = none;
+  EXPECT_EQ(hardest_state(report), 1u);
+  for (StateHold& hold : report.holds) hold.effort = none;
+  EXPECT_EQ(hardest_state(report), std::nullopt);
+}
+
 }  // namespace
 }  // namespace wholehand

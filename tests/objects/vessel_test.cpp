@@ -222,10 +222,13 @@ TEST_F(MeshVessel, ALeftHandHoldsTheMirrorImage) {
   EXPECT_GT(std::abs(a->empty_center_of_mass(0)[0]), 1e-4);
 }
 
+// A saucer of 12 mm, of which no hand that keeps 15 mm off the table could touch anything. Its file has it 50 mm above its origin:
+// what counts is how high it is.
 TEST_F(MeshVessel, ATableAboveItsTopIsRefused) {
-  Scene scene = scene_of({of_file("mug", mug_mesh(), 1.5e-3)});
+  const TriangleMesh saucer = placed_mesh(turned_mesh(cylinder("saucer", 120, 12, 2), 64, 2e-3), {}, {0, 0.05, 0});
+  Scene scene = scene_of({of_file("saucer", saucer, 2e-3)});
   scene.file = (folder_ / "scene.toml").string();
-  scene.table = TableData{1};  // m
+  scene.table = TableData{15e-3};
   MeshOptions options;
   options.cache_folder = folder_.string();
   try {
@@ -234,13 +237,15 @@ TEST_F(MeshVessel, ATableAboveItsTopIsRefused) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code, ExitCode::usage);
     const std::string line = error.what();
-    EXPECT_NE(line.find("clearance_mm = 1000 reaches its top; allowed: a clearance of less than this height"), std::string::npos)
+    EXPECT_NE(
+        line.find("its mesh is 12 mm high, and clearance_mm = 15 reaches its top; allowed: a clearance of less than this height"),
+        std::string::npos)
         << line;
     EXPECT_EQ(line.find('\n'), std::string::npos) << line;
   }
-  scene.table = TableData{};
+  scene.table = TableData{10e-3};
   load_meshes(scene, options);
-  EXPECT_GT(scene.vessels[0].height - scene.vessels[0].base, scene.table->clearance);
+  EXPECT_NEAR(scene.vessels[0].height - scene.vessels[0].base, 12e-3, 1e-8);  // m: the file has floats
 }
 
 // Dry meshes and wet ones beside an outline, in both hands; the lattices in both storages.
