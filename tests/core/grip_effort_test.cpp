@@ -15,6 +15,7 @@
 #include "core/evaluator.h"
 #include "core/planes.h"
 #include "core/vectors.h"
+#include "tests/support/loaded_grip.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {
@@ -30,63 +31,6 @@ using core_f64::GripLoads;
 using core_f64::HandStrength;
 using core_f64::Vec3;
 using core_f64::Wrench;
-
-// A grip's contacts and the loads of all its states.
-struct LoadedGrip {
-  std::vector<ContactPoint> contacts, tips;
-  HandStrength hand;
-  std::vector<core_f64::Load> states;
-  std::vector<core_f64::StateTilt> tilts;
-  std::vector<std::size_t> counted;
-  Vec3 pour{};
-  double gravity = 0;
-
-  GripLoads loads() const { return {states, tilts, counted, pour, gravity}; }
-  std::size_t fills() const { return counted.size(); }
-};
-
-LoadedGrip held_grip(const Scene& scene, const Evaluator& evaluator, std::size_t vessel, const GripInput& grip,
-                     const GripResult& result) {
-  LoadedGrip held;
-  for (const GripContact& found : evaluator.contacts(vessel, result)) {
-    held.contacts.push_back({to_vec3<double>(found.point), to_vec3<double>(found.normal), found.digit});
-    if (found.joint == THUMB_TIP || found.joint == INDEX_TIP) held.tips.push_back(held.contacts.back());
-  }
-  held.hand = {scene.force.friction, scene.force.torsion, scene.strength->digits};
-  held.counted = counted_tilts(scene, vessel);
-  held.gravity = scene.gravity;
-  const Vec3 line(std::cos(grip.azimuth) * std::cos(grip.obliquity), std::sin(grip.obliquity),
-                  -std::sin(grip.azimuth) * std::cos(grip.obliquity));
-  held.pour = core_f64::pour_direction(line, scene.hand.handedness == Handedness::left ? -1 : 1);
-  for (const double tilt : scene.tilts) held.tilts.push_back({std::sin(tilt), std::cos(tilt)});
-  for (const double fill : vessel_fills(scene, scene.vessels[vessel]))
-    for (const double tilt : scene.tilts) {
-      const StateResult state = evaluator.state(vessel, grip, result, evaluator.liquid(vessel, fill, tilt), tilt);
-      held.states.push_back({state.mass, to_vec3<double>(state.center_of_mass), 0, 0});
-    }
-  return held;
-}
-
-// Plausible grips at random of each vessel of the shipped scene.
-std::vector<LoadedGrip> random_grips(std::size_t count, Handedness handedness, std::uint64_t seed) {
-  Scene scene = three_beakers();
-  scene.strength.emplace();
-  scene.hand.handedness = handedness;
-  const auto evaluator = make_core_evaluator(scene);
-  Random random(seed);
-  std::vector<LoadedGrip> grips;
-  while (grips.size() < count) {
-    const std::size_t vessel = grips.size() % scene.vessels.size();
-    GripInput grip;
-    grip.height = random.uniform(0.1, 0.95) * scene.vessels[vessel].height;
-    grip.obliquity = radians(random.uniform(-20, 20));
-    grip.roll = radians(random.uniform(-90, 30));
-    GripResult result;
-    evaluator->grip(vessel, grip, result);
-    if (result.plausible) grips.push_back(held_grip(scene, *evaluator, vessel, grip, result));
-  }
-  return grips;
-}
 
 double effort_of(const std::vector<ContactPoint>& contacts, const HandStrength& hand, const Wrench& load) {
   return EffortSolver(contacts, hand, core_f64::contacts_center(contacts)).solve(load).effort;
@@ -105,7 +49,7 @@ class GripEffortOf : public testing::TestWithParam<Handedness> {};
 
 TEST_P(GripEffortOf, IsTheLargestOfAllStates) {
   int unheld = 0, above_one = 0;
-  for (const LoadedGrip& grip : random_grips(45, GetParam(), 7)) {
+  for (const LoadedGrip& grip : random_loaded_grips(45, GetParam(), 7)) {
     const GripLoads loads = grip.loads();
     std::vector<FillEffort> fills(grip.fills());
     const GripEffort found = grip_effort(grip.contacts, grip.tips, grip.hand, loads, fills);
@@ -147,7 +91,7 @@ TEST_P(GripEffortOf, IsWithinTheToleranceOfTheFinest) {
   constexpr double FINEST = 1e-8;
   std::array<int, 4> pivots{}, single_pivots{};
   int finite = 0;
-  for (const LoadedGrip& grip : random_grips(45, GetParam(), 23)) {
+  for (const LoadedGrip& grip : random_loaded_grips(45, GetParam(), 23)) {
     const GripLoads loads = grip.loads();
     std::vector<FillEffort> fills(grip.fills());
     const GripEffort finest = grip_effort(grip.contacts, grip.tips, grip.hand, loads, fills, FINEST);
@@ -179,7 +123,7 @@ INSTANTIATE_TEST_SUITE_P(Hands, GripEffortOf, testing::Values(Handedness::right,
 
 // Twice the strength is half the effort, and more friction never takes more.
 TEST(GripEffort, FallsWithStrengthAndFriction) {
-  for (const LoadedGrip& grip : random_grips(15, Handedness::right, 11)) {
+  for (const LoadedGrip& grip : random_loaded_grips(15, Handedness::right, 11)) {
     std::vector<FillEffort> fills(grip.fills());
     const double once = grip_effort(grip.contacts, grip.tips, grip.hand, grip.loads(), fills).worst;
     HandStrength stronger = grip.hand, rougher = grip.hand;
@@ -194,7 +138,7 @@ TEST(GripEffort, FallsWithStrengthAndFriction) {
 // share of the effort magnifies by 1 / (1 - effort).
 TEST(GripEffort, PushIsWhatBisectionFinds) {
   int pushed = 0;
-  for (const LoadedGrip& grip : random_grips(30, Handedness::right, 13)) {
+  for (const LoadedGrip& grip : random_loaded_grips(30, Handedness::right, 13)) {
     const std::size_t fullest = grip.fills() - 1;
     const Wrench weight = grip.loads().weight(fullest, 0);
     const Vec3 center = grip.states[fullest * grip.tilts.size()].fixed;
@@ -227,7 +171,7 @@ TEST(GripEffort, PushIsWhatBisectionFinds) {
 // The hand holds with the friction that is said, to the tolerance of an effort, and does not with one step less.
 TEST(GripEffort, FrictionNeededIsTheLeast) {
   int finite = 0;
-  for (const LoadedGrip& grip : random_grips(30, Handedness::right, 17)) {
+  for (const LoadedGrip& grip : random_loaded_grips(30, Handedness::right, 17)) {
     std::vector<FillEffort> fills(grip.fills());
     const GripEffort found = grip_effort(grip.contacts, grip.tips, grip.hand, grip.loads(), fills);
     const double friction = core_f64::friction_needed(grip.contacts, grip.hand, grip.loads(), found.fill, found.tilt);
@@ -302,7 +246,7 @@ TEST(GripEffort, OnlyCountedTiltsAreAsked) {
 
 // A thumb alone holds nothing that hangs from it.
 TEST(GripEffort, OneContactHoldsNothing) {
-  LoadedGrip grip = random_grips(1, Handedness::right, 19).front();
+  LoadedGrip grip = random_loaded_grips(1, Handedness::right, 19).front();
   grip.contacts.resize(1);
   std::vector<FillEffort> fills(grip.fills());
   const GripEffort found = grip_effort(grip.contacts, grip.contacts, grip.hand, grip.loads(), fills);
