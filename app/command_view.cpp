@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "app/commands.h"
 #include "app/result_scene.h"
@@ -53,11 +55,14 @@ void view_result(const std::string& path, const std::string& list_file, int port
   for (std::size_t k = 0; k < lists.size(); ++k) {
     const std::string name = list_name(scene, plan, k);
     const std::size_t vessel = k / plan.hand_scales(), shown = std::min(lists[k].size(), MOST_SHOWN);
+    const auto refined =
+        list_file.empty() ? result.refined(vessel, k % plan.hand_scales()) : std::vector<std::optional<RefinedGrip>>{};
     if (shown < lists[k].size()) notes.push_back(fmt::format("{}: the first {} of {} are shown", name, shown, lists[k].size()));
     for (std::size_t i = 0; i < shown; ++i) {
       const RankedCandidate& ranked = lists[k][i];
       ViewedGrip grip{vessel, plan.grip(vessel, ranked.candidate.index), fmt::format("{}, rank {}", name, ranked.rank)};
       if (!list_file.empty()) grip.score = ranked.candidate.score;
+      if (i < refined.size() && refined[i]) grip.refined = RefinedView{refined[i]->grip, refined[i]->score};
       grips.push_back(grip);
     }
   }

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 
 #include "core/core_backend.h"
 #include "core/error.h"
@@ -43,6 +44,9 @@ std::string touching_text(const GripResult& result) {
   return text;
 }
 
+bool is_refined(const BestGrip& grip) { return !std::isnan(grip.refined_score); }
+bool has_refined(const ReportedGrips& best) { return std::any_of(best.grips.begin(), best.grips.end(), is_refined); }
+
 void write_table(MarkupWriter& html, const ReportSource& source, std::size_t list, const ReportedGrips& best) {
   const Plan& plan = source.plan;
   const bool has_tilts = !source.scene.tilts.empty();
@@ -63,6 +67,8 @@ void write_table(MarkupWriter& html, const ReportSource& source, std::size_t lis
       columns.push_back("antipodal");
     }
   }
+  const bool tells_refined = has_refined(best);
+  if (tells_refined) columns.insert(columns.end(), {"refined score", "refined grip"});
   HtmlTable table(html,
                   fmt::format("The best {} of {}", best.grips.size() == 1 ? "grip" : fmt::format("{} grips", best.grips.size()),
                               list_name(source.scene, plan, list)),
@@ -89,6 +95,10 @@ void write_table(MarkupWriter& html, const ReportSource& source, std::size_t lis
       } else {
         cells.push_back(b.antipodal ? "yes" : "no");
       }
+    }
+    if (tells_refined) {
+      cells.push_back(shown_number(b.refined_score, 3));
+      cells.push_back(is_refined(b) ? grip_text(plan, b.refined) : "");
     }
     table.row(cells);
   }
@@ -192,10 +202,12 @@ std::string front_and_side(const std::string& drawing) {
 ReportedGrips read_grips(const ReportSource& source, std::size_t list) {
   const std::size_t scales = source.plan.hand_scales(), vessel = list / scales;
   std::vector<RankedCandidate> ranked;
+  std::vector<std::optional<RefinedGrip>> refined;  // of the sweep's own list
   if (source.lists) {
     ranked = (*source.lists)[list];
   } else {
     for (const Candidate& candidate : source.result.best(vessel, list % scales)) ranked.push_back({ranked.size() + 1, candidate});
+    refined = source.result.refined(vessel, list % scales);
   }
   ReportedGrips best;
   best.listed = ranked.size();
@@ -213,6 +225,9 @@ ReportedGrips read_grips(const ReportSource& source, std::size_t list) {
     best.grips[k].grip = source.plan.grip(vessel, candidates[k].index);
     best.grips[k].score = candidates[k].score;
     best.grips[k].rank = ranked[k].rank;
+    if (k >= refined.size() || !refined[k]) continue;
+    best.grips[k].refined = refined[k]->grip;
+    best.grips[k].refined_score = refined[k]->score;
   }
   return best;
 }
@@ -246,6 +261,10 @@ void write_grips(MarkupWriter& html, const ReportSource& source, std::size_t lis
                                    : fmt::format("Fingers, forces and drawings are left out: {}.", source.no_core);
   if (best.listed > best.grips.size())
     note += fmt::format(" {} listed {} grips.", source.lists ? source.lists_file : "The sweep", readable_number(best.listed));
+  if (has_refined(best))
+    note +=
+        " The refined grip is the best one that the core found within half a step of the axes. Everything else, the drawings "
+        "included, describes the grip as it was swept.";
   html.element("p", note, {{"class", "note"}});
   write_limits(html, source, list, reports);
 }

@@ -54,6 +54,14 @@ double lowest_of(const ViewedVessel& viewed, const Mat3& turn) {
   return lowest;
 }
 
+void put_place(Json& json, const GripInput& grip) {
+  json["height_m"] = grip.height;
+  json["azimuth_rad"] = grip.azimuth;
+  json["obliquity_rad"] = grip.obliquity;
+  json["roll_rad"] = grip.roll;
+  json["offset_m"] = grip.offset;
+}
+
 Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 }  // namespace
@@ -233,12 +241,12 @@ class GripsView::Impl {
       json["terms"]["force"] = terms.force;
       json["terms"]["hold"] = terms.hold;
     }
-    json["height_m"] = grip.height;
-    json["azimuth_rad"] = grip.azimuth;
-    json["obliquity_rad"] = grip.obliquity;
-    json["roll_rad"] = grip.roll;
-    json["offset_m"] = grip.offset;
+    put_place(json, grip);
     json["hand_scale"] = grip.hand_scale;
+    if (seen.wanted.refined) {
+      json["refined"] = {{"score", seen.wanted.refined->score}};
+      put_place(json["refined"], seen.wanted.refined->grip);
+    }
     json["gap_m"] = result.gap;
     json["closure"] = result.closure;
     json["fingers"] = std::popcount(result.used_mask);

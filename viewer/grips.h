@@ -14,12 +14,19 @@
 
 namespace wholehand {
 
+// Where a sweep found a better grip beside one that it swept.
+struct RefinedView {
+  GripInput grip;
+  double score = 0;
+};
+
 // A grip to be seen, what it is called there, and the score of the list that it is from; without one the core's is shown.
 struct ViewedGrip {
   std::size_t vessel = 0;
   GripInput grip;
   std::string label;
   std::optional<double> score = std::nullopt;
+  std::optional<RefinedView> refined = std::nullopt;  // told beside it, and not shown
 };
 
 // The grips of a scene with the core's numbers. From any thread.

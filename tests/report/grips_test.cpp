@@ -5,10 +5,15 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <regex>
+#include <vector>
 
 #include "core/core_backend.h"
 #include "grips/svg.h"
+#include "sweeps/refine.h"
+#include "sweeps/result_contents.h"
 #include "tests/support/sweep_results.h"
 
 namespace wholehand {
@@ -54,6 +59,49 @@ TEST(ReportGrips, TableHasARowForEachAndADrawingForTheFirst) {
   for (const char* column : {"height (mm)", "roll (°)", "obliquity (°)", "peak force (N)", "hold force (N)", "safe tilt (°)"})
     EXPECT_EQ(times_in(html, std::string(">") + column + "</th>"), 1u) << column;
   EXPECT_EQ(html.find("azimuth (°)"), std::string::npos) << "one stands for all";
+}
+
+// Beside each grip its refined score and place; a grip that was not refined has neither, and the swept grips stay as they are.
+TEST(ReportGrips, RefinedGripsAreToldBesideTheSweptOnes) {
+  const std::string before = written_grips(SweptScene(RESULT_SCENE), 0);
+  EXPECT_EQ(before.find("efined"), std::string::npos) << "nothing was refined";
+  SweptScene swept(RESULT_SCENE);
+  const auto listed = swept.result->best(0);
+  // of each rank a place of its own in its box; none of the second
+  std::vector<double> scores;
+  std::array<std::vector<double>, REFINED_COORDINATES> places;
+  std::vector<GripInput> grips;
+  for (std::size_t rank = 0; rank < listed.size(); ++rank) {
+    const RefineBox box = refine_box(*swept.plan, 0, listed[rank].index);
+    std::array<double, REFINED_COORDINATES> place{};
+    scores.push_back(rank == 1 ? std::nan("") : 0.9871 - 0.01 * static_cast<double>(rank));
+    for (std::size_t k = 0; k < place.size(); ++k) {
+      place[k] = box.low[k] + (box.high[k] - box.low[k]) * (0.3 + 0.05 * static_cast<double>(rank));
+      places[k].push_back(rank == 1 ? std::nan("") : place[k]);
+    }
+    grips.push_back(with_coordinates(swept.plan->grip(0, listed[rank].index), place));
+  }
+  swept.change("best_refined_score", scores);
+  for (std::size_t k = 0; k < places.size(); ++k)
+    swept.change(refined_axis_name(swept.plan->axes()[static_cast<std::size_t>(REFINED_PLACES[k])]), places[k]);
+  const ReportedGrips best = read_grips(*swept.source, 0);
+  EXPECT_EQ(best.grips[0].refined_score, 0.9871);
+  EXPECT_EQ(best.grips[2].refined.height, grips[2].height);
+  EXPECT_TRUE(std::isnan(best.grips[1].refined_score));
+  EXPECT_EQ(best.grips[0].score, listed[0].score);
+  EXPECT_EQ(best.grips[0].grip.height, swept.plan->grip(0, listed[0].index).height);
+  const std::string html = written_grips(swept, 0);
+  for (const char* column : {"refined score", "refined grip"})
+    EXPECT_EQ(times_in(html, std::string(">") + column + "</th>"), 1u) << column;
+  for (const std::size_t rank : {0, 2}) {
+    const std::string text = grip_text(*swept.plan, grips[rank]);
+    EXPECT_NE(text, grip_text(*swept.plan, swept.plan->grip(0, listed[rank].index)));
+    const std::string cells = "<td>" + shown_number(scores[rank], 3) + "</td>\n<td>" + text + "</td>";
+    EXPECT_EQ(times_in(html, cells), 1u) << cells << html;
+  }
+  EXPECT_EQ(times_in(html, grip_text(*swept.plan, grips[1])), 0u);
+  EXPECT_EQ(times_in(html, "within half a step of the axes"), 1u);
+  EXPECT_EQ(times_in(html, "<th scope=\"row\">"), times_in(before, "<th scope=\"row\">"));
 }
 
 TEST(ReportGrips, EachDrawingHasItsForcesAndAVerdict) {

@@ -165,6 +165,25 @@ TEST(GripsView, TheScoreOfAListIsShown) {
   EXPECT_NEAR(shown[0]["score"].get<double>(), own, 1e-12);
 }
 
+// Told, and not shown: the frame stays that of the swept grip.
+TEST(GripsView, TheRefinedGripIsToldBesideTheSweptOne) {
+  std::vector<std::string> notes;
+  std::vector<ViewedGrip> grips = some_grips();
+  const Scene scene = beakers();
+  const std::string swept = frame_json(GripsView(scene, grips, notes).frame(1, 0.5, 0.1));
+  grips[1].refined = RefinedView{grips[1].grip, 0.875};
+  grips[1].refined->grip.height += 1.5e-3;
+  grips[1].refined->grip.roll -= 0.02;
+  const GripsView view(scene, grips, notes);
+  const json shown = json::parse(view.content("", scene_axes(scene, 0)).scene)["grips"];
+  EXPECT_FALSE(shown[0].contains("refined"));
+  EXPECT_EQ(shown[1]["refined"]["score"], 0.875);
+  EXPECT_EQ(shown[1]["refined"]["height_m"], grips[1].refined->grip.height);
+  EXPECT_EQ(shown[1]["refined"]["roll_rad"], grips[1].refined->grip.roll);
+  EXPECT_EQ(shown[1]["height_m"], grips[1].grip.height);
+  EXPECT_EQ(frame_json(view.frame(1, 0.5, 0.1)), swept);
+}
+
 TEST(GripsView, ItTurnsTowardsWhereItPoursAndStaysAboveTheTable) {
   const Scene scene = beakers();
   std::vector<std::string> notes;

@@ -210,6 +210,17 @@ class TheBestOfASweep(ViewerTest):
         self.assertRegex(said[1], "azimuth 0°; .*azimuth 30°$")
         self.assertRegex(said[2], "offset 0.0 mm; .*offset −2.5 mm$")
 
+    def test_the_refined_grip_is_told_beside_the_swept_one(self):
+        page = self.open(self.best)
+        scene = self.best.get("scene.json")
+        moved = next(k for k, grip in enumerate(scene["grips"]) if grip["refined"]["score"] > grip["score"] + 1e-4)
+        page.evaluate(f"wholehand.grips.choose({moved})")
+        refined = scene["grips"][moved]["refined"]
+        said = page.evaluate("document.querySelector('.facts').textContent")
+        self.assertIn(f"Refined score{refined['score']:.3f}", said)
+        self.assertIn(f"Refined grip{1e3 * refined['height_m']:.1f} mm, roll ", said)
+        self.assertIn(f"{1e3 * scene['grips'][moved]['height_m']:.1f} mm", page.evaluate(f"document.getElementById('grip-{moved}').textContent"))
+
     def test_a_click_or_a_key_shows_another_grip(self):
         page = self.open(self.best)
         first = page.evaluate("wholehand.frame.joints")

@@ -67,11 +67,11 @@ export class Grips {
     return this.varying.has(key);
   }
 
-  // Where a grip is taken; azimuth and offset where any grip of the list has one.
+  // Where a grip is taken; azimuth and offset where any grip of the list has one, or this grip, which may be a refined one.
   placeOf(grip) {
     return [`${millimetres(grip.height_m)} mm`, `roll ${degrees(grip.roll_rad)}°`, `obliquity ${degrees(grip.obliquity_rad)}°`,
-      ...(this.has('azimuth_rad') ? [`azimuth ${degrees(grip.azimuth_rad)}°`] : []),
-      ...(this.has('offset_m') ? [`offset ${millimetres(grip.offset_m)} mm`] : [])].join(', ');
+      ...(this.has('azimuth_rad') || Math.abs(grip.azimuth_rad) > 1e-9 ? [`azimuth ${degrees(grip.azimuth_rad)}°`] : []),
+      ...(this.has('offset_m') || Math.abs(grip.offset_m) > 1e-9 ? [`offset ${millimetres(grip.offset_m)} mm`] : [])].join(', ');
   }
 
   makeOption(grip, k) {
@@ -102,6 +102,7 @@ export class Grips {
     this.facts.replaceChildren(...[
       ['Largest force', `${fixed(grip.peak_force_N, 2)} N`], [this.about.strength ? 'Largest pinch N‑hold' : 'Largest N‑hold', `${fixed(grip.hold_force_N, 1)} N`], ['Safe up to', `${degrees(grip.safe_tilt_rad)}°`],
       ['Deepest point', `${millimetres(grip.depth_m)} mm`], ['Fingers', `${grip.fingers} of 5`], ['Pinch', grip.antipodal ? 'antipodal' : 'not antipodal'],
+      ...(grip.refined ? [['Refined score', fixed(grip.refined.score, 3)], ['Refined grip', this.placeOf(grip.refined)]] : []),
     ].map(([name, value]) => element('div', {}, element('dt', {text: name}), element('dd', {text: value}))));
   }
 
