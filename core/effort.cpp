@@ -17,6 +17,7 @@ constexpr Real LEAST_LENGTH = Real(1e-3);                       // m: of a singl
 // A basis costs at most so many times what an artificial column of the load's size does: the first one costs sqrt 6 times, and
 // pivots go down. What costs more is rounding, of a friction of 1e-200 for example.
 constexpr Real FIRST_COST = Real(3);
+constexpr Real MOST_TOLERANCE = Real(0.1), WIDER = 4;          // of a bracket that is all that can be had, and from try to try
 constexpr Real UNBALANCED = SINGLE ? Real(1e-2) : Real(1e-7);  // of a load: forces that leave more of it are no answer
 
 template <class Six>
@@ -362,6 +363,13 @@ Effort EffortSolver::solve(const Wrench& load, Real tolerance, Real enough, Real
   if (is_warm) {  // a basis of another load may end in a corner; what nothing holds is to be told from the start
     const int pivots = answer.pivots;
     answer = solve(load, tolerance, enough, too_much);
+    answer.pivots += pivots;
+    return answer;
+  }
+  // where the digits' strengths are far apart, columns that bring the last of the tolerance may leave forces that do not balance
+  if (!is_certain && tolerance < MOST_TOLERANCE) {
+    const int pivots = answer.pivots;
+    answer = solve(load, WIDER * tolerance, enough, too_much);
     answer.pivots += pivots;
     return answer;
   }

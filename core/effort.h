@@ -64,7 +64,8 @@ class EffortSolver {
   // the answer.
   EffortSolver(std::span<const ContactPoint> contacts, const HandStrength& hand, Vec3 center);
 
-  // Ends where effort - low <= tolerance x effort, or after EFFORT_PIVOTS. No load: 0. Also ends, with the bracket that it then
+  // Ends where effort - low <= tolerance x effort, or after EFFORT_PIVOTS. Where rounding leaves forces that do not balance the load, it begins
+  // anew with a wider tolerance, up to 0.1. No load: 0. Also ends, with the bracket that it then
   // has, where effort <= enough, or low > too_much (`effort` is then infinite): whether the effort is larger than a number needs no
   // more.
   Effort solve(const Wrench& load, Real tolerance = EFFORT_TOLERANCE, Real enough = 0,

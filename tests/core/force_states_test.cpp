@@ -272,7 +272,7 @@ void expect_mirrored(const Triple& left, const Triple& right, const char* what) 
 
 TEST(Force, LeftHandIsTheRightHandInTheMirroredScene) {
   Scene left_scene = lopsided_scene();
-  left_scene.hand = left_hand();
+  left_scene.hand.handedness = Handedness::left;
   Scene right_scene = lopsided_scene();
   right_scene.vessels[0].center_of_mass = mirrored_point(right_scene.vessels[0].center_of_mass);
   const auto left = make_core_evaluator(left_scene), right = make_core_evaluator(right_scene);

@@ -215,6 +215,7 @@ TEST(Score, StrideBeyondTheCountLeavesTheRestAlone) {
 TEST(Score, LeavingFieldsOutChangesNothingInTheOthers) {
   Scene scene = hard_scene();
   scene.table.emplace();
+  scene.hand.between = 2;
   scene.strength.emplace();
   const auto evaluator = make_core_evaluator(scene);
   const std::vector<GripInput> grips = grips_with_hopeless_ones(scene.vessels[0], 70);

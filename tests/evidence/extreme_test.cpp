@@ -37,7 +37,7 @@ core_f64::Effort upright_effort(const AnsweredScene& a, std::size_t v, std::size
                                 bool tips_only = false) {
   std::vector<core_f64::ContactPoint> contacts;
   for (const GripContact& at : a.core->contacts(v, a.result(v, i))) {
-    const bool is_tip = at.joint == finger_start(0) + 3 || at.joint == finger_start(1) + 4;
+    const bool is_tip = at.between == 0 && (at.joint == finger_start(0) + 3 || at.joint == finger_start(1) + 4);
     if (tips_only && !is_tip) continue;
     contacts.push_back({{at.point[0], at.point[1], at.point[2]}, {at.normal[0], at.normal[1], at.normal[2]}, at.digit});
   }
