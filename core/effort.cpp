@@ -340,7 +340,7 @@ Effort EffortSolver::solve(const Wrench& load, Real tolerance, Real enough, Real
       is_fresh = true;
     }
   }
-  bool is_certain = !std::isfinite(answer.low);
+  bool is_certain = !std::isfinite(answer.low), is_short_of_pivots = false;
   if (!is_certain && invert()) {
     last_ = levels(wanted);
     Vec6 rest = wanted;  // what rounding of the inverse leaves unbalanced, where columns are nearly parallel
@@ -355,7 +355,8 @@ Effort EffortSolver::solve(const Wrench& load, Real tolerance, Real enough, Real
       answer.low = std::min(answer.low, answer.effort);
       return answer;
     }
-    is_certain = !is_held && answer.pivots < EFFORT_PIVOTS;
+    is_short_of_pivots = !is_held && answer.pivots == EFFORT_PIVOTS;
+    is_certain = !is_held && !is_short_of_pivots;
   }
   answer.effort = NEVER;
   if (is_beyond) return answer;
@@ -366,8 +367,9 @@ Effort EffortSolver::solve(const Wrench& load, Real tolerance, Real enough, Real
     answer.pivots += pivots;
     return answer;
   }
-  // where the digits' strengths are far apart, columns that bring the last of the tolerance may leave forces that do not balance
-  if (!is_certain && tolerance < MOST_TOLERANCE) {
+  // Where the digits' strengths are far apart, columns that bring the last of the tolerance may leave forces that do not balance.
+  // What the pivots did not suffice to hold at all asks for no tolerance: another try would take the same pivots.
+  if (!is_certain && !is_short_of_pivots && tolerance < MOST_TOLERANCE) {
     const int pivots = answer.pivots;
     answer = solve(load, WIDER * tolerance, enough, too_much);
     answer.pivots += pivots;
