@@ -279,6 +279,7 @@ double lattice_margin(const Scene& scene) {
   for (const FingerData& finger : scene.hand.fingers)
     radius = std::max(radius, *std::max_element(finger.radii.begin(), finger.radii.end()));
   for (const double value : scene.grips.hand_scale.values) scale = std::max(scale, value);
+  if (scene.robust) scale *= 1 + FURTHEST_DEVIATION * scene.robust->hand_scale;
   return scene.hand.scale * scale * radius + LATTICE_BAND;
 }
 

@@ -39,6 +39,9 @@ double widest_on(const PreparedElement& element);
 // two cells beyond the vessel. Stored with 32 bits each or with 16 (`halves`).
 PreparedLattice prepare_lattice(const PreparedVessel& vessel, int samples, bool halves, double margin = 0);
 
+// Standard deviations that none of [robust] goes beyond: the middle of the first of 2^32 cells has a normal quantile of -6.34.
+constexpr double FURTHEST_DEVIATION = 6.4;
+
 // The margin with which a lattice holds every point of the scene's hand whose skin is within LATTICE_BAND of a vessel: beyond it
 // only a bound of the distance is known.
 constexpr double LATTICE_BAND = 1e-3;  // m

@@ -14,6 +14,7 @@
 #include "grips/holding.h"
 #include "grips/report.h"
 #include "host/grip_backend.h"
+#include "sweeps/robust.h"
 #include "sweeps/variables.h"
 #include "system/clock.h"
 #include "system/readable.h"
@@ -62,6 +63,7 @@ class Explainer {
     table(as_is);
     body(as_is);
     efforts(as_is);
+    robust();
     poured();
     azimuth();
     return text_;
@@ -275,6 +277,22 @@ class Explainer {
         "none\n",
         grips, static_cast<double>(pivots) / static_cast<double>(states),
         100 * static_cast<double>(skipped) / static_cast<double>(states));
+  }
+
+  // Once a sweep, whatever its grips: the listed ones, each with its deviations.
+  void robust() {
+    if (!scene_.robust || scene_.output.best == 0) return;
+    const std::size_t lists = scene_.vessels.size() * plan_.hand_scales(), count = static_cast<std::size_t>(scene_.robust->count);
+    const std::size_t grips = lists * std::min(static_cast<std::size_t>(scene_.output.best), MOST_ROBUST);
+    const std::size_t backends = robust_frictions(scene_).size();
+    const double start = monotonic_now();
+    const Measured scored = measure(scene_, make_field_set({FIELD_SCORE, FIELD_STATUS}, scene_), OUTLINE_SPECIALIZED);
+    const double all = monotonic_now() - start, opening = std::max(0.0, all - 6 * scored.seconds);
+    const double each = scored.seconds / static_cast<double>(EXPLAIN_GRIPS);
+    say("  not left out: the robust scores, {} deviations of {} best grips at most, which cost {:.3g} s a sweep ({:.3f} us each), "
+        "and {:.3g} s to begin with {}\n",
+        count, grips, static_cast<double>(count * grips) * each, each * 1e6, static_cast<double>(backends) * opening,
+        backends > 1 ? fmt::format("each of {} frictions", backends) : "one friction");
   }
 
   // Told, not measured: a device goes through these states all the same.

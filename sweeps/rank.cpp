@@ -57,6 +57,8 @@ std::string refusal_of(const Variable& variable, const SweepResult& result, cons
   if (result.find(variable.name)) return "";
   if (variable.need == Need::tilts && scene.tilts.empty()) return "needs [tilts], which the scene of this file does not have";
   if (variable.need == Need::table && !scene.table) return "needs [table], which the scene of this file does not have";
+  if (variable.need == Need::between && scene.hand.between == 0)
+    return "needs [hand] between above 0, which the scene of this file does not have";
   return "is not in the file; name it in [output] keep of the scene and sweep again";
 }
 

@@ -47,12 +47,14 @@ struct RobustGrips {
   std::vector<std::vector<double>> scores;  // of each
 };
 
-void evaluate(Backend& backend, std::size_t vessel, const std::vector<Deviation>& all, std::size_t first, std::size_t last,
-              RobustGrips& grips) {
+// False: stopped.
+bool evaluate(Backend& backend, std::size_t vessel, const std::vector<Deviation>& all, std::size_t first, std::size_t last,
+              const std::atomic<bool>* stop, RobustGrips& grips) {
   const std::size_t each = last - first;
   RunRequest request;
   request.vessel = vessel;
   request.last = grips.best.size() * each;
+  request.stop = stop;
   request.grips = [&](std::size_t, std::uint64_t from, std::size_t count, GripInput* out) {
     for (std::size_t i = 0; i < count; ++i) out[i] = deviated(grips.best[(from + i) / each]->grip, all[first + (from + i) % each]);
   };
@@ -66,10 +68,12 @@ void evaluate(Backend& backend, std::size_t vessel, const std::vector<Deviation>
     }
   };
   const RunResult result = backend.run(request);
+  if (stop && *stop) return false;
   if (result.done != request.last) {
     throw failure_error(
         fmt::format("{}: evaluated {} of the {} deviations of the best grips", backend.info().device, result.done, request.last));
   }
+  return true;
 }
 
 }  // namespace
@@ -105,15 +109,31 @@ std::vector<double> robust_frictions(const Scene& scene) {
   const double spread = scene.robust->friction;
   if (!(spread > 0)) return {scene.force.friction};
   std::vector<double> levels;
-  for (int level = 0; level < FRICTION_LEVELS; ++level)
-    levels.push_back(std::max(0.0, scene.force.friction + spread * normal_quantile((level + 0.5) / FRICTION_LEVELS)));
+  double squares = 0;
+  for (int level = 0; level < FRICTION_LEVELS; ++level) {
+    levels.push_back(normal_quantile((level + 0.5) / FRICTION_LEVELS));
+    squares += levels.back() * levels.back();
+  }
+  // the middles of equal parts are nearer to each other than what lies in the parts
+  const double own_spread = std::sqrt(squares / FRICTION_LEVELS);
+  for (double& level : levels) level = std::max(0.0, scene.force.friction + spread * level / own_spread);
   return levels;
 }
 
 GripInput deviated(const GripInput& grip, const Deviation& deviation) {
   const GripInput& added = deviation.added;
-  return {grip.height + added.height, grip.azimuth + added.azimuth, grip.obliquity + added.obliquity,
-          grip.roll + added.roll,     grip.offset + added.offset,   grip.hand_scale * deviation.hand_factor};
+  GripInput moved{grip.height + added.height, grip.azimuth + added.azimuth, grip.obliquity + added.obliquity,
+                  grip.roll + added.roll,     grip.offset + added.offset,   grip.hand_scale * deviation.hand_factor};
+  if (std::abs(moved.obliquity) > PI) moved.obliquity = std::remainder(moved.obliquity, 2 * PI);
+  if (std::abs(moved.obliquity) > PI / 2) {
+    moved.obliquity = std::copysign(PI, moved.obliquity) - moved.obliquity;
+    moved.azimuth += PI;
+    moved.roll += PI;
+    moved.offset = -moved.offset;
+  }
+  for (double* angle : {&moved.azimuth, &moved.roll})
+    if (std::abs(*angle) > 2 * PI) *angle = std::remainder(*angle, 2 * PI);
+  return moved;
 }
 
 RobustScore robust_score(std::vector<double> scores) {
@@ -122,12 +142,15 @@ RobustScore robust_score(std::vector<double> scores) {
   const auto below = static_cast<std::size_t>(place);
   const std::size_t above = std::min(below + 1, scores.size() - 1);
   const double share = place - static_cast<double>(below);
-  const double sum = std::accumulate(scores.begin(), scores.end(), 0.0);
-  return {sum / static_cast<double>(scores.size()), scores[below] + share * (scores[above] - scores[below])};
+  // about the least one, so that equal scores have this score as their mean
+  const double sum =
+      std::accumulate(scores.begin(), scores.end(), 0.0, [&](double all, double score) { return all + (score - scores[0]); });
+  return {scores[0] + sum / static_cast<double>(scores.size()), scores[below] + share * (scores[above] - scores[below])};
 }
 
-void add_robust_scores(const OpenBackend& open, const Scene& scene, const Plan& plan, std::vector<std::vector<BestGrip>>& lists) {
-  if (!scene.robust) return;
+bool add_robust_scores(const OpenBackend& open, const Scene& scene, const Plan& plan, const std::atomic<bool>* stop,
+                       std::vector<std::vector<BestGrip>>& lists) {
+  if (!scene.robust) return true;
   const std::vector<Deviation> all = deviations(*scene.robust);
   std::vector<RobustGrips> vessels(scene.vessels.size());
   for (std::size_t list = 0; list < lists.size(); ++list) {
@@ -137,15 +160,17 @@ void add_robust_scores(const OpenBackend& open, const Scene& scene, const Plan& 
       grips.scores.emplace_back(all.size());
     }
   }
-  if (std::all_of(vessels.begin(), vessels.end(), [](const RobustGrips& grips) { return grips.best.empty(); })) return;
+  if (std::all_of(vessels.begin(), vessels.end(), [](const RobustGrips& grips) { return grips.best.empty(); })) return true;
   const std::vector<double> frictions = robust_frictions(scene);
   for (std::size_t level = 0; level < frictions.size(); ++level) {
     Scene other = scene;
     other.force.friction = frictions[level];
+    if (stop && *stop) return false;
+    // Not the sweep's own, at any friction: what a sweep keeps may change the last bits of a device's scores, and this keeps the same.
     const std::unique_ptr<Backend> backend = open(other, make_field_set({FIELD_SCORE, FIELD_STATUS}, other));
     const std::size_t first = level * all.size() / frictions.size(), last = (level + 1) * all.size() / frictions.size();
     for (std::size_t v = 0; v < vessels.size(); ++v)
-      if (!vessels[v].best.empty()) evaluate(*backend, v, all, first, last, vessels[v]);
+      if (!vessels[v].best.empty() && !evaluate(*backend, v, all, first, last, stop, vessels[v])) return false;
   }
   for (RobustGrips& grips : vessels)
     for (std::size_t i = 0; i < grips.best.size(); ++i) {
@@ -153,6 +178,7 @@ void add_robust_scores(const OpenBackend& open, const Scene& scene, const Plan& 
       grips.best[i]->robust_mean = score.mean;
       grips.best[i]->robust_low = score.low;
     }
+  return true;
 }
 
 }  // namespace wholehand

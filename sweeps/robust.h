@@ -3,6 +3,7 @@
 // and of the hand's size.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -32,9 +33,12 @@ struct Deviation {
 // The `count` deviations of a scene, the same for every grip: Sobol points shifted by the seed, each coordinate through normal_quantile. With a
 // deviation of the friction those from `level` * count / FRICTION_LEVELS on have the friction of that level, see robust_frictions.
 std::vector<Deviation> deviations(const RobustData& robust);
-// The friction of each level, mu plus its deviation times the quantile of the middle of that eighth, not below 0; of one level where the
-// friction has no deviation.
+// The friction of each level, not below 0: mu plus its deviation times the quantile of the middle of that eighth, over the standard
+// deviation of these eight quantiles (0.9225), so that the levels have the deviation that the scene asks for. Of one level where
+// the friction has no deviation.
 std::vector<double> robust_frictions(const Scene& scene);
+// The same hand beyond an obliquity of 90 degrees is named from the other side: azimuth and roll half a turn on, and the offset
+// with its other sign. Angles of many turns lose them, since devices take sines of up to 16 rad.
 GripInput deviated(const GripInput& grip, const Deviation& deviation);
 
 // Mean and 10th percentile of scores. Of n scores in ascending order, from number 0 on, the percentile lies at 0.1 (n - 1), between two of
@@ -48,8 +52,9 @@ RobustScore robust_score(std::vector<double> scores);
 using OpenBackend = std::function<std::unique_ptr<Backend>(const Scene&, const FieldSet&)>;
 
 // Sets the robust scores of the first MOST_ROBUST grips of each list, in a scene that asks for them; else nothing. A deviation that is
-// infeasible or implausible scores 0. The same bits however many grips the backend takes at once. Throws Error (failure) where the backend
-// delivers fewer.
-void add_robust_scores(const OpenBackend& open, const Scene& scene, const Plan& plan, std::vector<std::vector<BestGrip>>& lists);
+// infeasible or implausible scores 0. The same bits however many grips the backend takes at once. `stop` may be null; false: it was
+// set, and no list has changed. Throws Error (failure) where the backend delivers fewer.
+bool add_robust_scores(const OpenBackend& open, const Scene& scene, const Plan& plan, const std::atomic<bool>* stop,
+                       std::vector<std::vector<BestGrip>>& lists);
 
 }  // namespace wholehand

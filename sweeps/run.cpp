@@ -98,13 +98,13 @@ class Sweep {
     }
     const ResultContents contents{scene_, plan, variables_, std::move(facts), backend_->info(), version(), best_wanted_};
     const bool resumed = begin(plan);
-    // An interrupt that comes while the file is laid out waits for the first grips. One that comes when all are done lets the ending finish.
+    // An interrupt that comes while the file is laid out waits for the first grips. One that comes when all are done lets the ending finish, but for
+    // robust scores.
     InterruptGuard interrupt;
     ResultFile file(names_, contents, backend_->fields(), resumed);
     is_marked_ = resumed;
     if (!repair(plan, file, interrupt) || !sweep(plan, file, interrupt)) return interrupted(plan);
-    finish(plan, file);
-    return ExitCode::done;
+    return finish(plan, file, interrupt) ? ExitCode::done : interrupted(plan);
   }
 
  private:
@@ -375,11 +375,15 @@ class Sweep {
     return ExitCode::interrupted;
   }
 
-  void finish(const Plan& plan, ResultFile& file) {
+  // False: interrupted while the robust scores were computed, which may take as long as the sweep; the grips are marked.
+  bool finish(const Plan& plan, ResultFile& file, InterruptGuard& interrupt) {
     const CompanionRequest request{scene_, plan, names_, parts_, best_wanted_, options_.glb};
     auto best = best_grips(request, mark_.vessels, *backend_);
     if (refines()) refine_lists(*evaluator_, scene_, plan, options_.threads, best);
-    add_robust_scores(parts_.open_other, scene_, plan, best);
+    if (!add_robust_scores(parts_.open_other, scene_, plan, &interrupt.flag(), best)) {
+      save(file);
+      return false;
+    }
     std::vector<std::vector<RankedGrip>> ranked(best.size());
     for (std::size_t list = 0; list < best.size(); ++list) {
       for (const BestGrip& grip : best[list])
@@ -400,6 +404,7 @@ class Sweep {
     // kernels that ran while the file was being written cost no time of their own
     const SweepTimes times{since(options_.started), std::min(wait_seconds_, kernel_seconds_), file.seconds(), file.bytes()};
     fmt::print("\n{}", closing_lines(files, times));
+    return true;
   }
 
   const Scene& scene_;

@@ -17,6 +17,7 @@
 #include "core/error.h"
 #include "sweeps/refine.h"
 #include "sweeps/result_contents.h"
+#include "sweeps/robust.h"
 #include "system/files.h"
 
 namespace wholehand {
@@ -223,7 +224,15 @@ std::vector<std::array<double, 2>> SweepResult::robust(std::size_t vessel, std::
   const std::size_t length = ranks(lists.size() + 1);
   const std::vector<double> means = row(ROBUST_MEAN, lists, length), lows = row(ROBUST_LOW, lists, length);
   std::vector<std::array<double, 2>> robust;
-  for (std::size_t rank = 0; rank < listed.size(); ++rank) robust.push_back({means[rank], lows[rank]});
+  for (std::size_t rank = 0; rank < listed.size(); ++rank) {
+    const bool has_scores = means[rank] >= 0 && lows[rank] >= 0 && std::isfinite(means[rank]) && std::isfinite(lows[rank]);
+    const bool has_none = std::isnan(means[rank]) && std::isnan(lows[rank]);
+    if (rank < MOST_ROBUST ? !has_scores : !has_none)
+      throw usage_error(fmt::format("{}: {} and {} of rank {} are {} and {}; allowed: {}", path(), ROBUST_MEAN, ROBUST_LOW,
+                                    rank + 1, means[rank], lows[rank],
+                                    rank < MOST_ROBUST ? "numbers from 0 on" : "no numbers (NaN)"));
+    robust.push_back({means[rank], lows[rank]});
+  }
   return robust;
 }
 

@@ -31,7 +31,7 @@ struct SweepTrial {
   SweepOptions options;
   Precision precision = Precision::full;
   std::size_t chunk = 50;
-  std::function<void()> before_run, before_chunk;
+  std::function<void()> before_run, before_chunk, before_other;  // of a scene with another friction: each of its chunks
   std::string driver = "fake driver 1";
   int opened = 0;  // backends
 
@@ -53,7 +53,9 @@ struct SweepTrial {
                            [this] { return std::make_unique<FakeEvaluator>(scene); },
                            {},
                            [this](const Scene& other, const FieldSet& fields) -> std::unique_ptr<Backend> {
-                             return std::make_unique<FakeBackend>(other, fields, precision, chunk);
+                             auto backend = std::make_unique<FakeBackend>(other, fields, precision, chunk);
+                             backend->before_chunk = before_other;
+                             return backend;
                            }};
     return run_sweep(scene, options, parts);
   }

@@ -161,6 +161,28 @@ TEST(Explain, SaysWhatEffortsCost) {
   EXPECT_LE(std::stoi(match[3]), 100);
 }
 
+TEST(Explain, SaysWhatRobustScoresCost) {
+  Scene scene = three_beakers();
+  scene.vessels.resize(2);
+  scene.output.best = 7;
+  EXPECT_EQ(explain(scene, "core").text.find("robust"), std::string::npos);
+  scene.robust.emplace();
+  scene.robust->count = 24;
+  scene.robust->friction = 0.1;
+  const std::string text = explain(scene, "core").text;
+  std::smatch match;
+  ASSERT_TRUE(std::regex_search(text, match,
+                                std::regex("not left out: the robust scores, 24 deviations of 14 best grips at most, which cost "
+                                           "([0-9.e-]+) s a sweep \\(([0-9.]+) us each\\), and ([0-9.e-]+) s to begin with each "
+                                           "of 8 frictions\n")))
+      << text;
+  // to the digits that are told
+  EXPECT_NEAR(std::stod(match[1]), 24 * 14 * 1e-6 * std::stod(match[2]), 0.01 * std::stod(match[1])) << text;
+  EXPECT_GT(std::stod(match[2]), 0);
+  scene.output.best = 0;
+  EXPECT_EQ(explain(scene, "core").text.find("robust"), std::string::npos) << "nothing is listed";
+}
+
 TEST(Explain, CountsTheStatesThatAreLeftOut) {
   Scene scene = three_beakers();
   scene.until_poured = 0.5;

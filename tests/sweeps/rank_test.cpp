@@ -179,6 +179,9 @@ TEST(Rank, WhatTheFileLacksIsRefusedWithWhatToKeep) {
   const SweptScene still(edited(RESULT_SCENE, "[tilts]\ndeg = [0, 45, 90, 135]", ""));
   EXPECT_NE(rank_refusal(still, {"", "max(peak_feedback_force) < 1", 5}).find("needs [tilts]"), std::string::npos);
   EXPECT_NE(rank_refusal(still, {"force=1", "", 5}).find("force needs [tilts]"), std::string::npos);
+  const SweptScene points(edited(RESULT_SCENE, "[tilts]", "[hand]\nbetween = 0\n\n[tilts]"));
+  EXPECT_NE(rank_refusal(points, {"", "self_depth_mm < 3", 5}).find("needs [hand] between above 0, which the scene of this file"),
+            std::string::npos);
   EXPECT_NE(rank_refusal(SweptScene(RESULT_SCENE), {"", "azimuth_deg > 0", 5}).find("one azimuth stands for all"),
             std::string::npos);
 }

@@ -6,13 +6,17 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <netcdf.h>
 
+#include <array>
 #include <cmath>
+#include <filesystem>
 #include <numeric>
 #include <sstream>
 
 #include "app/paths.h"
 #include "core/core_backend.h"
+#include "core/prepare.h"
 #include "host/open_backend.h"
 #include "scene/reader.h"
 #include "sweeps/rank.h"
@@ -95,9 +99,100 @@ TEST(Robust, FrictionsAreEightEqualParts) {
   const std::vector<double> levels = robust_frictions(scene);
   ASSERT_EQ(levels.size(), 8u);
   EXPECT_NEAR(std::accumulate(levels.begin(), levels.end(), 0.0) / 8, 0.6, 1e-12);
-  EXPECT_NEAR(levels[7], 0.6 + 0.1 * 1.5341205443525463, 1e-9);
+  // the quantile of 15/16 over the root of the mean square of the eight, both from tables of the normal distribution
+  EXPECT_NEAR(levels[7], 0.6 + 0.1 * 1.5341205443525463 / 0.922524, 1e-6);
+  double squares = 0;
+  for (const double level : levels) squares += (level - 0.6) * (level - 0.6);
+  EXPECT_NEAR(std::sqrt(squares / 8), 0.1, 1e-15) << "the deviation that the scene asks for";
   scene.robust->friction = 1;
   EXPECT_EQ(robust_frictions(scene)[0], 0);
+}
+
+// The thumb-index line as kernel 1 has it, continued beyond the pole with the sides that it has below: direction, foot and the side of
+// the little finger.
+struct Line {
+  Triple direction{}, foot{}, below{};
+};
+
+Line line_of(const GripInput& grip) {
+  const double sa = std::sin(grip.azimuth), ca = std::cos(grip.azimuth), sb = std::sin(grip.obliquity),
+               cb = std::cos(grip.obliquity);
+  const Triple aside{sa, 0, ca}, down{sb * ca, -cb, -sb * sa};
+  Line line{{cb * ca, sb, -cb * sa}, {grip.offset * aside[0], grip.height, grip.offset * aside[2]}, {}};
+  // turned about the direction by the roll: the other axis is direction x down, which is `aside` or its opposite
+  const Triple& d = line.direction;
+  const Triple across{d[1] * down[2] - d[2] * down[1], d[2] * down[0] - d[0] * down[2], d[0] * down[1] - d[1] * down[0]};
+  for (std::size_t k = 0; k < 3; ++k) line.below[k] = std::cos(grip.roll) * down[k] + std::sin(grip.roll) * across[k];
+  return line;
+}
+
+TEST(Robust, BeyondThePoleAHandGoesOnTurning) {
+  const GripInput grip{0.05, radians(30), radians(80), radians(-20), 0.004, 1};
+  for (const double more : {5.0, 9.0, 11.0, 60.0, 99.0, 101.0, 150.0, 200.0, 350.0, -200.0, -165.0, -340.0}) {
+    Deviation deviation;
+    deviation.added.obliquity = radians(more);
+    deviation.added.azimuth = radians(3 * more);
+    deviation.added.roll = radians(-4 * more);
+    GripInput turned = grip;
+    turned.obliquity += deviation.added.obliquity;
+    turned.azimuth += deviation.added.azimuth;
+    turned.roll += deviation.added.roll;
+    const GripInput named = deviated(grip, deviation);
+    EXPECT_LE(std::abs(named.obliquity), PI / 2 + 1e-12) << more;
+    EXPECT_LE(std::abs(named.azimuth), 2 * PI) << more;
+    EXPECT_LE(std::abs(named.roll), 2 * PI) << more;
+    const Line expected = line_of(turned), found = line_of(named);
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_NEAR(found.direction[k], expected.direction[k], 1e-14) << more;
+      EXPECT_NEAR(found.foot[k], expected.foot[k], 1e-14) << more;
+      EXPECT_NEAR(found.below[k], expected.below[k], 1e-14) << more;
+    }
+  }
+}
+
+// The line that kernel 1 closes on is the one of line_of.
+TEST(Robust, TheLineIsThatOfTheKernel) {
+  const auto core = make_core_evaluator(scene_of({beaker1()}));
+  const GripInput grip{0.05, radians(30), radians(20), radians(-20), 0.004, 1};
+  GripResult result;
+  core->grip(0, grip, result);
+  ASSERT_EQ(result.reason, Reason::none);
+  const Line line = line_of(grip);
+  const Triple thumb = result.joints[3], index = result.joints[8];
+  double along = 0, length = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    along += (index[k] - thumb[k]) * line.direction[k];
+    length += (index[k] - thumb[k]) * (index[k] - thumb[k]);
+  }
+  EXPECT_NEAR(along, std::sqrt(length), 1e-12);
+  along = 0;
+  for (std::size_t k = 0; k < 3; ++k) along += (index[k] - line.foot[k]) * line.direction[k];
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(index[k], line.foot[k] + along * line.direction[k], 1e-9);
+}
+
+TEST(Robust, EqualScoresHaveTheirScoreAsMean) {
+  for (const double score : {0.1, 0.7313, 1e-300, 0.9999999}) {
+    const RobustScore robust = robust_score(std::vector<double>(61, score));
+    EXPECT_EQ(robust.mean, score);
+    EXPECT_EQ(robust.low, score);
+  }
+}
+
+// As much room as the largest hand that a deviation makes, of 4,096 of the widest.
+TEST(Robust, ALatticeHoldsTheLargestHand) {
+  Scene scene = scene_of({beaker1()});
+  const double before = lattice_margin(scene) - LATTICE_BAND;
+  scene.robust = RobustData{};
+  scene.robust->count = 4096;
+  scene.robust->hand_scale = 0.3;
+  double largest = 0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    scene.robust->seed = seed;
+    for (const Deviation& deviation : deviations(*scene.robust)) largest = std::max(largest, deviation.hand_factor);
+  }
+  EXPECT_GT(largest, 2);
+  EXPECT_GT(lattice_margin(scene) - LATTICE_BAND, before * largest);
+  EXPECT_LT(normal_quantile(1 - 0x1p-33), FURTHEST_DEVIATION);
 }
 
 // Every score by itself, from the grip with the deviation and in a scene with the friction of its eighth.
@@ -155,9 +250,9 @@ TEST(Robust, ScoresAreThoseOfEveryDeviationByItself) {
     scene.robust->friction = friction;
     const Plan plan(scene, true);
     auto lists = two_lists(scene);
-    add_robust_scores(opens("core", Precision::full), scene, plan, lists);
+    add_robust_scores(opens("core", Precision::full), scene, plan, nullptr, lists);
     auto alone = two_lists(scene);
-    add_robust_scores(opens("core", Precision::full, 1), scene, plan, alone);
+    add_robust_scores(opens("core", Precision::full, 1), scene, plan, nullptr, alone);
     bool is_between = false;
     for (std::size_t v = 0; v < lists.size(); ++v)
       for (std::size_t rank = 0; rank < lists[v].size(); ++rank) {
@@ -179,7 +274,7 @@ TEST(Robust, ASmallSpreadIsTheScoreItself) {
   scene.robust->roll = 1e-9;
   const Plan plan(scene, true);
   auto lists = two_lists(scene);
-  add_robust_scores(opens("core", Precision::full), scene, plan, lists);
+  add_robust_scores(opens("core", Precision::full), scene, plan, nullptr, lists);
   const auto core = make_core_evaluator(scene);
   for (std::size_t v = 0; v < lists.size(); ++v)
     for (const BestGrip& best : lists[v]) {
@@ -195,8 +290,8 @@ TEST(Robust, ADeviceScoresAsTheCore) {
   const Scene scene = small_scene();
   const Plan plan(scene, true);
   auto device = two_lists(scene), core = two_lists(scene);
-  add_robust_scores(opens("vulkan", Precision::single), scene, plan, device);
-  add_robust_scores(opens("core", Precision::full), scene, plan, core);
+  add_robust_scores(opens("vulkan", Precision::single), scene, plan, nullptr, device);
+  add_robust_scores(opens("core", Precision::full), scene, plan, nullptr, core);
   int same = 0, all = 0;
   for (std::size_t v = 0; v < core.size(); ++v)
     for (std::size_t rank = 0; rank < core[v].size(); ++rank) {
@@ -282,6 +377,62 @@ TEST_F(RobustRun, AResumedSweepTellsTheSame) {
   rest.options.resume = true;
   EXPECT_EQ(rest.run().code, ExitCode::done);
   expect_same_as(whole, folder / "a.nc");
+}
+
+// Robust scores may take longer than the sweep.
+TEST_F(RobustRun, AnInterruptBetweenDeviationsResumesToTheSame) {
+  const Scene scene = robust_fake_scene();
+  const std::string whole = reference(scene);
+  SweepTrial first(folder / "a.nc");
+  first.scene = scene;
+  int chunks = 0, swept = 0, again = 0;
+  first.before_chunk = [&] { ++swept; };
+  first.before_other = [&] {
+    if (++chunks == 3) raise(SIGINT);
+  };
+  const TrialOutcome stopped = first.run();
+  EXPECT_EQ(stopped.code, ExitCode::interrupted) << stopped.error;
+  EXPECT_FALSE(file_exists(folder / "a.nc"));
+  EXPECT_EQ(stopped.out.find("robust"), std::string::npos) << "no table of grips whose robust scores are missing";
+  SweepTrial rest(folder / "a.nc");
+  rest.scene = scene;
+  rest.options.resume = true;
+  rest.before_chunk = [&] { ++again; };
+  EXPECT_EQ(rest.run().code, ExitCode::done);
+  EXPECT_LT(4 * again, swept) << "but for the listed grips' own values, all were there";
+  expect_same_as(whole, folder / "a.nc");
+}
+
+void change_value(const std::string& path, const char* variable, std::array<std::size_t, 2> place, double value) {
+  int file = -1, id = -1;
+  ASSERT_EQ(nc_open(path.c_str(), NC_WRITE, &file), NC_NOERR);
+  EXPECT_EQ(nc_inq_varid(file, variable, &id), NC_NOERR) << variable;
+  EXPECT_EQ(nc_put_var1_double(file, id, place.data(), &value), NC_NOERR);
+  EXPECT_EQ(nc_close(file), NC_NOERR);
+}
+
+TEST_F(RobustRun, ScoresThatNoSweepWritesAreRefused) {
+  const Scene scene = robust_fake_scene();
+  const std::string file = reference(scene);
+  const Plan plan(scene, false);
+  for (const char* name : {"best_robust_mean", "best_robust_low"})
+    for (const double value : {-0.25, HUGE_VAL, std::nan("")}) {
+      const std::string changed = folder / "changed.nc";
+      std::filesystem::copy_file(file, changed, std::filesystem::copy_options::overwrite_existing);
+      change_value(changed, name, {1, 2}, value);
+      SweepResult result(changed);
+      result.use(scene, plan);
+      EXPECT_EQ(result.robust(0).size(), 6u);
+      try {
+        result.robust(1);
+        FAIL() << name << " " << value;
+      } catch (const Error& error) {
+        EXPECT_EQ(error.code, ExitCode::usage);
+        const std::string line = error.what();
+        EXPECT_TRUE(line.starts_with(changed + ": best_robust_mean and best_robust_low of rank 3 are ")) << line;
+        EXPECT_TRUE(line.ends_with("; allowed: numbers from 0 on")) << line;
+      }
+    }
 }
 
 TEST_F(RobustRun, WithoutTheTableThereIsNothingOfIt) {
