@@ -2,11 +2,13 @@
 // What efforts cost: on the core a state by itself and a grip over its states, and on a device a sweep with and without them. Each
 // ratio is of two ways that take turns, so that what else the machine does is the same for both.
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/core_backend.h"
 #include "core/evaluator.h"
 #include "core/grip_effort.h"
 #include "host/grip_backend.h"
@@ -87,37 +89,44 @@ double kernel_seconds(Backend& backend, const Scene& scene, const Plan& plan) {
   return seconds;
 }
 
-// A device's kernels on the default scene, with the planes that a sweep keeps; beside it the same scene without a part of it.
-void sweep_without(benchmark::State& state, const Options& options, bool strength, bool table) {
-  const Scene whole = whole_scene(EFFORT_HEIGHTS);
-  Scene part = whole;
-  if (!whole.strength || !whole.table) {
-    state.SkipWithError("the default scene has no [strength] or no [table]");
-    return;
-  }
-  if (!strength) part.strength.reset();
-  if (!table) part.table.reset();
-  const Plan plan(whole, false);
-  const auto backend_of = [&](const Scene& scene) {
-    host::GripBackendOptions on_device;
-    on_device.precision = Precision::single;
-    const FieldSet fields = make_field_set(variable_fields(choose_variables(scene)), scene);
-    return std::make_unique<host::GripBackend>(scene, make_core_evaluator(scene), fields, options.device, on_device);
-  };
-  const auto with = backend_of(whole), without = backend_of(part);
-  state.counters["hash"] = hash_all(*with, whole, plan);  // warms the device's compiler as well
-  hash_all(*without, part, plan);
+// Two ways to evaluate all grips of a plan, that of the benchmark and what it is compared with.
+struct Way {
+  Scene scene;
+  bool on_core = false;
+};
+
+std::unique_ptr<Backend> backend_of(const Way& way, const Options& options) {
+  const FieldSet fields = make_field_set(variable_fields(choose_variables(way.scene)), way.scene);
+  if (way.on_core) return std::make_unique<CoreBackend>(make_core_evaluator(way.scene), way.scene, fields, Precision::full, 0);
+  host::GripBackendOptions on_device;
+  on_device.precision = Precision::single;
+  return std::make_unique<host::GripBackend>(way.scene, make_core_evaluator(way.scene), fields, options.device, on_device);
+}
+
+// Seconds in kernels, or of the core's threads, with the planes that a sweep keeps.
+void in_turns(benchmark::State& state, const Options& options, const Way& whole, const Way& part, const std::string& label) {
+  const Plan plan(whole.scene, false);
+  const auto with = backend_of(whole, options), without = backend_of(part, options);
+  state.counters["hash"] = hash_all(*with, whole.scene, plan);  // warms the device's compiler as well
+  hash_all(*without, part.scene, plan);
   double whole_seconds = 0, part_seconds = 0;
   for (auto _ : state) {
-    const double seconds = kernel_seconds(*with, whole, plan);
+    const double seconds = kernel_seconds(*with, whole.scene, plan);
     whole_seconds += seconds;
-    part_seconds += kernel_seconds(*without, part, plan);
+    part_seconds += kernel_seconds(*without, part.scene, plan);
     state.SetIterationTime(seconds);
   }
-  const double grips = static_cast<double>(state.iterations()) * static_cast<double>(plan.grips() * whole.vessels.size());
+  const double grips = static_cast<double>(state.iterations()) * static_cast<double>(plan.grips() * whole.scene.vessels.size());
   state.SetItemsProcessed(static_cast<std::int64_t>(grips));
   state.counters["ratio"] = whole_seconds / part_seconds;
-  state.SetLabel(std::string("over the scene without ") + (strength ? "[table]" : table ? "[strength]" : "[strength] and [table]"));
+  state.SetLabel(label);
+}
+
+Scene without(Scene scene, bool strength, bool table, bool between) {
+  if (!strength) scene.strength.reset();
+  if (!table) scene.table.reset();
+  if (!between) scene.hand.between = 0;
+  return scene;
 }
 
 }  // namespace
@@ -125,15 +134,45 @@ void sweep_without(benchmark::State& state, const Options& options, bool strengt
 void add_effort_benchmarks(const Options& options) {
   benchmark::RegisterBenchmark("effort_cold", effort_cold)->Unit(benchmark::kMicrosecond);
   benchmark::RegisterBenchmark("effort_grip", effort_grip)->UseManualTime()->Unit(benchmark::kMicrosecond);
-  const auto add_sweep = [&options](const char* name, bool strength, bool table) {
-    benchmark::RegisterBenchmark(
-        name, [&options, strength, table](benchmark::State& state) { sweep_without(state, options, strength, table); })
-        ->UseManualTime()
-        ->Unit(benchmark::kMillisecond);
+  const auto add = [&options](const char* name, const std::function<Way(const Scene&)>& whole,
+                              const std::function<Way(const Scene&)>& part, const char* label) {
+    const auto run = [&options, whole, part, label](benchmark::State& state) {
+      const Scene scene = whole_scene(EFFORT_HEIGHTS);
+      if (!scene.strength || !scene.table || scene.hand.between == 0) {
+        state.SkipWithError("the default scene has no [strength], no [table] or no spheres between the joints");
+        return;
+      }
+      in_turns(state, options, whole(scene), part(scene), label);
+    };
+    benchmark::RegisterBenchmark(name, run)->UseManualTime()->Unit(benchmark::kMillisecond);
   };
-  add_sweep("sweep_over_no_strength", false, true);
-  add_sweep("sweep_over_no_table", true, false);
-  add_sweep("sweep_over_neither", false, false);
+  const auto all = [](const Scene& scene) { return Way{scene}; };
+  add(
+      "sweep_over_no_strength", all, [](const Scene& scene) { return Way{without(scene, false, true, true)}; },
+      "over the scene without [strength]");
+  add(
+      "sweep_over_no_table", all, [](const Scene& scene) { return Way{without(scene, true, false, true)}; },
+      "over the scene without [table]");
+  add(
+      "sweep_over_neither", all, [](const Scene& scene) { return Way{without(scene, false, false, true)}; },
+      "over the scene without [strength] and [table]");
+  add(
+      "sweep_over_core", all,
+      [](const Scene& scene) {
+        return Way{scene, true};
+      },
+      "over the core on all threads, in double");
+  // spheres change what the hand touches and so its efforts, which are left out on both sides
+  for (const bool on_core : {false, true})
+    add(
+        on_core ? "core_bodies" : "device_bodies",
+        [on_core](const Scene& scene) {
+          return Way{without(scene, false, true, true), on_core};
+        },
+        [on_core](const Scene& scene) {
+          return Way{without(scene, false, true, false), on_core};
+        },
+        "2 spheres on each bone over none, without efforts");
 }
 
 }  // namespace wholehand::bench
