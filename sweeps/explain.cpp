@@ -36,13 +36,13 @@ class Explainer {
   Explainer(const Scene& scene, const Plan& plan, const FieldSet& fields, const ExplainOptions& options)
       : scene_(scene), plan_(plan), fields_(fields), options_(options), on_core_(options.on == "core") {
     const std::uint64_t all = plan.grips();
-    for (std::uint64_t i = 0; i < EXPLAIN_GRIPS; ++i) sample_.push_back(plan.grip(0, i * all / EXPLAIN_GRIPS % all));
+    for (std::uint64_t i = 0; i < options.grips; ++i) sample_.push_back(plan.grip(0, i * all / options.grips % all));
   }
 
   std::string run() {
     const Measured as_is = measure(scene_, fields_, OUTLINE_SPECIALIZED);
     say("what the sweep leaves out, and what this saves per grip (both ways ran on {} grips of {}; this sweep: {:.3f} us, {} B)\n",
-        EXPLAIN_GRIPS, scene_.vessels[0].name, microseconds(as_is), as_is.bytes);
+        sample_.size(), scene_.vessels[0].name, microseconds(as_is), as_is.bytes);
     if (!on_core_) {
       if (scene_.vessels[0].mesh) {
         say("  nothing of the outline: the distance comes from the mesh's lattice\n");
@@ -75,7 +75,7 @@ class Explainer {
     text_ += fmt::format(format, std::forward<Args>(args)...);
   }
 
-  static double microseconds(const Measured& m) { return m.seconds * 1e6 / static_cast<double>(EXPLAIN_GRIPS); }
+  double microseconds(const Measured& m) const { return m.seconds * 1e6 / static_cast<double>(sample_.size()); }
 
   void row(const std::string& what, const Measured& with, const Measured& without, const std::string& variant) {
     const bool is_noise = with.seconds - without.seconds < std::max(with.noise, without.noise);
@@ -261,7 +261,8 @@ class Explainer {
   void searches() {
     const auto core = make_core_evaluator(scene_);
     long long grips = 0, states = 0, skipped = 0, pivots = 0;
-    for (std::size_t i = 0; i < sample_.size() && grips < SEARCHED_GRIPS; i += sample_.size() / (8 * SEARCHED_GRIPS)) {
+    for (std::size_t i = 0; i < sample_.size() && grips < SEARCHED_GRIPS;
+         i += std::max<std::size_t>(1, sample_.size() / (8 * SEARCHED_GRIPS))) {
       GripResult result;
       core->grip(0, sample_[i], result);
       if (result.reason != Reason::none || !result.plausible) continue;
@@ -288,7 +289,7 @@ class Explainer {
     const double start = monotonic_now();
     const Measured scored = measure(scene_, make_field_set({FIELD_SCORE, FIELD_STATUS}, scene_), OUTLINE_SPECIALIZED);
     const double all = monotonic_now() - start, opening = std::max(0.0, all - 6 * scored.seconds);
-    const double each = scored.seconds / static_cast<double>(EXPLAIN_GRIPS);
+    const double each = scored.seconds / static_cast<double>(sample_.size());
     say("  not left out: the robust scores, {} deviations of {} best grips at most, which cost {:.3g} s a sweep ({:.3f} us each), "
         "and {:.3g} s to begin with {}\n",
         count, grips, static_cast<double>(count * grips) * each, each * 1e6, static_cast<double>(backends) * opening,

@@ -15,9 +15,10 @@ struct ExplainOptions {
   std::string on;
   Precision precision = Precision::single;
   int threads = 0;
+  std::size_t grips = EXPLAIN_GRIPS;  // of the first vessel, in each variant
 };
 
-// Lines for the terminal. Each variant evaluates EXPLAIN_GRIPS grips of the scene's first vessel, the shortest of five runs after one
+// Lines for the terminal. Each variant evaluates the same grips of the scene's first vessel, the shortest of five runs after one
 // that warms up. Throws Error as open_backend does.
 std::string explain_sweep(const Scene& scene, const Plan& plan, const FieldSet& fields, const ExplainOptions& options);
 

@@ -19,6 +19,8 @@
 namespace wholehand {
 namespace {
 
+constexpr std::size_t TEST_GRIPS = 768;  // few, since each test times a dozen variants; the efforts of 64 of them are searched
+
 struct Row {
   std::string what, variant;
   double microseconds = 0;
@@ -42,7 +44,7 @@ Explained explain(const Scene& scene, const std::string& on, Precision precision
   const Plan plan(scene, keeps_vectors(variables));
   const FieldSet fields = make_field_set(variable_fields(variables), scene);
   Explained explained;
-  explained.text = explain_sweep(scene, plan, fields, {on, precision, 1});
+  explained.text = explain_sweep(scene, plan, fields, {on, precision, 1, TEST_GRIPS});
   std::istringstream lines(explained.text);
   std::smatch match;
   for (std::string line; std::getline(lines, line);) {
