@@ -16,7 +16,8 @@
 namespace wholehand {
 namespace {
 
-constexpr std::size_t CHUNK = 512;  // grips: a few hundredths of a second of one thread
+constexpr std::size_t CHUNK = 512;  // grips at most: a few hundredths of a second of one thread
+constexpr std::size_t LEAST_CHUNK = 16;
 
 #ifdef __clang__
 constexpr const char* COMPILER = __VERSION__;
@@ -46,7 +47,10 @@ class CoreRun {
       slot.reals.resize(fields.real_planes * CHUNK);
       slot.uints.resize(fields.uint_planes * CHUNK);
     }
-    chunks_ = (request.last - request.first + CHUNK - 1) / CHUNK;
+    // a short run in pieces for every thread
+    const std::uint64_t count = request.last - request.first, pieces = 2 * static_cast<std::uint64_t>(threads);
+    chunk_ = std::clamp<std::uint64_t>((count + pieces - 1) / pieces, LEAST_CHUNK, CHUNK);
+    chunks_ = (count + chunk_ - 1) / chunk_;
   }
 
   RunResult run(int threads) {
@@ -62,16 +66,16 @@ class CoreRun {
     RunResult result;
     result.best = best_.sorted();
     result.chunks = delivered_;
-    result.done = std::min(delivered_ * CHUNK, request_.last - request_.first);
+    result.done = std::min(delivered_ * chunk_, request_.last - request_.first);
     result.kernel_seconds = busy_seconds_;
     return result;
   }
 
  private:
   bool stopped() const { return request_.stop && request_.stop->load(); }
-  std::uint64_t first_of(std::uint64_t chunk) const { return request_.first + chunk * CHUNK; }
+  std::uint64_t first_of(std::uint64_t chunk) const { return request_.first + chunk * chunk_; }
   std::size_t count_of(std::uint64_t chunk) const {
-    return static_cast<std::size_t>(std::min<std::uint64_t>(CHUNK, request_.last - first_of(chunk)));
+    return static_cast<std::size_t>(std::min<std::uint64_t>(chunk_, request_.last - first_of(chunk)));
   }
 
   void fail(std::exception_ptr failure) {
@@ -144,7 +148,7 @@ class CoreRun {
   const Evaluator& evaluator_;
   const FieldSet& fields_;
   const RunRequest& request_;
-  std::uint64_t chunks_ = 0;
+  std::uint64_t chunk_ = CHUNK, chunks_ = 0;
 
   std::mutex mutex_;  // guards all below; a slot's planes belong to one thread at a time
   std::condition_variable changed_;

@@ -193,8 +193,7 @@ ErrorMeasure::Timed ErrorMeasure::warmed(const ErrorVariant& variant, ErrorRow& 
   timed.opened = open(variant, make_field_set(variable_fields(choose_variables(scene)), scene));
   timed.variant = variant;
   row.memory_bytes = timed.opened.table_bytes + timed.opened.grip_bytes * options_.grips;
-  // the core hands out chunks of 512
-  timed.count = variant.on_core ? std::max(options_.grips, 1024 * static_cast<std::size_t>(variant.threads)) : options_.grips;
+  timed.count = options_.grips;
   double seconds = timed_run(timed);
   if (!variant.on_core) seconds = timed_run(timed);
   for (int growth = 0; growth < 3 && seconds < options_.run_seconds && timed.count < LARGEST_TIMED_RUN && !stopped(); ++growth) {

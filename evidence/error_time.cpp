@@ -75,8 +75,10 @@ MeasureOptions measure_options_of(const Scene& scene, const ErrorTimeOptions& op
   measure_options.on = options.on;
   measure_options.threads = threads;
   measure_options.seed = options.seed;
-  // of all vessels together, so that more of them do not take longer
-  measure_options.grips = std::clamp<std::size_t>((options.quick ? 768 : 6144) / scene.vessels.size(), 64, 4096);
+  // Of all vessels together, so that more of them do not take longer. The efforts of a grip's states take a hundred times what the
+  // grip does.
+  const std::size_t grips = (options.quick ? 768 : 6144) / (has_effort(scene) ? 4 : 1);
+  measure_options.grips = std::clamp<std::size_t>(grips / scene.vessels.size(), 64, 4096);
   if (options.quick) measure_options.run_seconds = 0.015;
   measure_options.stop = &interrupt.flag();
   return measure_options;
