@@ -5,7 +5,9 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <cmath>
 #include <csignal>
+#include <limits>
 #include <set>
 #include <utility>
 
@@ -236,6 +238,7 @@ class Sweep {
     Progress progress(total(plan), done());
     last_mark_ = monotonic_now();
     for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
+      forget(plan);
       while (mark_.vessels[v].done < plan.grips()) {
         run_stretch(v, plan, file, interrupt, progress);
         if (interrupt.signalled() && done() < total(plan)) {
@@ -268,6 +271,7 @@ class Sweep {
       file.write(chunk);
       count_grips(chunk, backend_->fields(), vessel.counts);
       if (ranks_here(plan)) best.offer(chunk, backend_->fields());
+      if (!remembered_.empty()) remember(chunk);
       if (has_heat_map()) maps_[v].add(plan, chunk, backend_->fields());
       delivered += chunk.count;
       progress.update(scene_.vessels[v].name, before + delivered);
@@ -315,7 +319,8 @@ class Sweep {
       end_pass(chooser, vessel);
     }
     while (!chooser.is_complete()) {
-      if (interrupt.signalled() || !pass_again(v, plan, chooser, interrupt)) {
+      const bool is_known = is_choosy() && !remembered_.empty() && remembered_count_ == plan.grips();
+      if (interrupt.signalled() || !(is_known ? pass_remembered(chooser) : pass_again(v, plan, chooser, interrupt))) {
         save(file);
         return false;
       }
@@ -331,6 +336,34 @@ class Sweep {
     vessel.best = chooser.chosen();
   }
 
+  // Room for the scores of the next vessel, if there are not too many.
+  void forget(const Plan& plan) {
+    const bool has_room = is_choosy() && plan.grips() <= options_.remembered;
+    remembered_.assign(has_room ? static_cast<std::size_t>(plan.grips()) : 0, std::numeric_limits<double>::quiet_NaN());
+    remembered_count_ = 0;
+  }
+
+  // Chunks come in ascending order; those from before an interrupt do not come again, and then a further pass does.
+  void remember(const PlaneChunk& chunk) {
+    std::vector<Candidate> eligible;
+    add_eligible(chunk, backend_->fields(), eligible);
+    for (const Candidate& grip : eligible) remembered_[static_cast<std::size_t>(grip.index)] = grip.score;
+    remembered_count_ += chunk.count;
+  }
+
+  // A further pass over scores that are known. An interrupt is looked at before the next one.
+  bool pass_remembered(ListChooser& chooser) const {
+    constexpr std::size_t AT_ONCE = 1 << 16;
+    std::vector<Candidate> eligible;
+    for (std::size_t first = 0; first < remembered_.size(); first += AT_ONCE) {
+      eligible.clear();
+      for (std::size_t i = first; i < std::min(remembered_.size(), first + AT_ONCE); ++i)
+        if (!std::isnan(remembered_[i])) eligible.push_back({remembered_[i], i});
+      chooser.offer(eligible);
+    }
+    return true;
+  }
+
   // All grips of a vessel once more, for the chooser alone. False: interrupted.
   bool pass_again(std::size_t v, const Plan& plan, ListChooser& chooser, InterruptGuard& interrupt) {
     Progress progress(plan.grips(), 0);
@@ -338,11 +371,13 @@ class Sweep {
     RunRequest request = grips_of(v, plan, interrupt);
     request.last = plan.grips();
     std::vector<Candidate> eligible;
+    forget(plan);
     request.sink = [&](const PlaneChunk& chunk) {
       const double start = monotonic_now();
       eligible.clear();
       add_eligible(chunk, backend_->fields(), eligible);
       chooser.offer(eligible);
+      if (!remembered_.empty()) remember(chunk);
       delivered += chunk.count;
       progress.update(scene_.vessels[v].name + ", again for different best grips", delivered);
       wait_seconds_ -= since(start);
@@ -424,6 +459,8 @@ class Sweep {
   double wait_seconds_ = 0;  // in the backend, less what it spent in the sink
   double kernel_seconds_ = 0;
   std::set<std::string> said_;
+  std::vector<double> remembered_;      // scores of the vessel under way; NaN: not eligible. Empty: not kept
+  std::uint64_t remembered_count_ = 0;  // grips whose outcome is in there
 };
 
 }  // namespace

@@ -25,7 +25,9 @@ struct SweepOptions {
   int threads = 0;     // of the core, 0: all
   // Called once meshes are read: says what the user should know of the scene in that precision. May be empty.
   std::function<void(const Scene&, Precision)> warn = {};
-  std::size_t pool = 0;              // grips of a list that a pass keeps (sweeps/list_chooser.h); 0: usual_pool
+  std::size_t pool = 0;  // grips of a list that a pass keeps (sweeps/list_chooser.h); 0: usual_pool
+  // Scores of one vessel's grips that are kept for further passes, 8 B each; of more grips each pass evaluates all of them again.
+  std::size_t remembered = std::size_t{1} << 22;
   double mark_seconds = 5;           // least time between two progress marks: what a crash may cost
   double started = monotonic_now();  // s of the clock: when the work was asked for, for the closing lines
 };

@@ -80,6 +80,7 @@ TEST_F(RunTest, DifferentBestGripsAreThoseOfTheDefinition) {
               trial.scene.output.keep = {{"gap"}};
             } else {
               trial.scene.output.keep = std::vector<std::string>{};
+              trial.options.remembered = 0;
             }
             if (several_hands) trial.scene.grips.hand_scale.values = {1.1, 0.9};
             if (is_sobol) {
@@ -132,6 +133,7 @@ TEST_F(RunTest, AnInterruptInAnyPassLosesNothing) {
     SweepTrial whole(folder / "b.nc");
     whole.scene = quick_choosy_scene();
     whole.options.pool = 1;
+    whole.options.remembered = 0;
     whole.before_run = [&] { ++runs; };
     ASSERT_EQ(whole.run().code, ExitCode::done);
     expect_same_list(expected, folder / "b.nc");
@@ -142,6 +144,7 @@ TEST_F(RunTest, AnInterruptInAnyPassLosesNothing) {
       SweepTrial trial(folder / "a.nc");
       trial.scene = quick_choosy_scene();
       trial.options.pool = 1;
+      trial.options.remembered = 0;
       int run = 0, chunk = 0;
       trial.before_run = [&] {
         if (++run == stop && at_once) raise(SIGINT);
@@ -155,6 +158,7 @@ TEST_F(RunTest, AnInterruptInAnyPassLosesNothing) {
       SweepTrial rest(folder / "a.nc");
       rest.scene = quick_choosy_scene();
       rest.options.pool = 1;
+      rest.options.remembered = 0;
       rest.options.resume = true;
       int runs_of_rest = 0;
       rest.before_run = [&] { ++runs_of_rest; };
@@ -164,6 +168,52 @@ TEST_F(RunTest, AnInterruptInAnyPassLosesNothing) {
       expect_same_list(expected, folder / "a.nc");
       std::filesystem::remove(folder / "a.nc");
     }
+  }
+}
+
+// Where the scores are kept, a further pass evaluates nothing.
+TEST_F(RunTest, FurtherPassesTakeTheScoresOfTheFirst) {
+  const std::string expected = reference(quick_choosy_scene());
+  const std::uint64_t grips = Plan(quick_choosy_scene(), false).grips();
+  for (const std::uint64_t room : {grips, grips - 1}) {
+    SweepTrial trial(folder / "a.nc");
+    trial.scene = quick_choosy_scene();
+    trial.options.pool = 1;
+    trial.options.remembered = static_cast<std::size_t>(room);
+    int runs = 0;
+    trial.before_run = [&] { ++runs; };
+    ASSERT_EQ(trial.run().code, ExitCode::done);
+    if (room == grips) {
+      EXPECT_EQ(runs, 2 + 2) << "each vessel, and its best grips once more";
+    } else {
+      EXPECT_GT(runs, 8) << "one too many to keep";
+    }
+    expect_same_list(expected, folder / "a.nc");
+  }
+}
+
+// The scores from before the interrupt are missing: one pass evaluates all grips again, and those after it take its scores.
+TEST_F(RunTest, AResumedSweepGathersTheScoresAnew) {
+  const std::string expected = reference(quick_choosy_scene());
+  for (const int stop : {2, 4}) {
+    SweepTrial trial(folder / "a.nc");
+    trial.scene = quick_choosy_scene();
+    trial.options.pool = 1;
+    int chunks = 0;
+    trial.before_chunk = [&] {
+      if (++chunks == stop) raise(SIGINT);
+    };
+    ASSERT_EQ(trial.run().code, ExitCode::interrupted);
+    SweepTrial rest(folder / "a.nc");
+    rest.scene = quick_choosy_scene();
+    rest.options.pool = 1;
+    rest.options.resume = true;
+    int runs = 0;
+    rest.before_run = [&] { ++runs; };
+    ASSERT_EQ(rest.run().code, ExitCode::done);
+    EXPECT_EQ(runs, 2 + 1 + 2) << "the rest of the first vessel, all of it again, the second, and the best grips";
+    expect_same_list(expected, folder / "a.nc");
+    std::filesystem::remove(folder / "a.nc");
   }
 }
 
