@@ -295,9 +295,13 @@ EffortSolver::Column EffortSolver::priced(bool is_short) const {
   return column;
 }
 
+Effort EffortSolver::solve(const Wrench& load, Real tolerance, Real enough, Real too_much) {
+  return search(load, tolerance, enough, too_much, EFFORT_PIVOTS);
+}
+
 // (-w).u / h(u) is a lower bound of the effort for any u, and the levels' sum an upper one once no artificial column carries
 // anything. A point of Z that is worth more than the columns of the basis enters.
-Effort EffortSolver::solve(const Wrench& load, Real tolerance, Real enough, Real too_much) {
+Effort EffortSolver::search(const Wrench& load, Real tolerance, Real enough, Real too_much, int most_pivots) {
   Effort answer;
   last_ = {};
   const Vec6 wanted = wanted_for(load);
@@ -331,7 +335,7 @@ Effort EffortSolver::solve(const Wrench& load, Real tolerance, Real enough, Real
     if (!std::isfinite(answer.low)) break;
     if (!is_short && (cost.real <= enough || cost.real - answer.low <= tolerance * cost.real)) break;
     is_beyond = answer.low > too_much;
-    if (is_beyond || answer.pivots == EFFORT_PIVOTS) break;
+    if (is_beyond || answer.pivots == most_pivots) break;
     if (height > (is_short ? Real(0) : Real(1)) && enter(column, wanted)) {
       is_fresh = false;
     } else if (is_fresh || !invert()) {  // what ends the search may be the rounding that the inverse has gathered
@@ -340,7 +344,7 @@ Effort EffortSolver::solve(const Wrench& load, Real tolerance, Real enough, Real
       is_fresh = true;
     }
   }
-  bool is_certain = !std::isfinite(answer.low), is_short_of_pivots = false;
+  bool is_certain = !std::isfinite(answer.low);
   if (!is_certain && invert()) {
     last_ = levels(wanted);
     Vec6 rest = wanted;  // what rounding of the inverse leaves unbalanced, where columns are nearly parallel
@@ -355,23 +359,22 @@ Effort EffortSolver::solve(const Wrench& load, Real tolerance, Real enough, Real
       answer.low = std::min(answer.low, answer.effort);
       return answer;
     }
-    is_short_of_pivots = !is_held && answer.pivots == EFFORT_PIVOTS;
-    is_certain = !is_held && !is_short_of_pivots;
+    is_certain = !is_held && answer.pivots < most_pivots;
   }
   answer.effort = NEVER;
   if (is_beyond) return answer;
   has_basis_ = false;
   if (is_warm) {  // a basis of another load may end in a corner; what nothing holds is to be told from the start
     const int pivots = answer.pivots;
-    answer = solve(load, tolerance, enough, too_much);
+    answer = search(load, tolerance, enough, too_much, EFFORT_PIVOTS);
     answer.pivots += pivots;
     return answer;
   }
   // Where the digits' strengths are far apart, columns that bring the last of the tolerance may leave forces that do not balance.
-  // What the pivots did not suffice to hold at all asks for no tolerance: another try would take the same pivots.
-  if (!is_certain && !is_short_of_pivots && tolerance < MOST_TOLERANCE) {
+  // All tries together take no more pivots than one may.
+  if (!is_certain && answer.pivots < most_pivots && tolerance < MOST_TOLERANCE) {
     const int pivots = answer.pivots;
-    answer = solve(load, WIDER * tolerance, enough, too_much);
+    answer = search(load, WIDER * tolerance, enough, too_much, most_pivots - pivots);
     answer.pivots += pivots;
     return answer;
   }

@@ -15,7 +15,6 @@ constexpr int DIGITS = FINGERS + 1;  // thumb, index, middle, ring, little, palm
 constexpr int PALM = FINGERS;
 constexpr int EFFORT_PIVOTS = 400;             // at most; then the bracket is what it is
 constexpr Real EFFORT_TOLERANCE = Real(1e-3);  // of the bracket's width, relative
-constexpr int EFFORT_TRIES = 6;                // from the basis of another load, and with 1, 4, 16, 64 and 256 times the tolerance
 constexpr Real UNRESISTED_EFFORT =
     Real(1e6);  // a load that takes more times its own size, in normal forces, counts as not resisted
 
@@ -66,10 +65,10 @@ class EffortSolver {
   EffortSolver(std::span<const ContactPoint> contacts, const HandStrength& hand, Vec3 center);
 
   // Ends where effort - low <= tolerance x effort, or after EFFORT_PIVOTS. Where rounding leaves forces that do not balance the
-  // load, it begins anew with four times the tolerance, up to EFFORT_TRIES times from EFFORT_TOLERANCE on, each with pivots of its
-  // own (`pivots` of the answer are those of all tries). No load: 0. Also ends, with the bracket that it then
-  // has, where effort <= enough, or low > too_much (`effort` is then infinite): whether the effort is larger than a number needs no
-  // more.
+  // load, it begins anew with the pivots that are left and four times the tolerance, until this is 0.1 or more. What the basis of
+  // another load does not tell is searched from nothing, with as many pivots again. No load: 0. Also ends, with the bracket that it
+  // then has, where effort <= enough, or low > too_much (`effort` is then infinite): whether the effort is larger than a number
+  // needs no more.
   Effort solve(const Wrench& load, Real tolerance = EFFORT_TOLERANCE, Real enough = 0,
                Real too_much = std::numeric_limits<Real>::infinity());
   // From here on `solve` asks which part of the hand's strength is left for: `alone` is carried with all of the strength, and the
@@ -111,6 +110,7 @@ class EffortSolver {
   };
   using Best = std::array<int, DIGITS>;  // a contact each; -1: none
 
+  Effort search(const Wrench& load, Real tolerance, Real enough, Real too_much, int most_pivots);
   Vec6 wanted_for(const Wrench& load) const;
   Best best_contacts(const Vec6& direction) const;
   Cost cost_of(const Vec6& levels) const;

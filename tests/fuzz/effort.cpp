@@ -143,7 +143,7 @@ void check_forces(const EffortCase& asked, const EffortSolver& solver, const Wre
 void check_bracket(const EffortCase& asked, const Wrench& load, const Effort& found) {
   must(!std::isnan(found.effort) && !std::isnan(found.low), "NaN\n" + told(asked, load, found));
   must(0 <= found.low && found.low <= found.effort, "no bracket\n" + told(asked, load, found));
-  must(found.pivots <= core_f64::EFFORT_TRIES * core_f64::EFFORT_PIVOTS, "too many pivots\n" + told(asked, load, found));
+  must(found.pivots <= 2 * core_f64::EFFORT_PIVOTS, "too many pivots\n" + told(asked, load, found));
   if (std::isfinite(found.effort)) return;
   double size = 0;
   for (const double part : found.escape) size += std::abs(part);
