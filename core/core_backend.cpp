@@ -43,14 +43,14 @@ class CoreRun {
         request_(request),
         slots_(2 * static_cast<std::size_t>(threads)),
         best_(request.best) {
-    for (PlaneRoom& slot : slots_) {
-      slot.reals.resize(fields.real_planes * CHUNK);
-      slot.uints.resize(fields.uint_planes * CHUNK);
-    }
     // a short run in pieces for every thread
     const std::uint64_t count = request.last - request.first, pieces = 2 * static_cast<std::uint64_t>(threads);
-    chunk_ = std::clamp<std::uint64_t>((count + pieces - 1) / pieces, LEAST_CHUNK, CHUNK);
+    chunk_ = static_cast<std::size_t>(std::clamp<std::uint64_t>((count + pieces - 1) / pieces, LEAST_CHUNK, CHUNK));
     chunks_ = (count + chunk_ - 1) / chunk_;
+    for (PlaneRoom& slot : slots_) {
+      slot.reals.resize(fields.real_planes * chunk_);
+      slot.uints.resize(fields.uint_planes * chunk_);
+    }
   }
 
   RunResult run(int threads) {
@@ -86,7 +86,7 @@ class CoreRun {
 
   // A thread: takes the next chunk while a slot is free, evaluates it, hands it over.
   void work() {
-    std::vector<GripInput> grips(CHUNK);
+    std::vector<GripInput> grips(chunk_);
     std::unique_lock lock(mutex_);
     for (;;) {
       changed_.wait(lock, [&] { return failure_ || taken_ == chunks_ || stopped() || taken_ < delivered_ + slots_.size(); });
@@ -103,7 +103,7 @@ class CoreRun {
       BestCandidates best(request_.best);
       try {
         request_.grips(request_.vessel, first_of(chunk), count_of(chunk), grips.data());
-        evaluator_.planes(request_.vessel, grips.data(), count_of(chunk), fields_, CHUNK, slot.reals.data(), slot.uints.data());
+        evaluator_.planes(request_.vessel, grips.data(), count_of(chunk), fields_, chunk_, slot.reals.data(), slot.uints.data());
         if (request_.best > 0) offer(slot, chunk, best);
       } catch (...) {
         failure = std::current_exception();
@@ -118,8 +118,8 @@ class CoreRun {
   }
 
   void offer(const PlaneRoom& slot, std::uint64_t chunk, BestCandidates& best) const {
-    const double* score = slot.reals.data() + fields_.plane[FIELD_SCORE] * CHUNK;
-    const std::uint32_t* status = slot.uints.data() + fields_.plane[FIELD_STATUS] * CHUNK;
+    const double* score = slot.reals.data() + fields_.plane[FIELD_SCORE] * chunk_;
+    const std::uint32_t* status = slot.uints.data() + fields_.plane[FIELD_STATUS] * chunk_;
     for (std::size_t i = 0; i < count_of(chunk); ++i) {
       const bool eligible = (status[i] & STATUS_REASON_MASK) == REASON_NONE && (status[i] & STATUS_PLAUSIBLE) != 0;
       if (eligible) best.offer({score[i], first_of(chunk) + i});
@@ -136,7 +136,7 @@ class CoreRun {
       lock.unlock();
       if (request_.sink) {
         request_.sink(
-            {request_.vessel, first_of(delivered_), count_of(delivered_), CHUNK, nullptr, slot.reals.data(), slot.uints.data()});
+            {request_.vessel, first_of(delivered_), count_of(delivered_), chunk_, nullptr, slot.reals.data(), slot.uints.data()});
       }
       lock.lock();
       slot.ready = false;
@@ -148,7 +148,8 @@ class CoreRun {
   const Evaluator& evaluator_;
   const FieldSet& fields_;
   const RunRequest& request_;
-  std::uint64_t chunk_ = CHUNK, chunks_ = 0;
+  std::size_t chunk_ = CHUNK;  // grips
+  std::uint64_t chunks_ = 0;
 
   std::mutex mutex_;  // guards all below; a slot's planes belong to one thread at a time
   std::condition_variable changed_;
