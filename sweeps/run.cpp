@@ -95,7 +95,7 @@ class Sweep {
     fmt::print("{}{}", opening_lines(scene_, plan, backend_->info()), vessel_lines(scene_, facts));
     std::fflush(stdout);
     if (options_.explain) {
-      fmt::print("{}", explain_sweep(scene_, plan, backend_->fields(), {options_.on, precision(), options_.threads}));
+      fmt::print("{}", explain_sweep(scene_, plan, backend_->fields(), {options_.on, precision(), options_.threads, best_wanted_}));
       std::fflush(stdout);
     }
     const ResultContents contents{scene_, plan, variables_, std::move(facts), backend_->info(), version(), best_wanted_};
@@ -266,12 +266,17 @@ class Sweep {
     request.last = plan.grips();
     HandLists best(plan, is_choosy() ? pool(plan) : best_wanted_, vessel.best);
     request.best = ranks_here(plan) ? 0 : best_wanted_;
+    std::vector<Candidate> eligible;
     request.sink = [&](const PlaneChunk& chunk) {
       const double start = monotonic_now();
       file.write(chunk);
       count_grips(chunk, backend_->fields(), vessel.counts);
       if (ranks_here(plan)) best.offer(chunk, backend_->fields());
-      if (!remembered_.empty()) remember(chunk);
+      if (!remembered_.empty()) {
+        eligible.clear();
+        add_eligible(chunk, backend_->fields(), eligible);
+        remember(eligible, chunk.count);
+      }
       if (has_heat_map()) maps_[v].add(plan, chunk, backend_->fields());
       delivered += chunk.count;
       progress.update(scene_.vessels[v].name, before + delivered);
@@ -319,11 +324,12 @@ class Sweep {
       end_pass(chooser, vessel);
     }
     while (!chooser.is_complete()) {
-      const bool is_known = is_choosy() && !remembered_.empty() && remembered_count_ == plan.grips();
-      if (interrupt.signalled() || !(is_known ? pass_remembered(chooser) : pass_again(v, plan, chooser, interrupt))) {
+      const bool is_known = remembered_count_ == plan.grips();
+      if (interrupt.signalled() || (!is_known && !pass_again(v, plan, chooser, interrupt))) {
         save(file);
         return false;
       }
+      if (is_known) pass_remembered(chooser);
       end_pass(chooser, vessel);
       if (since(last_mark_) >= mark_interval_) save(file);
     }
@@ -344,15 +350,14 @@ class Sweep {
   }
 
   // Chunks come in ascending order; those from before an interrupt do not come again, and then a further pass does.
-  void remember(const PlaneChunk& chunk) {
-    std::vector<Candidate> eligible;
-    add_eligible(chunk, backend_->fields(), eligible);
+  void remember(const std::vector<Candidate>& eligible, std::size_t of_grips) {
+    if (remembered_.empty()) return;
     for (const Candidate& grip : eligible) remembered_[static_cast<std::size_t>(grip.index)] = grip.score;
-    remembered_count_ += chunk.count;
+    remembered_count_ += of_grips;
   }
 
   // A further pass over scores that are known. An interrupt is looked at before the next one.
-  bool pass_remembered(ListChooser& chooser) const {
+  void pass_remembered(ListChooser& chooser) const {
     constexpr std::size_t AT_ONCE = 1 << 16;
     std::vector<Candidate> eligible;
     for (std::size_t first = 0; first < remembered_.size(); first += AT_ONCE) {
@@ -361,7 +366,6 @@ class Sweep {
         if (!std::isnan(remembered_[i])) eligible.push_back({remembered_[i], i});
       chooser.offer(eligible);
     }
-    return true;
   }
 
   // All grips of a vessel once more, for the chooser alone. False: interrupted.
@@ -377,7 +381,7 @@ class Sweep {
       eligible.clear();
       add_eligible(chunk, backend_->fields(), eligible);
       chooser.offer(eligible);
-      if (!remembered_.empty()) remember(chunk);
+      remember(eligible, chunk.count);
       delivered += chunk.count;
       progress.update(scene_.vessels[v].name + ", again for different best grips", delivered);
       wait_seconds_ -= since(start);
