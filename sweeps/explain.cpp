@@ -28,7 +28,8 @@ constexpr long long SEARCHED_GRIPS = 64;  // for the figures of the search, at m
 struct Measured {
   double seconds = 0;
   std::size_t bytes = 0;
-  double noise = 0;  // s, between the shortest runs
+  double noise = 0;    // s, between the shortest runs
+  double opening = 0;  // s, until the first run began to compute grips
 };
 
 class Explainer {
@@ -91,6 +92,7 @@ class Explainer {
   }
 
   Measured measure(const Scene& scene, const FieldSet& fields, OutlineSource outline) const {
+    const double opened = monotonic_now();
     std::unique_ptr<Backend> backend;
     Measured result;
     if (on_core_) {
@@ -115,10 +117,15 @@ class Explainer {
       const double start = monotonic_now();
       backend->run(request);
       const double seconds = monotonic_now() - start;
-      if (run > 0) runs.push_back(seconds);  // the first compiles
+      if (run > 0) {
+        runs.push_back(seconds);
+      } else {  // the first compiles
+        result.opening = monotonic_now() - opened;
+      }
     }
     std::sort(runs.begin(), runs.end());
     result.seconds = runs[0];
+    result.opening = std::max(0.0, result.opening - result.seconds);
     result.noise = runs[2] - runs[0];
     return result;
   }
@@ -282,17 +289,15 @@ class Explainer {
 
   // Once a sweep, whatever its grips: the listed ones, each with its deviations.
   void robust() {
-    if (!scene_.robust || scene_.output.best == 0) return;
+    if (!scene_.robust || options_.best == 0) return;
     const std::size_t lists = scene_.vessels.size() * plan_.hand_scales(), count = static_cast<std::size_t>(scene_.robust->count);
-    const std::size_t grips = lists * std::min(static_cast<std::size_t>(scene_.output.best), MOST_ROBUST);
+    const std::size_t grips = lists * std::min(options_.best, MOST_ROBUST);
     const std::size_t backends = robust_frictions(scene_).size();
-    const double start = monotonic_now();
     const Measured scored = measure(scene_, make_field_set({FIELD_SCORE, FIELD_STATUS}, scene_), OUTLINE_SPECIALIZED);
-    const double all = monotonic_now() - start, opening = std::max(0.0, all - 6 * scored.seconds);
-    const double each = scored.seconds / static_cast<double>(sample_.size());
+    const double each = microseconds(scored);
     say("  not left out: the robust scores, {} deviations of {} best grips at most, which cost {:.3g} s a sweep ({:.3f} us each), "
         "and {:.3g} s to begin with {}\n",
-        count, grips, static_cast<double>(count * grips) * each, each * 1e6, static_cast<double>(backends) * opening,
+        count, grips, static_cast<double>(count * grips) * each * 1e-6, each, static_cast<double>(backends) * scored.opening,
         backends > 1 ? fmt::format("each of {} frictions", backends) : "one friction");
   }
 

@@ -15,6 +15,7 @@ struct ExplainOptions {
   std::string on;
   Precision precision = Precision::single;
   int threads = 0;
+  std::size_t best = 0;               // grips that the sweep lists, of each vessel and hand scale
   std::size_t grips = EXPLAIN_GRIPS;  // of the first vessel, in each variant
 };
 

@@ -44,7 +44,7 @@ Explained explain(const Scene& scene, const std::string& on, Precision precision
   const Plan plan(scene, keeps_vectors(variables));
   const FieldSet fields = make_field_set(variable_fields(variables), scene);
   Explained explained;
-  explained.text = explain_sweep(scene, plan, fields, {on, precision, 1, TEST_GRIPS});
+  explained.text = explain_sweep(scene, plan, fields, {on, precision, 1, static_cast<std::size_t>(scene.output.best), TEST_GRIPS});
   std::istringstream lines(explained.text);
   std::smatch match;
   for (std::string line; std::getline(lines, line);) {
