@@ -47,8 +47,7 @@ class Patient final : public Gripper {
   }
   bool write(const GripperForce& force) noexcept override {
     const bool is_taken = gripper_->write(force);
-    if (force.grip != 0) ++written;
-    if (written == 60 && at_work) at_work();
+    if (force.grip != 0 && ++written == 60 && at_work) at_work();  // once: a next force may be zero and leave the count
     return is_taken;
   }
   LetGo let_go() noexcept override { return gripper_->let_go(); }
