@@ -359,7 +359,8 @@ Effort EffortSolver::search(const Wrench& load, Real tolerance, Real enough, Rea
       answer.low = std::min(answer.low, answer.effort);
       return answer;
     }
-    is_certain = !is_held && answer.pivots < most_pivots;
+    // What is left to artificial columns here is rounding's: without it the direction of a load that nothing resists has said so.
+    is_certain = cost.artificial <= ROUNDING * size && cost.real > FIRST_COST * dear_ * size;
   }
   answer.effort = NEVER;
   if (is_beyond) return answer;
