@@ -82,20 +82,32 @@ double highest_feedback(const std::vector<FillForces>& forces) {
   return highest;
 }
 
+// What each of two tips can press with, and its name.
+struct TipStrength {
+  double force;
+  const char* name;
+};
+
+TipStrength tip_strength(const Scene& scene) {
+  if (!scene.strength) return {scene.force.grip_strength, "grip strength"};
+  return {std::min(scene.strength->digits[0], scene.strength->digits[1]), "strength of the weaker tip"};
+}
+
 std::string forces_caption(const Scene& scene, const std::vector<FillForces>& forces, const HoldExtent& extent) {
   std::string caption =
       "The feedback force is what the gripper renders. The hold force is what each finger must press with to hold the vessel.";
-  const double limit = scene.force.max, strength = scene.force.grip_strength;
+  const double limit = scene.force.max;
+  const auto [strength, strength_name] = tip_strength(scene);
   if (highest_feedback(forces) < limit) caption += fmt::format(" The device's limit of {} N is not reached.", plain_number(limit));
   if (!extent.is_finite_once) {
     caption += " No force of two fingers holds the vessel in this grip, so the hold force has no chart.";
   } else {
     if (!extent.is_finite_always)
       caption += " Where a line of the hold force is missing, no force of two fingers holds the vessel.";
-    if (extent.highest < strength) caption += fmt::format(" The grip strength of {} N is not reached.", plain_number(strength));
+    if (extent.highest < strength) caption += fmt::format(" The {} of {} N is not reached.", strength_name, plain_number(strength));
     if (extent.highest > 2 * strength)
-      caption += fmt::format(" The hold force goes up to {} N; its chart ends at twice the grip strength.",
-                             shown_number(extent.highest, 0));
+      caption += fmt::format(" The hold force goes up to {} N; its chart ends at twice the {}.", shown_number(extent.highest, 0),
+                             strength_name);
   }
   const bool leaves_out =
       std::any_of(forces.begin(), forces.end(), [](const FillForces& fill) { return std::isnan(fill.feedback.back()); });
@@ -186,8 +198,8 @@ void write_forces(MarkupWriter& html, const ReportSource& source, std::size_t ve
   hold.name.id = id + "-hold";
   hold.name.title = name + ": hold force over the tilt";
   hold.y_label = "hold force per finger (N)";
-  const double strength = scene.force.grip_strength;
-  hold.limit = LineChart::Limit{strength, fmt::format("grip strength {} N", plain_number(strength))};
+  const auto [strength, strength_name] = tip_strength(scene);
+  hold.limit = LineChart::Limit{strength, fmt::format("{} {} N", strength_name, plain_number(strength))};
   if (extent.highest > 2 * strength) hold.highest = 2 * strength;
   for (const LineChart* chart : {&feedback, &hold}) {
     if (chart == &hold && !extent.is_finite_once) continue;

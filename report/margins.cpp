@@ -19,7 +19,8 @@ namespace {
 constexpr const char* MARGINS_NOTE =
     "A margin says how many times over a grip keeps to a limit. The margin of the hand's strength is 1 / (worst effort). The "
     "margin of friction is the friction of the vessel over the friction that is needed. The margin of the table is 1, plus 1 for "
-    "each 10 mm of room above its clearance. The margin of the gripper is its largest force over the largest feedback force. The "
+    "each 10 mm of room above its clearance. The margin of the gripper is its largest force over the largest normal force before "
+    "clamping. The "
     "smallest margin says what would fail first. A dash stands for a limit that the scene does not have, or that is not what "
     "fails.";
 

@@ -88,17 +88,20 @@ void write_words(MarkupWriter& html, bool has_table, bool has_efforts) {
   word("obliquity", "angle of the thumb-index line to the horizontal; above 0 the index finger is higher than the thumb");
   word("feasible", "both tips find the vessel, at a gap that the hand can make");
   word("implausible",
-       has_table ? "a point of the hand would be deeper in the vessel than the scene allows, or the hand would go through the table"
-                 : "a point of the hand would be deeper in the vessel than the scene allows");
+       has_table
+           ? "a point or a bone of the hand would be deeper in the vessel, or a finger in another, than the scene allows, or the "
+             "hand would go through the table"
+           : "a point or a bone of the hand would be deeper in the vessel, or a finger in another, than the scene allows");
   word("antipodal", "both contacts lie within the friction cone");
   word("fingers, points", "number of fingers used, of 5; number of points of the hand that touch, of 24");
-  word("depth", "how deep the deepest point of the hand is inside the vessel");
+  word("depth", "how deep the deepest point of the hand or its bones is inside the vessel");
   word("closure", "posture of thumb and index finger as one number: 0 is open, 1 is closed");
   word("peak force", "largest force that the gripper renders over all tilts and fills");
-  word("hold force", "force with which each of two soft fingers must press to hold the vessel");
-  word("safe tilt",
-       "largest tilt up to which the normal force is under the device's limit and the hold force is at most the user's grip "
-       "strength");
+  word("hold force", "force with which each of two soft fingers must press, if they alone hold the vessel");
+  word("safe tilt", has_efforts
+                        ? "largest tilt up to which the normal force is under the device's limit and the effort is at most 1"
+                        : "largest tilt up to which the normal force is under the device's limit and the hold force is at most the "
+                          "user's grip strength");
   if (has_efforts) {
     word("effort",
          "least share of its strength that the digit nearest to its limit must give so that all contacts of the hand hold the "
@@ -107,8 +110,8 @@ void write_words(MarkupWriter& html, bool has_table, bool has_efforts) {
     word("margin", "how many times over a grip keeps to a limit; below 1 it does not");
   }
   word("score",
-       "sum of six terms from 0 to 1, each times its weight: fingers used, points touching, depth, posture, feedback force, hold "
-       "force; an infeasible or implausible grip scores 0");
+       "sum of six terms from 0 to 1, each times its weight: fingers used, points touching, depth, posture, feedback force, and "
+       "what holding takes; an infeasible or implausible grip scores 0");
   html.close().close();
 }
 

@@ -91,9 +91,9 @@ std::string force_text(const Scene& scene) {
 
 std::string hold_text(const Scene& scene) {
   const ForceData& force = scene.force;
-  const std::string pinch = fmt::format("friction {}, torsion of a contact {} mm, grip strength {} N", plain_number(force.friction),
-                                        plain_number(force.torsion * 1e3), plain_number(force.grip_strength));
-  if (!scene.strength) return pinch;
+  const std::string pinch =
+      fmt::format("friction {}, torsion of a contact {} mm", plain_number(force.friction), plain_number(force.torsion * 1e3));
+  if (!scene.strength) return fmt::format("{}, grip strength {} N", pinch, plain_number(force.grip_strength));
   std::vector<std::string> digits;
   for (std::size_t digit = 0; digit < scene.strength->digits.size(); ++digit) {
     const char* name = digit < FINGER_COUNT ? FINGER_NAMES[digit] : "palm";
