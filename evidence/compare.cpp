@@ -6,7 +6,6 @@
 #include <limits>
 #include <optional>
 
-#include "core/fields.h"
 #include "evidence/load_floors.h"
 
 namespace wholehand {
@@ -72,12 +71,6 @@ bool is_held(const GatheredPlanes& planes, int field) {
   return planes.fields.has(field) && static_cast<std::size_t>(planes.fields.plane[field]) * planes.count < planes.reals.size();
 }
 
-// Whether a field is compared number by number. With efforts a hold force is one, and brackets of efforts are not told apart here.
-bool is_told(const Scene& scene, const Field& field) {
-  const bool is_hold = field.number == FIELD_HOLD_FORCE || field.number == FIELD_LARGEST_HOLD;
-  return field.label && !(is_hold && has_effort(scene));
-}
-
 // What the comparison of told tilts looks at.
 bool has_tilts(const FieldSet& fields) {
   const auto needed = {FIELD_PEAK_TILT, FIELD_SAFE_TILT, FIELD_FEEDBACK_FORCE, FIELD_NORMAL_FORCE, FIELD_HOLD_FORCE};
@@ -100,6 +93,11 @@ bool note_difference(Comparison& entry, double scale, std::size_t vessel, std::s
 double tip_radius(const HandData& hand) { return hand.scale * std::max(hand.fingers[0].radii[3], hand.fingers[1].radii[4]); }
 
 }  // namespace
+
+bool is_told(const Scene& scene, const Field& field) {
+  const bool is_hold = field.number == FIELD_HOLD_FORCE || field.number == FIELD_LARGEST_HOLD;
+  return field.label && !(is_hold && has_effort(scene));
+}
 
 double figure_difference(double a, double b) {
   if (std::isnan(a) && std::isnan(b)) return 0;

@@ -15,10 +15,14 @@
 #include <vector>
 
 #include "core/evaluator.h"
+#include "core/fields.h"
 #include "core/gather.h"
 #include "evidence/allowance.h"
 
 namespace wholehand {
+
+// Whether a field is compared number by number. With efforts a hold force is one, and brackets of efforts are not told apart here.
+bool is_told(const Scene& scene, const Field& field);
 
 // |a - b|: 0 for two NaN or two infinities of one sign, infinite where one side alone is no number.
 double figure_difference(double a, double b);

@@ -155,7 +155,10 @@ Agreement compare_with_core(const ReportSource& source, std::size_t vessel) {
     }
   }
   for (const Variable* variable : source.result.variables()) {
-    const bool is_real = variable->type == NumberType::real && is_kept(fields, variable->field);
+    // a tilt has no row of its own: where all states are kept, the forces at it are compared
+    const bool is_tilt = variable->field == FIELD_PEAK_TILT || variable->field == FIELD_SAFE_TILT;
+    const bool is_real = variable->type == NumberType::real && is_kept(fields, variable->field) &&
+                         (is_tilt || is_told(scene, field_row(variable->field)));
     if (!is_real && std::find(agreement.outcomes.begin(), agreement.outcomes.end(), variable->name) == agreement.outcomes.end())
       agreement.uncompared.emplace_back(variable->name);
   }
