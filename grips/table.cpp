@@ -168,9 +168,11 @@ void write_score(Buffer out, const GripReport& report) {
     const std::size_t counted = report.counted_tilts.at(f);
     const std::string tilts = counted == report.score_tilts ? "all" : fmt::format("{} of {}", counted, report.score_tilts);
     fmt::format_to(
-        out, "  over {} tilts fill {:.3g}: peak force {:.4f} N at {:.1f} deg, largest hold {} N, {}\n", tilts,
+        out, "  over {} tilts fill {:.3g}: peak force {:.4f} N at {:.1f} deg, largest hold {} {}\n", tilts,
         report.score_fills.at(f), terms.peak_force, degrees(terms.peak_tilt),
-        std::isfinite(terms.largest_hold) ? fmt::format("{:.4f}", terms.largest_hold) : "infinite",
+        std::isnan(terms.largest_hold)      ? "not computed of an implausible grip,"
+        : std::isfinite(terms.largest_hold) ? fmt::format("{:.4f} N,", terms.largest_hold)
+                                            : "infinite,",
         std::isnan(terms.safe_tilt) ? "safe at no tilt" : fmt::format("safe up to {:.1f} deg", degrees(terms.safe_tilt)));
   }
 }

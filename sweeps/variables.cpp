@@ -146,7 +146,9 @@ std::vector<Variable> make_catalogue() {
   add(all, DEFAULT, Need::nothing,
       {
           always(byte("reason", "why the grip is infeasible", "none: it is feasible", FIELD_STATUS, reason)),
-          byte("plausible", "whether the hand is nowhere deeper than the depth limit", YES_NO, FIELD_STATUS, plausible),
+          byte("plausible",
+               "whether the hand is nowhere deeper than the depth limit, in the vessel or a finger in another, and above the table",
+               YES_NO, FIELD_STATUS, plausible),
           byte("antipodal", "whether both contact angles lie within the friction cone", YES_NO, FIELD_STATUS, antipodal),
           of_field(FIELD_CLOSURE),
           of_field(FIELD_GAP),
