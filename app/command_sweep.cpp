@@ -60,7 +60,8 @@ void add_sweep_command(CLI::App& app, Action& action) {
       ->type_name("N");
   command->add_option("--threads", arguments->threads, "Number of threads of the core (default: all)")->type_name("N");
   command->add_flag("--resume", arguments->resume, "Continue an interrupted sweep where it ended");
-  command->add_flag("--explain", arguments->explain, "Print what the sweep left out and what this saved");
+  command->add_flag("--explain", arguments->explain,
+                    "Print what the sweep left out and saved, and what its parts cost; this times both ways first");
   command->add_flag("--no-refine", arguments->no_refine, "Do not look for better grips near the best ones");
   command->callback([arguments, &action] { action = [arguments] { return sweep(*arguments); }; });
 }

@@ -79,10 +79,12 @@ class Explainer {
   double microseconds(const Measured& m) const { return m.seconds * 1e6 / static_cast<double>(sample_.size()); }
 
   void row(const std::string& what, const Measured& with, const Measured& without, const std::string& variant) {
-    const bool is_noise = with.seconds - without.seconds < std::max(with.noise, without.noise);
     say("  {:<64} {:>8.3f} us {:>5} B  {}{}\n", what, microseconds(with) - microseconds(without),
-        static_cast<long long>(with.bytes) - static_cast<long long>(without.bytes), variant,
-        is_noise ? " (within the noise of these runs)" : "");
+        static_cast<long long>(with.bytes) - static_cast<long long>(without.bytes), variant, noise_note(with, without));
+  }
+
+  static const char* noise_note(const Measured& with, const Measured& without) {
+    return with.seconds - without.seconds < std::max(with.noise, without.noise) ? " (within the noise of these runs)" : "";
   }
 
   int longest_outline() const {
@@ -190,8 +192,8 @@ class Explainer {
     if (scene_.table) {
       other.table.reset();
       const Measured without = measure(other, make_field_set(kept_fields(), other), OUTLINE_SPECIALIZED);
-      say("  not left out: the table, which costs {:.3f} us and {} B per grip\n", microseconds(as_is) - microseconds(without),
-          static_cast<long long>(as_is.bytes) - static_cast<long long>(without.bytes));
+      say("  not left out: the table, which costs {:.3f} us and {} B per grip{}\n", microseconds(as_is) - microseconds(without),
+          static_cast<long long>(as_is.bytes) - static_cast<long long>(without.bytes), noise_note(as_is, without));
       return;
     }
     other.table.emplace();

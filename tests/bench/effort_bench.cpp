@@ -163,16 +163,22 @@ void add_effort_benchmarks(const Options& options) {
       },
       "over the core on all threads, in double");
   // spheres change what the hand touches and so its efforts, which are left out on both sides
+  const auto grips_alone = [](const Scene& scene, bool bones) {
+    Scene other = without(scene, false, true, bones);
+    other.liquid.reset();
+    other.tilts.clear();
+    return other;
+  };
   for (const bool on_core : {false, true})
     add(
         on_core ? "core_bodies" : "device_bodies",
-        [on_core](const Scene& scene) {
-          return Way{without(scene, false, true, true), on_core};
+        [=](const Scene& scene) {
+          return Way{grips_alone(scene, true), on_core};
         },
-        [on_core](const Scene& scene) {
-          return Way{without(scene, false, true, false), on_core};
+        [=](const Scene& scene) {
+          return Way{grips_alone(scene, false), on_core};
         },
-        "2 spheres on each bone over none, without efforts");
+        "2 spheres on each bone over none, of grips alone: no tilts, liquid or efforts");
 }
 
 }  // namespace wholehand::bench
