@@ -225,7 +225,7 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define EFFORT_SAFE 2               // up to which tilt the whole hand holds, for each fill
 #define EFFORT_PUSH 3               // of the kernel of reserves: the largest force beside the weight
 #define EFFORT_FRICTION 4           // .. the least friction with which all states are held
-#define DEVICE_PIVOTS 200           // of a solve: STATES_IN_BLOCK times as many stay within the iterations that every driver grants
+#define DEVICE_PIVOTS 200           // of a solve; a grip takes some hundred for all states of a block, of the 65,535 turns that a driver may grant
 
 // Liquid of one fill and tilt: volume, mass, lean, height, poured.
 #define LIQUID_STRIDE 5

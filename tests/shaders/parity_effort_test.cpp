@@ -111,9 +111,14 @@ Compared compare_efforts(const Scene& scene, Precision precision, int count, con
         ADD_FAILURE() << which << ": " << named;
         continue;
       }
-      int fill = 0;
-      while (scene.liquid && std::abs(scene.liquid->fills[static_cast<std::size_t>(fill)] - fraction) > 1e-6) ++fill;
-      const int state = fill * static_cast<int>(scene.tilts.size()) + static_cast<int>(tilt - scene.tilts.begin());
+      const std::vector<double> fills = scene.liquid ? scene.liquid->fills : std::vector<double>{fraction};
+      const auto fill = std::find_if(fills.begin(), fills.end(), [&](double f) { return std::abs(f - fraction) < 1e-6; });
+      if (fill == fills.end()) {
+        ADD_FAILURE() << which << ": fill " << fraction;
+        continue;
+      }
+      const int state = static_cast<int>(fill - fills.begin()) * static_cast<int>(scene.tilts.size()) +
+                        static_cast<int>(tilt - scene.tilts.begin());
       is_outside = is_outside || std::abs(term_of(real(truth, FIELD_EFFORT, state)) - term_of(worst)) > tolerance;
       EXPECT_NEAR(real(device, FIELD_TERMS, 5), term_of(real(device, FIELD_WORST_EFFORT)), 1e-6) << which;
       ++all.grips;
