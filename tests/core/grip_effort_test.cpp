@@ -245,6 +245,36 @@ TEST(GripEffort, OnlyCountedTiltsAreAsked) {
 }
 
 // A thumb alone holds nothing that hangs from it.
+// Nothing is to be held then but what pushes, and no friction is needed.
+TEST(GripEffort, WithoutGravityNothingIsNeeded) {
+  for (LoadedGrip grip : random_loaded_grips(9, Handedness::right, 11)) {
+    grip.gravity = 0;
+    const GripLoads loads = grip.loads();
+    std::vector<FillEffort> fills(grip.fills());
+    const GripEffort found = grip_effort(grip.contacts, grip.tips, grip.hand, loads, fills);
+    EXPECT_EQ(found.worst, 0);
+    EXPECT_EQ(found.tips_worst, 0);
+    EXPECT_EQ(found.pivots, 0);
+    for (std::size_t fill = 0; fill < fills.size(); ++fill) EXPECT_EQ(fills[fill].held, grip.counted[fill]);
+    EXPECT_EQ(friction_needed(grip.contacts, grip.hand, loads, 0, 0), 0);
+    // an axis that takes the least part of the strength takes all of it at the largest push: without weight they are reciprocal
+    const Vec3 center(0, 0.05, 0);
+    double hardest = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      for (const double sign : {1.0, -1.0}) {
+        Vec3 force(0);
+        force[axis] = sign;
+        hardest = std::max(hardest, effort_of(grip.contacts, grip.hand, core_f64::wrench_at(center, force)));
+      }
+    const double push = core_f64::push_held(grip.contacts, grip.hand, loads.weight(0, 0), center);
+    if (std::isinf(hardest)) {
+      EXPECT_EQ(push, 0);
+    } else {
+      EXPECT_NEAR(push * hardest, 1, 2 * EFFORT_TOLERANCE);
+    }
+  }
+}
+
 TEST(GripEffort, OneContactHoldsNothing) {
   LoadedGrip grip = random_loaded_grips(1, Handedness::right, 19).front();
   grip.contacts.resize(1);

@@ -19,9 +19,12 @@ namespace wholehand {
 namespace {
 
 // Of the term 1 / (1 + e), which is finite where an effort is not. Each side solves to half of the tolerance 1e-3 and passes by states that are worse
-// by up to another half; a single state's effort has all of it: together 2e-3 of e, times e / (1 + e)^2, at most 1/4. In float the places of contacts end within 1e-6 m of arms of 5 mm and
+// by up to another half; a single state's effort has all of it: together 2e-3 of e, times the term's slope 1 / (1 + e)^2. In float the places of contacts end within 1e-6 m of arms of 5 mm and
 // more, twice: another 4e-4 of e.
-double term_tolerance(Precision precision) { return (precision == Precision::single ? 2.4e-3 : 2e-3) / 4; }
+double term_tolerance(Precision precision, double effort) {
+  const double share = precision == Precision::single ? 2.4e-3 : 2e-3;
+  return std::isfinite(effort) ? share * effort / ((1 + effort) * (1 + effort)) : 0;
+}
 
 double term_of(double effort) { return 1 / (1 + effort); }
 
@@ -67,7 +70,6 @@ Compared compare_efforts(const Scene& scene, Precision precision, int count, con
   const FieldSet fields = make_field_set(KEPT, scene);
   const auto backend = backend_of(scene, fields, precision);
   const auto core = core_of(scene, precision);
-  const double tolerance = term_tolerance(precision);
   Compared all;
   for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
     const auto grips = grips_of(scene, v, count);
@@ -91,7 +93,7 @@ Compared compare_efforts(const Scene& scene, Precision precision, int count, con
         EXPECT_EQ(std::isnan(a), std::isnan(b)) << which;
         if (std::isnan(a) || std::isnan(b)) continue;
         const double difference = std::abs(term_of(a) - term_of(b));
-        is_outside = is_outside || difference > tolerance;
+        is_outside = is_outside || difference > term_tolerance(precision, b);
         all.worst = std::max(all.worst, difference);
       }
       for (int fill = 0; fill < static_cast<int>(scene_fills(scene)); ++fill) {
@@ -119,7 +121,8 @@ Compared compare_efforts(const Scene& scene, Precision precision, int count, con
       }
       const int state = static_cast<int>(fill - fills.begin()) * static_cast<int>(scene.tilts.size()) +
                         static_cast<int>(tilt - scene.tilts.begin());
-      is_outside = is_outside || std::abs(term_of(real(truth, FIELD_EFFORT, state)) - term_of(worst)) > tolerance;
+      is_outside =
+          is_outside || std::abs(term_of(real(truth, FIELD_EFFORT, state)) - term_of(worst)) > term_tolerance(precision, worst);
       EXPECT_NEAR(real(device, FIELD_TERMS, 5), term_of(real(device, FIELD_WORST_EFFORT)), 1e-6) << which;
       ++all.grips;
       all.outside += is_outside ? 1 : 0;
