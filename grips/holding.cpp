@@ -27,6 +27,7 @@ Holding::Holding(const Scene& scene, const Evaluator& evaluator, std::size_t ves
     : scene_(scene), evaluator_(evaluator), vessel_(vessel), pour_(pour) {
   for (const GripContact& found : evaluator.contacts(vessel, result)) {
     joints_.push_back(found.joint);
+    between_.push_back(found.between);
     contacts_.push_back({to_vec3<double>(found.point), to_vec3<double>(found.normal), found.digit});
     if (found.between == 0 && (found.joint == THUMB_TIP || found.joint == INDEX_TIP)) tips_.push_back(contacts_.back());
   }
@@ -62,7 +63,7 @@ StateHold Holding::state(const GripState& state) const {
   solver.forces(forces);
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     hold.contacts.push_back({joints_[i], contacts_[i].digit, to_triple(contacts_[i].place), to_triple(contacts_[i].normal),
-                             to_triple(forces[i].force), forces[i].torsion});
+                             to_triple(forces[i].force), forces[i].torsion, between_[i]});
   }
   return hold;
 }

@@ -18,6 +18,7 @@ struct HeldContact {
   Triple point{}, normal{};  // m; unit, into the vessel
   Triple force{};            // N
   double torsion = 0;        // moment about `normal`, N m
+  int between = 0;           // number of a sphere of the bone that ends at the joint; 0: the joint
 };
 
 // One state. The least effort lies in [low, effort]; both are infinite where no force of the hand holds the vessel. `forces` of its
@@ -57,7 +58,7 @@ class Holding {
   const Evaluator& evaluator_;
   std::size_t vessel_;
   Triple pour_;
-  std::vector<int> joints_;  // of the contacts
+  std::vector<int> joints_, between_;  // of the contacts
   std::vector<core_f64::ContactPoint> contacts_, tips_;
   core_f64::HandStrength hand_;
   core_f64::Vec3 center_{};  // of the contacts

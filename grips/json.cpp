@@ -79,6 +79,7 @@ void add_state_hold(Json& json, const StateHold& hold) {
   for (const HeldContact& contact : hold.contacts) {
     json["contacts"].push_back({{"digit", digit_name(contact.digit)},
                                 {"joint", contact.joint},
+                                {"between", contact.between},
                                 {"point_m", contact.point},
                                 {"normal", contact.normal},
                                 {"force_N", contact.force},

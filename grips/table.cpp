@@ -109,7 +109,8 @@ std::string percent(double effort) {
 }
 
 std::string contact_name(const HeldContact& contact) {
-  return joint_name(contact.joint) + (contact.digit == FINGER_COUNT ? ", palm" : "");
+  const std::string place = contact.between > 0 ? fmt::format(" bone {}", contact.between) : "";
+  return joint_name(contact.joint) + place + (contact.digit == FINGER_COUNT ? ", palm" : "");
 }
 
 // What each digit presses in the hardest of the states that were asked for.

@@ -212,6 +212,28 @@ TEST(Holding, LeavesOutWhatTheSceneLeavesOut) {
   EXPECT_EQ(report.hold->states, static_cast<int>(report.holds.size()) - left_out);
 }
 
+// A sphere on a bone is told apart from the joint at the bone's end, and is not a tip.
+TEST(Holding, TellsTheSpheresOnBones) {
+  Scene scene = few_states();
+  scene.hand.between = 2;
+  const GripReport report = held_report(scene, 0, beside(0.055));
+  const auto json = nlohmann::json::parse(grip_json(report));
+  GripResult result;
+  const auto core = make_core_evaluator(scene);
+  core->grip(0, report.grip, result);
+  const std::vector<GripContact> pressing = core->contacts(0, result);
+  const auto& contacts = json["states"][0]["contacts"];
+  ASSERT_EQ(contacts.size(), pressing.size());
+  int spheres = 0;
+  for (std::size_t i = 0; i < pressing.size(); ++i) {
+    EXPECT_EQ(contacts[i]["joint"], pressing[i].joint);
+    EXPECT_EQ(contacts[i]["between"], pressing[i].between);
+    spheres += pressing[i].between > 0;
+  }
+  EXPECT_GT(spheres, 0);
+  EXPECT_NE(grip_table(report).find(" bone "), std::string::npos);
+}
+
 TEST(Holding, IsInTheJson) {
   const Scene scene = few_states();
   const GripReport report = held_report(scene, 0, beside(0.055));
