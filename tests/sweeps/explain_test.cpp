@@ -135,7 +135,9 @@ TEST(Explain, SaysWhatATableCosts) {
   const Explained explained = explain(scene, "core");
   EXPECT_FALSE(explained.find("above a table")) << explained.text;
   // on the core planes are doubles
-  EXPECT_TRUE(std::regex_search(explained.text, std::regex("not left out: the table, which costs -?[0-9.]+ us and 8 B per grip\n")))
+  EXPECT_TRUE(std::regex_search(
+      explained.text,
+      std::regex("not left out: the table, which costs -?[0-9.]+ us and 8 B per grip( \\(within the noise of these runs\\))?\n")))
       << explained.text;
 }
 
