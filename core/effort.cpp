@@ -353,14 +353,14 @@ Effort EffortSolver::search(const Wrench& load, Real tolerance, Real enough, Rea
     const Vec6 more = levels(rest);
     for (std::size_t r = 0; r < 6; ++r) last_[r] += more[r];
     const Cost cost = cost_of(last_);
-    const bool is_held = cost.artificial <= ROUNDING * size && cost.real <= FIRST_COST * dear_ * size;
-    if (is_held && unbalanced(wanted) <= UNBALANCED * size) {
+    const bool is_carried = cost.artificial <= ROUNDING * size, is_dear = cost.real > FIRST_COST * dear_ * size;
+    if (is_carried && !is_dear && unbalanced(wanted) <= UNBALANCED * size) {
       answer.effort = cost.real;
       answer.low = std::min(answer.low, answer.effort);
       return answer;
     }
     // What is left to artificial columns here is rounding's: without it the direction of a load that nothing resists has said so.
-    is_certain = cost.artificial <= ROUNDING * size && cost.real > FIRST_COST * dear_ * size;
+    is_certain = is_carried && is_dear;
   }
   answer.effort = NEVER;
   if (is_beyond) return answer;

@@ -88,7 +88,7 @@ struct TipStrength {
   const char* name;
 };
 
-TipStrength tip_strength(const Scene& scene) {
+TipStrength strength_of_tips(const Scene& scene) {
   if (!scene.strength) return {scene.force.grip_strength, "grip strength"};
   return {std::min(scene.strength->digits[0], scene.strength->digits[1]), "strength of the weaker tip"};
 }
@@ -97,7 +97,7 @@ std::string forces_caption(const Scene& scene, const std::vector<FillForces>& fo
   std::string caption =
       "The feedback force is what the gripper renders. The hold force is what each finger must press with to hold the vessel.";
   const double limit = scene.force.max;
-  const auto [strength, strength_name] = tip_strength(scene);
+  const auto [strength, strength_name] = strength_of_tips(scene);
   if (highest_feedback(forces) < limit) caption += fmt::format(" The device's limit of {} N is not reached.", plain_number(limit));
   if (!extent.is_finite_once) {
     caption += " No force of two fingers holds the vessel in this grip, so the hold force has no chart.";
@@ -198,7 +198,7 @@ void write_forces(MarkupWriter& html, const ReportSource& source, std::size_t ve
   hold.name.id = id + "-hold";
   hold.name.title = name + ": hold force over the tilt";
   hold.y_label = "hold force per finger (N)";
-  const auto [strength, strength_name] = tip_strength(scene);
+  const auto [strength, strength_name] = strength_of_tips(scene);
   hold.limit = LineChart::Limit{strength, fmt::format("{} {} N", strength_name, plain_number(strength))};
   if (extent.highest > 2 * strength) hold.highest = 2 * strength;
   for (const LineChart* chart : {&feedback, &hold}) {

@@ -20,9 +20,8 @@ constexpr const char* MARGINS_NOTE =
     "A margin says how many times over a grip keeps to a limit. The margin of the hand's strength is 1 / (worst effort). The "
     "margin of friction is the friction of the vessel over the friction that is needed. The margin of the table is 1, plus 1 for "
     "each 10 mm of room above its clearance. The margin of the gripper is its largest force over the largest normal force before "
-    "clamping. The "
-    "smallest margin says what would fail first. A dash stands for a limit that the scene does not have, or that is not what "
-    "fails.";
+    "clamping. The smallest margin says what would fail first. A dash stands for a limit that the scene does not have, or that is "
+    "not what fails.";
 
 constexpr double ENDLESS = std::numeric_limits<double>::infinity(), NO_NUMBER = std::numeric_limits<double>::quiet_NaN();
 

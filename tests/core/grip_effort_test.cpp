@@ -244,7 +244,6 @@ TEST(GripEffort, OnlyCountedTiltsAreAsked) {
   EXPECT_GT(held, 10);
 }
 
-// A thumb alone holds nothing that hangs from it.
 // Nothing is to be held then but what pushes, and no friction is needed.
 TEST(GripEffort, WithoutGravityNothingIsNeeded) {
   for (LoadedGrip grip : random_loaded_grips(9, Handedness::right, 11)) {
@@ -275,6 +274,7 @@ TEST(GripEffort, WithoutGravityNothingIsNeeded) {
   }
 }
 
+// A thumb alone holds nothing that hangs from it.
 TEST(GripEffort, OneContactHoldsNothing) {
   LoadedGrip grip = random_loaded_grips(1, Handedness::right, 19).front();
   grip.contacts.resize(1);
