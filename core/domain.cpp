@@ -40,13 +40,27 @@ double farthest(const VesselData& vessel) {
   return largest;
 }
 
+core_f64::Vessel made_ready(const Scene& scene, const VesselData& data, const core_f64::Quadrature& rule) {
+  return core_f64::load_vessel(prepare_vessel(data, data.has_cavity()), data, rule, false, scene.hand.handedness);
+}
+
+// The lightest of the glasses, with its weight, N.
+std::pair<const VesselData*, double> lightest(const Scene& scene) {
+  const core_f64::Quadrature rule = core_f64::load_quadrature(prepare_quadrature(QUADRATURE_POINTS));
+  std::pair<const VesselData*, double> light{nullptr, 0};
+  for (const VesselData& data : scene.vessels) {
+    const double weight = made_ready(scene, data, rule).mass * scene.gravity;
+    if (!light.first || weight < light.second) light = {&data, weight};
+  }
+  return light;
+}
+
 // What holds a vessel at its heaviest, with the longest lever about a line within its height, N; 0 where no force does.
 double largest_hold(const Scene& scene, const VesselData& data) {
   const ForceData& force = scene.force;
   if (scene.tilts.empty() || !(force.friction > 0)) return 0;
   const core_f64::Quadrature rule = core_f64::load_quadrature(prepare_quadrature(QUADRATURE_POINTS));
-  const core_f64::Vessel vessel =
-      core_f64::load_vessel(prepare_vessel(data, data.has_cavity()), data, rule, false, scene.hand.handedness);
+  const core_f64::Vessel vessel = made_ready(scene, data, rule);
   double mass = vessel.mass;
   if (scene.liquid && data.has_cavity())
     mass += scene.liquid->density * vessel_fills(scene, data).back() * core_f64::lip_capacity(vessel, rule, 0, 1);
@@ -102,6 +116,17 @@ std::vector<std::string> domain_warnings(const Scene& scene, Precision precision
       warnings.push_back(
           fmt::format("digits have strengths of {:.3g} and {:.3g} N: beyond a ratio of {} efforts in float may be others", *weakest,
                       *strongest, LARGEST_STRENGTH_RATIO));
+    }
+    if (const auto [light, weight] = lightest(scene);
+        weight > 0 && *strongest > LARGEST_STRENGTH_OF_WEIGHT * weight * (1 + rounding)) {
+      warnings.push_back(fmt::format(
+          "a digit has a strength of {:.3g} N and vessel '{}' weighs {:.3g} N: beyond a ratio of {} push and friction_needed in "
+          "float may be others",
+          *strongest, light->name, weight, LARGEST_STRENGTH_OF_WEIGHT));
+    }
+    if (scene.force.torsion > 0 && scene.force.torsion < SMALLEST_TORSION * (1 - rounding)) {
+      warnings.push_back(fmt::format("torsion is {:.3g} mm: below {} mm and above 0 efforts in float may be others",
+                                     scene.force.torsion * 1e3, SMALLEST_TORSION * 1e3));
     }
   }
   return warnings;

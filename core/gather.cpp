@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/parallel.h"
 #include "core/scene.h"
 
 namespace wholehand {
@@ -42,7 +43,12 @@ GatheredPlanes gather(const Evaluator& core, const FieldSet& fields, std::size_t
   planes.count = grips.size();
   planes.reals.resize(fields.real_planes * grips.size());
   planes.uints.resize(fields.uint_planes * grips.size());
-  core.planes(vessel, grips.data(), grips.size(), fields, grips.size(), planes.reals.data(), planes.uints.data());
+  constexpr std::size_t TOGETHER = 64;  // by one thread, before it takes the next
+  in_parallel((planes.count + TOGETHER - 1) / TOGETHER, 0, [&](std::size_t part) {
+    const std::size_t first = part * TOGETHER, count = std::min(TOGETHER, planes.count - first);
+    core.planes(vessel, grips.data() + first, count, fields, planes.count, planes.reals.data() + first,
+                planes.uints.data() + first);
+  });
   return planes;
 }
 

@@ -46,7 +46,7 @@ class Checking {
  public:
   Checking(const Scene& scene, const CheckOptions& options)
       : scene_(scene),
-        fields_(all_fields(scene)),
+        fields_(compared_fields(scene)),
         core_(make_core_evaluator(scene)),
         core_float_(make_core_float_evaluator(scene)),
         translation_(scene, *core_, allowance(Precision::single)),

@@ -88,7 +88,7 @@ std::string check_text(const CheckReport& report) {
   const CheckVerdict verdict = verdict_of(report);
   std::string text = fmt::format("{}: {}{}{}\n", verdict.holds ? "holds" : "DOES NOT HOLD", verdict.text,
                                  verdict.advice.empty() ? "" : "; ", verdict.advice);
-  text += fmt::format("\n{} on {} ({}){}; the check compares every result plane of these grips:\n",
+  text += fmt::format("\n{} on {} ({}){}; the check compares every number of these grips that a device computes:\n",
                       report.scene.empty() ? "check" : report.scene, report.device, report.driver,
                       report.is_cpu ? ", a CPU driver" : "");
   for (const CheckedVessel& vessel : report.vessels) {

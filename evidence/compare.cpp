@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/grip_effort.h"
 #include "evidence/load_floors.h"
 
 namespace wholehand {
@@ -66,16 +67,56 @@ Scene with_tips(Scene scene, double thumb, double index) {
   return scene;
 }
 
+// The scene with hands that are stronger by this factor, which is what an effort within a tolerance comes to.
+Scene with_strengths(Scene scene, double factor) {
+  for (double& digit : scene.strength->digits) digit *= factor;
+  return scene;
+}
+
 // Whether the planes are there, and not only computed where they were.
 bool is_held(const GatheredPlanes& planes, int field) {
   return planes.fields.has(field) && static_cast<std::size_t>(planes.fields.plane[field]) * planes.count < planes.reals.size();
 }
 
 // What the comparison of told tilts looks at.
-bool has_tilts(const FieldSet& fields) {
-  const auto needed = {FIELD_PEAK_TILT, FIELD_SAFE_TILT, FIELD_FEEDBACK_FORCE, FIELD_NORMAL_FORCE, FIELD_HOLD_FORCE};
-  return std::all_of(needed.begin(), needed.end(), [&](int field) { return fields.has(field); });
+bool has_tilts(const Scene& scene, const FieldSet& fields) {
+  const auto needed = {FIELD_PEAK_TILT, FIELD_SAFE_TILT, FIELD_FEEDBACK_FORCE, FIELD_NORMAL_FORCE};
+  return std::all_of(needed.begin(), needed.end(), [&](int field) { return fields.has(field); }) &&
+         (has_effort(scene) || fields.has(FIELD_HOLD_FORCE));
 }
+
+bool is_effort(int field) { return field == FIELD_WORST_EFFORT || field == FIELD_TIPS_WORST_EFFORT; }
+
+void to_compared_form(GatheredPlanes& planes) {
+  for (const int field : {FIELD_WORST_EFFORT, FIELD_TIPS_WORST_EFFORT, FIELD_FRICTION_NEEDED}) {
+    if (!is_held(planes, field)) continue;
+    const auto first = planes.reals.begin() + static_cast<std::ptrdiff_t>(planes.fields.plane[field] * planes.count);
+    std::transform(first, first + static_cast<std::ptrdiff_t>(planes.count), first,
+                   [field](double value) { return compared_form(field, value); });
+  }
+}
+
+// The core's effort of a state, of these grips alone; by grip and state.
+class StateEfforts {
+ public:
+  StateEfforts(const Scene& scene, const Evaluator& core, std::size_t vessel, const std::vector<GripInput>& grips,
+               const std::vector<std::size_t>& asked)
+      : place_(grips.size(), 0) {
+    std::vector<GripInput> chosen;
+    for (const std::size_t i : asked) {
+      place_[i] = chosen.size();
+      chosen.push_back(grips[i]);
+    }
+    if (!chosen.empty()) planes_ = gather(core, make_field_set({FIELD_EFFORT, FIELD_STATUS}, scene), vessel, chosen);
+  }
+  double of(std::size_t grip, std::size_t state) const {
+    return planes_.real(planes_.fields.plane[FIELD_EFFORT] + static_cast<int>(state), place_[grip]);
+  }
+
+ private:
+  std::vector<std::size_t> place_;
+  GatheredPlanes planes_;
+};
 
 // Takes a difference into its row; true: over the tolerance.
 bool note_difference(Comparison& entry, double scale, std::size_t vessel, std::size_t grip, double difference, double tolerance) {
@@ -99,6 +140,20 @@ bool is_told(const Scene& scene, const Field& field) {
   return field.label && !(is_hold && has_effort(scene));
 }
 
+FieldSet compared_fields(const Scene& scene) {
+  std::vector<int> compared{FIELD_PEAK_TILT, FIELD_SAFE_TILT, FIELD_WORST_EFFORT_FILL, FIELD_WORST_EFFORT_TILT};
+  compared.insert(compared.end(), DISCRETE.begin(), DISCRETE.end());
+  const FieldSet all = all_fields(scene);
+  for (const Field& field : real_fields())
+    if (is_told(scene, field)) compared.push_back(field.number);
+  std::erase_if(compared, [&](int field) { return !all.has(field); });
+  return make_field_set(compared, scene);
+}
+
+double compared_form(int field, double value) {
+  return is_effort(field) || field == FIELD_FRICTION_NEEDED ? 1 / (1 + value) : value;
+}
+
 double figure_difference(double a, double b) {
   if (std::isnan(a) && std::isnan(b)) return 0;
   if (a == b) return 0;  // infinities too
@@ -114,11 +169,14 @@ std::array<double, 2> loaded_center(const VesselConstants& glass, const LiquidRe
 Comparer::Comparer(const Scene& scene, const Evaluator& core, Allowance allowed) : scene_(scene), core_(core), allowed_(allowed) {
   const double stop = allowed.stop_tolerance;
   for (const auto& [thumb, index] : {std::pair{stop, stop}, {stop, -stop}, {-stop, stop}, {-stop, -stop}})
-    other_tips_.push_back(make_core_evaluator(with_tips(scene, thumb, index)));
-  const FieldSet fields = all_fields(scene);
+    others_.push_back(make_core_evaluator(with_tips(scene, thumb, index)));
+  if (has_effort(scene))
+    for (const double factor : {1 - EFFORT_SHARE / 2, 1 + EFFORT_SHARE / 2})
+      others_.push_back(make_core_evaluator(with_strengths(scene, factor)));
+  const FieldSet fields = compared_fields(scene);
   for (const Field& field : real_fields())
     if (is_told(scene, field) && fields.has(field.number)) row(field.kernel, field.label, fine_unit(field).name);
-  if (has_tilts(fields)) {
+  if (has_tilts(scene, fields)) {
     row("force", PEAK_TILT, "mN");
     row("force", SAFE_TILT, "mN");
   }
@@ -132,17 +190,22 @@ Comparison& Comparer::row(const std::string& kernel, const std::string& quantity
   return rows_.back();
 }
 
-// How far the core's own answers move where grips and tips move by what either side may be off: of each number, and whether a grip's
-// outcome is another one then, or it grazes.
+// How far the core's own answers move where grips, tips and strengths move by what either side may be off: of each number, and
+// whether a grip's outcome is another one then, or it grazes.
 struct Comparer::Spread {
   std::vector<double> reals;
   std::vector<char> undecided, may_graze;
 };
 
-void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, const GatheredPlanes& a, const GatheredPlanes& b) {
+void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, const GatheredPlanes& side_a,
+                   const GatheredPlanes& side_b) {
+  GatheredPlanes a = side_a, b = side_b;
+  to_compared_form(a);
+  to_compared_form(b);
   const FieldSet& fields = a.fields;
   const std::size_t n = grips.size();
-  const GatheredPlanes truth = gather(core_, fields, vessel, grips);
+  GatheredPlanes truth = gather(core_, fields, vessel, grips);
+  to_compared_form(truth);
   const Spread spread = spread_of(vessel, grips, truth);
   const std::vector<char> left_out = add_outcomes(vessel, a, b, truth, spread);
   std::vector<double> floors(FIELDS, 0.0);
@@ -151,11 +214,12 @@ void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, cons
       floors[field] = ROUNDINGS * allowed_.epsilon * largest_of(truth, field);
   const LoadFloors load(scene_, core_, vessel, volume_tolerance(vessel), ROUNDINGS * allowed_.epsilon, truth);
   const auto tolerance = [&](int field, std::size_t k, std::size_t i) {
-    return floors[field] + 2 * allowed_.stop_tolerance * rests(field, k) + load.of(field, k, i) +
+    const double of_search = effort_floor(field, vessel, truth.real(fields.plane[field] + static_cast<int>(k), i));
+    return floors[field] + 2 * allowed_.stop_tolerance * rests(field, k) + load.of(field, k, i) + of_search +
            2 * spread.reals[(fields.plane[field] + k) * n + i];
   };
   add_numbers(vessel, a, b, left_out, tolerance);
-  if (has_tilts(fields)) add_tilts(vessel, a, b, left_out, tolerance);
+  if (has_tilts(scene_, fields)) add_tilts(vessel, grips, a, b, left_out, tolerance);
 }
 
 Comparer::Spread Comparer::spread_of(std::size_t vessel, const std::vector<GripInput>& grips, const GatheredPlanes& truth) const {
@@ -166,11 +230,13 @@ Comparer::Spread Comparer::spread_of(std::size_t vessel, const std::vector<GripI
   const double size = length + scene_.vessels[vessel].height;
   const double shift = allowed_.stop_tolerance + ROUNDINGS * allowed_.epsilon * size;
   Spread spread{std::vector<double>(truth.reals.size(), 0.0), std::vector<char>(n, 0), std::vector<char>(n, 0)};
-  const auto spread_to = [&](const GatheredPlanes& other, int first_plane, int planes) {
-    for (std::size_t k = first_plane * n; k < (first_plane + planes) * n; ++k) {
-      const double difference = figure_difference(other.reals[k], truth.reals[k]);
-      // else another outcome: undecided
-      if (std::isfinite(difference)) spread.reals[k] = std::max(spread.reals[k], difference);
+  // of the planes from `first` on, which are those from `first_of_other` on of the other
+  const auto spread_to = [&](GatheredPlanes other, int first, int first_of_other, int planes) {
+    to_compared_form(other);
+    for (std::size_t k = 0; k < planes * n; ++k) {
+      double& most = spread.reals[first * n + k];
+      const double difference = figure_difference(other.reals[first_of_other * n + k], truth.reals[first * n + k]);
+      if (std::isfinite(difference)) most = std::max(most, difference);  // else another outcome: undecided
     }
     for (std::size_t i = 0; i < n; ++i) {
       spread.undecided[i] |= differs(other, truth, i, allowed_.same_stop) ? 1 : 0;
@@ -178,15 +244,18 @@ Comparer::Spread Comparer::spread_of(std::size_t vessel, const std::vector<GripI
     }
   };
   for (int way = 0; way < WAYS; ++way)
-    spread_to(gather(core_, fields, vessel, moved(grips, way, shift, length)), 0, fields.real_planes);
-  for (const auto& core : other_tips_) spread_to(gather(*core, fields, vessel, grips), 0, fields.real_planes);
+    spread_to(gather(core_, fields, vessel, moved(grips, way, shift, length)), 0, 0, fields.real_planes);
+  for (const auto& core : others_) spread_to(gather(*core, fields, vessel, grips), 0, 0, fields.real_planes);
   // Beside an edge, the distances to edge and face differ by x^2 / 2r at x from where they are equal, so the face that is nearest after
   // rounding may be another one up to here, and the normal with it.
   const double corner = std::sqrt(2 * tip_radius(scene_.hand) * allowed_.epsilon * size);
-  const bool angles = fields.has(FIELD_CONTACT_ANGLES);
+  const int angles = fields.plane[FIELD_CONTACT_ANGLES];
+  std::vector<int> asked = DISCRETE;
+  if (angles >= 0) asked.push_back(FIELD_CONTACT_ANGLES);
+  const FieldSet at_corner = make_field_set(asked, scene_);
   for (int way = 0; corner > shift && way < WAYS; ++way)
-    spread_to(gather(core_, fields, vessel, moved(grips, way, corner, length)), angles ? fields.plane[FIELD_CONTACT_ANGLES] : 0,
-              angles ? 2 : 0);
+    spread_to(gather(core_, at_corner, vessel, moved(grips, way, corner, length)), std::max(0, angles),
+              std::max(0, at_corner.plane[FIELD_CONTACT_ANGLES]), angles >= 0 ? 2 : 0);
   return spread;
 }
 
@@ -267,10 +336,32 @@ double Comparer::rests(int field, std::size_t k) const {
   }
 }
 
+// Of a form that is compared, and of the push. Each side solves an effort to half of EFFORT_TOLERANCE and passes by states that are
+// worse by up to another half: EFFORT_SHARE of e, times the slope 1 / (1 + e)^2 of t = 1 / (1 + e), is EFFORT_SHARE t (1 - t). A push
+// is held beside the weight, by an effort of both together. The least friction ends up to a step above a certified bound, at an effort
+// as near to 1, and goes with the effort at least as its inverse.
+double Comparer::effort_floor(int field, std::size_t vessel, double truth) const {
+  if (std::isnan(truth)) return 0;
+  if (is_effort(field)) return EFFORT_SHARE * truth * (1 - truth);
+  if (field == FIELD_PUSH) return EFFORT_SHARE * (truth + scene_.gravity * core_.constants(vessel).largest_mass);
+  if (field == FIELD_FRICTION_NEEDED) return core_f64::FRICTION_STEP * truth * truth + EFFORT_SHARE * truth * (1 - truth);
+  return 0;
+}
+
 // A tilt that is told is a choice among the listed ones: it must be as good a choice by the other side's forces, to their tolerances.
-void Comparer::add_tilts(std::size_t vessel, const GatheredPlanes& a, const GatheredPlanes& b, const std::vector<char>& left_out,
-                         const Tolerance& tolerance) {
+void Comparer::add_tilts(std::size_t vessel, const std::vector<GripInput>& grips, const GatheredPlanes& a, const GatheredPlanes& b,
+                         const std::vector<char>& left_out, const Tolerance& tolerance) {
   const FieldSet& fields = a.fields;
+  const bool by_effort = has_effort(scene_);
+  std::vector<std::size_t> asked;  // where the sides tell different safe tilts
+  for (std::size_t i = 0; by_effort && i < a.count; ++i)
+    for (int fill = 0; fill < static_cast<int>(scene_fills(scene_)); ++fill) {
+      const int plane = fields.plane[FIELD_SAFE_TILT] + fill;
+      if (figure_difference(a.real(plane, i), b.real(plane, i)) == 0 || left_out[i] != 0) continue;
+      asked.push_back(i);
+      break;
+    }
+  const StateEfforts efforts(scene_, core_, vessel, grips, asked);
   Comparison& peak = row("force", PEAK_TILT, "mN");
   Comparison& safe = row("force", SAFE_TILT, "mN");
   const std::size_t tilts = scene_.tilts.size();
@@ -306,16 +397,16 @@ void Comparer::add_tilts(std::size_t vessel, const GatheredPlanes& a, const Gath
       const std::size_t state = first + std::min(safe_a, safe_b);
       const double normal = stricter.real(fields.plane[FIELD_NORMAL_FORCE] + static_cast<int>(state), i) - scene_.force.max;
       // with efforts, in shares of the strength
-      const bool by_effort = has_effort(scene_) && fields.has(FIELD_EFFORT);
-      const int held_by = by_effort ? FIELD_EFFORT : FIELD_HOLD_FORCE;
       const double hold =
-          stricter.real(fields.plane[held_by] + static_cast<int>(state), i) - (by_effort ? 1 : scene_.force.grip_strength);
+          by_effort ? efforts.of(i, state) - 1
+                    : stricter.real(fields.plane[FIELD_HOLD_FORCE] + static_cast<int>(state), i) - scene_.force.grip_strength;
       // the stricter side's own forces must say so too
-      // the effort of one state and that of the search may differ
-      const double least_hold = by_effort ? -EFFORT_SHARE : 0;
+      // an effort e moves by (1 + e)^2 of what 1 / (1 + e) moves by, and here e is 1; hold forces are the stricter side's own
+      const double of_hold =
+          by_effort ? 4 * tolerance(FIELD_WORST_EFFORT, 0, i) + EFFORT_SHARE : tolerance(FIELD_HOLD_FORCE, state, i);
+      const double least_hold = by_effort ? -of_hold : 0;
       const double by_normal = normal < 0 && !(hold > least_hold) ? std::numeric_limits<double>::infinity() : std::max(0.0, normal);
       safe_over |= note_difference(safe, 1e3, vessel, i, by_normal, tolerance(FIELD_NORMAL_FORCE, state, i));
-      const double of_hold = by_effort ? EFFORT_SHARE : tolerance(FIELD_HOLD_FORCE, state, i);
       safe_over |= note_difference(safe, 1e3, vessel, i, std::max(0.0, hold), of_hold);
     }
     peak.outside += peak_over ? 1 : 0;

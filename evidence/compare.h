@@ -21,8 +21,16 @@
 
 namespace wholehand {
 
-// Whether a field is compared number by number. With efforts a hold force is one, and brackets of efforts are not told apart here.
+// Whether a field is compared number by number. In a scene with strengths a hold force is an effort of a state, which the core computes
+// whichever backend runs.
 bool is_told(const Scene& scene, const Field& field);
+
+// Every field that the scene has and that a comparison needs: all but efforts and hold forces of single states, which only the core
+// computes.
+FieldSet compared_fields(const Scene& scene);
+
+// A number as it is compared: an effort and the least friction as 1 / (1 + number), which is finite where they are not.
+double compared_form(int field, double value);
 
 // |a - b|: 0 for two NaN or two infinities of one sign, infinite where one side alone is no number.
 double figure_difference(double a, double b);
@@ -51,9 +59,9 @@ class Comparer {
  public:
   Comparer(const Scene& scene, const Evaluator& core, Allowance allowed);
 
-  // `a` and `b` evaluate `grips` of the vessel. Grips that graze by the core, or within the
-  // allowance of that, are left out and counted, as are those whose discrete outcomes differ where the core's own change within the
-  // allowance (excluded); differing ones beyond that count as outside.
+  // `a` and `b` evaluate `grips` of the vessel, both with the same fields. Grips that graze by the core, or within the allowance of
+  // that, are left out and counted, as are those whose discrete outcomes differ where the core's own change within the allowance
+  // (excluded); differing ones beyond that count as outside.
   void add(std::size_t vessel, const std::vector<GripInput>& grips, const GatheredPlanes& a, const GatheredPlanes& b);
   void add_liquid(std::size_t vessel, const std::vector<LiquidResult>& a, const std::vector<LiquidResult>& b);
 
@@ -76,9 +84,10 @@ class Comparer {
   double largest_of(const GatheredPlanes& truth, int field) const;
   void add_numbers(std::size_t vessel, const GatheredPlanes& a, const GatheredPlanes& b, const std::vector<char>& left_out,
                    const Tolerance& tolerance);
-  void add_tilts(std::size_t vessel, const GatheredPlanes& a, const GatheredPlanes& b, const std::vector<char>& left_out,
-                 const Tolerance& tolerance);
+  void add_tilts(std::size_t vessel, const std::vector<GripInput>& grips, const GatheredPlanes& a, const GatheredPlanes& b,
+                 const std::vector<char>& left_out, const Tolerance& tolerance);
   double rests(int field, std::size_t k) const;
+  double effort_floor(int field, std::size_t vessel, double truth) const;
   double volume_tolerance(std::size_t vessel) const;
   std::optional<std::size_t> tilt_told(double told) const;
   Comparison& row(const std::string& kernel, const std::string& quantity, const std::string& unit);
@@ -86,7 +95,7 @@ class Comparer {
   const Scene& scene_;
   const Evaluator& core_;
   Allowance allowed_;
-  std::vector<std::shared_ptr<const Evaluator>> other_tips_;  // thumb and index tips thicker and thinner by the stop tolerance
+  std::vector<std::shared_ptr<const Evaluator>> others_;  // with tips and strengths as far off as either side may be
   std::vector<Comparison> rows_;
   std::vector<Flip> flips_;
   std::uint64_t grips_ = 0, grazing_ = 0, excluded_ = 0, feasible_ = 0;

@@ -168,7 +168,7 @@ ErrorRow ErrorMeasure::compared_row(const ErrorVariant& variant) {
   const Scene& scene = variant.scene ? *variant.scene : scene_;
   // a device has no states' efforts of its own
   const bool brackets = variant.axis == SweptAxis::effort && variant.on_core;
-  const Opened opened = open(variant, compared_fields(scene, brackets));
+  const Opened opened = open(variant, reference_fields(scene, brackets));
   row.device = opened.backend->info().device;
   row.driver = opened.backend->info().driver;
   std::vector<GatheredPlanes> planes;

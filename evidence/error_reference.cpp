@@ -95,7 +95,7 @@ double point_difference(const GatheredPlanes& a, const GatheredPlanes& b, int fi
 
 }  // namespace
 
-FieldSet compared_fields(const Scene& scene, bool brackets) {
+FieldSet reference_fields(const Scene& scene, bool brackets) {
   std::vector<int> fields{FIELD_GAP, FIELD_CLOSURE, FIELD_POSED, FIELD_PROXIES, FIELD_STATUS, FIELD_TOUCH_MASK, FIELD_SEPARATION};
   if (!scene.tilts.empty())
     fields.insert(fields.end(), {scene.force.torque == Torque::exact ? FIELD_EXACT_TORQUE : FIELD_TORQUE, FIELD_FEEDBACK_FORCE,
@@ -109,7 +109,7 @@ FieldSet compared_fields(const Scene& scene, bool brackets) {
 ErrorReference::ErrorReference(const Scene& scene, const std::vector<std::vector<GripInput>>& grips,
                                const ReferenceOptions& options)
     : scene_(scene), seed_(options.seed), reference_(make_core_evaluator(scene, reference_options())) {
-  CoreBackend backend(reference_, scene, compared_fields(scene), Precision::full, options.threads);
+  CoreBackend backend(reference_, scene, reference_fields(scene), Precision::full, options.threads);
   nearby_.resize(grips.size());
   for (std::size_t v = 0; v < grips.size(); ++v) {
     truth_.push_back(gather(backend, v, grips[v]));

@@ -13,7 +13,7 @@
 namespace wholehand {
 
 // What is compared of a grip. With `brackets` also both bounds of each state's effort.
-FieldSet compared_fields(const Scene& scene, bool brackets = false);
+FieldSet reference_fields(const Scene& scene, bool brackets = false);
 
 struct ReferenceOptions {
   int threads = 1;

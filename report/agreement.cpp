@@ -43,8 +43,9 @@ Scene scene_of_vessel(const Scene& scene, std::size_t vessel) {
 }
 
 // Fields of the reals that the file has something of. The tilts that are told can be judged by the forces of all states alone.
-std::vector<int> fields_of_file(const SweepResult& result) {
-  const bool has_states = result.find("feedback_force") && result.find("normal_force") && result.find("hold_force");
+std::vector<int> fields_of_file(const SweepResult& result, const Scene& scene) {
+  const bool has_states =
+      result.find("feedback_force") && result.find("normal_force") && (has_effort(scene) || result.find("hold_force"));
   std::set<int> fields;
   for (const Variable* variable : result.variables()) {
     const bool is_told_tilt = variable->field == FIELD_PEAK_TILT || variable->field == FIELD_SAFE_TILT;
@@ -140,7 +141,7 @@ Agreement compare_with_core(const ReportSource& source, std::size_t vessel) {
   const std::vector<std::uint64_t> places = sample_places(source.plan.stored_grips(), SAMPLED_GRIPS);
   std::vector<GripInput> grips;
   for (const std::uint64_t place : places) grips.push_back(stored_grip(source.plan, source.scene, vessel, place));
-  const FieldSet fields = make_field_set(fields_of_file(source.result), scene);
+  const FieldSet fields = make_field_set(fields_of_file(source.result, scene), scene);
   const GatheredPlanes by_core = gather(*core, fields, 0, grips);
   Agreement agreement;
   const GatheredPlanes of_file = planes_of_file(source, vessel, places, by_core, agreement.outcomes);

@@ -27,10 +27,9 @@
 namespace wholehand {
 namespace {
 
-// The default sweep, every grip of it, as kept in its file. Efforts are compared with tolerances of their own (parity_effort_test).
+// The default sweep, every grip of it, as kept in its file.
 TEST(Whole, EveryGripOfTheDefaultSweepAgrees) {
-  Scene scene = read_scene_file(find_scene("three_beakers"));
-  scene.strength.reset();
+  const Scene scene = read_scene_file(find_scene("three_beakers"));
   const auto variables = choose_variables(scene);
   const Plan plan(scene, keeps_vectors(variables));
   const FieldSet fields = make_field_set(variable_fields(variables), scene);

@@ -145,6 +145,37 @@ void expect_within(const Cost& cost, const char* what, bool forces = true) {
   EXPECT_LE(cost.flips, 0.0015) << what;  // 0 to 3 of 3,000
 }
 
+// A glass of 0.1 kg is 0.98 N.
+TEST(Domain, StrengthsAndTorsionsOfEffortsHaveLimits) {
+  VesselData vessel = cylinder("glass", 70, 100, 2);
+  vessel.mass = 0.1;
+  vessel.center_of_mass = {0, 0.05, 0};
+  Scene scene = tilted({vessel});
+  scene.liquid.reset();
+  scene.strength = StrengthData{};
+  const auto warnings = [](const Scene& asked) { return domain_warnings(asked, Precision::single); };
+  EXPECT_TRUE(warnings(scene).empty());
+  Scene strong = scene;
+  for (double& digit : strong.strength->digits) digit *= 0.98 * 3000 / 80;  // the palm's is 80 N
+  EXPECT_TRUE(warnings(strong).empty());
+  for (double& digit : strong.strength->digits) digit *= 1.01;
+  ASSERT_EQ(warnings(strong).size(), 1u);
+  EXPECT_NE(warnings(strong).front().find("weighs 0.981 N"), std::string::npos) << warnings(strong).front();
+  strong.gravity = 0;  // nothing is lifted
+  EXPECT_TRUE(warnings(strong).empty());
+  Scene thin = scene;
+  thin.force.torsion = 1e-3;
+  EXPECT_TRUE(warnings(thin).empty());
+  thin.force.torsion = 0.99e-3;
+  ASSERT_EQ(warnings(thin).size(), 1u);
+  EXPECT_NE(warnings(thin).front().find("0.99 mm"), std::string::npos) << warnings(thin).front();
+  thin.force.torsion = 0;  // no arm at all
+  EXPECT_TRUE(warnings(thin).empty());
+  thin.force.torsion = 0.5e-3;
+  thin.strength.reset();
+  EXPECT_TRUE(warnings(thin).empty()) << "nobody asks for efforts";
+}
+
 TEST(Domain, AtItsLimitsFloatIsEnough) {
   HandData small, large;
   small.scale = SMALLEST_HAND / 0.85;  // the smallest of the grips' hands

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -201,6 +202,86 @@ TEST_F(Compare, LetsFewOutcomesDifferWithinTheMargin) {
   EXPECT_TRUE(holds_with(allowed_flips(400)));
   EXPECT_FALSE(holds_with(allowed_flips(400) + 1));
   EXPECT_FALSE(holds_with(1, 1)) << "nothing is left to compare";
+}
+
+// In a scene with strengths: what is wrong with an effort, a push, a friction or a safe tilt, and nothing for what the search may leave.
+class CompareEfforts : public Compare {
+ protected:
+  CompareEfforts() {
+    scene_ = read_scene_file(find_scene("small"));
+    scene_.strength = StrengthData{};
+    for (double& digit : scene_.strength->digits) digit *= 0.1;  // some states are not held
+    scene_.hand.depth_limit = 20e-3;
+    scene_.force.max = 1e3;
+    core_ = make_core_evaluator(scene_);
+    planes_ = gather(*core_, compared_fields(scene_), 0, grips_);
+  }
+  bool plausible(std::size_t i) const { return (planes_.uint(FIELD_STATUS, i) & STATUS_PLAUSIBLE) != 0; }
+  // Plausible grips whose number is finite and above 0.
+  std::uint64_t with_number(int field) const {
+    std::uint64_t count = 0;
+    for (std::size_t i = 0; i < grips_.size(); ++i) {
+      const double value = planes_.real(planes_.fields.plane[field], i);
+      count += std::isfinite(value) && value > 0 ? 1 : 0;
+    }
+    return count;
+  }
+};
+
+TEST_F(CompareEfforts, HoldForTheSameAnswers) {
+  EXPECT_GT(with_number(FIELD_WORST_EFFORT), 20u);
+  EXPECT_EQ(outside("", [](GatheredPlanes&, std::size_t) {}).second, 0u);
+}
+
+// Efforts of single states and the core's hold forces are not asked of a device.
+TEST_F(CompareEfforts, AskForNoEffortOfAState) {
+  const FieldSet fields = compared_fields(scene_);
+  for (const int field : {FIELD_EFFORT, FIELD_EFFORT_LOW, FIELD_TIPS_EFFORT, FIELD_HOLD_FORCE, FIELD_LARGEST_HOLD})
+    EXPECT_FALSE(fields.has(field)) << field_row(field).variable;
+  for (const int field : {FIELD_WORST_EFFORT, FIELD_TIPS_WORST_EFFORT, FIELD_PUSH, FIELD_FRICTION_NEEDED, FIELD_SAFE_TILT})
+    EXPECT_TRUE(fields.has(field)) << field_row(field).variable;
+}
+
+// Five percent are found wherever the grip's own answer does not move as much; a tenth of a percent nowhere.
+TEST_F(CompareEfforts, FindANumberThatIsOffByPercents) {
+  for (const auto& [name, field] : {std::pair<const char*, int>{"1/(1+worst effort)", FIELD_WORST_EFFORT},
+                                    {"1/(1+tips' effort)", FIELD_TIPS_WORST_EFFORT},
+                                    {"push", FIELD_PUSH},
+                                    {"1/(1+friction)", FIELD_FRICTION_NEEDED}}) {
+    const auto scaled = [&](double factor) {
+      return [this, field = field, factor](GatheredPlanes& planes, std::size_t i) { real(planes, field, 0, i) *= factor; };
+    };
+    const std::uint64_t numbers = with_number(field);
+    EXPECT_GT(numbers, 10u) << name;
+    const auto [wrong, all] = outside(name, scaled(1.05));
+    EXPECT_GE(10 * wrong, 9 * numbers) << name;
+    EXPECT_EQ(all, wrong) << name;
+    EXPECT_EQ(outside(name, scaled(1.001)).second, 0u) << name;
+  }
+}
+
+TEST_F(CompareEfforts, FindAnInfiniteEffortThatIsNone) {
+  const auto [wrong, all] = outside("1/(1+worst effort)", [&](GatheredPlanes& planes, std::size_t i) {
+    double& effort = real(planes, FIELD_WORST_EFFORT, 0, i);
+    if (std::isfinite(effort)) effort = std::numeric_limits<double>::infinity();
+  });
+  EXPECT_GE(10 * wrong, 9 * with_number(FIELD_WORST_EFFORT));
+  EXPECT_EQ(all, wrong);
+}
+
+// The tilt before the told one is as wrong as the one after, where the effort between them is not 1.
+TEST_F(CompareEfforts, FindASafeTiltThatIsAnother) {
+  std::uint64_t changed = 0;
+  const auto [wrong, all] = outside("force beyond safe", [&](GatheredPlanes& planes, std::size_t i) {
+    double& safe = real(planes, FIELD_SAFE_TILT, 0, i);
+    if (!plausible(i) || std::isnan(safe) || safe == scene_.tilts.front()) return;
+    const auto told = std::find(scene_.tilts.begin(), scene_.tilts.end(), safe);
+    safe = *(told - 1);
+    ++changed;
+  });
+  EXPECT_GT(changed, 10u);
+  EXPECT_GE(10 * wrong, 9 * changed);
+  EXPECT_EQ(all, wrong);
 }
 
 // At 180 degrees the sine is a rounding, and with it the torque: as far as the weight at its lever goes, and no further.

@@ -42,7 +42,7 @@ using Side = std::function<GatheredPlanes(std::size_t vessel, const std::vector<
 using LiquidSide = std::function<std::vector<LiquidResult>(std::size_t vessel)>;
 
 Side side_of(const Scene& scene, const Evaluator& core) {
-  return [fields = all_fields(scene), &core](std::size_t v, const std::vector<GripInput>& grips) {
+  return [fields = compared_fields(scene), &core](std::size_t v, const std::vector<GripInput>& grips) {
     return gather(core, fields, v, grips);
   };
 }
@@ -109,7 +109,7 @@ TEST(RandomScenes, DeviceComputesWhatTheCoreComputes) {
     const auto truth = make_core_evaluator(scene);
     for (const Precision precision : {Precision::single, Precision::full}) {
       const auto core = core_of(scene, precision);
-      const auto device = backend_of(scene, all_fields(scene), precision);
+      const auto device = backend_of(scene, compared_fields(scene), precision);
       const Comparer comparer = compared(
           scene, *truth, allowance(precision),
           [&](std::size_t v, const std::vector<GripInput>& grips) { return gather(*device, v, grips); }, side_of(scene, *core),

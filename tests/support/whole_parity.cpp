@@ -58,7 +58,7 @@ std::string table_of(const Comparer& comparer) {
 }
 
 void expect_parity(const Scene& scene, const std::string& name, int count) {
-  const FieldSet fields = all_fields(scene);
+  const FieldSet fields = compared_fields(scene);
   const auto truth = make_core_evaluator(scene);
   for (const Precision precision : {Precision::single, Precision::full}) {
     const auto backend = backend_of(scene, fields, precision);
