@@ -170,6 +170,12 @@ Comparer::Comparer(const Scene& scene, const Evaluator& core, Allowance allowed)
   const double stop = allowed.stop_tolerance;
   for (const auto& [thumb, index] : {std::pair{stop, stop}, {stop, -stop}, {-stop, stop}, {-stop, -stop}})
     others_.push_back(make_core_evaluator(with_tips(scene, thumb, index)));
+  // fingers that come to rest as early as those of the coarser precision
+  for (const double earlier : {stop / 2, stop, 2 * stop}) {
+    EvaluatorOptions options;
+    options.stop_tolerance = earlier;
+    others_.push_back(make_core_evaluator(scene, options));
+  }
   if (has_effort(scene))
     for (const double factor : {1 - EFFORT_SHARE / 2, 1 + EFFORT_SHARE / 2})
       others_.push_back(make_core_evaluator(with_strengths(scene, factor)));
@@ -214,9 +220,8 @@ void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, cons
       floors[field] = ROUNDINGS * allowed_.epsilon * largest_of(truth, field);
   const LoadFloors load(scene_, core_, vessel, volume_tolerance(vessel), ROUNDINGS * allowed_.epsilon, truth);
   const auto tolerance = [&](int field, std::size_t k, std::size_t i) {
-    const double of_search = effort_floor(field, vessel, truth.real(fields.plane[field] + static_cast<int>(k), i));
-    return floors[field] + 2 * allowed_.stop_tolerance * rests(field, k) + load.of(field, k, i) + of_search +
-           2 * spread.reals[(fields.plane[field] + k) * n + i];
+    return floors[field] + 2 * allowed_.stop_tolerance * rests(field, k) + load.of(field, k, i) +
+           search_floor(field, k, vessel, truth, i) + 2 * spread.reals[(fields.plane[field] + k) * n + i];
   };
   add_numbers(vessel, a, b, left_out, tolerance);
   if (has_tilts(scene_, fields)) add_tilts(vessel, grips, a, b, left_out, tolerance);
@@ -340,12 +345,33 @@ double Comparer::rests(int field, std::size_t k) const {
 // worse by up to another half: EFFORT_SHARE of e, times the slope 1 / (1 + e)^2 of t = 1 / (1 + e), is EFFORT_SHARE t (1 - t). A push
 // is held beside the weight, by an effort of both together. The least friction ends up to a step above a certified bound, at an effort
 // as near to 1, and goes with the effort at least as its inverse.
+// A hand that squeezes much more than it lifts adds up large forces to a small one. Rounding takes a share of its strength S from what
+// it can carry: 4 ROUNDINGS eps of it move y = 1 / e by that times S over the weight, and t = y / (1 + y) by (1 - t)^2 of this. The
+// friction that is needed moves as much as y. A push ends where the last columns are sqrt(eps) apart.
 double Comparer::effort_floor(int field, std::size_t vessel, double truth) const {
-  if (std::isnan(truth)) return 0;
-  if (is_effort(field)) return EFFORT_SHARE * truth * (1 - truth);
-  if (field == FIELD_PUSH) return EFFORT_SHARE * (truth + scene_.gravity * core_.constants(vessel).largest_mass);
-  if (field == FIELD_FRICTION_NEEDED) return core_f64::FRICTION_STEP * truth * truth + EFFORT_SHARE * truth * (1 - truth);
-  return 0;
+  const bool is_friction = field == FIELD_FRICTION_NEEDED;
+  if (std::isnan(truth) || !(is_effort(field) || is_friction || field == FIELD_PUSH)) return 0;
+  const VesselConstants& glass = core_.constants(vessel);
+  const auto& digits = scene_.strength->digits;
+  const double strength = *std::max_element(digits.begin(), digits.end()), weight = scene_.gravity * glass.mass;
+  const double lost = weight > 0 ? 4 * ROUNDINGS * allowed_.epsilon * strength / weight : 0;
+  const double of_share = EFFORT_SHARE * truth * (1 - truth);
+  if (is_friction) return (core_f64::FRICTION_STEP + lost) * truth * truth + of_share;
+  if (is_effort(field)) return of_share + lost * (1 - truth) * (1 - truth);
+  return EFFORT_SHARE * (truth + scene_.gravity * glass.largest_mass) + 3 * std::sqrt(allowed_.epsilon) * strength;
+}
+
+// Of a number of which an effort is the search's answer, or a part: the term of holding is the compared form of the worst effort.
+double Comparer::search_floor(int field, std::size_t plane, std::size_t vessel, const GatheredPlanes& truth,
+                              std::size_t grip) const {
+  if (!has_effort(scene_)) return 0;
+  const bool is_term = field == FIELD_TERMS && plane == 5;
+  if (!is_term && field != FIELD_SCORE)
+    return effort_floor(field, vessel, truth.real(truth.fields.plane[field] + static_cast<int>(plane), grip));
+  const double weight = is_term ? 1 : scene_.score.hold;
+  const auto floor = [&](double term) { return weight * effort_floor(FIELD_WORST_EFFORT, vessel, term); };
+  return truth.fields.has(FIELD_WORST_EFFORT) ? floor(truth.real(truth.fields.plane[FIELD_WORST_EFFORT], grip))
+                                              : floor(0) + floor(0.5);  // more than of any term
 }
 
 // A tilt that is told is a choice among the listed ones: it must be as good a choice by the other side's forces, to their tolerances.

@@ -88,6 +88,7 @@ class Comparer {
                  const std::vector<char>& left_out, const Tolerance& tolerance);
   double rests(int field, std::size_t k) const;
   double effort_floor(int field, std::size_t vessel, double truth) const;
+  double search_floor(int field, std::size_t plane, std::size_t vessel, const GatheredPlanes& truth, std::size_t grip) const;
   double volume_tolerance(std::size_t vessel) const;
   std::optional<std::size_t> tilt_told(double told) const;
   Comparison& row(const std::string& kernel, const std::string& quantity, const std::string& unit);

@@ -64,7 +64,7 @@ double LoadFloors::of(int field, std::size_t plane, std::size_t grip) const {
   const double force = torque_ * force_per_torque_[grip];
   const double force_term = scene_.force.max > 0 ? force / scene_.force.max : 0;
   const double by_strength = scene_.force.grip_strength > 0 ? hold_ / scene_.force.grip_strength : 0;
-  const double hold_term = has_effort(scene_) ? EFFORT_SHARE / 4 : by_strength;
+  const double hold_term = has_effort(scene_) ? 0 : by_strength;  // of efforts the search is far more
   switch (field) {
     case FIELD_PIVOT_LENGTH:
       return center_[plane];

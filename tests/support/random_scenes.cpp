@@ -166,9 +166,20 @@ std::string random_axis(Draw& draw, const char* name, double low, double high) {
   return fmt::format("{} = {{ from = {:.9g}, to = {:.9g}, count = {} }}\n", name, from, draw.between(from, high), 2 + draw.of(3));
 }
 
-std::string random_grips(Draw& draw, double size) {
+// Whether thumb or index finger are bare points. On the very edge of a mouth such a point has no one normal, and whether it is in the
+// mouth is a matter of rounding: there is nothing to compare.
+bool has_bare_tips(const std::string& hand) {
+  const auto bare = [&](const char* finger) {
+    const std::size_t at = hand.find(finger);
+    return at != std::string::npos && hand.compare(hand.find("radii_mm", at), 13, "radii_mm = [0") == 0;
+  };
+  return bare("[hand.thumb]") || bare("[hand.index]");
+}
+
+std::string random_grips(Draw& draw, double size, bool beside_edges) {
   std::string text = "[grips]\n";
-  text += fmt::format("height_fraction = {}\n", ascending(draw, 2 + draw.of(3), 0, 1));
+  const double least = beside_edges ? 1e-3 : 0;
+  text += fmt::format("height_fraction = {}\n", ascending(draw, 2 + draw.of(3), least, 1 - least));
   if (draw.chance(0.5)) text += random_axis(draw, "azimuth_deg", -360, 360);
   if (draw.chance(0.6)) text += random_axis(draw, "obliquity_deg", -40, 40);
   text += random_axis(draw, "roll_deg", -120, 60);
@@ -209,10 +220,11 @@ std::string random_scene_text(std::uint64_t seed) {
                                  draw.word({"articulated", "articulated", "paper", "rigged"}));
   if (draw.chance(0.2)) text += key("gravity_m_s2", draw.chance(0.2) ? 0 : draw.between(0, 100));
   const double scale = draw.chance(0.5) ? draw.between(0.8, 1.2) : draw.chance(0.6) ? draw.over(0.2, 5) : draw.over(0.05, 20);
-  text += random_hand(draw, scale) + random_forces(draw);
+  const std::string hand = random_hand(draw, scale);
+  text += hand + random_forces(draw);
   // most vessels are such as the hand can span; some are of any size
   const double size = std::clamp(scale * draw.between(15, 100), 1.0, 5000.0);
-  text += random_grips(draw, size);
+  text += random_grips(draw, size, has_bare_tips(hand));
   const int vessels = draw.chance(0.7) ? 1 : 2;
   for (int v = 0; v < vessels; ++v)
     text += random_vessel(draw, v, draw.chance(0.9) ? std::clamp(size * draw.between(0.7, 1.2), 1.0, 5000.0) : draw.over(2, 5000));
