@@ -218,7 +218,8 @@ void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, cons
   for (int field = 0; field < REAL_FIELDS; ++field)
     if (field_row(field).label && is_held(a, field) && is_held(b, field))
       floors[field] = ROUNDINGS * allowed_.epsilon * largest_of(truth, field);
-  const LoadFloors load(scene_, core_, vessel, volume_tolerance(vessel), ROUNDINGS * allowed_.epsilon, truth);
+  const LoadFloors load(scene_, core_, vessel, volume_tolerance(vessel), ROUNDINGS * allowed_.epsilon, allowed_.stop_tolerance,
+                        truth);
   const auto tolerance = [&](int field, std::size_t k, std::size_t i) {
     return floors[field] + 2 * allowed_.stop_tolerance * rests(field, k) + load.of(field, k, i) +
            search_floor(field, k, vessel, truth, i) + 2 * spread.reals[(fields.plane[field] + k) * n + i];

@@ -30,10 +30,14 @@ Real bones_overlap(Vec3 a, Vec3 a_end, Vec2 a_radii, Vec3 b, Vec3 b_end, Vec2 b_
   Real t_on_line = (uv * s + vr) / vv;
   Real t = nearest_share(t_on_line);
   if (!(t_on_line == t)) s = nearest_share((uv * t - ur) / uu);
-  Real apart = length(r + s * u - t * v);
-  Real a_radius = a_radii.x + s * (a_radii.y - a_radii.x);
-  Real b_radius = b_radii.x + t * (b_radii.y - b_radii.x);
-  return a_radius + b_radius - apart;
+  Real a_more = a_radii.y - a_radii.x, b_more = b_radii.y - b_radii.x;
+  Real overlap = s * a_more + t * b_more - length(r + s * u - t * v);
+  for (int end = 0; end < 2; ++end) {
+    Real share = Real(end), beside_a = nearest_share((uv * share + vr) / vv), beside_b = nearest_share((uv * share - ur) / uu);
+    overlap = max(overlap, share * a_more + beside_a * b_more - length(r + share * u - beside_a * v));
+    overlap = max(overlap, beside_b * a_more + share * b_more - length(r + beside_b * u - share * v));
+  }
+  return a_radii.x + b_radii.x + overlap;
 }
 
 #endif
