@@ -32,6 +32,8 @@ class GripBackend final : public Backend {
   const FieldSet& fields() const override;
   RunResult run(const RunRequest& request) override;
   std::vector<LiquidResult> liquid(std::size_t vessel) override;
+  // Writes the vessels' parameters anew; the device, its pipelines and all other tables stay. Not during a run.
+  bool use_friction_of(const Scene& other) override;
 
   GripPipelines pipelines(std::size_t vessel) const;
   const DeviceInfo& device() const;

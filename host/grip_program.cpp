@@ -161,6 +161,17 @@ void GripProgram::upload_vessel(std::size_t v, const Scene& scene, const SceneAr
   upload_states(v, scene, arrays, from.dry_loads);  // none where there is liquid
 }
 
+void GripProgram::write_parameters(const SceneArrays& arrays) {
+  for (std::size_t v = 0; v < vessels.size(); ++v) {
+    const Parameters<double>& parameters = arrays.vessels[v].parameters;
+    if (precision_ == Precision::single) {
+      vessels[v].parameters.write(std::vector<Parameters<float>>{convert<float>(parameters)});
+    } else {
+      vessels[v].parameters.write(std::vector<Parameters<double>>{parameters});
+    }
+  }
+}
+
 std::vector<Buffer> GripProgram::upload_blocks(const std::vector<double>& states) {
   constexpr std::size_t BLOCK = std::size_t{STATE_STRIDE} * STATES_IN_BLOCK;
   std::vector<Buffer> blocks;

@@ -32,6 +32,9 @@ struct GripProgram final : Program {
   // above `floor_score`.
   void record(std::size_t vessel, const Chunk& chunk, std::size_t best, double floor_score, Commands& commands);
 
+  // The vessels' parameter blocks alone, into the buffers that are there. With no chunk in flight.
+  void write_parameters(const SceneArrays& arrays);
+
   Device on;  // first: destroyed last
   Buffer hand, tilts, quadrature;
   std::vector<VesselOnDevice> vessels;

@@ -162,12 +162,16 @@ bool add_robust_scores(const OpenBackend& open, const Scene& scene, const Plan& 
   }
   if (std::all_of(vessels.begin(), vessels.end(), [](const RobustGrips& grips) { return grips.best.empty(); })) return true;
   const std::vector<double> frictions = robust_frictions(scene);
+  // Not the sweep's own, at any friction: what a sweep keeps may change the last bits of a device's scores, and this keeps the same.
+  std::unique_ptr<Backend> backend;
   for (std::size_t level = 0; level < frictions.size(); ++level) {
     Scene other = scene;
     other.force.friction = frictions[level];
     if (stop && *stop) return false;
-    // Not the sweep's own, at any friction: what a sweep keeps may change the last bits of a device's scores, and this keeps the same.
-    const std::unique_ptr<Backend> backend = open(other, make_field_set({FIELD_SCORE, FIELD_STATUS}, other));
+    if (!backend || !backend->use_friction_of(other)) {
+      backend.reset();  // before the next one is opened: never two at once
+      backend = open(other, make_field_set({FIELD_SCORE, FIELD_STATUS}, other));
+    }
     const std::size_t first = level * all.size() / frictions.size(), last = (level + 1) * all.size() / frictions.size();
     for (std::size_t v = 0; v < vessels.size(); ++v)
       if (!vessels[v].best.empty() && !evaluate(*backend, v, all, first, last, stop, vessels[v])) return false;

@@ -303,6 +303,32 @@ TEST(Robust, ADeviceScoresAsTheCore) {
   EXPECT_GE(same, all - 1);
 }
 
+// Opening a device costs more than the scores of a few grips. The core has none to open.
+TEST(Robust, ADeviceIsOpenedOnceForAllFrictions) {
+  Scene scene = small_scene();
+  scene.robust->friction = 0.1;
+  scene.vessels.resize(1);
+  scene.strength.reset();  // whose kernels take longest to make; tests/host/grip_backend_test.cpp has them
+  const Plan plan(scene, true);
+  auto device = two_lists(scene), core = two_lists(scene);
+  int opened = 0;
+  const auto counting = [&](const OpenBackend& open) {
+    return [&opened, open](const Scene& other, const FieldSet& fields) {
+      ++opened;
+      return open(other, fields);
+    };
+  };
+  add_robust_scores(counting(opens("vulkan", Precision::single)), scene, plan, nullptr, device);
+  EXPECT_EQ(opened, 1);
+  add_robust_scores(counting(opens("core", Precision::full)), scene, plan, nullptr, core);
+  EXPECT_EQ(opened, 1 + FRICTION_LEVELS);
+  // each friction had its turn: with one of them alone the means would be others
+  for (std::size_t rank = 0; rank < core[0].size(); ++rank) {
+    EXPECT_GT(core[0][rank].robust_mean, 0);
+    EXPECT_NEAR(device[0][rank].robust_mean, core[0][rank].robust_mean, 1e-3);
+  }
+}
+
 // ---- of sweeps ----
 
 using RobustRun = RunTest;
