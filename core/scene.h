@@ -154,6 +154,9 @@ struct ForceData {
 // sources.
 struct StrengthData {
   std::array<double, FINGER_COUNT + 1> digits{40, 25, 35, 25, 14, 80};
+
+  // Of the weaker one of thumb and index finger, N: the hold force is the effort times this.
+  double weaker_tip() const { return digits[0] < digits[1] ? digits[0] : digits[1]; }
 };
 
 // Values of one axis of the grips. A range keeps its ends so that Sobol points can fill it continuously.

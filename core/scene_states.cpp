@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/scene_states.h"
 
-#include <algorithm>
 #include <bit>
 
 #include "core/planes.h"
@@ -27,10 +26,7 @@ HeldForces SceneStates::forces(const VesselEntry& entry, const Pinch& pinch, con
                      pour_direction(pinch.direction, pour_sense_), tilt.sine, tilt.cosine, pinch.is_antipodal, opening);
 }
 
-Real SceneStates::tips_hold(Real tips_effort) const {
-  const auto& digits = scene_.strength.value().digits;
-  return tips_effort * Real(std::min(digits[0], digits[1]));
-}
+Real SceneStates::tips_hold(Real tips_effort) const { return tips_effort * Real(scene_.strength.value().weaker_tip()); }
 
 std::array<Real, 6> SceneStates::score_terms(const ScoredHand& hand, LargestForces largest, Real max) const {
   const bool has_forces = !tilts_.empty();

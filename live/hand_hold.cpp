@@ -41,8 +41,6 @@ Wrench weight_of(const LiveScene& live, const Tick& tick, Vec3 up) {
 
 }  // namespace
 
-double tip_strength(const StrengthData& strength) { return std::min(strength.digits[0], strength.digits[1]); }
-
 std::optional<HandHold> hand_hold(const LiveScene& live, const Tick& tick, const VesselPose& vessel,
                                   const std::array<Triple, JOINT_COUNT>& posed) {
   const Scene& scene = live.scene;
@@ -66,7 +64,7 @@ std::optional<HandHold> hand_hold(const LiveScene& live, const Tick& tick, const
   const Wrench weight = weight_of(live, tick, back * Vec3(0, 1, 0));
   EffortSolver solver(contacts, hand, center);
   const Effort found = solver.solve(weight);
-  HandHold hold{found.effort, found.low, EffortSolver(tips, hand, center).solve(weight).effort, tip_strength(*scene.strength), {}};
+  HandHold hold{found.effort, found.low, EffortSolver(tips, hand, center).solve(weight).effort, scene.strength->weaker_tip(), {}};
   std::vector<core_f64::ContactForce> forces(contacts.size());
   solver.forces(forces);
   for (std::size_t i = 0; i < contacts.size(); ++i) {

@@ -38,7 +38,4 @@ struct HandHold {
 std::optional<HandHold> hand_hold(const LiveScene& live, const Tick& tick, const VesselPose& vessel,
                                   const std::array<Triple, JOINT_COUNT>& posed);
 
-// The weaker strength of thumb and index finger, N.
-double tip_strength(const StrengthData& strength);
-
 }  // namespace wholehand

@@ -90,7 +90,7 @@ struct TipStrength {
 
 TipStrength strength_of_tips(const Scene& scene) {
   if (!scene.strength) return {scene.force.grip_strength, "grip strength"};
-  return {std::min(scene.strength->digits[0], scene.strength->digits[1]), "strength of the weaker tip"};
+  return {scene.strength->weaker_tip(), "strength of the weaker tip"};
 }
 
 std::string forces_caption(const Scene& scene, const std::vector<FillForces>& forces, const HoldExtent& extent) {

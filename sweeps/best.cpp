@@ -89,7 +89,7 @@ void set_worst(BestGrip& best, const Scene& scene, const std::function<double(in
                   value(FIELD_TIPS_WORST_EFFORT, 0),
                   value(FIELD_PUSH, 0),
                   value(FIELD_FRICTION_NEEDED, 0)};
-  best.largest_hold = best.efforts.tips_worst * std::min(scene.strength->digits[0], scene.strength->digits[1]);
+  best.largest_hold = best.efforts.tips_worst * scene.strength->weaker_tip();
 }
 
 std::vector<BestGrip> evaluate_best(Backend& backend, const Scene& scene, const Plan& plan, std::size_t vessel,
