@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdlib>
@@ -46,6 +47,9 @@ std::string touching_text(const GripResult& result) {
 
 bool is_refined(const BestGrip& grip) { return !std::isnan(grip.refined_score); }
 bool has_refined(const ReportedGrips& best) { return std::any_of(best.grips.begin(), best.grips.end(), is_refined); }
+bool has_robust(const ReportedGrips& best) {
+  return std::any_of(best.grips.begin(), best.grips.end(), [](const BestGrip& grip) { return !std::isnan(grip.robust_mean); });
+}
 
 void write_table(MarkupWriter& html, const ReportSource& source, std::size_t list, const ReportedGrips& best) {
   const Plan& plan = source.plan;
@@ -69,6 +73,8 @@ void write_table(MarkupWriter& html, const ReportSource& source, std::size_t lis
   }
   const bool tells_refined = has_refined(best);
   if (tells_refined) columns.insert(columns.end(), {"refined score", "refined grip"});
+  const bool tells_robust = has_robust(best);
+  if (tells_robust) columns.insert(columns.end(), {"robust mean", "robust low"});
   HtmlTable table(html,
                   fmt::format("The best {} of {}", best.grips.size() == 1 ? "grip" : fmt::format("{} grips", best.grips.size()),
                               list_name(source.scene, plan, list)),
@@ -100,6 +106,7 @@ void write_table(MarkupWriter& html, const ReportSource& source, std::size_t lis
       cells.push_back(shown_number(b.refined_score, 3));
       cells.push_back(is_refined(b) ? grip_text(plan, b.refined) : "");
     }
+    if (tells_robust) cells.insert(cells.end(), {shown_number(b.robust_mean, 3), shown_number(b.robust_low, 3)});
     table.row(cells);
   }
   table.end();
@@ -202,12 +209,15 @@ std::string front_and_side(const std::string& drawing) {
 ReportedGrips read_grips(const ReportSource& source, std::size_t list) {
   const std::size_t scales = source.plan.hand_scales(), vessel = list / scales;
   std::vector<RankedCandidate> ranked;
-  std::vector<std::optional<RefinedGrip>> refined;  // of the sweep's own list
+  // of the sweep's own list
+  std::vector<std::optional<RefinedGrip>> refined;
+  std::vector<std::array<double, 2>> robust;
   if (source.lists) {
     ranked = (*source.lists)[list];
   } else {
     for (const Candidate& candidate : source.result.best(vessel, list % scales)) ranked.push_back({ranked.size() + 1, candidate});
     refined = source.result.refined(vessel, list % scales);
+    robust = source.result.robust(vessel, list % scales);
   }
   ReportedGrips best;
   best.listed = ranked.size();
@@ -225,6 +235,10 @@ ReportedGrips read_grips(const ReportSource& source, std::size_t list) {
     best.grips[k].grip = source.plan.grip(vessel, candidates[k].index);
     best.grips[k].score = candidates[k].score;
     best.grips[k].rank = ranked[k].rank;
+    if (k < robust.size()) {
+      best.grips[k].robust_mean = robust[k][0];
+      best.grips[k].robust_low = robust[k][1];
+    }
     if (k >= refined.size() || !refined[k]) continue;
     best.grips[k].refined = refined[k]->grip;
     best.grips[k].refined_score = refined[k]->score;
@@ -265,6 +279,11 @@ void write_grips(MarkupWriter& html, const ReportSource& source, std::size_t lis
     note +=
         " The refined grip is the best one that the core found within half a step of the axes. Everything else, the drawings "
         "included, describes the grip as it was swept.";
+  if (has_robust(best))
+    note += fmt::format(
+        " The sweep scored each grip at {} random deviations by [robust]: robust mean is the mean of these scores, and robust low "
+        "their 10th percentile.",
+        source.scene.robust->count);
   html.element("p", note, {{"class", "note"}});
   write_limits(html, source, list, reports);
 }

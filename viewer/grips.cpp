@@ -247,6 +247,7 @@ class GripsView::Impl {
       json["refined"] = {{"score", seen.wanted.refined->score}};
       put_place(json["refined"], seen.wanted.refined->grip);
     }
+    if (seen.wanted.robust) json["robust"] = {{"mean", seen.wanted.robust->mean}, {"low", seen.wanted.robust->low}};
     json["gap_m"] = result.gap;
     json["closure"] = result.closure;
     json["fingers"] = std::popcount(result.used_mask);

@@ -20,6 +20,11 @@ struct RefinedView {
   double score = 0;
 };
 
+// What the grip scores at the random deviations of a sweep.
+struct RobustView {
+  double mean = 0, low = 0;  // low: the 10th percentile
+};
+
 // A grip to be seen, what it is called there, and the score of the list that it is from; without one the core's is shown.
 struct ViewedGrip {
   std::size_t vessel = 0;
@@ -27,6 +32,7 @@ struct ViewedGrip {
   std::string label;
   std::optional<double> score = std::nullopt;
   std::optional<RefinedView> refined = std::nullopt;  // told beside it, and not shown
+  std::optional<RobustView> robust = std::nullopt;
 };
 
 // The grips of a scene with the core's numbers. From any thread.

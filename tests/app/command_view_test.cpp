@@ -284,9 +284,12 @@ TEST(ViewCommand, ShowsARecordingAtAnyMoment) {
 TEST(ViewCommand, ShowsTheBestGripsOfASweep) {
   const TemporaryFolder folder;
   const std::string file = folder / "best.nc";
-  ASSERT_EQ(run("PROGRAM sweep small --on core --best 3 -o " + file + " >/dev/null").code, 0);
+  const std::string robust = "'[robust]' 'roll_deg = 2' 'count = 8'", scene_file = folder / "robust.toml";
+  ASSERT_EQ(run("{ cat " + find_scene("small") + "; printf '\\n%s\\n' " + robust + "; } > " + scene_file).code, 0);
+  ASSERT_EQ(run("PROGRAM sweep " + scene_file + " --on core --best 3 -o " + file + " >/dev/null").code, 0);
   const auto heights = read_values(file, "best_height"), rolls = read_values(file, "best_roll"),
-             scores = read_values(file, "best_score");
+             scores = read_values(file, "best_score"), means = read_values(file, "best_robust_mean"),
+             lows = read_values(file, "best_robust_low");
   const Scene small = read_scene_file(find_scene("small"));
   ASSERT_EQ(heights.size(), 3 * small.vessels.size());
   Viewed view("view " + file);
@@ -301,6 +304,8 @@ TEST(ViewCommand, ShowsTheBestGripsOfASweep) {
       EXPECT_EQ(scene["grips"][g]["height_m"], heights[g]);
       EXPECT_EQ(scene["grips"][g]["roll_rad"], rolls[g]);
       EXPECT_NEAR(scene["grips"][g]["score"].get<double>(), scores[g], 1e-12) << "of a sweep in double precision";
+      EXPECT_EQ(scene["grips"][g]["robust"]["mean"], means[g]);
+      EXPECT_EQ(scene["grips"][g]["robust"]["low"], lows[g]);
       if (k > 0) {
         EXPECT_LE(scores[g], scores[g - 1]);
       }

@@ -104,6 +104,31 @@ TEST(ReportGrips, RefinedGripsAreToldBesideTheSweptOnes) {
   EXPECT_EQ(times_in(html, "<th scope=\"row\">"), times_in(before, "<th scope=\"row\">"));
 }
 
+// Beside each grip what it scores at random deviations; without [robust] nothing is said of it.
+TEST(ReportGrips, RobustScoresAreToldBesideTheScores) {
+  EXPECT_EQ(written_grips(SweptScene(RESULT_SCENE), 1).find("obust"), std::string::npos);
+  SweptScene swept(edited(RESULT_SCENE, "[tilts]", "[robust]\nroll_deg = 5\ncount = 48\n[tilts]"));
+  std::vector<double> means, lows;
+  for (int place = 0; place < 10; ++place) {  // five of each of two vessels
+    means.push_back(0.9012 - 0.01 * place);
+    lows.push_back(0.5023 - 0.02 * place);
+  }
+  swept.change("best_robust_mean", means);
+  swept.change("best_robust_low", lows);
+  const ReportedGrips best = read_grips(*swept.source, 1);
+  ASSERT_EQ(best.grips.size(), 5u);
+  EXPECT_EQ(best.grips[0].robust_mean, means[5]);
+  EXPECT_EQ(best.grips[4].robust_low, lows[9]);
+  const std::string html = written_grips(swept, 1);
+  for (const char* column : {"robust mean", "robust low"})
+    EXPECT_EQ(times_in(html, std::string(">") + column + "</th>"), 1u) << column;
+  for (std::size_t place = 5; place < 10; ++place) {
+    const std::string cells = "<td>" + shown_number(means[place], 3) + "</td>\n<td>" + shown_number(lows[place], 3) + "</td>";
+    EXPECT_EQ(times_in(html, cells), 1u) << cells << html;
+  }
+  EXPECT_EQ(times_in(html, "at 48 random deviations by [robust]"), 1u);
+}
+
 TEST(ReportGrips, EachDrawingHasItsForcesAndAVerdict) {
   const std::string html = written_grips(SweptScene(edited(RESULT_SCENE, "[tilts]", "[strength]\n[tilts]")), 0);
   EXPECT_GT(times_in(html, "class=%22force%22"), 2 * DRAWN_GRIPS) << "arrows in two views";

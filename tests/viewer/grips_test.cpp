@@ -184,6 +184,18 @@ TEST(GripsView, TheRefinedGripIsToldBesideTheSweptOne) {
   EXPECT_EQ(frame_json(view.frame(1, 0.5, 0.1)), swept);
 }
 
+TEST(GripsView, RobustScoresAreToldOfGripsThatHaveThem) {
+  std::vector<std::string> notes;
+  std::vector<ViewedGrip> grips = some_grips();
+  grips[1].robust = RobustView{0.625, 0.25};
+  const Scene scene = beakers();
+  const GripsView view(scene, grips, notes);
+  const json shown = json::parse(view.content("", scene_axes(scene, 0)).scene)["grips"];
+  EXPECT_FALSE(shown[0].contains("robust"));
+  EXPECT_EQ(shown[1]["robust"]["mean"], 0.625);
+  EXPECT_EQ(shown[1]["robust"]["low"], 0.25);
+}
+
 TEST(GripsView, ItTurnsTowardsWhereItPoursAndStaysAboveTheTable) {
   const Scene scene = beakers();
   std::vector<std::string> notes;

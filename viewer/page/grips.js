@@ -103,6 +103,7 @@ export class Grips {
       ['Largest force', `${fixed(grip.peak_force_N, 2)} N`], [this.about.strength ? 'Largest pinch N‑hold' : 'Largest N‑hold', `${fixed(grip.hold_force_N, 1)} N`], ['Safe up to', `${degrees(grip.safe_tilt_rad)}°`],
       ['Deepest point', `${millimetres(grip.depth_m)} mm`], ['Fingers', `${grip.fingers} of 5`], ['Pinch', grip.antipodal ? 'antipodal' : 'not antipodal'],
       ...(grip.refined ? [['Refined score', fixed(grip.refined.score, 3)], ['Refined grip', this.placeOf(grip.refined)]] : []),
+      ...(grip.robust ? [['Robust mean', fixed(grip.robust.mean, 3)], ['Robust low', fixed(grip.robust.low, 3)]] : []),
     ].map(([name, value]) => element('div', {}, element('dt', {text: name}), element('dd', {text: value}))));
   }
 
