@@ -224,6 +224,13 @@ bool read_counts(const ReportSource& source, std::size_t vessel, GripCounts& cou
   if (!reason || !plausible || !antipodal) return false;
   std::vector<ColumnOf> wanted{{reason, 0}, {plausible, 0}, {antipodal, 0}};
   if (blocked) wanted.push_back({blocked, 0});
+  // kept on request alone: what is implausible is told apart where all is known that may make it so
+  const Variable *table = source.result.find("through_table"), *overlap = source.result.find("self_overlap");
+  const bool knows_parts = (table || !source.scene.table) && (overlap || source.scene.hand.between == 0);
+  const std::size_t table_at = wanted.size();
+  if (table) wanted.push_back({table, 0});
+  const std::size_t overlap_at = wanted.size();
+  if (overlap) wanted.push_back({overlap, 0});
   read_columns(source, vessel, wanted, [&](std::uint64_t, std::size_t count, const std::vector<std::vector<double>>& columns) {
     counts.grips += count;
     for (std::size_t i = 0; i < count; ++i) {
@@ -231,7 +238,13 @@ bool read_counts(const ReportSource& source, std::size_t vessel, GripCounts& cou
       if (!(why >= 0 && why < static_cast<double>(counts.by_reason.size()))) continue;
       ++counts.by_reason[static_cast<std::size_t>(why)];
       if (why != 0) continue;
-      counts.implausible += columns[1][i] == 0 ? 1 : 0;
+      if (columns[1][i] == 0) {
+        const bool is_through = table && columns[table_at][i] == 1, is_overlap = overlap && columns[overlap_at][i] == 1;
+        ++counts.implausible;
+        counts.through_table += knows_parts && is_through ? 1 : 0;
+        counts.self_overlap += knows_parts && is_overlap ? 1 : 0;
+        counts.only_deep += knows_parts && !is_through && !is_overlap ? 1 : 0;
+      }
       counts.antipodal += columns[2][i] == 1 ? 1 : 0;
       counts.blocked += blocked && columns[3][i] > 0 ? 1 : 0;
     }

@@ -58,11 +58,19 @@ json to_json(const VesselProgress& vessel) {
   const GripCounts& counts = vessel.counts;
   json stretches = json::array();
   for (const Stretch& stretch : vessel.stretches) stretches.push_back({stretch.first, stretch.last, stretch.checksum});
-  return {{"done", vessel.done},           {"stretches", stretches},
-          {"best", to_json(vessel.best)},  {"grips", counts.grips},
-          {"by_reason", counts.by_reason}, {"implausible", counts.implausible},
-          {"antipodal", counts.antipodal}, {"blocked", counts.blocked},
-          {"heat_map", vessel.heat_map},   {"lists", lists}};  // NaN becomes null
+  return {{"done", vessel.done},
+          {"stretches", stretches},
+          {"best", to_json(vessel.best)},
+          {"grips", counts.grips},
+          {"by_reason", counts.by_reason},
+          {"implausible", counts.implausible},
+          {"antipodal", counts.antipodal},
+          {"blocked", counts.blocked},
+          {"through_table", counts.through_table},
+          {"self_overlap", counts.self_overlap},
+          {"only_deep", counts.only_deep},
+          {"heat_map", vessel.heat_map},
+          {"lists", lists}};  // NaN becomes null
 }
 
 VesselProgress vessel_from(const json& text) {
@@ -77,6 +85,9 @@ VesselProgress vessel_from(const json& text) {
   counts.implausible = text.at("implausible");
   counts.antipodal = text.at("antipodal");
   counts.blocked = text.at("blocked");
+  counts.through_table = text.at("through_table");
+  counts.self_overlap = text.at("self_overlap");
+  counts.only_deep = text.at("only_deep");
   for (const json& cell : text.at("heat_map")) {
     vessel.heat_map.push_back(cell.is_null() ? std::numeric_limits<double>::quiet_NaN() : cell.get<double>());
   }

@@ -18,11 +18,32 @@ void count_grips(const PlaneChunk& chunk, const FieldSet& fields, GripCounts& co
     const std::uint32_t reason = status & STATUS_REASON_MASK;
     if (reason < counts.by_reason.size()) ++counts.by_reason[reason];
     if (reason != REASON_NONE) continue;
-    counts.implausible += (status & STATUS_PLAUSIBLE) == 0;
+    if ((status & STATUS_PLAUSIBLE) == 0) {
+      ++counts.implausible;
+      counts.through_table += (status & STATUS_THROUGH_TABLE) != 0;
+      counts.self_overlap += (status & STATUS_SELF_OVERLAP) != 0;
+      counts.only_deep += (status & (STATUS_THROUGH_TABLE | STATUS_SELF_OVERLAP)) == 0;
+    }
     counts.antipodal += (status & STATUS_ANTIPODAL) != 0;
     counts.blocked += ((status >> STATUS_BLOCKED_SHIFT) & 0x1F) != 0;
   }
 }
+
+namespace {
+
+// " (200 through the table, 90 for depth alone)"; empty where nothing is known of them.
+std::string implausible_parts(const GripCounts& counts) {
+  std::string parts;
+  const auto add = [&](std::uint64_t count, const char* what) {
+    if (count > 0) parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", readable_number(count), what);
+  };
+  add(counts.through_table, "through the table");
+  add(counts.self_overlap, "with fingers in each other");
+  add(counts.only_deep, "for depth alone");
+  return parts.empty() ? "" : " (" + parts + ")";
+}
+
+}  // namespace
 
 std::string counts_line(const GripCounts& counts, bool reasons_known, std::uint64_t azimuths) {
   const std::string at = azimuths > 1 ? fmt::format(" (each at {} azimuths)", readable_number(azimuths)) : "";
@@ -38,7 +59,7 @@ std::string counts_line(const GripCounts& counts, bool reasons_known, std::uint6
   }
   if (!reasons.empty()) line += " (" + reasons + ")";
   if (counts.by_reason[0] == 0) return line;
-  line += fmt::format("; of these {} implausible, {} antipodal", readable_number(counts.implausible),
+  line += fmt::format("; of these {} implausible{}, {} antipodal", readable_number(counts.implausible), implausible_parts(counts),
                       readable_number(counts.antipodal));
   if (counts.blocked > 0) line += fmt::format(", {} with a blocked finger", readable_number(counts.blocked));
   return line;

@@ -134,6 +134,7 @@ TEST(ReportMaps, CountsAreThoseOfTheFile) {
   const SweptScene swept(RESULT_SCENE);
   const auto reasons = read_values(swept.path, "reason"), plausible = read_values(swept.path, "plausible"),
              antipodal = read_values(swept.path, "antipodal"), blocked = read_values(swept.path, "blocked_mask");
+  std::uint64_t unsplit = 0;
   for (std::size_t v = 0; v < 2; ++v) {
     GripCounts counts, wanted;
     ASSERT_TRUE(read_counts(*swept.source, v, counts));
@@ -151,9 +152,31 @@ TEST(ReportMaps, CountsAreThoseOfTheFile) {
     EXPECT_EQ(counts.implausible, wanted.implausible);
     EXPECT_EQ(counts.antipodal, wanted.antipodal);
     EXPECT_EQ(counts.blocked, wanted.blocked);
+    unsplit += counts.through_table + counts.self_overlap + counts.only_deep;
   }
+  EXPECT_EQ(unsplit, 0u) << "the file does not keep why grips are implausible";
   GripCounts counts;
   EXPECT_FALSE(read_counts(*SweptScene(edited(RESULT_SCENE, "best = 5", "best = 5\nkeep = [\"reason\"]")).source, 0, counts));
+}
+
+// As a sweep counts them, where the file has what makes a grip implausible.
+TEST(ReportMaps, ImplausibleGripsAreToldApartWhereTheFileHasWhy) {
+  const SweptScene swept(edited(RESULT_SCENE, "[output]", "[table]\n[output]\nalso = [\"through_table\", \"self_overlap\"]"));
+  const auto reasons = read_values(swept.path, "reason"), plausible = read_values(swept.path, "plausible"),
+             table = read_values(swept.path, "through_table"), overlap = read_values(swept.path, "self_overlap");
+  GripCounts counts, wanted;
+  ASSERT_TRUE(read_counts(*swept.source, 0, counts));
+  for (std::size_t at = 0; at < swept.plan->grips(); ++at) {
+    if (reasons[at] != 0 || plausible[at] != 0) continue;
+    wanted.through_table += table[at] == 1;
+    wanted.self_overlap += overlap[at] == 1;
+    wanted.only_deep += table[at] != 1 && overlap[at] != 1;
+  }
+  EXPECT_GT(wanted.through_table, 0u);
+  EXPECT_GT(wanted.only_deep, 0u);
+  EXPECT_EQ(counts.through_table, wanted.through_table);
+  EXPECT_EQ(counts.self_overlap, wanted.self_overlap);
+  EXPECT_EQ(counts.only_deep, wanted.only_deep);
 }
 
 // Any variable of one real a grip stands for the worst effort here: its values are the test's, by the grip and its place.

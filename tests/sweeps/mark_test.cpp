@@ -27,7 +27,7 @@ SweepMark some_mark() {
   vessel.done = (std::uint64_t{1} << 40) + 1;
   vessel.best = {{0.1 + 0.2, 7}, {1e-17, ~std::uint64_t{0}}};
   vessel.stretches = {{0, 5, "ab"}, {5, vessel.done, "cd"}};
-  vessel.counts = {11, {1, 2, 3, 4, 5, 6, 7}, 8, 9, 10};
+  vessel.counts = {11, {1, 2, 3, 4, 5, 6, 7}, 8, 9, 10, 11, 12, 13};
   vessel.heat_map = {1.0 / 7, NAN, 0};
   vessel.lists = {{{{1.0 / 9, 3}, {0.1, 4}}, Candidate{0.1, 9}, false}, {{}, {}, true}};
   mark.in_place = {{100, 20}, {std::uint64_t{1} << 50, 8}};
@@ -69,6 +69,9 @@ TEST(Mark, ComesBackBitForBit) {
   EXPECT_TRUE(a.lists[1].is_complete);
   EXPECT_EQ(a.counts.by_reason, b.counts.by_reason);
   EXPECT_EQ(a.counts.blocked, 10u);
+  EXPECT_EQ(a.counts.through_table, 11u);
+  EXPECT_EQ(a.counts.self_overlap, 12u);
+  EXPECT_EQ(a.counts.only_deep, 13u);
   ASSERT_EQ(a.heat_map.size(), 3u);
   EXPECT_EQ(a.heat_map[0], b.heat_map[0]);
   EXPECT_TRUE(std::isnan(a.heat_map[1]));

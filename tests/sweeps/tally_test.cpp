@@ -23,9 +23,29 @@ TEST(Tally, CountsByReasonAndAmongTheFeasible) {
   EXPECT_EQ(counts.antipodal, 2u);
   EXPECT_EQ(counts.blocked, 1u);
   EXPECT_EQ(counts_line(counts, true, 1),
-            "3 of 6 grips feasible (2 misses, 1 too wide); of these 1 implausible, 2 antipodal, 1 with a blocked finger");
+            "3 of 6 grips feasible (2 misses, 1 too wide); of these 1 implausible (1 for depth alone), 2 antipodal, 1 with a "
+            "blocked finger");
   EXPECT_EQ(counts_line(counts, true, 12).substr(0, 38), "3 of 6 grips (each at 12 azimuths) fea");
   EXPECT_EQ(counts_line(counts, false, 1), "6 grips");
+}
+
+// Depth is told of where neither of the two others makes a grip implausible; a grip of both counts for both.
+TEST(Tally, TellsWhyGripsAreImplausible) {
+  const std::uint32_t table = STATUS_THROUGH_TABLE, overlap = STATUS_SELF_OVERLAP;
+  const std::vector<std::uint32_t> status{
+      table, table, table | overlap, overlap, 0, 0, 0, 0, STATUS_PLAUSIBLE, table | REASON_MISSES};
+  GripCounts counts;
+  count_grips({0, 0, status.size(), status.size(), nullptr, nullptr, status.data()}, make_field_set({FIELD_STATUS}, fake_scene()),
+              counts);
+  EXPECT_EQ(counts.implausible, 8u);
+  EXPECT_EQ(counts.through_table, 3u);
+  EXPECT_EQ(counts.self_overlap, 2u);
+  EXPECT_EQ(counts.only_deep, 4u);
+  EXPECT_EQ(counts_line(counts, true, 1),
+            "9 of 10 grips feasible (1 misses); of these 8 implausible (3 through the table, 2 with fingers in each other, 4 for "
+            "depth alone), 0 antipodal");
+  counts.through_table = counts.self_overlap = counts.only_deep = 0;
+  EXPECT_EQ(counts_line(counts, true, 1), "9 of 10 grips feasible (1 misses); of these 8 implausible, 0 antipodal");
 }
 
 TEST(Tally, WithoutStatusOnlyTheNumberIsKnown) {
