@@ -119,8 +119,10 @@ void write_contacts(Buffer out, const GripReport& report) {
   if (!hardest) return;
   const StateHold& hold = report.holds[*hardest];
   const GripState& state = report.answer.states[*hardest];
-  fmt::format_to(out, "\n  effort         {}, at fill {:.3g}, {:.2f} deg; two tips alone: {}\n", percent(hold.effort), state.fill,
-                 degrees(state.tilt), percent(hold.tips));
+  // not "worst": the scene may have a worse one that is not listed, or none as bad
+  fmt::format_to(out, "\n  listed effort  {}, in the hardest of the states listed above, at fill {:.3g} and {:.2f} deg\n",
+                 percent(hold.effort), state.fill, degrees(state.tilt));
+  fmt::format_to(out, "                 two tips alone in this state: {}\n", percent(hold.tips));
   if (hold.escape) {
     const auto& v = *hold.escape;
     fmt::format_to(out, "  unopposed      moving along ({:.3f}, {:.3f}, {:.3f}) m/s, turning by ({:.3f}, {:.3f}, {:.3f}) rad/s\n",
@@ -138,8 +140,9 @@ void write_contacts(Buffer out, const GripReport& report) {
 void write_hold(Buffer out, const GripReport& report) {
   if (!report.hold) return;
   const GripHold& hold = *report.hold;
-  fmt::format_to(out, "\n  worst effort   {}, at fill {:.3g} and {:.1f} deg; two tips alone: {}\n", percent(hold.worst),
-                 hold.worst_fill, degrees(hold.worst_tilt), percent(hold.tips_worst));
+  fmt::format_to(out, "\n  worst effort   {}, in the hardest of the scene's own states, at fill {:.3g} and {:.1f} deg\n",
+                 percent(hold.worst), hold.worst_fill, degrees(hold.worst_tilt));
+  fmt::format_to(out, "                 two tips alone over the scene's states: {}\n", percent(hold.tips_worst));
   fmt::format_to(out, "  friction       {}\n",
                  std::isfinite(hold.friction_needed)
                      ? fmt::format("{:.3f} is the least that holds all states", hold.friction_needed)

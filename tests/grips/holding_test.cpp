@@ -2,6 +2,7 @@
 // What holding takes over the states of a grip: every number against its definition, by searches that know nothing of shortcuts.
 #include "grips/holding.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -261,7 +262,31 @@ TEST(Holding, IsInTheJson) {
   EXPECT_EQ(fallen["states"][0]["worst_direction"].size(), 6u);
   EXPECT_LT(fallen["states"][0]["worst_direction"][1].get<double>(), 0) << "down";
   const std::string table = grip_table(held_report(smooth, 0, beside(0.055)));
-  EXPECT_NE(table.find("  effort         no force holds it, at fill 0, 0.00 deg; two tips alone: no force holds it\n"),
+  EXPECT_NE(table.find("  listed effort  no force holds it, in the hardest of the states listed above, at fill 0 and 0.00 deg\n"
+                       "                 two tips alone in this state: no force holds it\n"),
+            std::string::npos)
+      << table;
+}
+
+// The states that are listed need not be the scene's: each effort says of which it is.
+TEST(Holding, TheTableTellsTheListedStatesFromTheScenesOwn) {
+  const Scene scene = few_states();
+  GripReport report = held_report(scene, 0, beside(0.055));
+  ASSERT_TRUE(report.hold);
+  // as with --fill 0 --tilt-deg 0, where the scene has harder ones
+  report.answer.states.resize(1);
+  report.holds.resize(1);
+  ASSERT_LT(report.holds[0].effort, 0.9 * report.hold->worst);
+  const std::string table = grip_table(report);
+  EXPECT_NE(
+      table.find(fmt::format("  listed effort  {:.2f} % of the hand's strength, in the hardest of the states listed above, at "
+                             "fill {:.3g} and {:.2f} deg\n",
+                             100 * report.holds[0].effort, report.answer.states[0].fill, degrees(report.answer.states[0].tilt))),
+      std::string::npos)
+      << table;
+  EXPECT_NE(table.find(fmt::format("  worst effort   {:.2f} % of the hand's strength, in the hardest of the scene's own states, at "
+                                   "fill {:.3g} and {:.1f} deg\n",
+                                   100 * report.hold->worst, report.hold->worst_fill, degrees(report.hold->worst_tilt))),
             std::string::npos)
       << table;
 }
