@@ -16,6 +16,8 @@
 #include "objects/vessel.h"
 #include "scene/reader.h"
 #include "sweeps/cavity_notes.h"
+#include "sweeps/closing.h"
+#include "sweeps/idle_notes.h"
 #include "system/output.h"
 
 namespace wholehand {
@@ -48,6 +50,7 @@ void add_check_command(CLI::App& app, Action& action) {
       load_meshes(scene, [&] { return largest_buffer(options.on); });
       const std::vector<std::string> warnings = say_float_warnings(scene, Precision::single);
       say_cavity_notes(scene);
+      if (const std::string note = idle_strength_note(scene); !note.empty()) say_note(note);
       CheckReport report = check_scene(scene, options);
       report.warnings = warnings;
       print(arguments->json ? check_json(report) : check_text(report));

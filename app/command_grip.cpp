@@ -30,7 +30,9 @@
 #include "scene/reader.h"
 #include "scene/text.h"
 #include "sweeps/cavity_notes.h"
+#include "sweeps/closing.h"
 #include "sweeps/grip_lists.h"
+#include "sweeps/idle_notes.h"
 #include "system/files.h"
 #include "system/output.h"
 #include "viewer/grips.h"
@@ -214,6 +216,8 @@ ExitCode grip(const GripArguments& arguments) {
   load_meshes(asked, [&] { return largest_buffer(arguments.on); });  // lattices as wide as this hand needs
   scene.vessels = asked.vessels;
   say_cavity_notes(scene);
+  // with --tilt-deg the efforts of these tilts are there
+  if (const std::string note = idle_strength_note(scene); !note.empty() && axes.tilts.empty()) say_note(note);
   say_float_warnings(asked, precision);
   GripReport report;
   {

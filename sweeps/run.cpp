@@ -20,6 +20,7 @@
 #include "sweeps/companions.h"
 #include "sweeps/explain.h"
 #include "sweeps/hand_lists.h"
+#include "sweeps/idle_notes.h"
 #include "sweeps/list_chooser.h"
 #include "sweeps/refine.h"
 #include "sweeps/result_file.h"
@@ -88,6 +89,7 @@ class Sweep {
     if (options_.warn) options_.warn(scene_, precision());
     say_cavity_notes(scene_);
     const Plan plan(scene_, keeps_vectors(variables_));
+    for (const std::string& line : idle_notes(scene_, plan, best_wanted_)) say_note(line);
     backend_ = parts_.open_backend(make_field_set(swept_fields(plan), scene_));
     evaluator_ = parts_.open_evaluator();
     std::vector<VesselFacts> facts = vessel_facts(scene_, *backend_, *evaluator_);

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "sweeps/idle_notes.h"
+
+#include "core/planes.h"
+
+namespace wholehand {
+
+std::string idle_strength_note(const Scene& scene) {
+  if (!scene.strength || !scene.tilts.empty()) return "";
+  return "note: [strength] changes nothing here, since the scene has no [tilts] at which an effort could be computed; add [tilts], "
+         "or leave [strength] out";
+}
+
+std::vector<std::string> idle_notes(const Scene& scene, const Plan& plan, std::size_t best) {
+  std::vector<std::string> notes;
+  if (const std::string note = idle_strength_note(scene); !note.empty()) notes.push_back(note);
+  if (!scene.robust) return notes;
+  if (best == 0) {
+    notes.emplace_back(
+        "note: [robust] changes nothing here, since only the best grips have robust scores, and the sweep lists none; set "
+        "'best', or leave [robust] out");
+    return notes;
+  }
+  const auto weights = effective_weights(scene);
+  if (scene.robust->friction > 0 && weights[4] == 0 && weights[5] == 0) {
+    notes.push_back("note: [robust] friction changes no score here, since " +
+                    std::string(scene.tilts.empty() ? "the scene has no [tilts], and without them no force counts"
+                                                    : "the weights of force and hold are 0") +
+                    "; leave it out, and the scores take less time");
+  }
+  if (scene.robust->azimuth > 0 && plan.is_symmetric())
+    notes.emplace_back(
+        "note: [robust] azimuth_deg changes no score here, since all vessels are bodies of revolution; leave it out");
+  return notes;
+}
+
+}  // namespace wholehand

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// Notes on what a scene asks for and what changes nothing: said in each such scene, and in no other.
+// sanitizers: address
+#include "sweeps/idle_notes.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/scenes.h"
+#include "tests/support/sweep_trial.h"
+
+namespace wholehand {
+namespace {
+
+std::string notes_of(const Scene& scene, std::size_t best = 5) {
+  std::string all;
+  for (const std::string& line : idle_notes(scene, Plan(scene, false), best)) all += line + "\n";
+  return all;
+}
+
+Scene tilted_scene() {
+  Scene scene = scene_of({beaker1()});
+  scene.tilts = {0, 1};
+  return scene;
+}
+
+TEST(IdleNotes, StrengthNeedsTilts) {
+  Scene scene = tilted_scene();
+  scene.strength = StrengthData{};
+  EXPECT_EQ(notes_of(scene), "");
+  scene.tilts.clear();
+  EXPECT_EQ(notes_of(scene).find("note: [strength] changes nothing here"), 0u);
+  scene.strength.reset();
+  EXPECT_EQ(notes_of(scene), "");
+}
+
+TEST(IdleNotes, FrictionNeedsATermOfForces) {
+  Scene scene = tilted_scene();
+  scene.robust = RobustData{};
+  scene.robust->friction = 0.1;
+  EXPECT_EQ(notes_of(scene), "");
+  scene.score.hold = 0;
+  EXPECT_EQ(notes_of(scene), "") << "the force term depends on it";
+  scene.score.force = 0;
+  EXPECT_NE(notes_of(scene).find("[robust] friction changes no score here, since the weights"), std::string::npos);
+  scene.tilts.clear();
+  EXPECT_NE(notes_of(scene).find("[robust] friction changes no score here, since the scene has no [tilts]"), std::string::npos);
+  scene.robust->friction = 0;
+  scene.robust->roll = 0.1;
+  EXPECT_EQ(notes_of(scene), "");
+}
+
+TEST(IdleNotes, AzimuthNeedsAVesselThatIsNotRound) {
+  Scene scene = tilted_scene();
+  scene.robust = RobustData{};
+  scene.robust->azimuth = 0.1;
+  EXPECT_NE(notes_of(scene).find("[robust] azimuth_deg changes no score here"), std::string::npos);
+  scene.vessels[0].mass = 0.2;
+  scene.vessels[0].center_of_mass = Triple{0.01, 0.05, 0};
+  EXPECT_EQ(notes_of(scene), "") << "its weight is off the axis";
+}
+
+TEST(IdleNotes, RobustScoresNeedAList) {
+  Scene scene = tilted_scene();
+  scene.robust = RobustData{};
+  scene.robust->roll = 0.1;
+  EXPECT_EQ(notes_of(scene), "");
+  EXPECT_NE(notes_of(scene, 0).find("[robust] changes nothing here"), std::string::npos);
+}
+
+using IdleNotesRun = RunTest;
+
+TEST_F(IdleNotesRun, ASweepSaysThem) {
+  SweepTrial trial(folder / "a.nc");
+  trial.scene.robust = RobustData{};
+  trial.scene.robust->roll = 0.1;
+  trial.scene.output.best = 0;
+  const TrialOutcome outcome = trial.run();
+  EXPECT_EQ(outcome.code, ExitCode::done);
+  EXPECT_NE(outcome.notes.find("wholehand: note: [robust] changes nothing here"), std::string::npos) << outcome.notes;
+}
+
+}  // namespace
+}  // namespace wholehand
