@@ -40,7 +40,10 @@ TEST(IdleNotes, FrictionNeedsATermOfForces) {
   EXPECT_EQ(notes_of(scene), "");
   scene.score.hold = 0;
   EXPECT_EQ(notes_of(scene), "") << "the force term depends on it";
+  scene.score.hold = 1;
   scene.score.force = 0;
+  EXPECT_EQ(notes_of(scene), "") << "the hold term depends on it";
+  scene.score.hold = 0;
   EXPECT_NE(notes_of(scene).find("[robust] friction changes no score here, since the weights"), std::string::npos);
   scene.tilts.clear();
   EXPECT_NE(notes_of(scene).find("[robust] friction changes no score here, since the scene has no [tilts]"), std::string::npos);
