@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <utility>
 
 #include "app/paths.h"
 #include "core/core_backend.h"
 #include "core/evaluator.h"
+#include "grips/holding.h"
+#include "grips/methods.h"
+#include "grips/report.h"
 #include "host/grip_backend.h"
 #include "scene/reader.h"
 #include "tests/bench/bench.h"
@@ -75,6 +79,7 @@ namespace {
 
 // Ten times the default's heights, so that what is measured is the work and not the dozen waits of a run that lasts 15 ms.
 constexpr int HEIGHTS = 640;
+constexpr std::size_t PLAUSIBLE_STEPS = 300;
 
 // A vessel of twelve elements, for what the outline's place costs where it is longer than a beaker's three.
 Scene twelve_elements_scene() {
@@ -112,21 +117,41 @@ void vulkan_grips(benchmark::State& state, const Options& options, const Scene& 
   bench_backend(state, backend, scene);
 }
 
-// One step of a live loop: all kernels, one grip, one state.
-void core_step(benchmark::State& state, bool liquid) {
-  const Scene scene = read_scene_file(find_scene("three_beakers"));
+// One step of a live loop: all kernels, one grip, one state. The forces are those of the tips, as in a scene without [strength]; with efforts,
+// the least effort of the whole hand and of the tips are found from nothing, of grips that are plausible.
+void core_step(benchmark::State& state, bool liquid, bool efforts) {
+  const Scene strong = read_scene_file(find_scene("three_beakers"));
+  if (efforts && !strong.strength) {
+    state.SkipWithError("the default scene has no [strength]");
+    return;
+  }
+  Scene scene = strong;
+  scene.strength.reset();
   const auto core = make_core_evaluator(scene);
   const Plan plan(scene, false);
   GripResult result;
-  std::uint64_t step = 0;
+  std::uint64_t step = 0, number = 0;
+  // beforehand, so that every step that is timed has an effort to find: most grips of the scene are implausible
+  std::vector<std::uint64_t> steps;
+  for (; efforts && steps.size() < PLAUSIBLE_STEPS; ++number) {
+    const std::size_t vessel = number % scene.vessels.size();
+    core->grip(vessel, plan.grip(vessel, number * 7919 % plan.grips()), result);
+    if (result.reason == Reason::none && result.plausible) steps.push_back(number);
+  }
   for (auto _ : state) {
-    const std::size_t vessel = step % scene.vessels.size();
-    const GripInput grip = plan.grip(vessel, step * 7919 % plan.grips());
-    core->grip(vessel, grip, result);
-    const double tilt = radians(static_cast<double>(step % 60));
-    const LiquidResult held = liquid ? core->liquid(vessel, 0.5, tilt) : LiquidResult{};
-    if (result.reason == Reason::none) benchmark::DoNotOptimize(core->state(vessel, grip, result, held, tilt));
+    number = efforts ? steps[step % steps.size()] : step;
     ++step;
+    const std::size_t vessel = number % scene.vessels.size();
+    const GripInput grip = plan.grip(vessel, number * 7919 % plan.grips());
+    core->grip(vessel, grip, result);
+    GripState at{0.5, radians(static_cast<double>(number % 60)), {}, {}};
+    if (liquid) at.liquid = core->liquid(vessel, at.fill, at.tilt);
+    if (result.reason != Reason::none) continue;
+    at.state = core->state(vessel, grip, result, at.liquid, at.tilt);
+    benchmark::DoNotOptimize(at.state);
+    if (!efforts) continue;
+    const Holding holding(strong, *core, vessel, result, pour_direction(strong, grip));
+    benchmark::DoNotOptimize(holding.state(at).effort);
   }
 }
 
@@ -153,9 +178,9 @@ void add_grip_benchmarks(const Options& options) {
                               OutlineSource outline) {
     add(name, [=, &options](benchmark::State& s) { vulkan_grips(s, options, *scene, precision, outline); });
   };
-  const auto add_step = [](const char* name, bool liquid) {
-    benchmark::RegisterBenchmark(name, [liquid](benchmark::State& state) {
-      core_step(state, liquid);
+  const auto add_step = [](const char* name, bool liquid, bool efforts) {
+    benchmark::RegisterBenchmark(name, [=](benchmark::State& state) {
+      core_step(state, liquid, efforts);
     })->Unit(benchmark::kMicrosecond);
   };
   add_core("core_double_1", beakers, Precision::full, 1);
@@ -170,8 +195,9 @@ void add_grip_benchmarks(const Options& options) {
   add_vulkan("ribbed_float_buffer", ribbed, Precision::single, OUTLINE_BUFFER);
   add_core("whole_core_all", whole, Precision::full, 0);
   add_vulkan("whole_vulkan_float", whole, Precision::single, OUTLINE_SPECIALIZED);
-  add_step("step_dry", false);
-  add_step("step_liquid", true);
+  add_step("step_dry", false, false);
+  add_step("step_liquid", true, false);
+  add_step("step_efforts", true, true);
 }
 
 void print_grip_ratios(const Figures& figures) {
@@ -183,9 +209,9 @@ void print_grip_ratios(const Figures& figures) {
   print_ratio(figures, "ribbed_float", "ribbed_float_buffer", 4);
   print_ratio(figures, "ribbed_float_hoisted", "ribbed_float_buffer", 0);
   print_ratio(figures, "whole_vulkan_float", "whole_core_all", 0);
-  for (const char* step : {"step_dry", "step_liquid"})
+  for (const auto& [step, wanted] : {std::pair{"step_dry", 20}, {"step_liquid", 40}, {"step_efforts", 60}})
     if (const auto found = figures.figures.find(step); found != figures.figures.end())
-      fmt::print("{:<28} {:.2f} us\n", step, found->second.microseconds);
+      fmt::print("{:<28} {:.2f} us  (wanted: {})\n", step, found->second.microseconds, wanted);
 }
 
 }  // namespace wholehand::bench
