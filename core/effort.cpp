@@ -18,7 +18,7 @@ constexpr Real LEAST_LENGTH = Real(1e-3);                       // m: of a singl
 // pivots go down. What costs more is rounding, of a friction of 1e-200 for example.
 constexpr Real FIRST_COST = Real(3);
 constexpr Real MOST_TOLERANCE = Real(0.1), WIDER = 4;          // of a bracket that is all that can be had, and from try to try
-constexpr Real UNBALANCED = SINGLE ? Real(1e-2) : Real(1e-7);  // of a load: forces that leave more of it are no answer
+constexpr Real UNBALANCED = SINGLE ? Real(1e-2) : Real(1e-9);  // of a load: forces that leave more of it are no answer
 
 template <class Six>
 Real dot6(const Six& a, const Six& b) {
