@@ -12,16 +12,14 @@
 
 #include "core/effort.h"
 #include "tests/support/contact_sets.h"
-#include "tests/support/force_sums.h"
+#include "tests/support/expect_forces.h"
 #include "tests/support/special_values.h"
 #include "tests/support/vectors.h"
 
 namespace wholehand {
 namespace {
 
-using core_f64::ContactForce;
 using core_f64::ContactPoint;
-using core_f64::DIGITS;
 using core_f64::Effort;
 using core_f64::EffortSolver;
 using core_f64::Vec3;
@@ -34,12 +32,8 @@ constexpr double FINE = 1e-9;
 // hardly any contact resists has a price of up to UNRESISTED_EFFORT = 1e6, and rounding of 1e-16 in the load or a contact costs 1e6
 // times that; a basis of nearly parallel columns multiplies it by 100 or so. Found in 6,000 sets: 2e-8 at most.
 constexpr double ROUNDED = 1e-7;
-constexpr double SUMMED = 1e-12;  // rounding of sums of some 10 numbers of the size of the forces
-constexpr double BALANCED =
-    1e-9;  // of the load, what counts as an answer. Found: 6e-12 at most, from bases of nearly parallel columns
 
 const Vec3 ABOUT(0.005, 0.05, -0.003);  // the solver's center
-constexpr double LEVER = 0.05;          // m: moments of a wrench's size
 
 Effort effort_of(const ContactSet& set, Vec3 center = ABOUT) {
   return EffortSolver(set.contacts, set.hand, center).solve(set.load, FINE);
@@ -66,20 +60,6 @@ void expect_not_above(const Effort& a, const Effort& b, std::uint64_t seed) {
 
 // ---- what an answer must have ----
 
-void expect_forces_hold(const ContactSet& set, const EffortSolver& solver, const Effort& found, const std::string& which) {
-  std::vector<ContactForce> forces(set.contacts.size());
-  solver.forces(forces);
-  const ForceSums sums = sums_of_forces(set.contacts, forces, set.hand.torsion, set.load);
-  for (const ContactLoad& contact : sums.contacts) {
-    EXPECT_GE(contact.normal, 0) << which;
-    EXPECT_LE(contact.across, (set.hand.friction + SUMMED) * contact.normal) << which;
-    EXPECT_FALSE(contact.twists_in_vain) << which;
-  }
-  EXPECT_LE(wrench_size(sums.rest, ABOUT, LEVER), BALANCED * wrench_size(set.load, ABOUT, LEVER)) << which;
-  for (std::size_t digit = 0; digit < DIGITS; ++digit)
-    EXPECT_LE(sums.pressed[digit], found.effort * set.hand.digits[digit] * (1 + SUMMED)) << which << " digit " << digit;
-}
-
 // What a contact of unit normal force can take up of a motion at most, in W: the most of force.velocity + moment.turning over its
 // cone, against the motion.
 double opposed(const ContactPoint& contact, const core_f64::HandStrength& hand, Vec3 velocity, Vec3 turning) {
@@ -99,7 +79,7 @@ void expect_escape(const ContactSet& set, const Effort& found, const std::string
   const double power = glm::dot(set.load.force, velocity) + glm::dot(set.load.moment - glm::cross(ABOUT, set.load.force), turning);
   ASSERT_TRUE(std::isfinite(power)) << which;
   EXPECT_GT(power, 0) << which;
-  const double size = wrench_size(set.load, ABOUT, LEVER);
+  const double size = wrench_size(set.load, ABOUT, WRENCH_LEVER);
   for (const ContactPoint& contact : set.contacts) {
     const bool presses = set.hand.digits[static_cast<std::size_t>(contact.digit)] > 0;
     EXPECT_TRUE(!presses || size * opposed(contact, set.hand, velocity, turning) <= OPPOSED * power) << which;
@@ -117,7 +97,7 @@ Effort expect_sound(const ContactSet& set, double tolerance, const std::string& 
   EXPECT_TRUE(tolerance <= FINE || found.pivots < core_f64::EFFORT_PIVOTS) << which;
   if (std::isfinite(found.effort)) {
     EXPECT_LE(found.effort - found.low, std::max(tolerance, rounded) * found.effort) << which;
-    expect_forces_hold(set, solver, found, which);
+    expect_forces_hold(set, solver, found, ABOUT, which);
   } else {
     expect_escape(set, found, which);
   }
@@ -226,7 +206,7 @@ TEST(EffortProperties, TheNextLoadOfASolverIsThatOfAFreshOne) {
       bounded += std::isfinite(bound) ? 1 : 0;
       const Effort next = solver.solve(set.load, FINE);
       expect_overlap(next, fresh, seed);
-      if (std::isfinite(next.effort)) expect_forces_hold(set, solver, next, "next, seed " + std::to_string(seed));
+      if (std::isfinite(next.effort)) expect_forces_hold(set, solver, next, ABOUT, "next, seed " + std::to_string(seed));
     }
   }
   EXPECT_GT(bounded, 30);  // else `bound` was hardly asked
@@ -316,7 +296,7 @@ TEST(EffortProperties, ForcesOfStrengthsFarApartBalanceTheLoad) {
       EffortSolver solver(set.contacts, set.hand, ABOUT);
       const Effort found = solver.solve(set.load);
       if (!std::isfinite(found.effort)) continue;
-      expect_forces_hold(set, solver, found, "seed " + std::to_string(seed));
+      expect_forces_hold(set, solver, found, ABOUT, "seed " + std::to_string(seed));
       ++resisted;
     }
   EXPECT_GT(resisted, 110);
@@ -328,7 +308,7 @@ TEST(EffortProperties, LoadsOfAnySizeAreAlike) {
     const Effort found = effort_of(set);
     for (const double size : {1e-9, 1e6}) {
       ContactSet other = set;
-      const double scale = size / wrench_size(set.load, ABOUT, LEVER);
+      const double scale = size / wrench_size(set.load, ABOUT, WRENCH_LEVER);
       other.load = times(scale, set.load);
       expect_overlap(expect_sound(other, FINE, "seed " + std::to_string(seed)), scaled_by(scale, found), seed);
     }

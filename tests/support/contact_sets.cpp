@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
+#include "core/sdf.h"
 #include "tests/support/vectors.h"
 
 namespace wholehand {
@@ -53,6 +55,38 @@ int random_count(ContactKind kind, Random& random) {
   if (kind == ContactKind::single) return 1;
   if (kind == ContactKind::own_digits) return static_cast<int>(random.uniform(2, core_f64::DIGITS + 1));
   return static_cast<int>(random.uniform(2, 25));
+}
+
+// A vessel and how large it is.
+struct Glass {
+  core_f64::Vessel vessel;
+  double radius = 0, height = 0;  // m
+};
+
+const std::vector<Glass>& glasses() {
+  static const std::vector<Glass> all = [] {
+    std::vector<Glass> made;
+    for (const VesselData& data : {beaker1(), beaker2(), beaker3(), vase(), ledges()})
+      made.push_back({ready_vessel(data), largest_radius(data), data.height});
+    return made;
+  }();
+  return all;
+}
+
+// The place nearest to one beside the wall. A hand does not press down on the mouth.
+ContactPoint on_glass(const Glass& glass, Random& random, double azimuth, double height, int digit) {
+  ContactPoint contact;
+  contact.digit = digit;
+  do {
+    const double away = glass.radius * random.uniform(0.5, 1.1);
+    const Vec3 p(away * std::cos(azimuth), height * glass.height, away * std::sin(azimuth));
+    int element = 0;
+    const Vec3 out = core_f64::distance_gradient(glass.vessel, p, element);
+    contact.place = p - core_f64::signed_distance(glass.vessel, p) * out;
+    contact.normal = -out;
+    height *= 0.9;  // of the next try
+  } while (contact.normal.y < -0.9);
+  return contact;
 }
 
 }  // namespace
@@ -107,6 +141,31 @@ ContactSet random_contact_set(ContactKind kind, Random& random) {
 ContactSet contact_set(std::uint64_t seed) {
   Random random(seed);
   return random_contact_set(static_cast<ContactKind>(seed % CONTACT_KINDS), random);
+}
+
+ContactSet vessel_contact_set(std::uint64_t seed) {
+  constexpr ContactKind KINDS[] = {ContactKind::around, ContactKind::one_side, ContactKind::around, ContactKind::level,
+                                   ContactKind::coincident};
+  Random random(seed);
+  const Glass& glass = glasses()[static_cast<std::size_t>(random.uniform(0, static_cast<double>(glasses().size())))];
+  ContactSet set;
+  set.kind = KINDS[seed % 5];
+  set.hand.friction = random.uniform(0.1, 2);
+  set.hand.torsion = std::max(0.0, random.uniform(-0.015, 0.03));
+  for (double& digit : set.hand.digits) digit = random.uniform(5, 80);
+  const double side = random.uniform(-PI, PI), common = random.uniform(0.05, 0.95);
+  const int count = static_cast<int>(random.uniform(2, 25));
+  for (int i = 0; i < count; ++i) {
+    const double azimuth = side + (set.kind == ContactKind::one_side ? random.uniform(-0.7, 0.7) : random.uniform(-PI, PI));
+    const double height = set.kind == ContactKind::level ? common : random.uniform(0.05, 0.95);
+    set.contacts.push_back(on_glass(glass, random, azimuth, height, random_digit(random)));
+    if (set.kind != ContactKind::coincident || i == 0 || random.uniform(0, 1) < 0.3) continue;
+    const int digit = set.contacts.back().digit;
+    set.contacts.back() = set.contacts[static_cast<std::size_t>(random.uniform(0, i))];
+    set.contacts.back().digit = digit;
+  }
+  set.load = random.uniform(0, 1) < 0.5 ? balanced_load(set, random) : random_load(random);
+  return set;
 }
 
 double wrench_size(const Wrench& wrench, const Vec3& about, double arm) {

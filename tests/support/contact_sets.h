@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Contacts of a hand on walls of revolution, at random, with a load: what effort is tested on.
+// Contacts of a hand on walls of revolution or on vessels, at random, with a load: what effort is tested on.
 #pragma once
 
 #include <cstdint>
@@ -25,6 +25,9 @@ struct ContactSet {
 ContactSet random_contact_set(ContactKind kind, Random& random);
 // The kinds in turn, each set from its own seed.
 ContactSet contact_set(std::uint64_t seed);
+// On the surface of a vessel of scenes.h: 2 to 24 contacts, each count as often. A fifth of the sets each is from one side, level and
+// coincident, and the others are around.
+ContactSet vessel_contact_set(std::uint64_t seed);
 // 0.1 to 20 N in any direction through a place in the vessel.
 core_f64::Wrench random_load(Random& random);
 // Against a force in the cone of each contact, with normal forces up to 10 N.
