@@ -14,8 +14,8 @@ namespace wholehand {
 // A line on [strength] in a scene without [tilts]: there are no states whose effort could be found. Empty in other scenes.
 std::string idle_strength_note(const Scene& scene);
 
-// That line, and one for each deviation of [robust] that changes no score: friction where no score depends on a force, azimuth about
-// bodies of revolution, and all of them where the sweep lists no grips (`best` is 0).
+// That line, and one for each deviation of [robust] that changes no score: friction where no score depends on a force, azimuth
+// about bodies of revolution, and all of them where the sweep lists no grips (`best` is 0).
 std::vector<std::string> idle_notes(const Scene& scene, const Plan& plan, std::size_t best);
 
 }  // namespace wholehand

@@ -22,7 +22,8 @@ struct GripCounts {
   std::uint64_t implausible = 0;             // of the feasible
   std::uint64_t antipodal = 0;
   std::uint64_t blocked = 0;  // with a blocked finger
-  // Of the implausible: a grip through the table may also have fingers in each other, and then counts twice. All 0 where they were not told apart.
+  // Of the implausible: a grip through the table may also have fingers in each other, and then counts twice. All 0 where they
+  // were not told apart.
   std::uint64_t through_table = 0, self_overlap = 0;
   std::uint64_t only_deep = 0;  // deep in the vessel, and neither of the two
 };

@@ -162,7 +162,8 @@ bool add_robust_scores(const OpenBackend& open, const Scene& scene, const Plan& 
   }
   if (std::all_of(vessels.begin(), vessels.end(), [](const RobustGrips& grips) { return grips.best.empty(); })) return true;
   const std::vector<double> frictions = robust_frictions(scene);
-  // Not the sweep's own, at any friction: what a sweep keeps may change the last bits of a device's scores, and this keeps the same.
+  // Not the sweep's own, at any friction: what a sweep keeps may change the last bits of a device's scores, and this
+  // keeps the same.
   std::unique_ptr<Backend> backend;
   for (std::size_t level = 0; level < frictions.size(); ++level) {
     Scene other = scene;

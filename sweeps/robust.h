@@ -48,8 +48,8 @@ struct RobustScore {
 };
 RobustScore robust_score(std::vector<double> scores);
 
-// Opens what evaluates grips of a scene that differs from the sweep's in its friction alone. Called once where that takes on another friction
-// itself (Backend::use_friction_of), and otherwise once for each.
+// Opens what evaluates grips of a scene that differs from the sweep's in its friction alone. Called once where that takes on another
+// friction itself (Backend::use_friction_of), and otherwise once for each.
 using OpenBackend = std::function<std::unique_ptr<Backend>(const Scene&, const FieldSet&)>;
 
 // Sets the robust scores of the first MOST_ROBUST grips of each list, in a scene that asks for them; else nothing. A deviation that is

@@ -117,8 +117,8 @@ void vulkan_grips(benchmark::State& state, const Options& options, const Scene& 
   bench_backend(state, backend, scene);
 }
 
-// One step of a live loop: all kernels, one grip, one state. The forces are those of the tips, as in a scene without [strength]; with efforts,
-// the least effort of the whole hand and of the tips are found from nothing, of grips that are plausible.
+// One step of a live loop: all kernels, one grip, one state. The forces are those of the tips, as in a scene without [strength]; with
+// efforts, the least effort of the whole hand and of the tips are found from nothing, of grips that are plausible.
 void core_step(benchmark::State& state, bool liquid, bool efforts) {
   const Scene strong = read_scene_file(find_scene("three_beakers"));
   if (efforts && !strong.strength) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Different best grips of a sweep on a Vulkan device, after a break too, and those that `rank` lists of its result: against the definition,
-// by all pairs of the file's scores and the core's hands.
+// Different best grips of a sweep on a Vulkan device, after a break too, and those that `rank` lists of its result: against the
+// definition, by all pairs of the file's scores and the core's hands.
 // sanitizers: address
 #include <gtest/gtest.h>
 
