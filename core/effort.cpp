@@ -10,7 +10,7 @@ namespace CORE_NS {
 namespace {
 
 constexpr Real NEVER = std::numeric_limits<Real>::infinity();
-constexpr Real ROUNDING = SINGLE ? Real(1e-5) : Real(1e-11);    // of numbers of size 1 after the pivots of a solve
+constexpr Real ROUNDING = EFFORT_ROUNDING;
 constexpr Real LEAST_PIVOT = SINGLE ? Real(1e-4) : Real(1e-9);  // of the largest of its column
 constexpr int FRESH_PIVOTS = 50;                                // after so many the inverse is made anew
 constexpr Real LEAST_LENGTH = Real(1e-3);                       // m: of a single contact, which has no extent
@@ -390,8 +390,6 @@ Real EffortSolver::low(const Wrench& load) const {
   if (!(value > 0)) return 0;
   return cut_height_ > 0 ? value / cut_height_ : NEVER;
 }
-
-Real EffortSolver::excess(const Wrench& load) const { return dot6(cut_, wanted_for(load)) - cut_height_; }
 
 void EffortSolver::forces(std::span<ContactForce> forces) const {
   for (ContactForce& force : forces) force = {};

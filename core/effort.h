@@ -13,8 +13,9 @@ namespace CORE_NS {
 
 constexpr int DIGITS = FINGERS + 1;  // thumb, index, middle, ring, little, palm
 constexpr int PALM = FINGERS;
-constexpr int EFFORT_PIVOTS = 400;             // at most; then the bracket is what it is
-constexpr Real EFFORT_TOLERANCE = Real(1e-3);  // of the bracket's width, relative
+constexpr int EFFORT_PIVOTS = 400;                                   // at most; then the bracket is what it is
+constexpr Real EFFORT_TOLERANCE = Real(1e-3);                        // of the bracket's width, relative
+constexpr Real EFFORT_ROUNDING = SINGLE ? Real(1e-5) : Real(1e-11);  // of numbers of size 1 after the pivots of a solve
 constexpr Real UNRESISTED_EFFORT =
     Real(1e6);  // a load that takes more times its own size, in normal forces, counts as not resisted
 
@@ -80,10 +81,7 @@ class EffortSolver {
   // The friction, up to `most`, at which the direction of the last solve's lower bound allows a load just so: less does not hold it.
   // Infinite: more is needed.
   Real least_friction(const Wrench& load, Real most) const;
-  // How far a load lies beyond what the direction of the last solve's lower bound allows, (-w).u - h(u) in the solver's units: more
-  // than 0 means an effort above 1. Affine in the load. -1 before any solve.
-  Real excess(const Wrench& load) const;
-  // A lower bound of the effort for another load, from the same direction.
+  // A lower bound of the effort for another load, from the direction of the last solve's lower bound. 0 before any solve.
   Real low(const Wrench& load) const;
   // An upper bound of the effort for this load from the last basis alone; infinite where this basis does not hold it, or there is
   // none.

@@ -12,19 +12,23 @@ namespace {
 constexpr Real UNHELD = std::numeric_limits<Real>::infinity();
 constexpr Real RISE_TOLERANCE = Real(0.05);  // of an effort that only tells where to look next
 constexpr int RISE_STEPS = 6;
+// Of a state that takes all of the strength and no more: both ends of its bracket are sums of such numbers.
+constexpr Real JUST_HELD = 1 + EFFORT_ROUNDING;
 
 struct Worst {
   Real effort = 0;
   std::size_t fill = 0, tilt = 0;
 };
 
-// Whether the effort for a load is up to 1, to the solver's tolerance. The last basis or the last cut may tell without a pivot.
+// Whether the effort for a load is up to 1, to the solver's tolerance. The last basis or the last cut may tell without a pivot. Rounding
+// must not decide: forces of an effort of 1 that come out a little larger hold, and a direction whose bound comes out a little larger
+// does not say that nothing does.
 bool is_held(EffortSolver& solver, const Wrench& load, Real tolerance, int& pivots) {
-  if (solver.bound(load) <= 1) return true;
-  if (solver.excess(load) > 0) return false;
-  const Effort found = solver.solve(load, tolerance, 1, 1);
+  if (solver.bound(load) <= JUST_HELD) return true;
+  if (solver.low(load) > JUST_HELD) return false;
+  const Effort found = solver.solve(load, tolerance, JUST_HELD, JUST_HELD);
   pivots += found.pivots;
-  return found.effort <= 1;
+  return found.effort <= JUST_HELD;
 }
 
 // The largest effort over the states of fills first..last - 1. A direction u that certifies one state bounds the effort of all
@@ -106,7 +110,7 @@ GripEffort grip_effort(std::span<const ContactPoint> contacts, std::optional<std
   for (std::size_t fill = 0; fill < fills.size(); ++fill) {
     std::size_t& held = fills[fill].held;
     const std::size_t counted = loads.counted[fill];
-    if (grip.worst <= 1) {
+    if (grip.worst <= JUST_HELD) {
       held = counted;
       continue;
     }

@@ -7,6 +7,7 @@
 #include "effort_solve.glsl"
 
 #define RISE_STEPS 4
+#define JUST_HELD (Real(1) + ROUNDING)  // see core/grip_effort.cpp
 
 // The state that the last lower bound's direction bounds most, where that is more than `most`.
 uint highest(Solve solve, Real most, uint state) {
@@ -29,7 +30,7 @@ void put_worst(Real worst, Vec4 tilted, uint grip) {
 bool is_busy(uint grip) {
   uint status = uint_out[uint(PLANE_STATUS) * push.stride + grip];
   if ((status & (STATUS_REASON_MASK | STATUS_PLAUSIBLE)) == STATUS_PLAUSIBLE)
-    return TASK != EFFORT_SAFE || kept(PLANE_WORST_EFFORT, 0, grip) > Real(1);
+    return TASK != EFFORT_SAFE || kept(PLANE_WORST_EFFORT, 0, grip) > JUST_HELD;
   if (TASK == EFFORT_SAFE) {
     for (uint fill = 0u; fill < scene.fills; ++fill) put_real(PLANE_SAFE_TILT, int(fill), grip, NOT_A_NUMBER);
   } else {
@@ -70,7 +71,7 @@ void main() {
   bool has_basis = false, is_warm = false, is_solving = false;
   uint k = has_grip ? 0u : push.number;
   while (k < push.number) {
-    Real enough = TASK == EFFORT_SAFE ? Real(1) : is_rising ? Real(0) : worst * (Real(1) + HALF_TOLERANCE);
+    Real enough = TASK == EFFORT_SAFE ? JUST_HELD : is_rising ? Real(0) : worst * (Real(1) + HALF_TOLERANCE);
     // states that the last basis shows to be small, or that nothing depends on, are passed by
     bool is_new = !is_solving;
     while (k < push.number && !is_solving) {
@@ -95,7 +96,7 @@ void main() {
       pivots = 0;
     }
     pivots += is_solving ? 1 : 0;
-    step(solve, tolerance, enough, TASK == EFFORT_SAFE ? Real(1) : INFINITE, is_solving);
+    step(solve, tolerance, enough, TASK == EFFORT_SAFE ? JUST_HELD : INFINITE, is_solving);
     // where no column enters and the effort is not known, rounding may have gathered: once more from a refined inverse
     bool is_told_apart = solve.is_known || solve.is_beyond || solve.low > dear * solve.size;
     if (is_solving && solve.done && !is_told_apart && pivots > 1 && solve.pivots < DEVICE_PIVOTS) {
@@ -117,7 +118,7 @@ void main() {
       }
       if (is_coarse || !is_told) continue;
       if (TASK == EFFORT_SAFE) {
-        if (solve.effort > Real(1)) put_real(PLANE_SAFE_TILT, int(tilted.w), grip, tilted.z < Real(0) ? NOT_A_NUMBER : tilted.z);
+        if (solve.effort > JUST_HELD) put_real(PLANE_SAFE_TILT, int(tilted.w), grip, tilted.z < Real(0) ? NOT_A_NUMBER : tilted.z);
       } else if (solve.effort > max(enough, worst)) {
         worst = solve.effort;
         put_worst(worst, tilted, grip);

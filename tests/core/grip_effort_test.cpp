@@ -274,6 +274,32 @@ TEST(GripEffort, WithoutGravityNothingIsNeeded) {
   }
 }
 
+// Two tips on a level line press W / (2 mu) each against a weight W. Strengths of just that hold it, whichever way the numbers round, and
+// do not hold twice the weight.
+TEST(GripEffort, AllOfTheStrengthHoldsWhateverRounds) {
+  Random random(31);
+  int above = 0;
+  for (int i = 0; i < 800; ++i) {
+    const double half = random.uniform(0.01, 0.06), friction = random.uniform(0.1, 2), mass = random.uniform(0.05, 2);
+    const double turn = random.uniform(-PI, PI), height = random.uniform(-0.1, 0.1);
+    const Vec3 side(std::cos(turn), 0, std::sin(turn)), up(0, height, 0);
+    const std::vector<ContactPoint> tips{{up + half * side, -side, 0}, {up - half * side, side, 1}};
+    HandStrength hand{friction, 0.01, {}};
+    hand.digits.fill(mass * 9.81 / (2 * friction));
+    // a second fill of twice the weight, so that the grip is not held as a whole
+    const std::vector<core_f64::Load> states{{mass, up, 0, 0}, {2 * mass, up, 0, 0}};
+    const std::vector<core_f64::StateTilt> tilts(1);
+    const std::vector<std::size_t> counted{1, 1};
+    std::vector<FillEffort> fills(2);
+    const GripEffort found = grip_effort(tips, std::nullopt, hand, GripLoads{states, tilts, counted, side, 9.81}, fills);
+    EXPECT_NEAR(found.worst, 2, 2 * EFFORT_TOLERANCE);
+    EXPECT_EQ(fills[0].held, 1u) << i;
+    EXPECT_EQ(fills[1].held, 0u) << i;
+    above += effort_of(tips, hand, GripLoads{states, tilts, counted, side, 9.81}.weight(0, 0)) > 1;
+  }
+  EXPECT_GT(above, 20);  // else nothing rounded
+}
+
 // A thumb alone holds nothing that hangs from it.
 TEST(GripEffort, OneContactHoldsNothing) {
   LoadedGrip grip = random_loaded_grips(1, Handedness::right, 19).front();
