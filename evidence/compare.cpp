@@ -78,6 +78,17 @@ bool is_held(const GatheredPlanes& planes, int field) {
   return planes.fields.has(field) && static_cast<std::size_t>(planes.fields.plane[field]) * planes.count < planes.reals.size();
 }
 
+// Where strengths are far apart the core widens a bracket, up to a tenth, until its forces balance.
+double effort_share(const StrengthData& strengths) {
+  constexpr double FAR_APART = 1e3, WIDEST = 0.1;
+  double strongest = 0, weakest = std::numeric_limits<double>::infinity();
+  for (const double strength : strengths.digits) {
+    strongest = std::max(strongest, strength);
+    if (strength > 0) weakest = std::min(weakest, strength);
+  }
+  return strongest > FAR_APART * weakest ? WIDEST : EFFORT_SHARE;
+}
+
 // What the comparison of told tilts looks at.
 bool has_tilts(const Scene& scene, const FieldSet& fields) {
   const auto needed = {FIELD_PEAK_TILT, FIELD_SAFE_TILT, FIELD_FEEDBACK_FORCE, FIELD_NORMAL_FORCE};
@@ -356,7 +367,7 @@ double Comparer::effort_floor(int field, std::size_t vessel, double truth) const
   const auto& digits = scene_.strength->digits;
   const double strength = *std::max_element(digits.begin(), digits.end()), weight = scene_.gravity * glass.mass;
   const double lost = weight > 0 ? 4 * ROUNDINGS * allowed_.epsilon * strength / weight : 0;
-  const double of_share = EFFORT_SHARE * truth * (1 - truth);
+  const double of_share = effort_share(*scene_.strength) * truth * (1 - truth);
   if (is_friction) return (core_f64::FRICTION_STEP + lost) * truth * truth + of_share;
   if (is_effort(field)) return of_share + lost * (1 - truth) * (1 - truth);
   return EFFORT_SHARE * (truth + scene_.gravity * glass.largest_mass) + 3 * std::sqrt(allowed_.epsilon) * strength;

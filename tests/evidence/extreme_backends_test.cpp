@@ -24,19 +24,12 @@ const std::map<std::string, std::string> FLOAT_EXCEPTIONS{
      "strengths are in the ratio of 1 to 100,000: in the unit of the strongest the weakest is near float's rounding"},
 };
 
-// Where a device in double is not within the tolerances of the core in double, and why.
-const std::map<std::string, std::string> DEVICE_EXCEPTIONS{
-    {"weak_and_strong",
-     "where strengths are in the ratio of 1 to 100,000 the core widens brackets to 2 % until the forces balance to 1e-9"},
-};
-
 void expect_holds(const ExtremeRow& row) {
   const std::string who = row.name + ", " + row.backend + (row.precision == Precision::single ? " float" : " double");
   EXPECT_EQ(row.misplaced, 0u) << who << ": " << row.first_misplaced;
   EXPECT_EQ(row.reasons[REASON_NOT_CONVERGED], 0u) << who;
   EXPECT_EQ(row.unsettled_fingers, 0u) << who;
-  const bool excepted = row.precision == Precision::single ? FLOAT_EXCEPTIONS.count(row.name) > 0
-                                                           : row.backend != "core" && DEVICE_EXCEPTIONS.count(row.name) > 0;
+  const bool excepted = row.precision == Precision::single && FLOAT_EXCEPTIONS.count(row.name) > 0;
   EXPECT_EQ(row.holds, !excepted) << who << (excepted ? ": no longer an exception" : "");
   if (row.precision == Precision::full) {
     EXPECT_EQ(row.unsettled_proxies, 0u) << who;
