@@ -244,12 +244,14 @@ TEST_F(CompareEfforts, AskForNoEffortOfAState) {
 
 // Five percent are found wherever the grip's own answer does not move as much; a tenth of a percent nowhere.
 TEST_F(CompareEfforts, FindANumberThatIsOffByPercents) {
-  for (const auto& [name, field] : {std::pair<const char*, int>{"1/(1+worst effort)", FIELD_WORST_EFFORT},
-                                    {"1/(1+tips' effort)", FIELD_TIPS_WORST_EFFORT},
-                                    {"push", FIELD_PUSH},
-                                    {"1/(1+friction)", FIELD_FRICTION_NEEDED}}) {
+  for (const auto& row : {std::pair<const char*, int>{"1/(1+worst effort)", FIELD_WORST_EFFORT},
+                          {"1/(1+tips' effort)", FIELD_TIPS_WORST_EFFORT},
+                          {"push", FIELD_PUSH},
+                          {"1/(1+friction)", FIELD_FRICTION_NEEDED}}) {
+    const auto& name = row.first;
+    const int field = row.second;
     const auto scaled = [&](double factor) {
-      return [this, field = field, factor](GatheredPlanes& planes, std::size_t i) { real(planes, field, 0, i) *= factor; };
+      return [this, field, factor](GatheredPlanes& planes, std::size_t i) { real(planes, field, 0, i) *= factor; };
     };
     const std::uint64_t numbers = with_number(field);
     EXPECT_GT(numbers, 10u) << name;
