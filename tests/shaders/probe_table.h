@@ -74,5 +74,9 @@
 #define PROBE_LOOP_ENERGY 94  // plant, wall's stiffness, place, speed, press; energy
 #define PROBE_STEPPED 95      // plant, time, integrator, sub-steps; as PROBE_PROPAGATOR
 #define PROBE_LET_GO 96       // wall, place; place, speed, reading, waiting
+// probe_body
+#define PROBE_BALL_BETWEEN 100   // start, end, their radii, share; place, radius
+#define PROBE_NEAREST_SHARE 101  // x; share
+#define PROBE_BONES_OVERLAP 102  // of two bones: start, end, their radii; overlap
 
 #endif

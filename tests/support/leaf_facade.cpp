@@ -10,6 +10,7 @@
 #include <tuple>
 #include <type_traits>
 
+#include "core/body.h"
 #include "core/closure.h"
 #include "core/contact.h"
 #include "core/force.h"
@@ -166,6 +167,7 @@ struct Answer {
   void put(const PaperAxis& value) { put_all(value.direction, value.exists); }
   void put(const Slices& value) { put_all(value.volume, value.lean, value.height, value.surface); }
   void put(const LiquidState& value) { put_all(value.volume, value.lean, value.height); }
+  void put(const Ball& value) { put_all(value.place, value.radius); }
   void put(const Propagator& value) {
     put_all(value.place_place, value.place_speed, value.place_force, value.speed_place, value.speed_speed, value.speed_force);
   }
@@ -361,6 +363,10 @@ constexpr LeafEntry LEAVES[] = {
     {PROBE_WALL_FORCE, answers_of<wall_answer>},
     {PROBE_STEP_LOOP, answers_of<loop_step>},
     {PROBE_LOOP_ENERGY, answers_of<energy_of>},
+    // body
+    {PROBE_BALL_BETWEEN, answers_of<ball_between>},
+    {PROBE_NEAREST_SHARE, answers_of<nearest_share>},
+    {PROBE_BONES_OVERLAP, answers_of<bones_overlap>},
 };
 
 class CoreLeaves final : public wholehand::Leaves {

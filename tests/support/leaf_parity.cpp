@@ -138,10 +138,11 @@ void ParityLeaf::judge(const Leaf& leaf, const Table& table, const Table& a, con
     }
     undecided += left_out ? 1 : 0;
     if (left_out) continue;
+    const double more = leaf.more ? leaf.more(&table[i * leaf.inputs], epsilon) : 0;
     for (std::size_t k = 0; k < width; ++k) {
       if (leaf.outputs[k].discrete) continue;
       const std::size_t at = i * width + k;
-      const double tolerance = FORWARD * epsilon * leaf.outputs[k].scale + 2 * spread[at];
+      const double tolerance = FORWARD * epsilon * leaf.outputs[k].scale + 2 * spread[at] + more;
       const double ratio = apart(a[at], b[at]) / tolerance;
       ++numbers;
       sharp += tolerance <= SHARP * leaf.outputs[k].scale ? 1 : 0;

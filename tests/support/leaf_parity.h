@@ -50,6 +50,8 @@ struct Leaf {
   // Decisions come from exact arithmetic on every row but those for which `hinges` holds.
   bool exact = false;
   std::function<bool(const double*)> hinges{};
+  // What the tolerance of a row is larger by, at a precision's epsilon: where rounding is not as good as moved inputs.
+  std::function<double(const double*, double)> more{};
 };
 
 std::vector<Output> repeated(const std::string& name, int count, double scale);

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// Leaf functions of body.glsl.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "body.glsl"
+#include "probe.glsl"
+
+Vec2 given2(int k) { return Vec2(given(k), given(k + 1)); }
+
+void main() {
+  if (row() >= push.count) return;
+  if (PROBE == PROBE_BALL_BETWEEN) {
+    Ball ball = ball_between(given3(0), given3(3), given(6), given(7), given(8));
+    answer3(0, ball.place);
+    answer(3, ball.radius);
+  }
+  if (PROBE == PROBE_NEAREST_SHARE) answer(0, nearest_share(given(0)));
+  if (PROBE == PROBE_BONES_OVERLAP) answer(0, bones_overlap(given3(0), given3(3), given2(6), given3(8), given3(11), given2(14)));
+}
