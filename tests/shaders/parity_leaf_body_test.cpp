@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Leaf functions of body.glsl against the core's (tests/support/leaf_parity.h).
+// Leaf functions of body.glsl and table.glsl against the core's (tests/support/leaf_parity.h).
 // sanitizers: none
 #include <gtest/gtest.h>
 
@@ -111,6 +111,27 @@ TEST_F(ParityLeaf, BonesOverlap) {
            .outputs = {{"overlap", REACH}},
            .more = rounding_of_overlap},
           build.table, three_beakers());
+}
+
+// Vessels on tables of several heights and clearances, and points above a table, below it and in contact with it.
+TEST_F(ParityLeaf, DepthInTable) {
+  Scene scene = vessels_scene();
+  scene.table = TableData{};
+  for (const double clearance : {0.0, 2e-3, 0.03}) {
+    scene.table->clearance = clearance;
+    for (const std::size_t v : {std::size_t(0), VASE}) {
+      const double top = scene.vessels[v].base + clearance;
+      Builder points(320 + v), fingers(330 + v);
+      for (int i = 0; i < 333; ++i) {
+        const double radius = i % 5 == 0 ? 0 : points.random.uniform(2e-3, THICKEST);
+        points.uniform(-0.1, 0.1).add(i % 7 == 0 ? top + radius : points.random.uniform(-0.1, 0.1)).uniform(-0.1, 0.1).add(radius);
+        for (int k = 0; k < 3; ++k) fingers.uniform(-0.1, 0.1).uniform(-0.1, 0.1).uniform(-0.1, 0.1);
+        for (int k = 0; k < 3; ++k) fingers.add(i % 5 == k ? 0 : fingers.random.uniform(2e-3, THICKEST));
+      }
+      compare({"probe_body", PROBE_DEPTH_IN_TABLE, 4, {{"depth", REACH}}}, points.table, scene, v);
+      compare({"probe_body", PROBE_FINGER_IN_TABLE, 12, {{"depth", REACH}}}, fingers.table, scene, v);
+    }
+  }
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #ifndef WHOLEHAND_PROBE_TABLE_H
 #define WHOLEHAND_PROBE_TABLE_H
 
-#define CONST_PROBE 7  // specialization constant: one of these
+#define CONST_PROBE 10  // specialization constant: one of these
 
 // probe_trig
 #define PROBE_SINE_COSINE 0    // angle; sine, cosine
@@ -74,9 +74,11 @@
 #define PROBE_LOOP_ENERGY 94  // plant, wall's stiffness, place, speed, press; energy
 #define PROBE_STEPPED 95      // plant, time, integrator, sub-steps; as PROBE_PROPAGATOR
 #define PROBE_LET_GO 96       // wall, place; place, speed, reading, waiting
-// probe_body
-#define PROBE_BALL_BETWEEN 100   // start, end, their radii, share; place, radius
-#define PROBE_NEAREST_SHARE 101  // x; share
-#define PROBE_BONES_OVERLAP 102  // of two bones: start, end, their radii; overlap
+// probe_body; radii of finger_in_table: PIP, DIP, tip
+#define PROBE_BALL_BETWEEN 100     // start, end, their radii, share; place, radius
+#define PROBE_NEAREST_SHARE 101    // x; share
+#define PROBE_BONES_OVERLAP 102    // of two bones: start, end, their radii; overlap
+#define PROBE_DEPTH_IN_TABLE 103   // point, radius; depth
+#define PROBE_FINGER_IN_TABLE 104  // pip, dip, tip, radii; depth
 
 #endif

@@ -20,6 +20,8 @@
 #include "core/prepare.h"
 #include "core/projection.h"
 #include "core/score.h"
+#include "core/table.h"
+#include "core/touch.h"
 #include "core/trig.h"
 #include "tests/shaders/probe_table.h"
 #ifndef MAKE_LEAVES
@@ -93,6 +95,7 @@ struct Row {
   void read(Vec2& value) { read_all(value.x, value.y); }
   void read(Vec3& value) { read_all(value.x, value.y, value.z); }
   void read(FingerFrame& value) { read_all(value.base, value.forward, value.palmward); }
+  void read(FingerPoints& value) { read_all(value.pip, value.dip, value.tip); }
   void read(Element& value) { read_all(value.a, value.b, value.center, value.radius, value.side); }
   void read(Support& value) {
     read_all(value.distance, value.other, value.normal, value.planar);
@@ -363,10 +366,12 @@ constexpr LeafEntry LEAVES[] = {
     {PROBE_WALL_FORCE, answers_of<wall_answer>},
     {PROBE_STEP_LOOP, answers_of<loop_step>},
     {PROBE_LOOP_ENERGY, answers_of<energy_of>},
-    // body
+    // body and table
     {PROBE_BALL_BETWEEN, answers_of<ball_between>},
     {PROBE_NEAREST_SHARE, answers_of<nearest_share>},
     {PROBE_BONES_OVERLAP, answers_of<bones_overlap>},
+    {PROBE_DEPTH_IN_TABLE, answers_of<depth_in_table>},
+    {PROBE_FINGER_IN_TABLE, answers_of<finger_in_table>},
 };
 
 class CoreLeaves final : public wholehand::Leaves {
@@ -379,6 +384,8 @@ class CoreLeaves final : public wholehand::Leaves {
     const wholehand::PreparedVessel prepared = wholehand::prepare_vessel(data, data.wall > 0);
     Vessel& vessel = context_.vessel;
     vessel = load_vessel(prepared, data, context_.quadrature, scene.liquid.has_value(), scene.hand.handedness);
+    vessel.on_table = scene.table.has_value();
+    if (scene.table) vessel.table_top = Real(wholehand::table_top(scene, data));
     if (lattice_samples == 0) return;
     const double margin = wholehand::lattice_margin(scene);
     use_lattice(vessel, load_lattice(wholehand::prepare_lattice(prepared, lattice_samples, lattice_bits == 16, margin)));
