@@ -31,9 +31,44 @@ Vec3 first(const std::array<Real, 6>& six) { return Vec3(six[0], six[1], six[2])
 Vec3 second(const std::array<Real, 6>& six) { return Vec3(six[3], six[4], six[5]); }
 std::array<Real, 6> joined(Vec3 a, Vec3 b) { return {a.x, a.y, a.z, b.x, b.y, b.z}; }
 
+// How a contact moves along a direction (a, b), b times the unit of length:
+//   v = a + b x p,  s = sqrt(|v - (n.v) n|^2 + gamma^2 (b.n)^2)
+struct Slip {
+  Vec3 velocity{}, across{};
+  Real spin = 0, root = 0;
+};
+
+Slip slip_of(Vec3 arm, Vec3 normal, Real gamma, const std::array<Real, 6>& direction) {
+  Slip slip;
+  const Vec3 turning = second(direction);
+  slip.velocity = first(direction) + glm::cross(turning, arm);
+  slip.spin = gamma * glm::dot(turning, normal);
+  // at right angles to n even where it is next to nothing beside n.v
+  slip.across = glm::cross(glm::cross(normal, slip.velocity), normal);
+  slip.root = std::sqrt(glm::dot(slip.across, slip.across) + slip.spin * slip.spin);
+  return slip;
+}
+
 }  // namespace
 
 Wrench wrench_at(Vec3 place, Vec3 force) { return {force, glm::cross(place, force)}; }
+
+// h = n.v + mu s, attained with the tangential force mu t / s and the moment mu gamma^2 (b.n) / s.
+Real press(Vec3 arm, Vec3 normal, Real friction, Real gamma, const std::array<Real, 6>& direction) {
+  const Slip slip = slip_of(arm, normal, gamma, direction);
+  return glm::dot(normal, slip.velocity) + friction * slip.root;
+}
+
+ContactForce pressing_force(Vec3 arm, Vec3 normal, Real friction, Real gamma, const std::array<Real, 6>& direction) {
+  const Slip slip = slip_of(arm, normal, gamma, direction);
+  const Real share = slip.root > 0 ? friction / slip.root : Real(0);
+  return {normal + share * slip.across, share * gamma * slip.spin};
+}
+
+std::array<Real, 6> pressed(Vec3 arm, Vec3 normal, Real friction, Real gamma, const std::array<Real, 6>& direction) {
+  const ContactForce unit = pressing_force(arm, normal, friction, gamma, direction);
+  return joined(unit.force, glm::cross(arm, unit.force) + unit.torsion * normal);
+}
 
 EffortSolver::EffortSolver(std::span<const ContactPoint> contacts, const HandStrength& hand, Vec3 center)
     : contacts_(contacts), hand_(hand), center_(center) {
@@ -56,27 +91,9 @@ EffortSolver::Vec6 EffortSolver::wanted_for(const Wrench& load) const {
   return joined(-load.force / unit_force_, -moment / (unit_force_ * unit_length_));
 }
 
-// What a contact's unit normal force can do along a direction (a, b), b times the unit of length:
-//   v = a + b x p,  h = n.v + mu s,  s = sqrt(|v - (n.v) n|^2 + gamma^2 (b.n)^2)
-// attained with the tangential force mu t / s and the moment mu gamma^2 (b.n) / s.
-Real EffortSolver::press(const ContactPoint& contact, const Vec6& direction, Real friction, Vec6* wrench,
-                         ContactForce* force) const {
-  const Vec3 arm = (contact.place - center_) / unit_length_, n = contact.normal;
-  const Vec3 turning = second(direction);
-  const Vec3 velocity = first(direction) + glm::cross(turning, arm);
-  const Real along = glm::dot(n, velocity), gamma = hand_.torsion / unit_length_, spin = gamma * glm::dot(turning, n);
-  // at right angles to n even where it is next to nothing beside `along`
-  const Vec3 across = glm::cross(glm::cross(n, velocity), n);
-  const Real root = std::sqrt(glm::dot(across, across) + spin * spin);
-  if (wrench) {
-    const Real share = root > 0 ? friction / root : Real(0);
-    const Vec3 pushed = n + share * across;
-    const Real torsion = share * gamma * spin;
-    *wrench = joined(pushed, glm::cross(arm, pushed) + torsion * n);
-    if (force) *force = {pushed, torsion * unit_length_};
-  }
-  return along + friction * root;
-}
+Vec3 EffortSolver::arm(const ContactPoint& contact) const { return (contact.place - center_) / unit_length_; }
+
+Real EffortSolver::gamma() const { return hand_.torsion / unit_length_; }
 
 // Of each digit the contact that does most along a direction, where it does more than nothing.
 EffortSolver::Best EffortSolver::best_contacts(const Vec6& direction) const {
@@ -85,7 +102,7 @@ EffortSolver::Best EffortSolver::best_contacts(const Vec6& direction) const {
   std::array<Real, DIGITS> most{};
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     const auto digit = static_cast<std::size_t>(contacts_[i].digit);
-    const Real value = press(contacts_[i], direction, hand_.friction, nullptr, nullptr);
+    const Real value = press(arm(contacts_[i]), contacts_[i].normal, hand_.friction, gamma(), direction);
     if (!(value > most[digit])) continue;
     most[digit] = value;
     best[digit] = static_cast<int>(i);
@@ -99,8 +116,8 @@ Real EffortSolver::support(const Vec6& direction, Vec6& point) const {
   for (std::size_t k = 0; k < 6; ++k) point[k] = -displaced_[k];
   for (std::size_t digit = 0; digit < DIGITS; ++digit) {
     if (best[digit] < 0) continue;
-    Vec6 wrench;
-    press(contacts_[static_cast<std::size_t>(best[digit])], direction, hand_.friction, &wrench, nullptr);
+    const ContactPoint& contact = contacts_[static_cast<std::size_t>(best[digit])];
+    const Vec6 wrench = pressed(arm(contact), contact.normal, hand_.friction, gamma(), direction);
     for (std::size_t k = 0; k < 6; ++k) point[k] += hand_.digits[digit] / unit_force_ * wrench[k];
   }
   return dot6(direction, point);
@@ -121,8 +138,8 @@ EffortSolver::Reach EffortSolver::reach(const Vec6& direction, Real friction) co
   std::array<Reach, DIGITS> most{};
   for (const ContactPoint& contact : contacts_) {
     Reach& best = most[static_cast<std::size_t>(contact.digit)];
-    const Real along = press(contact, direction, 0, nullptr, nullptr);
-    const Real slope = press(contact, direction, 1, nullptr, nullptr) - along;
+    const Real along = press(arm(contact), contact.normal, 0, gamma(), direction);
+    const Real slope = press(arm(contact), contact.normal, 1, gamma(), direction) - along;
     const Real height = along + friction * slope;
     if (height > best.height) best = {height, slope};
   }
@@ -399,13 +416,12 @@ void EffortSolver::forces(std::span<ContactForce> forces) const {
     const Best best = best_contacts(columns_[r].direction);
     for (std::size_t digit = 0; digit < DIGITS; ++digit) {
       if (best[digit] < 0) continue;
-      const auto contact = static_cast<std::size_t>(best[digit]);
-      Vec6 wrench;
-      ContactForce unit;
-      press(contacts_[contact], columns_[r].direction, hand_.friction, &wrench, &unit);
+      const auto at = static_cast<std::size_t>(best[digit]);
+      const ContactPoint& contact = contacts_[at];
+      const ContactForce unit = pressing_force(arm(contact), contact.normal, hand_.friction, gamma(), columns_[r].direction);
       const Real size = last_[r] * hand_.digits[digit];
-      forces[contact].force += size * unit.force;
-      forces[contact].torsion += size * unit.torsion;
+      forces[at].force += size * unit.force;
+      forces[at].torsion += size * (unit.torsion * unit_length_);
     }
   }
 }

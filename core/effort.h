@@ -46,6 +46,14 @@ struct ContactForce {
   Real torsion = 0;  // moment about the inward normal, N m
 };
 
+// What a contact's unit normal force can do along a direction (a, b): the largest a.f + b.m of the wrenches (f, m) in its cone.
+// `arm` is from the solver's center, and `arm` and `gamma` are in its unit of length.
+Real press(Vec3 arm, Vec3 normal, Real friction, Real gamma, const std::array<Real, 6>& direction);
+// The force that does so, and its moment about the normal.
+ContactForce pressing_force(Vec3 arm, Vec3 normal, Real friction, Real gamma, const std::array<Real, 6>& direction);
+// The wrench of that force.
+std::array<Real, 6> pressed(Vec3 arm, Vec3 normal, Real friction, Real gamma, const std::array<Real, 6>& direction);
+
 // The least effort lies in [low, effort], and forces of `effort` balance the load. Not resisted by any force: both infinite, and
 // `escape` is the motion of the object (velocity of the solver's center, m/s, and angular velocity, rad/s, scaled together) along
 // which the load pushes it and no contact opposes: the support value of -escape is small beside the load's power. `low` stays
@@ -112,7 +120,8 @@ class EffortSolver {
   Vec6 wanted_for(const Wrench& load) const;
   Best best_contacts(const Vec6& direction) const;
   Cost cost_of(const Vec6& levels) const;
-  Real press(const ContactPoint& contact, const Vec6& direction, Real friction, Vec6* wrench, ContactForce* force) const;
+  Vec3 arm(const ContactPoint& contact) const;
+  Real gamma() const;
   Real support(const Vec6& direction, Vec6& point) const;
   Reach reach(const Vec6& direction, Real friction) const;
   Column priced(bool is_short) const;

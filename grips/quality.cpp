@@ -87,7 +87,7 @@ class WrenchSet {
     return six(force, glm::cross(contact.place, force) + torsion * contact.normal);
   }
 
-  // See EffortSolver::press.
+  // See press of core/effort.h.
   double press(const ContactPoint& contact, const Point6& direction, Point6* wrench) const {
     const Vec3 n = contact.normal, turning = tail(direction), velocity = head(direction) + glm::cross(turning, contact.place);
     const double along = glm::dot(n, velocity), spin = torsion_ * glm::dot(turning, n);

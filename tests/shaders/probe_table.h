@@ -80,5 +80,7 @@
 #define PROBE_BONES_OVERLAP 102    // of two bones: start, end, their radii; overlap
 #define PROBE_DEPTH_IN_TABLE 103   // point, radius; depth
 #define PROBE_FINGER_IN_TABLE 104  // pip, dip, tip, radii; depth
+// probe_press
+#define PROBE_PRESS 105  // arm, normal, friction, gamma, direction; height, wrench
 
 #endif

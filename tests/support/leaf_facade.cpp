@@ -4,6 +4,7 @@
 #include "tests/support/leaf_facade.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <stdexcept>
@@ -13,6 +14,7 @@
 #include "core/body.h"
 #include "core/closure.h"
 #include "core/contact.h"
+#include "core/effort.h"
 #include "core/force.h"
 #include "core/liquid.h"
 #include "core/load.h"
@@ -94,6 +96,9 @@ struct Row {
   void read(bool& value) { value = std::nearbyint(*next++) != 0; }
   void read(Vec2& value) { read_all(value.x, value.y); }
   void read(Vec3& value) { read_all(value.x, value.y, value.z); }
+  void read(std::array<Real, 6>& six) {
+    for (Real& value : six) read(value);
+  }
   void read(FingerFrame& value) { read_all(value.base, value.forward, value.palmward); }
   void read(FingerPoints& value) { read_all(value.pip, value.dip, value.tip); }
   void read(Element& value) { read_all(value.a, value.b, value.center, value.radius, value.side); }
@@ -143,6 +148,9 @@ struct Answer {
   void put(bool value) { *next++ = value ? 1 : 0; }
   void put(Vec2 value) { put_all(value.x, value.y); }
   void put(Vec3 value) { put_all(value.x, value.y, value.z); }
+  void put(const std::array<Real, 6>& six) {
+    for (const Real value : six) put(value);
+  }
   void put(const Mat3& value) { put_all(value[0], value[1], value[2]); }
   void put(const FingerPoints& value) { put_all(value.pip, value.dip, value.tip); }
   void put(const FingerFrame& value) { put_all(value.base, value.forward, value.palmward); }
@@ -372,6 +380,8 @@ constexpr LeafEntry LEAVES[] = {
     {PROBE_BONES_OVERLAP, answers_of<bones_overlap>},
     {PROBE_DEPTH_IN_TABLE, answers_of<depth_in_table>},
     {PROBE_FINGER_IN_TABLE, answers_of<finger_in_table>},
+    // effort
+    {PROBE_PRESS, answers_of<press, pressed>},
 };
 
 class CoreLeaves final : public wholehand::Leaves {
