@@ -16,9 +16,9 @@ struct Ball {
 Ball ball_between(Vec3 start, Vec3 end, Real start_radius, Real end_radius, Real share);
 // The number of [0, 1] that is nearest to x; 0 where x is not a number.
 Real nearest_share(Real x);
-// How deep two bones lie in each other where their axes are nearest, m: the radii there less the distance of the axes; negative: they are
-// apart. Of axes that are parallel the place is the start of the first as far as the second reaches there. A bone of no length counts as
-// its start. After C. Ericson, Real-Time Collision Detection, 2005, section 5.1.9.
-Real bones_overlap(Vec3 a, Vec3 a_end, Vec2 a_radii, Vec3 b, Vec3 b_end, Vec2 b_radii);
+// How deep two bones lie in each other, m, or `deepest` where that is more: radii less the distance of the axes, where these are nearest
+// and at the four ends. Negative: they are apart. A bone of no length counts as its start. After C. Ericson, Real-Time Collision
+// Detection, 2005, section 5.1.9.
+Real bones_overlap(Vec3 a, Vec3 a_end, Vec2 a_radii, Vec3 b, Vec3 b_end, Vec2 b_radii, Real deepest);
 
 }  // namespace CORE_NS

@@ -49,8 +49,7 @@ void pose_articulated(const Hand& hand, const Vessel& vessel, const PlacedFinger
     points = finger_points(finger.frame, finger.mcp, finger.lengths, motion.angles);
     Watch watch = watch_points(vessel, points, radii);
     if (hand.between > 0) {
-      watch_between(vessel, hand.between, finger.frame, finger.mcp, points, bone_radii, finger.lengths,
-                    segment_rates(hand.finger_swing, motion.joint), watch);
+      watch_between(hand, vessel, finger.frame, finger.mcp, points, bone_radii, finger.lengths, motion.joint, watch);
     }
     separations = watch.separations;
     motion = advance_finger(hand, motion, finger.frame, finger.mcp, points, watch, finger.lengths);
@@ -184,7 +183,7 @@ Real digits_overlap(const Hand& hand, const std::array<Vec3, JOINTS>& posed, Rea
         for (int other = 1; other < 4; ++other) {
           const int i = finger_start(g) + other;
           const Vec2 other_radii = scale * Vec2(hand.radius[g][other], hand.radius[g][other + 1]);
-          deepest = std::max(deepest, bones_overlap(posed[j], posed[j + 1], radii, posed[i], posed[i + 1], other_radii));
+          deepest = bones_overlap(posed[j], posed[j + 1], radii, posed[i], posed[i + 1], other_radii, deepest);
         }
     }
   return deepest;

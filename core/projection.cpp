@@ -59,9 +59,11 @@ Watch watch_points(const Vessel& vessel, FingerPoints points, Vec3 radii) {
   return watch;
 }
 
-// A sphere moves as its place on the bone does: velocities and the bounds of speed and acceleration go evenly from end to end.
-void watch_between(const Vessel& vessel, int between, FingerFrame frame, Vec3 mcp, FingerPoints points,
-                   const std::array<Real, 4>& radii, Vec3 lengths, Vec3 rates, Watch& watch) {
+// A sphere moves as its place on the bone does: velocities and the bounds of speed and acceleration go evenly from end to end. Bones
+// before the joint that turns rest, and advance_finger asks nothing of them.
+void watch_between(const Hand& hand, const Vessel& vessel, FingerFrame frame, Vec3 mcp, FingerPoints points,
+                   const std::array<Real, 4>& radii, Vec3 lengths, int joint, Watch& watch) {
+  const Vec3 rates = segment_rates(hand.finger_swing, joint);
   const Vec3 sweep = glm::abs(rates) * lengths;
   const Vec3 bend = rates * rates * lengths;
   Vec3 start = mcp;
@@ -71,8 +73,8 @@ void watch_between(const Vessel& vessel, int between, FingerFrame frame, Vec3 mc
   for (int bone = 0; bone < 3; ++bone) {
     const Vec3 end = bone == 0 ? points.pip : bone == 1 ? points.dip : points.tip;
     const Vec3 turn = rates[bone] * quarter_turn(frame, end - start);
-    for (int k = 1; k <= between; ++k) {
-      const Real share = Real(k) / Real(between + 1);
+    for (int k = 1; bone >= joint && k <= hand.between; ++k) {
+      const Real share = Real(k) / Real(hand.between + 1);
       const Ball ball = ball_between(start, end, radii[bone], radii[bone + 1], share);
       const Support support = support_at(vessel, ball.place);
       const Real separation = support.distance - ball.radius;

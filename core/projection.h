@@ -50,10 +50,10 @@ int nearest_point(Vec3 separations, int first);
 FingerMotion start_motion(const Hand& hand, Real limit);
 // PIP, DIP and tip among the surroundings, with the radii given.
 Watch watch_points(const Vessel& vessel, FingerPoints points, Vec3 radii);
-// Adds the spheres between the joints to the watch, `between` on each of the three moving bones; radii: MCP, PIP, DIP, tip. Their step is for
-// the rates given, whose unit is the step's.
-void watch_between(const Vessel& vessel, int between, FingerFrame frame, Vec3 mcp, FingerPoints points,
-                   const std::array<Real, 4>& radii, Vec3 lengths, Vec3 rates, Watch& watch);
+// Adds the spheres between the joints to the watch: hand.between on each of the bones from `joint` on, which turns (-1: all three swing).
+// radii: MCP, PIP, DIP, tip. Their step has the unit of the motion's: closure in a swing, and otherwise radians.
+void watch_between(const Hand& hand, const Vessel& vessel, FingerFrame frame, Vec3 mcp, FingerPoints points,
+                   const std::array<Real, 4>& radii, Vec3 lengths, int joint, Watch& watch);
 // The motion with `joint` about to turn alone (3: at rest).
 FingerMotion turn_joint(const Hand& hand, FingerMotion motion, int joint);
 // One step of conservative advancement: given the points at the motion's angles and what surrounds them, the motion after its next move.

@@ -161,7 +161,7 @@ void pose_articulated(int f, Real closure, inout PlacedFinger finger) {
     Watch watch = watch_points(finger.points, finger.radii);
     if (BETWEEN > 0) {
       watch_between(BETWEEN, finger.frame, finger.mcp, finger.points, Vec4(scale * hand_radius(f, 1), finger.radii), finger.lengths,
-                    segment_rates(hand_table[HAND_FINGER_SWING].xyz, motion.joint), watch);
+                    motion.joint, watch);
     }
     finger.separations = watch.separations;
     motion = advance_finger(motion, finger.frame, finger.mcp, finger.points, watch, finger.lengths);
@@ -251,7 +251,7 @@ Real digits_overlap() {
       int g = (second + 1) / 3, other = second + 2 - 3 * g;
       int i = 5 * g - 1 + other;
       Vec2 other_radii = scale * Vec2(hand_radius(g, other), hand_radius(g, other + 1));
-      deepest = max(deepest, bones_overlap(chain[j], chain[j + 1], radii, chain[i], chain[i + 1], other_radii));
+      deepest = bones_overlap(chain[j], chain[j + 1], radii, chain[i], chain[i + 1], other_radii, deepest);
     }
   }
   return deepest;

@@ -24,9 +24,12 @@ namespace wholehand {
 namespace {
 
 using core_f64::Ball;
-using core_f64::bones_overlap;
 using core_f64::Vec2;
 using core_f64::Vec3;
+
+double bones_overlap(Vec3 a, Vec3 a_end, Vec2 a_radii, Vec3 b, Vec3 b_end, Vec2 b_radii) {
+  return core_f64::bones_overlap(a, a_end, a_radii, b, b_end, b_radii, -core_f64::NO_DISTANCE);
+}
 
 TEST(Body, ABallLiesEvenlyBetweenItsJoints) {
   const Ball third = core_f64::ball_between({0, 3, -6}, {3, 0, 6}, 8, 5, 1.0 / 3);
@@ -117,6 +120,21 @@ TEST(Body, OverlapsOfTaperedBonesAreNearTheLargest) {
     if (!is_parallel) continue;
     for (int turn = 0; turn < 4; ++turn)
       EXPECT_NEAR(bones_overlap(a, a_end + point(1e-7), of_a, b, b_end + point(1e-7), of_b), overlap, 1e-4) << trial;
+  }
+}
+
+// Bones that are passed by are those that could not be the deepest: every depth so far gives the larger of it and the overlap. The bounds
+// round, by some units of 100 mm.
+TEST(Body, BonesThatCannotBeTheDeepestArePassedBy) {
+  Random random(22);
+  const auto point = [&](double size) { return size * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)); };
+  const auto radii = [&] { return Vec2(random.uniform(3, 8), random.uniform(3, 8)); };
+  for (int trial = 0; trial < 2000; ++trial) {
+    const Vec3 a = point(60), b = point(60), a_end = a + point(30), b_end = b + (trial % 3 == 0 ? a_end - a : point(30));
+    const Vec2 of_a = radii(), of_b = radii();
+    const double overlap = bones_overlap(a, a_end, of_a, b, b_end, of_b);
+    for (const double deepest : {-200.0, overlap - 1e-6, overlap, overlap + 1e-6, overlap + random.uniform(-30, 30), 50.0})
+      EXPECT_NEAR(core_f64::bones_overlap(a, a_end, of_a, b, b_end, of_b, deepest), std::max(deepest, overlap), 1e-12) << trial;
   }
 }
 

@@ -66,7 +66,7 @@ double rounding_of_overlap(const double* given, double epsilon) {
 
 // Bones in every place to each other. Some are parallel, or nearly so, some have no length, and some share a joint or all of their
 // axis. A bone of no length whose radii differ may jump where it gets a length. Two of them would do so in most places, so they are
-// spheres.
+// spheres. The deepest pair so far is a depth that most pairs do not reach, or one that all do.
 TEST_F(ParityLeaf, BonesOverlap) {
   Builder build(312);
   const auto triple = [&](double size) {
@@ -99,15 +99,15 @@ TEST_F(ParityLeaf, BonesOverlap) {
     build.vec(a).vec(a_end);
     if (kind == 1) {  // two spheres
       const double of_a = build.random.uniform(2e-3, THICKEST), of_b = build.random.uniform(2e-3, THICKEST);
-      build.add(of_a).add(of_a).vec(b).vec(b_end).add(of_b).add(of_b);
+      build.add(of_a).add(of_a).vec(b).vec(b_end).add(of_b).add(of_b).add(-1);
       continue;
     }
     radii(build).vec(b).vec(b_end);
-    radii(build);
+    radii(build).add(i % 2 == 0 ? -1 : build.random.uniform(-0.05, 0.02));
   }
   compare({.shader = "probe_body",
            .probe = PROBE_BONES_OVERLAP,
-           .inputs = 16,
+           .inputs = 17,
            .outputs = {{"overlap", REACH}},
            .more = rounding_of_overlap},
           build.table, three_beakers());

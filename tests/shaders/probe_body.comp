@@ -17,7 +17,8 @@ void main() {
     answer(3, ball.radius);
   }
   if (PROBE == PROBE_NEAREST_SHARE) answer(0, nearest_share(given(0)));
-  if (PROBE == PROBE_BONES_OVERLAP) answer(0, bones_overlap(given3(0), given3(3), given2(6), given3(8), given3(11), given2(14)));
+  if (PROBE == PROBE_BONES_OVERLAP)
+    answer(0, bones_overlap(given3(0), given3(3), given2(6), given3(8), given3(11), given2(14), given(16)));
   if (PROBE == PROBE_DEPTH_IN_TABLE) answer(0, depth_in_table(given3(0), given(3)));
   if (PROBE == PROBE_FINGER_IN_TABLE)
     answer(0, finger_in_table(FingerPoints(given3(0), given3(3), given3(6)), given3(9)));

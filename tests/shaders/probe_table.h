@@ -77,7 +77,7 @@
 // probe_body; radii of finger_in_table: PIP, DIP, tip
 #define PROBE_BALL_BETWEEN 100     // start, end, their radii, share; place, radius
 #define PROBE_NEAREST_SHARE 101    // x; share
-#define PROBE_BONES_OVERLAP 102    // of two bones: start, end, their radii; overlap
+#define PROBE_BONES_OVERLAP 102    // of two bones: start, end, their radii; deepest; overlap
 #define PROBE_DEPTH_IN_TABLE 103   // point, radius; depth
 #define PROBE_FINGER_IN_TABLE 104  // pip, dip, tip, radii; depth
 // probe_press
