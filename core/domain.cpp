@@ -114,18 +114,18 @@ std::vector<std::string> domain_warnings(const Scene& scene, Precision precision
     const auto [weakest, strongest] = std::minmax_element(scene.strength->digits.begin(), scene.strength->digits.end());
     if (*strongest > LARGEST_STRENGTH_RATIO * *weakest * (1 + rounding)) {
       warnings.push_back(
-          fmt::format("digits have strengths of {:.3g} and {:.3g} N: beyond a ratio of {} efforts in float may be others", *weakest,
+          fmt::format("digits have strengths of {:.3g} and {:.3g} N: beyond a ratio of {} efforts in float may be wrong", *weakest,
                       *strongest, LARGEST_STRENGTH_RATIO));
     }
     if (const auto [light, weight] = lightest(scene);
         weight > 0 && *strongest > LARGEST_STRENGTH_OF_WEIGHT * weight * (1 + rounding)) {
       warnings.push_back(fmt::format(
           "a digit has a strength of {:.3g} N and vessel '{}' weighs {:.3g} N: beyond a ratio of {} push and friction_needed in "
-          "float may be others",
+          "float may be wrong",
           *strongest, light->name, weight, LARGEST_STRENGTH_OF_WEIGHT));
     }
     if (scene.force.torsion > 0 && scene.force.torsion < SMALLEST_TORSION * (1 - rounding)) {
-      warnings.push_back(fmt::format("torsion is {:.3g} mm: below {} mm and above 0 efforts in float may be others",
+      warnings.push_back(fmt::format("torsion is {:.3g} mm: below {} mm and above 0 efforts in float may be wrong",
                                      scene.force.torsion * 1e3, SMALLEST_TORSION * 1e3));
     }
   }

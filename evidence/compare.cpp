@@ -12,8 +12,9 @@
 namespace wholehand {
 namespace {
 
-constexpr const char* PEAK_TILT = "force short of peak";  // at the tilt that the other side tells
-constexpr const char* SAFE_TILT = "force beyond safe";    // where one side tells a larger safe tilt
+constexpr const char* PEAK_TILT = "force short of peak";            // at the tilt that the other side tells
+constexpr const char* WORST_STATE = "1/(1+effort of worst state)";  // by the core, above its least
+constexpr const char* SAFE_TILT = "force beyond safe";              // where one side tells a larger safe tilt
 
 const std::vector<int> DISCRETE{FIELD_STATUS,      FIELD_TOUCH_MASK, FIELD_TIP_MASK,
                                 FIELD_FINGER_MASK, FIELD_INNER_MASK, FIELD_USED_MASK};
@@ -96,6 +97,11 @@ bool has_tilts(const Scene& scene, const FieldSet& fields) {
          (has_effort(scene) || fields.has(FIELD_HOLD_FORCE));
 }
 
+// What the comparison of told worst states looks at.
+bool has_worst_state(const FieldSet& fields) {
+  return fields.has(FIELD_WORST_EFFORT) && fields.has(FIELD_WORST_EFFORT_FILL) && fields.has(FIELD_WORST_EFFORT_TILT);
+}
+
 bool is_effort(int field) { return field == FIELD_WORST_EFFORT || field == FIELD_TIPS_WORST_EFFORT; }
 
 void to_compared_form(GatheredPlanes& planes) {
@@ -119,6 +125,13 @@ class StateEfforts {
       chosen.push_back(grips[i]);
     }
     if (!chosen.empty()) planes_ = gather(core, make_field_set({FIELD_EFFORT, FIELD_STATUS}, scene), vessel, chosen);
+  }
+  // 1 / (1 + effort) of the worst state.
+  double least_form(std::size_t grip, std::size_t states) const {
+    double least = 1;
+    for (std::size_t state = 0; state < states; ++state)
+      least = std::min(least, compared_form(FIELD_WORST_EFFORT, of(grip, state)));
+    return least;
   }
   double of(std::size_t grip, std::size_t state) const {
     return planes_.real(planes_.fields.plane[FIELD_EFFORT] + static_cast<int>(state), place_[grip]);
@@ -197,6 +210,7 @@ Comparer::Comparer(const Scene& scene, const Evaluator& core, Allowance allowed)
     row("force", PEAK_TILT, "mN");
     row("force", SAFE_TILT, "mN");
   }
+  if (has_worst_state(fields)) row("effort", WORST_STATE, fine_unit(field_row(FIELD_WORST_EFFORT)).name);
   row("whole", "discrete outcomes", "grips");
 }
 
@@ -237,6 +251,7 @@ void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, cons
   };
   add_numbers(vessel, a, b, left_out, tolerance);
   if (has_tilts(scene_, fields)) add_tilts(vessel, grips, a, b, left_out, tolerance);
+  if (has_worst_state(fields)) add_worst_states(vessel, grips, a, b, left_out, tolerance);
 }
 
 Comparer::Spread Comparer::spread_of(std::size_t vessel, const std::vector<GripInput>& grips, const GatheredPlanes& truth) const {
@@ -410,7 +425,9 @@ void Comparer::add_tilts(std::size_t vessel, const std::vector<GripInput>& grips
     bool peak_over = false, safe_over = false;
     for (int fill = 0; fill < static_cast<int>(scene_fills(scene_)); ++fill) {
       const std::size_t first = fill * tilts;
-      const auto told = [&](const GatheredPlanes& side, int field) { return tilt_told(side.real(fields.plane[field] + fill, i)); };
+      const auto told = [&](const GatheredPlanes& side, int field) {
+        return place_told(side.real(fields.plane[field] + fill, i), scene_.tilts, PI);
+      };
       const std::optional<std::size_t> told_a = told(a, FIELD_PEAK_TILT), told_b = told(b, FIELD_PEAK_TILT);
       constexpr double WRONG = std::numeric_limits<double>::infinity();
       if (told_a.value_or(0) == 0 || told_b.value_or(0) == 0) {
@@ -452,14 +469,46 @@ void Comparer::add_tilts(std::size_t vessel, const std::vector<GripInput>& grips
   }
 }
 
-// The place of a told tilt among the listed ones, from 1; 0 where none is told, and nothing where what is told is not one of them, which
-// are handed through and at most rounded to the coarser precision.
-std::optional<std::size_t> Comparer::tilt_told(double told) const {
+// The state that is told to be the worst is a choice among all: where the sides name two, each must be as bad as the worst by the core's
+// efforts, to the tolerance of the worst effort.
+void Comparer::add_worst_states(std::size_t vessel, const std::vector<GripInput>& grips, const GatheredPlanes& a,
+                                const GatheredPlanes& b, const std::vector<char>& left_out, const Tolerance& tolerance) {
+  const FieldSet& fields = a.fields;
+  const auto named = [&](const GatheredPlanes& side, int field, std::size_t i) { return side.real(fields.plane[field], i); };
+  std::vector<std::size_t> asked;
+  for (std::size_t i = 0; i < a.count; ++i) {
+    const auto differ = [&](int field) { return figure_difference(named(a, field, i), named(b, field, i)) != 0; };
+    if (left_out[i] == 0 && (differ(FIELD_WORST_EFFORT_FILL) || differ(FIELD_WORST_EFFORT_TILT))) asked.push_back(i);
+  }
+  const StateEfforts efforts(scene_, core_, vessel, grips, asked);
+  const double scale = fine_unit(field_row(FIELD_WORST_EFFORT)).scale;
+  const std::size_t tilts = scene_.tilts.size(), states = scene_fills(scene_) * tilts;
+  const std::vector<double> fills = scene_.liquid ? vessel_fills(scene_, scene_.vessels[vessel]) : std::vector<double>{0};
+  Comparison& entry = row("effort", WORST_STATE, fine_unit(field_row(FIELD_WORST_EFFORT)).name);
+  entry.compared += static_cast<std::uint64_t>(std::count(left_out.begin(), left_out.end(), 0));
+  for (const std::size_t i : asked) {
+    double short_of = 0;
+    for (const GatheredPlanes* side : {&a, &b}) {
+      const std::size_t fill = place_told(named(*side, FIELD_WORST_EFFORT_FILL, i), fills, 1).value_or(0);
+      const std::size_t tilt = place_told(named(*side, FIELD_WORST_EFFORT_TILT, i), scene_.tilts, PI).value_or(0);
+      const bool is_state = fill > 0 && tilt > 0;
+      const double form = is_state ? compared_form(FIELD_WORST_EFFORT, efforts.of(i, (fill - 1) * tilts + tilt - 1))
+                                   : std::numeric_limits<double>::quiet_NaN();
+      const double above = form - efforts.least_form(i, states);
+      short_of = std::max(short_of, std::isnan(above) ? std::numeric_limits<double>::infinity() : above);
+    }
+    entry.outside += note_difference(entry, scale, vessel, i, short_of, tolerance(FIELD_WORST_EFFORT, 0, i)) ? 1 : 0;
+  }
+}
+
+// The place of a told value among the listed ones, from 1; 0 where none is told, and nothing where what is told is not one of them, which
+// are handed through and at most rounded to the coarser precision. No value is larger than `largest`.
+std::optional<std::size_t> Comparer::place_told(double told, const std::vector<double>& listed, double largest) const {
   if (std::isnan(told)) return 0;
-  const auto nearest = std::min_element(scene_.tilts.begin(), scene_.tilts.end(),
+  const auto nearest = std::min_element(listed.begin(), listed.end(),
                                         [told](double a, double b) { return std::abs(a - told) < std::abs(b - told); });
-  if (!(std::abs(*nearest - told) <= 4 * allowed_.epsilon * PI)) return std::nullopt;
-  return static_cast<std::size_t>(nearest - scene_.tilts.begin()) + 1;
+  if (!(std::abs(*nearest - told) <= 4 * allowed_.epsilon * largest)) return std::nullopt;
+  return static_cast<std::size_t>(nearest - listed.begin()) + 1;
 }
 
 double Comparer::volume_tolerance(std::size_t vessel) const {

@@ -90,7 +90,9 @@ class Comparer {
   double effort_floor(int field, std::size_t vessel, double truth) const;
   double search_floor(int field, std::size_t plane, std::size_t vessel, const GatheredPlanes& truth, std::size_t grip) const;
   double volume_tolerance(std::size_t vessel) const;
-  std::optional<std::size_t> tilt_told(double told) const;
+  void add_worst_states(std::size_t vessel, const std::vector<GripInput>& grips, const GatheredPlanes& a, const GatheredPlanes& b,
+                        const std::vector<char>& left_out, const Tolerance& tolerance);
+  std::optional<std::size_t> place_told(double told, const std::vector<double>& listed, double largest) const;
   Comparison& row(const std::string& kernel, const std::string& quantity, const std::string& unit);
 
   const Scene& scene_;

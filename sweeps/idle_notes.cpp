@@ -22,10 +22,10 @@ std::vector<std::string> idle_notes(const Scene& scene, const Plan& plan, std::s
     return notes;
   }
   const auto weights = effective_weights(scene);
-  if (scene.robust->friction > 0 && weights[4] == 0 && weights[5] == 0) {
+  if (scene.robust->friction > 0 && weights[5] == 0) {
     notes.push_back("note: [robust] friction changes no score here, since " +
                     std::string(scene.tilts.empty() ? "the scene has no [tilts], and without them no force counts"
-                                                    : "the weights of force and hold are 0") +
+                                                    : "the weight of hold is 0") +
                     "; leave it out, and the scores take less time");
   }
   if (scene.robust->azimuth > 0 && plan.is_symmetric())

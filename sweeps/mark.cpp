@@ -23,7 +23,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int FORMAT = 3;
+constexpr int FORMAT = 4;
 
 Error unusable(const std::string& path, const std::string& why) {
   return failure_error(fmt::format("{}: {}; start again without --resume", path, why));

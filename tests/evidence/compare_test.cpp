@@ -271,6 +271,33 @@ TEST_F(CompareEfforts, FindAnInfiniteEffortThatIsNone) {
   EXPECT_EQ(all, wrong);
 }
 
+// A state that takes less is as wrong as one that is not listed; another that takes as much is not.
+TEST_F(CompareEfforts, FindAWorstStateThatIsNone) {
+  const GatheredPlanes of_states = gather(*core_, make_field_set({FIELD_EFFORT, FIELD_STATUS}, scene_), 0, grips_);
+  const std::vector<double>& fills = vessel_fills(scene_, scene_.vessels[0]);
+  std::uint64_t changed = 0;
+  const auto [wrong, all] = outside("1/(1+effort of worst state)", [&](GatheredPlanes& planes, std::size_t i) {
+    double& fill = real(planes, FIELD_WORST_EFFORT_FILL, 0, i);
+    double& tilt = real(planes, FIELD_WORST_EFFORT_TILT, 0, i);
+    if (!plausible(i)) return;
+    for (std::size_t s = 0; s < fills.size() * scene_.tilts.size(); ++s) {
+      const double effort = of_states.real(of_states.fields.plane[FIELD_EFFORT] + static_cast<int>(s), i);
+      if (effort > 0.7 * planes.real(planes.fields.plane[FIELD_WORST_EFFORT], i)) continue;
+      fill = fills[s / scene_.tilts.size()];
+      tilt = scene_.tilts[s % scene_.tilts.size()];
+      ++changed;
+      return;
+    }
+  });
+  EXPECT_GT(changed, 10u);
+  EXPECT_GE(10 * wrong, 9 * changed);
+  EXPECT_EQ(all, wrong);
+  const auto unlisted = [&](GatheredPlanes& planes, std::size_t i) {
+    if (plausible(i)) real(planes, FIELD_WORST_EFFORT_TILT, 0, i) += 1e-3;
+  };
+  EXPECT_EQ(outside("1/(1+effort of worst state)", unlisted).first, with_number(FIELD_WORST_EFFORT_TILT));
+}
+
 // The tilt before the told one is as wrong as the one after, where the effort between them is not 1.
 TEST_F(CompareEfforts, FindASafeTiltThatIsAnother) {
   std::uint64_t changed = 0;

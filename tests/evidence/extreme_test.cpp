@@ -18,8 +18,10 @@
 #include "core/joints.h"
 #include "core/prepare.h"
 #include "evidence/extreme.h"
+#include "host/open_backend.h"
 #include "scene/reader.h"
 #include "sweeps/plan.h"
+#include "sweeps/robust.h"
 #include "tests/support/capsule_check.h"
 #include "tests/support/extreme_scenes.h"
 #include "tests/support/whole_parity.h"
@@ -331,6 +333,61 @@ void far_above_the_table(const AnsweredScene& a) {
   EXPECT_GT(through, 10u);
 }
 
+void first_drop(const AnsweredScene& a) {
+  Scene all = a.scene;
+  all.until_poured.reset();
+  const AnsweredScene b(all);
+  const std::size_t tilts = a.scene.tilts.size();
+  std::size_t lower = 0, compared = 0;
+  a.each([&](std::size_t v, std::size_t i) {
+    for (std::size_t fill = 0; fill < scene_fills(a.scene); ++fill) {
+      const double pours = a.core->pouring_tilt(v, vessel_fills(a.scene, a.scene.vessels[v])[fill]);
+      // the first tilt at which it has poured counts
+      const auto beyond = std::upper_bound(a.scene.tilts.begin(), a.scene.tilts.end(), pours);
+      const std::size_t first_poured = static_cast<std::size_t>(beyond - a.scene.tilts.begin());
+      ASSERT_LT(first_poured, tilts);
+      for (std::size_t t = 0; t < tilts; ++t) {
+        const double torque = a.real(FIELD_TORQUE, v, i, fill * tilts + t), of_all = b.real(FIELD_TORQUE, v, i, fill * tilts + t);
+        if (t <= first_poured) {
+          EXPECT_EQ(torque, of_all) << i << " " << t;
+        } else {
+          EXPECT_TRUE(std::isnan(torque)) << i << " " << t;
+        }
+      }
+    }
+    const double worst = a.real(FIELD_WORST_EFFORT, v, i), of_all = b.real(FIELD_WORST_EFFORT, v, i);
+    EXPECT_EQ(std::isnan(worst), std::isnan(of_all));
+    if (std::isnan(worst)) return;
+    // either search may end half a tolerance early
+    EXPECT_LE(worst, of_all * (1 + 1e-3)) << i;
+    lower += worst < 0.9 * of_all ? 1 : 0;
+    ++compared;
+  });
+  EXPECT_GT(compared, 0u);
+  EXPECT_GT(lower, 0u) << "no grip is worst upside down";
+}
+
+void widest_deviations(const AnsweredScene& a) {
+  const Plan plan(a.scene, true);
+  std::vector<std::vector<BestGrip>> lists(1);
+  for (std::size_t i = 0; i < a.grips[0].size(); ++i) {
+    BestGrip best;
+    best.candidate.index = i;
+    best.grip = a.grips[0][i];
+    if (a.feasible(0, i)) lists[0].push_back(best);
+  }
+  const OpenBackend open = [](const Scene& scene, const FieldSet& fields) {
+    return open_backend(scene, fields, "core", Precision::full, 1);
+  };
+  ASSERT_TRUE(add_robust_scores(open, a.scene, plan, nullptr, lists));
+  std::size_t above = 0;
+  for (const BestGrip& best : lists[0]) {
+    EXPECT_TRUE(best.robust_low >= 0 && best.robust_low <= best.robust_mean && best.robust_mean <= 1) << best.candidate.index;
+    above += best.robust_mean > 0 ? 1 : 0;
+  }
+  EXPECT_GT(above, 0u);
+}
+
 // Upright, a line across the axis meets the weight's; any other passes it.
 void no_torsion(const AnsweredScene& a) {
   const double weight = a.core->constants(0).mass * a.scene.gravity;
@@ -390,6 +447,7 @@ const std::map<std::string, void (*)(const AnsweredScene&)> LOOKS{
     {"far_above_the_table", far_above_the_table},
     {"far_off", far_off},
     {"fills_at_their_ends", fills_at_their_ends},
+    {"first_drop", first_drop},
     {"full_to_the_brim", full_to_the_brim},
     {"giant", giant},
     {"large_hand", large_hand},
@@ -408,6 +466,7 @@ const std::map<std::string, void (*)(const AnsweredScene&)> LOOKS{
     {"thin_wall", thin_wall},
     {"thousand_elements", thousand_elements},
     {"weak_and_strong", weak_and_strong},
+    {"widest_deviations", widest_deviations},
 };
 
 TEST(Extreme, EveryCaseHasAScene) {

@@ -33,18 +33,16 @@ TEST(IdleNotes, StrengthNeedsTilts) {
   EXPECT_EQ(notes_of(scene), "");
 }
 
-TEST(IdleNotes, FrictionNeedsATermOfForces) {
+TEST(IdleNotes, FrictionNeedsTheTermOfHolding) {
   Scene scene = tilted_scene();
   scene.robust = RobustData{};
   scene.robust->friction = 0.1;
   EXPECT_EQ(notes_of(scene), "");
-  scene.score.hold = 0;
-  EXPECT_EQ(notes_of(scene), "") << "the force term depends on it";
-  scene.score.hold = 1;
   scene.score.force = 0;
   EXPECT_EQ(notes_of(scene), "") << "the hold term depends on it";
+  scene.score.force = 1;
   scene.score.hold = 0;
-  EXPECT_NE(notes_of(scene).find("[robust] friction changes no score here, since the weights"), std::string::npos);
+  EXPECT_NE(notes_of(scene).find("[robust] friction changes no score here, since the weight of hold is 0"), std::string::npos);
   scene.tilts.clear();
   EXPECT_NE(notes_of(scene).find("[robust] friction changes no score here, since the scene has no [tilts]"), std::string::npos);
   scene.robust->friction = 0;

@@ -322,7 +322,6 @@ TEST(Robust, ADeviceIsOpenedOnceForAllFrictions) {
   EXPECT_EQ(opened, 1);
   add_robust_scores(counting(opens("core", Precision::full)), scene, plan, nullptr, core);
   EXPECT_EQ(opened, 1 + FRICTION_LEVELS);
-  // each friction had its turn: with one of them alone the means would be others
   for (std::size_t rank = 0; rank < core[0].size(); ++rank) {
     EXPECT_GT(core[0][rank].robust_mean, 0);
     EXPECT_NEAR(device[0][rank].robust_mean, core[0][rank].robust_mean, 1e-3);
