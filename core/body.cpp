@@ -29,7 +29,9 @@ Real bones_overlap(Vec3 a, Vec3 a_end, Vec2 a_radii, Vec3 b, Vec3 b_end, Vec2 b_
   const auto along_a = [&](Real t) { return nearest_share((uv * t - ur) / uu); };
   const auto along_b = [&](Real s) { return nearest_share((uv * s + vr) / vv); };
   const auto apart = [&](Real s, Real t) { return glm::length(r + s * u - t * v); };
-  const auto radii = [&](Real s, Real t) { return a_radii.x + s * (a_radii.y - a_radii.x) + b_radii.x + t * (b_radii.y - b_radii.x); };
+  const auto radii = [&](Real s, Real t) {
+    return a_radii.x + s * (a_radii.y - a_radii.x) + b_radii.x + t * (b_radii.y - b_radii.x);
+  };
   Real s = nearest_share((uv * vr - ur * vv) / (uu * vv - uv * uv));
   const Real t_on_line = (uv * s + vr) / vv;
   const Real t = nearest_share(t_on_line);
