@@ -209,7 +209,7 @@ class Reader {
         {BINDING_PARAMETERS, Type::eUniformBuffer, &lattice.parameters},
         {BINDING_GRIPS, Type::eStorageBuffer, &lattice.rays},
         {BINDING_REAL_OUT, Type::eStorageBuffer, &lattice.distances},
-        {BINDING_LATTICE, Type::eStorageBuffer, &lattice.words}};
+        {BINDING_WORDS, Type::eStorageBuffer, &lattice.words}};
     std::vector<vk::DescriptorSetLayoutBinding> layout;
     for (const auto& [binding, type, buffer] : buffers) layout.emplace_back(binding, type, 1, vk::ShaderStageFlagBits::eCompute);
     layout.emplace_back(BINDING_IMAGE, Type::eCombinedImageSampler, 1, vk::ShaderStageFlagBits::eCompute);

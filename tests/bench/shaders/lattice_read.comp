@@ -13,10 +13,14 @@ layout(std430, binding = BINDING_GRIPS) readonly buffer RayBlock { Real rays[]; 
 layout(std430, binding = BINDING_REAL_OUT) writeonly buffer DistanceBlock { Real distances[]; };
 layout(binding = BINDING_IMAGE) uniform sampler3D image;
 layout(binding = BINDING_TEXELS) uniform samplerBuffer texels;
+layout(std430, binding = BINDING_WORDS) readonly buffer WordBlock { uint words[]; };
 
 Real fetched(int i, int j, int k) {
   Real unit = LATTICE_BITS == 16 ? HALF_UNIT : Real(1);
-  if (WAY == WAY_TEXELS) return Real(texelFetch(texels, (k * int(scene.lattice_ny) + j) * int(scene.lattice_nx) + i).x) * unit;
+  int at = (k * int(scene.lattice_ny) + j) * int(scene.lattice_nx) + i;
+  if (WAY == WAY_TEXELS) return Real(texelFetch(texels, at).x) * unit;
+  if (WAY == WAY_BUFFER && LATTICE_BITS == 32) return Real(uintBitsToFloat(words[at]));
+  if (WAY == WAY_BUFFER) return Real(unpackHalf2x16(words[at / 2])[at % 2]) * unit;
   return Real(texelFetch(image, ivec3(i, j, k), 0).x) * unit;
 }
 
@@ -42,9 +46,8 @@ Real filtered_distance(Vec3 p) {
 
 Real distance_by(Vec3 p) {
   if (WAY == WAY_NOTHING) return p.x + p.y + p.z;
-  if (WAY == WAY_FETCH || WAY == WAY_TEXELS) return fetched_distance(p);
   if (WAY == WAY_FILTER) return filtered_distance(p);
-  return lattice_distance(p);
+  return fetched_distance(p);
 }
 
 void main() {

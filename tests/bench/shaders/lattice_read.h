@@ -5,12 +5,13 @@
 
 #define CONST_WAY 7    // specialization constant: one of these
 #define WAY_NOTHING 0  // the points alone
-#define WAY_BUFFER 1   // lattice_distance of shaders/sdf.glsl
-#define WAY_FETCH 2    // the same from texels of a 3-D image
+#define WAY_BUFFER 1   // from the words of a storage buffer
+#define WAY_FETCH 2    // from texels of a 3-D image
 #define WAY_FILTER 3   // the image's own linear interpolation
-#define WAY_TEXELS 4   // the same from a uniform texel buffer
+#define WAY_TEXELS 4   // from a uniform texel buffer, as shaders/sdf.glsl does
 #define BINDING_IMAGE 17
 #define BINDING_TEXELS 18
+#define BINDING_WORDS 19
 
 #define RAY_STEPS 64
 #define STEP_SHARE 0.875  // of what is left of the way after a step; exact in binary
