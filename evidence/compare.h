@@ -92,6 +92,8 @@ class Comparer {
   double volume_tolerance(std::size_t vessel) const;
   void add_worst_states(std::size_t vessel, const std::vector<GripInput>& grips, const GatheredPlanes& a, const GatheredPlanes& b,
                         const std::vector<char>& left_out, const Tolerance& tolerance);
+  double moves_state(std::size_t vessel, const GripInput& grip, std::size_t state) const;
+  double shift(std::size_t vessel) const;
   std::optional<std::size_t> place_told(double told, const std::vector<double>& listed, double largest) const;
   Comparison& row(const std::string& kernel, const std::string& quantity, const std::string& unit);
 

