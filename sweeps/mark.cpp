@@ -14,6 +14,7 @@
 #include <numeric>
 #include <optional>
 #include <system_error>
+#include <utility>
 
 #include "core/error.h"
 #include "system/files.h"
@@ -125,7 +126,9 @@ bool load_mark(const std::string& path, SweepMark& mark) {
   std::string start, text;
   std::getline(file, start);
   text.assign(std::istreambuf_iterator<char>(file), {});
-  if (!start.starts_with(fmt::format("{}{} ", MARK_START, FORMAT))) throw unusable(path, "not a progress mark of this program");
+  if (!start.starts_with(MARK_START)) throw unusable(path, "not a progress mark of this program");
+  if (!start.starts_with(fmt::format("{}{} ", MARK_START, FORMAT)))
+    throw unusable(path, "the progress mark of another version of this program");
   if (!start.ends_with(" " + checksum_text(text.data(), text.size()))) throw unusable(path, "is damaged: its checksum is wrong");
   try {
     const json content = json::parse(text);
@@ -152,6 +155,11 @@ std::string contradiction(const VesselProgress& vessel, const MarkBounds& bounds
   const auto& reasons = vessel.counts.by_reason;
   const std::uint64_t reasoned = std::accumulate(reasons.begin(), reasons.end(), std::uint64_t{0});
   if (bounds.has_reasons && reasoned != vessel.done) return fmt::format("{} grips are done and {} sorted", vessel.done, reasoned);
+  const GripCounts& counts = vessel.counts;
+  for (const auto& [part, what] : {std::pair{counts.through_table, "through the table"},
+                                   {counts.self_overlap, "with fingers in each other"},
+                                   {counts.only_deep, "only deep"}})
+    if (part > counts.implausible) return fmt::format("{} implausible grips and {} {}", counts.implausible, part, what);
   if (vessel.best.size() > bounds.best) return fmt::format("{} best grips are kept of {}", vessel.best.size(), bounds.best);
   for (const Candidate& candidate : vessel.best) {
     if (candidate.index >= vessel.done) return fmt::format("grip {} is one of the best of {}", candidate.index, vessel.done);

@@ -87,6 +87,18 @@ TEST(Mark, MissingIsNoneAndDamagedIsAnError) {
   }
 }
 
+TEST(Mark, OneOfAnotherVersionIsCalledSo) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "m") << MARK_START << "3 00\n{}";
+  SweepMark mark;
+  try {
+    load_mark(folder / "m", mark);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("another version"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Mark, APipeIsNotWaitedFor) {
   const TemporaryFolder folder;
   const std::string path = folder / "mark";
@@ -138,6 +150,15 @@ TEST(Mark, WhatNoSweepCanHaveDoneIsRefused) {
     refused("grips are done of 10", [&](SweepMark& m) { m.vessels[0].done = done; });
   refused("9 grips are done and 10 counted", [](SweepMark& m) { m.vessels[0].done = 9; });
   refused("10 grips are done and 11 sorted", [](SweepMark& m) { m.vessels[0].counts.by_reason[2] = 1; });
+  refused("1 implausible grips and 2 through the table", [](SweepMark& m) {
+    m.vessels[0].counts.implausible = 1;
+    m.vessels[0].counts.through_table = 2;
+  });
+  refused("1 implausible grips and 2 with fingers in each other", [](SweepMark& m) {
+    m.vessels[0].counts.implausible = 1;
+    m.vessels[0].counts.self_overlap = 2;
+  });
+  refused("0 implausible grips and 1 only deep", [](SweepMark& m) { m.vessels[0].counts.only_deep = 1; });
   refused("2 best grips are kept of 1", [](SweepMark& m) { m.vessels[0].best.push_back({0.4, 1}); });
   refused("grip 10 is one of the best of 10", [](SweepMark& m) { m.vessels[0].best[0].index = 10; });
   refused("a stretch from 6 follows 7", [](SweepMark& m) { m.vessels[0].stretches[1].first = 6; });
