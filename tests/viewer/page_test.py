@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The page for everyone: every width, dark mode, reduced motion, the keyboard alone, a reader of the screen, a server that is gone."""
 
-from support import ViewerTest, color_at, main, patient_board, still, wholehand
+from support import ViewerTest, color_at, main, patient_board, slide, still, wholehand
 
 GRIP = ["three_beakers", "--vessel", "beaker2", "--height-mm", "95", "--roll-deg", "30"]
 RECORDING = "a_recording_whose_name_is_longer_than_a_narrow_window_is_wide.nc"
@@ -104,6 +104,15 @@ class ThePage(ViewerTest):
         page.wait(f"wholehand.view.stage.pictures > {pictures}")
         self.assertGreater(page.evaluate("wholehand.view.orbit.now.elevation"), 1.5)
         self.assertLessEqual(page.evaluate("wholehand.view.stage.pictures"), pictures + 2)
+
+    def test_reduced_motion_follows_a_jump(self):
+        page = self.open(self.pages["recording"], still=True)
+        page.evaluate("document.getElementById('follow').click()")
+        for seconds in [3.5, 0.5]:
+            slide(page, "scrub", seconds)
+            page.wait(f"Math.abs(wholehand.frame.t - {seconds}) < 0.05", what="the frame")
+            page.wait("(({view}) => ['x', 'y', 'z'].every((axis) => Math.abs(view.orbit.now[axis] - view.middle[axis]) < 1e-3))(wholehand)", what="the hand in the middle")
+            still(page)
 
     def test_nothing_is_drawn_while_nothing_changes(self):
         page = self.open(self.pages["grips"])

@@ -83,9 +83,10 @@ export class View {
     if (this.frame && this.frame.guidance >= 0 && moving) this.marks.shared.pulse.value = 0.6 + 0.4 * Math.sin(4 * time);
     else this.marks.shared.pulse.value = 1;
     if (this.follows && this.middle && !this.isDragged && this.orbit.pointers.size === 0) {
-      const share = moving ? 1 - Math.exp(-dt / FOLLOW) : 1;
+      const left = this.middle.distanceTo(new THREE.Vector3(this.orbit.aim.x, this.orbit.aim.y, this.orbit.aim.z));
+      const share = moving && left > 1e-4 ? 1 - Math.exp(-dt / FOLLOW) : 1;
       for (const axis of ['x', 'y', 'z']) this.orbit.aim[axis] += (this.middle[axis] - this.orbit.aim[axis]) * share;
-      goesOn = goesOn || this.middle.distanceTo(new THREE.Vector3(this.orbit.aim.x, this.orbit.aim.y, this.orbit.aim.z)) > 1e-4;
+      goesOn = goesOn || left > 1e-9;  // the orbit goes there with the next picture
     }
     return goesOn;
   }
