@@ -13,8 +13,9 @@ namespace wholehand {
 namespace {
 
 constexpr const char* PEAK_TILT = "force short of peak";  // at the tilt that the other side tells
-constexpr const char* WORST_STATE = "1/(1+its state's)";  // by the core, above its least
-constexpr const char* SAFE_TILT = "force beyond safe";    // where one side tells a larger safe tilt
+constexpr const char* WORST_STATE =
+    "effort short of worst";  // 1 / (1 + effort) of the state that is told to be the worst, above the least
+constexpr const char* SAFE_TILT = "force beyond safe";  // where one side tells a larger safe tilt
 
 const std::vector<int> DISCRETE{FIELD_STATUS,      FIELD_TOUCH_MASK, FIELD_TIP_MASK,
                                 FIELD_FINGER_MASK, FIELD_INNER_MASK, FIELD_USED_MASK};

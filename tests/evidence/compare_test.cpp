@@ -276,7 +276,7 @@ TEST_F(CompareEfforts, FindAWorstStateThatIsNone) {
   const GatheredPlanes of_states = gather(*core_, make_field_set({FIELD_EFFORT, FIELD_STATUS}, scene_), 0, grips_);
   const std::vector<double>& fills = vessel_fills(scene_, scene_.vessels[0]);
   std::uint64_t changed = 0;
-  const auto [wrong, all] = outside("1/(1+its state's)", [&](GatheredPlanes& planes, std::size_t i) {
+  const auto [wrong, all] = outside("effort short of worst", [&](GatheredPlanes& planes, std::size_t i) {
     double& fill = real(planes, FIELD_WORST_EFFORT_FILL, 0, i);
     double& tilt = real(planes, FIELD_WORST_EFFORT_TILT, 0, i);
     if (!plausible(i)) return;
@@ -295,7 +295,7 @@ TEST_F(CompareEfforts, FindAWorstStateThatIsNone) {
   const auto unlisted = [&](GatheredPlanes& planes, std::size_t i) {
     if (plausible(i)) real(planes, FIELD_WORST_EFFORT_TILT, 0, i) += 1e-3;
   };
-  EXPECT_EQ(outside("1/(1+its state's)", unlisted).first, with_number(FIELD_WORST_EFFORT_TILT));
+  EXPECT_EQ(outside("effort short of worst", unlisted).first, with_number(FIELD_WORST_EFFORT_TILT));
 }
 
 // The tilt before the told one is as wrong as the one after, where the effort between them is not 1.
