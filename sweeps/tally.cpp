@@ -31,7 +31,7 @@ void count_grips(const PlaneChunk& chunk, const FieldSet& fields, GripCounts& co
 
 namespace {
 
-// " (200 through the table, 90 for depth alone)"; empty where nothing is known of them.
+// " (200 through the table, 90 only too deep)"; empty where nothing is known of them.
 std::string implausible_parts(const GripCounts& counts) {
   std::string parts;
   const auto add = [&](std::uint64_t count, const char* what) {
@@ -39,7 +39,7 @@ std::string implausible_parts(const GripCounts& counts) {
   };
   add(counts.through_table, "through the table");
   add(counts.self_overlap, "with fingers in each other");
-  add(counts.only_deep, "for depth alone");
+  add(counts.only_deep, "only too deep");
   return parts.empty() ? "" : " (" + parts + ")";
 }
 

@@ -333,6 +333,29 @@ void far_above_the_table(const AnsweredScene& a) {
   EXPECT_GT(through, 10u);
 }
 
+// A place on a bone is at most a ninth of half the bone from a sphere, and as much deeper: 68 mm of the longest bone.
+void most_bodies(const AnsweredScene& a) {
+  Scene bare = a.scene;
+  bare.hand.between = 0;
+  const AnsweredScene b(bare);
+  std::size_t deeper = 0, crossed = 0, plausible = 0;
+  a.each([&](std::size_t v, std::size_t i) {
+    const GripResult result = a.result(v, i);
+    const double half_step = 0.06812 / 18 * a.scene.hand.scale * a.grips[v][i].hand_scale;
+    const CapsuleCheck check = check_capsules(a.scene, *a.core, v, a.grips[v][i], result);
+    const double depth = std::max(result.phalanx_depth, result.palm_depth);
+    EXPECT_LT(check.deepest, depth + half_step) << i;
+    EXPECT_LT(std::max(0.0, check.overlap), result.self_depth + 2 * half_step) << i;
+    crossed += result.self_depth > 0 ? 1 : 0;
+    const GripResult points = b.result(v, i);
+    deeper += depth > std::max(points.phalanx_depth, points.palm_depth) + half_step ? 1 : 0;
+    plausible += (a.status(v, i) & STATUS_PLAUSIBLE) != 0 ? 1 : 0;
+  });
+  EXPECT_GT(deeper, 0u);
+  EXPECT_GT(crossed, 10u);
+  EXPECT_GT(plausible, 10u);
+}
+
 void first_drop(const AnsweredScene& a) {
   Scene all = a.scene;
   all.until_poured.reset();
@@ -452,6 +475,7 @@ const std::map<std::string, void (*)(const AnsweredScene&)> LOOKS{
     {"giant", giant},
     {"large_hand", large_hand},
     {"light_and_heavy", light_and_heavy},
+    {"most_bodies", most_bodies},
     {"most_friction", most_friction},
     {"no_friction", no_friction},
     {"no_range", no_range},

@@ -13,6 +13,7 @@
 #include <memory>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/absent.h"
@@ -20,6 +21,7 @@
 #include "core/evaluator.h"
 #include "scene/ranges.h"
 #include "scene/reader.h"
+#include "sweeps/robust.h"
 #include "tests/fuzz/choices.h"
 #include "tests/fuzz/must.h"
 
@@ -130,6 +132,19 @@ void add_key(std::string& text, const std::string& table, const std::string& key
   if (at != std::string::npos) text.insert(at + table.size() + 1, key);
 }
 
+std::string robust_of(Choices& choose) {
+  std::string text = "[robust]\n" + fmt::format("count = {}\n", ranges::DEVIATION_COUNT.low);
+  for (const auto& [name, range] : {std::pair("height_mm", ranges::LENGTH_DEVIATION),
+                                    {"offset_mm", ranges::LENGTH_DEVIATION},
+                                    {"azimuth_deg", ranges::ANGLE_DEVIATION},
+                                    {"obliquity_deg", ranges::ANGLE_DEVIATION},
+                                    {"roll_deg", ranges::ANGLE_DEVIATION},
+                                    {"friction", ranges::FRICTION_DEVIATION},
+                                    {"hand_scale", ranges::SCALE_DEVIATION}})
+    if (choose.yes()) text += key(name, choose.in(range));
+  return text;
+}
+
 // What was added to scenes later: chosen after all else, so that a seed that was found before is still the scene that it was.
 void add_later_keys(Choices& choose, std::string& text) {
   for (const char* digit : {"index_N", "middle_N", "ring_N", "little_N", "palm_N"})
@@ -139,6 +154,16 @@ void add_later_keys(Choices& choose, std::string& text) {
   if (choose.yes()) text += "[table]\n" + key("clearance_mm", choose.in(ranges::TABLE_CLEARANCE));
   if (choose.yes()) text += "[output]\n" + key("apart_mm", choose.in(ranges::APART));
   if (choose.yes()) add_key(text, "[hand]", fmt::format("between = {}\n", choose.of(static_cast<int>(ranges::BETWEEN.high) + 1)));
+  if (choose.yes()) text += robust_of(choose);
+}
+
+// The same grips once more, as the robust score deviates them.
+void add_deviated(const Scene& scene, std::vector<GripInput>& grips) {
+  if (!scene.robust) return;
+  const std::vector<Deviation> all = deviations(*scene.robust);
+  must(all.size() == static_cast<std::size_t>(scene.robust->count), "deviations are missing");
+  for (std::size_t k = 0; k < GRIPS; ++k) grips.push_back(deviated(grips[k], all[k]));
+  for (const double friction : robust_frictions(scene)) must(friction >= 0 && std::isfinite(friction), "a friction is none");
 }
 
 std::vector<GripInput> grips_of(Choices& choose, const Scene& scene) {
@@ -191,9 +216,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Choices choose(data, size);
   try {
     std::string text = scene_of(choose);
-    const std::vector<GripInput> grips = grips_of(choose, parse_scene(text, "fuzz.toml"));
+    std::vector<GripInput> grips = grips_of(choose, parse_scene(text, "fuzz.toml"));
     add_later_keys(choose, text);
     const Scene scene = parse_scene(text, "fuzz.toml");
+    add_deviated(scene, grips);
     check(scene, *make_core_evaluator(scene), grips, "double");
     check(scene, *make_core_float_evaluator(scene), grips, "float");
   } catch (const Error& error) {

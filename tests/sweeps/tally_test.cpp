@@ -23,7 +23,7 @@ TEST(Tally, CountsByReasonAndAmongTheFeasible) {
   EXPECT_EQ(counts.antipodal, 2u);
   EXPECT_EQ(counts.blocked, 1u);
   EXPECT_EQ(counts_line(counts, true, 1),
-            "3 of 6 grips feasible (2 misses, 1 too wide); of these 1 implausible (1 for depth alone), 2 antipodal, 1 with a "
+            "3 of 6 grips feasible (2 misses, 1 too wide); of these 1 implausible (1 only too deep), 2 antipodal, 1 with a "
             "blocked finger");
   EXPECT_EQ(counts_line(counts, true, 12).substr(0, 38), "3 of 6 grips (each at 12 azimuths) fea");
   EXPECT_EQ(counts_line(counts, false, 1), "6 grips");
