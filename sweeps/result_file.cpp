@@ -80,22 +80,39 @@ std::array<double, 6> axis_values(const GripInput& grip) {
 
 }  // namespace
 
-ResultFile::ResultFile(const OutputNames& names, const ResultContents& contents, const FieldSet& fields, bool resume)
+ResultFile::ResultFile(const OutputNames& names, const ResultContents& contents, const FieldSet& fields, bool resume,
+                       const OpenOutput& open_output)
     : names_(names), contents_(contents), fields_(fields) {
   silence_hdf5();
   if (!resume) create();
   file_ = open(names_.partial.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
   if (file_ < 0) fail("open", errno);
   try {
-    open_blocks();
+    places_ = find_places();
+    set_blocks();
     struct stat status {};
     if (fstat(file_, &status) != 0) fail("read", errno);
     // file systems that cannot reserve are told apart from those that lack the room
     if (!resume && fallocate(file_, 0, 0, status.st_size) != 0 && errno != EOPNOTSUPP && errno != ENOSYS)
       fail("reserve room for", errno);
+    if (open_output) output_ = open_output(names_.partial);
   } catch (...) {
     close(file_);
     if (!resume) unlink(names_.partial.c_str());
+    throw;
+  }
+}
+
+ResultFile::ResultFile(const OutputNames& names, const ResultContents& contents, const FieldSet& fields, const FilePlaces& places,
+                       const OpenOutput& open_output)
+    : names_(names), contents_(contents), fields_(fields), places_(places) {
+  file_ = open(names_.partial.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
+  if (file_ < 0) fail("open", errno);
+  try {
+    set_blocks();
+    if (open_output) output_ = open_output(names_.partial);
+  } catch (...) {
+    close(file_);
     throw;
   }
 }
@@ -123,40 +140,51 @@ void ResultFile::fail(const char* what, int error) const {
                                   names_.partial, what, std::strerror(error)));
 }
 
-void ResultFile::open_blocks() {
+FilePlaces ResultFile::find_places() const {
   const Handle file(open_hdf5(names_.partial, H5F_ACC_RDONLY), H5Fclose);
   if (file < 0)
     throw failure_error(fmt::format("{}: cannot be read as a result file; start again without --resume", names_.partial));
   try {
-    const std::size_t real_size = contents_.info.precision == Precision::single ? sizeof(float) : sizeof(double);
-    for (const Variable* variable : contents_.variables) {
-      if (!is_kept(fields_, variable->field)) throw failure_error(fmt::format("{} is not read back", variable->name));
-      const std::size_t size = variable->type == NumberType::real ? real_size : variable->type == NumberType::byte ? 1 : 4;
-      blocks_.push_back({variable, block_offset(file, variable->name), variable_planes(*variable, contents_.scene), size,
-                         fields_.plane[variable->field] + variable->plane});
-    }
+    FilePlaces places;
+    for (const Variable* variable : contents_.variables) places.variables.push_back(block_offset(file, variable->name));
     const auto& axes = contents_.plan.axes();
     if (contents_.plan.is_sobol() && !contents_.variables.empty()) {
-      for (const PlanAxis& axis : axes) axis_offsets_.push_back(block_offset(file, axis.name));
-      if (contents_.plan.height_is_fraction()) height_offset_ = block_offset(file, HEIGHT);
+      for (const PlanAxis& axis : axes) places.axes.push_back(block_offset(file, axis.name));
+      if (contents_.plan.height_is_fraction()) places.height = block_offset(file, HEIGHT);
     }
     if (contents_.best > 0) {
-      best_offsets_ = {block_offset(file, BEST_GRIP), block_offset(file, BEST_SCORE)};
-      for (const PlanAxis& axis : axes) best_offsets_.push_back(block_offset(file, best_axis_name(axis)));
-      best_offsets_.push_back(block_offset(file, REFINED_SCORE));
+      places.best = {block_offset(file, BEST_GRIP), block_offset(file, BEST_SCORE)};
+      for (const PlanAxis& axis : axes) places.best.push_back(block_offset(file, best_axis_name(axis)));
+      places.best.push_back(block_offset(file, REFINED_SCORE));
       for (const PlanAxis& axis : axes)
-        if (is_refined_axis(axis)) best_offsets_.push_back(block_offset(file, refined_axis_name(axis)));
+        if (is_refined_axis(axis)) places.best.push_back(block_offset(file, refined_axis_name(axis)));
       if (contents_.scene.robust)
-        best_offsets_.insert(best_offsets_.end(), {block_offset(file, ROBUST_MEAN), block_offset(file, ROBUST_LOW)});
+        places.best.insert(places.best.end(), {block_offset(file, ROBUST_MEAN), block_offset(file, ROBUST_LOW)});
     }
+    return places;
   } catch (const Error& error) {
     throw failure_error(fmt::format("{}: {}; start again without --resume", names_.partial, error.what()));
+  }
+}
+
+void ResultFile::set_blocks() {
+  const std::size_t real_size = contents_.info.precision == Precision::single ? sizeof(float) : sizeof(double);
+  for (std::size_t i = 0; i < contents_.variables.size(); ++i) {
+    const Variable& variable = *contents_.variables[i];
+    if (!is_kept(fields_, variable.field)) throw failure_error(fmt::format("{} is not read back", variable.name));
+    const std::size_t size = variable.type == NumberType::real ? real_size : variable.type == NumberType::byte ? 1 : 4;
+    blocks_.push_back({&variable, places_.variables[i], variable_planes(variable, contents_.scene), size,
+                       fields_.plane[variable.field] + variable.plane});
   }
 }
 
 void ResultFile::put(const void* data, std::size_t size, std::uint64_t offset) {
   const auto* from = static_cast<const unsigned char*>(data);
   bytes_ += size;
+  if (output_) {
+    if (const int error = output_->write(data, size, offset); error != 0) fail("write", error);
+    return;
+  }
   while (size > 0) {
     const ssize_t written = pwrite(file_, from, size, static_cast<off_t>(offset));
     if (written < 0 && errno == EINTR) continue;
@@ -216,12 +244,12 @@ void ResultFile::visit_runs(std::size_t vessel, std::uint64_t first, std::uint64
       visit(run++, FileRange{block.offset + place * block.size, count * block.size});
     }
   }
-  if (height_offset_) {
-    const std::uint64_t place = *height_offset_ + (vessel * plan.grips() + first) * sizeof(double);
+  if (places_.height) {
+    const std::uint64_t place = *places_.height + (vessel * plan.grips() + first) * sizeof(double);
     visit(run++, FileRange{place, count * sizeof(double)});
   }
   if (vessel > 0) return;  // every vessel has the same points
-  for (const std::uint64_t offset : axis_offsets_) visit(run++, FileRange{offset + first * sizeof(double), count * sizeof(double)});
+  for (const std::uint64_t offset : places_.axes) visit(run++, FileRange{offset + first * sizeof(double), count * sizeof(double)});
 }
 
 void ResultFile::write(const PlaneChunk& chunk) {
@@ -245,7 +273,7 @@ void ResultFile::write(const PlaneChunk& chunk) {
   for (const Block& block : blocks_) {
     for (std::size_t plane = 0; plane < block.planes; ++plane, ++run) write_run(run, plane_values(block, plane, chunk));
   }
-  if (height_offset_) {
+  if (places_.height) {
     buffer_.resize(chunk.count * sizeof(double));
     auto* heights = reinterpret_cast<double*>(buffer_.data());
     contents_.plan.coordinates(PLACE_HEIGHT, chunk.first, chunk.count, heights);
@@ -281,9 +309,9 @@ std::vector<FileRange> ResultFile::written_in_place() const {
   const std::uint64_t vessels = contents_.scene.vessels.size();
   std::vector<FileRange> ranges;
   for (const Block& block : blocks_) ranges.push_back({block.offset, vessels * block.planes * plan.stored_grips() * block.size});
-  for (const std::uint64_t offset : axis_offsets_) ranges.push_back({offset, plan.grips() * sizeof(double)});
-  if (height_offset_) ranges.push_back({*height_offset_, vessels * plan.grips() * sizeof(double)});
-  for (const std::uint64_t offset : best_offsets_) {
+  for (const std::uint64_t offset : places_.axes) ranges.push_back({offset, plan.grips() * sizeof(double)});
+  if (places_.height) ranges.push_back({*places_.height, vessels * plan.grips() * sizeof(double)});
+  for (const std::uint64_t offset : places_.best) {
     ranges.push_back({offset, vessels * plan.hand_scales() * contents_.best * sizeof(double)});
   }
   std::sort(ranges.begin(), ranges.end(), [](const FileRange& a, const FileRange& b) { return a.offset < b.offset; });
@@ -302,7 +330,7 @@ void ResultFile::vouch_for_structure(SweepMark& mark) {
 
 void ResultFile::sync() {
   const Stopwatch stopwatch(seconds_);
-  if (fsync(file_) != 0) fail("write", errno);
+  if (const int error = output_ ? output_->sync() : fsync(file_) == 0 ? 0 : errno; error != 0) fail("write", error);
 }
 
 void ResultFile::start_sync() {
@@ -315,7 +343,7 @@ void ResultFile::write_ending(const std::vector<std::vector<RankedGrip>>& best, 
   const std::size_t ranks = contents_.best;
   for (std::size_t list = 0; list < best.size() && ranks > 0; ++list) {
     std::vector<std::int64_t> grips(ranks, MISSING);
-    std::vector<std::vector<double>> reals(best_offsets_.size() - 1,
+    std::vector<std::vector<double>> reals(places_.best.size() - 1,
                                            std::vector<double>(ranks, std::numeric_limits<double>::quiet_NaN()));
     for (std::size_t rank = 0; rank < std::min(ranks, best[list].size()); ++rank) {
       const RankedGrip& ranked = best[list][rank];
@@ -334,9 +362,9 @@ void ResultFile::write_ending(const std::vector<std::vector<RankedGrip>>& best, 
       for (std::size_t axis = 0; axis < refined.size(); ++axis)
         if (is_refined_axis(contents_.plan.axes()[axis])) reals[k++][rank] = refined[axis];
     }
-    put(grips.data(), ranks * sizeof(std::int64_t), best_offsets_[0] + list * ranks * sizeof(std::int64_t));
+    put(grips.data(), ranks * sizeof(std::int64_t), places_.best[0] + list * ranks * sizeof(std::int64_t));
     for (std::size_t k = 0; k < reals.size(); ++k) {
-      put(reals[k].data(), ranks * sizeof(double), best_offsets_[k + 1] + list * ranks * sizeof(double));
+      put(reals[k].data(), ranks * sizeof(double), places_.best[k + 1] + list * ranks * sizeof(double));
     }
   }
   const Handle file(open_hdf5(names_.partial, H5F_ACC_RDWR), H5Fclose);

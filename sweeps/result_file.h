@@ -3,17 +3,27 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/planes.h"
 #include "sweeps/mark.h"
+#include "sweeps/output_bytes.h"
 #include "sweeps/result_contents.h"
 #include "system/checksum.h"
 #include "system/files.h"
 
 namespace wholehand {
+
+// Where the values lie in the file, bytes from its start.
+struct FilePlaces {
+  std::vector<std::uint64_t> variables;  // in the order of the contents
+  std::vector<std::uint64_t> axes;       // the axes' values at Sobol points; empty for a grid
+  std::optional<std::uint64_t> height;   // the vessels' heights in m at Sobol points, where their axis has fractions
+  std::vector<std::uint64_t> best;       // best_grip, best_score, axes; refined score, axes; robust scores
+};
 
 // NetCDF defines the file once (result_contents.h) and closes it. From then on only the values change, and they go straight to the
 // places in the file that HDF5 gave to them: every variable is one contiguous block in native byte order, and a plane of a chunk is
@@ -26,7 +36,11 @@ class ResultFile {
  public:
   // Creates NAME.nc.partial, or, to resume, opens the one that is there as it is. Who holds the result's lock (system/output_lock.h) alone may
   // do that. Contents must outlive the object, the same ones for a file that is resumed.
-  ResultFile(const OutputNames& names, const ResultContents& contents, const FieldSet& fields, bool resume);
+  ResultFile(const OutputNames& names, const ResultContents& contents, const FieldSet& fields, bool resume,
+             const OpenOutput& open_output = {});
+  // Opens the one that another process has made, whose places these are, to put grips into it beside that process.
+  ResultFile(const OutputNames& names, const ResultContents& contents, const FieldSet& fields, const FilePlaces& places,
+             const OpenOutput& open_output = {});
   ~ResultFile();
   ResultFile(const ResultFile&) = delete;
   ResultFile& operator=(const ResultFile&) = delete;
@@ -40,6 +54,7 @@ class ResultFile {
   void end_stretch();
   // Whether the file holds grips with this checksum: reads them back.
   bool holds(std::size_t vessel, const Stretch& stretch);
+  const FilePlaces& places() const { return places_; }
   // Whether the file holds anything of the grips.
   bool has_grips() const { return !blocks_.empty(); }
 
@@ -71,7 +86,9 @@ class ResultFile {
   };
 
   void create();
-  void open_blocks();
+  void open_values(const OpenOutput& open_output);
+  FilePlaces find_places() const;
+  void set_blocks();
   std::vector<FileRange> written_in_place() const;
   template <class Visit>
   void visit_runs(std::size_t vessel, std::uint64_t first, std::uint64_t count, std::uint64_t copy, const Visit& visit) const;
@@ -84,11 +101,10 @@ class ResultFile {
   FieldSet fields_;
   int file_ = -1;
   std::vector<Block> blocks_;
-  std::vector<std::uint64_t> axis_offsets_;     // of the axes' values at Sobol points; empty for a grid
-  std::optional<std::uint64_t> height_offset_;  // of the vessels' heights in m at Sobol points, where their axis has fractions
-  std::vector<std::uint64_t> best_offsets_;     // best_grip, best_score, axes; refined score, axes; robust scores
-  std::vector<unsigned char> buffer_;           // values of one plane that need converting
-  RunsChecksum checksum_;                       // of the stretch that is being written
+  FilePlaces places_;
+  std::unique_ptr<OutputBytes> output_;  // null: the system's own calls
+  std::vector<unsigned char> buffer_;    // values of one plane that need converting
+  RunsChecksum checksum_;                // of the stretch that is being written
   Stretch stretch_;
   std::size_t stretch_vessel_ = 0;
   std::string structure_;

@@ -2,43 +2,16 @@
 // A sweep from a scene to its files: what `wholehand sweep` does.
 #pragma once
 
-#include <functional>
-#include <optional>
-#include <string>
-
-#include "core/backend.h"
 #include "core/error.h"
+#include "sweeps/sweep_options.h"
 #include "sweeps/sweep_parts.h"
-#include "system/clock.h"
 
 namespace wholehand {
-
-struct SweepOptions {
-  std::string output;                  // NAME.nc; empty: the scene file's name with .nc, in the working directory
-  std::string on = "vulkan";           // see open_backend
-  std::optional<Precision> precision;  // absent: double on the core, float elsewhere
-  std::optional<int> best;             // absent: the scene's
-  int glb = 0;                         // so many of the best of each vessel are written as glTF
-  bool resume = false;
-  bool explain = false;
-  bool refine = true;  // the best grips, see sweeps/refine.h
-  int threads = 0;     // of the core, 0: all
-  // Called once meshes are read: says what the user should know of the scene in that precision. May be empty.
-  std::function<void(const Scene&, Precision)> warn = {};
-  std::size_t pool = 0;  // grips of a list that a pass keeps (sweeps/list_chooser.h); 0: usual_pool
-  // Scores of one vessel's grips that are kept for further passes, 8 B each; of more grips each pass evaluates all of them again.
-  std::size_t remembered = std::size_t{1} << 22;
-  double mark_seconds = 5;           // least time between two progress marks: what a crash may cost
-  double started = monotonic_now();  // s of the clock: when the work was asked for, for the closing lines
-};
 
 // Sweeps every grip of the scene. Writes NAME.nc, NAME.best.csv, NAME.<vessel>.svg and NAME.<vessel>.<rank>.glb; prints the device, the best grips and counts
 // of every vessel, and the times to stdout, notes and progress to stderr. Returns `done`, or `interrupted` after SIGINT or SIGTERM
 // with NAME.nc.partial left for --resume. Throws Error.
 ExitCode run_sweep(const Scene& scene, const SweepOptions& options);
 ExitCode run_sweep(const Scene& scene, const SweepOptions& options, const SweepParts& parts);
-
-// NAME.nc for a scene file when the user names none.
-std::string default_output(const Scene& scene);
 
 }  // namespace wholehand

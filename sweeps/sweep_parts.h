@@ -7,6 +7,7 @@
 
 #include "core/backend.h"
 #include "core/evaluator.h"
+#include "sweeps/output_bytes.h"
 
 namespace wholehand {
 
@@ -17,6 +18,7 @@ struct SweepParts {
   std::function<void()> prepare = {};  // what takes long and comes after all that can be refused at once (meshes); may be empty
   // Of a scene that differs from the sweep's in its friction alone; needed for [robust].
   std::function<std::unique_ptr<Backend>(const Scene&, const FieldSet&)> open_other = {};
+  OpenOutput open_output = {};  // what values are written with; empty: the system's own calls
 };
 
 }  // namespace wholehand

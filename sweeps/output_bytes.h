@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Who carries the values of a result to their places in the file.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace wholehand {
+
+class OutputBytes {
+ public:
+  virtual ~OutputBytes() = default;
+  // Both answer 0, or the number of the system's error (errno).
+  virtual int write(const void* data, std::size_t size, std::uint64_t offset) = 0;
+  virtual int sync() = 0;  // returns when all that was written is on the disk
+};
+
+// Opens a file that is there. Throws Error (failure).
+using OpenOutput = std::function<std::unique_ptr<OutputBytes>(const std::string& path)>;
+
+}  // namespace wholehand

@@ -1,0 +1,463 @@
+// SPDX-License-Identifier: MIT
+#include "sweeps/sweep.h"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <limits>
+#include <utility>
+
+#include "sweeps/best.h"
+#include "sweeps/cavity_notes.h"
+#include "sweeps/closing.h"
+#include "sweeps/companions.h"
+#include "sweeps/explain.h"
+#include "sweeps/hand_lists.h"
+#include "sweeps/idle_notes.h"
+#include "sweeps/refine.h"
+#include "sweeps/resume.h"
+#include "sweeps/robust.h"
+#include "sweeps/tally.h"
+#include "sweeps/write_companions.h"
+#include "system/clock.h"
+#include "system/output_lock.h"
+#include "system/readable.h"
+#include "system/version.h"
+
+namespace wholehand {
+namespace {
+
+constexpr double MARK_SHARE = 0.02;           // of the time, at most, for marks
+constexpr off_t LONG_CHECK = 1'000'000'000;   // bytes of a partial file: from here on it is said that they are read
+constexpr std::uint64_t MOST_STRETCHES = 64;  // of a vessel's grips with a checksum each, and one more for each --resume
+
+double since(double start) { return monotonic_now() - start; }
+
+}  // namespace
+
+Sweep::Sweep(const Scene& scene, const SweepOptions& options, const SweepParts& parts)
+    : scene_(scene),
+      options_(options),
+      parts_(parts),
+      names_(output_names(options.output.empty() ? default_output(scene) : options.output)),
+      best_wanted_(static_cast<std::size_t>(std::max(0, options.best.value_or(scene.output.best)))),
+      variables_(choose_variables(scene)),
+      mark_interval_(options.mark_seconds) {}
+
+// What can be refused before any work, meshes unread.
+void Sweep::check() const {
+  check_output_path(names_.result);
+  if (options_.glb > static_cast<int>(best_wanted_)) {
+    throw usage_error(fmt::format("--glb {0}: the sweep keeps only the best {1} grips of each vessel; give --best {0} too",
+                                  options_.glb, best_wanted_));
+  }
+  check_not_the_scene(names_.result, scene_);
+  check_overwrites_result(names_.result);
+  check_companions(scene_, names_, best_wanted_ > 0, has_score(), options_.glb);
+  struct stat partial {};
+  const double reserved = stat(names_.partial.c_str(), &partial) == 0 ? static_cast<double>(partial.st_blocks) * 512 : 0;
+  const std::size_t real_size = precision() == Precision::single ? sizeof(float) : sizeof(double);
+  check_sweep_size(scene_, sweep_size(scene_, bytes_per_grip(variables_, scene_, real_size)), free_bytes(names_.target) + reserved);
+}
+
+bool Sweep::is_finished() const {
+  struct stat file {};
+  return options_.resume && stat(names_.partial.c_str(), &file) != 0 && stat(names_.result.c_str(), &file) == 0 &&
+         S_ISREG(file.st_mode);
+}
+
+ExitCode Sweep::run() {
+  // a file that grows past its limit is an error of the write, not the end of the process
+  std::signal(SIGXFSZ, SIG_IGN);
+  // first, since it needs neither room nor a place to write to
+  if (is_finished()) return finished();
+  check();
+  const OutputLock lock(names_.lock);
+  if (is_finished()) return finished();  // by who had the lock until now
+  open();
+  say_opening();
+  const ResultContents written = contents();
+  const bool resumed = begin();
+  // An interrupt that comes while the file is laid out waits for the first grips. One that comes when all are done lets the ending finish, but for
+  // robust scores.
+  InterruptGuard interrupt;
+  ResultFile file(names_, written, backend_->fields(), resumed, parts_.open_output);
+  is_marked_ = resumed;
+  if (!repair(file, interrupt) || !sweep(file, interrupt)) return interrupted();
+  return finish(file, interrupt) ? ExitCode::done : interrupted();
+}
+
+void Sweep::open() {
+  if (parts_.prepare) parts_.prepare();
+  plan_.emplace(scene_, keeps_vectors(variables_));
+  backend_ = parts_.open_backend(make_field_set(swept_fields(), scene_));
+  info_ = backend_->info();
+  evaluator_ = parts_.open_evaluator();
+  facts_ = vessel_facts(scene_, *backend_, *evaluator_);
+  if (!is_choosy() && !refines()) evaluator_.reset();
+}
+
+void Sweep::say_opening() const {
+  if (options_.warn) options_.warn(scene_, precision());
+  say_cavity_notes(scene_);
+  for (const std::string& line : idle_notes(scene_, plan(), best_wanted_)) say_note(line);
+  fmt::print("{}{}", opening_lines(scene_, plan(), info_), vessel_lines(scene_, facts_));
+  std::fflush(stdout);
+  if (!options_.explain) return;
+  fmt::print("{}", explain_sweep(scene_, plan(), backend_->fields(), {options_.on, precision(), options_.threads, best_wanted_}));
+  std::fflush(stdout);
+}
+
+ResultContents Sweep::contents() const { return {scene_, plan(), variables_, facts_, info_, version(), best_wanted_}; }
+
+bool Sweep::is_choosy() const { return best_wanted_ > 0 && scene_.output.apart > 0; }
+bool Sweep::refines() const { return best_wanted_ > 0 && options_.refine; }
+std::size_t Sweep::pool() const {
+  return options_.pool > 0 && is_choosy() ? options_.pool : usual_pool(plan(), best_wanted_, scene_.output.apart);
+}
+std::size_t Sweep::kept_best() const { return is_choosy() ? pool() : best_wanted_; }
+ListRequest Sweep::list_request() const { return {best_wanted_, scene_.output.apart, pool(), options_.threads}; }
+bool Sweep::ranks_here() const { return best_wanted_ > 0 && (is_choosy() || plan().hand_scales() > 1); }
+// What is read back: a device chooses a few of the best of all hands together. Of several hand scales, and where grips have to
+// differ, the scores are chosen from here.
+std::vector<int> Sweep::swept_fields() const {
+  const std::vector<int> kept = variable_fields(variables_);
+  std::set<int> fields(kept.begin(), kept.end());
+  if (ranks_here()) fields.insert({FIELD_SCORE, FIELD_STATUS});
+  return {fields.begin(), fields.end()};
+}
+
+bool Sweep::has_field(int field) const { return is_kept(backend_->fields(), field); }
+bool Sweep::has_heat_map() const { return has_score() && has_field(FIELD_SCORE) && has_field(FIELD_STATUS); }
+
+bool Sweep::has_score() const {
+  return std::any_of(variables_.begin(), variables_.end(), [](const Variable* v) { return v->field == FIELD_SCORE; });
+}
+
+ExitCode Sweep::finished() const {
+  check_complete(names_.result, scene_, options_.on == "core", precision(), variables_);
+  say_note(
+      fmt::format("{} is complete, so nothing is left to do; the same command without --resume computes it again", names_.result));
+  return ExitCode::done;
+}
+
+Precision Sweep::precision() const {
+  return options_.precision.value_or(options_.on == "core" ? Precision::full : Precision::single);
+}
+
+std::map<std::string, std::string> Sweep::identity() const {
+  return sweep_identity(scene_, plan(), info_, best_wanted_, variables_);
+}
+
+// What a mark of this sweep can say at most.
+MarkBounds Sweep::bounds() const {
+  const bool has_stretches = !variables_.empty();
+  return {scene_.vessels.size(),
+          plan().grips(),
+          std::max(best_wanted_, kept_best()) * plan().hand_scales(),
+          is_choosy() ? plan().hand_scales() : 0,
+          best_wanted_,
+          has_stretches,
+          has_stretches && has_field(FIELD_STATUS)};
+}
+
+// Sets the progress: from the mark of an earlier sweep if there is one to resume, else nothing done. True: resumed.
+bool Sweep::begin() {
+  for (std::size_t v = 0; v < scene_.vessels.size(); ++v) maps_.emplace_back(plan());
+  SweepMark mark;
+  std::string line = options_.resume ? "" : lost_line(names_);
+  if (options_.resume) announce_check();
+  const bool resumed = options_.resume && load_usable_mark(names_, identity(), bounds(), mark, line);
+  if (!line.empty()) say_note(line);
+  if (resumed) {
+    mark_ = mark;
+    for (std::size_t v = 0; v < maps_.size() && has_heat_map(); ++v) maps_[v].restore(mark_.vessels[v].heat_map);
+    say_note(
+        fmt::format("continuing {}: {} of {} grips are there", names_.partial, readable_number(done()), readable_number(total())));
+  } else {
+    if (options_.resume) say_note(fmt::format("{} holds no complete grip: starting from the first grip", names_.partial));
+    mark_.identity = identity();
+    mark_.vessels.resize(scene_.vessels.size());
+  }
+  wall_before_ = mark_.wall_seconds;
+  return resumed;
+}
+
+// Before a file is read that takes long.
+void Sweep::announce_check() const {
+  struct stat file {};
+  if (stat(names_.mark.c_str(), &file) != 0 || stat(names_.partial.c_str(), &file) != 0 || file.st_size <= LONG_CHECK) return;
+  say_note(fmt::format("checking {} of {}", readable_bytes(static_cast<double>(file.st_size)), names_.partial));
+}
+
+std::uint64_t Sweep::total() const { return plan().grips() * scene_.vessels.size(); }
+
+std::uint64_t Sweep::done() const {
+  std::uint64_t sum = 0;
+  for (const VesselProgress& vessel : mark_.vessels) sum += vessel.done;
+  return sum;
+}
+
+bool Sweep::is_time_up() const { return options_.time_limit > 0 && since(options_.started) >= options_.time_limit; }
+bool Sweep::is_asked_to_end(InterruptGuard& interrupt) const { return interrupt.signalled() || is_time_up(); }
+bool Sweep::is_mark_due() const { return since(last_mark_) >= mark_interval_; }
+
+// Computes again what the file no longer holds as it was written. False: interrupted; the mark still stands.
+bool Sweep::repair(ResultFile& file, InterruptGuard& interrupt) {
+  for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
+    for (const Stretch& stretch : mark_.vessels[v].stretches) {
+      if (is_asked_to_end(interrupt)) return false;
+      if (file.holds(v, stretch)) continue;
+      const std::string place = place_of(v, stretch);
+      say_note(place + " are damaged: computing them again");
+      if (!compute_again(v, stretch, file, interrupt)) return false;
+      if (!file.holds(v, stretch))
+        throw failure_error(place + " have other values when computed again; start again without --resume");
+    }
+  }
+  return true;
+}
+
+std::string Sweep::place_of(std::size_t v, const Stretch& stretch) const {
+  return fmt::format("{}: grips {} to {} of {}", names_.partial, readable_number(stretch.first), readable_number(stretch.last - 1),
+                     scene_.vessels[v].name);
+}
+
+bool Sweep::compute_again(std::size_t v, const Stretch& stretch, ResultFile& file, InterruptGuard& interrupt) {
+  RunRequest request = grips_of(v, interrupt);
+  request.first = stretch.first;
+  request.last = stretch.last;
+  request.sink = [&file](const PlaneChunk& chunk) { file.write(chunk); };
+  const RunResult result = backend_->run(request);
+  file.end_stretch();
+  return result.done == stretch.last - stretch.first;
+}
+
+RunRequest Sweep::grips_of(std::size_t v, InterruptGuard& interrupt) const {
+  RunRequest request;
+  request.vessel = v;
+  request.stop = &interrupt.flag();
+  request.grips = [&plan = plan()](std::size_t w, std::uint64_t first, std::size_t count, GripInput* out) {
+    plan.fill(w, first, count, out);
+  };
+  return request;
+}
+
+// Every vessel from where it stands to its end. False: interrupted, everything done so far is marked.
+bool Sweep::sweep(ResultFile& file, InterruptGuard& interrupt) {
+  Progress progress(total(), done());
+  last_mark_ = monotonic_now();
+  for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
+    forget();
+    while (mark_.vessels[v].done < plan().grips()) {
+      run_stretch(v, file, interrupt, progress);
+      if (is_asked_to_end(interrupt) && done() < total()) {
+        progress.clear();
+        save(file);
+        return false;
+      }
+      if (is_mark_due() && done() < total()) save(file);
+    }
+    file.start_sync();
+    progress.clear();
+    if (is_choosy() && !choose(v, file, interrupt)) return false;
+  }
+  return true;
+}
+
+// Grips of a vessel until its end, an interrupt, or the time for a progress mark.
+void Sweep::run_stretch(std::size_t v, ResultFile& file, InterruptGuard& interrupt, Progress& progress) {
+  VesselProgress& vessel = mark_.vessels[v];
+  const std::uint64_t before = done();
+  std::uint64_t delivered = 0;
+  double sink_seconds = 0;
+  RunRequest request = grips_of(v, interrupt);
+  request.first = vessel.done;
+  request.last = plan().grips();
+  HandLists best(plan(), kept_best(), vessel.best);
+  request.best = ranks_here() ? 0 : best_wanted_;
+  std::vector<Candidate> eligible;
+  request.sink = [&](const PlaneChunk& chunk) {
+    const double start = monotonic_now();
+    file.write(chunk);
+    count_grips(chunk, backend_->fields(), vessel.counts);
+    if (ranks_here()) best.offer(chunk, backend_->fields());
+    if (!remembered_.empty()) {
+      eligible.clear();
+      add_eligible(chunk, backend_->fields(), eligible);
+      remember(eligible, chunk.count);
+    }
+    if (has_heat_map()) maps_[v].add(plan(), chunk, backend_->fields());
+    delivered += chunk.count;
+    progress.update(scene_.vessels[v].name, before + delivered);
+    if (is_mark_due() || is_time_up()) interrupt.flag() = true;
+    sink_seconds += since(start);
+  };
+  const double start = monotonic_now();
+  const RunResult result = backend_->run(request);
+  wait_seconds_ += since(start) - sink_seconds;
+  interrupt.clear();
+  // a backend that has nothing to hand over need not call the sink; one that has must hand over all of it
+  if ((delivered != result.done && !(delivered == 0 && variables_.empty())) || (result.done == 0 && !is_asked_to_end(interrupt))) {
+    throw failure_error(fmt::format("{}: handed over {} of {} grips", backend_->info().device, delivered, result.done));
+  }
+  if (delivered == 0) vessel.counts.grips += result.done;
+  best.offer(result.best);  // none where they were chosen here
+  vessel.best = best.all();
+  vessel.done += result.done;
+  if (file.has_grips() && result.done > 0) {  // an interrupt may come before the first chunk
+    const Stretch stretch = file.stretch();
+    keep_stretch(vessel.stretches, stretch);
+    if (stretch.last - stretch.first >= plan().grips() / MOST_STRETCHES) file.end_stretch();
+  }
+  kernel_seconds_ += result.kernel_seconds;
+  mark_.kernel_seconds += result.kernel_seconds;
+  say_once(result.notes, progress);
+}
+
+void Sweep::say_once(const std::vector<std::string>& notes, Progress& progress) {
+  for (const std::string& line : notes) {
+    if (!said_.insert(line).second) continue;
+    progress.clear();
+    say_note(line);
+  }
+}
+
+// The lists of a vessel whose grips were all computed, out of the best of them and in further passes over all where it takes
+// these. False: interrupted; the mark has what is decided.
+bool Sweep::choose(std::size_t v, ResultFile& file, InterruptGuard& interrupt) {
+  VesselProgress& vessel = mark_.vessels[v];
+  const bool is_first = vessel.lists.empty();
+  ListChooser chooser(plan(), evaluator_.get(), v, list_request(), vessel.lists);
+  if (is_first) {
+    chooser.offer(vessel.best);
+    end_pass(chooser, vessel);
+  }
+  while (!chooser.is_complete()) {
+    const bool is_known = remembered_count_ == plan().grips();
+    if (is_asked_to_end(interrupt) || (!is_known && !pass_again(v, chooser, interrupt))) {
+      save(file);
+      return false;
+    }
+    if (is_known) pass_remembered(chooser);
+    end_pass(chooser, vessel);
+    if (is_mark_due()) save(file);
+  }
+  return true;
+}
+
+void Sweep::end_pass(ListChooser& chooser, VesselProgress& vessel) {
+  chooser.end_pass();
+  vessel.lists = chooser.progress();
+  vessel.best = chooser.chosen();
+}
+
+// Room for the scores of the next vessel, if there are not too many.
+void Sweep::forget() {
+  const bool has_room = is_choosy() && plan().grips() <= options_.remembered;
+  remembered_.assign(has_room ? static_cast<std::size_t>(plan().grips()) : 0, std::numeric_limits<double>::quiet_NaN());
+  remembered_count_ = 0;
+}
+
+// Chunks come in ascending order; those from before an interrupt do not come again, and then a further pass does.
+void Sweep::remember(const std::vector<Candidate>& eligible, std::size_t of_grips) {
+  if (remembered_.empty()) return;
+  for (const Candidate& grip : eligible) remembered_[static_cast<std::size_t>(grip.index)] = grip.score;
+  remembered_count_ += of_grips;
+}
+
+// A further pass over scores that are known. An interrupt is looked at before the next one.
+void Sweep::pass_remembered(ListChooser& chooser) const {
+  constexpr std::size_t AT_ONCE = 1 << 16;
+  std::vector<Candidate> eligible;
+  for (std::size_t first = 0; first < remembered_.size(); first += AT_ONCE) {
+    eligible.clear();
+    for (std::size_t i = first; i < std::min(remembered_.size(), first + AT_ONCE); ++i)
+      if (!std::isnan(remembered_[i])) eligible.push_back({remembered_[i], i});
+    chooser.offer(eligible);
+  }
+}
+
+// All grips of a vessel once more, for the chooser alone. False: interrupted.
+bool Sweep::pass_again(std::size_t v, ListChooser& chooser, InterruptGuard& interrupt) {
+  Progress progress(plan().grips(), 0);
+  std::uint64_t delivered = 0;
+  RunRequest request = grips_of(v, interrupt);
+  request.last = plan().grips();
+  std::vector<Candidate> eligible;
+  forget();
+  request.sink = [&](const PlaneChunk& chunk) {
+    const double start = monotonic_now();
+    eligible.clear();
+    add_eligible(chunk, backend_->fields(), eligible);
+    chooser.offer(eligible);
+    remember(eligible, chunk.count);
+    delivered += chunk.count;
+    if (is_time_up()) interrupt.flag() = true;
+    progress.update(scene_.vessels[v].name + ", again for different best grips", delivered);
+    wait_seconds_ -= since(start);
+  };
+  const double start = monotonic_now();
+  const RunResult result = backend_->run(request);
+  wait_seconds_ += since(start);
+  kernel_seconds_ += result.kernel_seconds;
+  mark_.kernel_seconds += result.kernel_seconds;
+  say_once(result.notes, progress);
+  return result.done == plan().grips();
+}
+
+// Everything up to here onto the disk, then the mark that says so.
+void Sweep::save(ResultFile& file) {
+  const double start = monotonic_now();
+  file.sync();
+  file.vouch_for_structure(mark_);
+  mark_.wall_seconds = wall_before_ + since(options_.started);
+  for (std::size_t v = 0; v < maps_.size() && has_heat_map(); ++v) mark_.vessels[v].heat_map = maps_[v].scores();
+  save_mark(names_.mark, mark_);
+  is_marked_ = true;
+  last_mark_ = monotonic_now();
+  mark_interval_ = std::max(options_.mark_seconds, since(start) / MARK_SHARE);
+}
+
+ExitCode Sweep::interrupted() const {
+  say_note(fmt::format("interrupted at {} of {} grips; the same command with --resume goes on with {}", readable_number(done()),
+                       readable_number(total()), names_.partial));
+  return ExitCode::interrupted;
+}
+
+// False: interrupted while the robust scores were computed, which may take as long as the sweep; the grips are marked.
+bool Sweep::finish(ResultFile& file, InterruptGuard& interrupt) {
+  const CompanionRequest request{scene_, plan(), names_, parts_, best_wanted_, options_.glb};
+  auto best = best_grips(request, mark_.vessels, *backend_);
+  if (refines()) refine_lists(*evaluator_, scene_, plan(), options_.threads, best);
+  if (!add_robust_scores(parts_.open_other, scene_, plan(), &interrupt.flag(), best)) {
+    save(file);
+    return false;
+  }
+  std::vector<std::vector<RankedGrip>> ranked(best.size());
+  for (std::size_t list = 0; list < best.size(); ++list) {
+    for (const BestGrip& grip : best[list])
+      ranked[list].push_back({grip.candidate, grip.grip, grip.refined, grip.refined_score, grip.robust_mean, grip.robust_low});
+  }
+  // the result's own name comes last: when it is there, all is
+  std::vector<std::string> files = write_companions(request, best, has_heat_map() ? &maps_ : nullptr, info_);
+  // The values are synced first. Then little time passes between the ending, which no earlier mark fits, and the mark that vouches for it.
+  if (is_marked_) save(file);
+  file.write_ending(ranked, wall_before_ + since(options_.started), mark_.kernel_seconds);
+  if (is_marked_) save(file);  // which now vouches for the ending, too
+  file.finish();
+  files.insert(files.begin(), names_.result);
+  for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
+    const std::string counts = counts_line(mark_.vessels[v].counts, has_field(FIELD_STATUS), plan().copies());
+    fmt::print("\n{}: {}\n{}", scene_.vessels[v].name, counts, best_lines(scene_, plan(), v, best, names_.best));
+  }
+  // kernels that ran while the file was being written cost no time of their own
+  const SweepTimes times{since(options_.started), std::min(wait_seconds_, kernel_seconds_), file.seconds(), file.bytes()};
+  fmt::print("\n{}", closing_lines(files, times));
+  return true;
+}
+
+}  // namespace wholehand

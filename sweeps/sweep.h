@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// A sweep step by step: what one process does from first to last (run_sweep), and what the ranks of a cluster share among them.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/scene.h"
+#include "sweeps/heat_map.h"
+#include "sweeps/list_chooser.h"
+#include "sweeps/mark.h"
+#include "sweeps/plan.h"
+#include "sweeps/result_contents.h"
+#include "sweeps/result_file.h"
+#include "sweeps/sweep_options.h"
+#include "sweeps/sweep_parts.h"
+#include "sweeps/variables.h"
+#include "system/files.h"
+#include "system/interrupt.h"
+#include "system/progress.h"
+
+namespace wholehand {
+
+class Sweep {
+ public:
+  // All three must outlive the object.
+  Sweep(const Scene& scene, const SweepOptions& options, const SweepParts& parts);
+  virtual ~Sweep() = default;
+  Sweep(const Sweep&) = delete;
+  Sweep& operator=(const Sweep&) = delete;
+
+  // Everything that run_sweep does.
+  virtual ExitCode run();
+
+ protected:
+  // What can be refused before any work, meshes unread.
+  void check() const;
+  // Whether there is nothing to resume since the result is complete, and the words for that.
+  bool is_finished() const;
+  ExitCode finished() const;
+  // Meshes, warnings, devices: after this plan(), backend_, evaluator_ and facts_ are there.
+  void open();
+  void say_opening() const;
+  // Sets the progress: from the mark of an earlier sweep if there is one to resume, else nothing done. True: resumed.
+  bool begin();
+  // Computes a stretch again. False: interrupted.
+  bool compute_again(std::size_t vessel, const Stretch& stretch, ResultFile& file, InterruptGuard& interrupt);
+  // Everything up to here onto the disk, then the mark that says so.
+  void save(ResultFile& file);
+  ExitCode interrupted() const;
+  // False: interrupted while the robust scores were computed, which may take as long as the sweep; the grips are marked.
+  bool finish(ResultFile& file, InterruptGuard& interrupt);
+
+  const Plan& plan() const { return *plan_; }
+  ResultContents contents() const;
+  Precision precision() const;
+  std::map<std::string, std::string> identity() const;
+  bool is_choosy() const;                       // whether the best grips have to differ
+  bool refines() const;                         // whether better grips are looked for near the best ones
+  std::size_t pool() const;                     // grips of a list that one pass keeps
+  std::size_t kept_best() const;                // grips of a list that are kept until all grips are there
+  bool ranks_here() const;                      // whether the best are found from scores that are read back, and not by the backend
+  bool has_field(int field) const;              // whether it is read back
+  bool has_heat_map() const;                    // whether scores and status are read back, and the score is wanted
+  ListRequest list_request() const;             // of the best grips
+  std::uint64_t total() const;                  // grips of all vessels
+  std::uint64_t done() const;                   // of them in mark_
+  bool is_time_up() const;                      // the sweep's time limit has passed
+  bool is_asked_to_end(InterruptGuard&) const;  // by a signal, or by the time limit
+  bool is_mark_due() const;
+  RunRequest grips_of(std::size_t vessel, InterruptGuard& interrupt) const;  // all but what is done with them
+  void say_once(const std::vector<std::string>& notes, Progress& progress);
+  static void end_pass(ListChooser& chooser, VesselProgress& vessel);
+  // The grips of a damaged stretch, for a note.
+  std::string place_of(std::size_t vessel, const Stretch& stretch) const;
+
+  const Scene& scene_;
+  const SweepOptions& options_;
+  const SweepParts& parts_;
+  OutputNames names_;
+  std::size_t best_wanted_;
+  std::vector<const Variable*> variables_;
+  std::optional<Plan> plan_;
+  std::unique_ptr<Backend> backend_;
+  BackendInfo info_;                      // of who computes: the backend's
+  std::unique_ptr<Evaluator> evaluator_;  // that poses and refines the best grips; null where neither is asked for
+  std::vector<VesselFacts> facts_;
+  std::vector<HeatMap> maps_;  // one per vessel
+  SweepMark mark_;
+  bool is_marked_ = false;   // there is a mark of this sweep
+  double wait_seconds_ = 0;  // in the backend, less what it spent in the sink
+  double kernel_seconds_ = 0;
+
+ private:
+  std::vector<int> swept_fields() const;
+  bool has_score() const;
+  MarkBounds bounds() const;
+  void announce_check() const;
+  bool repair(ResultFile& file, InterruptGuard& interrupt);
+  bool sweep(ResultFile& file, InterruptGuard& interrupt);
+  void run_stretch(std::size_t v, ResultFile& file, InterruptGuard& interrupt, Progress& progress);
+  bool choose(std::size_t v, ResultFile& file, InterruptGuard& interrupt);
+  void forget();
+  void remember(const std::vector<Candidate>& eligible, std::size_t of_grips);
+  void pass_remembered(ListChooser& chooser) const;
+  bool pass_again(std::size_t v, ListChooser& chooser, InterruptGuard& interrupt);
+
+  double wall_before_ = 0;  // of earlier sessions, s
+  double mark_interval_;
+  double last_mark_ = 0;  // s of the clock
+  std::set<std::string> said_;
+  std::vector<double> remembered_;      // scores of the vessel under way; NaN: not eligible. Empty: not kept
+  std::uint64_t remembered_count_ = 0;  // grips whose outcome is in there
+};
+
+}  // namespace wholehand
