@@ -409,7 +409,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
       row.put(FIELD_PUSH, 0, push_held(hand.all(), strength_, weight, at, effort_tolerance_));
     }
     if (row.fields.has(FIELD_FRICTION_NEEDED))
-      row.put(FIELD_FRICTION_NEEDED, 0, friction_needed(hand.all(), strength_, loads, found.fill, found.tilt, effort_tolerance_));
+      row.put(FIELD_FRICTION_NEEDED, 0, friction_needed(hand.all(), strength_, loads, found, effort_tolerance_));
     put_state_efforts(row, hand, loads);
     return found.worst;
   }

@@ -139,8 +139,8 @@ Real push_held(std::span<const ContactPoint> contacts, const HandStrength& hand,
 // More friction holds everything that less holds, so that one way through the states is enough. A direction that certifies an effort
 // above 1 says which friction is needed at least: the search goes there, and a step further, so that it ends. The direction of an
 // effort at another friction says so too: with that of the worst state the search begins.
-Real friction_needed(std::span<const ContactPoint> contacts, const HandStrength& hand, const GripLoads& loads, std::size_t fill,
-                     std::size_t tilt, Real tolerance) {
+Real friction_needed(std::span<const ContactPoint> contacts, const HandStrength& hand, const GripLoads& loads,
+                     const GripEffort& found, Real tolerance) {
   const Real half = tolerance / 2;  // a bracket of that width about 1 does not say more
   EffortSolver solver(contacts, hand, contacts_center(contacts));
   Real friction = hand.friction;
@@ -160,15 +160,15 @@ Real friction_needed(std::span<const ContactPoint> contacts, const HandStrength&
       solver.set_friction(friction);
     }
   };
-  const Wrench worst = loads.weight(fill, tilt);
+  const Wrench worst = loads.weight(found.fill, found.tilt);
   if (solver.solve(worst, RISE_TOLERANCE).effort == 0) return 0;
   friction = std::min(MOST_FRICTION, solver.least_friction(worst, MOST_FRICTION));
   solver.set_friction(friction);
   if (!raise_for(worst)) return UNHELD;
-  for (fill = loads.counted.size(); fill-- > 0;)
-    for (tilt = loads.counted[fill]; tilt-- > 0;)
+  for (std::size_t fill = loads.counted.size(); fill-- > 0;)
+    for (std::size_t tilt = loads.counted[fill]; tilt-- > 0;)
       if (!raise_for(loads.weight(fill, tilt))) return UNHELD;
-  return friction;
+  return found.worst <= 1 ? std::min(friction, hand.friction) : friction;
 }
 
 }  // namespace CORE_NS

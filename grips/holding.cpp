@@ -98,7 +98,7 @@ std::optional<GripHold> Holding::over_states() const {
   hold.pivots = found.pivots;
   const Load fullest = load_at(axes.fills.back(), 0);
   hold.push = core_f64::push_held(contacts_, hand_, states.weight(fullest, {}), core_f64::load_center(fullest, states.pour));
-  hold.friction_needed = core_f64::friction_needed(contacts_, hand_, states, found.fill, found.tilt);
+  hold.friction_needed = core_f64::friction_needed(contacts_, hand_, states, found);
   return hold;
 }
 

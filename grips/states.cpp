@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/effort.h"
 #include "core/error.h"
 
 namespace wholehand {
@@ -38,6 +39,12 @@ std::optional<std::size_t> hardest_state(const GripReport& report) {
     // against NaN every comparison is false: one in the first place would stay there
     const double effort = report.holds[k].effort;
     if (!std::isnan(effort) && (!hardest || effort > report.holds[*hardest].effort)) hardest = k;
+  }
+  if (!hardest || !report.hold) return hardest;
+  const auto& states = report.answer.states;
+  for (std::size_t k = 0; k < std::min(states.size(), report.holds.size()); ++k) {
+    const bool is_worst = states[k].fill == report.hold->worst_fill && states[k].tilt == report.hold->worst_tilt;
+    if (is_worst && report.holds[k].effort >= report.holds[*hardest].effort * (1 - core_f64::EFFORT_TOLERANCE)) return k;
   }
   return hardest;
 }

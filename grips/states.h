@@ -30,8 +30,9 @@ void check_drawable(const GripReport& report, const std::string& option);
 // The first of the report's states that has liquid; null where none has.
 const GripState* drawn_liquid(const GripReport& report);
 
-// The place in `holds` of the state that takes most effort, the first where several take as much: the first of those that no force
-// holds, if there are any. A state whose effort is NaN is passed over. Nothing where no other is.
+// The place in `holds` of the state that takes most effort: the report's worst one where that is listed and takes as much, to the
+// tolerance of efforts; else the first of those that take as much, or that no force holds, if there are any. A state whose effort is NaN
+// is passed over. Nothing where no other is.
 std::optional<std::size_t> hardest_state(const GripReport& report);
 
 }  // namespace wholehand

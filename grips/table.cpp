@@ -27,8 +27,9 @@ std::string millimetres(const Triple& p) { return fmt::format("{:9.3f} {:8.3f} {
 
 const char* yes_no(bool value) { return value ? "yes" : "no"; }
 
-std::string newtons(double force) {
-  return std::isfinite(force) ? fmt::format("{:8.4f}", force) : fmt::format("{:>8}", "infinite");
+// A hold force that comes from an effort is known to a thousandth: more digits would tell two searches for one state apart.
+std::string hold_newtons(double force, const GripReport& report) {
+  return !std::isfinite(force) ? "infinite" : report.hold ? fmt::format("{:#.3g}", force) : fmt::format("{:.4f}", force);
 }
 
 // Fingers whose bit is set from `shift` on in a status; "none".
@@ -98,8 +99,9 @@ void write_states(Buffer out, const GripReport& report) {
       fmt::format_to(out, "  left out by until_poured\n");
       continue;
     }
-    fmt::format_to(out, "{:9.3f} {:9.4f} {:9.4f} {:8.4f} {:8.4f} {}\n", s.state.pivot_length * 1e3, s.state.torque * 1e3,
-                   s.state.exact_torque * 1e3, s.state.normal_force, s.state.feedback_force, newtons(s.state.hold_force));
+    fmt::format_to(out, "{:9.3f} {:9.4f} {:9.4f} {:8.4f} {:8.4f} {:>8}\n", s.state.pivot_length * 1e3, s.state.torque * 1e3,
+                   s.state.exact_torque * 1e3, s.state.normal_force, s.state.feedback_force,
+                   hold_newtons(s.state.hold_force, report));
   }
 }
 
@@ -171,13 +173,13 @@ void write_score(Buffer out, const GripReport& report) {
     const FillTerms& terms = score.fills[f];
     const std::size_t counted = report.counted_tilts.at(f);
     const std::string tilts = counted == report.score_tilts ? "all" : fmt::format("{} of {}", counted, report.score_tilts);
-    fmt::format_to(
-        out, "  over {} tilts fill {:.3g}: peak force {:.4f} N at {:.1f} deg, largest hold {} {}\n", tilts,
-        report.score_fills.at(f), terms.peak_force, degrees(terms.peak_tilt),
-        std::isnan(terms.largest_hold)      ? "not computed of an implausible grip,"
-        : std::isfinite(terms.largest_hold) ? fmt::format("{:.4f} N,", terms.largest_hold)
-                                            : "infinite,",
-        std::isnan(terms.safe_tilt) ? "safe at no tilt" : fmt::format("safe up to {:.1f} deg", degrees(terms.safe_tilt)));
+    const std::string hold = std::isinf(terms.largest_hold) ? "infinite" : hold_newtons(terms.largest_hold, report) + " N";
+    const std::string safe =
+        std::isnan(terms.safe_tilt) ? "safe at no tilt" : fmt::format("safe up to {:.1f} deg", degrees(terms.safe_tilt));
+    fmt::format_to(out, "  over {} tilts fill {:.3g}: peak force {:.4f} N at {:.1f} deg, {}\n", tilts, report.score_fills.at(f),
+                   terms.peak_force, degrees(terms.peak_tilt),
+                   std::isnan(terms.largest_hold) ? "largest hold and safe tilt are not computed of an implausible grip"
+                                                  : fmt::format("largest hold {}, {}", hold, safe));
   }
 }
 

@@ -104,7 +104,7 @@ std::string limit_text(const Scene& scene, const GripReport& report, const Margi
                          strength_share(report.hold->worst), shown);
     case Limit::friction:
       return fmt::format("{}, because the grip needs a friction of {} and the vessel has {} {}",
-                         is_kept ? "friction would fail first" : "friction fails", shown_number(report.hold->friction_needed, 2),
+                         is_kept ? "friction would fail first" : "friction fails", shown_number(report.hold->friction_needed, 3),
                          plain_number(scene.force.friction), shown);
     case Limit::table: {
       const double room = -1e3 * report.answer.result.table_depth;
@@ -164,8 +164,8 @@ void write_margins(MarkupWriter& html, const Scene& scene, const std::vector<Ran
   for (const auto& [rank, report] : grips) {
     if (!report.hold) continue;
     std::vector<std::string> cells{std::to_string(rank), shown_number(report.hold->worst, 3),
-                                   shown_number(report.hold->tips_worst, 3), shown_number(report.hold->push, 1),
-                                   shown_number(report.hold->friction_needed, 2)};
+                                   shown_number(report.hold->tips_worst, 2), shown_number(report.hold->push, 1),
+                                   shown_number(report.hold->friction_needed, 3)};
     const std::vector<Margin> margins = grip_margins(scene, report);
     for (const Limit limit : {Limit::effort, Limit::friction, Limit::table, Limit::force}) {
       const auto found =

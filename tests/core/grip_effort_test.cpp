@@ -174,7 +174,7 @@ TEST(GripEffort, FrictionNeededIsTheLeast) {
   for (const LoadedGrip& grip : random_loaded_grips(30, Handedness::right, 17)) {
     std::vector<FillEffort> fills(grip.fills());
     const GripEffort found = grip_effort(grip.contacts, grip.tips, grip.hand, grip.loads(), fills);
-    const double friction = core_f64::friction_needed(grip.contacts, grip.hand, grip.loads(), found.fill, found.tilt);
+    const double friction = core_f64::friction_needed(grip.contacts, grip.hand, grip.loads(), found);
     const auto effort_with = [&](double mu) {
       HandStrength hand = grip.hand;
       hand.friction = mu;
@@ -255,7 +255,7 @@ TEST(GripEffort, WithoutGravityNothingIsNeeded) {
     EXPECT_EQ(found.tips_worst, 0);
     EXPECT_EQ(found.pivots, 0);
     for (std::size_t fill = 0; fill < fills.size(); ++fill) EXPECT_EQ(fills[fill].held, grip.counted[fill]);
-    EXPECT_EQ(friction_needed(grip.contacts, grip.hand, loads, 0, 0), 0);
+    EXPECT_EQ(friction_needed(grip.contacts, grip.hand, loads, found), 0);
     // an axis that takes the least part of the strength takes all of it at the largest push: without weight they are reciprocal
     const Vec3 center(0, 0.05, 0);
     double hardest = 0;

@@ -72,6 +72,27 @@ TEST(GripStates, TheHardestStateIsTheFirstOfThoseThatTakeMost) {
   EXPECT_EQ(hardest_state(report), 3u);
 }
 
+// Of states that take as much, the one that is called the worst elsewhere: two names for one thing would puzzle.
+TEST(GripStates, TheHardestStateIsTheWorstWhereThatIsListed) {
+  GripReport report;
+  report.holds.resize(3);
+  report.answer.states.resize(3);
+  for (std::size_t k = 0; k < 3; ++k) {
+    report.holds[k].effort = 0.5 + 1e-4 * static_cast<double>(k);
+    report.answer.states[k].fill = 0.5;
+    report.answer.states[k].tilt = 0.1 * static_cast<double>(k);
+  }
+  report.hold.emplace();
+  report.hold->worst_fill = 0.5;
+  report.hold->worst_tilt = 0.1;
+  EXPECT_EQ(hardest_state(report), 1u);
+  report.hold->worst_tilt = 0.7;  // not listed
+  EXPECT_EQ(hardest_state(report), 2u);
+  report.hold->worst_tilt = 0.1;
+  report.holds[2].effort = 0.6;  // only listed states take so much
+  EXPECT_EQ(hardest_state(report), 2u);
+}
+
 // Wherever it stands, an effort that is not known is not the hardest.
 TEST(GripStates, AStateWithoutAnEffortIsNotTheHardest) {
   const double none = std::numeric_limits<double>::quiet_NaN();

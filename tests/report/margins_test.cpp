@@ -143,11 +143,11 @@ TEST(ReportVerdict, NamesTheFriction) {
   JudgedGrip grip;
   grip.report.hold->friction_needed = 0.5;
   EXPECT_TRUE(has(grip.text(),
-                  "; friction would fail first, because the grip needs a friction of 0.50 and the vessel has 0.6 (margin 1.20)."));
+                  "; friction would fail first, because the grip needs a friction of 0.500 and the vessel has 0.6 (margin 1.20)."));
   grip.report.hold->worst = 1.1;
   grip.report.hold->friction_needed = 0.8;
   EXPECT_TRUE(
-      has(grip.text(), "; friction fails, because the grip needs a friction of 0.80 and the vessel has 0.6 (margin 0.75)."));
+      has(grip.text(), "; friction fails, because the grip needs a friction of 0.800 and the vessel has 0.6 (margin 0.75)."));
 }
 
 // The hand is too weak at any friction: friction is not what fails.
