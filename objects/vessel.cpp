@@ -157,7 +157,8 @@ struct StatusLine {
 
 // Of a shape or an outline the scene's reader checks it.
 void check_above_table(const Scene& scene, const MeshData& data, const std::string& name, double height) {
-  if (!scene.table || scene.table->clearance < height) return;
+  constexpr double ROUNDING = 1e-6;  // of a height, whose vertices were floats
+  if (!scene.table || scene.table->clearance < height * (1 - ROUNDING)) return;
   throw usage_error(
       at_place(data.place, fmt::format("{}: its mesh is {:.6g} mm high, and clearance_mm = {:.6g} reaches its top; allowed: "
                                        "a clearance of less than this height",

@@ -150,6 +150,8 @@ std::string verdict(const Scene& scene, const GripReport& report) {
        best_terms(scene, report.answer.score.terms, report.hold->worst, weakest ? std::optional(weakest->limit) : std::nullopt)) {
     reasons.push_back(term_reason(scene, report, term));
   }
+  if (weakest && weakest->value < 1 && !reasons.empty())
+    return fmt::format("Although {}, {}.", fmt::join(reasons, " and "), limit_text(scene, report, *weakest));
   std::string text =
       reasons.empty() ? "Nothing speaks for this grip" : fmt::format("This grip is good because {}", fmt::join(reasons, " and "));
   if (weakest) text += "; " + limit_text(scene, report, *weakest);

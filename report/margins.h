@@ -31,7 +31,7 @@ std::vector<Margin> grip_margins(const Scene& scene, const GripReport& report);
 std::optional<Margin> smallest_margin(const std::vector<Margin>& margins);
 
 // "This grip is good because ..; friction would fail first, because .. (margin 1.9)." The reasons are the two terms of the score
-// that add most to it, without the term that the smallest margin is about. Empty for a grip without holds.
+// that add most to it, without the term that the smallest margin is about. Where a limit is not kept: "Although .., friction fails, because ..". Empty for a grip without holds.
 std::string verdict(const Scene& scene, const GripReport& report);
 
 // A grip of a list, with its place there.

@@ -108,7 +108,7 @@ TEST(ReportVerdict, NamesTheTable) {
             "would be in the way first, because the hand has 6.0 mm of room above its clearance (margin 1.60).");
   JudgedGrip grip;
   grip.report.answer.result.table_depth = 1.5e-3;
-  EXPECT_TRUE(has(grip.text(), "; the table is in the way, because the hand is 1.5 mm too low (margin 0.85)."));
+  EXPECT_TRUE(has(grip.text(), ", the table is in the way, because the hand is 1.5 mm too low (margin 0.85)."));
 }
 
 TEST(ReportVerdict, AHandThatIsNowhereDeepIsSaidSo) {
@@ -126,7 +126,7 @@ TEST(ReportVerdict, NamesTheStrengthOfTheHand) {
                   "strength (margin 1.25)."));
   grip.report.hold->worst = 1.6;
   EXPECT_TRUE(has(grip.text(),
-                  "; the strength of the hand fails, because the hardest state takes 160\u00a0% of the hand's strength "
+                  ", the strength of the hand fails, because the hardest state takes 160\u00a0% of the hand's strength "
                   "(margin 0.62)."))
       << grip.text();
 }
@@ -134,9 +134,9 @@ TEST(ReportVerdict, NamesTheStrengthOfTheHand) {
 TEST(ReportVerdict, NamesTheStateThatNothingHolds) {
   JudgedGrip grip;
   grip.report.hold->worst = grip.report.hold->friction_needed = ENDLESS_NUMBER;
-  EXPECT_TRUE(has(grip.text(), "; no force of the hand holds the vessel at a tilt of 90° and a fill of 60\u00a0%."));
+  EXPECT_TRUE(has(grip.text(), ", no force of the hand holds the vessel at a tilt of 90° and a fill of 60\u00a0%."));
   grip.report.has_liquid = false;
-  EXPECT_TRUE(has(grip.text(), "; no force of the hand holds the vessel at a tilt of 90°."));
+  EXPECT_TRUE(has(grip.text(), ", no force of the hand holds the vessel at a tilt of 90°."));
 }
 
 TEST(ReportVerdict, NamesTheFriction) {
@@ -147,7 +147,7 @@ TEST(ReportVerdict, NamesTheFriction) {
   grip.report.hold->worst = 1.1;
   grip.report.hold->friction_needed = 0.8;
   EXPECT_TRUE(
-      has(grip.text(), "; friction fails, because the grip needs a friction of 0.800 and the vessel has 0.6 (margin 0.75)."));
+      has(grip.text(), ", friction fails, because the grip needs a friction of 0.800 and the vessel has 0.6 (margin 0.75)."));
 }
 
 // The hand is too weak at any friction: friction is not what fails.
@@ -155,7 +155,7 @@ TEST(ReportVerdict, AFrictionThatDoesNotExistIsNotBlamed) {
   JudgedGrip grip;
   grip.report.hold->worst = 1.1;
   grip.report.hold->friction_needed = ENDLESS_NUMBER;
-  EXPECT_TRUE(has(grip.text(), "; the strength of the hand fails, because"));
+  EXPECT_TRUE(has(grip.text(), ", the strength of the hand fails, because"));
 }
 
 TEST(ReportVerdict, NamesTheGripper) {
@@ -166,7 +166,7 @@ TEST(ReportVerdict, NamesTheGripper) {
                   "the gripper gives 8 N (margin 1.25)."));
   grip.report.answer.states[1].state.normal_force = 10;
   EXPECT_TRUE(has(grip.text(),
-                  "; the force of the gripper is beyond its limit, because the feedback force is up to 10.0 N and the "
+                  ", the force of the gripper is beyond its limit, because the feedback force is up to 10.0 N and the "
                   "gripper gives 8 N (margin 0.80)."));
 }
 
