@@ -17,11 +17,11 @@ namespace wholehand {
 namespace {
 
 struct SweepArguments {
-  std::string scene, output, on = "vulkan", precision, best, glb, threads;
+  std::string scene, output, on = "vulkan", precision, best, glb, threads, time_limit, mark_seconds;
   bool resume = false, explain = false, no_refine = false;
 };
 
-ExitCode sweep(const SweepArguments& arguments) {
+ExitCode sweep(const SweepArguments& arguments, const SweepRunner& run) {
   SweepOptions options;
   options.output = arguments.output;
   options.on = arguments.on;
@@ -30,17 +30,26 @@ ExitCode sweep(const SweepArguments& arguments) {
   if (!arguments.glb.empty()) options.glb = static_cast<int>(parse_integer(arguments.glb, "--glb", ranges::BEST));
   if (!arguments.threads.empty())
     options.threads = static_cast<int>(parse_integer(arguments.threads, "--threads", ranges::THREADS));
+  if (!arguments.time_limit.empty()) options.time_limit = parse_duration(arguments.time_limit, "--time-limit");
+  if (!arguments.mark_seconds.empty())
+    options.mark_seconds = parse_quantity(arguments.mark_seconds, "--mark-seconds", {0.01, 86'400});
   options.resume = arguments.resume;
   options.explain = arguments.explain;
   options.refine = !arguments.no_refine;
   options.warn = say_float_warnings;
   prepare_vulkan_environment(options.on);
-  return run_sweep(read_scene_file(find_scene(arguments.scene)), options);
+  return run([&arguments] { return read_scene_file(find_scene(arguments.scene)); }, options);
 }
 
 }  // namespace
 
 void add_sweep_command(CLI::App& app, Action& action) {
+  add_sweep_command(app, action, [](const std::function<Scene()>& read_scene, const SweepOptions& options) {
+    return run_sweep(read_scene(), options);
+  });
+}
+
+void add_sweep_command(CLI::App& app, Action& action, const SweepRunner& run) {
   const auto arguments = std::make_shared<SweepArguments>();
   CLI::App* command = app.add_subcommand("sweep", "Score every grip of a scene, show the best, write the results");
   command->add_option("scene", arguments->scene, "Scene file or name of a shipped scene (default: three_beakers)")
@@ -59,11 +68,20 @@ void add_sweep_command(CLI::App& app, Action& action) {
   command->add_option("--glb", arguments->glb, "Write the best N grips of each vessel as glTF: NAME.<vessel>.<rank>.glb")
       ->type_name("N");
   command->add_option("--threads", arguments->threads, "Number of threads of the core (default: all)")->type_name("N");
+  command
+      ->add_option("--time-limit", arguments->time_limit,
+                   "End as if interrupted after this time, in seconds, M:SS or H:MM:SS (default: none); --resume goes on")
+      ->type_name("TIME")
+      ->check(not_empty());
+  command->add_option("--mark-seconds", arguments->mark_seconds,
+                      "Least time between two progress marks: what a crash may cost (default: 5)")
+      ->type_name("S")
+      ->check(not_empty());
   command->add_flag("--resume", arguments->resume, "Continue an interrupted sweep where it ended");
   command->add_flag("--explain", arguments->explain,
                     "Print what the sweep left out and saved, and what its parts cost; this times both ways first");
   command->add_flag("--no-refine", arguments->no_refine, "Do not look for better grips near the best ones");
-  command->callback([arguments, &action] { action = [arguments] { return sweep(*arguments); }; });
+  command->callback([arguments, run, &action] { action = [arguments, run] { return sweep(*arguments, run); }; });
 }
 
 }  // namespace wholehand

@@ -5,6 +5,8 @@
 #include <functional>
 
 #include "core/error.h"
+#include "core/scene.h"
+#include "sweeps/sweep_options.h"
 
 namespace CLI {
 class App;
@@ -14,7 +16,11 @@ namespace wholehand {
 
 using Action = std::function<ExitCode()>;
 
-void add_sweep_command(CLI::App& app, Action& action);
+// Does a sweep of the scene that `read_scene` answers.
+using SweepRunner = std::function<ExitCode(const std::function<Scene()>& read_scene, const SweepOptions& options)>;
+
+void add_sweep_command(CLI::App& app, Action& action, const SweepRunner& run);
+void add_sweep_command(CLI::App& app, Action& action);  // by this process alone
 void add_rank_command(CLI::App& app, Action& action);
 void add_report_command(CLI::App& app, Action& action);
 void add_grip_command(CLI::App& app, Action& action);

@@ -56,6 +56,25 @@ std::int64_t parse_integer(const std::string& text, const std::string& option, I
   return value;
 }
 
+double parse_duration(const std::string& text, const std::string& option) {
+  constexpr std::int64_t MOST = std::int64_t{99'999} * 3600;
+  std::int64_t seconds = 0;
+  int parts = 0;
+  bool is_good = true;
+  for (std::size_t at = 0; at <= text.size() && is_good; ++parts) {
+    const std::size_t end = std::min(text.find(':', at), text.size());
+    const std::string part = text.substr(at, end - at);
+    std::int64_t value = 0;
+    is_good =
+        parts < 3 && parse_whole(part, value) && value >= 0 && value <= MOST && (parts == 0 || (value < 60 && part.size() == 2));
+    seconds = seconds * 60 + value;
+    at = end + 1;
+  }
+  if (!is_good || seconds < 1 || seconds > MOST)
+    throw usage_error(fmt::format("{} {}; allowed: seconds, M:SS or H:MM:SS, of 1 s or more", option, in_quotes(text)));
+  return static_cast<double>(seconds);
+}
+
 int parse_view_port(const std::string& text, bool has_view) {
   if (text.empty()) return 0;
   if (!has_view) throw usage_error("--view-port: there is no view; add --view");

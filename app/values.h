@@ -14,7 +14,8 @@ namespace wholehand {
 double parse_quantity(const std::string& text, const std::string& option, const Quantity& quantity);  // in SI
 Triple parse_triple(const std::string& text, const std::string& option, const Quantity& quantity);    // "x,y,z", in SI
 std::int64_t parse_integer(const std::string& text, const std::string& option, IntegerRange range);
-int parse_view_port(const std::string& text, bool has_view);  // "": 0, any; refuses one without --view
-Precision parse_precision(const std::string& text);           // "float" or "double"
+double parse_duration(const std::string& text, const std::string& option);  // "90", "1:30" or "0:01:30", in s; up to 99,999 hours
+int parse_view_port(const std::string& text, bool has_view);                // "": 0, any; refuses one without --view
+Precision parse_precision(const std::string& text);                         // "float" or "double"
 
 }  // namespace wholehand

@@ -8,7 +8,7 @@ set(WHOLEHAND_FLOORS
   host=3 device=3 objects=3 charts=3
   recordings=4 grips=4
   sweeps=5 viewer=5
-  evidence=6
+  evidence=6 cluster=6
   report=7
   app=8)
 

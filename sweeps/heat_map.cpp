@@ -57,9 +57,13 @@ void HeatMap::add(const Plan& plan, const PlaneChunk& chunk, const FieldSet& fie
   for (std::size_t i = 0; i < chunk.count; ++i) {
     if ((chunk.uint(fields.plane[FIELD_STATUS], i) & STATUS_REASON_MASK) != REASON_NONE) continue;
     const double score = chunk.real(fields.plane[FIELD_SCORE], i);
-    double& best = scores_[heights_.cell(height_values_[i]) * rolls_.cells() + rolls_.cell(roll_values_[i])];
-    if (!(best >= score)) best = score;
+    raise(heights_.cell(height_values_[i]) * rolls_.cells() + rolls_.cell(roll_values_[i]), score);
   }
+}
+
+void HeatMap::raise(std::size_t cell, double score) {
+  double& best = scores_.at(cell);
+  if (!(best >= score)) best = score;
 }
 
 void HeatMap::restore(const std::vector<double>& scores) {

@@ -36,6 +36,9 @@ class HeatMap {
   // Takes the feasible grips of a chunk. The set must keep FIELD_SCORE and FIELD_STATUS.
   void add(const Plan& plan, const PlaneChunk& chunk, const FieldSet& fields);
 
+  // Takes a score of one cell, by its place in scores(), that somebody else has found.
+  void raise(std::size_t cell, double score);
+
   const MapAxis& heights() const { return heights_; }
   const MapAxis& rolls() const { return rolls_; }
   // Of a cell, NaN where no grip is feasible.

@@ -77,6 +77,15 @@ void ListChooser::offer_piece(const Candidate* grips, std::size_t count) {
     if (taken_[lists[i]].differs(hands[i])) pools_[lists[i]].offer(to_pose[i]);
 }
 
+std::vector<Candidate> ListChooser::open_grips() const {
+  std::vector<Candidate> all;
+  for (const BestCandidates& pool : pools_) {
+    const std::vector<Candidate> grips = pool.sorted();
+    all.insert(all.end(), grips.begin(), grips.end());
+  }
+  return all;
+}
+
 void ListChooser::end_pass() {
   for (std::size_t list = 0; list < progress_.size(); ++list) {
     if (!progress_[list].is_complete) choose_from_pool(list);

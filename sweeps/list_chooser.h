@@ -50,6 +50,8 @@ class ListChooser {
 
   // Feasible, plausible grips, in any order, each once a pass.
   void offer(const std::vector<Candidate>& grips);
+  // Of the grips offered in this pass those that may still be chosen: what another chooser with the same progress needs of them.
+  std::vector<Candidate> open_grips() const;
   // After all grips of the vessel. `is_complete` says whether another pass is needed.
   void end_pass();
 

@@ -97,6 +97,18 @@ VesselProgress vessel_from(const json& text) {
 
 }  // namespace
 
+GripCounts& GripCounts::operator+=(const GripCounts& other) {
+  grips += other.grips;
+  for (std::size_t k = 0; k < by_reason.size(); ++k) by_reason[k] += other.by_reason[k];
+  implausible += other.implausible;
+  antipodal += other.antipodal;
+  blocked += other.blocked;
+  through_table += other.through_table;
+  self_overlap += other.self_overlap;
+  only_deep += other.only_deep;
+  return *this;
+}
+
 void keep_stretch(std::vector<Stretch>& stretches, const Stretch& stretch) {
   if (!stretches.empty() && stretches.back().first == stretch.first) {
     stretches.back() = stretch;

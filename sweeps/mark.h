@@ -26,6 +26,8 @@ struct GripCounts {
   // were not told apart.
   std::uint64_t through_table = 0, self_overlap = 0;
   std::uint64_t only_deep = 0;  // deep in the vessel, and neither of the two
+
+  GripCounts& operator+=(const GripCounts& other);
 };
 
 // Grips [first, last) of a vessel, and the checksum of all that the result file holds of them (system/checksum.h).

@@ -36,7 +36,7 @@ void on_signal(int signal) {
 
 }  // namespace
 
-InterruptGuard::InterruptGuard() {
+InterruptGuard::InterruptGuard(int further) : further_(further) {
   stop = false;
   signal_came = false;
   first_came = 0;
@@ -47,6 +47,7 @@ InterruptGuard::InterruptGuard() {
   sigaction(SIGINT, &action, &interrupt_before_);
   sigaction(SIGTERM, &action, &terminate_before_);
   sigaction(SIGHUP, nullptr, &hangup_before_);
+  if (further_ != 0) sigaction(further_, &action, &further_before_);
   if (hangup_before_.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // nohup stays as it is
 }
 
@@ -54,6 +55,7 @@ InterruptGuard::~InterruptGuard() {
   sigaction(SIGINT, &interrupt_before_, nullptr);
   sigaction(SIGTERM, &terminate_before_, nullptr);
   sigaction(SIGHUP, &hangup_before_, nullptr);
+  if (further_ != 0) sigaction(further_, &further_before_, nullptr);
   another = nullptr;
 }
 

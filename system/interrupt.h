@@ -12,7 +12,8 @@ namespace wholehand {
 // comes a quarter of a second later or more ends the process as usual, unless somebody takes it. At most one at a time.
 class InterruptGuard {
  public:
-  InterruptGuard();
+  // `further`: one more signal that does the same; 0: none.
+  explicit InterruptGuard(int further = 0);
   ~InterruptGuard();
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
@@ -26,8 +27,9 @@ class InterruptGuard {
   static bool signalled();
 
  private:
+  int further_;
   struct sigaction interrupt_before_ {
-  }, terminate_before_{}, hangup_before_{};
+  }, terminate_before_{}, hangup_before_{}, further_before_{};
 };
 
 }  // namespace wholehand

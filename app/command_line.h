@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// The command line: finds the command, runs it, and turns whatever goes wrong into one line and an exit code.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "app/commands.h"
+
+namespace wholehand {
+
+struct Program {
+  std::string name, description, footer;
+  std::string version_note;  // after name and version
+  std::function<void(CLI::App& app, Action& action)> add_commands;
+  bool is_silent = false;  // says nothing of --help and of what goes wrong: another process does
+};
+
+// Answers the exit code.
+int run_program(int argc, char** argv, const Program& program);
+
+}  // namespace wholehand

@@ -1,0 +1,770 @@
+// SPDX-License-Identifier: MIT
+#include "cluster/cluster_sweep.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <csignal>
+#include <cstring>
+#include <map>
+#include <new>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "cluster/packet.h"
+#include "cluster/work_range.h"
+#include "core/candidates.h"
+#include "host/device.h"
+#include "host/open_backend.h"
+#include "objects/vessel.h"
+#include "sweeps/closing.h"
+#include "sweeps/hand_lists.h"
+#include "sweeps/sweep.h"
+#include "sweeps/tally.h"
+#include "system/checksum.h"
+#include "system/clock.h"
+#include "system/output_lock.h"
+#include "system/readable.h"
+
+namespace wholehand {
+namespace {
+
+constexpr double REPORT_SHARE = 1.0 / 64;  // of the time so far: what a crash may cost, and each report takes a line in the mark
+
+double since(double start) { return monotonic_now() - start; }
+
+// Grips of a vessel that were computed in one go.
+struct Piece {
+  std::uint64_t vessel = 0, first = 0, last = 0;
+  GripCounts counts;
+  std::array<char, 64> checksum{};  // of what the file holds of them; empty: of nothing
+
+  void set_checksum(const std::string& text) {
+    std::memcpy(checksum.data(), text.data(), std::min(text.size(), checksum.size() - 1));
+  }
+};
+
+struct Cell {
+  std::uint64_t number = 0;
+  double score = 0;
+};
+
+// What a rank has done so far, for the lines at the end.
+struct RankFigures {
+  std::uint64_t grips = 0;
+  double seconds = 0;
+};
+
+void put(PacketWriter& packet, const ListProgress& list) {
+  packet.put(list.chosen);
+  packet.put(list.decided.has_value());
+  packet.put(list.decided.value_or(Candidate()));
+  packet.put(list.is_complete);
+}
+
+ListProgress take_list(PacketReader& packet) {
+  ListProgress list;
+  list.chosen = packet.take_all<Candidate>();
+  const bool is_decided = packet.take<bool>();
+  const auto decided = packet.take<Candidate>();
+  if (is_decided) list.decided = decided;
+  list.is_complete = packet.take<bool>();
+  return list;
+}
+
+std::optional<Error> caught(const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const Error& error) {
+    return error;
+  } catch (const std::bad_alloc&) {
+    return failure_error("out of memory; ask for less at once");
+  }
+  return std::nullopt;
+}
+
+template <class T>
+T share_value(Team& team, const T& from_leader) {
+  PacketWriter packet;
+  packet.put(from_leader);
+  const std::string bytes = team.share(packet.bytes());
+  return PacketReader(bytes).take<T>();
+}
+
+void put_error(PacketWriter& packet, const Team& team, const std::optional<Error>& error) {
+  packet.put(error ? error->code : ExitCode::done);
+  packet.put(error ? error->remedy : Remedy::none);
+  packet.put(std::string(error ? error->what() : ""));
+  packet.put(team.node());
+}
+
+std::optional<Error> take_error(PacketReader& packet, int rank) {
+  const auto code = packet.take<ExitCode>();
+  const auto remedy = packet.take<Remedy>();
+  const std::string line = packet.take_text(), node = packet.take_text();
+  if (code == ExitCode::done) return std::nullopt;
+  return Error(code, fmt::format("rank {} on {}: {}", rank, node, line), remedy);
+}
+
+// Throws on every rank what the leader knows of, if that is anything.
+void share_error(Team& team, const std::optional<Error>& known) {
+  const ExitCode code = share_value(team, known ? known->code : ExitCode::done);
+  if (code == ExitCode::done) return;
+  if (team.is_leader()) throw *known;
+  throw Error(code, "");
+}
+
+// An Error of any rank is thrown by all: the leader's own, or else that of the lowest rank.
+void agree(Team& team, const std::optional<Error>& own) {
+  if (!team.is_leader()) {
+    PacketWriter packet;
+    put_error(packet, team, own);
+    team.send(packet.bytes());
+  }
+  std::optional<Error> first = own;
+  for (int rank = 1; team.is_leader() && rank < team.size(); ++rank) {
+    const std::string message = team.wait_for(rank);
+    PacketReader packet(message);
+    const auto error = take_error(packet, rank);
+    if (!first) first = error;
+  }
+  share_error(team, first);
+}
+
+// Several devices of the best kind on a node are dealt out among its ranks.
+std::string own_device(const Team& team, const std::string& on) {
+  const std::vector<host::DeviceInfo> devices = host::list_devices();
+  const host::DeviceInfo& chosen = host::choose_device(devices, on);
+  if (on != "vulkan") return on;
+  std::vector<std::size_t> alike;
+  for (const host::DeviceInfo& device : devices)
+    if (device.kind == chosen.kind && device.unusable.empty()) alike.push_back(device.index);
+  return fmt::format("vulkan:{}", alike[static_cast<std::size_t>(team.local_rank()) % alike.size()]);
+}
+
+class ClusterSweep final : public Sweep {
+ public:
+  ClusterSweep(Team& team, const Scene& scene, const SweepOptions& options, const SweepParts& parts)
+      : Sweep(scene, options, parts), team_(team), figures_(static_cast<std::size_t>(team.size())) {}
+
+  ExitCode run() override {
+    std::signal(SIGXFSZ, SIG_IGN);
+    std::optional<OutputLock> lock;
+    bool is_complete = false;
+    agree([&] {
+      if (!team_.is_leader()) return;
+      is_complete = is_finished();
+      if (is_complete) return;
+      check();
+      lock.emplace(names_.lock);
+      is_complete = is_finished();  // by who had the lock until now
+    });
+    if (share_flag(is_complete)) {
+      agree([&] {
+        if (team_.is_leader()) finished();
+      });
+      return ExitCode::done;
+    }
+    agree([&] { open(); });
+    compare_ranks();
+    if (team_.is_leader()) say_opening();
+    InterruptGuard interrupt(SIGUSR1);
+    const ResultContents written = contents();
+    std::unique_ptr<ResultFile> file;
+    bool is_resumed = false;
+    agree([&] {
+      if (!team_.is_leader()) return;
+      is_resumed = begin();
+      file = std::make_unique<ResultFile>(names_, written, backend_->fields(), is_resumed, parts_.open_output);
+    });
+    is_marked_ = share_flag(is_resumed);
+    share_progress();
+    const FilePlaces places = share_places(file.get());
+    agree([&] {
+      if (!team_.is_leader()) file = std::make_unique<ResultFile>(names_, written, backend_->fields(), places, parts_.open_output);
+    });
+    set_lists();
+    if (!repair(*file, interrupt) || !sweep(*file, interrupt) || (is_choosy() && !choose(*file, interrupt)))
+      return team_.is_leader() ? interrupted() : ExitCode::interrupted;
+    if (!team_.is_leader()) file.reset();
+    team_.meet();
+    bool is_done = false;
+    agree([&] {
+      if (!team_.is_leader()) return;
+      is_done = finish(*file, interrupt);
+      if (is_done) say_ranks();
+    });
+    if (share_flag(is_done)) return ExitCode::done;
+    return team_.is_leader() ? interrupted() : ExitCode::interrupted;
+  }
+
+ private:
+  // ---- what all do together ----
+
+  // Does the work on each rank. An Error of any of them is thrown by all.
+  void agree(const std::function<void()>& work) { wholehand::agree(team_, caught(work)); }
+  void share_error(const std::optional<Error>& known) { wholehand::share_error(team_, known); }
+
+  bool share_flag(bool from_leader) { return share_value(team_, from_leader); }
+
+  // All ranks compute the same, by the same program. They may do so with different devices; then the file names all.
+  void compare_ranks() {
+    std::map<std::string, std::string> own = identity();
+    const std::string device = own.at("device");
+    PacketWriter packet;
+    if (!team_.is_leader()) {
+      for (const auto& [key, value] : own) packet.put(checksum_text(value.data(), value.size()));
+      for (const std::string& text : {info_.device, info_.driver, team_.node()}) packet.put(text);
+      packet.put(own.at("build"));
+      team_.send(packet.bytes());
+    }
+    std::map<std::string, int> devices{{info_.device, 1}};
+    std::set<std::string> drivers{info_.driver};
+    ranks_.push_back({team_.node(), info_.device});
+    std::optional<Error> unlike;
+    for (int rank = 1; team_.is_leader() && rank < team_.size(); ++rank) {
+      const std::string message = team_.wait_for(rank);
+      PacketReader reader(message);
+      std::vector<std::string> checksums;
+      for (std::size_t k = 0; k < own.size(); ++k) checksums.push_back(reader.take_text());
+      const std::string its_device = reader.take_text(), driver = reader.take_text(), node = reader.take_text(),
+                        build = reader.take_text();
+      std::size_t k = 0;
+      for (const auto& [key, value] : own) {
+        const std::string own_checksum = checksum_text(value.data(), value.size()), its = checksums[k++];
+        if (its == own_checksum || key == "device" || key == "driver" || unlike) continue;
+        const bool is_build = key == "build";
+        unlike = usage_error(fmt::format("rank {} on {} has another {}: {}, and rank 0 on {} has {}; start the same on every node",
+                                         rank, node, key, is_build ? build : its, team_.node(), is_build ? value : own_checksum));
+      }
+      ++devices[its_device];
+      drivers.insert(driver);
+      ranks_.push_back({node, its_device});
+    }
+    share_error(unlike);
+    if (team_.size() == 1) return;
+    PacketWriter names;
+    std::string all_devices, all_drivers;
+    for (const auto& [name, count] : devices) all_devices += fmt::format("{}{} x {}", all_devices.empty() ? "" : "; ", count, name);
+    for (const std::string& driver : drivers) all_drivers += (all_drivers.empty() ? "" : "; ") + driver;
+    names.put(all_devices);
+    names.put(all_drivers);
+    const std::string bytes = team_.share(names.bytes());
+    PacketReader reader(bytes);
+    info_.device = reader.take_text();
+    info_.driver = reader.take_text();
+    if (team_.is_leader() && devices.size() > 1 && info_.backend != "core")
+      say_note("the ranks have different devices: the last bits of a value depend on who computed it");
+  }
+
+  // Which grips are there, and what vouches for them.
+  void share_progress() {
+    PacketWriter packet;
+    if (team_.is_leader()) {
+      for (const VesselProgress& vessel : mark_.vessels) packet.put(vessel.done);
+      std::vector<Piece> stretches;
+      for (std::size_t v = 0; v < mark_.vessels.size(); ++v) {
+        for (const Stretch& stretch : mark_.vessels[v].stretches) {
+          Piece& piece = stretches.emplace_back(Piece{v, stretch.first, stretch.last, {}, {}});
+          piece.set_checksum(stretch.checksum);
+        }
+      }
+      packet.put(stretches);
+    }
+    const std::string bytes = team_.share(packet.bytes());
+    PacketReader reader(bytes);
+    mark_.vessels.resize(scene_.vessels.size());
+    for (VesselProgress& vessel : mark_.vessels) vessel.done = reader.take<std::uint64_t>();
+    stretches_ = reader.take_all<Piece>();
+  }
+
+  FilePlaces share_places(const ResultFile* file) {
+    PacketWriter packet;
+    if (file) {
+      packet.put(file->places().variables);
+      packet.put(file->places().axes);
+      packet.put(file->places().height.has_value());
+      packet.put(file->places().height.value_or(0));
+      packet.put(file->places().best);
+    }
+    const std::string bytes = team_.share(packet.bytes());
+    PacketReader reader(bytes);
+    FilePlaces places;
+    places.variables = reader.take_all<std::uint64_t>();
+    places.axes = reader.take_all<std::uint64_t>();
+    const bool has_height = reader.take<bool>();
+    const auto height = reader.take<std::uint64_t>();
+    if (has_height) places.height = height;
+    places.best = reader.take_all<std::uint64_t>();
+    return places;
+  }
+
+  void set_lists() {
+    const std::size_t vessels = scene_.vessels.size();
+    const std::vector<BestCandidates> empty(plan().hand_scales(), BestCandidates(kept_best()));
+    best_.assign(vessels, empty);
+    fresh_.assign(vessels, empty);
+    eligible_.resize(vessels);
+    pending_.resize(vessels);
+    while (maps_.size() < vessels) maps_.emplace_back(plan());
+    for (const HeatMap& map : maps_) told_.push_back(map.scores());
+    for (std::size_t v = 0; v < vessels; ++v)
+      for (const Candidate& candidate : mark_.vessels[v].best) best_[v][list_of(candidate)].offer(candidate);
+    has_eligible_ = is_choosy() && done() == 0;
+    reported_ = done();
+  }
+
+  std::size_t list_of(const Candidate& grip) const { return plan().hand_scales() > 1 ? plan().hand_scale_of(grip.index) : 0; }
+
+  // Each rank reads some of the stretches back. False: interrupted.
+  bool repair(ResultFile& file, InterruptGuard& interrupt) {
+    bool is_whole = true;
+    agree([&] {
+      for (std::size_t k = static_cast<std::size_t>(team_.rank()); k < stretches_.size() && is_whole;
+           k += static_cast<std::size_t>(team_.size())) {
+        const Stretch stretch{stretches_[k].first, stretches_[k].last, stretches_[k].checksum.data()};
+        if (is_asked_to_end(interrupt)) is_whole = false;
+        if (!is_whole || file.holds(stretches_[k].vessel, stretch)) continue;
+        const std::string place = place_of(stretches_[k].vessel, stretch);
+        say_note(place + " are damaged: computing them again");
+        is_whole = compute_again(stretches_[k].vessel, stretch, file, interrupt);
+        if (is_whole && !file.holds(stretches_[k].vessel, stretch))
+          throw failure_error(place + " have other values when computed again; start again without --resume");
+      }
+      if (!is_whole) return;
+      file.sync();
+    });
+    return all_of(is_whole);
+  }
+
+  bool all_of(bool own) {
+    if (!team_.is_leader()) {
+      PacketWriter packet;
+      packet.put(own);
+      team_.send(packet.bytes());
+    }
+    for (int rank = 1; team_.is_leader() && rank < team_.size(); ++rank) {
+      const std::string message = team_.wait_for(rank);
+      own = PacketReader(message).take<bool>() && own;
+    }
+    return share_flag(own);
+  }
+
+  // ---- the counter's work ----
+
+  // Takes pieces until there are none, or until one was not finished: then nobody gets a further one. `compute` answers how many grips of a range it
+  // has done.
+  void take_pieces(const WorkRange& work, InterruptGuard& interrupt,
+                   const std::function<std::uint64_t(const GripRange&)>& compute) {
+    PieceSize size(team_.size());
+    const double began = monotonic_now();
+    std::uint64_t asked = size.next(work.size(), 0);
+    team_.ask(asked);
+    try {
+      for (std::uint64_t first = team_.answer(); first < work.size(); first = team_.answer()) {
+        const std::vector<GripRange> piece = work.piece(first, asked);
+        asked = size.next(work.size() - std::min(work.size(), first + asked), since(began));
+        team_.ask(asked);  // the next one: the answer comes while this one is computed
+        const double start = monotonic_now();
+        std::uint64_t grips = 0;
+        for (const GripRange& range : piece) {
+          const std::uint64_t done = compute(range);
+          grips += done;
+          if (done < range.last - range.first) return team_.stop_counter();
+        }
+        if (is_asked_to_end(interrupt)) return team_.stop_counter();
+        size.done(grips, since(start));
+      }
+    } catch (...) {
+      team_.stop_counter();
+      throw;
+    }
+  }
+
+  bool is_report_due() const {
+    return since(last_report_) >= std::max(options_.mark_seconds, REPORT_SHARE * since(options_.started));
+  }
+
+  // False: interrupted; the mark has what is done.
+  bool sweep(ResultFile& file, InterruptGuard& interrupt) {
+    std::vector<GripRange> left;
+    for (std::size_t v = 0; v < scene_.vessels.size(); ++v)
+      if (mark_.vessels[v].done < plan().grips()) left.push_back({v, mark_.vessels[v].done, plan().grips()});
+    const WorkRange work(std::move(left));
+    team_.restart_counter();
+    last_report_ = monotonic_now();
+    if (team_.is_leader()) progress_.emplace(total(), reported_);
+    const std::optional<Error> failure = caught([&] {
+      take_pieces(work, interrupt, [&](const GripRange& range) { return compute(range, file, interrupt); });
+      if (!team_.is_leader()) file.sync();
+    });
+    if (!team_.is_leader()) {
+      tell(true, failure);
+    } else {
+      failure_ = failure;
+      while (ended_ + 1 < team_.size()) {
+        if (!listen()) Team::nap();
+        if (is_report_due()) keep_mark(file);
+      }
+      progress_->clear();
+      if (done() < total() || failure_) {
+        const std::optional<Error> unsaved = caught([&] { keep_mark(file); });
+        if (!failure_) failure_ = unsaved;
+      }
+      set_best();
+    }
+    share_error(failure_);
+    has_eligible_ = share_flag(has_eligible_);
+    return share_flag(done() == total());
+  }
+
+  // Computes a range, reporting where it is time. Answers how many of its grips are done.
+  std::uint64_t compute(const GripRange& range, ResultFile& file, InterruptGuard& interrupt) {
+    std::uint64_t first = range.first;
+    while (first < range.last) {
+      Piece piece{range.vessel, first, first, {}, {}};
+      std::uint64_t delivered = 0;
+      double sink_seconds = 0;
+      std::vector<Candidate> eligible;
+      RunRequest request = grips_of(range.vessel, interrupt);
+      request.first = first;
+      request.last = range.last;
+      request.best = ranks_here() ? 0 : best_wanted_;
+      request.sink = [&](const PlaneChunk& chunk) {
+        const double start = monotonic_now();
+        file.write(chunk);
+        count_grips(chunk, backend_->fields(), piece.counts);
+        if (ranks_here()) {
+          eligible.clear();
+          add_eligible(chunk, backend_->fields(), eligible);
+          offer(range.vessel, eligible);
+          remember(range.vessel, eligible);
+        }
+        if (has_heat_map()) maps_[range.vessel].add(plan(), chunk, backend_->fields());
+        delivered += chunk.count;
+        if (team_.is_leader()) show(delivered);
+        if (is_report_due() || is_time_up()) interrupt.flag() = true;
+        sink_seconds += since(start);
+      };
+      const double start = monotonic_now();
+      const RunResult result = backend_->run(request);
+      interrupt.clear();
+      if ((delivered != result.done && !(delivered == 0 && variables_.empty())) ||
+          (result.done == 0 && !is_asked_to_end(interrupt)))
+        throw failure_error(fmt::format("{}: handed over {} of {} grips", backend_->info().device, delivered, result.done));
+      if (delivered == 0) piece.counts.grips += result.done;
+      offer(range.vessel, result.best);
+      count_kernels(result.kernel_seconds, since(start) - sink_seconds);
+      own_.seconds += since(start);
+      own_.grips += result.done;
+      say_notes(result.notes);
+      first += result.done;
+      piece.last = first;
+      if (file.has_grips() && result.done > 0) {
+        piece.set_checksum(file.stretch().checksum);
+        file.end_stretch();
+      }
+      if (result.done > 0) keep(piece);
+      if (is_report_due()) {
+        if (team_.is_leader()) {
+          keep_mark(file);
+        } else {
+          file.sync();
+          tell(false, std::nullopt);
+        }
+        last_report_ = monotonic_now();
+      }
+      if (is_asked_to_end(interrupt)) break;
+    }
+    return first - range.first;
+  }
+
+  void count_kernels(double kernels, double waited) {
+    kernel_seconds_ += kernels;
+    wait_seconds_ += waited;
+    (team_.is_leader() ? mark_.kernel_seconds : untold_kernel_seconds_) += kernels;
+  }
+
+  void offer(std::size_t vessel, const std::vector<Candidate>& grips) {
+    for (const Candidate& grip : grips) {
+      BestCandidates& best = best_[vessel][list_of(grip)];
+      if (!best.takes(grip)) continue;
+      best.offer(grip);
+      if (!team_.is_leader()) fresh_[vessel][list_of(grip)].offer(grip);
+    }
+  }
+
+  // Up to a bound: then passes compute their grips again.
+  void remember(std::size_t vessel, const std::vector<Candidate>& eligible) {
+    if (!has_eligible_) return;
+    eligible_count_ += eligible.size();
+    has_eligible_ = eligible_count_ * sizeof(Candidate) <= options_.remembered * sizeof(double);
+    if (has_eligible_) {
+      eligible_[vessel].insert(eligible_[vessel].end(), eligible.begin(), eligible.end());
+    } else {
+      for (auto& grips : eligible_) grips = {};
+    }
+  }
+
+  void say_notes(const std::vector<std::string>& notes) {
+    for (const std::string& line : notes) {
+      if (!said_here_.insert(line).second) continue;
+      if (progress_) progress_->clear();
+      say_note(team_.size() == 1 ? line : fmt::format("rank {} on {}: {}", team_.rank(), team_.node(), line));
+    }
+  }
+
+  // ---- reports to the leader ----
+
+  void keep(const Piece& piece) {
+    if (!team_.is_leader()) {
+      pieces_.push_back(piece);
+      return;
+    }
+    pending_[piece.vessel][piece.first] = piece;
+    reported_ += piece.last - piece.first;
+    advance(piece.vessel);
+    figures_[0] = own_;
+  }
+
+  // What follows without a gap on what is done joins it. What comes after a gap waits: a mark knows only grips without gaps.
+  void advance(std::size_t vessel) {
+    VesselProgress& progress = mark_.vessels[vessel];
+    auto& pending = pending_[vessel];
+    while (!pending.empty() && pending.begin()->first == progress.done) {
+      const Piece& piece = pending.begin()->second;
+      progress.done = piece.last;
+      progress.counts += piece.counts;
+      if (piece.checksum[0] != '\0') progress.stretches.push_back({piece.first, piece.last, piece.checksum.data()});
+      pending.erase(pending.begin());
+    }
+  }
+
+  // Everything since the last report; what it names is on the disk.
+  void tell(bool is_last, const std::optional<Error>& failure) {
+    PacketWriter packet;
+    packet.put(is_last);
+    put_error(packet, team_, failure);
+    packet.put(has_eligible_);
+    packet.put(own_);
+    packet.put(std::exchange(untold_kernel_seconds_, 0));
+    packet.put(std::exchange(pieces_, {}));
+    for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
+      for (BestCandidates& fresh : fresh_[v]) {
+        packet.put(fresh.sorted());
+        fresh = BestCandidates(kept_best());
+      }
+      std::vector<Cell> cells;
+      for (std::size_t k = 0; has_heat_map() && k < told_[v].size(); ++k) {
+        const double now = maps_[v].scores()[k];
+        if (std::isnan(now) || now == told_[v][k]) continue;
+        cells.push_back({k, now});
+        told_[v][k] = now;
+      }
+      packet.put(cells);
+    }
+    team_.send(packet.bytes());
+  }
+
+  // Takes a report, if one is there.
+  bool listen() {
+    std::string message;
+    int from = 0;
+    if (!team_.receive(message, from)) return false;
+    PacketReader packet(message);
+    ended_ += packet.take<bool>() ? 1 : 0;
+    const auto failure = take_error(packet, from);
+    if (!failure_) failure_ = failure;
+    has_eligible_ = packet.take<bool>() && has_eligible_;
+    figures_[static_cast<std::size_t>(from)] = packet.take<RankFigures>();
+    mark_.kernel_seconds += packet.take<double>();
+    for (const Piece& piece : packet.take_all<Piece>()) {
+      pending_[piece.vessel][piece.first] = piece;
+      reported_ += piece.last - piece.first;
+    }
+    for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
+      for (BestCandidates& best : best_[v]) best.offer(packet.take_all<Candidate>());
+      for (const Cell& cell : packet.take_all<Cell>()) maps_[v].raise(cell.number, cell.score);
+      advance(v);
+    }
+    return true;
+  }
+
+  void show(std::uint64_t under_way) {
+    while (listen()) {
+    }
+    progress_->update(rate_text(), reported_ + under_way);
+  }
+
+  // "3 x core, 1 thread 12.3 thousand grips/s".
+  std::string rate_text() const {
+    std::map<std::string, std::array<double, 2>> rates;  // ranks, and grips a second of all
+    for (std::size_t rank = 0; rank < figures_.size(); ++rank) {
+      auto& [count, rate] = rates[ranks_[rank].device];
+      count += 1;
+      if (figures_[rank].seconds > 0) rate += static_cast<double>(figures_[rank].grips) / figures_[rank].seconds;
+    }
+    std::string text;
+    for (const auto& [device, sum] : rates)
+      text += fmt::format("{}{:.0f} x {} {} grips/s", text.empty() ? "" : "; ", sum[0], device, readable_number(sum[1]));
+    return text;
+  }
+
+  void say_ranks() const {
+    if (team_.size() > 1) fmt::print("{} ranks: {}\n", team_.size(), rate_text());
+  }
+
+  // The best of what the mark knows to be done.
+  void set_best() {
+    for (std::size_t v = 0; v < best_.size(); ++v) {
+      VesselProgress& progress = mark_.vessels[v];
+      if (!progress.lists.empty()) continue;  // they are chosen
+      progress.best.clear();
+      for (const BestCandidates& best : best_[v])
+        for (const Candidate& grip : best.sorted())
+          if (grip.index < progress.done) progress.best.push_back(grip);
+    }
+  }
+
+  void keep_mark(ResultFile& file) {
+    set_best();
+    save(file);
+    last_report_ = monotonic_now();
+  }
+
+  // ---- lists of grips that differ ----
+
+  bool choose(ResultFile& file, InterruptGuard& interrupt) {
+    for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
+      VesselProgress& vessel = mark_.vessels[v];
+      std::optional<ListChooser> chooser;
+      if (team_.is_leader()) {
+        const bool is_first = vessel.lists.empty();
+        chooser.emplace(plan(), evaluator_.get(), v, list_request(), vessel.lists);
+        if (is_first) {
+          chooser->offer(vessel.best);
+          end_pass(*chooser, vessel);
+        }
+      }
+      while (!share_flag(chooser && chooser->is_complete())) {
+        const bool is_passed = pass(v, chooser ? &*chooser : nullptr, interrupt);
+        if (team_.is_leader() && is_passed) end_pass(*chooser, vessel);
+        agree([&] {
+          if (team_.is_leader() && (!is_passed || is_report_due())) keep_mark(file);
+        });
+        if (!is_passed) return false;
+      }
+    }
+    return true;
+  }
+
+  // All grips of a vessel once more, by all ranks. False: interrupted.
+  bool pass(std::size_t v, ListChooser* leaders, InterruptGuard& interrupt) {
+    std::vector<ListProgress> lists(plan().hand_scales());
+    PacketWriter packet;
+    if (leaders)
+      for (const ListProgress& list : leaders->progress()) put(packet, list);
+    const std::string bytes = team_.share(packet.bytes());
+    PacketReader reader(bytes);
+    for (ListProgress& list : lists) list = take_list(reader);
+    ListChooser own(plan(), evaluator_.get(), v, list_request(), lists);
+    std::uint64_t delivered = 0;
+    if (!has_eligible_) team_.restart_counter();
+    agree([&] {
+      if (has_eligible_) {
+        own.offer(eligible_[v]);
+      } else {
+        take_pieces(WorkRange({{v, 0, plan().grips()}}), interrupt, [&](const GripRange& range) {
+          const std::uint64_t done = pass_range(range, own, interrupt);
+          delivered += done;
+          return done;
+        });
+      }
+    });
+    PacketWriter found;
+    found.put(delivered);
+    found.put(own.open_grips());
+    if (!team_.is_leader()) team_.send(found.bytes());
+    if (leaders) leaders->offer(own.open_grips());
+    for (int rank = 1; leaders && rank < team_.size(); ++rank) {
+      const std::string message = team_.wait_for(rank);
+      PacketReader grips(message);
+      delivered += grips.take<std::uint64_t>();
+      leaders->offer(grips.take_all<Candidate>());
+    }
+    return share_flag((has_eligible_ && !is_asked_to_end(interrupt)) || delivered == plan().grips());
+  }
+
+  std::uint64_t pass_range(const GripRange& range, ListChooser& own, InterruptGuard& interrupt) {
+    RunRequest request = grips_of(range.vessel, interrupt);
+    request.first = range.first;
+    request.last = range.last;
+    std::vector<Candidate> eligible;
+    request.sink = [&](const PlaneChunk& chunk) {
+      eligible.clear();
+      add_eligible(chunk, backend_->fields(), eligible);
+      own.offer(eligible);
+      if (is_time_up()) interrupt.flag() = true;
+    };
+    const double start = monotonic_now();
+    const RunResult result = backend_->run(request);
+    count_kernels(result.kernel_seconds, since(start));
+    say_notes(result.notes);
+    return result.done;
+  }
+
+  struct RankPlace {
+    std::string node, device;
+  };
+
+  Team& team_;
+  std::vector<RankPlace> ranks_;                           // the leader knows all
+  std::vector<Piece> stretches_;                           // of the sweep that is resumed
+  std::vector<std::vector<BestCandidates>> best_, fresh_;  // of each vessel and list: so far, and since the last report
+  std::vector<std::vector<Candidate>> eligible_;           // of each vessel, of this rank's grips
+  std::size_t eligible_count_ = 0;
+  bool has_eligible_ = false;              // all of them
+  std::vector<std::vector<double>> told_;  // cells of the heat maps that the leader knows
+  std::vector<Piece> pieces_;              // since the last report
+  double untold_kernel_seconds_ = 0;
+  RankFigures own_;
+  double last_report_ = 0;
+  std::set<std::string> said_here_;
+  // of the leader
+  std::vector<std::map<std::uint64_t, Piece>> pending_;  // of each vessel: done after a gap, by their first grip
+  std::vector<RankFigures> figures_;
+  std::uint64_t reported_ = 0;
+  int ended_ = 0;
+  std::optional<Error> failure_;
+  std::optional<Progress> progress_;
+};
+
+}  // namespace
+
+ExitCode run_cluster_sweep(Team& team, const Scene& scene, const SweepOptions& options, const SweepParts& parts) {
+  return ClusterSweep(team, scene, options, parts).run();
+}
+
+ExitCode run_cluster_sweep(Team& team, const std::function<Scene()>& read_scene, const SweepOptions& options) {
+  Scene scene;
+  SweepOptions own = options;
+  agree(team, caught([&] {
+          scene = read_scene();
+          if (own.on != "core") own.on = own_device(team, own.on);
+        }));
+  if (own.threads == 0 && own.on == "core") own.threads = team.own_processors();
+  const Precision precise = own.precision.value_or(own.on == "core" ? Precision::full : Precision::single);
+  const SweepParts parts{
+      [&](const FieldSet& fields) { return open_backend(scene, fields, own.on, precise, own.threads); },
+      [&] { return make_core_evaluator(scene); },
+      [&] { load_meshes(scene, [&] { return largest_buffer(own.on); }); },
+      [&](const Scene& other, const FieldSet& fields) { return open_backend(other, fields, own.on, precise, own.threads); },
+      Team::open_output,
+  };
+  return run_cluster_sweep(team, scene, own, parts);
+}
+
+}  // namespace wholehand

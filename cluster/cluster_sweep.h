@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// One sweep by all ranks of an MPI job, into one file.
+#pragma once
+
+#include <functional>
+
+#include "cluster/team.h"
+#include "core/error.h"
+#include "core/scene.h"
+#include "sweeps/sweep_options.h"
+#include "sweeps/sweep_parts.h"
+
+namespace wholehand {
+
+// What run_sweep does, shared among the ranks: the same file, byte for byte but for times and names of devices, the same lists and words, however
+// many there are. Every rank calls it. Rank 0 prints; an error of any rank is thrown by all, with its line on rank 0 alone (the others' is
+// empty). The scene is read by every rank for itself, and refused where it is not the same.
+ExitCode run_cluster_sweep(Team& team, const std::function<Scene()>& read_scene, const SweepOptions& options);
+
+// The same with other parts, for a scene that is read.
+ExitCode run_cluster_sweep(Team& team, const Scene& scene, const SweepOptions& options, const SweepParts& parts);
+
+}  // namespace wholehand

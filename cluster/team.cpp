@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+#include "cluster/team.h"
+
+#include <mpi.h>
+#include <sched.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstddef>
+#include <thread>
+
+#include "core/error.h"
+
+namespace wholehand {
+namespace {
+
+constexpr int MESSAGE_TAG = 1;
+constexpr std::size_t MOST_AT_ONCE = std::size_t{1} << 30;  // bytes of one call, whose counts are ints
+void wait_quietly(MPI_Request& request) {
+  for (int is_done = 0;;) {
+    MPI_Test(&request, &is_done, MPI_STATUS_IGNORE);
+    if (is_done != 0) return;
+    Team::nap();
+  }
+}
+
+bool take_message(int source, std::string& message, int& from) {
+  int is_there = 0, size = 0;
+  MPI_Message handle = MPI_MESSAGE_NULL;
+  MPI_Status status;
+  MPI_Improbe(source, MESSAGE_TAG, MPI_COMM_WORLD, &is_there, &handle, &status);
+  if (is_there == 0) return false;
+  MPI_Get_count(&status, MPI_BYTE, &size);
+  from = status.MPI_SOURCE;
+  message.resize(static_cast<std::size_t>(size));
+  MPI_Mrecv(message.data(), size, MPI_BYTE, &handle, MPI_STATUS_IGNORE);
+  return true;
+}
+
+int system_error(int mpi_error) {
+  int kind = MPI_ERR_OTHER;
+  MPI_Error_class(mpi_error, &kind);
+  switch (kind) {
+    case MPI_ERR_NO_SPACE:
+      return ENOSPC;
+    case MPI_ERR_QUOTA:
+      return EDQUOT;
+    case MPI_ERR_ACCESS:
+      return EACCES;
+    case MPI_ERR_READ_ONLY:
+      return EROFS;
+    case MPI_ERR_NO_SUCH_FILE:
+      return ENOENT;
+    default:
+      return EIO;
+  }
+}
+
+// Each rank opens the file for itself: then it syncs when it wants to, and waits for nobody. No two ranks write to one place.
+class MpiFile final : public OutputBytes {
+ public:
+  explicit MpiFile(const std::string& path) {
+    const int error = MPI_File_open(MPI_COMM_SELF, path.c_str(), MPI_MODE_RDWR, MPI_INFO_NULL, &file_);
+    if (error != MPI_SUCCESS) throw failure_error(path + ": cannot be opened by MPI; is its folder there on every node?");
+  }
+  ~MpiFile() override { MPI_File_close(&file_); }
+  MpiFile(const MpiFile&) = delete;
+  MpiFile& operator=(const MpiFile&) = delete;
+
+  int write(const void* data, std::size_t size, std::uint64_t offset) override {
+    const auto* from = static_cast<const char*>(data);
+    while (size > 0) {
+      const int wanted = static_cast<int>(std::min(size, MOST_AT_ONCE));
+      MPI_Status status;
+      errno = 0;
+      const int error = MPI_File_write_at(file_, static_cast<MPI_Offset>(offset), from, wanted, MPI_BYTE, &status);
+      int written = 0;
+      if (error == MPI_SUCCESS) MPI_Get_count(&status, MPI_BYTE, &written);
+      // a library that does not say which error it was has left the system's own
+      if (error != MPI_SUCCESS) return system_error(error) == EIO && errno != 0 ? errno : system_error(error);
+      if (written <= 0) return errno != 0 ? errno : ENOSPC;
+      from += written;
+      size -= static_cast<std::size_t>(written);
+      offset += static_cast<std::uint64_t>(written);
+    }
+    return 0;
+  }
+
+  int sync() override {
+    errno = 0;
+    const int error = MPI_File_sync(file_);
+    return error == MPI_SUCCESS ? 0 : errno != 0 ? errno : system_error(error);
+  }
+
+ private:
+  MPI_File file_ = MPI_FILE_NULL;
+};
+
+}  // namespace
+
+struct Team::Mpi {
+  MPI_Win window = MPI_WIN_NULL;
+  std::uint64_t* counter = nullptr;  // of rank 0
+  std::uint64_t amount = 0, first = 0;
+  bool is_asked = false;
+};
+
+struct Team::Sent {
+  std::string message;
+  MPI_Request request = MPI_REQUEST_NULL;
+};
+
+Team::Team(int& argc, char**& argv) : mpi_(std::make_unique<Mpi>()) {
+  int level = 0;
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &level);
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+  MPI_Comm_size(MPI_COMM_WORLD, &size_);
+  MPI_Comm local = MPI_COMM_NULL;
+  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &local);
+  MPI_Comm_rank(local, &local_rank_);
+  MPI_Comm_size(local, &local_size_);
+  MPI_Comm_free(&local);
+  std::array<char, MPI_MAX_PROCESSOR_NAME + 1> name{};
+  int length = 0;
+  MPI_Get_processor_name(name.data(), &length);
+  node_ = name.data();
+  const MPI_Aint bytes = rank_ == 0 ? sizeof(std::uint64_t) : 0;
+  MPI_Win_allocate(bytes, sizeof(std::uint64_t), MPI_INFO_NULL, MPI_COMM_WORLD, &mpi_->counter, &mpi_->window);
+  MPI_Win_lock_all(MPI_MODE_NOCHECK, mpi_->window);
+}
+
+Team::~Team() {
+  if (mpi_->is_asked) answer();
+  for (Sent& sent : sent_) wait_quietly(sent.request);
+  MPI_Win_unlock_all(mpi_->window);
+  MPI_Win_free(&mpi_->window);
+  MPI_Finalize();
+}
+
+void Team::nap() { std::this_thread::sleep_for(std::chrono::milliseconds(1)); }
+
+int Team::own_processors() const {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  const long online = std::max(1L, sysconf(_SC_NPROCESSORS_ONLN));
+  const long allowed = sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : online;
+  return static_cast<int>(std::max(1L, std::min(allowed, online / local_size_)));
+}
+
+void Team::send(const std::string& message) {
+  sent_.remove_if([](Sent& sent) {
+    int is_done = 0;
+    MPI_Test(&sent.request, &is_done, MPI_STATUS_IGNORE);
+    return is_done != 0;
+  });
+  sent_.push_back({message});
+  Sent& sent = sent_.back();
+  MPI_Isend(sent.message.data(), static_cast<int>(sent.message.size()), MPI_BYTE, 0, MESSAGE_TAG, MPI_COMM_WORLD, &sent.request);
+}
+
+bool Team::receive(std::string& message, int& from) { return take_message(MPI_ANY_SOURCE, message, from); }
+
+std::string Team::wait_for(int from) {
+  std::string message;
+  int sender = 0;
+  while (!take_message(from, message, sender)) Team::nap();
+  return message;
+}
+
+std::string Team::share(const std::string& from_leader) {
+  std::string bytes = from_leader;
+  std::uint64_t size = bytes.size();
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Ibcast(&size, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD, &request);
+  wait_quietly(request);
+  bytes.resize(size);
+  for (std::size_t at = 0; at < size; at += MOST_AT_ONCE) {
+    MPI_Ibcast(bytes.data() + at, static_cast<int>(std::min(size - at, MOST_AT_ONCE)), MPI_BYTE, 0, MPI_COMM_WORLD, &request);
+    wait_quietly(request);
+  }
+  return bytes;
+}
+
+void Team::meet() {
+  MPI_Request request = MPI_REQUEST_NULL;
+  MPI_Ibarrier(MPI_COMM_WORLD, &request);
+  wait_quietly(request);
+}
+
+void Team::restart_counter() {
+  meet();
+  if (is_leader()) {
+    std::uint64_t zero = 0, before = 0;
+    MPI_Fetch_and_op(&zero, &before, MPI_UINT64_T, 0, 0, MPI_REPLACE, mpi_->window);
+    MPI_Win_flush(0, mpi_->window);
+  }
+  meet();
+}
+
+void Team::ask(std::uint64_t amount) {
+  mpi_->amount = amount;
+  mpi_->is_asked = true;
+  MPI_Fetch_and_op(&mpi_->amount, &mpi_->first, MPI_UINT64_T, 0, 0, MPI_SUM, mpi_->window);
+}
+
+std::uint64_t Team::answer() {
+  MPI_Win_flush(0, mpi_->window);
+  mpi_->is_asked = false;
+  return mpi_->first;
+}
+
+void Team::stop_counter() {
+  std::uint64_t end = NO_MORE, before = 0;
+  MPI_Fetch_and_op(&end, &before, MPI_UINT64_T, 0, 0, MPI_SUM, mpi_->window);  // of one kind with the others, as MPI wants it
+  MPI_Win_flush(0, mpi_->window);
+}
+
+std::unique_ptr<OutputBytes> Team::open_output(const std::string& path) { return std::make_unique<MpiFile>(path); }
+
+}  // namespace wholehand

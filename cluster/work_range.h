@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// The grips that are left of a sweep as one row of numbers, from which ranks take pieces.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace wholehand {
+
+// Grips [first, last) of a vessel.
+struct GripRange {
+  std::size_t vessel = 0;
+  std::uint64_t first = 0, last = 0;
+  bool operator==(const GripRange&) const = default;
+};
+
+class WorkRange {
+ public:
+  // `left`: one after the other, in the order in which they are handed out.
+  explicit WorkRange(std::vector<GripRange> left);
+
+  std::uint64_t size() const { return size_; }
+  // The grips of the numbers first .. first + count - 1; fewer at the end.
+  std::vector<GripRange> piece(std::uint64_t first, std::uint64_t count) const;
+
+ private:
+  std::vector<GripRange> left_;
+  std::uint64_t size_ = 0;
+};
+
+// How many grips a rank takes at a time. Few at first, since nothing is known of it; then as many as it does in some seconds, and towards the end no
+// more than a part of what all have left, so that nobody waits long for the last.
+class PieceSize {
+ public:
+  explicit PieceSize(int ranks) : ranks_(ranks) {}
+  // `left`: of all ranks, as far as this one knows; `elapsed`: s since the work began.
+  std::uint64_t next(std::uint64_t left, double elapsed) const;
+  void done(std::uint64_t grips, double seconds);
+
+ private:
+  int ranks_;
+  double rate_ = 0;  // grips a second
+};
+
+}  // namespace wholehand

@@ -1,0 +1,285 @@
+# SPDX-License-Identifier: MIT
+"""One sweep by many ranks: the answer of one machine, whoever dies on the way. Ranks here are more than processors."""
+
+import os
+import random
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+import netCDF4
+
+PROGRAM, MPI_PROGRAM = os.environ["WHOLEHAND_PROGRAM"], os.environ["WHOLEHAND_MPI_PROGRAM"]
+# what Open MPI asks of who is root, and of who has no network and few processors
+ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
+               "OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_MCA_btl": "self,vader", "OMPI_MCA_plm": "isolated", "OMPI_MCA_hwloc_base_binding_policy": "none"}
+PATIENCE = 240  # s: of a busy machine
+TIMES = {"device", "driver", "wall_time_s", "kernel_time_s"}
+
+VESSELS = """
+[[vessel]]
+name = "wide"
+shape = "cylinder"
+diameter_mm = 70
+height_mm = 110
+wall_mm = 1.5
+
+[[vessel]]
+name = "narrow"
+shape = "cylinder"
+diameter_mm = 50
+height_mm = 90
+wall_mm = 1.5
+"""
+HELD = """
+[liquid]
+fills = [0, 1]
+
+[table]
+
+[strength]
+
+[tilts]
+deg = [0, 45]
+"""
+SMALL = VESSELS + HELD + """
+[grips]
+height_fraction = { from = 0.1, to = 0.95, count = 20 }
+obliquity_deg = { from = -15, to = 20, count = 4 }
+roll_deg = { from = -90, to = 30, count = 13 }
+hand_scale = [0.9, 1]
+"""
+# some seconds of two processors
+LARGE = SMALL.replace("count = 20", "count = 1000").replace("hand_scale = [0.9, 1]", "")
+POINTS = VESSELS + HELD + """
+[grips]
+height_fraction = { from = 0.1, to = 0.95 }
+obliquity_deg = { from = -15, to = 20 }
+roll_deg = { from = -90, to = 30 }
+sampling = "sobol"
+count = 3000
+"""
+BARE = VESSELS + """
+[output]
+keep = []
+
+[grips]
+height_fraction = { from = 0.1, to = 0.95, count = 200 }
+roll_deg = { from = -90, to = 30, count = 13 }
+"""
+
+
+def content(path):
+    """Every value of a result, bit for bit, and its attributes but for times and devices."""
+    with netCDF4.Dataset(path) as file:
+        file.set_auto_maskandscale(False)
+        values = {}
+        for name, variable in file.variables.items():
+            data = variable[...]
+            values[name] = data.tobytes() if variable.dtype is not str else str(data)
+        return values, {name: str(file.getncattr(name)) for name in file.ncattrs() if name not in TIMES}
+
+
+def rows(path):
+    """A list of best grips without the result's own name and number."""
+    with open(path, encoding="utf-8") as file:
+        lines = [line.rstrip("\n").split(",") for line in file]
+    keep = [k for k, name in enumerate(lines[0]) if name not in ("result", "sweep")]
+    return [[line[k] for k in keep] for line in lines]
+
+
+class Ranks(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="ranks.")
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def write(self, name, text):
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            file.write(text)
+        return self.path(name)
+
+    def command(self, ranks, *arguments, program=MPI_PROGRAM):
+        return ["mpirun", "-q", "-n", str(ranks), program, "sweep", *arguments, "--on", "core", "--threads", "1"]
+
+    def start(self, command, **more):
+        return subprocess.Popen(command, env=ENVIRONMENT, cwd=self.folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                stderr=subprocess.PIPE, text=True, start_new_session=True, **more)
+
+    def end(self, process):
+        try:
+            out, errors = process.communicate(timeout=PATIENCE)
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)
+            self.fail(f"it hangs: {process.args}")
+        return process.returncode, out, errors
+
+    def run_ranks(self, ranks, *arguments, **more):
+        return self.end(self.start(self.command(ranks, *arguments), **more))
+
+    def alone(self, scene, output, *more):
+        result = self.end(self.start([PROGRAM, "sweep", scene, "-o", output, "--on", "core", *more]))
+        self.assertEqual(result[0], 0, result)
+        return result
+
+    def assert_same(self, one, other):
+        values, attributes = content(self.path(one))
+        others, other_attributes = content(self.path(other))
+        self.assertEqual([name for name in values if values[name] != others.get(name)], [])
+        self.assertEqual(attributes, other_attributes)
+        self.assertEqual(list(values), list(others))
+
+    def test_any_number_of_ranks_gives_the_answer_of_one_machine(self):
+        for name, scene in {"grid": SMALL, "points": POINTS, "bare": BARE}.items():
+            path = self.write(name + ".toml", scene)
+            alone = self.alone(path, name + ".nc")
+            words = None
+            for ranks in (1, 2, 3, 4, 7) if name == "grid" else (1, 3):
+                output = f"{name}{ranks}.nc"
+                code, out, errors = self.run_ranks(ranks, path, "-o", output)
+                self.assertEqual((code, errors), (0, alone[2]))
+                self.assert_same(name + ".nc", output)
+                self.assertEqual(rows(self.path(name + ".best.csv")), rows(self.path(f"{name}{ranks}.best.csv")))
+                # counts and tables in the same words; lines of devices and times differ
+                said = [line for line in out.split("\n") if line.startswith(("wide:", "narrow:", "  "))]
+                words = words or said
+                self.assertEqual(said, words)
+                self.assertGreater(len(said), 4)
+                maps = [file for file in os.listdir(self.folder) if file.startswith(f"{name}{ranks}.") and file.endswith(".svg")]
+                for file in maps:
+                    with open(self.path(file), "rb") as own, open(self.path(name + file[len(f"{name}{ranks}"):]), "rb") as other:
+                        self.assertEqual(own.read(), other.read(), file)
+                self.assertEqual(len(maps), 0 if name == "bare" else 2)
+                leftover = [file for file in os.listdir(self.folder) if ".partial" in file]
+                self.assertEqual(leftover, [])
+
+    def ranks_of(self, process):
+        found = subprocess.run(["pgrep", "-g", "0", "-P", str(process.pid)], capture_output=True, text=True, check=False).stdout
+        if not found:
+            found = subprocess.run(["pgrep", "-P", str(process.pid)], capture_output=True, text=True, check=False).stdout
+        return [int(number) for number in found.split()]
+
+    def test_a_rank_that_is_killed_costs_little(self):
+        chance = random.Random(15)
+        path = self.write("large.toml", LARGE)
+        began = time.monotonic()
+        self.alone(path, "large.nc", "--threads", "1")
+        whole = time.monotonic() - began
+        killed = resumed = 0
+        for trial in range(10):
+            ranks = chance.choice((2, 3, 4))
+            if not os.path.exists(self.path("killed.nc.partial")):
+                for name in os.listdir(self.folder):
+                    if name.startswith("killed."):
+                        os.remove(self.path(name))
+            resume = ["--resume"] if os.path.exists(self.path("killed.nc.partial.mark")) else []
+            process = self.start(self.command(ranks, path, "-o", "killed.nc", "--mark-seconds", "0.05", *resume))
+            time.sleep(chance.uniform(0.2, 0.9) * whole / 2 + 0.3)
+            victims = self.ranks_of(process)
+            if victims and process.poll() is None:
+                os.kill(chance.choice(victims), signal.SIGKILL)
+                code, _, errors = self.end(process)
+                killed += code != 0
+            else:
+                self.end(process)
+            if os.path.exists(self.path("killed.nc.partial")) and chance.random() < 0.6:
+                code, out, errors = self.run_ranks(chance.choice((1, 2, 5)), path, "-o", "killed.nc", "--resume")
+                self.assertEqual(code, 0, errors)
+                resumed += "grips are there" in errors
+                self.assert_same("large.nc", "killed.nc")
+        if os.path.exists(self.path("killed.nc.partial")):
+            code, out, errors = self.run_ranks(3, path, "-o", "killed.nc", "--resume")
+            self.assertEqual(code, 0, errors)
+        self.assert_same("large.nc", "killed.nc")
+        self.assertGreater(killed, 4)
+        self.assertGreater(resumed, 0)
+
+    def test_time_and_signals_close_it_cleanly(self):
+        path = self.write("large.toml", LARGE)
+        self.alone(path, "large.nc")
+        code, out, errors = self.run_ranks(2, path, "-o", "timed.nc", "--time-limit", "1")
+        self.assertEqual(code, 130, errors)
+        self.assertRegex(errors, r"wholehand: interrupted at [\d,]+ of [\d,]+ grips; the same command with --resume goes on")
+        process = self.start(self.command(3, path, "-o", "timed.nc", "--resume"))
+        time.sleep(1)
+        process.send_signal(signal.SIGUSR1)  # which mpirun hands on, as srun does
+        code, out, errors = self.end(process)
+        self.assertIn(code, (0, 130), errors)
+        self.assertIn("grips are there", errors)
+        if code:
+            code, out, errors = self.run_ranks(1, path, "-o", "timed.nc", "--resume")
+            self.assertEqual(code, 0, errors)
+        self.assert_same("large.nc", "timed.nc")
+
+    def test_a_damaged_stretch_is_computed_again(self):
+        path = self.write("large.toml", LARGE)
+        self.alone(path, "large.nc")
+        code, _, errors = self.run_ranks(2, path, "-o", "torn.nc", "--time-limit", "2")
+        self.assertEqual(code, 130, errors)
+        with netCDF4.Dataset(self.path("torn.nc.partial")) as file:
+            file.set_auto_maskandscale(False)
+            first = file["gap"][...].ravel()[:8].tobytes()
+        with open(self.path("torn.nc.partial"), "r+b") as file:
+            at = file.read().index(first)
+            file.seek(at)
+            file.write(b"\x01" * 8)
+        code, out, errors = self.run_ranks(3, path, "-o", "torn.nc", "--resume")
+        self.assertEqual(code, 0, errors)
+        self.assertIn("are damaged: computing them again", errors)
+        self.assert_same("large.nc", "torn.nc")
+
+    def test_ranks_of_another_scene_or_build_are_refused(self):
+        path, other = self.write("a.toml", SMALL), self.write("b.toml", SMALL.replace("110", "111"))
+        own = [MPI_PROGRAM, "sweep", path, "-o", "a.nc", "--on", "core"]
+        another_build = self.path("wholehand-mpi")
+        with open(MPI_PROGRAM, "rb") as file:
+            program = bytearray(file.read())
+        note = program.index(b"GNU\x00", program.index(b"\x04\x00\x00\x00\x14\x00\x00\x00\x03\x00\x00\x00GNU\x00"))
+        program[note + 4] ^= 1
+        with open(another_build, "wb") as file:
+            file.write(program)
+        os.chmod(another_build, 0o755)
+        for what, command in {"scene": [MPI_PROGRAM, "sweep", other, *own[3:]], "build": [another_build, *own[1:]]}.items():
+            code, out, errors = self.end(self.start(["mpirun", "-q", "-n", "1", *own, ":", "-n", "1", *command]))
+            self.assertEqual((code, out), (2, ""), errors)
+            lines = errors.strip().split("\n")
+            self.assertEqual(len(lines), 1, errors)
+            self.assertRegex(lines[0], rf"wholehand: rank 1 on \S+ has another {what}: [0-9a-f]+, and rank 0 on \S+ has [0-9a-f]+; ")
+            self.assertFalse([name for name in os.listdir(self.folder) if name.startswith("a.nc")])
+
+    def test_one_job_writes_a_file(self):
+        path = self.write("large.toml", LARGE)
+        first = self.start(self.command(2, path, "-o", "one.nc"))
+        for _ in range(600):
+            if os.path.exists(self.path("one.nc.partial")):
+                break
+            time.sleep(0.05)
+        code, out, errors = self.run_ranks(2, path, "-o", "one.nc")
+        self.assertEqual(code, 2, errors)
+        self.assertEqual(len(errors.strip().split("\n")), 1, errors)
+        self.assertIn("one.nc", errors)
+        self.assertEqual(self.end(first)[0], 0)
+
+    def test_an_error_of_any_rank_is_one_line(self):
+        path = self.write("a.toml", SMALL)
+        code, out, errors = self.run_ranks(3, self.path("none.toml"))
+        self.assertEqual((code, out), (2, ""))
+        self.assertEqual(len(errors.strip().split("\n")), 1, errors)
+        code, out, errors = self.run_ranks(3, path, "-o", self.path("none/a.nc"))
+        self.assertEqual((code, out, len(errors.strip().split("\n"))), (2, "", 1), errors)
+        code, out, errors = self.run_ranks(2, path, "--time-limit", "1:2")
+        self.assertEqual((code, out, len(errors.strip().split("\n"))), (2, "", 1), errors)
+        # rank 1 alone has nothing to read
+        own = [MPI_PROGRAM, "sweep", path, "-o", "a.nc", "--on", "core"]
+        code, out, errors = self.end(self.start(["mpirun", "-q", "-n", "1", *own, ":", "-n", "1", MPI_PROGRAM, "sweep", "none.toml", *own[3:]]))
+        self.assertEqual((code, out, len(errors.strip().split("\n"))), (2, "", 1), errors)
+        self.assertIn("rank 1 on ", errors)
+
+
+if __name__ == "__main__":
+    unittest.main()
