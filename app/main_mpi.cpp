@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // wholehand-mpi: a sweep by many ranks, under mpirun or srun.
+#include <csignal>
+
 #include "app/command_line.h"
 #include "app/commands.h"
 #include "app/failure_line.h"
@@ -12,6 +14,7 @@
 
 int main(int argc, char** argv) {
   using namespace wholehand;
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows past its limit is an error of the write, here of MPI's own files too
   Team team(argc, argv);
   Program program;
   program.name = "wholehand-mpi";

@@ -22,6 +22,8 @@
 #include "objects/vessel.h"
 #include "sweeps/closing.h"
 #include "sweeps/hand_lists.h"
+#include "sweeps/refine.h"
+#include "sweeps/robust.h"
 #include "sweeps/sweep.h"
 #include "sweeps/tally.h"
 #include "system/checksum.h"
@@ -191,13 +193,18 @@ class ClusterSweep final : public Sweep {
       return team_.is_leader() ? interrupted() : ExitCode::interrupted;
     if (!team_.is_leader()) file.reset();
     team_.meet();
-    bool is_done = false;
+    BestLists best(scene_.vessels.size() * plan().hand_scales());
+    agree([&] {
+      if (team_.is_leader()) best = find_best();
+    });
+    const bool is_completed = complete_together(best, interrupt);
     agree([&] {
       if (!team_.is_leader()) return;
-      is_done = finish(*file, interrupt);
-      if (is_done) say_ranks();
+      if (!is_completed) return save(*file);
+      finish(*file, best);
+      say_ranks();
     });
-    if (share_flag(is_done)) return ExitCode::done;
+    if (is_completed) return ExitCode::done;
     return team_.is_leader() ? interrupted() : ExitCode::interrupted;
   }
 
@@ -404,7 +411,7 @@ class ClusterSweep final : public Sweep {
     if (!team_.is_leader()) {
       tell(true, failure);
     } else {
-      failure_ = failure;
+      if (failure) failure_ = failure;
       while (ended_ + 1 < team_.size()) {
         if (!listen()) Team::nap();
         if (is_report_due()) keep_mark(file);
@@ -714,6 +721,67 @@ class ClusterSweep final : public Sweep {
     count_kernels(result.kernel_seconds, since(start));
     say_notes(result.notes);
     return result.done;
+  }
+
+  // ---- what is told of the best ----
+
+  struct CompletedGrip {
+    std::uint64_t list = 0, place = 0;  // in the list
+    GripInput refined{};
+    double refined_score = 0, robust_mean = 0, robust_low = 0;
+  };
+
+  // Each rank refines some of the grips and finds their robust scores. False: interrupted.
+  bool complete_together(BestLists& best, InterruptGuard& interrupt) {
+    static_assert(MOST_REFINED == MOST_ROBUST);
+    PacketWriter packet;
+    for (const auto& list : best) {
+      std::vector<Candidate> grips;
+      for (const BestGrip& grip : list) grips.push_back(grip.candidate);
+      packet.put(grips);
+    }
+    const std::string bytes = team_.share(packet.bytes());
+    PacketReader reader(bytes);
+    BestLists own(best.size());
+    std::vector<std::vector<std::size_t>> places(best.size());
+    std::size_t number = 0;
+    for (std::size_t list = 0; list < best.size(); ++list) {
+      const auto grips = reader.take_all<Candidate>();
+      for (std::size_t place = 0; place < std::min(grips.size(), MOST_REFINED); ++place, ++number) {
+        if (number % static_cast<std::size_t>(team_.size()) != static_cast<std::size_t>(team_.rank())) continue;
+        BestGrip& grip = own[list].emplace_back();
+        grip.candidate = grips[place];
+        grip.grip = plan().grip(list / plan().hand_scales(), grips[place].index);
+        places[list].push_back(place);
+      }
+    }
+    bool is_whole = true;
+    agree([&] { is_whole = complete(own, interrupt); });
+    std::vector<CompletedGrip> completed;
+    for (std::size_t list = 0; list < own.size(); ++list)
+      for (std::size_t k = 0; k < own[list].size(); ++k) {
+        const BestGrip& grip = own[list][k];
+        completed.push_back({list, places[list][k], grip.refined, grip.refined_score, grip.robust_mean, grip.robust_low});
+      }
+    if (!team_.is_leader()) {
+      PacketWriter found;
+      found.put(completed);
+      team_.send(found.bytes());
+    }
+    for (int rank = 0; team_.is_leader() && rank < team_.size(); ++rank) {
+      if (rank > 0) {
+        const std::string message = team_.wait_for(rank);
+        completed = PacketReader(message).take_all<CompletedGrip>();
+      }
+      for (const CompletedGrip& grip : completed) {
+        BestGrip& told = best.at(grip.list).at(grip.place);
+        told.refined = grip.refined;
+        told.refined_score = grip.refined_score;
+        told.robust_mean = grip.robust_mean;
+        told.robust_low = grip.robust_low;
+      }
+    }
+    return all_of(is_whole);
   }
 
   struct RankPlace {

@@ -87,7 +87,13 @@ ExitCode Sweep::run() {
   ResultFile file(names_, written, backend_->fields(), resumed, parts_.open_output);
   is_marked_ = resumed;
   if (!repair(file, interrupt) || !sweep(file, interrupt)) return interrupted();
-  return finish(file, interrupt) ? ExitCode::done : interrupted();
+  BestLists best = find_best();
+  if (!complete(best, interrupt)) {
+    save(file);
+    return interrupted();
+  }
+  finish(file, best);
+  return ExitCode::done;
 }
 
 void Sweep::open() {
@@ -429,21 +435,23 @@ ExitCode Sweep::interrupted() const {
 }
 
 // False: interrupted while the robust scores were computed, which may take as long as the sweep; the grips are marked.
-bool Sweep::finish(ResultFile& file, InterruptGuard& interrupt) {
-  const CompanionRequest request{scene_, plan(), names_, parts_, best_wanted_, options_.glb};
-  auto best = best_grips(request, mark_.vessels, *backend_);
+CompanionRequest Sweep::companions() const { return {scene_, plan(), names_, parts_, best_wanted_, options_.glb}; }
+
+BestLists Sweep::find_best() { return best_grips(companions(), mark_.vessels, *backend_); }
+
+bool Sweep::complete(BestLists& best, InterruptGuard& interrupt) const {
   if (refines()) refine_lists(*evaluator_, scene_, plan(), options_.threads, best);
-  if (!add_robust_scores(parts_.open_other, scene_, plan(), &interrupt.flag(), best)) {
-    save(file);
-    return false;
-  }
+  return add_robust_scores(parts_.open_other, scene_, plan(), &interrupt.flag(), best);
+}
+
+void Sweep::finish(ResultFile& file, const BestLists& best) {
   std::vector<std::vector<RankedGrip>> ranked(best.size());
   for (std::size_t list = 0; list < best.size(); ++list) {
     for (const BestGrip& grip : best[list])
       ranked[list].push_back({grip.candidate, grip.grip, grip.refined, grip.refined_score, grip.robust_mean, grip.robust_low});
   }
   // the result's own name comes last: when it is there, all is
-  std::vector<std::string> files = write_companions(request, best, has_heat_map() ? &maps_ : nullptr, info_);
+  std::vector<std::string> files = write_companions(companions(), best, has_heat_map() ? &maps_ : nullptr, info_);
   // The values are synced first. Then little time passes between the ending, which no earlier mark fits, and the mark that vouches for it.
   if (is_marked_) save(file);
   file.write_ending(ranked, wall_before_ + since(options_.started), mark_.kernel_seconds);
@@ -457,7 +465,6 @@ bool Sweep::finish(ResultFile& file, InterruptGuard& interrupt) {
   // kernels that ran while the file was being written cost no time of their own
   const SweepTimes times{since(options_.started), std::min(wait_seconds_, kernel_seconds_), file.seconds(), file.bytes()};
   fmt::print("\n{}", closing_lines(files, times));
-  return true;
 }
 
 }  // namespace wholehand

@@ -21,11 +21,14 @@
 #include "sweeps/sweep_options.h"
 #include "sweeps/sweep_parts.h"
 #include "sweeps/variables.h"
+#include "sweeps/write_companions.h"
 #include "system/files.h"
 #include "system/interrupt.h"
 #include "system/progress.h"
 
 namespace wholehand {
+
+using BestLists = std::vector<std::vector<BestGrip>>;  // of each vessel and hand scale (GripLists)
 
 class Sweep {
  public:
@@ -54,8 +57,11 @@ class Sweep {
   // Everything up to here onto the disk, then the mark that says so.
   void save(ResultFile& file);
   ExitCode interrupted() const;
-  // False: interrupted while the robust scores were computed, which may take as long as the sweep; the grips are marked.
-  bool finish(ResultFile& file, InterruptGuard& interrupt);
+  // What is told of the grips of each list; what takes longer: refined grips and robust scores, false where that was interrupted; and the
+  // files, once all is known.
+  BestLists find_best();
+  bool complete(BestLists& best, InterruptGuard& interrupt) const;
+  void finish(ResultFile& file, const BestLists& best);
 
   const Plan& plan() const { return *plan_; }
   ResultContents contents() const;
@@ -98,6 +104,7 @@ class Sweep {
   double kernel_seconds_ = 0;
 
  private:
+  CompanionRequest companions() const;
   std::vector<int> swept_fields() const;
   bool has_score() const;
   MarkBounds bounds() const;

@@ -55,6 +55,11 @@ hand_scale = [0.9, 1]
 # some seconds of two processors
 LARGE = SMALL.replace("count = 20", "count = 1000").replace("hand_scale = [0.9, 1]", "")
 POINTS = VESSELS + HELD + """
+[robust]
+height_mm = 2
+friction = 0.05
+count = 16
+
 [grips]
 height_fraction = { from = 0.1, to = 0.95 }
 obliquity_deg = { from = -15, to = 20 }
@@ -68,6 +73,16 @@ keep = []
 
 [grips]
 height_fraction = { from = 0.1, to = 0.95, count = 200 }
+roll_deg = { from = -90, to = 30, count = 13 }
+"""
+# more grips than a pass keeps (16,384), and nearly all alike: lists that take a second pass
+ALIKE = VESSELS + """
+[output]
+apart_mm = 150
+keep = ["score", "plausible"]
+
+[grips]
+height_fraction = { from = 0.1, to = 0.95, count = 5000 }
 roll_deg = { from = -90, to = 30, count = 13 }
 """
 
@@ -157,6 +172,38 @@ class Ranks(unittest.TestCase):
                 self.assertEqual(len(maps), 0 if name == "bare" else 2)
                 leftover = [file for file in os.listdir(self.folder) if ".partial" in file]
                 self.assertEqual(leftover, [])
+
+    def test_lists_that_take_passes(self):
+        path = self.write("alike.toml", ALIKE)
+        self.alone(path, "alike.nc")
+        with netCDF4.Dataset(self.path("alike.nc")) as file:
+            file.set_auto_maskandscale(False)
+            scores = file["score"][0][file["plausible"][0] == 1]
+            last = file["best_score"][0][file["best_grip"][0] >= 0][-1]
+            self.assertGreater((scores > last).sum(), 16384, "one pass is enough")
+        code, _, errors = self.run_ranks(3, path, "-o", "passes.nc")
+        self.assertEqual(code, 0, errors)
+        self.assert_same("alike.nc", "passes.nc")
+        # whoever resumes has not seen all scores, and computes them again
+        code, _, errors = self.run_ranks(2, path, "-o", "again.nc", "--time-limit", "1")
+        self.assertEqual(code, 130, errors)
+        code, _, errors = self.run_ranks(3, path, "-o", "again.nc", "--resume")
+        self.assertEqual(code, 0, errors)
+        self.assert_same("alike.nc", "again.nc")
+
+    def test_a_rank_without_room_ends_all(self):
+        path = self.write("large.toml", LARGE)
+        self.alone(path, "large.nc")
+        own = [MPI_PROGRAM, "sweep", path, "-o", "full.nc", "--on", "core", "--mark-seconds", "0.05"]
+        limited = ["sh", "-c", 'ulimit -f 24000; exec "$@"', "sh", *own]  # blocks of 512 bytes: its writes beyond 12 MB fail
+        code, out, errors = self.end(self.start(["mpirun", "-q", "-n", "1", *own, ":", "-n", "1", *limited]))
+        self.assertEqual(code, 3, errors)
+        self.assertEqual(len(errors.strip().split("\n")), 1, errors)
+        self.assertRegex(errors, r"wholehand: rank 1 on \S+: full.nc.partial: cannot write it: .+; make room and go on with --resume")
+        self.assertNotIn("wrote", out)
+        code, _, errors = self.run_ranks(3, path, "-o", "full.nc", "--resume")
+        self.assertEqual(code, 0, errors)
+        self.assert_same("large.nc", "full.nc")
 
     def ranks_of(self, process):
         found = subprocess.run(["pgrep", "-g", "0", "-P", str(process.pid)], capture_output=True, text=True, check=False).stdout
