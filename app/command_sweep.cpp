@@ -73,8 +73,9 @@ void add_sweep_command(CLI::App& app, Action& action, const SweepRunner& run) {
                    "End as if interrupted after this time, in seconds, M:SS or H:MM:SS (default: none); --resume goes on")
       ->type_name("TIME")
       ->check(not_empty());
-  command->add_option("--mark-seconds", arguments->mark_seconds,
-                      "Least time between two progress marks: what a crash may cost (default: 5)")
+  command
+      ->add_option("--mark-seconds", arguments->mark_seconds,
+                   "Least time between two progress marks: what a crash may cost (default: 5)")
       ->type_name("S")
       ->check(not_empty());
   command->add_flag("--resume", arguments->resume, "Continue an interrupted sweep where it ended");

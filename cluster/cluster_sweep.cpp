@@ -647,18 +647,13 @@ class ClusterSweep final : public Sweep {
   bool choose(ResultFile& file, InterruptGuard& interrupt) {
     for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
       VesselProgress& vessel = mark_.vessels[v];
-      std::optional<ListChooser> chooser;
-      if (team_.is_leader()) {
-        const bool is_first = vessel.lists.empty();
-        chooser.emplace(plan(), evaluator_.get(), v, list_request(), vessel.lists);
-        if (is_first) {
-          chooser->offer(vessel.best);
-          end_pass(*chooser, vessel);
-        }
-      }
-      while (!share_flag(chooser && chooser->is_complete())) {
-        const bool is_passed = pass(v, chooser ? &*chooser : nullptr, interrupt);
-        if (team_.is_leader() && is_passed) end_pass(*chooser, vessel);
+      const bool is_first = share_flag(vessel.lists.empty());
+      ListChooser chooser(plan(), evaluator_.get(), v, list_request(), vessel.lists);
+      if (team_.is_leader() && is_first) chooser.offer(vessel.best);
+      if (is_first) end_pass_together(chooser, vessel);
+      while (!share_flag(chooser.is_complete())) {
+        const bool is_passed = pass(v, chooser, file, interrupt);
+        if (is_passed) end_pass_together(chooser, vessel);
         agree([&] {
           if (team_.is_leader() && (!is_passed || is_report_due())) keep_mark(file);
         });
@@ -668,12 +663,55 @@ class ClusterSweep final : public Sweep {
     return true;
   }
 
-  // All grips of a vessel once more, by all ranks. False: interrupted.
-  bool pass(std::size_t v, ListChooser* leaders, InterruptGuard& interrupt) {
+  // The leader decides, and all ranks find the hands that it asks for.
+  void end_pass_together(ListChooser& chooser, VesselProgress& vessel) {
+    const auto ranks = static_cast<std::size_t>(team_.size()), rank = static_cast<std::size_t>(team_.rank());
+    const auto own_part = [&](const std::vector<Candidate>& grips, std::size_t of) {
+      std::vector<Candidate> part;
+      for (std::size_t i = of; i < grips.size(); i += ranks) part.push_back(grips[i]);
+      return part;
+    };
+    if (!team_.is_leader()) {
+      for (;;) {
+        const std::string bytes = team_.share("");
+        const auto grips = PacketReader(bytes).take_all<Candidate>();
+        if (grips.empty()) return;
+        std::vector<FoundHand> found;
+        for (const auto& hand : chooser.hands_of(own_part(grips, rank)))
+          found.push_back({hand.has_value(), hand.value_or(PosedHand())});
+        PacketWriter packet;
+        packet.put(found);
+        team_.send(packet.bytes());
+      }
+    }
+    const auto ask = [&](const std::vector<Candidate>& grips) {
+      PacketWriter packet;
+      packet.put(grips);
+      team_.share(packet.bytes());
+    };
+    end_pass(chooser, vessel, [&](const std::vector<Candidate>& grips) {
+      ask(grips);
+      ListChooser::Hands hands(grips.size());
+      const ListChooser::Hands own = chooser.hands_of(own_part(grips, 0));
+      for (std::size_t k = 0; k < own.size(); ++k) hands[k * ranks] = own[k];
+      for (std::size_t other = 1; other < ranks; ++other) {
+        const std::string message = team_.wait_for(static_cast<int>(other));
+        const auto found = PacketReader(message).take_all<FoundHand>();
+        for (std::size_t k = 0; k < found.size(); ++k)
+          if (found[k].is_there) hands.at(k * ranks + other) = found[k].hand;
+      }
+      return hands;
+    });
+    ask({});
+  }
+
+  // All grips of a vessel once more, by all ranks: from their memories, or else from the file, or else computed again. The file matters to a
+  // sweep of several sessions, each shorter than what the grips take. False: interrupted.
+  bool pass(std::size_t v, ListChooser& leaders, const ResultFile& file, InterruptGuard& interrupt) {
     std::vector<ListProgress> lists(plan().hand_scales());
     PacketWriter packet;
-    if (leaders)
-      for (const ListProgress& list : leaders->progress()) put(packet, list);
+    if (team_.is_leader())
+      for (const ListProgress& list : leaders.progress()) put(packet, list);
     const std::string bytes = team_.share(packet.bytes());
     PacketReader reader(bytes);
     for (ListProgress& list : lists) list = take_list(reader);
@@ -685,7 +723,7 @@ class ClusterSweep final : public Sweep {
         own.offer(eligible_[v]);
       } else {
         take_pieces(WorkRange({{v, 0, plan().grips()}}), interrupt, [&](const GripRange& range) {
-          const std::uint64_t done = pass_range(range, own, interrupt);
+          const std::uint64_t done = file.has_eligible() ? read_range(range, own, file) : pass_range(range, own, interrupt);
           delivered += done;
           return done;
         });
@@ -695,14 +733,21 @@ class ClusterSweep final : public Sweep {
     found.put(delivered);
     found.put(own.open_grips());
     if (!team_.is_leader()) team_.send(found.bytes());
-    if (leaders) leaders->offer(own.open_grips());
-    for (int rank = 1; leaders && rank < team_.size(); ++rank) {
+    if (team_.is_leader()) leaders.add_open(own.open_grips());
+    for (int rank = 1; team_.is_leader() && rank < team_.size(); ++rank) {
       const std::string message = team_.wait_for(rank);
       PacketReader grips(message);
       delivered += grips.take<std::uint64_t>();
-      leaders->offer(grips.take_all<Candidate>());
+      leaders.add_open(grips.take_all<Candidate>());
     }
     return share_flag((has_eligible_ && !is_asked_to_end(interrupt)) || delivered == plan().grips());
+  }
+
+  static std::uint64_t read_range(const GripRange& range, ListChooser& own, const ResultFile& file) {
+    constexpr std::uint64_t AT_ONCE = 1 << 18;  // grips: memory does not grow with the sweep
+    for (std::uint64_t first = range.first; first < range.last; first += AT_ONCE)
+      own.offer(file.eligible(range.vessel, first, std::min(range.last, first + AT_ONCE)));
+    return range.last - range.first;
   }
 
   std::uint64_t pass_range(const GripRange& range, ListChooser& own, InterruptGuard& interrupt) {
@@ -783,6 +828,11 @@ class ClusterSweep final : public Sweep {
     }
     return all_of(is_whole);
   }
+
+  struct FoundHand {
+    bool is_there = false;
+    PosedHand hand{};
+  };
 
   struct RankPlace {
     std::string node, device;

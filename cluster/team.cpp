@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstddef>
+#include <cstdlib>
 #include <thread>
 
 #include "core/error.h"
@@ -114,6 +115,9 @@ struct Team::Sent {
 };
 
 Team::Team(int& argc, char**& argv) : mpi_(std::make_unique<Mpi>()) {
+  // Open MPI 4.1 chooses its windows by RDMA between nodes that have TCP alone, and then finds that they cannot be made (MPI_ERR_WIN). A
+  // choice of the user's stays.
+  setenv("OMPI_MCA_osc", "^rdma", 0);
   int level = 0;
   MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &level);
   MPI_Comm_rank(MPI_COMM_WORLD, &rank_);

@@ -13,6 +13,7 @@ constexpr std::size_t USUAL_POOL = 1 << 14;     // of a vessel: 256 KiB
 constexpr std::size_t GRIPS_AT_ONCE = 1 << 12;  // whose hands are there at once
 constexpr std::size_t PIECE = 16;               // grips that a thread poses at a time
 constexpr std::size_t FEW = 256;                // posed at a time where the first ones may be enough
+constexpr std::size_t MOST_ASKED = 1 << 12;     // of others at a time
 
 }  // namespace
 
@@ -38,8 +39,8 @@ ListChooser::ListChooser(const Plan& plan, const Evaluator* core, std::size_t ve
   }
 }
 
-std::vector<std::optional<PosedHand>> ListChooser::hands_of(const std::vector<Candidate>& grips) const {
-  std::vector<std::optional<PosedHand>> hands(grips.size());
+ListChooser::Hands ListChooser::hands_of(const std::vector<Candidate>& grips) const {
+  Hands hands(grips.size());
   if (request_.apart == 0) return hands;
   in_parallel((grips.size() + PIECE - 1) / PIECE, request_.threads, [&](std::size_t piece) {
     const std::size_t end = std::min(grips.size(), (piece + 1) * PIECE);
@@ -86,22 +87,32 @@ std::vector<Candidate> ListChooser::open_grips() const {
   return all;
 }
 
-void ListChooser::end_pass() {
+void ListChooser::add_open(const std::vector<Candidate>& grips) {
+  for (const Candidate& grip : grips) {
+    const std::size_t list = plan_.hand_scales() > 1 ? plan_.hand_scale_of(grip.index) : 0;
+    if (is_open(list, grip)) pools_[list].offer(grip);
+  }
+}
+
+void ListChooser::end_pass(const PoseHands& pose) {
   for (std::size_t list = 0; list < progress_.size(); ++list) {
-    if (!progress_[list].is_complete) choose_from_pool(list);
+    if (!progress_[list].is_complete) choose_from_pool(list, pose);
     pools_[list] = BestCandidates(request_.pool);
   }
 }
 
-void ListChooser::choose_from_pool(std::size_t list) {
+void ListChooser::choose_from_pool(std::size_t list, const PoseHands& pose) {
   const std::vector<Candidate> pool = pools_[list].sorted();
   DifferentGrips& taken = taken_[list];
-  for (std::size_t first = 0; first < pool.size() && !taken.is_full(); first += FEW) {
-    const std::size_t count = std::min(FEW, pool.size() - first);
+  std::size_t few = FEW;
+  for (std::size_t first = 0; first < pool.size() && !taken.is_full();) {
+    const std::size_t count = std::min(few, pool.size() - first);
     const auto start = pool.begin() + static_cast<std::ptrdiff_t>(first);
-    const std::vector<Candidate> few(start, start + static_cast<std::ptrdiff_t>(count));
-    const auto hands = hands_of(few);
-    for (std::size_t i = 0; i < count; ++i) taken.offer(few[i], hands[i]);
+    const std::vector<Candidate> some(start, start + static_cast<std::ptrdiff_t>(count));
+    const Hands hands = pose ? pose(some) : hands_of(some);
+    for (std::size_t i = 0; i < count; ++i) taken.offer(some[i], hands[i]);
+    first += count;
+    if (pose) few = std::min(2 * few, MOST_ASKED);  // each question to others takes time
   }
   ListProgress& known = progress_[list];
   known.chosen = taken.chosen();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -43,6 +44,8 @@ std::size_t usual_pool(const Plan& plan, std::size_t best, double apart);
 // every backend and `rank` have one rule.
 class ListChooser {
  public:
+  using Hands = std::vector<std::optional<PosedHand>>;
+
   // The lists of each hand scale of a vessel. `core` may be null where apart is 0. `progress`: of a chooser that goes on; empty:
   // nothing is known. Plan and core must outlive the object.
   ListChooser(const Plan& plan, const Evaluator* core, std::size_t vessel, const ListRequest& request,
@@ -52,18 +55,24 @@ class ListChooser {
   void offer(const std::vector<Candidate>& grips);
   // Of the grips offered in this pass those that may still be chosen: what another chooser with the same progress needs of them.
   std::vector<Candidate> open_grips() const;
-  // After all grips of the vessel. `is_complete` says whether another pass is needed.
-  void end_pass();
+  // What another chooser with the same progress has found open in this pass: kept without a look at its hands.
+  void add_open(const std::vector<Candidate>& grips);
+  // After all grips of the vessel. `is_complete` says whether another pass is needed. `pose`: who finds the hands of some grips, in
+  // their order, if not this process alone.
+  using PoseHands = std::function<Hands(const std::vector<Candidate>& grips)>;
+  void end_pass(const PoseHands& pose = {});
+
+  // The hands of grips of the vessel, by the core; none where a grip has none.
+  Hands hands_of(const std::vector<Candidate>& grips) const;
 
   bool is_complete() const;
   const std::vector<ListProgress>& progress() const { return progress_; }
   std::vector<Candidate> chosen() const;  // of one list after the other
 
  private:
-  std::vector<std::optional<PosedHand>> hands_of(const std::vector<Candidate>& grips) const;
   bool is_open(std::size_t list, const Candidate& grip) const;
   void offer_piece(const Candidate* grips, std::size_t count);
-  void choose_from_pool(std::size_t list);
+  void choose_from_pool(std::size_t list, const PoseHands& pose);
 
   const Plan& plan_;
   const Evaluator* core_;

@@ -303,6 +303,55 @@ bool ResultFile::holds(std::size_t vessel, const Stretch& stretch) {
   return true;
 }
 
+const ResultFile::Block* ResultFile::block_of(const char* variable) const {
+  for (const Block& block : blocks_)
+    if (std::strcmp(block.variable->name, variable) == 0) return &block;
+  return nullptr;
+}
+
+bool ResultFile::has_eligible() const { return block_of("score") && block_of("plausible"); }
+
+std::vector<Candidate> ResultFile::eligible(std::size_t vessel, std::uint64_t first, std::uint64_t last) const {
+  // opened anew: a file system of a network shows what others wrote when a file is opened
+  const int file = open(names_.partial.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+  if (file < 0) fail("open", errno);
+  const auto read_block = [&](const char* name, void* to) {
+    const Block& block = *block_of(name);
+    auto* bytes = static_cast<char*>(to);
+    std::uint64_t place = block.offset + (vessel * contents_.plan.stored_grips() + first) * block.size;
+    for (std::uint64_t left = (last - first) * block.size; left > 0;) {
+      const ssize_t got = pread(file, bytes, left, static_cast<off_t>(place));
+      if (got < 0 && errno == EINTR) continue;
+      if (got <= 0) {
+        const int error = got < 0 ? errno : EIO;
+        close(file);
+        fail("read", error);
+      }
+      bytes += got;
+      place += static_cast<std::uint64_t>(got);
+      left -= static_cast<std::uint64_t>(got);
+    }
+  };
+  const std::size_t count = last - first;
+  std::vector<std::int8_t> plausible(count);
+  std::vector<float> floats;
+  std::vector<double> doubles;
+  const bool is_float = block_of("score")->size == sizeof(float);
+  if (is_float) {
+    floats.resize(count);
+    read_block("score", floats.data());
+  } else {
+    doubles.resize(count);
+    read_block("score", doubles.data());
+  }
+  read_block("plausible", plausible.data());
+  close(file);
+  std::vector<Candidate> grips;
+  for (std::size_t i = 0; i < count; ++i)
+    if (plausible[i] == 1) grips.push_back({is_float ? static_cast<double>(floats[i]) : doubles[i], first + i});
+  return grips;
+}
+
 // What changes after the definition, in the file's order.
 std::vector<FileRange> ResultFile::written_in_place() const {
   const Plan& plan = contents_.plan;

@@ -55,6 +55,10 @@ class ResultFile {
   // Whether the file holds grips with this checksum: reads them back.
   bool holds(std::size_t vessel, const Stretch& stretch);
   const FilePlaces& places() const { return places_; }
+  // Whether the file keeps what tells the grips that may be listed; and those of the grips [first, last) of a vessel, from the file as it is
+  // now, whoever wrote it.
+  bool has_eligible() const;
+  std::vector<Candidate> eligible(std::size_t vessel, std::uint64_t first, std::uint64_t last) const;
   // Whether the file holds anything of the grips.
   bool has_grips() const { return !blocks_.empty(); }
 
@@ -85,6 +89,7 @@ class ResultFile {
     int plane = 0;         // first plane of the chunk
   };
 
+  const Block* block_of(const char* variable) const;
   void create();
   void open_values(const OpenOutput& open_output);
   FilePlaces find_places() const;

@@ -355,8 +355,8 @@ bool Sweep::choose(std::size_t v, ResultFile& file, InterruptGuard& interrupt) {
   return true;
 }
 
-void Sweep::end_pass(ListChooser& chooser, VesselProgress& vessel) {
-  chooser.end_pass();
+void Sweep::end_pass(ListChooser& chooser, VesselProgress& vessel, const ListChooser::PoseHands& pose) {
+  chooser.end_pass(pose);
   vessel.lists = chooser.progress();
   vessel.best = chooser.chosen();
 }

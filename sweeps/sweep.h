@@ -82,7 +82,7 @@ class Sweep {
   bool is_mark_due() const;
   RunRequest grips_of(std::size_t vessel, InterruptGuard& interrupt) const;  // all but what is done with them
   void say_once(const std::vector<std::string>& notes, Progress& progress);
-  static void end_pass(ListChooser& chooser, VesselProgress& vessel);
+  static void end_pass(ListChooser& chooser, VesselProgress& vessel, const ListChooser::PoseHands& pose = {});
   // The grips of a damaged stretch, for a note.
   std::string place_of(std::size_t vessel, const Stretch& stretch) const;
 

@@ -26,6 +26,9 @@ cat >"$tree/packages.txt" <<'EOF'
 # runs
 dpkg        # there on any Debian
 
+# cluster
+wholehand-cluster-only-package
+
 # test
 wholehand-test-only-package
 EOF
@@ -33,8 +36,12 @@ cat >"$tree/CMakeLists.txt" <<'EOF'
 cmake_minimum_required(VERSION 3.25)
 project(stub LANGUAGES CXX)
 option(WHOLEHAND_TESTS "" ON)
+option(WHOLEHAND_MPI "" OFF)
 file(GLOB sources CONFIGURE_DEPENDS core/*.cpp)
 add_executable(wholehand app/main.cpp ${sources})
+if(WHOLEHAND_MPI)
+  add_executable(wholehand-mpi app/main.cpp)
+endif()
 EOF
 cat >"$tree/CMakePresets.json" <<'EOF'
 {"version": 5, "configurePresets": [{"name": "default", "generator": "Ninja", "binaryDir": "${sourceDir}/build/default"}]}
@@ -92,7 +99,7 @@ check "a tree that was moved builds again" equal "$("$tree/wholehand" 2>/dev/nul
 echo 'nonsense(' >>"$tree/CMakeLists.txt"
 output=$("$tree/wholehand" 2>&1)
 check "a broken CMakeLists.txt gives exit code 3" equal $? 3
-check "and CMake's words" has "$output" "CMakeLists.txt:6"
+check "and CMake's words" has "$output" "CMakeLists.txt:10"
 sed -i '$d' "$tree/CMakeLists.txt"
 
 # ---- a user who may not write here ----
@@ -163,12 +170,20 @@ check "what is missing is named" has "$output" "wholehand: installing: lib-one"
 check "and installed, the lists fetched first where that is needed" equal "$(sed 's/.*120 //' "$work/apt" | tr '\n' ';')" \
   "install --no-install-recommends lib-one;update;install --no-install-recommends lib-one;"
 check "then the program runs" equal "$(tail -n 1 <<<"$output")" "v2$work"
-check "packages under # test are not asked for by a run" equal "$(grep -c wholehand-test-only "$work/apt")" 0
+check "packages of later parts are not asked for by a run" equal "$(grep -c -e -only-package "$work/apt")" 0
+
+fresh
+touch "$work/updated"
+output=$(start cluster)
+check "cluster asks for its own" has "$(cat "$work/apt")" "install --no-install-recommends lib-one wholehand-cluster-only-package"
+check "and for no others" equal "$(grep -c wholehand-test-only "$work/apt")" 0
+check "cluster builds the second program" [ -x "$tree/build/default/wholehand-mpi" ]
+check "and says how to start it" has "$(tail -n 1 <<<"$output")" "mpirun -n N $tree/build/default/wholehand-mpi sweep SCENE"
 
 fresh
 touch "$work/updated"
 start test >/dev/null
-check "but by test" has "$(cat "$work/apt")" "install --no-install-recommends lib-one wholehand-test-only-package"
+check "but by test" has "$(cat "$work/apt")" "install --no-install-recommends lib-one wholehand-cluster-only-package wholehand-test-only-package"
 
 tool apt-get <<<'#!/bin/sh
 echo "E: no network" ; exit 100'

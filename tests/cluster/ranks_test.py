@@ -218,32 +218,27 @@ class Ranks(unittest.TestCase):
         self.alone(path, "large.nc", "--threads", "1")
         whole = time.monotonic() - began
         killed = resumed = 0
-        for trial in range(10):
-            ranks = chance.choice((2, 3, 4))
-            if not os.path.exists(self.path("killed.nc.partial")):
-                for name in os.listdir(self.folder):
-                    if name.startswith("killed."):
-                        os.remove(self.path(name))
+        for _ in range(40):
+            if killed == 10:
+                break
             resume = ["--resume"] if os.path.exists(self.path("killed.nc.partial.mark")) else []
-            process = self.start(self.command(ranks, path, "-o", "killed.nc", "--mark-seconds", "0.05", *resume))
-            time.sleep(chance.uniform(0.2, 0.9) * whole / 2 + 0.3)
+            process = self.start(self.command(chance.choice((2, 3, 4)), path, "-o", "killed.nc", "--mark-seconds", "0.05", *resume))
+            time.sleep(0.2 + chance.uniform(0, 0.5) * whole)
             victims = self.ranks_of(process)
             if victims and process.poll() is None:
                 os.kill(chance.choice(victims), signal.SIGKILL)
-                code, _, errors = self.end(process)
-                killed += code != 0
-            else:
-                self.end(process)
-            if os.path.exists(self.path("killed.nc.partial")) and chance.random() < 0.6:
-                code, out, errors = self.run_ranks(chance.choice((1, 2, 5)), path, "-o", "killed.nc", "--resume")
+            killed += self.end(process)[0] != 0
+            if os.path.exists(self.path("killed.nc.partial.mark")) and chance.random() < 0.4:
+                code, _, errors = self.run_ranks(chance.choice((1, 2, 5)), path, "-o", "killed.nc", "--resume")
                 self.assertEqual(code, 0, errors)
                 resumed += "grips are there" in errors
+            if os.path.exists(self.path("killed.nc")):  # none where the end came first
                 self.assert_same("large.nc", "killed.nc")
-        if os.path.exists(self.path("killed.nc.partial")):
-            code, out, errors = self.run_ranks(3, path, "-o", "killed.nc", "--resume")
-            self.assertEqual(code, 0, errors)
+                os.remove(self.path("killed.nc"))
+        self.assertEqual(killed, 10)
+        code, _, errors = self.run_ranks(3, path, "-o", "killed.nc", "--resume")
+        self.assertEqual(code, 0, errors)
         self.assert_same("large.nc", "killed.nc")
-        self.assertGreater(killed, 4)
         self.assertGreater(resumed, 0)
 
     def test_time_and_signals_close_it_cleanly(self):
@@ -266,8 +261,11 @@ class Ranks(unittest.TestCase):
     def test_a_damaged_stretch_is_computed_again(self):
         path = self.write("large.toml", LARGE)
         self.alone(path, "large.nc")
-        code, _, errors = self.run_ranks(2, path, "-o", "torn.nc", "--time-limit", "2")
-        self.assertEqual(code, 130, errors)
+        for seconds in ("2", "4", "8"):  # a busy machine may need one of them to begin
+            code, _, errors = self.run_ranks(2, path, "-o", "torn.nc", "--time-limit", seconds)
+            self.assertEqual(code, 130, errors)
+            if "interrupted at 0 of" not in errors:
+                break
         with netCDF4.Dataset(self.path("torn.nc.partial")) as file:
             file.set_auto_maskandscale(False)
             first = file["gap"][...].ravel()[:8].tobytes()
