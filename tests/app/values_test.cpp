@@ -32,6 +32,18 @@ TEST(Values, ConvertsToSi) {
   EXPECT_EQ(parse_precision("double"), Precision::full);
 }
 
+TEST(Values, DurationsAreSecondsOrWhatClocksShow) {
+  EXPECT_EQ(parse_duration("90", "--t"), 90);
+  EXPECT_EQ(parse_duration("1:30", "--t"), 90);
+  EXPECT_EQ(parse_duration("0:01:30", "--t"), 90);
+  EXPECT_EQ(parse_duration("120:00", "--t"), 7200);
+  EXPECT_EQ(parse_duration("99999:00:00", "--t"), 99999 * 3600.0);
+  for (const char* text :
+       {"", "0", "-1", "1:2", "1:60", "1:00:60", "1:60:00", ":30", "1:", "1:00:00:00", "1.5", "x", "100000:00:00", "1:-5"})
+    EXPECT_EQ(refusal_of([&] { parse_duration(text, "--t"); }),
+              "--t '" + std::string(text) + "'; allowed: seconds, M:SS or H:MM:SS, of 1 s or more");
+}
+
 TEST(Values, RefusesWhatIsNotWhollyANumber) {
   for (const char* text : {"", " 1", "1 ", "1x", "x", "1,5", "nan", "inf", "-inf", "0x10", "1e999", "--1", "+1", "101", "-1"}) {
     EXPECT_EQ(refusal_of([&] {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <map>
+#include <stdexcept>
 
 #include "core/error.h"
 #include "tests/support/fake_backend.h"
@@ -148,6 +149,19 @@ TEST(HeatMap, GoesOnWhereItStood) {
   other.restore(map.scores());
   EXPECT_TRUE(same(other.scores(), map.scores()));
   EXPECT_THROW(other.restore({1, 2, 3}), Error);
+}
+
+TEST(HeatMap, TakesWhatOthersFound) {
+  const HeatMap map = gathered(fake_scene(), 100);
+  HeatMap other{Plan(fake_scene(), false)};
+  for (int times = 0; times < 2; ++times)  // twice is as once
+    for (std::size_t cell = 0; cell < map.scores().size(); ++cell)
+      if (!std::isnan(map.scores()[cell])) other.raise(cell, map.scores()[cell]);
+  EXPECT_TRUE(same(other.scores(), map.scores()));
+  for (std::size_t cell = 0; cell < map.scores().size(); ++cell)  // less than what is there changes nothing
+    if (!std::isnan(map.scores()[cell])) other.raise(cell, -1);
+  EXPECT_TRUE(same(other.scores(), map.scores()));
+  EXPECT_THROW(other.raise(map.scores().size(), 1), std::out_of_range);
 }
 
 }  // namespace

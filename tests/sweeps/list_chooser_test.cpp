@@ -113,6 +113,43 @@ TEST(ListChooser, ListsAreThoseOfTheDefinition) {
   EXPECT_GT(not_full, 50);
 }
 
+// What ranks do: each chooser sees some of the grips, one takes what all found open, and others may find the hands.
+TEST(ListChooser, APassMayBeShared) {
+  std::mt19937 random(8);
+  int several = 0;
+  for (int round = 0; round < 20; ++round) {
+    Scene scene = fake_scene();
+    if (round % 2 == 1) scene.grips.hand_scale.values = {1.1, 0.9, 1};
+    const Plan plan(scene, false);
+    const FakeEvaluator core(scene);
+    const std::vector<Candidate> grips = drawn_grips(plan, random);
+    const std::size_t best = 1 + random() % 15, ranks = 1 + random() % 5;
+    const ListRequest request{best, 0.3, 1 + random() % 40, 1};
+    ListChooser leader(plan, &core, 1, request);
+    std::size_t asked = 0;
+    int count = 0;
+    for (; !leader.is_complete(); ++count) {
+      for (std::size_t rank = 0; rank < ranks; ++rank) {
+        ListChooser other(plan, &core, 1, request, leader.progress());
+        std::vector<Candidate> part;
+        for (std::size_t i = rank; i < grips.size(); i += ranks) part.push_back(grips[i]);
+        other.offer(part);
+        EXPECT_LE(other.open_grips().size(), request.pool * plan.hand_scales());
+        leader.add_open(other.open_grips());
+      }
+      leader.end_pass([&](const std::vector<Candidate>& some) {
+        asked += some.size();
+        return leader.hands_of(some);
+      });
+    }
+    EXPECT_GT(asked, 0u);
+    several += count > 1;
+    for (std::size_t list = 0; list < plan.hand_scales(); ++list)
+      expect_equal(leader.progress()[list].chosen, by_definition(plan, 1, grips, list, best, 0.3));
+  }
+  EXPECT_GT(several, 5);
+}
+
 TEST(ListChooser, WithoutADistanceTheListHasTheBestGrips) {
   const Scene scene = fake_scene();
   const Plan plan(scene, false);

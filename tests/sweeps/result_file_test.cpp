@@ -2,15 +2,19 @@
 // What a result file holds: every value in its place, and the file there only when it is whole.
 #include "sweeps/result_file.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <memory>
 
 #include "core/error.h"
+#include "sweeps/hand_lists.h"
 #include "sweeps/refine.h"
 #include "tests/support/fake_backend.h"
 #include "tests/support/files.h"
@@ -32,6 +36,60 @@ TEST(ResultFile, EveryValueIsInItsPlace) {
       }
       expect_expected(setup, folder / "a.nc");
     }
+  }
+}
+
+// Writers that share a file: one made it, another knows its places, each has its own way to the disk.
+TEST(ResultFile, TwoMayWriteIntoOne) {
+  struct Counted final : OutputBytes {
+    Counted(const std::string& path, std::size_t& sum) : file(open(path.c_str(), O_WRONLY | O_CLOEXEC)), bytes(sum) {}
+    ~Counted() override { close(file); }
+    int write(const void* data, std::size_t size, std::uint64_t offset) override {
+      bytes += size;
+      return pwrite(file, data, size, static_cast<off_t>(offset)) == static_cast<ssize_t>(size) ? 0 : errno;
+    }
+    int sync() override { return fsync(file) == 0 ? 0 : errno; }
+    int file;
+    std::size_t& bytes;
+  };
+  const TemporaryFolder folder;
+  for (const Precision precision : {Precision::single, Precision::full}) {
+    SweepFile setup(fake_scene(), folder / "a.nc", precision);
+    std::size_t bytes = 0;
+    const OpenOutput counted = [&bytes](const std::string& path) { return std::make_unique<Counted>(path, bytes); };
+    ResultFile first(setup.names, setup.contents, setup.backend.fields(), false);
+    {
+      ResultFile second(setup.names, setup.contents, setup.backend.fields(), first.places(), counted);
+      const std::uint64_t grips = setup.plan.grips(), half = grips / 2;
+      for (std::size_t v = 0; v < setup.scene.vessels.size(); ++v) {
+        setup.write(first, v, 0, half);
+        setup.write(second, v, half, grips);
+      }
+      second.sync();
+      EXPECT_EQ(bytes, second.bytes());
+      // what may be listed, from the file and from who computed it
+      ASSERT_TRUE(first.has_eligible());
+      for (std::size_t v = 0; v < setup.scene.vessels.size(); ++v) {
+        std::vector<Candidate> computed;
+        RunRequest request;
+        request.vessel = v;
+        request.last = grips;
+        request.grips = [&](std::size_t w, std::uint64_t i, std::size_t n, GripInput* out) { setup.plan.fill(w, i, n, out); };
+        request.sink = [&](const PlaneChunk& chunk) { add_eligible(chunk, setup.backend.fields(), computed); };
+        setup.backend.run(request);
+        std::vector<Candidate> read = first.eligible(v, 0, 10);
+        for (const Candidate& grip : second.eligible(v, 10, grips)) read.push_back(grip);
+        ASSERT_EQ(read.size(), computed.size());
+        for (std::size_t i = 0; i < read.size(); ++i) {
+          EXPECT_EQ(read[i].index, computed[i].index);
+          EXPECT_EQ(read[i].score, precision == Precision::single ? static_cast<float>(computed[i].score) : computed[i].score);
+        }
+        EXPECT_GT(read.size(), 10u);
+      }
+    }
+    first.write_ending(std::vector<std::vector<RankedGrip>>(setup.scene.vessels.size()), 1, 1);
+    first.finish();
+    expect_expected(setup, folder / "a.nc");
   }
 }
 

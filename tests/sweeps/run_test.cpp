@@ -6,8 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <thread>
 
 #include "core/core_backend.h"
 #include "shaders/layout.h"
@@ -158,6 +160,22 @@ TEST_F(RunTest, MarksInBetweenChangeNothing) {
   none.scene.output.keep = std::vector<std::string>{};
   ASSERT_EQ(none.run().code, ExitCode::done);
   EXPECT_EQ(list_beside(folder / "b.nc"), list_beside(folder / "reference.nc"));
+}
+
+TEST_F(RunTest, ATimeLimitEndsItAsAnInterruptDoes) {
+  const std::string expected = reference();
+  SweepTrial trial(folder / "a.nc");
+  trial.options.time_limit = 0.05;
+  trial.before_chunk = [] { std::this_thread::sleep_for(std::chrono::milliseconds(30)); };
+  const TrialOutcome cut = trial.run();
+  EXPECT_EQ(cut.code, ExitCode::interrupted) << cut.error;
+  EXPECT_NE(cut.notes.find("; the same command with --resume goes on with "), std::string::npos) << cut.notes;
+  SweepTrial rest(folder / "a.nc");
+  rest.options.resume = true;
+  const TrialOutcome whole = rest.run();
+  EXPECT_EQ(whole.code, ExitCode::done) << whole.error;
+  EXPECT_NE(whole.notes.find("grips are there"), std::string::npos) << whole.notes;
+  expect_same_as(expected, folder / "a.nc");
 }
 
 TEST_F(RunTest, HugeSweepsAreRefusedWithTheirSizes) {
