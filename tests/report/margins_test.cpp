@@ -215,9 +215,9 @@ TEST(WriteMargins, HasARowForEachGripAndADashForWhatItDoesNotHave) {
     for (const std::string& text : texts) row += "<td>" + text + "</td>\n";
     return row;
   };
-  EXPECT_TRUE(has(html.written(), ">1</th>\n" + cells({"0.250", "∞", "21.5", "0.20", "4.00", "3.00", "1.60", "2.00"})))
+  EXPECT_TRUE(has(html.written(), ">1</th>\n" + cells({"0.250", "∞", "21.5", "0.200", "4.00", "3.00", "1.60", "2.00"})))
       << html.written();
-  EXPECT_TRUE(has(html.written(), ">4</th>\n" + cells({"1.250", "0.000", "0.0", "∞", "0.80", "–", "–", "2.00"}))) << html.written();
+  EXPECT_TRUE(has(html.written(), ">4</th>\n" + cells({"1.250", "0.00", "0.0", "∞", "0.80", "–", "–", "2.00"}))) << html.written();
 }
 
 TEST(WriteMargins, WithoutHoldsThereIsNoTable) {

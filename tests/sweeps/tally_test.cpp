@@ -42,8 +42,8 @@ TEST(Tally, TellsWhyGripsAreImplausible) {
   EXPECT_EQ(counts.self_overlap, 2u);
   EXPECT_EQ(counts.only_deep, 4u);
   EXPECT_EQ(counts_line(counts, true, 1),
-            "9 of 10 grips feasible (1 misses); of these 8 implausible (3 through the table, 2 with fingers in each other, 4 for "
-            "depth alone), 0 antipodal");
+            "9 of 10 grips feasible (1 misses); of these 8 implausible (3 through the table, 2 with fingers in each other, 4 only "
+            "too deep), 0 antipodal");
   counts.through_table = counts.self_overlap = counts.only_deep = 0;
   EXPECT_EQ(counts_line(counts, true, 1), "9 of 10 grips feasible (1 misses); of these 8 implausible, 0 antipodal");
 }
