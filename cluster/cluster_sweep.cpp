@@ -8,6 +8,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstring>
+#include <exception>
 #include <map>
 #include <new>
 #include <optional>
@@ -115,6 +116,7 @@ std::optional<Error> take_error(PacketReader& packet, int rank) {
 void share_error(Team& team, const std::optional<Error>& known) {
   const ExitCode code = share_value(team, known ? known->code : ExitCode::done);
   if (code == ExitCode::done) return;
+  team.say_agreed();
   if (team.is_leader()) throw *known;
   throw Error(code, "");
 }
@@ -134,6 +136,17 @@ void agree(Team& team, const std::optional<Error>& own) {
     if (!first) first = error;
   }
   share_error(team, first);
+}
+
+// What goes wrong on one rank alone, where no other knows of it, ends all: they would wait for it for ever.
+ExitCode or_abort(Team& team, const std::function<ExitCode()>& work) {
+  try {
+    return work();
+  } catch (const std::exception& error) {
+    if (team.is_agreed()) throw;
+    fmt::print(stderr, "wholehand: rank {} on {}: {}\n", team.rank(), team.node(), error.what());
+    team.abort(ExitCode::failure);
+  }
 }
 
 // Several devices of the best kind on a node are dealt out among its ranks.
@@ -414,7 +427,7 @@ class ClusterSweep final : public Sweep {
       if (failure) failure_ = failure;
       while (ended_ + 1 < team_.size()) {
         if (!listen()) Team::nap();
-        if (is_report_due()) keep_mark(file);
+        if (is_report_due() && !failure_) failure_ = caught([&] { keep_mark(file); });
       }
       progress_->clear();
       if (done() < total() || failure_) {
@@ -863,16 +876,19 @@ class ClusterSweep final : public Sweep {
 }  // namespace
 
 ExitCode run_cluster_sweep(Team& team, const Scene& scene, const SweepOptions& options, const SweepParts& parts) {
-  return ClusterSweep(team, scene, options, parts).run();
+  return or_abort(team, [&] { return ClusterSweep(team, scene, options, parts).run(); });
 }
 
 ExitCode run_cluster_sweep(Team& team, const std::function<Scene()>& read_scene, const SweepOptions& options) {
   Scene scene;
   SweepOptions own = options;
-  agree(team, caught([&] {
-          scene = read_scene();
-          if (own.on != "core") own.on = own_device(team, own.on);
-        }));
+  or_abort(team, [&] {
+    agree(team, caught([&] {
+            scene = read_scene();
+            if (own.on != "core") own.on = own_device(team, own.on);
+          }));
+    return ExitCode::done;
+  });
   if (own.threads == 0 && own.on == "core") own.threads = team.own_processors();
   const Precision precise = own.precision.value_or(own.on == "core" ? Precision::full : Precision::single);
   const SweepParts parts{

@@ -194,6 +194,11 @@ void Team::meet() {
   wait_quietly(request);
 }
 
+void Team::abort(ExitCode code) {
+  MPI_Abort(MPI_COMM_WORLD, static_cast<int>(code));
+  std::abort();  // which MPI does not come back to
+}
+
 void Team::restart_counter() {
   meet();
   if (is_leader()) {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "core/error.h"
 #include "sweeps/output_bytes.h"
 
 namespace wholehand {
@@ -42,6 +43,12 @@ class Team {
   // Who waits sleeps for a moment and looks again, and leaves its processor to who works: MPI's own waiting would not.
   static void nap();
 
+  // Whether all ranks know that they end with an error.
+  void say_agreed() { is_agreed_ = true; }
+  bool is_agreed() const { return is_agreed_; }
+  // Ends the job, in MPI's way.
+  [[noreturn]] static void abort(ExitCode code);
+
   // The counter, in some window of rank 0's memory. Every rank calls restart_counter; it begins at 0.
   void restart_counter();
   // Asks for the next `amount` numbers, without waiting; answer() waits for the first of them. One question at a time.
@@ -60,6 +67,7 @@ class Team {
   std::unique_ptr<Mpi> mpi_;
   int rank_ = 0, size_ = 1, local_rank_ = 0, local_size_ = 1;
   std::string node_;
+  bool is_agreed_ = false;
   std::list<Sent> sent_;  // messages that may still be under way
 };
 
