@@ -199,7 +199,11 @@ class ClusterSweep final : public Sweep {
     share_progress();
     const FilePlaces places = share_places(file.get());
     agree([&] {
-      if (!team_.is_leader()) file = std::make_unique<ResultFile>(names_, written, backend_->fields(), places, parts_.open_output);
+      if (team_.is_leader()) return;
+      file = std::make_unique<ResultFile>(names_, written, backend_->fields(), places, parts_.open_output);
+      if (file->inode() == inode_) return;
+      throw failure_error(fmt::format(
+          "{} is another file here than on rank 0; the result must lie on a file system that all ranks share", names_.partial));
     });
     set_lists();
     if (!repair(*file, interrupt) || !sweep(*file, interrupt) || (is_choosy() && !choose(*file, interrupt)))
@@ -267,15 +271,18 @@ class ClusterSweep final : public Sweep {
     share_error(unlike);
     if (team_.size() == 1) return;
     PacketWriter names;
-    std::string all_devices, all_drivers;
+    std::string all_devices, all_drivers, kinds;
+    for (const auto& [name, count] : devices) kinds += (kinds.empty() ? "" : "; ") + name;
     for (const auto& [name, count] : devices) all_devices += fmt::format("{}{} x {}", all_devices.empty() ? "" : "; ", count, name);
     for (const std::string& driver : drivers) all_drivers += (all_drivers.empty() ? "" : "; ") + driver;
     names.put(all_devices);
     names.put(all_drivers);
+    names.put(kinds);
     const std::string bytes = team_.share(names.bytes());
     PacketReader reader(bytes);
     info_.device = reader.take_text();
-    info_.driver = reader.take_text();
+    info_.driver = identified_.driver = reader.take_text();
+    identified_.device = reader.take_text();
     if (team_.is_leader() && devices.size() > 1 && info_.backend != "core")
       say_note("the ranks have different devices: the last bits of a value depend on who computed it");
   }
@@ -309,6 +316,7 @@ class ClusterSweep final : public Sweep {
       packet.put(file->places().height.has_value());
       packet.put(file->places().height.value_or(0));
       packet.put(file->places().best);
+      packet.put(file->inode());
     }
     const std::string bytes = team_.share(packet.bytes());
     PacketReader reader(bytes);
@@ -319,6 +327,7 @@ class ClusterSweep final : public Sweep {
     const auto height = reader.take<std::uint64_t>();
     if (has_height) places.height = height;
     places.best = reader.take_all<std::uint64_t>();
+    inode_ = reader.take<std::uint64_t>();
     return places;
   }
 
@@ -419,9 +428,11 @@ class ClusterSweep final : public Sweep {
     if (team_.is_leader()) progress_.emplace(total(), reported_);
     const std::optional<Error> failure = caught([&] {
       take_pieces(work, interrupt, [&](const GripRange& range) { return compute(range, file, interrupt); });
-      if (!team_.is_leader()) file.sync();
+      file.sync();  // of all: passes may read what any rank wrote
     });
     if (!team_.is_leader()) {
+      // what is not on the disk is not reported
+      if (failure && caught([&] { file.sync(); })) pieces_.clear();
       tell(true, failure);
     } else {
       if (failure) failure_ = failure;
@@ -861,6 +872,7 @@ class ClusterSweep final : public Sweep {
   std::vector<std::vector<double>> told_;  // cells of the heat maps that the leader knows
   std::vector<Piece> pieces_;              // since the last report
   double untold_kernel_seconds_ = 0;
+  std::uint64_t inode_ = 0;  // of rank 0's file
   RankFigures own_;
   double last_report_ = 0;
   std::set<std::string> said_here_;

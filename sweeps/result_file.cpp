@@ -379,7 +379,14 @@ void ResultFile::vouch_for_structure(SweepMark& mark) {
 
 void ResultFile::sync() {
   const Stopwatch stopwatch(seconds_);
-  if (const int error = output_ ? output_->sync() : fsync(file_) == 0 ? 0 : errno; error != 0) fail("write", error);
+  if (sync_error_ == 0) sync_error_ = output_ ? output_->sync() : fsync(file_) == 0 ? 0 : errno;
+  if (sync_error_ != 0) fail("write", sync_error_);
+}
+
+std::uint64_t ResultFile::inode() const {
+  struct stat status {};
+  if (fstat(file_, &status) != 0) fail("read", errno);
+  return status.st_ino;
 }
 
 void ResultFile::start_sync() {

@@ -55,6 +55,7 @@ class ResultFile {
   // Whether the file holds grips with this checksum: reads them back.
   bool holds(std::size_t vessel, const Stretch& stretch);
   const FilePlaces& places() const { return places_; }
+  std::uint64_t inode() const;  // tells the file from others of its name on other machines
   // Whether the file keeps what tells the grips that may be listed; and those of the grips [first, last) of a vessel, from the file as it is
   // now, whoever wrote it.
   bool has_eligible() const;
@@ -113,6 +114,7 @@ class ResultFile {
   Stretch stretch_;
   std::size_t stretch_vessel_ = 0;
   std::string structure_;
+  int sync_error_ = 0;  // stays: the system tells of lost values once
   std::uint64_t bytes_ = 0;
   double seconds_ = 0;
 };

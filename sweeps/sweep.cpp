@@ -100,7 +100,7 @@ void Sweep::open() {
   if (parts_.prepare) parts_.prepare();
   plan_.emplace(scene_, keeps_vectors(variables_));
   backend_ = parts_.open_backend(make_field_set(swept_fields(), scene_));
-  info_ = backend_->info();
+  info_ = identified_ = backend_->info();
   evaluator_ = parts_.open_evaluator();
   facts_ = vessel_facts(scene_, *backend_, *evaluator_);
   if (!is_choosy() && !refines()) evaluator_.reset();
@@ -155,7 +155,7 @@ Precision Sweep::precision() const {
 }
 
 std::map<std::string, std::string> Sweep::identity() const {
-  return sweep_identity(scene_, plan(), info_, best_wanted_, variables_);
+  return sweep_identity(scene_, plan(), identified_, best_wanted_, variables_);
 }
 
 // What a mark of this sweep can say at most.

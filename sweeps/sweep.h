@@ -95,6 +95,7 @@ class Sweep {
   std::optional<Plan> plan_;
   std::unique_ptr<Backend> backend_;
   BackendInfo info_;                      // of who computes: the backend's
+  BackendInfo identified_;                // the same as a mark has it: of ranks without how many there are
   std::unique_ptr<Evaluator> evaluator_;  // that poses and refines the best grips; null where neither is asked for
   std::vector<VesselFacts> facts_;
   std::vector<HeatMap> maps_;  // one per vessel

@@ -205,6 +205,21 @@ class Ranks(unittest.TestCase):
         self.assertEqual(code, 0, errors)
         self.assert_same("large.nc", "full.nc")
 
+    def test_another_file_of_the_name_is_not_written(self):
+        path = self.write("a.toml", SMALL)
+        for name in ("one", "other"):
+            os.mkdir(self.path(name))
+        self.write("other/a.nc.partial", "of an earlier job")
+        own = [MPI_PROGRAM, "sweep", path, "-o", "a.nc", "--on", "core"]
+        where = ["--wdir", self.path("one")], ["--wdir", self.path("other")]
+        code, out, errors = self.end(self.start(["mpirun", "-q", "-n", "1", *where[0], *own, ":", "-n", "1", *where[1], *own]))
+        self.assertEqual(code, 3, errors)
+        self.assertEqual(len(errors.strip().split("\n")), 1, errors)
+        self.assertRegex(errors, r"wholehand: rank 1 on \S+: a.nc.partial is another file here than on rank 0; ")
+        self.assertNotIn("wrote", out)
+        with open(self.path("other/a.nc.partial"), encoding="utf-8") as file:
+            self.assertEqual(file.read(), "of an earlier job")
+
     def ranks_of(self, process):
         found = subprocess.run(["pgrep", "-g", "0", "-P", str(process.pid)], capture_output=True, text=True, check=False).stdout
         if not found:
