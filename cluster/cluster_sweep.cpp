@@ -123,18 +123,14 @@ void share_error(Team& team, const std::optional<Error>& known) {
 
 // An Error of any rank is thrown by all: the leader's own, or else that of the lowest rank.
 void agree(Team& team, const std::optional<Error>& own) {
-  if (!team.is_leader()) {
-    PacketWriter packet;
-    put_error(packet, team, own);
-    team.send(packet.bytes());
-  }
+  PacketWriter packet;
+  put_error(packet, team, own);
   std::optional<Error> first = own;
-  for (int rank = 1; team.is_leader() && rank < team.size(); ++rank) {
-    const std::string message = team.wait_for(rank);
-    PacketReader packet(message);
-    const auto error = take_error(packet, rank);
+  team.gather(packet.bytes(), [&](int rank, const std::string& message) {
+    PacketReader reader(message);
+    const auto error = take_error(reader, rank);
     if (!first) first = error;
-  }
+  });
   share_error(team, first);
 }
 
@@ -237,20 +233,14 @@ class ClusterSweep final : public Sweep {
   // All ranks compute the same, by the same program. They may do so with different devices; then the file names all.
   void compare_ranks() {
     std::map<std::string, std::string> own = identity();
-    const std::string device = own.at("device");
     PacketWriter packet;
-    if (!team_.is_leader()) {
-      for (const auto& [key, value] : own) packet.put(checksum_text(value.data(), value.size()));
-      for (const std::string& text : {info_.device, info_.driver, team_.node()}) packet.put(text);
-      packet.put(own.at("build"));
-      team_.send(packet.bytes());
-    }
+    for (const auto& [key, value] : own) packet.put(checksum_text(value.data(), value.size()));
+    for (const std::string& text : {info_.device, info_.driver, team_.node(), own.at("build")}) packet.put(text);
     std::map<std::string, int> devices{{info_.device, 1}};
     std::set<std::string> drivers{info_.driver};
-    ranks_.push_back({team_.node(), info_.device});
+    devices_.push_back(info_.device);
     std::optional<Error> unlike;
-    for (int rank = 1; team_.is_leader() && rank < team_.size(); ++rank) {
-      const std::string message = team_.wait_for(rank);
+    team_.gather(packet.bytes(), [&](int rank, const std::string& message) {
       PacketReader reader(message);
       std::vector<std::string> checksums;
       for (std::size_t k = 0; k < own.size(); ++k) checksums.push_back(reader.take_text());
@@ -266,8 +256,8 @@ class ClusterSweep final : public Sweep {
       }
       ++devices[its_device];
       drivers.insert(driver);
-      ranks_.push_back({node, its_device});
-    }
+      devices_.push_back(its_device);
+    });
     share_error(unlike);
     if (team_.size() == 1) return;
     PacketWriter names;
@@ -333,20 +323,17 @@ class ClusterSweep final : public Sweep {
 
   void set_lists() {
     const std::size_t vessels = scene_.vessels.size();
-    const std::vector<BestCandidates> empty(plan().hand_scales(), BestCandidates(kept_best()));
-    best_.assign(vessels, empty);
-    fresh_.assign(vessels, empty);
     eligible_.resize(vessels);
     pending_.resize(vessels);
     while (maps_.size() < vessels) maps_.emplace_back(plan());
     for (const HeatMap& map : maps_) told_.push_back(map.scores());
-    for (std::size_t v = 0; v < vessels; ++v)
-      for (const Candidate& candidate : mark_.vessels[v].best) best_[v][list_of(candidate)].offer(candidate);
+    for (const VesselProgress& vessel : mark_.vessels) {
+      best_.emplace_back(plan(), kept_best(), vessel.best);
+      fresh_.emplace_back(std::in_place, plan(), kept_best(), std::vector<Candidate>());
+    }
     has_eligible_ = is_choosy() && done() == 0;
     reported_ = done();
   }
-
-  std::size_t list_of(const Candidate& grip) const { return plan().hand_scales() > 1 ? plan().hand_scale_of(grip.index) : 0; }
 
   // Each rank reads some of the stretches back. False: interrupted.
   bool repair(ResultFile& file, InterruptGuard& interrupt) {
@@ -354,31 +341,18 @@ class ClusterSweep final : public Sweep {
     agree([&] {
       for (std::size_t k = static_cast<std::size_t>(team_.rank()); k < stretches_.size() && is_whole;
            k += static_cast<std::size_t>(team_.size())) {
-        const Stretch stretch{stretches_[k].first, stretches_[k].last, stretches_[k].checksum.data()};
-        if (is_asked_to_end(interrupt)) is_whole = false;
-        if (!is_whole || file.holds(stretches_[k].vessel, stretch)) continue;
-        const std::string place = place_of(stretches_[k].vessel, stretch);
-        say_note(place + " are damaged: computing them again");
-        is_whole = compute_again(stretches_[k].vessel, stretch, file, interrupt);
-        if (is_whole && !file.holds(stretches_[k].vessel, stretch))
-          throw failure_error(place + " have other values when computed again; start again without --resume");
+        const Piece& piece = stretches_[k];
+        is_whole = repair_stretch(piece.vessel, {piece.first, piece.last, piece.checksum.data()}, file, interrupt);
       }
-      if (!is_whole) return;
-      file.sync();
+      if (is_whole) file.sync();
     });
     return all_of(is_whole);
   }
 
   bool all_of(bool own) {
-    if (!team_.is_leader()) {
-      PacketWriter packet;
-      packet.put(own);
-      team_.send(packet.bytes());
-    }
-    for (int rank = 1; team_.is_leader() && rank < team_.size(); ++rank) {
-      const std::string message = team_.wait_for(rank);
-      own = PacketReader(message).take<bool>() && own;
-    }
+    PacketWriter packet;
+    packet.put(own);
+    team_.gather(packet.bytes(), [&](int, const std::string& message) { own = PacketReader(message).take<bool>() && own; });
     return share_flag(own);
   }
 
@@ -521,10 +495,9 @@ class ClusterSweep final : public Sweep {
 
   void offer(std::size_t vessel, const std::vector<Candidate>& grips) {
     for (const Candidate& grip : grips) {
-      BestCandidates& best = best_[vessel][list_of(grip)];
-      if (!best.takes(grip)) continue;
-      best.offer(grip);
-      if (!team_.is_leader()) fresh_[vessel][list_of(grip)].offer(grip);
+      if (!best_[vessel].takes(grip)) continue;
+      best_[vessel].offer({grip});
+      if (!team_.is_leader()) fresh_[vessel]->offer({grip});
     }
   }
 
@@ -540,12 +513,10 @@ class ClusterSweep final : public Sweep {
     }
   }
 
-  void say_notes(const std::vector<std::string>& notes) {
-    for (const std::string& line : notes) {
-      if (!said_here_.insert(line).second) continue;
-      if (progress_) progress_->clear();
-      say_note(team_.size() == 1 ? line : fmt::format("rank {} on {}: {}", team_.rank(), team_.node(), line));
-    }
+  void say_notes(std::vector<std::string> notes) {
+    if (team_.size() > 1)
+      for (std::string& line : notes) line = fmt::format("rank {} on {}: {}", team_.rank(), team_.node(), line);
+    say_once(notes, progress_ ? &*progress_ : nullptr);
   }
 
   // ---- reports to the leader ----
@@ -584,10 +555,8 @@ class ClusterSweep final : public Sweep {
     packet.put(std::exchange(untold_kernel_seconds_, 0));
     packet.put(std::exchange(pieces_, {}));
     for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
-      for (BestCandidates& fresh : fresh_[v]) {
-        packet.put(fresh.sorted());
-        fresh = BestCandidates(kept_best());
-      }
+      packet.put(fresh_[v]->all());
+      fresh_[v].emplace(plan(), kept_best(), std::vector<Candidate>());
       std::vector<Cell> cells;
       for (std::size_t k = 0; has_heat_map() && k < told_[v].size(); ++k) {
         const double now = maps_[v].scores()[k];
@@ -617,7 +586,7 @@ class ClusterSweep final : public Sweep {
       reported_ += piece.last - piece.first;
     }
     for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
-      for (BestCandidates& best : best_[v]) best.offer(packet.take_all<Candidate>());
+      best_[v].offer(packet.take_all<Candidate>());
       for (const Cell& cell : packet.take_all<Cell>()) maps_[v].raise(cell.number, cell.score);
       advance(v);
     }
@@ -634,7 +603,7 @@ class ClusterSweep final : public Sweep {
   std::string rate_text() const {
     std::map<std::string, std::array<double, 2>> rates;  // ranks, and grips a second of all
     for (std::size_t rank = 0; rank < figures_.size(); ++rank) {
-      auto& [count, rate] = rates[ranks_[rank].device];
+      auto& [count, rate] = rates[devices_[rank]];
       count += 1;
       if (figures_[rank].seconds > 0) rate += static_cast<double>(figures_[rank].grips) / figures_[rank].seconds;
     }
@@ -654,9 +623,8 @@ class ClusterSweep final : public Sweep {
       VesselProgress& progress = mark_.vessels[v];
       if (!progress.lists.empty()) continue;  // they are chosen
       progress.best.clear();
-      for (const BestCandidates& best : best_[v])
-        for (const Candidate& grip : best.sorted())
-          if (grip.index < progress.done) progress.best.push_back(grip);
+      for (const Candidate& grip : best_[v].all())
+        if (grip.index < progress.done) progress.best.push_back(grip);
     }
   }
 
@@ -756,14 +724,12 @@ class ClusterSweep final : public Sweep {
     PacketWriter found;
     found.put(delivered);
     found.put(own.open_grips());
-    if (!team_.is_leader()) team_.send(found.bytes());
     if (team_.is_leader()) leaders.add_open(own.open_grips());
-    for (int rank = 1; team_.is_leader() && rank < team_.size(); ++rank) {
-      const std::string message = team_.wait_for(rank);
+    team_.gather(found.bytes(), [&](int, const std::string& message) {
       PacketReader grips(message);
       delivered += grips.take<std::uint64_t>();
       leaders.add_open(grips.take_all<Candidate>());
-    }
+    });
     return share_flag((has_eligible_ && !is_asked_to_end(interrupt)) || delivered == plan().grips());
   }
 
@@ -832,24 +798,20 @@ class ClusterSweep final : public Sweep {
         const BestGrip& grip = own[list][k];
         completed.push_back({list, places[list][k], grip.refined, grip.refined_score, grip.robust_mean, grip.robust_low});
       }
-    if (!team_.is_leader()) {
-      PacketWriter found;
-      found.put(completed);
-      team_.send(found.bytes());
-    }
-    for (int rank = 0; team_.is_leader() && rank < team_.size(); ++rank) {
-      if (rank > 0) {
-        const std::string message = team_.wait_for(rank);
-        completed = PacketReader(message).take_all<CompletedGrip>();
-      }
-      for (const CompletedGrip& grip : completed) {
+    const auto tell_all = [&best](const std::vector<CompletedGrip>& grips) {
+      for (const CompletedGrip& grip : grips) {
         BestGrip& told = best.at(grip.list).at(grip.place);
         told.refined = grip.refined;
         told.refined_score = grip.refined_score;
         told.robust_mean = grip.robust_mean;
         told.robust_low = grip.robust_low;
       }
-    }
+    };
+    if (team_.is_leader()) tell_all(completed);
+    PacketWriter found;
+    found.put(completed);
+    team_.gather(found.bytes(),
+                 [&](int, const std::string& message) { tell_all(PacketReader(message).take_all<CompletedGrip>()); });
     return all_of(is_whole);
   }
 
@@ -858,15 +820,12 @@ class ClusterSweep final : public Sweep {
     PosedHand hand{};
   };
 
-  struct RankPlace {
-    std::string node, device;
-  };
-
   Team& team_;
-  std::vector<RankPlace> ranks_;                           // the leader knows all
-  std::vector<Piece> stretches_;                           // of the sweep that is resumed
-  std::vector<std::vector<BestCandidates>> best_, fresh_;  // of each vessel and list: so far, and since the last report
-  std::vector<std::vector<Candidate>> eligible_;           // of each vessel, of this rank's grips
+  std::vector<std::string> devices_;              // of all ranks; the leader knows them
+  std::vector<Piece> stretches_;                  // of the sweep that is resumed
+  std::vector<HandLists> best_;                   // of each vessel, so far
+  std::vector<std::optional<HandLists>> fresh_;   // and since the last report
+  std::vector<std::vector<Candidate>> eligible_;  // of each vessel, of this rank's grips
   std::size_t eligible_count_ = 0;
   bool has_eligible_ = false;              // all of them
   std::vector<std::vector<double>> told_;  // cells of the heat maps that the leader knows
@@ -875,7 +834,6 @@ class ClusterSweep final : public Sweep {
   std::uint64_t inode_ = 0;  // of rank 0's file
   RankFigures own_;
   double last_report_ = 0;
-  std::set<std::string> said_here_;
   // of the leader
   std::vector<std::map<std::uint64_t, Piece>> pending_;  // of each vessel: done after a gap, by their first grip
   std::vector<RankFigures> figures_;

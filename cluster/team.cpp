@@ -174,6 +174,11 @@ std::string Team::wait_for(int from) {
   return message;
 }
 
+void Team::gather(const std::string& message, const std::function<void(int rank, const std::string& message)>& look) {
+  if (!is_leader()) return send(message);
+  for (int rank = 1; rank < size_; ++rank) look(rank, wait_for(rank));
+}
+
 std::string Team::share(const std::string& from_leader) {
   std::string bytes = from_leader;
   std::uint64_t size = bytes.size();

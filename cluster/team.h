@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <list>
 #include <memory>
 #include <string>
@@ -36,6 +37,8 @@ class Team {
   bool receive(std::string& message, int& from);
   // Waits for the next message of one rank.
   std::string wait_for(int from);
+  // A message of every rank but rank 0, which looks at them in the order of the ranks.
+  void gather(const std::string& message, const std::function<void(int rank, const std::string& message)>& look);
   // What rank 0 gives, for all: every rank calls it, and waits without using its processor.
   std::string share(const std::string& from_leader);
   // Returns when every rank has called it.

@@ -36,6 +36,8 @@ void HandLists::offer(const std::vector<Candidate>& candidates) {
   for (const Candidate& candidate : candidates) lists_[plan_.hand_scale_of(candidate.index)].offer(candidate);
 }
 
+bool HandLists::takes(const Candidate& candidate) const { return lists_[plan_.hand_scale_of(candidate.index)].takes(candidate); }
+
 std::vector<Candidate> HandLists::all() const {
   std::vector<Candidate> all;
   for (const BestCandidates& list : lists_) {

@@ -22,6 +22,7 @@ class HandLists {
   // The feasible, plausible grips of a chunk, whose score and status are kept; and single grips.
   void offer(const PlaneChunk& chunk, const FieldSet& fields);
   void offer(const std::vector<Candidate>& candidates);
+  bool takes(const Candidate& candidate) const;  // whether it would get in
 
   std::vector<Candidate> sorted(std::size_t hand_scale) const { return lists_[hand_scale].sorted(); }  // the best first
   std::vector<Candidate> all() const;                                                                  // one list after the other

@@ -214,22 +214,21 @@ bool Sweep::is_mark_due() const { return since(last_mark_) >= mark_interval_; }
 // Computes again what the file no longer holds as it was written. False: interrupted; the mark still stands.
 bool Sweep::repair(ResultFile& file, InterruptGuard& interrupt) {
   for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
-    for (const Stretch& stretch : mark_.vessels[v].stretches) {
-      if (is_asked_to_end(interrupt)) return false;
-      if (file.holds(v, stretch)) continue;
-      const std::string place = place_of(v, stretch);
-      say_note(place + " are damaged: computing them again");
-      if (!compute_again(v, stretch, file, interrupt)) return false;
-      if (!file.holds(v, stretch))
-        throw failure_error(place + " have other values when computed again; start again without --resume");
-    }
+    for (const Stretch& stretch : mark_.vessels[v].stretches)
+      if (!repair_stretch(v, stretch, file, interrupt)) return false;
   }
   return true;
 }
 
-std::string Sweep::place_of(std::size_t v, const Stretch& stretch) const {
-  return fmt::format("{}: grips {} to {} of {}", names_.partial, readable_number(stretch.first), readable_number(stretch.last - 1),
-                     scene_.vessels[v].name);
+bool Sweep::repair_stretch(std::size_t v, const Stretch& stretch, ResultFile& file, InterruptGuard& interrupt) {
+  if (is_asked_to_end(interrupt)) return false;
+  if (file.holds(v, stretch)) return true;
+  const std::string place = fmt::format("{}: grips {} to {} of {}", names_.partial, readable_number(stretch.first),
+                                        readable_number(stretch.last - 1), scene_.vessels[v].name);
+  say_note(place + " are damaged: computing them again");
+  if (!compute_again(v, stretch, file, interrupt)) return false;
+  if (!file.holds(v, stretch)) throw failure_error(place + " have other values when computed again; start again without --resume");
+  return true;
 }
 
 bool Sweep::compute_again(std::size_t v, const Stretch& stretch, ResultFile& file, InterruptGuard& interrupt) {
@@ -321,13 +320,13 @@ void Sweep::run_stretch(std::size_t v, ResultFile& file, InterruptGuard& interru
   }
   kernel_seconds_ += result.kernel_seconds;
   mark_.kernel_seconds += result.kernel_seconds;
-  say_once(result.notes, progress);
+  say_once(result.notes, &progress);
 }
 
-void Sweep::say_once(const std::vector<std::string>& notes, Progress& progress) {
+void Sweep::say_once(const std::vector<std::string>& notes, Progress* progress) {
   for (const std::string& line : notes) {
     if (!said_.insert(line).second) continue;
-    progress.clear();
+    if (progress) progress->clear();
     say_note(line);
   }
 }
@@ -411,7 +410,7 @@ bool Sweep::pass_again(std::size_t v, ListChooser& chooser, InterruptGuard& inte
   wait_seconds_ += since(start);
   kernel_seconds_ += result.kernel_seconds;
   mark_.kernel_seconds += result.kernel_seconds;
-  say_once(result.notes, progress);
+  say_once(result.notes, &progress);
   return result.done == plan().grips();
 }
 

@@ -52,8 +52,9 @@ class Sweep {
   void say_opening() const;
   // Sets the progress: from the mark of an earlier sweep if there is one to resume, else nothing done. True: resumed.
   bool begin();
-  // Computes a stretch again. False: interrupted.
-  bool compute_again(std::size_t vessel, const Stretch& stretch, ResultFile& file, InterruptGuard& interrupt);
+  // Computes a stretch again that the file no longer holds as it was written. False: interrupted. Throws Error (failure) where it comes
+  // out otherwise.
+  bool repair_stretch(std::size_t vessel, const Stretch& stretch, ResultFile& file, InterruptGuard& interrupt);
   // Everything up to here onto the disk, then the mark that says so.
   void save(ResultFile& file);
   ExitCode interrupted() const;
@@ -81,10 +82,8 @@ class Sweep {
   bool is_asked_to_end(InterruptGuard&) const;  // by a signal, or by the time limit
   bool is_mark_due() const;
   RunRequest grips_of(std::size_t vessel, InterruptGuard& interrupt) const;  // all but what is done with them
-  void say_once(const std::vector<std::string>& notes, Progress& progress);
+  void say_once(const std::vector<std::string>& notes, Progress* progress);  // which may be null
   static void end_pass(ListChooser& chooser, VesselProgress& vessel, const ListChooser::PoseHands& pose = {});
-  // The grips of a damaged stretch, for a note.
-  std::string place_of(std::size_t vessel, const Stretch& stretch) const;
 
   const Scene& scene_;
   const SweepOptions& options_;
@@ -111,6 +110,7 @@ class Sweep {
   MarkBounds bounds() const;
   void announce_check() const;
   bool repair(ResultFile& file, InterruptGuard& interrupt);
+  bool compute_again(std::size_t v, const Stretch& stretch, ResultFile& file, InterruptGuard& interrupt);
   bool sweep(ResultFile& file, InterruptGuard& interrupt);
   void run_stretch(std::size_t v, ResultFile& file, InterruptGuard& interrupt, Progress& progress);
   bool choose(std::size_t v, ResultFile& file, InterruptGuard& interrupt);
