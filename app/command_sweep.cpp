@@ -16,9 +16,11 @@
 namespace wholehand {
 namespace {
 
+constexpr const char* SHARD_LETTERS = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
+
 struct SweepArguments {
-  std::string scene, output, on = "vulkan", precision, best, glb, threads, time_limit, mark_seconds;
-  bool resume = false, explain = false, no_refine = false;
+  std::string scene, output, on = "vulkan", precision, best, glb, threads, time_limit, mark_seconds, shard;
+  bool resume = false, explain = false, no_refine = false, shards = false;
 };
 
 ExitCode sweep(const SweepArguments& arguments, const SweepRunner& run) {
@@ -36,21 +38,13 @@ ExitCode sweep(const SweepArguments& arguments, const SweepRunner& run) {
   options.resume = arguments.resume;
   options.explain = arguments.explain;
   options.refine = !arguments.no_refine;
+  if (arguments.shards || !arguments.shard.empty()) options.shards = arguments.shard;
   options.warn = say_float_warnings;
   prepare_vulkan_environment(options.on);
   return run([&arguments] { return read_scene_file(find_scene(arguments.scene)); }, options);
 }
 
-}  // namespace
-
-void add_sweep_command(CLI::App& app, Action& action) {
-  add_sweep_command(app, action, [](const std::function<Scene()>& read_scene, const SweepOptions& options) {
-    return run_sweep(read_scene(), options);
-  });
-}
-
-void add_sweep_command(CLI::App& app, Action& action, const SweepRunner& run) {
-  const auto arguments = std::make_shared<SweepArguments>();
+CLI::App* add_command(CLI::App& app, Action& action, const std::shared_ptr<SweepArguments>& arguments, const SweepRunner& run) {
   CLI::App* command = app.add_subcommand("sweep", "Score every grip of a scene, show the best, write the results");
   command->add_option("scene", arguments->scene, "Scene file or name of a shipped scene (default: three_beakers)")
       ->type_name("SCENE")
@@ -83,6 +77,30 @@ void add_sweep_command(CLI::App& app, Action& action, const SweepRunner& run) {
                     "Print what the sweep left out and saved, and what its parts cost; this times both ways first");
   command->add_flag("--no-refine", arguments->no_refine, "Do not look for better grips near the best ones");
   command->callback([arguments, run, &action] { action = [arguments, run] { return sweep(*arguments, run); }; });
+  return command;
+}
+
+}  // namespace
+
+void add_sweep_command(CLI::App& app, Action& action) {
+  add_command(
+      app, action, std::make_shared<SweepArguments>(),
+      [](const std::function<Scene()>& read_scene, const SweepOptions& options) { return run_sweep(read_scene(), options); });
+}
+
+void add_shared_sweep_command(CLI::App& app, Action& action, const SweepRunner& run) {
+  const auto arguments = std::make_shared<SweepArguments>();
+  CLI::App* command = add_command(app, action, arguments, run);
+  command->add_flag("--shards", arguments->shards,
+                    "The nodes share no file system: each node writes a file of its own, and `wholehand merge` makes one of them");
+  command->add_option("--shard", arguments->shard, "The same, with another name than the node's for the file of this rank")
+      ->type_name("NAME")
+      ->check(CLI::Validator(
+          [](const std::string& name) {
+            const bool is_plain = !name.empty() && name.find_first_not_of(SHARD_LETTERS) == std::string::npos;
+            return is_plain ? "" : "\"" + name + "\" is no name for a file: use letters, digits, '-', '_' and '.'";
+          },
+          ""));
 }
 
 }  // namespace wholehand

@@ -19,8 +19,9 @@ using Action = std::function<ExitCode()>;
 // Does a sweep of the scene that `read_scene` answers.
 using SweepRunner = std::function<ExitCode(const std::function<Scene()>& read_scene, const SweepOptions& options)>;
 
-void add_sweep_command(CLI::App& app, Action& action, const SweepRunner& run);
-void add_sweep_command(CLI::App& app, Action& action);  // by this process alone
+void add_sweep_command(CLI::App& app, Action& action);                                 // by this process alone
+void add_shared_sweep_command(CLI::App& app, Action& action, const SweepRunner& run);  // by many
+void add_merge_command(CLI::App& app, Action& action);
 void add_rank_command(CLI::App& app, Action& action);
 void add_report_command(CLI::App& app, Action& action);
 void add_grip_command(CLI::App& app, Action& action);

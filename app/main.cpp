@@ -8,6 +8,7 @@ namespace {
 
 void add_all(CLI::App& app, wholehand::Action& action) {
   wholehand::add_sweep_command(app, action);
+  wholehand::add_merge_command(app, action);
   wholehand::add_rank_command(app, action);
   wholehand::add_report_command(app, action);
   wholehand::add_grip_command(app, action);

@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
       "Exit codes: 0 done, 2 wrong usage or input, 3 device or system failure, 130 interrupted or out of time.";
   program.is_silent = !team.is_leader();
   program.add_commands = [&team](CLI::App& app, Action& action) {
-    add_sweep_command(app, action, [&team](const std::function<Scene()>& read_scene, const SweepOptions& options) {
+    add_shared_sweep_command(app, action, [&team](const std::function<Scene()>& read_scene, const SweepOptions& options) {
       return run_cluster_sweep(team, read_scene, options);
     });
   };

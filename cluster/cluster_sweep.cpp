@@ -2,6 +2,7 @@
 #include "cluster/cluster_sweep.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -25,6 +26,7 @@
 #include "sweeps/hand_lists.h"
 #include "sweeps/refine.h"
 #include "sweeps/robust.h"
+#include "sweeps/shard.h"
 #include "sweeps/sweep.h"
 #include "sweeps/tally.h"
 #include "system/checksum.h"
@@ -42,6 +44,7 @@ double since(double start) { return monotonic_now() - start; }
 // Grips of a vessel that were computed in one go.
 struct Piece {
   std::uint64_t vessel = 0, first = 0, last = 0;
+  std::uint64_t group = 0;  // whose file holds them
   GripCounts counts;
   std::array<char, 64> checksum{};  // of what the file holds of them; empty: of nothing
 
@@ -189,18 +192,29 @@ class ClusterSweep final : public Sweep {
     agree([&] {
       if (!team_.is_leader()) return;
       is_resumed = begin();
-      file = std::make_unique<ResultFile>(names_, written, backend_->fields(), is_resumed, parts_.open_output);
+      const FileStart start = is_resumed ? FileStart::resumed : options_.shards ? FileStart::sparse : FileStart::reserved;
+      file = std::make_unique<ResultFile>(names_, written, backend_->fields(), start, parts_.open_output);
+      begin_shards(*file);
     });
     is_marked_ = share_flag(is_resumed);
-    share_progress();
+    share_groups();
     const FilePlaces places = share_places(file.get());
+    std::optional<OutputLock> shard_lock;
+    OutputNames own_names = names_;
+    if (own_group() > 0) own_names.partial = shard_path(names_, groups_[own_group()].name);
+    bool is_there = true;
     agree([&] {
-      if (team_.is_leader()) return;
-      file = std::make_unique<ResultFile>(names_, written, backend_->fields(), places, parts_.open_output);
-      if (file->inode() == inode_) return;
-      throw failure_error(fmt::format(
-          "{} is another file here than on rank 0; the result must lie on a file system that all ranks share", names_.partial));
+      if (own_group() == 0 || groups_[own_group()].ranks[0] != team_.rank()) return;
+      shard_lock.emplace(own_names.partial + ".lock");
+      is_there = is_marked_ && is_shard(own_names.partial, shard_id_);
+      if (!is_there) make_shard(own_names.partial, shard_id_, layout_);
     });
+    share_stretches(is_there);
+    agree([&] {
+      if (!team_.is_leader())
+        file = std::make_unique<ResultFile>(own_names, written, backend_->fields(), places, parts_.open_output);
+    });
+    compare_files(*file);
     set_lists();
     if (!repair(*file, interrupt) || !sweep(*file, interrupt) || (is_choosy() && !choose(*file, interrupt)))
       return team_.is_leader() ? interrupted() : ExitCode::interrupted;
@@ -216,6 +230,7 @@ class ClusterSweep final : public Sweep {
       if (!is_completed) return save(*file);
       finish(*file, best);
       say_ranks();
+      say_shards();
     });
     if (is_completed) return ExitCode::done;
     return team_.is_leader() ? interrupted() : ExitCode::interrupted;
@@ -277,15 +292,137 @@ class ClusterSweep final : public Sweep {
       say_note("the ranks have different devices: the last bits of a value depend on who computed it");
   }
 
-  // Which grips are there, and what vouches for them.
-  void share_progress() {
+  // ---- files: one for all ranks, or one for each node ----
+
+  // Ranks that write into one file.
+  struct Group {
+    std::string name;        // of their shard
+    std::vector<int> ranks;  // ascending
+    bool is_new = false;     // their file has nothing of the sweep that is resumed
+  };
+  static constexpr std::uint64_t NOWHERE = ~std::uint64_t{0};  // the shard is not here
+
+  std::size_t own_group() const { return group_of_[static_cast<std::size_t>(team_.rank())]; }
+
+  void begin_shards(const ResultFile& file) {
+    if (!options_.shards) return;
+    if (!mark_.shards) mark_.shards = ShardMark{new_shard_id(), file.layout(), false};
+    mark_.shards->is_ended = false;
+  }
+
+  // The leader's group comes first. It writes into the result's file, and all others into shards.
+  void share_groups() {
+    const std::string own = !options_.shards ? "" : options_.shards->empty() ? team_.node() : *options_.shards;
+    std::vector<std::string> names{own};
+    PacketWriter packet;
+    packet.put(own);
+    team_.gather(packet.bytes(), [&](int, const std::string& message) { names.push_back(PacketReader(message).take_text()); });
+    PacketWriter all;
+    for (const std::string& name : names) all.put(name);
+    all.put(mark_.shards ? mark_.shards->id : "");
+    const std::string bytes = team_.share(all.bytes());
+    PacketReader reader(bytes);
+    for (int rank = 0; rank < team_.size(); ++rank) {
+      const std::string name = reader.take_text();
+      const auto group = std::find_if(groups_.begin(), groups_.end(), [&](const Group& other) { return other.name == name; });
+      group_of_.push_back(static_cast<std::size_t>(group - groups_.begin()));
+      if (group == groups_.end()) groups_.push_back({name, {}});
+      groups_[group_of_.back()].ranks.push_back(rank);
+    }
+    shard_id_ = reader.take_text();
+  }
+
+  // Throws where ranks of one group have opened different files of one name.
+  void compare_files(const ResultFile& file) {
+    std::vector<std::uint64_t> inodes{file.inode()};
+    std::vector<std::string> nodes{team_.node()};
+    PacketWriter packet;
+    packet.put(file.inode());
+    packet.put(team_.node());
+    team_.gather(packet.bytes(), [&](int, const std::string& message) {
+      PacketReader reader(message);
+      inodes.push_back(reader.take<std::uint64_t>());
+      nodes.push_back(reader.take_text());
+    });
+    std::optional<Error> unlike;
+    for (std::size_t rank = 0; rank < inodes.size() && !unlike; ++rank) {
+      const Group& group = groups_[group_of_[rank]];
+      const auto first = static_cast<std::size_t>(group.ranks[0]);
+      if (inodes[rank] == inodes[first]) continue;
+      const std::string path = group_of_[rank] == 0 ? names_.partial : shard_path(names_, group.name);
+      const char* remedy = options_.shards
+                               ? "who writes one shard must share a file system: give nodes other names with --shard NAME"
+                               : "the result must lie on a file system that all ranks share, or ask for --shards";
+      unlike = failure_error(
+          fmt::format("rank {} on {}: {} is another file here than on rank {}; {}", rank, nodes[rank], path, first, remedy));
+    }
+    share_error(unlike);
+  }
+
+  // The rank that looks after each stretch: one that has it in its file, or, where it is nowhere, any.
+  std::vector<int> ranks_of_stretches() const {
+    std::vector<std::size_t> turns(groups_.size() + 1);
+    std::vector<int> ranks;
+    for (const Piece& piece : stretches_) {
+      const bool is_nowhere = piece.group == NOWHERE;
+      const std::size_t turn = turns[is_nowhere ? groups_.size() : piece.group]++;
+      if (is_nowhere) {
+        ranks.push_back(static_cast<int>(turn % static_cast<std::size_t>(team_.size())));
+      } else {
+        const std::vector<int>& members = groups_[piece.group].ranks;
+        ranks.push_back(members[turn % members.size()]);
+      }
+    }
+    return ranks;
+  }
+
+  // Where the grips of a stretch lie, as far as the leader's mark and the groups tell.
+  std::uint64_t group_of(const Stretch& stretch) const {
+    if (stretch.shard.empty()) return 0;
+    for (std::size_t group = 1; group < groups_.size(); ++group)
+      if (groups_[group].name == stretch.shard) return groups_[group].is_new ? NOWHERE : group;
+    return NOWHERE;
+  }
+
+  std::string shard_of(std::uint64_t group) const { return group == 0 ? "" : groups_[group].name; }
+
+  void say_missing_shards() const {
+    std::uint64_t grips = 0;
+    std::set<std::string> names;
+    for (const VesselProgress& vessel : mark_.vessels) {
+      for (const Stretch& stretch : vessel.stretches) {
+        if (group_of(stretch) != NOWHERE) continue;
+        grips += stretch.last - stretch.first;
+        names.insert(stretch.shard);
+      }
+    }
+    if (grips == 0) return;
+    say_note(fmt::format("no rank has the shard{} {}: computing {} grips again", names.size() > 1 ? "s" : "",
+                         fmt::join(names, ", "), readable_number(grips)));
+  }
+
+  // Stretches that were computed again lie elsewhere now.
+  void move_stretches() {
+    const std::vector<int> ranks = ranks_of_stretches();
+    std::size_t k = 0;
+    for (VesselProgress& vessel : mark_.vessels)
+      for (Stretch& stretch : vessel.stretches) stretch.shard = shard_of(group_of_[static_cast<std::size_t>(ranks[k++])]);
+  }
+
+  // Which grips are there, where, and what vouches for them. `is_there`: this rank's file is not new.
+  void share_stretches(bool is_there) {
+    PacketWriter own;
+    own.put(is_there);
+    team_.gather(own.bytes(), [&](int rank, const std::string& message) {
+      if (!PacketReader(message).take<bool>()) groups_[group_of_[static_cast<std::size_t>(rank)]].is_new = true;
+    });
     PacketWriter packet;
     if (team_.is_leader()) {
       for (const VesselProgress& vessel : mark_.vessels) packet.put(vessel.done);
       std::vector<Piece> stretches;
       for (std::size_t v = 0; v < mark_.vessels.size(); ++v) {
         for (const Stretch& stretch : mark_.vessels[v].stretches) {
-          Piece& piece = stretches.emplace_back(Piece{v, stretch.first, stretch.last, {}, {}});
+          Piece& piece = stretches.emplace_back(Piece{v, stretch.first, stretch.last, group_of(stretch), {}, {}});
           piece.set_checksum(stretch.checksum);
         }
       }
@@ -306,7 +443,7 @@ class ClusterSweep final : public Sweep {
       packet.put(file->places().height.has_value());
       packet.put(file->places().height.value_or(0));
       packet.put(file->places().best);
-      packet.put(file->inode());
+      packet.put(file->layout().blocks);
     }
     const std::string bytes = team_.share(packet.bytes());
     PacketReader reader(bytes);
@@ -317,7 +454,7 @@ class ClusterSweep final : public Sweep {
     const auto height = reader.take<std::uint64_t>();
     if (has_height) places.height = height;
     places.best = reader.take_all<std::uint64_t>();
-    inode_ = reader.take<std::uint64_t>();
+    layout_ = {plan().grips(), plan().copies(), reader.take_all<LayoutBlock>(), places.height, places.axes};
     return places;
   }
 
@@ -338,15 +475,22 @@ class ClusterSweep final : public Sweep {
   // Each rank reads some of the stretches back. False: interrupted.
   bool repair(ResultFile& file, InterruptGuard& interrupt) {
     bool is_whole = true;
+    if (team_.is_leader()) say_missing_shards();
     agree([&] {
-      for (std::size_t k = static_cast<std::size_t>(team_.rank()); k < stretches_.size() && is_whole;
-           k += static_cast<std::size_t>(team_.size())) {
+      const std::vector<int> ranks = ranks_of_stretches();
+      for (std::size_t k = 0; k < stretches_.size() && is_whole; ++k) {
+        if (ranks[k] != team_.rank()) continue;
         const Piece& piece = stretches_[k];
-        is_whole = repair_stretch(piece.vessel, {piece.first, piece.last, piece.checksum.data()}, file, interrupt);
+        const Stretch stretch{piece.first, piece.last, piece.checksum.data()};
+        is_whole = piece.group == NOWHERE ? restore_stretch(piece.vessel, stretch, file, interrupt)
+                                          : repair_stretch(piece.vessel, stretch, file, interrupt);
       }
       if (is_whole) file.sync();
     });
-    return all_of(is_whole);
+    if (!all_of(is_whole)) return false;
+    if (team_.is_leader()) move_stretches();
+    for (Group& group : groups_) group.is_new = false;
+    return true;
   }
 
   bool all_of(bool own) {
@@ -430,7 +574,7 @@ class ClusterSweep final : public Sweep {
   std::uint64_t compute(const GripRange& range, ResultFile& file, InterruptGuard& interrupt) {
     std::uint64_t first = range.first;
     while (first < range.last) {
-      Piece piece{range.vessel, first, first, {}, {}};
+      Piece piece{range.vessel, first, first, 0, {}, {}};
       std::uint64_t delivered = 0;
       double sink_seconds = 0;
       std::vector<Candidate> eligible;
@@ -540,7 +684,8 @@ class ClusterSweep final : public Sweep {
       const Piece& piece = pending.begin()->second;
       progress.done = piece.last;
       progress.counts += piece.counts;
-      if (piece.checksum[0] != '\0') progress.stretches.push_back({piece.first, piece.last, piece.checksum.data()});
+      if (piece.checksum[0] != '\0')
+        progress.stretches.push_back({piece.first, piece.last, piece.checksum.data(), shard_of(piece.group)});
       pending.erase(pending.begin());
     }
   }
@@ -581,7 +726,8 @@ class ClusterSweep final : public Sweep {
     has_eligible_ = packet.take<bool>() && has_eligible_;
     figures_[static_cast<std::size_t>(from)] = packet.take<RankFigures>();
     mark_.kernel_seconds += packet.take<double>();
-    for (const Piece& piece : packet.take_all<Piece>()) {
+    for (Piece& piece : packet.take_all<Piece>()) {
+      piece.group = group_of_[static_cast<std::size_t>(from)];
       pending_[piece.vessel][piece.first] = piece;
       reported_ += piece.last - piece.first;
     }
@@ -617,6 +763,16 @@ class ClusterSweep final : public Sweep {
     if (team_.size() > 1) fmt::print("{} ranks: {}\n", team_.size(), rate_text());
   }
 
+  void say_shards() const {
+    if (!has_shards()) return;
+    std::set<std::string> files;
+    for (const VesselProgress& vessel : mark_.vessels)
+      for (const Stretch& stretch : vessel.stretches)
+        if (!stretch.shard.empty()) files.insert(shard_path(names_, stretch.shard));
+    fmt::print("the other grips lie in {}; once all are in one folder, `wholehand merge {}` makes one file\n",
+               fmt::join(files, ", "), names_.result);
+  }
+
   // The best of what the mark knows to be done.
   void set_best() {
     for (std::size_t v = 0; v < best_.size(); ++v) {
@@ -637,6 +793,7 @@ class ClusterSweep final : public Sweep {
   // ---- lists of grips that differ ----
 
   bool choose(ResultFile& file, InterruptGuard& interrupt) {
+    if (options_.shards) share_stretches(true);
     for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
       VesselProgress& vessel = mark_.vessels[v];
       const bool is_first = share_flag(vessel.lists.empty());
@@ -713,6 +870,11 @@ class ClusterSweep final : public Sweep {
     agree([&] {
       if (has_eligible_) {
         own.offer(eligible_[v]);
+      } else if (options_.shards && file.has_eligible()) {
+        const std::vector<int> ranks = ranks_of_stretches();
+        for (std::size_t k = 0; k < stretches_.size(); ++k)
+          if (stretches_[k].vessel == v && ranks[k] == team_.rank())
+            delivered += read_range({v, stretches_[k].first, stretches_[k].last}, own, file);
       } else {
         take_pieces(WorkRange({{v, 0, plan().grips()}}), interrupt, [&](const GripRange& range) {
           const std::uint64_t done = file.has_eligible() ? read_range(range, own, file) : pass_range(range, own, interrupt);
@@ -831,7 +993,10 @@ class ClusterSweep final : public Sweep {
   std::vector<std::vector<double>> told_;  // cells of the heat maps that the leader knows
   std::vector<Piece> pieces_;              // since the last report
   double untold_kernel_seconds_ = 0;
-  std::uint64_t inode_ = 0;  // of rank 0's file
+  std::vector<Group> groups_;
+  std::vector<std::size_t> group_of_;  // of each rank
+  std::string shard_id_;               // of the sweep; empty where all write into one file
+  RunLayout layout_;
   RankFigures own_;
   double last_report_ = 0;
   // of the leader
@@ -846,7 +1011,11 @@ class ClusterSweep final : public Sweep {
 }  // namespace
 
 ExitCode run_cluster_sweep(Team& team, const Scene& scene, const SweepOptions& options, const SweepParts& parts) {
-  return or_abort(team, [&] { return ClusterSweep(team, scene, options, parts).run(); });
+  return or_abort(team, [&] {
+    std::optional<ClusterSweep> sweep;
+    agree(team, caught([&] { sweep.emplace(team, scene, options, parts); }));
+    return sweep->run();
+  });
 }
 
 ExitCode run_cluster_sweep(Team& team, const std::function<Scene()>& read_scene, const SweepOptions& options) {

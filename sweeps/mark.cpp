@@ -24,7 +24,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int FORMAT = 4;
+constexpr int FORMAT = 5;
 
 Error unusable(const std::string& path, const std::string& why) {
   return failure_error(fmt::format("{}: {}; start again without --resume", path, why));
@@ -58,7 +58,10 @@ json to_json(const VesselProgress& vessel) {
   for (const ListProgress& list : vessel.lists) lists.push_back(to_json(list));
   const GripCounts& counts = vessel.counts;
   json stretches = json::array();
-  for (const Stretch& stretch : vessel.stretches) stretches.push_back({stretch.first, stretch.last, stretch.checksum});
+  for (const Stretch& stretch : vessel.stretches) {
+    json& numbers = stretches.emplace_back(json{stretch.first, stretch.last, stretch.checksum});
+    if (!stretch.shard.empty()) numbers.push_back(stretch.shard);
+  }
   return {{"done", vessel.done},
           {"stretches", stretches},
           {"best", to_json(vessel.best)},
@@ -77,7 +80,8 @@ json to_json(const VesselProgress& vessel) {
 VesselProgress vessel_from(const json& text) {
   VesselProgress vessel;
   vessel.done = text.at("done");
-  for (const json& stretch : text.at("stretches")) vessel.stretches.push_back({stretch.at(0), stretch.at(1), stretch.at(2)});
+  for (const json& stretch : text.at("stretches"))
+    vessel.stretches.push_back({stretch.at(0), stretch.at(1), stretch.at(2), stretch.size() > 3 ? stretch.at(3) : ""});
   vessel.best = candidates_from(text.at("best"));
   for (const json& list : text.at("lists")) vessel.lists.push_back(list_from(list));
   GripCounts& counts = vessel.counts;
@@ -93,6 +97,23 @@ VesselProgress vessel_from(const json& text) {
     vessel.heat_map.push_back(cell.is_null() ? std::numeric_limits<double>::quiet_NaN() : cell.get<double>());
   }
   return vessel;
+}
+
+json to_json(const ShardMark& shards) {
+  json blocks = json::array();
+  for (const LayoutBlock& block : shards.layout.blocks) blocks.push_back({block.offset, block.planes, block.size});
+  const RunLayout& layout = shards.layout;
+  json content{{"id", shards.id},  {"is_ended", shards.is_ended}, {"grips", layout.grips}, {"copies", layout.copies},
+               {"blocks", blocks}, {"axes", layout.axes}};
+  if (layout.height) content["height"] = *layout.height;
+  return content;
+}
+
+ShardMark shards_from(const json& text) {
+  ShardMark shards{text.at("id"), {text.at("grips"), text.at("copies"), {}, {}, text.at("axes")}, text.at("is_ended")};
+  for (const json& block : text.at("blocks")) shards.layout.blocks.push_back({block.at(0), block.at(1), block.at(2)});
+  if (text.contains("height")) shards.layout.height = text.at("height").get<std::uint64_t>();
+  return shards;
 }
 
 }  // namespace
@@ -122,8 +143,9 @@ void save_mark(const std::string& path, const SweepMark& mark) {
   for (const VesselProgress& vessel : mark.vessels) vessels.push_back(to_json(vessel));
   json in_place = json::array();
   for (const FileRange& range : mark.in_place) in_place.push_back({range.offset, range.size});
-  const json content{{"identity", mark.identity}, {"wall_seconds", mark.wall_seconds}, {"kernel_seconds", mark.kernel_seconds},
-                     {"in_place", in_place},      {"structure", mark.structure},       {"vessels", vessels}};
+  json content{{"identity", mark.identity}, {"wall_seconds", mark.wall_seconds}, {"kernel_seconds", mark.kernel_seconds},
+               {"in_place", in_place},      {"structure", mark.structure},       {"vessels", vessels}};
+  if (mark.shards) content["shards"] = to_json(*mark.shards);
   // a scene's text may hold any bytes
   const std::string text = content.dump(-1, ' ', false, json::error_handler_t::replace);
   write_whole_file(path, fmt::format("{}{} {}\n{}", MARK_START, FORMAT, checksum_text(text.data(), text.size()), text), true,
@@ -152,6 +174,8 @@ bool load_mark(const std::string& path, SweepMark& mark) {
     mark.structure = content.at("structure");
     mark.vessels.clear();
     for (const json& vessel : content.at("vessels")) mark.vessels.push_back(vessel_from(vessel));
+    mark.shards.reset();
+    if (content.contains("shards")) mark.shards = shards_from(content.at("shards"));
   } catch (const std::exception&) {
     throw unusable(path, "not a progress mark of this program");
   }

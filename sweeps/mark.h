@@ -5,12 +5,14 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/backend.h"
 #include "sweeps/list_chooser.h"
+#include "sweeps/run_layout.h"
 #include "system/checksum.h"
 
 namespace wholehand {
@@ -34,6 +36,7 @@ struct GripCounts {
 struct Stretch {
   std::uint64_t first = 0, last = 0;
   std::string checksum;
+  std::string shard = {};  // whose shard holds them (sweeps/shard.h); empty: the result file itself
 };
 
 // What is known of one vessel's first `done` grips.
@@ -46,6 +49,13 @@ struct VesselProgress {
   std::vector<double> heat_map;  // HeatMap::scores(); empty without one
 };
 
+// Of a sweep whose grips lie in several files.
+struct ShardMark {
+  std::string id;         // of all its shards
+  RunLayout layout;       // of the grips in all of them
+  bool is_ended = false;  // whether only their grips are missing in the result file
+};
+
 // The state of a sweep at a moment when everything up to it is on the disk. `identity` says what must be the same in the sweep that
 // goes on: with it equal, the values are equal bit for bit.
 struct SweepMark {
@@ -55,6 +65,7 @@ struct SweepMark {
   double kernel_seconds = 0;
   std::vector<FileRange> in_place;  // of the partial file: where the values of grips and of the best grips lie, in its order
   std::string structure;            // checksum_without of all else
+  std::optional<ShardMark> shards;
 };
 
 // What a sweep can have done at most.

@@ -80,11 +80,11 @@ std::array<double, 6> axis_values(const GripInput& grip) {
 
 }  // namespace
 
-ResultFile::ResultFile(const OutputNames& names, const ResultContents& contents, const FieldSet& fields, bool resume,
+ResultFile::ResultFile(const OutputNames& names, const ResultContents& contents, const FieldSet& fields, FileStart start,
                        const OpenOutput& open_output)
     : names_(names), contents_(contents), fields_(fields) {
   silence_hdf5();
-  if (!resume) create();
+  if (start != FileStart::resumed) create(start);
   file_ = open(names_.partial.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
   if (file_ < 0) fail("open", errno);
   try {
@@ -93,12 +93,12 @@ ResultFile::ResultFile(const OutputNames& names, const ResultContents& contents,
     struct stat status {};
     if (fstat(file_, &status) != 0) fail("read", errno);
     // file systems that cannot reserve are told apart from those that lack the room
-    if (!resume && fallocate(file_, 0, 0, status.st_size) != 0 && errno != EOPNOTSUPP && errno != ENOSYS)
+    if (start == FileStart::reserved && fallocate(file_, 0, 0, status.st_size) != 0 && errno != EOPNOTSUPP && errno != ENOSYS)
       fail("reserve room for", errno);
     if (open_output) output_ = open_output(names_.partial);
   } catch (...) {
     close(file_);
-    if (!resume) unlink(names_.partial.c_str());
+    if (start != FileStart::resumed) unlink(names_.partial.c_str());
     throw;
   }
 }
@@ -118,11 +118,11 @@ ResultFile::ResultFile(const OutputNames& names, const ResultContents& contents,
 }
 
 // A new file under the old name: never onto what somebody may still have open.
-void ResultFile::create() {
+void ResultFile::create(FileStart start) {
   unlink(names_.mark.c_str());
   if (unlink(names_.partial.c_str()) != 0 && errno != ENOENT) fail("replace", errno);
   // HDF5 does not survive a disk that fills up under it
-  check_room(names_.partial, result_size(contents_));
+  if (start == FileStart::reserved) check_room(names_.partial, result_size(contents_));
   try {
     define_result_file(names_.partial, contents_);
   } catch (...) {
@@ -173,9 +173,11 @@ void ResultFile::set_blocks() {
     const Variable& variable = *contents_.variables[i];
     if (!is_kept(fields_, variable.field)) throw failure_error(fmt::format("{} is not read back", variable.name));
     const std::size_t size = variable.type == NumberType::real ? real_size : variable.type == NumberType::byte ? 1 : 4;
-    blocks_.push_back({&variable, places_.variables[i], variable_planes(variable, contents_.scene), size,
+    blocks_.push_back({{places_.variables[i], variable_planes(variable, contents_.scene), size},
+                       &variable,
                        fields_.plane[variable.field] + variable.plane});
   }
+  layout_ = {contents_.plan.grips(), contents_.plan.copies(), {blocks_.begin(), blocks_.end()}, places_.height, places_.axes};
 }
 
 void ResultFile::put(const void* data, std::size_t size, std::uint64_t offset) {
@@ -232,26 +234,6 @@ const void* ResultFile::plane_values(const Block& block, std::size_t plane, cons
   return buffer_.data();
 }
 
-// Calls visit(run, place) for each run of grips that the file holds in one piece: planes of variables, then heights and axes of Sobol points.
-template <class Visit>
-void ResultFile::visit_runs(std::size_t vessel, std::uint64_t first, std::uint64_t count, std::uint64_t copy,
-                            const Visit& visit) const {
-  const Plan& plan = contents_.plan;
-  std::size_t run = 0;
-  for (const Block& block : blocks_) {
-    for (std::size_t plane = 0; plane < block.planes; ++plane) {
-      const std::uint64_t place = (vessel * block.planes + plane) * plan.stored_grips() + copy * plan.grips() + first;
-      visit(run++, FileRange{block.offset + place * block.size, count * block.size});
-    }
-  }
-  if (places_.height) {
-    const std::uint64_t place = *places_.height + (vessel * plan.grips() + first) * sizeof(double);
-    visit(run++, FileRange{place, count * sizeof(double)});
-  }
-  if (vessel > 0) return;  // every vessel has the same points
-  for (const std::uint64_t offset : places_.axes) visit(run++, FileRange{offset + first * sizeof(double), count * sizeof(double)});
-}
-
 void ResultFile::write(const PlaneChunk& chunk) {
   const Stopwatch stopwatch(seconds_);
   if (chunk.vessel != stretch_vessel_ || chunk.first != stretch_.last || stretch_.first == stretch_.last) {
@@ -262,7 +244,7 @@ void ResultFile::write(const PlaneChunk& chunk) {
   std::vector<FileRange> places;
   const std::uint64_t copies = contents_.plan.copies();
   for (std::uint64_t copy = 0; copy < copies; ++copy) {
-    visit_runs(chunk.vessel, chunk.first, chunk.count, copy, [&](std::size_t, FileRange place) { places.push_back(place); });
+    layout_.visit(chunk.vessel, chunk.first, chunk.count, copy, [&](std::size_t, FileRange place) { places.push_back(place); });
   }
   const std::size_t runs = places.size() / copies;
   const auto write_run = [&](std::size_t run, const void* values) {
@@ -295,7 +277,7 @@ void ResultFile::end_stretch() { stretch_ = {}; }
 bool ResultFile::holds(std::size_t vessel, const Stretch& stretch) {
   for (std::uint64_t copy = 0; copy < contents_.plan.copies(); ++copy) {
     RunsChecksum found;
-    visit_runs(vessel, stretch.first, stretch.last - stretch.first, copy, [&](std::size_t run, FileRange place) {
+    layout_.visit(vessel, stretch.first, stretch.last - stretch.first, copy, [&](std::size_t run, FileRange place) {
       if (!add_range(found, run, file_, place)) fail("read", errno);
     });
     if (found.text() != stretch.checksum) return false;
@@ -435,16 +417,20 @@ void ResultFile::finish() {
   const Stopwatch stopwatch(seconds_);
   close(file_);
   file_ = -1;
+  complete_result(names_);
+}
+
+void complete_result(const OutputNames& names) {
   try {
-    GuardedFile(names_.partial).read_all();
+    GuardedFile(names.partial).read_all();
   } catch (const Error& error) {
     // what could not be tried says nothing of the file
     const char* remedy = error.code == ExitCode::failure ? "go on with --resume" : "start again without --resume";
     throw failure_error(fmt::format("{} (found when the sweep read the file back); {}", error.what(), remedy));
   }
-  rename_file(names_.partial, names_.target);
-  sync_folder_of(names_.target);
-  unlink(names_.mark.c_str());
+  rename_file(names.partial, names.target);
+  sync_folder_of(names.target);
+  unlink(names.mark.c_str());
 }
 
 }  // namespace wholehand

@@ -12,6 +12,7 @@
 #include "sweeps/mark.h"
 #include "sweeps/output_bytes.h"
 #include "sweeps/result_contents.h"
+#include "sweeps/run_layout.h"
 #include "system/checksum.h"
 #include "system/files.h"
 
@@ -25,6 +26,9 @@ struct FilePlaces {
   std::vector<std::uint64_t> best;       // best_grip, best_score, axes; refined score, axes; robust scores
 };
 
+// How a file begins: new, with room for all of it; new, where other files take most of the values; or as an earlier sweep has left it.
+enum class FileStart { reserved, sparse, resumed };
+
 // NetCDF defines the file once (result_contents.h) and closes it. From then on only the values change, and they go straight to the
 // places in the file that HDF5 gave to them: every variable is one contiguous block in native byte order, and a plane of a chunk is
 // one contiguous run of it. This has three reasons. A process that is killed, or a disk that fills up, cannot leave HDF5's own
@@ -36,9 +40,9 @@ class ResultFile {
  public:
   // Creates NAME.nc.partial, or, to resume, opens the one that is there as it is. Who holds the result's lock (system/output_lock.h) alone may
   // do that. Contents must outlive the object, the same ones for a file that is resumed.
-  ResultFile(const OutputNames& names, const ResultContents& contents, const FieldSet& fields, bool resume,
+  ResultFile(const OutputNames& names, const ResultContents& contents, const FieldSet& fields, FileStart start,
              const OpenOutput& open_output = {});
-  // Opens the one that another process has made, whose places these are, to put grips into it beside that process.
+  // Opens the one that another process has made, whose places these are, to put grips into it beside that process; or a shard (sweeps/shard.h).
   ResultFile(const OutputNames& names, const ResultContents& contents, const FieldSet& fields, const FilePlaces& places,
              const OpenOutput& open_output = {});
   ~ResultFile();
@@ -55,6 +59,7 @@ class ResultFile {
   // Whether the file holds grips with this checksum: reads them back.
   bool holds(std::size_t vessel, const Stretch& stretch);
   const FilePlaces& places() const { return places_; }
+  const RunLayout& layout() const { return layout_; }
   std::uint64_t inode() const;  // tells the file from others of its name on other machines
   // Whether the file keeps what tells the grips that may be listed; and those of the grips [first, last) of a vessel, from the file as it is
   // now, whoever wrote it.
@@ -81,23 +86,17 @@ class ResultFile {
   double seconds() const { return seconds_; }     // that writing and syncing took; the definition does not grow with the grips
 
  private:
-  // A block of the file: one variable.
-  struct Block {
+  struct Block : LayoutBlock {
     const Variable* variable = nullptr;
-    std::uint64_t offset = 0;  // bytes
-    std::size_t planes = 1;
-    std::size_t size = 1;  // bytes a value
-    int plane = 0;         // first plane of the chunk
+    int plane = 0;  // first plane of the chunk
   };
 
   const Block* block_of(const char* variable) const;
-  void create();
+  void create(FileStart start);
   void open_values(const OpenOutput& open_output);
   FilePlaces find_places() const;
   void set_blocks();
   std::vector<FileRange> written_in_place() const;
-  template <class Visit>
-  void visit_runs(std::size_t vessel, std::uint64_t first, std::uint64_t count, std::uint64_t copy, const Visit& visit) const;
   void put(const void* data, std::size_t size, std::uint64_t offset);
   const void* plane_values(const Block& block, std::size_t plane, const PlaneChunk& chunk);
   [[noreturn]] void fail(const char* what, int error) const;
@@ -108,6 +107,7 @@ class ResultFile {
   int file_ = -1;
   std::vector<Block> blocks_;
   FilePlaces places_;
+  RunLayout layout_;
   std::unique_ptr<OutputBytes> output_;  // null: the system's own calls
   std::vector<unsigned char> buffer_;    // values of one plane that need converting
   RunsChecksum checksum_;                // of the stretch that is being written
@@ -118,5 +118,8 @@ class ResultFile {
   std::uint64_t bytes_ = 0;
   double seconds_ = 0;
 };
+
+// Has the NetCDF library read all of NAME.nc.partial, whose values are on the disk, renames it to NAME.nc and removes the mark. Throws Error (failure).
+void complete_result(const OutputNames& names);
 
 }  // namespace wholehand

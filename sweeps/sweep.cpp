@@ -60,7 +60,9 @@ void Sweep::check() const {
   struct stat partial {};
   const double reserved = stat(names_.partial.c_str(), &partial) == 0 ? static_cast<double>(partial.st_blocks) * 512 : 0;
   const std::size_t real_size = precision() == Precision::single ? sizeof(float) : sizeof(double);
-  check_sweep_size(scene_, sweep_size(scene_, bytes_per_grip(variables_, scene_, real_size)), free_bytes(names_.target) + reserved);
+  // a shard takes what its node computes, which nobody knows yet
+  const double room = options_.shards ? std::numeric_limits<double>::infinity() : free_bytes(names_.target) + reserved;
+  check_sweep_size(scene_, sweep_size(scene_, bytes_per_grip(variables_, scene_, real_size)), room);
 }
 
 bool Sweep::is_finished() const {
@@ -84,7 +86,7 @@ ExitCode Sweep::run() {
   // An interrupt that comes while the file is laid out waits for the first grips. One that comes when all are done lets the ending finish, but for
   // robust scores.
   InterruptGuard interrupt;
-  ResultFile file(names_, written, backend_->fields(), resumed, parts_.open_output);
+  ResultFile file(names_, written, backend_->fields(), resumed ? FileStart::resumed : FileStart::reserved, parts_.open_output);
   is_marked_ = resumed;
   if (!repair(file, interrupt) || !sweep(file, interrupt)) return interrupted();
   BestLists best = find_best();
@@ -155,7 +157,9 @@ Precision Sweep::precision() const {
 }
 
 std::map<std::string, std::string> Sweep::identity() const {
-  return sweep_identity(scene_, plan(), identified_, best_wanted_, variables_);
+  auto identity = sweep_identity(scene_, plan(), identified_, best_wanted_, variables_);
+  identity["set of files"] = options_.shards ? "shards" : "one file";
+  return identity;
 }
 
 // What a mark of this sweep can say at most.
@@ -207,6 +211,13 @@ std::uint64_t Sweep::done() const {
   return sum;
 }
 
+bool Sweep::has_shards() const {
+  for (const VesselProgress& vessel : mark_.vessels)
+    for (const Stretch& stretch : vessel.stretches)
+      if (!stretch.shard.empty()) return true;
+  return false;
+}
+
 bool Sweep::is_time_up() const { return options_.time_limit > 0 && since(options_.started) >= options_.time_limit; }
 bool Sweep::is_asked_to_end(InterruptGuard& interrupt) const { return interrupt.signalled() || is_time_up(); }
 bool Sweep::is_mark_due() const { return since(last_mark_) >= mark_interval_; }
@@ -223,12 +234,21 @@ bool Sweep::repair(ResultFile& file, InterruptGuard& interrupt) {
 bool Sweep::repair_stretch(std::size_t v, const Stretch& stretch, ResultFile& file, InterruptGuard& interrupt) {
   if (is_asked_to_end(interrupt)) return false;
   if (file.holds(v, stretch)) return true;
-  const std::string place = fmt::format("{}: grips {} to {} of {}", names_.partial, readable_number(stretch.first),
-                                        readable_number(stretch.last - 1), scene_.vessels[v].name);
-  say_note(place + " are damaged: computing them again");
+  say_note(fmt::format("{}: {} are damaged: computing them again", names_.partial, readable_stretch(stretch, v)));
+  return restore_stretch(v, stretch, file, interrupt);
+}
+
+bool Sweep::restore_stretch(std::size_t v, const Stretch& stretch, ResultFile& file, InterruptGuard& interrupt) {
+  if (is_asked_to_end(interrupt)) return false;
   if (!compute_again(v, stretch, file, interrupt)) return false;
-  if (!file.holds(v, stretch)) throw failure_error(place + " have other values when computed again; start again without --resume");
-  return true;
+  if (file.holds(v, stretch)) return true;
+  throw failure_error(fmt::format("{}: {} have other values when computed again; start again without --resume", names_.partial,
+                                  readable_stretch(stretch, v)));
+}
+
+std::string Sweep::readable_stretch(const Stretch& stretch, std::size_t v) const {
+  return fmt::format("grips {} to {} of {}", readable_number(stretch.first), readable_number(stretch.last - 1),
+                     scene_.vessels[v].name);
 }
 
 bool Sweep::compute_again(std::size_t v, const Stretch& stretch, ResultFile& file, InterruptGuard& interrupt) {
@@ -454,9 +474,11 @@ void Sweep::finish(ResultFile& file, const BestLists& best) {
   // The values are synced first. Then little time passes between the ending, which no earlier mark fits, and the mark that vouches for it.
   if (is_marked_) save(file);
   file.write_ending(ranked, wall_before_ + since(options_.started), mark_.kernel_seconds);
-  if (is_marked_) save(file);  // which now vouches for the ending, too
-  file.finish();
-  files.insert(files.begin(), names_.result);
+  const bool is_parted = has_shards();
+  if (is_parted) mark_.shards->is_ended = true;
+  if (is_marked_ || is_parted) save(file);  // which now vouches for the ending, too
+  if (!is_parted) file.finish();
+  files.insert(files.begin(), is_parted ? names_.partial : names_.result);
   for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
     const std::string counts = counts_line(mark_.vessels[v].counts, has_field(FIELD_STATUS), plan().copies());
     fmt::print("\n{}: {}\n{}", scene_.vessels[v].name, counts, best_lines(scene_, plan(), v, best, names_.best));

@@ -55,6 +55,8 @@ class Sweep {
   // Computes a stretch again that the file no longer holds as it was written. False: interrupted. Throws Error (failure) where it comes
   // out otherwise.
   bool repair_stretch(std::size_t vessel, const Stretch& stretch, ResultFile& file, InterruptGuard& interrupt);
+  // Computes a stretch that the file does not hold. Likewise.
+  bool restore_stretch(std::size_t vessel, const Stretch& stretch, ResultFile& file, InterruptGuard& interrupt);
   // Everything up to here onto the disk, then the mark that says so.
   void save(ResultFile& file);
   ExitCode interrupted() const;
@@ -78,6 +80,7 @@ class Sweep {
   ListRequest list_request() const;             // of the best grips
   std::uint64_t total() const;                  // grips of all vessels
   std::uint64_t done() const;                   // of them in mark_
+  bool has_shards() const;                      // whether other files hold some of them
   bool is_time_up() const;                      // the sweep's time limit has passed
   bool is_asked_to_end(InterruptGuard&) const;  // by a signal, or by the time limit
   bool is_mark_due() const;
@@ -110,6 +113,7 @@ class Sweep {
   MarkBounds bounds() const;
   void announce_check() const;
   bool repair(ResultFile& file, InterruptGuard& interrupt);
+  std::string readable_stretch(const Stretch& stretch, std::size_t vessel) const;
   bool compute_again(std::size_t v, const Stretch& stretch, ResultFile& file, InterruptGuard& interrupt);
   bool sweep(ResultFile& file, InterruptGuard& interrupt);
   void run_stretch(std::size_t v, ResultFile& file, InterruptGuard& interrupt, Progress& progress);

@@ -28,8 +28,10 @@ struct SweepOptions {
   std::size_t pool = 0;  // grips of a list that a pass keeps (sweeps/list_chooser.h); 0: usual_pool
   // Scores of one vessel's grips that are kept for further passes, 8 B each; of more grips each pass evaluates all of them again.
   std::size_t remembered = std::size_t{1} << 22;
-  double time_limit = 0;             // s after `started` at which the sweep ends as if interrupted; 0: none
-  double mark_seconds = 5;           // least time between two progress marks: what a crash may cost
+  double time_limit = 0;    // s after `started` at which the sweep ends as if interrupted; 0: none
+  double mark_seconds = 5;  // least time between two progress marks: what a crash may cost
+  // Of many machines that share no file system: who of them writes into one file; empty: who is on one node. Absent: all write into one.
+  std::optional<std::string> shards = {};
   double started = monotonic_now();  // s of the clock: when the work was asked for, for the closing lines
 };
 

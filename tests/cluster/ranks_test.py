@@ -142,6 +142,23 @@ class Ranks(unittest.TestCase):
         self.assertEqual(result[0], 0, result)
         return result
 
+    known = {}  # results of one machine, by their scenes
+
+    @classmethod
+    def tearDownClass(cls):
+        for folder in cls.known.values():
+            shutil.rmtree(folder)
+
+    def given(self, scene, output):
+        """The result of one machine, computed once for all tests that compare with it."""
+        with open(scene, encoding="utf-8") as file:
+            text = file.read()
+        if text not in self.known:
+            self.alone(scene, output)
+            self.known[text] = tempfile.mkdtemp(prefix="ranks.")
+            shutil.copy(self.path(output), self.known[text] + "/result.nc")
+        shutil.copy(self.known[text] + "/result.nc", self.path(output))
+
     def assert_same(self, one, other):
         values, attributes = content(self.path(one))
         others, other_attributes = content(self.path(other))
@@ -175,7 +192,7 @@ class Ranks(unittest.TestCase):
 
     def test_lists_that_take_passes(self):
         path = self.write("alike.toml", ALIKE)
-        self.alone(path, "alike.nc")
+        self.given(path, "alike.nc")
         with netCDF4.Dataset(self.path("alike.nc")) as file:
             file.set_auto_maskandscale(False)
             scores = file["score"][0][file["plausible"][0] == 1]
@@ -193,7 +210,7 @@ class Ranks(unittest.TestCase):
 
     def test_a_rank_without_room_ends_all(self):
         path = self.write("large.toml", LARGE)
-        self.alone(path, "large.nc")
+        self.given(path, "large.nc")
         own = [MPI_PROGRAM, "sweep", path, "-o", "full.nc", "--on", "core", "--mark-seconds", "0.05"]
         limited = ["sh", "-c", 'ulimit -f 24000; exec "$@"', "sh", *own]  # blocks of 512 bytes: its writes beyond 12 MB fail
         code, out, errors = self.end(self.start(["mpirun", "-q", "-n", "1", *own, ":", "-n", "1", *limited]))
@@ -219,6 +236,88 @@ class Ranks(unittest.TestCase):
         self.assertNotIn("wrote", out)
         with open(self.path("other/a.nc.partial"), encoding="utf-8") as file:
             self.assertEqual(file.read(), "of an earlier job")
+
+    def run_nodes(self, nodes, *arguments):
+        """Ranks whose files have the names of so many nodes: {"a": 2, "b": 1}."""
+        command = ["mpirun", "-q"]
+        for name, ranks in nodes.items():
+            own = [MPI_PROGRAM, "sweep", *arguments, "--on", "core", "--threads", "1", "--shard", name]
+            command += ["-n", str(ranks), *own, ":"]
+        return self.end(self.start(command[:-1]))
+
+    def merge(self, result, *more):
+        return self.end(self.start([PROGRAM, "merge", result, *more]))
+
+    def test_shards_become_the_file_of_one_machine(self):
+        # enough pieces that no node comes too late for its first
+        for name, scene in {"grid": SMALL.replace("count = 20", "count = 160"), "points": POINTS.replace("3000", "12000")}.items():
+            path = self.write(name + ".toml", scene)
+            self.alone(path, name + ".nc")
+            output = name + "s.nc"
+            code, out, errors = self.run_nodes({"a": 2, "b": 1, "c": 1}, path, "-o", output)
+            self.assertEqual((code, errors), (0, ""))
+            self.assertIn(f"`wholehand merge {output}` makes one file", out)
+            self.assertFalse(os.path.exists(self.path(output)))
+            self.assertEqual(rows(self.path(name + ".best.csv")), rows(self.path(name + "s.best.csv")))
+            shards = [file for file in os.listdir(self.folder) if file.startswith(output) and file.endswith(".shard")]
+            self.assertTrue(shards, out)
+            # collected from elsewhere; what is missing is named
+            os.mkdir(self.path(name))
+            for file in shards:
+                os.rename(self.path(file), self.path(f"{name}/{file}"))
+            code, out, errors = self.merge(output)
+            self.assertEqual((code, out, len(errors.strip().split("\n"))), (2, "", 1), errors)
+            self.assertTrue(any(file in errors for file in shards), errors)
+            code, out, errors = self.merge(output, "--from", name)
+            self.assertEqual((code, errors), (0, ""))
+            self.assert_same(name + ".nc", output)
+            self.assertEqual([file for file in os.listdir(self.folder) if ".partial" in file], [])
+            code, out, errors = self.merge(output)
+            self.assertEqual(code, 2, errors)
+            self.assertIn("nothing is left to merge", errors)
+
+    def test_a_sweep_with_shards_goes_on_with_other_nodes(self):
+        path = self.write("large.toml", LARGE)
+        self.given(path, "large.nc")
+        code, _, errors = self.run_nodes({"a": 1, "b": 1, "c": 1}, path, "-o", "s.nc", "--time-limit", "3", "--mark-seconds", "0.05")
+        self.assertEqual(code, 130, errors)
+        code, _, errors = self.merge("s.nc")
+        self.assertEqual(code, 3, errors)
+        self.assertIn("did not end", errors)
+        # c takes no part any more, and b has lost its disk
+        if os.path.exists(self.path("s.nc.b.shard")):
+            os.remove(self.path("s.nc.b.shard"))
+        code, _, errors = self.run_ranks(2, path, "-o", "s.nc", "--resume")
+        self.assertEqual(code, 2, errors)
+        self.assertIn("another set of files", errors)
+        code, out, errors = self.run_nodes({"a": 1, "b": 2, "d": 1}, path, "-o", "s.nc", "--resume")
+        self.assertEqual(code, 0, errors)
+        self.assertRegex(errors, r"wholehand: no rank has the shards? .+: computing [\d,]+ grips again")
+        os.remove(self.path("s.nc.c.shard"))
+        # a damaged shard is found, and the sweep mends it
+        with open(self.path("s.nc.b.shard"), "r+b") as file:
+            file.seek(os.path.getsize(self.path("s.nc.b.shard")) - 100)
+            file.write(b"\x01" * 8)
+        code, out, errors = self.merge("s.nc")
+        self.assertEqual((code, out), (3, ""), errors)
+        self.assertRegex(errors, r"s.nc.b.shard: grips [\d,]+ to [\d,]+ of vessel \d are damaged; ")
+        code, _, errors = self.run_nodes({"a": 1, "b": 1, "d": 1}, path, "-o", "s.nc", "--resume")
+        self.assertEqual(code, 0, errors)
+        self.assertIn("are damaged: computing them again", errors)
+        code, out, errors = self.merge("s.nc")
+        self.assertEqual((code, errors), (0, ""))
+        self.assert_same("large.nc", "s.nc")
+
+    def test_passes_read_the_shards(self):
+        path = self.write("alike.toml", ALIKE)
+        self.given(path, "alike.nc")
+        code, _, errors = self.run_nodes({"a": 1, "b": 1}, path, "-o", "again.nc", "--time-limit", "1")
+        self.assertEqual(code, 130, errors)
+        code, _, errors = self.run_nodes({"a": 1, "b": 2}, path, "-o", "again.nc", "--resume")
+        self.assertEqual(code, 0, errors)
+        code, _, errors = self.merge("again.nc")
+        self.assertEqual(code, 0, errors)
+        self.assert_same("alike.nc", "again.nc")
 
     def ranks_of(self, process):
         found = subprocess.run(["pgrep", "-g", "0", "-P", str(process.pid)], capture_output=True, text=True, check=False).stdout
@@ -258,7 +357,7 @@ class Ranks(unittest.TestCase):
 
     def test_time_and_signals_close_it_cleanly(self):
         path = self.write("large.toml", LARGE)
-        self.alone(path, "large.nc")
+        self.given(path, "large.nc")
         code, out, errors = self.run_ranks(2, path, "-o", "timed.nc", "--time-limit", "1")
         self.assertEqual(code, 130, errors)
         self.assertRegex(errors, r"wholehand: interrupted at [\d,]+ of [\d,]+ grips; the same command with --resume goes on")
@@ -275,7 +374,7 @@ class Ranks(unittest.TestCase):
 
     def test_a_damaged_stretch_is_computed_again(self):
         path = self.write("large.toml", LARGE)
-        self.alone(path, "large.nc")
+        self.given(path, "large.nc")
         for seconds in ("2", "4", "8"):  # a busy machine may need one of them to begin
             code, _, errors = self.run_ranks(2, path, "-o", "torn.nc", "--time-limit", seconds)
             self.assertEqual(code, 130, errors)
@@ -333,6 +432,9 @@ class Ranks(unittest.TestCase):
         code, out, errors = self.run_ranks(3, path, "-o", self.path("none/a.nc"))
         self.assertEqual((code, out, len(errors.strip().split("\n"))), (2, "", 1), errors)
         code, out, errors = self.run_ranks(2, path, "--time-limit", "1:2")
+        self.assertEqual((code, out, len(errors.strip().split("\n"))), (2, "", 1), errors)
+        # what the scene asks to keep is not there
+        code, out, errors = self.run_ranks(3, self.write("keep.toml", SMALL.replace("[strength]", '[output]\nkeep = ["push"]')))
         self.assertEqual((code, out, len(errors.strip().split("\n"))), (2, "", 1), errors)
         # rank 1 alone has nothing to read
         own = [MPI_PROGRAM, "sweep", path, "-o", "a.nc", "--on", "core"]

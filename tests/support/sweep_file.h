@@ -24,7 +24,9 @@ struct SweepFile {
         contents{scene, plan, variables, vessel_facts(scene, backend, FakeEvaluator(scene)), backend.info(), "1", 3},
         names(output_names(path)) {}
 
-  ResultFile open(bool resume = false) { return ResultFile(names, contents, backend.fields(), resume); }
+  ResultFile open(bool resume = false) {
+    return ResultFile(names, contents, backend.fields(), resume ? FileStart::resumed : FileStart::reserved);
+  }
 
   // Grips [first, last) of a vessel.
   void write(ResultFile& file, std::size_t vessel, std::uint64_t first, std::uint64_t last) {

@@ -61,7 +61,7 @@ void write_result(const Scene& scene, const std::string& path, Precision precisi
   const auto best_wanted = static_cast<std::size_t>(scene.output.best);
   const ResultContents contents{scene, plan, variables, vessel_facts(scene, backend, *core), backend.info(), "1.2.3", best_wanted};
   const OutputNames names = output_names(path);
-  ResultFile file(names, contents, backend.fields(), false);
+  ResultFile file(names, contents, backend.fields(), FileStart::reserved);
   std::vector<std::vector<RankedGrip>> best;
   for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
     HandLists lists(plan, best_wanted, {});

@@ -77,6 +77,28 @@ TEST(Mark, ComesBackBitForBit) {
   EXPECT_TRUE(std::isnan(a.heat_map[1]));
 }
 
+TEST(Mark, SaysWhereTheGripsOfShardsLie) {
+  const TemporaryFolder folder;
+  SweepMark mark;
+  save_mark(folder / "m", some_mark());
+  ASSERT_TRUE(load_mark(folder / "m", mark));
+  EXPECT_FALSE(mark.shards);
+  EXPECT_EQ(mark.vessels[1].stretches[1].shard, "");
+  for (const std::optional<std::uint64_t>& height : {std::optional<std::uint64_t>(), std::optional<std::uint64_t>(4096)}) {
+    SweepMark parted = some_mark();
+    parted.vessels[1].stretches[1].shard = "node-2.cluster";
+    parted.shards = ShardMark{"0a1b", {std::uint64_t{1} << 40, 36, {{512, 6, 4}, {9000, 1, 8}}, height, {70, 80}}, true};
+    save_mark(folder / "m", parted);
+    ASSERT_TRUE(load_mark(folder / "m", mark));
+    EXPECT_EQ(mark.vessels[1].stretches[0].shard, "");
+    EXPECT_EQ(mark.vessels[1].stretches[1].shard, "node-2.cluster");
+    ASSERT_TRUE(mark.shards);
+    EXPECT_EQ(mark.shards->id, "0a1b");
+    EXPECT_EQ(mark.shards->layout, parted.shards->layout);
+    EXPECT_TRUE(mark.shards->is_ended);
+  }
+}
+
 TEST(Mark, MissingIsNoneAndDamagedIsAnError) {
   const TemporaryFolder folder;
   SweepMark mark;
@@ -89,7 +111,7 @@ TEST(Mark, MissingIsNoneAndDamagedIsAnError) {
 
 TEST(Mark, OneOfAnotherVersionIsCalledSo) {
   const TemporaryFolder folder;
-  std::ofstream(folder / "m") << MARK_START << "3 00\n{}";
+  std::ofstream(folder / "m") << MARK_START << "4 00\n{}";
   SweepMark mark;
   try {
     load_mark(folder / "m", mark);

@@ -57,7 +57,7 @@ TEST(ResultFile, TwoMayWriteIntoOne) {
     SweepFile setup(fake_scene(), folder / "a.nc", precision);
     std::size_t bytes = 0;
     const OpenOutput counted = [&bytes](const std::string& path) { return std::make_unique<Counted>(path, bytes); };
-    ResultFile first(setup.names, setup.contents, setup.backend.fields(), false);
+    ResultFile first(setup.names, setup.contents, setup.backend.fields(), FileStart::reserved);
     {
       ResultFile second(setup.names, setup.contents, setup.backend.fields(), first.places(), counted);
       const std::uint64_t grips = setup.plan.grips(), half = grips / 2;
