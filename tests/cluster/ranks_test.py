@@ -268,6 +268,11 @@ class Ranks(unittest.TestCase):
             code, out, errors = self.merge(output)
             self.assertEqual((code, out, len(errors.strip().split("\n"))), (2, "", 1), errors)
             self.assertTrue(any(file in errors for file in shards), errors)
+            # where the disk is full, another try begins again
+            limited = ["sh", "-c", 'ulimit -f 200; exec "$@"', "sh", PROGRAM, "merge", output, "--from", name]
+            code, out, errors = self.end(self.start(limited))
+            self.assertEqual((code, out, len(errors.strip().split("\n"))), (3, "", 1), errors)
+            self.assertIn("make room, and merge again", errors)
             code, out, errors = self.merge(output, "--from", name)
             self.assertEqual((code, errors), (0, ""))
             self.assert_same(name + ".nc", output)
