@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -232,7 +233,10 @@ class ClusterSweep final : public Sweep {
       say_ranks();
       say_shards();
     });
-    if (is_completed) return ExitCode::done;
+    if (is_completed) {
+      remove_unused_shard(own_names.partial);
+      return ExitCode::done;
+    }
     return team_.is_leader() ? interrupted() : ExitCode::interrupted;
   }
 
@@ -330,6 +334,20 @@ class ClusterSweep final : public Sweep {
       groups_[group_of_.back()].ranks.push_back(rank);
     }
     shard_id_ = reader.take_text();
+  }
+
+  // A node that got no grips leaves no file.
+  void remove_unused_shard(const std::string& path) {
+    std::vector<std::uint64_t> used(groups_.size());
+    for (const VesselProgress& vessel : mark_.vessels) {
+      for (const Stretch& stretch : vessel.stretches)
+        if (const std::uint64_t group = group_of(stretch); group != NOWHERE) used[group] = 1;
+    }
+    PacketWriter packet;
+    packet.put(used);
+    const std::string bytes = team_.share(packet.bytes());
+    used = PacketReader(bytes).take_all<std::uint64_t>();
+    if (own_group() > 0 && used[own_group()] == 0 && groups_[own_group()].ranks[0] == team_.rank()) unlink(path.c_str());
   }
 
   // Throws where ranks of one group have opened different files of one name.

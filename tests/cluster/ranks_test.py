@@ -281,6 +281,17 @@ class Ranks(unittest.TestCase):
             self.assertEqual(code, 2, errors)
             self.assertIn("nothing is left to merge", errors)
 
+    def test_shards_without_grips_do_not_stay(self):
+        path = self.write("tiny.toml", SMALL.replace("count = 20", "count = 2"))  # less than a piece of each vessel
+        self.alone(path, "tiny.nc")
+        code, out, errors = self.run_nodes({"a": 1, "b": 1, "c": 1, "d": 1, "e": 1, "f": 1}, path, "-o", "t.nc")
+        self.assertEqual((code, errors), (0, ""))
+        shards = [file for file in os.listdir(self.folder) if file.endswith(".shard")]
+        self.assertLess(len(shards), 2, shards)
+        if shards:
+            self.assertEqual(self.merge("t.nc")[0], 0)
+        self.assert_same("tiny.nc", "t.nc")
+
     def test_a_sweep_with_shards_goes_on_with_other_nodes(self):
         path = self.write("large.toml", LARGE)
         self.given(path, "large.nc")
