@@ -68,7 +68,8 @@ class Merge {
       if (!take_vessel(v, result, interrupt, progress)) return interrupted(progress);
     if (fsync(result) != 0) fail_writing();
     progress.clear();
-    complete_result(names_);
+    read_back(names_);
+    name_result(names_);
     const double seconds = monotonic_now() - start;
     fmt::print("wrote {} ({}): {} grips, {} of them from {}\n{:.2f} s ({}/s); the shards can be removed\n", names_.result,
                readable_bytes(static_cast<double>(status.st_size)), readable_number(grips_), readable_number(from_shards_),

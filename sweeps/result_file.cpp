@@ -371,6 +371,16 @@ std::uint64_t ResultFile::inode() const {
   return status.st_ino;
 }
 
+void ResultFile::check_own() const {
+  struct stat named {
+  }, open{};
+  if (fstat(file_, &open) != 0) fail("read", errno);
+  const bool is_there = lstat(names_.partial.c_str(), &named) == 0;
+  if (is_there && named.st_dev == open.st_dev && named.st_ino == open.st_ino) return;
+  throw failure_error(fmt::format("{}: another job {} this file meanwhile; this job ends and leaves everything to the other one",
+                                  names_.partial, is_there ? "replaced" : "took away"));
+}
+
 void ResultFile::start_sync() {
   const Stopwatch stopwatch(seconds_);
   sync_file_range(file_, 0, 0, SYNC_FILE_RANGE_WRITE);  // a hint: sync() is what counts
@@ -405,6 +415,7 @@ void ResultFile::write_ending(const std::vector<std::vector<RankedGrip>>& best, 
       put(reals[k].data(), ranks * sizeof(double), places_.best[k + 1] + list * ranks * sizeof(double));
     }
   }
+  check_own();  // HDF5 opens it by its name
   const Handle file(open_hdf5(names_.partial, H5F_ACC_RDWR), H5Fclose);
   if (file < 0 || !put_attribute(file, WALL_TIME, wall_seconds) || !put_attribute(file, KERNEL_TIME, kernel_seconds)) {
     fail("write", EIO);
@@ -415,12 +426,15 @@ void ResultFile::write_ending(const std::vector<std::vector<RankedGrip>>& best, 
 void ResultFile::finish() {
   sync();
   const Stopwatch stopwatch(seconds_);
+  check_own();
+  read_back(names_);
+  check_own();  // reading it may have taken long
+  name_result(names_);
   close(file_);
   file_ = -1;
-  complete_result(names_);
 }
 
-void complete_result(const OutputNames& names) {
+void read_back(const OutputNames& names) {
   try {
     GuardedFile(names.partial).read_all();
   } catch (const Error& error) {
@@ -428,6 +442,9 @@ void complete_result(const OutputNames& names) {
     const char* remedy = error.code == ExitCode::failure ? "go on with --resume" : "start again without --resume";
     throw failure_error(fmt::format("{} (found when the sweep read the file back); {}", error.what(), remedy));
   }
+}
+
+void name_result(const OutputNames& names) {
   rename_file(names.partial, names.target);
   sync_folder_of(names.target);
   unlink(names.mark.c_str());

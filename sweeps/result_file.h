@@ -61,6 +61,9 @@ class ResultFile {
   const FilePlaces& places() const { return places_; }
   const RunLayout& layout() const { return layout_; }
   std::uint64_t inode() const;  // tells the file from others of its name on other machines
+  // Throws where another file, or none, has the name now: another job took it, one that no lock kept away. To be called before anything is done under
+  // that name, such as saving a mark.
+  void check_own() const;
   // Whether the file keeps what tells the grips that may be listed; and those of the grips [first, last) of a vessel, from the file as it is
   // now, whoever wrote it.
   bool has_eligible() const;
@@ -79,7 +82,7 @@ class ResultFile {
   // filled) and the times.
   void write_ending(const std::vector<std::vector<RankedGrip>>& best, double wall_seconds, double kernel_seconds);
 
-  // Syncs, closes, has the NetCDF library read all of the file, renames NAME.nc.partial to NAME.nc and removes the mark. The last call.
+  // Syncs, has the NetCDF library read all of the file, renames NAME.nc.partial to NAME.nc, closes it and removes the mark. The last call.
   void finish();
 
   std::uint64_t bytes() const { return bytes_; }  // of values written by this process
@@ -119,7 +122,9 @@ class ResultFile {
   double seconds_ = 0;
 };
 
-// Has the NetCDF library read all of NAME.nc.partial, whose values are on the disk, renames it to NAME.nc and removes the mark. Throws Error (failure).
-void complete_result(const OutputNames& names);
+// The last steps of a result whose values are on the disk: has the NetCDF library read all of NAME.nc.partial; then renames it to NAME.nc and removes
+// the mark. Both throw Error (failure).
+void read_back(const OutputNames& names);
+void name_result(const OutputNames& names);
 
 }  // namespace wholehand

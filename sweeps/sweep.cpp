@@ -438,6 +438,7 @@ bool Sweep::pass_again(std::size_t v, ListChooser& chooser, InterruptGuard& inte
 void Sweep::save(ResultFile& file) {
   const double start = monotonic_now();
   file.sync();
+  file.check_own();
   file.vouch_for_structure(mark_);
   mark_.wall_seconds = wall_before_ + since(options_.started);
   for (std::size_t v = 0; v < maps_.size() && has_heat_map(); ++v) mark_.vessels[v].heat_map = maps_[v].scores();
@@ -469,6 +470,7 @@ void Sweep::finish(ResultFile& file, const BestLists& best) {
     for (const BestGrip& grip : best[list])
       ranked[list].push_back({grip.candidate, grip.grip, grip.refined, grip.refined_score, grip.robust_mean, grip.robust_low});
   }
+  file.check_own();
   // the result's own name comes last: when it is there, all is
   std::vector<std::string> files = write_companions(companions(), best, has_heat_map() ? &maps_ : nullptr, info_);
   // The values are synced first. Then little time passes between the ending, which no earlier mark fits, and the mark that vouches for it.

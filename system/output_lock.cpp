@@ -20,29 +20,47 @@
 namespace wholehand {
 namespace {
 
-constexpr std::string_view HOLDER = "wholehand process ";  // how the lock's file begins; then the number
+constexpr std::string_view HOLDER =
+    "wholehand process ";     // how the lock's file begins; then the number, " on " and the machine's name
 constexpr int ATTEMPTS = 50;  // 10 ms apart: a process that was killed a moment ago may not be gone quite
 
 enum class Taken { yes, no, retry };
 
 std::string content(int file) {
-  std::array<char, 64> text{};
+  std::array<char, 256> text{};
   const ssize_t size = pread(file, text.data(), text.size(), 0);
   return {text.data(), static_cast<std::size_t>(size > 0 ? size : 0)};
 }
 
-// The process that the lock's file names; 0: none.
-pid_t holder(int file) {
-  const std::string text = content(file);
-  return text.starts_with(HOLDER) ? static_cast<pid_t>(std::atoi(text.c_str() + HOLDER.size())) : 0;
+std::string own_node() {
+  std::array<char, 65> name{};
+  if (gethostname(name.data(), name.size() - 1) != 0) return "";
+  return name.data();
 }
 
-// "process 1234 (wholehand)".
-std::string process_text(pid_t process) {
-  if (process <= 0) return "another process";
+// Who the lock's file says has it. A number means nothing on another machine.
+struct Holder {
+  pid_t process = 0;  // 0: nobody
+  std::string node;   // empty: this one
+};
+
+Holder holder(int file) {
+  const std::string text = content(file);
+  if (!text.starts_with(HOLDER)) return {};
+  Holder holder{static_cast<pid_t>(std::atoi(text.c_str() + HOLDER.size())), ""};
+  const std::size_t on = text.find(" on ", HOLDER.size());
+  if (on != std::string::npos) holder.node = text.substr(on + 4, text.find('\n', on) - on - 4);
+  if (holder.node == own_node()) holder.node.clear();
+  return holder;
+}
+
+// "process 1234 (wholehand)", or "process 1234 on node7".
+std::string process_text(const Holder& holder) {
+  if (holder.process <= 0) return "another process";
+  if (!holder.node.empty()) return fmt::format("process {} on {}", holder.process, holder.node);
   std::string name;
-  std::getline(std::ifstream(fmt::format("/proc/{}/comm", process)), name);
-  return fmt::format("process {}", process) + (name.empty() ? "" : " (" + name + ")");
+  std::getline(std::ifstream(fmt::format("/proc/{}/comm", holder.process)), name);
+  return fmt::format("process {}", holder.process) + (name.empty() ? "" : " (" + name + ")");
 }
 
 bool is_at(const std::string& path, int file) {
@@ -54,8 +72,9 @@ bool is_at(const std::string& path, int file) {
 Taken try_lock(const std::string& path, int file) {
   if (flock(file, LOCK_EX | LOCK_NB) != 0) {
     if (errno == EWOULDBLOCK) return Taken::no;
-    const pid_t other = holder(file);  // no locks here
-    if (other > 0 && other != getpid() && (kill(other, 0) == 0 || errno == EPERM)) return Taken::no;
+    const Holder other = holder(file);  // no locks here
+    const bool is_known = other.process > 0 && other.process != getpid() && other.node.empty();
+    if (is_known && (kill(other.process, 0) == 0 || errno == EPERM)) return Taken::no;
   }
   // who held it removed the file meanwhile: this lock is on nothing
   return is_at(path, file) ? Taken::yes : Taken::retry;
@@ -64,7 +83,7 @@ Taken try_lock(const std::string& path, int file) {
 }  // namespace
 
 OutputLock::OutputLock(const std::string& path) : path_(path) {
-  pid_t other = 0;
+  Holder other;
   for (int attempt = 0; attempt < ATTEMPTS; ++attempt) {
     file_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
     const int error = errno;
@@ -83,7 +102,7 @@ OutputLock::OutputLock(const std::string& path) : path_(path) {
     const Taken taken = try_lock(path, file_);
     if (taken == Taken::yes && is_read_only) return;
     if (taken == Taken::yes) {
-      const std::string line = fmt::format("{}{}\n", HOLDER, getpid());
+      const std::string line = fmt::format("{}{} on {}\n", HOLDER, getpid(), own_node());
       // a full disk leaves the lock without a name in it, and a lock all the same
       if (ftruncate(file_, 0) != 0 || pwrite(file_, line.data(), line.size(), 0) < 0) errno = 0;
       return;

@@ -335,6 +335,31 @@ class Ranks(unittest.TestCase):
         self.assertEqual(code, 0, errors)
         self.assert_same("alike.nc", "again.nc")
 
+    def test_a_file_that_another_job_took_is_left_alone(self):
+        # as on two nodes whose file system has no locks
+        path = self.write("large.toml", LARGE)
+        first = self.start(self.command(2, path, "-o", "one.nc", "--mark-seconds", "0.05"))
+        self.await_file("one.nc.partial.mark", first)
+        self.write("other", "of another job")
+        os.rename(self.path("other"), self.path("one.nc.partial"))
+        code, out, errors = self.end(first)
+        self.assertEqual(code, 3, errors)
+        self.assertEqual(len(errors.strip().split("\n")), 1, errors)
+        self.assertIn("wholehand: one.nc.partial: another job replaced this file meanwhile; ", errors)
+        self.assertNotIn("wrote", out)
+        with open(self.path("one.nc.partial"), encoding="utf-8") as file:
+            self.assertEqual(file.read(), "of another job")
+        self.assertFalse(os.path.exists(self.path("one.nc")))
+
+    def await_file(self, name, process):
+        for _ in range(20 * PATIENCE):
+            if os.path.exists(self.path(name)):
+                return
+            if process.poll() is not None:
+                break
+            time.sleep(0.05)
+        self.fail(f"{name} did not come: {self.end(process)}")
+
     def ranks_of(self, process):
         found = subprocess.run(["pgrep", "-g", "0", "-P", str(process.pid)], capture_output=True, text=True, check=False).stdout
         if not found:

@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 
@@ -178,6 +179,36 @@ TEST(ResultFile, ExistingResultStaysUntilTheEnd) {
   file.finish();
   EXPECT_NE(file_text(folder / "a.nc"), "before");
   EXPECT_FALSE(file_exists(folder / "a.nc.partial"));
+}
+
+// Where no lock kept another job away.
+TEST(ResultFile, AnothersFileUnderItsNameIsLeftAlone) {
+  for (const bool is_replaced : {true, false}) {
+    const TemporaryFolder folder;
+    SweepFile setup(fake_scene(), folder / "a.nc");
+    ResultFile file = setup.open();
+    setup.write_all(file);
+    file.check_own();
+    std::filesystem::remove(setup.names.partial);
+    if (is_replaced) std::ofstream(setup.names.partial) << "of another job";
+    for (const bool is_end : {false, true}) {
+      try {
+        if (is_end) {
+          file.finish();
+        } else {
+          file.write_ending(std::vector<std::vector<RankedGrip>>(setup.scene.vessels.size()), 1, 1);
+        }
+        ADD_FAILURE() << "it was not looked at";
+      } catch (const Error& error) {
+        EXPECT_EQ(error.code, ExitCode::failure);
+        EXPECT_NE(std::strstr(error.what(), is_replaced ? ": another job replaced this file" : ": another job took away this file"),
+                  nullptr)
+            << error.what();
+      }
+    }
+    EXPECT_FALSE(file_exists(folder / "a.nc"));
+    if (is_replaced) EXPECT_EQ(file_text(setup.names.partial), "of another job");
+  }
 }
 
 TEST(ResultFile, IsReadBeforeItGetsItsName) {

@@ -73,6 +73,37 @@ TEST_F(RunTest, WhoWritesAResultIsNamedAndUndisturbed) {
   expect_same_as(expected, path);
 }
 
+// As on two machines whose file system has no locks: the lock of the first is not seen.
+TEST_F(RunTest, WhoFindsAnothersFileEndsAndLeavesItAlone) {
+  const std::string expected = reference(), path = folder / "a.nc";
+  SweepTrial first(path);
+  first.options.mark_seconds = 0;
+  std::string mark, partial;
+  int chunks = 0;
+  first.before_chunk = [&] {
+    if (++chunks != 6) return;
+    std::filesystem::remove(path + ".partial.lock");
+    SweepTrial second(path);
+    int its_chunks = 0;
+    second.before_chunk = [&] {
+      if (++its_chunks == 3) raise(SIGINT);
+    };
+    EXPECT_EQ(exit_of(second.start()), 130);
+    mark = file_text(path + ".partial.mark");
+    partial = file_text(path + ".partial");
+  };
+  const TrialOutcome outcome = first.run();
+  EXPECT_EQ(outcome.code, ExitCode::failure);
+  EXPECT_TRUE(has(outcome.error, path + ".partial: another job replaced this file meanwhile; ")) << outcome.error;
+  EXPECT_FALSE(file_exists(path));
+  EXPECT_EQ(file_text(path + ".partial.mark"), mark);
+  EXPECT_EQ(file_text(path + ".partial"), partial);
+  SweepTrial rest(path);
+  rest.options.resume = true;
+  EXPECT_EQ(rest.run().code, ExitCode::done);
+  expect_same_as(expected, path);
+}
+
 TEST_F(RunTest, ALinkIsFollowedToItsFile) {
   std::filesystem::create_directory(folder / "data");
   std::filesystem::create_symlink("data/target.nc", folder / "a.nc");

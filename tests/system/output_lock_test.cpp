@@ -68,6 +68,21 @@ TEST(OutputLock, TheSecondIsRefusedWithWhoHoldsIt) {
   EXPECT_FALSE(file_exists(path));
 }
 
+// A number of a process is told with the machine that has it: here it may be another process's.
+TEST(OutputLock, WhoHoldsItOnAnotherMachineIsNamedWithIt) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "a.lock";
+  const OutputLock lock(path);
+  std::string host(256, '\0');
+  ASSERT_EQ(gethostname(host.data(), host.size()), 0);
+  const std::string name = host.c_str();
+  EXPECT_EQ(file_text(path), "wholehand process " + std::to_string(getpid()) + " on " + name + "\n");
+  std::ofstream(path) << "wholehand process " << getpid() << " on " << name << "7\n";
+  const std::string line = lock_refusal(path);
+  EXPECT_NE(line.find(": process " + std::to_string(getpid()) + " on " + name + "7 writes this result; "), std::string::npos)
+      << line;
+}
+
 TEST(OutputLock, OfTwoInOneProcessOneIsRefusedToo) {
   const TemporaryFolder folder;
   const OutputLock lock(folder / "a.lock");
