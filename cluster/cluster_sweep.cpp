@@ -221,18 +221,26 @@ class ClusterSweep final : public Sweep {
       return team_.is_leader() ? interrupted() : ExitCode::interrupted;
     if (!team_.is_leader()) file.reset();
     team_.meet();
-    BestLists best(scene_.vessels.size() * plan().hand_scales());
-    agree([&] {
-      if (team_.is_leader()) best = find_best();
-    });
-    const bool is_completed = complete_together(best, interrupt);
-    agree([&] {
-      if (!team_.is_leader()) return;
-      if (!is_completed) return save(*file);
-      finish(*file, best);
-      say_ranks();
-      say_shards();
-    });
+    bool is_completed = false;
+    const auto ending = [&] {
+      BestLists best(scene_.vessels.size() * plan().hand_scales());
+      agree([&] {
+        if (team_.is_leader()) best = find_best();
+      });
+      is_completed = complete_together(best, interrupt);
+      agree([&] {
+        if (!team_.is_leader()) return;
+        if (!is_completed) return save(*file);
+        finish(*file, best);
+        say_ranks();
+        say_shards();
+      });
+    };
+    if (team_.is_leader()) {
+      end(*file, ending);
+    } else {
+      ending();
+    }
     if (is_completed) {
       remove_unused_shard(own_names.partial);
       return ExitCode::done;
@@ -577,7 +585,7 @@ class ClusterSweep final : public Sweep {
         if (is_report_due() && !failure_) failure_ = caught([&] { keep_mark(file); });
       }
       progress_->clear();
-      if (done() < total() || failure_) {
+      if (done() < total() || failure_ || is_marked_) {
         const std::optional<Error> unsaved = caught([&] { keep_mark(file); });
         if (!failure_) failure_ = unsaved;
       }

@@ -2,6 +2,7 @@
 #include "sweeps/refine.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -117,14 +118,18 @@ RefinedPlace search_box(const Coordinates& start, const RefineBox& box, const st
   return found;
 }
 
-void refine_lists(const Evaluator& core, const Scene& scene, const Plan& plan, int threads,
-                  std::vector<std::vector<BestGrip>>& lists) {
+bool refine_lists(const Evaluator& core, const Scene& scene, const Plan& plan, int threads,
+                  std::vector<std::vector<BestGrip>>& lists, const std::function<bool()>& is_asked_to_end) {
   std::vector<std::pair<std::size_t, std::size_t>> all;  // list, rank
   for (std::size_t list = 0; list < lists.size(); ++list)
     for (std::size_t rank = 0; rank < std::min(lists[list].size(), MOST_REFINED); ++rank) all.emplace_back(list, rank);
   const CoreScore score(core, scene);
-  in_parallel(all.size(), threads,
-              [&](std::size_t i) { refine(score, plan, all[i].first / plan.hand_scales(), lists[all[i].first][all[i].second]); });
+  std::atomic<bool> is_whole{true};
+  in_parallel(all.size(), threads, [&](std::size_t i) {
+    if (is_whole && is_asked_to_end && is_asked_to_end()) is_whole = false;
+    if (is_whole) refine(score, plan, all[i].first / plan.hand_scales(), lists[all[i].first][all[i].second]);
+  });
+  return is_whole;
 }
 
 }  // namespace wholehand

@@ -49,7 +49,7 @@ struct RobustGrips {
 
 // False: stopped.
 bool evaluate(Backend& backend, std::size_t vessel, const std::vector<Deviation>& all, std::size_t first, std::size_t last,
-              const std::atomic<bool>* stop, RobustGrips& grips) {
+              const std::atomic<bool>* stop, const std::function<void()>& look, RobustGrips& grips) {
   const std::size_t each = last - first;
   RunRequest request;
   request.vessel = vessel;
@@ -66,6 +66,7 @@ bool evaluate(Backend& backend, std::size_t vessel, const std::vector<Deviation>
       const bool is_plausible = (status & (STATUS_REASON_MASK | STATUS_PLAUSIBLE)) == STATUS_PLAUSIBLE;
       grips.scores[at / each][first + at % each] = is_plausible ? chunk.real(fields.plane[FIELD_SCORE], i) : 0;
     }
+    if (look) look();
   };
   const RunResult result = backend.run(request);
   if (stop && *stop) return false;
@@ -149,7 +150,7 @@ RobustScore robust_score(std::vector<double> scores) {
 }
 
 bool add_robust_scores(const OpenBackend& open, const Scene& scene, const Plan& plan, const std::atomic<bool>* stop,
-                       std::vector<std::vector<BestGrip>>& lists) {
+                       std::vector<std::vector<BestGrip>>& lists, const std::function<void()>& look) {
   if (!scene.robust) return true;
   const std::vector<Deviation> all = deviations(*scene.robust);
   std::vector<RobustGrips> vessels(scene.vessels.size());
@@ -175,7 +176,7 @@ bool add_robust_scores(const OpenBackend& open, const Scene& scene, const Plan& 
     }
     const std::size_t first = level * all.size() / frictions.size(), last = (level + 1) * all.size() / frictions.size();
     for (std::size_t v = 0; v < vessels.size(); ++v)
-      if (!vessels[v].best.empty() && !evaluate(*backend, v, all, first, last, stop, vessels[v])) return false;
+      if (!vessels[v].best.empty() && !evaluate(*backend, v, all, first, last, stop, look, vessels[v])) return false;
   }
   for (RobustGrips& grips : vessels)
     for (std::size_t i = 0; i < grips.best.size(); ++i) {

@@ -54,8 +54,8 @@ using OpenBackend = std::function<std::unique_ptr<Backend>(const Scene&, const F
 
 // Sets the robust scores of the first MOST_ROBUST grips of each list, in a scene that asks for them; else nothing. A deviation that is
 // infeasible or implausible scores 0. The same bits however many grips the backend takes at once. `stop` may be null; false: it was
-// set, and no list has changed. Throws Error (failure) where the backend delivers fewer.
+// set, and no list has changed. `look` is called after each chunk and may set it. Throws Error (failure) where the backend delivers fewer.
 bool add_robust_scores(const OpenBackend& open, const Scene& scene, const Plan& plan, const std::atomic<bool>* stop,
-                       std::vector<std::vector<BestGrip>>& lists);
+                       std::vector<std::vector<BestGrip>>& lists, const std::function<void()>& look = {});
 
 }  // namespace wholehand

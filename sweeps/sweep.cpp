@@ -84,18 +84,19 @@ ExitCode Sweep::run() {
   const ResultContents written = contents();
   const bool resumed = begin();
   // An interrupt that comes while the file is laid out waits for the first grips. One that comes when all are done lets the ending finish, but for
-  // robust scores.
+  // refined grips and robust scores.
   InterruptGuard interrupt;
   ResultFile file(names_, written, backend_->fields(), resumed ? FileStart::resumed : FileStart::reserved, parts_.open_output);
   is_marked_ = resumed;
   if (!repair(file, interrupt) || !sweep(file, interrupt)) return interrupted();
-  BestLists best = find_best();
-  if (!complete(best, interrupt)) {
+  bool is_whole = false;
+  end(file, [&] {
+    BestLists best = find_best();
+    is_whole = complete(best, interrupt);
+    if (is_whole) return finish(file, best);
     save(file);
-    return interrupted();
-  }
-  finish(file, best);
-  return ExitCode::done;
+  });
+  return is_whole ? ExitCode::done : interrupted();
 }
 
 void Sweep::open() {
@@ -255,7 +256,10 @@ bool Sweep::compute_again(std::size_t v, const Stretch& stretch, ResultFile& fil
   RunRequest request = grips_of(v, interrupt);
   request.first = stretch.first;
   request.last = stretch.last;
-  request.sink = [&file](const PlaneChunk& chunk) { file.write(chunk); };
+  request.sink = [&](const PlaneChunk& chunk) {
+    file.write(chunk);
+    if (is_time_up()) interrupt.flag() = true;
+  };
   const RunResult result = backend_->run(request);
   file.end_stretch();
   return result.done == stretch.last - stretch.first;
@@ -454,14 +458,31 @@ ExitCode Sweep::interrupted() const {
   return ExitCode::interrupted;
 }
 
-// False: interrupted while the robust scores were computed, which may take as long as the sweep; the grips are marked.
 CompanionRequest Sweep::companions() const { return {scene_, plan(), names_, parts_, best_wanted_, options_.glb}; }
 
 BestLists Sweep::find_best() { return best_grips(companions(), mark_.vessels, *backend_); }
 
+void Sweep::end(ResultFile& file, const std::function<void()>& ending) {
+  try {
+    ending();
+  } catch (...) {
+    try {
+      save(file);
+    } catch (const std::exception&) {
+      // the first failure is what the user has to know
+    }
+    throw;
+  }
+}
+
+// It may take as long as the sweep.
 bool Sweep::complete(BestLists& best, InterruptGuard& interrupt) const {
-  if (refines()) refine_lists(*evaluator_, scene_, plan(), options_.threads, best);
-  return add_robust_scores(parts_.open_other, scene_, plan(), &interrupt.flag(), best);
+  const auto look = [&] {
+    if (is_asked_to_end(interrupt)) interrupt.flag() = true;
+    return interrupt.flag().load();
+  };
+  if (refines() && !refine_lists(*evaluator_, scene_, plan(), options_.threads, best, look)) return false;
+  return add_robust_scores(parts_.open_other, scene_, plan(), &interrupt.flag(), best, look);
 }
 
 void Sweep::finish(ResultFile& file, const BestLists& best) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -60,6 +61,8 @@ class Sweep {
   // Everything up to here onto the disk, then the mark that says so.
   void save(ResultFile& file);
   ExitCode interrupted() const;
+  // Does what follows the last grip. Where that fails the mark has all grips, as far as it can be written.
+  void end(ResultFile& file, const std::function<void()>& ending);
   // What is told of the grips of each list; what takes longer: refined grips and robust scores, false where that was interrupted; and the
   // files, once all is known.
   BestLists find_best();

@@ -360,6 +360,21 @@ class Ranks(unittest.TestCase):
             time.sleep(0.05)
         self.fail(f"{name} did not come: {self.end(process)}")
 
+    def test_an_error_after_the_last_grip_leaves_all_of_them_marked(self):
+        path = self.write("late.toml", LARGE.replace("count = 1000", "count = 200"))
+        self.alone(path, "whole.nc")
+        process = self.start(self.command(2, path, "-o", "late.nc", "--mark-seconds", "80000"))
+        self.await_file("late.nc.partial", process)
+        os.mkdir(self.path("late.best.csv"))  # which cannot be written then
+        code, _, errors = self.end(process)
+        self.assertEqual(code, 3, errors)
+        self.assertIn("late.best.csv", errors)
+        os.rmdir(self.path("late.best.csv"))
+        code, _, errors = self.run_ranks(3, path, "-o", "late.nc", "--resume")
+        self.assertEqual(code, 0, errors)
+        self.assertIn("late.nc.partial: 20,800 of 20,800 grips are there", errors)
+        self.assert_same("whole.nc", "late.nc")
+
     def ranks_of(self, process):
         found = subprocess.run(["pgrep", "-g", "0", "-P", str(process.pid)], capture_output=True, text=True, check=False).stdout
         if not found:
@@ -412,6 +427,17 @@ class Ranks(unittest.TestCase):
             code, out, errors = self.run_ranks(1, path, "-o", "timed.nc", "--resume")
             self.assertEqual(code, 0, errors)
         self.assert_same("large.nc", "timed.nc")
+
+    def test_the_time_limit_holds_while_the_best_are_told(self):
+        # robust scores that take longer than the grips
+        path = self.write("robust.toml", POINTS.replace("count = 16", "count = 1500").replace("count = 3000", "count = 100"))
+        code, _, errors = self.run_ranks(2, path, "-o", "timed.nc", "--time-limit", "1")
+        self.assertEqual(code, 130, errors)
+        self.assertRegex(errors, r"wholehand: interrupted at [\d,]+ of 200 grips; the same command with --resume goes on")
+        self.alone(path, "robust.nc")
+        code, _, errors = self.run_ranks(3, path, "-o", "timed.nc", "--resume")
+        self.assertEqual(code, 0, errors)
+        self.assert_same("robust.nc", "timed.nc")
 
     def test_a_damaged_stretch_is_computed_again(self):
         path = self.write("large.toml", LARGE)

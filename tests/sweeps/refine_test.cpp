@@ -187,6 +187,26 @@ TEST(Refine, RefinedGripsHaveTheScoreThatIsSaid) {
   EXPECT_GT(higher, 5u);
 }
 
+TEST(Refine, ItEndsBetweenGripsWhereThatIsAskedFor) {
+  const Scene scene = scene_from(RESULT_SCENE);
+  const Plan plan(scene, false);
+  const auto core = make_core_evaluator(scene);
+  std::vector<std::vector<BestGrip>> lists(scene.vessels.size());
+  for (std::uint64_t i = 0; i < 9; ++i) {
+    BestGrip best;
+    best.candidate = {0.5, i};
+    best.grip = plan.grip(0, i);
+    lists[0].push_back(best);
+  }
+  auto whole = lists;
+  EXPECT_TRUE(refine_lists(*core, scene, plan, 1, whole));
+  int looks = 0;
+  EXPECT_FALSE(refine_lists(*core, scene, plan, 1, lists, [&] { return ++looks == 4; }));
+  EXPECT_EQ(looks, 4);
+  for (std::size_t k = 0; k < lists[0].size(); ++k)
+    if (k >= 3 || std::isnan(whole[0][k].refined_score)) EXPECT_TRUE(std::isnan(lists[0][k].refined_score)) << k;
+}
+
 TEST(Refine, ASweepSaysBothScoresAndTheResultGivesTheGripsBack) {
   const TemporaryFolder folder;
   const Scene scene = scene_from(RESULT_SCENE);

@@ -428,6 +428,45 @@ TEST_F(RobustRun, AnInterruptBetweenDeviationsResumesToTheSame) {
   expect_same_as(whole, folder / "a.nc");
 }
 
+TEST_F(RobustRun, TheTimeLimitHoldsBetweenDeviations) {
+  const Scene scene = robust_fake_scene();
+  const std::string whole = reference(scene);
+  SweepTrial first(folder / "a.nc");
+  first.scene = scene;
+  int chunks = 0;
+  first.before_other = [&] {
+    ++chunks;
+    first.options.time_limit = 1e-9;
+  };
+  const TrialOutcome stopped = first.run();
+  EXPECT_EQ(stopped.code, ExitCode::interrupted) << stopped.error;
+  EXPECT_EQ(chunks, 1);
+  SweepTrial rest(folder / "a.nc");
+  rest.scene = scene;
+  rest.options.resume = true;
+  EXPECT_EQ(rest.run().code, ExitCode::done);
+  expect_same_as(whole, folder / "a.nc");
+}
+
+TEST_F(RobustRun, AFailureAfterTheLastGripLeavesAllOfThemMarked) {
+  const Scene scene = robust_fake_scene();
+  const std::string whole = reference(scene);
+  SweepTrial first(folder / "a.nc");
+  first.scene = scene;
+  first.before_other = [] { throw failure_error("device lost"); };
+  const TrialOutcome failed = first.run();
+  EXPECT_EQ(failed.code, ExitCode::failure);
+  EXPECT_EQ(failed.error, "device lost");
+  SweepTrial rest(folder / "a.nc");
+  rest.scene = scene;
+  rest.options.resume = true;
+  const TrialOutcome resumed = rest.run();
+  EXPECT_EQ(resumed.code, ExitCode::done) << resumed.error;
+  const std::string all = resumed.notes.substr(resumed.notes.find(".partial: ") + 10);
+  EXPECT_EQ(all.substr(0, all.find(' ')), all.substr(all.find("of ") + 3, all.find(' '))) << resumed.notes;
+  expect_same_as(whole, folder / "a.nc");
+}
+
 void change_value(const std::string& path, const char* variable, std::array<std::size_t, 2> place, double value) {
   int file = -1, id = -1;
   ASSERT_EQ(nc_open(path.c_str(), NC_WRITE, &file), NC_NOERR);

@@ -305,6 +305,26 @@ TEST_F(RunTest, AnInterruptWhileDamagedGripsAreComputedAgainLosesNothing) {
   expect_same_as(expected, path);
 }
 
+TEST_F(RunTest, TheTimeLimitHoldsWhileDamagedGripsAreComputedAgain) {
+  const std::string expected = reference(), path = folder / "a.nc";
+  leave_damaged_grips(path);
+  SweepTrial repairing(path);
+  repairing.options.resume = true;
+  repairing.chunk = 10;
+  int chunks = 0;
+  repairing.before_chunk = [&] {
+    if (++chunks == 2) repairing.options.time_limit = 1e-9;
+  };
+  const TrialOutcome cut = repairing.run();
+  EXPECT_EQ(cut.code, ExitCode::interrupted) << cut.error;
+  EXPECT_TRUE(has(cut.notes, " are damaged: computing them again")) << cut.notes;
+  EXPECT_LT(chunks, 5);
+  SweepTrial rest(path);
+  rest.options.resume = true;
+  EXPECT_EQ(rest.run().code, ExitCode::done);
+  expect_same_as(expected, path);
+}
+
 // A mark that was altered with a checksum that fits: what it says must go together all the same.
 TEST_F(RunTest, AMarkThatContradictsItselfIsRefused) {
   const std::string path = folder / "a.nc";
