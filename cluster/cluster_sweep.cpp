@@ -1054,7 +1054,7 @@ ExitCode run_cluster_sweep(Team& team, const std::function<Scene()>& read_scene,
           }));
     return ExitCode::done;
   });
-  if (own.threads == 0 && own.on == "core") own.threads = team.own_processors();
+  if (own.threads == 0) own.threads = team.own_processors();  // on a device, of what the core does besides
   const Precision precise = own.precision.value_or(own.on == "core" ? Precision::full : Precision::single);
   const SweepParts parts{
       [&](const FieldSet& fields) { return open_backend(scene, fields, own.on, precise, own.threads); },

@@ -12,7 +12,9 @@
 #include <cstddef>
 #include <cstdlib>
 #include <thread>
+#include <vector>
 
+#include "cluster/processors.h"
 #include "core/error.h"
 
 namespace wholehand {
@@ -100,6 +102,23 @@ class MpiFile final : public OutputBytes {
   MPI_File file_ = MPI_FILE_NULL;
 };
 
+// Of all ranks of a node, each asks: how many processors are mine?
+int share_processors(MPI_Comm local, int rank, int size) {
+  std::vector<cpu_set_t> sets(static_cast<std::size_t>(size));
+  cpu_set_t& own = sets[static_cast<std::size_t>(rank)];
+  CPU_ZERO(&own);
+  if (sched_getaffinity(0, sizeof own, &own) != 0)
+    for (long p = 0; p < std::min<long>(CPU_SETSIZE, sysconf(_SC_NPROCESSORS_ONLN)); ++p)
+      CPU_SET(static_cast<std::size_t>(p), &own);
+  MPI_Allgather(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, sets.data(), sizeof(cpu_set_t), MPI_BYTE, local);
+  std::vector<std::vector<bool>> allowed;
+  for (const cpu_set_t& set : sets) {
+    allowed.emplace_back(CPU_SETSIZE);
+    for (std::size_t p = 0; p < CPU_SETSIZE; ++p) allowed.back()[p] = CPU_ISSET(p, &set);
+  }
+  return deal_processors(allowed)[static_cast<std::size_t>(rank)];
+}
+
 }  // namespace
 
 struct Team::Mpi {
@@ -126,6 +145,7 @@ Team::Team(int& argc, char**& argv) : mpi_(std::make_unique<Mpi>()) {
   MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &local);
   MPI_Comm_rank(local, &local_rank_);
   MPI_Comm_size(local, &local_size_);
+  own_processors_ = share_processors(local, local_rank_, local_size_);
   MPI_Comm_free(&local);
   std::array<char, MPI_MAX_PROCESSOR_NAME + 1> name{};
   int length = 0;
@@ -145,14 +165,6 @@ Team::~Team() {
 }
 
 void Team::nap() { std::this_thread::sleep_for(std::chrono::milliseconds(1)); }
-
-int Team::own_processors() const {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  const long online = std::max(1L, sysconf(_SC_NPROCESSORS_ONLN));
-  const long allowed = sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : online;
-  return static_cast<int>(std::max(1L, std::min(allowed, online / local_size_)));
-}
 
 void Team::send(const std::string& message) {
   sent_.remove_if([](Sent& sent) {

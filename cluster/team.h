@@ -28,8 +28,8 @@ class Team {
   int local_rank() const { return local_rank_; }  // among those of this node
   int local_size() const { return local_size_; }
   const std::string& node() const { return node_; }
-  // Processors for this rank: those that it may run on, and no more than its part of the node's.
-  int own_processors() const;
+  // Processors for this rank: its part of those that it may run on, where other ranks of the node may run on them too.
+  int own_processors() const { return own_processors_; }
 
   // A message to rank 0; returns at once. Rank 0 does not send.
   void send(const std::string& message);
@@ -68,7 +68,7 @@ class Team {
   struct Mpi;
   struct Sent;
   std::unique_ptr<Mpi> mpi_;
-  int rank_ = 0, size_ = 1, local_rank_ = 0, local_size_ = 1;
+  int rank_ = 0, size_ = 1, local_rank_ = 0, local_size_ = 1, own_processors_ = 1;
   std::string node_;
   bool is_agreed_ = false;
   std::list<Sent> sent_;  // messages that may still be under way
