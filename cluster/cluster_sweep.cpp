@@ -621,14 +621,14 @@ class ClusterSweep final : public Sweep {
         if (has_heat_map()) maps_[range.vessel].add(plan(), chunk, backend_->fields());
         delivered += chunk.count;
         if (team_.is_leader()) show(delivered);
-        if (is_report_due() || is_time_up()) interrupt.flag() = true;
+        if (is_report_due() || is_time_up() || team_.is_stopped()) interrupt.flag() = true;
         sink_seconds += since(start);
       };
       const double start = monotonic_now();
       const RunResult result = backend_->run(request);
       interrupt.clear();
       if ((delivered != result.done && !(delivered == 0 && variables_.empty())) ||
-          (result.done == 0 && !is_asked_to_end(interrupt)))
+          (result.done == 0 && !is_asked_to_end(interrupt) && !team_.is_stopped()))
         throw failure_error(fmt::format("{}: handed over {} of {} grips", backend_->info().device, delivered, result.done));
       if (delivered == 0) piece.counts.grips += result.done;
       offer(range.vessel, result.best);
@@ -652,7 +652,7 @@ class ClusterSweep final : public Sweep {
         }
         last_report_ = monotonic_now();
       }
-      if (is_asked_to_end(interrupt)) break;
+      if (is_asked_to_end(interrupt) || team_.is_stopped()) break;  // stopped: another rank has an error, or was interrupted
     }
     return first - range.first;
   }
@@ -937,7 +937,7 @@ class ClusterSweep final : public Sweep {
       eligible.clear();
       add_eligible(chunk, backend_->fields(), eligible);
       own.offer(eligible);
-      if (is_time_up()) interrupt.flag() = true;
+      if (is_time_up() || team_.is_stopped()) interrupt.flag() = true;
     };
     const double start = monotonic_now();
     const RunResult result = backend_->run(request);

@@ -125,6 +125,7 @@ struct Team::Mpi {
   MPI_Win window = MPI_WIN_NULL;
   std::uint64_t* counter = nullptr;  // of rank 0
   std::uint64_t amount = 0, first = 0;
+  MPI_Request question = MPI_REQUEST_NULL;
   bool is_asked = false;
 };
 
@@ -217,6 +218,7 @@ void Team::abort(ExitCode code) {
 }
 
 void Team::restart_counter() {
+  mpi_->first = 0;
   meet();
   if (is_leader()) {
     std::uint64_t zero = 0, before = 0;
@@ -229,13 +231,25 @@ void Team::restart_counter() {
 void Team::ask(std::uint64_t amount) {
   mpi_->amount = amount;
   mpi_->is_asked = true;
-  MPI_Fetch_and_op(&mpi_->amount, &mpi_->first, MPI_UINT64_T, 0, 0, MPI_SUM, mpi_->window);
+  // what MPI_Fetch_and_op does, with a request to look at
+  MPI_Rget_accumulate(&mpi_->amount, 1, MPI_UINT64_T, &mpi_->first, 1, MPI_UINT64_T, 0, 0, 1, MPI_UINT64_T, MPI_SUM, mpi_->window,
+                      &mpi_->question);
 }
 
 std::uint64_t Team::answer() {
+  MPI_Wait(&mpi_->question, MPI_STATUS_IGNORE);
   MPI_Win_flush(0, mpi_->window);
   mpi_->is_asked = false;
   return mpi_->first;
+}
+
+bool Team::is_stopped() {
+  if (mpi_->question != MPI_REQUEST_NULL) {
+    int is_there = 0;
+    MPI_Test(&mpi_->question, &is_there, MPI_STATUS_IGNORE);
+    if (is_there == 0) return false;
+  }
+  return mpi_->first >= NO_MORE;
 }
 
 void Team::stop_counter() {

@@ -60,6 +60,8 @@ class Team {
   // Every answer from now on is NO_MORE or beyond: no sweep has so many grips, and 8,000 ranks may call it.
   void stop_counter();
   static constexpr std::uint64_t NO_MORE = std::uint64_t{1} << 50;
+  // Whether the answer to the last question says so, as far as it is there. Does not wait.
+  bool is_stopped();
 
   // Writes with MPI's own calls (MPI_File_write_at), and syncs alone, when this rank wants to.
   static std::unique_ptr<OutputBytes> open_output(const std::string& path);
