@@ -29,6 +29,7 @@ int to_int(ExitCode code) { return static_cast<int>(code); }
 
 int report(const Program& program, ExitCode code, std::string line) {
   std::fflush(stdout);
+  if (program.on_failure) program.on_failure(code, line);
   if (program.is_silent) return to_int(code);
   for (char& c : line) {
     if (static_cast<unsigned char>(c) < 0x20) c = ' ';

@@ -14,6 +14,7 @@ struct Program {
   std::string version_note;  // after name and version
   std::function<void(CLI::App& app, Action& action)> add_commands;
   bool is_silent = false;  // says nothing of --help and of what goes wrong: another process does
+  std::function<void(ExitCode code, const std::string& line)> on_failure;  // told of what goes wrong, too; may be empty
 };
 
 // Answers the exit code.

@@ -7,6 +7,8 @@
 #include "app/failure_line.h"
 #include "cluster/cluster_sweep.h"
 #include "cluster/team.h"
+#include "core/error.h"
+#include "system/interrupt.h"
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 [[gnu::section(".preinit_array"), gnu::used]] static void (*const before_all)() = wholehand::prepare_failure_line;
@@ -14,7 +16,8 @@
 
 int main(int argc, char** argv) {
   using namespace wholehand;
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows past its limit is an error of the write, here of MPI's own files too
+  std::signal(SIGXFSZ, SIG_IGN);      // a file that grows past its limit is an error of the write, here of MPI's own files too
+  InterruptGuard interrupt(SIGUSR1);  // from here on; a cluster's warning may come while ranks still find each other
   Team team(argc, argv);
   Program program;
   program.name = "wholehand-mpi";
@@ -24,10 +27,16 @@ int main(int argc, char** argv) {
       "All other commands are those of `wholehand`.\n"
       "Exit codes: 0 done, 2 wrong usage or input, 3 device or system failure, 130 interrupted or out of time.";
   program.is_silent = !team.is_leader();
-  program.add_commands = [&team](CLI::App& app, Action& action) {
-    add_shared_sweep_command(app, action, [&team](const std::function<Scene()>& read_scene, const SweepOptions& options) {
-      return run_cluster_sweep(team, read_scene, options);
+  bool has_begun = false;
+  Error own = usage_error("no sweep is asked for here; start the same on every node");
+  program.on_failure = [&own](ExitCode code, const std::string& line) { own = Error(code, line); };
+  program.add_commands = [&](CLI::App& app, Action& action) {
+    add_shared_sweep_command(app, action, [&](const std::function<Scene()>& read_scene, const SweepOptions& options) {
+      has_begun = true;
+      return run_cluster_sweep(team, read_scene, options, interrupt);
     });
   };
-  return run_program(argc, argv, program);
+  const int code = run_program(argc, argv, program);
+  if (!has_begun) leave_cluster_sweep(team, own);
+  return code;
 }

@@ -89,6 +89,8 @@ std::optional<Error> caught(const std::function<void()>& work) {
     return error;
   } catch (const std::bad_alloc&) {
     return failure_error("out of memory; ask for less at once");
+  } catch (const std::exception& error) {
+    return failure_error(std::string("unexpected failure: ") + error.what());
   }
   return std::nullopt;
 }
@@ -162,10 +164,11 @@ std::string own_device(const Team& team, const std::string& on) {
 
 class ClusterSweep final : public Sweep {
  public:
-  ClusterSweep(Team& team, const Scene& scene, const SweepOptions& options, const SweepParts& parts)
-      : Sweep(scene, options, parts), team_(team), figures_(static_cast<std::size_t>(team.size())) {}
+  ClusterSweep(Team& team, const Scene& scene, const SweepOptions& options, const SweepParts& parts, InterruptGuard& interrupt)
+      : Sweep(scene, options, parts), team_(team), interrupt_(interrupt), figures_(static_cast<std::size_t>(team.size())) {}
 
   ExitCode run() override {
+    InterruptGuard& interrupt = interrupt_;
     std::signal(SIGXFSZ, SIG_IGN);
     std::optional<OutputLock> lock;
     bool is_complete = false;
@@ -185,8 +188,11 @@ class ClusterSweep final : public Sweep {
     }
     agree([&] { open(); });
     compare_ranks();
+    if (!all_of(!interrupt.signalled())) {
+      if (team_.is_leader()) say_note("interrupted before the first grip; no file has changed, and the same command starts again");
+      return ExitCode::interrupted;
+    }
     if (team_.is_leader()) say_opening();
-    InterruptGuard interrupt(SIGUSR1);
     const ResultContents written = contents();
     std::unique_ptr<ResultFile> file;
     bool is_resumed = false;
@@ -1009,6 +1015,7 @@ class ClusterSweep final : public Sweep {
   };
 
   Team& team_;
+  InterruptGuard& interrupt_;
   std::vector<std::string> devices_;              // of all ranks; the leader knows them
   std::vector<Piece> stretches_;                  // of the sweep that is resumed
   std::vector<HandLists> best_;                   // of each vessel, so far
@@ -1036,15 +1043,25 @@ class ClusterSweep final : public Sweep {
 
 }  // namespace
 
-ExitCode run_cluster_sweep(Team& team, const Scene& scene, const SweepOptions& options, const SweepParts& parts) {
+void leave_cluster_sweep(Team& team, const Error& error) {
+  try {
+    agree(team, error);
+  } catch (const Error&) {
+    // which the leader says
+  }
+}
+
+ExitCode run_cluster_sweep(Team& team, const Scene& scene, const SweepOptions& options, const SweepParts& parts,
+                           InterruptGuard& interrupt) {
   return or_abort(team, [&] {
     std::optional<ClusterSweep> sweep;
-    agree(team, caught([&] { sweep.emplace(team, scene, options, parts); }));
+    agree(team, caught([&] { sweep.emplace(team, scene, options, parts, interrupt); }));
     return sweep->run();
   });
 }
 
-ExitCode run_cluster_sweep(Team& team, const std::function<Scene()>& read_scene, const SweepOptions& options) {
+ExitCode run_cluster_sweep(Team& team, const std::function<Scene()>& read_scene, const SweepOptions& options,
+                           InterruptGuard& interrupt) {
   Scene scene;
   SweepOptions own = options;
   or_abort(team, [&] {
@@ -1063,7 +1080,7 @@ ExitCode run_cluster_sweep(Team& team, const std::function<Scene()>& read_scene,
       [&](const Scene& other, const FieldSet& fields) { return open_backend(other, fields, own.on, precise, own.threads); },
       Team::open_output,
   };
-  return run_cluster_sweep(team, scene, own, parts);
+  return run_cluster_sweep(team, scene, own, parts, interrupt);
 }
 
 }  // namespace wholehand

@@ -439,6 +439,40 @@ class Ranks(unittest.TestCase):
         self.assertEqual(code, 0, errors)
         self.assert_same("robust.nc", "timed.nc")
 
+    def test_a_signal_before_the_devices_are_open_closes_it_cleanly(self):
+        path = self.write("a.toml", SMALL)
+        own = [MPI_PROGRAM, "sweep", path, "-o", "a.nc", "--on", "core"]
+        late = ["sh", "-c", 'until [ -e go ]; do sleep 0.05; done; exec "$@"', "sh", *own]
+        process = self.start(["mpirun", "-q", "-n", "1", *own, ":", "-n", "1", *late])
+        signalled = False
+        for _ in range(20 * PATIENCE):
+            for rank in self.ranks_of(process):
+                # it waits for the other one
+                if not signalled and self.catches(rank, signal.SIGUSR1):
+                    os.kill(rank, signal.SIGUSR1)
+                    signalled = True
+            if signalled:
+                break
+            time.sleep(0.05)
+        self.write("go", "")
+        code, out, errors = self.end(process)
+        self.assertTrue(signalled)
+        self.assertEqual((code, out), (130, ""), errors)
+        self.assertEqual(len(errors.strip().split("\n")), 1, errors)
+        self.assertIn("wholehand: interrupted before the first grip; ", errors)
+        self.assertFalse([name for name in os.listdir(self.folder) if name.startswith("a.nc")])
+
+    def catches(self, process, number):
+        try:
+            with open(f"/proc/{process}/comm", encoding="utf-8") as file:
+                if not MPI_PROGRAM.endswith("/" + file.read().strip()):
+                    return False
+            with open(f"/proc/{process}/status", encoding="utf-8") as file:
+                caught = [line for line in file if line.startswith("SigCgt:")][0]
+        except OSError:
+            return False
+        return bool(int(caught.split()[1], 16) >> (number - 1) & 1)
+
     def test_a_damaged_stretch_is_computed_again(self):
         path = self.write("large.toml", LARGE)
         self.given(path, "large.nc")
@@ -508,6 +542,23 @@ class Ranks(unittest.TestCase):
         code, out, errors = self.end(self.start(["mpirun", "-q", "-n", "1", *own, ":", "-n", "1", MPI_PROGRAM, "sweep", "none.toml", *own[3:]]))
         self.assertEqual((code, out, len(errors.strip().split("\n"))), (2, "", 1), errors)
         self.assertIn("rank 1 on ", errors)
+
+    def test_a_failure_before_the_first_step_on_one_rank_ends_all(self):
+        path = self.write("a.toml", SMALL)
+        own = [MPI_PROGRAM, "sweep", path, "-o", "a.nc", "--on", "core"]
+        poor = ["sh", "-c", 'ulimit -n 20; exec "$@"', "sh", *own]
+        said = "only . of the 48 files that the program may need can be open at once"
+        for code, line, first, second in (
+                (3, said, poor, own), (3, rf"rank 2 on \S+: {said}", own, poor),
+                (2, r"rank 2 on \S+: .* --none; see wholehand-mpi sweep --help", own, [*own, "--none"]),
+                (2, r"rank 2 on \S+: --best .*", own, [*own, "--best", "many"]),
+                (2, r"rank 2 on \S+: no sweep is asked for here; start the same on every node", own, [MPI_PROGRAM, "--help"])):
+            ranks = ["-n", "1", *first, ":", "-n", "2", *second] if first == poor else ["-n", "2", *first, ":", "-n", "1", *second]
+            result, out, errors = self.end(self.start(["mpirun", "-q", *ranks]))
+            self.assertEqual((result, out), (code, ""), errors)
+            self.assertEqual(len(errors.strip().split("\n")), 1, errors)
+            self.assertRegex(errors, "wholehand: " + line)
+            self.assertFalse([name for name in os.listdir(self.folder) if name.startswith("a.nc")])
 
 
 if __name__ == "__main__":
