@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
 # sweeps/examples/slurm.sh and slurm_array.sh on a Slurm of two nodes that runs on this machine: a job that is cut by its time goes back
-# into the queue and on, and has the answer of one machine. By hand, as root, with slurm-wlm and munge installed:
+# into the queue and on, and has the answer of one machine; one that loses a rank ends, and the next goes on; one that brings nothing new
+# stays out of the queue. By hand, as root, with slurm-wlm and munge installed:
 #   tests/cluster/slurm_trial.sh PROGRAM MPI_PROGRAM
 # Each node is a slurmd with a name and a /tmp of its own. A job that is queued again waits for cred_expire.
 set -eu
@@ -34,6 +35,7 @@ SlurmctldPidFile=$work/run/slurmctld.pid
 SlurmdPidFile=$work/run/slurmd-%n.pid
 SlurmdSpoolDir=$work/spool-%n
 StateSaveLocation=$work/state
+KillOnBadExit=1
 SlurmUser=root
 SlurmdUser=root
 SwitchType=switch/none
@@ -85,14 +87,37 @@ cd "$work"
 # cut by its own time limit, as by Slurm's: the signal comes before the wall time in the same way
 sbatch --nodes=2 --ntasks=2 --time=0:10:00 --output=job.out "$examples/slurm.sh" "$work/scene.toml" "$work/shared.nc" \
   --on core --threads 1 --time-limit 8
-for _ in $(seq 240); do [ -z "$(squeue -h)" ] && break || sleep 0.5; done
+all_done() { for _ in $(seq 1200); do [ -z "$(squeue -h)" ] && return || sleep 0.5; done; echo "a job hangs"; exit 1; }
+all_done
 cut -c 1-150 job.out
+
+# one rank is killed; the same command goes on
+job=(--nodes=2 --ntasks=2 --time=0:10:00 --output=killed.out "$examples/slurm.sh" "$work/scene.toml" "$work/killed.nc" --on core --threads 1)
+sbatch "${job[@]}" --mark-seconds 1
+until [ -e killed.nc.partial.mark ]; do sleep 0.1; done
+for pid in $(pgrep -x wholehand-mpi); do
+  if grep -qz "$work/killed.nc" "/proc/$pid/cmdline" && grep -qzx SLURM_PROCID=1 "/proc/$pid/environ"; then kill -9 "$pid"; fi
+done
+start=$SECONDS
+all_done
+echo "it ended $((SECONDS - start)) s after a rank was killed"
+sbatch "${job[@]}"
+all_done
+cut -c 1-150 killed.out
+
+# robust scores that take longer than the time limit: the job is queued again for its grips, and then no more
+sed 's/count = 8000/count = 10/' scene.toml >robust.toml
+printf '[robust]\nheight_mm = 2\ncount = 4000\n' >>robust.toml
+sbatch --nodes=2 --ntasks=2 --time=0:10:00 --output=robust.out "$examples/slurm.sh" "$work/robust.toml" "$work/robust.nc" --on core \
+  --threads 1 --best 100 --time-limit 3
+all_done
+cut -c 1-150 robust.out
 
 printf '%s\n' "$work/scene.toml" >scenes.txt
 sbatch --wait --array=1-1 --ntasks=3 --time=0:10:00 --output=array.out "$examples/slurm_array.sh" "$work/scenes.txt" "$work/results" --on core
 cut -c 1-150 array.out
 
-/usr/bin/python3 - alone.nc shared.nc results/scene.nc <<'EOF'
+/usr/bin/python3 - alone.nc shared.nc killed.nc results/scene.nc <<'EOF'
 import sys
 import netCDF4
 
