@@ -203,8 +203,11 @@ TEST(Refine, ItEndsBetweenGripsWhereThatIsAskedFor) {
   int looks = 0;
   EXPECT_FALSE(refine_lists(*core, scene, plan, 1, lists, [&] { return ++looks == 4; }));
   EXPECT_EQ(looks, 4);
-  for (std::size_t k = 0; k < lists[0].size(); ++k)
-    if (k >= 3 || std::isnan(whole[0][k].refined_score)) EXPECT_TRUE(std::isnan(lists[0][k].refined_score)) << k;
+  for (std::size_t k = 0; k < lists[0].size(); ++k) {
+    if (k >= 3 || std::isnan(whole[0][k].refined_score)) {
+      EXPECT_TRUE(std::isnan(lists[0][k].refined_score)) << k;
+    }
+  }
 }
 
 TEST(Refine, ASweepSaysBothScoresAndTheResultGivesTheGripsBack) {

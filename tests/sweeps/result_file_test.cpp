@@ -207,7 +207,9 @@ TEST(ResultFile, AnothersFileUnderItsNameIsLeftAlone) {
       }
     }
     EXPECT_FALSE(file_exists(folder / "a.nc"));
-    if (is_replaced) EXPECT_EQ(file_text(setup.names.partial), "of another job");
+    if (is_replaced) {
+      EXPECT_EQ(file_text(setup.names.partial), "of another job");
+    }
   }
 }
 
