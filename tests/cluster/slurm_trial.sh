@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # sweeps/examples/slurm.sh and slurm_array.sh on a Slurm of two nodes that runs on this machine: a job that is cut by its time goes back
 # into the queue and on, and has the answer of one machine; one that loses a rank ends, and the next goes on; one that brings nothing new
-# stays out of the queue. By hand, as root, with slurm-wlm and munge installed:
+# stays out of the queue; and nodes that share no file system write shards. By hand, as root, with slurm-wlm and munge installed:
 #   tests/cluster/slurm_trial.sh PROGRAM MPI_PROGRAM
 # Each node is a slurmd with a name and a /tmp of its own. A job that is queued again waits for cred_expire.
 set -eu
@@ -117,7 +117,14 @@ printf '%s\n' "$work/scene.toml" >scenes.txt
 sbatch --wait --array=1-1 --ntasks=3 --time=0:10:00 --output=array.out "$examples/slurm_array.sh" "$work/scenes.txt" "$work/results" --on core
 cut -c 1-150 array.out
 
-/usr/bin/python3 - alone.nc shared.nc killed.nc results/scene.nc <<'EOF'
+# each node writes into a /tmp of its own
+sbatch --wait --nodes=2 --ntasks=2 --time=0:10:00 --output=apart.out "$examples/slurm.sh" "$work/scene.toml" /tmp/apart.nc --on core \
+  --threads 1 --shards
+cut -c 1-150 apart.out
+cp tmp-n1/apart.nc.partial tmp-n1/apart.nc.partial.mark tmp-n2/apart.nc.n2.shard .
+"$program" merge apart.nc
+
+/usr/bin/python3 - alone.nc shared.nc killed.nc apart.nc results/scene.nc <<'EOF'
 import sys
 import netCDF4
 
