@@ -538,7 +538,7 @@ class ClusterSweep final : public Sweep {
   // has done.
   void take_pieces(const WorkRange& work, InterruptGuard& interrupt,
                    const std::function<std::uint64_t(const GripRange&)>& compute) {
-    PieceSize size(team_.size());
+    PieceSize size(team_.size(), options_.piece_seconds);
     const double began = monotonic_now();
     std::uint64_t asked = size.next(work.size(), 0);
     team_.ask(asked);

@@ -8,39 +8,32 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <chrono>
 #include <cstddef>
 #include <cstdlib>
-#include <thread>
+#include <utility>
 #include <vector>
 
 #include "cluster/processors.h"
 #include "core/error.h"
+#include "system/clock.h"
 
 namespace wholehand {
 namespace {
 
 constexpr int MESSAGE_TAG = 1;
 constexpr std::size_t MOST_AT_ONCE = std::size_t{1} << 30;  // bytes of one call, whose counts are ints
-void wait_quietly(MPI_Request& request) {
-  for (int is_done = 0;;) {
-    MPI_Test(&request, &is_done, MPI_STATUS_IGNORE);
-    if (is_done != 0) return;
-    Team::nap();
-  }
+constexpr std::size_t MOST_ARRIVING = 16;                   // messages that are received at a time, whose room rank 0 needs
+constexpr double SHORTEST_NAP = 1e-3, LONGEST_NAP = 0.02;   // s
+constexpr double NAP_SHARE = 1.0 / 8;                       // of the time waited so far: what a nap may add to it
+
+bool is_done(MPI_Request& request) {
+  int flag = 0;
+  MPI_Test(&request, &flag, MPI_STATUS_IGNORE);
+  return flag != 0;
 }
 
-bool take_message(int source, std::string& message, int& from) {
-  int is_there = 0, size = 0;
-  MPI_Message handle = MPI_MESSAGE_NULL;
-  MPI_Status status;
-  MPI_Improbe(source, MESSAGE_TAG, MPI_COMM_WORLD, &is_there, &handle, &status);
-  if (is_there == 0) return false;
-  MPI_Get_count(&status, MPI_BYTE, &size);
-  from = status.MPI_SOURCE;
-  message.resize(static_cast<std::size_t>(size));
-  MPI_Mrecv(message.data(), size, MPI_BYTE, &handle, MPI_STATUS_IGNORE);
-  return true;
+void wait_quietly(MPI_Request& request) {
+  for (double waited = 0; !is_done(request);) waited += Team::nap(waited);
 }
 
 int system_error(int mpi_error) {
@@ -134,6 +127,12 @@ struct Team::Sent {
   MPI_Request request = MPI_REQUEST_NULL;
 };
 
+struct Team::Arriving {
+  int from = 0;
+  std::string message;
+  MPI_Request request = MPI_REQUEST_NULL;
+};
+
 Team::Team(int& argc, char**& argv) : mpi_(std::make_unique<Mpi>()) {
   // Open MPI 4.1 chooses its windows by RDMA between nodes that have TCP alone, and then finds that they cannot be made (MPI_ERR_WIN). A
   // choice of the user's stays.
@@ -154,37 +153,74 @@ Team::Team(int& argc, char**& argv) : mpi_(std::make_unique<Mpi>()) {
   node_ = name.data();
   const MPI_Aint bytes = rank_ == 0 ? sizeof(std::uint64_t) : 0;
   MPI_Win_allocate(bytes, sizeof(std::uint64_t), MPI_INFO_NULL, MPI_COMM_WORLD, &mpi_->counter, &mpi_->window);
-  MPI_Win_lock_all(MPI_MODE_NOCHECK, mpi_->window);
+  MPI_Win_lock(MPI_LOCK_SHARED, 0, MPI_MODE_NOCHECK, mpi_->window);
 }
 
 Team::~Team() {
   if (mpi_->is_asked) answer();
   for (Sent& sent : sent_) wait_quietly(sent.request);
-  MPI_Win_unlock_all(mpi_->window);
+  MPI_Win_unlock(0, mpi_->window);
   MPI_Win_free(&mpi_->window);
   MPI_Finalize();
 }
 
-void Team::nap() { std::this_thread::sleep_for(std::chrono::milliseconds(1)); }
+double Team::nap(double waited) {
+  const double length = std::clamp(waited * NAP_SHARE, SHORTEST_NAP, LONGEST_NAP);
+  pause_for(length);
+  return length;
+}
 
 void Team::send(const std::string& message) {
-  sent_.remove_if([](Sent& sent) {
-    int is_done = 0;
-    MPI_Test(&sent.request, &is_done, MPI_STATUS_IGNORE);
-    return is_done != 0;
-  });
+  sent_.remove_if([](Sent& sent) { return is_done(sent.request); });
   sent_.push_back({message});
   Sent& sent = sent_.back();
   MPI_Isend(sent.message.data(), static_cast<int>(sent.message.size()), MPI_BYTE, 0, MESSAGE_TAG, MPI_COMM_WORLD, &sent.request);
 }
 
-bool Team::receive(std::string& message, int& from) { return take_message(MPI_ANY_SOURCE, message, from); }
+// Begins to receive what has come from a source. A large message takes its time, as its sender may be at work: rank 0 does not wait for it.
+void Team::look_for(int source) {
+  while (source != MPI_ANY_SOURCE || arriving_.size() < MOST_ARRIVING) {
+    int is_there = 0, size = 0;
+    MPI_Status status;
+    MPI_Iprobe(source, MESSAGE_TAG, MPI_COMM_WORLD, &is_there, &status);
+    if (is_there == 0) return;
+    MPI_Get_count(&status, MPI_BYTE, &size);
+    Arriving& arriving = arriving_.emplace_back();
+    arriving.from = status.MPI_SOURCE;
+    arriving.message.resize(static_cast<std::size_t>(size));
+    MPI_Irecv(arriving.message.data(), size, MPI_BYTE, arriving.from, MESSAGE_TAG, MPI_COMM_WORLD, &arriving.request);
+    if (source != MPI_ANY_SOURCE) return;
+  }
+}
+
+// The first message of a source that is whole, and has none of the same rank before it.
+bool Team::take(int source, std::string& message, int& from) {
+  for (auto one = arriving_.begin(); one != arriving_.end(); ++one) {
+    if (source != MPI_ANY_SOURCE && source != one->from) continue;
+    const bool is_next = std::none_of(arriving_.begin(), one, [&](const Arriving& earlier) { return earlier.from == one->from; });
+    if (!is_next || !is_done(one->request)) continue;
+    message = std::move(one->message);
+    from = one->from;
+    arriving_.erase(one);
+    return true;
+  }
+  return false;
+}
+
+bool Team::receive(std::string& message, int& from) {
+  look_for(MPI_ANY_SOURCE);
+  return take(MPI_ANY_SOURCE, message, from);
+}
 
 std::string Team::wait_for(int from) {
   std::string message;
   int sender = 0;
-  while (!take_message(from, message, sender)) Team::nap();
-  return message;
+  for (double waited = 0;; waited += nap(waited)) {
+    const bool is_arriving =
+        std::any_of(arriving_.begin(), arriving_.end(), [from](const Arriving& arriving) { return arriving.from == from; });
+    if (!is_arriving) look_for(from);
+    if (take(from, message, sender)) return message;
+  }
 }
 
 void Team::gather(const std::string& message, const std::function<void(int rank, const std::string& message)>& look) {

@@ -43,8 +43,9 @@ class Team {
   std::string share(const std::string& from_leader);
   // Returns when every rank has called it.
   void meet();
-  // Who waits sleeps for a moment and looks again, and leaves its processor to who works: MPI's own waiting would not.
-  static void nap();
+  // Who waits sleeps for a moment and looks again, and leaves its processor to who works: MPI's own waiting would not. The longer it has
+  // waited (s), the longer the moment; answers its length.
+  static double nap(double waited = 0);
 
   // Whether all ranks know that they end with an error.
   void say_agreed() { is_agreed_ = true; }
@@ -69,11 +70,15 @@ class Team {
  private:
   struct Mpi;
   struct Sent;
+  struct Arriving;
+  void look_for(int source);
+  bool take(int source, std::string& message, int& from);
   std::unique_ptr<Mpi> mpi_;
   int rank_ = 0, size_ = 1, local_rank_ = 0, local_size_ = 1, own_processors_ = 1;
   std::string node_;
   bool is_agreed_ = false;
-  std::list<Sent> sent_;  // messages that may still be under way
+  std::list<Sent> sent_;          // messages that may still be under way
+  std::list<Arriving> arriving_;  // to rank 0, in the order in which they were found
 };
 
 }  // namespace wholehand

@@ -8,7 +8,6 @@ namespace wholehand {
 namespace {
 
 constexpr std::uint64_t LEAST = 1024;       // grips: what a device takes as a first chunk
-constexpr double PIECE_SECONDS = 2;         // of a rank, at least, where there is much to do
 constexpr double ELAPSED_SHARE = 1.0 / 64;  // later pieces are longer: each takes a line in the mark
 constexpr std::uint64_t SHARES = 4;         // of what is left, each rank takes at most 1 / (4 ranks)
 
@@ -32,7 +31,7 @@ std::vector<GripRange> WorkRange::piece(std::uint64_t first, std::uint64_t count
 }
 
 std::uint64_t PieceSize::next(std::uint64_t left, double elapsed) const {
-  const double seconds = std::max(PIECE_SECONDS, elapsed * ELAPSED_SHARE);
+  const double seconds = std::max(seconds_, elapsed * ELAPSED_SHARE);
   const auto at_rate = static_cast<std::uint64_t>(std::min(rate_ * seconds, 1e15));
   const std::uint64_t share = left / (SHARES * static_cast<std::uint64_t>(ranks_));
   return std::max(LEAST, std::min(at_rate, share));

@@ -37,7 +37,7 @@ TEST(WorkRange, PiecesHaveEveryGripOnce) {
 // Nothing is known at first; then a fast rank takes more; at the end all take little.
 TEST(PieceSize, FitsTheRank) {
   constexpr std::uint64_t MUCH = 1'000'000'000'000;
-  PieceSize slow(100), fast(100);
+  PieceSize slow(100, 2), fast(100, 2);
   EXPECT_EQ(slow.next(MUCH, 0), fast.next(MUCH, 0));
   slow.done(10'000, 1);
   fast.done(10'000'000, 1);
@@ -52,7 +52,7 @@ TEST(PieceSize, FitsTheRank) {
 // The slowest rank's last piece, taken when it took others' rate for its own, is no more than a part of what was left.
 TEST(PieceSize, AllGripsAreTakenInFewPieces) {
   constexpr std::uint64_t ALL = 100'000'000;
-  std::vector<PieceSize> ranks(8, PieceSize(8));
+  std::vector<PieceSize> ranks(8, PieceSize(8, 2));
   std::uint64_t left = ALL, pieces = 0;
   for (double time = 0; left > 0; time += 0.25) {
     PieceSize& rank = ranks[pieces++ % ranks.size()];

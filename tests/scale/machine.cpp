@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+#include "tests/scale/machine.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <smpi/smpi.h>
+#include <chrono>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <simgrid/s4u.hpp>
+#include <stdexcept>
+
+#include "cluster/cluster_sweep.h"
+#include "cluster/team.h"
+#include "system/clock.h"
+#include "tests/scale/simulated_backend.h"
+
+namespace wholehand::scale {
+namespace {
+
+namespace s4u = simgrid::s4u;
+
+// Nodes on one switch, each with a link of its own.
+std::vector<s4u::Host*> make_nodes(const Machine& machine) {
+  auto* zone = s4u::create_star_zone("machine");
+  std::vector<s4u::Host*> nodes;
+  const int count = (machine.ranks + machine.ranks_per_node - 1) / machine.ranks_per_node;
+  for (int node = 0; node < count; ++node) {
+    s4u::Host* host = zone->create_host(fmt::format("node{}", node), 1e9);
+    host->set_core_count(machine.ranks_per_node);
+    auto* link = zone->create_split_duplex_link(fmt::format("link{}", node), machine.bandwidth);
+    link->set_latency(machine.latency / 2);  // a message takes two links
+    link->seal();
+    zone->add_route(host->get_netpoint(), nullptr, nullptr, nullptr, {{link, s4u::LinkInRoute::Direction::UP}}, true);
+    host->seal();
+    nodes.push_back(host);
+  }
+  zone->seal();
+  return nodes;
+}
+
+// After the grips, the result is read back.
+double read_back_seconds(const Job& job) {
+  const Machine& machine = job.machine;
+  const double bytes = static_cast<double>(job.grips) * machine.bytes_per_grip;
+  const double nodes = std::ceil(static_cast<double>(machine.ranks) / machine.ranks_per_node);
+  const double bandwidth = machine.reads_back_together ? nodes * machine.node_bandwidth : machine.node_bandwidth;
+  return bytes / std::min(bandwidth, machine.write_bandwidth);
+}
+
+// What wholehand-mpi does on each rank.
+void run_rank(const Scene& scene, const std::string& folder) {
+  int argc = 0;
+  char** argv = nullptr;
+  Team team(argc, argv);
+  const Job& job = simulation().job;
+  SweepOptions options;
+  options.output = folder + "/simulated.nc";
+  options.on = "core";
+  options.refine = false;
+  options.threads = 1;
+  options.mark_seconds = job.machine.mark_seconds;
+  options.piece_seconds = job.machine.piece_seconds;
+  options.started = 0;
+  if (run_cluster_sweep(team, scene, options, simulated_parts(scene)) != ExitCode::done)
+    throw std::runtime_error("the sweep did not end as it should");
+  if (team.is_leader()) {
+    pause_for(read_back_seconds(job));
+    simulation().outcome.end = now();
+  }
+}
+
+Outcome run(const Job& job, const std::string& folder) {
+  const auto began = std::chrono::steady_clock::now();
+  Simulation& all = simulation();
+  all.job = job;
+  std::string name = "wholehand-scale", quiet = "--log=root.thresh:warning";
+  std::vector<char*> argv{name.data(), quiet.data(), nullptr};
+  int argc = 2;
+  s4u::Engine engine(&argc, argv.data());
+  // no time passes for the host's own work; MPI's polling costs nothing beyond our own naps; latencies and bandwidths as they are stated
+  for (const char* setting :
+       {"smpi/simulate-computation:no", "smpi/test:0", "smpi/iprobe:0", "smpi/grow-injected-times:no", "network/model:CM02",
+        "network/loopback-bw:10e9", "network/loopback-lat:5e-7", "contexts/stack-size:1024"})
+    engine.set_config(setting);
+  const std::vector<s4u::Host*> nodes = make_nodes(job.machine);
+  all.nodes.resize(nodes.size());
+  SMPI_init();
+  engine.set_config("smpi/coll-selector:ompi");
+  SMPI_app_instance_register("sweep", nullptr, job.machine.ranks);
+  const Scene scene = simulated_scene(job.grips, job.machine.entries);
+  for (int rank = 0; rank < job.machine.ranks; ++rank) {
+    const auto actor = s4u::Actor::init(fmt::format("rank{}", rank), nodes[static_cast<std::size_t>(node_of(rank))]);
+    actor->set_property("instance_id", "sweep");
+    actor->set_property("rank", std::to_string(rank));
+    actor->start([&scene, &folder] { run_rank(scene, folder); });
+  }
+  engine.run();
+  SMPI_finalize();
+  Outcome outcome = all.outcome;
+  const double rates = job.machine.rate * (job.machine.ranks - (job.machine.straggler >= 0 ? 1 - job.machine.straggler_speed : 0));
+  outcome.efficiency = static_cast<double>(job.grips) / rates / outcome.end;
+  outcome.real_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  return outcome;
+}
+
+// Each rank has the result file open.
+void raise_limits() {
+  rlimit limit{};
+  getrlimit(RLIMIT_NOFILE, &limit);
+  limit.rlim_cur = limit.rlim_max;
+  setrlimit(RLIMIT_NOFILE, &limit);
+}
+
+}  // namespace
+
+Simulation& simulation() {
+  static Simulation all;
+  return all;
+}
+
+double now() { return monotonic_now(); }
+
+void sleep_until(double time) {
+  if (time > now()) s4u::this_actor::sleep_until(time);
+}
+
+int own_rank() {
+  thread_local const char* name = nullptr;
+  name = s4u::Actor::self()->get_property("rank");
+  return std::atoi(name);
+}
+
+int node_of(int rank) { return rank / simulation().job.machine.ranks_per_node; }
+
+Outcome simulate(const Job& job, bool is_loud) {
+  int ends[2] = {-1, -1};
+  if (pipe(ends) != 0) throw std::runtime_error("no pipe can be made");
+  std::fflush(nullptr);
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error("no process can be started");
+  if (child == 0) {
+    close(ends[0]);
+    if (!is_loud) {
+      const int nowhere = open("/dev/null", O_WRONLY);
+      dup2(nowhere, STDOUT_FILENO);
+      dup2(nowhere, STDERR_FILENO);
+    }
+    raise_limits();
+    std::string folder = (std::filesystem::temp_directory_path() / "wholehand-scale.XXXXXX").string();
+    bool is_well = mkdtemp(folder.data()) != nullptr;
+    if (is_well) {
+      try {
+        const Outcome outcome = run(job, folder);
+        is_well = write(ends[1], &outcome, sizeof outcome) == sizeof outcome;
+      } catch (const std::exception& error) {
+        fmt::print(stderr, "wholehand-scale: {}\n", error.what());
+        is_well = false;
+      }
+      std::filesystem::remove_all(folder);
+    }
+    std::fflush(nullptr);
+    _exit(is_well ? 0 : 1);
+  }
+  close(ends[1]);
+  Outcome outcome;
+  const bool is_there = read(ends[0], &outcome, sizeof outcome) == sizeof outcome;
+  close(ends[0]);
+  int status = 0;
+  waitpid(child, &status, 0);
+  if (!is_there) throw std::runtime_error(fmt::format("the simulation of {} ranks failed; --loud shows why", job.machine.ranks));
+  return outcome;
+}
+
+}  // namespace wholehand::scale
