@@ -223,7 +223,8 @@ class ClusterSweep final : public Sweep {
     });
     compare_files(*file);
     set_lists();
-    if (!repair(*file, interrupt) || !sweep(*file, interrupt) || (is_choosy() && !choose(*file, interrupt)))
+    if (!repair(*file, interrupt) || !sweep(*file, interrupt) || (is_choosy() && !choose(*file, interrupt)) ||
+        !read_back(*file, interrupt))
       return team_.is_leader() ? interrupted() : ExitCode::interrupted;
     if (!team_.is_leader()) file.reset();
     team_.meet();
@@ -525,6 +526,23 @@ class ClusterSweep final : public Sweep {
     return true;
   }
 
+  // Each rank reads back what it has written: one rank alone would take longer for it than all for the grips. False: interrupted.
+  bool read_back(ResultFile& file, InterruptGuard& interrupt) {
+    bool is_whole = true;
+    agree([&] {
+      file.drop_cached();
+      for (const Piece& piece : written_) {
+        is_whole = is_whole && repair_stretch(piece.vessel, {piece.first, piece.last, piece.checksum.data()}, file, interrupt);
+      }
+      if (is_whole) file.sync();
+    });
+    is_read_back_ = all_of(is_whole);
+    agree([&] {
+      if (team_.is_leader() && !is_read_back_) keep_mark(file);
+    });
+    return is_read_back_;
+  }
+
   bool all_of(bool own) {
     PacketWriter packet;
     packet.put(own);
@@ -538,7 +556,7 @@ class ClusterSweep final : public Sweep {
   // has done.
   void take_pieces(const WorkRange& work, InterruptGuard& interrupt,
                    const std::function<std::uint64_t(const GripRange&)>& compute) {
-    PieceSize size(team_.size(), options_.piece_seconds);
+    PieceSize size(team_.size(), work.size(), options_.piece_seconds);
     const double began = monotonic_now();
     std::uint64_t asked = size.next(work.size(), 0);
     team_.ask(asked);
@@ -647,6 +665,7 @@ class ClusterSweep final : public Sweep {
       if (file.has_grips() && result.done > 0) {
         piece.set_checksum(file.stretch().checksum);
         file.end_stretch();
+        written_.push_back(piece);
       }
       if (result.done > 0) keep(piece);
       if (is_report_due()) {
@@ -774,7 +793,7 @@ class ClusterSweep final : public Sweep {
   void show(std::uint64_t under_way) {
     while (listen()) {
     }
-    progress_->update(rate_text(), reported_ + under_way);
+    if (progress_->is_due()) progress_->update(rate_text(), reported_ + under_way);
   }
 
   // "3 x core, 1 thread 12.3 thousand grips/s".
@@ -1025,6 +1044,7 @@ class ClusterSweep final : public Sweep {
   bool has_eligible_ = false;              // all of them
   std::vector<std::vector<double>> told_;  // cells of the heat maps that the leader knows
   std::vector<Piece> pieces_;              // since the last report
+  std::vector<Piece> written_;             // by this rank
   double untold_kernel_seconds_ = 0;
   std::vector<Group> groups_;
   std::vector<std::size_t> group_of_;  // of each rank

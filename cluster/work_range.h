@@ -33,14 +33,15 @@ class WorkRange {
 // more than a part of what all have left, so that nobody waits long for the last.
 class PieceSize {
  public:
-  // `seconds`: of a piece, at least, where there is much to do.
-  PieceSize(int ranks, double seconds) : ranks_(ranks), seconds_(seconds) {}
-  // `left`: of all ranks, as far as this one knows; `elapsed`: s since the work began.
+  // `all`: grips of all ranks; `seconds`: of a piece, at least, where there is much to do.
+  PieceSize(int ranks, std::uint64_t all, double seconds) : ranks_(ranks), all_(all), seconds_(seconds) {}
+  // `left`: of all grips, as far as this rank knows; `elapsed`: s since the work began.
   std::uint64_t next(std::uint64_t left, double elapsed) const;
   void done(std::uint64_t grips, double seconds);
 
  private:
   int ranks_;
+  std::uint64_t all_;
   double seconds_;
   double rate_ = 0;  // grips a second
 };

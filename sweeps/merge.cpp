@@ -68,7 +68,7 @@ class Merge {
       if (!take_vessel(v, result, interrupt, progress)) return interrupted(progress);
     if (fsync(result) != 0) fail_writing();
     progress.clear();
-    read_back(names_);
+    check_readable(names_, true);
     name_result(names_);
     const double seconds = monotonic_now() - start;
     fmt::print("wrote {} ({}): {} grips, {} of them from {}\n{:.2f} s ({}/s); the shards can be removed\n", names_.result,

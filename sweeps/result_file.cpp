@@ -423,20 +423,23 @@ void ResultFile::write_ending(const std::vector<std::vector<RankedGrip>>& best, 
   structure_.clear();  // the times are part of it
 }
 
-void ResultFile::finish() {
+void ResultFile::drop_cached() { posix_fadvise(file_, 0, 0, POSIX_FADV_DONTNEED); }  // a hint
+
+void ResultFile::finish(bool is_read_back) {
   sync();
   const Stopwatch stopwatch(seconds_);
   check_own();
-  read_back(names_);
+  check_readable(names_, !is_read_back);
   check_own();  // reading it may have taken long
   name_result(names_);
   close(file_);
   file_ = -1;
 }
 
-void read_back(const OutputNames& names) {
+void check_readable(const OutputNames& names, bool of_values) {
   try {
-    GuardedFile(names.partial).read_all();
+    const GuardedFile file(names.partial);
+    if (of_values) file.read_all();
   } catch (const Error& error) {
     // what could not be tried says nothing of the file
     const char* remedy = error.code == ExitCode::failure ? "go on with --resume" : "start again without --resume";

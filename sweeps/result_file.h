@@ -82,8 +82,11 @@ class ResultFile {
   // filled) and the times.
   void write_ending(const std::vector<std::vector<RankedGrip>>& best, double wall_seconds, double kernel_seconds);
 
-  // Syncs, has the NetCDF library read all of the file, renames NAME.nc.partial to NAME.nc, closes it and removes the mark. The last call.
-  void finish();
+  // From now on what is read of the file comes from the disk, if it is synced.
+  void drop_cached();
+  // Syncs, has the NetCDF library read all of the file (its structure alone, where the values are read back already), renames NAME.nc.partial to
+  // NAME.nc, closes it and removes the mark. The last call.
+  void finish(bool is_read_back = false);
 
   std::uint64_t bytes() const { return bytes_; }  // of values written by this process
   double seconds() const { return seconds_; }     // that writing and syncing took; the definition does not grow with the grips
@@ -122,9 +125,9 @@ class ResultFile {
   double seconds_ = 0;
 };
 
-// The last steps of a result whose values are on the disk: has the NetCDF library read all of NAME.nc.partial; then renames it to NAME.nc and removes
-// the mark. Both throw Error (failure).
-void read_back(const OutputNames& names);
+// The last steps of a result whose values are on the disk: has the NetCDF library read NAME.nc.partial, its structure and, if asked, all values; then
+// renames it to NAME.nc and removes the mark. Both throw Error (failure).
+void check_readable(const OutputNames& names, bool of_values);
 void name_result(const OutputNames& names);
 
 }  // namespace wholehand

@@ -32,7 +32,7 @@ struct SweepOptions {
   double mark_seconds = 5;  // least time between two progress marks: what a crash may cost
   // Of many machines that share no file system: who of them writes into one file; empty: who is on one node. Absent: all write into one.
   std::optional<std::string> shards = {};
-  double piece_seconds = 2;  // what a rank of a cluster takes at a time, at least
+  double piece_seconds = 2;          // what a rank of a cluster takes at a time, at least
   double started = monotonic_now();  // s of the clock: when the work was asked for, for the closing lines
 };
 

@@ -36,10 +36,11 @@ std::string Progress::line(const std::string& what, std::uint64_t total, std::ui
   return line;
 }
 
+bool Progress::is_due() const { return shown_ && monotonic_now() - last_ >= 0.1; }
+
 void Progress::update(const std::string& what, std::uint64_t done) {
-  if (!shown_) return;
+  if (!is_due()) return;
   const double now = monotonic_now();
-  if (now - last_ < 0.1) return;
   last_ = now;
   drawn_ = true;
   fmt::print(stderr, "\r{}\033[K", line(what, total_, before_, done, now - start_));

@@ -22,6 +22,8 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
+  // Whether update would draw: for those whose words take long to put together.
+  bool is_due() const;
   // Draws at most ten times a second.
   void update(const std::string& what, std::uint64_t done);
   // Wipes the line, before something else is printed.

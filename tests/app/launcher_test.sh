@@ -29,6 +29,9 @@ dpkg        # there on any Debian
 # cluster
 wholehand-cluster-only-package
 
+# scale
+wholehand-scale-only-package
+
 # test
 wholehand-test-only-package
 EOF
@@ -37,10 +40,14 @@ cmake_minimum_required(VERSION 3.25)
 project(stub LANGUAGES CXX)
 option(WHOLEHAND_TESTS "" ON)
 option(WHOLEHAND_MPI "" OFF)
+option(WHOLEHAND_SCALE "" OFF)
 file(GLOB sources CONFIGURE_DEPENDS core/*.cpp)
 add_executable(wholehand app/main.cpp ${sources})
 if(WHOLEHAND_MPI)
   add_executable(wholehand-mpi app/main.cpp)
+endif()
+if(WHOLEHAND_SCALE)
+  add_executable(wholehand-scale app/main.cpp)
 endif()
 EOF
 cat >"$tree/CMakePresets.json" <<'EOF'
@@ -176,14 +183,23 @@ fresh
 touch "$work/updated"
 output=$(start cluster)
 check "cluster asks for its own" has "$(cat "$work/apt")" "install --no-install-recommends lib-one wholehand-cluster-only-package"
-check "and for no others" equal "$(grep -c wholehand-test-only "$work/apt")" 0
+check "and for no others" equal "$(grep -c -e scale-only -e test-only "$work/apt")" 0
 check "cluster builds the second program" [ -x "$tree/build/default/wholehand-mpi" ]
 check "and says how to start it" has "$(tail -n 1 <<<"$output")" "mpirun -n N $tree/build/default/wholehand-mpi sweep SCENE"
 
 fresh
 touch "$work/updated"
+output=$(start scale one)
+check "scale asks for its own" has "$(cat "$work/apt")" \
+  "install --no-install-recommends lib-one wholehand-cluster-only-package wholehand-scale-only-package"
+check "and for no others" equal "$(grep -c test-only "$work/apt")" 0
+check "and starts its program" has "$output" "[one]"
+
+fresh
+touch "$work/updated"
 start test >/dev/null
-check "but by test" has "$(cat "$work/apt")" "install --no-install-recommends lib-one wholehand-cluster-only-package wholehand-test-only-package"
+check "but by test" has "$(cat "$work/apt")" \
+  "install --no-install-recommends lib-one wholehand-cluster-only-package wholehand-scale-only-package wholehand-test-only-package"
 
 tool apt-get <<<'#!/bin/sh
 echo "E: no network" ; exit 100'

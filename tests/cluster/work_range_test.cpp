@@ -3,6 +3,7 @@
 #include "cluster/work_range.h"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <cstdint>
 #include <vector>
@@ -37,7 +38,7 @@ TEST(WorkRange, PiecesHaveEveryGripOnce) {
 // Nothing is known at first; then a fast rank takes more; at the end all take little.
 TEST(PieceSize, FitsTheRank) {
   constexpr std::uint64_t MUCH = 1'000'000'000'000;
-  PieceSize slow(100, 2), fast(100, 2);
+  PieceSize slow(100, MUCH, 2), fast(100, MUCH, 2);
   EXPECT_EQ(slow.next(MUCH, 0), fast.next(MUCH, 0));
   slow.done(10'000, 1);
   fast.done(10'000'000, 1);
@@ -52,7 +53,7 @@ TEST(PieceSize, FitsTheRank) {
 // The slowest rank's last piece, taken when it took others' rate for its own, is no more than a part of what was left.
 TEST(PieceSize, AllGripsAreTakenInFewPieces) {
   constexpr std::uint64_t ALL = 100'000'000;
-  std::vector<PieceSize> ranks(8, PieceSize(8, 2));
+  std::vector<PieceSize> ranks(8, PieceSize(8, ALL, 2));
   std::uint64_t left = ALL, pieces = 0;
   for (double time = 0; left > 0; time += 0.25) {
     PieceSize& rank = ranks[pieces++ % ranks.size()];
@@ -62,6 +63,43 @@ TEST(PieceSize, AllGripsAreTakenInFewPieces) {
     left -= taken;
   }
   EXPECT_LT(pieces, 1000u);
+}
+
+// Each rank asks for a piece before it computes the one before, and one has half the speed. The others wait for it no longer than it takes for two
+// of the least pieces: the one that it computes, and the one that it has asked for.
+TEST(PieceSize, ASlowRankEndsWithTheOthers) {
+  constexpr std::uint64_t ALL = 100'000'000;
+  constexpr double RATE = 42'000;
+  struct Rank {
+    PieceSize size;
+    double rate, free = 0;  // grips a second; s
+    std::uint64_t piece = 0;
+  };
+  for (const std::size_t count : {2u, 16u, 64u}) {
+    std::vector<Rank> ranks(count, Rank{PieceSize(static_cast<int>(count), ALL, 2), RATE});
+    ranks[1].rate = RATE / 2;
+    std::uint64_t taken = 0;
+    const auto ask = [&](const Rank& rank) {
+      const std::uint64_t piece = std::min(ALL - taken, rank.size.next(ALL - taken, rank.free));
+      taken += piece;
+      return piece;
+    };
+    for (Rank& rank : ranks) rank.piece = ask(rank);
+    double first_idle = 0, last = 0;
+    while (first_idle == 0 || std::any_of(ranks.begin(), ranks.end(), [](const Rank& rank) { return rank.piece > 0; })) {
+      Rank* next = nullptr;
+      for (Rank& rank : ranks)
+        if (rank.piece > 0 && (!next || rank.free < next->free)) next = &rank;
+      const std::uint64_t piece = next->piece;
+      next->piece = ask(*next);
+      const double seconds = static_cast<double>(piece) / next->rate;
+      next->free += seconds;
+      next->size.done(piece, seconds);
+      last = std::max(last, next->free);
+      if (next->piece == 0) first_idle = first_idle == 0 ? next->free : std::min(first_idle, next->free);
+    }
+    EXPECT_LT(last - first_idle, 2 * 1024 / (RATE / 2)) << count << " ranks";
+  }
 }
 
 }  // namespace

@@ -8,7 +8,9 @@
 #include <unistd.h>
 
 #include <smpi/smpi.h>
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
@@ -84,14 +86,13 @@ Outcome run(const Job& job, const std::string& folder) {
   int argc = 2;
   s4u::Engine engine(&argc, argv.data());
   // no time passes for the host's own work; MPI's polling costs nothing beyond our own naps; latencies and bandwidths as they are stated
-  for (const char* setting :
-       {"smpi/simulate-computation:no", "smpi/test:0", "smpi/iprobe:0", "smpi/grow-injected-times:no", "network/model:CM02",
-        "network/loopback-bw:10e9", "network/loopback-lat:5e-7", "contexts/stack-size:1024"})
+  for (const char* setting : {"smpi/simulate-computation:no", "smpi/test:0", "smpi/iprobe:0", "smpi/grow-injected-times:no",
+                              "smpi/async-small-thresh:65536", "smpi/send-is-detached-thresh:65536", "network/model:CM02",
+                              "network/loopback-bw:10e9", "network/loopback-lat:5e-7", "contexts/stack-size:1024"})
     engine.set_config(setting);
   const std::vector<s4u::Host*> nodes = make_nodes(job.machine);
   all.nodes.resize(nodes.size());
   SMPI_init();
-  engine.set_config("smpi/coll-selector:ompi");
   SMPI_app_instance_register("sweep", nullptr, job.machine.ranks);
   const Scene scene = simulated_scene(job.grips, job.machine.entries);
   for (int rank = 0; rank < job.machine.ranks; ++rank) {
@@ -124,6 +125,10 @@ Simulation& simulation() {
   return all;
 }
 
+double rate_of_all(const Machine& machine) {
+  return machine.rate * (machine.ranks - (machine.straggler >= 0 ? 1 - machine.straggler_speed : 0));
+}
+
 double now() { return monotonic_now(); }
 
 void sleep_until(double time) {
@@ -138,43 +143,68 @@ int own_rank() {
 
 int node_of(int rank) { return rank / simulation().job.machine.ranks_per_node; }
 
-Outcome simulate(const Job& job, bool is_loud) {
+namespace {
+
+// A job in a process of its own.
+struct Running {
+  std::size_t number = 0;
+  pid_t process = -1;
+  int from = -1;
+};
+
+[[noreturn]] void run_child(const Job& job, bool is_loud, int to) {
+  if (!is_loud) {
+    const int nowhere = open("/dev/null", O_WRONLY);
+    dup2(nowhere, STDOUT_FILENO);
+    dup2(nowhere, STDERR_FILENO);
+  }
+  raise_limits();
+  std::string folder = (std::filesystem::temp_directory_path() / "wholehand-scale.XXXXXX").string();
+  bool is_well = mkdtemp(folder.data()) != nullptr;
+  if (is_well) {
+    try {
+      const Outcome outcome = run(job, folder);
+      is_well = write(to, &outcome, sizeof outcome) == sizeof outcome;
+    } catch (const std::exception& error) {
+      fmt::print(stderr, "wholehand-scale: {}\n", error.what());
+      is_well = false;
+    }
+    std::filesystem::remove_all(folder);
+  }
+  std::fflush(nullptr);
+  _exit(is_well ? 0 : 1);
+}
+
+Running begin(const std::vector<Job>& jobs, std::size_t number, bool is_loud) {
   int ends[2] = {-1, -1};
   if (pipe(ends) != 0) throw std::runtime_error("no pipe can be made");
   std::fflush(nullptr);
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("no process can be started");
-  if (child == 0) {
-    close(ends[0]);
-    if (!is_loud) {
-      const int nowhere = open("/dev/null", O_WRONLY);
-      dup2(nowhere, STDOUT_FILENO);
-      dup2(nowhere, STDERR_FILENO);
-    }
-    raise_limits();
-    std::string folder = (std::filesystem::temp_directory_path() / "wholehand-scale.XXXXXX").string();
-    bool is_well = mkdtemp(folder.data()) != nullptr;
-    if (is_well) {
-      try {
-        const Outcome outcome = run(job, folder);
-        is_well = write(ends[1], &outcome, sizeof outcome) == sizeof outcome;
-      } catch (const std::exception& error) {
-        fmt::print(stderr, "wholehand-scale: {}\n", error.what());
-        is_well = false;
-      }
-      std::filesystem::remove_all(folder);
-    }
-    std::fflush(nullptr);
-    _exit(is_well ? 0 : 1);
-  }
+  if (child == 0) run_child(jobs[number], is_loud, ends[1]);
   close(ends[1]);
-  Outcome outcome;
-  const bool is_there = read(ends[0], &outcome, sizeof outcome) == sizeof outcome;
-  close(ends[0]);
-  int status = 0;
-  waitpid(child, &status, 0);
-  if (!is_there) throw std::runtime_error(fmt::format("the simulation of {} ranks failed; --loud shows why", job.machine.ranks));
-  return outcome;
+  return {number, child, ends[0]};
+}
+
+}  // namespace
+
+void simulate(const std::vector<Job>& jobs, int at_a_time, bool is_loud,
+              const std::function<void(std::size_t, const Outcome&)>& take) {
+  std::vector<Running> running;
+  for (std::size_t next = 0; next < jobs.size() || !running.empty();) {
+    while (next < jobs.size() && running.size() < static_cast<std::size_t>(at_a_time))
+      running.push_back(begin(jobs, next++, is_loud));
+    const pid_t ended = waitpid(-1, nullptr, 0);
+    const auto one = std::find_if(running.begin(), running.end(), [ended](const Running& job) { return job.process == ended; });
+    if (one == running.end()) continue;
+    Outcome outcome;
+    const bool is_there = read(one->from, &outcome, sizeof outcome) == sizeof outcome;
+    close(one->from);
+    if (!is_there)
+      throw std::runtime_error(fmt::format("the simulation of {} ranks failed; --loud shows why", jobs[one->number].machine.ranks));
+    take(one->number, outcome);
+    running.erase(one);
+  }
 }
 
 }  // namespace wholehand::scale

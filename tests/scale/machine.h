@@ -4,8 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
-#include <map>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,35 +15,38 @@ struct Machine {
   std::string name = "CPU";
   int ranks = 1024;
   int ranks_per_node = 64;
-  double rate = 77'000;         // grips a second of a rank: the kernels' measured time
-  double chunk_seconds = 0.05;  // of the grips that a backend hands over at a time
-  double leader_chunk = 0.05;   // the same of rank 0, which looks for reports after each
+  double rate = 42e3;           // grips a second of a rank: the kernels' measured time
+  double chunk_seconds = 0.25;  // of the grips that a backend hands over at a time
+  double leader_chunk = 0.012;  // the same of rank 0, which looks for reports after each
   int straggler = -1;           // the rank that has half the speed; -1: none
   double straggler_speed = 0.5;
   // the start
   double init_seconds = 0.5;   // MPI_Init
-  double open_seconds = 0.05;  // until the device is open
+  double open_seconds = 0.09;  // until the device is open
   double opens = 5000;         // files that the file system opens a second
   // messages
   double latency = 2e-6, bandwidth = 12.5e9;  // of a node's link
   double message_seconds = 1e-6;              // of a rank's processor, for each message
   double report_seconds = 2e-5;               // of rank 0, for each report
-  double entry_seconds = 2e-8;      // of rank 0, for each entry of a report: a candidate or a cell of a heat map, 16 bytes
-  int entries = 32'768;             // the most that a report has
-  double mark_line_seconds = 1e-6;  // of rank 0, for each line of a mark
-  double mark_seconds = 5;          // least time between reports
+  double entry_seconds = 1e-8;        // of rank 0, for each entry of a report: a candidate or a cell of a heat map, 16 bytes
+  int entries = 32'768;               // the most that a report has
+  double mark_line_seconds = 1.6e-6;  // of rank 0, for each line of a mark
+  double mark_seconds = 5;            // least time between reports
   // the counter
   double counter_seconds = 1e-6;      // a question keeps it busy for so long
   double counter_latency = 4e-6;      // and takes so long on the way there and back
   bool counter_needs_leader = false;  // questions are answered only when rank 0 calls MPI
   double piece_seconds = 2;           // what a rank takes at a time, at least
   // the file system
-  double bytes_per_grip = 5;
+  double bytes_per_grip = 9;
   double write_bandwidth = 10e9;  // of the file system
   double node_bandwidth = 5e9;    // of one node that writes or reads
   double sync_seconds = 0.01;
   bool reads_back_together = true;  // whether all ranks read the result back, or rank 0 alone
 };
+
+// Grips a second.
+double rate_of_all(const Machine& machine);
 
 struct Job {
   Machine machine;
@@ -97,7 +99,9 @@ void sleep_until(double time);
 int own_rank();
 int node_of(int rank);
 
-// Simulates a job in a process of its own. Throws std::runtime_error where the process fails.
-Outcome simulate(const Job& job, bool is_loud);
+// Simulates each job in a process of its own, some at a time, and calls `take` with the number of each that is done. Throws std::runtime_error where
+// a process fails.
+void simulate(const std::vector<Job>& jobs, int at_a_time, bool is_loud,
+              const std::function<void(std::size_t, const Outcome&)>& take);
 
 }  // namespace wholehand::scale
