@@ -106,7 +106,7 @@ check "a tree that was moved builds again" equal "$("$tree/wholehand" 2>/dev/nul
 echo 'nonsense(' >>"$tree/CMakeLists.txt"
 output=$("$tree/wholehand" 2>&1)
 check "a broken CMakeLists.txt gives exit code 3" equal $? 3
-check "and CMake's words" has "$output" "CMakeLists.txt:10"
+check "and CMake's words" has "$output" "CMakeLists.txt:14"
 sed -i '$d' "$tree/CMakeLists.txt"
 
 # ---- a user who may not write here ----

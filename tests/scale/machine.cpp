@@ -35,8 +35,9 @@ std::vector<s4u::Host*> make_nodes(const Machine& machine) {
   for (int node = 0; node < count; ++node) {
     s4u::Host* host = zone->create_host(fmt::format("node{}", node), 1e9);
     host->set_core_count(machine.ranks_per_node);
-    auto* link = zone->create_split_duplex_link(fmt::format("link{}", node), machine.bandwidth);
-    link->set_latency(machine.latency / 2);  // a message takes two links
+    auto* link = zone->create_split_duplex_link(fmt::format("link{}", node),
+                                                machine.bandwidth / ENTRY_WEIGHT);  // nearly all bytes are entries
+    link->set_latency(machine.latency / 2);                                         // a message takes two links
     link->seal();
     zone->add_route(host->get_netpoint(), nullptr, nullptr, nullptr, {{link, s4u::LinkInRoute::Direction::UP}}, true);
     host->seal();
@@ -94,7 +95,7 @@ Outcome run(const Job& job, const std::string& folder) {
   all.nodes.resize(nodes.size());
   SMPI_init();
   SMPI_app_instance_register("sweep", nullptr, job.machine.ranks);
-  const Scene scene = simulated_scene(job.grips, job.machine.entries);
+  const Scene scene = simulated_scene(job.grips, job.machine.entries / ENTRY_WEIGHT);
   for (int rank = 0; rank < job.machine.ranks; ++rank) {
     const auto actor = s4u::Actor::init(fmt::format("rank{}", rank), nodes[static_cast<std::size_t>(node_of(rank))]);
     actor->set_property("instance_id", "sweep");

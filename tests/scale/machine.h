@@ -48,6 +48,9 @@ struct Machine {
 // Grips a second.
 double rate_of_all(const Machine& machine);
 
+// A simulated entry of a report stands for so many, and a simulated grip that gets into a list, too: the simulation's own time goes into them.
+constexpr int ENTRY_WEIGHT = 16;
+
 struct Job {
   Machine machine;
   std::uint64_t grips = 0;

@@ -92,10 +92,10 @@ int MPI_Test(MPI_Request* request, int* flag, MPI_Status* status) {
   const int error = PMPI_Test(request, flag, status);
   if (*flag == 0 || receive == receives.end()) return error;
   const Machine& machine = simulation().job.machine;
-  const int bytes = receive->second;
+  const double bytes = receive->second > 128 ? static_cast<double>(receive->second) * ENTRY_WEIGHT : 0;
   receives.erase(receive);
-  const bool is_report = bytes > 128;  // others are a flag or the number of an error
-  const double seconds = is_report ? machine.report_seconds + bytes / 16.0 * machine.entry_seconds : machine.message_seconds;
+  const bool is_report = bytes > 0;  // others are a flag or the number of an error
+  const double seconds = is_report ? machine.report_seconds + bytes / 16 * machine.entry_seconds : machine.message_seconds;
   if (is_report) {
     ++simulation().outcome.reports;
     simulation().outcome.report_bytes += bytes;

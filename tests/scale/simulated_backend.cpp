@@ -80,14 +80,15 @@ class SimulatedBackend final : public Backend {
     return std::max(by_node, all.files.serve(now(), bytes / all.job.machine.write_bandwidth));
   }
 
-  // Of `count` scores that lie evenly in (0, 1), the best that may get into a list of `size` after all that this rank has had.
-  std::vector<Candidate> best_of(std::uint64_t first, std::uint64_t count, std::size_t size) {
+  // Of scores that lie evenly in (0, 1), the best that may get into a list of `size` after all that this rank has had.
+  std::vector<Candidate> best_of(std::uint64_t first, std::uint64_t done, std::size_t size) {
     std::vector<Candidate> best;
+    const double count = static_cast<double>(done) / ENTRY_WEIGHT;
     seen_ += count;
-    const double least = 1 - std::min(1.0, SURE * static_cast<double>(size) / static_cast<double>(seen_));
+    const double least = 1 - std::min(1.0, SURE * static_cast<double>(size) / seen_);
     double score = 1;
-    for (std::uint64_t k = 0; k < std::min<std::uint64_t>(count, size); ++k) {
-      score += std::log(random_unit(first, k)) / static_cast<double>(count);  // the gaps between the best of many are exponential
+    for (std::uint64_t k = 0; k < size && static_cast<double>(k) < count; ++k) {
+      score += std::log(random_unit(first, k)) / count;  // the gaps between the best of many are exponential
       if (score < least) break;
       best.push_back({score, first + k});
     }
@@ -103,7 +104,7 @@ class SimulatedBackend final : public Backend {
 
   FieldSet fields_;
   BackendInfo info_;
-  std::uint64_t seen_ = 0;
+  double seen_ = 0;  // grips that may get into a list
   bool is_first_ = true;
 };
 
