@@ -4,11 +4,13 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <smpi/smpi.h>
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -20,6 +22,7 @@
 #include "cluster/cluster_sweep.h"
 #include "cluster/team.h"
 #include "system/clock.h"
+#include "system/files.h"
 #include "tests/scale/simulated_backend.h"
 
 namespace wholehand::scale {
@@ -82,6 +85,7 @@ Outcome run(const Job& job, const std::string& folder) {
   const auto began = std::chrono::steady_clock::now();
   Simulation& all = simulation();
   all.job = job;
+  all.mark = output_names(folder + "/simulated.nc").mark;
   std::string name = "wholehand-scale", quiet = "--log=root.thresh:warning";
   std::vector<char*> argv{name.data(), quiet.data(), nullptr};
   int argc = 2;
@@ -124,6 +128,19 @@ void raise_limits() {
 Simulation& simulation() {
   static Simulation all;
   return all;
+}
+
+void charge_mark() {
+  static std::array<std::int64_t, 3> last{};
+  Simulation& all = simulation();
+  struct stat file {};
+  if (own_rank() != 0 || stat(all.mark.c_str(), &file) != 0) return;
+  const std::array<std::int64_t, 3> now_there{static_cast<std::int64_t>(file.st_ino), file.st_mtim.tv_sec, file.st_mtim.tv_nsec};
+  if (now_there == last) return;
+  last = now_there;
+  const double seconds = (static_cast<double>(all.pieces) + all.job.machine.entries) * all.job.machine.mark_line_seconds;
+  all.outcome.leader_seconds += seconds;
+  sleep_until(now() + seconds + all.job.machine.sync_seconds);  // a mark is synced, too
 }
 
 double rate_of_all(const Machine& machine) {

@@ -49,7 +49,7 @@ struct Machine {
 double rate_of_all(const Machine& machine);
 
 // A simulated entry of a report stands for so many, and a simulated grip that gets into a list, too: the simulation's own time goes into them.
-constexpr int ENTRY_WEIGHT = 16;
+constexpr int ENTRY_WEIGHT = 64;
 
 struct Job {
   Machine machine;
@@ -93,8 +93,12 @@ struct Simulation {
   Server files, opens, counter;
   std::vector<Server> nodes;  // their ways to the file system
   std::uint64_t pieces = 0;   // that all ranks have done: lines of a mark
+  std::string mark;           // its file
 };
 Simulation& simulation();
+
+// If rank 0 has written a mark since the last call, the time of that passes. Called before whatever it does next.
+void charge_mark();
 
 // Simulated time, and until when a rank does nothing else.
 double now();

@@ -52,30 +52,27 @@ Row changed(const std::string& group, const std::string& label, Machine machine,
 std::vector<Row> all_rows() {
   std::vector<Row> rows;
   const auto slow = [](Machine& machine) { machine.straggler = 1; };
+  const auto keeps_nothing = [](Machine& machine) { machine.bytes_per_grip = 0; };
   for (const int ranks : {16, 64, 256, 1024, 2048, 4096}) {
     rows.push_back(row("cpu", "CPU nodes", cpu_nodes(ranks), CPU_GRIPS));
     rows.push_back(changed("cpu", "CPU nodes, a straggler", cpu_nodes(ranks), CPU_GRIPS, slow));
   }
-  for (const int ranks : {16, 64, 256, 1024, 4096}) {
-    rows.push_back(row("gpu", "GPU nodes", gpu_nodes(ranks), GPU_GRIPS));
-    rows.push_back(
-        changed("gpu", "GPU nodes, nothing kept", gpu_nodes(ranks), GPU_GRIPS, [](Machine& m) { m.bytes_per_grip = 0; }));
-  }
+  for (const int ranks : {16, 64, 256, 1024, 4096}) rows.push_back(row("gpu", "GPU nodes", gpu_nodes(ranks), GPU_GRIPS));
+  for (const int ranks : {16, 64, 256, 1024, 4096})
+    rows.push_back(changed("gpu", "GPU nodes, nothing kept", gpu_nodes(ranks), GPU_GRIPS, keeps_nothing));
   rows.push_back(changed("gpu", "GPU nodes, a straggler", gpu_nodes(64), GPU_GRIPS, slow));
-  for (const int ranks : {1024, 4096}) {
+  for (const int ranks : {1024, 4096})
     rows.push_back(changed("counter", "counter waits for rank 0", cpu_nodes(ranks), CPU_GRIPS,
                            [](Machine& m) { m.counter_needs_leader = true; }));
-    for (const double seconds : {3e-4, 1e-3}) {
-      rows.push_back(changed("counter", fmt::format("counter of {:.1f} ms", seconds * 1e3), cpu_nodes(ranks), CPU_GRIPS,
-                             [seconds](Machine& m) { m.counter_seconds = seconds; }));
-    }
-  }
-  for (const double pieces : {0.5, 8.0, 32.0}) {
+  for (const double seconds : {1e-4, 3e-4, 1e-3})
+    rows.push_back(changed("counter", fmt::format("counter of {:.1f} ms", seconds * 1e3), cpu_nodes(4096), CPU_GRIPS,
+                           [seconds](Machine& m) { m.counter_seconds = seconds; }));
+  for (const double pieces : {0.5, 8.0})
     rows.push_back(changed("pieces", fmt::format("pieces of {} s, counter of 1 ms", pieces), cpu_nodes(4096), CPU_GRIPS,
                            [pieces](Machine& m) { m.counter_seconds = 1e-3, m.piece_seconds = pieces; }));
+  for (const double pieces : {0.5, 8.0})
     rows.push_back(changed("pieces", fmt::format("pieces of {} s, a straggler", pieces), cpu_nodes(1024), CPU_GRIPS,
                            [pieces](Machine& m) { m.straggler = 1, m.piece_seconds = pieces; }));
-  }
   for (const double bandwidth : {1e9, 1e11}) {
     rows.push_back(changed("file", fmt::format("file system of {} GB/s", bandwidth * 1e-9), cpu_nodes(1024), CPU_GRIPS,
                            [bandwidth](Machine& m) { m.write_bandwidth = bandwidth; }));
@@ -83,8 +80,8 @@ std::vector<Row> all_rows() {
   rows.push_back(changed("file", "229 bytes a grip", cpu_nodes(1024), CPU_GRIPS, [](Machine& m) { m.bytes_per_grip = 229; }));
   rows.push_back(
       changed("file", "rank 0 alone reads back", cpu_nodes(1024), CPU_GRIPS, [](Machine& m) { m.reads_back_together = false; }));
-  rows.push_back(changed("file", "nothing kept", cpu_nodes(1024), CPU_GRIPS, [](Machine& m) { m.bytes_per_grip = 0; }));
-  rows.push_back(changed("file", "nothing kept", cpu_nodes(4096), CPU_GRIPS, [](Machine& m) { m.bytes_per_grip = 0; }));
+  rows.push_back(changed("file", "nothing kept", cpu_nodes(1024), CPU_GRIPS, keeps_nothing));
+  rows.push_back(changed("file", "nothing kept", cpu_nodes(4096), CPU_GRIPS, keeps_nothing));
   // a test of seconds
   for (const int ranks : {16, 64}) {
     rows.push_back(row("quick", "CPU nodes", cpu_nodes(ranks), CPU_GRIPS / 100));

@@ -42,6 +42,7 @@ void answer(Question& question) {
 // Whatever rank 0 calls, MPI answers the questions that have come.
 void make_progress() {
   if (own_rank() != 0) return;
+  charge_mark();
   while (!unanswered.empty()) {
     answer(questions[unanswered.front()]);
     unanswered.pop_front();
@@ -147,8 +148,8 @@ int MPI_Fetch_and_op(const void* value, void* before, MPI_Datatype, int, MPI_Ain
 }
 
 int MPI_Win_flush(int, MPI_Win) {
-  const double start = now();
   make_progress();
+  const double start = now();
   Question& question = questions[own_rank()];
   if (question.is_open && !question.is_answered) {
     question.waiting = simgrid::s4u::Actor::self();

@@ -31,6 +31,7 @@ class SimulatedBackend final : public Backend {
   std::vector<LiquidResult> liquid(std::size_t) override { return {}; }
 
   RunResult run(const RunRequest& request) override {
+    charge_mark();
     RunResult result;
     if (request.best == 0) {  // the grips that are listed: the ending, which costs next to nothing
       result.done = request.last - request.first;
@@ -135,17 +136,14 @@ class SharedEvaluator final : public Evaluator {
   std::shared_ptr<const Evaluator> all_;
 };
 
-// Rank 0's syncs come before its marks, whose time passes here too.
+// The file of one rank. Its values are written by the backend.
 class SimulatedFile final : public OutputBytes {
  public:
   SimulatedFile() { sleep_until(simulation().opens.serve(now(), 1 / simulation().job.machine.opens)); }
   int write(const void*, std::size_t, std::uint64_t) override { return 0; }
   int sync() override {
-    Simulation& all = simulation();
-    const Machine& machine = all.job.machine;
-    const double lines = own_rank() == 0 ? static_cast<double>(all.pieces) + machine.entries : 0;
-    all.outcome.leader_seconds += lines * machine.mark_line_seconds;
-    sleep_until(now() + machine.sync_seconds + lines * machine.mark_line_seconds);
+    charge_mark();
+    sleep_until(now() + simulation().job.machine.sync_seconds);
     return 0;
   }
 };
