@@ -137,7 +137,7 @@ int run(int argc, char** argv) {
       ->delimiter(',');
   app.add_option("--csv", csv, "Write the table as CSV, too");
   app.add_option("--svg", svg, "Draw efficiency over ranks");
-  app.add_option("--jobs", at_a_time, "Simulations at a time; each takes up to 5 GB of memory")
+  app.add_option("--jobs", at_a_time, "Simulations at a time; each takes up to 2 GB of memory")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
   app.add_flag("--loud", is_loud, "Show what the sweeps print");
