@@ -23,6 +23,7 @@
 #include "cluster/team.h"
 #include "system/clock.h"
 #include "system/files.h"
+#include "system/interrupt.h"
 #include "tests/scale/simulated_backend.h"
 
 namespace wholehand::scale {
@@ -60,7 +61,7 @@ double read_back_seconds(const Job& job) {
 }
 
 // What wholehand-mpi does on each rank.
-void run_rank(const Scene& scene, const std::string& folder) {
+void run_rank(const Scene& scene, const std::string& folder, InterruptGuard& interrupt) {
   int argc = 0;
   char** argv = nullptr;
   Team team(argc, argv);
@@ -73,7 +74,7 @@ void run_rank(const Scene& scene, const std::string& folder) {
   options.mark_seconds = job.machine.mark_seconds;
   options.piece_seconds = job.machine.piece_seconds;
   options.started = 0;
-  if (run_cluster_sweep(team, scene, options, simulated_parts(scene)) != ExitCode::done)
+  if (run_cluster_sweep(team, scene, options, simulated_parts(scene), interrupt) != ExitCode::done)
     throw std::runtime_error("the sweep did not end as it should");
   if (team.is_leader()) {
     pause_for(read_back_seconds(job));
@@ -100,11 +101,12 @@ Outcome run(const Job& job, const std::string& folder) {
   SMPI_init();
   SMPI_app_instance_register("sweep", nullptr, job.machine.ranks);
   const Scene scene = simulated_scene(job.grips, job.machine.entries / ENTRY_WEIGHT);
+  InterruptGuard interrupt;
   for (int rank = 0; rank < job.machine.ranks; ++rank) {
     const auto actor = s4u::Actor::init(fmt::format("rank{}", rank), nodes[static_cast<std::size_t>(node_of(rank))]);
     actor->set_property("instance_id", "sweep");
     actor->set_property("rank", std::to_string(rank));
-    actor->start([&scene, &folder] { run_rank(scene, folder); });
+    actor->start([&] { run_rank(scene, folder, interrupt); });
   }
   engine.run();
   SMPI_finalize();
