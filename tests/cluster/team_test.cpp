@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: MIT
-// A team of one: its counter, and what becomes of an exception.
+// A team of one: its counter, what becomes of an exception, and of values that the disk lost.
 #include "cluster/team.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <csignal>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
 #include <string>
 #include <system_error>
 
 #include "cluster/cluster_sweep.h"
+#include "core/evaluator.h"
+#include "host/open_backend.h"
+#include "scene/reader.h"
 
 namespace wholehand {
 namespace {
@@ -65,6 +72,71 @@ TEST(Team, EveryExceptionOfARankIsAnErrorOfAll) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code, ExitCode::failure);
     EXPECT_EQ(std::string(error.what()), "unexpected failure: Resource temporarily unavailable");
+  }
+  std::filesystem::remove_all(folder);
+}
+
+// Loses one write of values: others come to the disk instead.
+class LosingDisk final : public OutputBytes {
+ public:
+  LosingDisk(std::unique_ptr<OutputBytes> disk, int lost) : disk_(std::move(disk)), left_(lost) {}
+  int write(const void* data, std::size_t size, std::uint64_t offset) override {
+    if (left_-- != 0) return disk_->write(data, size, offset);
+    return disk_->write(std::string(size, 'Z').data(), size, offset);
+  }
+  int sync() override { return disk_->sync(); }
+
+ private:
+  std::unique_ptr<OutputBytes> disk_;
+  int left_;
+};
+
+// Before the result gets its name, each rank reads back what it wrote.
+TEST(Team, ValuesThatTheDiskLostAreComputedAgain) {
+  const std::string folder = std::filesystem::temp_directory_path() / ("lost." + std::to_string(getpid()));
+  std::filesystem::create_directory(folder);
+  const Scene scene = parse_scene(R"(
+[[vessel]]
+name = "cup"
+shape = "cylinder"
+diameter_mm = 60
+height_mm = 100
+wall_mm = 1.5
+[output]
+best = 3
+[grips]
+height_fraction = { from = 0.1, to = 0.9, count = 20 }
+roll_deg = { from = -90, to = 30, count = 5 }
+)",
+                                  "cup.toml");
+  const auto swept = [&](const std::string& name, int lost) {
+    SweepOptions options;
+    options.output = folder + "/" + name;
+    options.on = "core";
+    options.threads = 1;
+    SweepParts parts;
+    parts.open_backend = [&](const FieldSet& fields) { return open_backend(scene, fields, "core", Precision::full, 1); };
+    parts.open_evaluator = [&] { return make_core_evaluator(scene); };
+    parts.open_other = [](const Scene& other, const FieldSet& fields) {
+      return open_backend(other, fields, "core", Precision::full, 1);
+    };
+    parts.open_output = [&](const std::string& path) { return std::make_unique<LosingDisk>(Team::open_output(path), lost); };
+    InterruptGuard interrupt(SIGUSR1);
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(run_cluster_sweep(team_of_one(), scene, options, parts, interrupt), ExitCode::done);
+    const std::string said = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(said.find("are damaged: computing them again") != std::string::npos, lost >= 0) << said;
+    std::ifstream file(options.output, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  const std::string whole = swept("whole.nc", -1);
+  ASSERT_GT(whole.size(), 1000u);
+  for (const int lost : {0, 1, 5}) {
+    const std::string mended = swept("lost.nc", lost);
+    ASSERT_EQ(mended.size(), whole.size());
+    std::size_t differing = 0;
+    for (std::size_t k = 0; k < whole.size(); ++k) differing += whole[k] != mended[k] ? 1 : 0;
+    EXPECT_LE(differing, 24u);  // two times of 8 bytes, and checksums of 4 over them
   }
   std::filesystem::remove_all(folder);
 }

@@ -117,6 +117,12 @@ int MPI_Ibarrier(MPI_Comm all, MPI_Request* request) {
   return PMPI_Ibarrier(all, request);
 }
 
+// Who may run on which processor: not asked here, as ranks have one thread each.
+int MPI_Allgather(const void*, int, MPI_Datatype, void*, int, MPI_Datatype, MPI_Comm) {
+  charge(depth() * simulation().job.machine.message_seconds);
+  return MPI_SUCCESS;
+}
+
 // The counter's window: all ranks make it at once, as MPI says.
 int MPI_Win_allocate(MPI_Aint, int, MPI_Info, MPI_Comm all, void* memory, MPI_Win* window) {
   *static_cast<std::uint64_t**>(memory) = &counter_value;
