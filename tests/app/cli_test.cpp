@@ -56,9 +56,9 @@ TEST(CommandLine, ListsTheShippedScenes) {
 
 TEST(CommandLine, RefusesWrongUsageWithOneLineAndCode2) {
   const std::vector<std::pair<std::string, std::string>> cases{
-      {"", "the command is missing; allowed: sweep, rank, report, grip, check, "},
+      {"", "the command is missing; allowed: sweep, merge, rank, report, grip, check, "},
       {"", ", scenes or help; see wholehand --help"},
-      {"swep", "unknown command 'swep' (did you mean 'sweep'?); the commands are sweep, rank, report, grip, check, "},
+      {"swep", "unknown command 'swep' (did you mean 'sweep'?); the commands are sweep, merge, rank, report, grip, check, "},
       {"stab", "unknown command 'stab' (did you mean 'stability'?); the commands are "},
       {"xyzzy", "unknown command 'xyzzy'; the commands are sweep, "},
       {"help swep", "unknown command 'swep' (did you mean 'sweep'?); the commands are sweep, "},
