@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -52,6 +53,20 @@ struct Piece {
   void set_checksum(const std::string& text) {
     std::memcpy(checksum.data(), text.data(), std::min(text.size(), checksum.size() - 1));
   }
+};
+
+// Grips that a file has, and what vouches for them. A rank keeps those that it looks after.
+struct OwnStretch {
+  std::uint64_t vessel = 0, first = 0, last = 0;
+  std::uint64_t group = 0;
+  std::array<char, 40> checksum{};
+
+  OwnStretch() = default;
+  OwnStretch(std::uint64_t of_vessel, std::uint64_t from, std::uint64_t to, std::uint64_t in_group, const char* text)
+      : vessel(of_vessel), first(from), last(to), group(in_group) {
+    std::memcpy(checksum.data(), text, std::min(std::strlen(text), checksum.size() - 1));
+  }
+  Stretch stretch() const { return {first, last, checksum.data()}; }
 };
 
 struct Cell {
@@ -188,6 +203,7 @@ class ClusterSweep final : public Sweep {
     }
     agree([&] { open(); });
     compare_ranks();
+    check_lost_mark();
     if (!all_of(!interrupt.signalled())) {
       if (team_.is_leader()) say_note("interrupted before the first grip; no file has changed, and the same command starts again");
       return ExitCode::interrupted;
@@ -214,7 +230,10 @@ class ClusterSweep final : public Sweep {
       if (own_group() == 0 || groups_[own_group()].ranks[0] != team_.rank()) return;
       shard_lock.emplace(own_names.partial + ".lock");
       is_there = is_marked_ && is_shard(own_names.partial, shard_id_);
-      if (!is_there) make_shard(own_names.partial, shard_id_, layout_);
+      if (is_there) return;
+      if (begins_with(own_names.partial, SHARD_START))
+        say_notes({own_names.partial + " is a shard of another sweep: replacing it"});
+      make_shard(own_names.partial, shard_id_, layout_);
     });
     share_stretches(is_there);
     agree([&] {
@@ -323,6 +342,23 @@ class ClusterSweep final : public Sweep {
 
   std::size_t own_group() const { return group_of_[static_cast<std::size_t>(team_.rank())]; }
 
+  std::string own_name() const { return !options_.shards ? "" : options_.shards->empty() ? team_.node() : *options_.shards; }
+
+  // A sweep that is to go on, but whose file and mark are on another node, must not begin again: that would replace all shards.
+  void check_lost_mark() {
+    struct stat file {};
+    const bool is_new = options_.shards && options_.resume && stat(names_.partial.c_str(), &file) != 0;
+    if (!share_flag(is_new)) return;
+    agree([&] {
+      const std::string path = shard_path(names_, own_name());
+      if (!begins_with(path, SHARD_START)) return;
+      throw usage_error(
+          fmt::format("{} is of a sweep whose {} is not on the node of rank 0; start rank 0 where that file is, or start "
+                      "again without --resume",
+                      path, names_.partial));
+    });
+  }
+
   void begin_shards(const ResultFile& file) {
     if (!options_.shards) return;
     if (!mark_.shards) mark_.shards = ShardMark{new_shard_id(), file.layout(), false};
@@ -331,7 +367,7 @@ class ClusterSweep final : public Sweep {
 
   // The leader's group comes first. It writes into the result's file, and all others into shards.
   void share_groups() {
-    const std::string own = !options_.shards ? "" : options_.shards->empty() ? team_.node() : *options_.shards;
+    const std::string own = own_name();
     std::vector<std::string> names{own};
     PacketWriter packet;
     packet.put(own);
@@ -392,22 +428,22 @@ class ClusterSweep final : public Sweep {
     share_error(unlike);
   }
 
-  // The rank that looks after each stretch: one that has it in its file, or, where it is nowhere, any.
-  std::vector<int> ranks_of_stretches() const {
-    std::vector<std::size_t> turns(groups_.size() + 1);
-    std::vector<int> ranks;
-    for (const Piece& piece : stretches_) {
-      const bool is_nowhere = piece.group == NOWHERE;
-      const std::size_t turn = turns[is_nowhere ? groups_.size() : piece.group]++;
-      if (is_nowhere) {
-        ranks.push_back(static_cast<int>(turn % static_cast<std::size_t>(team_.size())));
-      } else {
-        const std::vector<int>& members = groups_[piece.group].ranks;
-        ranks.push_back(members[turn % members.size()]);
-      }
+  // Names the rank that looks after each stretch, one after the other: one that has it in its file, or, where it is nowhere, any.
+  class Turns {
+   public:
+    explicit Turns(const std::vector<Group>& groups, int ranks)
+        : groups_(groups), ranks_(static_cast<std::size_t>(ranks)), turns_(groups.size() + 1) {}
+    int next(std::uint64_t group) {
+      if (group == NOWHERE) return static_cast<int>(turns_.back()++ % ranks_);
+      const std::vector<int>& members = groups_[group].ranks;
+      return members[turns_[group]++ % members.size()];
     }
-    return ranks;
-  }
+
+   private:
+    const std::vector<Group>& groups_;
+    std::size_t ranks_;
+    std::vector<std::size_t> turns_;
+  };
 
   // Where the grips of a stretch lie, as far as the leader's mark and the groups tell.
   std::uint64_t group_of(const Stretch& stretch) const {
@@ -434,15 +470,17 @@ class ClusterSweep final : public Sweep {
                          fmt::join(names, ", "), readable_number(grips)));
   }
 
-  // Stretches that were computed again lie elsewhere now.
-  void move_stretches() {
-    const std::vector<int> ranks = ranks_of_stretches();
-    std::size_t k = 0;
+  // Of the leader's mark: the stretches that are nowhere, by the rank that computes them again, in its order.
+  std::vector<std::vector<Stretch*>> lost_stretches() {
+    std::vector<std::vector<Stretch*>> lost(static_cast<std::size_t>(team_.size()));
+    Turns turns(groups_, team_.size());
     for (VesselProgress& vessel : mark_.vessels)
-      for (Stretch& stretch : vessel.stretches) stretch.shard = shard_of(group_of_[static_cast<std::size_t>(ranks[k++])]);
+      for (Stretch& stretch : vessel.stretches)
+        if (group_of(stretch) == NOWHERE) lost[static_cast<std::size_t>(turns.next(NOWHERE))].push_back(&stretch);
+    return lost;
   }
 
-  // Which grips are there, where, and what vouches for them. `is_there`: this rank's file is not new.
+  // Which grips are there, where, and what vouches for them: each rank keeps what it looks after. `is_there`: this rank's file is not new.
   void share_stretches(bool is_there) {
     PacketWriter own;
     own.put(is_there);
@@ -452,20 +490,20 @@ class ClusterSweep final : public Sweep {
     PacketWriter packet;
     if (team_.is_leader()) {
       for (const VesselProgress& vessel : mark_.vessels) packet.put(vessel.done);
-      std::vector<Piece> stretches;
-      for (std::size_t v = 0; v < mark_.vessels.size(); ++v) {
-        for (const Stretch& stretch : mark_.vessels[v].stretches) {
-          Piece& piece = stretches.emplace_back(Piece{v, stretch.first, stretch.last, group_of(stretch), {}, {}});
-          piece.set_checksum(stretch.checksum);
-        }
-      }
+      std::vector<OwnStretch> stretches;
+      for (std::size_t v = 0; v < mark_.vessels.size(); ++v)
+        for (const Stretch& stretch : mark_.vessels[v].stretches)
+          stretches.emplace_back(v, stretch.first, stretch.last, group_of(stretch), stretch.checksum.c_str());
       packet.put(stretches);
     }
     const std::string bytes = team_.share(packet.bytes());
     PacketReader reader(bytes);
     mark_.vessels.resize(scene_.vessels.size());
     for (VesselProgress& vessel : mark_.vessels) vessel.done = reader.take<std::uint64_t>();
-    stretches_ = reader.take_all<Piece>();
+    stretches_ = {};
+    Turns turns(groups_, team_.size());
+    for (const OwnStretch& stretch : reader.take_all<OwnStretch>())
+      if (turns.next(stretch.group) == team_.rank()) stretches_.push_back(stretch);
   }
 
   FilePlaces share_places(const ResultFile* file) {
@@ -505,25 +543,57 @@ class ClusterSweep final : public Sweep {
     reported_ = done();
   }
 
-  // Each rank reads some of the stretches back. False: interrupted.
+  // Each rank reads some of the stretches back, or computes them again. From time to time the mark learns where the latter lie now. False:
+  // interrupted.
   bool repair(ResultFile& file, InterruptGuard& interrupt) {
+    std::vector<std::vector<Stretch*>> lost;
+    if (team_.is_leader()) {
+      say_missing_shards();
+      lost = lost_stretches();
+    }
     bool is_whole = true;
-    if (team_.is_leader()) say_missing_shards();
-    agree([&] {
-      const std::vector<int> ranks = ranks_of_stretches();
-      for (std::size_t k = 0; k < stretches_.size() && is_whole; ++k) {
-        if (ranks[k] != team_.rank()) continue;
-        const Piece& piece = stretches_[k];
-        const Stretch stretch{piece.first, piece.last, piece.checksum.data()};
-        is_whole = piece.group == NOWHERE ? restore_stretch(piece.vessel, stretch, file, interrupt)
-                                          : repair_stretch(piece.vessel, stretch, file, interrupt);
+    for (std::size_t next = 0; is_whole && !all_of(next == stretches_.size());) {
+      last_report_ = monotonic_now();
+      std::uint64_t restored = 0;
+      std::optional<Error> failure = caught([&] {
+        for (; is_whole && next < stretches_.size() && !is_report_due(); next += is_whole ? 1 : 0) {
+          const OwnStretch& own = stretches_[next];
+          is_whole = own.group == NOWHERE ? restore_stretch(own.vessel, own.stretch(), file, interrupt)
+                                          : repair_stretch(own.vessel, own.stretch(), file, interrupt);
+          if (is_whole && own.group == NOWHERE) ++restored;
+        }
+      });
+      if (const auto unsynced = caught([&] { file.sync(); })) {
+        restored = 0;
+        if (!failure) failure = unsynced;
       }
-      if (is_whole) file.sync();
-    });
-    if (!all_of(is_whole)) return false;
-    if (team_.is_leader()) move_stretches();
+      const bool is_moved = move_stretches(lost, restored);
+      agree([&] {
+        if (team_.is_leader() && is_moved) keep_mark(file);
+        if (failure) throw *failure;
+      });
+      is_whole = all_of(is_whole);
+    }
+    stretches_ = {};
     for (Group& group : groups_) group.is_new = false;
-    return true;
+    return is_whole;
+  }
+
+  // Each rank has computed so many more of its lost stretches again: they lie in its file now. Answers the leader whether there are any.
+  bool move_stretches(std::vector<std::vector<Stretch*>>& lost, std::uint64_t restored) {
+    std::vector<std::uint64_t> counts{restored};
+    PacketWriter packet;
+    packet.put(restored);
+    team_.gather(packet.bytes(),
+                 [&](int, const std::string& message) { counts.push_back(PacketReader(message).take<std::uint64_t>()); });
+    bool is_moved = false;
+    for (std::size_t rank = 0; rank < lost.size(); ++rank) {
+      const auto end = lost[rank].begin() + static_cast<std::ptrdiff_t>(counts.at(rank));
+      for (auto stretch = lost[rank].begin(); stretch != end; ++stretch) (*stretch)->shard = shard_of(group_of_[rank]);
+      is_moved = is_moved || counts[rank] > 0;
+      lost[rank].erase(lost[rank].begin(), end);
+    }
+    return is_moved;
   }
 
   // Each rank reads back what it has written: one rank alone would take longer for it than all for the grips. False: interrupted.
@@ -531,9 +601,7 @@ class ClusterSweep final : public Sweep {
     bool is_whole = true;
     agree([&] {
       file.drop_cached();
-      for (const Piece& piece : written_) {
-        is_whole = is_whole && repair_stretch(piece.vessel, {piece.first, piece.last, piece.checksum.data()}, file, interrupt);
-      }
+      for (const OwnStretch& own : written_) is_whole = is_whole && repair_stretch(own.vessel, own.stretch(), file, interrupt);
       if (is_whole) file.sync();
     });
     is_read_back_ = all_of(is_whole);
@@ -665,7 +733,7 @@ class ClusterSweep final : public Sweep {
       if (file.has_grips() && result.done > 0) {
         piece.set_checksum(file.stretch().checksum);
         file.end_stretch();
-        written_.push_back(piece);
+        written_.emplace_back(piece.vessel, piece.first, piece.last, 0, piece.checksum.data());
       }
       if (result.done > 0) keep(piece);
       if (is_report_due()) {
@@ -708,9 +776,10 @@ class ClusterSweep final : public Sweep {
     }
   }
 
+  std::string who() const override { return team_.size() > 1 ? fmt::format("rank {} on {}: ", team_.rank(), team_.node()) : ""; }
+
   void say_notes(std::vector<std::string> notes) {
-    if (team_.size() > 1)
-      for (std::string& line : notes) line = fmt::format("rank {} on {}: {}", team_.rank(), team_.node(), line);
+    for (std::string& line : notes) line = who() + line;
     say_once(notes, progress_ ? &*progress_ : nullptr);
   }
 
@@ -860,6 +929,7 @@ class ClusterSweep final : public Sweep {
         if (!is_passed) return false;
       }
     }
+    stretches_ = {};
     return true;
   }
 
@@ -922,10 +992,8 @@ class ClusterSweep final : public Sweep {
       if (has_eligible_) {
         own.offer(eligible_[v]);
       } else if (options_.shards && file.has_eligible()) {
-        const std::vector<int> ranks = ranks_of_stretches();
-        for (std::size_t k = 0; k < stretches_.size(); ++k)
-          if (stretches_[k].vessel == v && ranks[k] == team_.rank())
-            delivered += read_range({v, stretches_[k].first, stretches_[k].last}, own, file);
+        for (const OwnStretch& stretch : stretches_)
+          if (stretch.vessel == v) delivered += read_range({v, stretch.first, stretch.last}, own, file);
       } else {
         take_pieces(WorkRange({{v, 0, plan().grips()}}), interrupt, [&](const GripRange& range) {
           const std::uint64_t done = file.has_eligible() ? read_range(range, own, file) : pass_range(range, own, interrupt);
@@ -1036,7 +1104,7 @@ class ClusterSweep final : public Sweep {
   Team& team_;
   InterruptGuard& interrupt_;
   std::vector<std::string> devices_;              // of all ranks; the leader knows them
-  std::vector<Piece> stretches_;                  // of the sweep that is resumed
+  std::vector<OwnStretch> stretches_;             // that are there, and that this rank looks after
   std::vector<HandLists> best_;                   // of each vessel, so far
   std::vector<std::optional<HandLists>> fresh_;   // and since the last report
   std::vector<std::vector<Candidate>> eligible_;  // of each vessel, of this rank's grips
@@ -1044,7 +1112,7 @@ class ClusterSweep final : public Sweep {
   bool has_eligible_ = false;              // all of them
   std::vector<std::vector<double>> told_;  // cells of the heat maps that the leader knows
   std::vector<Piece> pieces_;              // since the last report
-  std::vector<Piece> written_;             // by this rank
+  std::vector<OwnStretch> written_;        // by this rank
   double untold_kernel_seconds_ = 0;
   std::vector<Group> groups_;
   std::vector<std::size_t> group_of_;  // of each rank

@@ -33,7 +33,7 @@ constexpr std::uint64_t UNTIL_SYNC = std::uint64_t{1} << 26;  // bytes that may 
 
 class OpenFile {
  public:
-  OpenFile(const std::string& path, int flags) : file_(open(path.c_str(), flags | O_CLOEXEC | O_NOFOLLOW)) {
+  OpenFile(const std::string& path, int flags) : file_(open(path.c_str(), flags | O_CLOEXEC)) {
     if (file_ < 0) throw failure_error(fmt::format("cannot open {}: {}", path, std::strerror(errno)));
     posix_fadvise(file_, 0, 0, POSIX_FADV_RANDOM);  // what would be read ahead is mostly holes
   }
@@ -55,10 +55,12 @@ class Merge {
     const double start = monotonic_now();
     struct stat status {};
     if (stat(names_.partial.c_str(), &status) != 0) throw usage_error(no_sweep());
+    check_output_path(names_.result, "RESULT.nc");
+    check_overwrites_result(names_.result);
     const OutputLock lock(names_.lock);
     read_mark();
     find_shards();
-    const OpenFile result(names_.partial, O_RDWR);
+    const OpenFile result(names_.partial, O_RDWR | O_NOFOLLOW);
     // file systems that cannot reserve are told apart from those that lack the room
     if (fstat(result, &status) != 0 || (fallocate(result, 0, 0, status.st_size) != 0 && errno != EOPNOTSUPP && errno != ENOSYS))
       fail_writing();
@@ -68,6 +70,7 @@ class Merge {
       if (!take_vessel(v, result, interrupt, progress)) return interrupted(progress);
     if (fsync(result) != 0) fail_writing();
     progress.clear();
+    check_own(result);
     check_readable(names_, true);
     name_result(names_);
     const double seconds = monotonic_now() - start;
@@ -78,6 +81,16 @@ class Merge {
   }
 
  private:
+  // Throws where the name is another file's now.
+  void check_own(int result) const {
+    struct stat own {
+    }, named{};
+    if (fstat(result, &own) != 0 || stat(names_.partial.c_str(), &named) != 0 || own.st_dev != named.st_dev ||
+        own.st_ino != named.st_ino)
+      throw failure_error(names_.partial +
+                          " was replaced or removed while the shards were merged; nothing has been given its name");
+  }
+
   std::string no_sweep() const {
     struct stat status {};
     if (stat(names_.target.c_str(), &status) == 0) return names_.result + " is one file, so nothing is left to merge";

@@ -60,6 +60,7 @@ class ResultFile {
   bool holds(std::size_t vessel, const Stretch& stretch);
   const FilePlaces& places() const { return places_; }
   const RunLayout& layout() const { return layout_; }
+  const std::string& path() const { return names_.partial; }
   std::uint64_t inode() const;  // tells the file from others of its name on other machines
   // Throws where another file, or none, has the name now: another job took it, one that no lock kept away. To be called before anything is done under
   // that name, such as saving a mark.

@@ -235,7 +235,7 @@ bool Sweep::repair(ResultFile& file, InterruptGuard& interrupt) {
 bool Sweep::repair_stretch(std::size_t v, const Stretch& stretch, ResultFile& file, InterruptGuard& interrupt) {
   if (is_asked_to_end(interrupt)) return false;
   if (file.holds(v, stretch)) return true;
-  say_note(fmt::format("{}: {} are damaged: computing them again", names_.partial, readable_stretch(stretch, v)));
+  say_note(fmt::format("{}{}: {} are damaged: computing them again", who(), file.path(), readable_stretch(stretch, v)));
   return restore_stretch(v, stretch, file, interrupt);
 }
 
@@ -243,7 +243,7 @@ bool Sweep::restore_stretch(std::size_t v, const Stretch& stretch, ResultFile& f
   if (is_asked_to_end(interrupt)) return false;
   if (!compute_again(v, stretch, file, interrupt)) return false;
   if (file.holds(v, stretch)) return true;
-  throw failure_error(fmt::format("{}: {} have other values when computed again; start again without --resume", names_.partial,
+  throw failure_error(fmt::format("{}: {} have other values when computed again; start again without --resume", file.path(),
                                   readable_stretch(stretch, v)));
 }
 

@@ -58,6 +58,8 @@ class Sweep {
   bool repair_stretch(std::size_t vessel, const Stretch& stretch, ResultFile& file, InterruptGuard& interrupt);
   // Computes a stretch that the file does not hold. Likewise.
   bool restore_stretch(std::size_t vessel, const Stretch& stretch, ResultFile& file, InterruptGuard& interrupt);
+  // How a note about this process's own work begins, where others work on the same sweep.
+  virtual std::string who() const { return ""; }
   // Everything up to here onto the disk, then the mark that says so.
   void save(ResultFile& file);
   ExitCode interrupted() const;
