@@ -218,6 +218,8 @@ class ClusterSweep final : public Sweep {
       const FileStart start = is_resumed ? FileStart::resumed : options_.shards ? FileStart::sparse : FileStart::reserved;
       file = std::make_unique<ResultFile>(names_, written, backend_->fields(), start, parts_.open_output);
       begin_shards(*file);
+      // from now on whoever finds shards of this sweep finds its mark, too
+      if (options_.shards && !is_resumed) save(*file);
     });
     is_marked_ = share_flag(is_resumed);
     share_groups();
@@ -339,23 +341,25 @@ class ClusterSweep final : public Sweep {
     bool is_new = false;     // their file has nothing of the sweep that is resumed
   };
   static constexpr std::uint64_t NOWHERE = ~std::uint64_t{0};  // the shard is not here
+  static constexpr char LOST =
+      '/';  // how the mark names a shard that is lost: its node may come back with a new one of the same name
 
   std::size_t own_group() const { return group_of_[static_cast<std::size_t>(team_.rank())]; }
 
   std::string own_name() const { return !options_.shards ? "" : options_.shards->empty() ? team_.node() : *options_.shards; }
 
-  // A sweep that is to go on, but whose file and mark are on another node, must not begin again: that would replace all shards.
+  // A sweep that is to go on, but whose mark is on another node, must not begin again: that would replace all shards.
   void check_lost_mark() {
     struct stat file {};
-    const bool is_new = options_.shards && options_.resume && stat(names_.partial.c_str(), &file) != 0;
+    const bool is_new = options_.shards && options_.resume && stat(names_.mark.c_str(), &file) != 0;
     if (!share_flag(is_new)) return;
     agree([&] {
       const std::string path = shard_path(names_, own_name());
-      if (!begins_with(path, SHARD_START)) return;
+      if (!begins_with(path, SHARD_START) && (team_.is_leader() || stat(names_.mark.c_str(), &file) != 0)) return;
       throw usage_error(
-          fmt::format("{} is of a sweep whose {} is not on the node of rank 0; start rank 0 where that file is, or start "
-                      "again without --resume",
-                      path, names_.partial));
+          fmt::format("{} is here, but on the node of rank 0 there is no {}; start rank 0 where that file is, or "
+                      "begin the sweep anew without --resume",
+                      begins_with(path, SHARD_START) ? path : names_.mark, names_.mark));
     });
   }
 
@@ -462,7 +466,7 @@ class ClusterSweep final : public Sweep {
       for (const Stretch& stretch : vessel.stretches) {
         if (group_of(stretch) != NOWHERE) continue;
         grips += stretch.last - stretch.first;
-        names.insert(stretch.shard);
+        names.insert(stretch.shard.substr(stretch.shard[0] == LOST ? 1 : 0));
       }
     }
     if (grips == 0) return;
@@ -470,13 +474,16 @@ class ClusterSweep final : public Sweep {
                          fmt::join(names, ", "), readable_number(grips)));
   }
 
-  // Of the leader's mark: the stretches that are nowhere, by the rank that computes them again, in its order.
+  // Of the leader's mark: the stretches that are nowhere, by the rank that computes them again, in its order. The mark says so from now on.
   std::vector<std::vector<Stretch*>> lost_stretches() {
     std::vector<std::vector<Stretch*>> lost(static_cast<std::size_t>(team_.size()));
     Turns turns(groups_, team_.size());
     for (VesselProgress& vessel : mark_.vessels)
       for (Stretch& stretch : vessel.stretches)
         if (group_of(stretch) == NOWHERE) lost[static_cast<std::size_t>(turns.next(NOWHERE))].push_back(&stretch);
+    for (const auto& of_rank : lost)
+      for (Stretch* stretch : of_rank)
+        if (stretch->shard[0] != LOST) stretch->shard.insert(0, 1, LOST);
     return lost;
   }
 
@@ -502,7 +509,9 @@ class ClusterSweep final : public Sweep {
     for (VesselProgress& vessel : mark_.vessels) vessel.done = reader.take<std::uint64_t>();
     stretches_ = {};
     Turns turns(groups_, team_.size());
-    for (const OwnStretch& stretch : reader.take_all<OwnStretch>())
+    const auto stretches = reader.take_all<OwnStretch>();
+    has_stretches_ = !stretches.empty();
+    for (const OwnStretch& stretch : stretches)
       if (turns.next(stretch.group) == team_.rank()) stretches_.push_back(stretch);
   }
 
@@ -546,17 +555,24 @@ class ClusterSweep final : public Sweep {
   // Each rank reads some of the stretches back, or computes them again. From time to time the mark learns where the latter lie now. False:
   // interrupted.
   bool repair(ResultFile& file, InterruptGuard& interrupt) {
+    for (Group& group : groups_) group.is_new = group.is_new && has_stretches_;
+    if (!has_stretches_) return true;
     std::vector<std::vector<Stretch*>> lost;
     if (team_.is_leader()) {
       say_missing_shards();
       lost = lost_stretches();
     }
+    const bool has_lost =
+        share_flag(std::any_of(lost.begin(), lost.end(), [](const auto& stretches) { return !stretches.empty(); }));
+    agree([&] {
+      if (team_.is_leader() && has_lost) keep_mark(file);
+    });
     bool is_whole = true;
     for (std::size_t next = 0; is_whole && !all_of(next == stretches_.size());) {
       last_report_ = monotonic_now();
       std::uint64_t restored = 0;
       std::optional<Error> failure = caught([&] {
-        for (; is_whole && next < stretches_.size() && !is_report_due(); next += is_whole ? 1 : 0) {
+        for (; is_whole && next < stretches_.size() && !(has_lost && is_report_due()); next += is_whole ? 1 : 0) {
           const OwnStretch& own = stretches_[next];
           is_whole = own.group == NOWHERE ? restore_stretch(own.vessel, own.stretch(), file, interrupt)
                                           : repair_stretch(own.vessel, own.stretch(), file, interrupt);
@@ -1105,6 +1121,7 @@ class ClusterSweep final : public Sweep {
   InterruptGuard& interrupt_;
   std::vector<std::string> devices_;              // of all ranks; the leader knows them
   std::vector<OwnStretch> stretches_;             // that are there, and that this rank looks after
+  bool has_stretches_ = false;                    // any rank
   std::vector<HandLists> best_;                   // of each vessel, so far
   std::vector<std::optional<HandLists>> fresh_;   // and since the last report
   std::vector<std::vector<Candidate>> eligible_;  // of each vessel, of this rank's grips

@@ -56,7 +56,9 @@ class Merge {
     struct stat status {};
     if (stat(names_.partial.c_str(), &status) != 0) throw usage_error(no_sweep());
     check_output_path(names_.result, "RESULT.nc");
-    check_overwrites_result(names_.result);
+    if (struct stat other{};
+        stat(names_.target.c_str(), &other) == 0 && other.st_size > 0 && !begins_with(names_.target, NETCDF4_START))
+      throw usage_error(names_.result + " is there and is no result file; move it away, and merge again");
     const OutputLock lock(names_.lock);
     read_mark();
     find_shards();
@@ -87,8 +89,7 @@ class Merge {
     }, named{};
     if (fstat(result, &own) != 0 || stat(names_.partial.c_str(), &named) != 0 || own.st_dev != named.st_dev ||
         own.st_ino != named.st_ino)
-      throw failure_error(names_.partial +
-                          " was replaced or removed while the shards were merged; nothing has been given its name");
+      throw failure_error(names_.partial + " was replaced or removed while the shards were merged; the result was not named");
   }
 
   std::string no_sweep() const {

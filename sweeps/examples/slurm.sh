@@ -3,7 +3,7 @@
 # One sweep on a cluster with Slurm. When its time is over the job closes the result, goes back into the queue, and goes on where it ended.
 #   sbatch --nodes=4 --ntasks-per-node=8 --time=4:00:00 slurm.sh SCENE RESULT.nc [OPTION ...]
 # The options are those of `wholehand sweep`. WHOLEHAND_MPI names the program, if it is not on the path. The folder of the result must be
-# on a file system that all nodes share. If it is not, then give --shards: rank 0 must then run on the same node each time, so name the nodes
+# on a file system that all nodes share, unless --shards is given. Then rank 0 must run on the same node each time, so name all nodes
 # (--nodelist), and merge the shards at the end (docs/cluster.md). The job stays out of the queue if it brought nothing new, or after
 # WHOLEHAND_RESTARTS (100) times.
 #SBATCH --job-name=wholehand
