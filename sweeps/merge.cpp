@@ -93,8 +93,8 @@ class Merge {
   }
 
   std::string no_sweep() const {
-    struct stat status {};
-    if (stat(names_.target.c_str(), &status) == 0) return names_.result + " is one file, so nothing is left to merge";
+    if (begins_with(names_.target, NETCDF4_START) && !names_.target.ends_with(".partial"))
+      return names_.result + " is one file, so nothing is left to merge";
     return names_.partial + " is not there; name the result that `wholehand-mpi sweep --shards` wrote, in its folder of rank 0";
   }
 

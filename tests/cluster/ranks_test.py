@@ -346,6 +346,9 @@ class Ranks(unittest.TestCase):
             code, out, errors = self.merge(output)
             self.assertEqual(code, 2, errors)
             self.assertIn("nothing is left to merge", errors)
+            code, out, errors = self.merge(path)
+            self.assertEqual(code, 2, errors)
+            self.assertIn(".partial is not there; name the result", errors)
 
     def test_shards_without_grips_do_not_stay(self):
         path = self.write("tiny.toml", SMALL.replace("count = 20", "count = 2"))  # less than a piece of each vessel

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -13,6 +14,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
@@ -201,7 +203,10 @@ Running begin(const std::vector<Job>& jobs, std::size_t number, bool is_loud) {
   std::fflush(nullptr);
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("no process can be started");
-  if (child == 0) run_child(jobs[number], is_loud, ends[1]);
+  if (child == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody would read its outcome
+    run_child(jobs[number], is_loud, ends[1]);
+  }
   close(ends[1]);
   return {number, child, ends[0]};
 }

@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/error.h"
 #include "system/files.h"
 #include "tests/scale/machine.h"
 #include "tests/scale/measure.h"
@@ -142,7 +143,18 @@ int run(int argc, char** argv) {
       ->capture_default_str();
   app.add_flag("--loud", is_loud, "Show what the sweeps print");
   app.add_flag("--measure", is_measured, "Instead, measure on this machine what rank 0 spends on reports and marks");
-  CLI11_PARSE(app, argc, argv);
+  app.footer("Exit codes: 0 done, 2 wrong usage, 3 failure.");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    throw usage_error(fmt::format("{}; see wholehand-scale --help", error.what()));
+  }
+  // known before a run of many minutes
+  if (!csv.empty()) check_output_path(csv, "--csv");
+  if (!svg.empty()) check_output_path(svg, "--svg");
+  if (!csv.empty() && csv == svg) throw usage_error("--csv and --svg: both name " + csv + "; name two files");
   if (is_measured) {
     measure();
     return 0;
@@ -166,6 +178,7 @@ int run(int argc, char** argv) {
   });
   if (!csv.empty()) write_whole_file(csv, csv_of(rows), false, "name another file");
   if (!svg.empty()) write_whole_file(svg, scale_picture(rows), false, "name another file");
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) throw failure_error("cannot write all of the table to standard output");
   return 0;
 }
 
@@ -175,6 +188,9 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     return wholehand::scale::run(argc, argv);
+  } catch (const wholehand::Error& error) {
+    fmt::print(stderr, "wholehand-scale: {}\n", error.what());
+    return static_cast<int>(error.code);
   } catch (const std::exception& error) {
     fmt::print(stderr, "wholehand-scale: {}\n", error.what());
     return 3;

@@ -3,6 +3,7 @@
 
 import csv
 import os
+import stat
 import subprocess
 import tempfile
 import unittest
@@ -60,6 +61,20 @@ class Quick(unittest.TestCase):
     def test_the_counter_is_asked_ahead(self):
         for row in self.rows:
             self.assertLess(float(row["longest_answer_s"]), 1e-4, row)  # of 1 us each, some at a time
+
+    def test_wrong_usage_ends_before_any_run(self):
+        with tempfile.TemporaryDirectory() as folder:
+            same = os.path.join(folder, "same")
+            pipe = os.path.join(folder, "pipe")
+            os.mkfifo(pipe)
+            for arguments in (["--only", "foo"], ["--jobs", "0"], ["--bogus"], ["--csv", folder], ["--csv", pipe], ["--svg", "/none/a.svg"],
+                              ["--csv", same, "--svg", same]):
+                command = [PROGRAM, *(arguments if "--only" in arguments else ["--only", "quick", *arguments])]
+                run = subprocess.run(command, capture_output=True, text=True, check=False)
+                self.assertEqual((run.returncode, run.stdout, len(run.stderr.strip().split("\n"))), (2, "", 1), run.stderr)
+                self.assertTrue(run.stderr.startswith("wholehand-scale: "), run.stderr)
+            self.assertEqual(os.listdir(folder), ["pipe"])
+            self.assertTrue(stat.S_ISFIFO(os.stat(pipe).st_mode))
 
 
 if __name__ == "__main__":
