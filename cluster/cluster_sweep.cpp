@@ -555,8 +555,13 @@ class ClusterSweep final : public Sweep {
   // Each rank reads some of the stretches back, or computes them again. From time to time the mark learns where the latter lie now. False:
   // interrupted.
   bool repair(ResultFile& file, InterruptGuard& interrupt) {
-    for (Group& group : groups_) group.is_new = group.is_new && has_stretches_;
-    if (!has_stretches_) return true;
+    const bool is_whole = !has_stretches_ || repair_stretches(file, interrupt);
+    stretches_ = {};
+    for (Group& group : groups_) group.is_new = false;
+    return is_whole;
+  }
+
+  bool repair_stretches(ResultFile& file, InterruptGuard& interrupt) {
     std::vector<std::vector<Stretch*>> lost;
     if (team_.is_leader()) {
       say_missing_shards();
@@ -590,8 +595,6 @@ class ClusterSweep final : public Sweep {
       });
       is_whole = all_of(is_whole);
     }
-    stretches_ = {};
-    for (Group& group : groups_) group.is_new = false;
     return is_whole;
   }
 
