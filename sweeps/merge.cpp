@@ -72,7 +72,8 @@ class Merge {
       if (!take_vessel(v, result, interrupt, progress)) return interrupted(progress);
     if (fsync(result) != 0) fail_writing();
     progress.clear();
-    check_own(result);
+    if (!has_name(result, names_.partial))
+      throw failure_error(names_.partial + " was replaced or removed while the shards were merged; the result was not named");
     check_readable(names_, true);
     name_result(names_);
     const double seconds = monotonic_now() - start;
@@ -83,15 +84,6 @@ class Merge {
   }
 
  private:
-  // Throws where the name is another file's now.
-  void check_own(int result) const {
-    struct stat own {
-    }, named{};
-    if (fstat(result, &own) != 0 || stat(names_.partial.c_str(), &named) != 0 || own.st_dev != named.st_dev ||
-        own.st_ino != named.st_ino)
-      throw failure_error(names_.partial + " was replaced or removed while the shards were merged; the result was not named");
-  }
-
   std::string no_sweep() const {
     if (begins_with(names_.target, NETCDF4_START) && !names_.target.ends_with(".partial"))
       return names_.result + " is one file, so nothing is left to merge";

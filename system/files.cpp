@@ -98,6 +98,12 @@ void check_output_path(const std::string& path, const char* option) {
   try_folder(path, folder, option);
 }
 
+bool has_name(int file, const std::string& path) {
+  struct stat own {
+  }, named{};
+  return fstat(file, &own) == 0 && lstat(path.c_str(), &named) == 0 && own.st_dev == named.st_dev && own.st_ino == named.st_ino;
+}
+
 bool is_same_file(const std::string& a, const std::string& b) {
   struct stat one {
   }, other{};

@@ -39,6 +39,9 @@ std::string followed(const std::string& path);
 // there, and is not a regular file (a directory, a device), or it is "-". `option` is the one that named it, for the message.
 void check_output_path(const std::string& path, const char* option = "-o");
 
+// Whether an open file has this name now. A link of that name is another file.
+bool has_name(int file, const std::string& path);
+
 // Whether both are there and are one file, by whatever names.
 bool is_same_file(const std::string& a, const std::string& b);
 
