@@ -19,6 +19,7 @@ find_path(XXHASH_INCLUDE_DIR xxhash.h REQUIRED)
 find_library(XXHASH_LIBRARY xxhash REQUIRED)
 find_path(QHULL_INCLUDE_DIR libqhull_r/libqhull_r.h REQUIRED)
 find_library(QHULL_LIBRARY qhull_r REQUIRED)
+find_path(MUJOCO_INCLUDE_DIR mujoco/mujoco.h REQUIRED)  # the library is loaded at run time
 find_path(HIDAPI_INCLUDE_DIR hidapi/hidapi.h REQUIRED)
 find_library(HIDAPI_LIBRARY hidapi-hidraw REQUIRED)
 find_path(LIBUSB_INCLUDE_DIR libusb-1.0/libusb.h REQUIRED)

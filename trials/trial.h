@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// A trial: a physics engine holds a vessel with a grip's hand, and tells whether it stays. What is asked, and what is answered.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/result.h"
+#include "core/scene.h"
+
+namespace wholehand {
+
+// Gravity turned step by step with each fill; or a force along each of six directions, without weight.
+enum class TrialProtocol { fill_tilt, six_forces };
+// The hand as an articulated body of bones; or, as a cross-check, each contact as a sphere on a slide along its normal.
+enum class TrialModel { hand, contacts };
+
+// One trial of a grip: a fill at a tilt, or a fill pushed along a direction.
+struct TrialCase {
+  TrialProtocol protocol = TrialProtocol::fill_tilt;
+  double fill = 0;    // of the capacity; 0 without liquid
+  double tilt = 0;    // rad; fill_tilt
+  int direction = 0;  // six_forces: +x, -x, +y, -y, +z, -z of the vessel frame
+  int material = 0;   // six_forces: place in TrialSettings::materials
+};
+
+// What six_forces takes for the vessel.
+struct TrialMaterial {
+  std::string name;                                            // "scene", "DexGraspBench"
+  double mass = std::numeric_limits<double>::quiet_NaN();      // kg; NaN: that of the state
+  double friction = std::numeric_limits<double>::quiet_NaN();  // NaN: the scene's
+  double torsion = std::numeric_limits<double>::quiet_NaN();   // m; NaN: the scene's
+};
+
+// The numbers of a run. Lengths m, angles rad, times s.
+struct TrialSettings {
+  TrialModel model = TrialModel::hand;
+  double squeeze = 1.25;                                       // how much more than the least the fingers press
+  double mass = std::numeric_limits<double>::quiet_NaN();      // kg, of the whole in every state; NaN: that of the state
+  double friction = std::numeric_limits<double>::quiet_NaN();  // NaN: the scene's
+  std::vector<TrialMaterial> materials{{"scene"}, {"DexGraspBench", 0.1, 0.6, 20e-3}};
+  double tilt_rate = radians(25);                          // rad/s
+  double hold_time = 1;                                    // at each tilt
+  double push_time = 2;                                    // in each direction
+  double push_acceleration = 10;                           // m/s2, times the mass
+  double largest_move = 0.05, largest_turn = radians(15);  // held: less than these
+  double slip = 2e-3;                                      // a contact that slides more has slipped
+  double start_overlap = 1e-3;                             // more at the start: discarded
+  double buried = 3e-3;                                    // a finger deeper once closed: discarded
+};
+
+// Why a trial is not scored, or was not held.
+enum class TrialReason {
+  none,      // held
+  overlap,   // discarded: the hand starts too deep in the vessel
+  buried,    // discarded: a finger is too deep in it once closed
+  diverged,  // discarded: the engine gave a warning or a number that is none
+  release,   // lost while it settles after it was let go
+  turned,    // lost: turned too far in the hand
+  moved,     // lost: moved too far in the hand
+  earlier,   // lost at a smaller tilt of the same fill
+};
+extern const std::array<const char*, 8> TRIAL_REASON_NAMES;  // "" for none
+
+struct TrialOutcome {
+  bool held = false;
+  bool discarded = false;
+  TrialReason reason = TrialReason::none;
+  std::string detail;         // what the engine said, of a discarded one
+  double slip = 0;            // largest way of a contact on the vessel since the release, m
+  double move = 0, turn = 0;  // largest of the vessel since the release, m, rad
+  double when = 0;            // of the loss, s since the release; 0 where held
+  double tilt_lost = 0;       // at which it was lost, rad
+};
+
+// One moment of a trial, for a drawing or a recording. Vessel and hand in the frame of the grip: the vessel's as it was gripped.
+struct TrialFrame {
+  double time = 0;                             // s since the release
+  Triple place{};                              // of the vessel's origin, m
+  std::array<double, 4> rotation{1, 0, 0, 0};  // w, x, y, z
+  Triple up{0, 1, 0};                          // against gravity
+  PosedHand joints{};                          // m; of the model `contacts` as posed
+};
+
+struct TrialTrack {
+  double interval = 0.02;  // s between frames
+  std::vector<TrialFrame> frames;
+};
+
+// Who tries grips of one scene. Thread-safe; the same grip and cases give the same bits on any thread, in any order.
+class TrialEngine {
+ public:
+  virtual ~TrialEngine() = default;
+  virtual std::string name() const = 0;  // "MuJoCo 2.2.2"
+  // One outcome for each case, in their order. Cases of one fill of fill_tilt are one run of the engine through ascending tilts, whose
+  // outcome does not depend on which further tilts are asked for beyond the last. `tracks`, if asked for, gets one for each case.
+  // `grip` is feasible and plausible. Throws Error where the vessel has no model.
+  virtual std::vector<TrialOutcome> run(std::size_t vessel, const GripInput& grip, const std::vector<TrialCase>& cases,
+                                        std::vector<TrialTrack>* tracks = nullptr) const = 0;
+};
+
+}  // namespace wholehand
