@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // wholehand sweep: every grip of a scene.
+#include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <memory>
+#include <string>
 
 #include "app/commands.h"
 #include "app/paths.h"
@@ -17,6 +19,7 @@ namespace wholehand {
 namespace {
 
 constexpr const char* SHARD_LETTERS = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.";
+constexpr std::size_t MOST_SHARD_LETTERS = 100;  // a file's name has 255 at most, and the result's own comes before
 
 struct SweepArguments {
   std::string scene, output, on = "vulkan", precision, best, glb, threads, time_limit, mark_seconds, shard;
@@ -97,8 +100,11 @@ void add_shared_sweep_command(CLI::App& app, Action& action, const SweepRunner& 
       ->type_name("NAME")
       ->check(CLI::Validator(
           [](const std::string& name) {
-            const bool is_plain = !name.empty() && name.find_first_not_of(SHARD_LETTERS) == std::string::npos;
-            return is_plain ? "" : "\"" + name + "\" is no name for a file: use letters, digits, '-', '_' and '.'";
+            const bool is_plain =
+                !name.empty() && name.size() <= MOST_SHARD_LETTERS && name.find_first_not_of(SHARD_LETTERS) == std::string::npos;
+            return is_plain ? std::string()
+                            : fmt::format("\"{}\" is no name for a file: use letters, digits, '-', '_' and '.', {} of them at most",
+                                          name, MOST_SHARD_LETTERS);
           },
           ""));
 }

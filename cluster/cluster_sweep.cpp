@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <climits>
 #include <cmath>
 #include <csignal>
 #include <cstring>
@@ -40,6 +42,11 @@ namespace wholehand {
 namespace {
 
 constexpr double REPORT_SHARE = 1.0 / 64;  // of the time so far: what a crash may cost, and each report takes a line in the mark
+
+constexpr const char* SHARD_LOCK_END = ".lock";
+constexpr const char* SHARED_FILES = "the result must lie on a file system that all ranks share, or ask for --shards";
+
+std::string base_name(const std::string& path) { return path.substr(path.find_last_of('/') + 1); }
 
 double since(double start) { return monotonic_now() - start; }
 
@@ -188,6 +195,7 @@ class ClusterSweep final : public Sweep {
     std::optional<OutputLock> lock;
     bool is_complete = false;
     agree([&] {
+      check_shard_name();
       if (!team_.is_leader()) return;
       is_complete = is_finished();
       if (is_complete) return;
@@ -230,7 +238,7 @@ class ClusterSweep final : public Sweep {
     bool is_there = true;
     agree([&] {
       if (own_group() == 0 || groups_[own_group()].ranks[0] != team_.rank()) return;
-      shard_lock.emplace(own_names.partial + ".lock");
+      shard_lock.emplace(own_names.partial + SHARD_LOCK_END);
       is_there = is_marked_ && is_shard(own_names.partial, shard_id_);
       if (is_there) return;
       if (begins_with(own_names.partial, SHARD_START))
@@ -239,6 +247,8 @@ class ClusterSweep final : public Sweep {
     });
     share_stretches(is_there);
     agree([&] {
+      if (own_group() == 0 && access(own_names.partial.c_str(), F_OK) != 0 && errno == ENOENT)
+        throw failure_error(own_names.partial + " is not there, though rank 0 has it; " + SHARED_FILES);
       if (!team_.is_leader())
         file = std::make_unique<ResultFile>(own_names, written, backend_->fields(), places, parts_.open_output);
     });
@@ -290,7 +300,8 @@ class ClusterSweep final : public Sweep {
     std::map<std::string, std::string> own = identity();
     PacketWriter packet;
     for (const auto& [key, value] : own) packet.put(checksum_text(value.data(), value.size()));
-    for (const std::string& text : {info_.device, info_.driver, team_.node(), own.at("build")}) packet.put(text);
+    for (const std::string& text : {info_.device, info_.driver, team_.node(), own.at("build"), base_name(names_.result)})
+      packet.put(text);
     std::map<std::string, int> devices{{info_.device, 1}};
     std::set<std::string> drivers{info_.driver};
     devices_.push_back(info_.device);
@@ -300,7 +311,7 @@ class ClusterSweep final : public Sweep {
       std::vector<std::string> checksums;
       for (std::size_t k = 0; k < own.size(); ++k) checksums.push_back(reader.take_text());
       const std::string its_device = reader.take_text(), driver = reader.take_text(), node = reader.take_text(),
-                        build = reader.take_text();
+                        build = reader.take_text(), result = reader.take_text();
       std::size_t k = 0;
       for (const auto& [key, value] : own) {
         const std::string own_checksum = checksum_text(value.data(), value.size()), its = checksums[k++];
@@ -309,6 +320,9 @@ class ClusterSweep final : public Sweep {
         unlike = usage_error(fmt::format("rank {} on {} has another {}: {}, and rank 0 on {} has {}; start the same on every node",
                                          rank, node, key, is_build ? build : its, team_.node(), is_build ? value : own_checksum));
       }
+      if (!unlike && result != base_name(names_.result))
+        unlike = usage_error(fmt::format("rank {} on {} writes {}, and rank 0 on {} writes {}; name the same result on every node",
+                                         rank, node, result, team_.node(), base_name(names_.result)));
       ++devices[its_device];
       drivers.insert(driver);
       devices_.push_back(its_device);
@@ -347,6 +361,15 @@ class ClusterSweep final : public Sweep {
   std::size_t own_group() const { return group_of_[static_cast<std::size_t>(team_.rank())]; }
 
   std::string own_name() const { return !options_.shards ? "" : options_.shards->empty() ? team_.node() : *options_.shards; }
+
+  // Before any work: a name that is too long would be refused by the file system once the ranks are under way.
+  void check_shard_name() const {
+    if (!options_.shards) return;
+    const std::string file = base_name(shard_path(names_, own_name()) + SHARD_LOCK_END);
+    if (file.size() > NAME_MAX)
+      throw usage_error(fmt::format(
+          "{}: a file's name has {} letters at most; name another result with -o, or another shard with --shard", file, NAME_MAX));
+  }
 
   // A sweep that is to go on, but whose mark is on another node, must not begin again: that would replace all shards.
   void check_lost_mark() {
@@ -425,7 +448,7 @@ class ClusterSweep final : public Sweep {
       const std::string path = group_of_[rank] == 0 ? names_.partial : shard_path(names_, group.name);
       const char* remedy = options_.shards
                                ? "who writes one shard must share a file system: give nodes other names with --shard NAME"
-                               : "the result must lie on a file system that all ranks share, or ask for --shards";
+                               : SHARED_FILES;
       unlike = failure_error(
           fmt::format("rank {} on {}: {} is another file here than on rank {}; {}", rank, nodes[rank], path, first, remedy));
     }

@@ -26,8 +26,8 @@ using nlohmann::json;
 
 constexpr int FORMAT = 5;
 
-Error unusable(const std::string& path, const std::string& why) {
-  return failure_error(fmt::format("{}: {}; start again without --resume", path, why));
+Error unusable(const std::string& path, const std::string& why, const char* remedy = BEGIN_AGAIN) {
+  return failure_error(fmt::format("{}: {}; {}", path, why, remedy));
 }
 
 json to_json(const std::vector<Candidate>& candidates) {
@@ -152,18 +152,19 @@ void save_mark(const std::string& path, const SweepMark& mark) {
                    "make room and go on with --resume, or name another file with -o");
 }
 
-bool load_mark(const std::string& path, SweepMark& mark) {
+bool load_mark(const std::string& path, SweepMark& mark, const char* remedy) {
   std::error_code absent;
   if (!std::filesystem::exists(path, absent)) return false;
-  if (!std::filesystem::is_regular_file(path, absent)) throw unusable(path, "not a progress mark of this program");
+  if (!std::filesystem::is_regular_file(path, absent)) throw unusable(path, "not a progress mark of this program", remedy);
   std::ifstream file(path, std::ios::binary);
   std::string start, text;
   std::getline(file, start);
   text.assign(std::istreambuf_iterator<char>(file), {});
-  if (!start.starts_with(MARK_START)) throw unusable(path, "not a progress mark of this program");
+  if (!start.starts_with(MARK_START)) throw unusable(path, "not a progress mark of this program", remedy);
   if (!start.starts_with(fmt::format("{}{} ", MARK_START, FORMAT)))
-    throw unusable(path, "the progress mark of another version of this program");
-  if (!start.ends_with(" " + checksum_text(text.data(), text.size()))) throw unusable(path, "is damaged: its checksum is wrong");
+    throw unusable(path, "the progress mark of another version of this program", remedy);
+  if (!start.ends_with(" " + checksum_text(text.data(), text.size())))
+    throw unusable(path, "is damaged: its checksum is wrong", remedy);
   try {
     const json content = json::parse(text);
     mark.identity = content.at("identity").get<std::map<std::string, std::string>>();
@@ -177,7 +178,7 @@ bool load_mark(const std::string& path, SweepMark& mark) {
     mark.shards.reset();
     if (content.contains("shards")) mark.shards = shards_from(content.at("shards"));
   } catch (const std::exception&) {
-    throw unusable(path, "not a progress mark of this program");
+    throw unusable(path, "not a progress mark of this program", remedy);
   }
   return true;
 }

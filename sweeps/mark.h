@@ -88,8 +88,11 @@ void save_mark(const std::string& path, const SweepMark& mark);
 // How a mark begins.
 inline constexpr std::string_view MARK_START = "wholehand mark ";
 
-// Reads a mark. False where there is none. Throws Error (failure) where it cannot be read as one, or is not as it was written.
-bool load_mark(const std::string& path, SweepMark& mark);
+inline constexpr const char* BEGIN_AGAIN = "start again without --resume";
+
+// Reads a mark. False where there is none. Throws Error (failure) where it cannot be read as one, or is not as it was written; `remedy` ends
+// its line.
+bool load_mark(const std::string& path, SweepMark& mark, const char* remedy = BEGIN_AGAIN);
 
 // Throws Error (failure) where a mark says what no sweep within these bounds can have done.
 void check_progress(const std::string& path, const SweepMark& mark, const MarkBounds& bounds);

@@ -91,7 +91,7 @@ class Merge {
   }
 
   void read_mark() {
-    if (!load_mark(names_.mark, mark_))
+    if (!load_mark(names_.mark, mark_, "copy it again from where the sweep ran"))
       throw usage_error(names_.mark + " is not there; copy it from where " + names_.partial + " comes from");
     if (!mark_.shards) throw usage_error(names_.partial + " has no shards; the sweep goes on in it with --resume");
     if (!mark_.shards->is_ended)
@@ -107,7 +107,7 @@ class Merge {
     for (const VesselProgress& vessel : mark_.vessels)
       for (const Stretch& stretch : vessel.stretches)
         if (!stretch.shard.empty()) wanted[stretch.shard] += stretch.last - stretch.first;
-    std::vector<std::string> missing;
+    std::vector<std::string> missing, unusable;
     for (const auto& [name, grips] : wanted) {
       from_shards_ += grips;
       std::vector<std::string> places{shard_path(names_, name)};
@@ -115,12 +115,17 @@ class Merge {
       for (const std::string& folder : request_.folders) places.push_back(folder + "/" + file);
       const auto place =
           std::find_if(places.begin(), places.end(), [&](const std::string& path) { return is_shard(path, mark_.shards->id); });
-      if (place == places.end()) {
-        missing.push_back(file);
-      } else {
+      if (place != places.end()) {
         shards_[name] = *place;
+        continue;
       }
+      missing.push_back(file);
+      for (const std::string& path : places)
+        if (const std::string why = why_no_shard(path); !why.empty()) unusable.push_back(path + " " + why);
     }
+    if (!unusable.empty())
+      throw usage_error(fmt::format("{}; copy {} of this sweep beside {}, or name its folder with --from",
+                                    fmt::join(unusable, ", "), fmt::join(missing, ", "), names_.partial));
     if (missing.empty()) return;
     throw usage_error(fmt::format("{} of this sweep {} in none of the folders; copy {} beside {}, or name a folder with --from",
                                   fmt::join(missing, ", "), missing.size() > 1 ? "are" : "is", missing.size() > 1 ? "them" : "it",

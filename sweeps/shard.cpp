@@ -2,9 +2,13 @@
 #include "sweeps/shard.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdint>
+#include <cstring>
 #include <random>
 
 #include "core/error.h"
@@ -24,6 +28,14 @@ std::string new_shard_id() {
 }
 
 bool is_shard(const std::string& path, const std::string& id) { return begins_with(path, first_line(id)); }
+
+std::string why_no_shard(const std::string& path) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0) return errno == ENOENT ? "" : fmt::format("cannot be looked at: {}", std::strerror(errno));
+  if (!S_ISREG(status.st_mode)) return "is no file";
+  if (access(path.c_str(), R_OK) != 0) return fmt::format("cannot be read: {}", std::strerror(errno));
+  return begins_with(path, SHARD_START) ? "is a shard of another sweep" : "is no shard";
+}
 
 void make_shard(const std::string& path, const std::string& id, const RunLayout& layout) {
   const std::string line = first_line(id);

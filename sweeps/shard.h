@@ -23,6 +23,9 @@ std::string new_shard_id();
 // Whether a shard of this sweep is there.
 bool is_shard(const std::string& path, const std::string& id);
 
+// Why what is at this path is no shard of the sweep that is looked for; empty: nothing is there.
+std::string why_no_shard(const std::string& path);
+
 // Makes an empty shard, in place of any other. Throws Error: (usage) what is there is no shard, and stays; (failure) it cannot be made, or the layout
 // leaves no room for how it begins.
 void make_shard(const std::string& path, const std::string& id, const RunLayout& layout);
