@@ -15,9 +15,10 @@ import unittest
 import netCDF4
 
 PROGRAM, MPI_PROGRAM = os.environ["WHOLEHAND_PROGRAM"], os.environ["WHOLEHAND_MPI_PROGRAM"]
-# what Open MPI asks of who is root, and of who has no network and few processors
+# what Open MPI asks of who is root, and of who has no network and few processors. Once a rank has ended badly, mpirun would wait a second or
+# two before it kills the others
 ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
-               "OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_MCA_btl": "self,vader", "OMPI_MCA_plm": "isolated", "OMPI_MCA_hwloc_base_binding_policy": "none"}
+               "OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_MCA_btl": "self,vader", "OMPI_MCA_plm": "isolated", "OMPI_MCA_hwloc_base_binding_policy": "none", "OMPI_MCA_odls_base_sigkill_timeout": "0"}
 PATIENCE = 240  # s: of a busy machine
 TIMES = {"device", "driver", "wall_time_s", "kernel_time_s"}
 
