@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// A body in a grasp, in the engine: pinned, let go, pushed and looked at. docs/trials.md says why each option is as it is.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "trials/grasp_model.h"
+#include "trials/mujoco.h"
+#include "trials/vessel_body.h"
+
+namespace wholehand {
+
+constexpr double TIME_STEP = 2e-3;  // s
+
+// What touches the hand of a body: XML and the names of its geoms.
+struct BodyForm {
+  std::string assets, geoms;
+  std::vector<std::string> names;
+};
+BodyForm form_of(std::span<const ConvexPiece> pieces);
+
+// What a model is made of. The body's frame is the model's.
+struct HeldSetup {
+  BodyForm form;
+  GraspModel grasp;
+  double friction = 0, torsion = 0;  // of every contact; torsion in m
+  RigidLoad load;
+  // Which geom of the hand may touch which of the body, by place in their lists; empty: each may touch each.
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  int most_contacts = 200;  // that the engine has room for; more is trouble, and never unnoticed
+};
+
+// One contact of the present moment.
+struct TouchedPlace {
+  std::size_t geom = 0;                // of the hand, place in its list
+  double overlap = 0;                  // m
+  core_f64::Vec3 place{}, normal{};    // normal into the body
+  double normal_force = 0;             // N
+  std::array<double, 2> tangential{};  // N
+  double torsion = 0;                  // N m
+};
+
+class HeldBody {
+ public:
+  HeldBody(const MujocoLibrary& library, const HeldSetup& setup);
+
+  // As it was made, pinned, without load and drive.
+  void reset();
+  void set_load(const RigidLoad& load);
+  void set_friction(double friction, double torsion);
+  // A force at the centre of mass from now on, N.
+  void push(const core_f64::Vec3& force) { push_ = force; }
+  // Torques of the joints, or forces of the slides, beside what their springs do.
+  void drive(std::span<const double> drives) { drives_.assign(drives.begin(), drives.end()); }
+  // The springs of the joints rest where they are now.
+  void rest_here();
+  void release();
+  void step();
+
+  double time() const { return time_; }  // s since the release; counts while pinned too, from 0
+  std::vector<TouchedPlace> contacts();
+  double deepest_overlap();  // m; 0 without contacts
+  core_f64::Vec3 place();
+  std::array<double, 9> rotation();                   // rows
+  std::array<double, 4> quaternion();                 // w, x, y, z
+  core_f64::Vec3 moved(const core_f64::Vec3& point);  // where a point of the body is now
+  double turned();                                    // rad, from where it was pinned
+  std::vector<BonePlace> bones();                     // of the model's
+  // Way along the surface, since `anchor`, of the contacts of that moment: how far bone and body have slid there, m.
+  void anchor();
+  double slipped();
+  Simulation& simulation() { return simulation_; }
+
+ private:
+  struct Anchor {
+    int bone = 0;                                   // of the engine's bodies
+    core_f64::Vec3 on_bone{}, on_body{}, normal{};  // each in its frame; the normal in the body's
+  };
+  core_f64::Vec3 point_of(int body, const core_f64::Vec3& local);
+
+  Simulation simulation_;
+  std::vector<GraspJoint> joints_;
+  std::vector<int> geoms_, bones_, geom_place_;  // ids; place of a geom in the hand's list, by id
+  int body_ = 0, pin_ = 0, first_qpos_ = 7, first_dof_ = 6;
+  std::array<double, core_f64::DIGITS> strength_{};  // of slides, by digit
+  std::vector<double> drives_, rest_;
+  std::vector<Anchor> anchors_;
+  core_f64::Vec3 push_{};
+  double time_ = 0;
+};
+
+// The engine's text of a setup.
+std::string model_text(const HeldSetup& setup);
+
+}  // namespace wholehand

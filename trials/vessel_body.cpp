@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+#include "trials/vessel_body.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/mesh_body.h"
+#include "core/outline_points.h"
+#include "core/prepare.h"
+#include "core/vectors.h"
+
+namespace wholehand {
+namespace {
+
+using Point2 = std::array<double, 2>;
+
+constexpr int SLICES = 400;        // of a vessel's height, for inertias alone
+constexpr double FLAT = 1e-7;      // m: a shorter edge has no direction
+constexpr double MOST_WORK = 3e9;  // sides times vertices of a mesh that are looked at
+
+// Of an outline, whose arcs are cut so finely that no cone is further from them than FORM_TOLERANCE.
+std::vector<Point2> form_points(const std::vector<PreparedElement>& elements) {
+  double widest = 0;
+  for (const PreparedElement& element : elements)
+    if (element.side != 0) widest = std::max(widest, element.radius);
+  const double step = widest > FORM_TOLERANCE ? 2 * std::acos(1 - FORM_TOLERANCE / widest) : radians(10);
+  std::vector<Point2> points;
+  for (const Point2& p : outline_points(elements, elements.size(), step)) {
+    const Point2 kept{std::max(0.0, p[0]), p[1]};
+    if (points.empty() || std::hypot(kept[0] - points.back()[0], kept[1] - points.back()[1]) > FLAT) points.push_back(kept);
+  }
+  return points;
+}
+
+// Whether the outline turns to the left at b, or goes straight on: convex there.
+bool is_convex_at(const Point2& a, const Point2& b, const Point2& c) {
+  const double ux = b[0] - a[0], uy = b[1] - a[1], vx = c[0] - b[0], vy = c[1] - b[1];
+  return ux * vy - uy * vx >= -1e-9 * std::hypot(ux, uy) * std::hypot(vx, vy);
+}
+
+void append_piece(const std::vector<Point2>& points, std::size_t from, std::size_t to, std::vector<ConvexPiece>& pieces) {
+  if (points[to][1] - points[from][1] < FLAT) return;  // level: no room in it
+  ConvexPiece piece;
+  for (std::size_t k = from; k <= to; ++k) {
+    const auto [r, y] = points[k];
+    if (r < FLAT) {
+      piece.push_back({0, y, 0});
+      continue;
+    }
+    for (int side = 0; side < FORM_SIDES; ++side) {
+      const double angle = 2 * PI * side / FORM_SIDES;
+      piece.push_back({r * std::cos(angle), y, r * std::sin(angle)});
+    }
+  }
+  pieces.push_back(std::move(piece));
+}
+
+std::vector<ConvexPiece> revolved_pieces(const VesselData& vessel) {
+  const std::vector<Point2> points = form_points(prepare_vessel(vessel, false).hull);
+  std::vector<ConvexPiece> pieces;
+  std::size_t from = 0;
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    if (points[k][1] < points[k - 1][1] - FLAT) {
+      throw usage_error(
+          fmt::format("vessel {}: its outline goes down again at a height of {:.1f} mm; trials know outer forms that rise",
+                      vessel.name, 1e3 * points[k - 1][1]));
+    }
+    const bool is_last = k + 1 == points.size();
+    if (!is_last && is_convex_at(points[k - 1], points[k], points[k + 1])) continue;
+    append_piece(points, from, k, pieces);
+    from = k;
+  }
+  return pieces;
+}
+
+// How far a mesh's vertices are in front of one of its sides, m: 0 of a convex one. Ends at the first that is too much.
+double hollow_depth(const MeshBody& body) {
+  double deepest = 0;
+  for (const auto& triangle : body.triangles) {
+    const auto a = to_vec3(body.vertices[triangle[0]]);
+    const glm::dvec3 normal = glm::cross(to_vec3(body.vertices[triangle[1]]) - a, to_vec3(body.vertices[triangle[2]]) - a);
+    const double size = glm::length(normal);
+    if (!(size > 0)) continue;
+    for (const Triple& vertex : body.vertices) deepest = std::max(deepest, glm::dot(to_vec3(vertex) - a, normal) / size);
+    if (deepest > CONVEX_TOLERANCE) return deepest;
+  }
+  return deepest;
+}
+
+std::vector<ConvexPiece> mesh_pieces(const VesselData& vessel) {
+  if (!vessel.mesh->body) throw failure_error(fmt::format("vessel {}: its mesh has not been read", vessel.name));
+  const MeshBody& body = *vessel.mesh->body;
+  if (static_cast<double>(body.triangles.size()) * static_cast<double>(body.vertices.size()) > MOST_WORK) {
+    throw usage_error(
+        fmt::format("vessel {}: its mesh has {} triangles, too many to see whether it is convex; trials take convex "
+                    "meshes and outlines",
+                    vessel.name, body.triangles.size()));
+  }
+  const double depth = hollow_depth(body);
+  if (depth > CONVEX_TOLERANCE) {
+    throw usage_error(
+        fmt::format("vessel {}: its mesh is not convex ({:.2f} mm and more in front of one of its sides), and the engine "
+                    "would take its convex hull; trials take convex meshes and outlines",
+                    vessel.name, 1e3 * depth));
+  }
+  return {body.vertices};
+}
+
+// Radius of a polyline at a height, 0 where it has none. Its heights do not fall.
+double radius_at(const std::vector<Point2>& points, double y) {
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    const auto [r0, y0] = points[k - 1];
+    const auto [r1, y1] = points[k];
+    if (y >= y0 && y < y1) return r0 + (r1 - r0) * (y - y0) / (y1 - y0);
+  }
+  return 0;
+}
+
+// Slices of revolution, of density 1: their sums about the origin.
+struct SliceSum {
+  double volume = 0, first = 0, along = 0, across = 0;  // first moment of y; second moments about the axis, and across it
+
+  void add(double outer, double inner, double y, double thickness) {
+    const double part = PI * (outer * outer - inner * inner) * thickness;
+    const double spin = PI * (std::pow(outer, 4) - std::pow(inner, 4)) * thickness / 2;
+    volume += part;
+    first += part * y;
+    along += spin;
+    across += spin / 2 + part * (y * y + thickness * thickness / 12);
+  }
+  // As a body of a mass at a centre.
+  RigidLoad weighing(double mass, const Triple& center) const {
+    if (!(volume > 0)) return {mass, center, {}};
+    const double density = mass / volume, height = first / volume;
+    const double round = density * along, level = density * (across - volume * height * height);
+    return {mass, center, {level, 0, 0, 0, round, 0, 0, 0, level}};
+  }
+};
+
+}  // namespace
+
+std::vector<ConvexPiece> convex_pieces(const VesselData& vessel) {
+  if (vessel.surface == Surface::shell) {
+    throw usage_error(
+        fmt::format("vessel {}: its surface is a shell, into which fingers reach; trials have no model of a wall that is "
+                    "touched from both sides: use surface = \"solid\"",
+                    vessel.name));
+  }
+  return vessel.mesh ? mesh_pieces(vessel) : revolved_pieces(vessel);
+}
+
+RigidLoad joined(const RigidLoad& a, const RigidLoad& b) {
+  RigidLoad whole;
+  whole.mass = a.mass + b.mass;
+  if (!(whole.mass > 0)) return a;
+  whole.center = point_between(a.center, b.center, b.mass / whole.mass);
+  for (const RigidLoad* part : {&a, &b}) {
+    const auto arm = to_vec3(part->center) - to_vec3(whole.center);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        whole.inertia[3 * i + j] += part->inertia[3 * i + j] + part->mass * ((i == j ? glm::dot(arm, arm) : 0) - arm[i] * arm[j]);
+  }
+  return whole;
+}
+
+RigidLoad load_between(const RigidLoad& a, const RigidLoad& b, double share) {
+  RigidLoad load{a.mass + share * (b.mass - a.mass), point_between(a.center, b.center, share), {}};
+  for (std::size_t k = 0; k < 9; ++k) load.inertia[k] = a.inertia[k] + share * (b.inertia[k] - a.inertia[k]);
+  return load;
+}
+
+VesselLoad::VesselLoad(const Scene& scene, const Evaluator& evaluator, std::size_t vessel, const Triple& pour)
+    : scene_(scene), evaluator_(evaluator), vessel_(vessel), pour_(pour) {
+  const VesselData& data = scene.vessels[vessel];
+  prepared_ = prepare_vessel(data, data.has_cavity());
+  hull_ = form_points(prepared_.hull);
+  cavity_ = form_points(prepared_.cavity);
+  glass_ = glass();
+}
+
+RigidLoad VesselLoad::glass() const {
+  const VesselData& data = scene_.vessels[vessel_];
+  const VesselConstants constants = evaluator_.constants(vessel_);
+  if (data.mesh) {  // as its bounding box
+    const MeshBody& body = *data.mesh->body;
+    const Triple side{body.high[0] - body.low[0], body.high[1] - body.low[1], body.high[2] - body.low[2]};
+    RigidLoad load{constants.mass, constants.center_of_mass, {}};
+    for (int i = 0; i < 3; ++i) {
+      const double a = side[(i + 1) % 3], b = side[(i + 2) % 3];
+      load.inertia[4 * i] = constants.mass * (a * a + b * b) / 12;
+    }
+    return load;
+  }
+  SliceSum sum;
+  const double top = hull_.back()[1], thickness = top / SLICES;
+  for (int k = 0; k < SLICES; ++k) {
+    const double y = (k + 0.5) * thickness;
+    sum.add(radius_at(hull_, y), radius_at(cavity_, y), y, thickness);
+  }
+  return sum.weighing(constants.mass, constants.center_of_mass);
+}
+
+RigidLoad VesselLoad::liquid(const LiquidResult& liquid) const {
+  const Triple center{liquid.lean * pour_[0], liquid.height, liquid.lean * pour_[2]};
+  SliceSum sum;
+  const double floor = prepared_.floor_height, thickness = (prepared_.mouth_height - floor) / SLICES;
+  for (int k = 0; k < SLICES && sum.volume < liquid.volume; ++k) {
+    const double y = floor + (k + 0.5) * thickness;
+    sum.add(radius_at(cavity_, y), 0, y, thickness);
+  }
+  return sum.weighing(liquid.mass, center);
+}
+
+RigidLoad VesselLoad::at(double fill, double tilt, double mass) const {
+  RigidLoad load = glass_;
+  if (scene_.liquid && fill > 0) {
+    const LiquidResult held = evaluator_.liquid(vessel_, fill, tilt);
+    if (held.mass > 0) load = joined(load, liquid(held));
+  }
+  if (!std::isnan(mass)) {
+    const double factor = load.mass > 0 ? mass / load.mass : 0;
+    for (double& entry : load.inertia) entry *= factor;
+    load.mass = mass;
+  }
+  return load;
+}
+
+}  // namespace wholehand

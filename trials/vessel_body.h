@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// The vessel as a physics engine takes it: convex pieces of its outer form, and what it weighs with what is in it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/evaluator.h"
+#include "core/prepared.h"
+#include "core/scene.h"
+
+namespace wholehand {
+
+constexpr double FORM_TOLERANCE = 0.05e-3;   // m, of an arc from the cones that stand for it
+constexpr int FORM_SIDES = 96;               // of a piece: the middle of a side is 0.02 mm inside a beaker of 40 mm radius
+constexpr double CONVEX_TOLERANCE = 0.2e-3;  // m, that a mesh may differ from its convex hull
+
+// A piece that is the convex hull of its vertices, vessel frame, m.
+using ConvexPiece = std::vector<Triple>;
+
+// The outer form of a vessel, closed across its mouth. A body of revolution is cut where its outline is not convex: what lies between two
+// cuts is a stack of frusta whose hull it is. A mesh is one piece where it is its own convex hull to CONVEX_TOLERANCE. Throws Error
+// (usage), with the vessel's name and the reason: a shell, whose wall has two sides; an outline that goes down again; a mesh with hollows.
+std::vector<ConvexPiece> convex_pieces(const VesselData& vessel);
+
+// Mass, centre and inertia about that centre, of axes along the frame's. Vessel frame, kg, m, kg m2.
+struct RigidLoad {
+  double mass = 0;
+  Triple center{};
+  std::array<double, 9> inertia{};  // rows
+};
+
+// The glass of a vessel, and what is left in it at a state: what gravity and inertia take of both, frozen.
+class VesselLoad {
+ public:
+  // `pour` is the horizontal direction towards which the vessel tilts. Both must outlive this.
+  VesselLoad(const Scene& scene, const Evaluator& evaluator, std::size_t vessel, const Triple& pour);
+
+  // Mass and centre are those of kernel 6. The inertia of the wall is that of its slices; that of the liquid is of the upright vessel
+  // with as much in it, about its own centre. `mass`, where it is a number, is that of the whole instead, with all else in proportion.
+  RigidLoad at(double fill, double tilt, double mass) const;
+
+ private:
+  RigidLoad glass() const;
+  RigidLoad liquid(const LiquidResult& liquid) const;
+
+  const Scene& scene_;
+  const Evaluator& evaluator_;
+  std::size_t vessel_;
+  Triple pour_;
+  PreparedVessel prepared_;
+  std::vector<std::array<double, 2>> hull_, cavity_;  // (r, y), m
+  RigidLoad glass_;
+};
+
+// Both as one body.
+RigidLoad joined(const RigidLoad& a, const RigidLoad& b);
+// Each number at `share` of the way from a to b: between two states that are near to each other.
+RigidLoad load_between(const RigidLoad& a, const RigidLoad& b, double share);
+
+}  // namespace wholehand
