@@ -96,6 +96,7 @@ GripTrial::GripTrial(const MujocoLibrary& library, const Scene& scene, const Eva
   setup.form = form_of(mirrored_pieces(convex_pieces(scene.vessels[vessel]), side));
   setup.grasp = is_articulated_ ? articulated_hand(hand, scene.hand, mirrored_hand(result_.joints, side), posed_, scale, contacts_)
                                 : sliding_contacts(contact_radii(scene.hand, contacts_, scale), contacts_);
+  setup.distance = [&evaluator, vessel, side](const Vec3& p) { return evaluator.distance(vessel, mirrored(to_triple(p), side)); };
   setup.friction = friction_;
   setup.torsion = torsion_;
   setup.load = mirrored_load(vessel_load_.at(0, 0, settings.mass), side);

@@ -38,6 +38,14 @@ BodyForm form_of(std::span<const ConvexPiece> pieces) {
     form.assets += "\"/>\n";
     form.geoms += fmt::format("<geom name=\"glass{0}\" type=\"mesh\" mesh=\"piece{0}\"/>\n", k);
     form.names.push_back(fmt::format("glass{}", k));
+    std::array<Triple, 2> box{pieces[k].front(), pieces[k].front()};
+    for (const Triple& p : pieces[k]) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        box[0][axis] = std::min(box[0][axis], p[axis]);
+        box[1][axis] = std::max(box[1][axis], p[axis]);
+      }
+    }
+    form.boxes.push_back(box);
   }
   return form;
 }
@@ -51,7 +59,7 @@ std::string model_text(const HeldSetup& setup) {
   for (const auto& [hand, body] : setup.pairs) pairs += pair_text(setup, hand, body);
   // the body's mass is set after; an inertial frame beside its own keeps the engine from shortcuts that would not hold then
   return fmt::format(
-      "<mujoco><compiler angle=\"radian\"/><size njmax=\"{}\" nconmax=\"{}\" nstack=\"2000000\"/>\n"
+      "<mujoco><compiler angle=\"radian\"/><size njmax=\"{}\" nconmax=\"{}\" nstack=\"500000\"/>\n"
       "<option timestep=\"{}\" gravity=\"0 0 0\" cone=\"elliptic\" impratio=\"10\" iterations=\"100\" tolerance=\"1e-12\" "
       "noslip_iterations=\"10\" noslip_tolerance=\"1e-12\" collision=\"predefined\" jacobian=\"dense\" solver=\"Newton\"><flag "
       "multiccd=\"enable\"/></option>\n"
@@ -65,8 +73,15 @@ std::string model_text(const HeldSetup& setup) {
 }
 
 HeldBody::HeldBody(const MujocoLibrary& library, const HeldSetup& setup)
-    : simulation_(library, model_text(setup)), joints_(setup.grasp.joints), rest_(joints_.size(), 0.0) {
+    : simulation_(library, model_text(setup)),
+      joints_(setup.grasp.joints),
+      rest_(joints_.size(), 0.0),
+      distance_(setup.distance),
+      boxes_(setup.form.boxes) {
   geom_place_.assign(static_cast<std::size_t>(simulation_.model().ngeom), -1);
+  box_place_ = geom_place_;
+  for (std::size_t k = 0; k < setup.form.names.size(); ++k)
+    box_place_[static_cast<std::size_t>(simulation_.id(mjOBJ_GEOM, setup.form.names[k]))] = static_cast<int>(k);
   for (std::size_t k = 0; k < setup.grasp.geoms.size(); ++k) {
     geoms_.push_back(simulation_.id(mjOBJ_GEOM, setup.grasp.geoms[k]));
     geom_place_[static_cast<std::size_t>(geoms_.back())] = static_cast<int>(k);
@@ -88,6 +103,8 @@ void HeldBody::reset() {
   push_ = Vec3(0);
   anchors_.clear();
   time_ = 0;
+  steps_ = 0;
+  for (int k = 0; k < simulation_.model().npair; ++k) simulation_.model().pair_margin[k] = 0;
 }
 
 void HeldBody::set_load(const RigidLoad& load) {
@@ -116,8 +133,44 @@ void HeldBody::release() {
   time_ = 0;
 }
 
+// Balls along the axis of a geom, each half as long as apart from the next, hold it: none of them is near, nor is the geom.
+bool HeldBody::is_near(int geom, const std::array<Triple, 2>* box) {
+  constexpr double APART = 8e-3;  // m
+  const mjModel& m = simulation_.model();
+  const mjData& d = simulation_.data();
+  const double half = m.geom_type[geom] == mjGEOM_CAPSULE ? m.geom_size[3 * geom + 1] : 0;
+  const int count = 1 + static_cast<int>(std::ceil(2 * half / APART));
+  const double reach = m.geom_size[3 * geom] + half / count + NEAR;
+  const mjtNum* frame = d.geom_xmat + 9 * geom;
+  for (int k = 0; k < count; ++k) {
+    const double along = half * ((2 * k + 1.0) / count - 1);
+    const Vec3 place = column(d.geom_xpos + 3 * geom) + along * Vec3(frame[2], frame[5], frame[8]);
+    const Vec3 local = turned_back(d.xmat + 9 * body_, place - column(d.xpos + 3 * body_));
+    double outside = 0;
+    for (int axis = 0; box && axis < 3; ++axis) {
+      const auto i = static_cast<std::size_t>(axis);
+      outside = std::max({outside, (*box)[0][i] - local[axis], local[axis] - (*box)[1][i]});
+    }
+    if (outside < reach && distance_(local) < reach) return true;
+  }
+  return false;
+}
+
+// The engine first asks whether the balls about two geoms meet, with a margin: with one that takes away both radii they never do.
+void HeldBody::look_at_near_pairs() {
+  mjModel& m = simulation_.model();
+  for (int k = 0; k < m.npair; ++k) {
+    const bool is_first = geom_place_[static_cast<std::size_t>(m.pair_geom1[k])] >= 0;
+    const int hand = is_first ? m.pair_geom1[k] : m.pair_geom2[k], body = is_first ? m.pair_geom2[k] : m.pair_geom1[k];
+    const auto box = static_cast<std::size_t>(box_place_[static_cast<std::size_t>(body)]);
+    m.pair_margin[k] =
+        is_near(hand, box < boxes_.size() ? &boxes_[box] : nullptr) ? 0 : -(m.geom_rbound[hand] + m.geom_rbound[body]);
+  }
+}
+
 void HeldBody::step() {
   mjData& d = simulation_.data();
+  if (distance_ && steps_++ % NEAR_STEPS == 0) look_at_near_pairs();
   std::array<double, core_f64::DIGITS> sum{};
   std::vector<double> torques(joints_.size());
   for (std::size_t j = 0; j < joints_.size(); ++j) {
@@ -154,8 +207,10 @@ std::vector<TouchedPlace> HeldBody::contacts() {
     std::array<mjtNum, 6> force{};
     simulation_.library().contact_force(&m, &d, k, force.data());
     place.normal_force = force[0];
-    place.tangential = {force[1], force[2]};
-    place.torsion = force[3];
+    const double sense = is_first ? 1 : -1;
+    place.force =
+        sense * (force[0] * column(contact.frame) + force[1] * column(contact.frame + 3) + force[2] * column(contact.frame + 6));
+    place.torsion = force[3];  // about the normal, both with the sense
     touched.push_back(place);
   }
   return touched;

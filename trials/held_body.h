@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <span>
 #include <string>
 #include <utility>
@@ -15,11 +16,16 @@
 namespace wholehand {
 
 constexpr double TIME_STEP = 2e-3;  // s
+// The engine looks for contacts only of what is nearer to the body than this, which is asked again every NEAR_STEPS: what comes from further
+// away than that at less than half a metre a second is there in time.
+constexpr double NEAR = 5e-3;  // m
+constexpr int NEAR_STEPS = 5;
 
 // What touches the hand of a body: XML and the names of its geoms.
 struct BodyForm {
   std::string assets, geoms;
   std::vector<std::string> names;
+  std::vector<std::array<Triple, 2>> boxes;  // low and high corner of each, in the body's frame, m; none: not known
 };
 BodyForm form_of(std::span<const ConvexPiece> pieces);
 
@@ -31,17 +37,19 @@ struct HeldSetup {
   RigidLoad load;
   // Which geom of the hand may touch which of the body, by place in their lists; empty: each may touch each.
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
-  int most_contacts = 200;  // that the engine has room for; more is trouble, and never unnoticed
+  // Signed distance to the body at a point of its frame, m, or less. Empty: all pairs are always looked at.
+  std::function<double(const core_f64::Vec3&)> distance;
+  int most_contacts = 100;  // that the engine has room for; more is trouble, and never unnoticed
 };
 
 // One contact of the present moment.
 struct TouchedPlace {
-  std::size_t geom = 0;                // of the hand, place in its list
-  double overlap = 0;                  // m
-  core_f64::Vec3 place{}, normal{};    // normal into the body
-  double normal_force = 0;             // N
-  std::array<double, 2> tangential{};  // N
-  double torsion = 0;                  // N m
+  std::size_t geom = 0;              // of the hand, place in its list
+  double overlap = 0;                // m
+  core_f64::Vec3 place{}, normal{};  // normal into the body
+  double normal_force = 0;           // N
+  core_f64::Vec3 force{};            // on the body, all of it, N
+  double torsion = 0;                // N m
 };
 
 class HeldBody {
@@ -81,6 +89,8 @@ class HeldBody {
     core_f64::Vec3 on_bone{}, on_body{}, normal{};  // each in its frame; the normal in the body's
   };
   core_f64::Vec3 point_of(int body, const core_f64::Vec3& local);
+  void look_at_near_pairs();
+  bool is_near(int geom, const std::array<Triple, 2>* box);
 
   Simulation simulation_;
   std::vector<GraspJoint> joints_;
@@ -91,6 +101,10 @@ class HeldBody {
   std::vector<Anchor> anchors_;
   core_f64::Vec3 push_{};
   double time_ = 0;
+  int steps_ = 0;
+  std::function<double(const core_f64::Vec3&)> distance_;
+  std::vector<std::array<Triple, 2>> boxes_;
+  std::vector<int> box_place_;  // place of a geom in the body's list, by id
 };
 
 // The engine's text of a setup.

@@ -14,7 +14,7 @@
 namespace wholehand {
 
 constexpr double FORM_TOLERANCE = 0.05e-3;   // m, of an arc from the cones that stand for it
-constexpr int FORM_SIDES = 96;               // of a piece: the middle of a side is 0.02 mm inside a beaker of 40 mm radius
+constexpr int FORM_SIDES = 64;               // of a piece: the middle of a side is 0.05 mm inside a beaker of 40 mm radius
 constexpr double CONVEX_TOLERANCE = 0.2e-3;  // m, that a mesh may differ from its convex hull
 
 // A piece that is the convex hull of its vertices, vessel frame, m.

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+// Trials of grips: what is asked and what is answered.
+// sanitizers: none
+#include "trials/mujoco_engine.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <thread>
+
+#include "core/error.h"
+#include "core/vectors.h"
+#include "grips/holding.h"
+#include "grips/report.h"
+#include "scene/reader.h"
+#include "tests/support/scenes.h"
+
+namespace wholehand {
+namespace {
+
+// A beaker and a flask, each held with the whole hand.
+const GripInput BEAKER{0.0942827124, 0, 0.250430391, 0.172007776, 0, 1};
+const GripInput FLASK{0.106782336, 0, 0.170110667, -1.27048768, 0, 1};
+
+std::vector<TrialCase> fill_tilt(double fill, const std::vector<double>& degrees) {
+  std::vector<TrialCase> cases;
+  for (const double tilt : degrees) cases.push_back({TrialProtocol::fill_tilt, fill, radians(tilt), 0, 0});
+  return cases;
+}
+
+// Short holds: what is tested here needs no long ones.
+TrialSettings quick(TrialModel model = TrialModel::hand) {
+  TrialSettings settings;
+  settings.model = model;
+  settings.hold_time = 0.2;
+  settings.push_time = 0.5;
+  settings.tilt_rate = radians(100);
+  return settings;
+}
+
+void expect_same(const TrialOutcome& a, const TrialOutcome& b) {
+  EXPECT_EQ(a.held, b.held);
+  EXPECT_EQ(a.discarded, b.discarded);
+  EXPECT_EQ(a.reason, b.reason);
+  for (const auto& [x, y] :
+       {std::pair{a.slip, b.slip}, {a.move, b.move}, {a.turn, b.turn}, {a.when, b.when}, {a.tilt_lost, b.tilt_lost}})
+    EXPECT_EQ(x, y);
+}
+
+class MujocoEngine : public testing::Test {
+ protected:
+  Scene scene_ = read_scene_file(WHOLEHAND_SOURCE_DIR "/scene/examples/three_beakers.toml");
+  std::unique_ptr<Evaluator> evaluator_ = make_core_evaluator(scene_);
+
+  std::vector<TrialOutcome> run(std::size_t vessel, const GripInput& grip, const std::vector<TrialCase>& cases,
+                                const TrialSettings& settings = quick(), std::vector<TrialTrack>* tracks = nullptr) const {
+    return make_mujoco_engine(scene_, *evaluator_, settings)->run(vessel, grip, cases, tracks);
+  }
+};
+
+TEST_F(MujocoEngine, AWholeHandHoldsABeakerThroughItsTilts) {
+  for (const TrialModel model : {TrialModel::hand, TrialModel::contacts}) {
+    std::vector<TrialTrack> tracks;
+    const auto found = run(0, BEAKER, fill_tilt(0.5, {0, 30, 60}), quick(model), &tracks);
+    ASSERT_EQ(found.size(), 3u);
+    ASSERT_EQ(tracks.size(), 3u);
+    for (const TrialOutcome& outcome : found) {
+      EXPECT_TRUE(outcome.held);
+      EXPECT_EQ(outcome.reason, TrialReason::none);
+      EXPECT_LT(outcome.slip, 2e-3);
+      EXPECT_LT(outcome.move, 2e-3);
+      EXPECT_LT(outcome.turn, radians(2));
+    }
+    // settle 0.5 s, then 0.2 s each and 0.3 s for each turn
+    EXPECT_NEAR(tracks[0].frames.back().time, 0.7, 0.021);
+    EXPECT_NEAR(tracks[2].frames.back().time, 1.7, 0.021);
+    EXPECT_NEAR(tracks[2].frames.back().up[1], 0.5, 1e-9);
+    const PosedHand posed = evaluator_->posed(0, BEAKER).value();
+    for (std::size_t j = 0; j < posed.size(); ++j) EXPECT_LT(distance(tracks[2].frames.back().joints[j], posed[j]), 3e-3) << j;
+  }
+}
+
+TEST_F(MujocoEngine, ALossIsTold) {
+  TrialSettings heavy = quick();
+  heavy.mass = 20;
+  std::vector<TrialTrack> tracks;
+  const auto found = run(0, BEAKER, fill_tilt(0.5, {0, 30}), heavy, &tracks);
+  EXPECT_FALSE(found[0].held);
+  EXPECT_FALSE(found[0].discarded);
+  EXPECT_EQ(found[0].reason, TrialReason::release);
+  EXPECT_GT(found[0].when, 0);
+  EXPECT_TRUE(found[0].move >= heavy.largest_move || found[0].turn >= heavy.largest_turn);
+  EXPECT_EQ(found[1].reason, TrialReason::earlier);
+  EXPECT_FALSE(found[1].held);
+  EXPECT_GT(tracks[0].frames.size(), 1u);
+}
+
+// Whoever else is at work, and whatever was asked before.
+TEST_F(MujocoEngine, TheSameQuestionsHaveTheSameBits) {
+  const auto engine = make_mujoco_engine(scene_, *evaluator_, quick());
+  const auto first = engine->run(0, BEAKER, fill_tilt(0.5, {0, 30}));
+  const auto other = engine->run(1, FLASK, fill_tilt(0.25, {0, 30}));
+  std::vector<TrialOutcome> a, b;
+  std::thread one([&] { a = engine->run(0, BEAKER, fill_tilt(0.5, {0, 30})); });
+  std::thread two([&] { b = engine->run(1, FLASK, fill_tilt(0.25, {0, 30})); });
+  one.join();
+  two.join();
+  for (std::size_t k = 0; k < 2; ++k) {
+    expect_same(a[k], first[k]);
+    expect_same(b[k], other[k]);
+  }
+}
+
+TEST_F(MujocoEngine, OtherTiltsAndFillsAndTheirOrderChangeNothing) {
+  const auto alone = run(0, BEAKER, fill_tilt(0.5, {0, 30}));
+  auto cases = fill_tilt(0.5, {60, 30, 0});
+  cases.insert(cases.begin(), {TrialProtocol::fill_tilt, 0.25, 0, 0, 0});
+  cases.push_back({TrialProtocol::six_forces, 0.5, 0, 2, 1});
+  const auto among = run(0, BEAKER, cases);
+  expect_same(among[3], alone[0]);
+  expect_same(among[2], alone[1]);
+}
+
+// A left hand's trial is the right hand's in the mirrored scene.
+TEST_F(MujocoEngine, ALeftHandIsTheMirroredRightOne) {
+  const auto right = run(0, BEAKER, fill_tilt(0.5, {0, 30}));
+  std::vector<TrialTrack> tracks, mirrored_tracks;
+  run(0, BEAKER, fill_tilt(0.5, {0}), quick(), &tracks);
+  Scene left = scene_;
+  left.hand.handedness = Handedness::left;
+  const auto evaluator = make_core_evaluator(left);
+  GripInput grip = BEAKER;
+  grip.azimuth = PI - BEAKER.azimuth;
+  const auto engine = make_mujoco_engine(left, *evaluator, quick());
+  const auto found = engine->run(0, grip, fill_tilt(0.5, {0, 30}));
+  engine->run(0, grip, fill_tilt(0.5, {0}), &mirrored_tracks);
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_EQ(found[k].held, right[k].held);
+    EXPECT_NEAR(found[k].move, right[k].move, 1e-4);
+  }
+  const TrialFrame &a = tracks[0].frames.back(), &b = mirrored_tracks[0].frames.back();
+  EXPECT_NEAR(a.place[0], -b.place[0], 1e-4);
+  EXPECT_NEAR(a.place[1], b.place[1], 1e-4);
+  for (std::size_t j = 0; j < a.joints.size(); ++j) EXPECT_NEAR(a.joints[j][0], -b.joints[j][0], 1e-3) << j;
+}
+
+TEST_F(MujocoEngine, AHandThatBeginsInTheVesselIsDiscarded) {
+  // the first one at random that is deeper than the gate allows, but not than the scene does
+  const TrialSettings settings = quick();
+  for (const GripInput& grip : sample_grips(scene_.vessels[1], 400, 5)) {
+    GripResult result;
+    evaluator_->grip(1, grip, result);
+    if (result.reason != Reason::none || result.phalanx_depth < 2e-3 || !result.plausible) continue;
+    const auto found = run(1, grip, fill_tilt(0, {0, 30}), settings);
+    for (const TrialOutcome& outcome : found) {
+      EXPECT_TRUE(outcome.discarded);
+      EXPECT_FALSE(outcome.held);
+      EXPECT_EQ(outcome.reason, TrialReason::overlap);
+    }
+    return;
+  }
+  FAIL() << "no grip is that deep";
+}
+
+// A contact that presses with some newtons is about a tenth of a millimetre deep.
+TEST_F(MujocoEngine, AFingerThatIsTooDeepOnceClosedIsDiscarded) {
+  TrialSettings settings = quick();
+  settings.buried = 0.01e-3;
+  const auto found = run(0, BEAKER, fill_tilt(0.5, {0, 30}), settings);
+  for (const TrialOutcome& outcome : found) {
+    EXPECT_TRUE(outcome.discarded);
+    EXPECT_EQ(outcome.reason, TrialReason::buried);
+  }
+}
+
+TEST_F(MujocoEngine, SixForcesEachFromAFreshStart) {
+  std::vector<TrialCase> cases;
+  for (int material = 0; material < 2; ++material)
+    for (int direction = 0; direction < 6; ++direction) cases.push_back({TrialProtocol::six_forces, 0, 0, direction, material});
+  const auto found = run(0, BEAKER, cases);
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    EXPECT_TRUE(found[k].held) << k;
+    expect_same(run(0, BEAKER, {cases[k]})[0], found[k]);
+  }
+}
+
+TEST_F(MujocoEngine, AVesselWithoutAModelIsRefused) {
+  Scene shells = scene_;
+  shells.vessels[0].surface = Surface::shell;
+  const auto evaluator = make_core_evaluator(shells);
+  const auto engine = make_mujoco_engine(shells, *evaluator, quick());
+  EXPECT_THROW(engine->run(0, BEAKER, fill_tilt(0, {0})), Error);
+}
+
+// The model `contacts` has nothing that could hold but the contacts of kernel 9. What the effort calls infinite slides: out of the hand, or
+// until other contacts hold it, as where a neck meets a cone.
+TEST_F(MujocoEngine, WhatEffortCallsInfiniteIsNotHeldWhereItIs) {
+  int infinite = 0, held = 0;
+  for (const GripInput& grip : sample_grips(scene_.vessels[2], 200, 3)) {
+    GripResult result;
+    evaluator_->grip(2, grip, result);
+    if (result.reason != Reason::none || !result.plausible) continue;
+    const Holding holding(scene_, *evaluator_, 2, result, pour_direction(scene_, grip));
+    GripState state;
+    state.fill = 0.5;
+    state.liquid = evaluator_->liquid(2, state.fill, 0);
+    state.state = evaluator_->state(2, grip, result, state.liquid, 0);
+    if (std::isfinite(holding.state(state).effort)) continue;
+    TrialSettings settings = quick(TrialModel::contacts);
+    settings.hold_time = 1.5;
+    const auto found = run(2, grip, fill_tilt(0.5, {0}), settings);
+    if (found[0].discarded) continue;
+    ++infinite;
+    held += found[0].held;
+    EXPECT_FALSE(found[0].held && found[0].slip < settings.slip) << grip.height << ' ' << grip.azimuth;
+    if (infinite == 20) break;
+  }
+  EXPECT_GT(infinite, 10);
+  EXPECT_LE(held, 3);
+}
+
+}  // namespace
+}  // namespace wholehand

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// The vessel as the engine takes it: its form is that of the distance, its mass and its centre are those of the kernels.
+// sanitizers: none
+#include "trials/vessel_body.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "core/error.h"
+#include "core/mesh_body.h"
+#include "core/vectors.h"
+#include "tests/support/scenes.h"
+
+namespace wholehand {
+namespace {
+
+TEST(VesselBody, IsCutWhereItsOutlineIsNotConvex) {
+  EXPECT_EQ(convex_pieces(beaker1()).size(), 1u);  // a cylinder
+  EXPECT_EQ(convex_pieces(beaker2()).size(), 2u);  // a sphere and a neck
+  EXPECT_EQ(convex_pieces(beaker3()).size(), 2u);  // a cone and a neck
+}
+
+// Every vertex lies on the surface, or within a piece where two meet; and the middle of a side is no deeper than the sides allow.
+TEST(VesselBody, HasTheFormOfTheDistance) {
+  for (const VesselData& vessel : {beaker1(), beaker2(), beaker3()}) {
+    const auto evaluator = make_core_evaluator(scene_of({vessel}));
+    const double side = 1 - std::cos(PI / FORM_SIDES);
+    for (const ConvexPiece& piece : convex_pieces(vessel)) {
+      for (std::size_t k = 0; k < piece.size(); ++k) {
+        EXPECT_LT(evaluator->distance(0, piece[k]), 1e-9) << vessel.name;
+        const Triple next = piece[(k + 1) % piece.size()];
+        if (next[1] != piece[k][1] || piece[k][1] == 0) continue;
+        const double radius = std::hypot(piece[k][0], piece[k][2]);
+        if (evaluator->distance(0, piece[k]) < -1e-6) continue;  // a ring within the other piece
+        EXPECT_GT(evaluator->distance(0, midpoint(piece[k], next)), -side * radius - 1e-9) << vessel.name;
+      }
+    }
+  }
+}
+
+// Between its rings too: an arc is no further from its cones than the tolerance.
+TEST(VesselBody, ConesKeepToAnArc) {
+  const auto evaluator = make_core_evaluator(scene_of({beaker2()}));
+  double deepest = 0;
+  for (const ConvexPiece& piece : convex_pieces(beaker2()))
+    for (std::size_t k = 0; k + FORM_SIDES < piece.size(); ++k)
+      if (evaluator->distance(0, piece[k]) > -1e-6 && evaluator->distance(0, piece[k + FORM_SIDES]) > -1e-6)
+        deepest = std::max(deepest, -evaluator->distance(0, midpoint(piece[k], piece[k + FORM_SIDES])));
+  EXPECT_GT(deepest, 0.2 * FORM_TOLERANCE);
+  EXPECT_LE(deepest, 1.01 * FORM_TOLERANCE);
+}
+
+std::string refusal_of(const VesselData& vessel) {
+  try {
+    convex_pieces(vessel);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ExitCode::usage);
+    return error.what();
+  }
+  return "none";
+}
+
+// A mesh of two triangles a side of a box, with its top pressed in by `dent` m at the middle.
+VesselData box_mesh(double dent) {
+  auto body = std::make_shared<MeshBody>();
+  body->vertices = {{-0.02, 0, -0.02},   {0.02, 0, -0.02},   {0.02, 0, 0.02},     {-0.02, 0, 0.02},   {-0.02, 0.05, -0.02},
+                    {0.02, 0.05, -0.02}, {0.02, 0.05, 0.02}, {-0.02, 0.05, 0.02}, {0, 0.05 - dent, 0}};
+  body->triangles = {{0, 1, 2}, {0, 2, 3}, {0, 4, 1}, {1, 4, 5}, {1, 5, 2}, {2, 5, 6}, {2, 6, 3},
+                     {3, 6, 7}, {3, 7, 0}, {0, 7, 4}, {4, 8, 5}, {5, 8, 6}, {6, 8, 7}, {7, 8, 4}};
+  VesselData vessel;
+  vessel.name = "box";
+  vessel.mesh = MeshData{};
+  vessel.mesh->body = body;
+  return vessel;
+}
+
+TEST(VesselBody, WhatHasNoModelIsRefusedWithItsNameAndTheReason) {
+  EXPECT_NE(refusal_of(shell_of(beaker1())).find("its surface is a shell"), std::string::npos);
+  EXPECT_NE(refusal_of(ledges()).find("goes down again"), std::string::npos) << refusal_of(ledges());
+  EXPECT_EQ(refusal_of(box_mesh(0)), "none");
+  EXPECT_NE(refusal_of(box_mesh(2e-3)).find("box: its mesh is not convex ("), std::string::npos) << refusal_of(box_mesh(2e-3));
+}
+
+TEST(VesselBody, WeighsWhatTheKernelsWeigh) {
+  const Scene scene = three_beakers();
+  const auto evaluator = make_core_evaluator(scene);
+  const Triple pour{0, 0, -1};
+  for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
+    const VesselLoad load(scene, *evaluator, v, pour);
+    for (const double fill : {0.0, 0.5, 1.0}) {
+      for (const double tilt : {0.0, radians(60)}) {
+        const LiquidResult liquid = evaluator->liquid(v, fill, tilt);
+        const RigidLoad found = load.at(fill, tilt, std::nan(""));
+        const double glass = evaluator->empty_mass(v), mass = glass + liquid.mass;
+        EXPECT_NEAR(found.mass, mass, 1e-12);
+        EXPECT_NEAR(found.center[1], (glass * evaluator->empty_center_of_mass(v)[1] + liquid.mass * liquid.height) / mass, 1e-12);
+        EXPECT_NEAR(found.center[2], -liquid.mass * liquid.lean / mass, 1e-12);
+        EXPECT_NEAR(load.at(fill, tilt, 0.1).mass, 0.1, 1e-15);
+      }
+    }
+  }
+}
+
+// A full cylinder of glass: m r^2 / 2 about its axis, m (3 r^2 + h^2) / 12 across it.
+TEST(VesselBody, ASolidCylinderHasItsInertia) {
+  VesselData rod = cylinder("rod", 40, 100, 0);
+  rod.wall = 0;
+  const Scene scene = scene_of({rod});
+  const auto evaluator = make_core_evaluator(scene);
+  const RigidLoad load = VesselLoad(scene, *evaluator, 0, {0, 0, -1}).at(0, 0, std::nan(""));
+  const double m = PI * 0.02 * 0.02 * 0.1 * rod.density;
+  EXPECT_NEAR(load.mass, m, 1e-9 * m);
+  EXPECT_NEAR(load.inertia[4], m * 0.02 * 0.02 / 2, 1e-4 * load.inertia[4]);
+  EXPECT_NEAR(load.inertia[0], m * (3 * 0.02 * 0.02 + 0.1 * 0.1) / 12, 1e-4 * load.inertia[0]);
+  EXPECT_EQ(load.inertia[0], load.inertia[8]);
+}
+
+TEST(VesselBody, TwoBodiesJoinedTurnAboutTheirCommonCentre) {
+  const RigidLoad a{1, {0, 0.1, 0}, {}}, b{3, {0, 0.2, 0.04}, {}};
+  const RigidLoad whole = joined(a, b);
+  EXPECT_DOUBLE_EQ(whole.mass, 4);
+  EXPECT_DOUBLE_EQ(whole.center[1], 0.175);
+  EXPECT_DOUBLE_EQ(whole.center[2], 0.03);
+  const double reduced = 0.75;  // 1 x 3 / 4
+  EXPECT_NEAR(whole.inertia[0], reduced * (0.1 * 0.1 + 0.04 * 0.04), 1e-15);
+  EXPECT_NEAR(whole.inertia[4], reduced * 0.04 * 0.04, 1e-15);
+  EXPECT_NEAR(whole.inertia[5], -reduced * 0.1 * 0.04, 1e-15);
+}
+
+}  // namespace
+}  // namespace wholehand
