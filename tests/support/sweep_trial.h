@@ -20,7 +20,7 @@
 
 namespace wholehand {
 
-struct TrialOutcome {
+struct SweepOutcome {
   ExitCode code = ExitCode::done;
   std::string error, out, notes;
 };
@@ -60,8 +60,8 @@ struct SweepTrial {
     return run_sweep(scene, options, parts);
   }
 
-  TrialOutcome run() {
-    TrialOutcome outcome;
+  SweepOutcome run() {
+    SweepOutcome outcome;
     testing::internal::CaptureStdout();
     testing::internal::CaptureStderr();
     try {

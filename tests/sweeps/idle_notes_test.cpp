@@ -75,7 +75,7 @@ TEST_F(IdleNotesRun, ASweepSaysThem) {
   trial.scene.robust = RobustData{};
   trial.scene.robust->roll = 0.1;
   trial.scene.output.best = 0;
-  const TrialOutcome outcome = trial.run();
+  const SweepOutcome outcome = trial.run();
   EXPECT_EQ(outcome.code, ExitCode::done);
   EXPECT_NE(outcome.notes.find("wholehand: note: [robust] changes nothing here"), std::string::npos) << outcome.notes;
 }

@@ -415,7 +415,7 @@ TEST_F(RobustRun, AnInterruptBetweenDeviationsResumesToTheSame) {
   first.before_other = [&] {
     if (++chunks == 3) raise(SIGINT);
   };
-  const TrialOutcome stopped = first.run();
+  const SweepOutcome stopped = first.run();
   EXPECT_EQ(stopped.code, ExitCode::interrupted) << stopped.error;
   EXPECT_FALSE(file_exists(folder / "a.nc"));
   EXPECT_EQ(stopped.out.find("robust"), std::string::npos) << "no table of grips whose robust scores are missing";
@@ -438,7 +438,7 @@ TEST_F(RobustRun, TheTimeLimitHoldsBetweenDeviations) {
     ++chunks;
     first.options.time_limit = 1e-9;
   };
-  const TrialOutcome stopped = first.run();
+  const SweepOutcome stopped = first.run();
   EXPECT_EQ(stopped.code, ExitCode::interrupted) << stopped.error;
   EXPECT_EQ(chunks, 1);
   SweepTrial rest(folder / "a.nc");
@@ -454,13 +454,13 @@ TEST_F(RobustRun, AFailureAfterTheLastGripLeavesAllOfThemMarked) {
   SweepTrial first(folder / "a.nc");
   first.scene = scene;
   first.before_other = [] { throw failure_error("device lost"); };
-  const TrialOutcome failed = first.run();
+  const SweepOutcome failed = first.run();
   EXPECT_EQ(failed.code, ExitCode::failure);
   EXPECT_EQ(failed.error, "device lost");
   SweepTrial rest(folder / "a.nc");
   rest.scene = scene;
   rest.options.resume = true;
-  const TrialOutcome resumed = rest.run();
+  const SweepOutcome resumed = rest.run();
   EXPECT_EQ(resumed.code, ExitCode::done) << resumed.error;
   const std::string all = resumed.notes.substr(resumed.notes.find(".partial: ") + 10);
   EXPECT_EQ(all.substr(0, all.find(' ')), all.substr(all.find("of ") + 3, all.find(' '))) << resumed.notes;

@@ -88,7 +88,7 @@ TEST_F(RunTest, DifferentBestGripsAreThoseOfTheDefinition) {
               trial.scene.grips.count = 300;
             }
             trial.options.pool = pool;
-            const TrialOutcome outcome = trial.run();
+            const SweepOutcome outcome = trial.run();
             ASSERT_EQ(outcome.code, ExitCode::done) << outcome.error;
             expect_listed(folder / "a.nc", trial.scene);
             const auto chosen = read_values(folder / "a.nc", "best_grip");
@@ -153,7 +153,7 @@ TEST_F(RunTest, AnInterruptInAnyPassLosesNothing) {
       trial.before_chunk = [&] {
         if (run == stop && !at_once && ++chunk == 3) raise(SIGINT);
       };
-      const TrialOutcome outcome = trial.run();
+      const SweepOutcome outcome = trial.run();
       ASSERT_EQ(outcome.code, ExitCode::interrupted) << stop << outcome.error;
       SweepTrial rest(folder / "a.nc");
       rest.scene = quick_choosy_scene();
@@ -162,7 +162,7 @@ TEST_F(RunTest, AnInterruptInAnyPassLosesNothing) {
       rest.options.resume = true;
       int runs_of_rest = 0;
       rest.before_run = [&] { ++runs_of_rest; };
-      const TrialOutcome resumed = rest.run();
+      const SweepOutcome resumed = rest.run();
       ASSERT_EQ(resumed.code, ExitCode::done) << stop << resumed.error;
       EXPECT_LE(runs_of_rest, runs - stop + 1) << "passes that were ended are not made again";
       expect_same_list(expected, folder / "a.nc");

@@ -51,7 +51,7 @@ TEST_F(RunTest, TwoAtOnceAreOneAfterTheOtherOrOneIsRefused) {
 TEST_F(RunTest, WhoWritesAResultIsNamedAndUndisturbed) {
   const std::string expected = reference(), path = folder / "a.nc";
   SweepTrial first(path);
-  TrialOutcome second, resumed;
+  SweepOutcome second, resumed;
   int chunks = 0;
   first.before_chunk = [&] {
     if (++chunks != 4) return;
@@ -92,7 +92,7 @@ TEST_F(RunTest, WhoFindsAnothersFileEndsAndLeavesItAlone) {
     mark = file_text(path + ".partial.mark");
     partial = file_text(path + ".partial");
   };
-  const TrialOutcome outcome = first.run();
+  const SweepOutcome outcome = first.run();
   EXPECT_EQ(outcome.code, ExitCode::failure);
   EXPECT_TRUE(has(outcome.error, path + ".partial: another job replaced this file meanwhile; ")) << outcome.error;
   EXPECT_FALSE(file_exists(path));
@@ -123,7 +123,7 @@ TEST_F(RunTest, CompanionsOfOthersAreRefusedBeforeAnyWork) {
   for (const char* name : {"a.best.csv", "a.second.svg"}) {
     std::ofstream(folder / name) << "mine";
     SweepTrial trial(folder / "a.nc");
-    const TrialOutcome outcome = trial.run();
+    const SweepOutcome outcome = trial.run();
     EXPECT_EQ(outcome.code, ExitCode::usage);
     EXPECT_TRUE(has(outcome.error, name)) << outcome.error;
     EXPECT_EQ(trial.opened, 0);
@@ -140,7 +140,7 @@ TEST_F(RunTest, CompanionsOfOthersAreRefusedBeforeAnyWork) {
   for (const int best : {3, 0}) {
     SweepTrial own(folder / "a.nc");
     own.options.best = best;
-    const TrialOutcome outcome = own.run();
+    const SweepOutcome outcome = own.run();
     EXPECT_EQ(outcome.code, ExitCode::done) << outcome.error;
     EXPECT_EQ(file_exists(folder / "a.best.csv"), best > 0) << "its own it replaces and removes";
   }
@@ -162,13 +162,13 @@ TEST_F(RunTest, WhatIsCompleteNeedsNoRoom) {
 TEST_F(RunTest, WhatCannotBeWrittenIsRefusedBeforeAnyWork) {
   for (const std::string& path : {folder.path(), folder / "missing/a.nc", std::string("/dev/full")}) {
     SweepTrial trial(path);
-    const TrialOutcome outcome = trial.run();
+    const SweepOutcome outcome = trial.run();
     EXPECT_EQ(outcome.code, ExitCode::usage) << path;
     EXPECT_EQ(trial.opened, 0) << path;
     EXPECT_EQ(outcome.notes, "") << path;
   }
   SweepTrial trial("/proc/a.nc");
-  const TrialOutcome outcome = trial.run();
+  const SweepOutcome outcome = trial.run();
   EXPECT_EQ(outcome.code, ExitCode::failure);
   EXPECT_EQ(outcome.notes, "");
 }

@@ -67,7 +67,7 @@ TEST_F(RunTest, InterruptLeavesAFileToGoOnWith) {
     trial.before_chunk = [&] {
       if (++chunks == 8) raise(signal);
     };
-    const TrialOutcome outcome = trial.run();
+    const SweepOutcome outcome = trial.run();
     EXPECT_EQ(outcome.code, ExitCode::interrupted);
     EXPECT_EQ(static_cast<int>(outcome.code), 130);
     EXPECT_TRUE(has(outcome.notes, "interrupted at 3")) << outcome.notes;  // the eighth chunk is finished
@@ -76,7 +76,7 @@ TEST_F(RunTest, InterruptLeavesAFileToGoOnWith) {
     rest.options.resume = true;
     int rest_chunks = 0;
     rest.before_chunk = [&] { ++rest_chunks; };
-    const TrialOutcome resumed = rest.run();
+    const SweepOutcome resumed = rest.run();
     EXPECT_EQ(resumed.code, ExitCode::done) << resumed.error;
     EXPECT_TRUE(has(resumed.notes, "continuing ")) << resumed.notes;
     EXPECT_LT(rest_chunks, 9) << "only what was missing, and the best";
@@ -96,11 +96,11 @@ TEST_F(RunTest, AnInterruptBeforeTheFirstGripOfAVesselLosesNothing) {
     trial.before_run = [&] {
       if (++runs == vessel) raise(SIGINT);
     };
-    const TrialOutcome outcome = trial.run();
+    const SweepOutcome outcome = trial.run();
     EXPECT_EQ(outcome.code, ExitCode::interrupted) << outcome.error;
     SweepTrial rest(folder / "a.nc");
     rest.options.resume = true;
-    const TrialOutcome resumed = rest.run();
+    const SweepOutcome resumed = rest.run();
     EXPECT_EQ(resumed.code, ExitCode::done) << resumed.error;
     EXPECT_TRUE(has(resumed.notes, "continuing ")) << resumed.notes;
     expect_same_as(expected, folder / "a.nc");
@@ -112,7 +112,7 @@ TEST_F(RunTest, ResumeWithoutAnythingStartsAfresh) {
   const std::string expected = reference();
   SweepTrial trial(folder / "a.nc");
   trial.options.resume = true;
-  const TrialOutcome outcome = trial.run();
+  const SweepOutcome outcome = trial.run();
   EXPECT_EQ(outcome.code, ExitCode::done);
   EXPECT_TRUE(has(outcome.notes, "starting from the first grip")) << outcome.notes;
   expect_same_as(expected, folder / "a.nc");
@@ -123,7 +123,7 @@ TEST_F(RunTest, ResumeOfWhatIsCompleteLeavesIt) {
   const auto written = std::filesystem::last_write_time(expected);
   SweepTrial trial(expected);
   trial.options.resume = true;
-  const TrialOutcome outcome = trial.run();
+  const SweepOutcome outcome = trial.run();
   EXPECT_EQ(outcome.code, ExitCode::done);
   EXPECT_TRUE(has(outcome.notes, "is complete, so nothing is left to do")) << outcome.notes;
   EXPECT_EQ(trial.opened, 0);
@@ -137,7 +137,7 @@ TEST_F(RunTest, ResumeOfSomethingElseThatIsCompleteIsRefused) {
     SweepTrial trial(path);
     trial.options.resume = true;
     change(trial);
-    const TrialOutcome outcome = trial.run();
+    const SweepOutcome outcome = trial.run();
     EXPECT_EQ(outcome.code, ExitCode::usage) << what;
     EXPECT_TRUE(has(outcome.error, what)) << outcome.error;
     EXPECT_EQ(trial.opened, 0) << what;
@@ -171,7 +171,7 @@ TEST_F(RunTest, ResumeWithAnotherMeshIsRefused) {
   EXPECT_EQ(begun.run().code, ExitCode::interrupted);
   SweepTrial other = with_mesh("second"), same = with_mesh("first");
   other.options.resume = same.options.resume = true;
-  const TrialOutcome refused = other.run();
+  const SweepOutcome refused = other.run();
   EXPECT_EQ(refused.code, ExitCode::usage);
   EXPECT_TRUE(has(refused.error, "another set of meshes")) << refused.error;
   EXPECT_EQ(same.run().code, ExitCode::done);
@@ -191,7 +191,7 @@ TEST_F(RunTest, ResumeOfSomethingElseIsRefused) {
     SweepTrial trial(folder / "a.nc");
     trial.options.resume = true;
     change(trial);
-    const TrialOutcome outcome = trial.run();
+    const SweepOutcome outcome = trial.run();
     EXPECT_EQ(outcome.code, ExitCode::usage) << what;
     EXPECT_TRUE(has(outcome.error, std::string("another ") + what)) << outcome.error;
   };
@@ -211,7 +211,7 @@ TEST_F(RunTest, DamagedMarkIsRefusedInOneLine) {
   std::ofstream(folder / "a.nc.partial.mark") << MARK_START << "2 00";
   SweepTrial trial(folder / "a.nc");
   trial.options.resume = true;
-  const TrialOutcome outcome = trial.run();
+  const SweepOutcome outcome = trial.run();
   EXPECT_EQ(outcome.code, ExitCode::failure);
   EXPECT_TRUE(has(outcome.error, "start again without --resume")) << outcome.error;
 }
@@ -234,7 +234,7 @@ TEST_F(RunTest, ADamagedPartialFileIsNeverTrusted) {
     SweepTrial trial(path);
     trial.scene = quick_scene();
     trial.options.resume = true;
-    const TrialOutcome outcome = trial.run();
+    const SweepOutcome outcome = trial.run();
     EXPECT_TRUE(outcome.code == ExitCode::done || !outcome.error.empty());
     if (outcome.code == ExitCode::done) expect_same_values(expected, path);
     std::filesystem::remove(path);
@@ -247,7 +247,7 @@ TEST_F(RunTest, ADamagedPartialFileIsNeverTrusted) {
     std::string damaged = partial;
     const std::size_t at = random() % (partial.size() - 8);
     damaged.replace(at, 8, "\x7f\xff\xff\xff\xff\xff\xff\xff", 8);
-    const TrialOutcome outcome = resume(damaged);
+    const SweepOutcome outcome = resume(damaged);
     noticed += has(outcome.notes, "damaged");
     EXPECT_EQ(outcome.code, ExitCode::done) << outcome.error;
   }
@@ -276,7 +276,7 @@ TEST_F(RunTest, DamagedGripsAloneAreComputedAgain) {
   leave_damaged_grips(path);
   SweepTrial rest(path);
   rest.options.resume = true;
-  const TrialOutcome outcome = rest.run();
+  const SweepOutcome outcome = rest.run();
   EXPECT_EQ(outcome.code, ExitCode::done) << outcome.error;
   EXPECT_TRUE(has(outcome.notes, "continuing ")) << outcome.notes;
   EXPECT_TRUE(has(outcome.notes, ".partial: grips 0 to ") && has(outcome.notes, " are damaged: computing them again"))
@@ -293,13 +293,13 @@ TEST_F(RunTest, AnInterruptWhileDamagedGripsAreComputedAgainLosesNothing) {
   repairing.before_run = [&] {
     if (++runs == 1) raise(SIGINT);
   };
-  const TrialOutcome interrupted = repairing.run();
+  const SweepOutcome interrupted = repairing.run();
   EXPECT_EQ(interrupted.code, ExitCode::interrupted) << interrupted.error;
   EXPECT_TRUE(has(interrupted.notes, " are damaged: computing them again")) << interrupted.notes;
   EXPECT_FALSE(file_exists(path));
   SweepTrial rest(path);
   rest.options.resume = true;
-  const TrialOutcome outcome = rest.run();
+  const SweepOutcome outcome = rest.run();
   EXPECT_EQ(outcome.code, ExitCode::done) << outcome.error;
   EXPECT_TRUE(has(outcome.notes, "continuing ") && has(outcome.notes, " are damaged: computing them again")) << outcome.notes;
   expect_same_as(expected, path);
@@ -315,7 +315,7 @@ TEST_F(RunTest, TheTimeLimitHoldsWhileDamagedGripsAreComputedAgain) {
   repairing.before_chunk = [&] {
     if (++chunks == 2) repairing.options.time_limit = 1e-9;
   };
-  const TrialOutcome cut = repairing.run();
+  const SweepOutcome cut = repairing.run();
   EXPECT_EQ(cut.code, ExitCode::interrupted) << cut.error;
   EXPECT_TRUE(has(cut.notes, " are damaged: computing them again")) << cut.notes;
   EXPECT_LT(chunks, 5);
@@ -343,7 +343,7 @@ TEST_F(RunTest, AMarkThatContradictsItselfIsRefused) {
     save_mark(path + ".partial.mark", altered);
     SweepTrial rest(path);
     rest.options.resume = true;
-    const TrialOutcome outcome = rest.run();
+    const SweepOutcome outcome = rest.run();
     EXPECT_EQ(outcome.code, ExitCode::failure) << done;
     EXPECT_TRUE(has(outcome.error, "contradicts itself")) << outcome.error;
     EXPECT_FALSE(file_exists(path));

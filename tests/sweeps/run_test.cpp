@@ -25,7 +25,7 @@ namespace {
 
 TEST_F(RunTest, WritesAllFilesAndSaysWhatItDid) {
   SweepTrial trial(folder / "a.nc");
-  const TrialOutcome outcome = trial.run();
+  const SweepOutcome outcome = trial.run();
   ASSERT_EQ(outcome.code, ExitCode::done) << outcome.error;
   for (const char* name : {"a.nc", "a.best.csv", "a.first_vessel.svg", "a.second.svg"})
     EXPECT_TRUE(file_exists(folder / name)) << name;
@@ -86,7 +86,7 @@ TEST_F(RunTest, EachHandScaleHasAListOfItsOwn) {
         trial.scene.grips.count = 400;
       }
       if (!keeps) trial.scene.output.keep = std::vector<std::string>{};
-      const TrialOutcome outcome = trial.run();
+      const SweepOutcome outcome = trial.run();
       ASSERT_EQ(outcome.code, ExitCode::done) << outcome.error;
       const Plan plan(trial.scene, false);
       const auto best = read_values(folder / "a.nc", "best_score"), hands = read_values(folder / "a.nc", "best_hand_scale");
@@ -137,7 +137,7 @@ TEST_F(RunTest, ABestAtTheEndOfAnAxisIsSaid) {
 TEST_F(RunTest, EverythingCanBeLeftOutButTheBest) {
   SweepTrial trial(folder / "a.nc");
   trial.scene.output.keep = std::vector<std::string>{};
-  const TrialOutcome outcome = trial.run();
+  const SweepOutcome outcome = trial.run();
   ASSERT_EQ(outcome.code, ExitCode::done) << outcome.error;
   EXPECT_EQ(trial.opened, 2) << "the best grips are evaluated anew with all that is told of them";
   EXPECT_TRUE(has(outcome.notes, "no heat maps: the score is not kept")) << outcome.notes;
@@ -167,12 +167,12 @@ TEST_F(RunTest, ATimeLimitEndsItAsAnInterruptDoes) {
   SweepTrial trial(folder / "a.nc");
   trial.options.time_limit = 0.05;
   trial.before_chunk = [] { std::this_thread::sleep_for(std::chrono::milliseconds(30)); };
-  const TrialOutcome cut = trial.run();
+  const SweepOutcome cut = trial.run();
   EXPECT_EQ(cut.code, ExitCode::interrupted) << cut.error;
   EXPECT_NE(cut.notes.find("; the same command with --resume goes on with "), std::string::npos) << cut.notes;
   SweepTrial rest(folder / "a.nc");
   rest.options.resume = true;
-  const TrialOutcome whole = rest.run();
+  const SweepOutcome whole = rest.run();
   EXPECT_EQ(whole.code, ExitCode::done) << whole.error;
   EXPECT_NE(whole.notes.find("grips are there"), std::string::npos) << whole.notes;
   expect_same_as(expected, folder / "a.nc");
@@ -181,7 +181,7 @@ TEST_F(RunTest, ATimeLimitEndsItAsAnInterruptDoes) {
 TEST_F(RunTest, HugeSweepsAreRefusedWithTheirSizes) {
   SweepTrial trial(folder / "a.nc");
   trial.scene.grips.obliquity = trial.scene.grips.roll = trial.scene.grips.offset = range_axis(0, 1, 10000);
-  const TrialOutcome outcome = trial.run();
+  const SweepOutcome outcome = trial.run();
   EXPECT_EQ(outcome.code, ExitCode::usage);
   EXPECT_TRUE(has(outcome.error, "grips, ") && has(outcome.error, "states, ") && has(outcome.error, " of results"))
       << outcome.error;
@@ -194,7 +194,7 @@ TEST_F(RunTest, FailureOfTheBackendLeavesNoResult) {
   trial.before_chunk = [&] {
     if (++chunks == 5) throw failure_error("device lost");
   };
-  const TrialOutcome outcome = trial.run();
+  const SweepOutcome outcome = trial.run();
   EXPECT_EQ(outcome.code, ExitCode::failure);
   EXPECT_EQ(outcome.error, "device lost");
   EXPECT_FALSE(file_exists(folder / "a.nc"));
@@ -285,7 +285,7 @@ TEST_F(RunTest, APictureThatCannotBeWrittenIsMissingAlone) {
   SweepTrial trial(folder / "a.nc");
   const std::string picture = output_names(folder / "a.nc").heat_map("second"), in_the_way = temporary_name(picture);
   std::ofstream(in_the_way) << "mine";
-  const TrialOutcome outcome = trial.run();
+  const SweepOutcome outcome = trial.run();
   EXPECT_EQ(outcome.code, ExitCode::done);
   EXPECT_TRUE(has(outcome.notes, "no picture: cannot write " + picture + ": File exists")) << outcome.notes;
   EXPECT_FALSE(file_exists(picture));
