@@ -242,15 +242,16 @@ WrenchQuality wrench_quality(std::span<const ContactPoint> contacts, const Conta
   return known;
 }
 
-GripQuality grip_quality(const Scene& scene, const Evaluator& evaluator, std::size_t vessel, const GripResult& result) {
+GripQuality grip_quality(const Scene& scene, const Evaluator& evaluator, std::size_t vessel, const GripResult& result,
+                         std::size_t most_facets) {
   GripQuality quality;
   quality.center = evaluator.empty_center_of_mass(vessel);
   quality.scale = farthest_from(scene.vessels[vessel], quality.center);
   std::vector<ContactPoint> contacts;
   for (const GripContact& contact : evaluator.contacts(vessel, result))
     contacts.push_back({to_vec3<double>(contact.point), to_vec3<double>(contact.normal), contact.digit});
-  quality.wrenches =
-      wrench_quality(contacts, {scene.force.friction, scene.force.torsion}, to_vec3<double>(quality.center), quality.scale);
+  quality.wrenches = wrench_quality(contacts, {scene.force.friction, scene.force.torsion}, to_vec3<double>(quality.center),
+                                    quality.scale, most_facets);
   return quality;
 }
 

@@ -37,7 +37,8 @@ struct GripQuality {
   Triple center{};   // vessel frame, m
 };
 
-// `result` is of a feasible grip; `evaluator` was made for `scene`.
-GripQuality grip_quality(const Scene& scene, const Evaluator& evaluator, std::size_t vessel, const GripResult& result);
+// `result` is of a feasible grip; `evaluator` was made for `scene`. `most_facets`: as above.
+GripQuality grip_quality(const Scene& scene, const Evaluator& evaluator, std::size_t vessel, const GripResult& result,
+                         std::size_t most_facets = MOST_FACETS);
 
 }  // namespace wholehand

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// sanitizers: address
+#include "trials/predictions.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "grips/report.h"
+#include "tests/support/scenes.h"
+#include "trials/cases.h"
+
+namespace wholehand {
+namespace {
+
+constexpr double CLOSE = 1e-9;  // of numbers of size 1 that come by two ways through the same kernels
+
+// The default scene with its hand's strength.
+Scene strong_beakers() {
+  Scene scene = three_beakers();
+  scene.strength = StrengthData{};
+  return scene;
+}
+
+GripInput good_grip() {
+  GripInput grip;
+  grip.height = 0.07;
+  grip.roll = radians(-35);
+  return grip;
+}
+
+std::vector<TrialCase> all_cases(const Scene& scene) {
+  TrialOptions options;
+  options.six_forces = true;
+  return trial_cases(scene, *make_core_evaluator(scene), 0, options);
+}
+
+TEST(TrialPredictions, AreThoseOfAGripAndASweep) {
+  const Scene scene = strong_beakers();
+  const auto cases = all_cases(scene);
+  const TrialPredictor predictor(scene, {});
+  const GripPrediction found = predictor.predict(0, good_grip(), cases);
+  StateAxes axes{usual_fills(scene, *predictor.core(), 0), usual_tilts(scene)};
+  GripReport report = make_grip_report(scene, 0, good_grip(), axes, core_grip_methods(scene, predictor.core(), "core"));
+  ASSERT_EQ(report.answer.result.reason, Reason::none);
+  ASSERT_TRUE(report.answer.result.plausible);
+  add_holding(report, scene, 0);
+  double worst = 0, tips = 0;
+  for (std::size_t k = 0; k < report.holds.size(); ++k) {
+    EXPECT_NEAR(found.cases[k].effort, report.holds[k].effort, CLOSE) << k;
+    EXPECT_NEAR(found.cases[k].tips, report.holds[k].tips, CLOSE) << k;
+    worst = std::max(worst, found.cases[k].effort);
+    tips = std::max(tips, found.cases[k].tips);
+  }
+  EXPECT_EQ(found.worst_effort, worst);
+  EXPECT_EQ(found.tips_worst_effort, tips);
+  EXPECT_NEAR(found.scene_worst_effort, report.hold->worst, CLOSE);
+  EXPECT_NEAR(found.push, report.hold->push, CLOSE);
+  EXPECT_NEAR(found.friction_needed, report.hold->friction_needed, CLOSE);
+  EXPECT_NEAR(found.score, report.answer.score.score, CLOSE);
+  EXPECT_NEAR(found.terms[5], report.answer.score.terms.hold, CLOSE);
+  EXPECT_GT(found.epsilon, 0);
+}
+
+// By hand from the terms: fingers .30, contacts .10, depth .20, posture .10, force .15, hold .15, and 40 N over the largest two-tip force.
+TEST(TrialPredictions, ScoreOfVersion01) {
+  const Scene scene = strong_beakers();
+  const GripPrediction found = TrialPredictor(scene, {}).predict(0, good_grip(), all_cases(scene));
+  Scene plain = scene;
+  plain.strength.reset();
+  const auto core = make_core_evaluator(plain);
+  GripResult result;
+  core->grip(0, good_grip(), result);
+  double largest = 0;
+  for (const double fill : scene.liquid->fills)
+    for (const double tilt : scene.tilts)
+      largest = std::max(largest, core->state(0, good_grip(), result, core->liquid(0, fill, tilt), tilt).hold_force);
+  const double hold = std::min(1.0, 40 / largest);
+  const auto& t = found.terms;
+  EXPECT_NEAR(found.score_0_1, 0.30 * t[0] + 0.10 * t[1] + 0.20 * t[2] + 0.10 * t[3] + 0.15 * t[4] + 0.15 * hold, CLOSE);
+}
+
+// Twice the mass takes twice the effort; the mass is that of every state.
+TEST(TrialPredictions, MassOfTheTrials) {
+  const Scene scene = strong_beakers();
+  const auto cases = all_cases(scene);
+  TrialSettings light, heavy;
+  light.mass = 0.3;
+  heavy.mass = 0.6;
+  const GripPrediction one = TrialPredictor(scene, light).predict(0, good_grip(), cases);
+  const GripPrediction two = TrialPredictor(scene, heavy).predict(0, good_grip(), cases);
+  for (std::size_t k = 0; k < 18; ++k) EXPECT_NEAR(two.cases[k].effort, 2 * one.cases[k].effort, 4e-3 * one.cases[k].effort) << k;
+  EXPECT_NEAR(two.scene_worst_effort, 2 * one.scene_worst_effort, 4e-3 * one.scene_worst_effort);
+  EXPECT_LT(two.score, one.score);
+  EXPECT_LT(two.push, one.push);
+  // the second material of six_forces has a mass of its own
+  for (std::size_t k = 18; k < 24; ++k) EXPECT_EQ(two.cases[k].effort, one.cases[k].effort) << k;
+}
+
+TEST(TrialPredictions, FrictionOfTheTrials) {
+  const Scene scene = strong_beakers();
+  const auto cases = all_cases(scene);
+  TrialSettings slippery;
+  slippery.friction = 0.3;
+  const TrialPredictor predictor(scene, slippery);
+  const GripPrediction less = predictor.predict(0, good_grip(), cases),
+                       more = TrialPredictor(scene, {}).predict(0, good_grip(), cases);
+  for (std::size_t k = 0; k < 18; ++k) EXPECT_GT(less.cases[k].effort, more.cases[k].effort) << k;
+  for (std::size_t k = 18; k < 24; ++k) EXPECT_EQ(less.cases[k].effort, more.cases[k].effort) << "has a friction of its own";
+  EXPECT_LE(less.epsilon, more.epsilon);
+  EXPECT_EQ(predictor.scene().force.friction, 0.3);
+}
+
+// A push against no weight: opposite directions of equal size, and proportional to the mass. A force of 10 m/s2 x mass.
+TEST(TrialPredictions, PushesAreWithoutWeight) {
+  const Scene scene = strong_beakers();
+  const auto cases = all_cases(scene);
+  TrialSettings settings;
+  settings.materials = {{"scene"}, {"half", 0.05, 0.6, 20e-3}};
+  TrialSettings twice = settings;
+  twice.materials[1].mass = 0.1;
+  const GripPrediction a = TrialPredictor(scene, settings).predict(0, good_grip(), cases);
+  const GripPrediction b = TrialPredictor(scene, twice).predict(0, good_grip(), cases);
+  for (std::size_t k = 18; k < 24; ++k) EXPECT_NEAR(b.cases[k].effort, 2 * a.cases[k].effort, 4e-3 * a.cases[k].effort);
+  // down (-y) is what an upright vessel weighs, but for 10 and 9.80665 m/s2
+  const GripPrediction c = TrialPredictor(scene, {}).predict(0, good_grip(), cases);
+  EXPECT_NEAR(c.cases[15].effort / c.cases[8].effort, 10 / scene.gravity, 3e-3) << "fullest, upright";
+}
+
+}  // namespace
+}  // namespace wholehand

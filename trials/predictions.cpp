@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#include "trials/predictions.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/counted_tilts.h"
+#include "core/force.h"
+#include "core/grip_effort.h"
+#include "core/planes.h"
+#include "core/score.h"
+#include "core/vectors.h"
+#include "grips/methods.h"
+#include "grips/quality.h"
+#include "grips/report.h"
+
+namespace wholehand {
+
+using core_f64::ContactPoint;
+using core_f64::EffortSolver;
+using core_f64::HandStrength;
+using core_f64::Load;
+using core_f64::Vec3;
+using core_f64::Wrench;
+
+namespace {
+
+constexpr double NO_VALUE = std::numeric_limits<double>::quiet_NaN();
+constexpr ScoreWeights WEIGHTS_0_1{0.30, 0.10, 0.20, 0.10, 0.15, 0.15};
+
+Scene with_friction(Scene scene, const TrialSettings& settings) {
+  if (!std::isnan(settings.friction)) scene.force.friction = settings.friction;
+  return scene;
+}
+
+}  // namespace
+
+// A grip with its contacts.
+struct TrialPredictor::Held {
+  std::size_t vessel = 0;
+  GripInput grip;
+  GripResult result;
+  Vec3 pour{};
+  std::vector<ContactPoint> contacts, tips;
+  HandStrength hand;
+};
+
+Scene scene_of_0_1(const Scene& scene) {
+  Scene old = scene;
+  old.strength.reset();
+  old.score = WEIGHTS_0_1;
+  return old;
+}
+
+TrialPredictor::TrialPredictor(const Scene& scene, const TrialSettings& settings)
+    : scene_(with_friction(scene, settings)),
+      scene_0_1_(scene_of_0_1(scene_)),
+      settings_(settings),
+      core_(make_core_evaluator(scene_)),
+      core_0_1_(make_core_evaluator(scene_0_1_)) {}
+
+double TrialPredictor::mass_of(double state) const { return std::isnan(settings_.mass) ? state : settings_.mass; }
+
+GripPrediction TrialPredictor::predict(std::size_t vessel, const GripInput& grip, const std::vector<TrialCase>& cases) const {
+  Held held{vessel, grip, {}, to_vec3<double>(pour_direction(scene_, grip)), {}, {}, {}};
+  core_->grip(vessel, grip, held.result);
+  for (const GripContact& found : core_->contacts(vessel, held.result)) {
+    held.contacts.push_back({to_vec3<double>(found.point), to_vec3<double>(found.normal), found.digit});
+    const bool is_tip = found.between == 0 && (found.joint == THUMB_TIP || found.joint == INDEX_TIP);
+    if (is_tip) held.tips.push_back(held.contacts.back());
+  }
+  held.hand = {scene_.force.friction, scene_.force.torsion, scene_.strength.value().digits};
+  GripPrediction prediction;
+  prediction.worst_effort = prediction.tips_worst_effort = NO_VALUE;
+  for (const TrialCase& one : cases) {
+    const CasePrediction found = prediction.cases.emplace_back(predict_case(held, one));
+    if (one.protocol != TrialProtocol::fill_tilt) continue;
+    prediction.worst_effort = std::fmax(prediction.worst_effort, found.effort);
+    prediction.tips_worst_effort = std::fmax(prediction.tips_worst_effort, found.tips);
+  }
+  predict_states(held, prediction);
+  predict_scores(held, prediction);
+  const GripQuality quality = grip_quality(scene_, *core_, vessel, held.result, TRIAL_FACETS);
+  prediction.epsilon = quality.wrenches.epsilon[0];
+  return prediction;
+}
+
+// The weight at a tilt; or the push along a direction, without weight.
+CasePrediction TrialPredictor::predict_case(const Held& held, const TrialCase& one) const {
+  const bool is_push = one.protocol == TrialProtocol::six_forces;
+  const double tilt = is_push ? 0 : one.tilt;
+  const LiquidResult liquid = scene_.liquid ? core_->liquid(held.vessel, one.fill, tilt) : LiquidResult{};
+  const StateResult state = core_->state(held.vessel, held.grip, held.result, liquid, tilt);
+  double mass = mass_of(state.mass);
+  HandStrength hand = held.hand;
+  Vec3 force = -mass * scene_.gravity * core_f64::up_direction(held.pour, std::sin(tilt), std::cos(tilt));
+  if (is_push) {
+    const TrialMaterial& material = settings_.materials[static_cast<std::size_t>(one.material)];
+    if (!std::isnan(material.mass)) mass = material.mass;
+    if (!std::isnan(material.friction)) hand.friction = material.friction;
+    if (!std::isnan(material.torsion)) hand.torsion = material.torsion;
+    force = Vec3(0);
+    force[one.direction / 2] = (one.direction % 2 == 0 ? 1 : -1) * mass * settings_.push_acceleration;
+  }
+  const Wrench load = core_f64::wrench_at(to_vec3<double>(state.center_of_mass), force);
+  const Vec3 center = core_f64::contacts_center(held.contacts);
+  return {EffortSolver(held.contacts, hand, center).solve(load).effort, EffortSolver(held.tips, hand, center).solve(load).effort};
+}
+
+// Over the scene's own states, as a sweep.
+void TrialPredictor::predict_states(const Held& held, GripPrediction& prediction) const {
+  const StateAxes axes = scene_axes(scene_, held.vessel);
+  const VesselConstants constants = core_->constants(held.vessel);
+  const auto load_at = [&](double fill, double tilt) {
+    const LiquidResult liquid = scene_.liquid ? core_->liquid(held.vessel, fill, tilt) : LiquidResult{};
+    const double mass = constants.mass + liquid.mass, share = mass > 0 ? liquid.mass / mass : 0;
+    return Load{mass_of(mass), (1 - share) * to_vec3<double>(constants.center_of_mass), share * liquid.lean, share * liquid.height};
+  };
+  std::vector<Load> loads;
+  std::vector<core_f64::StateTilt> tilts;
+  for (const double fill : axes.fills)
+    for (const double tilt : axes.tilts) loads.push_back(load_at(fill, tilt));
+  for (const double tilt : axes.tilts) tilts.push_back({std::sin(tilt), std::cos(tilt)});
+  const std::vector<std::size_t> counted = counted_tilts(scene_, held.vessel);
+  const core_f64::GripLoads states{loads, tilts, counted, held.pour, scene_.gravity};
+  std::vector<core_f64::FillEffort> fills(axes.fills.size());
+  const core_f64::GripEffort found = core_f64::grip_effort(held.contacts, std::nullopt, held.hand, states, fills);
+  prediction.scene_worst_effort = found.worst;
+  prediction.friction_needed = core_f64::friction_needed(held.contacts, held.hand, states, found);
+  const Load fullest = load_at(axes.fills.back(), 0);
+  prediction.push =
+      core_f64::push_held(held.contacts, held.hand, states.weight(fullest, {}), core_f64::load_center(fullest, states.pour));
+}
+
+void TrialPredictor::predict_scores(const Held& held, GripPrediction& prediction) const {
+  const ScoreTerms terms = core_->score(held.vessel, held.grip, held.result).terms;
+  prediction.terms = {
+      terms.fingers, terms.contacts,
+      terms.depth,   terms.posture,
+      terms.force,   std::isnan(settings_.mass) ? terms.hold : core_f64::effort_term(prediction.scene_worst_effort)};
+  const std::array<double, 6> weights = effective_weights(scene_), weights_0_1 = effective_weights(scene_0_1_);
+  const ScoreTerms old = core_0_1_->score(held.vessel, held.grip, held.result).terms;
+  const std::array<double, 6> terms_0_1{old.fingers, old.contacts, old.depth, old.posture, old.force, hold_0_1(held, old.hold)};
+  for (std::size_t k = 0; k < SCORE_TERM_COUNT; ++k) {
+    prediction.score += weights[k] * prediction.terms[k];
+    prediction.score_0_1 += weights_0_1[k] * terms_0_1[k];
+  }
+}
+
+// The hold term of version 0.1: with another mass the hold force of each state is in proportion to it.
+double TrialPredictor::hold_0_1(const Held& held, double term) const {
+  if (std::isnan(settings_.mass)) return term;
+  const StateAxes axes = scene_axes(scene_0_1_, held.vessel);
+  const std::vector<std::size_t> counted = counted_tilts(scene_0_1_, held.vessel);
+  double largest = 0;
+  for (std::size_t f = 0; f < axes.fills.size(); ++f)
+    for (std::size_t t = 0; t < counted[f]; ++t) {
+      const LiquidResult liquid = scene_.liquid ? core_0_1_->liquid(held.vessel, axes.fills[f], axes.tilts[t]) : LiquidResult{};
+      const StateResult state = core_0_1_->state(held.vessel, held.grip, held.result, liquid, axes.tilts[t]);
+      largest = std::max(largest, state.hold_force * settings_.mass / state.mass);
+    }
+  return core_f64::hold_term(largest, scene_0_1_.force.grip_strength);
+}
+
+}  // namespace wholehand

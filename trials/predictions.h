@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// What the core says of a grip and of each case that is tried, before any engine has been asked.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "core/effort.h"
+#include "core/evaluator.h"
+#include "core/scene.h"
+#include "trials/logistic.h"
+#include "trials/trial.h"
+
+namespace wholehand {
+
+// Efforts are infinite where no force of the hand holds the load.
+struct CasePrediction {
+  double effort = 0;  // of the whole hand
+  double tips = 0;    // of thumb and index tip alone
+};
+
+struct GripPrediction {
+  std::vector<CasePrediction> cases;  // in the order of those asked for
+  double worst_effort = 0;            // of the fill_tilt cases; NaN without any
+  double tips_worst_effort = 0;       // likewise
+  double scene_worst_effort = 0;      // over all states of the scene, as a sweep has it
+  double push = 0;                    // N
+  double friction_needed = 0;         // over all states of the scene
+  double epsilon = 0;                 // the lower end of its bracket
+  double score = 0;
+  std::array<double, SCORE_TERM_COUNT> terms{};  // fingers, contacts, depth, posture, force, hold
+  double score_0_1 = 0;                          // as version 0.1 had it
+};
+
+constexpr std::size_t TRIAL_FACETS = 5'000;  // of the hull for epsilon: a few hundredths of a second a grip
+
+// By the core in double precision, with the mass and the friction of the trials in place of the scene's. Thread-safe.
+class TrialPredictor {
+ public:
+  // Of a scene with strengths and tilts.
+  TrialPredictor(const Scene& scene, const TrialSettings& settings);
+
+  // `grip` is feasible.
+  GripPrediction predict(std::size_t vessel, const GripInput& grip, const std::vector<TrialCase>& cases) const;
+
+  // The scene with the friction of the trials, and the core made for it.
+  const Scene& scene() const { return scene_; }
+  std::shared_ptr<const Evaluator> core() const { return core_; }
+
+ private:
+  struct Held;
+  CasePrediction predict_case(const Held& held, const TrialCase& one) const;
+  void predict_states(const Held& held, GripPrediction& prediction) const;
+  void predict_scores(const Held& held, GripPrediction& prediction) const;
+  double mass_of(double state) const;
+  double hold_0_1(const Held& held, double term) const;
+
+  Scene scene_, scene_0_1_;  // the second as version 0.1 scored it
+  TrialSettings settings_;
+  std::shared_ptr<const Evaluator> core_, core_0_1_;
+};
+
+// Kernel 7's two-tip formula and the weights of version 0.1, beside a scene's own.
+Scene scene_of_0_1(const Scene& scene);
+
+}  // namespace wholehand

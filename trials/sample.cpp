@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include "trials/sample.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "core/core_backend.h"
+#include "core/error.h"
+#include "core/random_bits.h"
+#include "shaders/layout.h"
+#include "sweeps/hand_lists.h"
+#include "sweeps/list_chooser.h"
+#include "system/progress.h"
+
+namespace wholehand {
+namespace {
+
+constexpr std::size_t READ_AT_ONCE = 1 << 16;
+
+std::uint64_t grip_key(std::uint64_t seed, std::size_t vessel, std::uint64_t number) {
+  return mixed_bits(mixed_bits(seed + SPLIT_MIX_STEP * (vessel + 1)) + SPLIT_MIX_STEP * (number + 1));
+}
+
+// How many each stratum gives: fairly, and all together `count` where they have as many.
+std::array<std::size_t, SCORE_STRATA> shares_of(const std::array<std::vector<Candidate>, SCORE_STRATA>& strata, std::size_t count) {
+  std::array<std::size_t, SCORE_STRATA> order{}, shares{};
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return strata[a].size() < strata[b].size(); });
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const std::size_t left = order.size() - k;
+    shares[order[k]] = std::min(strata[order[k]].size(), count / left);  // the fuller ones take what is over
+    count -= shares[order[k]];
+  }
+  return shares;
+}
+
+std::vector<std::size_t> asked_vessels(const Scene& scene, const TrialOptions& options) {
+  if (options.vessel) return {*options.vessel};
+  std::vector<std::size_t> vessels(scene.vessels.size());
+  std::iota(vessels.begin(), vessels.end(), std::size_t{0});
+  return vessels;
+}
+
+std::vector<Candidate> listed_best(const SweepResult& result, const Plan& plan, std::size_t vessel, std::size_t count) {
+  std::vector<Candidate> all;
+  for (std::size_t scale = 0; scale < plan.hand_scales(); ++scale) {
+    std::vector<Candidate> list = result.best(vessel, scale);
+    list.resize(std::min(list.size(), count));
+    all.insert(all.end(), list.begin(), list.end());
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<Candidate> stratified_sample(const std::vector<Candidate>& eligible, std::size_t count, std::size_t vessel,
+                                         std::uint64_t seed) {
+  if (eligible.empty()) return {};
+  const auto by_score = [](const Candidate& a, const Candidate& b) { return a.score < b.score; };
+  const auto [least, most] = std::minmax_element(eligible.begin(), eligible.end(), by_score);
+  const double low = least->score, range = most->score - low;
+  std::array<std::vector<Candidate>, SCORE_STRATA> strata;
+  for (const Candidate& one : eligible) {
+    const double place = range > 0 ? (one.score - low) / range * SCORE_STRATA : 0;
+    strata[std::min(static_cast<std::size_t>(place), SCORE_STRATA - 1)].push_back(one);
+  }
+  const auto shares = shares_of(strata, count);
+  std::vector<Candidate> chosen;
+  for (std::size_t k = 0; k < SCORE_STRATA; ++k) {
+    std::sort(strata[k].begin(), strata[k].end(), [&](const Candidate& a, const Candidate& b) {
+      return std::pair(grip_key(seed, vessel, a.index), a.index) < std::pair(grip_key(seed, vessel, b.index), b.index);
+    });
+    chosen.insert(chosen.end(), strata[k].begin(), strata[k].begin() + static_cast<std::ptrdiff_t>(shares[k]));
+  }
+  std::sort(chosen.begin(), chosen.end(), [](const Candidate& a, const Candidate& b) { return a.index < b.index; });
+  return chosen;
+}
+
+std::vector<std::uint64_t> looked_at(std::uint64_t grips, std::size_t most, std::size_t vessel, std::uint64_t seed) {
+  std::vector<std::uint64_t> numbers(static_cast<std::size_t>(std::min<std::uint64_t>(grips, most)));
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    // without overflow: the stretches differ in length by one at most
+    const std::uint64_t whole = grips / numbers.size(), rest = grips % numbers.size();
+    const std::uint64_t first = whole * k + std::min<std::uint64_t>(k, rest), length = whole + (k < rest ? 1 : 0);
+    numbers[k] = first + (length > 1 ? grip_key(seed, vessel, k) % length : 0);
+  }
+  return numbers;
+}
+
+std::vector<Candidate> eligible_by_core(const Scene& scene, const Plan& plan, std::shared_ptr<const Evaluator> core,
+                                        std::size_t vessel, const TrialOptions& options, const std::atomic<bool>& stop) {
+  const std::vector<std::uint64_t> numbers = looked_at(plan.grips(), options.most_looked, vessel, options.seed);
+  CoreBackend backend(std::move(core), scene, make_field_set({FIELD_SCORE, FIELD_STATUS}, scene), Precision::full, options.threads);
+  std::vector<Candidate> eligible;
+  Progress progress(numbers.size(), 0);
+  RunRequest request;
+  request.vessel = vessel;
+  request.last = numbers.size();
+  request.stop = &stop;
+  request.grips = [&](std::size_t v, std::uint64_t first, std::size_t count, GripInput* out) {
+    for (std::size_t k = 0; k < count; ++k) out[k] = plan.grip(v, numbers[static_cast<std::size_t>(first) + k]);
+  };
+  request.sink = [&](const PlaneChunk& chunk) {
+    add_eligible(chunk, backend.fields(), eligible);
+    progress.update("scores of " + scene.vessels[vessel].name, chunk.first + chunk.count);
+  };
+  backend.run(request);
+  if (stop) return {};
+  for (Candidate& one : eligible) one.index = numbers[static_cast<std::size_t>(one.index)];
+  return eligible;
+}
+
+std::vector<Candidate> eligible_in_result(const SweepResult& result, const Plan& plan, std::size_t vessel,
+                                          const TrialOptions& options) {
+  const Variable& score = *result.find("score");
+  const std::vector<std::uint64_t> numbers = looked_at(plan.grips(), options.most_looked, vessel, options.seed);
+  std::vector<Candidate> eligible;
+  std::vector<double> scores(READ_AT_ONCE);
+  std::size_t next = 0;
+  for (std::uint64_t first = 0; first < plan.grips() && next < numbers.size(); first += READ_AT_ONCE) {
+    const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(READ_AT_ONCE, plan.grips() - first));
+    if (numbers[next] >= first + count) continue;
+    result.read(score, vessel, 0, first, count, scores.data());
+    for (; next < numbers.size() && numbers[next] < first + count; ++next) {
+      const double value = scores[static_cast<std::size_t>(numbers[next] - first)];
+      if (value > 0) eligible.push_back({value, numbers[next]});  // an infeasible or implausible grip scores 0
+    }
+  }
+  return eligible;
+}
+
+std::vector<Candidate> best_different(const Scene& scene, const Plan& plan, const Evaluator& core, std::size_t vessel,
+                                      const std::vector<Candidate>& eligible, const TrialOptions& options) {
+  const double apart = scene.output.apart;
+  ListChooser chooser(plan, &core, vessel, {options.best, apart, usual_pool(plan, options.best, apart), options.threads});
+  while (!chooser.is_complete()) {
+    chooser.offer(eligible);
+    chooser.end_pass();
+  }
+  return chooser.chosen();
+}
+
+std::vector<TrialGrip> choose_trial_grips(const GripSourceOfTrials& source, const TrialOptions& options,
+                                          const std::atomic<bool>& stop) {
+  const std::vector<std::size_t> vessels = asked_vessels(source.scene, options);
+  const bool has_scores = source.result && source.result->find("score");
+  const bool has_lists = source.result && source.result->lists_best();
+  std::vector<TrialGrip> grips;
+  for (std::size_t k = 0; k < vessels.size() && !stop; ++k) {
+    const std::size_t v = vessels[k];
+    std::vector<Candidate> eligible = has_scores ? eligible_in_result(*source.result, source.plan, v, options)
+                                                 : eligible_by_core(source.scene, source.plan, source.core, v, options, stop);
+    const std::vector<Candidate> best = has_lists ? listed_best(*source.result, source.plan, v, options.best)
+                                                  : best_different(source.scene, source.plan, *source.core, v, eligible, options);
+    const auto add = [&](const Candidate& one, TrialSample sample) {
+      grips.push_back({v, one.index, source.plan.grip(v, one.index), sample, one.score});
+    };
+    for (const Candidate& one : best) add(one, TrialSample::best);
+    std::erase_if(eligible, [&](const Candidate& one) {
+      return std::any_of(best.begin(), best.end(), [&](const Candidate& listed) { return listed.index == one.index; });
+    });
+    const std::size_t share = options.grips / vessels.size() + (k < options.grips % vessels.size() ? 1 : 0);
+    for (const Candidate& one : stratified_sample(eligible, share, v, options.seed)) add(one, TrialSample::stratified);
+  }
+  if (stop) return {};
+  if (grips.empty())
+    throw usage_error("no grip is feasible and plausible, so there is nothing to try; `wholehand sweep` tells why");
+  return grips;
+}
+
+}  // namespace wholehand

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Which grips are tried: the best of each vessel, and a sample over the whole range of scores.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "core/backend.h"
+#include "sweeps/grip_lists.h"
+#include "sweeps/plan.h"
+#include "trials/options.h"
+
+namespace wholehand {
+
+enum class TrialSample { best, stratified };
+constexpr std::array<const char*, 2> TRIAL_SAMPLE_NAMES{"best", "stratified"};
+
+// A grip to be tried.
+struct TrialGrip {
+  std::size_t vessel = 0;
+  std::uint64_t number = 0;  // in its vessel's plan
+  GripInput grip;
+  TrialSample sample = TrialSample::stratified;
+  double score = 0;  // by which it was chosen
+};
+
+constexpr std::size_t SCORE_STRATA = 10;
+
+// About `count` of the grips, as many as possible from each of SCORE_STRATA equal parts of the range of their scores; a part that has
+// fewer than its share gives all, and the others give more. In each part the seed draws: a grip's key depends on seed, vessel and number
+// alone, so that the order of `eligible` does not matter. By number, ascending.
+std::vector<Candidate> stratified_sample(const std::vector<Candidate>& eligible, std::size_t count, std::size_t vessel,
+                                         std::uint64_t seed);
+
+// Numbers of the grips of a vessel whose scores are looked at: all, or where there are more than `most`, one of each of `most` equal
+// stretches, drawn by the seed.
+std::vector<std::uint64_t> looked_at(std::uint64_t grips, std::size_t most, std::size_t vessel, std::uint64_t seed);
+
+// Feasible, plausible grips of a vessel with their scores, of those that are looked at: by the core in double precision, so that every machine has the
+// same ones, or of a result. Empty where `stop` is set.
+std::vector<Candidate> eligible_by_core(const Scene& scene, const Plan& plan, std::shared_ptr<const Evaluator> core,
+                                        std::size_t vessel, const TrialOptions& options, const std::atomic<bool>& stop);
+std::vector<Candidate> eligible_in_result(const SweepResult& result, const Plan& plan, std::size_t vessel,
+                                          const TrialOptions& options);
+
+// The best different ones of eligible grips, as a sweep lists them, of all hand scales.
+std::vector<Candidate> best_different(const Scene& scene, const Plan& plan, const Evaluator& core, std::size_t vessel,
+                                      const std::vector<Candidate>& eligible, const TrialOptions& options);
+
+// Where the scores come from: the core, or a result with its own lists. The result is in use with scene and plan.
+struct GripSourceOfTrials {
+  const Scene& scene;
+  const Plan& plan;
+  std::shared_ptr<const Evaluator> core;
+  const SweepResult* result = nullptr;
+};
+
+// All grips to be tried: of each vessel the best, then the others. A listed grip is not in the stratified sample too. Throws Error
+// (usage) where no grip is feasible and plausible. Empty where `stop` is set.
+std::vector<TrialGrip> choose_trial_grips(const GripSourceOfTrials& source, const TrialOptions& options,
+                                          const std::atomic<bool>& stop);
+
+}  // namespace wholehand
