@@ -57,7 +57,9 @@ TrialPredictor::TrialPredictor(const Scene& scene, const TrialSettings& settings
       scene_0_1_(scene_of_0_1(scene_)),
       settings_(settings),
       core_(make_core_evaluator(scene_)),
-      core_0_1_(make_core_evaluator(scene_0_1_)) {}
+      core_0_1_(make_core_evaluator(scene_0_1_)) {
+  for (std::size_t v = 0; v < scene_.vessels.size(); ++v) states_.push_back(states_of(v));
+}
 
 double TrialPredictor::mass_of(double state) const { return std::isnan(settings_.mass) ? state : settings_.mass; }
 
@@ -81,7 +83,7 @@ GripPrediction TrialPredictor::predict(std::size_t vessel, const GripInput& grip
   predict_states(held, prediction);
   predict_scores(held, prediction);
   const GripQuality quality = grip_quality(scene_, *core_, vessel, held.result, TRIAL_FACETS);
-  prediction.epsilon = quality.wrenches.epsilon[0];
+  prediction.epsilon = 0.5 * (quality.wrenches.epsilon[0] + quality.wrenches.epsilon[1]);
   return prediction;
 }
 
@@ -107,29 +109,33 @@ CasePrediction TrialPredictor::predict_case(const Held& held, const TrialCase& o
   return {EffortSolver(held.contacts, hand, center).solve(load).effort, EffortSolver(held.tips, hand, center).solve(load).effort};
 }
 
-// Over the scene's own states, as a sweep.
-void TrialPredictor::predict_states(const Held& held, GripPrediction& prediction) const {
-  const StateAxes axes = scene_axes(scene_, held.vessel);
-  const VesselConstants constants = core_->constants(held.vessel);
+TrialPredictor::States TrialPredictor::states_of(std::size_t vessel) const {
+  const StateAxes axes = scene_axes(scene_, vessel);
+  const VesselConstants constants = core_->constants(vessel);
   const auto load_at = [&](double fill, double tilt) {
-    const LiquidResult liquid = scene_.liquid ? core_->liquid(held.vessel, fill, tilt) : LiquidResult{};
+    const LiquidResult liquid = scene_.liquid ? core_->liquid(vessel, fill, tilt) : LiquidResult{};
     const double mass = constants.mass + liquid.mass, share = mass > 0 ? liquid.mass / mass : 0;
     return Load{mass_of(mass), (1 - share) * to_vec3<double>(constants.center_of_mass), share * liquid.lean, share * liquid.height};
   };
-  std::vector<Load> loads;
-  std::vector<core_f64::StateTilt> tilts;
+  States states;
   for (const double fill : axes.fills)
-    for (const double tilt : axes.tilts) loads.push_back(load_at(fill, tilt));
-  for (const double tilt : axes.tilts) tilts.push_back({std::sin(tilt), std::cos(tilt)});
-  const std::vector<std::size_t> counted = counted_tilts(scene_, held.vessel);
-  const core_f64::GripLoads states{loads, tilts, counted, held.pour, scene_.gravity};
-  std::vector<core_f64::FillEffort> fills(axes.fills.size());
+    for (const double tilt : axes.tilts) states.loads.push_back(load_at(fill, tilt));
+  for (const double tilt : axes.tilts) states.tilts.push_back({std::sin(tilt), std::cos(tilt)});
+  states.counted = counted_tilts(scene_, vessel);
+  states.fullest = load_at(axes.fills.back(), 0);
+  return states;
+}
+
+// Over the scene's own states, as a sweep.
+void TrialPredictor::predict_states(const Held& held, GripPrediction& prediction) const {
+  const States& of = states_[held.vessel];
+  const core_f64::GripLoads states{of.loads, of.tilts, of.counted, held.pour, scene_.gravity};
+  std::vector<core_f64::FillEffort> fills(of.counted.size());
   const core_f64::GripEffort found = core_f64::grip_effort(held.contacts, std::nullopt, held.hand, states, fills);
   prediction.scene_worst_effort = found.worst;
   prediction.friction_needed = core_f64::friction_needed(held.contacts, held.hand, states, found);
-  const Load fullest = load_at(axes.fills.back(), 0);
   prediction.push =
-      core_f64::push_held(held.contacts, held.hand, states.weight(fullest, {}), core_f64::load_center(fullest, states.pour));
+      core_f64::push_held(held.contacts, held.hand, states.weight(of.fullest, {}), core_f64::load_center(of.fullest, states.pour));
 }
 
 void TrialPredictor::predict_scores(const Held& held, GripPrediction& prediction) const {

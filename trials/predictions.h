@@ -8,8 +8,8 @@
 #include <memory>
 #include <vector>
 
-#include "core/effort.h"
 #include "core/evaluator.h"
+#include "core/grip_effort.h"
 #include "core/scene.h"
 #include "trials/logistic.h"
 #include "trials/trial.h"
@@ -29,13 +29,13 @@ struct GripPrediction {
   double scene_worst_effort = 0;      // over all states of the scene, as a sweep has it
   double push = 0;                    // N
   double friction_needed = 0;         // over all states of the scene
-  double epsilon = 0;                 // the lower end of its bracket
+  double epsilon = 0;                 // the middle of its bracket
   double score = 0;
   std::array<double, SCORE_TERM_COUNT> terms{};  // fingers, contacts, depth, posture, force, hold
   double score_0_1 = 0;                          // as version 0.1 had it
 };
 
-constexpr std::size_t TRIAL_FACETS = 5'000;  // of the hull for epsilon: a few hundredths of a second a grip
+constexpr std::size_t TRIAL_FACETS = 2'000;  // of the hull for epsilon: 15 ms a grip, and a bracket about 12 % wide
 
 // By the core in double precision, with the mass and the friction of the trials in place of the scene's. Thread-safe.
 class TrialPredictor {
@@ -58,9 +58,19 @@ class TrialPredictor {
   double mass_of(double state) const;
   double hold_0_1(const Held& held, double term) const;
 
+  // A vessel over the scene's states, with the mass of the trials.
+  struct States {
+    std::vector<core_f64::Load> loads;  // fill-major over the tilts
+    std::vector<core_f64::StateTilt> tilts;
+    std::vector<std::size_t> counted;  // tilts at each fill
+    core_f64::Load fullest;            // upright
+  };
+  States states_of(std::size_t vessel) const;
+
   Scene scene_, scene_0_1_;  // the second as version 0.1 scored it
   TrialSettings settings_;
   std::shared_ptr<const Evaluator> core_, core_0_1_;
+  std::vector<States> states_;  // of each vessel
 };
 
 // Kernel 7's two-tip formula and the weights of version 0.1, beside a scene's own.

@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: MIT
+// sanitizers: address thread
+#include "trials/run.h"
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <atomic>
+#include <limits>
+
+#include "system/csv.h"
+#include "tests/support/fake_trials.h"
+#include "tests/support/files.h"
+#include "tests/support/refusal.h"
+#include "trials/journal.h"
+
+namespace wholehand {
+namespace {
+
+struct TrialsRun {
+  ExitCode code = ExitCode::done;
+  std::string error, out, notes;
+};
+
+class TrialsTest : public testing::Test {
+ protected:
+  TemporaryFolder folder;
+  Scene scene = scene_for_trials();
+  TrialOptions options = few_trials(folder / "trials");
+
+  TrialsRun run(const OpenTrialEngine& open = open_fake_engine()) {
+    TrialsRun ran;
+    testing::internal::CaptureStdout();
+    testing::internal::CaptureStderr();
+    try {
+      ran.code = run_trials(scene, options, open);
+    } catch (const Error& error) {
+      ran.code = error.code;
+      ran.error = error.what();
+    }
+    ran.out = testing::internal::GetCapturedStdout();
+    ran.notes = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(ran.error.find('\n'), std::string::npos) << ran.error;
+    return ran;
+  }
+
+  // Interrupted after some grips.
+  TrialsRun run_some(int grips) {
+    std::atomic<int> left = grips;
+    return run(open_fake_engine([&](FakeTrialEngine& engine) {
+      engine.before_run = [&] {
+        if (left-- == 0) raise(SIGINT);
+      };
+    }));
+  }
+
+  std::string csv() const { return file_text(options.folder + "/trials.csv"); }
+  std::string journal() const { return options.folder + "/trials.journal"; }
+};
+
+TEST_F(TrialsTest, ARowATrial) {
+  options.six_forces = true;
+  const TrialsRun ran = run();
+  ASSERT_EQ(ran.code, ExitCode::done) << ran.error;
+  const std::string text = csv();
+  EXPECT_TRUE(text.starts_with(
+      "vessel,grip,fill,tilt_rad,protocol,effort,tips_effort,push_N,score,held,slip_m,turn_rad,discarded,reason,"));
+  const auto rows = parse_csv(text);
+  ASSERT_EQ(rows.size(), 1u + (4 + 16) * (8 + 12));
+  for (const CsvRow& row : rows) EXPECT_EQ(row.cells.size(), rows[0].cells.size()) << row.line;
+  EXPECT_TRUE(has(text, ",best,hand,"));
+  EXPECT_TRUE(has(text, ",stratified,hand,"));
+  EXPECT_TRUE(has(text, ",DexGraspBench,+x,"));
+  EXPECT_FALSE(file_exists(journal()));
+  EXPECT_FALSE(file_exists(options.folder + "/trials.lock"));
+}
+
+TEST_F(TrialsTest, SameBitsWhateverTheThreads) {
+  options.threads = 1;
+  ASSERT_EQ(run().code, ExitCode::done);
+  const std::string one = csv();
+  options.threads = 4;
+  options.folder = folder / "other";
+  ASSERT_EQ(run().code, ExitCode::done);
+  EXPECT_EQ(csv(), one);
+  options.seed = 2;
+  ASSERT_EQ(run().code, ExitCode::done);
+  EXPECT_NE(csv(), one) << "another sample";
+}
+
+TEST_F(TrialsTest, ResumesToTheSameBits) {
+  ASSERT_EQ(run().code, ExitCode::done);
+  const std::string whole = csv();
+  options.folder = folder / "resumed";
+  const TrialsRun cut = run_some(7);
+  EXPECT_EQ(cut.code, ExitCode::interrupted);
+  EXPECT_TRUE(has(cut.notes, "go on with --resume")) << cut.notes;
+  EXPECT_FALSE(file_exists(options.folder + "/trials.csv"));
+  options.resume = true;
+  std::atomic<int> asked = 0;
+  const TrialsRun rest = run(open_fake_engine([&](FakeTrialEngine& engine) { engine.before_run = [&] { ++asked; }; }));
+  EXPECT_EQ(rest.code, ExitCode::done) << rest.error;
+  EXPECT_LE(asked, 20 - 7 + 10) << "done ones are not tried again, but for the disagreements";
+  EXPECT_EQ(csv(), whole);
+}
+
+TEST_F(TrialsTest, ADamagedLineOfTheJournalIsTriedAgain) {
+  ASSERT_EQ(run().code, ExitCode::done);
+  const std::string whole = csv();
+  options.folder = folder / "resumed";
+  ASSERT_EQ(run_some(9).code, ExitCode::interrupted);
+  std::string text = file_text(journal());
+  const std::size_t at = text.find("\"outcomes\"", text.size() / 2);
+  ASSERT_NE(at, std::string::npos);
+  text[at + 14] ^= 1;
+  text.resize(text.size() - 20);  // as a process leaves it that was killed while it wrote
+  write_file(journal(), text);
+  options.resume = true;
+  const TrialsRun rest = run();
+  EXPECT_EQ(rest.code, ExitCode::done) << rest.error;
+  EXPECT_TRUE(has(rest.notes, "lines are not as they were written") || has(rest.notes, "line is not as it was written"))
+      << rest.notes;
+  EXPECT_EQ(csv(), whole);
+}
+
+TEST_F(TrialsTest, AJournalOfOtherTrialsIsRefused) {
+  ASSERT_EQ(run_some(3).code, ExitCode::interrupted);
+  options.resume = true;
+  const auto refused = [&](const std::string& gist, const OpenTrialEngine& open = open_fake_engine()) {
+    const TrialsRun ran = run(open);
+    EXPECT_EQ(ran.code, ExitCode::usage) << gist;
+    EXPECT_TRUE(has(ran.error, "begun with another " + gist)) << ran.error;
+  };
+  options.settings.friction = 0.4;
+  refused("model, mass, friction or material");
+  options.settings = {};
+  options.seed = 5;
+  refused("choice of grips");
+  options.seed = 1;
+  options.tilts = {0, 1};
+  refused("choice of states");
+  options.tilts.clear();
+  refused("engine", open_fake_engine([](FakeTrialEngine& engine) { engine.engine_name = "stand-in 2"; }));
+  scene.text += "\n";
+  refused("scene");
+  write_file(journal(), "wholehand trials journal 1\nrubbish\n");
+  const TrialsRun damaged = run();
+  EXPECT_EQ(damaged.code, ExitCode::failure);
+  EXPECT_TRUE(has(damaged.error, "is damaged")) << damaged.error;
+}
+
+TEST_F(TrialsTest, WithoutResumeItBeginsAgainAndSaysSo) {
+  ASSERT_EQ(run_some(3).code, ExitCode::interrupted);
+  const TrialsRun ran = run();
+  EXPECT_EQ(ran.code, ExitCode::done);
+  EXPECT_TRUE(has(ran.notes, "are begun again")) << ran.notes;
+}
+
+// Its word that a diverged trial was held is not taken.
+TEST_F(TrialsTest, DivergedTrialsAreCountedAndNeverHeld) {
+  const TrialsRun ran = run(open_fake_engine([](FakeTrialEngine& engine) { engine.discarded = 0.5; }));
+  ASSERT_EQ(ran.code, ExitCode::done) << ran.error;
+  const auto rows = parse_csv(csv());
+  std::size_t diverged = 0;
+  for (const CsvRow& row : rows) {
+    if (row.cells[13] != "diverged") continue;
+    ++diverged;
+    EXPECT_EQ(row.cells[9], "0");
+    EXPECT_EQ(row.cells[12], "1");
+    EXPECT_EQ(row.cells.back(), "Nan, Inf or huge value in QACC at DOF 0. The simulation is unstable.");
+  }
+  EXPECT_GT(diverged, 8u);
+}
+
+TEST_F(TrialsTest, NoEngineIsOneLineBeforeAnyFile) {
+  const TrialsRun ran = run([](const Scene&, const Evaluator&, const TrialSettings&) -> std::unique_ptr<TrialEngine> {
+    throw failure_error("libmujoco.so.2.2.2 is not there; install libmujoco2.2.2");
+  });
+  EXPECT_EQ(ran.code, ExitCode::failure);
+  EXPECT_TRUE(has(ran.error, "libmujoco"));
+  EXPECT_FALSE(file_exists(options.folder));
+}
+
+TEST_F(TrialsTest, AnEngineThatFailsLeavesTheJournal) {
+  std::atomic<int> left = 5;
+  const TrialsRun ran = run(open_fake_engine([&](FakeTrialEngine& engine) {
+    engine.before_run = [&] {
+      if (left-- == 0) throw failure_error("out of memory");
+    };
+  }));
+  EXPECT_EQ(ran.code, ExitCode::failure);
+  EXPECT_TRUE(file_exists(journal()));
+  options.resume = true;
+  EXPECT_EQ(run().code, ExitCode::done);
+}
+
+TEST_F(TrialsTest, ScenesThatHaveNoEffortsAreRefused) {
+  scene.strength.reset();
+  EXPECT_TRUE(has(run().error, "trials need [strength]"));
+  scene.strength = StrengthData{};
+  scene.tilts.clear();
+  EXPECT_TRUE(has(run().error, "trials need [tilts]"));
+  EXPECT_FALSE(file_exists(options.folder));
+}
+
+TEST_F(TrialsTest, FilesOfOthersStay) {
+  ASSERT_EQ(mkdir(options.folder.c_str(), 0755), 0);
+  for (const char* name : {"trials.csv", "trials.html", "trials.nc", "trials.journal", "disagreement-3.nc"}) {
+    const std::string path = options.folder + "/" + name;
+    write_file(path, "somebody's");
+    const TrialsRun ran = run();
+    EXPECT_EQ(ran.code, ExitCode::usage) << name;
+    EXPECT_TRUE(has(ran.error, name)) << ran.error;
+    EXPECT_EQ(file_text(path), "somebody's");
+    std::filesystem::remove(path);
+  }
+  EXPECT_EQ(run().code, ExitCode::done);
+  EXPECT_EQ(run().code, ExitCode::done) << "own files are replaced";
+}
+
+TEST_F(TrialsTest, AFolderThatCannotBeIsRefused) {
+  options.folder = folder / "missing" + "/trials";
+  EXPECT_EQ(run().code, ExitCode::usage);
+  write_file(folder / "file", "x");
+  options.folder = folder / "file";
+  EXPECT_EQ(run().code, ExitCode::usage);
+}
+
+// As a full disk: the journal keeps what it took.
+TEST_F(TrialsTest, AFullDiskIsOneLineAndResumable) {
+  ASSERT_EQ(run().code, ExitCode::done);
+  const std::string whole = csv();
+  options.folder = folder / "full";
+  struct rlimit before {};
+  getrlimit(RLIMIT_FSIZE, &before);
+  struct rlimit small = before;
+  small.rlim_cur = 8'000;  // some grips
+  const auto handler = signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+  const TrialsRun ran = run();
+  setrlimit(RLIMIT_FSIZE, &before);
+  signal(SIGXFSZ, handler);
+  EXPECT_EQ(ran.code, ExitCode::failure);
+  EXPECT_TRUE(has(ran.error, "trials.journal: cannot be written")) << ran.error;
+  EXPECT_FALSE(file_exists(options.folder + "/trials.csv"));
+  options.resume = true;
+  EXPECT_EQ(run().code, ExitCode::done);
+  EXPECT_EQ(csv(), whole);
+}
+
+// ---- the journal by itself ----
+
+TEST(TrialJournalFile, KeepsNumbersToTheBit) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "journal";
+  const TrialIdentity identity{{"scene", "a"}};
+  GripFinding finding;
+  finding.prediction.worst_effort = std::numeric_limits<double>::infinity();
+  finding.prediction.tips_worst_effort = std::nan("");
+  finding.prediction.score = 0.1 + 0.2;
+  finding.prediction.epsilon = 5e-324;
+  finding.prediction.cases = {{1.0 / 3, std::numeric_limits<double>::infinity()}};
+  TrialOutcome outcome;
+  outcome.reason = TrialReason::moved;
+  outcome.slip = -0.0;
+  outcome.turn = 1e-300;
+  outcome.detail = "a \"detail\", with\\ signs";
+  finding.outcomes = {outcome};
+  TrialJournal(path, identity).add(1, finding);
+  TrialJournal::Found found;
+  std::size_t damaged = 9;
+  TrialJournal(path, identity, {1, 1}, found, damaged);
+  EXPECT_EQ(damaged, 0u);
+  ASSERT_EQ(found.size(), 1u);
+  const GripFinding& read = found.at(1);
+  const auto expect_same = [](double a, double b) { EXPECT_EQ(std::bit_cast<std::uint64_t>(a), std::bit_cast<std::uint64_t>(b)); };
+  expect_same(read.prediction.worst_effort, finding.prediction.worst_effort);
+  expect_same(read.prediction.tips_worst_effort, finding.prediction.tips_worst_effort);
+  expect_same(read.prediction.score, finding.prediction.score);
+  expect_same(read.prediction.epsilon, finding.prediction.epsilon);
+  expect_same(read.prediction.cases[0].effort, finding.prediction.cases[0].effort);
+  expect_same(read.outcomes[0].slip, outcome.slip);
+  expect_same(read.outcomes[0].turn, outcome.turn);
+  EXPECT_EQ(read.outcomes[0].reason, outcome.reason);
+  EXPECT_EQ(read.outcomes[0].detail, outcome.detail);
+  // of a grip that has another number of cases, and beyond the last grip
+  found.clear();
+  TrialJournal(path, identity, {1, 2}, found, damaged);
+  EXPECT_EQ(damaged, 1u);
+}
+
+}  // namespace
+}  // namespace wholehand

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// What of trials is done: a file that grows by a line with each grip, so that interrupted trials go on where they ended.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "trials/tried.h"
+
+namespace wholehand {
+
+// How a journal begins.
+inline constexpr std::string_view JOURNAL_START = "wholehand trials journal ";
+
+// What must be the same for trials to go on: a name, for the message, and its value.
+using TrialIdentity = std::map<std::string, std::string>;
+// One checksum of it.
+std::string identity_text(const TrialIdentity& identity);
+
+// Each line has a checksum of its own (XXH3, 128 bits), and numbers are kept to the bit.
+class TrialJournal {
+ public:
+  using Found = std::map<std::size_t, GripFinding>;  // by the number of the grip among those to be tried
+
+  // Begins anew. Throws Error (failure) where the file cannot be written.
+  TrialJournal(const std::string& path, const TrialIdentity& identity);
+  // Goes on: `found` gets what is done, and lines that are not as they were written are left out and counted in `damaged`. `counts`: cases of each grip.
+  // Throws Error: (usage) the journal is of other trials, and in what; (failure) it cannot be read, or its head is damaged.
+  TrialJournal(const std::string& path, const TrialIdentity& identity, const std::vector<std::size_t>& counts, Found& found,
+               std::size_t& damaged);
+  ~TrialJournal();
+  TrialJournal(const TrialJournal&) = delete;
+  TrialJournal& operator=(const TrialJournal&) = delete;
+
+  // Adds a grip; details of its outcomes are UTF-8. Thread-safe. Throws Error (failure) where it cannot be written.
+  void add(std::size_t grip, const GripFinding& found);
+
+ private:
+  void open();
+  void write(const std::string& text);
+
+  std::string path_;
+  std::mutex mutex_;
+  int file_ = -1;
+};
+
+}  // namespace wholehand

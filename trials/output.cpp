@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "trials/output.h"
+
+#include <fmt/format.h>
+
+#include "core/error.h"
+#include "system/files.h"
+#include "system/folder_files.h"
+#include "trials/journal.h"
+#include "trials/tried.h"
+
+namespace wholehand {
+namespace {
+
+constexpr const char* OPTION = "-o";
+
+}  // namespace
+
+TrialFiles::TrialFiles(const std::string& folder) : folder_(folder.ends_with('/') ? folder : folder + "/") {
+  csv = folder_ + "trials.csv";
+  nc = folder_ + "trials.nc";
+  page = folder_ + "trials.html";
+  journal = folder_ + "trials.journal";
+  lock = folder_ + "trials.lock";
+}
+
+std::string TrialFiles::recording_name(std::size_t number) { return fmt::format("disagreement-{}.nc", number); }
+
+void prepare_trials_folder(const std::string& folder) {
+  make_output_folder(folder);
+  const TrialFiles files(folder);
+  constexpr FolderTable TABLE{"trials.csv", TRIALS_CSV_START};
+  check_folder_files(folder, "trials", std::span(&TABLE, 1), {});
+  check_overwrites_kind(files.journal, JOURNAL_START, "journal of wholehand trials", OPTION);
+  check_overwrites_marked(files.page, TRIALS_PAGE_MARK, "page of wholehand trials", OPTION);
+  // a NetCDF-4 file has no mark of ours near its begin: beside our table it is ours
+  if (!is_there(folder, TABLE)) check_overwrites_nothing(files.nc, OPTION);
+  check_overwrites_result(files.nc);
+  for (std::size_t k = 1; k <= MOST_DISAGREEMENTS; ++k)
+    check_overwrites_marked(files.recording(k), TRIAL_DEVICE, "recording of wholehand trials", OPTION);
+}
+
+bool has_finished_trials(const std::string& folder, const std::string& identity) {
+  const TrialFiles files(folder);
+  return begins_with(files.csv, TRIALS_CSV_START) && begins_with(files.nc, NETCDF4_START) &&
+         has_mark(files.page, TRIALS_PAGE_MARK + identity);
+}
+
+}  // namespace wholehand

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: MIT
+#include "trials/run.h"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+
+#include "core/parallel.h"
+#include "sweeps/closing.h"
+#include "sweeps/variables.h"
+#include "system/build_id.h"
+#include "system/checksum.h"
+#include "system/files.h"
+#include "system/interrupt.h"
+#include "system/output.h"
+#include "system/output_lock.h"
+#include "system/progress.h"
+#include "system/readable.h"
+#include "system/version.h"
+#include "trials/cases.h"
+#include "trials/journal.h"
+#include "trials/output.h"
+
+namespace wholehand {
+namespace {
+
+std::string numbers_text(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values) text += fmt::format("{} ", value);
+  return text;
+}
+
+std::string checksum_of(const std::string& text) { return checksum_text(text.data(), text.size()); }
+
+std::string settings_text(const TrialSettings& settings) {
+  std::string text = fmt::format("{} ", TRIAL_MODEL_NAMES[static_cast<std::size_t>(settings.model)]);
+  text += numbers_text({settings.squeeze, settings.mass, settings.friction, settings.tilt_rate, settings.hold_time,
+                        settings.push_time, settings.push_acceleration, settings.largest_move, settings.largest_turn, settings.slip,
+                        settings.start_overlap, settings.buried});
+  for (const TrialMaterial& material : settings.materials)
+    text += material.name + " " + numbers_text({material.mass, material.friction, material.torsion});
+  return text;
+}
+
+// Of a grip the whole of it, not its number alone: a mesh or a scene of another version may give it another meaning.
+std::string grips_text(const std::vector<TrialGrip>& grips) {
+  std::string text;
+  for (const TrialGrip& grip : grips)
+    text += fmt::format("{} {} {} ", grip.vessel, grip.number, static_cast<int>(grip.sample)) +
+            numbers_text({grip.score, grip.grip.height, grip.grip.azimuth, grip.grip.obliquity, grip.grip.roll, grip.grip.offset,
+                          grip.grip.hand_scale});
+  return text;
+}
+
+std::string cases_text(const std::vector<std::vector<TrialCase>>& cases) {
+  std::string text;
+  for (std::size_t v = 0; v < cases.size(); ++v)
+    for (const TrialCase& one : cases[v])
+      text += fmt::format("{} {} {} {} ", v, static_cast<int>(one.protocol), one.direction, one.material) +
+              numbers_text({one.fill, one.tilt});
+  return text;
+}
+
+TrialIdentity identity_of(const Scene& scene, const TrialOptions& options, const TriedGrips& tried, const TrialEngine& engine) {
+  return {{"scene", checksum_of(scene.text)},
+          {"choice of grips", checksum_of(grips_text(tried.grips))},
+          {"choice of states", checksum_of(cases_text(tried.cases))},
+          {"model, mass, friction or material", checksum_of(settings_text(options.settings))},
+          {"seed", fmt::format("{}", options.seed)},
+          {"engine", engine.name()},
+          {"build of the program", fmt::format("{} {}", version(), build_id())}};
+}
+
+void check_trial_scene(const Scene& scene) {
+  const char* name = scene.file.empty() ? "the scene" : scene.file.c_str();
+  if (!scene.strength)
+    throw usage_error(
+        fmt::format("{}: trials need [strength], which limits how firmly the hand can hold; add it to the scene", name));
+  if (scene.tilts.empty()) throw usage_error(fmt::format("{}: trials need [tilts], as efforts do; add it to the scene", name));
+}
+
+// What comes from outside of the program, in one line of plain characters: a table and a page will show it.
+std::string plain_detail(std::string detail) {
+  for (char& c : detail)
+    if (c < ' ' || c > '~') c = ' ';
+  return detail;
+}
+
+class Trials {
+ public:
+  Trials(const Scene& scene, const TrialOptions& options, const OpenTrialEngine& open, SweepResult* result)
+      : scene_(scene), options_(options), result_(result), predictor_(checked(scene), options.settings) {
+    find_cases();
+    engine_ = open(predictor_.scene(), *predictor_.core(), options.settings);
+    prepare_trials_folder(options.folder);
+  }
+
+  ExitCode run() {
+    const TrialFiles files(options_.folder);
+    const OutputLock lock(files.lock);
+    InterruptGuard interrupt;
+    choose_grips(interrupt);
+    if (interrupt.flag()) return interrupted(0, false);
+    const TrialIdentity identity = identity_of(scene_, options_, tried_, *engine_);
+    if (options_.resume && !begins_with(files.journal, JOURNAL_START) &&
+        has_finished_trials(options_.folder, identity_text(identity))) {
+      print(fmt::format("{}: these trials are complete; there is nothing to resume\n", options_.folder));
+      return ExitCode::done;
+    }
+    TrialJournal::Found found;
+    const auto journal = open_journal(files, identity, found);
+    say_trials_opening();
+    const std::size_t done = try_all(*journal, found, interrupt);
+    if (done < tried_.grips.size()) return interrupted(done, true);
+    tried_.found.clear();
+    for (std::size_t g = 0; g < tried_.grips.size(); ++g) tried_.found.push_back(std::move(found.at(g)));
+    write_files(files, identity);
+    std::remove(files.journal.c_str());
+    return ExitCode::done;
+  }
+
+ private:
+  static const Scene& checked(const Scene& scene) {
+    check_trial_scene(scene);
+    return scene;
+  }
+
+  void find_cases() {
+    tried_.cases.resize(scene_.vessels.size());
+    for (std::size_t v = 0; v < scene_.vessels.size(); ++v)
+      if (!options_.vessel || *options_.vessel == v) tried_.cases[v] = trial_cases(scene_, *predictor_.core(), v, options_);
+  }
+
+  // By the scene's own friction, so that the same grips are tried with any.
+  void choose_grips(InterruptGuard& interrupt) {
+    const Plan plan(scene_, result_ && keeps_vectors(result_->variables()));
+    if (result_) result_->use(scene_, plan);
+    const bool is_own = std::isnan(options_.settings.friction);
+    const std::shared_ptr<const Evaluator> core = is_own ? predictor_.core() : make_core_evaluator(scene_);
+    tried_.grips = choose_trial_grips({scene_, plan, core, result_}, options_, interrupt.flag());
+  }
+
+  std::unique_ptr<TrialJournal> open_journal(const TrialFiles& files, const TrialIdentity& identity, TrialJournal::Found& found) {
+    const bool is_there = begins_with(files.journal, JOURNAL_START);
+    if (!options_.resume || !is_there) {
+      if (is_there) say_note(files.journal + ": the interrupted trials are begun again; --resume would go on with them");
+      return std::make_unique<TrialJournal>(files.journal, identity);
+    }
+    std::vector<std::size_t> counts;
+    for (std::size_t g = 0; g < tried_.grips.size(); ++g) counts.push_back(tried_.cases_of(g).size());
+    std::size_t damaged = 0;
+    auto journal = std::make_unique<TrialJournal>(files.journal, identity, counts, found, damaged);
+    if (damaged > 0)
+      say_note(fmt::format("{}: {} line{} not as {} written; the grip{} tried again", files.journal, damaged,
+                           damaged == 1 ? " is" : "s are", damaged == 1 ? "it was" : "they were", damaged == 1 ? " is" : "s are"));
+    say_note(fmt::format("goes on after {} of {} grips", found.size(), tried_.grips.size()));
+    return journal;
+  }
+
+  void say_trials_opening() const {
+    std::size_t trials = 0;
+    for (std::size_t g = 0; g < tried_.grips.size(); ++g) trials += tried_.cases_of(g).size();
+    print(fmt::format("{}: {} grips, {} trials in {}, {} threads{}\n", scene_.name.empty() ? "trials" : scene_.name,
+                      readable_number(tried_.grips.size()), readable_number(trials), engine_->name(),
+                      thread_count(options_.threads), options_.quick ? "; --quick: fewer grips and states" : ""));
+  }
+
+  // The grips that are not in `found`. Returns how many are there in the end.
+  std::size_t try_all(TrialJournal& journal, TrialJournal::Found& found, InterruptGuard& interrupt) {
+    std::vector<std::size_t> open;
+    for (std::size_t g = 0; g < tried_.grips.size(); ++g)
+      if (!found.contains(g)) open.push_back(g);
+    const std::size_t before = found.size();
+    std::vector<GripFinding> findings(open.size());
+    std::vector<std::atomic<bool>> is_done(open.size());
+    std::atomic<std::size_t> done = before;
+    Progress progress(tried_.grips.size(), before);
+    in_parallel(
+        open.size(), options_.threads,
+        [&](std::size_t k) {
+          if (interrupt.flag()) return;
+          findings[k] = try_grip(open[k]);
+          journal.add(open[k], findings[k]);
+          is_done[k] = true;
+          ++done;
+        },
+        [&](std::size_t) { progress.update("trials", done); });
+    progress.clear();
+    for (std::size_t k = 0; k < open.size(); ++k)
+      if (is_done[k]) found.emplace(open[k], std::move(findings[k]));
+    return found.size();
+  }
+
+  GripFinding try_grip(std::size_t g) const {
+    const TrialGrip& grip = tried_.grips[g];
+    const std::vector<TrialCase>& cases = tried_.cases_of(g);
+    GripFinding finding;
+    finding.prediction = predictor_.predict(grip.vessel, grip.grip, cases);
+    finding.outcomes = engine_->run(grip.vessel, grip.grip, cases);
+    if (finding.outcomes.size() != cases.size())
+      throw failure_error("the engine answered another number of trials than it was asked");
+    for (TrialOutcome& outcome : finding.outcomes) {
+      outcome.detail = plain_detail(outcome.detail);
+      outcome.held = outcome.held && !outcome.discarded;
+    }
+    return finding;
+  }
+
+  ExitCode interrupted(std::size_t done, bool has_journal) const {
+    say_note(has_journal ? fmt::format("interrupted after {} of {} grips; go on with --resume", done, tried_.grips.size())
+                         : std::string("interrupted before the first grip"));
+    return ExitCode::interrupted;
+  }
+
+  void write_files(const TrialFiles& files, const TrialIdentity& identity) {
+    write_whole_file(files.csv, trials_csv(scene_, options_.settings, tried_), false, "make room, then go on with --resume");
+    print(fmt::format("wrote {}\n", files.csv));
+    (void)identity;
+  }
+
+  const Scene& scene_;
+  const TrialOptions& options_;
+  SweepResult* result_;
+  TrialPredictor predictor_;
+  std::unique_ptr<TrialEngine> engine_;
+  TriedGrips tried_;
+};
+
+}  // namespace
+
+ExitCode run_trials(const Scene& scene, const TrialOptions& options, const OpenTrialEngine& open, SweepResult* result) {
+  return Trials(scene, options, open, result).run();
+}
+
+}  // namespace wholehand

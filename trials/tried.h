@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Grips that have been tried: what was said of them, and what the engine did with them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "trials/predictions.h"
+#include "trials/sample.h"
+#include "trials/trial.h"
+
+namespace wholehand {
+
+// What was found of one grip: outcomes in the order of its vessel's cases.
+struct GripFinding {
+  GripPrediction prediction;
+  std::vector<TrialOutcome> outcomes;
+};
+
+struct TriedGrips {
+  std::vector<std::vector<TrialCase>> cases;  // of each vessel of the scene; empty where it is not tried
+  std::vector<TrialGrip> grips;
+  std::vector<GripFinding> found;  // of each grip
+  const std::vector<TrialCase>& cases_of(std::size_t grip) const { return cases[grips[grip].vessel]; }
+};
+
+// A trial that tells of its own state: it was not discarded, and its state was reached. One that was lost at a smaller tilt was not.
+inline bool is_telling(const TrialOutcome& outcome) { return !outcome.discarded && outcome.reason != TrialReason::earlier; }
+
+constexpr std::array<const char*, 2> TRIAL_PROTOCOL_NAMES{"fill-tilt", "six-forces"};
+constexpr std::array<const char*, 2> TRIAL_MODEL_NAMES{"hand", "contacts"};
+
+// How trials.csv begins.
+inline constexpr std::string_view TRIALS_CSV_START = "vessel,grip,fill,tilt_rad,protocol,effort,";
+
+// The table: a row a trial, SI units. Numbers read back as they were; "inf" where there is no limit, nothing where there is no number.
+std::string trials_csv(const Scene& scene, const TrialSettings& settings, const TriedGrips& tried);
+
+}  // namespace wholehand
