@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+// sanitizers: address
+#include "trials/analysis.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/support/fake_trials.h"
+#include "trials/output.h"
+
+namespace wholehand {
+namespace {
+
+const TrialGroup SAMPLE{};
+
+// One vessel at tilts 0 and 1; grips with efforts there, and whether they held.
+struct Made {
+  Scene scene = scene_for_trials();
+  TriedGrips tried;
+  TrialOptions options;
+
+  Made() {
+    tried.cases.resize(scene.vessels.size());
+    for (const double tilt : {0.0, 1.0}) {
+      TrialCase one;
+      one.fill = 1;
+      one.tilt = tilt;
+      tried.cases[0].push_back(one);
+    }
+  }
+
+  void add(std::array<double, 2> efforts, std::array<bool, 2> held, TrialSample sample = TrialSample::stratified) {
+    TrialGrip grip;
+    grip.number = tried.grips.size();
+    grip.sample = sample;
+    tried.grips.push_back(grip);
+    GripFinding found;
+    for (std::size_t k = 0; k < 2; ++k) {
+      found.prediction.cases.push_back({efforts[k], 2 * efforts[k]});
+      TrialOutcome outcome;
+      outcome.held = held[k];
+      if (!held[k]) outcome.reason = k == 1 && !held[0] ? TrialReason::earlier : TrialReason::turned;
+      found.outcomes.push_back(outcome);
+    }
+    found.prediction.push = 1 / efforts[1];
+    found.prediction.score = 1 / (1 + efforts[1]);
+    tried.found.push_back(found);
+  }
+
+  void discard_last(std::size_t k, TrialReason reason) {
+    TrialOutcome& outcome = tried.found.back().outcomes[k];
+    outcome.discarded = true;
+    outcome.held = false;
+    outcome.reason = reason;
+  }
+};
+
+const PredictorRow& row_of(const TrialAnalysis& analysis, const TrialGroup& group, std::size_t predictor) {
+  return *std::find_if(analysis.predictors.begin(), analysis.predictors.end(),
+                       [&](const PredictorRow& row) { return row.group == group && row.predictor == predictor; });
+}
+
+TEST(TrialAnalysis, CountsByHand) {
+  Made made;
+  made.add({0.1, 0.2}, {true, true});
+  made.add({0.1, 0.8}, {true, false});
+  made.add({0.9, 2}, {false, false});  // the second was not reached
+  made.add({0.3, 0.4}, {true, true});
+  made.discard_last(1, TrialReason::diverged);
+  const TrialAnalysis found = analyse_trials(made.scene, made.tried, made.options);
+  ASSERT_EQ(found.successes.size(), 2u);
+  EXPECT_EQ(found.successes[0].trials.held.yes, 3u);
+  EXPECT_EQ(found.successes[0].trials.held.of, 4u);
+  EXPECT_EQ(found.successes[1].trials.held.yes, 1u) << "lost at a smaller tilt is not held";
+  EXPECT_EQ(found.successes[1].trials.held.of, 3u);
+  EXPECT_EQ(found.successes[1].trials.discarded, 1u);
+  EXPECT_EQ(found.successes[1].trials.diverged, 1u);
+  ASSERT_EQ(found.grips.size(), 1u);
+  EXPECT_EQ(found.grips[0].held.yes, 1u);
+  EXPECT_EQ(found.grips[0].held.of, 3u);
+  EXPECT_EQ(found.grips[0].discarded, 1u);
+  const Confusion& confusion = found.efforts[0].confusion;
+  EXPECT_EQ(confusion.all(), 6u) << "neither the discarded nor the one that was not reached";
+  EXPECT_EQ(confusion.held_as_said, 4u);
+  EXPECT_EQ(confusion.lost_though_said, 2u);
+  EXPECT_EQ(found.efforts[0].earlier, 1u);
+  EXPECT_EQ(found.efforts[0].discarded, 1u);
+}
+
+TEST(TrialAnalysis, PredictorsOfGripsAndOfTrials) {
+  Made made;
+  made.add({0.1, 0.2}, {true, true});
+  made.add({0.5, 0.1}, {true, true});
+  made.add({0.1, 0.8}, {true, false});
+  made.add({0.3, 3}, {true, false});
+  const TrialAnalysis found = analyse_trials(made.scene, made.tried, made.options);
+  EXPECT_DOUBLE_EQ(row_of(found, SAMPLE, BY_WORST_EFFORT).auc.auc, 1);
+  EXPECT_EQ(row_of(found, SAMPLE, BY_WORST_EFFORT).auc.successes, 2u);
+  EXPECT_DOUBLE_EQ(row_of(found, SAMPLE, BY_PUSH).auc.auc, 1);
+  EXPECT_DOUBLE_EQ(row_of(found, SAMPLE, BY_EPSILON).auc.auc, 0.5) << "all are alike";
+  const Auc& by_trial = row_of(found, SAMPLE, BY_STATE_EFFORT).auc;
+  EXPECT_EQ(by_trial.successes, 6u);
+  EXPECT_EQ(by_trial.failures, 2u);
+  EXPECT_DOUBLE_EQ(by_trial.auc, 1);
+}
+
+// The bar of the best counts grips, and only trials that effort is sure of.
+TEST(TrialAnalysis, BarsOfTheBestGrips) {
+  Made made;
+  for (int k = 0; k < 18; ++k) made.add({0.1, 0.2}, {true, true}, TrialSample::best);
+  made.add({0.1, 0.9}, {true, false}, TrialSample::best);  // effort was not sure
+  made.add({0.1, 0.4}, {true, false}, TrialSample::best);
+  const TrialAnalysis found = analyse_trials(made.scene, made.tried, made.options);
+  const TrialBar& bar = found.bars.back();
+  EXPECT_DOUBLE_EQ(bar.found, 0.95);
+  EXPECT_TRUE(bar.is_met());
+  EXPECT_FALSE(found.bars[0].is_met()) << "no stratified sample";
+  EXPECT_TRUE(std::isnan(found.bars[0].found));
+  made.add({0.1, 0.4}, {true, false}, TrialSample::best);
+  EXPECT_FALSE(analyse_trials(made.scene, made.tried, made.options).bars.back().is_met());
+}
+
+TEST(TrialAnalysis, DisagreementsAreTheWorstOfEachKind) {
+  Made made;
+  for (int k = 0; k < 12; ++k) made.add({0.5, 0.9 - 0.05 * k}, {true, false});  // lost though said
+  made.add({0.1, INFINITY}, {true, true});
+  made.add({3, 5}, {true, true});
+  made.add({0.1, 0.2}, {true, true});
+  const auto found = analyse_trials(made.scene, made.tried, made.options).disagreements;
+  ASSERT_EQ(found.size(), MOST_DISAGREEMENTS);
+  EXPECT_EQ(found[0].grip, 12u) << "infinite";
+  const auto held = std::count_if(found.begin(), found.end(), [](const Disagreement& one) { return one.effort > 1; });
+  EXPECT_EQ(held, 2) << "each grip once, with its worst trial";
+  for (std::size_t k = 1; k < found.size(); ++k)
+    EXPECT_GE(std::abs(std::log(found[k - 1].effort)), std::abs(std::log(found[k].effort)));
+  for (const Disagreement& one : found)
+    if (one.grip == 13) {
+      EXPECT_EQ(one.effort, 5);
+    }
+}
+
+TEST(TrialAnalysis, WithoutBothOutcomesThereIsNoAuc) {
+  Made made;
+  made.add({0.1, 0.2}, {true, true});
+  made.add({0.2, 0.2}, {true, true});
+  const TrialAnalysis found = analyse_trials(made.scene, made.tried, made.options);
+  EXPECT_TRUE(std::isnan(row_of(found, SAMPLE, BY_WORST_EFFORT).auc.auc));
+  EXPECT_FALSE(found.weights->fit.is_fitted);
+  EXPECT_TRUE(found.disagreements.empty());
+}
+
+TEST(TrialAnalysis, WordsOfAnOutcome) {
+  TrialCase one;
+  TrialOutcome outcome;
+  outcome.held = true;
+  outcome.move = 2e-3;
+  EXPECT_EQ(outcome_text(one, outcome),
+            "The vessel was held: at most it moved by 2.0 mm and turned by 0.0° in the hand, and a contact slid by 0.0 mm.");
+  outcome.held = false;
+  outcome.reason = TrialReason::turned;
+  outcome.when = 1.25;
+  outcome.tilt_lost = radians(40);
+  EXPECT_TRUE(outcome_text(one, outcome)
+                  .starts_with("The vessel was lost 1.25 s after the release, at a tilt of 40°, as it turned too far"));
+}
+
+}  // namespace
+}  // namespace wholehand

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+// What all trials together say: how many grips hold, what predicted it, and where prediction and engine disagree.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trials/logistic.h"
+#include "trials/options.h"
+#include "trials/statistics.h"
+#include "trials/tried.h"
+
+namespace wholehand {
+
+// Trials that are told of together: a sample under a protocol, and with which material where it is six_forces.
+struct TrialGroup {
+  TrialSample sample = TrialSample::stratified;
+  TrialProtocol protocol = TrialProtocol::fill_tilt;
+  int material = 0;
+  bool operator==(const TrialGroup&) const = default;
+};
+bool is_of(const TrialGroup& group, const TrialGrip& grip, const TrialCase& one);
+
+// Trials of one kind. `share` is of those that were not discarded.
+struct TrialCount {
+  Share held;
+  std::size_t discarded = 0, diverged = 0;  // the second are among the first
+};
+
+// One vessel, of one fill and tilt where there is one.
+struct SuccessRow {
+  TrialGroup group;
+  std::size_t vessel = 0;
+  double fill = 0, tilt = 0;  // of fill_tilt
+  TrialCount trials;          // one lost at a smaller tilt is not held
+};
+
+// Whole grips of a vessel: success is to hold in every trial of the group. A grip with a discarded trial is not among them.
+struct WholeGrips {
+  TrialGroup group;
+  std::size_t vessel = 0;
+  Share held;
+  std::size_t discarded = 0;
+};
+
+// ---- what predicts success ----
+
+enum TrialPredictorName : std::size_t {
+  BY_WORST_EFFORT,        // of the states that are tried
+  BY_SCENE_WORST_EFFORT,  // of all states of the scene
+  BY_TIPS_EFFORT,         // of the states that are tried, of the two tips
+  BY_PUSH,
+  BY_FRICTION_NEEDED,
+  BY_EPSILON,
+  BY_SCORE,
+  BY_SCORE_0_1,
+  BY_STATE_EFFORT,  // the last two are judged trial by trial
+  BY_STATE_TIPS,
+  TRIAL_PREDICTORS
+};
+extern const std::array<const char*, TRIAL_PREDICTORS> TRIAL_PREDICTOR_NAMES;
+constexpr bool is_by_trial(std::size_t predictor) { return predictor >= BY_STATE_EFFORT; }
+
+// What a predictor says of the grips of a group, or of its trials: larger is better. By grip, success is to hold in every trial, and
+// grips with a discarded trial are left out. By trial, only those that tell of their own state (is_telling) are there.
+std::vector<Prediction> predictions_of(const TriedGrips& tried, const TrialGroup& group, std::size_t predictor);
+
+struct PredictorRow {
+  TrialGroup group;
+  std::size_t predictor = 0;
+  Auc auc;
+};
+
+// Where trials and effort say the opposite: held though effort > 1, or lost though effort <= 1.
+struct Disagreement {
+  std::size_t grip = 0, place = 0;  // among those tried, and of the case
+  double effort = 0;
+};
+
+struct GroupEfforts {
+  TrialGroup group;
+  std::vector<CalibrationBin> bins;
+  Confusion confusion;
+  std::size_t earlier = 0, discarded = 0;  // trials that are not in them
+};
+
+// A bar of the task: met, missed, or not measured for want of grips.
+struct TrialBar {
+  std::string what;
+  double wanted = 0, found = 0;  // NaN: not measured
+  Interval interval;
+  std::string how;  // of what
+  bool is_met() const { return found >= wanted; }
+};
+
+struct TrialAnalysis {
+  std::vector<TrialGroup> groups;  // that have grips, in the order of the tables
+  std::vector<SuccessRow> successes;
+  std::vector<WholeGrips> grips;
+  std::vector<PredictorRow> predictors;
+  std::vector<GroupEfforts> efforts;
+  std::optional<WeightTrial> weights;  // by the stratified sample at fill_tilt
+  std::vector<TrialBar> bars;
+  std::vector<Disagreement> disagreements;  // the worst first, at most MOST_DISAGREEMENTS
+};
+
+TrialAnalysis analyse_trials(const Scene& scene, const TriedGrips& tried, const TrialOptions& options);
+
+// ---- words ----
+
+std::string group_text(const TrialGroup& group, const TrialSettings& settings);  // "stratified sample, six forces as DexGraspBench"
+// What the engine did in one trial, a sentence.
+std::string outcome_text(const TrialCase& one, const TrialOutcome& outcome);
+// "0.91 (0.88 to 0.94)".
+std::string interval_text(double value, const Interval& interval, int digits);
+
+}  // namespace wholehand
