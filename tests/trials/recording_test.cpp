@@ -79,7 +79,7 @@ TEST(TrialRecording, ArraysAndOtherTablesStay) {
       "[[vessel]]\nname = \"a\"\noutline = [\n{ line = [0.5e2, 0] },\n{ line = [50, 90] },\n{ line = [0, 90] },\n]\nguidance_mm = "
       "[\n[10, 20],\n]\n"
       "wall_mm = 2\n[[vessel]]\nname = \"b\"\nshape = \"cylinder\"\ndiameter_mm = 80\nheight_mm = 110\nwall_mm = 2\n"
-      "[vessel.liquid]\nname = \"oil\"\nfill = 0.5\n[tilts]\ndeg = [0, 10]\n";
+      "[vessel.liquid]\nname = \"oil\"\nfill = 0.5\n[liquid]\nfills = [0, 1]\n[tilts]\ndeg = [0, 10]\n";
   scene.vessels = parse_scene(scene.text, "two.toml").vessels;
   const Scene a = parse_scene(text_of_one_vessel(scene, 0), ""), b = parse_scene(text_of_one_vessel(scene, 1), "");
   ASSERT_EQ(a.vessels.size(), 1u);

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT
+#include "trials/dataset.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <limits>
+
+#include "sweeps/result_definition.h"
+#include "system/files.h"
+#include "system/version.h"
+#include "trials/cases.h"
+
+namespace wholehand {
+namespace {
+
+constexpr double ABSENT = std::numeric_limits<double>::quiet_NaN();
+
+// One trial with its grip.
+struct TrialView {
+  const TrialGrip& grip;
+  const GripFinding& found;
+  const TrialCase& one;
+  const CasePrediction& said;
+  const TrialOutcome& outcome;
+  std::size_t place;  // of the grip
+  bool is_push() const { return one.protocol == TrialProtocol::six_forces; }
+};
+
+class Dataset {
+ public:
+  Dataset(const std::string& path, const TriedGrips& tried) : file_(path), tried_(tried) {}
+
+  void write(const Scene& scene, const TrialOptions& options, const TrialOrigin& origin) {
+    std::size_t trials = 0;
+    for (std::size_t g = 0; g < tried_.grips.size(); ++g) trials += tried_.cases_of(g).size();
+    std::vector<std::string> names;
+    for (const VesselData& vessel : scene.vessels) names.push_back(vessel.name);
+    file_.dimension("vessel", names.size());
+    file_.dimension("grip", tried_.grips.size());
+    file_.dimension("trial", trials);
+    file_.dimension("term", SCORE_TERM_COUNT);
+    write_attributes(scene, options, origin);
+    file_.labels("vessel", "vessel", names);
+    file_.labels("term", "term of the score", {"fingers", "contacts", "depth", "posture", "force", "hold"});
+    write_grips();
+    write_predictions();
+    write_cases();
+    write_outcomes();
+    file_.finish({});
+  }
+
+ private:
+  using OfGrip = std::function<double(const TrialGrip&, const GripPrediction&)>;
+  using OfTrial = std::function<double(const TrialView&)>;
+
+  void write_attributes(const Scene& scene, const TrialOptions& options, const TrialOrigin& origin) {
+    const TrialSettings& settings = options.settings;
+    file_.text(NC_GLOBAL, "Conventions", "CF-1.8");
+    file_.text(NC_GLOBAL, "title", "trials of grips of " + (scene.name.empty() ? std::string("a scene") : scene.name));
+    file_.text(NC_GLOBAL, "program", "wholehand");
+    file_.text(NC_GLOBAL, "version", version());
+    file_.text(NC_GLOBAL, "engine", origin.engine);
+    file_.text(NC_GLOBAL, "identity", origin.identity);
+    file_.text(NC_GLOBAL, "scene", scene.text);
+    file_.text(NC_GLOBAL, "seed", fmt::format("{}", options.seed));
+    file_.text(NC_GLOBAL, "model", TRIAL_MODEL_NAMES[static_cast<std::size_t>(settings.model)]);
+    const auto number = [this](const char* name, double value) { file_.number(NC_GLOBAL, name, value); };
+    number("squeeze", settings.squeeze);
+    if (!std::isnan(settings.mass)) number("mass_kg", settings.mass);
+    if (!std::isnan(settings.friction)) number("friction", settings.friction);
+    number("tilt_rate_rad_s", settings.tilt_rate);
+    number("hold_time_s", settings.hold_time);
+    number("push_time_s", settings.push_time);
+    number("push_acceleration_m_s2", settings.push_acceleration);
+    number("largest_move_m", settings.largest_move);
+    number("largest_turn_rad", settings.largest_turn);
+  }
+
+  void of_grips(const char* name, const char* units, const char* long_name, const OfGrip& value) {
+    std::vector<double> values;
+    for (std::size_t g = 0; g < tried_.grips.size(); ++g) values.push_back(value(tried_.grips[g], tried_.found[g].prediction));
+    file_.doubles(name, {"grip"}, units, long_name, values);
+  }
+
+  void integers_of_grips(const char* name, const char* long_name, const std::function<int(const TrialGrip&)>& value) {
+    std::vector<int> values;
+    for (const TrialGrip& grip : tried_.grips) values.push_back(value(grip));
+    file_.integers(name, {"grip"}, "", long_name, values);
+  }
+
+  std::vector<double> of_each_trial(const OfTrial& value) const {
+    std::vector<double> values;
+    for (std::size_t g = 0; g < tried_.grips.size(); ++g)
+      for (std::size_t k = 0; k < tried_.cases_of(g).size(); ++k) {
+        const GripFinding& found = tried_.found[g];
+        values.push_back(value({tried_.grips[g], found, tried_.cases_of(g)[k], found.prediction.cases[k], found.outcomes[k], g}));
+      }
+    return values;
+  }
+
+  void of_trials(const char* name, const char* units, const char* long_name, const OfTrial& value) {
+    file_.doubles(name, {"trial"}, units, long_name, of_each_trial(value));
+  }
+
+  void integers_of_trials(const char* name, const char* long_name, const OfTrial& value) {
+    const std::vector<double> values = of_each_trial(value);
+    file_.integers(name, {"trial"}, "", long_name, {values.begin(), values.end()});
+  }
+
+  void write_grips() {
+    using Grip = TrialGrip;
+    using Said = GripPrediction;
+    integers_of_grips("grip_vessel", "place of the vessel", [](const Grip& grip) { return static_cast<int>(grip.vessel); });
+    integers_of_grips("grip_sample", "0: best, 1: stratified", [](const Grip& grip) { return static_cast<int>(grip.sample); });
+    of_grips("grip_number", "1", "number of the grip in its vessel's plan",
+             [](const Grip& grip, const Said&) { return static_cast<double>(grip.number); });
+    of_grips("height", "m", "height of the thumb-index line", [](const Grip& grip, const Said&) { return grip.grip.height; });
+    of_grips("azimuth", "rad", "azimuth of that line", [](const Grip& grip, const Said&) { return grip.grip.azimuth; });
+    of_grips("obliquity", "rad", "angle of that line to the horizontal",
+             [](const Grip& grip, const Said&) { return grip.grip.obliquity; });
+    of_grips("roll", "rad", "turn of the hand about that line", [](const Grip& grip, const Said&) { return grip.grip.roll; });
+    of_grips("offset", "m", "distance of that line from the axis", [](const Grip& grip, const Said&) { return grip.grip.offset; });
+    of_grips("hand_scale", "1", "size of the hand", [](const Grip& grip, const Said&) { return grip.grip.hand_scale; });
+  }
+
+  void write_predictions() {
+    using Grip = TrialGrip;
+    using Said = GripPrediction;
+    of_grips("worst_effort", "1", "largest effort of the states that were tried",
+             [](const Grip&, const Said& said) { return said.worst_effort; });
+    of_grips("tips_worst_effort", "1", "the same of thumb and index tip alone",
+             [](const Grip&, const Said& said) { return said.tips_worst_effort; });
+    of_grips("scene_worst_effort", "1", "largest effort of all states of the scene",
+             [](const Grip&, const Said& said) { return said.scene_worst_effort; });
+    of_grips("push", "N", "push that is held upright and full", [](const Grip&, const Said& said) { return said.push; });
+    of_grips("friction_needed", "1", "least friction that holds all states of the scene",
+             [](const Grip&, const Said& said) { return said.friction_needed; });
+    of_grips("epsilon", "1", "Ferrari and Canny's epsilon, middle of its bracket",
+             [](const Grip&, const Said& said) { return said.epsilon; });
+    of_grips("score", "1", "score", [](const Grip&, const Said& said) { return said.score; });
+    of_grips("score_0_1", "1", "score of version 0.1", [](const Grip&, const Said& said) { return said.score_0_1; });
+    std::vector<double> terms;
+    for (const GripFinding& found : tried_.found)
+      terms.insert(terms.end(), found.prediction.terms.begin(), found.prediction.terms.end());
+    file_.doubles("score_terms", {"grip", "term"}, "1", "terms of the score", terms);
+  }
+
+  void write_cases() {
+    integers_of_trials("trial_grip", "place of the grip", [](const TrialView& at) { return static_cast<double>(at.place); });
+    integers_of_trials("protocol", "0: fill-tilt, 1: six-forces",
+                       [](const TrialView& at) { return static_cast<double>(static_cast<int>(at.one.protocol)); });
+    of_trials("fill", "1", "fill, as a fraction of the capacity", [](const TrialView& at) { return at.one.fill; });
+    of_trials("tilt", "rad", "tilt; of fill-tilt", [](const TrialView& at) { return at.is_push() ? ABSENT : at.one.tilt; });
+    integers_of_trials("direction", "of the push: 0 to 5 are +x, -x, +y, -y, +z, -z of the vessel; -1: none",
+                       [](const TrialView& at) { return at.is_push() ? at.one.direction : -1.0; });
+    integers_of_trials("material", "of the push: 0: the scene's mass and friction, 1: DexGraspBench's; -1: none",
+                       [](const TrialView& at) { return at.is_push() ? at.one.material : -1.0; });
+    of_trials("effort", "1", "effort of the whole hand", [](const TrialView& at) { return at.said.effort; });
+    of_trials("tips_effort", "1", "effort of thumb and index tip alone", [](const TrialView& at) { return at.said.tips; });
+  }
+
+  void write_outcomes() {
+    const auto when_run = [](const TrialView& at, double value) { return at.outcome.discarded ? ABSENT : value; };
+    const auto when_lost = [](const TrialView& at, double value) {
+      return at.outcome.discarded || at.outcome.held ? ABSENT : value;
+    };
+    integers_of_trials("held", "1: held, 0: not", [](const TrialView& at) { return at.outcome.held ? 1.0 : 0.0; });
+    integers_of_trials("discarded", "1: discarded, 0: not", [](const TrialView& at) { return at.outcome.discarded ? 1.0 : 0.0; });
+    integers_of_trials("reason", "0: held, 1: overlap, 2: buried, 3: diverged, 4: release, 5: turned, 6: moved, 7: earlier",
+                       [](const TrialView& at) { return static_cast<double>(static_cast<int>(at.outcome.reason)); });
+    of_trials("slip", "m", "largest way of a contact on the vessel",
+              [=](const TrialView& at) { return when_run(at, at.outcome.slip); });
+    of_trials("move", "m", "largest way of the vessel in the hand",
+              [=](const TrialView& at) { return when_run(at, at.outcome.move); });
+    of_trials("turn", "rad", "largest turn of the vessel in the hand",
+              [=](const TrialView& at) { return when_run(at, at.outcome.turn); });
+    of_trials("lost_after", "s", "time from the release to the loss",
+              [=](const TrialView& at) { return when_lost(at, at.outcome.when); });
+    of_trials("tilt_lost", "rad", "tilt at the loss; of fill-tilt",
+              [=](const TrialView& at) { return at.is_push() ? ABSENT : when_lost(at, at.outcome.tilt_lost); });
+  }
+
+  ResultDefinition file_;
+  const TriedGrips& tried_;
+};
+
+}  // namespace
+
+void write_trials_dataset(const std::string& path, const Scene& scene, const TrialOptions& options, const TriedGrips& tried,
+                          const TrialOrigin& origin) {
+  const std::string partial = temporary_name(path);
+  std::remove(partial.c_str());
+  try {
+    Dataset(partial, tried).write(scene, options, origin);
+    rename_file(partial, followed(path));
+  } catch (...) {
+    std::remove(partial.c_str());
+    throw;
+  }
+}
+
+}  // namespace wholehand

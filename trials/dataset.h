@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// The numbers of trials as NetCDF-4: trials.nc.
+#pragma once
+
+#include <string>
+
+#include "trials/options.h"
+#include "trials/tried.h"
+
+namespace wholehand {
+
+// What the file says of the trials as a whole.
+struct TrialOrigin {
+  std::string engine, identity;
+};
+
+// Writes the file, under another name first. Dimensions `vessel`, `grip` and `trial`; a trial has the place of its grip. Throws
+// Error (failure).
+void write_trials_dataset(const std::string& path, const Scene& scene, const TrialOptions& options, const TriedGrips& tried,
+                          const TrialOrigin& origin);
+
+}  // namespace wholehand
