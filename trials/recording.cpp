@@ -117,9 +117,9 @@ std::string text_of_one_vessel(const Scene& scene, std::size_t vessel) {
     const Scene left = parse_scene(text, scene.file);
     if (left.vessels.size() == 1 && left.vessels[0].name == scene.vessels[vessel].name) return text;
   } catch (const Error&) {
-    return scene.text;
+    return "";
   }
-  return scene.text;
+  return "";
 }
 
 std::vector<TrialFrame> joined_frames(const std::vector<TrialTrack>& tracks) {
@@ -168,10 +168,12 @@ std::vector<Tick> ticks_of_trial(const Scene& scene, const Evaluator& core, cons
 void write_trial_recording(const std::string& path, const Scene& scene, const Evaluator& core, const std::string& engine,
                            const TrialGrip& grip, const TrialCase& one, const TrialOutcome& outcome,
                            const std::vector<TrialTrack>& tracks) {
+  const RecordingInfo info = info_of_trial(scene, engine, grip, core.gap_at(0));
+  if (info.scene_text.empty()) throw usage_error("the scene's text does not stand without its other vessels");
   const std::vector<Tick> ticks = ticks_of_trial(scene, core, grip, one, outcome, joined_frames(tracks), TICK_RATE);
   std::remove(path.c_str());  // a recording never takes the place of another one; this one was looked at before
   std::remove((path + ".partial").c_str());
-  RecordingWriter writer(path, info_of_trial(scene, engine, grip, core.gap_at(0)));
+  RecordingWriter writer(path, info);
   const bool is_written = writer.append(ticks);
   if (!writer.finish({}) || !is_written) throw failure_error(writer.trouble());
 }

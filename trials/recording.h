@@ -15,7 +15,7 @@
 namespace wholehand {
 
 // The scene's text with one vessel alone: `wholehand view` takes no vessels that stand in each other. Lines that go are left empty, so that messages keep
-// their places. The whole text where what is left is no scene.
+// their places. Empty where what is left is no scene.
 std::string text_of_one_vessel(const Scene& scene, std::size_t vessel);
 
 // The frames of several tracks of one run, ascending in time, each moment once.
@@ -26,7 +26,7 @@ std::vector<TrialFrame> joined_frames(const std::vector<TrialTrack>& tracks);
 std::vector<Tick> ticks_of_trial(const Scene& scene, const Evaluator& core, const TrialGrip& grip, const TrialCase& one,
                                  const TrialOutcome& outcome, const std::vector<TrialFrame>& frames, double rate);
 
-// Writes the recording in place of an earlier one. Throws Error.
+// Writes the recording in place of an earlier one. Throws Error: it cannot be written, or text_of_one_vessel has none.
 void write_trial_recording(const std::string& path, const Scene& scene, const Evaluator& core, const std::string& engine,
                            const TrialGrip& grip, const TrialCase& one, const TrialOutcome& outcome,
                            const std::vector<TrialTrack>& tracks);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <cstdio>
@@ -19,9 +20,14 @@
 #include "system/progress.h"
 #include "system/readable.h"
 #include "system/version.h"
+#include "trials/analysis.h"
 #include "trials/cases.h"
+#include "trials/dataset.h"
+#include "trials/disagreements.h"
 #include "trials/journal.h"
 #include "trials/output.h"
+#include "trials/page.h"
+#include "trials/summary.h"
 
 namespace wholehand {
 namespace {
@@ -215,9 +221,17 @@ class Trials {
   }
 
   void write_files(const TrialFiles& files, const TrialIdentity& identity) {
-    write_whole_file(files.csv, trials_csv(scene_, options_.settings, tried_), false, "make room, then go on with --resume");
-    print(fmt::format("wrote {}\n", files.csv));
-    (void)identity;
+    constexpr const char* REMEDY = "make room, then go on with --resume";
+    const TrialAnalysis analysis = analyse_trials(scene_, tried_, options_);
+    const auto shown = show_disagreements(files, scene_, predictor_, *engine_, tried_, analysis);
+    const TrialPageSource source{scene_, options_, tried_, analysis, shown, engine_->name(), identity_text(identity)};
+    write_trials_dataset(files.nc, scene_, options_, tried_, {source.engine, source.identity});
+    write_whole_file(files.csv, trials_csv(scene_, options_.settings, tried_), false, REMEDY);
+    write_whole_file(files.page, trials_page(source), false, REMEDY);
+    print(trials_summary(scene_, options_, analysis));
+    const auto recordings = std::count_if(shown.begin(), shown.end(), [](const auto& one) { return !one.recording.empty(); });
+    print(fmt::format("\nwrote {}, {}, {}{}\n", files.csv, files.nc, files.page,
+                      recordings == 0 ? "" : fmt::format(" and {} recordings of disagreements", recordings)));
   }
 
   const Scene& scene_;

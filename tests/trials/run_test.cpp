@@ -104,6 +104,9 @@ TEST_F(TrialsTest, ResumesToTheSameBits) {
   EXPECT_EQ(rest.code, ExitCode::done) << rest.error;
   EXPECT_LE(asked, 20 - 7 + 10) << "done ones are not tried again, but for the disagreements";
   EXPECT_EQ(csv(), whole);
+  const TrialsRun again = run();
+  EXPECT_EQ(again.code, ExitCode::done);
+  EXPECT_TRUE(has(again.out, "nothing to resume")) << again.out;
 }
 
 TEST_F(TrialsTest, ADamagedLineOfTheJournalIsTriedAgain) {

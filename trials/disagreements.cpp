@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "trials/disagreements.h"
+
+#include <cstdio>
+
+#include "core/error.h"
+#include "grips/forces.h"
+#include "grips/methods.h"
+#include "grips/svg.h"
+#include "report/grips.h"
+#include "trials/recording.h"
+
+namespace wholehand {
+namespace {
+
+void draw_disagreement(const TrialPredictor& predictor, const TrialGrip& grip, const TrialCase& one, ShownDisagreement& shown) {
+  const double tilt = one.protocol == TrialProtocol::fill_tilt ? one.tilt : 0;
+  GripReport report = make_grip_report(predictor.scene(), grip.vessel, grip.grip, {{one.fill}, {tilt}},
+                                       core_grip_methods(predictor.scene(), predictor.core(), "core"));
+  add_holding(report, predictor.scene(), grip.vessel, *predictor.core());
+  shown.drawing = front_and_side(grip_svg(predictor.scene(), grip.vessel, report));
+  const DrawnForces forces(report);
+  if (!forces.empty()) shown.forces = forces.words();
+}
+
+}  // namespace
+
+std::vector<TrialCase> cases_up_to(const std::vector<TrialCase>& cases, std::size_t place) {
+  const TrialCase& last = cases[place];
+  if (last.protocol == TrialProtocol::six_forces) return {last};
+  std::vector<TrialCase> run;
+  for (const TrialCase& one : cases)
+    if (one.protocol == last.protocol && one.fill == last.fill && one.tilt <= last.tilt) run.push_back(one);
+  return run;
+}
+
+std::vector<ShownDisagreement> show_disagreements(const TrialFiles& files, const Scene& scene, const TrialPredictor& predictor,
+                                                  const TrialEngine& engine, const TriedGrips& tried,
+                                                  const TrialAnalysis& analysis) {
+  std::vector<ShownDisagreement> all;
+  for (const Disagreement& which : analysis.disagreements) {
+    ShownDisagreement shown{which, "", "", "", ""};
+    const TrialGrip& grip = tried.grips[which.grip];
+    const TrialCase& one = tried.cases_of(which.grip)[which.place];
+    const std::size_t number = all.size() + 1;
+    try {
+      draw_disagreement(predictor, grip, one, shown);
+      std::vector<TrialTrack> tracks;
+      engine.run(grip.vessel, grip.grip, cases_up_to(tried.cases_of(which.grip), which.place), &tracks);
+      write_trial_recording(files.recording(number), scene, *predictor.core(), engine.name(), grip, one,
+                            tried.found[which.grip].outcomes[which.place], tracks);
+      shown.recording = TrialFiles::recording_name(number);
+    } catch (const Error& error) {
+      shown.trouble = error.what();
+      std::remove(files.recording(number).c_str());
+    }
+    all.push_back(shown);
+  }
+  for (std::size_t number = all.size() + 1; number <= MOST_DISAGREEMENTS; ++number) std::remove(files.recording(number).c_str());
+  return all;
+}
+
+}  // namespace wholehand

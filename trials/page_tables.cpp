@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+// Sections of the page that are tables and words.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/planes.h"
+#include "report/html.h"
+#include "system/readable.h"
+#include "trials/cases.h"
+#include "trials/page_parts.h"
+
+namespace wholehand {
+namespace {
+
+constexpr std::array<const char*, SCORE_TERM_COUNT> SCORE_TERMS{"fingers", "contacts", "depth", "posture", "force", "hold"};
+
+// "0.25, 0.5, 1" without repeats, in the order in which they come.
+std::string listed_values(const std::vector<TrialCase>& cases, TrialProtocol protocol,
+                          const std::function<double(const TrialCase&)>& value) {
+  std::vector<double> seen;
+  std::string text;
+  for (const TrialCase& one : cases) {
+    if (one.protocol != protocol || std::find(seen.begin(), seen.end(), value(one)) != seen.end()) continue;
+    seen.push_back(value(one));
+    text += (text.empty() ? "" : ", ") + plain_number(value(one));
+  }
+  return text;
+}
+
+std::string discarded_text(const TrialCount& count) {
+  if (count.discarded == 0) return "0";
+  return count.diverged == 0 ? fmt::format("{}", count.discarded)
+                             : fmt::format("{} ({} diverged)", count.discarded, count.diverged);
+}
+
+void write_whole_grips(MarkupWriter& html, const TrialPageSource& source) {
+  HtmlTable table(html, "Grips that hold in every trial", {"vessel", "grips", "held", "discarded"}, {1});
+  for (const WholeGrips& row : source.analysis.grips)
+    table.row({source.scene.vessels[row.vessel].name, group_text(row.group, source.options.settings), share_text(row.held),
+               fmt::format("{}", row.discarded)});
+  table.end();
+}
+
+void write_states(MarkupWriter& html, const TrialPageSource& source, const TrialGroup& group) {
+  const bool is_push = group.protocol == TrialProtocol::six_forces;
+  std::vector<std::string> columns{"vessel", "fill"};
+  if (!is_push) columns.emplace_back("tilt (°)");
+  columns.insert(columns.end(), {"held", "discarded"});
+  const std::string what = is_push ? "Pushes that are held" : "Trials that are held by fill and tilt";
+  HtmlTable table(html, fmt::format("{}: {}", what, group_text(group, source.options.settings)), columns);
+  for (const SuccessRow& row : source.analysis.successes) {
+    if (!(row.group == group)) continue;
+    std::vector<std::string> cells{source.scene.vessels[row.vessel].name, plain_number(row.fill)};
+    if (!is_push) cells.push_back(shown_number(degrees(row.tilt), 0));
+    cells.insert(cells.end(), {share_text(row.trials.held), discarded_text(row.trials)});
+    table.row(cells);
+  }
+  table.end();
+}
+
+void write_context(MarkupWriter& html) {
+  html.element(
+      "p",
+      "For context, never for comparison: with robot hands and other objects, six-forces at DexGraspBench's mass and friction "
+      "is passed by 60.5 % of the grasps of Dexonomy (Allegro hand), 49.2 % of BODex and 12.1 % of DexGraspNet, as their "
+      "authors report. There the best known measure of a grasp, dfc, has an AUC of 0.85 against success; tdg has 0.80, Q1 0.56.");
+}
+
+}  // namespace
+
+void write_trial_bars(MarkupWriter& html, const TrialPageSource& source) {
+  open_trial_section(html, "bars", "The bars");
+  if (source.analysis.bars.empty()) {
+    html.element("p", "The bars are about the protocol fill-tilt, which was not asked for.").close();
+    return;
+  }
+  HtmlTable table(html, "What the trials are to show", {"bar", "at least", "found", "interval of 95 %", "of", "outcome"}, {4, 5});
+  for (const TrialBar& bar : source.analysis.bars) {
+    const bool is_known = !std::isnan(bar.found);
+    table.row({bar.what, shown_number(bar.wanted, 2), is_known ? shown_number(bar.found, 3) : "\u2013",
+               is_known && !std::isnan(bar.interval.low)
+                   ? fmt::format("{} to {}", shown_number(bar.interval.low, 3), shown_number(bar.interval.high, 3))
+                   : "\u2013",
+               bar.how,
+               !is_known      ? "not measured"
+               : bar.is_met() ? "met"
+                              : "missed"});
+  }
+  table.end();
+  html.close();
+}
+
+void write_trial_setup(MarkupWriter& html, const TrialPageSource& source) {
+  const TrialOptions& options = source.options;
+  const TrialSettings& settings = options.settings;
+  open_trial_section(html, "tried", "What was tried");
+  html.open("dl");
+  const auto fact = [&html](const std::string& name, const std::string& text) {
+    html.open("div").element("dt", name).element("dd", text).close();
+  };
+  std::array<std::size_t, 2> samples{};
+  for (const TrialGrip& grip : source.tried.grips) ++samples[static_cast<std::size_t>(grip.sample)];
+  fact("engine",
+       fmt::format("{}, model \u201c{}\u201d: {}", source.engine, TRIAL_MODEL_NAMES[static_cast<std::size_t>(settings.model)],
+                   settings.model == TrialModel::hand
+                       ? "the hand is a body of bones with joints, whose torques the scene's strength limits"
+                       : "each contact is a sphere on a slide along its normal"));
+  fact("grips", fmt::format("{} of the stratified sample over all scores, {} of the best; seed {}{}", samples[1], samples[0],
+                            options.seed, options.quick ? "; --quick: fewer grips and states" : ""));
+  for (std::size_t v = 0; v < source.scene.vessels.size(); ++v) {
+    const std::vector<TrialCase>& cases = source.tried.cases[v];
+    if (cases.empty()) continue;
+    const std::string fills = listed_values(cases, TrialProtocol::fill_tilt, [](const TrialCase& one) { return one.fill; });
+    const std::string tilts =
+        listed_values(cases, TrialProtocol::fill_tilt, [](const TrialCase& one) { return degrees(one.tilt); });
+    const std::string pushed = listed_values(cases, TrialProtocol::six_forces, [](const TrialCase& one) { return one.fill; });
+    std::string text = fills.empty() ? "" : fmt::format("fill-tilt at the fills {} and the tilts {}°", fills, tilts);
+    if (!pushed.empty()) text += fmt::format("{}six-forces at the fill {}", text.empty() ? "" : "; ", pushed);
+    fact(source.scene.vessels[v].name, text);
+  }
+  if (!std::isnan(settings.mass)) fact("mass", fmt::format("{} kg in every state", plain_number(settings.mass)));
+  if (!std::isnan(settings.friction)) fact("friction", plain_number(settings.friction));
+  fact("held", fmt::format("moved by less than {} mm and turned by less than {}° in the hand",
+                           plain_number(1e3 * settings.largest_move), plain_number(degrees(settings.largest_turn))));
+  fact("discarded",
+       fmt::format("the hand overlaps the vessel by more than {} mm at the start, a finger is more than {} mm in it once "
+                   "closed, or the engine diverges; counted, and never a success",
+                   plain_number(1e3 * settings.start_overlap), plain_number(1e3 * settings.buried)));
+  html.close().close();
+}
+
+void write_trial_successes(MarkupWriter& html, const TrialPageSource& source) {
+  open_trial_section(html, "success", "How many held");
+  html.element(
+      "p",
+      "A share is of the trials that were not discarded, with Wilson's interval of 95 %. A trial at a tilt that the grip did not "
+      "reach, as it had lost the vessel before, counts as not held.");
+  write_whole_grips(html, source);
+  for (const TrialGroup& group : source.analysis.groups) write_states(html, source, group);
+  if (source.options.six_forces) write_context(html);
+  html.close();
+}
+
+void write_trial_weights(MarkupWriter& html, const TrialPageSource& source) {
+  open_trial_section(html, "weights", "Weights of the score");
+  const auto& weights = source.analysis.weights;
+  if (!weights || !weights->fit.is_fitted) {
+    html.element("p", "No weights were fitted: the stratified sample at fill-tilt lacks successes or failures.").close();
+    return;
+  }
+  html.element(
+      "p", fmt::format("A logistic regression of holding everywhere on the six terms of the score was fitted on {} grips of the "
+                       "stratified sample and judged on the other {}.",
+                       weights->fitted_on, weights->judged_on));
+  if (weights->fit.has_ridge)
+    html.element(
+        "p",
+        "On these grips the likelihood has no largest place, as successes and failures can be separated or terms depend on one "
+        "another. So large coefficients were penalized (a ridge).");
+  const std::array<double, 6> given = effective_weights(source.scene);
+  HtmlTable table(html, "Weights that the trials would choose",
+                  {"term", "the scene's weight", "fitted coefficient", "fitted weight"});
+  for (std::size_t k = 0; k < SCORE_TERM_COUNT; ++k)
+    table.row({SCORE_TERMS[k], shown_number(given[k], 2), shown_number(weights->fit.coefficients[k], 2),
+               shown_number(weights->weights[k], 2) + (weights->is_clamped[k] ? " (negative: set to 0)" : "")});
+  table.end();
+  html.element(
+      "p", fmt::format("On the other half the fitted weights have an AUC of {}, and the scene's weights {}. The difference is {}: "
+                       "{}.",
+                       interval_text(weights->fitted.auc, weights->fitted.interval, 3),
+                       interval_text(weights->given.auc, weights->given.interval, 3),
+                       interval_text(weights->difference.difference, weights->difference.interval, 3),
+                       weights->is_better() ? "the fitted weights are better by more than the interval"
+                                            : "the fitted weights are not better by more than the interval"));
+  html.close();
+}
+
+void write_trial_words(MarkupWriter& html) {
+  open_trial_section(html, "words", "The words");
+  html.open("dl");
+  const auto word = [&html](const char* name, const char* meaning) {
+    html.open("div").element("dt", name).element("dd", meaning).close();
+  };
+  word("fill-tilt", "gravity turns at 25° a second to each tilt and stays there for 1 s, once for each fill");
+  word("six-forces",
+       "without weight, a force of 10 m/s² times the mass acts for 2 s along each of six directions, each from a fresh start");
+  word("stratified sample", "grips drawn in equal numbers from ten equal parts of the range of scores");
+  word("best", "the best different grips of each vessel by their score; none of them is in the sample too");
+  word(
+      "effort",
+      "least share of its strength that the digit nearest to its limit must give so that the hand holds the load; up to 1 the hand "
+      "holds; of thumb and index tip alone: tips effort");
+  word("worst effort", "largest effort of the states that were tried; of the scene: of all fills and tilts of the scene");
+  word("push", "force that may push the full, upright vessel along any axis while the effort stays up to 1");
+  word("friction needed", "least friction with which the worst effort of the scene is up to 1");
+  word("epsilon", "radius of the largest ball of wrenches that the contacts resist (Ferrari and Canny), the middle of its bracket");
+  word("score of version 0.1", "the same terms with the weights of version 0.1, where holding counts the two tips alone");
+  word("AUC",
+       "how often a success has a better value than a failure: 1 is perfect, 0.5 is chance. Its interval is by a bootstrap that "
+       "draws "
+       "grips, not trials");
+  word("state not reached", "the vessel was lost at a smaller tilt of the same fill");
+  html.close().close();
+}
+
+}  // namespace wholehand
