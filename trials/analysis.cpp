@@ -209,7 +209,7 @@ std::vector<TrialBar> bars_of(const Scene& scene, const TriedGrips& tried, const
       if (!(row.group == JUDGED) || row.predictor != predictor) continue;
       bar.found = row.auc.auc;
       bar.interval = row.auc.interval;
-      bar.how = fmt::format("{} grips that held everywhere, {} that did not", row.auc.successes, row.auc.failures);
+      bar.how = fmt::format("{} grips held everywhere, {} did not", row.auc.successes, row.auc.failures);
     }
     bars.push_back(bar);
   };

@@ -58,22 +58,56 @@ void write_roc(MarkupWriter& html, const TrialPageSource& source, const TrialGro
   html.close();
 }
 
-void write_auc_table(MarkupWriter& html, const TrialPageSource& source) {
-  const TrialAnalysis& analysis = source.analysis;
-  std::vector<std::string> columns{"predictor"};
-  for (const TrialGroup& group : analysis.groups) columns.push_back(group_text(group, source.options.settings));
-  HtmlTable table(html, "AUC against success, with intervals of 95 %", columns);
-  for (std::size_t predictor = 0; predictor < TRIAL_PREDICTORS; ++predictor) {
-    std::vector<std::string> cells{
-        fmt::format("{}{}", TRIAL_PREDICTOR_NAMES[predictor], is_by_trial(predictor) ? " (by trial)" : "")};
-    for (const TrialGroup& group : analysis.groups)
-      for (const PredictorRow& row : analysis.predictors)
-        if (row.group == group && row.predictor == predictor)
-          cells.push_back(
-              fmt::format("{}; {} : {}", interval_text(row.auc.auc, row.auc.interval, 2), row.auc.successes, row.auc.failures));
-    table.row(cells);
+void write_auc_table(MarkupWriter& html, const TrialPageSource& source, const TrialGroup& group) {
+  const std::string name = group_text(group, source.options.settings);
+  const auto& rows = source.analysis.predictors;
+  const bool is_measured = std::any_of(rows.begin(), rows.end(),
+                                       [&](const PredictorRow& row) { return row.group == group && !std::isnan(row.auc.auc); });
+  if (!is_measured) {
+    html.element("p", fmt::format("There is no AUC of the {}: all grips held in it, or none.", name));
+    return;
+  }
+  HtmlTable table(html, "AUC against success: " + name, {"predictor", "AUC", "interval of 95 %", "successes", "failures"});
+  for (const PredictorRow& row : rows) {
+    if (!(row.group == group)) continue;
+    const bool has_interval = !std::isnan(row.auc.interval.low);
+    table.row({fmt::format("{}{}", TRIAL_PREDICTOR_NAMES[row.predictor], is_by_trial(row.predictor) ? " (by trial)" : ""),
+               shown_number(row.auc.auc, 3),
+               has_interval ? fmt::format("{} to {}", shown_number(row.auc.interval.low, 3), shown_number(row.auc.interval.high, 3))
+                            : "\u2013",
+               fmt::format("{}", row.auc.successes), fmt::format("{}", row.auc.failures)});
   }
   table.end();
+}
+
+void write_success_over_tilt(MarkupWriter& html, const TrialPageSource& source, const TrialGroup& group, std::size_t vessel) {
+  LineChart chart;
+  chart.name = {fmt::format("held{}", vessel + 1), "Share of trials held over the tilt: " + source.scene.vessels[vessel].name, ""};
+  chart.x_label = "tilt (°)";
+  chart.y_label = "share held";
+  chart.x_is_angle = true;
+  chart.highest = 1;
+  std::vector<const SuccessRow*> rows;
+  for (const SuccessRow& row : source.analysis.successes)
+    if (row.group == group && row.vessel == vessel) rows.push_back(&row);
+  for (const SuccessRow* row : rows) chart.x.push_back(degrees(row->tilt));
+  std::sort(chart.x.begin(), chart.x.end());
+  chart.x.erase(std::unique(chart.x.begin(), chart.x.end()), chart.x.end());
+  if (chart.x.size() < 2) return;
+  for (const SuccessRow* row : rows) {
+    const std::string label = fmt::format("fill {}", plain_number(row->fill));
+    if (chart.lines.empty() || chart.lines.back().label != label) {
+      chart.lines.push_back({label, std::vector<double>(chart.x.size(), std::nan("")), row->fill, {}, false, false});
+      chart.name.description += label + ". ";
+    }
+    const auto place = std::find(chart.x.begin(), chart.x.end(), degrees(row->tilt)) - chart.x.begin();
+    chart.lines.back().y[static_cast<std::size_t>(place)] = row->trials.held.share;
+    if (row->trials.held.of > 0)
+      chart.name.description += fmt::format("At {:.0f}°: {:.0f} %. ", degrees(row->tilt), 100 * row->trials.held.share);
+  }
+  html.open("div", {{"class", "chart"}}).element("h4", source.scene.vessels[vessel].name);
+  write_chart(html, chart);
+  html.close();
 }
 
 std::string bin_text(const CalibrationBin& bin) {
@@ -89,7 +123,8 @@ void write_calibration(MarkupWriter& html, const GroupEfforts& efforts, const st
   chart.highest = 1;
   std::array<LineChart::Line, 3> lines;
   lines[0].label = "held";
-  lines[1].label = "interval";
+  lines[1].label = "lower end";
+  lines[2].label = "upper end";
   lines[1].is_dashed = lines[2].is_dashed = true;
   lines[1].shade = lines[2].shade = 0.5;
   for (const CalibrationBin& bin : efforts.bins) {
@@ -100,34 +135,50 @@ void write_calibration(MarkupWriter& html, const GroupEfforts& efforts, const st
     lines[2].y.push_back(bin.held.interval.high);
     chart.name.description += fmt::format("{}: {:.0f} %. ", bin_text(bin), 100 * bin.held.share);
   }
-  if (chart.x.size() < 2) return;
+  const Confusion& c = efforts.confusion;
+  const bool has_both = c.held_as_said + c.held_though_not > 0 && c.lost_as_said + c.lost_though_said > 0;
+  if (chart.x.size() < 2 || !has_both) return;  // a level line tells nothing that the table does not
   chart.lines.assign(lines.begin(), lines.end());
   html.open("div", {{"class", "chart"}}).element("h4", name);
   write_chart(html, chart);
   html.close();
 }
 
-void write_effort_tables(MarkupWriter& html, const GroupEfforts& efforts, const std::string& name) {
-  HtmlTable bins(html, "Trials held by bins of effort: " + name, {"effort", "held"});
-  for (const CalibrationBin& bin : efforts.bins)
-    if (bin.held.of > 0) bins.row({bin_text(bin), share_text(bin.held)});
-  bins.end();
-  const Confusion& c = efforts.confusion;
-  HtmlTable table(html, "Effort up to 1 against held: " + name, {"effort", "held", "lost"});
-  table.row({"up to 1", fmt::format("{}", c.held_as_said), fmt::format("{}", c.lost_though_said)});
-  table.row({"above 1", fmt::format("{}", c.held_though_not), fmt::format("{}", c.lost_as_said)});
+void write_effort_tables(MarkupWriter& html, const TrialPageSource& source) {
+  const std::vector<GroupEfforts>& all = source.analysis.efforts;
+  HtmlTable table(html, "Effort up to 1 against held",
+                  {"trials", "up to 1, held", "up to 1, lost", "above 1, held", "above 1, lost", "effort is right", "not reached",
+                   "discarded"});
+  for (const GroupEfforts& efforts : all) {
+    const Confusion& c = efforts.confusion;
+    std::vector<std::string> cells{group_text(efforts.group, source.options.settings)};
+    for (const std::size_t count : {c.held_as_said, c.lost_though_said, c.held_though_not, c.lost_as_said})
+      cells.push_back(fmt::format("{}", count));
+    cells.insert(cells.end(), {share_text(c.right()), fmt::format("{}", efforts.earlier), fmt::format("{}", efforts.discarded)});
+    table.row(cells);
+  }
   table.end();
-  html.element("p", fmt::format("Effort is right in {}. {} trials were not reached, {} were discarded.", share_text(c.right()),
-                                efforts.earlier, efforts.discarded));
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const GroupEfforts& efforts = all[k];
+    if (k == 1) html.open("details").element("summary", "The same of the other groups");
+    HtmlTable bins(html, "Trials held by bins of effort: " + group_text(efforts.group, source.options.settings),
+                   {"effort", "mean of the finite ones", "held"});
+    for (const CalibrationBin& bin : efforts.bins)
+      if (bin.held.of > 0) bins.row({bin_text(bin), shown_number(bin.mean, 2), share_text(bin.held)});
+    bins.end();
+  }
+  if (all.size() > 1) html.close();
 }
 
 std::string grip_words(const TrialPageSource& source, const Disagreement& which) {
   const TrialGrip& grip = source.tried.grips[which.grip];
   const TrialCase& one = source.tried.cases_of(which.grip)[which.place];
+  const std::string& material = source.options.settings.materials[static_cast<std::size_t>(one.material)].name;
   const std::string state = one.protocol == TrialProtocol::fill_tilt
                                 ? fmt::format("filled to {:.0f} %, tilted by {:.0f}°", 100 * one.fill, degrees(one.tilt))
-                                : fmt::format("pushed along {}, {}", FORCE_DIRECTION_NAMES[static_cast<std::size_t>(one.direction)],
-                                              group_text({grip.sample, one.protocol, one.material}, source.options.settings));
+                                : fmt::format("pushed along {} at the mass and friction of {}",
+                                              FORCE_DIRECTION_NAMES[static_cast<std::size_t>(one.direction)],
+                                              material == "scene" ? "the scene" : material);
   return fmt::format("{}, grip {} ({}), {}", source.scene.vessels[grip.vessel].name, grip.number,
                      TRIAL_SAMPLE_NAMES[static_cast<std::size_t>(grip.sample)], state);
 }
@@ -144,17 +195,28 @@ void write_disagreement(MarkupWriter& html, const TrialPageSource& source, const
                                     shown.forces.empty() ? "" : " Arrows show the forces of the hand: " + shown.forces + ".")}});
   html.open("p").element("strong", fmt::format("{}: effort {}. ", number, effort)).text(words + ". ");
   html.text(outcome_text(one, found.outcomes[shown.which.place])).close();
-  if (shown.recording.empty())
+  if (shown.recording.empty()) {
     html.element("p", fmt::format("There is no recording: {}.", shown.trouble));
-  else
-    html.open("p")
-        .element("a", shown.recording, {{"href", shown.recording}})
-        .text(": `wholehand view " + shown.recording + "` plays it.")
-        .close();
+  } else {
+    html.open("p").element("a", shown.recording, {{"href", shown.recording}});
+    html.text(", played by ").element("code", "wholehand view " + shown.recording).close();
+  }
   html.close();
 }
 
 }  // namespace
+
+void write_success_charts(MarkupWriter& html, const TrialPageSource& source) {
+  const auto& groups = source.analysis.groups;
+  const auto group =
+      std::find_if(groups.begin(), groups.end(), [](const TrialGroup& one) { return one.protocol == TrialProtocol::fill_tilt; });
+  if (group == groups.end()) return;
+  html.open("figure").open("div", {{"class", "charts"}});
+  for (std::size_t v = 0; v < source.scene.vessels.size(); ++v) write_success_over_tilt(html, source, *group, v);
+  html.close().element("figcaption", fmt::format("Share of the trials that held over the tilt, a line for each fill: {}.",
+                                                 group_text(*group, source.options.settings)));
+  html.close();
+}
 
 void write_trial_predictors(MarkupWriter& html, const TrialPageSource& source) {
   open_trial_section(html, "predictors", "What predicts success");
@@ -175,7 +237,7 @@ void write_trial_predictors(MarkupWriter& html, const TrialPageSource& source) {
                              group_text(group, source.options.settings)));
     html.close();
   }
-  write_auc_table(html, source);
+  for (const TrialGroup& group : source.analysis.groups) write_auc_table(html, source, group);
   html.close();
 }
 
@@ -193,8 +255,7 @@ void write_trial_efforts(MarkupWriter& html, const TrialPageSource& source) {
       "Share of the trials that held, over their effort, with Wilson's intervals of 95 %. Efforts of 4 and more are in "
       "the tables alone.");
   html.close();
-  for (const GroupEfforts& efforts : source.analysis.efforts)
-    write_effort_tables(html, efforts, group_text(efforts.group, source.options.settings));
+  write_effort_tables(html, source);
   html.close();
 }
 
@@ -210,10 +271,9 @@ void write_trial_disagreements(MarkupWriter& html, const TrialPageSource& source
                "worst trial.");
   html.open("figure").open("div", {{"class", "drawings"}});
   for (std::size_t k = 0; k < source.disagreements.size(); ++k) write_disagreement(html, source, source.disagreements[k], k + 1);
-  html.close().element(
-      "figcaption",
-      "Seen from the side of the hand and from its right, as the hand grips. Arrows show the forces that kernel 10 finds for this "
-      "state.");
+  html.close().element("figcaption",
+                       "Seen from the side of the hand and from its right, as the hand grips. Arrows show the forces that kernel "
+                       "10 finds for this state; for a push, those that hold the upright vessel.");
   html.close().close();
 }
 

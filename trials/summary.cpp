@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace wholehand {
@@ -27,6 +28,9 @@ std::string trials_summary(const Scene& scene, const TrialOptions& options, cons
     text += '\n';
   }
   for (const TrialGroup& group : analysis.groups) {
+    const bool is_measured = std::any_of(analysis.predictors.begin(), analysis.predictors.end(),
+                                         [&](const PredictorRow& row) { return row.group == group && !std::isnan(row.auc.auc); });
+    if (!is_measured) continue;  // all grips held, or none
     text += fmt::format("AUC against success, {}:\n", group_text(group, options.settings));
     for (const PredictorRow& row : analysis.predictors)
       if (row.group == group)

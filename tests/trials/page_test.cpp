@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// sanitizers: address
+#include <gtest/gtest.h>
+#include <netcdf.h>
+
+#include <vector>
+
+#include "recordings/recording.h"
+#include "scene/reader.h"
+#include "tests/support/fake_trials.h"
+#include "tests/support/files.h"
+#include "tests/support/xml.h"
+#include "trials/disagreements.h"
+#include "trials/run.h"
+
+namespace wholehand {
+namespace {
+
+// The shipped scene, for its text, with few grips.
+Scene scene_of_page() {
+  Scene scene = read_scene_file(std::string(WHOLEHAND_SOURCE_DIR) + "/scene/examples/three_beakers.toml");
+  const Scene few = scene_for_trials();
+  scene.grips = few.grips;
+  scene.tilts = few.tilts;
+  return scene;
+}
+
+// One folder for all tests of this file, as it takes seconds to make.
+class TrialsPage : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder = new TemporaryFolder;
+    TrialOptions options = few_trials(*folder / "trials");
+    options.six_forces = true;
+    options.grips = 40;
+    testing::internal::CaptureStdout();
+    run_trials(scene_of_page(), options, open_fake_engine([](FakeTrialEngine& engine) {
+                 engine.discarded = 0.1;
+                 engine.spread = 4;
+               }));
+    printed = testing::internal::GetCapturedStdout();
+    page = file_text(*folder / "trials/trials.html");
+  }
+  static void TearDownTestSuite() { delete folder; }
+
+  static TemporaryFolder* folder;
+  static std::string page, printed;
+};
+TemporaryFolder* TrialsPage::folder = nullptr;
+std::string TrialsPage::page, TrialsPage::printed;
+
+TEST_F(TrialsPage, IsWholeAndSelfContained) {
+  ASSERT_FALSE(page.empty());
+  expect_well_formed(page.substr(page.find('\n') + 1));  // without the document type
+  EXPECT_FALSE(has(page, "<script"));
+  EXPECT_FALSE(has(page, "href=\"http"));
+  EXPECT_FALSE(has(page, "src=\"http"));
+  EXPECT_TRUE(has(page, "<html lang=\"en\""));
+  for (const char* id : {"bars", "tried", "success", "predictors", "efforts", "weights", "disagreements", "words"}) {
+    EXPECT_EQ(count_of(page, std::string("id=\"") + id + "\""), 1) << id;
+    EXPECT_TRUE(has(page, std::string("href=\"#") + id + "\"")) << id;
+  }
+  EXPECT_EQ(count_of(page, "<img "), count_of(page, " alt=\"Front and side view of the hand on "));
+}
+
+TEST_F(TrialsPage, TellsSamplesAndProtocolsApart) {
+  for (const char* part : {"stratified sample, fill-tilt", "best grips, fill-tilt", "mass and friction of DexGraspBench",
+                           "AUC of the worst effort, stratified sample, fill-tilt", "worst effort of the scene",
+                           "score of version 0.1", "diverged", "passed by 60.5 %"})
+    EXPECT_TRUE(has(page, part)) << part;
+  EXPECT_TRUE(has(printed, "AUC of the worst effort")) << printed;
+  EXPECT_TRUE(has(printed, "recordings of disagreements")) << printed;
+}
+
+// Every recording that the page links to is one that `wholehand view` reads.
+TEST_F(TrialsPage, LinksToRecordings) {
+  const int links = count_of(page, "href=\"disagreement-");
+  ASSERT_GT(links, 0);
+  for (int k = 1; k <= links; ++k) {
+    const std::string name = TrialFiles::recording_name(static_cast<std::size_t>(k));
+    EXPECT_TRUE(has(page, "href=\"" + name + "\"")) << name;
+    const Recording recording = read_recording(*folder / ("trials/" + name));
+    EXPECT_TRUE(recording.note.empty()) << recording.note;
+    EXPECT_EQ(parse_scene(recording.info.scene_text, "").vessels.size(), 1u);
+  }
+  EXPECT_FALSE(file_exists(*folder / ("trials/" + TrialFiles::recording_name(static_cast<std::size_t>(links) + 1))));
+}
+
+TEST_F(TrialsPage, DatasetHasWhatTheTableHas) {
+  int file = -1, id = -1;
+  ASSERT_EQ(nc_open((*folder / "trials/trials.nc").c_str(), NC_NOWRITE, &file), NC_NOERR);
+  std::size_t trials = 0;
+  ASSERT_EQ(nc_inq_dimid(file, "trial", &id), NC_NOERR);
+  nc_inq_dimlen(file, id, &trials);
+  const std::string table = file_text(*folder / "trials/trials.csv");
+  EXPECT_EQ(static_cast<int>(trials), count_of(table, "\n") - 1);
+  std::vector<int> held(trials);
+  ASSERT_EQ(nc_inq_varid(file, "held", &id), NC_NOERR);
+  nc_get_var_int(file, id, held.data());
+  std::vector<double> effort(trials);
+  ASSERT_EQ(nc_inq_varid(file, "effort", &id), NC_NOERR);
+  nc_get_var_double(file, id, effort.data());
+  std::size_t length = 0;
+  EXPECT_EQ(nc_inq_attlen(file, id, "long_name", &length), NC_NOERR);
+  EXPECT_EQ(nc_inq_attlen(file, id, "units", &length), NC_NOERR);
+  EXPECT_EQ(nc_inq_attlen(file, id, "_FillValue", &length), NC_NOERR);
+  for (const char* name : {"scene", "version", "engine", "seed"})
+    EXPECT_EQ(nc_inq_attlen(file, NC_GLOBAL, name, &length), NC_NOERR) << name;
+  nc_close(file);
+  std::istringstream rows(table);
+  std::string row;
+  std::getline(rows, row);
+  for (std::size_t k = 0; k < trials && std::getline(rows, row); ++k) {
+    std::vector<std::string> cells;
+    std::istringstream all(row);
+    for (std::string cell; std::getline(all, cell, ',');) cells.push_back(cell);
+    EXPECT_EQ(std::stoi(cells[9]), held[k]) << k;
+    EXPECT_EQ(std::stod(cells[5]), effort[k]) << k;
+  }
+}
+
+TEST(TrialDisagreements, OneRunGoesUpToTheTilt) {
+  std::vector<TrialCase> cases;
+  for (const double fill : {0.5, 1.0})
+    for (const double tilt : {0.0, 1.0, 2.0}) {
+      TrialCase one;
+      one.fill = fill;
+      one.tilt = tilt;
+      cases.push_back(one);
+    }
+  const auto run = cases_up_to(cases, 4);
+  ASSERT_EQ(run.size(), 2u);
+  EXPECT_EQ(run[0].fill, 1);
+  EXPECT_EQ(run[1].tilt, 1);
+  cases[5].protocol = TrialProtocol::six_forces;
+  EXPECT_EQ(cases_up_to(cases, 5).size(), 1u);
+}
+
+}  // namespace
+}  // namespace wholehand
