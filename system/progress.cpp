@@ -13,6 +13,7 @@ namespace {
 std::string rate_text(double rate) {
   if (rate >= 1e6) return fmt::format("{:.2f} million grips/s", rate * 1e-6);
   if (rate >= 1e3) return fmt::format("{:.1f} thousand grips/s", rate * 1e-3);
+  if (rate < 10) return fmt::format("{:.1f} grips/s", rate);
   return fmt::format("{:.0f} grips/s", rate);
 }
 

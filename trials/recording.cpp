@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "core/error.h"
+#include "core/mirror.h"
 #include "core/vectors.h"
 #include "grips/report.h"
 #include "recordings/recording.h"
@@ -138,7 +139,8 @@ std::vector<Tick> ticks_of_trial(const Scene& scene, const Evaluator& core, cons
   const Tick still = still_tick(scene, core, grip, one, result);
   const Vec3 pivot = to_vec3<double>(result.midpoint);
   const Vec3 over = to_vec3<double>(vessel.place) + pivot + Vec3(0, vessel.height - vessel.base, 0);
-  const Mat3 axes = gripper_axes(grip.grip);
+  const Handedness hand = scene.hand.handedness;
+  const Mat3 axes = mirrored(gripper_axes(mirrored(grip.grip, hand)), hand);  // a left hand is a right one in a mirror
   std::vector<Tick> ticks;
   for (const TrialFrame& frame : frames) {
     const Mat3 turn = turn_to_up(glm::normalize(to_vec3<double>(frame.up)));

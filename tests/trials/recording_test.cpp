@@ -110,7 +110,7 @@ TEST(TrialRecording, WorldStandsUpright) {
   for (std::size_t k = 0; k < ticks.size(); ++k) {
     const Tick& tick = ticks[k];
     EXPECT_EQ(tick.number, 20 * static_cast<std::int64_t>(k));
-    // the gripper's first axis runs along the tips
+    // a right hand's first axis runs along the tips
     const auto along = to_mat3(tick.hand_rotation)[0], apart = to_vec3(tick.tips[1]) - to_vec3(tick.tips[0]);
     EXPECT_NEAR(glm::dot(along, apart), tick.gap, CLOSE);
     EXPECT_NEAR(glm::determinant(to_mat3(tick.hand_rotation)), 1, CLOSE);
@@ -123,9 +123,8 @@ TEST(TrialRecording, WorldStandsUpright) {
 }
 
 // The hand of the live session at these axes is the grip's hand.
-TEST(TrialRecording, TheViewerShowsTheHandOfTheGrip) {
+void expect_hand_of_the_grip(const Scene& scene) {
   const TemporaryFolder folder;
-  const Scene scene = shipped();
   const auto core = make_core_evaluator(scene);
   const TrialGrip grip = grip_of_flask();
   const std::string path = folder / TrialFiles::recording_name(1);
@@ -148,6 +147,12 @@ TEST(TrialRecording, TheViewerShowsTheHandOfTheGrip) {
     farthest = std::max(farthest, distance(frames[0].hand.posed[j], there));
   }
   EXPECT_LT(farthest, 1e-6) << "m, at most: the closure is solved for anew";
+}
+
+TEST(TrialRecording, TheViewerShowsTheHandOfTheGrip) { expect_hand_of_the_grip(shipped()); }
+
+TEST(TrialRecording, TheViewerShowsALeftHandToo) {
+  expect_hand_of_the_grip(parse_scene("hand.handedness = \"left\"\n" + shipped().text, "left.toml"));
 }
 
 }  // namespace
