@@ -191,7 +191,7 @@ GraspModel sliding_contacts(std::span<const double> radii, const GraspContacts& 
         "<body name=\"bone{0}\" pos=\"{1}\"><joint type=\"slide\" axis=\"{2}\" limited=\"true\" range=\"{3} {4}\" damping=\"{5}\" "
         "armature=\"{6}\"/><geom name=\"skin{0}\" type=\"sphere\" size=\"{7}\"/></body>\n",
         i, triple_text(contact.place - radius * contact.normal), triple_text(contact.normal), -FREE_TRAVEL, FREE_TRAVEL,
-        JOINT_DAMPING, JOINT_INERTIA, radius);
+        JOINT_DAMPING / 3, JOINT_INERTIA / 3, radius);
     model.geoms.push_back(fmt::format("skin{}", i));
     const double strength = contacts.strength.digits[static_cast<std::size_t>(contact.digit)];
     model.joints.push_back({contact.digit, JOINT_STIFFNESS / 3, strength, true});

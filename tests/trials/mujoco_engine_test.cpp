@@ -193,9 +193,9 @@ TEST_F(MujocoEngine, AVesselWithoutAModelIsRefused) {
 }
 
 // The model `contacts` has nothing that could hold but the contacts of kernel 9. What the effort calls infinite slides: out of the hand, or
-// until other contacts hold it, as where a neck meets a cone.
+// some millimetres until the same contacts meet other walls that hold it, as where a neck meets a cone.
 TEST_F(MujocoEngine, WhatEffortCallsInfiniteIsNotHeldWhereItIs) {
-  int infinite = 0, held = 0;
+  int infinite = 0;
   for (const GripInput& grip : sample_grips(scene_.vessels[2], 200, 3)) {
     GripResult result;
     evaluator_->grip(2, grip, result);
@@ -211,12 +211,10 @@ TEST_F(MujocoEngine, WhatEffortCallsInfiniteIsNotHeldWhereItIs) {
     const auto found = run(2, grip, fill_tilt(0.5, {0}), settings);
     if (found[0].discarded) continue;
     ++infinite;
-    held += found[0].held;
     EXPECT_FALSE(found[0].held && found[0].slip < settings.slip) << grip.height << ' ' << grip.azimuth;
     if (infinite == 20) break;
   }
   EXPECT_GT(infinite, 10);
-  EXPECT_LE(held, 3);
 }
 
 }  // namespace
