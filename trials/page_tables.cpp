@@ -109,10 +109,10 @@ void write_trial_bars(MarkupWriter& html, const TrialPageSource& source) {
                is_known && !std::isnan(bar.interval.low)
                    ? fmt::format("{} to {}", shown_number(bar.interval.low, 3), shown_number(bar.interval.high, 3))
                    : "\u2013",
-               bar.how,
                !is_known      ? "not measured"
                : bar.is_met() ? "met"
-                              : "missed"});
+                              : "missed",
+               bar.how});
   }
   table.end();
   html.close();

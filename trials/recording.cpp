@@ -77,6 +77,7 @@ Tick still_tick(const Scene& scene, const Evaluator& core, const TrialGrip& grip
   tick.exact_torque = state.exact_torque;
   tick.normal_force = state.normal_force;
   tick.hold_force = state.hold_force;
+  tick.feedback = tick.wanted.grip = tick.written.grip = state.feedback_force;  // what a gripper would render
   return tick;
 }
 

@@ -68,6 +68,11 @@ TEST_F(TrialsPage, TellsSamplesAndProtocolsApart) {
                            "AUC of the worst effort, stratified sample, fill-tilt", "worst effort of the scene",
                            "score of version 0.1", "diverged", "passed by 60.5 %"})
     EXPECT_TRUE(has(page, part)) << part;
+  const std::size_t bar = page.find("<th scope=\"row\">AUC of the worst effort");
+  ASSERT_NE(bar, std::string::npos);
+  const std::string row = page.substr(bar, page.find("</tr>", bar) - bar);
+  const std::size_t verdict = std::min(row.find(">met<"), row.find(">missed<"));
+  EXPECT_LT(verdict, row.find("did not</td>")) << row;
   EXPECT_TRUE(has(printed, "AUC of the worst effort")) << printed;
   EXPECT_TRUE(has(printed, "recordings of disagreements")) << printed;
 }
