@@ -64,8 +64,8 @@ enum TrialPredictorName : std::size_t {
 extern const std::array<const char*, TRIAL_PREDICTORS> TRIAL_PREDICTOR_NAMES;
 constexpr bool is_by_trial(std::size_t predictor) { return predictor >= BY_STATE_EFFORT; }
 
-// What a predictor says of the grips of a group, or of its trials: larger is better. By grip, success is to hold in every trial, and
-// grips with a discarded trial are left out. By trial, only those that tell of their own state (is_telling) are there.
+// What a predictor says of the grips of a group, or of its trials: larger is better. By grip, success is to hold in every trial,
+// and grips with a discarded trial are left out. By trial, only those that tell of their own state (is_telling) are there.
 std::vector<Prediction> predictions_of(const TriedGrips& tried, const TrialGroup& group, std::size_t predictor);
 
 struct PredictorRow {

@@ -27,8 +27,9 @@ class TrialJournal {
 
   // Begins anew. Throws Error (failure) where the file cannot be written.
   TrialJournal(const std::string& path, const TrialIdentity& identity);
-  // Goes on: `found` gets what is done, and lines that are not as they were written are left out and counted in `damaged`. `counts`: cases of each grip.
-  // Throws Error: (usage) the journal is of other trials, and in what; (failure) it cannot be read, or its head is damaged.
+  // Goes on: `found` gets what is done, and lines that are not as they were written are left out and counted in `damaged`.
+  // `counts`: cases of each grip. Throws Error: (usage) the journal is of other trials, and in what; (failure) it cannot be read,
+  // or its head is damaged.
   TrialJournal(const std::string& path, const TrialIdentity& identity, const std::vector<std::size_t>& counts, Found& found,
                std::size_t& damaged);
   ~TrialJournal();

@@ -21,10 +21,10 @@ struct TermedGrip {
   bool success = false;
 };
 
-// log(p / (1 - p)) = intercept + sum of coefficient x term, by Newton's steps (iteratively reweighted least squares). A term that does not
-// vary has the coefficient 0. Where successes and failures can be separated, or the terms depend on one another, the largest likelihood has no finite
-// place: then half a square of each coefficient, in units of its term's deviation, is taken off the log-likelihood (a ridge), and
-// `has_ridge` says so.
+// log(p / (1 - p)) = intercept + sum of coefficient x term, by Newton's steps (iteratively reweighted least squares). A term that
+// does not vary has the coefficient 0. Where successes and failures can be separated, or the terms depend on one another, the
+// largest likelihood has no finite place: then half a square of each coefficient, in units of its term's deviation, is taken off
+// the log-likelihood (a ridge), and `has_ridge` says so.
 struct LogisticFit {
   std::array<double, SCORE_TERM_COUNT> coefficients{};
   double intercept = 0;
@@ -33,8 +33,8 @@ struct LogisticFit {
 };
 LogisticFit fit_logistic(std::span<const TermedGrip> grips);
 
-// The coefficients as weights of a score: negative ones are 0, for no term of a score may lower it, and the sum is 1. All 0 where none is
-// positive.
+// The coefficients as weights of a score: negative ones are 0, for no term of a score may lower it, and the sum is 1. All 0 where
+// none is positive.
 std::array<double, SCORE_TERM_COUNT> weights_of(const LogisticFit& fit);
 
 // Fitted on one half of the grips, and judged on the other half.

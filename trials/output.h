@@ -25,8 +25,8 @@ inline constexpr const char* TRIAL_DEVICE = "wholehand trials: ";
 // What the page has in its head, before the identity of its trials.
 inline constexpr const char* TRIALS_PAGE_MARK = "<meta name=\"wholehand-trials\" content=\"";
 
-// Makes the folder where it is missing. Throws Error: (usage) one of the files is there and is not of trials, or the folder cannot be; (failure) no
-// file can be made in it.
+// Makes the folder where it is missing. Throws Error: (usage) one of the files is there and is not of trials, or the folder cannot
+// be; (failure) no file can be made in it.
 void prepare_trials_folder(const std::string& folder);
 
 // Whether the folder has all files of trials of this identity.

@@ -23,7 +23,8 @@ using core_f64::Vec3;
 
 constexpr double TICK_RATE = 1000;  // Hz
 
-// The name of a table's head, "vessel.liquid" of "[[vessel.liquid]]"; empty of any other line. Rows of an array begin with no letter.
+// The name of a table's head, "vessel.liquid" of "[[vessel.liquid]]"; empty of any other line. Rows of an array begin with no
+// letter.
 std::string table_of(const std::string& line) {
   std::size_t at = line.find_first_not_of(" \t");
   if (at == std::string::npos || line[at] != '[') return "";

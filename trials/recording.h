@@ -14,15 +14,15 @@
 
 namespace wholehand {
 
-// The scene's text with one vessel alone: `wholehand view` takes no vessels that stand in each other. Lines that go are left empty, so that messages keep
-// their places. Empty where what is left is no scene.
+// The scene's text with one vessel alone: `wholehand view` takes no vessels that stand in each other. Lines that go are left empty,
+// so that messages keep their places. Empty where what is left is no scene.
 std::string text_of_one_vessel(const Scene& scene, std::size_t vessel);
 
 // The frames of several tracks of one run, ascending in time, each moment once.
 std::vector<TrialFrame> joined_frames(const std::vector<TrialTrack>& tracks);
 
-// A moment each: gravity points down, and so the hand turns with the vessel that it holds. The middle of the tips is above the table, by
-// as much as the vessel is high. Tips are the engine's; a viewer poses the other fingers anew.
+// A moment each: gravity points down, and so the hand turns with the vessel that it holds. The middle of the tips is above the
+// table, by as much as the vessel is high. Tips are the engine's; a viewer poses the other fingers anew.
 std::vector<Tick> ticks_of_trial(const Scene& scene, const Evaluator& core, const TrialGrip& grip, const TrialCase& one,
                                  const TrialOutcome& outcome, const std::vector<TrialFrame>& frames, double rate);
 

@@ -11,8 +11,8 @@
 namespace wholehand {
 
 // Tries grips of the scene, whose meshes are read, and writes all files into the options' folder. `result`: whose lists and scores
-// choose the grips, opened and not yet in use; null: the core's. Returns `done`, or `interrupted` after SIGINT or SIGTERM with a journal left for --resume.
-// Throws Error.
+// choose the grips, opened and not yet in use; null: the core's. Returns `done`, or `interrupted` after SIGINT or SIGTERM with a
+// journal left for --resume. Throws Error.
 ExitCode run_trials(const Scene& scene, const TrialOptions& options, const OpenTrialEngine& open, SweepResult* result = nullptr);
 
 }  // namespace wholehand

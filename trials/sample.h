@@ -29,18 +29,18 @@ struct TrialGrip {
 
 constexpr std::size_t SCORE_STRATA = 10;
 
-// About `count` of the grips, as many as possible from each of SCORE_STRATA equal parts of the range of their scores; a part that has
-// fewer than its share gives all, and the others give more. In each part the seed draws: a grip's key depends on seed, vessel and number
-// alone, so that the order of `eligible` does not matter. By number, ascending.
+// About `count` of the grips, as many as possible from each of SCORE_STRATA equal parts of the range of their scores; a part that
+// has fewer than its share gives all, and the others give more. In each part the seed draws: a grip's key depends on seed, vessel
+// and number alone, so that the order of `eligible` does not matter. By number, ascending.
 std::vector<Candidate> stratified_sample(const std::vector<Candidate>& eligible, std::size_t count, std::size_t vessel,
                                          std::uint64_t seed);
 
-// Numbers of the grips of a vessel whose scores are looked at: all, or where there are more than `most`, one of each of `most` equal
-// stretches, drawn by the seed.
+// Numbers of the grips of a vessel whose scores are looked at: all, or where there are more than `most`, one of each of `most`
+// equal stretches, drawn by the seed.
 std::vector<std::uint64_t> looked_at(std::uint64_t grips, std::size_t most, std::size_t vessel, std::uint64_t seed);
 
-// Feasible, plausible grips of a vessel with their scores, of those that are looked at: by the core in double precision, so that every machine has the
-// same ones, or of a result. Empty where `stop` is set.
+// Feasible, plausible grips of a vessel with their scores, of those that are looked at: by the core in double precision, so that
+// every machine has the same ones, or of a result. Empty where `stop` is set.
 std::vector<Candidate> eligible_by_core(const Scene& scene, const Plan& plan, std::shared_ptr<const Evaluator> core,
                                         std::size_t vessel, const TrialOptions& options, const std::atomic<bool>& stop);
 std::vector<Candidate> eligible_in_result(const SweepResult& result, const Plan& plan, std::size_t vessel,

@@ -22,8 +22,8 @@ struct Share {
 };
 Share share_of(std::size_t yes, std::size_t of);
 
-// What was predicted of one thing, and what came of it. A larger value is a prediction that it rather succeeds; infinite values are allowed,
-// NaN is not. `grip`: things of one grip share their number, from 0, and are resampled together.
+// What was predicted of one thing, and what came of it. A larger value is a prediction that it rather succeeds; infinite values are
+// allowed, NaN is not. `grip`: things of one grip share their number, from 0, and are resampled together.
 struct Prediction {
   double value = 0;
   bool success = false;
@@ -43,9 +43,10 @@ std::vector<RocPoint> roc_curve(std::span<const Prediction> predictions);
 
 constexpr int RESAMPLES = 1000;  // of a bootstrap
 
-// A bootstrap by grips: a resample draws as many grips as there are, with replacement, and takes all that belongs to each. A trial of a grip says little
-// that another one of it has not said, so trials are not drawn by themselves. The interval is from the 2.5th to the 97.5th percentile. Resamples
-// without a success or without a failure are left out; NaN where more than half of them are. The same on any machine.
+// A bootstrap by grips: a resample draws as many grips as there are, with replacement, and takes all that belongs to each. A trial
+// of a grip says little that another one of it has not said, so trials are not drawn by themselves. The interval is from the 2.5th
+// to the 97.5th percentile. Resamples without a success or without a failure are left out; NaN where more than half of them are.
+// The same on any machine.
 struct Auc {
   double auc = std::numeric_limits<double>::quiet_NaN();
   Interval interval;

@@ -24,7 +24,8 @@ struct TriedGrips {
   const std::vector<TrialCase>& cases_of(std::size_t grip) const { return cases[grips[grip].vessel]; }
 };
 
-// A trial that tells of its own state: it was not discarded, and its state was reached. One that was lost at a smaller tilt was not.
+// A trial that tells of its own state: it was not discarded, and its state was reached. One that was lost at a smaller tilt was
+// not.
 inline bool is_telling(const TrialOutcome& outcome) { return !outcome.discarded && outcome.reason != TrialReason::earlier; }
 
 constexpr std::array<const char*, 2> TRIAL_PROTOCOL_NAMES{"fill-tilt", "six-forces"};
@@ -33,7 +34,8 @@ constexpr std::array<const char*, 2> TRIAL_MODEL_NAMES{"hand", "contacts"};
 // How trials.csv begins.
 inline constexpr std::string_view TRIALS_CSV_START = "vessel,grip,fill,tilt_rad,protocol,effort,";
 
-// The table: a row a trial, SI units. Numbers read back as they were; "inf" where there is no limit, nothing where there is no number.
+// The table: a row a trial, SI units. Numbers read back as they were; "inf" where there is no limit, nothing where there is no
+// number.
 std::string trials_csv(const Scene& scene, const TrialSettings& settings, const TriedGrips& tried);
 
 }  // namespace wholehand

@@ -62,7 +62,8 @@ TEST(TrialPredictions, AreThoseOfAGripAndASweep) {
   EXPECT_GT(found.epsilon, 0);
 }
 
-// By hand from the terms: fingers .30, contacts .10, depth .20, posture .10, force .15, hold .15, and 40 N over the largest two-tip force.
+// By hand from the terms: fingers .30, contacts .10, depth .20, posture .10, force .15, hold .15, and 40 N over the largest two-tip
+// force.
 TEST(TrialPredictions, ScoreOfVersion01) {
   const Scene scene = strong_beakers();
   const GripPrediction found = TrialPredictor(scene, {}).predict(0, good_grip(), all_cases(scene));

@@ -10,6 +10,7 @@
 #include <atomic>
 #include <limits>
 
+#include "sweeps/run.h"
 #include "system/csv.h"
 #include "tests/support/fake_trials.h"
 #include "tests/support/files.h"
@@ -30,12 +31,12 @@ class TrialsTest : public testing::Test {
   Scene scene = scene_for_trials();
   TrialOptions options = few_trials(folder / "trials");
 
-  TrialsRun run(const OpenTrialEngine& open = open_fake_engine()) {
+  TrialsRun run(const OpenTrialEngine& open = open_fake_engine(), SweepResult* result = nullptr) {
     TrialsRun ran;
     testing::internal::CaptureStdout();
     testing::internal::CaptureStderr();
     try {
-      ran.code = run_trials(scene, options, open);
+      ran.code = run_trials(scene, options, open, result);
     } catch (const Error& error) {
       ran.code = error.code;
       ran.error = error.what();
@@ -88,6 +89,25 @@ TEST_F(TrialsTest, SameBitsWhateverTheThreads) {
   options.seed = 2;
   ASSERT_EQ(run().code, ExitCode::done);
   EXPECT_NE(csv(), one) << "another sample";
+}
+
+// The lists and scores of a sweep on the core are those that trials find themselves.
+TEST_F(TrialsTest, GripsOfAResultAreThoseOfItsScene) {
+  ASSERT_EQ(run().code, ExitCode::done);
+  const std::string of_scene = csv();
+  SweepOptions sweep;
+  sweep.output = folder / "swept.nc";
+  sweep.on = "core";
+  sweep.best = 2;
+  sweep.refine = false;
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(run_sweep(scene, sweep), ExitCode::done);
+  testing::internal::GetCapturedStdout();
+  SweepResult result(sweep.output);
+  options.folder = folder / "of_result";
+  const TrialsRun ran = run(open_fake_engine(), &result);
+  ASSERT_EQ(ran.code, ExitCode::done) << ran.error;
+  EXPECT_EQ(csv(), of_scene);
 }
 
 TEST_F(TrialsTest, ResumesToTheSameBits) {
