@@ -44,7 +44,7 @@ struct WeightTrial {
   std::array<bool, SCORE_TERM_COUNT> is_clamped{};  // its coefficient was negative
   std::size_t fitted_on = 0, judged_on = 0;         // grips
   Auc fitted, given;                                // on the other half: of these weights, and of the given ones
-  Difference difference;                            // of fitted less given
+  AucDifference difference;                         // of fitted less given
   bool is_better() const { return difference.interval.low > 0; }
 };
 // The halves are drawn by the seed, among successes and failures alike.

@@ -127,12 +127,12 @@ Auc auc_with_interval(std::span<const Prediction> predictions, std::uint64_t see
   return answer;
 }
 
-Difference auc_difference(std::span<const Prediction> a, std::span<const Prediction> b, std::uint64_t seed) {
+AucDifference auc_difference(std::span<const Prediction> a, std::span<const Prediction> b, std::uint64_t seed) {
   if (a.empty()) return {};
   const RankedPredictions first(a), second(b);
   const std::size_t grips = grips_in(a);
   const auto difference = [&](const std::vector<double>& weights) { return first.auc(weights) - second.auc(weights); };
-  Difference answer;
+  AucDifference answer;
   answer.difference = difference(std::vector<double>(grips, 1.0));
   if (!std::isnan(answer.difference)) answer.interval = bootstrap_interval(occurring_grips(a), grips, seed, difference);
   return answer;

@@ -55,11 +55,11 @@ struct Auc {
 Auc auc_with_interval(std::span<const Prediction> predictions, std::uint64_t seed);
 
 // AUC of `a` less AUC of `b`, of the same things in the same order: both by the same resamples.
-struct Difference {
+struct AucDifference {
   double difference = std::numeric_limits<double>::quiet_NaN();
   Interval interval;
 };
-Difference auc_difference(std::span<const Prediction> a, std::span<const Prediction> b, std::uint64_t seed);
+AucDifference auc_difference(std::span<const Prediction> a, std::span<const Prediction> b, std::uint64_t seed);
 
 // ---- efforts ----
 

@@ -13,7 +13,7 @@
 namespace wholehand {
 namespace {
 
-constexpr double CLOSE = 1e-9;  // of numbers of size 1 that come by two ways through the same kernels
+constexpr double SAME_KERNELS = 1e-9;  // of numbers of size 1 that come by two ways through the same kernels
 
 // The default scene with its hand's strength.
 Scene strong_beakers() {
@@ -47,18 +47,18 @@ TEST(TrialPredictions, AreThoseOfAGripAndASweep) {
   add_holding(report, scene, 0);
   double worst = 0, tips = 0;
   for (std::size_t k = 0; k < report.holds.size(); ++k) {
-    EXPECT_NEAR(found.cases[k].effort, report.holds[k].effort, CLOSE) << k;
-    EXPECT_NEAR(found.cases[k].tips, report.holds[k].tips, CLOSE) << k;
+    EXPECT_NEAR(found.cases[k].effort, report.holds[k].effort, SAME_KERNELS) << k;
+    EXPECT_NEAR(found.cases[k].tips, report.holds[k].tips, SAME_KERNELS) << k;
     worst = std::max(worst, found.cases[k].effort);
     tips = std::max(tips, found.cases[k].tips);
   }
   EXPECT_EQ(found.worst_effort, worst);
   EXPECT_EQ(found.tips_worst_effort, tips);
-  EXPECT_NEAR(found.scene_worst_effort, report.hold->worst, CLOSE);
-  EXPECT_NEAR(found.push, report.hold->push, CLOSE);
-  EXPECT_NEAR(found.friction_needed, report.hold->friction_needed, CLOSE);
-  EXPECT_NEAR(found.score, report.answer.score.score, CLOSE);
-  EXPECT_NEAR(found.terms[5], report.answer.score.terms.hold, CLOSE);
+  EXPECT_NEAR(found.scene_worst_effort, report.hold->worst, SAME_KERNELS);
+  EXPECT_NEAR(found.push, report.hold->push, SAME_KERNELS);
+  EXPECT_NEAR(found.friction_needed, report.hold->friction_needed, SAME_KERNELS);
+  EXPECT_NEAR(found.score, report.answer.score.score, SAME_KERNELS);
+  EXPECT_NEAR(found.terms[5], report.answer.score.terms.hold, SAME_KERNELS);
   EXPECT_GT(found.epsilon, 0);
 }
 
@@ -78,7 +78,7 @@ TEST(TrialPredictions, ScoreOfVersion01) {
       largest = std::max(largest, core->state(0, good_grip(), result, core->liquid(0, fill, tilt), tilt).hold_force);
   const double hold = std::min(1.0, 40 / largest);
   const auto& t = found.terms;
-  EXPECT_NEAR(found.score_0_1, 0.30 * t[0] + 0.10 * t[1] + 0.20 * t[2] + 0.10 * t[3] + 0.15 * t[4] + 0.15 * hold, CLOSE);
+  EXPECT_NEAR(found.score_0_1, 0.30 * t[0] + 0.10 * t[1] + 0.20 * t[2] + 0.10 * t[3] + 0.15 * t[4] + 0.15 * hold, SAME_KERNELS);
 }
 
 // Twice the mass takes twice the effort; the mass is that of every state.

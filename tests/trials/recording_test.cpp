@@ -18,10 +18,10 @@
 namespace wholehand {
 namespace {
 
-constexpr double CLOSE = 1e-12;  // m
+constexpr double SAME_PLACE = 1e-12;  // m
 
 // The shipped scene, whose vessels stand in each other.
-Scene shipped() { return read_scene_file(std::string(WHOLEHAND_SOURCE_DIR) + "/scene/examples/three_beakers.toml"); }
+Scene shipped_beakers() { return read_scene_file(std::string(WHOLEHAND_SOURCE_DIR) + "/scene/examples/three_beakers.toml"); }
 
 TrialGrip grip_of_flask() {
   TrialGrip grip;
@@ -62,7 +62,7 @@ TrialOutcome lost_after_half_a_second() {
 }
 
 TEST(TrialRecording, TextOfOneVessel) {
-  const Scene scene = shipped();
+  const Scene scene = shipped_beakers();
   for (std::size_t v = 0; v < 3; ++v) {
     const std::string text = text_of_one_vessel(scene, v);
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), std::count(scene.text.begin(), scene.text.end(), '\n'));
@@ -90,7 +90,7 @@ TEST(TrialRecording, ArraysAndOtherTablesStay) {
 }
 
 TEST(TrialRecording, EachMomentOnce) {
-  const Scene scene = shipped();
+  const Scene scene = shipped_beakers();
   const auto core = make_core_evaluator(scene);
   const auto frames = joined_frames(falling_tracks(*core, grip_of_flask()));
   ASSERT_EQ(frames.size(), 51u);
@@ -99,7 +99,7 @@ TEST(TrialRecording, EachMomentOnce) {
 
 // Gravity is down in the world: what is up for the vessel becomes +y, and distances stay.
 TEST(TrialRecording, WorldStandsUpright) {
-  const Scene scene = shipped();
+  const Scene scene = shipped_beakers();
   const auto core = make_core_evaluator(scene);
   const TrialGrip grip = grip_of_flask();
   const auto frames = joined_frames(falling_tracks(*core, grip));
@@ -112,9 +112,9 @@ TEST(TrialRecording, WorldStandsUpright) {
     EXPECT_EQ(tick.number, 20 * static_cast<std::int64_t>(k));
     // a right hand's first axis runs along the tips
     const auto along = to_mat3(tick.hand_rotation)[0], apart = to_vec3(tick.tips[1]) - to_vec3(tick.tips[0]);
-    EXPECT_NEAR(glm::dot(along, apart), tick.gap, CLOSE);
-    EXPECT_NEAR(glm::determinant(to_mat3(tick.hand_rotation)), 1, CLOSE);
-    EXPECT_NEAR(distance(tick.tips[0], tick.vessel_place), distance(result.posed[THUMB_TIP], frames[k].place), CLOSE);
+    EXPECT_NEAR(glm::dot(along, apart), tick.gap, SAME_PLACE);
+    EXPECT_NEAR(glm::determinant(to_mat3(tick.hand_rotation)), 1, SAME_PLACE);
+    EXPECT_NEAR(distance(tick.tips[0], tick.vessel_place), distance(result.posed[THUMB_TIP], frames[k].place), SAME_PLACE);
     if (k <= 25) {
       EXPECT_NEAR(tick.tilt, frames[k].time, 1e-9);
     }
@@ -149,10 +149,10 @@ void expect_hand_of_the_grip(const Scene& scene) {
   EXPECT_LT(farthest, 1e-6) << "m, at most: the closure is solved for anew";
 }
 
-TEST(TrialRecording, TheViewerShowsTheHandOfTheGrip) { expect_hand_of_the_grip(shipped()); }
+TEST(TrialRecording, TheViewerShowsTheHandOfTheGrip) { expect_hand_of_the_grip(shipped_beakers()); }
 
 TEST(TrialRecording, TheViewerShowsALeftHandToo) {
-  expect_hand_of_the_grip(parse_scene("hand.handedness = \"left\"\n" + shipped().text, "left.toml"));
+  expect_hand_of_the_grip(parse_scene("hand.handedness = \"left\"\n" + shipped_beakers().text, "left.toml"));
 }
 
 }  // namespace

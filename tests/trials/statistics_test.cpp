@@ -129,11 +129,11 @@ TEST(TrialStatistics, DifferenceIsPaired) {
   std::uint64_t state = 21;
   for (Prediction& one : noisy) one.value += 6 * (random_unit(state) - 0.5);
   for (Prediction& one : same) one.value = 2 * one.value + 5;  // another scale, the same order
-  const Difference none = auc_difference(all, same, 1);
+  const AucDifference none = auc_difference(all, same, 1);
   EXPECT_DOUBLE_EQ(none.difference, 0);
   EXPECT_DOUBLE_EQ(none.interval.low, 0);
   EXPECT_DOUBLE_EQ(none.interval.high, 0);
-  const Difference better = auc_difference(all, noisy, 1);
+  const AucDifference better = auc_difference(all, noisy, 1);
   EXPECT_NEAR(better.difference, auc_of(all) - auc_of(noisy), 1e-12);
   EXPECT_GT(better.interval.low, 0);
   EXPECT_LT(better.interval.low, better.difference);
