@@ -15,10 +15,8 @@
 #include "objects/vessel.h"
 #include "scene/reader.h"
 #include "scene/text.h"
-#include "trials/run.h"
-#if __has_include("trials/mujoco_engine.h")
 #include "trials/mujoco_engine.h"
-#endif
+#include "trials/run.h"
 
 namespace wholehand {
 namespace {
@@ -30,17 +28,6 @@ struct TrialsArguments {
   std::vector<std::string> fills, tilts;
   bool quick = false, resume = false;
 };
-
-std::unique_ptr<TrialEngine> open_engine(const Scene& scene, const Evaluator& core, const TrialSettings& settings) {
-#if __has_include("trials/mujoco_engine.h")
-  return make_mujoco_engine(scene, core, settings);
-#else
-  (void)scene;
-  (void)core;
-  (void)settings;
-  throw failure_error("trials: this build has no physics engine");
-#endif
-}
 
 // One of two words; `first` where nothing is said.
 bool is_second(const std::string& text, const char* option, const char* first, const char* second) {
@@ -108,7 +95,7 @@ ExitCode trials(const TrialsArguments& arguments) {
   if (!options.fills.empty() && !scene.liquid)
     throw usage_error(fmt::format("--fill: {} has no [liquid]; add one or leave --fill out", in_quotes(scene.file)));
   if (!result) load_meshes(scene);
-  return run_trials(scene, options, open_engine, result ? &*result : nullptr);
+  return run_trials(scene, options, make_mujoco_engine, result ? &*result : nullptr);
 }
 
 }  // namespace

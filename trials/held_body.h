@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A body in a grasp, in the engine: pinned, let go, pushed and looked at. docs/trials.md says why each option is as it is.
+// A body in a grasp, in the engine: pinned, let go, pushed and looked at. docs/trials-model.md says why each option is as it is.
 #pragma once
 
 #include <array>

@@ -41,7 +41,8 @@ struct TrialSettings {
   double squeeze = 1.25;                                       // how much more than the least the fingers press
   double mass = std::numeric_limits<double>::quiet_NaN();      // kg, of the whole in every state; NaN: that of the state
   double friction = std::numeric_limits<double>::quiet_NaN();  // NaN: the scene's
-  std::vector<TrialMaterial> materials{{"scene"}, {"DexGraspBench", 0.1, 0.6, 20e-3}};
+  // DexGraspBench sets MuJoCo's torsional coefficient to 20 mm, which is mu gamma.
+  std::vector<TrialMaterial> materials{{"scene"}, {"DexGraspBench", 0.1, 0.6, 20e-3 / 0.6}};
   double tilt_rate = radians(25);                          // rad/s
   double hold_time = 1;                                    // at each tilt
   double push_time = 2;                                    // in each direction
