@@ -36,13 +36,13 @@ GripFate fate_of(const TriedGrips& tried, std::size_t grip, const TrialGroup& gr
   return fate;
 }
 
-// The largest effort of a grip's cases of the group, of the whole hand or of its tips.
+// The largest effort on the ways to a grip's cases of the group, of the whole hand or of its tips.
 double worst_in(const TriedGrips& tried, std::size_t grip, const TrialGroup& group, bool of_tips) {
   double worst = NONE;
   for (std::size_t k = 0; k < tried.cases_of(grip).size(); ++k) {
     if (!is_of(group, tried.grips[grip], tried.cases_of(grip)[k])) continue;
     const CasePrediction& said = tried.found[grip].prediction.cases[k];
-    worst = std::fmax(worst, of_tips ? said.tips : said.effort);
+    worst = std::fmax(worst, of_tips ? said.leg_tips : said.leg_effort);
   }
   return worst;
 }
@@ -129,7 +129,7 @@ GroupEfforts efforts_of(const TriedGrips& tried, const TrialGroup& group) {
       else if (!is_telling(outcome))
         ++efforts.earlier;
       else
-        trials.push_back({tried.found[g].prediction.cases[k].effort, outcome.held});
+        trials.push_back({tried.found[g].prediction.cases[k].leg_effort, outcome.held});
     }
   efforts.bins = calibration_of(trials);
   efforts.confusion = confusion_of(trials);
@@ -159,7 +159,7 @@ std::vector<Disagreement> find_disagreements(const TriedGrips& tried) {
     std::array<std::optional<Disagreement>, 2> worst;
     for (std::size_t k = 0; k < tried.cases_of(g).size(); ++k) {
       const TrialOutcome& outcome = tried.found[g].outcomes[k];
-      const Disagreement one{g, k, tried.found[g].prediction.cases[k].effort};
+      const Disagreement one{g, k, tried.found[g].prediction.cases[k].leg_effort};
       if (!is_telling(outcome) || outcome.held == (one.effort <= 1)) continue;
       auto& known = worst[outcome.held ? 1 : 0];
       if (!known || contradiction(one) > contradiction(*known)) known = one;
@@ -192,7 +192,7 @@ Share surely_held(const TriedGrips& tried, std::size_t vessel) {
     for (std::size_t k = 0; k < tried.cases_of(g).size(); ++k) {
       const TrialOutcome& outcome = tried.found[g].outcomes[k];
       const bool is_sure = is_of(best, tried.grips[g], tried.cases_of(g)[k]) && is_telling(outcome) &&
-                           tried.found[g].prediction.cases[k].effort <= SURE_EFFORT;
+                           tried.found[g].prediction.cases[k].leg_effort <= SURE_EFFORT;
       is_held = is_held && (!is_sure || outcome.held);
     }
     ++all;
@@ -238,8 +238,8 @@ std::optional<WeightTrial> weights_by_trials(const Scene& scene, const TriedGrip
 }  // namespace
 
 const std::array<const char*, TRIAL_PREDICTORS> TRIAL_PREDICTOR_NAMES{
-    "worst effort",         "worst effort of the scene", "worst tips effort",       "push", "friction needed", "epsilon", "score",
-    "score of version 0.1", "effort of the state",       "tips effort of the state"};
+    "worst effort",         "worst effort of the scene", "worst tips effort",     "push", "friction needed", "epsilon", "score",
+    "score of version 0.1", "effort of the way",         "tips effort of the way"};
 
 bool is_of(const TrialGroup& group, const TrialGrip& grip, const TrialCase& one) {
   return grip.sample == group.sample && one.protocol == group.protocol &&
@@ -260,7 +260,7 @@ std::vector<Prediction> predictions_of(const TriedGrips& tried, const TrialGroup
       const TrialOutcome& outcome = tried.found[g].outcomes[k];
       if (!is_of(group, tried.grips[g], tried.cases_of(g)[k]) || !is_telling(outcome)) continue;
       const CasePrediction& said = tried.found[g].prediction.cases[k];
-      predictions.push_back({-(predictor == BY_STATE_EFFORT ? said.effort : said.tips), outcome.held, g});
+      predictions.push_back({-(predictor == BY_LEG_EFFORT ? said.leg_effort : said.leg_tips), outcome.held, g});
     }
   }
   return predictions;

@@ -49,20 +49,20 @@ struct WholeGrips {
 // ---- what predicts success ----
 
 enum TrialPredictorName : std::size_t {
-  BY_WORST_EFFORT,        // of the states that are tried
+  BY_WORST_EFFORT,        // of the ways to the states that are tried
   BY_SCENE_WORST_EFFORT,  // of all states of the scene
-  BY_TIPS_EFFORT,         // of the states that are tried, of the two tips
+  BY_TIPS_EFFORT,         // the same of the two tips
   BY_PUSH,
   BY_FRICTION_NEEDED,
   BY_EPSILON,
   BY_SCORE,
   BY_SCORE_0_1,
-  BY_STATE_EFFORT,  // the last two are judged trial by trial
-  BY_STATE_TIPS,
+  BY_LEG_EFFORT,  // of the way to a state; the last two are judged trial by trial
+  BY_LEG_TIPS,
   TRIAL_PREDICTORS
 };
 extern const std::array<const char*, TRIAL_PREDICTORS> TRIAL_PREDICTOR_NAMES;
-constexpr bool is_by_trial(std::size_t predictor) { return predictor >= BY_STATE_EFFORT; }
+constexpr bool is_by_trial(std::size_t predictor) { return predictor >= BY_LEG_EFFORT; }
 
 // What a predictor says of the grips of a group, or of its trials: larger is better. By grip, success is to hold in every trial,
 // and grips with a discarded trial are left out. By trial, only those that tell of their own state (is_telling) are there.
@@ -74,7 +74,8 @@ struct PredictorRow {
   Auc auc;
 };
 
-// Where trials and effort say the opposite: held though effort > 1, or lost though effort <= 1.
+// Where trials and effort say the opposite: held though effort > 1, or lost though effort <= 1. As everywhere here, the effort of
+// the whole way to the state: a vessel may be lost before it gets there.
 struct Disagreement {
   std::size_t grip = 0, place = 0;  // among those tried, and of the case
   double effort = 0;

@@ -48,7 +48,7 @@ class Dataset {
     write_grips();
     write_predictions();
     write_cases();
-    write_outcomes();
+    write_outcomes(options.settings);
     file_.finish({});
   }
 
@@ -77,6 +77,7 @@ class Dataset {
     number("push_acceleration_m_s2", settings.push_acceleration);
     number("largest_move_m", settings.largest_move);
     number("largest_turn_rad", settings.largest_turn);
+    number("slip_m", settings.slip);
   }
 
   void of_grips(const char* name, const char* units, const char* long_name, const OfGrip& value) {
@@ -129,7 +130,7 @@ class Dataset {
   void write_predictions() {
     using Grip = TrialGrip;
     using Said = GripPrediction;
-    of_grips("worst_effort", "1", "largest effort of the states that were tried",
+    of_grips("worst_effort", "1", "largest effort on the ways to the states that were tried",
              [](const Grip&, const Said& said) { return said.worst_effort; });
     of_grips("tips_worst_effort", "1", "the same of thumb and index tip alone",
              [](const Grip&, const Said& said) { return said.tips_worst_effort; });
@@ -160,9 +161,12 @@ class Dataset {
                        [](const TrialView& at) { return at.is_push() ? at.one.material : -1.0; });
     of_trials("effort", "1", "effort of the whole hand", [](const TrialView& at) { return at.said.effort; });
     of_trials("tips_effort", "1", "effort of thumb and index tip alone", [](const TrialView& at) { return at.said.tips; });
+    of_trials("leg_effort", "1", "largest effort on the way to the state", [](const TrialView& at) { return at.said.leg_effort; });
+    of_trials("leg_tips_effort", "1", "the same of thumb and index tip alone",
+              [](const TrialView& at) { return at.said.leg_tips; });
   }
 
-  void write_outcomes() {
+  void write_outcomes(const TrialSettings& settings) {
     const auto when_run = [](const TrialView& at, double value) { return at.outcome.discarded ? ABSENT : value; };
     const auto when_lost = [](const TrialView& at, double value) {
       return at.outcome.discarded || at.outcome.held ? ABSENT : value;
@@ -173,6 +177,9 @@ class Dataset {
                        [](const TrialView& at) { return static_cast<double>(static_cast<int>(at.outcome.reason)); });
     of_trials("slip", "m", "largest way of a contact on the vessel",
               [=](const TrialView& at) { return when_run(at, at.outcome.slip); });
+    integers_of_trials("slipped", "1: a contact slid farther than slip_m, 0: none did, -1: discarded", [&](const TrialView& at) {
+      return at.outcome.discarded ? -1.0 : has_slipped(at.outcome, settings) ? 1.0 : 0.0;
+    });
     of_trials("move", "m", "largest way of the vessel in the hand",
               [=](const TrialView& at) { return when_run(at, at.outcome.move); });
     of_trials("turn", "rad", "largest turn of the vessel in the hand",

@@ -22,7 +22,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr const char* JOURNAL_FORMAT = "1";
+constexpr const char* JOURNAL_FORMAT = "2";
 
 // Exactly, NaN and infinity too.
 std::uint64_t bits_of(double value) { return std::bit_cast<std::uint64_t>(value); }
@@ -51,8 +51,7 @@ Json prediction_json(const GripPrediction& said) {
     numbers.push_back(bits_of(value));
   for (const double term : said.terms) numbers.push_back(bits_of(term));
   for (const CasePrediction& one : said.cases) {
-    numbers.push_back(bits_of(one.effort));
-    numbers.push_back(bits_of(one.tips));
+    for (const double value : {one.effort, one.tips, one.leg_effort, one.leg_tips}) numbers.push_back(bits_of(value));
   }
   return numbers;
 }
@@ -64,7 +63,9 @@ GripPrediction prediction_of(const Json& numbers, std::size_t cases) {
                         &said.epsilon, &said.score, &said.score_0_1})
     *value = number_at(numbers, next++);
   for (double& term : said.terms) term = number_at(numbers, next++);
-  for (std::size_t k = 0; k < cases; ++k, next += 2) said.cases.push_back({number_at(numbers, next), number_at(numbers, next + 1)});
+  said.cases.resize(cases);
+  for (CasePrediction& one : said.cases)
+    for (double* value : {&one.effort, &one.tips, &one.leg_effort, &one.leg_tips}) *value = number_at(numbers, next++);
   return said;
 }
 

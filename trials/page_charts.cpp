@@ -118,7 +118,7 @@ std::string bin_text(const CalibrationBin& bin) {
 void write_calibration(MarkupWriter& html, const GroupEfforts& efforts, const std::string& name, std::size_t number) {
   LineChart chart;
   chart.name = {fmt::format("calibration{}", number), "Share of trials held over effort: " + name, "By bins of effort. "};
-  chart.x_label = "effort (mean of the bin)";
+  chart.x_label = "effort of the way (mean of the bin)";
   chart.y_label = "share held";
   chart.highest = 1;
   std::array<LineChart::Line, 3> lines;
@@ -193,7 +193,7 @@ void write_disagreement(MarkupWriter& html, const TrialPageSource& source, const
                {{"src", svg_address(shown.drawing)},
                 {"alt", fmt::format("Front and side view of the hand on {}.{}", words,
                                     shown.forces.empty() ? "" : " Arrows show the forces of the hand: " + shown.forces + ".")}});
-  html.open("p").element("strong", fmt::format("{}: effort {}. ", number, effort)).text(words + ". ");
+  html.open("p").element("strong", fmt::format("{}: effort of the way {}. ", number, effort)).text(words + ". ");
   html.text(outcome_text(one, found.outcomes[shown.which.place])).close();
   if (shown.recording.empty()) {
     html.element("p", fmt::format("There is no recording: {}.", shown.trouble));
@@ -243,9 +243,11 @@ void write_trial_predictors(MarkupWriter& html, const TrialPageSource& source) {
 
 void write_trial_efforts(MarkupWriter& html, const TrialPageSource& source) {
   open_trial_section(html, "efforts", "Is effort right?");
-  html.element("p",
-               "An effort up to 1 says that the hand holds the state. Trials whose state was not reached, and discarded ones, are "
-               "left out.");
+  html.element(
+      "p",
+      "An effort up to 1 says that the hand holds the state. A trial goes through all tilts from the one before, or from "
+      "upright at the release, to its own, and may lose the vessel on this way. So the largest effort on the way is taken, "
+      "looked at every 5°. Trials whose state was not reached, and discarded ones, are left out.");
   html.open("figure").open("div", {{"class", "charts"}});
   for (std::size_t k = 0; k < source.analysis.efforts.size(); ++k)
     write_calibration(html, source.analysis.efforts[k], group_text(source.analysis.efforts[k].group, source.options.settings),
@@ -265,10 +267,10 @@ void write_trial_disagreements(MarkupWriter& html, const TrialPageSource& source
     html.element("p", "They disagree in no trial.").close();
     return;
   }
-  html.element("p",
-               "The largest efforts that held, and the smallest that did not: the farther from 1, the earlier in the list, and of "
-               "each grip the "
-               "worst trial.");
+  html.element(
+      "p",
+      "The largest efforts that held, and the smallest that did not, each of the way to its state: the farther from 1, the "
+      "earlier in the list, and of each grip the worst trial.");
   html.open("figure").open("div", {{"class", "drawings"}});
   for (std::size_t k = 0; k < source.disagreements.size(); ++k) write_disagreement(html, source, source.disagreements[k], k + 1);
   html.close().element("figcaption",

@@ -220,7 +220,12 @@ void write_trial_words(MarkupWriter& html) {
       "effort",
       "least share of its strength that the digit nearest to its limit must give so that the hand holds the load; up to 1 the hand "
       "holds; of thumb and index tip alone: tips effort");
-  word("worst effort", "largest effort of the states that were tried; of the scene: of all fills and tilts of the scene");
+  word("effort of the way",
+       "largest effort of the states that a trial goes through on the way to its own, since the tilt before or since the release: "
+       "at "
+       "every 5° and at both ends; of a push, its effort");
+  word("worst effort",
+       "largest effort of the ways to the states that were tried; of the scene: of all fills and tilts of the scene");
   word("push", "force that may push the full, upright vessel along any axis while the effort stays up to 1");
   word("friction needed", "least friction with which the worst effort of the scene is up to 1");
   word("epsilon", "radius of the largest ball of wrenches that the contacts resist (Ferrari and Canny), the middle of its bracket");

@@ -45,6 +45,15 @@ struct TrialPredictor::Held {
   HandStrength hand;
 };
 
+std::vector<double> leg_tilts(double from, double to) {
+  constexpr double NEAR = 1e-9;  // rad: a whole step that is one of the ends, but for rounding
+  std::vector<double> tilts{from};
+  for (double step = std::floor(from / LEG_STEP); step * LEG_STEP < to - NEAR; ++step)
+    if (step * LEG_STEP > from + NEAR) tilts.push_back(step * LEG_STEP);
+  if (to > from) tilts.push_back(to);
+  return tilts;
+}
+
 Scene scene_of_0_1(const Scene& scene) {
   Scene old = scene;
   old.strength.reset();
@@ -74,11 +83,14 @@ GripPrediction TrialPredictor::predict(std::size_t vessel, const GripInput& grip
   held.hand = {scene_.force.friction, scene_.force.torsion, scene_.strength.value().digits};
   GripPrediction prediction;
   prediction.worst_effort = prediction.tips_worst_effort = NO_VALUE;
-  for (const TrialCase& one : cases) {
-    const CasePrediction found = prediction.cases.emplace_back(predict_case(held, one));
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    const TrialCase& one = cases[k];
+    CasePrediction& found = prediction.cases.emplace_back(predict_case(held, one));
     if (one.protocol != TrialProtocol::fill_tilt) continue;
-    prediction.worst_effort = std::fmax(prediction.worst_effort, found.effort);
-    prediction.tips_worst_effort = std::fmax(prediction.tips_worst_effort, found.tips);
+    const bool goes_on = k > 0 && cases[k - 1].protocol == one.protocol && cases[k - 1].fill == one.fill;
+    predict_leg(held, one, goes_on ? cases[k - 1].tilt : 0, found);
+    prediction.worst_effort = std::fmax(prediction.worst_effort, found.leg_effort);
+    prediction.tips_worst_effort = std::fmax(prediction.tips_worst_effort, found.leg_tips);
   }
   predict_states(held, prediction);
   predict_scores(held, prediction);
@@ -106,7 +118,21 @@ CasePrediction TrialPredictor::predict_case(const Held& held, const TrialCase& o
   }
   const Wrench load = core_f64::wrench_at(to_vec3<double>(state.center_of_mass), force);
   const Vec3 center = core_f64::contacts_center(held.contacts);
-  return {EffortSolver(held.contacts, hand, center).solve(load).effort, EffortSolver(held.tips, hand, center).solve(load).effort};
+  const double effort = EffortSolver(held.contacts, hand, center).solve(load).effort;
+  const double tips = EffortSolver(held.tips, hand, center).solve(load).effort;
+  return {effort, tips, effort, tips};
+}
+
+// `prediction` is that of the case itself, where the way ends.
+void TrialPredictor::predict_leg(const Held& held, const TrialCase& one, double from, CasePrediction& prediction) const {
+  for (const double tilt : leg_tilts(from, one.tilt)) {
+    if (tilt == one.tilt) continue;
+    TrialCase on_the_way = one;
+    on_the_way.tilt = tilt;
+    const CasePrediction found = predict_case(held, on_the_way);
+    prediction.leg_effort = std::max(prediction.leg_effort, found.effort);
+    prediction.leg_tips = std::max(prediction.leg_tips, found.tips);
+  }
 }
 
 TrialPredictor::States TrialPredictor::states_of(std::size_t vessel) const {

@@ -16,15 +16,19 @@
 
 namespace wholehand {
 
-// Efforts are infinite where no force of the hand holds the load.
+// Efforts are infinite where no force of the hand holds the load. Those of the way are the largest of the states that a run goes
+// through on its way to the case, since the one before in its fill: from the one's tilt to the other's, and of a fill's first case
+// from upright, where it is released. A push has no way.
 struct CasePrediction {
-  double effort = 0;  // of the whole hand
-  double tips = 0;    // of thumb and index tip alone
+  double effort = 0;      // of the whole hand
+  double tips = 0;        // of thumb and index tip alone
+  double leg_effort = 0;  // the same two of the way
+  double leg_tips = 0;
 };
 
 struct GripPrediction {
   std::vector<CasePrediction> cases;  // in the order of those asked for
-  double worst_effort = 0;            // of the fill_tilt cases; NaN without any
+  double worst_effort = 0;            // of the ways to the fill_tilt cases; NaN without any
   double tips_worst_effort = 0;       // likewise
   double scene_worst_effort = 0;      // over all states of the scene, as a sweep has it
   double push = 0;                    // N
@@ -34,6 +38,10 @@ struct GripPrediction {
   std::array<double, SCORE_TERM_COUNT> terms{};  // fingers, contacts, depth, posture, force, hold
   double score_0_1 = 0;                          // as version 0.1 had it
 };
+
+// The tilts at which a way from one tilt to another is looked at: both, and every whole LEG_STEP between them.
+inline constexpr double LEG_STEP = radians(5);
+std::vector<double> leg_tilts(double from, double to);
 
 constexpr std::size_t TRIAL_FACETS = 2'000;  // of the hull for epsilon: 15 ms a grip, and a bracket about 12 % wide
 
@@ -53,6 +61,7 @@ class TrialPredictor {
  private:
   struct Held;
   CasePrediction predict_case(const Held& held, const TrialCase& one) const;
+  void predict_leg(const Held& held, const TrialCase& one, double from, CasePrediction& prediction) const;
   void predict_states(const Held& held, GripPrediction& prediction) const;
   void predict_scores(const Held& held, GripPrediction& prediction) const;
   double mass_of(double state) const;

@@ -16,7 +16,7 @@ constexpr const char* COLUMNS =
     "vessel,grip,fill,tilt_rad,protocol,effort,tips_effort,push_N,score,held,slip_m,turn_rad,discarded,reason,"
     "sample,model,material,direction,move_m,lost_after_s,tilt_lost_rad,worst_effort,tips_worst_effort,scene_worst_effort,"
     "friction_needed,epsilon,score_0_1,score_fingers,score_contacts,score_depth,score_posture,score_force,score_hold,"
-    "height_m,azimuth_rad,obliquity_rad,roll_rad,offset_m,hand_scale,detail\n";
+    "height_m,azimuth_rad,obliquity_rad,roll_rad,offset_m,hand_scale,leg_effort,leg_tips_effort,slipped,detail\n";
 
 std::string cell_of(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
 
@@ -69,6 +69,8 @@ std::string trials_csv(const Scene& scene, const TrialSettings& settings, const 
       const bool is_lost = has_run && !outcome.held;
       row.add(outcome.move, has_run).add(outcome.when, is_lost).add(outcome.tilt_lost, is_lost && !is_push);
       add_grip(row, grip, said);
+      row.add(said.cases[k].leg_effort).add(said.cases[k].leg_tips);
+      row.add(!has_run ? "" : has_slipped(outcome, settings) ? "1" : "0");
       row.add(csv_text(outcome.detail));
       text += '\n';
     }

@@ -28,6 +28,11 @@ struct TriedGrips {
 // not.
 inline bool is_telling(const TrialOutcome& outcome) { return !outcome.discarded && outcome.reason != TrialReason::earlier; }
 
+// Whether a contact slid farther than it may in a firm grip. A vessel may be held all the same.
+inline bool has_slipped(const TrialOutcome& outcome, const TrialSettings& settings) {
+  return !outcome.discarded && outcome.slip > settings.slip;
+}
+
 constexpr std::array<const char*, 2> TRIAL_PROTOCOL_NAMES{"fill-tilt", "six-forces"};
 constexpr std::array<const char*, 2> TRIAL_MODEL_NAMES{"hand", "contacts"};
 

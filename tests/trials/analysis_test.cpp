@@ -38,7 +38,7 @@ struct Made {
     tried.grips.push_back(grip);
     GripFinding found;
     for (std::size_t k = 0; k < 2; ++k) {
-      found.prediction.cases.push_back({efforts[k], 2 * efforts[k]});
+      found.prediction.cases.push_back({efforts[k], 2 * efforts[k], efforts[k], 2 * efforts[k]});
       TrialOutcome outcome;
       outcome.held = held[k];
       if (!held[k]) outcome.reason = k == 1 && !held[0] ? TrialReason::earlier : TrialReason::turned;
@@ -100,10 +100,30 @@ TEST(TrialAnalysis, PredictorsOfGripsAndOfTrials) {
   EXPECT_EQ(row_of(found, SAMPLE, BY_WORST_EFFORT).auc.successes, 2u);
   EXPECT_DOUBLE_EQ(row_of(found, SAMPLE, BY_PUSH).auc.auc, 1);
   EXPECT_DOUBLE_EQ(row_of(found, SAMPLE, BY_EPSILON).auc.auc, 0.5) << "all are alike";
-  const Auc& by_trial = row_of(found, SAMPLE, BY_STATE_EFFORT).auc;
+  const Auc& by_trial = row_of(found, SAMPLE, BY_LEG_EFFORT).auc;
   EXPECT_EQ(by_trial.successes, 6u);
   EXPECT_EQ(by_trial.failures, 2u);
   EXPECT_DOUBLE_EQ(by_trial.auc, 1);
+}
+
+// A loss between two tilts is one of the way, whatever the effort where the way ends.
+TEST(TrialAnalysis, ALossOnTheWayIsJudgedByItsEffort) {
+  Made made;
+  made.add({0.1, 0.2}, {true, true});
+  made.add({0.1, 0.2}, {true, false});
+  CasePrediction& said = made.tried.found.back().prediction.cases[1];
+  said.leg_effort = 3;
+  said.leg_tips = 6;
+  made.tried.found.back().outcomes[1].tilt_lost = 0.7;
+  const TrialAnalysis found = analyse_trials(made.scene, made.tried, made.options);
+  const Confusion& confusion = found.efforts[0].confusion;
+  EXPECT_EQ(confusion.held_as_said, 3u);
+  EXPECT_EQ(confusion.lost_as_said, 1u);
+  EXPECT_EQ(confusion.lost_though_said, 0u);
+  EXPECT_TRUE(found.disagreements.empty());
+  for (const std::size_t predictor : {BY_WORST_EFFORT, BY_TIPS_EFFORT, BY_LEG_EFFORT, BY_LEG_TIPS})
+    EXPECT_DOUBLE_EQ(row_of(found, SAMPLE, predictor).auc.auc, 1) << predictor;
+  EXPECT_EQ(found.successes[1].trials.held.yes, 1u) << "by its state it is lost as before";
 }
 
 // The bar of the best counts grips, and only trials that effort is sure of.
