@@ -8,8 +8,10 @@
 #include <functional>
 #include <limits>
 
+#include "core/error.h"
 #include "sweeps/result_definition.h"
 #include "system/files.h"
+#include "system/readable.h"
 #include "system/version.h"
 #include "trials/cases.h"
 
@@ -196,10 +198,27 @@ class Dataset {
 
 }  // namespace
 
+std::uint64_t trials_dataset_room(const Scene& scene, const TriedGrips& tried) {
+  constexpr std::uint64_t VALUES = 32, WIDTH = 8;  // of a trial, and of a grip with its terms: more than there are
+  constexpr std::uint64_t VARIABLES = 48, HEAD = 4096;
+  std::uint64_t rows = tried.grips.size();
+  for (std::size_t g = 0; g < tried.grips.size(); ++g) rows += tried.cases_of(g).size();
+  std::uint64_t names = 0;
+  for (const VesselData& vessel : scene.vessels) names += vessel.name.size() + 64;
+  return VARIABLES * HEAD + rows * VALUES * WIDTH + names + scene.text.size() + scene.name.size();
+}
+
 void write_trials_dataset(const std::string& path, const Scene& scene, const TrialOptions& options, const TriedGrips& tried,
                           const TrialOrigin& origin) {
   const std::string partial = temporary_name(path);
   std::remove(partial.c_str());
+  const std::uint64_t room = trials_dataset_room(scene, tried);
+  try {
+    check_room(partial, room);  // HDF5 does not survive a disk that fills up under it
+  } catch (const Error&) {
+    throw failure_error(fmt::format("{}: cannot write it ({}): is the disk full? Make room, then go on with --resume", path,
+                                    readable_bytes(static_cast<double>(room))));
+  }
   try {
     Dataset(partial, tried).write(scene, options, origin);
     rename_file(partial, followed(path));

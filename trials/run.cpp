@@ -100,6 +100,8 @@ class Trials {
       : scene_(scene), options_(options), result_(result), predictor_(checked(scene), options.settings) {
     find_cases();
     engine_ = open(predictor_.scene(), *predictor_.core(), options.settings);
+    for (std::size_t v = 0; v < scene_.vessels.size(); ++v)
+      if (!options_.vessel || *options_.vessel == v) engine_->check(v);
     prepare_trials_folder(options.folder);
   }
 
@@ -225,8 +227,9 @@ class Trials {
     const TrialAnalysis analysis = analyse_trials(scene_, tried_, options_);
     const auto shown = show_disagreements(files, scene_, predictor_, *engine_, tried_, analysis);
     const TrialPageSource source{scene_, options_, tried_, analysis, shown, engine_->name(), identity_text(identity)};
-    write_trials_dataset(files.nc, scene_, options_, tried_, {source.engine, source.identity});
+    // the table first: beside it a folder's trials.nc is known as ours
     write_whole_file(files.csv, trials_csv(scene_, options_.settings, tried_), false, REMEDY);
+    write_trials_dataset(files.nc, scene_, options_, tried_, {source.engine, source.identity});
     write_whole_file(files.page, trials_page(source), false, REMEDY);
     print(trials_summary(scene_, options_, analysis));
     const auto recordings = std::count_if(shown.begin(), shown.end(), [](const auto& one) { return !one.recording.empty(); });

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.h"
 #include "core/random_bits.h"
 #include "tests/support/scenes.h"
 #include "trials/options.h"
@@ -43,13 +44,20 @@ inline TrialOptions few_trials(const std::string& folder) {
 // Holds what takes an effort below 1, roughly, give or take a factor that the grip's own numbers draw.
 class FakeTrialEngine : public TrialEngine {
  public:
-  explicit FakeTrialEngine(const Scene& scene) : core_(make_core_evaluator(scene)) {}
+  explicit FakeTrialEngine(const Scene& scene) : core_(make_core_evaluator(scene)) {
+    for (const VesselData& vessel : scene.vessels) names_.push_back(vessel.name);
+  }
 
   std::string name() const override { return engine_name; }
+
+  void check(std::size_t vessel) const override {
+    if (names_[vessel] == without_model) throw usage_error("vessel '" + without_model + "' has no model: it is in no piece");
+  }
 
   std::vector<TrialOutcome> run(std::size_t vessel, const GripInput& grip, const std::vector<TrialCase>& cases,
                                 std::vector<TrialTrack>* tracks) const override {
     if (before_run) before_run();
+    if (count && !tracks) ++*count;
     GripResult result;
     core_->grip(vessel, grip, result);
     const double worst = 1 / core_->score(vessel, grip, result).terms.hold - 1;
@@ -73,6 +81,8 @@ class FakeTrialEngine : public TrialEngine {
   double spread = 1;     // of the logarithm of the factor
   double discarded = 0;  // share of the grips
   std::function<void()> before_run;
+  std::atomic<int>* count = nullptr;  // of the runs without tracks: those of the trials, not of the disagreements
+  std::string without_model;          // a vessel
 
  private:
   static double draw(const GripInput& grip) {
@@ -116,6 +126,7 @@ class FakeTrialEngine : public TrialEngine {
   }
 
   std::unique_ptr<const Evaluator> core_;
+  std::vector<std::string> names_;
 };
 
 inline OpenTrialEngine open_fake_engine(const std::function<void(FakeTrialEngine&)>& change = {}) {
