@@ -66,6 +66,7 @@ std::optional<std::size_t> read_vessel(const Scene& scene, const std::string& na
 // All that does not need the scene.
 TrialOptions read_options(const TrialsArguments& arguments) {
   TrialOptions options;
+  read_protocol(arguments.protocol, options);
   if (arguments.quick) make_quick(options);
   options.folder = arguments.folder;
   options.resume = arguments.resume;
@@ -75,7 +76,6 @@ TrialOptions read_options(const TrialsArguments& arguments) {
     throw usage_error("--grips 0 with --best 0: no grip is left to try; give more of one");
   options.fills = read_ascending(arguments.fills, "--fill", ranges::FRACTION);
   options.tilts = read_ascending(arguments.tilts, "--tilt-deg", ranges::TILT);
-  read_protocol(arguments.protocol, options);
   if (is_second(arguments.model, "--model", "hand", "contacts")) options.settings.model = TrialModel::contacts;
   if (!arguments.mass.empty()) options.settings.mass = parse_quantity(arguments.mass, "--mass-kg", ranges::MASS);
   if (!arguments.friction.empty()) options.settings.friction = parse_quantity(arguments.friction, "--friction", ranges::FRICTION);

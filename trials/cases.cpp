@@ -12,7 +12,8 @@
 namespace wholehand {
 namespace {
 
-constexpr std::size_t USUAL_TILTS = 4, QUICK_GRIPS = 60, QUICK_BEST = 4, QUICK_LOOKED = 2000;
+constexpr std::size_t USUAL_TILTS = 4, QUICK_GRIPS = 60, QUICK_BEST = 4, QUICK_PUSHED_GRIPS = 12, QUICK_PUSHED_BEST = 2,
+                      QUICK_LOOKED = 2000;
 
 bool holds_liquid(const Scene& scene, const Evaluator& core, std::size_t vessel) {
   return scene.liquid && core.capacity(vessel) > 0;
@@ -32,8 +33,9 @@ const std::array<const char*, FORCE_DIRECTIONS> FORCE_DIRECTION_NAMES{"+x", "-x"
 
 void make_quick(TrialOptions& options) {
   options.quick = true;
-  options.grips = QUICK_GRIPS;
-  options.best = QUICK_BEST;
+  // all pushes of a grip take four times as long as its tilts at one fill
+  options.grips = options.six_forces ? QUICK_PUSHED_GRIPS : QUICK_GRIPS;
+  options.best = options.six_forces ? QUICK_PUSHED_BEST : QUICK_BEST;
   options.most_looked = QUICK_LOOKED;
 }
 

@@ -32,7 +32,7 @@ struct TrialOptions {
   std::size_t most_looked = std::size_t{1} << 18;  // grips of a vessel whose scores are looked at for the sample
 };
 
-// Fewer grips and states, for less than a minute.
+// Fewer grips and states, for less than a minute. After the protocol, on which it depends.
 void make_quick(TrialOptions& options);
 
 // The engine for a scene. Throws Error: (failure) it is not there; (usage) a vessel has no model.
