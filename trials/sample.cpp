@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/random_bits.h"
 #include "shaders/layout.h"
+#include "sweeps/closing.h"
 #include "sweeps/hand_lists.h"
 #include "sweeps/list_chooser.h"
 #include "system/progress.h"
@@ -46,11 +47,16 @@ std::vector<std::size_t> asked_vessels(const Scene& scene, const TrialOptions& o
 
 std::vector<Candidate> listed_best(const SweepResult& result, const Plan& plan, std::size_t vessel, std::size_t count) {
   std::vector<Candidate> all;
+  std::size_t fewest = count;
   for (std::size_t scale = 0; scale < plan.hand_scales(); ++scale) {
     std::vector<Candidate> list = result.best(vessel, scale);
+    fewest = std::min(fewest, list.size());
     list.resize(std::min(list.size(), count));
     all.insert(all.end(), list.begin(), list.end());
   }
+  if (fewest < count)
+    say_note(fmt::format("of vessel {} the result lists {} grip{}, and --best asks for {}; `wholehand sweep --best` lists more",
+                         vessel + 1, all.size(), all.size() == 1 ? "" : "s", count * plan.hand_scales()));
   return all;
 }
 
@@ -143,6 +149,14 @@ std::vector<Candidate> best_different(const Scene& scene, const Plan& plan, cons
   return chooser.chosen();
 }
 
+std::size_t remove_impossible(const Evaluator& core, std::vector<TrialGrip>& grips) {
+  return std::erase_if(grips, [&](const TrialGrip& one) {
+    GripResult found;
+    core.grip(one.vessel, one.grip, found);
+    return found.reason != Reason::none || !found.plausible;
+  });
+}
+
 std::vector<TrialGrip> choose_trial_grips(const GripSourceOfTrials& source, const TrialOptions& options,
                                           const std::atomic<bool>& stop) {
   const std::vector<std::size_t> vessels = asked_vessels(source.scene, options);
@@ -166,6 +180,10 @@ std::vector<TrialGrip> choose_trial_grips(const GripSourceOfTrials& source, cons
     for (const Candidate& one : stratified_sample(eligible, share, v, options.seed)) add(one, TrialSample::stratified);
   }
   if (stop) return {};
+  const std::size_t impossible = source.result ? remove_impossible(*source.core, grips) : 0;
+  if (impossible > 0)
+    say_note(fmt::format("{} chosen grip{} of the result {} not feasible and plausible in double precision, and {} left out",
+                         impossible, impossible == 1 ? "" : "s", impossible == 1 ? "is" : "are", impossible == 1 ? "is" : "are"));
   if (grips.empty())
     throw usage_error("no grip is feasible and plausible, so there is nothing to try; `wholehand sweep` tells why");
   return grips;

@@ -50,6 +50,9 @@ std::vector<Candidate> eligible_in_result(const SweepResult& result, const Plan&
 std::vector<Candidate> best_different(const Scene& scene, const Plan& plan, const Evaluator& core, std::size_t vessel,
                                       const std::vector<Candidate>& eligible, const TrialOptions& options);
 
+// A result may have found its grips in single precision: those go that are not feasible and plausible by the core. How many.
+std::size_t remove_impossible(const Evaluator& core, std::vector<TrialGrip>& grips);
+
 // Where the scores come from: the core, or a result with its own lists. The result is in use with scene and plan.
 struct GripSourceOfTrials {
   const Scene& scene;
@@ -58,7 +61,8 @@ struct GripSourceOfTrials {
   const SweepResult* result = nullptr;
 };
 
-// All grips to be tried: of each vessel the best, then the others. A listed grip is not in the stratified sample too. Throws Error
+// All grips to be tried: of each vessel the best, then the others. A listed grip is not in the stratified sample too. Chosen grips of
+// a result that the core does not find feasible and plausible are left out, and a note says how many. Throws Error
 // (usage) where no grip is feasible and plausible. Empty where `stop` is set.
 std::vector<TrialGrip> choose_trial_grips(const GripSourceOfTrials& source, const TrialOptions& options,
                                           const std::atomic<bool>& stop);

@@ -193,5 +193,34 @@ TEST(TrialCases, TiltsThatDoNotCountAreLeftOut) {
   EXPECT_EQ(trial_cases(scene, *core, 0, options).size(), 12u);
 }
 
+// What a result of single precision may list, and the core does not find.
+TEST(TrialSample, GripsThatAreNoneByTheCoreGo) {
+  Scene scene = three_beakers();
+  scene.strength = StrengthData{};
+  const auto core = make_core_evaluator(scene);
+  TrialGrip good, below, far;
+  good.number = 1;
+  good.grip.height = 0.07;
+  good.grip.roll = radians(-35);
+  below.grip.height = -0.05;  // through the table
+  far.grip.height = 0.07;
+  far.grip.offset = 0.5;  // beside the vessel
+  std::vector<TrialGrip> grips{below, good, far};
+  EXPECT_EQ(remove_impossible(*core, grips), 2u);
+  ASSERT_EQ(grips.size(), 1u);
+  EXPECT_EQ(grips[0].number, 1u);
+}
+
+// Pushes take longer than tilts, so that there are fewer grips of them.
+TEST(TrialSample, QuickTrialsOfBothProtocolsHaveFewerGrips) {
+  TrialOptions tilted, both;
+  both.six_forces = true;
+  make_quick(tilted);
+  make_quick(both);
+  EXPECT_LE(4 * both.grips, tilted.grips);
+  EXPECT_LT(both.best, tilted.best);
+  EXPECT_GT(both.best, 0u);
+}
+
 }  // namespace
 }  // namespace wholehand
