@@ -69,7 +69,8 @@ double value_of(const TriedGrips& tried, std::size_t grip, const TrialGroup& gro
   }
 }
 
-void count_trial(TrialCount& count, const TrialOutcome& outcome, std::size_t& held, std::size_t& all) {
+void count_trial(TrialCount& count, const TrialOutcome& outcome, const TrialSettings& settings, std::size_t& held,
+                 std::size_t& all) {
   if (outcome.discarded) {
     ++count.discarded;
     count.diverged += outcome.reason == TrialReason::diverged ? 1 : 0;
@@ -77,10 +78,12 @@ void count_trial(TrialCount& count, const TrialOutcome& outcome, std::size_t& he
   }
   ++all;
   held += outcome.held ? 1 : 0;
+  count.slipped += outcome.held && has_slipped(outcome, settings) ? 1 : 0;
 }
 
 // Of a vessel, a row for each fill and tilt, or one for the pushes.
-void add_successes(const TriedGrips& tried, const TrialGroup& group, std::size_t vessel, std::vector<SuccessRow>& rows) {
+void add_successes(const TriedGrips& tried, const TrialSettings& settings, const TrialGroup& group, std::size_t vessel,
+                   std::vector<SuccessRow>& rows) {
   const std::vector<TrialCase>& cases = tried.cases[vessel];
   std::vector<std::array<double, 2>> seen;
   for (const TrialCase& one : cases) {
@@ -94,15 +97,31 @@ void add_successes(const TriedGrips& tried, const TrialGroup& group, std::size_t
       if (tried.grips[g].vessel != vessel || tried.grips[g].sample != group.sample) continue;
       for (std::size_t k = 0; k < cases.size(); ++k)
         if (is_of(group, tried.grips[g], cases[k]) && cases[k].fill == one.fill && cases[k].tilt == one.tilt)
-          count_trial(row.trials, tried.found[g].outcomes[k], held, all);
+          count_trial(row.trials, tried.found[g].outcomes[k], settings, held, all);
     }
     row.trials.held = share_of(held, all);
     rows.push_back(row);
   }
 }
 
-std::optional<WholeGrips> whole_grips(const TriedGrips& tried, const TrialGroup& group, std::size_t vessel) {
-  WholeGrips row{group, vessel, {}, 0};
+// Of a vessel's trials of the group that were held, those that slipped.
+Share slipped_of(const TriedGrips& tried, const TrialSettings& settings, const TrialGroup& group, std::size_t vessel) {
+  std::size_t slipped = 0, held = 0;
+  for (std::size_t g = 0; g < tried.grips.size(); ++g) {
+    if (tried.grips[g].vessel != vessel) continue;
+    for (std::size_t k = 0; k < tried.cases_of(g).size(); ++k) {
+      const TrialOutcome& outcome = tried.found[g].outcomes[k];
+      if (!outcome.held || !is_of(group, tried.grips[g], tried.cases_of(g)[k])) continue;
+      ++held;
+      slipped += has_slipped(outcome, settings) ? 1 : 0;
+    }
+  }
+  return share_of(slipped, held);
+}
+
+std::optional<WholeGrips> whole_grips(const TriedGrips& tried, const TrialSettings& settings, const TrialGroup& group,
+                                      std::size_t vessel) {
+  WholeGrips row{group, vessel, {}, 0, {}};
   std::size_t held = 0, all = 0;
   for (std::size_t g = 0; g < tried.grips.size(); ++g) {
     if (tried.grips[g].vessel != vessel) continue;
@@ -114,7 +133,21 @@ std::optional<WholeGrips> whole_grips(const TriedGrips& tried, const TrialGroup&
   }
   if (all + row.discarded == 0) return std::nullopt;
   row.held = share_of(held, all);
+  row.slipped = slipped_of(tried, settings, group, vessel);
   return row;
+}
+
+std::vector<PushedGrips> pushed_of(const std::vector<WholeGrips>& grips) {
+  std::vector<PushedGrips> pushed;
+  for (const WholeGrips& row : grips) {
+    if (row.group.protocol != TrialProtocol::six_forces) continue;
+    const auto same = std::find_if(pushed.begin(), pushed.end(), [&](const PushedGrips& one) {
+      return one.sample == row.group.sample && one.vessel == row.vessel;
+    });
+    PushedGrips& one = same != pushed.end() ? *same : pushed.emplace_back(PushedGrips{row.group.sample, row.vessel, {}});
+    one.by_material.push_back(row);
+  }
+  return pushed;
 }
 
 GroupEfforts efforts_of(const TriedGrips& tried, const TrialGroup& group) {
@@ -180,25 +213,39 @@ std::vector<Disagreement> find_disagreements(const TriedGrips& tried) {
   return chosen;
 }
 
-// Of the best grips of a vessel those that hold in every trial for which effort says at most SURE_EFFORT.
-Share surely_held(const TriedGrips& tried, std::size_t vessel) {
+// Of the best grips of a vessel those that hold in every trial for which effort says at most SURE_EFFORT. A grip without such a trial
+// shows nothing.
+struct SurelyHeld {
+  Share held;
+  std::size_t discarded = 0, without = 0;  // grips that are not in it: a trial was discarded, or none is sure
+};
+
+SurelyHeld surely_held(const TriedGrips& tried, std::size_t vessel) {
+  SurelyHeld found;
   std::size_t held = 0, all = 0;
   const TrialGroup best{TrialSample::best, TrialProtocol::fill_tilt, 0};
   for (std::size_t g = 0; g < tried.grips.size(); ++g) {
     if (tried.grips[g].vessel != vessel || tried.grips[g].sample != TrialSample::best) continue;
     const GripFate fate = fate_of(tried, g, best);
-    if (fate.trials == 0 || fate.discarded) continue;
-    bool is_held = true;
+    if (fate.trials == 0) continue;
+    if (fate.discarded) {
+      ++found.discarded;
+      continue;
+    }
+    bool is_held = true, has_sure = false;
     for (std::size_t k = 0; k < tried.cases_of(g).size(); ++k) {
       const TrialOutcome& outcome = tried.found[g].outcomes[k];
       const bool is_sure = is_of(best, tried.grips[g], tried.cases_of(g)[k]) && is_telling(outcome) &&
                            tried.found[g].prediction.cases[k].leg_effort <= SURE_EFFORT;
+      has_sure = has_sure || is_sure;
       is_held = is_held && (!is_sure || outcome.held);
     }
-    ++all;
-    held += is_held ? 1 : 0;
+    found.without += has_sure ? 0 : 1;
+    all += has_sure ? 1 : 0;
+    held += has_sure && is_held ? 1 : 0;
   }
-  return share_of(held, all);
+  found.held = share_of(held, all);
+  return found;
 }
 
 std::vector<TrialBar> bars_of(const Scene& scene, const TriedGrips& tried, const TrialAnalysis& analysis) {
@@ -216,10 +263,12 @@ std::vector<TrialBar> bars_of(const Scene& scene, const TriedGrips& tried, const
   add_auc("AUC of the worst effort, stratified sample, fill-tilt", WANTED_EFFORT_AUC, BY_WORST_EFFORT);
   add_auc("AUC of the score, stratified sample, fill-tilt", WANTED_SCORE_AUC, BY_SCORE);
   for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
-    const Share share = surely_held(tried, v);
-    if (share.of == 0) continue;
+    const auto [share, discarded, without] = surely_held(tried, v);
+    if (share.of + discarded + without == 0) continue;
     bars.push_back({fmt::format("best grips of {} that hold wherever effort is at most {}", scene.vessels[v].name, SURE_EFFORT),
-                    WANTED_HELD, share.share, share.interval, fmt::format("{} of {} grips", share.yes, share.of)});
+                    WANTED_HELD, share.share, share.interval,
+                    fmt::format("{} of {} grips; left out: {} with a discarded trial, {} without such an effort", share.yes,
+                                share.of, discarded, without)});
   }
   return bars;
 }
@@ -271,13 +320,14 @@ TrialAnalysis analyse_trials(const Scene& scene, const TriedGrips& tried, const 
   analysis.groups = groups_of(tried, options);
   for (const TrialGroup& group : analysis.groups) {
     for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
-      add_successes(tried, group, v, analysis.successes);
-      if (const auto row = whole_grips(tried, group, v)) analysis.grips.push_back(*row);
+      add_successes(tried, options.settings, group, v, analysis.successes);
+      if (const auto row = whole_grips(tried, options.settings, group, v)) analysis.grips.push_back(*row);
     }
     for (std::size_t predictor = 0; predictor < TRIAL_PREDICTORS; ++predictor)
       analysis.predictors.push_back({group, predictor, auc_with_interval(predictions_of(tried, group, predictor), options.seed)});
     analysis.efforts.push_back(efforts_of(tried, group));
   }
+  analysis.pushed = pushed_of(analysis.grips);
   if (options.fill_tilt) analysis.weights = weights_by_trials(scene, tried, options.seed);
   if (options.fill_tilt) analysis.bars = bars_of(scene, tried, analysis);
   analysis.disagreements = find_disagreements(tried);
@@ -287,8 +337,20 @@ TrialAnalysis analyse_trials(const Scene& scene, const TriedGrips& tried, const 
 std::string group_text(const TrialGroup& group, const TrialSettings& settings) {
   const char* sample = group.sample == TrialSample::best ? "best grips" : "stratified sample";
   if (group.protocol == TrialProtocol::fill_tilt) return fmt::format("{}, fill-tilt", sample);
-  const std::string& material = settings.materials[static_cast<std::size_t>(group.material)].name;
-  return fmt::format("{}, six-forces, mass and friction of {}", sample, material == "scene" ? "the scene" : material);
+  return fmt::format("{}, six-forces, {}", sample, material_text(settings.materials[static_cast<std::size_t>(group.material)]));
+}
+
+std::string material_text(const TrialMaterial& material) {
+  return fmt::format("mass and friction of {}", material.name == "scene" ? "the scene" : material.name);
+}
+
+std::string weights_text(const WeightTrial& weights) {
+  return fmt::format(
+      "On the other half the fitted weights have an AUC of {}, and the scene's weights {}. The difference is {}: {}.",
+      interval_text(weights.fitted.auc, weights.fitted.interval, 3), interval_text(weights.given.auc, weights.given.interval, 3),
+      interval_text(weights.difference.difference, weights.difference.interval, 3),
+      weights.is_better() ? "the fitted weights are better by more than the interval"
+                          : "the fitted weights are not better by more than the interval");
 }
 
 std::string outcome_text(const TrialCase& one, const TrialOutcome& outcome) {

@@ -28,6 +28,7 @@ bool is_of(const TrialGroup& group, const TrialGrip& grip, const TrialCase& one)
 struct TrialCount {
   Share held;
   std::size_t discarded = 0, diverged = 0;  // the second are among the first
+  std::size_t slipped = 0;                  // of those held
 };
 
 // One vessel, of one fill and tilt where there is one.
@@ -44,6 +45,14 @@ struct WholeGrips {
   std::size_t vessel = 0;
   Share held;
   std::size_t discarded = 0;
+  Share slipped;  // of all trials of the group that were held
+};
+
+// Whole grips of a vessel and sample under six_forces, by material: the same grips at the mass and friction of each.
+struct PushedGrips {
+  TrialSample sample = TrialSample::stratified;
+  std::size_t vessel = 0;
+  std::vector<WholeGrips> by_material;  // in the order of TrialSettings::materials
 };
 
 // ---- what predicts success ----
@@ -101,6 +110,7 @@ struct TrialAnalysis {
   std::vector<TrialGroup> groups;  // that have grips, in the order of the tables
   std::vector<SuccessRow> successes;
   std::vector<WholeGrips> grips;
+  std::vector<PushedGrips> pushed;  // of those, the ones under six_forces
   std::vector<PredictorRow> predictors;
   std::vector<GroupEfforts> efforts;
   std::optional<WeightTrial> weights;  // by the stratified sample at fill_tilt
@@ -112,7 +122,11 @@ TrialAnalysis analyse_trials(const Scene& scene, const TriedGrips& tried, const 
 
 // ---- words ----
 
-std::string group_text(const TrialGroup& group, const TrialSettings& settings);  // "stratified sample, six forces as DexGraspBench"
+std::string group_text(const TrialGroup& group, const TrialSettings& settings);  // "best grips, fill-tilt"
+// "mass and friction of the scene".
+std::string material_text(const TrialMaterial& material);
+// Whether the fitted weights are better than the scene's, a sentence.
+std::string weights_text(const WeightTrial& weights);
 // What the engine did in one trial, a sentence.
 std::string outcome_text(const TrialCase& one, const TrialOutcome& outcome);
 // "0.91 (0.88 to 0.94)".

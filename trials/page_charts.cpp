@@ -224,8 +224,9 @@ void write_trial_predictors(MarkupWriter& html, const TrialPageSource& source) {
       "p",
       "Success of a grip is to hold in every trial of its group; grips with a discarded trial are left out. The two predictors "
       "\u201cby trial\u201d are judged trial by trial, without those whose state was not reached. After each AUC stand its "
-      "interval, and "
-      "the numbers of successes and failures.");
+      "interval, and the numbers of successes and failures. With few grips, or few of either, the intervals of AUCs are too "
+      "narrow: "
+      "a bootstrap knows no other grips than those that it has.");
   if (!source.analysis.groups.empty()) {
     const TrialGroup& group = source.analysis.groups[0];
     html.open("figure").open("div", {{"class", "charts"}});

@@ -36,20 +36,40 @@ std::string discarded_text(const TrialCount& count) {
 }
 
 void write_whole_grips(MarkupWriter& html, const TrialPageSource& source) {
-  HtmlTable table(html, "Grips that hold in every trial", {"vessel", "grips", "held", "discarded"}, {1, 2});
+  if (!source.options.fill_tilt) return;
+  HtmlTable table(html, "Grips that hold in every trial of fill-tilt", {"vessel", "grips", "held", "discarded"}, {1, 2});
   for (const WholeGrips& row : source.analysis.grips)
-    table.row({source.scene.vessels[row.vessel].name, group_text(row.group, source.options.settings), share_text(row.held),
-               fmt::format("{}", row.discarded)});
+    if (row.group.protocol == TrialProtocol::fill_tilt)
+      table.row({source.scene.vessels[row.vessel].name, group_text(row.group, source.options.settings), share_text(row.held),
+                 fmt::format("{}", row.discarded)});
   table.end();
 }
 
+// The same grips at the mass and friction of the scene and at others, side by side.
+void write_pushed_grips(MarkupWriter& html, const TrialPageSource& source) {
+  if (source.analysis.pushed.empty()) return;
+  std::vector<std::string> columns{"vessel", "grips"};
+  for (const TrialMaterial& material : source.options.settings.materials) columns.push_back(material_text(material));
+  HtmlTable table(html, "Grips that hold in all six directions", columns, {1});
+  for (const PushedGrips& row : source.analysis.pushed) {
+    std::vector<std::string> cells{source.scene.vessels[row.vessel].name,
+                                   row.sample == TrialSample::best ? "best grips" : "stratified sample"};
+    for (const WholeGrips& one : row.by_material)
+      cells.push_back(share_text(one.held) + (one.discarded > 0 ? fmt::format("; {} discarded", one.discarded) : ""));
+    table.row(cells);
+  }
+  table.end();
+}
+
+std::string slipped_text(const TrialCount& count) { return share_text(share_of(count.slipped, count.held.yes)); }
+
 void write_pushes(MarkupWriter& html, const TrialPageSource& source, const TrialGroup& group) {
   HtmlTable table(html, fmt::format("Pushes that are held: {}", group_text(group, source.options.settings)),
-                  {"vessel", "fill", "held", "discarded"});
+                  {"vessel", "fill", "held", "slipped of those held", "discarded"});
   for (const SuccessRow& row : source.analysis.successes)
     if (row.group == group)
-      table.row(
-          {source.scene.vessels[row.vessel].name, plain_number(row.fill), share_text(row.trials.held), discarded_text(row.trials)});
+      table.row({source.scene.vessels[row.vessel].name, plain_number(row.fill), share_text(row.trials.held),
+                 slipped_text(row.trials), discarded_text(row.trials)});
   table.end();
 }
 
@@ -61,7 +81,7 @@ void write_states(MarkupWriter& html, const TrialPageSource& source, const Trial
   std::sort(tilts.begin(), tilts.end());
   std::vector<std::string> columns{"vessel", "fill"};
   for (const double tilt : tilts) columns.push_back(fmt::format("at {:.0f}°", degrees(tilt)));
-  columns.insert(columns.end(), {"trials", "discarded"});
+  columns.insert(columns.end(), {"trials", "slipped of those held", "discarded"});
   HtmlTable table(html, fmt::format("Share of trials held, in %: {}", group_text(group, source.options.settings)), columns);
   const std::vector<SuccessRow>& all = source.analysis.successes;
   for (std::size_t k = 0; k < all.size();) {
@@ -76,10 +96,12 @@ void write_states(MarkupWriter& html, const TrialPageSource& source, const Trial
         cells[2 + column] = fmt::format("{:.0f} ({:.0f} to {:.0f})", 100 * count.held.share, 100 * count.held.interval.low,
                                         100 * count.held.interval.high);
       sum.held.of += count.held.of;
+      sum.held.yes += count.held.yes;
+      sum.slipped += count.slipped;
       sum.discarded += count.discarded;
       sum.diverged += count.diverged;
     }
-    cells.insert(cells.end(), {fmt::format("{}", sum.held.of), discarded_text(sum)});
+    cells.insert(cells.end(), {fmt::format("{}", sum.held.of), slipped_text(sum), discarded_text(sum)});
     if (first.group == group) table.row(cells);
   }
   table.end();
@@ -160,10 +182,14 @@ void write_trial_setup(MarkupWriter& html, const TrialPageSource& source) {
 void write_trial_successes(MarkupWriter& html, const TrialPageSource& source) {
   open_trial_section(html, "success", "How many held");
   html.element(
-      "p",
-      "A share is of the trials that were not discarded, with Wilson's interval of 95 %. A trial at a tilt that the grip did not "
-      "reach, as it had lost the vessel before, counts as not held.");
+      "p", fmt::format(
+               "A share is of the trials that were not discarded, with Wilson's interval of 95 %. A trial at a tilt that the grip "
+               "did not reach, as it had lost the vessel before, counts as not held. A trial slipped where a contact slid by more "
+               "than {} mm, "
+               "and may be held all the same.",
+               plain_number(1e3 * source.options.settings.slip)));
   write_whole_grips(html, source);
+  write_pushed_grips(html, source);
   write_success_charts(html, source);
   for (const TrialGroup& group : source.analysis.groups)
     (group.protocol == TrialProtocol::fill_tilt ? write_states : write_pushes)(html, source, group);
@@ -194,14 +220,7 @@ void write_trial_weights(MarkupWriter& html, const TrialPageSource& source) {
     table.row({SCORE_TERMS[k], shown_number(given[k], 2), shown_number(weights->fit.coefficients[k], 2),
                shown_number(weights->weights[k], 2) + (weights->is_clamped[k] ? " (negative: set to 0)" : "")});
   table.end();
-  html.element(
-      "p", fmt::format("On the other half the fitted weights have an AUC of {}, and the scene's weights {}. The difference is {}: "
-                       "{}.",
-                       interval_text(weights->fitted.auc, weights->fitted.interval, 3),
-                       interval_text(weights->given.auc, weights->given.interval, 3),
-                       interval_text(weights->difference.difference, weights->difference.interval, 3),
-                       weights->is_better() ? "the fitted weights are better by more than the interval"
-                                            : "the fitted weights are not better by more than the interval"));
+  html.element("p", weights_text(*weights));
   html.close();
 }
 

@@ -15,18 +15,45 @@ std::string plain_interval(double value, const Interval& interval) {
                                   : fmt::format("{:.2f} ({:.2f} to {:.2f})", value, interval.low, interval.high);
 }
 
+// The same grips at each mass and friction, beside each other.
+std::string pushed_lines(const Scene& scene, const TrialOptions& options, const TrialAnalysis& analysis, std::size_t widest) {
+  if (analysis.pushed.empty()) return "";
+  std::string text = "\ngrips that hold in all six directions";
+  const char* before = ": ";
+  for (const TrialMaterial& material : options.settings.materials) {
+    text += before + material_text(material);
+    before = " | ";
+  }
+  text += '\n';
+  for (const PushedGrips& row : analysis.pushed) {
+    text += fmt::format("  {:{}}  {}:", scene.vessels[row.vessel].name, widest,
+                        row.sample == TrialSample::best ? "best grips" : "stratified sample");
+    before = " ";
+    for (const WholeGrips& one : row.by_material) {
+      text += fmt::format("{}{} of {}", before, one.held.yes, one.held.of);
+      if (one.discarded > 0) text += fmt::format(" ({} more discarded)", one.discarded);
+      before = " | ";
+    }
+    text += '\n';
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string trials_summary(const Scene& scene, const TrialOptions& options, const TrialAnalysis& analysis) {
-  std::string text = "\ngrips that hold in every trial:\n";
+  std::string text = options.fill_tilt ? "\ngrips that hold in every trial of fill-tilt:\n" : "";
   std::size_t widest = 0;
   for (const VesselData& vessel : scene.vessels) widest = std::max(widest, vessel.name.size());
   for (const WholeGrips& row : analysis.grips) {
+    if (row.group.protocol != TrialProtocol::fill_tilt) continue;
     text += fmt::format("  {:{}}  {}: {} of {}", scene.vessels[row.vessel].name, widest, group_text(row.group, options.settings),
                         row.held.yes, row.held.of);
     if (row.discarded > 0) text += fmt::format(", {} more discarded", row.discarded);
+    if (row.slipped.yes > 0) text += fmt::format("; {} of {} held trials slipped", row.slipped.yes, row.slipped.of);
     text += '\n';
   }
+  text += pushed_lines(scene, options, analysis, widest);
   for (const TrialGroup& group : analysis.groups) {
     const bool is_measured = std::any_of(analysis.predictors.begin(), analysis.predictors.end(),
                                          [&](const PredictorRow& row) { return row.group == group && !std::isnan(row.auc.auc); });
@@ -36,11 +63,19 @@ std::string trials_summary(const Scene& scene, const TrialOptions& options, cons
       if (row.group == group)
         text += fmt::format("  {:<26} {}\n", TRIAL_PREDICTOR_NAMES[row.predictor], plain_interval(row.auc.auc, row.auc.interval));
   }
-  for (const TrialBar& bar : analysis.bars)
-    text += fmt::format("{}: {}, at least {:.2f} wanted: {}\n", bar.what, plain_interval(bar.found, bar.interval), bar.wanted,
-                        std::isnan(bar.found) ? "not measured"
-                        : bar.is_met()        ? "met"
-                                              : "missed");
+  if (analysis.weights && analysis.weights->fit.is_fitted) {
+    const AucDifference& more = analysis.weights->difference;
+    text += fmt::format("weights fitted to half of the trials, on the other half: AUC {}{}, {}\n", more.difference > 0 ? "+" : "",
+                        plain_interval(more.difference, more.interval),
+                        analysis.weights->is_better() ? "better than the scene's" : "not better than the scene's");
+  }
+  for (const TrialBar& bar : analysis.bars) {
+    const std::string found = std::isnan(bar.found)
+                                  ? "not measured"
+                                  : fmt::format("{}, at least {:.2f} wanted: {}", plain_interval(bar.found, bar.interval),
+                                                bar.wanted, bar.is_met() ? "met" : "missed");
+    text += fmt::format("{}: {} ({})\n", bar.what, found, bar.how);
+  }
   return text;
 }
 

@@ -132,14 +132,61 @@ TEST(TrialAnalysis, BarsOfTheBestGrips) {
   for (int k = 0; k < 18; ++k) made.add({0.1, 0.2}, {true, true}, TrialSample::best);
   made.add({0.1, 0.9}, {true, false}, TrialSample::best);  // effort was not sure
   made.add({0.1, 0.4}, {true, false}, TrialSample::best);
+  made.add({0.7, 0.9}, {true, true}, TrialSample::best);
+  made.add({0.1, 0.2}, {true, true}, TrialSample::best);
+  made.discard_last(1, TrialReason::buried);
   const TrialAnalysis found = analyse_trials(made.scene, made.tried, made.options);
   const TrialBar& bar = found.bars.back();
-  EXPECT_DOUBLE_EQ(bar.found, 0.95);
+  EXPECT_DOUBLE_EQ(bar.found, 0.95) << "of 20: the one without a sure trial shows nothing";
+  EXPECT_EQ(bar.how, "19 of 20 grips; left out: 1 with a discarded trial, 1 without such an effort");
   EXPECT_TRUE(bar.is_met());
   EXPECT_FALSE(found.bars[0].is_met()) << "no stratified sample";
   EXPECT_TRUE(std::isnan(found.bars[0].found));
   made.add({0.1, 0.4}, {true, false}, TrialSample::best);
   EXPECT_FALSE(analyse_trials(made.scene, made.tried, made.options).bars.back().is_met());
+}
+
+TEST(TrialAnalysis, ABarThatNoGripCanShowIsNotMet) {
+  Made made;
+  made.add({0.7, 0.9}, {true, true}, TrialSample::best);
+  const TrialAnalysis found = analyse_trials(made.scene, made.tried, made.options);
+  EXPECT_TRUE(std::isnan(found.bars.back().found));
+  EXPECT_FALSE(found.bars.back().is_met());
+}
+
+// The engine's slip against the settings', of held trials alone.
+TEST(TrialAnalysis, CountsSlipsOfHeldTrials) {
+  Made made;
+  made.add({0.1, 0.2}, {true, true});
+  made.tried.found.back().outcomes[1].slip = 2.1e-3;
+  made.add({0.1, 0.2}, {true, true});
+  made.tried.found.back().outcomes[1].slip = 1.9e-3;
+  made.add({0.1, 0.2}, {true, false});
+  made.tried.found.back().outcomes[1].slip = 9e-3;
+  const TrialAnalysis found = analyse_trials(made.scene, made.tried, made.options);
+  EXPECT_EQ(found.successes[0].trials.slipped, 0u);
+  EXPECT_EQ(found.successes[1].trials.slipped, 1u);
+  EXPECT_EQ(found.grips[0].slipped.yes, 1u);
+  EXPECT_EQ(found.grips[0].slipped.of, 5u);
+}
+
+// One grip under two materials: side by side, each with its own outcome.
+TEST(TrialAnalysis, PushesOfBothMaterialsStandSideBySide) {
+  Made made;
+  made.options.six_forces = true;
+  made.options.fill_tilt = false;
+  for (std::size_t k = 0; k < 2; ++k) {
+    made.tried.cases[0][k].protocol = TrialProtocol::six_forces;
+    made.tried.cases[0][k].material = static_cast<int>(k);
+  }
+  made.add({0.1, 0.2}, {true, true});
+  made.add({0.1, 0.2}, {true, false});
+  const auto pushed = analyse_trials(made.scene, made.tried, made.options).pushed;
+  ASSERT_EQ(pushed.size(), 1u);
+  ASSERT_EQ(pushed[0].by_material.size(), 2u);
+  EXPECT_EQ(pushed[0].by_material[0].held.yes, 2u);
+  EXPECT_EQ(pushed[0].by_material[1].held.yes, 1u);
+  EXPECT_EQ(pushed[0].by_material[1].held.of, 2u);
 }
 
 TEST(TrialAnalysis, DisagreementsAreTheWorstOfEachKind) {

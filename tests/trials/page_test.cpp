@@ -10,6 +10,7 @@
 #include "tests/support/fake_trials.h"
 #include "tests/support/files.h"
 #include "tests/support/xml.h"
+#include "trials/dataset.h"
 #include "trials/disagreements.h"
 #include "trials/run.h"
 
@@ -66,7 +67,8 @@ TEST_F(TrialsPage, IsWholeAndSelfContained) {
 TEST_F(TrialsPage, TellsSamplesAndProtocolsApart) {
   for (const char* part : {"stratified sample, fill-tilt", "best grips, fill-tilt", "mass and friction of DexGraspBench",
                            "AUC of the worst effort, stratified sample, fill-tilt", "worst effort of the scene",
-                           "score of version 0.1", "diverged", "passed by 60.5 %"})
+                           "score of version 0.1", "diverged", "passed by 60.5 %", "Grips that hold in all six directions",
+                           "slipped of those held", "left out: ", "intervals of AUCs are too narrow"})
     EXPECT_TRUE(has(page, part)) << part;
   const std::size_t bar = page.find("<th scope=\"row\">AUC of the worst effort");
   ASSERT_NE(bar, std::string::npos);
@@ -74,6 +76,9 @@ TEST_F(TrialsPage, TellsSamplesAndProtocolsApart) {
   const std::size_t verdict = std::min(row.find(">met<"), row.find(">missed<"));
   EXPECT_LT(verdict, row.find("did not</td>")) << row;
   EXPECT_TRUE(has(printed, "AUC of the worst effort")) << printed;
+  EXPECT_TRUE(has(printed, "in all six directions: mass and friction of the scene | mass and friction of DexGraspBench"))
+      << printed;
+  EXPECT_TRUE(has(printed, "weights fitted to half of the trials")) << printed;
   EXPECT_TRUE(has(printed, "recordings of disagreements")) << printed;
 }
 
@@ -122,6 +127,30 @@ TEST_F(TrialsPage, DatasetHasWhatTheTableHas) {
     EXPECT_EQ(std::stoi(cells[9]), held[k]) << k;
     EXPECT_EQ(std::stod(cells[5]), effort[k]) << k;
   }
+}
+
+// As a check of the room is only worth something if the file is never larger.
+TEST(TrialDataset, RoomIsEnough) {
+  const TemporaryFolder folder;
+  Scene scene = scene_for_trials();
+  TriedGrips tried;
+  tried.cases.resize(scene.vessels.size());
+  const auto expect_room = [&](std::size_t grips, std::size_t cases) {
+    tried.cases[0].resize(cases);
+    tried.grips.assign(grips, {});
+    GripFinding found;
+    found.prediction.cases.resize(cases);
+    found.outcomes.resize(cases);
+    tried.found.assign(grips, found);
+    const std::string path = folder / std::to_string(grips * cases) + ".nc";
+    write_trials_dataset(path, scene, {}, tried, {"stand-in 1", std::string(32, 'a')});
+    EXPECT_LT(std::filesystem::file_size(path), trials_dataset_room(scene, tried)) << grips << " x " << cases;
+  };
+  expect_room(1, 1);
+  expect_room(3000, 1);
+  expect_room(100, 60);
+  scene.text = std::string(1'000'000, '#');
+  expect_room(2, 2);
 }
 
 TEST(TrialDisagreements, OneRunGoesUpToTheTilt) {
