@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <map>
 
+#include "core/error.h"
 #include "trials/grip_trial.h"
+#include "trials/vessel_body.h"
 
 namespace wholehand {
 namespace {
@@ -16,8 +18,18 @@ class MujocoEngine final : public TrialEngine {
 
   std::string name() const override { return library_.name; }
 
+  void check(std::size_t vessel) const override {
+    if (settings_.model == TrialModel::hand && scene_.pose == Pose::paper) {
+      throw usage_error(
+          "pose = \"paper\" turns the points of the hand one by one, so that its bones have no joints; trials take pose = "
+          "\"articulated\" or \"rigged\"");
+    }
+    convex_pieces(scene_.vessels.at(vessel));
+  }
+
   std::vector<TrialOutcome> run(std::size_t vessel, const GripInput& grip, const std::vector<TrialCase>& cases,
                                 std::vector<TrialTrack>* tracks) const override {
+    check(vessel);
     std::vector<TrialOutcome> outcomes(cases.size());
     if (tracks) tracks->assign(cases.size(), {});
     // a model of its own for every grip and every call: the same bits whoever else is at work

@@ -47,6 +47,17 @@ void expect_same(const TrialOutcome& a, const TrialOutcome& b) {
     EXPECT_EQ(x, y);
 }
 
+// What `check` says of a vessel.
+std::string usage_of(const TrialEngine& engine, std::size_t vessel) {
+  try {
+    engine.check(vessel);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ExitCode::usage);
+    return error.what();
+  }
+  return "none";
+}
+
 class MujocoEngine : public testing::Test {
  protected:
   Scene scene_ = read_scene_file(WHOLEHAND_SOURCE_DIR "/scene/examples/three_beakers.toml");
@@ -184,12 +195,28 @@ TEST_F(MujocoEngine, SixForcesEachFromAFreshStart) {
   }
 }
 
+// Before any grip is tried; another vessel of the same scene is taken.
 TEST_F(MujocoEngine, AVesselWithoutAModelIsRefused) {
   Scene shells = scene_;
   shells.vessels[0].surface = Surface::shell;
   const auto evaluator = make_core_evaluator(shells);
   const auto engine = make_mujoco_engine(shells, *evaluator, quick());
+  EXPECT_NE(usage_of(*engine, 0).find("its surface is a shell"), std::string::npos) << usage_of(*engine, 0);
+  EXPECT_EQ(usage_of(*engine, 1), "none");
   EXPECT_THROW(engine->run(0, BEAKER, fill_tilt(0, {0})), Error);
+}
+
+// The bones of `paper` have no joints to turn in; the model `contacts` has no bones, and `rigged` is the hand with its joints at rest.
+TEST_F(MujocoEngine, AHandWithoutJointsIsRefused) {
+  Scene scene = scene_;
+  const auto answer = [&](Pose pose, TrialModel model) {
+    scene.pose = pose;
+    return usage_of(*make_mujoco_engine(scene, *evaluator_, quick(model)), 0);
+  };
+  EXPECT_NE(answer(Pose::paper, TrialModel::hand).find("pose = \"paper\""), std::string::npos);
+  EXPECT_EQ(answer(Pose::paper, TrialModel::contacts), "none");
+  EXPECT_EQ(answer(Pose::rigged, TrialModel::hand), "none");
+  EXPECT_EQ(answer(Pose::articulated, TrialModel::hand), "none");
 }
 
 // The model `contacts` has nothing that could hold but the contacts of kernel 9. What the effort calls infinite slides: out of the hand, or
