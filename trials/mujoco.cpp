@@ -31,8 +31,8 @@ std::string engine_words(std::string text) {
   return text;
 }
 
-// MuJoCo's error handler must not return. Its library has tables for unwinding, so that an exception leaves it; the state that it then
-// leaves behind is thrown away.
+// MuJoCo's error handler must not return. Its library has tables for unwinding, so that an exception leaves it; the state that it
+// then leaves behind is thrown away.
 void on_engine_error(const char* words) { throw EngineTrouble(engine_words(words)); }
 void on_engine_warning(const char* words) { last_warning = engine_words(words); }
 
@@ -43,8 +43,13 @@ void need_mujoco_symbol(void* handle, const std::string& path, const char* symbo
     throw failure_error(fmt::format("{} lacks the function {}: it is not MuJoCo 2.2.2; {}", path, symbol, HOW_TO_GET_MUJOCO));
 }
 
+struct CloseLibrary {
+  void operator()(void* handle) const { dlclose(handle); }
+};
+
 MujocoLibrary open_mujoco(const std::string& path) {
-  void* handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  std::unique_ptr<void, CloseLibrary> opened(dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL));
+  void* const handle = opened.get();
   if (!handle) {
     const char* words = dlerror();
     throw failure_error(
@@ -80,6 +85,7 @@ MujocoLibrary open_mujoco(const std::string& path) {
   need_mujoco_symbol(handle, path, "mju_user_warning", warning_handler);
   *error_handler = on_engine_error;
   *warning_handler = on_engine_warning;
+  opened.release();  // it stays loaded
   return mujoco;
 }
 
@@ -111,7 +117,11 @@ mjModel* compiled_model(const MujocoLibrary& library, const std::string& xml) {
   std::array<char, 1000> words{};
   last_warning.clear();
   mjModel* model = library.load_xml(ModelFile::NAME, file.get(), words.data(), static_cast<int>(words.size()));
-  if (!model) throw EngineTrouble(engine_words(words.data()));
+  // a model that it warns of comes with words too
+  if (!model || words[0] != '\0') {
+    if (model) library.delete_model(model);
+    throw EngineTrouble(engine_words(words.data()));
+  }
   return model;
 }
 
@@ -135,9 +145,13 @@ Simulation::Simulation(const MujocoLibrary& library, const std::string& xml)
   if (!data_ || !scratch_) throw EngineTrouble("no memory for the state of a model");
 }
 
-void Simulation::check() const {
+void Simulation::check_warnings(const mjData& data) {
   for (int kind = 0; kind < mjNWARNING; ++kind)
-    if (data_->warning[kind].number > 0) throw EngineTrouble(last_warning.empty() ? fmt::format("warning {}", kind) : last_warning);
+    if (data.warning[kind].number > 0) throw EngineTrouble(last_warning.empty() ? fmt::format("warning {}", kind) : last_warning);
+}
+
+void Simulation::check() const {
+  check_warnings(*data_);
   // it checks for itself whether what it integrates is a number, but not what follows from the last step
   for (int i = 0; i < model_->nq; ++i)
     if (!std::isfinite(data_->qpos[i])) throw EngineTrouble(fmt::format("position {} is no number", i));
@@ -155,10 +169,14 @@ void Simulation::forward() {
   check();
 }
 
-void Simulation::set_constants() { library_.set_const(model_.get(), scratch_.get()); }
+void Simulation::set_constants() {
+  library_.set_const(model_.get(), scratch_.get());
+  check_warnings(*scratch_);
+}
 
 void Simulation::reset() {
   library_.reset_data(model_.get(), data_.get());
+  library_.reset_data(model_.get(), scratch_.get());
   last_warning.clear();
 }
 

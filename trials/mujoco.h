@@ -42,32 +42,34 @@ struct MujocoLibrary {
   decltype(&::mju_eig3) eig3;
 };
 
-// Loads `path` or, where it is empty, what the environment variable WHOLEHAND_MUJOCO_LIBRARY names, or else MUJOCO_LIBRARY_NAME. Once
-// loaded it stays, with handlers for its errors and warnings: without them an error ends the process and a warning is written to a file
-// in the working folder. Thread-safe. Throws Error (failure): the loader's words and the package that brings the library; another
-// version; the symbol that it lacks.
+// Loads `path` or, where it is empty, what the environment variable WHOLEHAND_MUJOCO_LIBRARY names, or else MUJOCO_LIBRARY_NAME.
+// Once loaded it stays, with handlers for its errors and warnings: without them an error ends the process and a warning is written
+// to a file in the working folder. Thread-safe. Throws Error (failure): the loader's words and the package that brings the library;
+// another version; the symbol that it lacks.
 const MujocoLibrary& load_mujoco(const std::string& path = "");
 
 // A model with one state of it. Not thread-safe; one a thread.
 class Simulation {
  public:
-  // Compiles a model from its XML text. mj_loadXML keeps a global last model, so one thread at a time is let in. Throws EngineTrouble.
+  // Compiles a model from its XML text. mj_loadXML keeps a global last model, so one thread at a time is let in. Throws
+  // EngineTrouble where it takes none, or warns of the one that it took.
   Simulation(const MujocoLibrary& library, const std::string& xml);
 
   mjModel& model() { return *model_; }
   mjData& data() { return *data_; }
   const MujocoLibrary& library() const { return library_; }
 
-  // One time step, or all that depends on the present state without one. Throws EngineTrouble where the engine does, warns of anything
-  // or has a number that is none: what it then holds is of no use.
+  // One time step, or all that depends on the present state without one. Throws EngineTrouble where the engine does, warns of
+  // anything or has a number that is none: what it then holds is of no use until `reset`.
   void step();
   void forward();
-  // To be called after masses or inertias of the model are changed. Keeps the state.
+  // To be called after masses or inertias of the model are changed. Keeps the state. Throws as `step`.
   void set_constants();
   void reset();
   int id(mjtObj kind, const std::string& name) const;  // -1: none
 
  private:
+  static void check_warnings(const mjData& data);
   void check() const;
 
   const MujocoLibrary& library_;
