@@ -121,7 +121,9 @@ class HandWriter {
     model.bodies +=
         fmt::format("<joint type=\"hinge\" axis=\"{}\" limited=\"true\" range=\"{} {}\" damping=\"{}\" armature=\"{}\"/>",
                     triple_text(axis), least - angle, most - angle, JOINT_DAMPING * square, JOINT_INERTIA * square);
-    model.joints.push_back({finger, JOINT_STIFFNESS * square, 0, false});
+    const auto& radii = hand_.fingers[static_cast<std::size_t>(finger)].radius;
+    const double thickest = std::max(THINNEST, scale_ * *std::max_element(radii.begin(), radii.end()));
+    model.joints.push_back({finger, JOINT_STIFFNESS * square, 0, false, way_to_tip(finger, bone) + thickest});
     hinges_.push_back({finger, bone, joint(finger, bone), axis});
   }
 

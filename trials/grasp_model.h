@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The hand as a physics engine takes it: what it is made of, and which torques stand for which forces. All in the frame of the vessel as it
-// is gripped; a left hand is made ready mirrored.
+// The hand as a physics engine takes it: what it is made of, and which torques stand for which forces. All in the frame of the
+// vessel as it is gripped; a left hand is made ready mirrored.
 #pragma once
 
 #include <array>
@@ -17,9 +17,9 @@
 
 namespace wholehand {
 
-// Of each joint, times the square of the way from it to the tip along the bones. Three joints in a row make a tip of a third of each: 500 N/m,
-// 8 N s/m, 17 g, within what people have (200 to 800 N/m, 1 to 8 N s/m, 4 to 20 g; Hajian & Howe 1997). Of a slide, which is a tip by
-// itself, a third. A lighter or less damped finger that leaves the vessel for a step strikes it in the next one.
+// Of each joint, times the square of the way from it to the tip along the bones. Three joints in a row make a tip of a third of
+// each: 500 N/m, 8 N s/m, 17 g, within what people have (200 to 800 N/m, 1 to 8 N s/m, 4 to 20 g; Hajian & Howe 1997). Of a slide,
+// which is a tip by itself, a third. A lighter or less damped finger that leaves the vessel for a step strikes it in the next one.
 constexpr double JOINT_STIFFNESS = 1500, JOINT_DAMPING = 24, JOINT_INERTIA = 50e-3;  // N/m, N s/m, kg
 constexpr double FLESH = 1100;                                                       // kg/m3
 constexpr double THINNEST = 0.5e-3;                                                  // m: a bare point is a body too
@@ -37,6 +37,7 @@ struct GraspJoint {
   double stiffness = 0;  // N m/rad or N/m
   double most = 0;       // the largest torque (N m), of either sign, or force (N), never a pull
   bool is_slide = false;
+  double reach = 1;  // m: of the farthest point that a hinge moves; 1 of a slide
 };
 
 // A body of the hand that touches: its geoms have its name.

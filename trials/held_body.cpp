@@ -11,7 +11,8 @@ namespace {
 
 using core_f64::Vec3;
 
-// A contact closes within 5 ms and without ringing; it is soft over a tenth of a millimetre, below which a resting one would flicker.
+// A contact closes within 5 ms and without ringing; it is soft over a tenth of a millimetre, below which a resting one would
+// flicker.
 const char* const CONTACT = "condim=\"4\" solref=\"0.005 1\" solimp=\"0.5 0.99 0.0001\"";
 
 Vec3 column(const mjtNum* p) { return {p[0], p[1], p[2]}; }
@@ -76,8 +77,16 @@ HeldBody::HeldBody(const MujocoLibrary& library, const HeldSetup& setup)
     : simulation_(library, model_text(setup)),
       joints_(setup.grasp.joints),
       rest_(joints_.size(), 0.0),
-      distance_(setup.distance),
+      distance_(setup.form.boxes.empty() ? nullptr : setup.distance),
       boxes_(setup.form.boxes) {
+  for (const auto& box : boxes_) {
+    Vec3 farthest(0);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto i = static_cast<std::size_t>(axis);
+      farthest[axis] = std::max(std::abs(box[0][i]), std::abs(box[1][i]));
+    }
+    body_reach_ = std::max(body_reach_, glm::length(farthest));
+  }
   geom_place_.assign(static_cast<std::size_t>(simulation_.model().ngeom), -1);
   box_place_ = geom_place_;
   for (std::size_t k = 0; k < setup.form.names.size(); ++k)
@@ -103,7 +112,7 @@ void HeldBody::reset() {
   push_ = Vec3(0);
   anchors_.clear();
   time_ = 0;
-  steps_ = 0;
+  last_step_ = nearer_ = std::numeric_limits<double>::infinity();
   for (int k = 0; k < simulation_.model().npair; ++k) simulation_.model().pair_margin[k] = 0;
 }
 
@@ -156,21 +165,36 @@ bool HeldBody::is_near(int geom, const std::array<Triple, 2>* box) {
   return false;
 }
 
+// The most by which a point of the hand and one of the body came nearer to each other in the last step, m.
+double HeldBody::largest_step() {
+  const mjtNum* v = simulation_.data().qvel;
+  std::array<double, core_f64::DIGITS> hand{};
+  for (std::size_t j = 0; j < joints_.size(); ++j)
+    hand[static_cast<std::size_t>(joints_[j].digit)] += joints_[j].reach * std::abs(v[first_dof_ + static_cast<int>(j)]);
+  const double body = glm::length(column(v)) + body_reach_ * glm::length(column(v + 3));
+  return TIME_STEP * (body + *std::max_element(hand.begin(), hand.end()));
+}
+
 // The engine first asks whether the balls about two geoms meet, with a margin: with one that takes away both radii they never do.
+// Places are those of the beginning of the last step, so that what came nearer in it counts. Where that is too much, and before the
+// first step, no pair is left out.
 void HeldBody::look_at_near_pairs() {
   mjModel& m = simulation_.model();
+  steps_ = 0;
+  nearer_ = last_step_;
   for (int k = 0; k < m.npair; ++k) {
     const bool is_first = geom_place_[static_cast<std::size_t>(m.pair_geom1[k])] >= 0;
     const int hand = is_first ? m.pair_geom1[k] : m.pair_geom2[k], body = is_first ? m.pair_geom2[k] : m.pair_geom1[k];
     const auto box = static_cast<std::size_t>(box_place_[static_cast<std::size_t>(body)]);
-    m.pair_margin[k] =
-        is_near(hand, box < boxes_.size() ? &boxes_[box] : nullptr) ? 0 : -(m.geom_rbound[hand] + m.geom_rbound[body]);
+    m.pair_margin[k] = last_step_ >= SURE || is_near(hand, box < boxes_.size() ? &boxes_[box] : nullptr)
+                           ? 0
+                           : -(m.geom_rbound[hand] + m.geom_rbound[body]);
   }
 }
 
 void HeldBody::step() {
   mjData& d = simulation_.data();
-  if (distance_ && steps_++ % NEAR_STEPS == 0) look_at_near_pairs();
+  if (distance_ && (steps_ >= NEAR_STEPS || nearer_ >= SURE)) look_at_near_pairs();
   std::array<double, core_f64::DIGITS> sum{};
   std::vector<double> torques(joints_.size());
   for (std::size_t j = 0; j < joints_.size(); ++j) {
@@ -187,6 +211,9 @@ void HeldBody::step() {
   }
   for (int i = 0; i < 3; ++i) d.xfrc_applied[6 * body_ + i] = push_[i];
   simulation_.step();
+  ++steps_;
+  last_step_ = largest_step();
+  nearer_ += last_step_;
   time_ += TIME_STEP;
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 #include <span>
 #include <string>
 #include <utility>
@@ -16,10 +17,11 @@
 namespace wholehand {
 
 constexpr double TIME_STEP = 2e-3;  // s
-// The engine looks for contacts only of what is nearer to the body than this, which is asked again every NEAR_STEPS: what comes from further
-// away than that at less than half a metre a second is there in time.
-constexpr double NEAR = 5e-3;  // m
+// The engine looks for contacts only of what is nearer to the body than NEAR. That is asked again every NEAR_STEPS, and at once
+// when hand and body may have come nearer to each other by SURE since: no pair that touches is left out.
+constexpr double NEAR = 5e-3, SURE = 4e-3;  // m; what lies between is more than a lattice's distance is off
 constexpr int NEAR_STEPS = 5;
+constexpr int MOST_CONTACTS = 100;  // six with four points each take 24
 
 // What touches the hand of a body: XML and the names of its geoms.
 struct BodyForm {
@@ -37,9 +39,10 @@ struct HeldSetup {
   RigidLoad load;
   // Which geom of the hand may touch which of the body, by place in their lists; empty: each may touch each.
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
-  // Signed distance to the body at a point of its frame, m, or less. Empty: all pairs are always looked at.
+  // Signed distance to the body at a point of its frame, m, or less. Empty, or without boxes: all pairs are always
+  // looked at.
   std::function<double(const core_f64::Vec3&)> distance;
-  int most_contacts = 100;  // that the engine has room for; more is trouble, and never unnoticed
+  int most_contacts = MOST_CONTACTS;  // that the engine has room for; more is trouble, and never unnoticed
 };
 
 // One contact of the present moment.
@@ -90,6 +93,7 @@ class HeldBody {
   };
   core_f64::Vec3 point_of(int body, const core_f64::Vec3& local);
   void look_at_near_pairs();
+  double largest_step();
   bool is_near(int geom, const std::array<Triple, 2>* box);
 
   Simulation simulation_;
@@ -101,7 +105,11 @@ class HeldBody {
   std::vector<Anchor> anchors_;
   core_f64::Vec3 push_{};
   double time_ = 0;
+  // Since pairs were last looked at: steps, and the most by which hand and body may have come nearer, m. Infinite: nobody has
+  // looked.
   int steps_ = 0;
+  double nearer_ = std::numeric_limits<double>::infinity(), last_step_ = nearer_;
+  double body_reach_ = 0;  // m, of the body's farthest point from its origin
   std::function<double(const core_f64::Vec3&)> distance_;
   std::vector<std::array<Triple, 2>> boxes_;
   std::vector<int> box_place_;  // place of a geom in the body's list, by id

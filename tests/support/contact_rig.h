@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A body that nothing touches but the contacts it is made of: each a ball on a slide against a flat wall of its own, in the physics engine.
+// A body that nothing touches but the contacts it is made of: each a ball on a slide against a flat wall of its own, in the physics
+// engine.
 #pragma once
 
 #include <vector>

@@ -3,6 +3,7 @@
 // sanitizers: none
 #include "trials/mujoco.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -48,6 +49,35 @@ TEST(Mujoco, AModelThatItDoesNotTakeIsTroubleInItsWords) {
   }
 }
 
+TEST(Mujoco, AModelThatItWarnsOfIsTroubleInItsWords) {
+  const std::string ball = "<body pos=\"0 0 0.005\"><freejoint/><geom size=\"0.01\"/></body>";
+  const auto load = [&](int most) {
+    Simulation(load_mujoco(), fmt::format("<mujoco><size nconmax=\"{}\"/><worldbody><geom type=\"plane\" size=\"1 1 1\"/>{}{}"
+                                          "</worldbody></mujoco>",
+                                          most, ball, ball));
+  };
+  EXPECT_NO_THROW(load(10));
+  try {
+    load(1);
+    FAIL() << "it warned of the model and nobody said so";
+  } catch (const EngineTrouble& trouble) {
+    EXPECT_NE(std::string(trouble.what()).find("contact buffer is full"), std::string::npos) << trouble.what();
+  }
+}
+
+// Until it is made as new.
+TEST(Mujoco, MassesThatItWarnsOfAreTrouble) {
+  Simulation simulation(load_mujoco(), "<mujoco><worldbody><body><freejoint/><geom size=\"1\"/></body></worldbody></mujoco>");
+  mjModel& m = simulation.model();
+  const double mass = m.body_mass[1];
+  m.body_mass[1] = 0;
+  EXPECT_THROW(simulation.set_constants(), EngineTrouble);
+  m.body_mass[1] = mass;
+  EXPECT_THROW(simulation.set_constants(), EngineTrouble);
+  simulation.reset();
+  EXPECT_NO_THROW(simulation.set_constants());
+}
+
 // By default an error ends the process.
 TEST(Mujoco, AnErrorOfTheEngineIsTrouble) {
   Simulation simulation(load_mujoco(), "<mujoco><worldbody><body><freejoint/><geom size=\"1\"/></body></worldbody></mujoco>");
@@ -80,13 +110,50 @@ TEST(Mujoco, NoContactIsDropped) {
   HeldBody body = held_by_four(options);
   press_and_release(body, {5, 5, 5, 5}, Vec3(0));
   EXPECT_EQ(body.contacts().size(), 4u);
-  options.most_contacts = 3;
-  HeldBody narrow = held_by_four(options);
+  body.simulation().model().nconmax = 3;
   try {
-    press_and_release(narrow, {5, 5, 5, 5}, Vec3(0));
+    body.step();
     FAIL() << "a contact was dropped and nobody said so";
   } catch (const EngineTrouble& trouble) {
     EXPECT_NE(std::string(trouble.what()).find("contact"), std::string::npos) << trouble.what();
+  }
+  options.most_contacts = 3;  // it has none left when it compiles the model
+  EXPECT_THROW(held_by_four(options), EngineTrouble);
+}
+
+// To leave out what is far away changes nothing, however fast it comes: what touches is what touches if all pairs are looked at.
+// The body flies at a ball which it is 40 mm away from; at 5 m/s it passes NEAR in half a step.
+TEST(Mujoco, WhatComesFastIsSeenInTime) {
+  core_f64::HandStrength hand{0.6, 5e-3, {}};
+  hand.digits.fill(50);
+  HeldSetup all = rig_setup({{Vec3(0.04, 0, 0), Vec3(-1, 0, 0), 0}}, hand, {});
+  HeldSetup near = all;
+  // the wall is a plate behind x = 40 mm, 10 mm thick
+  const Triple low{0.03, -0.06, -0.06}, high{0.04, 0.06, 0.06};
+  near.form.boxes = {{low, high}};
+  near.distance = [](const Vec3& p) { return std::max(p.x - 0.04, 0.03 - p.x); };
+  for (const double speed : {0.3, 1.0, 2.0, 5.0, 20.0}) {
+    std::vector<double> ways;
+    std::vector<int> touched;
+    for (const HeldSetup* setup : {&all, &near}) {
+      HeldBody body(load_mujoco(), *setup);
+      body.release();
+      body.simulation().data().qpos[0] = -0.04;
+      body.simulation().data().qvel[0] = speed;
+      body.simulation().data().qvel[4] = speed;  // and it spins
+      int count = 0;
+      for (int k = 0; k < 200; ++k) {
+        body.step();
+        if (!body.contacts().empty()) ++count;
+      }
+      touched.push_back(count);
+      ways.push_back(body.place().x);
+    }
+    EXPECT_EQ(touched[0], touched[1]) << speed;
+    EXPECT_EQ(ways[0], ways[1]) << speed;
+    if (speed < 3) {
+      EXPECT_GT(touched[0], 0) << speed;
+    }
   }
 }
 
