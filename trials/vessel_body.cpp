@@ -131,6 +131,12 @@ struct SliceSum {
     along += spin;
     across += spin / 2 + part * (y * y + thickness * thickness / 12);
   }
+  void subtract(const SliceSum& part) {
+    volume -= part.volume;
+    first -= part.first;
+    along -= part.along;
+    across -= part.across;
+  }
   // As a body of a mass at a centre.
   RigidLoad weighing(double mass, const Triple& center) const {
     if (!(volume > 0)) return {mass, center, {}};
@@ -139,6 +145,77 @@ struct SliceSum {
     return {mass, center, {level, 0, 0, 0, round, 0, 0, 0, level}};
   }
 };
+
+SliceSum revolved_sum(const std::vector<Point2>& points, double low, double high) {
+  SliceSum sum;
+  const double thickness = (high - low) / SLICES;
+  for (int k = 0; k < SLICES; ++k) {
+    const double y = low + (k + 0.5) * thickness;
+    sum.add(radius_at(points, y), 0, y, thickness);
+  }
+  return sum;
+}
+
+// Of a body of density 1 about the origin.
+struct Moments {
+  double volume = 0;
+  glm::dvec3 first{};
+  glm::dmat3 second{0};  // of x_i x_j
+
+  void subtract(const SliceSum& part) {
+    volume -= part.volume;
+    first.y -= part.first;
+    // of a body of revolution: along = 2 <x x>, across = <x x> + <y y>
+    second[0][0] -= part.along / 2;
+    second[1][1] -= part.across - part.along / 2;
+    second[2][2] -= part.along / 2;
+  }
+  // As a body of a mass, whose own centre comes to lie at `center`.
+  RigidLoad weighing(double mass, const Triple& center) const {
+    RigidLoad load{mass, center, {}};
+    if (!(volume > 0)) return load;
+    const glm::dvec3 middle = first / volume;
+    const glm::dmat3 about = mass / volume * (second - volume * glm::outerProduct(middle, middle));
+    const double trace = about[0][0] + about[1][1] + about[2][2];
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) load.inertia[3 * i + j] = (i == j ? trace : 0) - about[i][j];
+    return load;
+  }
+};
+
+// The middle of the edges that only one triangle has; of a closed mesh, whose volume depends on no such place, the origin.
+glm::dvec3 middle_of_holes(const MeshBody& body) {
+  std::vector<std::array<std::uint32_t, 2>> edges;
+  for (const auto& triangle : body.triangles)
+    for (std::size_t k = 0; k < 3; ++k) edges.push_back({triangle[k], triangle[(k + 1) % 3]});
+  std::sort(edges.begin(), edges.end());
+  glm::dvec3 sum(0);
+  int count = 0;
+  for (const auto& [from, to] : edges) {
+    if (std::binary_search(edges.begin(), edges.end(), std::array{to, from})) continue;
+    sum += 0.5 * (to_vec3(body.vertices[from]) + to_vec3(body.vertices[to]));
+    ++count;
+  }
+  return count > 0 ? sum / static_cast<double>(count) : sum;
+}
+
+// The sum of the tetrahedra from one place to all triangles: an open mesh's hole is closed by a cone to that place.
+Moments mesh_moments(const MeshBody& body) {
+  Moments whole;
+  const glm::dvec3 o = middle_of_holes(body);
+  for (const auto& triangle : body.triangles) {
+    const auto a = to_vec3(body.vertices[triangle[0]]), b = to_vec3(body.vertices[triangle[1]]),
+               c = to_vec3(body.vertices[triangle[2]]);
+    const double part = glm::dot(a - o, glm::cross(b - o, c - o)) / 6;
+    const glm::dvec3 sum = o + a + b + c;
+    whole.volume += part;
+    whole.first += part / 4 * sum;
+    whole.second += part / 20 *
+                    (glm::outerProduct(sum, sum) + glm::outerProduct(o, o) + glm::outerProduct(a, a) + glm::outerProduct(b, b) +
+                     glm::outerProduct(c, c));
+  }
+  return whole;
+}
 
 }  // namespace
 
@@ -184,22 +261,13 @@ VesselLoad::VesselLoad(const Scene& scene, const Evaluator& evaluator, std::size
 RigidLoad VesselLoad::glass() const {
   const VesselData& data = scene_.vessels[vessel_];
   const VesselConstants constants = evaluator_.constants(vessel_);
-  if (data.mesh) {  // as its bounding box
-    const MeshBody& body = *data.mesh->body;
-    const Triple side{body.high[0] - body.low[0], body.high[1] - body.low[1], body.high[2] - body.low[2]};
-    RigidLoad load{constants.mass, constants.center_of_mass, {}};
-    for (int i = 0; i < 3; ++i) {
-      const double a = side[(i + 1) % 3], b = side[(i + 2) % 3];
-      load.inertia[4 * i] = constants.mass * (a * a + b * b) / 12;
-    }
-    return load;
+  if (data.mesh) {
+    Moments whole = mesh_moments(*data.mesh->body);
+    if (data.mesh->body->holds_cavity) whole.subtract(revolved_sum(cavity_, prepared_.floor_height, prepared_.mouth_height));
+    return whole.weighing(constants.mass, constants.center_of_mass);
   }
-  SliceSum sum;
-  const double top = hull_.back()[1], thickness = top / SLICES;
-  for (int k = 0; k < SLICES; ++k) {
-    const double y = (k + 0.5) * thickness;
-    sum.add(radius_at(hull_, y), radius_at(cavity_, y), y, thickness);
-  }
+  SliceSum sum = revolved_sum(hull_, 0, hull_.back()[1]);
+  sum.subtract(revolved_sum(cavity_, prepared_.floor_height, prepared_.mouth_height));
   return sum.weighing(constants.mass, constants.center_of_mass);
 }
 
@@ -208,8 +276,10 @@ RigidLoad VesselLoad::liquid(const LiquidResult& liquid) const {
   SliceSum sum;
   const double floor = prepared_.floor_height, thickness = (prepared_.mouth_height - floor) / SLICES;
   for (int k = 0; k < SLICES && sum.volume < liquid.volume; ++k) {
-    const double y = floor + (k + 0.5) * thickness;
-    sum.add(radius_at(cavity_, y), 0, y, thickness);
+    const double radius = radius_at(cavity_, floor + (k + 0.5) * thickness), slice = PI * radius * radius * thickness;
+    if (!(slice > 0)) continue;
+    const double part = thickness * std::min(1.0, (liquid.volume - sum.volume) / slice);  // the uppermost is not full
+    sum.add(radius, 0, floor + k * thickness + part / 2, part);
   }
   return sum.weighing(liquid.mass, center);
 }

@@ -20,9 +20,10 @@ constexpr double CONVEX_TOLERANCE = 0.2e-3;  // m, that a mesh may differ from i
 // A piece that is the convex hull of its vertices, vessel frame, m.
 using ConvexPiece = std::vector<Triple>;
 
-// The outer form of a vessel, closed across its mouth. A body of revolution is cut where its outline is not convex: what lies between two
-// cuts is a stack of frusta whose hull it is. A mesh is one piece where it is its own convex hull to CONVEX_TOLERANCE. Throws Error
-// (usage), with the vessel's name and the reason: a shell, whose wall has two sides; an outline that goes down again; a mesh with hollows.
+// The outer form of a vessel, closed across its mouth. A body of revolution is cut where its outline is not convex: what lies
+// between two cuts is a stack of frusta whose hull it is. A mesh is one piece where it is its own convex hull to CONVEX_TOLERANCE.
+// Throws Error (usage), with the vessel's name and the reason: a shell, whose wall has two sides; an outline that goes down again;
+// a mesh with hollows.
 std::vector<ConvexPiece> convex_pieces(const VesselData& vessel);
 
 // Mass, centre and inertia about that centre, of axes along the frame's. Vessel frame, kg, m, kg m2.
@@ -38,8 +39,9 @@ class VesselLoad {
   // `pour` is the horizontal direction towards which the vessel tilts. Both must outlive this.
   VesselLoad(const Scene& scene, const Evaluator& evaluator, std::size_t vessel, const Triple& pour);
 
-  // Mass and centre are those of kernel 6. The inertia of the wall is that of its slices; that of the liquid is of the upright vessel
-  // with as much in it, about its own centre. `mass`, where it is a number, is that of the whole instead, with all else in proportion.
+  // Mass and centre are those of kernel 6. The inertia of the wall is that of its slices; that of the liquid is of the upright
+  // vessel with as much in it, about its own centre. `mass`, where it is a number, is that of the whole instead, with all else in
+  // proportion.
   RigidLoad at(double fill, double tilt, double mass) const;
 
  private:

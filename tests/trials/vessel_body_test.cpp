@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/mesh_body.h"
 #include "core/vectors.h"
+#include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {
@@ -63,7 +64,7 @@ std::string refusal_of(const VesselData& vessel) {
 }
 
 // A mesh of two triangles a side of a box, with its top pressed in by `dent` m at the middle.
-VesselData box_mesh(double dent) {
+VesselData dented_box(double dent) {
   auto body = std::make_shared<MeshBody>();
   body->vertices = {{-0.02, 0, -0.02},   {0.02, 0, -0.02},   {0.02, 0, 0.02},     {-0.02, 0, 0.02},   {-0.02, 0.05, -0.02},
                     {0.02, 0.05, -0.02}, {0.02, 0.05, 0.02}, {-0.02, 0.05, 0.02}, {0, 0.05 - dent, 0}};
@@ -79,8 +80,8 @@ VesselData box_mesh(double dent) {
 TEST(VesselBody, WhatHasNoModelIsRefusedWithItsNameAndTheReason) {
   EXPECT_NE(refusal_of(shell_of(beaker1())).find("its surface is a shell"), std::string::npos);
   EXPECT_NE(refusal_of(ledges()).find("goes down again"), std::string::npos) << refusal_of(ledges());
-  EXPECT_EQ(refusal_of(box_mesh(0)), "none");
-  EXPECT_NE(refusal_of(box_mesh(2e-3)).find("box: its mesh is not convex ("), std::string::npos) << refusal_of(box_mesh(2e-3));
+  EXPECT_EQ(refusal_of(dented_box(0)), "none");
+  EXPECT_NE(refusal_of(dented_box(2e-3)).find("box: its mesh is not convex ("), std::string::npos) << refusal_of(dented_box(2e-3));
 }
 
 TEST(VesselBody, WeighsWhatTheKernelsWeigh) {
@@ -115,6 +116,67 @@ TEST(VesselBody, ASolidCylinderHasItsInertia) {
   EXPECT_NEAR(load.inertia[4], m * 0.02 * 0.02 / 2, 1e-4 * load.inertia[4]);
   EXPECT_NEAR(load.inertia[0], m * (3 * 0.02 * 0.02 + 0.1 * 0.1) / 12, 1e-4 * load.inertia[0]);
   EXPECT_EQ(load.inertia[0], load.inertia[8]);
+}
+
+// Upright and round about the axis at x = z = 0: m r^2 / 2 along it, m (3 r^2 + h^2) / 12 across.
+RigidLoad full_cylinder(double mass, double radius, double low, double high) {
+  const double h = high - low, along = mass * radius * radius / 2, across = mass * (3 * radius * radius + h * h) / 12;
+  return {mass, {0, (low + high) / 2, 0}, {across, 0, 0, 0, along, 0, 0, 0, across}};
+}
+
+void expect_same_load(const RigidLoad& found, const RigidLoad& wanted, double share) {
+  EXPECT_NEAR(found.mass, wanted.mass, share * wanted.mass);
+  EXPECT_LT(distance(found.center, wanted.center), share * 0.1);
+  const double size = std::max({wanted.inertia[0], wanted.inertia[4], wanted.inertia[8]});
+  for (std::size_t k = 0; k < 9; ++k) EXPECT_NEAR(found.inertia[k], wanted.inertia[k], share * size) << k;
+}
+
+// What is not glass weighs less than nothing.
+RigidLoad pot_of_glass(const VesselData& pot, double radius, double height) {
+  const double inner = radius - pot.wall, floor = pot.wall;
+  RigidLoad hollow = full_cylinder(-PI * inner * inner * (height - floor) * pot.density, inner, floor, height);
+  return joined(full_cylinder(PI * radius * radius * height * pot.density, radius, 0, height), hollow);
+}
+
+TEST(VesselBody, AWallAndALiquidHaveTheirInertia) {
+  VesselData pot = cylinder("pot", 80, 110, 0);
+  pot.wall = 4e-3;
+  Scene scene = scene_of({pot});
+  scene.liquid = three_beakers().liquid;
+  const auto evaluator = make_core_evaluator(scene);
+  const VesselLoad load(scene, *evaluator, 0, {0, 0, -1});
+  const RigidLoad glass = pot_of_glass(pot, 0.04, 0.11);
+  expect_same_load(load.at(0, 0, std::nan("")), glass, 1e-4);
+  for (const double fill : {0.03, 0.5, 1.0}) {
+    const LiquidResult held = evaluator->liquid(0, fill, 0);
+    const double inner = 0.04 - pot.wall, height = held.volume / (PI * inner * inner);
+    const RigidLoad liquid = full_cylinder(held.mass, inner, pot.wall, pot.wall + height);
+    expect_same_load(load.at(fill, 0, std::nan("")), joined(glass, liquid), 1e-4);
+  }
+}
+
+RigidLoad load_of(const VesselData& vessel) {
+  const Scene scene = scene_of({vessel});
+  const auto evaluator = make_core_evaluator(scene);
+  return VesselLoad(scene, *evaluator, 0, {0, 0, -1}).at(0, 0, std::nan(""));
+}
+
+TEST(VesselBody, AMeshHasTheInertiaOfItsTriangles) {
+  const Triple low{-0.03, 0, -0.02}, high{0.03, 0.1, 0.02};
+  const double m = 0.06 * 0.1 * 0.04 * VesselData{}.density;
+  const auto side = [&](double a, double b) { return m * (a * a + b * b) / 12; };
+  const RigidLoad box{m, {0, 0.05, 0}, {side(0.1, 0.04), 0, 0, 0, side(0.06, 0.04), 0, 0, 0, side(0.06, 0.1)}};
+  expect_same_load(load_of(vessel_of_mesh("box", box_mesh(low, high), 2e-3)), box, 1e-6);
+  // turned about the upright axis, its products are those of the turned tensor
+  const double turn = 0.5, c = std::cos(turn), s = std::sin(turn), x = box.inertia[0], z = box.inertia[8];
+  RigidLoad turned = box;
+  turned.inertia = {c * c * x + s * s * z, 0, c * s * (z - x), 0, box.inertia[4], 0, c * s * (z - x), 0, s * s * x + c * c * z};
+  expect_same_load(load_of(vessel_of_mesh("turned", placed_mesh(box_mesh(low, high), {0, turn, 0}, {}), 2e-3)), turned, 1e-6);
+  // its sides are 0.4 % within the circle
+  VesselData rod = cylinder("rod", 40, 100, 0);
+  rod.wall = 0;
+  const double mass = PI * 0.02 * 0.02 * 0.1 * rod.density;
+  expect_same_load(load_of(vessel_of_mesh("rod", turned_mesh(rod, 64, 1e-4), 2e-3)), full_cylinder(mass, 0.02, 0, 0.1), 6e-3);
 }
 
 TEST(VesselBody, TwoBodiesJoinedTurnAboutTheirCommonCentre) {
