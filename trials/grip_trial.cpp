@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "trials/grip_trial.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "core/error.h"
 #include "core/joints.h"
 #include "core/mirror.h"
 #include "core/prepare.h"
@@ -78,7 +75,7 @@ std::vector<ConvexPiece> mirrored_pieces(std::vector<ConvexPiece> pieces, Handed
 }  // namespace
 
 GripTrial::GripTrial(const MujocoLibrary& library, const Scene& scene, const Evaluator& evaluator, const TrialSettings& settings,
-                     std::size_t vessel, const GripInput& grip)
+                     std::size_t vessel, const GripInput& grip, int most_contacts)
     : scene_(scene),
       settings_(settings),
       friction_(number_or(settings.friction, scene.force.friction)),
@@ -90,6 +87,8 @@ GripTrial::GripTrial(const MujocoLibrary& library, const Scene& scene, const Eva
   posed_ = mirrored_hand(result_.posed, side);
   pour_ = mirrored(pour_direction(scene, grip), side);
   contacts_ = grasp_contacts(scene, evaluator, vessel, result_);
+  contacts_.strength.friction = friction_;
+  contacts_.strength.torsion = torsion_;
   const PreparedHand hand = prepare_hand(scene.hand);
   const double scale = scene.hand.scale * grip.hand_scale;
   HeldSetup setup;
@@ -100,15 +99,18 @@ GripTrial::GripTrial(const MujocoLibrary& library, const Scene& scene, const Eva
   setup.friction = friction_;
   setup.torsion = torsion_;
   setup.load = mirrored_load(vessel_load_.at(0, 0, settings.mass), side);
-  contacts_.strength.friction = friction_;
-  contacts_.strength.torsion = torsion_;
+  setup.most_contacts = most_contacts;
   grasp_ = setup.grasp;
   try {
     body_.emplace(library, setup);
   } catch (const EngineTrouble& trouble) {
-    throw failure_error(
-        fmt::format("vessel {}: {} does not take the model: {}", scene.vessels[vessel].name, library.name, trouble.what()));
+    trouble_ = trouble.what();
   }
+}
+
+HeldBody& GripTrial::body() {
+  if (!body_) throw EngineTrouble(trouble_);
+  return *body_;
 }
 
 Vec3 GripTrial::up_at(double tilt) const { return core_f64::up_direction(to_vec3(pour_), std::sin(tilt), std::cos(tilt)); }
@@ -145,7 +147,7 @@ void GripTrial::act_between(const State& a, const State& b, double share, double
 }
 
 TrialReason GripTrial::close(const State& state) {
-  body_->reset();
+  body().reset();
   act(state);
   body_->simulation().forward();
   if (body_->deepest_overlap() > settings_.start_overlap) return TrialReason::overlap;
@@ -204,7 +206,8 @@ bool GripTrial::watch(double duration, double tilt, TrialOutcome& outcome, Trial
   return look(tilt, outcome);
 }
 
-// From a tilt to the next, load and forces at every whole STATE_STEP between them and at both ends: what comes later changes nothing.
+// From a tilt to the next, load and forces at every whole STATE_STEP between them and at both ends: what comes later changes
+// nothing.
 bool GripTrial::turn(double fill, State& state, double from, double to, TrialOutcome& outcome, TrialTrack* track) {
   const bool pours = scene_.liquid && fill > 0;
   double at = from;
@@ -268,7 +271,7 @@ TrialOutcome GripTrial::push(double fill, int direction, const TrialMaterial& ma
     along[static_cast<std::size_t>(direction / 2)] = direction % 2 == 0 ? 1 : -1;
     state.force = state.load.mass * settings_.push_acceleration * to_vec3(mirrored(along, scene_.hand.handedness));
     state.drives = drives_for(state.load, state.force, friction, torsion);
-    body_->set_friction(friction, torsion);
+    body().set_friction(friction, torsion);
     outcome.reason = close(state);
     outcome.discarded = outcome.reason != TrialReason::none;
     outcome.held = !outcome.discarded && watch(settings_.push_time, 0, outcome, track);
@@ -278,7 +281,7 @@ TrialOutcome GripTrial::push(double fill, int direction, const TrialMaterial& ma
     outcome.reason = TrialReason::diverged;
     outcome.detail = trouble.what();
   }
-  body_->set_friction(friction_, torsion_);
+  if (body_) body_->set_friction(friction_, torsion_);
   return outcome;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/evaluator.h"
@@ -19,12 +20,12 @@ constexpr double STATE_STEP = radians(5);  // between the tilts at which load an
 // Not thread-safe; one a thread. What it is made of must outlive it.
 class GripTrial {
  public:
-  // Throws Error as convex_pieces, and (failure) where the engine does not take the model.
+  // Throws Error as convex_pieces. Where the engine does not take the model, every outcome is `diverged`, with its words.
   GripTrial(const MujocoLibrary& library, const Scene& scene, const Evaluator& evaluator, const TrialSettings& settings,
-            std::size_t vessel, const GripInput& grip);
+            std::size_t vessel, const GripInput& grip, int most_contacts = MOST_CONTACTS);
 
-  // A fill through tilts in ascending order; an outcome for each. `track`, if asked for, gets all frames until the vessel is lost or the
-  // last hold ends, and `ends` how many of them belong to each tilt.
+  // A fill through tilts in ascending order; an outcome for each. `track`, if asked for, gets all frames until the vessel is lost
+  // or the last hold ends, and `ends` how many of them belong to each tilt.
   std::vector<TrialOutcome> tilt(double fill, const std::vector<double>& tilts, TrialTrack* track, std::vector<std::size_t>* ends);
   // A fill pushed along a direction of the vessel frame (as of TrialCase).
   TrialOutcome push(double fill, int direction, const TrialMaterial& material, TrialTrack* track);
@@ -41,6 +42,7 @@ class GripTrial {
   void act(const State& state);
   void act_between(const State& a, const State& b, double share, double tilt, bool with_load);
   core_f64::Vec3 up_at(double tilt) const;
+  HeldBody& body();  // throws EngineTrouble where there is none
   // Closes the hand on the pinned vessel and lets go. What is wrong with the start, if anything.
   TrialReason close(const State& state);
   // Goes on for a time; false once the vessel is lost, which `outcome` then tells.
@@ -59,6 +61,7 @@ class GripTrial {
   GraspModel grasp_;
   VesselLoad vessel_load_;
   std::optional<HeldBody> body_;
+  std::string trouble_;  // why there is none
   bool is_articulated_ = true;
   core_f64::Vec3 watched_{};  // a place of the vessel: its centre of mass at the release
   long steps_ = 0;

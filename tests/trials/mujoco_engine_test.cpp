@@ -13,7 +13,9 @@
 #include "grips/holding.h"
 #include "grips/report.h"
 #include "scene/reader.h"
+#include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
+#include "trials/grip_trial.h"
 
 namespace wholehand {
 namespace {
@@ -206,7 +208,8 @@ TEST_F(MujocoEngine, AVesselWithoutAModelIsRefused) {
   EXPECT_THROW(engine->run(0, BEAKER, fill_tilt(0, {0})), Error);
 }
 
-// The bones of `paper` have no joints to turn in; the model `contacts` has no bones, and `rigged` is the hand with its joints at rest.
+// The bones of `paper` have no joints to turn in; the model `contacts` has no bones, and `rigged` is the hand with its joints at
+// rest.
 TEST_F(MujocoEngine, AHandWithoutJointsIsRefused) {
   Scene scene = scene_;
   const auto answer = [&](Pose pose, TrialModel model) {
@@ -219,8 +222,96 @@ TEST_F(MujocoEngine, AHandWithoutJointsIsRefused) {
   EXPECT_EQ(answer(Pose::articulated, TrialModel::hand), "none");
 }
 
-// The model `contacts` has nothing that could hold but the contacts of kernel 9. What the effort calls infinite slides: out of the hand, or
-// some millimetres until the same contacts meet other walls that hold it, as where a neck meets a cone.
+bool is_diverged(const TrialOutcome& outcome) {
+  EXPECT_FALSE(outcome.held && outcome.discarded);
+  EXPECT_EQ(outcome.detail.empty(), outcome.reason != TrialReason::diverged);
+  return outcome.discarded && outcome.reason == TrialReason::diverged;
+}
+
+// A body that weighs nothing is a model that the engine does not take. Only what is asked of it is lost.
+TEST_F(MujocoEngine, AModelThatItDoesNotTakeIsDiverged) {
+  auto cases = fill_tilt(0.5, {0, 30});
+  cases.push_back({TrialProtocol::six_forces, 0.5, 0, 2, 0});
+  TrialSettings settings = quick();
+  settings.mass = 0;
+  std::vector<TrialTrack> tracks;
+  for (const TrialOutcome& outcome : run(0, BEAKER, cases, settings, &tracks)) EXPECT_TRUE(is_diverged(outcome));
+  EXPECT_EQ(tracks.size(), cases.size());
+}
+
+// A trial goes on with a new start after it.
+TEST_F(MujocoEngine, WhatComesAfterTroubleIsAsWithoutIt) {
+  TrialSettings settings = quick();
+  settings.materials = {{"scene"}, {"nothing", 0}};
+  const auto engine = make_mujoco_engine(scene_, *evaluator_, settings);
+  const std::vector<TrialCase> pushes{{TrialProtocol::six_forces, 0.5, 0, 2, 0}, {TrialProtocol::six_forces, 0.5, 0, 2, 1}};
+  const auto found = engine->run(0, BEAKER, {pushes[1], pushes[0]});
+  EXPECT_TRUE(is_diverged(found[0]));
+  EXPECT_FALSE(is_diverged(found[1]));
+  expect_same(found[1], engine->run(0, BEAKER, {pushes[0]})[0]);
+}
+
+// With room for more and more contacts. What is found before there is no room left stays; whatever comes after it is lost with it,
+// and the next fill is not.
+TEST_F(MujocoEngine, WithoutRoomForContactsATrialIsDivergedFromThereOn) {
+  const TrialSettings settings = quick();
+  const std::vector<double> tilts{0, radians(30), radians(60)};
+  int full = 0, enough = 0;
+  for (int most = 1; most <= 33; most += 4) {
+    const auto trial = [&] { return GripTrial(load_mujoco(), scene_, *evaluator_, settings, 0, BEAKER, most); };
+    GripTrial both = trial(), other = trial();
+    TrialTrack track;
+    std::vector<std::size_t> ends;
+    const auto first = both.tilt(1, tilts, &track, &ends), then = both.tilt(0, tilts, nullptr, nullptr),
+               alone = other.tilt(0, tilts, nullptr, nullptr);
+    ASSERT_EQ(first.size(), tilts.size());
+    ASSERT_EQ(ends.size(), tilts.size());
+    bool is_lost = false;
+    for (std::size_t k = 0; k < tilts.size(); ++k) {
+      if (is_lost) {
+        EXPECT_TRUE(is_diverged(first[k])) << most;
+      }
+      is_lost = is_diverged(first[k]);
+      if (is_lost) {
+        EXPECT_NE(first[k].detail.find("contact"), std::string::npos) << first[k].detail;
+      }
+      expect_same(then[k], alone[k]);
+    }
+    ++(is_lost ? full : enough);
+  }
+  EXPECT_GT(full, 0);
+  EXPECT_GT(enough, 0);
+}
+
+// The beaker's form from a file: one convex piece, of the same mass.
+TEST_F(MujocoEngine, AConvexMeshIsHeldAsItsOutline) {
+  VesselData outline = scene_.vessels[0];
+  const VesselConstants constants = evaluator_->constants(0);
+  VesselData full = outline;
+  full.wall = 0;
+  outline.wall = 0;
+  outline.inner.clear();
+  VesselData mesh = vessel_of_mesh("mesh", turned_mesh(full, 128, 1e-4), 1e-3);
+  Scene scene = scene_;
+  scene.liquid.reset();
+  for (VesselData* vessel : {&outline, &mesh}) {
+    vessel->mass = constants.mass;
+    vessel->center_of_mass = constants.center_of_mass;
+  }
+  scene.vessels = {outline, mesh};
+  const auto evaluator = make_core_evaluator(scene);
+  const auto engine = make_mujoco_engine(scene, *evaluator, quick());
+  engine->check(1);
+  const auto a = engine->run(0, BEAKER, fill_tilt(0, {0, 30})), b = engine->run(1, BEAKER, fill_tilt(0, {0, 30}));
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    EXPECT_TRUE(a[k].held);
+    EXPECT_TRUE(b[k].held);
+    EXPECT_NEAR(a[k].move, b[k].move, 0.5e-3);
+  }
+}
+
+// The model `contacts` has nothing that could hold but the contacts of kernel 9. What the effort calls infinite slides: out of the
+// hand, or some millimetres until the same contacts meet other walls that hold it, as where a neck meets a cone.
 TEST_F(MujocoEngine, WhatEffortCallsInfiniteIsNotHeldWhereItIs) {
   int infinite = 0;
   for (const GripInput& grip : sample_grips(scene_.vessels[2], 200, 3)) {
