@@ -18,8 +18,8 @@ using core_f64::Vec3;
 constexpr double FREE_TRAVEL = 0.05;    // m, of a slide
 constexpr double SHORTEST_BONE = 1e-6;  // m: a shorter one is its balls
 
-// How far a joint turns before bones and ligaments stop it, rad: fingers MCP, PIP, DIP; thumb abduction, MCP, IP (AAOS; the upper ends
-// of the fingers are the scene's).
+// How far a joint turns before bones and ligaments stop it, rad: fingers MCP, PIP, DIP; thumb abduction, MCP, IP (AAOS; the upper
+// ends of the fingers are the scene's).
 constexpr std::array<double, 3> LEAST_TURN{radians(-30), radians(-5), radians(-10)};
 constexpr std::array<std::array<double, 2>, 3> THUMB_TURN{
     {{radians(-20), radians(90)}, {radians(-10), radians(60)}, {radians(-20), radians(80)}}};
@@ -80,7 +80,8 @@ class HandWriter {
     if (finger == 0 || bone > 0) write_hinge(finger, bone, model);
     const auto& radii = hand_.fingers[static_cast<std::size_t>(finger)].radius;
     const double inner = scale_ * radii[static_cast<std::size_t>(bone)], outer = scale_ * radii[static_cast<std::size_t>(bone) + 1];
-    // a capsule alone touches a straight wall in one point, which hops from one end of it to the other: each end has a ball of its own
+    // a capsule alone touches a straight wall in one point, which hops from one end of it to the other: each end has a ball of its
+    // own
     const double radius = std::max(THINNEST, (inner + outer) / 2);
     model.roughness = std::max(model.roughness, std::abs(inner - outer));
     if (bone == 0) write_ball("base" + name, Vec3(0), inner, model);
@@ -154,9 +155,11 @@ std::vector<double> GraspModel::drives(std::span<const ContactForce> forces) con
   return result;
 }
 
-// A bone that presses with f at q on the vessel turns its hinge at o with the axis a by a.((q - o) x f) = ((a x (q - o)).f: what its joint
-// must hold. The torque of a joint reaches what its digit's strength does square to the arm of its outermost contact; of a digit that
-// touches nothing, at its tip.
+// A bone that presses with f at q on the vessel, and with a torsion tau about the normal n, turns its hinge at o with the axis a by
+// a.((q - o) x f) + a.n tau = ((a x (q - o)).f + a.n tau: what its joint must hold. The strength of a digit is of its normal forces
+// N; with friction |(f, tau / gamma)| reaches sqrt(1 + mu^2) N. A joint's torque reaches what such a force of the full strength
+// takes at most, where its digit touches with the longest arm; of a digit that touches nothing, at its tip. So no force of kernel
+// 10 within the strength is more than the joints can do.
 GraspModel articulated_hand(const PreparedHand& hand, const HandData& data, const PosedHand& rigged, const PosedHand& posed,
                             double scale, const GraspContacts& contacts) {
   GraspModel model;
@@ -164,6 +167,7 @@ GraspModel articulated_hand(const PreparedHand& hand, const HandData& data, cons
   writer.write(model);
   model.contacts = contacts.points.size();
   model.levers.resize(model.joints.size() * model.contacts);
+  const double whole = std::hypot(1.0, contacts.strength.friction);
   for (std::size_t j = 0; j < model.joints.size(); ++j) {
     const Hinge& hinge = writer.hinges()[j];
     GraspJoint& joint = model.joints[j];
@@ -173,10 +177,12 @@ GraspModel articulated_hand(const PreparedHand& hand, const HandData& data, cons
       const Vec3 lever = glm::cross(hinge.axis, contact.place - hinge.anchor);
       model.levers[j * model.contacts + i] = {lever, glm::dot(hinge.axis, contact.normal)};
       const double strength = contacts.strength.digits[static_cast<std::size_t>(contact.digit)];
-      joint.most = std::max(joint.most, strength * glm::length(lever));
+      const double arm = std::hypot(glm::length(lever), contacts.strength.torsion * glm::dot(hinge.axis, contact.normal));
+      joint.most = std::max(joint.most, whole * strength * arm);
     }
     if (joint.most == 0) {
-      joint.most = contacts.strength.digits[static_cast<std::size_t>(hinge.finger)] * writer.way_to_tip(hinge.finger, hinge.bone);
+      const double strength = contacts.strength.digits[static_cast<std::size_t>(hinge.finger)];
+      joint.most = whole * strength * writer.way_to_tip(hinge.finger, hinge.bone);
     }
   }
   return model;
