@@ -96,12 +96,12 @@ class TrialEngine {
  public:
   virtual ~TrialEngine() = default;
   virtual std::string name() const = 0;  // "MuJoCo 2.2.2"
-  // Throws Error (usage), with the vessel's name and the reason, where the vessel or the scene's hand has no model: to be asked before
-  // any grip is tried. Says nothing of a single grip.
+  // Throws Error (usage), with the vessel's name and the reason, where the vessel or the scene's hand has no model: to be asked
+  // before any grip is tried. Says nothing of a single grip.
   virtual void check(std::size_t vessel) const { static_cast<void>(vessel); }
-  // One outcome for each case, in their order. Cases of one fill of fill_tilt are one run of the engine through ascending tilts, whose
-  // outcome does not depend on which further tilts are asked for beyond the last. `tracks`, if asked for, gets one for each case.
-  // `grip` is feasible and plausible. Throws Error as `check`.
+  // One outcome for each case, in their order. Cases of one fill of fill_tilt are one run of the engine through ascending tilts,
+  // whose outcome does not depend on which further tilts are asked for beyond the last. `tracks`, if asked for, gets one for each
+  // case. `grip` is feasible and plausible. Throws Error as `check`.
   virtual std::vector<TrialOutcome> run(std::size_t vessel, const GripInput& grip, const std::vector<TrialCase>& cases,
                                         std::vector<TrialTrack>* tracks = nullptr) const = 0;
 };
