@@ -19,17 +19,13 @@ class MujocoEngine final : public TrialEngine {
   std::string name() const override { return library_.name; }
 
   void check(std::size_t vessel) const override {
-    if (settings_.model == TrialModel::hand && scene_.pose == Pose::paper) {
-      throw usage_error(
-          "pose = \"paper\" turns the points of the hand one by one, so that its bones have no joints; trials take pose = "
-          "\"articulated\" or \"rigged\"");
-    }
+    check_hand();
     convex_pieces(scene_.vessels.at(vessel));
   }
 
   std::vector<TrialOutcome> run(std::size_t vessel, const GripInput& grip, const std::vector<TrialCase>& cases,
                                 std::vector<TrialTrack>* tracks) const override {
-    check(vessel);
+    check_hand();  // of the vessel the trial does so
     std::vector<TrialOutcome> outcomes(cases.size());
     if (tracks) tracks->assign(cases.size(), {});
     // a model of its own for every grip and every call: the same bits whoever else is at work
@@ -40,6 +36,13 @@ class MujocoEngine final : public TrialEngine {
   }
 
  private:
+  void check_hand() const {
+    if (settings_.model != TrialModel::hand || scene_.pose != Pose::paper) return;
+    throw usage_error(
+        "pose = \"paper\" turns the points of the hand one by one, so that its bones have no joints; trials take pose = "
+        "\"articulated\" or \"rigged\"");
+  }
+
   // All cases of a fill are one run.
   void tilt(GripTrial& trial, const std::vector<TrialCase>& cases, std::vector<TrialOutcome>& outcomes,
             std::vector<TrialTrack>* tracks) const {

@@ -52,7 +52,7 @@ class ArticulatedHand : public testing::Test {
   GraspContacts contacts_;
 };
 
-// One contact of a digit at a time at its full strength, the most that a joint can be asked for; and within a third of what is
+// One contact of a digit at a time at its full strength, the most that a joint can be asked for; and within a fifth of what is
 // there for the outermost one.
 TEST_F(ArticulatedHand, ItsJointsCanDoWhatTheStrengthAsksFor) {
   const GraspModel hand = model();
