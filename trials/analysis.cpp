@@ -213,8 +213,8 @@ std::vector<Disagreement> find_disagreements(const TriedGrips& tried) {
   return chosen;
 }
 
-// Of the best grips of a vessel those that hold in every trial for which effort says at most SURE_EFFORT. A grip without such a trial
-// shows nothing.
+// Of the best grips of a vessel those that hold in every trial for which effort says at most SURE_EFFORT. A grip without such a
+// trial shows nothing.
 struct SurelyHeld {
   Share held;
   std::size_t discarded = 0, without = 0;  // grips that are not in it: a trial was discarded, or none is sure

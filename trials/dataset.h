@@ -18,8 +18,8 @@ struct TrialOrigin {
 // No file of these trials is larger, bytes.
 std::uint64_t trials_dataset_room(const Scene& scene, const TriedGrips& tried);
 
-// Writes the file, under another name first and after it has been seen that the disk has the room. Dimensions `vessel`, `grip` and `trial`; a trial has the place of its grip. Throws
-// Error (failure).
+// Writes the file, under another name first and after it has been seen that the disk has the room. Dimensions `vessel`, `grip` and
+// `trial`; a trial has the place of its grip. Throws Error (failure).
 void write_trials_dataset(const std::string& path, const Scene& scene, const TrialOptions& options, const TriedGrips& tried,
                           const TrialOrigin& origin);
 

@@ -61,9 +61,9 @@ struct GripSourceOfTrials {
   const SweepResult* result = nullptr;
 };
 
-// All grips to be tried: of each vessel the best, then the others. A listed grip is not in the stratified sample too. Chosen grips of
-// a result that the core does not find feasible and plausible are left out, and a note says how many. Throws Error
-// (usage) where no grip is feasible and plausible. Empty where `stop` is set.
+// All grips to be tried: of each vessel the best, then the others. A listed grip is not in the stratified sample too. Chosen grips
+// of a result that the core does not find feasible and plausible are left out, and a note says how many. Throws Error (usage) where
+// no grip is feasible and plausible. Empty where `stop` is set.
 std::vector<TrialGrip> choose_trial_grips(const GripSourceOfTrials& source, const TrialOptions& options,
                                           const std::atomic<bool>& stop);
 

@@ -65,9 +65,9 @@ std::string trials_summary(const Scene& scene, const TrialOptions& options, cons
   }
   if (analysis.weights && analysis.weights->fit.is_fitted) {
     const AucDifference& more = analysis.weights->difference;
-    text += fmt::format("weights fitted to half of the trials, on the other half: AUC {}{}, {}\n", more.difference > 0 ? "+" : "",
+    text += fmt::format("weights fitted to half of the grips change the AUC on the other half by {}: {}\n",
                         plain_interval(more.difference, more.interval),
-                        analysis.weights->is_better() ? "better than the scene's" : "not better than the scene's");
+                        analysis.weights->is_better() ? "better than the scene's weights" : "not better than the scene's weights");
   }
   for (const TrialBar& bar : analysis.bars) {
     const std::string found = std::isnan(bar.found)

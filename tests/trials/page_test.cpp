@@ -78,7 +78,7 @@ TEST_F(TrialsPage, TellsSamplesAndProtocolsApart) {
   EXPECT_TRUE(has(printed, "AUC of the worst effort")) << printed;
   EXPECT_TRUE(has(printed, "in all six directions: mass and friction of the scene | mass and friction of DexGraspBench"))
       << printed;
-  EXPECT_TRUE(has(printed, "weights fitted to half of the trials")) << printed;
+  EXPECT_TRUE(has(printed, "weights fitted to half of the grips change the AUC")) << printed;
   EXPECT_TRUE(has(printed, "recordings of disagreements")) << printed;
 }
 
