@@ -130,11 +130,12 @@ TrialJournal::TrialJournal(const std::string& path, const TrialIdentity& identit
   const auto known = content_of(head);
   if (format != std::string(JOURNAL_START) + JOURNAL_FORMAT || !known || !known->is_object())
     throw failure_error(path + ": is damaged, or of another version; leave --resume out to begin again");
-  for (const auto& [name, value] : identity) {
-    if (known->value(name, std::string()) == value) continue;
-    throw usage_error(fmt::format("{}: these trials were begun with {}; ask for the same, or leave --resume out to begin again",
-                                  path, "another " + name));
-  }
+  std::string unlike;
+  for (const auto& [name, value] : identity)
+    if (known->value(name, std::string()) != value) unlike += (unlike.empty() ? "another " : ", another ") + name;
+  if (!unlike.empty())
+    throw usage_error(
+        fmt::format("{}: these trials were begun with {}; ask for the same, or leave --resume out to begin again", path, unlike));
   damaged = 0;
   while (std::getline(file, line)) {
     const auto one = finding_of(line, counts);

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "charts/markup.h"
-#include "trials/page.h"
+#include "trials/page_source.h"
 
 namespace wholehand {
 

@@ -112,10 +112,18 @@ class Trials {
     choose_grips(interrupt);
     if (interrupt.flag()) return interrupted(0, false);
     const TrialIdentity identity = identity_of(scene_, options_, tried_, *engine_);
-    if (options_.resume && !begins_with(files.journal, JOURNAL_START) &&
-        has_finished_trials(options_.folder, identity_text(identity))) {
-      print(fmt::format("{}: these trials are complete; there is nothing to resume\n", options_.folder));
-      return ExitCode::done;
+    if (options_.resume && !begins_with(files.journal, JOURNAL_START)) {
+      if (has_finished_trials(options_.folder, identity_text(identity))) {
+        print(fmt::format("{}: these trials are complete; there is nothing to resume\n", options_.folder));
+        return ExitCode::done;
+      }
+      // who asks to go on does not ask to replace what is whole
+      if (begins_with(files.csv, TRIALS_CSV_START))
+        throw usage_error(
+            fmt::format("{}: other trials are complete there, or of another build; leave --resume out to replace them, or "
+                        "name another folder with -o",
+                        options_.folder));
+      say_note(options_.folder + ": no interrupted trials are there: starting from the first grip");
     }
     TrialJournal::Found found;
     const auto journal = open_journal(files, identity, found);

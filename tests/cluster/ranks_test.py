@@ -115,7 +115,9 @@ def differing_bytes(path, other):
     return sum(a != b for a, b in zip(own, others)) + abs(len(own) - len(others)) * len(own)
 
 
-class Ranks(unittest.TestCase):
+class Job(unittest.TestCase):
+    """What the tests below start and compare."""
+
     def setUp(self):
         self.folder = tempfile.mkdtemp(prefix="ranks.")
         self.addCleanup(shutil.rmtree, self.folder)
@@ -157,6 +159,7 @@ class Ranks(unittest.TestCase):
     def tearDownClass(cls):
         for folder in cls.known.values():
             shutil.rmtree(folder)
+        cls.known.clear()
 
     def given(self, scene, output):
         """The result of one machine, computed once for all tests that compare with it."""
@@ -174,6 +177,73 @@ class Ranks(unittest.TestCase):
         self.assertEqual([name for name in values if values[name] != others.get(name)], [])
         self.assertEqual(attributes, other_attributes)
         self.assertEqual(list(values), list(others))
+
+    def marked(self, output):
+        """How many grips of each shard the mark knows; "": of the result itself."""
+        try:
+            with open(self.path(output + ".partial.mark"), encoding="utf-8") as file:
+                vessels = json.loads(file.read().split("\n", 1)[1])["vessels"]
+        except OSError:
+            return {}
+        grips = {}
+        for first, last, _, *shard in [stretch for vessel in vessels for stretch in vessel["stretches"]]:
+            grips["".join(shard)] = grips.get("".join(shard), 0) + last - first
+        return grips
+
+    def interrupt(self, process, output, when=lambda marked: sum(marked.values()) > 0):
+        """Ends a run once its mark knows enough: a busy machine takes its time for that."""
+        for _ in range(50 * PATIENCE):
+            if process.poll() is not None or when(self.marked(output)):
+                break
+            time.sleep(0.02)
+        process.send_signal(signal.SIGUSR1)  # which mpirun hands on, as srun does
+        code, _, errors = self.end(process)
+        self.assertEqual(code, 130, errors)
+        return errors
+
+    def start_nodes(self, nodes, *arguments, folders=()):
+        """Ranks whose files have the names of so many nodes: {"a": 2, "b": 1}. Some work in folders of their names."""
+        command = ["mpirun", "-q"]
+        for name, ranks in nodes.items():
+            own = [MPI_PROGRAM, "sweep", *arguments, "--on", "core", "--threads", "1", "--shard", name]
+            command += ["-n", str(ranks), *(["--wdir", self.path(name)] if name in folders else []), *own, ":"]
+        return self.start(command[:-1])
+
+    def run_nodes(self, nodes, *arguments, folders=()):
+        return self.end(self.start_nodes(nodes, *arguments, folders=folders))
+
+    def merge(self, result, *more):
+        return self.end(self.start([PROGRAM, "merge", result, *more]))
+
+    def await_file(self, name, process):
+        for _ in range(20 * PATIENCE):
+            if os.path.exists(self.path(name)):
+                return
+            if process.poll() is not None:
+                break
+            time.sleep(0.05)
+        self.fail(f"{name} did not come: {self.end(process)}")
+
+    def ranks_of(self, process):
+        found = subprocess.run(["pgrep", "-g", "0", "-P", str(process.pid)], capture_output=True, text=True, check=False).stdout
+        if not found:
+            found = subprocess.run(["pgrep", "-P", str(process.pid)], capture_output=True, text=True, check=False).stdout
+        return [int(number) for number in found.split()]
+
+    def catches(self, process, number):
+        try:
+            with open(f"/proc/{process}/comm", encoding="utf-8") as file:
+                if not MPI_PROGRAM.endswith("/" + file.read().strip()):
+                    return False
+            with open(f"/proc/{process}/status", encoding="utf-8") as file:
+                caught = [line for line in file if line.startswith("SigCgt:")][0]
+        except OSError:
+            return False
+        return bool(int(caught.split()[1], 16) >> (number - 1) & 1)
+
+
+class Ranks(Job):
+    """The same answer, whoever dies, and one job for one file."""
 
     def test_any_number_of_ranks_gives_the_answer_of_one_machine(self):
         for name, scene in {"grid": SMALL, "points": POINTS, "bare": BARE}.items():
@@ -201,29 +271,6 @@ class Ranks(unittest.TestCase):
                 leftover = [file for file in os.listdir(self.folder) if ".partial" in file]
                 self.assertEqual(leftover, [])
 
-    def marked(self, output):
-        """How many grips of each shard the mark knows; "": of the result itself."""
-        try:
-            with open(self.path(output + ".partial.mark"), encoding="utf-8") as file:
-                vessels = json.loads(file.read().split("\n", 1)[1])["vessels"]
-        except OSError:
-            return {}
-        grips = {}
-        for first, last, _, *shard in [stretch for vessel in vessels for stretch in vessel["stretches"]]:
-            grips["".join(shard)] = grips.get("".join(shard), 0) + last - first
-        return grips
-
-    def interrupt(self, process, output, when=lambda marked: sum(marked.values()) > 0):
-        """Ends a run once its mark knows enough: a busy machine takes its time for that."""
-        for _ in range(50 * PATIENCE):
-            if process.poll() is not None or when(self.marked(output)):
-                break
-            time.sleep(0.02)
-        process.send_signal(signal.SIGUSR1)  # which mpirun hands on, as srun does
-        code, _, errors = self.end(process)
-        self.assertEqual(code, 130, errors)
-        return errors
-
     def test_lists_that_take_passes(self):
         path = self.write("alike.toml", ALIKE)
         self.given(path, "alike.nc")
@@ -246,20 +293,6 @@ class Ranks(unittest.TestCase):
             self.assertIn("grips are there", errors)
             self.assert_same(whole, output)
 
-    def test_a_rank_without_room_ends_all(self):
-        path = self.write("large.toml", LARGE)
-        self.given(path, "large.nc")
-        own = [MPI_PROGRAM, "sweep", path, "-o", "full.nc", "--on", "core", "--mark-seconds", "0.05"]
-        limited = ["sh", "-c", 'ulimit -f 16000; exec "$@"', "sh", *own]  # blocks of 512 bytes: its writes beyond 8 MB fail
-        code, out, errors = self.end(self.start(["mpirun", "-q", "-n", "1", *own, ":", "-n", "1", *limited]))
-        self.assertEqual(code, 3, errors)
-        self.assertEqual(len(errors.strip().split("\n")), 1, errors)
-        self.assertRegex(errors, r"wholehand: rank 1 on \S+: full.nc.partial: cannot write it: .+; make room and go on with --resume")
-        self.assertNotIn("wrote", out)
-        code, _, errors = self.run_ranks(3, path, "-o", "full.nc", "--resume")
-        self.assertEqual(code, 0, errors)
-        self.assert_same("large.nc", "full.nc")
-
     def test_another_file_of_the_name_is_not_written(self):
         path = self.write("a.toml", SMALL)
         for name in ("one", "other"):
@@ -275,19 +308,75 @@ class Ranks(unittest.TestCase):
         with open(self.path("other/a.nc.partial"), encoding="utf-8") as file:
             self.assertEqual(file.read(), "of an earlier job")
 
-    def start_nodes(self, nodes, *arguments, folders=()):
-        """Ranks whose files have the names of so many nodes: {"a": 2, "b": 1}. Some work in folders of their names."""
-        command = ["mpirun", "-q"]
-        for name, ranks in nodes.items():
-            own = [MPI_PROGRAM, "sweep", *arguments, "--on", "core", "--threads", "1", "--shard", name]
-            command += ["-n", str(ranks), *(["--wdir", self.path(name)] if name in folders else []), *own, ":"]
-        return self.start(command[:-1])
+    def test_a_rank_that_is_killed_costs_little(self):
+        chance = random.Random(15)
+        path = self.write("large.toml", LARGE)
+        began = time.monotonic()
+        self.alone(path, "large.nc", "--threads", "1")
+        whole = time.monotonic() - began
+        killed = resumed = 0
+        for _ in range(40):
+            if killed == 10:
+                break
+            resume = ["--resume"] if os.path.exists(self.path("killed.nc.partial.mark")) else []
+            process = self.start(self.command(chance.choice((2, 3, 4)), path, "-o", "killed.nc", "--mark-seconds", "0.05", *resume))
+            time.sleep(0.2 + chance.uniform(0, 0.5) * whole)
+            victims = self.ranks_of(process)
+            is_hit = bool(victims) and process.poll() is None
+            if is_hit:
+                os.kill(chance.choice(victims), signal.SIGKILL)
+            code, _, errors = self.end(process)
+            self.assertNotIn(code, (2, 3), errors)  # which the program gives itself
+            self.assertTrue(is_hit or code == 0, errors)
+            killed += code != 0
+            if os.path.exists(self.path("killed.nc.partial.mark")) and chance.random() < 0.4:
+                code, _, errors = self.run_ranks(chance.choice((1, 2, 5)), path, "-o", "killed.nc", "--resume")
+                self.assertEqual(code, 0, errors)
+                resumed += "grips are there" in errors
+            if os.path.exists(self.path("killed.nc")):  # none where the end came first
+                self.assert_same("large.nc", "killed.nc")
+                os.remove(self.path("killed.nc"))
+        self.assertEqual(killed, 10)
+        code, _, errors = self.run_ranks(3, path, "-o", "killed.nc", "--resume")
+        self.assertEqual(code, 0, errors)
+        self.assert_same("large.nc", "killed.nc")
+        self.assertGreater(resumed, 0)
 
-    def run_nodes(self, nodes, *arguments, folders=()):
-        return self.end(self.start_nodes(nodes, *arguments, folders=folders))
+    def test_ranks_of_another_scene_or_build_are_refused(self):
+        path, other = self.write("a.toml", SMALL), self.write("b.toml", SMALL.replace("110", "111"))
+        own = [MPI_PROGRAM, "sweep", path, "-o", "a.nc", "--on", "core"]
+        another_build = self.path("wholehand-mpi")
+        with open(MPI_PROGRAM, "rb") as file:
+            program = bytearray(file.read())
+        note = program.index(b"GNU\x00", program.index(b"\x04\x00\x00\x00\x14\x00\x00\x00\x03\x00\x00\x00GNU\x00"))
+        program[note + 4] ^= 1
+        with open(another_build, "wb") as file:
+            file.write(program)
+        os.chmod(another_build, 0o755)
+        for what, command in {"scene": [MPI_PROGRAM, "sweep", other, *own[3:]], "build": [another_build, *own[1:]]}.items():
+            code, out, errors = self.end(self.start(["mpirun", "-q", "-n", "1", *own, ":", "-n", "1", *command]))
+            self.assertEqual((code, out), (2, ""), errors)
+            lines = errors.strip().split("\n")
+            self.assertEqual(len(lines), 1, errors)
+            self.assertRegex(lines[0], rf"wholehand: rank 1 on \S+ has another {what}: [0-9a-f]+, and rank 0 on \S+ has [0-9a-f]+; ")
+            self.assertFalse([name for name in os.listdir(self.folder) if name.startswith("a.nc")])
 
-    def merge(self, result, *more):
-        return self.end(self.start([PROGRAM, "merge", result, *more]))
+    def test_one_job_writes_a_file(self):
+        path = self.write("large.toml", LARGE)
+        first = self.start(self.command(2, path, "-o", "one.nc"))
+        for _ in range(600):
+            if os.path.exists(self.path("one.nc.partial")):
+                break
+            time.sleep(0.05)
+        code, out, errors = self.run_ranks(2, path, "-o", "one.nc")
+        self.assertEqual(code, 2, errors)
+        self.assertEqual(len(errors.strip().split("\n")), 1, errors)
+        self.assertIn("one.nc", errors)
+        self.assertEqual(self.end(first)[0], 0)
+
+
+class Shards(Job):
+    """Nodes that share no file system."""
 
     def test_shards_become_the_file_of_one_machine(self):
         # enough pieces that no node comes too late for its first
@@ -470,6 +559,24 @@ class Ranks(unittest.TestCase):
         self.assertEqual(code, 0, errors)
         self.assert_same("alike.nc", "again.nc")
 
+
+class Endings(Job):
+    """What ends a job early, and what is then left."""
+
+    def test_a_rank_without_room_ends_all(self):
+        path = self.write("large.toml", LARGE)
+        self.given(path, "large.nc")
+        own = [MPI_PROGRAM, "sweep", path, "-o", "full.nc", "--on", "core", "--mark-seconds", "0.05"]
+        limited = ["sh", "-c", 'ulimit -f 16000; exec "$@"', "sh", *own]  # blocks of 512 bytes: its writes beyond 8 MB fail
+        code, out, errors = self.end(self.start(["mpirun", "-q", "-n", "1", *own, ":", "-n", "1", *limited]))
+        self.assertEqual(code, 3, errors)
+        self.assertEqual(len(errors.strip().split("\n")), 1, errors)
+        self.assertRegex(errors, r"wholehand: rank 1 on \S+: full.nc.partial: cannot write it: .+; make room and go on with --resume")
+        self.assertNotIn("wrote", out)
+        code, _, errors = self.run_ranks(3, path, "-o", "full.nc", "--resume")
+        self.assertEqual(code, 0, errors)
+        self.assert_same("large.nc", "full.nc")
+
     def test_a_file_that_another_job_took_is_left_alone(self):
         # as on two nodes whose file system has no locks
         path = self.write("large.toml", LARGE)
@@ -486,15 +593,6 @@ class Ranks(unittest.TestCase):
             self.assertEqual(file.read(), "of another job")
         self.assertFalse(os.path.exists(self.path("one.nc")))
 
-    def await_file(self, name, process):
-        for _ in range(20 * PATIENCE):
-            if os.path.exists(self.path(name)):
-                return
-            if process.poll() is not None:
-                break
-            time.sleep(0.05)
-        self.fail(f"{name} did not come: {self.end(process)}")
-
     def test_an_error_after_the_last_grip_leaves_all_of_them_marked(self):
         path = self.write("late.toml", LARGE.replace("count = 600", "count = 200"))
         self.alone(path, "whole.nc")
@@ -509,46 +607,6 @@ class Ranks(unittest.TestCase):
         self.assertEqual(code, 0, errors)
         self.assertIn("late.nc.partial: 20,800 of 20,800 grips are there", errors)
         self.assert_same("whole.nc", "late.nc")
-
-    def ranks_of(self, process):
-        found = subprocess.run(["pgrep", "-g", "0", "-P", str(process.pid)], capture_output=True, text=True, check=False).stdout
-        if not found:
-            found = subprocess.run(["pgrep", "-P", str(process.pid)], capture_output=True, text=True, check=False).stdout
-        return [int(number) for number in found.split()]
-
-    def test_a_rank_that_is_killed_costs_little(self):
-        chance = random.Random(15)
-        path = self.write("large.toml", LARGE)
-        began = time.monotonic()
-        self.alone(path, "large.nc", "--threads", "1")
-        whole = time.monotonic() - began
-        killed = resumed = 0
-        for _ in range(40):
-            if killed == 10:
-                break
-            resume = ["--resume"] if os.path.exists(self.path("killed.nc.partial.mark")) else []
-            process = self.start(self.command(chance.choice((2, 3, 4)), path, "-o", "killed.nc", "--mark-seconds", "0.05", *resume))
-            time.sleep(0.2 + chance.uniform(0, 0.5) * whole)
-            victims = self.ranks_of(process)
-            is_hit = bool(victims) and process.poll() is None
-            if is_hit:
-                os.kill(chance.choice(victims), signal.SIGKILL)
-            code, _, errors = self.end(process)
-            self.assertNotIn(code, (2, 3), errors)  # which the program gives itself
-            self.assertTrue(is_hit or code == 0, errors)
-            killed += code != 0
-            if os.path.exists(self.path("killed.nc.partial.mark")) and chance.random() < 0.4:
-                code, _, errors = self.run_ranks(chance.choice((1, 2, 5)), path, "-o", "killed.nc", "--resume")
-                self.assertEqual(code, 0, errors)
-                resumed += "grips are there" in errors
-            if os.path.exists(self.path("killed.nc")):  # none where the end came first
-                self.assert_same("large.nc", "killed.nc")
-                os.remove(self.path("killed.nc"))
-        self.assertEqual(killed, 10)
-        code, _, errors = self.run_ranks(3, path, "-o", "killed.nc", "--resume")
-        self.assertEqual(code, 0, errors)
-        self.assert_same("large.nc", "killed.nc")
-        self.assertGreater(resumed, 0)
 
     def test_time_and_signals_close_it_cleanly(self):
         path = self.write("large.toml", LARGE)
@@ -601,17 +659,6 @@ class Ranks(unittest.TestCase):
         self.assertIn("wholehand: interrupted before the first grip; ", errors)
         self.assertFalse([name for name in os.listdir(self.folder) if name.startswith("a.nc")])
 
-    def catches(self, process, number):
-        try:
-            with open(f"/proc/{process}/comm", encoding="utf-8") as file:
-                if not MPI_PROGRAM.endswith("/" + file.read().strip()):
-                    return False
-            with open(f"/proc/{process}/status", encoding="utf-8") as file:
-                caught = [line for line in file if line.startswith("SigCgt:")][0]
-        except OSError:
-            return False
-        return bool(int(caught.split()[1], 16) >> (number - 1) & 1)
-
     def test_a_damaged_stretch_is_computed_again(self):
         path = self.write("large.toml", LARGE)
         self.given(path, "large.nc")
@@ -627,38 +674,6 @@ class Ranks(unittest.TestCase):
         self.assertEqual(code, 0, errors)
         self.assertIn("are damaged: computing them again", errors)
         self.assert_same("large.nc", "torn.nc")
-
-    def test_ranks_of_another_scene_or_build_are_refused(self):
-        path, other = self.write("a.toml", SMALL), self.write("b.toml", SMALL.replace("110", "111"))
-        own = [MPI_PROGRAM, "sweep", path, "-o", "a.nc", "--on", "core"]
-        another_build = self.path("wholehand-mpi")
-        with open(MPI_PROGRAM, "rb") as file:
-            program = bytearray(file.read())
-        note = program.index(b"GNU\x00", program.index(b"\x04\x00\x00\x00\x14\x00\x00\x00\x03\x00\x00\x00GNU\x00"))
-        program[note + 4] ^= 1
-        with open(another_build, "wb") as file:
-            file.write(program)
-        os.chmod(another_build, 0o755)
-        for what, command in {"scene": [MPI_PROGRAM, "sweep", other, *own[3:]], "build": [another_build, *own[1:]]}.items():
-            code, out, errors = self.end(self.start(["mpirun", "-q", "-n", "1", *own, ":", "-n", "1", *command]))
-            self.assertEqual((code, out), (2, ""), errors)
-            lines = errors.strip().split("\n")
-            self.assertEqual(len(lines), 1, errors)
-            self.assertRegex(lines[0], rf"wholehand: rank 1 on \S+ has another {what}: [0-9a-f]+, and rank 0 on \S+ has [0-9a-f]+; ")
-            self.assertFalse([name for name in os.listdir(self.folder) if name.startswith("a.nc")])
-
-    def test_one_job_writes_a_file(self):
-        path = self.write("large.toml", LARGE)
-        first = self.start(self.command(2, path, "-o", "one.nc"))
-        for _ in range(600):
-            if os.path.exists(self.path("one.nc.partial")):
-                break
-            time.sleep(0.05)
-        code, out, errors = self.run_ranks(2, path, "-o", "one.nc")
-        self.assertEqual(code, 2, errors)
-        self.assertEqual(len(errors.strip().split("\n")), 1, errors)
-        self.assertIn("one.nc", errors)
-        self.assertEqual(self.end(first)[0], 0)
 
     def test_an_error_of_any_rank_is_one_line(self):
         path = self.write("a.toml", SMALL)

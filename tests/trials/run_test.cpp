@@ -145,6 +145,16 @@ TEST_F(TrialsTest, ResumesToTheSameBits) {
   const TrialsRun again = run();
   EXPECT_EQ(again.code, ExitCode::done);
   EXPECT_TRUE(has(again.out, "nothing to resume")) << again.out;
+  // other trials that are whole are not replaced
+  options.seed = 5;
+  const TrialsRun other = run();
+  EXPECT_EQ(other.code, ExitCode::usage);
+  EXPECT_TRUE(has(other.error, "other trials are complete there")) << other.error;
+  EXPECT_EQ(csv(), whole);
+  options.folder = folder / "fresh";
+  const TrialsRun fresh = run();
+  EXPECT_EQ(fresh.code, ExitCode::done);
+  EXPECT_TRUE(has(fresh.notes, "starting from the first grip")) << fresh.notes;
 }
 
 TEST_F(TrialsTest, ADamagedLineOfTheJournalIsTriedAgain) {
@@ -178,7 +188,7 @@ TEST_F(TrialsTest, AJournalOfOtherTrialsIsRefused) {
   refused("model, mass, friction or material");
   options.settings = {};
   options.seed = 5;
-  refused("choice of grips");
+  refused("choice of grips, another seed");
   options.seed = 1;
   options.tilts = {0, 1};
   refused("choice of states");
