@@ -11,7 +11,7 @@ namespace {
 
 TEST(Progress, LineSaysShareRateAndTimeLeft) {
   EXPECT_EQ(Progress::line("beaker1", 1000, 0, 250, 0.5), "beaker1  25 %  500 grips/s  0:02 left");
-  EXPECT_EQ(Progress::line("trials", 460, 0, 23, 10), "trials  5 %  2.3 grips/s  3:10 left");
+  EXPECT_EQ(Progress::line("trials", 500, 0, 25, 10), "trials  5 %  2.5 grips/s  3:10 left");
   EXPECT_EQ(Progress::line("b", 30000000, 0, 10000000, 5), "b  33 %  2.00 million grips/s  0:10 left");
   EXPECT_EQ(Progress::line("b", 100000000, 0, 12345, 1), "b  0 %  12.3 thousand grips/s  2:15:00 left");
 }
