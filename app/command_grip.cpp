@@ -49,16 +49,6 @@ struct GripArguments {
   bool json = false, view = false, quality = false, refined = false;
 };
 
-std::size_t find_vessel(const Scene& scene, const std::string& name) {
-  std::vector<std::string_view> names;
-  for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
-    if (scene.vessels[v].name == name) return v;
-    names.push_back(scene.vessels[v].name);
-  }
-  throw usage_error(fmt::format("--vessel {}: {} has no such vessel; the nearest is '{}'", in_quotes(name), in_quotes(scene.file),
-                                nearest_name(name, names)));
-}
-
 std::optional<double> read_hand_scale(const GripArguments& arguments) {
   if (arguments.hand_scale.empty()) return std::nullopt;
   return parse_quantity(arguments.hand_scale, "--hand-scale", ranges::SCALE);

@@ -52,17 +52,6 @@ std::vector<double> read_ascending(const std::vector<std::string>& texts, const 
   return values;
 }
 
-std::optional<std::size_t> read_vessel(const Scene& scene, const std::string& name) {
-  if (name.empty()) return std::nullopt;
-  std::vector<std::string_view> names;
-  for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
-    if (scene.vessels[v].name == name) return v;
-    names.push_back(scene.vessels[v].name);
-  }
-  throw usage_error(fmt::format("--vessel {}: {} has no such vessel; the nearest is '{}'", in_quotes(name), in_quotes(scene.file),
-                                nearest_name(name, names)));
-}
-
 // All that does not need the scene.
 TrialOptions read_options(const TrialsArguments& arguments) {
   TrialOptions options;
@@ -91,7 +80,7 @@ ExitCode trials(const TrialsArguments& arguments) {
   std::optional<SweepResult> result;
   if (is_result(path)) result.emplace(path);
   Scene scene = result ? whole_scene_of_result(*result) : read_scene_file(path);
-  options.vessel = read_vessel(scene, arguments.vessel);
+  if (!arguments.vessel.empty()) options.vessel = find_vessel(scene, arguments.vessel);
   if (!options.fills.empty() && !scene.liquid)
     throw usage_error(fmt::format("--fill: {} has no [liquid]; add one or leave --fill out", in_quotes(scene.file)));
   if (!result) load_meshes(scene);

@@ -5,8 +5,10 @@
 
 #include <charconv>
 #include <string_view>
+#include <vector>
 
 #include "core/error.h"
+#include "core/nearest_name.h"
 #include "scene/text.h"
 
 namespace wholehand {
@@ -85,6 +87,16 @@ Precision parse_precision(const std::string& text) {
   if (text == "float") return Precision::single;
   if (text == "double") return Precision::full;
   throw usage_error(fmt::format("--precision {}; allowed: float or double", in_quotes(text)));
+}
+
+std::size_t find_vessel(const Scene& scene, const std::string& name) {
+  std::vector<std::string_view> names;
+  for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
+    if (scene.vessels[v].name == name) return v;
+    names.push_back(scene.vessels[v].name);
+  }
+  throw usage_error(fmt::format("--vessel {}: {} has no such vessel; the nearest is '{}'", in_quotes(name), in_quotes(scene.file),
+                                nearest_name(name, names)));
 }
 
 }  // namespace wholehand
