@@ -66,16 +66,17 @@ RigidLoad mirrored_load(RigidLoad load, Handedness handedness) {
   return load;
 }
 
-std::vector<ConvexPiece> mirrored_pieces(std::vector<ConvexPiece> pieces, Handedness handedness) {
-  for (ConvexPiece& piece : pieces)
-    for (Triple& p : piece) p = mirrored(p, handedness);
-  return pieces;
-}
-
 }  // namespace
 
+BodyForm trial_form(const Scene& scene, std::size_t vessel) {
+  std::vector<ConvexPiece> pieces = convex_pieces(scene.vessels.at(vessel));
+  for (ConvexPiece& piece : pieces)
+    for (Triple& p : piece) p = mirrored(p, scene.hand.handedness);
+  return form_of(pieces);
+}
+
 GripTrial::GripTrial(const MujocoLibrary& library, const Scene& scene, const Evaluator& evaluator, const TrialSettings& settings,
-                     std::size_t vessel, const GripInput& grip, int most_contacts)
+                     std::size_t vessel, const BodyForm& form, const GripInput& grip, int most_contacts)
     : scene_(scene),
       settings_(settings),
       friction_(number_or(settings.friction, scene.force.friction)),
@@ -92,7 +93,7 @@ GripTrial::GripTrial(const MujocoLibrary& library, const Scene& scene, const Eva
   const PreparedHand hand = prepare_hand(scene.hand);
   const double scale = scene.hand.scale * grip.hand_scale;
   HeldSetup setup;
-  setup.form = form_of(mirrored_pieces(convex_pieces(scene.vessels[vessel]), side));
+  setup.form = form;
   setup.grasp = is_articulated_ ? articulated_hand(hand, scene.hand, mirrored_hand(result_.joints, side), posed_, scale, contacts_)
                                 : sliding_contacts(contact_radii(scene.hand, contacts_, scale), contacts_);
   setup.distance = [&evaluator, vessel, side](const Vec3& p) { return evaluator.distance(vessel, mirrored(to_triple(p), side)); };

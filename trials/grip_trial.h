@@ -17,12 +17,15 @@ constexpr double CLOSE_TIME = 0.25,
 constexpr double SETTLE_TIME = 0.5;        // s after that; a loss in it is a loss at the release
 constexpr double STATE_STEP = radians(5);  // between the tilts at which load and forces are computed; between them they go evenly
 
-// Not thread-safe; one a thread. What it is made of must outlive it.
+// What touches the hand of a vessel, for a right hand: the same for every grip. Throws Error as convex_pieces.
+BodyForm trial_form(const Scene& scene, std::size_t vessel);
+
+// Not thread-safe; one a thread. What it is made of must outlive it, but for the form.
 class GripTrial {
  public:
-  // Throws Error as convex_pieces. Where the engine does not take the model, every outcome is `diverged`, with its words.
+  // Where the engine does not take the model, every outcome is `diverged`, with its words.
   GripTrial(const MujocoLibrary& library, const Scene& scene, const Evaluator& evaluator, const TrialSettings& settings,
-            std::size_t vessel, const GripInput& grip, int most_contacts = MOST_CONTACTS);
+            std::size_t vessel, const BodyForm& form, const GripInput& grip, int most_contacts = MOST_CONTACTS);
 
   // A fill through tilts in ascending order; an outcome for each. `track`, if asked for, gets all frames until the vessel is lost
   // or the last hold ends, and `ends` how many of them belong to each tilt.

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <map>
+#include <mutex>
 
 #include "core/error.h"
 #include "trials/grip_trial.h"
-#include "trials/vessel_body.h"
 
 namespace wholehand {
 namespace {
@@ -20,16 +20,16 @@ class MujocoEngine final : public TrialEngine {
 
   void check(std::size_t vessel) const override {
     check_hand();
-    convex_pieces(scene_.vessels.at(vessel));
+    form(vessel);
   }
 
   std::vector<TrialOutcome> run(std::size_t vessel, const GripInput& grip, const std::vector<TrialCase>& cases,
                                 std::vector<TrialTrack>* tracks) const override {
-    check_hand();  // of the vessel the trial does so
+    check_hand();
     std::vector<TrialOutcome> outcomes(cases.size());
     if (tracks) tracks->assign(cases.size(), {});
     // a model of its own for every grip and every call: the same bits whoever else is at work
-    GripTrial trial(library_, scene_, evaluator_, settings_, vessel, grip);
+    GripTrial trial(library_, scene_, evaluator_, settings_, vessel, form(vessel), grip);
     tilt(trial, cases, outcomes, tracks);
     push(trial, cases, outcomes, tracks);
     return outcomes;
@@ -41,6 +41,13 @@ class MujocoEngine final : public TrialEngine {
     throw usage_error(
         "pose = \"paper\" turns the points of the hand one by one, so that its bones have no joints; trials take pose = "
         "\"articulated\" or \"rigged\"");
+  }
+
+  // Made by the first who asks: whether a large mesh is convex takes seconds.
+  const BodyForm& form(std::size_t vessel) const {
+    const std::lock_guard guard(making_forms_);
+    const auto known = forms_.find(vessel);
+    return known != forms_.end() ? known->second : forms_.emplace(vessel, trial_form(scene_, vessel)).first->second;
   }
 
   // All cases of a fill are one run.
@@ -79,6 +86,8 @@ class MujocoEngine final : public TrialEngine {
   const Evaluator& evaluator_;
   const TrialSettings settings_;
   const MujocoLibrary& library_;
+  mutable std::mutex making_forms_;
+  mutable std::map<std::size_t, BodyForm> forms_;  // of vessels
 };
 
 }  // namespace

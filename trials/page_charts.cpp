@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <string>
 
 #include "charts/lines.h"
 #include "report/html.h"
@@ -204,6 +206,13 @@ void write_disagreement(MarkupWriter& html, const TrialPageSource& source, const
   html.close();
 }
 
+// A figure of charts side by side, with one caption.
+void write_charts(MarkupWriter& html, const std::string& caption, const std::function<void()>& draw) {
+  html.open("figure").open("div", {{"class", "charts"}});
+  draw();
+  html.close().element("figcaption", caption).close();
+}
+
 }  // namespace
 
 void write_success_charts(MarkupWriter& html, const TrialPageSource& source) {
@@ -211,11 +220,11 @@ void write_success_charts(MarkupWriter& html, const TrialPageSource& source) {
   const auto group =
       std::find_if(groups.begin(), groups.end(), [](const TrialGroup& one) { return one.protocol == TrialProtocol::fill_tilt; });
   if (group == groups.end()) return;
-  html.open("figure").open("div", {{"class", "charts"}});
-  for (std::size_t v = 0; v < source.scene.vessels.size(); ++v) write_success_over_tilt(html, source, *group, v);
-  html.close().element("figcaption", fmt::format("Share of the trials that held over the tilt, a line for each fill: {}.",
-                                                 group_text(*group, source.options.settings)));
-  html.close();
+  const std::string caption = fmt::format("Share of the trials that held over the tilt, a line for each fill: {}.",
+                                          group_text(*group, source.options.settings));
+  write_charts(html, caption, [&] {
+    for (std::size_t v = 0; v < source.scene.vessels.size(); ++v) write_success_over_tilt(html, source, *group, v);
+  });
 }
 
 void write_trial_predictors(MarkupWriter& html, const TrialPageSource& source) {
@@ -229,14 +238,13 @@ void write_trial_predictors(MarkupWriter& html, const TrialPageSource& source) {
       "a bootstrap knows no other grips than those that it has.");
   if (!source.analysis.groups.empty()) {
     const TrialGroup& group = source.analysis.groups[0];
-    html.open("figure").open("div", {{"class", "charts"}});
-    write_roc(html, source, group, "By efforts and forces", {BY_WORST_EFFORT, BY_TIPS_EFFORT, BY_PUSH, BY_FRICTION_NEEDED});
-    write_roc(html, source, group, "By scores and epsilon", {BY_SCORE, BY_SCORE_0_1, BY_EPSILON});
-    html.close();
-    html.element("figcaption",
-                 fmt::format("ROC curves of the grips of the {}. The nearer a curve to the upper left corner, the better.",
-                             group_text(group, source.options.settings)));
-    html.close();
+    const std::string caption =
+        fmt::format("ROC curves of the grips of the {}. The nearer a curve to the upper left corner, the better.",
+                    group_text(group, source.options.settings));
+    write_charts(html, caption, [&] {
+      write_roc(html, source, group, "By efforts and forces", {BY_WORST_EFFORT, BY_TIPS_EFFORT, BY_PUSH, BY_FRICTION_NEEDED});
+      write_roc(html, source, group, "By scores and epsilon", {BY_SCORE, BY_SCORE_0_1, BY_EPSILON});
+    });
   }
   for (const TrialGroup& group : source.analysis.groups) write_auc_table(html, source, group);
   html.close();
@@ -249,15 +257,14 @@ void write_trial_efforts(MarkupWriter& html, const TrialPageSource& source) {
       "An effort up to 1 says that the hand holds the state. A trial goes through all tilts from the one before, or from "
       "upright at the release, to its own, and may lose the vessel on this way. So the largest effort on the way is taken, "
       "looked at every 5°. Trials whose state was not reached, and discarded ones, are left out.");
-  html.open("figure").open("div", {{"class", "charts"}});
-  for (std::size_t k = 0; k < source.analysis.efforts.size(); ++k)
-    write_calibration(html, source.analysis.efforts[k], group_text(source.analysis.efforts[k].group, source.options.settings),
-                      k + 1);
-  html.close().element(
-      "figcaption",
-      "Share of the trials that held, over their effort, with Wilson's intervals of 95 %. Efforts of 4 and more are in "
-      "the tables alone.");
-  html.close();
+  const char* caption =
+      "Share of the trials that held, over their effort, with Wilson's intervals of 95 %. Efforts of 4 and more are in the tables "
+      "alone.";
+  write_charts(html, caption, [&] {
+    for (std::size_t k = 0; k < source.analysis.efforts.size(); ++k)
+      write_calibration(html, source.analysis.efforts[k], group_text(source.analysis.efforts[k].group, source.options.settings),
+                        k + 1);
+  });
   write_effort_tables(html, source);
   html.close();
 }

@@ -256,9 +256,10 @@ TEST_F(MujocoEngine, WhatComesAfterTroubleIsAsWithoutIt) {
 TEST_F(MujocoEngine, WithoutRoomForContactsATrialIsDivergedFromThereOn) {
   const TrialSettings settings = quick();
   const std::vector<double> tilts{0, radians(30), radians(60)};
+  const BodyForm form = trial_form(scene_, 0);
   int full = 0, enough = 0;
   for (int most = 1; most <= 33; most += 4) {
-    const auto trial = [&] { return GripTrial(load_mujoco(), scene_, *evaluator_, settings, 0, BEAKER, most); };
+    const auto trial = [&] { return GripTrial(load_mujoco(), scene_, *evaluator_, settings, 0, form, BEAKER, most); };
     GripTrial both = trial(), other = trial();
     TrialTrack track;
     std::vector<std::size_t> ends;
