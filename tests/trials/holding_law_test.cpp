@@ -217,6 +217,8 @@ TEST(HoldingLaw, WhatEffortCallsInfiniteNeverHolds) {
       there.push_back({touched.place, touched.normal, static_cast<int>(touched.geom)});
     EXPECT_TRUE(std::isfinite(gauge(there, set.hand, core_f64::wrench_at(body.moved(MASS_CENTER), force), true))) << seed;
   }
+  RecordProperty("infinite", infinite);
+  RecordProperty("caught", caught);
   EXPECT_GT(infinite, 100);
   EXPECT_LE(caught, infinite / 50) << "of " << infinite;
 }
