@@ -277,8 +277,8 @@ std::optional<WeightTrial> weights_by_trials(const Scene& scene, const TriedGrip
   std::vector<TermedGrip> grips;
   for (std::size_t g = 0; g < tried.grips.size(); ++g) {
     const GripFate fate = fate_of(tried, g, JUDGED);
-    if (fate.trials == 0 || fate.discarded) continue;
-    grips.push_back({tried.found[g].prediction.terms, fate.held});
+    if (fate.trials == 0) continue;
+    grips.push_back({tried.found[g].prediction.terms, fate.held && !fate.discarded, fate.discarded});
   }
   if (grips.empty()) return std::nullopt;
   return try_weights(grips, effective_weights(scene), seed);
@@ -345,12 +345,15 @@ std::string material_text(const TrialMaterial& material) {
 }
 
 std::string weights_text(const WeightTrial& weights) {
-  return fmt::format(
-      "On the other half the fitted weights have an AUC of {}, and the scene's weights {}. The difference is {}: {}.",
-      interval_text(weights.fitted.auc, weights.fitted.interval, 3), interval_text(weights.given.auc, weights.given.interval, 3),
-      interval_text(weights.difference.difference, weights.difference.interval, 3),
-      weights.is_better() ? "the fitted weights are better by more than the interval"
-                          : "the fitted weights are not better by more than the interval");
+  const auto contest = [](const WeightContest& one) {
+    return fmt::format("the fitted weights have an AUC of {}, and the scene's weights {}; the difference is {}",
+                       interval_text(one.fitted.auc, one.fitted.interval, 3), interval_text(one.given.auc, one.given.interval, 3),
+                       interval_text(one.difference.difference, one.difference.interval, 3));
+  };
+  return fmt::format("On the other half {}: {}. Without the discarded grips {}.", contest(weights.all),
+                     weights.is_better() ? "the fitted weights are better by more than the interval"
+                                         : "the fitted weights are not better by more than the interval",
+                     contest(weights.tried));
 }
 
 std::string outcome_text(const TrialCase& one, const TrialOutcome& outcome) {

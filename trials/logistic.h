@@ -15,39 +15,51 @@ namespace wholehand {
 
 constexpr std::size_t SCORE_TERM_COUNT = 6;
 
-// A grip with the terms of its score, each in [0, 1], and whether it held.
+// Each weight is at least this share of their sum. A scene without tilts has no terms of force and hold: there a fit that gives all
+// to these two would leave nothing to tell its grips apart.
+constexpr double LEAST_WEIGHT = 0.02;
+
+// A grip with the terms of its score, each in [0, 1], and what became of it.
 struct TermedGrip {
   std::array<double, SCORE_TERM_COUNT> terms{};
-  bool success = false;
+  bool success = false;    // it was tried, and held
+  bool discarded = false;  // it could not be tried: then it is no success
 };
 
-// log(p / (1 - p)) = intercept + sum of coefficient x term, by Newton's steps (iteratively reweighted least squares). A term that
-// does not vary has the coefficient 0. Where successes and failures can be separated, or the terms depend on one another, the
-// largest likelihood has no finite place: then half a square of each coefficient, in units of its term's deviation, is taken off
-// the log-likelihood (a ridge), and `has_ridge` says so.
+// log(p / (1 - p)) = intercept + sum of coefficient x term, at the largest likelihood for which each coefficient is at least
+// LEAST_WEIGHT of their sum (so that none is negative: no term of a score may lower it). By Newton's steps on the free ones of the
+// bounds' amounts (an active set); the likelihood is concave, so that one place is the largest. A term that does not vary gets the
+// least. Where successes and failures can be separated, or the terms depend on one another, the largest likelihood has no finite
+// place: then half a square of each amount, in units of its regressor's deviation, is taken off the log-likelihood (a ridge), and
+// `has_ridge` says so.
 struct LogisticFit {
   std::array<double, SCORE_TERM_COUNT> coefficients{};
+  std::array<bool, SCORE_TERM_COUNT> is_least{};  // at the least share
   double intercept = 0;
   bool is_fitted = false;  // false: there is no success, or no failure
   bool has_ridge = false;
 };
 LogisticFit fit_logistic(std::span<const TermedGrip> grips);
 
-// The coefficients as weights of a score: negative ones are 0, for no term of a score may lower it, and the sum is 1. All 0 where
-// none is positive.
+// The coefficients as weights of a score: the sum is 1. All 0 where no term tells successes from failures.
 std::array<double, SCORE_TERM_COUNT> weights_of(const LogisticFit& fit);
+
+// AUCs of the fitted and of the given weights, and the first less the second.
+struct WeightContest {
+  Auc fitted, given;
+  AucDifference difference;
+};
 
 // Fitted on one half of the grips, and judged on the other half.
 struct WeightTrial {
   LogisticFit fit;
   std::array<double, SCORE_TERM_COUNT> weights{};
-  std::array<bool, SCORE_TERM_COUNT> is_clamped{};  // its coefficient was negative
-  std::size_t fitted_on = 0, judged_on = 0;         // grips
-  Auc fitted, given;                                // on the other half: of these weights, and of the given ones
-  AucDifference difference;                         // of fitted less given
-  bool is_better() const { return difference.interval.low > 0; }
+  std::size_t fitted_on = 0, judged_on = 0;  // grips, with the discarded ones
+  WeightContest all;                         // discarded grips are failures: a list of the best is to have none
+  WeightContest tried;                       // without the discarded ones
+  bool is_better() const { return all.difference.interval.low > 0; }
 };
-// The halves are drawn by the seed, among successes and failures alike.
+// The halves are drawn by the seed, among successes, failures and discarded grips alike.
 WeightTrial try_weights(std::span<const TermedGrip> grips, const std::array<double, SCORE_TERM_COUNT>& given, std::uint64_t seed);
 
 }  // namespace wholehand

@@ -205,9 +205,11 @@ void write_trial_weights(MarkupWriter& html, const TrialPageSource& source) {
     return;
   }
   html.element(
-      "p", fmt::format("A logistic regression of holding everywhere on the six terms of the score was fitted on {} grips of the "
-                       "stratified sample and judged on the other {}.",
-                       weights->fitted_on, weights->judged_on));
+      "p",
+      fmt::format("A logistic regression of holding everywhere on the six terms of the score was fitted on {} grips of the "
+                  "stratified sample and judged on the other {}. A discarded grip counts as one that did not hold, so that the "
+                  "list of best grips has none. Each weight is at least {} of the sum.",
+                  weights->fitted_on, weights->judged_on, LEAST_WEIGHT));
   if (weights->fit.has_ridge)
     html.element(
         "p",
@@ -218,7 +220,7 @@ void write_trial_weights(MarkupWriter& html, const TrialPageSource& source) {
                   {"term", "the scene's weight", "fitted coefficient", "fitted weight"});
   for (std::size_t k = 0; k < SCORE_TERM_COUNT; ++k)
     table.row({SCORE_TERMS[k], shown_number(given[k], 2), shown_number(weights->fit.coefficients[k], 2),
-               shown_number(weights->weights[k], 2) + (weights->is_clamped[k] ? " (negative: set to 0)" : "")});
+               shown_number(weights->weights[k], 2) + (weights->fit.is_least[k] ? " (the least)" : "")});
   table.end();
   html.element("p", weights_text(*weights));
   html.close();

@@ -64,10 +64,13 @@ std::string trials_summary(const Scene& scene, const TrialOptions& options, cons
         text += fmt::format("  {:<26} {}\n", TRIAL_PREDICTOR_NAMES[row.predictor], plain_interval(row.auc.auc, row.auc.interval));
   }
   if (analysis.weights && analysis.weights->fit.is_fitted) {
-    const AucDifference& more = analysis.weights->difference;
-    text += fmt::format("weights fitted to half of the grips change the AUC on the other half by {}: {}\n",
-                        plain_interval(more.difference, more.interval),
-                        analysis.weights->is_better() ? "better than the scene's weights" : "not better than the scene's weights");
+    const AucDifference &more = analysis.weights->all.difference, &tried = analysis.weights->tried.difference;
+    text += fmt::format(
+        "weights fitted to half of the grips change the AUC on the other half, where discarded grips are failures, by {}: {}\n",
+        plain_interval(more.difference, more.interval),
+        analysis.weights->is_better() ? "better than the scene's weights" : "not better than the scene's weights");
+    if (!std::isnan(tried.difference))
+      text += fmt::format("  without the discarded grips they change it by {}\n", plain_interval(tried.difference, tried.interval));
   }
   for (const TrialBar& bar : analysis.bars) {
     const std::string found = std::isnan(bar.found)
