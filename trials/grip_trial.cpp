@@ -71,7 +71,7 @@ RigidLoad mirrored_load(RigidLoad load, Handedness handedness) {
 BodyForm trial_form(const Scene& scene, std::size_t vessel) {
   std::vector<ConvexPiece> pieces = convex_pieces(scene.vessels.at(vessel));
   for (ConvexPiece& piece : pieces)
-    for (Triple& p : piece) p = mirrored(p, scene.hand.handedness);
+    for (Triple& p : piece.vertices) p = mirrored(p, scene.hand.handedness);
   return form_of(pieces);
 }
 

@@ -34,13 +34,25 @@ std::string pair_text(const HeldSetup& setup, std::size_t hand, std::size_t body
 BodyForm form_of(std::span<const ConvexPiece> pieces) {
   BodyForm form;
   for (std::size_t k = 0; k < pieces.size(); ++k) {
-    form.assets += fmt::format("<mesh name=\"piece{}\" vertex=\"", k);
-    for (const Triple& p : pieces[k]) form.assets += fmt::format("{:.9g} {:.9g} {:.9g} ", p[0], p[1], p[2]);
-    form.assets += "\"/>\n";
-    form.geoms += fmt::format("<geom name=\"glass{0}\" type=\"mesh\" mesh=\"piece{0}\"/>\n", k);
-    form.names.push_back(fmt::format("glass{}", k));
-    std::array<Triple, 2> box{pieces[k].front(), pieces[k].front()};
-    for (const Triple& p : pieces[k]) {
+    const ConvexPiece& piece = pieces[k];
+    const std::string name = fmt::format("glass{}", k);
+    const double r = piece.radius;
+    if (piece.shape == PieceShape::cylinder) {
+      form.geoms += fmt::format("<geom name=\"{}\" type=\"cylinder\" fromto=\"0 {} 0 0 {} 0\" size=\"{}\"/>\n", name, piece.low,
+                                piece.high, r);
+    } else if (piece.shape == PieceShape::ball) {
+      form.geoms +=
+          fmt::format("<geom name=\"{}\" type=\"sphere\" pos=\"0 {} 0\" size=\"{}\"/>\n", name, (piece.low + piece.high) / 2, r);
+    } else {
+      form.assets += fmt::format("<mesh name=\"piece{}\" vertex=\"", k);
+      for (const Triple& p : piece.vertices) form.assets += fmt::format("{:.9g} {:.9g} {:.9g} ", p[0], p[1], p[2]);
+      form.assets += "\"/>\n";
+      form.geoms += fmt::format("<geom name=\"{}\" type=\"mesh\" mesh=\"piece{}\"/>\n", name, k);
+    }
+    form.names.push_back(name);
+    std::array<Triple, 2> box{Triple{-r, piece.low, -r}, Triple{r, piece.high, r}};
+    if (piece.shape == PieceShape::hull) box = {piece.vertices.front(), piece.vertices.front()};
+    for (const Triple& p : piece.vertices) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         box[0][axis] = std::min(box[0][axis], p[axis]);
         box[1][axis] = std::max(box[1][axis], p[axis]);

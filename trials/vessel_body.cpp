@@ -41,25 +41,67 @@ bool is_convex_at(const Point2& a, const Point2& b, const Point2& c) {
   return ux * vy - uy * vx >= -1e-9 * std::hypot(ux, uy) * std::hypot(vx, vy);
 }
 
-void append_piece(const std::vector<Point2>& points, std::size_t from, std::size_t to, std::vector<ConvexPiece>& pieces) {
+// All between two levels are as far from the axis: a cylinder, with or without its ends.
+bool is_upright(const std::vector<Point2>& points, std::size_t from, std::size_t to, double radius) {
+  for (std::size_t k = from; k <= to; ++k) {
+    const bool is_end = points[k][0] < FLAT && (points[k][1] == points[from][1] || points[k][1] == points[to][1]);
+    if (!is_end && std::abs(points[k][0] - radius) > FLAT) return false;
+  }
+  return true;
+}
+
+// Whether an arc about the axis that ends at a point of the outline may go on to its own top: what lies above is nowhere narrower
+// than the arc's end before that.
+bool holds_the_rest(const std::vector<Point2>& points, std::size_t end, double top) {
+  for (std::size_t k = end + 1; k < points.size() && points[k - 1][1] < top; ++k)
+    if (points[k][0] < points[end][0] - FLAT) return false;
+  return points.back()[1] >= top - FLAT;
+}
+
+// The arc that is all of the outline between two points, from the axis on.
+const PreparedElement* arc_between(const std::vector<PreparedElement>& elements, const Point2& from, const Point2& to) {
+  const auto is_at = [](const Point2& a, const Point2& b) { return std::hypot(a[0] - b[0], a[1] - b[1]) < FLAT; };
+  for (const PreparedElement& element : elements)
+    if (element.side != 0 && std::abs(element.center[0]) < FLAT && from[0] < FLAT && is_at(element.a, from) && is_at(element.b, to))
+      return &element;
+  return nullptr;
+}
+
+void append_piece(const std::vector<PreparedElement>& elements, const std::vector<Point2>& points, std::size_t from, std::size_t to,
+                  std::vector<ConvexPiece>& pieces) {
   if (points[to][1] - points[from][1] < FLAT) return;  // level: no room in it
   ConvexPiece piece;
+  piece.low = points[from][1];
+  piece.high = points[to][1];
+  double widest = 0;
+  for (std::size_t k = from; k <= to; ++k) widest = std::max(widest, points[k][0]);
+  if (is_upright(points, from, to, widest)) {
+    piece.shape = PieceShape::cylinder;
+    piece.radius = widest;
+  } else if (const PreparedElement* arc = arc_between(elements, points[from], points[to]);
+             arc && holds_the_rest(points, to, arc->center[1] + arc->radius)) {
+    piece.shape = PieceShape::ball;
+    piece.radius = arc->radius;
+    piece.high = arc->center[1] + arc->radius;
+  }
+  const int sides = to - from < FEW_RINGS ? FORM_SIDES : ROUNDED_SIDES;
   for (std::size_t k = from; k <= to; ++k) {
     const auto [r, y] = points[k];
     if (r < FLAT) {
-      piece.push_back({0, y, 0});
+      piece.vertices.push_back({0, y, 0});
       continue;
     }
-    for (int side = 0; side < FORM_SIDES; ++side) {
-      const double angle = 2 * PI * side / FORM_SIDES;
-      piece.push_back({r * std::cos(angle), y, r * std::sin(angle)});
+    for (int side = 0; side < sides; ++side) {
+      const double angle = 2 * PI * side / sides;
+      piece.vertices.push_back({r * std::cos(angle), y, r * std::sin(angle)});
     }
   }
   pieces.push_back(std::move(piece));
 }
 
 std::vector<ConvexPiece> revolved_pieces(const VesselData& vessel) {
-  const std::vector<Point2> points = form_points(prepare_vessel(vessel, false).hull);
+  const std::vector<PreparedElement> elements = prepare_vessel(vessel, false).hull;
+  const std::vector<Point2> points = form_points(elements);
   std::vector<ConvexPiece> pieces;
   std::size_t from = 0;
   for (std::size_t k = 1; k < points.size(); ++k) {
@@ -70,7 +112,7 @@ std::vector<ConvexPiece> revolved_pieces(const VesselData& vessel) {
     }
     const bool is_last = k + 1 == points.size();
     if (!is_last && is_convex_at(points[k - 1], points[k], points[k + 1])) continue;
-    append_piece(points, from, k, pieces);
+    append_piece(elements, points, from, k, pieces);
     from = k;
   }
   return pieces;
@@ -106,7 +148,7 @@ std::vector<ConvexPiece> mesh_pieces(const VesselData& vessel) {
                     "would take its convex hull; trials take convex meshes and outlines",
                     vessel.name, 1e3 * depth));
   }
-  return {body.vertices};
+  return {{PieceShape::hull, body.vertices}};
 }
 
 // Radius of a polyline at a height, 0 where it has none. Its heights do not fall.

@@ -13,15 +13,25 @@
 
 namespace wholehand {
 
-constexpr double FORM_TOLERANCE = 0.05e-3;   // m, of an arc from the cones that stand for it
-constexpr int FORM_SIDES = 64;               // of a piece: the middle of a side is 0.05 mm inside a beaker of 40 mm radius
+constexpr double FORM_TOLERANCE = 0.05e-3;  // m, of an arc from the cones that stand for it
+constexpr int FORM_SIDES = 256;             // of a piece of FEW_RINGS at most: its normals are off by 0.7 degrees
+constexpr int ROUNDED_SIDES = 64;           // of one of more rings: by 2.8 degrees, as those of its arcs
+constexpr std::size_t FEW_RINGS = 8;
 constexpr double CONVEX_TOLERANCE = 0.2e-3;  // m, that a mesh may differ from its convex hull
 
-// A piece that is the convex hull of its vertices, vessel frame, m.
-using ConvexPiece = std::vector<Triple>;
+enum class PieceShape { hull, cylinder, ball };
+
+// A part of a vessel, vessel frame, m. What the engine has a shape for is exact: on a wall of flat sides a tip that presses near
+// the limit of its friction slides off where the round wall holds it.
+struct ConvexPiece {
+  PieceShape shape = PieceShape::hull;
+  std::vector<Triple> vertices;          // of which it is the hull; of a cylinder and a ball they lie on it
+  double radius = 0, low = 0, high = 0;  // of a cylinder or a ball, and the heights of its ends
+};
 
 // The outer form of a vessel, closed across its mouth. A body of revolution is cut where its outline is not convex: what lies
-// between two cuts is a stack of frusta whose hull it is. A mesh is one piece where it is its own convex hull to CONVEX_TOLERANCE.
+// between two cuts is an upright cylinder; a ball, whose rest lies within the piece above it; or the hull of a stack of frusta. A
+// mesh is one piece where it is its own convex hull to CONVEX_TOLERANCE.
 // Throws Error (usage), with the vessel's name and the reason: a shell, whose wall has two sides; an outline that goes down again;
 // a mesh with hollows.
 std::vector<ConvexPiece> convex_pieces(const VesselData& vessel);

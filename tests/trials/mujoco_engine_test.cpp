@@ -9,6 +9,8 @@
 #include <thread>
 
 #include "core/error.h"
+#include "core/grip_effort.h"
+#include "core/joints.h"
 #include "core/vectors.h"
 #include "grips/holding.h"
 #include "grips/report.h"
@@ -60,6 +62,17 @@ std::string usage_of(const TrialEngine& engine, std::size_t vessel) {
   return "none";
 }
 
+// Grips of three_beakers whose trials once said other than their efforts (docs/trials-model.md).
+struct Grasped {
+  std::size_t vessel;
+  GripInput grip;
+  double fill;
+};
+const Grasped SPHERE{1, {0.082, 0, 0.2617993878, -0.5934119457, 0, 1}, 0.75},
+    SPHERE_TOO{1, {0.07633333333, 0, 0, -0.872664626, 0, 1}, 0.75},
+    RIM{0, {0.100047619, 0, -0.3490658504, -1.291543646, 0, 1}, 0.25},
+    CORNER{2, {0.1103611111, 0, 0.1745329252, -1.431169987, 0, 1}, 1};
+
 class MujocoEngine : public testing::Test {
  protected:
   Scene scene_ = read_scene_file(WHOLEHAND_SOURCE_DIR "/scene/examples/three_beakers.toml");
@@ -68,6 +81,20 @@ class MujocoEngine : public testing::Test {
   std::vector<TrialOutcome> run(std::size_t vessel, const GripInput& grip, const std::vector<TrialCase>& cases,
                                 const TrialSettings& settings = quick(), std::vector<TrialTrack>* tracks = nullptr) const {
     return make_mujoco_engine(scene_, *evaluator_, settings)->run(vessel, grip, cases, tracks);
+  }
+
+  // Upright, of the contacts of kernel 9 and of others.
+  double effort_of(const Grasped& one, const std::vector<core_f64::ContactPoint>& others = {}) const {
+    GripResult result;
+    evaluator_->grip(one.vessel, one.grip, result);
+    std::vector<core_f64::ContactPoint> contacts = others;
+    for (const GripContact& found : evaluator_->contacts(one.vessel, result))
+      contacts.push_back({to_vec3(found.point), to_vec3(found.normal), found.digit});
+    const StateResult state = evaluator_->state(one.vessel, one.grip, result, evaluator_->liquid(one.vessel, one.fill, 0), 0);
+    const core_f64::Wrench load =
+        core_f64::wrench_at(to_vec3(state.center_of_mass), core_f64::Vec3(0, -state.mass * scene_.gravity, 0));
+    const core_f64::HandStrength hand{scene_.force.friction, scene_.force.torsion, scene_.strength->digits};
+    return core_f64::EffortSolver(contacts, hand, core_f64::contacts_center(contacts)).solve(load).effort;
   }
 };
 
@@ -90,6 +117,45 @@ TEST_F(MujocoEngine, AWholeHandHoldsABeakerThroughItsTilts) {
     EXPECT_NEAR(tracks[2].frames.back().up[1], 0.5, 1e-9);
     const PosedHand posed = evaluator_->posed(0, BEAKER).value();
     for (std::size_t j = 0; j < posed.size(); ++j) EXPECT_LT(distance(tracks[2].frames.back().joints[j], posed[j]), 3e-3) << j;
+  }
+}
+
+// On a wall of flat sides, with normals that are off by 2.8 degrees, these fingers slid off at once.
+TEST_F(MujocoEngine, ARoundWallHoldsWhatItsEffortSays) {
+  TrialSettings settings;
+  for (const Grasped& one : {SPHERE, SPHERE_TOO}) {
+    const auto found = run(one.vessel, one.grip, fill_tilt(one.fill, {0}), settings);
+    EXPECT_LT(effort_of(one), 0.6);
+    EXPECT_TRUE(found.front().held);
+    EXPECT_LT(found.front().slip, 1e-3);
+  }
+}
+
+// A limit of effort: the thumb is on the edge of the rim. As it goes on the normal there turns, and it slides off. The model
+// `contacts`, whose balls stay on their lines, holds.
+TEST_F(MujocoEngine, AThumbSlidesOffARimThoughTheEffortIsSmall) {
+  EXPECT_NEAR(effort_of(RIM), 0.46, 0.01);
+  EXPECT_EQ(run(RIM.vessel, RIM.grip, fill_tilt(RIM.fill, {0}), TrialSettings{}).front().reason, TrialReason::release);
+  TrialSettings contacts;
+  contacts.model = TrialModel::contacts;
+  EXPECT_TRUE(run(RIM.vessel, RIM.grip, fill_tilt(RIM.fill, {0}), contacts).front().held);
+}
+
+// Another: a sphere of the hand that touches two walls, here the thumb in the corner under a neck, is one contact of kernel 9. With
+// the other wall the effort is finite, and both models hold.
+TEST_F(MujocoEngine, AThumbInACornerTouchesTwoWalls) {
+  EXPECT_EQ(effort_of(CORNER), std::numeric_limits<double>::infinity());
+  const Triple thumb = evaluator_->posed(CORNER.vessel, CORNER.grip).value()[THUMB_TIP];
+  const double radius = scene_.hand.fingers[0].radii[3], neck = 0.017;
+  ASSERT_NEAR(thumb[0] + radius, -neck, scene_.hand.contact_tolerance);  // it is at z = 0, beside the neck
+  const core_f64::ContactPoint other{core_f64::Vec3(-neck, thumb[1], 0), core_f64::Vec3(1, 0, 0), 0};
+  EXPECT_NEAR(effort_of(CORNER, {other}), 0.23, 0.01);
+  for (const TrialModel model : {TrialModel::hand, TrialModel::contacts}) {
+    TrialSettings settings;
+    settings.model = model;
+    const auto found = run(CORNER.vessel, CORNER.grip, fill_tilt(CORNER.fill, {0}), settings);
+    EXPECT_TRUE(found.front().held);
+    EXPECT_LT(found.front().slip, 0.5e-3);
   }
 }
 

@@ -17,25 +17,67 @@
 namespace wholehand {
 namespace {
 
+std::vector<PieceShape> shapes_of(const VesselData& vessel) {
+  std::vector<PieceShape> shapes;
+  for (const ConvexPiece& piece : convex_pieces(vessel)) shapes.push_back(piece.shape);
+  return shapes;
+}
+
 TEST(VesselBody, IsCutWhereItsOutlineIsNotConvex) {
-  EXPECT_EQ(convex_pieces(beaker1()).size(), 1u);  // a cylinder
-  EXPECT_EQ(convex_pieces(beaker2()).size(), 2u);  // a sphere and a neck
-  EXPECT_EQ(convex_pieces(beaker3()).size(), 2u);  // a cone and a neck
+  using enum PieceShape;
+  EXPECT_EQ(shapes_of(beaker1()), std::vector<PieceShape>{cylinder});
+  EXPECT_EQ(shapes_of(beaker2()), (std::vector<PieceShape>{ball, cylinder}));  // a sphere and a neck
+  EXPECT_EQ(shapes_of(beaker3()), (std::vector<PieceShape>{hull, cylinder}));  // a cone and a neck
+}
+
+// A place on a piece that is no hull: at a share of its height, and of a turn.
+Triple place_on(const ConvexPiece& piece, double share, double turn) {
+  const double y = piece.low + share * (piece.high - piece.low), middle = (piece.low + piece.high) / 2;
+  const double r =
+      piece.shape == PieceShape::cylinder ? piece.radius : std::sqrt(piece.radius * piece.radius - (y - middle) * (y - middle));
+  return {r * std::cos(turn), y, r * std::sin(turn)};
+}
+
+// What the engine has a shape for lies on the surface, or within the piece that it meets.
+TEST(VesselBody, BallsAndCylindersAreExact) {
+  for (const VesselData& vessel : {beaker1(), beaker2(), beaker3()}) {
+    const auto evaluator = make_core_evaluator(scene_of({vessel}));
+    for (const ConvexPiece& piece : convex_pieces(vessel)) {
+      if (piece.shape == PieceShape::hull) continue;
+      int on_it = 0;
+      for (int k = 0; k <= 20; ++k) {
+        const double away = evaluator->distance(0, place_on(piece, k / 20.0, 0.3 * k));
+        EXPECT_LT(away, 1e-9) << vessel.name << k;
+        on_it += away > -1e-9;
+      }
+      EXPECT_GE(on_it, 19) << vessel.name;  // a ball's top is within the neck
+    }
+  }
+}
+
+// A ball goes on to its own top only where the piece above it holds that: no neck too short or too narrow does.
+TEST(VesselBody, ABallThatWouldStickOutIsAHull) {
+  const double neck = 17, meets = 42.5 + std::sqrt(42.5 * 42.5 - neck * neck);
+  const OutlineElement arc = arc_to(neck, meets, 0, 42.5);
+  EXPECT_EQ(shapes_of(vessel_of("high", {arc, line_to(neck, 85.1), line_to(0, 85.1)}, 1.5)).front(), PieceShape::ball);
+  EXPECT_EQ(shapes_of(vessel_of("low", {arc, line_to(neck, 84.9), line_to(0, 84.9)}, 1.5)).front(), PieceShape::hull);
+  EXPECT_EQ(shapes_of(vessel_of("narrow", {arc, line_to(12, 83), line_to(12, 140), line_to(0, 140)}, 1.5)).front(),
+            PieceShape::hull);
 }
 
 // Every vertex lies on the surface, or within a piece where two meet; and the middle of a side is no deeper than the sides allow.
 TEST(VesselBody, HasTheFormOfTheDistance) {
   for (const VesselData& vessel : {beaker1(), beaker2(), beaker3()}) {
     const auto evaluator = make_core_evaluator(scene_of({vessel}));
-    const double side = 1 - std::cos(PI / FORM_SIDES);
-    for (const ConvexPiece& piece : convex_pieces(vessel)) {
-      for (std::size_t k = 0; k < piece.size(); ++k) {
-        EXPECT_LT(evaluator->distance(0, piece[k]), 1e-9) << vessel.name;
-        const Triple next = piece[(k + 1) % piece.size()];
-        if (next[1] != piece[k][1] || piece[k][1] == 0) continue;
-        const double radius = std::hypot(piece[k][0], piece[k][2]);
-        if (evaluator->distance(0, piece[k]) < -1e-6) continue;  // a ring within the other piece
-        EXPECT_GT(evaluator->distance(0, midpoint(piece[k], next)), -side * radius - 1e-9) << vessel.name;
+    for (const auto& [shape, vertices, of_radius, low, high] : convex_pieces(vessel)) {
+      const double side = 1 - std::cos(PI / (shape == PieceShape::ball ? ROUNDED_SIDES : FORM_SIDES));
+      for (std::size_t k = 0; k < vertices.size(); ++k) {
+        EXPECT_LT(evaluator->distance(0, vertices[k]), 1e-9) << vessel.name;
+        const Triple next = vertices[(k + 1) % vertices.size()];
+        if (next[1] != vertices[k][1] || vertices[k][1] == 0) continue;
+        const double radius = std::hypot(vertices[k][0], vertices[k][2]);
+        if (evaluator->distance(0, vertices[k]) < -1e-6) continue;  // a ring within the other piece
+        EXPECT_GT(evaluator->distance(0, midpoint(vertices[k], next)), -side * radius - 1e-9) << vessel.name;
       }
     }
   }
@@ -45,10 +87,10 @@ TEST(VesselBody, HasTheFormOfTheDistance) {
 TEST(VesselBody, ConesKeepToAnArc) {
   const auto evaluator = make_core_evaluator(scene_of({beaker2()}));
   double deepest = 0;
-  for (const ConvexPiece& piece : convex_pieces(beaker2()))
-    for (std::size_t k = 0; k + FORM_SIDES < piece.size(); ++k)
-      if (evaluator->distance(0, piece[k]) > -1e-6 && evaluator->distance(0, piece[k + FORM_SIDES]) > -1e-6)
-        deepest = std::max(deepest, -evaluator->distance(0, midpoint(piece[k], piece[k + FORM_SIDES])));
+  const std::vector<Triple> vertices = convex_pieces(beaker2()).front().vertices;
+  for (std::size_t k = 0; k + ROUNDED_SIDES < vertices.size(); ++k)
+    if (evaluator->distance(0, vertices[k]) > -1e-6 && evaluator->distance(0, vertices[k + ROUNDED_SIDES]) > -1e-6)
+      deepest = std::max(deepest, -evaluator->distance(0, midpoint(vertices[k], vertices[k + ROUNDED_SIDES])));
   EXPECT_GT(deepest, 0.2 * FORM_TOLERANCE);
   EXPECT_LE(deepest, 1.01 * FORM_TOLERANCE);
 }
