@@ -93,7 +93,7 @@ void add_trials_command(CLI::App& app, Action& action) {
   const auto arguments = std::make_shared<TrialsArguments>();
   CLI::App* command = app.add_subcommand("trials", "Try whether grips hold in a physics engine, and what predicts it");
   const auto add = [command](const char* name, auto& value, const char* type, const char* help) {
-    return command->add_option(name, value, help)->type_name(type)->check(not_empty());
+    return command->add_option(name, value, help)->type_name(type)->check(not_empty())->check(not_an_option());
   };
   add("scene", arguments->scene, "SCENE|RESULT.nc", "Scene file, name of a shipped scene, or result of `wholehand sweep`")
       ->required();

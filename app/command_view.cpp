@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// wholehand view: a recorded session, or the best grips of a sweep, in the browser.
+// wholehand view: a recorded session or trial, or the best grips of a sweep, in the browser.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
@@ -91,8 +91,10 @@ ExitCode view(const ViewArguments& arguments) {
 
 void add_view_command(CLI::App& app, Action& action) {
   const auto arguments = std::make_shared<ViewArguments>();
-  CLI::App* command = app.add_subcommand("view", "Show a recorded session, or the best grips of a sweep, in the browser");
-  command->add_option("file", arguments->file, "Recording of `wholehand live --record`, or result of `wholehand sweep`")
+  CLI::App* command = app.add_subcommand("view", "Show a recorded session or trial, or the best grips of a sweep, in the browser");
+  command
+      ->add_option("file", arguments->file,
+                   "Recording of `wholehand live --record` or of `wholehand trials`, or result of `wholehand sweep`")
       ->type_name("FILE.nc")
       ->required()
       ->check(not_empty());

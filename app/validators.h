@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cctype>
 #include <string>
 
 namespace wholehand {
@@ -11,6 +12,18 @@ namespace wholehand {
 // An argument that is there and empty is a mistake, of an unset shell variable perhaps, and not the default.
 inline CLI::Validator not_empty() {
   return CLI::Validator([](const std::string& value) { return std::string(value.empty() ? "must not be empty" : ""); }, "");
+}
+
+// An option that lacks its value would take the next one for it. A file of such a name is ./--name.
+inline CLI::Validator not_an_option() {
+  return CLI::Validator(
+      [](const std::string& value) {
+        const std::size_t letter = value.starts_with("--") ? 2 : 1;
+        const bool is_option =
+            value.starts_with('-') && value.size() > letter && std::isalpha(static_cast<unsigned char>(value[letter]));
+        return is_option ? "its value is missing: '" + value + "' is an option" : std::string();
+      },
+      "");
 }
 
 }  // namespace wholehand

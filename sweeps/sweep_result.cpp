@@ -62,6 +62,10 @@ SweepResult::SweepResult(const std::string& path) : file_(check_is_result(path))
   origin_.bytes = file_.bytes();
   origin_.scene = text("scene");
   if (text("program") != "wholehand") throw usage_error(path + ": is not a result of a sweep: another program wrote it");
+  if (file_.text("engine"))
+    throw usage_error(path +
+                      ": is the answer of wholehand trials, and not a result of a sweep; give a result of wholehand sweep, "
+                      "or for new trials a scene; wholehand view plays the disagreement-*.nc beside it");
   origin_.version = text("version");
   origin_.backend = text("backend");
   origin_.device = text("device");

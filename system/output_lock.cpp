@@ -82,7 +82,7 @@ Taken try_lock(const std::string& path, int file) {
 
 }  // namespace
 
-OutputLock::OutputLock(const std::string& path) : path_(path) {
+OutputLock::OutputLock(const std::string& path, const char* what) : path_(path) {
   Holder other;
   for (int attempt = 0; attempt < ATTEMPTS; ++attempt) {
     file_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
@@ -92,12 +92,12 @@ OutputLock::OutputLock(const std::string& path) : path_(path) {
     if (is_read_only) file_ = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     if (file_ < 0) {
       throw failure_error(
-          fmt::format("{}: cannot make this lock: {}; make room, or name another file with -o", path, std::strerror(error)));
+          fmt::format("{}: cannot make this lock: {}; make room, or name another {} with -o", path, std::strerror(error), what));
     }
     const std::string text = content(file_);
     if (!text.empty() && !text.starts_with(HOLDER)) {
       close(file_);
-      throw usage_error(fmt::format("{}: is there and is no lock of wholehand's; move it, or name another file with -o", path));
+      throw usage_error(fmt::format("{}: is there and is no lock of wholehand's; move it, or name another {} with -o", path, what));
     }
     const Taken taken = try_lock(path, file_);
     if (taken == Taken::yes && is_read_only) return;
@@ -112,7 +112,8 @@ OutputLock::OutputLock(const std::string& path) : path_(path) {
     file_ = -1;
     if (taken == Taken::no) usleep(10000);
   }
-  throw usage_error(fmt::format("{}: {} writes this result; wait for it, or name another file with -o", path, process_text(other)));
+  throw usage_error(
+      fmt::format("{}: {} writes this result; wait for it, or name another {} with -o", path, process_text(other), what));
 }
 
 OutputLock::~OutputLock() {

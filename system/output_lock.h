@@ -11,9 +11,9 @@ namespace wholehand {
 // on another machine nobody can tell, and it is no obstacle (see ResultFile::check_own).
 class OutputLock {
  public:
-  // `path`: of the lock's own file, made where it is not there. Throws Error: (usage) another process holds it, and which, or the file is something
+  // `path`: of the lock's own file, made where it is not there. `what` -o names, for messages: "file" or "folder". Throws Error: (usage) another process holds it, and which, or the file is something
   // else; (failure) it cannot be made.
-  explicit OutputLock(const std::string& path);
+  explicit OutputLock(const std::string& path, const char* what = "file");
   // Removes the file.
   ~OutputLock();
   OutputLock(const OutputLock&) = delete;

@@ -32,6 +32,10 @@ std::string readable_count(double count) {
 
 std::string readable_number(std::uint64_t count) { return readable_count(static_cast<double>(count)); }
 
+std::string counted(std::uint64_t count, const char* thing) {
+  return fmt::format("{} {}{}", readable_number(count), thing, count == 1 ? "" : "s");
+}
+
 std::string readable_duration(double seconds) {
   const double whole = std::ceil(std::clamp(seconds, 0.0, 1e9));
   if (whole < 120) return fmt::format("{:.0f} s", whole);

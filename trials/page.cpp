@@ -44,8 +44,8 @@ void write_trials_header(MarkupWriter& html, const TrialPageSource& source) {
   for (std::size_t g = 0; g < source.tried.grips.size(); ++g) trials += source.tried.cases_of(g).size();
   html.open("header").element("h1", title_of_trials(source.scene));
   html.element("p",
-               fmt::format("{} grips in {} trials, held by {}, which knows nothing of wholehand's formulas.",
-                           readable_number(source.tried.grips.size()), readable_number(trials), source.engine),
+               fmt::format("{} in {}, held by {}, which knows nothing of wholehand's formulas.",
+                           counted(source.tried.grips.size(), "grip"), counted(trials, "trial"), source.engine),
                {{"class", "lead"}});
   html.open("nav", {{"aria-label", "Contents"}}).open("ul");
   for (const auto& [id, text] : CONTENTS) html.open("li").element("a", text, {{"href", fmt::format("#{}", id)}}).close();

@@ -83,8 +83,11 @@ void check_trial_scene(const Scene& scene) {
   const char* name = scene.file.empty() ? "the scene" : scene.file.c_str();
   if (!scene.strength)
     throw usage_error(
-        fmt::format("{}: trials need [strength], which limits how firmly the hand can hold; add it to the scene", name));
-  if (scene.tilts.empty()) throw usage_error(fmt::format("{}: trials need [tilts], as efforts do; add it to the scene", name));
+        fmt::format("{}: trials need [strength], which limits how firmly the hand can hold; add it to the scene: an empty table "
+                    "[strength] is enough",
+                    name));
+  if (scene.tilts.empty())
+    throw usage_error(fmt::format("{}: trials need [tilts], as efforts do; add it to the scene, with its deg", name));
 }
 
 // What comes from outside of the program, in one line of plain characters: a table and a page will show it.
@@ -100,14 +103,13 @@ class Trials {
       : scene_(scene), options_(options), result_(result), predictor_(checked(scene), options.settings) {
     find_cases();
     engine_ = open(predictor_.scene(), *predictor_.core(), options.settings);
-    for (std::size_t v = 0; v < scene_.vessels.size(); ++v)
-      if (!options_.vessel || *options_.vessel == v) engine_->check(v);
+    check_models();
     prepare_trials_folder(options.folder);
   }
 
   ExitCode run() {
     const TrialFiles files(options_.folder);
-    const OutputLock lock(files.lock);
+    const OutputLock lock(files.lock, "folder");
     InterruptGuard interrupt;
     choose_grips(interrupt);
     if (interrupt.flag()) return interrupted(0, false);
@@ -146,7 +148,35 @@ class Trials {
   void find_cases() {
     tried_.cases.resize(scene_.vessels.size());
     for (std::size_t v = 0; v < scene_.vessels.size(); ++v)
-      if (!options_.vessel || *options_.vessel == v) tried_.cases[v] = trial_cases(scene_, *predictor_.core(), v, options_);
+      if (is_asked(v)) tried_.cases[v] = trial_cases(scene_, *predictor_.core(), v, options_);
+  }
+
+  bool is_asked(std::size_t vessel) const { return !options_.vessel || *options_.vessel == vessel; }
+
+  // Throws Error (usage) of the first vessel without a model, with one that can be tried in its place.
+  void check_models() const {
+    for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
+      if (!is_asked(v)) continue;
+      try {
+        engine_->check(v);
+      } catch (const Error& error) {
+        const std::optional<std::size_t> other = first_with_model(v);
+        if (error.code != ExitCode::usage || !other) throw;
+        throw usage_error(fmt::format("{}; or try another vessel: --vessel {}", error.what(), scene_.vessels[*other].name));
+      }
+    }
+  }
+
+  std::optional<std::size_t> first_with_model(std::size_t but) const {
+    for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
+      if (v == but) continue;
+      try {
+        engine_->check(v);
+        return v;
+      } catch (const Error&) {  // this one has none either
+      }
+    }
+    return std::nullopt;
   }
 
   // By the scene's own friction, so that the same grips are tried with any.
@@ -171,16 +201,17 @@ class Trials {
     if (damaged > 0)
       say_note(fmt::format("{}: {} line{} not as {} written; the grip{} tried again", files.journal, damaged,
                            damaged == 1 ? " is" : "s are", damaged == 1 ? "it was" : "they were", damaged == 1 ? " is" : "s are"));
-    say_note(fmt::format("goes on after {} of {} grips", found.size(), tried_.grips.size()));
+    say_note(fmt::format("goes on after {} of {}", found.size(), counted(tried_.grips.size(), "grip")));
     return journal;
   }
 
   void say_trials_opening() const {
     std::size_t trials = 0;
     for (std::size_t g = 0; g < tried_.grips.size(); ++g) trials += tried_.cases_of(g).size();
-    print(fmt::format("{}: {} grips, {} trials in {}, {} threads{}\n", scene_.name.empty() ? "trials" : scene_.name,
-                      readable_number(tried_.grips.size()), readable_number(trials), engine_->name(),
-                      thread_count(options_.threads), options_.quick ? "; --quick: fewer grips and states" : ""));
+    print(fmt::format("{}: {}, {} in {}, {}{}\n", scene_.name.empty() ? "trials" : scene_.name,
+                      counted(tried_.grips.size(), "grip"), counted(trials, "trial"), engine_->name(),
+                      counted(static_cast<std::uint64_t>(thread_count(options_.threads)), "thread"),
+                      options_.quick ? "; --quick: fewer grips and states" : ""));
   }
 
   // The grips that are not in `found`. Returns how many are there in the end.
@@ -225,8 +256,9 @@ class Trials {
   }
 
   ExitCode interrupted(std::size_t done, bool has_journal) const {
-    say_note(has_journal ? fmt::format("interrupted after {} of {} grips; go on with --resume", done, tried_.grips.size())
-                         : std::string("interrupted before the first grip"));
+    say_note(has_journal
+                 ? fmt::format("interrupted after {} of {}; go on with --resume", done, counted(tried_.grips.size(), "grip"))
+                 : std::string("interrupted before the first grip"));
     return ExitCode::interrupted;
   }
 
@@ -240,9 +272,10 @@ class Trials {
     write_trials_dataset(files.nc, scene_, options_, tried_, {source.engine, source.identity});
     write_whole_file(files.page, trials_page(source), false, REMEDY);
     print(trials_summary(scene_, options_, analysis));
-    const auto recordings = std::count_if(shown.begin(), shown.end(), [](const auto& one) { return !one.recording.empty(); });
+    const auto recordings = static_cast<std::uint64_t>(
+        std::count_if(shown.begin(), shown.end(), [](const auto& one) { return !one.recording.empty(); }));
     print(fmt::format("\nwrote {}, {}, {}{}\n", files.csv, files.nc, files.page,
-                      recordings == 0 ? "" : fmt::format(" and {} recordings of disagreements", recordings)));
+                      recordings == 0 ? "" : fmt::format(" and {} of disagreements", counted(recordings, "recording"))));
   }
 
   const Scene& scene_;

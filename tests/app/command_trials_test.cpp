@@ -84,6 +84,30 @@ TEST_F(TrialsCommand, TakesTheGripsOfAResult) {
   EXPECT_EQ(count_of(csv("of_result"), ",stratified,hand,"), 6);
 }
 
+// An option that lacks its value does not take the next one.
+TEST_F(TrialsCommand, OptionsWithoutValuesAreRefused) {
+  const std::string start = "trials " + (folder / "cup.toml") + " -o " + (folder / "none") + " ";
+  expect_error(start + "--fill --quick", 2, "--fill: its value is missing: '--quick' is an option");
+  expect_error(start + "--vessel --quick", 2, "--vessel: its value is missing");
+  expect_error("trials " + (folder / "cup.toml") + " -o --quick", 2, "its value is missing");
+  expect_error(start + "--quick --fill", 2, "--fill");
+  EXPECT_FALSE(file_exists(folder / "none"));
+  expect_error("trials " + (folder / "cup.toml") + " -o " + (folder / "deep/a/b"), 2,
+               (folder / "deep/a") + " is not a directory; create it or name another");
+}
+
+// trials.nc is neither what is tried nor what is viewed.
+TEST_F(TrialsCommand, ItsAnswerIsNotAResultOfASweep) {
+  ASSERT_EQ(try_grips("cup.toml", "one").code, 0);
+  const std::string answer = folder / "one/trials.nc";
+  for (const std::string& command : {"trials " + answer + " -o " + (folder / "again"), "view " + answer})
+    expect_error(command, 2,
+                 "is the answer of wholehand trials, and not a result of a sweep; give a result of wholehand sweep, or for "
+                 "new trials a scene; wholehand view plays the disagreement-*.nc beside it");
+  EXPECT_FALSE(file_exists(folder / "again"));
+  EXPECT_TRUE(has(run("PROGRAM view --help 2>&1").output, "`wholehand trials`"));
+}
+
 TEST_F(TrialsCommand, WithoutTheEngineThereAreNoFiles) {
   setenv("WHOLEHAND_MUJOCO_LIBRARY", "/nope", 1);
   expect_error(command("cup.toml", "none"), 3, "/nope");

@@ -60,6 +60,13 @@ TEST(Files, FoldersAreMadeOrRefused) {
   EXPECT_TRUE(std::filesystem::is_directory(folder / "new"));
   EXPECT_EQ(refused_folder(folder / "new"), ExitCode::done) << "there already";
   EXPECT_EQ(refused_folder(folder / "missing/new"), ExitCode::usage);
+  try {
+    make_output_folder(folder / "missing/new/");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.what(),
+              "-o " + (folder / "missing/new/") + ": " + (folder / "missing") + " is not a directory; create it or name another");
+  }
   std::ofstream(folder / "file") << "x";
   EXPECT_EQ(refused_folder(folder / "file"), ExitCode::usage);
   EXPECT_EQ(refused_folder(folder / "file/new"), ExitCode::usage);

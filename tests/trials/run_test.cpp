@@ -12,6 +12,7 @@
 
 #include "sweeps/run.h"
 #include "system/csv.h"
+#include "system/output_lock.h"
 #include "tests/support/fake_trials.h"
 #include "tests/support/files.h"
 #include "tests/support/refusal.h"
@@ -240,7 +241,11 @@ TEST_F(TrialsTest, AVesselWithoutAModelIsOneLineBeforeAnyFile) {
   const TrialsRun ran = run(open);
   EXPECT_EQ(ran.code, ExitCode::usage);
   EXPECT_TRUE(has(ran.error, "vessel '" + name + "' has no model")) << ran.error;
+  EXPECT_TRUE(ran.error.ends_with("; or try another vessel: --vessel " + scene.vessels.front().name)) << ran.error;
   EXPECT_FALSE(file_exists(options.folder));
+  scene.vessels.erase(scene.vessels.begin(), scene.vessels.end() - 1);
+  EXPECT_FALSE(has(run(open).error, "--vessel")) << "there is no other one";
+  scene = scene_for_trials();
   options.vessel = 0;
   EXPECT_EQ(run(open).code, ExitCode::done) << "it is not asked for";
 }
@@ -261,10 +266,33 @@ TEST_F(TrialsTest, AnEngineThatFailsLeavesTheJournal) {
 TEST_F(TrialsTest, ScenesThatHaveNoEffortsAreRefused) {
   scene.strength.reset();
   EXPECT_TRUE(has(run().error, "trials need [strength]"));
+  EXPECT_TRUE(has(run().error, "an empty table [strength] is enough"));
   scene.strength = StrengthData{};
   scene.tilts.clear();
   EXPECT_TRUE(has(run().error, "trials need [tilts]"));
   EXPECT_FALSE(file_exists(options.folder));
+}
+
+TEST_F(TrialsTest, AnotherProcessInTheFolderIsNamed) {
+  std::filesystem::create_directory(options.folder);
+  const OutputLock lock(options.folder + "/trials.lock", "folder");
+  const TrialsRun ran = run();
+  EXPECT_EQ(ran.code, ExitCode::usage);
+  EXPECT_TRUE(has(ran.error, "name another folder with -o")) << ran.error;
+}
+
+// One of each is not "1 threads".
+TEST_F(TrialsTest, OneIsSaidAsOne) {
+  options.threads = 1;
+  options.grips = 1;
+  options.best = 0;
+  options.vessel = 0;
+  options.fills = {1};
+  options.tilts = {0};
+  const TrialsRun ran = run();
+  ASSERT_EQ(ran.code, ExitCode::done) << ran.error;
+  EXPECT_TRUE(has(ran.out, "1 grip, 1 trial in stand-in 1, 1 thread\n")) << ran.out;
+  EXPECT_TRUE(has(file_text(options.folder + "/trials.html"), "1 grip in 1 trial,"));
 }
 
 TEST_F(TrialsTest, FilesOfOthersStay) {
