@@ -52,6 +52,18 @@ std::vector<double> read_ascending(const std::vector<std::string>& texts, const 
   return values;
 }
 
+// Pushes are in one state alone: what asks for others would be ignored.
+void check_pushed_states(const TrialOptions& options) {
+  if (options.fill_tilt) return;
+  if (!options.tilts.empty())
+    throw usage_error("--tilt-deg: --protocol six-forces tilts nothing; leave --tilt-deg out, or ask for --protocol both");
+  if (options.fills.size() > 1)
+    throw usage_error(
+        fmt::format("--fill: {} fills are given, and --protocol six-forces pushes at one; give one fill, or ask for "
+                    "--protocol both, where it takes the largest",
+                    options.fills.size()));
+}
+
 // All that does not need the scene.
 TrialOptions read_options(const TrialsArguments& arguments) {
   TrialOptions options;
@@ -65,6 +77,7 @@ TrialOptions read_options(const TrialsArguments& arguments) {
     throw usage_error("--grips 0 with --best 0: no grip is left to try; give more of one");
   options.fills = read_ascending(arguments.fills, "--fill", ranges::FRACTION);
   options.tilts = read_ascending(arguments.tilts, "--tilt-deg", ranges::TILT);
+  check_pushed_states(options);
   if (is_second(arguments.model, "--model", "hand", "contacts")) options.settings.model = TrialModel::contacts;
   if (!arguments.mass.empty()) options.settings.mass = parse_quantity(arguments.mass, "--mass-kg", ranges::MASS);
   if (!arguments.friction.empty()) options.settings.friction = parse_quantity(arguments.friction, "--friction", ranges::FRICTION);
@@ -101,8 +114,9 @@ void add_trials_command(CLI::App& app, Action& action) {
   add("--grips", arguments->grips, "N", "Grips of the sample over all scores, of all vessels together (default: 400)");
   add("--best", arguments->best, "N", "Best grips of each vessel (default: 20)");
   add("--vessel", arguments->vessel, "V", "Try this vessel alone (default: all)");
-  add("--fill", arguments->fills, "F", "Fills, as fractions of the capacity (default: three of the scene's)");
-  add("--tilt-deg", arguments->tilts, "T", "Tilts (default: four of the scene's)");
+  add("--fill", arguments->fills, "F",
+      "Fills, as fractions of the capacity (default: three of the scene's); six-forces takes the largest");
+  add("--tilt-deg", arguments->tilts, "T", "Tilts of fill-tilt (default: four of the scene's)");
   add("--protocol", arguments->protocol, "P", "fill-tilt (the default), six-forces or both");
   add("--model", arguments->model, "M", "hand (the default), or contacts: each contact alone, as a cross-check");
   add("--mass-kg", arguments->mass, "M", "Mass of vessel and liquid together in every state (default: that of the state)");

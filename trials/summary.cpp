@@ -18,7 +18,7 @@ std::string plain_interval(double value, const Interval& interval) {
 // The same grips at each mass and friction, beside each other.
 std::string pushed_lines(const Scene& scene, const TrialOptions& options, const TrialAnalysis& analysis, std::size_t widest) {
   if (analysis.pushed.empty()) return "";
-  std::string text = "\ngrips that hold in all six directions";
+  std::string text = "\ngrips that hold in all six directions, at the largest fill";
   const char* before = ": ";
   for (const TrialMaterial& material : options.settings.materials) {
     text += before + material_text(material);

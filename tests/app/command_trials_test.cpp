@@ -84,9 +84,11 @@ TEST_F(TrialsCommand, TakesTheGripsOfAResult) {
   EXPECT_EQ(count_of(csv("of_result"), ",stratified,hand,"), 6);
 }
 
-// An option that lacks its value does not take the next one.
-TEST_F(TrialsCommand, OptionsWithoutValuesAreRefused) {
+// What a protocol would ignore is refused, and an option that lacks its value does not take the next one.
+TEST_F(TrialsCommand, OptionsThatChangeNothingAreRefused) {
   const std::string start = "trials " + (folder / "cup.toml") + " -o " + (folder / "none") + " ";
+  expect_error(start + "--protocol six-forces --tilt-deg 0 30", 2, "--tilt-deg: --protocol six-forces tilts nothing");
+  expect_error(start + "--protocol six-forces --fill 0.5 1", 2, "--fill: 2 fills are given");
   expect_error(start + "--fill --quick", 2, "--fill: its value is missing: '--quick' is an option");
   expect_error(start + "--vessel --quick", 2, "--vessel: its value is missing");
   expect_error("trials " + (folder / "cup.toml") + " -o --quick", 2, "its value is missing");

@@ -76,7 +76,8 @@ TEST_F(TrialsPage, TellsSamplesAndProtocolsApart) {
   const std::size_t verdict = std::min(row.find(">met<"), row.find(">missed<"));
   EXPECT_LT(verdict, row.find("did not</td>")) << row;
   EXPECT_TRUE(has(printed, "AUC of the worst effort")) << printed;
-  EXPECT_TRUE(has(printed, "in all six directions: mass and friction of the scene | mass and friction of DexGraspBench"))
+  EXPECT_TRUE(has(
+      printed, "in all six directions, at the largest fill: mass and friction of the scene | mass and friction of DexGraspBench"))
       << printed;
   EXPECT_TRUE(has(printed, "weights fitted to half of the grips change the AUC")) << printed;
   EXPECT_TRUE(has(printed, "recordings of disagreements")) << printed;
