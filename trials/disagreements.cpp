@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "trials/disagreements.h"
 
-#include <cstdio>
-
 #include "core/error.h"
 #include "grips/forces.h"
 #include "grips/methods.h"
@@ -34,9 +32,9 @@ std::vector<TrialCase> cases_up_to(const std::vector<TrialCase>& cases, std::siz
   return run;
 }
 
-std::vector<ShownDisagreement> show_disagreements(const TrialFiles& files, const Scene& scene, const TrialPredictor& predictor,
-                                                  const TrialEngine& engine, const TriedGrips& tried,
-                                                  const TrialAnalysis& analysis) {
+std::vector<ShownDisagreement> show_disagreements(const TrialFiles& files, FileSet& set, const Scene& scene,
+                                                  const TrialPredictor& predictor, const TrialEngine& engine,
+                                                  const TriedGrips& tried, const TrialAnalysis& analysis) {
   std::vector<ShownDisagreement> all;
   for (const Disagreement& which : analysis.disagreements) {
     ShownDisagreement shown{which, "", "", "", ""};
@@ -47,16 +45,18 @@ std::vector<ShownDisagreement> show_disagreements(const TrialFiles& files, const
       draw_disagreement(predictor, grip, one, shown);
       std::vector<TrialTrack> tracks;
       engine.run(grip.vessel, grip.grip, cases_up_to(tried.cases_of(which.grip), which.place), &tracks);
-      write_trial_recording(files.recording(number), scene, *predictor.core(), engine.name(), grip, one,
+      write_trial_recording(set.on_the_way(files.recording(number)), scene, *predictor.core(), engine.name(), grip, one,
                             tried.found[which.grip].outcomes[which.place], tracks);
       shown.recording = TrialFiles::recording_name(number);
     } catch (const Error& error) {
+      // a full disk: with room --resume writes what the page would lack
+      if (error.code == ExitCode::failure) throw;
       shown.trouble = error.what();
-      std::remove(files.recording(number).c_str());
+      set.without(files.recording(number));
     }
     all.push_back(shown);
   }
-  for (std::size_t number = all.size() + 1; number <= MOST_DISAGREEMENTS; ++number) std::remove(files.recording(number).c_str());
+  for (std::size_t number = all.size() + 1; number <= MOST_DISAGREEMENTS; ++number) set.without(files.recording(number));
   return all;
 }
 

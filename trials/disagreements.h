@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "system/file_set.h"
 #include "trials/analysis.h"
 #include "trials/output.h"
 #include "trials/predictions.h"
@@ -22,9 +23,10 @@ struct ShownDisagreement {
 // The cases that one run of the engine goes through up to one of a grip's: the smaller tilts of its fill, and itself.
 std::vector<TrialCase> cases_up_to(const std::vector<TrialCase>& cases, std::size_t place);
 
-// Writes the recordings, and removes those of earlier trials. `scene` is the one that was read, whose text the recordings get.
-std::vector<ShownDisagreement> show_disagreements(const TrialFiles& files, const Scene& scene, const TrialPredictor& predictor,
-                                                  const TrialEngine& engine, const TriedGrips& tried,
-                                                  const TrialAnalysis& analysis);
+// Writes the recordings into the set, which loses those of earlier trials. `scene` is the one that was read, whose text the
+// recordings get. Throws Error (failure): one could not be written, or the engine failed.
+std::vector<ShownDisagreement> show_disagreements(const TrialFiles& files, FileSet& set, const Scene& scene,
+                                                  const TrialPredictor& predictor, const TrialEngine& engine,
+                                                  const TriedGrips& tried, const TrialAnalysis& analysis);
 
 }  // namespace wholehand

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "trials/recording.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -175,11 +177,21 @@ void write_trial_recording(const std::string& path, const Scene& scene, const Ev
   const RecordingInfo info = info_of_trial(scene, engine, grip, core.gap_at(0));
   if (info.scene_text.empty()) throw usage_error("the scene's text does not stand without its other vessels");
   const std::vector<Tick> ticks = ticks_of_trial(scene, core, grip, one, outcome, joined_frames(tracks), TICK_RATE);
-  std::remove(path.c_str());  // a recording never takes the place of another one; this one was looked at before
-  std::remove((path + ".partial").c_str());
-  RecordingWriter writer(path, info);
-  const bool is_written = writer.append(ticks);
-  if (!writer.finish({}) || !is_written) throw failure_error(writer.trouble());
+  const std::string partial = path + ".partial";
+  std::remove(partial.c_str());
+  bool is_whole = false;
+  try {
+    RecordingWriter writer(path, info);
+    const bool is_written = writer.append(ticks);
+    is_whole = writer.finish({}) && is_written;
+  } catch (const Error& error) {
+    if (error.code != ExitCode::failure) throw;  // else not even its head was taken
+  }
+  if (is_whole) return;
+  // a session keeps what the disk took; a trial can be written once more
+  std::remove(path.c_str());
+  std::remove(partial.c_str());
+  throw failure_error(fmt::format("{}: cannot write it: is the disk full? Make room, then go on with --resume", path));
 }
 
 }  // namespace wholehand

@@ -13,6 +13,7 @@
 #include "sweeps/variables.h"
 #include "system/build_id.h"
 #include "system/checksum.h"
+#include "system/file_set.h"
 #include "system/files.h"
 #include "system/interrupt.h"
 #include "system/output.h"
@@ -262,15 +263,24 @@ class Trials {
     return ExitCode::interrupted;
   }
 
+  // All of them, or those of earlier trials stay as they were.
   void write_files(const TrialFiles& files, const TrialIdentity& identity) {
     constexpr const char* REMEDY = "make room, then go on with --resume";
     const TrialAnalysis analysis = analyse_trials(scene_, tried_, options_);
-    const auto shown = show_disagreements(files, scene_, predictor_, *engine_, tried_, analysis);
-    const TrialPageSource source{scene_, options_, tried_, analysis, shown, engine_->name(), identity_text(identity)};
-    // the table first: beside it a folder's trials.nc is known as ours
-    write_whole_file(files.csv, trials_csv(scene_, options_.settings, tried_), false, REMEDY);
-    write_trials_dataset(files.nc, scene_, options_, tried_, {source.engine, source.identity});
-    write_whole_file(files.page, trials_page(source), false, REMEDY);
+    std::vector<ShownDisagreement> shown;
+    FileSet set;
+    try {
+      // the table gets its name first: beside it a folder's trials.nc is known as ours
+      write_whole_file(set.on_the_way(files.csv), trials_csv(scene_, options_.settings, tried_), false, REMEDY);
+      const TrialOrigin origin{engine_->name(), identity_text(identity)};
+      write_trials_dataset(set.on_the_way(files.nc), scene_, options_, tried_, origin);
+      shown = show_disagreements(files, set, scene_, predictor_, *engine_, tried_, analysis);
+      const TrialPageSource source{scene_, options_, tried_, analysis, shown, origin.engine, origin.identity};
+      write_whole_file(set.on_the_way(files.page), trials_page(source), false, REMEDY);
+      set.give_names(REMEDY);
+    } catch (const Error& error) {
+      throw Error(error.code, set.with_own_names(error.what()), error.remedy);
+    }
     print(trials_summary(scene_, options_, analysis));
     const auto recordings = static_cast<std::uint64_t>(
         std::count_if(shown.begin(), shown.end(), [](const auto& one) { return !one.recording.empty(); }));

@@ -61,7 +61,7 @@ TEST_F(TrialsCommand, SameBytesOnAnyThreadsAndResumed) {
   EXPECT_EQ(csv("two"), whole);
 
   // ended by a disk without room for trials.nc; and two grips were not tried
-  const Outcome full = run("ulimit -f 64; PROGRAM " + command("cup.toml", "cut") + " 2>&1 >" + (folder / "out"));
+  const Outcome full = run("ulimit -f 40; PROGRAM " + command("cup.toml", "cut") + " 2>&1 >" + (folder / "out"));
   EXPECT_EQ(full.code, 3);
   EXPECT_TRUE(has(full.output, "trials.nc: cannot write it")) << full.output;
   EXPECT_EQ(count_of(full.output, "\n"), 1) << full.output;

@@ -12,6 +12,7 @@
 
 #include "core/error.h"
 #include "core/random_bits.h"
+#include "scene/reader.h"
 #include "tests/support/scenes.h"
 #include "trials/options.h"
 
@@ -29,6 +30,15 @@ inline Scene scene_for_trials() {
   scene.grips.height = axis_of(0.3, 0.9, 5);
   scene.grips.obliquity = axis_of(0, radians(10), 2);
   scene.grips.roll = axis_of(radians(-60), 0, 4);
+  return scene;
+}
+
+// The shipped scene with few grips: its text is one that recordings can have.
+inline Scene shipped_scene_for_trials() {
+  Scene scene = read_scene_file(std::string(WHOLEHAND_SOURCE_DIR) + "/scene/examples/three_beakers.toml");
+  const Scene few = scene_for_trials();
+  scene.grips = few.grips;
+  scene.tilts = few.tilts;
   return scene;
 }
 

@@ -17,15 +17,6 @@
 namespace wholehand {
 namespace {
 
-// The shipped scene, for its text, with few grips.
-Scene scene_of_page() {
-  Scene scene = read_scene_file(std::string(WHOLEHAND_SOURCE_DIR) + "/scene/examples/three_beakers.toml");
-  const Scene few = scene_for_trials();
-  scene.grips = few.grips;
-  scene.tilts = few.tilts;
-  return scene;
-}
-
 // One folder for all tests of this file, as it takes seconds to make.
 class TrialsPage : public testing::Test {
  protected:
@@ -35,7 +26,7 @@ class TrialsPage : public testing::Test {
     options.six_forces = true;
     options.grips = 40;
     testing::internal::CaptureStdout();
-    run_trials(scene_of_page(), options, open_fake_engine([](FakeTrialEngine& engine) {
+    run_trials(shipped_scene_for_trials(), options, open_fake_engine([](FakeTrialEngine& engine) {
                  engine.discarded = 0.1;
                  engine.spread = 4;
                }));

@@ -7,8 +7,11 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 
+#include <algorithm>
 #include <atomic>
 #include <limits>
+#include <map>
+#include <set>
 
 #include "sweeps/run.h"
 #include "system/csv.h"
@@ -60,17 +63,28 @@ class TrialsTest : public testing::Test {
   }
 
   // No file may be larger.
-  TrialsRun run_with_room(std::size_t bytes) {
+  TrialsRun run_with_room(std::size_t bytes, const OpenTrialEngine& open = open_fake_engine()) {
     struct rlimit before {};
     getrlimit(RLIMIT_FSIZE, &before);
     struct rlimit small = before;
     small.rlim_cur = bytes;
     const auto handler = signal(SIGXFSZ, SIG_IGN);
     EXPECT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
-    const TrialsRun ran = run();
+    const TrialsRun ran = run(open);
     setrlimit(RLIMIT_FSIZE, &before);
     signal(SIGXFSZ, handler);
     return ran;
+  }
+
+  // Trials that disagree with effort, with a text that their recordings can have.
+  OpenTrialEngine disagreeing(std::atomic<int>* count = nullptr) {
+    scene = shipped_scene_for_trials();
+    options.vessel = 0;
+    options.grips = 8;
+    return open_fake_engine([count](FakeTrialEngine& engine) {
+      engine.spread = 4;
+      engine.count = count;
+    });
   }
 
   std::string csv() const { return file_text(options.folder + "/trials.csv"); }
@@ -318,25 +332,64 @@ TEST_F(TrialsTest, AFolderThatCannotBeIsRefused) {
   EXPECT_EQ(run().code, ExitCode::usage);
 }
 
-// The table was written, and then the disk was full.
-TEST_F(TrialsTest, AFullDiskUnderTheDatasetLeavesNothingHalfWritten) {
-  ASSERT_EQ(run().code, ExitCode::done);
-  const std::string whole = csv();
-  options.folder = folder / "full";
-  const TrialsRun ran = run_with_room(whole.size() + 4'096);
-  EXPECT_EQ(ran.code, ExitCode::failure);
-  EXPECT_TRUE(has(ran.error, "trials.nc: cannot write it")) << ran.error;
-  for (const auto& entry : std::filesystem::directory_iterator(options.folder)) {
-    const std::string name = entry.path().filename();
-    EXPECT_TRUE(name == "trials.csv" || name == "trials.journal") << name;
+// All grips were tried, and then the disk was full: before the first file, and between any two. Whatever an earlier run wrote stays.
+TEST_F(TrialsTest, AFullDiskLeavesTheFilesOfOneRunAlone) {
+  const auto files_there = [this] {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : std::filesystem::directory_iterator(options.folder))
+      files[entry.path().filename()] = file_text(entry.path());
+    return files;
+  };
+  const OpenTrialEngine open = disagreeing();
+  ASSERT_EQ(run(open).code, ExitCode::done);
+  const auto before = files_there();
+  ASSERT_TRUE(before.contains("disagreement-1.nc"));
+  options.seed = 2;
+  options.folder = folder / "other";
+  ASSERT_EQ(run(open).code, ExitCode::done);
+  const auto wanted = files_there();
+  // from room for all but the largest file down to room for the journal alone
+  std::vector<std::size_t> sizes;
+  for (const auto& [name, bytes] : wanted) sizes.push_back(bytes.size());
+  std::sort(sizes.rbegin(), sizes.rend());
+  std::set<std::string> refused;
+  for (const std::size_t size : sizes) {
+    options.folder = folder / std::to_string(size);
+    options.seed = 1;
+    options.resume = false;
+    ASSERT_EQ(run(open).code, ExitCode::done);
+    options.seed = 2;
+    const TrialsRun ran = run_with_room(size - 1, open);
+    ASSERT_EQ(ran.code, ExitCode::failure) << size;
+    if (has(ran.error, "trials.journal: ")) break;
+    EXPECT_TRUE(has(ran.error, "go on with --resume")) << ran.error;
+    EXPECT_FALSE(has(ran.error, ".new")) << ran.error;
+    refused.insert(ran.error.substr(ran.error.find(options.folder) + options.folder.size() + 1, 10));
+    auto left = files_there();
+    EXPECT_EQ(left.erase("trials.journal"), 1u) << size;
+    EXPECT_TRUE(left == before) << size << ": " << ran.error;
+    options.resume = true;
+    std::atomic<int> asked = 0;
+    EXPECT_EQ(run(disagreeing(&asked)).code, ExitCode::done);
+    EXPECT_EQ(asked, 0) << "all had been tried";
+    const auto now = files_there();
+    EXPECT_EQ(now.size(), wanted.size());
+    EXPECT_EQ(csv(), wanted.at("trials.csv"));
   }
-  options.resume = true;
-  std::atomic<int> asked = 0;
-  EXPECT_EQ(run(open_fake_engine([&](FakeTrialEngine& engine) { engine.count = &asked; })).code, ExitCode::done);
-  EXPECT_EQ(asked, 0) << "all had been tried";
-  EXPECT_EQ(csv(), whole);
-  EXPECT_TRUE(file_exists(options.folder + "/trials.nc"));
-  EXPECT_FALSE(file_exists(journal()));
+  EXPECT_GE(refused.size(), 2u) << "not always by the same file";
+}
+
+// An earlier run had more disagreements.
+TEST_F(TrialsTest, RecordingsOfAnEarlierRunGo) {
+  const OpenTrialEngine open = disagreeing();
+  ASSERT_EQ(run(open).code, ExitCode::done);
+  ASSERT_TRUE(file_exists(options.folder + "/disagreement-1.nc"));
+  const std::string last = options.folder + "/disagreement-10.nc";
+  std::filesystem::copy_file(options.folder + "/disagreement-1.nc", last, std::filesystem::copy_options::overwrite_existing);
+  options.grips = 0;
+  options.best = 1;
+  ASSERT_EQ(run(open).code, ExitCode::done);
+  EXPECT_FALSE(file_exists(last));
 }
 
 // Whatever a run had written when it ended, --resume goes on in its folder.

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "system/file_set.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "core/error.h"
+#include "system/files.h"
+#include "tests/support/files.h"
+
+namespace wholehand {
+namespace {
+
+int files_in(const TemporaryFolder& folder) {
+  int count = 0;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path())) ++count;
+  return count;
+}
+
+class FileSetTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    for (const char* name : {"a", "b", "c"}) write_file(folder / name, "old");
+  }
+  TemporaryFolder folder;
+};
+
+TEST_F(FileSetTest, StandsAllAtOnce) {
+  FileSet set;
+  for (const char* name : {"a", "b"}) write_file(set.on_the_way(folder / name), "new");
+  set.without(folder / "c");
+  for (const char* name : {"a", "b", "c"}) EXPECT_EQ(file_text(folder / name), "old") << name;
+  set.give_names("make room");
+  for (const char* name : {"a", "b"}) EXPECT_EQ(file_text(folder / name), "new") << name;
+  EXPECT_EQ(files_in(folder), 2) << "the third one is gone, and no other names are left";
+}
+
+TEST_F(FileSetTest, GivenUpItLeavesWhatWasThere) {
+  {
+    FileSet set;
+    write_file(set.on_the_way(folder / "a"), "new");
+    set.on_the_way(folder / "b");
+    set.without(folder / "c");
+  }
+  for (const char* name : {"a", "b", "c"}) EXPECT_EQ(file_text(folder / name), "old") << name;
+  EXPECT_EQ(files_in(folder), 3);
+}
+
+// One of them is not there, as if the disk had not taken it.
+TEST_F(FileSetTest, NoneGetsItsNameWhereOneFails) {
+  FileSet set;
+  write_file(set.on_the_way(folder / "a"), "new");
+  set.on_the_way(folder / "b");
+  try {
+    set.give_names("make room");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ExitCode::failure);
+    EXPECT_EQ(error.what(), "cannot write " + (folder / "b") + ": No such file or directory; make room");
+  }
+  EXPECT_EQ(file_text(folder / "a"), "old");
+}
+
+TEST_F(FileSetTest, WhatIsGivenUpAfterAllIsNotInTheSet) {
+  FileSet set;
+  write_file(set.on_the_way(folder / "a"), "new");
+  write_file(set.on_the_way(folder / "b"), "half");
+  set.without(folder / "b");
+  set.give_names("make room");
+  EXPECT_EQ(file_text(folder / "a"), "new");
+  EXPECT_FALSE(file_exists(folder / "b"));
+}
+
+TEST_F(FileSetTest, ALinkStaysALink) {
+  std::filesystem::create_directory(folder / "elsewhere");
+  std::filesystem::create_symlink("elsewhere/data", folder / "link");
+  FileSet set;
+  write_file(set.on_the_way(folder / "link"), "new");
+  set.give_names("make room");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+  EXPECT_EQ(file_text(folder / "elsewhere/data"), "new");
+}
+
+TEST_F(FileSetTest, MessagesNameTheFilesThemselves) {
+  FileSet set;
+  const std::string a = set.on_the_way(folder / "a");
+  EXPECT_EQ(set.with_own_names("x " + a + " y " + a), "x " + (folder / "a") + " y " + (folder / "a"));
+}
+
+}  // namespace
+}  // namespace wholehand
