@@ -2,11 +2,13 @@
 #include "sweeps/result_definition.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 #include <cstring>
 #include <filesystem>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "core/error.h"
@@ -96,13 +98,24 @@ void ResultDefinition::doubles(const std::string& name, const Names& dims, const
 }
 
 void ResultDefinition::integers(const std::string& name, const Names& dims, const std::string& units, const std::string& long_name,
-                                std::vector<int> values) {
+                                std::vector<int> values, const IntegerCodes& codes) {
   const int id = variable(name, NC_INT, dims, units, long_name);
+  if (codes.may_lack) fill_value(id, NC_INT);
+  if (!codes.meanings.empty()) {
+    std::vector<int> known(codes.meanings.size());
+    std::iota(known.begin(), known.end(), 0);
+    numbers(id, "flag_values", NC_INT, known.size(), known.data());
+    text(id, "flag_meanings", fmt::format("{}", fmt::join(codes.meanings, " ")));
+  }
   values_.push_back([this, id, values = std::move(values)] { check(nc_put_var_int(file_, id, values.data())); });
 }
 
 void ResultDefinition::labels(const std::string& name, const std::string& long_name, const Names& values) {
-  const int id = variable(name, NC_STRING, {name}, "", long_name);
+  strings(name, {name}, long_name, values);
+}
+
+void ResultDefinition::strings(const std::string& name, const Names& dims, const std::string& long_name, const Names& values) {
+  const int id = variable(name, NC_STRING, dims, "", long_name);
   values_.push_back([this, id, values] {
     std::vector<const char*> pointers;
     for (const std::string& value : values) pointers.push_back(value.c_str());

@@ -11,11 +11,16 @@
 
 namespace wholehand {
 
+// What integers stand for: the meanings of 0, 1 .., each one word. MISSING may stand for a value that is not there.
+struct IntegerCodes {
+  std::vector<std::string> meanings;
+  bool may_lack = false;
+};
+
 // Every method throws Error (failure) with the file's name. The file is discarded unless `finish` was called.
 class ResultDefinition {
  public:
   using Names = std::vector<std::string>;
-
   // Creates the file, which must not be there.
   explicit ResultDefinition(const std::string& path);
   ~ResultDefinition();
@@ -38,7 +43,8 @@ class ResultDefinition {
   void doubles(const std::string& name, const Names& dims, const std::string& units, const std::string& long_name,
                std::vector<double> values);
   void integers(const std::string& name, const Names& dims, const std::string& units, const std::string& long_name,
-                std::vector<int> values);
+                std::vector<int> values, const IntegerCodes& codes = {});
+  void strings(const std::string& name, const Names& dims, const std::string& long_name, const Names& values);
   void labels(const std::string& name, const std::string& long_name, const Names& values);
 
   // Ends the definition, writes what it has values of, gives the blocks of `later` their places and closes the file.

@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "sweeps/result_definition.h"
+#include "sweeps/variables.h"
 #include "system/files.h"
 #include "system/readable.h"
 #include "system/version.h"
@@ -49,7 +50,7 @@ class Dataset {
     file_.labels("term", "term of the score", {"fingers", "contacts", "depth", "posture", "force", "hold"});
     write_grips();
     write_predictions();
-    write_cases();
+    write_cases(options.settings);
     write_outcomes(options.settings);
     file_.finish({});
   }
@@ -88,10 +89,11 @@ class Dataset {
     file_.doubles(name, {"grip"}, units, long_name, values);
   }
 
-  void integers_of_grips(const char* name, const char* long_name, const std::function<int(const TrialGrip&)>& value) {
+  void integers_of_grips(const char* name, const char* long_name, const std::function<int(const TrialGrip&)>& value,
+                         const IntegerCodes& codes = {}) {
     std::vector<int> values;
     for (const TrialGrip& grip : tried_.grips) values.push_back(value(grip));
-    file_.integers(name, {"grip"}, "", long_name, values);
+    file_.integers(name, {"grip"}, "", long_name, values, codes);
   }
 
   std::vector<double> of_each_trial(const OfTrial& value) const {
@@ -108,16 +110,17 @@ class Dataset {
     file_.doubles(name, {"trial"}, units, long_name, of_each_trial(value));
   }
 
-  void integers_of_trials(const char* name, const char* long_name, const OfTrial& value) {
+  void integers_of_trials(const char* name, const char* long_name, const OfTrial& value, const IntegerCodes& codes = {}) {
     const std::vector<double> values = of_each_trial(value);
-    file_.integers(name, {"trial"}, "", long_name, {values.begin(), values.end()});
+    file_.integers(name, {"trial"}, "", long_name, {values.begin(), values.end()}, codes);
   }
 
   void write_grips() {
     using Grip = TrialGrip;
     using Said = GripPrediction;
     integers_of_grips("grip_vessel", "place of the vessel", [](const Grip& grip) { return static_cast<int>(grip.vessel); });
-    integers_of_grips("grip_sample", "0: best, 1: stratified", [](const Grip& grip) { return static_cast<int>(grip.sample); });
+    integers_of_grips("grip_sample", "sample that the grip is of", [](const Grip& grip) { return static_cast<int>(grip.sample); },
+                      {{TRIAL_SAMPLE_NAMES.begin(), TRIAL_SAMPLE_NAMES.end()}});
     of_grips("grip_number", "1", "number of the grip in its vessel's plan",
              [](const Grip& grip, const Said&) { return static_cast<double>(grip.number); });
     of_grips("height", "m", "height of the thumb-index line", [](const Grip& grip, const Said&) { return grip.grip.height; });
@@ -151,16 +154,20 @@ class Dataset {
     file_.doubles("score_terms", {"grip", "term"}, "1", "terms of the score", terms);
   }
 
-  void write_cases() {
+  void write_cases(const TrialSettings& settings) {
     integers_of_trials("trial_grip", "place of the grip", [](const TrialView& at) { return static_cast<double>(at.place); });
-    integers_of_trials("protocol", "0: fill-tilt, 1: six-forces",
-                       [](const TrialView& at) { return static_cast<double>(static_cast<int>(at.one.protocol)); });
+    integers_of_trials("protocol", "protocol of the trial",
+                       [](const TrialView& at) { return static_cast<double>(static_cast<int>(at.one.protocol)); },
+                       {{TRIAL_PROTOCOL_NAMES.begin(), TRIAL_PROTOCOL_NAMES.end()}});
     of_trials("fill", "1", "fill, as a fraction of the capacity", [](const TrialView& at) { return at.one.fill; });
     of_trials("tilt", "rad", "tilt; of fill-tilt", [](const TrialView& at) { return at.is_push() ? ABSENT : at.one.tilt; });
-    integers_of_trials("direction", "of the push: 0 to 5 are +x, -x, +y, -y, +z, -z of the vessel; -1: none",
-                       [](const TrialView& at) { return at.is_push() ? at.one.direction : -1.0; });
-    integers_of_trials("material", "of the push: 0: the scene's mass and friction, 1: DexGraspBench's; -1: none",
-                       [](const TrialView& at) { return at.is_push() ? at.one.material : -1.0; });
+    integers_of_trials("direction", "direction of the push, in the vessel's frame; of six-forces",
+                       [](const TrialView& at) { return at.is_push() ? at.one.direction : MISSING; },
+                       {{FORCE_DIRECTION_NAMES.begin(), FORCE_DIRECTION_NAMES.end()}, true});
+    std::vector<std::string> materials;
+    for (const TrialMaterial& material : settings.materials) materials.push_back(material.name);
+    integers_of_trials("material", "whose mass and friction the vessel has; of six-forces",
+                       [](const TrialView& at) { return at.is_push() ? at.one.material : MISSING; }, {materials, true});
     of_trials("effort", "1", "effort of the whole hand", [](const TrialView& at) { return at.said.effort; });
     of_trials("tips_effort", "1", "effort of thumb and index tip alone", [](const TrialView& at) { return at.said.tips; });
     of_trials("leg_effort", "1", "largest effort on the way to the state", [](const TrialView& at) { return at.said.leg_effort; });
@@ -173,15 +180,21 @@ class Dataset {
     const auto when_lost = [](const TrialView& at, double value) {
       return at.outcome.discarded || at.outcome.held ? ABSENT : value;
     };
-    integers_of_trials("held", "1: held, 0: not", [](const TrialView& at) { return at.outcome.held ? 1.0 : 0.0; });
-    integers_of_trials("discarded", "1: discarded, 0: not", [](const TrialView& at) { return at.outcome.discarded ? 1.0 : 0.0; });
-    integers_of_trials("reason", "0: held, 1: overlap, 2: buried, 3: diverged, 4: release, 5: turned, 6: moved, 7: earlier",
-                       [](const TrialView& at) { return static_cast<double>(static_cast<int>(at.outcome.reason)); });
+    integers_of_trials("held", "whether the vessel was held; never of a discarded trial",
+                       [](const TrialView& at) { return at.outcome.held ? 1.0 : 0.0; }, {{"not_held", "held"}});
+    integers_of_trials("discarded", "whether the trial was discarded",
+                       [](const TrialView& at) { return at.outcome.discarded ? 1.0 : 0.0; }, {{"not_discarded", "discarded"}});
+    std::vector<std::string> reasons(TRIAL_REASON_NAMES.begin(), TRIAL_REASON_NAMES.end());
+    reasons[static_cast<std::size_t>(TrialReason::none)] = "held";  // the table leaves its cell empty
+    integers_of_trials("reason", "why the trial was discarded, or the vessel lost",
+                       [](const TrialView& at) { return static_cast<double>(static_cast<int>(at.outcome.reason)); }, {reasons});
     of_trials("slip", "m", "largest way of a contact on the vessel",
               [=](const TrialView& at) { return when_run(at, at.outcome.slip); });
-    integers_of_trials("slipped", "1: a contact slid farther than slip_m, 0: none did, -1: discarded", [&](const TrialView& at) {
-      return at.outcome.discarded ? -1.0 : has_slipped(at.outcome, settings) ? 1.0 : 0.0;
-    });
+    integers_of_trials("slipped", "whether a contact slid farther than slip_m; not of a discarded trial",
+                       [&](const TrialView& at) {
+                         return at.outcome.discarded ? MISSING : has_slipped(at.outcome, settings) ? 1.0 : 0.0;
+                       },
+                       {{"not_slipped", "slipped"}, true});
     of_trials("move", "m", "largest way of the vessel in the hand",
               [=](const TrialView& at) { return when_run(at, at.outcome.move); });
     of_trials("turn", "rad", "largest turn of the vessel in the hand",
@@ -190,6 +203,10 @@ class Dataset {
               [=](const TrialView& at) { return when_lost(at, at.outcome.when); });
     of_trials("tilt_lost", "rad", "tilt at the loss; of fill-tilt",
               [=](const TrialView& at) { return at.is_push() ? ABSENT : when_lost(at, at.outcome.tilt_lost); });
+    std::vector<std::string> details;
+    for (const GripFinding& found : tried_.found)
+      for (const TrialOutcome& outcome : found.outcomes) details.push_back(outcome.detail);
+    file_.strings("detail", {"trial"}, "what the engine said of a trial that it could not compute", details);
   }
 
   ResultDefinition file_;
@@ -198,14 +215,24 @@ class Dataset {
 
 }  // namespace
 
+// As `Dataset` defines them; a test holds it to the files themselves.
 std::uint64_t trials_dataset_room(const Scene& scene, const TriedGrips& tried) {
-  constexpr std::uint64_t VALUES = 32, WIDTH = 8;  // of a trial, and of a grip with its terms: more than there are
-  constexpr std::uint64_t VARIABLES = 48, HEAD = 4096;
-  std::uint64_t rows = tried.grips.size();
-  for (std::size_t g = 0; g < tried.grips.size(); ++g) rows += tried.cases_of(g).size();
-  std::uint64_t names = 0;
-  for (const VesselData& vessel : scene.vessels) names += vessel.name.size() + 64;
-  return VARIABLES * HEAD + rows * VALUES * WIDTH + names + scene.text.size() + scene.name.size();
+  constexpr std::uint64_t OF_GRIP = 21 * sizeof(double) + 2 * sizeof(int), OF_TRIAL = 11 * sizeof(double) + 8 * sizeof(int);
+  constexpr std::uint64_t VARIABLES = 40, HEAD = 1000;   // of each, with its attributes
+  constexpr std::uint64_t REFERENCE = 16, IN_HEAP = 24;  // of a string, beside its text
+  constexpr std::uint64_t LARGEST_IN_HEAD = 1 << 16;
+  std::uint64_t trials = 0, heap = 4096;
+  const auto add_text = [&heap](const std::string& text) { heap += IN_HEAP + (text.size() + 7) / 8 * 8; };
+  for (std::size_t g = 0; g < tried.grips.size(); ++g) {
+    trials += tried.cases_of(g).size();
+    for (const TrialOutcome& outcome : tried.found[g].outcomes) add_text(outcome.detail);
+  }
+  for (const VesselData& vessel : scene.vessels) add_text(vessel.name);
+  heap += heap / 8;  // its blocks are not quite full
+  // a long attribute moves as it grows, and HDF5 leaves its first place empty; the longest have a place of their own
+  const std::uint64_t text = scene.text.size() * (scene.text.size() < LARGEST_IN_HEAD ? 2 : 1) + scene.name.size();
+  return VARIABLES * HEAD + tried.grips.size() * OF_GRIP + trials * (OF_TRIAL + REFERENCE) + scene.vessels.size() * REFERENCE +
+         heap + text;
 }
 
 void write_trials_dataset(const std::string& path, const Scene& scene, const TrialOptions& options, const TriedGrips& tried,

@@ -15,7 +15,7 @@ struct TrialOrigin {
   std::string engine, identity;
 };
 
-// No file of these trials is larger, bytes.
+// No file of these trials is larger, and none is much smaller, bytes.
 std::uint64_t trials_dataset_room(const Scene& scene, const TriedGrips& tried);
 
 // Writes the file, under another name first and after it has been seen that the disk has the room. Dimensions `vessel`, `grip` and

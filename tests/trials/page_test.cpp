@@ -3,10 +3,15 @@
 #include <gtest/gtest.h>
 #include <netcdf.h>
 
+#include <algorithm>
+#include <array>
+#include <sstream>
+#include <string>
 #include <vector>
 
 #include "recordings/recording.h"
 #include "scene/reader.h"
+#include "system/csv.h"
 #include "tests/support/fake_trials.h"
 #include "tests/support/files.h"
 #include "tests/support/xml.h"
@@ -106,43 +111,116 @@ TEST_F(TrialsPage, DatasetHasWhatTheTableHas) {
   EXPECT_EQ(nc_inq_attlen(file, id, "long_name", &length), NC_NOERR);
   EXPECT_EQ(nc_inq_attlen(file, id, "units", &length), NC_NOERR);
   EXPECT_EQ(nc_inq_attlen(file, id, "_FillValue", &length), NC_NOERR);
+  ASSERT_EQ(nc_inq_varid(file, "slipped", &id), NC_NOERR);
+  std::vector<int> slipped(trials);
+  nc_get_var_int(file, id, slipped.data());
+  int missing = 0;
+  EXPECT_EQ(nc_get_att_int(file, id, "_FillValue", &missing), NC_NOERR);
+  const auto strings_of = [&](const char* name) {
+    EXPECT_EQ(nc_inq_varid(file, name, &id), NC_NOERR) << name;
+    std::vector<char*> read(trials);
+    nc_get_var_string(file, id, read.data());
+    const std::vector<std::string> strings(read.begin(), read.end());
+    nc_free_string(trials, read.data());
+    return strings;
+  };
+  const std::vector<std::string> details = strings_of("detail");
   for (const char* name : {"scene", "version", "engine", "seed"})
     EXPECT_EQ(nc_inq_attlen(file, NC_GLOBAL, name, &length), NC_NOERR) << name;
   nc_close(file);
-  std::istringstream rows(table);
-  std::string row;
-  std::getline(rows, row);
-  for (std::size_t k = 0; k < trials && std::getline(rows, row); ++k) {
-    std::vector<std::string> cells;
-    std::istringstream all(row);
-    for (std::string cell; std::getline(all, cell, ',');) cells.push_back(cell);
+  const std::vector<CsvRow> rows = parse_csv(table);
+  ASSERT_EQ(rows.size(), trials + 1);
+  EXPECT_EQ(rows[0].cells.back(), "detail");
+  for (std::size_t k = 0; k < trials; ++k) {
+    const std::vector<std::string>& cells = rows[k + 1].cells;
     EXPECT_EQ(std::stoi(cells[9]), held[k]) << k;
     EXPECT_EQ(std::stod(cells[5]), effort[k]) << k;
   }
 }
 
-// As a check of the room is only worth something if the file is never larger.
-TEST(TrialDataset, RoomIsEnough) {
+// Every code of an integer says what it means, in the file and in the page about it.
+TEST_F(TrialsPage, DatasetExplainsItsCodes) {
+  int file = -1, id = -1;
+  ASSERT_EQ(nc_open((*folder / "trials/trials.nc").c_str(), NC_NOWRITE, &file), NC_NOERR);
+  const auto meanings_of = [&](const char* name) {
+    EXPECT_EQ(nc_inq_varid(file, name, &id), NC_NOERR) << name;
+    std::size_t count = 0, length = 0;
+    EXPECT_EQ(nc_inq_attlen(file, id, "flag_values", &count), NC_NOERR) << name;
+    std::vector<int> values(count);
+    nc_get_att_int(file, id, "flag_values", values.data());
+    for (std::size_t k = 0; k < count; ++k) EXPECT_EQ(values[k], static_cast<int>(k)) << name;
+    EXPECT_EQ(nc_inq_attlen(file, id, "flag_meanings", &length), NC_NOERR) << name;
+    std::string meanings(length, ' ');
+    nc_get_att_text(file, id, "flag_meanings", meanings.data());
+    EXPECT_EQ(count_of(meanings, " ") + 1, static_cast<int>(count)) << name << ": " << meanings;
+    return meanings;
+  };
+  EXPECT_EQ(meanings_of("grip_sample"), "best stratified");
+  EXPECT_EQ(meanings_of("protocol"), "fill-tilt six-forces");
+  EXPECT_EQ(meanings_of("direction"), "+x -x +y -y +z -z");
+  EXPECT_EQ(meanings_of("material"), "scene DexGraspBench");
+  EXPECT_EQ(meanings_of("held"), "not_held held");
+  EXPECT_EQ(meanings_of("discarded"), "not_discarded discarded");
+  EXPECT_EQ(meanings_of("reason"), "held overlap buried diverged release turned moved earlier");
+  EXPECT_EQ(meanings_of("slipped"), "not_slipped slipped");
+  int missing = 0;
+  for (const char* name : {"direction", "material", "slipped"}) {
+    nc_inq_varid(file, name, &id);
+    EXPECT_EQ(nc_get_att_int(file, id, "_FillValue", &missing), NC_NOERR) << name;
+    EXPECT_EQ(missing, -1) << name;
+  }
+  nc_close(file);
+}
+
+// docs/trials.md has a line for each column of the table and each variable of the dataset.
+TEST_F(TrialsPage, ColumnsAndVariablesAreInTheDocumentation) {
+  const std::string docs = file_text(WHOLEHAND_SOURCE_DIR "/docs/trials.md");
+  const std::string table = file_text(*folder / "trials/trials.csv");
+  std::istringstream columns(table.substr(0, table.find('\n')));
+  for (std::string column; std::getline(columns, column, ',');)
+    EXPECT_TRUE(has(docs, "\n| `" + column + "` |") || has(docs, ", `" + column + "`")) << column;
+  int file = -1, variables = 0;
+  ASSERT_EQ(nc_open((*folder / "trials/trials.nc").c_str(), NC_NOWRITE, &file), NC_NOERR);
+  nc_inq_nvars(file, &variables);
+  EXPECT_GT(variables, 30);
+  for (int k = 0; k < variables; ++k) {
+    std::array<char, NC_MAX_NAME + 1> name{};
+    nc_inq_varname(file, k, name.data());
+    EXPECT_TRUE(has(docs, std::string("`") + name.data() + "`")) << name.data();
+  }
+  nc_close(file);
+}
+
+// As a check of the room is only worth something if the file is never larger; and a disk with room for it is not refused.
+TEST(TrialDataset, RoomIsEnoughAndNotMuchMore) {
   const TemporaryFolder folder;
   Scene scene = scene_for_trials();
   TriedGrips tried;
   tried.cases.resize(scene.vessels.size());
-  const auto expect_room = [&](std::size_t grips, std::size_t cases) {
+  const auto expect_room = [&](std::size_t grips, std::size_t cases, const std::string& detail = "") {
     tried.cases[0].resize(cases);
     tried.grips.assign(grips, {});
     GripFinding found;
     found.prediction.cases.resize(cases);
     found.outcomes.resize(cases);
+    for (TrialOutcome& outcome : found.outcomes) outcome.detail = detail;
     tried.found.assign(grips, found);
     const std::string path = folder / std::to_string(grips * cases) + ".nc";
     write_trials_dataset(path, scene, {}, tried, {"stand-in 1", std::string(32, 'a')});
-    EXPECT_LT(std::filesystem::file_size(path), trials_dataset_room(scene, tried)) << grips << " x " << cases;
+    const auto size = static_cast<double>(std::filesystem::file_size(path));
+    const auto room = static_cast<double>(trials_dataset_room(scene, tried));
+    EXPECT_LE(size, room) << grips << " x " << cases << ", " << detail.size() << ", " << scene.text.size();
+    EXPECT_LT(room, 1.4 * size) << grips << " x " << cases << ", " << detail.size() << ", " << scene.text.size();
+    std::filesystem::remove(path);
   };
   expect_room(1, 1);
   expect_room(3000, 1);
   expect_room(100, 60);
-  scene.text = std::string(1'000'000, '#');
-  expect_room(2, 2);
+  for (const std::size_t length : {1, 80, 2'000, 30'000}) expect_room(100, 8, std::string(length, 'a'));
+  for (const std::size_t length : {2'000, 5'000, 30'000, 65'000, 70'000, 1'000'000}) {
+    scene.text = std::string(length, '#');
+    expect_room(2, 2);
+  }
 }
 
 TEST(TrialDisagreements, OneRunGoesUpToTheTilt) {
