@@ -8,6 +8,7 @@
 
 #include "charts/markup.h"
 #include "core/planes.h"
+#include "system/readable.h"
 #include "trials/cases.h"
 #include "trials/output.h"
 
@@ -256,7 +257,8 @@ std::vector<TrialBar> bars_of(const Scene& scene, const TriedGrips& tried, const
       if (!(row.group == JUDGED) || row.predictor != predictor) continue;
       bar.found = row.auc.auc;
       bar.interval = row.auc.interval;
-      bar.how = fmt::format("{} grips held everywhere, {} did not", row.auc.successes, row.auc.failures);
+      bar.how = fmt::format("{} held everywhere, {} did not", counted(row.auc.successes, "grip"), row.auc.failures);
+      bar.is_judged = std::min(row.auc.successes, row.auc.failures) >= LEAST_JUDGED;
     }
     bars.push_back(bar);
   };
@@ -267,8 +269,9 @@ std::vector<TrialBar> bars_of(const Scene& scene, const TriedGrips& tried, const
     if (share.of + discarded + without == 0) continue;
     bars.push_back({fmt::format("best grips of {} that hold wherever effort is at most {}", scene.vessels[v].name, SURE_EFFORT),
                     WANTED_HELD, share.share, share.interval,
-                    fmt::format("{} of {} grips; left out: {} with a discarded trial, {} without such an effort", share.yes,
-                                share.of, discarded, without)});
+                    fmt::format("{} of {}; left out: {} with a discarded trial, {} without such an effort", share.yes,
+                                counted(share.of, "grip"), discarded, without),
+                    share.of >= LEAST_JUDGED});
   }
   return bars;
 }
@@ -332,6 +335,12 @@ TrialAnalysis analyse_trials(const Scene& scene, const TriedGrips& tried, const 
   if (options.fill_tilt) analysis.bars = bars_of(scene, tried, analysis);
   analysis.disagreements = find_disagreements(tried);
   return analysis;
+}
+
+const char* TrialBar::verdict() const {
+  if (std::isnan(found)) return "not measured";
+  if (!is_judged) return "too few to judge";
+  return found >= wanted ? "met" : "missed";
 }
 
 std::string group_text(const TrialGroup& group, const TrialSettings& settings) {

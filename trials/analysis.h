@@ -97,13 +97,17 @@ struct GroupEfforts {
   std::size_t earlier = 0, discarded = 0;  // trials that are not in them
 };
 
-// A bar of the task: met, missed, or not measured for want of grips.
+// Of fewer a bar is not judged, as its interval would say too little: where 10 of 10 hold, it may be 72 % in truth.
+constexpr std::size_t LEAST_JUDGED = 10;  // successes, and as many failures, of an AUC; grips of a share
+
+// A bar of the task.
 struct TrialBar {
   std::string what;
   double wanted = 0, found = 0;  // NaN: not measured
   Interval interval;
-  std::string how;  // of what
-  bool is_met() const { return found >= wanted; }
+  std::string how;              // of what
+  bool is_judged = false;       // of at least LEAST_JUDGED
+  const char* verdict() const;  // "met", "missed", "too few to judge", or "not measured" for want of grips
 };
 
 struct TrialAnalysis {

@@ -22,6 +22,18 @@ constexpr std::pair<const char*, const char*> CONTENTS[] = {{"bars", "The bars"}
                                                             {"disagreements", "Where effort and engine disagree"},
                                                             {"words", "The words"}};
 
+// In a narrow window, and on paper, words and intervals wrap, so that a bar's outcome stands in sight. What is wider still scrolls in
+// its own box.
+constexpr const char* TRIALS_RULES = R"css(
+@media (max-width: 60rem), print {
+  tbody th, tbody td { white-space: normal; }
+  th, td { padding: 0.22rem 0.35rem; vertical-align: top; }
+  tbody th { min-width: 6rem; }
+  td.word { min-width: 5rem; }
+  td.word:last-child { min-width: 12rem; }
+}
+)css";
+
 std::string title_of_trials(const Scene& scene) {
   return scene.name.empty() ? "Do the grips hold?" : fmt::format("Do the grips of {} hold?", scene.name);
 }
@@ -35,7 +47,7 @@ void write_trials_head(MarkupWriter& html, const TrialPageSource& source) {
   html.empty("meta", {{"name", "generator"}, {"content", "wholehand"}});
   html.empty("meta", {{"name", "color-scheme"}, {"content", "light dark"}});
   html.element("title", title_of_trials(source.scene));
-  html.open("style").markup(REPORT_STYLE).markup(CHART_RULES).markup(LINE_RULES).close();
+  html.open("style").markup(REPORT_STYLE).markup(CHART_RULES).markup(LINE_RULES).markup(TRIALS_RULES).close();
   html.close();
 }
 

@@ -206,11 +206,13 @@ void write_disagreement(MarkupWriter& html, const TrialPageSource& source, const
   html.close();
 }
 
-// A figure of charts side by side, with one caption.
-void write_charts(MarkupWriter& html, const std::string& caption, const std::function<void()>& draw) {
-  html.open("figure").open("div", {{"class", "charts"}});
-  draw();
-  html.close().element("figcaption", caption).close();
+// A figure of charts side by side, with one caption; nothing where nothing can be drawn, of too few grips or states.
+void write_charts(MarkupWriter& html, const std::string& caption, const std::function<void(MarkupWriter& charts)>& draw) {
+  MarkupWriter charts;
+  draw(charts);
+  if (charts.written().empty()) return;
+  html.open("figure").open("div", {{"class", "charts"}}).markup(charts.written()).close();
+  html.element("figcaption", caption).close();
 }
 
 }  // namespace
@@ -222,8 +224,8 @@ void write_success_charts(MarkupWriter& html, const TrialPageSource& source) {
   if (group == groups.end()) return;
   const std::string caption = fmt::format("Share of the trials that held over the tilt, a line for each fill: {}.",
                                           group_text(*group, source.options.settings));
-  write_charts(html, caption, [&] {
-    for (std::size_t v = 0; v < source.scene.vessels.size(); ++v) write_success_over_tilt(html, source, *group, v);
+  write_charts(html, caption, [&](MarkupWriter& charts) {
+    for (std::size_t v = 0; v < source.scene.vessels.size(); ++v) write_success_over_tilt(charts, source, *group, v);
   });
 }
 
@@ -241,9 +243,9 @@ void write_trial_predictors(MarkupWriter& html, const TrialPageSource& source) {
     const std::string caption =
         fmt::format("ROC curves of the grips of the {}. The nearer a curve to the upper left corner, the better.",
                     group_text(group, source.options.settings));
-    write_charts(html, caption, [&] {
-      write_roc(html, source, group, "By efforts and forces", {BY_WORST_EFFORT, BY_TIPS_EFFORT, BY_PUSH, BY_FRICTION_NEEDED});
-      write_roc(html, source, group, "By scores and epsilon", {BY_SCORE, BY_SCORE_0_1, BY_EPSILON});
+    write_charts(html, caption, [&](MarkupWriter& charts) {
+      write_roc(charts, source, group, "By efforts and forces", {BY_WORST_EFFORT, BY_TIPS_EFFORT, BY_PUSH, BY_FRICTION_NEEDED});
+      write_roc(charts, source, group, "By scores and epsilon", {BY_SCORE, BY_SCORE_0_1, BY_EPSILON});
     });
   }
   for (const TrialGroup& group : source.analysis.groups) write_auc_table(html, source, group);
@@ -260,9 +262,9 @@ void write_trial_efforts(MarkupWriter& html, const TrialPageSource& source) {
   const char* caption =
       "Share of the trials that held, over their effort, with Wilson's intervals of 95 %. Efforts of 4 and more are in the tables "
       "alone.";
-  write_charts(html, caption, [&] {
+  write_charts(html, caption, [&](MarkupWriter& charts) {
     for (std::size_t k = 0; k < source.analysis.efforts.size(); ++k)
-      write_calibration(html, source.analysis.efforts[k], group_text(source.analysis.efforts[k].group, source.options.settings),
+      write_calibration(charts, source.analysis.efforts[k], group_text(source.analysis.efforts[k].group, source.options.settings),
                         k + 1);
   });
   write_effort_tables(html, source);

@@ -124,19 +124,19 @@ void write_trial_bars(MarkupWriter& html, const TrialPageSource& source) {
     html.element("p", "The bars are about the protocol fill-tilt, which was not asked for.").close();
     return;
   }
-  HtmlTable table(html, "What the trials are to show", {"bar", "at least", "found", "interval of 95 %", "outcome", "by"}, {4, 5});
+  HtmlTable table(html, "What the trials are to show", {"bar", "outcome", "at least", "found", "interval of 95 %", "by"}, {1, 5});
   for (const TrialBar& bar : source.analysis.bars) {
     const bool is_known = !std::isnan(bar.found);
-    table.row({bar.what, shown_number(bar.wanted, 2), is_known ? shown_number(bar.found, 3) : "\u2013",
+    table.row({bar.what, bar.verdict(), shown_number(bar.wanted, 2), is_known ? shown_number(bar.found, 3) : "\u2013",
                is_known && !std::isnan(bar.interval.low)
                    ? fmt::format("{} to {}", shown_number(bar.interval.low, 3), shown_number(bar.interval.high, 3))
                    : "\u2013",
-               !is_known      ? "not measured"
-               : bar.is_met() ? "met"
-                              : "missed",
                bar.how});
   }
   table.end();
+  html.element("p", fmt::format("An AUC of fewer than {0} grips that hold everywhere, or fewer than {0} that do not, is too few to "
+                                "judge. So is a share of fewer than {0} grips.",
+                                LEAST_JUDGED));
   html.close();
 }
 

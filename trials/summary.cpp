@@ -73,10 +73,10 @@ std::string trials_summary(const Scene& scene, const TrialOptions& options, cons
       text += fmt::format("  without the discarded grips they change it by {}\n", plain_interval(tried.difference, tried.interval));
   }
   for (const TrialBar& bar : analysis.bars) {
-    const std::string found = std::isnan(bar.found)
-                                  ? "not measured"
-                                  : fmt::format("{}, at least {:.2f} wanted: {}", plain_interval(bar.found, bar.interval),
-                                                bar.wanted, bar.is_met() ? "met" : "missed");
+    const std::string found =
+        std::isnan(bar.found)
+            ? bar.verdict()
+            : fmt::format("{}, at least {:.2f} wanted: {}", plain_interval(bar.found, bar.interval), bar.wanted, bar.verdict());
     text += fmt::format("{}: {} ({})\n", bar.what, found, bar.how);
   }
   return text;

@@ -139,11 +139,11 @@ TEST(TrialAnalysis, BarsOfTheBestGrips) {
   const TrialBar& bar = found.bars.back();
   EXPECT_DOUBLE_EQ(bar.found, 0.95) << "of 20: the one without a sure trial shows nothing";
   EXPECT_EQ(bar.how, "19 of 20 grips; left out: 1 with a discarded trial, 1 without such an effort");
-  EXPECT_TRUE(bar.is_met());
-  EXPECT_FALSE(found.bars[0].is_met()) << "no stratified sample";
+  EXPECT_STREQ(bar.verdict(), "met");
+  EXPECT_STREQ(found.bars[0].verdict(), "not measured") << "no stratified sample";
   EXPECT_TRUE(std::isnan(found.bars[0].found));
   made.add({0.1, 0.4}, {true, false}, TrialSample::best);
-  EXPECT_FALSE(analyse_trials(made.scene, made.tried, made.options).bars.back().is_met());
+  EXPECT_STREQ(analyse_trials(made.scene, made.tried, made.options).bars.back().verdict(), "missed");
 }
 
 TEST(TrialAnalysis, ABarThatNoGripCanShowIsNotMet) {
@@ -151,7 +151,27 @@ TEST(TrialAnalysis, ABarThatNoGripCanShowIsNotMet) {
   made.add({0.7, 0.9}, {true, true}, TrialSample::best);
   const TrialAnalysis found = analyse_trials(made.scene, made.tried, made.options);
   EXPECT_TRUE(std::isnan(found.bars.back().found));
-  EXPECT_FALSE(found.bars.back().is_met());
+  EXPECT_STREQ(found.bars.back().verdict(), "not measured");
+}
+
+// A bar is judged from ten grips on, and an AUC from ten of either kind on.
+TEST(TrialAnalysis, BarsOfTooFewGripsAreNotJudged) {
+  Made made;
+  const auto verdict = [&made](std::size_t bar) {
+    const TrialAnalysis found = analyse_trials(made.scene, made.tried, made.options);
+    return std::string(bar < found.bars.size() ? found.bars[bar].verdict() : found.bars.back().verdict());
+  };
+  constexpr std::size_t LAST = 99;
+  for (int k = 0; k < 9; ++k) made.add({0.1, 0.2}, {true, true}, TrialSample::best);
+  EXPECT_EQ(verdict(LAST), "too few to judge");
+  made.add({0.1, 0.2}, {true, true}, TrialSample::best);
+  EXPECT_EQ(verdict(LAST), "met");
+  for (int k = 0; k < 20; ++k) made.add({0.1, 0.2}, {true, true});
+  for (int k = 0; k < 9; ++k) made.add({0.1, 3}, {true, false});
+  EXPECT_EQ(verdict(0), "too few to judge");
+  made.add({0.1, 3}, {true, false});
+  EXPECT_EQ(verdict(0), "met");
+  EXPECT_EQ(verdict(1), "met");
 }
 
 // The engine's slip against the settings', of held trials alone.

@@ -69,7 +69,7 @@ TEST_F(TrialsPage, TellsSamplesAndProtocolsApart) {
   const std::size_t bar = page.find("<th scope=\"row\">AUC of the worst effort");
   ASSERT_NE(bar, std::string::npos);
   const std::string row = page.substr(bar, page.find("</tr>", bar) - bar);
-  const std::size_t verdict = std::min(row.find(">met<"), row.find(">missed<"));
+  const std::size_t verdict = std::min({row.find(">met<"), row.find(">missed<"), row.find(">too few to judge<")});
   EXPECT_LT(verdict, row.find("did not</td>")) << row;
   EXPECT_TRUE(has(printed, "AUC of the worst effort")) << printed;
   EXPECT_TRUE(has(
@@ -77,6 +77,24 @@ TEST_F(TrialsPage, TellsSamplesAndProtocolsApart) {
       << printed;
   EXPECT_TRUE(has(printed, "weights fitted to half of the grips change the AUC")) << printed;
   EXPECT_TRUE(has(printed, "recordings of disagreements")) << printed;
+}
+
+// One grip at one state shows no curve: neither a frame nor a caption is left of what cannot be drawn.
+TEST(TrialsPageOfOneGrip, HasNoCaptionWithoutAChart) {
+  const TemporaryFolder folder;
+  TrialOptions options = few_trials(folder / "trials");
+  options.grips = 1;
+  options.best = 0;
+  options.vessel = 0;
+  options.fills = {1};
+  options.tilts = {0};
+  testing::internal::CaptureStdout();
+  run_trials(scene_for_trials(), options, open_fake_engine());
+  const std::string printed = testing::internal::GetCapturedStdout(), page = file_text(folder / "trials/trials.html");
+  EXPECT_FALSE(has(page, "class=\"charts\""));
+  EXPECT_FALSE(has(page, "<figcaption>Share of"));
+  EXPECT_FALSE(has(page, "<figcaption>ROC"));
+  EXPECT_TRUE(has(page, "not measured"));
 }
 
 // Every recording that the page links to is one that `wholehand view` reads.
@@ -135,6 +153,8 @@ TEST_F(TrialsPage, DatasetHasWhatTheTableHas) {
     const std::vector<std::string>& cells = rows[k + 1].cells;
     EXPECT_EQ(std::stoi(cells[9]), held[k]) << k;
     EXPECT_EQ(std::stod(cells[5]), effort[k]) << k;
+    EXPECT_EQ(cells[12] == "1", slipped[k] == missing) << k << ": only a discarded trial has none";
+    EXPECT_EQ(cells.back(), details[k]) << k;
   }
 }
 
