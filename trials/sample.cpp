@@ -138,6 +138,39 @@ std::vector<Candidate> eligible_in_result(const SweepResult& result, const Plan&
   return eligible;
 }
 
+PartedByDepth parted_by_depth(const Scene& scene, const Plan& plan, std::shared_ptr<const Evaluator> core, std::size_t vessel,
+                              const std::vector<Candidate>& eligible, const TrialOptions& options, const std::atomic<bool>& stop) {
+  if (eligible.empty()) return {};
+  CoreBackend backend(std::move(core), scene, make_field_set({FIELD_PHALANX_DEPTH, FIELD_PALM_DEPTH}, scene), Precision::full,
+                      options.threads);
+  const int phalanges = backend.fields().plane[FIELD_PHALANX_DEPTH], palm = backend.fields().plane[FIELD_PALM_DEPTH];
+  PartedByDepth parts;
+  RunRequest request;
+  request.vessel = vessel;
+  request.last = eligible.size();
+  request.stop = &stop;
+  request.grips = [&](std::size_t v, std::uint64_t first, std::size_t count, GripInput* out) {
+    for (std::size_t k = 0; k < count; ++k) out[k] = plan.grip(v, eligible[static_cast<std::size_t>(first) + k].index);
+  };
+  request.sink = [&](const PlaneChunk& chunk) {
+    for (std::size_t k = 0; k < chunk.count; ++k) {
+      const bool is_deep = std::max(chunk.real(phalanges, k), chunk.real(palm, k)) > options.settings.start_overlap;
+      (is_deep ? parts.deep : parts.usual).push_back(eligible[static_cast<std::size_t>(chunk.first) + k]);
+    }
+  };
+  backend.run(request);
+  return parts;
+}
+
+std::vector<Candidate> sample_of_parts(const PartedByDepth& parts, std::size_t count, std::size_t vessel, std::uint64_t seed) {
+  const std::size_t missing = count - std::min(count, parts.usual.size());
+  std::vector<Candidate> chosen = stratified_sample(parts.deep, std::max(count / DEEP_ONE_OF, missing), vessel, seed);
+  const std::vector<Candidate> usual = stratified_sample(parts.usual, count - chosen.size(), vessel, seed);
+  chosen.insert(chosen.end(), usual.begin(), usual.end());
+  std::sort(chosen.begin(), chosen.end(), [](const Candidate& a, const Candidate& b) { return a.index < b.index; });
+  return chosen;
+}
+
 std::vector<Candidate> best_different(const Scene& scene, const Plan& plan, const Evaluator& core, std::size_t vessel,
                                       const std::vector<Candidate>& eligible, const TrialOptions& options) {
   const double apart = scene.output.apart;
@@ -177,7 +210,8 @@ std::vector<TrialGrip> choose_trial_grips(const GripSourceOfTrials& source, cons
       return std::any_of(best.begin(), best.end(), [&](const Candidate& listed) { return listed.index == one.index; });
     });
     const std::size_t share = options.grips / vessels.size() + (k < options.grips % vessels.size() ? 1 : 0);
-    for (const Candidate& one : stratified_sample(eligible, share, v, options.seed)) add(one, TrialSample::stratified);
+    const PartedByDepth parts = parted_by_depth(source.scene, source.plan, source.core, v, eligible, options, stop);
+    for (const Candidate& one : sample_of_parts(parts, share, v, options.seed)) add(one, TrialSample::stratified);
   }
   if (stop) return {};
   const std::size_t impossible = source.result ? remove_impossible(*source.core, grips) : 0;

@@ -46,6 +46,20 @@ std::vector<Candidate> eligible_by_core(const Scene& scene, const Plan& plan, st
 std::vector<Candidate> eligible_in_result(const SweepResult& result, const Plan& plan, std::size_t vessel,
                                           const TrialOptions& options);
 
+// Of a stratified sample, as many grips begin too deep in the vessel to be tried.
+constexpr std::size_t DEEP_ONE_OF = 5;
+
+// Eligible grips of a vessel, told apart by how deep in it they begin by the core.
+struct PartedByDepth {
+  std::vector<Candidate> usual, deep;  // deep: by more than the overlap at which a trial is discarded
+};
+PartedByDepth parted_by_depth(const Scene& scene, const Plan& plan, std::shared_ptr<const Evaluator> core, std::size_t vessel,
+                              const std::vector<Candidate>& eligible, const TrialOptions& options, const std::atomic<bool>& stop);
+
+// A stratified sample of each part: one of DEEP_ONE_OF grips is a deep one, and more only where there are too few usual ones. So
+// the share of discarded grips does not hang on how much the score gives for depth.
+std::vector<Candidate> sample_of_parts(const PartedByDepth& parts, std::size_t count, std::size_t vessel, std::uint64_t seed);
+
 // The best different ones of eligible grips, as a sweep lists them, of all hand scales.
 std::vector<Candidate> best_different(const Scene& scene, const Plan& plan, const Evaluator& core, std::size_t vessel,
                                       const std::vector<Candidate>& eligible, const TrialOptions& options);

@@ -125,6 +125,53 @@ TEST(TrialSample, BestAndSampleAreToldApart) {
   for (const TrialGrip& grip : choose_trial_grips({scene, plan, core}, options, stop)) EXPECT_EQ(grip.vessel, 1u);
 }
 
+std::vector<Candidate> numbered(std::uint64_t first, std::uint64_t last) {
+  std::vector<Candidate> grips;
+  for (std::uint64_t k = first; k < last; ++k) grips.push_back({0.1 + 0.8 * static_cast<double>(k - first) / 100, k});
+  return grips;
+}
+
+std::size_t deep_ones(const std::vector<Candidate>& chosen) {
+  return static_cast<std::size_t>(
+      std::count_if(chosen.begin(), chosen.end(), [](const Candidate& one) { return one.index >= 1000; }));
+}
+
+TEST(TrialSample, OneOfFiveBeginsTooDeep) {
+  const auto parts = [](std::uint64_t usual, std::uint64_t deep) {
+    return PartedByDepth{numbered(0, usual), numbered(1000, 1000 + deep)};
+  };
+  const auto chosen = sample_of_parts(parts(100, 100), 50, 0, 1);
+  EXPECT_EQ(chosen.size(), 50u);
+  EXPECT_EQ(deep_ones(chosen), 10u);
+  EXPECT_TRUE(
+      std::is_sorted(chosen.begin(), chosen.end(), [](const Candidate& a, const Candidate& b) { return a.index < b.index; }));
+  EXPECT_EQ(deep_ones(sample_of_parts(parts(20, 100), 50, 0, 1)), 30u) << "there are too few others";
+  EXPECT_EQ(deep_ones(sample_of_parts(parts(100, 4), 50, 0, 1)), 4u);
+  EXPECT_EQ(sample_of_parts(parts(100, 4), 50, 0, 1).size(), 50u);
+  EXPECT_EQ(sample_of_parts(parts(10, 4), 50, 0, 1).size(), 14u) << "all there are";
+  EXPECT_EQ(sample_of_parts(parts(0, 0), 50, 0, 1).size(), 0u);
+}
+
+TEST(TrialSample, DeepGripsAreThoseTheCoreFindsDeep) {
+  const Scene scene = few_grips();
+  const Plan plan(scene, false);
+  const std::shared_ptr<const Evaluator> core = make_core_evaluator(scene);
+  const std::atomic<bool> stop = false;
+  const TrialOptions options;
+  const auto eligible = eligible_by_core(scene, plan, core, 0, options, stop);
+  const PartedByDepth parts = parted_by_depth(scene, plan, core, 0, eligible, options, stop);
+  EXPECT_EQ(parts.usual.size() + parts.deep.size(), eligible.size());
+  EXPECT_GT(parts.usual.size(), 3u);
+  EXPECT_GT(parts.deep.size(), 3u);
+  const auto depth = [&](const Candidate& one) {
+    GripResult found;
+    core->grip(0, plan.grip(0, one.index), found);
+    return std::max(found.phalanx_depth, found.palm_depth);
+  };
+  for (const Candidate& one : parts.usual) EXPECT_LE(depth(one), options.settings.start_overlap);
+  for (const Candidate& one : parts.deep) EXPECT_GT(depth(one), options.settings.start_overlap);
+}
+
 TEST(TrialSample, NoFeasibleGripIsRefused) {
   Scene scene = few_grips();
   scene.hand.depth_limit = 0;
