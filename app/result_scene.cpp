@@ -8,11 +8,21 @@
 
 namespace wholehand {
 
+namespace {
+
+// Of the version that wrote a result. Those before 0.1 are not to be had.
+ScoreWeights default_weights_of(const std::string& version) {
+  const auto is_of = [&](const char* minor) { return version.rfind(minor, 0) == 0; };
+  return is_of("0.1.") ? WEIGHTS_0_1 : is_of("0.2.") ? WEIGHTS_0_2 : ScoreWeights{};
+}
+
+}  // namespace
+
 bool is_result(const std::string& path) { return begins_with(path, NETCDF4_START); }
 
 Scene scene_of_result(const SweepResult& result, std::string& trouble) {
   const SweepOrigin& origin = result.origin();
-  Scene scene = parse_scene(origin.scene, result.path() + " (its scene)");
+  Scene scene = parse_scene(origin.scene, result.path() + " (its scene)", default_weights_of(origin.version));
   trouble = reload_meshes(scene, origin.scene_file, origin.mesh_keys, origin.mesh_lattices);
   return scene;
 }

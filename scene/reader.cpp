@@ -67,7 +67,7 @@ void read_scene(const SceneTable& root, Scene& scene) {
 
 }  // namespace
 
-Scene parse_scene(std::string_view text, const std::string& name) {
+Scene parse_scene(std::string_view text, const std::string& name, const ScoreWeights& unnamed) {
   const SceneFile file(name);
   if (text.size() > ranges::LARGEST_FILE) {
     file.refuse({}, fmt::format("more than {} bytes", ranges::LARGEST_FILE), "allowed: a scene of at most 1 MiB");
@@ -81,6 +81,7 @@ Scene parse_scene(std::string_view text, const std::string& name) {
   const SceneTable root(file, table, "the scene",
                         {"scene", "hand", "vessel", "liquid", "force", "strength", "grips", "tilts", "score", "output", "table",
                          "robust", "live", "device", "task"});
+  scene.score = unnamed;
   read_scene(root, scene);
   return scene;
 }

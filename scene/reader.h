@@ -11,7 +11,8 @@ namespace wholehand {
 
 // The scene that `text` (TOML, at most 1 MiB) describes; `name` stands for it in messages and in Scene::file. Throws Error (usage) for
 // whatever is not allowed, in one line: `name:line:column: what was found; what is allowed`. Nothing else is thrown, whatever the text.
-Scene parse_scene(std::string_view text, const std::string& name);
+// A text of an earlier version means that version's default weights where its [score] names none.
+Scene parse_scene(std::string_view text, const std::string& name, const ScoreWeights& unnamed = {});
 
 // The same from a file. Throws Error (usage) too where it is missing, unreadable or larger than 1 MiB.
 Scene read_scene_file(const std::string& path);

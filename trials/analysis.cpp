@@ -359,10 +359,12 @@ std::string weights_text(const WeightTrial& weights) {
                        interval_text(one.fitted.auc, one.fitted.interval, 3), interval_text(one.given.auc, one.given.interval, 3),
                        interval_text(one.difference.difference, one.difference.interval, 3));
   };
-  return fmt::format("On the other half {}: {}. Without the discarded grips {}.", contest(weights.all),
-                     weights.is_better() ? "the fitted weights are better by more than the interval"
-                                         : "the fitted weights are not better by more than the interval",
-                     contest(weights.tried));
+  std::string text = fmt::format("On the other half {}: {}.", contest(weights.all),
+                                 weights.is_better() ? "the fitted weights are better by more than the interval"
+                                                     : "the fitted weights are not better by more than the interval");
+  if (!std::isnan(weights.tried.difference.difference))
+    text += fmt::format(" Without the discarded grips {}.", contest(weights.tried));
+  return text;
 }
 
 std::string outcome_text(const TrialCase& one, const TrialOutcome& outcome) {

@@ -205,11 +205,10 @@ void write_trial_weights(MarkupWriter& html, const TrialPageSource& source) {
     return;
   }
   html.element(
-      "p",
-      fmt::format("A logistic regression of holding everywhere on the six terms of the score was fitted on {} grips of the "
-                  "stratified sample and judged on the other {}. A discarded grip counts as one that did not hold, so that the "
-                  "list of best grips has none. Each weight is at least {} of the sum.",
-                  weights->fitted_on, weights->judged_on, LEAST_WEIGHT));
+      "p", fmt::format("A logistic regression of holding everywhere on the six terms of the score was fitted on {} grips of the "
+                       "stratified sample and judged on the other {}. A discarded grip counts as one that did not hold, so that "
+                       "few of them come into a list of best grips. Each weight is at least {} of the sum.",
+                       weights->fitted_on, weights->judged_on, LEAST_WEIGHT));
   if (weights->fit.has_ridge)
     html.element(
         "p",

@@ -26,7 +26,6 @@ using core_f64::Wrench;
 namespace {
 
 constexpr double NO_VALUE = std::numeric_limits<double>::quiet_NaN();
-constexpr ScoreWeights WEIGHTS_0_1{0.30, 0.10, 0.20, 0.10, 0.15, 0.15};
 
 Scene with_friction(Scene scene, const TrialSettings& settings) {
   if (!std::isnan(settings.friction)) scene.force.friction = settings.friction;

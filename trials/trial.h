@@ -58,7 +58,7 @@ enum class TrialReason {
   none,      // held
   overlap,   // discarded: the hand starts too deep in the vessel
   buried,    // discarded: a finger is too deep in it once closed
-  diverged,  // discarded: the engine gave a warning or a number that is none
+  diverged,  // discarded: the engine gave a warning or something that is no number
   release,   // lost while it settles after it was let go
   turned,    // lost: turned too far in the hand
   moved,     // lost: moved too far in the hand

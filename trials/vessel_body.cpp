@@ -50,9 +50,10 @@ bool is_upright(const std::vector<Point2>& points, std::size_t from, std::size_t
   return true;
 }
 
-// Whether an arc about the axis that ends at a point of the outline may go on to its own top: what lies above is nowhere narrower
-// than the arc's end before that.
-bool holds_the_rest(const std::vector<Point2>& points, std::size_t end, double top) {
+// Whether an arc about the axis that ends at a point of the outline may go on to its own top: it grows narrower from there on, and
+// what lies above is nowhere narrower than the arc's end before that.
+bool holds_the_rest(const std::vector<Point2>& points, std::size_t end, double middle, double top) {
+  if (points[end][1] < middle - FLAT) return false;
   for (std::size_t k = end + 1; k < points.size() && points[k - 1][1] < top; ++k)
     if (points[k][0] < points[end][0] - FLAT) return false;
   return points.back()[1] >= top - FLAT;
@@ -79,7 +80,7 @@ void append_piece(const std::vector<PreparedElement>& elements, const std::vecto
     piece.shape = PieceShape::cylinder;
     piece.radius = widest;
   } else if (const PreparedElement* arc = arc_between(elements, points[from], points[to]);
-             arc && holds_the_rest(points, to, arc->center[1] + arc->radius)) {
+             arc && holds_the_rest(points, to, arc->center[1], arc->center[1] + arc->radius)) {
     piece.shape = PieceShape::ball;
     piece.radius = arc->radius;
     piece.high = arc->center[1] + arc->radius;

@@ -30,7 +30,7 @@ struct ConvexPiece {
 };
 
 // The outer form of a vessel, closed across its mouth. A body of revolution is cut where its outline is not convex: what lies
-// between two cuts is an upright cylinder; a ball, whose rest lies within the piece above it; or the hull of a stack of frusta. A
+// between two cuts is an upright cylinder; a ball, whose rest lies within the pieces above it; or the hull of a stack of frusta. A
 // mesh is one piece where it is its own convex hull to CONVEX_TOLERANCE.
 // Throws Error (usage), with the vessel's name and the reason: a shell, whose wall has two sides; an outline that goes down again;
 // a mesh with hollows.

@@ -78,7 +78,7 @@ double weighted(const Scene& scene, const ScoreTerms& t) {
 }
 
 TEST(Score, WeightsAreTheScenes) {
-  const std::array<double, 6> standard{0.20, 0.10, 0.15, 0.10, 0.15, 0.30};
+  const std::array<double, 6> standard{0.02, 0.02, 0.69, 0.02, 0.13, 0.12};
   EXPECT_EQ(effective_weights(three_beakers()), standard);
   Scene scene = three_beakers();
   scene.score = {1, 2, 3, 4, 5, 6};  // they need not sum to 1
@@ -88,7 +88,7 @@ TEST(Score, WeightsAreTheScenes) {
 
 TEST(Score, WithoutTiltsTheRemainingWeightsSumToOne) {
   const auto weights = effective_weights(scene_of({beaker1()}));
-  const std::array<double, 6> expected{0.20 / 0.55, 0.10 / 0.55, 0.15 / 0.55, 0.10 / 0.55, 0, 0};
+  const std::array<double, 6> expected{0.02 / 0.75, 0.02 / 0.75, 0.69 / 0.75, 0.02 / 0.75, 0, 0};
   for (std::size_t k = 0; k < 6; ++k) EXPECT_NEAR(weights[k], expected[k], ROUNDING) << k;
   EXPECT_EQ(weights[4], 0);
   EXPECT_EQ(weights[5], 0);

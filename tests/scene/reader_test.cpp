@@ -46,7 +46,7 @@ TEST(SceneReader, LeavesEverythingElseAtItsDefault) {
   EXPECT_EQ(scene.grips.height.values, std::vector<double>{0.5});
   EXPECT_EQ(scene.grips.azimuth.values, std::vector<double>{0.0});
   EXPECT_EQ(scene.grips.hand_scale.values, std::vector<double>{1.0});
-  EXPECT_EQ(scene.score.fingers, 0.20);
+  EXPECT_EQ(scene.score.fingers, ScoreWeights{}.fingers);
   EXPECT_FALSE(scene.output.keep);
   EXPECT_EQ(scene.output.best, 20);
   EXPECT_EQ(scene.output.apart, 25e-3);

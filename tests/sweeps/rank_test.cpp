@@ -99,8 +99,8 @@ TEST(Rank, OtherWeightsGiveTheOrderOfTheirSums) {
   const SweptScene swept(RESULT_SCENE);
   for (const auto& [text, weights] :
        {std::pair<const char*, std::array<double, 6>>{"fingers=0,contacts=0,depth=0,posture=1,force=0,hold=0", {0, 0, 0, 1, 0, 0}},
-        {"force=2", {0.2, 0.1, 0.15, 0.1, 2, 0.3}},
-        {"hold=0,contacts=.7", {0.2, 0.7, 0.15, 0.1, 0.15, 0}}}) {
+        {"force=2", {0.02, 0.02, 0.69, 0.02, 2, 0.12}},
+        {"hold=0,contacts=.7", {0.02, 0.7, 0.69, 0.02, 0.13, 0}}}) {
     const Ranking ranking = ranked(swept, {text, "", 40});
     for (std::size_t v = 0; v < 2; ++v) EXPECT_EQ(numbers_of(ranking.lists[v]), by_hand(swept, v, weights, ANY_GRIP, 40)) << text;
   }
@@ -109,7 +109,7 @@ TEST(Rank, OtherWeightsGiveTheOrderOfTheirSums) {
 
 TEST(Rank, OnlyGripsThatMeetTheConditionAreListedAndCounted) {
   const SweptScene swept(RESULT_SCENE);
-  const std::array<double, 6> own{0.2, 0.1, 0.15, 0.1, 0.15, 0.3};
+  const std::array<double, 6> own{0.02, 0.02, 0.69, 0.02, 0.13, 0.12};
   const auto expect_by_hand = [&](const std::string& where, const std::function<bool(FileValues&, std::uint64_t)>& matches) {
     const Ranking ranking = ranked(swept, {"", where, 1000});
     const auto expected = by_hand(swept, 1, own, matches, 1000);
@@ -188,8 +188,8 @@ TEST(Rank, WhatTheFileLacksIsRefusedWithWhatToKeep) {
 
 TEST(Rank, WeightsAreReadStrictly) {
   const Scene scene = SweptScene(RESULT_SCENE).scene;
-  EXPECT_EQ(read_weights("", scene), (std::array<double, 6>{0.2, 0.1, 0.15, 0.1, 0.15, 0.3}));
-  EXPECT_EQ(read_weights("hold=1e-1,fingers=.2", scene), (std::array<double, 6>{0.2, 0.1, 0.15, 0.1, 0.15, 0.1}));
+  EXPECT_EQ(read_weights("", scene), (std::array<double, 6>{0.02, 0.02, 0.69, 0.02, 0.13, 0.12}));
+  EXPECT_EQ(read_weights("hold=1e-1,fingers=.2", scene), (std::array<double, 6>{0.2, 0.02, 0.69, 0.02, 0.13, 0.1}));
   const std::pair<const char*, const char*> cases[] = {
       {"finger=1", "no term 'finger'; the nearest is 'fingers'"},
       {"force", "force=; allowed: a number, 0 to 1000"},

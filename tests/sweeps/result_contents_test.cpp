@@ -92,7 +92,7 @@ TEST_F(ResultContentsTest, AttributesSayWhereItCameFrom) {
   const std::string text = dump(path);
   EXPECT_NE(text.find(":seed = 0ULL"), std::string::npos);
   EXPECT_NE(text.find(":wall_time_s = NaN"), std::string::npos);
-  EXPECT_NE(text.find("score:score_weights = 0.2, 0.1, 0.15, 0.1, 0.15, 0.3"), std::string::npos);
+  EXPECT_NE(text.find("score:score_weights = 0.02, 0.02, 0.69, 0.02, 0.13, 0.12"), std::string::npos);
 }
 
 TEST_F(ResultContentsTest, RealsAreAsPreciseAsTheBackend) {

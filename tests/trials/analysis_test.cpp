@@ -238,6 +238,27 @@ TEST(TrialAnalysis, WithoutBothOutcomesThereIsNoAuc) {
   EXPECT_TRUE(found.disagreements.empty());
 }
 
+// What cannot be tried is a failure for the fit, though it is none for an AUC.
+TEST(TrialAnalysis, DiscardedGripsAreInTheFitOfWeights) {
+  Made made;
+  for (int k = 0; k < 60; ++k) {
+    const bool is_held = k % 3 != 0;
+    made.add({0.1, is_held ? 0.3 : 3.0}, {true, is_held});
+    made.tried.found.back().prediction.terms = {0.5, 0.5, 1, 0.5, 0.5, is_held ? 0.9 - 0.01 * k : 0.6 - 0.005 * k};
+    if (k % 6 != 1) continue;
+    made.discard_last(0, TrialReason::overlap);
+    made.tried.found.back().prediction.terms[2] = 0.3;
+  }
+  const TrialAnalysis found = analyse_trials(made.scene, made.tried, made.options);
+  ASSERT_TRUE(found.weights && found.weights->fit.is_fitted);
+  EXPECT_EQ(found.weights->fitted_on + found.weights->judged_on, 60u);
+  const WeightContest &all = found.weights->all, &tried = found.weights->tried;
+  EXPECT_EQ(all.fitted.failures, tried.fitted.failures + 5) << "half of the ten that are discarded";
+  EXPECT_EQ(all.fitted.successes, tried.fitted.successes);
+  EXPECT_GT(found.weights->weights[2], LEAST_WEIGHT) << "depth tells them";
+  EXPECT_EQ(row_of(found, SAMPLE, BY_WORST_EFFORT).auc.failures, 20u) << "without them";
+}
+
 TEST(TrialAnalysis, WordsOfAnOutcome) {
   TrialCase one;
   TrialOutcome outcome;

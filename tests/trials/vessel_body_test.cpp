@@ -55,13 +55,17 @@ TEST(VesselBody, BallsAndCylindersAreExact) {
   }
 }
 
-// A ball goes on to its own top only where the piece above it holds that: no neck too short or too narrow does.
+// A ball goes on to its own top only where the pieces above it hold that: no neck too short or too narrow does, nor a wall that meets
+// the ball below its middle.
 TEST(VesselBody, ABallThatWouldStickOutIsAHull) {
   const double neck = 17, meets = 42.5 + std::sqrt(42.5 * 42.5 - neck * neck);
   const OutlineElement arc = arc_to(neck, meets, 0, 42.5);
   EXPECT_EQ(shapes_of(vessel_of("high", {arc, line_to(neck, 85.1), line_to(0, 85.1)}, 1.5)).front(), PieceShape::ball);
   EXPECT_EQ(shapes_of(vessel_of("low", {arc, line_to(neck, 84.9), line_to(0, 84.9)}, 1.5)).front(), PieceShape::hull);
   EXPECT_EQ(shapes_of(vessel_of("narrow", {arc, line_to(12, 83), line_to(12, 140), line_to(0, 140)}, 1.5)).front(),
+            PieceShape::hull);
+  const OutlineElement low_arc = arc_to(30, 42.5 - std::sqrt(42.5 * 42.5 - 30 * 30), 0, 42.5);
+  EXPECT_EQ(shapes_of(vessel_of("wide", {low_arc, line_to(36, 13), line_to(36, 120), line_to(0, 120)}, 1.5)).front(),
             PieceShape::hull);
 }
 
