@@ -16,7 +16,7 @@
 
 namespace wholehand {
 
-ResultDefinition::ResultDefinition(const std::string& path) : path_(path) {
+ResultDefinition::ResultDefinition(const std::string& path, std::string remedy) : path_(path), remedy_(std::move(remedy)) {
   // absolute: the library takes a path of an address's form for one
   check(nc_create(std::filesystem::absolute(path).c_str(), NC_NETCDF4 | NC_NOCLOBBER, &file_));
 }
@@ -28,7 +28,7 @@ ResultDefinition::~ResultDefinition() {
 void ResultDefinition::check(int status) const {
   if (status == NC_NOERR) return;
   const char* why = status > 0 ? std::strerror(status) : nc_strerror(status);
-  throw failure_error(fmt::format("{}: cannot write the result file: {}; is the disk full?", path_, why));
+  throw failure_error(fmt::format("{}: cannot write the result file: {}; {}", path_, why, remedy_));
 }
 
 void ResultDefinition::finish(const std::vector<int>& later) {

@@ -17,12 +17,13 @@ struct IntegerCodes {
   bool may_lack = false;
 };
 
-// Every method throws Error (failure) with the file's name. The file is discarded unless `finish` was called.
+// Every method throws Error (failure) with the file's name and the remedy. The file is discarded unless `finish` was called.
 class ResultDefinition {
  public:
   using Names = std::vector<std::string>;
+
   // Creates the file, which must not be there.
-  explicit ResultDefinition(const std::string& path);
+  explicit ResultDefinition(const std::string& path, std::string remedy = "is the disk full?");
   ~ResultDefinition();
   ResultDefinition(const ResultDefinition&) = delete;
   ResultDefinition& operator=(const ResultDefinition&) = delete;
@@ -55,7 +56,7 @@ class ResultDefinition {
   int dimension_id(const std::string& name);
   void allocate(int variable);
 
-  std::string path_;
+  std::string path_, remedy_;
   int file_ = -1;
   std::vector<std::function<void()>> values_;  // written once the definition stands
 };

@@ -15,13 +15,17 @@
 namespace wholehand {
 namespace {
 
+Error cannot_write(const std::string& path, int error, const char* remedy) {
+  return failure_error(fmt::format("cannot write {}: {}; {}", path, std::strerror(error), remedy));
+}
+
 // Some file systems find out only here that they have no room.
 void flush(const std::string& file, const std::string& own_name, const char* remedy) {
   const int opened = open(file.c_str(), O_RDONLY | O_CLOEXEC);
   const bool is_flushed = opened >= 0 && (fsync(opened) == 0 || errno == EINVAL);  // EINVAL: this one cannot flush
   const int error = errno;
   if (opened >= 0) close(opened);
-  if (!is_flushed) throw failure_error(fmt::format("cannot write {}: {}; {}", own_name, std::strerror(error), remedy));
+  if (!is_flushed) throw cannot_write(own_name, error, remedy);
 }
 
 }  // namespace
@@ -30,10 +34,17 @@ FileSet::~FileSet() {
   for (const File& file : files_) std::remove(file.on_the_way.c_str());
 }
 
+std::string FileSet::name_on_the_way(const std::string& path) { return followed(path) + ".new"; }
+
 std::string FileSet::on_the_way(const std::string& path) {
-  files_.push_back({path, temporary_name(path)});
-  std::remove(files_.back().on_the_way.c_str());  // of a process of the same number that was killed
+  files_.push_back({path, name_on_the_way(path)});
+  std::remove(files_.back().on_the_way.c_str());
   return files_.back().on_the_way;
+}
+
+void FileSet::write(const std::string& path, const std::string& text, const char* remedy) {
+  const int error = write_new_file(on_the_way(path), text, false);
+  if (error != 0) throw cannot_write(path, error, remedy);
 }
 
 void FileSet::without(const std::string& path) {
@@ -47,7 +58,8 @@ void FileSet::without(const std::string& path) {
 
 void FileSet::give_names(const char* remedy) {
   for (const File& file : files_) flush(file.on_the_way, file.path, remedy);
-  for (const File& file : files_) rename_file(file.on_the_way, followed(file.path));
+  for (const File& file : files_)
+    if (std::rename(file.on_the_way.c_str(), followed(file.path).c_str()) != 0) throw cannot_write(file.path, errno, remedy);
   for (const std::string& path : absent_) std::remove(path.c_str());
   for (const File& file : files_) sync_folder_of(followed(file.path));
   files_.clear();

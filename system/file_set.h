@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Files that belong together: those of a run take the place of an earlier run's all at once.
+// Files that belong together: those of a run take the place of an earlier run's once all of them are whole.
 #pragma once
 
 #include <string>
@@ -7,7 +7,8 @@
 
 namespace wholehand {
 
-// On the way each file has another name, beside its own. So a disk that fills up leaves the earlier files as they were.
+// On the way each file has another name beside its own, which ends in ".new". So a disk that fills up leaves the earlier files as
+// they were. The names are always the same: a lock must keep other processes from them (OutputLock).
 class FileSet {
  public:
   FileSet() = default;
@@ -16,13 +17,19 @@ class FileSet {
   FileSet(const FileSet&) = delete;
   FileSet& operator=(const FileSet&) = delete;
 
-  // Where to write what becomes the file that `path` is or points to. Nothing is there yet.
+  // What becomes the file that `path` is or points to has this name on the way.
+  static std::string name_on_the_way(const std::string& path);
+
+  // Where to write what becomes the file that `path` is or points to. Nothing is there yet: what a killed process left goes.
   std::string on_the_way(const std::string& path);
+  // Writes `text` there. Throws Error (failure) with the remedy.
+  void write(const std::string& path, const std::string& text, const char* remedy);
   // The set has no such file: what is at `path` goes when the others get their names.
   void without(const std::string& path);
 
-  // Flushes all files, and only then renames them, in the order in which they were asked for. Throws Error (failure); a file that
-  // cannot be flushed is found before the first one is renamed.
+  // Flushes all files, and only then renames them, one after the other in the order in which they were asked for. Throws Error
+  // (failure) with the remedy; a file that cannot be flushed is found before the first one is renamed. A process that is killed
+  // among the renames, or a rename that fails, leaves some files of the set and some earlier ones.
   void give_names(const char* remedy);
 
   // A message with the files' own names in place of those on the way.

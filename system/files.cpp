@@ -201,7 +201,7 @@ double free_bytes(const std::string& path) {
   return bytes;
 }
 
-void check_room(const std::string& path, std::uint64_t bytes) {
+void check_room(const std::string& path, std::uint64_t bytes, const char* remedy) {
   const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   int error = file < 0 ? errno : 0;
   if (!error && fallocate(file, 0, 0, static_cast<off_t>(bytes)) != 0) {
@@ -217,8 +217,8 @@ void check_room(const std::string& path, std::uint64_t bytes) {
     unlink(path.c_str());
   }
   if (error) {
-    throw failure_error(fmt::format("{}: cannot write it ({}): {}; make room, or name another file with -o", path,
-                                    readable_bytes(static_cast<double>(bytes)), std::strerror(error)));
+    throw failure_error(fmt::format("{}: cannot write it ({}): {}; {}", path, readable_bytes(static_cast<double>(bytes)),
+                                    std::strerror(error), remedy));
   }
 }
 
@@ -246,11 +246,10 @@ bool rename_onto_nothing(const std::string& from, const std::string& to) {
 
 std::string temporary_name(const std::string& path) { return fmt::format("{}.{}.new", followed(path), getpid()); }
 
-void write_whole_file(const std::string& path, const std::string& text, bool durable, const char* remedy) {
-  const std::string target = followed(path), temporary = temporary_name(path);
-  const int file = open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  const bool is_made = file >= 0;
-  bool good = is_made;
+int write_new_file(const std::string& path, const std::string& text, bool durable) {
+  const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (file < 0) return errno;
+  bool good = true;
   for (std::size_t done = 0; good && done < text.size();) {
     const ssize_t written = write(file, text.data() + done, text.size() - done);
     if (written < 0 && errno == EINTR) continue;
@@ -258,12 +257,16 @@ void write_whole_file(const std::string& path, const std::string& text, bool dur
     if (good) done += static_cast<std::size_t>(written);
   }
   if (good && durable) good = fsync(file) == 0;
-  const int error = errno;
-  if (is_made) close(file);
-  if (!good) {
-    if (is_made) unlink(temporary.c_str());
-    throw failure_error(fmt::format("cannot write {}: {}; {}", path, std::strerror(error), remedy));
-  }
+  const int error = good ? 0 : errno != 0 ? errno : EIO;
+  close(file);
+  if (!good) unlink(path.c_str());
+  return error;
+}
+
+void write_whole_file(const std::string& path, const std::string& text, bool durable, const char* remedy) {
+  const std::string target = followed(path), temporary = temporary_name(path);
+  const int error = write_new_file(temporary, text, durable);
+  if (error != 0) throw failure_error(fmt::format("cannot write {}: {}; {}", path, std::strerror(error), remedy));
   try {
     rename_file(temporary, target);
   } catch (...) {

@@ -74,14 +74,19 @@ void make_output_folder(const std::string& path);
 // Bytes free for this user on the disk that holds `path`'s folder; the file-size limit of the process if that is less.
 double free_bytes(const std::string& path);
 
-// Finds out whether `path` can be made with so many bytes, by making it, reserving them, and removing it. Throws Error (failure).
-void check_room(const std::string& path, std::uint64_t bytes);
+// Finds out whether `path` can be made with so many bytes, by making it, reserving them, and removing it. Throws Error (failure)
+// with the remedy.
+void check_room(const std::string& path, std::uint64_t bytes, const char* remedy = "make room, or name another file with -o");
 
 // Flushes a folder's entries, so that a rename in it outlives a power failure. Errors are not reported: some file systems cannot.
 void sync_folder_of(const std::string& path);
 
 // Where what becomes the file that `path` is or points to is written on the way: a name beside it, of this process alone.
 std::string temporary_name(const std::string& path);
+
+// Makes the file `path`, which must not be there, and writes `text` to it; `durable` syncs it. Returns 0, or the error's number;
+// then no file is left.
+int write_new_file(const std::string& path, const std::string& text, bool durable);
 
 // Writes `text` to the file that `path` is or points to, under its temporary_name, and renames it; `durable` syncs in between.
 // Throws Error (failure) with the remedy.

@@ -8,13 +8,12 @@
 #include <functional>
 #include <limits>
 
-#include "core/error.h"
 #include "sweeps/result_definition.h"
 #include "sweeps/variables.h"
 #include "system/files.h"
-#include "system/readable.h"
 #include "system/version.h"
 #include "trials/cases.h"
+#include "trials/output.h"
 
 namespace wholehand {
 namespace {
@@ -34,7 +33,7 @@ struct TrialView {
 
 class Dataset {
  public:
-  Dataset(const std::string& path, const TriedGrips& tried) : file_(path), tried_(tried) {}
+  Dataset(const std::string& path, const TriedGrips& tried) : file_(path, TRIALS_REMEDY), tried_(tried) {}
 
   void write(const Scene& scene, const TrialOptions& options, const TrialOrigin& origin) {
     std::size_t trials = 0;
@@ -237,20 +236,12 @@ std::uint64_t trials_dataset_room(const Scene& scene, const TriedGrips& tried) {
 
 void write_trials_dataset(const std::string& path, const Scene& scene, const TrialOptions& options, const TriedGrips& tried,
                           const TrialOrigin& origin) {
-  const std::string partial = temporary_name(path);
-  std::remove(partial.c_str());
-  const std::uint64_t room = trials_dataset_room(scene, tried);
+  // HDF5 does not survive a disk that fills up under it
+  check_room(path, trials_dataset_room(scene, tried), TRIALS_REMEDY);
   try {
-    check_room(partial, room);  // HDF5 does not survive a disk that fills up under it
-  } catch (const Error&) {
-    throw failure_error(fmt::format("{}: cannot write it ({}): is the disk full? Make room, then go on with --resume", path,
-                                    readable_bytes(static_cast<double>(room))));
-  }
-  try {
-    Dataset(partial, tried).write(scene, options, origin);
-    rename_file(partial, followed(path));
+    Dataset(path, tried).write(scene, options, origin);
   } catch (...) {
-    std::remove(partial.c_str());
+    std::remove(path.c_str());
     throw;
   }
 }

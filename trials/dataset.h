@@ -18,8 +18,8 @@ struct TrialOrigin {
 // No file of these trials is larger, and none is much smaller, bytes.
 std::uint64_t trials_dataset_room(const Scene& scene, const TriedGrips& tried);
 
-// Writes the file, under another name first and after it has been seen that the disk has the room. Dimensions `vessel`, `grip` and
-// `trial`; a trial has the place of its grip. Throws Error (failure).
+// Makes the file, which must not be there, after it has been seen that the disk has the room. Dimensions `vessel`, `grip` and
+// `trial`; a trial has the place of its grip. Throws Error (failure), and then no file is left.
 void write_trials_dataset(const std::string& path, const Scene& scene, const TrialOptions& options, const TriedGrips& tried,
                           const TrialOrigin& origin);
 

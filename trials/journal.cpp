@@ -15,7 +15,7 @@
 
 #include "core/error.h"
 #include "system/checksum.h"
-#include "system/files.h"
+#include "system/file_set.h"
 
 namespace wholehand {
 namespace {
@@ -108,6 +108,14 @@ std::string head_text(const TrialIdentity& identity) {
   return fmt::format("{}{}\n{}", JOURNAL_START, JOURNAL_FORMAT, journal_line(identity));
 }
 
+// Not as write_whole_file does: what is left of a process that was killed has a name that the next one knows.
+void write_journal(const std::string& path, const std::string& text) {
+  constexpr const char* REMEDY = "make room, or name another folder";
+  FileSet set;
+  set.write(path, text, REMEDY);
+  set.give_names(REMEDY);
+}
+
 }  // namespace
 
 std::string identity_text(const TrialIdentity& identity) {
@@ -116,7 +124,7 @@ std::string identity_text(const TrialIdentity& identity) {
 }
 
 TrialJournal::TrialJournal(const std::string& path, const TrialIdentity& identity) : path_(path) {
-  write_whole_file(path, head_text(identity), false, "make room, or name another folder");
+  write_journal(path, head_text(identity));
   open();
 }
 
@@ -145,7 +153,7 @@ TrialJournal::TrialJournal(const std::string& path, const TrialIdentity& identit
     whole += line + "\n";
   }
   file.close();
-  write_whole_file(path, whole, false, "make room, or name another folder");  // the last line may lack its end
+  write_journal(path, whole);  // the last line may lack its end
   open();
 }
 

@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
+
 #include "core/error.h"
+#include "system/file_set.h"
 #include "system/files.h"
 #include "system/folder_files.h"
 #include "trials/journal.h"
@@ -38,6 +41,16 @@ void prepare_trials_folder(const std::string& folder) {
   check_overwrites_result(files.nc);
   for (std::size_t k = 1; k <= MOST_DISAGREEMENTS; ++k)
     check_overwrites_marked(files.recording(k), TRIAL_DEVICE, "recording of wholehand trials", OPTION);
+}
+
+void remove_unfinished(const TrialFiles& files) {
+  for (const std::string& path : {files.csv, files.nc, files.page, files.journal})
+    std::remove(FileSet::name_on_the_way(path).c_str());
+  for (std::size_t k = 1; k <= MOST_DISAGREEMENTS; ++k) {
+    const std::string name = FileSet::name_on_the_way(files.recording(k));
+    std::remove(name.c_str());
+    std::remove((name + ".partial").c_str());  // a recording's own name on the way
+  }
 }
 
 bool has_finished_trials(const std::string& folder, const std::string& identity) {

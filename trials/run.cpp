@@ -111,6 +111,7 @@ class Trials {
   ExitCode run() {
     const TrialFiles files(options_.folder);
     const OutputLock lock(files.lock, "folder");
+    remove_unfinished(files);
     InterruptGuard interrupt;
     choose_grips(interrupt);
     if (interrupt.flag()) return interrupted(0, false);
@@ -263,21 +264,20 @@ class Trials {
     return ExitCode::interrupted;
   }
 
-  // All of them, or those of earlier trials stay as they were.
+  // They get their names once all are whole. The journal goes after that, so --resume mends what a kill leaves among the renames.
   void write_files(const TrialFiles& files, const TrialIdentity& identity) {
-    constexpr const char* REMEDY = "make room, then go on with --resume";
     const TrialAnalysis analysis = analyse_trials(scene_, tried_, options_);
     std::vector<ShownDisagreement> shown;
     FileSet set;
     try {
       // the table gets its name first: beside it a folder's trials.nc is known as ours
-      write_whole_file(set.on_the_way(files.csv), trials_csv(scene_, options_.settings, tried_), false, REMEDY);
+      set.write(files.csv, trials_csv(scene_, options_.settings, tried_), TRIALS_REMEDY);
       const TrialOrigin origin{engine_->name(), identity_text(identity)};
       write_trials_dataset(set.on_the_way(files.nc), scene_, options_, tried_, origin);
       shown = show_disagreements(files, set, scene_, predictor_, *engine_, tried_, analysis);
       const TrialPageSource source{scene_, options_, tried_, analysis, shown, origin.engine, origin.identity};
-      write_whole_file(set.on_the_way(files.page), trials_page(source), false, REMEDY);
-      set.give_names(REMEDY);
+      set.write(files.page, trials_page(source), TRIALS_REMEDY);
+      set.give_names(TRIALS_REMEDY);
     } catch (const Error& error) {
       throw Error(error.code, set.with_own_names(error.what()), error.remedy);
     }

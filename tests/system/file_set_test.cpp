@@ -6,9 +6,8 @@
 #include <filesystem>
 #include <string>
 
-#include "core/error.h"
-#include "system/files.h"
 #include "tests/support/files.h"
+#include "tests/support/refusal.h"
 
 namespace wholehand {
 namespace {
@@ -27,9 +26,9 @@ class FileSetTest : public testing::Test {
   TemporaryFolder folder;
 };
 
-TEST_F(FileSetTest, StandsAllAtOnce) {
+TEST_F(FileSetTest, StandsOnceAllAreWhole) {
   FileSet set;
-  for (const char* name : {"a", "b"}) write_file(set.on_the_way(folder / name), "new");
+  for (const char* name : {"a", "b"}) set.write(folder / name, "new", "make room");
   set.without(folder / "c");
   for (const char* name : {"a", "b", "c"}) EXPECT_EQ(file_text(folder / name), "old") << name;
   set.give_names("make room");
@@ -53,14 +52,37 @@ TEST_F(FileSetTest, NoneGetsItsNameWhereOneFails) {
   FileSet set;
   write_file(set.on_the_way(folder / "a"), "new");
   set.on_the_way(folder / "b");
-  try {
-    set.give_names("make room");
-    FAIL();
-  } catch (const Error& error) {
-    EXPECT_EQ(error.code, ExitCode::failure);
-    EXPECT_EQ(error.what(), "cannot write " + (folder / "b") + ": No such file or directory; make room");
-  }
+  EXPECT_EQ(refusal_line([&] { set.give_names("make room"); }, ExitCode::failure),
+            "cannot write " + (folder / "b") + ": No such file or directory; make room");
   EXPECT_EQ(file_text(folder / "a"), "old");
+}
+
+// As one that was killed leaves it, whatever its number was.
+TEST_F(FileSetTest, WhatAnotherProcessLeftIsOverwritten) {
+  write_file(folder / "a.new", "left");
+  EXPECT_EQ(FileSet::name_on_the_way(folder / "a"), folder / "a.new");
+  FileSet set;
+  set.write(folder / "a", "new", "make room");
+  set.give_names("make room");
+  EXPECT_EQ(file_text(folder / "a"), "new");
+  EXPECT_EQ(files_in(folder), 3);
+}
+
+TEST_F(FileSetTest, WhatCannotBeWrittenIsNamedWithTheRemedy) {
+  std::filesystem::create_directories(folder / "a.new/b");
+  EXPECT_EQ(refusal_line([&] { FileSet().write(folder / "a", "new", "make room"); }, ExitCode::failure),
+            "cannot write " + (folder / "a") + ": File exists; make room");
+  EXPECT_EQ(file_text(folder / "a"), "old");
+}
+
+TEST_F(FileSetTest, WhatCannotBeRenamedIsNamedWithTheRemedy) {
+  FileSet set;
+  for (const char* name : {"a", "b"}) set.write(folder / name, "new", "make room");
+  std::filesystem::remove(folder / "a");
+  std::filesystem::create_directories(folder / "a/b");
+  EXPECT_EQ(refusal_line([&] { set.give_names("make room"); }, ExitCode::failure),
+            "cannot write " + (folder / "a") + ": Is a directory; make room");
+  EXPECT_EQ(file_text(folder / "b"), "old");
 }
 
 TEST_F(FileSetTest, WhatIsGivenUpAfterAllIsNotInTheSet) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "system/csv.h"
 #include "tests/support/fake_trials.h"
 #include "tests/support/files.h"
+#include "tests/support/refusal.h"
 #include "tests/support/xml.h"
 #include "trials/dataset.h"
 #include "trials/disagreements.h"
@@ -209,6 +211,19 @@ TEST_F(TrialsPage, ColumnsAndVariablesAreInTheDocumentation) {
     EXPECT_TRUE(has(docs, std::string("`") + name.data() + "`")) << name.data();
   }
   nc_close(file);
+}
+
+// A fault of the library, and not of the disk's room: a dimension without a length has no end.
+TEST(TrialDataset, ErrorsOfTheLibraryNameTheRemedyAndLeaveNothing) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "a.nc";
+  EXPECT_EQ(refusal_line(
+                [&] {
+                  write_trials_dataset(path, scene_for_trials(), {}, {}, {"stand-in 1", "a"});
+                },
+                ExitCode::failure),
+            path + ": cannot write the result file: NetCDF: Invalid argument; make room, then go on with --resume");
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 // As a check of the room is only worth something if the file is never larger; and a disk with room for it is not refused.

@@ -87,6 +87,14 @@ class TrialsTest : public testing::Test {
     });
   }
 
+  // The folder's files by their names.
+  std::map<std::string, std::string> files_there() const {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : std::filesystem::directory_iterator(options.folder))
+      files[entry.path().filename()] = file_text(entry.path());
+    return files;
+  }
+
   std::string csv() const { return file_text(options.folder + "/trials.csv"); }
   std::string journal() const { return options.folder + "/trials.journal"; }
 };
@@ -332,14 +340,9 @@ TEST_F(TrialsTest, AFolderThatCannotBeIsRefused) {
   EXPECT_EQ(run().code, ExitCode::usage);
 }
 
-// All grips were tried, and then the disk was full: before the first file, and between any two. Whatever an earlier run wrote stays.
+// All grips were tried, and then the disk was full: before the first file, and between any two. Whatever an earlier run wrote
+// stays.
 TEST_F(TrialsTest, AFullDiskLeavesTheFilesOfOneRunAlone) {
-  const auto files_there = [this] {
-    std::map<std::string, std::string> files;
-    for (const auto& entry : std::filesystem::directory_iterator(options.folder))
-      files[entry.path().filename()] = file_text(entry.path());
-    return files;
-  };
   const OpenTrialEngine open = disagreeing();
   ASSERT_EQ(run(open).code, ExitCode::done);
   const auto before = files_there();
@@ -377,6 +380,15 @@ TEST_F(TrialsTest, AFullDiskLeavesTheFilesOfOneRunAlone) {
     EXPECT_EQ(csv(), wanted.at("trials.csv"));
   }
   EXPECT_GE(refused.size(), 2u) << "not always by the same file";
+}
+
+TEST_F(TrialsTest, WhatAKilledRunLeftOnTheWayGoes) {
+  ASSERT_EQ(mkdir(options.folder.c_str(), 0755), 0);
+  for (const char* name : {"trials.csv.new", "trials.nc.new", "trials.html.new", "trials.journal.new", "disagreement-1.nc.new",
+                           "disagreement-10.nc.new", "disagreement-10.nc.new.partial"})
+    write_file(options.folder + "/" + name, "half");
+  ASSERT_EQ(run_some(3).code, ExitCode::interrupted);
+  EXPECT_EQ(files_there().size(), 1u) << "the journal";
 }
 
 // An earlier run had more disagreements.
