@@ -32,6 +32,23 @@ std::vector<TrialCase> cases_up_to(const std::vector<TrialCase>& cases, std::siz
   return run;
 }
 
+namespace {
+
+// Every failure here is trouble with this disagreement alone: the trials are done, and their tables stand without it.
+std::vector<TrialTrack> draw_and_run(const TrialPredictor& predictor, const TrialEngine& engine, const TrialGrip& grip,
+                                     const std::vector<TrialCase>& cases, std::size_t place, ShownDisagreement& shown) {
+  std::vector<TrialTrack> tracks;
+  try {
+    draw_disagreement(predictor, grip, cases[place], shown);
+    engine.run(grip.vessel, grip.grip, cases_up_to(cases, place), &tracks);
+  } catch (const Error& error) {
+    shown.trouble = error.what();
+  }
+  return tracks;
+}
+
+}  // namespace
+
 std::vector<ShownDisagreement> show_disagreements(const TrialFiles& files, FileSet& set, const Scene& scene,
                                                   const TrialPredictor& predictor, const TrialEngine& engine,
                                                   const TriedGrips& tried, const TrialAnalysis& analysis) {
@@ -40,20 +57,20 @@ std::vector<ShownDisagreement> show_disagreements(const TrialFiles& files, FileS
     ShownDisagreement shown{which, "", "", "", ""};
     const TrialGrip& grip = tried.grips[which.grip];
     const TrialCase& one = tried.cases_of(which.grip)[which.place];
-    const std::size_t number = all.size() + 1;
+    const std::string path = files.recording(all.size() + 1);
+    const std::vector<TrialTrack> tracks = draw_and_run(predictor, engine, grip, tried.cases_of(which.grip), which.place, shown);
     try {
-      draw_disagreement(predictor, grip, one, shown);
-      std::vector<TrialTrack> tracks;
-      engine.run(grip.vessel, grip.grip, cases_up_to(tried.cases_of(which.grip), which.place), &tracks);
-      write_trial_recording(set.on_the_way(files.recording(number)), scene, *predictor.core(), engine.name(), grip, one,
-                            tried.found[which.grip].outcomes[which.place], tracks);
-      shown.recording = TrialFiles::recording_name(number);
+      if (shown.trouble.empty()) {
+        write_trial_recording(set.on_the_way(path), scene, *predictor.core(), engine.name(), grip, one,
+                              tried.found[which.grip].outcomes[which.place], tracks);
+        shown.recording = TrialFiles::recording_name(all.size() + 1);
+      }
     } catch (const Error& error) {
       // a full disk: with room --resume writes what the page would lack
       if (error.code == ExitCode::failure) throw;
-      shown.trouble = error.what();
-      set.without(files.recording(number));
+      shown.trouble = set.with_own_names(error.what());
     }
+    if (shown.recording.empty()) set.without(path);
     all.push_back(shown);
   }
   for (std::size_t number = all.size() + 1; number <= MOST_DISAGREEMENTS; ++number) set.without(files.recording(number));

@@ -67,6 +67,7 @@ class FakeTrialEngine : public TrialEngine {
   std::vector<TrialOutcome> run(std::size_t vessel, const GripInput& grip, const std::vector<TrialCase>& cases,
                                 std::vector<TrialTrack>* tracks) const override {
     if (before_run) before_run();
+    if (before_tracks && tracks) before_tracks();
     if (count && !tracks) ++*count;
     GripResult result;
     core_->grip(vessel, grip, result);
@@ -91,8 +92,9 @@ class FakeTrialEngine : public TrialEngine {
   double spread = 1;     // of the logarithm of the factor
   double discarded = 0;  // share of the grips
   std::function<void()> before_run;
-  std::atomic<int>* count = nullptr;  // of the runs without tracks: those of the trials, not of the disagreements
-  std::string without_model;          // a vessel
+  std::function<void()> before_tracks;  // before a run with tracks: of a disagreement
+  std::atomic<int>* count = nullptr;    // of the runs without tracks: those of the trials, not of the disagreements
+  std::string without_model;            // a vessel
 
  private:
   static double draw(const GripInput& grip) {

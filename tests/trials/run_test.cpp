@@ -391,6 +391,19 @@ TEST_F(TrialsTest, WhatAKilledRunLeftOnTheWayGoes) {
   EXPECT_EQ(files_there().size(), 1u) << "the journal";
 }
 
+// The trials are done: their tables do not hang on a drawing.
+TEST_F(TrialsTest, AnEngineThatFailsOnDisagreementsAloneLosesOnlyTheirRecordings) {
+  const OpenTrialEngine open = disagreeing();
+  const TrialsRun ran = run([&](const Scene& of, const Evaluator& core, const TrialSettings& settings) {
+    auto engine = open(of, core, settings);
+    dynamic_cast<FakeTrialEngine&>(*engine).before_tracks = [] { throw failure_error("out of memory"); };
+    return engine;
+  });
+  ASSERT_EQ(ran.code, ExitCode::done) << ran.error;
+  EXPECT_TRUE(has(file_text(options.folder + "/trials.html"), "There is no recording: out of memory."));
+  EXPECT_EQ(files_there().size(), 3u) << "the table, the dataset and the page";
+}
+
 // An earlier run had more disagreements.
 TEST_F(TrialsTest, RecordingsOfAnEarlierRunGo) {
   const OpenTrialEngine open = disagreeing();
