@@ -51,9 +51,11 @@ std::vector<TrialTrack> draw_and_run(const TrialPredictor& predictor, const Tria
 
 std::vector<ShownDisagreement> show_disagreements(const TrialFiles& files, FileSet& set, const Scene& scene,
                                                   const TrialPredictor& predictor, const TrialEngine& engine,
-                                                  const TriedGrips& tried, const TrialAnalysis& analysis) {
+                                                  const TriedGrips& tried, const TrialAnalysis& analysis,
+                                                  const std::atomic<bool>& stop) {
   std::vector<ShownDisagreement> all;
   for (const Disagreement& which : analysis.disagreements) {
+    if (stop) return all;
     ShownDisagreement shown{which, "", "", "", ""};
     const TrialGrip& grip = tried.grips[which.grip];
     const TrialCase& one = tried.cases_of(which.grip)[which.place];

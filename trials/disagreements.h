@@ -2,6 +2,7 @@
 // The worst disagreements between effort and engine, tried once more to be seen: a drawing and a recording of each.
 #pragma once
 
+#include <atomic>
 #include <string>
 #include <vector>
 
@@ -24,10 +25,11 @@ struct ShownDisagreement {
 std::vector<TrialCase> cases_up_to(const std::vector<TrialCase>& cases, std::size_t place);
 
 // Writes the recordings into the set, which loses those of earlier trials. `scene` is the one that was read, whose text the
-// recordings get. Throws Error (failure): a recording could not be written. A drawing or an
+// recordings get. `stop` ends it before the next one. Throws Error (failure): a recording could not be written. A drawing or an
 // engine that fails is the trouble of its disagreement.
 std::vector<ShownDisagreement> show_disagreements(const TrialFiles& files, FileSet& set, const Scene& scene,
                                                   const TrialPredictor& predictor, const TrialEngine& engine,
-                                                  const TriedGrips& tried, const TrialAnalysis& analysis);
+                                                  const TriedGrips& tried, const TrialAnalysis& analysis,
+                                                  const std::atomic<bool>& stop);
 
 }  // namespace wholehand

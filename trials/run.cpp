@@ -136,7 +136,10 @@ class Trials {
     if (done < tried_.grips.size()) return interrupted(done, true);
     tried_.found.clear();
     for (std::size_t g = 0; g < tried_.grips.size(); ++g) tried_.found.push_back(std::move(found.at(g)));
-    write_files(files, identity);
+    if (!write_files(files, identity, interrupt.flag())) {
+      say_note("interrupted before the files were written; go on with --resume");
+      return ExitCode::interrupted;
+    }
     std::remove(files.journal.c_str());
     return ExitCode::done;
   }
@@ -265,7 +268,8 @@ class Trials {
   }
 
   // They get their names once all are whole. The journal goes after that, so --resume mends what a kill leaves among the renames.
-  void write_files(const TrialFiles& files, const TrialIdentity& identity) {
+  // False: it was stopped before the first of them.
+  bool write_files(const TrialFiles& files, const TrialIdentity& identity, const std::atomic<bool>& stop) {
     const TrialAnalysis analysis = analyse_trials(scene_, tried_, options_);
     std::vector<ShownDisagreement> shown;
     FileSet set;
@@ -274,7 +278,8 @@ class Trials {
       set.write(files.csv, trials_csv(scene_, options_.settings, tried_), TRIALS_REMEDY);
       const TrialOrigin origin{engine_->name(), identity_text(identity)};
       write_trials_dataset(set.on_the_way(files.nc), scene_, options_, tried_, origin);
-      shown = show_disagreements(files, set, scene_, predictor_, *engine_, tried_, analysis);
+      shown = show_disagreements(files, set, scene_, predictor_, *engine_, tried_, analysis, stop);
+      if (stop) return false;
       const TrialPageSource source{scene_, options_, tried_, analysis, shown, origin.engine, origin.identity};
       set.write(files.page, trials_page(source), TRIALS_REMEDY);
       set.give_names(TRIALS_REMEDY);
@@ -286,6 +291,7 @@ class Trials {
         std::count_if(shown.begin(), shown.end(), [](const auto& one) { return !one.recording.empty(); }));
     print(fmt::format("\nwrote {}, {}, {}{}\n", files.csv, files.nc, files.page,
                       recordings == 0 ? "" : fmt::format(" and {} of disagreements", counted(recordings, "recording"))));
+    return true;
   }
 
   const Scene& scene_;

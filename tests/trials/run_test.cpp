@@ -382,6 +382,36 @@ TEST_F(TrialsTest, AFullDiskLeavesTheFilesOfOneRunAlone) {
   EXPECT_GE(refused.size(), 2u) << "not always by the same file";
 }
 
+// All grips were tried, and recordings of disagreements are under way: each takes a run of the engine.
+TEST_F(TrialsTest, AnInterruptBetweenRecordingsLeavesTheFilesOfAnEarlierRun) {
+  std::atomic<int> asked = 0;
+  const OpenTrialEngine open = disagreeing(&asked);
+  ASSERT_EQ(run(open).code, ExitCode::done);
+  const auto before = files_there();
+  options.grips = 36;  // with several disagreements
+  int recorded = 0;
+  const TrialsRun cut = run([&](const Scene& of, const Evaluator& core, const TrialSettings& settings) {
+    auto engine = open(of, core, settings);
+    dynamic_cast<FakeTrialEngine&>(*engine).before_tracks = [&] {
+      if (++recorded == 1) raise(SIGINT);
+    };
+    return engine;
+  });
+  EXPECT_EQ(cut.code, ExitCode::interrupted) << cut.error;
+  EXPECT_EQ(recorded, 1);
+  EXPECT_TRUE(has(cut.notes, "interrupted before the files were written; go on with --resume")) << cut.notes;
+  auto left = files_there();
+  EXPECT_EQ(left.erase("trials.journal"), 1u);
+  EXPECT_TRUE(left == before);
+  options.resume = true;
+  asked = 0;
+  EXPECT_EQ(run(open).code, ExitCode::done);
+  EXPECT_EQ(asked, 0) << "all had been tried";
+  EXPECT_TRUE(file_exists(options.folder + "/disagreement-2.nc")) << "else there was nothing between";
+  EXPECT_FALSE(file_exists(journal()));
+  EXPECT_GT(csv().size(), before.at("trials.csv").size());
+}
+
 TEST_F(TrialsTest, WhatAKilledRunLeftOnTheWayGoes) {
   ASSERT_EQ(mkdir(options.folder.c_str(), 0755), 0);
   for (const char* name : {"trials.csv.new", "trials.nc.new", "trials.html.new", "trials.journal.new", "disagreement-1.nc.new",
