@@ -75,9 +75,10 @@ void check_recording_path(const std::string& path, const char* option = "recordi
 // file is a whole recording of all blocks that were appended: records are only added, and counted in the file once they are in it.
 class RecordingWriter {
  public:
-  // Throws Error: (usage) as check_recording_path, (failure) the file cannot be made. A file that grows past the process's limit is an error
-  // of the write from here on, not the end of the process.
-  RecordingWriter(const std::string& path, const RecordingInfo& info, const char* option = "recording");
+  // Throws Error: (usage) as check_recording_path, (failure) the file cannot be made, with the remedy. A file that grows past the
+  // process's limit is an error of the write from here on, not the end of the process.
+  RecordingWriter(const std::string& path, const RecordingInfo& info, const char* option = "recording",
+                  const char* remedy = "name another file");
   ~RecordingWriter();
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;
@@ -92,6 +93,8 @@ class RecordingWriter {
 
   // What went wrong, in one line for the user; empty: nothing.
   const std::string& trouble() const { return trouble_; }
+  // The reason for that alone, as "No space left on device".
+  const std::string& reason() const { return reason_; }
   std::uint64_t records() const { return header_.records; }
   std::uint64_t bytes() const;  // of the file
   std::uint64_t record_size() const { return header_.record_size; }

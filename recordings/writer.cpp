@@ -42,7 +42,7 @@ void check_recording_path(const std::string& path, const char* option) {
   if (lstat(partial.c_str(), &status) == 0) throw is_in_the_way(path, partial, option);
 }
 
-RecordingWriter::RecordingWriter(const std::string& path, const RecordingInfo& info, const char* option)
+RecordingWriter::RecordingWriter(const std::string& path, const RecordingInfo& info, const char* option, const char* remedy)
     : path_(path), partial_(partial_recording(path)), rate_(info.rate), vessels_(info.vessels.size()) {
   if (vessels_ < 1 || vessels_ > LIVE_VESSELS)
     throw usage_error(fmt::format("{}: a recording has 1 to {} vessels", path, LIVE_VESSELS));
@@ -62,7 +62,7 @@ RecordingWriter::RecordingWriter(const std::string& path, const RecordingInfo& i
     unlink(partial_.c_str());
     file_ = -1;
   }
-  if (file_ < 0) throw failure_error(fmt::format("{}: cannot record: {}; name another file", partial_, std::strerror(error)));
+  if (file_ < 0) throw failure_error(fmt::format("{}: cannot record: {}; {}", path, std::strerror(error), remedy));
 }
 
 RecordingWriter::~RecordingWriter() {
@@ -183,6 +183,7 @@ bool RecordingWriter::give_name() {
   } catch (const Error& refused) {
     refusal = refused.what();
   }
+  if (reason_.empty()) reason_ = refusal;
   trouble_ = fmt::format("{}; the {} recording is {}", refusal, trouble_.empty() ? "complete" : "incomplete", partial_);
   return false;
 }

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "core/error.h"
 #include "core/mirror.h"
@@ -101,6 +102,18 @@ RecordingInfo info_of_trial(const Scene& scene, const std::string& engine, const
   return info;
 }
 
+// A recording on its way: gone before it begins, and gone however the writing ends.
+class PartialFile {
+ public:
+  explicit PartialFile(std::string path) : path_(std::move(path)) { std::remove(path_.c_str()); }
+  ~PartialFile() { std::remove(path_.c_str()); }
+  PartialFile(const PartialFile&) = delete;
+  PartialFile& operator=(const PartialFile&) = delete;
+
+ private:
+  std::string path_;
+};
+
 }  // namespace
 
 std::string text_of_one_vessel(const Scene& scene, std::size_t vessel) {
@@ -177,21 +190,12 @@ void write_trial_recording(const std::string& path, const Scene& scene, const Ev
   const RecordingInfo info = info_of_trial(scene, engine, grip, core.gap_at(0));
   if (info.scene_text.empty()) throw usage_error("the scene's text does not stand without its other vessels");
   const std::vector<Tick> ticks = ticks_of_trial(scene, core, grip, one, outcome, joined_frames(tracks), TICK_RATE);
-  const std::string partial = path + ".partial";
-  std::remove(partial.c_str());
-  bool is_whole = false;
-  try {
-    RecordingWriter writer(path, info);
-    const bool is_written = writer.append(ticks);
-    is_whole = writer.finish({}) && is_written;
-  } catch (const Error& error) {
-    if (error.code != ExitCode::failure) throw;  // else not even its head was taken
-  }
-  if (is_whole) return;
-  // a session keeps what the disk took; a trial can be written once more
-  std::remove(path.c_str());
-  std::remove(partial.c_str());
-  throw failure_error(fmt::format("{}: cannot write it: is the disk full? Make room, then go on with --resume", path));
+  const PartialFile partial(path + ".partial");
+  RecordingWriter writer(path, info, "recording", TRIALS_REMEDY);
+  const bool is_written = writer.append(ticks);
+  if (writer.finish({}) && is_written) return;
+  std::remove(path.c_str());  // a session keeps what the disk took; a trial can be written once more
+  throw failure_error(fmt::format("cannot write {}: {}; {}", path, writer.reason(), TRIALS_REMEDY));
 }
 
 }  // namespace wholehand

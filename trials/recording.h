@@ -26,8 +26,8 @@ std::vector<TrialFrame> joined_frames(const std::vector<TrialTrack>& tracks);
 std::vector<Tick> ticks_of_trial(const Scene& scene, const Evaluator& core, const TrialGrip& grip, const TrialCase& one,
                                  const TrialOutcome& outcome, const std::vector<TrialFrame>& frames, double rate);
 
-// Writes the recording; nothing is at `path` yet. Throws Error: (usage) text_of_one_vessel has none; (failure) it cannot be written,
-// and nothing of it is left.
+// Writes the recording; nothing is at `path` yet. Throws Error: (usage) text_of_one_vessel has none; (failure) it cannot be
+// written, and nothing of it is left.
 void write_trial_recording(const std::string& path, const Scene& scene, const Evaluator& core, const std::string& engine,
                            const TrialGrip& grip, const TrialCase& one, const TrialOutcome& outcome,
                            const std::vector<TrialTrack>& tracks);

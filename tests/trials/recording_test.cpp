@@ -3,8 +3,10 @@
 #include "trials/recording.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "core/vectors.h"
 #include "objects/vessel.h"
@@ -12,6 +14,7 @@
 #include "scene/reader.h"
 #include "tests/support/fake_trials.h"
 #include "tests/support/files.h"
+#include "tests/support/refusal.h"
 #include "trials/output.h"
 #include "viewer/recording.h"
 
@@ -146,6 +149,34 @@ void expect_hand_of_the_grip(const Scene& scene) {
     farthest = std::max(farthest, distance(frames[0].hand.posed[j], there));
   }
   EXPECT_LT(farthest, 1e-6) << "m, at most: the closure is solved for anew";
+}
+
+// No file may be larger than that: its head fits or does not, or a tick of it.
+TEST(TrialRecording, ADiskThatIsFullIsNamedAndNothingIsLeft) {
+  const TemporaryFolder folder;
+  const Scene scene = shipped_beakers();
+  const auto core = make_core_evaluator(scene);
+  const TrialGrip grip = grip_of_flask();
+  const std::string path = folder / TrialFiles::recording_name(1);
+  const auto write = [&] {
+    write_trial_recording(path, scene, *core, "stand-in", grip, {}, lost_after_half_a_second(), falling_tracks(*core, grip));
+  };
+  write();
+  const std::size_t whole = std::filesystem::file_size(path);
+  std::filesystem::remove(path);
+  struct rlimit before {};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const auto refused_at = [&](std::size_t bytes) {
+    struct rlimit small = before;
+    small.rlim_cur = bytes;
+    EXPECT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+    const std::string line = refusal_line(write, ExitCode::failure);
+    setrlimit(RLIMIT_FSIZE, &before);
+    return line;
+  };
+  EXPECT_EQ(refused_at(100), path + ": cannot record: File too large; make room, then go on with --resume");
+  EXPECT_EQ(refused_at(whole - 1), "cannot write " + path + ": File too large; make room, then go on with --resume");
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 TEST(TrialRecording, TheViewerShowsTheHandOfTheGrip) { expect_hand_of_the_grip(shipped_beakers()); }

@@ -367,6 +367,7 @@ TEST_F(TrialsTest, AFullDiskLeavesTheFilesOfOneRunAlone) {
     if (has(ran.error, "trials.journal: ")) break;
     EXPECT_TRUE(has(ran.error, "go on with --resume")) << ran.error;
     EXPECT_FALSE(has(ran.error, ".new")) << ran.error;
+    EXPECT_TRUE(has(ran.error, "File too large")) << ran.error;
     refused.insert(ran.error.substr(ran.error.find(options.folder) + options.folder.size() + 1, 10));
     auto left = files_there();
     EXPECT_EQ(left.erase("trials.journal"), 1u) << size;
