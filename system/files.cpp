@@ -174,14 +174,16 @@ void make_output_folder(const std::string& path) {
   if (path == "-") throw usage_error("-o -: a folder is made, and none goes to standard output; name one (./- is one too)");
   if (mkdir(path.c_str(), 0777) != 0 && errno != EEXIST) {
     const int error = errno;
+    const bool is_misnamed = error == ENOENT || error == ENOTDIR;
     struct stat status {};
     std::string name = path;
     while (name.size() > 1 && name.ends_with('/')) name.pop_back();
     const std::string parent = folder_of(name);
-    if (stat(parent.c_str(), &status) != 0 || !S_ISDIR(status.st_mode))
+    // nothing is known of a parent that may not be looked at
+    if (is_misnamed && (stat(parent.c_str(), &status) != 0 || !S_ISDIR(status.st_mode)))
       throw usage_error(fmt::format("-o {}: {} is not a directory; create it or name another", path, parent));
-    const ExitCode code = error == ENOENT || error == ENOTDIR ? ExitCode::usage : ExitCode::failure;
-    throw Error(code, fmt::format("-o {}: cannot make that folder: {}; name one elsewhere", path, std::strerror(error)));
+    throw Error(is_misnamed ? ExitCode::usage : ExitCode::failure,
+                fmt::format("-o {}: cannot make that folder: {}; name one elsewhere", path, std::strerror(error)));
   }
   struct stat status {};
   if (stat(path.c_str(), &status) != 0 || !S_ISDIR(status.st_mode)) {

@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "tests/support/files.h"
+#include "tests/support/refusal.h"
 
 namespace wholehand {
 namespace {
@@ -74,6 +75,21 @@ TEST(Files, FoldersAreMadeOrRefused) {
   EXPECT_EQ(refused_folder("-"), ExitCode::usage) << "standard output";
   EXPECT_FALSE(std::filesystem::exists("-"));
   EXPECT_EQ(refused_folder("/proc/wholehand"), ExitCode::usage) << "no such file or directory, says the kernel";
+}
+
+// One that may not be looked into is not "no directory".
+TEST(Files, AFolderInOneThatMayNotBeLookedIntoIsAFailure) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "locked/parent");
+  std::filesystem::permissions(folder / "locked", std::filesystem::perms::none);
+  const bool is_root = geteuid() == 0;  // who may look anywhere
+  if (is_root && seteuid(65534) != 0) GTEST_SKIP() << "root cannot become another user here";
+  const std::string path = folder / "locked/parent/new", line = refusal_line([&] { make_output_folder(path); }, ExitCode::failure);
+  if (is_root) {
+    ASSERT_EQ(seteuid(0), 0);
+  }
+  std::filesystem::permissions(folder / "locked", std::filesystem::perms::owner_all);
+  EXPECT_EQ(line, "-o " + path + ": cannot make that folder: Permission denied; name one elsewhere");
 }
 
 TEST(Files, PathsThatCannotBecomeFilesAreRefused) {
