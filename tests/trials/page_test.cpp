@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -194,23 +195,49 @@ TEST_F(TrialsPage, DatasetExplainsItsCodes) {
   nc_close(file);
 }
 
-// docs/trials.md has a line for each column of the table and each variable of the dataset.
+// The text between backquotes, from `at` on, "attribute `model`" as "model".
+std::string quoted(const std::string& text, std::size_t at) {
+  const std::size_t start = text.find('`', at) + 1;
+  return text.substr(start, text.find('`', start) - start);
+}
+
+// The table of docs/trials.md has the columns in their order, each with its variable, and what follows it has the other variables.
 TEST_F(TrialsPage, ColumnsAndVariablesAreInTheDocumentation) {
-  const std::string docs = file_text(WHOLEHAND_SOURCE_DIR "/docs/trials.md");
-  const std::string table = file_text(*folder / "trials/trials.csv");
-  std::istringstream columns(table.substr(0, table.find('\n')));
-  for (std::string column; std::getline(columns, column, ',');)
-    EXPECT_TRUE(has(docs, "\n| `" + column + "` |") || has(docs, ", `" + column + "`")) << column;
-  int file = -1, variables = 0;
+  const std::string docs = file_text(WHOLEHAND_SOURCE_DIR "/docs/trials.md"), head = "\n### Columns and variables\n";
+  const std::size_t begin = docs.find(head);
+  ASSERT_NE(begin, std::string::npos);
+  std::istringstream section(docs.substr(begin + head.size(), docs.find("\n##", begin + head.size()) - begin));
+  std::vector<std::string> columns;
+  std::set<std::string> variables, attributes;
+  std::string rest;
+  for (std::string line; std::getline(section, line);) {
+    if (!line.starts_with("| `")) {
+      rest += line + "\n";
+      continue;
+    }
+    const std::size_t second = line.find(" | ");
+    columns.push_back(quoted(line, 0));
+    (line.substr(second).starts_with(" | attribute ") ? attributes : variables).insert(quoted(line, second));
+  }
+  EXPECT_EQ(columns, parse_csv(file_text(*folder / "trials/trials.csv"))[0].cells);
+  int file = -1, count = 0, id = -1;
   ASSERT_EQ(nc_open((*folder / "trials/trials.nc").c_str(), NC_NOWRITE, &file), NC_NOERR);
-  nc_inq_nvars(file, &variables);
-  EXPECT_GT(variables, 30);
-  for (int k = 0; k < variables; ++k) {
+  for (const std::string& name : attributes) EXPECT_EQ(nc_inq_attid(file, NC_GLOBAL, name.c_str(), &id), NC_NOERR) << name;
+  nc_inq_nvars(file, &count);
+  std::set<std::string> of_file;
+  for (int k = 0; k < count; ++k) {
     std::array<char, NC_MAX_NAME + 1> name{};
     nc_inq_varname(file, k, name.data());
-    EXPECT_TRUE(has(docs, std::string("`") + name.data() + "`")) << name.data();
+    of_file.insert(name.data());
   }
   nc_close(file);
+  const std::size_t more = rest.find("`trials.nc` has three more variables.");
+  ASSERT_NE(more, std::string::npos);
+  for (const char* name : {"vessel", "term", "trial_grip"}) {
+    EXPECT_NE(rest.find(std::string("`") + name + "`", more), std::string::npos) << name;
+    EXPECT_TRUE(variables.insert(name).second) << name;
+  }
+  EXPECT_EQ(variables, of_file);
 }
 
 // A fault of the library, and not of the disk's room: a dimension without a length has no end.
