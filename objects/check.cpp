@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "core/vectors.h"
 #include "objects/holes.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {
@@ -148,9 +149,7 @@ void turn_round(TriangleMesh& mesh, MeshFacts& facts) {
   facts.was_inside_out = true;
 }
 
-std::string count_text(std::size_t count, const char* one, const char* many) {
-  return count == 1 ? fmt::format("1 {}", one) : fmt::format("{} {}", count, many);
-}
+const char* was(std::size_t count) { return count == 1 ? "was" : "were"; }
 
 // The mesh's extent along an axis, mm.
 std::string span_text(const MeshFacts& facts, int axis) {
@@ -173,7 +172,7 @@ void note_holes(TriangleMesh& mesh, const std::string& name, bool close_holes, M
     throw usage_error(
         fmt::format("{}: close_holes: {} form no loop, as triangles beside them face opposite ways: let all face outward where the "
                     "mesh was made, or leave out close_holes",
-                    name, count_text(holes.loose_edges, "open edge", "open edges")));
+                    name, counted(holes.loose_edges, "open edge")));
   facts.holes = holes.loops.size();
   facts.closable = holes.loose_edges == 0 && std::all_of(holes.loops.begin(), holes.loops.end(),
                                                          [&](const MeshHole& hole) { return is_small_hole(hole, extent); });
@@ -186,8 +185,7 @@ void note_holes(TriangleMesh& mesh, const std::string& name, bool close_holes, M
 // What an open mesh might do about it.
 std::string holes_text(const MeshFacts& facts) {
   if (facts.holes == 0) return ": close them for a sure answer.";
-  const std::string holes =
-      fmt::format(": {}, up to {:.4g} mm across, ", count_text(facts.holes, "hole", "holes"), 1e3 * facts.widest_hole);
+  const std::string holes = fmt::format(": {}, up to {:.4g} mm across, ", counted(facts.holes, "hole"), 1e3 * facts.widest_hole);
   if (facts.closable) return holes + "which close_holes = true closes.";
   if (facts.widest_hole > SMALL_HOLE * largest_extent(facts))
     return holes + fmt::format("more than the {:.4g} mm that close_holes closes: close them for a sure answer.",
@@ -223,21 +221,22 @@ CheckedMesh check_mesh(const TriangleMesh& mesh, const std::string& name, bool c
 
 std::string mesh_check_text(const MeshFacts& facts) {
   std::string text =
-      fmt::format("{}, {:.4g} x {:.4g} x {:.4g} mm (x {}, y {}, z {}), ", count_text(facts.triangles, "triangle", "triangles"),
+      fmt::format("{}, {:.4g} x {:.4g} x {:.4g} mm (x {}, y {}, z {}), ", counted(facts.triangles, "triangle"),
                   1e3 * (facts.high[0] - facts.low[0]), 1e3 * (facts.high[1] - facts.low[1]), 1e3 * (facts.high[2] - facts.low[2]),
                   span_text(facts, 0), span_text(facts, 1), span_text(facts, 2));
-  text += facts.closed ? "closed" : fmt::format("not closed ({})", count_text(facts.open_edges, "open edge", "open edges"));
+  text += facts.closed ? "closed" : fmt::format("not closed ({})", counted(facts.open_edges, "open edge"));
   text += fmt::format("; {}, {}, {}; volume {:.4g} cm3, centre of mass ({:.4g}, {:.4g}, {:.4g}) mm.",
-                      count_text(facts.non_manifold_edges, "non-manifold edge", "non-manifold edges"),
-                      count_text(facts.inverted_pairs, "inverted pair", "inverted pairs"),
-                      count_text(facts.zero_triangles, "triangle without area", "triangles without area"), 1e6 * facts.volume,
+                      counted(facts.non_manifold_edges, "non-manifold edge"), counted(facts.inverted_pairs, "inverted pair"),
+                      counted(facts.zero_triangles, "triangle") + " without area", 1e6 * facts.volume,
                       1e3 * facts.center_of_mass[0], 1e3 * facts.center_of_mass[1], 1e3 * facts.center_of_mass[2]);
   if (facts.joined_corners > 0)
-    text += fmt::format(" {} equal to others joined with them.", count_text(facts.joined_corners, "corner was", "corners were"));
+    text +=
+        fmt::format(" {} {} equal to others joined with them.", counted(facts.joined_corners, "corner"), was(facts.joined_corners));
   if (facts.repeated_triangles > 0)
-    text += fmt::format(" {} there before and left out.", count_text(facts.repeated_triangles, "triangle was", "triangles were"));
+    text += fmt::format(" {} {} there before and left out.", counted(facts.repeated_triangles, "triangle"),
+                        was(facts.repeated_triangles));
   if (facts.closed_holes > 0)
-    text += fmt::format(" {}, up to {:.4g} mm across.", count_text(facts.closed_holes, "hole was closed", "holes were closed"),
+    text += fmt::format(" {} {} closed, up to {:.4g} mm across.", counted(facts.closed_holes, "hole"), was(facts.closed_holes),
                         1e3 * facts.widest_closed_hole);
   if (facts.was_inside_out) text += " It was inside out and has been turned round.";
   if (!facts.closed)

@@ -204,8 +204,9 @@ class Trials {
     std::size_t damaged = 0;
     auto journal = std::make_unique<TrialJournal>(files.journal, identity, counts, found, damaged);
     if (damaged > 0)
-      say_note(fmt::format("{}: {} line{} not as {} written; the grip{} tried again", files.journal, damaged,
-                           damaged == 1 ? " is" : "s are", damaged == 1 ? "it was" : "they were", damaged == 1 ? " is" : "s are"));
+      say_note(fmt::format("{}: {} not as {} written; {} tried again", files.journal,
+                           counted(damaged, "line") + (damaged == 1 ? " is" : " are"), damaged == 1 ? "it was" : "they were",
+                           damaged == 1 ? "its grip is" : "their grips are"));
     say_note(fmt::format("goes on after {} of {}", found.size(), counted(tried_.grips.size(), "grip")));
     return journal;
   }
