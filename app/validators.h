@@ -14,7 +14,7 @@ inline CLI::Validator not_empty() {
   return CLI::Validator([](const std::string& value) { return std::string(value.empty() ? "must not be empty" : ""); }, "");
 }
 
-// An option that lacks its value would take the next one for it. A file of such a name is ./--name.
+// Without this check, an option that lacks its value takes the next option as its value. A file of such a name is ./--name.
 inline CLI::Validator not_an_option() {
   return CLI::Validator(
       [](const std::string& value) {
