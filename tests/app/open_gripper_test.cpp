@@ -47,14 +47,16 @@ class Patient final : public Gripper {
   }
   bool write(const GripperForce& force) noexcept override {
     const bool is_taken = gripper_->write(force);
-    if (force.grip != 0 && ++written == 60 && at_work) at_work();  // once: a next force may be zero and leave the count
+    // once: a next force may be zero and leave the count. After few writes, as a busy machine leaves out many
+    if (is_holding && force.grip != 0 && ++written == 10 && at_work) at_work();
     return is_taken;
   }
   LetGo let_go() noexcept override { return gripper_->let_go(); }
   const char* trouble() const noexcept override { return gripper_->trouble(); }
 
   int patience = 1000, written = 0;
-  std::function<void()> at_work;  // what happens in mid-session, a force being on the gripper
+  std::atomic<bool> is_holding = false;  // the session says so
+  std::function<void()> at_work;         // what happens in mid-session, a force being on the gripper
 
  private:
   std::unique_ptr<Gripper> gripper_;
@@ -80,6 +82,7 @@ Carried carry(Patient& gripper, const Scene& scene) {
         carried.most = std::max(carried.most, tick.written.grip);
         carried.was_held = is_held(before);
         before = tick.state;
+        gripper.is_holding = is_held(tick.state);
         return true;
       },
       options);
