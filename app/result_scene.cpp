@@ -7,10 +7,9 @@
 #include "system/files.h"
 
 namespace wholehand {
-
 namespace {
 
-// Of the version that wrote a result. Those before 0.1 are not to be had.
+// Of the version that wrote a result: only 0.1 and 0.2 had others than today's.
 ScoreWeights default_weights_of(const std::string& version) {
   const auto is_of = [&](const char* minor) { return version.rfind(minor, 0) == 0; };
   return is_of("0.1.") ? WEIGHTS_0_1 : is_of("0.2.") ? WEIGHTS_0_2 : ScoreWeights{};
