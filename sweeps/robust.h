@@ -20,10 +20,6 @@ constexpr int FRICTION_LEVELS = 8;         // values that a friction with a devi
 constexpr double LEAST_HAND_FACTOR = 0.1;  // of the hand's size, however large its deviation
 constexpr std::size_t MOST_ROBUST = 100;   // grips of a list, from the best one on
 
-// The number that a standard normal variable is below with the probability p, 0 < p < 1. To 1e-9: P. J. Acklam's rational approximation and
-// one step of Halley's method. Infinite at 0 and 1.
-double normal_quantile(double p);
-
 // One deviation: what is added to a grip's coordinates (m, rad), and by what its hand scale is multiplied.
 struct Deviation {
   GripInput added{0, 0, 0, 0, 0, 0};  // but for hand_scale

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Robust scores: the normal quantile and the percentile in closed form, the deviations as samples, and the scores of whole sweeps against a
+// Robust scores: the percentile in closed form, the deviations as samples, and the scores of whole sweeps against a
 // brute-force evaluation, in the file, in the list, in `rank` and after a break.
 // sanitizers: address
 #include "sweeps/robust.h"
@@ -16,6 +16,7 @@
 
 #include "app/paths.h"
 #include "core/core_backend.h"
+#include "core/normal.h"
 #include "core/prepare.h"
 #include "host/open_backend.h"
 #include "scene/reader.h"
@@ -26,20 +27,6 @@
 
 namespace wholehand {
 namespace {
-
-TEST(Robust, NormalQuantilesInvertTheErrorFunction) {
-  for (double p = 1e-12; p < 1; p = p < 0.01 ? p * 1.7 : p + 0.0031) {
-    const double x = normal_quantile(p);
-    EXPECT_NEAR(0.5 * std::erfc(-x / std::sqrt(2.0)), p, 1e-12 * std::max(p, 1e-3)) << p;
-    if (p > 1e-3) {
-      EXPECT_NEAR(normal_quantile(1 - p), -x, 1e-11);
-    }
-  }
-  EXPECT_EQ(normal_quantile(0.5), 0);
-  EXPECT_NEAR(normal_quantile(0.975), 1.959963984540054, 1e-12);
-  EXPECT_EQ(normal_quantile(0), -INFINITY);
-  EXPECT_EQ(normal_quantile(1), INFINITY);
-}
 
 TEST(Robust, PercentilesLieBetweenScores) {
   EXPECT_EQ(robust_score({0.5}).low, 0.5);
