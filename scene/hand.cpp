@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // [hand]: the hand's size, limits, bones and trajectories.
+#include <array>
+
+#include "core/hand_size.h"
 #include "scene/parts.h"
 
 namespace wholehand {
@@ -24,15 +27,43 @@ void read_angle(const SceneTable& angles, const char* key, AngleRange& range) {
   range = {ends[0], ends[1]};
 }
 
+// Whose hand it is: a multiple of the default, a length, or a person of a survey. The tables of the fingers then change single numbers.
+void read_size(const SceneTable& table, HandData& hand) {
+  constexpr std::array<const char*, 3> SIZES{"scale", "length_mm", "person"};
+  const char* given = nullptr;
+  for (const char* key : SIZES) {
+    if (!table.has(key)) continue;
+    if (given) {
+      table.file().refuse(table.place(key), std::string(key) + " beside " + given, "allowed: one of scale, length_mm and person");
+    }
+    given = key;
+  }
+  table.read("scale", ranges::SCALE, hand.scale);
+  if (table.has("length_mm")) {
+    HandSize size;
+    table.need("length_mm", ranges::HAND_LENGTH, size.length);
+    size.breadth = expected_breadth(size.length);
+    set_size(hand, size);
+  }
+  if (const auto person = table.table("person", {"sex", "percentile"})) {
+    person->need("sex", "\"female\" or \"male\"");
+    Sex sex = Sex::female;
+    person->read("sex", {{"female", Sex::female}, {"male", Sex::male}}, sex);
+    double percentile = 50;
+    person->need("percentile", ranges::PERCENTILE, percentile);
+    set_size(hand, surveyed_size(sex, percentile));
+  }
+}
+
 }  // namespace
 
 void read_hand(const SceneTable& root, HandData& hand) {
-  const auto table =
-      root.table("hand", {"scale", "handedness", "contact_tolerance_mm", "max_angle_deg", "paper_max_angle_deg", "depth_limit_mm",
-                          "between", "joint_limit_deg", "thumb", "index", "middle", "ring", "little", "angles"});
+  const auto table = root.table(
+      "hand", {"scale", "length_mm", "person", "handedness", "contact_tolerance_mm", "max_angle_deg", "paper_max_angle_deg",
+               "depth_limit_mm", "between", "joint_limit_deg", "thumb", "index", "middle", "ring", "little", "angles"});
   if (!table) return;
   hand.place = table->file().text_of(table->place());
-  table->read("scale", ranges::SCALE, hand.scale);
+  read_size(*table, hand);
   table->read("handedness", {{"right", Handedness::right}, {"left", Handedness::left}}, hand.handedness);
   table->read("contact_tolerance_mm", ranges::CONTACT_TOLERANCE, hand.contact_tolerance);
   table->read("max_angle_deg", ranges::TURN, hand.max_angle);

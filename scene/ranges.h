@@ -45,6 +45,9 @@ constexpr std::size_t LARGEST_KEEP = 1000;     // variable names
 constexpr Quantity GRAVITY{0, 100};
 constexpr Quantity SCALE{0.05, 20};  // of the hand, and hand_scale of a grip
 
+constexpr Quantity HAND_LENGTH{100, 300, Unit::mm};
+constexpr Quantity PERCENTILE{0.01, 99.99};
+
 constexpr Quantity CONTACT_TOLERANCE{0, 10, Unit::mm};
 constexpr Quantity DEPTH_LIMIT{0, 100, Unit::mm};
 constexpr Quantity TURN{0, 180, Unit::deg};  // max_angle, paper_max_angle, joint limits

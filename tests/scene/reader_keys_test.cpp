@@ -20,8 +20,9 @@ std::string scenes_dir() { return WHOLEHAND_SOURCE_DIR "/scene/examples/"; }
 const std::map<std::string, std::vector<std::string>> SCENE_KEYS{
     {"[scene]", {"name", "pose", "gravity_m_s2"}},
     {"[hand]",
-     {"scale", "handedness", "contact_tolerance_mm", "max_angle_deg", "paper_max_angle_deg", "depth_limit_mm", "joint_limit_deg",
-      "thumb", "index", "middle", "ring", "little", "angles"}},
+     {"scale", "length_mm", "person", "handedness", "contact_tolerance_mm", "max_angle_deg", "paper_max_angle_deg",
+      "depth_limit_mm", "joint_limit_deg", "thumb", "index", "middle", "ring", "little", "angles"}},
+    {"[hand.person]", {"sex", "percentile"}},
     {"[hand.thumb]", {"base_mm", "splay_deg", "segments_mm", "radii_mm"}},
     {"[hand.index]", {"base_mm", "splay_deg", "arch_deg", "segments_mm", "radii_mm"}},
     {"[hand.little]", {"base_mm", "splay_deg", "arch_deg", "segments_mm", "radii_mm"}},

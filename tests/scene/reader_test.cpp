@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/hand_size.h"
 #include "tests/support/scene_texts.h"
 
 namespace wholehand {
@@ -129,6 +130,42 @@ dip_per_pip = 0.5
   EXPECT_EQ(hand.mcp.closed, radians(67));
   EXPECT_EQ(hand.pip.open, radians(13));
   EXPECT_EQ(hand.dip_per_pip, 0.5);
+}
+
+TEST(SceneReader, HandsOfPeople) {
+  const Scene woman = scene_from("[hand]\nperson = { sex = \"female\", percentile = 5 }\n" + VESSEL);
+  EXPECT_NEAR(size_of(woman.hand).length, surveyed_size(Sex::female, 5).length, 1e-15);
+  EXPECT_NEAR(size_of(woman.hand).breadth, surveyed_size(Sex::female, 5).breadth, 1e-15);
+  EXPECT_EQ(woman.hand.scale, 1);
+  const Scene man = scene_from("[hand.person]\nsex = \"male\"\npercentile = 99.9\n" + VESSEL);
+  EXPECT_NEAR(size_of(man.hand).length, surveyed_size(Sex::male, 99.9).length, 1e-15);
+  // further keys change single numbers of that hand
+  const Scene measured =
+      scene_from("[hand]\nlength_mm = 171.5\nhandedness = \"left\"\nindex = { radii_mm = [0, 0, 0, 0, 0] }\n" + VESSEL);
+  EXPECT_NEAR(size_of(measured.hand).length, 171.5e-3, 1e-15);
+  EXPECT_EQ(measured.hand.handedness, Handedness::left);
+  EXPECT_EQ(measured.hand.fingers[1].radii, (std::array<double, 5>{}));
+  HandData whole;
+  set_size(whole, {171.5e-3, expected_breadth(171.5e-3)});
+  EXPECT_EQ(measured.hand.fingers[2].radii, whole.fingers[2].radii);
+  EXPECT_EQ(measured.hand.fingers[1].segments, whole.fingers[1].segments);
+}
+
+TEST(SceneReader, RefusesHandsOfNobody) {
+  const std::string either = "allowed: one of scale, length_mm and person";
+  expect_refusal("[hand]\nlength_mm = 180\nperson = @{ sex = \"male\", percentile = 5 }\n" + VESSEL,
+                 "person beside length_mm; " + either);
+  expect_refusal("[hand]\nscale = 1\nlength_mm = @180\n" + VESSEL, "length_mm beside scale; " + either);
+  expect_refusal("[hand]\nscale = 1\nperson = @{ sex = \"male\", percentile = 5 }\n" + VESSEL, either);
+  expect_refusal("[hand]\nlength_mm = @18\n" + VESSEL, "length_mm = 18; allowed: 100 to 300");
+  expect_refusal("[hand]\nlength_mm = @nan\n" + VESSEL, "allowed: 100 to 300");
+  expect_refusal("[hand]\nperson = @\"me\"\n" + VESSEL, "person = 'me'; allowed: a table");
+  expect_refusal("[hand]\nperson = @{ percentile = 5 }\n" + VESSEL, "[hand.person] lacks 'sex'; allowed: \"female\" or \"male\"");
+  expect_refusal("[hand]\nperson = @{ sex = \"male\" }\n" + VESSEL, "[hand.person] lacks 'percentile'; allowed: 0.01 to 99.99");
+  expect_refusal("[hand]\nperson = { sex = @\"child\", percentile = 5 }\n" + VESSEL, "allowed: \"female\" or \"male\"");
+  for (const char* bad : {"0", "100", "-5", "inf"})
+    expect_refusal("[hand]\nperson = { sex = \"male\", percentile = @" + std::string(bad) + " }\n" + VESSEL,
+                   "allowed: 0.01 to 99.99");
 }
 
 TEST(SceneReader, TheDefaultHandIsWhatItsTableSays) {

@@ -5,11 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "app/paths.h"
 #include "core/absent.h"
 #include "core/counted_tilts.h"
+#include "core/hand_size.h"
 #include "evidence/compare.h"
 #include "host/grip_backend.h"
 #include "scene/reader.h"
@@ -107,6 +110,15 @@ TEST(Parity, SpheresBetweenJoints) {
     scene = scene_of({ledges()}, pose, odd_hand());
     scene.hand.between = pose == Pose::paper ? 1 : 3;
     expect_parity(scene, "between_" + std::to_string(scene.hand.between));
+  }
+}
+
+// A short and narrow hand, and a long and broad one.
+TEST(Parity, HandsOfPeople) {
+  for (const auto& [sex, percentile] : {std::pair{Sex::female, 5}, std::pair{Sex::male, 95}}) {
+    HandData hand;
+    set_size(hand, surveyed_size(sex, percentile));
+    expect_parity(wet_scene({beaker1(), beaker3()}, Pose::articulated, hand), "person" + std::to_string(percentile));
   }
 }
 
