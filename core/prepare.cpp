@@ -133,6 +133,46 @@ Triple rotate_y(double angle, const Triple& v) {
   return {c * v[0] + s * v[2], v[1], -s * v[0] + c * v[2]};
 }
 
+// Frames, lengths and angles: all but the gap.
+PreparedHand prepare_fingers(const HandData& hand) {
+  PreparedHand prepared;
+  for (int f = 0; f < FINGER_COUNT; ++f) {
+    const FingerData& finger = hand.fingers[f];
+    auto& out = prepared.fingers[f];
+    out.base = finger.base;
+    out.length = finger.segments;
+    out.radius = finger.radii;
+    // thumb: Ry(splay), its abduction is part of the chain's angle; fingers: Ry(-splay) Rx(-arch)
+    const double turn = f == 0 ? finger.splay : -finger.splay;
+    const double arch = f == 0 ? 0 : -finger.arch;
+    out.forward = rotate_y(turn, rotate_x(arch, {0, 0, -1}));
+    out.palmward = rotate_y(turn, rotate_x(arch, {0, -1, 0}));
+  }
+  const auto swing = [](const AngleRange& range) { return range.closed - range.open; };
+  prepared.thumb_open = {hand.thumb_abduction.open, hand.thumb_mcp.open, hand.thumb_ip.open};
+  prepared.thumb_swing = {swing(hand.thumb_abduction), swing(hand.thumb_mcp), swing(hand.thumb_ip)};
+  prepared.finger_open = {hand.mcp.open, hand.pip.open, hand.dip_per_pip * hand.pip.open};
+  prepared.finger_swing = {swing(hand.mcp), swing(hand.pip), hand.dip_per_pip * swing(hand.pip)};
+  return prepared;
+}
+
+constexpr int GAP_CHECKS = 1024;
+
+double checked_gap(const core_f64::Hand& hand, int check) {
+  return core_f64::gap_at(hand, static_cast<double>(check) / GAP_CHECKS);
+}
+
+// The first check at which the gap is not below the one before; one past the last where it falls all the way.
+int gap_turns_at(const core_f64::Hand& hand) {
+  double previous = checked_gap(hand, 0);
+  for (int check = 1; check <= GAP_CHECKS; ++check) {
+    const double gap = checked_gap(hand, check);
+    if (!(gap < previous)) return check;
+    previous = gap;
+  }
+  return GAP_CHECKS + 1;
+}
+
 }  // namespace
 
 std::vector<PreparedElement> monotone_elements(const std::vector<OutlineElement>& outline) {
@@ -182,43 +222,18 @@ PreparedVessel prepare_vessel(const VesselData& vessel, bool needs_cavity) {
 }
 
 PreparedHand prepare_hand(const HandData& hand, int gap_entries) {
-  PreparedHand prepared;
-  for (int f = 0; f < FINGER_COUNT; ++f) {
-    const FingerData& finger = hand.fingers[f];
-    auto& out = prepared.fingers[f];
-    out.base = finger.base;
-    out.length = finger.segments;
-    out.radius = finger.radii;
-    // thumb: Ry(splay), its abduction is part of the chain's angle; fingers: Ry(-splay) Rx(-arch)
-    const double turn = f == 0 ? finger.splay : -finger.splay;
-    const double arch = f == 0 ? 0 : -finger.arch;
-    out.forward = rotate_y(turn, rotate_x(arch, {0, 0, -1}));
-    out.palmward = rotate_y(turn, rotate_x(arch, {0, -1, 0}));
-  }
-  const auto swing = [](const AngleRange& range) { return range.closed - range.open; };
-  prepared.thumb_open = {hand.thumb_abduction.open, hand.thumb_mcp.open, hand.thumb_ip.open};
-  prepared.thumb_swing = {swing(hand.thumb_abduction), swing(hand.thumb_mcp), swing(hand.thumb_ip)};
-  prepared.finger_open = {hand.mcp.open, hand.pip.open, hand.dip_per_pip * hand.pip.open};
-  prepared.finger_swing = {swing(hand.mcp), swing(hand.pip), hand.dip_per_pip * swing(hand.pip)};
-
+  PreparedHand prepared = prepare_fingers(hand);
   core_f64::Hand kernel_hand = core_f64::load_hand(prepared, hand);
-  constexpr int CHECKS = 1024;
-  double previous = 0;
-  for (int i = 0; i <= CHECKS; ++i) {
-    const double closure = static_cast<double>(i) / CHECKS;
-    const double gap = core_f64::gap_at(kernel_hand, closure);
-    if (i > 0 && !(gap < previous)) {
-      char closure_text[32];
-      std::snprintf(closure_text, sizeof closure_text, "%.4f", static_cast<double>(i - 1) / CHECKS);
-      throw usage_error(at_place(
-          hand.place, "[hand]: the gap between thumb and index tip must fall strictly as the hand closes; it turns at closure " +
-                          std::string(closure_text) + " (" + std::to_string(previous * 1e3) +
-                          " mm); change the angles or segments"));
-    }
-    if (i == 0) prepared.gap_open = gap;
-    if (i == CHECKS) prepared.gap_closed = gap;
-    previous = gap;
+  if (const int turn = gap_turns_at(kernel_hand); turn <= GAP_CHECKS) {
+    char closure_text[32];
+    std::snprintf(closure_text, sizeof closure_text, "%.4f", static_cast<double>(turn - 1) / GAP_CHECKS);
+    throw usage_error(at_place(
+        hand.place, "[hand]: the gap between thumb and index tip must fall strictly as the hand closes; it turns at closure " +
+                        std::string(closure_text) + " (" + std::to_string(checked_gap(kernel_hand, turn - 1) * 1e3) +
+                        " mm); change the angles or segments"));
   }
+  prepared.gap_open = checked_gap(kernel_hand, 0);
+  prepared.gap_closed = checked_gap(kernel_hand, GAP_CHECKS);
   // closure at equal steps of the gap, by bisection: the gap is monotone
   for (int k = 0; k < gap_entries; ++k) {
     const double gap = prepared.gap_open + (prepared.gap_closed - prepared.gap_open) * k / (gap_entries - 1);
@@ -230,6 +245,12 @@ PreparedHand prepare_hand(const HandData& hand, int gap_entries) {
     prepared.gap_table.push_back(k == 0 ? 0 : k == gap_entries - 1 ? 1 : 0.5 * (low + high));
   }
   return prepared;
+}
+
+double gap_falls_until(const HandData& hand) {
+  const int turn = gap_turns_at(core_f64::load_hand(prepare_fingers(hand), hand));
+  // the least gap lies within a check on either side of the last one that fell
+  return turn > GAP_CHECKS ? 1 : static_cast<double>(std::max(0, turn - 2)) / GAP_CHECKS;
 }
 
 PreparedLattice prepare_lattice(const PreparedVessel& prepared, int samples, bool halves, double margin) {

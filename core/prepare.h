@@ -32,6 +32,9 @@ PreparedVessel prepare_vessel(const VesselData& vessel, bool needs_cavity);
 // Throws Error (usage) where the gap is not strictly decreasing at 1,025 equal steps of the closure, naming where it turns.
 PreparedHand prepare_hand(const HandData& hand, int gap_entries = GAP_TABLE_SIZE);
 
+// A closure up to which the gap falls, of those steps: 1 where it falls all the way, and 0 where not even at the start.
+double gap_falls_until(const HandData& hand);
+
 // Largest radius on an element, m: that of an arc's circle only where the arc reaches it.
 double widest_on(const PreparedElement& element);
 

@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "core/people_data.h"
+
 namespace wholehand {
 
 using Triple = std::array<double, 3>;    // a point or vector, m unless said otherwise
@@ -247,6 +249,7 @@ struct Scene {
   OutputData output;
   std::optional<TableData> table;
   std::optional<RobustData> robust;  // absent: no robust scores
+  PeopleData people;                 // for what draws people
   LiveData live;
   DeviceData device;
   std::optional<TaskData> task;

@@ -58,6 +58,9 @@ void read_tabletop(const SceneTable& root, const std::vector<VesselData>& vessel
 // ---- robust.cpp ----
 void read_robust(const SceneTable& root, std::optional<RobustData>& robust);
 
+// ---- people.cpp ----
+void read_people(const SceneTable& root, PeopleData& people);
+
 // ---- session.cpp ----
 void read_live(const SceneTable& root, LiveData& live);
 void read_device(const SceneTable& root, DeviceData& device);

@@ -105,6 +105,7 @@ constexpr Quantity ANGLE_DEVIATION{0, 90, Unit::deg};
 constexpr Quantity FRICTION_DEVIATION{0, 1};
 constexpr Quantity SCALE_DEVIATION{0, 0.3};
 constexpr IntegerRange DEVIATION_COUNT{8, 4096};
+constexpr Quantity SCATTER{0, 10};  // factors on the deviations of [people]
 
 constexpr Quantity WEIGHT{0, 1000};
 constexpr IntegerRange BEST{0, 100000};

@@ -60,6 +60,7 @@ void read_scene(const SceneTable& root, Scene& scene) {
   read_output(root, scene.output);
   read_tabletop(root, scene.vessels, scene.table);
   read_robust(root, scene.robust);
+  read_people(root, scene.people);
   read_live(root, scene.live);
   read_device(root, scene.device);
   read_task(root, scene.vessels, scene.task);
@@ -80,7 +81,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const ScoreWei
   scene.text = text;
   const SceneTable root(file, table, "the scene",
                         {"scene", "hand", "vessel", "liquid", "force", "strength", "grips", "tilts", "score", "output", "table",
-                         "robust", "live", "device", "task"});
+                         "robust", "people", "live", "device", "task"});
   scene.score = unnamed;
   read_scene(root, scene);
   return scene;

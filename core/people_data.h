@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// The numbers of a population of people, as a scene's [people] may change them; people/ draws persons from them. docs/people.md has the
+// meaning and the source of each.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace wholehand {
+
+// What differs from person to person, and from one grasp of a person to the next. SI.
+enum class Trait {
+  height,            // of the thumb-index line over the guidance point, m
+  azimuth,           // of the line, off the guidance point's, rad
+  obliquity,         // of the line, rad
+  roll,              // of the hand about the line, off what was planned, rad
+  reaction,          // from a load that is felt to the first change of the grip force, s
+  response,          // how long that change takes, s
+  gain,              // of the grip force's rise that would keep the margin, how much is done
+  margin,            // share of the grip force that is not needed against slipping
+  friction,          // that the person reckons with
+  weight_guess,      // the weight that is expected over the true one
+  grip_tremor,       // standard deviation of the grip force over the force
+  tremor_rate,       // Hz
+  arm_tremor,        // standard deviation of the hand's place, m
+  finger_mass,       // kg
+  finger_damping,    // N s/m
+  finger_stiffness,  // N/m
+  arm_mass,          // kg
+  arm_damping,       // N s/m
+  arm_stiffness,     // N/m
+  patience,          // how long something is tried before it is given up, s
+  strength           // over the mean adult's
+};
+constexpr std::size_t TRAIT_COUNT = 21;
+
+// The mean over the population, the standard deviation of persons about it, and that of grasps about their person.
+struct Spread {
+  double mean = 0, person = 0, grasp = 0;
+};
+
+using Traits = std::array<double, TRAIT_COUNT>;
+constexpr double of(const Traits& traits, Trait trait) { return traits[static_cast<std::size_t>(trait)]; }
+
+// Where the numbers of a trait come from. None is fitted.
+enum class Origin { published, mean_published, ours };
+
+// What is known of a trait.
+struct TraitFacts {
+  const char* key;   // in [people] and in tables; its end is the unit there: `_mm`, `_deg`, else SI
+  bool is_positive;  // log-normal, so that it stays above 0; else normal
+  Spread spread;     // SI
+  double low, high;  // allowed for the mean
+  double widest;     // allowed for the deviations, from 0 on
+  Origin origin;
+};
+const std::array<TraitFacts, TRAIT_COUNT>& trait_facts();
+
+struct PeopleData {
+  double women = 0.5;      // share of the persons
+  double scatter = 1;      // every deviation is multiplied by it, and the difference of the sexes; 0: everybody is the mean person
+  double size = 1;         // deviations of the hands' length and breadth about the mean of their sex, times the survey's
+  double proportions = 1;  // deviations of single segments, times the published
+  std::array<Spread, TRAIT_COUNT> traits;
+
+  PeopleData();  // with the spreads of trait_facts
+};
+
+}  // namespace wholehand

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Hands of virtual people: of the person's size, with the person's proportions, and each of them closes.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/prepare.h"
+#include "people/person.h"
+
+namespace wholehand {
+namespace {
+
+TEST(PersonHand, HasThePersonsSizeAndCloses) {
+  int shortened = 0;
+  constexpr int COUNT = 500;
+  for (std::uint64_t n = 0; n < COUNT; ++n) {
+    const Person person = draw_person({}, 5, n);
+    const HandData hand = hand_of({}, person);
+    EXPECT_NEAR(size_of(hand).length, person.hand.length, 1e-14);
+    EXPECT_NEAR(size_of(hand).breadth, person.hand.breadth, 1e-14);
+    const PreparedHand prepared = prepare_hand(hand, 2);  // throws if the gap did not fall
+    // the pads of most meet before the end, and those of none stay further apart than a thin neck is wide
+    EXPECT_LT(prepared.gap_closed, hand.fingers[0].radii[3] + hand.fingers[1].radii[4] + 20e-3) << n;
+    shortened += hand.mcp.closed != HandData{}.mcp.closed;
+  }
+  EXPECT_LT(shortened, COUNT);
+}
+
+TEST(PersonHand, OfTheMeanPersonHasTheDefaultsShares) {
+  PeopleData people;
+  people.scatter = 0;
+  const HandData hand = hand_of({}, make_person(people, {})), plain;
+  const double ratio = 187.18 / 186.91;
+  for (std::size_t f = 0; f < FINGER_COUNT; ++f)
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(hand.fingers[f].segments[k], ratio * plain.fingers[f].segments[k], 1e-14);
+  EXPECT_EQ(hand.mcp.closed, plain.mcp.closed);
+}
+
+TEST(PersonHand, KeepsWhatIsNotSize) {
+  HandData plain;
+  plain.handedness = Handedness::left;
+  plain.scale = 1.3;
+  plain.between = 5;
+  plain.depth_limit = 7e-3;
+  const HandData hand = hand_of(plain, draw_person({}, 5, 1));
+  EXPECT_EQ(hand.handedness, Handedness::left);
+  EXPECT_EQ(hand.scale, 1);
+  EXPECT_EQ(hand.between, 5);
+  EXPECT_EQ(hand.depth_limit, 7e-3);
+}
+
+// A hand whose thumb and index finger pass each other before the end: its trajectories end where they are nearest.
+TEST(PersonHand, TrajectoriesEndWhereTheGapTurns) {
+  HandData passing;
+  passing.pip.closed = radians(70);
+  ASSERT_LT(gap_falls_until(passing), 1);
+  Person person;
+  person.segments.fill(1);
+  person.hand = size_of(passing);
+  const HandData hand = hand_of(passing, person);
+  EXPECT_LT(hand.pip.closed, passing.pip.closed);
+  EXPECT_EQ(hand.pip.open, passing.pip.open);
+  EXPECT_EQ(gap_falls_until(hand), 1);
+  EXPECT_EQ(gap_falls_until(HandData{}), 1);
+}
+
+}  // namespace
+}  // namespace wholehand
