@@ -26,7 +26,7 @@ std::string point_name(int joint) {
 }
 
 std::string r_text(const Correlation& correlation) {
-  return correlation.r ? shown_number(*correlation.r, 2) : "none, " + correlation.why;
+  return correlation.r ? shown_number(*correlation.r, 2) : std::string("none, ") + words_of(correlation.lack);
 }
 
 std::string in_mm(double metres, int digits = 1) { return shown_number(metres * 1e3, digits); }
@@ -124,7 +124,7 @@ void write_point_table(MarkupWriter& html, const GuidanceStatistics& statistics,
     const PointTouch& point = statistics.points[j];
     table.row({point_name(j), shown_number(100.0 * static_cast<double>(point.touching) / static_cast<double>(statistics.grips), 1),
                in_mm(point.distance_touching), in_mm(point.distance_free),
-               point.correlation.r ? shown_number(*point.correlation.r, 2) : point.correlation.why});
+               point.correlation.r ? shown_number(*point.correlation.r, 2) : words_of(point.correlation.lack)});
   }
   table.end();
 }
@@ -211,7 +211,7 @@ void write_guidance(MarkupWriter& html, const ReportSource& source, std::size_t 
   html.element("p", fmt::format("Distances go from {} to {} mm; {} fingers are used on average. Fingers used and distance: {}.",
                                 in_mm(statistics.nearest), in_mm(statistics.farthest), shown_number(statistics.mean_fingers, 2),
                                 statistics.fingers.r ? fmt::format("Pearson's r = {}", shown_number(*statistics.fingers.r, 2))
-                                                     : "no correlation (" + statistics.fingers.why + ")"));
+                                                     : std::string("no correlation (") + words_of(statistics.fingers.lack) + ")"));
   write_charts(html, statistics, data.name, id);
   write_point_table(html, statistics, data.name);
   html.element("p",

@@ -6,24 +6,14 @@
 #include <cmath>
 #include <limits>
 
+#include "statistics/moments.h"
+
 namespace wholehand {
 namespace {
 
-constexpr double ROUNDING_SHARE = 1e-9;  // of the largest value: less is no variation
-constexpr double FAR_OUTSIDE = 1000;     // m: of every vessel that can be described
-constexpr double ON_SURFACE = 1e-9;      // m
+constexpr double FAR_OUTSIDE = 1000;  // m: of every vessel that can be described
+constexpr double ON_SURFACE = 1e-9;   // m
 constexpr int SURFACE_STEPS = 1000;
-
-bool varies(std::span<const double> values) {
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  return *high - *low > ROUNDING_SHARE * std::max(std::abs(*low), std::abs(*high));
-}
-
-double mean_of(std::span<const double> values) {
-  double sum = 0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
 
 // A round number of mm that cuts the distances into at most MOST_DISTANCE_BINS, m.
 double bin_width(double nearest, double farthest) {
@@ -57,36 +47,22 @@ double apart(const Triple& a, const Triple& b) { return std::hypot(a[0] - b[0], 
 
 }  // namespace
 
-Correlation pearson(std::span<const double> x, std::span<const double> y) {
-  if (x.size() < 3) return {std::nullopt, "fewer than three grips"};
-  if (!varies(x)) return {std::nullopt, "one distance"};
-  if (!varies(y)) return {std::nullopt, "always the same"};
-  const double mean_x = mean_of(x), mean_y = mean_of(y);
-  double xx = 0, yy = 0, xy = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const double dx = x[i] - mean_x, dy = y[i] - mean_y;
-    xx += dx * dx;
-    yy += dy * dy;
-    xy += dx * dy;
+const char* words_of(Lack lack) {
+  switch (lack) {
+    case Lack::fewer_than_3:
+      return "fewer than three grips";
+    case Lack::one_x:
+      return "one distance";
+    case Lack::one_y:
+      return "always the same";
+    case Lack::never:
+      return "never";
+    case Lack::always:
+      return "always";
+    case Lack::none:
+      break;
   }
-  return {std::clamp(xy / std::sqrt(xx) / std::sqrt(yy), -1.0, 1.0), ""};
-}
-
-Correlation point_biserial(std::span<const double> x, std::span<const char> yes) {
-  if (x.size() < 3) return {std::nullopt, "fewer than three grips"};
-  const auto count = static_cast<std::size_t>(std::count_if(yes.begin(), yes.end(), [](char is_yes) { return is_yes != 0; }));
-  if (count == 0) return {std::nullopt, "never"};
-  if (count == yes.size()) return {std::nullopt, "always"};
-  if (!varies(x)) return {std::nullopt, "one distance"};
-  const auto n = static_cast<double>(x.size()), n1 = static_cast<double>(count), n0 = n - n1;
-  const double mean = mean_of(x);
-  double sum_1 = 0, sum_0 = 0, squares = 0;  // about the mean
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    (yes[i] != 0 ? sum_1 : sum_0) += x[i] - mean;
-    squares += (x[i] - mean) * (x[i] - mean);
-  }
-  const double r = (sum_1 / n1 - sum_0 / n0) / std::sqrt(squares / n) * std::sqrt(n1 / n * (n0 / n));
-  return {std::clamp(r, -1.0, 1.0), ""};
+  return "";
 }
 
 GuidanceStatistics guidance_statistics(const std::vector<GuidedGrip>& grips) {

@@ -5,28 +5,15 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
-#include <span>
-#include <string>
 #include <vector>
 
 #include "core/evaluator.h"
+#include "statistics/correlation.h"
 
 namespace wholehand {
 
-// A coefficient of correlation in [-1, 1], or why there is none.
-struct Correlation {
-  std::optional<double> r;
-  std::string why;  // "always", "never", "one distance", ..; empty where there is one
-};
-
-// Pearson's r of pairs. There is none of fewer than three pairs, nor where one side does not vary by more than 1e-9 of its largest value:
-// that is rounding.
-Correlation pearson(std::span<const double> x, std::span<const double> y);
-
-// Point-biserial r of a number with a yes or no: (M1 - M0) / s sqrt(p q), with the means of x where yes and where no, the deviation of all x
-// (over n) and the shares of yes and no. It is Pearson's r with 1 for yes and 0 for no, and absent where that is.
-Correlation point_biserial(std::span<const double> x, std::span<const char> yes);
+// Why grips have no correlation, in words; empty where there is one.
+const char* words_of(Lack lack);
 
 // A grip as it is counted.
 struct GuidedGrip {

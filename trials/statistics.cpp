@@ -10,7 +10,6 @@
 namespace wholehand {
 namespace {
 
-constexpr double NORMAL_95 = 1.959963984540054;  // 97.5th percentile of the normal distribution
 constexpr double EFFORT_EDGES[] = {0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.75, 1, 1.5, 2, 4};
 
 // Predictions in the order of their values, so that a resample is one pass with a weight for each grip.
@@ -53,14 +52,6 @@ std::vector<std::size_t> occurring_grips(std::span<const Prediction> predictions
   return grips;
 }
 
-// Of ascending values, by linear interpolation.
-double percentile_of(const std::vector<double>& ascending, double share) {
-  const double place = share * static_cast<double>(ascending.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const std::size_t above = std::min(below + 1, ascending.size() - 1);
-  return ascending[below] + (place - static_cast<double>(below)) * (ascending[above] - ascending[below]);
-}
-
 // `measure` of the weights that each resample gives the grips; NaN leaves a resample out.
 template <class Measure>
 Interval bootstrap_interval(const std::vector<std::size_t>& occurring, std::size_t grips, std::uint64_t seed,
@@ -77,22 +68,10 @@ Interval bootstrap_interval(const std::vector<std::size_t>& occurring, std::size
     if (!std::isnan(value)) found.push_back(value);
   }
   if (2 * found.size() < RESAMPLES) return {};
-  std::sort(found.begin(), found.end());
-  return {percentile_of(found, 0.025), percentile_of(found, 0.975)};
+  return percentile_interval(found);
 }
 
 }  // namespace
-
-Share share_of(std::size_t yes, std::size_t of) {
-  Share share{yes, of, std::numeric_limits<double>::quiet_NaN(), {}};
-  if (of == 0) return share;
-  const double n = static_cast<double>(of), p = static_cast<double>(yes) / n, square = NORMAL_95 * NORMAL_95;
-  const double middle = (p + square / (2 * n)) / (1 + square / n);
-  const double half = NORMAL_95 / (1 + square / n) * std::sqrt(p * (1 - p) / n + square / (4 * n * n));
-  share.share = p;
-  share.interval = {std::max(0.0, middle - half), std::min(1.0, middle + half)};
-  return share;
-}
 
 double auc_of(std::span<const Prediction> predictions) {
   return RankedPredictions(predictions).auc(std::vector<double>(grips_in(predictions), 1.0));

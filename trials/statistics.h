@@ -8,19 +8,9 @@
 #include <span>
 #include <vector>
 
+#include "statistics/interval.h"
+
 namespace wholehand {
-
-struct Interval {
-  double low = std::numeric_limits<double>::quiet_NaN(), high = low;
-};
-
-// So many of so many, with Wilson's score interval (1927). NaN of none.
-struct Share {
-  std::size_t yes = 0, of = 0;
-  double share = std::numeric_limits<double>::quiet_NaN();
-  Interval interval;
-};
-Share share_of(std::size_t yes, std::size_t of);
 
 // What was predicted of one thing, and what came of it. A larger value is a prediction that it rather succeeds; infinite values are
 // allowed, NaN is not. `grip`: things of one grip share their number, from 0, and are resampled together.

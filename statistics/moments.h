@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// Mean and deviation of numbers.
+#pragma once
+
+#include <span>
+
+namespace wholehand {
+
+// NaN of none.
+double mean_of(std::span<const double> values);
+// Over n - 1; NaN of fewer than two.
+double deviation_of(std::span<const double> values);
+
+}  // namespace wholehand

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "statistics/resample.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace wholehand {
+namespace {
+
+TEST(Interval, PercentilesLieBetweenValues) {
+  const std::vector<double> values{0, 1, 2, 3, 4};
+  EXPECT_EQ(percentile_of(values, 0), 0);
+  EXPECT_EQ(percentile_of(values, 1), 4);
+  EXPECT_NEAR(percentile_of(values, 0.6), 2.4, 1e-15);
+  const Interval interval = percentile_interval(std::vector<double>{4, 2, 0, 3, 1});
+  EXPECT_NEAR(interval.low, 0.1, 1e-15);
+  EXPECT_NEAR(interval.high, 3.9, 1e-15);
+  EXPECT_TRUE(std::isnan(percentile_interval({}).low));
+}
+
+// The mean of 25 of numbers 0 to 9999: about 5000 with a deviation of 10000 / sqrt(12 x 25).
+TEST(Resample, IntervalsOfAMeanAreThoseOfTheCentralLimit) {
+  const auto mean = [](std::span<const std::size_t> members) {
+    double sum = 0;
+    for (const std::size_t member : members) sum += static_cast<double>(member);
+    return sum / static_cast<double>(members.size());
+  };
+  const Interval interval = resampled_interval(10000, 25, 4000, 1, mean);
+  const double deviation = 10000 / std::sqrt(12.0 * 25);
+  // a percentile of 4,000 samples has a deviation of 0.04 of that
+  EXPECT_NEAR(interval.low, 4999.5 - NORMAL_95 * deviation, 0.2 * deviation);
+  EXPECT_NEAR(interval.high, 4999.5 + NORMAL_95 * deviation, 0.2 * deviation);
+}
+
+TEST(Resample, SamplesAreTheSeeds) {
+  const auto first = [](std::span<const std::size_t> members) { return static_cast<double>(members[0]); };
+  EXPECT_EQ(resampled_values(100, 3, 20, 7, first), resampled_values(100, 3, 20, 7, first));
+  EXPECT_NE(resampled_values(100, 3, 20, 7, first), resampled_values(100, 3, 20, 8, first));
+  for (const double member : resampled_values(3, 1, 1000, 7, first)) EXPECT_LT(member, 3);
+}
+
+TEST(Resample, LeavesOutSamplesWithoutTheStatistic) {
+  const auto rarely = [](double share) {
+    return
+        [share](std::span<const std::size_t> members) { return static_cast<double>(members[0]) < share * 100 ? 1 : std::nan(""); };
+  };
+  EXPECT_EQ(resampled_interval(100, 1, 200, 1, rarely(0.8)).low, 1);
+  EXPECT_TRUE(std::isnan(resampled_interval(100, 1, 200, 1, rarely(0.2)).low));
+}
+
+}  // namespace
+}  // namespace wholehand
