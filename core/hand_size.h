@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// How large a hand is, and hands of people's sizes: lengths by a survey of hand lengths, what lies across by a survey of hand breadths.
+// How large a hand is, and hands of people's sizes: lengths by a survey of hand lengths, what lies across by a survey of hand
+// breadths.
 #pragma once
 
 #include "core/scene.h"
@@ -14,9 +15,10 @@ struct HandSize {
 
 HandSize size_of(const HandData& hand);
 
-// Gives the hand a size. All bases and segments take the ratio of the lengths, all radii that of the breadths; the middle, ring and little
-// finger move sideways, as they are, until their knuckles lie apart from the index finger's by the ratio of the breadths. Thumb and
-// index finger therefore keep their form, and the hand closes as it did: its gap is the former one times the ratio of the lengths.
+// Gives the hand a size. All bases and segments take the ratio of the lengths, all radii that of the breadths; the middle, ring
+// and little finger move sideways, as they are, until their knuckles lie apart from the index finger's by the ratio of the
+// breadths. Thumb and index finger therefore keep their form, and the hand closes as it did: its gap is the former one times the
+// ratio of the lengths.
 void set_size(HandData& hand, const HandSize& size);
 
 enum class Sex { female, male };
@@ -37,11 +39,12 @@ struct HandSurvey {
 // Computed from the survey's public data.
 const HandSurvey& hand_survey(Sex sex);
 
-// The length and the breadth below which `percentile` per cent of a sex lie, 0 < percentile < 100: of normal distributions with the survey's
-// moments.
+// The length and the breadth below which `percentile` per cent of a sex lie, 0 < percentile < 100: of normal distributions with
+// the survey's moments.
 HandSize surveyed_size(Sex sex, double percentile);
 
-// The breadth to expect of an adult's hand of this length (m), where nothing else is known: the regression over as many women as men.
+// The breadth to expect of an adult's hand of this length (m), where nothing else is known: the regression over as many women as
+// men.
 double expected_breadth(double length);
 
 }  // namespace wholehand

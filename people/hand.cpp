@@ -8,7 +8,8 @@
 namespace wholehand {
 namespace {
 
-// Buryanov & Kotiuk 2010, Table I: mean and standard deviation of the segments of 66 adults, mm. The pulp is added to the last segment.
+// Buryanov & Kotiuk 2010, Table I: mean and standard deviation of the segments of 66 adults, mm. The pulp is added to the last
+// segment.
 struct Segment {
   double mean, deviation, pulp_mean = 0, pulp_deviation = 0;
 };

@@ -43,7 +43,8 @@ HandSize hand_size(const PeopleData& people, Sex sex, const Shares& shares) {
   return size;
 }
 
-// Crosby, Wehbe & Mawr 1994: a woman's largest grip is 81 lb in the mean and a man's 137 lb, and a pulp pinch is the same share of both.
+// Crosby, Wehbe & Mawr 1994: a woman's largest grip is 81 lb in the mean and a man's 137 lb, and a pulp pinch is the same share
+// of both.
 constexpr double STRENGTH_OF_WOMEN = 81.0 / 109, STRENGTH_OF_MEN = 137.0 / 109;
 
 double strength_of(const PeopleData& people, Sex sex) {

@@ -45,16 +45,16 @@ Person make_person(const PeopleData& people, const Shares& shares);
 Traits draw_grasp(const PeopleData& people, const Person& person, std::uint64_t seed, std::uint64_t number,
                   std::uint64_t experiment, std::uint64_t grasp);
 
-// The person's own hand: `plain` with the person's size and shares of segments. Angles, limits and tolerances are those of `plain`, but
-// where the gap of thumb and index finger stops falling before the closure 1, the trajectories end there.
+// The person's own hand: `plain` with the person's size and shares of segments. Angles, limits and tolerances are those of
+// `plain`, but where the gap of thumb and index finger stops falling before the closure 1, the trajectories end there.
 HandData hand_of(const HandData& plain, const Person& person);
 
 // Standard deviation of a segment's length over its mean, among hands of one length: what the published deviation leaves when the
 // survey's own deviation of the length is taken from it.
 double segment_deviation(std::size_t segment);
 
-// The grip force at which a person first settles on a thing of `weight` N: what the reckoned friction of two fingers asks for the weight
-// that is expected, and the margin. N.
+// The grip force at which a person first settles on a thing of `weight` N: what the reckoned friction of two fingers asks for the
+// weight that is expected, and the margin. N.
 double first_force(const Traits& traits, double weight);
 
 // The grip force that a person goes to where the load has risen by `rise` N since the first force.

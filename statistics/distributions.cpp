@@ -6,7 +6,7 @@
 namespace wholehand {
 namespace {
 
-constexpr int MOST_STEPS = 10000;
+constexpr int MOST_TERMS = 10000;
 constexpr double TINY = 1e-300, END = 1e-16;
 
 double away_from_zero(double x) { return std::abs(x) < TINY ? TINY : x; }
@@ -14,7 +14,7 @@ double away_from_zero(double x) { return std::abs(x) < TINY ? TINY : x; }
 // The continued fraction of 26.5.8; it converges fast for x < (a + 1) / (a + b + 2).
 double fraction(double a, double b, double x) {
   double c = 1, d = 1 / away_from_zero(1 - (a + b) * x / (a + 1)), value = d;
-  for (int m = 1; m <= MOST_STEPS; ++m) {
+  for (int m = 1; m <= MOST_TERMS; ++m) {
     const double even = m * (b - m) * x / ((a + 2 * m - 1) * (a + 2 * m));
     d = 1 / away_from_zero(1 + even * d);
     c = away_from_zero(1 + even / c);

@@ -19,6 +19,21 @@ TEST(Interval, PercentilesLieBetweenValues) {
   EXPECT_TRUE(std::isnan(percentile_interval({}).low));
 }
 
+// Wilson's interval as textbooks have it, for 8 of 10, and at both ends.
+TEST(Interval, OfAShareIsWilsons) {
+  const Share most = share_of(8, 10);
+  EXPECT_DOUBLE_EQ(most.share, 0.8);
+  EXPECT_NEAR(most.interval.low, 0.4901625, 1e-6);
+  EXPECT_NEAR(most.interval.high, 0.9433178, 1e-6);
+  const Share none = share_of(0, 20);
+  EXPECT_DOUBLE_EQ(none.interval.low, 0);
+  EXPECT_NEAR(none.interval.high, 0.1611252, 1e-6);
+  const Share all = share_of(20, 20);
+  EXPECT_NEAR(all.interval.low, 1 - 0.1611252, 1e-6);
+  EXPECT_DOUBLE_EQ(all.interval.high, 1);
+  EXPECT_TRUE(std::isnan(share_of(0, 0).share));
+}
+
 // The mean of 25 of numbers 0 to 9999: about 5000 with a deviation of 10000 / sqrt(12 x 25).
 TEST(Resample, IntervalsOfAMeanAreThoseOfTheCentralLimit) {
   const auto mean = [](std::span<const std::size_t> members) {

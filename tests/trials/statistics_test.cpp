@@ -45,21 +45,6 @@ std::vector<Prediction> shifted_predictions(std::size_t count, double shift, std
   return all;
 }
 
-// Wilson's interval as textbooks have it, for 8 of 10, and at both ends.
-TEST(TrialStatistics, WilsonIntervals) {
-  const Share most = share_of(8, 10);
-  EXPECT_DOUBLE_EQ(most.share, 0.8);
-  EXPECT_NEAR(most.interval.low, 0.4901625, 1e-6);
-  EXPECT_NEAR(most.interval.high, 0.9433178, 1e-6);
-  const Share none = share_of(0, 20);
-  EXPECT_DOUBLE_EQ(none.interval.low, 0);
-  EXPECT_NEAR(none.interval.high, 0.1611252, 1e-6);
-  const Share all = share_of(20, 20);
-  EXPECT_NEAR(all.interval.low, 1 - 0.1611252, 1e-6);
-  EXPECT_DOUBLE_EQ(all.interval.high, 1);
-  EXPECT_TRUE(std::isnan(share_of(0, 0).share));
-}
-
 // Successes 3, 2, 1 and failures 2, 0: of six pairs 3 > 2, 3 > 0, 2 = 2, 2 > 0, 1 < 2, 1 > 0.
 TEST(TrialStatistics, AucOfAFewByHand) {
   const std::vector<Prediction> few{{3, true, 0}, {2, true, 1}, {1, true, 2}, {2, false, 3}, {0, false, 4}};

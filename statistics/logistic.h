@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// How terms change the odds of a success.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "statistics/interval.h"
+
+namespace wholehand {
+
+// log(p / (1 - p)) = intercept + sum of coefficient x term, by Newton's steps (iteratively reweighted least squares). A term that
+// does not vary has the coefficient 0. Where successes and failures can be separated, or the terms depend on one another, the
+// largest likelihood has no finite place: then half a square of each coefficient, in units of its term's deviation, is taken off
+// the log-likelihood (a ridge), and `has_ridge` says so.
+struct LogisticModel {
+  std::vector<double> coefficients;
+  std::vector<double>
+      errors;  // standard errors, by the curvature of the likelihood; NaN with a ridge and of a term that does not vary
+  double intercept = 0;
+  bool is_fitted = false;  // false: there is no success, or no failure; the coefficients are 0
+  bool has_ridge = false;
+
+  Interval interval(std::size_t term) const {
+    return {coefficients[term] - NORMAL_95 * errors[term], coefficients[term] + NORMAL_95 * errors[term]};
+  }
+};
+
+// `terms`: `count` numbers for each entry of `success`, one row after the other.
+LogisticModel fit_logistic_model(std::span<const double> terms, std::size_t count, std::span<const char> success);
+
+}  // namespace wholehand
