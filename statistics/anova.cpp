@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "statistics/anova.h"
 
+#include <algorithm>
+
 #include "statistics/distributions.h"
 #include "statistics/moments.h"
 
@@ -22,7 +24,8 @@ std::optional<Anova> one_way_anova(std::span<const std::vector<double>> groups) 
     between += static_cast<double>(group.size()) * (own - mean) * (own - mean);
     for (const double value : group) within += (value - own) * (value - own);
   }
-  if (!(within > 0)) return std::nullopt;
+  if (std::none_of(groups.begin(), groups.end(), [](const std::vector<double>& group) { return varies(group); }))
+    return std::nullopt;
   Anova result;
   result.between = used - 1;
   result.within = count - used;

@@ -17,7 +17,7 @@ struct Anova {
 };
 
 // Of groups of values; empty groups do not count. None where fewer than two groups are left, where no group has a second value,
-// or where no value differs from its group's mean.
+// or where the values of no group differ by more than rounding (statistics/moments.h).
 std::optional<Anova> one_way_anova(std::span<const std::vector<double>> groups);
 
 }  // namespace wholehand

@@ -9,16 +9,6 @@
 #include "statistics/moments.h"
 
 namespace wholehand {
-namespace {
-
-constexpr double ROUNDING_SHARE = 1e-9;  // of the largest value: less is no variation
-
-bool varies(std::span<const double> values) {
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  return *high - *low > ROUNDING_SHARE * std::max(std::abs(*low), std::abs(*high));
-}
-
-}  // namespace
 
 Correlation pearson(std::span<const double> x, std::span<const double> y) {
   if (x.size() < 3) return {std::nullopt, Lack::fewer_than_3};

@@ -31,6 +31,7 @@ double fraction(double a, double b, double x) {
 }  // namespace
 
 double incomplete_beta(double a, double b, double x) {
+  if (std::isnan(x)) return x;  // no tail: not one of 0
   if (!(x > 0)) return 0;
   if (!(x < 1)) return 1;
   if (x > (a + 1) / (a + b + 2)) return 1 - incomplete_beta(b, a, 1 - x);

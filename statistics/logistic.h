@@ -16,8 +16,7 @@ namespace wholehand {
 // the log-likelihood (a ridge), and `has_ridge` says so.
 struct LogisticModel {
   std::vector<double> coefficients;
-  std::vector<double>
-      errors;  // standard errors, by the curvature of the likelihood; NaN with a ridge and of a term that does not vary
+  std::vector<double> errors;  // standard errors, by the curvature; NaN with a ridge, and of a term that does not vary
   double intercept = 0;
   bool is_fitted = false;  // false: there is no success, or no failure; the coefficients are 0
   bool has_ridge = false;

@@ -1,10 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "statistics/moments.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace wholehand {
+
+namespace {
+constexpr double ROUNDING_SHARE = 1e-9;
+}
+
+bool varies(std::span<const double> values) {
+  if (values.empty()) return false;
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return *high - *low > ROUNDING_SHARE * std::max(std::abs(*low), std::abs(*high));
+}
 
 double mean_of(std::span<const double> values) {
   double sum = 0;

@@ -6,6 +6,9 @@
 
 namespace wholehand {
 
+// Whether values differ by more than 1e-9 of the largest one: less is rounding. False of none.
+bool varies(std::span<const double> values);
+
 // NaN of none.
 double mean_of(std::span<const double> values);
 // Over n - 1; NaN of fewer than two.

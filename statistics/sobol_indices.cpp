@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 
+#include "statistics/moments.h"
 #include "statistics/resample.h"
 
 namespace wholehand {
@@ -30,12 +31,14 @@ std::vector<SensitivityIndex> first_order_indices(std::span<const double> a, std
                                                   std::span<const std::vector<double>> mixed, int resamples, std::uint64_t seed) {
   std::vector<std::size_t> all(a.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
+  std::vector<double> answers(a.begin(), a.end());
+  answers.insert(answers.end(), b.begin(), b.end());
+  const bool is_constant = !varies(answers);
   std::vector<SensitivityIndex> indices;
   for (const std::vector<double>& one : mixed) {
     SensitivityIndex index;
-    const double first = first_order(a, b, one, all);
-    if (first == first) {
-      index.first = first;
+    if (!is_constant) {
+      index.first = first_order(a, b, one, all);
       index.interval = resampled_interval(a.size(), a.size(), resamples, seed,
                                           [&](std::span<const std::size_t> rows) { return first_order(a, b, one, rows); });
     }

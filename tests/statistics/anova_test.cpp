@@ -37,6 +37,7 @@ TEST(Anova, IsAbsentWhereNothingCanBeCompared) {
   EXPECT_FALSE(one_way_anova(Groups{{1, 2, 3}, {}}));
   EXPECT_FALSE(one_way_anova(Groups{{1}, {2}}));
   EXPECT_FALSE(one_way_anova(Groups{{1, 1}, {2, 2}}));
+  EXPECT_FALSE(one_way_anova(Groups{{0.1, 0.1, 0.1}, {0.2, 0.2, 0.2}})) << "the mean of three 0.1 is not 0.1";
   EXPECT_EQ(one_way_anova(Groups{{1, 2}, {}, {1, 2}})->f, 0);
 }
 

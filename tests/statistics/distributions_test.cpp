@@ -17,6 +17,8 @@ TEST(IncompleteBeta, OfClosedForms) {
   }
 }
 
+TEST(IncompleteBeta, OfNoNumberIsNone) { EXPECT_TRUE(std::isnan(incomplete_beta(2, 3, std::nan("")))); }
+
 // scipy.special.betainc
 TEST(IncompleteBeta, OfAnotherProgram) {
   const auto expect_share = [](double a, double b, double x, double value, double tolerance) {
