@@ -27,7 +27,8 @@ void read_angle(const SceneTable& angles, const char* key, AngleRange& range) {
   range = {ends[0], ends[1]};
 }
 
-// Whose hand it is: a multiple of the default, a length, or a person of a survey. The tables of the fingers then change single numbers.
+// Whose hand it is: a multiple of the default, a length, or a person of a survey. The tables of the fingers then change single
+// numbers.
 void read_size(const SceneTable& table, HandData& hand) {
   constexpr std::array<const char*, 3> SIZES{"scale", "length_mm", "person"};
   const char* given = nullptr;
