@@ -12,6 +12,7 @@
 #include "core/normal.h"
 #include "core/planes.h"
 #include "shaders/layout.h"
+#include "statistics/interval.h"
 #include "sweeps/sobol.h"
 
 namespace wholehand {
@@ -106,14 +107,10 @@ GripInput deviated(const GripInput& grip, const Deviation& deviation) {
 
 RobustScore robust_score(std::vector<double> scores) {
   std::sort(scores.begin(), scores.end());
-  const double place = 0.1 * static_cast<double>(scores.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const std::size_t above = std::min(below + 1, scores.size() - 1);
-  const double share = place - static_cast<double>(below);
   // about the least one, so that equal scores have this score as their mean
   const double sum =
       std::accumulate(scores.begin(), scores.end(), 0.0, [&](double all, double score) { return all + (score - scores[0]); });
-  return {scores[0] + sum / static_cast<double>(scores.size()), scores[below] + share * (scores[above] - scores[below])};
+  return {scores[0] + sum / static_cast<double>(scores.size()), percentile_of(scores, 0.1)};
 }
 
 bool add_robust_scores(const OpenBackend& open, const Scene& scene, const Plan& plan, const std::atomic<bool>* stop,
