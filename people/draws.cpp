@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "people/draws.h"
 
+#include <cmath>
 #include <initializer_list>
 
 #include "core/random_bits.h"
@@ -12,7 +13,7 @@ double drawn(const DrawName& name, std::uint64_t index) {
   std::uint64_t bits = 0;
   for (const std::uint64_t part : {name.seed, name.person, name.experiment, name.grasp, index})
     bits = mixed_bits(bits + SPLIT_MIX_STEP * (part + 1));
-  return unit_interval(bits) + 0x1p-54;  // the middle of its cell: neither 0 nor 1
+  return std::fmin(unit_interval(bits) + 0x1p-54, 1 - 0x1p-53);  // the middle of its cell; that of the last one rounds to 1
 }
 
 }  // namespace wholehand

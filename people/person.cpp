@@ -18,9 +18,9 @@ double quantile(bool is_positive, double mean, double deviation, double share) {
 }
 
 constexpr double LARGEST_MARGIN = 0.9;  // of the force: more would ask for a tenfold force
+constexpr double SMALLEST_HAND = 0.5;   // of the mean: a wide scatter would ask for hands without a length
 
 double trait_of(const PeopleData& people, std::size_t k, double mean, double deviation, double share) {
-  // a mean of nothing has no deviation of its own: what is above 0 stays there
   const double value = quantile(trait_facts()[k].is_positive, mean, people.scatter * deviation, share);
   return k == static_cast<std::size_t>(Trait::margin) ? std::fmin(value, LARGEST_MARGIN) : value;
 }
@@ -35,21 +35,20 @@ HandSize hand_size(const PeopleData& people, Sex sex, const Shares& shares) {
   const double scatter = people.scatter * people.size, r = own.correlation;
   const double length = normal_quantile(shares.length);
   const double breadth = r * length + std::sqrt(1 - r * r) * normal_quantile(shares.breadth);
+  const HandSize mean{mixed(people, women.length.mean, men.length.mean), mixed(people, women.breadth.mean, men.breadth.mean)};
   HandSize size;
-  size.length = toward(people.scatter, mixed(people, women.length.mean, men.length.mean), own.length.mean) +
-                scatter * own.length.deviation * length;
-  size.breadth = toward(people.scatter, mixed(people, women.breadth.mean, men.breadth.mean), own.breadth.mean) +
-                 scatter * own.breadth.deviation * breadth;
-  return size;
+  size.length = toward(people.scatter, mean.length, own.length.mean) + scatter * own.length.deviation * length;
+  size.breadth = toward(people.scatter, mean.breadth, own.breadth.mean) + scatter * own.breadth.deviation * breadth;
+  return {std::fmax(size.length, SMALLEST_HAND * mean.length), std::fmax(size.breadth, SMALLEST_HAND * mean.breadth)};
 }
 
-// Crosby, Wehbe & Mawr 1994: a woman's largest grip is 81 lb in the mean and a man's 137 lb, and a pulp pinch is the same share
-// of both.
+// Crosby, Wehbe & Mawr 1994: a woman's largest grip is 81 lb in the mean and a man's 137 lb. We take a pinch to have their ratio.
 constexpr double STRENGTH_OF_WOMEN = 81.0 / 109, STRENGTH_OF_MEN = 137.0 / 109;
 
+// By the ratio of the sexes and not by their difference, so that it stays above 0 for every scatter.
 double strength_of(const PeopleData& people, Sex sex) {
   const double both = mixed(people, STRENGTH_OF_WOMEN, STRENGTH_OF_MEN);
-  return toward(people.scatter, both, sex == Sex::female ? STRENGTH_OF_WOMEN : STRENGTH_OF_MEN);
+  return both * std::pow((sex == Sex::female ? STRENGTH_OF_WOMEN : STRENGTH_OF_MEN) / both, people.scatter);
 }
 
 }  // namespace

@@ -188,6 +188,31 @@ TEST(Person, WithoutScatterEverybodyIsTheMeanPerson) {
   for (const double segment : mean.segments) EXPECT_EQ(segment, 1);
 }
 
+// As wide as a scene may ask for: what is above 0 stays above 0.
+TEST(Person, OfTheWidestScatterHasNoNumberBelowNothing) {
+  PeopleData people;
+  people.scatter = 10;
+  people.size = 10;
+  people.proportions = 10;
+  int smallest = 0;
+  for (std::uint64_t n = 0; n < 2000; ++n) {
+    const Person person = draw_person(people, SEED, n);
+    EXPECT_GE(person.hand.length, 0.5 * 187.18e-3 - 1e-12);
+    EXPECT_GE(person.hand.breadth, 0.5 * 83.205e-3 - 1e-12);
+    smallest += person.hand.length < 0.5 * 187.18e-3 + 1e-12;
+    for (const double segment : person.segments) EXPECT_GT(segment, 0);
+    const Traits grasp = draw_grasp(people, person, SEED, n, 0, 0);
+    for (std::size_t k = 0; k < TRAIT_COUNT; ++k) {
+      if (trait_facts()[k].is_positive) {
+        EXPECT_GT(person.traits[k], 0) << trait_facts()[k].key;
+        EXPECT_GT(grasp[k], 0) << trait_facts()[k].key;
+      }
+      EXPECT_TRUE(std::isfinite(person.traits[k]) && std::isfinite(grasp[k])) << trait_facts()[k].key;
+    }
+  }
+  EXPECT_GT(smallest, 0);
+}
+
 TEST(Person, EachSpreadIsItsOwn) {
   PeopleData people;
   const Person before = draw_person(people, SEED, 7);
