@@ -57,7 +57,8 @@ double segment_deviation(std::size_t segment);
 // weight that is expected, and the margin. N.
 double first_force(const Traits& traits, double weight);
 
-// The grip force that a person goes to where the load has risen by `rise` N since the first force.
+// The grip force that a person goes to where the load has risen since the first force: `rise`, N, is how much more it takes to
+// hold without a margin.
 double loaded_force(const Traits& traits, double first, double rise);
 
 }  // namespace wholehand
