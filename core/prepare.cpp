@@ -173,6 +173,32 @@ int gap_turns_at(const core_f64::Hand& hand) {
   return GAP_CHECKS + 1;
 }
 
+// So that closure_of_gap looks for it from this place of the trajectory on.
+void solve_from(core_f64::Hand& hand, double closure, double gap) {
+  hand.gap_open = gap;
+  hand.gap_table = {closure, 1};
+  hand.limits.gap_steps = 100;
+}
+
+// The closure of a gap to the last bit, by bisection: the gap is monotone. Where the solved closure is as near as it should be, most
+// halves are told by it, which changes no bit and is three times as fast.
+double bisected_closure(const core_f64::Hand& hand, double gap) {
+  constexpr double SOLVED = 1e-15;  // m: some roundings of a gap
+  constexpr double NEAR = 1e-13;    // of a closure
+  const double solved = core_f64::closure_of_gap(hand, gap, SOLVED), before = solved - NEAR, beyond = solved + NEAR;
+  const bool is_near = before > 0 && beyond < 1 && core_f64::gap_at(hand, before) > gap && core_f64::gap_at(hand, beyond) < gap;
+  double low = 0, high = 1;
+  for (int step = 0; step < 60; ++step) {
+    const double middle = 0.5 * (low + high);
+    if (middle == low || middle == high) break;
+    const bool is_before = is_near && middle < before   ? true
+                           : is_near && middle > beyond ? false
+                                                        : core_f64::gap_at(hand, middle) > gap;
+    (is_before ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
 }  // namespace
 
 std::vector<PreparedElement> monotone_elements(const std::vector<OutlineElement>& outline) {
@@ -234,15 +260,13 @@ PreparedHand prepare_hand(const HandData& hand, int gap_entries) {
   }
   prepared.gap_open = checked_gap(kernel_hand, 0);
   prepared.gap_closed = checked_gap(kernel_hand, GAP_CHECKS);
-  // closure at equal steps of the gap, by bisection: the gap is monotone
+  // closure at equal steps of the gap
+  kernel_hand.gap_closed = prepared.gap_closed;
+  solve_from(kernel_hand, 0, prepared.gap_open);
   for (int k = 0; k < gap_entries; ++k) {
     const double gap = prepared.gap_open + (prepared.gap_closed - prepared.gap_open) * k / (gap_entries - 1);
-    double low = 0, high = 1;
-    for (int step = 0; step < 60; ++step) {
-      const double middle = 0.5 * (low + high);
-      (core_f64::gap_at(kernel_hand, middle) > gap ? low : high) = middle;
-    }
-    prepared.gap_table.push_back(k == 0 ? 0 : k == gap_entries - 1 ? 1 : 0.5 * (low + high));
+    prepared.gap_table.push_back(k == 0 ? 0 : k == gap_entries - 1 ? 1 : bisected_closure(kernel_hand, gap));
+    if (k < gap_entries - 1) solve_from(kernel_hand, prepared.gap_table.back(), gap);
   }
   return prepared;
 }
