@@ -26,6 +26,7 @@ void add_rank_command(CLI::App& app, Action& action);
 void add_report_command(CLI::App& app, Action& action);
 void add_grip_command(CLI::App& app, Action& action);
 void add_trials_command(CLI::App& app, Action& action);
+void add_study_command(CLI::App& app, Action& action);
 void add_check_command(CLI::App& app, Action& action);
 void add_error_time_command(CLI::App& app, Action& action);
 void add_stability_command(CLI::App& app, Action& action);

@@ -13,6 +13,7 @@ void add_all(CLI::App& app, wholehand::Action& action) {
   wholehand::add_report_command(app, action);
   wholehand::add_grip_command(app, action);
   wholehand::add_trials_command(app, action);
+  wholehand::add_study_command(app, action);
   wholehand::add_check_command(app, action);
   wholehand::add_error_time_command(app, action);
   wholehand::add_stability_command(app, action);

@@ -10,7 +10,7 @@ set(WHOLEHAND_FLOORS
   sweeps=5 viewer=5
   evidence=6 cluster=6
   report=7
-  trials=8
+  trials=8 studies=8
   app=9)
 
 # Sets `result` to the floor of a folder.

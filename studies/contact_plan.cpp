@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include "studies/contact_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.h"
+#include "core/planes.h"
+#include "report/guidance_statistics.h"
+
+namespace wholehand {
+
+const std::array<const char*, STUDY_POSES.size()> STUDY_POSE_NAMES{"paper", "articulated"};
+
+namespace {
+
+constexpr std::uint64_t CONTACTS = 0;                            // the experiment, in the names of draws
+constexpr std::uint64_t MOST_POINTS = 1000;                      // of a vessel, in the number of a grasp (scene/ranges.h)
+constexpr std::uint64_t MOST_REPEATS = 32;                       // likewise
+constexpr std::size_t FURTHER_SAMPLE = 24;                       // grasps of a vessel beside the paper's: the mean of its three
+constexpr int FIRST_ROLL = -60, LAST_ROLL = 30, ROLL_STEP = 15;  // degrees: those that the simulated user chooses from
+const std::vector<int> KEPT{FIELD_STATUS,   FIELD_GAP,         FIELD_MIDPOINT,   FIELD_TOUCH_MASK,
+                            FIELD_TIP_MASK, FIELD_FINGER_MASK, FIELD_INNER_MASK, FIELD_USED_MASK};
+
+// In a scene with a task, people pour from the vessels with a liquid. What has none is only carried.
+bool is_poured(const Scene& scene, const VesselData& vessel) { return !scene.task || !vessel.liquid_name.empty(); }
+
+std::vector<StudyVessel> study_vessels(const Scene& scene) {
+  std::vector<StudyVessel> vessels;
+  std::size_t of_paper = 0;
+  for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
+    const VesselData& data = scene.vessels[v];
+    if (data.guidance.empty()) continue;
+    StudyVessel vessel{v, data.name, FURTHER_SAMPLE};
+    if (is_poured(scene, data) && of_paper < PAPER_GRASPS.size()) {
+      vessel.sample = PAPER_GRASPS[of_paper++];
+      vessel.is_of_paper = true;
+    }
+    vessels.push_back(vessel);
+  }
+  return vessels;
+}
+
+// Without what touching does not depend on: mass and load, efforts, tilts, and the table. Mass and its centre are given, so that no wall is needed.
+Scene bare_scene(const Scene& scene, const std::vector<StudyVessel>& vessels, Pose pose) {
+  Scene bare = scene;
+  bare.text.clear();
+  bare.pose = pose;
+  bare.vessels.clear();
+  for (const StudyVessel& vessel : vessels) {
+    VesselData data = scene.vessels[vessel.place];
+    data.inner.clear();
+    data.wall = data.floor = 0;
+    data.fills.clear();
+    data.mass = 1;
+    data.center_of_mass = {0, 0.5 * (data.base + data.height), 0};
+    bare.vessels.push_back(data);
+  }
+  bare.liquid.reset();
+  bare.strength.reset();
+  bare.robust.reset();
+  bare.table.reset();  // as in a session
+  bare.task.reset();
+  bare.tilts.clear();
+  bare.until_poured.reset();
+  return bare;
+}
+
+// As published, the points have no flesh.
+HandData without_flesh(HandData hand) {
+  for (FingerData& finger : hand.fingers) finger.radii.fill(0);
+  return hand;
+}
+
+// The palm away from the user, as in a session: the index finger is on the point's side, or the thumb.
+double planned_azimuth(const Scene& scene, const GuidancePoint& point) {
+  const double home = scene.hand.handedness == Handedness::left ? PI : 0;
+  constexpr double ROUNDING = 1e-9;
+  return std::cos(point.azimuth - home) >= -ROUNDING ? point.azimuth : point.azimuth + PI;
+}
+
+// Chooses the roll that scores best, as the simulated user does. False: none is feasible.
+bool choose_roll(const Evaluator& core, std::size_t vessel, GripInput& grip) {
+  double best = -1, chosen = 0;
+  for (int roll = FIRST_ROLL; roll <= LAST_ROLL; roll += ROLL_STEP) {
+    grip.roll = radians(roll);
+    GripResult result;
+    core.grip(vessel, grip, result);
+    if (result.reason != Reason::none || result.grazing) continue;
+    const double score = core.score(vessel, grip, result).score + (result.antipodal ? 1 : 0) + (result.plausible ? 1 : 0);
+    if (score > best) {
+      best = score;
+      chosen = grip.roll;
+    }
+  }
+  grip.roll = chosen;
+  return best >= 0;
+}
+
+// The planned grip with the person's habits and this grasp's scatter.
+GripInput scattered(GripInput grip, const Traits& traits) {
+  grip.height += of(traits, Trait::height);
+  grip.azimuth += of(traits, Trait::azimuth);
+  grip.obliquity += of(traits, Trait::obliquity);
+  grip.roll += of(traits, Trait::roll);
+  return grip;
+}
+
+}  // namespace
+
+ContactPlan::ContactPlan(const Scene& scene) : scene_(scene), vessels_(study_vessels(scene)) {
+  if (vessels_.empty())
+    throw usage_error(fmt::format("{}: no vessel has guidance points, at which people grasp; add guidance_mm to a vessel",
+                                  scene.file.empty() ? "the scene" : scene.file));
+  for (std::size_t k = 0; k < STUDY_POSES.size(); ++k) bare_[k] = bare_scene(scene, vessels_, STUDY_POSES[k]);
+  // the mean person plans
+  Scene mean = scene;
+  PeopleData alike = scene.people;
+  alike.scatter = 0;
+  mean.pose = Pose::articulated;
+  mean.table.reset();
+  mean.hand = hand_of(scene.hand, make_person(alike, {}));
+  const std::unique_ptr<Evaluator> core = make_core_evaluator(mean);
+  for (StudyVessel& vessel : vessels_) plan_vessel(*core, vessel);
+}
+
+// As many times at each point as the paper's sample asks of its people.
+void ContactPlan::plan_vessel(const Evaluator& core, StudyVessel& vessel) {
+  const std::vector<GuidancePoint>& points = scene_.vessels[vessel.place].guidance;
+  const std::size_t of_one_round = PAPER_PEOPLE * points.size(), repeats = (vessel.sample + of_one_round - 1) / of_one_round;
+  vessel.first = grasps_.size();
+  for (std::size_t point = 0; point < points.size(); ++point) {
+    PlannedGrasp grasp;
+    grasp.vessel = static_cast<std::size_t>(&vessel - vessels_.data());
+    grasp.point = point;
+    grasp.grip.height = points[point].height;
+    grasp.grip.azimuth = planned_azimuth(scene_, points[point]);
+    grasp.place = guidance_place(core, vessel.place, points[point]);
+    if (!choose_roll(core, vessel.place, grasp.grip))
+      unheld_.push_back(fmt::format("{} at {:g} mm", vessel.name, points[point].height * 1e3));
+    for (std::size_t repeat = 0; repeat < repeats; ++repeat) {
+      grasp.number = (vessel.place * MOST_POINTS + point) * MOST_REPEATS + repeat;
+      grasps_.push_back(grasp);
+    }
+  }
+  vessel.last = grasps_.size();
+}
+
+std::vector<ContactGrasp> ContactPlan::of_person(std::uint64_t seed, std::uint64_t number) const {
+  const Person person = draw_person(scene_.people, seed, number);
+  const HandData hand = hand_of(scene_.hand, person);
+  std::vector<GripInput> grips;
+  for (const PlannedGrasp& grasp : grasps_)
+    grips.push_back(scattered(grasp.grip, draw_grasp(scene_.people, person, seed, number, CONTACTS, grasp.number)));
+  std::vector<ContactGrasp> grasps;
+  std::vector<double> reals;
+  std::vector<std::uint32_t> uints;
+  for (std::size_t k = 0; k < STUDY_POSES.size(); ++k) {
+    Scene scene = bare_[k];
+    scene.hand = STUDY_POSES[k] == Pose::paper ? without_flesh(hand) : hand;
+    const std::unique_ptr<Evaluator> core = make_core_evaluator(scene);
+    const FieldSet fields = make_field_set(KEPT, scene);
+    for (std::size_t v = 0; v < vessels_.size(); ++v) {
+      const std::size_t first = vessels_[v].first, count = vessels_[v].last - first;
+      reals.resize(static_cast<std::size_t>(fields.real_planes) * count);
+      uints.resize(static_cast<std::size_t>(fields.uint_planes) * count);
+      core->planes(v, &grips[first], count, fields, count, reals.data(), uints.data());
+      const PlaneChunk chunk{v, 0, count, count, nullptr, reals.data(), uints.data()};
+      for (std::size_t i = 0; i < count; ++i) {
+        const GripResult result = decode_grip(chunk, fields, i);
+        ContactGrasp grasp;
+        grasp.is_held = result.reason == Reason::none;
+        grasp.is_plausible = grasp.is_held && result.plausible;
+        grasp.height = grips[first + i].height;
+        if (grasp.is_held)
+          grasp.distance =
+              guidance_distance(*core, scene, v, grips[first + i], result.midpoint, result.gap, {grasps_[first + i].place});
+        grasp.touch_mask = result.touch_mask;
+        grasp.tip_mask = result.tip_mask;
+        grasp.finger_mask = result.finger_mask;
+        grasp.inner_mask = result.inner_mask;
+        grasp.used_mask = result.used_mask;
+        grasps.push_back(grasp);
+      }
+    }
+  }
+  return grasps;
+}
+
+}  // namespace wholehand

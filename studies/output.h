@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// The files of a study in their folder.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace wholehand {
+
+struct StudyFiles {
+  explicit StudyFiles(const std::string& folder);
+  std::string csv, nc, page, lock;
+};
+
+// What the table begins with: its columns.
+inline constexpr std::string_view STUDY_CSV_START = "experiment,pose,vessel,statistic,subject,value,low,high,paper,inside\n";
+// What the page has in its head.
+inline constexpr const char* STUDY_PAGE_MARK = "<meta name=\"wholehand-study\"";
+
+inline constexpr const char* STUDY_REMEDY = "make room, or name another folder with -o";
+
+// Makes the folder where it is missing. Throws Error: (usage) one of the files is there and is not of a study, or the folder cannot be;
+// (failure) no file can be made in it.
+void prepare_study_folder(const std::string& folder);
+
+// Removes what a run that was killed left of files that it had not given their names. Only who holds the lock may ask.
+void remove_unfinished_study(const StudyFiles& files);
+
+}  // namespace wholehand

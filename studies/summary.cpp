@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#include "studies/summary.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+namespace wholehand {
+namespace {
+
+constexpr std::array<const char*, 5> SHOWN{"held_share", "mean_fingers", "pearson_fingers_height", "pearson_fingers_distance",
+                                           "projected_share"};
+
+std::string shown(double value) { return std::isnan(value) ? "-" : fmt::format("{:.2f}", value); }
+
+}  // namespace
+
+std::string study_summary(std::span<const StudyRow> rows) {
+  std::string text = fmt::format("\n{:<12} {:<16} {:>6} {:>8} {:>17} {:>19} {:>10}\n", "pose", "vessel", "held", "fingers",
+                                 "r fingers, height", "r fingers, distance", "projected");
+  std::array<std::string, SHOWN.size()> cells;
+  for (const StudyRow& row : rows) {
+    if (!row.subject.empty()) continue;
+    for (std::size_t k = 0; k < SHOWN.size(); ++k)
+      if (row.statistic == SHOWN[k]) cells[k] = shown(row.value);
+    // the last of a vessel's
+    if (row.statistic == "grasps_projected_inner_share")
+      text += fmt::format("{:<12} {:<16} {:>6} {:>8} {:>17} {:>19} {:>10}\n", row.pose, row.vessel, cells[0], cells[1], cells[2],
+                          cells[3], cells[4]);
+  }
+  return text;
+}
+
+}  // namespace wholehand

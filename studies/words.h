@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// Correlations in the paper's words.
+#pragma once
+
+#include <string>
+
+namespace wholehand {
+
+// From which |r| on a correlation is one at all, strong, and very strong (Evans 1996). docs/study.md says more.
+constexpr double WEAK_R = 0.2, STRONG_R = 0.6, VERY_STRONG_R = 0.8;
+
+// "VSN", "SN", "N", "-", "P", "SP" or "VSP"; "" of NaN.
+std::string word_of_correlation(double r);
+
+}  // namespace wholehand
