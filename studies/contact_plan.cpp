@@ -114,6 +114,10 @@ ContactPlan::ContactPlan(const Scene& scene) : scene_(scene), vessels_(study_ves
   if (vessels_.empty())
     throw usage_error(fmt::format("{}: no vessel has guidance points, at which people grasp; add guidance_mm to a vessel",
                                   scene.file.empty() ? "the scene" : scene.file));
+  for (const StudyVessel& vessel : vessels_)
+    if (vessel.name == ALL_VESSELS)
+      throw usage_error(fmt::format("{}: a vessel has the name '{}', as the rows of all vessels together; give it another",
+                                    scene.file.empty() ? "the scene" : scene.file, ALL_VESSELS));
   for (std::size_t k = 0; k < STUDY_POSES.size(); ++k) bare_[k] = bare_scene(scene, vessels_, STUDY_POSES[k]);
   // the mean person plans
   Scene mean = scene;

@@ -2,6 +2,7 @@
 // Which grasps a person makes in the experiment of contacts, and what comes of them.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -23,6 +24,9 @@ extern const std::array<const char*, STUDY_POSES.size()> STUDY_POSE_NAMES;
 constexpr std::size_t PAPER_PEOPLE = 17;
 constexpr std::array<std::size_t, 3> PAPER_GRASPS{22, 32, 18};
 
+// The vessel of rows that hold all vessels of the paper's sample together.
+inline constexpr const char* ALL_VESSELS = "all";
+
 // A vessel with guidance points.
 struct StudyVessel {
   std::size_t place = 0;  // in the scene
@@ -43,7 +47,7 @@ struct PlannedGrasp {
 // All grasps of one person. The same for every person of a scene; may be used by any thread.
 class ContactPlan {
  public:
-  // `scene` must outlive the plan. Throws Error (usage) where no vessel has guidance points.
+  // `scene` must outlive the plan. Throws Error (usage) where no vessel has guidance points, or one has the name ALL_VESSELS.
   explicit ContactPlan(const Scene& scene);
 
   const std::vector<StudyVessel>& vessels() const { return vessels_; }

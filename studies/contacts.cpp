@@ -128,8 +128,7 @@ void add_rows(const ContactPlan& plan, std::size_t pose, const std::vector<doubl
 
 }  // namespace
 
-std::optional<ContactStudy> study_contacts(const ContactPlan& plan, const StudyOptions& options, const std::atomic<bool>& stop,
-                                           std::uint64_t& done) {
+std::optional<ContactStudy> study_contacts(const ContactPlan& plan, const StudyOptions& options, const std::atomic<bool>& stop) {
   const std::size_t slots = plan.grasps().size();
   std::vector<VesselTallies> tallies(STUDY_POSES.size(), VesselTallies(plan));
   Pool pool(plan, options.people);
@@ -137,7 +136,7 @@ std::optional<ContactStudy> study_contacts(const ContactPlan& plan, const StudyO
   Progress progress(options.people, 0);
   const std::uint64_t at_once = std::clamp<std::uint64_t>(WINDOW_GRASPS / grasps_of_person(plan), 1, LARGEST_WINDOW);
   // people in windows: evaluated in any order, counted in theirs
-  for (done = 0; done < options.people; done += window.size()) {
+  for (std::uint64_t done = 0; done < options.people; done += window.size()) {
     window.assign(std::min(at_once, options.people - done), {});
     in_parallel((window.size() + BLOCK - 1) / BLOCK, options.threads,
                 [&](std::size_t block) {

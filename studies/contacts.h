@@ -17,16 +17,12 @@ namespace wholehand {
 // People from whom samples are drawn: the first ones of a larger population. It bounds the memory.
 constexpr std::uint64_t MOST_POOLED = 20'000;
 
-// The vessel of rows that hold all vessels of the paper's sample together.
-inline constexpr const char* ALL_VESSELS = "all";
-
 struct ContactStudy {
   std::vector<StudyRow> rows;  // pose by pose; of each its vessels, and ALL_VESSELS where there are several
   std::uint64_t grasps = 0;    // made, each in every pose
 };
 
-// The same bits for any number of threads. Absent: `stop` was set; `done` counts the people until then. Shows its progress.
-std::optional<ContactStudy> study_contacts(const ContactPlan& plan, const StudyOptions& options, const std::atomic<bool>& stop,
-                                           std::uint64_t& done);
+// The same bits for any number of threads. Absent: `stop` was set. Shows its progress.
+std::optional<ContactStudy> study_contacts(const ContactPlan& plan, const StudyOptions& options, const std::atomic<bool>& stop);
 
 }  // namespace wholehand

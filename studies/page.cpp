@@ -29,17 +29,17 @@ constexpr std::array<ShownStatistic, 15> OF_HAND{{
     {"plausible_share", "of these, plausible ones", true},
     {"mean_fingers", "fingers used, mean", false},
     {"mean_points", "points that touch, mean", false},
-    {"pearson_fingers_height", "r of fingers used and height", false},
-    {"pearson_fingers_distance", "r of fingers used and distance", false},
-    {"pearson_points_height", "r of touching points and height", false},
-    {"pearson_points_distance", "r of touching points and distance", false},
+    {"pearson_fingers_height", "r of fingers and height", false},
+    {"pearson_fingers_distance", "r of fingers and distance", false},
+    {"pearson_points_height", "r of points and height", false},
+    {"pearson_points_distance", "r of points and distance", false},
     {"projected_share", "grasps with projected points", true},
-    {"projected_tip_share", "projected points of the role tip", true},
-    {"projected_finger_share", "projected points of the role finger", true},
-    {"projected_inner_share", "projected points of the role inner", true},
-    {"grasps_projected_tip_share", "grasps with a projected point of the role tip", true},
-    {"grasps_projected_finger_share", "grasps with one of the role finger", true},
-    {"grasps_projected_inner_share", "grasps with one of the role inner", true},
+    {"projected_tip_share", "of these points: tip", true},
+    {"projected_finger_share", "of these points: finger", true},
+    {"projected_inner_share", "of these points: inner", true},
+    {"grasps_projected_tip_share", "grasps with the role tip", true},
+    {"grasps_projected_finger_share", "grasps with the role finger", true},
+    {"grasps_projected_inner_share", "grasps with the role inner", true},
 }};
 
 std::string title_of_study(const Scene& scene) {
@@ -99,7 +99,8 @@ std::string worded(const StudyRow& row) {
 
 void write_point_table(MarkupWriter& html, const Found& found, const char* pose, const std::string& vessel) {
   HtmlTable table(
-      html, fmt::format("The points of the hand on {}, pose {}", vessel == "all" ? "all vessels of the sample" : vessel, pose),
+      html,
+      fmt::format("The points of the hand on {}, pose {}", vessel == ALL_VESSELS ? "all vessels of the sample" : vessel, pose),
       {"point", "touches", "with the height", "with the distance"}, {2, 3});
   for (int joint = 0; joint < JOINT_COUNT; ++joint) {
     const std::string point = hand_point_name(joint);

@@ -54,11 +54,9 @@ ExitCode run_study(const Scene& scene, const StudyOptions& options) {
   remove_unfinished_study(files);
   InterruptGuard interrupt;
   say_opening(scene, options, plan);
-  std::uint64_t done = 0;
-  const std::optional<ContactStudy> study = study_contacts(plan, options, interrupt.flag(), done);
+  const std::optional<ContactStudy> study = study_contacts(plan, options, interrupt.flag());
   if (!study) {
-    say_note(fmt::format("interrupted after {} of {} people; nothing is written", readable_number(done),
-                         readable_number(options.people)));
+    say_note("interrupted; nothing is written");
     return ExitCode::interrupted;
   }
   write_study(files, scene, options, plan, *study);
