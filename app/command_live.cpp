@@ -14,10 +14,11 @@ namespace wholehand {
 namespace {
 
 constexpr Quantity LIVE_SECONDS{0.01, 1e6};
+constexpr IntegerRange PERSON{0, 1'000'000'000};
 
 struct LiveArguments {
   LiveOptions options;
-  std::string rate, seconds, seed = "1", view_port;
+  std::string rate, seconds, seed = "1", person, view_port;
 };
 
 ExitCode live(const LiveArguments& arguments) {
@@ -25,6 +26,7 @@ ExitCode live(const LiveArguments& arguments) {
   if (!arguments.rate.empty()) options.rate = parse_quantity(arguments.rate, "--rate", ranges::RATE);
   if (!arguments.seconds.empty()) options.seconds = parse_quantity(arguments.seconds, "--seconds", LIVE_SECONDS);
   options.seed = static_cast<std::uint64_t>(parse_integer(arguments.seed, "--seed", ranges::SEED));
+  if (!arguments.person.empty()) options.person = static_cast<std::uint64_t>(parse_integer(arguments.person, "--person", PERSON));
   options.view_port = parse_view_port(arguments.view_port, options.view);
   return run_live(options);
 }
@@ -46,7 +48,10 @@ void add_live_command(CLI::App& app, Action& action) {
   add("--rate", arguments->rate, "HZ", "Rate of the force loop (default: the scene's)");
   add("--record", options.record, "FILE", "Record every tick in a NetCDF file; see wholehand session");
   add("--seconds", arguments->seconds, "S", "End after this time (default: when the simulated user is done, or on Ctrl-C)");
-  add("--seed", arguments->seed, "N", "Seed of the simulated user (default: 1)");
+  add("--seed", arguments->seed, "N", "Seed of the simulated user, and of the population for --person (default: 1)");
+  add("--person", arguments->person, "K",
+      "Person K of the population in the scene's [people] is the simulated user, with a hand of their own (default: the median "
+      "person)");
   add("--dhd-library", options.dhd_library, "PATH", "Path of Force Dimension's SDK (libdhd.so), for omega.7 and sigma.7");
   command->add_flag("--view", options.view, "Show the session in the browser: print the address, and open it on a desktop");
   add("--view-port", arguments->view_port, "N", "Port of the view on 127.0.0.1 (default: any free port)");

@@ -18,6 +18,7 @@
 #include "app/values.h"
 #include "grips/methods.h"
 #include "objects/vessel.h"
+#include "recordings/recorded_scene.h"
 #include "scene/reader.h"
 #include "sweeps/grip_lists.h"
 #include "viewer/grips.h"
@@ -38,7 +39,7 @@ std::string file_name(const std::string& path) { return std::filesystem::path(pa
 void view_recording(const std::string& path, int port) {
   Recording recording = read_recording(path);
   if (!recording.note.empty()) std::fprintf(stderr, "wholehand: %s\n", recording.note.c_str());
-  Scene scene = parse_scene(recording.info.scene_text, recording.info.scene_file);
+  Scene scene = scene_of_recording(recording.info);
   load_meshes(scene);
   const RecordingView view(scene, std::move(recording));
   serve_view(view.content(file_name(path)), port, false);

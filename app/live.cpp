@@ -24,11 +24,14 @@
 #include "device/panic.h"
 #include "device/realtime.h"
 #include "device/replay_gripper.h"
+#include "device/sim_gripper.h"
 #include "device/view_gripper.h"
 #include "evidence/gains.h"
 #include "live/session.h"
 #include "live/tick_ring.h"
 #include "objects/vessel.h"
+#include "people/participant.h"
+#include "recordings/recorded_scene.h"
 #include "recordings/recorder.h"
 #include "recordings/recording.h"
 #include "scene/reader.h"
@@ -64,14 +67,15 @@ std::string now_iso() {
   return {text, size};
 }
 
-RecordingInfo info_of(const Scene& scene, const GripperLimits& gripper, std::uint64_t seed) {
+RecordingInfo info_of(const Scene& scene, const GripperLimits& gripper, const LiveOptions& options) {
   RecordingInfo info;
   info.scene_name = scene.name;
   info.scene_file = scene.file;
   info.scene_text = scene.text;
   info.version = version();
   info.start = now_iso();
-  info.seed = seed;
+  info.seed = options.seed;
+  info.person = options.person;
   info.rate = scene.live.rate;
   info.device = {gripper.name, gripper.address, gripper.force,        gripper.grip,
                  gripper.gap,  gripper.rate,    gripper.has_rotation, gripper.is_left_handed};
@@ -139,7 +143,7 @@ class LiveRun {
     open_view();  // first: whose port is taken leaves no recording behind
     std::unique_ptr<RecordingWriter> writer;
     if (!options_.record.empty())
-      writer = std::make_unique<RecordingWriter>(options_.record, info_of(scene_, gripper_->limits(), options_.seed), RECORD);
+      writer = std::make_unique<RecordingWriter>(options_.record, info_of(scene_, gripper_->limits(), options_), RECORD);
     tell_address();
     std::optional<DisplayLoop> display;
     if (!displays_.empty()) display.emplace(session_->live(), displays_);
@@ -169,6 +173,8 @@ class LiveRun {
   void open() {
     const bool is_replay = is_replay_ = options_.device.rfind(REPLAY, 0) == 0;
     const bool is_sim = options_.device == "sim";
+    if (options_.person && !is_sim)
+      throw usage_error("--person: only the simulated gripper is held by a virtual person; allowed: with --device sim");
     if (options_.no_clock && !is_replay && !is_sim)
       throw usage_error("--no-clock: this device has a clock of its own; allowed: with --device sim and replay:FILE");
     if (options_.no_clock && options_.view)
@@ -184,9 +190,12 @@ class LiveRun {
     std::optional<Recording> recording;
     if (is_replay) recording = read_recording(options_.device.substr(std::string(REPLAY).size()));
     if (recording && options_.scene.empty()) {
-      scene_ = parse_scene(recording->info.scene_text, recording->info.scene_file);
+      scene_ = scene_of_recording(recording->info);
+      options_.seed = recording->info.seed;
+      options_.person = recording->info.person;
     } else {
       scene_ = read_scene_file(find_scene(options_.scene.empty() ? DEFAULT_LIVE_SCENE : options_.scene));
+      if (options_.person) take_hand_of(scene_, options_.seed, *options_.person);
     }
     load_meshes(scene_);
     say_cavity_notes(scene_);
@@ -197,7 +206,10 @@ class LiveRun {
       gripper_ = make_replay(std::move(recording->ticks), limits_of(recording->info.device, options_.device));
     } else {
       if (options_.view && options_.device == "view") input_ = std::make_unique<ViewInput>(scene_);
-      gripper_ = open_gripper(options_.device, scene_, options_.seed, options_.dhd_library, WATCHDOG, input_.get());
+      gripper_ =
+          options_.person
+              ? open_sim(scene_, options_.seed, Participant(scene_.people, options_.seed, *options_.person, Experiment::live))
+              : open_gripper(options_.device, scene_, options_.seed, options_.dhd_library, WATCHDOG, input_.get());
     }
     const double most = gripper_->limits().rate;
     if (!is_replay && most > 0 && scene_.live.rate > most) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "core/error.h"
@@ -12,17 +13,18 @@ namespace wholehand {
 struct LiveOptions {
   std::string scene;  // as for the other commands; empty: the recorded one of a replay, else DEFAULT_LIVE_SCENE
   std::string device = "sim";
-  double rate = 0;            // Hz; 0: the scene's, or the recorded one
-  std::string record;         // file; empty: none
-  double seconds = 0;         // 0: until the user is done, or for ever
-  std::uint64_t seed = 1;     // of the simulated user
-  std::string dhd_library;    // empty: the scene's, or wherever it is found
-  bool unsafe_gains = false;  // whatever their limits
-  bool no_clock = false;      // as fast as it goes: simulated and recorded users only
-  bool view = false;          // in the browser
-  int view_port = 0;          // 0: any that is free
-  std::string stream;         // osc://HOST:PORT; empty: nowhere
-  bool json = false;          // the report at the end, and nothing else, on standard output
+  double rate = 0;                      // Hz; 0: the scene's, or the recorded one
+  std::string record;                   // file; empty: none
+  double seconds = 0;                   // 0: until the user is done, or for ever
+  std::uint64_t seed = 1;               // of the simulated user
+  std::optional<std::uint64_t> person;  // number of the virtual person who is the user; absent: the median one
+  std::string dhd_library;              // empty: the scene's, or wherever it is found
+  bool unsafe_gains = false;            // whatever their limits
+  bool no_clock = false;                // as fast as it goes: simulated and recorded users only
+  bool view = false;                    // in the browser
+  int view_port = 0;                    // 0: any that is free
+  std::string stream;                   // osc://HOST:PORT; empty: nowhere
+  bool json = false;                    // the report at the end, and nothing else, on standard output
 };
 
 inline constexpr const char* DEFAULT_LIVE_SCENE = "mixing_board";

@@ -19,7 +19,7 @@ constexpr std::array<TraitFacts, TRAIT_COUNT> FACTS{{
     {"margin", YES, {0.25, 0.06, 0.045}, 1e-3, 0.9, 1, Origin::published},
     {"friction", YES, {0.6, 0.15, 0.075}, 1e-2, 10, 10, Origin::mean_published},
     {"weight_guess", YES, {1, 0.25, 0.125}, 1e-2, 100, 100, Origin::ours},
-    {"grip_tremor", YES, {0.02, 0.005, 0.0025}, 1e-6, 1, 1, Origin::ours},
+    {"grip_tremor", YES, {0.002, 0.0005, 0.00025}, 1e-6, 1, 1, Origin::ours},
     {"tremor_Hz", YES, {9, 0.5, 0}, 0.1, 100, 100, Origin::published},
     {"arm_tremor_mm", YES, {0.15e-3, 0.0375e-3, 0.01875e-3}, 1e-6, 0.1, 0.1, Origin::ours},
     {"finger_mass_kg", YES, {0.012, 0.004, 0}, 1e-4, 1, 1, Origin::published},
@@ -30,6 +30,7 @@ constexpr std::array<TraitFacts, TRAIT_COUNT> FACTS{{
     {"arm_stiffness_N_m", YES, {300, 75, 0}, 1, 1e5, 1e5, Origin::ours},
     {"patience_s", YES, {10, 2.5, 1.25}, 0.1, 1e4, 1e4, Origin::ours},
     {"strength", YES, {1, 0.25, 0}, 1e-2, 100, 100, Origin::ours},
+    {"grip_error", YES, {0.02, 0.005, 0.0025}, 1e-6, 1, 1, Origin::ours},
 }};
 
 }  // namespace

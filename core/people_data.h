@@ -20,7 +20,7 @@ enum class Trait {
   margin,            // share of the grip force that is not needed against slipping
   friction,          // that the person reckons with
   weight_guess,      // the weight that is expected over the true one
-  grip_tremor,       // standard deviation of the grip force over the force
+  grip_tremor,       // standard deviation of the grip force about the tremor's frequency, over the force
   tremor_rate,       // Hz
   arm_tremor,        // standard deviation of the hand's place, m
   finger_mass,       // kg
@@ -30,9 +30,10 @@ enum class Trait {
   arm_damping,       // N s/m
   arm_stiffness,     // N/m
   patience,          // how long something is tried before it is given up, s
-  strength           // over the mean adult's
+  strength,          // over the mean adult's
+  grip_error         // standard deviation of the grip force below the tremor, over the force
 };
-constexpr std::size_t TRAIT_COUNT = 21;
+constexpr std::size_t TRAIT_COUNT = 22;
 
 // The mean over the population, the standard deviation of persons about it, and that of grasps about their person.
 struct Spread {

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
-#include <vector>
+#include <utility>
 
 #include "core/loop.h"
 #include "core/prepare.h"
 #include "core/random_bits.h"
-#include "device/sim_user.h"
+#include "device/sim_fingers.h"
 #include "live/session.h"
 
 namespace wholehand {
@@ -18,44 +18,81 @@ namespace {
 using core_f64::Mat3;
 using core_f64::Vec3;
 
-constexpr double TREMOR_TIME = 0.02;        // s: the correlation of a tremor of about 8 Hz
-constexpr double COMPENSATION_TIME = 0.15;  // s in which the arm takes over a load that it feels
+constexpr double TREMOR_TIME = 0.15;    // s for which a tremor keeps its phase: a peak of 2 Hz at half its height
+constexpr double WANDERING_TIME = 0.1;  // s: half of the power is below 1 Hz
+constexpr double LONGEST_REACTION = 2;  // s
 
 std::array<double, 2> sim_gap(const Scene& scene, const core_f64::Hand& hand) {
   if (scene.device.has_gap) return scene.device.gap;
   return {hand.scale * hand.gap_closed, hand.scale * hand.gap_open};
 }
 
-// Values of some ticks ago.
-template <class T>
+// What was shown some ticks ago.
 class Delay {
  public:
-  Delay(double seconds, double rate) : ring_(static_cast<std::size_t>(std::lround(seconds * rate)) + 1) {}
-  void put(const T& value) noexcept {
-    ring_[at_] = value;
+  Delay(double longest, double rate) : ring_(static_cast<std::size_t>(std::ceil(longest * rate)) + 1), rate_(rate) {}
+  void put(const SimSense& value) noexcept {
     at_ = (at_ + 1) % ring_.size();
+    ring_[at_] = value;
   }
-  const T& oldest() const noexcept { return ring_[at_]; }
+  // As far back as the ring goes.
+  const SimSense& before(double seconds) const noexcept {
+    const auto back = static_cast<std::size_t>(std::clamp(seconds * rate_ + 0.5, 0.0, static_cast<double>(ring_.size() - 1)));
+    return ring_[(at_ + ring_.size() - back) % ring_.size()];
+  }
 
  private:
-  std::vector<T> ring_;
+  std::vector<SimSense> ring_;
+  double rate_;
   std::size_t at_ = 0;
+};
+
+// Of variance 1: reproducible everywhere, which a library's normal distribution is not.
+double uniform(std::mt19937_64& random) noexcept { return (unit_interval(random()) - 0.5) * std::sqrt(12.0); }
+
+// Noise about one frequency, of standard deviation 1: a circling number that keeps its phase for a while.
+class Tremor {
+ public:
+  void set(double frequency, double period) noexcept {
+    keep_ = std::exp(-period / TREMOR_TIME);
+    cosine_ = std::cos(2 * PI * frequency * period);
+    sine_ = std::sin(2 * PI * frequency * period);
+  }
+  double next(std::mt19937_64& random) noexcept {
+    const double added = std::sqrt(1 - keep_ * keep_), x = x_, y = y_;
+    x_ = keep_ * (cosine_ * x - sine_ * y) + added * uniform(random);
+    y_ = keep_ * (sine_ * x + cosine_ * y) + added * uniform(random);
+    return x_;
+  }
+
+ private:
+  double keep_ = 1, cosine_ = 1, sine_ = 0, x_ = 0, y_ = 0;
+};
+
+// Slow noise of standard deviation 1, without a jump in its speed: two low passes in a row.
+class Wandering {
+ public:
+  double next(double period, std::mt19937_64& random) noexcept {
+    const double keep = std::exp(-period / WANDERING_TIME);
+    first_ = keep * first_ + std::sqrt(1 - keep * keep) * uniform(random);
+    second_ = keep * second_ + (1 - keep) * first_;
+    return std::sqrt(2.0) * second_;
+  }
+
+ private:
+  double first_ = 0, second_ = 0;
 };
 
 class SimGripper final : public Gripper {
  public:
-  SimGripper(const Scene& scene, std::uint64_t seed)
+  SimGripper(const Scene& scene, std::uint64_t seed, const Participant& person, std::vector<SimJob> jobs)
       : live_(scene),
-        workspace_(scene, sim_gap(scene, live_.hand),
-                   {live_.hand.scale * live_.hand.gap_closed, live_.hand.scale * live_.hand.gap_open}),
-        user_(live_, plan_sim_jobs(scene)),
-        base_(scene.force.base),
+        hand_gap_{live_.hand.scale * live_.hand.gap_closed, live_.hand.scale * live_.hand.gap_open},
+        workspace_(scene, sim_gap(scene, live_.hand), hand_gap_),
+        user_(live_, std::move(jobs), person),
         period_(1 / scene.live.rate),
-        arm_{person_.arm_mass, person_.arm_damping, person_.arm_stiffness},
-        fingers_{person_.finger_mass, person_.finger_damping, person_.finger_stiffness},
-        arm_by_(core_f64::propagator(arm_, period_)),
-        fingers_by_(core_f64::propagator(fingers_, period_)),
-        seen_(person_.reaction, scene.live.rate),
+        fingers_(scene.force.k_open, period_),
+        shown_before_(LONGEST_REACTION, scene.live.rate),
         random_(seed) {
     limits_.name = "simulated gripper";
     limits_.address = "sim";
@@ -64,9 +101,9 @@ class SimGripper final : public Gripper {
     limits_.gap = workspace_.device_gap();
     limits_.rate = scene.live.rate;
     limits_.is_left_handed = scene.hand.handedness == Handedness::left;
-    open_ = live_.hand.scale * live_.hand.gap_open;
     wish_ = user_.next({}, period_);
     for (int k = 0; k < 3; ++k) place_[k].place = wish_.middle[k];
+    take();
   }
 
   const GripperLimits& limits() const noexcept override { return limits_; }
@@ -77,9 +114,8 @@ class SimGripper final : public Gripper {
     last_ = tick;
     HandPose pose;
     pose.middle = Vec3(place_[0].place, place_[1].place, place_[2].place);
-    const double turn = wish_.roll - wish_.tilt, c = std::cos(turn), s = std::sin(turn);
-    pose.rotation = Mat3(1, 0, 0, 0, c, s, 0, -s, c);
-    pose.gap = open_ - closing_.place;
+    pose.rotation = wish_.rotation();
+    pose.gap = hand_gap();
     state = workspace_.unmap(pose);
     state.sequence = static_cast<std::uint32_t>(tick) + 1;
     state.time = period_ * static_cast<double>(tick);
@@ -94,7 +130,9 @@ class SimGripper final : public Gripper {
   void show(const Tick& tick) noexcept override {
     shown_.state = tick.state;
     shown_.vessel = tick.vessel;
-    shown_.grip = tick.user_force;
+    shown_.felt = tick.feedback;
+    shown_.load = is_held(tick.state) ? tick.feedback - tick.user_force : 0;
+    shown_.weight = tick.weight;
     const int vessel = user_.vessel();
     shown_.arrived = vessel >= 0 ? tick.arrived[vessel] : 0;
     shown_.flow = tick.flow;
@@ -103,65 +141,78 @@ class SimGripper final : public Gripper {
   bool is_done() const noexcept override { return user_.is_done(); }
 
  private:
-  // Noise with a correlation time, standard deviation 1.
-  double tremble(double& state) noexcept {
-    const double keep = std::exp(-period_ / TREMOR_TIME);
-    // a uniform number of the same variance: reproducible everywhere, which a library's normal distribution is not
-    const double uniform = (unit_interval(random_()) - 0.5) * std::sqrt(12.0);
-    state = keep * state + std::sqrt(1 - keep * keep) * uniform;
-    return state;
+  // Of the hand; the fingers are on the device.
+  double hand_gap() const noexcept { return hand_gap_[1] - workspace_.gap_slope() * fingers_.place(); }
+
+  // The person's own numbers in the grasp that begins.
+  void take() noexcept {
+    const Traits& traits = user_.traits();
+    grasp_ = user_.grasp();
+    arm_damping_ = of(traits, Trait::arm_damping);
+    arm_stiffness_ = of(traits, Trait::arm_stiffness);
+    arm_by_ = core_f64::propagator({of(traits, Trait::arm_mass), arm_damping_, arm_stiffness_}, period_);
+    fingers_.take(traits);
+    for (Tremor& tremor : tremor_) tremor.set(of(traits, Trait::tremor_rate), period_);
   }
 
   void advance() noexcept {
-    seen_.put(shown_);
-    SimSense sense = seen_.oldest();
-    sense.gap = open_ - closing_.place;
+    shown_before_.put(shown_);
+    SimSense sense = shown_before_.before(of(user_.traits(), Trait::reaction));
+    sense.gap = hand_gap();
     wish_ = user_.next(sense, period_);
+    if (user_.grasp() != grasp_) take();
+    // the arm takes over what it feels in the time of a response
+    const double share = -std::expm1(-period_ / of(user_.traits(), Trait::response));
     const Vec3 pushed = workspace_.to_world(force_.arm);
     for (int k = 0; k < 3; ++k) {
-      // the arm takes over what it feels, a little late
-      carried_[k] += (pushed[k] - carried_[k]) * (-std::expm1(-period_ / COMPENSATION_TIME));
-      const double goal = wish_.middle[k] + person_.arm_tremor * tremble(tremor_[k]);
-      const double drive = person_.arm_stiffness * goal + person_.arm_damping * wish_.velocity[k] + pushed[k] - carried_[k];
+      carried_[k] += (pushed[k] - carried_[k]) * share;
+      const double goal = wish_.middle[k] + of(user_.traits(), Trait::arm_tremor) * tremor_[k].next(random_);
+      const double drive = arm_stiffness_ * goal + arm_damping_ * wish_.velocity[k] + pushed[k] - carried_[k];
       place_[k] = core_f64::advance(arm_by_, place_[k], drive);
     }
-    squeeze(sense.grip);
-  }
-
-  // Fingers: towards a gap, or against the error of the felt force. Closing is positive.
-  void squeeze(double felt) noexcept {
     if (wish_.grips_by_force) {
-      muscle_ = std::max(0.0, muscle_ + (base_ + person_.excess - felt) * period_ / person_.response);
+      fingers_.press(wish_.force, sense.felt, sense.load);
     } else {
-      muscle_ = person_.finger_stiffness * (open_ - wish_.gap) - person_.finger_damping * wish_.gap_speed;
+      const double slope = workspace_.gap_slope();
+      fingers_.go((hand_gap_[1] - wish_.gap) / slope, -wish_.gap_speed / slope);
     }
-    const double drive = muscle_ + person_.grip_tremor * tremble(tremor_[3]) - force_.grip;
-    closing_ = core_f64::advance(fingers_by_, closing_, drive);
+    fingers_.advance(force_.grip, tremor_[3].next(random_), wandering_.next(period_, random_));
   }
 
   LiveScene live_;
+  std::array<double, 2> hand_gap_;  // closed, open, m
   Workspace workspace_;
-  SimPerson person_;
   SimUser user_;
-  double base_, period_;
-  core_f64::Plant arm_, fingers_;
-  core_f64::Propagator arm_by_, fingers_by_;
-  Delay<SimSense> seen_;
+  double period_;
+  SimFingers fingers_;
+  Delay shown_before_;
   std::mt19937_64 random_;
   GripperLimits limits_;
   SimSense shown_;
   SimWish wish_;
-  double open_ = 0, muscle_ = 0;
+  int grasp_ = -1;
+  double arm_damping_ = 0, arm_stiffness_ = 0;
+  core_f64::Propagator arm_by_;
   std::int64_t last_ = -1;
   std::array<core_f64::Motion, 3> place_{};
-  core_f64::Motion closing_;
   std::array<double, 3> carried_{};
-  std::array<double, 4> tremor_{};
+  std::array<Tremor, 4> tremor_{};
+  Wandering wandering_;
   GripperForce force_;
 };
 
 }  // namespace
 
-std::unique_ptr<Gripper> open_sim(const Scene& scene, std::uint64_t seed) { return std::make_unique<SimGripper>(scene, seed); }
+std::unique_ptr<Gripper> open_sim(const Scene& scene, std::uint64_t seed, const Participant& person, std::vector<SimJob> jobs) {
+  return std::make_unique<SimGripper>(scene, seed, person, std::move(jobs));
+}
+
+std::unique_ptr<Gripper> open_sim(const Scene& scene, std::uint64_t seed, const Participant& person) {
+  return open_sim(scene, seed, person, plan_sim_jobs(scene));
+}
+
+std::unique_ptr<Gripper> open_sim(const Scene& scene, std::uint64_t seed) {
+  return open_sim(scene, seed, Participant(scene.people));
+}
 
 }  // namespace wholehand

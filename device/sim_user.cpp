@@ -5,8 +5,11 @@
 #include <cmath>
 #include <utility>
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include "core/error.h"
 #include "core/evaluator.h"
+#include "core/held.h"
 #include "core/mirror.h"
 #include "core/prepare.h"
 #include "core/vectors.h"
@@ -28,7 +31,7 @@ constexpr double TILT_SPEED = radians(25);   // rad/s, the paper's 90 degrees in
 constexpr double QUICKEST_FLOW = 25e-6;      // m3/s that a person pours when there is much to pour
 constexpr double POUR_AHEAD = 0.8;           // s: how far before the amount is there the flow is made less
 constexpr double FLOW_BAND = 100e-6;         // m3/s of difference for the whole tilting speed
-constexpr double PATIENCE = 40;              // s of pouring after which a person gives up
+constexpr double LONGEST_POUR = 40;          // s, however much still runs
 constexpr double LOOKS = 0.3;                // s before a vessel that slipped is seen to
 constexpr double CLEAR = 0.28;               // over the other vessels, on the way to the next
 constexpr int ATTEMPTS = 3;
@@ -102,13 +105,50 @@ std::vector<SimJob> plan_sim_jobs(const Scene& scene) {
   return possible;
 }
 
-SimUser::SimUser(const LiveScene& live, std::vector<SimJob> jobs) : live_(live), jobs_(std::move(jobs)) {
+core_f64::Mat3 SimWish::rotation() const noexcept {
+  const auto about = [](int axis, double angle) {
+    Vec3 unit(0);
+    unit[axis] = 1;
+    return core_f64::Mat3(glm::rotate(glm::dmat4(1), angle, unit));
+  };
+  return about(1, azimuth) * about(0, -tilt) * about(2, obliquity) * about(0, roll);
+}
+
+SimUser::SimUser(const LiveScene& live, std::vector<SimJob> jobs, const Participant& person)
+    : live_(live), jobs_(std::move(jobs)), person_(person) {
+  next_grasp();
   const double open = live.hand.scale * live.hand.gap_open;
   home_ = live.vessels[jobs_.front().vessel].home + Vec3(0, 0.2, 0.3);
   wish_.middle = home_;
   wish_.gap = open;
-  wish_.roll = jobs_.front().grip.roll;
   begin(Phase::reach);
+  wish_.roll = roll_from_ = roll_to_;
+  wish_.azimuth = azimuth_from_ = azimuth_to_;
+  wish_.obliquity = obliquity_from_ = obliquity_to_;
+}
+
+// A new try, at a vessel that the person has a guess of.
+void SimUser::next_grasp() noexcept {
+  traits_ = person_.grasp(static_cast<std::uint64_t>(++grasp_));
+  const LiveVessel& vessel = live_.vessels[job().vessel];
+  const double density = live_.scene.liquid ? live_.scene.liquid->density : 0;
+  weight_ = vessel.force.gravity * core_f64::load_with(vessel.vessel, density * vessel.volume, 0, 0).mass;
+  load_ = 0;
+}
+
+// The grip follows what opens the fingers, and a weight that is more than was expected. It takes the response time to do so.
+void SimUser::follow_load(const SimSense& sense, double seconds) noexcept {
+  const double surplus = std::max(0.0, sense.weight - of(traits_, Trait::weight_guess) * weight_);
+  const double rise = sense.load + surplus / (2 * of(traits_, Trait::friction));
+  // nine tenths and a half of a step within the response
+  load_ += (rise - load_) * -std::expm1(-3 * seconds / of(traits_, Trait::response));
+  wish_.force = std::max(0.0, loaded_force(traits_, first_force(traits_, weight_), load_));
+}
+
+// Of the tips while it is poured: a grasp that is higher on the vessel leaves the vessel where it is.
+Vec3 SimUser::on_path(double tilt) const noexcept {
+  const double up = of(traits_, Trait::height);
+  return job().path.middle(tilt) + up * Vec3(0, std::cos(tilt), -std::sin(tilt));
 }
 
 // How high the vessel is lifted off what it stands on: before it goes to a target, higher than that.
@@ -132,7 +172,13 @@ void SimUser::begin(Phase phase) noexcept {
   gap_from_ = gap_to_ = wish_.gap;
   tilt_from_ = tilt_to_ = wish_.tilt;
   roll_from_ = wish_.roll;
-  roll_to_ = job().grip.roll;
+  roll_to_ = job().grip.roll + of(traits_, Trait::roll);
+  azimuth_from_ = wish_.azimuth;
+  obliquity_from_ = wish_.obliquity;
+  // who pours turns the vessel towards the target on the way there
+  const bool is_poured = job().kind == SimJob::Kind::pour && phase >= Phase::carry && phase <= Phase::open;
+  azimuth_to_ = is_poured ? 0 : of(traits_, Trait::azimuth);
+  obliquity_to_ = of(traits_, Trait::obliquity);
   has_run_ = false;
   plan_motion();
 }
@@ -141,18 +187,19 @@ void SimUser::begin(Phase phase) noexcept {
 Vec3 SimUser::set_down_at() const noexcept {
   const Vec3 destination = live_.scene.task ? in_hand_world(live_.scene.task->destination) : Vec3(0);
   const Vec3 place = job().kind == SimJob::Kind::carry ? destination : live_.vessels[job().vessel].home;
-  return place + Vec3(0, job().grip.height, 0);
+  return place + Vec3(0, job().grip.height + of(traits_, Trait::height), 0);
 }
 
 // Where the phase ends, and how long it lasts.
 void SimUser::plan_motion() noexcept {
   const double open = live_.hand.scale * live_.hand.gap_open;
-  const Vec3 taken = live_.vessels[job().vessel].home + Vec3(0, job().grip.height, 0);
+  const Vec3 taken = live_.vessels[job().vessel].home + Vec3(0, job().grip.height + of(traits_, Trait::height), 0);
+  const double azimuth = of(traits_, Trait::azimuth);
   const bool is_carried = job().kind == SimJob::Kind::carry;
   const Vec3 put = set_down_at();
   switch (phase_) {
     case Phase::reach:
-      move(taken + Vec3(0, 0, APART), REACH_TIME);
+      move(taken + APART * Vec3(std::sin(azimuth), 0, std::cos(azimuth)), REACH_TIME);
       gap_to_ = open;
       tilt_to_ = 0;
       break;
@@ -171,7 +218,7 @@ void SimUser::plan_motion() noexcept {
       break;
     case Phase::carry:
       if (job().kind == SimJob::Kind::pour)
-        move(job().path.middle(0), CARRY_TIME);
+        move(on_path(0), CARRY_TIME);
       else if (is_carried)
         move(put + Vec3(0, LIFT, 0), CARRY_TIME);
       else
@@ -180,7 +227,7 @@ void SimUser::plan_motion() noexcept {
     case Phase::tilt:
       lasts_ = TILT_TIME;
       if (job().kind == SimJob::Kind::show) tilt_to_ = SHOWN_TILT;
-      if (job().kind == SimJob::Kind::pour) lasts_ = PATIENCE;
+      if (job().kind == SimJob::Kind::pour) lasts_ = LONGEST_POUR;
       if (is_carried) lasts_ = 0;
       break;
     case Phase::maintain:
@@ -213,8 +260,9 @@ void SimUser::pour(const SimSense& sense, double seconds) noexcept {
   has_run_ = has_run_ || sense.flow > 0;
   const double speed = has_run_ ? TILT_SPEED * std::clamp((flow - sense.flow) / FLOW_BAND, -1.0, 1.0) : TILT_SPEED;
   wish_.tilt = std::clamp(wish_.tilt + speed * seconds, 0.0, SIM_LARGEST_TILT);
-  wish_.middle = job().path.middle(wish_.tilt);
-  if (missing <= 0.3 * live_.scene.task->tolerance) time_ = lasts_;
+  wish_.middle = on_path(wish_.tilt);
+  idle_ = sense.flow > 0 || wish_.tilt < SIM_LARGEST_TILT ? 0 : idle_ + seconds;
+  if (missing <= 0.3 * live_.scene.task->tolerance || idle_ > of(traits_, Trait::patience)) time_ = lasts_;
 }
 
 SimWish SimUser::next(const SimSense& sense, double seconds) noexcept {
@@ -231,14 +279,17 @@ SimWish SimUser::next(const SimSense& sense, double seconds) noexcept {
   } else {
     wish_.middle = from_ + minimum_jerk(part) * (to_ - from_);
     wish_.tilt = tilt_from_ + minimum_jerk(part) * (tilt_to_ - tilt_from_);
-    if (phase_ == Phase::upright && pours) wish_.middle = job().path.middle(wish_.tilt);
+    if (phase_ == Phase::upright && pours) wish_.middle = on_path(wish_.tilt);
   }
   wish_.roll = roll_from_ + minimum_jerk(part) * (roll_to_ - roll_from_);
+  wish_.azimuth = azimuth_from_ + minimum_jerk(part) * (azimuth_to_ - azimuth_from_);
+  wish_.obliquity = obliquity_from_ + minimum_jerk(part) * (obliquity_to_ - obliquity_from_);
   wish_.gap = wish_.grips_by_force ? sense.gap : gap_from_ + minimum_jerk(part) * (gap_to_ - gap_from_);
   wish_.velocity = (wish_.middle - before) / seconds;
   wish_.gap_speed = (wish_.gap - gap_before) / seconds;
-  const bool feels = phase_ == Phase::close && is_held(sense.state) && sense.grip > FELT;
+  const bool feels = phase_ == Phase::close && is_held(sense.state) && sense.felt > FELT;
   if (feels) wish_.grips_by_force = true;
+  follow_load(sense, seconds);
   if (feels || time_ >= lasts_) go_on(feels);
   return wish_;
 }
@@ -268,7 +319,9 @@ void SimUser::go_on(bool feels) noexcept {
     attempts_ = 0;
     ++job_;
   }
-  if (!is_done()) begin(Phase::reach);
+  if (is_done()) return;
+  next_grasp();
+  begin(Phase::reach);
 }
 
 }  // namespace wholehand

@@ -7,6 +7,7 @@
 #include "core/result.h"
 #include "device/pour_path.h"
 #include "live/session.h"
+#include "people/participant.h"
 
 namespace wholehand {
 
@@ -30,17 +31,25 @@ std::vector<SimJob> plan_sim_jobs(const Scene& scene);
 struct SimWish {
   core_f64::Vec3 middle{};        // of the tips, m
   core_f64::Vec3 velocity{};      // of that, m/s
-  double tilt = 0;                // of the gripper, about the line of the tips, rad
-  double roll = 0;                // of the hand about it, rad
+  double azimuth = 0;             // of the line of the tips about up, off x, rad
+  double tilt = 0;                // about the level part of that line, rad; the top goes away from the user
+  double obliquity = 0;           // of that line, rad: the index finger is higher
+  double roll = 0;                // of the hand about that line, rad
   bool grips_by_force = false;    // holds a force; else goes to a gap
+  double force = 0;               // that is held, N
   double gap = 0, gap_speed = 0;  // of the hand, m and m/s; positive opens
+
+  // The gripper's axes, in the world of the right hand.
+  core_f64::Mat3 rotation() const noexcept;
 };
 
 // What the user sees and feels, a reaction time late.
 struct SimSense {
   SessionState state = SessionState::free;
   int vessel = -1;
-  double grip = 0;     // felt force, N
+  double felt = 0;     // at the fingers, N
+  double load = 0;     // what of it has come since the grasp without the fingers' doing, N
+  double weight = 0;   // at the arm, N
   double gap = 0;      // of the hand, m
   double arrived = 0;  // of the vessel's liquid in the target, m3
   double flow = 0;     // m3/s
@@ -48,13 +57,16 @@ struct SimSense {
 
 class SimUser {
  public:
-  // `live` must outlive it.
-  SimUser(const LiveScene& live, std::vector<SimJob> jobs);
+  // `live` must outlive it, and has the person's own hand.
+  SimUser(const LiveScene& live, std::vector<SimJob> jobs, const Participant& person);
   // The wish after another `seconds`, which may not be long beside a reaction. Neither allocates nor throws.
   SimWish next(const SimSense& sense, double seconds) noexcept;
   bool is_done() const noexcept { return job_ >= static_cast<int>(jobs_.size()); }
   int vessel() const noexcept { return is_done() ? -1 : jobs_[job_].vessel; }
   int abandoned() const noexcept { return abandoned_; }  // jobs given up after ATTEMPTS lost grips
+  // What the person is like in the grasp that is under way, and its number, counted from 0.
+  const Traits& traits() const noexcept { return traits_; }
+  int grasp() const noexcept { return grasp_; }
 
  private:
   enum class Phase { reach, enter, close, settle, lift, carry, tilt, maintain, upright, back, lower, open, withdraw };
@@ -62,6 +74,9 @@ class SimUser {
   void plan_motion() noexcept;
   void fail() noexcept;
   void go_on(bool feels) noexcept;
+  void next_grasp() noexcept;
+  void follow_load(const SimSense& sense, double seconds) noexcept;
+  core_f64::Vec3 on_path(double tilt) const noexcept;
   void move(core_f64::Vec3 to, double seconds) noexcept;
   double lift() const noexcept;
   core_f64::Vec3 set_down_at() const noexcept;
@@ -71,6 +86,12 @@ class SimUser {
 
   const LiveScene& live_;
   std::vector<SimJob> jobs_;
+  Participant person_;
+  Traits traits_{};
+  int grasp_ = -1;
+  double weight_ = 0;  // of the vessel that is taken, N
+  double load_ = 0;    // that the grip force follows, N
+  double idle_ = 0;    // s for which nothing has been poured
   int job_ = 0, attempts_ = 0, abandoned_ = 0;
   bool has_failed_ = false, has_run_ = false;
   Phase phase_ = Phase::reach;
@@ -78,6 +99,7 @@ class SimUser {
   double lasts_ = 0;
   core_f64::Vec3 from_{}, to_{}, home_{};
   double gap_from_ = 0, gap_to_ = 0, tilt_from_ = 0, tilt_to_ = 0, roll_from_ = 0, roll_to_ = 0;
+  double azimuth_from_ = 0, azimuth_to_ = 0, obliquity_from_ = 0, obliquity_to_ = 0;
   SimWish wish_;
 };
 

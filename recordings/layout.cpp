@@ -78,6 +78,7 @@ class LayoutBuilder {
         classic::number_attribute("force_base_N", {info_.force_base}),
         classic::number_attribute("force_max_N", {info_.force_max}),
         classic::number_attribute("tolerance_m3", {info_.tolerance})};
+    if (info_.person) header().attributes.push_back(classic::text_attribute("person", fmt::format("{}", *info_.person)));
   }
 
   std::uint32_t dimension(std::string_view name) {
@@ -206,6 +207,15 @@ std::vector<double> recorded_numbers(const Header& header, const char* name, std
 
 double recorded_number(const Header& header, const char* name) { return recorded_numbers(header, name, 1)[0]; }
 
+// A whole number as text.
+std::uint64_t recorded_integer(const Header& header, const char* name) {
+  const std::string text = recorded_text(header, name);
+  std::uint64_t value = 0;
+  if (std::from_chars(text.data(), text.data() + text.size(), value).ptr != text.data() + text.size() || text.empty())
+    throw lacks(fmt::format("a {} that is a whole number", name));
+  return value;
+}
+
 bool recorded_yes(const Header& header, const char* name) {
   const Attribute* attribute = header.attribute(name);
   if (!attribute || attribute->type != classic::Type::int32 || attribute->bytes.size() != 4)
@@ -306,9 +316,8 @@ RecordingInfo info_of(const Header& header, const FixedValues& fixed_values) {
   info.scene_text = recorded_text(header, "scene");
   info.version = recorded_line(header, "version");
   info.start = recorded_line(header, "start");
-  const std::string seed = recorded_text(header, "seed");
-  if (std::from_chars(seed.data(), seed.data() + seed.size(), info.seed).ptr != seed.data() + seed.size() || seed.empty())
-    throw lacks("a seed that is a whole number");
+  info.seed = recorded_integer(header, "seed");
+  if (header.attribute("person")) info.person = recorded_integer(header, "person");
   info.rate = recorded_number(header, "rate_Hz");
   if (!(info.rate > 0 && info.rate <= LARGEST_RATE)) throw usage_error(fmt::format("has an impossible rate of {} Hz", info.rate));
   const auto gap = recorded_numbers(header, "device_gap_m", 2);

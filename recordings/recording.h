@@ -44,6 +44,7 @@ struct RecordingInfo {
   std::string version;  // of the program
   std::string start;    // ISO 8601, with its offset from UTC
   std::uint64_t seed = 0;
+  std::optional<std::uint64_t> person;  // number of the virtual person who grips with a hand of their own, drawn by `seed`
   double rate = 1000;  // of the force loop, Hz
   RecordedDevice device;
   std::vector<RecordedVessel> vessels;  // 1 to LIVE_VESSELS

@@ -308,6 +308,26 @@ TEST(Live, AReplayGivesTheSameForcesToTheBit) {
   EXPECT_EQ(a.ticks.back().state, SessionState::released);
 }
 
+// The recording says whose hand it was: a replay has that hand, and so the same closures.
+TEST(Live, AReplayHasThePersonsHand) {
+  const TemporaryFolder folder;
+  const std::string first = folder / "first.nc", second = folder / "second.nc";
+  const LiveOutcome once = Program("--person 3 --seed 2 --no-clock --seconds 12 --record " + first).wait();
+  ASSERT_EQ(once.code, 0) << once.errors;
+  const LiveOutcome again = Program("--no-clock --device replay:" + first + " --record " + second).wait();
+  ASSERT_EQ(again.code, 0) << again.errors;
+  const Recording a = read_recording(first), b = read_recording(second);
+  ASSERT_EQ(a.ticks.size(), b.ticks.size());
+  for (std::size_t k = 0; k < a.ticks.size(); ++k) {
+    ASSERT_EQ(a.ticks[k].closure, b.ticks[k].closure) << k;
+    ASSERT_EQ(a.ticks[k].touch_mask, b.ticks[k].touch_mask) << k;
+    ASSERT_EQ(a.ticks[k].written.grip, b.ticks[k].written.grip) << k;
+  }
+  EXPECT_EQ(b.info.person, std::optional<std::uint64_t>(3));
+  EXPECT_EQ(b.info.seed, 2u);
+  EXPECT_GT(a.ticks.back().grasps, 0) << "of a session in which something is held";
+}
+
 TEST(Live, SignalsEndItCleanly) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const TemporaryFolder folder;
@@ -358,6 +378,10 @@ TEST(Live, RefusesWhatIsNotAllowedInOneLine) {
   std::ofstream(folder / "notes.txt") << "not a recording";
   expect_refused("--device robot", 2, "--device 'robot': allowed: sim");
   expect_refused("--rate 100", 2, "--rate");
+  expect_refused("--person -1", 2, "--person");
+  expect_refused("--person a", 2, "--person");
+  expect_refused("--person 3 --device hid", 2, "--person: only the simulated gripper is held by a virtual person");
+  expect_refused("--person 3 --device replay:" + (folder / "notes.txt"), 2, "--person: only the simulated gripper");
   expect_refused("--rate 10000", 2, "--rate");
   expect_refused("--seconds 0", 2, "--seconds");
   expect_refused("--no-clock --device hid", 2, "--no-clock");

@@ -2,6 +2,7 @@
 // The simulated user in simulated time: whole sessions, everything up to the wire.
 // sanitizers: address
 #include "device/sim_gripper.h"
+#include "core/held.h"
 #include "core/joints.h"
 #include "core/vectors.h"
 
@@ -9,6 +10,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <memory>
 #include <set>
 
 #include "app/paths.h"
@@ -17,6 +19,7 @@
 #include "device/sim_user.h"
 #include "grips/hand_nodes.h"
 #include "live/hand_view.h"
+#include "people/participant.h"
 #include "scene/reader.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
@@ -29,9 +32,9 @@ struct SimSession {
   LoopReport report;
 };
 
-SimSession play(const Scene& scene, std::uint64_t seed, double seconds = 120) {
+SimSession play(const Scene& scene, std::uint64_t seed, double seconds = 120, std::unique_ptr<Gripper> gripper = nullptr) {
   SimSession session;
-  const auto gripper = open_sim(scene, seed);
+  if (!gripper) gripper = open_sim(scene, seed);
   Session core(scene, gripper->limits().gap);
   LoopOptions options;
   options.is_simulated = true;
@@ -250,19 +253,67 @@ TEST(SimGripper, ShowsEveryVesselOfASceneWithoutATask) {
   }
 }
 
-// A user who holds F_base and 3 N: the paper's stopped tightening at 3.76 +- 0.08 N.
-TEST(SimGripper, HoldsItsGripForceWithinATremor) {
-  const SimSession session = play(shipped_live(), 2);
-  int held = 0;
-  double sum = 0;
-  for (const Tick& tick : session.ticks) {
-    if (tick.state != SessionState::maintain) continue;
-    sum += tick.user_force;
-    ++held;
-    EXPECT_NEAR(tick.user_force, 3.8, 0.6) << tick.number;
+// The whole force on a finger is what the person wants for this vessel, and the rise that keeps the margin where the torque opens the
+// fingers. A control error of 2 % wanders slowly: the mean over some seconds, of which it changes a few times each, is off by less
+// than 1 %, and single ticks by less than five deviations.
+TEST(SimGripper, HoldsTheForceThatThePersonWants) {
+  const Scene scene = shipped_live();
+  const Traits traits = Participant(scene.people).person().traits;
+  const LiveScene live(scene);
+  const SimSession session = play(scene, 2);
+  for (const int vessel : {1, 2, 3}) {
+    const LiveVessel& held = live.vessels[static_cast<std::size_t>(vessel)];
+    const double mass = core_f64::load_with(held.vessel, scene.liquid->density * held.volume, 0, 0).mass;
+    const double first = first_force(traits, mass * scene.gravity);
+    double sum = 0, wanted = 0;
+    int ticks = 0;
+    for (const Tick& tick : session.ticks) {
+      if (tick.state != SessionState::maintain || tick.vessel != vessel) continue;
+      const double goal = loaded_force(traits, first, tick.feedback - tick.user_force);
+      EXPECT_NEAR(tick.feedback, goal, 5 * 0.02 * goal + 0.1) << tick.number << ": the liquid runs, and a reaction comes late";
+      sum += tick.feedback;
+      wanted += goal;
+      ++ticks;
+    }
+    ASSERT_GT(ticks, 1000);
+    EXPECT_NEAR(sum / wanted, 1, 0.02) << vessel;
   }
-  ASSERT_GT(held, 1000);
-  EXPECT_NEAR(sum / held, 3.8, 0.05);
+}
+
+// The same task by other people, each with a hand and habits of their own; and each person again to the bit.
+TEST(SimGripper, PeopleDifferAndEachIsTheSameAgain) {
+  const auto session_of = [](std::uint64_t number) {
+    Scene scene = shipped_live();
+    const Participant person(scene.people, 1, number, Experiment::live);
+    scene.hand = person.hand(scene.hand);
+    return play(scene, 1, 30, open_sim(scene, 1, person));
+  };
+  const auto force_of = [](const SimSession& session) {
+    for (const Tick& tick : session.ticks)
+      if (tick.vessel == 1 && tick.state == SessionState::tilt) return tick.user_force;
+    return 0.0;
+  };
+  const SimSession a = session_of(3), again = session_of(3), b = session_of(4);
+  ASSERT_EQ(a.ticks.size(), again.ticks.size());
+  for (std::size_t k = 0; k < a.ticks.size(); ++k) ASSERT_EQ(a.ticks[k].written.grip, again.ticks[k].written.grip) << k;
+  EXPECT_GT(force_of(a), 0);
+  EXPECT_GT(std::abs(force_of(a) - force_of(b)), 0.1);
+  EXPECT_NE(a.ticks.front().gap, b.ticks.front().gap) << "their hands open differently";
+}
+
+// Nobody differs from the mean person, and no grasp from another.
+TEST(SimGripper, WithoutScatterEverybodyIsOnePerson) {
+  Scene one_vessel = beside_each_other(three_beakers());
+  one_vessel.vessels.resize(1);
+  one_vessel.people.scatter = 0;
+  const auto session_of = [](Scene scene, std::uint64_t seed, std::uint64_t number) {
+    const Participant person(scene.people, seed, number, Experiment::sessions);
+    scene.hand = person.hand(scene.hand);
+    return play(scene, 1, 12, open_sim(scene, 1, person));
+  };
+  const SimSession a = session_of(one_vessel, 1, 0), b = session_of(one_vessel, 9, 77);
+  ASSERT_EQ(a.ticks.size(), b.ticks.size());
+  for (std::size_t k = 0; k < a.ticks.size(); ++k) ASSERT_EQ(a.ticks[k].written.grip, b.ticks[k].written.grip) << k;
 }
 
 TEST(SimGripper, TheSameSeedGivesTheSameSessionToTheBitAndAnotherAnother) {

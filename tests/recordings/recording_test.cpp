@@ -11,7 +11,11 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "core/hand_size.h"
+#include "people/person.h"
 #include "recordings/fields.h"
+#include "recordings/recorded_scene.h"
+#include "scene/reader.h"
 #include "tests/support/files.h"
 #include "tests/support/recorded_ticks.h"
 
@@ -78,6 +82,7 @@ TEST(Recording, GivesBackWhatIsKnownOfTheSession) {
   EXPECT_EQ(got.version, info.version);
   EXPECT_EQ(got.start, info.start);
   EXPECT_EQ(got.seed, info.seed);
+  EXPECT_FALSE(got.person);
   EXPECT_EQ(got.rate, info.rate);
   EXPECT_EQ(got.device.name, "omega.7");
   EXPECT_EQ(got.device.address, "hid:/dev/hidraw0");
@@ -104,6 +109,24 @@ TEST(Recording, GivesBackWhatIsKnownOfTheSession) {
   EXPECT_EQ(recording.end->missed, 17);
   EXPECT_EQ(recording.end->fault, Fault::interrupted);
   EXPECT_EQ(recording.end->early, "");
+}
+
+// The hand of a virtual person is not in the scene's text: the number is.
+TEST(Recording, GivesBackThePersonAndTheirHand) {
+  const TemporaryFolder folder;
+  RecordingInfo info = recorded_info(1);
+  info.scene_text = "[[vessel]]\nshape = \"cylinder\"\ndiameter_mm = 70\nheight_mm = 95\nwall_mm = 1\n";
+  info.seed = 5;
+  info.person = 18446744073709551615u;
+  RecordingWriter(folder / "a.nc", info).finish(recorded_end());
+  const RecordingInfo got = read_recording(folder / "a.nc").info;
+  ASSERT_TRUE(got.person);
+  EXPECT_EQ(*got.person, *info.person);
+  const Scene plain = parse_scene(info.scene_text, "a.toml"), own = scene_of_recording(got);
+  EXPECT_EQ(size_of(own.hand).length, size_of(hand_of(plain.hand, draw_person(plain.people, 5, *info.person))).length);
+  EXPECT_NE(size_of(own.hand).length, size_of(plain.hand).length);
+  info.person.reset();
+  EXPECT_EQ(size_of(scene_of_recording(info).hand).length, size_of(plain.hand).length);
 }
 
 // By the library that everybody else reads it with.

@@ -58,6 +58,7 @@ const std::map<std::string, std::vector<std::string>> SCENE_KEYS{
       "friction",
       "weight_guess",
       "grip_tremor",
+      "grip_error",
       "tremor_Hz",
       "arm_tremor_mm",
       "finger_mass_kg",
