@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 namespace wholehand {
@@ -161,6 +162,16 @@ void measure_tilt(GraspReport& grasp, std::span<const Tick> held, const TiltWay&
   grasp.course = course_of(grasp);
 }
 
+// Mean grip force over half a window from the first tick on that is maintained.
+double maintained_at_first(std::span<const Tick> held, const TiltWay& way, double rate) {
+  const auto is_maintained = [](const Tick& tick) { return tick.state == SessionState::maintain; };
+  const auto first = std::find_if(held.begin() + static_cast<std::ptrdiff_t>(way.last), held.end(), is_maintained);
+  MeanSum sum;
+  for (auto tick = first; tick != held.end() && tick->number - first->number <= half_window(COURSE_WINDOW, rate); ++tick)
+    if (is_maintained(*tick)) sum.add(tick->user_force);
+  return sum.result().mean;
+}
+
 // The grip force when the gap has come to rest, and before, during and after the tilt.
 void measure_grip(GraspReport& grasp, std::span<const Tick> held, std::size_t at_rest, const TiltWay& way, double rate) {
   MeanSum settling, before, during, after;
@@ -179,6 +190,7 @@ void measure_grip(GraspReport& grasp, std::span<const Tick> held, std::size_t at
   grasp.before = before.result();
   grasp.during = during.result();
   grasp.after = after.result();
+  if (way.is_there) grasp.after_at_first = maintained_at_first(held, way, rate);
 }
 
 }  // namespace

@@ -52,6 +52,7 @@ struct GraspReport {
   double response_time = Tick::NONE;    // from the step of F_base until the gap is at rest, s
   double tightened = Tick::NONE;        // grip force when it came to rest, N
   MeanDeviation before, during, after;  // grip force in lift since then, over the tilt, and while it is maintained, N
+  double after_at_first = Tick::NONE;   // its mean over the first COURSE_WINDOW / 2 of what is maintained, N
   double largest_tilt = 0;              // rad
   double tilt_start = Tick::NONE;       // of the way to the tilt that is maintained, s
   double tilt_time = Tick::NONE;        // how long that takes, s

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "recordings/grasp_collector.h"
+
 namespace wholehand {
 namespace {
 
@@ -34,65 +36,10 @@ std::vector<TickRange> split(const std::vector<Tick>& ticks, IsSame is_same) {
   return ranges;
 }
 
-// Runs of held ticks of one vessel.
-std::vector<TickRange> find_grasps(const std::vector<Tick>& ticks) {
-  std::vector<TickRange> ranges = split(ticks, [](const Tick& a, const Tick& b) {
-    return is_held(a.state) == is_held(b.state) && (!is_held(a.state) || a.vessel == b.vessel);
-  });
-  std::erase_if(ranges,
-                [&ticks](const TickRange& range) { return !is_held(ticks[range.first].state) || ticks[range.first].vessel < 0; });
-  return ranges;
-}
-
-// `end`: behind the grasp's last tick. A loss that is counted before the next grasp is this one's.
-GraspOutcome outcome_of(const std::vector<Tick>& ticks, std::size_t end) {
-  if (end == ticks.size()) return GraspOutcome::recording_ends;
-  for (std::size_t k = end; k < ticks.size(); ++k) {
-    if (ticks[k].lost > ticks[end - 1].lost) return GraspOutcome::lost;
-    if (is_held(ticks[k].state)) break;
-  }
-  return ticks[end].state == SessionState::released ? GraspOutcome::released : GraspOutcome::let_go;
-}
-
-// What arrived and was spilt until the vessel's next grasp: it is still in the air when a grasp ends.
-void add_liquid(GraspReport& grasp, const std::vector<Tick>& ticks, const std::vector<TickRange>& grasps, std::size_t k) {
-  std::size_t last = ticks.size() - 1;
-  for (std::size_t next = k + 1; next < grasps.size(); ++next) {
-    if (ticks[grasps[next].first].vessel != grasp.vessel) continue;
-    last = grasps[next].first;
-    break;
-  }
-  const Tick& from = ticks[grasps[k].first];
-  const auto vessel = static_cast<std::size_t>(grasp.vessel);
-  grasp.arrived = ticks[last].arrived[vessel] - from.arrived[vessel];
-  grasp.spilt = ticks[last].spilt[vessel] - from.spilt[vessel];
-}
-
-// At F_max the gripper renders neither what the torque adds nor what the user does.
-void add_saturation(GraspReport& grasp, std::span<const Tick> held, double rate, double force_max) {
-  std::int64_t periods = 0;
-  bool while_tilting = false;
-  for (std::size_t k = 0; k < held.size(); ++k) {
-    if (!(held[k].feedback >= force_max)) continue;
-    periods += periods_of(held, k);
-    while_tilting = while_tilting || held[k].state != SessionState::lift;
-  }
-  grasp.saturated = static_cast<double>(periods) / rate;
-  if (while_tilting) grasp.course = GripCourse::not_analysed;
-}
-
 std::vector<GraspReport> measure_grasps(const std::vector<Tick>& ticks, double rate, double force_max) {
-  const std::vector<TickRange> ranges = find_grasps(ticks);
-  std::vector<GraspReport> grasps;
-  for (std::size_t k = 0; k < ranges.size(); ++k) {
-    const GraspOutcome outcome = outcome_of(ticks, ranges[k].end);
-    const auto held = std::span(ticks).subspan(ranges[k].first, ranges[k].end - ranges[k].first);
-    grasps.push_back(measure_grasp(held, rate, outcome == GraspOutcome::lost));
-    grasps.back().outcome = outcome;
-    add_saturation(grasps.back(), held, rate, force_max);
-    add_liquid(grasps.back(), ticks, ranges, k);
-  }
-  return grasps;
+  GraspCollector collector(rate, force_max);
+  for (const Tick& tick : ticks) collector.add(tick);
+  return collector.finish();
 }
 
 // `vessel` -1: all.
