@@ -24,18 +24,15 @@ constexpr int FIRST_ROLL = -60, LAST_ROLL = 30, ROLL_STEP = 15;  // degrees: tho
 const std::vector<int> KEPT{FIELD_STATUS,   FIELD_GAP,         FIELD_MIDPOINT,   FIELD_TOUCH_MASK,
                             FIELD_TIP_MASK, FIELD_FINGER_MASK, FIELD_INNER_MASK, FIELD_USED_MASK};
 
-// In a scene with a task, people pour from the vessels with a liquid. What has none is only carried.
-bool is_poured(const Scene& scene, const VesselData& vessel) { return !scene.task || !vessel.liquid_name.empty(); }
-
 std::vector<StudyVessel> study_vessels(const Scene& scene) {
+  const std::vector<std::size_t> of_paper = paper_vessels(scene, SampleVessels::with_guidance);
   std::vector<StudyVessel> vessels;
-  std::size_t of_paper = 0;
   for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
-    const VesselData& data = scene.vessels[v];
-    if (data.guidance.empty()) continue;
-    StudyVessel vessel{v, data.name, FURTHER_SAMPLE};
-    if (is_poured(scene, data) && of_paper < PAPER_GRASPS.size()) {
-      vessel.sample = PAPER_GRASPS[of_paper++];
+    if (scene.vessels[v].guidance.empty()) continue;
+    StudyVessel vessel{v, scene.vessels[v].name, FURTHER_SAMPLE};
+    const auto found = std::find(of_paper.begin(), of_paper.end(), v);
+    if (found != of_paper.end()) {
+      vessel.sample = PAPER_GRASPS[static_cast<std::size_t>(found - of_paper.begin())];
       vessel.is_of_paper = true;
     }
     vessels.push_back(vessel);
@@ -114,10 +111,7 @@ ContactPlan::ContactPlan(const Scene& scene) : scene_(scene), vessels_(study_ves
   if (vessels_.empty())
     throw usage_error(fmt::format("{}: no vessel has guidance points, at which people grasp; add guidance_mm to a vessel",
                                   scene.file.empty() ? "the scene" : scene.file));
-  for (const StudyVessel& vessel : vessels_)
-    if (vessel.name == ALL_VESSELS)
-      throw usage_error(fmt::format("{}: a vessel has the name '{}', as the rows of all vessels together; give it another",
-                                    scene.file.empty() ? "the scene" : scene.file, ALL_VESSELS));
+  for (const StudyVessel& vessel : vessels_) check_sample_name(scene, vessel.name);
   for (std::size_t k = 0; k < STUDY_POSES.size(); ++k) bare_[k] = bare_scene(scene, vessels_, STUDY_POSES[k]);
   // the mean person plans
   Scene mean = scene;

@@ -13,19 +13,13 @@
 #include "core/scene.h"
 #include "people/person.h"
 #include "studies/contact_tally.h"
+#include "studies/paper_sample.h"
 
 namespace wholehand {
 
 // The poses that each grasp is evaluated in.
 constexpr std::array<Pose, 2> STUDY_POSES{Pose::paper, Pose::articulated};
 extern const std::array<const char*, STUDY_POSES.size()> STUDY_POSE_NAMES;
-
-// The paper's sample: so many people, and so many grasps of each of its three vessels.
-constexpr std::size_t PAPER_PEOPLE = 17;
-constexpr std::array<std::size_t, 3> PAPER_GRASPS{22, 32, 18};
-
-// The vessel of rows that hold all vessels of the paper's sample together.
-inline constexpr const char* ALL_VESSELS = "all";
 
 // A vessel with guidance points.
 struct StudyVessel {

@@ -2,12 +2,12 @@
 #include "studies/contacts.h"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <span>
 
 #include "core/parallel.h"
 #include "core/random_bits.h"
+#include "studies/paper_sample.h"
 #include "system/progress.h"
 
 namespace wholehand {
@@ -67,7 +67,7 @@ class Pool {
     VesselTallies tallies(plan_);
     std::uint64_t state = seed;
     std::vector<std::uint64_t> people(PAPER_PEOPLE);
-    for (std::uint64_t& person : people) person = below(size(), state);
+    for (std::uint64_t& person : people) person = draw_below(size(), state);
     std::vector<const ContactGrasp*> open;
     for (std::size_t v = 0; v < plan_.vessels().size(); ++v) {
       const StudyVessel& vessel = plan_.vessels()[v];
@@ -76,7 +76,7 @@ class Pool {
         for (std::size_t g = vessel.first; g < vessel.last; ++g) open.push_back(&of(person, pose)[g]);
       std::size_t held = 0;
       for (std::size_t k = 0; k < open.size() && held < vessel.sample; ++k) {
-        std::swap(open[k], open[k + below(open.size() - k, state)]);
+        std::swap(open[k], open[k + draw_below(open.size() - k, state)]);
         tallies.add(v, *open[k]);
         held += open[k]->is_held ? 1 : 0;
       }
@@ -89,27 +89,11 @@ class Pool {
   Grasps of(std::uint64_t person, std::size_t pose) const {
     return {&grasps_[person * grasps_of_person(plan_) + pose * plan_.grasps().size()], plan_.grasps().size()};
   }
-  static std::uint64_t below(std::uint64_t count, std::uint64_t& state) {
-    return static_cast<std::uint64_t>(unit_interval(split_mix(state)) * static_cast<double>(count));
-  }
 
   const ContactPlan& plan_;
   std::uint64_t people_;
   std::vector<ContactGrasp> grasps_;
 };
-
-// Of each value of the samples; NaN where more than a half of them have none.
-std::vector<Interval> intervals_of(const std::vector<std::vector<double>>& samples) {
-  std::vector<Interval> intervals(samples.front().size());
-  std::vector<double> values;
-  for (std::size_t k = 0; k < intervals.size(); ++k) {
-    values.clear();
-    for (const std::vector<double>& sample : samples)
-      if (!std::isnan(sample[k])) values.push_back(sample[k]);
-    if (2 * values.size() >= samples.size()) intervals[k] = percentile_interval(values);
-  }
-  return intervals;
-}
 
 void add_rows(const ContactPlan& plan, std::size_t pose, const std::vector<double>& values, const std::vector<Interval>& intervals,
               std::vector<StudyRow>& rows) {

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "studies/paper_sample.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/error.h"
+#include "core/random_bits.h"
+
+namespace wholehand {
+namespace {
+
+// In a scene with a task, people pour from the vessels with a liquid. What has none is only carried.
+bool is_poured(const Scene& scene, const VesselData& vessel) { return !scene.task || !vessel.liquid_name.empty(); }
+
+}  // namespace
+
+std::vector<std::size_t> paper_vessels(const Scene& scene, SampleVessels which) {
+  std::vector<std::size_t> places;
+  for (std::size_t v = 0; v < scene.vessels.size() && places.size() < PAPER_GRASPS.size(); ++v) {
+    const bool is_possible = which == SampleVessels::any || !scene.vessels[v].guidance.empty();
+    if (is_possible && is_poured(scene, scene.vessels[v])) places.push_back(v);
+  }
+  return places;
+}
+
+void check_sample_name(const Scene& scene, const std::string& vessel) {
+  if (vessel == ALL_VESSELS)
+    throw usage_error(fmt::format("{}: a vessel has the name '{}', as the rows of all vessels together; give it another",
+                                  scene.file.empty() ? "the scene" : scene.file, ALL_VESSELS));
+}
+
+std::uint64_t draw_below(std::uint64_t count, std::uint64_t& state) {
+  return static_cast<std::uint64_t>(unit_interval(split_mix(state)) * static_cast<double>(count));
+}
+
+std::vector<Interval> intervals_of(const std::vector<std::vector<double>>& samples) {
+  std::vector<Interval> intervals(samples.front().size());
+  std::vector<double> values;
+  for (std::size_t k = 0; k < intervals.size(); ++k) {
+    values.clear();
+    for (const std::vector<double>& sample : samples)
+      if (!std::isnan(sample[k])) values.push_back(sample[k]);
+    if (2 * values.size() >= samples.size()) intervals[k] = percentile_interval(values);
+  }
+  return intervals;
+}
+
+}  // namespace wholehand
