@@ -2,8 +2,10 @@
 // One statistic of a study, as the table, the dataset and the page have it.
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "statistics/interval.h"
@@ -12,7 +14,7 @@ namespace wholehand {
 
 struct StudyRow {
   std::string experiment, pose, vessel;
-  std::string statistic, subject;                           // subject: the point of the hand; empty: the whole hand
+  std::string statistic, subject;  // subject: what it is said of, as a point of the hand or a choice of forces; empty: of all
   double value = std::numeric_limits<double>::quiet_NaN();  // of the population; NaN: there is none
   Interval interval;                                        // of 95 %, at the paper's sample size; NaN: there is none
   std::optional<double> paper;                              // absent: not known here
@@ -23,5 +25,15 @@ struct StudyRow {
     return interval.low <= *paper && *paper <= interval.high;
   }
 };
+
+// Rows whose interval has the paper's value in it, of the rows that have both.
+struct InsideCount {
+  std::size_t inside = 0, of = 0;
+};
+InsideCount count_inside(std::span<const StudyRow> rows);
+
+// Their share; NaN where no row has both.
+double inside_share(std::span<const StudyRow> rows);
+inline constexpr const char* INSIDE_SHARE = "inside_share";  // the statistic of a row that holds it
 
 }  // namespace wholehand
