@@ -2,177 +2,51 @@
 #include "studies/page.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <array>
-#include <cmath>
-#include <map>
-
-#include "charts/markup.h"
 #include "charts/style.h"
-#include "report/html.h"
 #include "report/style.h"
-#include "studies/words.h"
-#include "system/readable.h"
 #include "system/version.h"
 
 namespace wholehand {
 namespace {
 
-// The statistics of the whole hand, in the order of the page.
-struct ShownStatistic {
-  const char *name, *text;
-  bool is_share;
-};
-constexpr std::array<ShownStatistic, 15> OF_HAND{{
-    {"held_share", "grasps that hold", true},
-    {"plausible_share", "of these, plausible ones", true},
-    {"mean_fingers", "fingers used, mean", false},
-    {"mean_points", "points that touch, mean", false},
-    {"pearson_fingers_height", "r of fingers and height", false},
-    {"pearson_fingers_distance", "r of fingers and distance", false},
-    {"pearson_points_height", "r of points and height", false},
-    {"pearson_points_distance", "r of points and distance", false},
-    {"projected_share", "grasps with projected points", true},
-    {"projected_tip_share", "of these points: tip", true},
-    {"projected_finger_share", "of these points: finger", true},
-    {"projected_inner_share", "of these points: inner", true},
-    {"grasps_projected_tip_share", "grasps with the role tip", true},
-    {"grasps_projected_finger_share", "grasps with the role finger", true},
-    {"grasps_projected_inner_share", "grasps with the role inner", true},
-}};
-
-std::string title_of_study(const Scene& scene) {
-  return scene.name.empty() ? "How do people grasp?" : fmt::format("How do people grasp {}?", scene.name);
-}
-
-// "0.52 (0.31 to 0.70)", with a dash for what is not there.
-std::string value_text(const StudyRow& row, bool is_share) {
-  const double unit = is_share ? 100 : 1;
-  const int digits = is_share ? 0 : 2;
-  std::string text = shown_number(unit * row.value, digits) + (is_share && !std::isnan(row.value) ? " %" : "");
-  if (row.interval.low <= row.interval.high)
-    text +=
-        fmt::format(" ({} to {})", shown_number(unit * row.interval.low, digits), shown_number(unit * row.interval.high, digits));
-  return text;
-}
-
-// The rows of a pose by vessel, statistic and subject.
-class Found {
- public:
-  Found(std::span<const StudyRow> rows, const std::string& pose) {
-    for (const StudyRow& row : rows) {
-      if (row.pose != pose) continue;
-      rows_[{row.vessel, row.statistic, row.subject}] = &row;
-      if (vessels_.empty() || vessels_.back() != row.vessel) vessels_.push_back(row.vessel);
-    }
-  }
-  const std::vector<std::string>& vessels() const { return vessels_; }
-  const StudyRow& at(const std::string& vessel, const std::string& statistic, const std::string& subject = "") const {
-    return *rows_.at({vessel, statistic, subject});
-  }
-
- private:
-  std::map<std::array<std::string, 3>, const StudyRow*> rows_;
-  std::vector<std::string> vessels_;
-};
-
-void write_hand_table(MarkupWriter& html, const Found& found, const char* pose) {
-  std::vector<std::string> columns{"statistic"};
-  columns.insert(columns.end(), found.vessels().begin(), found.vessels().end());
-  HtmlTable table(html,
-                  fmt::format("The whole hand, pose {}: the population, and the 95 % interval at the paper's sample size", pose),
-                  columns);
-  for (const ShownStatistic& shown : OF_HAND) {
-    std::vector<std::string> cells{shown.text};
-    for (const std::string& vessel : found.vessels()) cells.push_back(value_text(found.at(vessel, shown.name), shown.is_share));
-    table.row(cells);
-  }
-  table.end();
-}
-
-// "SN, -0.62 (-0.80 to -0.35)".
-std::string worded(const StudyRow& row) {
-  const std::string word = word_of_correlation(row.value);
-  return word.empty() ? "none" : (word == "-" ? "\u2013" : word) + ", " + value_text(row, false);
-}
-
-void write_point_table(MarkupWriter& html, const Found& found, const char* pose, const std::string& vessel) {
-  HtmlTable table(
-      html,
-      fmt::format("The points of the hand on {}, pose {}", vessel == ALL_VESSELS ? "all vessels of the sample" : vessel, pose),
-      {"point", "touches", "with the height", "with the distance"}, {2, 3});
-  for (int joint = 0; joint < JOINT_COUNT; ++joint) {
-    const std::string point = hand_point_name(joint);
-    table.row({point, value_text(found.at(vessel, "touch_share", point), true),
-               worded(found.at(vessel, "point_biserial_height", point)),
-               worded(found.at(vessel, "point_biserial_distance", point))});
-  }
-  table.end();
-}
-
-void write_study_head(MarkupWriter& html, const Scene& scene, const StudyOptions& options) {
+void write_study_head(MarkupWriter& html, const StudyPage& page) {
   html.open("head");
   html.empty("meta", {{"charset", "utf-8"}});
   // known by the first 64 KiB of the page
-  html.empty("meta", {{"name", "wholehand-study"}, {"content", fmt::format("seed {}", options.seed)}});
+  html.empty("meta", {{"name", "wholehand-study"}, {"content", fmt::format("seed {}", page.seed)}});
   html.empty("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
   html.empty("meta", {{"name", "generator"}, {"content", "wholehand"}});
   html.empty("meta", {{"name", "color-scheme"}, {"content", "light dark"}});
-  html.element("title", title_of_study(scene));
+  html.element("title", page.title);
   html.open("style").markup(REPORT_STYLE).markup(CHART_RULES).close();
   html.close();
 }
 
-void write_study_words(MarkupWriter& html) {
-  html.open("section", {{"aria-labelledby", "words"}}).element("h2", "The words", {{"id", "words"}});
-  html.element(
-      "p",
-      "Each person grasps each vessel at each of its guidance points. The height is that of the line between thumb and index "
-      "finger. The distance is that of the nearer contact, on the skin, from the guidance point. A grasp holds if the grip is "
-      "feasible; all other numbers are of the grasps that hold.");
-  html.element("p",
-               fmt::format("VSN, SN and N: a very strong (|r| from {}), a strong (from {}) and a weaker (from {}) negative "
-                           "correlation; P, SP and VSP: the same, positive; \u2013: a smaller one. These limits are ours. A point "
-                           "that always or never touches has none.",
-                           VERY_STRONG_R, STRONG_R, WEAK_R));
-  html.element(
-      "p",
-      "These are predictions. Nothing is fitted to the paper's results, and its values for this experiment are not known here.");
+void write_section(MarkupWriter& html, const StudySection& section) {
+  html.open("section", {{"aria-labelledby", section.id}}).element("h2", section.title, {{"id", section.id}});
+  for (const std::string& words : section.words) html.element("p", words);
+  if (!section.rows.empty()) section.write(html, section.rows);
+  for (const std::string& chart : section.charts) html.open("figure").markup(chart).close();
   html.close();
 }
 
 }  // namespace
 
-std::string study_page(const Scene& scene, const StudyOptions& options, const ContactPlan& plan, std::span<const StudyRow> rows) {
+std::string study_title(const Scene& scene) {
+  return scene.name.empty() ? "How do people grasp?" : fmt::format("How do people grasp {}?", scene.name);
+}
+
+std::string study_page(const StudyPage& page) {
   MarkupWriter html;
   html.markup("<!DOCTYPE html>\n").open("html", {{"lang", "en"}, {"xmlns", "http://www.w3.org/1999/xhtml"}});
-  write_study_head(html, scene, options);
+  write_study_head(html, page);
   html.open("body");
-  html.open("header").element("h1", title_of_study(scene));
-  html.element("p",
-               fmt::format("{} virtual people with {} each, and {} samples of the paper's size; seed {}.",
-                           readable_number(options.people), counted(plan.grasps().size(), "grasp"),
-                           readable_number(static_cast<std::uint64_t>(options.resamples)), options.seed),
-               {{"class", "lead"}});
+  html.open("header").element("h1", page.title).element("p", page.lead, {{"class", "lead"}});
   html.close();
   html.open("main");
-  std::vector<std::string> samples;
-  for (const StudyVessel& vessel : plan.vessels())
-    samples.push_back(fmt::format("{}: {}{}", vessel.name, vessel.sample, vessel.is_of_paper ? "" : " (not in \u201call\u201d)"));
-  html.element("p", fmt::format("A sample of the paper's size has {} people, and these grasps. {}.", PAPER_PEOPLE,
-                                fmt::join(samples, ", ")));
-  if (!plan.unheld().empty())
-    html.element("p",
-                 fmt::format("The mean person cannot hold {}: there everybody plans no roll.", fmt::join(plan.unheld(), ", ")));
-  for (const char* pose : STUDY_POSE_NAMES) {
-    const Found found(rows, pose);
-    html.open("section", {{"aria-labelledby", pose}}).element("h2", fmt::format("Contacts, pose {}", pose), {{"id", pose}});
-    write_hand_table(html, found, pose);
-    for (const std::string& vessel : found.vessels()) write_point_table(html, found, pose, vessel);
-    html.close();
-  }
-  write_study_words(html);
+  for (const std::string& words : page.words) html.element("p", words);
+  for (const StudySection& section : page.sections) write_section(html, section);
   html.close();
   html.element("footer",
                fmt::format("Written by wholehand {}. The numbers are in study.csv and study.nc beside this page.", version()));

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "studies/statistic_tables.h"
+
 namespace wholehand {
 namespace {
 
@@ -14,9 +16,8 @@ constexpr std::array<const char*, 5> SHOWN{"held_share", "mean_fingers", "pearso
 
 std::string shown(double value) { return std::isnan(value) ? "-" : fmt::format("{:.2f}", value); }
 
-}  // namespace
-
-std::string study_summary(std::span<const StudyRow> rows) {
+// A line for each pose and vessel.
+std::string contact_summary(std::span<const StudyRow> rows) {
   std::string text = fmt::format("\n{:<12} {:<16} {:>6} {:>8} {:>17} {:>19} {:>10}\n", "pose", "vessel", "held", "fingers",
                                  "r fingers, height", "r fingers, distance", "projected");
   std::array<std::string, SHOWN.size()> cells;
@@ -28,6 +29,19 @@ std::string study_summary(std::span<const StudyRow> rows) {
     if (row.statistic == "grasps_projected_inner_share")
       text += fmt::format("{:<12} {:<16} {:>6} {:>8} {:>17} {:>19} {:>10}\n", row.pose, row.vessel, cells[0], cells[1], cells[2],
                           cells[3], cells[4]);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string study_summary(std::span<const StudyRow> rows) {
+  std::string text;
+  // the rows of an experiment are neighbours
+  for (std::size_t first = 0, end = 0; first < rows.size(); first = end) {
+    while (end < rows.size() && rows[end].experiment == rows[first].experiment) ++end;
+    const auto of_one = rows.subspan(first, end - first);
+    text += of_one.front().experiment == "contacts" ? contact_summary(of_one) : "\n" + statistic_table(of_one);
   }
   return text;
 }

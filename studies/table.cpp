@@ -22,7 +22,8 @@ std::string cell(double value) { return std::isnan(value) ? "" : fmt::format("{}
 
 // A correlation has a word beside its number.
 std::string word_of(const StudyRow& row) {
-  const bool is_correlation = row.statistic.starts_with("pearson_") || row.statistic.starts_with("point_biserial_");
+  const bool is_correlation = row.statistic.starts_with("pearson_") || row.statistic.starts_with("point_biserial_") ||
+                              row.statistic.starts_with("correlation_");
   return is_correlation ? word_of_correlation(row.value) : "";
 }
 
@@ -51,7 +52,8 @@ void define_study(const std::string& path, const Scene& scene, const StudyOption
   texts("pose", "pose", [](const StudyRow& row) { return row.pose; });
   texts("vessel", "vessel, or all of the paper's sample", [](const StudyRow& row) { return row.vessel; });
   texts("statistic", "statistic", [](const StudyRow& row) { return row.statistic; });
-  texts("subject", "point of the hand; empty: the whole hand", [](const StudyRow& row) { return row.subject; });
+  texts("subject", "what the statistic is of, as a point of the hand; empty: of all",
+        [](const StudyRow& row) { return row.subject; });
   numbers("value", "value of the population", [](const StudyRow& row) { return row.value; });
   numbers("low", "lower end of the 95 % interval at the paper's sample size", [](const StudyRow& row) { return row.interval.low; });
   numbers("high", "upper end of it", [](const StudyRow& row) { return row.interval.high; });

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// What the page says of the experiment of contacts.
+#pragma once
+
+#include <span>
+
+#include "studies/contact_plan.h"
+#include "studies/page.h"
+#include "studies/row.h"
+
+namespace wholehand {
+
+// Adds the words about the samples, a section for each pose, and one with what the words mean. `rows`: of contacts alone.
+void add_contact_sections(StudyPage& page, const ContactPlan& plan, std::span<const StudyRow> rows);
+
+}  // namespace wholehand

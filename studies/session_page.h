@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// What the page says of the experiment of sessions.
+#pragma once
+
+#include <vector>
+
+#include "studies/page.h"
+#include "studies/row.h"
+#include "studies/session_statistics.h"
+
+namespace wholehand {
+
+// `rows`: of session_rows. `are_simulated`: the people are virtual, and else recorded.
+StudySection session_section(const SessionVessels& vessels, std::vector<StudyRow> rows, bool are_simulated);
+
+}  // namespace wholehand

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "studies/statistic_tables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "report/html.h"
+#include "studies/paper_sample.h"
+#include "studies/statistic_words.h"
+
+namespace wholehand {
+namespace {
+
+bool has_subjects(std::span<const StudyRow> rows) {
+  return std::any_of(rows.begin(), rows.end(), [](const StudyRow& row) { return !row.subject.empty(); });
+}
+
+std::vector<std::string> vessels_of(std::span<const StudyRow> rows) {
+  std::vector<std::string> vessels;
+  for (const StudyRow& row : rows)
+    if (std::find(vessels.begin(), vessels.end(), row.vessel) == vessels.end()) vessels.push_back(row.vessel);
+  return vessels;
+}
+
+std::string caption_of(const std::string& vessel) {
+  if (vessel.empty()) return "The population";
+  return vessel == ALL_VESSELS ? "All vessels of the sample together" : "The vessel " + vessel;
+}
+
+// A dash as wide as the page's others, and a minus sign.
+std::string page_text(std::string text) {
+  if (text == "-") return "\u2013";
+  for (std::size_t at = 0; (at = text.find('-', at)) != std::string::npos; at += 3)
+    if (at + 1 < text.size() && std::isdigit(static_cast<unsigned char>(text[at + 1]))) text.replace(at, 1, "\u2212");
+  return text;
+}
+
+std::string paper_text(const StudyRow& row) { return row.paper ? statistic_value(row.statistic, *row.paper) : "-"; }
+
+}  // namespace
+
+void write_statistic_tables(MarkupWriter& html, std::span<const StudyRow> rows) {
+  html.element("p", inside_sentence(rows));
+  const bool with_subjects = has_subjects(rows);
+  std::vector<std::string> columns{"statistic", "value", "95 % interval", "the paper", "inside"};
+  if (with_subjects) columns.insert(columns.begin() + 1, "of");
+  const std::vector<std::size_t> words = with_subjects ? std::vector<std::size_t>{1, 5} : std::vector<std::size_t>{4};
+  for (const std::string& vessel : vessels_of(rows)) {
+    HtmlTable table(html, caption_of(vessel), columns, words);
+    for (const StudyRow& row : rows) {
+      if (row.vessel != vessel || row.statistic == INSIDE_SHARE) continue;
+      std::vector<std::string> cells{statistic_words(row.statistic)};
+      if (with_subjects) cells.push_back(row.subject);
+      for (const std::string& text : {statistic_value(row.statistic, row.value), interval_words(row), paper_text(row)})
+        cells.push_back(page_text(text));
+      cells.push_back(page_text(inside_words(row)));
+      table.row(cells);
+    }
+    table.end();
+  }
+}
+
+std::string statistic_table(std::span<const StudyRow> rows) {
+  std::vector<std::array<std::string, 6>> lines{{"vessel", "statistic", "value", "95 % interval", "paper", "inside"}};
+  for (const StudyRow& row : rows) {
+    if (row.statistic == INSIDE_SHARE) continue;
+    const std::string of = row.subject.empty() ? "" : ", " + row.subject;
+    lines.push_back({row.vessel, statistic_words(row.statistic) + of, statistic_value(row.statistic, row.value),
+                     interval_words(row), paper_text(row), inside_words(row)});
+  }
+  std::array<std::size_t, 6> widths{};
+  for (const auto& line : lines)
+    for (std::size_t k = 0; k < line.size(); ++k) widths[k] = std::max(widths[k], line[k].size());
+  std::string text;
+  for (const auto& line : lines) {
+    text += fmt::format("{:<{}}  {:<{}}", line[0], widths[0], line[1], widths[1]);
+    for (std::size_t k = 2; k < line.size(); ++k) text += fmt::format("  {:>{}}", line[k], widths[k]);
+    text += "\n";
+  }
+  return text + "\n" + inside_sentence(rows) + "\n";
+}
+
+}  // namespace wholehand
