@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
-// wholehand session: what a recording says about the one who gripped.
+// wholehand session: what a recording says about the one who gripped, and what recordings of several people say together.
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "app/commands.h"
+#include "app/session_study.h"
 #include "app/validators.h"
+#include "app/values.h"
 #include "recordings/session_plot.h"
 #include "recordings/session_report.h"
 #include "system/files.h"
@@ -18,8 +22,9 @@ namespace wholehand {
 namespace {
 
 struct SessionArguments {
-  std::string recording, folder;
-  bool json = false;
+  std::vector<std::string> recordings;
+  std::string folder, seed;
+  bool json = false, study = false;
 };
 
 constexpr FolderTable TABLES[] = {{"session.csv", "grasp,vessel,start_s,"}, {"states.csv", "start_s,duration_s,state,vessel\n"}};
@@ -36,7 +41,7 @@ std::string write_session_files(const std::string& folder, const Recording& reco
 }
 
 ExitCode report_recording(const SessionArguments& arguments) {
-  const Recording recording = read_recording(arguments.recording);
+  const Recording recording = read_recording(arguments.recordings.front());
   if (!arguments.folder.empty()) {
     make_output_folder(arguments.folder);
     check_folder_files(arguments.folder, "session", TABLES, {&PICTURE, 1});
@@ -49,21 +54,42 @@ ExitCode report_recording(const SessionArguments& arguments) {
   return ExitCode::done;
 }
 
+ExitCode report_or_study(const SessionArguments& arguments) {
+  if (!arguments.study) {
+    if (arguments.recordings.size() > 1)
+      throw usage_error("session: more than one recording; add --study to see what they say together");
+    if (!arguments.seed.empty()) throw usage_error("--seed: goes with --study, whose intervals are drawn by chance");
+    return report_recording(arguments);
+  }
+  if (arguments.json) throw usage_error("--json: goes without --study; study.csv and study.nc of -o have the numbers");
+  RecordedPeople people{arguments.recordings, arguments.folder};
+  if (!arguments.seed.empty()) people.seed = static_cast<std::uint64_t>(parse_integer(arguments.seed, "--seed", ranges::SEED));
+  return study_recordings(people);
+}
+
 }  // namespace
 
 void add_session_command(CLI::App& app, Action& action) {
   const auto arguments = std::make_shared<SessionArguments>();
   CLI::App* command = app.add_subcommand(
       "session", "Compute from a recording what the paper measured: states, response times, grip forces, lost grips");
-  command->add_option("recording", arguments->recording, "Recording of `wholehand live --record`")
+  command
+      ->add_option("recording", arguments->recordings, "Recording of `wholehand live --record`; with --study one for each person")
       ->type_name("FILE.nc")
       ->required()
       ->check(not_empty());
-  command->add_option("-o,--output", arguments->folder, "Folder for session.csv, states.csv and session.svg")
+  command
+      ->add_option("-o,--output", arguments->folder,
+                   "Folder for session.csv, states.csv and session.svg; with --study for study.csv, study.nc and study.html")
       ->type_name("DIR")
       ->check(not_empty());
   command->add_flag("--json", arguments->json, "Print one JSON object in one line");
-  command->callback([arguments, &action] { action = [arguments] { return report_recording(*arguments); }; });
+  command->add_flag("--study", arguments->study, "Compute the paper's statistics over all recordings, and compare with the paper");
+  command->add_option("--seed", arguments->seed, "Seed of the intervals of --study (default: 1)")
+      ->type_name("S")
+      ->check(not_empty())
+      ->check(not_an_option());
+  command->callback([arguments, &action] { action = [arguments] { return report_or_study(*arguments); }; });
 }
 
 }  // namespace wholehand

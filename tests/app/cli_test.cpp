@@ -104,7 +104,7 @@ TEST(CommandLine, RefusesWrongUsageWithOneLineAndCode2) {
       {"session /tmp", "/tmp: is a directory; name a recording"},
       {"session /dev/null", "/dev/null: is a device or pipe; name a recording"},
       {"session /proc/self/status", "/proc/self/status: is not a recording"},
-      {"session a.nc b.nc", "b.nc; see wholehand session --help"},
+      {"session a.nc b.nc", "more than one recording; add --study"},
       {"report", "result is required"},
       {"report ''", "must not be empty"},
       {"report a.nc -o ''", "must not be empty"},

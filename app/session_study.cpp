@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "app/session_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <utility>
+
+#include "core/scene.h"
+#include "recordings/grasp_collector.h"
+#include "recordings/recording.h"
+#include "scene/reader.h"
+#include "studies/folder.h"
+#include "studies/options.h"
+#include "studies/session_page.h"
+#include "studies/session_statistics.h"
+#include "studies/summary.h"
+#include "system/output.h"
+#include "system/readable.h"
+
+namespace wholehand {
+namespace {
+
+// Of all recordings together.
+struct RecordedSessions {
+  Scene scene;  // of the first
+  SessionVessels vessels;
+  std::vector<SessionSubject> subjects;
+};
+
+bool has_same_vessels(const RecordingInfo& a, const RecordingInfo& b) {
+  return std::equal(a.vessels.begin(), a.vessels.end(), b.vessels.begin(), b.vessels.end(),
+                    [](const RecordedVessel& x, const RecordedVessel& y) { return x.name == y.name && x.liquid == y.liquid; });
+}
+
+std::vector<GraspReport> grasps_of(const Recording& recording) {
+  GraspCollector collector(recording.info.rate, recording.info.force_max);
+  for (const Tick& tick : recording.ticks) collector.add(tick);
+  return collector.finish();
+}
+
+// One recording at a time is in memory.
+RecordedSessions read_sessions(const std::vector<std::string>& paths) {
+  RecordedSessions sessions;
+  std::optional<RecordingInfo> first;
+  for (const std::string& path : paths) {
+    const Recording recording = read_recording(path);
+    if (!recording.note.empty()) std::fprintf(stderr, "wholehand: %s\n", recording.note.c_str());
+    if (!first) {
+      first = recording.info;
+      if (first->scene_text.empty())
+        throw usage_error(path + ": the recording has no scene, which says from which vessels people pour");
+      sessions.scene = parse_scene(first->scene_text, path);
+      sessions.vessels = session_vessels(sessions.scene);
+    } else if (!has_same_vessels(*first, recording.info)) {
+      throw usage_error(fmt::format("{}: its vessels or their liquids are not those of {}; people of one study use the same", path,
+                                    paths.front()));
+    }
+    sessions.subjects.push_back({grasps_of(recording)});
+  }
+  return sessions;
+}
+
+StudyPage page_of_recordings(const RecordedSessions& sessions, const StudyOptions& options, const std::vector<StudyRow>& rows) {
+  StudyPage page;
+  page.title = study_title(sessions.scene);
+  page.lead = fmt::format("{}, and {} samples of the paper's size; seed {}.", counted(sessions.subjects.size(), "recorded session"),
+                          readable_number(static_cast<std::uint64_t>(options.resamples)), options.seed);
+  page.sections.push_back(session_section(sessions.vessels, rows, false));
+  page.seed = options.seed;
+  return page;
+}
+
+// How many grasps each vessel of the study has.
+std::string grasps_line(const RecordedSessions& sessions) {
+  std::string line = counted(sessions.subjects.size(), "recording") + " of people; grasps";
+  for (const SessionVessel& vessel : sessions.vessels) {
+    std::ptrdiff_t grasps = 0;
+    for (const SessionSubject& subject : sessions.subjects)
+      grasps += std::count_if(subject.grasps.begin(), subject.grasps.end(),
+                              [&vessel](const GraspReport& grasp) { return grasp.vessel == static_cast<int>(vessel.place); });
+    line += fmt::format("{} {}: {}", vessel.name == sessions.vessels.front().name ? "" : ",", vessel.name, grasps);
+  }
+  return line + "\n";
+}
+
+}  // namespace
+
+ExitCode study_recordings(const RecordedPeople& people) {
+  const RecordedSessions sessions = read_sessions(people.recordings);
+  std::optional<StudyFolder> folder;
+  if (!people.folder.empty()) folder.emplace(people.folder);
+  StudyOptions options;
+  options.folder = people.folder;
+  options.people = sessions.subjects.size();
+  options.seed = people.seed;
+  const std::vector<StudyRow> rows =
+      session_rows(sessions.subjects, sessions.vessels, {options.seed, options.resamples, options.threads, false});
+  if (folder) folder->write(sessions.scene, options, page_of_recordings(sessions, options, rows), rows);
+  print(grasps_line(sessions) + study_summary(rows));
+  if (sessions.subjects.size() < LEAST_SUBJECTS) print(fmt::format("Intervals need {} recordings or more.\n", LEAST_SUBJECTS));
+  if (folder) print("\n" + folder->written() + "\n");
+  return ExitCode::done;
+}
+
+}  // namespace wholehand
