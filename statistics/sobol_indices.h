@@ -14,7 +14,7 @@ namespace wholehand {
 // The first-order index of an input: the share of the answer's variance that goes away in the mean when this input is known.
 struct SensitivityIndex {
   double first = 0;
-  Interval interval;  // bootstrap over the rows
+  Interval interval;  // of 95 %
 };
 
 // By Saltelli et al. 2010 (Comput. Phys. Commun. 181:259, Table 2 b): with two unrelated samples of the inputs A and B of the
@@ -22,7 +22,7 @@ struct SensitivityIndex {
 // from B:
 //     V_i = mean of b (mixed_i - a)        S_i = V_i / V, V the variance of all of a and b
 // The mean of a and b is taken off first, which leaves V_i as it is and its error small. All have the same size, at least 2.
-// Indices are 0, with no interval, where the answer does not vary by more than rounding.
+// The interval is a bootstrap's over the rows. Indices are 0, with no interval, where the answer does not vary by more than rounding.
 std::vector<SensitivityIndex> first_order_indices(std::span<const double> a, std::span<const double> b,
                                                   std::span<const std::vector<double>> mixed, int resamples, std::uint64_t seed);
 
