@@ -65,7 +65,7 @@ Person make_person(const PeopleData& people, const Shares& shares) {
   return person;
 }
 
-Person draw_person(const PeopleData& people, std::uint64_t seed, std::uint64_t number) {
+Shares draw_shares(std::uint64_t seed, std::uint64_t number) {
   const DrawName name{seed, number};
   std::uint64_t index = 0;
   Shares shares;
@@ -74,7 +74,11 @@ Person draw_person(const PeopleData& people, std::uint64_t seed, std::uint64_t n
   shares.breadth = drawn(name, index++);
   for (double& share : shares.segments) share = drawn(name, index++);
   for (double& share : shares.traits) share = drawn(name, index++);
-  return make_person(people, shares);
+  return shares;
+}
+
+Person draw_person(const PeopleData& people, std::uint64_t seed, std::uint64_t number) {
+  return make_person(people, draw_shares(seed, number));
 }
 
 Traits draw_grasp(const PeopleData& people, const Person& person, std::uint64_t seed, std::uint64_t number,

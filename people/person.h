@@ -5,6 +5,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "core/hand_size.h"
 #include "core/people_data.h"
@@ -34,6 +36,14 @@ struct Person {
   std::array<double, SEGMENT_COUNT> segments{};  // lengths over those of the default hand's shares, before the hand has its length
   Traits traits{};
 };
+
+// The shares of person `number` of every population: independent of each other, and uniform in (0, 1).
+Shares draw_shares(std::uint64_t seed, std::uint64_t number);
+
+// All of them in one order, as the inputs of a model, and their names: `sex`, `hand_length`, `hand_breadth`, the segments from
+// `thumb_metacarpal` to `little_distal`, and the keys of trait_facts().
+std::vector<double> person_inputs(const Shares& shares);
+const std::vector<std::string>& person_input_names();
 
 // Person `number` of a population: for any thread, and in every experiment, the same.
 Person draw_person(const PeopleData& people, std::uint64_t seed, std::uint64_t number);

@@ -163,6 +163,28 @@ TEST(Person, IsTheSameForAnyOrderAndAnyNumberOfThreads) {
   EXPECT_FALSE(same(forward[0], draw_person(people, SEED + 1, 0)));
 }
 
+// The order in which the shares are drawn names every person for good.
+TEST(Person, SharesAreDrawnInTheOrderOfTheInputs) {
+  const std::vector<double> inputs = person_inputs(draw_shares(SEED, 5));
+  ASSERT_EQ(inputs.size(), 3 + SEGMENT_COUNT + TRAIT_COUNT);
+  for (std::size_t k = 0; k < inputs.size(); ++k) EXPECT_EQ(inputs[k], drawn({SEED, 5}, k)) << k;
+  EXPECT_TRUE(same(draw_person({}, SEED, 5), make_person({}, draw_shares(SEED, 5))));
+  // kept from before the shares could be had alone
+  EXPECT_DOUBLE_EQ(draw_person({}, SEED, 5).hand.length, 0.20675875409081088);
+  EXPECT_DOUBLE_EQ(of(draw_person({}, SEED, 5).traits, Trait::strength), 1.0372744470971962);
+}
+
+TEST(Person, EveryInputHasItsName) {
+  const std::vector<std::string>& names = person_input_names();
+  ASSERT_EQ(names.size(), 3 + SEGMENT_COUNT + TRAIT_COUNT);
+  const std::vector<std::string> first{"sex",          "hand_length",      "hand_breadth",   "thumb_metacarpal", "thumb_proximal",
+                                       "thumb_distal", "index_metacarpal", "index_proximal", "index_middle",     "index_distal"};
+  for (std::size_t k = 0; k < first.size(); ++k) EXPECT_EQ(names[k], first[k]);
+  EXPECT_EQ(names[3 + SEGMENT_COUNT - 1], "little_distal");
+  EXPECT_EQ(names[3 + SEGMENT_COUNT], "height_mm");
+  EXPECT_EQ(names.back(), "strength");
+}
+
 TEST(Person, GraspsOfEveryExperimentAreTheirOwn) {
   const PeopleData people;
   const Person person = draw_person(people, SEED, 0);
