@@ -7,6 +7,7 @@
 
 #include "core/parallel.h"
 #include "core/random_bits.h"
+#include "studies/contact_sensitivity.h"
 #include "studies/paper_sample.h"
 #include "system/progress.h"
 
@@ -116,6 +117,7 @@ std::optional<ContactStudy> study_contacts(const ContactPlan& plan, const StudyO
   const std::size_t slots = plan.grasps().size();
   std::vector<VesselTallies> tallies(STUDY_POSES.size(), VesselTallies(plan));
   Pool pool(plan, options.people);
+  ContactSensitivity sensitivity(plan);
   std::vector<std::vector<ContactGrasp>> window;
   Progress progress(options.people, 0);
   const std::uint64_t at_once = std::clamp<std::uint64_t>(WINDOW_GRASPS / grasps_of_person(plan), 1, LARGEST_WINDOW);
@@ -129,9 +131,11 @@ std::optional<ContactStudy> study_contacts(const ContactPlan& plan, const StudyO
                 },
                 [&](std::size_t blocks) { progress.update("people", std::min(options.people, done + blocks * BLOCK)); });
     if (stop) return std::nullopt;
-    for (const std::vector<ContactGrasp>& person : window) {
+    for (std::size_t k = 0; k < window.size(); ++k) {
+      const std::vector<ContactGrasp>& person = window[k];
       for (std::size_t pose = 0; pose < STUDY_POSES.size(); ++pose) tallies[pose].add(Grasps(person).subspan(pose * slots, slots));
       pool.add(person);
+      sensitivity.add(options.seed, done + k, person);
     }
   }
   progress.clear();
@@ -145,6 +149,8 @@ std::optional<ContactStudy> study_contacts(const ContactPlan& plan, const StudyO
     if (stop) return std::nullopt;
     add_rows(plan, pose, tallies[pose].values(), intervals_of(samples), study.rows);
   }
+  const std::vector<StudyRow> rows = sensitivity.rows();
+  study.rows.insert(study.rows.end(), rows.begin(), rows.end());
   return study;
 }
 

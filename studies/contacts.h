@@ -18,8 +18,9 @@ namespace wholehand {
 constexpr std::uint64_t MOST_POOLED = 20'000;
 
 struct ContactStudy {
-  std::vector<StudyRow> rows;  // pose by pose; of each its vessels, and ALL_VESSELS where there are several
-  std::uint64_t grasps = 0;    // made, each in every pose
+  // Pose by pose; of each its vessels, and ALL_VESSELS where there are several. Then those of sensitivity, without a pose.
+  std::vector<StudyRow> rows;
+  std::uint64_t grasps = 0;  // made, each in every pose
 };
 
 // The same bits for any number of threads. Absent: `stop` was set. Shows its progress.

@@ -10,6 +10,8 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "studies/contact_sensitivity.h"
+#include "studies/sensitivity.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {
@@ -88,11 +90,14 @@ TEST(StudyContacts, WithoutScatterAPopulationIsOnePerson) {
 
 TEST(StudyContacts, EveryVesselHasEveryStatistic) {
   const auto rows = study_rows(study_scene(), study_options(3));
-  // three vessels and all of the paper's, in two poses
-  EXPECT_EQ(rows.size(), 2 * 4 * contact_statistics().size());
+  // three vessels and all of the paper's, in two poses; then each input of each answer
+  const std::size_t statistics = 2 * 4 * contact_statistics().size();
+  ASSERT_EQ(rows.size(), statistics + contact_answer_names().size() * person_input_names().size());
   EXPECT_GT(study_row(rows, "articulated", "beaker1", "held_share").value, 0);
   EXPECT_EQ(rows.front().pose, "paper");
-  EXPECT_EQ(rows.back().vessel, ALL_VESSELS);
+  EXPECT_EQ(rows[statistics - 1].vessel, ALL_VESSELS);
+  EXPECT_EQ(rows[statistics].statistic, "first_order_of_paper_held_share");
+  EXPECT_EQ(rows.back().statistic, "first_order_of_articulated_mean_distance");
 }
 
 // All are those of the paper's sample: the mean over the grasps of its two vessels, and not of the cup.
@@ -104,6 +109,26 @@ TEST(StudyContacts, AllAreThoseThatArePoured) {
   const auto count = [&](std::size_t v) { return static_cast<double>(plan.vessels()[v].last - plan.vessels()[v].first); };
   EXPECT_NEAR(study_row(rows, "articulated", "all", "held_share").value, (one * count(0) + two * count(1)) / (count(0) + count(1)),
               1e-12);
+}
+
+// A hand touches by its size and by where it is put: nothing of the forces has a part in it.
+TEST(StudyContacts, SensitivityIsOfWhatGraspingAsksFor) {
+  const auto rows = study_rows(study_scene(), study_options(400, 2));
+  const auto row = [&](const std::string& answer, const std::string& input) {
+    return *std::find_if(rows.begin(), rows.end(),
+                         [&](const StudyRow& one) { return one.statistic == FIRST_ORDER_OF + answer && one.subject == input; });
+  };
+  const StudyRow length = row("articulated_mean_distance", "height_mm");
+  EXPECT_GT(length.interval.low, 0);
+  EXPECT_EQ(length.vessel, ALL_VESSELS);
+  EXPECT_EQ(length.pose, "");
+  EXPECT_EQ(length.experiment, "contacts");
+  const StudyRow patience = row("articulated_mean_distance", "patience_s");
+  EXPECT_LT(patience.value, 0.5 * length.value);
+  // fewer people have no indices
+  const auto few = study_rows(study_scene(), study_options(3));
+  EXPECT_TRUE(std::isnan(few.back().value));
+  EXPECT_TRUE(strongest_inputs(few).front().inputs.empty());
 }
 
 TEST(StudyContacts, PlansThePapersSample) {
