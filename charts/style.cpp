@@ -41,6 +41,14 @@ svg .dot { fill: var(--day); stroke: var(--page); stroke-width: 1; }
 }
 )css";
 
+const char* const BOX_RULES = R"css(
+svg .box { fill: var(--none); stroke: var(--ink); stroke-width: 1; }
+svg .median { stroke: var(--ink); stroke-width: 2.4; }
+svg .whisker { stroke: var(--ink); stroke-width: 1; }
+svg .outlier { fill: none; stroke: var(--soft); stroke-width: 1; }
+svg .box-mark { fill: var(--bad); stroke: var(--bad); stroke-width: 1.4; }
+)css";
+
 std::string picture_rules() {
   std::string rules = CHART_RULES;
   for (const auto& [variable, color] : PICTURE_COLORS)

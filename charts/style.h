@@ -7,9 +7,10 @@
 namespace wholehand {
 
 // Style sheets for a page that has charts in it and sets --ink, --soft, --page, --rule, --none, --hollow and --bad: what all charts
-// use, and what lines with a colour by day and another by night use.
+// use, what lines with a colour by day and another by night use, and what box plots use.
 extern const char* const CHART_RULES;
 extern const char* const LINE_RULES;
+extern const char* const BOX_RULES;
 
 // CHART_RULES for a picture of its own: black on white by day and by night, and without variables, which programs for papers do not
 // know.
