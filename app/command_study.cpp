@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "app/commands.h"
 #include "app/paths.h"
@@ -18,30 +20,36 @@ namespace wholehand {
 namespace {
 
 constexpr IntegerRange PEOPLE{1, 100'000'000};
+constexpr std::uint64_t MOST_SIMULATED = 100'000;
 constexpr const char* STUDY_SCENE = "mixing_board";
 
 struct StudyArguments {
   std::string scene, folder, people, experiment, seed, threads;
-  bool quick = false;
+  bool quick = false, resume = false;
 };
 
-// `all` are those that there are.
-void check_experiment(const std::string& name) {
-  if (name.empty() || name == "contacts" || name == "all") return;
-  if (name == "forces" || name == "sessions")
-    throw usage_error(fmt::format("--experiment {}: this experiment is not there yet; ask for contacts", name));
-  throw usage_error(fmt::format("--experiment {}; allowed: contacts or all", in_quotes(name)));
+// `asked` people in each experiment that is named; absent: as many as each has by default.
+StudyPeople people_of(const std::string& experiment, const std::optional<std::uint64_t>& asked, bool is_quick) {
+  StudyPeople people = is_quick ? QUICK_PEOPLE : StudyPeople{};
+  if (asked) people = {*asked, *asked, *asked};
+  if (experiment.empty() || experiment == "all") return people;
+  if (experiment == "contacts") return {people.contacts, 0, 0};
+  if (experiment == "forces") return {0, people.forces, 0};
+  if (experiment == "sessions") return {0, 0, people.sessions};
+  throw usage_error(fmt::format("--experiment {}; allowed: contacts, forces, sessions or all", in_quotes(experiment)));
 }
 
 ExitCode study(const StudyArguments& arguments) {
-  check_experiment(arguments.experiment);
   StudyOptions options;
   options.folder = arguments.folder;
-  if (arguments.quick) {
-    options.people = QUICK_PEOPLE;
-    options.resamples = QUICK_RESAMPLES;
-  }
-  if (!arguments.people.empty()) options.people = static_cast<std::uint64_t>(parse_integer(arguments.people, "--people", PEOPLE));
+  options.resumes = arguments.resume;
+  if (arguments.quick) options.resamples = QUICK_RESAMPLES;
+  std::optional<std::uint64_t> people;
+  if (!arguments.people.empty()) people = static_cast<std::uint64_t>(parse_integer(arguments.people, "--people", PEOPLE));
+  options.people = people_of(arguments.experiment, people, arguments.quick);
+  if (std::max(options.people.forces, options.people.sessions) > MOST_SIMULATED)
+    throw usage_error(fmt::format("--people {}; allowed: 1 to {} with forces or sessions, of which all grasps are kept",
+                                  arguments.people, MOST_SIMULATED));
   if (!arguments.seed.empty()) options.seed = static_cast<std::uint64_t>(parse_integer(arguments.seed, "--seed", ranges::SEED));
   if (!arguments.threads.empty())
     options.threads = static_cast<int>(parse_integer(arguments.threads, "--threads", ranges::THREADS));
@@ -60,12 +68,13 @@ void add_study_command(CLI::App& app, Action& action) {
   };
   add("scene", arguments->scene, "SCENE", "Scene file or name of a shipped scene, with guidance points (default: mixing_board)");
   add("-o,--output", arguments->folder, "DIR", "Folder for the tables and the page")->required();
-  add("--people", arguments->people, "N", "Number of people (default: 10000)");
-  add("--experiment", arguments->experiment, "E",
-      "contacts, or all that are there (the default); forces and sessions are not there yet");
+  add("--people", arguments->people, "N",
+      "Number of people in each experiment (default: 10000 for contacts, 1000 for forces, 500 for sessions)");
+  add("--experiment", arguments->experiment, "E", "contacts, forces, sessions or all (the default)");
   add("--seed", arguments->seed, "S", "Seed of the people and of the intervals (default: 1)");
   add("--threads", arguments->threads, "N", "Number of threads (default: all)");
-  command->add_flag("--quick", arguments->quick, "500 people, and fewer samples for the intervals");
+  command->add_flag("--quick", arguments->quick, "500 people for contacts, 20 for the others, and fewer samples for the intervals");
+  command->add_flag("--resume", arguments->resume, "Go on with an interrupted study in the same folder");
   command->callback([arguments, &action] { action = [arguments] { return study(*arguments); }; });
 }
 

@@ -14,6 +14,7 @@
 #include "scene/reader.h"
 #include "studies/folder.h"
 #include "studies/options.h"
+#include "studies/session_charts.h"
 #include "studies/session_page.h"
 #include "studies/session_statistics.h"
 #include "studies/summary.h"
@@ -69,6 +70,7 @@ StudyPage page_of_recordings(const RecordedSessions& sessions, const StudyOption
   page.lead = fmt::format("{}, and {} samples of the paper's size; seed {}.", counted(sessions.subjects.size(), "recorded session"),
                           readable_number(static_cast<std::uint64_t>(options.resamples)), options.seed);
   page.sections.push_back(session_section(sessions.vessels, rows, false));
+  page.sections.back().charts = session_charts(sessions.subjects, sessions.vessels);
   page.seed = options.seed;
   return page;
 }
@@ -94,7 +96,7 @@ ExitCode study_recordings(const RecordedPeople& people) {
   if (!people.folder.empty()) folder.emplace(people.folder);
   StudyOptions options;
   options.folder = people.folder;
-  options.people = sessions.subjects.size();
+  options.people = {0, 0, sessions.subjects.size()};
   options.seed = people.seed;
   const std::vector<StudyRow> rows =
       session_rows(sessions.subjects, sessions.vessels, {options.seed, options.resamples, options.threads, false});

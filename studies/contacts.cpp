@@ -116,20 +116,20 @@ void add_rows(const ContactPlan& plan, std::size_t pose, const std::vector<doubl
 std::optional<ContactStudy> study_contacts(const ContactPlan& plan, const StudyOptions& options, const std::atomic<bool>& stop) {
   const std::size_t slots = plan.grasps().size();
   std::vector<VesselTallies> tallies(STUDY_POSES.size(), VesselTallies(plan));
-  Pool pool(plan, options.people);
+  Pool pool(plan, options.people.contacts);
   ContactSensitivity sensitivity(plan);
   std::vector<std::vector<ContactGrasp>> window;
-  Progress progress(options.people, 0);
+  Progress progress(options.people.contacts, 0);
   const std::uint64_t at_once = std::clamp<std::uint64_t>(WINDOW_GRASPS / grasps_of_person(plan), 1, LARGEST_WINDOW);
   // people in windows: evaluated in any order, counted in theirs
-  for (std::uint64_t done = 0; done < options.people; done += window.size()) {
-    window.assign(std::min(at_once, options.people - done), {});
+  for (std::uint64_t done = 0; done < options.people.contacts; done += window.size()) {
+    window.assign(std::min(at_once, options.people.contacts - done), {});
     in_parallel((window.size() + BLOCK - 1) / BLOCK, options.threads,
                 [&](std::size_t block) {
                   const std::size_t last = std::min<std::size_t>((block + 1) * BLOCK, window.size());
                   for (std::size_t k = block * BLOCK; k < last && !stop; ++k) window[k] = plan.of_person(options.seed, done + k);
                 },
-                [&](std::size_t blocks) { progress.update("people", std::min(options.people, done + blocks * BLOCK)); });
+                [&](std::size_t blocks) { progress.update("people", std::min(options.people.contacts, done + blocks * BLOCK)); });
     if (stop) return std::nullopt;
     for (std::size_t k = 0; k < window.size(); ++k) {
       const std::vector<ContactGrasp>& person = window[k];
@@ -140,7 +140,7 @@ std::optional<ContactStudy> study_contacts(const ContactPlan& plan, const StudyO
   }
   progress.clear();
   ContactStudy study;
-  study.grasps = options.people * slots;
+  study.grasps = options.people.contacts * slots;
   for (std::size_t pose = 0; pose < STUDY_POSES.size(); ++pose) {
     std::vector<std::vector<double>> samples(static_cast<std::size_t>(options.resamples));
     in_parallel(samples.size(), options.threads, [&](std::size_t k) {
@@ -149,8 +149,7 @@ std::optional<ContactStudy> study_contacts(const ContactPlan& plan, const StudyO
     if (stop) return std::nullopt;
     add_rows(plan, pose, tallies[pose].values(), intervals_of(samples), study.rows);
   }
-  const std::vector<StudyRow> rows = sensitivity.rows();
-  study.rows.insert(study.rows.end(), rows.begin(), rows.end());
+  study.sensitivity = sensitivity.rows();
   return study;
 }
 

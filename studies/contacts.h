@@ -18,9 +18,10 @@ namespace wholehand {
 constexpr std::uint64_t MOST_POOLED = 20'000;
 
 struct ContactStudy {
-  // Pose by pose; of each its vessels, and ALL_VESSELS where there are several. Then those of sensitivity, without a pose.
+  // Pose by pose; of each its vessels, and ALL_VESSELS where there are several.
   std::vector<StudyRow> rows;
-  std::uint64_t grasps = 0;  // made, each in every pose
+  std::vector<StudyRow> sensitivity;  // without a pose
+  std::uint64_t grasps = 0;           // made, each in every pose
 };
 
 // The same bits for any number of threads. Absent: `stop` was set. Shows its progress.

@@ -23,6 +23,8 @@ class StudyFolder {
   // Writes the table, the dataset and the page. They get their names once all are whole. Throws Error (failure).
   void write(const Scene& scene, const StudyOptions& options, const StudyPage& page, std::span<const StudyRow> rows) const;
 
+  const StudyFiles& files() const { return files_; }
+
   // "wrote a/study.csv, a/study.nc, a/study.html"
   std::string written() const;
 

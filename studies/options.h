@@ -7,15 +7,20 @@
 
 namespace wholehand {
 
-constexpr std::uint64_t STUDY_PEOPLE = 10'000, QUICK_PEOPLE = 500;
+// How many people each experiment has by default.
+struct StudyPeople {
+  std::uint64_t contacts = 10'000, forces = 1000, sessions = 500;
+};
+constexpr StudyPeople QUICK_PEOPLE{500, 20, 20};
 constexpr int STUDY_RESAMPLES = 1000, QUICK_RESAMPLES = 200;
 
 struct StudyOptions {
   std::string folder;  // for all files
-  std::uint64_t people = STUDY_PEOPLE;
+  StudyPeople people;  // 0: this experiment is left out
   std::uint64_t seed = 1;
   int resamples = STUDY_RESAMPLES;  // for the intervals
   int threads = 0;                  // 0: all
+  bool resumes = false;             // goes on with the folder's journal
 };
 
 }  // namespace wholehand

@@ -15,6 +15,7 @@ StudyFiles::StudyFiles(const std::string& folder) {
   csv = start + "study.csv";
   nc = start + "study.nc";
   page = start + "study.html";
+  journal = start + "study.journal";
   lock = start + "study.lock";
 }
 
@@ -23,6 +24,7 @@ void prepare_study_folder(const std::string& folder) {
   const StudyFiles files(folder);
   constexpr FolderTable TABLE{"study.csv", STUDY_CSV_START};
   check_folder_files(folder, "study", std::span(&TABLE, 1), {});
+  check_overwrites_marked(files.journal, STUDY_JOURNAL_START, "journal of wholehand study", "-o");
   check_overwrites_marked(files.page, STUDY_PAGE_MARK, "page of wholehand study", "-o");
   // a NetCDF-4 file has no mark of ours near its begin: beside our table it is ours
   if (!is_there(folder, TABLE)) check_overwrites_nothing(files.nc, "-o");
@@ -30,7 +32,8 @@ void prepare_study_folder(const std::string& folder) {
 }
 
 void remove_unfinished_study(const StudyFiles& files) {
-  for (const std::string& path : {files.csv, files.nc, files.page}) std::remove(FileSet::name_on_the_way(path).c_str());
+  for (const std::string& path : {files.csv, files.nc, files.page, files.journal})
+    std::remove(FileSet::name_on_the_way(path).c_str());
 }
 
 }  // namespace wholehand

@@ -9,11 +9,13 @@ namespace wholehand {
 
 struct StudyFiles {
   explicit StudyFiles(const std::string& folder);
-  std::string csv, nc, page, lock;
+  std::string csv, nc, page, journal, lock;
 };
 
 // What the table begins with: its columns.
 inline constexpr std::string_view STUDY_CSV_START = "experiment,pose,vessel,statistic,subject,value,low,high,paper,inside\n";
+// How the journal begins.
+inline constexpr std::string_view STUDY_JOURNAL_START = "wholehand study journal ";
 // What the page has in its head.
 inline constexpr const char* STUDY_PAGE_MARK = "<meta name=\"wholehand-study\"";
 

@@ -19,7 +19,7 @@ void write_study_head(MarkupWriter& html, const StudyPage& page) {
   html.empty("meta", {{"name", "generator"}, {"content", "wholehand"}});
   html.empty("meta", {{"name", "color-scheme"}, {"content", "light dark"}});
   html.element("title", page.title);
-  html.open("style").markup(REPORT_STYLE).markup(CHART_RULES).close();
+  html.open("style").markup(REPORT_STYLE).markup(CHART_RULES).markup(BOX_RULES).close();
   html.close();
 }
 

@@ -4,55 +4,183 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <memory>
+#include <optional>
+#include <utility>
+
 #include "core/parallel.h"
 #include "studies/contact_page.h"
 #include "studies/contacts.h"
 #include "studies/folder.h"
+#include "studies/force_page.h"
+#include "studies/forces.h"
+#include "studies/journal.h"
 #include "studies/page.h"
+#include "studies/paper_sample.h"
+#include "studies/people_loop.h"
+#include "studies/person_answers.h"
+#include "studies/sensitivity_page.h"
+#include "studies/session_charts.h"
+#include "studies/session_page.h"
+#include "studies/session_statistics.h"
+#include "studies/sessions.h"
 #include "studies/summary.h"
 #include "sweeps/closing.h"
+#include "system/build_id.h"
+#include "system/checksum.h"
 #include "system/interrupt.h"
 #include "system/output.h"
 #include "system/readable.h"
+#include "system/version.h"
 
 namespace wholehand {
 namespace {
 
-void say_opening(const Scene& scene, const StudyOptions& options, const ContactPlan& plan) {
-  print(fmt::format("{}: contacts, {} people with {} each, in {} poses; {}\n", scene.name.empty() ? "study" : scene.name,
-                    readable_number(options.people), counted(plan.grasps().size(), "grasp"), STUDY_POSES.size(),
-                    counted(static_cast<std::uint64_t>(thread_count(options.threads)), "thread")));
-  if (!plan.unheld().empty())
-    say_note(fmt::format("the mean person cannot hold {}: there everybody plans no roll", fmt::join(plan.unheld(), ", ")));
-}
+std::string name_of(const Scene& scene) { return scene.file.empty() ? "the scene" : scene.file; }
 
-StudyPage page_of(const Scene& scene, const StudyOptions& options, const ContactPlan& plan, const ContactStudy& study) {
-  StudyPage page;
-  page.title = study_title(scene);
-  page.seed = options.seed;
-  page.lead = fmt::format("{} virtual people with {} each, and {} samples of the paper's size; seed {}.",
-                          readable_number(options.people), counted(plan.grasps().size(), "grasp"),
-                          readable_number(static_cast<std::uint64_t>(options.resamples)), options.seed);
-  add_contact_sections(page, plan, study.rows);
-  return page;
-}
+class StudyRun {
+ public:
+  StudyRun(const Scene& scene, const StudyOptions& options) : scene_(scene), options_(options) {
+    if (options.people.contacts > 0) contacts_.emplace(scene);
+    if (options.people.sessions > 0) {
+      if (!scene.task)
+        throw usage_error(
+            fmt::format("{}: sessions need a task, which says what is poured; add [task] to the scene, or leave "
+                        "--experiment sessions out",
+                        name_of(scene)));
+      session_vessels_ = session_vessels(scene);
+      check_live(scene);
+    }
+    if (options.people.forces > 0) {
+      const std::vector<std::size_t> vessels = paper_vessels(scene, SampleVessels::any);
+      if (vessels.empty())
+        throw usage_error(
+            fmt::format("{}: the scene has a task, and no vessel has a liquid to be lifted; people lift such a vessel in "
+                        "the experiment of forces",
+                        name_of(scene)));
+      force_vessel_ = vessels.front();
+      check_live(force_scene(scene, force_vessel_));
+    }
+    folder_.emplace(options.folder);
+    page_.title = study_title(scene);
+    page_.seed = options.seed;
+  }
+
+  ExitCode run() {
+    InterruptGuard interrupt;
+    stop_ = &interrupt.flag();
+    const bool done = run_contacts() && run_forces() && run_sessions();
+    if (!done) {
+      say_note(journal_ ? "interrupted; no table is written. Go on with --resume" : "interrupted; nothing is written");
+      return ExitCode::interrupted;
+    }
+    if (!sensitivity_.empty()) page_.sections.push_back(sensitivity_section(sensitivity_));
+    page_.lead = fmt::format("{}, and {} samples of the paper's size; seed {}.", fmt::join(lead_, "; "),
+                             readable_number(static_cast<std::uint64_t>(options_.resamples)), options_.seed);
+    rows_.insert(rows_.end(), sensitivity_.begin(), sensitivity_.end());
+    folder_->write(scene_, options_, page_, rows_);
+    print(study_summary(rows_));
+    print("\n" + folder_->written() + "\n");
+    journal_.reset();
+    std::remove(folder_->files().journal.c_str());
+    return ExitCode::done;
+  }
+
+ private:
+  // As `wholehand live` would refuse it, before any work.
+  static void check_live(const Scene& scene) { const LiveScene live(scene); }
+
+  void say(const std::string& what) const {
+    print(fmt::format("{}: {}; {}\n", scene_.name.empty() ? "study" : scene_.name, what,
+                      counted(static_cast<std::uint64_t>(thread_count(options_.threads)), "thread")));
+  }
+
+  // Of the experiments that take long for each person.
+  StudyJournal& journal() {
+    if (!journal_) {
+      const StudyIdentity identity{{"scene", checksum_text(scene_.text.data(), scene_.text.size())},
+                                   {"seed", fmt::format("{}", options_.seed)},
+                                   {"build of the program", fmt::format("{} {}", version(), build_id())}};
+      journal_ = std::make_unique<StudyJournal>(folder_->files().journal, identity, options_.resumes);
+      if (journal_->done() > 0) say_note(fmt::format("goes on: {} of people are done", counted(journal_->done(), "part")));
+      if (journal_->damaged() > 0)
+        say_note(fmt::format("{} of the journal are damaged; these people are done again", counted(journal_->damaged(), "line")));
+    }
+    return *journal_;
+  }
+
+  void keep(std::vector<StudyRow> rows, std::vector<StudyRow> sensitivity) {
+    rows_.insert(rows_.end(), rows.begin(), rows.end());
+    sensitivity_.insert(sensitivity_.end(), sensitivity.begin(), sensitivity.end());
+  }
+
+  bool run_contacts() {
+    if (!contacts_) return true;
+    const std::uint64_t people = options_.people.contacts;
+    const std::string grasps = counted(contacts_->grasps().size(), "grasp");
+    say(fmt::format("contacts, {} people with {} each, in {} poses", readable_number(people), grasps, STUDY_POSES.size()));
+    if (!contacts_->unheld().empty())
+      say_note(
+          fmt::format("the mean person cannot hold {}: there everybody plans the roll 0", fmt::join(contacts_->unheld(), ", ")));
+    std::optional<ContactStudy> study = study_contacts(*contacts_, options_, *stop_);
+    if (!study) return false;
+    add_contact_sections(page_, *contacts_, study->rows);
+    lead_.push_back(fmt::format("contacts: {} virtual people with {} each", readable_number(people), grasps));
+    keep(std::move(study->rows), std::move(study->sensitivity));
+    return true;
+  }
+
+  bool run_forces() {
+    const std::uint64_t people = options_.people.forces;
+    if (people == 0) return true;
+    const std::string& vessel = scene_.vessels[force_vessel_].name;
+    say(fmt::format("forces, {} people with {} choices each, on {}", readable_number(people), FORCE_CHOICES, vessel));
+    const auto numbers = of_people("forces", people, options_.threads, journal(), *stop_, [this](std::uint64_t person) {
+      return numbers_of(forces_of_person(scene_, force_vessel_, options_.seed, person, *stop_));
+    });
+    if (*stop_) return false;
+    std::vector<ForcesOfPerson> found;
+    for (const auto& of_person : numbers) found.push_back(forces_of(of_person));
+    std::vector<StudyRow> rows = force_rows(found, vessel, options_.seed, options_.resamples, options_.threads);
+    page_.sections.push_back(force_section(rows));
+    lead_.push_back(fmt::format("forces: {} people", readable_number(people)));
+    keep(std::move(rows), force_sensitivity(found, options_.seed));
+    return true;
+  }
+
+  bool run_sessions() {
+    const std::uint64_t people = options_.people.sessions;
+    if (people == 0) return true;
+    say(fmt::format("sessions, {} people who do the task {} times", readable_number(people), SESSIONS_PER_PERSON));
+    const auto numbers = of_people("sessions", people, options_.threads, journal(), *stop_, [this](std::uint64_t person) {
+      return numbers_of(sessions_of_person(scene_, options_.seed, person, *stop_));
+    });
+    if (*stop_) return false;
+    std::vector<SessionSubject> found;
+    for (const auto& of_person : numbers) found.push_back({grasps_of(of_person)});
+    std::vector<StudyRow> rows = session_rows(found, session_vessels_, {options_.seed, options_.resamples, options_.threads, true});
+    page_.sections.push_back(session_section(session_vessels_, rows, true));
+    page_.sections.back().charts = session_charts(found, session_vessels_);
+    lead_.push_back(fmt::format("sessions: {} people, {} each", readable_number(people), SESSIONS_PER_PERSON));
+    keep(std::move(rows), session_sensitivity(found, session_vessels_, options_.seed));
+    return true;
+  }
+
+  const Scene& scene_;
+  const StudyOptions& options_;
+  std::optional<ContactPlan> contacts_;
+  SessionVessels session_vessels_;
+  std::size_t force_vessel_ = 0;
+  std::optional<StudyFolder> folder_;
+  std::unique_ptr<StudyJournal> journal_;
+  const std::atomic<bool>* stop_ = nullptr;
+  StudyPage page_;
+  std::vector<std::string> lead_;
+  std::vector<StudyRow> rows_, sensitivity_;
+};
 
 }  // namespace
 
-ExitCode run_study(const Scene& scene, const StudyOptions& options) {
-  const ContactPlan plan(scene);
-  const StudyFolder folder(options.folder);
-  InterruptGuard interrupt;
-  say_opening(scene, options, plan);
-  const std::optional<ContactStudy> study = study_contacts(plan, options, interrupt.flag());
-  if (!study) {
-    say_note("interrupted; nothing is written");
-    return ExitCode::interrupted;
-  }
-  folder.write(scene, options, page_of(scene, options, plan, *study), study->rows);
-  print(study_summary(study->rows));
-  print("\n" + folder.written() + "\n");
-  return ExitCode::done;
-}
+ExitCode run_study(const Scene& scene, const StudyOptions& options) { return StudyRun(scene, options).run(); }
 
 }  // namespace wholehand

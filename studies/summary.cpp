@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "studies/sensitivity.h"
 #include "studies/statistic_tables.h"
 
 namespace wholehand {
@@ -37,7 +39,9 @@ std::string contact_summary(std::span<const StudyRow> rows) {
 
 std::string study_summary(std::span<const StudyRow> rows) {
   std::string text;
-  // the rows of an experiment are neighbours
+  const auto is_sensitivity = [](const StudyRow& row) { return row.statistic.starts_with(FIRST_ORDER_OF); };
+  // the rows of an experiment are neighbours, and those of sensitivity come last
+  rows = rows.first(static_cast<std::size_t>(std::find_if(rows.begin(), rows.end(), is_sensitivity) - rows.begin()));
   for (std::size_t first = 0, end = 0; first < rows.size(); first = end) {
     while (end < rows.size() && rows[end].experiment == rows[first].experiment) ++end;
     const auto of_one = rows.subspan(first, end - first);

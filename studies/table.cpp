@@ -35,7 +35,10 @@ void define_study(const std::string& path, const Scene& scene, const StudyOption
   file.text(NC_GLOBAL, "program", "wholehand");
   file.text(NC_GLOBAL, "version", version());
   file.text(NC_GLOBAL, "scene", scene.text);
-  file.text(NC_GLOBAL, "people", fmt::format("{}", options.people));
+  const StudyPeople& people = options.people;
+  const std::pair<const char*, std::uint64_t> counts[] = {
+      {"people_contacts", people.contacts}, {"people_forces", people.forces}, {"people_sessions", people.sessions}};
+  for (const auto& [name, count] : counts) file.text(NC_GLOBAL, name, fmt::format("{}", count));
   file.text(NC_GLOBAL, "seed", fmt::format("{}", options.seed));
   file.text(NC_GLOBAL, "resamples", fmt::format("{}", options.resamples));
   const auto texts = [&](const char* name, const char* long_name, const std::function<std::string(const StudyRow&)>& of) {

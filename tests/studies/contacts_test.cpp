@@ -31,7 +31,7 @@ Scene study_scene() {
 
 StudyOptions study_options(std::uint64_t people, int threads = 1) {
   StudyOptions options;
-  options.people = people;
+  options.people.contacts = people;
   options.threads = threads;
   options.resamples = 20;
   return options;

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// What of a study is done: a file that grows by a line with each person, so that an interrupted study goes on where it ended.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace wholehand {
+
+// What must be the same for a study to go on: a name, for the message, and its value.
+using StudyIdentity = std::map<std::string, std::string>;
+
+// Each line has a checksum of its own (XXH3, 128 bits), and numbers are kept to the bit.
+class StudyJournal {
+ public:
+  // Begins anew, or goes on where `resumes` and the file is there. Throws Error: (usage) the journal is of another study, and in
+  // what; (failure) it cannot be read or written, or its head is damaged.
+  StudyJournal(const std::string& path, const StudyIdentity& identity, bool resumes);
+  ~StudyJournal();
+  StudyJournal(const StudyJournal&) = delete;
+  StudyJournal& operator=(const StudyJournal&) = delete;
+
+  // What a person's part of an experiment gave; null: it is not done.
+  const std::vector<double>* find(const std::string& experiment, std::uint64_t person) const;
+  std::size_t done() const { return done_.size(); }
+  // Lines that are not as they were written. Their people are done again.
+  std::size_t damaged() const { return damaged_; }
+
+  // Adds a line. Thread-safe. Throws Error (failure) where it cannot be written.
+  void add(const std::string& experiment, std::uint64_t person, std::span<const double> numbers);
+
+ private:
+  void read(const StudyIdentity& identity);
+
+  std::string path_;
+  std::map<std::pair<std::string, std::uint64_t>, std::vector<double>> done_;
+  std::size_t damaged_ = 0;
+  std::mutex mutex_;
+  int file_ = -1;
+};
+
+}  // namespace wholehand

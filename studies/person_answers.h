@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// What of a person decides how they do in the experiments of forces and sessions.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "studies/force_statistics.h"
+#include "studies/row.h"
+#include "studies/session_statistics.h"
+
+namespace wholehand {
+
+// Rows of sensitivity (studies/sensitivity.h) of people 0, 1, .. of this seed. The answers are means over a person's own grasps of the
+// paper's vessels, or over the person's trials.
+std::vector<StudyRow> session_sensitivity(std::span<const SessionSubject> people, const SessionVessels& vessels,
+                                          std::uint64_t seed);
+std::vector<StudyRow> force_sensitivity(std::span<const ForcesOfPerson> people, std::uint64_t seed);
+
+}  // namespace wholehand

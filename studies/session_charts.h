@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Box plots of sessions by vessel, as in the paper's Fig. 9.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "studies/session_statistics.h"
+
+namespace wholehand {
+
+// SVG: the increase of the normal force, the grip force before and after the tilt, and the response time, with the paper's means and
+// deviations where they are known.
+std::vector<std::string> session_charts(std::span<const SessionSubject> subjects, const SessionVessels& vessels);
+
+}  // namespace wholehand

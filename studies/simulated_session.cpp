@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "studies/simulated_session.h"
+
+#include <initializer_list>
+
+#include "core/error.h"
+#include "core/random_bits.h"
+#include "device/haptic_loop.h"
+#include "device/sim_gripper.h"
+#include "live/session.h"
+
+namespace wholehand {
+
+void run_simulated(const SimulatedSession& asked, const std::function<bool(const Tick&)>& take, const std::atomic<bool>& stop) {
+  if (asked.jobs.empty()) return;
+  const auto gripper = open_sim(asked.scene, asked.seed, asked.person, asked.jobs);
+  Session session(asked.scene, gripper->limits().gap);
+  LoopOptions options;
+  options.is_simulated = true;
+  options.seconds = asked.seconds;
+  HapticLoop loop(asked.scene.live, *gripper, session, take, options);
+  loop.run(stop);
+}
+
+std::uint64_t tremor_seed(const Scene& scene, std::uint64_t seed, std::uint64_t person, std::uint64_t k) {
+  constexpr std::uint64_t TREMOR = 0x7472656d6f72;  // keeps the tremor's numbers from those of people
+  std::uint64_t bits = mixed_bits(seed ^ TREMOR);
+  for (const std::uint64_t part : {scene.people.scatter > 0 ? person : 0, k}) bits = mixed_bits(bits + SPLIT_MIX_STEP * (part + 1));
+  return bits;
+}
+
+std::vector<SimJob> jobs_of(const Scene& scene) {
+  try {
+    return plan_sim_jobs(scene);
+  } catch (const Error& error) {
+    if (error.code != ExitCode::usage) throw;
+    return {};  // too small a hand, say
+  }
+}
+
+}  // namespace wholehand

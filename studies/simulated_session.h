@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// One session of a virtual person, as `wholehand live` runs it, without a clock and without a recording.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "core/scene.h"
+#include "device/sim_user.h"
+#include "live/tick.h"
+#include "people/participant.h"
+
+namespace wholehand {
+
+constexpr double LONGEST_SESSION = 600;  // s of simulated time
+
+// What a session asks for.
+struct SimulatedSession {
+  const Scene& scene;  // with the person's own hand
+  const Participant& person;
+  std::uint64_t seed = 1;    // of the tremor
+  std::vector<SimJob> jobs;  // what there is to do
+  double seconds = LONGEST_SESSION;
+};
+
+// Runs it: gripper, limits, loop and session are those of `wholehand live`. `take` is given each tick; false ends the session. Also
+// ends where `stop` is set.
+void run_simulated(const SimulatedSession& asked, const std::function<bool(const Tick&)>& take, const std::atomic<bool>& stop);
+
+// The seed of the tremor in session `k` of a person. Without scatter everybody is one person, who trembles alike too.
+std::uint64_t tremor_seed(const Scene& scene, std::uint64_t seed, std::uint64_t person, std::uint64_t k);
+
+// Of a person for whom the scene has nothing to do: none.
+std::vector<SimJob> jobs_of(const Scene& scene);
+
+}  // namespace wholehand
