@@ -23,8 +23,8 @@ inline constexpr const char* ALL_VESSELS = "all";
 // Which vessels of a scene can take the place of the paper's. The plan of contacts needs guidance points. A session needs none.
 enum class SampleVessels { with_guidance, any };
 
-// Places in the scene of the vessels that stand for the paper's first, second and third: up to three, in the scene's order. In a scene
-// with a task these are the first from which something is poured, in other scenes the first.
+// Places in the scene of the vessels that stand for the paper's first, second and third: up to three, in the scene's order. In a
+// scene with a task these are the first from which something is poured, in other scenes the first.
 std::vector<std::size_t> paper_vessels(const Scene& scene, SampleVessels which);
 
 // Throws Error (usage) where the name is ALL_VESSELS.
@@ -33,7 +33,8 @@ void check_sample_name(const Scene& scene, const std::string& vessel);
 // The next number below `count`, which is at least 1.
 std::uint64_t draw_below(std::uint64_t count, std::uint64_t& state);
 
-// Of each value of the samples (at least one): from the 2.5th to the 97.5th percentile. NaN where more than a half of them have none.
+// Of each value of the samples (at least one): from the 2.5th to the 97.5th percentile. NaN where more than a half of them have
+// none.
 std::vector<Interval> intervals_of(const std::vector<std::vector<double>>& samples);
 
 }  // namespace wholehand

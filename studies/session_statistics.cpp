@@ -189,7 +189,7 @@ class GraspPool {
     return grasps;
   }
 
-  // People drawn with replacement, and of each vessel as many of their grasps as the paper has, none twice; all where there are fewer.
+  // People drawn with replacement, and of each vessel as many of their grasps as the paper has, none twice. Of fewer: all.
   GraspsByVessel sample(std::uint64_t seed) const {
     std::uint64_t state = seed;
     GraspsByVessel grasps(vessels_);

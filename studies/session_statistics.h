@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The paper's numbers about its mixing task (section V-B, Table 3, Figs 8 and 9), from the grasps of many people. People who are simulated
-// and people who were recorded go through the same code. docs/study.md has each statistic.
+// The paper's numbers about its mixing task (section V-B, Table 3, Figs 8 and 9), from the grasps of many people. People who are
+// simulated and people who were recorded go through the same code. docs/study.md has each statistic.
 #pragma once
 
 #include <cstddef>
@@ -42,8 +42,8 @@ struct SessionSampling {
   bool are_simulated = false;
 };
 
-// Rows of the experiment "sessions": those of all vessels together, those of each vessel, and inside_share. Grasps of other vessels do
-// not count. `subjects`: at least one. The same bits for any number of threads.
+// Rows of the experiment "sessions": those of all vessels together, those of each vessel, and inside_share. Grasps of other vessels
+// do not count. `subjects`: at least one. The same bits for any number of threads.
 std::vector<StudyRow> session_rows(std::span<const SessionSubject> subjects, const SessionVessels& vessels,
                                    const SessionSampling& sampling);
 

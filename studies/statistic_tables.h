@@ -10,8 +10,8 @@
 
 namespace wholehand {
 
-// The line of inside_sentence, then a table for each vessel in the order of the rows. A column names the subjects where there are any.
-// The row inside_share is not shown, since the line says it.
+// The line of inside_sentence, then a table for each vessel in the order of the rows. A column names the subjects where there are
+// any. The row inside_share is not shown, since the line says it.
 void write_statistic_tables(MarkupWriter& html, std::span<const StudyRow> rows);
 
 // The same for the terminal, in one table.

@@ -9,8 +9,8 @@
 
 namespace wholehand {
 
-// Experiment by experiment, whose rows must be neighbours: a line for each pose and vessel of contacts, and for other experiments a line
-// for each statistic.
+// Experiment by experiment, whose rows must be neighbours: a line for each pose and vessel of contacts, and for other experiments a
+// line for each statistic.
 std::string study_summary(std::span<const StudyRow> rows);
 
 }  // namespace wholehand

@@ -47,8 +47,8 @@ std::vector<Tick> senseless_ticks(std::uint64_t seed) {
 
 bool goes_on(const Tick& a, const Tick& b) { return is_held(b.state) && a.vessel == b.vessel; }
 
-// docs/session.md, word by word: an outcome is that of the ticks from the grasp's end to the next grasp, and liquid counts until the
-// vessel's next grasp.
+// docs/session.md, word by word: an outcome is that of the ticks from the grasp's end to the next grasp, and liquid counts until
+// the vessel's next grasp.
 std::vector<GraspReport> grasps_at_once(const std::vector<Tick>& ticks) {
   std::vector<GraspReport> grasps;
   for (std::size_t first = 0, end = 0; first < ticks.size(); first = end) {
