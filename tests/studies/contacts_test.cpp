@@ -118,13 +118,13 @@ TEST(StudyContacts, SensitivityIsOfWhatGraspingAsksFor) {
     return *std::find_if(rows.begin(), rows.end(),
                          [&](const StudyRow& one) { return one.statistic == FIRST_ORDER_OF + answer && one.subject == input; });
   };
-  const StudyRow length = row("articulated_mean_distance", "height_mm");
-  EXPECT_GT(length.interval.low, 0);
-  EXPECT_EQ(length.vessel, ALL_VESSELS);
-  EXPECT_EQ(length.pose, "");
-  EXPECT_EQ(length.experiment, "contacts");
+  const StudyRow height = row("articulated_mean_distance", "height_mm");
+  EXPECT_GT(height.interval.low, 0);
+  EXPECT_EQ(height.vessel, ALL_VESSELS);
+  EXPECT_EQ(height.pose, "");
+  EXPECT_EQ(height.experiment, "contacts");
   const StudyRow patience = row("articulated_mean_distance", "patience_s");
-  EXPECT_LT(patience.value, 0.5 * length.value);
+  EXPECT_LT(patience.value, 0.5 * height.value);
   // fewer people have no indices
   const auto few = study_rows(study_scene(), study_options(3));
   EXPECT_TRUE(std::isnan(few.back().value));
