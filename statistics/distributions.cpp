@@ -40,6 +40,7 @@ double incomplete_beta(double a, double b, double x) {
 }
 
 double f_tail(double f, double above, double below) {
+  if (std::isnan(f)) return f;  // no test, and not one that shows nothing
   if (!(f > 0)) return 1;
   return incomplete_beta(below / 2, above / 2, below / (below + above * f));
 }

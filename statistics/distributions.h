@@ -8,7 +8,7 @@ namespace wholehand {
 // 26.5.8) by Lentz's method; NaN of NaN. To 1e-12 of itself for a and b up to 100, and to 1e-9 up to 1e5.
 double incomplete_beta(double a, double b, double x);
 
-// P(F > f) of Fisher's F with these degrees of freedom.
+// P(F > f) of Fisher's F with these degrees of freedom; NaN of NaN.
 double f_tail(double f, double above, double below);
 
 }  // namespace wholehand

@@ -40,5 +40,7 @@ TEST(FTail, OfAnotherProgram) {
   EXPECT_EQ(f_tail(0, 3, 20), 1);
 }
 
+TEST(FTail, OfNoNumberIsNone) { EXPECT_TRUE(std::isnan(f_tail(std::nan(""), 3, 20))); }
+
 }  // namespace
 }  // namespace wholehand
