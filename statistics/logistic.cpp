@@ -5,14 +5,15 @@
 #include <cmath>
 #include <limits>
 
+#include "statistics/moments.h"
+
 namespace wholehand {
 namespace {
 
 constexpr int MOST_STEPS = 100;
-constexpr double SETTLED = 1e-9;         // of the longest step of an unknown
-constexpr double SEPARATED = 20;         // a coefficient of so many, per deviation of its term, only grows on
-constexpr double DEPENDENT = 1e-10;      // a pivot of less than this share: the terms depend on one another
-constexpr double CONSTANT_TERM = 1e-12;  // a smaller deviation is rounding
+constexpr double SETTLED = 1e-9;     // of the longest step of an unknown
+constexpr double SEPARATED = 20;     // without a ridge, a coefficient of so many, per deviation of its term, only grows on
+constexpr double DEPENDENT = 1e-10;  // a pivot of less than this share: the terms depend on one another
 
 using Unknowns = std::vector<double>;  // of the terms, and the intercept last
 using Normal = std::vector<Unknowns>;
@@ -31,18 +32,22 @@ struct Rows {
   std::size_t terms() const { return scales.size(); }
 };
 
+TermScale scale_of(std::span<const double> column) {
+  TermScale scale;
+  scale.mean = mean_of(column);
+  double square = 0;
+  for (const double value : column) square += (value - scale.mean) * (value - scale.mean) / static_cast<double>(column.size());
+  // by the values themselves: the deviation of a constant is the rounding of its mean
+  if (varies(column)) scale.scale = 1 / std::sqrt(square);
+  return scale;
+}
+
 Rows rows_of(std::span<const double> terms, std::size_t count, std::span<const char> success) {
-  Rows rows{std::vector<TermScale>(count), {}, success};
-  const auto n = static_cast<double>(success.size());
+  Rows rows{{}, {}, success};
+  std::vector<double> column(success.size());
   for (std::size_t k = 0; k < count; ++k) {
-    TermScale& scale = rows.scales[k];
-    for (std::size_t i = 0; i < success.size(); ++i) scale.mean += terms[i * count + k] / n;
-    double square = 0;
-    for (std::size_t i = 0; i < success.size(); ++i) {
-      const double off = terms[i * count + k] - scale.mean;
-      square += off * off / n;
-    }
-    if (std::sqrt(square) > CONSTANT_TERM) scale.scale = 1 / std::sqrt(square);
+    for (std::size_t i = 0; i < success.size(); ++i) column[i] = terms[i * count + k];
+    rows.scales.push_back(scale_of(column));
   }
   for (std::size_t i = 0; i < success.size(); ++i) {
     Unknowns x(count + 1, 1.0);
@@ -108,7 +113,7 @@ bool climb(const Rows& rows, double ridge, Unknowns& beta) {
     for (std::size_t k = 0; k < beta.size(); ++k) {
       beta[k] += slope[k];
       longest = std::max(longest, std::abs(slope[k]));
-      if (k < rows.terms() && std::abs(beta[k]) > SEPARATED) return false;
+      if (ridge == 0 && k < rows.terms() && std::abs(beta[k]) > SEPARATED) return false;
     }
     if (longest < SETTLED) return true;
   }
@@ -134,7 +139,7 @@ LogisticModel fit_logistic_model(std::span<const double> terms, std::size_t coun
   Unknowns beta;
   if (!climb(rows, 0, beta)) {
     model.has_ridge = true;
-    climb(rows, 1, beta);
+    if (!climb(rows, 1, beta)) return model;
   }
   model.is_fitted = true;
   model.intercept = beta[count];

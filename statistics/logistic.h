@@ -18,8 +18,9 @@ struct LogisticModel {
   std::vector<double> coefficients;
   std::vector<double> errors;  // standard errors, by the curvature; NaN with a ridge, and of a term that does not vary
   double intercept = 0;
-  bool is_fitted = false;  // false: there is no success, or no failure; the coefficients are 0
-  bool has_ridge = false;
+  // False: there is no success, or no failure, or Newton's steps did not settle even with the ridge; the coefficients are 0.
+  bool is_fitted = false;
+  bool has_ridge = false;  // also of a fit that did not settle with it
 
   Interval interval(std::size_t term) const {
     return {coefficients[term] - NORMAL_95 * errors[term], coefficients[term] + NORMAL_95 * errors[term]};

@@ -51,5 +51,48 @@ TEST(Logistic, WhatCannotBeFittedHasNoErrors) {
   EXPECT_EQ(never.coefficients, (std::vector<double>{0, 0}));
 }
 
+// The sum of 500 times 187.18 / 500 is not 187.18, so that a deviation by the mean is not 0.
+TEST(Logistic, AConstantIsNoTermOfAnySize) {
+  for (const double constant : {187.18, 0.1, 1e9}) {
+    std::vector<double> terms;
+    std::vector<char> success;
+    for (int i = 0; i < 500; ++i) {
+      terms.insert(terms.end(), {i % 7 - 3.0, constant});
+      success.push_back(i % 7 + i % 11 > 7);
+    }
+    const LogisticModel model = fit_logistic_model(terms, 2, success);
+    EXPECT_TRUE(model.is_fitted);
+    EXPECT_FALSE(model.has_ridge) << constant;
+    EXPECT_EQ(model.coefficients[1], 0) << constant;
+    EXPECT_GT(model.errors[0], 0) << constant;
+    EXPECT_TRUE(std::isnan(model.errors[1]));
+  }
+}
+
+// A ridge of 1 allows a coefficient of more than 20 deviations where rows are many. At the largest likelihood its slope is 0: the
+// terms' sum of what is left is the coefficient itself.
+TEST(Logistic, TheRidgeIsClimbedToItsTop) {
+  constexpr int COUNT = 20000;
+  std::vector<double> terms;
+  std::vector<char> success;
+  for (int i = 0; i < COUNT; ++i) {
+    terms.push_back((i + 0.5) / COUNT);
+    success.push_back(i >= COUNT / 2);
+  }
+  const LogisticModel model = fit_logistic_model(terms, 1, success);
+  ASSERT_TRUE(model.is_fitted);
+  EXPECT_TRUE(model.has_ridge);
+  const double deviation = std::sqrt((1 - 1.0 / COUNT / COUNT) / 12);
+  const double own = model.coefficients[0] * deviation;  // in deviations
+  EXPECT_GT(own, 20);
+  double slope = 0;
+  for (int i = 0; i < COUNT; ++i) {
+    const double p = 1 / (1 + std::exp(-model.intercept - model.coefficients[0] * terms[i]));
+    slope += (success[i] - p) * (terms[i] - 0.5) / deviation;
+  }
+  // steps end at 1e-9, where the curvature is below that of all rows, 5,000
+  EXPECT_NEAR(slope, own, 1e-5);
+}
+
 }  // namespace
 }  // namespace wholehand
