@@ -18,8 +18,14 @@ namespace wholehand {
 std::vector<double> resampled_values(std::size_t population, std::size_t sample, int resamples, std::uint64_t seed,
                                      const std::function<double(std::span<const std::size_t>)>& statistic);
 
-// The interval from the 2.5th to the 97.5th percentile of them. With `sample` as large as the population: the bootstrap. NaN
-// where more than a half of the samples have no such statistic.
+// From the 2.5th to the 97.5th percentile of the values that samples (at least one) have; NaN stands for a sample without a value.
+// Samples without one may well be the unusual ones. So there is no interval (NaN) unless 95 % of the samples have a value.
+Interval sample_interval(std::span<const double> values);
+
+// The same of each of many values: samples[k][i] is the value i of sample k.
+std::vector<Interval> sample_intervals(const std::vector<std::vector<double>>& samples);
+
+// The sample_interval of resampled_values. With `sample` as large as the population: the bootstrap.
 Interval resampled_interval(std::size_t population, std::size_t sample, int resamples, std::uint64_t seed,
                             const std::function<double(std::span<const std::size_t>)>& statistic);
 

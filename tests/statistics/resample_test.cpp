@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 namespace wholehand {
 namespace {
@@ -60,8 +61,32 @@ TEST(Resample, LeavesOutSamplesWithoutTheStatistic) {
     return
         [share](std::span<const std::size_t> members) { return static_cast<double>(members[0]) < share * 100 ? 1 : std::nan(""); };
   };
-  EXPECT_EQ(resampled_interval(100, 1, 200, 1, rarely(0.8)).low, 1);
-  EXPECT_TRUE(std::isnan(resampled_interval(100, 1, 200, 1, rarely(0.2)).low));
+  // 98 % and 80 % of the samples have a value, give or take three deviations: 3 and 8.5 %
+  EXPECT_EQ(resampled_interval(100, 1, 200, 1, rarely(0.98)).low, 1);
+  EXPECT_TRUE(std::isnan(resampled_interval(100, 1, 200, 1, rarely(0.8)).low));
+}
+
+// Of 0 to 40 in any order, the 2.5th percentile is the second value, and the 97.5th the last but one.
+TEST(SampleInterval, GoesFromTheSecondOf41ToTheLastButOne) {
+  std::vector<double> values;
+  for (int k = 0; k < 41; ++k) values.push_back((17 * k) % 41);
+  const Interval interval = sample_interval(values);
+  EXPECT_NEAR(interval.low, 1, 1e-14);
+  EXPECT_NEAR(interval.high, 39, 1e-14);
+}
+
+// 19 of 20 are 95 %.
+TEST(SampleInterval, NeedsAValueIn95PercentOfTheSamples) {
+  std::vector<std::vector<double>> samples;
+  for (int k = 0; k < 20; ++k)
+    samples.push_back({7, k == 11 ? std::nan("") : 3, k == 2 || k == 19 ? std::nan("") : 5, std::nan("")});
+  const std::vector<Interval> intervals = sample_intervals(samples);
+  ASSERT_EQ(intervals.size(), 4u);
+  EXPECT_EQ(intervals[0].low, 7);
+  EXPECT_EQ(intervals[1].low, 3);
+  EXPECT_EQ(intervals[1].high, 3);
+  EXPECT_TRUE(std::isnan(intervals[2].low));
+  EXPECT_TRUE(std::isnan(intervals[3].high));
 }
 
 }  // namespace
