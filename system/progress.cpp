@@ -10,11 +10,11 @@
 namespace wholehand {
 namespace {
 
-std::string rate_text(double rate) {
-  if (rate >= 1e6) return fmt::format("{:.2f} million grips/s", rate * 1e-6);
-  if (rate >= 1e3) return fmt::format("{:.1f} thousand grips/s", rate * 1e-3);
-  if (rate < 10) return fmt::format("{:.1f} grips/s", rate);
-  return fmt::format("{:.0f} grips/s", rate);
+std::string rate_text(double rate, const char* noun) {
+  if (rate >= 1e6) return fmt::format("{:.2f} million {}/s", rate * 1e-6, noun);
+  if (rate >= 1e3) return fmt::format("{:.1f} thousand {}/s", rate * 1e-3, noun);
+  if (rate < 10) return fmt::format("{:.1f} {}/s", rate, noun);
+  return fmt::format("{:.0f} {}/s", rate, noun);
 }
 
 std::string time_text(double seconds) {
@@ -25,15 +25,18 @@ std::string time_text(double seconds) {
 
 }  // namespace
 
-Progress::Progress(std::uint64_t total, std::uint64_t done) : Progress(total, done, isatty(STDERR_FILENO) == 1) {}
+Progress::Progress(std::uint64_t total, std::uint64_t done, const char* noun)
+    : Progress(total, done, noun, isatty(STDERR_FILENO) == 1) {}
 
-Progress::Progress(std::uint64_t total, std::uint64_t done, bool is_terminal) : total_(total), before_(done), shown_(is_terminal) {}
+Progress::Progress(std::uint64_t total, std::uint64_t done, const char* noun, bool is_terminal)
+    : total_(total), before_(done), noun_(noun), shown_(is_terminal) {}
 
-std::string Progress::line(const std::string& what, std::uint64_t total, std::uint64_t before, std::uint64_t done, double seconds) {
+std::string Progress::line(const std::string& what, const char* noun, std::uint64_t total, std::uint64_t before, std::uint64_t done,
+                           double seconds) {
   const double share = total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 1;
   const double rate = seconds > 0 ? static_cast<double>(done - before) / seconds : 0;
   std::string line = fmt::format("{}  {:.0f} %", what, std::floor(100 * share));
-  if (rate > 0) line += fmt::format("  {}  {} left", rate_text(rate), time_text(static_cast<double>(total - done) / rate));
+  if (rate > 0) line += fmt::format("  {}  {} left", rate_text(rate, noun), time_text(static_cast<double>(total - done) / rate));
   return line;
 }
 
@@ -44,7 +47,7 @@ void Progress::update(const std::string& what, std::uint64_t done) {
   const double now = monotonic_now();
   last_ = now;
   drawn_ = true;
-  fmt::print(stderr, "\r{}\033[K", line(what, total_, before_, done, now - start_));
+  fmt::print(stderr, "\r{}\033[K", line(what, noun_, total_, before_, done, now - start_));
   std::fflush(stderr);
 }
 

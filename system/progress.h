@@ -9,15 +9,16 @@
 
 namespace wholehand {
 
-// Shows a line on stderr over the last one, where that is a terminal; "" wipes it. For work that is not counted in grips.
+// Shows a line on stderr over the last one, where that is a terminal; "" wipes it. For work that is not counted.
 void show_status(const std::string& line);
 
 // Shows nothing where stderr is not a terminal, nor in the first half second.
 class Progress {
  public:
-  // `total` and `done` count grips; `done` of them were there before (a resumed sweep) and say nothing about the rate.
-  Progress(std::uint64_t total, std::uint64_t done);
-  Progress(std::uint64_t total, std::uint64_t done, bool is_terminal);
+  // `total` and `done` count what `noun` says, which must outlive it; `done` of them were there before (a resumed sweep) and say
+  // nothing about the rate.
+  Progress(std::uint64_t total, std::uint64_t done, const char* noun = "grips");
+  Progress(std::uint64_t total, std::uint64_t done, const char* noun, bool is_terminal);
   ~Progress() { clear(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -30,10 +31,12 @@ class Progress {
   void clear();
 
   // "beaker2  45 %  12.3 thousand grips/s  1:05 left".
-  static std::string line(const std::string& what, std::uint64_t total, std::uint64_t before, std::uint64_t done, double seconds);
+  static std::string line(const std::string& what, const char* noun, std::uint64_t total, std::uint64_t before, std::uint64_t done,
+                          double seconds);
 
  private:
   std::uint64_t total_, before_;
+  const char* noun_;
   bool shown_, drawn_ = false;
   double start_ = monotonic_now(), last_ = start_ + 0.4;  // s
 };
