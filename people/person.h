@@ -55,8 +55,9 @@ Person make_person(const PeopleData& people, const Shares& shares);
 Traits draw_grasp(const PeopleData& people, const Person& person, std::uint64_t seed, std::uint64_t number,
                   std::uint64_t experiment, std::uint64_t grasp);
 
-// The person's own hand: `plain` with the person's size and shares of segments. Angles, limits and tolerances are those of
-// `plain`, but where the gap of thumb and index finger stops falling before the closure 1, the trajectories end there.
+// The person's own hand: `plain` with the person's size and shares of segments, whatever the size of `plain`. Angles, limits and
+// tolerances are those of `plain`, but where the gap of thumb and index finger stops falling before the closure 1, the trajectories
+// end there.
 HandData hand_of(const HandData& plain, const Person& person);
 
 // Standard deviation of a segment's length over its mean, among hands of one length: what the published deviation leaves when the

@@ -6,6 +6,7 @@
 
 #include "core/prepare.h"
 #include "people/person.h"
+#include "tests/support/scenes.h"
 
 namespace wholehand {
 namespace {
@@ -54,6 +55,34 @@ TEST(PersonHand, KeepsWhatIsNotSize) {
   EXPECT_EQ(hand.scale, 1);
   EXPECT_EQ(hand.between, 5);
   EXPECT_EQ(hand.depth_limit, 7e-3);
+}
+
+// The size of the scene's hand has no influence, whatever else the scene says of the hand: proportions alone tell hands apart.
+TEST(PersonHand, IsTheSameOfAHandOfAnySize) {
+  HandData thin = left_hand();
+  for (FingerData& finger : thin.fingers) finger.radii.fill(0);
+  HandData own;
+  own.fingers[1].segments[2] *= 1.1;
+  own.fingers[4].base[0] += 2e-3;
+  own.fingers[3].radii[2] = 9e-3;
+  for (const HandData& plain : {HandData{}, left_hand(), thin, own, odd_hand()})
+    for (const HandSize& size : {HandSize{0.26, 0.1}, HandSize{0.16, 0.09}}) {
+      HandData sized = plain;
+      set_size(sized, size);
+      sized.scale = 1.7;
+      for (std::uint64_t n = 0; n < 20; ++n) {
+        const Person person = draw_person({}, 5, n);
+        const HandData hand = hand_of(sized, person), expected = hand_of(plain, person);
+        EXPECT_EQ(hand.handedness, plain.handedness);
+        EXPECT_EQ(hand.scale, expected.scale);
+        // m: sums and products of lengths under 0.3 m
+        for (std::size_t f = 0; f < FINGER_COUNT; ++f) {
+          for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(hand.fingers[f].base[k], expected.fingers[f].base[k], 1e-15);
+          for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(hand.fingers[f].segments[k], expected.fingers[f].segments[k], 1e-15);
+          for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR(hand.fingers[f].radii[k], expected.fingers[f].radii[k], 1e-15);
+        }
+      }
+    }
 }
 
 // A hand whose thumb and index finger pass each other before the end: its trajectories end where they are nearest.
