@@ -13,11 +13,14 @@ namespace {
 
 constexpr std::array<const char*, 5> FINGER_POINTS{"cmc", "mcp", "pip", "dip", "tip"};
 constexpr std::array<const char*, 4> THUMB_POINTS{"cmc", "mcp", "ip", "tip"};
+// m: distances that differ by less do not vary. Each is off by what the search for its contact leaves: its tolerance, 1e-9 m, and up
+// to some ten times that where a fingertip meets the vessel at a flat angle. What hands scatter by is a thousand times larger.
+constexpr double LEAST_DISTANCE = 1e-7;
 constexpr double ABSENT = std::numeric_limits<double>::quiet_NaN();
 
 double r_of(const Correlation& correlation) { return correlation.r.value_or(ABSENT); }
 
-double share(std::size_t yes, std::size_t all) { return all == 0 ? ABSENT : static_cast<double>(yes) / static_cast<double>(all); }
+double share(double yes, double all) { return all > 0 ? yes / all : ABSENT; }
 
 std::vector<ContactStatistic> all_statistics() {
   std::vector<ContactStatistic> all{{"held_share", ""}, {"plausible_share", ""}, {"mean_fingers", ""}, {"mean_points", ""}};
@@ -42,38 +45,59 @@ const std::vector<ContactStatistic>& contact_statistics() {
   return all;
 }
 
+ContactTally::ContactTally() {
+  fingers_[distance] = points_[distance] = RunningCorrelation(LEAST_DISTANCE);
+  for (auto& point : touches_) point[distance] = RunningCorrelation(LEAST_DISTANCE);
+}
+
 void ContactTally::add(const ContactGrasp& grasp) {
-  ++grasps_;
+  counts_[made] += 1;
   if (!grasp.is_held) return;
-  ++held_;
-  plausible_ += grasp.is_plausible ? 1 : 0;
+  const int fingers = std::popcount(grasp.used_mask), points = std::popcount(grasp.touch_mask);
+  counts_[holding] += 1;
+  counts_[plausible] += grasp.is_plausible ? 1 : 0;
+  counts_[fingers_used] += fingers;
+  counts_[points_touching] += points;
   const std::array<double, measures> x{grasp.height, grasp.distance};
   for (std::size_t m = 0; m < measures; ++m) {
-    fingers_[m].add(x[m], std::popcount(grasp.used_mask));
-    points_[m].add(x[m], std::popcount(grasp.touch_mask));
-    for (int joint = 0; joint < JOINT_COUNT; ++joint) touches_[joint][m].add(x[m], grasp.touch_mask >> joint & 1);
+    fingers_[m].add(x[m], fingers);
+    points_[m].add(x[m], points);
+  }
+  for (int joint = 0; joint < JOINT_COUNT; ++joint) {
+    const double touches = grasp.touch_mask >> joint & 1;
+    counts_[touching + joint] += touches;
+    for (std::size_t m = 0; m < measures; ++m) touches_[joint][m].add(x[m], touches);
   }
   const std::array<std::uint32_t, roles> masks{grasp.tip_mask, grasp.finger_mask, grasp.inner_mask};
-  bool has_projected = false;
   for (std::size_t role = 0; role < roles; ++role) {
-    const auto points = static_cast<std::size_t>(std::popcount(masks[role]));
-    points_by_role_[role] += points;
-    projected_points_ += points;
-    grasps_by_role_[role] += points > 0 ? 1 : 0;
-    has_projected = has_projected || points > 0;
+    const int of_role = std::popcount(masks[role]);
+    counts_[projected_to + role] += of_role;
+    counts_[projected] += of_role;
+    counts_[with_role + role] += of_role > 0 ? 1 : 0;
   }
-  projected_grasps_ += has_projected ? 1 : 0;
+  counts_[with_projected] += (grasp.tip_mask | grasp.finger_mask | grasp.inner_mask) != 0 ? 1 : 0;
+}
+
+void ContactTally::add(const ContactTally& other, double weight) {
+  for (std::size_t k = 0; k < all_counts; ++k) counts_[k] += weight * other.counts_[k];
+  for (std::size_t m = 0; m < measures; ++m) {
+    fingers_[m].add(other.fingers_[m], weight);
+    points_[m].add(other.points_[m], weight);
+    for (int joint = 0; joint < JOINT_COUNT; ++joint) touches_[joint][m].add(other.touches_[joint][m], weight);
+  }
 }
 
 // In the order of all_statistics.
 std::vector<double> ContactTally::values() const {
-  std::vector<double> all{share(held_, grasps_), share(plausible_, held_), fingers_[height].mean_y(), points_[height].mean_y()};
+  const auto of_held = [this](std::size_t count) { return share(counts_[count], counts_[holding]); };
+  std::vector<double> all{share(counts_[holding], counts_[made]), of_held(plausible), of_held(fingers_used),
+                          of_held(points_touching)};
   for (const auto& counts : {fingers_, points_})
     for (const RunningCorrelation& correlation : counts) all.push_back(r_of(correlation.pearson()));
-  all.push_back(share(projected_grasps_, held_));
-  for (const std::size_t points : points_by_role_) all.push_back(share(points, projected_points_));
-  for (const std::size_t grasps : grasps_by_role_) all.push_back(share(grasps, held_));
-  for (const auto& point : touches_) all.push_back(point[height].mean_y());
+  all.push_back(of_held(with_projected));
+  for (std::size_t role = 0; role < roles; ++role) all.push_back(share(counts_[projected_to + role], counts_[projected]));
+  for (std::size_t role = 0; role < roles; ++role) all.push_back(of_held(with_role + role));
+  for (std::size_t joint = 0; joint < JOINT_COUNT; ++joint) all.push_back(of_held(touching + joint));
   for (std::size_t m = 0; m < measures; ++m)
     for (const auto& point : touches_) all.push_back(r_of(point[m].point_biserial()));
   return all;

@@ -36,21 +36,36 @@ const std::vector<ContactStatistic>& contact_statistics();
 // Keeps sums alone. The same grasps in the same order give the same bits.
 class ContactTally {
  public:
+  ContactTally();
   void add(const ContactGrasp& grasp);
-  std::size_t grasps() const { return grasps_; }
-  std::size_t held() const { return held_; }
+  // All grasps of another one, each as if it had been made `weight` (above 0) times.
+  void add(const ContactTally& other, double weight);
+  double grasps() const { return counts_[made]; }
+  double held() const { return counts_[holding]; }
   // One value for each of contact_statistics(); NaN: there is none.
   std::vector<double> values() const;
 
  private:
   enum { height, distance, measures };  // that correlations are with
   enum { tip, finger, inner, roles };
+  // What is counted. All but `made` is of the grasps that hold.
+  enum {
+    made,
+    holding,
+    plausible,
+    fingers_used,
+    points_touching,
+    touching,                                 // by point
+    with_projected = touching + JOINT_COUNT,  // grasps with projected points
+    with_role,                                // by role
+    projected = with_role + roles,            // points
+    projected_to,                             // by role
+    all_counts = projected_to + roles
+  };
 
-  std::size_t grasps_ = 0, held_ = 0, plausible_ = 0;
+  std::array<double, all_counts> counts_{};  // whole numbers without weights, exact up to 2^53
   std::array<RunningCorrelation, measures> fingers_, points_;
   std::array<std::array<RunningCorrelation, measures>, JOINT_COUNT> touches_;
-  std::size_t projected_grasps_ = 0, projected_points_ = 0;
-  std::array<std::size_t, roles> grasps_by_role_{}, points_by_role_{};
 };
 
 }  // namespace wholehand

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -89,6 +90,47 @@ TEST(ContactTally, OfNoGraspHasNothing) {
     } else {
       EXPECT_TRUE(std::isnan(value)) << name;
     }
+  }
+}
+
+// Counts and no running means: 171 of 4,000 are 0.04275 to the bit.
+TEST(ContactTally, SharesAreCounted) {
+  std::vector<ContactGrasp> grasps;
+  for (std::uint32_t i = 0; i < 4000; ++i)
+    grasps.push_back({1e-5 * i, 0, i * 171 / 4000 != (i + 1) * 171 / 4000 ? 2u : 0u, 0, 0, 0, i % 4 == 0 ? 3u : 1u, true, false});
+  const auto values = tally_values(grasps);
+  EXPECT_EQ(values.at("touch_share thumb_mcp"), 0.04275);
+  EXPECT_EQ(values.at("mean_points "), 0.04275);
+  EXPECT_EQ(values.at("mean_fingers "), 1.25);
+}
+
+// What is left of a search for a contact is no scatter of a hand.
+TEST(ContactTally, DistancesVaryByMoreThanTheSearchForContactsLeaves) {
+  for (const double apart : {3e-9, 1e-5}) {
+    std::vector<ContactGrasp> grasps = few_grasps();
+    for (std::size_t k = 0; k < grasps.size(); ++k) grasps[k].distance = apart * static_cast<double>(k % 2);
+    const auto values = tally_values(grasps);
+    EXPECT_EQ(std::isnan(values.at("pearson_points_distance ")), apart < 1e-7);
+    EXPECT_EQ(std::isnan(values.at("point_biserial_distance thumb_mcp")), apart < 1e-7);
+    EXPECT_FALSE(std::isnan(values.at("point_biserial_height thumb_mcp")));
+  }
+}
+
+// Each grasp three times.
+TEST(ContactTally, WeighsTheGraspsOfAnother) {
+  ContactTally one, sum, thrice;
+  for (const ContactGrasp& grasp : few_grasps()) {
+    one.add(grasp);
+    for (int copy = 0; copy < 3; ++copy) thrice.add(grasp);
+  }
+  sum.add(one, 3);
+  EXPECT_EQ(sum.grasps(), 18);
+  EXPECT_EQ(sum.held(), 15);
+  const std::vector<double> values = sum.values(), expected = thrice.values();
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    EXPECT_EQ(std::isnan(values[k]), std::isnan(expected[k])) << contact_statistics()[k].name;
+    if (std::isnan(values[k])) continue;
+    EXPECT_NEAR(values[k], expected[k], TALLY_ROUNDING) << contact_statistics()[k].name;
   }
 }
 
