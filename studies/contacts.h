@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The experiment of contacts (the paper's section V-A): where the hands of a population touch, and what a sample of the paper's size shows
-// of it.
+// The experiment of contacts (the paper's section V-A): where the hands of a population touch, and what a sample of the paper's
+// size shows of it.
 #pragma once
 
 #include <atomic>
@@ -13,9 +13,6 @@
 #include "studies/row.h"
 
 namespace wholehand {
-
-// People from whom samples are drawn: the first ones of a larger population. It bounds the memory.
-constexpr std::uint64_t MOST_POOLED = 20'000;
 
 struct ContactStudy {
   // Pose by pose; of each its vessels, and ALL_VESSELS where there are several.

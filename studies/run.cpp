@@ -10,6 +10,7 @@
 
 #include "core/parallel.h"
 #include "studies/contact_page.h"
+#include "studies/contact_pool.h"
 #include "studies/contacts.h"
 #include "studies/folder.h"
 #include "studies/force_page.h"
