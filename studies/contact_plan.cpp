@@ -8,6 +8,7 @@
 
 #include "core/error.h"
 #include "core/planes.h"
+#include "core/prepare.h"
 #include "report/guidance_statistics.h"
 
 namespace wholehand {
@@ -40,7 +41,8 @@ std::vector<StudyVessel> study_vessels(const Scene& scene) {
   return vessels;
 }
 
-// Without what touching does not depend on: mass and load, efforts, tilts, and the table. Mass and its centre are given, so that no wall is needed.
+// Without what touching does not depend on: mass and load, efforts, tilts, and the table. Mass and its centre are given, so that no
+// wall is needed but that of a shell, where fingers may touch it from within.
 Scene bare_scene(const Scene& scene, const std::vector<StudyVessel>& vessels, Pose pose) {
   Scene bare = scene;
   bare.text.clear();
@@ -48,8 +50,10 @@ Scene bare_scene(const Scene& scene, const std::vector<StudyVessel>& vessels, Po
   bare.vessels.clear();
   for (const StudyVessel& vessel : vessels) {
     VesselData data = scene.vessels[vessel.place];
-    data.inner.clear();
-    data.wall = data.floor = 0;
+    if (data.surface != Surface::shell) {
+      data.inner.clear();
+      data.wall = data.floor = 0;
+    }
     data.fills.clear();
     data.mass = 1;
     data.center_of_mass = {0, 0.5 * (data.base + data.height), 0};
@@ -112,6 +116,7 @@ ContactPlan::ContactPlan(const Scene& scene) : scene_(scene), vessels_(study_ves
     throw usage_error(fmt::format("{}: no vessel has guidance points, at which people grasp; add guidance_mm to a vessel",
                                   scene.file.empty() ? "the scene" : scene.file));
   for (const StudyVessel& vessel : vessels_) check_sample_name(scene, vessel.name);
+  prepare_hand(scene.hand, 2);  // people's hands are made to close: what other commands refuse would be mended without a word
   for (std::size_t k = 0; k < STUDY_POSES.size(); ++k) bare_[k] = bare_scene(scene, vessels_, STUDY_POSES[k]);
   // the mean person plans
   Scene mean = scene;

@@ -41,7 +41,8 @@ struct PlannedGrasp {
 // All grasps of one person. The same for every person of a scene; may be used by any thread.
 class ContactPlan {
  public:
-  // `scene` must outlive the plan. Throws Error (usage) where no vessel has guidance points, or one has the name ALL_VESSELS.
+  // `scene` must outlive the plan. Throws Error (usage) where no vessel has guidance points, one has the name ALL_VESSELS, or
+  // the gap of the scene's hand does not fall as it closes.
   explicit ContactPlan(const Scene& scene);
 
   const std::vector<StudyVessel>& vessels() const { return vessels_; }

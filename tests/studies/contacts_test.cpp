@@ -6,8 +6,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <bit>
 #include <cmath>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "core/error.h"
 #include "studies/contact_sensitivity.h"
@@ -81,6 +86,11 @@ TEST(StudyContacts, WithoutScatterAPopulationIsOnePerson) {
     if (std::isnan(one[k].value)) continue;
     EXPECT_NEAR(one[k].value, many[k].value, 1e-12) << one[k].vessel << " " << one[k].statistic << " " << one[k].subject;
   }
+  // every contact lies on its guidance point: what is left of the search for it is no distance to correlate with
+  for (const StudyRow& row : many) {
+    if (!row.statistic.ends_with("_distance")) continue;
+    EXPECT_TRUE(std::isnan(row.value)) << row.pose << " " << row.vessel << " " << row.statistic << " " << row.subject;
+  }
   // at one guidance point everybody does the same
   for (const StudyRow& row : many) {
     if (row.vessel != "cup" || (row.statistic != "held_share" && row.statistic != "touch_share") || std::isnan(row.value)) continue;
@@ -100,15 +110,22 @@ TEST(StudyContacts, EveryVesselHasEveryStatistic) {
   EXPECT_EQ(rows.back().statistic, "first_order_of_articulated_mean_distance");
 }
 
-// All are those of the paper's sample: the mean over the grasps of its two vessels, and not of the cup.
+// All are those of the paper's sample: 22 grasps of the first vessel, 32 of the second, and none of the cup. All hold.
 TEST(StudyContacts, AllAreThoseThatArePoured) {
   const auto rows = study_rows(study_scene(), study_options(50));
-  const double one = study_row(rows, "articulated", "beaker1", "held_share").value,
-               two = study_row(rows, "articulated", "beaker3", "held_share").value;
-  const ContactPlan plan(study_scene());
-  const auto count = [&](std::size_t v) { return static_cast<double>(plan.vessels()[v].last - plan.vessels()[v].first); };
-  EXPECT_NEAR(study_row(rows, "articulated", "all", "held_share").value, (one * count(0) + two * count(1)) / (count(0) + count(1)),
-              1e-12);
+  const auto mean = [&](const char* vessel) { return study_row(rows, "articulated", vessel, "mean_fingers").value; };
+  for (const char* vessel : {"beaker1", "beaker3"}) EXPECT_EQ(study_row(rows, "articulated", vessel, "held_share").value, 1);
+  EXPECT_NEAR(mean("all"), (22 * mean("beaker1") + 32 * mean("beaker3")) / 54, 1e-12);
+  EXPECT_GT(std::abs(mean("beaker1") - mean("beaker3")), 0.1) << "the weights must show";
+}
+
+// 17 people are needed for a sample of 17.
+TEST(StudyContacts, FewPeopleHaveNoIntervals) {
+  const auto few = study_rows(study_scene(), study_options(16)), enough = study_rows(study_scene(), study_options(17));
+  for (const StudyRow& row : few) EXPECT_TRUE(std::isnan(row.interval.low) && std::isnan(row.interval.high)) << row.statistic;
+  const StudyRow& row = study_row(enough, "articulated", "beaker1", "mean_fingers");
+  EXPECT_LE(row.interval.low, row.value);
+  EXPECT_GE(row.interval.high, row.value);
 }
 
 // A hand touches by its size and by where it is put: nothing of the forces has a part in it.
@@ -148,41 +165,99 @@ TEST(StudyContacts, PlansThePapersSample) {
   EXPECT_NEAR(plan.grasps()[1].place[0], -40e-3, 1e-6);  // on the far side of the cylinder, where the thumb is
 }
 
-// What a grasp is evaluated in lacks liquid, walls, tilts and efforts: the hand touches as in the whole scene.
+Triple beside_axis(double radius, const GuidancePoint& point) {
+  return {radius * std::cos(point.azimuth), point.height, -radius * std::sin(point.azimuth)};
+}
+
+// Where the level line from outside to the axis first meets the vessel, to less than 1e-15 m: a step that is inside, and halving.
+Triple point_on(const Evaluator& core, std::size_t vessel, const GuidancePoint& point) {
+  double within = 0.2, outside = 0.2;
+  while (core.distance(vessel, beside_axis(within, point)) > 0) outside = within, within -= 0.1e-3;
+  for (int step = 0; step < 60; ++step) {
+    const double middle = (within + outside) / 2;
+    (core.distance(vessel, beside_axis(middle, point)) > 0 ? outside : within) = middle;
+  }
+  return beside_axis(outside, point);
+}
+
+// From the posed tips, each by its radius along the vessel's normal.
+double nearer_contact(const Evaluator& core, const HandData& hand, std::size_t vessel, const GripResult& result,
+                      const Triple& place) {
+  const auto from = [&](int joint, double radius) {
+    const Triple& tip = result.joints[joint];
+    const Triple normal = core.gradient(vessel, tip);
+    return std::hypot(tip[0] - radius * normal[0] - place[0], tip[1] - radius * normal[1] - place[1],
+                      tip[2] - radius * normal[2] - place[2]);
+  };
+  return std::min(from(3, hand.fingers[0].radii[3]), from(8, hand.fingers[1].radii[4]));
+}
+
+// What a grasp is evaluated in lacks liquid, walls, tilts and efforts: the hand touches as in the whole scene. A shell keeps its
+// wall.
 TEST(StudyContacts, WhatIsLeftOutChangesNothing) {
   Scene scene = study_scene();
+  scene.vessels.push_back(shell_of(beaker1()));
+  scene.vessels.back().guidance = {{90e-3, 0}};
   scene.liquid.emplace();
   scene.liquid->fills = {0, 0.5};
   scene.strength.emplace();
   scene.tilts = {0, 0.5, 1};
   scene.table.emplace();
-  scene.pose = Pose::articulated;
   const ContactPlan plan(scene);
+  std::set<std::array<std::uint32_t, 3>> projected;
   for (std::uint64_t number = 0; number < 20; ++number) {
     const std::vector<ContactGrasp> grasps = plan.of_person(1, number);
-    Scene own = scene;
     const Person person = draw_person(scene.people, 1, number);
-    own.hand = hand_of(scene.hand, person);
-    own.table.reset();  // a session does not look at it
-    const auto core = make_core_evaluator(own);
-    for (std::size_t g = 0; g < plan.grasps().size(); ++g) {
-      const PlannedGrasp& planned = plan.grasps()[g];
-      const Traits traits = draw_grasp(scene.people, person, 1, number, 0, planned.number);
-      GripInput grip = planned.grip;
-      grip.height += of(traits, Trait::height);
-      grip.azimuth += of(traits, Trait::azimuth);
-      grip.obliquity += of(traits, Trait::obliquity);
-      grip.roll += of(traits, Trait::roll);
-      GripResult result;
-      core->grip(plan.vessels()[planned.vessel].place, grip, result);
-      const ContactGrasp& grasp = grasps[plan.grasps().size() + g];
-      EXPECT_EQ(grasp.is_held, result.reason == Reason::none);
-      EXPECT_EQ(grasp.is_plausible, result.plausible);
-      EXPECT_EQ(grasp.touch_mask, result.touch_mask);
-      EXPECT_EQ(grasp.tip_mask, result.tip_mask);
-      EXPECT_EQ(grasp.used_mask, result.used_mask);
-      EXPECT_EQ(grasp.height, grip.height);
+    for (std::size_t pose = 0; pose < STUDY_POSES.size(); ++pose) {
+      Scene own = scene;
+      own.pose = STUDY_POSES[pose];
+      own.hand = hand_of(scene.hand, person);
+      if (own.pose == Pose::paper) {
+        for (FingerData& finger : own.hand.fingers) finger.radii.fill(0);
+      }
+      own.table.reset();  // a session does not look at it
+      const auto core = make_core_evaluator(own);
+      for (std::size_t g = 0; g < plan.grasps().size(); ++g) {
+        const PlannedGrasp& planned = plan.grasps()[g];
+        const std::size_t vessel = plan.vessels()[planned.vessel].place;
+        const Traits traits = draw_grasp(scene.people, person, 1, number, 0, planned.number);
+        GripInput grip = planned.grip;
+        grip.height += of(traits, Trait::height);
+        grip.azimuth += of(traits, Trait::azimuth);
+        grip.obliquity += of(traits, Trait::obliquity);
+        grip.roll += of(traits, Trait::roll);
+        GripResult result;
+        core->grip(vessel, grip, result);
+        const ContactGrasp& grasp = grasps[pose * plan.grasps().size() + g];
+        EXPECT_EQ(grasp.is_held, result.reason == Reason::none);
+        EXPECT_EQ(grasp.is_plausible, result.plausible);
+        EXPECT_EQ(grasp.touch_mask, result.touch_mask);
+        EXPECT_EQ(grasp.tip_mask, result.tip_mask);
+        EXPECT_EQ(grasp.finger_mask, result.finger_mask);
+        EXPECT_EQ(grasp.inner_mask, result.inner_mask);
+        EXPECT_EQ(grasp.used_mask, result.used_mask);
+        EXPECT_EQ(grasp.height, grip.height);
+        projected.insert({result.tip_mask, result.finger_mask, result.inner_mask});
+        if (!grasp.is_held) continue;
+        const Triple place = point_on(*core, vessel, scene.vessels[vessel].guidance[planned.point]);
+        // the tips are where they should be to the tolerance of the gap's inverse, 1e-9 m
+        EXPECT_NEAR(grasp.distance, nearer_contact(*core, own.hand, vessel, result, place), 1e-8);
+      }
     }
+  }
+  EXPECT_GT(projected.size(), 3u) << "masks must differ";
+}
+
+// Other commands refuse this hand. People's hands are made to close, so that without a look at it the study would take it.
+TEST(StudyContacts, AHandThatDoesNotCloseIsRefused) {
+  Scene scene = study_scene();
+  scene.hand.pip.closed = radians(90);
+  try {
+    ContactPlan plan(scene);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ExitCode::usage);
+    EXPECT_NE(std::string(error.what()).find("must fall strictly as the hand closes"), std::string::npos) << error.what();
   }
 }
 
