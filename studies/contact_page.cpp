@@ -84,10 +84,10 @@ void write_hand_table(MarkupWriter& html, const Found& found, const std::string&
   table.end();
 }
 
-// "SN, -0.62 (-0.80 to -0.35)".
-std::string worded(const StudyRow& row) {
+// "SN, -0.62 (-0.80 to -0.35)", or why there is none.
+std::string worded(const StudyRow& row, double touch_share) {
   const std::string word = word_of_correlation(row.value);
-  return word.empty() ? "none" : (word == "-" ? "\u2013" : word) + ", " + value_text(row, false);
+  return word.empty() ? why_no_correlation(touch_share) : (word == "-" ? "\u2013" : word) + ", " + value_text(row, false);
 }
 
 void write_point_table(MarkupWriter& html, const Found& found, const std::string& pose, const std::string& vessel) {
@@ -97,9 +97,9 @@ void write_point_table(MarkupWriter& html, const Found& found, const std::string
       {"point", "touches", "with the height", "with the distance"}, {2, 3});
   for (int joint = 0; joint < JOINT_COUNT; ++joint) {
     const std::string point = hand_point_name(joint);
-    table.row({point, value_text(found.at(vessel, "touch_share", point), true),
-               worded(found.at(vessel, "point_biserial_height", point)),
-               worded(found.at(vessel, "point_biserial_distance", point))});
+    const StudyRow& touches = found.at(vessel, "touch_share", point);
+    table.row({point, value_text(touches, true), worded(found.at(vessel, "point_biserial_height", point), touches.value),
+               worded(found.at(vessel, "point_biserial_distance", point), touches.value)});
   }
   table.end();
 }
@@ -119,8 +119,8 @@ StudySection words_of_contacts() {
        "finger. The distance is that of the nearer contact, on the skin, from the guidance point. A grasp holds if the grip is "
        "feasible; all other numbers are of the grasps that hold.",
        fmt::format("VSN, SN and N: a very strong (|r| from {}), a strong (from {}) and a weaker (from {}) negative "
-                   "correlation; P, SP and VSP: the same, positive; \u2013: a smaller one. These limits are ours. A point "
-                   "that always or never touches has none.",
+                   "correlation; P, SP and VSP: the same, positive; \u2013: a smaller one. These limits are ours, and apply to r in "
+                   "two digits. A point that always or never touches has none.",
                    VERY_STRONG_R, STRONG_R, WEAK_R),
        "These are predictions. Nothing is fitted to the paper's results, and its values for this experiment are not known here."},
       {}};
@@ -136,7 +136,7 @@ void add_contact_sections(StudyPage& page, const ContactPlan& plan, std::span<co
       fmt::format("A sample of the paper's size has {} people, and these grasps. {}.", PAPER_PEOPLE, fmt::join(samples, ", ")));
   if (!plan.unheld().empty())
     page.words.push_back(
-        fmt::format("The mean person cannot hold {}: there everybody plans no roll.", fmt::join(plan.unheld(), ", ")));
+        fmt::format("The mean person cannot hold {}: there everybody plans the roll 0.", fmt::join(plan.unheld(), ", ")));
   for (const char* pose : STUDY_POSE_NAMES) {
     StudySection section{pose, fmt::format("Contacts, pose {}", pose), {}, {}};
     for (const StudyRow& row : rows)

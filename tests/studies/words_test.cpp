@@ -25,5 +25,23 @@ TEST(CorrelationWords, ChangeAtTheirLimits) {
   EXPECT_EQ(word_of_correlation(std::nan("")), "");
 }
 
+// A word stands beside a number of two digits, and neither contradicts the other.
+TEST(CorrelationWords, AreOfTheNumberAsItIsShown) {
+  EXPECT_EQ(word_of_correlation(0.1949), "-");  // 0.19
+  EXPECT_EQ(word_of_correlation(0.1951), "P");  // 0.20
+  EXPECT_EQ(word_of_correlation(-0.196), "N");
+  EXPECT_EQ(word_of_correlation(0.5949), "P");
+  EXPECT_EQ(word_of_correlation(0.5951), "SP");
+  EXPECT_EQ(word_of_correlation(-0.7951), "VSN");
+  EXPECT_EQ(word_of_correlation(-0.001), "-");
+}
+
+TEST(CorrelationWords, SayWhyThereIsNone) {
+  EXPECT_EQ(why_no_correlation(0), "never touches");
+  EXPECT_EQ(why_no_correlation(1), "always touches");
+  EXPECT_EQ(why_no_correlation(0.5), "too few grasps");
+  EXPECT_EQ(why_no_correlation(std::nan("")), "no grasp holds");
+}
+
 }  // namespace
 }  // namespace wholehand
