@@ -1,13 +1,22 @@
 // SPDX-License-Identifier: MIT
 // sanitizers: none (it runs the program)
 // wholehand study as it is typed.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <filesystem>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "studies/output.h"
+#include "studies/words.h"
+#include "sweeps/variables.h"
+#include "system/csv.h"
 #include "tests/support/files.h"
 #include "tests/support/program.h"
+#include "tests/support/result_reader.h"
 #include "tests/support/xml.h"
 
 #ifdef WHOLEHAND_PROGRAM
@@ -18,18 +27,20 @@ namespace {
 class StudyCommand : public testing::Test {
  protected:
   Outcome study(const std::string& name, const std::string& more) const {
-    return run("PROGRAM study mixing_board -o " + (folder / name) + " --experiment contacts --people 40 " + more + " 2>&1");
+    const std::string people = has(more, "--people") ? "" : " --people 40";
+    return run("PROGRAM study mixing_board -o " + (folder / name) + " --experiment contacts --quick " + more + people + " 2>&1");
   }
   std::string csv(const std::string& name) const { return file_text(folder / (name + "/study.csv")); }
   TemporaryFolder folder;
 };
 
+// 1,100 people: more than wait to be counted at a time.
 TEST_F(StudyCommand, SameBytesOnAnyThreads) {
-  const Outcome one = study("one", "--threads 1");
+  const Outcome one = study("one", "--threads 1 --people 1100");
   ASSERT_EQ(one.code, 0) << one.output;
   EXPECT_TRUE(csv("one").starts_with(STUDY_CSV_START));
   EXPECT_TRUE(has(csv("one"), "\ncontacts,articulated,beaker2,point_biserial_height,middle_dip,")) << csv("one").substr(0, 2000);
-  ASSERT_EQ(study("two", "--threads 2").code, 0);
+  ASSERT_EQ(study("two", "--threads 2 --people 1100").code, 0);
   EXPECT_EQ(csv("two"), csv("one"));
   EXPECT_EQ(file_text(folder / "two/study.html"), file_text(folder / "one/study.html"));
   EXPECT_TRUE(file_exists(folder / "one/study.nc"));
@@ -94,6 +105,71 @@ TEST_F(StudyCommand, GoesOnWhereItWasInterrupted) {
   EXPECT_FALSE(file_exists(journal));
 }
 
+// "" is a number that is not there.
+double number_of_cell(const std::string& cell) { return cell.empty() ? std::nan("") : std::stod(cell); }
+
+TEST_F(StudyCommand, TheDatasetHasTheRowsOfTheTable) {
+  ASSERT_EQ(study("one", "--seed 3").code, 0);
+  const std::string nc = folder / "one/study.nc";
+  std::vector<CsvRow> rows = parse_csv(csv("one"));
+  const std::vector<std::string> columns = rows.front().cells;
+  rows.erase(rows.begin());
+  ASSERT_GT(rows.size(), 800u);
+  std::size_t empty = 0;
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    EXPECT_EQ(dimension_names(nc, columns[c]), std::vector<std::string>{"row"});
+    const std::vector<std::string> texts = c < 5 ? read_strings(nc, columns[c]) : std::vector<std::string>{};
+    const std::vector<double> numbers = c < 5 ? std::vector<double>{} : read_values(nc, columns[c]);
+    ASSERT_EQ(texts.size() + numbers.size(), rows.size()) << columns[c];
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const std::string& cell = rows[k].cells[c];
+      empty += c >= 5 && cell.empty() ? 1 : 0;
+      if (c < 5) {
+        EXPECT_EQ(texts[k], cell) << columns[c] << " " << k;
+      } else if (columns[c] == "inside") {
+        EXPECT_EQ(numbers[k], MISSING) << "the paper's values are not known";
+      } else if (cell.empty()) {
+        EXPECT_TRUE(std::isnan(numbers[k])) << columns[c] << " " << k;
+      } else {
+        EXPECT_EQ(numbers[k], number_of_cell(cell)) << columns[c] << " " << k;
+      }
+    }
+  }
+  EXPECT_GT(empty, 2 * rows.size()) << "those of the paper, and some more";
+  const std::vector<std::string> words = read_strings(nc, "word");
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const bool is_correlation = has(rows[k].cells[3], "pearson") || has(rows[k].cells[3], "biserial");
+    EXPECT_EQ(words[k], is_correlation ? word_of_correlation(number_of_cell(rows[k].cells[5])) : "") << k;
+  }
+  EXPECT_EQ(read_text(nc, "", "people_contacts"), "40");
+  EXPECT_EQ(read_text(nc, "", "seed"), "3");
+  EXPECT_TRUE(has(read_text(nc, "", "scene"), "guidance_mm"));
+}
+
+// The line of a table of the page: what stands in a row of study.csv, rounded, and in words.
+TEST_F(StudyCommand, ThePageShowsTheNumbersOfTheTable) {
+  ASSERT_EQ(study("one", "").code, 0);
+  const std::string page = file_text(folder / "one/study.html");
+  EXPECT_TRUE(has(page, "40 virtual people with 8 grasps each, and 200 samples of the paper")) << page.substr(0, 2000);
+  const auto shown = [](double value) { return (value < 0 ? "\u2212" : "") + fmt::format("{:.2f}", std::abs(value)); };
+  std::set<std::string> words;
+  std::size_t found = 0;
+  for (const CsvRow& row : parse_csv(csv("one"))) {
+    if (!row.cells[3].starts_with("point_biserial") || row.cells[5].empty() || row.cells[6].empty()) continue;
+    const double value = number_of_cell(row.cells[5]);
+    if (std::abs(value) < 0.01) continue;  // "-0.00" is shown without the sign
+    const std::string word = word_of_correlation(value);
+    words.insert(word);
+    const std::string text = (word == "-" ? "\u2013" : word) + ", " + shown(value) + " (";
+    EXPECT_TRUE(has(page, text)) << text;
+    ++found;
+  }
+  EXPECT_GT(found, 100u);
+  EXPECT_GE(words.size(), 4u);
+  EXPECT_TRUE(has(page, ">never touches<"));
+  EXPECT_TRUE(has(page, ">always touches<"));
+}
+
 TEST_F(StudyCommand, WhatIsWrongIsOneLine) {
   const std::string start = "study mixing_board -o " + (folder / "none") + " ";
   expect_error(start + "--people 0", 2, "--people '0'; allowed: a whole number, 1 to 100000000");
@@ -117,6 +193,19 @@ TEST_F(StudyCommand, OverwritesOnlyItsOwn) {
   write_file(folder / "taken/study.csv", "mine\n");
   expect_error("study mixing_board --people 2 -o " + (folder / "taken"), 2, "study.csv");
   EXPECT_EQ(csv("taken"), "mine\n");
+  for (const std::string name : {"study.nc", "study.html"}) {
+    std::filesystem::create_directory(folder / ("of_" + name));
+    write_file(folder / ("of_" + name + "/" + name), "mine\n");
+    expect_error("study mixing_board --people 2 -o " + (folder / ("of_" + name)), 2, name);
+    EXPECT_EQ(file_text(folder / ("of_" + name + "/" + name)), "mine\n");
+    EXPECT_FALSE(file_exists(folder / ("of_" + name + "/study.csv")));
+  }
+}
+
+// The samples have 17 people.
+TEST_F(StudyCommand, FewPeopleHaveNoIntervals) {
+  ASSERT_EQ(study("one", "--people 16").code, 0);
+  for (const CsvRow& row : parse_csv(csv("one"))) EXPECT_TRUE(row.line == 1 || row.cells[6].empty()) << row.line;
 }
 
 }  // namespace

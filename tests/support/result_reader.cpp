@@ -20,23 +20,43 @@ struct Reader {
   int id = -1;
 };
 
-}  // namespace
-
-std::vector<double> read_values(const std::string& file, const std::string& variable) {
-  const Reader reader(file);
-  int id = -1, dims = 0;
+// How many values a variable has, and its id. Adds a test failure and answers 0 where it is not there.
+std::size_t size_of_variable(const Reader& reader, const std::string& variable, int& id) {
+  int dims = 0;
   std::array<int, NC_MAX_VAR_DIMS> ids{};
   EXPECT_EQ(nc_inq_varid(reader.id, variable.c_str(), &id), NC_NOERR) << variable;
-  if (nc_inq_var(reader.id, id, nullptr, nullptr, &dims, ids.data(), nullptr) != NC_NOERR) return {};
+  if (nc_inq_var(reader.id, id, nullptr, nullptr, &dims, ids.data(), nullptr) != NC_NOERR) return 0;
   std::size_t size = 1;
   for (int k = 0; k < dims; ++k) {
     std::size_t length = 0;
     nc_inq_dimlen(reader.id, ids[k], &length);
     size *= length;
   }
-  std::vector<double> values(size);
+  return size;
+}
+
+}  // namespace
+
+std::vector<double> read_values(const std::string& file, const std::string& variable) {
+  const Reader reader(file);
+  int id = -1;
+  std::vector<double> values(size_of_variable(reader, variable, id));
+  if (values.empty()) return {};
   EXPECT_EQ(nc_get_var_double(reader.id, id, values.data()), NC_NOERR) << variable;
   return values;
+}
+
+std::vector<std::string> read_strings(const std::string& file, const std::string& variable) {
+  const Reader reader(file);
+  int id = -1;
+  std::vector<char*> texts(size_of_variable(reader, variable, id));
+  if (texts.empty() || nc_get_var_string(reader.id, id, texts.data()) != NC_NOERR) {
+    ADD_FAILURE() << variable;
+    return {};
+  }
+  const std::vector<std::string> strings(texts.begin(), texts.end());
+  nc_free_string(texts.size(), texts.data());
+  return strings;
 }
 
 std::string read_text(const std::string& file, const std::string& variable, const std::string& attribute) {
