@@ -180,8 +180,8 @@ void solve_from(core_f64::Hand& hand, double closure, double gap) {
   hand.limits.gap_steps = 100;
 }
 
-// The closure of a gap to the last bit, by bisection: the gap is monotone. Where the solved closure is as near as it should be, most
-// halves are told by it, which changes no bit and is three times as fast.
+// The closure of a gap to the last bit, by bisection: the gap is monotone. Where the solved closure is as near as it should be,
+// most halves are told by it, which changes no bit and is three times as fast.
 double bisected_closure(const core_f64::Hand& hand, double gap) {
   constexpr double SOLVED = 1e-15;  // m: some roundings of a gap
   constexpr double NEAR = 1e-13;    // of a closure

@@ -56,8 +56,8 @@ double segment_deviation(std::size_t segment) {
 HandData hand_of(const HandData& plain, const Person& person) {
   HandData hand = plain;
   hand.scale = 1;
-  // The size that the scene gave has moved the knuckles sideways. Another size undoes this, but not after the proportions: so they are
-  // always those of a hand of the default's size.
+  // The size that the scene gave has moved the knuckles sideways. Another size undoes this, but not after the proportions: so they
+  // are always those of a hand of the default's size.
   set_size(hand, size_of(HandData{}));
   std::size_t at = 0;
   for (int f = 0; f < FINGER_COUNT; ++f)

@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::array<const char*, 5> FINGER_POINTS{"cmc", "mcp", "pip", "dip", "tip"};
 constexpr std::array<const char*, 4> THUMB_POINTS{"cmc", "mcp", "ip", "tip"};
-// m: distances that differ by less do not vary. Each is off by what the search for its contact leaves: its tolerance, 1e-9 m, and up
-// to some ten times that where a fingertip meets the vessel at a flat angle. What hands scatter by is a thousand times larger.
+// m: distances that differ by less do not vary. Each is off by what the search for its contact leaves: its tolerance, 1e-9 m, and
+// up to some ten times that where a fingertip meets the vessel at a flat angle. What hands scatter by is a thousand times larger.
 constexpr double LEAST_DISTANCE = 1e-7;
 constexpr double ABSENT = std::numeric_limits<double>::quiet_NaN();
 

@@ -21,8 +21,8 @@ inline constexpr const char* STUDY_PAGE_MARK = "<meta name=\"wholehand-study\"";
 
 inline constexpr const char* STUDY_REMEDY = "make room, or name another folder with -o";
 
-// Makes the folder where it is missing. Throws Error: (usage) one of the files is there and is not of a study, or the folder cannot be;
-// (failure) no file can be made in it.
+// Makes the folder where it is missing. Throws Error: (usage) one of the files is there and is not of a study, or the folder cannot
+// be; (failure) no file can be made in it.
 void prepare_study_folder(const std::string& folder);
 
 // Removes what a run that was killed left of files that it had not given their names. Only who holds the lock may ask.
