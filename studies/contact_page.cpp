@@ -118,10 +118,11 @@ StudySection words_of_contacts() {
       {"Each person grasps each vessel at each of its guidance points. The height is that of the line between thumb and index "
        "finger. The distance is that of the nearer contact, on the skin, from the guidance point. A grasp holds if the grip is "
        "feasible; all other numbers are of the grasps that hold.",
-       fmt::format("VSN, SN and N: a very strong (|r| from {}), a strong (from {}) and a weaker (from {}) negative "
-                   "correlation; P, SP and VSP: the same, positive; \u2013: a smaller one. These limits are ours, and apply to r in "
-                   "two digits. A point that always or never touches has none.",
-                   VERY_STRONG_R, STRONG_R, WEAK_R),
+       fmt::format(
+           "VSN, SN and N: a very strong (|r| from {}), a strong (from {}) and a weaker (from {}) negative "
+           "correlation; P, SP and VSP: the same, positive; \u2013: a smaller one. These limits are ours, and apply to r in "
+           "two digits. A point that always or never touches has none.",
+           VERY_STRONG_R, STRONG_R, WEAK_R),
        "These are predictions. Nothing is fitted to the paper's results, and its values for this experiment are not known here."},
       {}};
 }

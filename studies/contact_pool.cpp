@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/random_bits.h"
+#include "studies/paper_sample.h"
 #include "system/readable.h"
 
 namespace wholehand {
@@ -15,15 +15,11 @@ namespace {
 
 constexpr std::uint64_t POOL_GRASPS = 1 << 21;  // kept at most, where this leaves enough people for a sample
 
-std::uint64_t below(std::uint64_t count, std::uint64_t& state) {
-  return static_cast<std::uint64_t>(unit_interval(split_mix(state)) * static_cast<double>(count));
-}
-
 // PAPER_PEOPLE of so many, each once.
 std::vector<std::uint64_t> drawn_people(std::uint64_t of, std::uint64_t& state) {
   std::vector<std::uint64_t> people;
   while (people.size() < PAPER_PEOPLE) {
-    const std::uint64_t person = below(of, state);
+    const std::uint64_t person = draw_below(of, state);
     if (std::find(people.begin(), people.end(), person) == people.end()) people.push_back(person);
   }
   return people;
@@ -87,7 +83,7 @@ std::vector<std::vector<const ContactGrasp*>> ContactPool::draw(std::size_t pose
       for (std::size_t k = vessel.first; k < vessel.last; ++k) grasps.push_back(&of(person, pose)[k]);
     std::size_t made = 0;
     for (std::size_t held = 0; made < grasps.size() && held < vessel.sample; ++made) {
-      std::swap(grasps[made], grasps[made + below(grasps.size() - made, state)]);
+      std::swap(grasps[made], grasps[made + draw_below(grasps.size() - made, state)]);
       held += grasps[made]->is_held ? 1 : 0;
     }
     grasps.resize(made);

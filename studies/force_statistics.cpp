@@ -13,6 +13,7 @@
 #include "core/parallel.h"
 #include "core/random_bits.h"
 #include "statistics/logistic.h"
+#include "statistics/resample.h"
 #include "studies/paper_sample.h"
 
 namespace wholehand {
@@ -139,7 +140,7 @@ std::vector<StudyRow> force_rows(std::span<const ForcesOfPerson> people, const s
     in_parallel(samples.size(), threads, [&](std::size_t k) {
       samples[k] = values_of(people, sample_of(people.size(), mixed_bits(mixed_bits(seed ^ FORCE_SAMPLES) + k)));
     });
-    intervals = intervals_of(samples);
+    intervals = sample_intervals(samples);
   }
   std::vector<StudyRow> rows;
   const std::vector<ForceName> all = force_names();

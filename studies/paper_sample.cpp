@@ -35,16 +35,4 @@ std::uint64_t draw_below(std::uint64_t count, std::uint64_t& state) {
   return static_cast<std::uint64_t>(unit_interval(split_mix(state)) * static_cast<double>(count));
 }
 
-std::vector<Interval> intervals_of(const std::vector<std::vector<double>>& samples) {
-  std::vector<Interval> intervals(samples.front().size());
-  std::vector<double> values;
-  for (std::size_t k = 0; k < intervals.size(); ++k) {
-    values.clear();
-    for (const std::vector<double>& sample : samples)
-      if (!std::isnan(sample[k])) values.push_back(sample[k]);
-    if (2 * values.size() >= samples.size()) intervals[k] = percentile_interval(values);
-  }
-  return intervals;
-}
-
 }  // namespace wholehand

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "core/scene.h"
-#include "statistics/interval.h"
 
 namespace wholehand {
 
@@ -32,9 +31,5 @@ void check_sample_name(const Scene& scene, const std::string& vessel);
 
 // The next number below `count`, which is at least 1.
 std::uint64_t draw_below(std::uint64_t count, std::uint64_t& state);
-
-// Of each value of the samples (at least one): from the 2.5th to the 97.5th percentile. NaN where more than a half of them have
-// none.
-std::vector<Interval> intervals_of(const std::vector<std::vector<double>>& samples);
 
 }  // namespace wholehand

@@ -18,7 +18,7 @@ std::vector<std::vector<double>> of_people(const std::string& experiment, std::u
       open.push_back(person);
     }
   }
-  Progress progress(people, people - open.size());
+  Progress progress(people, people - open.size(), "people");
   std::atomic<std::uint64_t> done = people - open.size();
   in_parallel(
       open.size(), threads,

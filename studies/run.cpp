@@ -70,6 +70,7 @@ class StudyRun {
   ExitCode run() {
     InterruptGuard interrupt;
     stop_ = &interrupt.flag();
+    if (options_.people.forces > 0 || options_.people.sessions > 0) open_journal();
     const bool done = run_contacts() && run_forces() && run_sessions();
     if (!done) {
       say_note(journal_ ? "interrupted; no table is written. Go on with --resume" : "interrupted; nothing is written");
@@ -97,17 +98,14 @@ class StudyRun {
   }
 
   // Of the experiments that take long for each person.
-  StudyJournal& journal() {
-    if (!journal_) {
-      const StudyIdentity identity{{"scene", checksum_text(scene_.text.data(), scene_.text.size())},
-                                   {"seed", fmt::format("{}", options_.seed)},
-                                   {"build of the program", fmt::format("{} {}", version(), build_id())}};
-      journal_ = std::make_unique<StudyJournal>(folder_->files().journal, identity, options_.resumes);
-      if (journal_->done() > 0) say_note(fmt::format("goes on: {} of people are done", counted(journal_->done(), "part")));
-      if (journal_->damaged() > 0)
-        say_note(fmt::format("{} of the journal are damaged; these people are done again", counted(journal_->damaged(), "line")));
-    }
-    return *journal_;
+  void open_journal() {
+    const StudyIdentity identity{{"scene", checksum_text(scene_.text.data(), scene_.text.size())},
+                                 {"seed", fmt::format("{}", options_.seed)},
+                                 {"build of the program", fmt::format("{} {}", version(), build_id())}};
+    journal_ = std::make_unique<StudyJournal>(folder_->files().journal, identity, options_.resumes);
+    if (journal_->done() > 0) say_note(fmt::format("goes on: {} of people are done", counted(journal_->done(), "part")));
+    if (journal_->damaged() > 0)
+      say_note(fmt::format("{} of the journal are damaged; these people are done again", counted(journal_->damaged(), "line")));
   }
 
   void keep(std::vector<StudyRow> rows, std::vector<StudyRow> sensitivity) {
@@ -136,7 +134,7 @@ class StudyRun {
     if (people == 0) return true;
     const std::string& vessel = scene_.vessels[force_vessel_].name;
     say(fmt::format("forces, {} people with {} choices each, on {}", readable_number(people), FORCE_CHOICES, vessel));
-    const auto numbers = of_people("forces", people, options_.threads, journal(), *stop_, [this](std::uint64_t person) {
+    const auto numbers = of_people("forces", people, options_.threads, *journal_, *stop_, [this](std::uint64_t person) {
       return numbers_of(forces_of_person(scene_, force_vessel_, options_.seed, person, *stop_));
     });
     if (*stop_) return false;
@@ -153,7 +151,7 @@ class StudyRun {
     const std::uint64_t people = options_.people.sessions;
     if (people == 0) return true;
     say(fmt::format("sessions, {} people who do the task {} times", readable_number(people), SESSIONS_PER_PERSON));
-    const auto numbers = of_people("sessions", people, options_.threads, journal(), *stop_, [this](std::uint64_t person) {
+    const auto numbers = of_people("sessions", people, options_.threads, *journal_, *stop_, [this](std::uint64_t person) {
       return numbers_of(sessions_of_person(scene_, options_.seed, person, *stop_));
     });
     if (*stop_) return false;

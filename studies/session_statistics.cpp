@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -14,6 +15,7 @@
 #include "core/random_bits.h"
 #include "statistics/anova.h"
 #include "statistics/correlation.h"
+#include "statistics/resample.h"
 #include "studies/paper_sample.h"
 
 namespace wholehand {
@@ -189,11 +191,12 @@ class GraspPool {
     return grasps;
   }
 
-  // People drawn with replacement, and of each vessel as many of their grasps as the paper has, none twice. Of fewer: all.
+  // 17 people, each once; where there are fewer, drawn with replacement, as for a bootstrap. Of each vessel as many of their grasps as
+  // the paper has; all where there are fewer.
   GraspsByVessel sample(std::uint64_t seed) const {
     std::uint64_t state = seed;
     GraspsByVessel grasps(vessels_);
-    for (std::size_t k = 0; k < PAPER_PEOPLE; ++k) add(draw_below(subjects_.size(), state), grasps);
+    for (const std::size_t subject : people(state)) add(subject, grasps);
     for (std::size_t v = 0; v < vessels_; ++v) {
       GraspList& open = grasps[v];
       if (open.size() <= PAPER_GRASPS[v]) continue;
@@ -204,6 +207,16 @@ class GraspPool {
   }
 
  private:
+  std::vector<std::size_t> people(std::uint64_t& state) const {
+    const bool has_enough = subjects_.size() >= PAPER_PEOPLE;
+    std::vector<std::size_t> drawn;
+    while (drawn.size() < PAPER_PEOPLE) {
+      const std::size_t one = draw_below(subjects_.size(), state);
+      if (!has_enough || std::find(drawn.begin(), drawn.end(), one) == drawn.end()) drawn.push_back(one);
+    }
+    return drawn;
+  }
+
   void add(std::size_t subject, GraspsByVessel& grasps) const {
     for (std::size_t v = 0; v < vessels_; ++v)
       grasps[v].insert(grasps[v].end(), subjects_[subject][v].begin(), subjects_[subject][v].end());
@@ -260,7 +273,7 @@ std::vector<StudyRow> session_rows(std::span<const SessionSubject> subjects, con
     in_parallel(samples.size(), sampling.threads, [&](std::size_t k) {
       samples[k] = values_of(pool.sample(mixed_bits(mixed_bits(sampling.seed ^ SESSION_SAMPLES) + k)));
     });
-    const std::vector<Interval> intervals = intervals_of(samples);
+    const std::vector<Interval> intervals = sample_intervals(samples);
     for (std::size_t k = 0; k < rows.size(); ++k) rows[k].interval = intervals[k];
   }
   StudyRow inside = row_of(ALL_VESSELS, INSIDE_SHARE, NO_VALUE);

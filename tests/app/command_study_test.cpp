@@ -62,8 +62,10 @@ std::string one_beaker_file(const TemporaryFolder& folder) {
   const std::string path = folder / "one.toml";
   write_file(path,
              "[scene]\nname = \"one\"\n[[vessel]]\nname = \"beaker\"\nshape = \"cylinder\"\ndiameter_mm = 80\nheight_mm = 110\n"
-             "wall_mm = 1.5\nliquid = { name = \"red\", fill = 0.6 }\nguidance_mm = [[65, 0]]\n[liquid]\ndensity_kg_m3 = 1000\nfills = [0.6]\n"
-             "[task]\ntarget = { place_mm = [0, 80, -280], diameter_mm = 120 }\namounts_ml = { red = 60 }\ntolerance_ml = 5\n");
+             "wall_mm = 1.5\nliquid = { name = \"red\", fill = 0.6 }\nguidance_mm = [[65, 0]]\n[liquid]\ndensity_kg_m3 = "
+             "1000\nfills = [0.6]\n"
+             "[task]\ntarget = { place_mm = [0, 80, -280], diameter_mm = 120 }\namounts_ml = { red = 60 }\ntolerance_ml = "
+             "5\ndestination_mm = [0, 0, -280]\n");
   return path;
 }
 

@@ -182,7 +182,7 @@ TEST(Person, EveryInputHasItsName) {
   for (std::size_t k = 0; k < first.size(); ++k) EXPECT_EQ(names[k], first[k]);
   EXPECT_EQ(names[3 + SEGMENT_COUNT - 1], "little_distal");
   EXPECT_EQ(names[3 + SEGMENT_COUNT], "height_mm");
-  EXPECT_EQ(names.back(), "strength");
+  EXPECT_EQ(names.back(), "grip_error");
 }
 
 TEST(Person, GraspsOfEveryExperimentAreTheirOwn) {
