@@ -133,7 +133,7 @@ TEST(StudyContacts, FewPeopleHaveNoIntervals) {
 
 // A hand touches by its size and by where it is put: nothing of the forces has a part in it.
 TEST(StudyContacts, SensitivityIsOfWhatGraspingAsksFor) {
-  const auto rows = study_rows(study_scene(), study_options(400, 2));
+  const auto rows = study_of(study_scene(), study_options(400, 2)).sensitivity;
   const auto row = [&](const std::string& answer, const std::string& input) {
     return *std::find_if(rows.begin(), rows.end(),
                          [&](const StudyRow& one) { return one.statistic == FIRST_ORDER_OF + answer && one.subject == input; });
@@ -146,7 +146,7 @@ TEST(StudyContacts, SensitivityIsOfWhatGraspingAsksFor) {
   const StudyRow patience = row("articulated_mean_distance", "patience_s");
   EXPECT_LT(patience.value, 0.5 * height.value);
   // fewer people have no indices
-  const auto few = study_rows(study_scene(), study_options(3));
+  const auto few = study_of(study_scene(), study_options(3)).sensitivity;
   EXPECT_TRUE(std::isnan(few.back().value));
   EXPECT_TRUE(strongest_inputs(few).front().inputs.empty());
 }
