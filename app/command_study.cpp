@@ -47,6 +47,8 @@ ExitCode study(const StudyArguments& arguments) {
   std::optional<std::uint64_t> people;
   if (!arguments.people.empty()) people = static_cast<std::uint64_t>(parse_integer(arguments.people, "--people", PEOPLE));
   options.people = people_of(arguments.experiment, people, arguments.quick);
+  if (options.resumes && options.people.forces == 0 && options.people.sessions == 0)
+    throw usage_error("--resume: contacts take seconds and are not kept; allowed: with forces or sessions");
   if (std::max(options.people.forces, options.people.sessions) > MOST_SIMULATED)
     throw usage_error(fmt::format("--people {}; allowed: 1 to {} with forces or sessions, of which all grasps are kept",
                                   arguments.people, MOST_SIMULATED));

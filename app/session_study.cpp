@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <utility>
@@ -29,11 +30,26 @@ struct RecordedSessions {
   Scene scene;  // of the first
   SessionVessels vessels;
   std::vector<SessionSubject> subjects;
+  bool are_simulated = true;  // all were made by virtual people
 };
 
 bool has_same_vessels(const RecordingInfo& a, const RecordingInfo& b) {
   return std::equal(a.vessels.begin(), a.vessels.end(), b.vessels.begin(), b.vessels.end(),
                     [](const RecordedVessel& x, const RecordedVessel& y) { return x.name == y.name && x.liquid == y.liquid; });
+}
+
+// Also where neither is known.
+bool is_same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
+// People of one study should have felt the same forces.
+void note_differences(const RecordingInfo& first, const RecordingInfo& other, const std::string& path,
+                      const std::string& first_path) {
+  const bool has_same_ranges =
+      std::equal(first.vessels.begin(), first.vessels.end(), other.vessels.begin(), other.vessels.end(),
+                 [](const RecordedVessel& a, const RecordedVessel& b) { return is_same(a.force_range, b.force_range); });
+  if (is_same(first.force_base, other.force_base) && is_same(first.force_max, other.force_max) && has_same_ranges) return;
+  std::fprintf(stderr, "wholehand: %s: F_base, F_max or an F_range differ from those of %s; both count alike\n", path.c_str(),
+               first_path.c_str());
 }
 
 std::vector<GraspReport> grasps_of(const Recording& recording) {
@@ -59,6 +75,8 @@ RecordedSessions read_sessions(const std::vector<std::string>& paths) {
       throw usage_error(fmt::format("{}: its vessels or their liquids are not those of {}; people of one study use the same", path,
                                     paths.front()));
     }
+    note_differences(*first, recording.info, path, paths.front());
+    sessions.are_simulated = sessions.are_simulated && recording.info.device.address == "sim";
     sessions.subjects.push_back({grasps_of(recording)});
   }
   return sessions;
@@ -69,7 +87,7 @@ StudyPage page_of_recordings(const RecordedSessions& sessions, const StudyOption
   page.title = study_title(sessions.scene);
   page.lead = fmt::format("{}, and {} samples of the paper's size; seed {}.", counted(sessions.subjects.size(), "recorded session"),
                           readable_number(static_cast<std::uint64_t>(options.resamples)), options.seed);
-  page.sections.push_back(session_section(sessions.vessels, rows, false));
+  page.sections.push_back(session_section(sessions.vessels, rows, sessions.are_simulated));
   page.sections.back().charts = session_charts(sessions.subjects, sessions.vessels);
   page.seed = options.seed;
   return page;
@@ -99,7 +117,7 @@ ExitCode study_recordings(const RecordedPeople& people) {
   options.people = {0, 0, sessions.subjects.size()};
   options.seed = people.seed;
   const std::vector<StudyRow> rows =
-      session_rows(sessions.subjects, sessions.vessels, {options.seed, options.resamples, options.threads, false});
+      session_rows(sessions.subjects, sessions.vessels, {options.seed, options.resamples, options.threads, sessions.are_simulated});
   if (folder) folder->write(sessions.scene, options, page_of_recordings(sessions, options, rows), rows);
   print(grasps_line(sessions) + study_summary(rows));
   if (sessions.subjects.size() < LEAST_SUBJECTS) print(fmt::format("Intervals need {} recordings or more.\n", LEAST_SUBJECTS));

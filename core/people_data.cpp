@@ -13,7 +13,7 @@ constexpr std::array<TraitFacts, TRAIT_COUNT> FACTS{{
     {"azimuth_deg", NO, {0, 15 * DEGREE, 7.5 * DEGREE}, -180 * DEGREE, 180 * DEGREE, 90 * DEGREE, Origin::ours},
     {"obliquity_deg", NO, {0, 5 * DEGREE, 5 * DEGREE}, -90 * DEGREE, 90 * DEGREE, 90 * DEGREE, Origin::ours},
     {"roll_deg", NO, {0, 10 * DEGREE, 5 * DEGREE}, -180 * DEGREE, 180 * DEGREE, 90 * DEGREE, Origin::ours},
-    {"reaction_s", YES, {0.075, 0.006, 0.0045}, 1e-3, 10, 10, Origin::published},
+    {"reaction_s", YES, {0.075, 0.006, 0.0045}, 1e-3, 0.5, 0.5, Origin::published},
     {"response_s", YES, {0.15, 0.02, 0.015}, 1e-3, 10, 10, Origin::published},
     {"gain", YES, {1, 0.25, 0.125}, 1e-3, 100, 100, Origin::ours},
     {"margin", YES, {0.25, 0.06, 0.045}, 1e-3, 0.9, 1, Origin::published},

@@ -9,17 +9,19 @@ namespace wholehand {
 namespace {
 
 constexpr double SOFTEST = 100;          // N/m: what is softer is not pressed as far as a force would ask
-constexpr double CORRECTION_TIME = 0.5;  // s in which most of an error of the force goes away
+constexpr double CORRECTION_TIME = 0.5;  // s in which most of an error of the force goes away,
+constexpr double REACTIONS = 3;          // or so many reactions: what is corrected faster than it is felt would swing
 
 }  // namespace
 
-SimFingers::SimFingers(double opening_stiffness, double period)
-    : compliance_(1 / std::max(opening_stiffness, SOFTEST)), period_(period) {}
+SimFingers::SimFingers(double opening_stiffness, double range, double most, double period)
+    : compliance_(1 / std::max(opening_stiffness, SOFTEST)), range_(range), most_(most), period_(period) {}
 
 void SimFingers::take(const Traits& traits) noexcept {
   stiffness_ = of(traits, Trait::finger_stiffness);
   damping_ = of(traits, Trait::finger_damping);
   response_ = of(traits, Trait::response);
+  correction_ = std::max(CORRECTION_TIME, REACTIONS * of(traits, Trait::reaction));
   tremor_ = of(traits, Trait::grip_tremor);
   error_ = of(traits, Trait::grip_error);
   by_ = core_f64::propagator({of(traits, Trait::finger_mass) + JAW_MASS, damping_ + JAW_DAMPING, stiffness_}, period_);
@@ -43,9 +45,11 @@ void SimFingers::press(double force, double felt, double load) noexcept {
   }
   pressing_for_ += period_;
   wanted_ = from_ + minimum_jerk(pressing_for_ / response_) * (force - from_);
-  if (pressing_for_ > 2 * response_) base_ += (wanted_ - felt) * way * period_ / CORRECTION_TIME;
+  const bool is_felt = felt > 0 && felt < most_;
+  if (pressing_for_ > 2 * response_ && is_felt) base_ += (wanted_ - felt) * way * period_ / correction_;
   const double before = held_;
-  held_ = base_ + wanted_ * way - load * compliance_;
+  // no further than a closed gripper asks for
+  held_ = std::min(base_ + wanted_ * way - load * compliance_, range_ + wanted_ / stiffness_);
   speed_ = (held_ - before) / period_;
 }
 

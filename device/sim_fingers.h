@@ -11,8 +11,9 @@ namespace wholehand {
 // closing of the device from its open gap, m; forces are of the fingers, positive closes, N.
 class SimFingers {
  public:
-  // `opening_stiffness`: k_open of the scene, which people who use the gripper have learnt, N/m. `period`: s.
-  SimFingers(double opening_stiffness, double period);
+  // `opening_stiffness`: k_open of the scene, which people who use the gripper have learnt, N/m. `range`: how far the gripper closes, m.
+  // `most`: the largest force that it renders, N. `period`: s.
+  SimFingers(double opening_stiffness, double range, double most, double period);
 
   // From now on these are the person's fingers: their impedance, and how they follow a load.
   void take(const Traits& traits) noexcept;
@@ -22,7 +23,7 @@ class SimFingers {
 
   // Towards a force, N. On the first call after go() the force rises from what is pressed then, over the person's response time.
   // `felt`: the whole force and `load`: its part that the fingers do not make, both a reaction time ago, N. Where force
-  // and intention differ after the response, the fingers correct that slowly.
+  // and intention differ after the response, the fingers correct that slowly, but not while the gripper can render no more or no less.
   void press(double force, double felt, double load) noexcept;
 
   // One period under the force of the gripper, positive opens. `trembling` and `wandering`: numbers of standard deviation 1, of which
@@ -34,8 +35,8 @@ class SimFingers {
  private:
   double pressed() const noexcept { return stiffness_ * (held_ - motion_.place); }  // by the muscles, N
 
-  double compliance_, period_;  // of what is pressed on, m/N
-  double stiffness_ = 0, damping_ = 0, response_ = 0, tremor_ = 0, error_ = 0;
+  double compliance_, range_, most_, period_;  // of what is pressed on, m/N
+  double stiffness_ = 0, damping_ = 0, response_ = 0, correction_ = 0, tremor_ = 0, error_ = 0;
   core_f64::Propagator by_;
   core_f64::Motion motion_;
   double held_ = 0, speed_ = 0;  // where the muscles hold the fingers: where those were if nothing pushed; and its speed

@@ -19,7 +19,7 @@ using core_f64::Mat3;
 using core_f64::Vec3;
 
 constexpr double TREMOR_TIME = 0.15;    // s for which a tremor keeps its phase: a peak of 2 Hz at half its height
-constexpr double WANDERING_TIME = 0.1;  // s: half of the power is below 1 Hz
+constexpr double WANDERING_TIME = 0.1;  // s: half of the power is below 0.7 Hz
 constexpr double LONGEST_REACTION = 2;  // s
 
 std::array<double, 2> sim_gap(const Scene& scene, const core_f64::Hand& hand) {
@@ -91,7 +91,8 @@ class SimGripper final : public Gripper {
         workspace_(scene, sim_gap(scene, live_.hand), hand_gap_),
         user_(live_, std::move(jobs), person),
         period_(1 / scene.live.rate),
-        fingers_(scene.force.k_open, period_),
+        fingers_(scene.force.k_open, workspace_.device_gap()[1] - workspace_.device_gap()[0], std::min(scene.force.max, PAPER_GRIP),
+                 period_),
         shown_before_(LONGEST_REACTION, scene.live.rate),
         random_(seed) {
     limits_.name = "simulated gripper";
@@ -113,7 +114,7 @@ class SimGripper final : public Gripper {
     for (std::int64_t k = last_; k < tick; ++k) advance();
     last_ = tick;
     HandPose pose;
-    pose.middle = Vec3(place_[0].place, place_[1].place, place_[2].place);
+    for (int k = 0; k < 3; ++k) pose.middle[k] = place_[k].place + trembling_[k];
     pose.rotation = wish_.rotation();
     pose.gap = hand_gap();
     state = workspace_.unmap(pose);
@@ -130,7 +131,7 @@ class SimGripper final : public Gripper {
   void show(const Tick& tick) noexcept override {
     shown_.state = tick.state;
     shown_.vessel = tick.vessel;
-    shown_.felt = tick.feedback;
+    shown_.felt = tick.written.grip;
     shown_.load = is_held(tick.state) ? tick.feedback - tick.user_force : 0;
     shown_.weight = tick.weight;
     const int vessel = user_.vessel();
@@ -166,8 +167,8 @@ class SimGripper final : public Gripper {
     const Vec3 pushed = workspace_.to_world(force_.arm);
     for (int k = 0; k < 3; ++k) {
       carried_[k] += (pushed[k] - carried_[k]) * share;
-      const double goal = wish_.middle[k] + of(user_.traits(), Trait::arm_tremor) * tremor_[k].next(random_);
-      const double drive = arm_stiffness_ * goal + arm_damping_ * wish_.velocity[k] + pushed[k] - carried_[k];
+      trembling_[k] = of(user_.traits(), Trait::arm_tremor) * tremor_[k].next(random_);
+      const double drive = arm_stiffness_ * wish_.middle[k] + arm_damping_ * wish_.velocity[k] + pushed[k] - carried_[k];
       place_[k] = core_f64::advance(arm_by_, place_[k], drive);
     }
     if (wish_.grips_by_force) {
@@ -195,7 +196,7 @@ class SimGripper final : public Gripper {
   core_f64::Propagator arm_by_;
   std::int64_t last_ = -1;
   std::array<core_f64::Motion, 3> place_{};
-  std::array<double, 3> carried_{};
+  std::array<double, 3> carried_{}, trembling_{};  // N; m
   std::array<Tremor, 4> tremor_{};
   Wandering wandering_;
   GripperForce force_;

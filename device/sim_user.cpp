@@ -142,7 +142,7 @@ void SimUser::follow_load(const SimSense& sense, double seconds) noexcept {
   const double rise = sense.load + surplus / (2 * of(traits_, Trait::friction));
   // nine tenths and a half of a step within the response
   load_ += (rise - load_) * -std::expm1(-3 * seconds / of(traits_, Trait::response));
-  wish_.force = std::max(0.0, loaded_force(traits_, first_force(traits_, weight_), load_));
+  wish_.force = std::clamp(loaded_force(traits_, first_force(traits_, weight_), load_), 0.0, largest_force(traits_));
 }
 
 // Of the tips while it is poured: a grasp that is higher on the vessel leaves the vessel where it is.

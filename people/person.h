@@ -68,6 +68,10 @@ double segment_deviation(std::size_t segment);
 // weight that is expected, and the margin. N.
 double first_force(const Traits& traits, double weight);
 
+// The largest force that a person pinches with, N: 16 % of the mean largest grip of 109 lb (Crosby, Wehbe & Mawr 1994), times the
+// person's strength. Neither of the forces here knows of it.
+double largest_force(const Traits& traits);
+
 // The grip force that a person goes to where the load has risen since the first force: `rise`, N, is how much more it takes to
 // hold without a margin.
 double loaded_force(const Traits& traits, double first, double rise);

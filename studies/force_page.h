@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What the page says of the experiment of forces.
+// What the page and the terminal say of the experiment of forces.
 #pragma once
 
+#include <span>
+#include <string>
 #include <vector>
 
 #include "studies/page.h"
@@ -11,5 +13,8 @@ namespace wholehand {
 
 // `rows`: of force_rows.
 StudySection force_section(std::vector<StudyRow> rows);
+
+// For the terminal: a line for each choice of forces, and what matters more.
+std::string force_summary(std::span<const StudyRow> rows);
 
 }  // namespace wholehand

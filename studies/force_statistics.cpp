@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -62,6 +63,12 @@ double mean_opening(std::span<const ForcesOfPerson> people, Members members, std
   return of > 0 ? sum / static_cast<double>(of) : NO_SHARE;
 }
 
+double gripped_share(std::span<const ForcesOfPerson> people, Members members, std::size_t choice) {
+  std::size_t gripped = 0;
+  for (const std::size_t member : members) gripped += people[member][choice].has_gripped ? 1 : 0;
+  return static_cast<double>(gripped) / static_cast<double>(members.size());
+}
+
 // How the odds of an event change with each newton of F_base and of F_range, and whether F_base comes first.
 void add_coefficients(std::span<const ForcesOfPerson> people, Members members, const ForceEvent& event,
                       std::vector<double>& values) {
@@ -91,6 +98,7 @@ std::vector<double> values_of(std::span<const ForcesOfPerson> people, Members me
   for (std::size_t choice = 0; choice < FORCE_CHOICES; ++choice) {
     for (const ForceEvent& event : force_events()) values.push_back(share_of(people, members, choice, event));
     values.push_back(mean_opening(people, members, choice));
+    values.push_back(gripped_share(people, members, choice));
   }
   for (const ForceEvent& event : force_events())
     if (has_coefficients(event)) add_coefficients(people, members, event, values);
@@ -108,6 +116,7 @@ std::vector<ForceName> force_names() {
     for (const ForceEvent& event : force_events())
       all.push_back({event.name + "_share", choice_name(choice), event.name == "lost" ? std::optional(lost) : std::nullopt});
     all.push_back({"largest_opening_mean", choice_name(choice), std::nullopt});
+    all.push_back({"gripped_share", choice_name(choice), std::nullopt});
   }
   for (const ForceEvent& event : force_events()) {
     if (!has_coefficients(event)) continue;
@@ -118,13 +127,15 @@ std::vector<ForceName> force_names() {
   return all;
 }
 
-// Ten people, none twice.
+// Ten people; none twice where there are many of them, else drawn with replacement, as for a bootstrap.
 std::vector<std::size_t> sample_of(std::size_t people, std::uint64_t seed) {
-  std::vector<std::size_t> all(people);
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  for (std::size_t k = 0; k < FORCE_PEOPLE; ++k) std::swap(all[k], all[k + draw_below(people - k, seed)]);
-  all.resize(FORCE_PEOPLE);
-  return all;
+  const bool are_many = people >= MANY_SAMPLES * FORCE_PEOPLE;
+  std::vector<std::size_t> drawn;
+  while (drawn.size() < FORCE_PEOPLE) {
+    const std::size_t one = draw_below(people, seed);
+    if (!are_many || std::find(drawn.begin(), drawn.end(), one) == drawn.end()) drawn.push_back(one);
+  }
+  return drawn;
 }
 
 }  // namespace

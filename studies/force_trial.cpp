@@ -36,6 +36,7 @@ void ForceWatch::begin(const Tick& tick) {
   since_ = tick.number;
   still_ = 0;
   gap_ = tick.device.gap;
+  most_ = 0;
   window_.clear();
 }
 
@@ -43,9 +44,10 @@ bool ForceWatch::take(const Tick& tick) {
   if (is_over_) return false;
   const bool held = is_held(tick.state);
   if (held && !was_held_) begin(tick);
-  if (was_held_ && !held) ++outcome_.losses;  // what succeeds is over before it ends
+  if (was_held_ && !held && most_ > TAKEN) ++outcome_.losses;  // what succeeds is over before it ends
   was_held_ = held;
   if (!held) return true;
+  most_ = std::max(most_, tick.feedback);
   outcome_.opening = std::max(outcome_.opening, tick.device.gap - gap_);
   const bool is_settled = static_cast<double>(tick.number - since_) >= SETTLED * rate_;
   if (tick.state == SessionState::tilt || !is_settled) {
@@ -54,7 +56,7 @@ bool ForceWatch::take(const Tick& tick) {
     watch_swings(tick.feedback);
   }
   still_ = tick.state == SessionState::maintain ? still_ + 1 : 0;
-  is_over_ = static_cast<double>(still_) >= HELD_STILL * rate_;
+  is_over_ = outcome_.has_succeeded = static_cast<double>(still_) >= HELD_STILL * rate_;
   return !is_over_;
 }
 

@@ -32,6 +32,7 @@ constexpr int FORCE_ATTEMPTS = 3;    // of a person, until one succeeds
 constexpr int OFTEN = 2;             // losses of these
 constexpr double HELD_STILL = 0.8;   // s of a maintained tilt, after which an attempt has succeeded
 constexpr double SETTLED = 1;        // s after the grasp, from which on a grip can oscillate
+constexpr double TAKEN = 0.3;        // N: who never felt so much had not taken hold, and so lost nothing
 constexpr double SWING_WINDOW = 1;   // s in which an oscillating grip passes from one side of its mean
 constexpr int SWINGS = 4;            // to the other so often,
 constexpr double SWING_SHARE = 0.1;  // by more than this share of the mean
@@ -43,8 +44,10 @@ struct ForceOutcome {
   int losses = 0;            // attempts that ended before they succeeded
   double opening = 0;        // the furthest that the gripper opened beyond a grasp, m
 
+  bool has_succeeded = false;  // an attempt was maintained
+
   bool is_lost() const { return losses >= OFTEN; }
-  bool is_held() const { return !is_lost() && !oscillates; }
+  bool is_held() const { return has_succeeded && !is_lost() && !oscillates; }
 };
 
 // Follows the ticks of a trial.
@@ -65,6 +68,7 @@ class ForceWatch {
   std::int64_t since_ = 0;      // the tick of the grasp
   std::int64_t still_ = 0;      // ticks of the maintained tilt
   double gap_ = 0;              // of the device at the grasp, m
+  double most_ = 0;             // force of the grasp, N
   std::vector<double> window_;  // forces at rest, N
 };
 

@@ -27,17 +27,18 @@ ForcesOfPerson forces_of_person(const Scene& scene, std::size_t vessel, std::uin
 std::vector<double> numbers_of(const ForcesOfPerson& forces) {
   std::vector<double> numbers;
   for (const ForceOutcome& one : forces)
-    numbers.insert(numbers.end(),
-                   {one.has_gripped ? 1.0 : 0.0, one.oscillates ? 1.0 : 0.0, static_cast<double>(one.losses), one.opening});
+    numbers.insert(numbers.end(), {one.has_gripped ? 1.0 : 0.0, one.has_succeeded ? 1.0 : 0.0, one.oscillates ? 1.0 : 0.0,
+                                   static_cast<double>(one.losses), one.opening});
   return numbers;
 }
 
 ForcesOfPerson forces_of(const std::vector<double>& numbers) {
   ForcesOfPerson forces{};
-  if (numbers.size() != 4 * forces.size()) return forces;
+  if (numbers.size() != 5 * forces.size()) return forces;
   std::size_t at = 0;
   for (ForceOutcome& one : forces) {
     one.has_gripped = numbers[at++] != 0;
+    one.has_succeeded = numbers[at++] != 0;
     one.oscillates = numbers[at++] != 0;
     one.losses = static_cast<int>(numbers[at++]);
     one.opening = numbers[at++];

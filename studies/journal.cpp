@@ -100,6 +100,21 @@ const std::vector<double>* StudyJournal::find(const std::string& experiment, std
   return found == done_.end() ? nullptr : &found->second;
 }
 
+std::size_t StudyJournal::done_beside(std::uint64_t forces, std::uint64_t sessions) const {
+  std::size_t others = 0;
+  for (const auto& [part, numbers] : done_) others += part.second >= (part.first == "forces" ? forces : sessions) ? 1 : 0;
+  return others;
+}
+
+std::size_t parts_in_journal(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string line;
+  std::size_t lines = 0;
+  while (std::getline(file, line)) ++lines;
+  constexpr std::size_t HEAD = 2;
+  return lines > HEAD ? lines - HEAD : 0;
+}
+
 void StudyJournal::add(const std::string& experiment, std::uint64_t person, std::span<const double> numbers) {
   Json bits = Json::array();
   for (const double number : numbers) bits.push_back(std::bit_cast<std::uint64_t>(number));

@@ -29,6 +29,8 @@ class StudyJournal {
   // What a person's part of an experiment gave; null: it is not done.
   const std::vector<double>* find(const std::string& experiment, std::uint64_t person) const;
   std::size_t done() const { return done_.size(); }
+  // How many parts were there that people 0, 1, .. of these experiments do not need.
+  std::size_t done_beside(std::uint64_t forces, std::uint64_t sessions) const;
   // Lines that are not as they were written. Their people are done again.
   std::size_t damaged() const { return damaged_; }
 
@@ -44,5 +46,8 @@ class StudyJournal {
   std::mutex mutex_;
   int file_ = -1;
 };
+
+// How many parts a journal has; 0 where it is not there, or is none.
+std::size_t parts_in_journal(const std::string& path);
 
 }  // namespace wholehand

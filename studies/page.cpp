@@ -10,6 +10,12 @@
 namespace wholehand {
 namespace {
 
+// Charts stand side by side where there is room.
+constexpr const char* STUDY_RULES = R"css(
+.charts { display: grid; grid-template-columns: repeat(auto-fit, minmax(20rem, 1fr)); gap: 1rem; }
+.charts figure { margin: 0; max-width: 34rem; }
+)css";
+
 void write_study_head(MarkupWriter& html, const StudyPage& page) {
   html.open("head");
   html.empty("meta", {{"charset", "utf-8"}});
@@ -19,7 +25,7 @@ void write_study_head(MarkupWriter& html, const StudyPage& page) {
   html.empty("meta", {{"name", "generator"}, {"content", "wholehand"}});
   html.empty("meta", {{"name", "color-scheme"}, {"content", "light dark"}});
   html.element("title", page.title);
-  html.open("style").markup(REPORT_STYLE).markup(CHART_RULES).markup(BOX_RULES).close();
+  html.open("style").markup(REPORT_STYLE).markup(CHART_RULES).markup(BOX_RULES).markup(STUDY_RULES).close();
   html.close();
 }
 
@@ -27,7 +33,11 @@ void write_section(MarkupWriter& html, const StudySection& section) {
   html.open("section", {{"aria-labelledby", section.id}}).element("h2", section.title, {{"id", section.id}});
   for (const std::string& words : section.words) html.element("p", words);
   if (!section.rows.empty()) section.write(html, section.rows);
-  for (const std::string& chart : section.charts) html.open("figure").markup(chart).close();
+  if (!section.charts.empty()) {
+    html.open("div", {{"class", "charts"}});
+    for (const std::string& chart : section.charts) html.open("figure").markup(chart).close();
+    html.close();
+  }
   html.close();
 }
 

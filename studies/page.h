@@ -20,7 +20,7 @@ struct StudySection {
   std::string title;
   std::vector<std::string> words;     // paragraphs
   std::vector<StudyRow> rows;         // may be empty
-  std::vector<std::string> charts{};  // SVG
+  std::vector<std::string> charts{};  // each a caption and SVG
   void (*write)(MarkupWriter& html, std::span<const StudyRow> rows) = write_statistic_tables;
 };
 

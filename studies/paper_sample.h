@@ -14,6 +14,9 @@ namespace wholehand {
 
 // So many people, and so many grasps of each of the three vessels.
 constexpr std::size_t PAPER_PEOPLE = 17;
+// A population with the people of so many samples is large: a sample draws none twice. The samples of a smaller one would be too alike, and
+// are drawn with replacement.
+constexpr std::size_t MANY_SAMPLES = 10;
 constexpr std::array<std::size_t, 3> PAPER_GRASPS{22, 32, 18};
 
 // The vessel of rows that hold all vessels of the paper's sample together.

@@ -25,8 +25,10 @@ std::vector<double> session_answers(const SessionSubject& person, const SessionV
     if (!counts) continue;
     response.add(grasp.response_time);
     stopped.add(grasp.tightened);
-    before.add(grasp.before.mean);
-    after.add(grasp.after.mean);
+    if (grasp.largest_tilt >= LEAST_ANALYSED) {
+      before.add(grasp.before.mean);
+      after.add(grasp.after.mean);
+    }
     lost.add(grasp.outcome == GraspOutcome::lost ? 1 : 0);
     if (grasp.course == GripCourse::not_analysed) continue;
     increase.add(grasp.normal_increase);

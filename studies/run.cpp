@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "evidence/gains.h"
+#include "objects/vessel.h"
 #include "studies/contact_page.h"
 #include "studies/contact_pool.h"
 #include "studies/contacts.h"
@@ -25,6 +27,7 @@
 #include "studies/session_page.h"
 #include "studies/session_statistics.h"
 #include "studies/sessions.h"
+#include "studies/statistic_words.h"
 #include "studies/summary.h"
 #include "sweeps/closing.h"
 #include "system/build_id.h"
@@ -79,18 +82,41 @@ class StudyRun {
     if (!sensitivity_.empty()) page_.sections.push_back(sensitivity_section(sensitivity_));
     page_.lead = fmt::format("{}, and {} samples of the paper's size; seed {}.", fmt::join(lead_, "; "),
                              readable_number(static_cast<std::uint64_t>(options_.resamples)), options_.seed);
+    const std::string inside = count_inside(rows_).of > 0 ? inside_sentence(rows_) : "";
+    StudyRow share;
+    share.experiment = share.vessel = ALL_VESSELS;
+    share.statistic = INSIDE_SHARE;
+    share.value = inside_share(rows_);
     rows_.insert(rows_.end(), sensitivity_.begin(), sensitivity_.end());
+    if (!inside.empty()) {
+      page_.words.insert(page_.words.begin(), "Of all experiments: " + inside);
+      rows_.push_back(share);
+    }
     folder_->write(scene_, options_, page_, rows_);
     print(study_summary(rows_));
+    if (!inside.empty()) print("\nAll experiments: " + inside + "\n");
     print("\n" + folder_->written() + "\n");
-    journal_.reset();
-    std::remove(folder_->files().journal.c_str());
+    end_journal();
     return ExitCode::done;
   }
 
  private:
-  // As `wholehand live` would refuse it, before any work.
-  static void check_live(const Scene& scene) { const LiveScene live(scene); }
+  // Of all people of the sessions: they have no interval at the paper's sample size.
+  static void add_share(std::vector<StudyRow>& rows, const char* statistic, std::uint64_t yes, std::uint64_t of) {
+    StudyRow row;
+    row.experiment = "sessions";
+    row.vessel = ALL_VESSELS;
+    row.statistic = statistic;
+    row.value = static_cast<double>(yes) / static_cast<double>(of);
+    rows.push_back(row);
+  }
+
+  // As `wholehand live` would refuse it, before any work: vessels in each other, nothing to do for the scene's own hand, unstable gains.
+  static void check_live(const Scene& scene) {
+    const LiveScene live(scene);
+    plan_sim_jobs(scene);
+    refuse_unstable_gains(scene, {live.hand.scale * live.hand.gap_closed, live.hand.scale * live.hand.gap_open}, false);
+  }
 
   void say(const std::string& what) const {
     print(fmt::format("{}: {}; {}\n", scene_.name.empty() ? "study" : scene_.name, what,
@@ -100,12 +126,29 @@ class StudyRun {
   // Of the experiments that take long for each person.
   void open_journal() {
     const StudyIdentity identity{{"scene", checksum_text(scene_.text.data(), scene_.text.size())},
+                                 {"set of meshes", mesh_keys(scene_)},
                                  {"seed", fmt::format("{}", options_.seed)},
                                  {"build of the program", fmt::format("{} {}", version(), build_id())}};
+    const std::size_t given_up = options_.resumes ? 0 : parts_in_journal(folder_->files().journal);
     journal_ = std::make_unique<StudyJournal>(folder_->files().journal, identity, options_.resumes);
+    if (given_up > 0)
+      say_note(fmt::format("{} of an interrupted study are given up; --resume would have kept them", counted(given_up, "part")));
     if (journal_->done() > 0) say_note(fmt::format("goes on: {} of people are done", counted(journal_->done(), "part")));
     if (journal_->damaged() > 0)
       say_note(fmt::format("{} of the journal are damaged; these people are done again", counted(journal_->damaged(), "line")));
+  }
+
+  // What other people or experiments have done is kept.
+  void end_journal() {
+    if (!journal_) return;
+    const std::size_t others = journal_->done_beside(options_.people.forces, options_.people.sessions);
+    journal_.reset();
+    if (others == 0) {
+      std::remove(folder_->files().journal.c_str());
+    } else {
+      say_note(fmt::format("{}: kept, with {} of people or experiments that were not asked for now", folder_->files().journal,
+                           counted(others, "part")));
+    }
   }
 
   void keep(std::vector<StudyRow> rows, std::vector<StudyRow> sensitivity) {
@@ -156,8 +199,18 @@ class StudyRun {
     });
     if (*stop_) return false;
     std::vector<SessionSubject> found;
-    for (const auto& of_person : numbers) found.push_back({grasps_of(of_person)});
+    std::uint64_t broken = 0, without = 0;
+    for (const auto& of_person : numbers) {
+      PersonSessions sessions = sessions_of(of_person);
+      broken += static_cast<std::uint64_t>(sessions.broken);
+      without += sessions.grasps.empty() ? 1 : 0;
+      found.push_back({std::move(sessions.grasps)});
+    }
+    if (broken > 0)
+      say_note(fmt::format("{} did not come to an end by themselves; what was done until then counts", counted(broken, "session")));
     std::vector<StudyRow> rows = session_rows(found, session_vessels_, {options_.seed, options_.resamples, options_.threads, true});
+    add_share(rows, "people_with_grasps_share", people - without, people);
+    add_share(rows, "whole_sessions_share", people * SESSIONS_PER_PERSON - broken, people * SESSIONS_PER_PERSON);
     page_.sections.push_back(session_section(session_vessels_, rows, true));
     page_.sections.back().charts = session_charts(found, session_vessels_);
     lead_.push_back(fmt::format("sessions: {} people, {} each", readable_number(people), SESSIONS_PER_PERSON));

@@ -65,6 +65,7 @@ std::string chart_of(const ShownForce& shown, std::span<const SessionSubject> su
     chart.groups.push_back(group);
   }
   MarkupWriter svg;
+  svg.element("figcaption", shown.title);
   write_chart(svg, chart);
   return svg.written();
 }

@@ -191,7 +191,7 @@ class GraspPool {
     return grasps;
   }
 
-  // 17 people, each once; where there are fewer, drawn with replacement, as for a bootstrap. Of each vessel as many of their grasps as
+  // 17 people: each once of a large population, else drawn with replacement, as for a bootstrap. Of each vessel as many of their grasps as
   // the paper has; all where there are fewer.
   GraspsByVessel sample(std::uint64_t seed) const {
     std::uint64_t state = seed;
@@ -208,7 +208,7 @@ class GraspPool {
 
  private:
   std::vector<std::size_t> people(std::uint64_t& state) const {
-    const bool has_enough = subjects_.size() >= PAPER_PEOPLE;
+    const bool has_enough = subjects_.size() >= MANY_SAMPLES * PAPER_PEOPLE;
     std::vector<std::size_t> drawn;
     while (drawn.size() < PAPER_PEOPLE) {
       const std::size_t one = draw_below(subjects_.size(), state);

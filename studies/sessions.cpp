@@ -25,17 +25,16 @@ constexpr std::array<MeanDeviation GraspReport::*, 3> GRASP_MEANS{&GraspReport::
 
 }  // namespace
 
-std::vector<GraspReport> sessions_of_person(const Scene& scene, std::uint64_t seed, std::uint64_t person,
-                                            const std::atomic<bool>& stop) {
+PersonSessions sessions_of_person(const Scene& scene, std::uint64_t seed, std::uint64_t person, const std::atomic<bool>& stop) {
   Scene own = scene;
   own.hand = Participant(scene.people, seed, person, Experiment::sessions).hand(scene.hand);
-  std::vector<GraspReport> grasps;
+  PersonSessions all;
   const std::vector<SimJob> jobs = jobs_of(own);
-  if (jobs.empty()) return grasps;
+  if (jobs.empty()) return all;
   for (std::uint64_t session = 0; session < SESSIONS_PER_PERSON && !stop; ++session) {
     const Participant participant(scene.people, seed, person, Experiment::sessions, session * GRASPS_OF_SESSION);
     GraspCollector collector(own.live.rate, own.force.max);
-    run_simulated(
+    const bool is_whole = run_simulated(
         {own, participant, tremor_seed(scene, seed, person, session), jobs},
         [&collector](const Tick& tick) {
           collector.add(tick);
@@ -43,14 +42,15 @@ std::vector<GraspReport> sessions_of_person(const Scene& scene, std::uint64_t se
         },
         stop);
     const std::vector<GraspReport> found = collector.finish();
-    grasps.insert(grasps.end(), found.begin(), found.end());
+    all.grasps.insert(all.grasps.end(), found.begin(), found.end());
+    all.broken += is_whole ? 0 : 1;
   }
-  return grasps;
+  return all;
 }
 
-std::vector<double> numbers_of(const std::vector<GraspReport>& grasps) {
-  std::vector<double> numbers;
-  for (const GraspReport& grasp : grasps) {
+std::vector<double> numbers_of(const PersonSessions& sessions) {
+  std::vector<double> numbers{static_cast<double>(sessions.broken)};
+  for (const GraspReport& grasp : sessions.grasps) {
     for (const auto member : GRASP_REALS) numbers.push_back(grasp.*member);
     numbers.insert(numbers.end(), grasp.duration.begin(), grasp.duration.end());
     for (const auto member : GRASP_MEANS) {
@@ -63,11 +63,14 @@ std::vector<double> numbers_of(const std::vector<GraspReport>& grasps) {
   return numbers;
 }
 
-std::vector<GraspReport> grasps_of(const std::vector<double>& numbers) {
+PersonSessions sessions_of(const std::vector<double>& numbers) {
+  PersonSessions sessions;
+  if (numbers.empty()) return sessions;
   constexpr std::size_t EACH = GRASP_REALS.size() + 3 + 3 * GRASP_MEANS.size() + 3;
-  std::vector<GraspReport> grasps(numbers.size() / EACH);
-  std::size_t at = 0;
-  for (GraspReport& grasp : grasps) {
+  sessions.broken = static_cast<int>(numbers[0]);
+  sessions.grasps.resize((numbers.size() - 1) / EACH);
+  std::size_t at = 1;
+  for (GraspReport& grasp : sessions.grasps) {
     for (const auto member : GRASP_REALS) grasp.*member = numbers[at++];
     for (double& duration : grasp.duration) duration = numbers[at++];
     for (const auto member : GRASP_MEANS) {
@@ -80,7 +83,7 @@ std::vector<GraspReport> grasps_of(const std::vector<double>& numbers) {
     grasp.course = static_cast<GripCourse>(static_cast<int>(numbers[at++]));
     grasp.outcome = static_cast<GraspOutcome>(static_cast<int>(numbers[at++]));
   }
-  return grasps;
+  return sessions;
 }
 
 }  // namespace wholehand

@@ -14,13 +14,16 @@ namespace wholehand {
 // So many times each person does the task, so that 17 people have more than the paper's 32 grasps of a vessel.
 constexpr std::uint64_t SESSIONS_PER_PERSON = 2;
 
-// All grasps of one person's sessions, measured as those of a recording are. None where the person's hand holds no vessel. Ends early
-// where `stop` is set.
-std::vector<GraspReport> sessions_of_person(const Scene& scene, std::uint64_t seed, std::uint64_t person,
-                                            const std::atomic<bool>& stop);
+struct PersonSessions {
+  std::vector<GraspReport> grasps;  // measured as those of a recording are; none where the person's hand holds no vessel
+  int broken = 0;                   // sessions that did not come to their end by themselves
+};
+
+// Ends early where `stop` is set.
+PersonSessions sessions_of_person(const Scene& scene, std::uint64_t seed, std::uint64_t person, const std::atomic<bool>& stop);
 
 // As numbers, to the bit, for a journal.
-std::vector<double> numbers_of(const std::vector<GraspReport>& grasps);
-std::vector<GraspReport> grasps_of(const std::vector<double>& numbers);
+std::vector<double> numbers_of(const PersonSessions& sessions);
+PersonSessions sessions_of(const std::vector<double>& numbers);
 
 }  // namespace wholehand

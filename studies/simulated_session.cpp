@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "studies/simulated_session.h"
 
+#include <exception>
 #include <initializer_list>
 
 #include "core/error.h"
@@ -11,15 +12,30 @@
 
 namespace wholehand {
 
-void run_simulated(const SimulatedSession& asked, const std::function<bool(const Tick&)>& take, const std::atomic<bool>& stop) {
-  if (asked.jobs.empty()) return;
+bool run_simulated(const SimulatedSession& asked, const std::function<bool(const Tick&)>& take, const std::atomic<bool>& stop) {
+  if (asked.jobs.empty()) return true;
   const auto gripper = open_sim(asked.scene, asked.seed, asked.person, asked.jobs);
   Session session(asked.scene, gripper->limits().gap);
   LoopOptions options;
   options.is_simulated = true;
   options.seconds = asked.seconds;
-  HapticLoop loop(asked.scene.live, *gripper, session, take, options);
+  std::exception_ptr trouble;
+  bool is_enough = false;
+  // the loop lets nothing through
+  const auto sink = [&](const Tick& tick) {
+    if (is_enough) return false;
+    try {
+      is_enough = !take(tick);
+    } catch (...) {
+      trouble = std::current_exception();
+      is_enough = true;
+    }
+    return !is_enough;
+  };
+  HapticLoop loop(asked.scene.live, *gripper, session, sink, options);
   loop.run(stop);
+  if (trouble) std::rethrow_exception(trouble);
+  return is_enough || (loop.report().fault == Fault::none && gripper->is_done()) || stop;
 }
 
 std::uint64_t tremor_seed(const Scene& scene, std::uint64_t seed, std::uint64_t person, std::uint64_t k) {

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "studies/force_page.h"
 #include "studies/sensitivity.h"
 #include "studies/statistic_tables.h"
 
@@ -45,7 +46,12 @@ std::string study_summary(std::span<const StudyRow> rows) {
   for (std::size_t first = 0, end = 0; first < rows.size(); first = end) {
     while (end < rows.size() && rows[end].experiment == rows[first].experiment) ++end;
     const auto of_one = rows.subspan(first, end - first);
-    text += of_one.front().experiment == "contacts" ? contact_summary(of_one) : "\n" + statistic_table(of_one);
+    const std::string& experiment = of_one.front().experiment;
+    if (experiment == "contacts") {
+      text += contact_summary(of_one);
+    } else {
+      text += "\n" + (experiment == "forces" ? force_summary(of_one) : statistic_table(of_one));
+    }
   }
   return text;
 }

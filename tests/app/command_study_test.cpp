@@ -94,7 +94,7 @@ TEST_F(StudyCommand, GoesOnWhereItWasInterrupted) {
   ASSERT_EQ(run(start + "--people 3 -o " + (folder / "whole") + " 2>&1").code, 0);
   // a line for the format, one for what is asked, and one for the first person
   const Outcome cut = run(start + "--people 100000 -o " + (folder / "cut") + " 2>&1 & PID=$!; while [ \"$(wc -l <" + journal +
-                          " 2>/dev/null || echo 0)\" -lt 3 ]; do sleep 0.05; done; kill -TERM $PID; wait $PID");
+                          " 2>/dev/null || echo 0)\" -lt 3 ] && kill -0 $PID; do sleep 0.05; done; kill -TERM $PID; wait $PID");
   EXPECT_EQ(cut.code, 130) << cut.output;
   EXPECT_TRUE(has(cut.output, "Go on with --resume")) << cut.output;
   EXPECT_FALSE(file_exists(folder / "cut/study.csv"));
@@ -177,6 +177,7 @@ TEST_F(StudyCommand, WhatIsWrongIsOneLine) {
   expect_error(start + "--people 0", 2, "--people '0'; allowed: a whole number, 1 to 100000000");
   expect_error(start + "--people many", 2, "--people 'many'");
   expect_error(start + "--experiment 'x y'", 2, "--experiment 'x y'; allowed: contacts, forces, sessions or all");
+  expect_error(start + "--experiment contacts --resume", 2, "--resume: contacts take seconds");
   expect_error(start + "--experiment sessions --people 100001", 2, "--people 100001; allowed: 1 to 100000 with forces or sessions");
   expect_error("study three_beakers -o " + (folder / "none"), 2, "no vessel has guidance points");
   expect_error("study three_beakers --experiment sessions -o " + (folder / "none"), 2, "sessions need a task");

@@ -13,12 +13,13 @@ namespace wholehand {
 namespace {
 
 constexpr double PERIOD = 1e-3, BASE = 0.8, OPENING = 600;  // s, N, N/m
+constexpr double RANGE = 0.1, MOST = 8;                     // m, N
 
 Traits median() { return Participant(PeopleData{}).person().traits; }
 
 // Closes on a vessel whose side is 10 mm from where the fingers are open, and presses it from `reaction` after the touch on.
 struct Pinch {
-  SimFingers fingers{OPENING, PERIOD};
+  SimFingers fingers{OPENING, RANGE, MOST, PERIOD};
   Traits traits = median();
   double load = 0, opening = OPENING;
   double rendered = 0, touched = -1, time = 0;
@@ -45,6 +46,22 @@ struct Pinch {
     }
   }
 };
+
+// More is wanted than the gripper renders, or nothing stops the fingers: they stay within what a closed gripper asks for, and let go as
+// quickly as others.
+TEST(SimFingers, DoNotWindUp) {
+  for (const double opening : {600.0, 0.0}) {
+    SimFingers fingers(opening, RANGE, MOST, PERIOD);
+    const Traits traits = median();
+    fingers.take(traits);
+    for (int k = 0; k < 20000; ++k) {
+      fingers.press(12, opening > 0 ? MOST : BASE, 0);
+      fingers.advance(opening > 0 ? MOST : BASE, 0, 0);
+      ASSERT_LT(fingers.place(), RANGE + 12 / of(traits, Trait::finger_stiffness) + 5e-3)
+          << "and their inertia " << opening << ' ' << k;
+    }
+  }
+}
 
 // What is pressed on has the stiffness that the person has learnt: the force is there when the response is over, and stays.
 TEST(SimFingers, PressWhatThePersonWantsWithinTheResponse) {
@@ -84,7 +101,7 @@ TEST(SimFingers, FollowALoad) {
 
 // With nothing done about it, a load opens the fingers by its share of both stiffnesses.
 TEST(SimFingers, GiveWayByTheirStiffness) {
-  SimFingers fingers(OPENING, PERIOD);
+  SimFingers fingers(OPENING, RANGE, MOST, PERIOD);
   const Traits traits = median();
   fingers.take(traits);
   for (int k = 0; k < 2000; ++k) {
@@ -99,7 +116,7 @@ TEST(SimFingers, TrembleByAShareOfTheForce) {
   Traits traits = median();
   traits[static_cast<std::size_t>(Trait::grip_tremor)] = 0.1;
   traits[static_cast<std::size_t>(Trait::grip_error)] = 0.2;
-  SimFingers fingers(OPENING, PERIOD);
+  SimFingers fingers(OPENING, RANGE, MOST, PERIOD);
   fingers.take(traits);
   const auto rest = [&](double trembling, double wandering) {
     for (int k = 0; k < 3000; ++k) {

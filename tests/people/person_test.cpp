@@ -174,6 +174,15 @@ TEST(Person, SharesAreDrawnInTheOrderOfTheInputs) {
   EXPECT_DOUBLE_EQ(of(draw_person({}, SEED, 5).traits, Trait::strength), 1.0372744470971962);
 }
 
+// 16 % of 109 lb are 77.6 N. Women and men differ by the ratio of their grips.
+TEST(Person, ThePinchHasThePublishedForce) {
+  Traits traits{};
+  traits[static_cast<std::size_t>(Trait::strength)] = 1;
+  EXPECT_NEAR(largest_force(traits), 77.6, 0.05);
+  traits[static_cast<std::size_t>(Trait::strength)] = 0.5;
+  EXPECT_NEAR(largest_force(traits), 38.8, 0.05);
+}
+
 TEST(Person, EveryInputHasItsName) {
   const std::vector<std::string>& names = person_input_names();
   ASSERT_EQ(names.size(), 3 + SEGMENT_COUNT + TRAIT_COUNT);

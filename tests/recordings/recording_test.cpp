@@ -115,7 +115,7 @@ TEST(Recording, GivesBackWhatIsKnownOfTheSession) {
 TEST(Recording, GivesBackThePersonAndTheirHand) {
   const TemporaryFolder folder;
   RecordingInfo info = recorded_info(1);
-  info.scene_text = "[[vessel]]\nshape = \"cylinder\"\ndiameter_mm = 70\nheight_mm = 95\nwall_mm = 1\n";
+  info.scene_text = "[[vessel]]\nname = \"v\"\nshape = \"cylinder\"\ndiameter_mm = 70\nheight_mm = 95\nwall_mm = 1\n";
   info.seed = 5;
   info.person = 18446744073709551615u;
   RecordingWriter(folder / "a.nc", info).finish(recorded_end());

@@ -45,7 +45,7 @@ TEST(ScenePeople, RefusesWhatNoPopulationHas) {
   expect_refusal("[people]\nheight_mm = { person = @-3 }\n" + VESSEL, "person = -3; allowed: 0 to 100");
   expect_refusal("[people]\nroll_deg = { grasp = @-1 }\n" + VESSEL, "grasp = -1; allowed: 0 to 90");
   expect_refusal("[people]\nmargin = { mean = @1 }\n" + VESSEL, "mean = 1; allowed: 0.001 to 0.9");
-  expect_refusal("[people]\nreaction_s = { mean = @0 }\n" + VESSEL, "mean = 0; allowed: 0.001 to 10");
+  expect_refusal("[people]\nreaction_s = { mean = @0 }\n" + VESSEL, "mean = 0; allowed: 0.001 to 0.5");
   expect_refusal("[people]\ngain = @2\n" + VESSEL, "gain = 2; allowed: a table");
   expect_refusal("[people]\nscatter = @-1\n" + VESSEL, "scatter = -1; allowed: 0 to 10");
   expect_refusal("[people]\nwomen = @50\n" + VESSEL, "women = 50; allowed: 0 to 1");

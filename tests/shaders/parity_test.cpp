@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "core/hand_size.h"
 #include "evidence/compare.h"
 #include "host/grip_backend.h"
+#include "people/person.h"
 #include "scene/reader.h"
 #include "sweeps/plan.h"
 #include "sweeps/variables.h"
@@ -119,6 +121,18 @@ TEST(Parity, HandsOfPeople) {
     HandData hand;
     set_size(hand, surveyed_size(sex, percentile));
     expect_parity(wet_scene({beaker1(), beaker3()}, Pose::articulated, hand), "person" + std::to_string(percentile));
+  }
+}
+
+// A hand with proportions of its own, whose trajectories may end early: the first of the population that is so, and the first that is not.
+TEST(Parity, HandsOfAPopulation) {
+  bool has_early = false, has_whole = false;
+  for (std::uint64_t number = 0; !(has_early && has_whole); ++number) {
+    ASSERT_LT(number, 100u);
+    const HandData plain, hand = hand_of(plain, draw_person({}, 1, number));
+    bool& has = hand.mcp.closed != plain.mcp.closed ? has_early : has_whole;
+    if (!has) expect_parity(wet_scene({beaker1(), beaker3()}, Pose::articulated, hand), "population" + std::to_string(number));
+    has = true;
   }
 }
 

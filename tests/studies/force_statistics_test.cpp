@@ -15,7 +15,7 @@ std::vector<ForcesOfPerson> made(std::size_t people, const std::array<std::size_
   std::vector<ForcesOfPerson> all(people);
   for (std::size_t person = 0; person < people; ++person)
     for (std::size_t k = 0; k < FORCE_CHOICES; ++k)
-      all[person][k] = {true, false, person < lost[k] ? OFTEN : 0, person < lost[k] ? 3e-3 : 0.2e-3};
+      all[person][k] = {true, false, person < lost[k] ? OFTEN : 0, person < lost[k] ? 3e-3 : 0.2e-3, person >= lost[k]};
   return all;
 }
 

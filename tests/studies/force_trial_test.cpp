@@ -68,6 +68,18 @@ TEST(ForceTrial, TwoLossesAreOften) {
   EXPECT_FALSE(trial.watch.outcome().is_held());
 }
 
+// A vessel that is let go since nothing was felt was never taken hold of.
+TEST(ForceTrial, WhoFeelsNothingLosesNothing) {
+  MadeTrial trial;
+  for (int k = 0; k < 3; ++k) {
+    trial.run(0.5, SessionState::lift, 0.2);
+    trial.run(0.5, SessionState::free);
+  }
+  EXPECT_TRUE(trial.watch.outcome().has_gripped);
+  EXPECT_EQ(trial.watch.outcome().losses, 0);
+  EXPECT_FALSE(trial.watch.outcome().is_held()) << "nor was anything held";
+}
+
 TEST(ForceTrial, TheLargestOpeningIsBeyondEachGrasp) {
   MadeTrial trial;
   trial.run(0.1, SessionState::lift);
@@ -131,10 +143,11 @@ TEST(ForceTrial, ABaseForceOpensTheFingers) {
 TEST(ForceTrial, OutcomesSurviveAsNumbers) {
   ForcesOfPerson forces{};
   for (std::size_t k = 0; k < FORCE_CHOICES; ++k)
-    forces[k] = {k % 2 == 0, k % 3 == 0, static_cast<int>(k % 4), 1e-3 / static_cast<double>(k + 3)};
+    forces[k] = {k % 2 == 0, k % 3 == 0, static_cast<int>(k % 4), 1e-3 / static_cast<double>(k + 3), k % 5 == 0};
   const ForcesOfPerson again = forces_of(numbers_of(forces));
   for (std::size_t k = 0; k < FORCE_CHOICES; ++k) {
     EXPECT_EQ(again[k].has_gripped, forces[k].has_gripped);
+    EXPECT_EQ(again[k].has_succeeded, forces[k].has_succeeded);
     EXPECT_EQ(again[k].oscillates, forces[k].oscillates);
     EXPECT_EQ(again[k].losses, forces[k].losses);
     EXPECT_EQ(again[k].opening, forces[k].opening);

@@ -35,7 +35,7 @@ Scene one_beaker() {
 }
 
 bool same(const std::vector<GraspReport>& a, const std::vector<GraspReport>& b) {
-  const std::vector<double> x = numbers_of(a), y = numbers_of(b);
+  const std::vector<double> x = numbers_of({a, 0}), y = numbers_of({b, 0});
   if (x.size() != y.size()) return false;
   for (std::size_t k = 0; k < x.size(); ++k)
     if (x[k] != y[k] && !(std::isnan(x[k]) && std::isnan(y[k]))) return false;
@@ -60,7 +60,7 @@ TEST(Sessions, AreMeasuredAsRecordingsAre) {
   recording.info.rate = scene.live.rate;
   recording.info.force_max = scene.force.max;
   recording.info.vessels = {{scene.vessels[0].name, "red", 2}};
-  const std::vector<GraspReport> first = collector.finish(), all = sessions_of_person(one_beaker(), 1, 5, GOES_ON);
+  const std::vector<GraspReport> first = collector.finish(), all = sessions_of_person(one_beaker(), 1, 5, GOES_ON).grasps;
   EXPECT_TRUE(same(report_session(recording).grasps, first));
   ASSERT_GT(all.size(), first.size()) << "there is a second session";
   EXPECT_TRUE(same({all.begin(), all.begin() + static_cast<std::ptrdiff_t>(first.size())}, first));
@@ -73,9 +73,9 @@ TEST(Sessions, AreMeasuredAsRecordingsAre) {
 TEST(Sessions, WithoutScatterEverybodyIsOnePerson) {
   Scene scene = one_beaker();
   scene.people.scatter = 0;
-  EXPECT_TRUE(same(sessions_of_person(scene, 1, 0, GOES_ON), sessions_of_person(scene, 1, 99, GOES_ON)));
+  EXPECT_TRUE(same(sessions_of_person(scene, 1, 0, GOES_ON).grasps, sessions_of_person(scene, 1, 99, GOES_ON).grasps));
   scene.people.scatter = 1;
-  EXPECT_FALSE(same(sessions_of_person(scene, 1, 0, GOES_ON), sessions_of_person(scene, 1, 99, GOES_ON)));
+  EXPECT_FALSE(same(sessions_of_person(scene, 1, 0, GOES_ON).grasps, sessions_of_person(scene, 1, 99, GOES_ON).grasps));
 }
 
 // Whose gain and margin ask for more than the load rises by more than it. Without scatter and control error the grip over the tilt
@@ -89,7 +89,7 @@ TEST(Sessions, TheGripRisesByGainAndMargin) {
     scene.people.traits[static_cast<std::size_t>(Trait::grip_error)].mean = 1e-6;
     scene.people.traits[static_cast<std::size_t>(Trait::grip_tremor)].mean = 1e-6;
     const double margin = scene.people.traits[static_cast<std::size_t>(Trait::margin)].mean;
-    const std::vector<GraspReport> grasps = sessions_of_person(scene, 1, 0, GOES_ON);
+    const std::vector<GraspReport> grasps = sessions_of_person(scene, 1, 0, GOES_ON).grasps;
     ASSERT_EQ(grasps.size(), 2u);
     const double wanted = (gain / (1 - margin) - 1) * grasps[0].normal_increase;
     // the weight that the liquid takes along changes the load by nothing, as it is the expected one; the response comes late
@@ -97,10 +97,29 @@ TEST(Sessions, TheGripRisesByGainAndMargin) {
   }
 }
 
+// Whatever [people] allows: the session ends, and its numbers are numbers. A session that a fault ended is counted.
+TEST(Sessions, PeopleAtTheEndsOfTheirRangesComeToAnEnd) {
+  for (const TraitFacts& fact : trait_facts()) {
+    const auto k = static_cast<std::size_t>(&fact - trait_facts().data());
+    for (const double value : {fact.low, fact.high}) {
+      Scene scene = one_beaker();
+      scene.people.traits[k].mean = value;
+      const PersonSessions sessions = sessions_of_person(scene, 1, 0, GOES_ON);
+      EXPECT_LE(sessions.broken, 2) << fact.key << ' ' << value;
+      for (const GraspReport& grasp : sessions.grasps) {
+        EXPECT_TRUE(std::isfinite(grasp.start) && std::isfinite(grasp.end)) << fact.key << ' ' << value;
+        EXPECT_FALSE(std::abs(grasp.before.mean) > scene.force.max) << fact.key << ' ' << value;
+      }
+    }
+  }
+}
+
 TEST(Sessions, GraspsSurviveAsNumbers) {
-  const std::vector<GraspReport> grasps = sessions_of_person(one_beaker(), 1, 3, GOES_ON);
+  const std::vector<GraspReport> grasps = sessions_of_person(one_beaker(), 1, 3, GOES_ON).grasps;
   ASSERT_FALSE(grasps.empty());
-  const std::vector<GraspReport> again = grasps_of(numbers_of(grasps));
+  const PersonSessions whole = sessions_of(numbers_of({grasps, 1}));
+  const std::vector<GraspReport>& again = whole.grasps;
+  EXPECT_EQ(whole.broken, 1);
   EXPECT_TRUE(same(again, grasps));
   ASSERT_EQ(again.size(), grasps.size());
   EXPECT_EQ(again[0].vessel, grasps[0].vessel);
@@ -109,7 +128,7 @@ TEST(Sessions, GraspsSurviveAsNumbers) {
   EXPECT_EQ(again[0].spilt, grasps[0].spilt);
   EXPECT_EQ(again[0].after_at_first, grasps[0].after_at_first);
   // a member that numbers_of leaves out would be lost: 16 numbers, 3 durations, 3 means of 3 numbers, and 3 names
-  EXPECT_EQ(numbers_of(grasps).size(), 31 * grasps.size());
+  EXPECT_EQ(numbers_of({grasps, 0}).size(), 1 + 31 * grasps.size());
   EXPECT_EQ(sizeof(GraspReport), 16 * 8 + 3 * 8 + 9 * 8 + 8 + 8u) << "with the names, each padded to a number";
 }
 
@@ -160,6 +179,34 @@ TEST(StudyJournal, ALineThatIsCutIsDoneAgain) {
   ASSERT_TRUE(journal.find("forces", 1));
   EXPECT_EQ((*journal.find("forces", 1))[0], 3);
   EXPECT_TRUE(journal.find("forces", 0));
+}
+
+// A byte that is not as it was written, in a line or in the head.
+TEST(StudyJournal, WhatIsDamagedIsFound) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "study.journal";
+  const StudyIdentity own{{"seed", "1"}};
+  {
+    StudyJournal journal(path, own, false);
+    for (std::uint64_t person = 0; person < 3; ++person)
+      journal.add("forces", person, std::vector<double>{static_cast<double>(person)});
+  }
+  const std::string whole = file_text(path);
+  std::string text = whole;
+  text[text.rfind("\"person\":1") + 9] = '2';
+  write_file(path, text);
+  {
+    const StudyJournal journal(path, own, true);
+    EXPECT_EQ(journal.done(), 2u);
+    EXPECT_EQ(journal.damaged(), 1u);
+    EXPECT_FALSE(journal.find("forces", 1));
+  }
+  text = whole;
+  text[text.find("seed") + 1] = 'x';
+  write_file(path, text);
+  EXPECT_THROW(StudyJournal(path, own, true), Error);
+  write_file(path, "wholehand study journal 9\n" + whole.substr(whole.find('\n') + 1));
+  EXPECT_THROW(StudyJournal(path, own, true), Error);
 }
 
 TEST(PeopleLoop, DoesWhatTheJournalLacksInTheirOrder) {
