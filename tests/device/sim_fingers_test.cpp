@@ -50,6 +50,8 @@ struct Pinch {
 // More is wanted than the gripper renders, or nothing stops the fingers: they stay within what a closed gripper asks for, and let go as
 // quickly as others.
 TEST(SimFingers, DoNotWindUp) {
+  // their held place goes 0.12 m in 0.15 s, and they swing with 90 rad/s: 0.8 m/s / 90 rad/s
+  constexpr double INERTIA = 9e-3;  // m
   for (const double opening : {600.0, 0.0}) {
     SimFingers fingers(opening, RANGE, MOST, PERIOD);
     const Traits traits = median();
@@ -57,8 +59,7 @@ TEST(SimFingers, DoNotWindUp) {
     for (int k = 0; k < 20000; ++k) {
       fingers.press(12, opening > 0 ? MOST : BASE, 0);
       fingers.advance(opening > 0 ? MOST : BASE, 0, 0);
-      ASSERT_LT(fingers.place(), RANGE + 12 / of(traits, Trait::finger_stiffness) + 5e-3)
-          << "and their inertia " << opening << ' ' << k;
+      ASSERT_LT(fingers.place(), RANGE + 12 / of(traits, Trait::finger_stiffness) + INERTIA) << opening << ' ' << k;
     }
   }
 }
