@@ -24,8 +24,9 @@ struct Box {
   std::size_t outliers_beside = 0;  // those that are left out of `outliers`
 };
 
-// Of values in any order; those that are not finite do not count. The quartiles are by percentile_of (statistics/interval.h). A whisker
-// ends at the furthest value within 1.5 interquartile ranges of its quartile, or at the quartile where there is none beyond it.
+// Of values in any order; those that are not finite do not count. The quartiles are by percentile_of (statistics/interval.h). A
+// whisker ends at the furthest value within 1.5 interquartile ranges of its quartile, or at the quartile where there is none beyond
+// it.
 Box box_of(std::span<const double> values);
 
 // Groups side by side. The page needs BOX_RULES (charts/style.h).

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Thumb and index finger of the simulated user on the jaw of the gripper: what they do with an intention, and what a force does to them.
+// Thumb and index finger of the simulated user on the jaw of the gripper: what they do with an intention, and what a force does to
+// them.
 #pragma once
 
 #include "core/loop.h"
@@ -11,8 +12,8 @@ namespace wholehand {
 // closing of the device from its open gap, m; forces are of the fingers, positive closes, N.
 class SimFingers {
  public:
-  // `opening_stiffness`: k_open of the scene, which people who use the gripper have learnt, N/m. `range`: how far the gripper closes, m.
-  // `most`: the largest force that it renders, N. `period`: s.
+  // `opening_stiffness`: k_open of the scene, which people who use the gripper have learnt, N/m. `range`: how far the gripper
+  // closes, m. `most`: the largest force that it renders, N. `period`: s.
   SimFingers(double opening_stiffness, double range, double most, double period);
 
   // From now on these are the person's fingers: their impedance, and how they follow a load.
@@ -22,12 +23,12 @@ class SimFingers {
   void go(double place, double speed) noexcept;
 
   // Towards a force, N. On the first call after go() the force rises from what is pressed then, over the person's response time.
-  // `felt`: the whole force and `load`: its part that the fingers do not make, both a reaction time ago, N. Where force
-  // and intention differ after the response, the fingers correct that slowly, but not while the gripper can render no more or no less.
+  // `felt`: the whole force and `load`: its part that the fingers do not make, both a reaction time ago, N. Where force and
+  // intention differ after the response, the fingers correct that slowly, but not while the gripper can render no more or no less.
   void press(double force, double felt, double load) noexcept;
 
-  // One period under the force of the gripper, positive opens. `trembling` and `wandering`: numbers of standard deviation 1, of which
-  // the person's share becomes a force.
+  // One period under the force of the gripper, positive opens. `trembling` and `wandering`: numbers of standard deviation 1, of
+  // which the person's share becomes a force.
   void advance(double rendered, double trembling, double wandering) noexcept;
 
   double place() const noexcept { return motion_.place; }

@@ -13,12 +13,12 @@
 
 namespace wholehand {
 
-// The device is the paper's: 12 N at the arm, 8 N at the fingers; its gap is the hand's own unless [device] gap_mm says otherwise, and it
-// measures at the scene's rate. Its user (device/sim_user.h) is `person`: moves along minimum-jerk paths, holds the device with an arm and
-// with fingers (device/sim_fingers.h) that have mass, damping and stiffness, feels and sees a reaction time late, presses with the
-// force that the person thinks the vessel needs, follows what opens the fingers, and trembles, by `seed`. The same person, seed, scene and
-// forces give the same motion to the bit. The scene has the person's own hand (Participant::hand).
-// Throws Error (usage) where the user finds nothing to do.
+// The device is the paper's: 12 N at the arm, 8 N at the fingers; its gap is the hand's own unless [device] gap_mm says otherwise,
+// and it measures at the scene's rate. Its user (device/sim_user.h) is `person`: moves along minimum-jerk paths, holds the device
+// with an arm and with fingers (device/sim_fingers.h) that have mass, damping and stiffness, feels and sees a reaction time late,
+// presses with the force that the person thinks the vessel needs, follows what opens the fingers, and trembles, by `seed`. The same
+// person, seed, scene and forces give the same motion to the bit. The scene has the person's own hand (Participant::hand). Throws
+// Error (usage) where the user finds nothing to do.
 std::unique_ptr<Gripper> open_sim(const Scene& scene, std::uint64_t seed, const Participant& person);
 // The median person of the scene's population.
 std::unique_ptr<Gripper> open_sim(const Scene& scene, std::uint64_t seed);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Who holds the simulated gripper: what a person would do with a scene, one intention after the other. No physics of the device here.
+// Who holds the simulated gripper: what a person would do with a scene, one intention after the other. No physics of the device
+// here.
 #pragma once
 
 #include <vector>
@@ -22,9 +23,9 @@ struct SimJob {
   PourPath path;      // where the tips' middle is while it pours
 };
 
-// What there is to do in a scene: its task, or each vessel shown. A vessel is taken at the height of the guidance point that is shown then,
-// without one where the grip scores best, always with the palm away from the user. Vessels that no such grip holds are left out; throws Error
-// (usage) where none is left.
+// What there is to do in a scene: its task, or each vessel shown. A vessel is taken at the height of the guidance point that is
+// shown then, without one where the grip scores best, always with the palm away from the user. Vessels that no such grip holds are
+// left out; throws Error (usage) where none is left.
 std::vector<SimJob> plan_sim_jobs(const Scene& scene);
 
 // What the user wants at a moment.

@@ -68,8 +68,8 @@ std::vector<double> smoothed(std::span<const Tick> held, double Tick::*member, s
 
 bool has_gap(const Tick& tick) { return tick.read == ReadOutcome::value && std::isfinite(tick.device.gap); }
 
-// The gap's speed at a tick, m/s: the slope of the line through the gaps of a window about it by least squares (a Savitzky-Golay filter of
-// the first order, whose delay is none); NaN where fewer than three are known.
+// The gap's speed at a tick, m/s: the slope of the line through the gaps of a window about it by least squares (a Savitzky-Golay
+// filter of the first order, whose delay is none); NaN where fewer than three are known.
 double gap_speed(std::span<const Tick> held, std::size_t at, std::int64_t half, double rate) {
   double n = 0, t = 0, x = 0, tt = 0, tx = 0;
   const auto add = [&](const Tick& tick) {

@@ -67,7 +67,8 @@ struct GraspReport {
   double arrived = 0, spilt = 0;          // until the vessel's next grasp, m3
 };
 
-// What the ticks of one grasp (held, of one vessel, at least one) say by themselves: all but outcome, arrived and spilt. `rate` in Hz.
+// What the ticks of one grasp (held, of one vessel, at least one) say by themselves: all but outcome, arrived and spilt. `rate` in
+// Hz.
 GraspReport measure_grasp(std::span<const Tick> held, double rate, bool is_lost);
 
 // How long a tick counts, in periods: until the next one.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Recordings of live sessions: every tick, and what is needed to understand or repeat it, in one NetCDF file (classic, 64-bit offsets).
-// docs/session.md describes its variables.
+// Recordings of live sessions: every tick, and what is needed to understand or repeat it, in one NetCDF file (classic, 64-bit
+// offsets). docs/session.md describes its variables.
 #pragma once
 
 #include <array>
@@ -45,7 +45,7 @@ struct RecordingInfo {
   std::string start;    // ISO 8601, with its offset from UTC
   std::uint64_t seed = 0;
   std::optional<std::uint64_t> person;  // number of the virtual person who grips with a hand of their own, drawn by `seed`
-  double rate = 1000;  // of the force loop, Hz
+  double rate = 1000;                   // of the force loop, Hz
   RecordedDevice device;
   std::vector<RecordedVessel> vessels;  // 1 to LIVE_VESSELS
   double force_base = Tick::NONE;       // F_base, N
@@ -72,8 +72,9 @@ struct RecordingEnd {
 // one that named it, for the message.
 void check_recording_path(const std::string& path, const char* option = "recording");
 
-// A recording that is being made. It lies at PATH.partial, and at PATH once it is finished. Whatever becomes of the process, the partial
-// file is a whole recording of all blocks that were appended: records are only added, and counted in the file once they are in it.
+// A recording that is being made. It lies at PATH.partial, and at PATH once it is finished. Whatever becomes of the process, the
+// partial file is a whole recording of all blocks that were appended: records are only added, and counted in the file once they are
+// in it.
 class RecordingWriter {
  public:
   // Throws Error: (usage) as check_recording_path, (failure) the file cannot be made, with the remedy. A file that grows past the
@@ -84,12 +85,12 @@ class RecordingWriter {
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;
 
-  // Adds ticks, of ascending numbers. False: not all of them could be written (the disk is full, the file too large, an error of the
-  // disk); trouble() says why, what was written so far stays readable, and nothing is taken any more.
+  // Adds ticks, of ascending numbers. False: not all of them could be written (the disk is full, the file too large, an error of
+  // the disk); trouble() says why, what was written so far stays readable, and nothing is taken any more.
   bool append(std::span<const Tick> ticks);
 
-  // Writes the ends, syncs, and gives the file its name; also after trouble. False: it could not, and trouble() says why and where the
-  // recording is. Once.
+  // Writes the ends, syncs, and gives the file its name; also after trouble. False: it could not, and trouble() says why and where
+  // the recording is. Once.
   bool finish(RecordingEnd end);
 
   // What went wrong, in one line for the user; empty: nothing.
@@ -124,8 +125,8 @@ struct Recording {
   std::string note;                 // one line, where the file holds less than it says, or is not finished; empty: it is whole
 };
 
-// Reads a recording. Values come back to the bit; a vessel that the recording does not have is as in a new Tick. Throws Error (usage), one
-// line with the file: it cannot be read, is no recording, lacks something, or holds what cannot be.
+// Reads a recording. Values come back to the bit; a vessel that the recording does not have is as in a new Tick. Throws Error
+// (usage), one line with the file: it cannot be read, is no recording, lacks something, or holds what cannot be.
 Recording read_recording(const std::string& path);
 
 }  // namespace wholehand

@@ -17,8 +17,8 @@ using ForcesOfPerson = std::array<ForceOutcome, FORCE_CHOICES>;  // by PAPER_CHO
 
 constexpr std::array<double, 3> OPENINGS{0.5e-3, 1e-3, 2e-3};  // m: whose shares are told beside those of lost grips
 
-// Rows of the experiment "forces". Intervals are those of ten people, drawn without replacement where there are many; NaN where there are fewer than ten. The same
-// bits for any number of threads.
+// Rows of the experiment "forces". Intervals are those of ten people, drawn without replacement where there are many; NaN where
+// there are fewer than ten. The same bits for any number of threads.
 std::vector<StudyRow> force_rows(std::span<const ForcesOfPerson> people, const std::string& vessel, std::uint64_t seed,
                                  int resamples, int threads);
 

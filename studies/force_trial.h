@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One trial of the paper's preliminary experiment (its Table 2): a person grips, lifts, tilts and maintains under a choice of forces.
+// One trial of the paper's preliminary experiment (its Table 2): a person grips, lifts, tilts and maintains under a choice of
+// forces.
 #pragma once
 
 #include <array>

@@ -14,8 +14,8 @@ namespace wholehand {
 
 // So many people, and so many grasps of each of the three vessels.
 constexpr std::size_t PAPER_PEOPLE = 17;
-// A population with the people of so many samples is large: a sample draws none twice. The samples of a smaller one would be too alike, and
-// are drawn with replacement.
+// A population with the people of so many samples is large: a sample draws none twice. The samples of a smaller one would be too
+// alike, and are drawn with replacement.
 constexpr std::size_t MANY_SAMPLES = 10;
 constexpr std::array<std::size_t, 3> PAPER_GRASPS{22, 32, 18};
 

@@ -111,7 +111,8 @@ class StudyRun {
     rows.push_back(row);
   }
 
-  // As `wholehand live` would refuse it, before any work: vessels in each other, nothing to do for the scene's own hand, unstable gains.
+  // As `wholehand live` would refuse it, before any work: vessels in each other, nothing to do for the scene's own hand, unstable
+  // gains.
   static void check_live(const Scene& scene) {
     const LiveScene live(scene);
     plan_sim_jobs(scene);

@@ -14,8 +14,8 @@ namespace wholehand {
 // What the statistic of such a row begins with; then comes the name of the answer.
 inline constexpr const char* FIRST_ORDER_OF = "first_order_of_";
 
-// A row for each input of each output: the output's in the statistic, the input's as the subject, no pose, and ALL_VESSELS. The names
-// are as many as `indices` has inputs (person_input_names) and outputs.
+// A row for each input of each output: the output's in the statistic, the input's as the subject, no pose, and ALL_VESSELS. The
+// names are as many as `indices` has inputs (person_input_names) and outputs.
 std::vector<StudyRow> sensitivity_rows(const std::string& experiment, std::span<const std::string> outputs,
                                        std::span<const std::string> inputs, const GivenDataIndices& indices);
 
@@ -32,8 +32,8 @@ struct OutputIndices {
 };
 constexpr std::size_t MOST_INPUTS = 3;
 
-// Of the rows of sensitivity among `rows`, in their order. An input whose interval reaches down to 0 is left out; an output may so be
-// left without inputs.
+// Of the rows of sensitivity among `rows`, in their order. An input whose interval reaches down to 0 is left out; an output may so
+// be left without inputs.
 std::vector<OutputIndices> strongest_inputs(std::span<const StudyRow> rows);
 
 }  // namespace wholehand

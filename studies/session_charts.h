@@ -10,8 +10,8 @@
 
 namespace wholehand {
 
-// Captions and SVG: the increase of the normal force, the grip force before and after the tilt, and the response time, with the paper's means and
-// deviations where they are known.
+// Captions and SVG: the increase of the normal force, the grip force before and after the tilt, and the response time, with the
+// paper's means and deviations where they are known.
 std::vector<std::string> session_charts(std::span<const SessionSubject> subjects, const SessionVessels& vessels);
 
 }  // namespace wholehand

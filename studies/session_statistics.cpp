@@ -191,8 +191,8 @@ class GraspPool {
     return grasps;
   }
 
-  // 17 people: each once of a large population, else drawn with replacement, as for a bootstrap. Of each vessel as many of their grasps as
-  // the paper has; all where there are fewer.
+  // 17 people: each once of a large population, else drawn with replacement, as for a bootstrap. Of each vessel as many of their
+  // grasps as the paper has; all where there are fewer.
   GraspsByVessel sample(std::uint64_t seed) const {
     std::uint64_t state = seed;
     GraspsByVessel grasps(vessels_);

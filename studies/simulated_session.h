@@ -26,8 +26,8 @@ struct SimulatedSession {
 };
 
 // Runs it: gripper, limits, loop and session are those of `wholehand live`. `take` is given each tick; false ends the session. Also
-// ends where `stop` is set. False: it did not come to its end by itself, but by a fault, as a jump of the hand, or since it took too long.
-// What `take` throws is thrown on.
+// ends where `stop` is set. False: it did not come to its end by itself, but by a fault, as a jump of the hand, or since it took
+// too long. What `take` throws is thrown on.
 bool run_simulated(const SimulatedSession& asked, const std::function<bool(const Tick&)>& take, const std::atomic<bool>& stop);
 
 // The seed of the tremor in session `k` of a person. Without scatter everybody is one person, who trembles alike too.

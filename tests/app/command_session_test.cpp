@@ -84,7 +84,8 @@ TEST_F(SessionCommand, StudiesRecordings) {
   EXPECT_NEAR(std::stod(increase.at(5)), 0.158, 0.02) << "of two sessions at two rates";
   EXPECT_EQ(increase.at(6), "");
   EXPECT_EQ(increase.at(8), "0.56");
-  EXPECT_EQ(cells_of(csv, "sessions,,all,tilt_time_mean,").at(8), "") << "both are of the simulated gripper, whose user tilts as fast as the paper's people";
+  EXPECT_EQ(cells_of(csv, "sessions,,all,tilt_time_mean,").at(8), "")
+      << "both are of the simulated gripper, whose user tilts as fast as the paper's people";
   EXPECT_EQ(cells_of(csv, "sessions,,all,lost_share,").at(5), "0");
   EXPECT_FALSE(has(csv, "tutorial"));
   const std::string page = file_text(out + "/study.html"), start = "<!DOCTYPE html>\n";

@@ -47,8 +47,8 @@ struct Pinch {
   }
 };
 
-// More is wanted than the gripper renders, or nothing stops the fingers: they stay within what a closed gripper asks for, and let go as
-// quickly as others.
+// More is wanted than the gripper renders, or nothing stops the fingers: they stay within what a closed gripper asks for, and let
+// go as quickly as others.
 TEST(SimFingers, DoNotWindUp) {
   // their held place goes 0.12 m in 0.15 s, and they swing with 90 rad/s: 0.8 m/s / 90 rad/s
   constexpr double INERTIA = 9e-3;  // m
@@ -72,7 +72,8 @@ TEST(SimFingers, PressWhatThePersonWantsWithinTheResponse) {
     ASSERT_GE(pinch.touched, 0);
     const auto at = [&pinch](double since) { return pinch.forces[static_cast<std::size_t>(since / PERIOD)]; };
     const double done = of(pinch.traits, Trait::reaction) + of(pinch.traits, Trait::response);
-    // the fingers lag behind their held place by their damping over their stiffness, 10 ms: five of these later nothing of it is left
+    // the fingers lag behind their held place by their damping over their stiffness, 10 ms: five of these later nothing of it is
+    // left
     EXPECT_NEAR(at(done + 0.05), wanted, 0.1 * wanted) << "and an eighth of the fingers' speed at the touch is not foreseen";
     EXPECT_NEAR(at(1.2), wanted, 0.02 * wanted);
   }

@@ -253,9 +253,9 @@ TEST(SimGripper, ShowsEveryVesselOfASceneWithoutATask) {
   }
 }
 
-// The whole force on a finger is what the person wants for this vessel, and the rise that keeps the margin where the torque opens the
-// fingers. A control error of 2 % wanders slowly: the mean over some seconds, of which it changes a few times each, is off by less
-// than 1 %, and single ticks by less than five deviations.
+// The whole force on a finger is what the person wants for this vessel, and the rise that keeps the margin where the torque opens
+// the fingers. A control error of 2 % wanders slowly: the mean over some seconds, of which it changes a few times each, is off by
+// less than 1 %, and single ticks by less than five deviations.
 TEST(SimGripper, HoldsTheForceThatThePersonWants) {
   const Scene scene = shipped_live();
   const Traits traits = Participant(scene.people).person().traits;

@@ -124,7 +124,8 @@ TEST(Parity, HandsOfPeople) {
   }
 }
 
-// A hand with proportions of its own, whose trajectories may end early: the first of the population that is so, and the first that is not.
+// A hand with proportions of its own, whose trajectories may end early: the first of the population that is so, and the first that
+// is not.
 TEST(Parity, HandsOfAPopulation) {
   bool has_early = false, has_whole = false;
   for (std::uint64_t number = 0; !(has_early && has_whole); ++number) {

@@ -146,8 +146,8 @@ TEST(GivenDataIndices, OfTooFewEntriesAreNone) {
   EXPECT_NEAR(given_indices(model, LEAST).first_order(0, 0).first, 1, 0.01);
 }
 
-// One person of a thousand does something else: without that one's group nothing varies but by rounding, which each usual answer has
-// its own of.
+// One person of a thousand does something else: without that one's group nothing varies but by rounding, which each usual answer
+// has its own of.
 TEST(GivenDataIndices, OfASingleExceptionAreFinite) {
   for (const int exception : {0, 500}) {
     for (double usual = 0.1; usual < 1; usual += 0.1) {

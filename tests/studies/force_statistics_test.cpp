@@ -76,8 +76,8 @@ TEST(ForceStatistics, NobodyLosesSoNothingSaysWhatMattersMore) {
   EXPECT_EQ(row(rows, "lost_share", "2.2").inside(), std::optional(false));
 }
 
-// Of 400 people a half: ten of them are a hypergeometric draw, whose 2.5th and 97.5th percentile are 2 and 8 of 10 (the tails beyond are
-// 1.0 % below 2, and 5.3 % below 3).
+// Of 400 people a half: ten of them are a hypergeometric draw, whose 2.5th and 97.5th percentile are 2 and 8 of 10 (the tails
+// beyond are 1.0 % below 2, and 5.3 % below 3).
 TEST(ForceStatistics, IntervalsAreThoseOfTenPeople) {
   std::array<std::size_t, FORCE_CHOICES> half{};
   half.fill(200);

@@ -116,8 +116,8 @@ TEST(ForceTrial, NothingOscillatesWhileItSettlesOrTurns) {
   EXPECT_FALSE(trial.watch.outcome().oscillates);
 }
 
-// The gripper pushes the fingers open by F_base over its stiffness and theirs, so nobody loses a grip that may open by 8 mm. Where it may open
-// by half a millimetre, 2.2 N end it for everybody and 0.4 N for nobody.
+// The gripper pushes the fingers open by F_base over its stiffness and theirs, so nobody loses a grip that may open by 8 mm. Where
+// it may open by half a millimetre, 2.2 N end it for everybody and 0.4 N for nobody.
 TEST(ForceTrial, ABaseForceOpensTheFingers) {
   Scene scene = three_beakers();
   const std::atomic<bool> stop{false};
