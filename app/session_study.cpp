@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 #include "core/scene.h"
@@ -58,11 +60,21 @@ std::vector<GraspReport> grasps_of(const Recording& recording) {
   return collector.finish();
 }
 
+// A recording is one person, and counts once.
+void check_is_another(const std::vector<std::string>& paths, std::size_t k) {
+  std::error_code unknown;
+  for (std::size_t other = 0; other < k; ++other)
+    if (std::filesystem::equivalent(paths[other], paths[k], unknown))
+      throw usage_error(fmt::format("{}: is named twice; each recording counts as one person", paths[k]));
+}
+
 // One recording at a time is in memory.
 RecordedSessions read_sessions(const std::vector<std::string>& paths) {
   RecordedSessions sessions;
   std::optional<RecordingInfo> first;
-  for (const std::string& path : paths) {
+  for (std::size_t k = 0; k < paths.size(); ++k) {
+    const std::string& path = paths[k];
+    check_is_another(paths, k);
     const Recording recording = read_recording(path);
     if (!recording.note.empty()) std::fprintf(stderr, "wholehand: %s\n", recording.note.c_str());
     if (!first) {

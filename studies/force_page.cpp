@@ -35,7 +35,8 @@ std::string share_text(const StudyRow* row) {
 
 // A line for each choice.
 TextTable choices_table(std::span<const StudyRow> rows) {
-  TextTable table{{"F, N", "lost often", "the paper", "inside", "oscillated", "held", "open 0.5 mm", "1 mm", "2 mm", "mean, mm"}};
+  TextTable table{
+      {"F, N", "lost often", "the paper", "inside", "oscillated", "held", "open 0.5 mm", "1 mm", "2 mm", "opening, mm"}};
   for (const ForceChoice& choice : PAPER_CHOICES) {
     const std::string name = choice_name(choice);
     const StudyRow* lost = force_row(rows, "lost_share", name);
@@ -74,12 +75,22 @@ TextTable odds_table(std::span<const StudyRow> rows) {
   return table;
 }
 
+// As on the rest of the page: a minus sign, and a dash where there is nothing. Choices such as 0.8-3.8 stay.
+std::string with_minus_signs(const std::string& cell) {
+  if (cell == "-") return "\u2013";
+  std::string text;
+  for (std::size_t k = 0; k < cell.size(); ++k) {
+    const bool is_minus = cell[k] == '-' && (k == 0 || cell[k - 1] == '(' || cell[k - 1] == ' ');
+    text += is_minus ? "\u2212" : std::string(1, cell[k]);
+  }
+  return text;
+}
+
 void write_table(MarkupWriter& html, const std::string& caption, const TextTable& lines, const std::vector<std::size_t>& words) {
   HtmlTable table(html, caption, lines.front(), words);
   for (std::size_t k = 1; k < lines.size(); ++k) {
     std::vector<std::string> cells = lines[k];
-    for (std::string& cell : cells)
-      if (cell == "-") cell = "\u2013";
+    for (std::string& cell : cells) cell = with_minus_signs(cell);
     table.row(cells);
   }
   table.end();

@@ -156,7 +156,8 @@ std::vector<StudyRow> force_rows(std::span<const ForcesOfPerson> people, const s
   std::vector<StudyRow> rows;
   const std::vector<ForceName> all = force_names();
   for (std::size_t k = 0; k < all.size(); ++k)
-    rows.push_back({"forces", "", vessel, all[k].statistic, all[k].subject, values[k], intervals[k], all[k].paper});
+    rows.push_back({"forces", "", vessel, all[k].statistic, all[k].subject, values[k],
+                    std::isnan(values[k]) ? Interval{} : intervals[k], all[k].paper});
   return rows;
 }
 

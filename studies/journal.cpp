@@ -100,6 +100,12 @@ const std::vector<double>* StudyJournal::find(const std::string& experiment, std
   return found == done_.end() ? nullptr : &found->second;
 }
 
+std::size_t StudyJournal::done_of(const std::string& experiment, std::uint64_t people) const {
+  std::size_t count = 0;
+  for (const auto& [part, numbers] : done_) count += part.first == experiment && part.second < people ? 1 : 0;
+  return count;
+}
+
 std::size_t StudyJournal::done_beside(std::uint64_t forces, std::uint64_t sessions) const {
   std::size_t others = 0;
   for (const auto& [part, numbers] : done_) others += part.second >= (part.first == "forces" ? forces : sessions) ? 1 : 0;

@@ -29,6 +29,14 @@ void write_study_head(MarkupWriter& html, const StudyPage& page) {
   html.close();
 }
 
+// The page is long: links to its sections.
+void write_contents(MarkupWriter& html, const StudyPage& page) {
+  html.open("nav", {{"aria-label", "sections"}}).open("ul");
+  for (const StudySection& section : page.sections)
+    html.open("li").element("a", section.title, {{"href", "#" + section.id}}).close();
+  html.close().close();
+}
+
 void write_section(MarkupWriter& html, const StudySection& section) {
   html.open("section", {{"aria-labelledby", section.id}}).element("h2", section.title, {{"id", section.id}});
   for (const std::string& words : section.words) html.element("p", words);
@@ -56,6 +64,7 @@ std::string study_page(const StudyPage& page) {
   html.close();
   html.open("main");
   for (const std::string& words : page.words) html.element("p", words);
+  write_contents(html, page);
   for (const StudySection& section : page.sections) write_section(html, section);
   html.close();
   html.element("footer",

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -49,8 +50,8 @@ class StudyRun {
     if (options.people.sessions > 0) {
       if (!scene.task)
         throw usage_error(
-            fmt::format("{}: sessions need a task, which says what is poured; add [task] to the scene, or leave "
-                        "--experiment sessions out",
+            fmt::format("{}: sessions need a task, which says what is poured; add [task] to the scene, or ask for "
+                        "--experiment contacts or forces",
                         name_of(scene)));
       session_vessels_ = session_vessels(scene);
       check_live(scene);
@@ -134,9 +135,17 @@ class StudyRun {
     journal_ = std::make_unique<StudyJournal>(folder_->files().journal, identity, options_.resumes);
     if (given_up > 0)
       say_note(fmt::format("{} of an interrupted study are given up; --resume would have kept them", counted(given_up, "part")));
-    if (journal_->done() > 0) say_note(fmt::format("goes on: {} of people are done", counted(journal_->done(), "part")));
+    if (journal_->done() > 0) {
+      const std::size_t forces = journal_->done_of("forces", options_.people.forces),
+                        sessions = journal_->done_of("sessions", options_.people.sessions);
+      say_note(fmt::format("goes on: {} of {} people of forces and {} of {} people of sessions are done", forces,
+                           options_.people.forces, sessions, options_.people.sessions));
+    } else if (options_.resumes) {
+      say_note("there is no interrupted study in this folder; it begins anew");
+    }
     if (journal_->damaged() > 0)
-      say_note(fmt::format("{} of the journal are damaged; these people are done again", counted(journal_->damaged(), "line")));
+      say_note(
+          fmt::format("the journal has {} that cannot be read; these people are done again", counted(journal_->damaged(), "line")));
   }
 
   // What other people or experiments have done is kept.
@@ -147,7 +156,7 @@ class StudyRun {
     if (others == 0) {
       std::remove(folder_->files().journal.c_str());
     } else {
-      say_note(fmt::format("{}: kept, with {} of people or experiments that were not asked for now", folder_->files().journal,
+      say_note(fmt::format("{} stays: it has {} of people or experiments that were not asked for now", folder_->files().journal,
                            counted(others, "part")));
     }
   }
@@ -184,6 +193,12 @@ class StudyRun {
     if (*stop_) return false;
     std::vector<ForcesOfPerson> found;
     for (const auto& of_person : numbers) found.push_back(forces_of(of_person));
+    const auto gripped = std::count_if(found.begin(), found.end(), [](const ForcesOfPerson& forces) {
+      return std::all_of(forces.begin(), forces.end(), [](const ForceOutcome& one) { return one.has_gripped; });
+    });
+    if (static_cast<std::uint64_t>(gripped) < people)
+      say_note(fmt::format("{} of {} people did not grip in every trial; they are left out where they did not",
+                           people - static_cast<std::uint64_t>(gripped), people));
     std::vector<StudyRow> rows = force_rows(found, vessel, options_.seed, options_.resamples, options_.threads);
     page_.sections.push_back(force_section(rows));
     lead_.push_back(fmt::format("forces: {} people", readable_number(people)));

@@ -48,6 +48,9 @@ double is_hard(const GraspReport& grasp) { return counted_if(is_maintained(grasp
 double is_soft(const GraspReport& grasp) { return counted_if(is_maintained(grasp), grasp.after_at_first < SOFT_GRIP); }
 double normal_increase(const GraspReport& grasp) { return counted_if(is_analysed(grasp), grasp.normal_increase); }
 double grip_change(const GraspReport& grasp) { return counted_if(is_analysed(grasp), grasp.grip_change); }
+double has_tilt(const GraspReport& grasp) { return is_tilted(grasp) ? 1 : 0; }
+double has_type(const GraspReport& grasp) { return counted_if(is_tilted(grasp), is_analysed(grasp)); }
+double is_saturated(const GraspReport& grasp) { return counted_if(is_tilted(grasp), grasp.saturated > 0); }
 double is_rising(const GraspReport& grasp) { return counted_if(is_analysed(grasp), grasp.grip_change > 0); }
 double is_falling(const GraspReport& grasp) { return counted_if(is_analysed(grasp), !(grasp.grip_change > 0)); }
 template <GripCourse COURSE>
@@ -98,7 +101,7 @@ const std::array<OfAll, 19> OF_ALL{{
     {{"correlation_before_change", Said::correlation, grip_before, grip_change}, -0.184},
 }};
 
-const std::array<OfVessel, 15> OF_VESSEL{{
+const std::array<OfVessel, 18> OF_VESSEL{{
     {{"normal_increase_mean", Said::mean, normal_increase}, {0.56, 1.02, 2.33}},
     {{"normal_increase_deviation", Said::deviation, normal_increase}, {0.29, 0.54, 0.34}},
     {{"correlation_increase_change", Said::correlation, normal_increase, grip_change}, {-0.251, -0.223, 0.098}},
@@ -114,6 +117,9 @@ const std::array<OfVessel, 15> OF_VESSEL{{
     {{"g4_share", Said::mean, has_course<GripCourse::complex>}},
     {{"rising_share", Said::mean, is_rising}},
     {{"lost_share", Said::mean, is_lost}},
+    {{"tilted_share", Said::mean, has_tilt}},
+    {{"analysed_share", Said::mean, has_type}},
+    {{"saturated_share", Said::mean, is_saturated}},
 }};
 
 // Of the normal increases of the vessels against each other.
@@ -235,6 +241,9 @@ StudyRow row_of(const std::string& vessel, const std::string& statistic, double 
   return row;
 }
 
+// F and p of the population are those of many more grasps than a sample has.
+bool is_of_a_number_of_grasps(const StudyRow& row) { return row.statistic == "anova_f" || row.statistic == "anova_p"; }
+
 // Without values, in the order of values_of.
 std::vector<StudyRow> empty_rows(const SessionVessels& vessels, bool are_simulated) {
   std::vector<StudyRow> rows;
@@ -274,7 +283,8 @@ std::vector<StudyRow> session_rows(std::span<const SessionSubject> subjects, con
       samples[k] = values_of(pool.sample(mixed_bits(mixed_bits(sampling.seed ^ SESSION_SAMPLES) + k)));
     });
     const std::vector<Interval> intervals = sample_intervals(samples);
-    for (std::size_t k = 0; k < rows.size(); ++k) rows[k].interval = intervals[k];
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      if (!std::isnan(rows[k].value) && !is_of_a_number_of_grasps(rows[k])) rows[k].interval = intervals[k];
   }
   StudyRow inside = row_of(ALL_VESSELS, INSIDE_SHARE, NO_VALUE);
   inside.value = inside_share(rows);

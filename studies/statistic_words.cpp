@@ -14,7 +14,7 @@ struct StatisticWords {
   const char *statistic, *words;
 };
 
-constexpr std::array<StatisticWords, 11> WHOLE_WORDS{{
+constexpr std::array<StatisticWords, 16> WHOLE_WORDS{{
     {"correlation_before_change", "r of grip before and its change"},
     {"correlation_increase_change", "r of normal increase and grip change"},
     {"anova_f", "normal increase between vessels, F"},
@@ -25,6 +25,11 @@ constexpr std::array<StatisticWords, 11> WHOLE_WORDS{{
     {"maintained_under_1N_share", "maintained with under 1 N at first"},
     {"rising_share", "grip rises over the tilt"},
     {"falling_share", "grip does not rise over the tilt"},
+    {"tilted_share", "tilted by 30 degrees or more"},
+    {"analysed_share", "of these, with a type"},
+    {"saturated_share", "of these, at F_max"},
+    {"people_with_grasps_share", "people who grasped"},
+    {"whole_sessions_share", "sessions that ended by themselves"},
     {"lost_share", "lost grips"},
 }};
 

@@ -100,13 +100,16 @@ TEST_F(SessionCommand, StudiesRecordings) {
 }
 
 TEST_F(SessionCommand, FourRecordingsHaveIntervals) {
-  const Outcome study = run("PROGRAM session " + both() + " " + both() + " --study 2>&1");
+  // two more people, who did the same
+  std::filesystem::copy_file(recorded("500"), folder / "third.nc");
+  std::filesystem::copy_file(recorded("500"), folder / "fourth.nc");
+  const std::string four = both() + " " + (folder / "third.nc") + " " + (folder / "fourth.nc");
+  const Outcome study = run("PROGRAM session " + four + " --study 2>&1");
   ASSERT_EQ(study.code, 0) << study.output;
   EXPECT_TRUE(study.output.starts_with("4 recordings")) << study.output;
   EXPECT_TRUE(has(study.output, " statistics of the paper are inside their intervals.")) << study.output;
   EXPECT_FALSE(has(study.output, "Intervals need")) << study.output;
-  EXPECT_EQ(run("PROGRAM session " + both() + " " + both() + " --study --seed 1 2>&1").output, study.output)
-      << "seed 1 is the default";
+  EXPECT_EQ(run("PROGRAM session " + four + " --study --seed 1 2>&1").output, study.output) << "seed 1 is the default";
 }
 
 // A recording that is not whole counts as far as it goes, with a note.
@@ -120,6 +123,7 @@ TEST_F(SessionCommand, NotesOfPartialRecordings) {
 }
 
 TEST_F(SessionCommand, WhatIsWrongIsOneLine) {
+  expect_error("session " + recorded("500") + " " + recorded("500") + " --study", 2, "is named twice");
   const std::string glass = small("glass.nc", "glass", GLASS_SCENE), jug = small("jug.nc", "jug", GLASS_SCENE);
   expect_error("session " + glass + " " + jug + " --study -o " + (folder / "none"), 2,
                jug + ": its vessels or their liquids are not those of " + glass);

@@ -51,6 +51,7 @@ TEST(StudyPage, ShowsTheRowsOfAnyExperiment) {
   EXPECT_TRUE(has(page, "The vessel a&lt;b"));
   EXPECT_TRUE(has(page, "<figure><svg")) << "a chart";
   EXPECT_FALSE(has(page, "inside share")) << "the line says it";
+  EXPECT_TRUE(has(page, "<a href=\"#forces\">Forces</a>"));
   EXPECT_LT(page.find("First words."), page.find("<table"));
   EXPECT_LT(page.find("</table>"), page.find("<figure>"));
 }
@@ -66,7 +67,7 @@ TEST(StudyPage, SaysWhoThePeopleAre) {
   const SessionVessels vessels{{1, "glass"}, {2, "jug"}};
   const StudySection recorded = session_section(vessels, made_up_rows(), false),
                      simulated = session_section(vessels, made_up_rows(), true);
-  EXPECT_TRUE(has(recorded.words.front(), "glass: 22, jug: 32"));
+  EXPECT_TRUE(has(recorded.words.front(), "glass stands for the paper's vessel 1: 22, jug stands for the paper's vessel 2: 32"));
   EXPECT_TRUE(has(recorded.words.back(), "those of the recordings"));
   EXPECT_TRUE(has(simulated.words.back(), "virtual"));
 }
