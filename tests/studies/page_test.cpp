@@ -77,8 +77,9 @@ TEST(StudySummary, ATableForEachExperiment) {
   StudyRow other{"sessions", "", "all", "response_time_mean", "", 0.125, {0.1, 0.15}, 0.106};
   rows.push_back(other);
   const std::string text = study_summary(rows);
-  EXPECT_EQ(count_of(text, "95 % interval"), 2);
-  EXPECT_TRUE(has(text, "lost grips, 1.2-4.2")) << text;
+  EXPECT_EQ(count_of(text, "95 % interval"), 1) << "forces have a line for each choice";
+  EXPECT_TRUE(has(text, "\n1.2-4.2")) << text;
+  EXPECT_TRUE(has(text, "open 0.5 mm")) << text;
   EXPECT_TRUE(has(text, "response time, mean (s)")) << text;
   EXPECT_TRUE(has(text, "0.100 to 0.150")) << text;
   EXPECT_TRUE(has(text, "1 of 1 statistics of the paper")) << text;
