@@ -11,6 +11,12 @@ constexpr double TINY = 1e-300, END = 1e-16;
 
 double away_from_zero(double x) { return std::abs(x) < TINY ? TINY : x; }
 
+// Of numbers above 0. std::lgamma writes the sign of the gamma function to a global, which is a race between threads.
+double log_gamma(double x) {
+  int sign = 0;
+  return ::lgamma_r(x, &sign);
+}
+
 // The continued fraction of 26.5.8; it converges fast for x < (a + 1) / (a + b + 2).
 double fraction(double a, double b, double x) {
   double c = 1, d = 1 / away_from_zero(1 - (a + b) * x / (a + 1)), value = d;
@@ -35,7 +41,7 @@ double incomplete_beta(double a, double b, double x) {
   if (!(x > 0)) return 0;
   if (!(x < 1)) return 1;
   if (x > (a + 1) / (a + b + 2)) return 1 - incomplete_beta(b, a, 1 - x);
-  const double front = std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) + a * std::log(x) + b * std::log1p(-x));
+  const double front = std::exp(log_gamma(a + b) - log_gamma(a) - log_gamma(b) + a * std::log(x) + b * std::log1p(-x));
   return front * fraction(a, b, x) / a;
 }
 
