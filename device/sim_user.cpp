@@ -26,7 +26,6 @@ constexpr double TILT_TIME = 3.6, MAINTAIN_TIME = 1.5, UPRIGHT_TIME = 1.2, LOWER
 constexpr double SHOWN_TILT = radians(75);
 constexpr double LIFT = 0.12, APART = 0.12;  // height of lifting; distance from which the hand goes in
 constexpr double SQUEEZE = 8e-3;             // m that the fingers aim inside of the vessel
-constexpr double FELT = 0.3;                 // N: a contact
 constexpr double TILT_SPEED = radians(25);   // rad/s, the paper's 90 degrees in 3.6 s
 constexpr double QUICKEST_FLOW = 25e-6;      // m3/s that a person pours when there is much to pour
 constexpr double POUR_AHEAD = 0.8;           // s: how far before the amount is there the flow is made less

@@ -56,6 +56,8 @@ struct SimSense {
   double flow = 0;     // m3/s
 };
 
+constexpr double FELT = 0.3;  // N at the fingers: a contact
+
 class SimUser {
  public:
   // `live` must outlive it, and has the person's own hand.

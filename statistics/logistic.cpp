@@ -5,15 +5,15 @@
 #include <cmath>
 #include <limits>
 
+#include "statistics/cholesky.h"
 #include "statistics/moments.h"
 
 namespace wholehand {
 namespace {
 
 constexpr int MOST_STEPS = 100;
-constexpr double SETTLED = 1e-9;     // of the longest step of an unknown
-constexpr double SEPARATED = 20;     // without a ridge, a coefficient of so many, per deviation of its term, only grows on
-constexpr double DEPENDENT = 1e-10;  // a pivot of less than this share: the terms depend on one another
+constexpr double SETTLED = 1e-9;  // of the longest step of an unknown
+constexpr double SEPARATED = 20;  // without a ridge, a coefficient of so many, per deviation of its term, only grows on
 
 using Unknowns = std::vector<double>;  // of the terms, and the intercept last
 using Normal = std::vector<Unknowns>;
@@ -57,29 +57,6 @@ Rows rows_of(std::span<const double> terms, std::size_t count, std::span<const c
   return rows;
 }
 
-// Solves a symmetric positive system by Cholesky's method. False where it is not positive, or hardly.
-bool solve_normal(Normal a, Unknowns& b) {
-  const std::size_t n = b.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const double whole = a[i][i];
-    for (std::size_t j = 0; j <= i; ++j) {
-      double sum = a[i][j];
-      for (std::size_t k = 0; k < j; ++k) sum -= a[i][k] * a[j][k];
-      if (i == j && !(sum > DEPENDENT * whole)) return false;
-      a[i][j] = i == j ? std::sqrt(sum) : sum / a[j][j];
-    }
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t k = 0; k < i; ++k) b[i] -= a[i][k] * b[k];
-    b[i] /= a[i][i];
-  }
-  for (std::size_t i = n; i-- > 0;) {
-    for (std::size_t k = i + 1; k < n; ++k) b[i] -= a[k][i] * b[k];
-    b[i] /= a[i][i];
-  }
-  return true;
-}
-
 // The slope of the log-likelihood at `beta`, and its curvature (the lower half).
 void look_around(const Rows& rows, const Unknowns& beta, double ridge, Unknowns& slope, Normal& normal) {
   const std::size_t n = beta.size();
@@ -108,7 +85,7 @@ bool climb(const Rows& rows, double ridge, Unknowns& beta) {
   Normal normal;
   for (int step = 0; step < MOST_STEPS; ++step) {
     look_around(rows, beta, ridge, slope, normal);
-    if (!solve_normal(normal, slope)) return false;
+    if (!solve_positive(normal, slope)) return false;
     double longest = 0;
     for (std::size_t k = 0; k < beta.size(); ++k) {
       beta[k] += slope[k];
@@ -124,7 +101,7 @@ bool climb(const Rows& rows, double ridge, Unknowns& beta) {
 double error_of(const Normal& normal, std::size_t term) {
   Unknowns unit(normal.size(), 0.0);
   unit[term] = 1;
-  return solve_normal(normal, unit) ? std::sqrt(unit[term]) : std::numeric_limits<double>::quiet_NaN();
+  return solve_positive(normal, unit) ? std::sqrt(unit[term]) : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace

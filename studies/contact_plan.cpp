@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/planes.h"
 #include "core/prepare.h"
+#include "people/participant.h"
 #include "report/guidance_statistics.h"
 
 namespace wholehand {
@@ -17,7 +18,6 @@ const std::array<const char*, STUDY_POSES.size()> STUDY_POSE_NAMES{"paper", "art
 
 namespace {
 
-constexpr std::uint64_t CONTACTS = 0;                            // the experiment, in the names of draws
 constexpr std::uint64_t MOST_POINTS = 1000;                      // of a vessel, in the number of a grasp (scene/ranges.h)
 constexpr std::uint64_t MOST_REPEATS = 32;                       // likewise
 constexpr std::size_t FURTHER_SAMPLE = 24;                       // grasps of a vessel beside the paper's: the mean of its three
@@ -152,11 +152,10 @@ void ContactPlan::plan_vessel(const Evaluator& core, StudyVessel& vessel) {
 }
 
 std::vector<ContactGrasp> ContactPlan::of_person(std::uint64_t seed, std::uint64_t number) const {
-  const Person person = draw_person(scene_.people, seed, number);
-  const HandData hand = hand_of(scene_.hand, person);
+  const Participant person(scene_.people, seed, number, Experiment::contacts);
+  const HandData hand = person.hand(scene_.hand);
   std::vector<GripInput> grips;
-  for (const PlannedGrasp& grasp : grasps_)
-    grips.push_back(scattered(grasp.grip, draw_grasp(scene_.people, person, seed, number, CONTACTS, grasp.number)));
+  for (const PlannedGrasp& grasp : grasps_) grips.push_back(scattered(grasp.grip, person.grasp(grasp.number)));
   std::vector<ContactGrasp> grasps;
   std::vector<double> reals;
   std::vector<std::uint32_t> uints;

@@ -15,16 +15,6 @@ namespace {
 
 constexpr std::uint64_t POOL_GRASPS = 1 << 21;  // kept at most, where this leaves enough people for a sample
 
-// PAPER_PEOPLE of so many, each once.
-std::vector<std::uint64_t> drawn_people(std::uint64_t of, std::uint64_t& state) {
-  std::vector<std::uint64_t> people;
-  while (people.size() < PAPER_PEOPLE) {
-    const std::uint64_t person = draw_below(of, state);
-    if (std::find(people.begin(), people.end(), person) == people.end()) people.push_back(person);
-  }
-  return people;
-}
-
 }  // namespace
 
 std::uint64_t pooled_people(std::uint64_t people, std::uint64_t grasps_of_person) {
@@ -75,7 +65,7 @@ Grasps ContactPool::of(std::uint64_t person, std::size_t pose) const {
 
 std::vector<std::vector<const ContactGrasp*>> ContactPool::draw(std::size_t pose, std::uint64_t seed) const {
   std::uint64_t state = seed;
-  const std::vector<std::uint64_t> people = drawn_people(this->people(), state);
+  const std::vector<std::size_t> people = draw_different(PAPER_PEOPLE, this->people(), state);
   std::vector<std::vector<const ContactGrasp*>> drawn;
   for (const StudyVessel& vessel : vessels_) {
     std::vector<const ContactGrasp*>& grasps = drawn.emplace_back();

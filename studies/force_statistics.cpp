@@ -29,7 +29,7 @@ struct ForceEvent {
   std::function<bool(const ForceOutcome&)> happens;
 };
 
-std::vector<ForceEvent> force_events() {
+std::vector<ForceEvent> all_force_events() {
   std::vector<ForceEvent> all{{"lost", [](const ForceOutcome& one) { return one.is_lost(); }},
                               {"oscillated", [](const ForceOutcome& one) { return one.oscillates && !one.is_lost(); }},
                               {"held", [](const ForceOutcome& one) { return one.is_held(); }}};
@@ -37,6 +37,12 @@ std::vector<ForceEvent> force_events() {
     all.push_back(
         {fmt::format("opening_over_{:g}mm", opening * 1e3), [opening](const ForceOutcome& one) { return one.opening > opening; }});
   return all;
+}
+
+// Made once: samples ask for them a thousand times.
+const std::vector<ForceEvent>& force_events() {
+  static const std::vector<ForceEvent> events = all_force_events();
+  return events;
 }
 
 using Members = std::span<const std::size_t>;  // people of a sample
@@ -127,17 +133,6 @@ std::vector<ForceName> force_names() {
   return all;
 }
 
-// Ten people; none twice where there are many of them, else drawn with replacement, as for a bootstrap.
-std::vector<std::size_t> sample_of(std::size_t people, std::uint64_t seed) {
-  const bool are_many = people >= MANY_SAMPLES * FORCE_PEOPLE;
-  std::vector<std::size_t> drawn;
-  while (drawn.size() < FORCE_PEOPLE) {
-    const std::size_t one = draw_below(people, seed);
-    if (!are_many || std::find(drawn.begin(), drawn.end(), one) == drawn.end()) drawn.push_back(one);
-  }
-  return drawn;
-}
-
 }  // namespace
 
 std::vector<StudyRow> force_rows(std::span<const ForcesOfPerson> people, const std::string& vessel, std::uint64_t seed,
@@ -149,7 +144,8 @@ std::vector<StudyRow> force_rows(std::span<const ForcesOfPerson> people, const s
   if (people.size() >= FORCE_PEOPLE) {
     std::vector<std::vector<double>> samples(static_cast<std::size_t>(resamples));
     in_parallel(samples.size(), threads, [&](std::size_t k) {
-      samples[k] = values_of(people, sample_of(people.size(), mixed_bits(mixed_bits(seed ^ FORCE_SAMPLES) + k)));
+      std::uint64_t state = mixed_bits(mixed_bits(seed ^ FORCE_SAMPLES) + k);
+      samples[k] = values_of(people, draw_members(FORCE_PEOPLE, people.size(), state));
     });
     intervals = sample_intervals(samples);
   }

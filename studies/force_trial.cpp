@@ -44,7 +44,7 @@ bool ForceWatch::take(const Tick& tick) {
   if (is_over_) return false;
   const bool held = is_held(tick.state);
   if (held && !was_held_) begin(tick);
-  if (was_held_ && !held && most_ > TAKEN) ++outcome_.losses;  // what succeeds is over before it ends
+  if (was_held_ && !held && most_ > FELT) ++outcome_.losses;  // what succeeds is over before it ends
   was_held_ = held;
   if (!held) return true;
   most_ = std::max(most_, tick.feedback);

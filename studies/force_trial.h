@@ -33,7 +33,6 @@ constexpr int FORCE_ATTEMPTS = 3;    // of a person, until one succeeds
 constexpr int OFTEN = 2;             // losses of these
 constexpr double HELD_STILL = 0.8;   // s of a maintained tilt, after which an attempt has succeeded
 constexpr double SETTLED = 1;        // s after the grasp, from which on a grip can oscillate
-constexpr double TAKEN = 0.3;        // N: who never felt so much had not taken hold, and so lost nothing
 constexpr double SWING_WINDOW = 1;   // s in which an oscillating grip passes from one side of its mean
 constexpr int SWINGS = 4;            // to the other so often,
 constexpr double SWING_SHARE = 0.1;  // by more than this share of the mean

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 
 #include "core/error.h"
 #include "core/random_bits.h"
@@ -33,6 +33,22 @@ void check_sample_name(const Scene& scene, const std::string& vessel) {
 
 std::uint64_t draw_below(std::uint64_t count, std::uint64_t& state) {
   return static_cast<std::uint64_t>(unit_interval(split_mix(state)) * static_cast<double>(count));
+}
+
+std::vector<std::size_t> draw_different(std::size_t count, std::size_t population, std::uint64_t& state) {
+  std::vector<std::size_t> drawn;
+  while (drawn.size() < count) {
+    const std::size_t one = draw_below(population, state);
+    if (std::find(drawn.begin(), drawn.end(), one) == drawn.end()) drawn.push_back(one);
+  }
+  return drawn;
+}
+
+std::vector<std::size_t> draw_members(std::size_t count, std::size_t population, std::uint64_t& state) {
+  if (population >= MANY_SAMPLES * count) return draw_different(count, population, state);
+  std::vector<std::size_t> drawn(count);
+  for (std::size_t& one : drawn) one = draw_below(population, state);
+  return drawn;
 }
 
 }  // namespace wholehand

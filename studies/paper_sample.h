@@ -32,6 +32,11 @@ std::vector<std::size_t> paper_vessels(const Scene& scene, SampleVessels which);
 // Throws Error (usage) where the name is ALL_VESSELS.
 void check_sample_name(const Scene& scene, const std::string& vessel);
 
+// `count` members out of `population`, none twice, in the order in which they are drawn. The population has at least as many.
+std::vector<std::size_t> draw_different(std::size_t count, std::size_t population, std::uint64_t& state);
+// The same of a population that is large (MANY_SAMPLES); of a smaller one, which has at least one member, with replacement.
+std::vector<std::size_t> draw_members(std::size_t count, std::size_t population, std::uint64_t& state);
+
 // The next number below `count`, which is at least 1.
 std::uint64_t draw_below(std::uint64_t count, std::uint64_t& state);
 

@@ -202,7 +202,7 @@ class GraspPool {
   GraspsByVessel sample(std::uint64_t seed) const {
     std::uint64_t state = seed;
     GraspsByVessel grasps(vessels_);
-    for (const std::size_t subject : people(state)) add(subject, grasps);
+    for (const std::size_t subject : draw_members(PAPER_PEOPLE, subjects_.size(), state)) add(subject, grasps);
     for (std::size_t v = 0; v < vessels_; ++v) {
       GraspList& open = grasps[v];
       if (open.size() <= PAPER_GRASPS[v]) continue;
@@ -213,16 +213,6 @@ class GraspPool {
   }
 
  private:
-  std::vector<std::size_t> people(std::uint64_t& state) const {
-    const bool has_enough = subjects_.size() >= MANY_SAMPLES * PAPER_PEOPLE;
-    std::vector<std::size_t> drawn;
-    while (drawn.size() < PAPER_PEOPLE) {
-      const std::size_t one = draw_below(subjects_.size(), state);
-      if (!has_enough || std::find(drawn.begin(), drawn.end(), one) == drawn.end()) drawn.push_back(one);
-    }
-    return drawn;
-  }
-
   void add(std::size_t subject, GraspsByVessel& grasps) const {
     for (std::size_t v = 0; v < vessels_; ++v)
       grasps[v].insert(grasps[v].end(), subjects_[subject][v].begin(), subjects_[subject][v].end());

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "core/random_bits.h"
+#include "statistics/cholesky.h"
 
 namespace wholehand {
 namespace {
@@ -15,7 +16,6 @@ constexpr int MOST_STEPS = 200, MOST_HALVINGS = 40;
 constexpr double SETTLED = 1e-9;         // of the longest step of an unknown
 constexpr double WANTED_SLOPE = 1e-6;    // of the log-likelihood: a smaller one is rounding
 constexpr double SEPARATED = 20;         // a coefficient of so many, per deviation of its term, only grows on
-constexpr double DEPENDENT = 1e-10;      // a pivot of less than this share: the terms depend on one another
 constexpr double CONSTANT_TERM = 1e-12;  // a smaller deviation is rounding
 
 using Unknowns = std::array<double, UNKNOWNS>;
@@ -67,28 +67,6 @@ Unknowns regressors_of(const TermedGrip& grip, const std::array<TermScale, SCORE
   for (std::size_t k = 0; k < SCORE_TERM_COUNT; ++k) x[k] = (regressor(grip, k) - scales[k].mean) * scales[k].scale;
   x[SCORE_TERM_COUNT] = 1;
   return x;
-}
-
-// Solves a symmetric positive system by Cholesky's method. False where it is not positive, or hardly.
-bool solve_normal(Normal a, Unknowns& b) {
-  for (std::size_t i = 0; i < UNKNOWNS; ++i) {
-    const double whole = a[i][i];
-    for (std::size_t j = 0; j <= i; ++j) {
-      double sum = a[i][j];
-      for (std::size_t k = 0; k < j; ++k) sum -= a[i][k] * a[j][k];
-      if (i == j && !(sum > DEPENDENT * whole)) return false;
-      a[i][j] = i == j ? std::sqrt(sum) : sum / a[j][j];
-    }
-  }
-  for (std::size_t i = 0; i < UNKNOWNS; ++i) {
-    for (std::size_t k = 0; k < i; ++k) b[i] -= a[i][k] * b[k];
-    b[i] /= a[i][i];
-  }
-  for (std::size_t i = UNKNOWNS; i-- > 0;) {
-    for (std::size_t k = i + 1; k < UNKNOWNS; ++k) b[i] -= a[k][i] * b[k];
-    b[i] /= a[i][i];
-  }
-  return true;
 }
 
 // The log-likelihood less its ridge, with its slope and its curvature (negated), in units of the regressors' deviations.
@@ -147,7 +125,7 @@ bool newton_step(const Likelihood& here, const FreeAmounts& is_free, Unknowns& s
     for (std::size_t j = 0; j <= k; ++j)
       if (!is_free[k] || !is_free[j]) curvature[k][j] = k == j ? 1 : 0;
   }
-  return solve_normal(curvature, step);
+  return solve_positive(curvature, step);
 }
 
 // Whether the regressors that vary depend on one another. The bounds would hide it: the first of two like ones would get all.
