@@ -100,7 +100,7 @@ StudyPage page_of_recordings(const RecordedSessions& sessions, const StudyOption
   page.lead = fmt::format("{}, and {} samples of the paper's size; seed {}.", counted(sessions.subjects.size(), "recorded session"),
                           readable_number(static_cast<std::uint64_t>(options.resamples)), options.seed);
   page.sections.push_back(session_section(sessions.vessels, rows, sessions.are_simulated));
-  page.sections.back().charts = session_charts(sessions.subjects, sessions.vessels);
+  page.sections.back().charts = session_charts(sessions.subjects, sessions.vessels, rows);
   page.seed = options.seed;
   return page;
 }

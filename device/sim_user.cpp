@@ -35,41 +35,48 @@ constexpr double LOOKS = 0.3;                // s before a vessel that slipped i
 constexpr double CLEAR = 0.28;               // over the other vessels, on the way to the next
 constexpr int ATTEMPTS = 3;
 
+constexpr int FIRST_ROLL = -60, LAST_ROLL = 30, ROLL_STEP = 15;  // degrees
+
 // The best-scoring grip of a vessel among heights and rolls, or at a given height; false: none is feasible.
 bool choose_grip(const Scene& scene, const Evaluator& evaluator, std::size_t v, std::size_t task, SimJob& job) {
-  GripResult chosen;
   const VesselData& vessel = scene.vessels[v];
   std::vector<double> heights;
   if (!vessel.guidance.empty()) heights.push_back(vessel.guidance[task % vessel.guidance.size()].height);
   const std::size_t guided = heights.size();
   for (int k = 1; k < 20; ++k) heights.push_back(vessel.base + (vessel.height - vessel.base) * k / 20);
-  double best = -1;
+  std::optional<ChosenGrip> best;
   for (std::size_t k = 0; k < heights.size(); ++k) {
-    if (k == guided && best >= 0) break;  // the guidance point's height it is
-    for (int roll = -60; roll <= 30; roll += 15) {
-      GripInput grip;
-      grip.height = heights[k];
-      grip.roll = radians(roll);
-      // in the world of a left hand the palm faces away where the line runs the other way
-      if (scene.hand.handedness == Handedness::left) grip.azimuth = PI;
-      GripResult result;
-      evaluator.grip(v, grip, result);
-      if (result.reason != Reason::none || result.grazing) continue;
-      const double score = evaluator.score(v, grip, result).score + (result.antipodal ? 1 : 0) + (result.plausible ? 1 : 0);
-      if (score > best) {
-        best = score;
-        job.grip = grip;
-        job.gap = result.gap;
-        chosen = result;
-      }
-    }
+    if (k == guided && best) break;  // the guidance point's height it is
+    GripInput grip;
+    grip.height = heights[k];
+    // in the world of a left hand the palm faces away where the line runs the other way
+    if (scene.hand.handedness == Handedness::left) grip.azimuth = PI;
+    const std::optional<ChosenGrip> found = best_roll(evaluator, v, grip);
+    if (found && (!best || found->score > best->score)) best = found;
   }
+  if (!best) return false;
+  job.grip = best->grip;
   job.grip.azimuth = 0;
-  if (best >= 0 && job.kind == SimJob::Kind::pour) job.path = PourPath(*scene.task, vessel, scene.hand, job.grip, chosen);
-  return best >= 0;
+  job.gap = best->result.gap;
+  if (job.kind == SimJob::Kind::pour) job.path = PourPath(*scene.task, vessel, scene.hand, job.grip, best->result);
+  return true;
 }
 
 }  // namespace
+
+std::optional<ChosenGrip> best_roll(const Evaluator& evaluator, std::size_t vessel, const GripInput& grip) {
+  std::optional<ChosenGrip> best;
+  for (int roll = FIRST_ROLL; roll <= LAST_ROLL; roll += ROLL_STEP) {
+    ChosenGrip one{grip, {}, 0};
+    one.grip.roll = radians(roll);
+    evaluator.grip(vessel, one.grip, one.result);
+    if (one.result.reason != Reason::none || one.result.grazing) continue;
+    one.score =
+        evaluator.score(vessel, one.grip, one.result).score + (one.result.antipodal ? 1 : 0) + (one.result.plausible ? 1 : 0);
+    if (!best || one.score > best->score) best = one;
+  }
+  return best;
+}
 
 std::vector<SimJob> plan_sim_jobs(const Scene& scene) {
   const std::unique_ptr<Evaluator> evaluator = make_core_evaluator(scene);

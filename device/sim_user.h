@@ -3,8 +3,11 @@
 // here.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <vector>
 
+#include "core/evaluator.h"
 #include "core/result.h"
 #include "device/pour_path.h"
 #include "live/session.h"
@@ -22,6 +25,15 @@ struct SimJob {
   double amount = 0;  // m3 of its liquid that are to be in the target
   PourPath path;      // where the tips' middle is while it pours
 };
+
+// A grip that the user would take, and how good it is.
+struct ChosenGrip {
+  GripInput grip;
+  GripResult result;
+  double score = 0;  // of the grip; 1 more if it is antipodal, and 1 more if it is plausible
+};
+// The best roll among those that have the palm away from the user, with all else of `grip`. None is feasible: nothing.
+std::optional<ChosenGrip> best_roll(const Evaluator& evaluator, std::size_t vessel, const GripInput& grip);
 
 // What there is to do in a scene: its task, or each vessel shown. A vessel is taken at the height of the guidance point that is
 // shown then, without one where the grip scores best, always with the palm away from the user. Vessels that no such grip holds are

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/planes.h"
 #include "core/prepare.h"
+#include "device/sim_user.h"
 #include "people/participant.h"
 #include "report/guidance_statistics.h"
 
@@ -18,10 +19,9 @@ const std::array<const char*, STUDY_POSES.size()> STUDY_POSE_NAMES{"paper", "art
 
 namespace {
 
-constexpr std::uint64_t MOST_POINTS = 1000;                      // of a vessel, in the number of a grasp (scene/ranges.h)
-constexpr std::uint64_t MOST_REPEATS = 32;                       // likewise
-constexpr std::size_t FURTHER_SAMPLE = 24;                       // grasps of a vessel beside the paper's: the mean of its three
-constexpr int FIRST_ROLL = -60, LAST_ROLL = 30, ROLL_STEP = 15;  // degrees: those that the simulated user chooses from
+constexpr std::uint64_t MOST_POINTS = 1000;  // of a vessel, in the number of a grasp (scene/ranges.h)
+constexpr std::uint64_t MOST_REPEATS = 32;   // likewise
+constexpr std::size_t FURTHER_SAMPLE = 24;   // grasps of a vessel beside the paper's: the mean of its three
 const std::vector<int> KEPT{FIELD_STATUS,   FIELD_GAP,         FIELD_MIDPOINT,   FIELD_TOUCH_MASK,
                             FIELD_TIP_MASK, FIELD_FINGER_MASK, FIELD_INNER_MASK, FIELD_USED_MASK};
 
@@ -82,24 +82,6 @@ double planned_azimuth(const Scene& scene, const GuidancePoint& point) {
   return std::cos(point.azimuth - home) >= -ROUNDING ? point.azimuth : point.azimuth + PI;
 }
 
-// Chooses the roll that scores best, as the simulated user does. False: none is feasible.
-bool choose_roll(const Evaluator& core, std::size_t vessel, GripInput& grip) {
-  double best = -1, chosen = 0;
-  for (int roll = FIRST_ROLL; roll <= LAST_ROLL; roll += ROLL_STEP) {
-    grip.roll = radians(roll);
-    GripResult result;
-    core.grip(vessel, grip, result);
-    if (result.reason != Reason::none || result.grazing) continue;
-    const double score = core.score(vessel, grip, result).score + (result.antipodal ? 1 : 0) + (result.plausible ? 1 : 0);
-    if (score > best) {
-      best = score;
-      chosen = grip.roll;
-    }
-  }
-  grip.roll = chosen;
-  return best >= 0;
-}
-
 // The planned grip with the person's habits and this grasp's scatter.
 GripInput scattered(GripInput grip, const Traits& traits) {
   grip.height += of(traits, Trait::height);
@@ -141,8 +123,12 @@ void ContactPlan::plan_vessel(const Evaluator& core, StudyVessel& vessel) {
     grasp.grip.height = points[point].height;
     grasp.grip.azimuth = planned_azimuth(scene_, points[point]);
     grasp.place = guidance_place(core, vessel.place, points[point]);
-    if (!choose_roll(core, vessel.place, grasp.grip))
+    // as the simulated user chooses
+    if (const auto chosen = best_roll(core, vessel.place, grasp.grip)) {
+      grasp.grip = chosen->grip;
+    } else {
       unheld_.push_back(fmt::format("{} at {:g} mm", vessel.name, points[point].height * 1e3));
+    }
     for (std::size_t repeat = 0; repeat < repeats; ++repeat) {
       grasp.number = (vessel.place * MOST_POINTS + point) * MOST_REPEATS + repeat;
       grasps_.push_back(grasp);

@@ -3,18 +3,16 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "report/html.h"
 #include "studies/force_statistics.h"
+#include "studies/statistic_tables.h"
 #include "studies/statistic_words.h"
 
 namespace wholehand {
 namespace {
-
-using TextTable = std::vector<std::vector<std::string>>;  // the first line has the heads
 
 const StudyRow* force_row(std::span<const StudyRow> rows, const std::string& statistic, const std::string& subject) {
   for (const StudyRow& row : rows)
@@ -75,22 +73,11 @@ TextTable odds_table(std::span<const StudyRow> rows) {
   return table;
 }
 
-// As on the rest of the page: a minus sign, and a dash where there is nothing. Choices such as 0.8-3.8 stay.
-std::string with_minus_signs(const std::string& cell) {
-  if (cell == "-") return "\u2013";
-  std::string text;
-  for (std::size_t k = 0; k < cell.size(); ++k) {
-    const bool is_minus = cell[k] == '-' && (k == 0 || cell[k - 1] == '(' || cell[k - 1] == ' ');
-    text += is_minus ? "\u2212" : std::string(1, cell[k]);
-  }
-  return text;
-}
-
 void write_table(MarkupWriter& html, const std::string& caption, const TextTable& lines, const std::vector<std::size_t>& words) {
   HtmlTable table(html, caption, lines.front(), words);
   for (std::size_t k = 1; k < lines.size(); ++k) {
     std::vector<std::string> cells = lines[k];
-    for (std::string& cell : cells) cell = with_minus_signs(cell);
+    for (std::size_t c = 1; c < cells.size(); ++c) cells[c] = page_text(cells[c]);  // the first has names such as 0.8-3.8
     table.row(cells);
   }
   table.end();
@@ -100,19 +87,6 @@ void write_force_tables(MarkupWriter& html, std::span<const StudyRow> rows) {
   html.element("p", inside_sentence(rows));
   write_table(html, fmt::format("Choices of F_base and F_range on {}", rows.front().vessel), choices_table(rows), {3});
   write_table(html, "How the log odds of an event change", odds_table(rows), {3});
-}
-
-std::string plain_table(const TextTable& lines) {
-  std::vector<std::size_t> widths(lines.front().size());
-  for (const auto& line : lines)
-    for (std::size_t k = 0; k < line.size(); ++k) widths[k] = std::max(widths[k], line[k].size());
-  std::string text;
-  for (const auto& line : lines) {
-    text += fmt::format("{:<{}}", line[0], widths[0]);
-    for (std::size_t k = 1; k < line.size(); ++k) text += fmt::format("  {:>{}}", line[k], widths[k]);
-    text += "\n";
-  }
-  return text;
 }
 
 }  // namespace
@@ -139,7 +113,7 @@ StudySection force_section(std::vector<StudyRow> rows) {
 }
 
 std::string force_summary(std::span<const StudyRow> rows) {
-  return plain_table(choices_table(rows)) + "\n" + plain_table(odds_table(rows)) + "\n" + inside_sentence(rows) + "\n";
+  return plain_table(choices_table(rows), 1) + "\n" + plain_table(odds_table(rows), 1) + "\n" + inside_sentence(rows) + "\n";
 }
 
 }  // namespace wholehand

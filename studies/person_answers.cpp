@@ -2,42 +2,36 @@
 #include "studies/person_answers.h"
 
 #include <algorithm>
-#include <limits>
 #include <string>
+#include <utility>
 
 #include "people/person.h"
 #include "statistics/given_data_indices.h"
+#include "studies/grasp_numbers.h"
 #include "studies/sensitivity.h"
 
 namespace wholehand {
 namespace {
 
-const std::vector<std::string> SESSION_ANSWERS{"response_time",   "grip_stopped", "grip_before",  "grip_after",
-                                               "normal_increase", "grip_change",  "rising_share", "lost_share"};
+// Means over a person's grasps, by name.
+const std::vector<std::pair<std::string, of_grasp::Number>> SESSION_ANSWERS{
+    {"response_time", of_grasp::response_time},     {"grip_stopped", of_grasp::grip_stopped},
+    {"grip_before", of_grasp::grip_before},         {"grip_after", of_grasp::grip_after},
+    {"normal_increase", of_grasp::normal_increase}, {"grip_change", of_grasp::grip_change},
+    {"rising_share", of_grasp::is_rising},          {"lost_share", of_grasp::is_lost}};
 const std::vector<std::string> FORCE_ANSWERS{"losses", "largest_opening"};
 
 std::vector<double> session_answers(const SessionSubject& person, const SessionVessels& vessels) {
-  MeanSum response, stopped, before, after, increase, change, rising, lost;
+  std::vector<MeanSum> sums(SESSION_ANSWERS.size());
   for (const GraspReport& grasp : person.grasps) {
     const bool counts = std::any_of(vessels.begin(), vessels.end(), [&grasp](const SessionVessel& vessel) {
       return static_cast<int>(vessel.place) == grasp.vessel;
     });
     if (!counts) continue;
-    response.add(grasp.response_time);
-    stopped.add(grasp.tightened);
-    if (grasp.largest_tilt >= LEAST_ANALYSED) {
-      before.add(grasp.before.mean);
-      after.add(grasp.after.mean);
-    }
-    lost.add(grasp.outcome == GraspOutcome::lost ? 1 : 0);
-    if (grasp.course == GripCourse::not_analysed) continue;
-    increase.add(grasp.normal_increase);
-    change.add(grasp.grip_change);
-    rising.add(grasp.grip_change > 0 ? 1 : 0);
+    for (std::size_t k = 0; k < sums.size(); ++k) sums[k].add(SESSION_ANSWERS[k].second(grasp));
   }
   std::vector<double> answers;
-  for (const MeanSum* sum : {&response, &stopped, &before, &after, &increase, &change, &rising, &lost})
-    answers.push_back(sum->result().mean);
+  for (const MeanSum& sum : sums) answers.push_back(sum.result().mean);
   return answers;
 }
 
@@ -64,7 +58,9 @@ std::vector<StudyRow> rows_of(const char* experiment, const People& people, std:
 
 std::vector<StudyRow> session_sensitivity(std::span<const SessionSubject> people, const SessionVessels& vessels,
                                           std::uint64_t seed) {
-  return rows_of("sessions", people, seed, SESSION_ANSWERS,
+  std::vector<std::string> names;
+  for (const auto& [name, number] : SESSION_ANSWERS) names.push_back(name);
+  return rows_of("sessions", people, seed, names,
                  [&vessels](const SessionSubject& person) { return session_answers(person, vessels); });
 }
 

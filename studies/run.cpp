@@ -228,7 +228,7 @@ class StudyRun {
     add_share(rows, "people_with_grasps_share", people - without, people);
     add_share(rows, "whole_sessions_share", people * SESSIONS_PER_PERSON - broken, people * SESSIONS_PER_PERSON);
     page_.sections.push_back(session_section(session_vessels_, rows, true));
-    page_.sections.back().charts = session_charts(found, session_vessels_);
+    page_.sections.back().charts = session_charts(found, session_vessels_, rows);
     lead_.push_back(fmt::format("sessions: {} people, {} each", readable_number(people), SESSIONS_PER_PERSON));
     keep(std::move(rows), session_sensitivity(found, session_vessels_, options_.seed));
     return true;

@@ -2,55 +2,47 @@
 #include "studies/session_charts.h"
 
 #include <array>
-#include <cmath>
+#include <optional>
 
 #include "charts/box_plot.h"
 #include "charts/markup.h"
+#include "studies/grasp_numbers.h"
 
 namespace wholehand {
 namespace {
 
-// What a chart shows of a grasp, and the paper's mean and deviation by vessel; a NaN mean: it is not known.
+// What a chart shows of a grasp. `statistic`: whose mean and deviation the paper may give.
 struct ShownForce {
   const char *id, *title, *description, *label;
-  double (*number)(const GraspReport&);
-  std::array<BoxChart::Mark, 3> paper;
+  of_grasp::Number number;
+  const char* statistic;
 };
 
-constexpr double ABSENT = std::numeric_limits<double>::quiet_NaN();
-constexpr BoxChart::Mark UNKNOWN{ABSENT, ABSENT};
-
-bool is_steep(const GraspReport& grasp) { return grasp.largest_tilt >= LEAST_ANALYSED; }
-double if_tilted(const GraspReport& grasp, double value) { return is_steep(grasp) ? value : ABSENT; }
+constexpr const char* OF_TILTED = "By vessel, of grasps that are tilted by 30 degrees or more.";
 
 const std::array<ShownForce, 4> SHOWN{{
-    {"normal-increase",
-     "Increase of the normal force over the tilt",
-     "By vessel, of grasps that have a type.",
-     "increase, N",
-     [](const GraspReport& grasp) { return grasp.course == GripCourse::not_analysed ? ABSENT : grasp.normal_increase; },
-     {{{0.56, 0.29}, {1.02, 0.54}, {2.33, 0.34}}}},
-    {"grip-before",
-     "Grip force before the tilt",
-     "By vessel, of grasps that are tilted by 30 degrees or more.",
-     "grip force, N",
-     [](const GraspReport& grasp) { return if_tilted(grasp, grasp.before.mean); },
-     {{{3.84, 1.84}, {3.38, 1.33}, {4.63, 1.96}}}},
-    {"grip-after",
-     "Grip force while the tilt is maintained",
-     "By vessel, of grasps that are tilted by 30 degrees or more.",
-     "grip force, N",
-     [](const GraspReport& grasp) { return if_tilted(grasp, grasp.after.mean); },
-     {{UNKNOWN, UNKNOWN, UNKNOWN}}},
-    {"response-time",
-     "Response time",
-     "By vessel, of all grasps that come to rest before the tilt.",
-     "response time, s",
-     [](const GraspReport& grasp) { return grasp.response_time; },
-     {{UNKNOWN, UNKNOWN, UNKNOWN}}},
+    {"normal-increase", "Increase of the normal force over the tilt", "By vessel, of grasps that have a type.", "increase, N",
+     of_grasp::normal_increase, "normal_increase"},
+    {"grip-before", "Grip force before the tilt", OF_TILTED, "grip force, N", of_grasp::grip_before, "grip_before"},
+    {"grip-after", "Grip force while the tilt is maintained", OF_TILTED, "grip force, N", of_grasp::grip_after, "grip_after"},
+    {"response-time", "Response time", "By vessel, of all grasps that come to rest before the tilt.", "response time, s",
+     of_grasp::response_time, "response_time"},
 }};
 
-std::string chart_of(const ShownForce& shown, std::span<const SessionSubject> subjects, const SessionVessels& vessels) {
+// The paper's mean and deviation, where the rows have both.
+std::optional<BoxChart::Mark> mark_of(std::span<const StudyRow> rows, const std::string& vessel, const std::string& statistic) {
+  std::optional<double> mean, deviation;
+  for (const StudyRow& row : rows) {
+    if (row.vessel != vessel) continue;
+    if (row.statistic == statistic + "_mean") mean = row.paper;
+    if (row.statistic == statistic + "_deviation") deviation = row.paper;
+  }
+  if (!mean || !deviation) return std::nullopt;
+  return BoxChart::Mark{*mean, *deviation};
+}
+
+std::string chart_of(const ShownForce& shown, std::span<const SessionSubject> subjects, const SessionVessels& vessels,
+                     std::span<const StudyRow> rows) {
   BoxChart chart;
   chart.name = {shown.id, shown.title, shown.description};
   chart.y_label = shown.label;
@@ -60,9 +52,7 @@ std::string chart_of(const ShownForce& shown, std::span<const SessionSubject> su
     for (const SessionSubject& subject : subjects)
       for (const GraspReport& grasp : subject.grasps)
         if (static_cast<std::size_t>(grasp.vessel) == vessels[v].place) values.push_back(shown.number(grasp));
-    BoxChart::Group group{vessels[v].name, box_of(values), std::nullopt};
-    if (!std::isnan(shown.paper[v].mean)) group.mark = shown.paper[v];
-    chart.groups.push_back(group);
+    chart.groups.push_back({vessels[v].name, box_of(values), mark_of(rows, vessels[v].name, shown.statistic)});
   }
   MarkupWriter svg;
   svg.element("figcaption", shown.title);
@@ -72,9 +62,10 @@ std::string chart_of(const ShownForce& shown, std::span<const SessionSubject> su
 
 }  // namespace
 
-std::vector<std::string> session_charts(std::span<const SessionSubject> subjects, const SessionVessels& vessels) {
+std::vector<std::string> session_charts(std::span<const SessionSubject> subjects, const SessionVessels& vessels,
+                                        std::span<const StudyRow> rows) {
   std::vector<std::string> charts;
-  for (const ShownForce& shown : SHOWN) charts.push_back(chart_of(shown, subjects, vessels));
+  for (const ShownForce& shown : SHOWN) charts.push_back(chart_of(shown, subjects, vessels, rows));
   return charts;
 }
 

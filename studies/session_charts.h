@@ -6,12 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "studies/row.h"
 #include "studies/session_statistics.h"
 
 namespace wholehand {
 
 // Captions and SVG: the increase of the normal force, the grip force before and after the tilt, and the response time, with the
-// paper's means and deviations where they are known.
-std::vector<std::string> session_charts(std::span<const SessionSubject> subjects, const SessionVessels& vessels);
+// means and deviations of the paper that the rows (session_rows) have.
+std::vector<std::string> session_charts(std::span<const SessionSubject> subjects, const SessionVessels& vessels,
+                                        std::span<const StudyRow> rows);
 
 }  // namespace wholehand

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -16,47 +15,18 @@
 #include "statistics/anova.h"
 #include "statistics/correlation.h"
 #include "statistics/resample.h"
+#include "studies/grasp_numbers.h"
 #include "studies/paper_sample.h"
 
 namespace wholehand {
 namespace {
 
+using namespace of_grasp;
+
 constexpr std::uint64_t SESSION_SAMPLES = 0x73657373696f6e73;  // keeps the samples' draws from those of people
-constexpr double NO_VALUE = std::numeric_limits<double>::quiet_NaN();
 
 using GraspList = std::vector<const GraspReport*>;
 using GraspsByVessel = std::vector<GraspList>;  // in the order of the SessionVessels
-
-// ---- what a grasp gives: NaN where it does not count; a share is the mean of 0 and 1 ----
-
-using Number = double (*)(const GraspReport&);
-
-double counted_if(bool counts, double value) { return counts ? value : NO_VALUE; }
-bool is_tilted(const GraspReport& grasp) { return grasp.largest_tilt >= LEAST_ANALYSED; }
-bool is_analysed(const GraspReport& grasp) { return grasp.course != GripCourse::not_analysed; }
-bool is_maintained(const GraspReport& grasp) { return is_tilted(grasp) && std::isfinite(grasp.after_at_first); }
-
-double response_time(const GraspReport& grasp) { return grasp.response_time; }
-double grip_stopped(const GraspReport& grasp) { return grasp.tightened; }
-double is_lost(const GraspReport& grasp) { return grasp.outcome == GraspOutcome::lost ? 1 : 0; }
-double tilt_time(const GraspReport& grasp) { return counted_if(is_tilted(grasp), grasp.tilt_time); }
-double grip_before(const GraspReport& grasp) { return counted_if(is_tilted(grasp), grasp.before.mean); }
-double grip_during(const GraspReport& grasp) { return counted_if(is_tilted(grasp), grasp.during.mean); }
-double grip_after(const GraspReport& grasp) { return counted_if(is_tilted(grasp), grasp.after.mean); }
-double maintained_time(const GraspReport& grasp) { return counted_if(is_maintained(grasp), grasp.duration[2]); }
-double is_hard(const GraspReport& grasp) { return counted_if(is_maintained(grasp), grasp.after_at_first > HARD_GRIP); }
-double is_soft(const GraspReport& grasp) { return counted_if(is_maintained(grasp), grasp.after_at_first < SOFT_GRIP); }
-double normal_increase(const GraspReport& grasp) { return counted_if(is_analysed(grasp), grasp.normal_increase); }
-double grip_change(const GraspReport& grasp) { return counted_if(is_analysed(grasp), grasp.grip_change); }
-double has_tilt(const GraspReport& grasp) { return is_tilted(grasp) ? 1 : 0; }
-double has_type(const GraspReport& grasp) { return counted_if(is_tilted(grasp), is_analysed(grasp)); }
-double is_saturated(const GraspReport& grasp) { return counted_if(is_tilted(grasp), grasp.saturated > 0); }
-double is_rising(const GraspReport& grasp) { return counted_if(is_analysed(grasp), grasp.grip_change > 0); }
-double is_falling(const GraspReport& grasp) { return counted_if(is_analysed(grasp), !(grasp.grip_change > 0)); }
-template <GripCourse COURSE>
-double has_course(const GraspReport& grasp) {
-  return counted_if(is_analysed(grasp), grasp.course == COURSE);
-}
 
 // ---- what is said of grasps ----
 

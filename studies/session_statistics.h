@@ -15,8 +15,6 @@
 
 namespace wholehand {
 
-constexpr double HARD_GRIP = 8, SOFT_GRIP = 1;  // N: the paper counts who maintains with more or less than this
-
 // Fewer people than this have no intervals.
 constexpr std::size_t LEAST_SUBJECTS = 3;
 

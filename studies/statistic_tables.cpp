@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <cctype>
 #include <vector>
 
 #include "report/html.h"
@@ -30,7 +30,10 @@ std::string caption_of(const std::string& vessel) {
   return vessel == ALL_VESSELS ? "All vessels of the sample together" : "The vessel " + vessel;
 }
 
-// A dash as wide as the page's others, and a minus sign.
+std::string paper_text(const StudyRow& row) { return row.paper ? statistic_value(row.statistic, *row.paper) : "-"; }
+
+}  // namespace
+
 std::string page_text(std::string text) {
   if (text == "-") return "\u2013";
   for (std::size_t at = 0; (at = text.find('-', at)) != std::string::npos; at += 3)
@@ -38,9 +41,19 @@ std::string page_text(std::string text) {
   return text;
 }
 
-std::string paper_text(const StudyRow& row) { return row.paper ? statistic_value(row.statistic, *row.paper) : "-"; }
-
-}  // namespace
+std::string plain_table(const TextTable& lines, std::size_t names) {
+  std::vector<std::size_t> widths(lines.front().size());
+  for (const auto& line : lines)
+    for (std::size_t k = 0; k < line.size(); ++k) widths[k] = std::max(widths[k], line[k].size());
+  std::string text;
+  for (const auto& line : lines) {
+    for (std::size_t k = 0; k < line.size(); ++k)
+      text +=
+          k < names ? fmt::format("{}{:<{}}", k == 0 ? "" : "  ", line[k], widths[k]) : fmt::format("  {:>{}}", line[k], widths[k]);
+    text += "\n";
+  }
+  return text;
+}
 
 void write_statistic_tables(MarkupWriter& html, std::span<const StudyRow> rows) {
   html.element("p", inside_sentence(rows));
@@ -64,23 +77,14 @@ void write_statistic_tables(MarkupWriter& html, std::span<const StudyRow> rows) 
 }
 
 std::string statistic_table(std::span<const StudyRow> rows) {
-  std::vector<std::array<std::string, 6>> lines{{"vessel", "statistic", "value", "95 % interval", "paper", "inside"}};
+  TextTable lines{{"vessel", "statistic", "value", "95 % interval", "paper", "inside"}};
   for (const StudyRow& row : rows) {
     if (row.statistic == INSIDE_SHARE) continue;
     const std::string of = row.subject.empty() ? "" : ", " + row.subject;
     lines.push_back({row.vessel, statistic_words(row.statistic) + of, statistic_value(row.statistic, row.value),
                      interval_words(row), paper_text(row), inside_words(row)});
   }
-  std::array<std::size_t, 6> widths{};
-  for (const auto& line : lines)
-    for (std::size_t k = 0; k < line.size(); ++k) widths[k] = std::max(widths[k], line[k].size());
-  std::string text;
-  for (const auto& line : lines) {
-    text += fmt::format("{:<{}}  {:<{}}", line[0], widths[0], line[1], widths[1]);
-    for (std::size_t k = 2; k < line.size(); ++k) text += fmt::format("  {:>{}}", line[k], widths[k]);
-    text += "\n";
-  }
-  return text + "\n" + inside_sentence(rows) + "\n";
+  return plain_table(lines, 2) + "\n" + inside_sentence(rows) + "\n";
 }
 
 }  // namespace wholehand
