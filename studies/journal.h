@@ -5,33 +5,31 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "system/line_journal.h"
+
 namespace wholehand {
 
-// What must be the same for a study to go on: a name, for the message, and its value.
-using StudyIdentity = std::map<std::string, std::string>;
+using StudyIdentity = JournalIdentity;
 
-// Each line has a checksum of its own (XXH3, 128 bits), and numbers are kept to the bit.
+// Numbers are kept to the bit.
 class StudyJournal {
  public:
   // Begins anew, or goes on where `resumes` and the file is there. Throws Error: (usage) the journal is of another study, and in
   // what; (failure) it cannot be read or written, or its head is damaged.
   StudyJournal(const std::string& path, const StudyIdentity& identity, bool resumes);
-  ~StudyJournal();
-  StudyJournal(const StudyJournal&) = delete;
-  StudyJournal& operator=(const StudyJournal&) = delete;
 
   // What a person's part of an experiment gave; null: it is not done.
   const std::vector<double>* find(const std::string& experiment, std::uint64_t person) const;
   std::size_t done() const { return done_.size(); }
-  // How many parts were there that people 0, 1, .. of these experiments do not need.
   // How many of people 0, 1, .. below `people` are done.
   std::size_t done_of(const std::string& experiment, std::uint64_t people) const;
+  // How many parts were there that people 0, 1, .. of these experiments do not need.
   std::size_t done_beside(std::uint64_t forces, std::uint64_t sessions) const;
   // Lines that are not as they were written. Their people are done again.
   std::size_t damaged() const { return damaged_; }
@@ -40,13 +38,9 @@ class StudyJournal {
   void add(const std::string& experiment, std::uint64_t person, std::span<const double> numbers);
 
  private:
-  void read(const StudyIdentity& identity);
-
-  std::string path_;
   std::map<std::pair<std::string, std::uint64_t>, std::vector<double>> done_;
   std::size_t damaged_ = 0;
-  std::mutex mutex_;
-  int file_ = -1;
+  std::optional<LineJournal> lines_;
 };
 
 // How many parts a journal has; 0 where it is not there, or is none.

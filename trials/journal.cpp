@@ -1,48 +1,25 @@
 // SPDX-License-Identifier: MIT
 #include "trials/journal.h"
 
-#include <fcntl.h>
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <bit>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <sstream>
+#include <utility>
 
-#include "core/error.h"
 #include "system/checksum.h"
-#include "system/file_set.h"
 
 namespace wholehand {
 namespace {
 
 using Json = nlohmann::json;
 
-constexpr const char* JOURNAL_FORMAT = "2";
+constexpr JournalKind TRIAL_JOURNAL{JOURNAL_START, "2", "these trials were begun", "make room, or name another folder",
+                                    "make room, then go on with --resume"};
 
 // Exactly, NaN and infinity too.
 std::uint64_t bits_of(double value) { return std::bit_cast<std::uint64_t>(value); }
 double number_at(const Json& array, std::size_t k) { return std::bit_cast<double>(array.at(k).get<std::uint64_t>()); }
-
-std::string journal_line(const Json& content) {
-  const std::string text = content.dump();
-  return checksum_text(text.data(), text.size()) + " " + text + "\n";
-}
-
-// The content of a line; nothing where it is not as it was written.
-std::optional<Json> content_of(const std::string& line) {
-  const std::size_t space = line.find(' ');
-  if (space == std::string::npos) return std::nullopt;
-  const std::string text = line.substr(space + 1);
-  if (checksum_text(text.data(), text.size()) != line.substr(0, space)) return std::nullopt;
-  Json content = Json::parse(text, nullptr, false);
-  if (content.is_discarded()) return std::nullopt;
-  return content;
-}
 
 Json prediction_json(const GripPrediction& said) {
   Json numbers = Json::array();
@@ -88,32 +65,18 @@ TrialOutcome outcome_of(const Json& content) {
 }
 
 // A line whose checksum is right was written here: what does not fit it is of a number of grips or cases that is not asked for.
-std::optional<std::pair<std::size_t, GripFinding>> finding_of(const std::string& line, const std::vector<std::size_t>& counts) {
-  const auto content = content_of(line);
-  if (!content) return std::nullopt;
+std::optional<std::pair<std::size_t, GripFinding>> finding_of(const Json& content, const std::vector<std::size_t>& counts) {
   try {
-    const auto grip = content->at("grip").get<std::size_t>();
-    const Json& outcomes = content->at("outcomes");
+    const auto grip = content.at("grip").get<std::size_t>();
+    const Json& outcomes = content.at("outcomes");
     if (grip >= counts.size() || outcomes.size() != counts[grip]) return std::nullopt;
     GripFinding found;
-    found.prediction = prediction_of(content->at("said"), counts[grip]);
+    found.prediction = prediction_of(content.at("said"), counts[grip]);
     for (const Json& one : outcomes) found.outcomes.push_back(outcome_of(one));
     return std::pair(grip, found);
   } catch (const Json::exception&) {
     return std::nullopt;
   }
-}
-
-std::string head_text(const TrialIdentity& identity) {
-  return fmt::format("{}{}\n{}", JOURNAL_START, JOURNAL_FORMAT, journal_line(identity));
-}
-
-// Not as write_whole_file does: what is left of a process that was killed has a name that the next one knows.
-void write_journal(const std::string& path, const std::string& text) {
-  constexpr const char* REMEDY = "make room, or name another folder";
-  FileSet set;
-  set.write(path, text, REMEDY);
-  set.give_names(REMEDY);
 }
 
 }  // namespace
@@ -123,65 +86,23 @@ std::string identity_text(const TrialIdentity& identity) {
   return checksum_text(text.data(), text.size());
 }
 
-TrialJournal::TrialJournal(const std::string& path, const TrialIdentity& identity) : path_(path) {
-  write_journal(path, head_text(identity));
-  open();
-}
+TrialJournal::TrialJournal(const std::string& path, const TrialIdentity& identity) : lines_(path, TRIAL_JOURNAL, identity) {}
 
 TrialJournal::TrialJournal(const std::string& path, const TrialIdentity& identity, const std::vector<std::size_t>& counts,
                            Found& found, std::size_t& damaged)
-    : path_(path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string format, head, line, whole = head_text(identity);
-  std::getline(file, format);
-  std::getline(file, head);
-  const auto known = content_of(head);
-  if (format != std::string(JOURNAL_START) + JOURNAL_FORMAT || !known || !known->is_object())
-    throw failure_error(path + ": is damaged, or of another version; leave --resume out to begin again");
-  std::string unlike;
-  for (const auto& [name, value] : identity)
-    if (known->value(name, std::string()) != value) unlike += (unlike.empty() ? "another " : ", another ") + name;
-  if (!unlike.empty())
-    throw usage_error(
-        fmt::format("{}: these trials were begun with {}; ask for the same, or leave --resume out to begin again", path, unlike));
-  damaged = 0;
-  while (std::getline(file, line)) {
-    const auto one = finding_of(line, counts);
-    damaged += one ? 0 : 1;
-    if (!one) continue;
-    found.insert_or_assign(one->first, one->second);
-    whole += line + "\n";
-  }
-  file.close();
-  write_journal(path, whole);  // the last line may lack its end
-  open();
-}
-
-TrialJournal::~TrialJournal() {
-  if (file_ >= 0) close(file_);
-}
-
-void TrialJournal::open() {
-  file_ = ::open(path_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
-  if (file_ < 0) throw failure_error(fmt::format("{}: cannot be written: {}; name another folder", path_, std::strerror(errno)));
-}
+    : lines_(
+          path, TRIAL_JOURNAL, identity,
+          [&](const Json& part) {
+            const auto one = finding_of(part, counts);
+            if (one) found.insert_or_assign(one->first, one->second);
+            return one.has_value();
+          },
+          damaged) {}
 
 void TrialJournal::add(std::size_t grip, const GripFinding& found) {
   Json outcomes = Json::array();
   for (const TrialOutcome& outcome : found.outcomes) outcomes.push_back(outcome_json(outcome));
-  write(journal_line({{"grip", grip}, {"said", prediction_json(found.prediction)}, {"outcomes", outcomes}}));
-}
-
-void TrialJournal::write(const std::string& text) {
-  const std::lock_guard lock(mutex_);
-  for (std::size_t done = 0; done < text.size();) {
-    const ssize_t count = ::write(file_, text.data() + done, text.size() - done);
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0)
-      throw failure_error(
-          fmt::format("{}: cannot be written: {}; make room, then go on with --resume", path_, std::strerror(errno)));
-    done += static_cast<std::size_t>(count);
-  }
+  lines_.add({{"grip", grip}, {"said", prediction_json(found.prediction)}, {"outcomes", outcomes}});
 }
 
 }  // namespace wholehand

@@ -4,10 +4,11 @@
 
 #include <cstddef>
 #include <map>
-#include <mutex>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "system/line_journal.h"
 #include "trials/tried.h"
 
 namespace wholehand {
@@ -15,12 +16,11 @@ namespace wholehand {
 // How a journal begins.
 inline constexpr std::string_view JOURNAL_START = "wholehand trials journal ";
 
-// What must be the same for trials to go on: a name, for the message, and its value.
-using TrialIdentity = std::map<std::string, std::string>;
+using TrialIdentity = JournalIdentity;
 // One checksum of it.
 std::string identity_text(const TrialIdentity& identity);
 
-// Each line has a checksum of its own (XXH3, 128 bits), and numbers are kept to the bit.
+// Numbers are kept to the bit.
 class TrialJournal {
  public:
   using Found = std::map<std::size_t, GripFinding>;  // by the number of the grip among those to be tried
@@ -32,20 +32,12 @@ class TrialJournal {
   // or its head is damaged.
   TrialJournal(const std::string& path, const TrialIdentity& identity, const std::vector<std::size_t>& counts, Found& found,
                std::size_t& damaged);
-  ~TrialJournal();
-  TrialJournal(const TrialJournal&) = delete;
-  TrialJournal& operator=(const TrialJournal&) = delete;
 
   // Adds a grip; details of its outcomes are UTF-8. Thread-safe. Throws Error (failure) where it cannot be written.
   void add(std::size_t grip, const GripFinding& found);
 
  private:
-  void open();
-  void write(const std::string& text);
-
-  std::string path_;
-  std::mutex mutex_;
-  int file_ = -1;
+  LineJournal lines_;
 };
 
 }  // namespace wholehand
