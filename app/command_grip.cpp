@@ -14,7 +14,7 @@
 
 #include "app/commands.h"
 #include "app/driver_watch.h"
-#include "app/paths.h"
+#include "scene/shipped.h"
 #include "app/remedy.h"
 #include "app/result_scene.h"
 #include "app/validators.h"

@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/commands.h"
-#include "app/paths.h"
+#include "scene/shipped.h"
 #include "scene/list.h"
 #include "system/output.h"
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "app/commands.h"
-#include "app/paths.h"
+#include "scene/shipped.h"
 #include "app/validators.h"
 #include "app/values.h"
 #include "app/vulkan_environment.h"

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "app/commands.h"
-#include "app/paths.h"
+#include "scene/shipped.h"
 #include "app/validators.h"
 #include "app/values.h"
 #include "objects/vessel.h"

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "app/commands.h"
-#include "app/paths.h"
+#include "scene/shipped.h"
 #include "app/remedy.h"
 #include "app/validators.h"
 #include "app/values.h"

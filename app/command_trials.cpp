@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/commands.h"
-#include "app/paths.h"
+#include "scene/shipped.h"
 #include "app/result_scene.h"
 #include "app/validators.h"
 #include "app/values.h"

@@ -18,7 +18,7 @@
 #include "app/live_board.h"
 #include "app/live_report.h"
 #include "app/open_gripper.h"
-#include "app/paths.h"
+#include "scene/shipped.h"
 #include "device/call_watch.h"
 #include "device/haptic_loop.h"
 #include "device/panic.h"

@@ -18,7 +18,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/paths.h"
+#include "scene/shipped.h"
 #include "core/error.h"
 #include "objects/vessel.h"
 #include "recordings/recording.h"

@@ -21,7 +21,7 @@
 
 #include "app/live_report.h"
 #include "app/open_gripper.h"
-#include "app/paths.h"
+#include "scene/shipped.h"
 #include "core/error.h"
 #include "core/vectors.h"
 #include "recordings/recording.h"

@@ -14,7 +14,7 @@
 #include <memory>
 #include <string>
 
-#include "app/paths.h"
+#include "scene/shipped.h"
 #include "evidence/compare.h"
 #include "host/grip_backend.h"
 #include "scene/reader.h"

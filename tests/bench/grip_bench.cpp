@@ -5,7 +5,7 @@
 #include <memory>
 #include <utility>
 
-#include "app/paths.h"
+#include "scene/shipped.h"
 #include "core/core_backend.h"
 #include "core/evaluator.h"
 #include "grips/holding.h"

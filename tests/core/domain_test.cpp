@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/paths.h"
+#include "scene/shipped.h"
 #include "evidence/compare.h"
 #include "scene/reader.h"
 #include "tests/support/scenes.h"

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "app/paths.h"
+#include "scene/shipped.h"
 #include "core/gather.h"
 #include "core/scene.h"
 #include "scene/reader.h"

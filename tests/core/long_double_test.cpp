@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "app/paths.h"
+#include "scene/shipped.h"
 #include "evidence/compare.h"
 #include "scene/reader.h"
 #include "sweeps/plan.h"

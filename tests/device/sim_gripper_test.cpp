@@ -13,7 +13,7 @@
 #include <memory>
 #include <set>
 
-#include "app/paths.h"
+#include "scene/shipped.h"
 #include "core/error.h"
 #include "device/haptic_loop.h"
 #include "device/sim_user.h"

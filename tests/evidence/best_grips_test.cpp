@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/paths.h"
+#include "scene/shipped.h"
 #include "scene/reader.h"
 #include "sweeps/grip_lists.h"
 #include "sweeps/run.h"

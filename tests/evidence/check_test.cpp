@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/paths.h"
+#include "scene/shipped.h"
 #include "scene/reader.h"
 #include "tests/support/vulkan_listener.h"
 

@@ -11,7 +11,7 @@
 #include <limits>
 #include <memory>
 
-#include "app/paths.h"
+#include "scene/shipped.h"
 #include "scene/reader.h"
 #include "sweeps/plan.h"
 

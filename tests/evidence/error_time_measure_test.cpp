@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "app/paths.h"
+#include "scene/shipped.h"
 #include "evidence/error_measure.h"
 #include "evidence/error_table.h"
 #include "evidence/error_variants.h"

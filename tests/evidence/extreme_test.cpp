@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "app/paths.h"
+#include "scene/shipped.h"
 #include "core/effort.h"
 #include "core/force.h"
 #include "core/joints.h"

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/paths.h"
+#include "scene/shipped.h"
 #include "core/error.h"
 #include "evidence/grip_loop.h"
 #include "scene/reader.h"

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "app/paths.h"
+#include "scene/shipped.h"
 #include "scene/reader.h"
 #include "tests/support/files.h"
 

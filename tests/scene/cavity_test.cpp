@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "app/paths.h"
+#include "scene/shipped.h"
 #include "core/capacity.h"
 #include "core/evaluator.h"
 #include "core/outline_points.h"

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/paths.h"
+#include "scene/shipped.h"
 
 namespace wholehand {
 namespace {

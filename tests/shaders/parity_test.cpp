@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/paths.h"
+#include "scene/shipped.h"
 #include "core/absent.h"
 #include "core/counted_tilts.h"
 #include "core/hand_size.h"

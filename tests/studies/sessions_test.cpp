@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "app/paths.h"
+#include "scene/shipped.h"
 #include "core/error.h"
 #include "device/gripper.h"
 #include "live/session.h"

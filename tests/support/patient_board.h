@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "app/paths.h"
+#include "scene/shipped.h"
 #include "scene/reader.h"
 #include "tests/support/files.h"
 

@@ -9,7 +9,7 @@
 #include <regex>
 #include <sstream>
 
-#include "app/paths.h"
+#include "scene/shipped.h"
 #include "core/counted_tilts.h"
 #include "evidence/compare.h"
 #include "scene/reader.h"

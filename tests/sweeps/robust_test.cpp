@@ -14,7 +14,7 @@
 #include <numeric>
 #include <sstream>
 
-#include "app/paths.h"
+#include "scene/shipped.h"
 #include "core/core_backend.h"
 #include "core/normal.h"
 #include "core/prepare.h"

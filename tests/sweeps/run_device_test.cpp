@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <csignal>
 
-#include "app/paths.h"
+#include "scene/shipped.h"
 #include "core/candidates.h"
 #include "host/open_backend.h"
 #include "scene/reader.h"

@@ -12,7 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/paths.h"
+#include "scene/shipped.h"
 #include "core/mesh_body.h"
 #include "grips/hand_nodes.h"
 #include "live/hand_view.h"

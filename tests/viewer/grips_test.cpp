@@ -14,7 +14,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/paths.h"
+#include "scene/shipped.h"
 #include "core/contact.h"
 #include "core/error.h"
 #include "grips/report.h"

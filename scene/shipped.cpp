@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/paths.h"
+#include "scene/shipped.h"
 
 #include <fmt/format.h>
 

@@ -1,0 +1,200 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * wholehand as a C library: how a whole hand holds a vessel, and what the two fingers of a haptic gripper feel.
+ *
+ * Rules that hold for every function:
+ *
+ *   - Units are SI: m, kg, s, N, rad. Names that end in another unit do not exist.
+ *   - Frames: the vessel frame has its origin at the vessel's base and +y along its axis. The world frame has +y up. Rotations
+ *     are 3 x 3 matrices, row by row; their columns are the axes of the turned frame.
+ *   - Every function that can fail returns a wh_status. WH_OK is 0. What went wrong, in one line, is wh_message() of the same thread,
+ *     until the next call on it.
+ *   - Nothing is thrown. No function keeps a pointer that it was given, unless it says so.
+ *   - Objects are opaque. The one who opens an object frees it. To free NULL does nothing. Scenes and batches may be used by any number
+ *     of threads, but a batch runs one request at a time. A session belongs to one thread at a time; a second one that enters gets
+ *     WH_BUSY.
+ *   - Structs begin with their size. The caller sets it (WH_INIT does), so that a program that was compiled with an earlier version goes
+ *     on to work with a later library.
+ */
+#ifndef WHOLEHAND_WHOLEHAND_H
+#define WHOLEHAND_WHOLEHAND_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(__GNUC__)
+#define WH_API __attribute__((visibility("default")))
+#else
+#define WH_API
+#endif
+
+/* Raised where something that is here changes its meaning; additions do not raise it. */
+#define WH_ABI 1
+
+enum {
+  WH_JOINTS = 24,  /* thumb 4, then 5 each of index, middle, ring and little finger, from the base to the tip */
+  WH_FINGERS = 5,  /* thumb, index, middle, ring, little */
+  WH_GRIP_COLUMNS = 6
+};
+
+typedef enum wh_status {
+  WH_OK = 0,
+  WH_INPUT = 2,    /* a scene, a name or a number that is not allowed; wh_message() says where, and what is */
+  WH_SYSTEM = 3,   /* no memory, no file, no device */
+  WH_ARGUMENT = 4, /* a null pointer, a size, a type or an index that cannot be */
+  WH_BUSY = 5      /* another thread is in this object */
+} wh_status;
+
+/* The line for the last call of this thread that did not return WH_OK; never NULL. */
+WH_API const char* wh_message(void);
+/* "0.3.0". */
+WH_API const char* wh_version(void);
+/* WH_ABI of the library. */
+WH_API int wh_abi(void);
+
+/* Sets all of a struct to 0, and its size. */
+#define WH_INIT(pointer) wh_init((pointer), sizeof *(pointer))
+WH_API void wh_init(void* structure, size_t size);
+
+/* ---- scenes ---- */
+
+typedef struct wh_scene wh_scene;
+
+/* From a file, or the name of a scene that is shipped with the library ("three_beakers"). Meshes are read. */
+WH_API wh_status wh_scene_open(const char* path_or_name, wh_scene** scene);
+/* From text (TOML, docs/scene.md) of `length` bytes. `name` stands for it in messages; NULL: "text". */
+WH_API wh_status wh_scene_parse(const char* text, size_t length, const char* name, wh_scene** scene);
+WH_API void wh_scene_free(wh_scene* scene);
+
+WH_API wh_status wh_scene_vessels(const wh_scene* scene, size_t* count);
+/* The name lives as long as the scene. */
+WH_API wh_status wh_scene_vessel_name(const wh_scene* scene, size_t vessel, const char** name);
+WH_API wh_status wh_scene_find_vessel(const wh_scene* scene, const char* name, size_t* vessel);
+/* The states of a sweep: fills of a vessel (shares of its capacity; 1 without liquid, the empty glass) and tilts (rad). `values` may be
+ * NULL; else it has room for `room` numbers, and `count` is how many there are. WH_ARGUMENT where there is too little room. */
+WH_API wh_status wh_scene_fills(const wh_scene* scene, size_t vessel, double* values, size_t room, size_t* count);
+WH_API wh_status wh_scene_tilts(const wh_scene* scene, double* values, size_t room, size_t* count);
+
+/* ---- variables: what can be known of a grip ---- */
+
+typedef enum wh_type { WH_DOUBLE = 0, WH_FLOAT = 1, WH_INT32 = 2 } wh_type;
+
+typedef struct wh_variable {
+  size_t size;
+  const char* name;      /* "score", "joints"; lives as long as the library */
+  const char* unit;      /* "m", "1" */
+  const char* long_name; /* one line */
+  const char* dims;      /* what it has beside the grips, the slowest first: "fill tilt", "joint xyz", "" */
+  int is_integer;        /* 1: whole numbers and masks; 0: reals */
+} wh_variable;
+
+WH_API size_t wh_variables(void);
+WH_API wh_status wh_variable_at(size_t index, wh_variable* variable);
+/* How many values it has for each grip in this scene. 0: the scene lacks what it needs. WH_INPUT: there is none of this name. */
+WH_API wh_status wh_variable_values(const wh_scene* scene, const char* name, size_t* values);
+
+/* ---- batches: many grips, some variables ---- */
+
+typedef struct wh_batch wh_batch;
+
+/* `on`: "core", "vulkan" or a device's name; NULL: "core". `is_double`: 0 computes in float, on devices and on the core. `threads` of the core; 0: all.
+ * The scene must outlive the batch. */
+WH_API wh_status wh_batch_open(const wh_scene* scene, const char* const* variables, size_t count, const char* on, int is_double,
+                               int threads, wh_batch** batch);
+WH_API void wh_batch_free(wh_batch* batch);
+/* "core, 2 threads", or the device's name; lives as long as the batch. */
+WH_API wh_status wh_batch_device(const wh_batch* batch, const char** name);
+
+/* Where one variable's values go: value v of grip i at (char*)data + i * grip_stride + v * value_stride, in bytes. */
+typedef struct wh_output {
+  size_t size;
+  void* data;
+  wh_type type;
+  ptrdiff_t grip_stride, value_stride; /* both 0: grip after grip, without gaps */
+} wh_output;
+
+/* `grips`: `count` rows of WH_GRIP_COLUMNS doubles: height, azimuth, obliquity, roll, offset, hand_scale; row i at grips + i * row_stride
+ * (in doubles; 0: WH_GRIP_COLUMNS). `outputs`: one for each variable of the batch, in their order. What an infeasible grip lacks is NaN;
+ * of integers -1, and of masks 0. Nothing is written where WH_ARGUMENT or WH_INPUT is returned. */
+WH_API wh_status wh_batch_run(wh_batch* batch, size_t vessel, const double* grips, size_t count, size_t row_stride,
+                              const wh_output* outputs, size_t outputs_count);
+
+/* ---- one grip, with everything ---- */
+
+typedef struct wh_grip {
+  size_t size;
+  double height, azimuth, obliquity, roll, offset, hand_scale; /* hand_scale 0 counts as 1 */
+} wh_grip;
+
+typedef struct wh_grip_result {
+  size_t size;
+  const char* reason; /* why it is not feasible; "": it is. Lives as long as the library */
+  int32_t is_feasible, is_plausible, is_antipodal, is_grazing, overlaps_itself, is_through_table;
+  uint32_t touch_mask, used_mask, tip_mask, finger_mask, inner_mask; /* bit j: joint j; used: bit f: finger f */
+  double closure, gap;
+  double thumb_angle, index_angle; /* between outward normal and thumb-index line */
+  double midpoint[3];
+  double joints[WH_JOINTS][3], posed[WH_JOINTS][3], proxies[WH_JOINTS][3]; /* vessel frame; NaN where it is not feasible */
+  double separation[WH_JOINTS];
+  double phalanx_depth, palm_depth;
+  double score;
+  double score_terms[6]; /* fingers, contacts, depth, posture, force, hold */
+} wh_grip_result;
+
+WH_API wh_status wh_grip_evaluate(const wh_scene* scene, size_t vessel, const wh_grip* grip, wh_grip_result* result);
+
+/* ---- sessions: a gripper's measurement in, forces and the whole hand out ---- */
+
+typedef struct wh_session wh_session;
+
+/* `gap_closed` and `gap_open` of the gripper, where the scene's [device] says none. The scene may be freed before the session. */
+WH_API wh_status wh_session_open(const wh_scene* scene, double gap_closed, double gap_open, wh_session** session);
+WH_API void wh_session_free(wh_session* session);
+
+typedef struct wh_measurement {
+  size_t size;
+  int64_t tick;        /* number of the period of 1 / rate, greater than the one before */
+  double position[3];  /* middle of the two tracked points, device frame */
+  double rotation[9];  /* of the gripper in the device frame; all 0 counts as no rotation */
+  double gap;          /* between the two tracked points */
+  uint32_t buttons;
+} wh_measurement;
+
+typedef enum wh_state { WH_FREE, WH_TOUCHING, WH_LIFT, WH_TILT, WH_MAINTAIN, WH_SLIPPED, WH_RELEASED } wh_state;
+
+typedef struct wh_session_output {
+  size_t size;
+  wh_state state;
+  int32_t vessel;          /* touched, held or slipping; -1: none */
+  double arm_force[3];     /* to be rendered, device frame; the method's own, without limits, ramp and slew */
+  double grip_force;       /* on each finger; positive opens */
+  double normal_force, feedback_force, user_force, weight, torque;
+  double tilt;
+  double vessel_place[3], vessel_rotation[9]; /* world frame, of that vessel */
+  double tips[2][3];                          /* thumb and index finger, world frame */
+  uint32_t touch_mask, used_mask;
+  int32_t grasps, lost, destinations, is_task_done;
+} wh_session_output;
+
+/* Neither allocates nor blocks: for the 1 kHz thread of an engine. A measurement that is not finite is WH_INPUT, and the session stays as it
+ * was. The caller limits the forces to what the gripper can do. */
+WH_API wh_status wh_session_step(wh_session* session, const wh_measurement* measurement, wh_session_output* output);
+
+typedef struct wh_hand {
+  size_t size;
+  double joints[WH_JOINTS][3]; /* drawn: outside of all vessels, world frame */
+  double wrist[3], rotation[9];
+} wh_hand;
+
+/* The whole hand of the last step, as it is seen. May allocate: for a display's thread of its own pace, after the step on the same thread. */
+WH_API wh_status wh_session_hand(wh_session* session, wh_hand* hand);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#include <atomic>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "core/backend.h"
+#include "host/open_backend.h"
+#include "library/scene.h"
+#include "library/status.h"
+#include "sweeps/variables.h"
+
+using namespace wholehand;
+
+struct wh_batch {
+  const wh_scene* scene = nullptr;
+  std::vector<const Variable*> variables;  // in the caller's order
+  FieldSet fields;
+  std::unique_ptr<Backend> backend;
+  std::atomic_flag is_in_use = ATOMIC_FLAG_INIT;
+};
+
+namespace {
+
+std::vector<const Variable*> named_variables(const Scene& scene, const char* const* names, size_t count) {
+  Scene asked = scene;  // for its messages: what the scene lacks, and what is known
+  asked.output.keep = std::vector<std::string>(names, names + count);
+  asked.output.keep_place = "variables";
+  choose_variables(asked);
+  std::vector<const Variable*> variables;
+  for (size_t k = 0; k < count; ++k)
+    for (const Variable& variable : variable_catalogue())
+      if (std::strcmp(variable.name, names[k]) == 0) variables.push_back(&variable);
+  return variables;
+}
+
+// Strides in bytes, those that the caller left out filled in.
+struct Place {
+  char* data;
+  wh_type type;
+  ptrdiff_t grip, value;
+};
+
+std::size_t size_of(wh_type type) { return type == WH_DOUBLE ? sizeof(double) : 4; }
+
+void put(const Place& place, std::size_t grip, std::size_t value, double number) {
+  char* at = place.data + static_cast<ptrdiff_t>(grip) * place.grip + static_cast<ptrdiff_t>(value) * place.value;
+  if (place.type == WH_DOUBLE) {
+    std::memcpy(at, &number, sizeof number);
+  } else if (place.type == WH_FLOAT) {
+    const auto single = static_cast<float>(number);
+    std::memcpy(at, &single, sizeof single);
+  } else {
+    const auto whole = static_cast<std::int32_t>(number);
+    std::memcpy(at, &whole, sizeof whole);
+  }
+}
+
+// One variable of the grips of a chunk.
+void write_values(const wh_batch& batch, const Variable& variable, const PlaneChunk& chunk, const Place& place) {
+  const std::size_t values = variable_planes(variable, batch.scene->scene);
+  const int first = batch.fields.plane[static_cast<std::size_t>(variable.field)] + variable.plane;
+  const int status = batch.fields.plane[FIELD_STATUS];
+  for (std::size_t v = 0; v < values; ++v)
+    for (std::size_t i = 0; i < chunk.count; ++i) {
+      const int plane = first + static_cast<int>(v);
+      if (variable.type == NumberType::real) {
+        put(place, chunk.first + i, v, chunk.real(plane, i));
+        continue;
+      }
+      const bool exists = variable.always || (chunk.uint(status, i) & STATUS_REASON_MASK) == REASON_NONE;
+      put(place, chunk.first + i, v, exists ? variable.value(chunk.uint(plane, i)) : variable.missing);
+    }
+}
+
+wh_status check_request(const wh_batch& batch, size_t vessel, const double* grips, size_t count, size_t stride,
+                        const wh_output* outputs, size_t outputs_count, std::vector<Place>& places) {
+  if (vessel >= batch.scene->scene.vessels.size()) return fail(WH_ARGUMENT, "wh_batch_run: the scene has no vessel of this number");
+  if (count > 0 && !grips) return fail(WH_ARGUMENT, "wh_batch_run: the grips are null");
+  if (stride < WH_GRIP_COLUMNS) return fail(WH_ARGUMENT, "wh_batch_run: a row of grips has 6 numbers; its stride is smaller");
+  if (outputs_count != batch.variables.size() || (outputs_count > 0 && !outputs))
+    return fail(WH_ARGUMENT, "wh_batch_run: there must be one output for each variable of the batch");
+  for (size_t k = 0; k < outputs_count; ++k) {
+    wh_output own;
+    if (!take_over(&outputs[k], own)) return fail(WH_ARGUMENT, "wh_batch_run: the size of an output is not set");
+    if (!own.data && count > 0) return fail(WH_ARGUMENT, "wh_batch_run: the data of an output are null");
+    if (own.type != WH_DOUBLE && own.type != WH_FLOAT && own.type != WH_INT32)
+      return fail(WH_ARGUMENT, "wh_batch_run: an output has a type that is none");
+    if (own.type == WH_INT32 && batch.variables[k]->type == NumberType::real)
+      return fail(WH_ARGUMENT, "wh_batch_run: a real variable does not go into whole numbers");
+    const auto size = static_cast<ptrdiff_t>(size_of(own.type));
+    const auto values = static_cast<ptrdiff_t>(variable_planes(*batch.variables[k], batch.scene->scene));
+    const bool is_packed = own.grip_stride == 0 && own.value_stride == 0;
+    places.push_back(
+        {static_cast<char*>(own.data), own.type, is_packed ? size * values : own.grip_stride, is_packed ? size : own.value_stride});
+  }
+  for (size_t i = 0; i < count; ++i)
+    for (int c = 0; c < WH_GRIP_COLUMNS; ++c)
+      if (!std::isfinite(grips[i * stride + static_cast<size_t>(c)])) {
+        const std::string line = "wh_batch_run: number " + std::to_string(c) + " of grip " + std::to_string(i) + " is not finite";
+        return fail(WH_INPUT, line.c_str());
+      }
+  return WH_OK;
+}
+
+}  // namespace
+
+wh_status wh_batch_open(const wh_scene* scene, const char* const* variables, size_t count, const char* on, int is_double,
+                        int threads, wh_batch** batch) {
+  if (!scene || !batch || (count > 0 && !variables)) return fail(WH_ARGUMENT, "wh_batch_open: a pointer is null");
+  *batch = nullptr;
+  for (size_t k = 0; k < count; ++k)
+    if (!variables[k]) return fail(WH_ARGUMENT, "wh_batch_open: the name of a variable is null");
+  if (threads < 0) return fail(WH_ARGUMENT, "wh_batch_open: there are fewer than 0 threads");
+  return guarded([&] {
+    auto made = std::make_unique<wh_batch>();
+    made->scene = scene;
+    made->variables = named_variables(scene->scene, variables, count);
+    made->fields = make_field_set(variable_fields(made->variables), scene->scene);
+    made->backend =
+        open_backend(scene->scene, made->fields, on ? on : "core", is_double ? Precision::full : Precision::single, threads);
+    *batch = made.release();
+    return WH_OK;
+  });
+}
+
+void wh_batch_free(wh_batch* batch) { delete batch; }
+
+wh_status wh_batch_device(const wh_batch* batch, const char** name) {
+  if (!batch || !name) return fail(WH_ARGUMENT, "wh_batch_device: a pointer is null");
+  *name = batch->backend->info().device.c_str();
+  return WH_OK;
+}
+
+wh_status wh_batch_run(wh_batch* batch, size_t vessel, const double* grips, size_t count, size_t row_stride,
+                       const wh_output* outputs, size_t outputs_count) {
+  if (!batch) return fail(WH_ARGUMENT, "wh_batch_run: the batch is null");
+  if (batch->is_in_use.test_and_set(std::memory_order_acquire))
+    return fail(WH_BUSY, "wh_batch_run: another thread is in this batch");
+  const wh_status status = guarded([&] {
+    const size_t stride = row_stride == 0 ? WH_GRIP_COLUMNS : row_stride;
+    std::vector<Place> places;
+    const wh_status checked = check_request(*batch, vessel, grips, count, stride, outputs, outputs_count, places);
+    if (checked != WH_OK || count == 0) return checked;
+    RunRequest request;
+    request.vessel = vessel;
+    request.last = count;
+    request.grips = [&](std::size_t, std::uint64_t first, std::size_t size, GripInput* out) {
+      for (std::size_t i = 0; i < size; ++i) {
+        const double* row = grips + (first + i) * stride;
+        out[i] = {row[0], row[1], row[2], row[3], row[4], row[5]};
+      }
+    };
+    request.sink = [&](const PlaneChunk& chunk) {
+      for (size_t k = 0; k < places.size(); ++k) write_values(*batch, *batch->variables[k], chunk, places[k]);
+    };
+    batch->backend->run(request);
+    return WH_OK;
+  });
+  batch->is_in_use.clear(std::memory_order_release);
+  return status;
+}

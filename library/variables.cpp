@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include <map>
+#include <mutex>
+#include <string>
+
+#include "library/scene.h"
+#include "library/status.h"
+#include "sweeps/variables.h"
+
+using namespace wholehand;
+
+namespace {
+
+// "fill tilt": texts that live as long as the library.
+const char* dims_text(const Variable& variable) {
+  static std::mutex mutex;
+  static std::map<std::string, std::string> texts;
+  const std::lock_guard lock(mutex);
+  std::string& text = texts[variable.name];
+  if (text.empty())
+    for (const char* dim : variable.dims) text += (text.empty() ? "" : " ") + std::string(dim);
+  return text.c_str();
+}
+
+}  // namespace
+
+size_t wh_variables(void) { return variable_catalogue().size(); }
+
+wh_status wh_variable_at(size_t index, wh_variable* variable) {
+  if (index >= variable_catalogue().size()) return fail(WH_ARGUMENT, "wh_variable_at: there is no variable of this number");
+  return guarded([&] {
+    const Variable& known = variable_catalogue()[index];
+    wh_variable own{};
+    own.name = known.name;
+    own.unit = known.units;
+    own.long_name = known.long_name;
+    own.dims = dims_text(known);
+    own.is_integer = known.type == NumberType::real ? 0 : 1;
+    return give_back(own, variable) ? WH_OK : fail(WH_ARGUMENT, "wh_variable_at: the variable is null, or its size is not set");
+  });
+}
+
+wh_status wh_variable_values(const wh_scene* scene, const char* name, size_t* values) {
+  if (!scene || !name || !values) return fail(WH_ARGUMENT, "wh_variable_values: a pointer is null");
+  return guarded([&] {
+    for (const Variable& variable : variable_catalogue()) {
+      if (std::string(variable.name) != name) continue;
+      *values = variable_planes(variable, scene->scene);
+      if (field_planes(variable.field, scene->scene) == 0) *values = 0;
+      return WH_OK;
+    }
+    return fail(WH_INPUT, (std::string("no variable '") + name + "'").c_str());
+  });
+}
