@@ -10,6 +10,13 @@ if(NOT CMAKE_BUILD_TYPE)
 endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")  # core/ has its own -O3
 
+# Every folder may become part of the shared library. Hidden names cost no table of a dynamic linker, so position-independent code is as
+# fast as the other; what the library shows is marked WH_API.
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+function(wholehand_hidden target)
+  set_target_properties(${target} PROPERTIES CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
+endfunction()
+
 add_link_options(-Wl,--build-id=sha1)  # by which a resumed sweep knows its program
 add_compile_options(-Wall -Wextra -Wpedantic -Wnon-virtual-dtor -fdiagnostics-color=auto)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")

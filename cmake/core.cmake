@@ -12,6 +12,7 @@ function(core_library name)
   add_library(${name} STATIC ${ARGN})
   target_include_directories(${name} PUBLIC "${PROJECT_SOURCE_DIR}")
   core_options(${name})
+  wholehand_hidden(${name})
   wholehand_together(${name} 8)
 endfunction()
 

@@ -31,6 +31,7 @@ function(embed_files target header function)
     @ONLY)
   set_source_files_properties("${source}" PROPERTIES OBJECT_DEPENDS "${files}")
   add_library(${target} STATIC "${source}")
+  wholehand_hidden(${target})
   target_include_directories(${target} PUBLIC "${PROJECT_SOURCE_DIR}")
 endfunction()
 

@@ -2,7 +2,7 @@
 # One library per folder. Every folder of the product stands on a floor, and uses folders of lower floors only: configuring fails on a link
 # that goes up or sideways, and the test Folders.* on an #include that does.
 set(WHOLEHAND_FLOORS
-  shaders=0
+  shaders=0 include=0
   core=1
   system=2 scene=2 live=2 people=2 statistics=2
   host=3 device=3 objects=3 charts=3
@@ -11,7 +11,7 @@ set(WHOLEHAND_FLOORS
   evidence=6 cluster=6
   report=7
   trials=8 studies=8
-  app=9)
+  app=9 library=9)
 
 # Sets `result` to the floor of a folder.
 function(wholehand_floor folder result)
@@ -45,6 +45,7 @@ function(wholehand_folder name)
     list(REMOVE_ITEM sources ${excepted})
   endif()
   add_library(${name} STATIC ${sources})
+  wholehand_hidden(${name})
   target_include_directories(${name} PUBLIC "${PROJECT_SOURCE_DIR}")
   target_link_libraries(${name} PUBLIC ${folder_USES} ${folder_LINKS})
   if(folder_QUICK)

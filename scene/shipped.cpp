@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "scene/shipped.h"
 
+#include <dlfcn.h>
+#include <link.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,21 +14,38 @@
 namespace wholehand {
 namespace fs = std::filesystem;
 
+namespace {
+
+// The program, the shared library or the Python module that this code is part of. Empty where the system does not say.
+fs::path file_of_this_code() {
+  std::error_code failed;
+  Dl_info info;
+  link_map* map = nullptr;
+  const auto* here = reinterpret_cast<const void*>(&file_of_this_code);
+  const bool is_known = dladdr1(here, &info, reinterpret_cast<void**>(&map), RTLD_DL_LINKMAP) != 0 && map;
+  const std::string loaded = is_known && map->l_name ? map->l_name : "";  // empty for a program
+  const fs::path file = loaded.empty() ? fs::read_symlink("/proc/self/exe", failed) : fs::absolute(loaded, failed);
+  return failed ? fs::path() : file;
+}
+
+}  // namespace
+
 std::string scenes_dir() {
-  std::vector<fs::path> candidates;
+  // /usr/bin/wholehand, /usr/lib/x86_64-linux-gnu/libwholehand.so.0 and /usr/lib/python3/dist-packages/wholehand/ are up to four folders
+  // below /usr; a build folder is as deep in its source tree
+  constexpr int LEVELS = 4;
+  std::vector<fs::path> installed, source;
+  fs::path above = file_of_this_code().parent_path();
+  for (int level = 0; level <= LEVELS && above.has_relative_path(); ++level, above = above.parent_path()) {
+    installed.push_back(above / "share/wholehand/scenes");
+    source.push_back(above / "scene/examples");
+  }
+  std::vector<fs::path> candidates = installed;
 #ifdef WHOLEHAND_SCENE_DIR
   candidates.emplace_back(WHOLEHAND_SCENE_DIR);
 #endif
+  candidates.insert(candidates.end(), source.begin(), source.end());
   std::error_code failed;
-  const fs::path program = fs::read_symlink("/proc/self/exe", failed);
-  if (!failed) {
-    candidates.push_back(program.parent_path().parent_path() / "share/wholehand/scenes");
-    // the source tree around a build folder
-    fs::path above = program.parent_path();
-    for (int level = 0; level < 4 && above.has_relative_path(); ++level, above = above.parent_path()) {
-      candidates.push_back(above / "scene/examples");
-    }
-  }
   for (const fs::path& candidate : candidates) {
     if (fs::is_regular_file(candidate / (std::string(DEFAULT_SCENE) + ".toml"), failed)) return candidate.string();
   }

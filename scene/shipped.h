@@ -9,14 +9,14 @@ namespace wholehand {
 
 inline constexpr const char* DEFAULT_SCENE = "three_beakers";
 
-// Folder of the shipped scenes: WHOLEHAND_SCENE_DIR of the build if it is there, else beside the program (scene/examples of the source
-// tree above it, or ../share/wholehand/scenes). Empty where none of them exists.
+// Folder of the shipped scenes: share/wholehand/scenes beside or above the program or library that this code is in, else
+// WHOLEHAND_SCENE_DIR of the build, else scene/examples of a source tree above. Empty where none of them exists.
 std::string scenes_dir();
 
 // Names of the shipped scenes, without .toml, in order.
 std::vector<std::string> shipped_scenes();
 
-// The extreme scenes of the source tree that scenes_dir() belongs to (scene/extreme), as paths in order; none where there is no such folder.
+// The extreme scenes (the folder `extreme` beside scenes_dir()), as paths in order; none where there is no such folder.
 std::vector<std::string> extreme_scene_files();
 
 // A path that exists stays; a bare name may be that of a shipped scene, with or without .toml; empty: the default scene. Throws Error

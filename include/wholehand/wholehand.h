@@ -32,8 +32,9 @@ extern "C" {
 #define WH_API
 #endif
 
-/* Raised where something that is here changes its meaning; additions do not raise it. */
-#define WH_ABI 1
+/* The number in the name of the shared library (libwholehand.so.0). It is raised when something in this header changes its meaning or its
+ * size; an addition does not raise it. */
+#define WH_ABI 0
 
 enum {
   WH_JOINTS = 24,  /* thumb 4, then 5 each of index, middle, ring and little finger, from the base to the tip */
