@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <atomic>
-#include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <vector>
 
@@ -13,7 +13,7 @@
 using namespace wholehand;
 
 struct wh_batch {
-  const wh_scene* scene = nullptr;
+  std::shared_ptr<const ReadyScene> ready;
   std::vector<const Variable*> variables;  // in the caller's order
   FieldSet fields;
   std::unique_ptr<Backend> backend;
@@ -21,6 +21,8 @@ struct wh_batch {
 };
 
 namespace {
+
+GripInput grip_of(const double* row) noexcept { return {row[0], row[1], row[2], row[3], row[4], row[5] == 0 ? 1 : row[5]}; }
 
 std::vector<const Variable*> named_variables(const Scene& scene, const char* const* names, size_t count) {
   Scene asked = scene;  // for its messages: what the scene lacks, and what is known
@@ -58,7 +60,7 @@ void put(const Place& place, std::size_t grip, std::size_t value, double number)
 
 // One variable of the grips of a chunk.
 void write_values(const wh_batch& batch, const Variable& variable, const PlaneChunk& chunk, const Place& place) {
-  const std::size_t values = variable_planes(variable, batch.scene->scene);
+  const std::size_t values = variable_planes(variable, batch.ready->scene);
   const int first = batch.fields.plane[static_cast<std::size_t>(variable.field)] + variable.plane;
   const int status = batch.fields.plane[FIELD_STATUS];
   for (std::size_t v = 0; v < values; ++v)
@@ -75,31 +77,38 @@ void write_values(const wh_batch& batch, const Variable& variable, const PlaneCh
 
 wh_status check_request(const wh_batch& batch, size_t vessel, const double* grips, size_t count, size_t stride,
                         const wh_output* outputs, size_t outputs_count, std::vector<Place>& places) {
-  if (vessel >= batch.scene->scene.vessels.size()) return fail(WH_ARGUMENT, "wh_batch_run: the scene has no vessel of this number");
+  const Scene& scene = batch.ready->scene;
+  if (vessel >= scene.vessels.size())
+    return fail(WH_ARGUMENT, "wh_batch_run: the scene has %zu vessels, and none of number %zu", scene.vessels.size(), vessel);
   if (count > 0 && !grips) return fail(WH_ARGUMENT, "wh_batch_run: the grips are null");
   if (stride < WH_GRIP_COLUMNS) return fail(WH_ARGUMENT, "wh_batch_run: a row of grips has 6 numbers; its stride is smaller");
   if (outputs_count != batch.variables.size() || (outputs_count > 0 && !outputs))
-    return fail(WH_ARGUMENT, "wh_batch_run: there must be one output for each variable of the batch");
+    return fail(WH_ARGUMENT, "wh_batch_run: the batch has %zu variables, and there are %zu outputs", batch.variables.size(),
+                outputs ? outputs_count : 0);
   for (size_t k = 0; k < outputs_count; ++k) {
     wh_output own;
-    if (!take_over(&outputs[k], own)) return fail(WH_ARGUMENT, "wh_batch_run: the size of an output is not set");
-    if (!own.data && count > 0) return fail(WH_ARGUMENT, "wh_batch_run: the data of an output are null");
+    const char* name = batch.variables[k]->name;
+    if (const wh_status status = take_over(&outputs[k], own, "wh_batch_run: an output"); status != WH_OK) return status;
+    if (!own.data && count > 0) return fail(WH_ARGUMENT, "wh_batch_run: the data of %s are null", name);
     if (own.type != WH_DOUBLE && own.type != WH_FLOAT && own.type != WH_INT32)
-      return fail(WH_ARGUMENT, "wh_batch_run: an output has a type that is none");
+      return fail(WH_ARGUMENT, "wh_batch_run: %s has the type %d; 0 is double, 1 is float, 2 is int32", name,
+                  static_cast<int>(own.type));
     if (own.type == WH_INT32 && batch.variables[k]->type == NumberType::real)
-      return fail(WH_ARGUMENT, "wh_batch_run: a real variable does not go into whole numbers");
+      return fail(WH_ARGUMENT, "wh_batch_run: %s is real and does not go into whole numbers", name);
     const auto size = static_cast<ptrdiff_t>(size_of(own.type));
-    const auto values = static_cast<ptrdiff_t>(variable_planes(*batch.variables[k], batch.scene->scene));
+    const auto values = static_cast<ptrdiff_t>(variable_planes(*batch.variables[k], batch.ready->scene));
     const bool is_packed = own.grip_stride == 0 && own.value_stride == 0;
     places.push_back(
         {static_cast<char*>(own.data), own.type, is_packed ? size * values : own.grip_stride, is_packed ? size : own.value_stride});
   }
-  for (size_t i = 0; i < count; ++i)
-    for (int c = 0; c < WH_GRIP_COLUMNS; ++c)
-      if (!std::isfinite(grips[i * stride + static_cast<size_t>(c)])) {
-        const std::string line = "wh_batch_run: number " + std::to_string(c) + " of grip " + std::to_string(i) + " is not finite";
-        return fail(WH_INPUT, line.c_str());
-      }
+  for (size_t i = 0; i < count; ++i) {
+    const GripInput grip = grip_of(grips + i * stride);
+    if (grip_fault(batch.ready->allowed, grip)) {
+      char place[64];
+      std::snprintf(place, sizeof place, "wh_batch_run: grip %zu", i);
+      return check_grip(batch.ready->allowed, grip, place);
+    }
+  }
   return WH_OK;
 }
 
@@ -114,17 +123,21 @@ wh_status wh_batch_open(const wh_scene* scene, const char* const* variables, siz
   if (threads < 0) return fail(WH_ARGUMENT, "wh_batch_open: there are fewer than 0 threads");
   return guarded([&] {
     auto made = std::make_unique<wh_batch>();
-    made->scene = scene;
-    made->variables = named_variables(scene->scene, variables, count);
-    made->fields = make_field_set(variable_fields(made->variables), scene->scene);
-    made->backend =
-        open_backend(scene->scene, made->fields, on ? on : "core", is_double ? Precision::full : Precision::single, threads);
+    made->ready = scene->ready;
+    const Scene& own = made->ready->scene;
+    made->variables = named_variables(own, variables, count);
+    made->fields = make_field_set(variable_fields(made->variables), own);
+    made->backend = open_backend(own, made->fields, on ? on : "core", is_double ? Precision::full : Precision::single, threads);
     *batch = made.release();
     return WH_OK;
   });
 }
 
-void wh_batch_free(wh_batch* batch) { delete batch; }
+void wh_batch_free(wh_batch** batch) {
+  if (!batch) return;
+  delete *batch;
+  *batch = nullptr;
+}
 
 wh_status wh_batch_device(const wh_batch* batch, const char** name) {
   if (!batch || !name) return fail(WH_ARGUMENT, "wh_batch_device: a pointer is null");
@@ -135,10 +148,10 @@ wh_status wh_batch_device(const wh_batch* batch, const char** name) {
 wh_status wh_batch_run(wh_batch* batch, size_t vessel, const double* grips, size_t count, size_t row_stride,
                        const wh_output* outputs, size_t outputs_count) {
   if (!batch) return fail(WH_ARGUMENT, "wh_batch_run: the batch is null");
-  if (batch->is_in_use.test_and_set(std::memory_order_acquire))
-    return fail(WH_BUSY, "wh_batch_run: another thread is in this batch");
-  const wh_status status = guarded([&] {
-    const size_t stride = row_stride == 0 ? WH_GRIP_COLUMNS : row_stride;
+  const Entered entered(batch->is_in_use);
+  if (!entered) return fail(WH_BUSY, "wh_batch_run: another thread is in this batch");
+  return guarded([&] {
+    const size_t stride = row_stride == 0 ? std::size_t{WH_GRIP_COLUMNS} : row_stride;
     std::vector<Place> places;
     const wh_status checked = check_request(*batch, vessel, grips, count, stride, outputs, outputs_count, places);
     if (checked != WH_OK || count == 0) return checked;
@@ -147,8 +160,7 @@ wh_status wh_batch_run(wh_batch* batch, size_t vessel, const double* grips, size
     request.last = count;
     request.grips = [&](std::size_t, std::uint64_t first, std::size_t size, GripInput* out) {
       for (std::size_t i = 0; i < size; ++i) {
-        const double* row = grips + (first + i) * stride;
-        out[i] = {row[0], row[1], row[2], row[3], row[4], row[5]};
+        out[i] = grip_of(grips + (first + i) * stride);
       }
     };
     request.sink = [&](const PlaneChunk& chunk) {
@@ -157,6 +169,4 @@ wh_status wh_batch_run(wh_batch* batch, size_t vessel, const double* grips, size
     batch->backend->run(request);
     return WH_OK;
   });
-  batch->is_in_use.clear(std::memory_order_release);
-  return status;
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
-#include <limits>
+#include <cstring>
+#include <string>
 
+#include "grips/report.h"
 #include "library/scene.h"
 #include "library/status.h"
 
@@ -9,8 +11,12 @@ using namespace wholehand;
 
 namespace {
 
-bool is_finite(const wh_grip& in) noexcept {
-  return std::isfinite(in.height + in.azimuth + in.obliquity + in.roll + in.offset + in.hand_scale);
+// The grip that a caller asks about, checked.
+wh_status take_grip(const ReadyScene& ready, const wh_grip* grip, GripInput& asked, const char* place) noexcept {
+  wh_grip in;
+  if (const wh_status status = take_over(grip, in, place); status != WH_OK) return status;
+  asked = {in.height, in.azimuth, in.obliquity, in.roll, in.offset, in.hand_scale == 0 ? 1 : in.hand_scale};
+  return check_grip(ready.allowed, asked, place);
 }
 
 void copy_points(const std::array<Triple, JOINT_COUNT>& from, bool is_there, double (*to)[3]) noexcept {
@@ -54,21 +60,86 @@ wh_grip_result result_of(const GripResult& grip, const GripScore& score) noexcep
   return out;
 }
 
+// What the state's struct tells; `hold` where the scene has strengths.
+wh_grip_state state_of(const GripState& found, const StateHold* hold) noexcept {
+  wh_grip_state out{};
+  out.fill = found.fill;
+  out.tilt = found.tilt;
+  out.liquid_volume = found.liquid.volume;
+  out.liquid_mass = found.liquid.mass;
+  out.poured = found.liquid.poured;
+  out.mass = found.state.mass;
+  for (std::size_t k = 0; k < 3; ++k) out.center_of_mass[k] = found.state.center_of_mass[k];
+  out.pivot_length = found.state.pivot_length;
+  out.torque = found.state.torque;
+  out.exact_torque = found.state.exact_torque;
+  out.normal_force = found.state.normal_force;
+  out.feedback_force = found.state.feedback_force;
+  out.hold_force = found.state.hold_force;
+  out.effort = hold ? hold->effort : std::nan("");
+  out.effort_low = hold ? hold->low : std::nan("");
+  return out;
+}
+
+GripReport report_of(const ReadyScene& ready, size_t vessel, const GripInput& asked, const StateAxes& axes) {
+  GripReport report = make_grip_report(ready.scene, vessel, asked, axes, core_grip_methods(ready.scene, ready.core, "core"));
+  add_holding(report, ready.scene, vessel, *ready.core);
+  return report;
+}
+
 }  // namespace
 
 wh_status wh_grip_evaluate(const wh_scene* scene, size_t vessel, const wh_grip* grip, wh_grip_result* result) {
-  if (!scene) return fail(WH_ARGUMENT, "wh_grip_evaluate: the scene is null");
-  if (vessel >= scene->scene.vessels.size()) return fail(WH_ARGUMENT, "wh_grip_evaluate: the scene has no vessel of this number");
-  wh_grip in;
-  if (!take_over(grip, in)) return fail(WH_ARGUMENT, "wh_grip_evaluate: the grip is null, or its size is not set");
-  if (!is_finite(in)) return fail(WH_INPUT, "wh_grip_evaluate: a number of the grip is not finite");
+  if (const wh_status status = check_vessel(scene, vessel, "wh_grip_evaluate"); status != WH_OK) return status;
+  GripInput asked;
+  if (const wh_status status = take_grip(*scene->ready, grip, asked, "wh_grip_evaluate: the grip"); status != WH_OK) return status;
+  if (const wh_status status = check_answer(result, "wh_grip_evaluate: the result"); status != WH_OK) return status;
   return guarded([&] {
-    const GripInput asked{in.height, in.azimuth, in.obliquity, in.roll, in.offset, in.hand_scale == 0 ? 1 : in.hand_scale};
     GripResult found;
-    scene->core->grip(vessel, asked, found);
-    const GripScore score = scene->core->score(vessel, asked, found);
-    return give_back(result_of(found, score), result)
-               ? WH_OK
-               : fail(WH_ARGUMENT, "wh_grip_evaluate: the result is null, or its size is not set");
+    const Evaluator& core = *scene->ready->core;
+    core.grip(vessel, asked, found);
+    give_back(result_of(found, core.score(vessel, asked, found)), result);
+    return WH_OK;
   });
+}
+
+wh_status wh_grip_hold(const wh_scene* scene, size_t vessel, const wh_grip* grip, double fill, double tilt, wh_grip_state* state) {
+  if (const wh_status status = check_vessel(scene, vessel, "wh_grip_hold"); status != WH_OK) return status;
+  GripInput asked;
+  if (const wh_status status = take_grip(*scene->ready, grip, asked, "wh_grip_hold: the grip"); status != WH_OK) return status;
+  if (const wh_status status = check_answer(state, "wh_grip_hold: the state"); status != WH_OK) return status;
+  if (!(fill >= 0 && fill <= 1)) return fail(WH_INPUT, "wh_grip_hold: the fill is %g; it must be 0 to 1", fill);
+  if (!(tilt >= 0 && tilt <= PI)) return fail(WH_INPUT, "wh_grip_hold: the tilt is %g rad; it must be 0 to pi", tilt);
+  return guarded([&] {
+    const ReadyScene& ready = *scene->ready;
+    if (fill > 0 && !ready.scene.liquid) return fail(WH_INPUT, "wh_grip_hold: the fill is %g, and the scene has no [liquid]", fill);
+    const GripReport report = report_of(ready, vessel, asked, {{fill}, {tilt}});
+    const Reason reason = report.answer.result.reason;
+    if (reason != Reason::none)
+      return fail(WH_INPUT, "wh_grip_hold: the grip is not feasible (%s)", REASON_NAMES[static_cast<std::size_t>(reason)]);
+    give_back(state_of(report.answer.states.at(0), report.holds.empty() ? nullptr : &report.holds[0]), state);
+    return WH_OK;
+  });
+}
+
+wh_status wh_grip_json(const wh_scene* scene, size_t vessel, const wh_grip* grip, char** text) {
+  if (const wh_status status = check_vessel(scene, vessel, "wh_grip_json"); status != WH_OK) return status;
+  if (!text) return fail(WH_ARGUMENT, "wh_grip_json: the text is null");
+  *text = nullptr;
+  GripInput asked;
+  if (const wh_status status = take_grip(*scene->ready, grip, asked, "wh_grip_json: the grip"); status != WH_OK) return status;
+  return guarded([&] {
+    const ReadyScene& ready = *scene->ready;
+    const std::string json = grip_json(report_of(ready, vessel, asked, scene_axes(ready.scene, vessel)));
+    char* const own = new char[json.size() + 1];
+    std::memcpy(own, json.c_str(), json.size() + 1);
+    *text = own;
+    return WH_OK;
+  });
+}
+
+void wh_text_free(char** text) {
+  if (!text) return;
+  delete[] * text;
+  *text = nullptr;
 }

@@ -2,6 +2,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "grips/hand_nodes.h"
 #include "library/scene.h"
 #include "library/status.h"
 #include "live/hand_view.h"
@@ -15,47 +16,50 @@ struct wh_session {
   Session session;
   VesselTracker tracker;
   Tick tick;
-  std::int64_t last = -1;
+  std::int64_t last = -1;  // number of the last tick; -1: none yet
   std::atomic_flag is_in_use = ATOMIC_FLAG_INIT;
 };
 
 namespace {
-
-// One thread at a time; the others are told, and do not wait.
-class Entered {
- public:
-  explicit Entered(wh_session& session) noexcept
-      : session_(session), has_(!session.is_in_use.test_and_set(std::memory_order_acquire)) {}
-  ~Entered() {
-    if (has_) session_.is_in_use.clear(std::memory_order_release);
-  }
-  Entered(const Entered&) = delete;
-  Entered& operator=(const Entered&) = delete;
-  explicit operator bool() const noexcept { return has_; }
-
- private:
-  wh_session& session_;
-  bool has_;
-};
 
 template <std::size_t N>
 void copy(const std::array<double, N>& from, double* to) noexcept {
   for (std::size_t k = 0; k < N; ++k) to[k] = from[k];
 }
 
+constexpr double ROTATION_TOLERANCE = 1e-3;  // engines turn in float; what is further off was not meant as a rotation
+
 bool is_finite(const wh_measurement& in) noexcept {
-  double sum = in.gap;
-  for (const double x : in.position) sum += x;
-  for (const double x : in.rotation) sum += x;
-  return std::isfinite(sum);
+  const auto all = [](const double* numbers, int count) {
+    for (int k = 0; k < count; ++k)
+      if (!std::isfinite(numbers[k])) return false;
+    return true;
+  };
+  return all(&in.gap, 1) && all(in.position, 3) && all(in.rotation, 9);
+}
+
+bool has_rotation(const wh_measurement& in) noexcept {
+  for (const double x : in.rotation)
+    if (x != 0) return true;
+  return false;
+}
+
+// Whether its columns are unit and at right angles, and right-handed.
+bool is_rotation(const double* m) noexcept {
+  for (int a = 0; a < 3; ++a)
+    for (int b = a; b < 3; ++b) {
+      const double dot = m[a] * m[b] + m[3 + a] * m[3 + b] + m[6 + a] * m[6 + b];
+      if (!(std::abs(dot - (a == b ? 1 : 0)) <= ROTATION_TOLERANCE)) return false;
+    }
+  const double volume =
+      m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) + m[2] * (m[3] * m[7] - m[4] * m[6]);
+  return volume > 0;
 }
 
 GripperState state_of(const wh_measurement& in) noexcept {
   GripperState state;
-  bool has_rotation = false;
   for (int k = 0; k < 3; ++k) state.position[k] = in.position[k];
-  for (int k = 0; k < 9; ++k) has_rotation = has_rotation || in.rotation[k] != 0;
-  if (has_rotation)
+  if (has_rotation(in))
     for (int k = 0; k < 9; ++k) state.rotation[k] = in.rotation[k];
   state.gap = in.gap;
   state.buttons = in.buttons;
@@ -74,6 +78,9 @@ wh_session_output output_of(const Tick& tick) noexcept {
   out.weight = tick.weight;
   out.torque = tick.torque;
   out.tilt = tick.tilt;
+  out.flow = tick.flow;
+  out.closure = tick.closure;
+  out.gap = tick.gap;
   copy(tick.vessel_place, out.vessel_place);
   copy(tick.vessel_rotation, out.vessel_rotation);
   for (int k = 0; k < 2; ++k) copy(tick.tips[k], out.tips[k]);
@@ -93,41 +100,80 @@ wh_status wh_session_open(const wh_scene* scene, double gap_closed, double gap_o
   *session = nullptr;
   if (!std::isfinite(gap_closed) || !std::isfinite(gap_open)) return fail(WH_INPUT, "wh_session_open: a gap is not finite");
   return guarded([&] {
-    *session = new wh_session(scene->scene, {gap_closed, gap_open});
+    *session = new wh_session(scene->ready->scene, {gap_closed, gap_open});
     return WH_OK;
   });
 }
 
-void wh_session_free(wh_session* session) { delete session; }
+void wh_session_free(wh_session** session) {
+  if (!session) return;
+  delete *session;
+  *session = nullptr;
+}
+
+wh_status wh_session_period(const wh_session* session, double* seconds) {
+  if (!session || !seconds) return fail(WH_ARGUMENT, "wh_session_period: a pointer is null");
+  *seconds = 1 / session->session.live().scene.live.rate;
+  return WH_OK;
+}
 
 wh_status wh_session_step(wh_session* session, const wh_measurement* measurement, wh_session_output* output) {
   if (!session) return fail(WH_ARGUMENT, "wh_session_step: the session is null");
   wh_measurement in;
-  if (!take_over(measurement, in)) return fail(WH_ARGUMENT, "wh_session_step: the measurement is null, or its size is not set");
-  if (!output || output->size < sizeof output->size)
-    return fail(WH_ARGUMENT, "wh_session_step: the output is null, or its size is not set");
-  const Entered entered(*session);
+  if (const wh_status status = take_over(measurement, in, "wh_session_step: the measurement"); status != WH_OK) return status;
+  if (const wh_status status = check_answer(output, "wh_session_step: the output"); status != WH_OK) return status;
+  const Entered entered(session->is_in_use);
   if (!entered) return fail(WH_BUSY, "wh_session_step: another thread is in this session");
   if (!is_finite(in)) return fail(WH_INPUT, "wh_session_step: the measurement is not finite");
-  if (in.tick <= session->last) return fail(WH_INPUT, "wh_session_step: the tick is not greater than the one before");
+  if (has_rotation(in) && !is_rotation(in.rotation))
+    return fail(WH_INPUT, "wh_session_step: the measurement's rotation is not a rotation matrix");
+  if (in.tick <= session->last)
+    return fail(WH_INPUT, "wh_session_step: the tick %lld does not come after the tick %lld", static_cast<long long>(in.tick),
+                static_cast<long long>(session->last));
   session->last = in.tick;
   session->session.step(state_of(in), in.tick, session->tick);
   session->tracker.follow(session->tick);
-  if (!give_back(output_of(session->tick), output)) return fail(WH_ARGUMENT, "wh_session_step: the output's size cannot be");
+  give_back(output_of(session->tick), output);
+  return WH_OK;
+}
+
+wh_status wh_session_vessel_at(wh_session* session, size_t index, wh_session_vessel* vessel) {
+  if (!session) return fail(WH_ARGUMENT, "wh_session_vessel_at: the session is null");
+  if (const wh_status status = check_answer(vessel, "wh_session_vessel_at: the vessel's struct"); status != WH_OK) return status;
+  const Entered entered(session->is_in_use);
+  if (!entered) return fail(WH_BUSY, "wh_session_vessel_at: another thread is in this session");
+  const std::size_t vessels = session->session.live().scene.vessels.size();
+  if (index >= vessels)
+    return fail(WH_ARGUMENT, "wh_session_vessel_at: the scene has %zu vessels, and none of number %zu", vessels, index);
+  wh_session_vessel own{};
+  const VesselPose& pose = session->tracker.poses()[index];
+  copy(pose.place, own.place);
+  copy(pose.rotation, own.rotation);
+  const bool has_stepped = session->last >= 0;
+  own.volume = has_stepped ? session->tick.volume[index] : session->session.live().vessels[index].volume;
+  own.arrived = session->tick.arrived[index];
+  own.spilt = session->tick.spilt[index];
+  give_back(own, vessel);
   return WH_OK;
 }
 
 wh_status wh_session_hand(wh_session* session, wh_hand* hand) {
   if (!session) return fail(WH_ARGUMENT, "wh_session_hand: the session is null");
-  const Entered entered(*session);
+  if (const wh_status status = check_answer(hand, "wh_session_hand: the hand's struct"); status != WH_OK) return status;
+  const Entered entered(session->is_in_use);
   if (!entered) return fail(WH_BUSY, "wh_session_hand: another thread is in this session");
   if (session->last < 0) return fail(WH_ARGUMENT, "wh_session_hand: there is no hand before the first step");
-  return guarded([&] {
-    const HandView view = hand_view(session->session.live(), session->tick, session->tracker.poses());
-    wh_hand own{};
-    for (int j = 0; j < WH_JOINTS; ++j) copy(view.proxies[static_cast<std::size_t>(j)], own.joints[j]);
-    copy(view.wrist, own.wrist);
-    copy(view.rotation, own.rotation);
-    return give_back(own, hand) ? WH_OK : fail(WH_ARGUMENT, "wh_session_hand: the hand is null, or its size is not set");
-  });
+  const LiveScene& live = session->session.live();
+  const HandView view = hand_posture(live, session->tick, session->tracker.poses());
+  const HandNodes nodes = hand_nodes(live.scene.hand, live.hand, view.wrist, view.rotation, view.proxies);
+  wh_hand own{};
+  for (std::size_t j = 0; j < WH_JOINTS; ++j) {
+    copy(view.proxies[j], own.joints[j]);
+    copy(nodes.joints[j].rotation, own.quaternions[j]);
+  }
+  copy(view.wrist, own.wrist);
+  copy(view.rotation, own.rotation);
+  copy(nodes.wrist.rotation, own.wrist_quaternion);
+  give_back(own, hand);
+  return WH_OK;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "library/status.h"
 
+#include <cstdarg>
+#include <cstdio>
 #include <cstring>
 
 #include "system/version.h"
@@ -11,22 +13,53 @@ namespace {
 // Of a fixed length, so that telling of a failure needs no memory.
 thread_local char message[2048] = "";
 
+// What the program says of its options, the C face says of its arguments.
+const char* remedy_words(Remedy remedy) noexcept {
+  switch (remedy) {
+    case Remedy::core:
+      return "; use \"core\"";
+    case Remedy::or_core:
+      return ", or use \"core\"";
+    case Remedy::double_precision:
+      return "; compute in double";
+    case Remedy::float_precision:
+      return "; compute in float";
+    case Remedy::or_float_precision:
+      return ", or compute in float";
+    case Remedy::name_library:
+    case Remedy::none:
+      break;
+  }
+  return "";
+}
+
 }  // namespace
 
-wh_status fail(wh_status status, const char* line) noexcept {
-  std::strncpy(message, line, sizeof message - 1);
+wh_status fail(wh_status status, const char* format, ...) noexcept {
+  std::va_list values;
+  va_start(values, format);
+  std::vsnprintf(message, sizeof message, format, values);
+  va_end(values);
   return status;
 }
 
-wh_status fail(const Error& error) noexcept { return fail(error.code == ExitCode::usage ? WH_INPUT : WH_SYSTEM, error.what()); }
+wh_status fail(wh_status status, const std::string& line) noexcept { return fail(status, "%s", line.c_str()); }
+
+wh_status fail(const Error& error) noexcept {
+  return fail(error.code == ExitCode::usage ? WH_INPUT : WH_SYSTEM, "%s%s", error.what(), remedy_words(error.remedy));
+}
+
+wh_status check_size(std::size_t size, std::size_t own, const char* place) noexcept {
+  if (size >= sizeof size && size <= own) return WH_OK;
+  if (size <= own) return fail(WH_ARGUMENT, "%s is null, or its size is not set; WH_INIT sets it", place);
+  return fail(WH_ARGUMENT, "%s has %zu bytes, and this library (%s) knows %zu of them; it is of a later header", place, size,
+              version(), own);
+}
 
 }  // namespace wholehand
 
 const char* wh_message(void) { return wholehand::message; }
-const char* wh_version(void) {
-  static const std::string text = wholehand::version();
-  return text.c_str();
-}
+const char* wh_version(void) { return wholehand::version(); }
 int wh_abi(void) { return WH_ABI; }
 
 void wh_init(void* structure, size_t size) {

@@ -2,7 +2,9 @@
 // What every call of the C face does at its border: nothing is thrown across it, and what went wrong is a line of the thread.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
+#include <cstring>
 #include <exception>
 #include <new>
 #include <string>
@@ -12,9 +14,11 @@
 
 namespace wholehand {
 
-// Keeps the line for wh_message() and gives the status back. Does not throw: a line that there is no memory for is a shorter one.
-wh_status fail(wh_status status, const char* line) noexcept;
+// Keeps the line for wh_message(), cut to its room, and gives the status back. Needs no memory.
+[[gnu::format(printf, 2, 3)]] wh_status fail(wh_status status, const char* format, ...) noexcept;
+wh_status fail(wh_status status, const std::string& line) noexcept;
 
+// With what would help, in the words of the C face.
 wh_status fail(const Error& error) noexcept;
 
 // Runs what a call does. `work` returns a wh_status, or throws.
@@ -27,30 +31,55 @@ wh_status guarded(const Work& work) noexcept {
   } catch (const std::bad_alloc&) {
     return fail(WH_SYSTEM, "there is no memory left");
   } catch (const std::exception& error) {
-    return fail(WH_SYSTEM, error.what());
+    return fail(WH_SYSTEM, "%s", error.what());
   } catch (...) {
     return fail(WH_SYSTEM, "the library failed");
   }
 }
 
-// Takes the caller's struct: members that the caller's version does not know are 0.
+// How large a caller's struct may be said to be: a smaller one is of an earlier header; a larger one is of a later header, and what it asks
+// for this library does not know.
+wh_status check_size(std::size_t size, std::size_t own, const char* place) noexcept;
+
+// Takes the caller's struct: members that the caller's version does not know are 0. `place` begins the line of a failure.
 template <class Struct>
-bool take_over(const Struct* in, Struct& own) noexcept {
-  if (!in || in->size < sizeof in->size || in->size > 4096) return false;
+wh_status take_over(const Struct* in, Struct& own, const char* place) noexcept {
+  if (const wh_status status = check_size(in ? in->size : 0, sizeof own, place); status != WH_OK) return status;
   own = Struct{};
-  __builtin_memcpy(&own, in, in->size < sizeof own ? in->size : sizeof own);
+  std::memcpy(&own, in, in->size);
   own.size = sizeof own;
-  return true;
+  return WH_OK;
 }
 
-// The other way: as much of it as the caller's version knows.
+// Whether `out` can take an answer: before any work.
 template <class Struct>
-bool give_back(const Struct& own, Struct* out) noexcept {
-  if (!out || out->size < sizeof out->size || out->size > 4096) return false;
-  const std::size_t size = out->size;
-  __builtin_memcpy(out, &own, size < sizeof own ? size : sizeof own);
-  out->size = size;
-  return true;
+wh_status check_answer(const Struct* out, const char* place) noexcept {
+  return check_size(out ? out->size : 0, sizeof *out, place);
 }
+
+// As much of it as the caller's version knows. `out` has been checked.
+template <class Struct>
+void give_back(const Struct& own, Struct* out) noexcept {
+  const std::size_t size = out->size;
+  std::memcpy(out, &own, size);
+  out->size = size;
+}
+
+// One thread at a time; a second one is turned away and does not wait.
+class Entered {
+ public:
+  explicit Entered(std::atomic_flag& is_in_use) noexcept
+      : is_in_use_(is_in_use), has_(!is_in_use.test_and_set(std::memory_order_acquire)) {}
+  ~Entered() {
+    if (has_) is_in_use_.clear(std::memory_order_release);
+  }
+  Entered(const Entered&) = delete;
+  Entered& operator=(const Entered&) = delete;
+  explicit operator bool() const noexcept { return has_; }
+
+ private:
+  std::atomic_flag& is_in_use_;
+  bool has_;
+};
 
 }  // namespace wholehand

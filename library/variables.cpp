@@ -27,7 +27,9 @@ const char* dims_text(const Variable& variable) {
 size_t wh_variables(void) { return variable_catalogue().size(); }
 
 wh_status wh_variable_at(size_t index, wh_variable* variable) {
-  if (index >= variable_catalogue().size()) return fail(WH_ARGUMENT, "wh_variable_at: there is no variable of this number");
+  if (index >= variable_catalogue().size())
+    return fail(WH_ARGUMENT, "wh_variable_at: there are %zu variables, and none of number %zu", variable_catalogue().size(), index);
+  if (const wh_status status = check_answer(variable, "wh_variable_at: the variable's struct"); status != WH_OK) return status;
   return guarded([&] {
     const Variable& known = variable_catalogue()[index];
     wh_variable own{};
@@ -36,7 +38,8 @@ wh_status wh_variable_at(size_t index, wh_variable* variable) {
     own.long_name = known.long_name;
     own.dims = dims_text(known);
     own.is_integer = known.type == NumberType::real ? 0 : 1;
-    return give_back(own, variable) ? WH_OK : fail(WH_ARGUMENT, "wh_variable_at: the variable is null, or its size is not set");
+    give_back(own, variable);
+    return WH_OK;
   });
 }
 
@@ -45,10 +48,10 @@ wh_status wh_variable_values(const wh_scene* scene, const char* name, size_t* va
   return guarded([&] {
     for (const Variable& variable : variable_catalogue()) {
       if (std::string(variable.name) != name) continue;
-      *values = variable_planes(variable, scene->scene);
-      if (field_planes(variable.field, scene->scene) == 0) *values = 0;
+      const Scene& own = scene->ready->scene;
+      *values = field_planes(variable.field, own) == 0 ? 0 : variable_planes(variable, own);
       return WH_OK;
     }
-    return fail(WH_INPUT, (std::string("no variable '") + name + "'").c_str());
+    return fail(WH_INPUT, std::string("no variable '") + name + "'; wh_variable_at names all");
   });
 }

@@ -43,7 +43,6 @@ class View {
       stances_[v] = {across(poses[v].place, handedness_), across(to_mat3(poses[v].rotation), handedness_)};
     rotation_ = across(to_mat3(tick.hand_rotation), handedness_);
     for (int k = 0; k < 2; ++k) tips_[k] = across(tick.proxies[k], handedness_);
-    if (tick.vessel >= 0) held_ = poses[static_cast<std::size_t>(tick.vessel)];
   }
 
   HandView make() {
@@ -66,7 +65,6 @@ class View {
       view_.posed[j] = back(posed_[j], handedness_);
       view_.proxies[j] = back(proxies_[j], handedness_);
     }
-    if (is_holding) view_.hold = hand_hold(live_, tick_, held_, view_.posed);
     return view_;
   }
 
@@ -186,7 +184,6 @@ class View {
   const Tick& tick_;
   Handedness handedness_;
   std::array<Stance, LIVE_VESSELS> stances_;
-  VesselPose held_;  // in the scene's own world
   Mat3 rotation_{1};
   std::array<Vec3, 2> tips_{};
   std::array<Vec3, JOINT_COUNT> posed_{}, proxies_{};
@@ -204,7 +201,13 @@ struct Upward {
 
 }  // namespace
 
-HandView hand_view(const LiveScene& live, const Tick& tick, const VesselPoses& poses) { return View(live, tick, poses).make(); }
+HandView hand_posture(const LiveScene& live, const Tick& tick, const VesselPoses& poses) { return View(live, tick, poses).make(); }
+
+HandView hand_view(const LiveScene& live, const Tick& tick, const VesselPoses& poses) {
+  HandView view = hand_posture(live, tick, poses);
+  if (tick.vessel >= 0) view.hold = hand_hold(live, tick, poses[static_cast<std::size_t>(tick.vessel)], view.posed);
+  return view;
+}
 
 std::optional<LiquidSurface> liquid_surface(const core_f64::Vessel& vessel, const core_f64::Quadrature& quadrature, double volume,
                                             const Rotation& rotation) {

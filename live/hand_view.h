@@ -33,6 +33,8 @@ struct HandView {
 // proxies, and where a vessel comes back through the hand, outside of it. A hand that holds goes through other vessels, as the
 // session lets it. Pure; `poses` are those of the same moment.
 HandView hand_view(const LiveScene& live, const Tick& tick, const VesselPoses& poses);
+// The same without `hold`. Allocates nothing.
+HandView hand_posture(const LiveScene& live, const Tick& tick, const VesselPoses& poses);
 
 constexpr double CLOSING_IN = 20e-3;  // m: nearer than this with both tips, fingers begin to come to the vessel (ours)
 

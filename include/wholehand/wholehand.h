@@ -10,11 +10,13 @@
  *   - Every function that can fail returns a wh_status. WH_OK is 0. What went wrong, in one line, is wh_message() of the same thread,
  *     until the next call on it.
  *   - Nothing is thrown. No function keeps a pointer that it was given, unless it says so.
- *   - Objects are opaque. The one who opens an object frees it. To free NULL does nothing. Scenes and batches may be used by any number
- *     of threads, but a batch runs one request at a time. A session belongs to one thread at a time; a second one that enters gets
- *     WH_BUSY.
- *   - Structs begin with their size. The caller sets it (WH_INIT does), so that a program that was compiled with an earlier version goes
- *     on to work with a later library.
+ *   - Objects are opaque. The one who opens an object frees it. wh_..._free takes the address of the handle and sets the handle to NULL;
+ *     a NULL handle does nothing there, and gives WH_ARGUMENT everywhere else. Objects may be freed in any order.
+ *   - A scene may be used by any number of threads. A batch or a session belongs to one thread at a time; a second one that enters
+ *     gets WH_BUSY.
+ *   - Structs begin with their size. The caller sets it (WH_INIT does). A later library takes the smaller struct of an earlier header,
+ *     and takes the members that are missing as 0. It refuses a struct of a later header, which is larger, with WH_ARGUMENT.
+ *   - The library prints nothing, reads no environment variable of its own, and starts threads in wh_batch_run alone.
  */
 #ifndef WHOLEHAND_WHOLEHAND_H
 #define WHOLEHAND_WHOLEHAND_H
@@ -37,8 +39,8 @@ extern "C" {
 #define WH_ABI 0
 
 enum {
-  WH_JOINTS = 24,  /* thumb 4, then 5 each of index, middle, ring and little finger, from the base to the tip */
-  WH_FINGERS = 5,  /* thumb, index, middle, ring, little */
+  WH_JOINTS = 24, /* thumb 4, then 5 each of index, middle, ring and little finger, from the base to the tip */
+  WH_FINGERS = 5, /* thumb, index, middle, ring, little */
   WH_GRIP_COLUMNS = 6
 };
 
@@ -69,16 +71,30 @@ typedef struct wh_scene wh_scene;
 WH_API wh_status wh_scene_open(const char* path_or_name, wh_scene** scene);
 /* From text (TOML, docs/scene.md) of `length` bytes. `name` stands for it in messages; NULL: "text". */
 WH_API wh_status wh_scene_parse(const char* text, size_t length, const char* name, wh_scene** scene);
-WH_API void wh_scene_free(wh_scene* scene);
+WH_API void wh_scene_free(wh_scene** scene);
 
 WH_API wh_status wh_scene_vessels(const wh_scene* scene, size_t* count);
-/* The name lives as long as the scene. */
-WH_API wh_status wh_scene_vessel_name(const wh_scene* scene, size_t vessel, const char** name);
+
+typedef struct wh_vessel {
+  size_t size;
+  const char* name;         /* lives as long as the scene */
+  double lowest, highest;   /* y in the vessel frame */
+  double capacity;          /* m3 upright to the brim; 0: it has no cavity */
+  double mass;              /* of the empty vessel */
+  double center_of_mass[3]; /* of the empty vessel, vessel frame */
+  double place[3];          /* of the vessel frame's origin at the start of a session, world frame */
+} wh_vessel;
+
+WH_API wh_status wh_scene_vessel(const wh_scene* scene, size_t index, wh_vessel* vessel);
 WH_API wh_status wh_scene_find_vessel(const wh_scene* scene, const char* name, size_t* vessel);
-/* The states of a sweep: fills of a vessel (shares of its capacity; 1 without liquid, the empty glass) and tilts (rad). `values` may be
- * NULL; else it has room for `room` numbers, and `count` is how many there are. WH_ARGUMENT where there is too little room. */
+/* The states of a sweep: fills of a vessel (shares of its capacity; without liquid one, the empty vessel: 0) and tilts (rad). `values`
+ * may be NULL; else it has room for `room` numbers, and `count` is how many there are. WH_ARGUMENT where there is too little room. */
 WH_API wh_status wh_scene_fills(const wh_scene* scene, size_t vessel, double* values, size_t room, size_t* count);
 WH_API wh_status wh_scene_tilts(const wh_scene* scene, double* values, size_t room, size_t* count);
+
+/* Name of a joint: OpenXR's enumerant, "XR_HAND_JOINT_THUMB_METACARPAL_EXT". NULL where there is no joint of this number. Lives as long as the
+ * library. */
+WH_API const char* wh_joint_name(int joint);
 
 /* ---- variables: what can be known of a grip ---- */
 
@@ -102,11 +118,11 @@ WH_API wh_status wh_variable_values(const wh_scene* scene, const char* name, siz
 
 typedef struct wh_batch wh_batch;
 
-/* `on`: "core", "vulkan" or a device's name; NULL: "core". `is_double`: 0 computes in float, on devices and on the core. `threads` of the core; 0: all.
- * The scene must outlive the batch. */
+/* `on`: "core", "vulkan" or a device's name; NULL: "core". `is_double`: 0 computes in float, on devices and on the core. `threads`: of the
+ * core; 0: all. On a device this compiles its programs, which may take a second: keep the batch. */
 WH_API wh_status wh_batch_open(const wh_scene* scene, const char* const* variables, size_t count, const char* on, int is_double,
                                int threads, wh_batch** batch);
-WH_API void wh_batch_free(wh_batch* batch);
+WH_API void wh_batch_free(wh_batch** batch);
 /* "core, 2 threads", or the device's name; lives as long as the batch. */
 WH_API wh_status wh_batch_device(const wh_batch* batch, const char** name);
 
@@ -119,8 +135,8 @@ typedef struct wh_output {
 } wh_output;
 
 /* `grips`: `count` rows of WH_GRIP_COLUMNS doubles: height, azimuth, obliquity, roll, offset, hand_scale; row i at grips + i * row_stride
- * (in doubles; 0: WH_GRIP_COLUMNS). `outputs`: one for each variable of the batch, in their order. What an infeasible grip lacks is NaN;
- * of integers -1, and of masks 0. Nothing is written where WH_ARGUMENT or WH_INPUT is returned. */
+ * (in doubles; 0: WH_GRIP_COLUMNS). `outputs`: one for each variable of the batch, in their order; their data must not overlap. What an infeasible grip
+ * lacks is NaN; of integers -1, and of masks 0. Nothing is written where WH_ARGUMENT or WH_INPUT is returned. */
 WH_API wh_status wh_batch_run(wh_batch* batch, size_t vessel, const double* grips, size_t count, size_t row_stride,
                               const wh_output* outputs, size_t outputs_count);
 
@@ -148,20 +164,44 @@ typedef struct wh_grip_result {
 
 WH_API wh_status wh_grip_evaluate(const wh_scene* scene, size_t vessel, const wh_grip* grip, wh_grip_result* result);
 
+typedef struct wh_grip_state {
+  size_t size;
+  double fill, tilt;
+  double liquid_volume, liquid_mass, poured; /* m3, kg, m3 */
+  double mass;                               /* of vessel and liquid */
+  double center_of_mass[3];                  /* of both, vessel frame */
+  double pivot_length;                       /* m */
+  double torque, exact_torque;               /* N m */
+  double normal_force, feedback_force;       /* N */
+  double hold_force;                         /* N; infinite where the pinch is not antipodal */
+  double effort, effort_low;                 /* shares of the hand's strength; infinite: nothing holds; NaN without [strength] */
+} wh_grip_state;
+
+/* A feasible grip that holds the vessel at a fill (share of its capacity) and a tilt (0 .. pi). WH_INPUT: the grip is not feasible. */
+WH_API wh_status wh_grip_hold(const wh_scene* scene, size_t vessel, const wh_grip* grip, double fill, double tilt,
+                              wh_grip_state* state);
+
+/* Everything that `wholehand grip --json` prints, over the scene's own fills and tilts: one JSON object, UTF-8, ended by a zero byte.
+ * wh_text_free gives it back. */
+WH_API wh_status wh_grip_json(const wh_scene* scene, size_t vessel, const wh_grip* grip, char** text);
+WH_API void wh_text_free(char** text);
+
 /* ---- sessions: a gripper's measurement in, forces and the whole hand out ---- */
 
 typedef struct wh_session wh_session;
 
-/* `gap_closed` and `gap_open` of the gripper, where the scene's [device] says none. The scene may be freed before the session. */
+/* `gap_closed` and `gap_open` of the gripper; the scene's [device] gap_mm comes first. */
 WH_API wh_status wh_session_open(const wh_scene* scene, double gap_closed, double gap_open, wh_session** session);
-WH_API void wh_session_free(wh_session* session);
+WH_API void wh_session_free(wh_session** session);
+/* Seconds of a tick: 1 / [live] rate_Hz. */
+WH_API wh_status wh_session_period(const wh_session* session, double* seconds);
 
 typedef struct wh_measurement {
   size_t size;
-  int64_t tick;        /* number of the period of 1 / rate, greater than the one before */
-  double position[3];  /* middle of the two tracked points, device frame */
-  double rotation[9];  /* of the gripper in the device frame; all 0 counts as no rotation */
-  double gap;          /* between the two tracked points */
+  int64_t tick;       /* number of the period (wh_session_period), from 0 on, greater than the one before */
+  double position[3]; /* middle of the two tracked points, device frame: +x right, +y up, +z towards the person */
+  double rotation[9]; /* of the gripper in the device frame, to 1e-3; all 0 counts as no rotation */
+  double gap;         /* between the two tracked points */
   uint32_t buttons;
 } wh_measurement;
 
@@ -170,28 +210,42 @@ typedef enum wh_state { WH_FREE, WH_TOUCHING, WH_LIFT, WH_TILT, WH_MAINTAIN, WH_
 typedef struct wh_session_output {
   size_t size;
   wh_state state;
-  int32_t vessel;          /* touched, held or slipping; -1: none */
-  double arm_force[3];     /* to be rendered, device frame; the method's own, without limits, ramp and slew */
-  double grip_force;       /* on each finger; positive opens */
+  int32_t vessel;      /* touched, held or slipping; -1: none */
+  double arm_force[3]; /* to be rendered, device frame; the method's own, without limits, ramp and slew */
+  double grip_force;   /* on each finger; positive opens */
   double normal_force, feedback_force, user_force, weight, torque;
-  double tilt;
+  double tilt, flow;                          /* of the vessel that is held; flow over its lip, m3/s */
+  double closure, gap;                        /* of the hand */
   double vessel_place[3], vessel_rotation[9]; /* world frame, of that vessel */
   double tips[2][3];                          /* thumb and index finger, world frame */
   uint32_t touch_mask, used_mask;
-  int32_t grasps, lost, destinations, is_task_done;
+  int32_t grasps, lost, destinations, is_task_done; /* counts since the start */
 } wh_session_output;
 
-/* Neither allocates nor blocks: for the 1 kHz thread of an engine. A measurement that is not finite is WH_INPUT, and the session stays as it
- * was. The caller limits the forces to what the gripper can do. */
+/* Neither allocates nor blocks: for the 1 kHz thread of an engine. A measurement that is not finite, or not later than the one before, is
+ * WH_INPUT, and the session stays as it was. The caller limits the forces to what the gripper can do, and sends none when measurements
+ * stay away. */
 WH_API wh_status wh_session_step(wh_session* session, const wh_measurement* measurement, wh_session_output* output);
+
+typedef struct wh_session_vessel {
+  size_t size;
+  double place[3], rotation[9];  /* of the vessel frame in the world frame */
+  double volume, arrived, spilt; /* m3: of its liquid, what is in it, in the target, and on the table */
+} wh_session_vessel;
+
+/* Where a vessel is after the last step. Does not allocate. */
+WH_API wh_status wh_session_vessel_at(wh_session* session, size_t index, wh_session_vessel* vessel);
 
 typedef struct wh_hand {
   size_t size;
-  double joints[WH_JOINTS][3]; /* drawn: outside of all vessels, world frame */
-  double wrist[3], rotation[9];
+  double joints[WH_JOINTS][3];  /* drawn: outside of all vessels, world frame */
+  double wrist[3], rotation[9]; /* of the hand frame: its origin, and its axes as columns */
+  double quaternions[WH_JOINTS]
+                    [4]; /* x, y, z, w of each joint as OpenXR has it: +z along the bone away from the tip, +y out of the back */
+  double wrist_quaternion[4];
 } wh_hand;
 
-/* The whole hand of the last step, as it is seen. May allocate: for a display's thread of its own pace, after the step on the same thread. */
+/* The whole hand of the last step, as it is seen. It takes longer than the step and does not allocate either. WH_ARGUMENT before the first step. */
 WH_API wh_status wh_session_hand(wh_session* session, wh_hand* hand);
 
 #ifdef __cplusplus
