@@ -120,7 +120,7 @@ wh_status wh_batch_open(const wh_scene* scene, const char* const* variables, siz
   *batch = nullptr;
   for (size_t k = 0; k < count; ++k)
     if (!variables[k]) return fail(WH_ARGUMENT, "wh_batch_open: the name of a variable is null");
-  if (threads < 0) return fail(WH_ARGUMENT, "wh_batch_open: there are fewer than 0 threads");
+  if (threads < 0) return fail(WH_ARGUMENT, "wh_batch_open: %d threads; allowed: a number from 0 (all) on", threads);
   return guarded([&] {
     auto made = std::make_unique<wh_batch>();
     made->ready = scene->ready;

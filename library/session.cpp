@@ -12,9 +12,11 @@
 using namespace wholehand;
 
 struct wh_session {
-  wh_session(const Scene& scene, std::array<double, 2> gap) : session(scene, gap), tracker(session.live().scene) {}
+  wh_session(const Scene& scene, std::array<double, 2> gap)
+      : session(scene, gap), tracker(session.live().scene), yielding(session.live().hand) {}
   Session session;
   VesselTracker tracker;
+  core_f64::Hand yielding;
   Tick tick;
   std::int64_t last = -1;  // number of the last tick; -1: none yet
   std::atomic_flag is_in_use = ATOMIC_FLAG_INIT;
@@ -27,6 +29,9 @@ void copy(const std::array<double, N>& from, double* to) noexcept {
   for (std::size_t k = 0; k < N; ++k) to[k] = from[k];
 }
 
+constexpr double FURTHEST =
+    25;  // m: as far as a scene's points may be; further off no arm reaches, and differences lose their digits
+constexpr double WIDEST = 10;                // m, of a gap either way
 constexpr double ROTATION_TOLERANCE = 1e-3;  // engines turn in float; what is further off was not meant as a rotation
 
 bool is_finite(const wh_measurement& in) noexcept {
@@ -36,6 +41,12 @@ bool is_finite(const wh_measurement& in) noexcept {
     return true;
   };
   return all(&in.gap, 1) && all(in.position, 3) && all(in.rotation, 9);
+}
+
+bool is_in_reach(const wh_measurement& in) noexcept {
+  for (const double x : in.position)
+    if (std::abs(x) > FURTHEST) return false;
+  return std::abs(in.gap) <= WIDEST;
 }
 
 bool has_rotation(const wh_measurement& in) noexcept {
@@ -125,6 +136,8 @@ wh_status wh_session_step(wh_session* session, const wh_measurement* measurement
   const Entered entered(session->is_in_use);
   if (!entered) return fail(WH_BUSY, "wh_session_step: another thread is in this session");
   if (!is_finite(in)) return fail(WH_INPUT, "wh_session_step: the measurement is not finite");
+  if (!is_in_reach(in))
+    return fail(WH_INPUT, "wh_session_step: the measurement is out of reach; allowed: a position up to 25 m, a gap up to 10 m");
   if (has_rotation(in) && !is_rotation(in.rotation))
     return fail(WH_INPUT, "wh_session_step: the measurement's rotation is not a rotation matrix");
   if (in.tick <= session->last)
@@ -164,7 +177,7 @@ wh_status wh_session_hand(wh_session* session, wh_hand* hand) {
   if (!entered) return fail(WH_BUSY, "wh_session_hand: another thread is in this session");
   if (session->last < 0) return fail(WH_ARGUMENT, "wh_session_hand: there is no hand before the first step");
   const LiveScene& live = session->session.live();
-  const HandView view = hand_posture(live, session->tick, session->tracker.poses());
+  const HandView view = hand_posture(live, session->tick, session->tracker.poses(), session->yielding);
   const HandNodes nodes = hand_nodes(live.scene.hand, live.hand, view.wrist, view.rotation, view.proxies);
   wh_hand own{};
   for (std::size_t j = 0; j < WH_JOINTS; ++j) {

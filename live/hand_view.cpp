@@ -37,8 +37,8 @@ Triple back(Vec3 point, Handedness handedness) { return mirrored(to_triple(point
 // The hand under way, in the world of the right hand.
 class View {
  public:
-  View(const LiveScene& live, const Tick& tick, const VesselPoses& poses)
-      : live_(live), tick_(tick), handedness_(live.scene.hand.handedness) {
+  View(const LiveScene& live, const Tick& tick, const VesselPoses& poses, core_f64::Hand& yielding)
+      : live_(live), tick_(tick), yielding_(yielding), handedness_(live.scene.hand.handedness) {
     for (std::size_t v = 0; v < live.vessels.size(); ++v)
       stances_[v] = {across(poses[v].place, handedness_), across(to_mat3(poses[v].rotation), handedness_)};
     rotation_ = across(to_mat3(tick.hand_rotation), handedness_);
@@ -100,10 +100,9 @@ class View {
       if (!(nearest < NEARBY)) view_.vessel = -1;
       return;
     }
-    core_f64::Hand hand = live_.hand;
-    hand.max_angle *= share;
-    hand.paper_max_angle *= share;
-    pose(hand, share);
+    yielding_.max_angle = live_.hand.max_angle * share;
+    yielding_.paper_max_angle = live_.hand.paper_max_angle * share;
+    pose(yielding_, share);
   }
 
   double tip_separation(int v, int k) const {
@@ -182,6 +181,7 @@ class View {
 
   const LiveScene& live_;
   const Tick& tick_;
+  core_f64::Hand& yielding_;
   Handedness handedness_;
   std::array<Stance, LIVE_VESSELS> stances_;
   Mat3 rotation_{1};
@@ -201,10 +201,13 @@ struct Upward {
 
 }  // namespace
 
-HandView hand_posture(const LiveScene& live, const Tick& tick, const VesselPoses& poses) { return View(live, tick, poses).make(); }
+HandView hand_posture(const LiveScene& live, const Tick& tick, const VesselPoses& poses, core_f64::Hand& yielding) {
+  return View(live, tick, poses, yielding).make();
+}
 
 HandView hand_view(const LiveScene& live, const Tick& tick, const VesselPoses& poses) {
-  HandView view = hand_posture(live, tick, poses);
+  core_f64::Hand yielding = live.hand;
+  HandView view = hand_posture(live, tick, poses, yielding);
   if (tick.vessel >= 0) view.hold = hand_hold(live, tick, poses[static_cast<std::size_t>(tick.vessel)], view.posed);
   return view;
 }

@@ -33,8 +33,8 @@ struct HandView {
 // proxies, and where a vessel comes back through the hand, outside of it. A hand that holds goes through other vessels, as the
 // session lets it. Pure; `poses` are those of the same moment.
 HandView hand_view(const LiveScene& live, const Tick& tick, const VesselPoses& poses);
-// The same without `hold`. Allocates nothing.
-HandView hand_posture(const LiveScene& live, const Tick& tick, const VesselPoses& poses);
+// The same without `hold`. `yielding`: a copy of live.hand, whose angles the call changes, so that it allocates nothing.
+HandView hand_posture(const LiveScene& live, const Tick& tick, const VesselPoses& poses, core_f64::Hand& yielding);
 
 constexpr double CLOSING_IN = 20e-3;  // m: nearer than this with both tips, fingers begin to come to the vessel (ours)
 

@@ -199,9 +199,9 @@ WH_API wh_status wh_session_period(const wh_session* session, double* seconds);
 typedef struct wh_measurement {
   size_t size;
   int64_t tick;       /* number of the period (wh_session_period), from 0 on, greater than the one before */
-  double position[3]; /* middle of the two tracked points, device frame: +x right, +y up, +z towards the person */
+  double position[3]; /* middle of the two tracked points, device frame: +x right, +y up, +z towards the person; up to 25 m */
   double rotation[9]; /* of the gripper in the device frame, to 1e-3; all 0 counts as no rotation */
-  double gap;         /* between the two tracked points */
+  double gap;         /* between the two tracked points; up to 10 m */
   uint32_t buttons;
 } wh_measurement;
 
