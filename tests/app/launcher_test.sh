@@ -32,6 +32,9 @@ wholehand-cluster-only-package
 # scale
 wholehand-scale-only-package
 
+# package
+wholehand-package-only-package
+
 # test
 wholehand-test-only-package
 EOF
@@ -183,7 +186,7 @@ fresh
 touch "$work/updated"
 output=$(start cluster)
 check "cluster asks for its own" has "$(cat "$work/apt")" "install --no-install-recommends lib-one wholehand-cluster-only-package"
-check "and for no others" equal "$(grep -c -e scale-only -e test-only "$work/apt")" 0
+check "and for no others" equal "$(grep -c -e scale-only -e package-only -e test-only "$work/apt")" 0
 check "cluster builds the second program" [ -x "$tree/build/default/wholehand-mpi" ]
 check "and says how to start it" has "$(tail -n 1 <<<"$output")" "mpirun -n N $tree/build/default/wholehand-mpi sweep SCENE"
 
@@ -192,14 +195,14 @@ touch "$work/updated"
 output=$(start scale one)
 check "scale asks for its own" has "$(cat "$work/apt")" \
   "install --no-install-recommends lib-one wholehand-cluster-only-package wholehand-scale-only-package"
-check "and for no others" equal "$(grep -c test-only "$work/apt")" 0
+check "and for no others" equal "$(grep -c -e package-only -e test-only "$work/apt")" 0
 check "and starts its program" has "$output" "[one]"
 
 fresh
 touch "$work/updated"
 start test >/dev/null
 check "but by test" has "$(cat "$work/apt")" \
-  "install --no-install-recommends lib-one wholehand-cluster-only-package wholehand-scale-only-package wholehand-test-only-package"
+  "install --no-install-recommends lib-one wholehand-cluster-only-package wholehand-scale-only-package wholehand-package-only-package wholehand-test-only-package"
 
 tool apt-get <<<'#!/bin/sh
 echo "E: no network" ; exit 100'

@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: MIT
+# What `cmake --install` puts where, in components: program, common (the shipped scenes), library, development and python. A component is a
+# Debian package (cmake/package.cmake). The target `packaging` builds what they consist of; nobody else waits for it.
+include(CMakePackageConfigHelpers)
+if(CMAKE_LIBRARY_ARCHITECTURE AND EXISTS /etc/debian_version)
+  set(CMAKE_INSTALL_LIBDIR "lib/${CMAKE_LIBRARY_ARCHITECTURE}" CACHE PATH "Where libraries go: Debian's folder, under any prefix")
+endif()
+include(GNUInstallDirs)
+set(CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
+  OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)  # whatever the umask of the one who builds
+set(WHOLEHAND_PACKAGE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/wholehand")
+set(packaging_dir "${PROJECT_BINARY_DIR}/packaging")
+
+add_custom_target(packaging DEPENDS wholehand wholehand_library)
+
+# ---- program, and the scenes that it and the library find at share/wholehand (scene/shipped.cpp) ----
+install(TARGETS wholehand RUNTIME COMPONENT program)
+install(DIRECTORY scene/examples/ DESTINATION "${CMAKE_INSTALL_DATADIR}/wholehand/scenes" COMPONENT common FILES_MATCHING PATTERN "*.toml")
+install(DIRECTORY scene/extreme/ DESTINATION "${CMAKE_INSTALL_DATADIR}/wholehand/extreme" COMPONENT common FILES_MATCHING PATTERN "*.toml")
+
+# ---- library: the C face; development: its header, and how a build finds it ----
+set_target_properties(wholehand_library PROPERTIES EXPORT_NAME wholehand)
+target_include_directories(wholehand_library INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+install(TARGETS wholehand_library EXPORT wholehandTargets
+  LIBRARY COMPONENT library NAMELINK_COMPONENT development)
+install(FILES include/wholehand/wholehand.h DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/wholehand" COMPONENT development)
+install(EXPORT wholehandTargets NAMESPACE wholehand:: DESTINATION "${WHOLEHAND_PACKAGE_DIR}" COMPONENT development)
+configure_package_config_file(cmake/package/wholehandConfig.cmake.in "${packaging_dir}/wholehandConfig.cmake"
+  INSTALL_DESTINATION "${WHOLEHAND_PACKAGE_DIR}")
+write_basic_package_version_file("${packaging_dir}/wholehandConfigVersion.cmake" COMPATIBILITY SameMinorVersion)  # before 1.0 each may break
+install(FILES "${packaging_dir}/wholehandConfig.cmake" "${packaging_dir}/wholehandConfigVersion.cmake"
+  DESTINATION "${WHOLEHAND_PACKAGE_DIR}" COMPONENT development)
+configure_file(cmake/package/wholehand.pc.in "${packaging_dir}/wholehand.pc" @ONLY)
+install(FILES "${packaging_dir}/wholehand.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT development)
+
+# ---- python: the folder python/ has its own rules, with COMPONENT python ----
+if(TARGET wholehand_python)
+  add_dependencies(packaging wholehand_python)
+endif()
+
+include(package)
