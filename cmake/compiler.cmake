@@ -18,7 +18,7 @@ function(wholehand_hidden target)
 endfunction()
 
 add_link_options(-Wl,--build-id=sha1)  # by which a resumed sweep knows its program
-add_compile_options(-Wall -Wextra -Wpedantic -Wnon-virtual-dtor -fdiagnostics-color=auto)
+add_compile_options(-Wall -Wextra -Wpedantic $<$<COMPILE_LANGUAGE:CXX>:-Wnon-virtual-dtor> -fdiagnostics-color=auto)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   add_compile_options(-Wshadow=local -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow)  # the last three: GCC 12's false alarms within std::string
 endif()

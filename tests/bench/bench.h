@@ -42,6 +42,7 @@ void add_effort_benchmarks(const Options& options);
 void add_lattice_benchmarks(const Options& options);
 void add_mesh_benchmarks();
 void add_image_benchmarks(const Options& options);
+void add_library_benchmarks();
 
 // ---- grips ----
 

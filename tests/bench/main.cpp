@@ -67,6 +67,7 @@ int run(int argc, char** argv) {
   add_lattice_benchmarks(options);
   add_mesh_benchmarks();
   add_image_benchmarks(options);
+  add_library_benchmarks();
 
   Figures figures;
   benchmark::RunSpecifiedBenchmarks(&figures);

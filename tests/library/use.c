@@ -22,16 +22,17 @@ static void check(int holds, const char* what, int line) {
 }
 #define CHECK(condition) check((condition) != 0, #condition, __LINE__)
 /* A call that must fail with a status, and with a line that has these words. */
-#define FAILS(status, words, call)                 \
-  do {                                             \
-    CHECK((call) == (status));                     \
-    CHECK(strstr(wh_message(), (words)) != NULL);  \
-    CHECK(strchr(wh_message(), '\n') == NULL);     \
+#define FAILS(status, words, call)                \
+  do {                                            \
+    CHECK((call) == (status));                    \
+    CHECK(strstr(wh_message(), (words)) != NULL); \
+    CHECK(strchr(wh_message(), '\n') == NULL);    \
   } while (0)
 
 /* ---- how often this thread asks for memory: the program's malloc goes before the C library's, in the library too ---- */
 
 static _Thread_local long asked = 0;
+#ifndef WITHOUT_COUNTING
 void* __libc_malloc(size_t size);
 void* __libc_calloc(size_t number, size_t size);
 void* __libc_realloc(void* memory, size_t size);
@@ -47,6 +48,7 @@ void* realloc(void* memory, size_t size) {
   ++asked;
   return __libc_realloc(memory, size);
 }
+#endif
 
 /* ---- a glass of 70 mm that is 100 mm high, with a wall of 2 mm ---- */
 
@@ -491,7 +493,25 @@ static void threads(void) {
   wh_scene_free(&scene);
 }
 
-int main(void) {
+/* use json SCENE VESSEL HEIGHT: the text of a grip. */
+static int print_json(char** arguments) {
+  wh_scene* scene = NULL;
+  size_t vessel = 0;
+  wh_grip grip;
+  char* text = NULL;
+  WH_INIT(&grip);
+  grip.height = strtod(arguments[2], NULL);
+  const int is_there = wh_scene_open(arguments[0], &scene) == WH_OK &&
+                       wh_scene_find_vessel(scene, arguments[1], &vessel) == WH_OK &&
+                       wh_grip_json(scene, vessel, &grip, &text) == WH_OK;
+  puts(is_there ? text : wh_message());
+  wh_text_free(&text);
+  wh_scene_free(&scene);
+  return !is_there;
+}
+
+int main(int count, char** arguments) {
+  if (count == 5 && strcmp(arguments[1], "json") == 0) return print_json(arguments + 2);
   library();
   scenes();
   grips();
