@@ -94,7 +94,7 @@ void library_grips(benchmark::State& state) {
   must(wh_batch_open(&handle, names, 2, "core", 1, 1, &batch));
   const auto backend =
       open_backend(scene, make_field_set({FIELD_SCORE, FIELD_TOUCH_MASK, FIELD_STATUS}, scene), "core", Precision::full, 1);
-  const Plan plan(scene);
+  const Plan plan(scene, false);
   const auto count = static_cast<std::size_t>(plan.grips());
   std::vector<double> rows(count * WH_GRIP_COLUMNS), score(count), expected(count);
   std::vector<std::int32_t> mask(count), expected_mask(count);
