@@ -5,6 +5,8 @@
 // by a reader.
 #include <dlfcn.h>
 
+#include <initializer_list>
+
 namespace wholehand {
 namespace {
 
