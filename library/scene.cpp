@@ -2,6 +2,7 @@
 #include "library/scene.h"
 
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,7 +20,9 @@ using namespace wholehand;
 namespace {
 
 wh_status make_scene(Scene scene, wh_scene** out) {
-  load_meshes(scene);
+  MeshOptions quiet;
+  quiet.most_bytes = largest_lattice(std::numeric_limits<std::uint64_t>::max());
+  load_meshes(scene, quiet);
   const AskedGrips allowed(scene);
   const auto ready = std::make_shared<ReadyScene>(ReadyScene{std::move(scene), nullptr, allowed});
   ready->core = make_core_evaluator(ready->scene);
@@ -49,6 +52,8 @@ wh_status wholehand::check_grip(const AskedGrips& allowed, const GripInput& grip
 wh_status wh_scene_open(const char* path_or_name, wh_scene** scene) {
   if (!path_or_name || !scene) return fail(WH_ARGUMENT, "wh_scene_open: a pointer is null");
   *scene = nullptr;
+  if (path_or_name[0] == 0)
+    return fail(WH_INPUT, "wh_scene_open: the path is empty; give a scene file or the name of a shipped scene");
   return guarded([&] { return make_scene(read_scene_file(find_scene(path_or_name)), scene); });
 }
 
@@ -118,6 +123,10 @@ wh_status wh_scene_fills(const wh_scene* scene, size_t vessel, double* values, s
 wh_status wh_scene_tilts(const wh_scene* scene, double* values, size_t room, size_t* count) {
   if (!scene || !count) return fail(WH_ARGUMENT, "wh_scene_tilts: a pointer is null");
   return guarded([&] { return give_numbers(scene->ready->scene.tilts, values, room, count, "wh_scene_tilts"); });
+}
+
+const char* wh_reason_name(int reason) {
+  return reason >= 0 && reason < static_cast<int>(REASON_NAMES.size()) ? REASON_NAMES[static_cast<std::size_t>(reason)] : nullptr;
 }
 
 const char* wh_joint_name(int joint) { return joint >= 0 && joint < JOINT_COUNT ? openxr_name(joint) : nullptr; }

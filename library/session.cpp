@@ -29,6 +29,7 @@ void copy(const std::array<double, N>& from, double* to) noexcept {
   for (std::size_t k = 0; k < N; ++k) to[k] = from[k];
 }
 
+constexpr std::int64_t LAST_TICK = std::int64_t{1} << 53;  // a time is this number over the rate, as a double
 constexpr double FURTHEST =
     25;  // m: as far as a scene's points may be; further off no arm reaches, and differences lose their digits
 constexpr double WIDEST = 10;                // m, of a gap either way
@@ -79,7 +80,7 @@ GripperState state_of(const wh_measurement& in) noexcept {
 
 wh_session_output output_of(const Tick& tick) noexcept {
   wh_session_output out{};
-  out.state = static_cast<wh_state>(static_cast<int>(tick.state));
+  out.state = static_cast<std::int32_t>(tick.state);
   out.vessel = tick.vessel;
   copy(tick.wanted.arm, out.arm_force);
   out.grip_force = tick.wanted.grip;
@@ -140,6 +141,9 @@ wh_status wh_session_step(wh_session* session, const wh_measurement* measurement
     return fail(WH_INPUT, "wh_session_step: the measurement is out of reach; allowed: a position up to 25 m, a gap up to 10 m");
   if (has_rotation(in) && !is_rotation(in.rotation))
     return fail(WH_INPUT, "wh_session_step: the measurement's rotation is not a rotation matrix");
+  if (in.reserved != 0) return fail(WH_ARGUMENT, "wh_session_step: a reserved member of the measurement is not 0");
+  if (in.tick < 0 || in.tick > LAST_TICK)
+    return fail(WH_INPUT, "wh_session_step: the tick is %lld; allowed: 0 to 2^53", static_cast<long long>(in.tick));
   if (in.tick <= session->last)
     return fail(WH_INPUT, "wh_session_step: the tick %lld does not come after the tick %lld", static_cast<long long>(in.tick),
                 static_cast<long long>(session->last));
@@ -183,6 +187,8 @@ wh_status wh_session_hand(wh_session* session, wh_hand* hand) {
   for (std::size_t j = 0; j < WH_JOINTS; ++j) {
     copy(view.proxies[j], own.joints[j]);
     copy(nodes.joints[j].rotation, own.quaternions[j]);
+    own.radii[j] = nodes.joints[j].radius;
+    own.contacts[j] = static_cast<std::int32_t>(view.contact[j]);
   }
   copy(view.wrist, own.wrist);
   copy(view.rotation, own.rotation);

@@ -10,7 +10,7 @@
 namespace wholehand {
 namespace {
 
-// Of a fixed length, so that telling of a failure needs no memory.
+// Of a fixed length, so that a failure for lack of memory can be told.
 thread_local char message[2048] = "";
 
 // What the program says of its options, the C face says of its arguments.
@@ -40,6 +40,8 @@ wh_status fail(wh_status status, const char* format, ...) noexcept {
   va_start(values, format);
   std::vsnprintf(message, sizeof message, format, values);
   va_end(values);
+  for (char* at = message; *at != 0; ++at)
+    if (static_cast<unsigned char>(*at) < ' ' || *at == 0x7F) *at = '?';  // of a caller's own names
   return status;
 }
 
@@ -49,11 +51,13 @@ wh_status fail(const Error& error) noexcept {
   return fail(error.code == ExitCode::usage ? WH_INPUT : WH_SYSTEM, "%s%s", error.what(), remedy_words(error.remedy));
 }
 
-wh_status check_size(std::size_t size, std::size_t own, const char* place) noexcept {
-  if (size >= sizeof size && size <= own) return WH_OK;
-  if (size <= own) return fail(WH_ARGUMENT, "%s is null, or its size is not set; WH_INIT sets it", place);
-  return fail(WH_ARGUMENT, "%s has %zu bytes, and this library (%s) knows %zu of them; it is of a later header", place, size,
-              version(), own);
+wh_status check_size(std::size_t size, std::size_t first, std::size_t own, const char* place) noexcept {
+  if (size > own)
+    return fail(WH_ARGUMENT, "%s has %zu bytes, and this library (%s) knows %zu of them; it is of a later header", place, size,
+                version(), own);
+  if (size < first || size % alignof(double) != 0)
+    return fail(WH_ARGUMENT, "%s is null, or its size is not set; WH_INIT sets it", place);
+  return WH_OK;
 }
 
 }  // namespace wholehand

@@ -14,7 +14,8 @@
 
 namespace wholehand {
 
-// Keeps the line for wh_message(), cut to its room, and gives the status back. Needs no memory.
+// Keeps the line for wh_message(), cut to its room and without control characters, and gives the status back. The first failure of a
+// thread may allocate the room of its line.
 [[gnu::format(printf, 2, 3)]] wh_status fail(wh_status status, const char* format, ...) noexcept;
 wh_status fail(wh_status status, const std::string& line) noexcept;
 
@@ -37,14 +38,18 @@ wh_status guarded(const Work& work) noexcept {
   }
 }
 
-// How large a caller's struct may be said to be: a smaller one is of an earlier header; a larger one is of a later header, and what it asks
-// for this library does not know.
-wh_status check_size(std::size_t size, std::size_t own, const char* place) noexcept;
+// The size that a struct had in the first header of this WH_ABI. When a struct grows at its end, its size before is written here.
+template <class Struct>
+inline constexpr std::size_t FIRST_SIZE = sizeof(Struct);
 
-// Takes the caller's struct: members that the caller's version does not know are 0. `place` begins the line of a failure.
+// Whether a caller's struct may be as large as it says: at least as in the first header, and not larger than here. A larger one is of
+// a later header, and what it asks for this library does not know. `place` begins the line of a failure.
+wh_status check_size(std::size_t size, std::size_t first, std::size_t own, const char* place) noexcept;
+
+// Takes the caller's struct: members that the caller's version does not know are 0.
 template <class Struct>
 wh_status take_over(const Struct* in, Struct& own, const char* place) noexcept {
-  if (const wh_status status = check_size(in ? in->size : 0, sizeof own, place); status != WH_OK) return status;
+  if (const wh_status status = check_size(in ? in->size : 0, FIRST_SIZE<Struct>, sizeof own, place); status != WH_OK) return status;
   own = Struct{};
   std::memcpy(&own, in, in->size);
   own.size = sizeof own;
@@ -54,7 +59,7 @@ wh_status take_over(const Struct* in, Struct& own, const char* place) noexcept {
 // Whether `out` can take an answer: before any work.
 template <class Struct>
 wh_status check_answer(const Struct* out, const char* place) noexcept {
-  return check_size(out ? out->size : 0, sizeof *out, place);
+  return check_size(out ? out->size : 0, FIRST_SIZE<Struct>, sizeof *out, place);
 }
 
 // As much of it as the caller's version knows. `out` has been checked.

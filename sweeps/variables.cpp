@@ -248,6 +248,20 @@ const char* missing_need(Need need, const Scene& scene) {
   return nullptr;
 }
 
+Error lacking_error(const std::string& where, const char* name, const char* lacking) {
+  return usage_error(fmt::format("{}: \"{}\" needs {}, which this scene does not have", where, name, lacking));
+}
+
+// With the variables that the scene can have.
+Error unknown_error(const Scene& scene, const std::string& where, const std::set<std::string>& names) {
+  std::vector<std::string> known;
+  for (const Variable& variable : catalogue()) {
+    if (!missing_need(variable.need, scene)) known.push_back(variable.name);
+  }
+  return usage_error(fmt::format("{}: unknown variable{} \"{}\"; known: {}", where, names.size() > 1 ? "s" : "",
+                                 fmt::join(names, "\", \""), fmt::join(known, ", ")));
+}
+
 }  // namespace
 
 std::string variable_comment(const Variable& variable, const Scene& scene) {
@@ -285,22 +299,30 @@ std::vector<const Variable*> choose_variables(const Scene& scene) {
   for (const Variable& variable : catalogue()) {
     const char* lacking = missing_need(variable.need, scene);
     const bool is_named = wanted.erase(variable.name) > 0;
-    if (is_named && lacking)
-      throw usage_error(fmt::format("{}: \"{}\" needs {}, which this scene does not have", where, variable.name, lacking));
+    if (is_named && lacking) throw lacking_error(where, variable.name, lacking);
     // tips_worst_effort says it in the strength of the tips
     const bool is_said = variable.field == FIELD_LARGEST_HOLD && has_effort(scene);
     if (is_named || (!output.keep && variable.by_default && !lacking && !is_said)) chosen.push_back(&variable);
   }
-  if (!wanted.empty()) {
-    std::vector<std::string> known;
-    for (const Variable& variable : catalogue()) {
-      if (!missing_need(variable.need, scene)) known.push_back(variable.name);
-    }
-    throw usage_error(fmt::format("{}: unknown variable{} \"{}\"; known: {}", where, wanted.size() > 1 ? "s" : "",
-                                  fmt::join(wanted, "\", \""), fmt::join(known, ", ")));
-  }
+  if (!wanted.empty()) throw unknown_error(scene, where, wanted);
   return chosen;
 }
+
+std::vector<const Variable*> named_variables(const Scene& scene, std::span<const std::string> names, const std::string& where) {
+  std::set<std::string> unknown(names.begin(), names.end());
+  for (const Variable& variable : catalogue()) unknown.erase(variable.name);
+  if (!unknown.empty()) throw unknown_error(scene, where, unknown);
+  std::vector<const Variable*> named;
+  for (const std::string& name : names)
+    for (const Variable& variable : catalogue()) {
+      if (name != variable.name) continue;
+      if (const char* lacking = missing_need(variable, scene)) throw lacking_error(where, variable.name, lacking);
+      named.push_back(&variable);
+    }
+  return named;
+}
+
+const char* missing_need(const Variable& variable, const Scene& scene) { return missing_need(variable.need, scene); }
 
 std::vector<int> variable_fields(const std::vector<const Variable*>& variables) {
   std::set<int> fields;

@@ -59,6 +59,12 @@ std::size_t variable_planes(const Variable& variable, const Scene& scene);
 // Throws Error (usage) for a name that is unknown (with the known ones) or needs what the scene lacks (with what that is).
 std::vector<const Variable*> choose_variables(const Scene& scene);
 
+// The variables of these names, in their order. `where` begins the line of an error; throws as choose_variables.
+std::vector<const Variable*> named_variables(const Scene& scene, std::span<const std::string> names, const std::string& where);
+
+// What the scene lacks for a variable, as in "[tilts]"; null: nothing.
+const char* missing_need(const Variable& variable, const Scene& scene);
+
 // FIELD_* that they come from, ascending, each once; with the status (it says which grips are feasible) unless there are none.
 std::vector<int> variable_fields(const std::vector<const Variable*>& variables);
 

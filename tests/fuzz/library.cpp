@@ -20,6 +20,7 @@ namespace {
 using wholehand::must;
 
 constexpr int CALLS = 24;
+constexpr std::ptrdiff_t ODD_STRIDES[] = {8, PTRDIFF_MAX, PTRDIFF_MIN};
 constexpr std::size_t MOST_GRIPS = 6;
 
 constexpr std::string_view TEXTS[] = {
@@ -151,7 +152,7 @@ class Program {
     wh_scene_free(&place);
     std::string text(TEXTS[take_.of(2)]);
     if (take_.rarely()) text = take_.text(200);
-    if (take_.rarely()) text.insert(take_.byte() % text.size(), take_.text(40));
+    if (take_.rarely()) text.insert(take_.byte() % (text.size() + 1), take_.text(40));
     if (take_.rarely()) text.resize(take_.byte() % (text.size() + 1));
     said(wh_scene_parse(take_.rarely() ? nullptr : text.data(), text.size(), take_.rarely() ? "name" : nullptr, &place));
   }
@@ -190,7 +191,7 @@ class Program {
     std::vector<const char*> pointers;
     for (const std::string& name : names) pointers.push_back(name.c_str());
     if (take_.rarely() && !pointers.empty()) pointers[0] = nullptr;
-    const char* on = take_.rarely() ? "abacus" : take_.of(2) ? "core" : nullptr;
+    const char* on = take_.of(2) ? "core" : nullptr;  // another name would load every driver
     if (said(wh_batch_open(one, pointers.data(), pointers.size(), on, take_.of(2), take_.rarely() ? -1 : 1, &batch.handle)) !=
         WH_OK) {
       must(!batch.handle, "a batch that could not be opened");
@@ -221,7 +222,7 @@ class Program {
     for (const std::size_t values : batch.values) {
       wh_output output;
       WH_INIT(&output);
-      output.type = static_cast<wh_type>(take_.rarely() ? take_.byte() : take_.of(3));
+      output.type = take_.rarely() ? static_cast<std::int8_t>(take_.byte()) : take_.of(3);
       const std::size_t size = output.type == WH_DOUBLE ? 8 : 4;
       // packed, plane after plane, or with a gap
       const int order = take_.of(3);
@@ -238,8 +239,10 @@ class Program {
     }
     const std::size_t given = outputs.size() - (take_.rarely() && !outputs.empty() ? 1 : 0);
     said(wh_batch_run(batch.handle, take_.rarely() ? take_.byte() : 0, take_.rarely() ? nullptr : grips.data(), count,
-                      take_.rarely() ? static_cast<std::size_t>(take_.of(6)) : stride, outputs.data(), given));
+                      take_.rarely() ? ODD_STRIDES[take_.of(3)] : static_cast<std::ptrdiff_t>(stride * sizeof(double)),
+                      outputs.data(), given));
     const char* device = nullptr;
+    said(wh_batch_notes(batch.handle, &device));
     said(wh_batch_device(batch.handle, &device));
   }
 

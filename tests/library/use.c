@@ -85,6 +85,8 @@ static void library(void) {
   CHECK(strcmp(wh_joint_name(0), "XR_HAND_JOINT_THUMB_METACARPAL_EXT") == 0);
   CHECK(strcmp(wh_joint_name(WH_JOINTS - 1), "XR_HAND_JOINT_LITTLE_TIP_EXT") == 0);
   CHECK(wh_joint_name(WH_JOINTS) == NULL && wh_joint_name(-1) == NULL);
+  CHECK(strcmp(wh_reason_name(0), "") == 0 && strcmp(wh_reason_name(3), "misses") == 0);
+  CHECK(wh_reason_name(-1) == NULL && wh_reason_name(7) == NULL);
 }
 
 static void scenes(void) {
@@ -99,6 +101,7 @@ static void scenes(void) {
   CHECK(wh_scene_tilts(scene, tilts, 31, &count) == WH_OK && count == 31 && fabs(tilts[30] - 150 * PI / 180) < 1e-15);
   FAILS(WH_ARGUMENT, "31 values, and room for 30", wh_scene_tilts(scene, tilts, 30, &count));
   FAILS(WH_INPUT, "beaker1, beaker2, beaker3", wh_scene_find_vessel(scene, "mug", &at));
+  FAILS(WH_INPUT, "two?lines", wh_scene_find_vessel(scene, "two\nlines", &at));
   wh_scene* const gone = scene;
   wh_scene_free(&scene);
   CHECK(scene == NULL && gone != NULL);
@@ -107,6 +110,7 @@ static void scenes(void) {
   FAILS(WH_ARGUMENT, "null", wh_scene_vessels(scene, &count));
   FAILS(WH_INPUT, "no scene file", wh_scene_open("three_beaker", &scene));
   CHECK(scene == NULL);
+  FAILS(WH_INPUT, "empty", wh_scene_open("", &scene));
   FAILS(WH_INPUT, "mine:1:", wh_scene_parse("[vesel]", 7, "mine", &scene));
   FAILS(WH_INPUT, "", wh_scene_parse("", 0, NULL, &scene));
   FAILS(WH_ARGUMENT, "null", wh_scene_parse(NULL, 0, NULL, &scene));
@@ -183,15 +187,11 @@ static void grips(void) {
   } large = {{sizeof large, 0.05, 0, 0, 0, 0, 0}, 7};
   FAILS(WH_ARGUMENT, "later header", wh_grip_evaluate(scene, 0, &large.grip, &result));
   wh_grip small = grip;
-  small.size = offsetof(wh_grip, azimuth); /* the rest counts as 0 */
-  small.azimuth = NAN;
-  CHECK(wh_grip_evaluate(scene, 0, &small, &result) == WH_OK && result.is_feasible);
-  result.size = offsetof(wh_grip_result, closure);
-  result.closure = -7;
-  CHECK(wh_grip_evaluate(scene, 0, &grip, &result) == WH_OK && result.is_feasible && result.closure == -7);
-  WH_INIT(&result);
-  small.size = 3;
-  FAILS(WH_ARGUMENT, "WH_INIT", wh_grip_evaluate(scene, 0, &small, &result));
+  const size_t sizes[] = {0, 3, 12, sizeof small - 8};
+  for (int k = 0; k < 4; ++k) {
+    small.size = sizes[k];
+    FAILS(WH_ARGUMENT, "WH_INIT", wh_grip_evaluate(scene, 0, &small, &result));
+  }
   FAILS(WH_ARGUMENT, "null", wh_grip_evaluate(scene, 0, NULL, &result));
   FAILS(WH_ARGUMENT, "null", wh_grip_evaluate(scene, 0, &grip, NULL));
   FAILS(WH_ARGUMENT, "null", wh_grip_evaluate(NULL, 0, &grip, &result));
@@ -210,7 +210,7 @@ static void make_grips(double rows[][WH_GRIP_COLUMNS]) {
   }
 }
 
-static wh_output output_to(void* data, wh_type type) {
+static wh_output output_to(void* data, int type) {
   wh_output output;
   WH_INIT(&output);
   output.data = data;
@@ -268,11 +268,16 @@ static void batches(void) {
   const wh_output one = output_to(half, WH_DOUBLE);
   wh_batch* scores = NULL;
   CHECK(wh_batch_open(scene, names, 1, "core", 1, 1, &scores) == WH_OK);
-  CHECK(wh_batch_run(scores, 0, rows[0], GRIPS / 2, 2 * WH_GRIP_COLUMNS, &one, 1) == WH_OK);
+  CHECK(wh_batch_run(scores, 0, rows[0], GRIPS / 2, 2 * sizeof rows[0], &one, 1) == WH_OK);
   for (int i = 0; i < GRIPS / 2; ++i) CHECK(half[i] == score[2 * i]);
+  CHECK(wh_batch_run(scores, 0, rows[GRIPS - 1], GRIPS / 2, -(ptrdiff_t)sizeof rows[0], &one, 1) == WH_OK); /* from the last on */
+  for (int i = 0; i < GRIPS / 2; ++i) CHECK(half[i] == score[GRIPS - 1 - i]);
+  const char* notes = NULL;
+  CHECK(wh_batch_notes(scores, &notes) == WH_OK && strcmp(notes, "") == 0);
   wh_batch_free(&scores);
+  FAILS(WH_ARGUMENT, "null", wh_batch_notes(scores, &notes));
   CHECK(wh_batch_open(scene, names, 1, "vulkan", 1, 0, &scores) == WH_OK);
-  CHECK(wh_batch_run(scores, 0, rows[0], GRIPS / 2, 2 * WH_GRIP_COLUMNS, &one, 1) == WH_OK);
+  CHECK(wh_batch_run(scores, 0, rows[0], GRIPS / 2, 2 * sizeof rows[0], &one, 1) == WH_OK);
   int apart = 0; /* a grip whose touch is decided within the tolerance may have another score */
   for (int i = 0; i < GRIPS / 2; ++i) apart += !(fabs(half[i] - score[2 * i]) < 1e-5);
   CHECK(apart <= 2);
@@ -284,21 +289,38 @@ static void batches(void) {
   FAILS(WH_INPUT, "", wh_batch_open(scene, names, 1, "abacus", 1, 0, &scores));
   FAILS(WH_ARGUMENT, "null", wh_batch_open(scene, (const char*[]){NULL}, 1, NULL, 1, 0, &scores));
   FAILS(WH_ARGUMENT, "null", wh_batch_open(NULL, names, 1, NULL, 1, 0, &scores));
-  FAILS(WH_ARGUMENT, "-1 threads; allowed", wh_batch_open(scene, names, 1, NULL, 1, -1, &scores));
+  FAILS(WH_INPUT, "-1 threads; allowed", wh_batch_open(scene, names, 1, NULL, 1, -1, &scores));
+  FAILS(WH_INPUT, "100000000 threads; allowed", wh_batch_open(scene, names, 1, NULL, 1, 100000000, &scores));
+  FAILS(WH_INPUT, "a?b", wh_batch_open(scene, (const char*[]){"a\nb"}, 1, NULL, 1, 0, &scores));
+  FAILS(WH_INPUT, "needs [table]", wh_batch_open(scene, (const char*[]){"through_table"}, 1, NULL, 1, 0, &scores));
   FAILS(WH_ARGUMENT, "5 variables, and there are 4", wh_batch_run(batch, 0, rows[0], GRIPS, 0, outputs, 4));
   FAILS(WH_ARGUMENT, "none of number 1", wh_batch_run(batch, 1, rows[0], GRIPS, 0, outputs, 5));
   FAILS(WH_ARGUMENT, "null", wh_batch_run(batch, 0, NULL, GRIPS, 0, outputs, 5));
-  FAILS(WH_ARGUMENT, "stride", wh_batch_run(batch, 0, rows[0], GRIPS, 5, outputs, 5));
+  FAILS(WH_ARGUMENT, "reaches further", wh_batch_run(batch, 0, rows[0], GRIPS, PTRDIFF_MAX / 8, outputs, 5));
+  outputs[1].grip_stride = 8;
+  FAILS(WH_ARGUMENT, "a stride of posed is 0", wh_batch_run(batch, 0, rows[0], GRIPS, 0, outputs, 5));
+  outputs[1].value_stride = PTRDIFF_MAX / 8;
+  FAILS(WH_ARGUMENT, "posed reach further", wh_batch_run(batch, 0, rows[0], GRIPS, 0, outputs, 5));
+  outputs[1] = output_to(posed, WH_DOUBLE);
+  outputs[1].reserved = 1;
+  FAILS(WH_ARGUMENT, "reserved", wh_batch_run(batch, 0, rows[0], GRIPS, 0, outputs, 5));
+  outputs[1] = output_to(posed, WH_DOUBLE);
   FAILS(WH_ARGUMENT, "null", wh_batch_run(NULL, 0, rows[0], GRIPS, 0, outputs, 5));
   outputs[0].type = WH_INT32;
   FAILS(WH_ARGUMENT, "score is real", wh_batch_run(batch, 0, rows[0], GRIPS, 0, outputs, 5));
-  outputs[0].type = (wh_type)7;
+  outputs[0].type = 7;
   FAILS(WH_ARGUMENT, "type 7", wh_batch_run(batch, 0, rows[0], GRIPS, 0, outputs, 5));
   outputs[0] = output_to(NULL, WH_DOUBLE);
   FAILS(WH_ARGUMENT, "score are null", wh_batch_run(batch, 0, rows[0], GRIPS, 0, outputs, 5));
   outputs[0] = output_to(score, WH_DOUBLE);
   outputs[0].size += 8;
   FAILS(WH_ARGUMENT, "later header", wh_batch_run(batch, 0, rows[0], GRIPS, 0, outputs, 5));
+  outputs[0].size = 12; /* half a pointer */
+  FAILS(WH_ARGUMENT, "WH_INIT", wh_batch_run(batch, 0, rows[0], GRIPS, 0, outputs, 5));
+  outputs[0] = output_to(score, WH_DOUBLE);
+  outputs[2].size = 8;
+  FAILS(WH_ARGUMENT, "WH_INIT", wh_batch_run(batch, 0, rows[0], GRIPS, 0, outputs, 5));
+  outputs[2] = output_to(touch, WH_INT32);
   outputs[0] = output_to(score, WH_DOUBLE);
   rows[GRIPS - 1][3] = INFINITY;
   score[0] = -7;
@@ -320,6 +342,10 @@ static void variables(void) {
     (variable.is_integer ? &integers : &reals)[0] += 1;
     size_t values = 99;
     CHECK(wh_variable_values(scene, variable.name, &values) == WH_OK);
+    /* a batch takes what the scene has, and nothing else */
+    wh_batch* batch = NULL;
+    CHECK((wh_batch_open(scene, &variable.name, 1, NULL, 1, 1, &batch) == WH_OK) == (values > 0));
+    wh_batch_free(&batch);
     if (strcmp(variable.dims, "fill tilt") == 0) CHECK(values == 6 || values == 0);
     if (strcmp(variable.dims, "joint xyz") == 0) CHECK(values == 72);
     if (strcmp(variable.dims, "") == 0) CHECK(values <= 1);
@@ -410,6 +436,13 @@ static void sessions(void) {
   in = moment(6000);
   in.rotation[0] = -1; /* a mirror */
   FAILS(WH_INPUT, "rotation", wh_session_step(session, &in, &out));
+  in = moment(-5);
+  FAILS(WH_INPUT, "tick is -5; allowed: 0", wh_session_step(session, &in, &out));
+  in = moment(INT64_MAX);
+  FAILS(WH_INPUT, "allowed: 0 to 2^53", wh_session_step(session, &in, &out));
+  in = moment(6000);
+  in.position[0] = 1e300;
+  FAILS(WH_INPUT, "out of reach", wh_session_step(session, &in, &out));
   in = moment(5999);
   FAILS(WH_INPUT, "tick 5999 does not come after", wh_session_step(session, &in, &out));
   in = moment(6000);
