@@ -52,6 +52,13 @@ endif()
 if(WHOLEHAND_SCALE)
   add_executable(wholehand-scale app/main.cpp)
 endif()
+add_custom_target(packaging)
+install(TARGETS wholehand)
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_CONTACT nobody)
+set(CPACK_PACKAGE_VERSION 1)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+include(CPack)
 EOF
 cat >"$tree/CMakePresets.json" <<'EOF'
 {"version": 5, "configurePresets": [{"name": "default", "generator": "Ninja", "binaryDir": "${sourceDir}/build/default"}]}
@@ -109,7 +116,7 @@ check "a tree that was moved builds again" equal "$("$tree/wholehand" 2>/dev/nul
 echo 'nonsense(' >>"$tree/CMakeLists.txt"
 output=$("$tree/wholehand" 2>&1)
 check "a broken CMakeLists.txt gives exit code 3" equal $? 3
-check "and CMake's words" has "$output" "CMakeLists.txt:14"
+check "and CMake's words" has "$output" "CMakeLists.txt:21"
 sed -i '$d' "$tree/CMakeLists.txt"
 
 # ---- a user who may not write here ----
@@ -197,6 +204,26 @@ check "scale asks for its own" has "$(cat "$work/apt")" \
   "install --no-install-recommends lib-one wholehand-cluster-only-package wholehand-scale-only-package"
 check "and for no others" equal "$(grep -c -e package-only -e test-only "$work/apt")" 0
 check "and starts its program" has "$output" "[one]"
+
+fresh
+touch "$work/updated"
+output=$(cd "$work" && start package "debs' place")
+check "package asks for its own" has "$(cat "$work/apt")" \
+  "install --no-install-recommends lib-one wholehand-cluster-only-package wholehand-scale-only-package wholehand-package-only-package"
+check "and for no others" equal "$(grep -c test-only "$work/apt")" 0
+deb=$(echo "$work/debs' place/"*.deb)
+check "makes a package of the program" has "$(dpkg-deb -c "$deb")" "/bin/wholehand"
+check "and names it" equal "$(head -n 1 <<<"$(grep -v ^wholehand: <<<"$output")")" "$deb"
+check "and how to install it" equal "$(eval "set -- $(tail -n 1 <<<"$output" | sed 's/.*apt-get //')"; echo "$*")" "install $deb"
+check "in a second start too, in the build folder" has "$(start package)" "$tree/build/packages/stub_1_"
+touch "$work/file"
+output=$(start package "$work/file")
+check "a folder that cannot be written to gives exit code 3" equal "$? $output" "3 wholehand: cannot write packages to $work/file"
+output=$(start package --help)
+check "an option gives exit code 2" equal "$? $output" "2 wholehand: package has no options; found --help"
+output=$(start package one two)
+check "as do two folders" equal "$? $output" "2 wholehand: package takes one folder at most"
+check "nothing else is left in the build folder" equal "$(ls "$tree/build/default" | grep -c packing)" 0
 
 fresh
 touch "$work/updated"
