@@ -17,6 +17,17 @@ add_custom_target(packaging DEPENDS wholehand wholehand_library)
 install(TARGETS wholehand RUNTIME COMPONENT program)
 install(DIRECTORY scene/examples/ DESTINATION "${CMAKE_INSTALL_DATADIR}/wholehand/scenes" COMPONENT common FILES_MATCHING PATTERN "*.toml")
 install(DIRECTORY scene/extreme/ DESTINATION "${CMAKE_INSTALL_DATADIR}/wholehand/extreme" COMPONENT common FILES_MATCHING PATTERN "*.toml")
+install(DIRECTORY docs/ DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/wholehand/docs" COMPONENT common
+  FILES_MATCHING PATTERN "*.md" PATTERN pictures EXCLUDE PATTERN results EXCLUDE)
+
+# ---- manual pages, from what the program says of itself ----
+set(manual_dir "${packaging_dir}/man")
+add_custom_command(OUTPUT "${manual_dir}/.made" DEPENDS wholehand cmake/package/manual.sh cmake/package/manual.h2m
+  COMMAND sh "${PROJECT_SOURCE_DIR}/cmake/package/manual.sh" "$<TARGET_FILE:wholehand>" ${PROJECT_VERSION} "${manual_dir}"
+  COMMENT "Writing manual pages" VERBATIM)
+add_custom_target(manual DEPENDS "${manual_dir}/.made")
+add_dependencies(packaging manual)
+install(DIRECTORY "${manual_dir}/" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT program FILES_MATCHING PATTERN "*.1.gz")
 
 # ---- library: the C face; development: its header, and how a build finds it ----
 set_target_properties(wholehand_library PROPERTIES EXPORT_NAME wholehand)

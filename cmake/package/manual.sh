@@ -1,0 +1,71 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# Writes a manual page for the program and for each of its commands: wholehand.1.gz, wholehand-sweep.1.gz, wholehand-stability-wall.1.gz ...
+# Everything in them is what the program prints for --help, but the sections that manual.h2m adds to the first page.
+#   manual.sh PROGRAM VERSION FOLDER
+set -eu
+program=$1 version=$2 folder=$3
+here=$(dirname -- "$0")
+rm -rf "$folder"
+mkdir -p "$folder/help"
+export LC_ALL=C.UTF-8 HOME="$folder"
+
+help_of() { "$program" "$@" --help; }
+commands_of() { help_of "$@" | sed -n '/^Subcommands:/,/^$/s/^  \([a-z-]*\) .*/\1/p'; }
+escaped() { sed 's/\\/\\\\/g; s/-/\\-/g'; }
+
+# The section on exit codes: "Exit codes: 0 done, 1 the answer is no (check), ..."
+exit_codes() {
+  echo '[EXIT STATUS]'
+  help_of | sed -n 's/^Exit codes: \(.*\)\.$/, \1/p' | sed 's/, \([0-9]\)/\n\1/g' |
+    sed -n 's/^\([0-9]*\) \(.*\)$/.TP\n.B \1\n\2/p'
+}
+
+see_also() {  # see_also PAGE ...
+  echo '[SEE ALSO]'
+  for page; do printf '.BR %s (1),\n' "$page" | escaped; done | sed '$s/,$//'
+}
+
+# page SUMMARY_EDIT INCLUDE WORD ...: of `wholehand WORD ...`
+page() {
+  include=$1
+  shift
+  name=wholehand
+  for word; do name=$name-$word; done
+  # help2man starts a program and takes its file's name for the page's. Options read better with a space after the comma; sentences end.
+  {
+    echo '#!/bin/sh'
+    echo "exec '$folder/help/filter' '$program' $* --help"
+  } >"$folder/help/$name"
+  chmod +x "$folder/help/$name"
+  summary=$(help_of "$@" | head -n 1 | sed 's/\.$//; s/^[A-Z]/\l&/')
+  help2man --no-info --name="$summary" --manual="User Commands" --source="wholehand $version" --version-string="$version" \
+    --include="$include" "$folder/help/$name" | gzip -9n >"$folder/$name.1.gz"
+  [ "$(gzip -dc "$folder/$name.1.gz" | wc -l)" -gt 20 ] || { echo "no manual page of $name" >&2; exit 1; }
+}
+
+cat >"$folder/help/filter" <<'END'
+#!/bin/sh
+"$@" | sed -e '1s/[^.]$/&./' -e 's/^  \(-[A-Za-z]\),--/  \1, --/' -e 's/^Positionals:/Arguments:/' -e 's/^Subcommands:/Commands:/' \
+  -e '/^In a checkout/d' -e '/^Exit codes:/d'
+END
+chmod +x "$folder/help/filter"
+
+pages=
+for command in $(commands_of); do
+  pages="$pages wholehand-$command"
+  inner=
+  for part in $(commands_of "$command"); do
+    inner="$inner wholehand-$command-$part"
+    { exit_codes; see_also "wholehand-$command" wholehand; } >"$folder/help/include"
+    page "$folder/help/include" "$command" "$part"
+  done
+  # shellcheck disable=SC2086
+  { exit_codes; see_also wholehand $inner; } >"$folder/help/include"
+  page "$folder/help/include" "$command"
+done
+# shellcheck disable=SC2086
+{ exit_codes; cat "$here/manual.h2m"; see_also $pages; } >"$folder/help/include"
+page "$folder/help/include"
+rm -r "$folder/help"
+touch "$folder/.made"

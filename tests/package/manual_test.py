@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: MIT
+"""The manual pages that are installed: one for every command, with everything that its --help says, and without a warning of man."""
+
+import glob
+import os
+import re
+import subprocess
+import unittest
+
+STAGED = os.environ["STAGED"]
+PROGRAM = os.path.join(STAGED, "usr/bin/wholehand")
+PAGES = os.path.join(STAGED, "usr/share/man/man1")
+WIDE = 1000  # columns: few lines are broken
+
+
+def help_of(*words):
+    return subprocess.run([PROGRAM, *words, "--help"], check=True, capture_output=True, text=True).stdout
+
+
+def commands(*words):
+    part = re.search(r"^Subcommands:\n((?:  .*\n)+)", help_of(*words), re.MULTILINE)
+    return re.findall(r"^  (\S+)", part[1], re.MULTILINE) if part else []
+
+
+def all_commands():
+    """The words of each command, the program's own first: (), ("sweep",), ("stability", "wall") ..."""
+    found = [()]
+    for words in found:
+        found += [(*words, name) for name in commands(*words)]
+    return found
+
+
+def page_of(words):
+    return os.path.join(PAGES, "-".join(("wholehand", *words)) + ".1.gz")
+
+
+def man(path, columns=WIDE):
+    environment = {"PATH": "/usr/bin:/bin", "LC_ALL": "C.UTF-8", "MANWIDTH": str(columns), "HOME": "/nonexistent"}
+    return subprocess.run(["man", "--warnings=w", "-l", path], check=True, capture_output=True, text=True, env=environment)
+
+
+class Manual(unittest.TestCase):
+    def test_every_command_has_a_page_and_every_page_a_command(self):
+        self.assertGreater(len(all_commands()), 15)
+        self.assertEqual(sorted(glob.glob(PAGES + "/*")), sorted(page_of(words) for words in all_commands()))
+
+    def test_no_page_makes_man_warn(self):
+        for words in all_commands():
+            self.assertEqual(man(page_of(words), columns=80).stderr, "", words)
+
+    def test_pages_say_all_that_help_says(self):
+        for words in all_commands():
+            page = " ".join(man(page_of(words)).stdout.split()).replace("‐", "-").replace("’", "'").replace("‘", "`")
+            entries = re.findall(r"^  (-\S+|[a-z][a-z-]*)(?: .*?)??(?: {2,}|\n {10,})(\S.*)$", help_of(*words), re.MULTILINE)
+            self.assertGreater(len(entries), 0, words)
+            for name, meaning in entries:
+                self.assertIn(name.replace(",--", ", --"), page, words)
+                self.assertIn(" ".join(meaning.split()), page, words)
+
+    def test_pages_end_with_exit_codes_and_other_pages(self):
+        for words in all_commands():
+            page = man(page_of(words)).stdout
+            self.assertRegex(page, r"EXIT STATUS\n +0 +done\n\n +1 +the answer is no \(check\)\n\n +2 +wrong usage or input\n", words)
+            named = re.findall(r"(wholehand[a-z-]*)\(1\)", page.split("SEE ALSO")[1].replace("‐", "-").rsplit("\n", 2)[0])
+            self.assertGreaterEqual(len(named), 1, words)
+            for name in named:
+                self.assertTrue(os.path.exists(f"{PAGES}/{name}.1.gz"), f"{words}: {name}(1)")
+
+
+if __name__ == "__main__":
+    unittest.main()
