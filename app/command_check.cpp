@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "app/commands.h"
-#include "scene/shipped.h"
 #include "app/remedy.h"
 #include "app/validators.h"
 #include "app/vulkan_environment.h"
@@ -15,6 +14,7 @@
 #include "host/open_backend.h"
 #include "objects/vessel.h"
 #include "scene/reader.h"
+#include "scene/shipped.h"
 #include "sweeps/cavity_notes.h"
 #include "sweeps/closing.h"
 #include "sweeps/idle_notes.h"
@@ -39,6 +39,7 @@ void add_check_command(CLI::App& app, Action& action) {
       ->check(not_empty());
   command->add_option("--on", arguments->on, "vulkan (the best device; the default) or the name of a device")
       ->type_name("DEVICE")
+      ->check(offered("vulkan"))
       ->check(not_empty());
   command->add_flag("--json", arguments->json, "Print one JSON object in one line; the verdict comes first");
   command->callback([arguments, &action] {

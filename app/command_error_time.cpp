@@ -5,12 +5,12 @@
 #include <memory>
 
 #include "app/commands.h"
-#include "scene/shipped.h"
 #include "app/validators.h"
 #include "app/values.h"
 #include "app/vulkan_environment.h"
 #include "evidence/error_time.h"
 #include "scene/reader.h"
+#include "scene/shipped.h"
 
 namespace wholehand {
 namespace {
@@ -46,6 +46,7 @@ void add_error_time_command(CLI::App& app, Action& action) {
       ->required();
   command->add_option("--on", arguments->on, "vulkan (the best device; the default), the name of a device, or core (no device)")
       ->type_name("DEVICE")
+      ->check(offered("vulkan core"))
       ->check(not_empty());
   command->add_flag("--quick", arguments->quick, "Use fewer grips, variants and runs; this takes about a minute");
   command->add_option("--seed", arguments->seed, "Seed of the random grips (default: 1)")->type_name("N");

@@ -14,7 +14,6 @@
 
 #include "app/commands.h"
 #include "app/driver_watch.h"
-#include "scene/shipped.h"
 #include "app/remedy.h"
 #include "app/result_scene.h"
 #include "app/validators.h"
@@ -28,6 +27,7 @@
 #include "objects/vessel.h"
 #include "scene/fills.h"
 #include "scene/reader.h"
+#include "scene/shipped.h"
 #include "scene/text.h"
 #include "sweeps/cavity_notes.h"
 #include "sweeps/closing.h"
@@ -271,8 +271,9 @@ void add_grip_command(CLI::App& app, Action& action) {
   auto* fill = add("--fill", arguments->fills, "F", "Fills, as fractions of the capacity (default: the scene's)");
   add("--fill-ml", arguments->volumes, "V", "Instead of --fill: fills in mL")->excludes(fill);
   add("--tilt-deg", arguments->tilts, "T", "Tilts (default: the scene's)");
-  add("--on", arguments->on, "DEVICE", "core (the default), vulkan or the name of a device");
-  add("--precision", arguments->precision, "P", "float or double (default: double on the core, float on Vulkan)");
+  add("--on", arguments->on, "DEVICE", "core (the default), vulkan or the name of a device")->check(offered("core vulkan"));
+  add("--precision", arguments->precision, "P", "float or double (default: double on the core, float on Vulkan)")
+      ->check(offered("float double"));
   command->add_flag("--quality", arguments->quality,
                     "Measure the grasp as Ferrari and Canny do: epsilon and the volume of the wrenches; takes seconds");
   add("--glb", arguments->glb, "FILE", "Write the hand, the vessel and the liquid as glTF binary")->check(not_empty());

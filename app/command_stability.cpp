@@ -5,13 +5,13 @@
 #include <memory>
 
 #include "app/commands.h"
-#include "scene/shipped.h"
 #include "app/validators.h"
 #include "app/values.h"
 #include "app/vulkan_environment.h"
 #include "evidence/stability.h"
 #include "evidence/wall.h"
 #include "scene/reader.h"
+#include "scene/shipped.h"
 #include "system/output.h"
 
 namespace wholehand {
@@ -90,6 +90,7 @@ void add_stability_command(CLI::App& app, Action& action) {
       ->check(not_empty());
   command->add_option("--on", report_arguments->on, "core, vulkan (the best device; the default) or the name of a device")
       ->type_name("DEVICE")
+      ->check(offered("core vulkan"))
       ->check(not_empty());
   command->add_flag("--quick", report_arguments->quick, "Use coarser maps; this takes less than a minute");
   command->add_option("--seed", report_arguments->seed, "Seed of the random devices and walls (default: 1)")->type_name("N");

@@ -8,11 +8,11 @@
 #include <optional>
 
 #include "app/commands.h"
-#include "scene/shipped.h"
 #include "app/validators.h"
 #include "app/values.h"
 #include "objects/vessel.h"
 #include "scene/reader.h"
+#include "scene/shipped.h"
 #include "scene/text.h"
 #include "studies/run.h"
 
@@ -72,7 +72,8 @@ void add_study_command(CLI::App& app, Action& action) {
   add("-o,--output", arguments->folder, "DIR", "Folder for the tables and the page")->required();
   add("--people", arguments->people, "N",
       "Number of people in each experiment (default: 10000 for contacts, 1000 for forces, 500 for sessions)");
-  add("--experiment", arguments->experiment, "E", "contacts, forces, sessions or all (the default)");
+  add("--experiment", arguments->experiment, "E", "contacts, forces, sessions or all (the default)")
+      ->check(offered("contacts forces sessions all"));
   add("--seed", arguments->seed, "S", "Seed of the people and of the intervals (default: 1)");
   add("--threads", arguments->threads, "N", "Number of threads (default: all)");
   command->add_flag("--quick", arguments->quick, "500 people for contacts, 20 for the others, and fewer samples for the intervals");

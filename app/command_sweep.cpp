@@ -7,12 +7,12 @@
 #include <string>
 
 #include "app/commands.h"
-#include "scene/shipped.h"
 #include "app/remedy.h"
 #include "app/validators.h"
 #include "app/values.h"
 #include "app/vulkan_environment.h"
 #include "scene/reader.h"
+#include "scene/shipped.h"
 #include "sweeps/run.h"
 
 namespace wholehand {
@@ -57,9 +57,11 @@ CLI::App* add_command(CLI::App& app, Action& action, const std::shared_ptr<Sweep
       ->check(not_empty());
   command->add_option("--on", arguments->on, "core, vulkan (the best device; the default) or the name of a device")
       ->type_name("DEVICE")
+      ->check(offered("core vulkan"))
       ->check(not_empty());
   command->add_option("--precision", arguments->precision, "float or double (default: float on Vulkan, double on the core)")
-      ->type_name("P");
+      ->type_name("P")
+      ->check(offered("float double"));
   command->add_option("--best", arguments->best, "Number of grips to show and list for each vessel (default: the scene's)")
       ->type_name("N");
   command->add_option("--glb", arguments->glb, "Write the best N grips of each vessel as glTF: NAME.<vessel>.<rank>.glb")

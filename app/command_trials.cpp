@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "app/commands.h"
-#include "scene/shipped.h"
 #include "app/result_scene.h"
 #include "app/validators.h"
 #include "app/values.h"
 #include "objects/vessel.h"
 #include "scene/reader.h"
+#include "scene/shipped.h"
 #include "scene/text.h"
 #include "trials/mujoco_engine.h"
 #include "trials/run.h"
@@ -117,8 +117,10 @@ void add_trials_command(CLI::App& app, Action& action) {
   add("--fill", arguments->fills, "F",
       "Fills, as fractions of the capacity (default: three of the scene's); six-forces takes the largest");
   add("--tilt-deg", arguments->tilts, "T", "Tilts of fill-tilt (default: four of the scene's)");
-  add("--protocol", arguments->protocol, "P", "fill-tilt (the default), six-forces or both");
-  add("--model", arguments->model, "M", "hand (the default), or contacts: each contact alone, as a cross-check");
+  add("--protocol", arguments->protocol, "P", "fill-tilt (the default), six-forces or both")
+      ->check(offered("fill-tilt six-forces both"));
+  add("--model", arguments->model, "M", "hand (the default), or contacts: each contact alone, as a cross-check")
+      ->check(offered("hand contacts"));
   add("--mass-kg", arguments->mass, "M", "Mass of vessel and liquid together in every state (default: that of the state)");
   add("--friction", arguments->friction, "MU", "Coefficient of friction (default: the scene's)");
   add("--seed", arguments->seed, "S", "Seed of the sample and of the intervals (default: 1)");

@@ -36,5 +36,6 @@ void add_view_command(CLI::App& app, Action& action);
 void add_devices_command(CLI::App& app, Action& action);
 void add_scenes_command(CLI::App& app, Action& action);
 void add_help_command(CLI::App& app, Action& action);
+void add_completion_command(CLI::App& app, Action& action);
 
 }  // namespace wholehand

@@ -23,6 +23,7 @@ void add_all(CLI::App& app, wholehand::Action& action) {
   wholehand::add_devices_command(app, action);
   wholehand::add_scenes_command(app, action);
   wholehand::add_help_command(app, action);
+  wholehand::add_completion_command(app, action);
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)

@@ -6,6 +6,7 @@
 
 #include <cctype>
 #include <string>
+#include <string_view>
 
 namespace wholehand {
 
@@ -24,6 +25,12 @@ inline CLI::Validator not_an_option() {
         return is_option ? "its value is missing: '" + value + "' is an option" : std::string();
       },
       "");
+}
+
+// Not a check: the values that completion offers for the option, with spaces between. One that ends in ':' goes on with a file's name.
+inline constexpr std::string_view OFFERED = "offered: ";
+inline CLI::Validator offered(const std::string& words) {
+  return CLI::Validator([](const std::string&) { return std::string(); }, "", std::string(OFFERED) + words);
 }
 
 }  // namespace wholehand

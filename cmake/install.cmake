@@ -29,6 +29,19 @@ add_custom_target(manual DEPENDS "${manual_dir}/.made")
 add_dependencies(packaging manual)
 install(DIRECTORY "${manual_dir}/" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT program FILES_MATCHING PATTERN "*.1.gz")
 
+# ---- completion of commands in shells, where each shell looks for it ----
+function(install_completion shell folder file)
+  set(script "${packaging_dir}/completion/${shell}/${file}")
+  file(MAKE_DIRECTORY "${packaging_dir}/completion/${shell}")
+  add_custom_command(OUTPUT "${script}" DEPENDS wholehand COMMAND wholehand completion ${shell} > "${script}" VERBATIM)
+  add_custom_target(completion_${shell} DEPENDS "${script}")
+  add_dependencies(packaging completion_${shell})
+  install(FILES "${script}" DESTINATION "${CMAKE_INSTALL_DATADIR}/${folder}" COMPONENT program)
+endfunction()
+install_completion(bash bash-completion/completions wholehand)
+install_completion(zsh zsh/vendor-completions _wholehand)  # Debian's; elsewhere zsh/site-functions
+install_completion(fish fish/vendor_completions.d wholehand.fish)
+
 # ---- library: the C face; development: its header, and how a build finds it ----
 set_target_properties(wholehand_library PROPERTIES EXPORT_NAME wholehand)
 target_include_directories(wholehand_library INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Completion of the command line in shells. The commands are described without the parser; each shell's script is written from that.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace wholehand {
+
+// What may stand as the value of an option, or as an argument.
+struct CompletedValue {
+  std::vector<std::string> words;
+  std::vector<std::string>
+      endings;               // files with these endings, without the dot; "*": with any. After a word with ':' if there is one
+  bool has_folders = false;  // folders, for their own sake
+};
+
+struct CompletedOption {
+  std::vector<std::string> names;  // "--output", "-o"; none for an argument
+  std::string label, help;         // label: "FILE"
+  CompletedValue value;
+  bool takes_value = false, takes_many = false;
+};
+
+struct CompletedCommand {
+  std::string name, help;
+  std::vector<CompletedOption> options, arguments;  // arguments in their order
+  std::vector<CompletedCommand> commands;
+};
+
+std::string bash_completion(const CompletedCommand& program);
+std::string zsh_completion(const CompletedCommand& program);
+std::string fish_completion(const CompletedCommand& program);
+
+}  // namespace wholehand
