@@ -20,6 +20,8 @@ install(DIRECTORY scene/extreme/ DESTINATION "${CMAKE_INSTALL_DATADIR}/wholehand
 install(DIRECTORY docs/ DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/wholehand/docs" COMPONENT common
   FILES_MATCHING PATTERN "*.md" PATTERN pictures EXCLUDE PATTERN results EXCLUDE)
 
+install(FILES device/udev/60-wholehand.rules DESTINATION lib/udev/rules.d COMPONENT program)  # udev sees by itself that it is new
+
 # ---- manual pages, from what the program says of itself ----
 set(manual_dir "${packaging_dir}/man")
 add_custom_command(OUTPUT "${manual_dir}/.made" DEPENDS wholehand cmake/package/manual.sh cmake/package/manual.h2m
