@@ -32,7 +32,7 @@ function(embed_files target header function)
   set_source_files_properties("${source}" PROPERTIES OBJECT_DEPENDS "${files}")
   add_library(${target} STATIC "${source}")
   wholehand_hidden(${target})
-  target_include_directories(${target} PUBLIC "${PROJECT_SOURCE_DIR}")
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
 endfunction()
 
 # embed_folder(TARGET HEADER FUNCTION FOLDER [PATH FILE ...]): all files of the folder, each under its path in it, and the others.

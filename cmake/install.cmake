@@ -56,8 +56,22 @@ configure_package_config_file(cmake/package/wholehandConfig.cmake.in "${packagin
 write_basic_package_version_file("${packaging_dir}/wholehandConfigVersion.cmake" COMPATIBILITY SameMinorVersion)  # before 1.0 each may break
 install(FILES "${packaging_dir}/wholehandConfig.cmake" "${packaging_dir}/wholehandConfigVersion.cmake"
   DESTINATION "${WHOLEHAND_PACKAGE_DIR}" COMPONENT development)
+cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX BASE_DIRECTORY "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" OUTPUT_VARIABLE WHOLEHAND_FROM_PC)
 configure_file(cmake/package/wholehand.pc.in "${packaging_dir}/wholehand.pc" @ONLY)
 install(FILES "${packaging_dir}/wholehand.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT development)
+
+# ---- development, too: core/ and sweeps/ with the folders that they use, for programs in C++ (docs/library.md) ----
+set(cpp_folders core system scene live statistics host objects charts grips sweeps)
+set(cpp_dir "${CMAKE_INSTALL_INCLUDEDIR}/wholehand/cpp")  # includes are named from here: "core/evaluator.h"
+target_compile_features(core INTERFACE cxx_std_20)
+install(TARGETS core core_plain core_f64 core_f32 shaders system scene live statistics host objects charts grips sweeps EXPORT wholehandCppTargets
+  ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}/wholehand" COMPONENT development INCLUDES DESTINATION "${cpp_dir}")
+install(EXPORT wholehandCppTargets NAMESPACE wholehand:: DESTINATION "${WHOLEHAND_PACKAGE_DIR}" COMPONENT development)
+add_dependencies(packaging sweeps scene)
+foreach(folder IN LISTS cpp_folders ITEMS shaders)
+  file(GLOB headers CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${folder}/*.h")
+  install(FILES ${headers} DESTINATION "${cpp_dir}/${folder}" COMPONENT development)
+endforeach()
 
 # ---- python: the folder python/ has its own rules, with COMPONENT python ----
 if(TARGET wholehand_python)

@@ -84,6 +84,6 @@ function(embed_shaders target header function)
     "// generated: see cmake/shaders.cmake\n#include \"${header}\"\n\n#include <cstdint>\n\nnamespace {\n${includes}\n${body}" @ONLY)
   add_library(${target} STATIC "${table}" ${outputs})
   wholehand_hidden(${target})
-  target_include_directories(${target} PUBLIC "${PROJECT_SOURCE_DIR}" PRIVATE "${CMAKE_CURRENT_BINARY_DIR}")
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> PRIVATE "${CMAKE_CURRENT_BINARY_DIR}")
   target_compile_options(${target} PRIVATE -O0)  # tables only
 endfunction()

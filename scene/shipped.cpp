@@ -2,8 +2,8 @@
 #include "scene/shipped.h"
 
 #include <dlfcn.h>
-#include <link.h>
 #include <fmt/format.h>
+#include <link.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -45,6 +45,8 @@ std::string scenes_dir() {
   candidates.emplace_back(WHOLEHAND_SCENE_DIR);
 #endif
   candidates.insert(candidates.end(), source.begin(), source.end());
+  // for a program of others, which lies somewhere else than the package
+  for (const char* system : {"/usr/local/share/wholehand/scenes", "/usr/share/wholehand/scenes"}) candidates.emplace_back(system);
   std::error_code failed;
   for (const fs::path& candidate : candidates) {
     if (fs::is_regular_file(candidate / (std::string(DEFAULT_SCENE) + ".toml"), failed)) return candidate.string();

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// sweeps/run.h: what `wholehand sweep` does, with its files and what it prints.
+#include <cstdio>
+#include <filesystem>
+
+#include "scene/reader.h"
+#include "scene/shipped.h"
+#include "sweeps/run.h"
+
+int main() {
+  using namespace wholehand;
+  SweepOptions options;
+  options.on = "core";
+  options.output = "swept.nc";
+  const ExitCode code = run_sweep(read_scene_file(find_scene("small")), options);
+  std::printf("swept.nc has %llu bytes\n", static_cast<unsigned long long>(std::filesystem::file_size("swept.nc")));
+  return code == ExitCode::done ? 0 : 1;
+}

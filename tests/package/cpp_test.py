@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: MIT
+"""The C++ examples against the installed package: they are configured, built and run by a project of their own, as a user would."""
+
+import os
+import re
+import subprocess
+import tempfile
+import unittest
+
+STAGED = os.environ["STAGED"]
+SOURCE = os.path.join(os.path.dirname(__file__), "../..")
+EXAMPLES = os.path.join(SOURCE, "examples/cpp")
+HEADERS = os.path.join(STAGED, "usr/include/wholehand/cpp")
+
+
+def text(path):
+    with open(path) as file:
+        return file.read()
+
+
+def run(*command, **options):
+    done = subprocess.run(command, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, **options)
+    return done.returncode, done.stdout
+
+
+def named_headers():
+    """Rows of the table in docs/library.md: header and example."""
+    return re.findall(r"^\| `((?:core|sweeps)/\w+\.h)` \|.*\| \[\w+\.cpp\]\(\.\./examples/cpp/(\w+\.cpp)\) \|$",
+                      text(os.path.join(SOURCE, "docs/library.md")), re.MULTILINE)
+
+
+class Cpp(unittest.TestCase):
+    def test_every_named_header_is_installed_and_has_an_example(self):
+        self.assertGreaterEqual(len(named_headers()), 8)
+        for header, example in named_headers():
+            self.assertTrue(os.path.exists(os.path.join(HEADERS, header)), header)
+            self.assertIn(f'#include "{header}"', text(os.path.join(EXAMPLES, example)))
+        self.assertEqual(sorted(example for _, example in named_headers()), sorted(name for name in os.listdir(EXAMPLES) if name.endswith(".cpp")))
+
+    def test_installed_headers_find_what_they_include(self):
+        for folder, _, names in os.walk(HEADERS):
+            for name in names:
+                for included in re.findall(r'^#include "([^"]+)"', text(os.path.join(folder, name)), re.MULTILINE):
+                    self.assertTrue(os.path.exists(os.path.join(HEADERS, included)), f"{folder}/{name} includes {included}")
+
+    def test_examples_build_and_run(self):
+        with tempfile.TemporaryDirectory() as build:
+            for command in (["cmake", "-G", "Ninja", "-S", EXAMPLES, "-B", build, f"-DCMAKE_PREFIX_PATH={STAGED}/usr"],
+                            ["cmake", "--build", build], ["ctest", "--test-dir", build, "--output-on-failure"]):
+                code, output = run(*command)
+                self.assertEqual(code, 0, output)
+            self.assertIn(f"100% tests passed, 0 tests failed out of {len(named_headers())}", output)
+
+    def test_a_wrong_component_is_refused(self):
+        with tempfile.TemporaryDirectory() as folder:
+            with open(os.path.join(folder, "CMakeLists.txt"), "w") as file:
+                file.write("cmake_minimum_required(VERSION 3.25)\nproject(p LANGUAGES CXX)\nfind_package(wholehand REQUIRED COMPONENTS nonsense)\n")
+            code, output = run("cmake", "-S", folder, "-B", folder + "/build", f"-DCMAKE_PREFIX_PATH={STAGED}/usr")
+            self.assertNotEqual(code, 0)
+            self.assertIn("wholehand has no component nonsense; allowed: cpp", " ".join(output.split()))
+
+    def test_pkg_config_finds_the_c_library_where_it_is(self):
+        (path,) = (os.path.join(folder) for folder, _, names in os.walk(STAGED) if "wholehand.pc" in names)
+        environment = dict(os.environ, PKG_CONFIG_PATH=path)
+        found = {}
+        for what in ("--variable=includedir", "--variable=libdir"):
+            code, output = run("pkg-config", what, "wholehand", env=environment)
+            self.assertEqual(code, 0, output)
+            found[what] = output.strip()
+        self.assertTrue(os.path.exists(os.path.join(found["--variable=includedir"], "wholehand/wholehand.h")), found)
+        self.assertTrue(os.path.exists(os.path.join(found["--variable=libdir"], "libwholehand.so")), found)
+
+
+if __name__ == "__main__":
+    unittest.main()
