@@ -36,8 +36,12 @@ def tearDownModule():
 
 
 def environment():
-    return {"PATH": "/usr/bin:/bin", "HOME": folder.name, "LC_ALL": "C.UTF-8", "TERM": "dumb", "XDG_CONFIG_HOME": folder.name + "/.config",
-            "XDG_DATA_HOME": folder.name + "/.data"}
+    return {"PATH": "/usr/bin:/bin", "HOME": folder.name, "LC_ALL": "C.UTF-8", "TERM": "dumb",
+            "XDG_CONFIG_HOME": folder.name + "/.config", "XDG_DATA_HOME": folder.name + "/.data"}
+
+
+def in_shell(*command):
+    return subprocess.run(command, cwd=folder.name, env=environment(), capture_output=True, text=True)
 
 
 def program(*words):
@@ -69,8 +73,7 @@ def scenes():
 
 
 def bash_run(text, *arguments):
-    done = subprocess.run(["bash", "--norc", "-c", f"source '{BASH_SCRIPT}'\n{text}", "bash", *arguments], cwd=folder.name, env=environment(),
-                          capture_output=True, text=True)
+    done = in_shell("bash", "--norc", "-c", f"source '{BASH_SCRIPT}'\n{text}", "bash", *arguments)
     return done.stdout, done.stderr
 
 
@@ -84,8 +87,8 @@ def bash(line):
 
 
 def fish(line):
-    done = subprocess.run(["fish", "--no-config", "-c", f"source {SHARE}/fish/vendor_completions.d/wholehand.fish; complete -C $argv[1]", line],
-                          cwd=folder.name, env=environment(), capture_output=True, text=True)
+    script = SHARE + "/fish/vendor_completions.d/wholehand.fish"
+    done = in_shell("fish", "--no-config", "-c", f"source {script}; complete -C $argv[1]", line)
     assert done.stderr == "", done.stderr
     return sorted(row.split("\t")[0] for row in done.stdout.splitlines())
 
@@ -180,7 +183,8 @@ class Bash(unittest.TestCase):
         self.assertEqual(bash("wholehand sweep --best "), [])
 
     def test_at_a_terminal(self):
-        shell = Terminal(["bash", "--norc", "--noprofile", "-i"], f"PS1=; bind 'set bell-style none'; source '{BASH_SCRIPT}'; {SHOW}")
+        setup = f"PS1=; bind 'set bell-style none'; source '{BASH_SCRIPT}'; {SHOW}"
+        shell = Terminal(["bash", "--norc", "--noprofile", "-i"], setup)
         self.addCleanup(shell.close)
         self.assertEqual(shell.complete("wholehand swe"), ["sweep"])
         self.assertEqual(shell.complete("wholehand sweep a"), ["sweep", "a b.toml"])
@@ -191,7 +195,8 @@ class Bash(unittest.TestCase):
 class Zsh(unittest.TestCase):
     def test_at_a_terminal(self):
         subprocess.run(["zsh", "-n", f"{SHARE}/zsh/vendor-completions/_wholehand"], check=True)
-        setup = f"PS1=; unsetopt beep zle_bracketed_paste 2>/dev/null; fpath=({SHARE}/zsh/vendor-completions $fpath); autoload -Uz compinit; compinit -u -D; {SHOW}"
+        setup = (f"PS1=; unsetopt beep; fpath=({SHARE}/zsh/vendor-completions $fpath); autoload -Uz compinit; compinit -u -D; "
+                 f"{SHOW}")
         shell = Terminal(["zsh", "-f", "-i"], setup)
         self.addCleanup(shell.close)
         for line, expected in [

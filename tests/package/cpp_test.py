@@ -35,7 +35,8 @@ class Cpp(unittest.TestCase):
         for header, example in named_headers():
             self.assertTrue(os.path.exists(os.path.join(HEADERS, header)), header)
             self.assertIn(f'#include "{header}"', text(os.path.join(EXAMPLES, example)))
-        self.assertEqual(sorted(example for _, example in named_headers()), sorted(name for name in os.listdir(EXAMPLES) if name.endswith(".cpp")))
+        programs = [name for name in os.listdir(EXAMPLES) if name.endswith(".cpp")]
+        self.assertEqual(sorted(example for _, example in named_headers()), sorted(programs))
 
     def test_installed_headers_find_what_they_include(self):
         for folder, _, names in os.walk(HEADERS):
@@ -54,7 +55,8 @@ class Cpp(unittest.TestCase):
     def test_a_wrong_component_is_refused(self):
         with tempfile.TemporaryDirectory() as folder:
             with open(os.path.join(folder, "CMakeLists.txt"), "w") as file:
-                file.write("cmake_minimum_required(VERSION 3.25)\nproject(p LANGUAGES CXX)\nfind_package(wholehand REQUIRED COMPONENTS nonsense)\n")
+                file.write("cmake_minimum_required(VERSION 3.25)\nproject(p LANGUAGES CXX)\n"
+                           "find_package(wholehand REQUIRED COMPONENTS nonsense)\n")
             code, output = run("cmake", "-S", folder, "-B", folder + "/build", f"-DCMAKE_PREFIX_PATH={STAGED}/usr")
             self.assertNotEqual(code, 0)
             self.assertIn("wholehand has no component nonsense; allowed: cpp", " ".join(output.split()))

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: MIT
-# The packages on a real system: made, looked over by lintian, installed with apt, used by a user who owns nothing, and purged without a
-# trace. Needs root, or sudo, and changes the system while it runs; refuses where one of the packages is installed already.
+# The packages on a real system: made, looked over by lintian, installed with apt, used by a user who owns nothing, and purged without
+# a trace. Needs root, or sudo, and changes the system while it runs; refuses where one of the packages is installed already.
 #   installed.sh [FOLDER OF .deb FILES]       (default: makes them)
 set -euo pipefail
 root=$(cd "$(dirname -- "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -19,8 +19,8 @@ equal() { [ "$1" = "$2" ] || { echo "      got '$1', expected '$2'"; return 1; }
 has() { grep -qF -- "$2" <<<"$1" || { echo "      got '$1', expected it to have '$2'"; return 1; }; }
 one_line() { [ "$(grep -c '' <<<"$1")" = 1 ] || { echo "      got '$1', expected one line"; return 1; }; }
 apt() {
-  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -q -y -o DPkg::Lock::Timeout=300 "$@" >"$work/apt.log" 2>&1 </dev/null ||
-    { tail -n 20 "$work/apt.log"; return 1; }
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+    apt-get -q -y -o DPkg::Lock::Timeout=300 "$@" >"$work/apt.log" 2>&1 </dev/null || { tail -n 20 "$work/apt.log"; return 1; }
 }
 # Whatever has our name in the places of a system.
 traces() { "${as_root[@]}" find /bin /etc /lib /opt /run /srv /usr /var -xdev -name '*wholehand*' 2>/dev/null | sort -u; }
@@ -47,7 +47,9 @@ done
 tools=()
 command -v lintian >/dev/null || tools+=(lintian)
 command -v man >/dev/null || tools+=(man-db)
-[ ${#tools[@]} = 0 ] || apt install --no-install-recommends "${tools[@]}" || { apt update && apt install --no-install-recommends "${tools[@]}"; }
+if [ ${#tools[@]} != 0 ]; then
+  apt install --no-install-recommends "${tools[@]}" || { apt update && apt install --no-install-recommends "${tools[@]}"; }
+fi
 lintian --allow-root --fail-on error "${debs[@]}" >"$work/lintian" 2>&1 && found=0 || found=$?
 sed 's/^/      /' "$work/lintian"
 check "lintian finds no error" equal "$found" 0
@@ -70,7 +72,8 @@ nobody() {  # nobody [NAME=VALUE ...] COMMAND ...
   "${as_root[@]}" setpriv --reuid=65534 --regid=65534 --clear-groups env -i PATH=/usr/bin:/bin LC_ALL=C.UTF-8 "$@"
 }
 began=$SECONDS
-check "wholehand runs from the path" equal "$(nobody wholehand --version | head -n 1)" "wholehand $(sed -n 's/^project(wholehand VERSION \([0-9.]*\) .*/\1/p' "$root/CMakeLists.txt")"
+version=$(sed -n 's/^project(wholehand VERSION \([0-9.]*\) .*/\1/p' "$root/CMakeLists.txt")
+check "wholehand runs from the path" equal "$(nobody wholehand --version | head -n 1)" "wholehand $version"
 check "help names no launcher" equal "$(nobody wholehand --help | grep -c '^Usage: wholehand ')" 1
 check "the shipped scenes are there" has "$(nobody wholehand scenes)" "small          tumbler"
 for home in "" HOME=/nonexistent HOME=/usr; do
@@ -80,15 +83,19 @@ for home in "" HOME=/nonexistent HOME=/usr; do
   check "and shows the best" has "$output" "rank  score"
   rm -f small.*
 done
-check "nothing is written elsewhere" equal "$(find / -xdev -user 65534 -newer "$work/files" -not -path "$work/*" -not -path '/proc/*' 2>/dev/null)" ""
+output=$("${as_root[@]}" find / -xdev -user 65534 -newer "$work/files" -not -path "$work/*" -not -path '/proc/*' 2>/dev/null)
+check "nothing is written elsewhere" equal "$output" ""
 output=$(cd / && nobody wholehand sweep small --on core 2>&1) && code=0 || code=$?
 check "a folder that cannot be written to gives exit code 2 or 3" has "2 3" "$code"
 check "and one line" one_line "$(grep '^wholehand: ' <<<"$output")"
 nobody wholehand sweep small >/dev/null 2>&1
 check "the page of a result" nobody sh -c 'wholehand report small.nc >report.out 2>&1 && grep -q "<html" small.html'
-check "a drawing of a grip" nobody sh -c 'wholehand grip small --vessel tumbler --height-mm 50 --svg grip.svg >grip.out && grep -q "<svg" grip.svg'
-check "a session, recorded" nobody sh -c 'wholehand live --no-clock --seconds 2 --record session.nc >session.out && test -s session.nc'
-check "the cache is where XDG_CACHE_HOME says" has "$(nobody XDG_CACHE_HOME="$work/place/kept" wholehand devices 2>&1)" "$work/place/kept/wholehand"
+check "a drawing of a grip" nobody sh -c \
+  'wholehand grip small --vessel tumbler --height-mm 50 --svg grip.svg >grip.out && grep -q "<svg" grip.svg'
+check "a session, recorded" nobody sh -c \
+  'wholehand live --no-clock --seconds 2 --record session.nc >session.out && test -s session.nc'
+output=$(nobody XDG_CACHE_HOME="$work/place/kept" wholehand devices 2>&1)
+check "the cache is where XDG_CACHE_HOME says" has "$output" "$work/place/kept/wholehand"
 echo "      used in $((SECONDS - began)) s"
 
 # ---- what comes with the program ----
@@ -102,10 +109,11 @@ check "bash completes a scene" equal "$output" small
 check "udev knows grippers" grep -q 'wholehand gripper' /usr/lib/udev/rules.d/60-wholehand.rules
 check "the dynamic linker knows the library" has "$(/sbin/ldconfig -p)" "libwholehand.so.0 "
 if command -v cc >/dev/null && command -v pkg-config >/dev/null; then
-  printf '#include <stdio.h>\n#include <wholehand/wholehand.h>\nint main(void) { return puts(wh_version()) < 0; }\n' >"$work/version.c"
+  printf '#include <stdio.h>\n#include <wholehand/wholehand.h>\n%s\n' 'int main(void) { return puts(wh_version()) < 0; }' \
+    >"$work/version.c"
   # shellcheck disable=SC2046
   check "a program in C is compiled" cc -o "$work/version" "$work/version.c" $(pkg-config --cflags --libs wholehand)
-  check "and runs" equal "$("$work/version")" "$(nobody wholehand --version | sed -n '1s/wholehand //p')"
+  check "and runs" equal "$("$work/version")" "$version"
 fi
 if [ -e /usr/lib/python3/dist-packages/wholehand/__init__.py ]; then
   check "the Python module is there" nobody /usr/bin/python3 -c 'import wholehand; wholehand.scene("small")'
@@ -117,7 +125,10 @@ began=$SECONDS
 check "apt purges them" apt purge "${names[@]}"
 installed=
 echo "      purged in $((SECONDS - began)) s"
-left=$(while read -r path; do if [ -e "$path" ] && { [ ! -d "$path" ] || [[ $path == *wholehand* ]]; }; then echo "$path"; fi; done <"$work/files")
+left=
+while read -r path; do
+  if [ -e "$path" ] && { [ ! -d "$path" ] || [[ $path == *wholehand* ]]; }; then left+="$path "; fi
+done <"$work/files"
 check "none of their files is left" equal "$left" ""
 check "nor anything else with their name" equal "$(traces)" "$before"
 check "dpkg has forgotten them" equal "$(dpkg-query -W "${names[@]}" 2>/dev/null)" ""
