@@ -7,6 +7,19 @@
 #include "sweeps/sweep.h"
 
 namespace wholehand {
+namespace {
+
+void read_meshes(Scene& scene, const SweepOptions& options) {
+  const auto device_bytes = [&] { return largest_buffer(options.on); };
+  if (!options.note) return load_meshes(scene, device_bytes);
+  if (!has_meshes(scene)) return;
+  MeshOptions mesh_options;
+  mesh_options.most_bytes = largest_lattice(device_bytes());
+  mesh_options.say = options.note;
+  load_meshes(scene, mesh_options);
+}
+
+}  // namespace
 
 ExitCode run_sweep(const Scene& given, const SweepOptions& options) {
   Scene scene = given;
@@ -14,7 +27,7 @@ ExitCode run_sweep(const Scene& given, const SweepOptions& options) {
   const SweepParts parts{
       [&](const FieldSet& fields) { return open_backend(scene, fields, options.on, precision, options.threads); },
       [&] { return make_core_evaluator(scene); },
-      [&] { load_meshes(scene, [&] { return largest_buffer(options.on); }); },
+      [&] { read_meshes(scene, options); },
       [&](const Scene& other, const FieldSet& fields) {
         return open_backend(other, fields, options.on, precision, options.threads);
       },

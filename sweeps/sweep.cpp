@@ -86,6 +86,7 @@ ExitCode Sweep::run() {
   // An interrupt that comes while the file is laid out waits for the first grips. One that comes when all are done lets the ending finish, but for
   // refined grips and robust scores.
   InterruptGuard interrupt;
+  if (is_quiet()) interrupt.on_another([](int) {});  // the process is not this sweep's to end
   ResultFile file(names_, written, backend_->fields(), resumed ? FileStart::resumed : FileStart::reserved, parts_.open_output);
   is_marked_ = resumed;
   if (!repair(file, interrupt) || !sweep(file, interrupt)) return interrupted();
@@ -111,12 +112,18 @@ void Sweep::open() {
 
 void Sweep::say_opening() const {
   if (options_.warn) options_.warn(scene_, precision());
-  say_cavity_notes(scene_);
-  for (const std::string& line : idle_notes(scene_, plan(), best_wanted_)) say_note(line);
-  fmt::print("{}{}", opening_lines(scene_, plan(), info_), vessel_lines(scene_, facts_));
-  std::fflush(stdout);
+  for (const std::string& line : cavity_notes(scene_)) note(line);
+  for (const std::string& line : idle_notes(scene_, plan(), best_wanted_)) note(line);
+  print_text(opening_lines(scene_, plan(), info_) + vessel_lines(scene_, facts_));
   if (!options_.explain) return;
-  fmt::print("{}", explain_sweep(scene_, plan(), backend_->fields(), {options_.on, precision(), options_.threads, best_wanted_}));
+  print_text(explain_sweep(scene_, plan(), backend_->fields(), {options_.on, precision(), options_.threads, best_wanted_}));
+}
+
+void Sweep::note(const std::string& line) const { is_quiet() ? options_.note(line) : say_note(line); }
+
+void Sweep::print_text(const std::string& text) const {
+  if (is_quiet()) return;
+  fmt::print("{}", text);
   std::fflush(stdout);
 }
 
@@ -148,8 +155,7 @@ bool Sweep::has_score() const {
 
 ExitCode Sweep::finished() const {
   check_complete(names_.result, scene_, options_.on == "core", precision(), variables_);
-  say_note(
-      fmt::format("{} is complete, so nothing is left to do; the same command without --resume computes it again", names_.result));
+  note(fmt::format("{} is complete, so nothing is left to do; the same command without --resume computes it again", names_.result));
   return ExitCode::done;
 }
 
@@ -182,14 +188,13 @@ bool Sweep::begin() {
   std::string line = options_.resume ? "" : lost_line(names_);
   if (options_.resume) announce_check();
   const bool resumed = options_.resume && load_usable_mark(names_, identity(), bounds(), mark, line);
-  if (!line.empty()) say_note(line);
+  if (!line.empty()) note(line);
   if (resumed) {
     mark_ = mark;
     for (std::size_t v = 0; v < maps_.size() && has_heat_map(); ++v) maps_[v].restore(mark_.vessels[v].heat_map);
-    say_note(
-        fmt::format("continuing {}: {} of {} grips are there", names_.partial, readable_number(done()), readable_number(total())));
+    note(fmt::format("continuing {}: {} of {} grips are there", names_.partial, readable_number(done()), readable_number(total())));
   } else {
-    if (options_.resume) say_note(fmt::format("{} holds no complete grip: starting from the first grip", names_.partial));
+    if (options_.resume) note(fmt::format("{} holds no complete grip: starting from the first grip", names_.partial));
     mark_.identity = identity();
     mark_.vessels.resize(scene_.vessels.size());
   }
@@ -201,7 +206,7 @@ bool Sweep::begin() {
 void Sweep::announce_check() const {
   struct stat file {};
   if (stat(names_.mark.c_str(), &file) != 0 || stat(names_.partial.c_str(), &file) != 0 || file.st_size <= LONG_CHECK) return;
-  say_note(fmt::format("checking {} of {}", readable_bytes(static_cast<double>(file.st_size)), names_.partial));
+  note(fmt::format("checking {} of {}", readable_bytes(static_cast<double>(file.st_size)), names_.partial));
 }
 
 std::uint64_t Sweep::total() const { return plan().grips() * scene_.vessels.size(); }
@@ -235,7 +240,7 @@ bool Sweep::repair(ResultFile& file, InterruptGuard& interrupt) {
 bool Sweep::repair_stretch(std::size_t v, const Stretch& stretch, ResultFile& file, InterruptGuard& interrupt) {
   if (is_asked_to_end(interrupt)) return false;
   if (file.holds(v, stretch)) return true;
-  say_note(fmt::format("{}{}: {} are damaged: computing them again", who(), file.path(), readable_stretch(stretch, v)));
+  note(fmt::format("{}{}: {} are damaged: computing them again", who(), file.path(), readable_stretch(stretch, v)));
   return restore_stretch(v, stretch, file, interrupt);
 }
 
@@ -277,7 +282,7 @@ RunRequest Sweep::grips_of(std::size_t v, InterruptGuard& interrupt) const {
 
 // Every vessel from where it stands to its end. False: interrupted, everything done so far is marked.
 bool Sweep::sweep(ResultFile& file, InterruptGuard& interrupt) {
-  Progress progress(total(), done());
+  Progress progress = is_quiet() ? Progress(total(), done(), "grips", false) : Progress(total(), done());
   last_mark_ = monotonic_now();
   for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
     forget();
@@ -351,7 +356,7 @@ void Sweep::say_once(const std::vector<std::string>& notes, Progress* progress) 
   for (const std::string& line : notes) {
     if (!said_.insert(line).second) continue;
     if (progress) progress->clear();
-    say_note(line);
+    note(line);
   }
 }
 
@@ -412,7 +417,7 @@ void Sweep::pass_remembered(ListChooser& chooser) const {
 
 // All grips of a vessel once more, for the chooser alone. False: interrupted.
 bool Sweep::pass_again(std::size_t v, ListChooser& chooser, InterruptGuard& interrupt) {
-  Progress progress(plan().grips(), 0);
+  Progress progress = is_quiet() ? Progress(plan().grips(), 0, "grips", false) : Progress(plan().grips(), 0);
   std::uint64_t delivered = 0;
   RunRequest request = grips_of(v, interrupt);
   request.last = plan().grips();
@@ -453,12 +458,14 @@ void Sweep::save(ResultFile& file) {
 }
 
 ExitCode Sweep::interrupted() const {
-  say_note(fmt::format("interrupted at {} of {} grips; the same command with --resume goes on with {}", readable_number(done()),
-                       readable_number(total()), names_.partial));
+  note(fmt::format("interrupted at {} of {} grips; the same command with --resume goes on with {}", readable_number(done()),
+                   readable_number(total()), names_.partial));
   return ExitCode::interrupted;
 }
 
-CompanionRequest Sweep::companions() const { return {scene_, plan(), names_, parts_, best_wanted_, options_.glb}; }
+CompanionRequest Sweep::companions() const {
+  return {scene_, plan(), names_, parts_, best_wanted_, options_.glb, [this](const std::string& line) { note(line); }};
+}
 
 BestLists Sweep::find_best() { return best_grips(companions(), mark_.vessels, *backend_); }
 
@@ -504,11 +511,11 @@ void Sweep::finish(ResultFile& file, const BestLists& best) {
   files.insert(files.begin(), is_parted ? names_.partial : names_.result);
   for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
     const std::string counts = counts_line(mark_.vessels[v].counts, has_field(FIELD_STATUS), plan().copies());
-    fmt::print("\n{}: {}\n{}", scene_.vessels[v].name, counts, best_lines(scene_, plan(), v, best, names_.best));
+    print_text(fmt::format("\n{}: {}\n{}", scene_.vessels[v].name, counts, best_lines(scene_, plan(), v, best, names_.best)));
   }
   // kernels that ran while the file was being written cost no time of their own
   const SweepTimes times{since(options_.started), std::min(wait_seconds_, kernel_seconds_), file.seconds(), file.bytes()};
-  fmt::print("\n{}", closing_lines(files, times));
+  print_text("\n" + closing_lines(files, times));
 }
 
 }  // namespace wholehand

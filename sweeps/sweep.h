@@ -51,6 +51,10 @@ class Sweep {
   // Meshes, warnings, devices: after this plan(), backend_, evaluator_ and facts_ are there.
   void open();
   void say_opening() const;
+  // A note goes to who asked for the notes, else to standard error; what is printed is not, where somebody asked for them.
+  void note(const std::string& line) const;
+  void print_text(const std::string& text) const;
+  bool is_quiet() const { return static_cast<bool>(options_.note); }
   // Sets the progress: from the mark of an earlier sweep if there is one to resume, else nothing done. True: resumed.
   bool begin();
   // Computes a stretch again that the file no longer holds as it was written. False: interrupted. Throws Error (failure) where it comes

@@ -25,6 +25,9 @@ struct SweepOptions {
   int threads = 0;     // of the core, 0: all
   // Called once meshes are read: says what the user should know of the scene in that precision. May be empty.
   std::function<void(const Scene&, Precision)> warn = {};
+  // Takes the notes beside the work, a line each. Where it is set, the sweep is part of another program: nothing is printed, and no progress is
+  // shown. Empty: notes go to standard error.
+  std::function<void(const std::string&)> note = {};
   std::size_t pool = 0;  // grips of a list that a pass keeps (sweeps/list_chooser.h); 0: usual_pool
   // Scores of one vessel's grips that are kept for further passes, 8 B each; of more grips each pass evaluates all of them again.
   std::size_t remembered = std::size_t{1} << 22;

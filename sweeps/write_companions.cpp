@@ -7,7 +7,6 @@
 
 #include "core/planes.h"
 #include "sweeps/best_glb.h"
-#include "sweeps/closing.h"
 #include "sweeps/companions.h"
 #include "sweeps/grip_lists.h"
 #include "sweeps/hand_lists.h"
@@ -21,13 +20,13 @@ namespace {
 // Answers their files.
 std::vector<std::string> draw_companion_maps(const CompanionRequest& request, const std::vector<HeatMap>* maps) {
   if (!maps) {
-    say_note("no heat maps: the score is not kept ([output] keep)");
+    request.note("no heat maps: the score is not kept ([output] keep)");
     return {};
   }
   const std::vector<HeatMapPicture> pictures = sweep_pictures(request.scene, request.plan, *maps, request.names);
   std::vector<std::string> files;
   const std::string failure = write_pictures(heat_map_files(pictures), &files);
-  if (!failure.empty()) say_note(failure);
+  if (!failure.empty()) request.note(failure);
   return files;
 }
 
@@ -64,7 +63,7 @@ std::vector<std::string> write_companions(const CompanionRequest& request, const
   if (request.glb > 0) {
     const BestGlb written = write_best_glb(request.scene, request.plan, request.parts.open_evaluator(), best, request.glb, names);
     files.insert(files.end(), written.files.begin(), written.files.end());
-    for (const std::string& line : written.notes) say_note(line);
+    for (const std::string& line : written.notes) request.note(line);
   }
   return files;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,9 @@ struct CompanionRequest {
   const Plan& plan;
   const OutputNames& names;
   const SweepParts& parts;
-  std::size_t best = 0;  // grips of each list
-  int glb = 0;           // of them as glTF
+  std::size_t best = 0;                          // grips of each list
+  int glb = 0;                                   // of them as glTF
+  std::function<void(const std::string&)> note;  // takes what else there is to say, a line each
 };
 
 // The best grips of each list with what is told of them; by a backend of their own where the sweep's does not read all of it back.

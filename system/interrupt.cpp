@@ -8,6 +8,7 @@ namespace {
 
 std::atomic<bool> stop{false};
 std::atomic<bool> signal_came{false};
+std::atomic<int> number_of_first{0};
 static_assert(std::atomic<bool>::is_always_lock_free);  // or a signal handler could not set it
 
 // Whoever starts the program may send a signal to it and to its group, so the same wish comes twice: what follows this closely is no
@@ -22,6 +23,8 @@ void on_signal(int signal) {
   // the time goes first: another thread may take the second signal at once
   double never = 0;
   first_came.compare_exchange_strong(never, monotonic_now());
+  int none = 0;
+  number_of_first.compare_exchange_strong(none, signal);
   if (!signal_came.exchange(true)) {
     stop = true;
     return;
@@ -40,6 +43,7 @@ InterruptGuard::InterruptGuard(int further) : further_(further) {
   stop = false;
   signal_came = false;
   first_came = 0;
+  number_of_first = 0;
   another = nullptr;
   struct sigaction action {};
   action.sa_handler = on_signal;
@@ -69,5 +73,7 @@ void InterruptGuard::clear() {
 void InterruptGuard::on_another(void (*act)(int signal)) { another = act; }
 
 bool InterruptGuard::signalled() { return signal_came; }
+
+int InterruptGuard::signal_number() { return number_of_first; }
 
 }  // namespace wholehand

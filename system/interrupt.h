@@ -25,6 +25,8 @@ class InterruptGuard {
   // From now on another signal is `act`'s, in the signal's handler. Null: it ends the process as usual.
   void on_another(void (*act)(int signal));
   static bool signalled();
+  // The number of the signal that came first to the latest guard; 0: none came.
+  static int signal_number();
 
  private:
   int further_;

@@ -232,6 +232,28 @@ TEST_F(RunTest, CoreOnThreadsGivesTheSameFile) {
   expect_same_as(expected, folder / "a.nc");
 }
 
+// As a part of another program, which asks for the notes: the streams are that program's.
+TEST_F(RunTest, WhereNotesAreAskedForNothingIsPrinted) {
+  const std::string expected = reference();
+  Scene scene = fake_scene();
+  SweepOptions options;
+  options.output = folder / "a.nc";
+  std::vector<std::string> notes;
+  options.note = [&](const std::string& line) { notes.push_back(line); };
+  scene.robust.emplace().azimuth = 0.1;  // about bodies of revolution it changes nothing, which is a note
+  scene.output.best = 0;
+  const auto open = [&](const FieldSet& fields) { return std::make_unique<FakeBackend>(scene, fields, Precision::full, 10); };
+  const SweepParts parts{open, [&] { return std::make_unique<FakeEvaluator>(scene); }};
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(run_sweep(scene, options, parts), ExitCode::done);
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_TRUE(has(notes[0], "[robust]")) << notes[0];
+  EXPECT_EQ(read_values(folder / "a.nc", "score"), read_values(expected, "score"));
+}
+
 TEST_F(RunTest, SobolRepeatsWithItsSeed) {
   Scene scene = fake_scene();
   scene.grips.sampling = Sampling::sobol;

@@ -12,7 +12,9 @@ TEST(Interrupt, SignalSetsTheFlagAndStays) {
   for (const int signal : {SIGINT, SIGTERM}) {
     InterruptGuard guard;
     EXPECT_FALSE(guard.flag());
+    EXPECT_EQ(InterruptGuard::signal_number(), 0);
     raise(signal);
+    EXPECT_EQ(InterruptGuard::signal_number(), signal);
     EXPECT_TRUE(guard.flag());
     EXPECT_TRUE(InterruptGuard::signalled());
     guard.clear();
