@@ -11,7 +11,8 @@ set(WHOLEHAND_FLOORS
   evidence=6 cluster=6
   report=7
   trials=8 studies=8
-  app=9 library=9)
+  app=9 library=9
+  python=10)
 
 # Sets `result` to the floor of a folder.
 function(wholehand_floor folder result)

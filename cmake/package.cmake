@@ -71,7 +71,7 @@ wholehand_package(development libwholehand-dev libdevel
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "libassimp-dev, libembree-dev, libfmt-dev, libglm-dev, libhdf5-dev, libnetcdf-dev, libqhull-dev, libtinygltf-dev, libvulkan-dev, libxxhash-dev, nlohmann-json3-dev")
 if(TARGET wholehand_python)
   wholehand_package(python python3-wholehand python
-    "wholehand-common ${same_version}, python3 (>= 3.11), python3 (<< 3.12), python3-numpy, python3-xarray, libvulkan1"
+    "wholehand-common ${same_version}, python3 (>= 3.11), python3 (<< 3.12), python3-numpy, python3-xarray, python3-netcdf4, libvulkan1"
     "whole-hand grasping with a two-finger gripper - Python module" ${what_it_is} "" "This package has the module wholehand for Python 3.")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "mesa-vulkan-drivers | vulkan-icd")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${PROJECT_SOURCE_DIR}/cmake/package/python/postinst" "${PROJECT_SOURCE_DIR}/cmake/package/python/prerm")

@@ -29,6 +29,17 @@ Triple to_triple(const glm::vec<3, Real>& v) {
   return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }
 
+// Unit columns at right angles, to the tolerance, the third the product of the first two.
+inline bool is_rotation(const Rotation& r, double tolerance) {
+  const auto dot = [&r](int a, int b) { return r[a] * r[b] + r[3 + a] * r[3 + b] + r[6 + a] * r[6 + b]; };
+  bool holds = true;
+  for (int a = 0; a < 3; ++a)
+    for (int b = a; b < 3; ++b) holds = holds && std::abs(dot(a, b) - (a == b ? 1 : 0)) <= tolerance;
+  const double volume =
+      r[0] * (r[4] * r[8] - r[5] * r[7]) - r[1] * (r[3] * r[8] - r[5] * r[6]) + r[2] * (r[3] * r[7] - r[4] * r[6]);
+  return holds && volume > 0;
+}
+
 // glm stores columns.
 inline glm::dmat3 to_mat3(const Rotation& r) { return {r[0], r[3], r[6], r[1], r[4], r[7], r[2], r[5], r[8]}; }
 inline Rotation to_rotation(const glm::dmat3& m) {

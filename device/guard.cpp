@@ -12,17 +12,6 @@
 namespace wholehand {
 namespace {
 
-// Unit columns at right angles, the third the product of the first two.
-bool is_rotation(const Rotation& r) {
-  const auto dot = [&r](int a, int b) { return r[a] * r[b] + r[3 + a] * r[3 + b] + r[6 + a] * r[6 + b]; };
-  bool holds = true;
-  for (int a = 0; a < 3; ++a)
-    for (int b = a; b < 3; ++b) holds = holds && std::abs(dot(a, b) - (a == b ? 1 : 0)) <= ROTATION_TOLERANCE;
-  const double volume =
-      r[0] * (r[4] * r[8] - r[5] * r[7]) - r[1] * (r[3] * r[8] - r[5] * r[6]) + r[2] * (r[3] * r[7] - r[4] * r[6]);
-  return holds && volume > 0;
-}
-
 // Angle between two rotations: for small ones, the length of their difference over the root of two.
 double turned(const Rotation& a, const Rotation& b) {
   double squares = 0;
@@ -39,7 +28,7 @@ Fault Guard::check(ReadOutcome read, const GripperState& state, std::int64_t num
   if (read == ReadOutcome::error) return Fault::read_error;
   if (read == ReadOutcome::timeout) return Fault::timeout;
   if (has_state_ && state.sequence == state_.sequence) return Fault::stale;
-  if (!is_finite(state) || !is_rotation(state.rotation)) return Fault::not_finite;
+  if (!is_finite(state) || !is_rotation(state.rotation, ROTATION_TOLERANCE)) return Fault::not_finite;
   if (has_state_) {
     const double seconds = period_ * static_cast<double>(std::max<std::int64_t>(1, number - taken_));
     arm_speed_ = distance(state.position, state_.position) / seconds;

@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: MIT
+# The Python package: the module wholehand._core of python/*.cpp, and python/wholehand beside it. The folder stands above app/, three of whose
+# files have the program's words for what goes wrong. The rest of app/ is not in the module.
+if(NOT DEFINED Python_EXECUTABLE AND EXISTS /usr/bin/python3)
+  set(Python_EXECUTABLE /usr/bin/python3)  # Debian's, which knows Debian's packages
+endif()
+find_package(Python 3.11 REQUIRED COMPONENTS Interpreter Development.Module)
+find_package(pybind11 2.10 REQUIRED)
+
+wholehand_folder(python USES core system scene live host device objects grips sweeps evidence LINKS fmt::fmt pybind11::headers Python::Module)
+target_sources(python PRIVATE app/remedy.cpp app/values.cpp app/vulkan_environment.cpp)
+add_library(wholehand_python MODULE $<TARGET_OBJECTS:python>)
+set_target_properties(wholehand_python PROPERTIES PREFIX "" OUTPUT_NAME _core SUFFIX ".${Python_SOABI}.so"
+  LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/python" LINK_DEPENDS "${PROJECT_SOURCE_DIR}/python/exported.map")
+target_link_libraries(wholehand_python PRIVATE python)
+# the module shows its entry alone, and loads only what it uses
+target_link_options(wholehand_python PRIVATE "-Wl,--version-script=${PROJECT_SOURCE_DIR}/python/exported.map" -Wl,--as-needed)
+
+set(WHOLEHAND_PYTHON_DIR "lib/python3/dist-packages" CACHE STRING "Where the Python package goes, under any prefix")
+install(TARGETS wholehand_python LIBRARY DESTINATION "${WHOLEHAND_PYTHON_DIR}/wholehand" COMPONENT python)
+install(DIRECTORY python/wholehand/ DESTINATION "${WHOLEHAND_PYTHON_DIR}/wholehand" COMPONENT python
+  FILES_MATCHING PATTERN "*.py" PATTERN "*.pyi" PATTERN "py.typed" PATTERN __pycache__ EXCLUDE)

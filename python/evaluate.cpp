@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+// Many grips, some variables: planes of a backend's chunks become NumPy arrays.
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "python/bind.h"
+#include "python/columns.h"
+#include "python/scene.h"
+#include "sweeps/different_grips.h"
+#include "system/clock.h"
+
+namespace py = pybind11;
+
+namespace wholehand {
+namespace {
+
+constexpr double SIGNALS_EVERY = 0.05;  // s between two looks at Ctrl-C
+
+// Where the values of one variable go: an array of (grips, values of a grip), C-contiguous.
+struct Output {
+  const Variable* variable = nullptr;
+  int plane = 0;           // first
+  std::size_t values = 1;  // of a grip
+  py::array array;
+  void* data = nullptr;
+};
+
+py::dtype type_of(const Variable& variable, Precision precision) {
+  if (variable.type == NumberType::real) return precision == Precision::single ? py::dtype::of<float>() : py::dtype::of<double>();
+  const bool is_mask = variable.bits > 0;
+  if (variable.type == NumberType::byte) return is_mask ? py::dtype::of<std::uint8_t>() : py::dtype::of<std::int8_t>();
+  return is_mask ? py::dtype::of<std::uint32_t>() : py::dtype::of<std::int32_t>();
+}
+
+std::vector<py::ssize_t> shape_of(const Variable& variable, const Scene& scene, std::size_t count) {
+  std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(count)};
+  for (const std::string_view dim : variable.dims) {
+    const std::size_t length = dim == "fill"    ? scene_fills(scene)
+                               : dim == "tilt"  ? scene.tilts.size()
+                               : dim == "joint" ? JOINT_COUNT
+                               : dim == "xyz"   ? 3
+                                                : 2;
+    shape.push_back(static_cast<py::ssize_t>(length));
+  }
+  return shape;
+}
+
+std::vector<Output> make_outputs(const Batch& batch, const Scene& scene, std::size_t count) {
+  const FieldSet& fields = batch.backend->fields();
+  std::vector<Output> outputs;
+  for (const Variable* variable : batch.variables) {
+    Output output;
+    output.variable = variable;
+    output.plane = fields.plane[static_cast<std::size_t>(variable->field)] + variable->plane;
+    output.values = variable_planes(*variable, scene);
+    output.array = py::array(type_of(*variable, batch.backend->info().precision), shape_of(*variable, scene, count));
+    output.data = output.array.mutable_data();
+    outputs.push_back(std::move(output));
+  }
+  return outputs;
+}
+
+template <class Number>
+void put_reals(const Output& output, const PlaneChunk& chunk, const Number* reals) {
+  auto* to = static_cast<Number*>(output.data) + chunk.first * output.values;
+  for (std::size_t v = 0; v < output.values; ++v) {
+    const Number* plane = reals + (static_cast<std::size_t>(output.plane) + v) * chunk.stride;
+    if (output.values == 1) {
+      std::memcpy(to, plane, chunk.count * sizeof(Number));
+    } else {
+      for (std::size_t i = 0; i < chunk.count; ++i) to[i * output.values + v] = plane[i];
+    }
+  }
+}
+
+// The core in float hands out doubles, as what it computed fits both.
+void put_rounded(const Output& output, const PlaneChunk& chunk) {
+  auto* to = static_cast<float*>(output.data) + chunk.first * output.values;
+  for (std::size_t v = 0; v < output.values; ++v)
+    for (std::size_t i = 0; i < chunk.count; ++i)
+      to[i * output.values + v] = static_cast<float>(chunk.real(output.plane + static_cast<int>(v), i));
+}
+
+template <class Number>
+void put_words(const Output& output, const PlaneChunk& chunk, int status) {
+  const Variable& variable = *output.variable;
+  auto* to = static_cast<Number*>(output.data) + chunk.first;
+  for (std::size_t i = 0; i < chunk.count; ++i) {
+    const bool exists = variable.always || (chunk.uint(status, i) & STATUS_REASON_MASK) == REASON_NONE;
+    to[i] = static_cast<Number>(exists ? variable.value(chunk.uint(output.plane, i)) : variable.missing);
+  }
+}
+
+void put(const Output& output, const PlaneChunk& chunk, const FieldSet& fields, Precision precision) {
+  const Variable& variable = *output.variable;
+  if (variable.type == NumberType::real) {
+    if (chunk.floats) return put_reals(output, chunk, chunk.floats);
+    return precision == Precision::single ? put_rounded(output, chunk) : put_reals(output, chunk, chunk.doubles);
+  }
+  const int status = fields.plane[FIELD_STATUS];
+  const bool is_mask = variable.bits > 0;
+  if (variable.type == NumberType::byte)
+    return is_mask ? put_words<std::uint8_t>(output, chunk, status) : put_words<std::int8_t>(output, chunk, status);
+  return is_mask ? put_words<std::uint32_t>(output, chunk, status) : put_words<std::int32_t>(output, chunk, status);
+}
+
+// Looks now and then whether Python's signal handlers want to raise.
+class Signals {
+ public:
+  std::atomic<bool> stop{false};
+
+  void look() {
+    const double now = monotonic_now();
+    if (now - last_ < SIGNALS_EVERY) return;
+    last_ = now;
+    const py::gil_scoped_acquire interpreter;
+    if (PyErr_CheckSignals() != 0) stop = true;
+  }
+  // With the interpreter's lock: what a handler raised goes on.
+  void raise() const {
+    if (stop) throw py::error_already_set();
+  }
+
+ private:
+  double last_ = monotonic_now();
+};
+
+void check_vessel(const Scene& scene, std::size_t vessel) {
+  if (vessel >= scene.vessels.size()) throw usage_error("the scene has no vessel of this number");
+}
+
+// The interpreter is not needed from here on, but for signals.
+void run_batch(Batch& batch, std::size_t vessel, const GripColumns& grips, const std::vector<Output>& outputs, Signals& signals) {
+  const py::gil_scoped_release other_threads;
+  const std::lock_guard lock(batch.in_use);
+  RunRequest request;
+  request.vessel = vessel;
+  request.last = grips.count();
+  request.grips = grips.source();
+  request.stop = &signals.stop;
+  request.sink = [&](const PlaneChunk& chunk) {
+    for (const Output& output : outputs) put(output, chunk, batch.backend->fields(), batch.backend->info().precision);
+    signals.look();
+  };
+  const RunResult result = batch.backend->run(request);
+  if (result.done != grips.count() && !signals.stop)
+    throw failure_error(batch.backend->info().device + ": fewer grips came back than were asked for");
+}
+
+py::tuple evaluate(SceneHandle& handle, std::size_t vessel, const GripArrays& arrays,
+                   const std::optional<std::vector<std::string>>& variables, const std::string& on,
+                   const std::optional<std::string>& precision, int threads) {
+  prepare_device(on);
+  const GripColumns grips(arrays);
+  const BatchWish wish{variables, on, precision_of(precision, on), threads_of(threads)};
+  check_vessel(handle.described(), vessel);
+  std::shared_ptr<Batch> batch;
+  const Scene* scene = nullptr;
+  {
+    const py::gil_scoped_release other_threads;
+    grips.check();
+    batch = handle.batch(wish);
+    scene = &handle.whole(on);
+  }
+  const std::vector<Output> outputs = make_outputs(*batch, *scene, grips.count());
+  Signals signals;
+  if (grips.count() > 0 && !outputs.empty()) run_batch(*batch, vessel, grips, outputs, signals);
+  signals.raise();
+  py::dict values;
+  for (const Output& output : outputs) values[output.variable->name] = output.array;
+  return py::make_tuple(values, batch->backend->info().device);
+}
+
+// In blocks on all threads; most lists are full within the first.
+std::vector<Candidate> choose_different(const Evaluator& core, std::size_t vessel, const GripColumns& grips, std::size_t count,
+                                        double apart, Signals& signals) {
+  constexpr std::size_t MOST_AT_ONCE = 4096;
+  DifferentGrips chosen(count, apart);
+  std::size_t block = 64;
+  for (std::size_t first = 0; first < grips.count() && !chosen.is_full() && !signals.stop; first += block) {
+    block = first == 0 ? block : std::min({2 * block, MOST_AT_ONCE, first});
+    std::vector<std::optional<PosedHand>> hands(std::min(block, grips.count() - first));
+    in_parallel(hands.size(), 0, [&](std::size_t i) { hands[i] = core.posed(vessel, grips.grip(first + i)); });
+    for (std::size_t i = 0; i < hands.size(); ++i) chosen.offer({0, first + i}, hands[i]);
+    signals.look();
+  }
+  return chosen.chosen();
+}
+
+// The places of the first `count` grips, in the order given, that differ from every one before (sweeps/different_grips.h).
+std::vector<std::size_t> different_grips(SceneHandle& handle, std::size_t vessel, const GripArrays& arrays, std::size_t count,
+                                         double apart) {
+  const GripColumns grips(arrays);
+  check_vessel(handle.described(), vessel);
+  Signals signals;
+  std::vector<std::size_t> places;
+  {
+    const py::gil_scoped_release other_threads;
+    grips.check();
+    for (const Candidate& one : choose_different(*handle.core(), vessel, grips, count, apart, signals))
+      places.push_back(static_cast<std::size_t>(one.index));
+  }
+  signals.raise();
+  return places;
+}
+
+}  // namespace
+
+void bind_evaluate(py::module_& module) {
+  module.def("evaluate", &evaluate, py::arg("scene"), py::arg("vessel"), py::arg("columns"), py::arg("variables"), py::arg("on"),
+             py::arg("precision"), py::arg("threads"));
+  module.def("different_grips", &different_grips, py::arg("scene"), py::arg("vessel"), py::arg("columns"), py::arg("count"),
+             py::arg("apart"));
+  py::list names;
+  for (const char* name : GRIP_COLUMN_NAMES) names.append(name);
+  module.attr("GRIP_COLUMNS") = py::tuple(names);
+}
+
+}  // namespace wholehand

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+#include "python/scene.h"
+
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "app/remedy.h"
+#include "app/values.h"
+#include "app/vulkan_environment.h"
+#include "core/domain.h"
+#include "core/error.h"
+#include "core/planes.h"
+#include "host/open_backend.h"
+#include "objects/vessel.h"
+#include "python/bind.h"
+#include "scene/ranges.h"
+#include "scene/reader.h"
+#include "scene/shipped.h"
+#include "sweeps/cavity_notes.h"
+#include "sweeps/idle_notes.h"
+#include "sweeps/plan.h"
+
+namespace py = pybind11;
+
+namespace wholehand {
+namespace {
+
+// A scene says so in [output] keep.
+constexpr std::string_view KEY_OF_SCENE = ": [output] keep: ";
+
+}  // namespace
+
+// choose_variables knows what the scene lacks and what to say.
+std::vector<const Variable*> named_variables(const Scene& scene, const std::vector<std::string>& names, const std::string& place) {
+  Scene asked = scene;
+  asked.output.keep = names;
+  asked.output.keep_place = place;
+  try {
+    choose_variables(asked);
+  } catch (const Error& error) {
+    std::string line = error.what();
+    if (line.starts_with(place + std::string(KEY_OF_SCENE))) line.replace(place.size(), KEY_OF_SCENE.size(), ": ");
+    throw Error(error.code, line, error.remedy);
+  }
+  std::vector<const Variable*> variables;
+  for (const std::string& name : names)
+    for (const Variable& variable : variable_catalogue())
+      if (name == variable.name) variables.push_back(&variable);
+  return variables;
+}
+
+const Scene& SceneHandle::whole(const std::string& on) {
+  const std::lock_guard lock(mutex_);
+  return whole_locked(on);
+}
+
+const Scene& SceneHandle::whole_locked(const std::string& on) {
+  if (!has_meshes(described_)) return described_;
+  std::unique_ptr<const Scene>& kept = read_[on];
+  if (kept) return *kept;
+  Scene scene = described_;
+  MeshOptions options;
+  options.most_bytes = largest_lattice(largest_buffer(on));
+  if (mesh_notes_.empty()) options.say = [this](const std::string& line) { mesh_notes_.push_back(line); };
+  load_meshes(scene, options);
+  kept = std::make_unique<const Scene>(std::move(scene));
+  return *kept;
+}
+
+std::shared_ptr<const Evaluator> SceneHandle::core() {
+  const std::lock_guard lock(mutex_);
+  if (!core_) core_ = make_core_evaluator(whole_locked("core"));
+  return core_;
+}
+
+std::shared_ptr<Batch> SceneHandle::batch(const BatchWish& wish) {
+  const std::lock_guard lock(mutex_);
+  const auto found = std::find_if(batches_.begin(), batches_.end(), [&](const auto& kept) { return kept.first == wish; });
+  if (found != batches_.end()) {
+    batches_.splice(batches_.begin(), batches_, found);
+    return batches_.front().second;
+  }
+  const Scene& scene = whole_locked(wish.on);
+  auto made = std::make_shared<Batch>();
+  made->variables = wish.variables ? named_variables(scene, *wish.variables, "variables") : choose_variables(scene);
+  const FieldSet fields = make_field_set(variable_fields(made->variables), scene);
+  made->backend = open_backend(scene, fields, wish.on, wish.precision, wish.threads);
+  batches_.emplace_front(wish, made);
+  if (batches_.size() > KEPT_BATCHES) batches_.pop_back();
+  return made;
+}
+
+std::vector<std::string> SceneHandle::notes() {
+  const Scene& scene = whole();
+  const std::lock_guard lock(mutex_);
+  std::vector<std::string> lines = mesh_notes_;
+  for (const std::string& line : cavity_notes(scene)) lines.push_back(line);
+  if (const std::string line = idle_strength_note(scene); !line.empty()) lines.push_back(line);
+  return lines;
+}
+
+std::vector<std::string> SceneHandle::float_notes(Precision precision) {
+  if (precision == Precision::full) return {};
+  const Scene& scene = whole();
+  const std::lock_guard lock(mutex_);
+  if (!float_notes_) {
+    std::vector<std::string> lines = domain_warnings(scene, precision);
+    for (std::string& line : lines) line += remedy_words(Remedy::double_precision);
+    float_notes_ = lines;
+  }
+  return *float_notes_;
+}
+
+void prepare_device(const std::string& on) { prepare_vulkan_environment(on); }
+
+Precision precision_of(const std::optional<std::string>& text, const std::string& on) {
+  if (text) return parse_precision(*text);
+  return on == "core" ? Precision::full : Precision::single;
+}
+
+int threads_of(int threads) {
+  return threads == 0 ? 0 : static_cast<int>(parse_integer(std::to_string(threads), "--threads", ranges::THREADS));
+}
+
+namespace {
+
+using HandlePointer = std::shared_ptr<SceneHandle>;
+
+HandlePointer open_scene(const std::string& path_or_name) {
+  return std::make_shared<SceneHandle>(read_scene_file(find_scene(path_or_name)));
+}
+
+HandlePointer parse_text(const std::string& text, const std::string& name) {
+  return std::make_shared<SceneHandle>(parse_scene(text, name));
+}
+
+// The scene of a result, whose meshes must be those of the sweep.
+HandlePointer scene_of_dataset(const std::string& text, const std::string& scene_file, const std::string& keys,
+                               const std::string& lattices) {
+  Scene scene = parse_scene(text, "the result's scene");
+  const std::string trouble = reload_meshes(scene, scene_file, keys, lattices);
+  if (!trouble.empty()) throw usage_error("the result's scene: " + trouble);
+  if (!scene_file.empty()) scene.file = scene_file;
+  return std::make_shared<SceneHandle>(std::move(scene));
+}
+
+std::vector<std::string> vessel_names(const SceneHandle& scene) {
+  std::vector<std::string> names;
+  for (const VesselData& vessel : scene.described().vessels) names.push_back(vessel.name);
+  return names;
+}
+
+std::vector<double> fills_of(const SceneHandle& handle, std::size_t vessel) {
+  const Scene& scene = handle.described();
+  if (vessel >= scene.vessels.size()) throw usage_error("the scene has no vessel of this number");
+  return scene.liquid ? vessel_fills(scene, scene.vessels[vessel]) : std::vector<double>{0};
+}
+
+// Whether a sweep that keeps these variables computes one azimuth for all.
+bool repeats_azimuths(const SceneHandle& handle, const std::vector<std::string>& names) {
+  std::vector<const Variable*> variables;
+  for (const Variable& variable : variable_catalogue())
+    if (std::find(names.begin(), names.end(), variable.name) != names.end()) variables.push_back(&variable);
+  return Plan(handle.described(), keeps_vectors(variables)).copies() > 1;
+}
+
+// Of whose grips a sweep makes a list each.
+std::size_t hand_scales(const SceneHandle& handle) { return Plan(handle.described(), false).hand_scales(); }
+
+py::list variable_rows(SceneHandle& handle) {
+  std::vector<const Variable*> known;
+  for (const Variable& variable : variable_catalogue()) {
+    if (field_planes(variable.field, handle.described()) == 0) continue;
+    try {
+      named_variables(handle.described(), {variable.name}, "");
+    } catch (const Error&) {
+      continue;  // of what the scene lacks
+    }
+    known.push_back(&variable);
+  }
+  py::list rows;
+  for (const Variable* variable : known) {
+    const std::vector<std::string> dims(variable->dims.begin(), variable->dims.end());
+    rows.append(py::make_tuple(variable->name, variable->units, variable->long_name,
+                               variable_comment(*variable, handle.described()), py::tuple(py::cast(dims))));
+  }
+  return rows;
+}
+
+}  // namespace
+
+void bind_scene(py::module_& module) {
+  py::class_<SceneHandle, HandlePointer>(module, "Scene")
+      .def_property_readonly("name", [](const SceneHandle& scene) { return scene.described().name; })
+      .def_property_readonly("file", [](const SceneHandle& scene) { return scene.described().file; })
+      .def_property_readonly("text", [](const SceneHandle& scene) { return scene.described().text; })
+      .def_property_readonly("vessels", &vessel_names)
+      .def_property_readonly("tilts", [](const SceneHandle& scene) { return scene.described().tilts; })
+      .def_property_readonly("apart", [](const SceneHandle& scene) { return scene.described().output.apart; })
+      .def_property_readonly("hand_scales", &hand_scales)
+      .def_property_readonly("best", [](const SceneHandle& scene) { return scene.described().output.best; })
+      .def("fills", &fills_of, py::arg("vessel"))
+      .def(
+          "find_vessel", [](const SceneHandle& scene, const std::string& name) { return find_vessel(scene.described(), name); },
+          py::arg("name"))
+      .def("repeats_azimuths", &repeats_azimuths, py::arg("variables"))
+      .def("variables", &variable_rows)
+      .def("notes", &SceneHandle::notes, py::call_guard<py::gil_scoped_release>())
+      .def(
+          "float_notes",
+          [](SceneHandle& scene, const std::optional<std::string>& precision, const std::string& on) {
+            return scene.float_notes(precision_of(precision, on));
+          },
+          py::arg("precision"), py::arg("on"), py::call_guard<py::gil_scoped_release>());
+  module.def("open_scene", &open_scene, py::arg("path_or_name"));
+  module.def("parse_scene", &parse_text, py::arg("text"), py::arg("name"));
+  module.def("scene_of_dataset", &scene_of_dataset, py::arg("text"), py::arg("scene_file"), py::arg("keys"), py::arg("lattices"),
+             py::call_guard<py::gil_scoped_release>());
+  module.def("shipped_scenes", &shipped_scenes);
+}
+
+}  // namespace wholehand

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// A sweep into a result file, as the program writes it; Python opens the file.
+#include <pybind11/stl.h>
+
+#include "app/remedy.h"
+#include "app/values.h"
+#include "core/domain.h"
+#include "core/error.h"
+#include "python/bind.h"
+#include "python/scene.h"
+#include "scene/ranges.h"
+#include "sweeps/run.h"
+#include "system/interrupt.h"
+
+namespace py = pybind11;
+
+namespace wholehand {
+namespace {
+
+struct SweepWish {
+  std::string output, on;
+  std::optional<std::string> precision;
+  std::optional<int> best;
+  std::optional<std::vector<std::string>> keep;
+  int threads = 0;
+  bool refine = true, resume = false;
+};
+
+SweepOptions options_of(const SweepWish& wish, std::vector<std::string>& notes) {
+  SweepOptions options;
+  options.output = wish.output;
+  options.on = wish.on;
+  options.precision = precision_of(wish.precision, wish.on);
+  if (wish.best) options.best = static_cast<int>(parse_integer(std::to_string(*wish.best), "--best", ranges::BEST));
+  options.threads = threads_of(wish.threads);
+  options.refine = wish.refine;
+  options.resume = wish.resume;
+  options.note = [&notes](const std::string& line) { notes.push_back(line); };
+  options.warn = [&notes](const Scene& scene, Precision precision) {
+    for (const std::string& line : domain_warnings(scene, precision))
+      notes.push_back(line + remedy_words(Remedy::double_precision));
+  };
+  return options;
+}
+
+// Answers the number of the signal that ended it, 0 where none did, and the notes. One at a time in a process: the caller sees to that.
+py::tuple sweep(const SceneHandle& handle, const std::string& output, const std::string& on, std::optional<std::string> precision,
+                std::optional<int> best, std::optional<std::vector<std::string>> keep, int threads, bool refine, bool resume) {
+  prepare_device(on);
+  const SweepWish wish{output, on, std::move(precision), best, std::move(keep), threads, refine, resume};
+  std::vector<std::string> notes;
+  ExitCode code = ExitCode::done;
+  {
+    const py::gil_scoped_release other_threads;
+    Scene scene = handle.described();
+    if (wish.keep) {
+      named_variables(scene, *wish.keep, "keep");
+      scene.output.keep = wish.keep;
+      scene.output.keep_place = "keep";
+    }
+    code = run_sweep(scene, options_of(wish, notes));
+  }
+  return py::make_tuple(code == ExitCode::interrupted ? InterruptGuard::signal_number() : 0, notes);
+}
+
+}  // namespace
+
+void bind_sweep(py::module_& module) {
+  module.def("sweep", &sweep, py::arg("scene"), py::arg("output"), py::arg("on"), py::arg("precision"), py::arg("best"),
+             py::arg("keep"), py::arg("threads"), py::arg("refine"), py::arg("resume"));
+}
+
+}  // namespace wholehand

@@ -1,0 +1,202 @@
+# SPDX-License-Identifier: MIT
+"""The best grips of a Dataset that differ from one another."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from . import _core
+from ._errors import Error
+from ._scene import Scene
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+    import xarray as xr
+
+_AXES = ("azimuth", "obliquity", "roll", "offset", "hand_scale", "height", "height_fraction", "point")
+_BEST_WHERE_NONE = 20  # as the program, where neither scene nor sweep lists any
+
+
+def scene_of(data: xr.Dataset) -> Scene:
+    """The scene that a result keeps. Raises Error where its meshes are no longer what they were."""
+    if "scene" not in data.attrs:
+        raise Error("best: the dataset has no attribute 'scene'; give one of wh.sweep, or of a result file")
+    of_meshes = [str(data.attrs.get(name, "")) for name in ("scene_file", "mesh_keys", "mesh_lattices")]
+    return Scene(_core.scene_of_dataset(str(data.attrs["scene"]), *of_meshes))
+
+
+def _variable(data: xr.Dataset, name: str) -> xr.DataArray:
+    if name not in data:
+        raise Error(f"best: the dataset has no variable '{name}', by which grips are chosen; keep it in the sweep")
+    return data[name]
+
+
+def _with_vessels(data: xr.Dataset) -> xr.Dataset:
+    if "vessel" in data.dims:
+        return data
+    if "vessel" not in data.coords:
+        raise Error("best: the dataset has no coordinate 'vessel'")
+    return data.expand_dims("vessel")
+
+
+class _Chooser:
+    """Goes through one vessel's grips, the best first."""
+
+    def __init__(self, scene: Scene, data: xr.Dataset, dims: list[str], apart: float) -> None:
+        self.scene, self.data, self.dims, self.apart = scene, data, dims, apart
+        self.shape = tuple(data.sizes[dim] for dim in dims)
+
+    def column(self, name: str, places: tuple[Any, ...]) -> npt.NDArray[np.float64]:
+        """A coordinate at grips, by their places along the dimensions."""
+        import numpy as np
+
+        if name not in self.data.coords:
+            raise Error(f"best: the dataset has no coordinate '{name}'")
+        coordinate = self.data[name]
+        along = tuple(places[self.dims.index(str(dim))] for dim in coordinate.dims)
+        return np.array(np.broadcast_to(coordinate.values[along], places[0].shape), dtype=np.float64)
+
+    def choose(self, vessel: str, scores: npt.NDArray[Any], eligible: npt.NDArray[np.bool_], count: int) -> tuple[Any, ...]:
+        """The places of the chosen grips along the dimensions."""
+        import numpy as np
+
+        places = np.flatnonzero(eligible & ~np.isnan(scores))
+        ordered = places[np.argsort(-scores[places], kind="stable")]
+        # a hand is posed for each grip that is looked at, and far fewer are than there are: coordinates come by blocks
+        chosen: list[int] = []
+        size = 1 << 16
+        while True:
+            looked = ordered[:size]
+            at = np.unravel_index(looked, self.shape)
+            columns = [self.column(name, at) for name in _core.GRIP_COLUMNS]
+            chosen = _core.different_grips(self.scene._core, self.scene._core.find_vessel(vessel), columns, count, self.apart)
+            if len(chosen) >= count or size >= len(ordered):
+                return np.unravel_index(ordered[chosen], self.shape)
+            size *= 16
+
+
+def _hands(data: xr.Dataset, dims: list[str], scene: Scene) -> list[npt.NDArray[np.bool_]]:
+    """Of each hand scale whose grips have a list of their own: which grips are of it."""
+    import numpy as np
+
+    shape = tuple(data.sizes[dim] for dim in dims)
+    if scene._core.hand_scales <= 1 or "hand_scale" not in data.coords:
+        return [np.ones(shape, bool).ravel()]
+    coordinate = data["hand_scale"]
+    if not coordinate.dims:
+        return [np.ones(shape, bool).ravel()]
+    along = [1] * len(dims)
+    along[dims.index(str(coordinate.dims[0]))] = -1
+    values = coordinate.values
+    return [np.broadcast_to((values == one).reshape(along), shape).ravel() for one in dict.fromkeys(values.tolist())]
+
+
+def _of_grips(value: str | xr.DataArray, data: xr.Dataset, dims: list[str], name: str) -> xr.DataArray:
+    import xarray as xr
+
+    array = _variable(data, value) if isinstance(value, str) else value
+    if not isinstance(array, xr.DataArray):
+        raise TypeError(f"best: {name} is {type(value).__name__}; allowed: the name of a variable, or a DataArray")
+    further = [str(dim) for dim in array.dims if dim not in ("vessel", *dims)]
+    if further:
+        raise Error(f"best: {name} has the dimension {', '.join(further)} beside those of the grips; reduce it, say with .max('{further[0]}')")
+    like = data["reason"].isel(vessel=0, drop=True)
+    array, _ = xr.broadcast(array, like if "vessel" not in array.dims else data["reason"])
+    return array if "vessel" in array.dims else array.expand_dims(vessel=data["vessel"])
+
+
+def best(
+    data: xr.Dataset,
+    n: int | None = None,
+    apart_mm: float | None = None,
+    *,
+    by: str | xr.DataArray = "score",
+    where: xr.DataArray | None = None,
+) -> xr.Dataset:
+    """The best grips of every vessel that differ from one another, as ``wholehand rank`` lists them.
+
+    The feasible, plausible grips of a vessel are gone through from the best to the worst, of equal ones in the order of the sweep. A grip is
+    taken where some joint of the posed hand is more than ``apart_mm`` from the same joint of every hand before. Where a sweep has several
+    hand scales, each has a list.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of ``wh.sweep`` or of a result file, or a part of it (``data.sel(vessel=["beaker1"])``, ``data.isel(roll=slice(0, 4))``).
+    n : int, optional
+        Grips of a list at most. Default: as many as the sweep listed.
+    apart_mm : float, optional
+        Default: the scene's [output] apart_mm. 0: any two grips differ.
+    by : str or DataArray
+        What is largest for the best grip: a variable, or your own score over (vessel and) the dimensions of the grips. NaN: left out.
+    where : DataArray of bool, optional
+        Only grips where this holds.
+
+    Returns
+    -------
+    xarray.Dataset
+        Along ``grip``: every variable of the grips, and as coordinates the vessel, the rank in its list (from 1), and where it is: height (m),
+        azimuth, obliquity, roll (rad), offset (m), hand_scale. ``wh.grips(...)`` makes an array for ``wh.evaluate`` of it, and
+        ``wh.grip(scene, vessel, at=found.isel(grip=0))`` shows one.
+
+    Raises
+    ------
+    Error
+        A dataset without scene, reason, plausible or score.
+
+    >>> import wholehand as wh
+    >>> data = wh.sweep("small", on="core")
+    >>> found = wh.best(data, n=2, apart_mm=25)
+    >>> found.score.values.round(3).tolist(), (found.height * 1e3).values.tolist()
+    ([0.943, 0.943], [60.0, 60.0])
+    """
+    import numpy as np
+    import xarray as xr
+
+    scene = scene_of(data)
+    count = n if n is not None else int(data.sizes.get("rank", 0)) or scene._core.best or _BEST_WHERE_NONE
+    apart = scene._core.apart if apart_mm is None else float(apart_mm) / 1e3
+    if count < 1 or not apart >= 0 or not np.isfinite(apart):
+        raise Error(f"best: n is {n} and apart_mm is {apart_mm}; allowed: n of 1 or more, apart_mm of 0 or more")
+    for name in ("reason", "plausible"):
+        _variable(data, name)
+    data = _with_vessels(data)
+    if data.sizes.get("azimuth", 0) > 1 and scene._core.repeats_azimuths([str(name) for name in data.data_vars]):
+        data = data.isel(azimuth=[0])  # the others repeat it
+    dims = [str(dim) for dim in data["reason"].dims if dim != "vessel"]
+    unknown = [dim for dim in dims if dim not in _AXES]
+    if unknown:
+        raise Error(f"best: the dimension {unknown[0]} of the grips is no axis of a sweep")
+    wanted = _of_grips(by, data, dims, "by").reindex_like(data["reason"])
+    eligible = (data["reason"] == 0) & (data["plausible"] == 1)
+    if where is not None:
+        eligible = eligible & _of_grips(where, data, dims, "where").reindex_like(data["reason"], fill_value=False)
+    order = ["vessel", *dims]
+    wanted, eligible = wanted.transpose(*order), eligible.transpose(*order)
+    pieces = []
+    for v, vessel in enumerate(data["vessel"].values.tolist()):
+        part = data.isel(vessel=v)
+        chooser = _Chooser(scene, part, dims, apart)
+        scores, allowed = wanted.isel(vessel=v).values.ravel(), eligible.isel(vessel=v).values.ravel()
+        for hand in _hands(part, dims, scene):
+            pieces.append(_listed(part, dims, chooser, chooser.choose(vessel, scores, allowed & hand, count)))
+    return xr.concat(pieces, "grip", combine_attrs="override")
+
+
+def _listed(part: xr.Dataset, dims: list[str], chooser: _Chooser, places: tuple[Any, ...]) -> xr.Dataset:
+    """The grips of one list."""
+    import numpy as np
+    import xarray as xr
+
+    names = [name for name, variable in part.data_vars.items() if set(dims) <= set(variable.dims)]
+    picked = part[names].isel({dim: xr.DataArray(at, dims="grip") for dim, at in zip(dims, places)})
+    length = len(places[0])
+    coordinates = {
+        name: ("grip", chooser.column(name, places), dict(part[name].attrs) if name in part.coords else {})
+        for name in _core.GRIP_COLUMNS
+    }
+    vessel = np.full(length, str(part["vessel"].values))
+    return picked.transpose("grip", ...).assign_coords(
+        coordinates | {"vessel": ("grip", vessel), "rank": ("grip", np.arange(1, length + 1), {"units": "1"})}
+    )

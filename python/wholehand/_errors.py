@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: MIT
+"""What goes wrong, and what is worth a look."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterable
+
+
+class Error(Exception):
+    """What wholehand cannot do, in the line that the program prints.
+
+    ``exit_code`` is the program's: 2 for a scene, a name or a number that is not allowed, 3 where the system or a device fails,
+    130 where a signal ended the work.
+
+    >>> import wholehand as wh
+    >>> try:
+    ...     wh.scene("three_beaker")
+    ... except wh.Error as error:
+    ...     print(error.exit_code, error)
+    2 no scene file 'three_beaker'; did you mean three_beakers?; give the path of a TOML file or one of the shipped scenes: mixing_board, paper_pose, small, three_beakers
+    """
+
+    exit_code: int
+
+    def __init__(self, line: str, exit_code: int = 2) -> None:
+        super().__init__(line)
+        self.exit_code = exit_code
+
+    def __reduce__(self) -> tuple[type[Error], tuple[str, int]]:
+        return type(self), (str(self), self.exit_code)
+
+
+class Note(UserWarning):
+    """A line that the program prints on standard error beside its work: what a scene may not mean, or where float is not enough."""
+
+
+def warn(lines: Iterable[str]) -> None:
+    """Each line as a Note at the place of the call that the user wrote."""
+    for line in lines:
+        warnings.warn(line, Note, stacklevel=3)

@@ -1,0 +1,175 @@
+# SPDX-License-Identifier: MIT
+"""Many grips, some variables."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any
+
+from . import _core
+from ._errors import Error, warn
+from ._scene import SceneLike, names_of, scene as as_scene, vessel_number
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+_COLUMNS: tuple[str, ...] = _core.GRIP_COLUMNS
+_DEFAULTS = (None, 0.0, 0.0, 0.0, 0.0, 1.0)  # of a column that is not given
+
+
+def grip_dtype() -> np.dtype[np.void]:
+    """``wh.GRIP``, the structured dtype of grips: height (m), azimuth, obliquity, roll (rad), offset (m), hand_scale."""
+    import numpy as np
+
+    return np.dtype([(name, np.float64) for name in _COLUMNS])
+
+
+def _numbers(name: str, values: Any) -> npt.NDArray[np.float64]:
+    """Doubles as they lie, where they are doubles; else copied."""
+    import numpy as np
+
+    array = np.asarray(values)
+    if array.dtype.kind not in "fiu":
+        raise Error(f"grips: {name} is {array.dtype}; allowed: real numbers")
+    return np.asarray(array, dtype=np.float64)
+
+
+def _of_fields(given: Mapping[str, Any]) -> list[npt.NDArray[np.float64]]:
+    """A column each, those that are missing repeated without room (stride 0)."""
+    import numpy as np
+
+    unknown = [name for name in given if name not in _COLUMNS]
+    if unknown:
+        raise Error(f"grips: no column {', '.join(map(repr, unknown))}; allowed: {', '.join(_COLUMNS)}")
+    if "height" not in given:
+        raise Error("grips: the column 'height' is missing; the others have defaults")
+    columns = [_numbers(name, given.get(name, default)) for name, default in zip(_COLUMNS, _DEFAULTS)]
+    try:
+        shape = np.broadcast_shapes(*(column.shape for column in columns))
+    except ValueError:
+        lengths = ", ".join(f"{name} {column.shape}" for name, column in zip(_COLUMNS, columns))
+        raise Error(f"grips: the columns have different shapes: {lengths}") from None
+    if len(shape) > 1:
+        raise Error(f"grips: the columns have the shape {shape}; allowed: (N,)")
+    return [np.broadcast_to(column, shape or (1,)) for column in columns]
+
+
+def grip_columns(grips: Any) -> list[npt.NDArray[np.float64]]:
+    """The six columns of grips, float64, one dimension each. Nothing is copied that is float64 already. Raises Error."""
+    import numpy as np
+
+    if hasattr(grips, "data_vars"):
+        grips = grips_of(grips)
+    if isinstance(grips, Mapping):
+        return _of_fields(grips)
+    array = np.asarray(grips)
+    if array.dtype.names is not None:
+        return _of_fields({name: array[name] for name in array.dtype.names})
+    table = _numbers("the array", array)
+    if table.ndim != 2 or table.shape[1] != len(_COLUMNS):
+        raise Error(f"grips: an array of shape {table.shape}; allowed: (N, 6), a structured array or a dict of columns")
+    return [table[:, column] for column in range(len(_COLUMNS))]
+
+
+def grips_of(data: Any) -> npt.NDArray[np.void]:
+    """The grips of a Dataset as a structured array (``wh.GRIP``), in the order of its dimensions.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        Of ``wh.best``, or of ``wh.sweep`` with one vessel selected.
+
+    Returns
+    -------
+    numpy.ndarray
+        Shape (N,), with the fields of ``wh.GRIP``.
+    """
+    import numpy as np
+    import xarray as xr
+
+    missing = [name for name in _COLUMNS if name not in data.coords]
+    if missing:
+        raise Error(f"grips: the dataset has no coordinate {', '.join(map(repr, missing))}")
+    columns = [data[name].reset_coords(drop=True) for name in _COLUMNS]
+    if any("vessel" in column.dims for column in columns):
+        raise Error("grips: the dataset has several vessels, whose heights differ; select one: data.sel(vessel='...')")
+    columns = list(xr.broadcast(*columns))
+    order = [dim for dim in ("azimuth", "obliquity", "roll", "offset", "hand_scale") if dim in columns[0].dims]
+    grips = np.empty(columns[0].size, grip_dtype())
+    for name, column in zip(_COLUMNS, columns):
+        grips[name] = column.transpose(*order, ...).values.ravel()
+    return grips
+
+
+def evaluate(
+    scene: SceneLike,
+    vessel: str | int,
+    grips: Any,
+    variables: str | Iterable[str] | None = None,
+    *,
+    on: str = "core",
+    precision: str | None = None,
+    threads: int = 0,
+) -> dict[str, npt.NDArray[Any]]:
+    """Evaluates grips of one vessel: as many as you like, and of each the variables that you name.
+
+    The interpreter's lock is released meanwhile. What computes is kept in the scene, so that the next call with the same variables, device
+    and precision begins at once. Calls from several threads wait for each other where they use the same one.
+
+    Parameters
+    ----------
+    scene : Scene, or what ``wh.scene`` takes
+    vessel : str or int
+        A name or a number of ``scene.vessels``.
+    grips : array
+        N grips, as one of
+
+        - an array of shape (N, 6) with the columns height (m), azimuth (rad), obliquity (rad), roll (rad), offset (m) and hand_scale
+          (1: the scene's own hand), in the vessel's frame;
+        - a structured array with these names (``wh.GRIP``), or a dict of columns. All but height may be missing: they are 0, and
+          hand_scale is 1;
+        - a Dataset of ``wh.best``.
+
+        Columns of float64 are read where they lie, whatever their strides. Others are copied.
+    variables : str or list of str, optional
+        Names of ``scene.variables()``. Default: what a sweep of the scene keeps.
+    on : str
+        "core", "vulkan" (the best device) or the name of a device.
+    precision : {"float", "double"}, optional
+        Default: double on the core, float on a device.
+    threads : int
+        Of the core; 0: all.
+
+    Returns
+    -------
+    dict of numpy.ndarray
+        An array for each variable, in the order asked. Its first dimension is the grip: (N,), (N, fills, tilts), (N, 24, 3), ... as
+        ``scene.variables()[name].dims`` says. Reals are float64, or float32 in float. Truths, counts and reasons are int8, masks are uint8
+        or uint32. What an infeasible grip lacks is NaN, -1, or a mask without bits.
+
+    Raises
+    ------
+    Error
+        A vessel, variable, device or precision that is not there; arrays of another shape; a number that is not finite or that no scene
+        may have, with its row.
+
+    >>> import numpy as np
+    >>> import wholehand as wh
+    >>> scene = wh.scene("three_beakers")
+    >>> grips = np.zeros(3, wh.GRIP)
+    >>> grips["height"] = [0.03, 0.06, 0.5]
+    >>> grips["hand_scale"] = 1
+    >>> found = wh.evaluate(scene, "beaker1", grips, ["reason", "closure", "joints"])
+    >>> found["reason"]
+    array([0, 0, 3], dtype=int8)
+    >>> found["closure"].round(3)
+    array([0.432, 0.432,   nan])
+    >>> found["joints"].shape
+    (3, 24, 3)
+    """
+    of = as_scene(scene)
+    number = vessel_number(of, vessel)
+    found, _ = _core.evaluate(of._core, number, grip_columns(grips), names_of(variables), on, precision, threads)
+    warn(of._core.float_notes(precision, on))
+    return found

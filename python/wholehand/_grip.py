@@ -1,0 +1,287 @@
+# SPDX-License-Identifier: MIT
+"""One grip with every intermediate value."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from . import _core
+from ._errors import Error, warn
+from ._evaluate import grip_columns
+from ._scene import SceneLike, scene as as_scene, vessel_number
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+    import xarray as xr
+
+_JOINTS = 24
+# Suffixes of the JSON's names, and the unit that each stands for.
+_UNITS = {"rad": "rad", "m3": "m3", "kg": "kg", "m": "m", "Nm": "N m", "N": "N"}
+
+
+class Drawing:
+    """A drawing as SVG text. A notebook shows it."""
+
+    def __init__(self, svg: str) -> None:
+        self.svg = svg
+
+    def _repr_svg_(self) -> str:
+        return self.svg
+
+    def __repr__(self) -> str:
+        return f"<Drawing: {len(self.svg)} characters of SVG>"
+
+
+class Grip(Mapping[str, Any]):
+    """One grip and everything that ``wholehand grip --json`` tells of it. Made by ``wh.grip``.
+
+    A mapping from the names of that JSON (docs/grip.md) to its values: lists of numbers are arrays, SI units, points in the vessel's frame.
+    ``str(grip)`` is the program's table; a notebook shows the drawing.
+    """
+
+    def __init__(self, core: _core.Grip) -> None:
+        self._core = core
+        self._values: dict[str, Any] = json.loads(core.json())
+
+    def __getitem__(self, name: str) -> Any:
+        return _arrays(self._values[name])
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._values)
+
+    def __len__(self) -> int:
+        return len(self._values)
+
+    @property
+    def feasible(self) -> bool:
+        """Whether thumb and index finger close on the vessel there."""
+        return bool(self._values["feasible"])
+
+    @property
+    def reason(self) -> str:
+        """Why not; "" where it is feasible."""
+        return str(self._values["reason"])
+
+    @property
+    def score(self) -> float:
+        """Larger is better; 0 where the grip is infeasible or implausible."""
+        return float(self._values.get("score", 0.0))
+
+    @property
+    def joints(self) -> npt.NDArray[np.float64]:
+        """The rigged hand, m, vessel's frame, shape (24, 3): where the closure alone puts it. NaN where the grip is infeasible."""
+        return self._points("joints_m")
+
+    @property
+    def posed(self) -> npt.NDArray[np.float64]:
+        """The posed hand, m, vessel's frame, shape (24, 3): its fingers on the glass. NaN where the grip is infeasible."""
+        return self._points("posed_m")
+
+    @property
+    def proxies(self) -> npt.NDArray[np.float64]:
+        """The hand outside of the glass, m, vessel's frame, shape (24, 3). NaN where the grip is infeasible."""
+        return self._points("proxies_m")
+
+    @property
+    def separation(self) -> npt.NDArray[np.float64]:
+        """The distance of each posed joint's skin to the glass, m, shape (24,), below 0 inside. NaN where the grip is infeasible."""
+        import numpy as np
+
+        return np.array(self._values.get("separation_m", [np.nan] * _JOINTS))
+
+    @property
+    def states(self) -> xr.Dataset:
+        """What depends on fill and tilt: variables over (fill, tilt) with their units, and (fill, tilt, xyz) for centres of mass.
+
+        Forces in N, torques in N m, of the scene's fills and tilts or of those that were asked for. Contacts are in
+        ``grip["states"][k]["contacts"]``. Without states the dataset is empty.
+        """
+        return _states(self._values.get("states", []))
+
+    def _points(self, name: str) -> npt.NDArray[np.float64]:
+        import numpy as np
+
+        return np.array(self._values.get(name, [[np.nan] * 3] * _JOINTS))
+
+    def plot(self) -> Drawing:
+        """Draws front, side and top view, as ``wholehand grip --svg``. Raises Error where the grip is infeasible."""
+        return Drawing(self._core.svg())
+
+    def svg(self, path: str | os.PathLike[str]) -> None:
+        """Writes that drawing. Raises Error: infeasible, or a file that cannot be made or is no drawing of wholehand's."""
+        self._core.write_svg(os.fspath(path))
+
+    def glb(self, path: str | os.PathLike[str]) -> None:
+        """Writes hand, vessel and liquid as glTF binary, m, +y up, the hand's joints by their OpenXR names. Raises Error as ``svg``."""
+        self._core.write_glb(os.fspath(path))
+
+    def _repr_svg_(self) -> str | None:
+        return self._core.svg() if self.feasible else None
+
+    def __str__(self) -> str:
+        return self._core.table()
+
+    def __repr__(self) -> str:
+        asked = self._values["grip"]
+        outcome = f"score {self.score:.3f}" if self.feasible else self.reason
+        return f"<Grip of {self._values['vessel']} at {1e3 * asked['height_m']:.4g} mm: {outcome}>"
+
+
+def _arrays(value: Any) -> Any:
+    """Lists of numbers, and lists of such lists of one length, as arrays."""
+    import numpy as np
+
+    if not isinstance(value, list) or not value:
+        return value
+    items = [_arrays(one) for one in value]
+    if all(isinstance(one, (int, float)) and not isinstance(one, bool) for one in items):
+        return np.array(items, dtype=np.float64)
+    if all(isinstance(one, np.ndarray) for one in items) and len({one.shape for one in items}) == 1:
+        return np.array(items)
+    return items
+
+
+def _named(name: str) -> tuple[str, str]:
+    """ "torque_Nm" is the torque, in N m."""
+    stem, _, suffix = name.rpartition("_")
+    return (stem, _UNITS[suffix]) if stem and suffix in _UNITS else (name, "1")
+
+
+def _states(states: list[dict[str, Any]]) -> xr.Dataset:
+    import numpy as np
+    import xarray as xr
+
+    if not states:
+        return xr.Dataset()
+    fills = list(dict.fromkeys(one["fill"] for one in states))
+    tilts = list(dict.fromkeys(one["tilt_rad"] for one in states))
+    if len(fills) * len(tilts) != len(states):
+        raise Error("states: a fill or a tilt was asked for twice")
+    data = xr.Dataset(coords={"fill": ("fill", fills, {"units": "1"}), "tilt": ("tilt", tilts, {"units": "rad"})})
+    for key, first in states[0].items():
+        values = [one.get(key) for one in states]
+        name, unit = _named(key)
+        if key in ("liquid_com_m", "com_m"):
+            table = np.array([[np.nan] * 3 if v is None else v for v in values], dtype=np.float64)
+            data[name] = ("fill", "tilt", "xyz"), table.reshape(len(fills), len(tilts), 3), {"units": unit}
+        elif key not in ("fill", "tilt_rad") and not isinstance(first, list) and key != "worst_direction":
+            numbers = np.array([np.nan if v is None else v for v in values], dtype=np.float64)
+            data[name] = ("fill", "tilt"), numbers.reshape(len(fills), len(tilts)), {"units": unit}
+    return data
+
+
+def _three(values: Sequence[float], name: str) -> list[float]:
+    numbers = [float(one) for one in values]
+    if len(numbers) != 3:
+        raise Error(f"{name}: {len(numbers)} numbers; allowed: three, x, y and z in mm")
+    return numbers
+
+
+def _list(values: float | Sequence[float] | None) -> list[float] | None:
+    import numpy as np
+
+    return None if values is None else [float(one) for one in np.atleast_1d(np.asarray(values, dtype=np.float64)).ravel()]
+
+
+def _asked(
+    at: Any,
+    height_mm: float | None,
+    thumb_mm: Sequence[float] | None,
+    index_mm: Sequence[float] | None,
+    degrees: tuple[float, float, float],
+    offset_mm: float,
+    hand_scale: float,
+) -> list[float]:
+    """The six numbers of the grip, SI."""
+    if sum(one is not None for one in (at, height_mm, thumb_mm)) != 1 or (thumb_mm is None) != (index_mm is None):
+        raise Error("grip: the place of the grip is missing or given twice; give height_mm, or thumb_mm and index_mm, or at")
+    if at is not None:
+        columns = grip_columns([at] if not hasattr(at, "dtype") and not hasattr(at, "keys") else _row(at))
+        if len(columns[0]) != 1:
+            raise Error(f"grip: at has {len(columns[0])} grips; allowed: one")
+        return [float(column[0]) for column in columns]
+    azimuth, obliquity, roll = degrees
+    if thumb_mm is not None and index_mm is not None:
+        return _core.grip_between(_three(thumb_mm, "thumb_mm"), _three(index_mm, "index_mm"), float(roll), float(hand_scale))
+    assert height_mm is not None
+    return _core.grip_at(float(height_mm), float(azimuth), float(obliquity), float(roll), float(offset_mm), float(hand_scale))
+
+
+def _row(at: Any) -> Any:
+    """A single grip of an array as an array of one."""
+    import numpy as np
+
+    if hasattr(at, "data_vars") or hasattr(at, "keys"):
+        return at
+    array = np.asarray(at)
+    return array[np.newaxis] if array.ndim == (0 if array.dtype.names is not None else 1) else array
+
+
+def grip(
+    scene: SceneLike,
+    vessel: str | int,
+    *,
+    height_mm: float | None = None,
+    azimuth_deg: float = 0.0,
+    obliquity_deg: float = 0.0,
+    roll_deg: float = 0.0,
+    offset_mm: float = 0.0,
+    hand_scale: float = 1.0,
+    thumb_mm: Sequence[float] | None = None,
+    index_mm: Sequence[float] | None = None,
+    at: Any = None,
+    fills: float | Sequence[float] | None = None,
+    fills_ml: float | Sequence[float] | None = None,
+    tilts_deg: float | Sequence[float] | None = None,
+    on: str = "core",
+    precision: str | None = None,
+    quality: bool = False,
+) -> Grip:
+    """One grip with every intermediate value: ``wholehand grip``.
+
+    Parameters
+    ----------
+    scene : Scene, or what ``wh.scene`` takes
+    vessel : str or int
+        A name or a number of ``scene.vessels``.
+    height_mm, azimuth_deg, obliquity_deg, roll_deg, offset_mm, hand_scale : float
+        Where the thumb-index line lies in the vessel's frame, in mm and degrees as in a scene file: its height over the base, its
+        direction about the axis, its angle to the horizontal, the turn of the hand about it (0: beside the vessel, -90: above it), its
+        distance from the axis; and the hand's size times the scene's.
+    thumb_mm, index_mm : three floats, optional
+        Instead of height, azimuth, obliquity and offset: two points of the line, on the thumb's and on the index finger's side.
+    at : array, optional
+        Instead of all these: six numbers in SI units, a row of a structured array (``wh.GRIP``), or one grip of ``wh.best``.
+    fills, fills_ml, tilts_deg : float or list of float, optional
+        The states: fractions of the capacity, or mL, and degrees. Default: the scene's.
+    on : str
+        "core", "vulkan" or the name of a device.
+    precision : {"float", "double"}, optional
+        Default: double on the core, float on a device.
+    quality : bool
+        Measure the grasp as Ferrari and Canny do: "epsilon" and "wrench_volume". Takes seconds.
+
+    Raises
+    ------
+    Error
+        What the program refuses, in its line.
+
+    >>> import wholehand as wh
+    >>> g = wh.grip("three_beakers", "beaker1", height_mm=70, roll_deg=-20)
+    >>> g
+    <Grip of beaker1 at 70 mm: score 0.977>
+    >>> g["fingers_used"], g.joints.shape
+    (['thumb', 'index', 'middle', 'ring', 'little'], (24, 3))
+    >>> float(g.states.torque.sel(fill=0.6).max().round(4)), g.states.torque.attrs["units"]
+    (0.0692, 'N m')
+    """
+    of = as_scene(scene)
+    number = vessel_number(of, vessel)
+    asked = _asked(at, height_mm, thumb_mm, index_mm, (azimuth_deg, obliquity_deg, roll_deg), offset_mm, hand_scale)
+    made = _core.grip(of._core, number, asked, _list(fills), _list(fills_ml), _list(tilts_deg), on, precision, quality)
+    warn(of._core.float_notes(precision, on))
+    return Grip(made)

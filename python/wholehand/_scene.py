@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: MIT
+"""Scenes: hands, vessels, liquids, and the grips that a sweep goes through."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple, Union
+
+from . import _core
+from ._errors import Error
+from ._toml import toml_text
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+SceneLike = Union["Scene", str, "os.PathLike[str]", Mapping[str, Any]]
+
+
+class Variable(NamedTuple):
+    """What can be known of a grip. ``dims`` are those beside the grips, the slowest first."""
+
+    units: str
+    long_name: str
+    comment: str
+    dims: tuple[str, ...]
+
+
+class Scene:
+    """A scene that has been read and checked. Made by ``wh.scene``.
+
+    It does not change, and any number of threads may use it. It keeps what was made of it (meshes, an evaluator, open devices) for the
+    next call. A pickled scene is its text.
+
+    >>> import wholehand as wh
+    >>> scene = wh.scene("three_beakers")
+    >>> scene.vessels
+    ('beaker1', 'beaker2', 'beaker3')
+    >>> scene.fills("beaker1")
+    array([0. , 0.3, 0.6, 0.9])
+    """
+
+    __slots__ = ("_core",)
+
+    def __init__(self, core: _core.Scene) -> None:
+        self._core = core
+
+    @property
+    def name(self) -> str:
+        """The scene's own name, or its file's."""
+        return self._core.name
+
+    @property
+    def file(self) -> str:
+        """Where it was read from; "text" or "dict" for others, unless a file was named. Meshes are looked for from its folder."""
+        return self._core.file
+
+    @property
+    def text(self) -> str:
+        """The TOML text."""
+        return self._core.text
+
+    @property
+    def vessels(self) -> tuple[str, ...]:
+        """The vessels' names. Where a vessel is asked for, its name or its number in this tuple is allowed."""
+        return tuple(self._core.vessels)
+
+    @property
+    def tilts(self) -> npt.NDArray[np.float64]:
+        """The tilts of a sweep's states, rad, shape (tilts,)."""
+        import numpy as np
+
+        return np.array(self._core.tilts)
+
+    def fills(self, vessel: str | int) -> npt.NDArray[np.float64]:
+        """The fills of a sweep's states, as fractions of the vessel's capacity, shape (fills,). Without liquid: one, 0.
+
+        Raises Error for a vessel that is not there.
+        """
+        import numpy as np
+
+        return np.array(self._core.fills(vessel_number(self, vessel)))
+
+    def variables(self) -> dict[str, Variable]:
+        """What ``evaluate`` and ``sweep(keep=...)`` can tell of a grip in this scene, by name, in the order of the result file."""
+        return {row[0]: Variable(*row[1:]) for row in self._core.variables()}
+
+    def notes(self) -> list[str]:
+        """What the program prints of the scene on standard error: what was found of meshes, and what may not be meant. Reads the meshes."""
+        return self._core.notes()
+
+    def __repr__(self) -> str:
+        return f"<Scene {self.name}: {', '.join(self.vessels)}>"
+
+    def __reduce__(self) -> tuple[Any, tuple[str, str]]:
+        return _scene_of_text, (self.text, self.file)
+
+
+def _scene_of_text(text: str, file: str) -> Scene:
+    return Scene(_core.parse_scene(text, file))
+
+
+def scene(source: SceneLike = "three_beakers", *, file: str | os.PathLike[str] | None = None) -> Scene:
+    """Reads a scene.
+
+    Parameters
+    ----------
+    source : str, path or dict
+        The name of a scene that is shipped (``wh.scenes()``), the path of a TOML file, a TOML text (a ``str`` of more than one line), or
+        a dict with the keys of docs/scene.md. NumPy's numbers and arrays are allowed in a dict. A Scene is returned as it is.
+    file : path, optional
+        For a text or a dict: the file that it stands for in messages. Meshes are looked for from its folder, else from the current one.
+
+    Raises
+    ------
+    Error
+        The place, what was found, and what is allowed. For a dict the place is in the TOML text that was made of it; the exception has
+        that line as a note.
+
+    >>> import wholehand as wh
+    >>> glass = {"name": "tumbler", "outline": [{"line": [32, 0]}, {"line": [32, 90]}, {"line": [0, 90]}]}
+    >>> wh.scene({"vessel": [glass], "grips": {"height_mm": [30, 60]}})
+    <Scene dict: tumbler>
+    """
+    if isinstance(source, Scene):
+        return source
+    if isinstance(source, Mapping):
+        return _parse(toml_text(source), "dict" if file is None else os.fspath(file))
+    if isinstance(source, str) and "\n" in source:
+        return Scene(_core.parse_scene(_encodable(source), "text" if file is None else os.fspath(file)))
+    if not isinstance(source, (str, os.PathLike)):
+        raise TypeError(f"scene: {type(source).__name__}; allowed: a name, a path, a TOML text, a dict or a Scene")
+    return Scene(_core.open_scene(_encodable(os.fspath(source))))
+
+
+def _encodable(text: str) -> str:
+    try:
+        text.encode()
+    except UnicodeEncodeError:
+        raise Error(f"{text!r} has a character that is none; allowed: Unicode") from None
+    return text
+
+
+def _parse(text: str, name: str) -> Scene:
+    """With the line that a message means as a note: nobody has seen the text that was made of a dict."""
+    try:
+        return Scene(_core.parse_scene(text, name))
+    except Error as error:
+        place = re.match(re.escape(name) + r":(\d+):\d+: ", str(error))
+        lines = text.splitlines()
+        if place and int(place[1]) <= len(lines):
+            error.add_note(f"{place[0]}{lines[int(place[1]) - 1]}")
+        raise
+
+
+def scenes() -> list[str]:
+    """The names of the scenes that are shipped.
+
+    >>> import wholehand as wh
+    >>> wh.scenes()
+    ['mixing_board', 'paper_pose', 'small', 'three_beakers']
+    """
+    return _core.shipped_scenes()
+
+
+def vessel_number(of: Scene, vessel: str | int) -> int:
+    """The place of a vessel by its name or number. Raises Error."""
+    if isinstance(vessel, str):
+        return of._core.find_vessel(_encodable(vessel))
+    if isinstance(vessel, bool) or not hasattr(vessel, "__index__"):
+        raise TypeError(f"vessel: {type(vessel).__name__}; allowed: its name or its number")
+    number = int(vessel)
+    if not 0 <= number < len(of.vessels):
+        raise Error(f"vessel {number}: the scene has {len(of.vessels)}; allowed: 0 to {len(of.vessels) - 1}, or a name")
+    return number
+
+
+def names_of(names: str | Iterable[str] | None) -> list[str] | None:
+    """The names of variables."""
+    return None if names is None else [names] if isinstance(names, str) else list(names)
