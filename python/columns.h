@@ -22,7 +22,8 @@ GripNumbers numbers_of(const GripInput& grip);
 using Doubles = pybind11::array_t<double, 0>;  // strided as it is; nothing is converted
 using GripArrays = std::array<Doubles, GRIP_COLUMNS>;
 
-// The columns without the interpreter: pointers and strides in bytes, which need not suit a double's alignment. The arrays must outlive it.
+// The columns without the interpreter: pointers and strides in bytes, which need not suit a double's alignment. The arrays must
+// outlive it.
 class GripColumns {
  public:
   // Throws Error (usage) unless all have one dimension and the same length.

@@ -66,8 +66,8 @@ class SceneHandle {
   std::list<std::pair<BatchWish, std::shared_ptr<Batch>>> batches_;  // the latest first
 };
 
-// The variables of these names, in their order. `place` begins the line where one is unknown or the scene lacks what it needs: throws Error
-// (usage).
+// The variables of these names, in their order. `place` begins the line where one is unknown or the scene lacks what it needs:
+// throws Error (usage).
 std::vector<const Variable*> named_variables(const Scene& scene, const std::vector<std::string>& names, const std::string& place);
 
 // Sets what a device's driver reads from the environment. Call with the interpreter's lock, which guards the environment.

@@ -193,6 +193,14 @@ void bind_step(py::module_& module) {
       .def("__repr__", &text_of);
 }
 
+std::vector<bool> touching(const HandView& hand) {
+  std::vector<bool> found;
+  for (const PointContact contact : hand.contact)
+    found.push_back(contact == PointContact::touching || contact == PointContact::projected ||
+                    contact == PointContact::tracked_touching);
+  return found;
+}
+
 void bind_hand(py::module_& module) {
   py::class_<HandView>(module, "Hand")
       .def_property_readonly(
@@ -209,13 +217,7 @@ void bind_hand(py::module_& module) {
           "Origin of the hand's frame, m, world frame, shape (3,).")
       .def_property_readonly(
           "rotation", [](const HandView& hand) { return matrix_of(hand.rotation); }, "Of the hand's frame, shape (3, 3).")
-      .def_property_readonly("touching", [](const HandView& hand) {
-        std::vector<bool> touching;
-        for (const PointContact contact : hand.contact)
-          touching.push_back(contact == PointContact::touching || contact == PointContact::projected ||
-                             contact == PointContact::tracked_touching);
-        return touching;
-      });
+      .def_property_readonly("touching", &touching, "Of each of the 24 joints, whether it touches the glass.");
 }
 
 }  // namespace
@@ -223,7 +225,7 @@ void bind_hand(py::module_& module) {
 void bind_session(py::module_& module) {
   bind_hand(module);
   bind_step(module);
-  py::class_<SessionHandle>(module, "Session", "Of each of the 24 joints.")
+  py::class_<SessionHandle>(module, "Session")
       .def(py::init<SceneHandle&, const std::optional<std::array<double, 2>>&>(), py::arg("scene"), py::arg("gap"))
       .def("step", &SessionHandle::step, py::arg("position"), py::arg("rotation"), py::arg("gap"), py::arg("buttons"),
            py::arg("tick"), py::return_value_policy::copy)

@@ -43,7 +43,8 @@ SweepOptions options_of(const SweepWish& wish, std::vector<std::string>& notes) 
   return options;
 }
 
-// Answers the number of the signal that ended it, 0 where none did, and the notes. One at a time in a process: the caller sees to that.
+// Answers the number of the signal that ended it, 0 where none did, and the notes. One at a time in a process: the caller sees to
+// that.
 py::tuple sweep(const SceneHandle& handle, const std::string& output, const std::string& on, std::optional<std::string> precision,
                 std::optional<int> best, std::optional<std::vector<std::string>> keep, int threads, bool refine, bool resume) {
   prepare_device(on);

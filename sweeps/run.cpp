@@ -12,10 +12,9 @@ namespace {
 void read_meshes(Scene& scene, const SweepOptions& options) {
   const auto device_bytes = [&] { return largest_buffer(options.on); };
   if (!options.note) return load_meshes(scene, device_bytes);
-  if (!has_meshes(scene)) return;
+  if (!has_meshes(scene)) return;  // what is found of them is no note: the other program asks for it where it wants to
   MeshOptions mesh_options;
   mesh_options.most_bytes = largest_lattice(device_bytes());
-  mesh_options.say = options.note;
   load_meshes(scene, mesh_options);
 }
 

@@ -12,8 +12,9 @@
     with wh.session(scene) as s:               # what the fingers feel
         out = s.step(position, rotation, gap)
 
-Units are SI (m, kg, s, N, rad) unless a name says otherwise (height_mm, roll_deg). The vessel's frame has its origin at the vessel's base and +y
-along its axis. The world frame has +y up. What cannot be done raises ``wh.Error`` with the line that the program ``wholehand`` prints.
+Units are SI (m, kg, s, N, rad) unless a name says otherwise (height_mm, roll_deg). The vessel's frame has its origin at the
+vessel's base and +y along its axis. The world frame has +y up. What cannot be done raises ``wh.Error`` with the line that the
+program ``wholehand`` prints.
 """
 
 from __future__ import annotations

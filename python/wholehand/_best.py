@@ -100,7 +100,10 @@ def _of_grips(value: str | xr.DataArray, data: xr.Dataset, dims: list[str], name
         raise TypeError(f"best: {name} is {type(value).__name__}; allowed: the name of a variable, or a DataArray")
     further = [str(dim) for dim in array.dims if dim not in ("vessel", *dims)]
     if further:
-        raise Error(f"best: {name} has the dimension {', '.join(further)} beside those of the grips; reduce it, say with .max('{further[0]}')")
+        raise Error(
+            f"best: {name} has the dimension {', '.join(further)} beside those of the grips; "
+            f"reduce it, say with .max('{further[0]}')"
+        )
     like = data["reason"].isel(vessel=0, drop=True)
     array, _ = xr.broadcast(array, like if "vessel" not in array.dims else data["reason"])
     return array if "vessel" in array.dims else array.expand_dims(vessel=data["vessel"])
@@ -116,9 +119,9 @@ def best(
 ) -> xr.Dataset:
     """The best grips of every vessel that differ from one another, as ``wholehand rank`` lists them.
 
-    The feasible, plausible grips of a vessel are gone through from the best to the worst, of equal ones in the order of the sweep. A grip is
-    taken where some joint of the posed hand is more than ``apart_mm`` from the same joint of every hand before. Where a sweep has several
-    hand scales, each has a list.
+    The feasible, plausible grips of a vessel are gone through from the best to the worst, of equal ones in the order of the sweep.
+    A grip is taken where some joint of the posed hand is more than ``apart_mm`` from the same joint of every hand before. Where a
+    sweep has several hand scales, each has a list.
 
     Parameters
     ----------
@@ -129,16 +132,17 @@ def best(
     apart_mm : float, optional
         Default: the scene's [output] apart_mm. 0: any two grips differ.
     by : str or DataArray
-        What is largest for the best grip: a variable, or your own score over (vessel and) the dimensions of the grips. NaN: left out.
+        What is largest for the best grip: a variable, or your own score over (vessel and) the dimensions of the grips. NaN: left
+        out.
     where : DataArray of bool, optional
         Only grips where this holds.
 
     Returns
     -------
     xarray.Dataset
-        Along ``grip``: every variable of the grips, and as coordinates the vessel, the rank in its list (from 1), and where it is: height (m),
-        azimuth, obliquity, roll (rad), offset (m), hand_scale. ``wh.grips(...)`` makes an array for ``wh.evaluate`` of it, and
-        ``wh.grip(scene, vessel, at=found.isel(grip=0))`` shows one.
+        Along ``grip``: every variable of the grips, and as coordinates the vessel, the rank in its list (from 1), and where it is:
+        height (m), azimuth, obliquity, roll (rad), offset (m), hand_scale. ``wh.grips(...)`` makes an array for ``wh.evaluate`` of
+        it, and ``wh.grip(scene, vessel, at=found.isel(grip=0))`` shows one.
 
     Raises
     ------

@@ -24,7 +24,9 @@ class Check:
 
     @property
     def rows(self) -> list[dict[str, Any]]:
-        """A row for each comparison and quantity: "comparison", "kernel", "quantity", "worst", "tolerance", "unit", "compared", "outside", ..."""
+        """A row for each comparison and quantity: "comparison", "kernel", "quantity", "worst", "tolerance", "unit", "compared",
+        "outside", ...
+        """
         return [{"comparison": one["name"], **row} for one in self.report["comparisons"] for row in one["quantities"]]
 
     def __str__(self) -> str:

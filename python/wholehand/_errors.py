@@ -15,10 +15,10 @@ class Error(Exception):
 
     >>> import wholehand as wh
     >>> try:
-    ...     wh.scene("three_beaker")
+    ...     wh.grip("small", "tumbler", height_mm=45, roll_deg=400)
     ... except wh.Error as error:
     ...     print(error.exit_code, error)
-    2 no scene file 'three_beaker'; did you mean three_beakers?; give the path of a TOML file or one of the shipped scenes: mixing_board, paper_pose, small, three_beakers
+    2 --roll-deg '400'; allowed: a number, -360 to 360
     """
 
     exit_code: int

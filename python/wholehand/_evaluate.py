@@ -114,8 +114,8 @@ def evaluate(
 ) -> dict[str, npt.NDArray[Any]]:
     """Evaluates grips of one vessel: as many as you like, and of each the variables that you name.
 
-    The interpreter's lock is released meanwhile. What computes is kept in the scene, so that the next call with the same variables, device
-    and precision begins at once. Calls from several threads wait for each other where they use the same one.
+    The interpreter's lock is released meanwhile. What computes is kept in the scene, so that the next call with the same variables,
+    device and precision begins at once. Calls from several threads wait for each other where they use the same one.
 
     Parameters
     ----------
@@ -125,7 +125,8 @@ def evaluate(
     grips : array
         N grips, as one of
 
-        - an array of shape (N, 6) with the columns height (m), azimuth (rad), obliquity (rad), roll (rad), offset (m) and hand_scale
+        - an array of shape (N, 6) with the columns height (m), azimuth (rad), obliquity (rad), roll (rad), offset (m) and
+        hand_scale
           (1: the scene's own hand), in the vessel's frame;
         - a structured array with these names (``wh.GRIP``), or a dict of columns. All but height may be missing: they are 0, and
           hand_scale is 1;
@@ -145,14 +146,14 @@ def evaluate(
     -------
     dict of numpy.ndarray
         An array for each variable, in the order asked. Its first dimension is the grip: (N,), (N, fills, tilts), (N, 24, 3), ... as
-        ``scene.variables()[name].dims`` says. Reals are float64, or float32 in float. Truths, counts and reasons are int8, masks are uint8
-        or uint32. What an infeasible grip lacks is NaN, -1, or a mask without bits.
+        ``scene.variables()[name].dims`` says. Reals are float64, or float32 in float. Truths, counts and reasons are int8, masks
+        are uint8 or uint32. What an infeasible grip lacks is NaN, -1, or a mask without bits.
 
     Raises
     ------
     Error
-        A vessel, variable, device or precision that is not there; arrays of another shape; a number that is not finite or that no scene
-        may have, with its row.
+        A vessel, variable, device or precision that is not there; arrays of another shape; a number that is not finite or that no
+        scene may have, with its row.
 
     >>> import numpy as np
     >>> import wholehand as wh
@@ -164,7 +165,7 @@ def evaluate(
     >>> found["reason"]
     array([0, 0, 3], dtype=int8)
     >>> found["closure"].round(3)
-    array([0.432, 0.432,   nan])
+    array([0.263, 0.263,   nan])
     >>> found["joints"].shape
     (3, 24, 3)
     """

@@ -31,15 +31,15 @@ class Variable(NamedTuple):
 class Scene:
     """A scene that has been read and checked. Made by ``wh.scene``.
 
-    It does not change, and any number of threads may use it. It keeps what was made of it (meshes, an evaluator, open devices) for the
-    next call. A pickled scene is its text.
+    It does not change, and any number of threads may use it. It keeps what was made of it (meshes, an evaluator, open devices) for
+    the next call. A pickled scene is its text.
 
     >>> import wholehand as wh
     >>> scene = wh.scene("three_beakers")
     >>> scene.vessels
     ('beaker1', 'beaker2', 'beaker3')
     >>> scene.fills("beaker1")
-    array([0. , 0.3, 0.6, 0.9])
+    array([0.  , 0.25, 0.5 , 0.75, 1.  ])
     """
 
     __slots__ = ("_core",)
@@ -88,7 +88,9 @@ class Scene:
         return {row[0]: Variable(*row[1:]) for row in self._core.variables()}
 
     def notes(self) -> list[str]:
-        """What the program prints of the scene on standard error: what was found of meshes, and what may not be meant. Reads the meshes."""
+        """What the program prints of the scene on standard error: what was found of meshes, and what may not be meant. Reads the
+        meshes.
+        """
         return self._core.notes()
 
     def __repr__(self) -> str:
@@ -108,21 +110,29 @@ def scene(source: SceneLike = "three_beakers", *, file: str | os.PathLike[str] |
     Parameters
     ----------
     source : str, path or dict
-        The name of a scene that is shipped (``wh.scenes()``), the path of a TOML file, a TOML text (a ``str`` of more than one line), or
-        a dict with the keys of docs/scene.md. NumPy's numbers and arrays are allowed in a dict. A Scene is returned as it is.
+        The name of a scene that is shipped (``wh.scenes()``), the path of a TOML file, a TOML text (a ``str`` of more than one
+        line), or a dict with the keys of docs/scene.md. NumPy's numbers and arrays are allowed in a dict. A Scene is returned as it
+        is.
     file : path, optional
-        For a text or a dict: the file that it stands for in messages. Meshes are looked for from its folder, else from the current one.
+        For a text or a dict: the file that it stands for in messages. Meshes are looked for from its folder, else from the current
+        one.
 
     Raises
     ------
     Error
-        The place, what was found, and what is allowed. For a dict the place is in the TOML text that was made of it; the exception has
-        that line as a note.
+        The place, what was found, and what is allowed. For a dict the place is in the TOML text that was made of it; the exception
+        has that line as a note.
 
     >>> import wholehand as wh
-    >>> glass = {"name": "tumbler", "outline": [{"line": [32, 0]}, {"line": [32, 90]}, {"line": [0, 90]}]}
+    >>> glass = {"name": "tumbler", "outline": [{"line": [32, 0]}, {"line": [32, 90]}, {"line": [0, 90]}], "wall_mm": 2}
     >>> wh.scene({"vessel": [glass], "grips": {"height_mm": [30, 60]}})
     <Scene dict: tumbler>
+    >>> try:
+    ...     wh.scene({"vessel": [glass | {"wall_mm": 0}]})
+    ... except wh.Error as error:
+    ...     print(error, *error.__notes__, sep=chr(10))
+    dict:4:11: wall_mm = 0; allowed: 0.05 to 100
+    dict:4:11: wall_mm = 0
     """
     if isinstance(source, Scene):
         return source

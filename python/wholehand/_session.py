@@ -21,7 +21,8 @@ Hand = _core.Hand
 class Session:
     """A live session. Made by ``wh.session``; closed at the end of its ``with`` block, or by ``close()``.
 
-    It belongs to the thread of its first step. Each step is a period of 1 / rate of the scene's [live], and takes some microseconds.
+    It belongs to the thread of its first step. Each step is a period of 1 / rate of the scene's [live], and takes some
+    microseconds.
     """
 
     def __init__(self, core: _core.Session) -> None:
@@ -70,8 +71,8 @@ class Session:
         Raises
         ------
         Error
-            Another shape, a number that is not finite, a rotation that is none, a closed session, another thread. The session then stays as
-            it was.
+            Another shape, a number that is not finite, a rotation that is none, a closed session, another thread. The session then
+            stays as it was.
         """
         opened = self._core.gap[1] if gap is None else gap
         try:
@@ -89,6 +90,7 @@ class Session:
 
     @property
     def closed(self) -> bool:
+        """Whether it has been closed."""
         return self._core.closed
 
     def __enter__(self) -> Session:
@@ -107,12 +109,13 @@ def _refusal(*given: Any) -> str:
     return f"session: a step takes numbers: position (3,), rotation (3, 3), gap, buttons and tick; found {kinds}"
 
 
-def session(scene: SceneLike = "three_beakers", *, gap: tuple[float, float] | None = None) -> Session:
+def session(scene: SceneLike = "mixing_board", *, gap: tuple[float, float] | None = None) -> Session:
     """Opens a live session: the forces of ``wholehand live``, for a gripper that is yours.
 
     Parameters
     ----------
     scene : Scene, or what ``wh.scene`` takes
+        Its vessels stand apart: each has a place_mm.
     gap : two floats, optional
         The gripper's closed and open gap, m. Default: the scene's [device] gap_mm, else the hand's own.
 
@@ -122,7 +125,7 @@ def session(scene: SceneLike = "three_beakers", *, gap: tuple[float, float] | No
         A scene that cannot be played, a gap that is no range.
 
     >>> import wholehand as wh
-    >>> with wh.session("three_beakers") as s:
+    >>> with wh.session("mixing_board") as s:
     ...     for _ in range(3):
     ...         out = s.step([0, 0.3, 0.2], None, 0.1)
     >>> out.state, out.vessel, out.arm_force.tolist(), out.joints.shape

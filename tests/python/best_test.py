@@ -1,0 +1,137 @@
+# SPDX-License-Identifier: MIT
+"""The best grips against the lists that `wholehand rank` makes of the same result."""
+
+import csv
+import itertools
+import pathlib
+import unittest
+
+import numpy as np
+import wholehand as wh
+import xarray as xr
+
+from installed import MESH, SEVERAL, SOBOL, InFolder, run, tube_ply
+
+
+class Best(InFolder):
+    def setUp(self):
+        super().setUp()
+        pathlib.Path("tube.ply").write_text(tube_ply())
+
+    def data_of(self, text):
+        pathlib.Path("scene.toml").write_text(text)
+        return wh.sweep("scene.toml", on="core", output="own.nc")
+
+    def ranked(self, *options):
+        """The rows of the program's list: vessel, rank, and where it is."""
+        run("rank", "own.nc", "-o", "list.csv", *options)
+        with open("list.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        pathlib.Path("list.csv").unlink()
+        return rows
+
+    def same(self, found, rows):
+        self.assertGreater(len(rows), 0)
+        self.assertEqual(list(found["vessel"].values), [row["vessel"] for row in rows])
+        self.assertEqual(list(found["rank"].values), [int(row["rank"]) for row in rows])
+        for name, column, factor in (
+            ("height", "height_mm", 1e3),
+            ("azimuth", "azimuth_deg", 180 / np.pi),
+            ("obliquity", "obliquity_deg", 180 / np.pi),
+            ("roll", "roll_deg", 180 / np.pi),
+            ("offset", "offset_mm", 1e3),
+            ("hand_scale", "hand_scale", 1),
+            ("score", "score", 1),
+        ):
+            # a list has six digits or more
+            np.testing.assert_allclose(
+                found[name].values * factor, [float(row[column]) for row in rows], rtol=1e-5, atol=1e-6, err_msg=name
+            )
+
+    def test_it_is_the_programs_list(self):
+        for text in (SEVERAL, SOBOL, MESH):
+            data = self.data_of(text)
+            self.same(wh.best(data), self.ranked())
+            for n, apart in ((1, 25), (6, 10), (40, 25), (12, 0), (9, 3.5), (4, 200)):
+                self.same(wh.best(data, n=n, apart_mm=apart), self.ranked("--best", n, "--apart-mm", apart))
+            data.close()
+
+    def test_where_vectors_are_kept_azimuths_count(self):
+        data = self.data_of(SEVERAL.replace("[output]", '[output]\nalso = ["midpoint"]'))
+        self.same(wh.best(data, n=30, apart_mm=10), self.ranked("--best", 30, "--apart-mm", 10))
+        data.close()
+
+    def test_a_condition_and_an_own_score(self):
+        data = self.data_of(SEVERAL)
+        self.same(
+            wh.best(data, n=5, apart_mm=5, where=data.fingers_used >= 4),
+            self.ranked("--best", 5, "--apart-mm", 5, "--where", "fingers_used >= 4"),
+        )
+        own = 1 - data.score_depth
+        found = wh.best(data, n=5, apart_mm=0, by=own)
+        values = own.where((data.reason == 0) & (data.plausible == 1)).isel(azimuth=0).sel(vessel="low", hand_scale=1)
+        expected = np.sort(values.values[~np.isnan(values.values)])[::-1][:5]
+        np.testing.assert_array_equal(1 - found.score_depth.values[(found.vessel == "low") & (found.hand_scale == 1)], expected)
+        of_states = self.refused(wh.best, data, by="largest_safe_tilt")
+        self.assertIn("fill", str(of_states))
+        np.testing.assert_array_equal(wh.best(data, n=2, by=data.score)["score"], wh.best(data, n=2)["score"])
+
+    def test_a_part_of_a_dataset(self):
+        data = self.data_of(SEVERAL).load()
+        whole, part = wh.best(data, n=4), wh.best(data.sel(vessel="low"), n=4)
+        np.testing.assert_array_equal(whole.score.values[whole.vessel.values == "low"], part.score.values)
+        few = data.isel(roll=slice(1, 3), obliquity=[1])
+        found = wh.best(few, n=4, apart_mm=0)
+        self.assertTrue(set(found["roll"].values) <= set(few["roll"].values))
+        self.assertEqual(len(wh.best(data.isel(vessel=[])).get("grip", [])) if data.isel(vessel=[]).sizes["vessel"] else 0, 0)
+
+    def test_they_differ_by_what_was_asked_and_are_the_best_that_do(self):
+        """Once more by brute force: the rule itself, over hands that `evaluate` poses."""
+        data = self.data_of(SOBOL).load()
+        apart = 20e-3
+        of = data.isel(vessel=0)
+        posed = wh.evaluate("scene.toml", "glass", wh.grips(of), "posed")["posed"]
+        eligible = np.flatnonzero((of.reason.values == 0) & (of.plausible.values == 1))
+        chosen = []
+        for i in sorted(eligible, key=lambda i: (-of.score.values[i], i)):
+            if all(np.linalg.norm(posed[i] - posed[j], axis=1).max() > apart for j in chosen):
+                chosen.append(i)
+        self.assertGreater(len(eligible), len(chosen) + 20)
+        found = wh.best(data, n=len(chosen) + 5, apart_mm=1e3 * apart)
+        np.testing.assert_array_equal(found["score"], of.score.values[chosen])
+        np.testing.assert_array_equal(found["roll"], of["roll"].values[chosen])
+        for i, j in itertools.combinations(chosen, 2):
+            self.assertGreater(np.linalg.norm(posed[i] - posed[j], axis=1).max(), apart)
+
+    def test_its_grips_go_on(self):
+        data = self.data_of(SEVERAL).load()
+        found = wh.best(data, n=3)
+        low = found.isel(grip=(found.vessel == "low").values)
+        again = wh.evaluate("scene.toml", "low", low, "score")["score"]
+        np.testing.assert_array_equal(again, low.score)
+        one = wh.grip("scene.toml", "low", at=low.isel(grip=0))
+        self.assertEqual(one.score, float(low.score[0]))
+        self.assertEqual(wh.grips(low).dtype, wh.GRIP)
+        self.assertEqual(found["height"].attrs["units"], "m")
+
+    def test_what_is_wrong_is_said(self):
+        data = self.data_of(SEVERAL).load()
+        for named in ({"n": 0}, {"n": -3}, {"apart_mm": -1}, {"apart_mm": float("nan")}, {"apart_mm": float("inf")}):
+            self.assertIn("allowed", str(self.refused(wh.best, data, **named)))
+        self.assertIn("'plausible'", str(self.refused(wh.best, data.drop_vars("plausible"))))
+        self.assertIn("'score2'", str(self.refused(wh.best, data, by="score2")))
+        self.assertIn("'scene'", str(self.refused(wh.best, xr.Dataset())))
+        self.assertIn("several vessels", str(self.refused(wh.grips, data)))
+        spoilt = data.copy()
+        spoilt.attrs["scene"] = "not a scene"
+        self.refused(wh.best, spoilt)
+        with self.assertRaises(TypeError):
+            wh.best(data, by=np.zeros(3))
+        pathlib.Path("scene.toml").write_text(MESH)
+        meshes = wh.sweep("scene.toml", on="core")
+        pathlib.Path("tube.ply").write_text(tube_ply(radius=25e-3))
+        self.assertIn("mesh", str(self.refused(wh.best, meshes)))
+
+
+if __name__ == "__main__":
+    unittest.main()
