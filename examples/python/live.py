@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A live session in a loop: a hand comes to a beaker, closes on it and lifts it. The measurements of a real gripper would come from its driver."""
+"""A live session in a loop: a hand comes to a beaker, closes on it and lifts it. Those of a real gripper come from its driver."""
 
 # %% The scene says where the vessels stand. The gripper has the gap of the hand itself.
 import numpy as np

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Your own glass, your own score, your own plot: a wine glass is swept, and grips of its stem are compared with grips of its bowl."""
+"""Your own glass, your own score, your own plot: which grips of a wine glass let many points of the hand touch it."""
 
 # %% A scene is a dict with the keys of docs/scene.md. The outline is half of the glass, [r, y] in mm, from the base to the mouth.
 import matplotlib
