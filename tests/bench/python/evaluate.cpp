@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What the C++ call costs that wh.evaluate makes: the same grips, variables and device, into memory of its own.
 //   wholehand_evaluate SCENE VESSEL VARIABLE,.. GRIPS.f64
-// GRIPS.f64: rows of six doubles. Each line on standard input starts a run, which prints its seconds of wall and of CPU, and the sum of all
-// numbers that are finite.
+// GRIPS.f64: rows of six doubles. Each line on standard input starts a run, which prints its seconds of wall and of CPU, and the sum
+// of all numbers that are finite.
 #include <sys/resource.h>
 
 #include <cmath>

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 """What wh.evaluate costs over the C++ call for the same variables: evaluate.py WHOLEHAND_EVALUATE [GRIPS [TURNS]]
 
-Both evaluate the same grips on the core, in turns. The ratio is that of the least CPU time of either side: other work on the machine adds
-to the wall time of both, and to neither's least CPU time. Needs the package on the path, and the program of evaluate.cpp.
+Both evaluate the same grips on the core, in turns. The first ratio is that of the least CPU time of either side: other work on the
+machine adds to the wall time of both, and to neither's least CPU time. Needs the package on the path, and the program of evaluate.cpp.
 """
 
 import resource
@@ -56,11 +56,10 @@ def main():
                     del found
                 child.stdin.close()
             least = [min(side) for side in zip(*python)], [min(side) for side in zip(*cxx)]
-            print(
-                f"{label}: {count} grips; CPU {least[0][0]:.3f} s in Python, {least[1][0]:.3f} s in C++, ratio {least[0][0] / least[1][0]:.4f}; "
-                f"wall {least[0][1]:.3f} s, {least[1][1]:.3f} s, ratio {least[0][1] / least[1][1]:.4f}",
-                flush=True,
-            )
+            (own_cpu, own_wall), (cxx_cpu, cxx_wall) = least
+            print(f"{label}: {count} grips")
+            print(f"  CPU:  {own_cpu:.3f} s in Python, {cxx_cpu:.3f} s in C++, ratio {own_cpu / cxx_cpu:.4f}")
+            print(f"  wall: {own_wall:.3f} s in Python, {cxx_wall:.3f} s in C++, ratio {own_wall / cxx_wall:.4f}", flush=True)
 
 
 main()
