@@ -167,7 +167,7 @@ void bind_step(py::module_& module) {
           "volume",
           [](const Step& step) {
             const std::size_t vessels = step.session->live().scene.vessels.size();
-            return Numbers({static_cast<py::ssize_t>(vessels)}, step.tick.volume.data());
+            return Numbers(static_cast<py::ssize_t>(vessels), step.tick.volume.data());
           },
           "Liquid in each vessel, m3, in the order of scene.vessels.")
       .def_property_readonly("middle", triple(&Tick::middle), "Of the two tips, m, world frame, shape (3,).")
