@@ -40,6 +40,7 @@
 #include "system/interrupt.h"
 #include "system/output.h"
 #include "system/progress.h"
+#include "system/udp.h"
 #include "system/version.h"
 #include "viewer/browser.h"
 #include "viewer/control.h"
@@ -118,7 +119,7 @@ std::string limits_json(const ViewLimits& limits, double stiffness) {
 class LiveRun {
  public:
   explicit LiveRun(const LiveOptions& options) : options_(options) {
-    std::optional<OscTarget> target;
+    std::optional<HostPort> target;
     if (!options_.stream.empty()) target = parse_osc_url(options_.stream);
     if (!options_.record.empty()) check_recording_path(options_.record, RECORD);
     open();
@@ -232,7 +233,7 @@ class LiveRun {
     if (!limits.has_rotation) notes_.push_back("this gripper measures no rotation: vessels stay upright");
   }
 
-  void open_stream(const OscTarget& target) {
+  void open_stream(const HostPort& target) {
     stream_ = std::make_unique<OscStream>(target, session_->live());
     displays_.push_back(stream_.get());
     if (stream_->note().empty()) return;

@@ -1,20 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/osc_stream.h"
 
-#include <arpa/inet.h>
 #include <fmt/format.h>
-#include <netdb.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <cerrno>
-#include <charconv>
 #include <cmath>
-#include <cstring>
-#include <memory>
-#include <system_error>
 
 #include "core/error.h"
 #include "live/amounts.h"
@@ -24,90 +13,28 @@ namespace wholehand {
 namespace {
 
 constexpr std::string_view SCHEME = "osc://";
-constexpr std::size_t LARGEST_HOST = 253;  // of a name in the DNS
-constexpr float UNHOLDABLE = -1;           // a hold force or an effort that is infinite
-
-using Addresses = std::unique_ptr<addrinfo, void (*)(addrinfo*)>;
-
-// Receivers on this machine mostly listen on IPv4 alone; so that of a name with both kinds of addresses.
-const addrinfo* preferred(const addrinfo* first) {
-  for (const addrinfo* address = first; address; address = address->ai_next)
-    if (address->ai_family == AF_INET) return address;
-  return first;
-}
-
-Addresses find_host(const OscTarget& target) {
-  addrinfo hints{};
-  hints.ai_family = AF_UNSPEC;
-  hints.ai_socktype = SOCK_DGRAM;
-  hints.ai_flags = AI_NUMERICSERV;
-  addrinfo* found = nullptr;
-  const int error = getaddrinfo(target.host.c_str(), std::to_string(target.port).c_str(), &hints, &found);
-  if (error != 0) {
-    throw failure_error(fmt::format("--stream: host {} is not found: {}; give another host, or its address", in_quotes(target.host),
-                                    error == EAI_SYSTEM ? std::strerror(errno) : gai_strerror(error)));
-  }
-  return {found, freeaddrinfo};
-}
-
-std::string numeric(const addrinfo& address) {
-  char text[NI_MAXHOST] = "";
-  getnameinfo(address.ai_addr, address.ai_addrlen, text, sizeof text, nullptr, 0, NI_NUMERICHOST);
-  return text;
-}
-
-bool is_of_this_machine(const addrinfo& address) {
-  if (address.ai_family == AF_INET) {
-    sockaddr_in in{};
-    std::memcpy(&in, address.ai_addr, sizeof in);
-    return ntohl(in.sin_addr.s_addr) >> 24 == 127;
-  }
-  sockaddr_in6 in{};
-  std::memcpy(&in, address.ai_addr, sizeof in);
-  return IN6_IS_ADDR_LOOPBACK(&in.sin6_addr);
-}
-
-int open_socket(const addrinfo& address) {
-  const int socket = ::socket(address.ai_family, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-  if (socket < 0) throw failure_error(fmt::format("--stream: no socket: {}", std::generic_category().message(errno)));
-  const int on = 1;
-  setsockopt(socket, SOL_SOCKET, SO_BROADCAST, &on, sizeof on);  // several machines may listen
-  return socket;
-}
+constexpr const char* PLACE = "--stream";
+constexpr float UNHOLDABLE = -1;  // a hold force or an effort that is infinite
 
 float number(double value) { return std::isfinite(value) ? static_cast<float>(value) : 0; }
 float holding_number(double value) { return std::isinf(value) ? UNHOLDABLE : number(value); }
 
 }  // namespace
 
-OscTarget parse_osc_url(const std::string& url) {
-  const auto refuse = [&url](const char* found) {
+HostPort parse_osc_url(const std::string& url) {
+  const auto refuse = [&url](const std::string& found) {
     throw usage_error(
         fmt::format("--stream {}: {}; allowed: osc://HOST:PORT, for example osc://127.0.0.1:9000", in_quotes(url), found));
   };
   if (url.rfind(SCHEME, 0) != 0) refuse("it does not begin with osc://");
-  const std::string rest = url.substr(SCHEME.size());
-  const std::size_t colon = rest.rfind(':');
-  if (colon == std::string::npos || rest.back() == ']') refuse("there is no port");
-  OscTarget target;
-  target.host = rest.substr(0, colon);
-  const bool has_brackets = !target.host.empty() && target.host.front() == '[' && target.host.back() == ']';
-  if (has_brackets) target.host = target.host.substr(1, target.host.size() - 2);
-  if (target.host.empty()) refuse("there is no host");
-  const auto is_of_host = [has_brackets](char c) {
-    const bool is_alphanumeric = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-    return is_alphanumeric || c == '.' || c == '-' || c == '_' || (has_brackets && (c == ':' || c == '%'));
-  };
-  if (target.host.size() > LARGEST_HOST || !std::all_of(target.host.begin(), target.host.end(), is_of_host))
-    refuse("its host is not valid");
-  const char *port = rest.data() + colon + 1, *end = rest.data() + rest.size();
-  const auto [stop, error] = std::from_chars(port, end, target.port);
-  if (error != std::errc{} || stop != end || target.port < 1 || target.port > 65535)
-    refuse("its port is not a whole number from 1 to 65535");
+  HostPort target;
+  const std::string wrong = read_host_port(url.substr(SCHEME.size()), 1, target);
+  if (!wrong.empty()) refuse(wrong);
   return target;
 }
 
-OscStream::OscStream(const OscTarget& target, const LiveScene& live) : live_(live) {
+OscStream::OscStream(const HostPort& target, const LiveScene& live)
+    : live_(live), to_(find_udp_address(target, PLACE)), socket_(to_.family(), PLACE) {
   for (int j = 0; j < JOINT_COUNT; ++j) joints_[j] = std::string("/wholehand/joint/") + openxr_name(j);
   for (const VesselData& vessel : live.scene.vessels) {
     const std::string address = "/wholehand/vessel/" + vessel.name;
@@ -115,18 +42,11 @@ OscStream::OscStream(const OscTarget& target, const LiveScene& live) : live_(liv
   }
   if (live.scene.task)
     for (const auto& [liquid, volume] : live.scene.task->amounts) amounts_.push_back("/wholehand/amount/" + liquid);
-  const Addresses found = find_host(target);
-  const addrinfo& address = *preferred(found.get());
-  to_.resize(address.ai_addrlen);
-  std::memcpy(to_.data(), address.ai_addr, to_.size());
-  if (!is_of_this_machine(address)) {
-    note_ =
-        fmt::format("--stream: the session goes unencrypted to {} port {}, outside of this machine", numeric(address), target.port);
+  if (!to_.is_of_this_machine()) {
+    note_ = fmt::format("{}: the session goes unencrypted to {} port {}, outside of this machine", PLACE, to_.host(), target.port);
   }
-  socket_ = open_socket(address);
+  socket_.allow_broadcast();
 }
-
-OscStream::~OscStream() { close(socket_); }
 
 void OscStream::show(const DisplayMoment& moment) noexcept {
   const auto state = static_cast<std::size_t>(moment.tick.state);
@@ -161,11 +81,7 @@ void OscStream::put_pose(std::string_view address, const Triple& place, const Qu
 }
 
 void OscStream::flush() noexcept {
-  if (!bundle_.is_empty()) {
-    const std::span<const char> bytes = bundle_.bytes();
-    sendto(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL, reinterpret_cast<const sockaddr*>(to_.data()),
-           static_cast<socklen_t>(to_.size()));
-  }
+  if (!bundle_.is_empty()) socket_.send(bundle_.bytes(), to_);
   bundle_.clear();
 }
 

@@ -10,25 +10,20 @@
 
 #include "grips/hand_nodes.h"
 #include "live/session.h"
+#include "system/osc_bundle.h"
+#include "system/udp.h"
 #include "viewer/display_loop.h"
-#include "viewer/osc_bundle.h"
 
 namespace wholehand {
 
-struct OscTarget {
-  std::string host;  // a name or a numeric address
-  int port = 0;
-};
-
 // osc://HOST:PORT, of HOST an IPv6 address in brackets. Throws Error (usage) in the name of --stream.
-OscTarget parse_osc_url(const std::string& url);
+HostPort parse_osc_url(const std::string& url);
 
 // Sends frames and never looks whether anybody takes them.
 class OscStream final : public Display {
  public:
   // `live` must outlive it. Throws Error (failure): the host is not known, or there is no socket.
-  OscStream(const OscTarget& target, const LiveScene& live);
-  ~OscStream() override;
+  OscStream(const HostPort& target, const LiveScene& live);
   OscStream(const OscStream&) = delete;
   OscStream& operator=(const OscStream&) = delete;
 
@@ -61,8 +56,8 @@ class OscStream final : public Display {
 
   const LiveScene& live_;
   std::string note_;
-  int socket_ = -1;
-  std::vector<unsigned char> to_;  // a sockaddr
+  UdpAddress to_;
+  UdpSocket socket_;
   std::array<std::string, JOINT_COUNT> joints_;
   std::array<Quaternion, JOINT_COUNT + 1> turns_{};  // of joints and wrist that were sent last
   std::vector<Named> vessels_;

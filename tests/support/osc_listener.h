@@ -34,7 +34,7 @@ class OscListener {
   ~OscListener() { lo_server_free(server_); }
   OscListener(const OscListener&) = delete;
   OscListener& operator=(const OscListener&) = delete;
-  OscTarget target() const { return {"127.0.0.1", lo_server_get_port(server_)}; }
+  HostPort target() const { return {"127.0.0.1", lo_server_get_port(server_)}; }
 
   // Messages of one frame in their order, without those that say of which it is.
   std::vector<OscMessage> frame() {

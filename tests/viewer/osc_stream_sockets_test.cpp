@@ -128,7 +128,7 @@ TEST(OscStream, AHostThatIsNotKnownIsAFailureInOneLine) {
 
 TEST(OscStream, ReadsAddresses) {
   const auto expect = [](const std::string& url, const std::string& host, int port) {
-    const OscTarget target = parse_osc_url(url);
+    const HostPort target = parse_osc_url(url);
     EXPECT_EQ(target.host, host) << url;
     EXPECT_EQ(target.port, port) << url;
   };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "viewer/osc_bundle.h"
+#include "system/osc_bundle.h"
 
 #include <algorithm>
 #include <bit>
@@ -49,6 +49,12 @@ bool OscBundle::add(std::string_view address, std::span<const OscValue> values) 
     if (const auto* text = std::get_if<std::string_view>(&value)) put(*text);
   }
   return true;
+}
+
+std::span<const char> OscBundle::first_message() const {
+  std::size_t size = 0;
+  for (std::size_t k = 0; k < WORD; ++k) size = size << 8 | static_cast<unsigned char>(bytes_[HEAD + k]);
+  return std::span<const char>(bytes_).subspan(HEAD + WORD, size);
 }
 
 // Big-endian.

@@ -27,6 +27,8 @@ class OscBundle {
   }
   bool is_empty() const { return bytes_.size() == HEAD; }
   std::span<const char> bytes() const { return bytes_; }
+  // The first message alone, as a datagram without a bundle. The bundle has one.
+  std::span<const char> first_message() const;
 
  private:
   static constexpr std::size_t HEAD = 16;  // "#bundle", time tag

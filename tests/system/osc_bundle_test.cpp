@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Bundles of OSC 1.0: against the specification's own examples byte by byte, and against liblo, which reads them its own way.
 // sanitizers: address
-#include "viewer/osc_bundle.h"
+#include "system/osc_bundle.h"
 
 #include <gtest/gtest.h>
 #include <lo/lo.h>
@@ -36,6 +36,16 @@ TEST(OscBundle, IsTheSpecificationsExamplesByteByByte) {
                 literal("\0\0\0\x28/foo\0\0\0\0,iisff\0\0\0\0\x03\xe8\xff\xff\xff\xffhello\0\0\0\x3f\x9d\xf3\xb6\x40\xb5\xb2\x2d"));
   bundle.clear();
   EXPECT_EQ(bytes_of(bundle), HEAD);
+}
+
+TEST(OscBundle, AMessageGoesAloneToo) {
+  OscBundle bundle(1000);
+  ASSERT_TRUE(bundle.add("/oscillator/4/frequency", {440.0f}));
+  const auto alone = [&bundle] { return std::string(bundle.first_message().begin(), bundle.first_message().end()); };
+  const std::string first = literal("/oscillator/4/frequency\0,f\0\0\x43\xdc\0\0");
+  EXPECT_EQ(alone(), first);
+  ASSERT_TRUE(bundle.add("/foo", {1}));
+  EXPECT_EQ(alone(), first);
 }
 
 TEST(OscBundle, TakesNoMessageThatIsTooMuch) {
