@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// What a hand over the network says and hears, as messages of Open Sound Control: docs/devices.md describes them. Pure functions; nothing
+// here allocates or throws.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "device/gripper.h"
+#include "live/tick.h"
+
+namespace wholehand::osc {
+
+constexpr const char* HELLO = "/wholehand/gripper/hello";
+constexpr const char* STATE = "/wholehand/gripper/state";
+constexpr const char* BYE = "/wholehand/gripper/bye";
+constexpr const char* FORCE = "/wholehand/gripper/force";
+
+// What a number may be; beyond, its message is malformed.
+constexpr double MOST_PLACE = 100;                                                  // m from the origin, along each axis
+constexpr double LEAST_GAP = -0.01, MOST_GAP = 1;                                   // m
+constexpr double MOST_FORCE = 1000;                                                 // N
+constexpr double QUATERNION_TOLERANCE = 1e-3;                                       // of the length
+constexpr std::int64_t LEAST_NUMBER = -(1ll << 31), MOST_NUMBER = (1ll << 32) - 1;  // of 32 bits, with a sign or without
+
+// What the hand is: /wholehand/gripper/hello.
+struct Hello {
+  std::array<double, 2> gap{};  // closed, open, m
+  double force = 0, grip = 0;   // the most it can bear at the arm and at the fingers, N
+  int port = 0;                 // of the sender's host, where forces go; 0: to where the message comes from
+};
+
+// What a datagram holds for the gripper.
+struct Words {
+  bool has_hello = false, has_state = false, has_bye = false;
+  Hello hello;
+  // The latest by its sequence. A number that is none stays so, and makes the rotation NaN where it is the quaternion that is none: the guard
+  // looks at it.
+  GripperState state;
+  bool is_any() const { return has_hello || has_state || has_bye; }
+};
+
+// Reads a datagram. What is wrong with it, and then nothing of it counts; null: nothing. Messages with other addresses are passed over.
+const char* read_words(std::span<const char> datagram, Words& words) noexcept;
+
+// Whether sequence `a` comes after `b`: both count on from 2^32 - 1 with 0.
+constexpr bool is_later(std::uint32_t a, std::uint32_t b) { return static_cast<std::int32_t>(a - b) > 0; }
+
+}  // namespace wholehand::osc
