@@ -210,7 +210,8 @@ class LiveRun {
       gripper_ =
           options_.person
               ? open_sim(scene_, options_.seed, Participant(scene_.people, options_.seed, *options_.person, Experiment::live))
-              : open_gripper(options_.device, scene_, options_.seed, options_.dhd_library, WATCHDOG, input_.get());
+              : open_gripper(options_.device, scene_, options_.seed, options_.dhd_library, WATCHDOG, input_.get(),
+                             [](const std::string& line) { std::fprintf(stderr, "wholehand: live: %s\n", line.c_str()); });
     }
     const double most = gripper_->limits().rate;
     if (!is_replay && most > 0 && scene_.live.rate > most) {
@@ -291,6 +292,7 @@ class LiveRun {
       std::this_thread::sleep_for(LOOK);
       tell_trouble(recorder);
       tell_calls();
+      tell_news();
       lost = watch_ && watch_->lasted() > CALL_LOST ? lost + 1 : 0;
       if (lost == LOST_LOOKS) give_up(interrupt, recorder, board);
       board.show(options_.json);
@@ -304,6 +306,8 @@ class LiveRun {
     tell_calls();
     if (watch_ && watch_->count() > 1)
       notes_.push_back(fmt::format("{} calls of the device did not return within {:g} ms", watch_->count(), CALL_PATIENCE * 1e3));
+    tell_news();
+    for (std::string& line : gripper_->remarks()) notes_.push_back(std::move(line));
   }
 
   // By the haptic thread, which is watched, as it may not return from this either.
@@ -375,6 +379,10 @@ class LiveRun {
 
   void tell_calls() {
     if (const auto news = watch_ ? watch_->news() : std::nullopt) note(*news);
+  }
+
+  void tell_news() {
+    if (const auto news = gripper_->news()) note(*news);
   }
 
   // `has_times`: in `report`; false where the loop still has them.

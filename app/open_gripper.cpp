@@ -7,20 +7,40 @@
 #include "core/error.h"
 #include "device/hid_gripper.h"
 #include "device/omega_gripper.h"
+#include "device/osc_gripper.h"
 #include "device/sim_gripper.h"
 #include "device/usb_gripper.h"
 #include "scene/ranges.h"
 #include "scene/text.h"
+#include "system/udp.h"
 
 namespace wholehand {
 namespace {
 
 constexpr IntegerRange OMEGA_NUMBER{0, 31};
+constexpr int ANY_PORT = 0;  // that is free
+
+// PORT, of this machine alone, or HOST:PORT.
+HostPort parse_osc_place(const std::string& text) {
+  HostPort place{"127.0.0.1", 0};
+  std::string wrong;
+  if (text.find(':') != std::string::npos)
+    wrong = read_host_port(text, ANY_PORT, place);
+  else if (!read_port(text, ANY_PORT, place.port))
+    wrong = fmt::format("its port is not a whole number from {} to {}", ANY_PORT, LARGEST_PORT);
+  if (!wrong.empty()) {
+    throw usage_error(
+        fmt::format("--device {}: {}; allowed: osc:PORT, or osc:HOST:PORT with an address of this machine; for example "
+                    "osc:9000",
+                    in_quotes("osc:" + text), wrong));
+  }
+  return place;
+}
 
 }  // namespace
 
 std::unique_ptr<Gripper> open_gripper(const std::string& device, const Scene& scene, std::uint64_t seed, const std::string& library,
-                                      double watchdog, ViewInput* view) {
+                                      double watchdog, ViewInput* view, const std::function<void(const std::string&)>& say) {
   const std::size_t colon = device.find(':');
   const std::string kind = device.substr(0, colon), which = colon == std::string::npos ? "" : device.substr(colon + 1);
   const bool is_bare = colon == std::string::npos;
@@ -35,9 +55,10 @@ std::unique_ptr<Gripper> open_gripper(const std::string& device, const Scene& sc
     const int number = is_bare ? 0 : static_cast<int>(parse_integer(which, "--device omega", OMEGA_NUMBER));
     return open_omega(library.empty() ? scene.device.library : library, watchdog, number);
   }
+  if (kind == "osc" && !is_bare) return open_osc(parse_osc_place(which), scene, say);
   throw usage_error(
-      fmt::format("--device {}: allowed: sim, view, replay:FILE, hid, hid:PATH, usb, usb:VID:PID, omega or omega:N; `wholehand "
-                  "devices` lists what is there",
+      fmt::format("--device {}: allowed: sim, view, replay:FILE, hid, hid:PATH, usb, usb:VID:PID, omega, omega:N, osc:PORT or "
+                  "osc:HOST:PORT; `wholehand devices` lists what is there",
                   in_quotes(device)));
 }
 

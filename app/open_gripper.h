@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -14,11 +15,12 @@ namespace wholehand {
 
 constexpr double WATCHDOG = 20e-3;  // s without a word from the host after which a device lets go: two of the host's own patience
 
-// sim, view, hid[:PATH], usb[:VID:PID] or omega[:N], as --device names them; a recording is opened by its own (recordings/recording.h). `library`: of
-// Force Dimension's SDK, empty: wherever it is found; `watchdog` in s; `view`: where the page's controls go in, which must outlive the
-// gripper; null: there is no page. Throws Error: (usage) another name, with those that are allowed, or no page; (failure) what opening it
-// throws.
-std::unique_ptr<Gripper> open_gripper(const std::string& device, const Scene& scene, std::uint64_t seed, const std::string& library,
-                                      double watchdog = WATCHDOG, ViewInput* view = nullptr);
+// sim, view, hid[:PATH], usb[:VID:PID], omega[:N] or osc:[HOST:]PORT, as --device names them; a recording is opened by its own
+// (recordings/recording.h). `library`: of Force Dimension's SDK, empty: wherever it is found; `watchdog` in s; `view`: where the page's
+// controls go in, which must outlive the gripper; null: there is no page; `say` is given lines for the user, of a gripper that is waited for.
+// Throws Error: (usage) another name, with those that are allowed, or no page; (failure) what opening it throws.
+std::unique_ptr<Gripper> open_gripper(
+    const std::string& device, const Scene& scene, std::uint64_t seed, const std::string& library, double watchdog = WATCHDOG,
+    ViewInput* view = nullptr, const std::function<void(const std::string&)>& say = [](const std::string&) {});
 
 }  // namespace wholehand

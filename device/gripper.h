@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -74,7 +75,11 @@ class Gripper {
   // Zero force from a second thread while the haptic thread is in a call that does not return. It may wait for as long as that call does; the
   // session may go on afterwards, its next force beginning at zero.
   virtual LetGo let_go_meanwhile() noexcept { return LetGo::nothing; }
-  // What is on the screen after this tick. Only simulated users look.
+  // A line that the user must see now, once; asked from time to time by another thread than the haptic one, which it does not make wait.
+  virtual std::optional<std::string> news() { return std::nullopt; }
+  // What was odd, for the report of a session that is over.
+  virtual std::vector<std::string> remarks() const { return {}; }
+  // What is on the screen after this tick: for simulated users, and hands that are told the session's state.
   virtual void show(const Tick&) noexcept {}
   // The number that the next tick must have: a recording's, in which some may be missing. -1: the loop's own
   // clock counts.

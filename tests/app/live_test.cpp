@@ -120,7 +120,27 @@ TEST(LiveReport, TheFaultLineSaysWhenAndWhy) {
 
 TEST(OpenGripper, RefusesOtherNames) {
   const Scene scene = board_scene();
-  for (const char* name : {"", "simulator", "sim:1", "view", "view:1", "hid:", "usb:", "omega:", "omega:x", "omega:99", "replay"}) {
+  for (const char* name : {"",
+                           "simulator",
+                           "sim:1",
+                           "view",
+                           "view:1",
+                           "hid:",
+                           "usb:",
+                           "omega:",
+                           "omega:x",
+                           "omega:99",
+                           "replay",
+                           "osc",
+                           "osc:",
+                           "osc:x",
+                           "osc:-1",
+                           "osc:65536",
+                           "osc:127.0.0.1:",
+                           "osc::9000",
+                           "osc://127.0.0.1:9000",
+                           "osc:::1:9000",
+                           "osc:a b:9000"}) {
     try {
       open_gripper(name, scene, 1, "");
       ADD_FAILURE() << name;
@@ -386,6 +406,10 @@ TEST(Live, RefusesWhatIsNotAllowedInOneLine) {
   expect_refused("--seconds 0", 2, "--seconds");
   expect_refused("--no-clock --device hid", 2, "--no-clock");
   expect_refused("--device view", 2, "--device view: the page of the view is the gripper, and there is no view; add --view");
+  expect_refused("--device osc:9000x", 2,
+                 "--device 'osc:9000x': its port is not a whole number from 0 to 65535; allowed: osc:PORT, or osc:HOST:PORT");
+  expect_refused("--no-clock --device osc:0", 2, "--no-clock");
+  expect_refused("--device osc:192.0.2.7:9000", 3, "osc:192.0.2.7:9000: this machine cannot listen there");
   expect_refused("--stream http://127.0.0.1:9000", 2, "--stream 'http://127.0.0.1:9000': it does not begin with osc://");
   expect_refused("--stream osc://127.0.0.1", 2, "there is no port");
   expect_refused("--stream osc://a..b:9000", 3, "host 'a..b' is not found");

@@ -6,14 +6,13 @@
 
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <limits>
 #include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "tests/support/files.h"
+#include "tests/support/hex_blocks.h"
 
 namespace wholehand::protocol {
 namespace {
@@ -45,24 +44,9 @@ Identity some_identity() {
   return identity;
 }
 
-// ---- the document: each block "```hex NAME", `#` starts a comment ----
+// ---- the document ----
 
-std::map<std::string, std::vector<std::uint8_t>> blocks_of_document() {
-  std::map<std::string, std::vector<std::uint8_t>> blocks;
-  std::ifstream file(WHOLEHAND_SOURCE_DIR "/docs/gripper-protocol.md");
-  std::string name;
-  for (std::string line; std::getline(file, line);) {
-    if (line.starts_with("```hex ")) {
-      name = line.substr(7);
-    } else if (line.starts_with("```")) {
-      name.clear();
-    } else if (!name.empty()) {
-      std::istringstream words(line.substr(0, line.find('#')));
-      for (std::string word; words >> word;) blocks[name].push_back(static_cast<std::uint8_t>(std::stoul(word, nullptr, 16)));
-    }
-  }
-  return blocks;
-}
+std::map<std::string, std::vector<std::uint8_t>> blocks_of_document() { return hex_blocks("gripper-protocol.md"); }
 
 std::vector<std::uint8_t> list(Bytes bytes) { return {bytes.begin(), bytes.end()}; }
 

@@ -28,6 +28,7 @@
 
 #include "device/haptic_loop.h"
 #include "tests/support/live_script.h"
+#include "tests/support/osc_peer.h"
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
@@ -223,6 +224,43 @@ TEST(TickPath, TheWatchSeesALock) {
   Seen seen;
   run_loop(seen, true, 5, [&] { const std::lock_guard<std::mutex> lock(mutex); });
   EXPECT_EQ(seen.locks, seen.ticks);
+}
+
+// What it sends and takes is the kernel's; the rest of its calls is this program's own.
+TEST(TickPath, AHandOverTheNetworkNeitherAllocatesNorLocks) {
+  const Scene scene = live_scene();
+  const OscPeer peer;
+  const std::string first = osc_state(1, GripperState{}), garbage = "garbage", hello = osc_hello({0, 0.1, 12, 8});
+  const auto gripper = open_said(scene, peer, {first});
+  const int port = port_of(gripper->limits().address);
+  const OscPeer stranger;
+  GripperState state;
+  const auto watched = [](const auto& call) {
+    is_watched = true;
+    const bool answer = call();
+    is_watched = false;
+    return answer;
+  };
+  allocations = locks = 0;
+  std::uint32_t sign = 0;
+  int seen = 0;
+  for (std::int64_t tick = 0; tick < 200; ++tick) {
+    GripperState next;
+    next.buttons = ++sign;
+    peer.send(osc_state(tick + 2, next), port);
+    peer.send(garbage, port);
+    peer.send(hello, port);
+    stranger.send(first, port);
+    watched([&] { return gripper->read(state, tick) == ReadOutcome::value; });
+    EXPECT_TRUE(watched([&] { return gripper->write({{1, 2, 3}, 4}); }));
+    seen += state.buttons > 0;
+  }
+  EXPECT_TRUE(watched([&] { return gripper->let_go() == LetGo::written; }));
+  EXPECT_TRUE(watched([&] { return gripper->panic() == LetGo::written; }));
+  EXPECT_EQ(allocations, 0);
+  EXPECT_EQ(locks, 0);
+  EXPECT_GT(seen, 100) << "they were read";
+  EXPECT_EQ(gripper->remarks().size(), 2u) << "garbage and strangers";
 }
 
 // ---- system calls ----
