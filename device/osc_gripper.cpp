@@ -243,8 +243,9 @@ ReadOutcome OscGripper::read(GripperState& state, std::int64_t tick) noexcept {
 }
 
 bool OscGripper::write(const GripperForce& force) noexcept {
+  if (has_panicked_.load()) return send(release_.all());
   const bool is_number = is_finite(force);
-  GripperForce sent = is_number && !has_panicked_.load() ? force : GripperForce{};
+  GripperForce sent = is_number ? force : GripperForce{};
   // the last guard before the wire
   const double size = norm(sent.arm);
   if (size > limits_.force)
