@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A hand over the network: who is obeyed, what becomes of everything else that comes, and that no force is left on any way out. The ticks are
 // counted by the tests; only the datagrams are real.
-// sanitizers: address
+// sanitizers: address thread
 #include "device/osc_gripper.h"
 
 #include <gtest/gtest.h>
@@ -13,6 +13,7 @@
 #include <limits>
 #include <set>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "core/error.h"
@@ -259,6 +260,35 @@ TEST(OscGripper, OnlyTheFirstIsObeyed) {
   ASSERT_TRUE(rig.gripper->write({{1, 0, 0}, 0}));
   EXPECT_TRUE(rig.peer.hear());
   EXPECT_FALSE(second.hear(0.01));
+}
+
+// Another thread asks meanwhile, and a third takes the force away.
+TEST(OscGripper, OtherThreadsMayAskAndLetGo) {
+  OscRig rig({osc_state(1, hand_at(0))});
+  const OscPeer second;
+  std::atomic<bool> is_over{false};
+  std::atomic<int> told{0};
+  std::thread asking([&] {
+    while (!is_over) {
+      told += rig.gripper->news().has_value();
+      rig.gripper->remarks();
+    }
+    told += rig.gripper->news().has_value();
+  });
+  std::thread letting_go([&] {
+    while (!is_over) EXPECT_EQ(rig.gripper->let_go_meanwhile(), LetGo::written);
+  });
+  for (std::int64_t tick = 0; tick < 2000; ++tick) {
+    if (tick % 10 == 0) rig.send(osc_state(2 + tick, hand_at(0)));
+    if (tick % 100 == 0) second.send("nonsense", rig.port);
+    rig.read(tick);
+    EXPECT_TRUE(rig.gripper->write({{1, 0, 0}, 0}));
+  }
+  ASSERT_TRUE(rig.comes_through(2000, 5000, 1));
+  is_over = true;
+  asking.join();
+  letting_go.join();
+  EXPECT_EQ(told, 1);
 }
 
 TEST(OscGripper, SilenceOf50MillisecondsIsATimeout) {
