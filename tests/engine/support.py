@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: MIT
+"""What the engines' tests share: where wholehand is installed, a scene, grips of it, small geometry."""
+
+import glob
+import json
+import math
+import os
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+EXAMPLES = os.path.join(HERE, "../../examples")
+PATIENCE = 120  # s: on however busy a machine
+
+# What the packages install, unpacked in one folder.
+STAGED = os.environ["STAGED"]
+PROGRAM = f"{STAGED}/usr/bin/wholehand"
+INCLUDE = f"{STAGED}/usr/include"
+LIBRARIES = os.path.dirname(glob.glob(f"{STAGED}/usr/lib/*/libwholehand.so")[0])
+
+# Joints as OpenXR names them, in the order of `grip --json`.
+FINGER = ["METACARPAL", "PROXIMAL", "INTERMEDIATE", "DISTAL", "TIP"]
+JOINTS = [f"XR_HAND_JOINT_THUMB_{joint}_EXT" for joint in FINGER if joint != "INTERMEDIATE"]
+JOINTS += [f"XR_HAND_JOINT_{finger}_{joint}_EXT" for finger in ("INDEX", "MIDDLE", "RING", "LITTLE") for joint in FINGER]
+
+# One beaker beside the origin. No busy machine ends its session by late ticks.
+SCENE = """
+[scene]
+name = "one_beaker"
+
+[hand]
+handedness = "right"
+contact_tolerance_mm = 0.004  # the least: fingertips of a session hold where a sweep's do
+
+[[vessel]]
+name = "beaker"
+shape = "cylinder"
+diameter_mm = 80
+height_mm = 110
+wall_mm = 1.5
+force_range_N = 2
+place_mm = [60, 0, 0]
+liquid = { name = "red", fill = 0.5 }
+
+[liquid]
+fills = [0, 0.5]
+
+[live]
+late_steps = 1000
+"""
+
+
+def environment(folder):
+    """For engines, which write below HOME, and find the library where it is."""
+    return {**os.environ, "HOME": folder, "XDG_DATA_HOME": folder, "XDG_CONFIG_HOME": folder, "XDG_CACHE_HOME": folder,
+            "LANG": "en_US.UTF-8", "LC_ALL": "en_US.UTF-8", "LD_LIBRARY_PATH": LIBRARIES}
+
+
+def wholehand(*arguments, folder=None):
+    """The standard output of a command that must go well."""
+    done = subprocess.run([PROGRAM, *arguments], cwd=folder, capture_output=True, text=True, timeout=PATIENCE)
+    if done.returncode:
+        raise AssertionError(f"wholehand {' '.join(arguments)}: {done.returncode}: {done.stderr}")
+    return done.stdout
+
+
+def grip(scene, *options):
+    """What `wholehand grip --json` says of a grip of the beaker."""
+    return json.loads(wholehand("grip", scene, "--vessel", "beaker", "--json", *options))
+
+
+def own_copy(example, folder):
+    """An example's project where it may be written to: engines leave files beside their projects."""
+    return shutil.copytree(os.path.join(EXAMPLES, example), os.path.join(folder, example))
+
+
+# ---- geometry: vectors are lists, rotations are rows ----
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+def cross(a, b):
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def minus(a, b):
+    return [x - y for x, y in zip(a, b)]
+
+
+def unit(a):
+    length = math.sqrt(dot(a, a))
+    return [x / length for x in a]
+
+
+def distance(a, b):
+    return math.dist(a, b)
+
+
+def rows_of(quaternion):
+    """The rotation of x, y, z, w."""
+    x, y, z, w = unit(quaternion)
+    return [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]
+
+
+def inward(rows, place, point):
+    """A point of the world in a frame that is there and turned so."""
+    away = minus(point, place)
+    return [dot([rows[k][column] for k in range(3)], away) for column in range(3)]
+
+
+def roll_of(direction, gripper):
+    """The roll in degrees (docs/method.md, kernel 3) of a hand whose tips lie along `direction`, and whose gripper has these axes
+    (rows): at roll 0 the gripper's second axis is up, as far as the line lets it."""
+    down = unit(minus([0, -1, 0], [-direction[1] * x for x in direction]))
+    second = [-gripper[k][1] for k in range(3)]
+    second = unit(minus(second, [dot(second, direction) * x for x in direction]))
+    return math.degrees(math.atan2(dot(second, cross(direction, down)), dot(second, down)))
+
+
+class EngineTest(unittest.TestCase):
+    """A folder for all tests of a class, with the scene in it."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp(prefix="wholehand_engine_")
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        cls.scene = os.path.join(cls.folder, "one.toml")
+        with open(cls.scene, "w") as file:
+            file.write(SCENE)
+
+    def assert_places(self, ours, theirs, tolerance):
+        """24 places, each within a distance in m of the other's."""
+        self.assertEqual((len(ours), len(theirs)), (24, 24))
+        farthest = max(range(24), key=lambda j: distance(ours[j], theirs[j]))
+        self.assertLess(distance(ours[farthest], theirs[farthest]), tolerance, JOINTS[farthest])
