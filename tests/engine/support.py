@@ -47,6 +47,9 @@ liquid = { name = "red", fill = 0.5 }
 [liquid]
 fills = [0, 0.5]
 
+[tilts]
+deg = [0, 30, 60]
+
 [live]
 late_steps = 1000
 """
