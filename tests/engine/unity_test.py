@@ -9,7 +9,7 @@ import subprocess
 import unittest
 
 from support import (EXAMPLES, HERE, INCLUDE, JOINTS, PATIENCE, PROGRAM, EngineTest, distance, dot, environment, grip, inward,
-                     minus, roll_of, rows_of, unit)
+                     minus, roll_of, rows_of, unit, wholehand)
 
 MIRROR = [1, 1, -1]  # from wholehand's axes to Unity's and back
 
@@ -75,10 +75,22 @@ class Unity(EngineTest):
         cls.bad = os.path.join(cls.folder, "bad.toml")
         with open(cls.bad, "w") as file:
             file.write("[hand]\nscale = 99\n")
-        sources = [os.path.join(EXAMPLES, "unity", name) for name in ("Wholehand.cs", "SessionThread.cs")]
-        sources.append(os.path.join(HERE, "unity_check.cs"))
-        cls.run_well("mcs", "-unsafe", "-warn:4", "-warnaserror", "-out:check.exe", *sources)
+        cls.sources = [os.path.join(EXAMPLES, "unity", name) for name in ("Wholehand.cs", "SessionThread.cs")]
+        check = os.path.join(HERE, "unity_check.cs")
+        cls.run_well("mcs", "-unsafe", "-warn:4", "-warnaserror", "-out:check.exe", check, *cls.sources)
         cls.seen = json.loads(cls.run_well("mono", "check.exe", cls.scene, cls.bad))
+
+    def test_the_lines_of_the_docs_run(self):
+        with open(os.path.join(HERE, "../../docs/engines.md")) as file:
+            lines = re.search(r"^    using \(Wholehand.*?^    \}\n", file.read(), re.S | re.M).group()
+        last = '      System.Console.WriteLine("{0:R} {1:R} {2:R}", tip.X, tip.Y, tip.Z);\n    }\n'
+        with open(os.path.join(self.folder, "docs.cs"), "w") as file:
+            file.write("static class Docs {\n  static void Main() {\n" + lines[:-len("    }\n")] + last + "  }\n}\n")
+        self.run_well("mcs", "-unsafe", "-warn:4", "-warnaserror", "-out:docs.exe", "docs.cs", *self.sources)
+        tip = [float(x) for x in self.run_well("mono", "docs.exe").split()]
+        known = json.loads(wholehand("grip", "mixing_board", "--vessel", "beaker1", "--height-mm=60",
+                                     "--roll-deg=-22.918311805232932", "--json"))
+        self.assertLess(distance([MIRROR[k] * tip[k] for k in range(3)], known["posed_m"][8]), 1e-9)
 
     @classmethod
     def run_well(cls, *command):

@@ -1,0 +1,1 @@
+../godot-stream/hand.gd
