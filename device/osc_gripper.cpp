@@ -98,7 +98,7 @@ class OscGripper final : public Gripper {
 
   // What the user must know of an address that others can reach; empty: nobody can.
   std::string openness() const {
-    if (address_.is_of_this_machine()) return "";
+    if (address_.is_loopback()) return "";
     return limits_.address + ": whoever reaches this port first is the hand, and the forces go there unencrypted";
   }
   // The start: until the first state. Throws Error (failure).

@@ -43,7 +43,8 @@ const char* read_message(std::span<const char> bytes, OscTaker& taker) noexcept 
 }
 
 const char* read_element(std::span<const char> bytes, OscTaker& taker, int depth) noexcept {
-  if (bytes.empty() || bytes.size() % OSC_WORD != 0) return "a length that is no multiple of 4 bytes";
+  if (bytes.empty()) return depth == 0 ? "an empty datagram" : "an empty part of a bundle";
+  if (bytes.size() % OSC_WORD != 0) return "a length that is not a multiple of 4 bytes";
   if (std::string_view(bytes.data(), bytes.size()).substr(0, BUNDLE.size()) != BUNDLE) return read_message(bytes, taker);
   if (depth == OSC_DEPTH) return "too many bundles in each other";
   if (bytes.size() < BUNDLE.size() + OSC_TIME_TAG) return "a bundle without a time tag";

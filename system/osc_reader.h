@@ -45,7 +45,7 @@ class OscTaker {
   ~OscTaker() = default;
 };
 
-// Takes a datagram apart: a message, or a bundle of messages and bundles, whose time tags are passed over. What is wrong with it, or null
+// Takes a datagram apart: a message, or a bundle of messages and bundles, whose time tags are ignored. What is wrong with it, or null
 // where nothing is; a datagram of which a part is wrong may have had messages taken before.
 const char* read_osc(std::span<const char> datagram, OscTaker& taker) noexcept;
 

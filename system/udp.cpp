@@ -83,7 +83,7 @@ UdpAddress UdpAddress::with_port(int port) const noexcept {
   return other;
 }
 
-bool UdpAddress::is_of_this_machine() const noexcept {
+bool UdpAddress::is_loopback() const noexcept {
   if (family() == AF_INET) {
     sockaddr_in in{};
     std::memcpy(&in, &bytes_, sizeof in);

@@ -35,7 +35,7 @@ class UdpAddress {
   // The same host's other port.
   UdpAddress with_port(int port) const noexcept;
   // 127.0.0.0/8 or ::1.
-  bool is_of_this_machine() const noexcept;
+  bool is_loopback() const noexcept;
   bool operator==(const UdpAddress& other) const noexcept;
   // Numeric, for messages.
   std::string host() const;

@@ -42,7 +42,7 @@ OscStream::OscStream(const HostPort& target, const LiveScene& live)
   }
   if (live.scene.task)
     for (const auto& [liquid, volume] : live.scene.task->amounts) amounts_.push_back("/wholehand/amount/" + liquid);
-  if (!to_.is_of_this_machine()) {
+  if (!to_.is_loopback()) {
     note_ = fmt::format("{}: the session goes unencrypted to {} port {}, outside of this machine", PLACE, to_.host(), target.port);
   }
   socket_.allow_broadcast();

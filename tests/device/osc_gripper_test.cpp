@@ -505,7 +505,7 @@ TEST(OscGripper, AHandThatDoesNotComeIsAFailureInOneLine) {
   EXPECT_EQ(message_of({osc_hello({0, 0.1, 12, 8})}, 0.05), "no /wholehand/gripper/state came within 0.05 s");
   EXPECT_EQ(message_of({osc_message("/wholehand/gripper/bye", "", {})}, 10), "the hand said goodbye before it said where it is");
   EXPECT_EQ(message_of({"/ab", osc_message("/wholehand/gripper/state", "f", {1})}, 0.5),
-            "no /wholehand/gripper/state came within 0.5 s; 2 datagrams could not be read, the first of them: a length that is no "
+            "no /wholehand/gripper/state came within 0.5 s; 2 datagrams could not be read, the first of them: a length that is not a "
             "multiple of 4 bytes");
 }
 

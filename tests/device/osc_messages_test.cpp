@@ -204,14 +204,14 @@ TEST(OscMessages, DamagedBytesAreNoTrouble) {
     const std::string head = osc_bundle({});
     expect_wrong(
         head + big_endian_word(size) + (size == 0 ? "" : "/abc"),
-        size == 0 || size < 4 ? "a length that is no multiple of 4 bytes" : "a part of a bundle that is longer than the datagram");
+        size == 0  ? "an empty part of a bundle" : size < 4 ? "a length that is not a multiple of 4 bytes" : "a part of a bundle that is longer than the datagram");
   }
 }
 
 TEST(OscMessages, WhatIsNoMessageIsWrong) {
   using namespace std::string_literals;
-  expect_wrong("", "a length that is no multiple of 4 bytes");
-  expect_wrong("abc"s, "a length that is no multiple of 4 bytes");
+  expect_wrong("", "an empty datagram");
+  expect_wrong("abc"s, "a length that is not a multiple of 4 bytes");
   expect_wrong("abc\0"s, "a message without an address");
   expect_wrong("\0\0\0\0"s, "a message without an address");
   expect_wrong("/abc"s, "a message without an address");

@@ -21,7 +21,9 @@ TEST(Udp, ADatagramComesWholeWithItsSender) {
   for (const char* host : {"127.0.0.1", "::1"}) {
     const UdpAddress any = loopback(host);
     UdpSocket here(any.family(), "test"), there(any.family(), "test");
-    ASSERT_EQ(here.bind(any), 0) << host;
+    const int error = here.bind(any);
+    if (any.family() == AF_INET6 && error == EADDRNOTAVAIL) continue;  // a machine without an IPv6 address of its own
+    ASSERT_EQ(error, 0) << host;
     ASSERT_EQ(there.bind(any), 0) << host;
     EXPECT_GT(here.address().port(), 0);
     EXPECT_NE(here.address(), there.address());
@@ -67,12 +69,12 @@ TEST(Udp, WhatIsNotTakenIsSaid) {
 }
 
 TEST(Udp, KnowsThisMachine) {
-  EXPECT_TRUE(loopback("127.0.0.1").is_of_this_machine());
-  EXPECT_TRUE(loopback("127.255.0.3").is_of_this_machine());
-  EXPECT_TRUE(loopback("::1").is_of_this_machine());
-  EXPECT_FALSE(loopback("192.0.2.7").is_of_this_machine());
-  EXPECT_FALSE(loopback("0.0.0.0").is_of_this_machine()) << "all there are";
-  EXPECT_FALSE(loopback("2001:db8::1").is_of_this_machine());
+  EXPECT_TRUE(loopback("127.0.0.1").is_loopback());
+  EXPECT_TRUE(loopback("127.255.0.3").is_loopback());
+  EXPECT_TRUE(loopback("::1").is_loopback());
+  EXPECT_FALSE(loopback("192.0.2.7").is_loopback());
+  EXPECT_FALSE(loopback("0.0.0.0").is_loopback()) << "all there are";
+  EXPECT_FALSE(loopback("2001:db8::1").is_loopback());
 }
 
 TEST(Udp, AHostThatIsNotKnownIsAFailureInOneLine) {
