@@ -10,16 +10,12 @@
 #include "device/call_watch.h"
 
 namespace wholehand {
-namespace {
-
-// Angle between two rotations: for small ones, the length of their difference over the root of two.
-double turned(const Rotation& a, const Rotation& b) {
+// The length of their difference over the root of two.
+double turned_by(const Rotation& a, const Rotation& b) noexcept {
   double squares = 0;
   for (int k = 0; k < 9; ++k) squares += (a[k] - b[k]) * (a[k] - b[k]);
   return std::sqrt(0.5 * squares);
 }
-
-}  // namespace
 
 Guard::Guard(const LiveData& live, const GripperLimits& limits)
     : force_(limits.force), grip_(limits.grip), period_(1 / live.rate), ramp_(live.ramp), slew_(live.slew), jump_(live.jump) {}
@@ -33,7 +29,7 @@ Fault Guard::check(ReadOutcome read, const GripperState& state, std::int64_t num
     const double seconds = period_ * static_cast<double>(std::max<std::int64_t>(1, number - taken_));
     arm_speed_ = distance(state.position, state_.position) / seconds;
     gap_speed_ = std::abs(state.gap - state_.gap) / seconds;
-    turn_speed_ = turned(state.rotation, state_.rotation) / seconds;
+    turn_speed_ = turned_by(state.rotation, state_.rotation) / seconds;
     if (arm_speed_ > jump_ || gap_speed_ > jump_ || turn_speed_ > JUMP_TURN) return Fault::jump;
   }
   // A process that stands still inside of a read gets its measurement late. The numbers tell a replay so too.

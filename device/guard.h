@@ -47,6 +47,9 @@ class Guard {
   double arm_speed_ = 0, gap_speed_ = 0, turn_speed_ = 0;  // m/s, m/s, rad/s: of the last two measurements
 };
 
+// Angle between two rotations, rad: for small ones.
+double turned_by(const Rotation& a, const Rotation& b) noexcept;
+
 constexpr double ROTATION_TOLERANCE = 1e-3;  // a tenth of a degree of skew is a broken sensor
 constexpr double STALL = 15e-3;              // s: less than the watchdog that a device is given
 constexpr double JUMP_TURN = 100;            // rad/s: a quick wrist turns at 30

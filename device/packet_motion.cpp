@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <glm/gtc/quaternion.hpp>
 
 #include "core/vectors.h"
+#include "device/guard.h"
 
 namespace wholehand {
 
@@ -46,6 +48,27 @@ void PacketMotion::move(GripperState& state, std::int64_t tick) noexcept {
   state.rotation = to_rotation(glm::mat3_cast(pose.turn));
   state.gap = pose.gap;
   state.buttons = buttons_;
+}
+
+PacketSteps::PacketSteps(double rate, double jump, double turn) noexcept : period_(1 / rate), jump_(jump), turn_(turn) {
+  intervals_.fill(PacketMotion::LONGEST);
+}
+
+void PacketSteps::start(const GripperState& state, std::int64_t tick) noexcept {
+  before_ = state;
+  heard_ = tick;
+}
+
+bool PacketSteps::allows(const GripperState& state, std::int64_t tick) noexcept {
+  const double interval = period_ * static_cast<double>(tick - heard_);
+  intervals_[next_++ % intervals_.size()] = interval;
+  const double mean = std::accumulate(intervals_.begin(), intervals_.end(), 0.0) / static_cast<double>(intervals_.size());
+  const double seconds = std::max(interval, mean) + period_;
+  const bool is_allowed = distance(state.position, before_.position) <= jump_ * seconds &&
+                          std::abs(state.gap - before_.gap) <= jump_ * seconds &&
+                          turned_by(state.rotation, before_.rotation) <= turn_ * seconds;
+  start(state, tick);
+  return is_allowed;
 }
 
 }  // namespace wholehand

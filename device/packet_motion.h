@@ -56,4 +56,24 @@ class PacketMotion {
   std::int64_t heard_ = 0;  // tick of the last measurement
 };
 
+// Finds a sender that jumps: PacketMotion would make a quick move of it. A step between two measurements must not be faster than is
+// allowed, in the time between them or in the mean of the last INTERVALS, whichever is longer: measurements that were late come in
+// bunches. A tick more, as it is known in whole ticks when they came. Before so many came, a missing interval counts as LONGEST.
+class PacketSteps {
+ public:
+  // `rate`: ticks a second; `jump` in m/s of place and gap, `turn` in rad/s.
+  PacketSteps(double rate, double jump, double turn) noexcept;
+
+  void start(const GripperState& state, std::int64_t tick) noexcept;
+  // Whether the step from the measurement before is allowed. Each measurement counts, also several of a tick; finite, with a rotation.
+  bool allows(const GripperState& state, std::int64_t tick) noexcept;
+
+ private:
+  double period_, jump_, turn_;
+  std::array<double, PacketMotion::INTERVALS> intervals_{};  // s, in a ring
+  std::uint32_t next_ = 0;                                   // in it
+  GripperState before_;
+  std::int64_t heard_ = 0;  // its tick
+};
+
 }  // namespace wholehand

@@ -183,12 +183,74 @@ TEST(PacketMotion, ABunchAfterAPauseIsNotRunThrough) {
 
 TEST(PacketMotion, ATeleportIsAJump) {
   for (const double rate : {60.0, 90.0, 240.0}) {
-    const auto leap = [](double time) {
+    const auto teleport = [](double time) {
       GripperState state;
       state.position = {time < 1 ? 0 : 0.5, 0, 0};
       return state;
     };
-    EXPECT_EQ(judged(seen(even_packets(rate, 2), leap, 1.9)), Fault::jump) << rate;
+    EXPECT_EQ(judged(seen(even_packets(rate, 2), teleport, 1.9)), Fault::jump) << rate;
+  }
+}
+
+// What the sender's steps are found to be: whether each is allowed. The newest state of a tick is not the only one that counts.
+template <class Truth>
+bool are_allowed(const std::vector<Packet>& packets, const Truth& truth) {
+  PacketSteps steps(PACKET_RATE, LiveData{}.jump, JUMP_TURN);
+  steps.start(truth(packets[0].made), packets[0].tick);
+  bool holds = true;
+  for (std::size_t k = 1; k < packets.size(); ++k) holds = steps.allows(truth(packets[k].made), packets[k].tick) && holds;
+  return holds;
+}
+
+TEST(PacketSteps, AQuickReachIsNoJump) {
+  for (const double rate : {30.0, 60.0, 90.0, 240.0, 1000.0}) {
+    EXPECT_TRUE(are_allowed(even_packets(rate, 2.2), reaching)) << rate;
+    for (std::uint64_t seed = 1; seed <= 200; ++seed)
+      ASSERT_TRUE(are_allowed(rough_packets(rate, 2.2, 0.8 / rate, seed), reaching)) << rate << " Hz, seed " << seed;
+  }
+}
+
+// In two ticks, half of it in each.
+TEST(PacketSteps, ABunchAfterAPauseIsNoJump) {
+  for (const double rate : {60.0, 240.0, 1000.0}) {
+    auto packets = even_packets(rate, 2.2);
+    for (Packet& packet : packets)
+      if (packet.tick > 680 && packet.tick < 725) packet.tick = packet.tick < 702 ? 725 : 726;  // in the middle of the reach
+    EXPECT_TRUE(are_allowed(packets, reaching)) << rate;
+  }
+}
+
+// A hand that rests and then is elsewhere, at any rate; and also some packets after one was lost, when the way to the newest measurement takes two
+// intervals. What it may move is a fifth less than the first size, and more than the second.
+TEST(PacketSteps, ATeleportIsAJumpAlsoAfterALoss) {
+  for (const double rate : {30.0, 60.0, 90.0, 240.0}) {
+    for (const int lost : {0, 1}) {
+      auto packets = even_packets(rate, 2);
+      const auto of_jump = static_cast<std::size_t>(rate);
+      const double moment = packets[of_jump].made;
+      if (lost) packets.erase(packets.begin() + static_cast<std::ptrdiff_t>(of_jump) - 4);
+      // of 16 intervals one is twice as long; in whole ticks an interval may be a tick longer, and a tick more is allowed
+      const double seconds = (16.0 + lost) / 16 / rate + 2 * PACKET_TICK;
+      const auto moved = [&](double place, double gap, double angle) {
+        return are_allowed(packets, [=](double time) {
+          GripperState state;
+          if (time < moment) return state;
+          state.position[1] += place;
+          state.gap += gap;
+          state.rotation = turned('x', angle);
+          return state;
+        });
+      };
+      const double most = 1.2 * LiveData{}.jump * seconds, less = 0.5 * LiveData{}.jump * seconds;
+      EXPECT_FALSE(moved(most, 0, 0)) << rate << ' ' << lost;
+      EXPECT_FALSE(moved(0, most, 0)) << rate << ' ' << lost;
+      EXPECT_TRUE(moved(less, less, 0)) << rate << ' ' << lost;
+      // angles by the length of their difference, which is 2 sin(angle / 2) and never more than 2
+      if (rate > 60) {
+        EXPECT_FALSE(moved(0, 0, 3)) << rate << ' ' << lost;
+      }
+      EXPECT_TRUE(moved(0, 0, 0.5 * JUMP_TURN / rate / 2)) << rate << ' ' << lost;
+    }
   }
 }
 
