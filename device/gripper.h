@@ -40,7 +40,8 @@ struct GripperLimits {
   double rate = 0;              // measurements a second at most, Hz
   bool has_rotation = true;     // false: GripperState::rotation stays NO_ROTATION
   bool is_left_handed = false;
-  double watchdog = 0;  // the device drops its force by itself where it hears nothing for so long, s; 0: it does not
+  double watchdog =
+      0;  // the device drops its force by itself where it hears nothing for so long, s; 0: it does not; or UNKNOWN_WATCHDOG
 };
 
 // An open gripper. Open functions (open_sim, open_hid, ..) throw Error; the methods below are called from the haptic thread, do not throw,
@@ -54,6 +55,8 @@ class Gripper {
 
   virtual const GripperLimits& limits() const noexcept = 0;
 
+  // The first read is next: no force is on it yet, and it may wait for some dozen milliseconds. Called once at most.
+  virtual void begin() noexcept {}
   // The newest measurement for the tick of that number, waiting for it at most READ_PATIENCE; `state` is left alone where there is none.
   virtual ReadOutcome read(GripperState& state, std::int64_t tick) noexcept = 0;
   // False: the device did not take it.

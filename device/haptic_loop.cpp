@@ -35,6 +35,7 @@ HapticLoop::HapticLoop(const LiveData& live, Gripper& gripper, Session& session,
       period_(1 / live.rate) {}
 
 void HapticLoop::run(const std::atomic<bool>& stop) noexcept {
+  gripper_.begin();
   start_ = clock() + period_;
   for (std::int64_t number = next_number(-1);; number = next_number(number)) {
     const double due = start_ + period_ * static_cast<double>(number);

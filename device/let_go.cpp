@@ -14,6 +14,8 @@ void add_last(SafeLine& line, const ForceSize& last, double watchdog) noexcept {
   line.add("the last force was ").add(last.arm, 2).add(" N at the arm and ").add(last.grip, 2).add(" N at the fingers");
   if (watchdog > 0)
     line.add("; the device's own watchdog takes it away within ").add(watchdog * 1e3, 3).add(" ms");
+  else if (watchdog == UNKNOWN_WATCHDOG)
+    line.add("; the hand must let go by itself");
   else
     line.add("; the device has no watchdog, so switch it off");
 }

@@ -21,8 +21,10 @@ struct ForceSize {
   double arm = 0, grip = 0;
 };
 
+constexpr double UNKNOWN_WATCHDOG = -1;  // in the place of a period: whether it has one nobody here knows
+
 // "zero force was written"; or that it was not, then with `last`, the force that was written before, and who takes it away: the device's watchdog
-// of that period, s; 0: it has none. `why`: the device's words, may be empty. Safe in a signal handler.
+// of that period, s; 0: it has none; or UNKNOWN_WATCHDOG. `why`: the device's words, may be empty. Safe in a signal handler.
 void add_force_words(SafeLine& line, LetGo outcome, const ForceSize& last, double watchdog, std::string_view why = {}) noexcept;
 
 }  // namespace wholehand

@@ -7,12 +7,16 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
+#include <optional>
 #include <system_error>
+#include <vector>
 
 #include "core/error.h"
 #include "core/prepare.h"
 #include "core/vectors.h"
+#include "device/guard.h"
 #include "device/osc_messages.h"
 #include "device/packet_motion.h"
 #include "system/clock.h"
@@ -21,7 +25,10 @@
 namespace wholehand {
 namespace {
 
-constexpr int MOST_DATAGRAMS = 256;             // that one read takes: who floods the port does not hold the loop up
+constexpr int MOST_DATAGRAMS = 32;              // that one read takes: who floods the port does not hold the loop up
+constexpr std::size_t MOST_CALLERS = 256;       // whose datagrams are looked at before the first state
+constexpr int RELEASES = 3;                     // of the last message: a network may lose one
+constexpr double RELEASE_PAUSE = 1e-3;          // s between two of them
 constexpr std::size_t LARGEST_DATAGRAM = 2048;  // bytes: more than what networks pass on in one piece
 constexpr std::size_t FORCE_MESSAGE = 128;      // bytes, in its bundle
 
@@ -51,6 +58,20 @@ class ForceMessage {
   OscBundle bundle_{FORCE_MESSAGE};
 };
 
+// A datagram as it was read.
+struct Heard {
+  UdpAddress from;
+  osc::Words words;
+  const char* wrong = nullptr;  // null: nothing
+};
+
+// Who sends something before there is a hand.
+struct Caller {
+  UdpAddress from;
+  std::optional<osc::Hello> hello;
+  const char* wrong_hello = nullptr;  // what is wrong with a hello of it
+};
+
 // What came and was not obeyed. Counted by the haptic thread, asked for by others.
 struct Ignored {
   std::atomic<std::int64_t> malformed{0}, late{0}, foreign{0};
@@ -63,6 +84,7 @@ class OscGripper final : public Gripper {
       : address_(find_udp_address(at, "osc")),
         socket_(address_.family(), "osc"),
         motion_(scene.live.rate),
+        steps_(scene.live.rate, scene.live.jump, JUMP_TURN),
         period_(1 / scene.live.rate) {
     if (const int error = socket_.bind(address_); error != 0) refuse(error);
     address_ = socket_.address();
@@ -72,23 +94,27 @@ class OscGripper final : public Gripper {
     limits_.grip = PAPER_GRIP;
     limits_.gap = hand_gap(scene.hand);
     limits_.rate = scene.live.rate;
+    limits_.watchdog = UNKNOWN_WATCHDOG;
     limits_.is_left_handed = scene.hand.handedness == Handedness::left;
     take_away_ = kept({}, NO_STATE);
     release_ = kept({}, static_cast<int>(SessionState::released));
   }
   ~OscGripper() override {
-    if (has_hand_) send(release_.all());
+    if (has_hand_) let_go();
   }
 
   const GripperLimits& limits() const noexcept override { return limits_; }
+  void begin() noexcept override;
   ReadOutcome read(GripperState& state, std::int64_t tick) noexcept override;
   bool write(const GripperForce& force) noexcept override;
-  LetGo let_go() noexcept override { return send(release_.all()) ? LetGo::written : LetGo::not_taken; }
+  LetGo let_go() noexcept override;
   const char* trouble() const noexcept override { return trouble_; }
   LetGo panic() noexcept override {
     // first the flag: a write that comes between sends no force either
     has_panicked_.store(true);
-    return socket_.send(release_.all(), to_) ? LetGo::written : LetGo::not_taken;
+    bool is_taken = false;
+    for (int k = 0; k < RELEASES; ++k) is_taken = socket_.send(release_.all(), to_) || is_taken;
+    return is_taken ? LetGo::written : LetGo::not_taken;
   }
   LetGo let_go_meanwhile() noexcept override { return socket_.send(take_away_.all(), to_) ? LetGo::written : LetGo::not_taken; }
   void show(const Tick& tick) noexcept override { shown_ = static_cast<int>(tick.state); }
@@ -103,7 +129,12 @@ class OscGripper final : public Gripper {
   }
   // The start: until the first state. Throws Error (failure).
   void wait_for_hand(double patience);
-  std::string hand() const { return words_of(hand_); }
+  // Who it is, and what it bears.
+  std::string hand() const {
+    return fmt::format("{}{} {:g} N at the arm and {:g} N on each finger", words_of(hand_),
+                       has_hello_ ? "; its hello says that it bears" : ", without a hello; so it has to bear", limits_.force,
+                       limits_.grip);
+  }
 
  private:
   static constexpr int NO_STATE = -1;
@@ -114,9 +145,12 @@ class OscGripper final : public Gripper {
   };
   Kept kept(const GripperForce& force, int state);
   [[noreturn]] void refuse(int error) const;
+  void follow(std::int64_t tick) noexcept;
+  bool receive(Heard& heard) noexcept;
   bool take_datagram() noexcept;
-  void obey(const osc::Words& words, const UdpAddress& from) noexcept;
-  void meet(const osc::Words& words, const UdpAddress& from) noexcept;
+  void obey(const osc::Words& words) noexcept;
+  void meet(Caller& caller, const Heard& heard);
+  [[noreturn]] void refuse_silence(double patience, const std::vector<Caller>& callers) const;
   void note_malformed(const char* wrong) noexcept;
   bool send(std::span<const char> bytes) noexcept;
 
@@ -124,17 +158,23 @@ class OscGripper final : public Gripper {
   UdpSocket socket_;
   GripperLimits limits_;
   PacketMotion motion_;
-  double period_;           // s
-  UdpAddress hand_, to_;    // who is obeyed, and where the forces go; set before the session
-  bool has_hand_ = false;   // somebody said something that can be read
-  bool has_state_ = false;  // and where the hand is
-  bool is_new_ = false;     // newest_ came since the last read
-  bool is_moving_ = false;  // a read has begun the motion
-  bool is_done_ = false;    // it said goodbye
-  GripperState newest_;     // as it came
+  PacketSteps steps_;
+  double period_;            // s
+  UdpAddress hand_, to_;     // who is obeyed, and where the forces go; set before the session
+  bool has_hand_ = false;    // somebody said where the hand is
+  bool has_hello_ = false;   // and what it bears
+  bool is_new_ = false;      // newest_ came since the last read
+  bool is_missing_ = false;  // no state came when the loop began
+  bool is_moving_ = false;   // a read has begun the motion
+  bool has_jumped_ = false;  // since the last read
+  bool is_weaker_ = false;   // it said in the session that it bears less than before
+  bool is_done_ = false;     // it said goodbye
+  std::int64_t tick_ = 0;    // of the read
+  GripperState newest_;      // as it came
   std::uint32_t reads_ = 0, writes_ = 0;
   int shown_ = 0;  // state of the session
   const char* trouble_ = "";
+  std::array<char, 120> unsent_{};  // words for what the system does not send
   Ignored ignored_;
   UdpAddress foreign_;  // the first of them; set before its count
   bool is_foreign_told_ = false;
@@ -166,73 +206,128 @@ void OscGripper::note_malformed(const char* wrong) noexcept {
 }
 
 // False: none waits.
-bool OscGripper::take_datagram() noexcept {
-  UdpAddress from;
-  const std::int64_t length = socket_.receive(datagram_, from);
+bool OscGripper::receive(Heard& heard) noexcept {
+  const std::int64_t length = socket_.receive(datagram_, heard.from);
   if (length < 0) return false;
-  if (has_hand_ && !(from == hand_)) {
-    if (ignored_.foreign.load() == 0) foreign_ = from;
-    ++ignored_.foreign;
-    return true;
+  const std::size_t size = std::min(static_cast<std::size_t>(length), datagram_.size());
+  heard.wrong = osc::read_words(std::span<const char>(datagram_).first(size), heard.words);
+  if (static_cast<std::size_t>(length) > size) {
+    osc::Words words;
+    words.names_hello = heard.words.names_hello;
+    words.names_state = heard.words.names_state;
+    heard.words = words;
+    heard.wrong = "a datagram that is too long";
   }
-  osc::Words words;
-  const char* wrong = "a datagram that is too long";
-  if (length <= static_cast<std::int64_t>(datagram_.size()))
-    wrong = osc::read_words(std::span<const char>(datagram_).first(static_cast<std::size_t>(length)), words);
-  if (wrong) note_malformed(wrong);
-  if (words.is_any()) obey(words, from);
+  if (heard.wrong && (!has_hand_ || heard.from == hand_)) note_malformed(heard.wrong);
   return true;
 }
 
-void OscGripper::obey(const osc::Words& words, const UdpAddress& from) noexcept {
-  if (!has_state_) meet(words, from);
+// In the session. False: none waits.
+bool OscGripper::take_datagram() noexcept {
+  Heard heard;
+  if (!receive(heard)) return false;
+  if (heard.from == hand_) {
+    if (!heard.wrong) obey(heard.words);
+    return true;
+  }
+  if (ignored_.foreign.load() == 0) foreign_ = heard.from;
+  ++ignored_.foreign;
+  return true;
+}
+
+// A state with NaN stays the newest, so that the guard sees it.
+void OscGripper::obey(const osc::Words& words) noexcept {
   if (words.has_bye) is_done_ = true;
-  if (!words.has_state) return;
-  if (has_state_ && !osc::is_later(words.state.sequence, newest_.sequence)) {
+  if (words.has_hello && (words.hello.force < limits_.force || words.hello.grip < limits_.grip)) is_weaker_ = true;
+  if (!words.has_state || !is_finite(newest_)) return;
+  if (!osc::is_later(words.state.sequence, newest_.sequence)) {
     ++ignored_.late;
     return;
   }
   newest_ = words.state;
-  has_state_ = is_new_ = true;
+  is_new_ = true;
+  if (is_moving_ && is_finite(newest_) && !steps_.allows(newest_, tick_)) has_jumped_ = true;
 }
 
-// The first who says something is the hand. What it is it says before it says where it is, or with it.
-void OscGripper::meet(const osc::Words& words, const UdpAddress& from) noexcept {
-  if (!has_hand_) hand_ = to_ = from;
+// The first who says where it is becomes the hand. It says what it bears before that, or with it. A hello that cannot be read is not
+// passed off as none: the largest forces may be too much.
+void OscGripper::meet(Caller& caller, const Heard& heard) {
+  const osc::Words& words = heard.words;
+  if (heard.wrong && words.names_hello) caller.wrong_hello = heard.wrong;
+  if (words.has_hello) caller.hello = words.hello;
+  const bool is_hand = words.has_state || (heard.wrong && words.names_hello && words.names_state);
+  if (is_hand && caller.wrong_hello)
+    throw failure_error(
+        fmt::format("{}: the hello of {} cannot be read: {}", limits_.address, words_of(caller.from), caller.wrong_hello));
+  if (!is_hand) return;
+  hand_ = to_ = caller.from;
   has_hand_ = true;
-  if (!words.has_hello) return;
-  limits_.gap = words.hello.gap;
-  limits_.force = words.hello.force;
-  limits_.grip = words.hello.grip;
-  to_ = words.hello.port > 0 ? hand_.with_port(words.hello.port) : hand_;
+  newest_ = words.state;
+  is_done_ = words.has_bye;
+  has_hello_ = caller.hello.has_value();
+  if (!has_hello_) return;
+  limits_.gap = caller.hello->gap;
+  limits_.force = caller.hello->force;
+  limits_.grip = caller.hello->grip;
+  if (caller.hello->port > 0) to_ = hand_.with_port(caller.hello->port);
 }
 
 void OscGripper::wait_for_hand(double patience) {
+  std::vector<Caller> callers;
   const double end = monotonic_now() + patience;
-  while (!has_state_ && !is_done_ && monotonic_now() < end)
-    if (!take_datagram()) socket_.wait(READ_PATIENCE);
-  if (has_state_) return;
-  std::string why =
-      is_done_ ? "the hand said goodbye before it said where it is" : fmt::format("no {} came within {:g} s", osc::STATE, patience);
+  while (!has_hand_ && monotonic_now() < end) {
+    Heard heard;
+    if (!receive(heard)) {
+      socket_.wait(READ_PATIENCE);
+      continue;
+    }
+    const auto is_known = [&heard](const Caller& caller) { return caller.from == heard.from; };
+    auto caller = std::find_if(callers.begin(), callers.end(), is_known);
+    if (caller == callers.end() && callers.size() == MOST_CALLERS) continue;
+    if (caller == callers.end()) caller = callers.insert(caller, Caller{heard.from, {}, nullptr});
+    meet(*caller, heard);
+  }
+  if (!has_hand_) refuse_silence(patience, callers);
+}
+
+void OscGripper::refuse_silence(double patience, const std::vector<Caller>& callers) const {
+  std::string why = fmt::format("no {} came within {:g} s", osc::STATE, patience);
+  if (!callers.empty()) why += fmt::format("; {} sent something else", words_of(callers[0].from));
+  if (callers.size() > 1) why += fmt::format(", and so did other senders: {}", callers.size() - 1);
   if (const char* wrong = ignored_.first_wrong.load())
-    why += fmt::format("; {} datagrams could not be read, the first of them: {}", ignored_.malformed.load(), wrong);
+    why += fmt::format("; datagrams that could not be read: {}, the first of them: {}", ignored_.malformed.load(), wrong);
   throw failure_error(fmt::format("{}: {}", limits_.address, why));
+}
+
+// What came while the session was prepared is old, and the system may have dropped what came after it: only its sequence counts. Then
+// the session begins where the hand is now.
+void OscGripper::begin() noexcept {
+  const double end = monotonic_now() + OSC_SILENCE;
+  while (take_datagram() && monotonic_now() < end) {
+  }
+  is_new_ = false;
+  while (!is_new_ && !is_done_ && is_finite(newest_) && monotonic_now() < end)
+    if (!take_datagram()) socket_.wait(READ_PATIENCE);
+  is_missing_ = !is_new_;
 }
 
 // All that wait are taken, and the last state counts.
 ReadOutcome OscGripper::read(GripperState& state, std::int64_t tick) noexcept {
+  tick_ = tick;
   for (int k = 0; k < MOST_DATAGRAMS && take_datagram(); ++k) {
+  }
+  if (is_weaker_) {
+    trouble_ = "the hand says in the session that it bears less force";
+    return ReadOutcome::error;
   }
   if (!is_finite(newest_)) {
     state = newest_;
     state.sequence = ++reads_;
     return ReadOutcome::value;
   }
-  if (!is_moving_) motion_.start(newest_, tick);
-  if (is_moving_ && is_new_) motion_.aim(newest_, tick);
-  is_moving_ = true;
-  is_new_ = false;
-  if (motion_.silence(tick) > OSC_SILENCE) {
+  is_missing_ = is_missing_ && !is_new_;
+  follow(tick);
+  if (is_missing_ || motion_.silence(tick) > OSC_SILENCE) {
     trouble_ = "no new state for 50 ms";
     return ReadOutcome::timeout;
   }
@@ -240,6 +335,17 @@ ReadOutcome OscGripper::read(GripperState& state, std::int64_t tick) noexcept {
   state.sequence = ++reads_;
   state.time = period_ * static_cast<double>(tick);
   return ReadOutcome::value;
+}
+
+// A jump is handed on as one step, for the guard to see.
+void OscGripper::follow(std::int64_t tick) noexcept {
+  if (!is_moving_) steps_.start(newest_, tick);
+  if (!is_moving_ || has_jumped_)
+    motion_.start(newest_, tick);
+  else if (is_new_)
+    motion_.aim(newest_, tick);
+  is_moving_ = true;
+  is_new_ = has_jumped_ = false;
 }
 
 bool OscGripper::write(const GripperForce& force) noexcept {
@@ -253,14 +359,24 @@ bool OscGripper::write(const GripperForce& force) noexcept {
   sent.grip = std::clamp(sent.grip, -limits_.grip, limits_.grip);
   if (++writes_ == 0) ++writes_;  // 0 takes the force away
   const bool is_taken = send(message_.of(writes_, newest_.sequence, sent, shown_));
-  if (!is_number) trouble_ = "a force that is no number";
+  if (!is_number) trouble_ = "a force that is NaN or infinite";
   return is_taken && is_number;
 }
 
 bool OscGripper::send(std::span<const char> bytes) noexcept {
-  const bool is_taken = socket_.send(bytes, to_);
-  if (!is_taken) trouble_ = "the system sends no datagram to it";
-  return is_taken;
+  if (socket_.send(bytes, to_)) return true;
+  std::snprintf(unsent_.data(), unsent_.size(), "the system sends no datagram to it: %s", strerrordesc_np(errno));
+  trouble_ = unsent_.data();
+  return false;
+}
+
+LetGo OscGripper::let_go() noexcept {
+  bool is_taken = false;
+  for (int k = 0; k < RELEASES; ++k) {
+    if (k > 0) pause_for(RELEASE_PAUSE);
+    is_taken = send(release_.all()) || is_taken;
+  }
+  return is_taken ? LetGo::written : LetGo::not_taken;
 }
 
 std::optional<std::string> OscGripper::news() {

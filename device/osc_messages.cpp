@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 #include "core/quaternion.h"
 #include "core/vectors.h"
@@ -16,7 +17,7 @@ namespace {
 constexpr const char* WRONG_ARGUMENTS = "arguments of another number or type";
 
 bool is_within(double value, double least, double most) { return value >= least && value <= most; }
-// A number that is none is for the guard.
+// NaN is for the guard.
 bool may_be(double value, double least, double most) { return std::isnan(value) || is_within(value, least, most); }
 
 bool read_numbers(OscArguments& arguments, std::span<double> into) noexcept {
@@ -87,7 +88,8 @@ class Reader final : public OscTaker {
   const char* take_state(const OscReceived& message) noexcept {
     GripperState state;
     if (const char* wrong = read_state(OscArguments(message), state)) return wrong;
-    if (!words_.has_state || is_later(state.sequence, words_.state.sequence)) words_.state = state;
+    const bool is_replaced = is_finite(words_.state) && is_later(state.sequence, words_.state.sequence);
+    if (!words_.has_state || is_replaced) words_.state = state;
     words_.has_state = true;
     return nullptr;
   }
@@ -104,6 +106,9 @@ const char* read_words(std::span<const char> datagram, Words& words) noexcept {
   const char* wrong = read_osc(datagram, reader);
   if (!wrong) wrong = reader.wrong();
   if (wrong) words = {};
+  const std::string_view bytes(datagram.data(), datagram.size());
+  words.names_hello = bytes.find(HELLO) != std::string_view::npos;
+  words.names_state = bytes.find(STATE) != std::string_view::npos;
   return wrong;
 }
 

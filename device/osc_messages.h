@@ -35,13 +35,15 @@ struct Hello {
 struct Words {
   bool has_hello = false, has_state = false, has_bye = false;
   Hello hello;
-  // The latest by its sequence. A number that is none stays so, and makes the rotation NaN where it is the quaternion that is none: the guard
-  // looks at it.
+  // The latest by its sequence, or the first with a NaN: the guard looks at it. A quaternion of another length than 1 makes the
+  // rotation NaN.
   GripperState state;
   bool is_any() const { return has_hello || has_state || has_bye; }
+  // Whether its bytes have these addresses, also where it cannot be read.
+  bool names_hello = false, names_state = false;
 };
 
-// Reads a datagram. What is wrong with it, and then nothing of it counts; null: nothing. Messages with other addresses are passed over.
+// Reads a datagram. What is wrong with it, and then nothing of it counts; null: nothing. Messages with other addresses are ignored.
 const char* read_words(std::span<const char> datagram, Words& words) noexcept;
 
 // Whether sequence `a` comes after `b`: both count on from 2^32 - 1 with 0.

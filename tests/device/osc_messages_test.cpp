@@ -128,7 +128,7 @@ TEST(OscMessages, ANumberThatIsNoneIsForTheGuard) {
     ASSERT_EQ(said(state_message(with(A_STATE, k, OSC_NAN)), words), "") << k;
     EXPECT_FALSE(is_finite(words.state)) << k;
   }
-  // a quaternion that is none
+  // a quaternion of another length
   for (const double w : {0.0, 0.99, 1.01, -0.99, 1e30, 1e-30}) {
     osc::Words words;
     ASSERT_EQ(said(state_message(with(A_STATE, 7, w), "iddddddddi"), words), "") << w;
@@ -202,9 +202,10 @@ TEST(OscMessages, DamagedBytesAreNoTrouble) {
   }
   for (const std::uint32_t size : {0u, 1u, 3u, 0x7fffffffu, 0x80000000u, 0xfffffffcu, 0xffffffffu}) {
     const std::string head = osc_bundle({});
-    expect_wrong(
-        head + big_endian_word(size) + (size == 0 ? "" : "/abc"),
-        size == 0  ? "an empty part of a bundle" : size < 4 ? "a length that is not a multiple of 4 bytes" : "a part of a bundle that is longer than the datagram");
+    expect_wrong(head + big_endian_word(size) + (size == 0 ? "" : "/abc"),
+                 size == 0  ? "an empty part of a bundle"
+                 : size < 4 ? "a length that is not a multiple of 4 bytes"
+                            : "a part of a bundle that is longer than the datagram");
   }
 }
 

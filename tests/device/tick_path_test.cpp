@@ -259,7 +259,7 @@ TEST(TickPath, AHandOverTheNetworkNeitherAllocatesNorLocks) {
   EXPECT_TRUE(watched([&] { return gripper->panic() == LetGo::written; }));
   EXPECT_EQ(allocations, 0);
   EXPECT_EQ(locks, 0);
-  EXPECT_GT(seen, 100) << "they were read";
+  EXPECT_GT(seen, 0) << "they were read: how soon is the system's choice";
   EXPECT_EQ(gripper->remarks().size(), 2u) << "garbage and strangers";
 }
 
