@@ -115,12 +115,24 @@ std::string limits_json(const ViewLimits& limits, double stiffness) {
       .dump();
 }
 
+// A session that is streamed to the port where its own hand is heard would hear itself.
+void refuse_own_port(const LiveOptions& options, const HostPort& target) {
+  const std::optional<HostPort> place = osc_place(options.device);
+  if (!place || place->port != target.port) return;
+  const UdpAddress here = find_udp_address(*place, "osc"), there = find_udp_address(target, "--stream");
+  const bool is_everywhere = here.host() == "0.0.0.0" || here.host() == "::";
+  if (!(here == there) && !(is_everywhere && there.is_loopback())) return;
+  throw usage_error(fmt::format("--stream {}: --device {} listens there for its hand; give one of the two another port",
+                                options.stream, options.device));
+}
+
 // Everything of a session, in the order in which it is made.
 class LiveRun {
  public:
   explicit LiveRun(const LiveOptions& options) : options_(options) {
     std::optional<HostPort> target;
     if (!options_.stream.empty()) target = parse_osc_url(options_.stream);
+    if (target) refuse_own_port(options_, *target);
     if (!options_.record.empty()) check_recording_path(options_.record, RECORD);
     open();
     check_gripper();
@@ -329,6 +341,7 @@ class LiveRun {
       report.let_go = watch_->outcome();
       report.force = {{last.arm, 0, 0}, last.grip};
     }
+    for (std::string& line : gripper_->remarks()) notes_.push_back(std::move(line));
     show_status("");
     if (ending) fmt::print(stderr, "wholehand: {}\n", fault_words(report));
     fmt::print(

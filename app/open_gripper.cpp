@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+
 #include "app/values.h"
 #include "core/error.h"
 #include "device/hid_gripper.h"
@@ -12,7 +14,6 @@
 #include "device/usb_gripper.h"
 #include "scene/ranges.h"
 #include "scene/text.h"
-#include "system/udp.h"
 
 namespace wholehand {
 namespace {
@@ -39,6 +40,12 @@ HostPort parse_osc_place(const std::string& text) {
 
 }  // namespace
 
+std::optional<HostPort> osc_place(const std::string& device) {
+  constexpr std::string_view OSC = "osc:";
+  if (device.rfind(OSC, 0) != 0) return std::nullopt;
+  return parse_osc_place(device.substr(OSC.size()));
+}
+
 std::unique_ptr<Gripper> open_gripper(const std::string& device, const Scene& scene, std::uint64_t seed, const std::string& library,
                                       double watchdog, ViewInput* view, const std::function<void(const std::string&)>& say) {
   const std::size_t colon = device.find(':');
@@ -55,7 +62,7 @@ std::unique_ptr<Gripper> open_gripper(const std::string& device, const Scene& sc
     const int number = is_bare ? 0 : static_cast<int>(parse_integer(which, "--device omega", OMEGA_NUMBER));
     return open_omega(library.empty() ? scene.device.library : library, watchdog, number);
   }
-  if (kind == "osc" && !is_bare) return open_osc(parse_osc_place(which), scene, say);
+  if (const std::optional<HostPort> place = osc_place(device)) return open_osc(*place, scene, say);
   throw usage_error(
       fmt::format("--device {}: allowed: sim, view, replay:FILE, hid, hid:PATH, usb, usb:VID:PID, omega, omega:N, osc:PORT or "
                   "osc:HOST:PORT; `wholehand devices` lists what is there",

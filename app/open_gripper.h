@@ -5,15 +5,20 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "core/scene.h"
 #include "device/gripper.h"
 #include "device/view_gripper.h"
+#include "system/udp.h"
 
 namespace wholehand {
 
 constexpr double WATCHDOG = 20e-3;  // s without a word from the host after which a device lets go: two of the host's own patience
+
+// Where --device osc:[HOST:]PORT listens; nothing: it is another device. Throws Error (usage): no such port or host.
+std::optional<HostPort> osc_place(const std::string& device);
 
 // sim, view, hid[:PATH], usb[:VID:PID], omega[:N] or osc:[HOST:]PORT, as --device names them; a recording is opened by its own
 // (recordings/recording.h). `library`: of Force Dimension's SDK, empty: wherever it is found; `watchdog` in s; `view`: where the page's

@@ -113,6 +113,9 @@ TEST(LiveReport, TheFaultLineSaysWhenAndWhy) {
             "live: the session ended after 2.004 s; zero force could not be written (unplugged); the last force was 2.38 N at the "
             "arm and 0 N at the "
             "fingers; the device's own watchdog takes it away within 31.875 ms");
+  EXPECT_EQ(fault_line(report, guard, live, UNKNOWN_WATCHDOG),
+            "live: the session ended after 2.004 s; zero force could not be written (unplugged); the last force was 2.38 N at the "
+            "arm and 0 N at the fingers; the hand must let go by itself");
   report.force = {};
   EXPECT_EQ(fault_line(report, guard, live, 0.02),
             "live: the session ended after 2.004 s; zero force could not be written (unplugged); the last force was zero");
@@ -410,6 +413,11 @@ TEST(Live, RefusesWhatIsNotAllowedInOneLine) {
                  "--device 'osc:9000x': its port is not a whole number from 0 to 65535; allowed: osc:PORT, or osc:HOST:PORT");
   expect_refused("--no-clock --device osc:0", 2, "--no-clock");
   expect_refused("--device osc:192.0.2.7:9000", 3, "osc:192.0.2.7:9000: this machine cannot listen there");
+  // a session that would hear itself
+  for (const char* arguments :
+       {"--device osc:9000 --stream osc://127.0.0.1:9000", "--device osc:9000 --stream osc://localhost:9000",
+        "--device osc:0.0.0.0:9000 --stream osc://127.0.0.1:9000"})
+    expect_refused(arguments, 2, " listens there for its hand; give one of the two another port");
   expect_refused("--stream http://127.0.0.1:9000", 2, "--stream 'http://127.0.0.1:9000': it does not begin with osc://");
   expect_refused("--stream osc://127.0.0.1", 2, "there is no port");
   expect_refused("--stream osc://a..b:9000", 3, "host 'a..b' is not found");
