@@ -3,8 +3,8 @@
 """A hand that is no device: this script plays it, as a game engine or a tracker would, over Open Sound Control. It reaches for beaker1 of the
 scene mixing_board, closes until it feels the glass, lifts the beaker, puts it down and lets go. It prints the forces that come back.
 
-    ./wholehand live --device osc:9000 &
-    python3 examples/engine/osc_hand.py --port 9000
+    ./wholehand live --device osc:9001 &
+    python3 examples/engine/osc_hand.py --port 9001
 
 It needs nothing but Python. docs/devices.md ("A hand over the network") describes the messages.
 """
@@ -46,6 +46,36 @@ def osc_bundle(*messages):
 FORCE = osc_text("/wholehand/gripper/force") + osc_text(",iiffffi")
 
 
+def is_later(a, b):
+    """Whether message a is newer than b: numbers go on from 2^31 - 1 with -2^31."""
+    return 0 < (a - b) % 2**32 < 2**31
+
+
+class Forces:
+    """What the hand feels. UDP may change the order of messages, so the newest is the one with the highest number; number 0 takes the force
+    away, and once the session has let go, nothing brings it back."""
+
+    def __init__(self):
+        self.number = 0
+        self.heard = None  # when a force came last, s
+        self.state, self.arm, self.grip = 0, (0, 0, 0), 0
+        self.is_released = False
+
+    def let_go(self):
+        self.arm, self.grip = (0, 0, 0), 0
+
+    def take(self, data, now):
+        if self.is_released or not data.startswith(FORCE) or len(data) != len(FORCE) + 28:
+            return
+        number, _heard, *arm, grip, state = struct.unpack(">iiffffi", data[len(FORCE):])
+        if number == 0:  # whatever comes after it: the number stays that of the newest force
+            self.heard, self.state = now, state
+            self.is_released = state == RELEASED
+            self.let_go()
+        elif self.number == 0 or is_later(number, self.number):
+            self.heard, self.number, self.state, self.arm, self.grip = now, number, state, arm, grip
+
+
 class Hand:
     """Where it is, and what it feels."""
 
@@ -56,17 +86,15 @@ class Hand:
         self.period = 1 / rate
         self.place, self.turn, self.gap, self.buttons = [0, 0, 0], (0, 0, 0, 1), GAP[1], 0
         self.sequence = 0
-        self.heard = None  # when a force came last, s
-        self.state, self.arm, self.grip = 0, (0, 0, 0), 0
-        self.is_over = False
+        self.forces = Forces()
         self.most_grip = 0
         self.next = self.began = self.printed = time.monotonic()
 
     def frame(self):
-        """Once a picture: says where the hand is, and takes what has come meanwhile."""
+        """Once a frame of the engine: says where the hand is, and takes what has come meanwhile."""
         self.sequence += 1
         state = osc_message("/wholehand/gripper/state", self.sequence, *map(float, (*self.place, *self.turn, self.gap)), self.buttons)
-        if self.heard is None:  # what the hand is, until somebody answers
+        if self.forces.heard is None:  # what the hand is, until somebody answers
             hello = osc_message("/wholehand/gripper/hello", *map(float, (*GAP, MOST_ARM, MOST_GRIP)))
             state = osc_bundle(hello, state)
         self.socket.sendto(state, self.to)
@@ -76,7 +104,7 @@ class Hand:
         self.tell()
 
     def listen(self):
-        """Forces come in every millisecond; the newest counts."""
+        """Forces come in every millisecond."""
         now = time.monotonic()
         while True:
             try:
@@ -85,28 +113,26 @@ class Hand:
                 break
             except ConnectionRefusedError:  # nobody listens yet, or any more
                 continue
-            if data.startswith(FORCE) and len(data) == len(FORCE) + 28:
-                _number, _heard, *arm, self.grip, self.state = struct.unpack(">iiffffi", data[len(FORCE):])
-                self.arm, self.heard = arm, now
-                self.most_grip = max(self.most_grip, self.grip)
-        if self.heard is None and now > self.began + ARRIVAL:
+            self.forces.take(data, now)
+            self.most_grip = max(self.most_grip, self.forces.grip)
+        heard = self.forces.heard
+        if heard is None and now > self.began + ARRIVAL:
             raise SystemExit(f"osc_hand: nobody answers at {self.to[0]} port {self.to[1]}; start ./wholehand live --device osc:{self.to[1]}")
-        if self.state == RELEASED:
-            self.is_over = True
-        elif self.heard is not None and now > self.heard + SILENCE + self.period:
-            self.arm, self.grip = (0, 0, 0), 0  # a device would drop its force here
-            raise SystemExit("osc_hand: no force for 50 ms: the session is gone, and the hand lets go")
-        if self.is_over:
+        if self.forces.is_released:
             raise SystemExit("osc_hand: the session has let go")
+        if heard is not None and now > heard + SILENCE + self.period:
+            self.forces.let_go()  # a device would drop its force here
+            raise SystemExit("osc_hand: no force for 50 ms: the session is gone, and the hand lets go")
 
     def tell(self):
         now = time.monotonic()
-        if now < self.printed or self.heard is None:
+        forces = self.forces
+        if now < self.printed or forces.heard is None:
             return
         self.printed = now + 0.25
         x, y, z = self.place
-        print(f"{now - self.began:5.2f} s  {STATES[self.state] if self.state >= 0 else '-':9}  at {x * 1e3:6.1f} {y * 1e3:6.1f} {z * 1e3:6.1f} mm"
-              f"  gap {self.gap * 1e3:5.1f} mm  arm {self.arm[0]:5.2f} {self.arm[1]:5.2f} {self.arm[2]:5.2f} N  grip {self.grip:5.2f} N",
+        print(f"{now - self.began:5.2f} s  {STATES[forces.state] if forces.state >= 0 else '-':9}  at {x * 1e3:6.1f} {y * 1e3:6.1f} {z * 1e3:6.1f} mm"
+              f"  gap {self.gap * 1e3:5.1f} mm  arm {forces.arm[0]:5.2f} {forces.arm[1]:5.2f} {forces.arm[2]:5.2f} N  grip {forces.grip:5.2f} N",
               flush=True)
 
     def move(self, seconds, place=None, gap=None, until=lambda: False):
@@ -124,7 +150,7 @@ class Hand:
                 return
 
     def is_holding(self):
-        return self.state in HELD
+        return self.forces.state in HELD
 
     def bye(self):
         self.socket.sendto(osc_message("/wholehand/gripper/bye"), self.to)
@@ -134,7 +160,7 @@ def play(hand):
     """Whether the beaker was held, carried and put down."""
     x, y, z = BEAKER
     hand.place = [x, y, z + 0.15]  # in front of it, open, the palm towards it
-    while hand.heard is None:
+    while hand.forces.heard is None:
         hand.frame()
     hand.move(0.5)
     hand.move(1.2, place=(x, y, z))
@@ -155,8 +181,8 @@ def play(hand):
 def main():
     parser = argparse.ArgumentParser(description="Plays a hand over Open Sound Control for `wholehand live --device osc:PORT`.")
     parser.add_argument("--host", default="127.0.0.1", help="where wholehand runs (default: %(default)s)")
-    parser.add_argument("--port", type=int, default=9000, help="the port of --device osc:PORT (default: %(default)s)")
-    parser.add_argument("--rate", type=float, default=90, help="pictures a second (default: %(default)s)")
+    parser.add_argument("--port", type=int, default=9001, help="the port of --device osc:PORT (default: %(default)s)")
+    parser.add_argument("--rate", type=float, default=90, help="frames a second (default: %(default)s)")
     arguments = parser.parse_args()
     if not 1 <= arguments.port <= 65535 or not 30 <= arguments.rate <= 1000:
         parser.error("allowed: --port 1 to 65535, --rate 30 to 1000")
