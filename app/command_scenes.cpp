@@ -3,8 +3,8 @@
 #include <CLI/CLI.hpp>
 
 #include "app/commands.h"
-#include "scene/shipped.h"
 #include "scene/list.h"
+#include "scene/shipped.h"
 #include "system/output.h"
 
 namespace wholehand {

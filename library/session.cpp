@@ -2,6 +2,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "core/vectors.h"
 #include "grips/hand_nodes.h"
 #include "library/scene.h"
 #include "library/status.h"
@@ -54,18 +55,6 @@ bool has_rotation(const wh_measurement& in) noexcept {
   for (const double x : in.rotation)
     if (x != 0) return true;
   return false;
-}
-
-// Whether its columns are unit and at right angles, and right-handed.
-bool is_rotation(const double* m) noexcept {
-  for (int a = 0; a < 3; ++a)
-    for (int b = a; b < 3; ++b) {
-      const double dot = m[a] * m[b] + m[3 + a] * m[3 + b] + m[6 + a] * m[6 + b];
-      if (!(std::abs(dot - (a == b ? 1 : 0)) <= ROTATION_TOLERANCE)) return false;
-    }
-  const double volume =
-      m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) + m[2] * (m[3] * m[7] - m[4] * m[6]);
-  return volume > 0;
 }
 
 GripperState state_of(const wh_measurement& in) noexcept {
@@ -139,7 +128,7 @@ wh_status wh_session_step(wh_session* session, const wh_measurement* measurement
   if (!is_finite(in)) return fail(WH_INPUT, "wh_session_step: the measurement is not finite");
   if (!is_in_reach(in))
     return fail(WH_INPUT, "wh_session_step: the measurement is out of reach; allowed: a position up to 25 m, a gap up to 10 m");
-  if (has_rotation(in) && !is_rotation(in.rotation))
+  if (has_rotation(in) && !is_rotation(state_of(in).rotation, ROTATION_TOLERANCE))
     return fail(WH_INPUT, "wh_session_step: the measurement's rotation is not a rotation matrix");
   if (in.reserved != 0) return fail(WH_ARGUMENT, "wh_session_step: a reserved member of the measurement is not 0");
   if (in.tick < 0 || in.tick > LAST_TICK)

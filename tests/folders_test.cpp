@@ -112,8 +112,8 @@ TEST(Folders, EveryFolderHasAFloor) {
   const auto floor = floors();
   for (const auto& entry : fs::directory_iterator(WHOLEHAND_SOURCE_DIR)) {
     const std::string name = entry.path().filename();
-    if (!entry.is_directory() || name.starts_with('.') || name == "build" || name == "cmake" || name == "docs" || name == "examples" ||
-        name == "tests")
+    if (!entry.is_directory() || name.starts_with('.') || name == "build" || name == "cmake" || name == "docs" ||
+        name == "examples" || name == "tests")
       continue;
     EXPECT_TRUE(floor.contains(name)) << name << "/ is missing in WHOLEHAND_FLOORS (cmake/folders.cmake)";
   }

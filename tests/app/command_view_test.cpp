@@ -18,11 +18,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "scene/shipped.h"
 #include "core/error.h"
 #include "objects/vessel.h"
 #include "recordings/recording.h"
 #include "scene/reader.h"
+#include "scene/shipped.h"
 #include "tests/support/files.h"
 #include "tests/support/http_client.h"
 #include "tests/support/patient_board.h"

@@ -21,11 +21,11 @@
 
 #include "app/live_report.h"
 #include "app/open_gripper.h"
-#include "scene/shipped.h"
 #include "core/error.h"
 #include "core/vectors.h"
 #include "recordings/recording.h"
 #include "scene/reader.h"
+#include "scene/shipped.h"
 #include "tests/support/files.h"
 #include "tests/support/http_client.h"
 #include "tests/support/live_script.h"

@@ -14,10 +14,10 @@
 #include <memory>
 #include <string>
 
-#include "scene/shipped.h"
 #include "evidence/compare.h"
 #include "host/grip_backend.h"
 #include "scene/reader.h"
+#include "scene/shipped.h"
 #include "sweeps/plan.h"
 #include "sweeps/variables.h"
 #include "tests/support/files.h"

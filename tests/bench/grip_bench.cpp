@@ -5,7 +5,6 @@
 #include <memory>
 #include <utility>
 
-#include "scene/shipped.h"
 #include "core/core_backend.h"
 #include "core/evaluator.h"
 #include "grips/holding.h"
@@ -13,6 +12,7 @@
 #include "grips/report.h"
 #include "host/grip_backend.h"
 #include "scene/reader.h"
+#include "scene/shipped.h"
 #include "tests/bench/bench.h"
 
 namespace wholehand::bench {

@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/shipped.h"
 #include "evidence/compare.h"
 #include "scene/reader.h"
+#include "scene/shipped.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {

@@ -8,10 +8,10 @@
 #include <limits>
 #include <vector>
 
-#include "scene/shipped.h"
 #include "core/gather.h"
 #include "core/scene.h"
 #include "scene/reader.h"
+#include "scene/shipped.h"
 
 namespace wholehand {
 namespace {

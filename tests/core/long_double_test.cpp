@@ -5,9 +5,9 @@
 
 #include <memory>
 
-#include "scene/shipped.h"
 #include "evidence/compare.h"
 #include "scene/reader.h"
+#include "scene/shipped.h"
 #include "sweeps/plan.h"
 #include "tests/support/long_double.h"
 

@@ -13,7 +13,6 @@
 #include <memory>
 #include <set>
 
-#include "scene/shipped.h"
 #include "core/error.h"
 #include "device/haptic_loop.h"
 #include "device/sim_user.h"
@@ -21,6 +20,7 @@
 #include "live/hand_view.h"
 #include "people/participant.h"
 #include "scene/reader.h"
+#include "scene/shipped.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "scene/shipped.h"
 #include "scene/reader.h"
+#include "scene/shipped.h"
 #include "sweeps/grip_lists.h"
 #include "sweeps/run.h"
 #include "sweeps/sweep_result.h"

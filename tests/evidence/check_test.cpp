@@ -6,8 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "scene/shipped.h"
 #include "scene/reader.h"
+#include "scene/shipped.h"
 #include "tests/support/vulkan_listener.h"
 
 namespace wholehand {

@@ -11,8 +11,8 @@
 #include <limits>
 #include <memory>
 
-#include "scene/shipped.h"
 #include "scene/reader.h"
+#include "scene/shipped.h"
 #include "sweeps/plan.h"
 
 namespace wholehand {

@@ -14,11 +14,11 @@
 #include <string>
 #include <vector>
 
-#include "scene/shipped.h"
 #include "evidence/error_measure.h"
 #include "evidence/error_table.h"
 #include "evidence/error_variants.h"
 #include "scene/reader.h"
+#include "scene/shipped.h"
 #include "tests/support/files.h"
 #include "tests/support/scenes.h"
 #include "tests/support/vulkan_listener.h"

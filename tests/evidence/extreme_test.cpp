@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "scene/shipped.h"
 #include "core/effort.h"
 #include "core/force.h"
 #include "core/joints.h"
@@ -20,6 +19,7 @@
 #include "evidence/extreme.h"
 #include "host/open_backend.h"
 #include "scene/reader.h"
+#include "scene/shipped.h"
 #include "sweeps/plan.h"
 #include "sweeps/robust.h"
 #include "tests/support/capsule_check.h"

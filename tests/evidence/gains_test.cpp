@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/shipped.h"
 #include "core/error.h"
 #include "evidence/grip_loop.h"
 #include "scene/reader.h"
+#include "scene/shipped.h"
 
 namespace wholehand {
 namespace {

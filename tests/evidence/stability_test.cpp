@@ -10,8 +10,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "scene/shipped.h"
 #include "scene/reader.h"
+#include "scene/shipped.h"
 #include "tests/support/files.h"
 
 namespace wholehand {

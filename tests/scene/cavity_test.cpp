@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "scene/shipped.h"
 #include "core/capacity.h"
 #include "core/evaluator.h"
 #include "core/outline_points.h"
 #include "core/planes.h"
 #include "grips/glass.h"
+#include "scene/shipped.h"
 #include "sweeps/cavity_notes.h"
 #include "tests/support/scene_texts.h"
 

@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "scene/shipped.h"
 #include "core/absent.h"
 #include "core/counted_tilts.h"
 #include "core/hand_size.h"
@@ -18,6 +17,7 @@
 #include "host/grip_backend.h"
 #include "people/person.h"
 #include "scene/reader.h"
+#include "scene/shipped.h"
 #include "sweeps/plan.h"
 #include "sweeps/variables.h"
 #include "tests/support/scenes.h"

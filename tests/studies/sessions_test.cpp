@@ -10,13 +10,13 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "scene/shipped.h"
 #include "core/error.h"
 #include "device/gripper.h"
 #include "live/session.h"
 #include "recordings/grasp_collector.h"
 #include "recordings/session_report.h"
 #include "scene/reader.h"
+#include "scene/shipped.h"
 #include "studies/journal.h"
 #include "studies/people_loop.h"
 #include "studies/simulated_session.h"

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include "scene/shipped.h"
 #include "scene/reader.h"
+#include "scene/shipped.h"
 #include "tests/support/files.h"
 
 namespace wholehand {

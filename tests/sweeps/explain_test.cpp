@@ -9,10 +9,10 @@
 #include <regex>
 #include <sstream>
 
-#include "scene/shipped.h"
 #include "core/counted_tilts.h"
 #include "evidence/compare.h"
 #include "scene/reader.h"
+#include "scene/shipped.h"
 #include "sweeps/variables.h"
 #include "tests/support/vulkan_listener.h"
 

@@ -14,12 +14,12 @@
 #include <numeric>
 #include <sstream>
 
-#include "scene/shipped.h"
 #include "core/core_backend.h"
 #include "core/normal.h"
 #include "core/prepare.h"
 #include "host/open_backend.h"
 #include "scene/reader.h"
+#include "scene/shipped.h"
 #include "sweeps/rank.h"
 #include "sweeps/sweep_result.h"
 #include "tests/support/scenes.h"

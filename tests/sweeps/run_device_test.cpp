@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <csignal>
 
-#include "scene/shipped.h"
 #include "core/candidates.h"
 #include "host/open_backend.h"
 #include "scene/reader.h"
+#include "scene/shipped.h"
 #include "sweeps/different_grips.h"
 #include "sweeps/rank.h"
 #include "sweeps/run.h"

@@ -12,11 +12,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "scene/shipped.h"
 #include "core/mesh_body.h"
 #include "grips/hand_nodes.h"
 #include "live/hand_view.h"
 #include "scene/reader.h"
+#include "scene/shipped.h"
 #include "tests/support/live_script.h"
 #include "tests/support/scenes.h"
 

@@ -14,12 +14,12 @@
 
 #include <nlohmann/json.hpp>
 
-#include "scene/shipped.h"
 #include "core/contact.h"
 #include "core/error.h"
 #include "grips/report.h"
 #include "live/workspace.h"
 #include "scene/reader.h"
+#include "scene/shipped.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {
