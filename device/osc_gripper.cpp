@@ -167,12 +167,12 @@ class OscGripper final : public Gripper {
   bool is_missing_ = false;  // no state came when the loop began
   bool is_moving_ = false;   // a read has begun the motion
   bool has_jumped_ = false;  // since the last read
-  bool is_weaker_ = false;   // it said in the session that it bears less than before
   bool is_done_ = false;     // it said goodbye
   std::int64_t tick_ = 0;    // of the read
   GripperState newest_;      // as it came
   std::uint32_t reads_ = 0, writes_ = 0;
-  int shown_ = 0;  // state of the session
+  int shown_ = 0;                 // state of the session
+  const char* breach_ = nullptr;  // why the forces that it was said to bear may be too much
   const char* trouble_ = "";
   std::array<char, 120> unsent_{};  // words for what the system does not send
   Ignored ignored_;
@@ -227,6 +227,7 @@ bool OscGripper::take_datagram() noexcept {
   Heard heard;
   if (!receive(heard)) return false;
   if (heard.from == hand_) {
+    if (heard.wrong && heard.words.names_hello && !has_hello_) breach_ = "a hello of the hand cannot be read";
     if (!heard.wrong) obey(heard.words);
     return true;
   }
@@ -238,7 +239,8 @@ bool OscGripper::take_datagram() noexcept {
 // A state with NaN stays the newest, so that the guard sees it.
 void OscGripper::obey(const osc::Words& words) noexcept {
   if (words.has_bye) is_done_ = true;
-  if (words.has_hello && (words.hello.force < limits_.force || words.hello.grip < limits_.grip)) is_weaker_ = true;
+  if (words.has_hello && (words.hello.force < limits_.force || words.hello.grip < limits_.grip))
+    breach_ = "the hand says in the session that it bears less force";
   if (!words.has_state || !is_finite(newest_)) return;
   if (!osc::is_later(words.state.sequence, newest_.sequence)) {
     ++ignored_.late;
@@ -249,8 +251,8 @@ void OscGripper::obey(const osc::Words& words) noexcept {
   if (is_moving_ && is_finite(newest_) && !steps_.allows(newest_, tick_)) has_jumped_ = true;
 }
 
-// The first who says where it is becomes the hand. It says what it bears before that, or with it. A hello that cannot be read is not
-// passed off as none: the largest forces may be too much.
+// The first who says where it is becomes the hand. It says what it bears before that, or with it. A hello that cannot be read
+// must not count as no hello: the largest forces may be too much.
 void OscGripper::meet(Caller& caller, const Heard& heard) {
   const osc::Words& words = heard.words;
   if (heard.wrong && words.names_hello) caller.wrong_hello = heard.wrong;
@@ -316,8 +318,8 @@ ReadOutcome OscGripper::read(GripperState& state, std::int64_t tick) noexcept {
   tick_ = tick;
   for (int k = 0; k < MOST_DATAGRAMS && take_datagram(); ++k) {
   }
-  if (is_weaker_) {
-    trouble_ = "the hand says in the session that it bears less force";
+  if (breach_) {
+    trouble_ = breach_;
     return ReadOutcome::error;
   }
   if (!is_finite(newest_)) {

@@ -114,6 +114,18 @@ TEST(OscGripper, AHandThatBearsLessThanItSaidIsAFault) {
   }
 }
 
+TEST(OscGripper, ALateHelloThatCannotBeReadIsAFaultWhereItIsTheFirst) {
+  const std::string cut = osc_hello({0, 0.1, -1, 3});
+  OscRig rig({osc_state(1, hand_at(0))});
+  rig.send(cut);
+  EXPECT_FALSE(rig.comes_through(0, 2, 7));
+  EXPECT_STREQ(rig.gripper->trouble(), "a hello of the hand cannot be read");
+  OscRig told({osc_hello({0, 0.1, 5, 3}), osc_state(1, hand_at(0))});
+  told.send(cut);
+  EXPECT_TRUE(told.comes_through(0, 2, 7)) << "what it bears is known";
+  EXPECT_EQ(told.gripper->remarks().size(), 1u);
+}
+
 // The largest forces are no guess where a hand said something about them.
 TEST(OscGripper, AHelloThatCannotBeReadIsAFailure) {
   const std::string state = osc_state(1, hand_at(0)), good = osc_hello({0, 0.1, 5, 3});
