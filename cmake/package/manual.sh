@@ -4,11 +4,16 @@
 # Everything in them is what the program prints for --help, but the sections that manual.h2m adds to the first page.
 #   manual.sh PROGRAM VERSION FOLDER
 set -eu
-program=$1 version=$2 folder=$3
+version=$2 folder=$3
 here=$(dirname -- "$0")
-rm -rf "$folder"
-mkdir -p "$folder/help"
-export LC_ALL=C.UTF-8 HOME="$folder"
+rm -rf -- "$folder"
+mkdir -p -- "$folder"
+# help2man takes the words of a shell: neither the program's place nor that of the pages may stand in them
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+ln -s -- "$(realpath -- "$1")" "$work/program"
+program=$work/program
+export LC_ALL=C.UTF-8 HOME="$work"
 
 help_of() { "$program" "$@" --help; }
 commands_of() { help_of "$@" | sed -n '/^Subcommands:/,/^$/s/^  \([a-z-]*\) .*/\1/p'; }
@@ -35,21 +40,21 @@ page() {
   # help2man starts a program and takes its file's name for the page's. Options read better with a space after the comma; sentences end.
   {
     echo '#!/bin/sh'
-    echo "exec '$folder/help/filter' '$program' $* --help"
-  } >"$folder/help/$name"
-  chmod +x "$folder/help/$name"
+    echo "exec '$work/filter' '$program' $* --help"
+  } >"$work/$name"
+  chmod +x "$work/$name"
   summary=$(help_of "$@" | head -n 1 | sed 's/\.$//; s/^[A-Z]/\l&/')
   help2man --no-info --name="$summary" --manual="User Commands" --source="wholehand $version" --version-string="$version" \
-    --include="$include" "$folder/help/$name" | gzip -9n >"$folder/$name.1.gz"
+    --include="$include" "$work/$name" | gzip -9n >"$folder/$name.1.gz"
   [ "$(gzip -dc "$folder/$name.1.gz" | wc -l)" -gt 20 ] || { echo "no manual page of $name" >&2; exit 1; }
 }
 
-cat >"$folder/help/filter" <<'END'
+cat >"$work/filter" <<'END'
 #!/bin/sh
 "$@" | sed -e '1s/[^.]$/&./' -e 's/^  \(-[A-Za-z]\),--/  \1, --/' -e 's/^Positionals:/Arguments:/' -e 's/^Subcommands:/Commands:/' \
   -e '/^In a checkout/d' -e '/^Exit codes:/d'
 END
-chmod +x "$folder/help/filter"
+chmod +x "$work/filter"
 
 pages=
 for command in $(commands_of); do
@@ -57,15 +62,14 @@ for command in $(commands_of); do
   inner=
   for part in $(commands_of "$command"); do
     inner="$inner wholehand-$command-$part"
-    { exit_codes; see_also "wholehand-$command" wholehand; } >"$folder/help/include"
-    page "$folder/help/include" "$command" "$part"
+    { exit_codes; see_also "wholehand-$command" wholehand; } >"$work/include"
+    page "$work/include" "$command" "$part"
   done
   # shellcheck disable=SC2086
-  { exit_codes; see_also wholehand $inner; } >"$folder/help/include"
-  page "$folder/help/include" "$command"
+  { exit_codes; see_also wholehand $inner; } >"$work/include"
+  page "$work/include" "$command"
 done
 # shellcheck disable=SC2086
-{ exit_codes; cat "$here/manual.h2m"; see_also $pages; } >"$folder/help/include"
-page "$folder/help/include"
-rm -r "$folder/help"
+{ exit_codes; cat "$here/manual.h2m"; see_also $pages; } >"$work/include"
+page "$work/include"
 touch "$folder/.made"

@@ -5,16 +5,22 @@ import glob
 import os
 import re
 import subprocess
+import tempfile
 import unittest
 
 STAGED = os.environ["STAGED"]
 PROGRAM = os.path.join(STAGED, "usr/bin/wholehand")
 PAGES = os.path.join(STAGED, "usr/share/man/man1")
+SCRIPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../cmake/package/manual.sh")
 WIDE = 1000  # columns: few lines are broken
 
 
 def help_of(*words):
     return subprocess.run([PROGRAM, *words, "--help"], check=True, capture_output=True, text=True).stdout
+
+
+def help_version():
+    return subprocess.run([PROGRAM, "--version"], check=True, capture_output=True, text=True).stdout.split()[1]
 
 
 def commands(*words):
@@ -43,6 +49,15 @@ class Manual(unittest.TestCase):
     def test_every_command_has_a_page_and_every_page_a_command(self):
         self.assertGreater(len(all_commands()), 15)
         self.assertEqual(sorted(glob.glob(PAGES + "/*")), sorted(page_of(words) for words in all_commands()))
+
+    def test_pages_are_the_same_wherever_the_build_folder_lies(self):
+        with tempfile.TemporaryDirectory(prefix="it's a folder ") as folder:
+            os.symlink(os.path.realpath(PROGRAM), folder + "/a program")
+            version = help_version()
+            subprocess.run(["sh", SCRIPT, "a program", version, "man pages"], cwd=folder, check=True)
+            for words in all_commands():
+                with open(page_of(words), "rb") as ours, open(folder + "/man pages/" + os.path.basename(page_of(words)), "rb") as theirs:
+                    self.assertEqual(ours.read(), theirs.read(), words)
 
     def test_no_page_makes_man_warn(self):
         for words in all_commands():
