@@ -28,23 +28,33 @@ fs::path file_of_this_code() {
   return failed ? fs::path() : file;
 }
 
+// Above which folder share/ is, for a file of this code in `folder`: only where packages put one. Whatever else lies somewhere above
+// is nobody's share/. Empty: it is in no such place.
+fs::path prefix_of(const fs::path& folder) {
+  const fs::path above = folder.parent_path(), second = above.parent_path(), third = second.parent_path();
+  if (folder.filename() == "bin" || folder.filename() == "lib") return above;
+  if (above.filename() == "lib") return second;  // lib/x86_64-linux-gnu
+  // lib/python3/dist-packages/wholehand
+  const std::string packages = above.filename().string(), python = second.filename().string();
+  if (packages.ends_with("-packages") && python.starts_with("python3") && third.filename() == "lib") return third.parent_path();
+  return {};
+}
+
 }  // namespace
 
 std::string scenes_dir() {
-  // /usr/bin/wholehand, /usr/lib/x86_64-linux-gnu/libwholehand.so.0 and /usr/lib/python3/dist-packages/wholehand/ are up to four folders
-  // below /usr; a build folder is as deep in its source tree
-  constexpr int LEVELS = 4;
-  std::vector<fs::path> installed, source;
-  fs::path above = file_of_this_code().parent_path();
-  for (int level = 0; level <= LEVELS && above.has_relative_path(); ++level, above = above.parent_path()) {
-    installed.push_back(above / "share/wholehand/scenes");
-    source.push_back(above / "scene/examples");
+  std::vector<fs::path> candidates;
+  const fs::path folder = file_of_this_code().parent_path();
+  if (!folder.empty()) {
+    const fs::path prefix = prefix_of(folder);
+    if (!prefix.empty()) candidates.push_back(prefix / "share/wholehand/scenes");
+    candidates.push_back(folder / "share/wholehand/scenes");  // a Python module that pip installed
   }
-  std::vector<fs::path> candidates = installed;
-#ifdef WHOLEHAND_SCENE_DIR
-  candidates.emplace_back(WHOLEHAND_SCENE_DIR);
-#endif
-  candidates.insert(candidates.end(), source.begin(), source.end());
+  // a build folder lies in its source tree, or has a link to the scenes; tests' programs are one folder below it
+  constexpr int LEVELS = 4;
+  fs::path above = folder;
+  for (int level = 0; level <= LEVELS && above.has_relative_path(); ++level, above = above.parent_path())
+    candidates.push_back(above / "scene/examples");
   // for a program of others, which lies somewhere else than the package
   for (const char* system : {"/usr/local/share/wholehand/scenes", "/usr/share/wholehand/scenes"}) candidates.emplace_back(system);
   std::error_code failed;

@@ -9,9 +9,9 @@ namespace wholehand {
 
 inline constexpr const char* DEFAULT_SCENE = "three_beakers";
 
-// Folder of the shipped scenes: share/wholehand/scenes beside or above the program or library that this code is in, else
-// WHOLEHAND_SCENE_DIR of the build, else scene/examples of a source tree above, else share/wholehand/scenes
-// of /usr/local or /usr. Empty where none of them exists.
+// Folder of the shipped scenes: share/wholehand/scenes of the prefix in whose bin/, lib/ or Python packages the program, library or
+// module with this code is, or beside the module; else scene/examples above a build folder; else share/wholehand/scenes of /usr/local
+// or /usr. Empty where none of them exists.
 std::string scenes_dir();
 
 // Names of the shipped scenes, without .toml, in order.
