@@ -11,7 +11,11 @@ set(CMAKE_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
 set(WHOLEHAND_PACKAGE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/wholehand")
 set(packaging_dir "${PROJECT_BINARY_DIR}/packaging")
 
-add_custom_target(packaging DEPENDS wholehand wholehand_library)
+set(with_all ALL)
+if(WHOLEHAND_SANITIZE OR WHOLEHAND_FUZZ)
+  set(with_all "")  # nobody installs these
+endif()
+add_custom_target(packaging ${with_all} DEPENDS wholehand wholehand_library)
 
 # ---- program, and the scenes that it and the library find at share/wholehand (scene/shipped.cpp) ----
 install(TARGETS wholehand RUNTIME COMPONENT program)
@@ -19,6 +23,9 @@ install(DIRECTORY scene/examples/ DESTINATION "${CMAKE_INSTALL_DATADIR}/wholehan
 install(DIRECTORY scene/extreme/ DESTINATION "${CMAKE_INSTALL_DATADIR}/wholehand/extreme" COMPONENT common FILES_MATCHING PATTERN "*.toml")
 install(DIRECTORY docs/ DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/wholehand/docs" COMPONENT common
   FILES_MATCHING PATTERN "*.md" PATTERN pictures EXCLUDE PATTERN results EXCLUDE)
+install(DIRECTORY examples/ DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/wholehand/examples" COMPONENT common
+  FILE_PERMISSIONS OWNER_READ OWNER_WRITE GROUP_READ WORLD_READ  # read, and copied; hand.gd stays a link to the other project's
+  PATTERN __pycache__ EXCLUDE PATTERN .import EXCLUDE PATTERN "*.so" EXCLUDE)
 
 install(FILES device/udev/60-wholehand.rules DESTINATION lib/udev/rules.d COMPONENT program)  # udev sees by itself that it is new
 
@@ -28,8 +35,11 @@ add_custom_command(OUTPUT "${manual_dir}/.made" DEPENDS wholehand cmake/package/
   COMMAND sh "${PROJECT_SOURCE_DIR}/cmake/package/manual.sh" "$<TARGET_FILE:wholehand>" ${PROJECT_VERSION} "${manual_dir}"
   COMMENT "Writing manual pages" VERBATIM)
 add_custom_target(manual DEPENDS "${manual_dir}/.made")
-add_dependencies(packaging manual)
-install(DIRECTORY "${manual_dir}/" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT program FILES_MATCHING PATTERN "*.1.gz")
+find_program(HELP2MAN help2man)
+if(HELP2MAN)  # one of the packages of packages.txt for packaging; whoever only builds and installs goes without manual pages
+  add_dependencies(packaging manual)
+endif()
+install(DIRECTORY "${manual_dir}/" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT program OPTIONAL FILES_MATCHING PATTERN "*.1.gz")
 
 # ---- completion of commands in shells, where each shell looks for it ----
 function(install_completion shell folder file)

@@ -17,7 +17,7 @@ check() {  # check WHAT COMMAND ...
 }
 equal() { [ "$1" = "$2" ] || { echo "      got '$1', expected '$2'"; return 1; }; }
 has() { grep -qF -- "$2" <<<"$1" || { echo "      got '$1', expected it to have '$2'"; return 1; }; }
-one_line() { [ "$(grep -c '' <<<"$1")" = 1 ] || { echo "      got '$1', expected one line"; return 1; }; }
+one_line() { [ -n "$1" ] && [ "$(grep -c '' <<<"$1")" = 1 ] || { echo "      got '$1', expected one line"; return 1; }; }
 apt() {
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
     apt-get -q -y -o DPkg::Lock::Timeout=300 "$@" >"$work/apt.log" 2>&1 </dev/null || { tail -n 20 "$work/apt.log"; return 1; }
