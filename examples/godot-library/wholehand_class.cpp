@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <exception>
+#include <iterator>
 #include <memory>
 #include <new>
 #include <string>
@@ -261,10 +262,13 @@ class Wholehand {
 
   static Variant told(const wh_session_output& out, std::int64_t tick) {
     static const char* const names[] = {"free", "touching", "lift", "tilt", "maintain", "slipped", "released"};
+    // a later library may know more states
+    const auto state = static_cast<std::size_t>(out.state);
+    const char* name = state < std::size(names) ? names[state] : "other";
     double turn[4];
     quaternion_of(out.vessel_rotation, turn);
     values::Made made;
-    made.set("tick", values::of(static_cast<double>(tick))).set("state", values::of(std::string(names[out.state])));
+    made.set("tick", values::of(static_cast<double>(tick))).set("state", values::of(std::string(name)));
     made.set("vessel", values::of(static_cast<int>(out.vessel))).set("arm_force", values::place(out.arm_force));
     made.set("grip_force", values::of(out.grip_force)).set("weight", values::of(out.weight));
     made.set("tilt", values::of(out.tilt)).set("flow", values::of(out.flow)).set("closure", values::of(out.closure));

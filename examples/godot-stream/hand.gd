@@ -27,8 +27,9 @@ func _ready() -> void:
 			before = name_of_joint
 
 
+# A name comes from the network: as a path it could lead to any node of the scene.
 func has_joint(joint: String) -> bool:
-	return has_node(joint)
+	return joint == PREFIX + "WRIST_EXT" or joint in names
 
 
 # A pose as OpenXR has it: -z runs along the bone to the next joint, +y points out of the back of the hand.

@@ -7,6 +7,7 @@ extends Spatial
 
 const JOINT = "/wholehand/joint/"
 const VESSEL = "/wholehand/vessel/"
+const MOST_VESSELS = 16  # that are drawn: another program that sends could name any number
 
 var _until = ""
 var _file: File = null
@@ -44,6 +45,8 @@ func _on_frame(number: int, values: Dictionary) -> void:
 				moved.append($Hand.get_node(joint))
 		elif address.begins_with(VESSEL) and address.ends_with("/pose"):
 			var vessel = _vessel(address.substr(VESSEL.length()).get_base_dir())
+			if not vessel:
+				continue
 			vessel.transform = Transform(Basis(_turn(pose).normalized()), _place(pose))
 			moved.append(vessel)
 	$Hand.stretch_bones()
@@ -74,10 +77,13 @@ func _turn(pose: Array) -> Quat:
 
 
 # The stream says where a vessel is and not what it looks like: a disc lies at its base, and a rod stands on it.
+# Null where there are as many as are drawn.
 func _vessel(vessel: String) -> Spatial:
 	for node in $Vessels.get_children():
 		if node.get_meta("vessel") == vessel:
 			return node
+	if $Vessels.get_child_count() >= MOST_VESSELS:
+		return null
 	var added = Spatial.new()
 	added.set_meta("vessel", vessel)  # a node's own name may not have every letter
 	for size in [Vector2(0.03, 0.002), Vector2(0.002, 0.1)]:

@@ -350,6 +350,12 @@ public sealed class Scene : IDisposable {
     return vessel;
   }
 
+  public string VesselName(int index) {
+    string name = Native.Text(VesselAt(index).Name);
+    GC.KeepAlive(this);  // the text is the scene's
+    return name;
+  }
+
   public int FindVessel(string name) {
     UIntPtr index;
     Native.Check(Native.wh_scene_find_vessel(Handle, Native.Utf8(name), out index));
@@ -435,9 +441,29 @@ public sealed class Batch : IDisposable {
   }
 
   public void Dispose() { handle_.Dispose(); }
-  public string Device { get { IntPtr name; Native.Check(Native.wh_batch_device(handle_, out name)); return Native.Text(name); } }
+  public string Device {
+    get {
+      IntPtr name;
+      Native.Check(Native.wh_batch_device(handle_, out name));
+      return Kept(name);
+    }
+  }
+
   // What the last run had to say, a line each; "": nothing.
-  public string Notes { get { IntPtr notes; Native.Check(Native.wh_batch_notes(handle_, out notes)); return Native.Text(notes); } }
+  public string Notes {
+    get {
+      IntPtr notes;
+      Native.Check(Native.wh_batch_notes(handle_, out notes));
+      return Kept(notes);
+    }
+  }
+
+  // Text that is the batch's: the collector must not free it before it is read.
+  string Kept(IntPtr text) {
+    string kept = Native.Text(text);
+    GC.KeepAlive(this);
+    return kept;
+  }
 
   // `grips`: rows of height, azimuth, obliquity, roll, offset, hand scale. `outputs`: an array for each variable, with room for the
   // values of all grips, grip after grip.

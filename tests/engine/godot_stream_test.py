@@ -220,6 +220,37 @@ class GodotStream(EngineTest):
             # below 0.5 m and of turns in float32
             self.assert_places(seen, known["proxies_m"], 1e-6 + 10 * apart)
 
+    def test_names_of_the_network_reach_only_the_hand_and_some_vessels(self):
+        pose = [0.125, 0.25, 0.5, 0.0, 0.0, 0.0, 1.0]
+        hand = [*JOINTS, "XR_HAND_JOINT_WRIST_EXT"]
+        paths = ["..", "../Vessels", ".", JOINTS[0] + "/..", "/root"]  # each leads to a node
+        frame = packed(("/wholehand/frame", 7, 0.0), ("/wholehand/state", 6, "released"),
+                       *((f"/wholehand/joint/{path}", *[9.0] * 3, *pose[3:]) for path in paths),
+                       *((f"/wholehand/vessel/{k}/pose", *pose) for k in range(100)),
+                       *((f"/wholehand/joint/{joint}", *pose) for joint in hand), ("/wholehand/end", 7))
+        port, places = free_port(), os.path.join(self.folder, "named.jsonl")
+        godot = self.start(f"--port={port}", f"--write={places}", "--until=released")
+        self.addCleanup(godot.kill)
+        said = godot.stdout.readline()
+        while not said.split("\n")[-2].startswith("listens"):
+            line = godot.stdout.readline()
+            self.assertTrue(line, said)
+            said += line
+        deadline = time.monotonic() + PATIENCE
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
+            while godot.poll() is None and time.monotonic() < deadline:
+                sender.sendto(frame, ("127.0.0.1", port))
+                time.sleep(0.1)
+        said += godot.communicate(timeout=PATIENCE)[0]
+        self.assertEqual(godot.returncode, 0, said)
+        self.assertNotIn("ERROR", said)
+        with open(places) as file:
+            shown = json.loads(file.readline())
+        self.assertEqual(sorted(shown["joints"]), sorted(hand))
+        self.assertEqual(len(shown["vessels"]), 16)
+        for name, place in [*shown["joints"].items(), *shown["vessels"].items()]:
+            self.assertEqual(place, pose, name)  # numbers that float32 has; a node that holds others was not moved
+
     def test_a_port_that_another_has_is_an_error_in_one_line(self):
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as other:
             other.bind(("127.0.0.1", 0))

@@ -76,7 +76,8 @@ def grip(scene, *options):
 
 def own_copy(example, folder):
     """An example's project where it may be written to: engines leave files beside their projects."""
-    return shutil.copytree(os.path.join(EXAMPLES, example), os.path.join(folder, example))
+    built = shutil.ignore_patterns("*.so", ".import")  # of somebody who has used the project in the checkout
+    return shutil.copytree(os.path.join(EXAMPLES, example), os.path.join(folder, example), ignore=built)
 
 
 # ---- geometry: vectors are lists, rotations are rows ----

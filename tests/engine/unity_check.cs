@@ -88,7 +88,7 @@ static unsafe class UnityCheck {
       { "posed", Each(result, (r, j) => r.PosedJoint(j)) }, { "touch_mask", result.TouchMask },
       { "fill", state.Fill }, { "tilt", state.Tilt }, { "mass", state.Mass }, { "normal_force", state.NormalForce },
       { "json", scene.Json(vessel, grip) },
-      { "name", Native.Text(beaker.Name) }, { "highest", beaker.Highest }, { "place", Copy(beaker.Place, 3) },
+      { "name", scene.VesselName(vessel) }, { "highest", beaker.Highest }, { "place", Copy(beaker.Place, 3) },
       { "names", Each(0, (_, j) => Native.JointName(j)) },
       { "reasons", Enumerable.Range(0, 7).Select(k => (object)Native.ReasonName(k)).ToList() },
     };
