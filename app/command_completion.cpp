@@ -57,8 +57,13 @@ CompletedValue value_of(CLI::Option& option, const CLI::App& program) {
              dot != std::string::npos && type[0] != 'T') {  // FILE.nc, LIST.csv; not TERM=W,..
     value.endings = {type.substr(dot + 1)};
   }
-  for (const std::string& word : value.words)
-    if (word.ends_with(':')) value.endings = {"nc"};  // replay:FILE
+  for (std::string& word : value.words) {
+    const std::size_t colon = word.find(":.");  // replay:.nc
+    if (colon == std::string::npos) continue;
+    value.endings = {word.substr(colon + 2)};
+    word.resize(colon + 1);
+    value.before_files.push_back(word);
+  }
   return value;
 }
 

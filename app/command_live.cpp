@@ -46,7 +46,7 @@ void add_live_command(CLI::App& app, Action& action) {
   add("--device", options.device, "DEVICE",
       "sim (the default), view (the page of --view), replay:FILE, hid[:PATH], usb[:VID:PID], omega[:N], or osc:[HOST:]PORT for a "
       "hand over the network; see wholehand devices and docs/devices.md")
-      ->check(offered("sim view replay: hid usb omega osc"));
+      ->check(offered("sim view replay:.nc hid usb omega osc:"));
   add("--rate", arguments->rate, "HZ", "Rate of the force loop (default: the scene's)");
   add("--record", options.record, "FILE", "Record every tick in a NetCDF file; see wholehand session");
   add("--seconds", arguments->seconds, "S", "End after this time (default: when the simulated user is done, or on Ctrl-C)");

@@ -10,9 +10,9 @@ namespace wholehand {
 // What may stand as the value of an option, or as an argument.
 struct CompletedValue {
   std::vector<std::string> words;
-  std::vector<std::string>
-      endings;               // files with these endings, without the dot; "*": with any. After a word with ':' if there is one
-  bool has_folders = false;  // folders, for their own sake
+  std::vector<std::string> before_files;  // of the words, those that end in ':' and go on with a file: "replay:"
+  std::vector<std::string> endings;  // files with these endings, without the dot; "*": with any. Only after before_files, if any
+  bool has_folders = false;          // folders, for their own sake
 };
 
 struct CompletedOption {

@@ -8,9 +8,10 @@
 namespace wholehand {
 namespace {
 
-// Words, then "-e ENDING" for files and "-d" for folders. None of them has a space.
+// Words, then "-a WORD" for those that go on with a file, "-e ENDING" for files and "-d" for folders. None of them has a space.
 std::string bash_value(const CompletedValue& value) {
   std::vector<std::string> parts = value.words;
+  for (const std::string& word : value.before_files) parts.push_back("-a " + word);
   for (const std::string& ending : value.endings) parts.push_back("-e " + ending);
   if (value.has_folders) parts.push_back("-d");
   return fmt::format("{}", fmt::join(parts, " "));
@@ -45,7 +46,8 @@ void add_bash_command(const CompletedCommand& command, const std::string& path, 
 }
 
 constexpr const char* BASH_FUNCTION = R"bash(
-# Adds to COMPREPLY what may stand for $1, which is what is typed of it: words, files (-e ENDING) and folders (-d).
+# Adds to COMPREPLY what may stand for $1, which is what is typed of it: words, files (-e ENDING) and folders (-d), but
+# files only after a word if one is named (-a WORD).
 _wholehand_offer() {
   local typed=$1 words= endings= is_folder= IFS=$'\n' extended
   shift
@@ -53,12 +55,13 @@ _wholehand_offer() {
     case "$1" in
       -e) endings="$endings${endings:+|}$2"; shift ;;
       -d) is_folder=yes ;;
+      -a) break ;;
       *) words="$words $1" ;;
     esac
     shift
   done
   COMPREPLY+=($(IFS=' '; compgen -W "$words" -- "$typed"))
-  case "$words " in *': '*) compopt -o nospace 2>/dev/null; return ;; esac
+  case "${COMPREPLY[*]}" in *:) compopt -o nospace 2>/dev/null ;; esac
   [ -n "$endings$is_folder" ] || return
   compopt -o filenames 2>/dev/null
   case "$endings" in
@@ -93,11 +96,12 @@ _wholehand() {
     fi
   done
   word=${COMP_WORDS[COMP_CWORD - 1]}
-  [[ $typed != [=:] ]] || { [ "$typed" = = ] || word=:; typed=; }
+  k=$((COMP_CWORD - 2))
+  [[ $typed != [=:] ]] || { [ "$typed" = = ] || { k=$((k + 1)) word=:; }; typed=; }
   set -f
   if [[ $word == : ]]; then  # --device replay:FILE
     takes=$(_wholehand_value "$path $last")
-    [[ $takes != *:*' -e '* ]] || _wholehand_offer "$typed" -e "${takes##* -e }"
+    [[ ${COMP_WORDS[k - 1]} == : || $takes != *" -a ${COMP_WORDS[k]}: "* ]] || _wholehand_offer "$typed" -e "${takes##* -e }"
   elif [[ $typed == -* ]]; then
     COMPREPLY=($(compgen -W "$(_wholehand_options "$path")" -- "$typed"))
   elif [ -n "$option" ]; then

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "app/completion.h"
 
 namespace wholehand {
@@ -17,17 +19,13 @@ std::string fish_word(const std::string& text) {
 // Arguments of `complete` for a value: -a with what is offered. Files are those of a list, since -F would add all of them.
 std::string fish_value(const CompletedValue& value) {
   std::vector<std::string> parts;
-  bool has_prefix = false;
+  const std::vector<std::string>& before = value.before_files;
   for (const std::string& word : value.words) {
-    if (!word.ends_with(':')) {
-      parts.push_back(word);
-      continue;
-    }
-    has_prefix = true;
-    parts.push_back(fmt::format("(__wholehand_after {} .{})", word, value.endings.front()));
+    const bool has_file = std::find(before.begin(), before.end(), word) != before.end();
+    parts.push_back(has_file ? fmt::format("(__wholehand_after {} .{})", word, value.endings.front()) : word);
   }
   if (value.has_folders) parts.push_back("(__fish_complete_directories)");
-  if (!has_prefix)
+  if (before.empty())
     for (const std::string& ending : value.endings)
       parts.push_back(ending == "*" ? "(__fish_complete_path)" : fmt::format("(__fish_complete_suffix .{})", ending));
   return parts.empty() ? "" : " -a " + fish_word(fmt::format("{}", fmt::join(parts, " ")));
@@ -68,10 +66,11 @@ end
 
 # a word with ':' and a file with an ending
 function __wholehand_after
+    echo $argv[1]
+    string match -q -- "$argv[1]*" (commandline -ct); or return
     for file in (__fish_complete_suffix (string replace -r -- "^$argv[1]" '' (commandline -ct)) $argv[2])
         echo $argv[1]$file
     end
-    echo $argv[1]
 end
 
 )fish";

@@ -39,7 +39,8 @@ std::string zsh_action(const CompletedValue& value) {
   const std::string words = zsh_plain(fmt::format("{}", fmt::join(value.words, " ")));
   if (value.endings.empty()) return "(" + words + ")";
   // a space before it: called without further arguments
-  return fmt::format(" _wholehand_words_or_files \"{}\" \"{}\"", words, zsh_pattern(value.endings));
+  return fmt::format(" _wholehand_words_or_files \"{}\" \"{}\" \"{}\"", words, zsh_pattern(value.endings),
+                     zsh_plain(fmt::format("{}", fmt::join(value.before_files, " "))));
 }
 
 void add_zsh_option(const CompletedOption& option, std::string& text) {
@@ -75,17 +76,17 @@ void add_zsh_function(const CompletedCommand& command, const std::string& name, 
 constexpr const char* ZSH_HEAD = R"zsh(#compdef wholehand
 # zsh completion for wholehand, written by `wholehand completion zsh`
 
-# $1: words, of which one that ends in ':' goes on with a file; $2: the names of files, which stand for themselves where no word ends so
+# $1: words; $2: names of files; $3: those of the words that go on with a file. Without such a word files stand for themselves.
 _wholehand_words_or_files() {
-  local -a before=(${(M)${=1}:#*:}) after=(${${=1}:#*:})
+  local -a before=(${=3}) open=(${(M)${=1}:#*:}) whole=(${${=1}:#*:})
   local -i nothing=1
   if (( $#before )) && compset -P "(${(j:|:)before})"; then
     _path_files -g "$2" && nothing=0
     _path_files -/ && nothing=0
     return nothing
   fi
-  compadd -- $after && nothing=0
-  (( $#before )) && compadd -S '' -- $before && nothing=0
+  compadd -- $whole && nothing=0
+  (( $#open )) && compadd -S '' -- $open && nothing=0
   (( $#before )) && return nothing
   _path_files -g "$2" && nothing=0
   _path_files -/ && nothing=0

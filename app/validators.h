@@ -27,7 +27,8 @@ inline CLI::Validator not_an_option() {
       "");
 }
 
-// Not a check: the values that completion offers for the option, with spaces between. One that ends in ':' goes on with a file's name.
+// Not a check: the values that completion offers for the option, with spaces between. After one that ends in ':' the user
+// goes on; "replay:.nc" stands for replay: and the name of a file with that ending.
 inline constexpr std::string_view OFFERED = "offered: ";
 inline CLI::Validator offered(const std::string& words) {
   return CLI::Validator([](const std::string&) { return std::string(); }, "", std::string(OFFERED) + words);

@@ -155,7 +155,9 @@ class Bash(unittest.TestCase):
             allowed = re.search(r"allowed: (.*)", message)
             self.assertTrue(allowed, message)
             names = re.findall(r"[^\s,;]+", re.sub(r"; .*", "", allowed[1]))
-            names = {re.sub(r":.*", ":" if name.startswith("replay") else "", name) for name in names} - {"or"}
+            whole = {name for name in names if ":" not in name} - {"or"}
+            # replay:FILE is offered up to its colon, and hid:PATH as hid, which is enough
+            names = whole | {name.split(":")[0] + ":" for name in names if ":" in name and name.split(":")[0] not in whole}
             self.assertEqual(set(words), names, f"{command} {option}: {message}")
             checked += 1
         self.assertEqual(checked, 6)
@@ -175,6 +177,11 @@ class Bash(unittest.TestCase):
         self.assertEqual(bash("wholehand trials small -o "), ["folder"])
         self.assertEqual(bash("wholehand live --device replay:r"), ["result.nc"])
         self.assertEqual(bash("wholehand live --device re"), ["replay:"])
+        self.assertEqual(bash("wholehand live --device replay:"), ["folder", "result.nc"])
+        self.assertEqual(bash("wholehand live --device=replay:r"), ["result.nc"])
+        self.assertEqual(bash("wholehand live --device os"), ["osc:"])
+        for device in ("osc:", "hid:", "hid:r", "usb:r", "osc:replay:r"):
+            self.assertEqual(bash("wholehand live --device " + device), [], device)
         self.assertEqual(bash("wholehand live --device=si"), ["sim"])
         self.assertEqual(bash("wholehand grip small --tilt-deg 0 30 --on c"), ["core"])
         self.assertEqual(bash("wholehand sweep --on nothing:"), [])
@@ -210,6 +217,8 @@ class Zsh(unittest.TestCase):
                 ("wholehand trials res", ["trials", "result.nc"]),
                 ("wholehand trials small -o fol", ["trials", "small", "-o", "folder"]),
                 ("wholehand live --device replay:res", ["live", "--device", "replay:result.nc"]),
+                ("wholehand live --device hid:res", ["live", "--device", "hid:res"]),
+                ("wholehand live --device os", ["live", "--device", "osc:"]),
                 ("wholehand stability wa", ["stability", "wall"]),
                 ("wholehand stability wall --fin", ["stability", "wall", "--finger"]),
                 ("wholehand help tri", ["help", "trials"])]:
@@ -230,6 +239,8 @@ class Fish(unittest.TestCase):
         self.assertEqual(fish("wholehand view res"), ["result.nc"])
         self.assertEqual(fish("wholehand trials small -o fol"), ["folder/"])
         self.assertEqual(fish("wholehand live --device replay:res"), ["replay:result.nc"])
+        self.assertEqual(fish("wholehand live --device hid:res"), [])
+        self.assertEqual(fish("wholehand live --device os"), ["osc:"])
         self.assertEqual(fish("wholehand stability wa"), ["wall"])
         self.assertEqual(fish("wholehand stability wall --fin"), ["--finger"])
 
