@@ -3,6 +3,7 @@
 
 import os
 import re
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -44,13 +45,44 @@ class Cpp(unittest.TestCase):
                 for included in re.findall(r'^#include "([^"]+)"', text(os.path.join(folder, name)), re.MULTILINE):
                     self.assertTrue(os.path.exists(os.path.join(HEADERS, included)), f"{folder}/{name} includes {included}")
 
+    def test_installed_headers_compile_with_the_packages_that_are_recommended(self):
+        deb = os.path.join(STAGED + ".debs", next(name for name in os.listdir(STAGED + ".debs") if name.startswith("libwholehand-dev")))
+        recommended = set(run("dpkg-deb", "-f", deb, "Recommends")[1].strip().split(", "))
+        headers = sorted(os.path.relpath(os.path.join(folder, name), HEADERS) for folder, _, names in os.walk(HEADERS) for name in names)
+        self.assertGreater(len(headers), 100)
+        all_of_them = "".join(f'#include "{header}"\n' for header in headers)
+        code, output = run("c++", "-std=c++20", "-M", "-I", HEADERS, "-x", "c++", "-", input=all_of_them)
+        self.assertEqual(code, 0, output)
+        # folders of /usr/include, but those of the compiler, which -dev packages of others have made
+        used = {path for path in output.split() if path.startswith("/usr/include/") and not path.startswith("/usr/include/c++/")}
+        owners = set(re.findall(r"^([\w.+-]+)(?::\w+)?: ", run("dpkg", "-S", *used)[1], re.MULTILINE))
+        needed = owners - {"libc6-dev", "linux-libc-dev", "libstdc++-12-dev"}
+        self.assertGreater(len(needed), 3)
+        self.assertLessEqual(needed, recommended)
+
     def test_examples_build_and_run(self):
         with tempfile.TemporaryDirectory() as build:
+            # these programs are in no prefix, and wholehand-common is not in /usr here: the scenes lie beside them
+            shutil.copytree(f"{STAGED}/usr/share/wholehand", build + "/share/wholehand")
             for command in (["cmake", "-G", "Ninja", "-S", EXAMPLES, "-B", build, f"-DCMAKE_PREFIX_PATH={STAGED}/usr"],
                             ["cmake", "--build", build], ["ctest", "--test-dir", build, "--output-on-failure"]):
                 code, output = run(*command)
                 self.assertEqual(code, 0, output)
             self.assertIn(f"100% tests passed, 0 tests failed out of {len(named_headers())}", output)
+
+    def test_a_project_in_c_alone_finds_the_library(self):
+        with tempfile.TemporaryDirectory() as folder:
+            with open(os.path.join(folder, "CMakeLists.txt"), "w") as file:
+                file.write("cmake_minimum_required(VERSION 3.25)\nproject(p LANGUAGES C)\nfind_package(wholehand REQUIRED)\n"
+                           "add_executable(mine mine.c)\ntarget_link_libraries(mine PRIVATE wholehand::wholehand)\n")
+            with open(os.path.join(folder, "mine.c"), "w") as file:
+                file.write("#include <stdio.h>\n#include <wholehand/wholehand.h>\nint main(void) { return puts(wh_version()) < 0; }\n")
+            for command in (["cmake", "-G", "Ninja", "-S", folder, "-B", folder + "/build", f"-DCMAKE_PREFIX_PATH={STAGED}/usr"],
+                            ["cmake", "--build", folder + "/build"]):
+                code, output = run(*command)
+                self.assertEqual(code, 0, output)
+            version = re.search(r"^project\(wholehand VERSION (\S+)", text(os.path.join(SOURCE, "CMakeLists.txt")), re.MULTILINE)[1]
+            self.assertEqual(run(folder + "/build/mine"), (0, version + "\n"))
 
     def test_a_wrong_component_is_refused(self):
         with tempfile.TemporaryDirectory() as folder:
