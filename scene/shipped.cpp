@@ -46,9 +46,9 @@ std::string scenes_dir() {
   std::vector<fs::path> candidates;
   const fs::path folder = file_of_this_code().parent_path();
   if (!folder.empty()) {
+    candidates.push_back(folder / "share/wholehand/scenes");  // a Python module that pip installed has its own
     const fs::path prefix = prefix_of(folder);
     if (!prefix.empty()) candidates.push_back(prefix / "share/wholehand/scenes");
-    candidates.push_back(folder / "share/wholehand/scenes");  // a Python module that pip installed
   }
   // a build folder lies in its source tree, or has a link to the scenes; tests' programs are one folder below it
   constexpr int LEVELS = 4;

@@ -9,8 +9,8 @@ namespace wholehand {
 
 inline constexpr const char* DEFAULT_SCENE = "three_beakers";
 
-// Folder of the shipped scenes: share/wholehand/scenes of the prefix in whose bin/, lib/ or Python packages the program, library or
-// module with this code is, or beside the module; else scene/examples above a build folder; else share/wholehand/scenes of /usr/local
+// Folder of the shipped scenes: share/wholehand/scenes beside the program, library or module with this code, or of the prefix in whose
+// bin/, lib/ or Python packages that is; else scene/examples above a build folder; else share/wholehand/scenes of /usr/local
 // or /usr. Empty where none of them exists.
 std::string scenes_dir();
 
