@@ -129,6 +129,22 @@ class Contents(unittest.TestCase):
             self.assertIn("one_more.nc", os.listdir(folder + "/here"))
             self.assertEqual(sorted(os.listdir(folder)), ["away", "here"])
 
+    def test_the_program_takes_no_scenes_of_a_folder_that_is_not_its_prefix(self):
+        with tempfile.TemporaryDirectory() as folder:
+            shutil.copytree(f"{STAGED}/usr/share/wholehand", folder + "/share/wholehand")
+            scenes = folder + "/share/wholehand/scenes/"
+            shutil.copy(scenes + "small.toml", scenes + "one_more.toml")
+            places = {"bin": True, "lib": True, "lib/x86_64-linux-gnu": True, ".": True, "deep": False, "deep/er": False,
+                      "deep/bin": False}
+            for place, is_known in places.items():
+                program = os.path.join(folder, place, "wholehand")
+                os.makedirs(os.path.dirname(program), exist_ok=True)
+                shutil.copy(f"{STAGED}/usr/bin/wholehand", program)
+                command = [program, "grip", "one_more", "--vessel", "tumbler", "--height-mm", "50"]
+                done = subprocess.run(command, env={}, cwd="/", capture_output=True, text=True)
+                self.assertEqual(done.returncode, 0 if is_known else 2, f"{place}: {done.stderr}")
+                self.assertEqual("no scene file 'one_more'" in done.stderr, not is_known, f"{place}: {done.stderr}")
+
 
 if __name__ == "__main__":
     unittest.main()

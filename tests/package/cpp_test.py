@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """The C++ examples against the installed package: they are configured, built and run by a project of their own, as a user would."""
 
+import glob
 import os
 import re
 import shutil
@@ -46,9 +47,9 @@ class Cpp(unittest.TestCase):
                     self.assertTrue(os.path.exists(os.path.join(HEADERS, included)), f"{folder}/{name} includes {included}")
 
     def test_installed_headers_compile_with_the_packages_that_are_recommended(self):
-        deb = os.path.join(STAGED + ".debs", next(name for name in os.listdir(STAGED + ".debs") if name.startswith("libwholehand-dev")))
+        (deb,) = glob.glob(STAGED + ".debs/libwholehand-dev*.deb")
         recommended = set(run("dpkg-deb", "-f", deb, "Recommends")[1].strip().split(", "))
-        headers = sorted(os.path.relpath(os.path.join(folder, name), HEADERS) for folder, _, names in os.walk(HEADERS) for name in names)
+        headers = sorted(glob.glob("**/*.h", root_dir=HEADERS, recursive=True))
         self.assertGreater(len(headers), 100)
         all_of_them = "".join(f'#include "{header}"\n' for header in headers)
         code, output = run("c++", "-std=c++20", "-M", "-I", HEADERS, "-x", "c++", "-", input=all_of_them)
@@ -76,7 +77,8 @@ class Cpp(unittest.TestCase):
                 file.write("cmake_minimum_required(VERSION 3.25)\nproject(p LANGUAGES C)\nfind_package(wholehand REQUIRED)\n"
                            "add_executable(mine mine.c)\ntarget_link_libraries(mine PRIVATE wholehand::wholehand)\n")
             with open(os.path.join(folder, "mine.c"), "w") as file:
-                file.write("#include <stdio.h>\n#include <wholehand/wholehand.h>\nint main(void) { return puts(wh_version()) < 0; }\n")
+                file.write("#include <stdio.h>\n#include <wholehand/wholehand.h>\n"
+                           "int main(void) { return puts(wh_version()) < 0; }\n")
             for command in (["cmake", "-G", "Ninja", "-S", folder, "-B", folder + "/build", f"-DCMAKE_PREFIX_PATH={STAGED}/usr"],
                             ["cmake", "--build", folder + "/build"]):
                 code, output = run(*command)
