@@ -108,11 +108,11 @@ CheckReport check_scene(const Scene& scene, const CheckOptions& options) {
   std::vector<CheckSample> samples;
   for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
     const CheckSample& sample = samples.emplace_back(check_sample(scene, plan, v));
-    show_status("comparing the grips of " + scene.vessels[v].name);
+    if (!options.is_quiet) show_status("comparing the grips of " + scene.vessels[v].name);
     checking.add(v, sample.grips);
     report.vessels.push_back({scene.vessels[v].name, sample.own, sample.grips.size() - sample.own});
   }
-  show_status("");
+  if (!options.is_quiet) show_status("");
   checking.tell(report, samples);
   return report;
 }

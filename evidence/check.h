@@ -17,6 +17,7 @@ namespace wholehand {
 struct CheckOptions {
   std::string on = "vulkan";  // see open_backend
   host::DeviceOptions device;
+  bool is_quiet = false;                // no status line on a terminal
   const Scene* device_scene = nullptr;  // tests: what the device evaluates instead of the scene
 };
 

@@ -21,6 +21,7 @@ namespace {
 
 wh_status make_scene(Scene scene, wh_scene** out) {
   MeshOptions quiet;
+  quiet.is_quiet = true;
   quiet.most_bytes = largest_lattice(std::numeric_limits<std::uint64_t>::max());
   load_meshes(scene, quiet);
   const AskedGrips allowed(scene);

@@ -150,9 +150,20 @@ std::string set_volume(const MeshFacts& facts, MeshBody& body) {
 
 void note(const std::string& line) { fmt::print(stderr, "wholehand: {}\n", line); }
 
-// Wipes what was shown while work ran, also where that ends with an error.
-struct StatusLine {
-  ~StatusLine() { show_status(""); }
+// What is shown while work runs, and wiped where it ends, also with an error.
+class StatusLine {
+ public:
+  explicit StatusLine(bool is_quiet) : is_quiet_(is_quiet) {}
+  ~StatusLine() { show(""); }
+  StatusLine(const StatusLine&) = delete;
+  StatusLine& operator=(const StatusLine&) = delete;
+
+  void show(const std::string& line) const {
+    if (!is_quiet_) show_status(line);
+  }
+
+ private:
+  bool is_quiet_;
 };
 
 // Of a shape or an outline the scene's reader checks it.
@@ -172,10 +183,10 @@ void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder
   const auto say = [&](const std::string& line) {
     if (options.say) options.say(name + ": " + line);
   };
-  const StatusLine status;
-  show_status(fmt::format("{}: reading {}", name, data.file));
+  const StatusLine status(options.is_quiet);
+  status.show(fmt::format("{}: reading {}", name, data.file));
   CheckedMesh checked = check_mesh(read_mesh(data, folder), at_place(data.place, data.file), data.close_holes);
-  show_status("");
+  status.show("");
   const MeshFacts& facts = checked.facts;
   say(data.file + ": " + mesh_check_text(facts));
   const std::string warning = mesh_size_warning(facts, data.scale);
@@ -192,15 +203,15 @@ void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder
   }
   cache_limit();  // throws here: a wrong limit is not the fault of grid_mm
   try {
-    const auto progress = [&](double share) { show_status(fmt::format("{}: distances to its mesh  {:.0f} %", name, 100 * share)); };
+    const auto progress = [&](double share) { status.show(fmt::format("{}: distances to its mesh  {:.0f} %", name, 100 * share)); };
     const auto announce = [&](const PreparedLattice& lattice, double seconds) {
       if (!is_long(seconds, facts.closed)) return;
-      show_status("");
+      status.show("");
       const auto& tell = options.say ? options.say : options.forecast;
       if (tell) tell(name + ": " + forecast_text(lattice, seconds, facts.closed));
     };
     MeshLattice made = cached_lattice(checked, wish, options.cache_folder, progress, {announce, options.clock});
-    show_status("");
+    status.show("");
     body->lattice = std::move(made.lattice);
     body->lattice_error = made.error;
     body->key = mesh_key(checked, body->lattice);
@@ -278,11 +289,13 @@ void load_meshes(Scene& scene, const MeshOptions& options) {
     if (vessel.mesh && !vessel.mesh->body) load_mesh(scene, vessel, folder, options, lattices);
 }
 
-std::string reload_meshes(Scene& scene, const std::string& scene_file, const std::string& keys, const std::string& lattices) {
+std::string reload_meshes(Scene& scene, const std::string& scene_file, const std::string& keys, const std::string& lattices,
+                          bool is_quiet) {
   if (!has_meshes(scene)) return "";
   MeshOptions options;
   options.lattices = lattices;
-  options.forecast = note;
+  options.is_quiet = is_quiet;
+  if (!is_quiet) options.forecast = note;
   Scene read = scene;
   read.file = scene_file;
   try {

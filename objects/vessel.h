@@ -21,6 +21,7 @@ struct MeshOptions {
   std::string cache_folder;                          // of lattices, see cached_lattice
   std::function<void(const std::string&)> say;       // gets what was found of each mesh, a line a time; may be empty
   std::function<void(const std::string&)> forecast;  // without `say`: gets only that a lattice takes long; may be empty
+  bool is_quiet = false;                             // no status line on a terminal: for work inside another program
   std::function<double()> clock;  // s, by which work is timed before it is told how long it takes; empty: the machine's
 };
 
@@ -41,8 +42,10 @@ void load_meshes(Scene& scene, const MeshOptions& options);
 void load_meshes(Scene& scene, const std::function<std::uint64_t()>& device_bytes = nullptr);
 
 // For a scene read back from a result, whose file lay at `scene_file` and whose meshes had those keys and lattices (mesh_lattices). Returns
-// why the meshes are no longer those, "" where they are; then every body is there, else none. Says on stderr where a lattice takes long.
-std::string reload_meshes(Scene& scene, const std::string& scene_file, const std::string& keys, const std::string& lattices);
+// why the meshes are no longer those, "" where they are; then every body is there, else none. Says on stderr where a lattice takes long,
+// unless `is_quiet`.
+std::string reload_meshes(Scene& scene, const std::string& scene_file, const std::string& keys, const std::string& lattices,
+                          bool is_quiet = false);
 
 bool has_meshes(const Scene& scene);
 // What was found of each mesh, a line each with the vessel's name.

@@ -20,6 +20,7 @@ py::tuple check(SceneHandle& handle, const std::string& on) {
     const py::gil_scoped_release other_threads;
     CheckOptions options;
     options.on = on;
+    options.is_quiet = true;
     report = check_scene(handle.whole(on), options);
     report.warnings = handle.float_notes(Precision::single);
   }

@@ -110,6 +110,7 @@ class GripHandle {
     Scene asked = scene_;
     asked.grips.hand_scale = {{grip.hand_scale}};
     MeshOptions options;
+    options.is_quiet = true;
     options.most_bytes = largest_lattice(largest_buffer(on));
     load_meshes(asked, options);
     scene_.vessels = asked.vessels;

@@ -2,8 +2,10 @@
 #include "python/scene.h"
 
 #include <pybind11/stl.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <string_view>
 
 #include "app/remedy.h"
@@ -62,6 +64,7 @@ const Scene& SceneHandle::whole_locked(const std::string& on) {
   if (kept) return *kept;
   Scene scene = described_;
   MeshOptions options;
+  options.is_quiet = true;
   options.most_bytes = largest_lattice(largest_buffer(on));
   if (mesh_notes_.empty()) options.say = [this](const std::string& line) { mesh_notes_.push_back(line); };
   load_meshes(scene, options);
@@ -113,7 +116,17 @@ std::vector<std::string> SceneHandle::float_notes(Precision precision) {
   return *float_notes_;
 }
 
-void prepare_device(const std::string& on) { prepare_vulkan_environment(on); }
+void prepare_device(const std::string& on) {
+  if (on == "core") return;
+  // A driver's threads and its connection to the device stay behind in a fork; to use them there would wait for ever.
+  static std::atomic<pid_t> opened_by{0};
+  const pid_t here = getpid();
+  pid_t nobody = 0;
+  if (!opened_by.compare_exchange_strong(nobody, here) && nobody != here)
+    throw failure_error(
+        "a device was opened before this process was forked, and cannot be used in it; start processes with \"spawn\"");
+  prepare_vulkan_environment(on);
+}
 
 Precision precision_of(const std::optional<std::string>& text, const std::string& on) {
   if (text) return parse_precision(*text);
@@ -140,7 +153,7 @@ HandlePointer parse_text(const std::string& text, const std::string& name) {
 HandlePointer scene_of_dataset(const std::string& text, const std::string& scene_file, const std::string& keys,
                                const std::string& lattices) {
   Scene scene = parse_scene(text, "the result's scene");
-  const std::string trouble = reload_meshes(scene, scene_file, keys, lattices);
+  const std::string trouble = reload_meshes(scene, scene_file, keys, lattices, true);
   if (!trouble.empty()) throw usage_error("the result's scene: " + trouble);
   if (!scene_file.empty()) scene.file = scene_file;
   return std::make_shared<SceneHandle>(std::move(scene));

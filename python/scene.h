@@ -70,7 +70,8 @@ class SceneHandle {
 // throws Error (usage).
 std::vector<const Variable*> named_variables(const Scene& scene, const std::vector<std::string>& names, const std::string& place);
 
-// Sets what a device's driver reads from the environment. Call with the interpreter's lock, which guards the environment.
+// Before a device is opened or used: sets what its driver reads from the environment. Call with the interpreter's lock, which
+// guards the environment. Throws Error (failure) in a process that was forked from one which had a device.
 void prepare_device(const std::string& on);
 
 // As the program's option --precision: "float" or "double"; absent: double on the core, float on a device.

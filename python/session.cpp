@@ -6,6 +6,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <string_view>
 #include <thread>
 
 #include "core/error.h"
@@ -23,6 +24,21 @@ namespace wholehand {
 namespace {
 
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+// Ticks are numbers of a double in a recording, exact up to here.
+constexpr std::int64_t LAST_TICK = std::int64_t{1} << 53;
+
+// Real numbers of any kind as doubles. No text, truths or complex numbers, which NumPy would convert, and no masked arrays, whose
+// masks it would drop.
+Numbers numbers_of(const py::object& values, const char* name) {
+  const py::array array = py::array::ensure(values);
+  if (!array) throw usage_error(fmt::format("session: the {} is no array of numbers", name));
+  const bool is_masked = std::string_view(Py_TYPE(values.ptr())->tp_name) == "MaskedArray";
+  if (is_masked || std::string_view("fiu").find(array.dtype().kind()) == std::string_view::npos)
+    throw usage_error(fmt::format("session: the {} is {}; allowed: real numbers", name,
+                                  is_masked ? "a masked array" : std::string(py::str(array.dtype()))));
+  return Numbers::ensure(array);
+}
 
 template <std::size_t N>
 Numbers array_of(const std::array<double, N>& values) {
@@ -68,11 +84,12 @@ class SessionHandle {
   }
 
   // Throws Error (usage): closed, another thread's, a measurement that no gripper gives. Then the session stays as it was.
-  const Step& step(const Numbers& position, const std::optional<Numbers>& rotation, double gap, std::uint32_t buttons,
+  const Step& step(const py::object& position, const py::object& rotation, double gap, std::uint32_t buttons,
                    std::optional<std::int64_t> tick) {
     enter();
     const GripperState state = state_of(position, rotation, gap, buttons);
-    const std::int64_t number = tick.value_or(last_ + 1);
+    const std::int64_t number = tick.value_or(last_ + 1);  // fits: last_ is LAST_TICK at most
+    if (number > LAST_TICK) throw usage_error(fmt::format("session: tick {}; allowed: up to {}", number, LAST_TICK));
     if (number <= last_) throw usage_error(fmt::format("session: tick {} after {}; allowed: a greater one", number, last_));
     last_ = number;
     session_->step(state, number, step_.tick);
@@ -102,14 +119,17 @@ class SessionHandle {
     if (owner_ != here) throw usage_error("session: it belongs to the thread of its first step, and this is another one");
   }
 
-  static GripperState state_of(const Numbers& position, const std::optional<Numbers>& rotation, double gap, std::uint32_t buttons) {
+  static GripperState state_of(const py::object& given_position, const py::object& given_rotation, double gap,
+                               std::uint32_t buttons) {
+    const Numbers position = numbers_of(given_position, "position");
     if (position.ndim() != 1 || position.shape(0) != 3) throw usage_error("session: the position has another shape than (3,)");
     GripperState state;
     std::copy_n(position.data(), 3, state.position.begin());
-    if (rotation) {
-      if (rotation->ndim() != 2 || rotation->shape(0) != 3 || rotation->shape(1) != 3)
+    if (!given_rotation.is_none()) {
+      const Numbers rotation = numbers_of(given_rotation, "rotation");
+      if (rotation.ndim() != 2 || rotation.shape(0) != 3 || rotation.shape(1) != 3)
         throw usage_error("session: the rotation has another shape than (3, 3)");
-      std::copy_n(rotation->data(), 9, state.rotation.begin());
+      std::copy_n(rotation.data(), 9, state.rotation.begin());
     }
     state.gap = gap;
     state.buttons = buttons;
@@ -136,7 +156,11 @@ std::string text_of(const Step& step) {
 void bind_step(py::module_& module) {
   const auto number = [](auto Tick::*member) { return [member](const Step& step) { return step.tick.*member; }; };
   const auto triple = [](auto Tick::*member) { return [member](const Step& step) { return array_of(step.tick.*member); }; };
-  py::class_<Step>(module, "Step")
+  py::class_<Step>(
+      module, "Step",
+      "One period of a live session: forces, states and the hand. Made by ``Session.step``.\n\n"
+      "It stays as it is when the session goes on. SI units. Forces of arm_force are in the device frame, places in the\n"
+      "world frame (+y up).")
       .def_property_readonly("tick", number(&Tick::number), "Number of the period.")
       .def_property_readonly(
           "state", [](const Step& step) { return SESSION_STATE_NAMES[static_cast<std::size_t>(step.tick.state)]; },
@@ -202,7 +226,8 @@ std::vector<bool> touching(const HandView& hand) {
 }
 
 void bind_hand(py::module_& module) {
-  py::class_<HandView>(module, "Hand")
+  py::class_<HandView>(module, "Hand",
+                       "The whole hand of one step: 24 joints, m, world frame (+y up). Made by ``Step.hand`` and ``Session.hand``.")
       .def_property_readonly(
           "joints", [](const HandView& hand) { return points_of(hand.proxies); },
           "As it is drawn, outside of all vessels, m, world frame, shape (24, 3).")
@@ -226,7 +251,8 @@ void bind_session(py::module_& module) {
   bind_hand(module);
   bind_step(module);
   py::class_<SessionHandle>(module, "Session")
-      .def(py::init<SceneHandle&, const std::optional<std::array<double, 2>>&>(), py::arg("scene"), py::arg("gap"))
+      .def(py::init<SceneHandle&, const std::optional<std::array<double, 2>>&>(), py::arg("scene"), py::arg("gap"),
+           py::call_guard<py::gil_scoped_release>())
       .def("step", &SessionHandle::step, py::arg("position"), py::arg("rotation"), py::arg("gap"), py::arg("buttons"),
            py::arg("tick"), py::return_value_policy::copy)
       .def("last", &SessionHandle::last, py::return_value_policy::copy)

@@ -43,8 +43,8 @@ SweepOptions options_of(const SweepWish& wish, std::vector<std::string>& notes) 
   return options;
 }
 
-// Answers the number of the signal that ended it, 0 where none did, and the notes. One at a time in a process: the caller sees to
-// that.
+// Answers whether it is whole, the number of a signal that came meanwhile (0: none), and the notes. One at a time in a process: the
+// caller sees to that.
 py::tuple sweep(const SceneHandle& handle, const std::string& output, const std::string& on, std::optional<std::string> precision,
                 std::optional<int> best, std::optional<std::vector<std::string>> keep, int threads, bool refine, bool resume) {
   prepare_device(on);
@@ -61,7 +61,8 @@ py::tuple sweep(const SceneHandle& handle, const std::string& output, const std:
     }
     code = run_sweep(scene, options_of(wish, notes));
   }
-  return py::make_tuple(code == ExitCode::interrupted ? InterruptGuard::signal_number() : 0, notes);
+  // one that came in the ending left the sweep whole, and is Python's all the same
+  return py::make_tuple(code != ExitCode::interrupted, InterruptGuard::signal_number(), notes);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@ void read_meshes(Scene& scene, const SweepOptions& options) {
   if (!options.note) return load_meshes(scene, device_bytes);
   if (!has_meshes(scene)) return;  // what is found of them is no note: the other program asks for it where it wants to
   MeshOptions mesh_options;
+  mesh_options.is_quiet = true;
   mesh_options.most_bytes = largest_lattice(device_bytes());
   load_meshes(scene, mesh_options);
 }

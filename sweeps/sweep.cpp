@@ -74,6 +74,9 @@ bool Sweep::is_finished() const {
 ExitCode Sweep::run() {
   // a file that grows past its limit is an error of the write, not the end of the process
   std::signal(SIGXFSZ, SIG_IGN);
+  // The process is not a quiet sweep's to end: a signal that comes before the first grips waits for them.
+  std::optional<InterruptGuard> guard;
+  if (is_quiet()) guard.emplace().on_another([](int) {});
   // first, since it needs neither room nor a place to write to
   if (is_finished()) return finished();
   check();
@@ -85,8 +88,7 @@ ExitCode Sweep::run() {
   const bool resumed = begin();
   // An interrupt that comes while the file is laid out waits for the first grips. One that comes when all are done lets the ending finish, but for
   // refined grips and robust scores.
-  InterruptGuard interrupt;
-  if (is_quiet()) interrupt.on_another([](int) {});  // the process is not this sweep's to end
+  InterruptGuard& interrupt = guard ? *guard : guard.emplace();
   ResultFile file(names_, written, backend_->fields(), resumed ? FileStart::resumed : FileStart::reserved, parts_.open_output);
   is_marked_ = resumed;
   if (!repair(file, interrupt) || !sweep(file, interrupt)) return interrupted();

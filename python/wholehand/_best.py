@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _core
 from ._errors import Error
-from ._scene import Scene
+from ._scene import Scene, check_types
 
 if TYPE_CHECKING:
     import numpy as np
@@ -92,12 +92,30 @@ def _hands(data: xr.Dataset, dims: list[str], scene: Scene) -> list[npt.NDArray[
     return [np.broadcast_to((values == one).reshape(along), shape).ravel() for one in dict.fromkeys(values.tolist())]
 
 
-def _of_grips(value: str | xr.DataArray, data: xr.Dataset, dims: list[str], name: str) -> xr.DataArray:
+def _refuse_azimuths(value: str | xr.DataArray | None, data: xr.Dataset, name: str) -> None:
+    """Where one azimuth of the sweep stands for all, what differs from azimuth to azimuth would be left out without a word."""
+    import numpy as np
+    import xarray as xr
+
+    if not isinstance(value, xr.DataArray) or "azimuth" not in value.dims:
+        return
+    values = (value.reindex(azimuth=data["azimuth"]) if "azimuth" in value.coords else value).transpose("azimuth", ...).values
+    first = np.broadcast_to(values[:1], values.shape)
+    if not ((values == first) | ((values != values) & (first != first))).all():
+        raise Error(
+            f"best: {name}: azimuth_deg changes nothing in this sweep: the vessels are bodies of revolution, and one azimuth "
+            "stands for all"
+        )
+
+
+def _of_grips(value: str | xr.DataArray, data: xr.Dataset, dims: list[str], name: str, kinds: str) -> xr.DataArray:
     import xarray as xr
 
     array = _variable(data, value) if isinstance(value, str) else value
     if not isinstance(array, xr.DataArray):
         raise TypeError(f"best: {name} is {type(value).__name__}; allowed: the name of a variable, or a DataArray")
+    if array.dtype.kind not in kinds:
+        raise Error(f"best: {name} is {array.dtype}; allowed: {'truths' if kinds == 'b' else 'real numbers'}")
     further = [str(dim) for dim in array.dims if dim not in ("vessel", *dims)]
     if further:
         raise Error(
@@ -147,7 +165,8 @@ def best(
     Raises
     ------
     Error
-        A dataset without scene, reason, plausible or score.
+        A dataset without scene, reason, plausible or score; ``by`` or ``where`` that differ from azimuth to azimuth where the
+        sweep computed one for all.
 
     >>> import wholehand as wh
     >>> data = wh.sweep("small", on="core")
@@ -159,23 +178,31 @@ def best(
     import xarray as xr
 
     scene = scene_of(data)
+    check_types("best", "core", n=n)
     count = n if n is not None else int(data.sizes.get("rank", 0)) or scene._core.best or _BEST_WHERE_NONE
+    if apart_mm is not None and not isinstance(apart_mm, (int, float, np.floating, np.integer)):
+        raise TypeError(f"best: apart_mm is {type(apart_mm).__name__}; allowed: a number")
     apart = scene._core.apart if apart_mm is None else float(apart_mm) / 1e3
     if count < 1 or not apart >= 0 or not np.isfinite(apart):
         raise Error(f"best: n is {n} and apart_mm is {apart_mm}; allowed: n of 1 or more, apart_mm of 0 or more")
     for name in ("reason", "plausible"):
         _variable(data, name)
     data = _with_vessels(data)
+    if not data.sizes["vessel"]:
+        raise Error("best: the dataset has no vessel left")
     if data.sizes.get("azimuth", 0) > 1 and scene._core.repeats_azimuths([str(name) for name in data.data_vars]):
+        _refuse_azimuths(by, data, "by")
+        _refuse_azimuths(where, data, "where")
         data = data.isel(azimuth=[0])  # the others repeat it
     dims = [str(dim) for dim in data["reason"].dims if dim != "vessel"]
     unknown = [dim for dim in dims if dim not in _AXES]
     if unknown:
         raise Error(f"best: the dimension {unknown[0]} of the grips is no axis of a sweep")
-    wanted = _of_grips(by, data, dims, "by").reindex_like(data["reason"])
+    # as numbers with a sign: the best are looked for by the least of what is below zero
+    wanted = _of_grips(by, data, dims, "by", "biuf").astype(np.float64).reindex_like(data["reason"])
     eligible = (data["reason"] == 0) & (data["plausible"] == 1)
     if where is not None:
-        eligible = eligible & _of_grips(where, data, dims, "where").reindex_like(data["reason"], fill_value=False)
+        eligible = eligible & _of_grips(where, data, dims, "where", "b").reindex_like(data["reason"], fill_value=False)
     order = ["vessel", *dims]
     wanted, eligible = wanted.transpose(*order), eligible.transpose(*order)
     pieces = []

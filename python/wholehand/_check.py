@@ -7,7 +7,7 @@ import json
 from typing import Any
 
 from . import _core
-from ._scene import SceneLike, scene as as_scene
+from ._scene import SceneLike, check_types, scene as as_scene
 
 
 class Check:
@@ -55,5 +55,7 @@ def check(scene: SceneLike = "three_beakers", *, on: str = "vulkan") -> Check:
     Error
         The core as a device, a device that is not there or does not answer.
     """
-    passed, text, report = _core.check(as_scene(scene)._core, on)
+    of = as_scene(scene)
+    check_types("check", on)
+    passed, text, report = _core.check(of._core, on)
     return Check(passed, text, json.loads(report))

@@ -35,7 +35,7 @@ class Note(UserWarning):
     """A line that the program prints on standard error beside its work: what a scene may not mean, or where float is not enough."""
 
 
-def warn(lines: Iterable[str]) -> None:
-    """Each line as a Note at the place of the call that the user wrote."""
+def warn(lines: Iterable[str], above: int = 0) -> None:
+    """Each line as a Note at the place of the call that the user wrote: that of the caller, or of so many above it."""
     for line in lines:
-        warnings.warn(line, Note, stacklevel=3)
+        warnings.warn(line, Note, stacklevel=3 + above)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _core
 from ._errors import Error, warn
-from ._scene import SceneLike, names_of, scene as as_scene, vessel_number
+from ._scene import SceneLike, check_types, names_of, scene as as_scene, vessel_number
 
 if TYPE_CHECKING:
     import numpy as np
@@ -25,11 +25,23 @@ def grip_dtype() -> np.dtype[np.void]:
     return np.dtype([(name, np.float64) for name in _COLUMNS])
 
 
+def _array(name: str, values: Any) -> npt.NDArray[Any]:
+    """Raises Error for what NumPy makes no array of, and for a masked one, whose mask would be lost."""
+    import numpy as np
+
+    if isinstance(values, np.ma.MaskedArray):
+        raise Error(f"grips: {name} is a masked array; allowed: plain arrays, say one of .compressed()")
+    try:
+        return np.asarray(values)
+    except (TypeError, ValueError):
+        raise Error(f"grips: {name} makes no array ({type(values).__name__}); allowed: rows of one length") from None
+
+
 def _numbers(name: str, values: Any) -> npt.NDArray[np.float64]:
     """Doubles as they lie, where they are doubles; else copied."""
     import numpy as np
 
-    array = np.asarray(values)
+    array = _array(name, values)
     if array.dtype.kind not in "fiu":
         raise Error(f"grips: {name} is {array.dtype}; allowed: real numbers")
     return np.asarray(array, dtype=np.float64)
@@ -57,13 +69,16 @@ def _of_fields(given: Mapping[str, Any]) -> list[npt.NDArray[np.float64]]:
 
 def grip_columns(grips: Any) -> list[npt.NDArray[np.float64]]:
     """The six columns of grips, float64, one dimension each. Nothing is copied that is float64 already. Raises Error."""
-    import numpy as np
-
     if hasattr(grips, "data_vars"):
         grips = grips_of(grips)
     if isinstance(grips, Mapping):
         return _of_fields(grips)
-    array = np.asarray(grips)
+    if hasattr(grips, "columns") and hasattr(grips, "to_numpy"):  # pandas, or what behaves like it
+        names = list(grips.columns)
+        if len(set(names)) != len(names):
+            raise Error("grips: the table has two columns of one name")
+        return _of_fields({name: grips[name].to_numpy() for name in names})
+    array = _array("the array", grips)
     if array.dtype.names is not None:
         return _of_fields({name: array[name] for name in array.dtype.names})
     table = _numbers("the array", array)
@@ -73,7 +88,9 @@ def grip_columns(grips: Any) -> list[npt.NDArray[np.float64]]:
 
 
 def grips_of(data: Any) -> npt.NDArray[np.void]:
-    """The grips of a Dataset as a structured array (``wh.GRIP``), in the order of its dimensions.
+    """The grips of a Dataset as a structured array (``wh.GRIP``), in the order of the dimensions of its variables.
+
+    So the n-th grip is that of ``data.score.values.ravel()[n]``, also after ``data.transpose(...)``.
 
     Parameters
     ----------
@@ -95,11 +112,19 @@ def grips_of(data: Any) -> npt.NDArray[np.void]:
     if any("vessel" in column.dims for column in columns):
         raise Error("grips: the dataset has several vessels, whose heights differ; select one: data.sel(vessel='...')")
     columns = list(xr.broadcast(*columns))
-    order = [dim for dim in ("azimuth", "obliquity", "roll", "offset", "hand_scale") if dim in columns[0].dims]
+    order = _order(data, {str(dim) for dim in columns[0].dims})
     grips = np.empty(columns[0].size, grip_dtype())
     for name, column in zip(_COLUMNS, columns):
-        grips[name] = column.transpose(*order, ...).values.ravel()
+        grips[name] = column.transpose(*order).values.ravel()
     return grips
+
+
+def _order(data: Any, dims: set[str]) -> list[str]:
+    """These dimensions as the dataset's variables have them."""
+    for variable in [*(data[name] for name in ("reason",) if name in data), *data.data_vars.values()]:
+        if dims <= set(variable.dims):
+            return [str(dim) for dim in variable.dims if dim in dims]
+    return [str(dim) for dim in data.dims if dim in dims]
 
 
 def evaluate(
@@ -126,10 +151,9 @@ def evaluate(
         N grips, as one of
 
         - an array of shape (N, 6) with the columns height (m), azimuth (rad), obliquity (rad), roll (rad), offset (m) and
-        hand_scale
-          (1: the scene's own hand), in the vessel's frame;
-        - a structured array with these names (``wh.GRIP``), or a dict of columns. All but height may be missing: they are 0, and
-          hand_scale is 1;
+          hand_scale (1: the scene's own hand), in the vessel's frame;
+        - a structured array with these names (``wh.GRIP``), a dict of columns, or a pandas DataFrame. All but height may be
+          missing: they are 0, and hand_scale is 1;
         - a Dataset of ``wh.best``.
 
         Columns of float64 are read where they lie, whatever their strides. Others are copied.
@@ -171,6 +195,7 @@ def evaluate(
     """
     of = as_scene(scene)
     number = vessel_number(of, vessel)
+    check_types("evaluate", on, precision, threads=threads)
     found, _ = _core.evaluate(of._core, number, grip_columns(grips), names_of(variables), on, precision, threads)
     warn(of._core.float_notes(precision, on))
     return found

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from . import _core
 from ._errors import Error, warn
 from ._evaluate import grip_columns
-from ._scene import SceneLike, scene as as_scene, vessel_number
+from ._scene import SceneLike, check_truths, check_types, scene as as_scene, vessel_number
 
 if TYPE_CHECKING:
     import numpy as np
@@ -40,12 +40,23 @@ class Grip(Mapping[str, Any]):
     """One grip and everything that ``wholehand grip --json`` tells of it. Made by ``wh.grip``.
 
     A mapping from the names of that JSON (docs/grip.md) to its values: lists of numbers are arrays, SI units, points in the
-    vessel's frame. ``str(grip)`` is the program's table; a notebook shows the drawing.
+    vessel's frame. ``str(grip)`` is the program's table; a notebook shows the drawing. A pickled grip is what was asked for.
     """
 
-    def __init__(self, core: _core.Grip) -> None:
-        self._core = core
-        self._values: dict[str, Any] = json.loads(core.json())
+    def __init__(self, *asked: Any) -> None:
+        self._asked = asked
+        self._core = _core.grip(asked[0]._core, *asked[1:])
+        self._values: dict[str, Any] = json.loads(self._core.json())
+
+    def __eq__(self, other: object) -> bool:
+        """Whether all values are equal."""
+        return bool(self._values == other._values) if isinstance(other, Grip) else NotImplemented
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __reduce__(self) -> tuple[type[Grip], tuple[Any, ...]]:
+        # a pickled grip is what was asked for: it is evaluated again
+        return Grip, self._asked
 
     def __getitem__(self, name: str) -> Any:
         return _arrays(self._values[name])
@@ -178,17 +189,34 @@ def _states(states: list[dict[str, Any]]) -> xr.Dataset:
     return data
 
 
+def _number(value: Any, name: str) -> float:
+    if isinstance(value, (str, bytes)):  # which float() would read
+        raise TypeError(f"grip: {name} is {type(value).__name__}; allowed: a number")
+    try:
+        return float(value)
+    except (TypeError, ValueError, OverflowError):
+        raise TypeError(f"grip: {name} is {type(value).__name__}; allowed: a number") from None
+
+
 def _three(values: Sequence[float], name: str) -> list[float]:
-    numbers = [float(one) for one in values]
+    numbers = _list(values, name) or []
     if len(numbers) != 3:
         raise Error(f"{name}: {len(numbers)} numbers; allowed: three, x, y and z in mm")
     return numbers
 
 
-def _list(values: float | Sequence[float] | None) -> list[float] | None:
+def _list(values: float | Sequence[float] | None, name: str) -> list[float] | None:
     import numpy as np
 
-    return None if values is None else [float(one) for one in np.atleast_1d(np.asarray(values, dtype=np.float64)).ravel()]
+    if values is None:
+        return None
+    try:
+        array = np.asarray(values)
+    except (TypeError, ValueError):
+        array = np.empty(0, object)
+    if array.dtype.kind not in "fiu" or array.ndim > 1:
+        raise TypeError(f"grip: {name} is {type(values).__name__}; allowed: a number, or a list of numbers")
+    return [float(one) for one in np.atleast_1d(array)]
 
 
 def _asked(
@@ -196,11 +224,18 @@ def _asked(
     height_mm: float | None,
     thumb_mm: Sequence[float] | None,
     index_mm: Sequence[float] | None,
-    degrees: tuple[float, float, float],
-    offset_mm: float,
-    hand_scale: float,
+    further: dict[str, float | None],
 ) -> list[float]:
-    """The six numbers of the grip, SI."""
+    """The six numbers of the grip, SI. `further`: azimuth_deg, obliquity_deg, roll_deg, offset_mm, hand_scale."""
+    given = [name for name, value in further.items() if value is not None]
+    if at is not None:
+        _exclude(["height_mm"] * (height_mm is not None) + ["thumb_mm"] * (thumb_mm is not None) + given, "at")
+    elif thumb_mm is not None and index_mm is not None:
+        _exclude(
+            ["--height-mm"] * (height_mm is not None)
+            + ["--" + name.replace("_", "-") for name in given if name not in ("roll_deg", "hand_scale")],
+            "--thumb-mm",
+        )
     if sum(one is not None for one in (at, height_mm, thumb_mm)) != 1 or (thumb_mm is None) != (index_mm is None):
         raise Error("grip: the place of the grip is missing or given twice; give height_mm, or thumb_mm and index_mm, or at")
     if at is not None:
@@ -208,11 +243,17 @@ def _asked(
         if len(columns[0]) != 1:
             raise Error(f"grip: at has {len(columns[0])} grips; allowed: one")
         return [float(column[0]) for column in columns]
-    azimuth, obliquity, roll = degrees
+    azimuth, obliquity, roll, offset, hand_scale = (
+        _number(default if value is None else value, name) for (name, value), default in zip(further.items(), (0, 0, 0, 0, 1))
+    )
     if thumb_mm is not None and index_mm is not None:
-        return _core.grip_between(_three(thumb_mm, "thumb_mm"), _three(index_mm, "index_mm"), float(roll), float(hand_scale))
-    assert height_mm is not None
-    return _core.grip_at(float(height_mm), float(azimuth), float(obliquity), float(roll), float(offset_mm), float(hand_scale))
+        return _core.grip_between(_three(thumb_mm, "thumb_mm"), _three(index_mm, "index_mm"), roll, hand_scale)
+    return _core.grip_at(_number(height_mm, "height_mm"), azimuth, obliquity, roll, offset, hand_scale)
+
+
+def _exclude(given: list[str], other: str) -> None:
+    if given:
+        raise Error(f"{given[0]} excludes {other}")
 
 
 def _row(at: Any) -> Any:
@@ -230,11 +271,11 @@ def grip(
     vessel: str | int,
     *,
     height_mm: float | None = None,
-    azimuth_deg: float = 0.0,
-    obliquity_deg: float = 0.0,
-    roll_deg: float = 0.0,
-    offset_mm: float = 0.0,
-    hand_scale: float = 1.0,
+    azimuth_deg: float | None = None,
+    obliquity_deg: float | None = None,
+    roll_deg: float | None = None,
+    offset_mm: float | None = None,
+    hand_scale: float | None = None,
     thumb_mm: Sequence[float] | None = None,
     index_mm: Sequence[float] | None = None,
     at: Any = None,
@@ -255,7 +296,7 @@ def grip(
     height_mm, azimuth_deg, obliquity_deg, roll_deg, offset_mm, hand_scale : float
         Where the thumb-index line lies in the vessel's frame, in mm and degrees as in a scene file: its height over the base, its
         direction about the axis, its angle to the horizontal, the turn of the hand about it (0: beside the vessel, -90: above it),
-        its distance from the axis; and the hand's size times the scene's.
+        its distance from the axis; and the hand's size times the scene's. Default: 0, and 1 for hand_scale.
     thumb_mm, index_mm : three floats, optional
         Instead of height, azimuth, obliquity and offset: two points of the line, on the thumb's and on the index finger's side.
     at : array, optional
@@ -285,7 +326,17 @@ def grip(
     """
     of = as_scene(scene)
     number = vessel_number(of, vessel)
-    asked = _asked(at, height_mm, thumb_mm, index_mm, (azimuth_deg, obliquity_deg, roll_deg), offset_mm, hand_scale)
-    made = _core.grip(of._core, number, asked, _list(fills), _list(fills_ml), _list(tilts_deg), on, precision, quality)
+    check_types("grip", on, precision)
+    check_truths("grip", quality=quality)
+    further = {
+        "azimuth_deg": azimuth_deg,
+        "obliquity_deg": obliquity_deg,
+        "roll_deg": roll_deg,
+        "offset_mm": offset_mm,
+        "hand_scale": hand_scale,
+    }
+    asked = _asked(at, height_mm, thumb_mm, index_mm, further)
+    states = [_list(values, name) for name, values in (("fills", fills), ("fills_ml", fills_ml), ("tilts_deg", tilts_deg))]
+    made = Grip(of, number, asked, *states, on, precision, quality)
     warn(of._core.float_notes(precision, on))
-    return Grip(made)
+    return made

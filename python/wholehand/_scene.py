@@ -188,5 +188,32 @@ def vessel_number(of: Scene, vessel: str | int) -> int:
 
 
 def names_of(names: str | Iterable[str] | None) -> list[str] | None:
-    """The names of variables."""
-    return None if names is None else [names] if isinstance(names, str) else list(names)
+    """The names of variables. Raises TypeError."""
+    if names is None or isinstance(names, str):
+        return None if names is None else [_encodable(names)]
+    listed: list[Any] = list(names) if isinstance(names, Iterable) else [names]
+    for name in listed:
+        if not isinstance(name, str):
+            raise TypeError(f"variables: {type(name).__name__} among the names; allowed: names of scene.variables()")
+    return [_encodable(name) for name in listed]
+
+
+def check_types(call: str, on: str, precision: str | None = None, **numbers: int | None) -> None:
+    """Raises TypeError for options of another kind, and Error for whole numbers that no call takes."""
+    for name, text in (("on", on), ("precision", precision)):
+        if not isinstance(text, str) and not (name == "precision" and text is None):
+            raise TypeError(f"{call}: {name} is {type(text).__name__}; allowed: a text")
+    for name, number in numbers.items():
+        if number is None:
+            continue
+        if isinstance(number, bool) or not hasattr(number, "__index__"):
+            raise TypeError(f"{call}: {name} is {type(number).__name__}; allowed: a whole number")
+        if abs(int(number)) >= 1 << 31:
+            raise Error(f"{call}: {name} is {int(number)}, which is too large")
+
+
+def check_truths(call: str, **values: bool) -> None:
+    """Raises TypeError."""
+    for name, value in values.items():
+        if not isinstance(value, bool):
+            raise TypeError(f"{call}: {name} is {type(value).__name__}; allowed: True or False")

@@ -131,7 +131,10 @@ def session(scene: SceneLike = "mixing_board", *, gap: tuple[float, float] | Non
     >>> out.state, out.vessel, out.arm_force.tolist(), out.joints.shape
     ('free', None, [0.0, 0.0, 0.0], (24, 3))
     """
-    range_of_gaps = None if gap is None else [float(one) for one in gap]
+    try:
+        range_of_gaps = None if gap is None else [float(one) for one in gap]
+    except (TypeError, ValueError, OverflowError):
+        raise TypeError(f"session: gap is {type(gap).__name__}; allowed: two numbers, closed and open, in m") from None
     if range_of_gaps is not None and len(range_of_gaps) != 2:
         raise Error(f"session: gap has {len(range_of_gaps)} numbers; allowed: two, closed and open, in m")
     return Session(_core.Session(as_scene(scene)._core, range_of_gaps))

@@ -7,14 +7,20 @@ import os
 import signal
 import tempfile
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from . import _core
 from ._errors import Error, warn
-from ._scene import Scene, SceneLike, names_of, scene as as_scene
+from ._scene import Scene, SceneLike, check_truths, check_types, names_of, scene as as_scene
 
 if TYPE_CHECKING:
     import xarray as xr
+
+
+class _Ending(NamedTuple):
+    is_whole: bool
+    signal: int  # that came meanwhile; 0: none
+    notes: list[str]
 
 
 def _run(
@@ -27,20 +33,27 @@ def _run(
     threads: int,
     refine: bool,
     resume: bool,
-) -> list[str]:
+) -> _Ending:
     """Writes the result file. The NetCDF library, which xarray uses too, is no library for two threads: its lock is held
     meanwhile.
     """
     from xarray.backends.netCDF4_ import NETCDF4_PYTHON_LOCK
 
     with NETCDF4_PYTHON_LOCK:
-        ended_by, notes = _core.sweep(of._core, output, on, precision, best, keep, threads, refine, resume)
-    if ended_by:
-        signal.raise_signal(ended_by)  # what was meant for Python goes on there
-        if ended_by == signal.SIGINT:
+        return _Ending(*_core.sweep(of._core, output, on, precision, best, keep, threads, refine, resume))
+
+
+def _go_on(ending: _Ending) -> None:
+    """Raises for a signal that came meanwhile, as Python or the user's handler does. Call it when no file is left to clean up: the
+    signal may end the process.
+    """
+    if ending.signal:
+        signal.raise_signal(ending.signal)
+    if not ending.is_whole:  # and the handler raised nothing
+        if ending.signal == signal.SIGINT:
             raise KeyboardInterrupt
         raise Error("the sweep was interrupted by a signal", 130)
-    return notes
+    warn(ending.notes, above=1)
 
 
 def sweep(
@@ -103,19 +116,27 @@ def sweep(
     import xarray as xr
 
     of, kept = as_scene(scene), names_of(keep)
+    check_types("sweep", on, precision, best=best, threads=threads)
+    check_truths("sweep", refine=refine, resume=resume)
     if output is not None:
         file = os.fspath(output)
-        warn(_run(of, file, on, precision, best, kept, threads, refine, resume))
+        _go_on(_run(of, file, on, precision, best, kept, threads, refine, resume))
         return xr.open_dataset(file)
     if resume:
         raise Error("resume: there is no file to go on with; give output, too")
     with tempfile.TemporaryDirectory(prefix="wholehand-") as folder:
         file = os.path.join(folder, "sweep.nc")
-        notes = _run(of, file, on, precision, best, kept, threads, refine, False)
-        with xr.open_dataset(file) as stored:
-            data: xr.Dataset = stored.load()
+        ending = _run(of, file, on, precision, best, kept, threads, refine, False)
+        data = _loaded(file) if ending.is_whole else xr.Dataset()
+    _go_on(ending)
     data.encoding.pop("source", None)  # is gone
     for name in data.variables:
         data[name].encoding.pop("source", None)
-    warn(notes)
     return data
+
+
+def _loaded(file: str) -> xr.Dataset:
+    import xarray as xr
+
+    with xr.open_dataset(file) as stored:
+        return stored.load()

@@ -10,7 +10,7 @@ import numpy as np
 import wholehand as wh
 import xarray as xr
 
-from installed import MESH, SEVERAL, SOBOL, InFolder, run, tube_ply
+from installed import MESH, SEVERAL, SOBOL, InFolder, complaint, run, tube_ply
 
 
 class Best(InFolder):
@@ -83,7 +83,7 @@ class Best(InFolder):
         few = data.isel(roll=slice(1, 3), obliquity=[1])
         found = wh.best(few, n=4, apart_mm=0)
         self.assertTrue(set(found["roll"].values) <= set(few["roll"].values))
-        self.assertEqual(len(wh.best(data.isel(vessel=[])).get("grip", [])) if data.isel(vessel=[]).sizes["vessel"] else 0, 0)
+        self.assertIn("no vessel left", str(self.refused(wh.best, data.isel(vessel=[]))))
 
     def test_they_differ_by_what_was_asked_and_are_the_best_that_do(self):
         """Once more by brute force: the rule itself, over hands that `evaluate` poses."""
@@ -113,6 +113,34 @@ class Best(InFolder):
         self.assertEqual(one.score, float(low.score[0]))
         self.assertEqual(wh.grips(low).dtype, wh.GRIP)
         self.assertEqual(found["height"].attrs["units"], "m")
+
+    def test_numbers_without_a_sign_are_ordered_as_numbers(self):
+        data = self.data_of(SEVERAL).load()
+        expected = wh.best(data, n=4, apart_mm=0, by=data.fingers_used.astype(float))
+        for kind in (np.uint8, np.uint32, np.int8):
+            found = wh.best(data, n=4, apart_mm=0, by=data.fingers_used.where(data.reason == 0, 0).astype(kind))
+            np.testing.assert_array_equal(found["score"], expected["score"])
+        # of truths the true ones come first
+        good = data.score > 0.5
+        np.testing.assert_array_equal(
+            wh.best(data, n=4, apart_mm=0, by=good)["score"], wh.best(data, n=4, apart_mm=0, by=good.astype(float))["score"]
+        )
+        self.assertIn("real numbers", str(self.refused(wh.best, data, by=data.score.astype(complex))))
+        self.assertIn("truths", str(self.refused(wh.best, data, where=data.fingers_used)))
+
+    def test_azimuths_that_a_sweep_repeats_are_no_condition(self):
+        data = self.data_of(SEVERAL).load()
+        self.assertEqual(data.sizes["azimuth"], 2)
+        line = "azimuth_deg changes nothing in this sweep: the vessels are bodies of revolution, and one azimuth stands for all"
+        for named in (
+            {"where": data.azimuth > 0.1},
+            {"where": (data.score > 0) & (data.azimuth > 0.1)},
+            {"by": data.score * np.cos(data.azimuth)},
+            {"by": data.score.isel(azimuth=[1])},
+        ):
+            self.assertIn(line, str(self.refused(wh.best, data, **named)))
+        self.assertIn(line, complaint("rank", "own.nc", "--where", "azimuth_deg > 3", "-o", "list.csv")[1])
+        np.testing.assert_array_equal(wh.best(data, by=data.score.where(data.score > 0))["score"], wh.best(data)["score"])
 
     def test_what_is_wrong_is_said(self):
         data = self.data_of(SEVERAL).load()

@@ -122,6 +122,58 @@ class Evaluate(InFolder):
         np.testing.assert_array_equal(wh.evaluate(scene, "low", some, "closure")["closure"], expected)
         self.assertEqual(wh.evaluate(scene, "low", {"height": 0.03}, "closure")["closure"].shape, (1,))
 
+    def test_grips_of_a_dataset_are_in_its_own_order(self):
+        scene = wh.scene(SEVERAL)
+        data = wh.sweep(scene, on="core", best=0, keep=["score", "reason", "midpoint"]).sel(vessel="low")
+        axes = list(data["reason"].dims)
+        for order in (axes, axes[::-1], axes[2:] + axes[:2]):
+            turned = data.transpose(*order, ...)
+            found = wh.evaluate(scene, "low", wh.grips(turned), "score")["score"]
+            np.testing.assert_array_equal(found, turned["score"].values.ravel())
+        part = data.isel(roll=1).drop_vars("reason").transpose("height_fraction", "hand_scale", ...)
+        found = wh.evaluate(scene, "low", wh.grips(part), "score")["score"]
+        np.testing.assert_array_equal(found, part["score"].values.ravel())
+        self.assertGreater(len(np.unique(found)), 10)
+
+    def test_a_table_of_pandas_goes_by_its_names(self):
+        import pandas as pd
+
+        scene, table = wh.scene(SEVERAL), self.table(20)
+        expected = wh.evaluate(scene, "low", table, "score")["score"]
+        frame = pd.DataFrame({name: table[:, NAMES.index(name)] for name in reversed(NAMES)})
+        np.testing.assert_array_equal(wh.evaluate(scene, "low", frame, "score")["score"], expected)
+        np.testing.assert_array_equal(wh.evaluate(scene, "low", frame[["height"]], "closure")["closure"].shape, (20,))
+        self.assertIn("'tilt'", str(self.refused(wh.evaluate, scene, "low", frame.assign(tilt=1.0))))
+        self.assertIn("no column", str(self.refused(wh.evaluate, scene, "low", pd.DataFrame(table))))
+
+    def test_masked_and_ragged_arrays_are_refused(self):
+        scene, table = wh.scene(SEVERAL), self.table(3)
+        masked = np.ma.array(table, mask=table > 0)
+        column = np.ma.array(table[:, 0], mask=[0, 1, 0])
+        for grips in (masked, {"height": column}, np.ma.masked_all(2, wh.GRIP)):
+            self.assertIn("masked array", str(self.refused(wh.evaluate, scene, "low", grips)))
+        self.assertIn("rows of one length", str(self.refused(wh.evaluate, scene, "low", [[0.1] * 6, [0.1] * 5])))
+
+    def test_a_forked_process_does_not_use_its_parents_device(self):
+        script = (
+            "import os, numpy as np, wholehand as wh\n"
+            "grips = {'height': np.full(5, 0.05)}\n"
+            "wh.evaluate('small', 0, grips, 'score', on='vulkan')\n"
+            "child = os.fork()\n"
+            "if not child:\n"
+            "    try:\n"
+            "        wh.evaluate('small', 0, grips, 'score', on='vulkan')\n"
+            "    except wh.Error as error:\n"
+            "        assert error.exit_code == 3\n"
+            "        print(error, len(wh.evaluate('small', 0, grips, 'score')['score']), flush=True)\n"
+            "    os._exit(0)\n"
+            "os.waitpid(child, 0)\n"
+            "wh.evaluate('small', 0, grips, 'score', on='vulkan')\n"
+        )
+        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=100)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r'^a device was opened before this process was forked.*"spawn" 5\n$')
+
     def test_no_grips_and_no_variables(self):
         scene = wh.scene(SEVERAL)
         found = wh.evaluate(scene, "low", np.zeros((0, 6)), ["score", "joints", "torque"])

@@ -3,6 +3,7 @@
 
 import json
 import pathlib
+import pickle
 import unittest
 
 import numpy as np
@@ -160,7 +161,7 @@ class OneGrip(InFolder):
             error = self.refused(wh.grip, "scene.toml", "low", **wrong)
             code, line = complaint("grip", "scene.toml", "--vessel", "low", *options(wrong))
             self.assertEqual(str(error).split("'")[0::2], line.split("'")[0::2])  # numbers may be written in two ways
-        for named in ({}, {"height_mm": 1, "at": [1] * 6}, {"thumb_mm": [1, 2, 3]}, {"height_mm": 1, "index_mm": [1, 2, 3]}):
+        for named in ({}, {"thumb_mm": [1, 2, 3]}, {"height_mm": 1, "index_mm": [1, 2, 3]}):
             self.assertIn("the place of the grip", str(self.refused(wh.grip, "scene.toml", "low", **named)))
         for named in (
             {"at": [1, 2, 3]},
@@ -173,8 +174,36 @@ class OneGrip(InFolder):
             {"height_mm": float("nan")},
         ):
             self.refused(wh.grip, "scene.toml", "low", **named)
-        with self.assertRaises((TypeError, ValueError)):
-            wh.grip("scene.toml", "low", height_mm="forty")
+        for named, words in (
+            ({"height_mm": "40"}, "grip: height_mm is str; allowed: a number"),
+            ({"height_mm": 40, "roll_deg": [1, 2]}, "grip: roll_deg is list; allowed: a number"),
+            ({"height_mm": 40, "fills": "half"}, "grip: fills is str; allowed: a number, or a list of numbers"),
+            ({"height_mm": 40, "quality": 1}, "grip: quality is int; allowed: True or False"),
+        ):
+            with self.assertRaises(TypeError) as caught:
+                wh.grip("scene.toml", "low", **named)
+            self.assertEqual(str(caught.exception), words)
+
+    def test_two_ways_to_say_where_exclude_each_other(self):
+        ends = {"thumb_mm": [-40, 35, 2], "index_mm": [40, 30, 4]}
+        texts = ["--thumb-mm=-40,35,2", "--index-mm=40,30,4"]
+        for name in ("height_mm", "azimuth_deg", "obliquity_deg", "offset_mm"):
+            error = self.refused(wh.grip, "scene.toml", "low", **ends, **{name: 0})
+            code, line = complaint("grip", "scene.toml", "--vessel", "low", *texts, *options({name: 0}))
+            self.assertEqual((error.exit_code, str(error)), (code, line.partition(";")[0]))
+        at = [0.04, 0, 0, 0, 0, 1]
+        for name in ("height_mm", "azimuth_deg", "obliquity_deg", "roll_deg", "offset_mm", "hand_scale"):
+            self.assertEqual(str(self.refused(wh.grip, "scene.toml", "low", at=at, **{name: 1})), f"{name} excludes at")
+        self.assertEqual(str(self.refused(wh.grip, "scene.toml", "low", at=at, **ends)), "thumb_mm excludes at")
+
+    def test_equal_grips_and_pickled_ones(self):
+        grip, same, other = (wh.grip("scene.toml", "low", **AT | {"height_mm": height}) for height in (40.5, 40.5, 41))
+        self.assertTrue(grip == same)
+        self.assertFalse(grip == other)
+        self.assertFalse(grip == 3)
+        again = pickle.loads(pickle.dumps(grip))
+        self.assertEqual(again, grip)
+        self.assertEqual(again.plot().svg, grip.plot().svg)
 
 
 if __name__ == "__main__":

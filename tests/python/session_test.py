@@ -118,6 +118,12 @@ class Live(InFolder):
             {"position": "here"},
             {"position": None},
             {"position": [1j, 0, 0]},
+            {"position": ["0", "0.07", "0"]},
+            {"position": [True, False, True]},
+            {"position": np.ma.array([0, 0.07, 0], mask=[0, 1, 0])},
+            {"position": [[0], 0.07, 0]},
+            {"rotation": np.eye(3, dtype=bool)},
+            {"rotation": np.eye(3, dtype=complex)},
             {"rotation": np.eye(2)},
             {"rotation": np.zeros((3, 3))},
             {"rotation": 2 * np.eye(3)},
@@ -133,6 +139,8 @@ class Live(InFolder):
             {"tick": 1},
             {"tick": -5},
             {"tick": 1 << 70},
+            {"tick": (1 << 53) + 1},
+            {"tick": (1 << 63) - 1},
             {"tick": "x"},
         ]
         with wh.session() as session, wh.session() as other:
@@ -146,6 +154,17 @@ class Live(InFolder):
             np.testing.assert_array_equal(session.step(**good).joints, other.step(**good).joints)
         for gap in ((0.1, 0.1), (0.2, 0.1), (np.nan, 1), (0,), (0, 1, 2)):
             self.refused(wh.session, gap=gap)
+
+    def test_the_last_tick(self):
+        with wh.session() as session:
+            self.assertEqual(session.step([0, 0.3, 0.2], tick=1 << 53).tick, 1 << 53)
+            for _ in range(2):
+                self.assertIn("allowed: up to 9007199254740992", str(self.refused(session.step, [0, 0.3, 0.2])))
+
+    def test_whole_numbers_and_floats_are_numbers(self):
+        with wh.session() as session, wh.session() as other:
+            first = session.step(np.array([0, 1, 0], np.int16), np.eye(3, dtype=np.float32), 0.1)
+            np.testing.assert_array_equal(first.joints, other.step([0.0, 1.0, 0.0], None, 0.1).joints)
 
     def test_far_beyond_any_gripper_it_stays_in_one_piece(self):
         with wh.session() as session:

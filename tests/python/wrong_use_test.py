@@ -82,7 +82,7 @@ for turn in range(rounds):
         pass
 # after all of it, what is right is right
 assert (wh.evaluate(scene, 0, np.array([[0.045, 0, 0, -0.5, 0, 1.0]]), "reason")["reason"] == 0).all()
-assert session.step([0, 0.3, 0.2], None, 0.1, 0, tick=2**62).tick == 2**62
+assert session.step([0, 0.3, 0.2], None, 0.1, 0, tick=2**53).tick == 2**53
 print(endings)
 """
 
