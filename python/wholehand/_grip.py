@@ -50,7 +50,9 @@ class Grip(Mapping[str, Any]):
 
     def __eq__(self, other: object) -> bool:
         """Whether all values are equal."""
-        return bool(self._values == other._values) if isinstance(other, Grip) else NotImplemented
+        if not isinstance(other, Grip):
+            return NotImplemented
+        return self._values == other._values
 
     __hash__ = None  # type: ignore[assignment]
 
