@@ -14,6 +14,7 @@ namespace wholehand {
 
 std::unique_ptr<Backend> open_backend(const Scene& scene, const FieldSet& fields, const std::string& on, Precision precision,
                                       int threads) {
+  if (on.empty()) throw usage_error("the name of the device is empty; give core, vulkan or a device's name");
   if (on == "core") {
     auto evaluator = precision == Precision::full ? make_core_evaluator(scene) : make_core_float_evaluator(scene);
     return std::make_unique<CoreBackend>(std::move(evaluator), scene, fields, precision, threads);

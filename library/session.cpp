@@ -7,6 +7,7 @@
 #include "library/scene.h"
 #include "library/status.h"
 #include "live/hand_view.h"
+#include "live/reach.h"
 #include "live/session.h"
 #include "live/vessel_tracker.h"
 
@@ -30,10 +31,6 @@ void copy(const std::array<double, N>& from, double* to) noexcept {
   for (std::size_t k = 0; k < N; ++k) to[k] = from[k];
 }
 
-constexpr std::int64_t LAST_TICK = std::int64_t{1} << 53;  // a time is this number over the rate, as a double
-constexpr double FURTHEST =
-    25;  // m: as far as a scene's points may be; further off no arm reaches, and differences lose their digits
-constexpr double WIDEST = 10;                // m, of a gap either way
 constexpr double ROTATION_TOLERANCE = 1e-3;  // engines turn in float; what is further off was not meant as a rotation
 
 bool is_finite(const wh_measurement& in) noexcept {
@@ -43,12 +40,6 @@ bool is_finite(const wh_measurement& in) noexcept {
     return true;
   };
   return all(&in.gap, 1) && all(in.position, 3) && all(in.rotation, 9);
-}
-
-bool is_in_reach(const wh_measurement& in) noexcept {
-  for (const double x : in.position)
-    if (std::abs(x) > FURTHEST) return false;
-  return std::abs(in.gap) <= WIDEST;
 }
 
 bool has_rotation(const wh_measurement& in) noexcept {
@@ -126,7 +117,7 @@ wh_status wh_session_step(wh_session* session, const wh_measurement* measurement
   const Entered entered(session->is_in_use);
   if (!entered) return fail(WH_BUSY, "wh_session_step: another thread is in this session");
   if (!is_finite(in)) return fail(WH_INPUT, "wh_session_step: the measurement is not finite");
-  if (!is_in_reach(in))
+  if (!is_in_reach(state_of(in)))
     return fail(WH_INPUT, "wh_session_step: the measurement is out of reach; allowed: a position up to 25 m, a gap up to 10 m");
   if (has_rotation(in) && !is_rotation(state_of(in).rotation, ROTATION_TOLERANCE))
     return fail(WH_INPUT, "wh_session_step: the measurement's rotation is not a rotation matrix");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A live session: a gripper's measurement in, forces and the whole posed hand out.
 #include "live/session.h"
+#include "live/reach.h"
 
 #include <fmt/format.h>
 #include <pybind11/numpy.h>
@@ -24,9 +25,6 @@ namespace wholehand {
 namespace {
 
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
-
-// Ticks are numbers of a double in a recording, exact up to here.
-constexpr std::int64_t LAST_TICK = std::int64_t{1} << 53;
 
 // Real numbers of any kind as doubles. No text, truths or complex numbers, which NumPy would convert, and no masked arrays, whose
 // masks it would drop.
@@ -134,8 +132,11 @@ class SessionHandle {
     state.gap = gap;
     state.buttons = buttons;
     if (!is_finite(state)) throw usage_error("session: the measurement has a number that is not finite");
+    if (!is_in_reach(state))
+      throw usage_error(fmt::format("session: the measurement is out of reach; allowed: a position up to {} m, a gap up to {} m",
+                                    FURTHEST_POSITION, WIDEST_GAP));
     if (!is_rotation(state.rotation, ROTATION_TOLERANCE))
-      throw usage_error("session: the rotation is none; allowed: unit columns at right angles, right-handed");
+      throw usage_error("session: the rotation is not a rotation; allowed: unit columns at right angles, right-handed");
     return state;
   }
 

@@ -13,7 +13,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr JournalKind STUDY_JOURNAL{STUDY_JOURNAL_START, "1", "this study was begun", STUDY_REMEDY, STUDY_REMEDY, true};
+constexpr JournalKind STUDY_JOURNAL{
+    STUDY_JOURNAL_START, "1", "this study was begun", STUDY_REMEDY, STUDY_REMEDY, "leave --resume out to begin again", true};
 
 }  // namespace
 

@@ -58,13 +58,12 @@ void check_head(std::ifstream& file, const std::string& path, const JournalKind&
   std::getline(file, head);
   const auto known = content_of(head);
   if (format != fmt::format("{}{}", kind.start, kind.format) || !known || !known->is_object())
-    throw failure_error(path + ": is damaged, or of another version; leave --resume out to begin again");
+    throw failure_error(fmt::format("{}: is damaged, or of another version; {}", path, kind.remedy_anew));
   std::string unlike;
   for (const auto& [name, value] : identity)
     if (known->value(name, std::string()) != value) unlike += (unlike.empty() ? "another " : ", another ") + name;
   if (!unlike.empty())
-    throw usage_error(
-        fmt::format("{}: {} with {}; ask for the same, or leave --resume out to begin again", path, kind.begun, unlike));
+    throw usage_error(fmt::format("{}: {} with {}; ask for the same, or {}", path, kind.begun, unlike, kind.remedy_anew));
 }
 
 }  // namespace

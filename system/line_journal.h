@@ -19,6 +19,7 @@ struct JournalKind {
   std::string_view start, format;                // what the first line has: a journal of what, and the version of its lines
   std::string_view begun;                        // "this study was begun"
   const char *remedy_at_begin, *remedy_of_line;  // where the file, or a line of it, cannot be written
+  const char* remedy_anew;                       // where the file is of another run: how to begin again
   bool keeps_damaged = false;                    // in the file, where a run goes on
 };
 

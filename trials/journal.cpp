@@ -14,8 +14,12 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr JournalKind TRIAL_JOURNAL{JOURNAL_START, "2", "these trials were begun", "make room, or name another folder",
-                                    "make room, then go on with --resume"};
+constexpr JournalKind TRIAL_JOURNAL{JOURNAL_START,
+                                    "2",
+                                    "these trials were begun",
+                                    "make room, or name another folder",
+                                    "make room, then go on with --resume",
+                                    "leave --resume out to begin again"};
 
 // Exactly, NaN and infinity too.
 std::uint64_t bits_of(double value) { return std::bit_cast<std::uint64_t>(value); }

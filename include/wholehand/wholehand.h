@@ -236,7 +236,7 @@ typedef struct wh_measurement {
   size_t size;
   int64_t tick;       /* number of the period (wh_session_period), 0 to 2^53, greater than the one before */
   double position[3]; /* middle of the two tracked points, device frame: +x right, +y up, +z towards the person; up to 25 m */
-  /* of the gripper in the device frame; it may deviate from a rotation matrix by 1e-3. All 0 counts as no rotation: the gripper's
+  /* of the gripper in the device frame; R^T R may differ from the identity by 1e-3. All 0 counts as no rotation: the gripper's
      +x then runs along its closing line (to the index finger of a right hand, to the thumb of a left one), and the palm faces
      away from the person */
   double rotation[9];

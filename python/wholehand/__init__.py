@@ -9,7 +9,7 @@
     g = wh.grip(scene, "beaker1", height_mm=58.5, roll_deg=22)  # one, with every intermediate value
     best = wh.best(data, n=5, apart_mm=25)     # the best that differ
     wh.check(scene)                            # is the device's answer the core's answer?
-    with wh.session(scene) as s:               # what the fingers feel
+    with wh.session("mixing_board") as s:      # what the fingers feel
         out = s.step(position, rotation, gap)
 
 Units are SI (m, kg, s, N, rad) unless a name says otherwise (height_mm, roll_deg). The vessel's frame has its origin at the

@@ -25,7 +25,7 @@ struct Reader {
 };
 
 JournalKind kind_of(bool keeps_damaged) {
-  return {"journal of a test ", "3", "this test was begun", "begin", "go on", keeps_damaged};
+  return {"journal of a test ", "3", "this test was begun", "begin", "go on", "begin anew", keeps_damaged};
 }
 
 const JournalIdentity SEED_1{{"seed", "1"}};
@@ -84,13 +84,12 @@ TEST(LineJournal, RefusesAnotherRun) {
   const auto refused = [&](const JournalKind& asked, const JournalIdentity& identity, ExitCode code) {
     return refusal_line([&] { LineJournal(path, asked, identity, reader.take, reader.damaged); }, code);
   };
-  EXPECT_EQ(
-      refused(kind, {{"scene", "b"}, {"seed", "1"}, {"size", "2"}}, ExitCode::usage),
-      path + ": this test was begun with another scene, another size; ask for the same, or leave --resume out to begin again");
+  EXPECT_EQ(refused(kind, {{"scene", "b"}, {"seed", "1"}, {"size", "2"}}, ExitCode::usage),
+            path + ": this test was begun with another scene, another size; ask for the same, or begin anew");
   JournalKind later = kind;
   later.format = "4";
   EXPECT_EQ(refused(later, {{"scene", "a"}, {"seed", "1"}, {"size", "1"}}, ExitCode::failure),
-            path + ": is damaged, or of another version; leave --resume out to begin again");
+            path + ": is damaged, or of another version; begin anew");
   EXPECT_EQ(file_text(path), text) << "it stays as it was";
 }
 
