@@ -24,7 +24,7 @@ class Error(Exception):
     exit_code: int
 
     def __init__(self, line: str, exit_code: int = 2) -> None:
-        super().__init__(line)
+        super().__init__("".join(c if c >= " " else " " for c in line))  # one line, whatever a caller's names have
         self.exit_code = exit_code
 
     def __reduce__(self) -> tuple[type[Error], tuple[str, int]]:

@@ -166,10 +166,14 @@ class Live(InFolder):
             first = session.step(np.array([0, 1, 0], np.int16), np.eye(3, dtype=np.float32), 0.1)
             np.testing.assert_array_equal(first.joints, other.step([0.0, 1.0, 0.0], None, 0.1).joints)
 
-    def test_far_beyond_any_gripper_it_stays_in_one_piece(self):
+    def test_what_no_arm_reaches_is_refused(self):
+        line = "session: the measurement is out of reach; allowed: a position up to 25 m, a gap up to 10 m"
         with wh.session() as session:
-            for size in (1e3, 1e10, 1e100, 1e300, -1e300, 0):
-                session.step([size, -size, size], None, abs(size)).hand()
+            for size in (26, 1e3, 1e10, 1e100, 1e300, -1e300):
+                self.assertEqual(str(self.refused(session.step, [size, -size, size], None, 0.1)), line)
+                self.assertEqual(str(self.refused(session.step, [0, 0.3, 0.2], None, abs(size))), line)
+            joints = session.step([25, -25, 25], None, 10).hand().joints  # as far as it goes
+            self.assertTrue(np.isfinite(joints).all())
 
     def test_a_closed_session_says_so(self):
         session = wh.session()

@@ -2,7 +2,6 @@
 """Every function with arguments that nobody means: an exception of Python's or a wh.Error of one line, and never a crash."""
 
 import os
-import random
 import subprocess
 import sys
 import unittest
@@ -89,7 +88,7 @@ print(endings)
 
 class WrongUse(InFolder):
     def test_nothing_crashes(self):
-        for seed in (1, 2, random.randrange(10**9)):
+        for seed in (1, 2, 261212128):  # the last once found a line that was two
             os.mkdir(f"of {seed}")  # a drawing may be written to a file of any name
             done = subprocess.run(
                 [sys.executable, "-c", SCRIPT, str(seed), str(ROUNDS)],
