@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from . import _core
 from ._errors import Error, warn
+from ._netcdf import LibraryLock, loaded, opened
 from ._scene import Scene, SceneLike, check_truths, check_types, names_of, scene as as_scene
 
 if TYPE_CHECKING:
@@ -34,12 +35,8 @@ def _run(
     refine: bool,
     resume: bool,
 ) -> _Ending:
-    """Writes the result file. The NetCDF library, which xarray uses too, is no library for two threads: its lock is held
-    meanwhile.
-    """
-    from xarray.backends.netCDF4_ import NETCDF4_PYTHON_LOCK
-
-    with NETCDF4_PYTHON_LOCK:
+    """Writes the result file. The lock of the NetCDF library, which xarray uses too, is held meanwhile."""
+    with LibraryLock():
         return _Ending(*_core.sweep(of._core, output, on, precision, best, keep, threads, refine, resume))
 
 
@@ -121,22 +118,15 @@ def sweep(
     if output is not None:
         file = os.fspath(output)
         _go_on(_run(of, file, on, precision, best, kept, threads, refine, resume))
-        return xr.open_dataset(file)
+        return opened(file)
     if resume:
         raise Error("resume: there is no file to go on with; give output, too")
     with tempfile.TemporaryDirectory(prefix="wholehand-") as folder:
         file = os.path.join(folder, "sweep.nc")
         ending = _run(of, file, on, precision, best, kept, threads, refine, False)
-        data = _loaded(file) if ending.is_whole else xr.Dataset()
+        data = loaded(file) if ending.is_whole else xr.Dataset()
     _go_on(ending)
     data.encoding.pop("source", None)  # is gone
     for name in data.variables:
         data[name].encoding.pop("source", None)
     return data
-
-
-def _loaded(file: str) -> xr.Dataset:
-    import xarray as xr
-
-    with xr.open_dataset(file) as stored:
-        return stored.load()

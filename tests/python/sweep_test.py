@@ -3,6 +3,7 @@
 
 import os
 import pathlib
+import pickle
 import pty
 import signal
 import subprocess
@@ -10,6 +11,7 @@ import sys
 import threading
 import time
 import unittest
+import unittest.mock
 
 import numpy as np
 import wholehand as wh
@@ -150,6 +152,42 @@ class Sweep(InFolder):
     def test_notes_are_warnings(self):
         with self.assertWarnsRegex(wh.Note, r"\[robust\]"):
             wh.sweep(SEVERAL + "[robust]\nazimuth_deg = 3\ncount = 8\n", on="core", best=0)
+
+    def test_its_files_are_opened_and_closed_under_the_lock_of_the_library(self):
+        """Not only read, as xarray does it: another thread's sweep may be writing. Without, one in some dozen runs of the Dask example
+        crashed on a busy machine.
+        """
+        from xarray.backends.file_manager import CachingFileManager
+        from xarray.backends.netCDF4_ import NETCDF4_PYTHON_LOCK
+
+        seen = []
+
+        def watched(method):
+            def call(manager, *arguments, **named):
+                seen.append((method.__name__, all(lock.locked() for lock in NETCDF4_PYTHON_LOCK.locks)))
+                return method(manager, *arguments, **named)
+
+            return call
+
+        opens, closes = CachingFileManager.acquire_context, CachingFileManager.close
+        with (
+            unittest.mock.patch.object(CachingFileManager, "acquire_context", watched(opens)),
+            unittest.mock.patch.object(CachingFileManager, "close", watched(closes)),
+        ):
+            wh.sweep(SEVERAL, on="core")
+            in_memory = len(seen)
+            kept = wh.sweep(SEVERAL, on="core", output="own.nc")
+            float(kept.score.max())
+            again = pickle.loads(pickle.dumps(kept))  # as Dask sends it to another process
+            np.testing.assert_array_equal(again.score.values, kept.score.values)
+            again.close()
+            kept.close()
+        names = [name for name, _ in seen]
+        self.assertIn("close", names[:in_memory])
+        self.assertGreaterEqual(names[in_memory:].count("close"), 2)
+        self.assertIn("acquire_context", names)
+        self.assertEqual([name for name, is_locked in seen if not is_locked], [])
+        self.assertFalse(any(lock.locked() for lock in NETCDF4_PYTHON_LOCK.locks))
 
     def test_two_threads_wait_for_each_other(self):
         expected = wh.sweep(SEVERAL, on="core")["score"].values
