@@ -16,6 +16,8 @@ struct GripBackendOptions {
   EvaluatorOptions evaluator;                   // as the core's: lattice instead of outline, tolerances, ..
   DeviceOptions device;
   StreamOptions stream;
+  std::span<const EmbeddedShader>
+      shaders{};  // in place of those of the same name that the program has, to compare; they outlive the backend
 };
 
 }  // namespace wholehand::host

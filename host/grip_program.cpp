@@ -66,6 +66,8 @@ void add_limits(std::vector<Constant>& constants, const GripBackendOptions& opti
   }
 }
 
+bool is_off_axis(const VesselArrays& vessel) { return vessel.parameters.center_x != 0 || vessel.parameters.center_z != 0; }
+
 std::size_t real_size(Precision precision) { return precision == Precision::single ? sizeof(float) : sizeof(double); }
 
 }  // namespace
@@ -98,6 +100,8 @@ GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Ev
   constants.push_back({CONST_REFERENCE, std::int32_t(scene.force.reference == TorqueReference::per_grip ? REFERENCE_PER_GRIP
                                                                                                         : REFERENCE_PER_OBJECT)});
   if (scene.until_poured) constants.push_back({CONST_UNTIL_POURED, std::int32_t(1)});
+  constants.push_back({CONST_OFF_AXIS, std::int32_t(std::any_of(arrays.vessels.begin(), arrays.vessels.end(), is_off_axis))});
+  constants.push_back({CONST_BARE, std::int32_t(!(scene.force.torsion > 0))});
 
   struct EffortKernel {
     std::optional<Kernel>* kernel;
@@ -121,8 +125,9 @@ GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Ev
       tasks.push_back([&, v] { make_grip_kernel(v, scene, arrays, fields, options); });
   }
   const auto make = [&](std::optional<Kernel>& kernel, const char* name, const std::vector<Constant>& values) {
-    tasks.push_back(
-        [&kernel, name, &values, &options, this] { kernel.emplace(on, find_shader(name, options.precision), values, name); });
+    tasks.push_back([&kernel, name, &values, &options, this] {
+      kernel.emplace(on, find_shader(name, options.precision, OUTLINE_NONE, options.shaders), values, name);
+    });
   };
   const std::vector<Constant> common = common_constants();
   if (has_efforts_) {
@@ -191,7 +196,12 @@ void GripProgram::upload_states(std::size_t v, const Scene& scene, const SceneAr
   for (std::size_t state = 0; state < loads.size() / LOAD_STRIDE; ++state) {
     double* out = states.data() + STATE_STRIDE * state;
     const std::size_t tilt = state % tilt_count;
-    std::copy_n(loads.data() + LOAD_STRIDE * state, LOAD_STRIDE, out);
+    const double* load = loads.data() + LOAD_STRIDE * state;
+    const double own_share = 1 - load[1];
+    out[0] = load[0] * scene.gravity;
+    out[1] = own_share;
+    out[2] = load[2];
+    out[3] = own_share * arrays.vessels[v].parameters.center_y + load[3];
     std::copy_n(tilts.data() + 3 * tilt, 3, out + LOAD_STRIDE);
     if (tilt >= counted[state / tilt_count]) out[6] = -1;
     out[7] = tilt > 0 ? tilts[3 * tilt - 1] : -1;
@@ -226,7 +236,7 @@ void GripProgram::make_grip_kernel(std::size_t v, const Scene& scene, const Scen
     for (std::size_t i = 0; i < from.outline.size(); ++i)
       add_real(constants, static_cast<std::uint32_t>(CONST_OUTLINE + i), from.outline[i], options.precision);
   }
-  vessel.grip.emplace(on, find_shader("grip", options.precision, vessel.outline_source), constants, "grip");
+  vessel.grip.emplace(on, find_shader("grip", options.precision, vessel.outline_source, options.shaders), constants, "grip");
 }
 
 void GripProgram::make_liquid(std::size_t v, const Scene& scene, const SceneArrays& arrays, const Evaluator& core,

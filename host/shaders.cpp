@@ -7,10 +7,12 @@
 
 namespace wholehand::host {
 
-std::span<const std::uint32_t> find_shader(std::string_view name, Precision precision, OutlineSource outline) {
+std::span<const std::uint32_t> find_shader(std::string_view name, Precision precision, OutlineSource outline,
+                                           std::span<const EmbeddedShader> among) {
   const int wanted = precision == Precision::full ? 1 : 0;
-  for (const EmbeddedShader& shader : embedded_shaders())
-    if (shader.name == name && shader.precision == wanted && shader.outline_source == outline) return shader.words;
+  for (const auto shaders : {among, embedded_shaders()})
+    for (const EmbeddedShader& shader : shaders)
+      if (shader.name == name && shader.precision == wanted && shader.outline_source == outline) return shader.words;
   throw failure_error("this build lacks the shader '" + std::string(name) + "'; build it again");
 }
 

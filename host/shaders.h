@@ -32,8 +32,9 @@ std::span<const EmbeddedShader> embedded_shaders();
 
 namespace wholehand::host {
 
-// The embedded shader of that name in a precision; the variant for an outline source where it has any. Throws Error when the build
-// lacks it.
-std::span<const std::uint32_t> find_shader(std::string_view name, Precision precision, OutlineSource outline = OUTLINE_NONE);
+// The embedded shader of that name in a precision; the variant for an outline source where it has any; of `among` where it is there, such as
+// shaders to compare with. Throws Error when the build lacks it.
+std::span<const std::uint32_t> find_shader(std::string_view name, Precision precision, OutlineSource outline = OUTLINE_NONE,
+                                           std::span<const EmbeddedShader> among = {});
 
 }  // namespace wholehand::host

@@ -2,8 +2,16 @@
 // Kernel 7 of one grip an invocation over fills and tilts, reduced to per-grip terms here. A dispatch goes through push.number states from
 // push.first on, fill by fill, as many as a uniform block holds: read from a storage buffer, lane by lane, they cost twice the time.
 // A fill that is cut goes on from what its planes hold.
+//
+// A state asks for two numbers alone. With the arm from the midpoint of the tips to the centre of mass along n (pour), y (up) and p = y x n,
+//   torque^2 = (m g sin t)^2 |arm|^2     (exact: (m g (sin t arm_y + cos t arm_n))^2)
+//   hold     = m g / 2 (sqrt(1 - a^2 + (lever / gamma)^2) / mu + |a|),     a = d_y cos t = d . u
+//   lever    = |arm . (u x d)| = |cos t (y x d)_n arm_n - sin t (d_p arm_y - d_y arm_p)|,     as d . n = 0
+// which are the formulas of force.glsl with what a grip's states share taken out of them. A square grows with its root, so the largest torque is
+// found without roots: the torque at which F comes to F_max caps it, as tilts beyond that are equal.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 
 #include "force.glsl"
 #include "grips.glsl"
@@ -14,128 +22,182 @@ layout(local_size_x_id = CONST_GROUP_SIZE) in;
 layout(constant_id = CONST_TORQUE) const int TORQUE = TORQUE_PAPER;
 layout(constant_id = CONST_REFERENCE) const int REFERENCE = REFERENCE_PER_OBJECT;
 layout(constant_id = CONST_UNTIL_POURED) const bool UNTIL_POURED = false;
+layout(constant_id = CONST_OFF_AXIS) const bool OFF_AXIS = true;
+layout(constant_id = CONST_BARE) const bool BARE = true;
 layout(std140, binding = BINDING_STATES) uniform StateBlock { Vec4 states_in[2 * STATES_IN_BLOCK]; };
 
 Real plane_real(int plane, uint fill, uint grip, Real absent) {
   return plane >= 0 ? real_out[(uint(plane) + fill) * push.stride + grip] : absent;
 }
 
+// How a grip holds the vessel: along pour, up and beside, m; `center` of the empty vessel's mass. The factors of the lever and of the hold force
+// hold gamma, mu and a half already.
+struct Held {
+  Vec3 midpoint, center;
+  Real across, level, rise;  // (y x d)_n, d_p, d_y
+  Real half_rise, half_per_friction, per_torsion;
+  Real reference;   // N m
+  Real cap;         // N2 m2, the square of the torque at which F is F_max; 0 where F does not change with the torque
+  Real safe_below;  // N2 m2, under which F < F_max
+  bool antipodal, feasible;
+};
+
+Real torque_reference(Vec3 center, Vec3 midpoint) {
+  Real reference = scene.reference;
+  if (REFERENCE == REFERENCE_PER_GRIP) {
+    Vec3 heaviest = (Real(1) - scene.largest_share) * center + Vec3(Real(0), scene.largest_height, Real(0));
+    reference = grip_reference(scene.largest_mass, scene.gravity, length(heaviest - midpoint));
+  }
+  return reference;
+}
+
+Held held_by(uint grip) {
+  Held held;
+  uint status = uint_out[uint(PLANE_STATUS) * push.stride + grip];
+  held.feasible = (status & STATUS_REASON_MASK) == REASON_NONE;
+  held.antipodal = (status & STATUS_ANTIPODAL) != 0u;
+  // the frame of a tilt
+  Real sa, ca, sb, cb;
+  sine_cosine(grip_axis(AXIS_AZIMUTH, grip), sa, ca);
+  sine_cosine(grip_axis(AXIS_OBLIQUITY, grip), sb, cb);
+  Vec3 direction = Vec3(cb * ca, sb, -cb * sa);
+  Vec3 pour = held.feasible ? pour_direction(direction, scene.pour_sense) : Vec3(1, 0, 0);
+  Vec3 beside = cross(Vec3(0, 1, 0), pour);
+  uint at = uint(PLANE_MIDPOINT) * push.stride + grip;
+  Vec3 midpoint = Vec3(real_out[at], real_out[at + push.stride], real_out[at + 2u * push.stride]);
+  Vec3 center = Vec3(scene.center_x, scene.center_y, scene.center_z);
+  held.midpoint = Vec3(dot(midpoint, pour), midpoint.y, dot(midpoint, beside));
+  held.center = Vec3(dot(center, pour), center.y, dot(center, beside));
+  held.across = dot(cross(Vec3(0, 1, 0), direction), pour);
+  held.level = dot(direction, beside);
+  held.rise = direction.y;
+  // what holding asks for
+  held.half_rise = Real(0.5) * abs(direction.y);
+  held.half_per_friction = Real(0.5) / scene.friction;
+  held.per_torsion = BARE ? Real(0) : Real(1) / scene.torsion;
+  // where the feedback ends to grow
+  held.reference = torque_reference(held.center, held.midpoint);
+  Real room = max(Real(0), scene.force_max - scene.force_base);
+  bool grows = held.reference > Real(0) && scene.force_range > Real(0);
+  Real torque = grows ? room * (held.reference / scene.force_range) : Real(0);
+  held.cap = torque * torque;
+  held.safe_below = grows || !(room > Real(0)) ? held.cap : NO_DISTANCE;
+  return held;
+}
+
 // Of one fill, over those of its tilts so far that count.
 struct FillTerms {
-  Real peak_force, peak_tilt, largest_hold, safe_tilt;
+  Real peak_square, peak_tilt, largest_hold, safe_tilt;
   bool safe;
 };
 
-FillTerms no_terms() { return FillTerms(Real(-1), Real(0), Real(0), NOT_A_NUMBER, true); }
+FillTerms no_terms(Held held) { return FillTerms(Real(-1), Real(0), Real(0), NOT_A_NUMBER, held.antipodal); }
 
 // As the dispatch before left them, whose last tilt was `before`.
-FillTerms kept_terms(uint fill, uint grip, Real before) {
-  FillTerms terms = no_terms();
-  terms.peak_force = plane_real(PLANE_PEAK_FORCE, fill, grip, terms.peak_force);
+FillTerms kept_terms(Held held, uint fill, uint grip, Real before) {
+  FillTerms terms = no_terms(held);
+  Real force = plane_real(PLANE_PEAK_FORCE, fill, grip, Real(-1));
+  Real torque = held.cap > Real(0) ? max(Real(0), force - scene.force_base) * (held.reference / scene.force_range) : Real(0);
+  terms.peak_square = force < Real(0) ? Real(-1) : force < scene.force_max ? torque * torque : held.cap;
   terms.peak_tilt = plane_real(PLANE_PEAK_TILT, fill, grip, terms.peak_tilt);
-  terms.largest_hold = plane_real(PLANE_LARGEST_HOLD, fill, grip, terms.largest_hold);
+  terms.largest_hold = held.antipodal ? plane_real(PLANE_LARGEST_HOLD, fill, grip, terms.largest_hold) : Real(0);
   terms.safe_tilt = plane_real(PLANE_SAFE_TILT, fill, grip, terms.safe_tilt);
   terms.safe = terms.safe_tilt == before;
   return terms;
 }
 
-// How a grip holds the vessel; `center` of the empty vessel's mass.
-struct Held {
-  Vec3 direction, pour, midpoint, center;
-  Real reference;
-  bool antipodal;
-};
-
-Real torque_reference(Held held) {
-  Real reference = scene.reference;
-  if (REFERENCE == REFERENCE_PER_GRIP) {
-    Load largest = Load(scene.largest_mass, (Real(1) - scene.largest_share) * held.center, Real(0), scene.largest_height);
-    reference = grip_reference(scene.largest_mass, scene.gravity, length(load_center(largest, held.pour) - held.midpoint));
-  }
-  return reference;
-}
-
 struct StateForces {
-  Real pivot_length, torque, exact_torque, normal, feedback, hold;
+  Real pivot_square, torque_square, hold;
 };
 
-StateForces state_forces(Held held, Vec4 weight, Real sine_tilt, Real cosine_tilt) {
+Real exact_torque_of(Vec4 weight, Vec4 tilted, Real lean, Real rise) { return weight.x * (tilted.x * rise + tilted.y * lean); }
+
+// `weight`: N, the vessel's own share of the mass, lean and height of the centre of mass less what lies off the axis; `tilted`: sine, cosine, ..
+StateForces state_forces(Held held, Vec4 weight, Vec4 tilted) {
+  Real lean = weight.z - held.midpoint.x, rise = weight.w - held.midpoint.y, beside = -held.midpoint.z;
+  if (OFF_AXIS) {
+    lean += weight.y * held.center.x;
+    beside += weight.y * held.center.z;
+  }
   StateForces forces;
-  Real mass = weight.x;
-  Load load = Load(mass, (Real(1) - weight.y) * held.center, weight.z, weight.w);
-  Vec3 arm = load_center(load, held.pour) - held.midpoint;
-  forces.pivot_length = length(arm);
-  forces.torque = pendulum_torque(mass, scene.gravity, forces.pivot_length, sine_tilt);
-  forces.exact_torque = Real(0);
-  if (TORQUE == TORQUE_EXACT || PLANE_EXACT_TORQUE >= 0)
-    forces.exact_torque = exact_pendulum_torque(mass, scene.gravity, arm, held.pour, sine_tilt, cosine_tilt);
-  Real torque = TORQUE == TORQUE_EXACT ? abs(forces.exact_torque) : forces.torque;
-  forces.normal = normal_force(scene.force_base, scene.force_range, torque, held.reference);
-  forces.feedback = feedback_force(forces.normal, Real(0), scene.force_max);
-  Vec3 up = up_direction(held.pour, sine_tilt, cosine_tilt);
-  forces.hold = hold_force(mass, scene.gravity, arm, held.direction, up, scene.friction, scene.torsion);
-  if (!held.antipodal) forces.hold = INFINITE;
+  forces.pivot_square = lean * lean + rise * rise + beside * beside;
+  Real lift = weight.x * tilted.x;
+  forces.torque_square = lift * lift * forces.pivot_square;
+  if (TORQUE == TORQUE_EXACT) {
+    Real exact = exact_torque_of(weight, tilted, lean, rise);
+    forces.torque_square = exact * exact;
+  }
+  Real along = held.rise * tilted.y;
+  Real lever = tilted.y * (held.across * lean) - tilted.x * (held.level * rise - held.rise * beside);
+  Real twist = held.per_torsion * lever;
+  Real level_share = Real(1) - along * along;
+  Real sideways = sqrt((level_share > Real(0) ? level_share : Real(0)) + twist * twist);
+  forces.hold = weight.x * (sideways * held.half_per_friction + held.half_rise * abs(tilted.y));
+  if (BARE) forces.hold = weight.x > Real(0) && abs(lever) > STOP_TOLERANCE ? INFINITE : forces.hold;
   return forces;
 }
 
-void add_state(StateForces forces, Real angle, inout FillTerms terms) {
-  bool higher = forces.feedback > terms.peak_force;
+// Comparisons, and no min or max: Vulkan lets those choose either of two numbers, drivers add what makes them sure.
+void add_state(Held held, StateForces forces, Real angle, inout FillTerms terms) {
+  Real square = forces.torque_square < held.cap ? forces.torque_square : held.cap;
+  bool higher = square > terms.peak_square;
   terms.peak_tilt = higher ? angle : terms.peak_tilt;
-  terms.peak_force = higher ? forces.feedback : terms.peak_force;
-  terms.largest_hold = max(terms.largest_hold, forces.hold);
-  terms.safe = terms.safe && forces.normal < scene.force_max && forces.hold <= scene.grip_strength;
+  terms.peak_square = higher ? square : terms.peak_square;
+  terms.largest_hold = forces.hold > terms.largest_hold ? forces.hold : terms.largest_hold;
+  terms.safe = terms.safe && forces.torque_square < held.safe_below && !(forces.hold > scene.grip_strength);
   terms.safe_tilt = terms.safe ? angle : terms.safe_tilt;
 }
 
-void put_state(int state, uint grip, bool feasible, StateForces forces) {
-  put_real(PLANE_PIVOT_LENGTH, state, grip, feasible ? forces.pivot_length : NOT_A_NUMBER);
-  put_real(PLANE_TORQUE, state, grip, feasible ? forces.torque : NOT_A_NUMBER);
-  put_real(PLANE_EXACT_TORQUE, state, grip, feasible ? forces.exact_torque : NOT_A_NUMBER);
-  put_real(PLANE_NORMAL_FORCE, state, grip, feasible ? forces.normal : NOT_A_NUMBER);
-  put_real(PLANE_FEEDBACK_FORCE, state, grip, feasible ? forces.feedback : NOT_A_NUMBER);
-  put_real(PLANE_HOLD_FORCE, state, grip, feasible ? forces.hold : NOT_A_NUMBER);
+Real feedback_of(Held held, Real square) {
+  Real normal = normal_force(scene.force_base, scene.force_range, sqrt(square), held.reference);
+  bool capped = held.cap > Real(0) && !(square < held.cap);
+  return capped ? scene.force_max : feedback_force(normal, Real(0), scene.force_max);
 }
 
-void put_terms(uint fill, uint grip, bool feasible, FillTerms terms) {
-  put_real(PLANE_PEAK_FORCE, int(fill), grip, feasible ? terms.peak_force : NOT_A_NUMBER);
+void put_state(Held held, int state, uint grip, bool counts, StateForces forces, Vec4 weight, Vec4 tilted) {
+  bool exists = held.feasible && counts;
+  Real torque = weight.x * tilted.x * sqrt(forces.pivot_square);
+  put_real(PLANE_PIVOT_LENGTH, state, grip, exists ? sqrt(forces.pivot_square) : NOT_A_NUMBER);
+  put_real(PLANE_TORQUE, state, grip, exists ? torque : NOT_A_NUMBER);
+  if (PLANE_EXACT_TORQUE >= 0) {
+    Real lean = weight.z + weight.y * held.center.x - held.midpoint.x, rise = weight.w - held.midpoint.y;
+    put_real(PLANE_EXACT_TORQUE, state, grip, exists ? exact_torque_of(weight, tilted, lean, rise) : NOT_A_NUMBER);
+  }
+  Real normal = normal_force(scene.force_base, scene.force_range, sqrt(forces.torque_square), held.reference);
+  put_real(PLANE_NORMAL_FORCE, state, grip, exists ? normal : NOT_A_NUMBER);
+  put_real(PLANE_FEEDBACK_FORCE, state, grip, exists ? feedback_of(held, forces.torque_square) : NOT_A_NUMBER);
+  put_real(PLANE_HOLD_FORCE, state, grip, exists ? (held.antipodal ? forces.hold : INFINITE) : NOT_A_NUMBER);
+}
+
+void put_terms(Held held, uint fill, uint grip, FillTerms terms) {
+  bool feasible = held.feasible;
+  Real force = terms.peak_square < Real(0) ? Real(-1) : feedback_of(held, terms.peak_square);
+  put_real(PLANE_PEAK_FORCE, int(fill), grip, feasible ? force : NOT_A_NUMBER);
   put_real(PLANE_PEAK_TILT, int(fill), grip, feasible ? terms.peak_tilt : NOT_A_NUMBER);
-  put_real(PLANE_LARGEST_HOLD, int(fill), grip, feasible ? terms.largest_hold : NOT_A_NUMBER);
+  put_real(PLANE_LARGEST_HOLD, int(fill), grip, feasible ? (held.antipodal ? terms.largest_hold : INFINITE) : NOT_A_NUMBER);
   put_real(PLANE_SAFE_TILT, int(fill), grip, feasible ? terms.safe_tilt : NOT_A_NUMBER);
 }
 
 void main() {
   uint grip = INVOCATION;
   if (grip >= push.count) return;
-  uint status = uint_out[uint(PLANE_STATUS) * push.stride + grip];
-  bool feasible = (status & STATUS_REASON_MASK) == REASON_NONE;
-  Held held;
-  held.antipodal = (status & STATUS_ANTIPODAL) != 0u;
-  Real azimuth = grip_axis(AXIS_AZIMUTH, grip), obliquity = grip_axis(AXIS_OBLIQUITY, grip);
-  Real sa, ca, sb, cb;
-  sine_cosine(azimuth, sa, ca);
-  sine_cosine(obliquity, sb, cb);
-  held.direction = Vec3(cb * ca, sb, -cb * sa);
-  held.pour = feasible ? pour_direction(held.direction, scene.pour_sense) : Vec3(1, 0, 0);
-  uint at = uint(PLANE_MIDPOINT) * push.stride + grip;
-  held.midpoint = Vec3(real_out[at], real_out[at + push.stride], real_out[at + 2u * push.stride]);
-  held.center = Vec3(scene.center_x, scene.center_y, scene.center_z);
-  held.reference = torque_reference(held);
-  FillTerms terms = no_terms();
+  Held held = held_by(grip);
   uint fill = push.first / scene.tilts, tilt = push.first % scene.tilts;
-  for (uint k = 0u; k < push.number; ++k) {
-    Vec4 weight = states_in[2u * k], tilted = states_in[2u * k + 1u];
-    if (k == 0u && tilt > 0u) {
-      terms = kept_terms(fill, grip, tilted.w);
-    } else if (tilt == 0u) {
-      terms = no_terms();
+  uint k = 0u;
+  while (k < push.number) {
+    // the states of one fill that this dispatch has
+    FillTerms terms = no_terms(held);
+    if (tilt > 0u) terms = kept_terms(held, fill, grip, states_in[1].w);
+    uint end = min(push.number, k + scene.tilts - tilt);
+    [[dont_unroll]] for (; k < end; ++k) {
+      Vec4 weight = states_in[2u * k], tilted = states_in[2u * k + 1u];
+      StateForces forces = state_forces(held, weight, tilted);
+      bool counts = !UNTIL_POURED || tilted.z >= Real(0);
+      if (counts) add_state(held, forces, tilted.z, terms);
+      put_state(held, int(push.first + k), grip, counts, forces, weight, tilted);
     }
-    StateForces forces = state_forces(held, weight, tilted.x, tilted.y);
-    bool counts = !UNTIL_POURED || tilted.z >= Real(0);
-    if (counts) add_state(forces, tilted.z, terms);
-    put_state(int(push.first + k), grip, feasible && counts, forces);
-    bool ends = tilt + 1u == scene.tilts;
-    if (ends || k + 1u == push.number) put_terms(fill, grip, feasible, terms);
-    fill += ends ? 1u : 0u;
-    tilt = ends ? 0u : tilt + 1u;
+    put_terms(held, fill, grip, terms);
+    fill += 1u;
+    tilt = 0u;
   }
 }

@@ -210,8 +210,8 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 // Load of one fill and tilt: mass, the liquid's share of it, lean and height of the liquid's centre of mass.
 #define LOAD_STRIDE 4
 
-// A state as the force kernel reads it: its load; sine, cosine and angle of its tilt (angle -1: the state is left out), and the
-// angle of the tilt before (-1: none).
+// A state as the force kernel reads it: weight (N), the vessel's own share of the mass, lean of the centre of mass, and its height where the
+// vessel's own is on the axis; sine, cosine and angle of its tilt (angle -1: the state is left out), and the angle of the tilt before (-1: none).
 #define STATE_STRIDE 8
 #define STATES_IN_BLOCK 256         // in double 16 KiB, the smallest uniform range that Vulkan grants
 
@@ -241,6 +241,8 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define CONST_TABLE 7               // whether the scene has a table, bool
 #define CONST_UNTIL_POURED 8        // of the forces: whether states may be left out, bool
 #define CONST_BETWEEN 9             // spheres on a bone between its joints, 0..MOST_BETWEEN
+#define CONST_OFF_AXIS 10           // of the forces: whether a vessel's own centre of mass lies off its axis, bool
+#define CONST_BARE 11               // .. whether contacts carry no moment (torsion 0), bool
 #define CONST_CONTACTS 20           // first of CONTACT_STRIDE * JOINTS planes, scratch: where joints press; -1: not computed
 #define CONST_EFFORT_TASK 21        // of the efforts and reserves: EFFORT_WORST .. EFFORT_FRICTION
 #define CONST_STOP_TOLERANCE 40     // Real, m; this and the next five have the named values where nothing is given

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: MIT
+// As of commit 289a04a, a twin of core/sdf.cpp.
+#ifndef SDF_GLSL
+#define SDF_GLSL
+
+#include "outline.glsl"
+
+struct Nearest {
+  int element;
+  Real distance_squared;
+  Real other_squared;
+  bool curved_tie;
+};
+
+struct Support {
+  Real distance;
+  Real other;
+  Vec3 normal;
+  int element;
+  bool planar;
+};
+
+Real element_distance_squared(Element element, Vec2 q) {
+  precise Vec2 from_a = q - element.a;
+  precise Vec2 from_b = q - element.b;
+  precise Real to_a = from_a.x * from_a.x + from_a.y * from_a.y;
+  precise Real to_b = from_b.x * from_b.x + from_b.y * from_b.y;
+  if (element.side == 0) {
+    precise Vec2 along = element.b - element.a;
+    precise Real t = from_a.x * along.x + from_a.y * along.y;
+    precise Real length_squared = along.x * along.x + along.y * along.y;
+    precise Real across = element.center.x * from_a.x + element.center.y * from_a.y;
+    precise Real foot_squared = across * across;
+    return t <= Real(0) ? to_a : t >= length_squared ? to_b : foot_squared;
+  }
+  precise Vec2 from_center = q - element.center;
+  precise Real distance = sqrt(from_center.x * from_center.x + from_center.y * from_center.y);
+  Real low = min(element.a.y, element.b.y) - element.center.y;
+  Real high = max(element.a.y, element.b.y) - element.center.y;
+  precise Real foot = from_center.y * element.radius;
+  bool on_half = Real(element.side) * from_center.x >= Real(0);
+  precise Real off = distance - element.radius;
+  precise Real off_squared = off * off;
+  return on_half && foot >= low * distance && foot <= high * distance ? off_squared : min(to_a, to_b);
+}
+
+bool element_crosses(Element element, Vec2 q) {
+  bool up = element.b.y > element.a.y;
+  Real low = up ? element.a.y : element.b.y;
+  Real high = up ? element.b.y : element.a.y;
+  bool spans = !(q.y < low || q.y >= high);
+  if (element.side == 0) {
+    Vec2 along = element.b - element.a;
+    precise Vec2 from_a = q - element.a;
+    precise Real across = along.x * from_a.y - along.y * from_a.x;
+    return spans && (up ? across > Real(0) : across < Real(0));
+  }
+  precise Vec2 from_center = q - element.center;
+  precise Real square = from_center.x * from_center.x + from_center.y * from_center.y;
+  bool within = square < element.radius * element.radius;
+  return spans && (element.side > 0 ? from_center.x < Real(0) || within : from_center.x < Real(0) && !within);
+}
+
+bool element_spans(Element element, Vec2 q) {
+  if (element.side == 0) {
+    Vec2 along = element.b - element.a;
+    Real t = dot(q - element.a, along);
+    return t > Real(0) && t < dot(along, along);
+  }
+  Vec2 from_center = q - element.center;
+  Real distance = sqrt(dot(from_center, from_center));
+  Real low = min(element.a.y, element.b.y) - element.center.y;
+  Real high = max(element.a.y, element.b.y) - element.center.y;
+  Real foot = from_center.y * element.radius;
+  return Real(element.side) * from_center.x >= Real(0) && foot >= low * distance && foot <= high * distance;
+}
+
+Vec2 element_outward(Element element, Vec2 q, Real sign) {
+  Vec2 from_a = q - element.a;
+  Vec2 from_b = q - element.b;
+  Real to_a = dot(from_a, from_a);
+  Real to_b = dot(from_b, from_b);
+  Vec2 from_end = to_a <= to_b ? from_a : from_b;
+  bool spans = element_spans(element, q) || min(to_a, to_b) == Real(0);
+  if (element.side == 0) return spans ? element.center : sign * from_end;
+  bool up = element.b.y > element.a.y;
+  Real bulge = (element.side > 0) == up ? Real(1) : Real(-1);
+  Vec2 from_center = q - element.center;
+  bool central = from_center.x == Real(0) && from_center.y == Real(0);
+  Vec2 own = central ? Vec2(bulge * Real(element.side), Real(0)) : bulge * from_center;
+  return spans ? own : sign * from_end;
+}
+
+bool element_convex(Element element, Vec2 q) {
+  bool up = element.b.y > element.a.y;
+  return element.side == 0 || ((element.side > 0) == up && element_spans(element, q));
+}
+
+Nearest nearest_element(Vec2 q, out bool inside) {
+  Nearest nearest = Nearest(0, NO_DISTANCE, NO_DISTANCE, false);
+  int side = 0;
+  inside = false;
+  OUTLINE_LOOP for (int i = 0; i < OUTLINE_COUNT; ++i) {
+    Element element = outline_element(i);
+    Real distance_squared = element_distance_squared(element, q);
+    bool nearer = distance_squared < nearest.distance_squared;
+    precise Vec2 from_a = q - element.a;
+    precise Real to_a = from_a.x * from_a.x + from_a.y * from_a.y;
+    bool shared_end = distance_squared == nearest.distance_squared && i == nearest.element + 1 && to_a == distance_squared;
+    Real behind = nearer ? nearest.distance_squared : shared_end ? NO_DISTANCE : distance_squared;
+    nearest.other_squared = min(nearest.other_squared, behind);
+    nearest.curved_tie = nearer ? false : nearest.curved_tie || (shared_end && (side != 0 || element.side != 0));
+    nearest.distance_squared = nearer ? distance_squared : nearest.distance_squared;
+    nearest.element = nearer ? i : nearest.element;
+    side = nearer ? element.side : side;
+    inside = inside != element_crosses(element, q);
+  }
+  return nearest;
+}
+
+Real profile_distance(Vec2 q) {
+  bool inside;
+  Nearest nearest = nearest_element(q, inside);
+  Real distance = sqrt(nearest.distance_squared);
+  return inside ? -distance : distance;
+}
+
+// What belongs to the nearest element is picked by comparison, never by indexing with its number: a constant table indexed at run time is
+// what drivers compile slowest.
+Vec2 profile_gradient(Vec2 q, out int element) {
+  bool inside;
+  Nearest nearest = nearest_element(q, inside);
+  element = nearest.element;
+  Vec2 outward = Vec2(1, 0);
+  OUTLINE_LOOP for (int i = 0; i < OUTLINE_COUNT; ++i)
+    outward = i == nearest.element ? element_outward(outline_element(i), q, inside ? Real(-1) : Real(1)) : outward;
+  return outward * (Real(1) / sqrt(dot(outward, outward)));
+}
+
+struct Cell {
+  int i, j, k;
+  Vec3 fraction;
+  Vec3 outside;
+};
+
+Cell locate_cell(Vec3 p) {
+  Vec3 origin = Vec3(scene.lattice_x, scene.lattice_y, scene.lattice_z);
+  Vec3 counts = Vec3(Real(scene.lattice_nx - 1u), Real(scene.lattice_ny - 1u), Real(scene.lattice_nz - 1u));
+  Vec3 clamped = min(max(p, origin), origin + counts * scene.lattice_spacing);
+  Vec3 lattice = min(max((clamped - origin) / scene.lattice_spacing, Vec3(0)), counts);
+  Cell cell;
+  cell.i = min(int(lattice.x), int(scene.lattice_nx) - 2);
+  cell.j = min(int(lattice.y), int(scene.lattice_ny) - 2);
+  cell.k = min(int(lattice.z), int(scene.lattice_nz) - 2);
+  cell.fraction = lattice - Vec3(Real(cell.i), Real(cell.j), Real(cell.k));
+  cell.outside = p - clamped;
+  return cell;
+}
+
+Real grid_sample(int i, int j, int k) {
+  uint at = uint((k * int(scene.lattice_ny) + j) * int(scene.lattice_nx) + i);
+  if (LATTICE_BITS == 32) return Real(uintBitsToFloat(texelFetch(lattice_words, int(at)).x));
+  vec2 pair = unpackHalf2x16(texelFetch(lattice_words, int(at >> 1)).x);
+  return Real((at & 1u) == 0u ? pair.x : pair.y) * HALF_UNIT;
+}
+
+Real mix_reals(Real a, Real b, Real t) {
+  precise Real mixed = a + (b - a) * t;
+  return mixed;
+}
+
+Real distance_beyond(Real value, Vec3 outside) {
+  Real squared = dot(outside, outside), held = max(value, Real(0));
+  return squared > Real(0) ? sqrt(held * held + squared) : value;
+}
+
+Real grid_distance(Vec3 p) {
+  Cell cell = locate_cell(p);
+  Vec3 f = cell.fraction;
+  Real c00 = mix_reals(grid_sample(cell.i, cell.j, cell.k), grid_sample(cell.i + 1, cell.j, cell.k), f.x);
+  Real c10 = mix_reals(grid_sample(cell.i, cell.j + 1, cell.k), grid_sample(cell.i + 1, cell.j + 1, cell.k), f.x);
+  Real c01 = mix_reals(grid_sample(cell.i, cell.j, cell.k + 1), grid_sample(cell.i + 1, cell.j, cell.k + 1), f.x);
+  Real c11 = mix_reals(grid_sample(cell.i, cell.j + 1, cell.k + 1), grid_sample(cell.i + 1, cell.j + 1, cell.k + 1), f.x);
+  return distance_beyond(mix_reals(mix_reals(c00, c10, f.y), mix_reals(c01, c11, f.y), f.z), cell.outside);
+}
+
+Vec3 grid_gradient(Vec3 p) {
+  Cell cell = locate_cell(p);
+  Vec3 f = cell.fraction;
+  Real s000 = grid_sample(cell.i, cell.j, cell.k), s100 = grid_sample(cell.i + 1, cell.j, cell.k);
+  Real s010 = grid_sample(cell.i, cell.j + 1, cell.k), s110 = grid_sample(cell.i + 1, cell.j + 1, cell.k);
+  Real s001 = grid_sample(cell.i, cell.j, cell.k + 1), s101 = grid_sample(cell.i + 1, cell.j, cell.k + 1);
+  Real s011 = grid_sample(cell.i, cell.j + 1, cell.k + 1), s111 = grid_sample(cell.i + 1, cell.j + 1, cell.k + 1);
+  Vec3 slope = Vec3(mix_reals(mix_reals(s100 - s000, s110 - s010, f.y), mix_reals(s101 - s001, s111 - s011, f.y), f.z),
+                    mix_reals(mix_reals(s010 - s000, s110 - s100, f.x), mix_reals(s011 - s001, s111 - s101, f.x), f.z),
+                    mix_reals(mix_reals(s001 - s000, s101 - s100, f.x), mix_reals(s011 - s010, s111 - s110, f.x), f.y));
+  slope /= scene.lattice_spacing;
+  if (cell.outside.x != Real(0)) slope.x = Real(0);
+  if (cell.outside.y != Real(0)) slope.y = Real(0);
+  if (cell.outside.z != Real(0)) slope.z = Real(0);
+  if (dot(cell.outside, cell.outside) > Real(0)) {
+    Real value = mix_reals(mix_reals(mix_reals(s000, s100, f.x), mix_reals(s010, s110, f.x), f.y),
+                           mix_reals(mix_reals(s001, s101, f.x), mix_reals(s011, s111, f.x), f.y), f.z);
+    slope = max(value, Real(0)) * slope + cell.outside;
+  }
+  Real size = length(slope);
+  return size > Real(0) ? slope / size : Vec3(1, 0, 0);
+}
+
+Real signed_distance(Vec3 p) {
+  if (SDF_KIND == SDF_LATTICE) return grid_distance(p);
+  precise Real r = sqrt(p.x * p.x + p.z * p.z);
+  return profile_distance(Vec2(r, p.y));
+}
+
+Vec3 distance_gradient(Vec3 p, out int element) {
+  if (SDF_KIND == SDF_LATTICE) {
+    element = -1;
+    return grid_gradient(p);
+  }
+  precise Real r = sqrt(p.x * p.x + p.z * p.z);
+  Vec2 gradient = profile_gradient(Vec2(r, p.y), element);
+  Vec2 radial = r > Real(0) ? Vec2(p.x, p.z) * (Real(1) / r) : Vec2(1, 0);
+  return Vec3(gradient.x * radial.x, gradient.y, gradient.x * radial.y);
+}
+
+Support support_at(Vec3 p) {
+  Support support;
+  support.element = -1;
+  support.planar = false;
+  if (SDF_KIND == SDF_LATTICE) {
+    support.distance = grid_distance(p);
+    support.other = support.distance;
+    support.normal = Vec3(0);
+    return support;
+  }
+  precise Real r = sqrt(p.x * p.x + p.z * p.z);
+  Vec2 q = Vec2(r, p.y);
+  bool inside;
+  Nearest nearest = nearest_element(q, inside);
+  Real distance = sqrt(nearest.distance_squared);
+  support.distance = inside ? -distance : distance;
+  support.other = sqrt(nearest.other_squared);
+  Vec2 outward = Vec2(1, 0);
+  bool convex = false;
+  OUTLINE_LOOP for (int i = 0; i < OUTLINE_COUNT; ++i) {
+    bool chosen = i == nearest.element;
+    outward = chosen ? element_outward(outline_element(i), q, inside ? Real(-1) : Real(1)) : outward;
+    convex = chosen ? element_convex(outline_element(i), q) : convex;
+  }
+  Vec2 normal = outward * (Real(1) / sqrt(dot(outward, outward)));
+  support.element = nearest.element;
+  support.planar = convex && !inside && !nearest.curved_tie && normal.x >= Real(0);
+  Vec2 radial = r > Real(0) ? Vec2(p.x, p.z) * (Real(1) / r) : Vec2(1, 0);
+  support.normal = Vec3(normal.x * radial.x, normal.y, normal.x * radial.y);
+  return support;
+}
+
+Real safe_step(Support support, Real separation, Vec3 velocity, Real speed, Real acceleration) {
+  Real per_speed = Real(1) / speed;
+  Real lipschitz = separation * per_speed;
+  Real closing = -dot(support.normal, velocity);
+  Real root = sqrt(closing * closing + Real(2) * acceleration * separation);
+  bool nears = closing > Real(0);
+  Real over = nears ? Real(2) * separation : root - closing;
+  Real under = nears ? root + closing : acceleration;
+  Real plane = under > Real(0) ? over / under : NO_DISTANCE;
+  Real others = (support.other - support.distance + separation) * per_speed;
+  Real step = support.planar ? max(lipschitz, min(plane, others)) : lipschitz;
+  return speed > Real(0) ? step : NO_DISTANCE;
+}
+
+#endif
