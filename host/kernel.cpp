@@ -2,7 +2,9 @@
 #include "host/kernel.h"
 
 #include <algorithm>
+#include <cstring>
 
+#include "host/specialize.h"
 #include "host/spirv.h"
 #include "host/vulkan.h"
 
@@ -13,12 +15,14 @@ namespace {
 struct Specialization {
   std::vector<vk::SpecializationMapEntry> entries;
   std::vector<std::byte> bytes;
+  SpecializationBits bits;  // the same values
 
   template <class T>
   void add(std::uint32_t id, T value) {
     entries.emplace_back(id, static_cast<std::uint32_t>(bytes.size()), sizeof value);
     const auto raw = std::as_bytes(std::span(&value, 1));
     bytes.insert(bytes.end(), raw.begin(), raw.end());
+    std::memcpy(&bits[id], &value, sizeof value);
   }
 };
 
@@ -104,11 +108,12 @@ Kernel::Kernel(const Device& device, std::span<const std::uint32_t> words, std::
     layout.emplace_back(binding.binding, state_->bindings.back().second, 1, vk::ShaderStageFlagBits::eCompute);
   }
   const Specialization specialization = specialize(shader, constants, name);
+  const std::vector<std::uint32_t> code = specialized(words, specialization.bits);
   checked("compiling kernel " + name, [&] {
     state_->set_layout = vk::raii::DescriptorSetLayout(*on.device, vk::DescriptorSetLayoutCreateInfo({}, layout));
     const vk::PushConstantRange push(vk::ShaderStageFlagBits::eCompute, 0, MAX_PUSH);
     state_->layout = vk::raii::PipelineLayout(*on.device, vk::PipelineLayoutCreateInfo({}, *state_->set_layout, push));
-    const vk::raii::ShaderModule module(*on.device, {{}, words.size_bytes(), words.data()});
+    const vk::raii::ShaderModule module(*on.device, {{}, code.size() * sizeof(std::uint32_t), code.data()});
     const vk::SpecializationInfo special(static_cast<std::uint32_t>(specialization.entries.size()), specialization.entries.data(),
                                          specialization.bytes.size(), specialization.bytes.data());
     const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main", &special);

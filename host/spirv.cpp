@@ -5,40 +5,14 @@
 #include <set>
 
 #include "core/error.h"
+#include "host/spirv_codes.h"
 
 namespace wholehand::host {
 namespace {
 
-// Numbers of the SPIR-V specification, sections 3.7, 3.20 and 3.32.
-enum Op : std::uint32_t {
-  OpEntryPoint = 15,
-  OpExecutionMode = 16,
-  OpCapability = 17,
-  OpTypeBool = 20,
-  OpTypeInt = 21,
-  OpTypeFloat = 22,
-  OpConstant = 43,
-  OpSpecConstantTrue = 48,
-  OpSpecConstantFalse = 49,
-  OpSpecConstant = 50,
-  OpFunction = 54,
-  OpFunctionEnd = 56,
-  OpFunctionCall = 57,
-  OpVariable = 59,
-  OpLoad = 61,
-  OpStore = 62,
-  OpCopyMemory = 63,
-  OpAccessChain = 65,
-  OpInBoundsAccessChain = 66,
-  OpPtrAccessChain = 67,
-  OpArrayLength = 68,
-  OpDecorate = 71,
-  OpCopyObject = 83,
-  OpExecutionModeId = 331
-};
-constexpr std::uint32_t MAGIC = 0x07230203, GL_COMPUTE = 5, CAPABILITY_FLOAT64 = 10;
+constexpr std::uint32_t GL_COMPUTE = 5, CAPABILITY_FLOAT64 = 10;
 constexpr std::uint32_t MODE_LOCAL_SIZE = 17, MODE_LOCAL_SIZE_ID = 38;
-constexpr std::uint32_t DECORATION_SPEC_ID = 1, DECORATION_BINDING = 33, DECORATION_DESCRIPTOR_SET = 34;
+constexpr std::uint32_t DECORATION_BINDING = 33, DECORATION_DESCRIPTOR_SET = 34;
 constexpr std::uint32_t STORAGE_UNIFORM_CONSTANT = 0, STORAGE_UNIFORM = 2, STORAGE_BUFFER = 12;
 
 // Ids of `code` (one instruction of a function body) that may be a buffer variable.
@@ -153,14 +127,14 @@ void set_group_size(const ModuleParts& parts, ShaderInterface& result) {
 
 ShaderInterface read_interface(std::span<const std::uint32_t> words, const std::string& name) {
   const auto broken = [&](const char* what) { return failure_error("shader " + name + ": " + what + "; rebuild the program"); };
-  if (words.size() < 5 || words[0] != MAGIC) {
+  if (words.size() < SPIRV_HEADER || words[0] != SPIRV_MAGIC) {
     throw broken("no SPIR-V");
   }
   ShaderInterface result;
   ModuleParts parts;
   bool in_function = false;
   std::uint32_t last = 0;
-  for (std::size_t at = 5; at < words.size();) {
+  for (std::size_t at = SPIRV_HEADER; at < words.size();) {
     const std::uint32_t op = words[at] & 0xFFFF, length = words[at] >> 16;
     if (length == 0 || at + length > words.size()) {
       throw broken("damaged SPIR-V");
