@@ -13,6 +13,7 @@
 #include "app/vulkan_environment.h"
 #include "scene/reader.h"
 #include "scene/shipped.h"
+#include "sweeps/auto_backend.h"
 #include "sweeps/run.h"
 
 namespace wholehand {
@@ -22,7 +23,7 @@ constexpr const char* SHARD_LETTERS = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNO
 constexpr std::size_t MOST_SHARD_LETTERS = 100;  // a file's name has 255 at most, and the result's own comes before
 
 struct SweepArguments {
-  std::string scene, output, on = "vulkan", precision, best, glb, threads, time_limit, mark_seconds, shard;
+  std::string scene, output, on = ON_AUTO, precision, best, glb, threads, time_limit, mark_seconds, shard;
   bool resume = false, explain = false, no_refine = false, shards = false;
 };
 
@@ -55,11 +56,14 @@ CLI::App* add_command(CLI::App& app, Action& action, const std::shared_ptr<Sweep
   command->add_option("-o,--output", arguments->output, "Result file (default: the scene file's name with .nc)")
       ->type_name("FILE")
       ->check(not_empty());
-  command->add_option("--on", arguments->on, "core, vulkan (the best device; the default) or the name of a device")
+  command
+      ->add_option("--on", arguments->on,
+                   "auto (the default): core or device, whichever ended such sweeps sooner; core; vulkan: the best device; or the "
+                   "name of a device")
       ->type_name("DEVICE")
-      ->check(offered("core vulkan"))
+      ->check(offered("auto core vulkan"))
       ->check(not_empty());
-  command->add_option("--precision", arguments->precision, "float or double (default: float on Vulkan, double on the core)")
+  command->add_option("--precision", arguments->precision, "float or double (default: float on a device, double on the core)")
       ->type_name("P")
       ->check(offered("float double"));
   command->add_option("--best", arguments->best, "Number of grips to show and list for each vessel (default: the scene's)")
@@ -96,6 +100,8 @@ void add_sweep_command(CLI::App& app, Action& action) {
 void add_shared_sweep_command(CLI::App& app, Action& action, const SweepRunner& run) {
   const auto arguments = std::make_shared<SweepArguments>();
   CLI::App* command = add_command(app, action, arguments, run);
+  command->get_option("--on")->description(
+      "auto (the default): the same as vulkan here; core; vulkan: the best device; or the name of a device");
   command->add_flag("--shards", arguments->shards,
                     "The nodes share no file system: each node writes a file of its own, and `wholehand merge` makes one of them");
   command->add_option("--shard", arguments->shard, "The same, with another name than the node's for the file of this rank")

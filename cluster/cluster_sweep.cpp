@@ -26,6 +26,7 @@
 #include "host/device.h"
 #include "host/open_backend.h"
 #include "objects/vessel.h"
+#include "sweeps/auto_backend.h"
 #include "sweeps/closing.h"
 #include "sweeps/hand_lists.h"
 #include "sweeps/refine.h"
@@ -1195,6 +1196,7 @@ ExitCode run_cluster_sweep(Team& team, const std::function<Scene()>& read_scene,
                            InterruptGuard& interrupt) {
   Scene scene;
   SweepOptions own = options;
+  if (own.on == ON_AUTO) own.on = "vulkan";  // all ranks alike: the times of one machine say nothing of many
   or_abort(team, [&] {
     agree(team, caught([&] {
             scene = read_scene();

@@ -30,7 +30,7 @@ SweepOptions options_of(const SweepWish& wish, std::vector<std::string>& notes) 
   SweepOptions options;
   options.output = wish.output;
   options.on = wish.on;
-  options.precision = precision_of(wish.precision, wish.on);
+  if (wish.precision) options.precision = parse_precision(*wish.precision);
   if (wish.best) options.best = static_cast<int>(parse_integer(std::to_string(*wish.best), "--best", ranges::BEST));
   options.threads = threads_of(wish.threads);
   options.refine = wish.refine;

@@ -10,7 +10,7 @@ namespace wholehand {
 namespace {
 
 constexpr std::size_t USUAL_POOL = 1 << 14;     // of a vessel: 256 KiB
-constexpr std::size_t GRIPS_AT_ONCE = 1 << 12;  // whose hands are there at once
+constexpr std::size_t HANDS_AT_ONCE = 1 << 12;  // whose hands are there at once
 constexpr std::size_t PIECE = 16;               // grips that a thread poses at a time
 constexpr std::size_t FEW = 256;                // posed at a time where the first ones may be enough
 constexpr std::size_t MOST_ASKED = 1 << 12;     // of others at a time
@@ -56,8 +56,8 @@ bool ListChooser::is_open(std::size_t list, const Candidate& grip) const {
 }
 
 void ListChooser::offer(const std::vector<Candidate>& grips) {
-  for (std::size_t first = 0; first < grips.size(); first += GRIPS_AT_ONCE)
-    offer_piece(grips.data() + first, std::min(GRIPS_AT_ONCE, grips.size() - first));
+  for (std::size_t first = 0; first < grips.size(); first += HANDS_AT_ONCE)
+    offer_piece(grips.data() + first, std::min(HANDS_AT_ONCE, grips.size() - first));
 }
 
 void ListChooser::offer_piece(const Candidate* grips, std::size_t count) {

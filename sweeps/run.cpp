@@ -4,6 +4,7 @@
 #include "core/evaluator.h"
 #include "host/open_backend.h"
 #include "objects/vessel.h"
+#include "sweeps/auto_backend.h"
 #include "sweeps/sweep.h"
 
 namespace wholehand {
@@ -23,16 +24,21 @@ void read_meshes(Scene& scene, const SweepOptions& options) {
 
 ExitCode run_sweep(const Scene& given, const SweepOptions& options) {
   Scene scene = given;
-  const Precision precision = options.precision.value_or(options.on == "core" ? Precision::full : Precision::single);
-  const SweepParts parts{
-      [&](const FieldSet& fields) { return open_backend(scene, fields, options.on, precision, options.threads); },
-      [&] { return make_core_evaluator(scene); },
-      [&] { read_meshes(scene, options); },
-      [&](const Scene& other, const FieldSet& fields) {
-        return open_backend(other, fields, options.on, precision, options.threads);
-      },
+  SweepOptions own = options;
+  AutoBackend chosen(scene, own);
+  own.choice_explained = chosen.explanation();
+  own.took = [&](const SweepTimes& times, std::uint64_t grips, const BackendInfo& info) { chosen.remember(times, grips, info); };
+  const auto open = [&](const Scene& of, const FieldSet& fields) {
+    const Precision usual = own.on == "core" ? Precision::full : Precision::single;
+    return open_backend(of, fields, own.on, own.precision.value_or(usual), own.threads);
   };
-  return run_sweep(scene, options, parts);
+  const SweepParts parts{
+      [&](const FieldSet& fields) { return chosen.or_on_core([&] { return open(scene, fields); }); },
+      [&] { return make_core_evaluator(scene); },
+      [&] { chosen.or_on_core([&] { read_meshes(scene, own); }); },
+      open,
+  };
+  return run_sweep(scene, own, parts);
 }
 
 ExitCode run_sweep(const Scene& scene, const SweepOptions& options, const SweepParts& parts) {

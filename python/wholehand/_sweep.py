@@ -56,7 +56,7 @@ def _go_on(ending: _Ending) -> None:
 def sweep(
     scene: SceneLike,
     *,
-    on: str = "vulkan",
+    on: str = "auto",
     precision: str | None = None,
     best: int | None = None,
     keep: str | Iterable[str] | None = None,
@@ -74,7 +74,8 @@ def sweep(
     ----------
     scene : Scene, or what ``wh.scene`` takes
     on : str
-        "core", "vulkan" (the best device, the default) or the name of a device.
+        "auto" (the default: core or device, whichever ended such sweeps sooner), "core", "vulkan" (the best device) or the name of
+        a device.
     precision : {"float", "double"}, optional
         Default: double on the core, float on a device.
     best : int, optional

@@ -149,7 +149,7 @@ class Bash(unittest.TestCase):
         for command, option, offered in rows:
             words = [word for word in offered.split(" -")[0].split() if word]
             if option == "--on":  # besides the names of devices
-                self.assertLessEqual(set(words), {"core", "vulkan"})
+                self.assertLessEqual(set(words), {"auto", "core", "vulkan"})
                 continue
             message = program(command, *needed[command], option, "nonsense").stderr
             allowed = re.search(r"allowed: (.*)", message)

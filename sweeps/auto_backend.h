@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Where a sweep runs that leaves this to the program (`--on auto`).
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/backend.h"
+#include "core/error.h"
+#include "sweeps/closing.h"
+#include "sweeps/cost_model.h"
+#include "sweeps/sweep_options.h"
+
+namespace wholehand {
+
+inline constexpr const char* ON_AUTO = "auto";
+
+// Decides when it is made, before meshes are read; `options.on` then says core or a device, and `options.choice` why. Where `options.on`
+// is not ON_AUTO it only keeps the times. A sweep that is resumed goes on where it began, with the precision that it began with.
+class AutoBackend {
+ public:
+  // Both must outlive the object.
+  AutoBackend(const Scene& scene, SweepOptions& options);
+
+  // What `work` makes of options.on. Where the program chose the device itself and that fails, a note says so, options.on becomes the
+  // core, and `work` is done again.
+  template <class Work>
+  auto or_on_core(Work&& work) {
+    if (!may_change_) return work();
+    try {
+      return work();
+    } catch (const Error& error) {
+      give_up_device(error.what());
+    }
+    return work();
+  }
+
+  // Keeps what the sweep took, for later choices. Without a cache nothing is kept.
+  void remember(const SweepTimes& times, std::uint64_t grips, const BackendInfo& info);
+
+  // How it decided, for --explain.
+  std::string explanation() const;
+
+ private:
+  bool resume(const Scene& scene);
+  void decide();
+  CostEstimate device_cost();
+  void give_up_device(const std::string& why);
+  void say(const std::string& line) const;
+
+  SweepOptions& options_;
+  SweepTask task_;
+  std::string file_, file_trouble_, no_device_;
+  std::vector<RunTime> history_;
+  CostEstimate core_, device_;
+  bool is_auto_ = false, may_change_ = false, keeps_times_ = false;
+};
+
+}  // namespace wholehand

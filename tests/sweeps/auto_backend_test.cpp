@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+// sanitizers: address
+#include "sweeps/auto_backend.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "core/error.h"
+#include "core/parallel.h"
+#include "scene/reader.h"
+#include "scene/shipped.h"
+#include "sweeps/mark.h"
+#include "sweeps/plan.h"
+#include "sweeps/run.h"
+#include "sweeps/run_times.h"
+#include "sweeps/sweep_result.h"
+#include "system/files.h"
+#include "tests/support/environment.h"
+#include "tests/support/files.h"
+
+namespace wholehand {
+namespace {
+
+class AutoBackendTest : public testing::Test {
+ protected:
+  AutoBackendTest() : cache_("XDG_CACHE_HOME", (folder_ / "cache").c_str()) {
+    options_.output = folder_ / "out.nc";
+    options_.on = ON_AUTO;
+    options_.refine = false;
+    options_.note = [this](const std::string& line) { notes_ += line + "\n"; };
+  }
+
+  std::string file() const { return run_times_file(folder_ / "cache/wholehand"); }
+
+  std::vector<RunTime> kept() const {
+    std::string why;
+    auto history = read_run_times(file(), why);
+    EXPECT_EQ(why, "");
+    return history;
+  }
+
+  SweepTask task() const { return sweep_task(scene_, Plan(scene_, false).grips() * scene_.vessels.size(), thread_count(0), ""); }
+
+  // As if core and device had taken so long for this scene, each twice.
+  void keep(double core, double device) {
+    std::vector<RunTime> history;
+    for (int k = 0; k < 2; ++k) {
+      add_run(history, {machine_name(), kind_of(task()), "core", 0, task().grips, core, 0});
+      add_run(history, {machine_name(), kind_of(task()), "a device", 0, task().grips, device, 0});
+    }
+    ASSERT_TRUE(write_run_times(file(), history));
+  }
+
+  void sweep() { ASSERT_EQ(run_sweep(scene_, options_), ExitCode::done) << notes_; }
+  std::string backend() const { return SweepResult(options_.output).origin().backend; }
+
+  const TemporaryFolder folder_;
+  const ScopedVariable cache_;
+  Scene scene_ = read_scene_file(find_scene("small"));
+  SweepOptions options_;
+  std::string notes_;
+};
+
+TEST_F(AutoBackendTest, TheSoonerIsTakenAndItsTimeIsKept) {
+  keep(1, 5);
+  sweep();
+  EXPECT_EQ(backend(), "core");
+  ASSERT_EQ(kept().size(), 5u);
+  EXPECT_EQ(kept().back().device, "core");
+  EXPECT_EQ(kept().back().number, 5u);
+  EXPECT_EQ(kept().back().grips, task().grips);
+
+  keep(5, 1);
+  options_.output = folder_ / "other.nc";
+  sweep();
+  EXPECT_EQ(backend(), "vulkan");
+  EXPECT_EQ(SweepResult(options_.output).origin().precision, Precision::single);
+  EXPECT_NE(kept().back().device, "core");
+  EXPECT_NE(kept().back().device, "a device") << "the name of the one that is there";
+  EXPECT_EQ(notes_, "");
+}
+
+TEST_F(AutoBackendTest, WhatIsAskedForByNameIsTaken) {
+  keep(5, 1);
+  options_.on = "core";
+  sweep();
+  EXPECT_EQ(backend(), "core");
+  EXPECT_EQ(kept().size(), 5u) << "it counts for later choices";
+  AutoBackend named(scene_, options_);
+  EXPECT_THROW(named.or_on_core([]() -> int { throw failure_error("gone"); }), Error);
+}
+
+TEST_F(AutoBackendTest, ADeviceThatIsNotThereMeansTheCore) {
+  const ScopedVariable drivers("VK_DRIVER_FILES", "/nonexistent.json"), older("VK_ICD_FILENAMES", "/nonexistent.json");
+  keep(5, 1);
+  sweep();
+  EXPECT_EQ(backend(), "core");
+  EXPECT_EQ(SweepResult(options_.output).origin().precision, Precision::full);
+  EXPECT_EQ(notes_.find("on core, since the device does not work: no Vulkan driver"), 0u) << notes_;
+  options_.on = "vulkan";
+  options_.output = folder_ / "other.nc";
+  EXPECT_THROW(run_sweep(scene_, options_), Error);
+}
+
+TEST_F(AutoBackendTest, WithoutAnyDeviceTheLineSaysSo) {
+  const ScopedVariable drivers("VK_DRIVER_FILES", "/nonexistent.json"), older("VK_ICD_FILENAMES", "/nonexistent.json");
+  scene_ = read_scene_file(find_scene("three_beakers"));  // long enough for a device to be thought of
+  const AutoBackend chosen(scene_, options_);
+  EXPECT_EQ(options_.on, "core");
+  EXPECT_EQ(options_.choice.find("chosen: core, since no Vulkan driver"), 0u) << options_.choice;
+}
+
+TEST_F(AutoBackendTest, AFileThatIsNotAsItWasWrittenIsIgnored) {
+  keep(5, 1);
+  std::ifstream in(file());
+  std::string good{std::istreambuf_iterator<char>(in), {}};
+  std::string changed = good;
+  changed[changed.size() - 5] ^= 1;
+  for (const std::string& text :
+       {changed, good.substr(0, good.size() / 2), std::string("[]"), std::string(), std::string(3000, '\0')}) {
+    std::ofstream(file()) << text;
+    options_.on = ON_AUTO;
+    const AutoBackend chosen(scene_, options_);
+    EXPECT_EQ(options_.on, "core") << "as without the file";
+    EXPECT_NE(chosen.explanation().find("is ignored: it is damaged"), std::string::npos) << chosen.explanation();
+  }
+  options_.on = ON_AUTO;
+  sweep();
+  EXPECT_EQ(kept().size(), 1u) << "and written anew";
+
+  std::filesystem::remove(file());
+  ASSERT_EQ(mkfifo(file().c_str(), 0600), 0);
+  const AutoBackend chosen(scene_, options_);
+  EXPECT_NE(chosen.explanation().find("is none of this program's files"), std::string::npos);
+  sweep();
+  EXPECT_TRUE(std::filesystem::is_fifo(file())) << "it is not ours";
+}
+
+TEST_F(AutoBackendTest, WithoutACacheItChoosesAllTheSame) {
+  std::ofstream(folder_ / "cache") << "a file where the folder should be";
+  sweep();
+  EXPECT_EQ(notes_, "");
+  const ScopedVariable none("WHOLEHAND_CACHE_MIB", "0");
+  const AutoBackend chosen(scene_, options_);
+  EXPECT_NE(chosen.explanation().find("are not kept, as there is no cache"), std::string::npos) << chosen.explanation();
+}
+
+TEST_F(AutoBackendTest, ResumingGoesOnWhereTheSweepBegan) {
+  for (const auto& [on, precision] : {std::pair("core", Precision::single), {"vulkan", Precision::full}}) {
+    options_.on = on;
+    options_.precision = precision;
+    sweep();
+    const bool is_core = options_.on == "core";
+    keep(is_core ? 5 : 1, is_core ? 1 : 5);
+    SweepOptions again = options_;
+    again.on = ON_AUTO;
+    again.precision.reset();
+    again.resume = true;
+    EXPECT_EQ(run_sweep(scene_, again), ExitCode::done) << "else it refuses another backend";
+    const AutoBackend chosen(scene_, again);
+    EXPECT_EQ(again.on == "core", is_core);
+    EXPECT_EQ(again.precision, precision);
+  }
+}
+
+TEST_F(AutoBackendTest, AnInterruptedSweepGoesOnWhereItBegan) {
+  keep(1, 5);
+  const OutputNames names = output_names(options_.output);
+  std::ofstream(names.partial) << "not read here";
+  SweepMark mark;
+  mark.identity = {{"backend", "vulkan"}, {"device", "some device"}, {"precision", "double"}};
+  save_mark(names.mark, mark);
+  options_.resume = true;
+  const AutoBackend chosen(scene_, options_);
+  EXPECT_EQ(options_.on, "some device");
+  EXPECT_EQ(options_.precision, Precision::full);
+}
+
+// Each write is whole, whoever else writes: a run may be lost, and nothing else.
+TEST_F(AutoBackendTest, ProgramsAtOnceDoNotSpoilTheFile) {
+  std::filesystem::create_directories(folder_ / "cache/wholehand");
+  std::vector<pid_t> children;
+  for (int child = 0; child < 4; ++child) {
+    const pid_t pid = fork();
+    if (pid == 0) {
+      std::string why;
+      for (int k = 0; k < 50 && why.empty(); ++k) {
+        auto history = read_run_times(file(), why);
+        add_run(history, {machine_name(), fmt::format("kind {} {}", child, k), "core", 0, 1, 1, 1});
+        if (!write_run_times(file(), history)) why = "not written";
+      }
+      _exit(why.empty() ? 0 : 1);
+    }
+    children.push_back(pid);
+  }
+  for (const pid_t pid : children) {
+    int status = 0;
+    waitpid(pid, &status, 0);
+    EXPECT_EQ(status, 0);
+  }
+  EXPECT_FALSE(kept().empty());
+}
+
+}  // namespace
+}  // namespace wholehand
