@@ -227,10 +227,10 @@ TEST(CommandLine, ListsDevicesAndGrippers) {
   EXPECT_NE(no_vulkan.output.find("wholehand: no Vulkan driver"), std::string::npos) << no_vulkan.output;
 }
 
-// No driver, as on a machine that has none: an error, never the core instead.
+// No driver, as on a machine that has none: an error where a device was asked for, and the core where that is left to the program.
 TEST(CommandLine, SaysWhenThereIsNoVulkan) {
   const std::string result = std::filesystem::temp_directory_path() / "wholehand_cli_test.nc";
-  for (const std::string& arguments : {"sweep small -o " + result, std::string("check small")}) {
+  for (const std::string& arguments : {"sweep small --on vulkan -o " + result, std::string("check small")}) {
     const Outcome outcome =
         run("VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent PROGRAM " + arguments + " 2>&1 >/dev/null");
     EXPECT_EQ(outcome.code, 3) << outcome.output;
@@ -239,6 +239,13 @@ TEST(CommandLine, SaysWhenThereIsNoVulkan) {
     EXPECT_NE(outcome.output.find("install mesa-vulkan-drivers"), std::string::npos) << outcome.output;
     for (const char* left : {"", ".partial"}) EXPECT_FALSE(std::filesystem::exists(result + left)) << left;
   }
+  const std::string own = std::filesystem::temp_directory_path() / "wholehand_cli_auto_test.nc";
+  const Outcome chosen = run("VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent PROGRAM sweep small -o " + own);
+  EXPECT_EQ(chosen.code, 0) << chosen.output;
+  EXPECT_NE(chosen.output.find("\non core, "), std::string::npos) << chosen.output;
+  EXPECT_NE(chosen.output.find("\nchosen: core, "), std::string::npos) << chosen.output;
+  EXPECT_TRUE(std::filesystem::remove(own));
+  for (const char* beside : {".best.csv", ".tumbler.svg"}) std::filesystem::remove(own.substr(0, own.size() - 3) + beside);
 }
 
 }  // namespace

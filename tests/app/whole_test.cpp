@@ -86,7 +86,14 @@ TEST(Whole, SweepOnVulkanAndOnTheCoreAgree) {
   // The k-th largest of many numbers moves by no more than the numbers do.
   const auto of_device = read_values(vulkan, "best_score"), of_core = read_values(core, "best_score");
   ASSERT_EQ(of_device.size(), of_core.size());
-  for (std::size_t i = 0; i < of_core.size(); ++i) EXPECT_NEAR(of_device[i], of_core[i], 2e-3) << "rank " << i;
+  std::size_t listed = 0;
+  for (std::size_t i = 0; i < of_core.size(); ++i) {
+    ASSERT_EQ(std::isnan(of_device[i]), std::isnan(of_core[i])) << "rank " << i << ": fewer grips are plausible than are listed";
+    if (std::isnan(of_core[i])) continue;
+    ++listed;
+    EXPECT_NEAR(of_device[i], of_core[i], 2e-3) << "rank " << i;
+  }
+  EXPECT_GT(listed, 2u);
 
   // what is left to the program is the file of the one or of the other, to the bit
   const std::string chosen = folder.path() + "/auto.nc";
@@ -95,15 +102,15 @@ TEST(Whole, SweepOnVulkanAndOnTheCoreAgree) {
   EXPECT_TRUE(scores == read_values(core, "score") || scores == read_values(vulkan, "score"));
 }
 
-// A sweep that was started in the background.
+// A sweep that was started in the background. One that goes on does so where it began.
 pid_t start(const std::string& scene, const std::string& output, bool resume) {
   const pid_t child = fork();
   if (child != 0) return child;
   setenv("WHOLEHAND_VALIDATION", "1", 1);
   freopen((output + ".said").c_str(), "w", stderr);
   freopen("/dev/null", "w", stdout);
-  execl(WHOLEHAND_PROGRAM, WHOLEHAND_PROGRAM, "sweep", scene.c_str(), "-o", output.c_str(), resume ? "--resume" : nullptr,
-        static_cast<char*>(nullptr));
+  execl(WHOLEHAND_PROGRAM, WHOLEHAND_PROGRAM, "sweep", scene.c_str(), "-o", output.c_str(), resume ? "--resume" : "--on",
+        resume ? nullptr : "vulkan", static_cast<char*>(nullptr));
   _exit(127);
 }
 
@@ -128,7 +135,7 @@ TEST(Whole, InterruptedAndKilledSweepOnVulkanResumesToTheSameBits) {
       << "[[vessel]]\nname = \"v\"\nshape = \"flask\"\ndiameter_mm = 85\nneck_mm = 34\nheight_mm = 140\nwall_mm = 1.5\n"
          "[grips]\nsampling = \"sobol\"\ncount = 5000000\nseed = 7\nheight_fraction = { from = 0.1, to = 0.9 }\n"
          "roll_deg = { from = -90, to = 30 }\n[output]\napart_mm = 0\nkeep = [\"score\", \"touch_mask\", \"gap\"]\n";
-  ASSERT_EQ(run("sweep " + scene + " -o " + whole + " >" + folder.path() + "/out.txt"), 0);
+  ASSERT_EQ(run("sweep " + scene + " --on vulkan -o " + whole + " >" + folder.path() + "/out.txt"), 0);
 
   int status = 0;
   const pid_t first = start(scene, broken, false);
