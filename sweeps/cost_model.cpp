@@ -117,9 +117,9 @@ std::string choice_line(const SweepTask& task, const BackendChoice& choice, cons
   const CostEstimate& taken = choice.on_device ? device : core;
   const CostEstimate& other = choice.on_device ? core : device;
   const std::string here = choice.on_device ? name_of(device) : "core", there = choice.on_device ? "core" : name_of(device);
-  const auto text = [&](const CostEstimate& cost) { return time_text(cost, task) + (cost.runs == 0 ? " (first guess)" : ""); };
-  return fmt::format("chosen: {}, {} expected, and {} on {}{}", here, text(taken), text(other), there,
-                     choice.is_trial ? "; taken to learn what it takes now" : "");
+  const auto guess = [](const CostEstimate& cost) { return cost.runs == 0 ? " (first guess)" : ""; };
+  return fmt::format("chosen: {}, {} expected{}, and {}{} on {}{}", here, time_text(taken, task), guess(taken),
+                     time_text(other, task), guess(other), there, choice.is_trial ? "; taken to learn what it takes now" : "");
 }
 
 void add_run(std::vector<RunTime>& history, RunTime run) {

@@ -161,6 +161,8 @@ TEST(CostModel, TheLineSaysWhatWasTakenAndWhy) {
             "chosen: llvmpipe, 0.6 s expected, and 0.3 s on core; taken to learn what it takes now");
   EXPECT_EQ(choice_line(task, {false, false}, core, {17, 0, 0, 0, ""}),
             "chosen: core, 0.3 s expected, and 17 s (first guess) on a device");
+  EXPECT_EQ(choice_line(task, {false, false}, {2, 0, 0, 0, ""}, device),
+            "chosen: core, 2.0 s expected (first guess), and 0.6 s on llvmpipe");
 }
 
 TEST(CostModel, TheTaskIsThatOfTheScene) {
