@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -27,6 +28,13 @@
 
 namespace wholehand {
 namespace {
+
+// Where Mesa keeps what it compiled: not in the folder of the test, so that only the first run of all compiles.
+std::string cache_of_mesa() {
+  const char* cache = std::getenv("XDG_CACHE_HOME");
+  const char* home = std::getenv("HOME");
+  return cache ? cache : home ? std::string(home) + "/.cache" : "/tmp";
+}
 
 class AutoBackendTest : public testing::Test {
  protected:
@@ -62,6 +70,7 @@ class AutoBackendTest : public testing::Test {
   std::string backend() const { return SweepResult(options_.output).origin().backend; }
 
   const TemporaryFolder folder_;
+  const ScopedVariable compiled_{"MESA_SHADER_CACHE_DIR", cache_of_mesa().c_str()};
   const ScopedVariable cache_;
   Scene scene_ = read_scene_file(find_scene("small"));
   SweepOptions options_;
