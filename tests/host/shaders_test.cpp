@@ -15,6 +15,8 @@
 #include <string>
 #include <tuple>
 
+#include "host/specialize.h"
+#include "shaders/layout.h"
 #include "tests/shaders/probe_shaders.h"
 
 namespace wholehand {
@@ -81,6 +83,17 @@ TEST(Shaders, DamagedWordsAreNotValid) {
   ASSERT_FALSE(embedded_shaders().empty());
   const std::span<const std::uint32_t> words = embedded_shaders()[0].words;
   EXPECT_NE(complaints(words.first(words.size() / 2)), "");
+}
+
+// As kernels give them to a driver: constants of a scene in them, and without what these switch off.
+TEST(Shaders, SpecializedOnesAreValid) {
+  host::SpecializationBits all{
+      {CONST_GROUP_SIZE, 64}, {CONST_TABLE, 1}, {CONST_BETWEEN, 2}, {CONST_CONTACTS, 0}, {CONST_EFFORT_TASK, EFFORT_SAFE}};
+  for (std::uint32_t f = 0; f < FIELDS; ++f) all[CONST_PLANE + f] = f;
+  const host::SpecializationBits few{{CONST_OUTLINE_COUNT, 3}, {CONST_SDF_KIND, SDF_OUTLINE}, {CONST_PLANE + FIELD_SCORE, 0}};
+  for (const EmbeddedShader& shader : embedded_shaders())
+    for (const host::SpecializationBits& bits : {all, few})
+      EXPECT_EQ(complaints(host::specialized(shader.words, bits)), "") << label(shader);
 }
 
 }  // namespace
