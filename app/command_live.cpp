@@ -59,6 +59,15 @@ void add_live_command(CLI::App& app, Action& action) {
   add("--view-port", arguments->view_port, "N", "Port of the view on 127.0.0.1 (default: any free port)");
   add("--stream", options.stream, "URL",
       "Send the session to osc://HOST:PORT at display rate, for engines and patches; see docs/stream.md");
+  command->add_flag(
+      "--advise", options.advise,
+      "Say which grip of a near vessel would take less of the hand, while the session runs: in words, in the view and in "
+      "the stream; see docs/advice.md");
+  add("--advise-on", options.advise_on, "DEVICE",
+      "Compute the advice on core, vulkan or a device's name (default: vulkan, and core where there is no Vulkan device)")
+      ->check(offered("core vulkan"));
+  command->add_flag("--follow-advice", options.follow_advice,
+                    "The simulated user takes the advised grips; only with --advise and sim");
   command->add_flag("--unsafe-gains", options.unsafe_gains, "Allow gains that may make a light device unstable");
   command->add_flag("--no-clock", options.no_clock, "Run as fast as possible, without a clock; only with sim and replay");
   command->add_flag("--json", options.json, "Print the report at the end as JSON, and nothing else");

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <ctime>
+#include <functional>
 #include <future>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -15,6 +16,7 @@
 #include <thread>
 #include <utility>
 
+#include "app/live_advice.h"
 #include "app/live_board.h"
 #include "app/live_report.h"
 #include "app/open_gripper.h"
@@ -159,18 +161,20 @@ class LiveRun {
       writer = std::make_unique<RecordingWriter>(options_.record, info_of(scene_, gripper_->limits(), options_), RECORD);
     tell_address();
     std::optional<DisplayLoop> display;
-    if (!displays_.empty()) display.emplace(session_->live(), displays_);
+    if (!displays_.empty()) display.emplace(session_->live(), displays_, advice_source());
     const auto look = [&](std::span<const Tick> ticks) {
       board.look(ticks);
+      if (advice_) advice_->look(ticks);
       if (display) display->look(ticks);
     };
-    Recorder recorder(*ring_, std::move(writer), look, display ? SHOWN_LOOK : DRAIN_INTERVAL);
+    Recorder recorder(*ring_, std::move(writer), look, display || advice_ ? SHOWN_LOOK : DRAIN_INTERVAL);
     loop_thread(interrupt, recorder, board);
     const LoopReport& report = loop_->report();
     const bool is_recorded = finish_recording(recorder, report);
     if (display) display->stop();
     if (view_) view_->end(end_name(report.fault));
     tell_trouble(recorder);
+    tell_advice(board);
     board.show(options_.json);
     show_status("");
     tell(report, is_recorded, true);
@@ -183,11 +187,34 @@ class LiveRun {
   }
 
  private:
+  void check_advice(bool is_sim) const {
+    if (!options_.advise && !options_.advise_on.empty())
+      throw usage_error("--advise-on: it names the device for the advice, and there is no advice; add --advise");
+    if (!options_.advise && options_.follow_advice)
+      throw usage_error("--follow-advice: there is no advice to follow; add --advise");
+    if (options_.follow_advice && !is_sim)
+      throw usage_error("--follow-advice: only the simulated user follows by itself; allowed: with --device sim");
+  }
+
+  // Before the gripper, whose simulated user may follow it.
+  void open_advice() {
+    if (!options_.advise) return;
+    const std::string on = options_.advise_on.empty() ? default_advice_device() : options_.advise_on;
+    advice_ = std::make_unique<LiveAdvice>(scene_, LiveAdvice::Options{on, !options_.no_clock, options_.follow_advice});
+    std::fprintf(stderr, "wholehand: live: advice is computed on %s\n", advice_->tally().place.c_str());
+  }
+
+  std::function<std::shared_ptr<const Advice>()> advice_source() const {
+    if (!advice_) return {};
+    return [this] { return advice_->newest(); };
+  }
+
   void open() {
     const bool is_replay = is_replay_ = options_.device.rfind(REPLAY, 0) == 0;
     const bool is_sim = options_.device == "sim";
     if (options_.person && !is_sim)
       throw usage_error("--person: only the simulated gripper is held by a virtual person; allowed: with --device sim");
+    check_advice(is_sim);
     if (options_.no_clock && !is_replay && !is_sim)
       throw usage_error("--no-clock: this device has a clock of its own; allowed: with --device sim and replay:FILE");
     if (options_.no_clock && options_.view)
@@ -214,16 +241,19 @@ class LiveRun {
     say_cavity_notes(scene_);
     if (recording) scene_.live.rate = recording->info.rate;
     if (options_.rate > 0) scene_.live.rate = options_.rate;
+    open_advice();
+    ShownGripSource* const shown = options_.follow_advice ? advice_->shown() : nullptr;
     if (recording) {
       if (!recording->note.empty()) notes_.push_back(recording->note);
       gripper_ = make_replay(std::move(recording->ticks), limits_of(recording->info.device, options_.device));
     } else {
       if (options_.view && options_.device == "view") input_ = std::make_unique<ViewInput>(scene_);
-      gripper_ =
-          options_.person
-              ? open_sim(scene_, options_.seed, Participant(scene_.people, options_.seed, *options_.person, Experiment::live))
-              : open_gripper(options_.device, scene_, options_.seed, options_.dhd_library, WATCHDOG, input_.get(),
-                             [](const std::string& line) { std::fprintf(stderr, "wholehand: live: %s\n", line.c_str()); });
+      gripper_ = options_.person ? open_sim(scene_, options_.seed,
+                                            Participant(scene_.people, options_.seed, *options_.person, Experiment::live), shown)
+                 : shown
+                     ? open_sim(scene_, options_.seed, shown)
+                     : open_gripper(options_.device, scene_, options_.seed, options_.dhd_library, WATCHDOG, input_.get(),
+                                    [](const std::string& line) { std::fprintf(stderr, "wholehand: live: %s\n", line.c_str()); });
     }
     const double most = gripper_->limits().rate;
     if (!is_replay && most > 0 && scene_.live.rate > most) {
@@ -280,6 +310,7 @@ class LiveRun {
   TickSink sink() {
     if (!options_.no_clock) return [this](const Tick& tick) { return ring_->push(tick); };
     return [this](const Tick& tick) {
+      if (advice_) advice_->step(tick);
       while (!ring_->push(tick)) std::this_thread::sleep_for(std::chrono::microseconds(100));
       return true;
     };
@@ -305,6 +336,7 @@ class LiveRun {
       tell_trouble(recorder);
       tell_calls();
       tell_news();
+      tell_advice(board);
       lost = watch_ && watch_->lasted() > CALL_LOST ? lost + 1 : 0;
       if (lost == LOST_LOOKS) give_up(interrupt, recorder, board);
       board.show(options_.json);
@@ -394,6 +426,12 @@ class LiveRun {
     if (const auto news = watch_ ? watch_->news() : std::nullopt) note(*news);
   }
 
+  void tell_advice(Board& board) {
+    if (!advice_) return;
+    for (const std::string& line : advice_->news()) note(line);
+    board.advise(advice_->lines(), advice_->newest().get());
+  }
+
   void tell_news() {
     if (const auto news = gripper_->news()) note(*news);
   }
@@ -403,6 +441,7 @@ class LiveRun {
     LiveSummary summary{scene_, gripper_->limits(), report,     0, has_times && !options_.no_clock,
                         notes_, options_.record,    is_recorded};
     summary.seconds = static_cast<double>(report.last.number) / scene_.live.rate;
+    if (advice_) summary.advice = advice_->tally();
     summary.is_by_signal = InterruptGuard::signalled();
     print(options_.json ? live_json(summary) : live_text(summary));
   }
@@ -411,7 +450,8 @@ class LiveRun {
   bool is_replay_ = false;
   Scene scene_;
   std::vector<std::string> notes_;
-  std::unique_ptr<ViewInput> input_;  // of the page where it is the gripper
+  std::unique_ptr<LiveAdvice> advice_;  // outlives all that asks it
+  std::unique_ptr<ViewInput> input_;    // of the page where it is the gripper
   std::unique_ptr<Gripper> gripper_;
   std::unique_ptr<CallWatch> watch_;
   std::unique_ptr<Session> session_;

@@ -23,6 +23,9 @@ struct LiveOptions {
   bool no_clock = false;                // as fast as it goes: simulated and recorded users only
   bool view = false;                    // in the browser
   int view_port = 0;                    // 0: any that is free
+  bool advise = false;                  // which grip would be better
+  std::string advise_on;                // as for open_backend; empty: default_advice_device()
+  bool follow_advice = false;           // the simulated user does
   std::string stream;                   // osc://HOST:PORT; empty: nowhere
   bool json = false;                    // the report at the end, and nothing else, on standard output
 };

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "advice/words.h"
 #include "system/output.h"
 #include "system/progress.h"
 
@@ -19,6 +20,13 @@ void Board::look(std::span<const Tick> ticks) {
   status_ = status;
   last_ = ticks.back();
   count_ += static_cast<std::int64_t>(ticks.size());
+}
+
+void Board::advise(std::vector<std::string> lines, const Advice* advice) {
+  std::string words = advice ? advice_words(*advice) : "";
+  const std::lock_guard lock(mutex_);
+  for (std::string& line : lines) lines_.push_back(std::move(line));
+  advice_ = std::move(words);
 }
 
 Tick Board::last() {
@@ -38,6 +46,7 @@ void Board::show(bool quiet) {
     const std::lock_guard lock(mutex_);
     lines.swap(lines_);
     status = status_;
+    if (!status.empty() && !advice_.empty()) status += "  " + advice_;
   }
   if (!lines.empty() && !quiet) {
     show_status("");

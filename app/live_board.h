@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "advice/advice.h"
 #include "app/live_report.h"
 
 namespace wholehand {
@@ -20,6 +21,8 @@ class Board {
   void look(std::span<const Tick> ticks);
   // Prints what is new; `quiet`: only the status, and only on a terminal. Throws Error as print does.
   void show(bool quiet);
+  // Lines of the advice, and what the status says of it; null: nothing.
+  void advise(std::vector<std::string> lines, const Advice* advice);
   // The newest tick, and how many there were.
   Tick last();
   std::int64_t count();
@@ -30,7 +33,7 @@ class Board {
   Tick last_;
   std::int64_t count_ = 0;
   std::vector<std::string> lines_;
-  std::string status_;
+  std::string status_, advice_;
 };
 
 }  // namespace wholehand

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "app/live_advice.h"
 #include "core/vectors.h"
 #include "system/readable.h"
 
@@ -22,6 +23,13 @@ std::string percentiles(const Histogram& times) {
 
 nlohmann::ordered_json percentiles_json(const Histogram& times) {
   return {{"p50", times.quantile(0.5)}, {"p99", times.quantile(0.99)}, {"p999", times.quantile(0.999)}, {"max", times.largest()}};
+}
+
+nlohmann::ordered_json advice_json(const AdviceTally& tally) {
+  nlohmann::ordered_json json{{"on", tally.place}, {"updates", tally.updates}, {"grips", tally.grips}};
+  json["updates_per_s"] = tally.seconds > 0 ? nlohmann::ordered_json(tally.rate()) : nlohmann::ordered_json();
+  json["longest_s"] = tally.seconds > 0 ? nlohmann::ordered_json(tally.longest) : nlohmann::ordered_json();
+  return json;
 }
 
 std::string board(const std::vector<MixedAmount>& amounts) {
@@ -113,6 +121,7 @@ std::string live_text(const LiveSummary& summary) {
     text += fmt::format("  wake-up    {}\n", percentiles(loop.latency));
     text += fmt::format("  step       {}; late {}\n", percentiles(loop.step), loop.late);
   }
+  if (summary.advice) text += "  advice     " + tally_words(*summary.advice) + "\n";
   for (const std::string& note : summary.notes) text += "  " + note + "\n";
   if (loop.fault == Fault::interrupted && summary.is_by_signal) text += "  ended by a signal\n";
   if (!summary.recording.empty())
@@ -148,6 +157,7 @@ std::string live_json(const LiveSummary& summary) {
     json["missed"] = loop.missed;
     json["late"] = loop.late;
   }
+  if (summary.advice) json["advice"] = advice_json(*summary.advice);
   json["notes"] = summary.notes;
   json["recorded_wholly"] = summary.is_recorded;
   json["recording"] = summary.recording.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(summary.recording);

@@ -2,9 +2,11 @@
 // What a live session tells: events while it runs, numbers when it is over.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "advice/advice_loop.h"
 #include "core/scene.h"
 #include "device/haptic_loop.h"
 #include "live/amounts.h"
@@ -38,8 +40,9 @@ struct LiveSummary {
   double seconds = 0;  // of the session's own time
   bool has_clock = true;
   std::vector<std::string> notes;
-  std::string recording;     // the file; empty: none
-  bool is_recorded = true;   // all of it
+  std::string recording;    // the file; empty: none
+  bool is_recorded = true;  // all of it
+  std::optional<AdviceTally> advice{};
   bool is_by_signal = true;  // what was interrupted; otherwise a note says by what
 };
 std::string live_text(const LiveSummary& summary);

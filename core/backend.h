@@ -63,6 +63,8 @@ class Backend {
   // Goes on as if it had been opened with `other`, which differs from its scene in the friction alone: to the same bits, and for
   // much less than opening a device costs. False: it does not, and nothing has changed.
   virtual bool use_friction_of(const Scene& /*other*/) { return false; }
+  // The same for the vessels' fills, of which `other` has as many as its scene.
+  virtual bool use_fills_of(const Scene& /*other*/) { return false; }
 };
 
 }  // namespace wholehand

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "core/candidates.h"
+#include "core/fills.h"
 #include "core/parallel.h"
 
 namespace wholehand {
@@ -172,9 +173,15 @@ BackendInfo core_info(Precision precision, int threads) {
 
 CoreBackend::CoreBackend(std::shared_ptr<const Evaluator> evaluator, const Scene& scene, const FieldSet& fields,
                          Precision precision, int threads)
-    : evaluator_(std::move(evaluator)), tilts_(scene.tilts), fields_(fields), threads_(thread_count(threads)) {
+    : scene_(scene), evaluator_(std::move(evaluator)), fields_(fields), threads_(thread_count(threads)) {
   info_ = core_info(precision, threads_);
-  for (std::size_t v = 0; scene.liquid && v < scene.vessels.size(); ++v) fills_.push_back(vessel_fills(scene, scene.vessels[v]));
+}
+
+bool CoreBackend::use_fills_of(const Scene& other) {
+  if (!have_like_fills(scene_, other)) return false;
+  take_fills(scene_, other);
+  evaluator_ = info_.precision == Precision::full ? make_core_evaluator(scene_) : make_core_float_evaluator(scene_);
+  return true;
 }
 
 RunResult CoreBackend::run(const RunRequest& request) {
@@ -184,9 +191,9 @@ RunResult CoreBackend::run(const RunRequest& request) {
 
 std::vector<LiquidResult> CoreBackend::liquid(std::size_t vessel) {
   std::vector<LiquidResult> table;
-  if (fills_.empty()) return table;
-  for (const double fill : fills_[vessel]) {
-    for (const double tilt : tilts_) table.push_back(evaluator_->liquid(vessel, fill, tilt));
+  if (!scene_.liquid) return table;
+  for (const double fill : vessel_fills(scene_, scene_.vessels[vessel])) {
+    for (const double tilt : scene_.tilts) table.push_back(evaluator_->liquid(vessel, fill, tilt));
   }
   return table;
 }

@@ -26,11 +26,12 @@ class CoreBackend final : public Backend {
   // is thrown on. `kernel_seconds`: wall time in which at least one thread was evaluating.
   RunResult run(const RunRequest& request) override;
   std::vector<LiquidResult> liquid(std::size_t vessel) override;
+  // Makes the evaluator anew, with its precision and the options of users. Not during a run.
+  bool use_fills_of(const Scene& other) override;
 
  private:
+  Scene scene_;
   std::shared_ptr<const Evaluator> evaluator_;
-  std::vector<std::vector<double>> fills_;  // of the liquid in each vessel; empty without
-  std::vector<double> tilts_;
   FieldSet fields_;
   BackendInfo info_;
   int threads_;

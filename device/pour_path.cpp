@@ -133,8 +133,9 @@ PourPath::PourPath(const TaskData& task, const VesselData& vessel, const HandDat
   for (const HeldBall& ball : held_hand(hand, grip, result)) balls.push_back(ball);
   const double table = vessel.place[1] + vessel.base + ABOVE_TABLE, mouth = target.y + APART_FROM;
   const double reach = 0.5 * task.target_diameter + TARGET_WALL + APART_FROM;
-  for (int k = 0; radians(k) <= SIM_LARGEST_TILT + 1e-9; ++k) {
-    const double tilt = radians(k);
+  std::vector<double> up;
+  for (std::size_t k = 0; k < DEGREES; ++k) {
+    const double tilt = radians(static_cast<double>(k));
     const Vec3 lip = tilted(lip_, tilt);
     double height = target.y + ABOVE_TARGET - lip.y;
     for (const HeldBall& ball : balls) {
@@ -142,13 +143,15 @@ PourPath::PourPath(const TaskData& task, const VesselData& vessel, const HandDat
       const double away = std::hypot(from.x + aim_.x - target.x, from.z - lip.z + aim_.z - target.z) - ball.radius;
       height = std::max(height, (tilt < STEEP || away < reach ? std::max(mouth, table) : table) + ball.radius - from.y);
     }
-    up_.push_back(height);
+    up.push_back(height);
   }
-  up_ = smoothed_above(up_);
+  up = smoothed_above(up);
+  std::copy(up.begin(), up.end(), up_.begin());
+  is_empty_ = false;
 }
 
 Vec3 PourPath::middle(double tilt) const noexcept {
-  if (up_.empty()) return aim_;
+  if (is_empty_) return aim_;
   const double at = std::clamp(degrees(tilt), 0.0, static_cast<double>(up_.size() - 1));
   const std::size_t k = std::min(static_cast<std::size_t>(at), up_.size() - 2);
   const double part = at - static_cast<double>(k);

@@ -2,6 +2,8 @@
 // How a held vessel is brought over a target and tilted there: as low as it and the hand keep clear of the target's wall.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <vector>
 
 #include "core/real.h"
@@ -21,6 +23,7 @@ struct HeldBall {
 std::vector<HeldBall> held_hand(const HandData& hand, const GripInput& grip, const GripResult& result);
 std::vector<HeldBall> held_vessel(const VesselData& vessel, const GripInput& grip, Handedness handedness);
 
+// A copy allocates nothing.
 class PourPath {
  public:
   // Tilted away from the user (top towards -z), the lip's lowest point is over the target's mouth, nearer to the user than its middle. `task` has
@@ -33,9 +36,11 @@ class PourPath {
   core_f64::Vec3 middle(double tilt) const noexcept;
 
  private:
-  core_f64::Vec3 lip_{};    // of the middle of the tips where the gripper is not tilted: the lip's point on the side where it pours
-  core_f64::Vec3 aim_{};    // where it is to be, but for the height
-  std::vector<double> up_;  // heights of the middle, m, by whole degrees of tilt
+  core_f64::Vec3 lip_{};  // of the middle of the tips where the gripper is not tilted: the lip's point on the side where it pours
+  core_f64::Vec3 aim_{};  // where it is to be, but for the height
+  static constexpr std::size_t DEGREES = 141;  // 0 to SIM_LARGEST_TILT
+  std::array<double, DEGREES> up_{};           // heights of the middle, m, by whole degrees of tilt
+  bool is_empty_ = true;                       // nothing is poured
 };
 
 constexpr double SIM_LARGEST_TILT = radians(140);

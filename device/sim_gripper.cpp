@@ -85,11 +85,12 @@ class Wandering {
 
 class SimGripper final : public Gripper {
  public:
-  SimGripper(const Scene& scene, std::uint64_t seed, const Participant& person, std::vector<SimJob> jobs)
+  SimGripper(const Scene& scene, std::uint64_t seed, const Participant& person, std::vector<SimJob> jobs, ShownGripSource* shown_grips)
       : live_(scene),
         hand_gap_{live_.hand.scale * live_.hand.gap_closed, live_.hand.scale * live_.hand.gap_open},
         workspace_(scene, sim_gap(scene, live_.hand), hand_gap_),
         user_(live_, std::move(jobs), person),
+        shown_grips_(shown_grips),
         period_(1 / scene.live.rate),
         fingers_(scene.force.k_open, workspace_.device_gap()[1] - workspace_.device_gap()[0], std::min(scene.force.max, PAPER_GRIP),
                  period_),
@@ -102,6 +103,7 @@ class SimGripper final : public Gripper {
     limits_.gap = workspace_.device_gap();
     limits_.rate = scene.live.rate;
     limits_.is_left_handed = scene.hand.handedness == Handedness::left;
+    if (shown_grips_) user_.follow_shown();
     wish_ = user_.next({}, period_);
     for (int k = 0; k < 3; ++k) place_[k].place = wish_.middle[k];
     take();
@@ -137,6 +139,8 @@ class SimGripper final : public Gripper {
     const int vessel = user_.vessel();
     shown_.arrived = vessel >= 0 ? tick.arrived[vessel] : 0;
     shown_.flow = tick.flow;
+    ShownGrip grip;
+    if (shown_grips_ && shown_grips_->take(tick.number, grip)) user_.see(grip);
   }
 
   bool is_done() const noexcept override { return user_.is_done(); }
@@ -184,6 +188,7 @@ class SimGripper final : public Gripper {
   std::array<double, 2> hand_gap_;  // closed, open, m
   Workspace workspace_;
   SimUser user_;
+  ShownGripSource* shown_grips_;
   double period_;
   SimFingers fingers_;
   Delay shown_before_;
@@ -204,16 +209,17 @@ class SimGripper final : public Gripper {
 
 }  // namespace
 
-std::unique_ptr<Gripper> open_sim(const Scene& scene, std::uint64_t seed, const Participant& person, std::vector<SimJob> jobs) {
-  return std::make_unique<SimGripper>(scene, seed, person, std::move(jobs));
+std::unique_ptr<Gripper> open_sim(const Scene& scene, std::uint64_t seed, const Participant& person, std::vector<SimJob> jobs,
+                                  ShownGripSource* shown) {
+  return std::make_unique<SimGripper>(scene, seed, person, std::move(jobs), shown);
 }
 
-std::unique_ptr<Gripper> open_sim(const Scene& scene, std::uint64_t seed, const Participant& person) {
-  return open_sim(scene, seed, person, plan_sim_jobs(scene));
+std::unique_ptr<Gripper> open_sim(const Scene& scene, std::uint64_t seed, const Participant& person, ShownGripSource* shown) {
+  return open_sim(scene, seed, person, plan_sim_jobs(scene), shown);
 }
 
-std::unique_ptr<Gripper> open_sim(const Scene& scene, std::uint64_t seed) {
-  return open_sim(scene, seed, Participant(scene.people));
+std::unique_ptr<Gripper> open_sim(const Scene& scene, std::uint64_t seed, ShownGripSource* shown) {
+  return open_sim(scene, seed, Participant(scene.people), shown);
 }
 
 }  // namespace wholehand

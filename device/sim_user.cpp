@@ -21,7 +21,8 @@ using core_f64::Vec3;
 namespace {
 
 // How a person moves: durations of ours, in s, and lengths in m, but for the paper's tilting time.
-constexpr double REACH_TIME = 0.9, ENTER_TIME = 0.5, CLOSE_TIME = 0.9, SETTLE_TIME = 0.8, LIFT_TIME = 0.8, CARRY_TIME = 1.2;
+constexpr double REACH_TIME = 0.9, LOOK_TIME = 0.6, ENTER_TIME = 0.5, CLOSE_TIME = 0.9, SETTLE_TIME = 0.8, LIFT_TIME = 0.8,
+                 CARRY_TIME = 1.2;
 constexpr double TILT_TIME = 3.6, MAINTAIN_TIME = 1.5, UPRIGHT_TIME = 1.2, LOWER_TIME = 0.9, OPEN_TIME = 0.5, WITHDRAW_TIME = 0.5;
 constexpr double SHOWN_TILT = radians(75);
 constexpr double LIFT = 0.12, APART = 0.12;  // height of lifting; distance from which the hand goes in
@@ -151,6 +152,16 @@ void SimUser::follow_load(const SimSense& sense, double seconds) noexcept {
   wish_.force = std::clamp(loaded_force(traits_, first_force(traits_, weight_), load_), 0.0, largest_force(traits_));
 }
 
+// What is shown of the vessel that is meant is the grip from now on, also in further tries. The person aims at it as well, or as badly, as
+// at any other.
+void SimUser::take_shown() noexcept {
+  if (shown_.vessel != job().vessel) return;
+  SimJob& own = jobs_[static_cast<std::size_t>(job_)];
+  own.grip = shown_.grip;
+  own.gap = shown_.gap;
+  own.path = shown_.path;
+}
+
 // Of the tips while it is poured: a grasp that is higher on the vessel leaves the vessel where it is.
 Vec3 SimUser::on_path(double tilt) const noexcept {
   const double up = of(traits_, Trait::height);
@@ -184,7 +195,7 @@ void SimUser::begin(Phase phase) noexcept {
   // who pours turns the vessel towards the target on the way there
   const bool is_poured = job().kind == SimJob::Kind::pour && phase >= Phase::carry && phase <= Phase::open;
   azimuth_to_ = is_poured ? 0 : of(traits_, Trait::azimuth);
-  obliquity_to_ = of(traits_, Trait::obliquity);
+  obliquity_to_ = job().grip.obliquity + of(traits_, Trait::obliquity);
   has_run_ = false;
   plan_motion();
 }
@@ -208,6 +219,9 @@ void SimUser::plan_motion() noexcept {
       move(taken + APART * Vec3(std::sin(azimuth), 0, std::cos(azimuth)), REACH_TIME);
       gap_to_ = open;
       tilt_to_ = 0;
+      break;
+    case Phase::look:
+      lasts_ = LOOK_TIME;
       break;
     case Phase::enter:
       move(taken, ENTER_TIME);
@@ -314,6 +328,11 @@ void SimUser::go_on(bool feels) noexcept {
     return;
   }
   if (phase_ == Phase::lower) wish_.grips_by_force = false;
+  if (phase_ == Phase::look) take_shown();
+  if (phase_ == Phase::reach && !follows_) {
+    begin(Phase::enter);
+    return;
+  }
   if (phase_ != Phase::withdraw) {
     begin(static_cast<Phase>(static_cast<int>(phase_) + 1));
     return;

@@ -10,6 +10,7 @@
 #include "core/evaluator.h"
 #include "core/result.h"
 #include "device/pour_path.h"
+#include "device/shown_grip.h"
 #include "live/session.h"
 #include "people/participant.h"
 
@@ -74,6 +75,10 @@ class SimUser {
  public:
   // `live` must outlive it, and has the person's own hand.
   SimUser(const LiveScene& live, std::vector<SimJob> jobs, const Participant& person);
+  // From now on the person looks at the grip that is shown before closing the hand, and takes it.
+  void follow_shown() noexcept { follows_ = true; }
+  // What is on the screen now.
+  void see(const ShownGrip& shown) noexcept { shown_ = shown; }
   // The wish after another `seconds`, which may not be long beside a reaction. Neither allocates nor throws.
   SimWish next(const SimSense& sense, double seconds) noexcept;
   bool is_done() const noexcept { return job_ >= static_cast<int>(jobs_.size()); }
@@ -84,12 +89,13 @@ class SimUser {
   int grasp() const noexcept { return grasp_; }
 
  private:
-  enum class Phase { reach, enter, close, settle, lift, carry, tilt, maintain, upright, back, lower, open, withdraw };
+  enum class Phase { reach, look, enter, close, settle, lift, carry, tilt, maintain, upright, back, lower, open, withdraw };
   void begin(Phase phase) noexcept;
   void plan_motion() noexcept;
   void fail() noexcept;
   void go_on(bool feels) noexcept;
   void next_grasp() noexcept;
+  void take_shown() noexcept;
   void follow_load(const SimSense& sense, double seconds) noexcept;
   core_f64::Vec3 on_path(double tilt) const noexcept;
   void move(core_f64::Vec3 to, double seconds) noexcept;
@@ -109,6 +115,8 @@ class SimUser {
   double idle_ = 0;    // s for which nothing has been poured
   int job_ = 0, attempts_ = 0, abandoned_ = 0;
   bool has_failed_ = false, has_run_ = false;
+  bool follows_ = false;
+  ShownGrip shown_;
   Phase phase_ = Phase::reach;
   double time_ = 0;  // in the phase, s
   double lasts_ = 0;

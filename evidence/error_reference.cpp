@@ -14,9 +14,9 @@
 #include "core/core_backend.h"
 #include "core/fields.h"
 #include "core/prepare.h"
+#include "core/sobol.h"
 #include "core/touch.h"
 #include "evidence/compare.h"
-#include "sweeps/sobol.h"
 
 namespace wholehand {
 namespace {

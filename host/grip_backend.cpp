@@ -6,6 +6,7 @@
 #include "core/candidates.h"
 #include "core/core_backend.h"
 #include "core/fields.h"
+#include "core/fills.h"
 #include "core/mirror.h"
 #include "core/parallel.h"
 #include "core/prepare.h"
@@ -321,6 +322,15 @@ bool GripBackend::use_friction_of(const Scene& other) {
   impl_->core = make_core_evaluator(impl_->scene, impl_->options.evaluator);
   impl_->arrays = make_scene_arrays(impl_->scene, *impl_->core, impl_->options.evaluator);
   impl_->program().write_parameters(impl_->arrays);
+  return true;
+}
+
+bool GripBackend::use_fills_of(const Scene& other) {
+  if (!have_like_fills(impl_->scene, other)) return false;
+  take_fills(impl_->scene, other);
+  impl_->core = make_core_evaluator(impl_->scene, impl_->options.evaluator);
+  impl_->arrays = make_scene_arrays(impl_->scene, *impl_->core, impl_->options.evaluator);
+  impl_->program().write_fills(impl_->scene, impl_->arrays, *impl_->core, impl_->options);
   return true;
 }
 

@@ -34,6 +34,8 @@ class GripBackend final : public Backend {
   std::vector<LiquidResult> liquid(std::size_t vessel) override;
   // Writes the vessels' parameters anew; the device, its pipelines and all other tables stay. Not during a run.
   bool use_friction_of(const Scene& other) override;
+  // Computes the vessels' liquid anew; the device and its pipelines stay. Not during a run.
+  bool use_fills_of(const Scene& other) override;
 
   GripPipelines pipelines(std::size_t vessel) const;
   const DeviceInfo& device() const;

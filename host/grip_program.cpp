@@ -117,7 +117,6 @@ GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Ev
   if (fields.has(FIELD_FRICTION_NEEDED)) efforts.push_back({&friction_reserve, "reserve", EFFORT_FRICTION, {}});
 
   // making a pipeline takes a core a tenth of a second, so they are made side by side
-  std::optional<Kernel> lip, liquid;
   std::vector<std::function<void()>> tasks;
   for (std::size_t v = 0; v < vessels.size(); ++v) {
     upload_vessel(v, scene, arrays, options);  // through the one queue: not side by side
@@ -149,7 +148,7 @@ GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Ev
   make(score, "score", constants);
   make(select, "select", constants);
   in_parallel(tasks.size(), 0, [&](std::size_t k) { tasks[k](); });
-  for (std::size_t v = 0; wet && v < vessels.size(); ++v) make_liquid(v, scene, arrays, core, options, *lip, *liquid);
+  for (std::size_t v = 0; wet && v < vessels.size(); ++v) make_liquid(v, scene, arrays, core, options);
 }
 
 void GripProgram::upload_vessel(std::size_t v, const Scene& scene, const SceneArrays& arrays, const GripBackendOptions& options) {
@@ -174,6 +173,16 @@ void GripProgram::write_parameters(const SceneArrays& arrays) {
     } else {
       vessels[v].parameters.write(std::vector<Parameters<double>>{parameters});
     }
+  }
+}
+
+void GripProgram::write_fills(const Scene& scene, const SceneArrays& arrays, const Evaluator& core,
+                              const GripBackendOptions& options) {
+  write_parameters(arrays);
+  if (!lip) return;
+  for (std::size_t v = 0; v < vessels.size(); ++v) {
+    vessels[v].fills = upload(on, precision_, arrays.vessels[v].fills);
+    make_liquid(v, scene, arrays, core, options);
   }
 }
 
@@ -240,8 +249,9 @@ void GripProgram::make_grip_kernel(std::size_t v, const Scene& scene, const Scen
 }
 
 void GripProgram::make_liquid(std::size_t v, const Scene& scene, const SceneArrays& arrays, const Evaluator& core,
-                              const GripBackendOptions& options, const Kernel& lip, const Kernel& liquid) {
+                              const GripBackendOptions& options) {
   VesselOnDevice& vessel = vessels[v];
+  vessel.liquid.clear();
   const std::uint32_t states = fill_count * tilt_count;
   std::vector<double> loads;
   if (arrays.vessels[v].cavity_count == 0 ||
@@ -271,8 +281,8 @@ void GripProgram::make_liquid(std::size_t v, const Scene& scene, const SceneArra
   commands.bind(BINDING_LIQUID, liquids);
   commands.bind(BINDING_LOADS, loads_out);
   const std::uint32_t rows = WHOLE_DEGREES + tilt_count;
-  commands.dispatch(lip, groups_for(on, lip, rows), Push{rows, 0, 0, 0});
-  commands.dispatch(liquid, groups_for(on, liquid, states), Push{states, 0, 0, 0});
+  commands.dispatch(*lip, groups_for(on, *lip, rows), Push{rows, 0, 0, 0});
+  commands.dispatch(*liquid, groups_for(on, *liquid, states), Push{states, 0, 0, 0});
   run_once(on, commands);
   const std::vector<double> values = download(liquids, options.precision, LIQUID_STRIDE * states);
   for (std::uint32_t s = 0; s < states; ++s) {

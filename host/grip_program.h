@@ -34,11 +34,15 @@ struct GripProgram final : Program {
 
   // The vessels' parameter blocks alone, into the buffers that are there. With no chunk in flight.
   void write_parameters(const SceneArrays& arrays);
+  // The fills of all vessels, and what follows from them: parameters, liquid and states. As many fills as there were. With no chunk
+  // in flight.
+  void write_fills(const Scene& scene, const SceneArrays& arrays, const Evaluator& core, const GripBackendOptions& options);
 
   Device on;  // first: destroyed last
   Buffer hand, tilts, quadrature;
   std::vector<VesselOnDevice> vessels;
   std::optional<Kernel> force, score, select;
+  std::optional<Kernel> lip, liquid;                                                             // in a scene with liquid and tilts
   std::optional<Kernel> worst_effort, tips_effort, safe_effort, push_reserve, friction_reserve;  // in a scene with efforts
   std::uint32_t fill_count = 0, tilt_count = 0;
 
@@ -49,7 +53,7 @@ struct GripProgram final : Program {
   void make_grip_kernel(std::size_t v, const Scene& scene, const SceneArrays& arrays, const FieldSet& fields,
                         const GripBackendOptions& options);
   void make_liquid(std::size_t v, const Scene& scene, const SceneArrays& arrays, const Evaluator& core,
-                   const GripBackendOptions& options, const Kernel& lip, const Kernel& liquid);
+                   const GripBackendOptions& options);
   void upload_states(std::size_t v, const Scene& scene, const SceneArrays& arrays, const std::vector<double>& loads);
   std::vector<Buffer> upload_blocks(const std::vector<double>& states);
   void record_efforts(std::size_t v, std::uint32_t count, std::uint32_t stride, Commands& commands) const;

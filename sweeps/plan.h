@@ -11,7 +11,7 @@
 
 #include "core/result.h"
 #include "core/scene.h"
-#include "sweeps/sobol.h"
+#include "core/sobol.h"
 
 namespace wholehand {
 

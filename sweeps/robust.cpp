@@ -11,9 +11,9 @@
 #include "core/error.h"
 #include "core/normal.h"
 #include "core/planes.h"
+#include "core/sobol.h"
 #include "shaders/layout.h"
 #include "statistics/interval.h"
-#include "sweeps/sobol.h"
 
 namespace wholehand {
 namespace {

@@ -12,8 +12,8 @@ constexpr std::chrono::microseconds PERIOD{static_cast<std::int64_t>(1e6 / DISPL
 
 }  // namespace
 
-DisplayLoop::DisplayLoop(const LiveScene& live, std::vector<Display*> displays)
-    : live_(live), displays_(std::move(displays)), tracker_(live.scene) {
+DisplayLoop::DisplayLoop(const LiveScene& live, std::vector<Display*> displays, AdviceSource advice)
+    : live_(live), displays_(std::move(displays)), advice_(std::move(advice)), tracker_(live.scene) {
   const BlockSignals inherited;
   thread_ = std::thread([this] { run(); });
 }
@@ -90,7 +90,8 @@ void DisplayLoop::show_newest() {
   timing.rate = measured_rate(ticks, tick.number);
   if (!is_watched()) return;
   const HandView hand = hand_view(live_, tick, poses);
-  for (Display* display : displays_) display->show({tick, poses, hand, timing});
+  const std::shared_ptr<const Advice> advice = advice_ ? advice_() : nullptr;
+  for (Display* display : displays_) display->show({tick, poses, hand, timing, advice.get()});
 }
 
 bool DisplayLoop::is_watched() const {

@@ -6,11 +6,14 @@
 #include <array>
 #include <chrono>
 #include <condition_variable>
+#include <functional>
+#include <memory>
 #include <mutex>
 #include <span>
 #include <thread>
 #include <vector>
 
+#include "advice/advice.h"
 #include "live/hand_view.h"
 #include "viewer/frame.h"
 
@@ -24,7 +27,11 @@ struct DisplayMoment {
   const VesselPoses& poses;
   const HandView& hand;
   const ViewFrame::Timing& timing;
+  const Advice* advice = nullptr;  // null: there is none
 };
+
+// The newest advice, or none; from the display loop's thread.
+using AdviceSource = std::function<std::shared_ptr<const Advice>()>;
 
 // Who shows moments: on the display loop's thread.
 class Display {
@@ -40,8 +47,8 @@ class Display {
 // are not shown, none is twice, the last one always.
 class DisplayLoop {
  public:
-  // `live` and the displays must outlive it.
-  DisplayLoop(const LiveScene& live, std::vector<Display*> displays);
+  // `live` and the displays must outlive it. `advice` may be empty.
+  DisplayLoop(const LiveScene& live, std::vector<Display*> displays, AdviceSource advice = {});
   // Stops.
   ~DisplayLoop();
   DisplayLoop(const DisplayLoop&) = delete;
@@ -60,6 +67,7 @@ class DisplayLoop {
 
   const LiveScene& live_;
   std::vector<Display*> displays_;
+  AdviceSource advice_;
 
   using Clock = std::chrono::steady_clock;
   std::mutex mutex_;  // of the next nine

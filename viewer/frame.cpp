@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "advice/words.h"
 #include "core/quaternion.h"
 #include "live/amounts.h"
 
@@ -117,7 +118,31 @@ void write_holding(Writer& out, const HandHold& hold) {
   out.text("]}");
 }
 
+// Words are ours: nothing in them needs an escape.
+void write_advice(Writer& out, const FrameAdvice& advice) {
+  out.text(",\"advice\":{\"vessel\":");
+  out.whole(advice.vessel);
+  out.text(",\"words\":\"");
+  out.text(advice.words);
+  out.number("\",\"from\":", advice.from);
+  out.number(",\"to\":", advice.to);
+  if (advice.ghost) {
+    std::array<Triple, JOINT_COUNT> joints;
+    for (std::size_t j = 0; j < joints.size(); ++j) joints[j] = advice.ghost->joints[j].place;
+    out.points(",\"joints\":", joints);
+    out.numbers(",\"wrist\":", advice.ghost->wrist.place);
+  }
+  out.text("}");
+}
+
 }  // namespace
+
+FrameAdvice frame_advice(const Scene& scene, const Advice& advice, const VesselPoses& poses) {
+  FrameAdvice shown{advice.vessel, advice_words(advice), Tick::NONE, Tick::NONE, ghost_of(scene, advice, poses)};
+  if (advice.present.is_possible) shown.from = advice.present.effort;
+  if (advice.best && advice.best->is_possible) shown.to = advice.best->effort;
+  return shown;
+}
 
 std::string frame_json(const ViewFrame& frame) {
   Writer out;
@@ -160,6 +185,7 @@ std::string frame_json(const ViewFrame& frame) {
   }
   write_forces(out, frame);
   if (frame.hand.hold) write_holding(out, *frame.hand.hold);
+  if (frame.advice) write_advice(out, *frame.advice);
   out.text(",\"amounts\":[");
   for (std::size_t k = 0; k < frame.arrived.size(); ++k) {
     out.number(k > 0 ? ",{\"arrived\":" : "{\"arrived\":", frame.arrived[k]);

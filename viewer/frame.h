@@ -7,8 +7,18 @@
 #include <vector>
 
 #include "live/hand_view.h"
+#include "viewer/ghost.h"
 
 namespace wholehand {
+
+// What is advised, world frame.
+struct FrameAdvice {
+  int vessel = -1;
+  std::string words;
+  double from = 0, to = 0;  // efforts of the present grip and of the best one; NaN: it is not possible; infinite: nothing holds it
+  std::optional<GhostHand> ghost;
+};
+FrameAdvice frame_advice(const Scene& scene, const Advice& advice, const VesselPoses& poses);
 
 // SI; world frame but for what a vessel has in its own.
 struct ViewFrame {
@@ -39,7 +49,8 @@ struct ViewFrame {
   double feedback = 0, written = Tick::NONE, base = 0, normal = 0, opening = 0, user = 0, hold = Tick::NONE, weight = 0, torque = 0;
   std::vector<double> arrived;  // of each amount that the task wants, m3
   double spilt = 0, target_volume = 0;
-  int guidance = -1;  // modulo each vessel's count
+  std::optional<FrameAdvice> advice;  // absent: nobody was asked, or no vessel is near
+  int guidance = -1;                  // modulo each vessel's count
   bool is_done = false;
   Timing timing;
 };

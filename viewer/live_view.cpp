@@ -6,7 +6,7 @@
 namespace wholehand {
 
 LiveView::LiveView(const LiveScene& live, const ViewFacts& facts, std::function<void(const std::string&)> control, int port)
-    : maker_(live), frames_(MOST_VIEWERS) {
+    : live_(live), maker_(live), frames_(MOST_VIEWERS) {
   ViewContent content;
   content.scene = view_scene_json(live.scene, facts);
   for (const VesselData& vessel : live.scene.vessels) content.meshes.push_back(mesh_bytes(vessel));
@@ -17,7 +17,9 @@ LiveView::LiveView(const LiveScene& live, const ViewFacts& facts, std::function<
 
 void LiveView::show(const DisplayMoment& moment) noexcept {
   try {
-    frames_.publish(frame_json(maker_.make(moment.tick, moment.poses, moment.hand, moment.timing)));
+    ViewFrame frame = maker_.make(moment.tick, moment.poses, moment.hand, moment.timing);
+    if (moment.advice && moment.advice->vessel >= 0) frame.advice = frame_advice(live_.scene, *moment.advice, moment.poses);
+    frames_.publish(frame_json(frame));
   } catch (...) {  // no memory for this frame; the next one comes
   }
 }

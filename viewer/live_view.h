@@ -24,6 +24,7 @@ class LiveView final : public Display {
   void end(const std::string& reason);
 
  private:
+  const LiveScene& live_;
   FrameMaker maker_;
   FrameHub frames_;
   std::unique_ptr<ViewServer> server_;  // last: it uses the frames

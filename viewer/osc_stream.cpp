@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "advice/words.h"
 #include "core/error.h"
 #include "live/amounts.h"
 #include "scene/text.h"
@@ -36,6 +37,7 @@ HostPort parse_osc_url(const std::string& url) {
 OscStream::OscStream(const HostPort& target, const LiveScene& live)
     : live_(live), to_(find_udp_address(target, PLACE)), socket_(to_.family(), PLACE) {
   for (int j = 0; j < JOINT_COUNT; ++j) joints_[j] = std::string("/wholehand/joint/") + openxr_name(j);
+  for (int j = 0; j < JOINT_COUNT; ++j) ghost_joints_[j] = std::string("/wholehand/advice/joint/") + openxr_name(j);
   for (const VesselData& vessel : live.scene.vessels) {
     const std::string address = "/wholehand/vessel/" + vessel.name;
     vessels_.push_back({address + "/pose", address + "/liquid", {}});
@@ -57,6 +59,7 @@ void OscStream::show(const DisplayMoment& moment) noexcept {
   put_vessels(moment.tick, moment.poses);
   put_forces(moment);
   put_task(moment.tick);
+  if (moment.advice) put_advice(*moment.advice, moment.poses);
   put("/wholehand/end", {tick_});
   flush();
 }
@@ -131,6 +134,33 @@ void OscStream::put_holding(const std::optional<HandHold>& hold) noexcept {
   put("/wholehand/force/tips_hold", {hold ? holding_number(hold->tips_force()) : 0});
   put("/wholehand/hand/effort", {hold ? holding_number(hold->effort) : 0});
   put("/wholehand/hand/tips_effort", {hold ? holding_number(hold->tips) : 0});
+}
+
+void OscStream::put_advice(const Advice& advice, const VesselPoses& poses) noexcept try {
+  const bool is_near = advice.vessel >= 0;
+  std::string_view vessel;
+  if (is_near) vessel = live_.scene.vessels[static_cast<std::size_t>(advice.vessel)].name;
+  const std::string words = advice_words(advice);
+  put("/wholehand/advice/vessel", {static_cast<std::int32_t>(advice.vessel), vessel});
+  put("/wholehand/advice/words", {std::string_view(words)});
+  put("/wholehand/advice/better", {is_near && advice.best && advice.is_better ? 1 : 0});
+  if (!is_near) return;
+  const auto effort = [](const RatedGrip* grip) { return grip && grip->is_possible ? holding_number(grip->effort) : UNHOLDABLE; };
+  put("/wholehand/advice/effort", {effort(&advice.present), effort(advice.best ? &*advice.best : nullptr)});
+  if (const TiltAhead* hardest = advice.ahead ? advice.ahead->hardest() : nullptr)
+    put("/wholehand/advice/ahead",
+        {number(hardest->tilt), holding_number(hardest->effort), holding_number(advice.ahead->other_worst())});
+  if (!advice.best) return;
+  const GripInput& grip = advice.best->grip;
+  put("/wholehand/advice/grip",
+      {number(grip.height), number(grip.azimuth), number(grip.obliquity), number(grip.roll), number(grip.offset)});
+  if (const std::optional<GhostHand> ghost = ghost_of(live_.scene, advice, poses)) put_ghost(*ghost);
+} catch (...) {  // no memory for this moment; the next one comes
+}
+
+void OscStream::put_ghost(const GhostHand& ghost) noexcept {
+  put_pose("/wholehand/advice/joint/XR_HAND_JOINT_WRIST_EXT", ghost.wrist.place, ghost.wrist.turn, ghost_turns_[JOINT_COUNT]);
+  for (int j = 0; j < JOINT_COUNT; ++j) put_pose(ghost_joints_[j], ghost.joints[j].place, ghost.joints[j].turn, ghost_turns_[j]);
 }
 
 void OscStream::put_task(const Tick& tick) noexcept {

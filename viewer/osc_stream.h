@@ -53,6 +53,8 @@ class OscStream final : public Display {
   void put_forces(const DisplayMoment& moment) noexcept;
   void put_holding(const std::optional<HandHold>& hold) noexcept;
   void put_task(const Tick& tick) noexcept;
+  void put_advice(const Advice& advice, const VesselPoses& poses) noexcept;
+  void put_ghost(const GhostHand& ghost) noexcept;
 
   const LiveScene& live_;
   std::string note_;
@@ -60,6 +62,8 @@ class OscStream final : public Display {
   UdpSocket socket_;
   std::array<std::string, JOINT_COUNT> joints_;
   std::array<Quaternion, JOINT_COUNT + 1> turns_{};  // of joints and wrist that were sent last
+  std::array<std::string, JOINT_COUNT> ghost_joints_;
+  std::array<Quaternion, JOINT_COUNT + 1> ghost_turns_{};
   std::vector<Named> vessels_;
   std::vector<std::string> amounts_;  // addresses
   OscBundle bundle_{DATAGRAM};

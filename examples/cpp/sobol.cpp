@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// sweeps/sobol.h: points that fill the axes of grips evenly, without a grid.
+// core/sobol.h: points that fill the axes of grips evenly, without a grid.
 #include <array>
 #include <cstdio>
 #include <set>
 #include <vector>
 
-#include "sweeps/sobol.h"
+#include "core/sobol.h"
 
 int main() {
   using namespace wholehand;

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <thread>
 
+#include "core/core_backend.h"
 #include "evidence/compare.h"
 #include "tests/support/scenes.h"
 #include "tests/support/vulkan_listener.h"
@@ -83,6 +84,33 @@ TEST(GripBackend, AnotherFrictionGivesTheBitsOfADeviceOpenedWithIt) {
   }
   ASSERT_TRUE(moving->use_friction_of(scene));
   for (std::size_t v = 0; v < scene.vessels.size(); ++v) EXPECT_EQ(differences(gather(*moving, v, grips[v]), before[v]), 0u);
+}
+
+// One device for a liquid that drains, as advice needs it: to the bits of a device that was opened for each fill.
+TEST(GripBackend, OtherFillsGiveTheBitsOfADeviceOpenedWithThem) {
+  Scene scene = wet({beaker1(), beaker3()});
+  scene.strength = StrengthData{};
+  scene.until_poured = 0.95;
+  const FieldSet fields = make_field_set({FIELD_SCORE, FIELD_WORST_EFFORT, FIELD_STATUS}, scene);
+  const auto moving = backend_of(scene, fields);
+  CoreBackend core(make_core_evaluator(scene), scene, fields, Precision::full, 2);
+  Scene other = scene;
+  other.vessels[0].fills = {0.1, 0.3};
+  other.vessels[1].fills = {0.2, 0.9};
+  const auto fresh = backend_of(other, fields);
+  CoreBackend fresh_core(make_core_evaluator(other), other, fields, Precision::full, 2);
+  for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
+    const auto grips = sample_grips(scene.vessels[v], 200, 17 + v);
+    ASSERT_TRUE(moving->use_fills_of(scene) && core.use_fills_of(scene));
+    const GatheredPlanes before = gather(*moving, v, grips);
+    ASSERT_TRUE(moving->use_fills_of(other) && core.use_fills_of(other));
+    EXPECT_EQ(differences(gather(*moving, v, grips), gather(*fresh, v, grips)), 0u);
+    EXPECT_EQ(differences(gather(core, v, grips), gather(fresh_core, v, grips)), 0u);
+    EXPECT_GT(differences(before, gather(*moving, v, grips)), 0u) << "fills change nothing here";
+    EXPECT_EQ(moving->liquid(v)[0].volume, fresh->liquid(v)[0].volume);
+  }
+  other.vessels[0].fills = {0.1};
+  EXPECT_FALSE(moving->use_fills_of(other) || core.use_fills_of(other));
 }
 
 TEST(GripBackend, EachVesselHasItsOwnFills) {

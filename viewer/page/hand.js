@@ -42,10 +42,10 @@ function taught(material, uniforms, isDepth) {
 }
 
 const GHOST_FRAGMENT = `
-  uniform vec3 color; varying vec3 out_of, to_eye; varying float arm;
+  uniform vec3 color; uniform float body; varying vec3 out_of, to_eye; varying float arm;
   void main() {
     float graze = 1.0 - abs(dot(normalize(out_of), normalize(to_eye)));
-    gl_FragColor = vec4(color, (0.07 + 0.65 * graze * graze) * (1.0 - ${FADE}));
+    gl_FragColor = vec4(color, (body + 0.65 * graze * graze) * (1.0 - ${FADE}));
   }`;
 const GHOST_VERTEX = `${DECLARATIONS} varying vec3 out_of, to_eye;
   void main() {
@@ -122,6 +122,17 @@ class Skin {
   }
 }
 
+// `body`: how much of it is seen where it is not its rim.
+function makeGhost(skin, body) {
+  skin.mesh.material = new THREE.ShaderMaterial({
+    vertexShader: GHOST_VERTEX, fragmentShader: GHOST_FRAGMENT, transparent: true, polygonOffset: true, polygonOffsetFactor: 2,
+    polygonOffsetUnits: 8,  // where both are in one place the skin is seen
+    uniforms: {...skin.uniforms, color: {value: new THREE.Color()}, body: {value: body}},
+  });
+  skin.mesh.renderOrder = 500;
+  skin.mesh.visible = false;
+}
+
 export class Hand {
   constructor(scene, joints) {
     this.radii = joints.map((joint) => joint.radius);
@@ -133,14 +144,10 @@ export class Hand {
     mesh.renderOrder = -10;
     mesh.customDepthMaterial = taught(new THREE.MeshDepthMaterial({depthPacking: THREE.RGBADepthPacking}), this.skin.uniforms, true);
     mesh.castShadow = mesh.receiveShadow = true;
-    this.ghost.mesh.material = new THREE.ShaderMaterial({
-      vertexShader: GHOST_VERTEX, fragmentShader: GHOST_FRAGMENT, transparent: true, polygonOffset: true, polygonOffsetFactor: 2,
-      polygonOffsetUnits: 8,  // where both are in one place the skin is seen
-      uniforms: {...this.ghost.uniforms, color: {value: new THREE.Color()}},
-    });
-    this.ghost.mesh.renderOrder = 500;
-    this.ghost.mesh.visible = false;
-    scene.add(mesh, this.ghost.mesh);
+    this.advised = new Skin(geometry);  // the hand of the grip that would be better
+    makeGhost(this.ghost, 0.07);
+    makeGhost(this.advised, 0.22);
+    scene.add(mesh, this.ghost.mesh, this.advised.mesh);
     this.paint();
     onThemeChange(() => this.paint());
   }
@@ -149,10 +156,14 @@ export class Hand {
     const colors = sceneColors();
     this.skin.mesh.material.color.set(colors.skin).convertGammaToLinear(2.2);
     this.ghost.mesh.material.uniforms.color.value.set(colors.ghost);
+    this.advised.mesh.material.uniforms.color.value.set(colors.advised);
   }
 
   pose(frame, size) {
     this.skin.pose(frame.joints, frame.wrist, this.radii, size);
     if (this.ghost.mesh.visible) this.ghost.pose(frame.rigged, frame.rigged_wrist, this.radii, size);
+    const {advice} = frame;
+    this.advised.mesh.visible = Boolean(advice && advice.joints);
+    if (this.advised.mesh.visible) this.advised.pose(advice.joints, advice.wrist, this.radii, size);
   }
 }

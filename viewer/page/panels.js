@@ -36,6 +36,8 @@ export class Panels {
     this.about = about;
     this.said = '';
     const find = (id) => document.getElementById(id);
+    this.advicePanel = find('advice-panel');
+    this.advice = find('advice');
     this.makeState(find('state'));
     this.makeForce(find('force'));
     this.makeLegend(find('legend'));
@@ -125,7 +127,15 @@ export class Panels {
     setText(this.loop.step, isNumber(timing.step) ? `${fixed(timing.step * 1e6, 1)} µs` : '–');
     setText(this.loop.missed, whole(timing.missed));
     setText(this.loop.tick, whole(frame.tick));
+    this.showAdvice(frame.advice);
     this.say(frame);
+  }
+
+  // Once there was advice its place stays, so that what is below does not jump.
+  showAdvice(advice) {
+    if (!advice && this.advicePanel.hidden) return;
+    this.advicePanel.hidden = false;
+    setText(this.advice, advice ? advice.words : '–');
   }
 
   showState(frame, grip) {

@@ -12,12 +12,12 @@ export function onThemeChange(callback) {
 // Colours of the three-dimensional scene, sRGB.
 const LIGHT = {
   sky: '#f4f6f9', horizon: '#dfe5ec', table: '#eef0f2', line: '#b9c2cc', shadow: 0.20,
-  skin: '#dcb094', ghost: '#31506b', glass: '#3f5f6b', glassLight: '#ffffff', glassAlpha: 0.55, glassShine: 0.8,
+  skin: '#dcb094', ghost: '#31506b', advised: '#8a3fa0', glass: '#3f5f6b', glassLight: '#ffffff', glassAlpha: 0.55, glassShine: 0.8,
   hemisphereSky: '#ffffff', hemisphereGround: '#c9bdb2', hemisphere: 0.62, sun: '#fff6ea', sunPower: 0.62, fill: '#dfeaff', fillPower: 0.28,
 };
 const DARK = {
   sky: '#1d242d', horizon: '#0d1116', table: '#1a2028', line: '#3d4957', shadow: 0.5,
-  skin: '#c99c80', ghost: '#a9cdf0', glass: '#9fc6d6', glassLight: '#f2fbff', glassAlpha: 0.36, glassShine: 0.75,
+  skin: '#c99c80', ghost: '#a9cdf0', advised: '#e3a8f5', glass: '#9fc6d6', glassLight: '#f2fbff', glassAlpha: 0.36, glassShine: 0.75,
   hemisphereSky: '#b9cbe0', hemisphereGround: '#3a3230', hemisphere: 0.5, sun: '#fff1df', sunPower: 0.72, fill: '#7fa8ff', fillPower: 0.3,
 };
 export const sceneColors = () => (darkMode.matches ? DARK : LIGHT);

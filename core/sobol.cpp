@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sweeps/sobol.h"
+#include "core/sobol.h"
 
 #include <bit>
 

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+#include "advice/advice_loop.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <future>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "advice/shown.h"
+#include "system/block_signals.h"
+#include "system/clock.h"
+
+namespace wholehand {
+
+// What the thread and its owner share. The thread keeps it alive where a device that hangs is left behind.
+struct AdviceLoop::Shared {
+  Shared(const Scene& scene, bool is_followed_in) : live(scene), is_followed(is_followed_in), tracker(live.scene) {}
+
+  void run(std::promise<void>& opened, const std::string& on, int threads);
+  bool wait_for_moment(Tick& tick, VesselPoses& poses);
+  void put(Advice advice, double began);
+  void end(const std::string& why);
+
+  const LiveScene live;
+  const bool is_followed;
+  std::atomic<bool> stop{false};
+  ShownGrips shown;
+
+  mutable std::mutex mutex;  // of all below
+  std::condition_variable wake, gone;
+  bool is_new = false, is_over = false;
+  Tick tick;
+  VesselTracker tracker;
+  std::shared_ptr<const Advice> newest;
+  std::vector<std::string> news;
+  AdviceTally tally;
+  double last = 0;  // when the update before was there, s; 0: it was about no vessel
+};
+
+namespace {
+
+// Its own, and that of the threads that it starts: those of the device, too.
+void take_back_seat() {
+  // a thread's id is what Linux takes here; where it may not be lowered the advice goes on as it is
+  setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), getpriority(PRIO_PROCESS, static_cast<id_t>(gettid())) + ADVICE_NICENESS);
+}
+
+// As many grips as fit a part of the time of an update at LEAST_ADVICE_RATE: the rest is for what else runs on the machine.
+std::size_t next_cloud(std::size_t grips, double seconds) {
+  const double fits = static_cast<double>(grips) * 0.3 / (LEAST_ADVICE_RATE * std::max(seconds, 1e-6));
+  return static_cast<std::size_t>(std::clamp(fits, std::max<double>(LEAST_CLOUD, 0.5 * static_cast<double>(grips)),
+                                             std::min<double>(MOST_CLOUD, 2 * static_cast<double>(grips))));
+}
+
+}  // namespace
+
+void AdviceLoop::Shared::run(std::promise<void>& opened, const std::string& on, int threads) {
+  take_back_seat();
+  std::unique_ptr<Adviser> adviser;
+  try {
+    adviser = std::make_unique<Adviser>(live.scene, on, threads);
+    const std::lock_guard lock(mutex);
+    tally.place = adviser->place();
+  } catch (...) {
+    opened.set_exception(std::current_exception());
+    return;
+  }
+  opened.set_value();
+  Tick moment;
+  VesselPoses poses;
+  std::size_t grips = STEP_CLOUD;
+  try {
+    while (wait_for_moment(moment, poses)) {
+      const double began = monotonic_now();
+      Advice advice = advice_of(live, moment, poses, *adviser, grips, is_followed, &stop);
+      if (stop) break;
+      if (is_followed) shown.put(shown_grip(live.scene, advice, *adviser));
+      if (advice.grips > 0) grips = next_cloud(grips, monotonic_now() - began);
+      std::vector<std::string> notes = adviser->notes();
+      put(std::move(advice), began);
+      const std::lock_guard lock(mutex);
+      for (std::string& note : notes) news.push_back("advice: " + std::move(note));
+    }
+  } catch (const std::exception& error) {
+    end(error.what());
+  } catch (...) {
+    end("it failed");
+  }
+}
+
+// False: it is to end.
+bool AdviceLoop::Shared::wait_for_moment(Tick& moment, VesselPoses& poses) {
+  std::unique_lock lock(mutex);
+  wake.wait(lock, [this] { return stop || is_new; });
+  if (stop) return false;
+  is_new = false;
+  moment = tick;
+  poses = tracker.poses();
+  return true;
+}
+
+void AdviceLoop::Shared::put(Advice advice, double began) {
+  const bool is_near = advice.vessel >= 0;
+  const std::uint64_t grips = advice.grips;
+  auto made = std::make_shared<const Advice>(std::move(advice));
+  const double now = monotonic_now();
+  std::unique_lock lock(mutex);
+  newest = std::move(made);
+  if (is_near) {
+    ++tally.updates;
+    tally.grips += grips;
+    if (last > 0) {
+      tally.longest = std::max(tally.longest, now - last);
+      tally.seconds += now - last;
+      ++tally.intervals;
+    }
+  }
+  last = is_near ? now : 0;
+  const auto rest = std::chrono::duration<double>(std::max(0.0, began + 1 / ADVICE_RATE - now));
+  wake.wait_for(lock, rest, [this] { return stop.load(); });
+}
+
+void AdviceLoop::Shared::end(const std::string& why) {
+  const std::lock_guard lock(mutex);
+  newest.reset();
+  news.push_back(fmt::format("advice: {}; the session goes on without advice", why));
+}
+
+AdviceLoop::AdviceLoop(const Scene& scene, const std::string& on, int threads, bool is_followed)
+    : shared_(std::make_shared<Shared>(scene, is_followed)) {
+  std::promise<void> opened;
+  std::future<void> is_open = opened.get_future();
+  {
+    const BlockSignals inherited;
+    std::thread([shared = shared_, opened = std::move(opened), on, threads]() mutable {
+      shared->run(opened, on, threads);
+      const std::lock_guard lock(shared->mutex);
+      shared->is_over = true;
+      shared->gone.notify_all();
+    }).detach();
+  }
+  is_open.get();
+}
+
+AdviceLoop::~AdviceLoop() {
+  std::unique_lock lock(shared_->mutex);
+  shared_->stop = true;
+  shared_->wake.notify_all();
+  shared_->gone.wait_for(lock, std::chrono::duration<double>(STOP_PATIENCE), [this] { return shared_->is_over; });
+}
+
+void AdviceLoop::look(std::span<const Tick> ticks) {
+  if (ticks.empty()) return;
+  {
+    const std::lock_guard lock(shared_->mutex);
+    for (const Tick& tick : ticks) shared_->tracker.follow(tick);
+    shared_->tick = ticks.back();
+    shared_->is_new = true;
+  }
+  shared_->wake.notify_all();
+}
+
+std::shared_ptr<const Advice> AdviceLoop::newest() const {
+  const std::lock_guard lock(shared_->mutex);
+  return shared_->newest;
+}
+
+std::vector<std::string> AdviceLoop::news() {
+  const std::lock_guard lock(shared_->mutex);
+  return std::exchange(shared_->news, {});
+}
+
+ShownGripSource& AdviceLoop::shown() { return shared_->shown; }
+
+std::string AdviceLoop::place() const { return tally().place; }
+
+AdviceTally AdviceLoop::tally() const {
+  const std::lock_guard lock(shared_->mutex);
+  return shared_->tally;
+}
+
+}  // namespace wholehand

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// Which grip would be better from here? Asks a backend for a cloud of grips about where the hand is, and the core for the best of them.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "advice/advice.h"
+#include "core/backend.h"
+#include "core/evaluator.h"
+
+namespace wholehand {
+
+// What is asked: how a hand stands to a vessel, and what is in it.
+struct AdviceQuestion {
+  int vessel = 0;
+  bool is_held = false;
+  GripInput grip;     // in the world of the scene
+  double volume = 0;  // m3 of the scene's liquid
+  // For a simulated user, who can follow no more: the line of the tips keeps its azimuth and goes through the axis.
+  bool keeps_line = false;
+};
+
+constexpr std::size_t LEAST_CLOUD = 128, STEP_CLOUD = 512, MOST_CLOUD = 4096;  // grips of an update
+// A grip counts as good as another whose effort is larger by no more than this share and this much: less is no reason to move.
+constexpr double LIKE_SHARE = 0.05, LIKE_EFFORT = 5e-3;
+// Liquid that has changed by less of the vessel's capacity is still the liquid of the last update.
+constexpr double SAME_FILL = 2e-3;
+
+// The scene that grips are rated in: one fill for each vessel, what it holds at the start of a session; the scene's own tilts or, without
+// any, tens of degrees up to 150; those up to where 95 % of a fill has poured. Throws Error (usage): the scene has no [strength].
+Scene advice_scene(const Scene& scene);
+
+// One thread asks. The answers to the same questions in the same order are the same, to the bit, on the same device.
+class Adviser {
+ public:
+  // Opens the device with the pipelines of all vessels, which may take seconds. `on` and `threads` as for open_backend, in float where it
+  // is a device. Throws Error as advice_scene and open_backend do.
+  Adviser(const Scene& scene, const std::string& on, int threads);
+
+  const BackendInfo& info() const { return backend_->info(); }
+  // By which the grips of an answer are rated, with the liquid of the last one.
+  const Evaluator& core() const { return *core_; }
+  // What it computes on, in words: "vulkan, llvmpipe (LLVM 15.0.6, 256 bits)", or "core, 2 threads".
+  std::string place() const;
+
+  // The grips of the answer are rated by the core. No more than `grips` are asked for. `stop`, from another thread: the answer is then of
+  // what is done. Throws Error (failure) where neither the device nor the core can compute it.
+  Advice advise(const AdviceQuestion& question, std::size_t grips, const std::atomic<bool>* stop = nullptr);
+
+  // What the device had to say since the last call ("device lost: .."); each line once.
+  std::vector<std::string> notes();
+
+ private:
+  struct Found {
+    double effort = 0;
+    std::size_t grip = 0;  // of the cloud
+  };
+  void warm_up();
+  void take_volume(int vessel, double volume);
+  std::vector<Found> ask(int vessel, const std::vector<GripInput>& cloud, const std::atomic<bool>* stop);
+  RatedGrip rate(int vessel, const GripInput& grip) const;
+  std::vector<RatedGrip> rate_best(const AdviceQuestion& question, const std::vector<GripInput>& cloud, std::vector<Found> found);
+  void choose(const AdviceQuestion& question, std::vector<RatedGrip> rated, Advice& advice);
+  void settle(bool has_moved);
+
+  Scene scene_;
+  FieldSet fields_, rated_;
+  std::unique_ptr<Backend> backend_;
+  std::unique_ptr<Evaluator> core_;
+  std::vector<double> volumes_;  // with which the backend computes, m3
+  std::vector<double> capacities_;
+  std::uint64_t turn_ = 0;
+  int vessel_ = -1;                // of the last answer
+  std::optional<GripInput> last_;  // its best grip
+  double share_ = 1;               // of the reach in which the next update looks about it
+  std::vector<std::string> notes_, said_;
+};
+
+}  // namespace wholehand

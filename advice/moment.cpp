@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#include "advice/moment.h"
+
+#include "advice/present_grip.h"
+
+namespace wholehand {
+
+Advice advice_of(const LiveScene& live, const Tick& tick, const VesselPoses& poses, Adviser& adviser, std::size_t grips,
+                 bool keeps_line, const std::atomic<bool>* stop) {
+  Advice advice;
+  if (const std::optional<Approach> approach = approach_of(live, tick, poses)) {
+    const auto v = static_cast<std::size_t>(approach->vessel);
+    advice = adviser.advise({approach->vessel, approach->is_held, approach->grip, tick.volume[v], keeps_line}, grips, stop);
+    if (approach->is_held) {
+      core_f64::Hand yielding = live.hand;
+      advice.ahead = tilts_ahead(live, tick, poses[v], hand_posture(live, tick, poses, yielding).posed);
+    }
+  }
+  advice.tick = tick.number;
+  return advice;
+}
+
+}  // namespace wholehand

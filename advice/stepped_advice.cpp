@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "advice/stepped_advice.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "advice/shown.h"
+
+namespace wholehand {
+
+SteppedAdvice::SteppedAdvice(const Scene& scene, const std::string& on, const Options& options)
+    : live_(scene),
+      options_(options),
+      adviser_(std::make_unique<Adviser>(scene, on, options.threads)),
+      tracker_(scene),
+      period_(std::max<std::int64_t>(1, std::llround(scene.live.rate / LEAST_ADVICE_RATE))) {
+  tally_.place = adviser_->place();
+}
+
+void SteppedAdvice::look(const Tick& tick) noexcept {
+  tracker_.follow(tick);
+  if (tick.number < due_ || !adviser_) return;
+  due_ = (tick.number / period_ + 1) * period_;
+  try {
+    ask(tick);
+  } catch (const std::exception& error) {
+    adviser_.reset();
+    const std::lock_guard lock(mutex_);
+    newest_.reset();
+    news_.push_back(fmt::format("advice: {}; the session goes on without advice", error.what()));
+  }
+}
+
+// What was asked for at the moment before is there now.
+void SteppedAdvice::ask(const Tick& tick) {
+  auto found = std::make_shared<const Advice>(
+      is_held(tick.state) && !options_.while_held
+          ? Advice{}
+          : advice_of(live_, tick, tracker_.poses(), *adviser_, options_.grips, options_.keeps_line));
+  std::swap(grip_, coming_grip_);
+  is_grip_new_ = coming_ != nullptr;
+  coming_grip_ = shown_grip(live_.scene, *found, *adviser_);
+  std::vector<std::string> notes = adviser_->notes();
+  const std::lock_guard lock(mutex_);
+  newest_ = std::exchange(coming_, found);
+  for (std::string& note : notes) news_.push_back("advice: " + std::move(note));
+  if (found->vessel < 0) return;
+  ++tally_.updates;
+  tally_.grips += found->grips;
+}
+
+bool SteppedAdvice::take(std::int64_t /*tick*/, ShownGrip& grip) noexcept {
+  if (!is_grip_new_) return false;
+  is_grip_new_ = false;
+  grip = grip_;
+  return true;
+}
+
+std::shared_ptr<const Advice> SteppedAdvice::newest() const {
+  const std::lock_guard lock(mutex_);
+  return newest_;
+}
+
+std::vector<std::string> SteppedAdvice::news() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(news_, {});
+}
+
+AdviceTally SteppedAdvice::tally() const {
+  const std::lock_guard lock(mutex_);
+  return tally_;
+}
+
+}  // namespace wholehand

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+// What is advised is better by the core, within reach, of the liquid that is there, and the same whenever the same is asked.
+// sanitizers: address
+#include "advice/adviser.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "advice/cloud.h"
+#include "core/error.h"
+#include "tests/support/scenes.h"
+
+namespace wholehand {
+namespace {
+
+Scene advised_scene() {
+  Scene scene = scene_of({beaker1()});
+  scene.strength = StrengthData{};
+  scene.table = TableData{};
+  scene.liquid = LiquidData{};
+  scene.liquid->fills = {0, 1};
+  scene.tilts = {0, radians(30), radians(60), radians(90), radians(120), radians(150)};
+  scene.vessels[0].liquid_fill = 0.6;
+  return scene;
+}
+
+// A grip near the top, far from the best one.
+AdviceQuestion high_grip(const Scene& scene, double fill) {
+  AdviceQuestion question;
+  question.grip.height = 0.095;
+  question.grip.roll = radians(-20);
+  question.volume = fill * make_core_evaluator(scene)->capacity(0);
+  return question;
+}
+
+// The worst effort by an evaluator of its own, over the states of the scene that is advised about: no code of the adviser's.
+double effort_by_core(const Scene& scene, const GripInput& grip, double fill) {
+  Scene own = scene;
+  own.liquid->fills = {fill};
+  own.until_poured = 0.95;
+  const auto core = make_core_evaluator(own);
+  const FieldSet fields = make_field_set({FIELD_WORST_EFFORT, FIELD_STATUS}, own);
+  std::vector<double> reals(static_cast<std::size_t>(fields.real_planes));
+  std::vector<std::uint32_t> uints(static_cast<std::size_t>(fields.uint_planes));
+  core->planes(0, &grip, 1, fields, 1, reals.data(), uints.data());
+  return reals[static_cast<std::size_t>(fields.plane[FIELD_WORST_EFFORT])];
+}
+
+class AdviserOn : public testing::TestWithParam<const char*> {};
+
+TEST_P(AdviserOn, TheAdvisedGripIsBetterByTheCore) {
+  const Scene scene = advised_scene();
+  Adviser adviser(scene, GetParam(), 1);
+  const AdviceQuestion question = high_grip(scene, 0.6);
+  const Advice advice = adviser.advise(question, STEP_CLOUD);
+  ASSERT_TRUE(advice.best && advice.is_better);
+  EXPECT_EQ(advice.grips, STEP_CLOUD);
+  ASSERT_TRUE(advice.present.is_possible);
+  EXPECT_EQ(advice.best->effort, effort_by_core(scene, advice.best->grip, 0.6));
+  EXPECT_EQ(advice.present.effort, effort_by_core(scene, question.grip, 0.6));
+  EXPECT_LT(advice.best->effort, 0.95 * advice.present.effort);
+  GripResult posed;
+  make_core_evaluator(scene)->grip(0, advice.best->grip, posed);
+  EXPECT_TRUE(posed.plausible);
+  EXPECT_EQ(advice.posed.posed, posed.posed);
+  EXPECT_TRUE(reach_of(scene.vessels[0], question.grip).has(advice.best->grip));
+}
+
+TEST_P(AdviserOn, FollowsTheLiquidWithoutBeingOpenedAgain) {
+  const Scene scene = advised_scene();
+  Adviser adviser(scene, GetParam(), 1);
+  const double rounding = 1e-12;  // of a fill that has been a volume
+  for (const double fill : {0.6, 0.3, 0.0, 0.6}) {
+    const Advice advice = adviser.advise(high_grip(scene, fill), STEP_CLOUD);
+    ASSERT_TRUE(advice.best) << fill;
+    EXPECT_EQ(advice.volume, high_grip(scene, fill).volume);
+    EXPECT_NEAR(advice.best->effort, effort_by_core(scene, advice.best->grip, fill), rounding) << fill;
+    EXPECT_NEAR(advice.present.effort, effort_by_core(scene, advice.present.grip, fill), rounding) << fill;
+  }
+}
+
+TEST_P(AdviserOn, TheSameQuestionsHaveTheSameAnswers) {
+  const Scene scene = advised_scene();
+  std::vector<GripInput> first;
+  for (int run = 0; run < 2; ++run) {
+    Adviser adviser(scene, GetParam(), run + 1);
+    for (int k = 0; k < 4; ++k) {
+      const Advice advice = adviser.advise(high_grip(scene, 0.6 - 0.1 * k), 256);
+      ASSERT_TRUE(advice.best);
+      if (run == 0) {
+        first.push_back(advice.best->grip);
+      } else {
+        EXPECT_EQ(advice.best->grip.height, first[static_cast<std::size_t>(k)].height);
+        EXPECT_EQ(advice.best->grip.roll, first[static_cast<std::size_t>(k)].roll);
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Adviser, AdviserOn, testing::Values("core", "vulkan"));
+
+// A hand that stays is told one thing: an answer stands until another is clearly better, and it never gets worse beyond that.
+TEST(Adviser, Settles) {
+  const Scene scene = advised_scene();
+  Adviser adviser(scene, "core", 1);
+  int changes = 0;
+  GripInput before;
+  for (int k = 0; k < 12; ++k) {
+    const Advice advice = adviser.advise(high_grip(scene, 0.6), STEP_CLOUD);
+    ASSERT_TRUE(advice.best);
+    if (k >= 6 && way_between(before, advice.best->grip) > 0) ++changes;
+    before = advice.best->grip;
+  }
+  EXPECT_LE(changes, 1);
+}
+
+// The hand that has gone to the advised grip is told to stay.
+TEST(Adviser, AGripThatIsGoodNeedsNoOther) {
+  const Scene scene = advised_scene();
+  Adviser adviser(scene, "core", 1);
+  AdviceQuestion question = high_grip(scene, 0.6);
+  bool is_there = false;
+  for (int k = 0; k < 10 && !is_there; ++k) {
+    const Advice advice = adviser.advise(question, MOST_CLOUD);
+    ASSERT_TRUE(advice.best);
+    is_there = !advice.is_better;
+    question.grip = advice.best->grip;
+  }
+  EXPECT_TRUE(is_there);
+}
+
+// For whom can follow no more: neither turned about the axis nor moved off it.
+TEST(Adviser, KeepsTheLineOfWhoAsksForIt) {
+  const Scene scene = advised_scene();
+  Adviser adviser(scene, "core", 1);
+  AdviceQuestion question = high_grip(scene, 0.6);
+  question.keeps_line = true;
+  const Advice advice = adviser.advise(question, STEP_CLOUD);
+  ASSERT_TRUE(advice.best && advice.is_better);
+  EXPECT_EQ(advice.best->grip.offset, 0);
+  EXPECT_EQ(advice.best->grip.azimuth, 0);
+}
+
+TEST(Adviser, RefusesASceneWithoutStrength) {
+  Scene scene = advised_scene();
+  scene.strength.reset();
+  try {
+    Adviser adviser(scene, "core", 1);
+    FAIL() << "it was taken";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ExitCode::usage);
+    EXPECT_NE(std::string(error.what()).find("[strength]"), std::string::npos);
+  }
+  EXPECT_THROW(Adviser(advised_scene(), "no such device", 1), Error);
+}
+
+TEST(AdviceScene, HasTiltsWhereTheSceneHasNone) {
+  Scene scene = advised_scene();
+  scene.tilts.clear();
+  const Scene own = advice_scene(scene);
+  ASSERT_EQ(own.tilts.size(), 16u);
+  EXPECT_NEAR(own.tilts.back(), radians(150), 1e-12);
+  EXPECT_EQ(own.vessels[0].fills, std::vector<double>{0.6});
+}
+
+}  // namespace
+}  // namespace wholehand
