@@ -32,11 +32,13 @@ struct StudyArguments {
 StudyPeople people_of(const std::string& experiment, const std::optional<std::uint64_t>& asked, bool is_quick) {
   StudyPeople people = is_quick ? QUICK_PEOPLE : StudyPeople{};
   if (asked) people = {*asked, *asked, *asked};
+  const std::uint64_t of_advice = asked ? *asked : is_quick ? QUICK_ADVICE_PEOPLE : ADVICE_PEOPLE;
   if (experiment.empty() || experiment == "all") return people;
   if (experiment == "contacts") return {people.contacts, 0, 0};
   if (experiment == "forces") return {0, people.forces, 0};
   if (experiment == "sessions") return {0, 0, people.sessions};
-  throw usage_error(fmt::format("--experiment {}; allowed: contacts, forces, sessions or all", in_quotes(experiment)));
+  if (experiment == "advice") return {0, 0, 0, of_advice};
+  throw usage_error(fmt::format("--experiment {}; allowed: contacts, forces, sessions, advice or all", in_quotes(experiment)));
 }
 
 ExitCode study(const StudyArguments& arguments) {
@@ -47,10 +49,11 @@ ExitCode study(const StudyArguments& arguments) {
   std::optional<std::uint64_t> people;
   if (!arguments.people.empty()) people = static_cast<std::uint64_t>(parse_integer(arguments.people, "--people", PEOPLE));
   options.people = people_of(arguments.experiment, people, arguments.quick);
-  if (options.resumes && options.people.forces == 0 && options.people.sessions == 0)
-    throw usage_error("--resume: contacts take seconds and are not kept; allowed: with forces or sessions");
-  if (std::max(options.people.forces, options.people.sessions) > MOST_SIMULATED)
-    throw usage_error(fmt::format("--people {}; allowed: 1 to {} with forces or sessions, of which all grasps are kept",
+  const std::uint64_t simulated = std::max({options.people.forces, options.people.sessions, options.people.advice});
+  if (options.resumes && simulated == 0)
+    throw usage_error("--resume: contacts take seconds and are not kept; allowed: with forces, sessions or advice");
+  if (simulated > MOST_SIMULATED)
+    throw usage_error(fmt::format("--people {}; allowed: 1 to {} with forces, sessions or advice, of which all grasps are kept",
                                   arguments.people, MOST_SIMULATED));
   if (!arguments.seed.empty()) options.seed = static_cast<std::uint64_t>(parse_integer(arguments.seed, "--seed", ranges::SEED));
   if (!arguments.threads.empty())
@@ -71,12 +74,14 @@ void add_study_command(CLI::App& app, Action& action) {
   add("scene", arguments->scene, "SCENE", "Scene file or name of a shipped scene, with guidance points (default: mixing_board)");
   add("-o,--output", arguments->folder, "DIR", "Folder for the tables and the page")->required();
   add("--people", arguments->people, "N",
-      "Number of people in each experiment (default: 10000 for contacts, 1000 for forces, 500 for sessions)");
-  add("--experiment", arguments->experiment, "E", "contacts, forces, sessions or all (the default)")
-      ->check(offered("contacts forces sessions all"));
+      "Number of people in each experiment (default: 10000 for contacts, 1000 for forces, 500 for sessions, 200 for advice)");
+  add("--experiment", arguments->experiment, "E",
+      "contacts, forces, sessions, advice (does it help?), or all (the default: all but advice)")
+      ->check(offered("contacts forces sessions advice all"));
   add("--seed", arguments->seed, "S", "Seed of the people and of the intervals (default: 1)");
   add("--threads", arguments->threads, "N", "Number of threads (default: all)");
-  command->add_flag("--quick", arguments->quick, "500 people for contacts, 20 for the others, and fewer samples for the intervals");
+  command->add_flag("--quick", arguments->quick,
+                    "500 people for contacts, 20 for forces and sessions, 10 for advice, and fewer samples for the intervals");
   command->add_flag("--resume", arguments->resume, "Go on with an interrupted study in the same folder");
   command->callback([arguments, &action] { action = [arguments] { return study(*arguments); }; });
 }

@@ -11,7 +11,7 @@
 namespace wholehand {
 
 // Names the draws of a person's grasps: each experiment has grasps of its own.
-enum class Experiment : std::uint64_t { contacts = 0, live = 1, sessions = 2, forces = 3 };
+enum class Experiment : std::uint64_t { contacts = 0, live = 1, sessions = 2, forces = 3, advice = 4 };
 
 class Participant {
  public:

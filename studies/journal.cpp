@@ -44,9 +44,12 @@ std::size_t StudyJournal::done_of(const std::string& experiment, std::uint64_t p
   return count;
 }
 
-std::size_t StudyJournal::done_beside(std::uint64_t forces, std::uint64_t sessions) const {
+std::size_t StudyJournal::done_beside(std::uint64_t forces, std::uint64_t sessions, std::uint64_t advice) const {
   std::size_t others = 0;
-  for (const auto& [part, numbers] : done_) others += part.second >= (part.first == "forces" ? forces : sessions) ? 1 : 0;
+  for (const auto& [part, numbers] : done_) {
+    const std::uint64_t asked = part.first == "forces" ? forces : part.first == "advice" ? advice : sessions;
+    others += part.second >= asked ? 1 : 0;
+  }
   return others;
 }
 

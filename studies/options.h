@@ -10,7 +10,9 @@ namespace wholehand {
 // How many people each experiment has by default.
 struct StudyPeople {
   std::uint64_t contacts = 10'000, forces = 1000, sessions = 500;
+  std::uint64_t advice = 0;  // ours, and no experiment of the paper: only where it is asked for
 };
+constexpr std::uint64_t ADVICE_PEOPLE = 200, QUICK_ADVICE_PEOPLE = 10;  // where it is
 constexpr StudyPeople QUICK_PEOPLE{500, 20, 20};
 constexpr int STUDY_RESAMPLES = 1000, QUICK_RESAMPLES = 200;
 

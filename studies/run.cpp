@@ -9,9 +9,11 @@
 #include <optional>
 #include <utility>
 
+#include "advice/adviser.h"
 #include "core/parallel.h"
 #include "evidence/gains.h"
 #include "objects/vessel.h"
+#include "studies/advice_statistics.h"
 #include "studies/contact_page.h"
 #include "studies/contact_pool.h"
 #include "studies/contacts.h"
@@ -66,6 +68,13 @@ class StudyRun {
       force_vessel_ = vessels.front();
       check_live(force_scene(scene, force_vessel_));
     }
+    if (options.people.advice > 0) {
+      if (!scene.task)
+        throw usage_error(fmt::format(
+            "{}: the experiment of advice needs a task, which says what is poured; add [task] to the scene", name_of(scene)));
+      advice_scene(scene);  // refuses a scene without strengths
+      check_live(scene);
+    }
     folder_.emplace(options.folder);
     page_.title = study_title(scene);
     page_.seed = options.seed;
@@ -74,8 +83,8 @@ class StudyRun {
   ExitCode run() {
     InterruptGuard interrupt;
     stop_ = &interrupt.flag();
-    if (options_.people.forces > 0 || options_.people.sessions > 0) open_journal();
-    const bool done = run_contacts() && run_forces() && run_sessions();
+    if (std::max({options_.people.forces, options_.people.sessions, options_.people.advice}) > 0) open_journal();
+    const bool done = run_contacts() && run_forces() && run_sessions() && run_advice();
     if (!done) {
       say_note(journal_ ? "interrupted; no table is written. Go on with --resume" : "interrupted; nothing is written");
       return ExitCode::interrupted;
@@ -138,8 +147,12 @@ class StudyRun {
     if (journal_->done() > 0) {
       const std::size_t forces = journal_->done_of("forces", options_.people.forces),
                         sessions = journal_->done_of("sessions", options_.people.sessions);
-      say_note(fmt::format("goes on: {} of {} people of forces and {} of {} people of sessions are done", forces,
-                           options_.people.forces, sessions, options_.people.sessions));
+      if (options_.people.advice > 0)
+        say_note(fmt::format("goes on: {} of {} people of advice are done", journal_->done_of("advice", options_.people.advice),
+                             options_.people.advice));
+      if (options_.people.forces > 0 || options_.people.sessions > 0)
+        say_note(fmt::format("goes on: {} of {} people of forces and {} of {} people of sessions are done", forces,
+                             options_.people.forces, sessions, options_.people.sessions));
     } else if (options_.resumes) {
       say_note("there is no interrupted study in this folder; it begins anew");
     }
@@ -151,7 +164,7 @@ class StudyRun {
   // What other people or experiments have done is kept.
   void end_journal() {
     if (!journal_) return;
-    const std::size_t others = journal_->done_beside(options_.people.forces, options_.people.sessions);
+    const std::size_t others = journal_->done_beside(options_.people.forces, options_.people.sessions, options_.people.advice);
     journal_.reset();
     if (others == 0) {
       std::remove(folder_->files().journal.c_str());
@@ -231,6 +244,28 @@ class StudyRun {
     page_.sections.back().charts = session_charts(found, session_vessels_, rows);
     lead_.push_back(fmt::format("sessions: {} people, {} each", readable_number(people), SESSIONS_PER_PERSON));
     keep(std::move(rows), session_sensitivity(found, session_vessels_, options_.seed));
+    return true;
+  }
+
+  bool run_advice() {
+    const std::uint64_t people = options_.people.advice;
+    if (people == 0) return true;
+    say(fmt::format("advice, {} people who do the task without and with it", readable_number(people)));
+    const auto numbers = of_people("advice", people, options_.threads, *journal_, *stop_, [this](std::uint64_t person) {
+      return numbers_of(advised_person(scene_, options_.seed, person, *stop_));
+    });
+    if (*stop_) return false;
+    std::vector<AdvisedPerson> found;
+    for (const auto& of_person : numbers) found.push_back(advised_person_of(of_person));
+    const auto broken = std::count_if(found.begin(), found.end(),
+                                      [](const AdvisedPerson& one) { return one.without.is_whole == 0 || one.with.is_whole == 0; });
+    if (broken > 0)
+      say_note(fmt::format("{} of {} people have a session that did not come to an end by itself; their times do not count", broken,
+                           people));
+    std::vector<StudyRow> rows = advice_rows(found, options_.seed, options_.resamples, options_.threads);
+    page_.sections.push_back(advice_section(rows));
+    lead_.push_back(fmt::format("advice: {} people", readable_number(people)));
+    keep(std::move(rows), {});
     return true;
   }
 

@@ -14,7 +14,7 @@ namespace wholehand {
 
 bool run_simulated(const SimulatedSession& asked, const std::function<bool(const Tick&)>& take, const std::atomic<bool>& stop) {
   if (asked.jobs.empty()) return true;
-  const auto gripper = open_sim(asked.scene, asked.seed, asked.person, asked.jobs);
+  const auto gripper = open_sim(asked.scene, asked.seed, asked.person, asked.jobs, asked.shown);
   Session session(asked.scene, gripper->limits().gap);
   LoopOptions options;
   options.is_simulated = true;

@@ -23,6 +23,7 @@ struct SimulatedSession {
   std::uint64_t seed = 1;    // of the tremor
   std::vector<SimJob> jobs;  // what there is to do
   double seconds = LONGEST_SESSION;
+  ShownGripSource* shown = nullptr;  // grips that the person is shown and takes; null: none
 };
 
 // Runs it: gripper, limits, loop and session are those of `wholehand live`. `take` is given each tick; false ends the session. Also

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "studies/advice_statistics.h"
 #include "studies/force_page.h"
 #include "studies/sensitivity.h"
 #include "studies/statistic_tables.h"
@@ -50,7 +51,9 @@ std::string study_summary(std::span<const StudyRow> rows) {
     if (experiment == "contacts") {
       text += contact_summary(of_one);
     } else {
-      text += "\n" + (experiment == "forces" ? force_summary(of_one) : statistic_table(of_one));
+      text += "\n" + (experiment == "forces"   ? force_summary(of_one)
+                      : experiment == "advice" ? advice_summary(of_one)
+                                               : statistic_table(of_one));
     }
   }
   return text;

@@ -36,8 +36,10 @@ void define_study(const std::string& path, const Scene& scene, const StudyOption
   file.text(NC_GLOBAL, "version", version());
   file.text(NC_GLOBAL, "scene", scene.text);
   const StudyPeople& people = options.people;
-  const std::pair<const char*, std::uint64_t> counts[] = {
-      {"people_contacts", people.contacts}, {"people_forces", people.forces}, {"people_sessions", people.sessions}};
+  const std::pair<const char*, std::uint64_t> counts[] = {{"people_contacts", people.contacts},
+                                                          {"people_forces", people.forces},
+                                                          {"people_sessions", people.sessions},
+                                                          {"people_advice", people.advice}};
   for (const auto& [name, count] : counts) file.text(NC_GLOBAL, name, fmt::format("{}", count));
   file.text(NC_GLOBAL, "seed", fmt::format("{}", options.seed));
   file.text(NC_GLOBAL, "resamples", fmt::format("{}", options.resamples));
