@@ -24,7 +24,9 @@ namespace wholehand {
 struct AdviceLoop::Shared {
   Shared(const Scene& scene, bool is_followed_in) : live(scene), is_followed(is_followed_in), tracker(live.scene) {}
 
-  void run(std::promise<void>& opened, const std::string& on, int threads);
+  void run(std::promise<void>& opened, const AdviserOpener& open);
+  std::unique_ptr<Adviser> open_adviser(std::promise<void>& opened, const AdviserOpener& open);
+  void go_on(Adviser& adviser);
   bool wait_for_moment(Tick& tick, VesselPoses& poses);
   void put(Advice advice, double began);
   void end(const std::string& why);
@@ -62,37 +64,52 @@ std::size_t next_cloud(std::size_t grips, double seconds) {
 
 }  // namespace
 
-void AdviceLoop::Shared::run(std::promise<void>& opened, const std::string& on, int threads) {
+void AdviceLoop::Shared::run(std::promise<void>& opened, const AdviserOpener& open) {
   take_back_seat();
-  std::unique_ptr<Adviser> adviser;
+  const std::unique_ptr<Adviser> adviser = open_adviser(opened, open);
+  if (!adviser) return;
   try {
-    adviser = std::make_unique<Adviser>(live.scene, on, threads);
-    const std::lock_guard lock(mutex);
-    tally.place = adviser->place();
-  } catch (...) {
-    opened.set_exception(std::current_exception());
-    return;
-  }
-  opened.set_value();
-  Tick moment;
-  VesselPoses poses;
-  std::size_t grips = STEP_CLOUD;
-  try {
-    while (wait_for_moment(moment, poses)) {
-      const double began = monotonic_now();
-      Advice advice = advice_of(live, moment, poses, *adviser, grips, is_followed, &stop);
-      if (stop) break;
-      if (is_followed) shown.put(shown_grip(live.scene, advice, *adviser));
-      if (advice.grips > 0) grips = next_cloud(grips, monotonic_now() - began);
-      std::vector<std::string> notes = adviser->notes();
-      put(std::move(advice), began);
-      const std::lock_guard lock(mutex);
-      for (std::string& note : notes) news.push_back("advice: " + std::move(note));
-    }
+    go_on(*adviser);
   } catch (const std::exception& error) {
     end(error.what());
   } catch (...) {
     end("it failed");
+  }
+}
+
+// None where it cannot be opened: whoever waits for it is told why.
+std::unique_ptr<Adviser> AdviceLoop::Shared::open_adviser(std::promise<void>& opened, const AdviserOpener& open) {
+  try {
+    std::unique_ptr<Adviser> adviser = open(live.scene);
+    {
+      const std::lock_guard lock(mutex);
+      tally.place = adviser->place();
+    }
+    opened.set_value();
+    return adviser;
+  } catch (...) {
+    opened.set_exception(std::current_exception());
+    return nullptr;
+  }
+}
+
+// An update for each moment, until it is to end.
+void AdviceLoop::Shared::go_on(Adviser& adviser) {
+  Tick moment;
+  VesselPoses poses;
+  std::size_t grips = STEP_CLOUD;
+  while (wait_for_moment(moment, poses)) {
+    const double began = monotonic_now();
+    Advice advice = advice_of(live, moment, poses, adviser, grips, is_followed, &stop);
+    if (stop) return;
+    if (is_followed) shown.put(shown_grip(live.scene, advice, adviser));
+    if (advice.grips > 0) grips = next_cloud(grips, monotonic_now() - began);
+    std::vector<std::string> notes = adviser.notes();
+    {
+      const std::lock_guard lock(mutex);
+      for (std::string& note : notes) news.push_back("advice: " + std::move(note));
+    }
+    put(std::move(advice), began);
   }
 }
 
@@ -135,13 +152,17 @@ void AdviceLoop::Shared::end(const std::string& why) {
 }
 
 AdviceLoop::AdviceLoop(const Scene& scene, const std::string& on, int threads, bool is_followed)
+    : AdviceLoop(
+          scene, [on, threads](const Scene& own) { return std::make_unique<Adviser>(own, on, threads); }, is_followed) {}
+
+AdviceLoop::AdviceLoop(const Scene& scene, AdviserOpener open, bool is_followed)
     : shared_(std::make_shared<Shared>(scene, is_followed)) {
   std::promise<void> opened;
   std::future<void> is_open = opened.get_future();
   {
     const BlockSignals inherited;
-    std::thread([shared = shared_, opened = std::move(opened), on, threads]() mutable {
-      shared->run(opened, on, threads);
+    std::thread([shared = shared_, opened = std::move(opened), open = std::move(open)]() mutable {
+      shared->run(opened, open);
       const std::lock_guard lock(shared->mutex);
       shared->is_over = true;
       shared->gone.notify_all();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -36,6 +37,9 @@ class AdviceLoop {
   // Throws Error as Adviser does. Later faults end the advice, and not the session. `is_followed`: by a simulated user, to
   // whom shown() gives the grips.
   AdviceLoop(const Scene& scene, const std::string& on, int threads, bool is_followed = false);
+  // With an adviser of one's own, which is made in the thread.
+  using AdviserOpener = std::function<std::unique_ptr<Adviser>(const Scene&)>;
+  AdviceLoop(const Scene& scene, AdviserOpener open, bool is_followed = false);
   // Stops. A device that does not answer within STOP_PATIENCE is left behind with its thread.
   ~AdviceLoop();
   AdviceLoop(const AdviceLoop&) = delete;

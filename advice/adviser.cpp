@@ -61,10 +61,15 @@ Scene advice_scene(const Scene& scene) {
 }
 
 Adviser::Adviser(const Scene& scene, const std::string& on, int threads)
+    : Adviser(scene, [&](const Scene& own, const FieldSet& fields) {
+        return open_backend(own, fields, on, on == "core" ? Precision::full : Precision::single, threads);
+      }) {}
+
+Adviser::Adviser(const Scene& scene, const BackendOpener& open)
     : scene_(advice_scene(scene)),
       fields_(make_field_set({FIELD_WORST_EFFORT, FIELD_STATUS}, scene_)),
       rated_(make_field_set({FIELD_WORST_EFFORT, FIELD_WORST_EFFORT_TILT, FIELD_STATUS}, scene_)),
-      backend_(open_backend(scene_, fields_, on, on == "core" ? Precision::full : Precision::single, threads)),
+      backend_(open(scene_, fields_)),
       core_(make_core_evaluator(scene_)) {
   for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
     capacities_.push_back(core_->capacity(v));

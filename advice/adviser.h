@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -40,6 +41,9 @@ class Adviser {
   // Opens the device with the pipelines of all vessels, which may take seconds. `on` and `threads` as for open_backend, in float where it
   // is a device. Throws Error as advice_scene and open_backend do.
   Adviser(const Scene& scene, const std::string& on, int threads);
+  // With a backend of one's own, for the scene and the fields that it is given.
+  using BackendOpener = std::function<std::unique_ptr<Backend>(const Scene&, const FieldSet&)>;
+  Adviser(const Scene& scene, const BackendOpener& open);
 
   const BackendInfo& info() const { return backend_->info(); }
   // By which the grips of an answer are rated, with the liquid of the last one.

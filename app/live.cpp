@@ -159,6 +159,7 @@ class LiveRun {
     std::unique_ptr<RecordingWriter> writer;
     if (!options_.record.empty())
       writer = std::make_unique<RecordingWriter>(options_.record, info_of(scene_, gripper_->limits(), options_), RECORD);
+    tell_advice_place();
     tell_address();
     std::optional<DisplayLoop> display;
     if (!displays_.empty()) display.emplace(session_->live(), displays_, advice_source());
@@ -201,7 +202,11 @@ class LiveRun {
     if (!options_.advise) return;
     const std::string on = options_.advise_on.empty() ? default_advice_device() : options_.advise_on;
     advice_ = std::make_unique<LiveAdvice>(scene_, LiveAdvice::Options{on, !options_.no_clock, options_.follow_advice});
-    std::fprintf(stderr, "wholehand: live: advice is computed on %s\n", advice_->tally().place.c_str());
+  }
+
+  // What it computes on, once nothing is refused any more.
+  void tell_advice_place() const {
+    if (advice_) std::fprintf(stderr, "wholehand: live: advice is computed on %s\n", advice_->tally().place.c_str());
   }
 
   std::function<std::shared_ptr<const Advice>()> advice_source() const {

@@ -85,7 +85,8 @@ class Wandering {
 
 class SimGripper final : public Gripper {
  public:
-  SimGripper(const Scene& scene, std::uint64_t seed, const Participant& person, std::vector<SimJob> jobs, ShownGripSource* shown_grips)
+  SimGripper(const Scene& scene, std::uint64_t seed, const Participant& person, std::vector<SimJob> jobs,
+             ShownGripSource* shown_grips)
       : live_(scene),
         hand_gap_{live_.hand.scale * live_.hand.gap_closed, live_.hand.scale * live_.hand.gap_open},
         workspace_(scene, sim_gap(scene, live_.hand), hand_gap_),
@@ -139,8 +140,7 @@ class SimGripper final : public Gripper {
     const int vessel = user_.vessel();
     shown_.arrived = vessel >= 0 ? tick.arrived[vessel] : 0;
     shown_.flow = tick.flow;
-    ShownGrip grip;
-    if (shown_grips_ && shown_grips_->take(tick.number, grip)) user_.see(grip);
+    if (shown_grips_ && shown_grips_->take(tick.number, shown_grip_)) user_.see(shown_grip_);
   }
 
   bool is_done() const noexcept override { return user_.is_done(); }
@@ -188,7 +188,8 @@ class SimGripper final : public Gripper {
   std::array<double, 2> hand_gap_;  // closed, open, m
   Workspace workspace_;
   SimUser user_;
-  ShownGripSource* shown_grips_;
+  ShownGripSource* shown_grips_;  // null: the person follows nobody
+  ShownGrip shown_grip_;
   double period_;
   SimFingers fingers_;
   Delay shown_before_;

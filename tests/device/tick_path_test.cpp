@@ -27,6 +27,7 @@
 #include <vector>
 
 #include "device/haptic_loop.h"
+#include "device/sim_gripper.h"
 #include "tests/support/live_script.h"
 #include "tests/support/osc_peer.h"
 
@@ -323,6 +324,30 @@ TEST(TickPath, TheWatchSeesASystemCall) {
   ASSERT_TRUE(watched_calls(calls, *seen, [] { static_cast<void>(getppid()); }))
       << "this system does not let a child be watched (ptrace)";
   EXPECT_TRUE(calls.count(SYS_getppid));
+}
+
+// A person who is shown grips, and takes them, from the mailbox of another thread.
+TEST(TickPath, TakingAShownGripAllocatesAndLocksNothing) {
+  const Scene scene = live_scene();
+  ShownGrips shown;
+  const auto gripper = open_sim(scene, 1, Participant(scene.people), {SimJob{SimJob::Kind::show, 0, {0.05}, 0.08, 0, {}}}, &shown);
+  ShownGrip grip;
+  grip.vessel = 0;
+  grip.grip.height = 0.07;
+  grip.gap = 0.08;
+  GripperState state;
+  Tick tick;
+  const long before = allocations + locks;
+  for (std::int64_t n = 0; n < 2500; ++n) {  // reaches, looks, enters
+    if (n % 200 == 0) shown.put(grip);
+    is_watched = true;
+    gripper->read(state, n);
+    gripper->write({});
+    gripper->show(tick);
+    is_watched = false;
+  }
+  EXPECT_EQ(allocations + locks, before);
+  EXPECT_NEAR(state.position[1], 0.07, 5e-3) << "it has gone to the grip that was shown";
 }
 
 }  // namespace

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// Advice in step with a session: the same each time, there a moment later, and ended by a device that fails.
+// sanitizers: address
+#include "advice/stepped_advice.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/advised_session.h"
+
+namespace wholehand {
+namespace {
+
+// The grips that are shown in a session, with the ticks at which they come.
+std::vector<std::pair<std::int64_t, ShownGrip>> shown_in(const Scene& scene, const std::vector<Tick>& record, int threads) {
+  SteppedAdvice::Options options;
+  options.threads = threads;
+  options.keeps_line = true;
+  options.grips = LEAST_CLOUD;
+  SteppedAdvice advice(scene, "core", options);
+  std::vector<std::pair<std::int64_t, ShownGrip>> shown;
+  ShownGrip grip;
+  for (const Tick& tick : record) {
+    advice.look(tick);
+    if (advice.take(tick.number, grip)) shown.emplace_back(tick.number, grip);
+  }
+  return shown;
+}
+
+TEST(SteppedAdvice, IsTheSameEachTimeAndOnAnyThreads) {
+  const Scene scene = advised_session_scene();
+  const std::vector<Tick> record = play_session(scene, script_for(scene));
+  const auto one = shown_in(scene, record, 1), two = shown_in(scene, record, 2);
+  ASSERT_EQ(one.size(), two.size());
+  ASSERT_GT(one.size(), 10u);
+  bool has_grip = false;
+  for (std::size_t k = 0; k < one.size(); ++k) {
+    EXPECT_EQ(one[k].first, two[k].first);
+    EXPECT_EQ(one[k].first % 200, 0) << "five times a second of 1 kHz";
+    EXPECT_EQ(one[k].second.vessel, two[k].second.vessel);
+    EXPECT_EQ(one[k].second.grip.height, two[k].second.grip.height);
+    EXPECT_EQ(one[k].second.grip.roll, two[k].second.grip.roll);
+    EXPECT_EQ(one[k].second.grip.azimuth, 0);
+    EXPECT_EQ(one[k].second.grip.offset, 0);
+    has_grip = has_grip || one[k].second.vessel == 0;
+  }
+  EXPECT_TRUE(has_grip);
+}
+
+// What is asked for at one moment is there with the next, and not before.
+TEST(SteppedAdvice, TakesItsTime) {
+  const Scene scene = advised_session_scene();
+  const std::vector<Tick> record = play_session(scene, script_for(scene));
+  SteppedAdvice::Options options;
+  options.threads = 1;
+  options.grips = LEAST_CLOUD;
+  SteppedAdvice advice(scene, "core", options);
+  for (const Tick& tick : record) {
+    advice.look(tick);
+    if (tick.number < 200) {
+      EXPECT_FALSE(advice.newest());
+    } else if (advice.newest()) {
+      EXPECT_EQ(advice.newest()->tick, (tick.number / 200 - 1) * 200);
+    }
+  }
+  EXPECT_GT(advice.tally().updates, 10u);
+}
+
+TEST(SteppedAdvice, AsksNothingWhileHeldWhereNobodyFollows) {
+  const Scene scene = advised_session_scene();
+  const std::vector<Tick> record = play_session(scene, script_for(scene));
+  SteppedAdvice::Options options;
+  options.threads = 1;
+  options.while_held = false;
+  options.grips = LEAST_CLOUD;
+  SteppedAdvice advice(scene, "core", options);
+  for (const Tick& tick : record) {
+    advice.look(tick);
+    if (advice.newest()) {
+      EXPECT_FALSE(advice.newest()->is_held);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace wholehand
