@@ -87,6 +87,26 @@ TEST_F(StudyCommand, ForcesAndSessionsAreTheSameOnAnyThreads) {
   EXPECT_FALSE(file_exists(folder / "one/study.journal")) << "it is done";
 }
 
+// Of two people with and without advice: the same on any threads, and one row of each number says what advice changes.
+TEST_F(StudyCommand, AdviceIsTheSameOnAnyThreads) {
+  const std::string scene = one_beaker_file(folder), weak = folder / "weak.toml";
+  write_file(weak, file_text(scene));
+  write_file(scene, file_text(scene) + "[strength]\n");
+  const std::string start = "PROGRAM study " + scene + " --experiment advice --people 2 --quick -o " + (folder / "");
+  const Outcome one = run(start + "one --threads 1 2>&1");
+  ASSERT_EQ(one.code, 0) << one.output;
+  ASSERT_EQ(run(start + "two --threads 2 2>&1").code, 0);
+  EXPECT_EQ(csv("one"), csv("two"));
+  for (const char* row :
+       {"\nadvice,,all,lost_share,difference,", "\nadvice,,all,effort_mean,with,", "\nadvice,,all,time_mean,without,"})
+    EXPECT_TRUE(has(csv("one"), row)) << csv("one");
+  EXPECT_TRUE(has(one.output, "Effort: ")) << one.output;
+  const std::string page = file_text(folder / "one/study.html"), doctype = "<!DOCTYPE html>\n";
+  ASSERT_TRUE(page.starts_with(doctype));
+  expect_well_formed(page.substr(doctype.size()));
+  expect_error("study " + weak + " --experiment advice -o " + (folder / "no"), 2, "add [strength]");
+}
+
 // Stopped when the journal has somebody: nothing is half written, and what is done is not done again.
 TEST_F(StudyCommand, GoesOnWhereItWasInterrupted) {
   const std::string scene = one_beaker_file(folder), journal = folder / "cut/study.journal";
