@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "advice/cloud.h"
+#include "core/contact.h"
 #include "core/mirror.h"
 #include "core/vectors.h"
 

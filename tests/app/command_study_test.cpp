@@ -196,9 +196,10 @@ TEST_F(StudyCommand, WhatIsWrongIsOneLine) {
   const std::string start = "study mixing_board -o " + (folder / "none") + " ";
   expect_error(start + "--people 0", 2, "--people '0'; allowed: a whole number, 1 to 100000000");
   expect_error(start + "--people many", 2, "--people 'many'");
-  expect_error(start + "--experiment 'x y'", 2, "--experiment 'x y'; allowed: contacts, forces, sessions or all");
+  expect_error(start + "--experiment 'x y'", 2, "--experiment 'x y'; allowed: contacts, forces, sessions, advice or all");
   expect_error(start + "--experiment contacts --resume", 2, "--resume: contacts take seconds");
-  expect_error(start + "--experiment sessions --people 100001", 2, "--people 100001; allowed: 1 to 100000 with forces or sessions");
+  expect_error(start + "--experiment sessions --people 100001", 2,
+               "--people 100001; allowed: 1 to 100000 with forces, sessions or advice");
   expect_error("study three_beakers -o " + (folder / "none"), 2, "no vessel has guidance points");
   expect_error("study three_beakers --experiment sessions -o " + (folder / "none"), 2, "sessions need a task");
   expect_error("study mixing_board", 2, "-o");
