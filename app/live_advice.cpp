@@ -30,6 +30,19 @@ std::optional<std::string> AdviceTeller::tell(const Advice& advice) {
 }
 
 LiveAdvice::LiveAdvice(const Scene& scene, const Options& options) : teller_(scene) {
+  try {
+    open(scene, options);
+  } catch (const Error& error) {
+    // the remedy's usual words name an option that live does not have
+    const char* remedy = error.remedy == Remedy::core      ? "; use --advise-on core"
+                         : error.remedy == Remedy::or_core ? ", or use --advise-on core"
+                                                           : nullptr;
+    if (!remedy) throw;
+    throw Error(error.code, std::string(error.what()) + remedy);
+  }
+}
+
+void LiveAdvice::open(const Scene& scene, const Options& options) {
   if (options.has_clock) {
     loop_ = std::make_unique<AdviceLoop>(scene, options.on, 0, options.is_followed);
   } else {

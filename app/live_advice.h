@@ -53,6 +53,7 @@ class LiveAdvice {
   AdviceTally tally() const;
 
  private:
+  void open(const Scene& scene, const Options& options);
   void tell_newest();
 
   std::unique_ptr<AdviceLoop> loop_;  // one of these two

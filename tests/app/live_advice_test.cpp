@@ -86,6 +86,9 @@ TEST_F(LiveAdvised, RefusesWhatDoesNotGoTogether) {
   expect_error("live --follow-advice", 2, "add --advise");
   expect_error("live --advise --follow-advice --device view --view", 2, "--device sim");
   expect_error("live --advise --advise-on 'no such device'", 2, "no such device");
+  setenv("VK_DRIVER_FILES", "/nonexistent", 1);
+  expect_error("live --advise --advise-on vulkan", 3, "use --advise-on core");
+  unsetenv("VK_DRIVER_FILES");
   expect_error("live --advise --advise-on ''", 2, "--advise-on");
   const std::string weak = folder / "weak.toml";
   write_file(weak,
