@@ -33,9 +33,9 @@ struct AdviceTally {
 
 class AdviceLoop {
  public:
-  // Opens the device in a thread of lower priority, and returns when it is open: before the session starts, as pipelines take seconds.
-  // Throws Error as Adviser does. Later faults end the advice, and not the session. `is_followed`: by a simulated user, to
-  // whom shown() gives the grips.
+  // Opens the device in a thread of lower priority, and returns when it is open: before the session starts, as pipelines take
+  // seconds. Throws Error as Adviser does. Later faults end the advice, and not the session. `is_followed`: by a simulated user,
+  // to whom shown() gives the grips.
   AdviceLoop(const Scene& scene, const std::string& on, int threads, bool is_followed = false);
   // With an adviser of one's own, which is made in the thread.
   using AdviserOpener = std::function<std::unique_ptr<Adviser>(const Scene&)>;

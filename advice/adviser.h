@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which grip would be better from here? Asks a backend for a cloud of grips about where the hand is, and the core for the best of them.
+// Which grip would be better from here? Asks a backend for a cloud of grips about where the hand is, and the core for the best of
+// them.
 #pragma once
 
 #include <atomic>
@@ -31,15 +32,16 @@ constexpr double LIKE_SHARE = 0.05, LIKE_EFFORT = 5e-3;
 // Liquid that has changed by less of the vessel's capacity is still the liquid of the last update.
 constexpr double SAME_FILL = 2e-3;
 
-// The scene that grips are rated in: one fill for each vessel, what it holds at the start of a session; the scene's own tilts or, without
-// any, tens of degrees up to 150; those up to where 95 % of a fill has poured. Throws Error (usage): the scene has no [strength].
+// The scene that grips are rated in: one fill for each vessel, what it holds at the start of a session; the scene's own tilts or,
+// without any, tens of degrees up to 150; those up to where 95 % of a fill has poured. Throws Error (usage): the scene has no
+// [strength].
 Scene advice_scene(const Scene& scene);
 
 // One thread asks. The answers to the same questions in the same order are the same, to the bit, on the same device.
 class Adviser {
  public:
-  // Opens the device with the pipelines of all vessels, which may take seconds. `on` and `threads` as for open_backend, in float where it
-  // is a device. Throws Error as advice_scene and open_backend do.
+  // Opens the device with the pipelines of all vessels, which may take seconds. `on` and `threads` as for open_backend, in float
+  // where it is a device. Throws Error as advice_scene and open_backend do.
   Adviser(const Scene& scene, const std::string& on, int threads);
   // With a backend of one's own, for the scene and the fields that it is given.
   using BackendOpener = std::function<std::unique_ptr<Backend>(const Scene&, const FieldSet&)>;
@@ -51,8 +53,8 @@ class Adviser {
   // What it computes on, in words: "vulkan, llvmpipe (LLVM 15.0.6, 256 bits)", or "core, 2 threads".
   std::string place() const;
 
-  // The grips of the answer are rated by the core. No more than `grips` are asked for. `stop`, from another thread: the answer is then of
-  // what is done. Throws Error (failure) where neither the device nor the core can compute it.
+  // The grips of the answer are rated by the core. No more than `grips` are asked for. `stop`, from another thread: the answer is
+  // then of what is done. Throws Error (failure) where neither the device nor the core can compute it.
   Advice advise(const AdviceQuestion& question, std::size_t grips, const std::atomic<bool>* stop = nullptr);
 
   // What the device had to say since the last call ("device lost: .."); each line once.

@@ -21,8 +21,9 @@ struct Reach {
   bool has(const GripInput& grip) const;
 };
 
-// About `present` on a vessel. Heights stay on the vessel. The azimuth stays where it changes nothing: on a body of revolution whose
-// centre of mass lies on its axis. The hand is the person's own: its scale stays. `keeps_line`: azimuth and an offset of 0 stay, too.
+// About `present` on a vessel. Heights stay on the vessel. The azimuth stays where it changes nothing: on a body of revolution
+// whose centre of mass lies on its axis. The hand is the person's own: its scale stays. `keeps_line`: azimuth and an offset of 0
+// stay, too.
 Reach reach_of(const VesselData& vessel, const GripInput& present, bool keeps_line = false);
 
 // `present` with its line brought as near to the axis as the reach goes: the hand that is beside a vessel as if it had come in.

@@ -12,8 +12,8 @@
 
 namespace wholehand {
 
-// Of two tips (thumb, index) and a gripper's axes, in the vessel's frame and the world of the right hand. Nothing where the line of the
-// tips runs along the vessel's axis.
+// Of two tips (thumb, index) and a gripper's axes, in the vessel's frame and the world of the right hand. Nothing where the line
+// of the tips runs along the vessel's axis.
 std::optional<GripInput> grip_of_tips(const std::array<core_f64::Vec3, 2>& tips, const core_f64::Mat3& axes);
 
 // The vessel that a hand is about, and how the hand stands to it.

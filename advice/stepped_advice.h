@@ -10,8 +10,8 @@
 
 namespace wholehand {
 
-// Every 1 / LEAST_ADVICE_RATE s of the session's time about the moment of that tick, with STEP_CLOUD grips. It is there with the next such
-// tick: it has taken that long, whatever it took.
+// Every 1 / LEAST_ADVICE_RATE s of the session's time about the moment of that tick, with STEP_CLOUD grips. It is there with the
+// next such tick: it has taken that long, whatever it took.
 class SteppedAdvice final : public ShownGripSource {
  public:
   struct Options {

@@ -43,8 +43,8 @@ class HeldHand {
   core_f64::Vec3 center_{};
 };
 
-// The weight of a vessel with `volume` m3 of the scene's liquid (none: the empty vessel) while up is `up` in its frame. What is above
-// the lip weighs at the place of the rest, as in a Session.
+// The weight of a vessel with `volume` m3 of the scene's liquid (none: the empty vessel) while up is `up` in its frame. What is
+// above the lip weighs at the place of the rest, as in a Session.
 core_f64::Wrench weight_of(const LiveScene& live, std::size_t vessel, double volume, core_f64::Vec3 up);
 
 // What the vessel's lip holds back of `volume` m3 while up is `up`.

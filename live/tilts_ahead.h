@@ -9,8 +9,8 @@
 
 namespace wholehand {
 
-// One tilt, and the least effort there of the whole hand, in shares of its strength (infinite: no force holds the vessel): tilted on over
-// the side to which the vessel leans, and over the opposite one.
+// One tilt, and the least effort there of the whole hand, in shares of its strength (infinite: no force holds the vessel): tilted
+// on over the side to which the vessel leans, and over the opposite one.
 struct TiltAhead {
   double tilt = 0;  // rad
   double effort = 0, other = 0;

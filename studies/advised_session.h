@@ -49,8 +49,8 @@ class EffortWatch {
   std::vector<double> largest_;
 };
 
-// Ends early where `stop` is set. The advice is by the core, in step with the session. Nothing of a person whose hand holds no vessel: no
-// grasps.
+// Ends early where `stop` is set. The advice is by the core, in step with the session. Nothing of a person whose hand holds no
+// vessel: no grasps.
 AdvisedPerson advised_person(const Scene& scene, std::uint64_t seed, std::uint64_t person, const std::atomic<bool>& stop);
 
 // As numbers, to the bit, for a journal.

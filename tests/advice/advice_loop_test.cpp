@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Advice in a thread of its own: it comes, it follows the ticks, it ends when asked or where its device fails, and nobody waits for it.
+// Advice in a thread of its own: it comes, it follows the ticks, it ends when asked or where its device fails, and nobody waits
+// for it.
 // sanitizers: address thread
 #include "advice/advice_loop.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// wholehand live --advise as it is typed: what it says, that it changes nothing of the session, that a user who follows it repeats, and how
-// it ends.
+// wholehand live --advise as it is typed: what it says, that it changes nothing of the session, that a user who follows it
+// repeats, and how it ends.
 // sanitizers: none (it runs the program)
 #include "app/live_advice.h"
 
