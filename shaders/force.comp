@@ -91,7 +91,11 @@ struct FillTerms {
   bool safe;
 };
 
-FillTerms no_terms(Held held) { return FillTerms(Real(-1), Real(0), Real(0), NOT_A_NUMBER, held.antipodal); }
+// A pinch that is not antipodal asks for an infinite force, which a hand of infinite strength has: in a scene with efforts it is theirs to judge.
+FillTerms no_terms(Held held) {
+  bool may_hold = held.antipodal || !(scene.grip_strength < NO_DISTANCE);
+  return FillTerms(Real(-1), Real(0), Real(0), NOT_A_NUMBER, may_hold);
+}
 
 // As the dispatch before left them, whose last tilt was `before`.
 FillTerms kept_terms(Held held, uint fill, uint grip, Real before) {

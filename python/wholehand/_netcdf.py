@@ -45,7 +45,9 @@ class LibraryLock:
 
 
 def opened(file: str) -> xr.Dataset:
-    """What ``xarray.open_dataset`` gives, with every use of the library under the lock, from opening to closing."""
+    """What ``xarray.open_dataset`` gives, with the library under the lock from opening to ``close()``. What the garbage collector closes, it
+    closes without.
+    """
     import xarray as xr
 
     lock = LibraryLock()
