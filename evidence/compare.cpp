@@ -30,11 +30,16 @@ constexpr double ROUNDINGS = 64;
 // Whether an iteration of the grip took all its steps.
 constexpr std::uint32_t ALL_STEPS = STATUS_PROXY_UNSETTLED | 0x1Fu << STATUS_UNSETTLED_SHIFT;
 
-bool differs(const GatheredPlanes& a, const GatheredPlanes& b, std::size_t i, bool same_stop) {
+// Whether grip `i` of `a` has another outcome than grip `k` of `b`.
+bool differs(const GatheredPlanes& a, std::size_t i, const GatheredPlanes& b, std::size_t k, bool same_stop) {
   return std::any_of(DISCRETE.begin(), DISCRETE.end(), [&](int field) {
     const std::uint32_t left_out = field == FIELD_STATUS && !same_stop ? ALL_STEPS : 0;
-    return ((a.uint(field, i) ^ b.uint(field, i)) & ~left_out) != 0;
+    return ((a.uint(field, i) ^ b.uint(field, k)) & ~left_out) != 0;
   });
+}
+
+bool differs(const GatheredPlanes& a, const GatheredPlanes& b, std::size_t i, bool same_stop) {
+  return differs(a, i, b, i, same_stop);
 }
 
 bool grazes(const GatheredPlanes& planes, std::size_t i) { return (planes.uint(FIELD_STATUS, i) & STATUS_GRAZING) != 0; }
@@ -198,7 +203,8 @@ std::array<double, 2> loaded_center(const VesselConstants& glass, const LiquidRe
   return {(1 - share) * glass.center_of_mass[1] + share * liquid.height, share * liquid.lean};
 }
 
-Comparer::Comparer(const Scene& scene, const Evaluator& core, Allowance allowed) : scene_(scene), core_(core), allowed_(allowed) {
+Comparer::Comparer(const Scene& scene, const Evaluator& core, Allowance allowed, Spreads spreads)
+    : scene_(scene), core_(core), allowed_(allowed), spreads_(spreads) {
   const double stop = allowed.stop_tolerance;
   for (const auto& [thumb, index] : {std::pair{stop, stop}, {stop, -stop}, {-stop, stop}, {-stop, -stop}})
     others_.push_back(make_core_evaluator(with_tips(scene, thumb, index)));
@@ -245,39 +251,103 @@ void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, cons
   const std::size_t n = grips.size();
   GatheredPlanes truth = gather(core_, fields, vessel, grips);
   to_compared_form(truth);
-  const Spread spread = spread_of(vessel, grips, truth);
-  const std::vector<char> left_out = add_outcomes(vessel, a, b, truth, spread);
   std::vector<double> floors(FIELDS, 0.0);
   for (int field = 0; field < REAL_FIELDS; ++field)
     if (field_row(field).label && is_held(a, field) && is_held(b, field))
       floors[field] = ROUNDINGS * allowed_.epsilon * largest_of(truth, field);
   const LoadFloors load(scene_, core_, vessel, volume_tolerance(vessel), ROUNDINGS * allowed_.epsilon, allowed_.stop_tolerance,
                         truth);
-  const auto tolerance = [&](int field, std::size_t k, std::size_t i) {
+  const auto floor = [&](int field, std::size_t k, std::size_t i) {
     return floors[field] + 2 * allowed_.stop_tolerance * rests(field, k) + load.of(field, k, i) +
-           search_floor(field, k, vessel, truth, i) + 2 * spread.reals[(fields.plane[field] + k) * n + i];
+           search_floor(field, k, vessel, truth, i);
+  };
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < n; ++i)
+    if (spreads_ == Spreads::of_all || needs_spread(vessel, a, b, truth, floor, i)) chosen.push_back(i);
+  const Spread spread = spread_of(vessel, grips, truth, chosen);
+  const std::vector<char> left_out = add_outcomes(vessel, a, b, truth, spread);
+  const auto tolerance = [&](int field, std::size_t k, std::size_t i) {
+    return floor(field, k, i) + 2 * spread.reals[(fields.plane[field] + k) * n + i];
   };
   add_numbers(vessel, a, b, left_out, tolerance);
   if (has_tilts(scene_, fields)) add_tilts(vessel, grips, a, b, left_out, tolerance);
-  if (has_worst_state(fields)) add_worst_states(vessel, grips, a, b, left_out, tolerance);
+  if (has_worst_state(fields)) add_worst_states(vessel, grips, a, b, truth, left_out, tolerance);
 }
 
-Comparer::Spread Comparer::spread_of(std::size_t vessel, const std::vector<GripInput>& grips, const GatheredPlanes& truth) const {
+// Whether the grip's verdict may depend on how far the core's own answers move: outcomes differ or graze, the sides tell different
+// states, or a number differs by more than its floor, to which a spread can only add.
+bool Comparer::needs_spread(std::size_t vessel, const GatheredPlanes& a, const GatheredPlanes& b, const GatheredPlanes& truth,
+                            const Tolerance& floor, std::size_t i) const {
+  const FieldSet& fields = a.fields;
+  if (differs(a, b, i, allowed_.same_stop) || grazes(a, i) || grazes(b, i)) return true;
+  if (has_tilts(scene_, fields) && (tells_apart(FIELD_PEAK_TILT, a, b, i) || tells_apart(FIELD_SAFE_TILT, a, b, i))) return true;
+  if (has_worst_state(fields) && asks_worst_state(vessel, a, b, truth, i)) return true;
+  const auto& told = real_fields();
+  return std::any_of(told.begin(), told.end(), [&](const Field& field) {
+    if (!is_told(scene_, field) || !is_held(a, field.number) || !is_held(b, field.number)) return false;
+    const int planes = field_planes(field.number, scene_fills(scene_), scene_.tilts.size());
+    for (int p = 0; p < planes; ++p) {
+      const int plane = fields.plane[field.number] + p;
+      if (figure_difference(a.real(plane, i), b.real(plane, i)) > floor(field.number, p, i)) return true;
+    }
+    return false;
+  });
+}
+
+// Whether the sides tell different tilts of the field, at any fill.
+bool Comparer::tells_apart(int field, const GatheredPlanes& a, const GatheredPlanes& b, std::size_t i) const {
+  for (int fill = 0; fill < static_cast<int>(scene_fills(scene_)); ++fill) {
+    const auto told = [&](const GatheredPlanes& side) {
+      return place_told(side.real(side.fields.plane[field] + fill, i), scene_.tilts, PI);
+    };
+    if (told(a) != told(b)) return true;
+  }
+  return false;
+}
+
+// The state that a side names as the worst, by fills and tilts; nothing where it names none of the scene's.
+std::optional<std::size_t> Comparer::worst_state(std::size_t vessel, const GatheredPlanes& side, std::size_t i) const {
+  const std::vector<double> fills = scene_.liquid ? vessel_fills(scene_, scene_.vessels[vessel]) : std::vector<double>{0};
+  const auto told = [&](int field) { return side.real(side.fields.plane[field], i); };
+  const std::size_t fill = place_told(told(FIELD_WORST_EFFORT_FILL), fills, 1).value_or(0);
+  const std::size_t tilt = place_told(told(FIELD_WORST_EFFORT_TILT), scene_.tilts, PI).value_or(0);
+  if (fill == 0 || tilt == 0) return std::nullopt;
+  return (fill - 1) * scene_.tilts.size() + tilt - 1;
+}
+
+// Whether the sides' worst states are a question: they write two, and not only one that is rounded twice and the core's own.
+bool Comparer::asks_worst_state(std::size_t vessel, const GatheredPlanes& a, const GatheredPlanes& b, const GatheredPlanes& truth,
+                                std::size_t i) const {
+  const auto differ = [&](int field) {
+    const int plane = a.fields.plane[field];
+    return figure_difference(a.real(plane, i), b.real(plane, i)) != 0;
+  };
+  if (!differ(FIELD_WORST_EFFORT_FILL) && !differ(FIELD_WORST_EFFORT_TILT)) return false;
+  const auto of_a = worst_state(vessel, a, i);
+  return !of_a || of_a != worst_state(vessel, b, i) || of_a != worst_state(vessel, truth, i);
+}
+
+Comparer::Spread Comparer::spread_of(std::size_t vessel, const std::vector<GripInput>& all, const GatheredPlanes& truth,
+                                     const std::vector<std::size_t>& chosen) const {
   const FieldSet& fields = truth.fields;
-  const std::size_t n = grips.size();
+  const std::size_t n = all.size(), m = chosen.size();
   const double length = reach(scene_), shift = this->shift(vessel);
   Spread spread{std::vector<double>(truth.reals.size(), 0.0), std::vector<char>(n, 0), std::vector<char>(n, 0)};
+  if (chosen.empty()) return spread;
+  std::vector<GripInput> grips;
+  for (const std::size_t i : chosen) grips.push_back(all[i]);
   // of the planes from `first` on, which are those from `first_of_other` on of the other
   const auto spread_to = [&](GatheredPlanes other, int first, int first_of_other, int planes) {
     to_compared_form(other);
-    for (std::size_t k = 0; k < planes * n; ++k) {
-      double& most = spread.reals[first * n + k];
-      const double difference = figure_difference(other.reals[first_of_other * n + k], truth.reals[first * n + k]);
-      if (std::isfinite(difference)) most = std::max(most, difference);  // else another outcome: undecided
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-      spread.undecided[i] |= differs(other, truth, i, allowed_.same_stop) ? 1 : 0;
-      spread.may_graze[i] |= grazes(other, i) ? 1 : 0;
+    for (int plane = 0; plane < planes; ++plane)
+      for (std::size_t k = 0; k < m; ++k) {
+        double& most = spread.reals[(first + plane) * n + chosen[k]];
+        const double difference = figure_difference(other.real(first_of_other + plane, k), truth.real(first + plane, chosen[k]));
+        if (std::isfinite(difference)) most = std::max(most, difference);  // else another outcome: undecided
+      }
+    for (std::size_t k = 0; k < m; ++k) {
+      spread.undecided[chosen[k]] |= differs(other, k, truth, chosen[k], allowed_.same_stop) ? 1 : 0;
+      spread.may_graze[chosen[k]] |= grazes(other, k) ? 1 : 0;
     }
   };
   for (int way = 0; way < WAYS; ++way)
@@ -413,12 +483,7 @@ void Comparer::add_tilts(std::size_t vessel, const std::vector<GripInput>& grips
   const bool by_effort = has_effort(scene_);
   std::vector<std::size_t> asked;  // where the sides tell different safe tilts
   for (std::size_t i = 0; by_effort && i < a.count; ++i)
-    for (int fill = 0; fill < static_cast<int>(scene_fills(scene_)); ++fill) {
-      const int plane = fields.plane[FIELD_SAFE_TILT] + fill;
-      if (figure_difference(a.real(plane, i), b.real(plane, i)) == 0 || left_out[i] != 0) continue;
-      asked.push_back(i);
-      break;
-    }
+    if (left_out[i] == 0 && tells_apart(FIELD_SAFE_TILT, a, b, i)) asked.push_back(i);
   const StateEfforts efforts(scene_, core_, vessel, grips, asked);
   Comparison& peak = row("force", PEAK_TILT, "mN");
   Comparison& safe = row("force", SAFE_TILT, "mN");
@@ -477,30 +542,24 @@ void Comparer::add_tilts(std::size_t vessel, const std::vector<GripInput>& grips
 // The state that is told to be the worst is a choice among all: where the sides name two, each must be as bad as the worst by the core's
 // efforts, to the tolerance of the worst effort and to how far the effort of this state moves.
 void Comparer::add_worst_states(std::size_t vessel, const std::vector<GripInput>& grips, const GatheredPlanes& a,
-                                const GatheredPlanes& b, const std::vector<char>& left_out, const Tolerance& tolerance) {
-  const FieldSet& fields = a.fields;
-  const auto named = [&](const GatheredPlanes& side, int field, std::size_t i) { return side.real(fields.plane[field], i); };
+                                const GatheredPlanes& b, const GatheredPlanes& truth, const std::vector<char>& left_out,
+                                const Tolerance& tolerance) {
   std::vector<std::size_t> asked;
-  for (std::size_t i = 0; i < a.count; ++i) {
-    const auto differ = [&](int field) { return figure_difference(named(a, field, i), named(b, field, i)) != 0; };
-    if (left_out[i] == 0 && (differ(FIELD_WORST_EFFORT_FILL) || differ(FIELD_WORST_EFFORT_TILT))) asked.push_back(i);
-  }
+  for (std::size_t i = 0; i < a.count; ++i)
+    if (left_out[i] == 0 && asks_worst_state(vessel, a, b, truth, i)) asked.push_back(i);
   const StateEfforts efforts(scene_, core_, vessel, grips, asked);
   const double scale = fine_unit(field_row(FIELD_WORST_EFFORT)).scale;
-  const std::size_t tilts = scene_.tilts.size(), states = scene_fills(scene_) * tilts;
-  const std::vector<double> fills = scene_.liquid ? vessel_fills(scene_, scene_.vessels[vessel]) : std::vector<double>{0};
+  const std::size_t states = scene_fills(scene_) * scene_.tilts.size();
   Comparison& entry = row("effort", WORST_STATE, fine_unit(field_row(FIELD_WORST_EFFORT)).name);
   entry.compared += static_cast<std::uint64_t>(std::count(left_out.begin(), left_out.end(), 0));
   for (const std::size_t i : asked) {
     double most = 0, of_most = tolerance(FIELD_WORST_EFFORT, 0, i);
     for (const GatheredPlanes* side : {&a, &b}) {
-      const std::size_t fill = place_told(named(*side, FIELD_WORST_EFFORT_FILL, i), fills, 1).value_or(0);
-      const std::size_t tilt = place_told(named(*side, FIELD_WORST_EFFORT_TILT, i), scene_.tilts, PI).value_or(0);
-      const bool is_state = fill > 0 && tilt > 0;
-      const std::size_t state = is_state ? (fill - 1) * tilts + tilt - 1 : 0;
+      const std::optional<std::size_t> named = worst_state(vessel, *side, i);
+      const std::size_t state = named.value_or(0);
       const double least = efforts.least_form(i, states);
       const double above = compared_form(FIELD_EFFORT, efforts.of(i, state)) - least;
-      const double wrong = is_state && !std::isnan(above) ? above : std::numeric_limits<double>::infinity();
+      const double wrong = named && !std::isnan(above) ? above : std::numeric_limits<double>::infinity();
       const double unfinished = allowed_.epsilon > std::numeric_limits<double>::epsilon() ? UNFINISHED * least * (1 - least) : 0;
       double allowed = tolerance(FIELD_WORST_EFFORT, 0, i) + unfinished;
       if (std::isfinite(wrong) && wrong > allowed) allowed += 2 * moves_state(vessel, grips[i], state);

@@ -54,10 +54,15 @@ struct Flip {
   bool inside = false;
 };
 
+// For which grips the core's own answers are moved, at twenty evaluations a grip. Where needed: where the sides differ by more than is
+// allowed without. What is outside, excluded and grazing is the same; tolerances and shares of them are then those without, where these are
+// enough.
+enum class Spreads { of_all, where_needed };
+
 // Gathers comparisons vessel by vessel.
 class Comparer {
  public:
-  Comparer(const Scene& scene, const Evaluator& core, Allowance allowed);
+  Comparer(const Scene& scene, const Evaluator& core, Allowance allowed, Spreads spreads = Spreads::of_all);
 
   // `a` and `b` evaluate `grips` of the vessel, both with the same fields. Grips that graze by the core, or within the allowance of
   // that, are left out and counted, as are those whose discrete outcomes differ where the core's own change within the allowance
@@ -78,7 +83,14 @@ class Comparer {
  private:
   struct Spread;
   using Tolerance = std::function<double(int field, std::size_t state, std::size_t grip)>;
-  Spread spread_of(std::size_t vessel, const std::vector<GripInput>& grips, const GatheredPlanes& truth) const;
+  bool needs_spread(std::size_t vessel, const GatheredPlanes& a, const GatheredPlanes& b, const GatheredPlanes& truth,
+                    const Tolerance& floor, std::size_t i) const;
+  bool tells_apart(int field, const GatheredPlanes& a, const GatheredPlanes& b, std::size_t i) const;
+  std::optional<std::size_t> worst_state(std::size_t vessel, const GatheredPlanes& side, std::size_t i) const;
+  bool asks_worst_state(std::size_t vessel, const GatheredPlanes& a, const GatheredPlanes& b, const GatheredPlanes& truth,
+                        std::size_t i) const;
+  Spread spread_of(std::size_t vessel, const std::vector<GripInput>& all, const GatheredPlanes& truth,
+                   const std::vector<std::size_t>& chosen) const;
   std::vector<char> add_outcomes(std::size_t vessel, const GatheredPlanes& a, const GatheredPlanes& b, const GatheredPlanes& truth,
                                  const Spread& spread);
   double largest_of(const GatheredPlanes& truth, int field) const;
@@ -91,7 +103,7 @@ class Comparer {
   double search_floor(int field, std::size_t plane, std::size_t vessel, const GatheredPlanes& truth, std::size_t grip) const;
   double volume_tolerance(std::size_t vessel) const;
   void add_worst_states(std::size_t vessel, const std::vector<GripInput>& grips, const GatheredPlanes& a, const GatheredPlanes& b,
-                        const std::vector<char>& left_out, const Tolerance& tolerance);
+                        const GatheredPlanes& truth, const std::vector<char>& left_out, const Tolerance& tolerance);
   double moves_state(std::size_t vessel, const GripInput& grip, std::size_t state) const;
   double shift(std::size_t vessel) const;
   std::optional<std::size_t> place_told(double told, const std::vector<double>& listed, double largest) const;
@@ -100,6 +112,7 @@ class Comparer {
   const Scene& scene_;
   const Evaluator& core_;
   Allowance allowed_;
+  Spreads spreads_;
   std::vector<std::shared_ptr<const Evaluator>> others_;  // with tips and strengths as far off as either side may be
   std::vector<Comparison> rows_;
   std::vector<Flip> flips_;

@@ -134,14 +134,17 @@ Compared compare_efforts(const Scene& scene, Precision precision, int count, con
   return all;
 }
 
-// In float a contact at the limit of what holds may take an effort or none: of a hundred grips one at most.
-void expect_same_efforts(const Scene& scene, const std::string& name, int count = COUNT) {
+// In float a contact at the limit of what holds may take an effort or none: of a hundred grips one at most. Answers the last comparison,
+// which is in double.
+Compared expect_same_efforts(const Scene& scene, const std::string& name, int count = COUNT) {
+  Compared all;
   for (const Precision precision : {Precision::single, Precision::full}) {
-    const Compared all = compare_efforts(scene, precision, count, name + (precision == Precision::single ? "_float" : "_double"));
+    all = compare_efforts(scene, precision, count, name + (precision == Precision::single ? "_float" : "_double"));
     EXPECT_GT(all.grips, count / 10) << name << ": too few plausible grips to tell anything";
     EXPECT_LE(100 * all.outside, precision == Precision::single ? all.grips : 0)
         << name << ": " << all.outside << " of " << all.grips << ", worst " << all.worst;
   }
+  return all;
 }
 
 TEST(ParityEffort, OfWetVessels) { expect_same_efforts(strong_scene({beaker1(), beaker2(), beaker3(), vase()}), "wet"); }
@@ -154,8 +157,7 @@ TEST(ParityEffort, OfWeakHandsThatLetGo) {
   Scene scene = strong_scene({beaker1(), beaker3()});
   for (double& digit : scene.strength->digits) digit *= 0.1;
   scene.tilts = linspace(0, PI, 13);
-  expect_same_efforts(scene, "weak");
-  const Compared all = compare_efforts(scene, Precision::full, COUNT, "weak_counts");
+  const Compared all = expect_same_efforts(scene, "weak");
   EXPECT_GT(all.beyond, all.infinite);  // else no safe tilt was looked for
 }
 

@@ -72,7 +72,7 @@ void expect_same_or_close(bool is_cpu, const Scene& scene, Precision precision, 
   }
   if (is_cpu) return;
   const auto core = make_core_evaluator(scene);
-  Comparer comparer(scene, *core, allowance(precision));
+  Comparer comparer(scene, *core, allowance(precision), Spreads::where_needed);
   comparer.add(0, grips, merged, all);
   EXPECT_TRUE(comparer.holds()) << what << "\n" << table_of(comparer);
 }
