@@ -12,6 +12,7 @@ namespace wholehand {
 namespace {
 
 constexpr std::size_t MOST_RUNS = 400;  // in all, so that the file stays small
+constexpr std::uint64_t FEW_GRIPS = 8;  // a run of fewer than the sweep's by this factor is short
 
 // Measured with 155 states and two spheres on each bone on the machine of docs/results (two cores at 2.6 GHz): seconds of one thread.
 struct Guess {
@@ -38,9 +39,25 @@ bool is_same_place(const RunTime& a, const RunTime& b) { return is_of(a, b.machi
 // A device's first run compiles what later ones find in the driver's cache, so one run of it says little.
 bool is_sure(const CostEstimate& cost, bool is_device) { return cost.runs >= (is_device ? 2 : 1); }
 
+// Of a device that is not sure the fixed part is no reason against a try: it may be what compiled.
 bool is_due(const CostEstimate& cost, double other_seconds, const SweepTask& task, bool is_device) {
-  const double worth = is_sure(cost, is_device) ? WORTH_A_TRY : 2 * WORTH_A_TRY;
-  return cost.age >= RUNS_TO_OLD && cost.seconds(task.grips) <= worth * other_seconds;
+  if (cost.age < RUNS_TO_OLD) return false;
+  if (is_sure(cost, is_device)) return cost.seconds(task.grips) <= WORTH_A_TRY * other_seconds;
+  const double fixed = is_device ? 0 : cost.fixed;
+  return fixed + cost.per_grip * static_cast<double>(task.grips) <= 2 * WORTH_A_TRY * other_seconds;
+}
+
+bool is_short(const RunTime& run, const SweepTask& task) { return run.grips < task.grips / FEW_GRIPS; }
+
+// What a short run takes a grip is largely latency, and compilation on a device. It may say less than the guess, and what is more is fixed.
+CostEstimate cost_of(const RunTime& run, const SweepTask& task, double guess_per_grip) {
+  const auto grips = static_cast<double>(run.grips);
+  CostEstimate cost;
+  cost.per_grip = run.kernels / grips;
+  if (is_short(run, task)) cost.per_grip = std::min(cost.per_grip, guess_per_grip);
+  cost.fixed = run.fixed + std::max(0.0, run.kernels - cost.per_grip * grips);
+  cost.device = run.device;
+  return cost;
 }
 
 std::string time_text(const CostEstimate& cost, const SweepTask& task) {
@@ -75,15 +92,20 @@ CostEstimate estimate(std::span<const RunTime> history, const std::string& machi
   CostEstimate best = guess;
   const std::string kind = kind_of(task);
   std::uint64_t last = 0, last_here = 0;
+  bool best_is_short = false;
   for (auto run = history.rbegin(); run != history.rend(); ++run) {
     if (!is_of(*run, machine, kind)) continue;
     last = std::max(last, run->number);
     if (is_on_core(*run) != on_core || best.runs >= COUNTED_RUNS) continue;
     last_here = std::max(last_here, run->number);
-    const CostEstimate one{run->fixed, run->kernels / static_cast<double>(run->grips), best.runs + 1, 0, run->device};
-    const bool is_better = best.runs == 0 || one.seconds(task.grips) < best.seconds(task.grips);
-    if (is_better) best = one;
-    best.runs = one.runs;
+    const CostEstimate one = cost_of(*run, task, guess.per_grip);
+    const int runs = best.runs + 1;
+    const bool as_short = is_short(*run, task) == best_is_short, is_less = one.seconds(task.grips) < best.seconds(task.grips);
+    if (best.runs == 0 || (as_short ? is_less : best_is_short)) {
+      best = one;
+      best_is_short = is_short(*run, task);
+    }
+    best.runs = runs;
   }
   best.age = last - last_here;
   return best;

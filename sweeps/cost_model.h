@@ -52,7 +52,8 @@ constexpr double WORTH_A_TRY = 2;          // times the better estimate, at most
 constexpr double QUICK_CORE = 0.25;        // s: less than a device takes to open
 
 // From the runs of this kind on this machine, on the core or on a device. The least of the last COUNTED_RUNS counts, for so many
-// grips: what took longer compiled kernels, or shared its processors with other work. `guess` where there is none.
+// grips: what took longer compiled kernels, or shared its processors with other work. Runs of an eighth of the grips or more count before
+// shorter ones, of which a grip is never expected to take more than by `guess`. `guess` where there is none.
 CostEstimate estimate(std::span<const RunTime> history, const std::string& machine, const SweepTask& task, bool on_core,
                       const CostEstimate& guess);
 

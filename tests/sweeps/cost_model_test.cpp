@@ -133,6 +133,31 @@ TEST(CostModel, ADeviceThatHasBecomeFasterIsFound) {
   EXPECT_GT(on_device, 60);
 }
 
+// 27 grips of a device that compiled: 8.26 s say what it takes to begin, and nothing of what a grip takes.
+TEST(CostModel, AFewGripsDoNotTellWhatManyTake) {
+  const SweepTask few = task_of(27), many = task_of(160'000);
+  const double guess = guess_device(many, true).per_grip;
+  auto history = history_of({run_of(many, "core", 0.1, 1.76), run_of(few, "llvmpipe", 0.7, 8.26)});
+  EXPECT_NEAR(both(history, few).device.seconds(few.grips), 8.96, 1e-9) << "so many took so long";
+  EXPECT_NEAR(both(history, many).device.seconds(many.grips), 8.96 + (many.grips - few.grips) * guess, 1e-9);
+
+  add_run(history, run_of(few, "llvmpipe", 0.7, 27e-6));
+  EXPECT_NEAR(both(history, many).device.seconds(many.grips), 0.7 + many.grips * 1e-6, 1e-9) << "less than the guess is possible";
+
+  add_run(history, run_of(many, "llvmpipe", 0.7, 3.2));
+  EXPECT_NEAR(both(history, many).device.seconds(many.grips), 3.9, 1e-9) << "a run of as many grips says more";
+}
+
+TEST(CostModel, ADeviceThatCompiledForAFewGripsIsTriedAgain) {
+  const SweepTask few = task_of(27), many = task_of(160'000);
+  auto history = history_of({run_of(few, "llvmpipe", 0.7, 8.26)});
+  for (std::uint64_t k = 0; k < RUNS_TO_OLD; ++k) add_run(history, run_of(many, "core", 0.1, 1.76));
+  EXPECT_TRUE(choice_of(history, many).is_trial);
+  EXPECT_TRUE(choice_of(history, many).on_device);
+  add_run(history, run_of(many, "llvmpipe", 0.7, 1.0));
+  EXPECT_TRUE(choice_of(history, many).on_device) << "it takes 1.7 s, and the core 1.86 s";
+}
+
 TEST(CostModel, GuessesGrowOnASlowMachine) {
   const SweepTask task = task_of(100'000);
   auto [core, device] = both(history_of({run_of(task, "core", 0.4, 4.4)}), task);  // four times the guess
