@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "core/parallel.h"
 #include "host/device_info.h"
 #include "sweeps/mark.h"
@@ -122,8 +125,9 @@ void AutoBackend::remember(const SweepTimes& times, std::uint64_t grips, const B
   std::string trouble;
   std::vector<RunTime> history = read_run_times(file_, trouble);  // another program may have added to it meanwhile
   if (trouble.starts_with("it is none")) return;
-  add_run(history, {machine_name(), kind_of(task_), is_core ? "core" : info.device, 0, grips,
-                    std::max(0.0, times.wall - times.kernels), times.kernels});
+  RunTime run{machine_name(), kind_of(task_), is_core ? "core" : info.device, 0, grips, 0, times.kernels + times.writing};
+  run.fixed = std::max(0.0, times.wall - run.growing);
+  add_run(history, std::move(run));
   write_run_times(file_, history);
 }
 

@@ -53,9 +53,9 @@ bool is_short(const RunTime& run, const SweepTask& task) { return run.grips < ta
 CostEstimate cost_of(const RunTime& run, const SweepTask& task, double guess_per_grip) {
   const auto grips = static_cast<double>(run.grips);
   CostEstimate cost;
-  cost.per_grip = run.kernels / grips;
+  cost.per_grip = run.growing / grips;
   if (is_short(run, task)) cost.per_grip = std::min(cost.per_grip, guess_per_grip);
-  cost.fixed = run.fixed + std::max(0.0, run.kernels - cost.per_grip * grips);
+  cost.fixed = run.fixed + std::max(0.0, run.growing - cost.per_grip * grips);
   cost.device = run.device;
   return cost;
 }

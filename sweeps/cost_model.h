@@ -33,8 +33,8 @@ struct RunTime {
   std::string device;         // its name; "core"
   std::uint64_t number = 0;   // of the runs of this kind on this machine
   std::uint64_t grips = 0;
-  double fixed = 0;    // s, all but kernels
-  double kernels = 0;  // s
+  double fixed = 0;    // s, all but what follows
+  double growing = 0;  // s, kernels and writing, which grow with the grips
 };
 
 // What a sweep is expected to take: fixed, and for each grip, s.

@@ -22,7 +22,7 @@ constexpr std::string_view START = "wholehand run times 1 ";
 constexpr std::uintmax_t LARGEST = 1 << 20;  // bytes; more is not ours
 
 nlohmann::json to_json(const RunTime& run) {
-  return {run.machine, run.kind, run.device, run.number, run.grips, run.fixed, run.kernels};
+  return {run.machine, run.kind, run.device, run.number, run.grips, run.fixed, run.growing};
 }
 
 RunTime from_json(const nlohmann::json& row) {
@@ -33,8 +33,8 @@ RunTime from_json(const nlohmann::json& row) {
   row.at(3).get_to(run.number);
   row.at(4).get_to(run.grips);
   row.at(5).get_to(run.fixed);
-  row.at(6).get_to(run.kernels);
-  const bool is_time = std::isfinite(run.fixed) && run.fixed >= 0 && std::isfinite(run.kernels) && run.kernels >= 0;
+  row.at(6).get_to(run.growing);
+  const bool is_time = std::isfinite(run.fixed) && run.fixed >= 0 && std::isfinite(run.growing) && run.growing >= 0;
   if (!is_time || run.grips == 0) throw std::out_of_range("no time of a run");
   return run;
 }

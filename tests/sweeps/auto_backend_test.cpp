@@ -126,6 +126,22 @@ TEST_F(AutoBackendTest, WithoutAnyDeviceTheLineSaysSo) {
   EXPECT_EQ(options_.choice.find("chosen: core, since no Vulkan driver"), 0u) << options_.choice;
 }
 
+// What is written grows with the grips, as what is computed does.
+TEST_F(AutoBackendTest, WritingCountsForEachGrip) {
+  keep(1, 5);
+  AutoBackend chosen(scene_, options_);
+  BackendInfo info;
+  info.backend = "core";
+  SweepTimes times;
+  times.wall = 10;
+  times.kernels = 4;
+  times.writing = 5;
+  chosen.remember(times, task().grips, info);
+  EXPECT_DOUBLE_EQ(kept().back().fixed, 1);
+  const CostEstimate cost = estimate({&kept().back(), 1}, machine_name(), task(), true, {});
+  EXPECT_DOUBLE_EQ(cost.per_grip * static_cast<double>(task().grips), 9);
+}
+
 TEST_F(AutoBackendTest, AFileThatIsNotAsItWasWrittenIsIgnored) {
   keep(5, 1);
   std::ifstream in(file());
