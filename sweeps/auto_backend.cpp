@@ -93,13 +93,16 @@ void AutoBackend::decide() {
   options_.choice = no_device_.empty() ? choice_line(task_, choice, core_, device_) : "chosen: core, since " + no_device_;
 }
 
-// The devices are asked for only where nothing is known of them and a device might be worth it: that alone takes a twentieth of a second.
+// The devices are asked for only where nothing is known of them, or for long nothing new, and a device might be worth it: that alone takes a
+// twentieth of a second.
 CostEstimate AutoBackend::device_cost() {
   const CostEstimate known = estimate(history_, machine_name(), task_, false, guess_device(task_, true));
-  if (known.runs > 0 || core_.seconds(task_.grips) <= QUICK_CORE) return known;
+  const bool is_known = known.runs > 0 && known.age < RUNS_TO_OLD;
+  if (is_known || core_.seconds(task_.grips) <= QUICK_CORE) return known;
   try {
     const std::vector<host::DeviceInfo> devices = host::list_devices();
     const host::DeviceInfo& device = host::choose_device(devices, "vulkan");
+    if (device.name == known.device) return known;
     CostEstimate guess = guess_device(task_, device.kind == host::DeviceKind::cpu);
     guess.device = device.name;
     guess.age = known.age;

@@ -142,6 +142,30 @@ TEST_F(AutoBackendTest, WritingCountsForEachGrip) {
   EXPECT_DOUBLE_EQ(cost.per_grip * static_cast<double>(task().grips), 9);
 }
 
+// A driver that came later is found, though another device has times.
+TEST_F(AutoBackendTest, AfterManySweepsDevicesAreLookedForAgain) {
+  keep(1, 5);
+  auto history = kept();
+  const RunTime core = history.front();
+  for (std::uint64_t k = 1; k < RUNS_TO_OLD; ++k) {
+    AutoBackend(scene_, options_);
+    EXPECT_NE(options_.choice.find("5.0 s on a device"), std::string::npos) << options_.choice;
+    options_.on = ON_AUTO;
+    add_run(history, core);
+    ASSERT_TRUE(write_run_times(file(), history));
+  }
+  add_run(history, core);
+  ASSERT_TRUE(write_run_times(file(), history));
+  AutoBackend(scene_, options_);
+  EXPECT_EQ(options_.choice.find("a device"), std::string::npos) << options_.choice;
+  EXPECT_NE(options_.choice.find("(first guess)"), std::string::npos) << "of the one that is there: " << options_.choice;
+
+  options_.on = ON_AUTO;
+  const ScopedVariable drivers("VK_DRIVER_FILES", "/nonexistent.json"), older("VK_ICD_FILENAMES", "/nonexistent.json");
+  AutoBackend(scene_, options_);
+  EXPECT_EQ(options_.choice.find("chosen: core, since no Vulkan driver"), 0u) << options_.choice;
+}
+
 TEST_F(AutoBackendTest, AFileThatIsNotAsItWasWrittenIsIgnored) {
   keep(5, 1);
   std::ifstream in(file());
