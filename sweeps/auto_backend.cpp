@@ -56,6 +56,10 @@ std::string cost_text(const CostEstimate& cost, const SweepTask& task) {
 
 }  // namespace
 
+std::string precision_trouble(const host::DeviceInfo& device, const std::optional<Precision>& precision) {
+  return precision == Precision::full && !device.float64 ? device.name + " has no double precision" : "";
+}
+
 AutoBackend::AutoBackend(const Scene& scene, SweepOptions& options) : options_(options), is_auto_(options.on == ON_AUTO) {
   if (is_auto_ && options.resume && resume(scene)) return;
   try {
@@ -102,6 +106,7 @@ CostEstimate AutoBackend::device_cost() {
   try {
     const std::vector<host::DeviceInfo> devices = host::list_devices();
     const host::DeviceInfo& device = host::choose_device(devices, "vulkan");
+    no_device_ = precision_trouble(device, options_.precision);
     if (device.name == known.device) return known;
     CostEstimate guess = guess_device(task_, device.kind == host::DeviceKind::cpu);
     guess.device = device.name;

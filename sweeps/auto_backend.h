@@ -3,11 +3,13 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/backend.h"
 #include "core/error.h"
+#include "host/device_info.h"
 #include "sweeps/closing.h"
 #include "sweeps/cost_model.h"
 #include "sweeps/sweep_options.h"
@@ -15,6 +17,9 @@
 namespace wholehand {
 
 inline constexpr const char* ON_AUTO = "auto";
+
+// Why the device cannot compute in the precision that is asked for, half a sentence; "" where it can.
+std::string precision_trouble(const host::DeviceInfo& device, const std::optional<Precision>& precision);
 
 // Decides when it is made, before meshes are read; `options.on` then says core or a device, and `options.choice` why. Where `options.on`
 // is not ON_AUTO it only keeps the times. A sweep that is resumed goes on where it began, with the precision that it began with.

@@ -166,6 +166,16 @@ TEST_F(AutoBackendTest, AfterManySweepsDevicesAreLookedForAgain) {
   EXPECT_EQ(options_.choice.find("chosen: core, since no Vulkan driver"), 0u) << options_.choice;
 }
 
+TEST(AutoBackend, ADeviceWithoutDoublesIsNotChosenForThem) {
+  host::DeviceInfo device;
+  device.name = "a small GPU";
+  EXPECT_EQ(precision_trouble(device, Precision::full), "a small GPU has no double precision");
+  EXPECT_EQ(precision_trouble(device, Precision::single), "");
+  EXPECT_EQ(precision_trouble(device, std::nullopt), "") << "the usual one is float";
+  device.float64 = true;
+  EXPECT_EQ(precision_trouble(device, Precision::full), "");
+}
+
 TEST_F(AutoBackendTest, AFileThatIsNotAsItWasWrittenIsIgnored) {
   keep(5, 1);
   std::ifstream in(file());
