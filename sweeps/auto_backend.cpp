@@ -118,14 +118,16 @@ CostEstimate AutoBackend::device_cost() {
   }
 }
 
-void AutoBackend::give_up_device(const std::string& why) {
+void AutoBackend::take_core() {
   may_change_ = false;
   options_.on = "core";
   options_.choice = "";
-  say("on core, since the device does not work: " + why);
 }
 
-void AutoBackend::say(const std::string& line) const { options_.note ? options_.note(line) : say_note(line); }
+void AutoBackend::say_on_core(const std::string& why) const {
+  const std::string line = "on core, since the device does not work: " + why;
+  options_.note ? options_.note(line) : say_note(line);
+}
 
 void AutoBackend::remember(const SweepTimes& times, std::uint64_t grips, const BackendInfo& info) {
   const bool is_core = info.backend == "core";

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "core/backend.h"
@@ -28,17 +29,26 @@ class AutoBackend {
   // Both must outlive the object.
   AutoBackend(const Scene& scene, SweepOptions& options);
 
-  // What `work` makes of options.on. Where the program chose the device itself and that fails, a note says so, options.on becomes the
-  // core, and `work` is done again.
+  // What `work` makes of options.on. Where the program chose the device itself and that fails, options.on becomes the core, and `work` is
+  // done again; then a note says so. Where the core fails too, it was not the device, and its error is all that is told.
   template <class Work>
   auto or_on_core(Work&& work) {
     if (!may_change_) return work();
+    std::string why;
     try {
       return work();
     } catch (const Error& error) {
-      give_up_device(error.what());
+      why = error.what();
     }
-    return work();
+    take_core();
+    if constexpr (std::is_void_v<decltype(work())>) {
+      work();
+      say_on_core(why);
+    } else {
+      auto made = work();
+      say_on_core(why);
+      return made;
+    }
   }
 
   // Keeps what the sweep took, for later choices. Without a cache nothing is kept.
@@ -51,8 +61,8 @@ class AutoBackend {
   bool resume(const Scene& scene);
   void decide();
   CostEstimate device_cost();
-  void give_up_device(const std::string& why);
-  void say(const std::string& line) const;
+  void take_core();
+  void say_on_core(const std::string& why) const;
 
   SweepOptions& options_;
   SweepTask task_;

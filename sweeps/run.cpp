@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "sweeps/run.h"
 
+#include <cstdint>
+#include <functional>
+
 #include "core/evaluator.h"
 #include "host/open_backend.h"
 #include "objects/vessel.h"
@@ -10,8 +13,7 @@
 namespace wholehand {
 namespace {
 
-void read_meshes(Scene& scene, const SweepOptions& options) {
-  const auto device_bytes = [&] { return largest_buffer(options.on); };
+void read_meshes(Scene& scene, const SweepOptions& options, const std::function<std::uint64_t()>& device_bytes) {
   if (!options.note) return load_meshes(scene, device_bytes);
   if (!has_meshes(scene)) return;  // what is found of them is no note: the other program asks for it where it wants to
   MeshOptions mesh_options;
@@ -32,10 +34,12 @@ ExitCode run_sweep(const Scene& given, const SweepOptions& options) {
     const Precision usual = own.on == "core" ? Precision::full : Precision::single;
     return open_backend(of, fields, own.on, own.precision.value_or(usual), own.threads);
   };
+  // by itself, so that a note comes before meshes that take long
+  const auto device_bytes = [&] { return chosen.or_on_core([&] { return largest_buffer(own.on); }); };
   const SweepParts parts{
       [&](const FieldSet& fields) { return chosen.or_on_core([&] { return open(scene, fields); }); },
       [&] { return make_core_evaluator(scene); },
-      [&] { chosen.or_on_core([&] { read_meshes(scene, own); }); },
+      [&] { chosen.or_on_core([&] { read_meshes(scene, own, device_bytes); }); },
       open,
   };
   return run_sweep(scene, own, parts);

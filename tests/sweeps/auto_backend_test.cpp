@@ -25,6 +25,7 @@
 #include "system/files.h"
 #include "tests/support/environment.h"
 #include "tests/support/files.h"
+#include "tests/support/refusal.h"
 
 namespace wholehand {
 namespace {
@@ -164,6 +165,32 @@ TEST_F(AutoBackendTest, AfterManySweepsDevicesAreLookedForAgain) {
   const ScopedVariable drivers("VK_DRIVER_FILES", "/nonexistent.json"), older("VK_ICD_FILENAMES", "/nonexistent.json");
   AutoBackend(scene_, options_);
   EXPECT_EQ(options_.choice.find("chosen: core, since no Vulkan driver"), 0u) << options_.choice;
+}
+
+// A mesh that is refused is no fault of the device.
+TEST_F(AutoBackendTest, AMeshThatIsRefusedIsRefusedOnce) {
+  scene_.vessels[0].mesh.emplace().file = "absent.stl";
+  keep(5, 1);
+  try {
+    run_sweep(scene_, options_);
+    FAIL() << "there is no such mesh";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("absent.stl"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(notes_, "");
+}
+
+TEST_F(AutoBackendTest, WhatTheCoreRefusesTooIsNoFaultOfTheDevice) {
+  keep(5, 1);
+  AutoBackend chosen(scene_, options_);
+  ASSERT_EQ(options_.on, "vulkan");
+  EXPECT_EQ(refusal_line([&] { chosen.or_on_core([&] { throw usage_error(options_.on + " refuses it"); }); }), "core refuses it");
+  EXPECT_EQ(notes_, "");
+
+  options_.on = ON_AUTO;
+  AutoBackend other(scene_, options_);
+  EXPECT_EQ(other.or_on_core([&] { return options_.on == "core" ? 7 : throw usage_error("it is too large"); }), 7);
+  EXPECT_EQ(notes_, "on core, since the device does not work: it is too large\n");
 }
 
 TEST(AutoBackend, ADeviceWithoutDoublesIsNotChosenForThem) {
