@@ -62,12 +62,12 @@ std::string precision_trouble(const host::DeviceInfo& device, const std::optiona
 
 AutoBackend::AutoBackend(const Scene& scene, SweepOptions& options) : options_(options), is_auto_(options.on == ON_AUTO) {
   if (is_auto_ && options.resume && resume(scene)) return;
+  const std::string folder = cache_limit() > 0 ? cache_folder() : "";
+  if (!folder.empty()) file_ = run_times_file(folder);
   try {
     const Plan plan(scene, false);
     task_ =
         sweep_task(scene, plan.grips() * scene.vessels.size(), thread_count(options.threads), precision_text(options.precision));
-    const std::string folder = cache_limit() > 0 ? cache_folder() : "";
-    if (!folder.empty()) file_ = run_times_file(folder);
   } catch (const Error&) {
     // the sweep refuses it in its own words
     if (is_auto_) options_.on = "core";

@@ -26,7 +26,7 @@ std::string precision_trouble(const host::DeviceInfo& device, const std::optiona
 // is not ON_AUTO it only keeps the times. A sweep that is resumed goes on where it began, with the precision that it began with.
 class AutoBackend {
  public:
-  // Both must outlive the object.
+  // Both must outlive the object. Throws Error (usage) where cache_limit() does. A scene that no sweep takes is refused later, by the sweep.
   AutoBackend(const Scene& scene, SweepOptions& options);
 
   // What `work` makes of options.on. Where the program chose the device itself and that fails, options.on becomes the core, and `work` is

@@ -238,6 +238,11 @@ TEST_F(AutoBackendTest, WithoutACacheItChoosesAllTheSame) {
   EXPECT_NE(chosen.explanation().find("are not kept, as there is no cache"), std::string::npos) << chosen.explanation();
 }
 
+TEST_F(AutoBackendTest, ABadBoundOfTheCacheIsRefused) {
+  const ScopedVariable bound("WHOLEHAND_CACHE_MIB", "many");
+  EXPECT_THROW(AutoBackend(scene_, options_), Error);
+}
+
 TEST_F(AutoBackendTest, ResumingGoesOnWhereTheSweepBegan) {
   for (const auto& [on, precision] : {std::pair("core", Precision::single), {"vulkan", Precision::full}}) {
     options_.on = on;
