@@ -29,16 +29,19 @@ void put(Words& out, Op op, Code like) {
 
 bool ends_block(Op op) { return op >= OpBranch && op <= OpUnreachable; }
 
-// Where a terminator may go. Labels of a switch have the width of its selector between them, which is 32 bits in all our shaders: a
-// literal taken for a label would only keep a block.
-Code targets(Code code) {
+// Where a terminator may go. Between the labels of a switch are literals as wide as its selector: one word, as no module with wider integers
+// is followed. A literal taken for a label would keep a block without those that it takes values from.
+Words targets(Code code) {
   switch (op_of(code)) {
     case OpBranch:
-      return code.subspan(1, 1);
+      return {code[1]};
     case OpBranchConditional:
-      return code.subspan(2, 2);
-    case OpSwitch:
-      return code.subspan(2);
+      return {code[2], code[3]};
+    case OpSwitch: {
+      Words labels;
+      for (std::size_t k = 2; k < code.size(); k += 2) labels.push_back(code[k]);
+      return labels;
+    }
     default:
       return {};
   }
@@ -75,6 +78,7 @@ class Specializer {
         if (!put_function(body, out)) return false;
         body.clear();
       } else {
+        if (op == OpTypeInt && code[2] > 32) return false;
         put_declaration(code, out);
       }
     }
