@@ -242,10 +242,22 @@ class Specializer {
     block.merge = {};
   }
 
-  // A loop whose end nothing reaches is not followed: its head would wait for it.
+  // A loop whose end nothing reaches, or from whose end nothing goes back, is not followed: its head would wait for it.
   static bool mark_reached(std::vector<Block>& blocks) {
     std::unordered_map<std::uint32_t, std::size_t> place;
     for (std::size_t i = 0; i < blocks.size(); ++i) place[blocks[i].label] = i;
+    reach(blocks, place);
+    const std::unordered_set<std::uint32_t> repeated = repeated_heads(blocks, place);
+    for (const Block& block : blocks) {
+      if (!block.reached || block.merge.empty()) continue;
+      blocks[place.at(block.merge[1])].declared = true;
+      if (op_of(block.merge) != OpLoopMerge) continue;
+      if (!blocks[place.at(block.merge[2])].reached || !repeated.contains(block.label)) return false;
+    }
+    return true;
+  }
+
+  static void reach(std::vector<Block>& blocks, const std::unordered_map<std::uint32_t, std::size_t>& place) {
     std::vector<std::size_t> waiting{0};
     blocks[0].reached = true;
     while (!waiting.empty()) {
@@ -258,12 +270,20 @@ class Specializer {
         waiting.push_back(to->second);
       }
     }
-    for (const Block& block : blocks) {
-      if (!block.reached || block.merge.empty()) continue;
-      blocks[place.at(block.merge[1])].declared = true;
-      if (op_of(block.merge) == OpLoopMerge && !blocks[place.at(block.merge[2])].reached) return false;
+  }
+
+  // Blocks to which a later one, or they themselves, go: blocks stand after those that dominate them, so this is the way back of a loop.
+  static std::unordered_set<std::uint32_t> repeated_heads(const std::vector<Block>& blocks,
+                                                          const std::unordered_map<std::uint32_t, std::size_t>& place) {
+    std::unordered_set<std::uint32_t> heads;
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+      if (!blocks[i].reached) continue;
+      for (const std::uint32_t target : targets(blocks[i].end())) {
+        const auto to = place.find(target);
+        if (to != place.end() && to->second <= i) heads.insert(target);
+      }
     }
-    return true;
+    return heads;
   }
 
   static void put_block(const Block& block, const std::set<std::pair<std::uint32_t, std::uint32_t>>& edges, Words& out) {

@@ -156,6 +156,22 @@ TEST(HostSpecialize, ALiteralOfASwitchIsNoLabel) {
   expect_sound(module, "a switch");
 }
 
+// do ... while (constant)
+TEST(HostSpecialize, ALoopGoesBackToItsHead) {
+  const Words kernel = kernel_of({{OpLabel, 10},
+                                  {OpBranch, 11},
+                                  {OpLabel, 11},
+                                  {OpLoopMerge, 12, 13, 0},
+                                  {OpBranch, 13},
+                                  {OpLabel, 13},
+                                  {OpBranchConditional, 2, 11, 12},
+                                  {OpLabel, 12},
+                                  {OpReturn}});
+  expect_sound(kernel, "the loop itself");
+  for (const std::uint64_t again : {0, 1}) expect_sound(specialized(kernel, {{0, again}}), again ? "again" : "once");
+  EXPECT_EQ(specialized(kernel, {{0, 0}}), kernel) << "left to the driver";
+}
+
 TEST(HostSpecialize, EveryShaderStaysSound) {
   for (const EmbeddedShader& shader : embedded_shaders()) {
     const std::string name = std::string(shader.name) + (shader.precision ? ", double" : ", float");
