@@ -57,6 +57,10 @@ void Sweep::check() const {
   check_not_the_scene(names_.result, scene_);
   check_overwrites_result(names_.result);
   check_companions(scene_, names_, best_wanted_ > 0, has_score(), options_.glb);
+  check_room();
+}
+
+void Sweep::check_room() const {
   struct stat partial {};
   const double reserved = stat(names_.partial.c_str(), &partial) == 0 ? static_cast<double>(partial.st_blocks) * 512 : 0;
   const std::size_t real_size = precision() == Precision::single ? sizeof(float) : sizeof(double);
@@ -103,9 +107,11 @@ ExitCode Sweep::run() {
 }
 
 void Sweep::open() {
+  const Precision asked = precision();
   if (parts_.prepare) parts_.prepare();
   plan_.emplace(scene_, keeps_vectors(variables_));
   backend_ = parts_.open_backend(make_field_set(swept_fields(), scene_));
+  if (precision() != asked) check_room();  // on the core instead of the device: doubles
   info_ = identified_ = backend_->info();
   evaluator_ = parts_.open_evaluator();
   facts_ = vessel_facts(scene_, *backend_, *evaluator_);

@@ -48,7 +48,8 @@ class Sweep {
   // Whether there is nothing to resume since the result is complete, and the words for that.
   bool is_finished() const;
   ExitCode finished() const;
-  // Meshes, warnings, devices: after this plan(), backend_, evaluator_ and facts_ are there.
+  // Meshes, warnings, devices: after this plan(), backend_, evaluator_ and facts_ are there. Where parts_ have changed options_.on, and with it the
+  // precision, the room on the disk is looked at again.
   void open();
   void say_opening() const;
   // A note goes to who asked for the notes, else to standard error; what is printed is not, where somebody asked for them.
@@ -117,6 +118,7 @@ class Sweep {
   double kernel_seconds_ = 0;
 
  private:
+  void check_room() const;  // on the disk
   CompanionRequest companions() const;
   std::vector<int> swept_fields() const;
   bool has_score() const;

@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -22,8 +23,10 @@
 #include "sweeps/run.h"
 #include "sweeps/run_times.h"
 #include "sweeps/sweep_result.h"
+#include "sweeps/variables.h"
 #include "system/files.h"
 #include "tests/support/environment.h"
+#include "tests/support/fake_backend.h"
 #include "tests/support/files.h"
 #include "tests/support/refusal.h"
 
@@ -236,6 +239,28 @@ TEST_F(AutoBackendTest, WithoutACacheItChoosesAllTheSame) {
   const ScopedVariable none("WHOLEHAND_CACHE_MIB", "0");
   const AutoBackend chosen(scene_, options_);
   EXPECT_NE(chosen.explanation().find("are not kept, as there is no cache"), std::string::npos) << chosen.explanation();
+}
+
+// Doubles of the core take more room than the floats of the device, with which the sweep was let in.
+TEST_F(AutoBackendTest, OnTheCoreInsteadTheRoomIsLookedAtAgain) {
+  Scene scene = fake_scene();
+  scene.grips.sampling = Sampling::sobol;
+  const auto variables = choose_variables(scene);
+  const double in_float = bytes_per_grip(variables, scene, 4), in_double = bytes_per_grip(variables, scene, 8);
+  const double free = free_bytes(options_.output) / static_cast<double>(scene.vessels.size());
+  scene.grips.count = static_cast<std::uint64_t>(free / std::sqrt(in_float * in_double));
+  options_.on = "vulkan";
+  SweepParts parts;
+  bool is_lost = false;
+  parts.open_backend = [&](const FieldSet& fields) {
+    if (is_lost) options_.on = "core";
+    return std::make_unique<FakeBackend>(scene, fields, is_lost ? Precision::full : Precision::single, 64);
+  };
+  parts.open_evaluator = []() -> std::unique_ptr<Evaluator> { throw failure_error("goes on"); };  // else it would write all that
+  const auto sweep_line = [&] { return refusal_line([&] { run_sweep(scene, options_, parts); }, ExitCode::failure); };
+  EXPECT_EQ(sweep_line(), "goes on");
+  is_lost = true;
+  EXPECT_NE(sweep_line().find("there is room for only"), std::string::npos);
 }
 
 TEST_F(AutoBackendTest, ABadBoundOfTheCacheIsRefused) {
