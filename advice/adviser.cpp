@@ -179,6 +179,8 @@ void Adviser::settle(bool has_moved) { share_ = has_moved ? WIDEST_SHARE : std::
 Advice Adviser::advise(const AdviceQuestion& question, std::size_t grips, const std::atomic<bool>* stop) {
   take_volume(question.vessel, question.volume);
   const Reach reach = reach_of(scene_.vessels[static_cast<std::size_t>(question.vessel)], question.grip, question.keeps_line);
+  // where the azimuth changes nothing the hand turns as it likes, and the last answer with it
+  if (last_) last_ = reach.with_kept(*last_);
   if (question.vessel != vessel_ || (last_ && !reach.has(*last_))) last_.reset();
   vessel_ = question.vessel;
   const std::vector<GripInput> cloud = grip_cloud(reach, question.grip, last_, share_, turn_++, grips);

@@ -47,6 +47,12 @@ bool Reach::has(const GripInput& grip) const {
                      [&](const auto place) { return grip.*place >= low.*place - 1e-12 && grip.*place <= high.*place + 1e-12; });
 }
 
+GripInput Reach::with_kept(GripInput grip) const {
+  for (const auto place : {&GripInput::azimuth, &GripInput::offset})
+    if (low.*place == high.*place) grip.*place = low.*place;
+  return grip;
+}
+
 Reach reach_of(const VesselData& vessel, const GripInput& present, bool keeps_line) {
   Reach reach{present, present};
   const std::array<double, 5> halves{REACH_HEIGHT, keeps_line || is_turned_in_vain(vessel) ? 0 : REACH_AZIMUTH, REACH_OBLIQUITY,

@@ -19,6 +19,8 @@ constexpr double REACH_AZIMUTH = radians(30), REACH_OBLIQUITY = radians(20), REA
 struct Reach {
   GripInput low, high;
   bool has(const GripInput& grip) const;
+  // `grip` with the azimuth and the offset of this reach where it leaves only one.
+  GripInput with_kept(GripInput grip) const;
 };
 
 // About `present` on a vessel. Heights stay on the vessel. The azimuth stays where it changes nothing: on a body of revolution

@@ -68,6 +68,19 @@ TEST(Cloud, KeepsToTheVesselAndItsAxis) {
   EXPECT_EQ(come_in(somewhere()).offset, 4e-3);
 }
 
+// What the reach leaves free is not touched.
+TEST(Cloud, AGripOfBeforeTurnsWithTheHandWhereThatChangesNothing) {
+  GripInput before = somewhere();
+  before.azimuth += 0.01;
+  before.height += 0.01;
+  GripInput turned = before;
+  turned.azimuth = somewhere().azimuth;
+  EXPECT_EQ(way_between(reach_of(beaker1(), somewhere()).with_kept(before), turned), 0);
+  EXPECT_EQ(way_between(reach_of(lopsided(), somewhere()).with_kept(before), before), 0);
+  turned.offset = 0;
+  EXPECT_EQ(way_between(reach_of(lopsided(), somewhere(), true).with_kept(before), turned), 0);
+}
+
 TEST(Cloud, TurnsAboutVesselsOnWhichThatMatters) {
   const Reach reach = reach_of(lopsided(), somewhere());
   EXPECT_NEAR(reach.high.azimuth - reach.low.azimuth, 2 * REACH_AZIMUTH, 1e-12);
