@@ -23,10 +23,12 @@ struct Advice {
   std::int64_t tick = 0;  // of the moment that was asked about
   int vessel = -1;        // -1: no vessel is near, and nothing else has a meaning
   bool is_held = false;
-  double volume = 0;                // m3 of liquid in it, with which the grips were rated
-  RatedGrip present;                // the grip that the hand would have, or has
-  std::optional<RatedGrip> best;    // absent: no grip within reach is possible
-  GripResult posed;                 // of the best one, vessel frame
+  Handedness handedness = Handedness::right;  // of the hand
+  Rotation rotation{NO_ROTATION};             // of the vessel, to the world
+  double volume = 0;                          // m3 of liquid in it, with which the grips were rated
+  RatedGrip present;                          // the grip that the hand would have, or has
+  std::optional<RatedGrip> best;              // absent: no grip within reach is possible
+  GripResult posed;                           // of the best one, vessel frame
   bool is_better = false;           // the best one takes clearly less effort than the present one, or this is not possible
   std::optional<TiltsAhead> ahead;  // of a held vessel
   std::uint64_t grips = 0;          // that were asked for

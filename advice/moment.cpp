@@ -11,6 +11,8 @@ Advice advice_of(const LiveScene& live, const Tick& tick, const VesselPoses& pos
   if (const std::optional<Approach> approach = approach_of(live, tick, poses)) {
     const auto v = static_cast<std::size_t>(approach->vessel);
     advice = adviser.advise({approach->vessel, approach->is_held, approach->grip, tick.volume[v], keeps_line}, grips, stop);
+    advice.handedness = live.scene.hand.handedness;
+    advice.rotation = poses[v].rotation;
     if (approach->is_held) {
       core_f64::Hand yielding = live.hand;
       advice.ahead = tilts_ahead(live, tick, poses[v], hand_posture(live, tick, poses, yielding).posed);

@@ -8,14 +8,17 @@
 
 namespace wholehand {
 
-// Of a hand on its way: "8 mm higher, turn 12 degrees: effort .21 to .09", "this grip is good: effort .09", or "no grip within
+// Of a hand on its way: "8 mm higher, wrist 12 degrees up: effort .21 to .09", "this grip is good: effort .09", or "no grip within
 // reach is possible". Of a hand that holds: "at 70 degrees the grip needs .40 of your strength; tilt over the other side: .21",
 // and then what another grip would take. Empty: there is nothing to advise.
 std::string advice_words(const Advice& advice);
 
-// The way from one grip to another: "8 mm higher, turn 12 degrees back, index finger 5 degrees up, 3 mm nearer to you". Less than a
-// millimetre or a degree is not said. Empty: no way.
-std::string way_words(const GripInput& from, const GripInput& to);
+// The way from one grip to another: "8 mm higher, wrist 12 degrees up, index finger 5 degrees up, around by 20 degrees to the right,
+// 3 mm towards you". Height and index finger are along the vessel's axis. The other directions are those in which the wrist, the hand
+// about the vessel, and the line of the tips go in the world, as a person at +z sees them: the nearest of up, down, left, right,
+// towards and away. `rotation`: of the vessel, to the world. Less than a millimetre or a degree is not said. Empty: no way.
+std::string way_words(const GripInput& from, const GripInput& to, const Rotation& rotation = NO_ROTATION,
+                      Handedness handedness = Handedness::right);
 
 // ".21", "1.30", or "more than any strength" of an infinite effort.
 std::string effort_words(double effort);

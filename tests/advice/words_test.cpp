@@ -6,7 +6,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
+
+#include "core/evaluator.h"
+#include "core/vectors.h"
+#include "grips/hand_nodes.h"
+#include "tests/support/live_script.h"
+#include "tests/support/scenes.h"
 
 namespace wholehand {
 namespace {
@@ -19,20 +26,79 @@ GripInput moved(double height_mm, double roll_deg = 0, double obliquity_deg = 0,
 
 TEST(WayWords, SayEachWholeUnitAndNothingOfLess) {
   const std::vector<std::pair<GripInput, std::string>> table{
-      {moved(8, 12), "8 mm higher, turn 12 degrees"},
-      {moved(-8, -12), "8 mm lower, turn 12 degrees back"},
-      {moved(1, 1), "1 mm higher, turn 1 degree"},
+      {moved(8, 12), "8 mm higher, wrist 12 degrees down"},
+      {moved(-8, -12), "8 mm lower, wrist 12 degrees up"},
+      {moved(1, 1), "1 mm higher, wrist 1 degree down"},
       {moved(0.4, 0.4), ""},
       {moved(0, 0, 5), "index finger 5 degrees up"},
       {moved(0, 0, -1), "index finger 1 degree down"},
-      {moved(0, 0, 0, 20), "around by 20 degrees to the left"},
-      {moved(0, 0, 0, -20), "around by 20 degrees to the right"},
-      {moved(0, 0, 0, 0, 3), "3 mm nearer to you"},
-      {moved(2, 0, 0, 0, -3), "2 mm higher, 3 mm further from you"},
+      {moved(0, 0, 0, 20), "around by 20 degrees to the right"},
+      {moved(0, 0, 0, -20), "around by 20 degrees to the left"},
+      {moved(0, 0, 0, 0, 3), "3 mm towards you"},
+      {moved(2, 0, 0, 0, -3), "2 mm higher, 3 mm away from you"},
   };
   for (const auto& [to, words] : table) EXPECT_EQ(way_words(moved(0), to), words);
   // a line that runs backwards has the other side towards the user
-  EXPECT_EQ(way_words(moved(0, 0, 0, 180), moved(0, 0, 0, 180, 3)), "3 mm further from you");
+  EXPECT_EQ(way_words(moved(0, 0, 0, 180), moved(0, 0, 0, 180, 3)), "3 mm away from you");
+}
+
+// The line of a hand at the side of the vessel is moved sideways, and that of a vessel that was turned likewise.
+TEST(WayWords, OfTheOffsetAreThoseOfTheWorld) {
+  const GripInput at_the_side = moved(0, 0, 0, 80), aside = moved(0, 0, 0, 80, 3);
+  EXPECT_EQ(way_words(at_the_side, aside), "3 mm to the right");
+  EXPECT_EQ(way_words(moved(0, 0, 0, 100), moved(0, 0, 0, 100, 3)), "3 mm to the right") << "the same on both sides of 90 degrees";
+  EXPECT_EQ(way_words(moved(0, 0, 0, -80), moved(0, 0, 0, -80, 3)), "3 mm to the left");
+  EXPECT_EQ(way_words(moved(0), moved(0, 0, 0, 0, 3), turned('y', radians(-100))), "3 mm to the left");
+  EXPECT_EQ(way_words(moved(0), moved(0, 0, 0, 0, 3), turned('x', radians(80))), "3 mm down") << "the vessel is poured from";
+}
+
+// From where a hand's wrist is to where it goes, by the core.
+Triple way_of_wrist(const Scene& scene, const GripInput& from, const GripInput& to) {
+  const auto core = make_core_evaluator(scene);
+  const auto wrist = [&](const GripInput& grip) {
+    GripResult result;
+    core->grip(0, grip, result);
+    EXPECT_EQ(result.reason, Reason::none);
+    return hand_nodes(scene.hand, grip, result).wrist.position;
+  };
+  const Triple a = wrist(from), b = wrist(to);
+  return {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+}
+
+struct Turn {
+  const char* words;
+  int axis;     // along which the wrist goes most
+  double sign;  // towards +x, to the right; +y, up; +z, towards the person
+};
+constexpr std::array<Turn, 6> TURNS{
+    {{"right", 0, 1}, {"left", 0, -1}, {"up", 1, 1}, {"down", 1, -1}, {"towards you", 2, 1}, {"away from you", 2, -1}}};
+
+// What is said of a turned hand is where its wrist then is, beside the vessel and above it, in front and at the sides, of either hand.
+TEST(WayWords, OfTurnsAreWhereTheWristGoes) {
+  int seen = 0;
+  for (const Handedness handedness : {Handedness::right, Handedness::left}) {
+    Scene scene = scene_of({beaker1()});
+    scene.hand.handedness = handedness;
+    const double front = handedness == Handedness::left ? 180 : 0;
+    for (const double azimuth : {0.0, 90.0, 180.0, -90.0}) {
+      for (const double roll : {-80.0, -10.0}) {
+        for (const double way : {-10.0, 10.0}) {
+          const GripInput from = moved(10, roll, 0, front + azimuth);
+          for (const GripInput& to : {moved(10, roll + way, 0, front + azimuth), moved(10, roll, 0, front + azimuth + way)}) {
+            if (to.azimuth != from.azimuth && roll < -45) continue;  // the wrist is over the axis
+            const std::string words = way_words(from, to, NO_ROTATION, handedness);
+            const auto turn = std::find_if(TURNS.begin(), TURNS.end(), [&](const Turn& t) { return words.ends_with(t.words); });
+            ASSERT_NE(turn, TURNS.end()) << words;
+            const Triple gone = way_of_wrist(scene, from, to);
+            EXPECT_GT(turn->sign * gone[static_cast<std::size_t>(turn->axis)], 0.5 * norm(gone))
+                << words << ", " << azimuth << ", " << roll;
+            ++seen;
+          }
+        }
+      }
+    }
+  }
+  EXPECT_EQ(seen, 2 * 4 * 3 * 2);
 }
 
 TEST(EffortWords, AreShares) {
@@ -53,11 +119,11 @@ Advice free_hand(double from, double to) {
 
 TEST(AdviceWords, OfAHandOnItsWay) {
   EXPECT_EQ(advice_words({}), "");
-  EXPECT_EQ(advice_words(free_hand(0.21, 0.09)), "8 mm higher, turn 12 degrees: effort .21 to .09");
-  EXPECT_EQ(advice_words(free_hand(NEVER, 0.09)), "8 mm higher, turn 12 degrees: effort more than any strength to .09");
+  EXPECT_EQ(advice_words(free_hand(0.21, 0.09)), "8 mm higher, wrist 12 degrees down: effort .21 to .09");
+  EXPECT_EQ(advice_words(free_hand(NEVER, 0.09)), "8 mm higher, wrist 12 degrees down: effort more than any strength to .09");
   Advice impossible = free_hand(0, 0.09);
   impossible.present.is_possible = false;
-  EXPECT_EQ(advice_words(impossible), "8 mm higher, turn 12 degrees: effort .09; from here no grip is possible");
+  EXPECT_EQ(advice_words(impossible), "8 mm higher, wrist 12 degrees down: effort .09; from here no grip is possible");
   Advice good = free_hand(0.09, 0.09);
   good.is_better = false;
   EXPECT_EQ(advice_words(good), "this grip is good: effort .09");
@@ -86,8 +152,9 @@ TEST(AdviceWords, OfAHandThatHolds) {
   Advice better = held(0.4, 0.39);
   better.is_better = true;
   better.best->effort = 0.2;
-  EXPECT_EQ(advice_words(better),
-            "at 70 degrees the grip needs .40 of your strength; another grip, 8 mm higher, turn 12 degrees: effort .40 to .20");
+  EXPECT_EQ(
+      advice_words(better),
+      "at 70 degrees the grip needs .40 of your strength; another grip, 8 mm higher, wrist 12 degrees down: effort .40 to .20");
 }
 
 }  // namespace
