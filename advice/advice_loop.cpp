@@ -22,7 +22,8 @@ namespace wholehand {
 
 // What the thread and its owner share. The thread keeps it alive where a device that hangs is left behind.
 struct AdviceLoop::Shared {
-  Shared(const Scene& scene, bool is_followed_in) : live(scene), is_followed(is_followed_in), tracker(live.scene) {}
+  Shared(const Scene& scene, bool is_followed_in, double patience_in)
+      : live(scene), is_followed(is_followed_in), patience(patience_in), tracker(live.scene) {}
 
   void run(std::promise<void>& opened, const AdviserOpener& open);
   std::unique_ptr<Adviser> open_adviser(std::promise<void>& opened, const AdviserOpener& open);
@@ -30,9 +31,11 @@ struct AdviceLoop::Shared {
   bool wait_for_moment(Tick& tick, VesselPoses& poses);
   void put(Advice advice, double began);
   void end(const std::string& why);
+  bool is_late() const;  // under the mutex
 
   const LiveScene live;
   const bool is_followed;
+  const double patience;  // s
   std::atomic<bool> stop{false};
   ShownGrips shown;
 
@@ -44,7 +47,9 @@ struct AdviceLoop::Shared {
   std::shared_ptr<const Advice> newest;
   std::vector<std::string> news;
   AdviceTally tally;
-  double last = 0;  // when the update before was there, s; 0: it was about no vessel
+  double last = 0;       // when the update before was there, s; 0: it was about no vessel
+  double asked = 0;      // since when an update is under way, s; 0: none is
+  bool is_told = false;  // that one is late
 };
 
 namespace {
@@ -121,6 +126,7 @@ bool AdviceLoop::Shared::wait_for_moment(Tick& moment, VesselPoses& poses) {
   is_new = false;
   moment = tick;
   poses = tracker.poses();
+  asked = monotonic_now();
   return true;
 }
 
@@ -131,6 +137,7 @@ void AdviceLoop::Shared::put(Advice advice, double began) {
   const double now = monotonic_now();
   std::unique_lock lock(mutex);
   newest = std::move(made);
+  asked = 0;
   if (is_near) {
     ++tally.updates;
     tally.grips += grips;
@@ -148,15 +155,18 @@ void AdviceLoop::Shared::put(Advice advice, double began) {
 void AdviceLoop::Shared::end(const std::string& why) {
   const std::lock_guard lock(mutex);
   newest.reset();
+  asked = 0;
   news.push_back(fmt::format("advice: {}; the session goes on without advice", why));
 }
+
+bool AdviceLoop::Shared::is_late() const { return asked > 0 && monotonic_now() - asked > patience; }
 
 AdviceLoop::AdviceLoop(const Scene& scene, const std::string& on, int threads, bool is_followed)
     : AdviceLoop(
           scene, [on, threads](const Scene& own) { return std::make_unique<Adviser>(own, on, threads); }, is_followed) {}
 
-AdviceLoop::AdviceLoop(const Scene& scene, AdviserOpener open, bool is_followed)
-    : shared_(std::make_shared<Shared>(scene, is_followed)) {
+AdviceLoop::AdviceLoop(const Scene& scene, AdviserOpener open, bool is_followed, double patience)
+    : shared_(std::make_shared<Shared>(scene, is_followed, patience)) {
   std::promise<void> opened;
   std::future<void> is_open = opened.get_future();
   {
@@ -191,12 +201,17 @@ void AdviceLoop::look(std::span<const Tick> ticks) {
 
 std::shared_ptr<const Advice> AdviceLoop::newest() const {
   const std::lock_guard lock(shared_->mutex);
-  return shared_->newest;
+  return shared_->is_late() ? nullptr : shared_->newest;
 }
 
 std::vector<std::string> AdviceLoop::news() {
   const std::lock_guard lock(shared_->mutex);
-  return std::exchange(shared_->news, {});
+  std::vector<std::string> news = std::exchange(shared_->news, {});
+  if (shared_->is_late() && !std::exchange(shared_->is_told, true)) {
+    news.push_back(
+        fmt::format("advice: the device has not answered for {:g} s; there is no advice until it does", shared_->patience));
+  }
+  return news;
 }
 
 ShownGripSource& AdviceLoop::shown() { return shared_->shown; }

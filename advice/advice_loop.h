@@ -17,6 +17,7 @@ namespace wholehand {
 
 constexpr double ADVICE_RATE = 10;       // Hz at most
 constexpr double LEAST_ADVICE_RATE = 5;  // Hz: clouds become smaller where an update takes longer than its share of the time
+constexpr double ANSWER_PATIENCE = 1;    // s: an update that takes longer is late, and the advice before it too old
 constexpr int ADVICE_NICENESS = 10;      // of its threads beside those of the loop
 
 // What a session's report says of its advice.
@@ -37,9 +38,9 @@ class AdviceLoop {
   // seconds. Throws Error as Adviser does. Later faults end the advice, and not the session. `is_followed`: by a simulated user,
   // to whom shown() gives the grips.
   AdviceLoop(const Scene& scene, const std::string& on, int threads, bool is_followed = false);
-  // With an adviser of one's own, which is made in the thread.
+  // With an adviser of one's own, which is made in the thread. `patience`: s that an update may take.
   using AdviserOpener = std::function<std::unique_ptr<Adviser>(const Scene&)>;
-  AdviceLoop(const Scene& scene, AdviserOpener open, bool is_followed = false);
+  AdviceLoop(const Scene& scene, AdviserOpener open, bool is_followed = false, double patience = ANSWER_PATIENCE);
   // Stops. A device that does not answer within STOP_PATIENCE is left behind with its thread.
   ~AdviceLoop();
   AdviceLoop(const AdviceLoop&) = delete;
@@ -47,9 +48,11 @@ class AdviceLoop {
 
   // Ticks in their order, all of them, from one thread. Waits for nothing but what is copied.
   void look(std::span<const Tick> ticks);
-  // The newest advice; from any thread. Nothing before the first, and once there is none any more. The same object until the next.
+  // The newest advice; from any thread. Nothing before the first, while an update takes longer than the patience, and once
+  // there is none any more. The same object until the next.
   std::shared_ptr<const Advice> newest() const;
-  // Lines that the user must see, each once; from any thread: the device failed, and the advice has ended or goes on.
+  // Lines that the user must see, each once; from any thread: the device failed, and the advice has ended or goes on; or it does not
+  // answer.
   std::vector<std::string> news();
   // For the haptic thread.
   ShownGripSource& shown();
