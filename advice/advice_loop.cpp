@@ -29,7 +29,7 @@ struct AdviceLoop::Shared {
   std::unique_ptr<Adviser> open_adviser(std::promise<void>& opened, const AdviserOpener& open);
   void go_on(Adviser& adviser);
   bool wait_for_moment(Tick& tick, VesselPoses& poses);
-  void put(Advice advice, double began);
+  void put(Advice advice, double began, std::string place);
   void end(const std::string& why);
   bool is_late() const;  // under the mutex
 
@@ -114,7 +114,7 @@ void AdviceLoop::Shared::go_on(Adviser& adviser) {
       const std::lock_guard lock(mutex);
       for (std::string& note : notes) news.push_back("advice: " + std::move(note));
     }
-    put(std::move(advice), began);
+    put(std::move(advice), began, adviser.place());
   }
 }
 
@@ -130,7 +130,7 @@ bool AdviceLoop::Shared::wait_for_moment(Tick& moment, VesselPoses& poses) {
   return true;
 }
 
-void AdviceLoop::Shared::put(Advice advice, double began) {
+void AdviceLoop::Shared::put(Advice advice, double began, std::string place) {
   const bool is_near = advice.vessel >= 0;
   const std::uint64_t grips = advice.grips;
   auto made = std::make_shared<const Advice>(std::move(advice));
@@ -138,6 +138,7 @@ void AdviceLoop::Shared::put(Advice advice, double began) {
   std::unique_lock lock(mutex);
   newest = std::move(made);
   asked = 0;
+  tally.place = std::move(place);
   if (is_near) {
     ++tally.updates;
     tally.grips += grips;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "advice/cloud.h"
+#include "core/core_backend.h"
 #include "core/error.h"
 #include "core/fills.h"
 #include "core/planes.h"
@@ -92,14 +93,24 @@ std::string Adviser::place() const { return info().backend == "core" ? info().de
 
 std::vector<std::string> Adviser::notes() { return std::exchange(notes_, {}); }
 
-// The device's pipelines stay: only its tables of liquid and states are made anew.
+// The device's pipelines stay: only its tables of liquid and states are made anew. Where it does not take them, its grips and those of the
+// core would be of different liquids.
 void Adviser::take_volume(int vessel, double volume) {
   const auto v = static_cast<std::size_t>(vessel);
   if (!scene_.liquid || std::abs(volume - volumes_[v]) <= SAME_FILL * capacities_[v]) return;
   volumes_[v] = volume;
   scene_.vessels[v].fills = {fill_of(scene_.vessels[v], volume, capacities_[v])};
-  backend_->use_fills_of(scene_);
   core_ = make_core_evaluator(scene_);
+  try {
+    if (!backend_->use_fills_of(scene_)) go_on_with_core("the device does not take the liquid that is left");
+  } catch (const std::exception& error) {
+    go_on_with_core(error.what());
+  }
+}
+
+void Adviser::go_on_with_core(const std::string& why) {
+  backend_ = std::make_unique<CoreBackend>(make_core_evaluator(scene_), scene_, fields_, Precision::full, 0);
+  notes_.push_back(why + "; the core goes on");
 }
 
 // The plausible grips of a cloud with their worst efforts.

@@ -50,11 +50,11 @@ class Adviser {
   const BackendInfo& info() const { return backend_->info(); }
   // By which the grips of an answer are rated, with the liquid of the last one.
   const Evaluator& core() const { return *core_; }
-  // What it computes on, in words: "vulkan, llvmpipe (LLVM 15.0.6, 256 bits)", or "core, 2 threads".
+  // What it computes on now, in words: "vulkan, llvmpipe (LLVM 15.0.6, 256 bits)", or "core, 2 threads".
   std::string place() const;
 
   // The grips of the answer are rated by the core. No more than `grips` are asked for. `stop`, from another thread: the answer is
-  // then of what is done. Throws Error (failure) where neither the device nor the core can compute it.
+  // then of what is done. A device that cannot take other liquid gives way to the core for good. Throws Error (failure) where neither the device nor the core can compute it.
   Advice advise(const AdviceQuestion& question, std::size_t grips, const std::atomic<bool>* stop = nullptr);
 
   // What the device had to say since the last call ("device lost: .."); each line once.
@@ -67,6 +67,7 @@ class Adviser {
   };
   void warm_up();
   void take_volume(int vessel, double volume);
+  void go_on_with_core(const std::string& why);
   std::vector<Found> ask(int vessel, const std::vector<GripInput>& cloud, const std::atomic<bool>* stop);
   RatedGrip rate(int vessel, const GripInput& grip) const;
   std::vector<RatedGrip> rate_best(const AdviceQuestion& question, const std::vector<GripInput>& cloud, std::vector<Found> found);

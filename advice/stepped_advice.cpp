@@ -44,9 +44,11 @@ void SteppedAdvice::ask(const Tick& tick) {
   is_grip_new_ = coming_ != nullptr;
   coming_grip_ = shown_grip(live_.scene, *found, *adviser_);
   std::vector<std::string> notes = adviser_->notes();
+  std::string place = adviser_->place();
   const std::lock_guard lock(mutex_);
   newest_ = std::exchange(coming_, found);
   for (std::string& note : notes) news_.push_back("advice: " + std::move(note));
+  tally_.place = std::move(place);
   if (found->vessel < 0) return;
   ++tally_.updates;
   tally_.grips += found->grips;

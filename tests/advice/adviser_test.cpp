@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "advice/cloud.h"
+#include "core/core_backend.h"
 #include "core/error.h"
 #include "tests/support/scenes.h"
 
@@ -145,6 +146,52 @@ TEST(Adviser, KeepsTheLineOfWhoAsksForIt) {
   ASSERT_TRUE(advice.best && advice.is_better);
   EXPECT_EQ(advice.best->grip.offset, 0);
   EXPECT_EQ(advice.best->grip.azimuth, 0);
+}
+
+// The core, which does not take other fills: as a device that is lost then, or of a kind that never does.
+class FixedBackend final : public Backend {
+ public:
+  FixedBackend(const Scene& scene, const FieldSet& fields, bool is_lost)
+      : core_(make_core_evaluator(scene), scene, fields, Precision::full, 1), is_lost_(is_lost) {
+    info_ = core_.info();
+    info_.backend = "fixed";
+  }
+  const BackendInfo& info() const override { return info_; }
+  const FieldSet& fields() const override { return core_.fields(); }
+  RunResult run(const RunRequest& request) override { return core_.run(request); }
+  std::vector<LiquidResult> liquid(std::size_t vessel) override { return core_.liquid(vessel); }
+  bool use_fills_of(const Scene& /*other*/) override {
+    if (is_lost_) throw failure_error("device lost");
+    return false;
+  }
+
+ private:
+  CoreBackend core_;
+  BackendInfo info_;
+  bool is_lost_;
+};
+
+// Its grips would be of another liquid than those that the core rates: the core goes on, with one line.
+TEST(Adviser, ADeviceThatDoesNotTakeOtherLiquidGivesWayToTheCore) {
+  const Scene scene = advised_scene();
+  for (const bool is_lost : {false, true}) {
+    Adviser adviser(scene, [is_lost](const Scene& own, const FieldSet& fields) -> std::unique_ptr<Backend> {
+      return std::make_unique<FixedBackend>(own, fields, is_lost);
+    });
+    Adviser core(scene, "core", 1);
+    ASSERT_TRUE(adviser.place().starts_with("fixed"));
+    for (const double fill : {0.6, 0.3, 0.2}) {
+      const Advice advice = adviser.advise(high_grip(scene, fill), LEAST_CLOUD),
+                   right = core.advise(high_grip(scene, fill), LEAST_CLOUD);
+      ASSERT_TRUE(advice.best && right.best);
+      // a warm-up has taken no turn of the cloud
+      EXPECT_EQ(way_between(advice.best->grip, right.best->grip), 0) << fill;
+      EXPECT_EQ(advice.best->effort, right.best->effort);
+    }
+    EXPECT_TRUE(adviser.place().starts_with("core")) << adviser.place();
+    const std::string why = is_lost ? "device lost" : "the device does not take the liquid that is left";
+    EXPECT_EQ(adviser.notes(), std::vector<std::string>{why + "; the core goes on"});
+  }
 }
 
 TEST(Adviser, RefusesASceneWithoutStrength) {
