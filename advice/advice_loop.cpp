@@ -154,6 +154,7 @@ void AdviceLoop::Shared::put(Advice advice, double began, std::string place) {
 }
 
 void AdviceLoop::Shared::end(const std::string& why) {
+  if (is_followed) shown.put({});
   const std::lock_guard lock(mutex);
   newest.reset();
   asked = 0;

@@ -12,9 +12,13 @@
 namespace wholehand {
 
 SteppedAdvice::SteppedAdvice(const Scene& scene, const std::string& on, const Options& options)
+    : SteppedAdvice(
+          scene, [&](const Scene& own) { return std::make_unique<Adviser>(own, on, options.threads); }, options) {}
+
+SteppedAdvice::SteppedAdvice(const Scene& scene, const AdviceLoop::AdviserOpener& open, const Options& options)
     : live_(scene),
       options_(options),
-      adviser_(std::make_unique<Adviser>(scene, on, options.threads)),
+      adviser_(open(scene)),
       tracker_(scene),
       period_(std::max<std::int64_t>(1, std::llround(scene.live.rate / LEAST_ADVICE_RATE))) {
   tally_.place = adviser_->place();
@@ -28,6 +32,9 @@ void SteppedAdvice::look(const Tick& tick) noexcept {
     ask(tick);
   } catch (const std::exception& error) {
     adviser_.reset();
+    coming_.reset();
+    grip_ = coming_grip_ = {};
+    is_grip_new_ = true;
     const std::lock_guard lock(mutex_);
     newest_.reset();
     news_.push_back(fmt::format("advice: {}; the session goes on without advice", error.what()));

@@ -22,6 +22,8 @@ class SteppedAdvice final : public ShownGripSource {
   };
   // Opens the device; throws Error as Adviser and LiveScene do.
   SteppedAdvice(const Scene& scene, const std::string& on, const Options& options);
+  // With an adviser of one's own.
+  SteppedAdvice(const Scene& scene, const AdviceLoop::AdviserOpener& open, const Options& options);
 
   // Every tick of the session in its order, from the thread of its loop, which waits. A device that fails ends the advice.
   void look(const Tick& tick) noexcept;

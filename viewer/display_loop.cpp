@@ -91,7 +91,9 @@ void DisplayLoop::show_newest() {
   if (!is_watched()) return;
   const HandView hand = hand_view(live_, tick, poses);
   const std::shared_ptr<const Advice> advice = advice_ ? advice_() : nullptr;
-  for (Display* display : displays_) display->show({tick, poses, hand, timing, advice.get()});
+  static const Advice NO_ADVICE;
+  const Advice* const told = advice ? advice.get() : advice_ ? &NO_ADVICE : nullptr;
+  for (Display* display : displays_) display->show({tick, poses, hand, timing, told});
 }
 
 bool DisplayLoop::is_watched() const {

@@ -27,7 +27,7 @@ struct DisplayMoment {
   const VesselPoses& poses;
   const HandView& hand;
   const ViewFrame::Timing& timing;
-  const Advice* advice = nullptr;  // null: there is none
+  const Advice* advice = nullptr;  // null: nobody was asked; vessel -1: there is none now
 };
 
 // The newest advice, or none; from the display loop's thread.

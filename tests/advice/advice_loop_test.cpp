@@ -60,11 +60,7 @@ TEST(AdviceLoop, TellsWhatCannotBeOpenedBeforeItStarts) {
 TEST(AdviceLoop, EndsWithALineWhereItsDeviceFails) {
   const Scene scene = advised_session_scene();
   const std::vector<Tick> record = play_session(scene, script_for(scene));
-  AdviceLoop loop(scene, [](const Scene& own) {
-    return std::make_unique<Adviser>(own, [](const Scene& asked, const FieldSet& fields) -> std::unique_ptr<Backend> {
-      return std::make_unique<DyingBackend>(asked, fields, 1);
-    });
-  });
+  AdviceLoop loop(scene, dying_adviser(1), true);
   const std::size_t at = last_free_tick(record);
   loop.look(std::span(record).first(at + 1));
   ASSERT_TRUE(comes([&] { return loop.newest() != nullptr; }));
@@ -73,6 +69,10 @@ TEST(AdviceLoop, EndsWithALineWhereItsDeviceFails) {
   ASSERT_TRUE(comes([&] { return !(news = loop.news()).empty(); }));
   EXPECT_EQ(news, std::vector<std::string>{"advice: the device is gone; the session goes on without advice"});
   EXPECT_FALSE(loop.newest()) << "what was advised is no longer of this moment";
+  ShownGrip shown;
+  shown.vessel = 0;
+  ASSERT_TRUE(loop.shown().take(0, shown));
+  EXPECT_EQ(shown.vessel, -1) << "nor is it followed";
   loop.look(std::span(record).subspan(at, 1));  // goes nowhere
 }
 

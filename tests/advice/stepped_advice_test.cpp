@@ -81,5 +81,36 @@ TEST(SteppedAdvice, AsksNothingWhileHeldWhereNobodyFollows) {
   }
 }
 
+// Five runs are enough to advise: after the next one there is nothing any more, neither to see nor to follow, and one line says why.
+TEST(SteppedAdvice, IsEndedByADeviceThatFails) {
+  const Scene scene = advised_session_scene();
+  const std::vector<Tick> record = play_session(scene, script_for(scene));
+  SteppedAdvice::Options options;
+  options.keeps_line = true;
+  options.grips = LEAST_CLOUD;
+  SteppedAdvice advice(scene, dying_adviser(5), options);
+  ShownGrip grip;
+  bool was_advised = false, is_ended = false;
+  for (const Tick& tick : record) {
+    advice.look(tick);
+    const bool is_new = advice.take(tick.number, grip);
+    was_advised = was_advised || advice.newest();
+    if (is_ended) {
+      ASSERT_FALSE(advice.newest() || is_new) << tick.number;
+      continue;
+    }
+    const std::vector<std::string> news = advice.news();
+    if (news.empty()) continue;
+    is_ended = true;
+    EXPECT_EQ(news, std::vector<std::string>{"advice: the device is gone; the session goes on without advice"});
+    EXPECT_FALSE(advice.newest());
+    EXPECT_TRUE(is_new);
+    EXPECT_EQ(grip.vessel, -1);
+  }
+  EXPECT_TRUE(was_advised && is_ended);
+  EXPECT_TRUE(advice.news().empty());
+  EXPECT_EQ(advice.tally().updates, 5u);
+}
+
 }  // namespace
 }  // namespace wholehand

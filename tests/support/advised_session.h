@@ -2,6 +2,7 @@
 // A session that can be advised about: a beaker with liquid that is gripped, tilted and let go.
 #pragma once
 
+#include "advice/advice_loop.h"
 #include "core/core_backend.h"
 #include "core/error.h"
 #include "core/evaluator.h"
@@ -41,5 +42,14 @@ class DyingBackend final : public Backend {
   CoreBackend core_;
   int good_;
 };
+
+// An adviser whose device fails after `good` runs.
+inline AdviceLoop::AdviserOpener dying_adviser(int good) {
+  return [good](const Scene& own) {
+    return std::make_unique<Adviser>(own, [good](const Scene& scene, const FieldSet& fields) -> std::unique_ptr<Backend> {
+      return std::make_unique<DyingBackend>(scene, fields, good);
+    });
+  };
+}
 
 }  // namespace wholehand

@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -25,6 +26,7 @@ class Keeper final : public Display {
     timings.push_back(moment.timing);
     places.push_back(moment.poses[1].place);
     tips.push_back(moment.hand.proxies[THUMB_TIP]);
+    advised.push_back(moment.advice ? std::optional(moment.advice->vessel) : std::nullopt);
     ++count;
   }
   std::atomic<bool> watched{true};
@@ -33,6 +35,7 @@ class Keeper final : public Display {
   std::vector<SessionState> states;
   std::vector<ViewFrame::Timing> timings;
   std::vector<Triple> places, tips;
+  std::vector<std::optional<int>> advised;  // vessel; nothing: nobody was asked
 };
 
 Tick tick_of(std::int64_t number) {
@@ -115,6 +118,23 @@ TEST(DisplayLoop, TellsMissedPeriodsAndTheLongestStepSinceTheMomentBefore) {
   EXPECT_EQ(keeper.timings[1].missed, 2);
   EXPECT_EQ(keeper.timings[0].rate, live.scene.live.rate);
   EXPECT_EQ(keeper.timings[1].rate, live.scene.live.rate) << "none missed since";
+}
+
+// Once there is no advice any more, displays are told so: what they showed of it before is to go.
+TEST(DisplayLoop, TellsWhereThereIsNoAdvice) {
+  const LiveScene live(live_scene());
+  const auto advised = [&](const AdviceSource& source) {
+    Keeper keeper;
+    DisplayLoop loop(live, {&keeper}, source);
+    loop.look(std::vector<Tick>{tick_of(0)});
+    loop.stop();
+    return keeper.advised;
+  };
+  const auto advice = std::make_shared<Advice>();
+  advice->vessel = 1;
+  EXPECT_EQ(advised([&] { return advice; }), std::vector<std::optional<int>>{1});
+  EXPECT_EQ(advised([] { return nullptr; }), std::vector<std::optional<int>>{-1});
+  EXPECT_EQ(advised({}), std::vector<std::optional<int>>{std::nullopt});
 }
 
 TEST(DisplayLoop, TheRateIsThatOfTicksThatCame) {
