@@ -51,8 +51,8 @@ class AdviceLoop {
   // The newest advice; from any thread. Nothing before the first, while an update takes longer than the patience, and once
   // there is none any more. The same object until the next.
   std::shared_ptr<const Advice> newest() const;
-  // Lines that the user must see, each once; from any thread: the device failed, and the advice has ended or goes on; or it does not
-  // answer.
+  // Lines that the user must see, each once; from any thread: the device failed, and the advice has ended or goes on; or it does
+  // not answer.
   std::vector<std::string> news();
   // For the haptic thread.
   ShownGripSource& shown();

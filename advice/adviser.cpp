@@ -93,8 +93,8 @@ std::string Adviser::place() const { return info().backend == "core" ? info().de
 
 std::vector<std::string> Adviser::notes() { return std::exchange(notes_, {}); }
 
-// The device's pipelines stay: only its tables of liquid and states are made anew. Where it does not take them, its grips and those of the
-// core would be of different liquids.
+// The device's pipelines stay: only its tables of liquid and states are made anew. Where it does not take them, its grips and
+// those of the core would be of different liquids.
 void Adviser::take_volume(int vessel, double volume) {
   const auto v = static_cast<std::size_t>(vessel);
   if (!scene_.liquid || std::abs(volume - volumes_[v]) <= SAME_FILL * capacities_[v]) return;

@@ -54,7 +54,8 @@ class Adviser {
   std::string place() const;
 
   // The grips of the answer are rated by the core. No more than `grips` are asked for. `stop`, from another thread: the answer is
-  // then of what is done. A device that cannot take other liquid gives way to the core for good. Throws Error (failure) where neither the device nor the core can compute it.
+  // then of what is done. A device that cannot take other liquid gives way to the core for good. Throws Error (failure) where
+  // neither the device nor the core can compute it.
   Advice advise(const AdviceQuestion& question, std::size_t grips, const std::atomic<bool>* stop = nullptr);
 
   // What the device had to say since the last call ("device lost: .."); each line once.

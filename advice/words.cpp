@@ -52,8 +52,8 @@ struct Ways {
   Vec3 aside;   // offset: the line
 };
 
-// By the frame of kernel 2. At roll 0 the wrist of a right hand is on the side to which the offset grows, and that of a left hand, whose
-// line runs the other way, on the opposite one.
+// By the frame of kernel 2. At roll 0 the wrist of a right hand is on the side to which the offset grows, and that of a left
+// hand, whose line runs the other way, on the opposite one.
 Ways::Ways(const GripInput& grip, const Rotation& rotation, Handedness handedness) {
   const glm::dmat3 to_world = to_mat3(rotation);
   const double side = handedness == Handedness::left ? -1 : 1;

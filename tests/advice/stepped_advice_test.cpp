@@ -81,7 +81,8 @@ TEST(SteppedAdvice, AsksNothingWhileHeldWhereNobodyFollows) {
   }
 }
 
-// Five runs are enough to advise: after the next one there is nothing any more, neither to see nor to follow, and one line says why.
+// Five runs are enough to advise: after the next one there is nothing any more, neither to see nor to follow, and one line says
+// why.
 TEST(SteppedAdvice, IsEndedByADeviceThatFails) {
   const Scene scene = advised_session_scene();
   const std::vector<Tick> record = play_session(scene, script_for(scene));

@@ -73,7 +73,8 @@ struct Turn {
 constexpr std::array<Turn, 6> TURNS{
     {{"right", 0, 1}, {"left", 0, -1}, {"up", 1, 1}, {"down", 1, -1}, {"towards you", 2, 1}, {"away from you", 2, -1}}};
 
-// What is said of a turned hand is where its wrist then is, beside the vessel and above it, in front and at the sides, of either hand.
+// What is said of a turned hand is where its wrist then is, beside the vessel and above it, in front and at the sides, of either
+// hand.
 TEST(WayWords, OfTurnsAreWhereTheWristGoes) {
   int seen = 0;
   for (const Handedness handedness : {Handedness::right, Handedness::left}) {
