@@ -58,7 +58,8 @@ TEST(SteppedAdvice, TakesItsTime) {
     advice.look(tick);
     if (tick.number < 200) {
       EXPECT_FALSE(advice.newest());
-    } else if (advice.newest()) {
+    } else {
+      ASSERT_TRUE(advice.newest()) << tick.number;
       EXPECT_EQ(advice.newest()->tick, (tick.number / 200 - 1) * 200);
     }
   }
@@ -73,12 +74,19 @@ TEST(SteppedAdvice, AsksNothingWhileHeldWhereNobodyFollows) {
   options.while_held = false;
   options.grips = LEAST_CLOUD;
   SteppedAdvice advice(scene, "core", options);
+  int near = 0, held = 0;  // ticks
   for (const Tick& tick : record) {
     advice.look(tick);
-    if (advice.newest()) {
-      EXPECT_FALSE(advice.newest()->is_held);
-    }
+    if (tick.number < 200) continue;
+    ASSERT_TRUE(advice.newest()) << tick.number;
+    EXPECT_FALSE(advice.newest()->is_held);
+    near += advice.newest()->vessel == 0;
+    if (!is_held(record[static_cast<std::size_t>((tick.number / 200 - 1) * 200)].state)) continue;
+    ++held;
+    EXPECT_EQ(advice.newest()->vessel, -1);
   }
+  EXPECT_GE(near, 200);
+  EXPECT_GE(held, 200);
 }
 
 // Five runs are enough to advise: after the next one there is nothing any more, neither to see nor to follow, and one line says
