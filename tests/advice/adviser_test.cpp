@@ -10,13 +10,15 @@
 #include "advice/cloud.h"
 #include "core/core_backend.h"
 #include "core/error.h"
+#include "core/mirror.h"
+#include "core/vectors.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {
 namespace {
 
-Scene advised_scene() {
-  Scene scene = scene_of({beaker1()});
+Scene advised_scene(const VesselData& vessel = beaker1()) {
+  Scene scene = scene_of({vessel});
   scene.strength = StrengthData{};
   scene.table = TableData{};
   scene.liquid = LiquidData{};
@@ -136,16 +138,39 @@ TEST(Adviser, AGripThatIsGoodNeedsNoOther) {
   EXPECT_TRUE(is_there);
 }
 
-// For whom can follow no more: neither turned about the axis nor moved off it.
+// For whom can follow no more: neither turned about the axis nor moved off it, although on this vessel that would be better.
 TEST(Adviser, KeepsTheLineOfWhoAsksForIt) {
-  const Scene scene = advised_scene();
-  Adviser adviser(scene, "core", 1);
+  const Scene scene = advised_scene(lopsided());
   AdviceQuestion question = high_grip(scene, 0.6);
-  question.keeps_line = true;
+  question.grip.azimuth = 0.3;
+  for (const bool keeps_line : {false, true}) {
+    Adviser adviser(scene, "core", 1);
+    question.keeps_line = keeps_line;
+    const Advice advice = adviser.advise(question, STEP_CLOUD);
+    ASSERT_TRUE(advice.best && advice.is_better);
+    EXPECT_EQ(advice.best->grip.offset == 0, keeps_line);
+    EXPECT_EQ(advice.best->grip.azimuth == question.grip.azimuth, keeps_line);
+  }
+}
+
+// A left hand in the mirrored place has the same grip: the six numbers are those of the scene, and so are the joints of the ghost.
+TEST_P(AdviserOn, ALeftHandIsAdvisedInTheWorldOfTheScene) {
+  Scene scene = advised_scene();
+  scene.hand.handedness = Handedness::left;
+  Adviser adviser(scene, GetParam(), 1);
+  AdviceQuestion question = high_grip(scene, 0.6);
+  question.grip = mirrored(question.grip, Handedness::left);
   const Advice advice = adviser.advise(question, STEP_CLOUD);
-  ASSERT_TRUE(advice.best && advice.is_better);
-  EXPECT_EQ(advice.best->grip.offset, 0);
-  EXPECT_EQ(advice.best->grip.azimuth, 0);
+  ASSERT_TRUE(advice.best && advice.is_better && advice.present.is_possible);
+  EXPECT_EQ(advice.best->effort, effort_by_core(scene, advice.best->grip, 0.6));
+  const Scene right = advised_scene();
+  const double rounding = 1e-9;  // of an azimuth that is pi less itself
+  EXPECT_NEAR(advice.present.effort, effort_by_core(right, high_grip(right, 0.6).grip, 0.6), rounding);
+  EXPECT_NEAR(advice.best->effort, effort_by_core(right, mirrored(advice.best->grip, Handedness::left), 0.6), rounding);
+  GripResult posed;
+  make_core_evaluator(right)->grip(0, mirrored(advice.best->grip, Handedness::left), posed);
+  for (std::size_t j = 0; j < posed.posed.size(); ++j)
+    EXPECT_LT(distance(advice.posed.posed[j], mirrored(posed.posed[j], Handedness::left)), 1e-9) << j;
 }
 
 // The core, which does not take other fills: as a device that is lost then, or of a kind that never does.

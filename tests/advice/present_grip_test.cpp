@@ -9,6 +9,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/evaluator.h"
+#include "core/mirror.h"
 #include "core/vectors.h"
 #include "tests/support/live_script.h"
 #include "tests/support/scenes.h"
@@ -86,6 +87,30 @@ TEST(Approach, FollowsASession) {
     EXPECT_NEAR(approach->grip.height, tick.grasp_height, 1e-9);  // it goes with the vessel
   }
   EXPECT_TRUE(was_near && was_held);
+}
+
+// A left hand whose every tip and turn is the mirror of a right one has the mirrored grip.
+TEST(Approach, OfALeftHandIsTheMirroredGrip) {
+  Scene scene = live_scene();
+  const LiveScene right(scene);
+  scene.hand.handedness = Handedness::left;
+  const LiveScene left(scene);
+  VesselPoses poses = VesselTracker(scene).poses();
+  poses[0].place = {0, 0, 0};  // so that it is its own mirror
+  Tick tick;
+  const GripInput grip{0.06, 0.3, 0.1, -0.6, 0.004, 1};
+  const Vec3 d = core_f64::grip_direction(grip.azimuth, grip.obliquity), aside(std::sin(grip.azimuth), 0, std::cos(grip.azimuth));
+  const Vec3 origin = Vec3(0, grip.height, 0) + grip.offset * aside;
+  tick.proxies = {to_triple(origin - 0.05 * d), to_triple(origin + 0.05 * d)};
+  tick.hand_rotation = to_rotation(axes_of(grip));
+  const auto of_right = approach_of(right, tick, poses);
+  ASSERT_TRUE(of_right);
+  expect_same(of_right->grip, grip);
+  for (Triple& proxy : tick.proxies) proxy = mirrored(proxy, Handedness::left);
+  tick.hand_rotation = to_rotation(mirrored(axes_of(grip), Handedness::left));
+  const auto of_left = approach_of(left, tick, poses);
+  ASSERT_TRUE(of_left);
+  expect_same(of_left->grip, mirrored(grip, Handedness::left));
 }
 
 }  // namespace
