@@ -110,7 +110,7 @@ std::string advice_words(const Advice& advice) {
   std::string words = advice.ahead ? of_tilts(*advice.ahead) : "";
   if (advice.best && advice.is_better && advice.present.is_possible)
     words += (words.empty() ? "another grip, " : "; another grip, ") + of_grips(advice);
-  return words.empty() ? "this grip is good" : words;
+  return words.empty() && advice.present.is_possible ? "this grip is good" : words;
 }
 
 }  // namespace wholehand

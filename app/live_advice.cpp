@@ -22,11 +22,13 @@ std::string default_advice_device() {
 
 std::optional<std::string> AdviceTeller::tell(const Advice& advice) {
   const bool is_new = advice.vessel != vessel_ || advice.is_held != is_held_;
+  const std::string words = advice_words(advice);
+  if (is_new && advice.vessel >= 0 && words.empty()) return std::nullopt;  // it may have some later
   vessel_ = advice.vessel;
   is_held_ = advice.is_held;
   if (!is_new || advice.vessel < 0) return std::nullopt;
   return fmt::format("{:8.2f} s  advice, {}: {}", static_cast<double>(advice.tick) / rate_,
-                     scene_.vessels[static_cast<std::size_t>(advice.vessel)].name, advice_words(advice));
+                     scene_.vessels[static_cast<std::size_t>(advice.vessel)].name, words);
 }
 
 LiveAdvice::LiveAdvice(const Scene& scene, const Options& options) : teller_(scene) {

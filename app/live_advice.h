@@ -17,7 +17,7 @@ namespace wholehand {
 // The device that a user means who names none: "vulkan" where there is a Vulkan device, else "core".
 std::string default_advice_device();
 
-// A line for each thing that begins: a vessel that the hand comes near to, a grasp.
+// A line for each thing that begins: a vessel that the hand comes near to, a grasp. It comes once there are words.
 class AdviceTeller {
  public:
   explicit AdviceTeller(const Scene& scene) : rate_(scene.live.rate), scene_(scene) {}

@@ -150,6 +150,11 @@ TEST(AdviceWords, OfAHandThatHolds) {
   EXPECT_EQ(advice_words(held(0.4, 0.39)), "at 70 degrees the grip needs .40 of your strength");
   EXPECT_EQ(advice_words(held(NEVER, 0.5)), "at 70 degrees no strength holds this grip; tilt over the other side: .50");
   EXPECT_EQ(advice_words(held(0.05, 0.01)), "this grip is good");
+  Advice unrated = held(0.05, 0.01);
+  unrated.present.is_possible = false;
+  EXPECT_EQ(advice_words(unrated), "");
+  unrated.ahead = TiltsAhead{};
+  EXPECT_EQ(advice_words(unrated), "");
   Advice better = held(0.4, 0.39);
   better.is_better = true;
   better.best->effort = 0.2;

@@ -111,6 +111,8 @@ TEST(AdviceTeller, TellsOfEachBeginningOnce) {
   EXPECT_EQ(*first, "    1.50 s  advice, " + scene.vessels[0].name + ": no grip within reach is possible");
   EXPECT_FALSE(teller.tell(advice));
   advice.is_held = true;
+  EXPECT_FALSE(teller.tell(advice)) << "a held grip that is not rated has no words";
+  advice.present.is_possible = true;
   EXPECT_TRUE(teller.tell(advice));
   EXPECT_FALSE(teller.tell(advice));
   advice.vessel = -1;
