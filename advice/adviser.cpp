@@ -150,30 +150,31 @@ RatedGrip Adviser::rate(int vessel, const GripInput& grip) const {
   return rated;
 }
 
-// By the core: of those that are as good as the best by the device, the nearest ones, and the best itself.
-std::vector<RatedGrip> Adviser::rate_best(const AdviceQuestion& question, const std::vector<GripInput>& cloud,
-                                          std::vector<Found> found) {
+// By the core: the best one, and of those that are as good by the device the nearest ones. Near is what is near to the present grip
+// that has come in: from beside the vessel the way in would count for more than all else.
+std::vector<RatedGrip> Adviser::rate_best(const GripInput& present, const std::vector<GripInput>& cloud,
+                                          std::vector<Found> found) const {
   std::vector<RatedGrip> rated;
   if (found.empty()) return rated;
   const auto by_effort = [](const Found& a, const Found& b) { return std::pair(a.effort, a.grip) < std::pair(b.effort, b.grip); };
   const Found best = *std::min_element(found.begin(), found.end(), by_effort);
   std::erase_if(found, [&](const Found& one) { return one.effort > like(best.effort) || one.grip == best.grip; });
-  const auto way = [&](const Found& one) { return std::pair(way_between(question.grip, cloud[one.grip]), one.grip); };
+  const auto way = [&](const Found& one) { return std::pair(way_between(present, cloud[one.grip]), one.grip); };
   const auto count = static_cast<std::ptrdiff_t>(std::min(RATED_BY_CORE, found.size()));
   std::partial_sort(found.begin(), found.begin() + count, found.end(),
                     [&](const Found& a, const Found& b) { return way(a) < way(b); });
-  rated.push_back(rate(question.vessel, cloud[best.grip]));
-  for (std::ptrdiff_t k = 0; k < count; ++k) rated.push_back(rate(question.vessel, cloud[found[static_cast<std::size_t>(k)].grip]));
+  rated.push_back(rate(vessel_, cloud[best.grip]));
+  for (std::ptrdiff_t k = 0; k < count; ++k) rated.push_back(rate(vessel_, cloud[found[static_cast<std::size_t>(k)].grip]));
   return rated;
 }
 
 // The last answer stands while it is as good as the best of now; a present grip that is as good needs no advice.
-void Adviser::choose(const AdviceQuestion& question, std::vector<RatedGrip> rated, Advice& advice) {
-  const RatedGrip* found = nearest_of_best(rated, question.grip);
+void Adviser::choose(const std::vector<RatedGrip>& rated, Advice& advice) const {
+  const RatedGrip* found = nearest_of_best(rated, advice.present.grip);
   if (!found) return;
   RatedGrip best = *found;
   if (last_) {
-    const RatedGrip before = rate(question.vessel, *last_);
+    const RatedGrip before = rate(vessel_, *last_);
     double least = best.effort;
     for (const RatedGrip& one : rated)
       if (one.is_possible) least = std::min(least, one.effort);
@@ -181,7 +182,7 @@ void Adviser::choose(const AdviceQuestion& question, std::vector<RatedGrip> rate
   }
   advice.is_better = !advice.present.is_possible || advice.present.effort > like(best.effort);
   advice.best = advice.is_better ? best : advice.present;
-  core_->grip(static_cast<std::size_t>(question.vessel), advice.best->grip, advice.posed);
+  core_->grip(static_cast<std::size_t>(vessel_), advice.best->grip, advice.posed);
 }
 
 // The longer the best one stays, the closer about it the next updates look.
@@ -201,7 +202,7 @@ Advice Adviser::advise(const AdviceQuestion& question, std::size_t grips, const 
   advice.volume = volumes_[static_cast<std::size_t>(question.vessel)];
   advice.grips = cloud.size();
   advice.present = rate(question.vessel, question.is_held ? question.grip : come_in(question.grip));
-  choose(question, rate_best(question, cloud, ask(question.vessel, cloud, stop)), advice);
+  choose(rate_best(advice.present.grip, cloud, ask(question.vessel, cloud, stop)), advice);
   std::optional<GripInput> best;
   if (advice.best) best = advice.best->grip;
   settle(!last_ || !best || way_between(*last_, *best) > MOVED);

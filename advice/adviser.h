@@ -71,8 +71,8 @@ class Adviser {
   void go_on_with_core(const std::string& why);
   std::vector<Found> ask(int vessel, const std::vector<GripInput>& cloud, const std::atomic<bool>* stop);
   RatedGrip rate(int vessel, const GripInput& grip) const;
-  std::vector<RatedGrip> rate_best(const AdviceQuestion& question, const std::vector<GripInput>& cloud, std::vector<Found> found);
-  void choose(const AdviceQuestion& question, std::vector<RatedGrip> rated, Advice& advice);
+  std::vector<RatedGrip> rate_best(const GripInput& present, const std::vector<GripInput>& cloud, std::vector<Found> found) const;
+  void choose(const std::vector<RatedGrip>& rated, Advice& advice) const;
   void settle(bool has_moved);
 
   Scene scene_;
@@ -82,7 +82,7 @@ class Adviser {
   std::vector<double> volumes_;  // with which the backend computes, m3
   std::vector<double> capacities_;
   std::uint64_t turn_ = 0;
-  int vessel_ = -1;                // of the last answer
+  int vessel_ = -1;                // of the question
   std::optional<GripInput> last_;  // its best grip
   double share_ = 1;               // of the reach in which the next update looks about it
   std::vector<std::string> notes_, said_;

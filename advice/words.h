@@ -10,8 +10,8 @@ namespace wholehand {
 
 // Of a hand on its way: "8 mm higher, wrist 12 degrees up: effort .21 to .09", "this grip is good: effort .09", or "no grip within
 // reach is possible". Of a hand that holds: "at 70 degrees the grip needs .40 of your strength; tilt over the other side: .21",
-// and then what another grip would take. Empty: there is nothing to advise, as of a held grip that is easy at the tilts ahead and that
-// the rating does not take for one.
+// and then what another grip would take. Empty: there is nothing to advise, as of a held grip that is easy at the tilts ahead and
+// that is not possible by the rating.
 std::string advice_words(const Advice& advice);
 
 // The way from one grip to another: "8 mm higher, wrist 12 degrees up, index finger 5 degrees up, around by 20 degrees to the

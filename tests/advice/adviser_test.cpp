@@ -123,6 +123,21 @@ TEST(Adviser, Settles) {
   EXPECT_LE(changes, 1);
 }
 
+// The nearest of equally good grips is that of a hand that has come in, however far beside the vessel the hand still is.
+TEST(Adviser, AHandBesideTheVesselIsAdvisedAsOneThatHasComeIn) {
+  const Scene scene = advised_scene();
+  Adviser beside(scene, "core", 1), in(scene, "core", 1);
+  AdviceQuestion question = high_grip(scene, 0.6);
+  for (const double offset : {0.15, -0.12, 0.1}) {
+    question.grip.offset = 0;
+    const Advice right = in.advise(question, STEP_CLOUD);
+    question.grip.offset = offset;
+    const Advice advice = beside.advise(question, STEP_CLOUD);
+    ASSERT_TRUE(advice.best && right.best);
+    EXPECT_EQ(way_between(advice.best->grip, right.best->grip), 0) << offset;
+  }
+}
+
 // The hand that has gone to the advised grip is told to stay.
 TEST(Adviser, AGripThatIsGoodNeedsNoOther) {
   const Scene scene = advised_scene();
