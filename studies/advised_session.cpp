@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "studies/advised_session.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +10,7 @@
 #include <numeric>
 
 #include "advice/stepped_advice.h"
+#include "core/error.h"
 #include "people/participant.h"
 #include "studies/simulated_session.h"
 
@@ -16,6 +19,7 @@ namespace {
 
 constexpr double NO_OUTCOME = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t STUDY_CLOUD = 256;  // grips of an update: people are many
+constexpr int ADVICE_THREADS = 1;         // people are shared among the threads
 
 constexpr std::array<double AdvisedOutcome::*, 5> OUTCOME_NUMBERS{
     &AdvisedOutcome::grasps, &AdvisedOutcome::lost, &AdvisedOutcome::effort, &AdvisedOutcome::seconds, &AdvisedOutcome::is_whole};
@@ -64,6 +68,12 @@ double EffortWatch::mean() const {
 }
 
 AdvisedPerson advised_person(const Scene& scene, std::uint64_t seed, std::uint64_t person, const std::atomic<bool>& stop) {
+  return advised_person(scene, seed, person, stop,
+                        [](const Scene& own) { return std::make_unique<Adviser>(own, "core", ADVICE_THREADS); });
+}
+
+AdvisedPerson advised_person(const Scene& scene, std::uint64_t seed, std::uint64_t person, const std::atomic<bool>& stop,
+                             const AdviceLoop::AdviserOpener& open) {
   Scene own = scene;
   const Participant participant(scene.people, seed, person, Experiment::advice);
   own.hand = participant.hand(scene.hand);
@@ -74,12 +84,13 @@ AdvisedPerson advised_person(const Scene& scene, std::uint64_t seed, std::uint64
   const std::uint64_t tremor = tremor_seed(scene, seed, person, 0);
   outcome.without = play(own, participant, tremor, jobs, nullptr, stop);
   SteppedAdvice::Options options;
-  options.threads = 1;  // people are shared among the threads
   options.while_held = false;
   options.keeps_line = true;
   options.grips = STUDY_CLOUD;
-  SteppedAdvice advice(own, "core", options);
+  SteppedAdvice advice(own, open, options);
   outcome.with = play(own, participant, tremor, jobs, &advice, stop);
+  if (const std::vector<std::string> news = advice.news(); !news.empty())
+    throw failure_error(fmt::format("person {} has no session with advice: {}", person, news.front()));
   return outcome;
 }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "advice/advice_loop.h"
 #include "core/scene.h"
 #include "live/session.h"
 #include "live/vessel_tracker.h"
@@ -50,8 +51,11 @@ class EffortWatch {
 };
 
 // Ends early where `stop` is set. The advice is by the core, in step with the session. Nothing of a person whose hand holds no
-// vessel: no grasps.
+// vessel: no grasps. Throws Error (failure) where the advice ends or changes its device: the session would be one without advice.
 AdvisedPerson advised_person(const Scene& scene, std::uint64_t seed, std::uint64_t person, const std::atomic<bool>& stop);
+// With an adviser of one's own.
+AdvisedPerson advised_person(const Scene& scene, std::uint64_t seed, std::uint64_t person, const std::atomic<bool>& stop,
+                             const AdviceLoop::AdviserOpener& open);
 
 // As numbers, to the bit, for a journal.
 std::vector<double> numbers_of(const AdvisedPerson& person);

@@ -69,13 +69,19 @@ TEST(AdviceStatistics, LeaveOutWhatIsNotThere) {
   EXPECT_EQ(row_of(rows, "time_mean", "without").value, 50);
 }
 
-// One beaker that is poured from: the person takes the advised grip, which is better, and a second time the same.
-TEST(AdvisedPerson, TakesABetterGripAndRepeats) {
+// One beaker that is poured from.
+Scene poured_from() {
   Scene scene = advised_session_scene();
   scene.vessels[0].liquid_name = "water";
   scene.vessels[0].liquid_fill = 0.5;
   scene.task->amounts = {{"water", 20e-6}};
   scene.task->tolerance = 5e-6;
+  return scene;
+}
+
+// The person takes the advised grip, which is better, and a second time the same.
+TEST(AdvisedPerson, TakesABetterGripAndRepeats) {
+  const Scene scene = poured_from();
   const std::atomic<bool> stop{false};
   const AdvisedPerson one = advised_person(scene, 1, 3, stop);
   ASSERT_GT(one.without.grasps, 0);
@@ -87,6 +93,20 @@ TEST(AdvisedPerson, TakesABetterGripAndRepeats) {
   const std::vector<double> numbers = numbers_of(one), again = numbers_of(advised_person(scene, 1, 3, stop));
   EXPECT_EQ(numbers, again);
   EXPECT_EQ(numbers_of(advised_person_of(numbers)), numbers);
+}
+
+// A session whose advice has ended is none with advice.
+TEST(AdvisedPerson, IsNoOutcomeWhereTheAdviceFails) {
+  const std::atomic<bool> stop{false};
+  const Scene scene = poured_from();
+  try {
+    advised_person(scene, 1, 3, stop, dying_adviser(2));
+    FAIL() << "it is an outcome";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ExitCode::failure);
+    EXPECT_STREQ(error.what(),
+                 "person 3 has no session with advice: advice: the device is gone; the session goes on without advice");
+  }
 }
 
 }  // namespace
