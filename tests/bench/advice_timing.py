@@ -7,7 +7,8 @@ second, and the longest time between two.
 
 Prints a table, medians over the rounds (largest: of all rounds). `stress` is a session without advice beside as many busy processes of the
 advice's own priority as there are cores: what any such load costs on this machine. Exits with 1 where the median or 99th percentile of latency
-or step with advice is more than 1.5 times and 10 us above what it is without, or where there are fewer than 5 updates a second.
+or step with advice is more than 1.5 times and 10 us above what it is without, or where there are fewer than 5 updates a second (the median).
+The last line names these; nothing else of the table is judged.
 """
 import argparse
 import json
@@ -73,7 +74,8 @@ def main():
             line += f"{rates:>11.1f}{sum(one['grips'] for one in advice) / sum(one['updates'] for one in advice):>7.0f}{max(one['longest_s'] for one in advice):>11.2f}"
             holds = holds and rates >= 5
         print(line)
-    print("holds" if holds else "does not hold")
+    judged = f"latency and step at p50 and p99, and updates a second, of {', '.join(asked.on)}; not p99.9, largest, missed, grips, longest"
+    print(f"{'holds' if holds else 'does not hold'}: {judged}")
     return 0 if holds else 1
 
 
