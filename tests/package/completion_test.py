@@ -148,7 +148,7 @@ class Bash(unittest.TestCase):
         checked = 0
         for command, option, offered in rows:
             words = [word for word in offered.split(" -")[0].split() if word]
-            if option == "--on":  # besides the names of devices
+            if option in ("--on", "--advise-on"):  # besides the names of devices
                 self.assertLessEqual(set(words), {"auto", "core", "vulkan"})
                 continue
             message = program(command, *needed[command], option, "nonsense").stderr
