@@ -19,7 +19,8 @@ namespace wholehand {
 // presses with the force that the person thinks the vessel needs, follows what opens the fingers, and trembles, by `seed`. The same
 // person, seed, scene and forces give the same motion to the bit. The scene has the person's own hand (Participant::hand). Throws
 // Error (usage) where the user finds nothing to do.
-std::unique_ptr<Gripper> open_sim(const Scene& scene, std::uint64_t seed, const Participant& person, ShownGripSource* shown = nullptr);
+std::unique_ptr<Gripper> open_sim(const Scene& scene, std::uint64_t seed, const Participant& person,
+                                  ShownGripSource* shown = nullptr);
 // The median person of the scene's population.
 std::unique_ptr<Gripper> open_sim(const Scene& scene, std::uint64_t seed, ShownGripSource* shown = nullptr);
 // A person with these jobs alone.
