@@ -83,7 +83,8 @@ for home in "" HOME=/nonexistent HOME=/usr; do
   check "and shows the best" has "$output" "rank  score"
   rm -f small.*
 done
-output=$("${as_root[@]}" find / -xdev -user 65534 -newer "$work/files" -not -path "$work/*" -not -path '/proc/*' 2>/dev/null)
+# on a busy machine a file of somebody else may go while find looks at it, which is no answer of its own
+output=$("${as_root[@]}" find / -xdev -user 65534 -newer "$work/files" -not -path "$work/*" -not -path '/proc/*' 2>/dev/null || :)
 check "nothing is written elsewhere" equal "$output" ""
 output=$(cd / && nobody wholehand sweep small --on core 2>&1) && code=0 || code=$?
 check "a folder that cannot be written to gives exit code 2 or 3" has "2 3" "$code"
