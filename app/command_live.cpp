@@ -8,6 +8,7 @@
 #include "app/live.h"
 #include "app/validators.h"
 #include "app/values.h"
+#include "app/vulkan_environment.h"
 #include "scene/ranges.h"
 
 namespace wholehand {
@@ -28,6 +29,7 @@ ExitCode live(const LiveArguments& arguments) {
   options.seed = static_cast<std::uint64_t>(parse_integer(arguments.seed, "--seed", ranges::SEED));
   if (!arguments.person.empty()) options.person = static_cast<std::uint64_t>(parse_integer(arguments.person, "--person", PERSON));
   options.view_port = parse_view_port(arguments.view_port, options.view);
+  if (options.advise) prepare_vulkan_environment(options.advise_on.empty() ? "vulkan" : options.advise_on);
   return run_live(options);
 }
 
