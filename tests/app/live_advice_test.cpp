@@ -45,6 +45,19 @@ TEST_F(LiveAdvised, ChangesNothingOfASessionThatDoesNotFollow) {
   expect_same_forces(recorded("without", ""), recorded("with", "--advise --advise-on core"));
 }
 
+// Lavapipe's name has the width of its vectors, which the program sets for every command alike.
+TEST_F(LiveAdvised, ComputesOnTheDeviceThatDevicesNames) {
+  const std::string wide = "env -u LP_NATIVE_VECTOR_WIDTH ";
+  const Outcome session = run(wide + "PROGRAM live --no-clock --seconds 1 --advise --advise-on vulkan 2>&1");
+  ASSERT_EQ(session.code, 0) << session.output;
+  const std::string before = "advice is computed on vulkan, ";
+  const std::size_t at = session.output.find(before);
+  ASSERT_NE(at, std::string::npos) << session.output;
+  const std::size_t from = at + before.size();
+  const std::string device = session.output.substr(from, session.output.find('\n', from) - from);
+  EXPECT_NE(run(wide + "PROGRAM devices 2>&1").output.find(device), std::string::npos) << device;
+}
+
 TEST_F(LiveAdvised, WhoFollowsTakesAnotherGripAndRepeats) {
   const Recording without = recorded("without", ""), one = recorded("one", "--advise --advise-on core --follow-advice"),
                   two = recorded("two", "--advise --advise-on core --follow-advice");
