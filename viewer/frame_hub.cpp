@@ -5,11 +5,11 @@
 
 namespace wholehand {
 
-bool FrameHub::join() {
+std::optional<std::uint64_t> FrameHub::join() {
   const std::lock_guard lock(mutex_);
-  if (viewers_ == most_viewers_) return false;
+  if (viewers_ == most_viewers_) return {};
   ++viewers_;
-  return true;
+  return number_;
 }
 
 void FrameHub::leave() {
@@ -50,11 +50,6 @@ FrameHub::News FrameHub::wait(std::uint64_t seen, std::chrono::milliseconds most
   std::unique_lock lock(mutex_);
   changed_.wait_for(lock, most, [&] { return number_ > seen || is_over_; });
   return {number_ > seen ? frame_ : nullptr, number_, is_over_, reason_};
-}
-
-std::uint64_t FrameHub::newest() const {
-  const std::lock_guard lock(mutex_);
-  return number_;
 }
 
 }  // namespace wholehand

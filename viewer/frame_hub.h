@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 
 namespace wholehand {
@@ -16,8 +17,9 @@ class FrameHub {
  public:
   explicit FrameHub(int most_viewers) : most_viewers_(most_viewers) {}
 
-  // False: there are as many as there may be. Who joined leaves.
-  bool join();
+  // Number of the newest frame at that moment (0: none yet): who joins waits for the one after it, and misses none that is published from
+  // then on. Nothing: there are as many viewers as there may be. Who joined leaves.
+  std::optional<std::uint64_t> join();
   void leave();
   int viewers() const;
 
@@ -33,8 +35,6 @@ class FrameHub {
   };
   // What is newer than the frame of that number (0: any), waited for so long at most.
   News wait(std::uint64_t seen, std::chrono::milliseconds most);
-  // Number of the newest: who joins waits for the one after it.
-  std::uint64_t newest() const;
 
  private:
   const int most_viewers_;

@@ -59,10 +59,10 @@ ViewContent::Query query_of(const Request& request) {
   return query;
 }
 
-// One viewer's frames, as long as he reads them.
+// One viewer's frames, as long as he reads them: those after the one of number `seen`.
 class Watcher {
  public:
-  explicit Watcher(FrameHub& frames) : frames_(frames), seen_(frames.newest()) {}
+  Watcher(FrameHub& frames, std::uint64_t seen) : frames_(frames), seen_(seen) {}
   ~Watcher() { frames_.leave(); }
   Watcher(const Watcher&) = delete;
   Watcher& operator=(const Watcher&) = delete;
@@ -179,8 +179,9 @@ class ViewServer::Pages {
   }
 
   void stream(Response& response) {
-    if (!content_.frames->join()) return refuse(response, 503, fmt::format("{} viewers watch already", MOST_VIEWERS));
-    const auto watcher = std::make_shared<Watcher>(*content_.frames);
+    const auto newest = content_.frames->join();
+    if (!newest) return refuse(response, 503, fmt::format("{} viewers watch already", MOST_VIEWERS));
+    const auto watcher = std::make_shared<Watcher>(*content_.frames, *newest);
     response.set_chunked_content_provider("text/event-stream",
                                           [watcher](std::size_t, httplib::DataSink& sink) { return watcher->write(sink); });
   }

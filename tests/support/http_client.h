@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
 #include <cstdlib>
 #include <map>
 #include <string>
@@ -50,18 +51,22 @@ class HttpSocket {
     }
   }
   void end_sending() { shutdown(socket_, SHUT_WR); }
-  // Up to and with `end`; what is there where the other side closes, or nothing comes for 20 s.
+  // Up to and with `end`; what is there where the other side closes, nothing comes for 20 s, or no end is there after 60 s: a stream of
+  // frames gives a sign of life each second.
   std::string read_until(const std::string& end) {
+    const auto until = std::chrono::steady_clock::now() + PATIENCE;
     std::size_t at = 0;
     while ((at = received_.find(end)) == std::string::npos) {
-      if (!receive()) return std::exchange(received_, "");
+      if (std::chrono::steady_clock::now() > until || !receive()) return std::exchange(received_, "");
     }
     std::string text = received_.substr(0, at + end.size());
     received_.erase(0, text.size());
     return text;
   }
+  // All until then.
   std::string read_all() {
-    while (receive()) {
+    const auto until = std::chrono::steady_clock::now() + PATIENCE;
+    while (std::chrono::steady_clock::now() < until && receive()) {
     }
     return std::exchange(received_, "");
   }
@@ -97,6 +102,7 @@ class HttpSocket {
   }
 
  private:
+  static constexpr std::chrono::seconds PATIENCE{60};
   bool receive() {
     pollfd poll_for{socket_, POLLIN, 0};
     if (poll(&poll_for, 1, 20000) <= 0) return false;

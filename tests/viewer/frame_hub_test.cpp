@@ -40,7 +40,19 @@ TEST(FrameHub, NoFrameIsGivenTwice) {
   FrameHub hub(1);
   hub.publish("a");
   EXPECT_FALSE(hub.wait(1, milliseconds(1)).frame);
-  EXPECT_EQ(hub.newest(), 1u);
+}
+
+// A viewer counts from the moment it joins: were it asked for the newest number later, a frame in between would be seen by nobody.
+TEST(FrameHub, WhoJoinsMissesNoFrameFromThenOn) {
+  FrameHub hub(2);
+  EXPECT_EQ(hub.join(), 0u) << "there is none yet";
+  hub.publish("old");
+  const auto seen = hub.join();
+  ASSERT_EQ(seen, 1u);
+  hub.publish("new");
+  const auto news = hub.wait(*seen, LONG);
+  ASSERT_TRUE(news.frame);
+  EXPECT_EQ(*news.frame, "new");
 }
 
 TEST(FrameHub, ThereAreNoMoreViewersThanThereMayBe) {
