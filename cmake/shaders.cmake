@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Compiles compute shaders to SPIR-V and embeds them.
 #
-#   embed_shaders(TARGET HEADER FUNCTION GLOB ...)
+#   embed_shaders(TARGET HEADER FUNCTION GLOB ... [DEFINES NAME ...])
 #
 # makes a static library TARGET that defines FUNCTION, declared in HEADER as
 #   std::span<const EmbeddedShader> FUNCTION();
@@ -39,7 +39,9 @@ function(shader_reads_outline file result)
 endfunction()
 
 function(embed_shaders target header function)
-  file(GLOB shaders CONFIGURE_DEPENDS ${ARGN})
+  cmake_parse_arguments(PARSE_ARGV 3 embed "" "" "DEFINES")
+  file(GLOB shaders CONFIGURE_DEPENDS ${embed_UNPARSED_ARGUMENTS})
+  list(TRANSFORM embed_DEFINES PREPEND "-D")
   set(folder "${CMAKE_CURRENT_BINARY_DIR}/${target}.dir")
   file(MAKE_DIRECTORY "${folder}")
   set(includes "")
@@ -55,7 +57,7 @@ function(embed_shaders target header function)
     foreach(precision 0 1)
       foreach(outline IN LISTS sources)
         set(name "${stem}_${precision}")
-        set(defines -DREAL_IS_DOUBLE=${precision})
+        set(defines -DREAL_IS_DOUBLE=${precision} ${embed_DEFINES})
         if(NOT outline EQUAL -1)
           string(APPEND name "_${outline}")
           list(APPEND defines -DOUTLINE_SOURCE=${outline})

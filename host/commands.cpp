@@ -73,6 +73,12 @@ void Commands::dispatch(const Kernel& kernel, std::array<std::uint32_t, 3> group
   steps_.push_back(std::move(step));
 }
 
+Commands Commands::only(std::size_t step) const {
+  Commands alone;
+  alone.steps_.push_back(steps_.at(step));
+  return alone;
+}
+
 std::array<std::uint32_t, 3> groups_for(const Device& device, const Kernel& kernel, std::size_t items) {
   const std::size_t groups = (items + kernel.group_size()[0] - 1) / kernel.group_size()[0];
   const std::size_t width = std::max<std::size_t>(1, std::min<std::size_t>(groups, device.info().max_group_count[0]));

@@ -47,6 +47,8 @@ class Commands {
     std::uint32_t push_size = 0;
   };
   const std::vector<Step>& steps() const { return steps_; }
+  // One of the steps by itself, to run or time it alone.
+  Commands only(std::size_t step) const;
 
  private:
   std::vector<std::pair<std::uint32_t, const Buffer*>> bound_;

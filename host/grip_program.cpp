@@ -18,18 +18,18 @@ constexpr int LOOP_BUDGET = 60000;
 constexpr int iterations_per_piece(int points) { return LEVEL_STEPS * (6 + 3 * points); }
 
 template <class Real>
-Buffer upload_reals(Device& device, const std::vector<double>& values) {
+Buffer upload_reals(const Device& device, const std::vector<double>& values) {
   // a binding that the shader names must be there even where nothing is read from it
   std::vector<Real> converted(values.begin(), values.end());
   converted.resize(std::max<std::size_t>(converted.size(), 4));
   return Buffer::of(device, converted);
 }
 
-Buffer upload(Device& device, Precision precision, const std::vector<double>& values) {
+Buffer upload(const Device& device, Precision precision, const std::vector<double>& values) {
   return precision == Precision::single ? upload_reals<float>(device, values) : upload_reals<double>(device, values);
 }
 
-Buffer upload(Device& device, Precision precision, const Parameters<double>& parameters) {
+Buffer upload(const Device& device, Precision precision, const Parameters<double>& parameters) {
   if (precision == Precision::single) return Buffer::of(device, std::vector<Parameters<float>>{convert<float>(parameters)});
   return Buffer::of(device, std::vector<Parameters<double>>{parameters});
 }
@@ -248,6 +248,29 @@ void GripProgram::make_grip_kernel(std::size_t v, const Scene& scene, const Scen
   vessel.grip.emplace(on, find_shader("grip", options.precision, vessel.outline_source, options.shaders), constants, "grip");
 }
 
+std::unique_ptr<LiquidWork> GripProgram::liquid_work(std::size_t v, const SceneArrays& arrays) const {
+  const VesselOnDevice& vessel = vessels[v];
+  const std::size_t real = real_size(precision_);
+  const std::uint32_t states = fill_count * tilt_count, rows = WHOLE_DEGREES + tilt_count;
+  auto work = std::make_unique<LiquidWork>();
+  work->cavity = upload(on, precision_, arrays.vessels[v].cavity);
+  work->capacity = Buffer(on, real * rows);
+  work->liquids = Buffer(on, real * LIQUID_STRIDE * states);
+  work->loads = Buffer(on, real * LOAD_STRIDE * states);
+  Commands& commands = work->commands;
+  commands.bind(BINDING_PARAMETERS, vessel.parameters);
+  commands.bind(BINDING_CAVITY, work->cavity);
+  commands.bind(BINDING_QUADRATURE, quadrature);
+  commands.bind(BINDING_TILTS, tilts);
+  commands.bind(BINDING_FILLS, vessel.fills);
+  commands.bind(BINDING_CAPACITY, work->capacity);
+  commands.bind(BINDING_LIQUID, work->liquids);
+  commands.bind(BINDING_LOADS, work->loads);
+  commands.dispatch(*lip, groups_for(on, *lip, rows), Push{rows, 0, 0, 0});
+  commands.dispatch(*liquid, groups_for(on, *liquid, states), Push{states, 0, 0, 0});
+  return work;
+}
+
 void GripProgram::make_liquid(std::size_t v, const Scene& scene, const SceneArrays& arrays, const Evaluator& core,
                               const GripBackendOptions& options) {
   VesselOnDevice& vessel = vessels[v];
@@ -267,29 +290,14 @@ void GripProgram::make_liquid(std::size_t v, const Scene& scene, const SceneArra
     upload_states(v, scene, arrays, loads);
     return;
   }
-  const std::size_t real = real_size(options.precision);
-  const Buffer cavity = upload(on, options.precision, arrays.vessels[v].cavity);
-  const Buffer capacity(on, real * (WHOLE_DEGREES + tilt_count)), liquids(on, real * LIQUID_STRIDE * states);
-  const Buffer loads_out(on, real * LOAD_STRIDE * states);
-  Commands commands;
-  commands.bind(BINDING_PARAMETERS, vessel.parameters);
-  commands.bind(BINDING_CAVITY, cavity);
-  commands.bind(BINDING_QUADRATURE, quadrature);
-  commands.bind(BINDING_TILTS, tilts);
-  commands.bind(BINDING_FILLS, vessel.fills);
-  commands.bind(BINDING_CAPACITY, capacity);
-  commands.bind(BINDING_LIQUID, liquids);
-  commands.bind(BINDING_LOADS, loads_out);
-  const std::uint32_t rows = WHOLE_DEGREES + tilt_count;
-  commands.dispatch(*lip, groups_for(on, *lip, rows), Push{rows, 0, 0, 0});
-  commands.dispatch(*liquid, groups_for(on, *liquid, states), Push{states, 0, 0, 0});
-  run_once(on, commands);
-  const std::vector<double> values = download(liquids, options.precision, LIQUID_STRIDE * states);
+  const std::unique_ptr<LiquidWork> work = liquid_work(v, arrays);
+  run_once(on, work->commands);
+  const std::vector<double> values = download(work->liquids, options.precision, LIQUID_STRIDE * states);
   for (std::uint32_t s = 0; s < states; ++s) {
     const double* at = values.data() + LIQUID_STRIDE * s;
     vessel.liquid.push_back({at[0], at[1], at[2], at[3], at[4]});
   }
-  upload_states(v, scene, arrays, download(loads_out, options.precision, LOAD_STRIDE * states));
+  upload_states(v, scene, arrays, download(work->loads, options.precision, LOAD_STRIDE * states));
 }
 
 // After the forces: a safe tilt of theirs is lowered where the hand no longer holds.

@@ -2,6 +2,7 @@
 // A scene on one device: buffers that all grips share, the vessels' pipelines, and the liquid's tables; for host/ alone.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -22,6 +23,11 @@ struct VesselOnDevice {
   std::vector<LiquidResult> liquid;  // fill-major; empty without
 };
 
+struct LiquidWork {
+  Buffer cavity, capacity, liquids, loads;  // LIQUID_STRIDE and LOAD_STRIDE a state, fill-major
+  Commands commands;
+};
+
 // Made by the stream, again on a fresh device where one fails.
 struct GripProgram final : Program {
   GripProgram(const Scene& scene, const SceneArrays& arrays, const Evaluator& core, const FieldSet& fields,
@@ -31,6 +37,9 @@ struct GripProgram final : Program {
   // Dispatches the kernels of a chunk whose buffers are bound; `best`: how many candidates the selection leaves, of those with a score
   // above `floor_score`.
   void record(std::size_t vessel, const Chunk& chunk, std::size_t best, double floor_score, Commands& commands);
+
+  // The liquid of a vessel with a cavity over all fills and tilts, in a scene with liquid and tilts: buffers, and the dispatches that fill them.
+  std::unique_ptr<LiquidWork> liquid_work(std::size_t vessel, const SceneArrays& arrays) const;
 
   // The vessels' parameter blocks alone, into the buffers that are there. With no chunk in flight.
   void write_parameters(const SceneArrays& arrays);

@@ -137,6 +137,7 @@ Real bound(Six wanted, bool has_basis) {
 
 // One pivot of core/effort.cpp's solve.
 void step(inout Solve solve, Real tolerance, Real enough, Real too_much, bool is_solving) {
+  COUNT_LANES(is_solving);
   Real levels[6];
   levels_of(solve.wanted, levels);
   Cost cost = cost_of(levels);

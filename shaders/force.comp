@@ -197,6 +197,7 @@ void main() {
       Vec4 weight = states_in[2u * k], tilted = states_in[2u * k + 1u];
       StateForces forces = state_forces(held, weight, tilted);
       bool counts = !UNTIL_POURED || tilted.z >= Real(0);
+      COUNT_LANES(held.feasible && counts);
       if (counts) add_state(held, forces, tilted.z, terms);
       put_state(held, int(push.first + k), grip, counts, forces, weight, tilted);
     }

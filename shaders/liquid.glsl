@@ -122,6 +122,7 @@ Slices piece_below(Element element, Real level, Real sine_tilt, Real cosine_tilt
 
 Slices liquid_below(Real level, Real sine_tilt, Real cosine_tilt) {
   Slices sum = Slices(Real(0), Real(0), Real(0), Real(0));
+  COUNT_LANES(true);
   for (int i = 0; i < int(scene.cavity_count); ++i) {
     Slices piece = piece_below(cavity_element(i), level, sine_tilt, cosine_tilt);
     sum.volume += piece.volume;

@@ -18,6 +18,7 @@
 #endif
 
 #include "layout.h"
+#include "lanes.glsl"
 
 #if REAL_IS_DOUBLE
 #define NAMED_STOP_TOLERANCE Real(STOP_TOLERANCE_F64)

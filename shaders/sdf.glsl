@@ -97,6 +97,7 @@ bool element_convex(Element element, Vec2 q) {
 }
 
 Nearest nearest_element(Vec2 q, out bool inside) {
+  COUNT_LANES(true);
   Nearest nearest = Nearest(0, NO_DISTANCE, NO_DISTANCE, false);
   int side = 0;
   inside = false;
@@ -144,6 +145,7 @@ struct Cell {
 };
 
 Cell locate_cell(Vec3 p) {
+  COUNT_LANES(true);
   Vec3 origin = Vec3(scene.lattice_x, scene.lattice_y, scene.lattice_z);
   Vec3 counts = Vec3(Real(scene.lattice_nx - 1u), Real(scene.lattice_ny - 1u), Real(scene.lattice_nz - 1u));
   Vec3 clamped = min(max(p, origin), origin + counts * scene.lattice_spacing);

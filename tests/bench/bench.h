@@ -19,6 +19,7 @@ namespace wholehand::bench {
 // What the command line says.
 struct Options {
   std::string device = "vulkan";  // --on
+  std::string roofline;           // --roofline: where its table is written; empty: nowhere
 };
 
 struct Figure {
@@ -44,6 +45,8 @@ void add_lattice_benchmarks(const Options& options);
 void add_mesh_benchmarks();
 void add_image_benchmarks(const Options& options);
 void add_library_benchmarks();
+void add_roofline(const Options& options);
+void finish_roofline(const Options& options);  // prints and writes its table, where it ran
 
 // ---- grips ----
 

@@ -2,27 +2,19 @@
 // The kernels of grips and forces against those of commit 289a04a, which tests/bench/former keeps: the same grips, without efforts, table and
 // spheres between the joints, in turns. `ratio` is of processor seconds, as other work on the machine changes the wall's; that of others is
 // the program's own work on both sides.
-#include <sys/resource.h>
-
 #include <cmath>
 #include <memory>
 
 #include "core/evaluator.h"
 #include "host/grip_backend.h"
 #include "tests/bench/bench.h"
+#include "tests/bench/cost.h"
 #include "tests/bench/shaders.h"
 
 namespace wholehand::bench {
 namespace {
 
 constexpr int HEIGHTS = 640;  // as in grip_bench.cpp
-
-double processor_seconds() {
-  rusage used{};
-  getrusage(RUSAGE_SELF, &used);
-  return static_cast<double>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
-         1e-6 * static_cast<double>(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
-}
 
 Scene as_it_was(Scene scene) {
   scene.strength.reset();
@@ -49,14 +41,10 @@ void over_former(benchmark::State& state, const Options& options, const Scene& s
   }
   double now_seconds = 0, former_seconds = 0, grips = 0;
   for (auto _ : state) {
-    double start = processor_seconds();
-    grips += static_cast<double>(run_all(*now, scene, plan));
-    const double seconds = processor_seconds() - start;
+    const double seconds = cost_of([&] { grips += static_cast<double>(run_all(*now, scene, plan)); }).processor;
     now_seconds += seconds;
     state.SetIterationTime(seconds);
-    start = processor_seconds();
-    run_all(*former, scene, plan);
-    former_seconds += processor_seconds() - start;
+    former_seconds += cost_of([&] { run_all(*former, scene, plan); }).processor;
   }
   state.SetItemsProcessed(static_cast<std::int64_t>(grips));
   state.counters["hash"] = hash;

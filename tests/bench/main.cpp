@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What is measured, and how fast. Every figure is a ratio within one run; the absolute ones belong to the machine.
-//   wholehand_bench [--csv FILE] [--on DEVICE] [Google Benchmark's own options]
+//   wholehand_bench [--csv FILE] [--roofline FILE] [--on DEVICE] [Google Benchmark's own options]
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -53,6 +53,8 @@ int run(int argc, char** argv) {
     const std::string argument = argv[i];
     if (argument == "--csv" && i + 1 < argc) {
       csv = argv[++i];
+    } else if (argument == "--roofline" && i + 1 < argc) {
+      options.roofline = argv[++i];
     } else if (argument == "--on" && i + 1 < argc) {
       options.device = argv[++i];
     } else {
@@ -69,11 +71,13 @@ int run(int argc, char** argv) {
   add_mesh_benchmarks();
   add_image_benchmarks(options);
   add_library_benchmarks();
+  add_roofline(options);
 
   Figures figures;
   benchmark::RunSpecifiedBenchmarks(&figures);
   fmt::print("\n");
   print_grip_ratios(figures);
+  finish_roofline(options);
   if (!csv.empty()) write_csv(csv, figures, options);
   benchmark::Shutdown();
   return 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The shaders of tests/bench/shaders, and those of grips and forces as they were, of tests/bench/former: embedded in the benchmarks alone.
+// Embedded in the benchmarks alone: the shaders of tests/bench/shaders; those of grips and forces as they were, of tests/bench/former; and those of
+// the program that count their useful lanes (shaders/lanes.glsl).
 #pragma once
 
 #include "host/shaders.h"
@@ -8,5 +9,6 @@ namespace wholehand {
 
 std::span<const EmbeddedShader> bench_shaders();
 std::span<const EmbeddedShader> former_shaders();
+std::span<const EmbeddedShader> lane_shaders();
 
 }  // namespace wholehand

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// What the processor can do at most: multiply-adds, and copies.
+#pragma once
+
+#include <string>
+
+#include "core/backend.h"
+
+namespace wholehand::bench {
+
+struct ProcessorPeak {
+  std::string instructions;  // of the best set: "AVX-512"
+  double operations = 0;     // a second, two a multiply-add
+};
+
+// Of so many threads at once, the best of some tries, with the vectors that reach most. Seconds are those that a thread has a processor, so that
+// other work on the machine changes the figure little.
+ProcessorPeak processor_peak(Precision precision, int threads);
+// One number at a time and with the instructions that the core is compiled with.
+ProcessorPeak scalar_peak(Precision precision, int threads);
+// Bytes a second, read and written together, of copies between arrays that no cache holds.
+double processor_copy_rate(int threads);
+
+}  // namespace wholehand::bench
