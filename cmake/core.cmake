@@ -43,9 +43,7 @@ core_library(core_plain ${core_plain_sources})
 core_precision(core_f64 double ${core_real_sources})         # the product
 core_precision(core_f32 float ${core_real_sources})          # what float costs
 core_precision(core_ld "long double" ${core_real_sources})   # a wider reference for the tests, which link it
-core_precision(core_counted wholehand::Counted ${core_real_sources})  # counts operations for tests and benchmarks, which link it
-target_compile_options(core_counted PRIVATE -include "${PROJECT_SOURCE_DIR}/tests/support/counted.h")
-set_target_properties(core_ld core_counted PROPERTIES EXCLUDE_FROM_ALL TRUE)
+set_target_properties(core_ld PROPERTIES EXCLUDE_FROM_ALL TRUE)
 target_link_libraries(core_plain PUBLIC fmt::fmt core_f64 core_f32)  # evaluators.cpp names both; static libraries may need each other
 add_library(core INTERFACE)
 target_link_libraries(core INTERFACE core_f64 core_f32 core_plain Threads::Threads)

@@ -45,6 +45,7 @@ void add_lattice_benchmarks(const Options& options);
 void add_mesh_benchmarks();
 void add_image_benchmarks(const Options& options);
 void add_library_benchmarks();
+inline constexpr const char* ROOFLINE = "roofline";  // a benchmark that is no figure: it has a table of its own
 void add_roofline(const Options& options);
 void finish_roofline(const Options& options);  // prints and writes its table, where it ran
 

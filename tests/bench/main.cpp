@@ -17,7 +17,7 @@ namespace wholehand::bench {
 void Figures::ReportRuns(const std::vector<Run>& runs) {
   ConsoleReporter::ReportRuns(runs);
   for (const Run& run : runs) {
-    if (run.error_occurred) continue;
+    if (run.error_occurred || run.run_name.function_name == ROOFLINE) continue;
     const bool median = run.run_type == Run::RT_Aggregate && run.aggregate_name == "median";
     if (!median && run.run_type == Run::RT_Aggregate) continue;
     const auto counter = [&run](const char* name) {

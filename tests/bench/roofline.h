@@ -74,6 +74,12 @@ Roof processor_roof(const Peaks& peaks, Precision precision, bool all_threads);
 // The device's own; of one that runs on the processor the processor's, of which it may reach a part.
 Roof device_roof(const Peaks& peaks, Precision precision);
 
+// Where a kernel counts its lanes (COUNT_LANES), over all times that a vector came by.
+struct Lanes {
+  double useful = 0, all = 0;  // none: not counted
+  double share() const { return useful / all; }
+};
+
 // One line of the table.
 struct RooflineRow {
   std::string kernel, backend, item;
@@ -81,8 +87,8 @@ struct RooflineRow {
   double bytes = 0;
   double items = 0;  // that the cost is of
   Cost cost;
-  double lanes = -1;  // share of them that do useful work; less than 0: not counted
   Roof roof;
+  Lanes lanes;
 };
 
 // Ways that the core is asked, as backends of the table.

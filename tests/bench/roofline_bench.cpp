@@ -32,7 +32,7 @@ Roofline measure(const Options& options) {
 }  // namespace
 
 void add_roofline(const Options& options) {
-  benchmark::RegisterBenchmark("roofline",
+  benchmark::RegisterBenchmark(ROOFLINE,
                                [&options](benchmark::State& state) {
                                  for (auto _ : state) measured = measure(options);
                                })

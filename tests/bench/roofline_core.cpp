@@ -72,7 +72,7 @@ std::vector<RooflineRow> core_rows(const Peaks& peaks, const std::vector<Workloa
     const std::vector<Cost> costs = step_costs(workloads, way);
     for (std::size_t step = 0; step < STEPS; ++step)
       rows.push_back(
-          {step_name(static_cast<int>(step)), way.backend, "grip", demands[step], bytes[step], grips, costs[step], -1, roof});
+          {step_name(static_cast<int>(step)), way.backend, "grip", demands[step], bytes[step], grips, costs[step], roof, {}});
   }
   return rows;
 }

@@ -19,7 +19,7 @@ namespace wholehand::bench {
 namespace {
 
 constexpr int ROUNDS = 5;
-constexpr std::size_t GPU_REPEATS = 240;  // of the sample: a GPU wants many grips at once to be busy
+constexpr std::size_t GPU_REPEATS = 120;  // of the sample: a GPU wants many grips at once to be busy
 
 // All that count but the liquid, which a program computes when it is made, with nowhere to count.
 std::span<const EmbeddedShader> counting_kernels() {
@@ -30,10 +30,6 @@ std::span<const EmbeddedShader> counting_kernels() {
   }();
   return KERNELS;
 }
-
-struct Lanes {
-  double useful = 0, all = 0;
-};
 
 // As often as a buffer of the device has room for.
 std::size_t repeats(const host::DeviceInfo& device, std::size_t bytes_per_grip) {
@@ -178,7 +174,7 @@ std::vector<RooflineRow> device_rows(const Options& options, const Peaks& peaks,
       counted.all += lanes[from.workload][kernel].all;
     }
     rows.push_back({step_name(static_cast<int>(step)), device_backend(precision), "grip", demands[step], bytes[step], grips, cost,
-                    counted.all > 0 ? counted.useful / counted.all : -1, device_roof(peaks, precision)});
+                    device_roof(peaks, precision), counted});
   }
   return rows;
 }

@@ -68,7 +68,7 @@ class LiquidRun {
     return sum;
   }
 
-  double lanes() {
+  Lanes lanes() {
     const host::Device& on = program_->on;
     const std::vector<host::Constant> constants{{CONST_GROUP_SIZE, std::uint32_t(GROUP_SIZE)}};
     const host::Kernel counting(on, host::find_shader("liquid", precision_, OUTLINE_NONE, lane_shaders()), constants, "liquid");
@@ -82,7 +82,7 @@ class LiquidRun {
       host::run_once(on, commands.only(commands.steps().size() - 1));
     }
     const auto counted = lanes.read_as<std::uint32_t>(2);
-    return static_cast<double>(counted[0]) / counted[1];
+    return {static_cast<double>(counted[0]), static_cast<double>(counted[1])};
   }
 
  private:
@@ -141,8 +141,15 @@ std::vector<RooflineRow> liquid_rows(const Options& options, const Peaks& peaks,
     const Cost cost =
         best_cost([&] { in_parallel(states, way.all_threads ? 0 : 1, [&](std::size_t i) { ask_liquid(*core, scene, i); }); });
     // fill and tilt come in; volume, mass, lean, height and what poured go out
-    rows.push_back({"liquid", way.backend, "state", demand, (2 + LIQUID_STRIDE) * sizeof(double), static_cast<double>(states), cost,
-                    -1, processor_roof(peaks, way.precision, way.all_threads)});
+    rows.push_back({"liquid",
+                    way.backend,
+                    "state",
+                    demand,
+                    (2 + LIQUID_STRIDE) * sizeof(double),
+                    static_cast<double>(states),
+                    cost,
+                    processor_roof(peaks, way.precision, way.all_threads),
+                    {}});
   }
   for (const Precision precision : {Precision::single, Precision::full}) {
     if (precision == Precision::full && !peaks.device.float64) continue;
@@ -151,7 +158,7 @@ std::vector<RooflineRow> liquid_rows(const Options& options, const Peaks& peaks,
     // on a device the load goes out as well
     rows.push_back({"liquid", device_backend(precision), "state", demand,
                     static_cast<double>((2 + LIQUID_STRIDE + LOAD_STRIDE) * real), static_cast<double>(states), run.cost(),
-                    peaks.counts_lanes ? run.lanes() : -1, device_roof(peaks, precision)});
+                    device_roof(peaks, precision), peaks.counts_lanes ? run.lanes() : Lanes{}});
   }
   return rows;
 }
@@ -166,13 +173,26 @@ std::vector<RooflineRow> wall_rows(const Options& options, const Peaks& peaks) {
   const auto bytes = [](std::size_t real) { return static_cast<double>((CASE_PLANES + 1) * real) / SAMPLES; };
   std::vector<RooflineRow> rows;
   for (const CoreWay& way : CORE_WAYS)
-    rows.push_back({"walls", way.backend, "sample", demand, bytes(sizeof(double)), samples, wall_cost(cases, way), -1,
-                    processor_roof(peaks, way.precision, way.all_threads)});
+    rows.push_back({"walls",
+                    way.backend,
+                    "sample",
+                    demand,
+                    bytes(sizeof(double)),
+                    samples,
+                    wall_cost(cases, way),
+                    processor_roof(peaks, way.precision, way.all_threads),
+                    {}});
   for (const Precision precision : {Precision::single, Precision::full}) {
     if (precision == Precision::full && !peaks.device.float64) continue;
-    rows.push_back({"walls", device_backend(precision), "sample", demand,
-                    bytes(precision == Precision::single ? sizeof(float) : sizeof(double)), samples,
-                    wall_cost(options, cases, precision), -1, device_roof(peaks, precision)});
+    rows.push_back({"walls",
+                    device_backend(precision),
+                    "sample",
+                    demand,
+                    bytes(precision == Precision::single ? sizeof(float) : sizeof(double)),
+                    samples,
+                    wall_cost(options, cases, precision),
+                    device_roof(peaks, precision),
+                    {}});
   }
   return rows;
 }

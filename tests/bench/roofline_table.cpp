@@ -24,6 +24,11 @@ std::string busy_share(const RooflineRow& row, double scale, int digits) {
   return fmt::format("{:.{}f}", scale * rate / row.roof.processor_peak, digits);
 }
 
+// Share of the useful ones, and how often an item came by.
+std::string lanes_of(const RooflineRow& row) {
+  return row.lanes.all > 0 ? fmt::format("{:.4f},{:.2f}", row.lanes.share(), row.lanes.useful / row.items) : ",";
+}
+
 void print_peaks(const char* name, const ProcessorPeaks& peaks) {
   fmt::print("  {:<22} {:7.1f} GFLOP/s float ({}), {:7.1f} double ({}), {:5.1f} double one by one; copies {:5.1f} GB/s\n", name,
              peaks.in_float.operations / 1e9, peaks.in_float.instructions, peaks.in_double.operations / 1e9,
@@ -52,14 +57,16 @@ void print_roofline(const Peaks& peaks, const std::vector<RooflineRow>& rows) {
     fmt::print("{:<9} {:<25} {:<6} {:>10.0f} {:>11.4g} {:>8.3f} {:>8.2f} {:>8} {:>8.1f} {:>8} {:>6} {:>9.3f} {:>9.3f}\n",
                row.kernel, row.backend, row.item, row.demand.operations(), rate_of(row), reached_by(row) / 1e9,
                100 * reached_by(row) / row.roof.peak, busy_share(row, 100, 2), intensity_of(row),
-               is_bound_by_memory(row) ? "memory" : "compute", row.lanes < 0 ? "-" : fmt::format("{:.0f}%", 100 * row.lanes),
-               1e6 * row.cost.processor / row.items, 1e6 * row.cost.wall / row.items);
+               is_bound_by_memory(row) ? "memory" : "compute",
+               row.lanes.all > 0 ? fmt::format("{:.0f}%", 100 * row.lanes.share()) : "-", 1e6 * row.cost.processor / row.items,
+               1e6 * row.cost.wall / row.items);
 }
 
 void write_roofline(const std::string& path, const Peaks& peaks, const std::vector<RooflineRow>& rows) {
   std::ofstream out(path);
   out << "kernel,backend,item,operations,additions,multiplications,divisions,roots,transcendentals,comparisons,bytes,";
-  out << "items_per_second,gflops,peak_gflops,share_of_peak,share_by_processor_time,copy_gbytes,bound_by,share_of_roof,lanes,";
+  out << "items_per_second,gflops,peak_gflops,share_of_peak,share_by_processor_time,copy_gbytes,bound_by,share_of_roof,useful_"
+         "lanes,useful_turns,";
   out << "processor_seconds,wall_seconds,items,device,driver,threads\n";
   for (const RooflineRow& row : rows) {
     const Demand& demand = row.demand;
@@ -68,9 +75,9 @@ void write_roofline(const std::string& path, const Peaks& peaks, const std::vect
                        demand.transcendentals, demand.comparisons, row.bytes, rate_of(row));
     out << fmt::format("{:.4f},{:.1f},{:.5f},{},{:.1f},{},{:.5f},{},{:.5f},{:.5f},{:.0f},\"{}\",\"{}\",{}\n", reached_by(row) / 1e9,
                        row.roof.peak / 1e9, reached_by(row) / row.roof.peak, busy_share(row, 1, 5), row.roof.copy_rate / 1e9,
-                       is_bound_by_memory(row) ? "memory" : "compute", reached_by(row) / height_of(row),
-                       row.lanes < 0 ? "" : fmt::format("{:.4f}", row.lanes), row.cost.processor, row.cost.wall, row.items,
-                       peaks.device.name, peaks.device.driver, std::thread::hardware_concurrency());
+                       is_bound_by_memory(row) ? "memory" : "compute", reached_by(row) / height_of(row), lanes_of(row),
+                       row.cost.processor, row.cost.wall, row.items, peaks.device.name, peaks.device.driver,
+                       std::thread::hardware_concurrency());
   }
   out.flush();
   if (!out) throw failure_error(path + ": could not be written");

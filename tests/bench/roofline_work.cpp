@@ -136,7 +136,7 @@ std::vector<RooflineRow> whole_rows(const std::vector<RooflineRow>& rows) {
     const auto same = [&](const RooflineRow& other) { return other.backend == row.backend; };
     auto sum = std::find_if(whole.begin(), whole.end(), same);
     if (sum == whole.end()) {
-      sum = whole.insert(sum, {"whole", row.backend, row.item, {}, 0, row.items, {}, -1, row.roof});
+      sum = whole.insert(sum, {"whole", row.backend, row.item, {}, 0, row.items, {}, row.roof, {}});
     }
     sum->demand = sum->demand + row.demand;
     sum->bytes += row.bytes;
