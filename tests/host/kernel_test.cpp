@@ -115,6 +115,24 @@ TEST_F(HostKernel, ClearZeroesBetweenSteps) {
   EXPECT_EQ(counter.read_as<std::uint32_t>(1)[0], 6u * 64);
 }
 
+TEST_F(HostKernel, AStepByItselfIsWhatItWasAmongTheOthers) {
+  const Kernel kernel(device, test_shader("host_count"), {}, "host_count");
+  const Buffer counter = Buffer::of(device, std::vector<std::uint32_t>{5});
+  Commands commands;
+  commands.bind(2, counter);
+  commands.dispatch(kernel, {7, 1, 1});
+  commands.clear(2);
+  commands.dispatch(kernel, {2, 3, 1});
+  const auto count_after = [&](std::size_t step) {
+    run_once(device, commands.only(step));
+    return counter.read_as<std::uint32_t>(1)[0];
+  };
+  EXPECT_EQ(count_after(0), 5u + 7 * 64);
+  EXPECT_EQ(count_after(2), 5u + 13 * 64);
+  EXPECT_EQ(count_after(1), 0u);
+  EXPECT_EQ(commands.steps().size(), 3u);
+}
+
 TEST_F(HostKernel, NothingToDoIsDone) { EXPECT_GE(run_once(device, Commands()), 0); }
 
 TEST_F(HostKernel, MissingBindingIsAnError) {
