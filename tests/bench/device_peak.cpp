@@ -20,7 +20,6 @@ constexpr std::uint32_t MOST_TURNS = 60000;      // of a loop that a driver may 
 constexpr std::uint32_t CPU_INVOCATIONS = 4096;  // vectors enough for every core
 constexpr std::uint32_t GPU_INVOCATIONS = std::uint32_t(1) << 18;
 constexpr std::size_t CPU_COPY = std::size_t(128) << 20, GPU_COPY = std::size_t(512) << 20;  // bytes of a buffer
-constexpr std::uint32_t PROBES = 4096;                                                       // invocations, whole groups
 
 host::Kernel bench_kernel(const host::Device& on, const char* name, Precision precision, bool fused = true) {
   const std::vector<host::Constant> constants{{CONST_GROUP_SIZE, std::uint32_t(GROUP_SIZE)}, {CONST_FUSED, std::int32_t(fused)}};
@@ -79,22 +78,6 @@ double device_copy_rate(const host::Device& on) {
   commands.dispatch(kernel, host::groups_for(on, kernel, pieces), Push{pieces, 0, 0, 0});
   host::run_once(on, commands);  // with the driver's compilation, and memory that is there
   return 2.0 * static_cast<double>(bytes) / best_seconds(on, commands.only(2));
-}
-
-bool counts_lanes(const host::Device& on) {
-  const host::Kernel kernel = bench_kernel(on, "lane_probe", Precision::single);
-  const host::Buffer lanes(on, 2 * sizeof(std::uint32_t));
-  host::Commands commands;
-  commands.bind(BINDING_LANES, lanes);
-  commands.clear(BINDING_LANES);
-  commands.dispatch(kernel, host::groups_for(on, kernel, PROBES));
-  host::run_once(on, commands);
-  const auto found = lanes.read_as<std::uint32_t>(2);
-  const std::uint32_t size = std::max(1u, on.info().subgroup_size), turns = std::min<std::uint32_t>(size, PROBE_TURNS);
-  std::uint32_t useful = 0;
-  for (std::uint32_t lane = 0; lane < size; ++lane) useful += (lane % PROBE_TURNS + 2) / 2;  // every other turn, from the first on
-  const std::uint32_t subgroups = PROBES / size;
-  return found[0] == subgroups * useful && found[1] == subgroups * size * turns;
 }
 
 }  // namespace wholehand::bench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a Vulkan device can do at most, by compute shaders; and whether it counts lanes right.
+// What a Vulkan device can do at most, by compute shaders.
 #pragma once
 
 #include "core/backend.h"
@@ -15,8 +15,5 @@ DevicePeak device_peak(const host::Device& on, Precision precision);
 
 // Bytes a second, read and written together, of a kernel that copies a buffer that no cache holds.
 double device_copy_rate(const host::Device& on);
-
-// Whether useful lanes come out as they must in a loop that they leave one by one.
-bool counts_lanes(const host::Device& on);
 
 }  // namespace wholehand::bench

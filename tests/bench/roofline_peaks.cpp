@@ -4,6 +4,7 @@
 
 #include "core/parallel.h"
 #include "tests/bench/roofline.h"
+#include "tests/support/lane_probe.h"
 
 namespace wholehand::bench {
 namespace {
@@ -24,7 +25,7 @@ Peaks measured_peaks(const Options& options) {
   peaks.device_float = device_peak(on, Precision::single);
   if (on.info().float64) peaks.device_double = device_peak(on, Precision::full);
   peaks.device_copy_rate = device_copy_rate(on);
-  peaks.counts_lanes = counts_lanes(on);
+  peaks.counts_lanes = counted_lanes(on) == expected_lanes(on);
   return peaks;
 }
 
