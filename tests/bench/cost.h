@@ -4,6 +4,7 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
 
 namespace wholehand::bench {
@@ -27,6 +28,17 @@ Cost cost_of(const Work& work) {
   work();
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return {wall, processor_seconds() - used};
+}
+
+// The least of some tries, of either.
+template <class Work>
+Cost best_cost(int tries, const Work& work) {
+  Cost best = cost_of(work);
+  for (int k = 1; k < tries; ++k) {
+    const Cost cost = cost_of(work);
+    best = {std::min(best.wall, cost.wall), std::min(best.processor, cost.processor)};
+  }
+  return best;
 }
 
 }  // namespace wholehand::bench

@@ -18,7 +18,8 @@
 namespace wholehand::bench {
 namespace {
 
-constexpr int ROUNDS = 5;
+constexpr int LEAST_ROUNDS = 4;           // of a vessel,
+constexpr double LEAST_SECONDS = 0.2;     // and as many more as this takes
 constexpr std::size_t GPU_REPEATS = 120;  // of the sample: a GPU wants many grips at once to be busy
 
 // All that count but the liquid, which a program computes when it is made, with nowhere to count.
@@ -64,10 +65,12 @@ class DeviceRun {
       const host::Commands commands = commands_of(v);
       host::run_once(program_->on, commands);  // with the driver's compilation
       std::vector<Cost> best(commands.steps().size());
-      for (int round = 0; round < ROUNDS; ++round)
+      double spent = 0;
+      for (int round = 0; round < LEAST_ROUNDS || spent < LEAST_SECONDS; ++round)
         for (std::size_t step = 0; step < best.size(); ++step) {
           Cost cost;
           cost.processor = cost_of([&] { cost.wall = host::run_once(program_->on, commands.only(step)); }).processor;
+          spent += cost.wall;
           const bool is_first = round == 0;
           best[step].wall = is_first ? cost.wall : std::min(best[step].wall, cost.wall);
           best[step].processor = is_first ? cost.processor : std::min(best[step].processor, cost.processor);

@@ -25,16 +25,6 @@ constexpr int ROUNDS = 5;
 constexpr std::size_t WALLS = 4096;
 constexpr int SAMPLES = 400, LATE = 100;
 
-template <class Work>
-Cost best_cost(const Work& work) {
-  Cost best = cost_of(work);
-  for (int round = 1; round < ROUNDS; ++round) {
-    const Cost cost = cost_of(work);
-    best = {std::min(best.wall, cost.wall), std::min(best.processor, cost.processor)};
-  }
-  return best;
-}
-
 // The liquid of state i of all that the scene has, vessel by vessel.
 void ask_liquid(const Evaluator& core, const Scene& scene, std::size_t i) {
   const std::size_t tilts = scene.tilts.size(), states = scene_fills(scene) * tilts, v = i / states;
@@ -62,7 +52,8 @@ class LiquidRun {
     Cost sum;
     for (const auto& work : work_) {
       double wall = 1e300;
-      const Cost best = best_cost([&] { wall = std::min(wall, host::run_once(program_->on, work->commands.only(LIQUID))); });
+      const Cost best =
+          best_cost(ROUNDS, [&] { wall = std::min(wall, host::run_once(program_->on, work->commands.only(LIQUID))); });
       sum = {sum.wall + wall, sum.processor + best.processor};
     }
     return sum;
@@ -108,7 +99,7 @@ std::vector<WallCase> walls() {
 
 Cost wall_cost(const std::vector<WallCase>& cases, const CoreWay& way) {
   const auto energy = way.precision == Precision::full ? core_f64::late_energy : core_f32::late_energy;
-  return best_cost([&] {
+  return best_cost(ROUNDS, [&] {
     in_parallel(cases.size(), way.all_threads ? 0 : 1,
                 [&](std::size_t i) { benchmark::DoNotOptimize(energy(cases[i], SAMPLES, LATE)); });
   });
@@ -138,8 +129,8 @@ std::vector<RooflineRow> liquid_rows(const Options& options, const Peaks& peaks,
   std::vector<RooflineRow> rows;
   for (const CoreWay& way : CORE_WAYS) {
     const auto core = way.precision == Precision::full ? make_core_evaluator(scene) : make_core_float_evaluator(scene);
-    const Cost cost =
-        best_cost([&] { in_parallel(states, way.all_threads ? 0 : 1, [&](std::size_t i) { ask_liquid(*core, scene, i); }); });
+    const Cost cost = best_cost(
+        ROUNDS, [&] { in_parallel(states, way.all_threads ? 0 : 1, [&](std::size_t i) { ask_liquid(*core, scene, i); }); });
     // fill and tilt come in; volume, mass, lean, height and what poured go out
     rows.push_back({"liquid",
                     way.backend,
