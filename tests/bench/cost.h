@@ -2,19 +2,18 @@
 // What a piece of work costs.
 #pragma once
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 
 namespace wholehand::bench {
 
-// Seconds that this process has had of all processors; or this thread of one (RUSAGE_THREAD).
-inline double processor_seconds(__rusage_who who = RUSAGE_SELF) {
-  rusage used{};
-  getrusage(who, &used);
-  return static_cast<double>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
-         1e-6 * static_cast<double>(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
+// Seconds that this process has had of all processors; or this thread of one (CLOCK_THREAD_CPUTIME_ID). getrusage() would be some
+// milliseconds late for what runs at the moment.
+inline double processor_seconds(clockid_t clock = CLOCK_PROCESS_CPUTIME_ID) {
+  timespec used{};
+  clock_gettime(clock, &used);
+  return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
 }
 
 struct Cost {

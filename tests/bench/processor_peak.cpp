@@ -37,7 +37,7 @@ std::vector<InstructionSet> instruction_sets() {
   return sets;
 }
 
-// Seconds from when all threads are ready until the last is done.
+// Seconds until the last of the threads is done, which begin together.
 double seconds_of_threads(int threads, const std::function<void(int)>& work) {
   std::barrier ready(threads + 1);
   std::vector<std::thread> workers;
@@ -56,10 +56,10 @@ double seconds_of_threads(int threads, const std::function<void(int)>& work) {
 // Operations a second of one thread among others that do the same.
 double own_rate(MultiplyAdd multiply_adds, std::uint64_t turns) {
   double sum = 0;
-  const double before = processor_seconds(RUSAGE_THREAD);
+  const double before = processor_seconds(CLOCK_THREAD_CPUTIME_ID);
   const double operations = multiply_adds(turns, sum);
   benchmark::DoNotOptimize(sum);
-  return operations / (processor_seconds(RUSAGE_THREAD) - before);
+  return operations / (processor_seconds(CLOCK_THREAD_CPUTIME_ID) - before);
 }
 
 double rate_of(MultiplyAdd multiply_adds, int threads) {

@@ -16,9 +16,9 @@ struct ProcessorPeak {
 // Of so many threads at once, the best of some tries, with the vectors that reach most. Seconds are those that a thread has a processor, so that
 // other work on the machine changes the figure little.
 ProcessorPeak processor_peak(Precision precision, int threads);
-// One number at a time and with the instructions that the core is compiled with.
+// One number at a time: a product, and then a sum.
 ProcessorPeak scalar_peak(Precision precision, int threads);
-// Bytes a second, read and written together, of copies between arrays that no cache holds.
+// Bytes a second, read and written together, of copies between arrays of twice the last cache, from 64 to 512 MiB.
 double processor_copy_rate(int threads);
 
 }  // namespace wholehand::bench

@@ -2,6 +2,7 @@
 // The whole roofline as one benchmark of one turn: peaks and kernels are measured in the same run, and the table follows Google Benchmark's.
 #include <optional>
 
+#include "core/error.h"
 #include "tests/bench/roofline.h"
 
 namespace wholehand::bench {
@@ -42,7 +43,11 @@ void add_roofline(const Options& options) {
 }
 
 void finish_roofline(const Options& options) {
-  if (!measured) return;
+  if (!measured) {
+    if (!options.roofline.empty())
+      throw usage_error("--roofline: --benchmark_filter leaves the roofline out; a filter must match roofline");
+    return;
+  }
   print_roofline(measured->peaks, measured->rows);
   if (!options.roofline.empty()) write_roofline(options.roofline, measured->peaks, measured->rows);
 }

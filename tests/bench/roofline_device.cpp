@@ -156,12 +156,12 @@ std::vector<RooflineRow> device_rows(const Options& options, const Peaks& peaks,
                                      const std::vector<Demand>& demands, Precision precision) {
   std::map<int, std::map<std::string, Cost>> costs;
   std::map<int, std::map<std::string, Lanes>> lanes;
-  double grips = 0;
+  std::map<int, double> grips;
   for (const int number : {int(GRIPS), int(BODIES), int(RESERVES)}) {
     const Workload& workload = workloads[static_cast<std::size_t>(number)];
     DeviceRun timed(options, workload, precision, false);
     costs[number] = timed.costs();
-    grips = static_cast<double>(timed.grips());
+    grips[number] = static_cast<double>(timed.grips());
     if (peaks.counts_lanes) lanes[number] = DeviceRun(options, workload, precision, true).lanes();
   }
   const std::vector<double> bytes = bytes_of(workloads, precision == Precision::single ? sizeof(float) : sizeof(double), true);
@@ -176,8 +176,8 @@ std::vector<RooflineRow> device_rows(const Options& options, const Peaks& peaks,
       counted.useful += lanes[from.workload][kernel].useful;
       counted.all += lanes[from.workload][kernel].all;
     }
-    rows.push_back({step_name(static_cast<int>(step)), device_backend(precision), "grip", demands[step], bytes[step], grips, cost,
-                    device_roof(peaks, precision), counted});
+    rows.push_back({step_name(static_cast<int>(step)), device_backend(precision), "grip", demands[step], bytes[step],
+                    grips[from.workload], cost, device_roof(peaks, precision), counted});
   }
   return rows;
 }

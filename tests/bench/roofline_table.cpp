@@ -51,10 +51,10 @@ void print_roofline(const Peaks& peaks, const std::vector<RooflineRow>& rows) {
   print_peaks("processor, all threads", peaks.all_threads);
   print_device(peaks);
   if (!peaks.counts_lanes) fmt::print("  This device does not count its useful lanes right, so they are left out.\n");
-  fmt::print("{:<9} {:<25} {:<6} {:>10} {:>11} {:>8} {:>8} {:>8} {:>8} {:>8} {:>6} {:>9} {:>9}\n", "kernel", "backend", "item",
+  fmt::print("{:<9} {:<25} {:<6} {:>10} {:>11} {:>8} {:>9} {:>8} {:>8} {:>8} {:>6} {:>9} {:>9}\n", "kernel", "backend", "item",
              "operations", "items/s", "GFLOP/s", "% of peak", "by CPU", "op/byte", "bound by", "lanes", "CPU us", "wall us");
   for (const RooflineRow& row : rows)
-    fmt::print("{:<9} {:<25} {:<6} {:>10.0f} {:>11.4g} {:>8.3f} {:>8.2f} {:>8} {:>8.1f} {:>8} {:>6} {:>9.3f} {:>9.3f}\n",
+    fmt::print("{:<9} {:<25} {:<6} {:>10.0f} {:>11.4g} {:>8.3f} {:>9.2f} {:>8} {:>8.1f} {:>8} {:>6} {:>9.3f} {:>9.3f}\n",
                row.kernel, row.backend, row.item, row.demand.operations(), rate_of(row), reached_by(row) / 1e9,
                100 * reached_by(row) / row.roof.peak, busy_share(row, 100, 2), intensity_of(row),
                is_bound_by_memory(row) ? "memory" : "compute",
