@@ -7,10 +7,12 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/backend.h"
+#include "core/evaluator.h"
 #include "core/scene.h"
 #include "sweeps/plan.h"
 
@@ -54,6 +56,8 @@ void finish_roofline(const Options& options);  // prints and writes its table, w
 // The default scene's grips alone (closure, projection and contact), or with its fills and tilts, at so many heights.
 Scene grips_scene(int heights);
 Scene whole_scene(int heights);
+
+std::unique_ptr<Evaluator> core_of(const Scene& scene, Precision precision);
 
 // Planes of which a sweep keeps all but the hand's shapes.
 extern const std::vector<int> KEPT;

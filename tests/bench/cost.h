@@ -29,14 +29,13 @@ Cost cost_of(const Work& work) {
   return {wall, processor_seconds() - used};
 }
 
+inline Cost least_of(const Cost& a, const Cost& b) { return {std::min(a.wall, b.wall), std::min(a.processor, b.processor)}; }
+
 // The least of some tries, of either.
 template <class Work>
 Cost best_cost(int tries, const Work& work) {
   Cost best = cost_of(work);
-  for (int k = 1; k < tries; ++k) {
-    const Cost cost = cost_of(work);
-    best = {std::min(best.wall, cost.wall), std::min(best.processor, cost.processor)};
-  }
+  for (int k = 1; k < tries; ++k) best = least_of(best, cost_of(work));
   return best;
 }
 

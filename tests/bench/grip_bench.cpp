@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <memory>
-#include <utility>
 
 #include "core/core_backend.h"
 #include "core/evaluator.h"
@@ -35,6 +34,10 @@ Scene grips_scene(int heights) {
   scene.liquid.reset();
   scene.tilts.clear();
   return scene;
+}
+
+std::unique_ptr<Evaluator> core_of(const Scene& scene, Precision precision) {
+  return precision == Precision::full ? make_core_evaluator(scene) : make_core_float_evaluator(scene);
 }
 
 std::uint64_t run_all(Backend& backend, const Scene& scene, const Plan& plan) {
@@ -104,8 +107,7 @@ void bench_backend(benchmark::State& state, Backend& backend, const Scene& scene
 }
 
 void core_grips(benchmark::State& state, const Scene& scene, Precision precision, int threads) {
-  auto core = precision == Precision::full ? make_core_evaluator(scene) : make_core_float_evaluator(scene);
-  CoreBackend backend(std::move(core), scene, make_field_set(KEPT, scene), precision, threads);
+  CoreBackend backend(core_of(scene, precision), scene, make_field_set(KEPT, scene), precision, threads);
   bench_backend(state, backend, scene);
 }
 

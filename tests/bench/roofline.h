@@ -48,13 +48,15 @@ Demand operator+(const Demand& a, const Demand& b);
 Demand demand_of(const OperationCounts& counts, double items);
 // Of each step, by the counting core, of the sample.
 std::vector<Demand> demands(const std::vector<Workload>& workloads);
+// Bytes of a number.
+constexpr std::size_t real_bytes(Precision precision) { return precision == Precision::single ? sizeof(float) : sizeof(double); }
 // Bytes a grip of each step; `real`: bytes of a number; on a device kernels also hand over contacts and masks.
 std::vector<double> bytes_of(const std::vector<Workload>& workloads, std::size_t real, bool on_device);
 
 // What the machine can do at most.
 struct ProcessorPeaks {
   ProcessorPeak in_float, in_double;
-  ProcessorPeak scalar;  // in double, with the instructions that the core is compiled with
+  ProcessorPeak scalar;  // in double, one number at a time
   double copy_rate = 0;
 };
 struct Peaks {

@@ -21,8 +21,7 @@ double median(std::vector<double> values) {
 // A workload's sample, ready to be run.
 struct CoreRun {
   CoreRun(const Workload& workload, const CoreWay& way)
-      : backend(way.precision == Precision::full ? make_core_evaluator(workload.scene) : make_core_float_evaluator(workload.scene),
-                workload.scene, workload.fields, way.precision, way.all_threads ? 0 : 1) {
+      : backend(core_of(workload.scene, way.precision), workload.scene, workload.fields, way.precision, way.all_threads ? 0 : 1) {
     for (std::size_t v = 0; v < workload.scene.vessels.size(); ++v) samples.push_back(sample_of(workload, v));
   }
 

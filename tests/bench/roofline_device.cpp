@@ -42,7 +42,7 @@ std::size_t repeats(const host::DeviceInfo& device, std::size_t bytes_per_grip) 
 class DeviceRun {
  public:
   DeviceRun(const Options& options, const Workload& workload, Precision precision, bool counting)
-      : workload_(workload), real_(precision == Precision::single ? sizeof(float) : sizeof(double)) {
+      : workload_(workload), real_(real_bytes(precision)) {
     on_device_.precision = precision;
     if (counting) on_device_.shaders = counting_kernels();
     const auto core = make_core_evaluator(workload.scene);
@@ -71,9 +71,7 @@ class DeviceRun {
           Cost cost;
           cost.processor = cost_of([&] { cost.wall = host::run_once(program_->on, commands.only(step)); }).processor;
           spent += cost.wall;
-          const bool is_first = round == 0;
-          best[step].wall = is_first ? cost.wall : std::min(best[step].wall, cost.wall);
-          best[step].processor = is_first ? cost.processor : std::min(best[step].processor, cost.processor);
+          best[step] = round == 0 ? cost : least_of(best[step], cost);
         }
       for (std::size_t step = 0; step < best.size(); ++step) {
         Cost& sum = sums[commands.steps()[step].kernel->name()];
@@ -164,7 +162,7 @@ std::vector<RooflineRow> device_rows(const Options& options, const Peaks& peaks,
     grips[number] = static_cast<double>(timed.grips());
     if (peaks.counts_lanes) lanes[number] = DeviceRun(options, workload, precision, true).lanes();
   }
-  const std::vector<double> bytes = bytes_of(workloads, precision == Precision::single ? sizeof(float) : sizeof(double), true);
+  const std::vector<double> bytes = bytes_of(workloads, real_bytes(precision), true);
   std::vector<RooflineRow> rows;
   for (std::size_t step = 0; step < STEPS; ++step) {
     const StepKernels& from = STEP_KERNELS[step];

@@ -113,7 +113,7 @@ Cost wall_cost(const Options& options, const std::vector<WallCase>& cases, Preci
   for (int round = 0; round < ROUNDS; ++round) {
     const double before = map.kernel_seconds();
     const Cost cost = cost_of(run);
-    best = {std::min(best.wall, map.kernel_seconds() - before), std::min(best.processor, cost.processor)};
+    best = least_of(best, {map.kernel_seconds() - before, cost.processor});
   }
   return best;
 }
@@ -128,7 +128,7 @@ std::vector<RooflineRow> liquid_rows(const Options& options, const Peaks& peaks,
   const Demand demand = demand_of(operations_so_far - before, static_cast<double>(states));
   std::vector<RooflineRow> rows;
   for (const CoreWay& way : CORE_WAYS) {
-    const auto core = way.precision == Precision::full ? make_core_evaluator(scene) : make_core_float_evaluator(scene);
+    const auto core = core_of(scene, way.precision);
     const Cost cost = best_cost(
         ROUNDS, [&] { in_parallel(states, way.all_threads ? 0 : 1, [&](std::size_t i) { ask_liquid(*core, scene, i); }); });
     // fill and tilt come in; volume, mass, lean, height and what poured go out
@@ -144,12 +144,11 @@ std::vector<RooflineRow> liquid_rows(const Options& options, const Peaks& peaks,
   }
   for (const Precision precision : {Precision::single, Precision::full}) {
     if (precision == Precision::full && !peaks.device.float64) continue;
-    const std::size_t real = precision == Precision::single ? sizeof(float) : sizeof(double);
     LiquidRun run(options, scene, precision);
     // on a device the load goes out as well
     rows.push_back({"liquid", device_backend(precision), "state", demand,
-                    static_cast<double>((2 + LIQUID_STRIDE + LOAD_STRIDE) * real), static_cast<double>(states), run.cost(),
-                    device_roof(peaks, precision), peaks.counts_lanes ? run.lanes() : Lanes{}});
+                    static_cast<double>((2 + LIQUID_STRIDE + LOAD_STRIDE) * real_bytes(precision)), static_cast<double>(states),
+                    run.cost(), device_roof(peaks, precision), peaks.counts_lanes ? run.lanes() : Lanes{}});
   }
   return rows;
 }
@@ -179,7 +178,7 @@ std::vector<RooflineRow> wall_rows(const Options& options, const Peaks& peaks) {
                     device_backend(precision),
                     "sample",
                     demand,
-                    bytes(precision == Precision::single ? sizeof(float) : sizeof(double)),
+                    bytes(real_bytes(precision)),
                     samples,
                     wall_cost(options, cases, precision),
                     device_roof(peaks, precision),

@@ -3,8 +3,6 @@
 //   wholehand_evaluate SCENE VESSEL VARIABLE,.. GRIPS.f64
 // GRIPS.f64: rows of six doubles. Each line on standard input starts a run, which prints its seconds of wall and of CPU, and the sum
 // of all numbers that are finite.
-#include <sys/resource.h>
-
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -17,18 +15,10 @@
 #include "scene/shipped.h"
 #include "sweeps/variables.h"
 #include "system/clock.h"
+#include "tests/bench/cost.h"
 
 namespace wholehand {
 namespace {
-
-double cpu_seconds() {
-  rusage used{};
-  getrusage(RUSAGE_SELF, &used);
-  const auto seconds = [](const timeval& time) {
-    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-  };
-  return seconds(used.ru_utime) + seconds(used.ru_stime);
-}
 
 std::vector<double> read_doubles(const char* path) {
   std::ifstream file(path, std::ios::binary | std::ios::ate);
@@ -42,7 +32,7 @@ std::vector<double> read_doubles(const char* path) {
 void run(Backend& backend, const std::vector<const Variable*>& variables, const Scene& scene, std::size_t vessel,
          const std::vector<double>& grips) {
   const std::size_t count = grips.size() / 6;
-  const double wall = monotonic_now(), cpu = cpu_seconds();
+  const double wall = monotonic_now(), cpu = bench::processor_seconds();
   std::vector<std::vector<double>> values;
   for (const Variable* variable : variables) values.emplace_back(count * variable_planes(*variable, scene));
   RunRequest request;
@@ -62,7 +52,7 @@ void run(Backend& backend, const std::vector<const Variable*>& variables, const 
     }
   };
   backend.run(request);
-  const double wall_taken = monotonic_now() - wall, cpu_taken = cpu_seconds() - cpu;
+  const double wall_taken = monotonic_now() - wall, cpu_taken = bench::processor_seconds() - cpu;
   double sum = 0;
   for (const auto& of : values)
     for (const double value : of) sum += std::isfinite(value) ? value : 0;
