@@ -40,31 +40,20 @@ Vec3 separations_of(const Vessel& vessel, const FingerPoints& points, const Plac
 
 // Sets the three joints beyond an MCP, and which of a finger's five points touched before they were projected.
 void pose_articulated(const Hand& hand, const Vessel& vessel, const PlacedFinger& finger, int f, GripAnswer& answer, int& before) {
-  const Vec3 radii(finger.radius[2], finger.radius[3], finger.radius[4]);
-  const std::array<Real, 4> bone_radii{finger.radius[1], finger.radius[2], finger.radius[3], finger.radius[4]};
-  FingerMotion motion = start_motion(hand, answer.closing.closure);
-  FingerPoints points;
-  Vec3 separations{};
-  while (motion.joint < 3) {
-    points = finger_points(finger.frame, finger.mcp, finger.lengths, motion.angles);
-    Watch watch = watch_points(vessel, points, radii);
-    if (hand.between > 0) {
-      watch_between(hand, vessel, finger.frame, finger.mcp, points, bone_radii, finger.lengths, motion.joint, watch);
-    }
-    separations = watch.separations;
-    motion = advance_finger(hand, motion, finger.frame, finger.mcp, points, watch, finger.lengths);
-    answer.advance_steps = std::max(answer.advance_steps, motion.steps);
-  }
+  const std::array<Real, 4> radii{finger.radius[1], finger.radius[2], finger.radius[3], finger.radius[4]};
+  const RestingFinger resting =
+      rest_finger(hand, vessel, {finger.frame, finger.mcp, finger.lengths, radii}, answer.closing.closure);
   const int j = finger_start(f);
-  answer.posed[j + 2] = points.pip;
-  answer.posed[j + 3] = points.dip;
-  answer.posed[j + 4] = points.tip;
-  for (int k = 0; k < 3; ++k) answer.separation[j + 2 + k] = separations[k];
-  if (motion.before.x <= hand.contact_tolerance) before |= 1 << 2;
-  if (motion.before.y <= hand.contact_tolerance) before |= 1 << 3;
-  if (motion.before.z <= hand.contact_tolerance) before |= 1 << 4;
-  if (motion.blocked) answer.status |= 1u << (STATUS_BLOCKED_SHIFT + f);
-  if (motion.unsettled) answer.status |= 1u << (STATUS_UNSETTLED_SHIFT + f);
+  answer.posed[j + 2] = resting.points.pip;
+  answer.posed[j + 3] = resting.points.dip;
+  answer.posed[j + 4] = resting.points.tip;
+  for (int k = 0; k < 3; ++k) {
+    answer.separation[j + 2 + k] = resting.separations[k];
+    if (resting.before[k] <= hand.contact_tolerance) before |= 1 << (2 + k);
+  }
+  answer.advance_steps = std::max(answer.advance_steps, resting.steps);
+  if (resting.blocked) answer.status |= 1u << (STATUS_BLOCKED_SHIFT + f);
+  if (resting.unsettled) answer.status |= 1u << (STATUS_UNSETTLED_SHIFT + f);
 }
 
 void pose_paper(const Hand& hand, const Vessel& vessel, const PlacedFinger& finger, int f, const FingerPoints& rigged,

@@ -9,26 +9,52 @@
 
 namespace CORE_NS {
 
-Vec3 segment_rates(Vec3 swing, int joint) {
-  if (joint < 0) return Vec3(swing.x, swing.x + swing.y, swing.x + swing.y + swing.z);
-  return Vec3(joint == 0 ? Real(1) : Real(0), joint <= 1 ? Real(1) : Real(0), Real(1));
+Vec3 chain_sums(Vec3 joints) { return Vec3(joints.x, joints.x + joints.y, joints.x + joints.y + joints.z); }
+
+Vec3 segment_angles(const FingerMotion& motion) { return motion.origin + motion.at * motion.rates; }
+
+Bend bend_finger(Vec3 lengths, Vec3 angles) {
+  Vec3 sines{}, cosines{};
+  sine_cosine(angles.x, sines.x, cosines.x);
+  sine_cosine(angles.y, sines.y, cosines.y);
+  sine_cosine(angles.z, sines.z, cosines.z);
+  return {lengths * cosines, lengths * sines};
 }
 
-Vec3 quarter_turn(FingerFrame frame, Vec3 segment) {
-  return glm::dot(segment, frame.forward) * frame.palmward - glm::dot(segment, frame.palmward) * frame.forward;
+// A segment of direction u turns across itself: u' is u turned a quarter, and u'' is -u. These add up along the chain, and so do the
+// bounds of their lengths, which are rate^n times the length.
+Place watched_place(const Hand& hand, const Finger& finger, const Bend& bend, Vec3 rates, int number) {
+  const int between = hand.between;
+  const int bone = number / (between + 1);
+  const bool is_end = number % (between + 1) == between;
+  const Real share = is_end ? Real(1) : Real(number % (between + 1) + 1) / Real(between + 1);
+  const Vec3 parts(bone == 0 ? share : Real(1), bone == 0 ? Real(0) : bone == 1 ? share : Real(1), bone == 2 ? share : Real(0));
+  const Vec3 along = parts * bend.along;
+  const Vec3 across = parts * bend.across;
+  const Vec3 sweep = parts * finger.lengths * glm::abs(rates);
+  Place place;
+  place.velocity = Vec2(-glm::dot(rates, across), glm::dot(rates, along));
+  place.acceleration = Vec2(-glm::dot(rates * rates, along), -glm::dot(rates * rates, across));
+  place.speed = sweep.x + sweep.y + sweep.z;
+  place.bend = glm::dot(sweep, glm::abs(rates));
+  place.jerk = glm::dot(sweep, rates * rates);
+  const Real start_radius = finger.radii[bone];
+  const Real end_radius = finger.radii[bone + 1];
+  place.ball.place =
+      finger.mcp + (along.x + along.y + along.z) * finger.frame.forward + (across.x + across.y + across.z) * finger.frame.palmward;
+  place.ball.radius = is_end ? end_radius : start_radius + share * (end_radius - start_radius);
+  return place;
 }
 
-// Speeds and accelerations add up along the chain: |p'| <= sum of rate times length, |p''| <= sum of rate^2 times length.
-Real finger_step(FingerFrame frame, Vec3 mcp, FingerPoints points, Watch watch, Vec3 lengths, Vec3 rates) {
-  const Vec3 sweep = glm::abs(rates) * lengths;
-  const Vec3 bend = rates * rates * lengths;
-  const Vec3 pip_velocity = rates.x * quarter_turn(frame, points.pip - mcp);
-  const Vec3 dip_velocity = pip_velocity + rates.y * quarter_turn(frame, points.dip - points.pip);
-  const Vec3 tip_velocity = dip_velocity + rates.z * quarter_turn(frame, points.tip - points.dip);
-  const Real pip = safe_step(watch.pip, watch.separations.x, pip_velocity, sweep.x, bend.x);
-  const Real dip = safe_step(watch.dip, watch.separations.y, dip_velocity, sweep.x + sweep.y, bend.x + bend.y);
-  const Real tip = safe_step(watch.tip, watch.separations.z, tip_velocity, sweep.x + sweep.y + sweep.z, bend.x + bend.y + bend.z);
-  return std::min(pip, std::min(dip, tip));
+// On its way to the tangent plane, over which no more than separation / closing passes, the acceleration towards the plane grows by no more
+// than the jerk allows: the motion t covers closing t + towards t^2 / 2 + jerk t^3 / 6 at most, and t^3 <= t^2 separation / closing.
+Real place_step(Support support, Real separation, const Place& place, FingerFrame frame) {
+  const Vec2 normal(glm::dot(support.normal, frame.forward), glm::dot(support.normal, frame.palmward));
+  const Real closing = -glm::dot(normal, place.velocity);
+  const Real towards = -glm::dot(normal, place.acceleration);
+  const Real most = towards + place.jerk * (separation / closing) / Real(3);
+  const Real acceleration = closing > 0 ? std::min(std::max(most, Real(0)), place.bend) : place.bend;
+  return plane_step(support, separation, closing, place.speed, acceleration);
 }
 
 int nearest_point(Vec3 separations, int first) {
@@ -44,115 +70,132 @@ int nearest_point(Vec3 separations, int first) {
 
 FingerMotion start_motion(const Hand& hand, Real limit) {
   FingerMotion motion;
-  motion.angles = finger_angles(hand, 0);
-  motion.limit = limit;
+  motion.origin = chain_sums(finger_angles(hand, 0));
+  motion.rates = chain_sums(hand.finger_swing);
+  motion.end = limit;
   return motion;
 }
 
-Watch watch_points(const Vessel& vessel, FingerPoints points, Vec3 radii) {
-  Watch watch;
-  watch.pip = support_at(vessel, points.pip);
-  watch.dip = support_at(vessel, points.dip);
-  watch.tip = support_at(vessel, points.tip);
-  watch.separations = Vec3(watch.pip.distance, watch.dip.distance, watch.tip.distance) - radii;
-  watch.clear = watch.separations;
-  return watch;
-}
-
-// A sphere moves as its place on the bone does: velocities and the bounds of speed and acceleration go evenly from end to end. Bones
-// before the joint that turns rest, and advance_finger asks nothing of them.
-void watch_between(const Hand& hand, const Vessel& vessel, FingerFrame frame, Vec3 mcp, FingerPoints points,
-                   const std::array<Real, 4>& radii, Vec3 lengths, int joint, Watch& watch) {
-  const Vec3 rates = segment_rates(hand.finger_swing, joint);
-  const Vec3 sweep = glm::abs(rates) * lengths;
-  const Vec3 bend = rates * rates * lengths;
-  Vec3 start = mcp;
-  Vec3 velocity(0);
-  Real speed = 0;
-  Real acceleration = 0;
-  for (int bone = 0; bone < 3; ++bone) {
-    const Vec3 end = bone == 0 ? points.pip : bone == 1 ? points.dip : points.tip;
-    const Vec3 turn = rates[bone] * quarter_turn(frame, end - start);
-    for (int k = 1; bone >= joint && k <= hand.between; ++k) {
-      const Real share = Real(k) / Real(hand.between + 1);
-      const Ball ball = ball_between(start, end, radii[bone], radii[bone + 1], share);
-      const Support support = support_at(vessel, ball.place);
-      const Real separation = support.distance - ball.radius;
-      watch.clear[bone] = std::min(watch.clear[bone], separation);
-      const Real step =
-          safe_step(support, separation, velocity + share * turn, speed + share * sweep[bone], acceleration + share * bend[bone]);
-      watch.between_step = std::min(watch.between_step, step);
-    }
-    start = end;
-    velocity += turn;
-    speed += sweep[bone];
-    acceleration += bend[bone];
-  }
-}
-
-FingerMotion turn_joint(const Hand& hand, FingerMotion motion, int joint) {
+FingerMotion turn_joint(const Hand& hand, const FingerMotion& motion, int joint) {
+  const Vec3 here = segment_angles(motion);
+  const Vec3 stops = hand.joint_limit;
+  const Real room = joint == 0 ? stops.x - here.x : joint == 1 ? stops.y - (here.y - here.x) : stops.z - (here.z - here.y);
   FingerMotion next = motion;
+  next.origin = here;
+  next.rates = Vec3(joint == 0 ? Real(1) : Real(0), joint <= 1 ? Real(1) : Real(0), Real(1));
   next.joint = joint;
-  next.turned = 0;
+  next.at = 0;
+  next.end = std::max(Real(0), std::min(hand.max_angle, room));
   next.steps = 0;
-  if (joint < 3) {
-    const Real stop = joint == 0 ? hand.joint_limit.x : joint == 1 ? hand.joint_limit.y : hand.joint_limit.z;
-    next.start = joint == 0 ? motion.angles.x : joint == 1 ? motion.angles.y : motion.angles.z;
-    next.room = std::max(Real(0), std::min(hand.max_angle, stop - next.start));
-  }
   return next;
 }
 
-// No step passes through the wall, whichever watched point is meant. Several stages may end at one position (a touch whose joint has no
-// room left, say), so they are decided in turn until one of them moves.
-FingerMotion advance_finger(const Hand& hand, FingerMotion motion, FingerFrame frame, Vec3 mcp, FingerPoints points, Watch watch,
-                            Vec3 lengths) {
-  FingerMotion next = motion;
-  const Vec3 separations = watch.clear;
-  if (next.joint < 0) {
-    const int nearest = nearest_point(separations, 0);
-    const Real clear = std::min(separations.x, std::min(separations.y, separations.z));
-    next.before = watch.separations;
-    if (next.closure == 0 && clear < 0) {
-      next.blocked = true;
-      next.joint = 3;
-    } else if (clear < hand.limits.stop_tolerance) {
-      next = turn_joint(hand, next, nearest + 1);
-    } else if (next.closure >= next.limit) {
-      next = turn_joint(hand, next, 0);
+int place_to_see(const Hand& hand, int number, int joint, int touched) {
+  const int between = hand.between;
+  const int bone = number / (between + 1);
+  const int seen = bone < joint ? (bone + 1) * (between + 1) - 1 : number;
+  return seen == touched ? seen + 1 : seen;
+}
+
+int soonest_place(const Hand& hand, const FingerWatch& watch, int joint, Real& due) {
+  const int between = hand.between;
+  const int first = std::max(joint, 0) * (between + 1);
+  int soonest = first;
+  due = NO_DISTANCE;
+  for (int k = first; k < 3 * (between + 1); ++k) {
+    if (watch.until[k] < due) {
+      due = watch.until[k];
+      soonest = k;
     }
   }
-  for (int stage = 0; stage < 3; ++stage) {
-    if (next.joint >= 0 && next.joint < 3) {
-      const int nearest = nearest_point(separations, next.joint);
-      const Real clear = nearest == 0 ? separations.x : nearest == 1 ? separations.y : separations.z;
-      if (clear < hand.limits.stop_tolerance) {
-        next = turn_joint(hand, next, nearest + 1);
-      } else if (next.turned >= next.room) {
-        next = turn_joint(hand, next, next.joint + 1);
+  return soonest;
+}
+
+void see_place(const Hand& hand, Real separation, Real step, const FingerMotion& motion, FingerWatch& watch) {
+  const int between = hand.between;
+  const int bone = watch.number / (between + 1);
+  if (watch.number % (between + 1) == between) watch.separations[bone] = separation;
+  watch.clear[bone] = std::min(watch.clear[bone], separation);
+  watch.until[watch.number] = motion.at + step;
+}
+
+// One turn at a time: a joint without room, or one whose bone touches as well, looks around at the same position and decides again.
+int decide_turn(const Hand& hand, Vec3 clear, const FingerMotion& motion, bool& blocked) {
+  const int nearest = nearest_point(clear, std::max(motion.joint, 0));
+  const Real least = nearest == 0 ? clear.x : nearest == 1 ? clear.y : clear.z;
+  blocked = motion.joint < 0 && motion.at == 0 && least < 0;
+  if (blocked) return 3;
+  if (least < hand.limits.stop_tolerance) return nearest + 1;
+  return motion.at >= motion.end ? motion.joint + 1 : motion.joint;
+}
+
+// Conservative advancement: no step passes through the wall, whichever watched place is meant. One place is looked at in each turn of the
+// loop; then at most one joint turns, and the finger moves at most once.
+RestingFinger rest_finger(const Hand& hand, const Vessel& vessel, const Finger& finger, Real limit) {
+  const int between = hand.between;
+  const int places = 3 * (between + 1);
+  RestingFinger resting;
+  FingerMotion motion = start_motion(hand, limit);
+  FingerWatch watch;
+  while (watch.number < places) {
+    const Bend bend = bend_finger(finger.lengths, segment_angles(motion));
+    const Place place = watched_place(hand, finger, bend, motion.rates, watch.number);
+    const Support support = support_at(vessel, place.ball.place);
+    const Real separation = support.distance - place.ball.radius;
+    see_place(hand, separation, place_step(support, separation, place, finger.frame), motion, watch);
+
+    // which joint turns next: after a look around at all places, or where one that was due touches
+    const int moving = std::max(motion.joint, 0);  // first bone that moves
+    int next = place_to_see(hand, watch.number + 1, motion.joint, watch.touched);
+    const bool seen_all = watch.looks && next >= places;
+    const bool meets = !watch.looks && separation < hand.limits.stop_tolerance;
+    int joint = motion.joint;
+    int from = moving;  // first bone whose end has moved since it was seen
+    if (seen_all) {
+      if (watch.swings) watch.before = watch.separations;
+      watch.swings = motion.joint < 0;
+      if (motion.joint >= 3) break;
+      bool blocked = false;
+      joint = decide_turn(hand, watch.clear, motion, blocked);
+      motion.blocked = motion.blocked || blocked;
+      from = joint;
+    }
+    if (meets) joint = watch.number / (between + 1) + 1;
+
+    // where none does, the finger moves until a place is due, or to the end of its stage
+    if (joint == motion.joint && (seen_all || !watch.looks)) {
+      Real due = 0;
+      next = soonest_place(hand, watch, motion.joint, due);
+      const bool is_spent = motion.steps >= hand.limits.advance_steps;
+      if (!is_spent) motion.at = std::min(due, motion.end);
+      if (is_spent || !(due < motion.end)) {
+        joint = is_spent ? 3 : motion.joint + 1;
+        from = moving;
       }
+      ++motion.steps;
+      motion.unsettled = motion.unsettled || is_spent;
+      if (!is_spent) resting.steps = std::max(resting.steps, motion.steps);
+      watch.looks = false;
     }
+
+    // a new stage begins with a look around: at all places that move from now on, and at the ends of the bones that moved
+    if (joint != motion.joint) {
+      motion = turn_joint(hand, motion, joint);
+      watch.touched = meets ? watch.number : -1;
+      watch.clear = Vec3(NO_DISTANCE);
+      watch.looks = true;
+      next = place_to_see(hand, from * (between + 1), joint, watch.touched);
+    }
+    watch.number = next;
   }
-  if (next.joint >= 3 || (hand.between > 0 && next.joint != motion.joint)) return next;
-  if (next.steps >= hand.limits.advance_steps) {
-    next.unsettled = true;
-    next.joint = 3;
-    return next;
-  }
-  const Vec3 rates = segment_rates(hand.finger_swing, next.joint);
-  const Real step = std::min(finger_step(frame, mcp, points, watch, lengths, rates), watch.between_step);
-  next.steps = next.steps + 1;
-  if (next.joint < 0) {
-    next.closure = std::min(next.closure + step, next.limit);
-    next.angles = finger_angles(hand, next.closure);
-    return next;
-  }
-  next.turned = std::min(next.turned + step, next.room);
-  const Real angle = next.start + next.turned;
-  if (next.joint == 0) next.angles.x = angle;
-  if (next.joint == 1) next.angles.y = angle;
-  if (next.joint == 2) next.angles.z = angle;
-  return next;
+  const Vec3 angles = segment_angles(motion);
+  resting.angles = Vec3(angles.x, angles.y - angles.x, angles.z - angles.y);
+  resting.points = finger_points(finger.frame, finger.mcp, finger.lengths, resting.angles);
+  resting.separations = watch.separations;
+  resting.before = watch.before;
+  resting.blocked = motion.blocked;
+  resting.unsettled = motion.unsettled;
+  return resting;
 }
 
 PaperAxis paper_axis(Vec3 index_mcp, Vec3 little_mcp, Vec3 index_tip, Vec3 thumb_tip) {

@@ -4,23 +4,21 @@
 
 #include <array>
 
+#include "core/body.h"
 #include "core/hand.h"
 #include "core/sdf.h"
 
 namespace CORE_NS {
 
-// A finger on its way (pose `articulated`): where it stands, and what it does next.
+// A finger on its way (pose `articulated`). Its segments lie in a plane, and each has an angle there: the sum of the joints' up to it, rad.
 struct FingerMotion {
-  Vec3 angles{};              // MCP, PIP, DIP, rad
-  Real closure = 0;           // while it follows its trajectory
-  Real limit = 0;             // the index finger's closure
-  int joint = -1;             // -1: on the trajectory; 0..2: this joint turns alone; 3: at rest
-  Real start = 0;             // angle at which the turning joint set out, rad
-  Real turned = 0, room = 0;  // rad
-  int steps = 0;              // of this stage
-  Vec3 before{};              // separations of PIP, DIP, tip when it left the trajectory, m
-  bool blocked = false;       // a watched point was inside when open
-  bool unsettled = false;     // took all its steps
+  Vec3 origin{};           // of the segments where this stage began, rad
+  Vec3 rates{};            // at which they turn: rad for a unit of `at`
+  int joint = -1;          // -1: it swings along its trajectory; 0..2: this joint turns alone; 3: at rest
+  Real at = 0, end = 0;    // how far this stage has gone, and may go: closure in a swing, and otherwise rad
+  int steps = 0;           // of this stage
+  bool blocked = false;    // a watched place was inside when open
+  bool unsettled = false;  // took all its steps
 };
 
 // The axis about which the points of pose `paper` turn, the same for all but its origin.
@@ -29,37 +27,78 @@ struct PaperAxis {
   bool exists = false;
 };
 
-// What surrounds the three watched points PIP, DIP and tip, and the spheres on the bones that end there.
-struct Watch {
-  Support pip, dip, tip;
-  Vec3 separations{};               // distance less radius, m
-  Vec3 clear{};                     // the least separation of a point and the spheres of the bone that ends there, m
-  Real between_step = NO_DISTANCE;  // the spheres' smallest safe step
+// A finger in the vessel frame, m. Lengths: of the three bones beyond the MCP; radii: at MCP, PIP, DIP and tip.
+struct Finger {
+  FingerFrame frame;
+  Vec3 mcp{};
+  Vec3 lengths{};
+  std::array<Real, 4> radii{};
 };
 
-// Rates at which the segments beyond PIP, DIP and DIP's end turn: cumulative joint swings along the trajectory (joint -1; rad per unit
-// of closure), or 1 for the segments that a joint turns alone (joint 0..2).
-Vec3 segment_rates(Vec3 swing, int joint);
-// A segment turned a quarter in its finger's plane: the velocity of its end for a unit rate.
-Vec3 quarter_turn(FingerFrame frame, Vec3 segment);
-// The smallest safe step of the three points for these rates.
-Real finger_step(FingerFrame frame, Vec3 mcp, FingerPoints points, Watch watch, Vec3 lengths, Vec3 rates);
+// A finger's segments from the MCP out, in its plane: components along `forward` and `palmward`, m.
+struct Bend {
+  Vec3 along{}, across{};
+};
+
+// A place that a finger watches, and how it moves in the finger's plane for a unit of the motion (closure in a swing, and otherwise rad):
+// components along `forward` and `palmward`. speed, bend and jerk are bounds of the first three derivatives at any angles.
+struct Place {
+  Ball ball;
+  Vec2 velocity{}, acceleration{};
+  Real speed = 0, bend = 0, jerk = 0;
+};
+
+// What a finger knows of the places that it watches. They have numbers from the MCP out: the `between` spheres of a bone, and then the
+// joint that it ends at. It looks around at the places one by one where a stage begins, and then moves from one that is due to the next.
+struct FingerWatch {
+  std::array<Real, 3 * (MOST_BETWEEN + 1)> until{};  // so far may this stage go before the place could touch
+  Vec3 separations{};                                // of PIP, DIP and tip where they were seen last, m
+  Vec3 before{};                                     // the same when it left the trajectory
+  Vec3 clear{NO_DISTANCE};                           // the least separation of a bone's places since it began to look around, m
+  int number = 0;                                    // of the place to look at now
+  int touched = -1;                                  // place that ended the stage before, and is not looked at again; -1: none
+  bool looks = true;                                 // it looks around
+  bool swings = true;                                // it has not looked around since it left the trajectory
+};
+
+// Where a finger came to rest.
+struct RestingFinger {
+  Vec3 angles{};
+  FingerPoints points;
+  Vec3 separations{};    // of PIP, DIP and tip, m
+  Vec3 before{};         // when it left the trajectory
+  int steps = 0;         // of its longest stage
+  bool blocked = false;  // see FingerMotion
+  bool unsettled = false;
+};
+
+// Of three joints' angles or rates those of the segments.
+Vec3 chain_sums(Vec3 joints);
+// The segments' angles where the motion is, rad.
+Vec3 segment_angles(const FingerMotion& motion);
+// Segments of these lengths (m) at these angles (rad, of the segments).
+Bend bend_finger(Vec3 lengths, Vec3 angles);
+// The place of that number, of a finger that is bent so and whose segments turn at these rates.
+Place watched_place(const Hand& hand, const Finger& finger, const Bend& bend, Vec3 rates, int number);
+// The largest step of the motion along which the place is sure not to pass a surface.
+Real place_step(Support support, Real separation, const Place& place, FingerFrame frame);
 // Number (0..2) of the smallest separation among those from `first` on; of equal ones the innermost.
 int nearest_point(Vec3 separations, int first);
 // A finger at closure 0 that may go up to `limit`.
 FingerMotion start_motion(const Hand& hand, Real limit);
-// PIP, DIP and tip among the surroundings, with the radii given.
-Watch watch_points(const Vessel& vessel, FingerPoints points, Vec3 radii);
-// Adds the spheres between the joints to the watch: hand.between on each of the bones from `joint` on, which turns (-1: all three swing).
-// radii: MCP, PIP, DIP, tip. Their step has the unit of the motion's: closure in a swing, and otherwise radians.
-void watch_between(const Hand& hand, const Vessel& vessel, FingerFrame frame, Vec3 mcp, FingerPoints points,
-                   const std::array<Real, 4>& radii, Vec3 lengths, int joint, Watch& watch);
 // The motion with `joint` about to turn alone (3: at rest).
-FingerMotion turn_joint(const Hand& hand, FingerMotion motion, int joint);
-// One step of conservative advancement: given the points at the motion's angles and what surrounds them, the motion after its next move.
-// Where spheres are watched and another joint's turn comes, it does not move yet: their step was that of the joint before.
-FingerMotion advance_finger(const Hand& hand, FingerMotion motion, FingerFrame frame, Vec3 mcp, FingerPoints points, Watch watch,
-                            Vec3 lengths);
+FingerMotion turn_joint(const Hand& hand, const FingerMotion& motion, int joint);
+// The place to see when it is the turn of `number`: of a bone that rests, before `joint`, the end alone; none that has just touched.
+int place_to_see(const Hand& hand, int number, int joint, int touched);
+// The moving place that is due first, and how far the stage may go until then; of equal ones the innermost.
+int soonest_place(const Hand& hand, const FingerWatch& watch, int joint, Real& due);
+// Keeps what a look at a place gave: its separation (m) and its safe step from here.
+void see_place(const Hand& hand, Real separation, Real step, const FingerMotion& motion, FingerWatch& watch);
+// What turns next of a finger that has looked around, where its bones are clear by so much: the same joint as now where it goes on.
+// blocked: it is at its start, and inside.
+int decide_turn(const Hand& hand, Vec3 clear, const FingerMotion& motion, bool& blocked);
+// The whole way of a finger that may close up to `limit`.
+RestingFinger rest_finger(const Hand& hand, const Vessel& vessel, const Finger& finger, Real limit);
 // Pose `paper`: the axis through MCPs, and a point turned about it.
 PaperAxis paper_axis(Vec3 index_mcp, Vec3 little_mcp, Vec3 index_tip, Vec3 thumb_tip);
 Vec3 turned_point(Vec3 p, Vec3 pivot, Vec3 axis, Real angle);

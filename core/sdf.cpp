@@ -73,20 +73,26 @@ bool element_spans(const Element& element, Vec2 q) {
 // Inside an element's span the gradient is its own outward normal whatever the side, which stays exact on the surface where
 // (q - nearest) / distance would be rounding noise. Beyond an end it points away from (inside: towards) that end.
 // Degenerate: q on the end itself takes the element's normal there; q at an arc's center takes the half's own direction.
-Vec2 element_outward(const Element& element, Vec2 q, Real sign) {
+Vec2 outward_of(const Element& element, Vec2 q, bool& at_end) {
   const Vec2 from_a = q - element.a;
   const Vec2 from_b = q - element.b;
   const Real to_a = glm::dot(from_a, from_a);
   const Real to_b = glm::dot(from_b, from_b);
   const Vec2 from_end = to_a <= to_b ? from_a : from_b;
-  const bool spans = element_spans(element, q) || std::min(to_a, to_b) == 0;
-  if (element.side == 0) return spans ? element.center : sign * from_end;
+  at_end = !element_spans(element, q) && std::min(to_a, to_b) != 0;
+  if (element.side == 0) return at_end ? from_end : element.center;
   const bool up = element.b.y > element.a.y;
   const Real bulge = (element.side > 0) == up ? Real(1) : Real(-1);  // convex arcs point away from their center
   const Vec2 from_center = q - element.center;
   const bool central = from_center.x == 0 && from_center.y == 0;
   const Vec2 own = central ? Vec2(bulge * Real(element.side), 0) : bulge * from_center;
-  return spans ? own : sign * from_end;
+  return at_end ? from_end : own;
+}
+
+Vec2 element_outward(const Element& element, Vec2 q, Real sign) {
+  bool at_end = false;
+  const Vec2 outward = outward_of(element, q, at_end);
+  return at_end ? sign * outward : outward;
 }
 
 bool element_convex(const Element& element, Vec2 q) {
@@ -251,11 +257,10 @@ Support support_at(const Vessel& vessel, Vec3 p) {
 // The plane at distance s with the normal n comes nearer by no more than -n.v t + a t^2 / 2, so it is not met before the positive root
 // of s + n.v t - a t^2 / 2. Near the surface that is Newton's step, where separation / speed alone would creep up on a wall that is
 // met aslant. Degenerate: a point at rest never holds a step back.
-Real safe_step(Support support, Real separation, Vec3 velocity, Real speed, Real acceleration) {
+Real plane_step(Support support, Real separation, Real closing, Real speed, Real acceleration) {
   if (!(speed > 0)) return NO_DISTANCE;
   const Real per_speed = Real(1) / speed;
   const Real lipschitz = separation * per_speed;
-  const Real closing = -glm::dot(support.normal, velocity);
   const Real root = std::sqrt(closing * closing + Real(2) * acceleration * separation);
   const bool nears = closing > 0;
   const Real over = nears ? Real(2) * separation : root - closing;
@@ -263,6 +268,10 @@ Real safe_step(Support support, Real separation, Vec3 velocity, Real speed, Real
   const Real plane = under > 0 ? over / under : NO_DISTANCE;
   const Real others = (support.other - support.distance + separation) * per_speed;
   return support.planar ? std::max(lipschitz, std::min(plane, others)) : lipschitz;
+}
+
+Real safe_step(Support support, Real separation, Vec3 velocity, Real speed, Real acceleration) {
+  return plane_step(support, separation, -glm::dot(support.normal, velocity), speed, acceleration);
 }
 
 }  // namespace CORE_NS

@@ -85,6 +85,7 @@ bool element_crosses(const Element& element, Vec2 q);
 bool element_spans(const Element& element, Vec2 q);
 // Direction, of any length but 0, of the signed distance's gradient at q where `element` is nearest; sign: +1 outside, -1 inside. On the
 // element: its outward normal.
+Vec2 outward_of(const Element& element, Vec2 q, bool& at_end);
 Vec2 element_outward(const Element& element, Vec2 q, Real sign);
 // Whether the element, seen from q outside, lies beyond its tangent plane at the nearest point.
 bool element_convex(const Element& element, Vec2 q);
@@ -117,5 +118,7 @@ Support support_at(const Vessel& vessel, Vec3 p);
 // acceleration, as far as no other element can be met at the largest speed; never less than separation / speed. The step's unit is
 // the caller's (m, rad, closure); velocity, speed and acceleration are m per unit and per its square, the latter two upper bounds.
 Real safe_step(Support support, Real separation, Vec3 velocity, Real speed, Real acceleration);
+// The same where the speed towards the nearest element, `closing`, is known.
+Real plane_step(Support support, Real separation, Real closing, Real speed, Real acceleration);
 
 }  // namespace CORE_NS

@@ -155,22 +155,15 @@ void put_rigged(int f, int first_joint, PlacedFinger finger) {
 }
 
 void pose_articulated(int f, Real closure, inout PlacedFinger finger) {
-  FingerMotion motion = start_motion(closure);
-  while (motion.joint < 3) {
-    finger.points = finger_points(finger.frame, finger.mcp, finger.lengths, motion.angles);
-    Watch watch = watch_points(finger.points, finger.radii);
-    if (BETWEEN > 0) {
-      watch_between(finger.frame, finger.mcp, finger.points, Vec4(scale * hand_radius(f, 1), finger.radii), finger.lengths,
-                    motion.joint, watch);
-    }
-    finger.separations = watch.separations;
-    motion = advance_finger(motion, finger.frame, finger.mcp, finger.points, watch, finger.lengths);
-  }
-  if (motion.before.x <= HAND_CONTACT_TOLERANCE) finger.before |= 1 << 2;
-  if (motion.before.y <= HAND_CONTACT_TOLERANCE) finger.before |= 1 << 3;
-  if (motion.before.z <= HAND_CONTACT_TOLERANCE) finger.before |= 1 << 4;
-  if (motion.blocked) status |= 1u << (STATUS_BLOCKED_SHIFT + f);
-  if (motion.unsettled) status |= 1u << (STATUS_UNSETTLED_SHIFT + f);
+  RestingFinger resting =
+      rest_finger(Finger(finger.frame, finger.mcp, finger.lengths, Vec4(scale * hand_radius(f, 1), finger.radii)), closure);
+  finger.points = resting.points;
+  finger.separations = resting.separations;
+  if (resting.before.x <= HAND_CONTACT_TOLERANCE) finger.before |= 1 << 2;
+  if (resting.before.y <= HAND_CONTACT_TOLERANCE) finger.before |= 1 << 3;
+  if (resting.before.z <= HAND_CONTACT_TOLERANCE) finger.before |= 1 << 4;
+  if (resting.blocked) status |= 1u << (STATUS_BLOCKED_SHIFT + f);
+  if (resting.unsettled) status |= 1u << (STATUS_UNSETTLED_SHIFT + f);
 }
 
 // Before any of the points is examined: roles are judged on the state before.

@@ -8,23 +8,51 @@
 #include "sdf.glsl"
 
 struct FingerMotion {
-  Vec3 angles;
-  Real closure;
-  Real limit;
+  Vec3 origin, rates;
   int joint;
-  Real start;
-  Real turned, room;
+  Real at, end;
   int steps;
-  Vec3 before;
   bool blocked;
   bool unsettled;
 };
 
-struct Watch {
-  Support pip, dip, tip;
-  Vec3 separations;
-  Vec3 clear;
-  Real between_step;
+const int BONE_PLACES = BETWEEN + 1;
+const int PLACES = 3 * BONE_PLACES;
+
+struct Finger {
+  FingerFrame frame;
+  Vec3 mcp, lengths;
+  Vec4 radii;
+};
+
+// The bones from the MCP out, in the finger's plane, m.
+struct Bend {
+  Vec3 along, across;
+};
+
+struct Place {
+  Ball ball;
+  Vec2 velocity, acceleration;
+  Real speed, bend, jerk;
+};
+
+struct FingerWatch {
+  Vec3 separations, before, clear;
+  int number, touched;
+  bool looks, swings;
+};
+
+// Of FingerWatch in the core. Not in the struct, which is copied.
+Real until[PLACES];
+// The joints' limits and the largest turn of one. Loaded before the loop: in it a driver would gather them lane by lane.
+Vec4 joint_stops;
+#define load_joint_stops() joint_stops = Vec4(hand_table[HAND_JOINT_LIMIT].xyz, HAND_MAX_ANGLE)
+
+struct RestingFinger {
+  Vec3 angles;
+  FingerPoints points;
+  Vec3 separations, before;
+  bool blocked, unsettled;
 };
 
 struct PaperAxis {
@@ -32,25 +60,47 @@ struct PaperAxis {
   bool exists;
 };
 
-Vec3 segment_rates(Vec3 swing, int joint) {
-  if (joint < 0) return Vec3(swing.x, swing.x + swing.y, swing.x + swing.y + swing.z);
-  return Vec3(joint == 0 ? Real(1) : Real(0), joint <= 1 ? Real(1) : Real(0), Real(1));
+Vec3 chain_sums(Vec3 joints) { return Vec3(joints.x, joints.x + joints.y, joints.x + joints.y + joints.z); }
+
+Vec3 segment_angles(FingerMotion motion) { return motion.origin + motion.at * motion.rates; }
+
+Bend bend_finger(Vec3 lengths, Vec3 angles) {
+  Vec3 sines, cosines;
+  sine_cosine(angles.x, sines.x, cosines.x);
+  sine_cosine(angles.y, sines.y, cosines.y);
+  sine_cosine(angles.z, sines.z, cosines.z);
+  return Bend(lengths * cosines, lengths * sines);
 }
 
-Vec3 quarter_turn(FingerFrame frame, Vec3 segment) {
-  return dot(segment, frame.forward) * frame.palmward - dot(segment, frame.palmward) * frame.forward;
+Place watched_place(Finger finger, Bend bend, Vec3 rates, int number) {
+  int bone = number / BONE_PLACES;
+  bool is_end = number % BONE_PLACES == BETWEEN;
+  Real share = is_end ? Real(1) : Real(number % BONE_PLACES + 1) / Real(BONE_PLACES);
+  Vec3 parts = Vec3(bone == 0 ? share : Real(1), bone == 0 ? Real(0) : bone == 1 ? share : Real(1), bone == 2 ? share : Real(0));
+  Vec3 along = parts * bend.along;
+  Vec3 across = parts * bend.across;
+  Vec3 sweep = parts * finger.lengths * abs(rates);
+  Place place;
+  place.velocity = Vec2(-dot(rates, across), dot(rates, along));
+  place.acceleration = Vec2(-dot(rates * rates, along), -dot(rates * rates, across));
+  place.speed = sweep.x + sweep.y + sweep.z;
+  place.bend = dot(sweep, abs(rates));
+  place.jerk = dot(sweep, rates * rates);
+  Real start_radius = bone == 0 ? finger.radii.x : bone == 1 ? finger.radii.y : finger.radii.z;
+  Real end_radius = bone == 0 ? finger.radii.y : bone == 1 ? finger.radii.z : finger.radii.w;
+  precise Vec3 center = finger.mcp + (along.x + along.y + along.z) * finger.frame.forward +
+                        (across.x + across.y + across.z) * finger.frame.palmward;
+  place.ball = Ball(center, is_end ? end_radius : start_radius + share * (end_radius - start_radius));
+  return place;
 }
 
-Real finger_step(FingerFrame frame, Vec3 mcp, FingerPoints points, Watch watch, Vec3 lengths, Vec3 rates) {
-  Vec3 sweep = abs(rates) * lengths;
-  Vec3 bend = rates * rates * lengths;
-  Vec3 pip_velocity = rates.x * quarter_turn(frame, points.pip - mcp);
-  Vec3 dip_velocity = pip_velocity + rates.y * quarter_turn(frame, points.dip - points.pip);
-  Vec3 tip_velocity = dip_velocity + rates.z * quarter_turn(frame, points.tip - points.dip);
-  Real pip = safe_step(watch.pip, watch.separations.x, pip_velocity, sweep.x, bend.x);
-  Real dip = safe_step(watch.dip, watch.separations.y, dip_velocity, sweep.x + sweep.y, bend.x + bend.y);
-  Real tip = safe_step(watch.tip, watch.separations.z, tip_velocity, sweep.x + sweep.y + sweep.z, bend.x + bend.y + bend.z);
-  return min(pip, min(dip, tip));
+Real place_step(Support support, Real separation, Place place, FingerFrame frame) {
+  Vec2 normal = Vec2(dot(support.normal, frame.forward), dot(support.normal, frame.palmward));
+  Real closing = -dot(normal, place.velocity);
+  Real towards = -dot(normal, place.acceleration);
+  Real most = towards + place.jerk * (separation / closing) / Real(3);
+  Real acceleration = closing > Real(0) ? smaller(larger(most, Real(0)), place.bend) : place.bend;
+  return plane_step(support, separation, closing, place.speed, acceleration);
 }
 
 int nearest_point(Vec3 separations, int first) {
@@ -65,121 +115,113 @@ int nearest_point(Vec3 separations, int first) {
 }
 
 FingerMotion start_motion(Real limit) {
-  FingerMotion motion;
-  motion.angles = finger_angles(Real(0));
-  motion.closure = Real(0);
-  motion.limit = limit;
-  motion.joint = -1;
-  motion.start = Real(0);
-  motion.turned = Real(0);
-  motion.room = Real(0);
-  motion.steps = 0;
-  motion.before = Vec3(0);
-  motion.blocked = false;
-  motion.unsettled = false;
-  return motion;
-}
-
-Watch watch_points(FingerPoints points, Vec3 radii) {
-  Watch watch;
-  watch.pip = support_at(points.pip);
-  watch.dip = support_at(points.dip);
-  watch.tip = support_at(points.tip);
-  watch.separations = Vec3(watch.pip.distance, watch.dip.distance, watch.tip.distance) - radii;
-  watch.clear = watch.separations;
-  watch.between_step = NO_DISTANCE;
-  return watch;
-}
-
-// One loop over the spheres of all bones: the distance is compiled once.
-void watch_between(FingerFrame frame, Vec3 mcp, FingerPoints points, Vec4 radii, Vec3 lengths, int joint, inout Watch watch) {
-  Vec3 rates = segment_rates(hand_table[HAND_FINGER_SWING].xyz, joint);
-  Vec3 sweep = abs(rates) * lengths;
-  Vec3 bend = rates * rates * lengths;
-  Vec3 pip_turn = rates.x * quarter_turn(frame, points.pip - mcp);
-  Vec3 dip_turn = rates.y * quarter_turn(frame, points.dip - points.pip);
-  Vec3 tip_turn = rates.z * quarter_turn(frame, points.tip - points.dip);
-  [[dont_unroll]] for (int i = max(joint, 0) * BETWEEN; i < 3 * BETWEEN; ++i) {
-    int bone = i / BETWEEN;
-    Real share = Real(i - bone * BETWEEN + 1) / Real(BETWEEN + 1);
-    Vec3 start = bone == 0 ? mcp : bone == 1 ? points.pip : points.dip;
-    Vec3 end = bone == 0 ? points.pip : bone == 1 ? points.dip : points.tip;
-    Real start_radius = bone == 0 ? radii.x : bone == 1 ? radii.y : radii.z;
-    Real end_radius = bone == 0 ? radii.y : bone == 1 ? radii.z : radii.w;
-    Vec3 velocity = bone == 0 ? share * pip_turn : bone == 1 ? pip_turn + share * dip_turn : pip_turn + dip_turn + share * tip_turn;
-    Real speed = bone == 0 ? share * sweep.x : bone == 1 ? sweep.x + share * sweep.y : sweep.x + sweep.y + share * sweep.z;
-    Real acceleration = bone == 0 ? share * bend.x : bone == 1 ? bend.x + share * bend.y : bend.x + bend.y + share * bend.z;
-    Ball ball = ball_between(start, end, start_radius, end_radius, share);
-    Support support = support_at(ball.place);
-    Real separation = support.distance - ball.radius;
-    watch.clear.x = bone == 0 ? min(watch.clear.x, separation) : watch.clear.x;
-    watch.clear.y = bone == 1 ? min(watch.clear.y, separation) : watch.clear.y;
-    watch.clear.z = bone == 2 ? min(watch.clear.z, separation) : watch.clear.z;
-    watch.between_step = min(watch.between_step, safe_step(support, separation, velocity, speed, acceleration));
-  }
+  return FingerMotion(chain_sums(finger_angles(Real(0))), chain_sums(hand_table[HAND_FINGER_SWING].xyz), -1, Real(0), limit, 0, false, false);
 }
 
 FingerMotion turn_joint(FingerMotion motion, int joint) {
-  FingerMotion next = motion;
-  next.joint = joint;
-  next.turned = Real(0);
-  next.steps = 0;
-  if (joint < 3) {
-    Vec3 limits = hand_table[HAND_JOINT_LIMIT].xyz;
-    Real stop = joint == 0 ? limits.x : joint == 1 ? limits.y : limits.z;
-    next.start = joint == 0 ? motion.angles.x : joint == 1 ? motion.angles.y : motion.angles.z;
-    next.room = max(Real(0), min(HAND_MAX_ANGLE, stop - next.start));
-  }
-  return next;
+  Vec3 here = segment_angles(motion);
+  Vec3 stops = joint_stops.xyz;
+  Real room = joint == 0 ? stops.x - here.x : joint == 1 ? stops.y - (here.y - here.x) : stops.z - (here.z - here.y);
+  Vec3 rates = Vec3(joint == 0 ? Real(1) : Real(0), joint <= 1 ? Real(1) : Real(0), Real(1));
+  return FingerMotion(here, rates, joint, Real(0), larger(Real(0), smaller(joint_stops.w, room)), 0, motion.blocked, motion.unsettled);
 }
 
-FingerMotion advance_finger(FingerMotion motion, FingerFrame frame, Vec3 mcp, FingerPoints points, Watch watch, Vec3 lengths) {
-  FingerMotion next = motion;
-  Vec3 separations = watch.clear;
-  if (next.joint < 0) {
-    int nearest = nearest_point(separations, 0);
-    Real clear = min(separations.x, min(separations.y, separations.z));
-    next.before = watch.separations;
-    if (next.closure == Real(0) && clear < Real(0)) {
-      next.blocked = true;
-      next.joint = 3;
-    } else if (clear < STOP_TOLERANCE) {
-      next = turn_joint(next, nearest + 1);
-    } else if (next.closure >= next.limit) {
-      next = turn_joint(next, 0);
-    }
+int place_to_see(int number, int joint, int touched) {
+  int bone = number / BONE_PLACES;
+  int seen = bone < joint ? (bone + 1) * BONE_PLACES - 1 : number;
+  return seen == touched ? seen + 1 : seen;
+}
+
+// No index that varies: the numbers stay in registers.
+int soonest_place(FingerWatch watch, int joint, out Real due) {
+  int first = max(joint, 0) * BONE_PLACES;
+  int soonest = first;
+  due = NO_DISTANCE;
+  for (int k = 0; k < PLACES; ++k) {
+    bool is_sooner = k >= first && until[k] < due;
+    due = is_sooner ? until[k] : due;
+    soonest = is_sooner ? k : soonest;
   }
-  for (int stage = 0; stage < 3; ++stage) {
-    if (next.joint >= 0 && next.joint < 3) {
-      int nearest = nearest_point(separations, next.joint);
-      Real clear = nearest == 0 ? separations.x : nearest == 1 ? separations.y : separations.z;
-      if (clear < STOP_TOLERANCE) {
-        next = turn_joint(next, nearest + 1);
-      } else if (next.turned >= next.room) {
-        next = turn_joint(next, next.joint + 1);
-      }
-    }
+  return soonest;
+}
+
+void see_place(Real separation, Real step, FingerMotion motion, inout FingerWatch watch) {
+  int bone = watch.number / BONE_PLACES;
+  bool is_end = watch.number % BONE_PLACES == BETWEEN;
+  watch.separations.x = is_end && bone == 0 ? separation : watch.separations.x;
+  watch.separations.y = is_end && bone == 1 ? separation : watch.separations.y;
+  watch.separations.z = is_end && bone == 2 ? separation : watch.separations.z;
+  if (BETWEEN > 0) {
+    watch.clear.x = bone == 0 ? smaller(watch.clear.x, separation) : watch.clear.x;
+    watch.clear.y = bone == 1 ? smaller(watch.clear.y, separation) : watch.clear.y;
+    watch.clear.z = bone == 2 ? smaller(watch.clear.z, separation) : watch.clear.z;
   }
-  if (next.joint >= 3 || (BETWEEN > 0 && next.joint != motion.joint)) return next;
-  if (next.steps >= LIMIT_ADVANCE_STEPS) {
-    next.unsettled = true;
-    next.joint = 3;
-    return next;
+  Real free_until = motion.at + step;
+  for (int k = 0; k < PLACES; ++k) until[k] = k == watch.number ? free_until : until[k];
+}
+
+int decide_turn(Vec3 clear, FingerMotion motion, out bool blocked) {
+  int nearest = nearest_point(clear, max(motion.joint, 0));
+  Real least = nearest == 0 ? clear.x : nearest == 1 ? clear.y : clear.z;
+  blocked = motion.joint < 0 && motion.at == Real(0) && least < Real(0);
+  int joint = motion.at >= motion.end ? motion.joint + 1 : motion.joint;
+  joint = least < STOP_TOLERANCE ? nearest + 1 : joint;
+  return blocked ? 3 : joint;
+}
+
+RestingFinger rest_finger(Finger finger, Real limit) {
+  RestingFinger resting;
+  FingerMotion motion = start_motion(limit);
+  FingerWatch watch = FingerWatch(Vec3(0), Vec3(0), Vec3(NO_DISTANCE), 0, -1, true, true);
+  load_joint_stops();
+  for (int k = 0; k < PLACES; ++k) until[k] = Real(0);
+  for (;;) {
+    Place place = watched_place(finger, bend_finger(finger.lengths, segment_angles(motion)), motion.rates, watch.number);
+    Support support = support_at(place.ball.place);
+    Real separation = support.distance - place.ball.radius;
+    see_place(separation, place_step(support, separation, place, finger.frame), motion, watch);
+    int next = place_to_see(watch.number + 1, motion.joint, watch.touched);
+    bool seen_all = watch.looks && next >= PLACES;
+    bool meets = !watch.looks && separation < STOP_TOLERANCE;
+    watch.before = seen_all && watch.swings ? watch.separations : watch.before;
+    watch.swings = watch.swings && !(seen_all && motion.joint >= 0);
+    if (seen_all && motion.joint >= 3) break;
+    bool blocked;
+    int decided = decide_turn(BETWEEN > 0 ? watch.clear : watch.separations, motion, blocked);
+    motion.blocked = motion.blocked || seen_all && blocked;
+    int joint = meets ? watch.number / BONE_PLACES + 1 : seen_all ? decided : motion.joint;
+    bool moves = joint == motion.joint && (seen_all || !watch.looks);
+    Real due;
+    int soonest = soonest_place(watch, motion.joint, due);
+    bool is_spent = moves && motion.steps >= LIMIT_ADVANCE_STEPS;
+    bool ends = moves && (is_spent || !(due < motion.end));
+    motion.at = moves && !is_spent ? smaller(due, motion.end) : motion.at;
+    motion.steps += moves ? 1 : 0;
+    motion.unsettled = motion.unsettled || is_spent;
+    int from = seen_all && !ends ? joint : max(motion.joint, 0);
+    joint = ends ? is_spent ? 3 : motion.joint + 1 : joint;
+    bool turns = joint != motion.joint;
+    watch.touched = meets ? watch.number : turns ? -1 : watch.touched;
+    FingerMotion turned = turn_joint(motion, joint);
+    motion.origin = turns ? turned.origin : motion.origin;
+    motion.rates = turns ? turned.rates : motion.rates;
+    motion.joint = joint;
+    motion.at = turns ? Real(0) : motion.at;
+    motion.end = turns ? turned.end : motion.end;
+    motion.steps = turns ? 0 : motion.steps;
+    if (BETWEEN > 0) watch.clear = turns ? Vec3(NO_DISTANCE) : watch.clear;
+    watch.looks = turns || watch.looks && !seen_all;
+    watch.number = turns ? place_to_see(from * BONE_PLACES, joint, watch.touched) : moves ? soonest : next;
+    if (watch.number >= PLACES) break;
   }
-  Vec3 rates = segment_rates(hand_table[HAND_FINGER_SWING].xyz, next.joint);
-  Real step = min(finger_step(frame, mcp, points, watch, lengths, rates), watch.between_step);
-  next.steps = next.steps + 1;
-  if (next.joint < 0) {
-    next.closure = min(next.closure + step, next.limit);
-    next.angles = finger_angles(next.closure);
-    return next;
-  }
-  next.turned = min(next.turned + step, next.room);
-  Real angle = next.start + next.turned;
-  if (next.joint == 0) next.angles.x = angle;
-  if (next.joint == 1) next.angles.y = angle;
-  if (next.joint == 2) next.angles.z = angle;
-  return next;
+  Vec3 angles = segment_angles(motion);
+  resting.angles = Vec3(angles.x, angles.y - angles.x, angles.z - angles.y);
+  resting.points = finger_points(finger.frame, finger.mcp, finger.lengths, resting.angles);
+  resting.separations = watch.separations;
+  resting.before = watch.before;
+  resting.blocked = motion.blocked;
+  resting.unsettled = motion.unsettled;
+  return resting;
 }
 
 PaperAxis paper_axis(Vec3 index_mcp, Vec3 little_mcp, Vec3 index_tip, Vec3 thumb_tip) {

@@ -10,6 +10,8 @@ struct Nearest {
   Real distance_squared;
   Real other_squared;
   bool curved_tie;
+  Vec2 outward;
+  bool at_end, convex;
 };
 
 struct Support {
@@ -26,33 +28,30 @@ Real element_distance_squared(Element element, Vec2 q) {
   precise Real to_a = from_a.x * from_a.x + from_a.y * from_a.y;
   precise Real to_b = from_b.x * from_b.x + from_b.y * from_b.y;
   if (element.side == 0) {
-    precise Vec2 along = element.b - element.a;
-    precise Real t = from_a.x * along.x + from_a.y * along.y;
-    precise Real length_squared = along.x * along.x + along.y * along.y;
-    precise Real across = element.center.x * from_a.x + element.center.y * from_a.y;
-    precise Real foot_squared = across * across;
-    return t <= Real(0) ? to_a : t >= length_squared ? to_b : foot_squared;
+    Vec2 along = element.b - element.a;
+    Real t = dot(from_a, along), across = dot(element.center, from_a);
+    return t <= Real(0) ? to_a : t >= dot(along, along) ? to_b : across * across;
   }
   precise Vec2 from_center = q - element.center;
   precise Real distance = sqrt(from_center.x * from_center.x + from_center.y * from_center.y);
-  Real low = min(element.a.y, element.b.y) - element.center.y;
-  Real high = max(element.a.y, element.b.y) - element.center.y;
+  Real low = smaller(element.a.y, element.b.y) - element.center.y;
+  Real high = larger(element.a.y, element.b.y) - element.center.y;
   precise Real foot = from_center.y * element.radius;
   bool on_half = Real(element.side) * from_center.x >= Real(0);
   precise Real off = distance - element.radius;
   precise Real off_squared = off * off;
-  return on_half && foot >= low * distance && foot <= high * distance ? off_squared : min(to_a, to_b);
+  return on_half && foot >= low * distance && foot <= high * distance ? off_squared : smaller(to_a, to_b);
 }
 
 bool element_crosses(Element element, Vec2 q) {
   bool up = element.b.y > element.a.y;
   Real low = up ? element.a.y : element.b.y;
   Real high = up ? element.b.y : element.a.y;
-  bool spans = !(q.y < low || q.y >= high);
+  bool spans = low < high && !(q.y < low || q.y >= high);
   if (element.side == 0) {
     Vec2 along = element.b - element.a;
-    precise Vec2 from_a = q - element.a;
-    precise Real across = along.x * from_a.y - along.y * from_a.x;
+    Vec2 from_a = q - element.a;
+    Real across = along.x * from_a.y - along.y * from_a.x;
     return spans && (up ? across > Real(0) : across < Real(0));
   }
   precise Vec2 from_center = q - element.center;
@@ -69,26 +68,33 @@ bool element_spans(Element element, Vec2 q) {
   }
   Vec2 from_center = q - element.center;
   Real distance = sqrt(dot(from_center, from_center));
-  Real low = min(element.a.y, element.b.y) - element.center.y;
-  Real high = max(element.a.y, element.b.y) - element.center.y;
+  Real low = smaller(element.a.y, element.b.y) - element.center.y;
+  Real high = larger(element.a.y, element.b.y) - element.center.y;
   Real foot = from_center.y * element.radius;
   return Real(element.side) * from_center.x >= Real(0) && foot >= low * distance && foot <= high * distance;
 }
 
-Vec2 element_outward(Element element, Vec2 q, Real sign) {
+// Of a point outside; of one inside the way from an end turns round.
+Vec2 outward_of(Element element, Vec2 q, out bool at_end) {
   Vec2 from_a = q - element.a;
   Vec2 from_b = q - element.b;
   Real to_a = dot(from_a, from_a);
   Real to_b = dot(from_b, from_b);
   Vec2 from_end = to_a <= to_b ? from_a : from_b;
-  bool spans = element_spans(element, q) || min(to_a, to_b) == Real(0);
-  if (element.side == 0) return spans ? element.center : sign * from_end;
+  at_end = !element_spans(element, q) && smaller(to_a, to_b) != Real(0);
+  if (element.side == 0) return at_end ? from_end : element.center;
   bool up = element.b.y > element.a.y;
   Real bulge = (element.side > 0) == up ? Real(1) : Real(-1);
   Vec2 from_center = q - element.center;
   bool central = from_center.x == Real(0) && from_center.y == Real(0);
   Vec2 own = central ? Vec2(bulge * Real(element.side), Real(0)) : bulge * from_center;
-  return spans ? own : sign * from_end;
+  return at_end ? from_end : own;
+}
+
+Vec2 element_outward(Element element, Vec2 q, Real sign) {
+  bool at_end;
+  Vec2 outward = outward_of(element, q, at_end);
+  return at_end ? sign * outward : outward;
 }
 
 bool element_convex(Element element, Vec2 q) {
@@ -98,8 +104,9 @@ bool element_convex(Element element, Vec2 q) {
 
 Nearest nearest_element(Vec2 q, out bool inside) {
   COUNT_LANES(true);
-  Nearest nearest = Nearest(0, NO_DISTANCE, NO_DISTANCE, false);
+  Nearest nearest = Nearest(0, NO_DISTANCE, NO_DISTANCE, false, Vec2(1, 0), false, false);
   int side = 0;
+  bool follows = false;
   inside = false;
   OUTLINE_LOOP for (int i = 0; i < OUTLINE_COUNT; ++i) {
     Element element = outline_element(i);
@@ -107,15 +114,22 @@ Nearest nearest_element(Vec2 q, out bool inside) {
     bool nearer = distance_squared < nearest.distance_squared;
     precise Vec2 from_a = q - element.a;
     precise Real to_a = from_a.x * from_a.x + from_a.y * from_a.y;
-    bool shared_end = distance_squared == nearest.distance_squared && i == nearest.element + 1 && to_a == distance_squared;
+    bool shared_end = follows && distance_squared == nearest.distance_squared && to_a == distance_squared;
     Real behind = nearer ? nearest.distance_squared : shared_end ? NO_DISTANCE : distance_squared;
-    nearest.other_squared = min(nearest.other_squared, behind);
+    nearest.other_squared = smaller(nearest.other_squared, behind);
     nearest.curved_tie = nearer ? false : nearest.curved_tie || (shared_end && (side != 0 || element.side != 0));
     nearest.distance_squared = nearer ? distance_squared : nearest.distance_squared;
     nearest.element = nearer ? i : nearest.element;
     side = nearer ? element.side : side;
+    bool at_end;
+    Vec2 outward = outward_of(element, q, at_end);
+    nearest.outward = nearer ? outward : nearest.outward;
+    nearest.at_end = nearer ? at_end : nearest.at_end;
+    nearest.convex = nearer ? element_convex(element, q) : nearest.convex;
     inside = inside != element_crosses(element, q);
+    follows = nearer;
   }
+  nearest.outward = nearest.at_end && inside ? -nearest.outward : nearest.outward;
   return nearest;
 }
 
@@ -132,10 +146,7 @@ Vec2 profile_gradient(Vec2 q, out int element) {
   bool inside;
   Nearest nearest = nearest_element(q, inside);
   element = nearest.element;
-  Vec2 outward = Vec2(1, 0);
-  OUTLINE_LOOP for (int i = 0; i < OUTLINE_COUNT; ++i)
-    outward = i == nearest.element ? element_outward(outline_element(i), q, inside ? Real(-1) : Real(1)) : outward;
-  return outward * (Real(1) / sqrt(dot(outward, outward)));
+  return nearest.outward * (Real(1) / sqrt(dot(nearest.outward, nearest.outward)));
 }
 
 struct Cell {
@@ -243,33 +254,29 @@ Support support_at(Vec3 p) {
   Real distance = sqrt(nearest.distance_squared);
   support.distance = inside ? -distance : distance;
   support.other = sqrt(nearest.other_squared);
-  Vec2 outward = Vec2(1, 0);
-  bool convex = false;
-  OUTLINE_LOOP for (int i = 0; i < OUTLINE_COUNT; ++i) {
-    bool chosen = i == nearest.element;
-    outward = chosen ? element_outward(outline_element(i), q, inside ? Real(-1) : Real(1)) : outward;
-    convex = chosen ? element_convex(outline_element(i), q) : convex;
-  }
-  Vec2 normal = outward * (Real(1) / sqrt(dot(outward, outward)));
+  Vec2 normal = nearest.outward * (Real(1) / sqrt(dot(nearest.outward, nearest.outward)));
   support.element = nearest.element;
-  support.planar = convex && !inside && !nearest.curved_tie && normal.x >= Real(0);
+  support.planar = nearest.convex && !inside && !nearest.curved_tie && normal.x >= Real(0);
   Vec2 radial = r > Real(0) ? Vec2(p.x, p.z) * (Real(1) / r) : Vec2(1, 0);
   support.normal = Vec3(normal.x * radial.x, normal.y, normal.x * radial.y);
   return support;
 }
 
-Real safe_step(Support support, Real separation, Vec3 velocity, Real speed, Real acceleration) {
+Real plane_step(Support support, Real separation, Real closing, Real speed, Real acceleration) {
   Real per_speed = Real(1) / speed;
   Real lipschitz = separation * per_speed;
-  Real closing = -dot(support.normal, velocity);
   Real root = sqrt(closing * closing + Real(2) * acceleration * separation);
   bool nears = closing > Real(0);
   Real over = nears ? Real(2) * separation : root - closing;
   Real under = nears ? root + closing : acceleration;
   Real plane = under > Real(0) ? over / under : NO_DISTANCE;
   Real others = (support.other - support.distance + separation) * per_speed;
-  Real step = support.planar ? max(lipschitz, min(plane, others)) : lipschitz;
+  Real step = support.planar ? larger(lipschitz, smaller(plane, others)) : lipschitz;
   return speed > Real(0) ? step : NO_DISTANCE;
+}
+
+Real safe_step(Support support, Real separation, Vec3 velocity, Real speed, Real acceleration) {
+  return plane_step(support, separation, -dot(support.normal, velocity), speed, acceleration);
 }
 
 #endif

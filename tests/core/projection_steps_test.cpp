@@ -31,116 +31,169 @@ TEST(Advance, MotionStartsOpen) {
   const core_f64::Hand hand = ready_hand(odd_hand());
   const FingerMotion motion = core_f64::start_motion(hand, 0.4);
   EXPECT_EQ(motion.joint, -1);
-  EXPECT_EQ(motion.closure, 0);
-  EXPECT_EQ(motion.limit, 0.4);
-  EXPECT_EQ(motion.angles, core_f64::finger_angles(hand, 0));
+  EXPECT_EQ(motion.at, 0);
+  EXPECT_EQ(motion.end, 0.4);
+  const Vec3 open = core_f64::finger_angles(hand, 0), on_its_way = core_f64::finger_angles(hand, 0.3);
+  EXPECT_EQ(core_f64::segment_angles(motion), Vec3(open.x, open.x + open.y, open.x + open.y + open.z));
+  FingerMotion moved = motion;
+  moved.at = 0.3;
+  EXPECT_LT(glm::distance(core_f64::segment_angles(moved), core_f64::chain_sums(on_its_way)), 1e-15);
   EXPECT_FALSE(motion.blocked);
   EXPECT_FALSE(motion.unsettled);
 }
 
-TEST(Advance, JointHasRoomUpToItsLimitOrItsLargestTurn) {
-  const core_f64::Hand hand = ready_hand({});
+// Of a finger whose joints are at these angles.
+FingerMotion motion_at(const core_f64::Hand& hand, Vec3 angles) {
   FingerMotion motion = core_f64::start_motion(hand, 1);
-  motion.angles = {radians(60), radians(30), radians(18)};
-  EXPECT_NEAR(core_f64::turn_joint(hand, motion, 0).room, radians(30), 1e-15);  // to 90
-  EXPECT_NEAR(core_f64::turn_joint(hand, motion, 1).room, radians(45), 1e-15);  // max_angle
-  EXPECT_NEAR(core_f64::turn_joint(hand, motion, 2).room, radians(45), 1e-15);
-  motion.angles = {radians(95), radians(99), radians(80)};
-  EXPECT_LE(core_f64::turn_joint(hand, motion, 0).room, 0);
-  EXPECT_NEAR(core_f64::turn_joint(hand, motion, 1).room, radians(1), 1e-15);
-  EXPECT_LE(core_f64::turn_joint(hand, motion, 2).room, 1e-15);
-  EXPECT_EQ(core_f64::turn_joint(hand, motion, 1).start, motion.angles.y);
-  EXPECT_EQ(core_f64::turn_joint(hand, motion, 3).joint, 3);
+  motion.origin = core_f64::chain_sums(angles);
+  return motion;
 }
 
-TEST(Advance, StepsAreCountedByTheStage) {
+TEST(Advance, JointHasRoomUpToItsLimitOrItsLargestTurn) {
+  const core_f64::Hand hand = ready_hand({});
+  const FingerMotion inside = motion_at(hand, {radians(60), radians(30), radians(18)});
+  EXPECT_NEAR(core_f64::turn_joint(hand, inside, 0).end, radians(30), 1e-15);  // to 90
+  EXPECT_NEAR(core_f64::turn_joint(hand, inside, 1).end, radians(45), 1e-15);  // max_angle
+  EXPECT_NEAR(core_f64::turn_joint(hand, inside, 2).end, radians(45), 1e-15);
+  const FingerMotion bent = motion_at(hand, {radians(95), radians(99), radians(80)});
+  EXPECT_LE(core_f64::turn_joint(hand, bent, 0).end, 0);
+  EXPECT_NEAR(core_f64::turn_joint(hand, bent, 1).end, radians(1), 1e-15);
+  EXPECT_LE(core_f64::turn_joint(hand, bent, 2).end, 1e-15);
+  EXPECT_EQ(core_f64::turn_joint(hand, bent, 3).joint, 3);
+}
+
+TEST(Advance, StageGoesOnFromWhereTheOneBeforeEnded) {
   const core_f64::Hand hand = ready_hand({});
   FingerMotion motion = core_f64::start_motion(hand, 1);
-  motion.steps = ADVANCE_STEPS;
+  motion.at = 0.1;
+  motion.steps = 5;
+  Vec3 joints = core_f64::finger_angles(hand, 0.1);
   for (int joint = 0; joint < 3; ++joint) {
     motion = core_f64::turn_joint(hand, motion, joint);
     EXPECT_EQ(motion.steps, 0);
-    EXPECT_EQ(motion.turned, 0);
-    motion.steps = ADVANCE_STEPS;
-    motion.turned = 0.1;
+    EXPECT_EQ(motion.at, 0);
+    motion.at = 0.2;
+    joints[joint] += 0.2;
+    EXPECT_LT(glm::distance(core_f64::segment_angles(motion), core_f64::chain_sums(joints)), 1e-15) << "joint " << joint;
   }
 }
 
-TEST(Advance, QuarterTurnIsTheDerivativeOfASegment) {
-  const FingerFrame frame{{0, 0, 0}, glm::normalize(Vec3{1, 2, -2}), glm::normalize(Vec3{2, 1, 2})};
-  const double h = 1e-6;
-  for (const double angle : {0.0, 0.4, 1.9, 3.0}) {
-    const auto segment = [&](double at) { return core_f64::segment_end(frame, {}, 0.05, at); };
-    const Vec3 difference = (segment(angle + h) - segment(angle - h)) / (2 * h);
-    EXPECT_LT(glm::distance(core_f64::quarter_turn(frame, segment(angle)), difference), 1e-10);  // h^2 / 6 and rounding 1e-17 / h
-  }
+// A finger beside a vessel, at random.
+struct Drawn {
+  core_f64::Finger finger;
+  Vec3 angles{};
+};
+
+Drawn draw_finger(Random& random) {
+  const Vec3 forward = glm::normalize(Vec3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)});
+  const FingerFrame frame{{0, 0, 0}, forward, glm::normalize(glm::cross(forward, Vec3{0.2, 0.5, -0.7}))};
+  const Vec3 mcp{random.uniform(-0.1, 0.1), random.uniform(-0.05, 0.2), random.uniform(-0.1, 0.1)};
+  return {{frame, mcp, {43e-3, 27e-3, 22e-3}, {8e-3, 7e-3, 0, 5e-3}},
+          {random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1)}};
 }
 
-TEST(Advance, StepPassesNoWatchedPointThroughTheWall) {
-  const core_f64::Hand hand = ready_hand(odd_hand());
-  for (const VesselData& data : {beaker1(), vase(), ledges(), shell_of(beaker1())}) {
-    const core_f64::Vessel vessel = ready_vessel(data);
-    Random random(45);
-    int steps = 0;
-    for (int n = 0; n < 4000; ++n) {
-      const Vec3 forward = glm::normalize(Vec3{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)});
-      const FingerFrame frame{{0, 0, 0}, forward, glm::normalize(glm::cross(forward, Vec3{0.2, 0.5, -0.7}))};
-      const Vec3 mcp{random.uniform(-0.1, 0.1), random.uniform(-0.05, 0.2), random.uniform(-0.1, 0.1)},
-          lengths{43e-3, 27e-3, 22e-3}, radii{7e-3, 0, 5e-3};
-      Vec3 angles{random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1)};
-      const int joint = n % 4 - 1;
-      const auto at = [&](double step) {
-        Vec3 moved = angles;
-        if (joint < 0) {
-          moved += step * hand.finger_swing;
-        } else {
-          moved[joint] += step;
-        }
-        return core_f64::finger_points(frame, mcp, lengths, moved);
-      };
-      const auto separations = [&](const FingerPoints& points) {
-        Vec3 s{};
-        s.x = core_f64::signed_distance(vessel, points.pip) - radii.x;
-        s.y = core_f64::signed_distance(vessel, points.dip) - radii.y;
-        s.z = core_f64::signed_distance(vessel, points.tip) - radii.z;
-        return s;
-      };
-      const FingerPoints points = at(0);
-      const core_f64::Watch watch = core_f64::watch_points(vessel, points, radii);
-      EXPECT_EQ(watch.separations, separations(points));
-      if (std::min({watch.separations.x, watch.separations.y, watch.separations.z}) < 1e-9) continue;
-      ++steps;
-      const double step =
-          core_f64::finger_step(frame, mcp, points, watch, lengths, core_f64::segment_rates(hand.finger_swing, joint));
-      ASSERT_GT(step, 0);
-      for (int i = 1; i <= 20; ++i) {
-        const Vec3 s = separations(at(std::min(step, 3.0) * i / 20));
-        ASSERT_GE(std::min({s.x, s.y, s.z}), -1e-12) << data.name << ", joint " << joint << ", step " << step;  // m: rounding
-      }
+// The place of that number after a step of the motion.
+core_f64::Place place_after(const core_f64::Hand& hand, const Drawn& drawn, int joint, int number, double step) {
+  Vec3 moved = drawn.angles;
+  if (joint < 0) {
+    moved += step * hand.finger_swing;
+  } else {
+    moved[joint] += step;
+  }
+  const core_f64::Finger& finger = drawn.finger;
+  const FingerMotion motion = joint < 0 ? core_f64::start_motion(hand, 1) : core_f64::turn_joint(hand, {}, joint);
+  return core_f64::watched_place(hand, finger, core_f64::bend_finger(finger.lengths, core_f64::chain_sums(moved)), motion.rates,
+                                 number);
+}
+
+core_f64::Hand hand_with(int between) {
+  core_f64::Hand hand = ready_hand(odd_hand());
+  hand.between = between;
+  return hand;
+}
+
+TEST(Advance, PlacesMoveAsTheirDerivativesSay) {
+  Random random(44);
+  for (const int between : {0, 2}) {
+    const core_f64::Hand hand = hand_with(between);
+    for (int n = 0; n < 300; ++n) {
+      const Drawn drawn = draw_finger(random);
+      const int joint = n % 4 - 1, number = n % (3 * (between + 1));
+      const auto at = [&](double step) { return place_after(hand, drawn, joint, number, step); };
+      const double h = 1e-4;
+      const core_f64::Place place = at(0), before = at(-h), after = at(h);
+      const FingerFrame& frame = drawn.finger.frame;
+      const Vec3 velocity = (after.ball.place - before.ball.place) / (2 * h);
+      const Vec3 acceleration = (after.ball.place - 2.0 * place.ball.place + before.ball.place) / (h * h);
+      // h^2 / 6 of the third derivative and h^2 / 12 of the fourth, which are below 1 m; rounding 1e-16 / h and 4e-17 / h^2
+      EXPECT_LT(glm::distance(velocity, place.velocity.x * frame.forward + place.velocity.y * frame.palmward), 3e-9);
+      EXPECT_LT(glm::distance(acceleration, place.acceleration.x * frame.forward + place.acceleration.y * frame.palmward), 1e-7);
+      EXPECT_LE(glm::length(place.velocity), place.speed + 1e-15);
+      EXPECT_LE(glm::length(place.acceleration), place.bend + 1e-15);
+      EXPECT_LE(glm::distance(after.acceleration, before.acceleration), 2 * h * place.jerk + 1e-15);
+      EXPECT_EQ(place.ball.radius == drawn.finger.radii[number / (between + 1) + 1], number % (between + 1) == between);
     }
-    EXPECT_GT(steps, 500) << data.name;
   }
 }
 
+TEST(Advance, StepPassesNoWatchedPlaceThroughTheWall) {
+  for (const int between : {0, 2}) {
+    const core_f64::Hand hand = hand_with(between);
+    for (const VesselData& data : {beaker1(), vase(), ledges(), shell_of(beaker1())}) {
+      const core_f64::Vessel vessel = ready_vessel(data);
+      Random random(45);
+      int steps = 0;
+      for (int n = 0; n < 6000; ++n) {
+        const Drawn drawn = draw_finger(random);
+        const int joint = n % 4 - 1, number = n / 4 % (3 * (between + 1));
+        const auto separation = [&](double step) {
+          const core_f64::Ball ball = place_after(hand, drawn, joint, number, step).ball;
+          return core_f64::signed_distance(vessel, ball.place) - ball.radius;
+        };
+        const core_f64::Place place = place_after(hand, drawn, joint, number, 0);
+        const core_f64::Support support = core_f64::support_at(vessel, place.ball.place);
+        EXPECT_EQ(support.distance - place.ball.radius, separation(0));
+        if (separation(0) < 1e-9 || !(place.speed > 0)) continue;
+        ++steps;
+        const double step = core_f64::place_step(support, separation(0), place, drawn.finger.frame);
+        ASSERT_GT(step, 0);
+        for (int i = 1; i <= 20; ++i)
+          ASSERT_GE(separation(std::min(step, 3.0) * i / 20), -1e-12) << data.name << ", joint " << joint << ", step " << step;
+      }
+      EXPECT_GT(steps, 1000) << data.name;
+    }
+  }
+}
+
+TEST(Advance, PlacesAreSeenInTurn) {
+  const core_f64::Hand plain = hand_with(0), with_spheres = hand_with(2);
+  EXPECT_EQ(core_f64::place_to_see(plain, 0, -1, -1), 0);
+  EXPECT_EQ(core_f64::place_to_see(with_spheres, 3, -1, -1), 3);
+  EXPECT_EQ(core_f64::place_to_see(with_spheres, 0, 1, -1), 2) << "of a bone that rests, its end";
+  EXPECT_EQ(core_f64::place_to_see(with_spheres, 3, 1, -1), 3);
+  EXPECT_EQ(core_f64::place_to_see(with_spheres, 0, 1, 2), 3) << "which has just touched";
+  EXPECT_EQ(core_f64::place_to_see(with_spheres, 6, 3, 8), 9) << "all are seen";
+}
+
+// A finger beside the wall that closes on it.
 TEST(Advance, PastItsStepsAFingerStaysAndIsFlagged) {
-  const core_f64::Hand hand = ready_hand({});
   const core_f64::Vessel vessel = ready_vessel(beaker1());
-  const FingerFrame frame{{0.2, 0.05, 0}, {0, 0, -1}, {-1, 0, 0}};
-  const Vec3 mcp{0.2, 0.05, -0.06}, lengths{44e-3, 26e-3, 21e-3}, radii{7e-3, 7e-3, 7e-3};
-  for (const int joint : {-1, 0, 1, 2}) {
-    for (const int steps : {ADVANCE_STEPS - 1, ADVANCE_STEPS}) {
-      FingerMotion motion = core_f64::start_motion(hand, 1);
-      if (joint >= 0) motion = core_f64::turn_joint(hand, motion, joint);
-      motion.steps = steps;
-      const FingerPoints points = core_f64::finger_points(frame, mcp, lengths, motion.angles);
-      const FingerMotion next =
-          core_f64::advance_finger(hand, motion, frame, mcp, points, core_f64::watch_points(vessel, points, radii), lengths);
-      EXPECT_EQ(next.unsettled, steps == ADVANCE_STEPS) << joint;
-      if (steps == ADVANCE_STEPS) {
-        EXPECT_EQ(next.joint, 3);
-        EXPECT_EQ(next.angles, motion.angles);
-      }
-    }
+  const FingerFrame frame{{0.06, 0.05, 0.08}, {0, 0, -1}, {-1, 0, 0}};
+  const core_f64::Finger finger{frame, {0.06, 0.05, 0.02}, {44e-3, 26e-3, 21e-3}, {7e-3, 7e-3, 7e-3, 7e-3}};
+  for (const int steps : {1, 2, ADVANCE_STEPS}) {
+    core_f64::Hand hand = ready_hand({});
+    hand.limits.advance_steps = steps;
+    const core_f64::RestingFinger resting = core_f64::rest_finger(hand, vessel, finger, 1);
+    EXPECT_FALSE(resting.blocked);
+    EXPECT_EQ(resting.unsettled, steps < ADVANCE_STEPS);
+    EXPECT_LE(resting.steps, steps);
+    EXPECT_GT(resting.steps, std::min(steps, 3) - 1);
+    const FingerPoints points = core_f64::finger_points(frame, finger.mcp, finger.lengths, resting.angles);
+    EXPECT_EQ(resting.points.tip, points.tip);
+    // the places are summed in the finger's plane, and the points along its bones: a few roundings of 0.2 m
+    const Vec3 clear{core_f64::signed_distance(vessel, points.pip), core_f64::signed_distance(vessel, points.dip),
+                     core_f64::signed_distance(vessel, points.tip)};
+    EXPECT_LT(glm::distance(resting.separations, clear - 7e-3), 1e-15);
   }
 }
 

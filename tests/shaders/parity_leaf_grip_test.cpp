@@ -97,10 +97,9 @@ TEST_F(ParityLeaf, CloseFingers) {
 
 TEST_F(ParityLeaf, ProjectionPieces) {
   const Scene scene = three_beakers();
-  Builder rates(90), turns(91), nearest(92), axes(93), points(94), roles(95);
+  Builder sums(90), nearest(92), axes(93), points(94), roles(95);
   for (int i = 0; i < 333; ++i) {
-    rates.uniform(0, 1.1).uniform(0, 0.6).uniform(0, 0.3).add(i % 4 - 1);
-    turns.frame().point(0.1);
+    sums.uniform(0, 1.1).uniform(0, 0.6).uniform(0, 0.3);
     const double tie = nearest.random.uniform(-0.01, 0.05);
     nearest.add(i % 5 == 0 ? tie : nearest.random.uniform(-0.01, 0.05)).add(i % 7 == 0 ? tie : nearest.random.uniform(-0.01, 0.05));
     nearest.add(i % 3 == 0 ? tie : nearest.random.uniform(-0.01, 0.05)).add(i % 3);
@@ -110,10 +109,8 @@ TEST_F(ParityLeaf, ProjectionPieces) {
   }
   for (int point = 2; point <= 4; ++point)
     for (int before = 0; before < 32; ++before) roles.add(point).add(before);
-  compare(
-      {.shader = "probe_projection", .probe = PROBE_SEGMENT_RATES, .inputs = 4, .outputs = repeated("rate", 3, 2), .fixed = {3}},
-      rates.table, scene);
-  compare({"probe_projection", PROBE_QUARTER_TURN, 12, repeated("velocity", 3, REACH)}, turns.table, scene);
+  compare({.shader = "probe_projection", .probe = PROBE_CHAIN_SUMS, .inputs = 3, .outputs = repeated("sum", 3, 2)}, sums.table,
+          scene);
   compare({.shader = "probe_projection", .probe = PROBE_NEAREST_POINT, .inputs = 4, .outputs = {{"point", 1, true}}, .fixed = {3}},
           nearest.table, scene);
   compare(
@@ -125,41 +122,42 @@ TEST_F(ParityLeaf, ProjectionPieces) {
       roles.table, scene);
 }
 
-// All is copied but the room, one difference: equal to the bit but for that. Angles at, before and beyond the joints' limits.
+// All is copied but where the segments are and the room, a few sums: equal to the bit but for these. Angles at, before and beyond the
+// joints' limits.
 TEST_F(ParityLeaf, TurnJoint) {
   for (const HandData& hand : {HandData{}, odd_hand()}) {
     Builder build(96);
     for (int i = 0; i < 600; ++i) {
+      double angle = 0;
       for (const double limit : hand.joint_limit) {
         const double off = i % 4 == 0 ? 0 : i % 4 == 1 ? hand.max_angle : build.random.uniform(-0.2, 1.5);
-        build.add(limit - off);
+        angle += limit - off;
+        build.add(angle);
       }
-      build.uniform(0, 1).uniform(0, 1).add(i % 5 - 1).uniform(0, 1.5).uniform(0, 0.5).uniform(0, 0.8).add(i % 1025);
-      build.point(0.05).add(i % 2).add(i % 3 == 0 ? 1 : 0).add(i / 5 % 4);
+      const int joint = i % 5 - 1;
+      build.add(joint > 0 ? 0 : 1).add(joint > 1 ? 0 : 1).add(1).add(joint);
+      build.uniform(0, i % 3 == 0 ? 0 : 0.5).uniform(0, 0.8).add(i % 1025);
+      build.add(i % 2).add(i % 3 == 0 ? 1 : 0).add(i / 5 % 4);
     }
-    std::vector<Output> outputs = repeated("motion", 15, 2);
-    for (std::size_t k = 0; k < outputs.size(); ++k) outputs[k].discrete = k != 8;
+    std::vector<Output> outputs = repeated("motion", 12, 4);
+    for (std::size_t k = 3; k < outputs.size(); ++k) outputs[k].discrete = k != 8;
     outputs[8].name = "room";
-    compare({.shader = "probe_projection", .probe = PROBE_TURN_JOINT, .inputs = 16, .outputs = outputs, .exact = true}, build.table,
+    compare({.shader = "probe_projection", .probe = PROBE_TURN_JOINT, .inputs = 13, .outputs = outputs, .exact = true}, build.table,
             scene_of({beaker1()}, Pose::articulated, hand));
   }
 }
 
-// The rows of finger_step whose three points are clear of the vessel: no moving point is ever inside.
+// The rows of place_step whose place is clear of the vessel: no moving place is ever inside.
 Table outside(const Table& table, const Scene& scene, std::size_t v) {
-  constexpr std::size_t INPUTS = 24;
+  constexpr std::size_t INPUTS = 26;
   const auto leaves = make_double_leaves(scene, v);
   Table clear;
   for (std::size_t row = 0; row < table.size(); row += INPUTS) {
-    std::array<double, 9> points{};
-    leaves->evaluate(PROBE_FINGER_POINTS, &table[row], points.data());
-    bool all = true;
-    for (std::size_t k = 0; k < 3; ++k) {
-      double distance = 0;
-      leaves->evaluate(PROBE_SIGNED_DISTANCE, &points[3 * k], &distance);
-      all = all && distance - table[row + 18 + k] > STOP_TOLERANCE_F32;
-    }
-    if (all)
+    std::array<double, 11> place{};
+    leaves->evaluate(PROBE_WATCHED_PLACE, &table[row], place.data());
+    double distance = 0;
+    leaves->evaluate(PROBE_SIGNED_DISTANCE, place.data(), &distance);
+    if (distance - place[3] > STOP_TOLERANCE_F32)
       clear.insert(clear.end(), table.begin() + static_cast<std::ptrdiff_t>(row),
                    table.begin() + static_cast<std::ptrdiff_t>(row + INPUTS));
   }
@@ -177,12 +175,15 @@ TEST_F(ParityLeaf, FingersOnTheirWay) {
       const Triple base{away * std::cos(angle), steps.random.uniform(0.1, 0.9) * vessel.height, away * std::sin(angle)};
       steps.frame(base).vec(base);
       motions.frame(base).vec(base);
-      for (Builder* build : {&steps, &motions}) build->uniform(0.03, 0.05).uniform(0.02, 0.03).uniform(0.018, 0.022);
+      for (Builder* build : {&steps, &motions}) {
+        build->uniform(0.03, 0.05).uniform(0.02, 0.03).uniform(0.018, 0.022);
+        for (int k = 0; k < 4; ++k) build->uniform(6e-3, 8e-3);
+      }
       steps.uniform(0, 1.2).uniform(0, 1).uniform(0, 0.6);
-      for (Builder* build : {&steps, &motions})
-        for (int k = 0; k < 3; ++k) build->uniform(6e-3, 8e-3);
       const int joint = i % 4 - 1;
-      steps.add(joint > 0 ? 0 : 1).add(joint > 1 ? 0 : 1.5).add(joint < 0 ? 1.8 : 1);
+      // nine of ten places move; one at rest has no step
+      const int first = i % 10 == 0 ? 0 : std::max(joint, 0);
+      steps.add(joint > 0 ? 0 : 1).add(joint > 1 ? 0 : 1.5).add(joint < 0 ? 1.8 : 1).add(first + i / 4 % (3 - first));
       motions.uniform(0.2, 1);
       turned.vec(base)
           .uniform(6e-3, 8e-3)
@@ -192,11 +193,22 @@ TEST_F(ParityLeaf, FingersOnTheirWay) {
     }
     // the room that a point has over how fast it goes: a few hundredths of a metre over 0.02 m a unit at least. Which element
     // bounds a step changes with the point: near those changes it may jump
-    compare({.shader = "probe_projection", .probe = PROBE_FINGER_STEP, .inputs = 24, .outputs = {{"step", 2}}, .sharp_share = 0.8},
+    compare({.shader = "probe_projection",
+             .probe = PROBE_WATCHED_PLACE,
+             .inputs = 26,
+             .outputs = together(repeated("place", 4, REACH), repeated("derivative", 7, 2)),
+             .fixed = {25}},
+            steps.table, scene, v);
+    compare({.shader = "probe_projection",
+             .probe = PROBE_PLACE_STEP,
+             .inputs = 26,
+             .outputs = {{"step", 2}},
+             .sharp_share = 0.8,
+             .fixed = {25}},
             outside(steps.table, scene, v), scene, v);
     compare({.shader = "probe_projection",
              .probe = PROBE_FINGER_MOTION,
-             .inputs = 19,
+             .inputs = 20,
              .outputs = together(repeated("angle", 3, 2), std::vector<Output>{{"blocked", 1, true}, {"unsettled", 1, true}}),
              .stopped = {15}},
             motions.table, scene, v);

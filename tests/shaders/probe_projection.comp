@@ -8,26 +8,40 @@
 
 FingerFrame given_frame(int k) { return FingerFrame(given3(k), given3(k + 3), given3(k + 6)); }
 
+Finger given_finger() { return Finger(given_frame(0), given3(9), given3(12), Vec4(given(15), given(16), given(17), given(18))); }
+
+Place given_place() {
+  Finger finger = given_finger();
+  return watched_place(finger, bend_finger(finger.lengths, chain_sums(given3(19))), given3(22), given_int(25));
+}
+
 void main() {
   if (row() >= push.count) return;
   load_outline();
-  if (PROBE == PROBE_SEGMENT_RATES) answer3(0, segment_rates(given3(0), given_int(3)));
-  if (PROBE == PROBE_QUARTER_TURN) answer3(0, quarter_turn(given_frame(0), given3(9)));
+  if (PROBE == PROBE_CHAIN_SUMS) answer3(0, chain_sums(given3(0)));
+  if (PROBE == PROBE_WATCHED_PLACE) {
+    Place place = given_place();
+    answer3(0, place.ball.place);
+    answer(3, place.ball.radius);
+    answer(4, place.velocity.x);
+    answer(5, place.velocity.y);
+    answer(6, place.acceleration.x);
+    answer(7, place.acceleration.y);
+    answer(8, place.speed);
+    answer(9, place.bend);
+    answer(10, place.jerk);
+  }
   if (PROBE == PROBE_NEAREST_POINT) answer(0, Real(nearest_point(given3(0), given_int(3))));
-  if (PROBE == PROBE_FINGER_STEP) {
-    FingerPoints points = finger_points(given_frame(0), given3(9), given3(12), given3(15));
-    Watch watch = watch_points(points, given3(18));
-    answer(0, finger_step(given_frame(0), given3(9), points, watch, given3(12), given3(21)));
+  if (PROBE == PROBE_PLACE_STEP) {
+    Place place = given_place();
+    Support support = support_at(place.ball.place);
+    answer(0, place_step(support, support.distance - place.ball.radius, place, given_frame(0)));
   }
   if (PROBE == PROBE_FINGER_MOTION) {
-    FingerMotion motion = start_motion(given(18));
-    while (motion.joint < 3) {
-      FingerPoints points = finger_points(given_frame(0), given3(9), given3(12), motion.angles);
-      motion = advance_finger(motion, given_frame(0), given3(9), points, watch_points(points, given3(15)), given3(12));
-    }
-    answer3(0, motion.angles);
-    answer(3, Real(motion.blocked));
-    answer(4, Real(motion.unsettled));
+    RestingFinger resting = rest_finger(given_finger(), given(19));
+    answer3(0, resting.angles);
+    answer(3, Real(resting.blocked));
+    answer(4, Real(resting.unsettled));
   }
   if (PROBE == PROBE_PAPER_AXIS) {
     PaperAxis axis = paper_axis(given3(0), given3(3), given3(6), given3(9));
@@ -42,19 +56,17 @@ void main() {
   }
   if (PROBE == PROBE_PROJECTION_ROLE) answer(0, Real(projection_role(given_int(0), given_int(1))));
   if (PROBE == PROBE_TURN_JOINT) {
-    FingerMotion motion = FingerMotion(given3(0), given(3), given(4), given_int(5), given(6), given(7), given(8), given_int(9),
-                                       given3(10), given_int(13) != 0, given_int(14) != 0);
-    motion = turn_joint(motion, given_int(15));
-    answer3(0, motion.angles);
-    answer(3, motion.closure);
-    answer(4, motion.limit);
-    answer(5, Real(motion.joint));
-    answer(6, motion.start);
-    answer(7, motion.turned);
-    answer(8, motion.room);
+    FingerMotion motion = FingerMotion(given3(0), given3(3), given_int(6), given(7), given(8), given_int(9), given_int(10) != 0,
+                                       given_int(11) != 0);
+    load_joint_stops();
+    motion = turn_joint(motion, given_int(12));
+    answer3(0, motion.origin);
+    answer3(3, motion.rates);
+    answer(6, Real(motion.joint));
+    answer(7, motion.at);
+    answer(8, motion.end);
     answer(9, Real(motion.steps));
-    answer3(10, motion.before);
-    answer(13, Real(motion.blocked));
-    answer(14, Real(motion.unsettled));
+    answer(10, Real(motion.blocked));
+    answer(11, Real(motion.unsettled));
   }
 }

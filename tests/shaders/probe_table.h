@@ -36,16 +36,17 @@
 // scale
 #define PROBE_CLOSE_FINGERS 32
 // probe_projection
-#define PROBE_SEGMENT_RATES 40    // swing, joint; rates
-#define PROBE_QUARTER_TURN 41     // frame, segment; velocity
+#define PROBE_CHAIN_SUMS 40       // of three joints; of their segments
+// finger: frame, mcp, lengths, radii; angles, rates, number; sphere, velocity, acceleration, speed, bend, jerk
+#define PROBE_WATCHED_PLACE 41
 #define PROBE_NEAREST_POINT 42    // separations, first; point
-#define PROBE_FINGER_STEP 43      // frame, mcp, lengths, angles, radii, rates; step
-#define PROBE_FINGER_MOTION 44    // frame, mcp, lengths, radii, limit; angles, blocked, unsettled
+#define PROBE_PLACE_STEP 43       // the same; step
+#define PROBE_FINGER_MOTION 44    // finger, limit; angles, blocked, unsettled
 #define PROBE_PAPER_AXIS 45       // index MCP, little MCP, index tip, thumb tip; direction, exists
 #define PROBE_TURNED_POINT 46     // point, pivot, axis, angle; point
 #define PROBE_PROJECT_POINT 47    // point, radius, pivot, axis, largest angle; point, unsettled
 #define PROBE_PROJECTION_ROLE 48  // point, touched before; role
-// angles, closure, limit, joint, start, turned, room, steps, before, blocked, unsettled; next joint: the motion, in this order
+// origin, rates, joint, at, end, steps, blocked, unsettled; next joint: the motion, in this order
 #define PROBE_TURN_JOINT 49
 // probe_liquid; element as above
 #define PROBE_SEGMENT_AREA 60      // r, h; area

@@ -99,7 +99,11 @@ struct Row {
   void read(std::array<Real, 6>& six) {
     for (Real& value : six) read(value);
   }
+  void read(std::array<Real, 4>& four) {
+    for (Real& value : four) read(value);
+  }
   void read(FingerFrame& value) { read_all(value.base, value.forward, value.palmward); }
+  void read(Finger& value) { read_all(value.frame, value.mcp, value.lengths, value.radii); }
   void read(FingerPoints& value) { read_all(value.pip, value.dip, value.tip); }
   void read(Element& value) { read_all(value.a, value.b, value.center, value.radius, value.side); }
   void read(Support& value) {
@@ -108,8 +112,7 @@ struct Row {
   }
   void read(Grip& value) { read_all(value.height, value.azimuth, value.obliquity, value.roll, value.offset, value.hand_scale); }
   void read(FingerMotion& value) {
-    read_all(value.angles, value.closure, value.limit, value.joint, value.start, value.turned, value.room, value.steps,
-             value.before, value.blocked, value.unsettled);
+    read_all(value.origin, value.rates, value.joint, value.at, value.end, value.steps, value.blocked, value.unsettled);
   }
   void read(PaperAxis& value) {
     read(value.direction);
@@ -172,12 +175,12 @@ struct Answer {
             value.thumb_angle, value.index_angle, value.grazing, value.placement, value.placement.scale);
   }
   void put(const FingerMotion& value) {
-    put_all(value.angles, value.closure, value.limit, value.joint, value.start, value.turned, value.room, value.steps, value.before,
-            value.blocked, value.unsettled);
+    put_all(value.origin, value.rates, value.joint, value.at, value.end, value.steps, value.blocked, value.unsettled);
   }
   void put(const PaperAxis& value) { put_all(value.direction, value.exists); }
   void put(const Slices& value) { put_all(value.volume, value.lean, value.height, value.surface); }
   void put(const LiquidState& value) { put_all(value.volume, value.lean, value.height); }
+  void put(const Place& value) { put_all(value.ball, value.velocity, value.acceleration, value.speed, value.bend, value.jerk); }
   void put(const Ball& value) { put_all(value.place, value.radius); }
   void put(const Propagator& value) {
     put_all(value.place_place, value.place_speed, value.place_force, value.speed_place, value.speed_speed, value.speed_force);
@@ -238,19 +241,19 @@ Closing close_widened(const Hand& hand, const Vessel& vessel, Grip grip, Real in
   return close_fingers(wider, vessel, grip);
 }
 
-Real step_of_finger(const Vessel& vessel, FingerFrame frame, Vec3 mcp, Vec3 lengths, Vec3 angles, Vec3 radii, Vec3 rates) {
-  const FingerPoints points = finger_points(frame, mcp, lengths, angles);
-  return finger_step(frame, mcp, points, watch_points(vessel, points, radii), lengths, rates);
+Place place_of_finger(const Hand& hand, Finger finger, Vec3 angles, Vec3 rates, int number) {
+  return watched_place(hand, finger, bend_finger(finger.lengths, chain_sums(angles)), rates, number);
 }
 
-std::tuple<Vec3, bool, bool> whole_motion(const Hand& hand, const Vessel& vessel, FingerFrame frame, Vec3 mcp, Vec3 lengths,
-                                          Vec3 radii, Real limit) {
-  FingerMotion motion = start_motion(hand, limit);
-  while (motion.joint < 3) {
-    const FingerPoints points = finger_points(frame, mcp, lengths, motion.angles);
-    motion = advance_finger(hand, motion, frame, mcp, points, watch_points(vessel, points, radii), lengths);
-  }
-  return {motion.angles, motion.blocked, motion.unsettled};
+Real step_of_place(const Hand& hand, const Vessel& vessel, Finger finger, Vec3 angles, Vec3 rates, int number) {
+  const Place place = place_of_finger(hand, finger, angles, rates, number);
+  const Support support = support_at(vessel, place.ball.place);
+  return place_step(support, support.distance - place.ball.radius, place, finger.frame);
+}
+
+std::tuple<Vec3, bool, bool> whole_motion(const Hand& hand, const Vessel& vessel, Finger finger, Real limit) {
+  const RestingFinger resting = rest_finger(hand, vessel, finger, limit);
+  return {resting.angles, resting.blocked, resting.unsettled};
 }
 
 std::tuple<Real, Real> revolved(const Quadrature& quadrature, const Element& element) {
@@ -337,10 +340,10 @@ constexpr LeafEntry LEAVES[] = {
     {PROBE_PLACE_HAND, answers_of<placed_hand>},
     {PROBE_CLOSE_FINGERS, answers_of<close_widened>},
     // projection
-    {PROBE_SEGMENT_RATES, answers_of<segment_rates>},
-    {PROBE_QUARTER_TURN, answers_of<quarter_turn>},
+    {PROBE_CHAIN_SUMS, answers_of<chain_sums>},
+    {PROBE_WATCHED_PLACE, answers_of<place_of_finger>},
     {PROBE_NEAREST_POINT, answers_of<nearest_point>},
-    {PROBE_FINGER_STEP, answers_of<step_of_finger>},
+    {PROBE_PLACE_STEP, answers_of<step_of_place>},
     {PROBE_FINGER_MOTION, answers_of<whole_motion>},
     {PROBE_PAPER_AXIS, answers_of<paper_axis>},
     {PROBE_TURNED_POINT, answers_of<turned_point>},
