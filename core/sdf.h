@@ -83,9 +83,10 @@ Real element_distance_squared(const Element& element, Vec2 q);
 bool element_crosses(const Element& element, Vec2 q);
 // Whether q's nearest point on the element lies between its ends.
 bool element_spans(const Element& element, Vec2 q);
-// Direction, of any length but 0, of the signed distance's gradient at q where `element` is nearest; sign: +1 outside, -1 inside. On the
-// element: its outward normal.
+// Direction, of any length but 0, of the signed distance's gradient at q outside where `element` is nearest. On the element: its outward
+// normal. at_end: q is nearest to an end, so that the direction turns round where q is inside.
 Vec2 outward_of(const Element& element, Vec2 q, bool& at_end);
+// The same outside (sign +1) or inside (-1).
 Vec2 element_outward(const Element& element, Vec2 q, Real sign);
 // Whether the element, seen from q outside, lies beyond its tangent plane at the nearest point.
 bool element_convex(const Element& element, Vec2 q);

@@ -25,7 +25,6 @@ struct Finger {
   Vec4 radii;
 };
 
-// The bones from the MCP out, in the finger's plane, m.
 struct Bend {
   Vec3 along, across;
 };

@@ -74,7 +74,6 @@ bool element_spans(Element element, Vec2 q) {
   return Real(element.side) * from_center.x >= Real(0) && foot >= low * distance && foot <= high * distance;
 }
 
-// Of a point outside; of one inside the way from an end turns round.
 Vec2 outward_of(Element element, Vec2 q, out bool at_end) {
   Vec2 from_a = q - element.a;
   Vec2 from_b = q - element.b;
@@ -102,6 +101,8 @@ bool element_convex(Element element, Vec2 q) {
   return element.side == 0 || ((element.side > 0) == up && element_spans(element, q));
 }
 
+// What belongs to the nearest element is picked by comparison as the loop goes, never by indexing with its number: a constant table indexed at
+// run time is what drivers compile slowest.
 Nearest nearest_element(Vec2 q, out bool inside) {
   COUNT_LANES(true);
   Nearest nearest = Nearest(0, NO_DISTANCE, NO_DISTANCE, false, Vec2(1, 0), false, false);
@@ -140,8 +141,6 @@ Real profile_distance(Vec2 q) {
   return inside ? -distance : distance;
 }
 
-// What belongs to the nearest element is picked by comparison, never by indexing with its number: a constant table indexed at run time is
-// what drivers compile slowest.
 Vec2 profile_gradient(Vec2 q, out int element) {
   bool inside;
   Nearest nearest = nearest_element(q, inside);
