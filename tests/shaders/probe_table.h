@@ -36,7 +36,7 @@
 // scale
 #define PROBE_CLOSE_FINGERS 32
 // probe_projection
-#define PROBE_CHAIN_SUMS 40       // of three joints; of their segments
+#define PROBE_CHAIN_SUMS 40  // of three joints; of their segments
 // finger: frame, mcp, lengths, radii; angles, rates, number; sphere, velocity, acceleration, speed, bend, jerk
 #define PROBE_WATCHED_PLACE 41
 #define PROBE_NEAREST_POINT 42    // separations, first; point
