@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/body.h"
 #include "core/trig.h"
 
 namespace CORE_NS {
@@ -46,14 +45,17 @@ Place watched_place(const Hand& hand, const Finger& finger, const Bend& bend, Ve
   return place;
 }
 
-// On its way to the tangent plane, over which no more than separation / closing passes, the acceleration towards the plane grows by no more
-// than the jerk allows: the motion t covers closing t + towards t^2 / 2 + jerk t^3 / 6 at most, and t^3 <= t^2 separation / closing.
+// The motion t brings the place nearer to the plane by closing t + towards t^2 / 2 + jerk t^3 / 6 at most. As `acceleration` is not
+// negative, the step is no more than separation / closing, and up to there t^3 <= t^2 separation / closing.
 Real place_step(Support support, Real separation, const Place& place, FingerFrame frame) {
   const Vec2 normal(glm::dot(support.normal, frame.forward), glm::dot(support.normal, frame.palmward));
   const Real closing = -glm::dot(normal, place.velocity);
   const Real towards = -glm::dot(normal, place.acceleration);
-  const Real most = towards + place.jerk * (separation / closing) / Real(3);
-  const Real acceleration = closing > 0 ? std::min(std::max(most, Real(0)), place.bend) : place.bend;
+  Real acceleration = place.bend;
+  if (closing > 0) {
+    const Real most = towards + place.jerk * (separation / closing) / Real(3);
+    acceleration = std::min(std::max(most, Real(0)), place.bend);
+  }
   return plane_step(support, separation, closing, place.speed, acceleration);
 }
 

@@ -58,7 +58,7 @@ struct FingerWatch {
   int number = 0;                                    // of the place to look at now
   int touched = -1;                                  // place that ended the stage before, and is not looked at again; -1: none
   bool looks = true;                                 // it looks around
-  bool swings = true;                                // it has not looked around since it left the trajectory
+  bool swings = true;                                // `before` is not final yet
 };
 
 // Where a finger came to rest.

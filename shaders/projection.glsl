@@ -43,9 +43,10 @@ struct FingerWatch {
 
 // Of FingerWatch in the core. Not in the struct, which is copied.
 Real until[PLACES];
-// The joints' limits and the largest turn of one. Loaded before the loop: in it a driver would gather them lane by lane.
+// The joints' limits and the largest turn of one, for turn_joint. Loaded before the loop: in it a driver would gather them lane by lane.
+// (A macro: the core has no such function.)
 Vec4 joint_stops;
-#define load_joint_stops() joint_stops = Vec4(hand_table[HAND_JOINT_LIMIT].xyz, HAND_MAX_ANGLE)
+#define LOAD_JOINT_STOPS joint_stops = Vec4(hand_table[HAND_JOINT_LIMIT].xyz, HAND_MAX_ANGLE)
 
 struct RestingFinger {
   Vec3 angles;
@@ -172,7 +173,7 @@ RestingFinger rest_finger(Finger finger, Real limit) {
   RestingFinger resting;
   FingerMotion motion = start_motion(limit);
   FingerWatch watch = FingerWatch(Vec3(0), Vec3(0), Vec3(NO_DISTANCE), 0, -1, true, true);
-  load_joint_stops();
+  LOAD_JOINT_STOPS;
   for (int k = 0; k < PLACES; ++k) until[k] = Real(0);
   for (;;) {
     Place place = watched_place(finger, bend_finger(finger.lengths, segment_angles(motion)), motion.rates, watch.number);

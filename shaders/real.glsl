@@ -46,7 +46,7 @@ layout(constant_id = CONST_TRACE_STEPS) const int LIMIT_TRACE_STEPS = TRACE_STEP
 layout(constant_id = CONST_ADVANCE_STEPS) const int LIMIT_ADVANCE_STEPS = ADVANCE_STEPS;
 layout(constant_id = CONST_GAP_STEPS) const int LIMIT_GAP_STEPS = GAP_STEPS;
 
-// Of numbers that are none of them NaN: a driver's min and max mind NaN, and cost three times as much.
+// For numbers that are not NaN. A driver's min and max handle NaN, and cost three times as much.
 Real smaller(Real a, Real b) { return b < a ? b : a; }
 Real larger(Real a, Real b) { return a < b ? b : a; }
 

@@ -5,7 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
+#include "core/body.h"
 #include "tests/support/placed_finger.h"
 #include "tests/support/scenes.h"
 
@@ -131,6 +134,14 @@ TEST(Advance, PlacesMoveAsTheirDerivativesSay) {
       EXPECT_LE(glm::length(place.velocity), place.speed + 1e-15);
       EXPECT_LE(glm::length(place.acceleration), place.bend + 1e-15);
       EXPECT_LE(glm::distance(after.acceleration, before.acceleration), 2 * h * place.jerk + 1e-15);
+      const FingerPoints points = core_f64::finger_points(frame, drawn.finger.mcp, drawn.finger.lengths, drawn.angles);
+      const std::array<Vec3, 4> joints{drawn.finger.mcp, points.pip, points.dip, points.tip};
+      const int bone = number / (between + 1);
+      const core_f64::Ball ball =
+          core_f64::ball_between(joints[bone], joints[bone + 1], drawn.finger.radii[bone], drawn.finger.radii[bone + 1],
+                                 (number % (between + 1) + 1.0) / (between + 1));
+      EXPECT_LT(glm::distance(place.ball.place, ball.place), 1e-15);
+      EXPECT_NEAR(place.ball.radius, ball.radius, 1e-17);
       EXPECT_EQ(place.ball.radius == drawn.finger.radii[number / (between + 1) + 1], number % (between + 1) == between);
     }
   }
@@ -175,6 +186,70 @@ TEST(Advance, PlacesAreSeenInTurn) {
   EXPECT_EQ(core_f64::place_to_see(with_spheres, 6, 3, 8), 9) << "all are seen";
 }
 
+TEST(Advance, PlaceThatIsDueFirstIsTheInnermostThatMoves) {
+  const core_f64::Hand hand = hand_with(0);
+  core_f64::FingerWatch watch;
+  double due = 0;
+  watch.until = {0.1, 0.3, 0.2};
+  EXPECT_EQ(core_f64::soonest_place(hand, watch, -1, due), 0);
+  EXPECT_EQ(due, 0.1);
+  EXPECT_EQ(core_f64::soonest_place(hand, watch, 1, due), 2) << "the first bone rests";
+  EXPECT_EQ(due, 0.2);
+  watch.until = {0.2, 0.2, 0.2};
+  EXPECT_EQ(core_f64::soonest_place(hand, watch, 0, due), 0);
+  EXPECT_EQ(core_f64::soonest_place(hand, watch, 1, due), 1);
+}
+
+TEST(Advance, DecidesWhichJointTurns) {
+  const core_f64::Hand hand = ready_hand({});
+  FingerMotion motion = core_f64::start_motion(hand, 1);
+  bool blocked = true;
+  EXPECT_EQ(core_f64::decide_turn(hand, {0.1, 0.1, 0.1}, motion, blocked), -1) << "it goes on";
+  EXPECT_FALSE(blocked);
+  EXPECT_EQ(core_f64::decide_turn(hand, {0.1, -1e-3, 0.1}, motion, blocked), 3);
+  EXPECT_TRUE(blocked);
+  motion.at = 0.5;
+  EXPECT_EQ(core_f64::decide_turn(hand, {0.1, -1e-12, 0.1}, motion, blocked), 2) << "the PIP's bone touches";
+  EXPECT_FALSE(blocked) << "it is not at its start";
+  motion.at = motion.end;
+  EXPECT_EQ(core_f64::decide_turn(hand, {0.1, 0.1, 0.1}, motion, blocked), 0) << "the stage is at its end";
+  EXPECT_EQ(core_f64::decide_turn(hand, {0.1, 0.1, 0}, motion, blocked), 3) << "a touch comes first";
+  motion = core_f64::turn_joint(hand, motion, 1);
+  motion.end = 0;
+  EXPECT_EQ(core_f64::decide_turn(hand, {0, 0.1, 0.1}, motion, blocked), 2) << "no room; a bone that rests does not count";
+}
+
+// A plane at the distance 0.02 that a place comes nearer to at the speed 0.1.
+TEST(Advance, StepIsTheRootOfItsBound) {
+  const FingerFrame frame{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  core_f64::Support support;
+  support.distance = 0.03;
+  support.other = 10;
+  support.normal = {1, 0, 0};
+  support.planar = true;
+  core_f64::Place place;
+  place.ball.radius = 0.01;
+  place.velocity = {-0.1, 0};
+  place.speed = 0.5;
+  place.bend = 1;
+  place.jerk = 0.3;
+  const double separation = 0.02;
+  const auto root = [&](double acceleration) { return 2 * separation / (0.1 + std::sqrt(0.01 + 2 * acceleration * separation)); };
+  const auto step = [&] { return core_f64::place_step(support, separation, place, frame); };
+  place.acceleration = {-0.2, 7};
+  EXPECT_NEAR(step(), root(0.2 + 0.3 * 0.2 / 3), 1e-15);
+  place.acceleration = {0.5, 7};
+  EXPECT_NEAR(step(), separation / 0.1, 1e-15) << "slows down: no acceleration is counted on";
+  place.acceleration = {-0.99, 7};
+  EXPECT_NEAR(step(), root(1), 1e-15) << "never more than the bound at any angle";
+  place.velocity = {0, 0.1};
+  EXPECT_NEAR(step(), std::sqrt(2 * separation), 1e-15) << "at rest towards the plane";
+  support.planar = false;
+  EXPECT_NEAR(step(), separation / 0.5, 1e-15);
+  place.speed = 0;
+  EXPECT_GT(step(), 1e300);
+}
+
 // A finger beside the wall that closes on it.
 TEST(Advance, PastItsStepsAFingerStaysAndIsFlagged) {
   const core_f64::Vessel vessel = ready_vessel(beaker1());
@@ -194,6 +269,7 @@ TEST(Advance, PastItsStepsAFingerStaysAndIsFlagged) {
     const Vec3 clear{core_f64::signed_distance(vessel, points.pip), core_f64::signed_distance(vessel, points.dip),
                      core_f64::signed_distance(vessel, points.tip)};
     EXPECT_LT(glm::distance(resting.separations, clear - 7e-3), 1e-15);
+    for (int k = 0; k < 3; ++k) EXPECT_GT(resting.separations[k], -1e-12) << "it stays outside";
   }
 }
 

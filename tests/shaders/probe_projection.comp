@@ -58,7 +58,7 @@ void main() {
   if (PROBE == PROBE_TURN_JOINT) {
     FingerMotion motion = FingerMotion(given3(0), given3(3), given_int(6), given(7), given(8), given_int(9), given_int(10) != 0,
                                        given_int(11) != 0);
-    load_joint_stops();
+    LOAD_JOINT_STOPS;
     motion = turn_joint(motion, given_int(12));
     answer3(0, motion.origin);
     answer3(3, motion.rates);
