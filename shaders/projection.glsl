@@ -169,6 +169,7 @@ int decide_turn(Vec3 clear, FingerMotion motion, out bool blocked) {
   return blocked ? 3 : joint;
 }
 
+// By selection and without branches: in nearly every turn of the loop some lane takes each of the core's ways, and then all wait for it.
 RestingFinger rest_finger(Finger finger, Real limit) {
   RestingFinger resting;
   FingerMotion motion = start_motion(limit);

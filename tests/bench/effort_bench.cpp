@@ -77,13 +77,8 @@ void effort_grip(benchmark::State& state) {
 double kernel_seconds(Backend& backend, const Scene& scene, const Plan& plan) {
   double seconds = 0;
   for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
-    RunRequest request;
-    request.vessel = v;
-    request.last = plan.grips();
+    RunRequest request = request_of(plan, v);
     request.best = 20;
-    request.grips = [&plan](std::size_t w, std::uint64_t first, std::size_t count, GripInput* out) {
-      plan.fill(w, first, count, out);
-    };
     seconds += backend.run(request).kernel_seconds;
   }
   return seconds;

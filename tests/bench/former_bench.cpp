@@ -44,12 +44,7 @@ std::vector<std::uint32_t> outcomes_of(Backend& backend, const Scene& scene, con
   const auto words = static_cast<std::size_t>(backend.fields().uint_kept);
   std::vector<std::uint32_t> outcomes(scene.vessels.size() * plan.grips() * words);
   for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
-    RunRequest request;
-    request.vessel = v;
-    request.last = plan.grips();
-    request.grips = [&plan](std::size_t w, std::uint64_t first, std::size_t count, GripInput* out) {
-      plan.fill(w, first, count, out);
-    };
+    RunRequest request = request_of(plan, v);
     request.sink = [&](const PlaneChunk& chunk) {
       for (std::size_t i = 0; i < chunk.count; ++i)
         for (std::size_t p = 0; p < words; ++p)

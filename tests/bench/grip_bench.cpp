@@ -40,16 +40,21 @@ std::unique_ptr<Evaluator> core_of(const Scene& scene, Precision precision) {
   return precision == Precision::full ? make_core_evaluator(scene) : make_core_float_evaluator(scene);
 }
 
+RunRequest request_of(const Plan& plan, std::size_t vessel) {
+  RunRequest request;
+  request.vessel = vessel;
+  request.last = plan.grips();
+  request.grips = [&plan](std::size_t v, std::uint64_t first, std::size_t count, GripInput* out) {
+    plan.fill(v, first, count, out);
+  };
+  return request;
+}
+
 std::uint64_t run_all(Backend& backend, const Scene& scene, const Plan& plan) {
   std::uint64_t grips = 0;
   for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
-    RunRequest request;
-    request.vessel = v;
-    request.last = plan.grips();
+    RunRequest request = request_of(plan, v);
     request.best = 20;
-    request.grips = [&plan](std::size_t w, std::uint64_t first, std::size_t count, GripInput* out) {
-      plan.fill(w, first, count, out);
-    };
     benchmark::DoNotOptimize(backend.run(request));
     grips += plan.grips();
   }
@@ -59,12 +64,7 @@ std::uint64_t run_all(Backend& backend, const Scene& scene, const Plan& plan) {
 double hash_all(Backend& backend, const Scene& scene, const Plan& plan) {
   std::uint64_t hash = 0;
   for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
-    RunRequest request;
-    request.vessel = v;
-    request.last = plan.grips();
-    request.grips = [&plan](std::size_t w, std::uint64_t first, std::size_t count, GripInput* out) {
-      plan.fill(w, first, count, out);
-    };
+    RunRequest request = request_of(plan, v);
     request.sink = [&](const PlaneChunk& chunk) {
       for (int p = 0; p < backend.fields().uint_kept; ++p)
         for (std::size_t i = 0; i < chunk.count; ++i) {
