@@ -53,6 +53,7 @@ struct GripProgram final : Program {
   std::optional<Kernel> force, score, select;
   std::optional<Kernel> lip, liquid;                                                             // in a scene with liquid and tilts
   std::optional<Kernel> worst_effort, tips_effort, safe_effort, push_reserve, friction_reserve;  // in a scene with efforts
+  std::uint32_t forces_together = 1;  // grips of an invocation of `force`
   std::uint32_t fill_count = 0, tilt_count = 0;
 
  private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Kernel 7 of one grip an invocation over fills and tilts, reduced to per-grip terms here. A dispatch goes through push.number states from
-// push.first on, fill by fill, as many as a uniform block holds: read from a storage buffer, lane by lane, they cost twice the time.
-// A fill that is cut goes on from what its planes hold.
+// Kernel 7 of TOGETHER grips an invocation over fills and tilts, reduced to per-grip terms here. A dispatch goes through push.number states from
+// push.first on, fill by fill, as many as a uniform block holds: read from a storage buffer they cost twice the time. A fill that is cut goes on
+// from what its planes hold.
 //
 // A state asks for two numbers alone. With the arm from the midpoint of the tips to the centre of mass along n (pour), y (up) and p = y x n,
 //   torque^2 = (m g sin t)^2 |arm|^2     (exact: (m g (sin t arm_y + cos t arm_n))^2)
@@ -19,6 +19,9 @@
 #include "trig.glsl"
 
 layout(local_size_x_id = CONST_GROUP_SIZE) in;
+// lavapipe gathers a state lane by lane, since it does not see that all lanes read the same one. This takes longer than the forces of one grip. So an
+// invocation has several grips, for which it reads a state once. A GPU should need one: it reads the state once for all lanes.
+layout(constant_id = CONST_TOGETHER) const int TOGETHER = 1;
 layout(constant_id = CONST_TORQUE) const int TORQUE = TORQUE_PAPER;
 layout(constant_id = CONST_REFERENCE) const int REFERENCE = REFERENCE_PER_OBJECT;
 layout(constant_id = CONST_UNTIL_POURED) const bool UNTIL_POURED = false;
@@ -39,6 +42,7 @@ struct Held {
   Real reference;   // N m
   Real cap;         // N2 m2, the square of the torque at which F is F_max; 0 where F does not change with the torque
   Real safe_below;  // N2 m2, under which F < F_max
+  Real strength;    // N, of the grip; here since a load within the loop over states is a gather
   bool antipodal, feasible;
 };
 
@@ -82,6 +86,7 @@ Held held_by(uint grip) {
   Real torque = grows ? room * (held.reference / scene.force_range) : Real(0);
   held.cap = torque * torque;
   held.safe_below = grows || !(room > Real(0)) ? held.cap : NO_DISTANCE;
+  held.strength = scene.grip_strength;
   return held;
 }
 
@@ -148,7 +153,7 @@ void add_state(Held held, StateForces forces, Real angle, inout FillTerms terms)
   terms.peak_tilt = higher ? angle : terms.peak_tilt;
   terms.peak_square = higher ? square : terms.peak_square;
   terms.largest_hold = forces.hold > terms.largest_hold ? forces.hold : terms.largest_hold;
-  terms.safe = terms.safe && forces.torque_square < held.safe_below && !(forces.hold > scene.grip_strength);
+  terms.safe = terms.safe && forces.torque_square < held.safe_below && !(forces.hold > held.strength);
   terms.safe_tilt = terms.safe ? angle : terms.safe_tilt;
 }
 
@@ -183,25 +188,40 @@ void put_terms(Held held, uint fill, uint grip, FillTerms terms) {
 }
 
 void main() {
-  uint grip = INVOCATION;
-  if (grip >= push.count) return;
-  Held held = held_by(grip);
+  // neighbouring lanes have neighbouring grips
+  uint invocations = (push.count + uint(TOGETHER) - 1u) / uint(TOGETHER);
+  if (INVOCATION >= invocations) return;
+  uint grips[TOGETHER];
+  bool exists[TOGETHER];  // the last invocations may have fewer
+  Held held[TOGETHER];
+  [[unroll]] for (int g = 0; g < TOGETHER; ++g) {
+    uint grip = INVOCATION + uint(g) * invocations;
+    exists[g] = grip < push.count;
+    grips[g] = min(grip, push.count - 1u);
+    held[g] = held_by(grips[g]);
+  }
   uint fill = push.first / scene.tilts, tilt = push.first % scene.tilts;
   uint k = 0u;
   while (k < push.number) {
     // the states of one fill that this dispatch has
-    FillTerms terms = no_terms(held);
-    if (tilt > 0u) terms = kept_terms(held, fill, grip, states_in[1].w);
+    FillTerms terms[TOGETHER];
+    [[unroll]] for (int g = 0; g < TOGETHER; ++g) {
+      terms[g] = no_terms(held[g]);
+      if (tilt > 0u && exists[g]) terms[g] = kept_terms(held[g], fill, grips[g], states_in[1].w);
+    }
     uint end = min(push.number, k + scene.tilts - tilt);
     [[dont_unroll]] for (; k < end; ++k) {
       Vec4 weight = states_in[2u * k], tilted = states_in[2u * k + 1u];
-      StateForces forces = state_forces(held, weight, tilted);
       bool counts = !UNTIL_POURED || tilted.z >= Real(0);
-      COUNT_LANES(held.feasible && counts);
-      if (counts) add_state(held, forces, tilted.z, terms);
-      put_state(held, int(push.first + k), grip, counts, forces, weight, tilted);
+      [[unroll]] for (int g = 0; g < TOGETHER; ++g) {
+        StateForces forces = state_forces(held[g], weight, tilted);
+        COUNT_LANES(exists[g] && held[g].feasible && counts);
+        if (counts) add_state(held[g], forces, tilted.z, terms[g]);
+        if (exists[g]) put_state(held[g], int(push.first + k), grips[g], counts, forces, weight, tilted);
+      }
     }
-    put_terms(held, fill, grip, terms);
+    [[unroll]] for (int g = 0; g < TOGETHER; ++g)
+      if (exists[g]) put_terms(held[g], fill, grips[g], terms[g]);
     fill += 1u;
     tilt = 0u;
   }

@@ -244,6 +244,7 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define CONST_BETWEEN 9             // spheres on a bone between its joints, 0..MOST_BETWEEN
 #define CONST_OFF_AXIS 10           // of the forces: whether a vessel's own centre of mass lies off its axis, bool
 #define CONST_BARE 11               // .. whether contacts carry no moment (torsion 0), bool
+#define CONST_TOGETHER 12           // .. how many grips an invocation has, 1..
 #define CONST_CONTACTS 20           // first of CONTACT_STRIDE * JOINTS planes, scratch: where joints press; -1: not computed
 #define CONST_EFFORT_TASK 21        // of the efforts and reserves: EFFORT_WORST .. EFFORT_FRICTION
 #define CONST_STOP_TOLERANCE 40     // Real, m; this and the next five have the named values where nothing is given

@@ -35,6 +35,7 @@ std::unique_ptr<Backend> backend_of(const Scene& scene, const Options& options, 
   host::GripBackendOptions on_device;
   on_device.precision = Precision::single;
   on_device.shaders = shaders;
+  if (!shaders.empty()) on_device.forces_together = 1;  // the former shaders know no other
   return std::make_unique<host::GripBackend>(scene, make_core_evaluator(scene), make_field_set(KEPT, scene), options.device,
                                              on_device);
 }

@@ -60,6 +60,34 @@ TEST(GripBackend, StagedTransfersGiveTheSameBits) {
   }
 }
 
+// However many grips an invocation has, and whatever is left for the last ones. The states take two dispatches, and the second begins
+// within a fill.
+TEST(GripBackend, ForcesOfGripsTogetherHaveTheBitsOfForcesOneByOne) {
+  Scene scene = wet({beaker1()});
+  scene.liquid->fills = {0, 0.3, 0.6};
+  scene.tilts.clear();
+  for (int k = 0; k < 100; ++k) scene.tilts.push_back(radians(k));
+  ASSERT_GT(scene.tilts.size() * scene.liquid->fills.size(), std::size_t{STATES_IN_BLOCK});
+  const FieldSet fields = make_field_set({FIELD_SCORE, FIELD_STATUS, FIELD_PEAK_FORCE, FIELD_PEAK_TILT, FIELD_LARGEST_HOLD,
+                                          FIELD_SAFE_TILT, FIELD_TORQUE, FIELD_HOLD_FORCE},
+                                         scene);
+  for (const bool all_states : {true, false}) {
+    if (!all_states) scene.until_poured = 0.95;
+    std::vector<std::unique_ptr<GripBackend>> backends;
+    for (const std::uint32_t together : {1u, 3u, 4u}) {
+      GripBackendOptions options;
+      options.forces_together = together;
+      backends.push_back(backend_of(scene, fields, options));
+    }
+    for (const std::size_t count : {1u, 2u, 3u, 5u, 257u}) {
+      const auto grips = sample_grips(scene.vessels[0], count, 3);
+      const GatheredPlanes one_by_one = gather(*backends[0], 0, grips);
+      for (const std::size_t k : {1u, 2u})
+        EXPECT_EQ(differences(one_by_one, gather(*backends[k], 0, grips)), 0u) << count << " grips";
+    }
+  }
+}
+
 // One device for several frictions, as [robust] needs it: to the bits of a device that was opened for each.
 TEST(GripBackend, AnotherFrictionGivesTheBitsOfADeviceOpenedWithIt) {
   Scene scene = scene_of({beaker1(), beaker3()});

@@ -175,7 +175,8 @@ TEST(HostSpecialize, ALoopGoesBackToItsHead) {
 TEST(HostSpecialize, EveryShaderStaysSound) {
   for (const EmbeddedShader& shader : embedded_shaders()) {
     const std::string name = std::string(shader.name) + (shader.precision ? ", double" : ", float");
-    SpecializationBits all{{CONST_TABLE, 1}, {CONST_BETWEEN, 2}, {CONST_CONTACTS, 0}, {CONST_EFFORT_TASK, EFFORT_FRICTION}};
+    SpecializationBits all{
+        {CONST_TABLE, 1}, {CONST_BETWEEN, 2}, {CONST_CONTACTS, 0}, {CONST_EFFORT_TASK, EFFORT_FRICTION}, {CONST_TOGETHER, 4}};
     for (std::uint32_t f = 0; f < FIELDS; ++f) all[CONST_PLANE + f] = f;
     for (const SpecializationBits& bits : {SpecializationBits{}, all, SpecializationBits{{CONST_POSE, POSE_RIGGED}}}) {
       const Words module = specialized(shader.words, bits);
