@@ -26,6 +26,9 @@ shared uint busy_count;
 Vec3 arms[JOINTS], normals[JOINTS];
 Vec3 center, pour;
 Real unit_length, unit_force, gamma, dear;
+// Of the scene, loaded before the loops over states: in them a driver would gather each lane by lane.
+Vec3 own_center;
+Real gravity;
 Real friction;
 Real shares[DIGITS];
 Six displaced;  // what points of Z are less, see EffortSolver::displace
@@ -50,6 +53,8 @@ void load_contacts(uint grip) {
   Real count = Real(0), strongest = Real(0), weakest = NO_DISTANCE;
   center = Vec3(0);
   friction = scene.friction;
+  own_center = Vec3(scene.center_x, scene.center_y, scene.center_z);
+  gravity = scene.gravity;
   displaced = Six(Vec3(0), Vec3(0));
   [[unroll]] for (int j = 0; j < JOINTS; ++j) {
     arms[j] = contact_vector(2 * j, grip);
@@ -102,8 +107,8 @@ Real support(Six direction, out Six point) {
 
 // The wrench that balances the weight, in the units of force and length.
 Six wanted_for(Vec4 weight, Vec4 tilted) {
-  Load load = Load(weight.x, (Real(1) - weight.y) * Vec3(scene.center_x, scene.center_y, scene.center_z), weight.z, weight.w);
-  Vec3 lift = (weight.x * scene.gravity / unit_force) * up_direction(pour, tilted.x, tilted.y);
+  Load load = Load(weight.x, (Real(1) - weight.y) * own_center, weight.z, weight.w);
+  Vec3 lift = (weight.x * gravity / unit_force) * up_direction(pour, tilted.x, tilted.y);
   return Six(lift, cross((load_center(load, pour) - center) / unit_length, lift));
 }
 

@@ -12,31 +12,31 @@
 #define QUICK_RAISES 20  // of the friction for one state, after which its range is halved
 #define PUSHES 7u        // the weight alone, and a force along six directions
 
-// h(u) at a friction, and how it grows with it.
-void reach(Six direction, Real at, out Real height, out Real slope) {
-  Real most[DIGITS], slopes[DIGITS];
-  [[unroll]] for (int digit = 0; digit < DIGITS; ++digit) most[digit] = slopes[digit] = Real(0);
-  [[unroll]] for (int j = 0; j < JOINTS; ++j) {
-    int digit = digit_of(j);
-    Real along = press(arms[j], normals[j], Real(0), gamma, direction);
-    Real across = press(arms[j], normals[j], Real(1), gamma, direction) - along;
-    bool is_more = along + at * across > most[digit];
-    most[digit] = is_more ? along + at * across : most[digit];
-    slopes[digit] = is_more ? across : slopes[digit];
-  }
-  height = slope = Real(0);
-  [[unroll]] for (int digit = 0; digit < DIGITS; ++digit) {
-    height += shares[digit] * most[digit];
-    slope += shares[digit] * slopes[digit];
-  }
-}
-
-// The friction at which h(u) comes to a value: Newton's method, as EffortSolver::least_friction.
+// The friction at which h(u) comes to a value: Newton's method, as EffortSolver::least_friction. What each contact does along u without friction, and
+// what a friction of 1 adds, are found once: they take most of the time, and are the same in all turns.
 Real least_friction(Six direction, Real value) {
+  Real along[JOINTS], across[JOINTS];
+  [[unroll]] for (int j = 0; j < JOINTS; ++j) {
+    along[j] = press(arms[j], normals[j], Real(0), gamma, direction);
+    across[j] = press(arms[j], normals[j], Real(1), gamma, direction) - along[j];
+  }
   Real least = friction;
-  for (int turn = 0; turn < JOINTS; ++turn) {
-    Real height, slope;
-    reach(direction, least, height, slope);
+  [[dont_unroll]] for (int turn = 0; turn < JOINTS; ++turn) {
+    // h(u), and how it grows with the friction
+    Real most[DIGITS], slopes[DIGITS];
+    [[unroll]] for (int digit = 0; digit < DIGITS; ++digit) most[digit] = slopes[digit] = Real(0);
+    [[unroll]] for (int j = 0; j < JOINTS; ++j) {
+      int digit = digit_of(j);
+      Real does = along[j] + least * across[j];
+      bool is_more = does > most[digit];
+      most[digit] = is_more ? does : most[digit];
+      slopes[digit] = is_more ? across[j] : slopes[digit];
+    }
+    Real height = Real(0), slope = Real(0);
+    [[unroll]] for (int digit = 0; digit < DIGITS; ++digit) {
+      height += shares[digit] * most[digit];
+      slope += shares[digit] * slopes[digit];
+    }
     if (turn > 0 && !(height > value)) return height < value && least >= MOST_FRICTION ? INFINITE : least;
     Real step = (height - value) / slope;
     Real next = slope > Real(0) ? clamp(least - step, Real(0), MOST_FRICTION) : height < value ? MOST_FRICTION : least;
@@ -48,9 +48,9 @@ Real least_friction(Six direction, Real value) {
 
 // The weight upright at the largest fill, or a force of 1 N along an axis at its centre.
 Six wanted_push(uint k) {
-  Vec3 fixed_center = (Real(1) - scene.largest_share) * Vec3(scene.center_x, scene.center_y, scene.center_z);
+  Vec3 fixed_center = (Real(1) - scene.largest_share) * own_center;
   Vec3 at = load_center(Load(scene.largest_mass, fixed_center, Real(0), scene.largest_height), pour);
-  Vec3 lift = Vec3(Real(0), scene.largest_mass * scene.gravity / unit_force, Real(0));
+  Vec3 lift = Vec3(Real(0), scene.largest_mass * gravity / unit_force, Real(0));
   if (k > 0u) {
     lift = Vec3(0);
     lift[(k - 1u) / 2u] = ((k & 1u) == 1u ? Real(-1) : Real(1)) / unit_force;
@@ -140,6 +140,10 @@ void main() {
       is_solving = false;
       if (!has_basis && is_warm && !is_first) continue;  // once more from the start
       bool is_held = solve.effort * (Real(1) - HALF_TOLERANCE) <= Real(1);
+      // one call for both that ask: each call is compiled for itself
+      bool asks = TASK == EFFORT_FRICTION && (is_first || (!is_held && !(friction >= MOST_FRICTION)));
+      Real asked = friction;
+      [[dont_unroll]] for (; asks; asks = false) asked = least_friction(solve.cut, dot6(solve.cut, solve.wanted));
       if (TASK == EFFORT_PUSH) {
         bool is_alone = k == 0u;
         worst = is_alone ? (solve.effort < Real(1) ? worst : INFINITE) : max(worst, solve.effort);
@@ -147,7 +151,7 @@ void main() {
         if (is_alone) displaced = solve.wanted;
         has_basis = has_basis && !is_alone;
       } else if (is_first) {
-        friction = min(MOST_FRICTION, least_friction(solve.cut, dot6(solve.cut, solve.wanted)));
+        friction = min(MOST_FRICTION, asked);
         low = friction;
         is_first = false;
         has_basis = false;
@@ -164,7 +168,7 @@ void main() {
         if (is_held) {
           high = friction;
         } else {
-          low = max(friction, least_friction(solve.cut, dot6(solve.cut, solve.wanted)));
+          low = max(friction, asked);
         }
         friction = min(MOST_FRICTION, max(low + FRICTION_STEP, raises < QUICK_RAISES ? Real(0) : (low + high) / Real(2)));
         has_basis = has_basis && friction >= before;
