@@ -52,12 +52,23 @@ function(wholehand_quick_build)
   endforeach()
 endfunction()
 
+# wholehand_inlined(LIST): options with which Clang inlines what a sanitizer has made long. Else it leaves even an element of an array to a call,
+# and the linker may take the copy of a file that is not optimized: a solve for efforts then takes three times as long.
+function(wholehand_inlined list)
+  set(options)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    set(options -mllvm -inline-threshold=2000)
+  endif()
+  set(${list} ${options} PARENT_SCOPE)
+endfunction()
+
 # wholehand_loops(FOLDER STEM ...): nothing but loops, and most of what a sanitized run would wait for: optimized there too.
 function(wholehand_loops folder)
   if(WHOLEHAND_SANITIZE)
+    wholehand_inlined(inlined)
     foreach(stem IN LISTS ARGN)
       set_source_files_properties("${PROJECT_SOURCE_DIR}/${folder}/${stem}.cpp"
-        PROPERTIES COMPILE_OPTIONS -O2 SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
+        PROPERTIES COMPILE_OPTIONS "-O2;${inlined}" SKIP_PRECOMPILE_HEADERS ON SKIP_UNITY_BUILD_INCLUSION ON)
     endforeach()
   endif()
 endfunction()

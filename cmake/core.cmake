@@ -19,9 +19,11 @@ endfunction()
 
 # Kernels are small functions that call each other from file to file, a million times a second. GCC keeps most of these calls, unless it
 # sees all files at once and may let the code grow. A grip then takes a quarter less time, to the same bits. With sanitizers it is the
-# build that would take long.
+# build that would take long; Clang has a higher limit for inlining there.
 function(core_inlined name)
   if(WHOLEHAND_SANITIZE)
+    wholehand_inlined(inlined)
+    target_compile_options(${name} PRIVATE ${inlined})
     wholehand_together(${name} 8)
     return()
   endif()
