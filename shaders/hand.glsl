@@ -12,9 +12,9 @@ struct FingerPoints {
   Vec3 tip;
 };
 
-Vec3 thumb_angles(Real closure) { return hand_table[HAND_THUMB_OPEN].xyz + closure * hand_table[HAND_THUMB_SWING].xyz; }
+Vec3 thumb_angles(Real closure) { return hand_vectors[HAND_THUMB_OPEN].xyz + closure * hand_vectors[HAND_THUMB_SWING].xyz; }
 
-Vec3 finger_angles(Real closure) { return hand_table[HAND_FINGER_OPEN].xyz + closure * hand_table[HAND_FINGER_SWING].xyz; }
+Vec3 finger_angles(Real closure) { return hand_vectors[HAND_FINGER_OPEN].xyz + closure * hand_vectors[HAND_FINGER_SWING].xyz; }
 
 Vec3 segment_end(FingerFrame frame, Vec3 start, Real length, Real angle) {
   Real s, c;
@@ -51,8 +51,8 @@ Vec3 tip_to_tip(Real closure, out Vec3 slope) {
   FingerPoints opposing = thumb_points(thumb, thumb_lengths, thumb_angle);
   Vec3 s1 = finger.pip - index_mcp, s2 = finger.dip - finger.pip, s3 = finger.tip - finger.dip;
   Vec3 t1 = opposing.pip - thumb.base, t2 = opposing.dip - opposing.pip, t3 = opposing.tip - opposing.dip;
-  Vec3 w = hand_table[HAND_FINGER_SWING].xyz;
-  Vec3 v = hand_table[HAND_THUMB_SWING].xyz;
+  Vec3 w = hand_vectors[HAND_FINGER_SWING].xyz;
+  Vec3 v = hand_vectors[HAND_THUMB_SWING].xyz;
   Vec3 bend = w.x * s1 + (w.x + w.y) * s2 + (w.x + w.y + w.z) * s3;
   Vec3 fold = v.x * t1 + (v.x - v.y) * t2 + (v.x - v.y - v.z) * t3;
   slope = dot(bend, index.forward) * index.palmward - dot(bend, index.palmward) * index.forward -

@@ -43,10 +43,6 @@ struct FingerWatch {
 
 // Of FingerWatch in the core. Not in the struct, which is copied.
 Real until[PLACES];
-// The joints' limits and the largest turn of one, for turn_joint. Loaded before the loop: in it a driver would gather them lane by lane.
-// (A macro: the core has no such function.)
-Vec4 joint_stops;
-#define LOAD_JOINT_STOPS joint_stops = Vec4(hand_table[HAND_JOINT_LIMIT].xyz, HAND_MAX_ANGLE)
 
 struct RestingFinger {
   Vec3 angles;
@@ -115,15 +111,15 @@ int nearest_point(Vec3 separations, int first) {
 }
 
 FingerMotion start_motion(Real limit) {
-  return FingerMotion(chain_sums(finger_angles(Real(0))), chain_sums(hand_table[HAND_FINGER_SWING].xyz), -1, Real(0), limit, 0, false, false);
+  return FingerMotion(chain_sums(finger_angles(Real(0))), chain_sums(hand_vectors[HAND_FINGER_SWING].xyz), -1, Real(0), limit, 0, false, false);
 }
 
 FingerMotion turn_joint(FingerMotion motion, int joint) {
   Vec3 here = segment_angles(motion);
-  Vec3 stops = joint_stops.xyz;
+  Vec3 stops = hand_vectors[HAND_JOINT_LIMIT].xyz;
   Real room = joint == 0 ? stops.x - here.x : joint == 1 ? stops.y - (here.y - here.x) : stops.z - (here.z - here.y);
   Vec3 rates = Vec3(joint == 0 ? Real(1) : Real(0), joint <= 1 ? Real(1) : Real(0), Real(1));
-  return FingerMotion(here, rates, joint, Real(0), larger(Real(0), smaller(joint_stops.w, room)), 0, motion.blocked, motion.unsettled);
+  return FingerMotion(here, rates, joint, Real(0), larger(Real(0), smaller(HAND_MAX_ANGLE, room)), 0, motion.blocked, motion.unsettled);
 }
 
 int place_to_see(int number, int joint, int touched) {
@@ -174,9 +170,13 @@ RestingFinger rest_finger(Finger finger, Real limit) {
   RestingFinger resting;
   FingerMotion motion = start_motion(limit);
   FingerWatch watch = FingerWatch(Vec3(0), Vec3(0), Vec3(NO_DISTANCE), 0, -1, true, true);
-  LOAD_JOINT_STOPS;
   for (int k = 0; k < PLACES; ++k) until[k] = Real(0);
+  Vec3 swing = motion.rates;
   for (;;) {
+    // told by the joint, and so not kept from turn to turn
+    bool swings = motion.joint < 0;
+    motion.rates = Vec3(swings ? swing.x : motion.joint == 0 ? Real(1) : Real(0), swings ? swing.y : motion.joint <= 1 ? Real(1) : Real(0),
+                        swings ? swing.z : Real(1));
     Place place = watched_place(finger, bend_finger(finger.lengths, segment_angles(motion)), motion.rates, watch.number);
     Support support = support_at(place.ball.place);
     Real separation = support.distance - place.ball.radius;
@@ -205,7 +205,6 @@ RestingFinger rest_finger(Finger finger, Real limit) {
     watch.touched = meets ? watch.number : turns ? -1 : watch.touched;
     FingerMotion turned = turn_joint(motion, joint);
     motion.origin = turns ? turned.origin : motion.origin;
-    motion.rates = turns ? turned.rates : motion.rates;
     motion.joint = joint;
     motion.at = turns ? Real(0) : motion.at;
     motion.end = turns ? turned.end : motion.end;

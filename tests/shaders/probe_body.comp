@@ -10,6 +10,7 @@
 Vec2 given2(int k) { return Vec2(given(k), given(k + 1)); }
 
 void main() {
+  load_hand();
   if (row() >= push.count) return;
   if (PROBE == PROBE_BALL_BETWEEN) {
     Ball ball = ball_between(given3(0), given3(3), given(6), given(7), given(8));

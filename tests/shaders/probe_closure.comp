@@ -7,6 +7,7 @@
 #include "probe.glsl"
 
 void main() {
+  load_hand();
   if (row() >= push.count) return;
   load_outline();
   if (PROBE == PROBE_TRACE_TIP) {

@@ -15,6 +15,7 @@ void answer_points(FingerPoints points) {
 }
 
 void main() {
+  load_hand();
   if (row() >= push.count) return;
   if (PROBE == PROBE_TRAJECTORY) {
     answer3(0, thumb_angles(given(0)));

@@ -16,6 +16,7 @@ Place given_place() {
 }
 
 void main() {
+  load_hand();
   if (row() >= push.count) return;
   load_outline();
   if (PROBE == PROBE_CHAIN_SUMS) answer3(0, chain_sums(given3(0)));
@@ -58,7 +59,6 @@ void main() {
   if (PROBE == PROBE_TURN_JOINT) {
     FingerMotion motion = FingerMotion(given3(0), given3(3), given_int(6), given(7), given(8), given_int(9), given_int(10) != 0,
                                        given_int(11) != 0);
-    LOAD_JOINT_STOPS;
     motion = turn_joint(motion, given_int(12));
     answer3(0, motion.origin);
     answer3(3, motion.rates);
