@@ -19,8 +19,8 @@ struct GripBackendOptions {
   EvaluatorOptions evaluator;                   // as the core's: lattice instead of outline, tolerances, ..
   DeviceOptions device;
   StreamOptions stream;
-  std::uint32_t forces_together =
-      0;  // grips of an invocation of the kernel of forces; 0: what suits the device. The bits are the same
+  // Grips of an invocation of the kernel of forces; 0: what suits the device. The bits are the same.
+  std::uint32_t forces_together = 0;
   std::span<const EmbeddedShader>
       shaders{};  // in place of those of the same name that the program has, to compare; they outlive the backend
 };

@@ -3,9 +3,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-uint stride;  // push.stride, loaded first as the hand is (hand_table.glsl)
-#define STRIDE stride
-
 #include "body.glsl"
 #include "closure.glsl"
 #include "contact.glsl"
@@ -299,7 +296,6 @@ void rest_hand(Closing closing) {
 
 void main() {
   load_hand();
-  stride = push.stride;
   grip = INVOCATION;
   if (grip >= push.count) return;
   // kernel 3: where the hand closes, or why it does not

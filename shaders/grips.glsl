@@ -7,6 +7,6 @@
 
 layout(std430, binding = BINDING_GRIPS) readonly buffer GripBlock { Real grips_in[]; };
 
-Real grip_axis(int axis, uint grip) { return grips_in[uint(axis) * STRIDE + grip]; }
+Real grip_axis(int axis, uint grip) { return grips_in[uint(axis) * push.stride + grip]; }
 
 #endif

@@ -16,8 +16,8 @@ struct FingerFrame {
 layout(constant_id = CONST_GAP_TABLE_SIZE) const int GAP_ENTRIES = GAP_TABLE_SIZE;
 layout(std140, binding = BINDING_HAND) uniform HandBlock { Vec4 hand_table[HAND_VECTORS]; };
 
-// All of it but the table of gaps. `main` loads it first of all: there alone lavapipe reads a constant place once for all lanes. In a loop, in a branch,
-// and where a lane may have returned, it gathers lane by lane.
+// All of it but the table of gaps. `main` loads it first of all: there alone lavapipe reads a constant place once for all lanes. In a
+// loop, in a branch, and where a lane may have returned, it gathers lane by lane.
 Vec4 hand_vectors[HAND_TABLE];
 
 void load_hand() {
@@ -37,7 +37,7 @@ FingerFrame hand_frame(int finger) {
 
 // L0, L1, L2, L3 and the radii from the metacarpal base to the tip, at scale 1.
 Real hand_length(int finger, int segment) {
-    return segment == 0   ? finger_vector(finger, 0).w
+  return segment == 0   ? finger_vector(finger, 0).w
          : segment == 1 ? finger_vector(finger, 1).w
          : segment == 2 ? finger_vector(finger, 2).w
                         : finger_vector(finger, 4).y;

@@ -13,11 +13,11 @@ layout(std430, binding = BINDING_REAL_OUT) buffer RealBlock { Real real_out[]; }
 layout(std430, binding = BINDING_UINT_OUT) buffer UintBlock { uint uint_out[]; };
 
 void put_real(int plane, int offset, uint grip, Real value) {
-  if (plane >= 0) real_out[uint(plane + offset) * STRIDE + grip] = value;
+  if (plane >= 0) real_out[uint(plane + offset) * push.stride + grip] = value;
 }
 
 void put_uint(int plane, uint grip, uint value) {
-  if (plane >= 0) uint_out[uint(plane) * STRIDE + grip] = value;
+  if (plane >= 0) uint_out[uint(plane) * push.stride + grip] = value;
 }
 
 void put_point(int plane, int point, uint grip, Vec3 value) {

@@ -171,12 +171,7 @@ RestingFinger rest_finger(Finger finger, Real limit) {
   FingerMotion motion = start_motion(limit);
   FingerWatch watch = FingerWatch(Vec3(0), Vec3(0), Vec3(NO_DISTANCE), 0, -1, true, true);
   for (int k = 0; k < PLACES; ++k) until[k] = Real(0);
-  Vec3 swing = motion.rates;
   for (;;) {
-    // told by the joint, and so not kept from turn to turn
-    bool swings = motion.joint < 0;
-    motion.rates = Vec3(swings ? swing.x : motion.joint == 0 ? Real(1) : Real(0), swings ? swing.y : motion.joint <= 1 ? Real(1) : Real(0),
-                        swings ? swing.z : Real(1));
     Place place = watched_place(finger, bend_finger(finger.lengths, segment_angles(motion)), motion.rates, watch.number);
     Support support = support_at(place.ball.place);
     Real separation = support.distance - place.ball.radius;
@@ -205,6 +200,7 @@ RestingFinger rest_finger(Finger finger, Real limit) {
     watch.touched = meets ? watch.number : turns ? -1 : watch.touched;
     FingerMotion turned = turn_joint(motion, joint);
     motion.origin = turns ? turned.origin : motion.origin;
+    motion.rates = turns ? turned.rates : motion.rates;
     motion.joint = joint;
     motion.at = turns ? Real(0) : motion.at;
     motion.end = turns ? turned.end : motion.end;

@@ -64,9 +64,4 @@ layout(push_constant) uniform PushBlock {
   uint floor_high;
 } push;
 
-// The distance between planes. A kernel may define it as a variable that it loads first (hand_table.glsl says why).
-#ifndef STRIDE
-#define STRIDE push.stride
-#endif
-
 #endif
