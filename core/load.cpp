@@ -90,6 +90,7 @@ Element load_element(const wholehand::PreparedElement& element) {
   loaded.center = to_vec2(element.center);
   loaded.radius = Real(element.radius);
   loaded.side = element.side;
+  loaded.supports = element.supports;
   return loaded;
 }
 

@@ -10,6 +10,7 @@
 #include "core/lattice.h"
 #include "core/load.h"
 #include "core/mesh_body.h"
+#include "core/supports.h"
 
 namespace wholehand {
 namespace {
@@ -243,6 +244,7 @@ PreparedVessel prepare_vessel(const VesselData& vessel, bool needs_cavity) {
     prepared.outline = prepared.hull;
     prepared.lid = static_cast<int>(prepared.hull.size()) - 1;
   }
+  mark_supports(prepared.outline);
   set_bounds(prepared);
   return prepared;
 }

@@ -18,6 +18,7 @@ struct PreparedElement {
   std::array<double, 2> a{}, b{}, center{};
   double radius = 0;
   int side = 0;
+  int supports = 0;  // SUPPORTS_*; of an outline's elements alone (core/supports.h)
 };
 
 struct PreparedVessel {

@@ -100,6 +100,13 @@ bool element_convex(const Element& element, Vec2 q) {
   return element.side == 0 || ((element.side > 0) == up && element_spans(element, q));
 }
 
+bool element_supports(const Element& element, Vec2 q) {
+  const Vec2 from_a = q - element.a;
+  const Vec2 from_b = q - element.b;
+  const int end = glm::dot(from_a, from_a) <= glm::dot(from_b, from_b) ? SUPPORTS_AT_A : SUPPORTS_AT_B;
+  return (element.supports & (element_spans(element, q) ? SUPPORTS_BETWEEN : end)) != 0;
+}
+
 Nearest nearest_element(const Vessel& vessel, Vec2 q, bool& inside) {
   Nearest nearest;
   int side = 0;
@@ -229,7 +236,8 @@ Vec3 distance_gradient(const Vessel& vessel, Vec3 p, int& element) {
 
 // A segment is convex, and so is the disc of an arc that bulges outwards: each lies beyond the tangent plane at its nearest point, in the
 // half plane and, where the normal does not point to the axis, as the surface that it sweeps round the axis too. Elements tied with the
-// nearest share its end and its plane. Where nothing of this holds, only the distance itself is known.
+// nearest share its end and its plane. Where the plane supports the whole outline, no other element holds a step back. Where nothing of this
+// holds, only the distance itself is known.
 Support support_at(const Vessel& vessel, Vec3 p) {
   Support support;
   if (vessel.is_lattice) {
@@ -243,8 +251,8 @@ Support support_at(const Vessel& vessel, Vec3 p) {
   const Nearest nearest = nearest_element(vessel, q, inside);
   const Real distance = std::sqrt(nearest.distance_squared);
   support.distance = inside ? -distance : distance;
-  support.other = std::sqrt(nearest.other_squared);
   const Element& element = vessel.outline[nearest.element];
+  support.other = element_supports(element, q) ? Real(FAR_AWAY) : std::sqrt(nearest.other_squared);
   const Vec2 outward = element_outward(element, q, inside ? Real(-1) : Real(1));
   const Vec2 normal = outward * (Real(1) / std::sqrt(glm::dot(outward, outward)));
   support.element = nearest.element;

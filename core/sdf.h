@@ -12,11 +12,13 @@ namespace CORE_NS {
 
 // One y-monotone element of a half outline in the (r, y) half plane, from a to b. `side` 0: a line; +1: an arc on the half
 // r >= center.x of its circle; -1: on the other half. The interior lies to the left of a -> b. A line has no center: its unit outward
-// normal stands there, so that its distance costs no division.
+// normal stands there, so that its distance costs no division. `supports` (SUPPORTS_*): where the element's tangent is a supporting line of the
+// outline, so that nothing of the outline lies beyond it.
 struct Element {
   Vec2 a{}, b{}, center{};
   Real radius = 0;
   int side = 0;
+  int supports = 0;
 };
 
 // Samples on a regular lattice, x fastest: sample (k * ny + j) * nx + i at origin + spacing * (i, j, k). They are stored alike for every
@@ -60,8 +62,9 @@ struct Nearest {
 };
 
 // What is known of the surroundings of a point: its signed distance and the unit gradient `normal`; and, where `planar`, that the nearest
-// element lies wholly beyond the plane at that distance with that normal, while every other element is at least `other` away. m. On a lattice
-// the normal is left at zero: nothing there is planar, and the gradient costs as much as the distance (distance_gradient has it).
+// element lies wholly beyond the plane at that distance with that normal, while every other element is at least `other` away or lies
+// beyond the plane too; where all do, `other` is FAR_AWAY. m. On a lattice the normal is left at zero: nothing there is planar, and the
+// gradient costs as much as the distance (distance_gradient has it).
 struct Support {
   Real distance = 0;
   Real other = 0;
@@ -90,6 +93,8 @@ Vec2 outward_of(const Element& element, Vec2 q, bool& at_end);
 Vec2 element_outward(const Element& element, Vec2 q, Real sign);
 // Whether the element, seen from q outside, lies beyond its tangent plane at the nearest point.
 bool element_convex(const Element& element, Vec2 q);
+// Whether the whole outline does, as `supports` tells for the place of the nearest point.
+bool element_supports(const Element& element, Vec2 q);
 // Nearest element of the outline (of equally near ones the first) and the crossing parity.
 Nearest nearest_element(const Vessel& vessel, Vec2 q, bool& inside);
 // Signed distance in the half plane, and its unit gradient there.

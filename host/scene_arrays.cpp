@@ -20,7 +20,8 @@ namespace {
 
 void append_elements(std::vector<double>& out, const std::vector<PreparedElement>& elements) {
   for (const auto& e : elements)
-    out.insert(out.end(), {e.a[0], e.a[1], e.b[0], e.b[1], e.center[0], e.center[1], e.radius, static_cast<double>(e.side)});
+    out.insert(out.end(),
+               {e.a[0], e.a[1], e.b[0], e.b[1], e.center[0], e.center[1], e.radius, static_cast<double>(e.side + 4 * e.supports)});
 }
 
 std::vector<double> hand_table(const PreparedHand& prepared, const HandData& data) {

@@ -10,8 +10,8 @@ layout(std430, binding = BINDING_QUADRATURE) readonly buffer QuadratureBlock { R
 
 Element cavity_element(int i) {
   int at = OUTLINE_STRIDE * i;
-  return Element(Vec2(cavity_values[at], cavity_values[at + 1]), Vec2(cavity_values[at + 2], cavity_values[at + 3]),
-                 Vec2(cavity_values[at + 4], cavity_values[at + 5]), cavity_values[at + 6], int(cavity_values[at + 7]));
+  return make_element(Vec2(cavity_values[at], cavity_values[at + 1]), Vec2(cavity_values[at + 2], cavity_values[at + 3]),
+                      Vec2(cavity_values[at + 4], cavity_values[at + 5]), cavity_values[at + 6], cavity_values[at + 7]);
 }
 
 #define QUADRATURE_COUNT int(scene.quadrature_count)

@@ -11,6 +11,13 @@ struct Element {
   Vec2 center;
   Real radius;
   int side;
+  int supports;
 };
+
+// From a record: layout.h tells what `code` holds.
+Element make_element(Vec2 a, Vec2 b, Vec2 center, Real radius, Real code) {
+  int supports = (int(code) + 1) >> 2;
+  return Element(a, b, center, radius, int(code) - 4 * supports, supports);
+}
 
 #endif

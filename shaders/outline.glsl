@@ -19,8 +19,8 @@ layout(std430, binding = BINDING_OUTLINE) readonly buffer OutlineBlock { Real ou
 #define OUTLINE_LOOP
 Element outline_element(int i) {
   int at = OUTLINE_STRIDE * i;
-  return Element(Vec2(outline_values[at], outline_values[at + 1]), Vec2(outline_values[at + 2], outline_values[at + 3]),
-                 Vec2(outline_values[at + 4], outline_values[at + 5]), outline_values[at + 6], int(outline_values[at + 7]));
+  return make_element(Vec2(outline_values[at], outline_values[at + 1]), Vec2(outline_values[at + 2], outline_values[at + 3]),
+                      Vec2(outline_values[at + 4], outline_values[at + 5]), outline_values[at + 6], outline_values[at + 7]);
 }
 void load_outline() {}
 
@@ -35,7 +35,7 @@ void load_outline() {
   OUTLINE_LOOP for (int i = 0; i < OUTLINE_COUNT; ++i) {
     Vec4 ends = outline_values[2 * i];
     Vec4 rest = outline_values[2 * i + 1];
-    outline_copy[i] = Element(ends.xy, ends.zw, rest.xy, rest.z, int(rest.w));
+    outline_copy[i] = make_element(ends.xy, ends.zw, rest.xy, rest.z, rest.w);
   }
 }
 

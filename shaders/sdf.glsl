@@ -11,7 +11,7 @@ struct Nearest {
   Real other_squared;
   bool curved_tie;
   Vec2 outward;
-  bool at_end, convex;
+  bool at_end, convex, supports;
 };
 
 struct Support {
@@ -102,11 +102,18 @@ bool element_convex(Element element, Vec2 q) {
   return element.side == 0 || ((element.side > 0) == up && element_spans(element, q));
 }
 
+bool element_supports(Element element, Vec2 q) {
+  Vec2 from_a = q - element.a;
+  Vec2 from_b = q - element.b;
+  int end = dot(from_a, from_a) <= dot(from_b, from_b) ? SUPPORTS_AT_A : SUPPORTS_AT_B;
+  return (element.supports & (element_spans(element, q) ? SUPPORTS_BETWEEN : end)) != 0;
+}
+
 // What belongs to the nearest element is picked by comparison as the loop goes, never by indexing with its number: a constant table indexed at
 // run time is what drivers compile slowest.
 Nearest nearest_element(Vec2 q, out bool inside) {
   COUNT_LANES(true);
-  Nearest nearest = Nearest(0, NO_DISTANCE, NO_DISTANCE, false, Vec2(1, 0), false, false);
+  Nearest nearest = Nearest(0, NO_DISTANCE, NO_DISTANCE, false, Vec2(1, 0), false, false, false);
   int side = 0;
   bool follows = false;
   inside = false;
@@ -128,6 +135,7 @@ Nearest nearest_element(Vec2 q, out bool inside) {
     nearest.outward = nearer ? outward : nearest.outward;
     nearest.at_end = nearer ? at_end : nearest.at_end;
     nearest.convex = nearer ? element_convex(element, q) : nearest.convex;
+    nearest.supports = nearer ? element_supports(element, q) : nearest.supports;
     inside = inside != element_crosses(element, q);
     follows = nearer;
   }
@@ -253,7 +261,7 @@ Support support_at(Vec3 p) {
   Nearest nearest = nearest_element(q, inside);
   Real distance = sqrt(nearest.distance_squared);
   support.distance = inside ? -distance : distance;
-  support.other = sqrt(nearest.other_squared);
+  support.other = nearest.supports ? Real(FAR_AWAY) : sqrt(nearest.other_squared);
   Vec2 normal = nearest.outward * (Real(1) / sqrt(dot(nearest.outward, nearest.outward)));
   support.element = nearest.element;
   support.planar = nearest.convex && !inside && !nearest.curved_tie && normal.x >= Real(0);

@@ -61,6 +61,7 @@ std::vector<PreparedElement> plain_elements() {
       elements.push_back(arc(side * bx, by, side * ax, ay, side));
     }
   }
+  for (std::size_t i = 0; i < elements.size(); ++i) elements[i].supports = static_cast<int>(i % 8);
   return elements;
 }
 
@@ -68,21 +69,23 @@ std::vector<PreparedElement> plain_elements() {
 // which
 // Vulkan gives to some units. At the centre there is nothing to round.
 bool on_edge_of_sector(const double* given) {
-  const double side = given[7], x = given[8] - given[4], y = given[9] - given[5], square = x * x + y * y;
+  const int code = static_cast<int>(given[7]), side = code - 4 * ((code + 1) >> 2);  // layout.h
+  const double x = given[8] - given[4], y = given[9] - given[5], square = x * x + y * y;
   if (side == 0 || side * x < 0 || square == 0) return false;
   const auto same = [&](double end) { return y * std::abs(y) * given[6] * given[6] == end * std::abs(end) * square; };
   return same(given[1] - given[5]) || same(given[3] - given[5]);
 }
 
 Leaf element_leaf(double scale) {
-  return {
-      .shader = "probe_sdf",
-      .probe = PROBE_ELEMENT,
-      .inputs = 11,
-      .outputs = together(std::vector<Output>{{"distance", scale}, {"crosses", 1, true}, {"spans", 1, true}, {"convex", 1, true}},
-                          repeated("outward", 2, scale)),
-      .undecided = ONE_IN_A_THOUSAND,
-      .fixed = {7, 10}};
+  return {.shader = "probe_sdf",
+          .probe = PROBE_ELEMENT,
+          .inputs = 11,
+          .outputs = together(
+              std::vector<Output>{
+                  {"distance", scale}, {"crosses", 1, true}, {"spans", 1, true}, {"convex", 1, true}, {"supports", 1, true}},
+              repeated("outward", 2, scale)),
+          .undecided = ONE_IN_A_THOUSAND,
+          .fixed = {7, 10}};
 }
 
 TEST_F(ParityLeaf, ElementByExactArithmetic) {
@@ -101,7 +104,7 @@ TEST_F(ParityLeaf, ElementByExactArithmetic) {
   }
   // the normal is given or one exact difference
   Leaf leaf = element_leaf(2 * SIDE_UNITS * UNIT);
-  for (std::size_t k = 4; k < 6; ++k) leaf.outputs[k].discrete = true;
+  for (std::size_t k = 5; k < 7; ++k) leaf.outputs[k].discrete = true;
   leaf.exact = true;
   leaf.hinges = on_edge_of_sector;
   compare(leaf, build.table, three_beakers());

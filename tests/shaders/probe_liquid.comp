@@ -7,7 +7,7 @@
 #include "probe.glsl"
 
 Element given_element() {
-  return Element(Vec2(given(0), given(1)), Vec2(given(2), given(3)), Vec2(given(4), given(5)), given(6), given_int(7));
+  return make_element(Vec2(given(0), given(1)), Vec2(given(2), given(3)), Vec2(given(4), given(5)), given(6), given(7));
 }
 
 void answer_slices(Slices slices) {

@@ -7,7 +7,7 @@
 #include "probe.glsl"
 
 Vec2 given2(int k) { return Vec2(given(k), given(k + 1)); }
-Element given_element() { return Element(given2(0), given2(2), given2(4), given(6), given_int(7)); }
+Element given_element() { return make_element(given2(0), given2(2), given2(4), given(6), given(7)); }
 
 void main() {
   if (row() >= push.count) return;
@@ -44,8 +44,9 @@ void main() {
     answer(1, Real(element_crosses(element, q)));
     answer(2, Real(element_spans(element, q)));
     answer(3, Real(element_convex(element, q)));
-    answer(4, outward.x);
-    answer(5, outward.y);
+    answer(4, Real(element_supports(element, q)));
+    answer(5, outward.x);
+    answer(6, outward.y);
   }
   if (PROBE == PROBE_PROXY) {
     bool settled;

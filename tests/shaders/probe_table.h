@@ -16,13 +16,13 @@
 #define PROBE_TIP_TO_TIP 13      // closure; way, slope, gap
 #define PROBE_CLOSURE_OF_GAP 14  // gap; closure
 #define PROBE_SEGMENT_END 15     // frame, start, length, angle; end
-// probe_sdf; element: a, b, center, radius, side
+// probe_sdf; element: a, b, center, radius, side and supports as layout.h has them
 #define PROBE_SIGNED_DISTANCE 20  // point; distance
 #define PROBE_GRADIENT 21         // point; gradient, element
 #define PROBE_SUPPORT 22          // point; distance, other, normal, element, planar
 #define PROBE_SAFE_STEP 23        // distance, other, normal, planar, separation, velocity, speed, acceleration; step
 #define PROBE_CONTACT 24          // point, radius; separation, proxy, settled
-#define PROBE_ELEMENT 25          // element, q, sign; distance, crosses, spans, convex, outward
+#define PROBE_ELEMENT 25          // element, q, sign; distance, crosses, spans, convex, supports, outward
 #define PROBE_PROXY 26            // point, radius; proxy, settled
 #define PROBE_LOCATE_CELL 27      // point; cell, fraction, outside
 #define PROBE_LATTICE_SAMPLE 28   // i, j, k; sample

@@ -105,7 +105,12 @@ struct Row {
   void read(FingerFrame& value) { read_all(value.base, value.forward, value.palmward); }
   void read(Finger& value) { read_all(value.frame, value.mcp, value.lengths, value.radii); }
   void read(FingerPoints& value) { read_all(value.pip, value.dip, value.tip); }
-  void read(Element& value) { read_all(value.a, value.b, value.center, value.radius, value.side); }
+  void read(Element& value) {
+    int code = 0;  // as layout.h has it
+    read_all(value.a, value.b, value.center, value.radius, code);
+    value.supports = (code + 1) >> 2;
+    value.side = code - 4 * value.supports;
+  }
   void read(Support& value) {
     read_all(value.distance, value.other, value.normal, value.planar);
     value.element = 0;
@@ -218,9 +223,13 @@ void answers_of(const Context& context, const double* given, double* to) {
 
 Real closure_to_tolerance(const Hand& hand, Real gap) { return closure_of_gap(hand, gap, STOP_TOLERANCE); }
 
-std::tuple<Real, bool, bool, bool, Vec2> element_facts(const Element& element, Vec2 q, Real sign) {
-  return {std::sqrt(element_distance_squared(element, q)), element_crosses(element, q), element_spans(element, q),
-          element_convex(element, q), element_outward(element, q, sign)};
+std::tuple<Real, bool, bool, bool, bool, Vec2> element_facts(const Element& element, Vec2 q, Real sign) {
+  return {std::sqrt(element_distance_squared(element, q)),
+          element_crosses(element, q),
+          element_spans(element, q),
+          element_convex(element, q),
+          element_supports(element, q),
+          element_outward(element, q, sign)};
 }
 
 Trace trace_along(const Vessel& vessel, Vec3 origin, Real azimuth, Real obliquity, Real heading, Real radius) {

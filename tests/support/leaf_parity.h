@@ -106,7 +106,14 @@ struct Builder {
   Builder& vec(const Triple& v) { return add(v[0]).add(v[1]).add(v[2]); }
   Builder& point(double size) { return uniform(-size, size).uniform(-size, size).uniform(-size, size); }
   Builder& element(const PreparedElement& e) {
-    return add(e.a[0]).add(e.a[1]).add(e.b[0]).add(e.b[1]).add(e.center[0]).add(e.center[1]).add(e.radius).add(e.side);
+    return add(e.a[0])
+        .add(e.a[1])
+        .add(e.b[0])
+        .add(e.b[1])
+        .add(e.center[0])
+        .add(e.center[1])
+        .add(e.radius)
+        .add(e.side + 4 * e.supports);
   }
 
   Triple direction();
