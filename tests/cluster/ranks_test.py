@@ -611,24 +611,29 @@ class Endings(Job):
     def test_time_and_signals_close_it_cleanly(self):
         path = self.write("large.toml", LARGE)
         self.given(path, "large.nc")
-        code, out, errors = self.run_ranks(2, path, "-o", "timed.nc", "--time-limit", "1")
+        for seconds in (1, 4, 16):  # a busy machine may need some of them to start
+            code, _, errors = self.run_ranks(2, path, "-o", "timed.nc", "--time-limit", str(seconds))
+            if "before the first grip" not in errors:
+                break
         self.assertEqual(code, 130, errors)
         self.assertRegex(errors, r"wholehand: interrupted at [\d,]+ of [\d,]+ grips; the same command with --resume goes on")
-        process = self.start(self.command(3, path, "-o", "timed.nc", "--resume"))
-        time.sleep(1)
-        process.send_signal(signal.SIGUSR1)  # which mpirun hands on, as srun does
-        code, out, errors = self.end(process)
-        self.assertIn(code, (0, 130), errors)
+        before = sum(self.marked("timed.nc").values())
+        process = self.start(self.command(3, path, "-o", "timed.nc", "--resume", "--mark-seconds", "0.05"))
+        errors = self.interrupt(process, "timed.nc", lambda marked: sum(marked.values()) > before)
         self.assertIn("grips are there", errors)
-        if code:
-            code, out, errors = self.run_ranks(1, path, "-o", "timed.nc", "--resume")
-            self.assertEqual(code, 0, errors)
+        code, _, errors = self.run_ranks(1, path, "-o", "timed.nc", "--resume")
+        self.assertEqual(code, 0, errors)
         self.assert_same("large.nc", "timed.nc")
 
     def test_the_time_limit_holds_while_the_best_are_told(self):
         # robust scores that take longer than the grips
-        path = self.write("robust.toml", POINTS.replace("count = 16", "count = 1500").replace("count = 3000", "count = 100"))
-        code, _, errors = self.run_ranks(2, path, "-o", "timed.nc", "--time-limit", "1")
+        for count, best in ((1500, 20), (4096, 20), (4096, 50)):  # until they do on this machine
+            scene = POINTS.replace("count = 16", f"count = {count}").replace("count = 3000", "count = 100")
+            path = self.write("robust.toml", scene + f"[output]\nbest = {best}\n")
+            code, _, errors = self.run_ranks(2, path, "-o", "timed.nc", "--time-limit", "1")
+            if code:
+                break
+            os.remove(self.path("timed.nc"))
         self.assertEqual(code, 130, errors)
         self.assertRegex(errors, r"wholehand: interrupted at [\d,]+ of 200 grips; the same command with --resume goes on")
         self.alone(path, "robust.nc")
