@@ -9,6 +9,12 @@
 # source of the outline. A shader is compiled again when a file that it includes changes: glslangValidator writes the dependencies.
 
 find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
+find_program(SPIRV_OPT spirv-opt REQUIRED)
+find_program(OD od REQUIRED)
+find_program(SED sed REQUIRED)
+# Loops that ask for it are unrolled here, and what this leaves without use is taken away. A driver does the same, in each process anew and
+# more slowly (docs/results). No arithmetic is changed.
+set(SHADER_PASSES --loop-unroll --ccp --eliminate-dead-branches --merge-blocks --eliminate-dead-code-aggressive)
 set(SHADER_TARGET_ENV vulkan1.3)  # group sizes are LocalSizeId then: the device enables maintenance4
 
 # Sets `result` to whether the file or what it includes, at any depth, mentions OUTLINE_SOURCE. The answer is taken when configuring,
@@ -62,13 +68,20 @@ function(embed_shaders target header function)
           string(APPEND name "_${outline}")
           list(APPEND defines -DOUTLINE_SOURCE=${outline})
         endif()
+        set(module "${folder}/${name}.spv")
         set(output "${folder}/${name}.h")
-        add_custom_command(OUTPUT "${output}"
+        add_custom_command(OUTPUT "${module}"
           COMMAND "${GLSLANG_VALIDATOR}" --quiet -Os --target-env ${SHADER_TARGET_ENV} ${defines} "-I${PROJECT_SOURCE_DIR}"
-            "-I${PROJECT_SOURCE_DIR}/shaders" --vn ${name} --depfile "${output}.d" -o "${output}" "${shader}"
+            "-I${PROJECT_SOURCE_DIR}/shaders" --depfile "${module}.d" -o "${module}" "${shader}"
           DEPENDS "${shader}"
-          DEPFILE "${output}.d"
+          DEPFILE "${module}.d"
           COMMENT "Compiling shader ${stem} (${defines})"
+          VERBATIM)
+        add_custom_command(OUTPUT "${output}"
+          COMMAND "${CMAKE_COMMAND}" "-DMODULE=${module}" "-DNAME=${name}" "-DOUTPUT=${output}" "-DSPIRV_OPT=${SPIRV_OPT}" "-DOD=${OD}" "-DSED=${SED}"
+            "-DPASSES=${SHADER_PASSES}" -P "${PROJECT_SOURCE_DIR}/cmake/embed_module.cmake"
+          DEPENDS "${module}" "${PROJECT_SOURCE_DIR}/cmake/embed_module.cmake"
+          COMMENT "Optimizing shader ${name}"
           VERBATIM)
         list(APPEND outputs "${output}")
         string(APPEND includes "#include \"${target}.dir/${name}.h\"\n")
