@@ -236,8 +236,8 @@ Vec3 distance_gradient(const Vessel& vessel, Vec3 p, int& element) {
 
 // A segment is convex, and so is the disc of an arc that bulges outwards: each lies beyond the tangent plane at its nearest point, in the
 // half plane and, where the normal does not point to the axis, as the surface that it sweeps round the axis too. Elements tied with the
-// nearest share its end and its plane. Where the plane supports the whole outline, no other element holds a step back. Where nothing of this
-// holds, only the distance itself is known.
+// nearest share its end and its plane. Where the plane supports the whole outline, no other element holds a step back. Where nothing of
+// this holds, only the distance itself is known.
 Support support_at(const Vessel& vessel, Vec3 p) {
   Support support;
   if (vessel.is_lattice) {

@@ -12,8 +12,8 @@ namespace CORE_NS {
 
 // One y-monotone element of a half outline in the (r, y) half plane, from a to b. `side` 0: a line; +1: an arc on the half
 // r >= center.x of its circle; -1: on the other half. The interior lies to the left of a -> b. A line has no center: its unit outward
-// normal stands there, so that its distance costs no division. `supports` (SUPPORTS_*): where the element's tangent is a supporting line of the
-// outline, so that nothing of the outline lies beyond it.
+// normal stands there, so that its distance costs no division. `supports` (SUPPORTS_*): where the element's tangent is a supporting line
+// of the outline, so that nothing of the outline lies beyond it.
 struct Element {
   Vec2 a{}, b{}, center{};
   Real radius = 0;

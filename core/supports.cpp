@@ -43,7 +43,8 @@ bool line_supports(const std::vector<PreparedElement>& outline, std::size_t own)
                      [&](const PreparedElement& other) { return reach(other, normal) <= level + BEYOND_TOLERANCE; });
 }
 
-// Where the tangents at an arc's ends meet: the arc lies in the triangle of this point and its ends. None of an arc of more than 120 degrees.
+// Where the tangents at an arc's ends meet: the arc lies in the triangle of this point and its ends. None of an arc of more than 120
+// degrees.
 std::optional<Point2> corner_of(const PreparedElement& arc) {
   const Point2 a = from_to(arc.center, arc.a), b = from_to(arc.center, arc.b);
   const Point2 middle{a[0] + b[0], a[1] + b[1]};
@@ -53,12 +54,17 @@ std::optional<Point2> corner_of(const PreparedElement& arc) {
   return Point2{arc.center[0] + stretch * middle[0], arc.center[1] + stretch * middle[1]};
 }
 
-// A point lies beyond none of an arc's tangents if it lies in the disc or, seen from the center beside the arc, beyond neither end's tangent.
+// A point lies beyond none of an arc's tangents if it lies in the disc or, seen from the center beside the arc, beyond neither end's
+// tangent. The ends' distances from the center may differ from the radius by what the scene's reader allows.
 bool within_tangents(const PreparedElement& arc, const Point2& p) {
   const Point2 from_center = from_to(arc.center, p);
   if (meets(arc, from_center)) return std::hypot(from_center[0], from_center[1]) <= arc.radius + BEYOND_TOLERANCE;
-  const double limit = arc.radius * (arc.radius + BEYOND_TOLERANCE);
-  return dot(from_center, from_to(arc.center, arc.a)) <= limit && dot(from_center, from_to(arc.center, arc.b)) <= limit;
+  const auto is_within = [&](const Point2& end) {
+    const Point2 arm = from_to(arc.center, end);
+    const double size = std::hypot(arm[0], arm[1]);
+    return dot(from_center, arm) <= size * (size + BEYOND_TOLERANCE);
+  };
+  return is_within(arc.a) && is_within(arc.b);
 }
 
 // All tangents of a convex arc at once: what lies beyond none of them is convex.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where the tangent of an outline's element is a supporting line: none of the outline lies beyond it. A finger that comes near such a place need
-// mind that plane alone, and takes longer steps.
+// Where the tangent of an outline's element is a supporting line: none of the outline lies beyond it. A finger that comes near such a
+// place need mind that plane alone, and takes longer steps.
 #pragma once
 
 #include <vector>
@@ -9,8 +9,9 @@
 
 namespace wholehand {
 
-// Sets `supports` of every element of a closed outline (core/sdf.h). An element never supports where this cannot be told, which costs steps and
-// no truth: at the ends of arcs, and of wide arcs that are not of its own circle.
+// Sets `supports` of every element of a closed outline (core/sdf.h). Where it cannot be told whether an element's tangents support, they
+// count as if they did not, which costs steps and nothing else: those of an arc beside another arc of more than 120 degrees on another
+// circle. The bits of an arc's own ends are of no use, since no plane is used there (element_convex).
 void mark_supports(std::vector<PreparedElement>& outline);
 
 }  // namespace wholehand

@@ -50,7 +50,8 @@ TEST(Sdf, SupportIsTheDistanceAndItsGradientButOfALatticeTheDistanceAlone) {
 }
 
 TEST(Sdf, SupportingPlaneHasTheNearestElementBeyondIt) {
-  for (const VesselData& data : {beaker1(), beaker2(), beaker3(), vase(), ledges(), shell_of(beaker1()), shell_of(vase())}) {
+  for (const VesselData& data :
+       {beaker1(), beaker2(), beaker3(), vase(), ledges(), can(), spindle(), shell_of(beaker1()), shell_of(vase())}) {
     const Vessel vessel = ready_vessel(data);
     Random random(15);
     int planar = 0, outside = 0;
@@ -106,7 +107,8 @@ TEST(Sdf, SupportKnowsOfAnElementThatIsAsNear) {
 
 TEST(Sdf, SafeStepPassesNoSurface) {
   // points on straight lines and on circles: nowhere along a step does the separation change its sign
-  for (const VesselData& data : {beaker1(), beaker2(), beaker3(), vase(), ledges(), shell_of(beaker1()), shell_of(vase())}) {
+  for (const VesselData& data :
+       {beaker1(), beaker2(), beaker3(), vase(), ledges(), can(), spindle(), shell_of(beaker1()), shell_of(vase())}) {
     const Vessel vessel = ready_vessel(data);
     Random random(17);
     int steps = 0, longer = 0;

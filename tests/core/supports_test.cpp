@@ -90,7 +90,7 @@ OutlineElement bend(double r, double y, double center_r, double center_y) {
 TEST(Supports, AreThoseOfBruteForce) {
   Count count;
   for (const VesselData& data :
-       {beaker1(), beaker2(), beaker3(), vase(), ledges(), shell_of(beaker1()), shell_of(beaker2()), shell_of(vase())})
+       {beaker1(), beaker2(), beaker3(), vase(), ledges(), spindle(), shell_of(beaker1()), shell_of(beaker2()), shell_of(vase())})
     expect_those_of_brute_force(data.name, prepare_vessel(data, data.wall > 0).outline, count);
   EXPECT_GT(count.lines, 8);
   EXPECT_EQ(count.arcs, 0);  // each has something above or below it

@@ -66,8 +66,7 @@ std::vector<PreparedElement> plain_elements() {
 }
 
 // Whether q lies on the ray from an arc's centre through one of its ends: whether it is within the sector then hinges on a root,
-// which
-// Vulkan gives to some units. At the centre there is nothing to round.
+// which Vulkan gives to some units. At the centre there is nothing to round.
 bool on_edge_of_sector(const double* given) {
   const int code = static_cast<int>(given[7]), side = code - 4 * ((code + 1) >> 2);  // layout.h
   const double x = given[8] - given[4], y = given[9] - given[5], square = x * x + y * y;

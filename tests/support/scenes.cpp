@@ -84,6 +84,21 @@ VesselData ledges() {
   return vessel;
 }
 
+VesselData can() {
+  VesselData vessel =
+      vessel_of("can", {line_to(30, 0), arc_to(40, 10, 30, 10), line_to(40, 80), arc_to(30, 90, 30, 80), line_to(0, 90)}, 0);
+  vessel.mass = 0.4;
+  vessel.center_of_mass = {0, 45e-3, 0};
+  return vessel;
+}
+
+VesselData spindle() {
+  VesselData vessel = vessel_of("spindle", {line_to(20, 30), line_to(0, 80)}, 0);
+  vessel.mass = 0.05;
+  vessel.center_of_mass = {0, 35e-3, 0};
+  return vessel;
+}
+
 VesselData lopsided() {
   VesselData vessel = beaker1();
   vessel.name = "lopsided";

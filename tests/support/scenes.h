@@ -26,6 +26,8 @@ VesselData beaker1();   // the default scene's cylinder, 80 x 110
 VesselData beaker2();   // its round-bottom flask: an arc that starts at its circle's pole on the axis
 VesselData beaker3();   // its conical flask
 VesselData vase();      // twelve elements, six of them arcs, convex and concave, smooth joints and corners; has a cavity
+VesselData can();       // base and rim rounded: no tangent has anything beyond it; no wall, mass given
+VesselData spindle();   // two cones, with tips on the axis; no wall, mass given
 VesselData ledges();    // twelve elements with level ledges, overhangs and arcs that pass their circle's pole; no wall, mass given
 VesselData lopsided();  // beaker1 with its mass and a centre of mass off the axis given
 VesselData shell_of(VesselData vessel);                      // the same with surface = shell
