@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# Compiles compute shaders to SPIR-V and embeds them.
+# Compiles compute shaders to SPIR-V, optimizes and embeds them.
 #
 #   embed_shaders(TARGET HEADER FUNCTION GLOB ... [DEFINES NAME ...])
 #
@@ -10,10 +10,9 @@
 
 find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
 find_program(SPIRV_OPT spirv-opt REQUIRED)
-find_program(OD od REQUIRED)
-find_program(SED sed REQUIRED)
-# Loops that ask for it are unrolled here, and what this leaves without use is taken away. A driver does the same, in each process anew and
-# more slowly (docs/results). No arithmetic is changed.
+find_program(SPIRV_DIS spirv-dis REQUIRED)
+# Loops that ask for it are unrolled here if the number of turns is a constant, and what this leaves without use is taken away. A
+# driver does the same, in each process anew and more slowly (docs/results). No arithmetic is changed.
 set(SHADER_PASSES --loop-unroll --ccp --eliminate-dead-branches --merge-blocks --eliminate-dead-code-aggressive)
 set(SHADER_TARGET_ENV vulkan1.3)  # group sizes are LocalSizeId then: the device enables maintenance4
 
@@ -78,9 +77,9 @@ function(embed_shaders target header function)
           COMMENT "Compiling shader ${stem} (${defines})"
           VERBATIM)
         add_custom_command(OUTPUT "${output}"
-          COMMAND "${CMAKE_COMMAND}" "-DMODULE=${module}" "-DNAME=${name}" "-DOUTPUT=${output}" "-DSPIRV_OPT=${SPIRV_OPT}" "-DOD=${OD}" "-DSED=${SED}"
-            "-DPASSES=${SHADER_PASSES}" -P "${PROJECT_SOURCE_DIR}/cmake/embed_module.cmake"
-          DEPENDS "${module}" "${PROJECT_SOURCE_DIR}/cmake/embed_module.cmake"
+          COMMAND "${CMAKE_COMMAND}" "-DMODULE=${module}" "-DNAME=${name}" "-DOUTPUT=${output}" "-DPASSES=${SHADER_PASSES}"
+            "-DSPIRV_OPT=${SPIRV_OPT}" "-DSPIRV_DIS=${SPIRV_DIS}" -P "${PROJECT_SOURCE_DIR}/cmake/embed_module.cmake"
+          DEPENDS "${module}" "${PROJECT_SOURCE_DIR}/cmake/embed_module.cmake" "${SPIRV_OPT}"
           COMMENT "Optimizing shader ${name}"
           VERBATIM)
         list(APPEND outputs "${output}")
