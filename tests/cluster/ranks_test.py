@@ -192,14 +192,18 @@ class Job(unittest.TestCase):
 
     def interrupt(self, process, output, when=lambda marked: sum(marked.values()) > 0):
         """Ends a run once its mark knows enough: a busy machine takes its time for that."""
+        code, errors = self.signalled(process, output, when)
+        self.assertEqual(code, 130, errors)
+        return errors
+
+    def signalled(self, process, output, when):
         for _ in range(50 * PATIENCE):
             if process.poll() is not None or when(self.marked(output)):
                 break
             time.sleep(0.02)
         process.send_signal(signal.SIGUSR1)  # which mpirun hands on, as srun does
         code, _, errors = self.end(process)
-        self.assertEqual(code, 130, errors)
-        return errors
+        return code, errors
 
     def start_nodes(self, nodes, *arguments, folders=()):
         """Ranks whose files have the names of so many nodes: {"a": 2, "b": 1}. Some work in folders of their names."""
@@ -611,31 +615,34 @@ class Endings(Job):
     def test_time_and_signals_close_it_cleanly(self):
         path = self.write("large.toml", LARGE)
         self.given(path, "large.nc")
-        for seconds in (1, 4, 16):  # a busy machine may need some of them to start
-            code, _, errors = self.run_ranks(2, path, "-o", "timed.nc", "--time-limit", str(seconds))
-            if "before the first grip" not in errors:
-                break
+        code, _, errors = self.run_ranks(2, path, "-o", "timed.nc", "--time-limit", "1")
         self.assertEqual(code, 130, errors)
         self.assertRegex(errors, r"wholehand: interrupted at [\d,]+ of [\d,]+ grips; the same command with --resume goes on")
         before = sum(self.marked("timed.nc").values())
         process = self.start(self.command(3, path, "-o", "timed.nc", "--resume", "--mark-seconds", "0.05"))
-        errors = self.interrupt(process, "timed.nc", lambda marked: sum(marked.values()) > before)
+        code, errors = self.signalled(process, "timed.nc", lambda marked: sum(marked.values()) > before)
+        self.assertIn(code, (0, 130), errors)  # a fast machine may have ended
         self.assertIn("grips are there", errors)
-        code, _, errors = self.run_ranks(1, path, "-o", "timed.nc", "--resume")
-        self.assertEqual(code, 0, errors)
+        if code:
+            code, _, errors = self.run_ranks(1, path, "-o", "timed.nc", "--resume")
+            self.assertEqual(code, 0, errors)
         self.assert_same("large.nc", "timed.nc")
 
     def test_the_time_limit_holds_while_the_best_are_told(self):
         # robust scores that take longer than the grips
-        for count, best in ((1500, 20), (4096, 20), (4096, 50)):  # until they do on this machine
+        # a fast machine gets more of them, and a busy one more time for its grips
+        counts, seconds, code, errors = [(1500, 20), (4096, 20), (4096, 50)], 1, 0, ""
+        while "interrupted at 200 of 200 grips; the same command with --resume goes on" not in errors:
+            if code == 0:
+                self.assertTrue(counts, "robust scores take no time")
+                (count, best), seconds = counts.pop(0), 1
+            else:
+                seconds *= 2
+            self.assertLessEqual(seconds, 64, errors)
             scene = POINTS.replace("count = 16", f"count = {count}").replace("count = 3000", "count = 100")
             path = self.write("robust.toml", scene + f"[output]\nbest = {best}\n")
-            code, _, errors = self.run_ranks(2, path, "-o", "timed.nc", "--time-limit", "1")
-            if code:
-                break
-            os.remove(self.path("timed.nc"))
+            code, _, errors = self.run_ranks(2, path, "-o", "timed.nc", "--time-limit", str(seconds))
         self.assertEqual(code, 130, errors)
-        self.assertRegex(errors, r"wholehand: interrupted at [\d,]+ of 200 grips; the same command with --resume goes on")
         self.alone(path, "robust.nc")
         code, _, errors = self.run_ranks(3, path, "-o", "timed.nc", "--resume")
         self.assertEqual(code, 0, errors)
