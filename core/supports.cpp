@@ -19,8 +19,6 @@ constexpr double BEYOND_TOLERANCE = 1e-13;
 double dot(const Point2& a, const Point2& b) { return a[0] * b[0] + a[1] * b[1]; }
 Point2 from_to(const Point2& a, const Point2& b) { return {b[0] - a[0], b[1] - a[1]}; }
 
-bool is_convex(const PreparedElement& element) { return element.side == 0 || (element.side > 0) == (element.b[1] > element.a[1]); }
-
 // Whether the direction from an arc's center meets the arc.
 bool meets(const PreparedElement& arc, const Point2& direction) {
   const double size = std::hypot(direction[0], direction[1]);
@@ -70,7 +68,7 @@ bool within_tangents(const PreparedElement& arc, const Point2& p) {
 // All tangents of a convex arc at once: what lies beyond none of them is convex.
 bool arc_supports(const std::vector<PreparedElement>& outline, std::size_t own) {
   const PreparedElement& arc = outline[own];
-  if (!is_convex(arc)) return false;
+  if ((arc.side > 0) != (arc.b[1] > arc.a[1])) return false;  // it bulges inwards
   return std::all_of(outline.begin(), outline.end(), [&](const PreparedElement& other) {
     if (other.side != 0 && other.center == arc.center && std::abs(other.radius - arc.radius) <= BEYOND_TOLERANCE) return true;
     const std::optional<Point2> corner = other.side != 0 ? corner_of(other) : other.a;
