@@ -28,7 +28,7 @@ endfunction()
 # wholehand_folder(NAME [USES FOLDER ...] [LINKS LIBRARY ...] [EXCEPT FILE ...] [QUICK] [HEADERS HEADER ... | SHARED_HEADERS] [BATCH N])
 #
 # makes the library NAME of NAME/*.cpp without the EXCEPT files (paths from the folder, may be patterns). USES and LINKS are what its
-# includers need too. The rest is for speed (cmake/build_speed.cmake): QUICK is less optimized, HEADERS are precompiled for it alone,
+# includers need too. The rest is for speed (cmake/build_speed.cmake): QUICK is less optimized (-O1), HEADERS are precompiled for it alone,
 # SHARED_HEADERS are those that most folders include, and BATCH files are compiled as one (8).
 function(wholehand_folder name)
   cmake_parse_arguments(PARSE_ARGV 1 folder "QUICK;SHARED_HEADERS" "BATCH" "USES;LINKS;HEADERS;EXCEPT")
