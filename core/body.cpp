@@ -9,6 +9,17 @@ Ball ball_between(Vec3 start, Vec3 end, Real start_radius, Real end_radius, Real
   return {start + share * (end - start), start_radius + share * (end_radius - start_radius)};
 }
 
+Ball around_bone(Ball start, Ball end) {
+  return {Real(0.5) * (start.place + end.place),
+          Real(0.5) * glm::length(end.place - start.place) + std::max(start.radius, end.radius)};
+}
+
+bool overlap_more(Ball a, Ball b, Real deepest) {
+  const Vec3 apart = a.place - b.place;
+  const Real reach = std::max(a.radius + b.radius - deepest, Real(0));
+  return glm::dot(apart, apart) < reach * reach;
+}
+
 Real nearest_share(Real x) {
   if (!(x > 0)) return 0;
   return std::min(x, Real(1));
@@ -16,15 +27,12 @@ Real nearest_share(Real x) {
 
 // The shares s and t of the way along either axis make |a + s u - b - t v| least: first s on the two lines, then the t that belongs to it,
 // and where t leaves its bone, the s that belongs to that end. Where axes are parallel, s may be any, and radii that differ along a bone
-// would make the answer a matter of rounding: the ends are looked at too, and the overlap is largest at one of them. Most bones are too
-// far apart to matter: the spheres around them say so first, and then the least distance of their axes.
+// would make the answer a matter of rounding: the ends are looked at too, and the overlap is largest at one of them, unless the least
+// distance of the axes says that no place can matter.
 Real bones_overlap(Vec3 a, Vec3 a_end, Vec2 a_radii, Vec3 b, Vec3 b_end, Vec2 b_radii, Real deepest) {
   const Vec3 u = a_end - a, v = b_end - b, r = a - b;
   const Real uu = glm::dot(u, u), vv = glm::dot(v, v);
   const Real largest = std::max(a_radii.x, a_radii.y) + std::max(b_radii.x, b_radii.y);
-  const Real reach = Real(0.5) * (std::sqrt(uu) + std::sqrt(vv)) + largest;
-  if (!(glm::length(r + Real(0.5) * (u - v)) < reach - deepest)) return deepest;
-
   const Real uv = glm::dot(u, v), ur = glm::dot(u, r), vr = glm::dot(v, r);
   const auto along_a = [&](Real t) { return nearest_share((uv * t - ur) / uu); };
   const auto along_b = [&](Real s) { return nearest_share((uv * s + vr) / vv); };

@@ -14,6 +14,10 @@ struct Ball {
 
 // The sphere of a bone at `share` of the way, in [0, 1], from its joint at `start` to that at `end`. m.
 Ball ball_between(Vec3 start, Vec3 end, Real start_radius, Real end_radius, Real share);
+// A sphere that the bone between two joints lies in.
+Ball around_bone(Ball start, Ball end);
+// Whether two spheres lie deeper in each other than `deepest`, m.
+bool overlap_more(Ball a, Ball b, Real deepest);
 // The number of [0, 1] that is nearest to x; 0 where x is not a number.
 Real nearest_share(Real x);
 // How deep two bones lie in each other, m, or `deepest` where that is more: radii less the distance of the axes, where these are nearest

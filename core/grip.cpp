@@ -13,6 +13,8 @@ namespace CORE_NS {
 
 using wholehand::finger_joints;
 using wholehand::finger_start;
+using wholehand::phalanx_digit;
+using wholehand::phalanx_start;
 
 namespace {
 
@@ -161,20 +163,29 @@ void examine_table(const Hand& hand, const Vessel& vessel, const Placement& plac
 
 }  // namespace
 
-// Two phalanges of the thumb and three of each finger: 78 pairs.
+// Two phalanges of the thumb and three of each finger: 78 pairs. Most are too far apart to matter, and the spheres around them say so. More
+// of them do if the first depth is that of joints side by side, of neighbouring fingers: it is an overlap too, and often nearly the largest.
 Real digits_overlap(const Hand& hand, const std::array<Vec3, JOINTS>& posed, Real scale) {
-  Real deepest = -NO_DISTANCE;
+  std::array<Ball, JOINTS> chain;
   for (int f = 0; f < FINGERS; ++f)
-    for (int bone = 1; bone + 1 < finger_joints(f); ++bone) {
-      const int j = finger_start(f) + bone;
-      const Vec2 radii = scale * Vec2(hand.radius[f][bone], hand.radius[f][bone + 1]);
-      for (int g = f + 1; g < FINGERS; ++g)
-        for (int other = 1; other < 4; ++other) {
-          const int i = finger_start(g) + other;
-          const Vec2 other_radii = scale * Vec2(hand.radius[g][other], hand.radius[g][other + 1]);
-          deepest = bones_overlap(posed[j], posed[j + 1], radii, posed[i], posed[i + 1], other_radii, deepest);
-        }
+    for (int k = 0; k < finger_joints(f); ++k) chain[finger_start(f) + k] = {posed[finger_start(f) + k], scale * hand.radius[f][k]};
+  std::array<Ball, PHALANGES> around;
+  for (int bone = 0; bone < PHALANGES; ++bone)
+    around[bone] = around_bone(chain[phalanx_start(bone)], chain[phalanx_start(bone) + 1]);
+  Real deepest = -NO_DISTANCE;
+  for (int bone = 2; bone + 3 < PHALANGES; ++bone) {
+    const Ball mine = chain[phalanx_start(bone) + 1], beside = chain[phalanx_start(bone + 3) + 1];
+    deepest = std::max(deepest, mine.radius + beside.radius - glm::length(mine.place - beside.place));
+  }
+  for (int bone = 0; bone + 3 < PHALANGES; ++bone) {
+    const Ball start = chain[phalanx_start(bone)], end = chain[phalanx_start(bone) + 1];
+    for (int other = 3 * phalanx_digit(bone) + 2; other < PHALANGES; ++other) {
+      if (!overlap_more(around[bone], around[other], deepest)) continue;
+      const Ball other_start = chain[phalanx_start(other)], other_end = chain[phalanx_start(other) + 1];
+      deepest = bones_overlap(start.place, end.place, {start.radius, end.radius}, other_start.place, other_end.place,
+                              {other_start.radius, other_end.radius}, deepest);
     }
+  }
   return deepest;
 }
 

@@ -7,6 +7,10 @@ namespace wholehand {
 // The joints of a finger are finger_start(finger) + 0 .. finger_joints(finger) - 1.
 constexpr int finger_start(int finger) { return finger == 0 ? 0 : 5 * finger - 1; }
 constexpr int finger_joints(int finger) { return finger == 0 ? 4 : 5; }
+
+// The bones beyond the palm: two of the thumb, then three of each finger. The digit that a phalanx belongs to, and the joint where it starts.
+constexpr int phalanx_digit(int phalanx) { return (phalanx + 1) / 3; }
+constexpr int phalanx_start(int phalanx) { return phalanx + 1 + 2 * phalanx_digit(phalanx); }
 // The finger that a joint belongs to.
 constexpr int finger_of(int joint) { return (joint + 1) / 5; }
 

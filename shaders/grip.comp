@@ -23,7 +23,7 @@ uint grip;
 Real scale;
 uint status, touch_mask, tip_mask, finger_mask, inner_mask, used_mask;
 Real phalanx_depth, palm_depth, judged_depth, bone_stretch, table_depth, self_depth;
-Vec3 chain[JOINTS];  // the posed hand, where it has spheres between its joints
+Ball chain[JOINTS];  // the posed hand, where it has spheres between its joints
 Vec3 previous_proxy;
 
 // Kernel 9, for the efforts. Whether the point presses.
@@ -230,21 +230,34 @@ void examine_between(int f, int first_joint, PlacedFinger finger) {
 
 void keep_chain(int f, int first_joint, PlacedFinger finger) {
   int point_count = f == 0 ? 4 : 5;
-  [[dont_unroll]] for (int k = 0; k < point_count; ++k) chain[first_joint + k] = point_of(finger, k);
+  [[dont_unroll]] for (int k = 0; k < point_count; ++k) chain[first_joint + k] = Ball(point_of(finger, k), scale * hand_radius(f, k));
 }
 
-// As core/grip.cpp has it; in one loop over the pairs of phalanges, of which there are two of the thumb and three of each finger.
+// As core/joints.h has them.
+int phalanx_digit(int phalanx) { return (phalanx + 1) / 3; }
+int phalanx_start(int phalanx) { return phalanx + 1 + 2 * phalanx_digit(phalanx); }
+
+// As core/grip.cpp has it. Places that are constants are read for all lanes at once, others lane by lane: so all other bones are asked
+// first which of them are near, and only these are looked at.
 Real digits_overlap() {
+  Ball around[PHALANGES];
+  [[unroll]] for (int bone = 0; bone < PHALANGES; ++bone) around[bone] = around_bone(chain[phalanx_start(bone)], chain[phalanx_start(bone) + 1]);
   Real deepest = -NO_DISTANCE;
-  [[dont_unroll]] for (int first = 0; first < 11; ++first) {
-    int f = (first + 1) / 3, bone = first < 2 ? first + 1 : first + 2 - 3 * f;
-    int j = (f == 0 ? 0 : 5 * f - 1) + bone;
-    Vec2 radii = scale * Vec2(hand_radius(f, bone), hand_radius(f, bone + 1));
-    [[dont_unroll]] for (int second = 3 * f + 2; second < 14; ++second) {
-      int g = (second + 1) / 3, other = second + 2 - 3 * g;
-      int i = 5 * g - 1 + other;
-      Vec2 other_radii = scale * Vec2(hand_radius(g, other), hand_radius(g, other + 1));
-      deepest = bones_overlap(chain[j], chain[j + 1], radii, chain[i], chain[i + 1], other_radii, deepest);
+  [[unroll]] for (int bone = 2; bone + 3 < PHALANGES; ++bone) {
+    Ball mine = chain[phalanx_start(bone) + 1], beside = chain[phalanx_start(bone + 3) + 1];
+    deepest = max(deepest, mine.radius + beside.radius - length(mine.place - beside.place));
+  }
+  [[dont_unroll]] for (int bone = 0; bone + 3 < PHALANGES; ++bone) {
+    Ball mine = around[bone], start = chain[phalanx_start(bone)], end = chain[phalanx_start(bone) + 1];
+    uint near = 0u;
+    [[unroll]] for (int other = 2; other < PHALANGES; ++other) near |= overlap_more(mine, around[other], deepest) ? 1u << other : 0u;
+    near &= ~0u << (3 * phalanx_digit(bone) + 2);
+    [[dont_unroll]] while (near != 0u) {
+      int other = findLSB(near);
+      near &= near - 1u;
+      Ball other_start = chain[phalanx_start(other)], other_end = chain[phalanx_start(other) + 1];
+      deepest = bones_overlap(start.place, end.place, Vec2(start.radius, end.radius), other_start.place, other_end.place,
+                              Vec2(other_start.radius, other_end.radius), deepest);
     }
   }
   return deepest;

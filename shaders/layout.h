@@ -74,6 +74,7 @@
 #define JOINTS 24
 #define THUMB_TIP 3
 #define INDEX_TIP 8
+#define PHALANGES 14  /* two of the thumb, three of each finger */
 #define MOST_BETWEEN 8              // spheres on a bone between its joints
 
 // ---- why a grip is not feasible, in the order of decision (status, low 4 bits) ----

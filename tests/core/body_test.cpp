@@ -123,19 +123,58 @@ TEST(Body, OverlapsOfTaperedBonesAreNearTheLargest) {
   }
 }
 
+// A sphere around a bone holds every sphere of it, and touches the larger one at an end.
+TEST(Body, TheSphereAroundABoneHoldsAllOfIt) {
+  const Ball by_hand = core_f64::around_bone({{1, 2, 3}, 4}, {{1, 2, 13}, 6});
+  EXPECT_EQ(by_hand.place, Vec3(1, 2, 8));
+  EXPECT_EQ(by_hand.radius, 5 + 6);
+  Random random(23);
+  const auto ball = [&] {
+    return Ball{30.0 * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)), random.uniform(1, 9)};
+  };
+  for (int trial = 0; trial < 200; ++trial) {
+    const Ball start = ball(), end = ball(), around = core_f64::around_bone(start, end);
+    double reach = 0;
+    for (int k = 0; k <= 64; ++k) {
+      const Ball between = core_f64::ball_between(start.place, end.place, start.radius, end.radius, k / 64.0);
+      reach = std::max(reach, glm::length(between.place - around.place) + between.radius);
+    }
+    EXPECT_NEAR(reach, around.radius, 1e-12 * around.radius) << trial;
+  }
+}
+
+// The limit belongs to those that do not overlap more. Two spheres cannot lie deeper in each other than their radii.
+TEST(Body, SpheresOverlapMoreThanADepth) {
+  const Ball a{{0, 0, 0}, 3}, b{{3, 4, 0}, 4};  // 2 deep
+  EXPECT_TRUE(core_f64::overlap_more(a, b, 1.999));
+  EXPECT_FALSE(core_f64::overlap_more(a, b, 2));
+  EXPECT_TRUE(core_f64::overlap_more(a, b, -10));
+  EXPECT_FALSE(core_f64::overlap_more(a, a, 7));
+  EXPECT_FALSE(core_f64::overlap_more(a, b, 20)) << "a reach below 0 is not squared";
+}
+
 // Bones that are passed by are those that could not be the deepest: every depth so far gives the larger of it and the overlap. The bounds
 // round, by some units of 100 mm.
 TEST(Body, BonesThatCannotBeTheDeepestArePassedBy) {
   Random random(22);
   const auto point = [&](double size) { return size * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)); };
   const auto radii = [&] { return Vec2(random.uniform(3, 8), random.uniform(3, 8)); };
+  int passed = 0;
   for (int trial = 0; trial < 2000; ++trial) {
     const Vec3 a = point(60), b = point(60), a_end = a + point(30), b_end = b + (trial % 3 == 0 ? a_end - a : point(30));
     const Vec2 of_a = radii(), of_b = radii();
     const double overlap = bones_overlap(a, a_end, of_a, b, b_end, of_b);
-    for (const double deepest : {-200.0, overlap - 1e-6, overlap, overlap + 1e-6, overlap + random.uniform(-30, 30), 50.0})
-      EXPECT_NEAR(core_f64::bones_overlap(a, a_end, of_a, b, b_end, of_b, deepest), std::max(deepest, overlap), 1e-12) << trial;
+    const Ball around_a = core_f64::around_bone({a, of_a.x}, {a_end, of_a.y}),
+               around_b = core_f64::around_bone({b, of_b.x}, {b_end, of_b.y});
+    for (const double deepest : {-200.0, overlap - 1e-6, overlap, overlap + 1e-6, overlap + random.uniform(-30, 30), 50.0}) {
+      const double looked = core_f64::bones_overlap(a, a_end, of_a, b, b_end, of_b, deepest);
+      EXPECT_NEAR(looked, std::max(deepest, overlap), 1e-12) << trial;
+      if (core_f64::overlap_more(around_a, around_b, deepest)) continue;
+      EXPECT_LE(overlap, deepest + 1e-12) << trial;
+      ++passed;
+    }
   }
+  EXPECT_GT(passed, 1000);
 }
 
 // ---- of whole grips ----

@@ -36,6 +36,37 @@ TEST_F(ParityLeaf, BallBetween) {
           build.table, three_beakers());
 }
 
+// Bones of any length, also of none.
+TEST_F(ParityLeaf, AroundBone) {
+  Builder build(313);
+  for (int i = 0; i < 999; ++i) {
+    const Triple start{build.random.uniform(-0.1, 0.1), build.random.uniform(-0.1, 0.1), build.random.uniform(-0.1, 0.1)};
+    build.vec(start).uniform(2e-3, THICKEST);
+    if (i % 7 == 0) {
+      build.vec(start);
+    } else {
+      build.point(0.1);
+    }
+    build.uniform(2e-3, THICKEST);
+  }
+  compare({"probe_body", PROBE_AROUND_BONE, 8, together(repeated("place", 3, REACH), repeated("radius", 1, REACH))}, build.table,
+          three_beakers());
+}
+
+// Spheres apart and in each other, and a depth that no two spheres of their size can have.
+TEST_F(ParityLeaf, OverlapMore) {
+  Builder build(314);
+  for (int i = 0; i < 999; ++i) {
+    build.point(0.05).uniform(2e-3, 0.04).point(0.05).uniform(2e-3, 0.04);
+    if (i % 9 == 0) {
+      build.add(0.1);
+    } else {
+      build.uniform(-0.1, 0.06);
+    }
+  }
+  compare({"probe_body", PROBE_OVERLAP_MORE, 9, {{"more", 1, true}}}, build.table, three_beakers());
+}
+
 // A share is x itself, 0 or 1: the same number or wrong.
 TEST_F(ParityLeaf, NearestShare) {
   constexpr double NEVER = std::numeric_limits<double>::infinity();

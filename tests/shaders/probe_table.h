@@ -81,6 +81,8 @@
 #define PROBE_BONES_OVERLAP 102    // of two bones: start, end, their radii; deepest; overlap
 #define PROBE_DEPTH_IN_TABLE 103   // point, radius; depth
 #define PROBE_FINGER_IN_TABLE 104  // pip, dip, tip, radii; depth
+#define PROBE_AROUND_BONE 106      // two spheres; place, radius
+#define PROBE_OVERLAP_MORE 107     // two spheres, deepest; whether
 // probe_press
 #define PROBE_PRESS 105  // arm, normal, friction, gamma, direction; height, wrench
 

@@ -115,6 +115,7 @@ struct Row {
     read_all(value.distance, value.other, value.normal, value.planar);
     value.element = 0;
   }
+  void read(Ball& value) { read_all(value.place, value.radius); }
   void read(Grip& value) { read_all(value.height, value.azimuth, value.obliquity, value.roll, value.offset, value.hand_scale); }
   void read(FingerMotion& value) {
     read_all(value.origin, value.rates, value.joint, value.at, value.end, value.steps, value.blocked, value.unsettled);
@@ -388,6 +389,8 @@ constexpr LeafEntry LEAVES[] = {
     {PROBE_LOOP_ENERGY, answers_of<energy_of>},
     // body and table
     {PROBE_BALL_BETWEEN, answers_of<ball_between>},
+    {PROBE_AROUND_BONE, answers_of<around_bone>},
+    {PROBE_OVERLAP_MORE, answers_of<overlap_more>},
     {PROBE_NEAREST_SHARE, answers_of<nearest_share>},
     {PROBE_BONES_OVERLAP, answers_of<bones_overlap>},
     {PROBE_DEPTH_IN_TABLE, answers_of<depth_in_table>},
