@@ -60,9 +60,9 @@ void take_back_seat() {
   setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), getpriority(PRIO_PROCESS, static_cast<id_t>(gettid())) + ADVICE_NICENESS);
 }
 
-// As many grips as fit a part of the time of an update at LEAST_ADVICE_RATE: the rest is for what else runs on the machine.
+// As many grips as fit half of the time of an update at LEAST_ADVICE_RATE: the rest is for what else runs on the machine.
 std::size_t next_cloud(std::size_t grips, double seconds) {
-  const double fits = static_cast<double>(grips) * 0.3 / (LEAST_ADVICE_RATE * std::max(seconds, 1e-6));
+  const double fits = static_cast<double>(grips) * 0.5 / (LEAST_ADVICE_RATE * std::max(seconds, 1e-6));
   return static_cast<std::size_t>(std::clamp(fits, std::max<double>(LEAST_CLOUD, 0.5 * static_cast<double>(grips)),
                                              std::min<double>(MOST_CLOUD, 2 * static_cast<double>(grips))));
 }

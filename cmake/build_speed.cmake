@@ -4,7 +4,7 @@
 option(WHOLEHAND_BUILD_SPEED "Compile some files at a time, with precompiled headers" ON)
 
 # GCC looks for memory to free whenever its heap has doubled, so first when it has just read precompiled headers. Up to 512 MiB it need not:
-# a compiler then takes a twentieth less time, and at most 150 MB more (docs/results).
+# a compiler then takes a twentieth less time, and at most 150 MB more (docs/results, "A bare Debian 12").
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   add_compile_options(--param=ggc-min-heapsize=524288)
 endif()

@@ -14,14 +14,15 @@
 #include "core/planes.h"
 #include "core/prepare.h"
 #include "core/touch.h"
+#include "shaders/layout.h"
 
 namespace wholehand::host {
 namespace {
 
 void append_elements(std::vector<double>& out, const std::vector<PreparedElement>& elements) {
   for (const auto& e : elements)
-    out.insert(out.end(),
-               {e.a[0], e.a[1], e.b[0], e.b[1], e.center[0], e.center[1], e.radius, static_cast<double>(e.side + 4 * e.supports)});
+    out.insert(out.end(), {e.a[0], e.a[1], e.b[0], e.b[1], e.center[0], e.center[1], e.radius,
+                           static_cast<double>(ELEMENT_CODE(e.side, e.supports))});
 }
 
 std::vector<double> hand_table(const PreparedHand& prepared, const HandData& data) {

@@ -16,8 +16,7 @@ struct Element {
 
 // From a record: layout.h tells what `code` holds.
 Element make_element(Vec2 a, Vec2 b, Vec2 center, Real radius, Real code) {
-  int supports = (int(code) + 1) >> 2;
-  return Element(a, b, center, radius, int(code) - 4 * supports, supports);
+  return Element(a, b, center, radius, SIDE_OF(int(code)), SUPPORTS_OF(int(code)));
 }
 
 #endif

@@ -194,7 +194,7 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define BINDING_LANES 17            // uint[2]: useful lanes and all of them, where a benchmark counts them (lanes.glsl)
 #define BINDINGS 18
 
-// Record of an outline or cavity element, reals: start r, start y, end r, end y, center r, center y, radius, side + 4 supports.
+// Record of an outline or cavity element, reals: start r, start y, end r, end y, center r, center y, radius, code.
 // side: 0: line, whose unit outward normal stands for the center; +1: arc on the half r >= center r; -1: the other half.
 // supports: bits, whether the element's tangent is a supporting line of the outline (nothing of the outline lies beyond it) where a point's
 // nearest one lies between the element's ends, is its start, or is its end. In the last two the line is across the way to the point.
@@ -202,6 +202,9 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define SUPPORTS_BETWEEN 1
 #define SUPPORTS_AT_A 2
 #define SUPPORTS_AT_B 4
+#define ELEMENT_CODE(side, supports) ((side) + 4 * (supports))  /* and what it holds: */
+#define SUPPORTS_OF(code) (((code) + 1) >> 2)
+#define SIDE_OF(code) ((code) - 4 * SUPPORTS_OF(code))
 #define FAR_AWAY 1048576.0           // m: where other elements are that hold no step back
 
 // The hand as vec4s. Per finger: base and L0; forward and L1; palmward and L2; radii 0..3; radius 4 and L3.

@@ -14,17 +14,19 @@ namespace {
 constexpr std::size_t MOST_RUNS = 400;  // in all, so that the file stays small
 constexpr std::uint64_t FEW_GRIPS = 8;  // a run of fewer than the sweep's by this factor is short
 
-// Measured with 155 states and two spheres on each bone on the machine of docs/results (two cores at 2.6 GHz): seconds of one thread.
+// Measured with 155 states and two spheres on each bone on the machine of docs/results (two cores at 2.6 GHz): what does not grow, in seconds,
+// and a grip, in seconds of one thread. A guess is for a first run, in which a CPU driver compiles: this is most of its fixed part.
 struct Guess {
-  double fixed, dry, with_efforts;
+  double fixed, grip;
 };
-constexpr Guess CORE{0.1, 22e-6, 150e-6}, CPU_DRIVER{0.7, 13e-6, 123e-6};
-constexpr Guess GPU{0.7, 0.3e-6, 2.5e-6};  // not measured: a fiftieth of one thread
+constexpr Guess CORE{0.1, 15e-6}, CORE_WITH_EFFORTS{0.2, 185e-6};
+constexpr Guess CPU_DRIVER{5.7, 4e-6}, CPU_DRIVER_WITH_EFFORTS{9.7, 100e-6};
+constexpr Guess GPU{0.7, 0.3e-6}, GPU_WITH_EFFORTS{0.7, 3.7e-6};  // not measured: a fiftieth of one thread
 
-CostEstimate guessed(const Guess& guess, const SweepTask& task, int threads) {
+CostEstimate guessed(const Guess& guess, int threads) {
   CostEstimate made;
   made.fixed = guess.fixed;
-  made.per_grip = (task.has_efforts ? guess.with_efforts : guess.dry) / std::max(1, threads);
+  made.per_grip = guess.grip / std::max(1, threads);
   return made;
 }
 
@@ -111,10 +113,11 @@ CostEstimate estimate(std::span<const RunTime> history, const std::string& machi
   return best;
 }
 
-CostEstimate guess_core(const SweepTask& task) { return guessed(CORE, task, task.threads); }
+CostEstimate guess_core(const SweepTask& task) { return guessed(task.has_efforts ? CORE_WITH_EFFORTS : CORE, task.threads); }
 
 CostEstimate guess_device(const SweepTask& task, bool is_cpu) {
-  return is_cpu ? guessed(CPU_DRIVER, task, task.threads) : guessed(GPU, task, 1);
+  if (is_cpu) return guessed(task.has_efforts ? CPU_DRIVER_WITH_EFFORTS : CPU_DRIVER, task.threads);
+  return guessed(task.has_efforts ? GPU_WITH_EFFORTS : GPU, 1);
 }
 
 void scale_guess(const SweepTask& task, CostEstimate& core, CostEstimate& device) {

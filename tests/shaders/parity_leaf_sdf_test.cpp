@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/prepare.h"
+#include "shaders/layout.h"
 #include "tests/shaders/probe_table.h"
 #include "tests/support/leaf_parity.h"
 #include "tests/support/scenes.h"
@@ -68,7 +69,7 @@ std::vector<PreparedElement> plain_elements() {
 // Whether q lies on the ray from an arc's centre through one of its ends: whether it is within the sector then hinges on a root,
 // which Vulkan gives to some units. At the centre there is nothing to round.
 bool on_edge_of_sector(const double* given) {
-  const int code = static_cast<int>(given[7]), side = code - 4 * ((code + 1) >> 2);  // layout.h
+  const int code = static_cast<int>(given[7]), side = SIDE_OF(code);
   const double x = given[8] - given[4], y = given[9] - given[5], square = x * x + y * y;
   if (side == 0 || side * x < 0 || square == 0) return false;
   const auto same = [&](double end) { return y * std::abs(y) * given[6] * given[6] == end * std::abs(end) * square; };

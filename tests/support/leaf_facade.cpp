@@ -25,6 +25,7 @@
 #include "core/table.h"
 #include "core/touch.h"
 #include "core/trig.h"
+#include "shaders/layout.h"
 #include "tests/shaders/probe_table.h"
 #ifndef MAKE_LEAVES
 #define MAKE_LEAVES make_double_leaves
@@ -106,10 +107,10 @@ struct Row {
   void read(Finger& value) { read_all(value.frame, value.mcp, value.lengths, value.radii); }
   void read(FingerPoints& value) { read_all(value.pip, value.dip, value.tip); }
   void read(Element& value) {
-    int code = 0;  // as layout.h has it
+    int code = 0;
     read_all(value.a, value.b, value.center, value.radius, code);
-    value.supports = (code + 1) >> 2;
-    value.side = code - 4 * value.supports;
+    value.supports = SUPPORTS_OF(code);
+    value.side = SIDE_OF(code);
   }
   void read(Support& value) {
     read_all(value.distance, value.other, value.normal, value.planar);

@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "shaders/layout.h"
 #include "tests/support/leaf_facade.h"
 #include "tests/support/leaf_probe.h"
 #include "tests/support/scenes.h"
@@ -113,7 +114,7 @@ struct Builder {
         .add(e.center[0])
         .add(e.center[1])
         .add(e.radius)
-        .add(e.side + 4 * e.supports);
+        .add(ELEMENT_CODE(e.side, e.supports));
   }
 
   Triple direction();

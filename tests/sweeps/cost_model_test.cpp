@@ -160,7 +160,7 @@ TEST(CostModel, ADeviceThatCompiledForAFewGripsIsTriedAgain) {
 
 TEST(CostModel, GuessesGrowOnASlowMachine) {
   const SweepTask task = task_of(100'000);
-  auto [core, device] = both(history_of({run_of(task, "core", 0.4, 4.4)}), task);  // four times the guess
+  auto [core, device] = both(history_of({run_of(task, "core", 0.4, 4.4)}), task);  // more than the guess
   const double guessed = device.seconds(task.grips);
   scale_guess(task, core, device);
   EXPECT_NEAR(device.seconds(task.grips), guessed * 4.8 / guess_core(task).seconds(task.grips), 1e-9);
