@@ -60,9 +60,10 @@ void take_back_seat() {
   setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), getpriority(PRIO_PROCESS, static_cast<id_t>(gettid())) + ADVICE_NICENESS);
 }
 
-// As many grips as fit half of the time of an update at LEAST_ADVICE_RATE: the rest is for what else runs on the machine.
+// As many grips as fit a part of the time of an update at LEAST_ADVICE_RATE. At most ADVICE_RATE updates a second leave a fifth of the time for
+// what else runs on the machine, with the same priority too.
 std::size_t next_cloud(std::size_t grips, double seconds) {
-  const double fits = static_cast<double>(grips) * 0.5 / (LEAST_ADVICE_RATE * std::max(seconds, 1e-6));
+  const double fits = static_cast<double>(grips) * 0.4 / (LEAST_ADVICE_RATE * std::max(seconds, 1e-6));
   return static_cast<std::size_t>(std::clamp(fits, std::max<double>(LEAST_CLOUD, 0.5 * static_cast<double>(grips)),
                                              std::min<double>(MOST_CLOUD, 2 * static_cast<double>(grips))));
 }

@@ -202,7 +202,7 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define SUPPORTS_BETWEEN 1
 #define SUPPORTS_AT_A 2
 #define SUPPORTS_AT_B 4
-#define ELEMENT_CODE(side, supports) ((side) + 4 * (supports))  /* and what it holds: */
+#define ELEMENT_CODE(side, supports) ((side) + 4 * (supports))  /* its parts: */
 #define SUPPORTS_OF(code) (((code) + 1) >> 2)
 #define SIDE_OF(code) ((code) - 4 * SUPPORTS_OF(code))
 #define FAR_AWAY 1048576.0           // m: where other elements are that hold no step back

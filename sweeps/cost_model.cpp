@@ -14,18 +14,18 @@ namespace {
 constexpr std::size_t MOST_RUNS = 400;  // in all, so that the file stays small
 constexpr std::uint64_t FEW_GRIPS = 8;  // a run of fewer than the sweep's by this factor is short
 
-// Measured with 155 states and two spheres on each bone on the machine of docs/results (two cores at 2.6 GHz): what does not grow, in seconds,
-// and a grip, in seconds of one thread. A guess is for a first run, in which a CPU driver compiles: this is most of its fixed part.
+// Measured with 155 states and two spheres on each bone on the machine of docs/results (two cores at 2.6 GHz): what does not grow, what a CPU
+// driver's first run compiles, both in seconds, and a grip, in seconds of one thread.
 struct Guess {
-  double fixed, grip;
+  double fixed, compiling, grip;
 };
-constexpr Guess CORE{0.1, 15e-6}, CORE_WITH_EFFORTS{0.2, 185e-6};
-constexpr Guess CPU_DRIVER{5.7, 4e-6}, CPU_DRIVER_WITH_EFFORTS{9.7, 100e-6};
-constexpr Guess GPU{0.7, 0.3e-6}, GPU_WITH_EFFORTS{0.7, 3.7e-6};  // not measured: a fiftieth of one thread
+constexpr Guess CORE{0.1, 0, 15e-6}, CORE_WITH_EFFORTS{0.2, 0, 185e-6};
+constexpr Guess CPU_DRIVER{0.3, 5.4, 4e-6}, CPU_DRIVER_WITH_EFFORTS{0.7, 9, 100e-6};
+constexpr Guess GPU{0.7, 0, 0.3e-6}, GPU_WITH_EFFORTS{0.7, 0, 3.7e-6};  // not measured: a fiftieth of one thread
 
-CostEstimate guessed(const Guess& guess, int threads) {
+CostEstimate guessed(const Guess& guess, int threads, bool compiles) {
   CostEstimate made;
-  made.fixed = guess.fixed;
+  made.fixed = guess.fixed + (compiles ? guess.compiling : 0);
   made.per_grip = guess.grip / std::max(1, threads);
   return made;
 }
@@ -113,18 +113,20 @@ CostEstimate estimate(std::span<const RunTime> history, const std::string& machi
   return best;
 }
 
-CostEstimate guess_core(const SweepTask& task) { return guessed(task.has_efforts ? CORE_WITH_EFFORTS : CORE, task.threads); }
+CostEstimate guess_core(const SweepTask& task) { return guessed(task.has_efforts ? CORE_WITH_EFFORTS : CORE, task.threads, false); }
 
 CostEstimate guess_device(const SweepTask& task, bool is_cpu) {
-  if (is_cpu) return guessed(task.has_efforts ? CPU_DRIVER_WITH_EFFORTS : CPU_DRIVER, task.threads);
-  return guessed(task.has_efforts ? GPU_WITH_EFFORTS : GPU, 1);
+  if (is_cpu) return guessed(task.has_efforts ? CPU_DRIVER_WITH_EFFORTS : CPU_DRIVER, task.threads, true);
+  return guessed(task.has_efforts ? GPU_WITH_EFFORTS : GPU, 1, false);
 }
 
 void scale_guess(const SweepTask& task, CostEstimate& core, CostEstimate& device) {
   if ((core.runs == 0) == (device.runs == 0)) return;
   CostEstimate& guess = core.runs == 0 ? core : device;
   const CostEstimate& known = core.runs == 0 ? device : core;
-  const double expected = (core.runs == 0 ? guess_device(task, true) : guess_core(task)).seconds(task.grips);
+  // the best of a device's runs has not compiled
+  const CostEstimate usual = guessed(task.has_efforts ? CPU_DRIVER_WITH_EFFORTS : CPU_DRIVER, task.threads, false);
+  const double expected = (core.runs == 0 ? usual : guess_core(task)).seconds(task.grips);
   const double factor = std::max(1.0, known.seconds(task.grips) / expected);
   guess.fixed *= factor;
   guess.per_grip *= factor;

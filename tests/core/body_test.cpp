@@ -298,6 +298,39 @@ TEST(Body, SelfDepthIsTheLargestOverlapOfTwoDigits) {
   EXPECT_LT(widest, 0.05e-3);
 }
 
+// Pairs that are passed by change nothing: the largest overlap of all pairs, or that of two spheres at the same joint of neighbouring fingers.
+TEST(Body, SelfDepthLeavesOutNoPairOfBones) {
+  int from_joints = 0, grips = 0;
+  each_grip(
+      POSES,
+      [&](const BodyScene& on, const GripInput& grip, const GripResult& result) {
+        const double scale = on.scene.hand.scale * grip.hand_scale;
+        const auto place = [&](int joint) { return Vec3(result.posed[joint][0], result.posed[joint][1], result.posed[joint][2]); };
+        const auto radius = [&](int f, int k) { return scale * on.scene.hand.fingers[f].radii[k]; };
+        double of_bones = -1e9, of_joints = -1e9;
+        for (int f = 0; f < FINGER_COUNT; ++f)
+          for (int g = f + 1; g < FINGER_COUNT; ++g) {
+            for (int bone = 1; bone + 1 < finger_joints(f); ++bone)
+              for (int other = 1; other + 1 < finger_joints(g); ++other) {
+                const int j = finger_start(f) + bone, i = finger_start(g) + other;
+                of_bones = std::max(of_bones, bones_overlap(place(j), place(j + 1), {radius(f, bone), radius(f, bone + 1)},
+                                                            place(i), place(i + 1), {radius(g, other), radius(g, other + 1)}));
+              }
+            if (f == 0 || g != f + 1) continue;
+            for (int k = 2; k < 5; ++k) {
+              const double apart = glm::length(place(finger_start(f) + k) - place(finger_start(g) + k));
+              of_joints = std::max(of_joints, radius(f, k) + radius(g, k) - apart);
+            }
+          }
+        EXPECT_NEAR(result.self_depth, std::max(of_bones, of_joints), 1e-12);
+        from_joints += of_joints > of_bones + 1e-9;
+        ++grips;
+      },
+      20);
+  EXPECT_GT(grips, 100);
+  EXPECT_LT(from_joints, grips / 2);
+}
+
 // A finger comes to rest before any of its moving spheres is inside, and some of them touch that no joint does.
 TEST(Body, FingersRestBeforeTheirSpheresAreInside) {
   int touching = 0, rests = 0;

@@ -18,6 +18,17 @@
 namespace wholehand {
 namespace {
 
+// A record's code gives back what it was made of.
+constexpr bool codes_are_told_apart() {
+  for (int side = -1; side <= 1; ++side)
+    for (int supports = 0; supports < 8; ++supports) {
+      const int code = ELEMENT_CODE(side, supports);
+      if (SIDE_OF(code) != side || SUPPORTS_OF(code) != supports) return false;
+    }
+  return true;
+}
+static_assert(codes_are_told_apart());
+
 // Lines and arcs are met to some roundings of coordinates below 0.2 m, and tangents by a rounding more of each.
 constexpr double COORDINATE_ROUNDING = 1e-12;
 constexpr int SAMPLES = 400;
