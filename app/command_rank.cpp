@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // wholehand rank: the best grips of a result by other weights and under conditions.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include "app/result_scene.h"
 #include "app/validators.h"
 #include "app/values.h"
+#include "core/text.h"
 #include "sweeps/best_glb.h"
 #include "sweeps/closing.h"
 #include "sweeps/companions.h"
@@ -112,7 +112,7 @@ ExitCode rank(const RankArguments& arguments) {
     files.insert(files.end(), written.files.begin(), written.files.end());
     for (const std::string& line : written.notes) std::fprintf(stderr, "wholehand: %s\n", line.c_str());
   }
-  print(fmt::format("\nwrote {}\n", fmt::join(files, ", ")));
+  print(fmt::format("\nwrote {}\n", joined(files, ", ")));
   return ExitCode::done;
 }
 

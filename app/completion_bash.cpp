@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Bash: three functions that answer what a command has, and a fixed part that finds out where the cursor is.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "app/completion.h"
+#include "core/text.h"
 
 namespace wholehand {
 namespace {
@@ -14,7 +14,7 @@ std::string bash_value(const CompletedValue& value) {
   for (const std::string& word : value.before_files) parts.push_back("-a " + word);
   for (const std::string& ending : value.endings) parts.push_back("-e " + ending);
   if (value.has_folders) parts.push_back("-d");
-  return fmt::format("{}", fmt::join(parts, " "));
+  return joined(parts, " ");
 }
 
 struct BashTables {
@@ -25,17 +25,17 @@ struct BashTables {
 void add_bash_command(const CompletedCommand& command, const std::string& path, BashTables& tables) {
   std::vector<std::string> names;
   for (const CompletedCommand& one : command.commands) names.push_back(one.name);
-  if (!names.empty()) tables.commands += fmt::format("    '{}') echo '{}' ;;\n", path, fmt::join(names, " "));
+  if (!names.empty()) tables.commands += fmt::format("    '{}') echo '{}' ;;\n", path, joined(names, " "));
   names.clear();
   for (const CompletedOption& option : command.options) {
     names.insert(names.end(), option.names.begin(), option.names.end());
     if (!option.takes_value) continue;
     std::vector<std::string> patterns;
     for (const std::string& name : option.names) patterns.push_back(fmt::format("'{} {}'", path, name));
-    tables.values += fmt::format("    {}) echo '{} {}' ;;\n", fmt::join(patterns, " | "), option.takes_many ? "many" : "one",
+    tables.values += fmt::format("    {}) echo '{} {}' ;;\n", joined(patterns, " | "), option.takes_many ? "many" : "one",
                                  bash_value(option.value));
   }
-  tables.options += fmt::format("    '{}') echo '{}' ;;\n", path, fmt::join(names, " "));
+  tables.options += fmt::format("    '{}') echo '{}' ;;\n", path, joined(names, " "));
   for (std::size_t k = 0; k < command.arguments.size(); ++k) {
     const CompletedOption& argument = command.arguments[k];
     tables.arguments +=

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Fish: a line for each option and each argument, with the command to which it belongs as its condition.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
 #include "app/completion.h"
+#include "core/text.h"
 
 namespace wholehand {
 namespace {
@@ -28,7 +28,7 @@ std::string fish_value(const CompletedValue& value) {
   if (before.empty())
     for (const std::string& ending : value.endings)
       parts.push_back(ending == "*" ? "(__fish_complete_path)" : fmt::format("(__fish_complete_suffix .{})", ending));
-  return parts.empty() ? "" : " -a " + fish_word(fmt::format("{}", fmt::join(parts, " ")));
+  return parts.empty() ? "" : " -a " + fish_word(joined(parts, " "));
 }
 
 void add_fish_option(const CompletedOption& option, const std::string& condition, std::string& text) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Zsh: a function for each command, which gives `_arguments` what the command has.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "app/completion.h"
+#include "core/text.h"
 
 namespace wholehand {
 namespace {
@@ -27,7 +27,7 @@ std::string zsh_plain(const std::string& text) {
 
 // Names of files. Brackets around one ending would be a qualifier.
 std::string zsh_pattern(const std::vector<std::string>& endings) {
-  return endings.size() == 1 ? "*." + endings.front() : fmt::format("*.({})", fmt::join(endings, "|"));
+  return endings.size() == 1 ? "*." + endings.front() : fmt::format("*.({})", joined(endings, "|"));
 }
 
 // What completes the value: the third part of an argument of `_arguments`.
@@ -36,11 +36,11 @@ std::string zsh_action(const CompletedValue& value) {
   const bool is_any = !value.endings.empty() && value.endings.front() == "*";
   if (value.words.empty() && value.endings.empty()) return " ";
   if (value.words.empty()) return is_any ? "_files" : fmt::format("_files -g \"{}\"", zsh_pattern(value.endings));
-  const std::string words = zsh_plain(fmt::format("{}", fmt::join(value.words, " ")));
+  const std::string words = zsh_plain(joined(value.words, " "));
   if (value.endings.empty()) return "(" + words + ")";
   // a space before it: called without further arguments
   return fmt::format(" _wholehand_words_or_files \"{}\" \"{}\" \"{}\"", words, zsh_pattern(value.endings),
-                     zsh_plain(fmt::format("{}", fmt::join(value.before_files, " "))));
+                     zsh_plain(joined(value.before_files, " ")));
 }
 
 void add_zsh_option(const CompletedOption& option, std::string& text) {
@@ -48,7 +48,7 @@ void add_zsh_option(const CompletedOption& option, std::string& text) {
   const std::string help = "[" + zsh_plain(option.help) + "]";
   for (const std::string& name : option.names) {
     // a name excludes the others, unless it may be given again
-    std::string before = option.takes_many ? "*" : fmt::format("({})", fmt::join(option.names, " "));
+    std::string before = option.takes_many ? "*" : fmt::format("({})", joined(option.names, " "));
     text += " \\\n    " + zsh_word(before + name + (option.takes_value && name.starts_with("--") ? "=" : "") + help + value);
   }
 }

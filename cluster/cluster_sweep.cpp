@@ -2,7 +2,6 @@
 #include "cluster/cluster_sweep.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -23,6 +22,7 @@
 #include "cluster/packet.h"
 #include "cluster/work_range.h"
 #include "core/candidates.h"
+#include "core/text.h"
 #include "host/device.h"
 #include "host/open_backend.h"
 #include "objects/vessel.h"
@@ -494,8 +494,8 @@ class ClusterSweep final : public Sweep {
       }
     }
     if (grips == 0) return;
-    say_note(fmt::format("no rank has the shard{} {}: computing {} grips again", names.size() > 1 ? "s" : "",
-                         fmt::join(names, ", "), readable_number(grips)));
+    say_note(fmt::format("no rank has the shard{} {}: computing {} grips again", names.size() > 1 ? "s" : "", joined(names, ", "),
+                         readable_number(grips)));
   }
 
   // Of the leader's mark: the stretches that are nowhere, by the rank that computes them again, in its order. The mark says so from now on.
@@ -932,8 +932,8 @@ class ClusterSweep final : public Sweep {
     for (const VesselProgress& vessel : mark_.vessels)
       for (const Stretch& stretch : vessel.stretches)
         if (!stretch.shard.empty()) files.insert(shard_path(names_, stretch.shard));
-    fmt::print("the other grips lie in {}; once all are in one folder, `wholehand merge {}` makes one file\n",
-               fmt::join(files, ", "), names_.result);
+    fmt::print("the other grips lie in {}; once all are in one folder, `wholehand merge {}` makes one file\n", joined(files, ", "),
+               names_.result);
   }
 
   // The best of what the mark knows to be done.

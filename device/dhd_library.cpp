@@ -3,13 +3,13 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 
 #include "core/error.h"
+#include "core/text.h"
 
 namespace wholehand {
 
@@ -61,7 +61,7 @@ Loaded load_first(const std::vector<std::string>& names) {
     if (!is_absent && reason.empty()) reason = loaded.problem;
   }
   if (!reason.empty()) throw is_unusable("cannot load Force Dimension's SDK: " + reason);
-  throw is_unusable(fmt::format("Force Dimension's SDK is not there (looked for {})", fmt::join(names, ", ")));
+  throw is_unusable(fmt::format("Force Dimension's SDK is not there (looked for {})", joined(names, ", ")));
 }
 
 template <class Function>

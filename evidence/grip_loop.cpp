@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <limits>
 
 #include "core/loop.h"
 #include "core/scene.h"
+#include "core/text.h"
 #include "evidence/wall.h"
 
 namespace wholehand {
@@ -228,7 +228,6 @@ std::string grip_loop_csv(const std::vector<GripLoopRow>& rows, const std::strin
       "varied,base_N,range_N,k_open_Npm,max_N,rate_Hz,device_kg,device_Nspm,finger_kg,finger_Nspm,finger_Npm,reaction_s,response_s,"
       "excess_N,tilt_rad,tilt_speed_radps,band_mm,outcome,response_time_s,overshoot_mm,opened_mm,swing_mm,sampled_k_open_Npm,"
       "reaction_k_open_Npm,device,driver,version,seed\n";
-  auto out = std::back_inserter(csv);
   const auto number = [](double value) { return std::isfinite(value) ? fmt::format("{:.6g}", value) : std::string(); };
   GripLoop last;
   double sampled = sampled_k_open(last);
@@ -239,12 +238,11 @@ std::string grip_loop_csv(const std::vector<GripLoopRow>& rows, const std::strin
     if (!is_same) sampled = sampled_k_open(l);
     last = l;
     const GripLoopResult& r = row.result;
-    fmt::format_to(out,
-                   "{},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:.5g},{:g},{:g},{},{},{},{},{},{},{},{}\n",
-                   row.varied, l.base, l.range, l.k_open, l.max, l.rate, l.device_mass, l.device_damping, l.finger_mass,
-                   l.finger_damping, l.finger_stiffness, l.reaction, l.response, l.excess, l.tilt, l.tilt_speed, l.band * 1e3,
-                   GRIP_OUTCOME_NAMES[static_cast<int>(r.outcome)], number(r.response_time), number(r.overshoot * 1e3),
-                   number(r.opened * 1e3), number(r.swing * 1e3), number(sampled), number(reaction_k_open(l)), run);
+    append(csv, "{},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:.5g},{:g},{:g},{},{},{},{},{},{},{},{}\n",
+           row.varied, l.base, l.range, l.k_open, l.max, l.rate, l.device_mass, l.device_damping, l.finger_mass, l.finger_damping,
+           l.finger_stiffness, l.reaction, l.response, l.excess, l.tilt, l.tilt_speed, l.band * 1e3,
+           GRIP_OUTCOME_NAMES[static_cast<int>(r.outcome)], number(r.response_time), number(r.overshoot * 1e3),
+           number(r.opened * 1e3), number(r.swing * 1e3), number(sampled), number(reaction_k_open(l)), run);
   }
   return csv;
 }

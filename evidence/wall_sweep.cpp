@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <memory>
 #include <random>
 
 #include "core/core_backend.h"
 #include "core/parallel.h"
 #include "core/random_bits.h"
+#include "core/text.h"
 #include "core/wall_run.h"
 #include "host/wall_map.h"
 
@@ -215,15 +215,14 @@ std::string wall_csv(const std::vector<WallSheet>& sheets) {
   std::string csv =
       "sheet,mass_kg,damping_Nspm,rate_Hz,wall_damping_Nspm,delay_samples,encoder_um,coulomb_N,finger_kg,finger_Nspm,finger_Npm,"
       "integrator,substeps,stiffness_Npm,late_energy_over_allowed,settles\n";
-  auto out = std::back_inserter(csv);
   for (const WallSheet& sheet : sheets)
     for (const WallColumn& column : sheet.columns)
       for (const WallPoint& point : column.points) {
         const WallDevice& d = point.device;
-        fmt::format_to(out, "{},{:g},{:g},{:.7g},{:.7g},{},{:.7g},{:g},{:g},{:g},{:g},{},{},{:.7g},{:.4g},{}\n", sheet.name, d.mass,
-                       d.damping, d.rate, d.wall_damping, d.delay, d.encoder_step * 1e6, d.coulomb, d.finger_mass, d.finger_damping,
-                       d.finger_stiffness, INTEGRATOR_NAMES[point.integrator], point.substeps, point.stiffness, point.energy,
-                       point.settles() ? 1 : 0);
+        append(csv, "{},{:g},{:g},{:.7g},{:.7g},{},{:.7g},{:g},{:g},{:g},{:g},{},{},{:.7g},{:.4g},{}\n", sheet.name, d.mass,
+               d.damping, d.rate, d.wall_damping, d.delay, d.encoder_step * 1e6, d.coulomb, d.finger_mass, d.finger_damping,
+               d.finger_stiffness, INTEGRATOR_NAMES[point.integrator], point.substeps, point.stiffness, point.energy,
+               point.settles() ? 1 : 0);
       }
   return csv;
 }
@@ -232,18 +231,16 @@ std::string wall_limits_csv(const std::vector<WallSheet>& sheets, const std::str
   std::string csv =
       "sheet,mass_kg,damping_Nspm,rate_Hz,wall_damping_Nspm,delay_samples,encoder_um,coulomb_N,finger_kg,finger_Nspm,finger_Npm,"
       "integrator,substeps,settles_up_to_Npm,next_tried_Npm,passive_Npm,linear_Npm,coulomb_Npm,device,driver,version,seed\n";
-  auto out = std::back_inserter(csv);
   for (const WallSheet& sheet : sheets)
     for (const WallColumn& column : sheet.columns) {
       const WallPoint& first = column.points.front();
       const WallDevice& d = first.device;
       const auto next = std::find_if(column.points.begin(), column.points.end(), [](const WallPoint& p) { return !p.settles(); });
-      fmt::format_to(out, "{},{:g},{:g},{:.7g},{:.7g},{},{:.7g},{:g},{:g},{:g},{:g},{},{},{},{},{},{},{},{}\n", sheet.name, d.mass,
-                     d.damping, d.rate, d.wall_damping, d.delay, d.encoder_step * 1e6, d.coulomb, d.finger_mass, d.finger_damping,
-                     d.finger_stiffness, INTEGRATOR_NAMES[first.integrator], first.substeps,
-                     number_or_empty(column.theory.simulated), next == column.points.end() ? "" : number_or_empty(next->stiffness),
-                     number_or_empty(column.theory.passive), number_or_empty(column.theory.linear),
-                     number_or_empty(column.theory.coulomb), run);
+      append(csv, "{},{:g},{:g},{:.7g},{:.7g},{},{:.7g},{:g},{:g},{:g},{:g},{},{},{},{},{},{},{},{}\n", sheet.name, d.mass,
+             d.damping, d.rate, d.wall_damping, d.delay, d.encoder_step * 1e6, d.coulomb, d.finger_mass, d.finger_damping,
+             d.finger_stiffness, INTEGRATOR_NAMES[first.integrator], first.substeps, number_or_empty(column.theory.simulated),
+             next == column.points.end() ? "" : number_or_empty(next->stiffness), number_or_empty(column.theory.passive),
+             number_or_empty(column.theory.linear), number_or_empty(column.theory.coulomb), run);
     }
   return csv;
 }

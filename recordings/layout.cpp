@@ -2,7 +2,6 @@
 #include "recordings/layout.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -10,6 +9,7 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "recordings/fields.h"
 
 namespace wholehand {
@@ -304,7 +304,7 @@ void add_end(Header& header, const RecordingEnd& end) {
 std::string dimension_names(const Header& header, const classic::Variable& variable) {
   std::vector<std::string> names;
   for (const std::uint32_t dimension : variable.dimensions) names.push_back(header.dimensions[dimension].name);
-  return fmt::format("{}", fmt::join(names, " "));
+  return joined(names, " ");
 }
 
 RecordingInfo info_of(const Header& header, const FixedValues& fixed_values) {

@@ -4,15 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
+#include "core/text.h"
 #include "recordings/session_report.h"
 #include "system/csv.h"
 
 namespace wholehand {
 namespace {
-
-using SessionText = std::back_insert_iterator<std::string>;
 
 // "-" where there is none.
 std::string shown(double value, double unit, int digits) {
@@ -34,7 +32,7 @@ const char* shown_course(GripCourse course) {
 class ColumnTable {
  public:
   void row(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
-  void write(SessionText out) const {
+  void write(std::string& out) const {
     std::vector<std::size_t> widths;
     for (const auto& cells : rows_) {
       widths.resize(std::max(widths.size(), cells.size()));
@@ -42,10 +40,10 @@ class ColumnTable {
     }
     for (const auto& cells : rows_) {
       for (std::size_t k = 0; k < cells.size(); ++k) {
-        if (k == 0) fmt::format_to(out, "  {:<{}}", cells[k], widths[k]);
-        if (k > 0 && !cells[k].empty()) fmt::format_to(out, "  {:>{}}", cells[k], widths[k]);
+        if (k == 0) append(out, "  {:<{}}", cells[k], widths[k]);
+        if (k > 0 && !cells[k].empty()) append(out, "  {:>{}}", cells[k], widths[k]);
       }
-      fmt::format_to(out, "\n");
+      append(out, "\n");
     }
   }
 
@@ -53,13 +51,13 @@ class ColumnTable {
   std::vector<std::vector<std::string>> rows_;
 };
 
-void write_heading(SessionText out, const SessionReport& report) {
+void write_heading(std::string& out, const SessionReport& report) {
   const RecordingInfo& info = report.info;
-  fmt::format_to(out, "Session of {:.3f} s in {}, on {}, {:g} Hz{}{}\n", report.duration,
-                 info.scene_name.empty() ? info.scene_file : info.scene_name, info.device.name, info.rate,
-                 info.start.empty() ? "" : ", ", info.start);
+  append(out, "Session of {:.3f} s in {}, on {}, {:g} Hz{}{}\n", report.duration,
+         info.scene_name.empty() ? info.scene_file : info.scene_name, info.device.name, info.rate, info.start.empty() ? "" : ", ",
+         info.start);
   if (report.fault != Fault::none)
-    fmt::format_to(
+    append(
         out, "  {}{}\n",
         report.fault == Fault::interrupted ? "ended by a signal, or because nobody read its output any more" : "ended by a fault: ",
         report.fault == Fault::interrupted ? "" : FAULT_NAMES[static_cast<std::size_t>(report.fault)]);
@@ -68,13 +66,13 @@ void write_heading(SessionText out, const SessionReport& report) {
   for (std::size_t k = 0; k < report.time_in_state.size(); ++k)
     states.row({SESSION_STATE_NAMES[k], shown(report.time_in_state[k], 1, 3)});
   states.write(out);
-  fmt::format_to(out, "  grasps {}, lost {}, destinations {}{}\n", report.grasps.size(), report.lost, report.destinations,
-                 report.task_done ? ", task done" : "");
+  append(out, "  grasps {}, lost {}, destinations {}{}\n", report.grasps.size(), report.lost, report.destinations,
+         report.task_done ? ", task done" : "");
 }
 
-void write_grasps(SessionText out, const SessionReport& report) {
+void write_grasps(std::string& out, const SessionReport& report) {
   if (report.grasps.empty()) return;
-  fmt::format_to(out, "\nGrasps: times in s, response in ms, forces in N, tilt in degrees, distance in mm, volumes in mL\n");
+  append(out, "\nGrasps: times in s, response in ms, forces in N, tilt in degrees, distance in mm, volumes in mL\n");
   ColumnTable table;
   table.row({"vessel", "start", "lift", "tilt", "maintain", "response", "stopped", "before", "during", "after", "largest tilt",
              "normal rise", "grip change", "type", "guidance", "poured", "arrived", "spilt", "end"});
@@ -90,11 +88,10 @@ void write_grasps(SessionText out, const SessionReport& report) {
   table.write(out);
   for (const GraspReport& grasp : report.grasps) {
     if (!(grasp.saturated > 0)) continue;
-    fmt::format_to(
-        out, "  {} at {:.3f} s: the feedback was at F_max for {:.3f} s; at F_max the gripper renders neither torque nor grip\n",
-        report.info.vessels[static_cast<std::size_t>(grasp.vessel)].name, grasp.start, grasp.saturated);
+    append(out, "  {} at {:.3f} s: the feedback was at F_max for {:.3f} s; at F_max the gripper renders neither torque nor grip\n",
+           report.info.vessels[static_cast<std::size_t>(grasp.vessel)].name, grasp.start, grasp.saturated);
   }
-  fmt::format_to(out, "\nBy vessel, mean +- deviation over grasps: times in s, forces in N\n");
+  append(out, "\nBy vessel, mean +- deviation over grasps: times in s, forces in N\n");
   ColumnTable summary;
   summary.row({"vessel", "grasps", "lost", "G1", "G2", "G3", "G4", "response", "stopped", "before", "during", "after",
                "normal rise", "grip change", "tilting"});
@@ -109,9 +106,9 @@ void write_grasps(SessionText out, const SessionReport& report) {
   summary.write(out);
 }
 
-void write_amounts(SessionText out, const SessionReport& report) {
+void write_amounts(std::string& out, const SessionReport& report) {
   if (report.amounts.empty()) return;
-  fmt::format_to(out, "\n");
+  append(out, "\n");
   ColumnTable table;
   table.row({"liquid", "arrived mL", "spilt mL", "wanted mL", ""});
   for (const PouredAmount& amount : report.amounts) {
@@ -125,8 +122,8 @@ void write_amounts(SessionText out, const SessionReport& report) {
   table.write(out);
 }
 
-void write_timing(SessionText out, const SessionReport& report) {
-  fmt::format_to(out, "\n");
+void write_timing(std::string& out, const SessionReport& report) {
+  append(out, "\n");
   ColumnTable table;
   table.row({"timing, us", "median", "99 %", "99.9 %", "largest"});
   const auto row = [&table](const char* name, const Percentiles& p) {
@@ -136,7 +133,7 @@ void write_timing(SessionText out, const SessionReport& report) {
   row("step", report.step);
   row("latency", report.latency);
   table.write(out);
-  fmt::format_to(out, "  periods missed {}, recorded {}\n", report.missed, report.ticks);
+  append(out, "  periods missed {}, recorded {}\n", report.missed, report.ticks);
 }
 
 // A cell of a CSV file; empty where there is none.
@@ -152,11 +149,10 @@ std::string csv_vessel(const SessionReport& report, int vessel) {
 
 std::string session_table(const SessionReport& report) {
   std::string text;
-  const SessionText out(text);
-  write_heading(out, report);
-  write_grasps(out, report);
-  write_amounts(out, report);
-  if (report.ticks > 0) write_timing(out, report);
+  write_heading(text, report);
+  write_grasps(text, report);
+  write_amounts(text, report);
+  if (report.ticks > 0) write_timing(text, report);
   return text;
 }
 

@@ -2,12 +2,12 @@
 #include "report/agreement.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>
 #include <string_view>
 
+#include "core/text.h"
 #include "shaders/layout.h"
 #include "system/readable.h"
 
@@ -104,7 +104,7 @@ std::string largest_differences(const Agreement& agreement) {
       if (row.quantity == wanted)
         parts.push_back(fmt::format("{} {} {}", row.quantity, three_figures(row.worst), unit_for_people(row.unit)));
   }
-  return fmt::format("{}", fmt::join(parts, ", "));
+  return joined(parts, ", ");
 }
 
 std::string agreement_text(const ReportSource& source, const Agreement& agreement) {
@@ -190,7 +190,7 @@ void write_agreement(MarkupWriter& html, const ReportSource& source, std::size_t
   std::string note =
       "The tolerance is the change of the core's own answer when the grip moves by as much as the precision of the sweep leaves "
       "open. The table shows the tolerance of the grip with the largest difference.";
-  if (!agreement.uncompared.empty()) note += fmt::format(" These are not compared: {}.", fmt::join(agreement.uncompared, ", "));
+  if (!agreement.uncompared.empty()) note += fmt::format(" These are not compared: {}.", joined(agreement.uncompared, ", "));
   html.element("p", note, {{"class", "note"}}).close();
 }
 

@@ -2,7 +2,6 @@
 #include "report/guidance.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +9,7 @@
 #include <cmath>
 
 #include "charts/field.h"
+#include "core/text.h"
 #include "grips/hand_nodes.h"
 #include "shaders/layout.h"
 #include "system/readable.h"
@@ -107,7 +107,7 @@ void write_charts(MarkupWriter& html, const GuidanceStatistics& statistics, cons
   html.open("figure").open("div", {{"class", "charts"}});
   html.open("div", {{"class", "chart"}});
   write_chart(html, fingers);
-  html.element("p", fmt::format("Grips in each range of distance: {}.", fmt::join(counts, ", ")), {{"class", "note"}}).close();
+  html.element("p", fmt::format("Grips in each range of distance: {}.", joined(counts, ", ")), {{"class", "note"}}).close();
   html.open("div", {{"class", "chart"}});
   write_chart(html, points);
   html.close().close();
@@ -197,7 +197,7 @@ void write_guidance(MarkupWriter& html, const ReportSource& source, std::size_t 
   std::string text = fmt::format(
       "Guidance points (height, azimuth): {}. The distance of a grip is measured from the nearer of its two contacts, on the skin, "
       "to the nearest guidance point. n = {} feasible and plausible grips",
-      fmt::join(points, "; "), readable_number(statistics.grips));
+      joined(points, "; "), readable_number(statistics.grips));
   text += sample.looked_at < source.plan.stored_grips()
               ? fmt::format(" of {} examined grips, of {} grips in all.", readable_number(sample.looked_at),
                             readable_number(source.plan.stored_grips()))

@@ -4,7 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
+
+#include "core/text.h"
 
 namespace wholehand {
 
@@ -42,7 +43,7 @@ std::string svg_address(std::string_view svg) {
     if (is_plain) {
       address += c;
     } else {
-      fmt::format_to(std::back_inserter(address), "%{:02X}", static_cast<unsigned char>(c));
+      append(address, "%{:02X}", static_cast<unsigned char>(c));
     }
   }
   return address;

@@ -2,13 +2,13 @@
 #include "report/maps.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <functional>
 
+#include "core/text.h"
 #include "shaders/layout.h"
 #include "sweeps/heat_map_plot.h"
 
@@ -79,7 +79,7 @@ std::string other_axes(const Plan& plan) {
     names.push_back(plan.axes()[place].name);
     std::replace(names.back().begin(), names.back().end(), '_', ' ');
   }
-  return fmt::format("{}", fmt::join(names, names.size() == 2 ? " and " : ", "));
+  return joined(names, names.size() == 2 ? " and " : ", ");
 }
 
 // Lowest and highest of a value over the filled cells of all maps; false: there is none.

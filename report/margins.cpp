@@ -2,7 +2,6 @@
 #include "report/margins.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -11,6 +10,7 @@
 #include <limits>
 
 #include "core/planes.h"
+#include "core/text.h"
 #include "report/html.h"
 
 namespace wholehand {
@@ -151,9 +151,9 @@ std::string verdict(const Scene& scene, const GripReport& report) {
     reasons.push_back(term_reason(scene, report, term));
   }
   if (weakest && weakest->value < 1 && !reasons.empty())
-    return fmt::format("Although {}, {}.", fmt::join(reasons, " and "), limit_text(scene, report, *weakest));
+    return fmt::format("Although {}, {}.", joined(reasons, " and "), limit_text(scene, report, *weakest));
   std::string text =
-      reasons.empty() ? "Nothing speaks for this grip" : fmt::format("This grip is good because {}", fmt::join(reasons, " and "));
+      reasons.empty() ? "Nothing speaks for this grip" : fmt::format("This grip is good because {}", joined(reasons, " and "));
   if (weakest) text += "; " + limit_text(scene, report, *weakest);
   return text + ".";
 }

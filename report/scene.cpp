@@ -2,7 +2,6 @@
 #include "report/scene.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 
 #include "core/mesh_body.h"
 #include "core/prepare.h"
+#include "core/text.h"
 #include "grips/methods.h"
 #include "sweeps/result_contents.h"
 #include "system/readable.h"
@@ -43,7 +43,7 @@ std::string grips_text(const ReportSource& source) {
   add(PLACE_HAND_SCALE, "hand scale", 1, "");
   const std::string kind = plan.is_sobol() ? fmt::format("{} points of a Sobol sequence", readable_number(plan.grips()))
                                            : readable_number(plan.stored_grips());
-  return fmt::format("{}: {}", kind, fmt::join(parts, ", "));
+  return fmt::format("{}: {}", kind, joined(parts, ", "));
 }
 
 std::string states_text(const Scene& scene) {
@@ -58,7 +58,7 @@ std::string states_text(const Scene& scene) {
   for (const double volume : scene.liquid->volumes) fills.push_back(plain_number(1e6 * volume));
   for (const double fill : scene.liquid->fills) fills.push_back(shown_number(100 * fill, 0));
   const std::string shown = fills.size() > 12 ? fmt::format("{} fills from {} to {}", fills.size(), fills.front(), fills.back())
-                                              : fmt::format("fills {}", fmt::join(fills, ", "));
+                                              : fmt::format("fills {}", joined(fills, ", "));
   const std::string left_out = scene.until_poured
                                    ? fmt::format("; tilts beyond the first at which {} % of a fill has poured are left out",
                                                  plain_number(100 * *scene.until_poured))
@@ -99,7 +99,7 @@ std::string hold_text(const Scene& scene) {
     const char* name = digit < FINGER_COUNT ? FINGER_NAMES[digit] : "palm";
     digits.push_back(fmt::format("{} {}", name, plain_number(scene.strength->digits[digit])));
   }
-  return fmt::format("{}, strength of the digits in N: {}", pinch, fmt::join(digits, ", "));
+  return fmt::format("{}, strength of the digits in N: {}", pinch, joined(digits, ", "));
 }
 
 std::string weights_text(const Scene& scene) {
@@ -108,7 +108,7 @@ std::string weights_text(const Scene& scene) {
   std::vector<std::string> parts;
   for (std::size_t k = 0; k < names.size(); ++k)
     if (weights[k] > 0) parts.push_back(fmt::format("{} {}", names[k], plain_number(weights[k])));
-  return fmt::format("{}", fmt::join(parts, ", "));
+  return joined(parts, ", ");
 }
 
 std::string form_text(const VesselData& vessel) {
@@ -203,7 +203,7 @@ std::vector<std::string> left_out(const ReportSource& source) {
     sentences.emplace_back("Every variable of the grips: the file holds only the best grips ([output] keep).");
   } else if (!missing.empty()) {
     sentences.push_back(fmt::format("{} of {} variables were not kept in the file ([output] keep): {}.", missing.size(), possible,
-                                    fmt::join(missing, ", ")));
+                                    joined(missing, ", ")));
   }
   return sentences;
 }

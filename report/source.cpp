@@ -2,11 +2,11 @@
 #include "report/source.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
 #include "core/core_backend.h"
+#include "core/text.h"
 
 namespace wholehand {
 
@@ -38,7 +38,7 @@ std::string axis_text(const Axis& axis, double scale, const std::string& unit) {
   if (axis.values.size() > LISTED) return fmt::format("{} to {}{}", number(axis.values.front()), number(axis.values.back()), unit);
   std::vector<std::string> numbers;
   for (const double value : axis.values) numbers.push_back(number(value));
-  return fmt::format("{}{}", fmt::join(numbers, ", "), unit);
+  return fmt::format("{}{}", joined(numbers, ", "), unit);
 }
 
 bool axis_varies(const Plan& plan, int place) {

@@ -2,12 +2,12 @@
 #include "scene/list.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <sstream>
 
+#include "core/text.h"
 #include "scene/reader.h"
 #include "scene/text.h"
 
@@ -35,8 +35,7 @@ std::string list_scenes(const std::vector<std::string>& files) {
     const Scene scene = read_scene_file(file);
     std::vector<std::string> vessels;
     for (const VesselData& vessel : scene.vessels) vessels.push_back(vessel.name);
-    rows.push_back(
-        {std::filesystem::path(file).stem().string(), fmt::format("{}", fmt::join(vessels, ", ")), purpose_of_scene(scene.text)});
+    rows.push_back({std::filesystem::path(file).stem().string(), joined(vessels, ", "), purpose_of_scene(scene.text)});
     name_width = std::max(name_width, rows.back().name.size());
     vessels_width = std::max(vessels_width, rows.back().vessels.size());
   }

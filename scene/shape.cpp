@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/text.h"
 #include "scene/parts.h"
 
 namespace wholehand {
@@ -18,9 +19,9 @@ void check_dimensions(const SceneTable& vessel, const std::string& shape, std::i
     const bool is_own = std::find(own.begin(), own.end(), key) != own.end();
     if (is_own || !vessel.has(key)) continue;
     vessel.file().refuse(vessel.place(key), fmt::format("{} is not a dimension of a {}", key, shape),
-                         fmt::format("allowed: {}", fmt::join(own, ", ")));
+                         fmt::format("allowed: {}", joined(own, ", ")));
   }
-  for (const auto key : own) vessel.need(key, fmt::format("a {} with {}", shape, fmt::join(own, ", ")));
+  for (const auto key : own) vessel.need(key, fmt::format("a {} with {}", shape, joined(own, ", ")));
 }
 
 OutlineElement line_to(double r, double y) {

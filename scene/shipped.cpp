@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "scene/text.h"
 
 namespace wholehand {
@@ -107,7 +108,7 @@ std::string find_scene(const std::string& name) {
   const auto shipped = shipped_scenes();
   throw usage_error(fmt::format("no scene file {}{}; give the path of a TOML file{}{}", in_quotes(name),
                                 did_you_mean(name, shipped),
-                                shipped.empty() ? "" : " or one of the shipped scenes: ", fmt::join(shipped, ", ")));
+                                shipped.empty() ? "" : " or one of the shipped scenes: ", joined(shipped, ", ")));
 }
 
 }  // namespace wholehand

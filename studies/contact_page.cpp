@@ -2,7 +2,6 @@
 #include "studies/contact_page.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <array>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include <vector>
 
 #include "core/joints.h"
+#include "core/text.h"
 #include "report/html.h"
 #include "studies/words.h"
 
@@ -134,10 +134,10 @@ void add_contact_sections(StudyPage& page, const ContactPlan& plan, std::span<co
   for (const StudyVessel& vessel : plan.vessels())
     samples.push_back(fmt::format("{}: {}{}", vessel.name, vessel.sample, vessel.is_of_paper ? "" : " (not in \u201call\u201d)"));
   page.words.push_back(
-      fmt::format("A sample of the paper's size has {} people, and these grasps. {}.", PAPER_PEOPLE, fmt::join(samples, ", ")));
+      fmt::format("A sample of the paper's size has {} people, and these grasps. {}.", PAPER_PEOPLE, joined(samples, ", ")));
   if (!plan.unheld().empty())
     page.words.push_back(
-        fmt::format("The mean person cannot hold {}: there everybody plans the roll 0.", fmt::join(plan.unheld(), ", ")));
+        fmt::format("The mean person cannot hold {}: there everybody plans the roll 0.", joined(plan.unheld(), ", ")));
   for (const char* pose : STUDY_POSE_NAMES) {
     StudySection section{pose, fmt::format("Contacts, pose {}", pose), {}, {}};
     for (const StudyRow& row : rows)

@@ -2,7 +2,6 @@
 #include "studies/run.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <memory>
@@ -11,6 +10,7 @@
 
 #include "advice/adviser.h"
 #include "core/parallel.h"
+#include "core/text.h"
 #include "evidence/gains.h"
 #include "objects/vessel.h"
 #include "studies/advice_statistics.h"
@@ -90,7 +90,7 @@ class StudyRun {
       return ExitCode::interrupted;
     }
     if (!sensitivity_.empty()) page_.sections.push_back(sensitivity_section(sensitivity_));
-    page_.lead = fmt::format("{}, and {} samples of the paper's size; seed {}.", fmt::join(lead_, "; "),
+    page_.lead = fmt::format("{}, and {} samples of the paper's size; seed {}.", joined(lead_, "; "),
                              readable_number(static_cast<std::uint64_t>(options_.resamples)), options_.seed);
     const std::string inside = count_inside(rows_).of > 0 ? inside_sentence(rows_) : "";
     StudyRow share;
@@ -185,8 +185,7 @@ class StudyRun {
     const std::string grasps = counted(contacts_->grasps().size(), "grasp");
     say(fmt::format("contacts, {} people with {} each, in {} poses", readable_number(people), grasps, STUDY_POSES.size()));
     if (!contacts_->unheld().empty())
-      say_note(
-          fmt::format("the mean person cannot hold {}: there everybody plans the roll 0", fmt::join(contacts_->unheld(), ", ")));
+      say_note(fmt::format("the mean person cannot hold {}: there everybody plans the roll 0", joined(contacts_->unheld(), ", ")));
     std::optional<ContactStudy> study = study_contacts(*contacts_, options_, *stop_);
     if (!study) return false;
     add_contact_sections(page_, *contacts_, study->rows);

@@ -2,11 +2,11 @@
 #include "studies/session_page.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <string>
 #include <utility>
 
+#include "core/text.h"
 #include "studies/paper_sample.h"
 
 namespace wholehand {
@@ -21,7 +21,7 @@ StudySection session_section(const SessionVessels& vessels, std::vector<StudyRow
   section.words = {
       fmt::format("People pour from the vessels, as in the paper's mixing task. The intervals are those of samples of the paper's "
                   "size, with {} people and at most so many grasps. {}.",
-                  PAPER_PEOPLE, fmt::join(samples, ", ")),
+                  PAPER_PEOPLE, joined(samples, ", ")),
       "Forces before, during and after the tilt, the times of tilting and maintaining, and the forces at first are of the grasps "
       "that are tilted by 30 degrees or more. The increase of the normal force, the types, and whether the grip rises are of the "
       "grasps that have a type. All other numbers are of all grasps.",

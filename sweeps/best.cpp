@@ -2,7 +2,6 @@
 #include "sweeps/best.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <bit>
@@ -10,6 +9,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "shaders/layout.h"
 #include "sweeps/variables.h"
 #include "system/csv.h"

@@ -2,11 +2,12 @@
 #include "sweeps/edge.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "core/text.h"
 
 namespace wholehand {
 namespace {
@@ -90,7 +91,7 @@ std::vector<std::string> edge_axes(const Scene& scene, const Plan& plan, std::si
 
 std::string edge_line(const std::vector<std::string>& axes) {
   if (axes.empty()) return "";
-  return fmt::format("the best grip lies on the edge of {}; widen {}?", fmt::join(axes, " and "), axes.size() == 1 ? "it" : "them");
+  return fmt::format("the best grip lies on the edge of {}; widen {}?", joined(axes, " and "), axes.size() == 1 ? "it" : "them");
 }
 
 }  // namespace wholehand

@@ -2,10 +2,11 @@
 #include "sweeps/heat_map_plot.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "core/text.h"
 
 namespace wholehand {
 namespace {
@@ -109,7 +110,7 @@ std::vector<HeatMapPicture> sweep_pictures(const Scene& scene, const Plan& plan,
     over.push_back(axis.name);
     std::replace(over.back().begin(), over.back().end(), '_', ' ');
   }
-  const std::string maximised = over.empty() ? "score" : fmt::format("best score over {}", fmt::join(over, ", "));
+  const std::string maximised = over.empty() ? "score" : fmt::format("best score over {}", joined(over, ", "));
   const std::vector<std::string> parts = file_name_parts(scene);
   std::vector<HeatMapPicture> pictures;
   for (std::size_t v = 0; v < maps.size(); ++v) {

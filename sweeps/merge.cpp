@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -15,6 +14,7 @@
 #include <map>
 #include <memory>
 
+#include "core/text.h"
 #include "sweeps/mark.h"
 #include "sweeps/result_file.h"
 #include "sweeps/shard.h"
@@ -124,11 +124,11 @@ class Merge {
         if (const std::string why = why_no_shard(path); !why.empty()) unusable.push_back(path + " " + why);
     }
     if (!unusable.empty())
-      throw usage_error(fmt::format("{}; copy {} of this sweep beside {}, or name its folder with --from",
-                                    fmt::join(unusable, ", "), fmt::join(missing, ", "), names_.partial));
+      throw usage_error(fmt::format("{}; copy {} of this sweep beside {}, or name its folder with --from", joined(unusable, ", "),
+                                    joined(missing, ", "), names_.partial));
     if (missing.empty()) return;
     throw usage_error(fmt::format("{} of this sweep {} in none of the folders; copy {} beside {}, or name a folder with --from",
-                                  fmt::join(missing, ", "), missing.size() > 1 ? "are" : "is", missing.size() > 1 ? "them" : "it",
+                                  joined(missing, ", "), missing.size() > 1 ? "are" : "is", missing.size() > 1 ? "them" : "it",
                                   names_.partial));
   }
 
@@ -207,7 +207,7 @@ class Merge {
   std::string names_of_shards() const {
     std::vector<std::string> names;
     for (const auto& [name, path] : shards_) names.push_back(path);
-    return fmt::format("{}", fmt::join(names, ", "));
+    return joined(names, ", ");
   }
 
   const MergeRequest& request_;

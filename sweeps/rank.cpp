@@ -2,7 +2,6 @@
 #include "sweeps/rank.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -16,6 +15,7 @@
 #include "core/fields.h"
 #include "core/nearest_name.h"
 #include "core/planes.h"
+#include "core/text.h"
 #include "shaders/layout.h"
 #include "sweeps/list_chooser.h"
 
@@ -42,7 +42,7 @@ std::vector<const Variable*> needed(const SweepResult& result, const std::vector
   if (missing.empty()) return variables;
   throw usage_error(
       fmt::format("{}: lacks {}, as [output] keep of its scene does not name it; add {} to keep, or remove keep, and sweep again",
-                  result.path(), fmt::join(missing, ", "), missing.size() == 1 ? "it" : "them"));
+                  result.path(), joined(missing, ", "), missing.size() == 1 ? "it" : "them"));
 }
 
 // Values that a condition may name beside the variables: numbers of sources from variable_catalogue().size() on, by PLACE_*; then the height in m.
@@ -311,7 +311,7 @@ std::array<double, 6> read_weights(const std::string& text, const Scene& scene) 
     const auto term = static_cast<std::size_t>(std::find(TERMS.begin(), TERMS.end(), name) - TERMS.begin());
     if (term == TERMS.size()) {
       throw usage_error(fmt::format("--weights: there is no term '{}'; the nearest is '{}' of {}", name.substr(0, 60),
-                                    nearest_name(name, TERMS), fmt::join(TERMS, ", ")));
+                                    nearest_name(name, TERMS), joined(TERMS, ", ")));
     }
     if (!has_term(scene, term))
       throw usage_error(fmt::format("--weights: {} needs [tilts], which the scene of this file does not have", name));
@@ -337,7 +337,7 @@ std::vector<WhereName> where_names(const SweepResult& result, const Scene& scene
     WhereName entry{variable.name, variable.units, WhereKind::number, WhereUnit::own, "", refusal_of(variable, result, scene), k};
     if (name.ends_with("_mask")) entry.kind = WhereKind::mask;
     if (meaning == YES_NO) entry.kind = WhereKind::truth;
-    if (variable_planes(variable, scene) > 1) entry.over = fmt::format("{}", fmt::join(variable.dims, " and "));
+    if (variable_planes(variable, scene) > 1) entry.over = joined(variable.dims, " and ");
     add_names(names, entry);
   }
   const std::size_t first = catalogue.size() + SOURCE_AXIS;

@@ -2,7 +2,6 @@
 #include "sweeps/result_contents.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <cstring>
 #include <filesystem>
@@ -10,6 +9,7 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "objects/vessel.h"
 #include "shaders/layout.h"
 #include "sweeps/result_definition.h"
@@ -126,7 +126,7 @@ class SweepDefinition : ResultDefinition {
     Names all{JOINT_RADIUS};
     if (has_own_heights()) all.push_back(HEIGHT);
     if (scene.liquid) all.insert(all.end(), {FILL_FRACTION, FILL_VOLUME});
-    text(NC_GLOBAL, "coordinates", fmt::format("{}", fmt::join(all, " ")));
+    text(NC_GLOBAL, "coordinates", joined(all, " "));
   }
 
   // Points are stored with the grips; without these there is nothing that they would be coordinates of.
@@ -269,7 +269,7 @@ class SweepDefinition : ResultDefinition {
     numbers(id, "flag_masks", is_byte ? NC_BYTE : NC_INT, bits.size(),
             is_byte ? static_cast<const void*>(small.data()) : bits.data());
     const Names names = mask.bits == JOINT_COUNT ? joint_names() : Names(FINGER_NAMES.begin(), FINGER_NAMES.end());
-    text(id, "flag_meanings", fmt::format("{}", fmt::join(names, " ")));
+    text(id, "flag_meanings", joined(names, " "));
   }
 
   void reason_flags(int id) {
@@ -300,7 +300,7 @@ class SweepDefinition : ResultDefinition {
       if (dim == "joint") names.push_back(JOINT_RADIUS);
       if (dim == "fill" && contents_.scene.liquid) names.insert(names.end(), {FILL_FRACTION, FILL_VOLUME});
     }
-    if (!names.empty()) text(id, "coordinates", fmt::format("{}", fmt::join(names, " ")));
+    if (!names.empty()) text(id, "coordinates", joined(names, " "));
   }
 
   void best_variables() {

@@ -2,7 +2,6 @@
 #include "sweeps/result_definition.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <array>
 #include <cstring>
@@ -12,6 +11,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "sweeps/variables.h"
 
 namespace wholehand {
@@ -105,7 +105,7 @@ void ResultDefinition::integers(const std::string& name, const Names& dims, cons
     std::vector<int> known(codes.meanings.size());
     std::iota(known.begin(), known.end(), 0);
     numbers(id, "flag_values", NC_INT, known.size(), known.data());
-    text(id, "flag_meanings", fmt::format("{}", fmt::join(codes.meanings, " ")));
+    text(id, "flag_meanings", joined(codes.meanings, " "));
   }
   values_.push_back([this, id, values = std::move(values)] { check(nc_put_var_int(file_, id, values.data())); });
 }

@@ -2,10 +2,10 @@
 #include "sweeps/resume.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <sys/stat.h>
 
 #include "core/error.h"
+#include "core/text.h"
 #include "objects/vessel.h"
 #include "sweeps/sweep_result.h"
 #include "system/build_id.h"
@@ -45,7 +45,7 @@ std::map<std::string, std::string> sweep_identity(const Scene& scene, const Plan
           {"number of best grips", std::to_string(best)},
           {"number of grips", fmt::format("{} x {} x {}", scene.vessels.size(), plan.grips(), plan.copies())},
           {"set of meshes", mesh_keys(scene)},
-          {"set of variables", fmt::format("{}", fmt::join(names, " "))}};
+          {"set of variables", joined(names, " ")}};
 }
 
 bool load_usable_mark(const OutputNames& names, const std::map<std::string, std::string>& identity, const MarkBounds& bounds,

@@ -2,7 +2,6 @@
 #include "sweeps/variables.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <bit>
@@ -11,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/fields.h"
+#include "core/text.h"
 #include "shaders/layout.h"
 
 namespace wholehand {
@@ -259,7 +259,7 @@ Error unknown_error(const Scene& scene, const std::string& where, const std::set
     if (!missing_need(variable.need, scene)) known.push_back(variable.name);
   }
   return usage_error(fmt::format("{}: unknown variable{} \"{}\"; known: {}", where, names.size() > 1 ? "s" : "",
-                                 fmt::join(names, "\", \""), fmt::join(known, ", ")));
+                                 joined(names, "\", \""), joined(known, ", ")));
 }
 
 }  // namespace

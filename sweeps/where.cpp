@@ -2,7 +2,6 @@
 #include "sweeps/where.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -13,6 +12,7 @@
 #include "core/error.h"
 #include "core/nearest_name.h"
 #include "core/scene.h"
+#include "core/text.h"
 
 namespace wholehand {
 namespace {
@@ -312,7 +312,7 @@ class WhereParser {
     }
     refuse(token.column,
            fmt::format("there is no value '{}'; the nearest is '{}'; known: {}, lengths also with _mm, angles with _deg",
-                       token.text.substr(0, 60), nearest, fmt::join(known, ", ")));
+                       token.text.substr(0, 60), nearest, joined(known, ", ")));
   }
 
   std::string known_masks() const {
@@ -320,7 +320,7 @@ class WhereParser {
     for (const WhereName& name : names_) {
       if (name.kind == WhereKind::mask && name.refusal.empty()) masks.push_back(name.name);
     }
-    return masks.empty() ? "" : fmt::format(": {}", fmt::join(masks, ", "));
+    return masks.empty() ? "" : fmt::format(": {}", joined(masks, ", "));
   }
 
   // Counts what is within each other, since each takes room on the stack.

@@ -4,10 +4,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <iterator>
+#include <utility>
 
 #include "advice/words.h"
 #include "core/quaternion.h"
+#include "core/text.h"
 #include "live/amounts.h"
 
 namespace wholehand {
@@ -19,13 +20,13 @@ class Writer {
   void text(std::string_view value) { out_.append(value); }
   void number(double value) {
     if (std::isfinite(value)) {
-      fmt::format_to(std::back_inserter(out_), "{}", static_cast<float>(value));
+      append(out_, "{}", static_cast<float>(value));
     } else {
       text("null");
     }
   }
-  void exact(double value) { fmt::format_to(std::back_inserter(out_), "{}", value); }
-  void whole(std::int64_t value) { fmt::format_to(std::back_inserter(out_), "{}", value); }
+  void exact(double value) { append(out_, "{}", value); }
+  void whole(std::int64_t value) { append(out_, "{}", value); }
   template <typename Numbers>
   void numbers(const Numbers& values) {
     text("[");
@@ -55,10 +56,10 @@ class Writer {
     }
     text("]");
   }
-  std::string take() { return fmt::to_string(out_); }
+  std::string take() { return std::move(out_); }
 
  private:
-  fmt::basic_memory_buffer<char, 4096> out_;
+  std::string out_;
 };
 
 char letter(PointContact contact) {
