@@ -40,6 +40,7 @@
 #include "sweeps/cavity_notes.h"
 #include "system/clock.h"
 #include "system/interrupt.h"
+#include "system/json.h"
 #include "system/output.h"
 #include "system/progress.h"
 #include "system/udp.h"
@@ -108,13 +109,12 @@ const char* end_name(Fault fault) { return fault == Fault::none ? "done" : FAULT
 
 // `stiffness`: N/m of the hand's gap.
 std::string limits_json(const ViewLimits& limits, double stiffness) {
-  return nlohmann::json{
+  return json_text(nlohmann::json{
       {"gap", limits.gap},
       {"center", limits.center},
       {"reach", limits.reach},
       {"opening_N_m", stiffness},
-      {"start", {{"position", limits.start.position}, {"rotation", limits.start.rotation}, {"gap", limits.start.gap}}}}
-      .dump();
+      {"start", {{"position", limits.start.position}, {"rotation", limits.start.rotation}, {"gap", limits.start.gap}}}});
 }
 
 // A session that is streamed to the port where its own hand is heard would hear itself.

@@ -9,6 +9,7 @@
 
 #include "app/live_advice.h"
 #include "core/vectors.h"
+#include "system/json.h"
 #include "system/readable.h"
 
 namespace wholehand {
@@ -162,7 +163,7 @@ std::string live_json(const LiveSummary& summary) {
   json["recorded_wholly"] = summary.is_recorded;
   json["recording"] = summary.recording.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(summary.recording);
   // names of devices and files may be of any encoding
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return json_text(json, 2) + "\n";
 }
 
 bool is_force_left(const LoopReport& report) { return report.let_go == LetGo::not_taken || report.let_go == LetGo::not_asked; }

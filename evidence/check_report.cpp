@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "evidence/check.h"
+#include "system/json.h"
 #include "system/readable.h"
 
 namespace wholehand {
@@ -117,7 +118,7 @@ std::string check_json(const CheckReport& report) {
     json["vessels"].push_back({{"name", vessel.name}, {"scene_grips", vessel.own}, {"grips_between", vessel.between}});
   json["comparisons"] = CheckJson::array({pair_json(report.translation), pair_json(report.cost)});
   if (report.exact) json["comparisons"].push_back(pair_json(*report.exact));
-  return json.dump(-1, ' ', false, CheckJson::error_handler_t::replace) + "\n";
+  return json_text(json) + "\n";
 }
 
 }  // namespace wholehand

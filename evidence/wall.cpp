@@ -12,6 +12,7 @@
 
 #include "core/loop.h"
 #include "core/wall_run.h"
+#include "system/json.h"
 
 namespace wholehand {
 namespace {
@@ -169,7 +170,7 @@ std::string wall_json(const WallLimits& limits) {
   json["passive_K_Npm"] = number(limits.passive);
   json["linear_K_Npm"] = number(limits.linear);
   json["coulomb_K_Npm"] = number(limits.coulomb);
-  return json.dump() + "\n";
+  return json_text(json) + "\n";
 }
 
 std::string wall_table(const WallDevice& device, const WallLimits& limits) {

@@ -17,6 +17,7 @@
 #include "grips/hand_nodes.h"
 #include "grips/mesh.h"
 #include "grips/states.h"
+#include "system/json.h"
 #include "system/version.h"
 
 namespace wholehand {
@@ -287,7 +288,7 @@ std::string grip_glb(const Scene& scene, std::size_t vessel, const GripReport& r
   check_drawable(report, "--glb");
   const VesselData& data = scene.vessels[vessel];
   const GripResult& result = report.answer.result;
-  const nlohmann::ordered_json json = nlohmann::ordered_json::parse(grip_json(report));
+  const nlohmann::ordered_json json = parse_ordered_json(grip_json(report));
   GlbBuilder glb;
   const int pivot = glb.add_node("pivot", -1);
   glb.node(pivot).translation.assign(result.midpoint.begin(), result.midpoint.end());

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "grips/report.h"
+#include "system/json.h"
 
 namespace wholehand {
 namespace {
@@ -158,7 +159,7 @@ std::string grip_json(const GripReport& report) {
     json["score"] = report.answer.score.score;
     json["score_terms"] = score_terms(report);
   }
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json_text(json);
 }
 
 }  // namespace wholehand

@@ -15,6 +15,7 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "system/json.h"
 
 namespace wholehand {
 namespace {
@@ -197,7 +198,7 @@ GltfJson parse_gltf(const MeshFile& file, std::string_view text) {
                     text.size() >> 20, LARGEST_MESH_JSON >> 20));
   check_depth(file, text);
   try {
-    return GltfJson::parse(text.begin(), text.end());
+    return parse_json(text);
   } catch (const GltfJson::exception& error) {
     file.refuse(fmt::format("is damaged, or no glTF: {}", error.what()));
   }
@@ -348,7 +349,7 @@ tinygltf::Model read_gltf(const MeshFile& file, std::string_view bytes) {
   refuse_extensions(file, root);
   refuse_buffers(file, trimmed, chunks.is_binary && !chunks.binary.empty());
   root = nullptr;
-  return load_gltf(file, trimmed.dump(), chunks.binary);
+  return load_gltf(file, json_text(trimmed), chunks.binary);
 }
 
 }  // namespace wholehand

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "recordings/session_report.h"
+#include "system/json.h"
 
 namespace wholehand {
 namespace {
@@ -113,7 +114,7 @@ std::string session_json(const SessionReport& report) {
   json["ticks"] = report.ticks;
   json["missed_periods"] = report.missed;
   // names of a damaged file may be no UTF-8
-  return json.dump(-1, ' ', false, SessionJson::error_handler_t::replace);
+  return json_text(json);
 }
 
 }  // namespace wholehand

@@ -18,6 +18,7 @@
 
 #include "core/error.h"
 #include "system/files.h"
+#include "system/json.h"
 
 namespace wholehand {
 namespace {
@@ -146,8 +147,7 @@ void save_mark(const std::string& path, const SweepMark& mark) {
   json content{{"identity", mark.identity}, {"wall_seconds", mark.wall_seconds}, {"kernel_seconds", mark.kernel_seconds},
                {"in_place", in_place},      {"structure", mark.structure},       {"vessels", vessels}};
   if (mark.shards) content["shards"] = to_json(*mark.shards);
-  // a scene's text may hold any bytes
-  const std::string text = content.dump(-1, ' ', false, json::error_handler_t::replace);
+  const std::string text = json_text(content);
   write_whole_file(path, fmt::format("{}{} {}\n{}", MARK_START, FORMAT, checksum_text(text.data(), text.size()), text), true,
                    "make room and go on with --resume, or name another file with -o");
 }
@@ -166,7 +166,7 @@ bool load_mark(const std::string& path, SweepMark& mark, const char* remedy) {
   if (!start.ends_with(" " + checksum_text(text.data(), text.size())))
     throw unusable(path, "is damaged: its checksum is wrong", remedy);
   try {
-    const json content = json::parse(text);
+    const json content = parse_json(text);
     mark.identity = content.at("identity").get<std::map<std::string, std::string>>();
     mark.wall_seconds = content.at("wall_seconds");
     mark.kernel_seconds = content.at("kernel_seconds");

@@ -13,6 +13,7 @@
 
 #include "system/checksum.h"
 #include "system/files.h"
+#include "system/json.h"
 
 namespace wholehand {
 namespace {
@@ -64,7 +65,7 @@ std::vector<RunTime> read_run_times(const std::string& file, std::string& why) t
     return {};
   }
   std::vector<RunTime> history;
-  for (const nlohmann::json& row : nlohmann::json::parse(body)) history.push_back(from_json(row));
+  for (const nlohmann::json& row : parse_json(body)) history.push_back(from_json(row));
   return history;
 } catch (const std::exception&) {
   why = "it is damaged, or of another version";
@@ -74,7 +75,7 @@ std::vector<RunTime> read_run_times(const std::string& file, std::string& why) t
 bool write_run_times(const std::string& file, const std::vector<RunTime>& history) noexcept try {
   nlohmann::json rows = nlohmann::json::array();
   for (const RunTime& run : history) rows.push_back(to_json(run));
-  const std::string body = rows.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  const std::string body = json_text(rows) + "\n";
   std::filesystem::create_directories(std::filesystem::path(file).parent_path());
   write_whole_file(file, std::string(START) + checksum_text(body.data(), body.size()) + "\n" + body, false);
   return true;

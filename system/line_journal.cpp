@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "system/checksum.h"
 #include "system/file_set.h"
+#include "system/json.h"
 
 namespace wholehand {
 namespace {
@@ -21,7 +22,7 @@ namespace {
 using Json = nlohmann::json;
 
 std::string line_of(const Json& content) {
-  const std::string text = content.dump();
+  const std::string text = json_text(content);
   return checksum_text(text.data(), text.size()) + " " + text + "\n";
 }
 
@@ -31,7 +32,7 @@ std::optional<Json> content_of(const std::string& line) {
   if (space == std::string::npos) return std::nullopt;
   const std::string text = line.substr(space + 1);
   if (checksum_text(text.data(), text.size()) != line.substr(0, space)) return std::nullopt;
-  Json content = Json::parse(text, nullptr, false);
+  Json content = try_json(text);
   if (content.is_discarded()) return std::nullopt;
   return content;
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "system/checksum.h"
+#include "system/json.h"
 
 namespace wholehand {
 namespace {
@@ -86,7 +87,7 @@ std::optional<std::pair<std::size_t, GripFinding>> finding_of(const Json& conten
 }  // namespace
 
 std::string identity_text(const TrialIdentity& identity) {
-  const std::string text = Json(identity).dump();
+  const std::string text = json_text(Json(identity));
   return checksum_text(text.data(), text.size());
 }
 

@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/vectors.h"
 #include "scene/text.h"
+#include "system/json.h"
 
 namespace wholehand {
 namespace {
@@ -67,7 +68,7 @@ ViewControl parse_view_control(std::string_view body) {
   if (body.size() > LARGEST_CONTROL) {
     throw usage_error(fmt::format("control: {} bytes; allowed: at most {}", body.size(), LARGEST_CONTROL));
   }
-  const json object = json::parse(body, nullptr, false);
+  const json object = try_json(body);
   if (object.is_discarded() || !object.is_object()) throw usage_error(fmt::format("control: this is not a JSON object; {}", KEYS));
   for (const char* key : {"position", "rotation", "gap", "buttons", "sequence"}) {
     if (!object.contains(key)) throw usage_error(fmt::format("control: '{}' is missing; {}", key, KEYS));

@@ -19,6 +19,7 @@
 #include "grips/hand_nodes.h"
 #include "grips/holding.h"
 #include "grips/report.h"
+#include "system/json.h"
 #include "viewer/scene.h"
 
 namespace wholehand {
@@ -122,7 +123,7 @@ class GripsView::Impl {
   std::string grips_json() const {
     Json list = Json::array();
     for (const Seen& seen : seen_) list.push_back(grip_json(seen));
-    return list.dump();
+    return json_text(list);
   }
 
   std::string scene_json(const std::string& title, const StateAxes& asked) const {

@@ -17,6 +17,7 @@
 #include "core/vectors.h"
 #include "grips/hand_nodes.h"
 #include "live/hand_view.h"
+#include "system/json.h"
 #include "system/version.h"
 
 namespace wholehand {
@@ -95,7 +96,7 @@ std::string view_scene_json(const Scene& scene, const ViewFacts& facts) {
             {"device", facts.device},
             {"handedness", scene.hand.handedness == Handedness::left ? "left" : "right"},
             {"control", !facts.control_limits.empty()}};
-  if (!facts.control_limits.empty()) json["control_limits"] = Json::parse(facts.control_limits);
+  if (!facts.control_limits.empty()) json["control_limits"] = parse_ordered_json(facts.control_limits);
   json["joints"] = joints_json(scene.hand);
   json["vessels"] = Json::array();
   for (std::size_t v = 0; v < scene.vessels.size(); ++v) json["vessels"].push_back(vessel_json(scene, v));
@@ -119,10 +120,9 @@ std::string view_scene_json(const Scene& scene, const ViewFacts& facts) {
   if (!facts.grips.empty()) {
     json["fills"] = facts.fills.empty() ? std::vector<double>{0} : facts.fills;
     json["tilts"] = facts.tilts;
-    json["grips"] = Json::parse(facts.grips);
+    json["grips"] = parse_ordered_json(facts.grips);
   }
-  // a title may be the name of a file, which is any bytes
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json_text(json);
 }
 
 std::string mesh_bytes(const VesselData& vessel) {

@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "core/error.h"
+#include "system/json.h"
 #include "viewer/files.h"
 #include "viewer/local_server.h"
 
@@ -72,7 +73,7 @@ class Watcher {
     seen_ = news.number;
     std::string text;
     if (news.frame) text = fmt::format("data: {}\n\n", *news.frame);
-    if (news.is_over) text += fmt::format("event: end\ndata: {{\"reason\":{}}}\n\n", nlohmann::json(news.reason).dump());
+    if (news.is_over) text += fmt::format("event: end\ndata: {{\"reason\":{}}}\n\n", json_text(nlohmann::json(news.reason)));
     if (text.empty()) text = ":\n\n";  // nobody there is found out by writing
     sink.write(text.data(), text.size());
     if (news.is_over) sink.done();
