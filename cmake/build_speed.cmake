@@ -18,6 +18,21 @@ function(wholehand_together target batch)
   endif()
 endfunction()
 
+# wholehand_heavy_first(LIST): files that include a header of some seconds come first. They are then compiled as one and pay for it once.
+function(wholehand_heavy_first list)
+  set(heavy)
+  set(others)
+  foreach(source IN LISTS ${list})
+    file(STRINGS "${source}" includes REGEX "^#include <(nlohmann/json|tiny_gltf)[.]h" LIMIT_COUNT 1)
+    if(includes)
+      list(APPEND heavy "${source}")
+    else()
+      list(APPEND others "${source}")
+    endif()
+  endforeach()
+  set(${list} ${heavy} ${others} PARENT_SCOPE)
+endfunction()
+
 # wholehand_grouped(TARGET): files with the same source property UNITY_GROUP are compiled as one.
 function(wholehand_grouped target)
   if(WHOLEHAND_BUILD_SPEED)
