@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "recordings/recording.h"
+#include "system/json.h"
 #include "tests/support/files.h"
 #include "tests/support/program.h"
 
@@ -20,6 +21,7 @@ namespace {
 
 using wholehand::expect_error;
 using wholehand::Outcome;
+using wholehand::parse_json;
 using wholehand::run;
 using wholehand::SMALL_GRIP;
 
@@ -53,7 +55,7 @@ TEST(CommandLine, ReportsASession) {
   EXPECT_EQ(table.output.find("Session of 1.500 s in bench, on omega.7, 1000 Hz"), 0u) << table.output;
   const Outcome json = run("PROGRAM session " + path + " --json -o " + folder + "/out 2>&1");
   EXPECT_EQ(json.code, 0) << json.output;
-  const auto report = nlohmann::json::parse(json.output);
+  const auto report = parse_json(json.output);
   EXPECT_EQ(report["grasps"][0]["vessel"], "one");
   EXPECT_EQ(report["grasps"][0]["duration_s"]["lift"], 1);
   EXPECT_EQ(report["grasps"][0]["grip_before_N"]["mean"], 3);
@@ -111,7 +113,7 @@ TEST(CommandLine, StiffestWallOfADevice) {
   const Outcome json =
       run("PROGRAM stability wall --mass-kg 0.1 --damping-Nspm 1 --rate-hz 1000 --encoder-um 20 --coulomb-N 0.015 --json");
   EXPECT_EQ(json.code, 0) << json.output;
-  const auto limits = nlohmann::json::parse(json.output);
+  const auto limits = parse_json(json.output);
   EXPECT_EQ(limits.size(), 4u);
   EXPECT_NEAR(limits["passive_K_Npm"].get<double>(), 2000, 1e-6);
   EXPECT_NEAR(limits["linear_K_Npm"].get<double>(), 2003.3, 0.1);
@@ -129,18 +131,18 @@ TEST(CommandLine, EvaluatesOneGrip) {
 
   const Outcome json = run("PROGRAM " + std::string(SMALL_GRIP) + " --fill 0.3 0.6 --tilt-deg 0 10 20 --json 2>&1");
   EXPECT_EQ(json.code, 0) << json.output;
-  const auto grip = nlohmann::json::parse(json.output);
+  const auto grip = parse_json(json.output);
   ASSERT_EQ(grip["states"].size(), 6u);
   EXPECT_EQ(grip["states"][1]["fill"], 0.3);
   EXPECT_EQ(grip["states"][5]["fill"], 0.6);
   const Outcome in_ml = run("PROGRAM " + std::string(SMALL_GRIP) + " --fill-ml 100 --tilt-deg 0 --json 2>&1");
-  EXPECT_NEAR(nlohmann::json::parse(in_ml.output)["states"][0]["liquid_volume_m3"].get<double>(), 100e-6, 1e-15);
+  EXPECT_NEAR(parse_json(in_ml.output)["states"][0]["liquid_volume_m3"].get<double>(), 100e-6, 1e-15);
   EXPECT_DOUBLE_EQ(grip["states"][4]["tilt_rad"].get<double>(), 10 * 3.14159265358979323846 / 180);
 
   // a grip that is not feasible is an answer, not an error
   const Outcome wide = run("PROGRAM " + std::string(SMALL_GRIP) + " --hand-scale 0.2 --json 2>&1");
   EXPECT_EQ(wide.code, 0);
-  EXPECT_EQ(nlohmann::json::parse(wide.output)["reason"], "too_wide");
+  EXPECT_EQ(parse_json(wide.output)["reason"], "too_wide");
 
   // but there is no hand to draw: nothing is written
   const std::string drawing = std::filesystem::temp_directory_path() / "wholehand_cli_test";
@@ -159,7 +161,7 @@ TEST(CommandLine, EvaluatesOneGrip) {
       run("PROGRAM grip three_beakers --vessel beaker1 --height-mm 50 --azimuth-deg 90 --roll-deg -45 --tilt-deg 30 --json");
   const Outcome points =
       run("PROGRAM grip three_beakers --vessel beaker1 --thumb-mm 0,50,40 --index-mm 0,50,-40 --roll-deg -45 --tilt-deg 30 --json");
-  EXPECT_EQ(nlohmann::json::parse(direct.output), nlohmann::json::parse(points.output));
+  EXPECT_EQ(parse_json(direct.output), parse_json(points.output));
 }
 
 TEST(CommandLine, DrawsAGrip) {

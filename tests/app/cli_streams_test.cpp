@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "system/json.h"
 #include "tests/support/files.h"
 #include "tests/support/program.h"
 
@@ -19,6 +20,7 @@ namespace {
 
 using wholehand::expect_error;
 using wholehand::Outcome;
+using wholehand::parse_json;
 using wholehand::run;
 using wholehand::SMALL_GRIP;
 
@@ -144,7 +146,7 @@ TEST(CommandLine, DoesNotWaitForAPipeToView) {
 TEST(CommandLine, RunsFromAnywhereAndWithStreamsClosed) {
   const Outcome grip = run("cd / && PROGRAM " + std::string(SMALL_GRIP) + " --json <&- 2>&-");
   EXPECT_EQ(grip.code, 0);
-  EXPECT_EQ(nlohmann::json::parse(grip.output)["vessel"], "tumbler");
+  EXPECT_EQ(parse_json(grip.output)["vessel"], "tumbler");
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "system/json.h"
 #include "tests/support/files.h"
 #include "tests/support/program.h"
 #include "tests/support/result_reader.h"
@@ -39,11 +40,11 @@ TEST_F(CommandRank, AListIsHandedBack) {
   ASSERT_EQ(own.code, 0);
   ASSERT_EQ(listed.code, 0);
   EXPECT_NE(own.output, listed.output);
-  const auto told = nlohmann::json::parse(own.output)["grip"];
+  const auto told = parse_json(own.output)["grip"];
   EXPECT_EQ(told["height_m"], read_values(result, "best_height")[1]);
   EXPECT_EQ(told["roll_rad"], read_values(result, "best_roll")[1]);
   EXPECT_EQ(told["obliquity_rad"], read_values(result, "best_obliquity")[1]);
-  EXPECT_LT(nlohmann::json::parse(listed.output)["grip"]["roll_rad"], 0) << "as the condition has it";
+  EXPECT_LT(parse_json(listed.output)["grip"]["roll_rad"], 0) << "as the condition has it";
   EXPECT_EQ(run(by_list + " --glb " + (folder / "g.glb") + " >/dev/null").code, 0);
   EXPECT_TRUE(file_exists(folder / "g.glb"));
   EXPECT_EQ(run(by_list + " --svg " + (folder / "g.svg") + " >/dev/null").code, 0);
@@ -71,7 +72,7 @@ TEST_F(CommandRank, NearGripsAreListedOnRequestAlone) {
 
 TEST_F(CommandRank, TheRefinedGripIsEvaluatedOnRequest) {
   const std::string grip = "PROGRAM grip " + result + " --vessel tumbler --rank 1 --json";
-  const auto swept = nlohmann::json::parse(run(grip).output), refined = nlohmann::json::parse(run(grip + " --refined").output);
+  const auto swept = parse_json(run(grip).output), refined = parse_json(run(grip + " --refined").output);
   EXPECT_EQ(swept["grip"]["height_m"], read_values(result, "best_height")[0]);
   EXPECT_EQ(refined["grip"]["height_m"], read_values(result, "best_refined_height")[0]);
   EXPECT_EQ(refined["grip"]["roll_rad"], read_values(result, "best_refined_roll")[0]);

@@ -23,6 +23,7 @@
 #include "recordings/recording.h"
 #include "scene/reader.h"
 #include "scene/shipped.h"
+#include "system/json.h"
 #include "tests/support/files.h"
 #include "tests/support/http_client.h"
 #include "tests/support/patient_board.h"
@@ -73,7 +74,7 @@ class Viewed {
     process_ = 0;
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   }
-  json get(const std::string& path) const { return json::parse(at.get(path).body); }
+  json get(const std::string& path) const { return parse_json(at.get(path).body); }
 
   ViewAddress at{""};
 
@@ -99,7 +100,7 @@ TEST(LiveView, ShowsASessionWhileItRuns) {
   std::set<std::string> states;
   for (std::string event = socket.read_event(); !event.empty(); event = socket.read_event()) {
     if (event.find("reason") != std::string::npos) break;
-    const json frame = json::parse(event);
+    const json frame = parse_json(event);
     EXPECT_GT(frame["tick"], before) << "later than the one before";
     before = frame["tick"];
     EXPECT_NEAR(frame["t"].get<double>(), 1e-3 * static_cast<double>(before), 1e-9);
@@ -130,14 +131,14 @@ TEST(LiveView, WhatIsShownIsWhatWasRecorded) {
   int compared = 0;
   for (std::string event = socket.read_event(); !event.empty() && event.find("\"tick\"") != std::string::npos;
        event = socket.read_event()) {
-    const json seen = json::parse(event);
+    const json seen = parse_json(event);
     if (seen["state"] == "released") break;
     while (k < recording.ticks.size() && recording.ticks[k].number <= seen["tick"]) tracker.follow(recording.ticks[k++]);
     ASSERT_GT(k, 0u);
     const Tick& tick = recording.ticks[k - 1];
     ASSERT_EQ(tick.number, seen["tick"]);
     const ViewFrame::Timing timing{seen["timing"]["rate"], seen["timing"]["step"], seen["timing"]["missed"]};
-    const json truth = json::parse(frame_json(maker.make(tick, tracker.poses(), hand_view(scene, tick, tracker.poses()), timing)));
+    const json truth = parse_json(frame_json(maker.make(tick, tracker.poses(), hand_view(scene, tick, tracker.poses()), timing)));
     EXPECT_EQ(seen, truth) << tick.number;
     ++compared;
   }
@@ -149,7 +150,7 @@ TEST(LiveView, WithJsonTheAddressIsNotInTheReport) {
   const TemporaryFolder folder;
   Viewed live("live " + patient_board(folder) + " --view --json --seconds 0.2");
   EXPECT_EQ(live.wait(), 0);
-  EXPECT_EQ(json::parse(live.out())["fault"], json());
+  EXPECT_EQ(parse_json(live.out())["fault"], json());
   EXPECT_EQ(live.err().rfind("view: http://127.0.0.1:", 0), 0u) << live.err();
 }
 
@@ -176,7 +177,7 @@ TEST(LiveView, ThePageMayBeTheGripper) {
   HttpSocket frames(live.at.port), controls(live.at.port);
   frames.send(live.at.request("frames"));
   const auto tips_middle = [&] {
-    const json frame = json::parse(frames.read_event());
+    const json frame = parse_json(frames.read_event());
     Triple middle{};
     for (std::size_t k = 0; k < 3; ++k)
       middle[k] = 0.5 * (frame["rigged"][THUMB_TIP][k].get<double>() + frame["rigged"][INDEX_TIP][k].get<double>());
@@ -187,7 +188,7 @@ TEST(LiveView, ThePageMayBeTheGripper) {
   wanted[0] += 0.05;
   wanted[1] += 0.03;
   json control{{"position", wanted}, {"rotation", start["rotation"]}, {"gap", start["gap"]}, {"buttons", 0}, {"sequence", 1}};
-  controls.send(live.at.post(control.dump()));
+  controls.send(live.at.post(json_text(control)));
   EXPECT_EQ(controls.read_reply().status, 204);
   double away = 1;
   for (int k = 0; k < 600 && away > 1e-4; ++k) {
@@ -196,7 +197,7 @@ TEST(LiveView, ThePageMayBeTheGripper) {
   }
   EXPECT_LT(away, 1e-4);
   control["gap"] = "wide";
-  controls.send(live.at.post(control.dump()));
+  controls.send(live.at.post(json_text(control)));
   const HttpReply refused = controls.read_reply();
   EXPECT_EQ(refused.status, 400);
   EXPECT_NE(refused.body.find("gap"), std::string::npos) << refused.body;
@@ -248,7 +249,7 @@ TEST(LiveView, AStormOfConnectionsCostsTheSessionNothing) {
     ++seen;
   EXPECT_GT(seen, 60);
   EXPECT_EQ(live.wait(), 0) << live.err();
-  const json report = json::parse(live.out());
+  const json report = parse_json(live.out());
   EXPECT_TRUE(report["fault"].is_null());
   EXPECT_TRUE(report["recorded_wholly"]);
   EXPECT_EQ(report["ticks"].get<int>() + report["missed"].get<int>(), 4000);
@@ -334,8 +335,8 @@ TEST(ViewCommand, ShowsTheGripsOfAList) {
 TEST(ViewCommand, ShowsAGripBesideItsReport) {
   const std::string grip = "grip three_beakers --vessel beaker1 --height-mm 58.5 --roll-deg 22 --fill 0.5 --tilt-deg 40 --json";
   Viewed view(grip + " --view");
-  const json told = json::parse(view.out());
-  EXPECT_EQ(told, json::parse(run("PROGRAM " + grip).output));
+  const json told = parse_json(view.out());
+  EXPECT_EQ(told, parse_json(run("PROGRAM " + grip).output));
   const json scene = view.get("scene.json");
   EXPECT_EQ(scene["fills"], json({0.5}));
   ASSERT_EQ(scene["tilts"].size(), 1u);

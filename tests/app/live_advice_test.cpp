@@ -3,6 +3,7 @@
 // repeats, and how it ends.
 // sanitizers: none (it runs the program)
 #include "app/live_advice.h"
+#include "system/json.h"
 
 #include <gtest/gtest.h>
 
@@ -80,7 +81,7 @@ TEST_F(LiveAdvised, SaysWhatItComputesOnAndReports) {
     EXPECT_NE(outcome.output.find(part), std::string::npos) << outcome.output << "lacks " << part;
   const Outcome json = run("PROGRAM live " + patient_board(folder) + " --advise --advise-on core --seconds 4 --json 2>/dev/null");
   ASSERT_EQ(json.code, 0);
-  const auto advice = nlohmann::json::parse(json.output)["advice"];
+  const auto advice = parse_json(json.output)["advice"];
   EXPECT_GT(advice["updates"], 0);
   EXPECT_GT(advice["grips"].get<int>(), advice["updates"].get<int>());
   EXPECT_TRUE(advice["on"].get<std::string>().starts_with("core, "));

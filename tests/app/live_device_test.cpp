@@ -18,6 +18,7 @@
 #include <thread>
 
 #include "recordings/recording.h"
+#include "system/json.h"
 #include "tests/support/device_session.h"
 #include "tests/support/files.h"
 #include "tests/support/stand_in_dhd.h"
@@ -35,7 +36,7 @@ TEST(LiveDevice, EndsWithZeroForceAndSaysSo) {
   EXPECT_EQ(ended.code, 0) << ended.said;
   EXPECT_GT(session.log->largest(), 0.5) << "a force was on it";
   EXPECT_EQ(session.log->last().force, 0);
-  EXPECT_EQ(nlohmann::json::parse(ended.printed)["force"], "zero force was written");
+  EXPECT_EQ(parse_json(ended.printed)["force"], "zero force was written");
 }
 
 // Whatever bytes a device calls itself by.
@@ -46,7 +47,7 @@ TEST(LiveDevice, ANameOfNoEncodingIsPrintedAndIsJson) {
     session.options.json = true;
     const EndedSession ended = session.run([&](StandIn& dhd, DeviceLog&) { dhd->name = name; });
     EXPECT_EQ(ended.code, 0) << ended.said;
-    const auto report = nlohmann::json::parse(ended.printed, nullptr, false);
+    const auto report = try_json(ended.printed);
     ASSERT_FALSE(report.is_discarded()) << ended.printed;
     const std::string said = report["device"]["name"];
     EXPECT_TRUE(std::all_of(said.begin(), said.end(), [](char c) { return c >= ' ' && c <= '~'; })) << said;
@@ -152,7 +153,7 @@ TEST(LiveDevice, ACallThatTakesLongOnceHasTheForceTakenAwayMeanwhile) {
     EXPECT_EQ(ended.code, 0) << ended.said;
     EXPECT_TRUE(session.log->taken) << "a second thread took the force away: " << function;
     expect_said(ended, "a call of the device did not return within 12 ms; meanwhile zero force was written\n");
-    EXPECT_GE(nlohmann::json::parse(ended.printed)["late"], 1);
+    EXPECT_GE(parse_json(ended.printed)["late"], 1);
   }
 }
 
@@ -223,7 +224,7 @@ TEST(LiveDevice, ADeviceThatIsNotLeftIsGivenUp) {
       expect_said(ended, is_fault ? ": read error (pose not read: no error); zero force was written\n"
                                   : "wholehand: live: the session ended after 0.500 s; zero force was written\n");
       expect_said(ended, GIVEN_UP);
-      const auto report = nlohmann::json::parse(ended.printed);
+      const auto report = parse_json(ended.printed);
       EXPECT_EQ(report["fault"], is_fault ? nlohmann::json("read error") : nlohmann::json());
       EXPECT_EQ(report["force"], "zero force was written");
       EXPECT_GT(report["ticks"], 100);
@@ -263,7 +264,7 @@ TEST(LiveDevice, AFaultWhoseZeroForceDoesNotReturnIsTold) {
                 : "zero force was not written, since the device's library cannot be called now; the last force was ";
     expect_said(ended, ": read error (pose not read: unplugged); " + force);
     expect_said(ended, GIVEN_UP);
-    const auto report = nlohmann::json::parse(ended.printed);
+    const auto report = parse_json(ended.printed);
     EXPECT_EQ(report["fault"], "read error");
     EXPECT_EQ(std::string(report["force"]).substr(0, force.size()), force);
     const Recording recording = read_recording(session.options.record);

@@ -2,6 +2,7 @@
 // What a live session tells, and the built program's `live`: options, exit codes, recording, replay, signals, disks that fill up.
 // sanitizers: address thread
 #include "app/live.h"
+#include "system/json.h"
 
 #include <gtest/gtest.h>
 #include <lo/lo.h>
@@ -211,7 +212,7 @@ TEST(Live, KeepsItsRateWithAClock) {
   const TemporaryFolder folder;
   const LiveOutcome outcome = Program(patient_board(folder) + " --json --seconds 2 --rate 1250").wait();
   ASSERT_EQ(outcome.code, 0) << outcome.errors;
-  const auto report = nlohmann::json::parse(outcome.output);
+  const auto report = parse_json(outcome.output);
   EXPECT_EQ(report["rate_Hz"], 1250);
   EXPECT_EQ(report["ticks"].get<int>() + report["missed"].get<int>(), 2500) << "every period is a tick or missed";
   EXPECT_GT(report["ticks"], 1250);
@@ -248,7 +249,7 @@ TEST(Live, WhatAPagePostsGraspsLiftsTiltsAndPours) {
   HttpSocket socket(page.port);
   const auto began = std::chrono::steady_clock::now();
   for (double time = 0; time < 5;) {
-    socket.send(page.post(dragged(scene, time).dump()));
+    socket.send(page.post(json_text(dragged(scene, time))));
     ASSERT_EQ(socket.read_reply().status, 204) << time;
     std::this_thread::sleep_for(std::chrono::milliseconds(16));
     time = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
@@ -259,7 +260,7 @@ TEST(Live, WhatAPagePostsGraspsLiftsTiltsAndPours) {
   EXPECT_EQ(refused.body.rfind("control: 'position' is missing", 0), 0u) << refused.body;
   const LiveOutcome outcome = program.wait();
   ASSERT_EQ(outcome.code, 0) << outcome.errors;
-  const auto report = nlohmann::json::parse(outcome.output);
+  const auto report = parse_json(outcome.output);
   EXPECT_TRUE(report["fault"].is_null());
   EXPECT_EQ(report["device"]["address"], "view");
   EXPECT_EQ(report["grasps"], 1);

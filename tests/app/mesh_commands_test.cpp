@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "system/json.h"
 #include "tests/support/environment.h"
 #include "tests/support/files.h"
 #include "tests/support/meshes.h"
@@ -57,8 +58,8 @@ TEST_F(MeshCommands, GripSaysWhatTheMeshIsAndAnswers) {
   for (const char* part :
        {"vessel 'cup': cup.glb: ", " triangles, ", "closed", "lattice of 2 mm", "less the cavity", "holds liquid"})
     EXPECT_NE(said.output.find(part), std::string::npos) << part << " in\n" << said.output;
-  const auto core = nlohmann::json::parse(run("PROGRAM " + grip + " 2>/dev/null").output),
-             device = nlohmann::json::parse(run("PROGRAM " + grip + " --on vulkan 2>/dev/null").output);
+  const auto core = parse_json(run("PROGRAM " + grip + " 2>/dev/null").output),
+             device = parse_json(run("PROGRAM " + grip + " --on vulkan 2>/dev/null").output);
   EXPECT_TRUE(core["feasible"]);
   // the conical flask at 40 mm: 85 mm at the base, 34 mm at 105 mm, from 4 mm on
   const double diameter = 0.085 - (0.085 - 0.034) * (40.0 - 4) / (105 - 4);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // sanitizers: none
 #include "evidence/check.h"
+#include "system/json.h"
 
 #include <gtest/gtest.h>
 
@@ -29,7 +30,7 @@ CheckReport report_of(bool translation, bool cost, int exact) {
 TEST(Check, AForeignNameIsNoFailure) {
   CheckReport report = report_of(true, true, 1);
   report.driver = "driver \xff";  // no UTF-8
-  EXPECT_EQ(nlohmann::json::parse(check_json(report))["driver"], "driver \uFFFD");
+  EXPECT_EQ(parse_json(check_json(report))["driver"], "driver \uFFFD");
 }
 
 TEST(Check, HoldsWhereTheTwinsAgree) {
@@ -47,7 +48,7 @@ TEST(Check, HoldsWhereTheTwinsAgree) {
   const std::string line = check_json(report);
   EXPECT_EQ(line.find("{\"holds\":true,\"verdict\":"), 0u) << line;
   EXPECT_EQ(line.find('\n'), line.size() - 1);
-  const auto json = nlohmann::json::parse(line);
+  const auto json = parse_json(line);
   EXPECT_EQ(json["scene"], "small");
   EXPECT_TRUE(json["advice"].is_null());
   EXPECT_EQ(json["vessels"][0]["grips_between"], 952);
@@ -73,7 +74,7 @@ TEST(Check, SaysNoWhereAConstantDiffersOnOneSide) {
   EXPECT_FALSE(verdict.holds);
   EXPECT_EQ(verdict.advice, "use --on core") << "neither precision of this device is right";
   EXPECT_EQ(check_text(report).find("DOES NOT HOLD: the device does NOT compute what the core computes"), 0u);
-  const auto json = nlohmann::json::parse(check_json(report));
+  const auto json = parse_json(check_json(report));
   EXPECT_EQ(json["holds"], false);
   EXPECT_EQ(json["comparisons"][1]["holds"], true) << "the core is not the device";
   bool found = false;

@@ -2,6 +2,7 @@
 // A grip as glTF, opened again by tinygltf: nodes, places, bounds, the liquid's volume, and what the extras tell.
 // sanitizers: address
 #include "grips/glb.h"
+#include "system/json.h"
 
 #include <gtest/gtest.h>
 #include <tiny_gltf.h>
@@ -290,7 +291,7 @@ TEST(GripGlb, AnimationTurnsTheMouthTowardsThePour) {
 TEST(GripGlb, ExtrasAreTheNumbersOfTheGrip) {
   const Scene scene = three_beakers();
   const GripReport report = report_of(scene, 0, GRIP, one_state(0.5, 30));
-  const auto json = nlohmann::json::parse(grip_json(report));
+  const auto json = parse_json(grip_json(report));
   const tinygltf::Model model = opened(grip_glb(scene, 0, report));
   const tinygltf::Value& extras = model.nodes[index_of_node(model, "grip")].extras;
   EXPECT_EQ(extras.Get("vessel").Get<std::string>(), "beaker1");

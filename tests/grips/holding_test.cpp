@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What holding takes over the states of a grip: every number against its definition, by searches that know nothing of shortcuts.
 #include "grips/holding.h"
+#include "system/json.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -218,7 +219,7 @@ TEST(Holding, TellsTheSpheresOnBones) {
   Scene scene = few_states();
   scene.hand.between = 2;
   const GripReport report = held_report(scene, 0, beside(0.055));
-  const auto json = nlohmann::json::parse(grip_json(report));
+  const auto json = parse_json(grip_json(report));
   GripResult result;
   const auto core = make_core_evaluator(scene);
   core->grip(0, report.grip, result);
@@ -238,7 +239,7 @@ TEST(Holding, TellsTheSpheresOnBones) {
 TEST(Holding, IsInTheJson) {
   const Scene scene = few_states();
   const GripReport report = held_report(scene, 0, beside(0.055));
-  const auto json = nlohmann::json::parse(grip_json(report));
+  const auto json = parse_json(grip_json(report));
   for (const char* key :
        {"worst_effort", "worst_effort_fill", "worst_effort_tilt_rad", "tips_worst_effort", "push_N", "friction_needed"})
     EXPECT_TRUE(json.contains(key)) << key;
@@ -256,7 +257,7 @@ TEST(Holding, IsInTheJson) {
   // walls that nobody can hold: without friction the contacts of a level hand carry no weight
   Scene smooth = few_states();
   smooth.force.friction = 0;
-  const auto fallen = nlohmann::json::parse(grip_json(held_report(smooth, 0, beside(0.055))));
+  const auto fallen = parse_json(grip_json(held_report(smooth, 0, beside(0.055))));
   EXPECT_TRUE(fallen["worst_effort"].is_null());
   EXPECT_TRUE(fallen["states"][0]["effort"].is_null());
   EXPECT_EQ(fallen["states"][0]["worst_direction"].size(), 6u);

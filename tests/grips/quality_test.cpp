@@ -2,6 +2,7 @@
 // Epsilon and the volume of the wrenches against closed forms, against sampling, and against what must not change them.
 // sanitizers: none
 #include "grips/quality.h"
+#include "system/json.h"
 
 #include <gtest/gtest.h>
 
@@ -252,7 +253,7 @@ TEST(Quality, IsInTheReport) {
   EXPECT_NEAR(report.quality->scale, std::hypot(0.04 + std::hypot(center[0], center[2]), std::max(center[1], 0.11 - center[1])),
               1e-12);
   EXPECT_GT(report.quality->wrenches.epsilon[0], 0);
-  const auto json = nlohmann::json::parse(grip_json(report));
+  const auto json = parse_json(grip_json(report));
   EXPECT_EQ(json["epsilon"], report.quality->wrenches.epsilon);
   EXPECT_EQ(json["wrench_volume"], report.quality->wrenches.volume);
   EXPECT_EQ(json["torque_scale_m"], report.quality->scale);
@@ -263,11 +264,11 @@ TEST(Quality, IsInTheReport) {
 
   GripReport without = report;
   without.quality.reset();
-  EXPECT_FALSE(nlohmann::json::parse(grip_json(without)).contains("epsilon"));
+  EXPECT_FALSE(parse_json(grip_json(without)).contains("epsilon"));
   EXPECT_EQ(grip_table(without).find("epsilon"), std::string::npos);
   const GripReport missed = measured_report(scene, 0, 5);
   EXPECT_FALSE(missed.quality);
-  EXPECT_FALSE(nlohmann::json::parse(grip_json(missed)).contains("epsilon"));
+  EXPECT_FALSE(parse_json(grip_json(missed)).contains("epsilon"));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 // Distances to meshes against closed forms and the outline's own, and the side of a million points.
 #include "objects/distance.h"
 #include "core/vectors.h"
+#include "system/json.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -196,7 +197,7 @@ TEST(MeshDistance, CopiesPlacedByNodesAndByTheSceneGiveTheSame) {
   const CheckedMesh mesh = read(plain);
   std::uint32_t json_size = 0;
   std::memcpy(&json_size, plain.data() + 12, 4);
-  nlohmann::json json = nlohmann::json::parse(plain.substr(20, json_size));
+  nlohmann::json json = parse_json(plain.substr(20, json_size));
   // the outer node is moved and turned about y, the inner one turned about x, moved and made half as large
   json["nodes"] = {{{"children", {1}}, {"translation", {0.4, -0.2, 0.7}}, {"rotation", {0, std::sin(0.6), 0, std::cos(0.6)}}},
                    {{"mesh", 0},
@@ -205,7 +206,7 @@ TEST(MeshDistance, CopiesPlacedByNodesAndByTheSceneGiveTheSame) {
                     {"scale", {0.5, 0.5, 0.5}}}};
   data.scale = 3;
   data.rotate = {-0.7, 0.9, 2.1};
-  const CheckedMesh copy = read(glb_text(json.dump(), plain.substr(20 + json_size + 8)));
+  const CheckedMesh copy = read(glb_text(json_text(json), plain.substr(20 + json_size + 8)));
   std::filesystem::remove(path);
   const auto place = [&](Triple p) {
     for (double& x : p) x *= 0.5;

@@ -8,6 +8,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "system/json.h"
 #include "tests/support/files.h"
 
 #include "tests/support/gltf_making.h"
@@ -109,15 +110,15 @@ TEST(Mesh, BuffersOutsideTheFolderAreNotRead) {
                                  std::string("a/../../secret.bin"), std::string("file:///etc/passwd")}) {
     Gltf gltf = gltf_tetrahedron();
     gltf.json["buffers"] = {{{"byteLength", gltf.binary.size()}, {"uri", uri}}};
-    EXPECT_SAYS(mesh_refusal(mesh_as_is(write_gltf("inner/a.gltf", gltf.json.dump()))), "outside its own folder");
+    EXPECT_SAYS(mesh_refusal(mesh_as_is(write_gltf("inner/a.gltf", json_text(gltf.json)))), "outside its own folder");
   }
   Gltf gltf = gltf_tetrahedron();
   gltf.json["buffers"] = {{{"byteLength", gltf.binary.size()}, {"uri", "missing.bin"}}};
-  EXPECT_SAYS(mesh_refusal(mesh_as_is(write_gltf("a.gltf", gltf.json.dump()))), "missing.bin");
+  EXPECT_SAYS(mesh_refusal(mesh_as_is(write_gltf("a.gltf", json_text(gltf.json)))), "missing.bin");
   gltf.json["buffers"] = {{{"byteLength", gltf.binary.size()}}};
-  EXPECT_SAYS(mesh_refusal(mesh_as_is(write_gltf("a.gltf", gltf.json.dump()))), "buffers[0] has no uri");
+  EXPECT_SAYS(mesh_refusal(mesh_as_is(write_gltf("a.gltf", json_text(gltf.json)))), "buffers[0] has no uri");
   gltf.json["buffers"] = {{{"byteLength", gltf.binary.size()}, {"uri", "data:text/csv,1"}}};
-  EXPECT_SAYS(mesh_refusal(mesh_as_is(write_gltf("a.gltf", gltf.json.dump()))), "data URI");
+  EXPECT_SAYS(mesh_refusal(mesh_as_is(write_gltf("a.gltf", json_text(gltf.json)))), "data URI");
 }
 
 TEST(Mesh, ShapesThatAreNoBodyAreRefused) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What glTF files become: triangles where they should be.
 #include "objects/mesh.h"
+#include "system/json.h"
 
 #include <gtest/gtest.h>
 
@@ -232,7 +233,7 @@ TEST(Mesh, BuffersMayBeFilesOrDataUris) {
   gltf.json["buffers"] = {{{"byteLength", gltf.binary.size()}, {"uri", "a%20buffer.bin"}}};
   std::filesystem::create_directories(gltf_folder() + "/models");
   write_gltf("models/a buffer.bin", gltf.binary);
-  write_gltf("models/a.gltf", gltf.json.dump());
+  write_gltf("models/a.gltf", json_text(gltf.json));
   EXPECT_EQ(read_mesh(mesh_as_is("models/a.gltf"), gltf_folder()).triangles.size(), 4u);
   // four corners of a byte each, and the faces
   Gltf small;
@@ -240,7 +241,7 @@ TEST(Mesh, BuffersMayBeFilesOrDataUris) {
   small.primitive(position, small.indices(TETRAHEDRON_FACES));
   small.json["buffers"] = {
       {{"byteLength", 28}, {"uri", "data:application/octet-stream;base64,AAAAAAEAAAAAAgAAAAADAAACAQABAwADAgECAw=="}}};
-  EXPECT_NEAR(mesh_volume(read_mesh(mesh_as_is(write_gltf("small.gltf", small.json.dump())), "")), 1, GLTF_FLOAT_ROUNDING);
+  EXPECT_NEAR(mesh_volume(read_mesh(mesh_as_is(write_gltf("small.gltf", json_text(small.json))), "")), 1, GLTF_FLOAT_ROUNDING);
 }
 
 TEST(Mesh, LooksAreLeftOut) {

@@ -2,6 +2,7 @@
 // Sessions made up from known courses: every number of the report is known beforehand.
 // sanitizers: address
 #include "recordings/session_report.h"
+#include "system/json.h"
 
 #include <gtest/gtest.h>
 
@@ -298,7 +299,7 @@ TEST(SessionReport, OfNothingAndOfNoNumbers) {
   EXPECT_EQ(empty.ticks, 0u);
   EXPECT_TRUE(empty.grasps.empty());
   EXPECT_NE(session_table(empty), "");
-  EXPECT_FALSE(nlohmann::json::parse(session_json(empty)).empty());
+  EXPECT_FALSE(parse_json(session_json(empty)).empty());
   RecordedSession session = tilted_session(
       radians(90), [](double) { return NOT_A_NUMBER; }, [](double) { return NOT_A_NUMBER; });
   for (Tick& tick : session.recording.ticks) tick.device.gap = tick.volume[0] = NOT_A_NUMBER;
@@ -306,7 +307,7 @@ TEST(SessionReport, OfNothingAndOfNoNumbers) {
   EXPECT_EQ(grasp.course, GripCourse::not_analysed);
   EXPECT_EQ(grasp.before.count, 0u);
   EXPECT_TRUE(std::isnan(grasp.response_time));
-  EXPECT_TRUE(nlohmann::json::parse(session_json(session.report()))["grasps"][0]["poured_m3"].is_null());
+  EXPECT_TRUE(parse_json(session_json(session.report()))["grasps"][0]["poured_m3"].is_null());
   EXPECT_EQ(grasps_csv(session.report()).find("nan"), std::string::npos);
   EXPECT_EQ(session_table(session.report()).find("nan"), std::string::npos);
 }
@@ -315,7 +316,7 @@ TEST(SessionReport, TableCsvAndJsonSayTheSame) {
   const RecordedSession session = tilted_session(
       radians(90), [](double x) { return linear_between(x, 3, 6); }, [](double x) { return linear_between(x, 0.8, 2); });
   const SessionReport report = session.report();
-  const auto json = nlohmann::json::parse(session_json(report));
+  const auto json = parse_json(session_json(report));
   ASSERT_EQ(json["grasps"].size(), 1u);
   EXPECT_EQ(json["grasps"][0]["vessel"], "one");
   EXPECT_EQ(json["grasps"][0]["type"], "G2");

@@ -13,6 +13,7 @@
 #include "objects/check.h"
 #include "objects/gltf_file.h"
 #include "objects/mesh.h"
+#include "system/json.h"
 #include "tests/support/files.h"
 #include "tests/support/meshes.h"
 
@@ -77,7 +78,7 @@ struct Gltf {
   std::string glb() const {
     Json whole = json;
     whole["buffers"] = {{{"byteLength", binary.size()}}};
-    return glb_text(whole.dump(), binary);
+    return glb_text(json_text(whole), binary);
   }
 };
 

@@ -17,6 +17,7 @@
 #include "objects/check.h"
 #include "objects/distance.h"
 #include "objects/lattice.h"
+#include "system/json.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {
@@ -246,7 +247,7 @@ std::string glb_text(const TriangleMesh& mesh) {
        {{{"buffer", 0}, {"byteLength", positions}},
         {{"buffer", 0}, {"byteOffset", positions}, {"byteLength", binary.size() - positions}}}},
       {"buffers", {{{"byteLength", binary.size()}}}}};
-  return glb_text(json.dump(), binary);
+  return glb_text(json_text(json), binary);
 }
 
 std::string stl_text(const TriangleMesh& mesh) {

@@ -9,6 +9,7 @@
 #include "advice/moment.h"
 #include "advice/words.h"
 #include "core/vectors.h"
+#include "system/json.h"
 #include "tests/support/advised_session.h"
 #include "tests/support/osc_listener.h"
 #include "viewer/frame.h"
@@ -57,9 +58,9 @@ TEST(Ghost, IsTheAdvisedHandOnItsVessel) {
 TEST(ViewFrame, TellsTheAdvice) {
   const Advised one;
   ViewFrame frame = FrameMaker(one.live).make(one.tick, one.poses, {}, {});
-  EXPECT_FALSE(nlohmann::json::parse(frame_json(frame)).contains("advice"));
+  EXPECT_FALSE(parse_json(frame_json(frame)).contains("advice"));
   frame.advice = frame_advice(one.scene, one.advice, one.poses);
-  const nlohmann::json advice = nlohmann::json::parse(frame_json(frame))["advice"];
+  const nlohmann::json advice = parse_json(frame_json(frame))["advice"];
   EXPECT_EQ(advice["vessel"], 0);
   EXPECT_EQ(advice["words"], advice_words(one.advice));
   EXPECT_EQ(advice["to"].get<float>(), static_cast<float>(one.advice.best->effort));
@@ -70,7 +71,7 @@ TEST(ViewFrame, TellsTheAdvice) {
   impossible.present.is_possible = false;
   impossible.is_better = false;
   frame.advice = frame_advice(one.scene, impossible, one.poses);
-  const nlohmann::json other = nlohmann::json::parse(frame_json(frame))["advice"];
+  const nlohmann::json other = parse_json(frame_json(frame))["advice"];
   EXPECT_TRUE(other["from"].is_null());
   EXPECT_FALSE(other.contains("joints"));
 }

@@ -2,6 +2,7 @@
 // What the page posts: every control that is one, and every way in which a request is none.
 // sanitizers: address
 #include "viewer/control.h"
+#include "system/json.h"
 
 #include <gtest/gtest.h>
 
@@ -35,11 +36,11 @@ std::string refusal(const std::string& body) {
 std::string with(const char* key, const json& value) {
   json object = good();
   object[key] = value;
-  return object.dump();
+  return json_text(object);
 }
 
 TEST(ViewControl, TakesWhatAPagePosts) {
-  const ViewControl control = parse_view_control(good().dump());
+  const ViewControl control = parse_view_control(json_text(good()));
   EXPECT_EQ(control.position, (Triple{0.1, -0.2, 0.3}));
   EXPECT_EQ(control.gap, 0.08);
   EXPECT_EQ(control.buttons, 3u);
@@ -95,14 +96,14 @@ TEST(ViewControl, RefusesMissingAndUnknownKeys) {
   for (const std::string key : {"position", "rotation", "gap", "buttons", "sequence"}) {
     json object = good();
     object.erase(key);
-    EXPECT_NE(refusal(object.dump()).find("'" + key + "'"), std::string::npos);
+    EXPECT_NE(refusal(json_text(object)).find("'" + key + "'"), std::string::npos);
   }
   EXPECT_NE(refusal(with("grip", 1)).find("'grip'"), std::string::npos);
   EXPECT_NE(refusal(with("a\nb", 1)).find("a\\x0ab"), std::string::npos) << "on one line";
 }
 
 TEST(ViewControl, RefusesWhatIsNoJsonWhateverItIs) {
-  const std::string text = good().dump();
+  const std::string text = json_text(good());
   for (std::size_t size = 0; size < text.size(); ++size) refusal(text.substr(0, size));
   refusal(text + "x");
   refusal(text + text);

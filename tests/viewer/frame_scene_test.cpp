@@ -2,6 +2,7 @@
 // The scene of a view as the page gets it: what does not change while the frames come.
 // sanitizers: address
 #include "core/joints.h"
+#include "system/json.h"
 #include "viewer/scene.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +32,7 @@ TEST(ViewScene, TellsWhatDoesNotChange) {
   facts.title = "a \"board\"";
   facts.device = "sim";
   facts.rate = 1000;
-  const json seen = json::parse(view_scene_json(scene, facts));
+  const json seen = parse_json(view_scene_json(scene, facts));
   EXPECT_EQ(seen["mode"], "live");
   EXPECT_EQ(seen["title"], "a \"board\"");
   EXPECT_EQ(seen["device"], "sim");
@@ -59,21 +60,21 @@ TEST(ViewScene, TellsWhatDoesNotChange) {
   EXPECT_EQ(seen["tolerance_m3"], 5e-6);
   EXPECT_EQ(seen["force"], json({{"base", 0.8}, {"max", 8.0}, {"most", 8.0}})) << "no gripper says less";
   facts.most_force = 5;
-  EXPECT_EQ(json::parse(view_scene_json(scene, facts))["force"]["most"], 5.0);
+  EXPECT_EQ(parse_json(view_scene_json(scene, facts))["force"]["most"], 5.0);
   EXPECT_EQ(seen["states"], json({"free", "touching", "lift", "tilt", "maintain", "slipped", "released"}));
 }
 
 TEST(ViewScene, StrengthsAreThereWhereTheSceneHasThem) {
   Scene scene = live_scene();
-  EXPECT_FALSE(json::parse(view_scene_json(scene, {})).contains("strength"));
+  EXPECT_FALSE(parse_json(view_scene_json(scene, {})).contains("strength"));
   scene.strength = StrengthData{{1, 2, 3, 4, 5, 6}};
-  EXPECT_EQ(json::parse(view_scene_json(scene, {}))["strength"], json({1.0, 2.0, 3.0, 4.0, 5.0, 6.0}));
+  EXPECT_EQ(parse_json(view_scene_json(scene, {}))["strength"], json({1.0, 2.0, 3.0, 4.0, 5.0, 6.0}));
 }
 
 TEST(ViewScene, ATitleMayBeAnyBytes) {
   ViewFacts facts;
   facts.title = "m\xfc.nc";  // a file's name in Latin-1
-  EXPECT_EQ(json::parse(view_scene_json(live_scene(), facts))["title"], "m\xef\xbf\xbd.nc");
+  EXPECT_EQ(parse_json(view_scene_json(live_scene(), facts))["title"], "m\xef\xbf\xbd.nc");
 }
 
 // The distance of a point of the half plane from a polyline.
@@ -90,7 +91,7 @@ double distance_to(const json& line, double r, double y) {
 
 TEST(ViewScene, OutlinesAndWallsAreThoseOfTheVessels) {
   const Scene scene = read_scene_file(find_scene("mixing_board"));
-  const json seen = json::parse(view_scene_json(scene, {}));
+  const json seen = parse_json(view_scene_json(scene, {}));
   const LiveScene live(scene);
   for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
     const json& vessel = seen["vessels"][v];
@@ -128,9 +129,9 @@ TEST(ViewScene, OutlinesAndWallsAreThoseOfTheVessels) {
 TEST(ViewScene, ALeftHandsGuidanceIsInTheScenesOwnWorld) {
   Scene scene = read_scene_file(find_scene("mixing_board"));
   scene.vessels[1].guidance[0].azimuth = 0.4;
-  const json right = json::parse(view_scene_json(scene, {}));
+  const json right = parse_json(view_scene_json(scene, {}));
   scene.hand.handedness = Handedness::left;
-  const json left = json::parse(view_scene_json(scene, {}));
+  const json left = parse_json(view_scene_json(scene, {}));
   EXPECT_EQ(left["handedness"], "left");
   EXPECT_EQ(left["vessels"], right["vessels"]);
   // and where the session has it, mirrored
@@ -142,7 +143,7 @@ TEST(ViewScene, ALeftHandsGuidanceIsInTheScenesOwnWorld) {
 
 TEST(ViewScene, SolidGlassIsClosedAndASceneWithoutATaskHasNoTarget) {
   const Scene scene = scene_of({ledges()});
-  const json seen = json::parse(view_scene_json(scene, {}));
+  const json seen = parse_json(view_scene_json(scene, {}));
   EXPECT_FALSE(seen["vessels"][0].contains("inner"));
   EXPECT_EQ(seen["vessels"][0]["outline"].back()[0], 0);
   EXPECT_TRUE(seen["target"].is_null() && seen["destination"].is_null() && seen["tolerance_m3"].is_null());

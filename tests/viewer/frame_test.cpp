@@ -3,6 +3,7 @@
 // from.
 // sanitizers: address
 #include "viewer/frame.h"
+#include "system/json.h"
 
 #include <gtest/gtest.h>
 
@@ -192,7 +193,7 @@ TEST(ViewFrame, TellsEveryFieldOfATick) {
     const HandView hand = hand_view(live, tick, poses);
     const std::string text = frame_json(maker.make(tick, poses, hand, {999, 4e-6, 3}));
     EXPECT_EQ(text.find('\n'), std::string::npos);
-    const json seen = json::parse(text);
+    const json seen = parse_json(text);
     const Shown shown{scene, live, tick, poses, hand};
     expect_fields(seen, shown);
     expect_hand(seen, shown);
@@ -229,7 +230,7 @@ TEST(ViewFrame, TellsWhatHoldingTakesOfTheHand) {
   for (const auto& [tick, poses] : moments(scene)) {
     SCOPED_TRACE("tick " + std::to_string(tick.number));
     const HandView hand = hand_view(live, tick, poses);
-    const json seen = json::parse(frame_json(maker.make(tick, poses, hand, {})));
+    const json seen = parse_json(frame_json(maker.make(tick, poses, hand, {})));
     ASSERT_EQ(seen.contains("holding"), is_held(tick.state));
     if (!is_held(tick.state)) {
       EXPECT_TRUE(seen["forces"]["hold"].is_null());
@@ -254,7 +255,7 @@ TEST(ViewFrame, WhatNoForceHoldsIsNull) {
   ViewFrame frame;
   frame.hand.hold = HandHold{INFINITE, INFINITE, INFINITE, 25, {}};
   frame.hold = frame.hand.hold->force();
-  const json seen = json::parse(frame_json(frame));
+  const json seen = parse_json(frame_json(frame));
   EXPECT_EQ(seen["holding"], json({{"effort", nullptr},
                                    {"effort_low", nullptr},
                                    {"tips_effort", nullptr},
@@ -270,11 +271,11 @@ TEST(ViewFrame, WhatIsNoNumberIsNull) {
   frame.feedback = std::numeric_limits<double>::quiet_NaN();
   frame.vessels.resize(2);
   frame.vessels[1].is_shown = false;
-  const json seen = json::parse(frame_json(frame));
+  const json seen = parse_json(frame_json(frame));
   EXPECT_TRUE(seen["forces"]["hold"].is_null());
   EXPECT_EQ(seen["forces"]["hold_infinite"], true);
   frame.hold = Tick::NONE;
-  EXPECT_FALSE(json::parse(frame_json(frame))["forces"].contains("hold_infinite")) << "there is none";
+  EXPECT_FALSE(parse_json(frame_json(frame))["forces"].contains("hold_infinite")) << "there is none";
   EXPECT_TRUE(seen["forces"]["feedback"].is_null());
   EXPECT_TRUE(seen["forces"]["written"].is_null()) << "there is no gripper";
   EXPECT_TRUE(seen["vessels"][0]["level"].is_null());

@@ -4,6 +4,7 @@
 // sanitizers: address
 #include "viewer/grips.h"
 #include "core/vectors.h"
+#include "system/json.h"
 
 #include <gtest/gtest.h>
 
@@ -51,7 +52,7 @@ std::vector<ViewedGrip> some_grips() {
 
 // What `grip --json` says of it.
 json report_of(const Scene& scene, const ViewedGrip& grip, const StateAxes& axes) {
-  return json::parse(
+  return parse_json(
       grip_json(make_grip_report(scene, grip.vessel, grip.grip, axes, open_grip_methods(scene, "core", Precision::full))));
 }
 
@@ -159,7 +160,7 @@ TEST(GripsView, TheScoreOfAListIsShown) {
   grips[1].score = 0.125;
   const Scene scene = beakers();
   const GripsView view(scene, grips, notes);
-  const json shown = json::parse(view.content("", scene_axes(scene, 0)).scene)["grips"];
+  const json shown = parse_json(view.content("", scene_axes(scene, 0)).scene)["grips"];
   EXPECT_EQ(shown[1]["score"], 0.125);
   const double own = report_of(scene, grips[0], scene_axes(scene, 0))["score"];
   EXPECT_NEAR(shown[0]["score"].get<double>(), own, 1e-12);
@@ -175,7 +176,7 @@ TEST(GripsView, TheRefinedGripIsToldBesideTheSweptOne) {
   grips[1].refined->grip.height += 1.5e-3;
   grips[1].refined->grip.roll -= 0.02;
   const GripsView view(scene, grips, notes);
-  const json shown = json::parse(view.content("", scene_axes(scene, 0)).scene)["grips"];
+  const json shown = parse_json(view.content("", scene_axes(scene, 0)).scene)["grips"];
   EXPECT_FALSE(shown[0].contains("refined"));
   EXPECT_EQ(shown[1]["refined"]["score"], 0.875);
   EXPECT_EQ(shown[1]["refined"]["height_m"], grips[1].refined->grip.height);
@@ -190,7 +191,7 @@ TEST(GripsView, RobustScoresAreToldOfGripsThatHaveThem) {
   grips[1].robust = RobustView{0.625, 0.25};
   const Scene scene = beakers();
   const GripsView view(scene, grips, notes);
-  const json shown = json::parse(view.content("", scene_axes(scene, 0)).scene)["grips"];
+  const json shown = parse_json(view.content("", scene_axes(scene, 0)).scene)["grips"];
   EXPECT_FALSE(shown[0].contains("robust"));
   EXPECT_EQ(shown[1]["robust"]["mean"], 0.625);
   EXPECT_EQ(shown[1]["robust"]["low"], 0.25);
@@ -254,12 +255,12 @@ TEST(GripsView, AVesselStandsOnItsOwnTableWhereverTheHandIs) {
 TEST(GripsView, OnlyTheHeldVesselIsShown) {
   std::vector<std::string> notes;
   const GripsView view(beakers(), some_grips(), notes);
-  const json frame = json::parse(frame_json(view.frame(1, 0.5, 0)));
+  const json frame = parse_json(frame_json(view.frame(1, 0.5, 0)));
   EXPECT_TRUE(frame["vessels"][0].is_null());
   EXPECT_FALSE(frame["vessels"][1].is_null());
   EXPECT_TRUE(frame["vessels"][2].is_null());
   EXPECT_EQ(frame["state"], "lift");
-  EXPECT_EQ(json::parse(frame_json(view.frame(1, 0.5, 0.1)))["state"], "maintain");
+  EXPECT_EQ(parse_json(frame_json(view.frame(1, 0.5, 0.1)))["state"], "maintain");
 }
 
 TEST(GripsView, TheListTellsEachGripAndItsTerms) {
@@ -268,7 +269,7 @@ TEST(GripsView, TheListTellsEachGripAndItsTerms) {
   const std::vector<ViewedGrip> grips = some_grips();
   const GripsView view(scene, grips, notes);
   const ViewContent content = view.content("best", scene_axes(scene, 0));
-  const json seen = json::parse(content.scene);
+  const json seen = parse_json(content.scene);
   EXPECT_EQ(seen["mode"], "grips");
   EXPECT_EQ(seen["fills"], json(scene.liquid->fills));
   EXPECT_EQ(seen["tilts"], json(scene.tilts));
@@ -319,8 +320,7 @@ TEST(GripsView, WhatIsAskedForMovesTheSlidersAndNotTheForces) {
   std::vector<std::string> notes;
   const GripsView view(scene, {some_grips()[0]}, notes);
   const StateAxes asked{{0.3}, {0, radians(120)}};
-  const json seen = json::parse(view.content("one", asked).scene),
-             own = json::parse(view.content("one", scene_axes(scene, 0)).scene);
+  const json seen = parse_json(view.content("one", asked).scene), own = parse_json(view.content("one", scene_axes(scene, 0)).scene);
   EXPECT_EQ(seen["fills"], json(asked.fills));
   EXPECT_EQ(seen["tilts"], json(asked.tilts));
   EXPECT_EQ(seen["grips"], own["grips"]);
@@ -330,7 +330,7 @@ TEST(GripsView, ASceneWithoutLiquidAndTiltsIsShownToo) {
   const Scene scene = scene_of({beaker1()});
   std::vector<std::string> notes;
   const GripsView view(scene, {some_grips()[0]}, notes);
-  const json seen = json::parse(view.content("bare", scene_axes(scene, 0)).scene);
+  const json seen = parse_json(view.content("bare", scene_axes(scene, 0)).scene);
   EXPECT_EQ(seen["fills"], json({0.0}));
   EXPECT_TRUE(seen["tilts"].empty());
   EXPECT_FALSE(seen["grips"][0]["terms"].contains("force"));

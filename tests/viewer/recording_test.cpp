@@ -2,6 +2,7 @@
 // A recording as the viewer shows it: at any moment what was recorded then.
 // sanitizers: address
 #include "viewer/recording.h"
+#include "system/json.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -93,17 +94,17 @@ TEST(RecordingView, AnswersAsJsonAndRefusesTooMuch) {
   const Scene scene = live_scene();
   const RecordingView view(scene, recorded(scene));
   const ViewContent content = view.content("mine.nc");
-  const json seen = json::parse(content.scene);
+  const json seen = parse_json(content.scene);
   EXPECT_EQ(seen["mode"], "recording");
   EXPECT_EQ(seen["title"], "mine.nc");
   EXPECT_EQ(seen["device"], "a gripper");
   EXPECT_EQ(seen["force"]["most"], 7.0);
   EXPECT_EQ(seen["rate"], 1000);
   EXPECT_EQ(seen["duration"], view.duration());
-  const json answer = json::parse(content.recording({{"from", "0.5"}, {"to", "0.6"}, {"rate", "30"}}));
+  const json answer = parse_json(content.recording({{"from", "0.5"}, {"to", "0.6"}, {"rate", "30"}}));
   ASSERT_EQ(answer["frames"].size(), 4u);
-  EXPECT_EQ(answer["frames"][3].dump(), json::parse(frame_json(view.frames(0.6, 0.6, 0).at(0))).dump());
-  EXPECT_EQ(json::parse(content.recording({{"from", "0"}, {"to", "9.983"}, {"rate", "60"}}))["frames"].size(), 599u);
+  EXPECT_EQ(json_text(answer["frames"][3]), json_text(parse_json(frame_json(view.frames(0.6, 0.6, 0).at(0)))));
+  EXPECT_EQ(parse_json(content.recording({{"from", "0"}, {"to", "9.983"}, {"rate", "60"}}))["frames"].size(), 599u);
   using Query = ViewContent::Query;
   for (const Query& bad : {Query{{"from", "0"}, {"to", "10"}, {"rate", "60"}}, Query{{"from", "2"}, {"to", "1"}, {"rate", "60"}},
                            Query{{"from", "-1"}, {"to", "1"}, {"rate", "1"}}, Query{{"from", "0"}, {"to", "1e9"}, {"rate", "1e9"}},
@@ -127,7 +128,7 @@ TEST(RecordingView, AllOfItIsAtMostTheMostFramesWhateverTheRate) {
     EXPECT_NEAR(view.duration(), std::stod(c.duration), 5e-7);
     EXPECT_LT(view.duration(), std::stod(c.duration));
     const std::string rate = fmt::format("{}", std::min(c.rate, (MOST_RECORDED_FRAMES - 1) / view.duration()));
-    const json answer = json::parse(view.content("").recording({{"from", "0"}, {"to", c.duration}, {"rate", rate}}));
+    const json answer = parse_json(view.content("").recording({{"from", "0"}, {"to", c.duration}, {"rate", rate}}));
     EXPECT_EQ(answer["frames"].size(), static_cast<std::size_t>(MOST_RECORDED_FRAMES)) << c.rate;
   }
 }
