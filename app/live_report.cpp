@@ -162,7 +162,6 @@ std::string live_json(const LiveSummary& summary) {
   json["notes"] = summary.notes;
   json["recorded_wholly"] = summary.is_recorded;
   json["recording"] = summary.recording.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(summary.recording);
-  // names of devices and files may be of any encoding
   return json_text(json, 2) + "\n";
 }
 

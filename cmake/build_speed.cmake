@@ -18,7 +18,8 @@ function(wholehand_together target batch)
   endif()
 endfunction()
 
-# wholehand_heavy_first(LIST): files that include a header of some seconds come first. They are then compiled as one and pay for it once.
+# wholehand_heavy_first(LIST): files that include a header of some seconds come first, so in one batch where they are no more than it takes. They
+# then pay for it once. A file that begins to include such a header moves when CMake is next run.
 function(wholehand_heavy_first list)
   set(heavy)
   set(others)

@@ -8,11 +8,9 @@
 #include <string>
 #include <string_view>
 
-#include "core/text.h"
-
 namespace wholehand {
 
-// The words one after the other, with the separator between any two. A word is what a std::string can append.
+// The words one after the other, with the separator between any two. A word is a std::string, a std::string_view or a const char*.
 template <class Words>
 std::string joined(const Words& words, std::string_view separator) {
   std::string text;
@@ -20,14 +18,14 @@ std::string joined(const Words& words, std::string_view separator) {
   for (const auto& word : words) {
     if (!is_first) text += separator;
     is_first = false;
-    text += word;
+    text += std::string_view(word);
   }
   return text;
 }
 
 // Appends what fmt::format makes of the same arguments.
 template <class... Args>
-void append(std::string& text, fmt::format_string<Args...> format, Args&&... args) {
+void append_formatted(std::string& text, fmt::format_string<Args...> format, Args&&... args) {
   text += fmt::vformat(format, fmt::make_format_args(args...));
 }
 

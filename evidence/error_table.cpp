@@ -193,18 +193,18 @@ std::string error_csv(const std::vector<ErrorRow>& rows, const ErrorContext& con
   for (const ErrorRow& row : rows) {
     const ErrorVariant& v = row.variant;
     const bool lattice = v.options.lattice_samples > 0;
-    append(csv, "{},{},{},{},{},{},{},{:.9g},{},{},{},{:.6g},{:.6g},{}", csv_text(v.name), v.on_core ? "core" : "vulkan",
-           v.precision == Precision::single ? "float" : "double", v.on_core ? fmt::format("{}", v.threads) : "",
-           lattice ? "grid" : "outline", lattice ? fmt::format("{}", v.options.lattice_samples) : "",
-           lattice ? fmt::format("{}", v.options.lattice_bits) : "", v.stop_tolerance(),
-           context.efforts ? fmt::format("{:.9g}", v.effort_tolerance()) : "",
-           context.states > 0 ? fmt::format("{}", v.options.quadrature_points) : "", csv_text(v.left_out), row.seconds_per_grip,
-           row.spread, row.memory_bytes);
+    append_formatted(csv, "{},{},{},{},{},{},{},{:.9g},{},{},{},{:.6g},{:.6g},{}", csv_text(v.name), v.on_core ? "core" : "vulkan",
+                     v.precision == Precision::single ? "float" : "double", v.on_core ? fmt::format("{}", v.threads) : "",
+                     lattice ? "grid" : "outline", lattice ? fmt::format("{}", v.options.lattice_samples) : "",
+                     lattice ? fmt::format("{}", v.options.lattice_bits) : "", v.stop_tolerance(),
+                     context.efforts ? fmt::format("{:.9g}", v.effort_tolerance()) : "",
+                     context.states > 0 ? fmt::format("{}", v.options.quadrature_points) : "", csv_text(v.left_out),
+                     row.seconds_per_grip, row.spread, row.memory_bytes);
     for (const ErrorFigures& error : row.errors)
-      append(csv, ",{},{},{},{}", error_number_cell(error.median), error_number_cell(error.p999), error_number_cell(error.max),
-             error.worst);
-    append(csv, ",{},{},{},{},{},{}\n", error_count_cell(row.touch_flips), error_count_cell(row.touch_flips_outside),
-           error_count_cell(row.feasible_flips), csv_text(row.device), csv_text(row.driver), context.seed);
+      append_formatted(csv, ",{},{},{},{}", error_number_cell(error.median), error_number_cell(error.p999),
+                       error_number_cell(error.max), error.worst);
+    append_formatted(csv, ",{},{},{},{},{},{}\n", error_count_cell(row.touch_flips), error_count_cell(row.touch_flips_outside),
+                     error_count_cell(row.feasible_flips), csv_text(row.device), csv_text(row.driver), context.seed);
   }
   return csv;
 }
@@ -214,8 +214,8 @@ std::string error_grips_csv(const std::vector<std::vector<GripInput>>& grips) {
   for (std::size_t v = 0; v < grips.size(); ++v) {
     for (std::size_t i = 0; i < grips[v].size(); ++i) {
       const GripInput& g = grips[v][i];
-      append(csv, "{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", v, i, g.height, g.azimuth, g.obliquity, g.roll,
-             g.offset, g.hand_scale);
+      append_formatted(csv, "{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", v, i, g.height, g.azimuth, g.obliquity,
+                       g.roll, g.offset, g.hand_scale);
     }
   }
   return csv;

@@ -238,11 +238,12 @@ std::string grip_loop_csv(const std::vector<GripLoopRow>& rows, const std::strin
     if (!is_same) sampled = sampled_k_open(l);
     last = l;
     const GripLoopResult& r = row.result;
-    append(csv, "{},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:.5g},{:g},{:g},{},{},{},{},{},{},{},{}\n",
-           row.varied, l.base, l.range, l.k_open, l.max, l.rate, l.device_mass, l.device_damping, l.finger_mass, l.finger_damping,
-           l.finger_stiffness, l.reaction, l.response, l.excess, l.tilt, l.tilt_speed, l.band * 1e3,
-           GRIP_OUTCOME_NAMES[static_cast<int>(r.outcome)], number(r.response_time), number(r.overshoot * 1e3),
-           number(r.opened * 1e3), number(r.swing * 1e3), number(sampled), number(reaction_k_open(l)), run);
+    append_formatted(
+        csv, "{},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:g},{:.5g},{:g},{:g},{},{},{},{},{},{},{},{}\n",
+        row.varied, l.base, l.range, l.k_open, l.max, l.rate, l.device_mass, l.device_damping, l.finger_mass, l.finger_damping,
+        l.finger_stiffness, l.reaction, l.response, l.excess, l.tilt, l.tilt_speed, l.band * 1e3,
+        GRIP_OUTCOME_NAMES[static_cast<int>(r.outcome)], number(r.response_time), number(r.overshoot * 1e3), number(r.opened * 1e3),
+        number(r.swing * 1e3), number(sampled), number(reaction_k_open(l)), run);
   }
   return csv;
 }

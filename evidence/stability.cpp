@@ -69,62 +69,64 @@ WallFindings look_at(const std::vector<WallSheet>& sheets) {
 }
 
 void write_walls(std::string& out, const std::vector<WallSheet>& sheets, const WallFindings& found) {
-  append(out,
-         "\n## The rendered wall\n\n"
-         "The simulation pressed {} walls for 20,000 samples each. Of these, {} are passive by b > K T / 2 + |B|; {} of "
-         "the passive walls did not settle. Of {} random devices, fingers, walls and rates, {} settle 1 % below their "
-         "linear limit and do not settle 1 % above it.\n\n"
-         "The table shows the largest stiffness K in N/m without wall damping: in simulation / linear limit / passive "
-         "limit. The first two limits are lowest for a device that nobody holds. Only the passive limit is valid for every "
-         "hand that holds the device.\n\n| device |",
-         found.points, found.passive, found.passive_unsettled, found.by_chance, found.chance_as_theory);
-  for (const double rate : RATES) append(out, " {:g} Hz |", rate);
-  append(out, "\n|---|");
-  for (std::size_t k = 0; k < RATES.size(); ++k) append(out, "---|");
+  append_formatted(
+      out,
+      "\n## The rendered wall\n\n"
+      "The simulation pressed {} walls for 20,000 samples each. Of these, {} are passive by b > K T / 2 + |B|; {} of "
+      "the passive walls did not settle. Of {} random devices, fingers, walls and rates, {} settle 1 % below their "
+      "linear limit and do not settle 1 % above it.\n\n"
+      "The table shows the largest stiffness K in N/m without wall damping: in simulation / linear limit / passive "
+      "limit. The first two limits are lowest for a device that nobody holds. Only the passive limit is valid for every "
+      "hand that holds the device.\n\n| device |",
+      found.points, found.passive, found.passive_unsettled, found.by_chance, found.chance_as_theory);
+  for (const double rate : RATES) append_formatted(out, " {:g} Hz |", rate);
+  append_formatted(out, "\n|---|");
+  for (std::size_t k = 0; k < RATES.size(); ++k) append_formatted(out, "---|");
   for (const NamedDevice& named : wall_devices()) {
-    append(out, "\n| {} |", named.name);
+    append_formatted(out, "\n| {} |", named.name);
     for (const double rate : RATES) {
       WallDevice device;
       device.mass = named.mass;
       device.damping = named.damping;
       device.rate = rate;
       const WallLimits limits = wall_limits(device);
-      append(out, " {} / {} / {} |", newtons_per_metre(limits.simulated), newtons_per_metre(limits.linear),
-             newtons_per_metre(limits.passive));
+      append_formatted(out, " {} / {} / {} |", newtons_per_metre(limits.simulated), newtons_per_metre(limits.linear),
+                       newtons_per_metre(limits.passive));
     }
   }
-  append(out, "\n\nThe linear limit over the delay, at 1 kHz, for {}:", wall_devices().front().name);
+  append_formatted(out, "\n\nThe linear limit over the delay, at 1 kHz, for {}:", wall_devices().front().name);
   WallDevice device;
   device.mass = wall_devices().front().mass;
   device.damping = wall_devices().front().damping;
   for (int delay = 0; delay <= LOOP_DELAYS; ++delay) {
     device.delay = delay;
-    append(out, "{} {} samples {} N/m", delay == 0 ? "" : ",", delay, newtons_per_metre(wall_theory(device).linear));
+    append_formatted(out, "{} {} samples {} N/m", delay == 0 ? "" : ",", delay, newtons_per_metre(wall_theory(device).linear));
   }
-  append(out, ".\n");
+  append_formatted(out, ".\n");
   for (const WallSheet& sheet : sheets) {
     if (sheet.name != "integrator") continue;
-    append(out, "\nIf an integrator replaces the exact motion between samples, the limit moves (same device, 1 kHz):");
+    append_formatted(out, "\nIf an integrator replaces the exact motion between samples, the limit moves (same device, 1 kHz):");
     const char* separator = "";
     for (const WallColumn& column : sheet.columns) {
       const WallPoint& first = column.points.front();
       if (first.device.mass != device.mass || first.device.damping != device.damping) continue;
       const std::string limit = newtons_per_metre(integrator_limit(first.device, first.integrator, first.substeps));
       if (first.integrator == LOOP_EXACT) {
-        append(out, "{} exact {}", separator, limit);
+        append_formatted(out, "{} exact {}", separator, limit);
       } else {
-        append(out, "{} {} Euler, {} sub-step{}, {}", separator, first.integrator == LOOP_EULER ? "explicit" : "semi-implicit",
-               first.substeps, first.substeps == 1 ? "" : "s", limit);
+        append_formatted(out, "{} {} Euler, {} sub-step{}, {}", separator,
+                         first.integrator == LOOP_EULER ? "explicit" : "semi-implicit", first.substeps,
+                         first.substeps == 1 ? "" : "s", limit);
       }
       separator = ";";
     }
-    append(out, " N/m.\n");
+    append_formatted(out, " N/m.\n");
   }
 }
 
 void write_grips(std::string& out, const std::vector<GripLoopRow>& rows) {
   const GripLoop usual;
-  append(
+  append_formatted(
       out,
       "\n## The held grip\n\n"
       "The model has a gripper of {:g} g and {:g} N s/m, a finger of {:g} g, {:g} N s/m and {:g} N/m, and a user who reacts after "
@@ -133,29 +135,30 @@ void write_grips(std::string& out, const std::vector<GripLoopRow>& rows) {
       "has no user. The delayed answer of a user adds damping or removes damping; this depends on its phase.\n\n| gripper |",
       usual.device_mass * 1e3, usual.device_damping, usual.finger_mass * 1e3, usual.finger_damping, usual.finger_stiffness,
       usual.reaction * 1e3, usual.response * 1e3, usual.excess);
-  for (const double rate : RATES) append(out, " {:g} Hz |", rate);
-  append(out, "\n|---|");
-  for (std::size_t k = 0; k < RATES.size(); ++k) append(out, "---|");
+  for (const double rate : RATES) append_formatted(out, " {:g} Hz |", rate);
+  append_formatted(out, "\n|---|");
+  for (std::size_t k = 0; k < RATES.size(); ++k) append_formatted(out, "---|");
   for (const auto& [mass, damping] : {std::pair{0.05, 0.5}, {0.02, 0.2}, {0.1, 1.0}, {0.1, 3.0}}) {
-    append(out, "\n| {:g} g, {:g} N s/m |", mass * 1e3, damping);
+    append_formatted(out, "\n| {:g} g, {:g} N s/m |", mass * 1e3, damping);
     for (const double rate : RATES) {
       GripLoop loop;
       loop.device_mass = mass;
       loop.device_damping = damping;
       loop.rate = rate;
-      append(out, " {} / {} |", newtons_per_metre(largest_k_open(loop)), newtons_per_metre(sampled_k_open(loop)));
+      append_formatted(out, " {} / {} |", newtons_per_metre(largest_k_open(loop)), newtons_per_metre(sampled_k_open(loop)));
     }
   }
-  append(out,
-         "\n\nA slow user oscillates with softer springs, at every rate. For each reaction time, this is the k_open at "
-         "which the oscillation no longer dies away, in simulation / in theory (in the sessions below and in the picture, "
-         "even softer springs still oscillate at the end):");
+  append_formatted(
+      out,
+      "\n\nA slow user oscillates with softer springs, at every rate. For each reaction time, this is the k_open at "
+      "which the oscillation no longer dies away, in simulation / in theory (in the sessions below and in the picture, "
+      "even softer springs still oscillate at the end):");
   const char* separator = "";
   for (const double reaction : {0.2, 0.3, 0.4, 0.6}) {
     GripLoop loop;
     loop.reaction = reaction;
-    append(out, "{} {:g} ms {} / {}", separator, reaction * 1e3, newtons_per_metre(largest_k_open(loop)),
-           newtons_per_metre(reaction_k_open(loop)));
+    append_formatted(out, "{} {:g} ms {} / {}", separator, reaction * 1e3, newtons_per_metre(largest_k_open(loop)),
+                     newtons_per_metre(reaction_k_open(loop)));
     separator = ",";
   }
   std::array<std::size_t, GRIP_OUTCOMES> counts{};
@@ -165,25 +168,28 @@ void write_grips(std::string& out, const std::vector<GripLoopRow>& rows) {
     ++counts[static_cast<std::size_t>(row.result.outcome)];
     ++all;
   }
-  append(out, ".\n\nThe outcomes of {} sessions that vary F_base, F_range, k_open, reaction, finger and tilt speed:", all);
+  append_formatted(out,
+                   ".\n\nThe outcomes of {} sessions that vary F_base, F_range, k_open, reaction, finger and tilt speed:", all);
   for (std::size_t k = 0; k < counts.size(); ++k) {
-    append(out, "{} {} {:.1f} %", k == 0 ? "" : ",", GRIP_OUTCOME_NAMES[k],
-           100.0 * static_cast<double>(counts[k]) / static_cast<double>(std::max<std::size_t>(all, 1)));
+    append_formatted(out, "{} {} {:.1f} %", k == 0 ? "" : ",", GRIP_OUTCOME_NAMES[k],
+                     100.0 * static_cast<double>(counts[k]) / static_cast<double>(std::max<std::size_t>(all, 1)));
   }
   const GripLoopResult result = hold_and_tilt(usual);
-  append(out, ". With the default values the grip settles {:.0f} ms after the grasp and opens by {:.2f} mm in the tilt.\n",
-         result.response_time * 1e3, result.opened * 1e3);
+  append_formatted(out,
+                   ". With the default values the grip settles {:.0f} ms after the grasp and opens by {:.2f} mm in the tilt.\n",
+                   result.response_time * 1e3, result.opened * 1e3);
 }
 
 void write_gains(std::string& out) {
-  append(out,
-         "\n## Live gains\n\nWithout `--unsafe-gains`, a live session refuses larger gains than these. The gains are for "
-         "the device, without delay. K is for a B of 1 N s/m, from the linear limit of the lightest device here that has a "
-         "damping of 1 N s/m. k_open is from the simulation with the lightest finger and users who react after 60 to 90 "
-         "ms.\n\n| rate | K | k_open |\n|---|---|---|\n");
+  append_formatted(
+      out,
+      "\n## Live gains\n\nWithout `--unsafe-gains`, a live session refuses larger gains than these. The gains are for "
+      "the device, without delay. K is for a B of 1 N s/m, from the linear limit of the lightest device here that has a "
+      "damping of 1 N s/m. k_open is from the simulation with the lightest finger and users who react after 60 to 90 "
+      "ms.\n\n| rate | K | k_open |\n|---|---|---|\n");
   for (const double rate : RATES) {
     const GainLimits limits = gain_limits(rate, 1);
-    append(out, "| {:g} Hz | {} | {} |\n", rate, newtons_per_metre(limits.stiffness), newtons_per_metre(limits.k_open));
+    append_formatted(out, "| {:g} Hz | {} | {} |\n", rate, newtons_per_metre(limits.stiffness), newtons_per_metre(limits.k_open));
   }
 }
 
@@ -200,13 +206,14 @@ void write_extremes(std::string& out, const std::vector<ExtremeCase>& cases, con
     grips += row.grips;
     misplaced += row.misplaced;
   }
-  append(out,
-         "\n## Extreme scenes\n\nThere are {} scenes, with {} grips on all sides together; {} values are not finite where "
-         "they should be. The table shows the largest differences from the core in double, for the grips whose outcomes "
-         "agree: core float / device float / device double.\n\n"
-         "| scene | what must come out | feasible | separation, um | joints, um | feedback, mN | hold, mN | beyond the "
-         "tolerances of `check` |\n|---|---|---|---|---|---|---|---|\n",
-         cases.size(), grips, misplaced);
+  append_formatted(
+      out,
+      "\n## Extreme scenes\n\nThere are {} scenes, with {} grips on all sides together; {} values are not finite where "
+      "they should be. The table shows the largest differences from the core in double, for the grips whose outcomes "
+      "agree: core float / device float / device double.\n\n"
+      "| scene | what must come out | feasible | separation, um | joints, um | feedback, mN | hold, mN | beyond the "
+      "tolerances of `check` |\n|---|---|---|---|---|---|---|---|\n",
+      cases.size(), grips, misplaced);
   for (const ExtremeCase& extreme : cases) {
     std::array<std::string, 4> cells;
     std::string feasible, beyond;
@@ -222,16 +229,16 @@ void write_extremes(std::string& out, const std::vector<ExtremeCase>& cases, con
         beyond += fmt::format("{}{} {}", beyond.empty() ? "" : ", ", row.backend == "core" ? "core" : "device",
                               row.precision == Precision::single ? "float" : "double");
     }
-    append(out, "| {} | {} | {} | {} | {} | {} | {} | {} |\n", extreme.name, extreme.comes_out, feasible, cells[0], cells[1],
-           cells[2], cells[3], beyond);
+    append_formatted(out, "| {} | {} | {} | {} | {} | {} | {} | {} |\n", extreme.name, extreme.comes_out, feasible, cells[0],
+                     cells[1], cells[2], cells[3], beyond);
   }
-  append(out,
-         "\nFloat agrees with double to 10 um in the separations of 999 of 1,000 grips, to 10 um in the joints of 99 of "
-         "100 grips, and to 10 mN in the forces of 999 of 1,000 grips. This is true for a hand scale of {:g} to {:g}, "
-         "coordinates up to {:g} m and hold forces up to {:g} kN, at every size (1 mm to 10 m) and tilt of the vessel "
-         "(docs/evidence.md). Commands warn of a scene outside of this range.\n",
-         float_domain::SMALLEST_HAND, float_domain::LARGEST_HAND, float_domain::LARGEST_COORDINATE,
-         float_domain::LARGEST_HOLD * 1e-3);
+  append_formatted(out,
+                   "\nFloat agrees with double to 10 um in the separations of 999 of 1,000 grips, to 10 um in the joints of 99 of "
+                   "100 grips, and to 10 mN in the forces of 999 of 1,000 grips. This is true for a hand scale of {:g} to {:g}, "
+                   "coordinates up to {:g} m and hold forces up to {:g} kN, at every size (1 mm to 10 m) and tilt of the vessel "
+                   "(docs/evidence.md). Commands warn of a scene outside of this range.\n",
+                   float_domain::SMALLEST_HAND, float_domain::LARGEST_HAND, float_domain::LARGEST_COORDINATE,
+                   float_domain::LARGEST_HOLD * 1e-3);
 }
 
 // What a run finds.
@@ -274,10 +281,10 @@ bool compute_stability(const StabilityOptions& options, const WallRunner& runner
 std::string summary_of(const StabilityOptions& options, const Stability& stability) {
   std::string summary;
   const BackendInfo& info = stability.info;
-  append(summary, "# Stability\n\nwholehand {}, {} ({}), {}, seed {}, {} run.\n", version(), info.device, info.driver,
-         info.precision == Precision::single ? "float" : "double", options.seed, options.quick ? "quick" : "full");
+  append_formatted(summary, "# Stability\n\nwholehand {}, {} ({}), {}, seed {}, {} run.\n", version(), info.device, info.driver,
+                   info.precision == Precision::single ? "float" : "double", options.seed, options.quick ? "quick" : "full");
   write_walls(summary, stability.sheets, stability.walls);
-  append(summary, "\nThese walls took {:.1f} s.\n", stability.wall_seconds);
+  append_formatted(summary, "\nThese walls took {:.1f} s.\n", stability.wall_seconds);
   write_grips(summary, stability.grips);
   write_gains(summary);
   if (!options.extremes.empty()) write_extremes(summary, options.extremes, stability.extremes);

@@ -219,10 +219,10 @@ std::string wall_csv(const std::vector<WallSheet>& sheets) {
     for (const WallColumn& column : sheet.columns)
       for (const WallPoint& point : column.points) {
         const WallDevice& d = point.device;
-        append(csv, "{},{:g},{:g},{:.7g},{:.7g},{},{:.7g},{:g},{:g},{:g},{:g},{},{},{:.7g},{:.4g},{}\n", sheet.name, d.mass,
-               d.damping, d.rate, d.wall_damping, d.delay, d.encoder_step * 1e6, d.coulomb, d.finger_mass, d.finger_damping,
-               d.finger_stiffness, INTEGRATOR_NAMES[point.integrator], point.substeps, point.stiffness, point.energy,
-               point.settles() ? 1 : 0);
+        append_formatted(csv, "{},{:g},{:g},{:.7g},{:.7g},{},{:.7g},{:g},{:g},{:g},{:g},{},{},{:.7g},{:.4g},{}\n", sheet.name,
+                         d.mass, d.damping, d.rate, d.wall_damping, d.delay, d.encoder_step * 1e6, d.coulomb, d.finger_mass,
+                         d.finger_damping, d.finger_stiffness, INTEGRATOR_NAMES[point.integrator], point.substeps, point.stiffness,
+                         point.energy, point.settles() ? 1 : 0);
       }
   return csv;
 }
@@ -236,11 +236,12 @@ std::string wall_limits_csv(const std::vector<WallSheet>& sheets, const std::str
       const WallPoint& first = column.points.front();
       const WallDevice& d = first.device;
       const auto next = std::find_if(column.points.begin(), column.points.end(), [](const WallPoint& p) { return !p.settles(); });
-      append(csv, "{},{:g},{:g},{:.7g},{:.7g},{},{:.7g},{:g},{:g},{:g},{:g},{},{},{},{},{},{},{},{}\n", sheet.name, d.mass,
-             d.damping, d.rate, d.wall_damping, d.delay, d.encoder_step * 1e6, d.coulomb, d.finger_mass, d.finger_damping,
-             d.finger_stiffness, INTEGRATOR_NAMES[first.integrator], first.substeps, number_or_empty(column.theory.simulated),
-             next == column.points.end() ? "" : number_or_empty(next->stiffness), number_or_empty(column.theory.passive),
-             number_or_empty(column.theory.linear), number_or_empty(column.theory.coulomb), run);
+      append_formatted(csv, "{},{:g},{:g},{:.7g},{:.7g},{},{:.7g},{:g},{:g},{:g},{:g},{},{},{},{},{},{},{},{}\n", sheet.name,
+                       d.mass, d.damping, d.rate, d.wall_damping, d.delay, d.encoder_step * 1e6, d.coulomb, d.finger_mass,
+                       d.finger_damping, d.finger_stiffness, INTEGRATOR_NAMES[first.integrator], first.substeps,
+                       number_or_empty(column.theory.simulated),
+                       next == column.points.end() ? "" : number_or_empty(next->stiffness), number_or_empty(column.theory.passive),
+                       number_or_empty(column.theory.linear), number_or_empty(column.theory.coulomb), run);
     }
   return csv;
 }

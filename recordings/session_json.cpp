@@ -113,7 +113,6 @@ std::string session_json(const SessionReport& report) {
                       {"latency", percentiles_json(report.latency)}};
   json["ticks"] = report.ticks;
   json["missed_periods"] = report.missed;
-  // names of a damaged file may be no UTF-8
   return json_text(json);
 }
 

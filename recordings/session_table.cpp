@@ -40,10 +40,10 @@ class ColumnTable {
     }
     for (const auto& cells : rows_) {
       for (std::size_t k = 0; k < cells.size(); ++k) {
-        if (k == 0) append(out, "  {:<{}}", cells[k], widths[k]);
-        if (k > 0 && !cells[k].empty()) append(out, "  {:>{}}", cells[k], widths[k]);
+        if (k == 0) append_formatted(out, "  {:<{}}", cells[k], widths[k]);
+        if (k > 0 && !cells[k].empty()) append_formatted(out, "  {:>{}}", cells[k], widths[k]);
       }
-      append(out, "\n");
+      append_formatted(out, "\n");
     }
   }
 
@@ -53,11 +53,11 @@ class ColumnTable {
 
 void write_heading(std::string& out, const SessionReport& report) {
   const RecordingInfo& info = report.info;
-  append(out, "Session of {:.3f} s in {}, on {}, {:g} Hz{}{}\n", report.duration,
-         info.scene_name.empty() ? info.scene_file : info.scene_name, info.device.name, info.rate, info.start.empty() ? "" : ", ",
-         info.start);
+  append_formatted(out, "Session of {:.3f} s in {}, on {}, {:g} Hz{}{}\n", report.duration,
+                   info.scene_name.empty() ? info.scene_file : info.scene_name, info.device.name, info.rate,
+                   info.start.empty() ? "" : ", ", info.start);
   if (report.fault != Fault::none)
-    append(
+    append_formatted(
         out, "  {}{}\n",
         report.fault == Fault::interrupted ? "ended by a signal, or because nobody read its output any more" : "ended by a fault: ",
         report.fault == Fault::interrupted ? "" : FAULT_NAMES[static_cast<std::size_t>(report.fault)]);
@@ -66,13 +66,13 @@ void write_heading(std::string& out, const SessionReport& report) {
   for (std::size_t k = 0; k < report.time_in_state.size(); ++k)
     states.row({SESSION_STATE_NAMES[k], shown(report.time_in_state[k], 1, 3)});
   states.write(out);
-  append(out, "  grasps {}, lost {}, destinations {}{}\n", report.grasps.size(), report.lost, report.destinations,
-         report.task_done ? ", task done" : "");
+  append_formatted(out, "  grasps {}, lost {}, destinations {}{}\n", report.grasps.size(), report.lost, report.destinations,
+                   report.task_done ? ", task done" : "");
 }
 
 void write_grasps(std::string& out, const SessionReport& report) {
   if (report.grasps.empty()) return;
-  append(out, "\nGrasps: times in s, response in ms, forces in N, tilt in degrees, distance in mm, volumes in mL\n");
+  append_formatted(out, "\nGrasps: times in s, response in ms, forces in N, tilt in degrees, distance in mm, volumes in mL\n");
   ColumnTable table;
   table.row({"vessel", "start", "lift", "tilt", "maintain", "response", "stopped", "before", "during", "after", "largest tilt",
              "normal rise", "grip change", "type", "guidance", "poured", "arrived", "spilt", "end"});
@@ -88,10 +88,11 @@ void write_grasps(std::string& out, const SessionReport& report) {
   table.write(out);
   for (const GraspReport& grasp : report.grasps) {
     if (!(grasp.saturated > 0)) continue;
-    append(out, "  {} at {:.3f} s: the feedback was at F_max for {:.3f} s; at F_max the gripper renders neither torque nor grip\n",
-           report.info.vessels[static_cast<std::size_t>(grasp.vessel)].name, grasp.start, grasp.saturated);
+    append_formatted(
+        out, "  {} at {:.3f} s: the feedback was at F_max for {:.3f} s; at F_max the gripper renders neither torque nor grip\n",
+        report.info.vessels[static_cast<std::size_t>(grasp.vessel)].name, grasp.start, grasp.saturated);
   }
-  append(out, "\nBy vessel, mean +- deviation over grasps: times in s, forces in N\n");
+  append_formatted(out, "\nBy vessel, mean +- deviation over grasps: times in s, forces in N\n");
   ColumnTable summary;
   summary.row({"vessel", "grasps", "lost", "G1", "G2", "G3", "G4", "response", "stopped", "before", "during", "after",
                "normal rise", "grip change", "tilting"});
@@ -108,7 +109,7 @@ void write_grasps(std::string& out, const SessionReport& report) {
 
 void write_amounts(std::string& out, const SessionReport& report) {
   if (report.amounts.empty()) return;
-  append(out, "\n");
+  append_formatted(out, "\n");
   ColumnTable table;
   table.row({"liquid", "arrived mL", "spilt mL", "wanted mL", ""});
   for (const PouredAmount& amount : report.amounts) {
@@ -123,7 +124,7 @@ void write_amounts(std::string& out, const SessionReport& report) {
 }
 
 void write_timing(std::string& out, const SessionReport& report) {
-  append(out, "\n");
+  append_formatted(out, "\n");
   ColumnTable table;
   table.row({"timing, us", "median", "99 %", "99.9 %", "largest"});
   const auto row = [&table](const char* name, const Percentiles& p) {
@@ -133,7 +134,7 @@ void write_timing(std::string& out, const SessionReport& report) {
   row("step", report.step);
   row("latency", report.latency);
   table.write(out);
-  append(out, "  periods missed {}, recorded {}\n", report.missed, report.ticks);
+  append_formatted(out, "  periods missed {}, recorded {}\n", report.missed, report.ticks);
 }
 
 // A cell of a CSV file; empty where there is none.

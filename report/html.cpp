@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "report/html.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "core/text.h"
@@ -43,7 +41,7 @@ std::string svg_address(std::string_view svg) {
     if (is_plain) {
       address += c;
     } else {
-      append(address, "%{:02X}", static_cast<unsigned char>(c));
+      append_formatted(address, "%{:02X}", static_cast<unsigned char>(c));
     }
   }
   return address;

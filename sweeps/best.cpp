@@ -9,7 +9,6 @@
 #include <limits>
 
 #include "core/error.h"
-#include "core/text.h"
 #include "shaders/layout.h"
 #include "sweeps/variables.h"
 #include "system/csv.h"

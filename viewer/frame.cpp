@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/frame.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <utility>
 
@@ -17,16 +15,17 @@ namespace {
 // Writes JSON as it comes: a frame is made sixty times a second, and a tree of values would cost more than what is in it.
 class Writer {
  public:
+  Writer() { out_.reserve(4096); }
   void text(std::string_view value) { out_.append(value); }
   void number(double value) {
     if (std::isfinite(value)) {
-      append(out_, "{}", static_cast<float>(value));
+      append_formatted(out_, "{}", static_cast<float>(value));
     } else {
       text("null");
     }
   }
-  void exact(double value) { append(out_, "{}", value); }
-  void whole(std::int64_t value) { append(out_, "{}", value); }
+  void exact(double value) { append_formatted(out_, "{}", value); }
+  void whole(std::int64_t value) { append_formatted(out_, "{}", value); }
   template <typename Numbers>
   void numbers(const Numbers& values) {
     text("[");

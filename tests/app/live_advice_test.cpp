@@ -3,7 +3,6 @@
 // repeats, and how it ends.
 // sanitizers: none (it runs the program)
 #include "app/live_advice.h"
-#include "system/json.h"
 
 #include <gtest/gtest.h>
 
@@ -11,6 +10,7 @@
 
 #include "core/error.h"
 #include "recordings/recording.h"
+#include "system/json.h"
 #include "tests/support/advised_session.h"
 #include "tests/support/files.h"
 #include "tests/support/patient_board.h"

@@ -2,7 +2,6 @@
 // What a live session tells, and the built program's `live`: options, exit codes, recording, replay, signals, disks that fill up.
 // sanitizers: address thread
 #include "app/live.h"
-#include "system/json.h"
 
 #include <gtest/gtest.h>
 #include <lo/lo.h>
@@ -27,6 +26,7 @@
 #include "recordings/recording.h"
 #include "scene/reader.h"
 #include "scene/shipped.h"
+#include "system/json.h"
 #include "tests/support/files.h"
 #include "tests/support/http_client.h"
 #include "tests/support/live_script.h"

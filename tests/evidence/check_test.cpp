@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // sanitizers: none
 #include "evidence/check.h"
-#include "system/json.h"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +8,7 @@
 
 #include "scene/reader.h"
 #include "scene/shipped.h"
+#include "system/json.h"
 #include "tests/support/vulkan_listener.h"
 
 namespace wholehand {

@@ -2,7 +2,6 @@
 // A grip as glTF, opened again by tinygltf: nodes, places, bounds, the liquid's volume, and what the extras tell.
 // sanitizers: address
 #include "grips/glb.h"
-#include "system/json.h"
 
 #include <gtest/gtest.h>
 #include <tiny_gltf.h>
@@ -17,6 +16,7 @@
 #include "core/error.h"
 #include "grips/hand_nodes.h"
 #include "grips/states.h"
+#include "system/json.h"
 #include "tests/support/meshes.h"
 #include "tests/support/scenes.h"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What holding takes over the states of a grip: every number against its definition, by searches that know nothing of shortcuts.
 #include "grips/holding.h"
-#include "system/json.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -11,6 +10,7 @@
 
 #include "core/vectors.h"
 #include "grips/report.h"
+#include "system/json.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {

@@ -2,7 +2,6 @@
 // Epsilon and the volume of the wrenches against closed forms, against sampling, and against what must not change them.
 // sanitizers: none
 #include "grips/quality.h"
-#include "system/json.h"
 
 #include <gtest/gtest.h>
 
@@ -15,6 +14,7 @@
 #include "core/vectors.h"
 #include "grips/hull.h"
 #include "grips/report.h"
+#include "system/json.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One grip's report: the JSON's form, which fields exist, and that both ways to an answer agree.
 #include "grips/report.h"
-#include "system/json.h"
 
 #include <gtest/gtest.h>
 
@@ -16,6 +15,7 @@
 #include "core/counted_tilts.h"
 #include "core/error.h"
 #include "scene/reader.h"
+#include "system/json.h"
 
 namespace wholehand {
 namespace {

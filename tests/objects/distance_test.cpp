@@ -4,7 +4,6 @@
 // Distances to meshes against closed forms and the outline's own, and the side of a million points.
 #include "objects/distance.h"
 #include "core/vectors.h"
-#include "system/json.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -20,6 +19,7 @@
 
 #include "core/sdf.h"
 #include "objects/winding_tree.h"
+#include "system/json.h"
 #include "tests/support/meshes.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/scenes.h"

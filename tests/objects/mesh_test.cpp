@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What glTF files become: triangles where they should be.
 #include "objects/mesh.h"
-#include "system/json.h"
 
 #include <gtest/gtest.h>
 
@@ -11,6 +10,7 @@
 #include <numbers>
 
 #include "objects/gltf_file.h"
+#include "system/json.h"
 #include "tests/support/gltf_making.h"
 #include "tests/support/meshes.h"
 

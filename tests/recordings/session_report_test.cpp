@@ -2,7 +2,6 @@
 // Sessions made up from known courses: every number of the report is known beforehand.
 // sanitizers: address
 #include "recordings/session_report.h"
-#include "system/json.h"
 
 #include <gtest/gtest.h>
 
@@ -10,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "system/json.h"
 #include "tests/support/recorded_session.h"
 #include "tests/support/special_values.h"
 

@@ -2,7 +2,6 @@
 // What the page posts: every control that is one, and every way in which a request is none.
 // sanitizers: address
 #include "viewer/control.h"
-#include "system/json.h"
 
 #include <gtest/gtest.h>
 
@@ -11,6 +10,7 @@
 
 #include "core/error.h"
 #include "device/guard.h"
+#include "system/json.h"
 #include "tests/support/live_script.h"
 #include "tests/support/refusal.h"
 

@@ -2,7 +2,6 @@
 // The scene of a view as the page gets it: what does not change while the frames come.
 // sanitizers: address
 #include "core/joints.h"
-#include "system/json.h"
 #include "viewer/scene.h"
 
 #include <gtest/gtest.h>
@@ -18,6 +17,7 @@
 #include "live/hand_view.h"
 #include "scene/reader.h"
 #include "scene/shipped.h"
+#include "system/json.h"
 #include "tests/support/live_script.h"
 #include "tests/support/scenes.h"
 

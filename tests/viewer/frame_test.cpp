@@ -3,7 +3,6 @@
 // from.
 // sanitizers: address
 #include "viewer/frame.h"
-#include "system/json.h"
 
 #include <gtest/gtest.h>
 
@@ -15,6 +14,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "system/json.h"
 #include "tests/support/live_script.h"
 
 namespace wholehand {

@@ -4,7 +4,6 @@
 // sanitizers: address
 #include "viewer/grips.h"
 #include "core/vectors.h"
-#include "system/json.h"
 
 #include <gtest/gtest.h>
 
@@ -21,6 +20,7 @@
 #include "live/workspace.h"
 #include "scene/reader.h"
 #include "scene/shipped.h"
+#include "system/json.h"
 #include "tests/support/scenes.h"
 
 namespace wholehand {

@@ -2,7 +2,6 @@
 // A recording as the viewer shows it: at any moment what was recorded then.
 // sanitizers: address
 #include "viewer/recording.h"
-#include "system/json.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -14,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "system/json.h"
 #include "tests/support/live_script.h"
 
 namespace wholehand {

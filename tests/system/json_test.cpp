@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "system/json.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace wholehand {
+namespace {
+
+constexpr const char* TEXT = R"({"b":[1,2.5,null],"a":"x"})";
+
+TEST(JsonText, IsReadAndWritten) {
+  EXPECT_EQ(json_text(parse_json(TEXT)), R"({"a":"x","b":[1,2.5,null]})");
+  EXPECT_EQ(json_text(parse_ordered_json(TEXT)), TEXT) << "in the order of its keys";
+  EXPECT_EQ(json_text(try_json(TEXT)), R"({"a":"x","b":[1,2.5,null]})");
+  EXPECT_EQ(json_text(parse_json("[1]"), 2), "[\n  1\n]");
+  EXPECT_EQ(json_text(parse_ordered_json("[1]"), 2), "[\n  1\n]");
+}
+
+TEST(JsonText, ThatIsNoneIsRefused) {
+  for (const char* text : {"", "{", "{}x", "[1,]", "\"\xff\""}) {
+    EXPECT_THROW(parse_json(text), nlohmann::json::parse_error) << text;
+    EXPECT_THROW(parse_ordered_json(text), nlohmann::json::parse_error) << text;
+    EXPECT_TRUE(try_json(text).is_discarded()) << text;
+  }
+}
+
+TEST(JsonText, OfBytesThatAreNoUtf8IsWritten) {
+  const std::string name = "m\xff.nc";
+  EXPECT_EQ(json_text(nlohmann::json(name)), "\"m\xef\xbf\xbd.nc\"");
+  EXPECT_EQ(json_text(nlohmann::ordered_json(name)), "\"m\xef\xbf\xbd.nc\"");
+}
+
+}  // namespace
+}  // namespace wholehand
