@@ -21,16 +21,7 @@ endfunction()
 # wholehand_heavy_first(LIST): files that include a header of some seconds come first, so in one batch where they are no more than it takes. They
 # then pay for it once. A file that begins to include such a header moves when CMake is next run.
 function(wholehand_heavy_first list)
-  set(heavy)
-  set(others)
-  foreach(source IN LISTS ${list})
-    file(STRINGS "${source}" includes REGEX "^#include <(nlohmann/json|tiny_gltf)[.]h" LIMIT_COUNT 1)
-    if(includes)
-      list(APPEND heavy "${source}")
-    else()
-      list(APPEND others "${source}")
-    endif()
-  endforeach()
+  wholehand_split("^#include <(nlohmann/json|tiny_gltf)[.]h" heavy others ${${list}})
   set(${list} ${heavy} ${others} PARENT_SCOPE)
 endfunction()
 

@@ -25,6 +25,22 @@ function(wholehand_floor folder result)
   message(FATAL_ERROR "The folder ${folder}/ has no floor: name it in WHOLEHAND_FLOORS (cmake/folders.cmake)")
 endfunction()
 
+# wholehand_split(REGEX WITH WITHOUT FILE ...): files with a line that matches go to the list WITH, the others to the list WITHOUT.
+function(wholehand_split regex with without)
+  set(matching)
+  set(others)
+  foreach(source IN LISTS ARGN)
+    file(STRINGS "${source}" lines REGEX "${regex}" LIMIT_COUNT 1)
+    if(lines)
+      list(APPEND matching "${source}")
+    else()
+      list(APPEND others "${source}")
+    endif()
+  endforeach()
+  set(${with} ${matching} PARENT_SCOPE)
+  set(${without} ${others} PARENT_SCOPE)
+endfunction()
+
 # wholehand_folder(NAME [USES FOLDER ...] [LINKS LIBRARY ...] [EXCEPT FILE ...] [QUICK] [HEADERS HEADER ... | SHARED_HEADERS] [BATCH N])
 #
 # makes the library NAME of NAME/*.cpp without the EXCEPT files (paths from the folder, may be patterns). USES and LINKS are what its

@@ -3,6 +3,7 @@
 #include <mutex>
 #include <string>
 
+#include "core/text.h"
 #include "library/scene.h"
 #include "library/status.h"
 #include "sweeps/variables.h"
@@ -18,9 +19,7 @@ const char* dims_text(const Variable& variable) {
   const std::lock_guard lock(mutex);
   const auto found = texts.find(variable.name);
   if (found != texts.end()) return found->second.c_str();
-  std::string text;
-  for (const char* dim : variable.dims) text += (text.empty() ? "" : " ") + std::string(dim);
-  return texts.emplace(variable.name, std::move(text)).first->second.c_str();
+  return texts.emplace(variable.name, joined(variable.dims, " ")).first->second.c_str();
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "core/core_backend.h"
 #include "core/counted_tilts.h"
 #include "core/gather.h"
+#include "core/text.h"
 #include "grips/holding.h"
 #include "grips/report.h"
 #include "host/grip_backend.h"
@@ -73,7 +74,7 @@ class Explainer {
  private:
   template <class... Args>
   void say(fmt::format_string<Args...> format, Args&&... args) {
-    text_ += fmt::format(format, std::forward<Args>(args)...);
+    append_formatted(text_, format, std::forward<Args>(args)...);
   }
 
   double microseconds(const Measured& m) const { return m.seconds * 1e6 / static_cast<double>(sample_.size()); }
