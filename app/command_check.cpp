@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "app/commands.h"
-#include "app/remedy.h"
 #include "app/validators.h"
-#include "app/vulkan_environment.h"
 #include "evidence/check.h"
 #include "host/open_backend.h"
 #include "objects/vessel.h"
+#include "program/remedy.h"
+#include "program/vulkan_environment.h"
 #include "scene/reader.h"
 #include "scene/shipped.h"
 #include "sweeps/cavity_notes.h"

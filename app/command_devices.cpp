@@ -11,8 +11,8 @@
 #include "app/commands.h"
 #include "app/device_list.h"
 #include "app/validators.h"
-#include "app/vulkan_environment.h"
 #include "device/find_grippers.h"
+#include "program/vulkan_environment.h"
 #include "system/cache_folder.h"
 
 namespace wholehand {

@@ -6,9 +6,9 @@
 
 #include "app/commands.h"
 #include "app/validators.h"
-#include "app/values.h"
-#include "app/vulkan_environment.h"
 #include "evidence/error_time.h"
+#include "program/values.h"
+#include "program/vulkan_environment.h"
 #include "scene/reader.h"
 #include "scene/shipped.h"
 

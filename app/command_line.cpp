@@ -11,10 +11,11 @@
 #include <system_error>
 
 #include "app/command_names.h"
-#include "app/open_files.h"
-#include "app/remedy.h"
 #include "core/error.h"
 #include "host/device.h"
+#include "program/failure_line.h"
+#include "program/open_files.h"
+#include "program/remedy.h"
 #include "scene/text.h"
 #include "system/memory_limit.h"
 #include "system/output.h"
@@ -22,6 +23,11 @@
 
 namespace wholehand {
 namespace {
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+// runs before the initializers of all libraries, which fail too where there is no memory
+[[gnu::section(".preinit_array"), gnu::used]] void (*const before_all)() = prepare_failure_line;
+#endif
 
 constexpr std::size_t OPEN_FILES = 48;  // of any command, beside the standard streams
 

@@ -7,8 +7,8 @@
 #include "app/commands.h"
 #include "app/live.h"
 #include "app/validators.h"
-#include "app/values.h"
-#include "app/vulkan_environment.h"
+#include "program/values.h"
+#include "program/vulkan_environment.h"
 #include "scene/ranges.h"
 
 namespace wholehand {

@@ -10,7 +10,7 @@
 #include "app/commands.h"
 #include "app/session_study.h"
 #include "app/validators.h"
-#include "app/values.h"
+#include "program/values.h"
 #include "recordings/session_plot.h"
 #include "recordings/session_report.h"
 #include "system/files.h"

@@ -6,10 +6,10 @@
 
 #include "app/commands.h"
 #include "app/validators.h"
-#include "app/values.h"
-#include "app/vulkan_environment.h"
 #include "evidence/stability.h"
 #include "evidence/wall.h"
+#include "program/values.h"
+#include "program/vulkan_environment.h"
 #include "scene/reader.h"
 #include "scene/shipped.h"
 #include "system/output.h"

@@ -9,8 +9,8 @@
 
 #include "app/commands.h"
 #include "app/validators.h"
-#include "app/values.h"
 #include "objects/vessel.h"
+#include "program/values.h"
 #include "scene/reader.h"
 #include "scene/shipped.h"
 #include "scene/text.h"

@@ -7,10 +7,10 @@
 #include <string>
 
 #include "app/commands.h"
-#include "app/remedy.h"
 #include "app/validators.h"
-#include "app/values.h"
-#include "app/vulkan_environment.h"
+#include "program/remedy.h"
+#include "program/values.h"
+#include "program/vulkan_environment.h"
 #include "scene/reader.h"
 #include "scene/shipped.h"
 #include "sweeps/auto_backend.h"

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "app/remedy.h"
 #include "host/device_info.h"
+#include "program/remedy.h"
 
 namespace wholehand {
 

@@ -2,7 +2,6 @@
 // wholehand: all commands, on one machine.
 #include "app/command_line.h"
 #include "app/commands.h"
-#include "app/failure_line.h"
 
 namespace {
 
@@ -25,11 +24,6 @@ void add_all(CLI::App& app, wholehand::Action& action) {
   wholehand::add_help_command(app, action);
   wholehand::add_completion_command(app, action);
 }
-
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-// runs before the initializers of all libraries, which fail too where there is no memory
-[[gnu::section(".preinit_array"), gnu::used]] void (*const before_all)() = wholehand::prepare_failure_line;
-#endif
 
 }  // namespace
 

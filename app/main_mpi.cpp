@@ -4,15 +4,10 @@
 
 #include "app/command_line.h"
 #include "app/commands.h"
-#include "app/failure_line.h"
 #include "cluster/cluster_sweep.h"
 #include "cluster/team.h"
 #include "core/error.h"
 #include "system/interrupt.h"
-
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-[[gnu::section(".preinit_array"), gnu::used]] static void (*const before_all)() = wholehand::prepare_failure_line;
-#endif
 
 int main(int argc, char** argv) {
   using namespace wholehand;

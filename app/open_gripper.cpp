@@ -5,13 +5,13 @@
 
 #include <string_view>
 
-#include "app/values.h"
 #include "core/error.h"
 #include "device/hid_gripper.h"
 #include "device/omega_gripper.h"
 #include "device/osc_gripper.h"
 #include "device/sim_gripper.h"
 #include "device/usb_gripper.h"
+#include "program/values.h"
 #include "scene/ranges.h"
 #include "scene/text.h"
 

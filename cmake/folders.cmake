@@ -5,7 +5,7 @@ set(WHOLEHAND_FLOORS
   shaders=0 include=0
   core=1
   system=2 scene=2 live=2 people=2 statistics=2
-  host=3 device=3 objects=3 charts=3
+  host=3 device=3 objects=3 charts=3 program=3
   recordings=4 grips=4 advice=4
   sweeps=5 viewer=5
   evidence=6 cluster=6

@@ -1,15 +1,14 @@
 # SPDX-License-Identifier: MIT
-# The Python package: the module wholehand._core of python/*.cpp, and python/wholehand beside it. The folder stands above app/, three of
-# whose files have the program's words for what goes wrong. The rest of app/ is not in the module.
+# The Python package: the module wholehand._core of python/*.cpp, and python/wholehand beside it. What goes wrong is told in the words of
+# program/, as on the command line.
 if(NOT DEFINED Python_EXECUTABLE AND EXISTS /usr/bin/python3)
   set(Python_EXECUTABLE /usr/bin/python3)  # Debian's, which knows Debian's packages
 endif()
 find_package(Python 3.11 REQUIRED COMPONENTS Interpreter Development.Module)
 find_package(pybind11 2.10 REQUIRED)
 
-wholehand_folder(python USES core system scene live host device objects grips sweeps evidence
+wholehand_folder(python USES core system scene live host device objects program grips sweeps evidence
   LINKS fmt::fmt pybind11::headers Python::Module)
-target_sources(python PRIVATE app/remedy.cpp app/values.cpp app/vulkan_environment.cpp)
 add_library(wholehand_python MODULE $<TARGET_OBJECTS:python>)
 set_target_properties(wholehand_python PROPERTIES PREFIX "" OUTPUT_NAME _core SUFFIX ".${Python_SOABI}.so"
   LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/python" LINK_DEPENDS "${PROJECT_SOURCE_DIR}/python/exported.map")

@@ -5,8 +5,8 @@
 #include <string>
 #include <system_error>
 
-#include "app/remedy.h"
 #include "core/error.h"
+#include "program/remedy.h"
 #include "python/bind.h"
 #include "system/memory_limit.h"
 

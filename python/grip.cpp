@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/values.h"
 #include "core/capacity.h"
 #include "core/error.h"
 #include "grips/glb.h"
@@ -14,6 +13,7 @@
 #include "grips/svg.h"
 #include "host/open_backend.h"
 #include "objects/vessel.h"
+#include "program/values.h"
 #include "python/bind.h"
 #include "python/columns.h"
 #include "python/scene.h"

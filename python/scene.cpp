@@ -8,14 +8,14 @@
 #include <atomic>
 #include <string_view>
 
-#include "app/remedy.h"
-#include "app/values.h"
-#include "app/vulkan_environment.h"
 #include "core/domain.h"
 #include "core/error.h"
 #include "core/planes.h"
 #include "host/open_backend.h"
 #include "objects/vessel.h"
+#include "program/remedy.h"
+#include "program/values.h"
+#include "program/vulkan_environment.h"
 #include "python/bind.h"
 #include "scene/ranges.h"
 #include "scene/reader.h"

@@ -2,10 +2,10 @@
 // A sweep into a result file, as the program writes it; Python opens the file.
 #include <pybind11/stl.h>
 
-#include "app/remedy.h"
-#include "app/values.h"
 #include "core/domain.h"
 #include "core/error.h"
+#include "program/remedy.h"
+#include "program/values.h"
 #include "python/bind.h"
 #include "python/scene.h"
 #include "scene/ranges.h"

@@ -7,9 +7,9 @@
 #include <fstream>
 #include <thread>
 
-#include "app/vulkan_environment.h"
 #include "core/error.h"
 #include "host/device.h"
+#include "program/vulkan_environment.h"
 #include "tests/bench/bench.h"
 
 namespace wholehand::bench {

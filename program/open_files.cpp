@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/open_files.h"
+#include "program/open_files.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the program sets for Mesa's drivers, and when.
-#include "app/vulkan_environment.h"
+#include "program/vulkan_environment.h"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Libraries say what failed; the program adds how the user asks for what would help.
-#include "app/remedy.h"
+#include "program/remedy.h"
 
 #include <gtest/gtest.h>
 

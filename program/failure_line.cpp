@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/failure_line.h"
+#include "program/failure_line.h"
 
 #include <cxxabi.h>
 #include <unistd.h>

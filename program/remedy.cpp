@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/remedy.h"
+#include "program/remedy.h"
 
 #include <cstdio>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/values.h"
+#include "program/values.h"
 
 #include <fmt/format.h>
 

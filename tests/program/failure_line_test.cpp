@@ -2,7 +2,7 @@
 // Where the program itself fails: one line and exit code 3, whatever failed and on whatever thread. (A sanitizer has handlers of
 // its own.)
 // sanitizers: none
-#include "app/failure_line.h"
+#include "program/failure_line.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/vulkan_environment.h"
+#include "program/vulkan_environment.h"
 
 #include <cstdlib>
 #include <filesystem>
