@@ -46,6 +46,8 @@ option(WHOLEHAND_MPI "" OFF)
 option(WHOLEHAND_SCALE "" OFF)
 file(GLOB sources CONFIGURE_DEPENDS core/*.cpp)
 add_executable(wholehand app/main.cpp ${sources})
+add_executable(wholehand-sweep app/main.cpp ${sources})
+target_compile_definitions(wholehand-sweep PRIVATE ONLY_SWEEPS)
 if(WHOLEHAND_MPI)
   add_executable(wholehand-mpi app/main.cpp)
 endif()
@@ -69,6 +71,9 @@ cat >"$tree/app/main.cpp" <<'EOF'
 #include "../core/version.h"
 int main(int n, char** a) {
   std::printf(VERSION);
+#ifdef ONLY_SWEEPS
+  std::printf(" for sweeps");
+#endif
   for (int i = 1; i < n; ++i) std::printf("[%s]", a[i]);
   char here[4096];
   std::printf("%s\n", getcwd(here, sizeof here));
@@ -93,6 +98,25 @@ check "through a symbolic link, from another folder" equal "$output" "v1[x]$work
 output=$(cd "$tree" && PATH="$tree:$PATH" wholehand 2>&1)
 check "found on the path" equal "$output" "v1$tree"
 
+# ---- sweeps have a program of their own ----
+check "no sweep, no program for it" [ ! -e "$tree/build/default/wholehand-sweep" ]
+check "a sweep starts it" equal "$("$tree/wholehand" sweep one 2>/dev/null)" "v1 for sweeps[sweep][one]$work"
+output=$("$tree/wholehand" sweep 2>&1)
+check "the second sweep says nothing of the launcher's own" equal "$output" "v1 for sweeps[sweep]$work"
+rm -rf "$tree/build"
+check "a first sweep" equal "$("$tree/wholehand" sweep 2>/dev/null)" "v1 for sweeps[sweep]$work"
+check "builds nothing else" [ ! -e "$tree/build/default/wholehand" ]
+check "any other command builds the whole program" equal "$("$tree/wholehand" rank sweep 2>/dev/null)" "v1[rank][sweep]$work"
+
+# ---- what is watched ----
+parts=$(sed -n "s/^parts='\(.*\)'$/\1/p" "$source_dir/wholehand")
+floors=$(sed -n '/^set(WHOLEHAND_FLOORS/,/)/p' "$source_dir/cmake/folders.cmake" | grep -o '[a-z]*=' | tr -d =)
+check "the floors are found" has "$floors" core
+for folder in $floors; do
+  case $folder in include | library | python) continue ;; esac  # in no program
+  check "a change in $folder/ is seen" has " $parts " " $folder "
+done
+
 # ---- what it costs: printed, not judged ----
 measure() { local began=$EPOCHREALTIME; for _ in 1 2 3 4 5 6 7 8 9 10; do "$@" >/dev/null 2>&1; done; echo $(((${EPOCHREALTIME/./} - ${began/./}) / 10)); }
 with=$(measure "$tree/wholehand")
@@ -103,6 +127,7 @@ echo "      a later start adds $((with - without)) microseconds (program alone: 
 sleep 0.05
 echo '#define VERSION "v2"' >"$tree/core/version.h"
 check "an edited header is built in" equal "$("$tree/wholehand" 2>/dev/null)" "v2$work"
+check "for sweeps too" equal "$("$tree/wholehand" sweep 2>/dev/null)" "v2 for sweeps[sweep]$work"
 echo 'syntax error' >"$tree/core/new.cpp"
 output=$("$tree/wholehand" 2>&1)
 check "an added source that fails gives exit code 3" equal $? 3
@@ -116,11 +141,12 @@ check "a tree that was moved builds again" equal "$("$tree/wholehand" 2>/dev/nul
 echo 'nonsense(' >>"$tree/CMakeLists.txt"
 output=$("$tree/wholehand" 2>&1)
 check "a broken CMakeLists.txt gives exit code 3" equal $? 3
-check "and CMake's words" has "$output" "CMakeLists.txt:21"
+check "and CMake's words" has "$output" "CMakeLists.txt:23"
 sed -i '$d' "$tree/CMakeLists.txt"
 
 # ---- a user who may not write here ----
 check "(built)" equal "$("$tree/wholehand" 2>/dev/null)" "v2$work"
+check "(and the program for sweeps)" equal "$("$tree/wholehand" sweep 2>/dev/null)" "v2 for sweeps[sweep]$work"
 others() {  # others COMMAND ...: as a user to whom the tree belongs as little as to anybody
   if [ "$(id -u)" = 0 ]; then setpriv --reuid=65534 --regid=65534 --clear-groups "$@"; else "$@"; fi
 }
@@ -139,8 +165,15 @@ check "in one line" equal "$(lines "$(cat "$work/err")")" 1
 output=$(others "$tree/wholehand" test 2>&1)
 check "who cannot write cannot build" equal "$? $output" "3 wholehand: cannot write $tree/build, which the build needs"
 chmod -R u+w "$tree"
+mv "$tree/build/default/wholehand-sweep" "$work/kept"
+chmod -R a-w "$tree"
+output=$(others "$tree/wholehand" sweep x 2>/dev/null)
+check "without the program for sweeps the whole one sweeps" equal "$output" "v2[sweep][x]$work"
+chmod -R u+w "$tree"
+mv "$work/kept" "$tree/build/default/wholehand-sweep"
 mv "$tree/build/default/wholehand" "$work/kept"
 chmod -R a-w "$tree"
+check "a sweep needs its own alone" equal "$(others "$tree/wholehand" sweep x 2>/dev/null)" "v2 for sweeps[sweep][x]$work"
 output=$(others "$tree/wholehand" 2>&1)
 check "nor run what is not built" equal "$? $output" "3 wholehand: cannot write $tree/build, which the build needs"
 chmod -R u+w "$tree"
