@@ -17,7 +17,7 @@ struct Program {
   std::function<void(ExitCode code, const std::string& line)> on_failure;  // told of what goes wrong, too; may be empty
 };
 
-// Answers the exit code.
+// Answers the exit code. Whoever links it has the last line of a failure (program/failure_line.h) from the start of the process.
 int run_program(int argc, char** argv, const Program& program);
 
 }  // namespace wholehand

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// wholehand-sweep: the command `sweep` alone. ./wholehand builds this program first, as it needs neither devices nor pages nor studies.
+// wholehand-sweep: the command `sweep` alone. ./wholehand sweep builds this program and no other, so that first grips are soon there.
 #include "app/command_line.h"
 #include "app/commands.h"
 
 int main(int argc, char** argv) {
   wholehand::Program program;
-  program.name = "wholehand";  // which starts it
+  program.name = "wholehand";  // as users type it
   program.description =
       "The sweeps of `wholehand`, without its other commands. In a checkout, ./wholehand sweep builds and starts this program.";
   program.footer = "Exit codes: 0 done, 2 wrong usage or input, 3 device or system failure, 130 interrupted.";

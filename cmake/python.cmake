@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
-# The Python package: the module wholehand._core of python/*.cpp, and python/wholehand beside it. What goes wrong is told in the words of
-# program/, as on the command line.
+# The Python package: the module wholehand._core of python/*.cpp, and python/wholehand beside it. Errors have the words of program/, as on
+# the command line.
 if(NOT DEFINED Python_EXECUTABLE AND EXISTS /usr/bin/python3)
   set(Python_EXECUTABLE /usr/bin/python3)  # Debian's, which knows Debian's packages
 endif()

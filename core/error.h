@@ -9,7 +9,8 @@ namespace wholehand {
 
 enum class ExitCode : int { done = 0, no = 1, usage = 2, failure = 3, interrupted = 130 };
 
-// What would help and is asked for by an option of the command line. Libraries up to objects/ say so with an error; program/remedy.h has the words.
+// What would help and is asked for by an option of the command line. Libraries up to objects/ say so with an error; program/remedy.h has
+// the words.
 enum class Remedy {
   none,
   core,                // to compute on the core

@@ -36,7 +36,7 @@ std::map<std::string, std::string> sweep_identity(const Scene& scene, const Plan
   for (const Variable* variable : variables) names.push_back(variable->name);
   return {{"scene", scene.text},
           {"version", version()},
-          {"build", build_id()},  // other code may give other bits
+          {"build", build_name()},  // other code may give other bits
           {"backend", info.backend},
           // the core gives the same on any number of threads
           {"device", info.backend == "core" ? "core" : info.device},

@@ -119,6 +119,20 @@ TEST(Folders, EveryFolderHasAFloor) {
   }
 }
 
+// What other files list by name: the source archive of the Python package, and the headers that clang-tidy looks at.
+TEST(Folders, NoListLacksOne) {
+  const fs::path root = WHOLEHAND_SOURCE_DIR;
+  const std::string archive = "\n" + file_text(root / "MANIFEST.in"), tidy = file_text(root / ".clang-tidy");
+  const std::size_t begin = tidy.find("\nHeaderFilterRegex: '/("), end = tidy.find(")/'", begin);
+  ASSERT_NE(end, std::string::npos);
+  const std::string headers = "|" + tidy.substr(begin + 23, end - begin - 23) + "|";
+  for (const auto& [folder, floor] : floors()) {
+    EXPECT_NE(archive.find("\ngraft " + folder + "\n"), std::string::npos) << folder << "/ is missing in MANIFEST.in";
+    if (folder == "include" || folder == "shaders") continue;  // whose headers are not C++ alone
+    EXPECT_NE(headers.find("|" + folder + "|"), std::string::npos) << folder << "/ is missing in HeaderFilterRegex (.clang-tidy)";
+  }
+}
+
 TEST(Folders, WhatIsWrongIsFound) {
   const std::map<std::string, int> floor{{"low", 1}, {"beside", 1}, {"high", 2}};
   const auto faults = [&](const std::string& text) {

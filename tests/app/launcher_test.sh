@@ -106,7 +106,8 @@ check "the second sweep says nothing of the launcher's own" equal "$output" "v1 
 rm -rf "$tree/build"
 check "a first sweep" equal "$("$tree/wholehand" sweep 2>/dev/null)" "v1 for sweeps[sweep]$work"
 check "builds nothing else" [ ! -e "$tree/build/default/wholehand" ]
-check "any other command builds the whole program" equal "$("$tree/wholehand" rank sweep 2>/dev/null)" "v1[rank][sweep]$work"
+check "any other command builds the whole program" equal "$("$tree/wholehand" rank sweep 2>"$work/err")" "v1[rank][sweep]$work"
+check "and says so" has "$(cat "$work/err")" "wholehand: building"
 
 # ---- what is watched ----
 parts=$(sed -n "s/^parts='\(.*\)'$/\1/p" "$source_dir/wholehand")
@@ -167,8 +168,9 @@ check "who cannot write cannot build" equal "$? $output" "3 wholehand: cannot wr
 chmod -R u+w "$tree"
 mv "$tree/build/default/wholehand-sweep" "$work/kept"
 chmod -R a-w "$tree"
-output=$(others "$tree/wholehand" sweep x 2>/dev/null)
+output=$(others "$tree/wholehand" sweep x 2>"$work/err")
 check "without the program for sweeps the whole one sweeps" equal "$output" "v2[sweep][x]$work"
+check "with its own note" has "$(cat "$work/err")" "wholehand: core has changed since the program was built, and you cannot write"
 chmod -R u+w "$tree"
 mv "$work/kept" "$tree/build/default/wholehand-sweep"
 mv "$tree/build/default/wholehand" "$work/kept"
@@ -179,6 +181,17 @@ check "nor run what is not built" equal "$? $output" "3 wholehand: cannot write 
 chmod -R u+w "$tree"
 mv "$work/kept" "$tree/build/default/wholehand"
 rm "$tree/wholehand.other"
+
+# ---- both programs at once ----
+"$tree/wholehand" sweep >/dev/null 2>&1
+sleep 0.05
+touch "$tree/core/version.h"
+"$tree/wholehand" test >/dev/null 2>&1  # which has no tests here, but builds all
+check "after a build of all, neither is built again" equal "$("$tree/wholehand" sweep 2>&1; "$tree/wholehand" 2>&1)" "v2 for sweeps[sweep]$work
+v2$work"
+chmod -R a-w "$tree"
+check "nor is one called old" equal "$(others "$tree/wholehand" sweep 2>&1)" "v2 for sweeps[sweep]$work"
+chmod -R u+w "$tree"
 
 # ---- two starts at once ----
 rm -rf "$tree/build"
@@ -227,8 +240,10 @@ touch "$work/updated"
 output=$(start cluster)
 check "cluster asks for its own" has "$(cat "$work/apt")" "install --no-install-recommends lib-one wholehand-cluster-only-package"
 check "and for no others" equal "$(grep -c -e scale-only -e package-only -e test-only "$work/apt")" 0
-check "cluster builds the second program" [ -x "$tree/build/default/wholehand-mpi" ]
+check "cluster builds its program" [ -x "$tree/build/default/wholehand-mpi" ]
 check "and says how to start it" has "$(tail -n 1 <<<"$output")" "mpirun -n N $tree/build/default/wholehand-mpi sweep SCENE"
+output=$(start cluster --help)
+check "it takes no argument" equal "$? $output" "2 wholehand: cluster takes no argument; found --help"
 
 fresh
 touch "$work/updated"

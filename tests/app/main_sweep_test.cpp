@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// wholehand-sweep, the program that ./wholehand builds first: its sweeps are those of the whole program.
+// wholehand-sweep, which ./wholehand sweep starts: its sweeps are those of the whole program.
 // sanitizers: none
 #include <gtest/gtest.h>
 
@@ -34,6 +34,15 @@ TEST(SweepProgram, HasNoOtherCommand) {
   const Outcome outcome = run("PROGRAM-sweep rank a.nc 2>&1");
   EXPECT_EQ(outcome.code, 2);
   EXPECT_NE(outcome.output.find("unknown command 'rank'"), std::string::npos) << outcome.output;
+}
+
+TEST(SweepProgram, HasTheLastLineOfAFailure) {
+  const TemporaryFolder folder;
+  const std::string result = folder / "a.nc", words = folder / "said";
+  const Outcome outcome = run("ulimit -c 0; PROGRAM-sweep sweep three_beakers --on core --threads 1 -o " + result + " >" + words +
+                              " 2>&1 & while [ ! -e " + result + ".partial ]; do sleep 0.01; done; kill -SEGV $!; wait $!");
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_NE(file_text(words).find("wholehand: the program failed (SIGSEGV)"), std::string::npos) << file_text(words);
 }
 
 }  // namespace
