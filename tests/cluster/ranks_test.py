@@ -16,9 +16,10 @@ import netCDF4
 
 PROGRAM, MPI_PROGRAM = os.environ["WHOLEHAND_PROGRAM"], os.environ["WHOLEHAND_MPI_PROGRAM"]
 # what Open MPI asks of who is root, and of who has no network and few processors. Once a rank has ended badly, mpirun would wait a second or
-# two before it kills the others
+# two before it kills the others. Its library hwloc has a line of its own where /sys is not there, as in a bare root folder
 ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
-               "OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_MCA_btl": "self,vader", "OMPI_MCA_plm": "isolated", "OMPI_MCA_hwloc_base_binding_policy": "none", "OMPI_MCA_odls_base_sigkill_timeout": "0"}
+               "OMPI_MCA_mpi_yield_when_idle": "1", "OMPI_MCA_btl": "self,vader", "OMPI_MCA_plm": "isolated", "OMPI_MCA_hwloc_base_binding_policy": "none", "OMPI_MCA_odls_base_sigkill_timeout": "0",
+               "HWLOC_HIDE_ERRORS": "2"}
 PATIENCE = 240  # s: of a busy machine
 TIMES = {"device", "driver", "wall_time_s", "kernel_time_s"}
 

@@ -3,11 +3,12 @@
 
 from support import PATIENCE, Served, ViewerTest, main, patient_board
 
-# The first frame in which a better grip is shown, and what the page shows with it
+# The first frame in which a better grip is shown and told, and what the page shows with it. A page that comes late may first see a
+# held vessel, of which the words are about tilts
 WATCH = """(() => {
   const look = () => {
     const {frame, view} = window.wholehand || {};
-    if (frame && frame.advice && frame.advice.joints) {
+    if (frame && frame.advice && frame.advice.joints && frame.advice.words.includes('effort')) {
       window.seen = {words: frame.advice.words, shown: document.getElementById('advice').textContent,
         isShown: !document.getElementById('advice-panel').hidden, isDrawn: view.hand.advised.mesh.visible,
         tips: [3, 8].map((k) => frame.advice.joints[k]), ball: view.hand.advised.uniforms.ball.value[3].toArray(),
@@ -24,14 +25,13 @@ class Advice(ViewerTest):
     scale = 0.5
 
     def test_the_advised_hand_is_a_ghost_on_the_vessel(self):
-        served = Served("live", patient_board(self.folder), "--view", "--advise", "--advise-on", "core", "--seconds", "30")
+        served = Served("live", patient_board(self.folder), "--view", "--advise", "--advise-on", "core", "--seconds", "90")
         self.addCleanup(served.stop)
         page = self.open(served)
         page.evaluate(WATCH)
         page.wait("window.seen && window.seen.words === window.seen.shown", PATIENCE)
         seen = page.evaluate("window.seen")
         self.assertTrue(seen["isShown"] and seen["isDrawn"])
-        self.assertIn("effort", seen["words"])
         self.assertTrue(0 < seen["to"] < 1)
         self.assertTrue(seen["from"] is None or seen["from"] > seen["to"])
         for place in seen["tips"]:  # on the glass of the vessel that the words are about
