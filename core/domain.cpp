@@ -80,10 +80,9 @@ std::vector<std::string> domain_warnings(const Scene& scene, Precision precision
   using namespace float_domain;
   std::vector<std::string> warnings;
   if (precision == Precision::full) return warnings;
-  const Axis& axis = scene.grips.hand_scale;
-  auto [least, most] = std::minmax_element(axis.values.begin(), axis.values.end());
-  const double smallest = scene.hand.scale * (axis.is_range ? std::min(axis.from, axis.to) : *least),
-               largest = scene.hand.scale * (axis.is_range ? std::max(axis.from, axis.to) : *most);
+  const std::vector<double>& scales = scene.grips.hand_scale.values;
+  const auto [least, most] = std::minmax_element(scales.begin(), scales.end());
+  const double smallest = scene.hand.scale * *least, largest = scene.hand.scale * *most;
   const double rounding = 1e-12;  // of the products and conversions: the limits themselves are within
   if (smallest < SMALLEST_HAND * (1 - rounding))
     warnings.push_back(beyond(fmt::format("hand scale {:.3g}", smallest), fmt::format("a smallest of {}", SMALLEST_HAND)));

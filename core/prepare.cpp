@@ -322,7 +322,7 @@ double widest_on(const PreparedElement& element) {
 }
 
 double lattice_margin(const Scene& scene) {
-  double radius = 0, scale = scene.grips.hand_scale.is_range ? scene.grips.hand_scale.to : 0;
+  double radius = 0, scale = 0;
   for (const FingerData& finger : scene.hand.fingers)
     radius = std::max(radius, *std::max_element(finger.radii.begin(), finger.radii.end()));
   for (const double value : scene.grips.hand_scale.values) scale = std::max(scale, value);

@@ -18,16 +18,8 @@ std::uint64_t own_index(const Plan& plan, std::size_t i) {
 // The range from the axis' smallest value to its largest; about a single one by `reach` to either side, within low..high.
 Axis range_around(const Axis& axis, double reach, double low, double high) {
   const auto [least, most] = std::minmax_element(axis.values.begin(), axis.values.end());
-  Axis range;
-  range.is_range = true;
-  range.from = axis.is_range ? std::min(axis.from, axis.to) : *least;
-  range.to = axis.is_range ? std::max(axis.from, axis.to) : *most;
-  if (range.from == range.to) {
-    range.from = std::max(low, range.from - reach);
-    range.to = std::min(high, range.to + reach);
-  }
-  range.values = {range.from, range.to};
-  return range;
+  if (*least < *most) return {{*least, *most}, true};
+  return {{std::max(low, *least - reach), std::min(high, *most + reach)}, true};
 }
 
 // The scene with so many Sobol grips in the box about the vessel's own.

@@ -84,7 +84,7 @@ MeasureOptions measure_options_of(const Scene& scene, const ErrorTimeOptions& op
 }
 
 bool asks_for_one_grip(const GripsData& asked) {
-  const auto is_fixed = [](const Axis& axis) { return !axis.is_range && axis.values.size() == 1; };
+  const auto is_fixed = [](const Axis& axis) { return axis.values.size() == 1; };
   return is_fixed(asked.height) && is_fixed(asked.azimuth) && is_fixed(asked.obliquity) && is_fixed(asked.roll) &&
          is_fixed(asked.offset) && is_fixed(asked.hand_scale);
 }

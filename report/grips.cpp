@@ -56,7 +56,7 @@ void write_table(MarkupWriter& html, const ReportSource& source, std::size_t lis
   const bool has_tilts = !source.scene.tilts.empty();
   std::vector<std::string> columns{"rank", "score", "height (mm)"};
   const auto axis_column = [&](int place, const char* title) {
-    if (axis_varies(plan, place) && !(place == PLACE_HAND_SCALE && plan.hand_scales() > 1)) columns.push_back(title);
+    if (plan.varies(place) && !(place == PLACE_HAND_SCALE && plan.hand_scales() > 1)) columns.push_back(title);
   };
   axis_column(PLACE_ROLL, "roll (°)");
   axis_column(PLACE_OBLIQUITY, "obliquity (°)");
@@ -83,7 +83,7 @@ void write_table(MarkupWriter& html, const ReportSource& source, std::size_t lis
     const BestGrip& b = best.grips[rank];
     std::vector<std::string> cells{std::to_string(b.rank), shown_number(b.score, 3), shown_number(b.grip.height * 1e3, 1)};
     const auto axis_cell = [&](int place, double value, int digits) {
-      if (axis_varies(plan, place) && !(place == PLACE_HAND_SCALE && plan.hand_scales() > 1))
+      if (plan.varies(place) && !(place == PLACE_HAND_SCALE && plan.hand_scales() > 1))
         cells.push_back(shown_number(value, digits));
     };
     axis_cell(PLACE_ROLL, degrees(b.grip.roll), 1);

@@ -75,7 +75,7 @@ std::vector<double> map_edges(const MapAxis& axis, double scale, double from = 0
 std::string other_axes(const Plan& plan) {
   std::vector<std::string> names;
   for (const int place : {PLACE_AZIMUTH, PLACE_OBLIQUITY, PLACE_OFFSET, PLACE_HAND_SCALE}) {
-    if (!axis_varies(plan, place)) continue;
+    if (!plan.varies(place)) continue;
     names.push_back(plan.axes()[place].name);
     std::replace(names.back().begin(), names.back().end(), '_', ' ');
   }
@@ -258,8 +258,8 @@ const Variable* effort_variable(const ReportSource& source) { return source.resu
 
 GripMap read_map(const ReportSource& source, std::size_t vessel, const Variable* effort) {
   const auto& axes = source.plan.axes();
-  const std::uint64_t points = source.plan.is_sobol() ? source.plan.grips() : 0;
-  GripMap map{MapAxis(axes[PLACE_HEIGHT].data, points), MapAxis(axes[PLACE_ROLL].data, points), {}};
+  const std::uint64_t points = source.plan.grips();
+  GripMap map{MapAxis(axes[PLACE_HEIGHT], points), MapAxis(axes[PLACE_ROLL], points), {}};
   map.cells.resize(map.heights.cells() * map.rolls.cells());
   const Variable *score = source.result.find("score"), *reason = source.result.find("reason"),
                  *fingers = source.result.find("fingers_used"), *force = source.result.find("peak_feedback_force");

@@ -26,10 +26,7 @@ std::string grips_text(const ReportSource& source) {
   const Plan& plan = source.plan;
   std::vector<std::string> parts;
   const auto add = [&](int place, const char* name, double scale, const std::string& unit) {
-    const Axis& axis = plan.axes()[place].data;
-    std::string text = fmt::format("{} {}", name, axis_text(axis, scale, unit));
-    if (!plan.is_sobol() && axis.values.size() > 1) text += fmt::format(" ({} values)", readable_number(axis.values.size()));
-    parts.push_back(text);
+    parts.push_back(fmt::format("{} {}", name, axis_text(plan.axes()[place], scale, unit)));
   };
   if (source.scene.grips.height_is_fraction) {
     add(PLACE_HEIGHT, "height", 100, " % of the vessel's height");

@@ -7,6 +7,7 @@
 
 #include "core/core_backend.h"
 #include "core/text.h"
+#include "system/readable.h"
 
 namespace wholehand {
 
@@ -30,27 +31,22 @@ GatheredPlanes planes_by_core(const ReportSource& source, std::size_t vessel, co
   return gather(backend, vessel, grips);
 }
 
-std::string axis_text(const Axis& axis, double scale, const std::string& unit) {
+std::string axis_text(const PlanAxis& axis, double scale, const std::string& unit) {
   constexpr std::size_t LISTED = 8;
-  const auto number = [&](double value) { return plain_number(value * scale); };
-  if (axis.is_range)
-    return axis.from == axis.to ? number(axis.from) + unit : fmt::format("{} to {}{}", number(axis.from), number(axis.to), unit);
-  if (axis.values.size() > LISTED) return fmt::format("{} to {}{}", number(axis.values.front()), number(axis.values.back()), unit);
   std::vector<std::string> numbers;
-  for (const double value : axis.values) numbers.push_back(number(value));
-  return fmt::format("{}{}", joined(numbers, ", "), unit);
-}
-
-bool axis_varies(const Plan& plan, int place) {
-  const Axis& data = plan.axes()[place].data;
-  if (plan.is_sobol()) return data.is_range ? data.from != data.to : data.values.size() > 1;
-  return data.values.size() > 1 && !(place == PLACE_AZIMUTH && plan.copies() > 1);
+  if (axis.kind == AxisKind::number || (axis.kind == AxisKind::list && axis.values.size() <= LISTED)) {
+    for (const double value : axis.values) numbers.push_back(plain_number(value * scale));
+    return joined(numbers, ", ") + unit;
+  }
+  const std::string ends = fmt::format("{} to {}{}", plain_number(axis.low * scale), plain_number(axis.high * scale), unit);
+  if (axis.kind == AxisKind::range) return ends;
+  return fmt::format("{} ({} values)", ends, readable_number(axis.values.size()));
 }
 
 std::string grip_text(const Plan& plan, const GripInput& grip) {
   std::string text = fmt::format("height {} mm", shown_number(grip.height * 1e3, 1));
   const auto add = [&](int place, const char* name, double value, int digits, const char* unit) {
-    if (axis_varies(plan, place)) text += fmt::format(", {} {}{}", name, shown_number(value, digits), unit);
+    if (plan.varies(place)) text += fmt::format(", {} {}{}", name, shown_number(value, digits), unit);
   };
   add(PLACE_ROLL, "roll", degrees(grip.roll), 1, "°");
   add(PLACE_OBLIQUITY, "obliquity", degrees(grip.obliquity), 1, "°");

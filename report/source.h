@@ -35,13 +35,10 @@ GripInput stored_grip(const Plan& plan, const Scene& scene, std::size_t vessel, 
 GatheredPlanes planes_by_core(const ReportSource& source, std::size_t vessel, const std::vector<GripInput>& grips,
                               const std::vector<int>& fields);
 
-// "10 to 20 mm", "12 mm", "10, 12, 15 mm".
-std::string axis_text(const Axis& axis, double scale, const std::string& unit);
+// "12 mm", "10, 12, 15 mm", "10 to 20 mm (11 values)", "10 to 20 mm".
+std::string axis_text(const PlanAxis& axis, double scale, const std::string& unit);
 
 // "58.5 mm", "roll 22.0°, ..": the grip by those of its axes that vary in the sweep.
 std::string grip_text(const Plan& plan, const GripInput& grip);
-
-// Whether the grips of the sweep differ in an axis (PLACE_*).
-bool axis_varies(const Plan& plan, int place);
 
 }  // namespace wholehand

@@ -20,10 +20,8 @@ AskedGrips::AskedGrips(const Scene& scene) {
   const bool has_mesh =
       std::any_of(scene.vessels.begin(), scene.vessels.end(), [](const VesselData& v) { return v.mesh.has_value(); });
   if (!has_mesh) return;
-  const Axis& scales = scene.grips.hand_scale;
-  double largest = scales.is_range ? scales.to : 0;
-  for (const double value : scales.values) largest = std::max(largest, value);
-  high.back() = largest;
+  const std::vector<double>& scales = scene.grips.hand_scale.values;
+  high.back() = *std::max_element(scales.begin(), scales.end());
 }
 
 std::optional<std::size_t> grip_fault(const AskedGrips& allowed, const GripInput& grip) noexcept {

@@ -76,7 +76,15 @@ void check_distinct(const SceneFile& file, const toml::array& array, const std::
   }
 }
 
-// A number, a list or a range.
+// Every azimuth, for meshes where the scene gives none.
+Axis all_round(bool is_sobol) {
+  if (is_sobol) return {{0, radians(360)}, true};
+  Axis axis{{}, true};
+  for (int k = 0; k < TURNS; ++k) axis.values.push_back(radians(360.0 * k / TURNS));
+  return axis;
+}
+
+// A number, a list or a range, in place of the default.
 void read_axis(const SceneTable& grips, const char* key, const Quantity& quantity, bool is_sobol, Axis& axis) {
   const toml::node* node = grips.find(key);
   if (!node) return;
@@ -85,16 +93,13 @@ void read_axis(const SceneTable& grips, const char* key, const Quantity& quantit
       fmt::format("a number, a list of 1 to {} or {}", ranges::LARGEST_AXIS, is_sobol ? "{from, to}" : "{from, to, count}");
   if (const toml::table* table = node->as_table()) {
     const Range range = read_range(file, *table, key, quantity, ranges::AXIS_COUNT, !is_sobol);
-    axis.values = range_values(range, quantity.unit);
-    axis.is_range = true;
-    axis.from = axis.values.front();
-    axis.to = axis.values.back();
+    axis = {range_values(range, quantity.unit), true};
   } else if (node->is_array()) {
     const toml::array* array = grips.array(key, 1, ranges::LARGEST_AXIS, allowed);
-    axis.values = list_values(file, *array, key, quantity);
+    axis = {list_values(file, *array, key, quantity)};
     check_distinct(file, *array, key, axis.values);
   } else if (node->is_number()) {
-    axis.values = {read_number(file, *node, key, quantity)};
+    axis = {{read_number(file, *node, key, quantity)}};
   } else {
     file.refuse(place_of(*node), fmt::format("{} {}", key, found(*node)), "allowed: " + allowed);
   }
@@ -116,16 +121,14 @@ std::vector<double> listed_tilts(const SceneTable& table) {
 }  // namespace
 
 void read_grips(const SceneTable& root, bool turns, GripsData& grips) {
-  if (turns) {
-    grips.azimuth = {{}, true, 0, radians(360)};
-    for (int k = 0; k < TURNS; ++k) grips.azimuth.values.push_back(radians(360.0 * k / TURNS));
-  }
+  if (turns) grips.azimuth = all_round(false);
   const auto table = root.table("grips", {"height_mm", "height_fraction", "azimuth_deg", "obliquity_deg", "roll_deg", "offset_mm",
                                           "hand_scale", "sampling", "count", "seed"});
   if (!table) return;
   grips.place = table->file().text_of(table->place());
   table->read("sampling", {{"grid", Sampling::grid}, {"sobol", Sampling::sobol}}, grips.sampling);
   const bool is_sobol = grips.sampling == Sampling::sobol;
+  if (turns) grips.azimuth = all_round(is_sobol);
   for (const char* key : {"count", "seed"}) {
     if (table->has(key) && !is_sobol) {
       root.file().refuse(table->place(key), fmt::format("{} without sampling = \"sobol\"", key),

@@ -171,10 +171,7 @@ std::string best_table(const Scene& scene, const Plan& plan, const std::vector<B
     columns.push_back({"robust low", [](const BestGrip& b) { return fixed(b.robust_low, 3); }});
   }
   const auto axis = [&](int place, const char* title, std::string (*cell)(const BestGrip&)) {
-    const Axis& data = plan.axes()[place].data;
-    const bool varies = plan.is_sobol() ? data.is_range || data.values.size() > 1
-                                        : data.values.size() > 1 && !(place == PLACE_AZIMUTH && plan.copies() > 1);
-    if (varies) columns.push_back({title, cell});
+    if (plan.varies(place)) columns.push_back({title, cell});
   };
   axis(PLACE_HEIGHT, "height mm", [](const BestGrip& b) { return fixed(b.grip.height * 1e3, 1); });
   axis(PLACE_AZIMUTH, "azimuth deg", [](const BestGrip& b) { return fixed(degrees(b.grip.azimuth), 1); });

@@ -14,36 +14,26 @@ namespace {
 
 constexpr double ROUNDING = 1e-9;  // rad, or of a vessel's height
 
-// The smallest and largest value of an axis, and how near to them a grip lies at the end.
-struct AxisEnds {
-  double low = 0, high = 0, margin = 0;
-};
-
-bool has_range(const Plan& plan, const PlanAxis& axis) { return plan.is_sobol() && axis.data.is_range; }
-
 bool is_searched(const Plan& plan, int place) {
   if (place == PLACE_HAND_SCALE || (place == PLACE_AZIMUTH && plan.is_symmetric())) return false;
-  const PlanAxis& axis = plan.axes()[place];
-  return has_range(plan, axis) ? axis.data.from < axis.data.to : axis.data.values.size() > 1;
+  return plan.axes()[place].kind != AxisKind::number;
 }
 
-AxisEnds ends_of(const Plan& plan, const PlanAxis& axis) {
-  if (!has_range(plan, axis)) {
-    const auto [low, high] = std::minmax_element(axis.data.values.begin(), axis.data.values.end());
-    return {*low, *high, 0};
-  }
+// How near to an end of the axis a grip lies at it.
+double margin_of(const Plan& plan, const PlanAxis& axis) {
+  if (axis.kind != AxisKind::range) return 0;
   int searched = 0;
   for (int place = 0; place < static_cast<int>(plan.axes().size()); ++place) searched += is_searched(plan, place);
   // half a step of the grid that has as many grips; of fewer than three values all would lie at an end
   const double values = std::max(3.0, std::pow(static_cast<double>(plan.grips()), 1.0 / searched));
-  return {axis.data.from, axis.data.to, 0.5 * (axis.data.to - axis.data.from) / (values - 1)};
+  return 0.5 * (axis.high - axis.low) / (values - 1);
 }
 
 // Whether the values of an angle go all the way round: the way from the last on to the first is no longer than between two others.
-bool is_round(const Plan& plan, const PlanAxis& axis, const AxisEnds& ends) {
-  const double rest = 2 * PI - (ends.high - ends.low);
-  if (has_range(plan, axis)) return rest <= ROUNDING;
-  std::vector<double> values = axis.data.values;
+bool is_round(const PlanAxis& axis) {
+  const double rest = 2 * PI - (axis.high - axis.low);
+  if (axis.kind == AxisKind::range) return rest <= ROUNDING;
+  std::vector<double> values = axis.values;
   std::sort(values.begin(), values.end());
   double longest = 0;
   for (std::size_t i = 1; i < values.size(); ++i) longest = std::max(longest, values[i] - values[i - 1]);
@@ -62,11 +52,12 @@ bool is_limit(const Scene& scene, const Plan& plan, std::size_t vessel, int plac
 }
 
 bool is_at_end(const Scene& scene, const Plan& plan, std::size_t vessel, int place, std::uint64_t grip) {
-  const AxisEnds ends = ends_of(plan, plan.axes()[place]);
+  const PlanAxis& axis = plan.axes()[place];
+  const double margin = margin_of(plan, axis);
   double value = 0;
   plan.coordinates(place, grip, 1, &value);
-  const bool is_low = value <= ends.low + ends.margin && !is_limit(scene, plan, vessel, place, ends.low);
-  const bool is_high = value >= ends.high - ends.margin && !is_limit(scene, plan, vessel, place, ends.high);
+  const bool is_low = value <= axis.low + margin && !is_limit(scene, plan, vessel, place, axis.low);
+  const bool is_high = value >= axis.high - margin && !is_limit(scene, plan, vessel, place, axis.high);
   return is_low || is_high;
 }
 
@@ -82,7 +73,7 @@ std::vector<std::string> edge_axes(const Scene& scene, const Plan& plan, std::si
   for (const int place : {PLACE_HEIGHT, PLACE_AZIMUTH, PLACE_OBLIQUITY, PLACE_ROLL, PLACE_OFFSET}) {
     const PlanAxis& axis = plan.axes()[place];
     if (!is_searched(plan, place)) continue;
-    if ((place == PLACE_AZIMUTH || place == PLACE_ROLL) && is_round(plan, axis, ends_of(plan, axis))) continue;
+    if ((place == PLACE_AZIMUTH || place == PLACE_ROLL) && is_round(axis)) continue;
     const auto at_end = [&](const Candidate& candidate) { return is_at_end(scene, plan, vessel, place, candidate.index); };
     if (std::all_of(best.begin(), equals_end, at_end)) axes.push_back(axis_key(axis));
   }

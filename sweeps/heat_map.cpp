@@ -15,14 +15,13 @@ constexpr double NO_GRIP = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-MapAxis::MapAxis(const Axis& axis, std::uint64_t sobol_points) {
+MapAxis::MapAxis(const PlanAxis& axis, std::uint64_t points) {
   constexpr double POINTS_IN_CELL = 16;
-  if (sobol_points > 0 && axis.is_range && axis.from != axis.to) {
-    const auto [low, high] = std::minmax(axis.from, axis.to);
-    const auto wanted = static_cast<std::size_t>(std::sqrt(static_cast<double>(sobol_points) / POINTS_IN_CELL));
+  if (axis.kind == AxisKind::range) {
+    const auto wanted = static_cast<std::size_t>(std::sqrt(static_cast<double>(points) / POINTS_IN_CELL));
     const std::size_t cells = std::clamp<std::size_t>(wanted, 1, LARGEST_SOBOL);
     for (std::size_t i = 0; i <= cells; ++i) {
-      edges_.push_back(low + (high - low) * static_cast<double>(i) / static_cast<double>(cells));
+      edges_.push_back(axis.low + (axis.high - axis.low) * static_cast<double>(i) / static_cast<double>(cells));
     }
     return;
   }
@@ -45,8 +44,8 @@ std::size_t MapAxis::cell(double value) const {
 }
 
 HeatMap::HeatMap(const Plan& plan)
-    : heights_(plan.axes()[PLACE_HEIGHT].data, plan.is_sobol() ? plan.grips() : 0),
-      rolls_(plan.axes()[PLACE_ROLL].data, plan.is_sobol() ? plan.grips() : 0),
+    : heights_(plan.axes()[PLACE_HEIGHT], plan.grips()),
+      rolls_(plan.axes()[PLACE_ROLL], plan.grips()),
       scores_(heights_.cells() * rolls_.cells(), NO_GRIP) {}
 
 void HeatMap::add(const Plan& plan, const PlaneChunk& chunk, const FieldSet& fields) {

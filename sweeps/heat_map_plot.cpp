@@ -106,7 +106,7 @@ std::vector<HeatMapPicture> sweep_pictures(const Scene& scene, const Plan& plan,
   std::vector<std::string> over;  // the axes that vary beside height and roll
   for (const int place : {PLACE_AZIMUTH, PLACE_OBLIQUITY, PLACE_OFFSET, PLACE_HAND_SCALE}) {
     const PlanAxis& axis = plan.axes()[place];
-    if (axis.data.values.size() == 1 && !(plan.is_sobol() && axis.data.is_range)) continue;
+    if (axis.kind == AxisKind::number) continue;
     over.push_back(axis.name);
     std::replace(over.back().begin(), over.back().end(), '_', ' ');
   }

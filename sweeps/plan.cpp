@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "core/error.h"
 #include "core/planes.h"
@@ -31,7 +32,27 @@ bool is_body_of_revolution(const VesselData& vessel) {
   return !vessel.mesh && (!vessel.mass || (vessel.center_of_mass[0] == 0 && vessel.center_of_mass[2] == 0));
 }
 
+AxisKind kind_of(const Axis& axis, bool is_sobol) {
+  if (axis.values.size() < 2) return AxisKind::number;
+  if (!axis.is_range) return AxisKind::list;
+  return is_sobol ? AxisKind::range : AxisKind::steps;
+}
+
 }  // namespace
+
+PlanAxis::PlanAxis(std::string axis_name, std::string axis_units, std::string meaning, int dimension, const Axis& asked,
+                   bool is_sobol)
+    : name(std::move(axis_name)),
+      units(std::move(axis_units)),
+      long_name(std::move(meaning)),
+      axis(dimension),
+      values(asked.values),
+      kind(kind_of(asked, is_sobol)) {
+  if (values.empty()) return;
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  low = *least;
+  high = *most;
+}
 
 SweepSize sweep_size(const Scene& scene, double bytes_per_grip) {
   SweepSize size;
@@ -67,24 +88,26 @@ Plan::Plan(const Scene& scene, bool keeps_vectors)
     throw usage_error(fmt::format("{}: [grips] count = {}: Sobol sampling takes 1 to {} points per vessel", place_of_grips(scene),
                                   grips.count, SOBOL_LARGEST_COUNT));
   }
-  axes_ = {{
-      {"azimuth", "rad", "azimuth of the thumb-index line about the vessel's axis", AXIS_AZIMUTH, grips.azimuth},
-      {"obliquity", "rad", "angle of the thumb-index line to the horizontal", AXIS_OBLIQUITY, grips.obliquity},
-      {"roll", "rad", "angle of the hand about the thumb-index line; 0: hand beside, -pi/2: hand above", AXIS_ROLL, grips.roll},
-      {"offset", "m", "distance of the thumb-index line from the vessel's axis, signed", AXIS_OFFSET, grips.offset},
-      {"hand_scale", "1", "size of the hand, times the scene's own scale", AXIS_HAND_SCALE, grips.hand_scale},
-      height_is_fraction_
-          ? PlanAxis{"height_fraction", "1", "height of the thumb-index line as a fraction of the vessel's height", AXIS_HEIGHT,
-                     grips.height}
-          : PlanAxis{"height", "m", "height of the thumb-index line in the vessel's frame", AXIS_HEIGHT, grips.height},
-  }};
+  const auto axis = [this](const char* name, const char* units, const char* meaning, int dimension, const Axis& asked) {
+    return PlanAxis(name, units, meaning, dimension, asked, sobol_);
+  };
+  axes_ = {
+      axis("azimuth", "rad", "azimuth of the thumb-index line about the vessel's axis", AXIS_AZIMUTH, grips.azimuth),
+      axis("obliquity", "rad", "angle of the thumb-index line to the horizontal", AXIS_OBLIQUITY, grips.obliquity),
+      axis("roll", "rad", "angle of the hand about the thumb-index line; 0: hand beside, -pi/2: hand above", AXIS_ROLL, grips.roll),
+      axis("offset", "m", "distance of the thumb-index line from the vessel's axis, signed", AXIS_OFFSET, grips.offset),
+      axis("hand_scale", "1", "size of the hand, times the scene's own scale", AXIS_HAND_SCALE, grips.hand_scale),
+      height_is_fraction_ ? axis("height_fraction", "1", "height of the thumb-index line as a fraction of the vessel's height",
+                                 AXIS_HEIGHT, grips.height)
+                          : axis("height", "m", "height of the thumb-index line in the vessel's frame", AXIS_HEIGHT, grips.height),
+  };
   for (const VesselData& vessel : scene.vessels) vessel_spans_.push_back({vessel.base, vessel.height - vessel.base});
-  for (const PlanAxis& axis : axes_) {
-    if (axis.data.values.empty()) throw usage_error(fmt::format("{}: [grips] axis {} has no values", scene.file, axis.name));
+  for (const PlanAxis& checked : axes_) {
+    if (checked.values.empty()) throw usage_error(fmt::format("{}: [grips] axis {} has no values", scene.file, checked.name));
   }
   symmetric_ = std::all_of(scene.vessels.begin(), scene.vessels.end(), is_body_of_revolution);
-  const Axis& hands = axes_[PLACE_HAND_SCALE].data;
-  if (hands.values.size() > 1 && hands.values.size() <= MOST_HAND_SCALES && !(sobol_ && hands.is_range)) {
+  const PlanAxis& hands = axes_[PLACE_HAND_SCALE];
+  if (hands.values.size() > 1 && hands.values.size() <= MOST_HAND_SCALES && hands.kind != AxisKind::range) {
     for (std::size_t place = 0; place < hands.values.size(); ++place) scale_order_.emplace_back(hands.values[place], place);
     std::sort(scale_order_.begin(), scale_order_.end());
   }
@@ -92,7 +115,7 @@ Plan::Plan(const Scene& scene, bool keeps_vectors)
     grips_ = grips.count;
     return;
   }
-  for (std::size_t k = 0; k < axes_.size(); ++k) counts_[k] = axes_[k].data.values.size();
+  for (std::size_t k = 0; k < axes_.size(); ++k) counts_[k] = axes_[k].values.size();
   if (symmetric_ && !keeps_vectors) {
     copies_ = counts_[PLACE_AZIMUTH];
     counts_[PLACE_AZIMUTH] = 1;
@@ -103,8 +126,8 @@ Plan::Plan(const Scene& scene, bool keeps_vectors)
 
 double Plan::axis_value(const PlanAxis& axis, const SobolPoint& point) const {
   const double u = point[axis.axis];
-  const auto& values = axis.data.values;
-  if (axis.data.is_range) return axis.data.from + u * (axis.data.to - axis.data.from);
+  const auto& values = axis.values;
+  if (axis.kind == AxisKind::range) return axis.low + u * (axis.high - axis.low);
   if (values.size() == 1) return values[0];
   return values[std::min(values.size() - 1, static_cast<std::size_t>(u * static_cast<double>(values.size())))];
 }
@@ -132,7 +155,7 @@ void Plan::coordinates(int axis, std::uint64_t first, std::size_t count, double*
   }
   std::uint64_t faster = 1;  // grips per step of this axis
   for (std::size_t k = axis + 1; k < axes_.size(); ++k) faster *= counts_[k];
-  for (std::size_t i = 0; i < count; ++i) out[i] = chosen.data.values[(first + i) / faster % counts_[axis]];
+  for (std::size_t i = 0; i < count; ++i) out[i] = chosen.values[(first + i) / faster % counts_[axis]];
 }
 
 void Plan::fill(std::size_t vessel, std::uint64_t first, std::size_t count, GripInput* out) const {
@@ -157,7 +180,7 @@ void Plan::fill(std::size_t vessel, std::uint64_t first, std::size_t count, Grip
   std::array<std::uint64_t, 6> digit{};
   for (std::uint64_t k = axes_.size(), rest = first; k-- > 0; rest /= counts_[k]) digit[k] = rest % counts_[k];
   for (std::size_t i = 0; i < count; ++i) {
-    const auto value = [&](PlanPlace place) { return axes_[place].data.values[digit[place]]; };
+    const auto value = [&](PlanPlace place) { return axes_[place].values[digit[place]]; };
     out[i] = {base + value(PLACE_HEIGHT) * height_unit,
               value(PLACE_AZIMUTH),
               value(PLACE_OBLIQUITY),

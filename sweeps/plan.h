@@ -22,13 +22,22 @@ constexpr std::size_t MOST_HAND_SCALES = 64;  // with a list of best grips each;
 // a device evaluates neighbours together, and of all axes height changes the least in how a finger moves.
 enum PlanPlace : int { PLACE_AZIMUTH, PLACE_OBLIQUITY, PLACE_ROLL, PLACE_OFFSET, PLACE_HAND_SCALE, PLACE_HEIGHT };
 
+// What the grips have along an axis: one value; those of a list; the equal steps of a range; or, where Sobol points fill a range, any value
+// between its ends.
+enum class AxisKind { number, list, steps, range };
+
 // One axis of the grips.
 struct PlanAxis {
+  PlanAxis() = default;
+  PlanAxis(std::string axis_name, std::string axis_units, std::string meaning, int dimension, const Axis& asked, bool is_sobol);
+
   std::string name;   // dimension of the result file; the height's is "height" or "height_fraction"
   std::string units;  // of its values: "m", "rad" or "1"
   std::string long_name;
-  int axis = 0;  // AXIS_* of shaders/layout.h, and the Sobol dimension that feeds it
-  Axis data;
+  int axis = 0;                // AXIS_* of shaders/layout.h, and the Sobol dimension that feeds it
+  std::vector<double> values;  // SI; of a range its ends at least
+  AxisKind kind = AxisKind::number;
+  double low = 0, high = 0;  // the least and the largest value
 };
 
 // What a scene asks for. Reals, since the products may pass any integer.
@@ -61,6 +70,8 @@ class Plan {
   bool is_sobol() const { return sobol_; }
   bool height_is_fraction() const { return height_is_fraction_; }
   const std::array<PlanAxis, 6>& axes() const { return axes_; }
+  // Whether the evaluated grips differ along an axis (PLACE_*).
+  bool varies(int place) const { return axes_[place].kind != AxisKind::number && !(place == PLACE_AZIMUTH && copies_ > 1); }
   std::uint64_t grips() const { return grips_; }    // evaluated per vessel
   std::uint64_t copies() const { return copies_; }  // stored grips per evaluated one
   std::uint64_t stored_grips() const { return grips_ * copies_; }
@@ -69,7 +80,7 @@ class Plan {
   // The hands whose grips are not to be weighed against each other: the values of hand_scale, up to MOST_HAND_SCALES of them. A single one
   // where the scene has one value, a continuous range, or more. Best grips are listed for each vessel and each of these.
   std::size_t hand_scales() const { return scale_order_.empty() ? 1 : scale_order_.size(); }
-  double hand_scale(std::size_t place) const { return axes_[PLACE_HAND_SCALE].data.values[place]; }  // where there are several
+  double hand_scale(std::size_t place) const { return axes_[PLACE_HAND_SCALE].values[place]; }  // where there are several
   // Places of the hand scales of grips first .. first + count - 1; 0 where there is one. Thread-safe.
   void hand_scales_of(std::uint64_t first, std::size_t count, std::size_t* out) const;
   std::size_t hand_scale_of(std::uint64_t grip) const;

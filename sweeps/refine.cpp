@@ -17,9 +17,6 @@ using Coordinates = std::array<double, REFINED_COORDINATES>;
 
 constexpr double SCORE_OF_NONE = -1;  // the score of one that is infeasible or implausible
 
-// Whether an axis is sampled over its whole length, not at values of its own.
-bool is_continuous(const Plan& plan, const Axis& axis) { return plan.is_sobol() && axis.is_range; }
-
 std::pair<double, double> half_way_to_neighbours(std::vector<double> values, double value) {
   std::sort(values.begin(), values.end());
   const auto place = std::lower_bound(values.begin(), values.end(), value);
@@ -71,20 +68,20 @@ GripInput with_coordinates(const GripInput& grip, const Coordinates& coordinates
 
 RefineBox refine_box(const Plan& plan, std::size_t vessel, std::uint64_t grip) {
   const auto ranges =
-      std::count_if(plan.axes().begin(), plan.axes().end(), [&](const PlanAxis& axis) { return is_continuous(plan, axis.data); });
+      std::count_if(plan.axes().begin(), plan.axes().end(), [](const PlanAxis& axis) { return axis.kind == AxisKind::range; });
   const double steps = std::pow(static_cast<double>(plan.grips()), 1.0 / static_cast<double>(std::max<std::ptrdiff_t>(1, ranges)));
   RefineBox box;
   for (std::size_t k = 0; k < REFINED_PLACES.size(); ++k) {
-    const Axis& axis = plan.axes()[static_cast<std::size_t>(REFINED_PLACES[k])].data;
+    const PlanAxis& axis = plan.axes()[static_cast<std::size_t>(REFINED_PLACES[k])];
     double value = 0;
     plan.coordinates(REFINED_PLACES[k], grip, 1, &value);
     std::pair<double, double> ends{value, value};
     const bool changes_nothing = REFINED_PLACES[k] == PLACE_AZIMUTH && plan.is_symmetric();
     if (changes_nothing) {
       // stays
-    } else if (is_continuous(plan, axis)) {
-      const double half = 0.5 * std::abs(axis.to - axis.from) / steps;
-      ends = {std::max(std::min(axis.from, axis.to), value - half), std::min(std::max(axis.from, axis.to), value + half)};
+    } else if (axis.kind == AxisKind::range) {
+      const double half = 0.5 * (axis.high - axis.low) / steps;
+      ends = {std::max(axis.low, value - half), std::min(axis.high, value + half)};
     } else {
       ends = half_way_to_neighbours(axis.values, value);
     }

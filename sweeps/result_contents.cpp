@@ -56,7 +56,7 @@ class SweepDefinition : ResultDefinition {
     const Scene& scene = contents_.scene;
     dimension("vessel", scene.vessels.size());
     if (!contents_.plan.is_sobol()) {
-      for (const PlanAxis& axis : contents_.plan.axes()) dimension(axis.name, axis.data.values.size());
+      for (const PlanAxis& axis : contents_.plan.axes()) dimension(axis.name, axis.values.size());
     } else if (has_points()) {
       dimension("point", contents_.plan.grips());
     }
@@ -108,7 +108,7 @@ class SweepDefinition : ResultDefinition {
       if (has_best_scales()) {
         const std::string name = best_scale_dimension(contents_.plan);
         doubles(name, {name}, "1", "size of the hand of a list of best grips, times the scene's own scale",
-                contents_.plan.axes()[PLACE_HAND_SCALE].data.values);
+                contents_.plan.axes()[PLACE_HAND_SCALE].values);
       }
     } else {
       grid_axes();
@@ -149,11 +149,11 @@ class SweepDefinition : ResultDefinition {
   void grid_axes() {
     const Plan& plan = contents_.plan;
     for (const PlanAxis& axis : plan.axes()) {
-      doubles(axis.name, {axis.name}, axis.units, axis.long_name, axis.data.values);
+      doubles(axis.name, {axis.name}, axis.units, axis.long_name, axis.values);
       if (axis.axis != AXIS_HEIGHT || !has_own_heights()) continue;
       std::vector<double> heights;
       for (std::size_t v = 0; v < contents_.scene.vessels.size(); ++v)
-        for (const double value : axis.data.values) heights.push_back(plan.height(v, value));
+        for (const double value : axis.values) heights.push_back(plan.height(v, value));
       doubles(HEIGHT, {"vessel", axis.name}, "m", HEIGHT_MEANING, heights);
     }
   }
@@ -369,7 +369,7 @@ std::uint64_t result_size(const ResultContents& contents) {
   std::uint64_t numbers = (contents.best * scene.vessels.size() * 14 + 1) * plan.hand_scales();
   for (const PlanAxis& axis : plan.axes()) {
     const std::uint64_t points = contents.variables.empty() ? 0 : plan.grips();
-    const std::uint64_t values = plan.is_sobol() ? points : axis.data.values.size();
+    const std::uint64_t values = plan.is_sobol() ? points : axis.values.size();
     numbers += axis.axis == AXIS_HEIGHT && plan.height_is_fraction() ? values * (1 + scene.vessels.size()) : values;
   }
   numbers += JOINT_COUNT + contents.best + scene.vessels.size() * (10 + scene_fills(scene) * (3 + 5 * scene.tilts.size()));

@@ -99,7 +99,7 @@ void SweepResult::use(const Scene& scene, const Plan& plan) {
   if (plan.is_sobol()) {
     grip_shape_.push_back(plan.grips());
   } else {
-    for (const PlanAxis& axis : plan.axes()) grip_shape_.push_back(axis.data.values.size());
+    for (const PlanAxis& axis : plan.axes()) grip_shape_.push_back(axis.values.size());
   }
   // one that is wrong makes the file foreign, whether or not it is asked for later
   for (const Variable* variable : variables_) {

@@ -46,6 +46,21 @@ TEST(ReportPage, TellsThatTheBestIsAtTheEndOfAnAxis) {
   EXPECT_FALSE(has(report_page(*still.result, still.scene, ""), "on the edge of"));
 }
 
+TEST(ReportPage, TellsEachAxisAsTheSceneDoes) {
+  const auto text = [](const Axis& axis, bool is_sobol) {
+    return axis_text(PlanAxis("offset", "m", "", AXIS_OFFSET, axis, is_sobol), 1e3, " mm");
+  };
+  const std::vector<double> nine{0.05, 0.01, 0.02, 0.03, 0.09, 0.06, 0.07, 0.08, 0.04};
+  for (const bool is_sobol : {false, true}) {
+    EXPECT_EQ(text({{0.012}}, is_sobol), "12 mm");
+    EXPECT_EQ(text({{0.02, 0.05, 0.01}}, is_sobol), "20, 50, 10 mm");
+    EXPECT_EQ(text({nine}, is_sobol), "10 to 90 mm (9 values)");
+    EXPECT_EQ(text({{0.01}, true}, is_sobol), "10 mm");
+  }
+  EXPECT_EQ(text({{0.01, 0.02, 0.03}, true}, false), "10 to 30 mm (3 values)");
+  EXPECT_EQ(text({{0.01, 0.02, 0.03}, true}, true), "10 to 30 mm");
+}
+
 TEST(ReportPage, IsWellBuiltForEveryKindOfSweep) {
   const std::string keep = "best = 5\nkeep = ";
   const std::pair<const char*, std::string> kinds[] = {
@@ -214,11 +229,12 @@ TEST(ReportPage, OfAMeshSaysWhetherItIsStillThere) {
   put("cup.toml",
       "[[vessel]]\nname = \"cup\"\nmesh = \"cup.glb\"\ngrid_mm = 2\nmass_kg = 0.1\ncenter_of_mass_mm = [0, 50, 0]\nguidance_mm = "
       "[[50, 0]]\n"
-      "[grips]\nheight_fraction = [0.3, 0.4, 0.5, 0.6]\nroll_deg = [-60, -30, 0]\n[tilts]\ndeg = [0, 45, 90]\n");
+      "[grips]\nheight_fraction = [0.3, 0.4, 0.5, 0.6]\nazimuth_deg = 10\nroll_deg = [-60, -30, 0]\n[tilts]\ndeg = [0, 45, 90]\n");
   ASSERT_EQ(run("PROGRAM sweep " + folder + "/cup.toml --on core -o " + result + " 2>&1").code, 0);
   const std::string whole = report();
   EXPECT_TRUE(has(whole, "Every number agrees within its tolerance"));
   EXPECT_TRUE(has(whole, "point-biserial r"));
+  EXPECT_TRUE(has(whole, "azimuth 10°"));
   std::filesystem::remove(folder + "/cup.glb");
   const std::string gone = report();
   EXPECT_TRUE(has(gone, "This part is left out: "));

@@ -364,8 +364,6 @@ deg = { from = 0, to = 150, count = 31 }
   EXPECT_FALSE(grips.height_is_fraction);
   EXPECT_EQ(grips.height.values, (std::vector<double>{10e-3, 20e-3, 30e-3}));
   EXPECT_TRUE(grips.height.is_range);
-  EXPECT_EQ(grips.height.from, 10e-3);
-  EXPECT_EQ(grips.height.to, 30e-3);
   EXPECT_EQ(grips.azimuth.values, (std::vector<double>{radians(90), 0}));
   EXPECT_FALSE(grips.azimuth.is_range);
   EXPECT_EQ(grips.obliquity.values, std::vector<double>{radians(-5.5)});
@@ -402,8 +400,7 @@ obliquity_deg = { from = 5, to = 5 }
   EXPECT_EQ(scene.grips.count, 10000000u);
   EXPECT_EQ(scene.grips.seed, 42u);
   EXPECT_TRUE(scene.grips.height.is_range);
-  EXPECT_EQ(scene.grips.height.from, 0.1);
-  EXPECT_EQ(scene.grips.height.to, 0.9);
+  EXPECT_EQ(scene.grips.height.values, (std::vector<double>{0.1, 0.9}));
   EXPECT_TRUE(scene.grips.roll.is_range);
   EXPECT_EQ(scene.grips.roll.values.size(), 4u);
   EXPECT_EQ(scene.grips.obliquity.values, std::vector<double>{radians(5)});

@@ -41,11 +41,7 @@ TEST(Parity, SobolScene) {
   for (VesselData& vessel : scene.vessels) vessel.surface = Surface::shell;
   scene.liquid->fills = {0.01, 1};
   scene.tilts = linspace(0, PI, 5);
-  const auto range = [](Axis& axis, double from, double to) {
-    axis.is_range = true;
-    axis.from = from;
-    axis.to = to;
-  };
+  const auto range = [](Axis& axis, double from, double to) { axis = {{from, to}, true}; };
   range(scene.grips.height, 0.02, 1.1);
   range(scene.grips.azimuth, -PI, PI);
   range(scene.grips.obliquity, -1, 1);

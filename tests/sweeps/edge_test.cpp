@@ -19,7 +19,7 @@ std::uint64_t numbered(const Plan& plan, std::array<std::uint64_t, 6> places) {
   std::uint64_t number = 0;
   for (std::size_t k = 0; k < places.size(); ++k) {
     const bool is_left_out = k == PLACE_AZIMUTH && plan.copies() > 1;
-    number = number * (is_left_out ? 1 : plan.axes()[k].data.values.size()) + places[k];
+    number = number * (is_left_out ? 1 : plan.axes()[k].values.size()) + places[k];
   }
   return number;
 }

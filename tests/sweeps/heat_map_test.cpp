@@ -76,11 +76,7 @@ TEST(HeatMap, EveryCellOfASobolRangeIsSampled) {
     Scene scene = fake_scene();
     scene.grips.sampling = Sampling::sobol;
     scene.grips.count = count;
-    for (Axis* axis : {&scene.grips.height, &scene.grips.roll}) {
-      axis->is_range = true;
-      axis->from = 0.1;
-      axis->to = 0.9;
-    }
+    scene.grips.height = scene.grips.roll = range_axis(0.1, 0.9, 2);
     const Plan plan(scene, false);
     const HeatMap map(plan);
     std::set<std::pair<std::size_t, std::size_t>> sampled;
@@ -93,10 +89,10 @@ TEST(HeatMap, EveryCellOfASobolRangeIsSampled) {
   }
 }
 
+MapAxis map_axis(const Axis& axis) { return {PlanAxis("roll", "rad", "", AXIS_ROLL, axis, false), 0}; }
+
 TEST(HeatMap, CellsOfAGridAreBoundedHalfwayBetweenItsValues) {
-  Axis axis;
-  axis.values = {30, -90, 0};  // in any order
-  const MapAxis map(axis, 0);
+  const MapAxis map = map_axis({{30, -90, 0}});  // in any order
   ASSERT_EQ(map.cells(), 3u);
   EXPECT_EQ(map.edge(0), -135);
   EXPECT_EQ(map.edge(1), -45);
@@ -111,9 +107,7 @@ TEST(HeatMap, CellsOfAGridAreBoundedHalfwayBetweenItsValues) {
 
 TEST(HeatMap, OneValueHasACellOfSomeWidth) {
   for (const double value : {0.0, 0.5, -2.0}) {
-    Axis axis;
-    axis.values = {value};
-    const MapAxis map(axis, 0);
+    const MapAxis map = map_axis({{value}});
     ASSERT_EQ(map.cells(), 1u);
     EXPECT_LT(map.edge(0), value);
     EXPECT_GT(map.edge(1), value);
@@ -123,7 +117,7 @@ TEST(HeatMap, OneValueHasACellOfSomeWidth) {
 
 TEST(HeatMap, ManyValuesShareCells) {
   const Axis axis = range_axis(0, 1, 1000);
-  const MapAxis map(axis, 0);
+  const MapAxis map = map_axis(axis);
   ASSERT_EQ(map.cells(), MapAxis::LARGEST_MAP);
   std::vector<int> values(map.cells());
   for (const double value : axis.values) ++values[map.cell(value)];

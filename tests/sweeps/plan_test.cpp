@@ -3,9 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "core/error.h"
+#include "core/text.h"
+#include "scene/reader.h"
+#include "shaders/layout.h"
 #include "tests/support/fake_backend.h"
 #include "tests/support/refusal.h"
 
@@ -135,6 +140,103 @@ TEST(Plan, SobolFillsRangesPicksFromListsAndKeepsNumbers) {
   }
   EXPECT_EQ(offsets, (std::vector<int>{0, 256, 256, 256, 256}));
   for (const int count : rolls) EXPECT_EQ(count, 64);
+}
+
+// Three values of an axis, ascending, in the unit of its key and in SI.
+struct AxisValues {
+  const char* key;
+  int place;
+  std::array<const char*, 3> written;
+  std::array<double, 3> read;
+};
+
+const AxisValues AXES[] = {
+    {"height_mm", PLACE_HEIGHT, {"20", "30", "50"}, {0.02, 0.03, 0.05}},
+    {"height_fraction", PLACE_HEIGHT, {"0.25", "0.5", "0.75"}, {0.25, 0.5, 0.75}},
+    {"azimuth_deg", PLACE_AZIMUTH, {"20", "45", "90"}, {radians(20), radians(45), radians(90)}},
+    {"obliquity_deg", PLACE_OBLIQUITY, {"-20", "5", "10"}, {radians(-20), radians(5), radians(10)}},
+    {"roll_deg", PLACE_ROLL, {"-90", "-30", "0"}, {radians(-90), radians(-30), radians(0)}},
+    {"offset_mm", PLACE_OFFSET, {"-5", "2", "3"}, {-5e-3, 2e-3, 3e-3}},
+    {"hand_scale", PLACE_HAND_SCALE, {"0.75", "1", "1.25"}, {0.75, 1, 1.25}},
+};
+
+// The values of the grips along each axis, of a scene with one vessel and these lines in [grips].
+std::array<std::vector<double>, 6> gripped(const std::string& lines, bool is_mesh, bool is_sobol) {
+  const Scene scene = parse_scene(
+      fmt::format("[[vessel]]\nname = \"v\"\n{}density_kg_m3 = 2500\n[grips]\n{}{}\n",
+                  is_mesh ? "mesh = \"v.obj\"\n" : "shape = \"cylinder\"\ndiameter_mm = 80\nheight_mm = 110\nwall_mm = 2\n",
+                  is_sobol ? "sampling = \"sobol\"\ncount = 256\n" : "", lines),
+      "axes.toml");
+  const Plan plan(scene, true);
+  std::array<std::vector<double>, 6> values;
+  for (int place = 0; place < 6; ++place) {
+    values[place].resize(plan.grips());
+    plan.coordinates(place, 0, values[place].size(), values[place].data());
+    const auto [low, high] = std::minmax_element(values[place].begin(), values[place].end());
+    EXPECT_GE(*low, plan.axes()[place].low);
+    EXPECT_LE(*high, plan.axes()[place].high);
+    EXPECT_EQ(plan.varies(place), *low < *high) << lines << " place " << place;
+  }
+  return values;
+}
+
+std::vector<double> distinct(const std::vector<double>& values) {
+  const std::set<double> each(values.begin(), values.end());
+  return {each.begin(), each.end()};
+}
+
+// All of `values` lie from low to high, and between any two of 16 equal parts.
+void expect_filled(const std::vector<double>& values, double low, double high) {
+  std::set<int> parts;
+  for (const double value : values) {
+    EXPECT_GE(value, low);
+    EXPECT_LE(value, high);
+    parts.insert(static_cast<int>(16 * (value - low) / (high - low)));
+  }
+  EXPECT_EQ(parts.size(), 16u);
+}
+
+TEST(Plan, AnyAxisHasTheValuesThatTheSceneAsksFor) {
+  for (const bool is_mesh : {false, true})
+    for (const bool is_sobol : {false, true})
+      for (const AxisValues& axis : AXES) {
+        const auto& [a, b, c] = axis.written;
+        SCOPED_TRACE(fmt::format("{}, mesh {}, sobol {}", axis.key, is_mesh, is_sobol));
+        const auto along = [&](const std::string& form) {
+          return gripped(fmt::format("{} = {}", axis.key, form), is_mesh, is_sobol)[axis.place];
+        };
+        EXPECT_EQ(distinct(along(b)), std::vector<double>{axis.read[1]});
+        EXPECT_EQ(distinct(along(fmt::format("[{}]", c))), std::vector<double>{axis.read[2]});
+        EXPECT_EQ(distinct(along(fmt::format("[{}, {}, {}]", c, a, b))), std::vector<double>(axis.read.begin(), axis.read.end()));
+        const std::vector<double> range = along(fmt::format("{{ from = {}, to = {}, count = 5 }}", a, c));
+        if (!is_sobol) {
+          const std::vector<double> steps = distinct(range);
+          ASSERT_EQ(steps.size(), 5u);
+          for (int k = 0; k < 5; ++k) EXPECT_NEAR(steps[k], axis.read[0] + (axis.read[2] - axis.read[0]) * k / 4, 1e-15);
+          continue;
+        }
+        expect_filled(range, axis.read[0], axis.read[2]);
+        EXPECT_EQ(along(fmt::format("{{ from = {}, to = {} }}", a, c)), range);
+        EXPECT_EQ(distinct(along(fmt::format("{{ from = {0}, to = {0} }}", b))), std::vector<double>{axis.read[1]});
+      }
+}
+
+TEST(Plan, OnlyTheAzimuthOfAMeshGoesRoundWhereTheSceneSaysNothing) {
+  for (const bool is_mesh : {false, true})
+    for (const bool is_sobol : {false, true}) {
+      const auto values = gripped("", is_mesh, is_sobol);
+      for (int place = 0; place < 6; ++place) {
+        const std::vector<double> each = distinct(values[place]);
+        if (place != PLACE_AZIMUTH || !is_mesh) {
+          EXPECT_EQ(each.size(), 1u) << place;
+        } else if (is_sobol) {
+          expect_filled(each, 0, 2 * PI);
+        } else {
+          ASSERT_EQ(each.size(), 24u);
+          for (int k = 0; k < 24; ++k) EXPECT_NEAR(each[k], radians(15 * k), 1e-15);
+        }
+      }
+    }
 }
 
 TEST(Plan, OpeningAnAxisLeavesTheOthersAsTheyWere) {
