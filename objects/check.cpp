@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "core/vectors.h"
 #include "objects/holes.h"
+#include "objects/orientation.h"
 #include "system/readable.h"
 
 namespace wholehand {
@@ -25,29 +26,6 @@ constexpr double LEAST_THICKNESS = 1e-9;  // volume over area, of the largest ex
 constexpr double LEAST_HEIGHT = 1e-12;    // of a triangle, of its longest edge: below it, rounding
 
 glm::dvec3 corner_of(const TriangleMesh& mesh, std::uint32_t vertex) { return to_vec3(mesh.vertices[vertex]); }
-
-// Leaves out triangles that are there before, with the same corners in the same turn: copies one upon the other bound the same body, and make each
-// distance as many times as slow. Returns how many.
-std::size_t drop_repeated(TriangleMesh& mesh) {
-  const auto least_first = [&](std::uint32_t i) {
-    const auto& [a, b, c] = mesh.triangles[i];
-    if (a < b && a < c) return std::array{a, b, c};
-    return b < c ? std::array{b, c, a} : std::array{c, a, b};
-  };
-  std::vector<std::uint32_t> order(mesh.triangles.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
-    const auto one = least_first(i), other = least_first(j);
-    return one != other ? one < other : i < j;
-  });
-  std::vector<bool> is_repeated(order.size());
-  for (std::size_t i = 1; i < order.size(); ++i) is_repeated[order[i]] = least_first(order[i]) == least_first(order[i - 1]);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    if (!is_repeated[i]) mesh.triangles[kept++] = mesh.triangles[i];
-  mesh.triangles.resize(kept);
-  return order.size() - kept;
-}
 
 // The mesh with equal vertices joined and those that no triangle uses left out, nor triangles that are points or edges; the order is that of
 // the vertices' coordinates.
@@ -86,41 +64,30 @@ void measure_extent(const TriangleMesh& mesh, MeshFacts& facts) {
     }
 }
 
-// One use of an edge: its ends in order of number, and whether it runs from the larger. Fits a word, as there are fewer than 2^31 vertices.
-std::uint64_t edge_use(std::uint32_t from, std::uint32_t to) {
-  const std::uint64_t low = std::min(from, to), high = std::max(from, to);
-  return low << 32 | high << 1 | (from > to ? 1 : 0);
-}
-
 // Counts edges, and returns the mean of the open ones' middles; the box's middle where none is open.
-glm::dvec3 count_edges(const TriangleMesh& mesh, MeshFacts& facts) {
-  facts.open_edges = facts.non_manifold_edges = facts.inverted_pairs = 0;
-  std::vector<std::uint64_t> uses;
-  uses.reserve(3 * mesh.triangles.size());
-  for (const auto& [a, b, c] : mesh.triangles) uses.insert(uses.end(), {edge_use(a, b), edge_use(b, c), edge_use(c, a)});
-  std::sort(uses.begin(), uses.end());
+Triple count_edges(const TriangleMesh& mesh, const std::vector<EdgeUse>& uses, MeshFacts& facts) {
+  facts.open_edges = facts.non_manifold_edges = facts.odd_edges = facts.inverted_pairs = 0;
   facts.closed = facts.oriented = true;
   glm::dvec3 rim(0);
-  for (std::size_t first = 0, next = 0; first < uses.size(); first = next) {
-    std::size_t backward = 0;
-    for (next = first; next < uses.size() && uses[next] >> 1 == uses[first] >> 1; ++next) backward += uses[next] & 1u;
-    const std::size_t count = next - first;
+  for_each_edge(uses, [&](std::span<const EdgeUse> edge) {
+    const auto count = static_cast<std::ptrdiff_t>(edge.size()),
+               forward = std::count_if(edge.begin(), edge.end(), [](const EdgeUse&use) { return use.is_forward; });
     if (count % 2 == 1) facts.closed = false;
-    if (2 * backward > count + 1 || 2 * backward + 1 < count) facts.oriented = false;
+    if (std::abs(2 * forward - count) > 1) facts.oriented = false;
     if (count > 2) ++facts.non_manifold_edges;
-    if (count == 2 && backward != 1) ++facts.inverted_pairs;
-    if (count != 1) continue;
+    if (count > 2 && count % 2 == 1) ++facts.odd_edges;
+    if (count == 2 && forward != 1) ++facts.inverted_pairs;
+    if (count != 1) return;
     ++facts.open_edges;
-    const auto low = static_cast<std::uint32_t>(uses[first] >> 32),
-               high = static_cast<std::uint32_t>(uses[first] >> 1 & 0x7FFFFFFFu);
-    rim += (corner_of(mesh, low) + corner_of(mesh, high)) / 2.0;
-  }
-  if (facts.open_edges > 0) return rim / static_cast<double>(facts.open_edges);
+    rim += (corner_of(mesh, edge[0].low) + corner_of(mesh, edge[0].high)) / 2.0;
+  });
+  if (facts.open_edges > 0) return to_triple(rim / static_cast<double>(facts.open_edges));
   return {(facts.low[0] + facts.high[0]) / 2, (facts.low[1] + facts.high[1]) / 2, (facts.low[2] + facts.high[2]) / 2};
 }
 
 // Sums the tetrahedra of the triangles and `apex`, signed: volume and its centre.
-void measure_volume(const TriangleMesh& mesh, const glm::dvec3& apex, MeshFacts& facts) {
+void measure_volume(const TriangleMesh& mesh, const Triple& from, MeshFacts& facts) {
+  const glm::dvec3 apex = to_vec3(from);
   glm::dvec3 moment(0);
   for (const auto& triangle : mesh.triangles) {
     const glm::dvec3 a = corner_of(mesh, triangle[0]) - apex, b = corner_of(mesh, triangle[1]) - apex,
@@ -141,12 +108,6 @@ double largest_extent(const MeshFacts& facts) {
   double extent = 0;
   for (int k = 0; k < 3; ++k) extent = std::max(extent, facts.high[k] - facts.low[k]);
   return extent;
-}
-
-void turn_round(TriangleMesh& mesh, MeshFacts& facts) {
-  for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
-  facts.volume = -facts.volume;
-  facts.was_inside_out = true;
 }
 
 const char* was(std::size_t count) { return count == 1 ? "was" : "were"; }
@@ -170,9 +131,9 @@ void note_holes(TriangleMesh& mesh, const std::string& name, bool close_holes, M
   }
   if (close_holes && holes.loose_edges > 0)
     throw usage_error(
-        fmt::format("{}: close_holes: {} form no loop, as triangles beside them face opposite ways: let all face outward where the "
-                    "mesh was made, or leave out close_holes",
-                    name, counted(holes.loose_edges, "open edge")));
+        fmt::format("{}: close_holes: {} form no loop, as {}: remove it where the mesh was made, or leave out close_holes", name,
+                    counted(holes.loose_edges, "open edge"),
+                    facts.non_manifold_edges > 0 ? "a surface meets others there" : "the surface has one side only"));
   facts.holes = holes.loops.size();
   facts.closable = holes.loose_edges == 0 && std::all_of(holes.loops.begin(), holes.loops.end(),
                                                          [&](const MeshHole& hole) { return is_small_hole(hole, extent); });
@@ -201,21 +162,36 @@ CheckedMesh check_mesh(const TriangleMesh& mesh, const std::string& name, bool c
   checked.mesh = weld(mesh, facts);
   if (checked.mesh.triangles.empty()) throw usage_error(name + ": has no triangle with an area");
   measure_extent(checked.mesh, facts);
-  glm::dvec3 rim = count_edges(checked.mesh, facts);
+  std::vector<EdgeUse> uses = edge_uses(checked.mesh.triangles);
+  Triple rim = count_edges(checked.mesh, uses, facts);
   if (facts.non_manifold_edges > 0) {
-    facts.repeated_triangles = drop_repeated(checked.mesh);
-    if (facts.repeated_triangles > 0) rim = count_edges(checked.mesh, facts);
+    const DoubledTriangles doubled = drop_doubled(checked.mesh, uses);
+    facts.repeated_triangles = doubled.copies;
+    facts.back_triangles = doubled.backs;
+    rim = count_edges(checked.mesh, uses, facts);
   }
+  std::vector<bool> turned(checked.mesh.triangles.size());
+  if (facts.inverted_pairs > 0) {
+    make_consistent(checked.mesh, uses, turned);
+    rim = count_edges(checked.mesh, uses, facts);
+  }
+  facts.closes_nothing = close_holes && facts.open_edges == 0;
   if (facts.open_edges > 0) {
     note_holes(checked.mesh, name, close_holes, facts);
-    if (facts.closed_holes > 0) rim = count_edges(checked.mesh, facts);
+    if (facts.closed_holes > 0) uses = edge_uses(checked.mesh.triangles);
+    if (facts.closed_holes > 0) rim = count_edges(checked.mesh, uses, facts);
   }
+  const std::size_t own = turned.size();
+  turned.resize(checked.mesh.triangles.size());  // what closes a hole was never turned
+  turn_outward(checked.mesh, uses, rim, turned);
+  rim = count_edges(checked.mesh, uses, facts);
+  facts.turned_triangles =
+      static_cast<std::size_t>(std::count(turned.begin(), turned.begin() + static_cast<std::ptrdiff_t>(own), true));
+  facts.was_inside_out = facts.turned_triangles == own;
   measure_volume(checked.mesh, rim, facts);
-  if (!(std::abs(facts.volume) > LEAST_THICKNESS * facts.area * largest_extent(facts))) {
+  if (facts.has_sure_volume() && !(facts.volume > LEAST_THICKNESS * facts.area * largest_extent(facts)))
     throw usage_error(name +
                       ": encloses no volume (a flat sheet, or surfaces that cancel), so it has no inside: give it a thickness");
-  }
-  if (facts.volume < 0) turn_round(checked.mesh, facts);
   return checked;
 }
 
@@ -224,24 +200,43 @@ std::string mesh_check_text(const MeshFacts& facts) {
       fmt::format("{}, {:.4g} x {:.4g} x {:.4g} mm (x {}, y {}, z {}), ", counted(facts.triangles, "triangle"),
                   1e3 * (facts.high[0] - facts.low[0]), 1e3 * (facts.high[1] - facts.low[1]), 1e3 * (facts.high[2] - facts.low[2]),
                   span_text(facts, 0), span_text(facts, 1), span_text(facts, 2));
-  text += facts.closed ? "closed" : fmt::format("not closed ({})", counted(facts.open_edges, "open edge"));
-  text += fmt::format("; {}, {}, {}; volume {:.4g} cm3, centre of mass ({:.4g}, {:.4g}, {:.4g}) mm.",
-                      counted(facts.non_manifold_edges, "non-manifold edge"), counted(facts.inverted_pairs, "inverted pair"),
-                      counted(facts.zero_triangles, "triangle") + " without area", 1e6 * facts.volume,
-                      1e3 * facts.center_of_mass[0], 1e3 * facts.center_of_mass[1], 1e3 * facts.center_of_mass[2]);
+  text += facts.closed           ? "closed"
+          : facts.open_edges > 0 ? fmt::format("not closed ({})", counted(facts.open_edges, "open edge"))
+                                 : "not closed";
+  text += fmt::format("; {}, {}, {}; ", counted(facts.non_manifold_edges, "non-manifold edge"),
+                      counted(facts.inverted_pairs, "inverted pair"), counted(facts.zero_triangles, "triangle") + " without area");
+  text += facts.has_sure_volume()
+              ? fmt::format("volume {:.4g} cm3, centre of mass ({:.4g}, {:.4g}, {:.4g}) mm.", 1e6 * facts.volume,
+                            1e3 * facts.center_of_mass[0], 1e3 * facts.center_of_mass[1], 1e3 * facts.center_of_mass[2])
+              : "volume by its lattice.";
   if (facts.joined_corners > 0)
     text +=
         fmt::format(" {} {} equal to others joined with them.", counted(facts.joined_corners, "corner"), was(facts.joined_corners));
   if (facts.repeated_triangles > 0)
     text += fmt::format(" {} {} there before and left out.", counted(facts.repeated_triangles, "triangle"),
                         was(facts.repeated_triangles));
+  if (facts.back_triangles > 0)
+    text += fmt::format(" {} lay upon others that face the other way and {} left out.", counted(facts.back_triangles, "triangle"),
+                        was(facts.back_triangles));
   if (facts.closed_holes > 0)
     text += fmt::format(" {} {} closed, up to {:.4g} mm across.", counted(facts.closed_holes, "hole"), was(facts.closed_holes),
                         1e3 * facts.widest_closed_hole);
-  if (facts.was_inside_out) text += " It was inside out and has been turned round.";
-  if (!facts.closed)
+  if (facts.was_inside_out) {
+    text += " It was inside out and has been turned round.";
+  } else if (facts.turned_triangles > 0) {
+    text += fmt::format(" {} faced inward and {} turned outward.", counted(facts.turned_triangles, "triangle"),
+                        was(facts.turned_triangles));
+  }
+  if (facts.closes_nothing) text += " close_holes closes nothing: no edge is open.";
+  if (facts.open_edges > 0)
     text += " What lies inside is judged by the winding number, which guesses across the holes" + holes_text(facts);
-  if (!facts.oriented) text += " Its triangles do not all face outward, so volume and centre of mass are not to be trusted.";
+  if (facts.odd_edges > 0)
+    text += fmt::format(" At {} a wall ends within the body, and the winding number guesses what lies beside it: remove that wall.",
+                        counted(facts.odd_edges, "edge") + " of three triangles or more");
+  if (!facts.oriented)
+    text +=
+        " Its triangles cannot all face outward, as the surface has one side only or parts that meet at edges: make one body of "
+        "it.";
   return text;
 }
 

@@ -13,10 +13,13 @@ struct MeshFacts {
   std::size_t triangles = 0;           // as read
   std::size_t open_edges = 0;          // of one triangle only
   std::size_t non_manifold_edges = 0;  // of three or more triangles
+  std::size_t odd_edges = 0;           // of these, of an odd number: where a wall ends within a body
   std::size_t inverted_pairs = 0;      // edges of two triangles that turn opposite ways
   std::size_t zero_triangles = 0;      // without area, from corners in one place or in one line
   std::size_t joined_corners = 0;      // vertices that were equal to another and are one with it now
-  std::size_t repeated_triangles = 0;  // left out: equal to another, corner by corner
+  std::size_t repeated_triangles = 0;  // left out: they lie upon others that face as they do
+  std::size_t back_triangles = 0;      // left out: they lie upon others that face the other way
+  std::size_t turned_triangles = 0;    // faced inward and were turned
   std::size_t holes = 0;               // loops of open edges, of what is open still
   double widest_hole = 0;              // of these, m across
   bool closable = false;               // close_holes closes them all
@@ -25,10 +28,14 @@ struct MeshFacts {
   bool closed = false;          // each edge belongs to an even number of triangles: a ray's crossings tell inside from outside
   bool oriented = false;        // each edge is used as often in one direction as in the other, give or take one
   bool was_inside_out = false;  // all triangles were turned round
+  bool closes_nothing = false;  // holes were to be closed, and no edge is open
   Triple low{}, high{};         // bounding box, m
   double area = 0;              // m2
-  double volume = 0;            // m3, > 0; of an open mesh, with each hole closed by a cone to the middle of all open edges
-  Triple center_of_mass{};      // of that volume, m
+  double volume = 0;  // m3, > 0 where it is sure; of an open mesh, with each hole closed by a cone to the middle of all open edges
+  Triple center_of_mass{};  // of that volume, m
+
+  // Whether the sums over triangles are those of a body: they all face outward, and no wall ends within it.
+  bool has_sure_volume() const { return oriented && odd_edges == 0; }
 };
 
 // Triangles that share their corners, outward, with what was found.
@@ -37,9 +44,10 @@ struct CheckedMesh {
   MeshFacts facts;
 };
 
-// Joins vertices that are equal in all three coordinates, leaves out triangles with two corners in one place and those that are there twice,
-// closes holes where `close_holes` is set (objects/holes.h), and turns all round where the volume is negative. `name` is for messages.
-// Throws Error (usage) where no volume is left: a flat sheet, or two that cancel; and where holes are to be closed and one is too large.
+// Joins vertices that are equal in all three coordinates, leaves out triangles with two corners in one place and those that lie upon others,
+// closes holes where `close_holes` is set (objects/holes.h), and turns triangles outward (objects/orientation.h). `name` is for messages.
+// Throws Error (usage) where a surface that faces outward encloses no volume, as a flat sheet; and where holes are to be closed and one is too
+// large.
 CheckedMesh check_mesh(const TriangleMesh& mesh, const std::string& name, bool close_holes = false);
 
 // What was found as one paragraph, with what follows from it; ends without a line break.

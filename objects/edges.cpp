@@ -5,26 +5,15 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
-#include <tuple>
 #include <utility>
 
 #include "core/vectors.h"
+#include "objects/triangles.h"
 
 namespace wholehand {
 namespace {
 
 constexpr double NO_AREA = 1e-12;  // height of a triangle, of its longest edge: below it, rounding
-
-// One triangle's use of an edge; sorted, those of one edge are together.
-struct EdgeUse {
-  std::uint32_t low, high;
-  std::uint32_t triangle;
-  bool is_forward;  // runs from low to high
-  bool operator<(const EdgeUse& other) const {
-    return std::tie(low, high, triangle) < std::tie(other.low, other.high, other.triangle);
-  }
-  bool is_with(const EdgeUse& other) const { return low == other.low && high == other.high; }
-};
 
 glm::dvec3 vertex_of(const MeshBody& body, std::uint32_t vertex) { return to_vec3(body.vertices[vertex]); }
 
@@ -37,15 +26,13 @@ std::vector<MeshEdge> join_uses(const std::vector<EdgeUse>& uses) {
   const auto add = [&](const EdgeUse& use, std::uint32_t right) {
     edges.push_back({use.is_forward ? use.low : use.high, use.is_forward ? use.high : use.low, use.triangle, right, false});
   };
-  for (std::size_t first = 0, next = 0; first < uses.size(); first = next) {
-    for (next = first; next < uses.size() && uses[next].is_with(uses[first]); ++next) {
-    }
-    if (next - first == 2 && uses[first].is_forward != uses[first + 1].is_forward) {
-      add(uses[first], uses[first + 1].triangle);
+  for_each_edge(uses, [&](std::span<const EdgeUse> edge) {
+    if (edge.size() == 2 && edge[0].is_forward != edge[1].is_forward) {
+      add(edge[0], edge[1].triangle);
     } else {
-      for (std::size_t i = first; i < next; ++i) add(uses[i], NO_TRIANGLE);
+      for (const EdgeUse& use : edge) add(use, NO_TRIANGLE);
     }
-  }
+  });
   return edges;
 }
 
@@ -80,16 +67,7 @@ void borrow_normals(const MeshBody& body, MeshEdges& found) {
 }  // namespace
 
 MeshEdges find_edges(const MeshBody& body) {
-  std::vector<EdgeUse> uses;
-  uses.reserve(3 * body.triangles.size());
-  for (std::uint32_t t = 0; t < body.triangles.size(); ++t) {
-    for (int k = 0; k < 3; ++k) {
-      const std::uint32_t from = body.triangles[t][k], to = body.triangles[t][(k + 1) % 3];
-      uses.push_back({std::min(from, to), std::max(from, to), t, from < to});
-    }
-  }
-  std::sort(uses.begin(), uses.end());
-  MeshEdges found{join_uses(uses), triangle_normals(body), false};
+  MeshEdges found{join_uses(edge_uses(body.triangles)), triangle_normals(body), false};
   borrow_normals(body, found);
   for (MeshEdge& edge : found.edges) {
     if (edge.right == NO_TRIANGLE) {

@@ -14,24 +14,11 @@ using DirectedEdge = std::pair<std::uint32_t, std::uint32_t>;
 
 // The edges of one triangle only, turned round: so they run in the triangles that would close the mesh. Sorted.
 std::vector<DirectedEdge> open_edges(const TriangleMesh& mesh) {
-  struct Use {
-    std::uint32_t low, high;
-    bool forward;
-  };
-  std::vector<Use> uses;
-  uses.reserve(3 * mesh.triangles.size());
-  for (const auto& [a, b, c] : mesh.triangles)
-    for (const auto& [from, to] : {DirectedEdge{a, b}, DirectedEdge{b, c}, DirectedEdge{c, a}})
-      uses.push_back({std::min(from, to), std::max(from, to), from < to});
-  std::sort(uses.begin(), uses.end(),
-            [](const Use& a, const Use& b) { return std::pair(a.low, a.high) < std::pair(b.low, b.high); });
   std::vector<DirectedEdge> edges;
-  for (std::size_t first = 0, next = 0; first < uses.size(); first = next) {
-    for (next = first; next < uses.size() && uses[next].low == uses[first].low && uses[next].high == uses[first].high;) ++next;
-    if (next - first != 1) continue;
-    const Use& use = uses[first];
-    edges.push_back(use.forward ? DirectedEdge{use.high, use.low} : DirectedEdge{use.low, use.high});
-  }
+  for_each_edge(edge_uses(mesh.triangles), [&](std::span<const EdgeUse> uses) {
+    const EdgeUse& use = uses.front();
+    if (uses.size() == 1) edges.push_back(use.is_forward ? DirectedEdge{use.high, use.low} : DirectedEdge{use.low, use.high});
+  });
   std::sort(edges.begin(), edges.end());
   return edges;
 }

@@ -318,6 +318,7 @@ EnclosedVolume enclosed_volume(const PreparedLattice& lattice, double area) {
     return is_inside(i, j, k) && is_inside(i - 1, j, k) && is_inside(i + 1, j, k) && is_inside(i, j - 1, k) &&
            is_inside(i, j + 1, k) && is_inside(i, j, k - 1) && is_inside(i, j, k + 1);
   };
+  EnclosedVolume enclosed;
   double sum = 0;
   Triple moment{};
   for (int k = 0; k < lattice.nz; ++k)
@@ -325,12 +326,12 @@ EnclosedVolume enclosed_volume(const PreparedLattice& lattice, double area) {
       for (int i = 0; i < lattice.nx; ++i) {
         double share = std::clamp(0.5 - core_f64::lattice_sample(vessel, i, j, k) / lattice.spacing, 0.0, 1.0);
         if (share == 0) continue;
+        if (share > 0.5) enclosed.is_empty = false;
         if (share < 1 && is_deep(i, j, k)) share = 1;
         sum += share;
         const Triple place = lattice_place(lattice, i, j, k);
         for (int axis = 0; axis < 3; ++axis) moment[axis] += share * place[axis];
       }
-  EnclosedVolume enclosed;
   enclosed.volume = sum * std::pow(lattice.spacing, 3);
   enclosed.doubt = area * lattice.spacing / 8;  // a quarter of a cell for two walls
   for (int axis = 0; axis < 3; ++axis) enclosed.center[axis] = sum > 0 ? moment[axis] / sum : 0;

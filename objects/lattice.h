@@ -61,9 +61,10 @@ MeshLattice lattice_of_mesh(const MeshDistance& distance, const CheckedMesh& mes
 
 // What lies inside a lattice's surface.
 struct EnclosedVolume {
-  double volume = 0;  // m3
-  double doubt = 0;   // m3: by how much walls thinner than a cell may make it too large
-  Triple center{};    // of that volume, m
+  double volume = 0;     // m3
+  double doubt = 0;      // m3: by how much walls thinner than a cell may make it too large
+  Triple center{};       // of that volume, m
+  bool is_empty = true;  // no sample lies inside
 };
 
 // Bodies that overlap count once, as hands feel them. `area`: of the mesh, m2.

@@ -5,22 +5,44 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/scene.h"
 
 namespace wholehand {
 
+using Corners = std::array<std::uint32_t, 3>;
+
 // Vessel frame (+y up), m; counter-clockwise seen from outside, as far as the file has it so.
 struct TriangleMesh {
   std::vector<Triple> vertices;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<Corners> triangles;
 };
 
 constexpr std::size_t MOST_TRIANGLES = 20'000'000;
 constexpr std::size_t MOST_MESH_VERTICES = 3 * MOST_TRIANGLES;
 
 // Whether two of a triangle's corners are in one place: it has no side, and where it lies has no say.
-bool is_point_or_edge(const TriangleMesh& mesh, const std::array<std::uint32_t, 3>& triangle);
+bool is_point_or_edge(const TriangleMesh& mesh, const Corners& triangle);
+
+// One triangle's use of an edge.
+struct EdgeUse {
+  std::uint32_t low, high;  // vertices, low < high
+  std::uint32_t triangle;
+  bool is_forward;  // runs from low to high
+};
+
+// Those of one edge are together, in the order of the triangles.
+std::vector<EdgeUse> edge_uses(const std::vector<Corners>& triangles);
+
+// Calls `visit` with all uses of an edge, for each edge.
+template <class Visit>
+void for_each_edge(const std::vector<EdgeUse>& uses, const Visit& visit) {
+  for (std::size_t first = 0, next = 0; first < uses.size(); first = next) {
+    for (next = first; next < uses.size() && uses[next].low == uses[first].low && uses[next].high == uses[first].high;) ++next;
+    visit(std::span(uses).subspan(first, next - first));
+  }
+}
 
 }  // namespace wholehand

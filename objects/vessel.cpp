@@ -132,20 +132,27 @@ std::string mass_text(const VesselData& vessel, const MeshBody& body) {
                                      : "; a solid object, without liquid: it has no inner_outline");
 }
 
-// Takes volume and centre of mass from the mesh; from its lattice where bodies overlap or face different ways, so that the sum over
-// triangles counts some parts twice or takes them off. Returns the sentence that says so, else "".
-std::string set_volume(const MeshFacts& facts, MeshBody& body) {
+// Takes volume and centre of mass from the mesh; from its lattice where the triangles do not tell them: they cannot all face outward, a wall
+// ends within the body, or bodies overlap, so that the sum over triangles counts some parts twice. Returns the sentence that says so, else "".
+std::string set_volume(const MeshFacts& facts, const std::string& name, MeshBody& body) {
   body.volume = facts.volume;
   body.center_of_mass = facts.center_of_mass;
   const EnclosedVolume enclosed = enclosed_volume(body.lattice, facts.area);
   const double off = enclosed.volume - facts.volume;
-  if (!(std::abs(off) > OTHER_VOLUME * facts.volume + enclosed.doubt)) return "";
+  if (facts.has_sure_volume() && !(std::abs(off) > OTHER_VOLUME * facts.volume + enclosed.doubt)) return "";
+  if (enclosed.is_empty)
+    throw usage_error(name + ": encloses no place of its lattice, so it has no inside: make one closed body of it");
   body.volume = enclosed.volume;
   body.center_of_mass = enclosed.center;
+  const char* cause = !facts.oriented        ? "its triangles cannot all face outward"
+                      : facts.odd_edges > 0  ? "a wall ends within it"
+                      : facts.open_edges > 0 ? "its holes leave open what is inside"
+                                             : "its bodies overlap";
   return fmt::format(
-      "its bodies overlap, or not all face outward: inside them are {:.4g} cm3, centre of mass ({:.4g}, {:.4g}, {:.4g}) mm, by the "
-      "lattice, and these are taken; make one body of them, or give mass_kg",
-      1e6 * enclosed.volume, 1e3 * enclosed.center[0], 1e3 * enclosed.center[1], 1e3 * enclosed.center[2]);
+      "{}: inside it are {:.4g} cm3, centre of mass ({:.4g}, {:.4g}, {:.4g}) mm, by the lattice, and these are taken; make one "
+      "closed "
+      "body of it, or give mass_kg",
+      cause, 1e6 * enclosed.volume, 1e3 * enclosed.center[0], 1e3 * enclosed.center[1], 1e3 * enclosed.center[2]);
 }
 
 void note(const std::string& line) { fmt::print(stderr, "wholehand: {}\n", line); }
@@ -221,7 +228,7 @@ void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder
   }
   body->low = facts.low;
   body->high = facts.high;
-  const std::string other_volume = set_volume(facts, *body);
+  const std::string other_volume = set_volume(facts, at_place(data.place, data.file), *body);
   if (!other_volume.empty()) say(other_volume);
   body->facts = mesh_check_text(facts) + (other_volume.empty() ? "" : " But " + other_volume + ".");
   body->vertices = std::move(checked.mesh.vertices);

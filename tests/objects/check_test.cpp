@@ -2,9 +2,11 @@
 // What is said of a mesh before it is used.
 #include "objects/check.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "core/error.h"
@@ -87,14 +89,80 @@ TEST(MeshCheck, AnOpenHemisphereIsClosedFlat) {
   EXPECT_NEAR(facts.center_of_mass[1], 0.1 * 3 / 8, 1e-4);
 }
 
-TEST(MeshCheck, ATriangleTurnedRoundIsThreeInvertedPairs) {
-  TriangleMesh mesh = cube();
-  std::swap(mesh.triangles[4][0], mesh.triangles[4][1]);
-  const MeshFacts facts = check_mesh(mesh, "box").facts;
-  EXPECT_EQ(facts.inverted_pairs, 3u);
-  EXPECT_TRUE(facts.closed);
-  EXPECT_FALSE(facts.oriented);
-  EXPECT_TRUE(says(mesh_check_text(facts), "do not all face outward"));
+void turn_triangle(TriangleMesh& mesh, std::size_t number) { std::swap(mesh.triangles[number][0], mesh.triangles[number][1]); }
+
+TEST(MeshCheck, TrianglesThatFaceInwardAreTurnedOutward) {
+  for (const std::size_t inward : {1u, 3u, 6u, 11u}) {
+    TriangleMesh mesh = cube();
+    for (std::size_t i = 0; i < inward; ++i) turn_triangle(mesh, 5 * i % 12);
+    const CheckedMesh checked = check_mesh(mesh, "box");
+    EXPECT_EQ(checked.facts.turned_triangles, inward);
+    EXPECT_EQ(checked.facts.inverted_pairs, 0u);
+    EXPECT_TRUE(checked.facts.closed && checked.facts.oriented && !checked.facts.was_inside_out);
+    EXPECT_NEAR(checked.facts.volume, 0.006, 1e-17);
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(checked.facts.center_of_mass[k], checked.facts.high[k] / 2, 1e-16);
+    EXPECT_TRUE(says(mesh_check_text(checked.facts), inward == 1 ? "1 triangle faced inward and was turned outward."
+                                                                 : fmt::format("{} triangles faced inward and were", inward)));
+  }
+}
+
+// Half of its triangles face inward, so that their volumes cancel, or add up to the right one about the wrong place.
+TEST(MeshCheck, ATetrahedronIsTheSameWhicheverOfItsTrianglesFaceInward) {
+  const TriangleMesh tetrahedron{{{0, 0, 0}, {0.08, 0, 0}, {0, 0.08, 0}, {0, 0, 0.08}},
+                                 {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}}};
+  for (unsigned inward = 0; inward < 16; ++inward) {
+    TriangleMesh mesh = tetrahedron;
+    for (std::size_t i = 0; i < 4; ++i)
+      if ((inward >> i & 1u) != 0) turn_triangle(mesh, i);
+    const MeshFacts facts = check_mesh(mesh, "tetrahedron").facts;
+    EXPECT_NEAR(facts.volume, 0.08 * 0.08 * 0.08 / 6, 1e-18) << inward;
+    for (int k = 0; k < 3; ++k) EXPECT_NEAR(facts.center_of_mass[k], 0.02, 1e-16) << inward;
+  }
+}
+
+TEST(MeshCheck, EachBodyFacesOutwardAndACavityInward) {
+  const TriangleMesh ball = icosphere(0.02, 2);
+  TriangleMesh inverted = ball;
+  for (std::size_t i = 0; i < inverted.triangles.size(); ++i) turn_triangle(inverted, i);
+  const double small = check_mesh(ball, "ball").facts.volume, large = 0.1 * 0.1 * 0.1;
+  const TriangleMesh box = box_mesh({-0.05, -0.05, -0.05}, {0.05, 0.05, 0.05});
+  // beside it, whichever way it faces
+  EXPECT_NEAR(check_mesh(joined(box, placed_mesh(inverted, {}, {0.2, 0, 0})), "two").facts.volume, large + small, 1e-15);
+  // within it: a cavity, also in a mesh that is inside out as a whole; and a body in the cavity
+  EXPECT_NEAR(check_mesh(joined(box, inverted), "hollow").facts.volume, large - small, 1e-15);
+  TriangleMesh all_inverted = joined(box, inverted);
+  for (std::size_t i = 0; i < all_inverted.triangles.size(); ++i) turn_triangle(all_inverted, i);
+  const CheckedMesh turned = check_mesh(all_inverted, "hollow");
+  EXPECT_NEAR(turned.facts.volume, large - small, 1e-15);
+  EXPECT_TRUE(turned.facts.was_inside_out);
+  const TriangleMesh core = box_mesh({-0.005, -0.005, -0.005}, {0.005, 0.005, 0.005});
+  TriangleMesh inverted_core = core;
+  for (std::size_t i = 0; i < inverted_core.triangles.size(); ++i) turn_triangle(inverted_core, i);
+  EXPECT_NEAR(check_mesh(joined(joined(box, inverted), inverted_core), "with a core").facts.volume, large - small + 1e-6, 1e-15);
+  // a part of it lies within: they overlap
+  const TriangleMesh across = placed_mesh(inverted, {}, {0.045, 0, 0});
+  EXPECT_NEAR(check_mesh(joined(box, across), "across").facts.volume, large + small, 1e-15);
+}
+
+// A strip with one side: four quads in a ring, the last one twisted.
+TEST(MeshCheck, ASurfaceWithOneSideIsNamed) {
+  TriangleMesh strip;
+  for (int i = 0; i < 8; ++i) {
+    const double turn = PI * i / 8, angle = 2 * PI * i / 8;
+    for (const double side : {-0.01, 0.01}) {
+      const double r = 0.05 + side * std::cos(turn);
+      strip.vertices.push_back({r * std::cos(angle), side * std::sin(turn), r * std::sin(angle)});
+    }
+  }
+  for (std::uint32_t i = 0; i < 8; ++i) {
+    const std::uint32_t a = 2 * i, b = a + 1, c = i == 7 ? 1 : a + 2, d = i == 7 ? 0 : a + 3;
+    strip.triangles.push_back({a, b, c});
+    strip.triangles.push_back({b, d, c});
+  }
+  const MeshFacts facts = check_mesh(strip, "strip").facts;
+  EXPECT_FALSE(facts.oriented || facts.has_sure_volume());
+  EXPECT_TRUE(says(mesh_check_text(facts), "the surface has one side only")) << mesh_check_text(facts);
+  EXPECT_TRUE(says(mesh_check_text(facts), "volume by its lattice."));
 }
 
 TEST(MeshCheck, BoxesThatShareAnEdgeAreNotManifold) {
@@ -102,6 +170,18 @@ TEST(MeshCheck, BoxesThatShareAnEdgeAreNotManifold) {
   EXPECT_EQ(facts.non_manifold_edges, 1u);
   EXPECT_TRUE(facts.closed);
   EXPECT_TRUE(facts.oriented);
+  EXPECT_NEAR(facts.volume, 2, 1e-12);
+}
+
+TEST(MeshCheck, AWallThatEndsWithinABodyIsNamed) {
+  TriangleMesh mesh = cube();
+  mesh.triangles.push_back({0, 2, 5});  // across the box, from three of its corners
+  const MeshFacts facts = check_mesh(mesh, "box").facts;
+  EXPECT_GT(facts.odd_edges, 0u);
+  EXPECT_FALSE(facts.closed || facts.has_sure_volume());
+  const std::string text = mesh_check_text(facts);
+  EXPECT_TRUE(says(text, "of three triangles or more a wall ends within the body")) << text;
+  EXPECT_EQ(says(text, "holes"), facts.open_edges > 0) << text;
 }
 
 TEST(MeshCheck, TrianglesWithoutAreaAreCounted) {
@@ -170,9 +250,53 @@ TEST(MeshCheck, CopiesOfTrianglesAreLeftOut) {
   EXPECT_TRUE(checked.facts.closed && checked.facts.oriented);
   EXPECT_NEAR(checked.facts.volume, 0.006, 1e-17);
   EXPECT_TRUE(says(mesh_check_text(checked.facts), "60 triangles were there before and left out."));
-  TriangleMesh both_sides = cube();
-  both_sides.triangles.push_back({both_sides.triangles[0][0], both_sides.triangles[0][2], both_sides.triangles[0][1]});
-  EXPECT_EQ(check_mesh(both_sides, "sides").facts.repeated_triangles, 0u) << "turned the other way it is another";
+}
+
+TriangleMesh two_sided(TriangleMesh mesh) {
+  for (std::size_t i = 0, count = mesh.triangles.size(); i < count; ++i) {
+    const auto [a, b, c] = mesh.triangles[i];
+    mesh.triangles.push_back({a, c, b});
+  }
+  return mesh;
+}
+
+TEST(MeshCheck, TheBackOfATwoSidedSurfaceIsLeftOut) {
+  const CheckedMesh whole = check_mesh(two_sided(cube()), "cup");
+  EXPECT_EQ(whole.facts.back_triangles, 12u);
+  EXPECT_TRUE(whole.facts.closed && whole.facts.oriented);
+  EXPECT_NEAR(whole.facts.volume, 0.006, 1e-17);
+  EXPECT_TRUE(says(mesh_check_text(whole.facts), "12 triangles lay upon others that face the other way and were left out."));
+  // some have none, and some are there by their backs alone
+  TriangleMesh most = two_sided(cube());
+  most.triangles.erase(most.triangles.begin() + 15, most.triangles.begin() + 18);
+  most.triangles.erase(most.triangles.begin() + 7);
+  const CheckedMesh partly = check_mesh(most, "cup");
+  EXPECT_EQ(partly.mesh.triangles.size(), 12u);
+  EXPECT_EQ(partly.facts.back_triangles, 8u);
+  EXPECT_NEAR(partly.facts.volume, 0.006, 1e-17);
+  // quads whose back is cut along the other diagonal, as its corners are written from the last to the first
+  TriangleMesh quads = cube();
+  for (std::size_t i = 0; i < 12; i += 2) {
+    const auto [a, b, c] = quads.triangles[i];
+    const std::uint32_t d = quads.triangles[i + 1][2];
+    quads.triangles.push_back({d, c, b});
+    quads.triangles.push_back({d, b, a});
+  }
+  const CheckedMesh cut = check_mesh(quads, "quads");
+  EXPECT_EQ(cut.facts.back_triangles, 12u);
+  EXPECT_NEAR(cut.facts.volume, 0.006, 1e-17);
+  // a bowl without thickness keeps its mouth
+  const CheckedMesh bowl = check_mesh(two_sided(open_hemisphere(0.1, 3)), "bowl");
+  EXPECT_EQ(bowl.facts.open_edges, 32u);
+  EXPECT_NEAR(bowl.facts.volume, check_mesh(open_hemisphere(0.1, 3), "bowl").facts.volume, 1e-15);
+}
+
+TEST(MeshCheck, TheFaceBetweenBodiesThatTouchStays) {
+  const TriangleMesh two = joined(box_mesh({0, 0, 0}, {1, 1, 1}), box_mesh({1, 0, 0}, {2, 1, 1}));
+  const MeshFacts facts = check_mesh(two, "two").facts;
+  EXPECT_EQ(facts.back_triangles, 0u);
+  EXPECT_TRUE(facts.closed && facts.oriented);
+  EXPECT_NEAR(facts.volume, 2, 1e-12);
 }
 
 TEST(MeshCheck, JoinedCornersAreSaid) {
@@ -198,18 +322,19 @@ TEST(MeshCheck, HolesAreMeasuredAndOffered) {
       << mesh_check_text(bowl);
 }
 
+// A ball with a hole of one triangle, and a triangle that stands on an edge.
+TriangleMesh ball_with_a_fin() {
+  TriangleMesh ball = icosphere(0.05, 4);
+  ball.triangles.pop_back();
+  const auto [a, b, c] = ball.triangles.front();
+  ball.vertices.push_back({0.06, 0.06, 0.06});
+  ball.triangles.push_back({a, b, static_cast<std::uint32_t>(ball.vertices.size() - 1)});
+  return ball;
+}
+
 // A small hole beside edges that form no loop: what the note says is what close_holes does.
 TEST(MeshCheck, WhatCannotBeClosedIsNotOffered) {
-  TriangleMesh ball = icosphere(0.05, 4);
-  const auto missing = ball.triangles.back();
-  ball.triangles.pop_back();
-  ball.triangles.erase(ball.triangles.begin());
-  const auto has_corner = [&](const auto& t, std::uint32_t corner) { return std::find(t.begin(), t.end(), corner) != t.end(); };
-  for (auto& t : ball.triangles) {
-    if (!has_corner(t, missing[0]) || !has_corner(t, missing[1])) continue;
-    std::swap(t[0], t[1]);
-    break;
-  }
+  const TriangleMesh ball = ball_with_a_fin();
   const MeshFacts facts = check_mesh(ball, "ball").facts;
   EXPECT_EQ(facts.holes, 1u);
   EXPECT_TRUE(says(mesh_check_text(facts), "which close_holes does not close")) << mesh_check_text(facts);
@@ -235,6 +360,11 @@ TEST(MeshCheck, SmallHolesAreClosedWhereThatIsWished) {
   }
 }
 
+TEST(MeshCheck, ClosingHolesWithoutAnyIsSaid) {
+  EXPECT_TRUE(says(mesh_check_text(check_mesh(cube(), "box", true).facts), "close_holes closes nothing: no edge is open."));
+  EXPECT_FALSE(says(mesh_check_text(check_mesh(cube(), "box").facts), "close_holes"));
+}
+
 TEST(MeshCheck, LargeHolesAreRefusedWithTheirSize) {
   const auto line = [](const TriangleMesh& mesh) -> std::string {
     try {
@@ -248,11 +378,8 @@ TEST(MeshCheck, LargeHolesAreRefusedWithTheirSize) {
   const std::string bowl = line(open_hemisphere(0.05, 4));
   EXPECT_TRUE(says(bowl, "bowl.stl: close_holes: a hole is 141.4 mm across, its edge 314 mm")) << bowl;
   EXPECT_TRUE(says(bowl, "at most 10 and 40 mm are closed: close it where the mesh was made")) << bowl;
-  TriangleMesh ball = icosphere(0.05, 4);
-  auto& beside = ball.triangles.back();
-  std::swap(beside[0], beside[1]);
-  ball.triangles.erase(ball.triangles.end() - 2);  // its neighbour
-  EXPECT_TRUE(says(line(ball), "bowl.stl: close_holes: 3 open edges form no loop")) << line(ball);
+  const std::string fin = line(ball_with_a_fin());
+  EXPECT_TRUE(says(fin, "bowl.stl: close_holes: 2 open edges form no loop, as a surface meets others there")) << fin;
   EXPECT_EQ(line(icosphere(0.05, 4)), "closed");
 }
 

@@ -100,18 +100,25 @@ TEST_F(MeshVessel, AHollowMeshIsWeighedAsItIs) {
   EXPECT_EQ(core->capacity(0), exact->capacity(0));
 }
 
-TEST_F(MeshVessel, OverlappingOrInvertedBodiesWeighWhatTheyHold) {
+TEST_F(MeshVessel, BodiesThatOverlapOrFaceInwardWeighWhatTheyHold) {
   const TriangleMesh large = box_mesh({0, 0, 0}, {0.06, 0.1, 0.06});
   VesselData overlap = of_file("overlap", joined(large, box_mesh({0.01, 0.06, 0.005}, {0.05, 0.12, 0.055})), 1e-3);
   // by lattices of 1 mm, see enclosed_volume's test
   EXPECT_NEAR(make_core_evaluator(loaded({overlap}))->empty_mass(0), 400e-6 * overlap.density, 0.003 * 400e-6 * overlap.density);
-  EXPECT_NE(said_.find("its bodies overlap, or not all face outward"), std::string::npos) << said_;
+  EXPECT_NE(said_.find("its bodies overlap: inside it are "), std::string::npos) << said_;
   EXPECT_NE(said_.find("give mass_kg"), std::string::npos) << said_;
   // beside each other, and one of them inside out
   TriangleMesh inverted = box_mesh({0.1, 0, 0}, {0.14, 0.06, 0.05});
   for (auto& triangle : inverted.triangles) std::swap(triangle[1], triangle[2]);
   VesselData two = of_file("two", joined(large, inverted), 1e-3);
-  EXPECT_NEAR(make_core_evaluator(loaded({two}))->empty_mass(0), 480e-6 * two.density, 0.003 * 480e-6 * two.density);
+  EXPECT_NEAR(make_core_evaluator(loaded({two}))->empty_mass(0), 480e-6 * two.density, 1e-6) << "single precision, in the file";
+  EXPECT_NE(said_.find("12 triangles faced inward and were turned outward."), std::string::npos) << said_;
+  // a wall within: the lattice tells what is inside, and where its middle is
+  TriangleMesh walled = large;
+  walled.triangles.push_back({0, 2, 5});
+  const auto core = make_core_evaluator(loaded({of_file("walled", walled, 1e-3)}));
+  EXPECT_NE(said_.find("a wall ends within it: inside it are "), std::string::npos) << said_;
+  EXPECT_NEAR(core->empty_mass(0), 360e-6 * two.density, 0.05 * 360e-6 * two.density);
   // walls that the lattice does not hold are no overlap
   VesselData shell;
   shell.outline = {line_to(40, 0), line_to(40, 110), line_to(39, 110), line_to(39, 1), line_to(0, 1)};
