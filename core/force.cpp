@@ -44,16 +44,23 @@ Real opening_force(Real k_open, Real squeeze) { return k_open * squeeze; }
 // F = clamp(F_n + F_o, 0, F_max).
 Real feedback_force(Real normal, Real opening, Real max) { return std::clamp(normal + opening, Real(0), max); }
 
+namespace {
+
+// A share of the grip's own length and no absolute one: far above what rounding makes of a lever, in either precision.
+Real longest_bare_lever(Real pivot_length) { return Real(BARE_LEVER) * std::max(pivot_length, Real(SMALLEST_PIVOT)); }
+
+}  // namespace
+
 // Limit surface of each of two contacts: (f_t / (mu N))^2 + (tau_n / (mu gamma N))^2 <= 1, with the load across d and the moment
 // about d shared; the load along d adds half of itself to one side. With w = d . u, r = CoM - M and tau_d = m g |d . (r x u)|:
 //   N = sqrt((m g)^2 (1 - w^2) / 4 + (tau_d / (2 gamma))^2) / mu + m g |w| / 2
-// Degenerate: without torsion a lever beyond the stop tolerance, and without friction whatever lies across d, needs an infinite force.
+// Degenerate: without torsion a lever that counts, and without friction whatever lies across d, needs an infinite force.
 Real hold_force(Real mass, Real gravity, Vec3 arm, Vec3 direction, Vec3 up, Real friction, Real torsion) {
   const Real weight = mass * gravity;
   const Real along = glm::dot(direction, up);
   const Real lever = std::abs(glm::dot(direction, glm::cross(arm, up)));
   const bool bare = !(torsion > 0);  // a contact of no extent
-  if (bare && weight > 0 && lever > STOP_TOLERANCE) return std::numeric_limits<Real>::infinity();
+  if (bare && weight > 0 && lever > longest_bare_lever(glm::length(arm))) return std::numeric_limits<Real>::infinity();
   const Real across_squared = weight * weight * std::max(Real(0), Real(1) - along * along) * Real(0.25);
   const Real twist = bare ? Real(0) : weight * lever / (Real(2) * torsion);
   const Real sideways = std::sqrt(across_squared + twist * twist);

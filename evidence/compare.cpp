@@ -255,8 +255,7 @@ void Comparer::add(std::size_t vessel, const std::vector<GripInput>& grips, cons
   for (int field = 0; field < REAL_FIELDS; ++field)
     if (field_row(field).label && is_held(a, field) && is_held(b, field))
       floors[field] = ROUNDINGS * allowed_.epsilon * largest_of(truth, field);
-  const LoadFloors load(scene_, core_, vessel, volume_tolerance(vessel), ROUNDINGS * allowed_.epsilon, allowed_.stop_tolerance,
-                        truth);
+  const LoadFloors load(scene_, core_, vessel, volume_tolerance(vessel), ROUNDINGS * allowed_.epsilon, truth);
   const auto floor = [&](int field, std::size_t k, std::size_t i) {
     return floors[field] + 2 * allowed_.stop_tolerance * rests(field, k) + load.of(field, k, i) +
            search_floor(field, k, vessel, truth, i);
@@ -339,16 +338,19 @@ Comparer::Spread Comparer::spread_of(std::size_t vessel, const std::vector<GripI
   // of the planes from `first` on, which are those from `first_of_other` on of the other
   const auto spread_to = [&](GatheredPlanes other, int first, int first_of_other, int planes) {
     to_compared_form(other);
+    std::vector<char> differing(m, 0);
+    for (std::size_t k = 0; k < m; ++k) {
+      differing[k] = differs(other, k, truth, chosen[k], allowed_.same_stop) ? 1 : 0;
+      spread.undecided[chosen[k]] |= differing[k];
+      spread.may_graze[chosen[k]] |= grazes(other, k) ? 1 : 0;
+    }
     for (int plane = 0; plane < planes; ++plane)
       for (std::size_t k = 0; k < m; ++k) {
         double& most = spread.reals[(first + plane) * n + chosen[k]];
         const double difference = figure_difference(other.real(first_of_other + plane, k), truth.real(first + plane, chosen[k]));
-        if (std::isfinite(difference)) most = std::max(most, difference);  // else another outcome: undecided
+        // with another outcome a number may be absent or infinite; with the same one it is where a lever just counts, or just does not
+        if (std::isfinite(difference) || differing[k] == 0) most = std::max(most, difference);
       }
-    for (std::size_t k = 0; k < m; ++k) {
-      spread.undecided[chosen[k]] |= differs(other, k, truth, chosen[k], allowed_.same_stop) ? 1 : 0;
-      spread.may_graze[chosen[k]] |= grazes(other, k) ? 1 : 0;
-    }
   };
   for (int way = 0; way < WAYS; ++way)
     spread_to(gather(core_, fields, vessel, moved(grips, way, shift, length)), 0, 0, fields.real_planes);

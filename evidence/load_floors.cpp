@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/gather.h"
 #include "core/planes.h"
@@ -12,7 +11,7 @@
 
 namespace wholehand {
 
-LoadFloors::LoadFloors(const Scene& scene, const Evaluator& core, std::size_t vessel, double volume, double rounding, double stop,
+LoadFloors::LoadFloors(const Scene& scene, const Evaluator& core, std::size_t vessel, double volume, double rounding,
                        const GatheredPlanes& truth)
     : scene_(scene) {
   const std::size_t states = scene.tilts.size() * static_cast<std::size_t>(scene_fills(scene));
@@ -27,10 +26,8 @@ LoadFloors::LoadFloors(const Scene& scene, const Evaluator& core, std::size_t ve
   const ForceData& force = scene.force;
   const double liquid_torque = scene.gravity * mass * (3 * height + reach);
   torque_ = liquid_torque + rounding * scene.gravity * constants.largest_mass * lever;
-  if (force.friction > 0 && force.torsion > 0) {
-    hold_ = (scene.gravity * mass / 2 + liquid_torque / (2 * force.torsion)) / force.friction + scene.gravity * mass / 2;
-  }
-  if (force.torsion == 0) find_levers(2 * stop * scene.gravity * constants.largest_mass, truth);
+  const double twist = force.torsion > 0 ? liquid_torque / (2 * force.torsion) : 0;
+  if (force.friction > 0) hold_ = (scene.gravity * mass / 2 + twist) / force.friction + scene.gravity * mass / 2;
   for (std::size_t s = 0; scene.liquid && s < states; ++s) {
     const double fill = vessel_fills(scene, scene.vessels[vessel])[s / scene.tilts.size()],
                  tilt = scene.tilts[s % scene.tilts.size()];
@@ -62,16 +59,6 @@ void LoadFloors::set_forces(const VesselConstants& constants, std::size_t vessel
   }
 }
 
-// A contact of no extent holds what has no lever beyond the stop tolerance, which is another one in float. The exact torque is the weight
-// at that lever where the line is level; it may lean by a hundredth.
-void LoadFloors::find_levers(double least, const GatheredPlanes& truth) {
-  const int exact = truth.fields.plane[FIELD_EXACT_TORQUE], torque = truth.fields.plane[FIELD_TORQUE];
-  if (exact < 0 || torque < 0) return;
-  for (std::size_t k = 0; k < center_.size() * truth.count; ++k)
-    may_be_held_.push_back(std::abs(truth.reals[exact * truth.count + k]) <=
-                           least + 1e-2 * std::abs(truth.reals[torque * truth.count + k]));
-}
-
 double LoadFloors::of(int field, std::size_t plane, std::size_t grip) const {
   const double force = torque_ * force_per_torque_[grip];
   const double force_term = scene_.force.max > 0 ? force / scene_.force.max : 0;
@@ -88,9 +75,6 @@ double LoadFloors::of(int field, std::size_t plane, std::size_t grip) const {
     case FIELD_PEAK_FORCE:
       return force;
     case FIELD_HOLD_FORCE:
-      return !may_be_held_.empty() && may_be_held_[plane * force_per_torque_.size() + grip]
-                 ? std::numeric_limits<double>::infinity()
-                 : hold_;
     case FIELD_LARGEST_HOLD:
       return hold_;
     case FIELD_TERMS:

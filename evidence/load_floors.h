@@ -25,23 +25,21 @@ constexpr double EFFORT_SHARE = 2.4e-3;
 //                  + rounding g M_max (L + the centre of mass's way off)   however small the tilt's sine makes the torque itself
 //   normal force   range (torque's + tau / tau_ref times the same for tau_ref) / tau_ref
 //   hold force     (g dm / 2 + the liquid's torque / (2 gamma)) / mu + g dm / 2
-//                  where gamma = 0 and the lever may be within twice the stop tolerance `stop`, m: any
+//                  where gamma = 0 without the liquid's torque: contacts hold none, or the force is infinite
 // and the score's terms and the score by what they divide these by.
 class LoadFloors {
  public:
-  LoadFloors(const Scene& scene, const Evaluator& core, std::size_t vessel, double volume, double rounding, double stop,
+  LoadFloors(const Scene& scene, const Evaluator& core, std::size_t vessel, double volume, double rounding,
              const GatheredPlanes& truth);
 
   // Of plane `plane` of the field, in the field's unit.
   double of(int field, std::size_t plane, std::size_t grip) const;
 
  private:
-  void find_levers(double least, const GatheredPlanes& truth);
   void set_forces(const VesselConstants& constants, std::size_t vessel, const GatheredPlanes& truth);
 
   const Scene& scene_;
   double torque_ = 0, hold_ = 0;          // N m, N
-  std::vector<bool> may_be_held_;         // by state and grip, where contacts have no extent
   std::vector<double> center_;            // m, by state
   std::vector<double> force_per_torque_;  // 1/m, by grip
 };

@@ -142,7 +142,8 @@ StateForces state_forces(Held held, Vec4 weight, Vec4 tilted) {
   Real level_share = Real(1) - along * along;
   Real sideways = sqrt((level_share > Real(0) ? level_share : Real(0)) + twist * twist);
   forces.hold = weight.x * (sideways * held.half_per_friction + held.half_rise * abs(tilted.y));
-  if (BARE) forces.hold = weight.x > Real(0) && abs(lever) > STOP_TOLERANCE ? INFINITE : forces.hold;
+  bool is_unheld = BARE && weight.x > Real(0) && abs(lever) > longest_bare_lever(sqrt(forces.pivot_square));
+  forces.hold = is_unheld ? INFINITE : forces.hold;
   return forces;
 }
 

@@ -38,12 +38,14 @@ Real opening_force(Real k_open, Real squeeze) { return k_open * squeeze; }
 
 Real feedback_force(Real normal, Real opening, Real max) { return clamp(normal + opening, Real(0), max); }
 
+Real longest_bare_lever(Real pivot_length) { return BARE_LEVER * max(pivot_length, SMALLEST_PIVOT); }
+
 Real hold_force(Real mass, Real gravity, Vec3 arm, Vec3 direction, Vec3 up, Real friction, Real torsion) {
   Real weight = mass * gravity;
   Real along = dot(direction, up);
   Real lever = abs(dot(direction, cross(arm, up)));
   bool bare = !(torsion > Real(0));
-  if (bare && weight > Real(0) && lever > STOP_TOLERANCE) return INFINITE;
+  if (bare && weight > Real(0) && lever > longest_bare_lever(length(arm))) return INFINITE;
   Real across_squared = weight * weight * max(Real(0), Real(1) - along * along) * Real(0.25);
   Real twist = bare ? Real(0) : weight * lever / (Real(2) * torsion);
   Real sideways = sqrt(across_squared + twist * twist);

@@ -26,7 +26,8 @@
 #define UPRIGHT_SINE_F32 1e-5
 #define AXIS_DISTANCE RATIO(1, 1000000)  // m: paper pose, a point nearer to its axis stays
 #define LARGEST_E1_X RATIO(19, 20)  // |e1.x| above which the hand's frame is ill-defined: too narrow
-#define SMALLEST_PIVOT RATIO(1, 200)  // m: per_grip torque reference
+#define SMALLEST_PIVOT RATIO(1, 200)  // m: per_grip torque reference, and levers
+#define BARE_LEVER RATIO(1, 1000)  // of the pivot length, at least the smallest: a lever up to this is none for contacts without torsion
 #define DEPTH_SCALE RATIO(1, 100)   // m: depth at which the depth score reaches 0
 #define GRAZING_COSINE 0.017452406437283512  // cosine of 89 degrees: contact normal within 1 degree of perpendicular to the line
 

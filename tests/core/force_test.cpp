@@ -214,10 +214,13 @@ TEST(Force, HoldForceWithoutFrictionIsInfinite) {
 
 TEST(Force, HoldForceWithoutTorsionTakesNoMoment) {
   EXPECT_EQ(hold_force({0.3, {0, 0, 0.05}, {1, 0, 0}, {0, 1, 0}, 0.6, 0}), INFINITE);
-  // a lever up to the stop tolerance is rounding, and none
-  EXPECT_EQ(hold_force({0.3, {0, 0, 2 * STOP_TOLERANCE_F64}, {1, 0, 0}, {0, 1, 0}, 0.6, 0}), INFINITE);
-  for (const double lever : {0.0, 0.5 * STOP_TOLERANCE_F64})
-    EXPECT_DOUBLE_EQ(hold_force({0.3, {0.02, 0.05, lever}, {1, 0, 0}, {0, 1, 0}, 0.6, 0}), 0.3 * G / 1.2);
+  // a lever up to a thousandth of the pivot length, or of the least one, is none
+  for (const double pivot : {0.0, 1e-3, 0.05, 2.0}) {
+    const double longest = 1e-3 * std::max(pivot, 5e-3);
+    for (const double lever : {0.0, 0.5 * longest, 0.999 * longest})
+      EXPECT_DOUBLE_EQ(hold_force({0.3, {0, pivot, lever}, {1, 0, 0}, {0, 1, 0}, 0.6, 0}), 0.3 * G / 1.2) << pivot << " " << lever;
+    EXPECT_EQ(hold_force({0.3, {0, pivot, 1.001 * longest}, {1, 0, 0}, {0, 1, 0}, 0.6, 0}), INFINITE) << pivot;
+  }
   EXPECT_EQ(hold_force({0, {0, 0, 0.05}, {1, 0, 0}, {0, 1, 0}, 0.6, 0}), 0);
   EXPECT_EQ(hold_force({0.3, {0, 0.05, 0}, {1, 0, 0}, {0, 1, 0}, 0, 0}), INFINITE);
 }

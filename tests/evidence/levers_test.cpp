@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// Contacts without torsion: which levers count, on every backend, and what the comparison makes of them.
+// sanitizers: none
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "evidence/check.h"
+#include "evidence/compare.h"
+#include "tests/support/scenes.h"
+#include "tests/support/whole_parity.h"
+
+namespace wholehand {
+namespace {
+
+constexpr double LEVER_SHARE = 1e-3,
+                 LEAST_PIVOT = 5e-3;  // m: a lever up to the share of the pivot length, or of the least one, is none
+
+// Tilts whose levers are nanometres upright and tens of nanometres upside down.
+Scene bare_scene() {
+  Scene scene = scene_of({cylinder("v0", 70, 100, 2)});
+  scene.force.torsion = 0;
+  scene.tilts = {0, radians(1e-6), radians(179.9999)};
+  return scene;
+}
+
+// On the level line along x: past the axis by an offset, at heights around the centre of mass.
+std::vector<GripInput> swept_grips() {
+  std::vector<GripInput> grips;
+  for (const double height : {0.04, 0.05, 0.06})
+    for (int k = -48; k <= -8; ++k) {
+      GripInput grip;
+      grip.height = height;
+      grip.roll = radians(-30);
+      grip.offset = std::pow(10, k / 4.0);
+      grips.push_back(grip);
+    }
+  return grips;
+}
+
+struct LeverAnswers {
+  std::string who;
+  GatheredPlanes planes;
+};
+
+std::vector<LeverAnswers> lever_answers(const Scene& scene, const std::vector<GripInput>& grips) {
+  const FieldSet fields = all_fields(scene);
+  std::vector<LeverAnswers> all;
+  for (const Precision precision : {Precision::full, Precision::single}) {
+    const std::string name = precision == Precision::full ? " double" : " float";
+    all.push_back({"core" + name, gather(*core_of(scene, precision), fields, 0, grips)});
+    all.push_back({"vulkan" + name, gather(*backend_of(scene, fields, precision), 0, grips)});
+  }
+  return all;
+}
+
+TEST(Levers, CountAlikeOnEveryBackend) {
+  const Scene scene = bare_scene();
+  const std::vector<GripInput> grips = swept_grips();
+  const auto core = make_core_evaluator(scene);
+  const VesselConstants glass = core->constants(0);
+  const double needed = glass.mass * scene.gravity / (2 * scene.force.friction);
+  std::size_t held = 0, unheld = 0;
+  for (const auto& [who, planes] : lever_answers(scene, grips)) {
+    for (std::size_t i = 0; i < grips.size(); ++i) {
+      ASSERT_NE(planes.uint(FIELD_STATUS, i) & STATUS_ANTIPODAL, 0u) << who << " " << i;
+      bool is_all_held = true, is_known = true;
+      for (std::size_t s = 0; s < scene.tilts.size(); ++s) {
+        // the line's lever on the weight: along z upright, and as high as the tilt turns it
+        const double beside = -grips[i].offset, above = glass.center_of_mass[1] - grips[i].height;
+        const double lever = std::abs(above * std::sin(scene.tilts[s]) - beside * std::cos(scene.tilts[s]));
+        const double longest = LEVER_SHARE * std::max(LEAST_PIVOT, std::hypot(beside, above));
+        if (std::abs(lever / longest - 1) < 0.05) {
+          is_known = false;
+          continue;
+        }
+        const bool is_held = lever < longest;
+        is_all_held = is_all_held && is_held;
+        const double hold = planes.real(planes.fields.plane[FIELD_HOLD_FORCE] + static_cast<int>(s), i);
+        const std::string where = who + ", offset " + std::to_string(grips[i].offset) + ", state " + std::to_string(s);
+        ++(is_held ? held : unheld);
+        if (is_held) {
+          EXPECT_NEAR(hold, needed, 1e-5 * needed) << where;
+        } else {
+          EXPECT_EQ(hold, HUGE_VAL) << where;
+        }
+      }
+      if (!is_known) continue;
+      const double largest = planes.real(planes.fields.plane[FIELD_LARGEST_HOLD], i);
+      EXPECT_EQ(std::isfinite(largest), is_all_held) << who << " " << i;
+      if (is_all_held)
+        EXPECT_NEAR(planes.real(planes.fields.plane[FIELD_SAFE_TILT], i), scene.tilts.back(), 1e-6) << who << " " << i;
+    }
+  }
+  EXPECT_GT(held, 800u);
+  EXPECT_GT(unheld, 200u);
+}
+
+TEST(Levers, OfASceneWithoutTorsionAgree) {
+  Scene scene = bare_scene();
+  scene.grips.height.values = {0.04, 0.05, 0.06};
+  scene.grips.roll.values = {radians(-60), radians(-30)};
+  const CheckReport report = check_scene(scene, {});
+  EXPECT_TRUE(verdict_of(report).holds) << check_text(report);
+}
+
+// A hold force near no lever is compared like any other, and a lever that counts on one side alone is found.
+TEST(Levers, AreComparedWhereTheyAreNone) {
+  const Scene scene = bare_scene();
+  const std::vector<GripInput> grips = swept_grips();
+  const auto core = make_core_evaluator(scene);
+  const GatheredPlanes truth = gather(*core, all_fields(scene), 0, grips);
+  const int first = truth.fields.plane[FIELD_HOLD_FORCE];
+  for (const double wrong : {0.99, HUGE_VAL}) {
+    GatheredPlanes other = truth;
+    std::uint64_t changed = 0;
+    for (std::size_t i = 0; i < grips.size(); ++i) {
+      if (grips[i].offset > 1e-7) continue;
+      for (std::size_t s = 0; s < scene.tilts.size(); ++s) other.reals[(first + s) * grips.size() + i] *= wrong;
+      ++changed;
+    }
+    Comparer comparer(scene, *core, float_against_double());
+    comparer.add(0, grips, other, truth);
+    for (const Comparison& row : comparer.rows())
+      if (row.quantity == "hold force") EXPECT_EQ(row.outside, changed) << wrong;
+  }
+}
+
+}  // namespace
+}  // namespace wholehand
