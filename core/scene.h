@@ -161,11 +161,10 @@ struct StrengthData {
   double weaker_tip() const { return digits[0] < digits[1] ? digits[0] : digits[1]; }
 };
 
-// Values of one axis of the grips. A range keeps its ends so that Sobol points can fill it continuously.
+// Values of one axis of the grips, as the scene asks for them.
 struct Axis {
   std::vector<double> values{0.0};  // SI; never empty
-  bool is_range = false;
-  double from = 0, to = 0;
+  bool is_range = false;            // from the first value to the last: Sobol points fill it, a grid has the values
 };
 
 struct GripsData {

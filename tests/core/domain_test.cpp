@@ -57,7 +57,7 @@ TEST(Domain, WarningsNameTheLimit) {
   Scene scene = tilted({beaker1()});
   scene.grips.hand_scale.values = {1, 0.09};
   EXPECT_EQ(only_warning(scene), "hand scale 0.09: beyond a smallest of 0.1 float may be more than 10 um or 10 mN from double");
-  scene.grips.hand_scale = {{1, 6}, true, 1, 6};
+  scene.grips.hand_scale = {{1, 6}, true};
   scene.hand.scale = 20;
   EXPECT_EQ(only_warning(scene).find("hand scale 120: beyond a largest of 100 "), 0u);
   EXPECT_EQ(only_warning(tilted({barrel(17)})).find("vessel 'barrel' has coordinates of 17 m: beyond 10 m "), 0u);

@@ -13,9 +13,7 @@ namespace {
 
 // A grip on the scene's own axes, a range taken at its values.
 GripInput drawn_grip(const Scene& scene, std::mt19937& random) {
-  const auto one_of = [&](const Axis& axis) {
-    return axis.values.empty() ? axis.from : axis.values[random() % axis.values.size()];
-  };
+  const auto one_of = [&](const Axis& axis) { return axis.values[random() % axis.values.size()]; };
   const GripsData& axes = scene.grips;
   const VesselData& vessel = scene.vessels[0];
   const double height = one_of(axes.height);

@@ -27,12 +27,8 @@ std::uint32_t fake_reason(std::size_t vessel, const GripInput& grip) {
 }  // namespace
 
 Axis range_axis(double from, double to, int count) {
-  Axis axis;
-  axis.values.clear();
+  Axis axis{{}, true};
   for (int i = 0; i < count; ++i) axis.values.push_back(count > 1 ? from + (to - from) * i / (count - 1) : from);
-  axis.is_range = true;
-  axis.from = from;
-  axis.to = to;
   return axis;
 }
 

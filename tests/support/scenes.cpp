@@ -193,14 +193,7 @@ std::vector<double> linspace(double from, double to, int count) {
   return values;
 }
 
-Axis axis_of(double from, double to, int count) {
-  Axis axis;
-  axis.values = linspace(from, to, count);
-  axis.is_range = true;
-  axis.from = from;
-  axis.to = to;
-  return axis;
-}
+Axis axis_of(double from, double to, int count) { return {linspace(from, to, count), true}; }
 
 Scene three_beakers() {
   Scene scene = scene_of({beaker1(), beaker2(), beaker3()});
