@@ -16,7 +16,6 @@
 #include "scene/reader.h"
 #include "scene/shipped.h"
 #include "sweeps/cavity_notes.h"
-#include "sweeps/closing.h"
 #include "sweeps/idle_notes.h"
 #include "system/output.h"
 

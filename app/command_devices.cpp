@@ -14,6 +14,7 @@
 #include "device/find_grippers.h"
 #include "program/vulkan_environment.h"
 #include "system/cache_folder.h"
+#include "system/output.h"
 
 namespace wholehand {
 namespace {
@@ -28,7 +29,7 @@ ExitCode list_all_devices(const std::string& dhd_library) {
     problem = error;
   }
   std::fflush(stdout);  // a device's library may end the program
-  fmt::print("{}{}", gripper_lines(find_grippers(dhd_library)), cache_text());
+  print(gripper_lines(find_grippers(dhd_library)) + cache_text());
   if (problem) throw *problem;
   return ExitCode::done;
 }

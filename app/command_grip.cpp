@@ -17,6 +17,7 @@
 #include "app/result_scene.h"
 #include "app/validators.h"
 #include "core/capacity.h"
+#include "core/printable.h"
 #include "grips/glb.h"
 #include "grips/report.h"
 #include "grips/svg.h"
@@ -30,7 +31,6 @@
 #include "scene/shipped.h"
 #include "scene/text.h"
 #include "sweeps/cavity_notes.h"
-#include "sweeps/closing.h"
 #include "sweeps/grip_lists.h"
 #include "sweeps/idle_notes.h"
 #include "system/files.h"
@@ -217,10 +217,10 @@ ExitCode grip(const GripArguments& arguments) {
   add_holding(report, scene, vessel);
   if (arguments.quality) add_quality(report, scene, vessel);
   write_drawings(arguments, scene, vessel, report);
-  if (arguments.json && arguments.on != "core") std::fprintf(stderr, "wholehand: on %s\n", report.device.c_str());
+  if (arguments.json && arguments.on != "core") say_note("on " + report.device);
   print(arguments.json ? grip_json(report) + "\n" : grip_table(report));
   for (const std::string& path : {arguments.glb, arguments.svg}) {
-    if (!path.empty() && !arguments.json) print(fmt::format("wrote {}\n", path));
+    if (!path.empty() && !arguments.json) print(fmt::format("wrote {}\n", one_line(path)));
   }
   if (arguments.view) {
     std::vector<std::string> notes;

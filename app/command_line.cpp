@@ -33,14 +33,11 @@ constexpr std::size_t OPEN_FILES = 48;  // of any command, beside the standard s
 
 int to_int(ExitCode code) { return static_cast<int>(code); }
 
-int report(const Program& program, ExitCode code, std::string line) {
+int report(const Program& program, ExitCode code, const std::string& line) {
   std::fflush(stdout);
   if (program.on_failure) program.on_failure(code, line);
   if (program.is_silent) return to_int(code);
-  for (char& c : line) {
-    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
-  }
-  std::fprintf(stderr, "wholehand: %s\n", line.c_str());
+  say_note(line);
   return to_int(code);
 }
 
@@ -92,7 +89,7 @@ int run(int argc, char** argv, const Program& program) {
   finish_output();
   // with the validation layer on (WHOLEHAND_VALIDATION=1) a message is a failure
   const auto messages = host::take_validation_messages();
-  for (const std::string& message : messages) std::fprintf(stderr, "wholehand: validation: %s\n", message.c_str());
+  for (const std::string& message : messages) say_note("validation: " + message);
   if (!messages.empty()) return to_int(ExitCode::failure);
   return to_int(code);
 }

@@ -10,6 +10,7 @@
 #include "app/commands.h"
 #include "app/result_scene.h"
 #include "app/validators.h"
+#include "core/printable.h"
 #include "core/text.h"
 #include "program/values.h"
 #include "sweeps/best_glb.h"
@@ -102,7 +103,7 @@ ExitCode rank(const RankArguments& arguments) {
   check_best_glb(scene, plan, names, glb);
   const std::shared_ptr<const Evaluator> core = glb > 0 ? open_core() : nullptr;
   const Ranking ranking = rank_grips(result, scene, plan, request, open_core);
-  if (!ranking.note.empty()) std::fprintf(stderr, "wholehand: %s\n", ranking.note.c_str());
+  if (!ranking.note.empty()) say_note(ranking.note);
   print(ranking_text(scene, plan, arguments, ranking));
   if (arguments.output.empty()) return ExitCode::done;
   std::vector<std::string> files{arguments.output};
@@ -110,9 +111,9 @@ ExitCode rank(const RankArguments& arguments) {
   if (core) {
     const BestGlb written = write_best_glb(scene, plan, core, ranking.lists, glb, names);
     files.insert(files.end(), written.files.begin(), written.files.end());
-    for (const std::string& line : written.notes) std::fprintf(stderr, "wholehand: %s\n", line.c_str());
+    for (const std::string& line : written.notes) say_note(line);
   }
-  print(fmt::format("\nwrote {}\n", joined(files, ", ")));
+  print(fmt::format("\nwrote {}\n", one_line(joined(files, ", "))));
   return ExitCode::done;
 }
 

@@ -8,6 +8,7 @@
 #include "app/commands.h"
 #include "app/result_scene.h"
 #include "app/validators.h"
+#include "core/printable.h"
 #include "report/page.h"
 #include "system/files.h"
 #include "system/output.h"
@@ -29,7 +30,7 @@ ExitCode report_sweep(const PageArguments& arguments) {
   const Scene scene = scene_of_result(result, trouble);
   const std::string html = report_page(result, scene, trouble, arguments.list);
   write_whole_file(page, html, false);
-  print(fmt::format("wrote {} ({})\n", page, readable_bytes(static_cast<double>(html.size()))));
+  print(fmt::format("wrote {} ({})\n", one_line(page), readable_bytes(static_cast<double>(html.size()))));
   return ExitCode::done;
 }
 

@@ -46,7 +46,7 @@ ExitCode report_recording(const SessionArguments& arguments) {
     make_output_folder(arguments.folder);
     check_folder_files(arguments.folder, "session", TABLES, {&PICTURE, 1});
   }
-  if (!recording.note.empty()) std::fprintf(stderr, "wholehand: %s\n", recording.note.c_str());
+  if (!recording.note.empty()) say_note(recording.note);
   const SessionReport report = report_session(recording);
   const std::string trouble = arguments.folder.empty() ? "" : write_session_files(arguments.folder, recording, report);
   print(arguments.json ? session_json(report) + "\n" : session_table(report));

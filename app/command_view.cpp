@@ -21,6 +21,7 @@
 #include "recordings/recorded_scene.h"
 #include "scene/reader.h"
 #include "sweeps/grip_lists.h"
+#include "system/output.h"
 #include "viewer/grips.h"
 #include "viewer/recording.h"
 #include "viewer/serve_view.h"
@@ -38,7 +39,7 @@ std::string file_name(const std::string& path) { return std::filesystem::path(pa
 
 void view_recording(const std::string& path, int port) {
   Recording recording = read_recording(path);
-  if (!recording.note.empty()) std::fprintf(stderr, "wholehand: %s\n", recording.note.c_str());
+  if (!recording.note.empty()) say_note(recording.note);
   Scene scene = scene_of_recording(recording.info);
   load_meshes(scene);
   const RecordingView view(scene, std::move(recording));
@@ -72,7 +73,7 @@ void view_result(const std::string& path, const std::string& list_file, int port
     }
   }
   const GripsView view(scene, grips, notes);
-  for (const std::string& note : notes) std::fprintf(stderr, "wholehand: view: %s\n", note.c_str());
+  for (const std::string& note : notes) say_note("view: " + note);
   serve_view(view.content(file_name(path), scene_axes(scene, grips.empty() ? 0 : grips.front().vessel)), port, false);
 }
 

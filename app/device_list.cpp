@@ -5,6 +5,7 @@
 
 #include "host/device_info.h"
 #include "program/remedy.h"
+#include "system/output.h"
 
 namespace wholehand {
 
@@ -13,22 +14,22 @@ void print_devices() {
   if (devices.empty()) throw failure_error("no Vulkan device; install a driver (mesa-vulkan-drivers has one for CPUs)");
   const host::DeviceInfo& first = host::choose_device(devices, "vulkan");
   for (const host::DeviceInfo& device : devices) {
-    fmt::print("vulkan:{}  {}  ({}){}\n", device.index, device.name, host::device_kind_name(device.kind),
-               device.index == first.index ? "  <- --on vulkan" : "");
-    fmt::print("  driver {}, Vulkan {}\n", device.driver, device.api_version);
+    print(fmt::format("vulkan:{}  {}  ({}){}\n", device.index, device.name, host::device_kind_name(device.kind),
+                      device.index == first.index ? "  <- --on vulkan" : ""));
+    print(fmt::format("  driver {}, Vulkan {}\n", device.driver, device.api_version));
     if (!device.unusable.empty()) {
-      fmt::print("  cannot be used: {}\n", device.unusable);
+      print(fmt::format("  cannot be used: {}\n", device.unusable));
       continue;
     }
-    fmt::print("  precision float{}; subgroups of {}; timestamps {}\n", device.float64 ? " and double" : " only",
-               device.subgroup_size, device.timestamps ? "by the device" : "by the host's clock");
+    print(fmt::format("  precision float{}; subgroups of {}; timestamps {}\n", device.float64 ? " and double" : " only",
+                      device.subgroup_size, device.timestamps ? "by the device" : "by the host's clock"));
     constexpr double MEBI = 1 << 20;
-    fmt::print("  memory {:.0f} MiB{}, one allocation {:.0f} MiB, one storage buffer {:.0f} MiB, shared memory {} KiB\n",
-               static_cast<double>(device.memory) / MEBI, device.unified_memory ? " (the host's own)" : "",
-               static_cast<double>(device.max_allocation) / MEBI, static_cast<double>(device.max_storage_range) / MEBI,
-               device.shared_memory / 1024);
+    print(fmt::format("  memory {:.0f} MiB{}, one allocation {:.0f} MiB, one storage buffer {:.0f} MiB, shared memory {} KiB\n",
+                      static_cast<double>(device.memory) / MEBI, device.unified_memory ? " (the host's own)" : "",
+                      static_cast<double>(device.max_allocation) / MEBI, static_cast<double>(device.max_storage_range) / MEBI,
+                      device.shared_memory / 1024));
   }
-  fmt::print("core  the reference, double precision, all threads  <- --on core\n");
+  print("core  the reference, double precision, all threads  <- --on core\n");
 }
 
 std::string gripper_lines(const std::vector<GripperFound>& found) {

@@ -206,7 +206,7 @@ class LiveRun {
 
   // What it computes on, once nothing is refused any more.
   void tell_advice_place() const {
-    if (advice_) std::fprintf(stderr, "wholehand: live: advice is computed on %s\n", advice_->tally().place.c_str());
+    if (advice_) say_note("live: advice is computed on " + advice_->tally().place);
   }
 
   std::function<std::shared_ptr<const Advice>()> advice_source() const {
@@ -255,10 +255,9 @@ class LiveRun {
       if (options_.view && options_.device == "view") input_ = std::make_unique<ViewInput>(scene_);
       gripper_ = options_.person ? open_sim(scene_, options_.seed,
                                             Participant(scene_.people, options_.seed, *options_.person, Experiment::live), shown)
-                 : shown
-                     ? open_sim(scene_, options_.seed, shown)
-                     : open_gripper(options_.device, scene_, options_.seed, options_.dhd_library, WATCHDOG, input_.get(),
-                                    [](const std::string& line) { std::fprintf(stderr, "wholehand: live: %s\n", line.c_str()); });
+                 : shown         ? open_sim(scene_, options_.seed, shown)
+                         : open_gripper(options_.device, scene_, options_.seed, options_.dhd_library, WATCHDOG, input_.get(),
+                                        [](const std::string& line) { say_note("live: " + line); });
     }
     const double most = gripper_->limits().rate;
     if (!is_replay && most > 0 && scene_.live.rate > most) {
@@ -285,7 +284,7 @@ class LiveRun {
     stream_ = std::make_unique<OscStream>(target, session_->live());
     displays_.push_back(stream_.get());
     if (stream_->note().empty()) return;
-    std::fprintf(stderr, "wholehand: live: %s\n", stream_->note().c_str());
+    say_note("live: " + stream_->note());
     notes_.push_back(stream_->note());
   }
 
@@ -332,7 +331,7 @@ class LiveRun {
       is_over = true;
     });
     for (const std::string& note : permitted.get_future().get()) {
-      std::fprintf(stderr, "wholehand: live: %s\n", note.c_str());
+      say_note("live: " + note);
       notes_.push_back(note);
     }
     int lost = 0;
@@ -380,10 +379,10 @@ class LiveRun {
     }
     for (std::string& line : gripper_->remarks()) notes_.push_back(std::move(line));
     show_status("");
-    if (ending) fmt::print(stderr, "wholehand: {}\n", fault_words(report));
-    fmt::print(
-        stderr, "wholehand: live: a call of the device has not returned for {:g} s, and {}\n", CALL_LOST,
-        ending ? "the program ends without it" : "the session is given up; " + force_words(report, gripper_->limits().watchdog));
+    if (ending) say_note(fault_words(report));
+    say_note(fmt::format(
+        "live: a call of the device has not returned for {:g} s, and {}", CALL_LOST,
+        ending ? "the program ends without it" : "the session is given up; " + force_words(report, gripper_->limits().watchdog)));
     const bool is_recorded = finish_recording(recorder, report);
     if (view_) view_->end(end_name(report.fault));
     tell_trouble(recorder);
@@ -399,10 +398,9 @@ class LiveRun {
 
   // The second thread is lost in a call of the device: all is told, and taking the session apart would wait for it without end.
   [[noreturn]] void leave_watch(const LoopReport& report) {
-    fmt::print(stderr, "wholehand: {}\n", fault_words(report));
-    fmt::print(stderr,
-               "wholehand: live: a second call of the device has not returned for {:g} s, and the program ends without it\n",
-               CALL_LOST);
+    say_note(fault_words(report));
+    say_note(
+        fmt::format("live: a second call of the device has not returned for {:g} s, and the program ends without it", CALL_LOST));
     std::fflush(stdout);
     std::fflush(stderr);
     _exit(static_cast<int>(ExitCode::failure));
@@ -419,7 +417,7 @@ class LiveRun {
 
   void note(const std::string& line) {
     show_status("");
-    std::fprintf(stderr, "wholehand: live: %s\n", line.c_str());
+    say_note("live: " + line);
     notes_.push_back(line);
   }
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/live_advice.h"
+#include "core/printable.h"
 #include "core/vectors.h"
 #include "system/json.h"
 #include "system/readable.h"
@@ -126,7 +127,7 @@ std::string live_text(const LiveSummary& summary) {
   for (const std::string& note : summary.notes) text += "  " + note + "\n";
   if (loop.fault == Fault::interrupted && summary.is_by_signal) text += "  ended by a signal\n";
   if (!summary.recording.empty())
-    text += fmt::format("  recorded {}in {}\n", summary.is_recorded ? "" : "in part ", summary.recording);
+    text += fmt::format("  recorded {}in {}\n", summary.is_recorded ? "" : "in part ", one_line(summary.recording));
   return text;
 }
 

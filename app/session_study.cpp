@@ -50,8 +50,7 @@ void note_differences(const RecordingInfo& first, const RecordingInfo& other, co
       std::equal(first.vessels.begin(), first.vessels.end(), other.vessels.begin(), other.vessels.end(),
                  [](const RecordedVessel& a, const RecordedVessel& b) { return is_same(a.force_range, b.force_range); });
   if (is_same(first.force_base, other.force_base) && is_same(first.force_max, other.force_max) && has_same_ranges) return;
-  std::fprintf(stderr, "wholehand: %s: F_base, F_max or an F_range differ from those of %s; both count alike\n", path.c_str(),
-               first_path.c_str());
+  say_note(fmt::format("{}: F_base, F_max or an F_range differ from those of {}; both count alike", path, first_path));
 }
 
 std::vector<GraspReport> grasps_of(const Recording& recording) {
@@ -76,7 +75,7 @@ RecordedSessions read_sessions(const std::vector<std::string>& paths) {
     const std::string& path = paths[k];
     check_is_another(paths, k);
     const Recording recording = read_recording(path);
-    if (!recording.note.empty()) std::fprintf(stderr, "wholehand: %s\n", recording.note.c_str());
+    if (!recording.note.empty()) say_note(recording.note);
     if (!first) {
       first = recording.info;
       if (first->scene_text.empty())

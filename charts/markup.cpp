@@ -6,33 +6,20 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstdint>
+
+#include "core/printable.h"
 
 namespace wholehand {
 namespace {
 
 constexpr const char* REPLACEMENT = "\uFFFD";
 
-// Length of the UTF-8 character at the start of `text`; 0 where there is none, or one that XML does not know.
+// Length of the character at the start of `text`; 0 where it is none, or is not shown.
 std::size_t character_length(std::string_view text) {
-  const auto byte = [text](std::size_t i) { return i < text.size() ? static_cast<std::uint8_t>(text[i]) : 0u; };
-  const std::uint32_t lead = byte(0);
-  const std::size_t length = lead < 0x80                   ? 1
-                             : lead >= 0xC2 && lead < 0xE0 ? 2
-                             : lead >= 0xE0 && lead < 0xF0 ? 3
-                             : lead >= 0xF0 && lead < 0xF5 ? 4
-                                                           : 0;
-  if (length == 0) return 0;
-  std::uint32_t code = length == 1 ? lead : lead & (0xFFu >> (length + 1));
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xC0u) != 0x80u) return 0;
-    code = code << 6 | (byte(i) & 0x3Fu);
-  }
-  const bool is_shortest = length < 3 || code >= (length == 3 ? 0x800u : 0x10000u);
-  const bool is_allowed = code == '\t' || code == '\n' || code == '\r' || (code >= 0x20 && code < 0x7F) ||
-                          (code >= 0xA0 && code < 0xD800) || (code >= 0xE000 && code < 0xFFFE) ||
-                          (code >= 0x10000 && code <= 0x10FFFF);
-  return is_shortest && is_allowed ? length : 0;
+  const Utf8Character character = first_character(text);
+  const bool is_layout = character.code == '\t' || character.code == '\n' || character.code == '\r';
+  const bool is_known_to_xml = character.code != 0xFFFE && character.code != 0xFFFF;
+  return character.is_whole && is_known_to_xml && (is_layout || !is_steering(character.code)) ? character.length : 0;
 }
 
 // Whether white space after it would be seen.

@@ -22,12 +22,12 @@
 #include "cluster/packet.h"
 #include "cluster/work_range.h"
 #include "core/candidates.h"
+#include "core/printable.h"
 #include "core/text.h"
 #include "host/device.h"
 #include "host/open_backend.h"
 #include "objects/vessel.h"
 #include "sweeps/auto_backend.h"
-#include "sweeps/closing.h"
 #include "sweeps/hand_lists.h"
 #include "sweeps/refine.h"
 #include "sweeps/robust.h"
@@ -36,6 +36,7 @@
 #include "sweeps/tally.h"
 #include "system/checksum.h"
 #include "system/clock.h"
+#include "system/output.h"
 #include "system/output_lock.h"
 #include "system/readable.h"
 
@@ -169,7 +170,7 @@ ExitCode or_abort(Team& team, const std::function<ExitCode()>& work) {
     return work();
   } catch (const std::exception& error) {
     if (team.is_agreed()) throw;
-    fmt::print(stderr, "wholehand: rank {} on {}: {}\n", team.rank(), team.node(), error.what());
+    say_note(fmt::format("rank {} on {}: {}", team.rank(), team.node(), error.what()));
     team.abort(ExitCode::failure);
   }
 }
@@ -923,7 +924,7 @@ class ClusterSweep final : public Sweep {
   }
 
   void say_ranks() const {
-    if (team_.size() > 1) fmt::print("{} ranks: {}\n", team_.size(), rate_text());
+    if (team_.size() > 1) print(fmt::format("{} ranks: {}\n", team_.size(), rate_text()));
   }
 
   void say_shards() const {
@@ -932,8 +933,9 @@ class ClusterSweep final : public Sweep {
     for (const VesselProgress& vessel : mark_.vessels)
       for (const Stretch& stretch : vessel.stretches)
         if (!stretch.shard.empty()) files.insert(shard_path(names_, stretch.shard));
-    fmt::print("the other grips lie in {}; once all are in one folder, `wholehand merge {}` makes one file\n", joined(files, ", "),
-               names_.result);
+    print(one_line(fmt::format("the other grips lie in {}; once all are in one folder, `wholehand merge {}` makes one file",
+                               joined(files, ", "), names_.result)) +
+          "\n");
   }
 
   // The best of what the mark knows to be done.

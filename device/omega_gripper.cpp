@@ -12,6 +12,7 @@
 #include "device/dhd_library.h"
 #include "device/panic.h"
 #include "device/session_lock.h"
+#include "system/output.h"
 
 namespace wholehand {
 
@@ -207,8 +208,8 @@ class OmegaGripper final : public Gripper {
           fmt::format("{}: the device takes no watchdog ({}), and is not used without one", limits_.address, last_error(dhd_)));
     }
     if (watchdog > WATCHDOG_STEPS * WATCHDOG_STEP + WATCHDOG_STEP / 2) {
-      fmt::print(stderr, "wholehand: {}: the watchdog is set to {:.6g} ms, the longest of the device, instead of {:.6g} ms\n",
-                 limits_.address, WATCHDOG_STEPS * WATCHDOG_STEP * 1e3, watchdog * 1e3);
+      say_note(fmt::format("{}: the watchdog is set to {:.6g} ms, the longest of the device, instead of {:.6g} ms", limits_.address,
+                           WATCHDOG_STEPS * WATCHDOG_STEP * 1e3, watchdog * 1e3));
     }
     if (dhd_.set_max_force(limits_.force, id_) < 0 || dhd_.set_max_gripper_force(limits_.grip, id_) < 0) {
       throw failure_error(fmt::format("{}: the device does not take its maximum forces of {:g} N and {:g} N: {}", limits_.address,

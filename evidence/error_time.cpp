@@ -9,12 +9,14 @@
 #include "core/parallel.h"
 #include "core/planes.h"
 #include "core/prepare.h"
+#include "core/printable.h"
 #include "evidence/error_plot.h"
 #include "evidence/error_table.h"
 #include "host/device.h"
 #include "system/files.h"
 #include "system/folder_files.h"
 #include "system/interrupt.h"
+#include "system/output.h"
 #include "system/pictures.h"
 #include "system/progress.h"
 #include "system/version.h"
@@ -100,12 +102,12 @@ void write_error_results(const std::string& output, const std::vector<ErrorRow>&
   for (const char* name : ERROR_TIME_PICTURES) std::remove((folder + name).c_str());
   const auto pictures = front_pictures(folder, rows, context);
   const std::string complaint = write_pictures(front_files(pictures, rows));
-  fmt::print("{}\n", report);
-  if (!complaint.empty()) fmt::print(stderr, "wholehand: {}\n", complaint);
-  fmt::print("wrote {0}error-time.csv, {0}error-time-grips.csv, {0}error-time.md", folder);
+  print(report + "\n");
+  if (!complaint.empty()) say_note(complaint);
+  std::string written = fmt::format("wrote {0}error-time.csv, {0}error-time-grips.csv, {0}error-time.md", folder);
   if (complaint.empty())
-    for (const FrontPicture& picture : pictures) fmt::print(", {}", picture.file);
-  fmt::print("\n");
+    for (const FrontPicture& picture : pictures) written += ", " + picture.file;
+  print(one_line(written) + "\n");
 }
 
 }  // namespace
@@ -131,7 +133,7 @@ ExitCode run_error_time(const Scene& scene, const ErrorTimeOptions& options) {
   });
   show_status("");
   if (interrupt.flag()) {
-    fmt::print(stderr, "wholehand: interrupted while comparing and timing {} variants; nothing was written\n", variants.size());
+    say_note(fmt::format("interrupted while comparing and timing {} variants; nothing was written", variants.size()));
     return ExitCode::interrupted;
   }
   if (options.on == "core" && !rows.empty()) {

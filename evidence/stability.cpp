@@ -10,6 +10,7 @@
 
 #include "core/core_backend.h"
 #include "core/domain.h"
+#include "core/printable.h"
 #include "core/text.h"
 #include "evidence/gains.h"
 #include "evidence/grip_loop.h"
@@ -21,6 +22,7 @@
 #include "system/files.h"
 #include "system/folder_files.h"
 #include "system/interrupt.h"
+#include "system/output.h"
 #include "system/pictures.h"
 #include "system/progress.h"
 #include "system/version.h"
@@ -309,7 +311,7 @@ void draw_stability_pictures(const std::string& folder, const std::vector<WallSh
   for (const PictureFile& picture : pictures)
     std::remove(picture.path.c_str());  // one of another run beside these tables would mislead
   const std::string failure = write_pictures(pictures);
-  if (!failure.empty()) std::fprintf(stderr, "wholehand: %s\n", failure.c_str());
+  if (!failure.empty()) say_note(failure);
 }
 
 }  // namespace
@@ -323,7 +325,7 @@ ExitCode run_stability(const StabilityOptions& options) {
   InterruptGuard interrupt;
   if (!compute_stability(options, runner, interrupt, stability)) {
     show_status("");
-    std::fprintf(stderr, "wholehand: interrupted; nothing was written\n");
+    say_note("interrupted; nothing was written");
     return ExitCode::interrupted;
   }
   show_status("summary");
@@ -332,7 +334,7 @@ ExitCode run_stability(const StabilityOptions& options) {
   draw_stability_pictures(options.folder, stability.sheets);
   write_whole_file(options.folder + "/stability.md", summary, false);
   show_status("");
-  fmt::print("{}\nwritten to {}\n", summary, options.folder);
+  print(fmt::format("{}\nwritten to {}\n", summary, one_line(options.folder)));
   return stability.walls.passive_unsettled == 0 && wrong_rows(stability.extremes) == 0 ? ExitCode::done : ExitCode::no;
 }
 

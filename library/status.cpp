@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "core/printable.h"
 #include "system/version.h"
 
 namespace wholehand {
@@ -40,8 +41,11 @@ wh_status fail(wh_status status, const char* format, ...) noexcept {
   va_start(values, format);
   std::vsnprintf(message, sizeof message, format, values);
   va_end(values);
-  for (char* at = message; *at != 0; ++at)
-    if (static_cast<unsigned char>(*at) < ' ' || *at == 0x7F) *at = '?';  // of a caller's own names
+  for (char* at = message; *at != 0;) {  // of a caller's own names; in place, without memory
+    const Utf8Character character = first_character(at);
+    if (!character.is_whole || is_steering(character.code)) std::memset(at, '?', character.length);
+    at += character.length;
+  }
   return status;
 }
 

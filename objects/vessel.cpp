@@ -17,6 +17,7 @@
 #include "objects/check.h"
 #include "objects/mesh.h"
 #include "system/cache_folder.h"
+#include "system/output.h"
 #include "system/progress.h"
 #include "system/readable.h"
 
@@ -154,8 +155,6 @@ std::string set_volume(const MeshFacts& facts, const std::string& name, MeshBody
       "body of it, or give mass_kg",
       cause, 1e6 * enclosed.volume, 1e3 * enclosed.center[0], 1e3 * enclosed.center[1], 1e3 * enclosed.center[2]);
 }
-
-void note(const std::string& line) { fmt::print(stderr, "wholehand: {}\n", line); }
 
 // What is shown while work runs, and wiped where it ends, also with an error.
 class StatusLine {
@@ -302,7 +301,7 @@ std::string reload_meshes(Scene& scene, const std::string& scene_file, const std
   MeshOptions options;
   options.lattices = lattices;
   options.is_quiet = is_quiet;
-  if (!is_quiet) options.forecast = note;
+  if (!is_quiet) options.forecast = say_note;
   Scene read = scene;
   read.file = scene_file;
   try {
@@ -320,7 +319,7 @@ void load_meshes(Scene& scene, const std::function<std::uint64_t()>& device_byte
   if (!has_meshes(scene)) return;
   MeshOptions options;
   options.most_bytes = largest_lattice(device_bytes ? device_bytes() : std::numeric_limits<std::uint64_t>::max());
-  options.say = note;
+  options.say = say_note;
   load_meshes(scene, options);
 }
 

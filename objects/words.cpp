@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/printable.h"
+
 namespace wholehand {
 namespace {
 
@@ -57,11 +59,6 @@ double MeshWords::number(std::string_view word) const {
 
 void MeshWords::refuse(const std::string& message) const { file_.refuse(fmt::format("line {}: {}", line_, message)); }
 
-std::string MeshWords::shown(std::string_view word) {
-  std::string text(word.substr(0, 40));
-  for (char& c : text)
-    if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) >= 0x7F) c = '?';
-  return text;
-}
+std::string MeshWords::shown(std::string_view word) { return one_line(word.substr(0, 40)); }
 
 }  // namespace wholehand

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "program/remedy.h"
 
-#include <cstdio>
-
 #include "core/domain.h"
+#include "core/printable.h"
+#include "system/output.h"
 
 namespace wholehand {
 
@@ -27,13 +27,13 @@ const char* remedy_words(Remedy remedy) {
   return "";
 }
 
-std::string line_of(const Error& error) { return std::string(error.what()) + remedy_words(error.remedy); }
+std::string line_of(const Error& error) { return one_line(std::string(error.what()) + remedy_words(error.remedy)); }
 
 std::vector<std::string> say_float_warnings(const Scene& scene, Precision precision) {
   std::vector<std::string> lines = domain_warnings(scene, precision);
   for (std::string& line : lines) {
     line += remedy_words(Remedy::double_precision);
-    std::fprintf(stderr, "wholehand: %s\n", line.c_str());
+    say_note(line);
   }
   return lines;
 }

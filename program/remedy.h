@@ -14,7 +14,7 @@ namespace wholehand {
 // What follows the line: "; use --on core". Empty for none.
 const char* remedy_words(Remedy remedy);
 
-// The whole line for the user.
+// The whole line for the user, without anything that steers a terminal.
 std::string line_of(const Error& error);
 
 // What of the scene is beyond float's domain (domain_warnings), a line each, with the remedy: printed to stderr and returned.

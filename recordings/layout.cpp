@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "core/printable.h"
 #include "core/text.h"
 #include "recordings/fields.h"
 
@@ -181,20 +182,14 @@ class LayoutBuilder {
 
 Error lacks(std::string_view what) { return usage_error(fmt::format("is not a recording of a session: it lacks {}", what)); }
 
-std::string printable(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
-  return text;
-}
-
 std::string recorded_text(const Header& header, const char* name) {
   const Attribute* attribute = header.attribute(name);
   if (!attribute || attribute->type != classic::Type::text) throw lacks(fmt::format("the text attribute {}", name));
   return attribute->bytes;
 }
 
-// Of what is printed: no control characters.
-std::string recorded_line(const Header& header, const char* name) { return printable(recorded_text(header, name)); }
+// Of what is printed.
+std::string recorded_line(const Header& header, const char* name) { return one_line(recorded_text(header, name)); }
 
 std::vector<double> recorded_numbers(const Header& header, const char* name, std::size_t count) {
   const Attribute* attribute = header.attribute(name);
@@ -248,7 +243,7 @@ std::vector<std::string> recorded_labels(const Header& header, const FixedValues
   for (std::uint64_t at = 0; at + length <= variable.values; at += length) {
     std::string label = bytes.substr(at, length);
     label.resize(std::min(label.find('\0'), label.size()));
-    labels.push_back(printable(label));
+    labels.push_back(one_line(label));
   }
   return labels;
 }

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "core/printable.h"
 #include "core/text.h"
 #include "scene/reader.h"
 #include "scene/text.h"

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "core/error.h"
+#include "core/printable.h"
 #include "core/scene.h"
 
 namespace wholehand {

@@ -11,9 +11,6 @@
 
 namespace wholehand {
 
-// Control characters as \xNN.
-std::string one_line(std::string_view text);
-
 // `text` in single quotes on one line, cut after 60 bytes (never inside a character).
 std::string in_quotes(std::string_view text);
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/error.h"
+#include "core/printable.h"
 #include "studies/table.h"
 #include "system/file_set.h"
 
@@ -35,6 +36,6 @@ void StudyFolder::write(const Scene& scene, const StudyOptions& options, const S
   }
 }
 
-std::string StudyFolder::written() const { return fmt::format("wrote {}, {}, {}", files_.csv, files_.nc, files_.page); }
+std::string StudyFolder::written() const { return one_line(fmt::format("wrote {}, {}, {}", files_.csv, files_.nc, files_.page)); }
 
 }  // namespace wholehand

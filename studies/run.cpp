@@ -32,7 +32,6 @@
 #include "studies/sessions.h"
 #include "studies/statistic_words.h"
 #include "studies/summary.h"
-#include "sweeps/closing.h"
 #include "system/build_id.h"
 #include "system/checksum.h"
 #include "system/interrupt.h"

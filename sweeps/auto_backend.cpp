@@ -15,6 +15,7 @@
 #include "sweeps/sweep_result.h"
 #include "system/cache_folder.h"
 #include "system/files.h"
+#include "system/output.h"
 
 namespace wholehand {
 namespace {

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/capacity.h"
+#include "system/output.h"
 
 namespace wholehand {
 namespace {
@@ -30,7 +31,7 @@ std::vector<std::string> cavity_notes(const Scene& scene) {
 }
 
 void say_cavity_notes(const Scene& scene) {
-  for (const std::string& line : cavity_notes(scene)) fmt::print(stderr, "wholehand: {}\n", line);
+  for (const std::string& line : cavity_notes(scene)) say_note(line);
 }
 
 }  // namespace wholehand

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "core/printable.h"
 #include "sweeps/edge.h"
 #include "sweeps/grip_lists.h"
 #include "system/readable.h"
@@ -24,8 +25,6 @@ std::string short_number(double value) {
 }
 
 }  // namespace
-
-void say_note(const std::string& line) { fmt::print(stderr, "wholehand: {}\n", line); }
 
 std::string opening_lines(const Scene& scene, const Plan& plan, const BackendInfo& info) {
   const auto grips = static_cast<double>(plan.grips() * scene.vessels.size());
@@ -57,8 +56,8 @@ std::string list_lines(const Scene& scene, const Plan& plan, std::size_t vessel,
   if (best.empty()) return "";
   std::string text = best_table(scene, plan, best, TABLE_ROWS);
   if (best.size() > TABLE_ROWS)
-    text +=
-        fmt::format("  .. {} more{}\n", best.size() - TABLE_ROWS, file.empty() ? "; -o FILE writes all of them" : " in " + file);
+    text += fmt::format("  .. {} more{}\n", best.size() - TABLE_ROWS,
+                        file.empty() ? "; -o FILE writes all of them" : " in " + one_line(file));
   std::vector<Candidate> candidates;
   for (const BestGrip& grip : best) candidates.push_back(grip.candidate);
   const std::string edge = edge_line(edge_axes(scene, plan, vessel, candidates));
@@ -80,8 +79,8 @@ std::string best_lines(const Scene& scene, const Plan& plan, std::size_t vessel,
 std::string closing_lines(const std::vector<std::string>& files, const SweepTimes& times) {
   struct stat status {};
   const double size = stat(files.front().c_str(), &status) == 0 ? static_cast<double>(status.st_size) : 0;
-  std::string text = fmt::format("wrote {} ({})", files.front(), readable_bytes(size));
-  for (std::size_t i = 1; i < files.size(); ++i) text += ", " + files[i];
+  std::string text = fmt::format("wrote {} ({})", one_line(files.front()), readable_bytes(size));
+  for (std::size_t i = 1; i < files.size(); ++i) text += ", " + one_line(files[i]);
   struct rusage usage {};
   getrusage(RUSAGE_SELF, &usage);
   const double rate = static_cast<double>(times.written_bytes) / std::max(times.writing, 1e-9);

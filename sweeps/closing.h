@@ -21,9 +21,6 @@ struct SweepTimes {
   std::uint64_t written_bytes = 0;
 };
 
-// A line beside the results, to stderr.
-void say_note(const std::string& line);
-
 // Grips and states, device, driver and precision, what is left out.
 std::string opening_lines(const Scene& scene, const Plan& plan, const BackendInfo& info);
 

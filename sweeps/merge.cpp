@@ -14,6 +14,7 @@
 #include <map>
 #include <memory>
 
+#include "core/printable.h"
 #include "core/text.h"
 #include "sweeps/mark.h"
 #include "sweeps/result_file.h"
@@ -21,6 +22,7 @@
 #include "system/clock.h"
 #include "system/files.h"
 #include "system/interrupt.h"
+#include "system/output.h"
 #include "system/output_lock.h"
 #include "system/progress.h"
 #include "system/readable.h"
@@ -77,9 +79,10 @@ class Merge {
     check_readable(names_, true);
     name_result(names_);
     const double seconds = monotonic_now() - start;
-    fmt::print("wrote {} ({}): {} grips, {} of them from {}\n{:.2f} s ({}/s); the shards can be removed\n", names_.result,
-               readable_bytes(static_cast<double>(status.st_size)), readable_number(grips_), readable_number(from_shards_),
-               names_of_shards(), seconds, readable_bytes(static_cast<double>(bytes_) / seconds));
+    print(fmt::format("wrote {} ({}): {}, {} of them from {}\n{:.2f} s ({}/s); the shards can be removed\n",
+                      one_line(names_.result), readable_bytes(static_cast<double>(status.st_size)), counted(grips_, "grip"),
+                      readable_number(from_shards_), one_line(names_of_shards()), seconds,
+                      readable_bytes(static_cast<double>(bytes_) / seconds)));
     return ExitCode::done;
   }
 
@@ -200,7 +203,7 @@ class Merge {
 
   ExitCode interrupted(Progress& progress) const {
     progress.clear();
-    std::fprintf(stderr, "wholehand: interrupted; the same command begins again, and the shards are as they were\n");
+    say_note("interrupted; the same command begins again, and the shards are as they were");
     return ExitCode::interrupted;
   }
 

@@ -23,6 +23,7 @@
 #include "sweeps/tally.h"
 #include "sweeps/write_companions.h"
 #include "system/clock.h"
+#include "system/output.h"
 #include "system/output_lock.h"
 #include "system/readable.h"
 #include "system/version.h"
@@ -133,8 +134,7 @@ void Sweep::note(const std::string& line) const { is_quiet() ? options_.note(lin
 
 void Sweep::print_text(const std::string& text) const {
   if (is_quiet()) return;
-  fmt::print("{}", text);
-  std::fflush(stdout);
+  print(text);
 }
 
 ResultContents Sweep::contents() const { return {scene_, plan(), variables_, facts_, info_, version(), best_wanted_}; }

@@ -1,12 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include "system/csv.h"
 
+#include <string_view>
+
+#include "core/printable.h"
+
 namespace wholehand {
+namespace {
+
+// Whether a spreadsheet would compute what follows the apostrophes of `cell`.
+bool is_formula(std::string_view cell) {
+  const std::size_t begin = cell.find_first_not_of('\'');
+  return begin != cell.npos && std::string_view("=+-@\t").find(cell[begin]) != std::string_view::npos;
+}
+
+}  // namespace
 
 std::string csv_text(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  const std::string cell = (is_formula(text) ? "'" : "") + printable_lines(text);
+  if (cell.find_first_of(",\"\n") == std::string::npos) return cell;
   std::string quoted = "\"";
-  for (const char c : text) {
+  for (const char c : cell) {
     if (c == '"') quoted += '"';
     quoted += c;
   }
@@ -19,9 +33,13 @@ std::vector<CsvRow> parse_csv(const std::string& text) {
   std::string cell;
   std::size_t line = 1;
   bool is_quoted = false;
-  const auto end_row = [&] {
+  const auto end_cell = [&] {
+    if (cell.starts_with('\'') && is_formula(cell)) cell.erase(0, 1);
     row.cells.push_back(std::move(cell));
     cell.clear();
+  };
+  const auto end_row = [&] {
+    end_cell();
     if (row.cells.size() > 1 || !row.cells[0].empty()) rows.push_back(std::move(row));
     row = {line + 1, {}};
   };
@@ -35,8 +53,7 @@ std::vector<CsvRow> parse_csv(const std::string& text) {
     } else if (c == '"' && cell.empty()) {
       is_quoted = true;
     } else if (c == ',') {
-      row.cells.push_back(std::move(cell));
-      cell.clear();
+      end_cell();
     } else if (c == '\n') {
       end_row();
     } else if (c != '\r') {

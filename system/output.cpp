@@ -12,6 +12,7 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "core/printable.h"
 
 namespace wholehand {
 namespace {
@@ -71,10 +72,18 @@ void prepare_output() {
   replace_stream(stderr, standard_error, _IONBF);
 }
 
-void print(const std::string& text) {
-  std::fwrite(text.data(), 1, text.size(), stdout);
+void print(std::string_view text) {
+  const std::string shown = printable_lines(text);
+  std::fwrite(shown.data(), 1, shown.size(), stdout);
   std::fflush(stdout);
 }
+
+void say_line(std::string_view line) {
+  const std::string shown = one_line(line) + '\n';
+  std::fwrite(shown.data(), 1, shown.size(), stderr);
+}
+
+void say_note(const std::string& line) { say_line("wholehand: " + line); }
 
 bool is_output_abandoned() { return standard_output.failure == EPIPE; }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace wholehand {
 
@@ -11,8 +12,13 @@ namespace wholehand {
 // lost. What standard output does not take is lost too, and finish_output() tells so.
 void prepare_output();
 
-// Writes `text` to standard output at once.
-void print(const std::string& text);
+// Writes `text` to standard output at once. Here and in what follows, what steers a terminal is replaced (core/printable.h): only line feeds and tabs
+// of `text` stay. Nothing else of the program prints, so that no name of a file or a device reaches a terminal as it is.
+void print(std::string_view text);
+
+// Writes one line to standard error at once: as it is, and as a note of the program.
+void say_line(std::string_view line);
+void say_note(const std::string& line);
 
 // Whether standard output is a pipe whose reader has gone, as far as it was noticed: nobody wants to read more. Where printing is all that is
 // left to do, this is the end of it.

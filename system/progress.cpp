@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/printable.h"
+
 namespace wholehand {
 namespace {
 
@@ -35,7 +37,7 @@ std::string Progress::line(const std::string& what, const char* noun, std::uint6
                            double seconds) {
   const double share = total > 0 ? static_cast<double>(done) / static_cast<double>(total) : 1;
   const double rate = seconds > 0 ? static_cast<double>(done - before) / seconds : 0;
-  std::string line = fmt::format("{}  {:.0f} %", what, std::floor(100 * share));
+  std::string line = fmt::format("{}  {:.0f} %", one_line(what), std::floor(100 * share));
   if (rate > 0) line += fmt::format("  {}  {} left", rate_text(rate, noun), time_text(static_cast<double>(total - done) / rate));
   return line;
 }
@@ -59,7 +61,7 @@ void Progress::clear() {
 }
 
 void show_status(const std::string& line) {
-  if (isatty(STDERR_FILENO) != 0) std::fprintf(stderr, "\r\x1b[K%s", line.c_str());
+  if (isatty(STDERR_FILENO) != 0) std::fprintf(stderr, "\r\x1b[K%s", one_line(line).c_str());
 }
 
 }  // namespace wholehand

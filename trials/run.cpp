@@ -9,7 +9,7 @@
 #include <cstdio>
 
 #include "core/parallel.h"
-#include "sweeps/closing.h"
+#include "core/printable.h"
 #include "sweeps/variables.h"
 #include "system/build_id.h"
 #include "system/checksum.h"
@@ -118,7 +118,7 @@ class Trials {
     const TrialIdentity identity = identity_of(scene_, options_, tried_, *engine_);
     if (options_.resume && !begins_with(files.journal, JOURNAL_START)) {
       if (has_finished_trials(options_.folder, identity_text(identity))) {
-        print(fmt::format("{}: these trials are complete; there is nothing to resume\n", options_.folder));
+        print(fmt::format("{}: these trials are complete; there is nothing to resume\n", one_line(options_.folder)));
         return ExitCode::done;
       }
       // who asks to go on does not ask to replace what is whole
@@ -290,8 +290,10 @@ class Trials {
     print(trials_summary(scene_, options_, analysis));
     const auto recordings = static_cast<std::uint64_t>(
         std::count_if(shown.begin(), shown.end(), [](const auto& one) { return !one.recording.empty(); }));
-    print(fmt::format("\nwrote {}, {}, {}{}\n", files.csv, files.nc, files.page,
-                      recordings == 0 ? "" : fmt::format(" and {} of disagreements", counted(recordings, "recording"))));
+    print("\n" +
+          one_line(fmt::format("wrote {}, {}, {}{}", files.csv, files.nc, files.page,
+                               recordings == 0 ? "" : fmt::format(" and {} of disagreements", counted(recordings, "recording")))) +
+          "\n");
     return true;
   }
 

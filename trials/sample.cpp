@@ -11,9 +11,9 @@
 #include "core/error.h"
 #include "core/random_bits.h"
 #include "shaders/layout.h"
-#include "sweeps/closing.h"
 #include "sweeps/hand_lists.h"
 #include "sweeps/list_chooser.h"
+#include "system/output.h"
 #include "system/progress.h"
 #include "system/readable.h"
 

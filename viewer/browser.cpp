@@ -26,11 +26,10 @@ bool is_set(const char* name) {
 bool has_desktop() { return (is_set("DISPLAY") || is_set("WAYLAND_DISPLAY")) && isatty(STDOUT_FILENO) && geteuid() != 0; }
 
 BrowserWindow::BrowserWindow(const std::string& address, bool on_standard_error) {
-  const std::string line = fmt::format("view: {}\n", address);
   if (on_standard_error) {
-    std::fputs(line.c_str(), stderr);
+    say_line("view: " + address);
   } else {
-    print(line);
+    print(fmt::format("view: {}\n", address));
   }
   if (has_desktop()) open(address);
 }

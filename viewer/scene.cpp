@@ -14,6 +14,7 @@
 #include "core/mesh_body.h"
 #include "core/outline_points.h"
 #include "core/prepare.h"
+#include "core/printable.h"
 #include "core/vectors.h"
 #include "grips/hand_nodes.h"
 #include "live/hand_view.h"
@@ -91,9 +92,9 @@ void append_number(std::string& bytes, std::uint32_t number) {
 
 std::string view_scene_json(const Scene& scene, const ViewFacts& facts) {
   Json json{{"mode", MODES[static_cast<std::size_t>(facts.mode)]},
-            {"title", facts.title},
+            {"title", one_line(facts.title)},
             {"version", version()},
-            {"device", facts.device},
+            {"device", one_line(facts.device)},
             {"handedness", scene.hand.handedness == Handedness::left ? "left" : "right"},
             {"control", !facts.control_limits.empty()}};
   if (!facts.control_limits.empty()) json["control_limits"] = parse_ordered_json(facts.control_limits);

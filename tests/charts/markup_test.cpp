@@ -37,7 +37,8 @@ TEST(MarkupEscaped, ReplacesWhatXmlCannotHold) {
       {"\xed\xa0\x80", replacement + replacement + replacement},  // half of a pair
       {"\xef\xbf\xbf", replacement + replacement + replacement},  // U+FFFF
       {"\xf5\x80\x80\x80", replacement + replacement + replacement + replacement},
-      {"\xc2\x85", replacement + replacement},  // a control character of two bytes
+      {"\xc2\x85", replacement + replacement},              // a control character of two bytes
+      {"\u202e", replacement + replacement + replacement},  // which turns a line round
   };
   for (const auto& [text, safe] : cases) EXPECT_EQ(markup_escaped(text), safe);
 }

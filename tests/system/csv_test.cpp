@@ -18,7 +18,7 @@ TEST(Csv, CellsAreQuotedWhereTheyMustBe) {
 }
 
 TEST(Csv, RowsAreReadAsTheyWereWritten) {
-  const std::vector<std::string> cells{"a", "", "core, 2 threads", "a \"b\"", "two\nlines", "é"};
+  const std::vector<std::string> cells{"a", "", "core, 2 threads", "a \"b\"", "two\nlines", "é", "=1", "-", "'@x"};
   std::string line;
   for (const std::string& cell : cells) line += (line.empty() ? "" : ",") + csv_text(cell);
   for (const std::string& text : {line, line + "\n", "\xEF\xBB\xBF" + line + "\r\n\r\n"}) {
@@ -27,6 +27,18 @@ TEST(Csv, RowsAreReadAsTheyWereWritten) {
     EXPECT_EQ(rows[0].cells, cells) << text;
   }
 }
+
+TEST(Csv, NoTextIsAFormula) {
+  for (const char* text : {"=1+1", "+1", "-1", "@SUM(A1)", "\tx", "'=1", "''-1"}) {
+    EXPECT_EQ(csv_text(text), "'" + std::string(text));
+    EXPECT_EQ(parse_csv(csv_text(text))[0].cells[0], text) << "the reader takes it off again";
+  }
+  EXPECT_EQ(csv_text("=\"a\",b"), "\"'=\"\"a\"\",b\"");
+  for (const char* text : {"a=1", "'a", "'", "1-2", " =1"}) EXPECT_EQ(csv_text(text), text);
+  EXPECT_EQ(parse_csv("-1.5,'a,+2")[0].cells, (std::vector<std::string>{"-1.5", "'a", "+2"})) << "numbers and others stay";
+}
+
+TEST(Csv, NoTextSteersATerminal) { EXPECT_EQ(csv_text("a\x1b[31m\xc2\x9b\xe2\x80\xae\r"), "a\\x1b[31m\\u009b\\u202e\\x0d"); }
 
 TEST(Csv, RowsKnowTheirLines) {
   const auto rows = parse_csv("a,b\n\n\"two\nlines\",c\r\nd");

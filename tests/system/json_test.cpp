@@ -33,5 +33,12 @@ TEST(JsonText, OfBytesThatAreNoUtf8IsWritten) {
   EXPECT_EQ(json_text(nlohmann::ordered_json(name)), "\"m\xef\xbf\xbd.nc\"");
 }
 
+TEST(JsonText, SteersNothing) {
+  const std::string name = "a\x1b\x7f\xc2\x9b\xe2\x80\xae\xc3\xa4";
+  const std::string text = json_text(nlohmann::json{{name, name}});
+  EXPECT_EQ(text, "{\"a\\u001b\\u007f\\u009b\\u202e\xc3\xa4\":\"a\\u001b\\u007f\\u009b\\u202e\xc3\xa4\"}");
+  EXPECT_EQ(parse_json(text)[name], name) << "and stays what it is";
+}
+
 }  // namespace
 }  // namespace wholehand

@@ -17,6 +17,10 @@ TEST(Progress, LineSaysShareRateAndTimeLeft) {
   EXPECT_EQ(Progress::line("b", "grips", 100000000, 0, 12345, 1), "b  0 %  12.3 thousand grips/s  2:15:00 left");
 }
 
+TEST(Progress, NoNameSteersTheTerminal) {
+  EXPECT_EQ(Progress::line("a\x1b[2J\r\xc2\x9b", "grips", 10, 0, 0, 1), "a\\x1b[2J\\x0d\\u009b  0 %");
+}
+
 TEST(Progress, WhatWasThereBeforeSaysNothingAboutTheRate) {
   EXPECT_EQ(Progress::line("b", "grips", 1000, 500, 600, 1), "b  60 %  100 grips/s  0:04 left");
   EXPECT_EQ(Progress::line("b", "grips", 1000, 500, 500, 1), "b  50 %") << "no rate yet";
