@@ -79,7 +79,7 @@ std::optional<GripInput> grip_of_tips(const std::array<Vec3, 2>& tips, const Mat
 }
 
 std::optional<Approach> approach_of(const LiveScene& live, const Tick& tick, const VesselPoses& poses) {
-  if (tick.state == SessionState::released || tick.state == SessionState::slipped) return std::nullopt;
+  if (tick.state == SessionState::released || is_returning(tick.state)) return std::nullopt;
   const int vessel = vessel_of(live, tick, poses);
   if (vessel < 0) return std::nullopt;
   const Handedness handedness = live.scene.hand.handedness;

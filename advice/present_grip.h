@@ -25,7 +25,7 @@ struct Approach {
 
 // Of the vessel that is touched or held, else of the nearest one with both tips no further than NEAR_VESSEL from its surface.
 // Nothing where there is none, where the line of the tips passes further over or under it than grips reach, where a session is
-// over, or where a vessel slips.
+// over, or where a vessel returns to where it stood.
 std::optional<Approach> approach_of(const LiveScene& live, const Tick& tick, const VesselPoses& poses);
 
 constexpr double NEAR_VESSEL = 0.2;  // m

@@ -81,6 +81,7 @@ RecordingInfo info_of(const Scene& scene, const GripperLimits& gripper, const Li
   info.seed = options.seed;
   info.person = options.person;
   info.rate = scene.live.rate;
+  info.has_clock = !options.no_clock;
   info.device = {gripper.name, gripper.address, gripper.force,        gripper.grip,
                  gripper.gap,  gripper.rate,    gripper.has_rotation, gripper.is_left_handed};
   for (const VesselData& vessel : scene.vessels) {

@@ -289,7 +289,7 @@ SimWish SimUser::next(const SimSense& sense, double seconds) noexcept {
   if (is_done()) return wish_;
   time_ += seconds;
   const bool should_hold = phase_ >= Phase::settle && phase_ < Phase::open;
-  if (should_hold && time_ > LOOKS && sense.state == SessionState::slipped) fail();
+  if (should_hold && time_ > LOOKS && is_returning(sense.state)) fail();
   const double part = lasts_ > 0 ? time_ / lasts_ : 1;
   const Vec3 before = wish_.middle;
   const double gap_before = wish_.gap;

@@ -65,10 +65,10 @@ void Session::step(const GripperState& state, std::int64_t number, Tick& tick) n
   if (is_held(state_)) {
     hold(pose, state.gap, seconds_, tick);
   } else {
-    if (state_ == SessionState::slipped) come_back(tick);
+    if (is_returning(state_)) come_back(tick);
     settle_vessels();
     approach(pose, tick);
-    if (state_ != SessionState::slipped && grasp(pose, state.gap, tick)) hold(pose, state.gap, 0, tick);
+    if (!is_returning(state_) && grasp(pose, state.gap, tick)) hold(pose, state.gap, 0, tick);
   }
   tick.state = state_;
   tick.vessel = vessel_;
@@ -92,7 +92,7 @@ void Session::step(const GripperState& state, std::int64_t number, Tick& tick) n
 void Session::settle_vessels() noexcept {
   for (int v = 0; v < obstacles_.count; ++v) {
     auto& standing = obstacles_.standing[v];
-    if (!standing.is_solid && !(state_ == SessionState::slipped && v == vessel_)) standing.is_solid = is_left(standing);
+    if (!standing.is_solid && !(is_returning(state_) && v == vessel_)) standing.is_solid = is_left(standing);
   }
 }
 
@@ -109,7 +109,7 @@ bool Session::is_left(const Obstacles::Standing& standing) const noexcept {
 void Session::approach(const HandPose& pose, Tick& tick) noexcept {
   const LiveData& live = live_->scene.live;
   const double friction = live_->scene.force.friction;
-  if (state_ != SessionState::slipped) {
+  if (!is_returning(state_)) {
     state_ = SessionState::free;
     vessel_ = -1;
   }
@@ -119,7 +119,7 @@ void Session::approach(const HandPose& pose, Tick& tick) noexcept {
     const Proxy& proxy = proxies_[k];
     const NearestVessel nearest = nearest_vessel(obstacles_, tips_[k], radii_[k]);
     const bool touches = proxy.vessel >= 0 || nearest.separation <= live_->hand.contact_tolerance;
-    if (touches && state_ != SessionState::slipped) {
+    if (touches && !is_returning(state_)) {
       state_ = SessionState::touching;
       vessel_ = proxy.vessel >= 0 ? proxy.vessel : nearest.vessel;
       tell_vessel({obstacles_.standing[vessel_].place, Mat3(1)}, tick);
@@ -238,8 +238,8 @@ void Session::hold(const HandPose& pose, double device_gap, double seconds, Tick
   note_delivery(vessel.place);
   tell_held(vessel, load.mass, held, tick);
   // an open hand lets go in this very tick: nothing of the vessel is felt any more
-  if (has_let_go(device_gap)) slip(vessel);
-  if (state_ == SessionState::slipped) {
+  if (is_open(device_gap)) leave(vessel);
+  if (is_returning(state_)) {
     tick.wanted = {};
     tick.feedback = tick.user_force = 0;
     tick.weight = 0;
@@ -303,7 +303,7 @@ void Session::tell_held(const Pose& vessel, double mass, const core_f64::HeldFor
   tell_vessel(vessel, tick);
 }
 
-bool Session::has_let_go(double device_gap) const noexcept {
+bool Session::is_open(double device_gap) const noexcept {
   const std::array<double, 2> range = workspace_.device_gap();
   // of a vessel that the hand can hardly span it takes half of what is left: its noise opens no fingers
   const double open = std::max(range[1] - OPEN_MARGIN * (range[1] - range[0]), 0.5 * (grasp_.device_gap + range[1]));
@@ -330,17 +330,19 @@ SessionState Session::turning(double tilt) noexcept {
   return is_turning_ ? SessionState::tilt : rest_;
 }
 
-void Session::slip(const Pose& pose) noexcept {
+// Put down where it stood or at its destination, or lost.
+void Session::leave(const Pose& pose) noexcept {
   Vec3& home = obstacles_.standing[vessel_].place;
+  state_ = SessionState::let_go;
   if (grasp_.is_delivered &&
       glm::length(pose.place - workspace_.across(to_vec3(live_->scene.task->destination))) <= DESTINATION_RADIUS) {
     home = workspace_.across(to_vec3(live_->scene.task->destination));
   } else if (glm::length(pose.place - home) > PUT_DOWN) {
     ++lost_;
+    state_ = SessionState::slipped;
   }
-  state_ = SessionState::slipped;
-  slipped_from_ = pose;
-  slipped_for_ = 0;
+  left_at_ = pose;
+  left_for_ = 0;
   for (int k = 0; k < 2; ++k) proxies_[k] = {tips_[k], {}, -1, -1};
   // a hand that holds goes through other vessels: those that it is in now are felt when it has left them
   for (int v = 0; v < obstacles_.count; ++v)
@@ -349,14 +351,14 @@ void Session::slip(const Pose& pose) noexcept {
 
 // Back to where it stood, upright; then it waits there until the fingers have left it.
 void Session::come_back(Tick& tick) noexcept {
-  slipped_for_ += seconds_;
-  const double way = minimum_jerk(slipped_for_ / RETURN_TIME);
+  left_for_ += seconds_;
+  const double way = minimum_jerk(left_for_ / RETURN_TIME);
   const auto& standing = obstacles_.standing[vessel_];
   Pose pose;
-  pose.place = glm::mix(slipped_from_.place, standing.place, way);
+  pose.place = glm::mix(left_at_.place, standing.place, way);
   if (way < 1) {
     const auto upright = glm::identity<glm::dquat>();
-    pose.rotation = glm::mat3_cast(glm::slerp(glm::quat_cast(slipped_from_.rotation), upright, way));
+    pose.rotation = glm::mat3_cast(glm::slerp(glm::quat_cast(left_at_.rotation), upright, way));
   }
   tell_vessel(pose, tick);
   tick.tilt = std::acos(std::clamp(pose.rotation[1].y, -1.0, 1.0));

@@ -69,9 +69,9 @@ class Session {
   core_f64::Load run_liquid(const Pose& vessel, const Leaning& leaning, double seconds, Tick& tick) noexcept;
   void note_delivery(core_f64::Vec3 place) noexcept;
   void tell_held(const Pose& vessel, double mass, const core_f64::HeldForces& held, Tick& tick) const noexcept;
-  bool has_let_go(double device_gap) const noexcept;
+  bool is_open(double device_gap) const noexcept;
   SessionState turning(double tilt) noexcept;
-  void slip(const Pose& pose) noexcept;
+  void leave(const Pose& pose) noexcept;
   void come_back(Tick& tick) noexcept;
   void settle_vessels() noexcept;
   bool is_left(const Obstacles::Standing& standing) const noexcept;
@@ -96,8 +96,8 @@ class Session {
   SessionState rest_ = SessionState::lift;  // when it does not turn
   double rested_at_ = 0;                    // rad: tilt at which it came to rest
   double turn_from_ = 0, turn_time_ = 0;    // rad, s: since when it has not changed while it turns, and for how long
-  Pose slipped_from_;
-  double slipped_for_ = 0;  // s
+  Pose left_at_;
+  double left_for_ = 0;  // s
   bool is_tutored_ = false;
   int grasps_ = 0, lost_ = 0, destinations_ = 0;
 };

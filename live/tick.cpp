@@ -3,8 +3,8 @@
 
 namespace wholehand {
 
-const std::array<const char*, SESSION_STATES> SESSION_STATE_NAMES{"free",     "touching", "lift",    "tilt",
-                                                                  "maintain", "slipped",  "released"};
+const std::array<const char*, SESSION_STATES> SESSION_STATE_NAMES{"free",     "touching", "lift",     "tilt",
+                                                                  "maintain", "slipped",  "released", "let go"};
 const std::array<const char*, FAULTS> FAULT_NAMES{"none", "read error",  "timeout", "stale",     "not finite",
                                                   "jump", "write error", "late",    "ring full", "interrupted"};
 

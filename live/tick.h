@@ -35,14 +35,16 @@ struct GripperForce {
 };
 
 // free: nothing is touched. touching: a tracked tip is on a vessel. Held is lift (upright since the grasp or again, within 5 degrees),
-// tilt (turning by 5 degrees or more within half a second) or maintain (tilted and still). slipped: the vessel returns to where it
-// stood, or the fingers have not left it since. released: no force any more.
-enum class SessionState : std::uint8_t { free, touching, lift, tilt, maintain, slipped, released };
-constexpr int SESSION_STATES = 7;
+// tilt (turning by 5 degrees or more within half a second) or maintain (tilted and still). slipped, let_go: the vessel was lost, or was put
+// down; it returns to where it stood, or the fingers have not left it since. released: no force any more.
+enum class SessionState : std::uint8_t { free, touching, lift, tilt, maintain, slipped, released, let_go };
+constexpr int SESSION_STATES = 8;
 extern const std::array<const char*, SESSION_STATES> SESSION_STATE_NAMES;
 constexpr bool is_held(SessionState state) {
   return state == SessionState::lift || state == SessionState::tilt || state == SessionState::maintain;
 }
+
+constexpr bool is_returning(SessionState state) { return state == SessionState::slipped || state == SessionState::let_go; }
 
 // Why a session let go.
 enum class Fault : std::uint8_t {
@@ -70,7 +72,7 @@ struct Tick {
   GripperState device;  // as read
 
   SessionState state = SessionState::free;
-  int vessel = -1;  // touched, held or slipping; -1: none
+  int vessel = -1;  // touched, held or on its way back; -1: none
   int guidance =
       -1;  // number of the guidance point that is shown on each vessel that has any (modulo their count); -1 without a task
 
@@ -83,7 +85,7 @@ struct Tick {
   // of the pose that is kept while held: which joints touch (bit j) and which fingers are used (bit f)
   std::uint32_t touch_mask = 0, used_mask = 0;
 
-  // ---- the vessel that is touched, held or slipping, world frame ----
+  // ---- the vessel that is touched, held or on its way back, world frame ----
   Triple vessel_place{};                  // of its origin, m
   Rotation vessel_rotation{NO_ROTATION};  // vessel to world
   double tilt = 0;                        // between its axis and up, rad

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Where every vessel of a live session is. A tick tells only of the vessel that is touched, held or slipping; the others stand where they were
+// Where every vessel of a live session is. A tick tells only of the vessel that is touched, held or on its way back; the others stand where they were
 // seen last.
 #pragma once
 

@@ -165,10 +165,11 @@ void bind_step(py::module_& module) {
       .def_property_readonly("tick", number(&Tick::number), "Number of the period.")
       .def_property_readonly(
           "state", [](const Step& step) { return SESSION_STATE_NAMES[static_cast<std::size_t>(step.tick.state)]; },
-          "\"free\", \"touching\", \"lift\", \"tilt\", \"maintain\", \"slipped\" or \"released\".")
+          "\"free\", \"touching\", \"lift\", \"tilt\", \"maintain\", \"slipped\", \"let go\" or \"released\".")
       .def_property_readonly(
           "is_held", [](const Step& step) { return is_held(step.tick.state); }, "Whether a vessel is held.")
-      .def_property_readonly("vessel", &Step::vessel, "Name of the vessel that is touched, held or slipping; None: there is none.")
+      .def_property_readonly("vessel", &Step::vessel,
+                             "Name of the vessel that is touched, held or on its way back; None: there is none.")
       .def_property_readonly(
           "arm_force", [](const Step& step) { return array_of(step.tick.wanted.arm); },
           "What the arm is to render, N, device frame, shape (3,). The caller limits it to what the gripper can do.")

@@ -73,7 +73,7 @@ std::vector<RecordedField> make_recorded_fields() {
                offsetof(Tick, device.time)),
       // ---- the session ----
       flag_of("state", "state of the session", SESSION_STATE_NAMES, offsetof(Tick, state)),
-      integer_of("vessel_index", "vessel that is touched, held or slipping", "-1: none", -1, LIVE_VESSELS - 1,
+      integer_of("vessel_index", "vessel that is touched, held or on its way back", "-1: none", -1, LIVE_VESSELS - 1,
                  offsetof(Tick, vessel)),
       integer_of("guidance_index", "guidance point that is shown", "modulo their count on each vessel; -1: none", -1, LARGEST_INT,
                  offsetof(Tick, guidance)),

@@ -68,6 +68,7 @@ class LayoutBuilder {
         classic::text_attribute("scene", info_.scene_text),
         classic::text_attribute("seed", fmt::format("{}", info_.seed)),  // classic files have no 64-bit integers
         classic::number_attribute("rate_Hz", {info_.rate}),
+        classic::integer_attribute("has_clock", {info_.has_clock}),
         classic::text_attribute("device", device.name),
         classic::text_attribute("device_address", device.address),
         classic::number_attribute("device_arm_force_N", {device.force}),
@@ -315,6 +316,7 @@ RecordingInfo info_of(const Header& header, const FixedValues& fixed_values) {
   if (header.attribute("person")) info.person = recorded_integer(header, "person");
   info.rate = recorded_number(header, "rate_Hz");
   if (!(info.rate > 0 && info.rate <= LARGEST_RATE)) throw usage_error(fmt::format("has an impossible rate of {} Hz", info.rate));
+  if (header.attribute("has_clock")) info.has_clock = recorded_yes(header, "has_clock");
   const auto gap = recorded_numbers(header, "device_gap_m", 2);
   info.device = {recorded_line(header, "device"),
                  recorded_line(header, "device_address"),

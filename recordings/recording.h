@@ -46,6 +46,7 @@ struct RecordingInfo {
   std::uint64_t seed = 0;
   std::optional<std::uint64_t> person;  // number of the virtual person who grips with a hand of their own, drawn by `seed`
   double rate = 1000;                   // of the force loop, Hz
+  bool has_clock = true;                // false: simulated time, in which no tick is late
   RecordedDevice device;
   std::vector<RecordedVessel> vessels;  // 1 to LIVE_VESSELS
   double force_base = Tick::NONE;       // F_base, N

@@ -108,9 +108,12 @@ std::string session_json(const SessionReport& report) {
   for (const GraspSummary& summary : report.vessels) json["vessels"].push_back(summary_json(summary));
   json["amounts"] = SessionJson::array();
   for (const PouredAmount& amount : report.amounts) json["amounts"].push_back(amount_json(amount));
-  json["timing_s"] = {{"period", percentiles_json(report.period)},
-                      {"step", percentiles_json(report.step)},
-                      {"latency", percentiles_json(report.latency)}};
+  json["has_clock"] = report.info.has_clock;
+  json["timing_s"] = nullptr;
+  if (report.info.has_clock)
+    json["timing_s"] = {{"period", percentiles_json(report.period)},
+                        {"step", percentiles_json(report.step)},
+                        {"latency", percentiles_json(report.latency)}};
   json["ticks"] = report.ticks;
   json["missed_periods"] = report.missed;
   return json_text(json);

@@ -34,7 +34,8 @@ const std::vector<StateShade>& state_shades() {
   static const std::vector<StateShade> shades{
       {SessionState::touching, tint(okabe_ito::BLACK, 0.075), ""},    {SessionState::lift, tint(okabe_ito::SKY_BLUE, 0.28), "L"},
       {SessionState::tilt, tint(okabe_ito::ORANGE, 0.45), "T"},       {SessionState::maintain, tint(okabe_ito::GREEN, 0.34), "M"},
-      {SessionState::slipped, tint(okabe_ito::VERMILION, 0.45), "S"}, {SessionState::released, tint(okabe_ito::BLACK, 0.26), "R"}};
+      {SessionState::slipped, tint(okabe_ito::VERMILION, 0.45), "S"}, {SessionState::let_go, tint(okabe_ito::BLUE, 0.3), "G"},
+      {SessionState::released, tint(okabe_ito::BLACK, 0.26), "R"}};
   return shades;
 }
 

@@ -125,6 +125,10 @@ void write_amounts(std::string& out, const SessionReport& report) {
 
 void write_timing(std::string& out, const SessionReport& report) {
   append_formatted(out, "\n");
+  if (!report.info.has_clock) {
+    append_formatted(out, "timing: none, as the session ran without a clock; ticks recorded {}\n", report.ticks);
+    return;
+  }
   ColumnTable table;
   table.row({"timing, us", "median", "99 %", "99.9 %", "largest"});
   const auto row = [&table](const char* name, const Percentiles& p) {

@@ -93,6 +93,7 @@ RecordingInfo info_of_trial(const Scene& scene, const std::string& engine, const
   info.scene_text = text_of_one_vessel(scene, grip.vessel);
   info.version = version();
   info.rate = TICK_RATE;
+  info.has_clock = false;
   info.device.name = TRIAL_DEVICE + engine;
   info.device.gap = {0, gap};
   info.device.rate = TICK_RATE;

@@ -29,8 +29,8 @@ struct ViewFrame {
     std::optional<LiquidSurface> surface;
   };
   struct Timing {
-    double rate = 0;  // Hz, of the loop
-    double step = 0;  // s
+    double rate = 0;  // Hz, of the loop; NaN: it has no clock
+    double step = 0;  // s; likewise
     std::int64_t missed = 0;
   };
 

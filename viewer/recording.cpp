@@ -50,6 +50,10 @@ ViewFrame::Timing RecordingView::timing_of(std::size_t tick) const {
   const std::vector<Tick>& ticks = recording_.ticks;
   const double rate = recording_.info.rate;
   ViewFrame::Timing timing;
+  if (!recording_.info.has_clock) {
+    timing.rate = timing.step = Tick::NONE;
+    return timing;
+  }
   timing.step = ticks[tick].step_time;
   timing.missed = ticks[tick].number - ticks[0].number - static_cast<std::int64_t>(tick);
   // of the second before

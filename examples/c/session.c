@@ -9,7 +9,7 @@
 
 #include <wholehand/wholehand.h>
 
-static const char* const STATES[] = {"free", "touching", "lift", "tilt", "maintain", "slipped", "released"};
+static const char* const STATES[] = {"free", "touching", "lift", "tilt", "maintain", "slipped", "released", "let go"};
 
 static void must(wh_status status) {
   if (status == WH_OK) return;

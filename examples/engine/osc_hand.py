@@ -15,7 +15,7 @@ import struct
 import sys
 import time
 
-STATES = ["free", "touching", "lift", "tilt", "maintain", "slipped", "released"]
+STATES = ["free", "touching", "lift", "tilt", "maintain", "slipped", "released", "let go"]
 HELD = (2, 3, 4)
 RELEASED = 6
 SILENCE = 0.05  # s without a force after which a hand must let go: the other side is gone

@@ -261,7 +261,7 @@ class Wholehand {
   }
 
   static Variant told(const wh_session_output& out, std::int64_t tick) {
-    static const char* const names[] = {"free", "touching", "lift", "tilt", "maintain", "slipped", "released"};
+    static const char* const names[] = {"free", "touching", "lift", "tilt", "maintain", "slipped", "released", "let go"};
     // a later library may know more states
     const auto state = static_cast<std::size_t>(out.state);
     const char* name = state < std::size(names) ? names[state] : "other";

@@ -246,13 +246,14 @@ typedef struct wh_measurement {
 } wh_measurement;
 
 /* What a session does: nothing is touched; a tip is on a vessel; held and upright; held and turning; held, tilted and still;
- * let go, and the vessel returns to where it stood; WH_RELEASED is a state of `wholehand live` alone. Other numbers may join. */
-enum { WH_FREE, WH_TOUCHING, WH_LIFT, WH_TILT, WH_MAINTAIN, WH_SLIPPED, WH_RELEASED };
+ * lost, and the vessel returns to where it stood; WH_RELEASED is a state of `wholehand live` alone; put down where it stood or at its
+ * destination, where the vessel goes now. Other numbers may join. */
+enum { WH_FREE, WH_TOUCHING, WH_LIFT, WH_TILT, WH_MAINTAIN, WH_SLIPPED, WH_RELEASED, WH_LET_GO };
 
 typedef struct wh_session_output {
   size_t size;
   int32_t state;                      /* WH_FREE .. */
-  int32_t vessel;                     /* touched, held or slipping; -1: none */
+  int32_t vessel;                     /* touched, held or on its way back; -1: none */
   double arm_force[3];                /* to be rendered, device frame; the method's own, without limits, ramp and slew */
   double grip_force;                  /* on each finger; positive opens */
   double normal_force;                /* F_n of the method, with F_base */

@@ -221,7 +221,7 @@ TEST(SimGripper, EachBeakerIsLiftedTiltedPouredAndReturned) {
   for (const int vessel : {1, 2, 3}) {
     const std::vector<SessionState> states = states_of(session, vessel);
     const std::set<SessionState> seen(states.begin(), states.end());
-    for (const SessionState state : {SessionState::lift, SessionState::tilt, SessionState::maintain, SessionState::slipped})
+    for (const SessionState state : {SessionState::lift, SessionState::tilt, SessionState::maintain, SessionState::let_go})
       EXPECT_TRUE(seen.count(state)) << vessel << " was never in state " << SESSION_STATE_NAMES[static_cast<std::size_t>(state)];
     double poured = 0, highest = 0, steepest = 0;
     Triple place{};

@@ -255,7 +255,9 @@ TEST(ViewGripper, PostedControlsGraspLiftTiltAndPour) {
       most = std::max(most, tick.written.grip);
       tilt = std::max(tilt, tick.tilt);
     }
-    for (int s = 0; s < SESSION_STATES; ++s) EXPECT_TRUE(states.count(static_cast<SessionState>(s))) << SESSION_STATE_NAMES[s];
+    for (int s = 0; s < SESSION_STATES; ++s)  // the vessel is let go in the air, and so slips
+      EXPECT_EQ(states.count(static_cast<SessionState>(s)) > 0, static_cast<SessionState>(s) != SessionState::let_go)
+          << SESSION_STATE_NAMES[s];
     EXPECT_EQ(report.last.grasps, 1);
     EXPECT_GT(most, 0.8) << "F_base at least is shown";
     EXPECT_NEAR(tilt, script.tilt, radians(0.5)) << "it rests there for 48 time constants";

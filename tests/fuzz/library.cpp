@@ -294,7 +294,7 @@ class Program {
       const wh_session_output told = out.value();
       for (const double force : {told.arm_force[0], told.arm_force[1], told.arm_force[2], told.grip_force, told.weight})
         must(std::isfinite(force), "a force that is not finite");
-      must(told.state >= WH_FREE && told.state <= WH_RELEASED, "a state that cannot be");
+      must(told.state >= WH_FREE && told.state <= WH_LET_GO, "a state that cannot be");
     }
     Sized<wh_hand> hand(take_, true);
     if (said(wh_session_hand(session, hand.get())) == WH_OK && hand.is_whole()) {

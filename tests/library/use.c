@@ -393,7 +393,7 @@ static void sessions(void) {
   FAILS(WH_ARGUMENT, "before the first step", wh_session_hand(session, &hand));
   CHECK(wh_session_vessel_at(session, 0, &vessel) == WH_OK && fabs(vessel.volume / facts.capacity - 0.5) < 1e-12);
   const double water = vessel.volume, weight = GRAVITY * (facts.mass + 1000 * water);
-  int seen[WH_RELEASED + 1] = {0};
+  int seen[WH_LET_GO + 1] = {0};
   const long before = asked;
   for (int64_t tick = 0; tick < 6000; ++tick) {
     const wh_measurement in = moment(tick);

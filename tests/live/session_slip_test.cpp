@@ -34,16 +34,16 @@ TEST(Session, LettingGoWithinAnotherVesselPushesNobody) {
     const double gap = t < 1.05 ? out : std::min(range[1], 0.09 + 0.2 * (t - 1.05));
     return gripper_at(Vec3(x, 0.055, z), gap);
   };
-  bool was_held = false, slipped = false;
+  bool was_held = false, lost = false;
   for (const Tick& tick : play_session(scene, at, 2000)) {
     was_held = was_held || is_held(tick.state);
-    slipped = slipped || tick.state == SessionState::slipped;
+    lost = lost || tick.state == SessionState::slipped;
     if (was_held && !is_held(tick.state)) {
       for (int k = 0; k < 2; ++k) ASSERT_LT(glm::length(to_vec3(tick.coupling[k])), 1e-9) << tick.number;
     }
   }
   EXPECT_TRUE(was_held);
-  EXPECT_TRUE(slipped);
+  EXPECT_TRUE(lost);
 }
 
 // Kernel 3's too_wide: tips that touch at more than the hand can open hold nothing.
@@ -127,7 +127,7 @@ TEST(Session, AVesselThatCameBackWaitsForTheFingersToLeave) {
   const std::vector<Tick> record = play_session(scene, at, 4200);
   EXPECT_TRUE(is_held(record[2455].state));
   for (std::int64_t n = 2461; n <= 4000; ++n) {
-    ASSERT_EQ(record[static_cast<std::size_t>(n)].state, SessionState::slipped) << n;
+    ASSERT_EQ(record[static_cast<std::size_t>(n)].state, SessionState::let_go) << n;
     ASSERT_EQ(record[static_cast<std::size_t>(n)].wanted.grip, 0);
   }
   EXPECT_EQ(record.back().state, SessionState::free);
@@ -163,7 +163,7 @@ TEST(Session, NoiseOpensNoFingers) {
   };
   const std::vector<Tick> record = play_session(scene, at, 1000);
   for (std::size_t n = 150; n < 900; ++n) ASSERT_TRUE(is_held(record[n].state)) << n;
-  EXPECT_EQ(record[950].state, SessionState::slipped);
+  EXPECT_EQ(record[950].state, SessionState::let_go);
 }
 
 }  // namespace

@@ -84,6 +84,7 @@ TEST(Recording, GivesBackWhatIsKnownOfTheSession) {
   EXPECT_EQ(got.seed, info.seed);
   EXPECT_FALSE(got.person);
   EXPECT_EQ(got.rate, info.rate);
+  EXPECT_EQ(got.has_clock, info.has_clock);
   EXPECT_EQ(got.device.name, "omega.7");
   EXPECT_EQ(got.device.address, "hid:/dev/hidraw0");
   EXPECT_EQ(got.device.force, 12);

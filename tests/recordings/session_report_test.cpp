@@ -23,7 +23,7 @@ TEST(SessionReport, TimesOfStatesAndGrasps) {
   session.stretch(1, SessionState::tilt).skip(100).stretch(3, SessionState::maintain).stretch(0.125, SessionState::free);
   session.stretch(0.25, SessionState::released);
   const SessionReport report = session.report();
-  const double expected[] = {0.625, 0.25, 1.5, 3.1, 3, 0, 0.25};
+  const double expected[] = {0.625, 0.25, 1.5, 3.1, 3, 0, 0.25, 0};
   for (std::size_t k = 0; k < SESSION_STATES; ++k)
     EXPECT_NEAR(report.time_in_state[k], expected[k], 1e-9) << SESSION_STATE_NAMES[k];
   EXPECT_NEAR(report.duration, 8.725, 1e-9);
@@ -166,8 +166,8 @@ TEST(SessionReport, HowGraspsEnd) {
   RecordedSession session;
   session.hold(0).stretch(0.2, SessionState::lift).stretch(0.2, SessionState::free);  // let go
   session.hold(1).stretch(0.2, SessionState::lift).with([](Tick& tick) { ++tick.lost; });
-  session.stretch(0.2, SessionState::slipped).stretch(0.1, SessionState::free);          // lost
-  session.hold(0).stretch(0.2, SessionState::lift).stretch(0.2, SessionState::slipped);  // set down
+  session.stretch(0.2, SessionState::slipped).stretch(0.1, SessionState::free);         // lost
+  session.hold(0).stretch(0.2, SessionState::lift).stretch(0.2, SessionState::let_go);  // set down
   session.hold(0).stretch(0.2, SessionState::lift).with([](Tick& tick) { tick.fault = Fault::jump; });
   session.stretch(0.2, SessionState::released).with([](Tick& tick) { tick.fault = Fault::none; });  // released
   session.hold(0).stretch(0.2, SessionState::lift);
@@ -338,6 +338,20 @@ TEST(SessionReport, TableCsvAndJsonSayTheSame) {
   const std::string states = states_csv(report);
   EXPECT_NE(states.find("\n1.2,2,tilt,one\n"), std::string::npos) << states;
   EXPECT_NE(states.find("\n0,0.2,free,\n"), std::string::npos) << states;
+}
+
+TEST(SessionReport, WithoutAClockThereIsNoTiming) {
+  RecordedSession session;
+  session.stretch(0.5, SessionState::free);
+  EXPECT_NE(session_table(session.report()).find("timing, us"), std::string::npos);
+  EXPECT_TRUE(parse_json(session_json(session.report()))["timing_s"]["period"].contains("p50"));
+  session.recording.info.has_clock = false;
+  const std::string table = session_table(session.report());
+  EXPECT_EQ(table.find("timing, us"), std::string::npos) << table;
+  EXPECT_NE(table.find("timing: none, as the session ran without a clock; ticks recorded 500\n"), std::string::npos) << table;
+  const auto json = parse_json(session_json(session.report()));
+  EXPECT_TRUE(json["timing_s"].is_null());
+  EXPECT_EQ(json["has_clock"], false);
 }
 
 TEST(TurningBack, IsZeroForOneWay) {

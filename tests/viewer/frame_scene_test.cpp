@@ -61,7 +61,7 @@ TEST(ViewScene, TellsWhatDoesNotChange) {
   EXPECT_EQ(seen["force"], json({{"base", 0.8}, {"max", 8.0}, {"most", 8.0}})) << "no gripper says less";
   facts.most_force = 5;
   EXPECT_EQ(parse_json(view_scene_json(scene, facts))["force"]["most"], 5.0);
-  EXPECT_EQ(seen["states"], json({"free", "touching", "lift", "tilt", "maintain", "slipped", "released"}));
+  EXPECT_EQ(seen["states"], json({"free", "touching", "lift", "tilt", "maintain", "slipped", "released", "let go"}));
 }
 
 TEST(ViewScene, StrengthsAreThereWhereTheSceneHasThem) {

@@ -87,7 +87,7 @@ class ASession(ViewerTest):
         first_held = next(k for k, state in enumerate(states) if state in HELD)
         self.assertIn("tilt", states[first_held:])
         last_held = max(k for k, state in enumerate(states) if state in HELD)
-        self.assertTrue(set(states[last_held + 1:]) & {"free", "touching", "slipped", "released"}, states)
+        self.assertTrue(set(states[last_held + 1:]) & {"free", "touching", "let go", "released"}, states)
 
     def test_amounts_change_while_it_pours(self):
         self.assertGreater(self.seen["streams"], 0)

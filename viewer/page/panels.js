@@ -3,7 +3,7 @@
 import {askedForce, degrees, element, feltForce, fixed, isNumber, millilitres, millimetres, percent, setText, whole} from './format.js';
 import {CONTACTS, liquidColor} from './theme.js';
 
-const WAY = 5;  // states that a session goes through when all goes well; the others are exceptions
+const WAY = 5;  // states that a session goes through until the vessel is let go
 const SVG = 'http://www.w3.org/2000/svg';
 const SHAPES = {
   ring: 'M8 2.6a5.4 5.4 0 1 0 0 10.8a5.4 5.4 0 1 0 0-10.8z', disc: 'M8 2a6 6 0 1 0 0 12a6 6 0 1 0 0-12z',
@@ -141,7 +141,7 @@ export class Panels {
   showState(frame, grip) {
     const vessel = this.about.vessels[frame.vessel];
     setText(this.stateName, frame.state);
-    this.stateName.classList.toggle('bad', this.about.states.indexOf(frame.state) >= WAY);
+    this.stateName.classList.toggle('bad', frame.state === 'slipped' || frame.state === 'released');
     setText(this.stateVessel, grip ? grip.label : vessel ? vessel.name : '');
     for (const step of this.steps) step.classList.toggle('now', step.dataset.state === frame.state);
     this.meters.closure.set(frame.closure, fixed(frame.closure, 2));

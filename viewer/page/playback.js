@@ -42,12 +42,12 @@ export class Playback {
     timeline.height = height * scale;
     const pen = timeline.getContext('2d');
     pen.setTransform(scale, 0, 0, scale, 0, 0);
-    const tall = {free: 0.16, touching: 0.34, lift: 0.58, tilt: 1, maintain: 0.8, slipped: 0.24, released: 0.08};
+    const tall = {free: 0.16, touching: 0.34, lift: 0.58, tilt: 1, maintain: 0.8, slipped: 0.24, 'let go': 0.24, released: 0.08};
     for (let k = 0, next; k < frames.length; k = next) {
       const {state} = frames[k];
       for (next = k + 1; next < frames.length && frames[next].state === state; ) ++next;
       const [from, to] = [frames[k].t, next < frames.length ? frames[next].t : this.recording.duration].map((t) => t / this.recording.duration * width);
-      pen.fillStyle = cssColor(`--state-${state}`);
+      pen.fillStyle = cssColor(`--state-${state.replace(' ', '-')}`);
       const high = height * (tall[state] || 0.1);
       pen.fillRect(from, height - high, to - from, high);
     }
