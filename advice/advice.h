@@ -14,7 +14,7 @@ namespace wholehand {
 // looked for it.
 struct RatedGrip {
   GripInput grip;            // vessel frame, in the world of the scene
-  bool is_possible = false;  // feasible and plausible; else what follows has no meaning
+  bool is_possible = false;  // feasible, and plausible where it is advised; else what follows has no meaning
   double effort = 0;         // the worst, a share of the hand's strength; infinite: at some tilt no force holds it
   double tilt = 0;           // at which it is the worst, rad
 };

@@ -58,6 +58,7 @@ Scene advice_scene(const Scene& scene) {
     own.liquid->volumes.clear();
     own.liquid->fills = {0};
   }
+  if (own.table) own.table->clearance -= TABLE_LOWERED * own.hand.scale;
   return own;
 }
 
@@ -68,10 +69,11 @@ Adviser::Adviser(const Scene& scene, const std::string& on, int threads)
 
 Adviser::Adviser(const Scene& scene, const BackendOpener& open)
     : scene_(advice_scene(scene)),
-      fields_(make_field_set({FIELD_WORST_EFFORT, FIELD_STATUS}, scene_)),
-      rated_(make_field_set({FIELD_WORST_EFFORT, FIELD_WORST_EFFORT_TILT, FIELD_STATUS}, scene_)),
+      fields_(make_field_set({FIELD_WORST_EFFORT, FIELD_STATUS, FIELD_TABLE_DEPTH}, scene_)),
+      rated_(make_field_set({FIELD_WORST_EFFORT, FIELD_WORST_EFFORT_TILT, FIELD_STATUS, FIELD_TABLE_DEPTH}, scene_)),
       backend_(open(scene_, fields_)),
       core_(make_core_evaluator(scene_)) {
+  if (scene.table) lowered_ = scene.table->clearance - scene_.table->clearance;
   for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
     capacities_.push_back(core_->capacity(v));
     volumes_.push_back(scene_.vessels[v].liquid_fill * capacities_.back());
@@ -101,6 +103,7 @@ void Adviser::take_volume(int vessel, double volume) {
   volumes_[v] = volume;
   scene_.vessels[v].fills = {fill_of(scene_.vessels[v], volume, capacities_[v])};
   core_ = make_core_evaluator(scene_);
+  session_.reset();
   try {
     if (!backend_->use_fills_of(scene_)) go_on_with_core("the device does not take the liquid that is left");
   } catch (const std::exception& error) {
@@ -113,7 +116,12 @@ void Adviser::go_on_with_core(const std::string& why) {
   notes_.push_back(why + "; the core goes on");
 }
 
-// The plausible grips of a cloud with their worst efforts.
+// Whether a grip may be advised: plausible, and above the table of a vessel that stands. `table_depth`: in the lowered table.
+bool Adviser::is_allowed(std::uint32_t status, double table_depth) const {
+  return is_plausible(status) && !(scene_.table && stands_ && table_depth + lowered_ > 0);
+}
+
+// The allowed grips of a cloud with their worst efforts.
 std::vector<Adviser::Found> Adviser::ask(int vessel, const std::vector<GripInput>& cloud, const std::atomic<bool>* stop) {
   std::vector<Found> found;
   RunRequest request;
@@ -126,7 +134,8 @@ std::vector<Adviser::Found> Adviser::ask(int vessel, const std::vector<GripInput
   request.sink = [&](const PlaneChunk& chunk) {
     for (std::size_t i = 0; i < chunk.count; ++i) {
       const double effort = chunk.real(fields_.plane[FIELD_WORST_EFFORT], i);
-      if (is_plausible(chunk.uint(fields_.plane[FIELD_STATUS], i)) && std::isfinite(effort))
+      const double depth = scene_.table ? chunk.real(fields_.plane[FIELD_TABLE_DEPTH], i) : 0;
+      if (is_allowed(chunk.uint(fields_.plane[FIELD_STATUS], i), depth) && std::isfinite(effort))
         found.push_back({effort, static_cast<std::size_t>(chunk.first) + i});
     }
   };
@@ -138,16 +147,32 @@ std::vector<Adviser::Found> Adviser::ask(int vessel, const std::vector<GripInput
   return found;
 }
 
-RatedGrip Adviser::rate(int vessel, const GripInput& grip) const {
+// `is_advised`: it must be allowed.
+RatedGrip Adviser::rate(const Evaluator& core, int vessel, const GripInput& grip, bool is_advised) const {
   std::vector<double> reals(static_cast<std::size_t>(rated_.real_planes));
   std::vector<std::uint32_t> uints(static_cast<std::size_t>(rated_.uint_planes));
-  core_->planes(static_cast<std::size_t>(vessel), &grip, 1, rated_, 1, reals.data(), uints.data());
+  core.planes(static_cast<std::size_t>(vessel), &grip, 1, rated_, 1, reals.data(), uints.data());
   const auto real = [&](int field) { return reals[static_cast<std::size_t>(rated_.plane[field])]; };
-  RatedGrip rated{grip, is_plausible(uints[static_cast<std::size_t>(rated_.plane[FIELD_STATUS])]), 0, 0};
+  const std::uint32_t status = uints[static_cast<std::size_t>(rated_.plane[FIELD_STATUS])];
+  RatedGrip rated;
+  rated.grip = grip;
+  rated.is_possible = is_advised ? is_allowed(status, scene_.table ? real(FIELD_TABLE_DEPTH) : 0) : is_plausible(status);
   if (!rated.is_possible) return rated;
   rated.effort = real(FIELD_WORST_EFFORT);
   rated.tilt = real(FIELD_WORST_EFFORT_TILT);
   return rated;
+}
+
+// The hand's own grip, by the rules of a session.
+RatedGrip Adviser::rate_present(const GripInput& grip) {
+  const RatedGrip rated = rate(*core_, vessel_, grip, false);
+  if (rated.is_possible || !core_->posed(static_cast<std::size_t>(vessel_), grip)) return rated;
+  if (!session_) {
+    Scene scene = scene_;
+    scene.hand.depth_limit = std::numeric_limits<double>::infinity();
+    session_ = make_core_evaluator(scene);
+  }
+  return rate(*session_, vessel_, grip, false);
 }
 
 // By the core: the best one, and of those that are as good by the device the nearest ones. Near is what is near to the present grip
@@ -163,18 +188,19 @@ std::vector<RatedGrip> Adviser::rate_best(const GripInput& present, const std::v
   const auto count = static_cast<std::ptrdiff_t>(std::min(RATED_BY_CORE, found.size()));
   std::partial_sort(found.begin(), found.begin() + count, found.end(),
                     [&](const Found& a, const Found& b) { return way(a) < way(b); });
-  rated.push_back(rate(vessel_, cloud[best.grip]));
-  for (std::ptrdiff_t k = 0; k < count; ++k) rated.push_back(rate(vessel_, cloud[found[static_cast<std::size_t>(k)].grip]));
+  rated.push_back(rate_advised(cloud[best.grip]));
+  for (std::ptrdiff_t k = 0; k < count; ++k) rated.push_back(rate_advised(cloud[found[static_cast<std::size_t>(k)].grip]));
   return rated;
 }
 
-// The last answer stands while it is as good as the best of now; a present grip that is as good needs no advice.
+// The last answer stands while it is as good as the best of now; a present grip that is as good, or the only one,
+// needs no advice.
 void Adviser::choose(const std::vector<RatedGrip>& rated, Advice& advice) const {
   const RatedGrip* found = nearest_of_best(rated, advice.present.grip);
-  if (!found) return;
-  RatedGrip best = *found;
+  if (!found && !advice.present.is_possible) return;
+  RatedGrip best = found ? *found : advice.present;
   if (last_) {
-    const RatedGrip before = rate(vessel_, *last_);
+    const RatedGrip before = rate_advised(*last_);
     double least = best.effort;
     for (const RatedGrip& one : rated)
       if (one.is_possible) least = std::min(least, one.effort);
@@ -195,13 +221,14 @@ Advice Adviser::advise(const AdviceQuestion& question, std::size_t grips, const 
   if (last_) last_ = reach.with_kept(*last_);
   if (question.vessel != vessel_ || (last_ && !reach.has(*last_))) last_.reset();
   vessel_ = question.vessel;
+  stands_ = !question.is_held;
   const std::vector<GripInput> cloud = grip_cloud(reach, question.grip, last_, share_, turn_++, grips);
   Advice advice;
   advice.vessel = question.vessel;
   advice.is_held = question.is_held;
   advice.volume = volumes_[static_cast<std::size_t>(question.vessel)];
   advice.grips = cloud.size();
-  advice.present = rate(question.vessel, question.is_held ? question.grip : come_in(question.grip));
+  advice.present = rate_present(question.is_held ? question.grip : come_in(question.grip));
   choose(rate_best(advice.present.grip, cloud, ask(question.vessel, cloud, stop)), advice);
   std::optional<GripInput> best;
   if (advice.best) best = advice.best->grip;

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -33,9 +34,10 @@ constexpr double LIKE_SHARE = 0.05, LIKE_EFFORT = 5e-3;
 constexpr double SAME_FILL = 2e-3;
 
 // The scene that grips are rated in: one fill for each vessel, what it holds at the start of a session; the scene's own tilts or,
-// without any, tens of degrees up to 150; those up to where 95 % of a fill has poured. Throws Error (usage): the scene has no
-// [strength].
+// without any, tens of degrees up to 150; those up to where 95 % of a fill has poured. A table lies TABLE_LOWERED lower, as a
+// session has none: the adviser applies it to what it advises. Throws Error (usage): the scene has no [strength].
 Scene advice_scene(const Scene& scene);
+constexpr double TABLE_LOWERED = 2;  // m at a hand's scale of 1: further than a hand reaches from its grip
 
 // One thread asks. The answers to the same questions in the same order are the same, to the bit, on the same device.
 class Adviser {
@@ -53,9 +55,10 @@ class Adviser {
   // What it computes on now, in words: "vulkan, llvmpipe (LLVM 15.0.6, 256 bits)", or "core, 2 threads".
   std::string place() const;
 
-  // The grips of the answer are rated by the core. No more than `grips` are asked for. `stop`, from another thread: the answer is
-  // then of what is done. A device that cannot take other liquid gives way to the core for good. Throws Error (failure) where
-  // neither the device nor the core can compute it.
+  // The grips of the answer are rated by the core, the present one as a session holds it: it may go through the table, into the vessel
+  // and into itself. No such grip is advised, but a held vessel has left the table. No more than `grips` are asked for. `stop`, from
+  // another thread: the answer is then of what is done. A device that cannot take other liquid gives way to the core for good.
+  // Throws Error (failure) where neither the device nor the core can compute it.
   Advice advise(const AdviceQuestion& question, std::size_t grips, const std::atomic<bool>* stop = nullptr);
 
   // What the device had to say since the last call ("device lost: .."); each line once.
@@ -69,8 +72,11 @@ class Adviser {
   void warm_up();
   void take_volume(int vessel, double volume);
   void go_on_with_core(const std::string& why);
+  bool is_allowed(std::uint32_t status, double table_depth) const;
   std::vector<Found> ask(int vessel, const std::vector<GripInput>& cloud, const std::atomic<bool>* stop);
-  RatedGrip rate(int vessel, const GripInput& grip) const;
+  RatedGrip rate(const Evaluator& core, int vessel, const GripInput& grip, bool is_advised) const;
+  RatedGrip rate_advised(const GripInput& grip) const { return rate(*core_, vessel_, grip, true); }
+  RatedGrip rate_present(const GripInput& grip);
   std::vector<RatedGrip> rate_best(const GripInput& present, const std::vector<GripInput>& cloud, std::vector<Found> found) const;
   void choose(const std::vector<RatedGrip>& rated, Advice& advice) const;
   void settle(bool has_moved);
@@ -79,10 +85,13 @@ class Adviser {
   FieldSet fields_, rated_;
   std::unique_ptr<Backend> backend_;
   std::unique_ptr<Evaluator> core_;
-  std::vector<double> volumes_;  // with which the backend computes, m3
+  std::unique_ptr<Evaluator> session_;  // to which every feasible grip is plausible; made when it is needed
+  std::vector<double> volumes_;         // with which the backend computes, m3
   std::vector<double> capacities_;
   std::uint64_t turn_ = 0;
+  double lowered_ = 0;             // m, by which the table lies lower than the scene's
   int vessel_ = -1;                // of the question
+  bool stands_ = true;             // that vessel, on the table
   std::optional<GripInput> last_;  // its best grip
   double share_ = 1;               // of the reach in which the next update looks about it
   std::vector<std::string> notes_, said_;

@@ -70,7 +70,8 @@ std::string of_grips(const Advice& advice) {
   if (!advice.is_better) return "this grip is good: effort " + best;
   std::string way = way_words(advice.present.grip, advice.best->grip, advice.rotation, advice.handedness);
   if (way.empty()) way = "a touch aside";
-  if (!advice.present.is_possible) return fmt::format("{}: effort {}; from here no grip is possible", way, best);
+  if (!advice.present.is_possible)
+    return fmt::format("{}: effort {}{}", way, best, advice.is_held ? "" : "; from here no grip is possible");
   return fmt::format("{}: effort {} to {}", way, effort_words(advice.present.effort), best);
 }
 
@@ -87,11 +88,7 @@ std::string of_tilts(const TiltsAhead& ahead) {
 
 }  // namespace
 
-std::string effort_words(double effort) {
-  if (!std::isfinite(effort)) return "more than any strength";
-  const std::string text = fmt::format("{:.2f}", effort);
-  return text[0] == '0' ? text.substr(1) : text;
-}
+std::string effort_words(double effort) { return std::isfinite(effort) ? fmt::format("{:.2f}", effort) : "more than any strength"; }
 
 std::string way_words(const GripInput& from, const GripInput& to, const Rotation& rotation, Handedness handedness) {
   const Ways ways(between(from, to), rotation, handedness);
@@ -108,8 +105,7 @@ std::string advice_words(const Advice& advice) {
   if (advice.vessel < 0) return "";
   if (!advice.is_held) return of_grips(advice);
   std::string words = advice.ahead ? of_tilts(*advice.ahead) : "";
-  if (advice.best && advice.is_better && advice.present.is_possible)
-    words += (words.empty() ? "another grip, " : "; another grip, ") + of_grips(advice);
+  if (advice.best && advice.is_better) words += (words.empty() ? "another grip, " : "; another grip, ") + of_grips(advice);
   return words.empty() && advice.present.is_possible ? "this grip is good" : words;
 }
 

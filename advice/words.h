@@ -8,8 +8,8 @@
 
 namespace wholehand {
 
-// Of a hand on its way: "8 mm higher, wrist 12 degrees up: effort .21 to .09", "this grip is good: effort .09", or "no grip within
-// reach is possible". Of a hand that holds: "at 70 degrees the grip needs .40 of your strength; tilt over the other side: .21",
+// Of a hand on its way: "8 mm higher, wrist 12 degrees up: effort 0.21 to 0.09", "this grip is good: effort 0.09", or "no grip within
+// reach is possible". Of a hand that holds: "at 70 degrees the grip needs 0.40 of your strength; tilt over the other side: 0.21",
 // and then what another grip would take. Empty: there is nothing to advise, as of a held grip that is easy at the tilts ahead and
 // that is not possible by the rating.
 std::string advice_words(const Advice& advice);
@@ -22,7 +22,7 @@ std::string advice_words(const Advice& advice);
 std::string way_words(const GripInput& from, const GripInput& to, const Rotation& rotation = NO_ROTATION,
                       Handedness handedness = Handedness::right);
 
-// ".21", "1.30", or "more than any strength" of an infinite effort.
+// "0.21", "1.30", or "more than any strength" of an infinite effort.
 std::string effort_words(double effort);
 
 }  // namespace wholehand

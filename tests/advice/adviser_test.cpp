@@ -101,6 +101,64 @@ TEST_P(AdviserOn, TheSameQuestionsHaveTheSameAnswers) {
   }
 }
 
+// A hand that closes through the table, or that would be too deep in the vessel: a session has no such rules and holds the vessel, with this
+// effort. What is advised of a vessel that stands keeps them all; a held vessel has left the table.
+TEST_P(AdviserOn, ASweepsRulesAreForWhatIsAdvisedAlone) {
+  Scene scene = advised_scene();
+  scene.hand.depth_limit = 3e-3;
+  Scene bare = scene;
+  bare.table.reset();
+  Scene lenient = bare;
+  lenient.hand.depth_limit = 1;
+  const auto core = make_core_evaluator(scene);
+  const auto result_of = [&](const GripInput& grip) {
+    GripResult result;
+    core->grip(0, grip, result);
+    return result;
+  };
+  AdviceQuestion low = high_grip(scene, 0.6), deep = low;
+  low.grip.height = 0.03;
+  low.grip.roll = radians(20);
+  deep.grip.height = 0.045;
+  deep.grip.roll = radians(-60);
+  ASSERT_TRUE(result_of(low.grip).through_table);
+  ASSERT_GT(result_of(deep.grip).phalanx_depth, scene.hand.depth_limit);
+  for (AdviceQuestion question : {low, deep}) {
+    const double effort = effort_by_core(lenient, question.grip, 0.6);
+    ASSERT_LE(effort, 1);
+    for (const bool is_held : {false, true}) {
+      question.is_held = is_held;
+      Adviser adviser(scene, GetParam(), 1), without(bare, GetParam(), 1);
+      const Advice advice = adviser.advise(question, STEP_CLOUD), right = without.advise(question, STEP_CLOUD);
+      EXPECT_TRUE(advice.present.is_possible);
+      EXPECT_EQ(advice.present.effort, effort);
+      ASSERT_TRUE(advice.best && right.best);
+      if (is_held) {
+        EXPECT_LT(way_between(advice.best->grip, right.best->grip), 1e-9);
+      } else {
+        EXPECT_EQ(advice.is_better, result_of(advice.best->grip).plausible) << "else it is the hand's own";
+      }
+    }
+  }
+  Adviser bare_adviser(bare, GetParam(), 1);
+  EXPECT_TRUE(result_of(bare_adviser.advise(low, STEP_CLOUD).best->grip).through_table) << "it would be the best one";
+}
+
+// Nothing but the present grip, which goes through the table: it stays.
+TEST(Adviser, TheOnlyGripIsGood) {
+  Scene scene = advised_scene();
+  scene.table->clearance = 0.1;  // no hand keeps above it
+  AdviceQuestion question = high_grip(scene, 0.6);
+  Adviser adviser(scene, "core", 1);
+  const Advice advice = adviser.advise(question, LEAST_CLOUD);
+  ASSERT_TRUE(advice.best && advice.present.is_possible);
+  EXPECT_FALSE(advice.is_better);
+  EXPECT_EQ(way_between(advice.best->grip, question.grip), 0);
+  question.grip.height = 0.3;  // over the vessel
+  const Advice none = adviser.advise(question, LEAST_CLOUD);
+  EXPECT_FALSE(none.best || none.present.is_possible);
+}
+
 INSTANTIATE_TEST_SUITE_P(Adviser, AdviserOn, testing::Values("core", "vulkan"));
 
 // A hand that stays is told one thing: an answer stands until another is clearly better, and it never gets worse beyond that. The

@@ -99,8 +99,8 @@ TEST(WayWords, OfTurnsAreWhereTheWristGoes) {
 }
 
 TEST(EffortWords, AreShares) {
-  EXPECT_EQ(effort_words(0.21), ".21");
-  EXPECT_EQ(effort_words(0.094), ".09");
+  EXPECT_EQ(effort_words(0.21), "0.21");
+  EXPECT_EQ(effort_words(0.094), "0.09");
   EXPECT_EQ(effort_words(1.3), "1.30");
   EXPECT_EQ(effort_words(NEVER), "more than any strength");
 }
@@ -116,14 +116,14 @@ Advice free_hand(double from, double to) {
 
 TEST(AdviceWords, OfAHandOnItsWay) {
   EXPECT_EQ(advice_words({}), "");
-  EXPECT_EQ(advice_words(free_hand(0.21, 0.09)), "8 mm higher, wrist 12 degrees down: effort .21 to .09");
-  EXPECT_EQ(advice_words(free_hand(NEVER, 0.09)), "8 mm higher, wrist 12 degrees down: effort more than any strength to .09");
+  EXPECT_EQ(advice_words(free_hand(0.21, 0.09)), "8 mm higher, wrist 12 degrees down: effort 0.21 to 0.09");
+  EXPECT_EQ(advice_words(free_hand(NEVER, 0.09)), "8 mm higher, wrist 12 degrees down: effort more than any strength to 0.09");
   Advice impossible = free_hand(0, 0.09);
   impossible.present.is_possible = false;
-  EXPECT_EQ(advice_words(impossible), "8 mm higher, wrist 12 degrees down: effort .09; from here no grip is possible");
+  EXPECT_EQ(advice_words(impossible), "8 mm higher, wrist 12 degrees down: effort 0.09; from here no grip is possible");
   Advice good = free_hand(0.09, 0.09);
   good.is_better = false;
-  EXPECT_EQ(advice_words(good), "this grip is good: effort .09");
+  EXPECT_EQ(advice_words(good), "this grip is good: effort 0.09");
   Advice none = free_hand(0.2, 0.1);
   none.best.reset();
   EXPECT_EQ(advice_words(none), "no grip within reach is possible");
@@ -142,21 +142,23 @@ Advice held(double effort, double other) {
 }
 
 TEST(AdviceWords, OfAHandThatHolds) {
-  EXPECT_EQ(advice_words(held(0.4, 0.21)), "at 70 degrees the grip needs .40 of your strength; tilt over the other side: .21");
-  EXPECT_EQ(advice_words(held(0.4, 0.39)), "at 70 degrees the grip needs .40 of your strength");
-  EXPECT_EQ(advice_words(held(NEVER, 0.5)), "at 70 degrees no strength holds this grip; tilt over the other side: .50");
+  EXPECT_EQ(advice_words(held(0.4, 0.21)), "at 70 degrees the grip needs 0.40 of your strength; tilt over the other side: 0.21");
+  EXPECT_EQ(advice_words(held(0.4, 0.39)), "at 70 degrees the grip needs 0.40 of your strength");
+  EXPECT_EQ(advice_words(held(NEVER, 0.5)), "at 70 degrees no strength holds this grip; tilt over the other side: 0.50");
   EXPECT_EQ(advice_words(held(0.05, 0.01)), "this grip is good");
   Advice unrated = held(0.05, 0.01);
   unrated.present.is_possible = false;
   EXPECT_EQ(advice_words(unrated), "");
   unrated.ahead = TiltsAhead{};
   EXPECT_EQ(advice_words(unrated), "");
+  unrated.is_better = true;
+  EXPECT_EQ(advice_words(unrated), "another grip, 8 mm higher, wrist 12 degrees down: effort 0.38") << "the ghost that is shown";
   Advice better = held(0.4, 0.39);
   better.is_better = true;
   better.best->effort = 0.2;
   EXPECT_EQ(
       advice_words(better),
-      "at 70 degrees the grip needs .40 of your strength; another grip, 8 mm higher, wrist 12 degrees down: effort .40 to .20");
+      "at 70 degrees the grip needs 0.40 of your strength; another grip, 8 mm higher, wrist 12 degrees down: effort 0.40 to 0.20");
 }
 
 }  // namespace
