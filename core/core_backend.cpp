@@ -17,8 +17,10 @@
 namespace wholehand {
 namespace {
 
-constexpr std::size_t CHUNK = 512;  // grips at most: a few hundredths of a second of one thread
+constexpr std::size_t CHUNK = 512;  // grips at most
 constexpr std::size_t LEAST_CHUNK = 16;
+constexpr std::size_t CHUNK_STATES =
+    80'000;  // of all its grips at most: a few hundredths of a second of one thread, so that a run stops soon
 
 #ifdef __clang__
 constexpr const char* COMPILER = __VERSION__;
@@ -38,7 +40,8 @@ struct PlaneRoom {
 // One run: what its threads share.
 class CoreRun {
  public:
-  CoreRun(const Evaluator& evaluator, const FieldSet& fields, const RunRequest& request, int threads)
+  // `states`: of a grip, over fills and tilts.
+  CoreRun(const Evaluator& evaluator, const FieldSet& fields, const RunRequest& request, int threads, std::size_t states)
       : evaluator_(evaluator),
         fields_(fields),
         request_(request),
@@ -46,7 +49,8 @@ class CoreRun {
         best_(request.best) {
     // a short run in pieces for every thread
     const std::uint64_t count = request.last - request.first, pieces = 2 * static_cast<std::uint64_t>(threads);
-    chunk_ = static_cast<std::size_t>(std::clamp<std::uint64_t>((count + pieces - 1) / pieces, LEAST_CHUNK, CHUNK));
+    const std::size_t most = std::clamp<std::size_t>(CHUNK_STATES / std::max<std::size_t>(1, states), 1, CHUNK);
+    chunk_ = static_cast<std::size_t>(std::clamp<std::uint64_t>((count + pieces - 1) / pieces, std::min(LEAST_CHUNK, most), most));
     chunks_ = (count + chunk_ - 1) / chunk_;
     for (PlaneRoom& slot : slots_) {
       slot.reals.resize(fields.real_planes * chunk_);
@@ -186,7 +190,7 @@ bool CoreBackend::use_fills_of(const Scene& other) {
 
 RunResult CoreBackend::run(const RunRequest& request) {
   if (request.last <= request.first) return {};
-  return CoreRun(*evaluator_, fields_, request, threads_).run(threads_);
+  return CoreRun(*evaluator_, fields_, request, threads_, scene_fills(scene_) * scene_.tilts.size()).run(threads_);
 }
 
 std::vector<LiquidResult> CoreBackend::liquid(std::size_t vessel) {

@@ -68,8 +68,8 @@ GripInput GripColumns::grip(std::size_t i) const {
   return {number(0, i), number(1, i), number(2, i), number(3, i), number(4, i), number(5, i)};
 }
 
-void GripColumns::check() const {
-  for (std::size_t i = 0; i < count_; ++i)
+void GripColumns::check(const std::atomic<bool>& stop) const {
+  for (std::size_t i = 0; i < count_ && !stop; ++i)
     for (std::size_t c = 0; c < GRIP_COLUMNS; ++c)
       if (!is_within(number(c, i), grip_ranges()[c])) check_grip(grip(i), fmt::format("grip {}", i).c_str());
 }

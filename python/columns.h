@@ -5,6 +5,7 @@
 #include <pybind11/numpy.h>
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 
@@ -31,8 +32,9 @@ class GripColumns {
 
   std::size_t count() const { return count_; }
   GripInput grip(std::size_t i) const;
-  // Throws Error (usage) with the first number that no grip may have, its column, its place and what is allowed.
-  void check() const;
+  // Throws Error (usage) with the first number that no grip may have, its column, its place and what is allowed. Ends early on `stop`,
+  // which another thread may set.
+  void check(const std::atomic<bool>& stop) const;
   // Of a request: grip i of the plan is row i.
   GripSource source() const;
 

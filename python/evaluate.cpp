@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstring>
+#include <exception>
+#include <future>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -13,14 +16,13 @@
 #include "python/columns.h"
 #include "python/scene.h"
 #include "sweeps/different_grips.h"
-#include "system/clock.h"
 
 namespace py = pybind11;
 
 namespace wholehand {
 namespace {
 
-constexpr double SIGNALS_EVERY = 0.05;  // s between two looks at Ctrl-C
+constexpr std::chrono::milliseconds SIGNALS_EVERY{50};  // between two looks at Ctrl-C
 
 // Where the values of one variable go: an array of (grips, values of a grip), C-contiguous.
 struct Output {
@@ -114,46 +116,49 @@ void put(const Output& output, const PlaneChunk& chunk, const FieldSet& fields, 
   return is_mask ? put_words<std::uint32_t>(output, chunk, status) : put_words<std::int32_t>(output, chunk, status);
 }
 
-// Looks now and then whether Python's signal handlers want to raise.
-class Signals {
- public:
-  std::atomic<bool> stop{false};
-
-  void look() {
-    const double now = monotonic_now();
-    if (now - last_ < SIGNALS_EVERY) return;
-    last_ = now;
-    const py::gil_scoped_acquire interpreter;
-    if (PyErr_CheckSignals() != 0) stop = true;
+// Does `work` in a thread of its own, without the interpreter's lock, while this one looks now and then whether Python's signal handlers
+// want to raise: only the main thread may, however long a piece of the work takes. `work` ends soon after `stop`. With the lock; what a
+// handler raised, or the work threw, goes on.
+template <class Work>
+void with_signals(std::atomic<bool>& stop, const Work& work) {
+  std::exception_ptr trouble;
+  {
+    const py::gil_scoped_release other_threads;
+    std::future<void> done = std::async(std::launch::async, work);
+    while (!stop && done.wait_for(SIGNALS_EVERY) != std::future_status::ready) {
+      const py::gil_scoped_acquire interpreter;
+      if (PyErr_CheckSignals() != 0) stop = true;
+    }
+    try {
+      done.get();
+    } catch (...) {
+      trouble = std::current_exception();
+    }
   }
-  // With the interpreter's lock: what a handler raised goes on.
-  void raise() const {
-    if (stop) throw py::error_already_set();
-  }
-
- private:
-  double last_ = monotonic_now();
-};
+  if (stop) throw py::error_already_set();
+  if (trouble) std::rethrow_exception(trouble);
+}
 
 void check_vessel(const Scene& scene, std::size_t vessel) {
   if (vessel >= scene.vessels.size()) throw usage_error("the scene has no vessel of this number");
 }
 
-// The interpreter is not needed from here on, but for signals.
-void run_batch(Batch& batch, std::size_t vessel, const GripColumns& grips, const std::vector<Output>& outputs, Signals& signals) {
-  const py::gil_scoped_release other_threads;
-  const std::lock_guard lock(batch.in_use);
+// Without the interpreter's lock.
+void run_batch(Batch& batch, std::size_t vessel, const GripColumns& grips, const std::vector<Output>& outputs,
+               const std::atomic<bool>& stop) {
+  std::unique_lock lock(batch.in_use, std::defer_lock);
+  while (!lock.try_lock_for(SIGNALS_EVERY))
+    if (stop) return;
   RunRequest request;
   request.vessel = vessel;
   request.last = grips.count();
   request.grips = grips.source();
-  request.stop = &signals.stop;
+  request.stop = &stop;
   request.sink = [&](const PlaneChunk& chunk) {
     for (const Output& output : outputs) put(output, chunk, batch.backend->fields(), batch.backend->info().precision);
-    signals.look();
   };
   const RunResult result = batch.backend->run(request);
-  if (result.done != grips.count() && !signals.stop)
+  if (result.done != grips.count() && !stop)
     throw failure_error(batch.backend->info().device + ": fewer grips came back than were asked for");
 }
 
@@ -166,16 +171,14 @@ py::tuple evaluate(SceneHandle& handle, std::size_t vessel, const GripArrays& ar
   check_vessel(handle.described(), vessel);
   std::shared_ptr<Batch> batch;
   const Scene* scene = nullptr;
-  {
-    const py::gil_scoped_release other_threads;
-    grips.check();
+  std::atomic<bool> stop{false};
+  with_signals(stop, [&] {
+    grips.check(stop);
     batch = handle.batch(wish);
     scene = &handle.whole(on);
-  }
+  });
   const std::vector<Output> outputs = make_outputs(*batch, *scene, grips.count());
-  Signals signals;
-  if (grips.count() > 0 && !outputs.empty()) run_batch(*batch, vessel, grips, outputs, signals);
-  signals.raise();
+  if (grips.count() > 0 && !outputs.empty()) with_signals(stop, [&] { run_batch(*batch, vessel, grips, outputs, stop); });
   py::dict values;
   for (const Output& output : outputs) values[output.variable->name] = output.array;
   return py::make_tuple(values, batch->backend->info().device);
@@ -183,16 +186,15 @@ py::tuple evaluate(SceneHandle& handle, std::size_t vessel, const GripArrays& ar
 
 // In blocks on all threads; most lists are full within the first.
 std::vector<Candidate> choose_different(const Evaluator& core, std::size_t vessel, const GripColumns& grips, std::size_t count,
-                                        double apart, Signals& signals) {
+                                        double apart, const std::atomic<bool>& stop) {
   constexpr std::size_t MOST_AT_ONCE = 4096;
   DifferentGrips chosen(count, apart);
   std::size_t block = 64;
-  for (std::size_t first = 0; first < grips.count() && !chosen.is_full() && !signals.stop; first += block) {
+  for (std::size_t first = 0; first < grips.count() && !chosen.is_full() && !stop; first += block) {
     block = first == 0 ? block : std::min({2 * block, MOST_AT_ONCE, first});
     std::vector<std::optional<PosedHand>> hands(std::min(block, grips.count() - first));
     in_parallel(hands.size(), 0, [&](std::size_t i) { hands[i] = core.posed(vessel, grips.grip(first + i)); });
     for (std::size_t i = 0; i < hands.size(); ++i) chosen.offer({0, first + i}, hands[i]);
-    signals.look();
   }
   return chosen.chosen();
 }
@@ -202,15 +204,13 @@ std::vector<std::size_t> different_grips(SceneHandle& handle, std::size_t vessel
                                          double apart) {
   const GripColumns grips(arrays);
   check_vessel(handle.described(), vessel);
-  Signals signals;
   std::vector<std::size_t> places;
-  {
-    const py::gil_scoped_release other_threads;
-    grips.check();
-    for (const Candidate& one : choose_different(*handle.core(), vessel, grips, count, apart, signals))
+  std::atomic<bool> stop{false};
+  with_signals(stop, [&] {
+    grips.check(stop);
+    for (const Candidate& one : choose_different(*handle.core(), vessel, grips, count, apart, stop))
       places.push_back(static_cast<std::size_t>(one.index));
-  }
-  signals.raise();
+  });
   return places;
 }
 

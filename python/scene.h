@@ -22,7 +22,7 @@ namespace wholehand {
 struct Batch {
   std::vector<const Variable*> variables;  // in the order asked
   std::unique_ptr<Backend> backend;
-  std::mutex in_use;
+  std::timed_mutex in_use;
 };
 
 // What a batch is asked for. `variables` absent: those that a sweep of the scene keeps.

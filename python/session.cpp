@@ -57,6 +57,15 @@ struct Step {
   VesselPoses poses;
 
   HandView hand() const { return hand_view(session->live(), tick, poses); }
+  // Of the whole hand; NaN where nothing is held.
+  double effort() const {
+    const std::optional<HandHold> hold = hand().hold;
+    return hold ? hold->effort : Tick::NONE;
+  }
+  // A number of each vessel.
+  Numbers of_vessels(const std::array<double, LIVE_VESSELS>& values) const {
+    return Numbers(static_cast<py::ssize_t>(session->live().scene.vessels.size()), values.data());
+  }
   py::object vessel() const {
     if (tick.vessel < 0) return py::none();
     return py::str(session->live().scene.vessels[static_cast<std::size_t>(tick.vessel)].name);
@@ -181,6 +190,10 @@ void bind_step(py::module_& module) {
                              "The user's grip force, N: the feedback less what the torque added since the grasp.")
       .def_property_readonly("hold_force", number(&Tick::hold_force),
                              "With what each of two tips must press to hold the vessel, N; NaN: nothing is held.")
+      .def_property_readonly(
+          "effort", &Step::effort,
+          "Least share of the hand's strength that holds the vessel, with all contacts; inf: no force holds it;\n"
+          "NaN: nothing is held, or the scene has no [strength].")
       .def_property_readonly("weight", number(&Tick::weight), "Of vessel and liquid, as far as it is lifted, N.")
       .def_property_readonly("torque", number(&Tick::torque), "Of the held vessel, N m.")
       .def_property_readonly("tilt", number(&Tick::tilt), "Between the vessel's axis and up, rad.")
@@ -190,12 +203,17 @@ void bind_step(py::module_& module) {
                              "Of the middle of the tips at the grasp, m, vessel's frame; NaN: nothing is held.")
       .def_property_readonly("flow", number(&Tick::flow), "Over the held vessel's lip, m3/s.")
       .def_property_readonly(
-          "volume",
-          [](const Step& step) {
-            const std::size_t vessels = step.session->live().scene.vessels.size();
-            return Numbers(static_cast<py::ssize_t>(vessels), step.tick.volume.data());
-          },
+          "volume", [](const Step& step) { return step.of_vessels(step.tick.volume); },
           "Liquid in each vessel, m3, in the order of scene.vessels.")
+      .def_property_readonly(
+          "arrived", [](const Step& step) { return step.of_vessels(step.tick.arrived); },
+          "Liquid of each vessel that has arrived in the target, m3, in the order of scene.vessels.")
+      .def_property_readonly(
+          "spilt", [](const Step& step) { return step.of_vessels(step.tick.spilt); },
+          "Liquid of each vessel that was spilt, m3, in the order of scene.vessels.")
+      .def_property_readonly(
+          "target_volume", [](const Step& step) { return target_volume(step.session->live().scene, step.tick); },
+          "Liquid in the target of the task, of all vessels together, m3; 0 without a task.")
       .def_property_readonly("middle", triple(&Tick::middle), "Of the two tips, m, world frame, shape (3,).")
       .def_property_readonly(
           "hand_rotation", [](const Step& step) { return matrix_of(step.tick.hand_rotation); },

@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+import math
+from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from . import _core
@@ -16,6 +17,14 @@ if TYPE_CHECKING:
 
 _COLUMNS: tuple[str, ...] = _core.GRIP_COLUMNS
 _DEFAULTS = (None, 0.0, 0.0, 0.0, 0.0, 1.0)  # of a column that is not given
+# The names of a scene file, whose ends are units: the column that each stands for, and how it becomes SI.
+_IN_UNITS: dict[str, tuple[str, Callable[[Any], Any]]] = {
+    "height_mm": ("height", lambda mm: mm / 1e3),
+    "azimuth_deg": ("azimuth", lambda deg: deg * (math.pi / 180)),
+    "obliquity_deg": ("obliquity", lambda deg: deg * (math.pi / 180)),
+    "roll_deg": ("roll", lambda deg: deg * (math.pi / 180)),
+    "offset_mm": ("offset", lambda mm: mm / 1e3),
+}
 
 
 def grip_dtype() -> np.dtype[np.void]:
@@ -51,11 +60,18 @@ def _of_fields(given: Mapping[str, Any]) -> list[npt.NDArray[np.float64]]:
     """A column each, those that are missing repeated without room (stride 0)."""
     import numpy as np
 
-    unknown = [name for name in given if name not in _COLUMNS]
+    unknown = [name for name in given if name not in _COLUMNS and name not in _IN_UNITS]
     if unknown:
-        raise Error(f"grips: no column {', '.join(map(repr, unknown))}; allowed: {', '.join(_COLUMNS)}")
+        raise Error(f"grips: no column {', '.join(map(repr, unknown))}; allowed: {', '.join([*_COLUMNS, *_IN_UNITS])}")
+    given = dict(given)
+    for name, (column, to_si) in _IN_UNITS.items():
+        if name not in given:
+            continue
+        if column in given:
+            raise Error(f"grips: both {column} and {name} are given; allowed: one of the two")
+        given[column] = to_si(_numbers(name, given.pop(name)))
     if "height" not in given:
-        raise Error("grips: the column 'height' is missing; the others have defaults")
+        raise Error("grips: the column 'height' is missing (or 'height_mm'); the others have defaults")
     columns = [_numbers(name, given.get(name, default)) for name, default in zip(_COLUMNS, _DEFAULTS)]
     try:
         shape = np.broadcast_shapes(*(column.shape for column in columns))
@@ -153,7 +169,8 @@ def evaluate(
         - an array of shape (N, 6) with the columns height (m), azimuth (rad), obliquity (rad), roll (rad), offset (m) and
           hand_scale (1: the scene's own hand), in the vessel's frame;
         - a structured array with these names (``wh.GRIP``), a dict of columns, or a pandas DataFrame. All but height may be
-          missing: they are 0, and hand_scale is 1;
+          missing: they are 0, and hand_scale is 1. The names of ``wh.grip`` with a unit are allowed too, in that unit: height_mm,
+          azimuth_deg, obliquity_deg, roll_deg, offset_mm;
         - a Dataset of ``wh.best``.
 
         Columns of float64 are read where they lie, whatever their strides. Others are copied.
@@ -170,7 +187,8 @@ def evaluate(
     -------
     dict of numpy.ndarray
         An array for each variable, in the order asked. Its first dimension is the grip: (N,), (N, fills, tilts), (N, 24, 3), ... as
-        ``scene.variables()[name].dims`` says. Reals are float64, or float32 in float. Truths, counts and reasons are int8, masks
+        ``scene.variables()[name].dims`` says. Fills and tilts are those of the scene: ``scene.fills(vessel)``, fractions of the
+        capacity, and ``scene.tilts``, rad. Reals are float64, or float32 in float. Truths, counts and reasons are int8, masks
         are uint8 or uint32. What an infeasible grip lacks is NaN, -1, or a mask without bits.
 
     Raises

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
@@ -239,7 +240,9 @@ def _asked(
             "--thumb-mm",
         )
     if sum(one is not None for one in (at, height_mm, thumb_mm)) != 1 or (thumb_mm is None) != (index_mm is None):
-        raise Error("grip: the place of the grip is missing or given twice; give height_mm, or thumb_mm and index_mm, or at")
+        raise Error(
+            "grip: the place of the grip is missing or given twice; give height or height_mm, or thumb_mm and index_mm, or at"
+        )
     if at is not None:
         columns = grip_columns([at] if not hasattr(at, "dtype") and not hasattr(at, "keys") else _row(at))
         if len(columns[0]) != 1:
@@ -278,11 +281,17 @@ def grip(
     roll_deg: float | None = None,
     offset_mm: float | None = None,
     hand_scale: float | None = None,
+    height: float | None = None,
+    azimuth: float | None = None,
+    obliquity: float | None = None,
+    roll: float | None = None,
+    offset: float | None = None,
     thumb_mm: Sequence[float] | None = None,
     index_mm: Sequence[float] | None = None,
     at: Any = None,
     fills: float | Sequence[float] | None = None,
     fills_ml: float | Sequence[float] | None = None,
+    tilts: float | Sequence[float] | None = None,
     tilts_deg: float | Sequence[float] | None = None,
     on: str = "core",
     precision: str | None = None,
@@ -299,12 +308,17 @@ def grip(
         Where the thumb-index line lies in the vessel's frame, in mm and degrees as in a scene file: its height over the base, its
         direction about the axis, its angle to the horizontal, the turn of the hand about it (0: beside the vessel, -90: above it),
         its distance from the axis; and the hand's size times the scene's. Default: 0, and 1 for hand_scale.
+    height, azimuth, obliquity, roll, offset : float
+        The same in m and rad, as the columns of ``wh.evaluate`` and the coordinates of a Dataset. Each under one name alone.
     thumb_mm, index_mm : three floats, optional
         Instead of height, azimuth, obliquity and offset: two points of the line, on the thumb's and on the index finger's side.
     at : array, optional
-        Instead of all these: six numbers in SI units, a row of a structured array (``wh.GRIP``), or one grip of ``wh.best``.
-    fills, fills_ml, tilts_deg : float or list of float, optional
-        The states: fractions of the capacity, or mL, and degrees. Default: the scene's.
+        Instead of all these: one grip as ``wh.evaluate`` takes them, say six numbers in SI units, a row of a structured array
+        (``wh.GRIP``), or one grip of ``wh.best``.
+    fills, fills_ml : float or list of float, optional
+        The fills of the states: fractions of the capacity, as ``scene.fills(vessel)`` has them, or mL. Default: the scene's.
+    tilts, tilts_deg : float or list of float, optional
+        The tilts of the states: rad, as ``scene.tilts`` has them, or degrees. Default: the scene's.
     on : str
         "core", "vulkan" or the name of a device.
     precision : {"float", "double"}, optional
@@ -337,7 +351,21 @@ def grip(
         "offset_mm": offset_mm,
         "hand_scale": hand_scale,
     }
-    asked = _asked(at, height_mm, thumb_mm, index_mm, further)
+    in_si = {"height": height, "azimuth": azimuth, "obliquity": obliquity, "roll": roll, "offset": offset}
+    if thumb_mm is not None and roll is not None and roll_deg is None:
+        further["roll_deg"], in_si["roll"] = _number(roll, "roll") * (180 / math.pi), None
+    if any(value is not None for value in in_si.values()):
+        if at is not None or thumb_mm is not None:
+            _exclude([name for name, value in in_si.items() if value is not None], "at" if at is not None else "--thumb-mm")
+        named = {"height_mm": height_mm, **further, **in_si}
+        at = {name: _number(value, name) for name, value in named.items() if value is not None}
+        asked = _asked(at, None, None, index_mm, dict.fromkeys(further))
+    else:
+        asked = _asked(at, height_mm, thumb_mm, index_mm, further)
+    if tilts is not None:
+        if tilts_deg is not None:
+            raise Error("grip: both tilts and tilts_deg are given; allowed: one of the two")
+        tilts_deg = [one * (180 / math.pi) for one in _list(tilts, "tilts") or []]
     states = [_list(values, name) for name, values in (("fills", fills), ("fills_ml", fills_ml), ("tilts_deg", tilts_deg))]
     made = Grip(of, number, asked, *states, on, precision, quality)
     warn(of._core.float_notes(precision, on))

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 from collections.abc import Mapping
 from typing import Any
@@ -40,13 +41,15 @@ def _value(value: Any, place: str) -> str:
         return str(value)
     if isinstance(value, float):
         return repr(value)
+    if isinstance(value, os.PathLike):
+        value = os.fspath(value)
     if isinstance(value, str):
         return _text(value)
     if isinstance(value, Mapping):
         return "{" + ", ".join(f"{_key(k, place)} = {_value(v, f'{place}.{k}')}" for k, v in value.items()) + "}"
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(_value(one, place) for one in value) + "]"
-    raise Error(f"dict: {place} is {type(value).__name__}; allowed: a number, a text, a truth value, a list or a dict of them")
+    raise Error(f"dict: {place} is {type(value).__name__}; allowed: a number, a text, a path, a truth value, a list or a dict of them")
 
 
 def _is_tables(value: Any) -> bool:

@@ -122,6 +122,18 @@ class Evaluate(InFolder):
         np.testing.assert_array_equal(wh.evaluate(scene, "low", some, "closure")["closure"], expected)
         self.assertEqual(wh.evaluate(scene, "low", {"height": 0.03}, "closure")["closure"].shape, (1,))
 
+    def test_columns_may_have_the_units_of_a_scene_file(self):
+        scene, rad = wh.scene(SEVERAL), np.pi / 180
+        units = {"height_mm": [10, 40.5], "azimuth_deg": 12, "obliquity_deg": [-5, 5], "roll_deg": -33, "offset_mm": 3, "hand_scale": 0.95}
+        table = [[mm / 1e3, 12 * rad, deg * rad, -33 * rad, 3 / 1e3, 0.95] for mm, deg in ((10, -5), (40.5, 5))]
+        expected = wh.evaluate(scene, "low", table, ["score", "joints"])
+        for grips in (units, {**units, "height_mm": np.array([10, 40.5], np.float32)}):
+            found = wh.evaluate(scene, "low", grips, ["score", "joints"])
+            for name, values in expected.items():
+                np.testing.assert_array_equal(found[name], values, name)
+        self.assertIn("both height and height_mm are given", str(self.refused(wh.evaluate, scene, "low", {"height": 0.03, "height_mm": 30})))
+        self.assertIn("roll_deg is <U1; allowed: real numbers", str(self.refused(wh.evaluate, scene, "low", {"height": 0.03, "roll_deg": "1"})))
+
     def test_grips_of_a_dataset_are_in_its_own_order(self):
         scene = wh.scene(SEVERAL)
         data = wh.sweep(scene, on="core", best=0, keep=["score", "reason", "midpoint"]).sel(vessel="low")
@@ -269,6 +281,32 @@ class Evaluate(InFolder):
         thread.join()
         # with the interpreter's lock held all along, the thread would have had no turn
         self.assertGreater(after - before, 2)
+
+    def test_ctrl_c_ends_it_at_any_size(self):
+        """Within a second: of processor time, which a busy machine does not stretch."""
+        many_states = (
+            '[[vessel]]\nname = "cup"\nshape = "cylinder"\ndiameter_mm = 70\nheight_mm = 90\nwall_mm = 2\n[strength]\n[liquid]\n'
+            f"fills = {[k / 32 for k in range(33)]}\n[tilts]\ndeg = {{ from = 0, to = 150, count = 1500 }}\n"
+        )
+        script = (
+            "import os, signal, sys, threading, time, numpy as np, wholehand as wh\n"
+            "scene, height, count, name = wh.scene(sys.argv[1]), 0.06, int(sys.argv[2]), sys.argv[3]\n"
+            "wh.evaluate(scene, 0, {'height': [height]}, name)\n"
+            "used = []\n"
+            "def interrupt():\n"
+            "    used.append(time.process_time())\n"
+            "    os.kill(os.getpid(), signal.SIGINT)\n"
+            "threading.Timer(0.5, interrupt).start()\n"
+            "try:\n"
+            "    wh.evaluate(scene, 0, {'height': np.broadcast_to(height, count)}, name)\n"
+            "except KeyboardInterrupt:\n"
+            "    print(time.process_time() - used[0])\n"
+        )
+        for scene, count, name in (("small", 10**9, "reason"), (many_states, 3000, "worst_effort")):
+            command = [sys.executable, "-c", script, scene, str(count), name]
+            done = subprocess.run(command, capture_output=True, text=True, timeout=200)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertLess(float(done.stdout), 1)
 
     def test_ctrl_c_ends_it(self):
         script = (

@@ -114,6 +114,30 @@ class OneGrip(InFolder):
         ):
             self.assertEqual(wh.grip("scene.toml", "low", at=at)._values, expected._values)
 
+    def test_names_in_si_mean_the_same_as_names_with_units(self):
+        rad = np.pi / 180
+        si = {"height": 40.5 / 1e3, "azimuth": 12 * rad, "obliquity": -5 * rad, "roll": -33 * rad, "offset": 3 / 1e3}
+        expected = wh.grip("scene.toml", "low", **AT)
+        self.assertEqual(wh.grip("scene.toml", "low", **si, hand_scale=0.95)._values, expected._values)
+        mixed = {"height_mm": 40.5, "azimuth_deg": 12, "obliquity_deg": -5, "roll": -33 * rad, "offset": 3 / 1e3, "hand_scale": 0.95}
+        self.assertEqual(wh.grip("scene.toml", "low", **mixed)._values, expected._values)
+        self.assertEqual(wh.grip("scene.toml", "low", at=AT)._values, expected._values)
+        ends = {"thumb_mm": (-40, 35, 2), "index_mm": (40, 30, 4)}
+        turned = wh.grip("scene.toml", "low", **ends, roll=-20 * rad)["grip"]["roll_rad"]
+        self.assertAlmostEqual(turned, -20 * rad, 15)
+        # what a scene says of its states can be asked for again
+        scene = wh.scene("scene.toml")
+        again = wh.grip(scene, "low", **AT, fills=scene.fills("low"), tilts=scene.tilts).states
+        np.testing.assert_allclose(again.torque.values, expected.states.torque.values, rtol=1e-12)
+        for named, words in (
+            ({"height": 0.04, "height_mm": 40}, "both height and height_mm are given"),
+            ({"height": 0.04, **ends}, "height excludes --thumb-mm"),
+            ({"roll": 1, "at": [0.04, 0, 0, 0, 0, 1]}, "roll excludes at"),
+            ({"roll": 1}, "'height' is missing (or 'height_mm')"),
+            ({"height": 0.04, "tilts": 0.1, "tilts_deg": 5}, "both tilts and tilts_deg are given"),
+        ):
+            self.assertIn(words, str(self.refused(wh.grip, "scene.toml", "low", **named)))
+
     def test_on_a_device_and_with_its_quality(self):
         self.same(wh.grip("scene.toml", "low", **AT, on="vulkan"), "scene.toml", "--vessel", "low", *options(AT), "--on", "vulkan")
         few = {"fills": 0.25, "tilts_deg": 0}

@@ -55,6 +55,8 @@ class Scenes(InFolder):
         for text in ('say "hi"\\', "line\nbreak\ttab", "\x7f\x01", "Grüße 🖐", "", "'''"):
             made = wh._toml.toml_text({text or "k": {"k.e y": text, "list": [text, {"in ner": text}]}})
             self.assertEqual(tomllib.loads(made), {text or "k": {"k.e y": text, "list": [text, {"in ner": text}]}})
+        paths = {"mesh": pathlib.Path("a folder") / "cup.obj", "list": [pathlib.PurePosixPath("/b")]}
+        self.assertEqual(tomllib.loads(wh._toml.toml_text(paths)), {"mesh": "a folder/cup.obj", "list": ["/b"]})
         numbers = {"a": [1e-300, -0.0, 1e16, 123456789012345678, float("inf"), True]}
         self.assertEqual(tomllib.loads(wh._toml.toml_text(numbers)), numbers)
 

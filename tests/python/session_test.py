@@ -24,7 +24,7 @@ class Live(InFolder):
         with xr.open_dataset("own.nc", decode_times=False) as ticks, wh.session(scene) as session:
             recorded = {name: ticks[name].values for name in ticks.variables}
             states = ticks["state"].attrs["flag_meanings"].split()
-            held, told = 0, []
+            held, told, efforts = 0, [], []
             pairs = [
                 ("arm_force", "wanted_arm_force"),
                 ("grip_force", "wanted_gripper_force"),
@@ -43,6 +43,8 @@ class Live(InFolder):
                 ("vessel_place", "vessel_place"),
                 ("vessel_rotation", "vessel_rotation"),
                 ("volume", "liquid_volume"),
+                ("arrived", "arrived_volume"),
+                ("spilt", "spilt_volume"),
                 ("flow", "flow"),
                 ("grasp_height", "grasp_height"),
                 ("touch_mask", "touch_mask"),
@@ -68,12 +70,19 @@ class Live(InFolder):
                 self.assertEqual(step.vessel, None if np.isnan(index) or index < 0 else scene.vessels[int(index)])
                 told.append([getattr(step, own) for own, _ in pairs])
                 held += step.is_held
+                if tick % 100 == 0:  # an effort is solved when it is asked for
+                    self.assertEqual(np.isnan(step.effort), not step.is_held)
+                    efforts += [step.effort] if step.is_held else []
             self.assertGreater(len(told), 2000)
             for (own, other), values in zip(pairs, zip(*told)):
                 np.testing.assert_array_equal(np.array(values, float), recorded[other][: len(told)].astype(float), own)
             self.assertGreater(held, 500)
             self.assertEqual(step.grasps, 4)
             self.assertTrue(step.is_task_done)
+            self.assertGreater(max(efforts), min(efforts))
+            self.assertTrue(0 < min(efforts) < 1)
+            self.assertAlmostEqual(step.target_volume, step.arrived.sum(), 15)
+            self.assertGreater(step.target_volume, 100e-6)
 
     def approach(self, session, count=30):
         for k in range(count):
