@@ -82,7 +82,7 @@ StateAxes read_states(const GripArguments& arguments, const Scene& scene, std::s
   if (arguments.fills.empty() && arguments.volumes.empty()) return axes;
   const char* option = arguments.volumes.empty() ? "--fill" : "--fill-ml";
   if (!scene.liquid)
-    throw usage_error(fmt::format("{0}: {1} has no [liquid]; add one or leave {0} out", option, in_quotes(scene.file)));
+    throw usage_error(fmt::format("{0}: {1} has no [liquid]; add one with its fills, or leave {0} out", option, in_quotes(scene.file)));
   if (axes.tilts.empty())
     throw usage_error(fmt::format("{}: {} has no [tilts]; give --tilt-deg too", option, in_quotes(scene.file)));
   axes.fills.clear();

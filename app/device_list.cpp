@@ -3,19 +3,27 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "host/device_info.h"
 #include "program/remedy.h"
 #include "system/output.h"
 
 namespace wholehand {
 
-void print_devices() {
+namespace {
+
+// As gripper_lines says it of a gripper.
+void print_no_vulkan(const std::string& why) { print("vulkan  cannot be used: " + why + "\n"); }
+
+void print_vulkan_devices() {
   const auto devices = host::list_devices();
-  if (devices.empty()) throw failure_error("no Vulkan device; install a driver (mesa-vulkan-drivers has one for CPUs)");
-  const host::DeviceInfo& first = host::choose_device(devices, "vulkan");
+  if (devices.empty()) return print_no_vulkan("no Vulkan device; install a driver (mesa-vulkan-drivers has one for CPUs)");
+  const bool has_usable = std::any_of(devices.begin(), devices.end(), [](const auto& device) { return device.unusable.empty(); });
+  const std::size_t first = has_usable ? host::choose_device(devices, "vulkan").index : devices.size();
   for (const host::DeviceInfo& device : devices) {
     print(fmt::format("vulkan:{}  {}  ({}){}\n", device.index, device.name, host::device_kind_name(device.kind),
-                      device.index == first.index ? "  <- --on vulkan" : ""));
+                      device.index == first ? "  <- --on vulkan" : ""));
     print(fmt::format("  driver {}, Vulkan {}\n", device.driver, device.api_version));
     if (!device.unusable.empty()) {
       print(fmt::format("  cannot be used: {}\n", device.unusable));
@@ -28,6 +36,16 @@ void print_devices() {
                       static_cast<double>(device.memory) / MEBI, device.unified_memory ? " (the host's own)" : "",
                       static_cast<double>(device.max_allocation) / MEBI, static_cast<double>(device.max_storage_range) / MEBI,
                       device.shared_memory / 1024));
+  }
+}
+
+}  // namespace
+
+void print_devices() {
+  try {
+    print_vulkan_devices();
+  } catch (const Error& error) {  // its further remedy, the core, stands in the next line
+    print_no_vulkan(error.what());
   }
   print("core  the reference, double precision, all threads  <- --on core\n");
 }

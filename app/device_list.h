@@ -9,7 +9,7 @@
 
 namespace wholehand {
 
-// Prints the Vulkan devices and what each can do. Throws Error.
+// Prints what computes: the Vulkan devices and what each can do, or why there is none and what helps, and the core.
 void print_devices();
 
 // Grippers as lines for people, each ended.

@@ -68,7 +68,7 @@ StateAxes axes_of(const StateWish& wish, const Scene& scene, std::size_t vessel)
   const char* option = wish.volumes ? "--fill-ml" : "--fill";
   if (wish.fills && wish.volumes) throw usage_error("--fill and --fill-ml are both given; allowed: one of the two");
   if (!scene.liquid)
-    throw usage_error(fmt::format("{0}: {1} has no [liquid]; add one or leave {0} out", option, in_quotes(scene.file)));
+    throw usage_error(fmt::format("{0}: {1} has no [liquid]; add one with its fills, or leave {0} out", option, in_quotes(scene.file)));
   if (axes.tilts.empty())
     throw usage_error(fmt::format("{}: {} has no [tilts]; give --tilt-deg too", option, in_quotes(scene.file)));
   axes.fills.clear();

@@ -49,11 +49,14 @@ class StudyRun {
   StudyRun(const Scene& scene, const StudyOptions& options) : scene_(scene), options_(options) {
     if (options.people.contacts > 0) contacts_.emplace(scene);
     if (options.people.sessions > 0) {
-      if (!scene.task)
+      if (!scene.task) {
+        const bool has_guidance = std::any_of(scene.vessels.begin(), scene.vessels.end(),
+                                              [](const VesselData& vessel) { return !vessel.guidance.empty(); });
         throw usage_error(
             fmt::format("{}: sessions need a task, which says what is poured; add [task] to the scene, or ask for "
-                        "--experiment contacts or forces",
-                        name_of(scene)));
+                        "--experiment {}forces",
+                        name_of(scene), has_guidance ? "contacts or " : ""));
+      }
       session_vessels_ = session_vessels(scene);
       check_live(scene);
     }

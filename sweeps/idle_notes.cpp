@@ -7,8 +7,8 @@ namespace wholehand {
 
 std::string idle_strength_note(const Scene& scene) {
   if (!scene.strength || !scene.tilts.empty()) return "";
-  return "note: [strength] changes nothing here, since the scene has no [tilts] at which an effort could be computed; add [tilts], "
-         "or leave [strength] out";
+  return "note: [strength] changes nothing here, since the scene has no [tilts] at which an effort could be computed; add [tilts] "
+         "with its deg, or leave [strength] out";
 }
 
 std::vector<std::string> idle_notes(const Scene& scene, const Plan& plan, std::size_t best) {
@@ -18,7 +18,7 @@ std::vector<std::string> idle_notes(const Scene& scene, const Plan& plan, std::s
   if (best == 0) {
     notes.emplace_back(
         "note: [robust] changes nothing here, since only the best grips have robust scores, and the sweep lists none; set "
-        "'best', or leave [robust] out");
+        "'best' of [output] above 0, or leave [robust] out");
     return notes;
   }
   const auto weights = effective_weights(scene);

@@ -41,8 +41,8 @@ std::vector<const Variable*> needed(const SweepResult& result, const std::vector
   }
   if (missing.empty()) return variables;
   throw usage_error(
-      fmt::format("{}: lacks {}, as [output] keep of its scene does not name it; add {} to keep, or remove keep, and sweep again",
-                  result.path(), joined(missing, ", "), missing.size() == 1 ? "it" : "them"));
+      fmt::format("{}: lacks {}, as keep of the sweep does not name {}; add {} to keep, or remove keep, and sweep again",
+                  result.path(), joined(missing, ", "), missing.size() == 1 ? "it" : "them", missing.size() == 1 ? "it" : "them"));
 }
 
 // Values that a condition may name beside the variables: numbers of sources from variable_catalogue().size() on, by PLACE_*; then the height in m.
@@ -52,6 +52,17 @@ bool is_over(const Variable& variable, const char* dim) {
   return std::any_of(variable.dims.begin(), variable.dims.end(), [dim](const char* name) { return std::strcmp(name, dim) == 0; });
 }
 
+// How a sweep comes to have a variable: keep lists all that there is, and also adds to the usual ones. What the file has of it instead
+// may be what is meant, as worst_effort of effort.
+std::string remedy_for(const Variable& variable, const SweepResult& result, const Scene& scene) {
+  std::vector<std::string> related;
+  for (const Variable& other : variable_catalogue())
+    if (std::string_view(other.name).ends_with(variable.name) && result.find(other.name)) related.push_back(other.name);
+  const std::string instead = related.empty() ? "" : fmt::format(", which has {}", joined(related, ", "));
+  return fmt::format("is not in the file{}; add \"{}\" to [output] {} of the scene and sweep again", instead, variable.name,
+                     scene.output.keep ? "keep" : "also");
+}
+
 std::string refusal_of(const Variable& variable, const SweepResult& result, const Scene& scene) {
   if (is_over(variable, "xyz")) return "is a vector, and a condition takes numbers";
   if (result.find(variable.name)) return "";
@@ -59,7 +70,7 @@ std::string refusal_of(const Variable& variable, const SweepResult& result, cons
   if (variable.need == Need::table && !scene.table) return "needs [table], which the scene of this file does not have";
   if (variable.need == Need::between && scene.hand.between == 0)
     return "needs [hand] between above 0, which the scene of this file does not have";
-  return "is not in the file; name it in [output] keep of the scene and sweep again";
+  return remedy_for(variable, result, scene);
 }
 
 // A value under its own name and, where it has a length or an angle, under that with the unit of a scene file.

@@ -168,10 +168,11 @@ TEST(Rank, RowsAreTheFilesNumbersOrTheCores) {
 TEST(Rank, WhatTheFileLacksIsRefusedWithWhatToKeep) {
   const SweptScene part(edited(RESULT_SCENE, "best = 5", "best = 5\nkeep = [\"score\", \"plausible\", \"joints\"]"));
   EXPECT_NE(rank_refusal(part, {"force=1", "", 5})
-                .find("lacks score_fingers, score_contacts, score_depth, score_posture, score_force, score_hold, as [output] keep"),
+                .find("lacks score_fingers, score_contacts, score_depth, score_posture, score_force, score_hold, as keep of the "
+                      "sweep does not name them"),
             std::string::npos)
       << rank_refusal(part, {"force=1", "", 5});
-  EXPECT_NE(rank_refusal(part, {"", "gap_mm < 80", 5}).find("column 1: gap_mm is not in the file; name it in [output] keep"),
+  EXPECT_NE(rank_refusal(part, {"", "gap_mm < 80", 5}).find("column 1: gap_mm is not in the file; add \"gap\" to [output] keep of"),
             std::string::npos);
   EXPECT_NE(rank_refusal(part, {"", "max(joints) > 0", 5}).find("is a vector"), std::string::npos);
   const SweptScene none(edited(RESULT_SCENE, "best = 5", "best = 5\nkeep = [\"score\"]"));
