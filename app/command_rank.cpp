@@ -81,7 +81,6 @@ ExitCode rank(const RankArguments& arguments) {
   SweepResult result(arguments.result);
   std::string trouble;
   Scene scene = scene_of_result(result, trouble);
-  if (!result.origin().scene_file.empty()) scene.file = result.origin().scene_file;
   check_list_file(arguments, scene);
   set_heights(result, scene);
   const Plan plan(scene, keeps_vectors(result.variables()));

@@ -52,6 +52,7 @@ void view_result(const std::string& path, const std::string& list_file, int port
   const Plan plan(scene, keeps_vectors(result.variables()));
   result.use(scene, plan);
   if (list_file.empty() && !result.lists_best())
+  follow_moved_scene(scene, path);
     throw usage_error(fmt::format("{}: this result lists no best grips; sweep with --best 1 or more", path));
   const GripLists lists = list_file.empty() ? lists_of_sweep(result, scene, plan) : read_grip_lists(list_file, result, scene, plan);
   std::vector<ViewedGrip> grips;

@@ -234,7 +234,8 @@ class LiveRun {
     if (is_replay && !options_.scene.empty())
       notes_.push_back("the replay uses another scene: the forces are those of this scene, not the recorded forces");
     std::optional<Recording> recording;
-    if (is_replay) recording = read_recording(options_.device.substr(std::string(REPLAY).size()));
+    const std::string replayed = is_replay ? options_.device.substr(std::string(REPLAY).size()) : "";
+    if (is_replay) recording = read_recording(replayed);
     if (recording && options_.scene.empty()) {
       scene_ = scene_of_recording(recording->info);
       options_.seed = recording->info.seed;
@@ -244,6 +245,7 @@ class LiveRun {
       if (options_.person) take_hand_of(scene_, options_.seed, *options_.person);
     }
     load_meshes(scene_);
+      follow_moved_scene(scene_, replayed);
     say_cavity_notes(scene_);
     if (recording) scene_.live.rate = recording->info.rate;
     if (options_.rate > 0) scene_.live.rate = options_.rate;

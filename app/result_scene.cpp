@@ -22,7 +22,8 @@ bool is_result(const std::string& path) { return begins_with(path, NETCDF4_START
 Scene scene_of_result(const SweepResult& result, std::string& trouble) {
   const SweepOrigin& origin = result.origin();
   Scene scene = parse_scene(origin.scene, result.path() + " (its scene)", default_weights_of(origin.version));
-  trouble = reload_meshes(scene, origin.scene_file, origin.mesh_keys, origin.mesh_lattices);
+  if (!origin.scene_file.empty()) scene.file = origin.scene_file;
+  trouble = reload_meshes(scene, result.path(), origin.mesh_keys, origin.mesh_lattices);
   return scene;
 }
 
@@ -30,7 +31,6 @@ Scene whole_scene_of_result(const SweepResult& result) {
   std::string trouble;
   Scene scene = scene_of_result(result, trouble);
   if (!trouble.empty()) throw usage_error(result.path() + ": " + trouble);
-  if (!result.origin().scene_file.empty()) scene.file = result.origin().scene_file;
   return scene;
 }
 

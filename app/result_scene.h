@@ -12,7 +12,7 @@ namespace wholehand {
 // Whether the file is NetCDF-4, as results are; neither scenes nor recordings are.
 bool is_result(const std::string& path);
 
-// With its meshes, which are read again; why they are no longer those of the sweep goes to `trouble`, "" where they are. Throws Error (usage) where
+// With its meshes, which are looked for beside the result, then from where the scene lay; why they are no longer those of the sweep goes to `trouble`, "" where they are. Throws Error (usage) where
 // the text is no scene.
 Scene scene_of_result(const SweepResult& result, std::string& trouble);
 

@@ -240,6 +240,39 @@ void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder
   vessel.mesh->body = std::move(body);
 }
 
+// The file of that name beside `kept_in`; the file itself where nothing keeps it.
+std::string beside_of(const std::string& kept_in, const std::string& file) {
+  if (kept_in.empty()) return file;
+  return (std::filesystem::path(kept_in).parent_path() / std::filesystem::path(file).filename()).string();
+}
+
+// Whether all meshes are there, seen from that scene file.
+bool has_mesh_files(const Scene& scene, const std::string& scene_file) {
+  const std::filesystem::path folder = std::filesystem::path(scene_file).parent_path();
+  std::error_code failed;
+  return std::all_of(scene.vessels.begin(), scene.vessels.end(), [&](const VesselData& vessel) {
+    return !vessel.mesh || std::filesystem::exists(folder / vessel.mesh->file, failed);
+  });
+}
+
+// As reload_meshes, from where scene.file says.
+std::string load_same_meshes(Scene& scene, const std::string& keys, const std::string& lattices, bool is_quiet) {
+  MeshOptions options;
+  options.lattices = lattices;
+  options.is_quiet = is_quiet;
+  if (!is_quiet) options.forecast = say_note;
+  Scene read = scene;
+  try {
+    load_meshes(read, options);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  if (mesh_lattices(read) != lattices) return "the result does not say by which lattices the meshes were read";
+  if (mesh_keys(read) != keys) return "the mesh files are not what they were when the sweep ran";
+  scene.vessels = read.vessels;
+  return "";
+}
+
 }  // namespace
 
 bool is_long(double seconds, bool is_closed) { return seconds > (is_closed ? LONG_WORK : LONG_OPEN_WORK); }
@@ -295,24 +328,20 @@ void load_meshes(Scene& scene, const MeshOptions& options) {
     if (vessel.mesh && !vessel.mesh->body) load_mesh(scene, vessel, folder, options, lattices);
 }
 
-std::string reload_meshes(Scene& scene, const std::string& scene_file, const std::string& keys, const std::string& lattices,
+void follow_moved_scene(Scene& scene, const std::string& kept_in) {
+  const std::string beside = beside_of(kept_in, scene.file);
+  if (has_meshes(scene) && has_mesh_files(scene, beside)) scene.file = beside;
+}
+
+std::string reload_meshes(Scene& scene, const std::string& kept_in, const std::string& keys, const std::string& lattices,
                           bool is_quiet) {
   if (!has_meshes(scene)) return "";
-  MeshOptions options;
-  options.lattices = lattices;
-  options.is_quiet = is_quiet;
-  if (!is_quiet) options.forecast = say_note;
-  Scene read = scene;
-  read.file = scene_file;
-  try {
-    load_meshes(read, options);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  if (mesh_lattices(read) != lattices) return "the result does not say by which lattices the meshes were read";
-  if (mesh_keys(read) != keys) return "the mesh files are not what they were when the sweep ran";
-  scene.vessels = read.vessels;
-  return "";
+  const std::string lay = scene.file;
+  follow_moved_scene(scene, kept_in);
+  const std::string trouble = load_same_meshes(scene, keys, lattices, is_quiet);
+  if (trouble.empty() || scene.file == lay) return trouble;
+  scene.file = lay;
+  return has_mesh_files(scene, lay) ? load_same_meshes(scene, keys, lattices, is_quiet) : trouble;
 }
 
 void load_meshes(Scene& scene, const std::function<std::uint64_t()>& device_bytes) {

@@ -41,10 +41,14 @@ void load_meshes(Scene& scene, const MeshOptions& options);
 // was found.
 void load_meshes(Scene& scene, const std::function<std::uint64_t()>& device_bytes = nullptr);
 
-// For a scene read back from a result, whose file lay at `scene_file` and whose meshes had those keys and lattices (mesh_lattices). Returns
-// why the meshes are no longer those, "" where they are; then every body is there, else none. Says on stderr where a lattice takes long,
-// unless `is_quiet`.
-std::string reload_meshes(Scene& scene, const std::string& scene_file, const std::string& keys, const std::string& lattices,
+// Of a scene read back from a file `kept_in`, say a recording: sets its own file (scene.file, from where meshes are looked for) to that of the
+// same name beside `kept_in`, if all its meshes are there. Else it stays.
+void follow_moved_scene(Scene& scene, const std::string& kept_in);
+
+// For a scene read back from the result `kept_in`, whose meshes had those keys and lattices (mesh_lattices). They are looked for beside the
+// result, then where scene.file lay; scene.file becomes the place where they are. Returns why the meshes are no longer those, "" where they
+// are; then every body is there, else none. Says on stderr where a lattice takes long, unless `is_quiet`.
+std::string reload_meshes(Scene& scene, const std::string& kept_in, const std::string& keys, const std::string& lattices,
                           bool is_quiet = false);
 
 bool has_meshes(const Scene& scene);

@@ -23,7 +23,7 @@ def scene_of(data: xr.Dataset) -> Scene:
     if "scene" not in data.attrs:
         raise Error("best: the dataset has no attribute 'scene'; give one of wh.sweep, or of a result file")
     of_meshes = [str(data.attrs.get(name, "")) for name in ("scene_file", "mesh_keys", "mesh_lattices")]
-    return Scene(_core.scene_of_dataset(str(data.attrs["scene"]), *of_meshes))
+    return Scene(_core.scene_of_dataset(str(data.attrs["scene"]), str(data.encoding.get("source", "")), *of_meshes))
 
 
 def _variable(data: xr.Dataset, name: str) -> xr.DataArray:

@@ -100,6 +100,27 @@ TEST_F(MeshCommands, WithoutItsMeshAResultIsRankedHoweverNearTheGripsAre) {
   EXPECT_NE(near.output.find("cup: 8 grips are feasible and plausible"), std::string::npos) << near.output;
 }
 
+TEST_F(MeshCommands, AResultThatMovedWithItsMeshIsReadAsBefore) {
+  const std::string session =
+      "live " + path("cup.toml") + " --device sim --no-clock --seconds 1 --record " + path("cup.session.nc");
+  ASSERT_EQ(run("PROGRAM sweep " + path("cup.toml") + " --on core -o " + path("cup.nc") + " >/dev/null 2>&1").code, 0);
+  ASSERT_EQ(run("PROGRAM " + session + " >/dev/null 2>&1").code, 0);
+  std::filesystem::create_directory(path("moved"));
+  for (const char* file : {"cup.nc", "cup.toml", "cup.glb", "cup.session.nc"})
+    std::filesystem::rename(path(file), path(std::string("moved/") + file));
+  const std::string result = path("moved/cup.nc");
+  const auto expect_done = [this](const std::string& arguments) {
+    const Outcome outcome = run("PROGRAM " + arguments + " 2>&1");
+    EXPECT_EQ(outcome.code, 0) << outcome.output;
+  };
+  expect_done("rank " + result);
+  expect_done("grip " + result + " --vessel cup --rank 1");
+  expect_done("live --device replay:" + path("moved/cup.session.nc") + " --no-clock");
+  expect_done("report " + result);
+  EXPECT_EQ(file_text(path("moved/cup.html")).find("This part is left out: "), std::string::npos);
+  expect_error("rank " + result + " -o " + path("moved/cup.toml"), 2, "moved/cup.toml");
+}
+
 TEST_F(MeshCommands, ASessionHoldsAMesh) {
   const Outcome live = run("PROGRAM live " + path("cup.toml") + " --device sim --no-clock --seconds 10 2>&1");
   EXPECT_EQ(live.code, 0) << live.output;

@@ -221,6 +221,40 @@ TEST_F(MeshVessel, AResultsLatticesAreMadeAgainWhateverTheMemory) {
   EXPECT_EQ(other.vessels[0].mesh->body, nullptr);
 }
 
+TEST_F(MeshVessel, AResultsMeshesAreLookedForBesideItThenWhereTheyLay) {
+  const ScopedVariable cache("XDG_CACHE_HOME", folder_.c_str());
+  const VesselData ball = of_file("ball", icosphere(0.03, 2), 2e-3);
+  Scene swept = scene_of({ball});
+  swept.file = (folder_ / "scene.toml").string();
+  load_meshes(swept, MeshOptions());
+  const std::filesystem::path moved = folder_ / "moved", mesh = ball.mesh->file;
+  const std::string result = (moved / "a.nc").string(), beside = (moved / "scene.toml").string();
+  std::filesystem::create_directory(moved);
+  // why the meshes are not those, and the place where they were found
+  const auto found = [&] {
+    Scene again = scene_of({ball});
+    again.file = swept.file;
+    const std::string trouble = reload_meshes(again, result, mesh_keys(swept), mesh_lattices(swept), true);
+    EXPECT_EQ(again.vessels[0].mesh->body != nullptr, trouble.empty());
+    return std::pair(trouble, again.file);
+  };
+  const std::pair<std::string, std::string> here{"", beside}, there{"", swept.file};
+  EXPECT_EQ(found(), there);
+  std::filesystem::copy_file(folder_ / mesh, moved / mesh);
+  EXPECT_EQ(found(), here);
+  std::filesystem::rename(folder_ / mesh, folder_ / "kept");
+  EXPECT_EQ(found(), here);
+  of_file("ball", icosphere(0.03, 3), 2e-3);
+  EXPECT_EQ(found(), here) << "another one lies at the old place";
+  std::filesystem::rename(folder_ / mesh, moved / mesh);
+  EXPECT_NE(found().first.find("not what they were"), std::string::npos) << "another one beside it, and none at the old place";
+  std::filesystem::rename(folder_ / "kept", folder_ / mesh);
+  EXPECT_EQ(found(), there);
+  std::filesystem::remove(folder_ / mesh);
+  std::filesystem::remove(moved / mesh);
+  EXPECT_NE(found().first.find((folder_ / mesh).string()), std::string::npos) << found().first;
+}
+
 TEST_F(MeshVessel, ASceneThatIsNotReadIsNotEvaluated) {
   const Scene scene = scene_of({of_file("ball", icosphere(0.03, 2), 1e-3)});
   EXPECT_THROW(make_core_evaluator(scene), Error);
