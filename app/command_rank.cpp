@@ -25,7 +25,8 @@ namespace wholehand {
 namespace {
 
 struct RankArguments {
-  std::string result, weights, where, best, apart, glb, output;
+  std::string result, weights, best, apart, glb, output;
+  std::vector<std::string> where;
 };
 
 // What can be refused before any work.
@@ -121,14 +122,15 @@ ExitCode rank(const RankArguments& arguments) {
 void add_rank_command(CLI::App& app, Action& action) {
   const auto arguments = std::make_shared<RankArguments>();
   CLI::App* command = app.add_subcommand("rank", "List the best grips of a sweep by other weights and under conditions");
-  const auto add = [command](const char* name, std::string& value, const char* type, const char* help) {
+  const auto add = [command](const char* name, auto& value, const char* type, const char* help) {
     return command->add_option(name, value, help)->type_name(type)->check(not_empty());
   };
   add("result", arguments->result, "FILE.nc", "Result of `wholehand sweep`")->required();
   add("--weights", arguments->weights, "TERM=W,..",
       "Weights of fingers, contacts, depth, posture, force, hold (default: the scene's)");
   add("--where", arguments->where, "CONDITION",
-      "List only grips that meet this condition: \"fingers_used >= 4 and palm_depth_mm < 2\"");
+      "List only grips that meet this condition: \"fingers_used >= 4 and palm_depth_mm < 2\"; given again: that one too")
+      ->allow_extra_args(false);
   add("--best", arguments->best, "N", "Number of grips to list for each vessel (default: as many as the sweep listed)");
   add("--apart-mm", arguments->apart, "A",
       "List only grips that have some joint of the hand more than A from every grip before (default: the scene's; 0: any)");

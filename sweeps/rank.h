@@ -25,11 +25,11 @@ std::array<double, 6> read_weights(const std::string& text, const Scene& scene);
 std::vector<WhereName> where_names(const SweepResult& result, const Scene& scene, const Plan& plan);
 
 struct RankRequest {
-  std::string weights;   // as of read_weights; empty: the sweep's own scores
-  std::string where;     // empty: all grips
-  std::size_t best = 0;  // grips a list at most
-  double apart = 0;      // m, that some joint of the hand moves from one listed grip to any other (sweeps/list_chooser.h)
-  std::size_t pool = 0;  // grips of a list that one pass keeps; 0: usual_pool
+  std::string weights;             // as of read_weights; empty: the sweep's own scores
+  std::vector<std::string> where;  // conditions, all of which a grip meets
+  std::size_t best = 0;            // grips a list at most
+  double apart = 0;                // m, that some joint of the hand moves from one listed grip to any other (sweeps/list_chooser.h)
+  std::size_t pool = 0;            // grips of a list that one pass keeps; 0: usual_pool
 };
 
 struct Ranking {

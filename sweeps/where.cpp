@@ -122,7 +122,8 @@ class WhereParser {
       : tokens_(text), names_(names), where_(where) {}
 
   void parse() {
-    where_.root_ = condition_of(alternatives());
+    const int node = condition_of(alternatives());
+    where_.root_ = where_.root_ < 0 ? node : add({Operation::both, where_.root_, node, {}, {}});
     if (tokens_.next().type != WhereToken::Type::end)
       refuse(tokens_.next().column, fmt::format("found {}; expected 'and', 'or' or the end", shown(tokens_.next())));
   }
@@ -338,7 +339,9 @@ class WhereParser {
   int depth_ = 0;
 };
 
-Where::Where(const std::string& text, const std::vector<WhereName>& names) { WhereParser(text, names, *this).parse(); }
+Where::Where(const std::vector<std::string>& texts, const std::vector<WhereName>& names) {
+  for (const std::string& text : texts) WhereParser(text, names, *this).parse();
+}
 
 double Where::number_of(const Operand& operand, const double* values) {
   if (operand.value < 0) return operand.number;

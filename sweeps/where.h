@@ -37,8 +37,8 @@ struct WhereValue {
 // A comparison with a value that does not exist (NaN) does not hold.
 class Where {
  public:
-  // Throws Error (usage), "--where, column 7: ..": what is wrong there, and what is known.
-  Where(const std::string& text, const std::vector<WhereName>& names);
+  // All of the conditions `texts` (one at least). Throws Error (usage), "--where, column 7: ..": what is wrong there, and what is known.
+  Where(const std::vector<std::string>& texts, const std::vector<WhereName>& names);
 
   const std::vector<WhereValue>& values() const { return values_; }        // each once
   bool holds(const double* values) const { return holds(root_, values); }  // one of each of values(), in their own units

@@ -108,12 +108,9 @@ def _refuse_azimuths(value: str | xr.DataArray | None, data: xr.Dataset, name: s
         )
 
 
-def _of_grips(value: str | xr.DataArray, data: xr.Dataset, dims: list[str], name: str, kinds: str) -> xr.DataArray:
+def _of_grips(array: xr.DataArray, data: xr.Dataset, dims: list[str], name: str, kinds: str) -> xr.DataArray:
     import xarray as xr
 
-    array = _variable(data, value) if isinstance(value, str) else value
-    if not isinstance(array, xr.DataArray):
-        raise TypeError(f"best: {name} is {type(value).__name__}; allowed: the name of a variable, or a DataArray")
     if array.dtype.kind not in kinds:
         raise Error(f"best: {name} is {array.dtype}; allowed: {'truths' if kinds == 'b' else 'real numbers'}")
     further = [str(dim) for dim in array.dims if dim not in ("vessel", *dims)]
@@ -177,6 +174,11 @@ def best(
     import numpy as np
     import xarray as xr
 
+    if not isinstance(by, (str, xr.DataArray)):
+        raise TypeError(f"best: by is {type(by).__name__}; allowed: the name of a variable, or a DataArray")
+    if where is not None and not isinstance(where, xr.DataArray):
+        said = repr(where) if isinstance(where, str) else type(where).__name__
+        raise TypeError(f"best: where is {said}; allowed: a DataArray of truths, as data.fingers_used >= 4")
     scene = scene_of(data)
     check_types("best", "core", n=n)
     count = n if n is not None else int(data.sizes.get("rank", 0)) or scene._core.best or _BEST_WHERE_NONE
@@ -199,7 +201,8 @@ def best(
     if unknown:
         raise Error(f"best: the dimension {unknown[0]} of the grips is no axis of a sweep")
     # as numbers with a sign: the best are looked for by the least of what is below zero
-    wanted = _of_grips(by, data, dims, "by", "biuf").astype(np.float64).reindex_like(data["reason"])
+    own = _variable(data, by) if isinstance(by, str) else by
+    wanted = _of_grips(own, data, dims, "by", "biuf").astype(np.float64).reindex_like(data["reason"])
     eligible = (data["reason"] == 0) & (data["plausible"] == 1)
     if where is not None:
         eligible = eligible & _of_grips(where, data, dims, "where", "b").reindex_like(data["reason"], fill_value=False)

@@ -62,6 +62,19 @@ TEST_F(CommandRank, DrawingsBearTheNameOfTheList) {
   EXPECT_FALSE(file_exists(folder / "list.tumbler.3.glb"));
 }
 
+TEST_F(CommandRank, ConditionsThatAreGivenOneByOneAreAllMet) {
+  const std::string both = folder / "both.csv", joined = folder / "joined.csv", rank = "PROGRAM rank " + result + " --apart-mm 0";
+  const std::string down = "obliquity_deg < 0", above = "roll_deg < -75 or closure > 2";
+  const Outcome separate = run(rank + " --where '" + down + "' --where '" + above + "' -o " + both + " | head -n 1");
+  EXPECT_EQ(separate.output, run(rank + " --where '(" + down + ") and (" + above + ")' -o " + joined + " | head -n 1").output);
+  EXPECT_EQ(file_text(both), file_text(joined));
+  for (const std::string& alone : {down, above}) {
+    ASSERT_EQ(run(rank + " --where '" + alone + "' -o " + joined + " >/dev/null").code, 0);
+    EXPECT_NE(file_text(both), file_text(joined)) << alone;
+  }
+  expect_error("rank " + result + " --where 'gap > 0' --where 'gap_m > 0'", 2, "--where, column 1: there is no value 'gap_m'");
+}
+
 TEST_F(CommandRank, NearGripsAreListedOnRequestAlone) {
   const std::string near = folder / "near.csv", far = folder / "far.csv";
   ASSERT_EQ(run("PROGRAM rank " + result + " --apart-mm 0 -o " + near + " >/dev/null").code, 0);

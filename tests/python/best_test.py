@@ -128,6 +128,36 @@ class Best(InFolder):
         self.assertIn("real numbers", str(self.refused(wh.best, data, by=data.score.astype(complex))))
         self.assertIn("truths", str(self.refused(wh.best, data, where=data.fingers_used)))
 
+    def test_a_condition_is_an_array_of_truths(self):
+        data = self.data_of(SEVERAL).load()
+        line = "allowed: a DataArray of truths, as data.fingers_used >= 4"
+        for wrong, said in (
+            ("fingers_used >= 4", "where is 'fingers_used >= 4'"),
+            ("antipodal", "where is 'antipodal'"),
+            (["antipodal"], "where is list"),
+            ((data.score > 0).values, "where is ndarray"),
+            (True, "where is bool"),
+        ):
+            with self.assertRaises(TypeError) as refused:
+                wh.best(data, where=wrong)
+            self.assertEqual(str(refused.exception), f"best: {said}; {line}")
+        with self.assertRaises(TypeError) as refused:
+            wh.best(data, by=data.score.values)
+        self.assertEqual(str(refused.exception), "best: by is ndarray; allowed: the name of a variable, or a DataArray")
+
+    def test_a_result_that_moved_with_its_mesh(self):
+        data = self.data_of(MESH)
+        expected = wh.best(data).score.values
+        data.close()
+        moved = pathlib.Path("moved")
+        moved.mkdir()
+        for name in ("own.nc", "scene.toml", "tube.ply"):
+            pathlib.Path(name).rename(moved / name)
+        with xr.open_dataset("moved/own.nc") as there:
+            np.testing.assert_array_equal(wh.best(there).score.values, expected)
+            (moved / "tube.ply").rename("tube.ply")
+            np.testing.assert_array_equal(wh.best(there).score.values, expected)
+
     def test_azimuths_that_a_sweep_repeats_are_no_condition(self):
         data = self.data_of(SEVERAL).load()
         self.assertEqual(data.sizes["azimuth"], 2)

@@ -80,7 +80,7 @@ const auto ANY_GRIP = [](FileValues&, std::uint64_t) { return true; };
 TEST(Rank, WithoutOptionsItIsTheSweepsOwnList) {
   for (const Precision precision : {Precision::single, Precision::full}) {
     const SweptScene swept(RESULT_SCENE, precision);
-    const Ranking ranking = ranked(swept, {"", "", 5});
+    const Ranking ranking = ranked(swept, {"", {}, 5});
     ASSERT_EQ(ranking.lists.size(), 2u);
     EXPECT_EQ(ranking.note, "");
     for (std::size_t v = 0; v < 2; ++v) {
@@ -101,17 +101,17 @@ TEST(Rank, OtherWeightsGiveTheOrderOfTheirSums) {
        {std::pair<const char*, std::array<double, 6>>{"fingers=0,contacts=0,depth=0,posture=1,force=0,hold=0", {0, 0, 0, 1, 0, 0}},
         {"force=2", {0.02, 0.02, 0.69, 0.02, 2, 0.12}},
         {"hold=0,contacts=.7", {0.02, 0.7, 0.69, 0.02, 0.13, 0}}}) {
-    const Ranking ranking = ranked(swept, {text, "", 40});
+    const Ranking ranking = ranked(swept, {text, {}, 40});
     for (std::size_t v = 0; v < 2; ++v) EXPECT_EQ(numbers_of(ranking.lists[v]), by_hand(swept, v, weights, ANY_GRIP, 40)) << text;
   }
-  EXPECT_NE(numbers_of(ranked(swept, {"force=2", "", 40}).lists[0]), numbers_of(ranked(swept, {"", "", 40}).lists[0]));
+  EXPECT_NE(numbers_of(ranked(swept, {"force=2", {}, 40}).lists[0]), numbers_of(ranked(swept, {"", {}, 40}).lists[0]));
 }
 
 TEST(Rank, OnlyGripsThatMeetTheConditionAreListedAndCounted) {
   const SweptScene swept(RESULT_SCENE);
   const std::array<double, 6> own{0.02, 0.02, 0.69, 0.02, 0.13, 0.12};
   const auto expect_by_hand = [&](const std::string& where, const std::function<bool(FileValues&, std::uint64_t)>& matches) {
-    const Ranking ranking = ranked(swept, {"", where, 1000});
+    const Ranking ranking = ranked(swept, {"", {where}, 1000});
     const auto expected = by_hand(swept, 1, own, matches, 1000);
     EXPECT_EQ(numbers_of(ranking.lists[1]), expected) << where;
     EXPECT_EQ(ranking.matching[1], expected.size()) << where;
@@ -146,18 +146,18 @@ TEST(Rank, OfSeveralValuesAConditionTakesTheLargestOrTheLeast) {
       const double a = peaks[grip], b = peaks[stored + grip];
       count += file.of("plausible", 0, grip) == 1 && (is_largest ? std::max(a, b) : std::min(a, b)) < 1.5;
     }
-    EXPECT_EQ(ranked(swept, {"", where, 1}).matching[0], count) << where;
+    EXPECT_EQ(ranked(swept, {"", {where}, 1}).matching[0], count) << where;
   }
   std::uint64_t count = 0;
   FileValues file(swept);
   for (std::uint64_t grip = 0; grip < swept.plan->grips(); ++grip)
     count += file.of("plausible", 0, grip) == 1 && safe[grip] >= 0 && safe[stored + grip] >= 0;  // NaN: none
-  EXPECT_EQ(ranked(swept, {"", "min(largest_safe_tilt) >= 0", 1}).matching[0], count);
+  EXPECT_EQ(ranked(swept, {"", {"min(largest_safe_tilt) >= 0"}, 1}).matching[0], count);
 }
 
 TEST(Rank, RowsAreTheFilesNumbersOrTheCores) {
   const SweptScene whole(RESULT_SCENE), part(edited(RESULT_SCENE, "best = 5", "best = 5\nkeep = [\"score\", \"plausible\"]"));
-  const Ranking from_file = ranked(whole, {"", "", 5}), from_core = ranked(part, {"", "", 5});
+  const Ranking from_file = ranked(whole, {"", {}, 5}), from_core = ranked(part, {"", {}, 5});
   EXPECT_EQ(from_file.note, "");
   EXPECT_NE(from_core.note.find("the core computed them"), std::string::npos);
   const ListOrigin origin{"a.nc", "s"};
@@ -167,23 +167,23 @@ TEST(Rank, RowsAreTheFilesNumbersOrTheCores) {
 
 TEST(Rank, WhatTheFileLacksIsRefusedWithWhatToKeep) {
   const SweptScene part(edited(RESULT_SCENE, "best = 5", "best = 5\nkeep = [\"score\", \"plausible\", \"joints\"]"));
-  EXPECT_NE(rank_refusal(part, {"force=1", "", 5})
+  EXPECT_NE(rank_refusal(part, {"force=1", {}, 5})
                 .find("lacks score_fingers, score_contacts, score_depth, score_posture, score_force, score_hold, as keep of the "
                       "sweep does not name them"),
             std::string::npos)
-      << rank_refusal(part, {"force=1", "", 5});
-  EXPECT_NE(rank_refusal(part, {"", "gap_mm < 80", 5}).find("column 1: gap_mm is not in the file; add \"gap\" to [output] keep of"),
+      << rank_refusal(part, {"force=1", {}, 5});
+  EXPECT_NE(rank_refusal(part, {"", {"gap_mm < 80"}, 5}).find("column 1: gap_mm is not in the file; add \"gap\" to [output] keep of"),
             std::string::npos);
-  EXPECT_NE(rank_refusal(part, {"", "max(joints) > 0", 5}).find("is a vector"), std::string::npos);
+  EXPECT_NE(rank_refusal(part, {"", {"max(joints) > 0"}, 5}).find("is a vector"), std::string::npos);
   const SweptScene none(edited(RESULT_SCENE, "best = 5", "best = 5\nkeep = [\"score\"]"));
-  EXPECT_NE(rank_refusal(none, {"", "", 5}).find("lacks plausible, as"), std::string::npos);
+  EXPECT_NE(rank_refusal(none, {"", {}, 5}).find("lacks plausible, as"), std::string::npos);
   const SweptScene still(edited(RESULT_SCENE, "[tilts]\ndeg = [0, 45, 90, 135]", ""));
-  EXPECT_NE(rank_refusal(still, {"", "max(peak_feedback_force) < 1", 5}).find("needs [tilts]"), std::string::npos);
-  EXPECT_NE(rank_refusal(still, {"force=1", "", 5}).find("force needs [tilts]"), std::string::npos);
+  EXPECT_NE(rank_refusal(still, {"", {"max(peak_feedback_force) < 1"}, 5}).find("needs [tilts]"), std::string::npos);
+  EXPECT_NE(rank_refusal(still, {"force=1", {}, 5}).find("force needs [tilts]"), std::string::npos);
   const SweptScene points(edited(RESULT_SCENE, "[tilts]", "[hand]\nbetween = 0\n\n[tilts]"));
-  EXPECT_NE(rank_refusal(points, {"", "self_depth_mm < 3", 5}).find("needs [hand] between above 0, which the scene of this file"),
+  EXPECT_NE(rank_refusal(points, {"", {"self_depth_mm < 3"}, 5}).find("needs [hand] between above 0, which the scene of this file"),
             std::string::npos);
-  EXPECT_NE(rank_refusal(SweptScene(RESULT_SCENE), {"", "azimuth_deg > 0", 5}).find("one azimuth stands for all"),
+  EXPECT_NE(rank_refusal(SweptScene(RESULT_SCENE), {"", {"azimuth_deg > 0"}, 5}).find("one azimuth stands for all"),
             std::string::npos);
 }
 
@@ -226,7 +226,7 @@ std::string csv_of(const SweptScene& swept, const Ranking& ranking) {
 
 TEST(GripListsTest, AListIsReadAsItWasWritten) {
   const SweptScene swept(RESULT_SCENE);
-  const Ranking ranking = ranked(swept, {"force=1", "fingers_used >= 3", 7});
+  const Ranking ranking = ranked(swept, {"force=1", {"fingers_used >= 3"}, 7});
   const GripLists lists = read_grip_lists(written_list(swept, csv_of(swept, ranking)), *swept.result, swept.scene, *swept.plan);
   ASSERT_EQ(lists.size(), 2u);
   for (std::size_t v = 0; v < 2; ++v) {
@@ -241,7 +241,7 @@ TEST(GripListsTest, AListIsReadAsItWasWritten) {
 
 TEST(GripListsTest, RowsMayBeLeftOutAndSorted) {
   const SweptScene swept(RESULT_SCENE);
-  const Ranking ranking = ranked(swept, {"", "", 3});
+  const Ranking ranking = ranked(swept, {"", {}, 3});
   const std::string csv = csv_of(swept, ranking);
   std::vector<std::string> lines;
   for (std::size_t at = 0, end; (end = csv.find('\n', at)) != std::string::npos; at = end + 1)
@@ -257,7 +257,7 @@ TEST(GripListsTest, RowsMayBeLeftOutAndSorted) {
 
 TEST(GripListsTest, OtherSweepsAndDamageAreRefusedWithTheirLine) {
   const SweptScene swept(RESULT_SCENE);
-  const std::string csv = csv_of(swept, ranked(swept, {"", "", 2})), id = sweep_id(swept.result->origin());
+  const std::string csv = csv_of(swept, ranked(swept, {"", {}, 2})), id = sweep_id(swept.result->origin());
   const auto expect_refused = [&](const std::string& text, const std::string& gist) {
     const std::string path = written_list(swept, text);
     try {
@@ -312,7 +312,7 @@ TEST(Rank, EachHandScaleHasAListOfItsOwn) {
   for (const char* keep : {"best = 4", "best = 4\nkeep = [\"score\", \"plausible\"]"}) {
     const SweptScene swept(edited(edited(RESULT_SCENE, "best = 5", keep), "roll_deg", "hand_scale = [1.1, 0.9]\nroll_deg"));
     ASSERT_EQ(swept.plan->hand_scales(), 2u);
-    const Ranking ranking = ranked(swept, {"", "", 4});
+    const Ranking ranking = ranked(swept, {"", {}, 4});
     ASSERT_EQ(ranking.lists.size(), 4u);
     for (std::size_t list = 0; list < 4; ++list) {
       const auto own = swept.result->best(list / 2, list % 2);
@@ -353,13 +353,14 @@ TEST(Rank, DifferentGripsAreThoseOfTheDefinition) {
     const auto used = read_weights(weights, swept.scene);
     for (const bool all : {true, false}) {
       const auto matches = [&](FileValues& file, std::uint64_t grip) { return all || file.of("fingers_used", 0, grip) >= 3; };
+      const std::vector<std::string> where(all ? 0 : 1, "fingers_used >= 3");
       const std::size_t vessels = all ? 2 : 1;  // the condition above looks at the first vessel
       for (std::size_t v = 0; v < vessels; ++v) {
         const auto in_order = by_hand(swept, v, used, matches, swept.plan->grips());
         for (const double apart : {5e-3, 25e-3, 80e-3}) {
           const auto expected = different(swept, v, in_order, 8, apart);
           for (const std::size_t pool : {std::size_t{1}, std::size_t{3}, std::size_t{0}}) {
-            const Ranking ranking = ranked(swept, {weights, all ? "" : "fingers_used >= 3", 8, apart, pool});
+            const Ranking ranking = ranked(swept, {weights, where, 8, apart, pool});
             EXPECT_EQ(numbers_of(ranking.lists[v]), expected) << apart << " " << pool;
             EXPECT_EQ(ranking.matching[v], in_order.size()) << "counted in one pass alone";
           }
@@ -371,7 +372,7 @@ TEST(Rank, DifferentGripsAreThoseOfTheDefinition) {
 
 TEST(Rank, NearGripsAreLeftOut) {
   const SweptScene swept(RESULT_SCENE);
-  const Ranking near = ranked(swept, {"", "", 8}), apart = ranked(swept, {"", "", 8, 80e-3, 0});
+  const Ranking near = ranked(swept, {"", {}, 8}), apart = ranked(swept, {"", {}, 8, 80e-3, 0});
   for (std::size_t v = 0; v < 2; ++v) {
     ASSERT_FALSE(near.lists[v].empty());
     EXPECT_EQ(numbers_of(near.lists[v])[0], numbers_of(apart.lists[v])[0]) << "the best is the best";
@@ -394,7 +395,7 @@ TEST(Rank, WithTheSweepsDistanceItIsTheSweepsOwnList) {
     const Plan plan(scene, keeps_vectors(result.variables()));
     result.use(scene, plan);
     const Ranking ranking =
-        rank_grips(result, scene, plan, {"", "", 5, scene.output.apart, 2}, [&] { return make_core_evaluator(scene); });
+        rank_grips(result, scene, plan, {"", {}, 5, scene.output.apart, 2}, [&] { return make_core_evaluator(scene); });
     for (std::size_t v = 0; v < 2; ++v) {
       std::vector<std::uint64_t> own;
       for (const Candidate& candidate : result.best(v)) own.push_back(candidate.index);

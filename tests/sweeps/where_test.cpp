@@ -30,7 +30,7 @@ const std::vector<WhereName> NAMES{
 // peak 5.
 bool met(const std::string& text, double depth = 1.5 / 1e3) {
   const std::vector<double> grip{4, depth, 80 / 1e3, radians(-30), static_cast<double>((1 << 3) | (1 << 23)), 1, 5};
-  const Where where(text, NAMES);
+  const Where where({text}, NAMES);
   std::vector<double> values;
   for (const WhereValue& value : where.values()) values.push_back(grip[value.source]);
   return where.holds(values.data());
@@ -38,7 +38,7 @@ bool met(const std::string& text, double depth = 1.5 / 1e3) {
 
 std::string where_refusal(const std::string& text) {
   try {
-    const Where where(text, NAMES);
+    const Where where({text}, NAMES);
   } catch (const Error& error) {
     EXPECT_EQ(error.code, ExitCode::usage);
     return error.what();
@@ -95,7 +95,7 @@ TEST(Where, WhatDoesNotExistMeetsNoComparison) {
 }
 
 TEST(Where, ValuesAreAskedForOnceAndFolded) {
-  const Where where("max(peak_force) < 8 and min(peak_force) > 1 and max(peak_force) > 2 and max(fingers_used) > 0", NAMES);
+  const Where where({"max(peak_force) < 8 and min(peak_force) > 1 and max(peak_force) > 2 and max(fingers_used) > 0"}, NAMES);
   ASSERT_EQ(where.values().size(), 3u);
   EXPECT_EQ(where.values()[0], (WhereValue{6, WhereFold::largest}));
   EXPECT_EQ(where.values()[1], (WhereValue{6, WhereFold::least}));
