@@ -26,9 +26,21 @@ constexpr const char* HEIGHT_MEANING = "height of the thumb-index line in the ve
 // The definition of a sweep's file.
 class SweepDefinition : ResultDefinition {
  public:
+  explicit SweepDefinition(const ResultContents& contents) : contents_(contents) {}
   SweepDefinition(const std::string& path, const ResultContents& contents) : ResultDefinition(path), contents_(contents) {}
 
+  std::uint64_t count() {
+    define();
+    return size();
+  }
+
   void write() {
+    define();
+    finish(grip_variables_);
+  }
+
+ private:
+  void define() {
     dimensions();
     attributes();
     coordinates();
@@ -36,10 +48,8 @@ class SweepDefinition : ResultDefinition {
     vessel_variables();
     grip_variables();
     best_variables();
-    finish(grip_variables_);
   }
 
- private:
   bool has_dimension(const char* name) const {
     for (const Variable* chosen : contents_.variables) {
       for (const char* dim : chosen->dims) {
@@ -360,20 +370,9 @@ bool is_refined_axis(const PlanAxis& axis) { return axis.axis != AXIS_HAND_SCALE
 
 std::string best_scale_dimension(const Plan& plan) { return plan.is_sobol() ? "listed_hand_scale" : "hand_scale"; }
 
-std::uint64_t result_size(const ResultContents& contents) {
-  constexpr std::uint64_t STRUCTURE = 2 << 20;  // HDF5's own, generously
-  const Scene& scene = contents.scene;
-  const Plan& plan = contents.plan;
-  const std::size_t real_size = contents.info.precision == Precision::single ? sizeof(float) : sizeof(double);
-  const auto per_grip = static_cast<std::uint64_t>(bytes_per_grip(contents.variables, scene, real_size));
-  std::uint64_t numbers = (contents.best * scene.vessels.size() * 14 + 1) * plan.hand_scales();
-  for (const PlanAxis& axis : plan.axes()) {
-    const std::uint64_t points = contents.variables.empty() ? 0 : plan.grips();
-    const std::uint64_t values = plan.is_sobol() ? points : axis.values.size();
-    numbers += axis.axis == AXIS_HEIGHT && plan.height_is_fraction() ? values * (1 + scene.vessels.size()) : values;
-  }
-  numbers += JOINT_COUNT + contents.best + scene.vessels.size() * (10 + scene_fills(scene) * (3 + 5 * scene.tilts.size()));
-  return STRUCTURE + 2 * scene.text.size() + per_grip * plan.stored_grips() * scene.vessels.size() + numbers * sizeof(double);
+std::uint64_t result_size(ResultContents contents) {
+  contents.facts.resize(contents.scene.vessels.size());
+  return SweepDefinition(contents).count();
 }
 
 void define_result_file(const std::string& path, const ResultContents& contents) { SweepDefinition(path, contents).write(); }

@@ -63,8 +63,8 @@ constexpr const char* MESH_LATTICES = "mesh_lattices";
 constexpr const char* WALL_TIME = "wall_time_s";
 constexpr const char* KERNEL_TIME = "kernel_time_s";
 
-// Bytes that the file needs at most.
-std::uint64_t result_size(const ResultContents& contents);
+// Bytes that the file needs at most. Needs no facts, and of the info only the precision: without them some texts' bytes are left out.
+std::uint64_t result_size(ResultContents contents);
 
 // Creates the file `path` with every dimension, attribute and variable, all values that need no grip, and room for those that do:
 // every variable of the grips is one contiguous block, allocated and not filled. Throws Error (failure).

@@ -5,7 +5,9 @@
 
 #include <netcdf.h>
 
+#include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -17,11 +19,13 @@ struct IntegerCodes {
   bool may_lack = false;
 };
 
-// Every method throws Error (failure) with the file's name and the remedy. The file is discarded unless `finish` was called.
+// Every method throws Error (failure) with the file's name and the remedy. The file is discarded unless `finish` was called. Without a file the
+// same calls only count what it would take.
 class ResultDefinition {
  public:
   using Names = std::vector<std::string>;
 
+  ResultDefinition() = default;
   // Creates the file, which must not be there.
   explicit ResultDefinition(const std::string& path, std::string remedy = "is the disk full?");
   ~ResultDefinition();
@@ -48,17 +52,24 @@ class ResultDefinition {
   void strings(const std::string& name, const Names& dims, const std::string& long_name, const Names& values);
   void labels(const std::string& name, const std::string& long_name, const Names& values);
 
+  // Bytes of the file so far: values, texts, and what HDF5 needs around them at most.
+  std::uint64_t size() const { return size_; }
+
   // Ends the definition, writes what it has values of, gives the blocks of `later` their places and closes the file.
   void finish(const std::vector<int>& later);
 
  private:
   void check(int status) const;
+  void count_attribute(std::size_t bytes);
   int dimension_id(const std::string& name);
   void allocate(int variable);
 
   std::string path_, remedy_;
   int file_ = -1;
-  std::vector<std::function<void()>> values_;  // written once the definition stands
+  int variables_ = 0;
+  std::uint64_t size_ = 4096;                   // of the file's head
+  std::map<std::string, std::size_t> lengths_;  // of the dimensions
+  std::vector<std::function<void()>> values_;   // written once the definition stands
 };
 
 }  // namespace wholehand

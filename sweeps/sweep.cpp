@@ -67,7 +67,14 @@ void Sweep::check_room() const {
   const std::size_t real_size = precision() == Precision::single ? sizeof(float) : sizeof(double);
   // a shard takes what its node computes, which nobody knows yet
   const double room = options_.shards ? std::numeric_limits<double>::infinity() : free_bytes(names_.target) + reserved;
-  check_sweep_size(scene_, sweep_size(scene_, bytes_per_grip(variables_, scene_, real_size)), room);
+  SweepSize size = sweep_size(scene_, bytes_per_grip(variables_, scene_, real_size));
+  if (size.grips <= LARGEST_SWEEP) {
+    const Plan plan(scene_, keeps_vectors(variables_));
+    BackendInfo info;
+    info.precision = precision();
+    size.bytes = static_cast<double>(result_size({scene_, plan, variables_, {}, info, version(), best_wanted_}));
+  }
+  check_sweep_size(scene_, size, room);
 }
 
 bool Sweep::is_finished() const {

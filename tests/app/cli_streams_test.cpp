@@ -30,6 +30,11 @@ TEST(CommandLine, SaysWhenAResultCannotBeWritten) {
   EXPECT_EQ(limited.code, 3) << limited.output;
   EXPECT_NE(limited.output.find("there is room for only 4.1 kB"), std::string::npos) << limited.output;
   EXPECT_EQ(limited.output.find('\n'), limited.output.size() - 1) << limited.output;
+  // enough for the values, and not for the file
+  const Outcome cramped = run("ulimit -f 100; PROGRAM sweep small --on core -o " + result + " 2>&1");
+  EXPECT_EQ(cramped.code, 3) << cramped.output;
+  EXPECT_EQ(cramped.output.rfind("wholehand: ", 0), 0u) << cramped.output;
+  EXPECT_NE(cramped.output.find("there is room for only 51.2 kB"), std::string::npos) << cramped.output;
   for (const char* left : {"", ".partial", ".partial.mark", ".partial.lock", ".best.csv"})
     EXPECT_FALSE(std::filesystem::exists(result + left)) << left;
   expect_error("sweep small --on core -o -", 2, "name one (./- where that is its name)");

@@ -200,22 +200,59 @@ TEST_F(ResultContentsTest, LongSceneTextIsKeptWhole) {
   EXPECT_EQ(read_text(define(scene), "", "scene"), "");
 }
 
-TEST_F(ResultContentsTest, FileIsNoLargerThanWasReserved) {
-  for (const Sampling sampling : {Sampling::grid, Sampling::sobol}) {
-    Scene scene = fake_scene();
-    scene.grips.sampling = sampling;
-    scene.grips.count = 5000;
-    scene.text.assign(300000, '#');
-    const auto variables = choose_variables(scene);
-    const Plan plan(scene, false);
-    FakeBackend backend(scene, make_field_set(variable_fields(variables), scene), Precision::full, 100);
-    const ResultContents contents{scene,          plan, variables, vessel_facts(scene, backend, FakeEvaluator(scene)),
-                                  backend.info(), "1",  50};
-    const std::string path = folder / (sampling == Sampling::grid ? "grid.nc" : "sobol.nc");
-    define_result_file(path, contents);
-    EXPECT_LE(std::filesystem::file_size(path), result_size(contents));
-    EXPECT_GE(std::filesystem::file_size(path) + (4 << 20), result_size(contents));
-  }
+// Beforehand, when nothing is known of the vessels or of what computes.
+TEST_F(ResultContentsTest, TheSizeThatIsAskedForIsThatOfTheFile) {
+  Scene usual = fake_scene();
+  const auto changed = [&usual](auto change) {
+    Scene scene = usual;
+    change(scene);
+    return scene;
+  };
+  const std::pair<const char*, Scene> scenes[] = {
+      {"usual", usual},
+      {"sobol", changed([](Scene& scene) {
+         scene.grips.sampling = Sampling::sobol;
+         scene.grips.count = 5000;
+       })},
+      {"few points", changed([](Scene& scene) {
+         scene.grips.sampling = Sampling::sobol;
+         scene.grips.count = 10;
+       })},
+      {"hands", changed([](Scene& scene) {
+         scene.grips.hand_scale.values = {1.1, 0.9, 1};
+       })},
+      {"one grip", changed([](Scene& scene) { scene.grips = GripsData(); })},
+      {"long", changed([](Scene& scene) { scene.text.assign(300000, '#'); })},
+      {"rather long", changed([](Scene& scene) { scene.text.assign(40000, '#'); })},
+      {"vessels", changed([](Scene& scene) {
+         for (int k = 0; k < 5; ++k) scene.vessels.insert(scene.vessels.end(), scene.vessels.begin(), scene.vessels.begin() + 2);
+       })},
+      {"robust", changed([](Scene& scene) { scene.robust.emplace(); })},
+      {"best alone", changed([](Scene& scene) { scene.output.keep.emplace(); })},
+      {"all", changed([](Scene& scene) {
+         scene.table.emplace();
+         scene.strength.emplace();
+         scene.output.keep.emplace();
+         for (const Variable& variable : variable_catalogue()) scene.output.keep->push_back(variable.name);
+       })},
+  };
+  for (const auto& [name, scene] : scenes)
+    for (const Precision precision : {Precision::single, Precision::full})
+      for (const std::size_t best : {0, 50}) {
+        const auto variables = choose_variables(scene);
+        const Plan plan(scene, keeps_vectors(variables));
+        FakeBackend backend(scene, make_field_set(variable_fields(variables), scene), precision, 100);
+        ResultContents contents{scene, plan, variables, {}, {}, "1", best};
+        contents.info.precision = precision;
+        const double asked = static_cast<double>(result_size(contents));
+        contents.info = backend.info();
+        contents.facts = vessel_facts(scene, backend, FakeEvaluator(scene));
+        const std::string path = folder / fmt::format("{} {} {}.nc", name, static_cast<int>(precision), best);
+        define_result_file(path, contents);
+        const auto size = static_cast<double>(std::filesystem::file_size(path));
+        EXPECT_LE(size, asked) << path;
+        EXPECT_LE(asked, 1.25 * size + 12e3) << path;
+      }
 }
 
 TEST_F(ResultContentsTest, FileThatCannotBeMadeIsAnError) {
