@@ -21,6 +21,7 @@
 #include "recordings/recorded_scene.h"
 #include "scene/reader.h"
 #include "sweeps/grip_lists.h"
+#include "system/files.h"
 #include "system/output.h"
 #include "viewer/grips.h"
 #include "viewer/recording.h"
@@ -37,10 +38,21 @@ struct ViewArguments {
 
 std::string file_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
+// A file that is something else is not called a damaged recording.
+void check_is_recording(const std::string& path) {
+  std::error_code failed;
+  if (!std::filesystem::is_regular_file(path, failed) || begins_with(path, "CDF")) return;
+  throw usage_error(fmt::format(
+      "{}: is neither a recording nor a result; view takes a recording of `wholehand live --record` or of `wholehand trials`, or a "
+      "result of `wholehand sweep`; `wholehand grip --view` shows a grip of a scene",
+      path));
+}
+
 void view_recording(const std::string& path, int port) {
   Recording recording = read_recording(path);
   if (!recording.note.empty()) say_note(recording.note);
   Scene scene = scene_of_recording(recording.info);
+  follow_moved_scene(scene, path);
   load_meshes(scene);
   const RecordingView view(scene, std::move(recording));
   serve_view(view.content(file_name(path)), port, false);
@@ -52,7 +64,6 @@ void view_result(const std::string& path, const std::string& list_file, int port
   const Plan plan(scene, keeps_vectors(result.variables()));
   result.use(scene, plan);
   if (list_file.empty() && !result.lists_best())
-  follow_moved_scene(scene, path);
     throw usage_error(fmt::format("{}: this result lists no best grips; sweep with --best 1 or more", path));
   const GripLists lists = list_file.empty() ? lists_of_sweep(result, scene, plan) : read_grip_lists(list_file, result, scene, plan);
   std::vector<ViewedGrip> grips;
@@ -85,6 +96,7 @@ ExitCode view(const ViewArguments& arguments) {
   } else {
     if (!arguments.list.empty())
       throw usage_error("--list: the option needs a result of a sweep, and " + arguments.file + " is not a result");
+    check_is_recording(arguments.file);
     view_recording(arguments.file, port);
   }
   return ExitCode::done;

@@ -37,6 +37,9 @@ void for_each_header(std::string& buffer, std::size_t from, std::size_t to, Look
   }
 }
 
+// None of HTTP's is in a header; httplib ends a value at a NUL.
+bool is_control(char c) { return (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7F; }
+
 bool is_header(std::string_view name, std::string_view wanted) {
   return name.size() == wanted.size() && std::equal(name.begin(), name.end(), wanted.begin(), is_same_letter);
 }
@@ -80,13 +83,16 @@ HttpConnection::Head HttpConnection::look_at_head(std::size_t size) {
   left_ = size;
   for_each_header(buffer_, 0, size - 2, [&](std::size_t at, std::string_view name, std::string_view value) {
     // a name is written without spaces: with them httplib might take it for another one
-    if (name.empty() || name.find_first_of(" \t") != name.npos || value.data() == name.data() + name.size())
+    if (name.empty() || name.find_first_of(" \t") != name.npos || value.data() == name.data() + name.size() ||
+        std::any_of(name.begin(), name.end(), is_control) || std::any_of(value.begin(), value.end(), is_control))
       head = Head::not_allowed;
     if (is_header(name, "range") || is_header(name, "accept-encoding")) buffer_[at] = 'X';
     // httplib decodes what it reads: a host is compared as it was sent, and none of ours has such a letter
-    if (is_header(name, "host") || is_header(name, "origin"))
+    if (is_header(name, "host") || is_header(name, "origin")) {
+      if (value.find_first_not_of(" \t") == value.npos) head = Head::not_allowed;  // httplib passes it by, as if it were not there
       std::replace(buffer_.begin() + (value.data() - buffer_.data()),
                    buffer_.begin() + (value.data() + value.size() - buffer_.data()), '%', '!');
+    }
     if (is_header(name, "transfer-encoding") || is_header(name, "expect")) head = Head::not_allowed;
     if (is_header(name, "content-length")) {
       ++lengths;

@@ -369,6 +369,10 @@ TEST(ViewCommand, RefusesWhatCannotBeShown) {
   std::ofstream(cut, std::ios::binary) << file_text(whole).substr(0, 3000);
   for (const std::string& file : {text, empty, cut, folder / "missing", std::string("/"), std::string("/dev/null")})
     expect_error("view " + file, 2, file);
+  for (const std::string& file : {text, empty, scenes_dir() + "/small.toml"})
+    expect_error("view " + file, 2,
+                 "view takes a recording of `wholehand live --record` or of `wholehand trials`, or a result of "
+                 "`wholehand sweep`");
   expect_error("view " + none, 2, "this result lists no best grips");
   expect_error("view " + whole + " --view-port 65536", 2, "--view-port");
   expect_error("view " + whole + " --view-port x", 2, "--view-port");

@@ -3,6 +3,7 @@
 
 import json
 import math
+import os
 
 from support import ViewerTest, color_at, drawn, main, projected, slide, still, turned_back, minus, wholehand
 
@@ -245,6 +246,33 @@ class TheBestOfASweep(ViewerTest):
         scale = scene["grips"][0]["hand_scale"]
         for k, joint in enumerate(joints):
             self.assert_near(ball[k], joint + [scene["joints"][k]["radius"] * scale], DIGITS, f"joint {k}")
+
+
+class TheBestOfSeveralHands(ViewerTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        shipped = os.path.join(os.path.dirname(__file__), "../../scene/examples/small.toml")
+        with open(shipped) as scene, open(os.path.join(cls.folder, "hands.toml"), "w") as file:
+            text = scene.read().replace('name = "tumbler"', f'name = "{"glass_" * 10}"')
+            file.write(text.replace("offset_mm = 3 ", "hand_scale = [0.9, 1, 1.125]\noffset_mm = 3 "))
+        wholehand("sweep", "hands.toml", "-o", "hands.nc", "--on", "core", folder=cls.folder)
+        cls.best = cls.serve("view", "hands.nc")
+
+    def test_each_entry_shows_its_hand_scale_and_rank(self):
+        page = self.open(self.best, width=1280)
+        entries = page.evaluate("""[...document.querySelectorAll('.grip')].map((row) => {
+          const name = row.querySelector('b'), range = document.createRange();
+          range.selectNodeContents(name);
+          return [name.textContent, range.getBoundingClientRect(), name.getBoundingClientRect(), row.getBoundingClientRect()]
+            .map((it) => it.right ? {left: it.left, right: it.right, top: it.top, bottom: it.bottom} : it); })""")
+        names = [entry[0] for entry in entries]
+        for scale in ("0.9", "1", "1.125"):
+            self.assertIn(f"{'glass_' * 10}, hand scale {scale}, rank 1", names)
+        for name, text, element, row in entries:
+            for inner, outer in ((text, element), (element, row)):
+                for side, sign in (("left", 1), ("top", 1), ("right", -1), ("bottom", -1)):
+                    self.assertGreaterEqual(sign * (inner[side] - outer[side]), -1, f"{name}: {side}")
 
 
 if __name__ == "__main__":

@@ -104,7 +104,7 @@ TEST(ViewServer, AnotherHostOrOriginIsRefused) {
   const ServedView served;
   const std::string line = "GET /" + served.at->token + "/scene.json HTTP/1.1\r\n", port = ":" + std::to_string(served.at->port);
   for (const std::string& host : {"evil.example" + port, std::string("127.0.0.1"), "127.0.0.1:1" + port,
-                                  "127.0.0.1.evil.example" + port, "[::1]" + port, std::string(""), "127.0.0.1%3a" + port.substr(1),
+                                  "127.0.0.1.evil.example" + port, "[::1]" + port, "127.0.0.1%3a" + port.substr(1),
                                   "127.0.0.1%3A" + port.substr(1), "%31" + std::string("27.0.0.1") + port, "localhos%74" + port})
     EXPECT_EQ(status_of(*served.at, line + "Host: " + host + "\r\n\r\n"), 403) << host;
   EXPECT_EQ(status_of(*served.at, line + "\r\n"), 403) << "none";
@@ -116,6 +116,19 @@ TEST(ViewServer, AnotherHostOrOriginIsRefused) {
         "http://localhost" + port, "http://127.0.0.1%3a" + port.substr(1), "http%3a//127.0.0.1" + port})
     EXPECT_EQ(status_of(*served.at, own + origin + "\r\n\r\n"), 403) << origin;
   EXPECT_EQ(status_of(*served.at, own + "http://127.0.0.1" + port + "\r\n\r\n"), 200);
+}
+
+// What httplib would cut off or pass by, so that a request looks as if it came from here.
+TEST(ViewServer, AHeaderThatIsEmptyOrHasAControlCharacterIsRefused) {
+  const ServedView served;
+  const std::string line = "GET /" + served.at->token + "/scene.json HTTP/1.1\r\n", host = "Host: " + served.at->host();
+  for (const std::string& headers :
+       {host + std::string("\0", 1), host + std::string("\0.evil.example", 14), "Host: " + std::string("\0", 1) + served.at->host(),
+        host + "\x01", host + "\r\nOrigin:", host + "\r\nOrigin: ", host + "\r\nOrigin: \t ",
+        host + "\r\nOrigin: http://" + served.at->host() + std::string("\0x", 2), host + "\r\nOrigin: \x7F",
+        host + "\r\nOri\x02gin: http://evil.example", host + "\r\nX: \n", host + "\r\nX: a\rb"})
+    EXPECT_EQ(status_of(*served.at, line + headers + "\r\n\r\n"), 400) << headers;
+  EXPECT_EQ(status_of(*served.at, line + "X:\r\n" + host + "\r\nY: a\tb\r\n\r\n"), 200);
 }
 
 TEST(ViewServer, APortOf80MayBeLeftOut) {
