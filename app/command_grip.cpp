@@ -227,14 +227,15 @@ ExitCode grip(const GripArguments& arguments) {
     const GripsView view(scene, {{vessel, input, report.vessel}}, notes);
     serve_view(view.content(scene.name, axes), port, arguments.json);
   }
-  return ExitCode::done;
+  return report.answer.result.reason == Reason::none ? ExitCode::done : ExitCode::no;
 }
 
 }  // namespace
 
 void add_grip_command(CLI::App& app, Action& action) {
   const auto arguments = std::make_shared<GripArguments>();
-  CLI::App* command = app.add_subcommand("grip", "Show one grip with every intermediate value");
+  CLI::App* command =
+      app.add_subcommand("grip", "Show one grip with every intermediate value; exit code 1 where it is not feasible");
   const auto add = [command](const char* name, auto& value, const char* type, const char* help) {
     return command->add_option(name, value, help)->type_name(type);
   };

@@ -66,7 +66,7 @@ int refuse(const Program& program, const CLI::App& app, const CLI::ParseError& e
 int run(int argc, char** argv, const Program& program) {
   Action action;
   CLI::App app{program.description, program.name};
-  app.set_version_flag("--version", program.name + " " + version() + program.version_note);
+  app.set_version_flag("-V,--version", program.name + " " + version() + program.version_note);
   app.require_subcommand(0, 1);
   app.footer(program.footer);
   program.add_commands(app, action);

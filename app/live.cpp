@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <ctime>
@@ -20,6 +21,7 @@
 #include "app/live_board.h"
 #include "app/live_report.h"
 #include "app/open_gripper.h"
+#include "core/text.h"
 #include "device/call_watch.h"
 #include "device/haptic_loop.h"
 #include "device/panic.h"
@@ -28,6 +30,7 @@
 #include "device/sim_gripper.h"
 #include "device/view_gripper.h"
 #include "evidence/gains.h"
+#include "live/live_scene.h"
 #include "live/session.h"
 #include "live/tick_ring.h"
 #include "objects/vessel.h"
@@ -127,6 +130,10 @@ void refuse_own_port(const LiveOptions& options, const HostPort& target) {
   if (!(here == there) && !(is_everywhere && there.is_loopback())) return;
   throw usage_error(fmt::format("--stream {}: --device {} listens there for its hand; give one of the two another port",
                                 options.stream, options.device));
+}
+
+bool has_places(const Scene& scene) {
+  return std::any_of(scene.vessels.begin(), scene.vessels.end(), [](const VesselData& vessel) { return vessel.place != Triple{}; });
 }
 
 // Everything of a session, in the order in which it is made.
@@ -238,6 +245,7 @@ class LiveRun {
     if (is_replay) recording = read_recording(replayed);
     if (recording && options_.scene.empty()) {
       scene_ = scene_of_recording(recording->info);
+      follow_moved_scene(scene_, replayed);
       options_.seed = recording->info.seed;
       options_.person = recording->info.person;
     } else {
@@ -245,7 +253,7 @@ class LiveRun {
       if (options_.person) take_hand_of(scene_, options_.seed, *options_.person);
     }
     load_meshes(scene_);
-      follow_moved_scene(scene_, replayed);
+    check_places();
     say_cavity_notes(scene_);
     if (recording) scene_.live.rate = recording->info.rate;
     if (options_.rate > 0) scene_.live.rate = options_.rate;
@@ -266,6 +274,19 @@ class LiveRun {
     if (!is_replay && most > 0 && scene_.live.rate > most) {
       throw usage_error(fmt::format("{:g} Hz: {} measures at most {:g} times a second; allowed: a --rate up to this number",
                                     scene_.live.rate, gripper_->limits().name, most));
+    }
+  }
+
+  // Where vessels without places stand in each other, which shipped scenes have places.
+  void check_places() const {
+    try {
+      const LiveScene placed(scene_);
+    } catch (const Error& error) {
+      if (error.code != ExitCode::usage || has_places(scene_)) throw;
+      std::vector<std::string> placed;
+      for (const std::string& name : shipped_scenes())
+        if (has_places(read_scene_file(find_scene(name)))) placed.push_back(name);
+      throw usage_error(fmt::format("{}; shipped scenes whose vessels have places: {}", error.what(), joined(placed, ", ")));
     }
   }
 

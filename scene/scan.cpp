@@ -24,6 +24,8 @@ class Scanner {
         while (at_ < text_.size() && text_[at_] != '\n') step();
       } else if (c == '[' && !in_value_) {
         enter_header();
+      } else if (is_letter(c) && begins_value()) {
+        skip_word();
       } else {
         note(c);
         step();
@@ -35,6 +37,8 @@ class Scanner {
   char peek() const { return at_ < text_.size() ? text_[at_] : '\0'; }
   bool is_beyond_ascii() const { return static_cast<unsigned char>(peek()) >= 0x80; }
   static bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+  static bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+  static bool is_of_word(char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.'; }
 
   void step() {
     const auto byte = static_cast<unsigned char>(text_[at_]);
@@ -78,7 +82,31 @@ class Scanner {
     const char before = at_ == 0 ? '\n' : text_[at_ - 1];
     const bool is_apart =
         is_space(before) || before == '=' || before == '[' || before == '{' || before == ',' || (in_key_ && before == '.');
-    if (!is_apart && at_ != first_) file_.refuse(place_, fmt::format("{} directly after '{}'", c, before), "allowed: TOML 1.0");
+    if (is_apart || at_ == first_) return;
+    const bool is_quote = c == '"' || c == '\'';
+    file_.refuse(place_,
+                 fmt::format("{} directly after '{}'{}", c, before,
+                             is_quote ? ": a quote is missing before it, or this one is too many" : ""),
+                 "allowed: TOML 1.0");
+  }
+
+  // Whether a value or an entry of an array begins here, or a text directly behind a quote, where it has none.
+  bool begins_value() const {
+    if (in_key_) return false;
+    std::size_t end = at_;
+    while (end > 0 && is_space(text_[end - 1])) --end;
+    const char before = end == 0 ? '\n' : text_[end - 1];
+    return before == '=' || before == '[' || before == ',' || (end == at_ && (before == '"' || before == '\''));
+  }
+
+  // A value that is a word outside quotes: true, false, inf and nan are the only ones.
+  void skip_word() {
+    const Place begin = place_;
+    std::string word;
+    for (; at_ < text_.size() && is_of_word(text_[at_]); step()) word += text_[at_];
+    if (word == "true" || word == "false" || word == "inf" || word == "nan") return;
+    file_.refuse(begin, fmt::format("{} is outside quotes: a quote is missing", in_quotes(word)),
+                 "allowed: texts in quotes, as name = \"cup\"");
   }
 
   void close(char c) {
@@ -101,10 +129,11 @@ class Scanner {
     if (!is_key && c != ']' && at_ < text_.size()) file_.refuse(place_, "a table header without a key", "allowed: TOML 1.0");
   }
 
-  // Leaves the scan behind the closing quotes, at the end of the line where they lack, or at the end of the text.
+  // Leaves the scan behind the closing quotes.
   void skip_string(char quote) {
     const std::string delimiter(3, quote);
     const bool is_long = text_.substr(at_, 3) == delimiter;
+    const Place begin = place_;
     for (int i = 0; i < (is_long ? 3 : 1); ++i) step();
     while (at_ < text_.size()) {
       if (is_long ? text_.substr(at_, 3) == delimiter : text_[at_] == quote) {
@@ -112,7 +141,7 @@ class Scanner {
         while (is_long && peek() == quote) step();  // a long string may end in one or two quotes of its own
         return;
       }
-      if (!is_long && text_[at_] == '\n') return;
+      if (!is_long && text_[at_] == '\n') break;
       if (quote == '"' && text_[at_] == '\\') {
         step();
         skip_escaped(is_long);
@@ -120,6 +149,9 @@ class Scanner {
         step();
       }
     }
+    file_.refuse(begin, fmt::format("the closing {} of this text is missing", is_long ? delimiter : std::string(1, quote)),
+                 is_long ? "allowed: the same three quotes at the end of the text"
+                         : "allowed: the same quote at the end of the text, in the same line");
   }
 
   // What follows a backslash: one character, or in a long string the spaces and line ends that it swallows.

@@ -19,7 +19,7 @@ help_of() { "$program" "$@" --help; }
 commands_of() { help_of "$@" | sed -n '/^Subcommands:/,/^$/s/^  \([a-z-]*\) .*/\1/p'; }
 escaped() { sed 's/\\/\\\\/g; s/-/\\-/g'; }
 
-# The section on exit codes: "Exit codes: 0 done, 1 the answer is no (check), ..."
+# The section on exit codes: "Exit codes: 0 done, 1 the answer is no (check, grip), ..."
 exit_codes() {
   echo '[EXIT STATUS]'
   help_of | sed -n 's/^Exit codes: \(.*\)\.$/, \1/p' | sed 's/, \([0-9]\)/\n\1/g' |

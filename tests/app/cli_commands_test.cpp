@@ -139,10 +139,11 @@ TEST(CommandLine, EvaluatesOneGrip) {
   EXPECT_NEAR(parse_json(in_ml.output)["states"][0]["liquid_volume_m3"].get<double>(), 100e-6, 1e-15);
   EXPECT_DOUBLE_EQ(grip["states"][4]["tilt_rad"].get<double>(), 10 * 3.14159265358979323846 / 180);
 
-  // a grip that is not feasible is an answer, not an error
+  // a grip that is not feasible is an answer, and the answer is no
   const Outcome wide = run("PROGRAM " + std::string(SMALL_GRIP) + " --hand-scale 0.2 --json 2>&1");
-  EXPECT_EQ(wide.code, 0);
+  EXPECT_EQ(wide.code, 1);
   EXPECT_EQ(parse_json(wide.output)["reason"], "too_wide");
+  EXPECT_EQ(run("PROGRAM " + std::string(SMALL_GRIP) + " --hand-scale 0.2").code, 1);
 
   // but there is no hand to draw: nothing is written
   const std::string drawing = std::filesystem::temp_directory_path() / "wholehand_cli_test";

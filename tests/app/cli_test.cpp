@@ -28,6 +28,7 @@ TEST(CommandLine, TellsVersionAndHelp) {
   EXPECT_EQ(version.code, 0);
   EXPECT_EQ(version.output, std::string("wholehand ") + wholehand::version() +
                                 "\n`wholehand devices` lists the devices that compute, and the grippers\n");
+  EXPECT_EQ(run("PROGRAM -V 2>&1").output, version.output);
   for (const char* arguments : {"--help", "sweep --help", "report --help", "grip -h", "check --help", "devices --help"}) {
     const Outcome help = run(std::string("PROGRAM ") + arguments + " 2>&1");
     EXPECT_EQ(help.code, 0) << arguments;

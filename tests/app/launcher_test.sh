@@ -242,8 +242,8 @@ check "cluster asks for its own" has "$(cat "$work/apt")" "install --no-install-
 check "and for no others" equal "$(grep -c -e scale-only -e package-only -e test-only "$work/apt")" 0
 check "cluster builds its program" [ -x "$tree/build/default/wholehand-mpi" ]
 check "and says how to start it" has "$(tail -n 1 <<<"$output")" "mpirun -n N $tree/build/default/wholehand-mpi sweep SCENE"
-output=$(start cluster --help)
-check "it takes no argument" equal "$? $output" "2 wholehand: cluster takes no argument; found --help"
+output=$(start cluster --all)
+check "it takes no argument" equal "$? $output" "2 wholehand: cluster takes no argument; found --all"
 
 fresh
 touch "$work/updated"
@@ -266,8 +266,15 @@ check "in a second start too, in the build folder" has "$(start package)" "$tree
 touch "$work/file"
 output=$(start package "$work/file")
 check "a folder that cannot be written to gives exit code 3" equal "$? $output" "3 wholehand: cannot write packages to $work/file"
+output=$(start package --all)
+check "an option gives exit code 2" equal "$? $output" "2 wholehand: package has no options; found --all"
 output=$(start package --help)
-check "an option gives exit code 2" equal "$? $output" "2 wholehand: package has no options; found --help"
+check "but --help says what it does" equal "$? $output" \
+  "0 ./wholehand package [DIR]          makes Debian packages in DIR (build/packages) and says how to install them"
+for word in cluster test; do
+  output=$(start $word -h)
+  check "as it does of $word" equal "$? $(lines "$output") ${output%% *}" "0 1 ./wholehand"
+done
 output=$(start package one two)
 check "as do two folders" equal "$? $output" "2 wholehand: package takes one folder at most"
 check "nothing else is left in the build folder" equal "$(ls "$tree/build/default" | grep -c packing)" 0

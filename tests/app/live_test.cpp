@@ -426,7 +426,9 @@ TEST(Live, RefusesWhatIsNotAllowedInOneLine) {
   expect_refused("--device replay:" + (folder / "none.nc"), 2, "none.nc");
   expect_refused("--device replay:" + (folder / "notes.txt"), 2, "notes.txt");
   expect_refused("--rate 2000 --device replay:" + (folder / "notes.txt"), 2, "--rate: a recording is replayed at its own rate");
-  expect_refused("three_beakers", 2, "stand in each other");
+  expect_refused("three_beakers", 2,
+                 "stand in each other; a live session needs place_mm for each; shipped scenes whose vessels have "
+                 "places: mixing_board");
   expect_refused("no_such_scene", 2, "no_such_scene");
   expect_refused("--record " + (folder / "notes.txt"), 2, "notes.txt");
   EXPECT_EQ(file_text(folder / "notes.txt"), "not a recording") << "it is still there";

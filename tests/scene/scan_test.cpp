@@ -38,12 +38,15 @@ TEST(SceneScan, SurvivesHostileText) {
   expect_refusal("a = [0,@}", "found '}', but '[' is open; allowed: TOML 1.0");
   expect_refusal("a = { b = [1], c = 3@] }", "found ']', but '{' is open; allowed: TOML 1.0");
   // strings that the parser would not see as such
-  expect_refusal("a = 9@\"\xc3\xa4\"", "\" directly after '9'; allowed: TOML 1.0");
-  expect_refusal("a = 9.@'\xc3\xa4'", "' directly after '.'; allowed: TOML 1.0");
+  expect_refusal("a = 9@\"\xc3\xa4\"",
+                 "\" directly after '9': a quote is missing before it, or this one is too many; allowed: TOML 1.0");
+  expect_refusal("a = 9.@'\xc3\xa4'",
+                 "' directly after '.': a quote is missing before it, or this one is too many; allowed: TOML 1.0");
   expect_refusal("a = 9@=\"\xc3\xa4\"", "'=' in a value; allowed: TOML 1.0");
   expect_refusal("a = 9@[\"\xc3\xa4\"]", "[ directly after '9'; allowed: TOML 1.0");
   expect_refusal("a = [{ b = 1, c = 2@{ } }]", "{ directly after '2'; allowed: TOML 1.0");
-  expect_refusal("a = \"x\"@\"\xc3\xa4\"", "\" directly after '\"'; allowed: TOML 1.0");
+  expect_refusal("a = \"x\"@\"\xc3\xa4\"",
+                 "\" directly after '\"': a quote is missing before it, or this one is too many; allowed: TOML 1.0");
   EXPECT_EQ(
       refusal_of("scene={\"name\"=\"\xc3\xa4\",'pose'=\"paper\"}\ngrips.roll_deg=[1,\n2]\nhand.\"thumb\".'splay_deg'=3\n" + VESSEL),
       "accepted");
@@ -65,6 +68,28 @@ TEST(SceneScan, SurvivesHostileText) {
   EXPECT_LT(refusal.size(), 300u);
   EXPECT_NE(refusal.find("test.toml:1:1: unknown key 'kkk"), std::string::npos);
   EXPECT_NE(refusal_of("\"a\\nb\\u0007\" = 1").find("unknown key 'a\\x0ab\\x07'"), std::string::npos);
+}
+
+TEST(SceneScan, AMissingQuoteIsNamedWhereItsTextIs) {
+  const std::string one =
+      "the closing \" of this text is missing; allowed: the same quote at the end of the text, in the same line";
+  expect_refusal("[scene]\nname = @\"a\npose = \"paper\"" + VESSEL, one);
+  expect_refusal("[scene]\nname = @\"a\\\"\n" + VESSEL, one);
+  expect_refusal("[scene]\nname = @\"a", one);
+  expect_refusal("[output]\nkeep = [\"score\", @\"gap]\n" + VESSEL, one);
+  expect_refusal("[scene]\nname = @'a\npose = 'paper'" + VESSEL, "the closing ' of this text is missing");
+  expect_refusal("[scene]\n'name = 'a@'", "' directly after 'a': a quote is missing before it, or this one is too many");
+  expect_refusal("[scene]\nname = @\"\"\"a\npose = \"paper\"" + VESSEL, "the closing \"\"\" of this text is missing");
+  expect_refusal("[scene]\nname = @'''a\"", "the closing ''' of this text is missing");
+  const std::string outside = "'paper' is outside quotes: a quote is missing; allowed: texts in quotes, as name = \"cup\"";
+  for (const char* line : {"pose = @paper\"", "pose = @paper", "pose = @paper'", "keep = [\"score, \"@paper\"]",
+                           "keep = [\"a\", @paper\"]", "a = { b = @paper }"})
+    expect_refusal(std::string("[scene]\n") + line, outside);
+  const std::string before = "\" directly after 'v': a quote is missing before it, or this one is too many";
+  expect_refusal("[scene]\n\"name = \"v@\"\n", before);
+  for (const char* value :
+       {"true", "[true,\n false]", "inf", "+inf", "-nan", "1e5", "0xFF", "1979-05-27T07:32:00Z", "[ # a\n nan]"})
+    EXPECT_NE(refusal_of(std::string("a = ") + value).find("unknown key 'a'"), std::string::npos) << value;
 }
 
 TEST(SceneScan, ColumnsCountCharacters) {
