@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/file_kind.h"
 #include "objects/triangles.h"
 #include "objects/words.h"
 
@@ -145,7 +146,7 @@ class ObjShape {
 }  // namespace
 
 std::string stl_input(const MeshFile& file, std::string_view bytes) {
-  if (!is_binary_stl(bytes)) {
+  if (!is_binary_stl(bytes, bytes.size())) {
     const bool is_text = bytes.substr(0, 1000).find('\0') == bytes.npos && is_word(MeshWords(file, bytes).next(), "solid");
     if (!is_text) file.refuse("is truncated or damaged: as a binary STL it has another size than its count of triangles says");
     return binary_of_ascii_stl(file, bytes);

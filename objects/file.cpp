@@ -13,13 +13,13 @@
 #include <system_error>
 
 #include "core/error.h"
+#include "core/file_kind.h"
 #include "objects/triangles.h"
 
 namespace wholehand {
 namespace {
 
 constexpr std::size_t LONGEST_LINE = 600;
-constexpr std::string_view BLANKS = " \t\r\n\v\f";
 constexpr std::array<const char*, 4> FORMAT_NAMES{"glTF", "STL", "OBJ", "PLY"};
 
 std::optional<MeshFormat> format_of_name(const std::string& path) {
@@ -32,31 +32,19 @@ std::optional<MeshFormat> format_of_name(const std::string& path) {
   return {};
 }
 
-// The first word of the first line that is neither empty nor a comment.
-std::string_view first_word(std::string_view text) {
-  while (true) {
-    const std::size_t start = text.find_first_not_of(BLANKS);
-    if (start == text.npos) return {};
-    text.remove_prefix(start);
-    if (text[0] != '#') return text.substr(0, text.find_first_of(BLANKS));
-    const std::size_t end = text.find_first_of("\r\n");
-    if (end == text.npos) return {};
-    text.remove_prefix(end);
+std::optional<MeshFormat> format_of(FileKind kind) {
+  switch (kind) {
+    case FileKind::gltf:
+      return MeshFormat::gltf;
+    case FileKind::stl:
+      return MeshFormat::stl;
+    case FileKind::obj:
+      return MeshFormat::obj;
+    case FileKind::ply:
+      return MeshFormat::ply;
+    default:
+      return {};
   }
-}
-
-std::optional<MeshFormat> format_of_bytes(std::string_view bytes) {
-  if (bytes.starts_with("glTF")) return MeshFormat::gltf;
-  if (is_binary_stl(bytes)) return MeshFormat::stl;
-  if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return MeshFormat::ply;
-  const std::string_view start = bytes.substr(0, 64 << 10);
-  const std::size_t first = start.find_first_not_of("\xEF\xBB\xBF \t\r\n");
-  if (first != start.npos && start[first] == '{') return MeshFormat::gltf;
-  const std::string_view word = first_word(start);
-  if (word == "solid") return MeshFormat::stl;
-  constexpr std::array<std::string_view, 9> OBJ_WORDS{"v", "vn", "vt", "f", "o", "g", "s", "mtllib", "usemtl"};
-  if (std::find(OBJ_WORDS.begin(), OBJ_WORDS.end(), word) != OBJ_WORDS.end()) return MeshFormat::obj;
-  return {};
 }
 
 }  // namespace
@@ -77,7 +65,10 @@ void MeshFile::refuse_size() const {
 std::string read_mesh_bytes(const std::string& path, std::string& bytes) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) return "there is no such file";
+  if (!std::filesystem::exists(status)) {
+    const bool is_of_windows = path.find('\\') != path.npos;
+    return is_of_windows ? "there is no such file; its path has backslashes: write / for each" : "there is no such file";
+  }
   if (!std::filesystem::is_regular_file(status)) return "is not a file";
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error) return "cannot be read: " + error.message();
@@ -98,20 +89,15 @@ std::string mesh_bytes(const MeshFile& file) {
 }
 
 MeshFormat mesh_format(const MeshFile& file, std::string_view bytes) {
-  const std::optional<MeshFormat> named = format_of_name(file.path), seen = format_of_bytes(bytes);
+  const FileKind kind = file_kind(bytes, bytes.size());
+  const std::optional<MeshFormat> named = format_of_name(file.path), seen = format_of(kind);
+  if (!seen && kind != FileKind::unknown) file.refuse(wrong_kind(kind, "a mesh"));
   if (!named && !seen)
     file.refuse("is no mesh that is read: neither its name nor its first bytes are those of glTF, STL, OBJ or PLY");
   if (named && seen && *named != *seen)
     file.refuse(fmt::format("is named as {} and holds {}: give it the ending of what it holds",
                             FORMAT_NAMES[static_cast<int>(*named)], FORMAT_NAMES[static_cast<int>(*seen)]));
   return seen ? *seen : *named;
-}
-
-bool is_binary_stl(std::string_view bytes) {
-  if (bytes.size() < 84) return false;
-  std::uint64_t count = 0;
-  for (int i = 3; i >= 0; --i) count = count << 8 | static_cast<unsigned char>(bytes[80 + i]);
-  return bytes.size() == 84 + 50 * count;
 }
 
 }  // namespace wholehand

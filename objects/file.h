@@ -29,10 +29,7 @@ std::string read_mesh_bytes(const std::string& path, std::string& bytes);
 std::string mesh_bytes(const MeshFile& file);
 
 // By the first bytes and the name's ending (.glb, .gltf, .stl, .obj, .ply, in any case), which must not contradict each other; by the
-// ending alone where the bytes are of no kind. Throws Error (usage) where neither tells.
+// ending alone where the bytes are of no known kind. Throws Error (usage) where neither tells, or the bytes are of another kind of file.
 MeshFormat mesh_format(const MeshFile& file, std::string_view bytes);
-
-// 84 bytes and 50 for each triangle, as many as bytes 80 to 83 say.
-bool is_binary_stl(std::string_view bytes);
 
 }  // namespace wholehand

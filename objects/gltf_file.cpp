@@ -15,6 +15,7 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "core/file_kind.h"
 #include "system/json.h"
 
 namespace wholehand {
@@ -287,6 +288,8 @@ bool neighbour_exists(const std::string& name, void* user) {
 bool read_neighbour(std::vector<unsigned char>* bytes, std::string* error, const std::string& name, void* user) {
   std::string contents;
   *error = read_mesh_bytes((static_cast<GltfNeighbours*>(user)->folder / name).string(), contents);
+  const FileKind kind = error->empty() ? file_kind(contents, contents.size()) : FileKind::unknown;
+  if (kind == FileKind::lfs_pointer || kind == FileKind::web_page) *error = name + " " + wrong_kind(kind, "a buffer");
   bytes->assign(contents.begin(), contents.end());
   return error->empty();
 }

@@ -9,10 +9,10 @@
 #include <cstring>
 
 #include "core/error.h"
+#include "core/file_kind.h"
 #include "recordings/fields.h"
 #include "recordings/layout.h"
 #include "recordings/recording.h"
-#include "system/files.h"
 
 namespace wholehand {
 namespace {
@@ -123,10 +123,11 @@ std::string note_of(const Recording& recording, const classic::Header& header) {
 Recording read_recorded_file(const RecordedFile& file) {
   std::string start;
   file.read(start, std::min(file.size(), classic::LARGEST_HEADER), 0);
-  if (start.starts_with(NETCDF4_START))
-    throw usage_error(
-        "is a NetCDF-4 file, as sweeps write them, and not a recording; if another program has rewritten a recording, convert it "
-        "by nccopy -k 64-bit-offset");
+  const FileKind kind = file_kind(start, file.size());
+  if (kind == FileKind::result)
+    throw usage_error(wrong_kind(kind, "a recording") +
+                      "; if another program has rewritten a recording, convert it by nccopy -k 64-bit-offset");
+  if (kind != FileKind::recording && kind != FileKind::unknown) throw usage_error(wrong_kind(kind, "a recording"));
   const classic::Header header = classic::parse_header(start, file.size());
   Recording recording;
   recording.info = info_of(header, [&file](const classic::Variable& variable) {

@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "core/file_kind.h"
 #include "scene/parts.h"
 #include "scene/scan.h"
 
@@ -25,7 +26,9 @@ toml::table parse_table(const SceneFile& file, std::string_view text, const std:
     for (const char c : error.description()) what += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
     constexpr std::size_t LARGEST = 300;
     if (what.size() > LARGEST) what = what.substr(0, LARGEST) + "...";
-    file.refuse({static_cast<int>(begin.line), static_cast<int>(begin.column)}, what, "allowed: TOML 1.0");
+    const bool is_escape = what.find("escape sequence") != what.npos;
+    file.refuse({static_cast<int>(begin.line), static_cast<int>(begin.column)}, what,
+                is_escape ? "allowed: TOML 1.0, where a backslash begins an escape; write / in a path" : "allowed: TOML 1.0");
   }
 }
 
@@ -91,7 +94,8 @@ Scene read_scene_file(const std::string& path) {
   const std::string shown = in_quotes(path);
   std::error_code failed;
   const auto status = std::filesystem::status(path, failed);
-  if (!std::filesystem::exists(status)) throw usage_error(fmt::format("no scene file {}; give the path of a TOML file", shown));
+  if (!std::filesystem::exists(status))
+    throw usage_error(fmt::format("no scene file {}{}; give the path of a TOML file", shown, backslash_note(path)));
   if (std::filesystem::is_directory(status))
     throw usage_error(fmt::format("{} is a directory; give the path of a scene file", shown));
   std::ifstream stream(path, std::ios::binary);
@@ -103,6 +107,10 @@ Scene read_scene_file(const std::string& path) {
   const int read_error = errno;
   if (stream.bad()) throw usage_error(fmt::format("cannot read scene file {}: {}", shown, std::strerror(read_error)));
   text.resize(static_cast<std::size_t>(stream.gcount()));
+  const std::uintmax_t size = std::filesystem::file_size(path, failed);
+  const FileKind kind = file_kind(text, failed ? text.size() : size);
+  if (kind != FileKind::unknown && kind != FileKind::scene)
+    throw usage_error(fmt::format("{} {}", shown, wrong_kind(kind, "a scene")));
   return parse_scene(text, path);
 }
 

@@ -156,10 +156,11 @@ void SceneTable::read_text(std::string_view key, std::size_t largest, std::strin
   if (!node) return;
   const auto* text = node->as_string();
   const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
-  if (!text || text->get().empty() || text->get().size() > largest ||
-      std::any_of(text->get().begin(), text->get().end(), is_control)) {
+  const bool has_control = text && std::any_of(text->get().begin(), text->get().end(), is_control);
+  if (!text || text->get().empty() || text->get().size() > largest || has_control) {
     file_.refuse(place_of(*node), fmt::format("{} {}", key, found(*node)),
-                 fmt::format("allowed: a string of 1 to {} characters, without control characters", largest));
+                 fmt::format("allowed: a string of 1 to {} characters, without control characters{}", largest,
+                             has_control ? "; a backslash begins an escape: write / in a path" : ""));
   }
   value = text->get();
 }

@@ -15,6 +15,7 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "core/file_kind.h"
 #include "sweeps/refine.h"
 #include "sweeps/result_contents.h"
 #include "sweeps/robust.h"
@@ -39,16 +40,15 @@ const std::string& check_is_result(const std::string& path) {
   }
   if (!S_ISREG(status.st_mode)) return path;  // refused where it is opened
   std::ifstream file(path, std::ios::binary);
-  char head[8] = {};
   if (!file) throw usage_error(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
-  file.read(head, sizeof head);
-  if (std::memcmp(head, "CDF", 3) == 0) {
-    throw usage_error(path +
-                      ": is a NetCDF file of the classic format, and not a result of a sweep; wholehand session reads recordings");
-  }
-  if (std::string_view(head, sizeof head) != NETCDF4_START)
-    throw usage_error(path + ": is not a result file of a sweep (NetCDF-4)");
-  return path;
+  std::string head(1 << 16, '\0');
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  head.resize(static_cast<std::size_t>(file.gcount()));
+  const FileKind kind = file_kind(head, static_cast<std::uint64_t>(status.st_size));
+  if (kind == FileKind::result) return path;
+  throw usage_error(
+      path + ": " +
+      (kind == FileKind::unknown ? "is not a result file of a sweep (NetCDF-4)" : wrong_kind(kind, "a result of a sweep")));
 }
 
 std::uint64_t product(const std::vector<std::size_t>& lengths, std::size_t first) {

@@ -115,6 +115,10 @@ TEST(Mesh, BuffersOutsideTheFolderAreNotRead) {
   Gltf gltf = gltf_tetrahedron();
   gltf.json["buffers"] = {{{"byteLength", gltf.binary.size()}, {"uri", "missing.bin"}}};
   EXPECT_SAYS(mesh_refusal(mesh_as_is(write_gltf("a.gltf", json_text(gltf.json)))), "missing.bin");
+  write_gltf("pointer.bin", "version https://git-lfs.github.com/spec/v1\noid sha256:4d\nsize 48\n");
+  gltf.json["buffers"] = {{{"byteLength", gltf.binary.size()}, {"uri", "pointer.bin"}}};
+  EXPECT_SAYS(mesh_refusal(mesh_as_is(write_gltf("a.gltf", json_text(gltf.json)))),
+              "pointer.bin is a Git LFS pointer and not the file: git lfs pull");
   gltf.json["buffers"] = {{{"byteLength", gltf.binary.size()}}};
   EXPECT_SAYS(mesh_refusal(mesh_as_is(write_gltf("a.gltf", json_text(gltf.json)))), "buffers[0] has no uri");
   gltf.json["buffers"] = {{{"byteLength", gltf.binary.size()}, {"uri", "data:text/csv,1"}}};

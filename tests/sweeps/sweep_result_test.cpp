@@ -181,7 +181,7 @@ TEST(SweepResultTest, WhatIsNoFinishedResultIsRefused) {
   std::ofstream(folder / "empty.nc").close();
   expect_refused(folder / "empty.nc", "is not a result file");
   std::ofstream(folder / "text.nc") << RESULT_SCENE;
-  expect_refused(folder / "text.nc", "is not a result file");
+  expect_refused(folder / "text.nc", "is a scene file (TOML) and not a result of a sweep");
   std::ofstream(folder / "classic.nc") << "CDF\x02";
   expect_refused(folder / "classic.nc", "wholehand session");
   write_result(scene, folder / "open.nc", Precision::full, false);

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// What a file is by its first bytes, however it is named: for whoever is given one of another kind.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace wholehand {
+
+enum class FileKind { unknown, gltf, stl, obj, ply, result, recording, scene, lfs_pointer, web_page, utf16, archive };
+
+// `start`: the first bytes, of which 64 KiB are looked through; `size`: bytes of the whole file.
+FileKind file_kind(std::string_view start, std::uint64_t size);
+
+// The first word of the first line that is neither empty nor a comment.
+std::string_view first_word(std::string_view text);
+
+// 84 bytes and 50 for each triangle, as many as bytes 80 to 83 say.
+bool is_binary_stl(std::string_view start, std::uint64_t size);
+
+// "is a Git LFS pointer and not the file: git lfs pull", "is a mesh (STL) and not a scene; ...", for a file that should be `wanted` ("a scene");
+// "" where the kind is unknown.
+std::string wrong_kind(FileKind kind, std::string_view wanted);
+
+}  // namespace wholehand
