@@ -105,12 +105,13 @@ Vessel load_vessel(const wholehand::PreparedVessel& prepared, const wholehand::V
   vessel.floor_height = Real(prepared.floor_height);
   vessel.mouth_height = Real(prepared.mouth_height);
   vessel.mouth_radius = Real(prepared.mouth_radius);
-  if (data.mass) {
-    vessel.mass = Real(*data.mass);
+  const bool has_center = data.mass && !std::isnan(data.center_of_mass[0]);
+  if (has_center) {
     vessel.center_of_mass = to_vec3<Real>(wholehand::mirrored(data.center_of_mass, handedness));
   } else {
     weigh_wall(vessel, prepared, data, quadrature, handedness);
   }
+  if (data.mass) vessel.mass = Real(*data.mass);
   if (with_liquid && !vessel.cavity.empty()) {
     vessel.capacity = lip_capacity(vessel, quadrature, Real(0), Real(1));
     for (int degree = 0; degree < WHOLE_DEGREES; ++degree) {

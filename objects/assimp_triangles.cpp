@@ -100,6 +100,7 @@ TriangleMesh assimp_triangles(const MeshFile& file, MeshFormat format, const std
   if (scene == nullptr) file.refuse(fmt::format("cannot be read: {}", importer.GetErrorString()));
   TriangleMesh mesh;
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) add_assimp_mesh(file, *scene->mMeshes[i], mesh);
+  for (const Triple& vertex : mesh.vertices) mesh.rounding = std::max(mesh.rounding, single_rounding(vertex));
   return mesh;
 }
 

@@ -20,8 +20,6 @@
 namespace wholehand {
 namespace {
 
-constexpr double LARGE_MESH = 10;         // m: nothing that a hand holds
-constexpr double SMALL_MESH = 2e-3;       // m: likewise
 constexpr double LEAST_THICKNESS = 1e-9;  // volume over area, of the largest extent: below it, rounding
 constexpr double LEAST_HEIGHT = 1e-12;    // of a triangle, of its longest edge: below it, rounding
 
@@ -105,9 +103,8 @@ void measure_volume(const TriangleMesh& mesh, const Triple& from, MeshFacts& fac
 }
 
 double largest_extent(const MeshFacts& facts) {
-  double extent = 0;
-  for (int k = 0; k < 3; ++k) extent = std::max(extent, facts.high[k] - facts.low[k]);
-  return extent;
+  const Triple size = facts.size();
+  return *std::max_element(size.begin(), size.end());
 }
 
 const char* was(std::size_t count) { return count == 1 ? "was" : "were"; }
@@ -238,20 +235,6 @@ std::string mesh_check_text(const MeshFacts& facts) {
         " Its triangles cannot all face outward, as the surface has one side only or parts that meet at edges: make one body of "
         "it.";
   return text;
-}
-
-// Exporters that forget the unit write millimetres, centimetres or inches as if they were metres, or the other way about.
-std::string mesh_size_warning(const MeshFacts& facts, double scale) {
-  const double extent = largest_extent(facts);
-  if (extent > SMALL_MESH && extent <= LARGE_MESH) return "";
-  const bool is_large = extent > LARGE_MESH;
-  double factor = is_large ? (extent > 20 ? 0.001 : 0.01) : extent >= 0.5e-3 ? 100 : extent >= 0.5e-6 ? 1000 : 1e6;
-  if (scale * factor > 0.999 && scale * factor < 1.001) factor = 1 / scale;  // so that 1 is written as 1
-  return fmt::format(
-      "it is {:.4g} {} large: its numbers{} are taken as metres; the likely scale is mesh_scale = {:.6g}, with which it is {:.4g} "
-      "mm large",
-      is_large ? extent : 1e3 * extent, is_large ? "m" : "mm", scale == 1 ? "" : fmt::format(" times {:.6g}", scale),
-      scale * factor, 1e3 * factor * extent);
 }
 
 }  // namespace wholehand

@@ -34,6 +34,8 @@ struct MeshFacts {
   double volume = 0;  // m3, > 0 where it is sure; of an open mesh, with each hole closed by a cone to the middle of all open edges
   Triple center_of_mass{};  // of that volume, m
 
+  Triple size() const { return {high[0] - low[0], high[1] - low[1], high[2] - low[2]}; }  // m
+
   // Whether the sums over triangles are those of a body: they all face outward, and no wall ends within it.
   bool has_sure_volume() const { return oriented && odd_edges == 0; }
 };
@@ -52,9 +54,5 @@ CheckedMesh check_mesh(const TriangleMesh& mesh, const std::string& name, bool c
 
 // What was found as one paragraph, with what follows from it; ends without a line break.
 std::string mesh_check_text(const MeshFacts& facts);
-
-// A sentence where the mesh is so large (over 10 m) or so small (under 2 mm) that its unit is hardly the metre, with the scale that is likely
-// meant; else empty. `scale`: that by which the file's numbers were multiplied.
-std::string mesh_size_warning(const MeshFacts& facts, double scale = 1);
 
 }  // namespace wholehand

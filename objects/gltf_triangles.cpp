@@ -191,6 +191,7 @@ class SceneWalk {
   TriangleMesh triangles() {
     const std::vector<Visit> placed = placed_meshes();
     count(placed);
+    mesh_.says_what_is_up = true;
     for (const Visit& visit : placed) add_mesh(visit);
     return std::move(mesh_);
   }
@@ -341,12 +342,14 @@ class SceneWalk {
     for (const std::uint32_t corner : corners)
       if (corner >= points.size())
         file_.refuse(fmt::format("{} has the index {} and {} vertices", place_of(mesh, index), corner, points.size()));
+    const double stretch = std::max({glm::length(placed[0]), glm::length(placed[1]), glm::length(placed[2])});
     for (const Triple& point : points) {
       const glm::dvec4 moved = placed * glm::dvec4(point[0], point[1], point[2], 1);
       for (int k = 0; k < 3; ++k)
         if (!std::isfinite(moved[k]))
           file_.refuse(fmt::format("{} has a vertex that is not a finite number", place_of(mesh, index)));
       mesh_.vertices.push_back({moved.x, moved.y, moved.z});
+      mesh_.rounding = std::max(mesh_.rounding, stretch * single_rounding(point));
     }
     add_triangles(triangles_of(primitive.mode, corners), mesh_.vertices.size() - points.size(), placed);
   }

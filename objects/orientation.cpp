@@ -15,11 +15,13 @@
 namespace wholehand {
 namespace {
 
-constexpr double FOLDED = 0.99;        // cosine of the angle between two triangles, about their edge, that lie upon each other
-constexpr double SAME_AREA = 1e-9;     // difference of two area vectors of the same edges, of their length: rounding
-constexpr double MOST_BEND = 1.05;     // area of a flat patch, of its area vector's length
-constexpr double JUST_OUTSIDE = 1e-6;  // from an outermost corner to a point outside, of the mesh's extent
-constexpr double CLEAR_OPENING = 16;   // of the winding number's clusters: it is then rounded to an integer
+constexpr double FOLDED = 0.99;           // cosine of the angle between two triangles, about their edge, that lie upon each other
+constexpr double SAME_AREA = 1e-9;        // difference of two area vectors of the same edges, of their length: rounding
+constexpr double PARALLEL = 0.9999;       // cosine of the angle between two patches of a flat sheet
+constexpr double MOST_BEND = 1.05;        // area of a flat patch, of its area vector's length
+constexpr double ROUNDED_VOLUME = 1e-12;  // of a part's area to the power 3/2: a flat one has so much, of either sign
+constexpr double JUST_OUTSIDE = 1e-6;     // from an outermost corner to a point outside, of the mesh's extent
+constexpr double CLEAR_OPENING = 16;      // of the winding number's clusters: it is then rounded to an integer
 
 // Sets that are joined, each member with a parity to the set's root.
 class Union {
@@ -219,7 +221,8 @@ class Doubles {
   }
 
   // Sheets that share edges stay or go together. Edges of an odd number of other triangles need one side of the sheet to be closed; edges of
-  // an even number are closed without it.
+  // an even number are closed without it. A flat sheet that touches nothing else, such as a label, encloses nothing with one side nor with two:
+  // it stays, as one side would open a closed mesh.
   void drop_backs() {
     Union joined(backs_.size());
     for_each_edge(uses_, [&](std::span<const EdgeUse> edge) {
@@ -231,7 +234,10 @@ class Doubles {
         first = sheet;
       }
     });
-    std::vector<std::int64_t> needed(backs_.size());  // of the sheet that is the root: edges that need one side less the others
+    const auto normal_of = [&](std::uint32_t sheet) { return glm::normalize(all_.patches[backs_[sheet]].area); };
+    // of the sheet that is the root: edges that need one side, less the others, and whether it is more than a flat sheet alone
+    std::vector<std::int64_t> needed(backs_.size());
+    std::vector<bool> is_body(backs_.size());
     for_each_edge(uses_, [&](std::span<const EdgeUse> edge) {
       std::uint32_t sheet = NO_SHEET;
       std::size_t others = 0;
@@ -243,10 +249,18 @@ class Doubles {
           sheet = sheet_[use.triangle];
         }
       }
-      if (sheet != NO_SHEET && others > 0) needed[joined.root(sheet).first] += others % 2 == 1 ? 1 : -1;
+      if (sheet == NO_SHEET || others == 0) return;
+      const std::uint32_t root = joined.root(sheet).first;
+      needed[root] += others % 2 == 1 ? 1 : -1;
+      is_body[root] = true;
     });
     for (std::uint32_t sheet = 0; sheet < backs_.size(); ++sheet) {
-      if (needed[joined.root(sheet).first] >= 0) leave_out(backs_[sheet], found_.backs);
+      const std::uint32_t root = joined.root(sheet).first;
+      if (!(std::abs(glm::dot(normal_of(sheet), normal_of(root))) > PARALLEL)) is_body[root] = true;
+    }
+    for (std::uint32_t sheet = 0; sheet < backs_.size(); ++sheet) {
+      const std::uint32_t root = joined.root(sheet).first;
+      if (is_body[root] && needed[root] >= 0) leave_out(backs_[sheet], found_.backs);
     }
   }
 
@@ -263,8 +277,11 @@ class Doubles {
 // The parts of a consistent mesh: joined over edges of two triangles that turn the same way.
 struct Part {
   double volume = 0;  // with each hole closed by a cone to the rim's middle
+  double area = 0;
   bool is_closed = true;
   std::array<std::uint32_t, 6> outermost{};  // corners: least and largest x, y, z
+
+  bool is_inverted() const { return volume < -ROUNDED_VOLUME * area * std::sqrt(area); }
 };
 
 std::vector<Part> measure_parts(const TriangleMesh& mesh, const std::vector<EdgeUse>& uses,
@@ -274,6 +291,7 @@ std::vector<Part> measure_parts(const TriangleMesh& mesh, const std::vector<Edge
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     Part& part = parts[numbers[t]];
     part.volume += glm::dot(corner_of(mesh, t, 0) - rim, glm::cross(corner_of(mesh, t, 1) - rim, corner_of(mesh, t, 2) - rim)) / 6;
+    part.area += glm::length(area_of(mesh, t));
     if (!is_seen[numbers[t]]) part.outermost.fill(mesh.triangles[t][0]);
     is_seen[numbers[t]] = true;
     for (const std::uint32_t corner : mesh.triangles[t])
@@ -360,7 +378,7 @@ void turn_outward(TriangleMesh& mesh, std::vector<EdgeUse>& uses, const Triple& 
   bool has_inverted = false;
   for (const Part& part : parts) {
     if (!part.is_closed) open_volume += part.volume;
-    has_inverted = has_inverted || (part.is_closed && part.volume < 0);
+    has_inverted = has_inverted || (part.is_closed && part.is_inverted());
   }
   if (!has_inverted && !(open_volume < 0)) return;
   const WindingTree tree(mesh);
@@ -368,7 +386,7 @@ void turn_outward(TriangleMesh& mesh, std::vector<EdgeUse>& uses, const Triple& 
   std::vector<bool> turns(count);
   for (std::uint32_t i = 0; i < count; ++i) {
     const double about = parts[i].is_closed ? winding_about(tree, mesh, parts[i], extent) : 0;
-    turns[i] = about != 0 ? about < 0 : (parts[i].is_closed ? parts[i].volume : open_volume) < 0;
+    turns[i] = about != 0 ? about < 0 : parts[i].is_closed ? parts[i].is_inverted() : open_volume < 0;
   }
   turn(mesh, uses, turned, [&](std::uint32_t t) { return turns[numbers[t]]; });
 }

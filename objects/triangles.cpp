@@ -2,6 +2,7 @@
 #include "objects/triangles.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 namespace wholehand {
@@ -9,6 +10,10 @@ namespace wholehand {
 bool is_point_or_edge(const TriangleMesh& mesh, const Corners& triangle) {
   const Triple &a = mesh.vertices[triangle[0]], &b = mesh.vertices[triangle[1]], &c = mesh.vertices[triangle[2]];
   return a == b || b == c || c == a;
+}
+
+double single_rounding(const Triple& point) {
+  return 0x1p-24 * std::max({std::abs(point[0]), std::abs(point[1]), std::abs(point[2])});
 }
 
 std::vector<EdgeUse> edge_uses(const std::vector<Corners>& triangles) {

@@ -18,6 +18,8 @@ using Corners = std::array<std::uint32_t, 3>;
 struct TriangleMesh {
   std::vector<Triple> vertices;
   std::vector<Corners> triangles;
+  double rounding = 0;           // m: by how much the file's single precision may have moved a vertex
+  bool says_what_is_up = false;  // its format does: glTF
 };
 
 constexpr std::size_t MOST_TRIANGLES = 20'000'000;
@@ -25,6 +27,9 @@ constexpr std::size_t MOST_MESH_VERTICES = 3 * MOST_TRIANGLES;
 
 // Whether two of a triangle's corners are in one place: it has no side, and where it lies has no say.
 bool is_point_or_edge(const TriangleMesh& mesh, const Corners& triangle);
+
+// By how much single precision may have moved a point with these coordinates.
+double single_rounding(const Triple& point);
 
 // One triangle's use of an edge.
 struct EdgeUse {

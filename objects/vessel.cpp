@@ -15,6 +15,7 @@
 #include "core/load.h"
 #include "objects/cache.h"
 #include "objects/check.h"
+#include "objects/hints.h"
 #include "objects/mesh.h"
 #include "system/cache_folder.h"
 #include "system/output.h"
@@ -68,14 +69,16 @@ CavityPoints count_cavity_points(const PreparedLattice& lattice, const std::vect
   return points;
 }
 
-void place_cavity(const VesselData& vessel, MeshBody& body) {
+// Returns what is likely wrong with the inner outline although it fits; "" for nothing.
+std::string place_cavity(const VesselData& vessel, MeshBody& body) {
   const std::vector<PreparedElement> cavity = prepare_cavity(vessel);
   double widest = 0, reach = 0;
   for (const PreparedElement& e : cavity) widest = std::max(widest, widest_on(e));
   for (const int k : {0, 2}) reach = std::max({reach, std::abs(body.low[k]), std::abs(body.high[k])});
   const double floor = cavity.front().a[1], mouth = cavity.back().b[1];
+  const std::string hint = inner_outline_hint(mouth - floor, widest, body.high[1] - body.low[1], reach);
   const auto refuse = [&](const std::string& what) {
-    throw usage_error(at_place(vessel.mesh->place, fmt::format("vessel '{}': {}", vessel.name, what)));
+    throw usage_error(at_place(vessel.mesh->place, fmt::format("vessel '{}': {}", vessel.name, hint.empty() ? what : hint)));
   };
   if (floor < body.low[1] - ROUNDED_OUTLINE || mouth > body.high[1] + ROUNDED_OUTLINE || widest > reach + ROUNDED_OUTLINE) {
     refuse(fmt::format(
@@ -98,6 +101,7 @@ void place_cavity(const VesselData& vessel, MeshBody& body) {
         points.off_wall, points.of_wall));
   }
   body.holds_cavity = share > 0.5;
+  return hint;
 }
 
 LatticeWish wish_of(const Scene& scene, const MeshData& data, bool is_off_scale, const MeshOptions& options) {
@@ -191,15 +195,20 @@ void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder
   };
   const StatusLine status(options.is_quiet);
   status.show(fmt::format("{}: reading {}", name, data.file));
-  CheckedMesh checked = check_mesh(read_mesh(data, folder), at_place(data.place, data.file), data.close_holes);
+  TriangleMesh read = read_mesh(data, folder);
+  CheckedMesh checked = check_mesh(read, at_place(data.place, data.file), data.close_holes);
+  const bool says_what_is_up = read.says_what_is_up;
+  read = {};
   status.show("");
   const MeshFacts& facts = checked.facts;
   say(data.file + ": " + mesh_check_text(facts));
-  const std::string warning = mesh_size_warning(facts, data.scale);
-  if (!warning.empty()) say(warning);
+  const SizeHint size = mesh_size_hint(facts.size(), data.scale);
+  const bool is_turned = says_what_is_up || data.z_is_up || data.rotate != Triple{};
+  for (const std::string& hint : {size.text, is_turned ? "" : posture_hint(checked.mesh, facts)})
+    if (!hint.empty()) say(hint);
   check_above_table(scene, data, name, facts.high[1] - facts.low[1]);
   auto body = std::make_shared<MeshBody>();
-  LatticeWish wish = wish_of(scene, data, !warning.empty(), options);
+  LatticeWish wish = wish_of(scene, data, size.is_other_unit, options);
   double spacing = 0;
   int bits = 0;
   if (lattices >> spacing >> bits && spacing > 0 && (bits == 16 || bits == 32)) {
@@ -232,7 +241,8 @@ void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder
   body->facts = mesh_check_text(facts) + (other_volume.empty() ? "" : " But " + other_volume + ".");
   body->vertices = std::move(checked.mesh.vertices);
   body->triangles = std::move(checked.mesh.triangles);
-  if (vessel.has_cavity()) place_cavity(vessel, *body);
+  const std::string cavity_hint = vessel.has_cavity() ? place_cavity(vessel, *body) : "";
+  if (!cavity_hint.empty()) say(cavity_hint);
   say(lattice_text(*body));
   say(mass_text(vessel, *body));
   vessel.base = body->low[1];

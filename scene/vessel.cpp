@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 #include "scene/parts.h"
@@ -80,18 +81,19 @@ void read_form(const SceneTable& table, VesselData& vessel, Silhouette& silhouet
 
 void read_mass(const SceneTable& table, VesselData& vessel) {
   const bool has_mass = table.has("mass_kg"), has_center = table.has("center_of_mass_mm");
-  if (has_mass != has_center) {
-    const char* given = has_mass ? "mass_kg" : "center_of_mass_mm";
-    const char* lacking = has_mass ? "center_of_mass_mm" : "mass_kg";
-    table.file().refuse(table.place(given), fmt::format("{} without {}", given, lacking), "allowed: both or neither");
-  }
+  if (has_center && !has_mass)
+    table.file().refuse(table.place("center_of_mass_mm"), "center_of_mass_mm without mass_kg", "allowed: both or neither");
+  if (has_mass && !has_center && !vessel.mesh)
+    table.file().refuse(table.place("mass_kg"), "mass_kg without center_of_mass_mm",
+                        "allowed: both or neither; a mesh may have mass_kg alone");
   if (has_mass && table.has("density_kg_m3")) {
     table.file().refuse(table.place("density_kg_m3"), "both density_kg_m3 and mass_kg are given", "allowed: one of the two");
   }
   table.read("density_kg_m3", ranges::VESSEL_DENSITY, vessel.density);
   if (has_mass) {
     table.need("mass_kg", ranges::MASS, vessel.mass.emplace());
-    table.need("center_of_mass_mm", ranges::CENTER_OF_MASS, "[x, y, z]", vessel.center_of_mass);
+    vessel.center_of_mass.fill(std::numeric_limits<double>::quiet_NaN());  // not given: that of what the mesh encloses
+    table.read("center_of_mass_mm", ranges::CENTER_OF_MASS, "[x, y, z]", vessel.center_of_mass);
   } else if (!vessel.has_cavity() && !vessel.mesh) {  // a mesh has its volume
     table.file().refuse(table.place(), fmt::format("vessel '{}' has no mass", vessel.name),
                         "allowed: 'wall_mm' or 'inner_outline', or 'mass_kg' and 'center_of_mass_mm'");

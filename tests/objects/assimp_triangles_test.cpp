@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "objects/assimp_input.h"
 #include "objects/check.h"
+#include "objects/hints.h"
 #include "tests/support/meshes.h"
 
 namespace wholehand {
@@ -82,7 +83,7 @@ TEST_F(MeshFormats, AllGiveWhatGltfGives) {
     EXPECT_EQ(checked.mesh.triangles.size(), gltf.mesh.triangles.size()) << each.name;
     EXPECT_TRUE(checked.facts.closed && checked.facts.oriented) << each.name;
     EXPECT_NEAR(checked.facts.volume, gltf.facts.volume, 1e-6 * gltf.facts.volume) << each.name;
-    EXPECT_NE(mesh_size_warning(checked.facts).find("mesh_scale = 0.001"), std::string::npos) << each.name;
+    EXPECT_NE(mesh_size_hint(checked.facts.size()).text.find("mesh_scale = 0.001"), std::string::npos) << each.name;
   }
 }
 

@@ -219,27 +219,6 @@ TEST(MeshCheck, WhatEnclosesNothingIsRefused) {
   EXPECT_EQ(refusal(thin), "");
 }
 
-TEST(MeshCheck, UnitsThatAreTooLargeOrTooSmallAreNoticed) {
-  const auto warning = [](double height, double scale = 1) {
-    return mesh_size_warning(check_mesh(box_mesh({0, 0, 0}, {height / 2, height, height / 2}), "b").facts, scale);
-  };
-  EXPECT_EQ(warning(9.9), "");
-  EXPECT_EQ(warning(2.1e-3), "");
-  EXPECT_EQ(
-      warning(120),
-      "it is 120 m large: its numbers are taken as metres; the likely scale is mesh_scale = 0.001, with which it is 120 mm large");
-  EXPECT_TRUE(says(warning(12), "mesh_scale = 0.01, with which it is 120 mm"));
-  EXPECT_EQ(
-      warning(0.08e-3),
-      "it is 0.08 mm large: its numbers are taken as metres; the likely scale is mesh_scale = 1000, with which it is 80 mm large");
-  EXPECT_TRUE(says(warning(1.2e-3), "mesh_scale = 100, with which it is 120 mm"));
-  EXPECT_TRUE(says(warning(80e-9), "mesh_scale = 1e+06, with which it is 80 mm"));
-  // beside a scale that was given
-  EXPECT_TRUE(
-      says(warning(0.08e-3, 0.001), "its numbers times 0.001 are taken as metres; the likely scale is mesh_scale = 1, with"));
-  EXPECT_TRUE(says(warning(120, 0.01), "mesh_scale = 1e-05, with which it is 120 mm"));
-}
-
 TEST(MeshCheck, CopiesOfTrianglesAreLeftOut) {
   TriangleMesh many = cube();
   for (int i = 0; i < 5; ++i) many = joined(many, cube());
@@ -289,6 +268,15 @@ TEST(MeshCheck, TheBackOfATwoSidedSurfaceIsLeftOut) {
   const CheckedMesh bowl = check_mesh(two_sided(open_hemisphere(0.1, 3)), "bowl");
   EXPECT_EQ(bowl.facts.open_edges, 32u);
   EXPECT_NEAR(bowl.facts.volume, check_mesh(open_hemisphere(0.1, 3), "bowl").facts.volume, 1e-15);
+}
+
+TEST(MeshCheck, AFlatSheetWithTwoSidesLeavesAClosedMeshClosed) {
+  const TriangleMesh label = two_sided({{{0.2, 0, 0}, {0.2, 0.1, 0}, {0.2, 0.1, 0.1}, {0.2, 0, 0.1}, {0.2, 0.05, 0.05}},
+                                        {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}});
+  const MeshFacts facts = check_mesh(joined(cube(), label), "labelled").facts;
+  EXPECT_EQ(facts.back_triangles + facts.turned_triangles, 0u);
+  EXPECT_TRUE(facts.closed && facts.oriented);
+  EXPECT_NEAR(facts.volume, 0.006, 1e-17);
 }
 
 TEST(MeshCheck, TheFaceBetweenBodiesThatTouchStays) {

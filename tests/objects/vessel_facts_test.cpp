@@ -55,7 +55,7 @@ TEST_F(MeshVessel, WhatIsLongIsLessForAnOpenMesh) {
 TEST_F(MeshVessel, ATinyMeshIsWarnedOfAndGetsASmallLattice) {
   TriangleMesh ball = icosphere(0.04e-3, 1);
   const Scene scene = loaded({of_file("tiny", ball, 0)});
-  EXPECT_NE(said_.find("the likely scale is mesh_scale = 1000, with which it is 80 mm large"), std::string::npos) << said_;
+  EXPECT_NE(said_.find("it is 0.08 mm large, which a hand hardly holds"), std::string::npos) << said_;
   EXPECT_LE(4 * scene.vessels[0].mesh->body->lattice.words->size(), 4u << 20) << "an answer soon";
 }
 

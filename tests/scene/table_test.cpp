@@ -261,7 +261,7 @@ TEST(SceneTable, RefusesVessels) {
        "wall_mm = 20; allowed: less than the vessel's height, 20 mm"},
       {cylinder + "wall_mm = @0", "wall_mm = 0; allowed: 0.05 to 100"},
       {cylinder + "surface = @\"shell\"", "surface = 'shell' without a wall"},
-      {cylinder + "mass_kg = @1", "mass_kg without center_of_mass_mm; allowed: both or neither"},
+      {cylinder + "mass_kg = @1", "mass_kg without center_of_mass_mm; allowed: both or neither; a mesh may have mass_kg alone"},
       {cylinder + "wall_mm = 1\ncenter_of_mass_mm = @[0, 0, 0]", "center_of_mass_mm without mass_kg"},
       {cylinder + "mass_kg = 1\ncenter_of_mass_mm = [0, 0, 0]\ndensity_kg_m3 = @2230",
        "both density_kg_m3 and mass_kg are given; allowed: one of the two"},
