@@ -82,16 +82,17 @@ StateAxes read_states(const GripArguments& arguments, const Scene& scene, std::s
   if (arguments.fills.empty() && arguments.volumes.empty()) return axes;
   const char* option = arguments.volumes.empty() ? "--fill" : "--fill-ml";
   if (!scene.liquid)
-    throw usage_error(fmt::format("{0}: {1} has no [liquid]; add one with its fills, or leave {0} out", option, in_quotes(scene.file)));
+    throw usage_error(
+        fmt::format("{0}: {1} has no [liquid]; add one with its fills, or leave {0} out", option, in_quotes(scene.file)));
   if (axes.tilts.empty())
     throw usage_error(fmt::format("{}: {} has no [tilts]; give --tilt-deg too", option, in_quotes(scene.file)));
   axes.fills.clear();
   for (const auto& text : arguments.fills) axes.fills.push_back(parse_quantity(text, option, ranges::FRACTION));
   const VesselData& held = scene.vessels[vessel];
-  const double capacity = arguments.volumes.empty() ? 0 : capacity_of(held);
+  axes.capacity = arguments.volumes.empty() ? 0 : capacity_of(held);
   for (const auto& text : arguments.volumes) {
     const double volume = parse_quantity(text, option, ranges::FILL_VOLUME);
-    axes.fills.push_back(fraction_of_capacity(held, capacity, volume, fmt::format("{} {}", option, text)));
+    axes.fills.push_back(fraction_of_capacity(held, axes.capacity, volume, fmt::format("{} {}", option, text)));
   }
   return axes;
 }

@@ -67,9 +67,10 @@ std::string ranking_text(const Scene& scene, const Plan& plan, const RankArgumen
   for (std::size_t list = 0; list < ranking.lists.size(); ++list) {
     text += fmt::format("{}{}: ", list == 0 ? "" : "\n", list_name(scene, plan, list));
     text += arguments.where.empty()
-                ? fmt::format("{} grips are feasible and plausible\n", readable_number(ranking.plausible[list]))
-                : fmt::format("{} of {} feasible, plausible grips match\n", readable_number(ranking.matching[list]),
-                              readable_number(ranking.plausible[list]));
+                ? fmt::format("{} feasible and plausible\n", counted(ranking.plausible[list], "grip is", "grips are"))
+                : fmt::format("{} of {} {}\n", readable_number(ranking.matching[list]),
+                              counted(ranking.plausible[list], "feasible, plausible grip", "feasible, plausible grips"),
+                              ranking.plausible[list] == 1 ? "matches" : "match");
     text += list_lines(scene, plan, list / plan.hand_scales(), ranking.lists[list], arguments.output);
   }
   return text;

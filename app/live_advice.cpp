@@ -88,7 +88,7 @@ AdviceTally LiveAdvice::tally() const { return loop_ ? loop_->tally() : stepped_
 
 std::string tally_words(const AdviceTally& tally) {
   std::string words = fmt::format("computed on {}: {}", tally.place, counted(tally.updates, "update"));
-  if (tally.updates > 0) words += fmt::format(" of {} grips on average", readable_number(tally.grips / tally.updates));
+  if (tally.updates > 0) words += fmt::format(" of {} on average", counted(tally.grips / tally.updates, "grip"));
   if (tally.seconds > 0) words += fmt::format(", {:.1f} a second, no two further apart than {:.2f} s", tally.rate(), tally.longest);
   return words;
 }

@@ -38,7 +38,7 @@ std::string board(const std::vector<MixedAmount>& amounts) {
   std::string line;
   for (const MixedAmount& amount : amounts) {
     line +=
-        fmt::format("{}{} {:.1f} of {:.1f} ml", line.empty() ? "" : ", ", amount.liquid, amount.arrived * ML, amount.wanted * ML);
+        fmt::format("{}{} {:.1f} of {:.1f} mL", line.empty() ? "" : ", ", amount.liquid, amount.arrived * ML, amount.wanted * ML);
   }
   return line;
 }
@@ -89,7 +89,7 @@ std::vector<std::string> Narrator::look(const Tick& tick) {
     };
     if (is_met(now[k]) && !is_met(before[k])) {
       lines.push_back(
-          fmt::format("{}{} ml of {} are in the target", stamp(tick), fmt::format("{:.1f}", now[k].arrived * ML), now[k].liquid));
+          fmt::format("{}{} mL of {} are in the target", stamp(tick), fmt::format("{:.1f}", now[k].arrived * ML), now[k].liquid));
     }
   }
   last_ = tick;
@@ -108,14 +108,14 @@ std::string Narrator::status(const Tick& tick) const {
 std::string live_text(const LiveSummary& summary) {
   const LoopReport& loop = summary.loop;
   const Tick& last = loop.last;
-  std::string text = fmt::format("{} with {}: {:.1f} s, {} ticks at {:g} Hz\n", summary.scene.name, summary.gripper.name,
-                                 summary.seconds, readable_number(static_cast<std::uint64_t>(loop.ticks)), summary.scene.live.rate);
+  std::string text = fmt::format("{} with {}: {:.1f} s, {} at {:g} Hz\n", summary.scene.name, summary.gripper.name, summary.seconds,
+                                 counted(static_cast<std::uint64_t>(loop.ticks), "tick"), summary.scene.live.rate);
   text += fmt::format("  grasps {}, lost {}", last.grasps, last.lost);
   if (summary.scene.task)
     text += fmt::format(", destinations {}; {}", last.destinations, last.task_done ? "the task is done" : "the task is not done");
   text += "\n";
   if (summary.scene.task) {
-    text += fmt::format("  amounts    {}; spilt {:.1f} ml\n", board(mixing_board(summary.scene, last)),
+    text += fmt::format("  amounts    {}; spilt {:.1f} mL\n", board(mixing_board(summary.scene, last)),
                         total_spilt(summary.scene, last) * ML);
   }
   if (summary.has_clock) {
@@ -183,8 +183,8 @@ std::string fault_line(const LoopReport& report, const Guard& guard, const LiveD
   if (report.fault == Fault::stale) words = "the same measurement came twice";
   if (report.fault == Fault::late)
     words = fmt::format(
-        "{} steps in a row took longer than a period, or their reads took longer than {:g} ms; [live] late_steps sets this number",
-        live.late_steps, CALL_PATIENCE * 1e3);
+        "{} in a row took longer than a period, or their reads took longer than {:g} ms; [live] late_steps sets this number",
+        counted(static_cast<std::uint64_t>(live.late_steps), "step"), CALL_PATIENCE * 1e3);
   if (report.fault == Fault::not_finite) words = "a value is not a number, or a rotation is not a unit quaternion";
   if (report.fault == Fault::ring_full) words = "the recording is too slow for the loop";
   return fmt::format("live: a fault ended the session after {:.3f} s: {}{}; {}", seconds,

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "charts/markup.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
 #include "core/printable.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {
@@ -113,17 +112,18 @@ MarkupWriter& MarkupWriter::markup(std::string_view markup) {
   return *this;
 }
 
+namespace {
+
+// With a real minus.
+std::string with_minus(const std::string& number) { return number.starts_with('-') ? "\u2212" + number.substr(1) : number; }
+
+}  // namespace
+
 std::string shown_number(double value, int digits) {
   if (std::isnan(value)) return "\u2013";
-  if (std::isinf(value)) return value > 0 ? "\u221E" : "\u2212\u221E";
-  std::string text = fmt::format("{:.{}f}", std::abs(value), digits);
-  const bool is_zero = text.find_first_not_of("0.") == std::string::npos;
-  return value < 0 && !is_zero ? "\u2212" + text : text;
+  return with_minus(std::isinf(value) ? (value > 0 ? "\u221E" : "-\u221E") : fixed_text(value, digits));
 }
 
-std::string plain_number(double value) {
-  const std::string text = fmt::format("{:.6g}", std::abs(value));
-  return value < 0 && text != "0" ? "\u2212" + text : text;
-}
+std::string plain_number(double value) { return with_minus(plain_text(value)); }
 
 }  // namespace wholehand

@@ -495,8 +495,8 @@ class ClusterSweep final : public Sweep {
       }
     }
     if (grips == 0) return;
-    say_note(fmt::format("no rank has the shard{} {}: computing {} grips again", names.size() > 1 ? "s" : "", joined(names, ", "),
-                         readable_number(grips)));
+    say_note(fmt::format("no rank has the shard{} {}: computing {} again", names.size() > 1 ? "s" : "", joined(names, ", "),
+                         counted(grips, "grip")));
   }
 
   // Of the leader's mark: the stretches that are nowhere, by the rank that computes them again, in its order. The mark says so from now on.

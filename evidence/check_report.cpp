@@ -39,13 +39,14 @@ std::string pair_text(const CheckedPair& pair) {
   for (const CheckedQuantity& quantity : pair.quantities) {
     const Comparison& row = quantity.row;
     text += fmt::format("  {:<11} {:<18} {:>12.4g} {:>12.4g} {:<6} {:>9.3f} {:>9} {:>8}  {}\n", row.kernel, row.quantity, row.worst,
-                        row.tolerance, row.unit, row.worst_ratio, row.compared, row.outside, place_text(quantity));
+                        row.tolerance, row.unit, row.worst_ratio, readable_number(row.compared), readable_number(row.outside),
+                        place_text(quantity));
   }
   return text + fmt::format(
-                    "  {} grips; {} graze the glass and are left out; in {} a discrete outcome differs within the margin; at most "
+                    "  {}; {} the glass and {} left out; in {} a discrete outcome differs within the margin; at most "
                     "{} may differ: a true share of 1 in 1,000 exceeds this number once in 1,000,000 checks\n",
-                    readable_number(pair.grips), readable_number(pair.grazing), readable_number(pair.excluded),
-                    readable_number(pair.allowed));
+                    counted(pair.grips, "grip"), counted(pair.grazing, "grazes", "graze"), pair.grazing == 1 ? "is" : "are",
+                    readable_number(pair.excluded), readable_number(pair.allowed));
 }
 
 CheckJson finite_or_null(double value) { return std::isfinite(value) ? CheckJson(value) : CheckJson(nullptr); }
@@ -94,7 +95,7 @@ std::string check_text(const CheckReport& report) {
                       report.is_cpu ? ", a CPU driver" : "");
   for (const CheckedVessel& vessel : report.vessels) {
     text += fmt::format(
-        "  {}: {} grips of the scene{}\n", vessel.name, readable_number(vessel.own),
+        "  {}: {} of the scene{}\n", vessel.name, counted(vessel.own, "grip"),
         vessel.between == 0 ? "" : fmt::format(" and {} more between and around them", readable_number(vessel.between)));
   }
   text += pair_text(report.translation) + pair_text(report.cost);

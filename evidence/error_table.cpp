@@ -237,10 +237,11 @@ std::string error_report(const std::vector<ErrorRow>& rows, const ErrorContext& 
   std::string text = fmt::format("# Error against run time: {}\n\n", context.scene);
   text += fmt::format("{} ({}), wholehand {}, seed {}{}.\n", context.device, context.driver, context.version, context.seed,
                       context.quick ? ", quick" : "");
-  text += fmt::format("{} random grips of {} vessel{}, {} feasible (of these {} graze and are not compared){}; {} variants.\n",
-                      readable_number(context.grips), context.vessels, context.vessels == 1 ? "" : "s",
-                      readable_number(context.feasible), readable_number(context.grazing),
-                      context.states > 0 ? fmt::format(", {} states of fill and tilt each", context.states) : "", rows.size());
+  text += fmt::format("{} of {}, {} feasible (of these {} not compared){}; {}.\n", counted(context.grips, "random grip"),
+                      counted(context.vessels, "vessel"), readable_number(context.feasible),
+                      counted(context.grazing, "grazes and is", "graze and are"),
+                      context.states > 0 ? fmt::format(", {} of fill and tilt each", counted(context.states, "state")) : "",
+                      counted(rows.size(), "variant"));
   text += fmt::format("Reference: core double, exact outline, stop tolerance 1e-12 m, 64 points of the liquid{}.\n",
                       context.efforts ? fmt::format(", efforts to {:g}", reference_options().effort_tolerance) : "");
   for (const std::string& note : context.notes) text += fmt::format("Note: {}.\n", note);

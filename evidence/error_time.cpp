@@ -19,6 +19,7 @@
 #include "system/output.h"
 #include "system/pictures.h"
 #include "system/progress.h"
+#include "system/readable.h"
 #include "system/version.h"
 
 namespace wholehand {
@@ -133,7 +134,7 @@ ExitCode run_error_time(const Scene& scene, const ErrorTimeOptions& options) {
   });
   show_status("");
   if (interrupt.flag()) {
-    say_note(fmt::format("interrupted while comparing and timing {} variants; nothing was written", variants.size()));
+    say_note(fmt::format("interrupted while comparing and timing {}; nothing was written", counted(variants.size(), "variant")));
     return ExitCode::interrupted;
   }
   if (options.on == "core" && !rows.empty()) {

@@ -52,7 +52,7 @@ DrawnForces::DrawnForces(const GripReport& report) {
   std::stable_sort(arrows_.begin(), arrows_.end(), [](const Arrow& a, const Arrow& b) { return norm(a.along) > norm(b.along); });
   const GripState& state = report.answer.states[*place];
   words_ = fmt::format("longest arrow {:.2f} N, {}tilt {:.1f}\u00b0", largest,
-                       report.has_liquid ? fmt::format("fill {:.3g}, ", state.fill) : "", degrees(state.tilt));
+                       report.has_liquid ? fill_words(report, state.fill) + ", " : "", degrees(state.tilt));
 }
 
 void DrawnForces::widen(std::array<double, 2>& extent, const Triple& axis, double unit) const {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/capacity.h"
 #include "core/counted_tilts.h"
 #include "core/error.h"
 #include "host/open_backend.h"
@@ -164,6 +165,8 @@ Scene with_states(const Scene& scene, std::size_t vessel, const StateAxes& axes)
 StateAxes scene_axes(const Scene& scene, std::size_t vessel) {
   StateAxes axes;
   if (scene.liquid) axes.fills = vessel_fills(scene, scene.vessels[vessel]);
+  if (scene.liquid && !scene.liquid->volumes.empty() && scene.vessels[vessel].has_cavity())
+    axes.capacity = capacity_of(scene.vessels[vessel]);
   axes.tilts = scene.tilts;
   return axes;
 }

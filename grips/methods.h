@@ -32,6 +32,7 @@ struct GripFindings {
 struct StateAxes {
   std::vector<double> fills{0.0};
   std::vector<double> tilts;  // rad; empty: no states
+  double capacity = 0;        // m3: of the vessel, where the fills are asked for as volumes; 0 where they are shares
 };
 
 // Answers one grip of one vessel of the scene that it was made for.

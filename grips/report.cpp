@@ -5,6 +5,7 @@
 
 #include "core/counted_tilts.h"
 #include "core/error.h"
+#include "core/mesh_body.h"
 #include "core/vectors.h"
 
 namespace wholehand {
@@ -25,9 +26,12 @@ GripReport make_grip_report(const Scene& scene, std::size_t vessel, const GripIn
   report.answer = methods.answer(vessel, grip, axes);
   report.pour = pour_direction(scene, grip);
   report.has_liquid = scene.liquid.has_value();
+  report.capacity = axes.capacity;
+  if (const auto& mesh = scene.vessels[vessel].mesh; mesh && mesh->body) report.length_error = mesh->body->lattice_error;
   report.has_tilts = !scene.tilts.empty();
   report.score_fills = scene_axes(scene, vessel).fills;
   report.score_tilts = scene.tilts.size();
+  if (report.has_tilts) report.largest_tilt = scene.tilts.back();
   report.counted_tilts = counted_tilts(scene, vessel);
   return report;
 }

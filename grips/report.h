@@ -17,9 +17,12 @@ struct GripReport {
   GripFindings answer;
   Triple pour{};  // horizontal direction towards which the vessel is tilted, unit, vessel frame; zero for a vertical line
   bool has_liquid = false;
+  double capacity = 0;                     // m3: of the vessel, where fills are asked for as volumes; 0 where they are shares
+  double length_error = 0;                 // m: to which lengths are known (of the lattice of a mesh); 0: they are exact
   bool has_tilts = false;                  // the scene's: without them there are no force and hold terms
   std::vector<double> score_fills;         // fills of the score's terms
   std::size_t score_tilts = 0;             // the scene's,
+  double largest_tilt = 0;                 // rad: of these
   std::vector<std::size_t> counted_tilts;  // and how many of them count at each of those fills
   std::vector<StateHold> holds;            // of answer.states; empty until add_holding
   std::optional<GripHold> hold;            // over the scene's states; nothing without tilts

@@ -6,8 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "charts/markup.h"
 #include "core/effort.h"
 #include "core/error.h"
+#include "core/planes.h"
+#include "system/readable.h"
 
 namespace wholehand {
 
@@ -47,6 +50,25 @@ std::optional<std::size_t> hardest_state(const GripReport& report) {
     if (is_worst && report.holds[k].effort >= report.holds[*hardest].effort * (1 - core_f64::EFFORT_TOLERANCE)) return k;
   }
   return hardest;
+}
+
+std::string fill_words(const GripReport& report, double fill) {
+  if (report.capacity > 0) return plain_text(1e6 * report.capacity * fill) + " mL";
+  return fmt::format("fill {:.3g}", fill);
+}
+
+std::string fill_text(const Scene& scene, std::size_t vessel, double fill) {
+  if (!scene.liquid || scene.liquid->volumes.empty()) return share_text(scene, fill);
+  const std::vector<double>& fills = vessel_fills(scene, scene.vessels[vessel]);
+  const auto nearest =
+      std::min_element(fills.begin(), fills.end(), [fill](double a, double b) { return std::abs(a - fill) < std::abs(b - fill); });
+  const auto place = static_cast<std::size_t>(nearest - fills.begin());
+  return plain_number(scene.vessels[vessel].has_cavity() ? 1e6 * scene.liquid->volumes[place] : 0) + "\u00a0mL";
+}
+
+std::string share_text(const Scene& scene, double fill) {
+  return scene.liquid ? shown_number(100 * fill, std::abs(100 * fill - std::round(100 * fill)) < 0.05 ? 0 : 1) + "\u00a0%"
+                      : "empty";
 }
 
 }  // namespace wholehand

@@ -30,6 +30,15 @@ void check_drawable(const GripReport& report, const std::string& option);
 // The first of the report's states that has liquid; null where none has.
 const GripState* drawn_liquid(const GripReport& report);
 
+// A fill of the report: "250 mL" where fills are asked for as volumes, else "fill 0.605".
+std::string fill_words(const GripReport& report, double fill);
+
+// A fill of a vessel as the scene gives it, for a page: "250 mL" of fills_ml, else "60.5 %" of what the vessel holds; "empty" without liquid. Number and
+// unit stay in one line.
+std::string fill_text(const Scene& scene, std::size_t vessel, double fill);
+// As a share, whatever the scene gives.
+std::string share_text(const Scene& scene, double fill);
+
 // The place in `holds` of the state that takes most effort: the report's worst one where that is listed and takes as much, to the
 // tolerance of efforts; else the first of those that take as much, or that no force holds, if there are any. A state whose effort is NaN
 // is passed over. Nothing where no other is.

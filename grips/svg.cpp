@@ -18,6 +18,7 @@
 #include "grips/hand_nodes.h"
 #include "grips/states.h"
 #include "shaders/layout.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {
@@ -217,7 +218,8 @@ std::vector<std::string> caption_lines(const GripReport& report) {
       fmt::format("height {:.1f} mm, roll {:.1f}\u00b0", g.height * 1e3, degrees(g.roll)),
       fmt::format("obliquity {:.1f}\u00b0, azimuth {:.1f}\u00b0", degrees(g.obliquity), degrees(g.azimuth)),
       fmt::format("gap {:.1f} mm, closure {:.2f}", r.gap * 1e3, r.closure),
-      fmt::format("{} fingers, {} points touch", std::popcount(r.used_mask), std::popcount(r.touch_mask)),
+      fmt::format("{}, {}", counted(static_cast<std::uint64_t>(std::popcount(r.used_mask)), "finger"),
+                  counted(static_cast<std::uint64_t>(std::popcount(r.touch_mask)), "point touches", "points touch")),
       fmt::format("score {:.3f}{}", report.answer.score.score, r.plausible ? "" : " (implausible)"),
   };
   if (g.offset != 0) lines[2] += fmt::format(", offset {:.1f} mm", g.offset * 1e3);

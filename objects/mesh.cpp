@@ -13,6 +13,7 @@
 #include "objects/assimp_triangles.h"
 #include "objects/file.h"
 #include "objects/gltf_triangles.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {
@@ -83,7 +84,7 @@ TriangleMesh read_mesh(const MeshData& data, const std::string& base_folder) {
   TriangleMesh mesh = format == MeshFormat::gltf ? gltf_triangles(file, bytes) : assimp_triangles(file, format, bytes);
   if (mesh.triangles.empty()) file.refuse(format == MeshFormat::gltf ? "has no mesh in its scene" : "has no triangle");
   if (mesh.triangles.size() < FEWEST_TRIANGLES)
-    file.refuse(fmt::format("has {} triangles, and a body needs at least {}", mesh.triangles.size(), FEWEST_TRIANGLES));
+    file.refuse(fmt::format("has {}, and a body needs at least {}", counted(mesh.triangles.size(), "triangle"), FEWEST_TRIANGLES));
   refuse_lost_shape(mesh, file);
   place_mesh(mesh, data, file);
   return mesh;

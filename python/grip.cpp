@@ -68,17 +68,18 @@ StateAxes axes_of(const StateWish& wish, const Scene& scene, std::size_t vessel)
   const char* option = wish.volumes ? "--fill-ml" : "--fill";
   if (wish.fills && wish.volumes) throw usage_error("--fill and --fill-ml are both given; allowed: one of the two");
   if (!scene.liquid)
-    throw usage_error(fmt::format("{0}: {1} has no [liquid]; add one with its fills, or leave {0} out", option, in_quotes(scene.file)));
+    throw usage_error(
+        fmt::format("{0}: {1} has no [liquid]; add one with its fills, or leave {0} out", option, in_quotes(scene.file)));
   if (axes.tilts.empty())
     throw usage_error(fmt::format("{}: {} has no [tilts]; give --tilt-deg too", option, in_quotes(scene.file)));
   axes.fills.clear();
   const VesselData& held = scene.vessels[vessel];
   for (const double fill : wish.fills.value_or(std::vector<double>{}))
     axes.fills.push_back(quantity(fill, option, ranges::FRACTION));
-  const double capacity = wish.volumes ? capacity_of(held) : 0;
+  axes.capacity = wish.volumes ? capacity_of(held) : 0;
   for (const double volume : wish.volumes.value_or(std::vector<double>{}))
-    axes.fills.push_back(
-        fraction_of_capacity(held, capacity, quantity(volume, option, ranges::FILL_VOLUME), fmt::format("{} {}", option, volume)));
+    axes.fills.push_back(fraction_of_capacity(held, axes.capacity, quantity(volume, option, ranges::FILL_VOLUME),
+                                              fmt::format("{} {}", option, volume)));
   return axes;
 }
 

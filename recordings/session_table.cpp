@@ -8,19 +8,18 @@
 #include "core/text.h"
 #include "recordings/session_report.h"
 #include "system/csv.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {
 
 // "-" where there is none.
-std::string shown(double value, double unit, int digits) {
-  return std::isfinite(value) ? fmt::format("{:.{}f}", value / unit, digits) : "-";
-}
+std::string shown(double value, double unit, int digits) { return std::isfinite(value) ? fixed_text(value / unit, digits) : "-"; }
 
 std::string shown(const MeanDeviation& value, double unit, int digits) {
   if (value.count == 0) return "-";
   if (value.count == 1) return shown(value.mean, unit, digits);
-  return fmt::format("{:.{}f} +- {:.{}f}", value.mean / unit, digits, value.deviation / unit, digits);
+  return fixed_text(value.mean / unit, digits) + " +- " + fixed_text(value.deviation / unit, digits);
 }
 
 const char* shown_course(GripCourse course) {
@@ -126,7 +125,7 @@ void write_amounts(std::string& out, const SessionReport& report) {
 void write_timing(std::string& out, const SessionReport& report) {
   append_formatted(out, "\n");
   if (!report.info.has_clock) {
-    append_formatted(out, "timing: none, as the session ran without a clock; ticks recorded {}\n", report.ticks);
+    append_formatted(out, "timing: none, as the session ran without a clock; ticks recorded {}\n", readable_number(report.ticks));
     return;
   }
   ColumnTable table;
@@ -138,7 +137,8 @@ void write_timing(std::string& out, const SessionReport& report) {
   row("step", report.step);
   row("latency", report.latency);
   table.write(out);
-  append_formatted(out, "  periods missed {}, recorded {}\n", report.missed, report.ticks);
+  append_formatted(out, "  periods missed {}, recorded {}\n", readable_count(static_cast<double>(report.missed)),
+                   readable_number(report.ticks));
 }
 
 // A cell of a CSV file; empty where there is none.

@@ -109,27 +109,29 @@ std::string largest_differences(const Agreement& agreement) {
 
 std::string agreement_text(const ReportSource& source, const Agreement& agreement) {
   const bool is_all = agreement.grips == source.plan.stored_grips();
-  const std::string stored = readable_number(source.plan.stored_grips());
+  const std::string stored = counted(source.plan.stored_grips(), "grip");
   std::string text =
-      is_all ? fmt::format("The core computed all {} grips again in double precision", stored)
-             : fmt::format("The core computed {} of {} grips again in double precision", readable_number(agreement.grips), stored);
-  text += fmt::format("; {} of them are feasible. ", readable_number(agreement.feasible));
+      is_all ? fmt::format("The core computed all {} again in double precision", stored)
+             : fmt::format("The core computed {} of {} again in double precision", readable_number(agreement.grips), stored);
+  text += fmt::format("; {} feasible. ", counted(agreement.feasible, "of them is", "of them are"));
   if (agreement.holds()) {
     text += agreement.rows.empty() ? "They agree." : "Every number agrees within its tolerance.";
   } else {
-    text += fmt::format("{} numbers and {} discrete outcomes do NOT agree.", readable_number(agreement.outside),
-                        readable_number(agreement.flipped));
+    text += fmt::format("{} and {} do NOT agree.", counted(agreement.outside, "number"),
+                        counted(agreement.flipped, "discrete outcome"));
   }
   if (const std::string largest = largest_differences(agreement); !largest.empty())
     text += fmt::format(" Largest differences: {}.", largest);
   if (!agreement.outcomes.empty()) {
     const std::uint64_t compared = agreement.grips - agreement.grazing, equal = compared - agreement.flipped - agreement.excluded;
-    text += fmt::format(" Reasons, flags and masks are equal in {} of {} grips", readable_number(equal), readable_number(compared));
+    text += fmt::format(" Reasons, flags and masks are equal in {} of {}", readable_number(equal), counted(compared, "grip"));
     text += agreement.excluded > 0 ? fmt::format("; in {} they differ within the margin, and in {} they may.",
                                                  readable_number(agreement.excluded), readable_number(agreement.allowed))
                                    : ".";
   }
-  if (agreement.grazing > 0) text += fmt::format(" {} grips graze the glass and are left out.", readable_number(agreement.grazing));
+  if (agreement.grazing > 0)
+    text +=
+        fmt::format(" {} left out.", counted(agreement.grazing, "grip grazes the glass and is", "grips graze the glass and are"));
   return text;
 }
 

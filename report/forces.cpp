@@ -8,24 +8,12 @@
 
 #include "charts/lines.h"
 #include "grips/methods.h"
+#include "grips/states.h"
 
 namespace wholehand {
 namespace {
 
 constexpr std::size_t MOST_LINES = 8;
-
-// The number and its unit stay in one line.
-std::string share_text(const Scene& scene, double fill) {
-  return scene.liquid ? shown_number(100 * fill, std::abs(100 * fill - std::round(100 * fill)) < 0.05 ? 0 : 1) + "\u00a0%"
-                      : "empty";
-}
-
-// A fill of a vessel as the scene gives it: in mL, or as a share of what the vessel holds.
-std::string fill_text(const Scene& scene, std::size_t vessel, std::size_t fill) {
-  if (!scene.liquid) return "empty";
-  if (scene.liquid->volumes.empty()) return share_text(scene, vessel_fills(scene, scene.vessels[vessel])[fill]);
-  return plain_number(scene.vessels[vessel].has_cavity() ? 1e6 * scene.liquid->volumes[fill] : 0) + "\u00a0mL";
-}
 
 // What is said of one fill's line to those who do not see it.
 std::string line_text(const Scene& scene, const std::string& fill, const std::vector<double>& values) {
@@ -46,7 +34,7 @@ LineChart force_chart(const ReportSource& source, std::size_t vessel, const std:
   for (std::size_t k = 0; k < shown.size(); ++k) {
     const FillForces& fill = forces[shown[k]];
     LineChart::Line line;
-    line.label = fill_text(scene, vessel, shown[k]);
+    line.label = fill_text(scene, vessel, fill.fill);
     line.y = fill.*member;
     line.shade = shown.size() > 1 ? static_cast<double>(k) / static_cast<double>(shown.size() - 1) : 0.3;
     if (shown[k] < pouring.size() && std::isfinite(pouring[shown[k]])) line.marked_x = degrees(pouring[shown[k]]);
@@ -125,8 +113,7 @@ void write_force_table(MarkupWriter& html, const Scene& scene, std::size_t vesse
   html.open("details").element("summary", "The same as numbers");
   std::vector<std::string> columns{"tilt (°)"};
   for (const char* force : {"feedback", "hold"})
-    for (std::size_t f = 0; f < forces.size(); ++f)
-      columns.push_back(fmt::format("{}, {} (N)", force, fill_text(scene, vessel, f)));
+    for (const FillForces& fill : forces) columns.push_back(fmt::format("{}, {} (N)", force, fill_text(scene, vessel, fill.fill)));
   HtmlTable table(html, fmt::format("Feedback and hold force of the best grip of {}", name), columns);
   for (std::size_t t = 0; t < scene.tilts.size(); ++t) {
     std::vector<std::string> cells{shown_number(degrees(scene.tilts[t]), 1)};

@@ -51,6 +51,11 @@ bool has_robust(const ReportedGrips& best) {
   return std::any_of(best.grips.begin(), best.grips.end(), [](const BestGrip& grip) { return !std::isnan(grip.robust_mean); });
 }
 
+// With a plus where it is the largest tilt of the scene.
+std::string safe_tilt_text(const BestGrip& grip) {
+  return std::isnan(grip.safe_tilt) ? shown_number(grip.safe_tilt, 0) : range_text(degrees(grip.safe_tilt), grip.is_safe_to_end);
+}
+
 void write_table(MarkupWriter& html, const ReportSource& source, std::size_t list, const ReportedGrips& best) {
   const Plan& plan = source.plan;
   const bool has_tilts = !source.scene.tilts.empty();
@@ -76,7 +81,7 @@ void write_table(MarkupWriter& html, const ReportSource& source, std::size_t lis
   const bool tells_robust = has_robust(best);
   if (tells_robust) columns.insert(columns.end(), {"robust mean", "robust low"});
   HtmlTable table(html,
-                  fmt::format("The best {} of {}", best.grips.size() == 1 ? "grip" : fmt::format("{} grips", best.grips.size()),
+                  fmt::format("The best {} of {}", best.grips.size() == 1 ? "grip" : counted(best.grips.size(), "grip"),
                               list_name(source.scene, plan, list)),
                   columns);
   for (std::size_t rank = 0; rank < best.grips.size(); ++rank) {
@@ -96,8 +101,8 @@ void write_table(MarkupWriter& html, const ReportSource& source, std::size_t lis
                                  shown_number(std::max(b.phalanx_depth, b.palm_depth) * 1e3, 1), shown_number(b.closure, 2),
                                  shown_number(b.gap * 1e3, 1)});
       if (has_tilts) {
-        cells.insert(cells.end(), {shown_number(b.peak_force, 2), shown_number(degrees(b.peak_tilt), 0),
-                                   shown_number(b.largest_hold, 1), shown_number(degrees(b.safe_tilt), 0)});
+        cells.insert(cells.end(), {shown_number(b.peak_force, 2), plain_number(degrees(b.peak_tilt)),
+                                   shown_number(b.largest_hold, 1), safe_tilt_text(b)});
       } else {
         cells.push_back(b.antipodal ? "yes" : "no");
       }
@@ -274,7 +279,7 @@ void write_grips(MarkupWriter& html, const ReportSource& source, std::size_t lis
                                          "fills, and the safe tilt is the smallest."
                                    : fmt::format("Fingers, forces and drawings are left out: {}.", source.no_core);
   if (best.listed > best.grips.size())
-    note += fmt::format(" {} listed {} grips.", source.lists ? source.lists_file : "The sweep", readable_number(best.listed));
+    note += fmt::format(" {} listed {}.", source.lists ? source.lists_file : "The sweep", counted(best.listed, "grip"));
   if (has_refined(best))
     note +=
         " The refined grip is the best one that the core found within half a step of the axes. Everything else, the drawings "

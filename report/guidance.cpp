@@ -196,11 +196,11 @@ void write_guidance(MarkupWriter& html, const ReportSource& source, std::size_t 
   const GuidanceStatistics statistics = guidance_statistics(sample.grips);
   std::string text = fmt::format(
       "Guidance points (height, azimuth): {}. The distance of a grip is measured from the nearer of its two contacts, on the skin, "
-      "to the nearest guidance point. n = {} feasible and plausible grips",
-      joined(points, "; "), readable_number(statistics.grips));
+      "to the nearest guidance point. n = {}",
+      joined(points, "; "), counted(statistics.grips, "feasible and plausible grip"));
   text += sample.looked_at < source.plan.stored_grips()
-              ? fmt::format(" of {} examined grips, of {} grips in all.", readable_number(sample.looked_at),
-                            readable_number(source.plan.stored_grips()))
+              ? fmt::format(" of {}, of {} in all.", counted(sample.looked_at, "examined grip"),
+                            counted(source.plan.stored_grips(), "grip"))
               : fmt::format(" of {}.", readable_number(sample.looked_at));
   if (sample.is_by_core) text += " The file lacks some of the points that touch, so the core computed them.";
   html.element("p", text);

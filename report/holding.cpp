@@ -36,7 +36,8 @@ bool any_finite(const std::vector<double>& values) {
 
 std::string fullest_text(const Scene& scene, std::size_t vessel) {
   if (!scene.liquid) return "empty";
-  return fmt::format("filled to {}\u00a0%", plain_number(100 * vessel_fills(scene, scene.vessels[vessel]).back()));
+  return (scene.liquid->volumes.empty() ? "filled to " : "filled with ") +
+         fill_text(scene, vessel, vessel_fills(scene, scene.vessels[vessel]).back());
 }
 
 // What a line says to those who do not see it.

@@ -11,6 +11,7 @@
 
 #include "core/planes.h"
 #include "core/text.h"
+#include "grips/states.h"
 #include "report/html.h"
 
 namespace wholehand {
@@ -88,8 +89,11 @@ std::vector<std::size_t> best_terms(const Scene& scene, const ScoreTerms& terms,
 }
 
 std::string worst_state(const GripReport& report) {
-  const std::string tilt = fmt::format("at a tilt of {}°", shown_number(degrees(report.hold->worst_tilt), 0));
-  return report.has_liquid ? fmt::format("{} and a fill of {}", tilt, percent_text(report.hold->worst_fill)) : tilt;
+  const std::string tilt = fmt::format("at a tilt of {}°", plain_number(degrees(report.hold->worst_tilt)));
+  return report.has_liquid ? fmt::format("{} and a fill of {}", tilt,
+                                         report.capacity > 0 ? fill_words(report, report.hold->worst_fill)
+                                                             : percent_text(report.hold->worst_fill))
+                           : tilt;
 }
 
 // What the smallest margin is about, and why.

@@ -99,9 +99,10 @@ void write_words(MarkupWriter& html, bool has_table, bool has_efforts) {
   word("peak force", "largest force that the gripper renders over all tilts and fills");
   word("hold force", "force with which each of two soft fingers must press, if they alone hold the vessel");
   word("safe tilt", has_efforts
-                        ? "largest tilt up to which the normal force is under the device's limit and the effort is at most 1"
+                        ? "largest tilt up to which the normal force is under the device's limit and the effort is at most 1; with "
+                          "a plus, every tilt of the scene is"
                         : "largest tilt up to which the normal force is under the device's limit and the hold force is at most the "
-                          "user's grip strength");
+                          "user's grip strength; with a plus, every tilt of the scene is");
   if (has_efforts) {
     word("effort",
          "least share of its strength that the digit nearest to its limit must give so that all contacts of the hand hold the "
@@ -123,11 +124,11 @@ class Page {
     html_.markup("<!DOCTYPE html>\n").open("html", {{"lang", "en"}, {"xmlns", "http://www.w3.org/1999/xhtml"}});
     write_head(html_, scene_);
     html_.open("body").open("header").element("h1", page_title(scene_));
-    html_.element("p",
-                  fmt::format("{} of {} vessel{}, scored by wholehand.",
-                              readable_count(static_cast<double>(source_.plan.stored_grips() * scene_.vessels.size())) + " grips",
-                              scene_.vessels.size(), scene_.vessels.size() == 1 ? "" : "s"),
-                  {{"class", "lead"}});
+    html_.element(
+        "p",
+        fmt::format("{} of {}, scored by wholehand.", counted(source_.plan.stored_grips() * scene_.vessels.size(), "grip"),
+                    counted(scene_.vessels.size(), "vessel")),
+        {{"class", "lead"}});
     write_contents(html_, scene_);
     html_.close().open("main");
     write_scene(html_, source_);

@@ -38,22 +38,22 @@ std::string grips_text(const ReportSource& source) {
   add(PLACE_AZIMUTH, "azimuth", degrees(1), "°");
   add(PLACE_OFFSET, "offset", 1e3, " mm");
   add(PLACE_HAND_SCALE, "hand scale", 1, "");
-  const std::string kind = plan.is_sobol() ? fmt::format("{} points of a Sobol sequence", readable_number(plan.grips()))
-                                           : readable_number(plan.stored_grips());
+  const std::string kind =
+      plan.is_sobol() ? counted(plan.grips(), "point") + " of a Sobol sequence" : readable_number(plan.stored_grips());
   return fmt::format("{}: {}", kind, joined(parts, ", "));
 }
 
 std::string states_text(const Scene& scene) {
   if (scene.tilts.empty()) return "none: the scene has no tilts";
-  const std::string tilts = scene.tilts.size() == 1 ? fmt::format("the tilt {}°", shown_number(degrees(scene.tilts[0]), 0))
-                                                    : fmt::format("{} tilts from {}° to {}°", scene.tilts.size(),
-                                                                  shown_number(degrees(scene.tilts.front()), 0),
-                                                                  shown_number(degrees(scene.tilts.back()), 0));
+  const std::string tilts =
+      scene.tilts.size() == 1 ? fmt::format("the tilt {}°", plain_number(degrees(scene.tilts[0])))
+                              : fmt::format("{} tilts from {}° to {}°", scene.tilts.size(),
+                                            plain_number(degrees(scene.tilts.front())), plain_number(degrees(scene.tilts.back())));
   if (!scene.liquid) return tilts + "; the vessels are empty";
   std::vector<std::string> fills;
   const bool has_volumes = !scene.liquid->volumes.empty();
   for (const double volume : scene.liquid->volumes) fills.push_back(plain_number(1e6 * volume));
-  for (const double fill : scene.liquid->fills) fills.push_back(shown_number(100 * fill, 0));
+  for (const double fill : scene.liquid->fills) fills.push_back(plain_number(100 * fill));
   const std::string shown = fills.size() > 12 ? fmt::format("{} fills from {} to {}", fills.size(), fills.front(), fills.back())
                                               : fmt::format("fills {}", joined(fills, ", "));
   const std::string left_out = scene.until_poured
@@ -110,7 +110,8 @@ std::string weights_text(const Scene& scene) {
 
 std::string form_text(const VesselData& vessel) {
   if (vessel.mesh) return "mesh " + vessel.mesh->file;
-  return fmt::format("outline of {} elements{}", vessel.outline.size(), vessel.surface == Surface::shell ? ", a shell" : "");
+  return fmt::format("outline of {}{}", counted(vessel.outline.size(), "element"),
+                     vessel.surface == Surface::shell ? ", a shell" : "");
 }
 
 // Of an outline that can be made ready; NaN for a mesh that is not there.
@@ -221,9 +222,9 @@ void write_origin(MarkupWriter& html, const ReportSource& source) {
   write_pair(html, "Time",
              fmt::format("{} s in all, {} s of it in kernels", shown_number(origin.wall_seconds, 2),
                          shown_number(origin.kernel_seconds, 2)));
-  write_pair(
-      html, "Evaluated",
-      fmt::format("{} grips{}", readable_count(grips), states > grips ? fmt::format(", {} states", readable_count(states)) : ""));
+  write_pair(html, "Evaluated",
+             fmt::format("{} {}{}", readable_count(grips), grips == 1 ? "grip" : "grips",
+                         states > grips ? fmt::format(", {} states", readable_count(states)) : ""));
   write_pair(html, "Result file",
              fmt::format("{}, {}", source.result.path().substr(source.result.path().rfind('/') + 1), readable_bytes(origin.bytes)));
   html.close();

@@ -86,7 +86,7 @@ void read_task(const SceneTable& root, const std::vector<VesselData>& vessels, s
   table->need("destination_mm", ranges::PLACE, "[x, y, z]", data.destination);
   table->need("tolerance_ml", ranges::AMOUNT_TOLERANCE, data.tolerance);
 
-  const std::string allowed = "{liquid name = ml, ..} with the liquids of the vessels";
+  const std::string allowed = "{liquid name = mL, ..} with the liquids of the vessels";
   table->need("amounts_ml", allowed);
   const toml::table* amounts = table->bare_table("amounts_ml", allowed);
   if (amounts->empty()) root.file().refuse(place_of(*amounts), "amounts_ml is empty", "allowed: " + allowed);

@@ -185,13 +185,13 @@ class StudyRun {
     if (!contacts_) return true;
     const std::uint64_t people = options_.people.contacts;
     const std::string grasps = counted(contacts_->grasps().size(), "grasp");
-    say(fmt::format("contacts, {} people with {} each, in {} poses", readable_number(people), grasps, STUDY_POSES.size()));
+    say(fmt::format("contacts, {} with {} each, in {} poses", counted(people, "person", "people"), grasps, STUDY_POSES.size()));
     if (!contacts_->unheld().empty())
       say_note(fmt::format("the mean person cannot hold {}: there everybody plans the roll 0", joined(contacts_->unheld(), ", ")));
     std::optional<ContactStudy> study = study_contacts(*contacts_, options_, *stop_);
     if (!study) return false;
     add_contact_sections(page_, *contacts_, study->rows);
-    lead_.push_back(fmt::format("contacts: {} virtual people with {} each", readable_number(people), grasps));
+    lead_.push_back(fmt::format("contacts: {} with {} each", counted(people, "virtual person", "virtual people"), grasps));
     keep(std::move(study->rows), std::move(study->sensitivity));
     return true;
   }
@@ -200,7 +200,7 @@ class StudyRun {
     const std::uint64_t people = options_.people.forces;
     if (people == 0) return true;
     const std::string& vessel = scene_.vessels[force_vessel_].name;
-    say(fmt::format("forces, {} people with {} choices each, on {}", readable_number(people), FORCE_CHOICES, vessel));
+    say(fmt::format("forces, {} with {} choices each, on {}", counted(people, "person", "people"), FORCE_CHOICES, vessel));
     const auto numbers = of_people("forces", people, options_.threads, *journal_, *stop_, [this](std::uint64_t person) {
       return numbers_of(forces_of_person(scene_, force_vessel_, options_.seed, person, *stop_));
     });
@@ -215,7 +215,7 @@ class StudyRun {
                            people - static_cast<std::uint64_t>(gripped), people));
     std::vector<StudyRow> rows = force_rows(found, vessel, options_.seed, options_.resamples, options_.threads);
     page_.sections.push_back(force_section(rows));
-    lead_.push_back(fmt::format("forces: {} people", readable_number(people)));
+    lead_.push_back("forces: " + counted(people, "person", "people"));
     keep(std::move(rows), force_sensitivity(found, options_.seed));
     return true;
   }
@@ -223,7 +223,7 @@ class StudyRun {
   bool run_sessions() {
     const std::uint64_t people = options_.people.sessions;
     if (people == 0) return true;
-    say(fmt::format("sessions, {} people who do the task {} times", readable_number(people), SESSIONS_PER_PERSON));
+    say(fmt::format("sessions, {} the task {} times", counted(people, "person who does", "people who do"), SESSIONS_PER_PERSON));
     const auto numbers = of_people("sessions", people, options_.threads, *journal_, *stop_, [this](std::uint64_t person) {
       return numbers_of(sessions_of_person(scene_, options_.seed, person, *stop_));
     });
@@ -243,7 +243,7 @@ class StudyRun {
     add_share(rows, "whole_sessions_share", people * SESSIONS_PER_PERSON - broken, people * SESSIONS_PER_PERSON);
     page_.sections.push_back(session_section(session_vessels_, rows, true));
     page_.sections.back().charts = session_charts(found, session_vessels_, rows);
-    lead_.push_back(fmt::format("sessions: {} people, {} each", readable_number(people), SESSIONS_PER_PERSON));
+    lead_.push_back(fmt::format("sessions: {}, {} each", counted(people, "person", "people"), SESSIONS_PER_PERSON));
     keep(std::move(rows), session_sensitivity(found, session_vessels_, options_.seed));
     return true;
   }
@@ -251,7 +251,7 @@ class StudyRun {
   bool run_advice() {
     const std::uint64_t people = options_.people.advice;
     if (people == 0) return true;
-    say(fmt::format("advice, {} people who do the task without and with it", readable_number(people)));
+    say(fmt::format("advice, {} the task without and with it", counted(people, "person who does", "people who do")));
     const auto numbers = of_people("advice", people, options_.threads, *journal_, *stop_, [this](std::uint64_t person) {
       return numbers_of(advised_person(scene_, options_.seed, person, *stop_));
     });
@@ -265,7 +265,7 @@ class StudyRun {
                            people));
     std::vector<StudyRow> rows = advice_rows(found, options_.seed, options_.resamples, options_.threads);
     page_.sections.push_back(advice_section(rows));
-    lead_.push_back(fmt::format("advice: {} people", readable_number(people)));
+    lead_.push_back("advice: " + counted(people, "person", "people"));
     keep(std::move(rows), {});
     return true;
   }

@@ -16,6 +16,7 @@
 #include "system/cache_folder.h"
 #include "system/files.h"
 #include "system/output.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {
@@ -144,7 +145,7 @@ void AutoBackend::remember(const SweepTimes& times, std::uint64_t grips, const B
 
 std::string AutoBackend::explanation() const {
   if (!is_auto_ || task_.grips == 0) return "";
-  std::string text = fmt::format("how core or device was chosen, for {} grips ({})\n", task_.grips, kind_of(task_));
+  std::string text = fmt::format("how core or device was chosen, for {} ({})\n", counted(task_.grips, "grip"), kind_of(task_));
   text += "  core: " + cost_text(core_, task_) + "\n";
   text += no_device_.empty() ? "  device: " + cost_text(device_, task_) + "\n" : "  device: " + no_device_ + "\n";
   if (file_.empty()) return text + "  times of earlier sweeps are not kept, as there is no cache\n";

@@ -12,6 +12,7 @@
 #include "shaders/layout.h"
 #include "sweeps/variables.h"
 #include "system/csv.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {
@@ -50,8 +51,6 @@ struct Column {
   std::string (*cell)(const BestGrip& best);
 };
 
-std::string fixed(double value, int digits) { return std::isnan(value) ? "-" : fmt::format("{:.{}f}", value, digits); }
-
 }  // namespace
 
 std::vector<int> best_fields(const Scene& scene) {
@@ -81,6 +80,7 @@ void set_worst(BestGrip& best, const Scene& scene, const std::function<double(in
     const double safe = listed(value(FIELD_SAFE_TILT, fill), scene.tilts);
     if (std::isnan(safe) || safe < best.safe_tilt) best.safe_tilt = safe;
   }
+  best.is_safe_to_end = best.safe_tilt >= scene.tilts.back();
   if (!has_effort(scene)) return;
   best.efforts = {value(FIELD_WORST_EFFORT, 0),
                   value(FIELD_WORST_EFFORT_FILL, 0),
@@ -163,43 +163,45 @@ std::string best_csv(const Scene& scene, const Plan& plan, const std::vector<std
 }
 
 std::string best_table(const Scene& scene, const Plan& plan, const std::vector<BestGrip>& best, std::size_t rows) {
-  std::vector<Column> columns{{"score", [](const BestGrip& b) { return fixed(b.score, 3); }}};
+  std::vector<Column> columns{{"score", [](const BestGrip& b) { return fixed_text(b.score, 3); }}};
   if (std::any_of(best.begin(), best.end(), [](const BestGrip& b) { return !std::isnan(b.refined_score); }))
-    columns.push_back({"refined", [](const BestGrip& b) { return fixed(b.refined_score, 3); }});
+    columns.push_back({"refined", [](const BestGrip& b) { return fixed_text(b.refined_score, 3); }});
   if (scene.robust) {
-    columns.push_back({"robust", [](const BestGrip& b) { return fixed(b.robust_mean, 3); }});
-    columns.push_back({"robust low", [](const BestGrip& b) { return fixed(b.robust_low, 3); }});
+    columns.push_back({"robust", [](const BestGrip& b) { return fixed_text(b.robust_mean, 3); }});
+    columns.push_back({"robust low", [](const BestGrip& b) { return fixed_text(b.robust_low, 3); }});
   }
   const auto axis = [&](int place, const char* title, std::string (*cell)(const BestGrip&)) {
     if (plan.varies(place)) columns.push_back({title, cell});
   };
-  axis(PLACE_HEIGHT, "height mm", [](const BestGrip& b) { return fixed(b.grip.height * 1e3, 1); });
-  axis(PLACE_AZIMUTH, "azimuth deg", [](const BestGrip& b) { return fixed(degrees(b.grip.azimuth), 1); });
-  axis(PLACE_OBLIQUITY, "obliquity deg", [](const BestGrip& b) { return fixed(degrees(b.grip.obliquity), 1); });
-  axis(PLACE_ROLL, "roll deg", [](const BestGrip& b) { return fixed(degrees(b.grip.roll), 1); });
-  axis(PLACE_OFFSET, "offset mm", [](const BestGrip& b) { return fixed(b.grip.offset * 1e3, 1); });
-  if (plan.hand_scales() == 1) axis(PLACE_HAND_SCALE, "hand scale", [](const BestGrip& b) { return fixed(b.grip.hand_scale, 3); });
+  axis(PLACE_HEIGHT, "height mm", [](const BestGrip& b) { return fixed_text(b.grip.height * 1e3, 1); });
+  axis(PLACE_AZIMUTH, "azimuth deg", [](const BestGrip& b) { return fixed_text(degrees(b.grip.azimuth), 1); });
+  axis(PLACE_OBLIQUITY, "obliquity deg", [](const BestGrip& b) { return fixed_text(degrees(b.grip.obliquity), 1); });
+  axis(PLACE_ROLL, "roll deg", [](const BestGrip& b) { return fixed_text(degrees(b.grip.roll), 1); });
+  axis(PLACE_OFFSET, "offset mm", [](const BestGrip& b) { return fixed_text(b.grip.offset * 1e3, 1); });
+  if (plan.hand_scales() == 1)
+    axis(PLACE_HAND_SCALE, "hand scale", [](const BestGrip& b) { return fixed_text(b.grip.hand_scale, 3); });
   columns.insert(columns.end(),
                  {
                      {"fingers", [](const BestGrip& b) { return std::to_string(b.fingers_used); }},
                      {"points", [](const BestGrip& b) { return std::to_string(b.points_touching); }},
-                     {"depth mm", [](const BestGrip& b) { return fixed(std::max(b.phalanx_depth, b.palm_depth) * 1e3, 1); }},
-                     {"closure", [](const BestGrip& b) { return fixed(b.closure, 2); }},
-                     {"gap mm", [](const BestGrip& b) { return fixed(b.gap * 1e3, 1); }},
+                     {"depth mm", [](const BestGrip& b) { return fixed_text(std::max(b.phalanx_depth, b.palm_depth) * 1e3, 1); }},
+                     {"closure", [](const BestGrip& b) { return fixed_text(b.closure, 2); }},
+                     {"gap mm", [](const BestGrip& b) { return fixed_text(b.gap * 1e3, 1); }},
                  });
   // with tilts an infinite hold says it
   if (scene.tilts.empty())
     columns.push_back({"antipodal", [](const BestGrip& b) { return std::string(b.antipodal ? "yes" : "no"); }});
   if (!scene.tilts.empty()) {
-    columns.insert(columns.end(), {
-                                      {"peak N", [](const BestGrip& b) { return fixed(b.peak_force, 2); }},
-                                      {"hold N", [](const BestGrip& b) { return fixed(b.largest_hold, 1); }},
-                                      {"safe deg", [](const BestGrip& b) { return fixed(degrees(b.safe_tilt), 0); }},
-                                  });
+    columns.insert(columns.end(),
+                   {
+                       {"peak N", [](const BestGrip& b) { return fixed_text(b.peak_force, 2); }},
+                       {"hold N", [](const BestGrip& b) { return fixed_text(b.largest_hold, 1); }},
+                       {"safe deg", [](const BestGrip& b) { return range_text(degrees(b.safe_tilt), b.is_safe_to_end); }},
+                   });
   }
   if (has_effort(scene)) {
-    columns.push_back({"effort", [](const BestGrip& b) { return fixed(b.efforts.worst, 3); }});
-    columns.push_back({"push N", [](const BestGrip& b) { return fixed(b.efforts.push, 1); }});
+    columns.push_back({"effort", [](const BestGrip& b) { return fixed_text(b.efforts.worst, 3); }});
+    columns.push_back({"push N", [](const BestGrip& b) { return fixed_text(b.efforts.push, 1); }});
   }
   std::string table = "  rank";
   for (const Column& column : columns) table += "  " + column.title;

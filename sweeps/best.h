@@ -41,6 +41,7 @@ struct BestGrip {
   double peak_tilt = 0;                      // of it, rad
   double largest_hold = 0;                   // of each of two tips, N, may be infinite
   double safe_tilt = 0;                      // smallest over the fills, rad; NaN where a fill has none
+  bool is_safe_to_end = false;               // it is the scene's largest tilt: more was not asked
   GripEfforts efforts;                       // NaN in a scene without efforts
   GripInput refined{};                       // the best place near the grip (sweeps/refine.h), where there is a score of it
   double refined_score = std::numeric_limits<double>::quiet_NaN();

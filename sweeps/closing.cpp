@@ -27,11 +27,10 @@ std::string short_number(double value) {
 }  // namespace
 
 std::string opening_lines(const Scene& scene, const Plan& plan, const BackendInfo& info) {
-  const auto grips = static_cast<double>(plan.grips() * scene.vessels.size());
-  std::string text = fmt::format("{}: {} grips of {} vessel{}", scene.name.empty() ? "sweep" : scene.name, readable_count(grips),
-                                 scene.vessels.size(), scene.vessels.size() == 1 ? "" : "s");
+  std::string text = fmt::format("{}: {} of {}", scene.name.empty() ? "sweep" : scene.name,
+                                 counted(plan.grips() * scene.vessels.size(), "grip"), counted(scene.vessels.size(), "vessel"));
   const std::size_t states = scene.tilts.size() * scene_fills(scene);
-  if (states > 0) text += fmt::format(", {} states each", readable_count(static_cast<double>(states)));
+  if (states > 0) text += fmt::format(", {} each", counted(states, "state"));
   text +=
       fmt::format("\non {}{} ({}), {} precision\n", info.device, info.backend == "vulkan" && info.is_cpu ? ", a CPU driver" : "",
                   info.driver, info.precision == Precision::single ? "single" : "double");

@@ -43,8 +43,8 @@ class Explainer {
 
   std::string run() {
     const Measured as_is = measure(scene_, fields_, OUTLINE_SPECIALIZED);
-    say("what the sweep leaves out, and what this saves per grip (both ways ran on {} grips of {}; this sweep: {:.3f} us, {} B)\n",
-        sample_.size(), scene_.vessels[0].name, microseconds(as_is), as_is.bytes);
+    say("what the sweep leaves out, and what this saves per grip (both ways ran on {} of {}; this sweep: {:.3f} us, {} B)\n",
+        counted(sample_.size(), "grip"), scene_.vessels[0].name, microseconds(as_is), as_is.bytes);
     if (!on_core_) {
       if (scene_.vessels[0].mesh) {
         say("  nothing of the outline: the distance comes from the mesh's lattice\n");

@@ -64,8 +64,10 @@ SweepSize sweep_size(const Scene& scene, double bytes_per_grip) {
 }
 
 void check_sweep_size(const Scene& scene, const SweepSize& size, double free_bytes) {
-  const std::string asked = fmt::format("{}: asks for {} grips, {} states, {} of results", place_of_grips(scene),
-                                        readable_count(size.grips), readable_count(size.states), readable_bytes(size.bytes));
+  const std::string asked =
+      fmt::format("{}: asks for {}, {}, {} of results", place_of_grips(scene),
+                  readable_count(size.grips) + (size.grips == 1 ? " grip" : " grips"),
+                  readable_count(size.states) + (size.states == 1 ? " state" : " states"), readable_bytes(size.bytes));
   if (!(size.grips <= LARGEST_SWEEP)) {
     throw usage_error(
         fmt::format("{}; one sweep takes at most {} grips: give [grips] fewer values", asked, readable_count(LARGEST_SWEEP)));

@@ -70,8 +70,8 @@ std::string lost_line(const OutputNames& names) {
   std::uint64_t kept = 0;
   for (const VesselProgress& vessel : earlier.vessels) kept += vessel.done;
   if (kept == 0) return "";
-  return fmt::format("{} held {} grips of an interrupted sweep; this sweep starts again without them (--resume keeps them)",
-                     names.partial, readable_number(kept));
+  return fmt::format("{} held {} of an interrupted sweep; this sweep starts again without them (--resume keeps them)",
+                     names.partial, counted(kept, "grip"));
 }
 
 }  // namespace wholehand

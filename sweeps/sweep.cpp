@@ -209,7 +209,8 @@ bool Sweep::begin() {
   if (resumed) {
     mark_ = mark;
     for (std::size_t v = 0; v < maps_.size() && has_heat_map(); ++v) maps_[v].restore(mark_.vessels[v].heat_map);
-    note(fmt::format("continuing {}: {} of {} grips are there", names_.partial, readable_number(done()), readable_number(total())));
+    note(fmt::format("continuing {}: {} of {}", names_.partial, readable_number(done()),
+                     counted(total(), "grip is there", "grips are there")));
   } else {
     if (options_.resume) note(fmt::format("{} holds no complete grip: starting from the first grip", names_.partial));
     mark_.identity = identity();
@@ -475,8 +476,8 @@ void Sweep::save(ResultFile& file) {
 }
 
 ExitCode Sweep::interrupted() const {
-  note(fmt::format("interrupted at {} of {} grips; the same command with --resume goes on with {}", readable_number(done()),
-                   readable_number(total()), names_.partial));
+  note(fmt::format("interrupted at {} of {}; the same command with --resume goes on with {}", readable_number(done()),
+                   counted(total(), "grip"), names_.partial));
   return ExitCode::interrupted;
 }
 

@@ -20,6 +20,7 @@
 #include "sweeps/result_contents.h"
 #include "sweeps/robust.h"
 #include "system/files.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {
@@ -94,7 +95,7 @@ void SweepResult::use(const Scene& scene, const Plan& plan) {
   scene_ = &scene;
   plan_ = &plan;
   if (numbers("vessel_height").shape != std::vector<std::size_t>{scene.vessels.size()})
-    throw usage_error(fmt::format("{}: does not have the {} vessels of its own scene", path(), scene.vessels.size()));
+    throw usage_error(fmt::format("{}: does not have the {} of its own scene", path(), counted(scene.vessels.size(), "vessel")));
   grip_shape_.clear();
   if (plan.is_sobol()) {
     grip_shape_.push_back(plan.grips());

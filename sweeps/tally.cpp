@@ -47,9 +47,8 @@ std::string implausible_parts(const GripCounts& counts) {
 
 std::string counts_line(const GripCounts& counts, bool reasons_known, std::uint64_t azimuths) {
   const std::string at = azimuths > 1 ? fmt::format(" (each at {} azimuths)", readable_number(azimuths)) : "";
-  if (!reasons_known) return fmt::format("{} grips{}", readable_number(counts.grips), at);
-  std::string line =
-      fmt::format("{} of {} grips{} feasible", readable_number(counts.by_reason[0]), readable_number(counts.grips), at);
+  if (!reasons_known) return counted(counts.grips, "grip") + at;
+  std::string line = fmt::format("{} of {}{} feasible", readable_number(counts.by_reason[0]), counted(counts.grips, "grip"), at);
   std::string reasons;
   for (std::size_t reason = 1; reason < counts.by_reason.size(); ++reason) {
     if (counts.by_reason[reason] == 0) continue;

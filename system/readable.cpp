@@ -32,8 +32,24 @@ std::string readable_count(double count) {
 
 std::string readable_number(std::uint64_t count) { return readable_count(static_cast<double>(count)); }
 
-std::string counted(std::uint64_t count, const char* thing) {
+std::string counted(std::uint64_t count, const char* thing, const char* things) {
+  if (things) return fmt::format("{} {}", readable_number(count), count == 1 ? thing : things);
   return fmt::format("{} {}{}", readable_number(count), thing, count == 1 ? "" : "s");
+}
+
+std::string fixed_text(double value, int digits) {
+  if (std::isnan(value)) return "-";
+  const std::string text = fmt::format("{:.{}f}", value, digits);
+  return text.starts_with('-') && text.find_first_not_of("-0.") == std::string::npos ? text.substr(1) : text;
+}
+
+std::string plain_text(double value) { return std::isnan(value) ? "-" : fmt::format("{:.6g}", value == 0 ? 0 : value); }
+
+std::string range_text(double value, bool is_end) { return plain_text(value) + (is_end && !std::isnan(value) ? "+" : ""); }
+
+int known_digits(double error, int digits) {
+  if (!(error > 0)) return digits;
+  return std::clamp(static_cast<int>(-std::floor(std::log10(error))), 0, digits);
 }
 
 std::string readable_duration(double seconds) {

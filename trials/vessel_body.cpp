@@ -11,6 +11,7 @@
 #include "core/outline_points.h"
 #include "core/prepare.h"
 #include "core/vectors.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {
@@ -138,9 +139,9 @@ std::vector<ConvexPiece> mesh_pieces(const VesselData& vessel) {
   const MeshBody& body = *vessel.mesh->body;
   if (static_cast<double>(body.triangles.size()) * static_cast<double>(body.vertices.size()) > MOST_WORK) {
     throw usage_error(
-        fmt::format("vessel {}: its mesh has {} triangles, too many to see whether it is convex; trials take convex "
+        fmt::format("vessel {}: its mesh has {}, too many to see whether it is convex; trials take convex "
                     "meshes and outlines",
-                    vessel.name, body.triangles.size()));
+                    vessel.name, counted(body.triangles.size(), "triangle")));
   }
   const double depth = hollow_depth(body);
   if (depth > CONVEX_TOLERANCE) {

@@ -267,6 +267,7 @@ class GripsView::Impl {
     json["peak_force_N"] = finite_or_null(peak);
     json["hold_force_N"] = finite_or_null(hold);
     json["safe_tilt_rad"] = finite_or_null(safe);
+    json["safe_to_end"] = !scene_.tilts.empty() && safe >= scene_.tilts.back();
     return json;
   }
 

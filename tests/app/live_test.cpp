@@ -60,13 +60,13 @@ TEST(LiveReport, NarratesWhatHappensAndNothingTwice) {
   tick.arrived[1] = 79e-6;
   lines = narrator.look(tick);
   ASSERT_EQ(lines.size(), 1u);
-  EXPECT_EQ(lines[0], "    2.00 s  79.0 ml of red are in the target");
+  EXPECT_EQ(lines[0], "    2.00 s  79.0 mL of red are in the target");
   tick.state = SessionState::slipped;
   tick.lost = 1;
   lines = narrator.look(tick);
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_EQ(lines[0], "    2.00 s  beaker1 slipped and returns to where it stood");
-  EXPECT_NE(narrator.status(tick).find("red 79.0 of 80.0 ml"), std::string::npos) << narrator.status(tick);
+  EXPECT_NE(narrator.status(tick).find("red 79.0 of 80.0 mL"), std::string::npos) << narrator.status(tick);
 }
 
 TEST(LiveReport, TheMixingBoardAddsUpVesselsOfOneLiquid) {

@@ -210,8 +210,9 @@ TEST(GripReport, InfeasibleGripsHaveTheFieldsUpToTheReason) {
 
 TEST(GripReport, TableHasEveryPointAndState) {
   const std::string table = grip_table(report_of(plain_scene(true, true), feasible_result()));
-  for (const char* words : {"Grip of glass in plain, on fake", "thumb CMC", "thumb IP", "little DIP", "middle DIP", "touches",
-                            "projected: tip", "infinite", "height 50.000 mm", "score          0.750000", "hold 0.6000"}) {
+  for (const char* words :
+       {"Grip of glass in plain, on fake", "thumb CMC", "thumb IP", "little DIP", "middle DIP", "touches", "projected: tip",
+        "infinite", "height 50.000 mm", "score          0.750000", "hold 0.6000", " 500.0000  500.0000  back "}) {
     EXPECT_NE(table.find(words), std::string::npos) << words << "\n" << table;
   }
   for (std::size_t begin = 0; begin < table.size();) {
@@ -219,6 +220,42 @@ TEST(GripReport, TableHasEveryPointAndState) {
     EXPECT_LE(end - begin, 140u) << table.substr(begin, end - begin);
     begin = end + 1;
   }
+}
+
+// What a mesh is known to is all that its lengths show, and what follows from them.
+TEST(GripReport, TableShowsTheDigitsThatAreKnown) {
+  GripResult result = feasible_result();
+  result.gap = 0.0812346;
+  GripReport report = report_of(plain_scene(true, true), result);
+  EXPECT_NE(grip_table(report).find("  gap            81.235 mm\n"), std::string::npos);
+  report.length_error = 0.2e-3;
+  const std::string table = grip_table(report);
+  EXPECT_NE(table.find("  gap            81.2 mm\n"), std::string::npos) << table;
+  EXPECT_NE(table.find("  closure        0.2500\n"), std::string::npos) << table;
+  EXPECT_EQ(table.find("81.23"), std::string::npos) << table;
+  report.length_error = 3e-3;
+  EXPECT_NE(grip_table(report).find("  gap            81 mm\n"), std::string::npos);
+}
+
+TEST(GripReport, TableHasNoNegativeZero) {
+  GripResult result = feasible_result();
+  result.midpoint = {-1e-9, 0.05, -0.0};
+  for (double& separation : result.separation) separation = -1e-9;
+  const std::string table = grip_table(report_of(plain_scene(true, true), result));
+  EXPECT_EQ(table.find("-0.0"), std::string::npos) << table;
+}
+
+// Fills in the unit in which they are asked for.
+TEST(GripReport, TableGivesFillsAsTheyAreAskedFor) {
+  GripReport report = report_of(plain_scene(true, true), feasible_result());
+  report.answer.score.fills = {{1, 0, 1, 0.1}, {1, 0, 1, 0.05}};
+  EXPECT_NE(grip_table(report).find("all tilts, fill 0.5: peak"), std::string::npos) << grip_table(report);
+  report.capacity = 413.2e-6;
+  const std::string table = grip_table(report);
+  EXPECT_NE(table.find("all tilts, 206.6 mL: peak"), std::string::npos) << table;
+  EXPECT_EQ(table.find("fill 0"), std::string::npos) << table;
+  EXPECT_NE(table.find("safe at every tilt, up to 5.72958 deg"), std::string::npos) << table;
+  EXPECT_NE(table.find("safe up to 2.86479 deg"), std::string::npos) << table;
 }
 
 TEST(GripThrough, FindsTheGripOfItsLine) {

@@ -77,6 +77,7 @@ TEST(Best, ForcesAreTheWorstOverTheFills) {
   EXPECT_EQ(best.peak_tilt, scene.tilts[1]) << "the listed one that is told to a device's digits";
   EXPECT_TRUE(std::isinf(best.largest_hold));
   EXPECT_EQ(best.safe_tilt, scene.tilts[2]);
+  EXPECT_EQ(best.is_safe_to_end, best.safe_tilt == scene.tilts.back());
   backend.safe = std::nan("");
   EXPECT_TRUE(std::isnan(evaluate_best(backend, scene, plan, 0, {{0.9, 1}}).front().safe_tilt)) << "one fill has none";
 }
@@ -133,6 +134,10 @@ TEST(Best, TableShowsTheAxesThatVaryInColumns) {
   for (const std::string& row : rows) EXPECT_EQ(row.size(), rows[0].size());
   EXPECT_LE(rows[0].size(), 132u);
   EXPECT_EQ(rows[0].find("refined"), std::string::npos);
+  next.safe_tilt = radians(22.5);
+  EXPECT_NE(best_table(scene, plan, {next}, 1).find(" 22.5\n"), std::string::npos) << "as the scene has it";
+  next.is_safe_to_end = true;
+  EXPECT_NE(best_table(scene, plan, {next}, 1).find(" 22.5+"), std::string::npos) << "more was not asked";
   next.refined_score = 0.8764;
   const auto refined = lines(best_table(scene, plan, {grip, next}, 2));
   EXPECT_LT(refined[0].find("score"), refined[0].find("refined"));

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 namespace wholehand {
 namespace {
 
@@ -16,6 +19,42 @@ TEST(Readable, BytesAndCounts) {
   EXPECT_EQ(readable_count(1234), "1,234");
   EXPECT_EQ(readable_count(27648 * 1e3), "27,648,000");
   EXPECT_EQ(readable_count(1e12), "1.0e+12");
+}
+
+TEST(Readable, OneThingIsOne) {
+  EXPECT_EQ(counted(0, "grip"), "0 grips");
+  EXPECT_EQ(counted(1, "grip"), "1 grip");
+  EXPECT_EQ(counted(9216, "grip"), "9,216 grips");
+  EXPECT_EQ(counted(1, "person", "people"), "1 person");
+  EXPECT_EQ(counted(1200, "person", "people"), "1,200 people");
+}
+
+TEST(Readable, NumbersHaveNoNegativeZero) {
+  const double none = std::nan(""), infinite = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(fixed_text(-1e-9, 4), "0.0000");
+  EXPECT_EQ(fixed_text(-0.0, 0), "0");
+  EXPECT_EQ(fixed_text(-0.06, 1), "-0.1");
+  EXPECT_EQ(fixed_text(0.08, 2), "0.08");
+  EXPECT_EQ(fixed_text(none, 2), "-");
+  EXPECT_EQ(fixed_text(infinite, 2), "inf");
+  EXPECT_EQ(fixed_text(-infinite, 2), "-inf");
+  EXPECT_EQ(plain_text(-0.0), "0");
+  EXPECT_EQ(plain_text(22.5), "22.5");
+  EXPECT_EQ(plain_text(250.0000001), "250");
+  EXPECT_EQ(plain_text(none), "-");
+  EXPECT_EQ(range_text(150, true), "150+");
+  EXPECT_EQ(range_text(150, false), "150");
+  EXPECT_EQ(range_text(none, true), "-");
+}
+
+TEST(Readable, DigitsAreThoseThatAreKnown) {
+  EXPECT_EQ(known_digits(0, 3), 3) << "exact";
+  EXPECT_EQ(known_digits(std::nan(""), 3), 3);
+  EXPECT_EQ(known_digits(1e-6, 3), 3);
+  EXPECT_EQ(known_digits(0.02, 3), 2);
+  EXPECT_EQ(known_digits(0.2, 3), 1);
+  EXPECT_EQ(known_digits(1, 3), 0);
+  EXPECT_EQ(known_digits(30, 3), 0);
 }
 
 TEST(Readable, Durations) {

@@ -100,7 +100,7 @@ export class Grips {
       return element('div', {}, element('dt', {text: name}), element('dd', {}, element('span', {class: 'bar', 'aria-hidden': 'true'}, fill), fixed(value, 2)));
     }));
     this.facts.replaceChildren(...[
-      ['Largest force', `${fixed(grip.peak_force_N, 2)} N`], [this.about.strength ? 'Largest pinch N‑hold' : 'Largest N‑hold', `${fixed(grip.hold_force_N, 1)} N`], ['Safe up to', `${degrees(grip.safe_tilt_rad)}°`],
+      ['Largest force', `${fixed(grip.peak_force_N, 2)} N`], [this.about.strength ? 'Largest pinch N‑hold' : 'Largest N‑hold', `${fixed(grip.hold_force_N, 1)} N`], ['Safe up to', `${degrees(grip.safe_tilt_rad)}°${grip.safe_to_end ? ' or more' : ''}`],
       ['Deepest point', `${millimetres(grip.depth_m)} mm`], ['Fingers', `${grip.fingers} of 5`], ['Pinch', grip.antipodal ? 'antipodal' : 'not antipodal'],
       ...(grip.refined ? [['Refined score', fixed(grip.refined.score, 3)], ['Refined grip', this.placeOf(grip.refined)]] : []),
       ...(grip.robust ? [['Robust mean', fixed(grip.robust.mean, 3)], ['Robust low', fixed(grip.robust.low, 3)]] : []),
