@@ -220,5 +220,48 @@ TEST(MeshHints, AMeshMayBeGivenItsMassAlone) {
   EXPECT_LT(light->empty_center_of_mass(0)[1], 0.045);
 }
 
+// What a line says to do about a mesh, done: the file or the keys as they were, what the line says, and as they are then.
+TEST(MeshHints, FollowingARemedyHelps) {
+  struct Case {
+    TriangleMesh mesh;
+    std::string keys, remedy;
+    TriangleMesh mended_mesh;
+    std::string mended_keys;
+  };
+  const TriangleMesh box = box_mesh({-0.03, 0, -0.03}, {0.03, 0.1, 0.03}), open = open_box({});
+  TriangleMesh walled = box, finned = box, flat = box, holed = icosphere(0.05, 4);
+  walled.triangles.push_back({0, 2, 5});
+  finned.vertices.push_back({0.05, 0.12, 0.05});
+  finned.triangles.push_back({0, 1, 8});
+  for (Triple& vertex : flat.vertices) vertex[1] = 0;
+  holed.triangles.pop_back();
+  const std::string far_off = "inner_outline = [{ line = [0, 2] }, { line = [90, 2] }, { line = [90, 98] }]",
+                    within = "inner_outline = [{ line = [0, 2] }, { line = [28, 2] }, { line = [28, 98] }]";
+  const std::vector<Case> cases{
+      {open, "close_holes = true", "or leave out close_holes", open, ""},
+      {finned, "close_holes = true", "form no loop, as a surface meets others there: remove it", box, "close_holes = true"},
+      {box, "close_holes = true", "close_holes closes nothing", box, ""},
+      {holed, "", "which close_holes = true closes", holed, "close_holes = true"},
+      {walled, "", "remove that wall", box, ""},
+      {joined(box, box_mesh({-0.02, 0.03, -0.02}, {0.02, 0.15, 0.02})), "", "its bodies overlap", box, ""},
+      {flat, "", "give it a thickness", box, ""},
+      {box, far_off, "give it in the vessel's frame", box, within},
+      {box, "wall_mm = 2", "'inner_outline' gives its cavity", box, within},
+      {box, "center_of_mass_mm = [0, 40, 0]", "center_of_mass_mm without mass_kg; allowed: both", box,
+       "center_of_mass_mm = [0, 40, 0]\nmass_kg = 0.1"},
+  };
+  const TemporaryFolder folder;
+  for (const Case& each : cases) {
+    const auto outcome = [&](const TriangleMesh& mesh, const std::string& keys) {
+      std::string said;
+      const std::string refused = refusal_line([&] { said = load(folder, mesh, keys).said; });
+      return refused + said;
+    };
+    EXPECT_TRUE(has(outcome(each.mesh, each.keys), each.remedy)) << each.remedy << "\n" << outcome(each.mesh, each.keys);
+    EXPECT_FALSE(has(outcome(each.mended_mesh, each.mended_keys), each.remedy)) << each.remedy;
+    EXPECT_EQ(refusal_line([&] { load(folder, each.mended_mesh, each.mended_keys); }), "") << each.remedy;
+  }
+}
+
 }  // namespace
 }  // namespace wholehand
