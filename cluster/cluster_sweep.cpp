@@ -648,11 +648,48 @@ class ClusterSweep final : public Sweep {
       for (const OwnStretch& own : written_) is_whole = is_whole && repair_stretch(own.vessel, own.stretch(), file, interrupt);
       if (is_whole) file.sync();
     });
-    is_read_back_ = all_of(is_whole);
+    is_whole = all_of(is_whole);
     agree([&] {
-      if (team_.is_leader() && !is_read_back_) keep_mark(file);
+      if (team_.is_leader() && !is_whole) keep_mark(file);
     });
-    return is_read_back_;
+    if (is_whole && groups_.size() == 1) share_checksums(file);
+    return is_whole;
+  }
+
+  // Each rank finds the checksums of some blocks of the result, for the same reason; not of the best grips, which are not there yet.
+  void share_checksums(const ResultFile& file) {
+    PacketWriter packet;
+    agree([&] {
+      if (!team_.is_leader()) return;
+      checksums_ = checksum_parts(names_.partial);
+      packet.put(checksums_.parts.size());
+      for (const ChecksumPart& part : checksums_.parts) {
+        packet.put(part.variable);
+        packet.put(part.range);
+      }
+    });
+    const std::string bytes = team_.share(packet.bytes());
+    PacketReader reader(bytes);
+    std::vector<ChecksumPart> parts(reader.take<std::size_t>());
+    std::vector<std::pair<ChecksumPart*, std::uint64_t>> blocks;
+    for (ChecksumPart& part : parts) {
+      part.variable = reader.take_text();
+      part.range = reader.take<FileRange>();
+      for (std::uint64_t block = 0; block < part.block_count() && !part.variable.starts_with("best_"); ++block)
+        blocks.emplace_back(&part, block);
+    }
+    const auto ranks = static_cast<std::size_t>(team_.size());
+    std::string own;
+    agree([&] {
+      for (auto k = static_cast<std::size_t>(team_.rank()); k < blocks.size(); k += ranks)
+        own += file.block_checksum(*blocks[k].first, blocks[k].second);
+    });
+    std::vector<std::string> found{own};
+    team_.gather(own, [&](int, const std::string& message) { found.push_back(message); });
+    if (!team_.is_leader()) return;
+    for (std::size_t k = 0; k < blocks.size(); ++k)
+      blocks[k].first->blocks.push_back(found[k % ranks].substr(k / ranks * CHECKSUM_LENGTH, CHECKSUM_LENGTH));
+    for (std::size_t k = 0; k < parts.size(); ++k) checksums_.parts[k].blocks = std::move(parts[k].blocks);
   }
 
   bool all_of(bool own) {

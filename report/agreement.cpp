@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "core/text.h"
+#include "report/grips.h"
 #include "shaders/layout.h"
 #include "system/readable.h"
 
@@ -54,6 +55,24 @@ std::vector<int> fields_of_file(const SweepResult& result, const Scene& scene) {
   std::vector<int> all(fields.begin(), fields.end());
   all.insert(all.end(), {FIELD_STATUS, FIELD_TOUCH_MASK, FIELD_TIP_MASK, FIELD_FINGER_MASK, FIELD_INNER_MASK, FIELD_USED_MASK});
   return all;
+}
+
+// The sample, and every grip that the page lists of the vessel; each once.
+std::vector<std::uint64_t> compared_places(const ReportSource& source, std::size_t vessel) {
+  const std::vector<std::uint64_t> sample = sample_places(source.plan.stored_grips(), SAMPLED_GRIPS);
+  std::set<std::uint64_t> places(sample.begin(), sample.end());
+  const std::size_t scales = source.plan.hand_scales();
+  for (std::size_t scale = 0; scale < scales; ++scale) {
+    std::vector<std::uint64_t> listed;
+    if (source.lists) {
+      for (const RankedCandidate& ranked : (*source.lists)[vessel * scales + scale]) listed.push_back(ranked.candidate.index);
+    } else {
+      for (const Candidate& candidate : source.result.best(vessel, scale)) listed.push_back(candidate.index);
+    }
+    listed.resize(std::min(listed.size(), TABLED_GRIPS));
+    places.insert(listed.begin(), listed.end());
+  }
+  return {places.begin(), places.end()};
 }
 
 // The core's planes with everything in its place that the file holds. `outcomes`: names of the discrete ones among that.
@@ -140,7 +159,7 @@ std::string agreement_text(const ReportSource& source, const Agreement& agreemen
 Agreement compare_with_core(const ReportSource& source, std::size_t vessel) {
   const Scene scene = scene_of_vessel(source.scene, vessel);
   const auto core = make_core_evaluator(scene);
-  const std::vector<std::uint64_t> places = sample_places(source.plan.stored_grips(), SAMPLED_GRIPS);
+  const std::vector<std::uint64_t> places = compared_places(source, vessel);
   std::vector<GripInput> grips;
   for (const std::uint64_t place : places) grips.push_back(stored_grip(source.plan, source.scene, vessel, place));
   const FieldSet fields = make_field_set(fields_of_file(source.result, scene), scene);

@@ -10,10 +10,10 @@
 
 namespace wholehand {
 
-constexpr std::size_t SAMPLED_GRIPS = 256;  // of a vessel
+constexpr std::size_t SAMPLED_GRIPS = 256;  // of a vessel, and those that are listed
 
 struct Agreement {
-  std::vector<Comparison> rows;         // of what the file holds; `grip` is a place in the sample
+  std::vector<Comparison> rows;         // of what the file holds; `grip` is a place among the compared grips
   std::vector<std::string> outcomes;    // discrete ones that were compared: "reason", "touch_mask", ..
   std::vector<std::string> uncompared;  // variables that the file holds and that were not
   std::uint64_t grips = 0, feasible = 0;
@@ -25,7 +25,7 @@ struct Agreement {
   bool holds() const { return flipped == 0 && outside == 0 && excluded <= allowed; }
 };
 
-// The vessel's grips at sample_places, computed anew by the core in double and compared by the tolerances of `wholehand check` for the
+// The vessel's grips at sample_places and in its lists, computed anew by the core in double and compared by the tolerances of `wholehand check` for the
 // precision of the file. Needs the core.
 Agreement compare_with_core(const ReportSource& source, std::size_t vessel);
 

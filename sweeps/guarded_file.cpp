@@ -87,8 +87,8 @@ void GuardedFile::send(const void* data, std::size_t size) const {
 }
 
 void GuardedFile::expect_good(const std::string& what) const {
-  std::int32_t status = guarded::GOES_ON;
-  while (status == guarded::GOES_ON) take(&status, sizeof status);
+  std::int32_t status = 0;
+  take(&status, sizeof status);
   if (guarded::is_usable(status)) return;
   const char* why = status > 0 ? std::strerror(status) : nc_strerror(status);
   fail(what.empty() ? why : fmt::format("{} cannot be read: {}", what, why));
@@ -152,13 +152,6 @@ void GuardedFile::read(const Stored& variable, std::span<const std::size_t> star
   send(&request, sizeof request);
   expect_good(variable.name);
   take(out, values * sizeof(double));
-}
-
-void GuardedFile::read_all() const {
-  guarded::Request request;
-  request.wish = guarded::Wish::everything;
-  send(&request, sizeof request);
-  for (const Stored& variable : variables_) expect_good(variable.name);
 }
 
 }  // namespace wholehand

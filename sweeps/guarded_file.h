@@ -40,15 +40,12 @@ class GuardedFile {
 
   // Null where the file does not have the variable.
   const Stored* find(const std::string& name) const;
-  // An attribute of the file; nothing where it is not there or of another type.
+  // An attribute of the file, or what its variable CHECKSUMS holds (sweeps/result_checksums.h); nothing where it is not there or of another type.
   std::optional<std::string> text(const std::string& name) const;
   std::optional<double> number(const std::string& name) const;  // one NC_DOUBLE
 
   // A block of a variable of numbers, row by row; numbers that no double has come as what NetCDF makes of them. Throws Error (usage).
   void read(const Stored& variable, std::span<const std::size_t> start, std::span<const std::size_t> count, double* out) const;
-
-  // Reads every attribute and every value of all variables, and forgets them. Throws Error (usage) where one cannot be read.
-  void read_all() const;
 
  private:
   void start(const std::string& name);

@@ -14,14 +14,16 @@
 #include <cstdio>
 #include <cstring>
 #include <stdexcept>
+#include <string_view>
 #include <vector>
+
+#include "sweeps/result_checksums.h"
 
 namespace wholehand::guarded {
 namespace {
 
-constexpr std::size_t VALUES_A_SECOND = 1 << 23;     // of a processor, at least; most answers take milliseconds
-constexpr std::uint64_t MEMORY = 4ull << 30;         // bytes more than the process had
-constexpr std::size_t CHECKED_AT_ONCE = 1ull << 22;  // bytes
+constexpr std::size_t VALUES_A_SECOND = 1 << 23;  // of a processor, at least; most answers take milliseconds
+constexpr std::uint64_t MEMORY = 4ull << 30;      // bytes more than the process had
 constexpr int SAYS_TOO_MUCH = NC_EHDFERR;
 
 // What the process has used so far does not count.
@@ -78,19 +80,6 @@ void append_text(std::string& bytes, const std::string& text) {
 
 bool holds_numbers(nc_type type) { return type > NC_NAT && type <= NC_UINT64 && type != NC_CHAR; }
 
-struct Declared {
-  std::string name;
-  nc_type type = NC_NAT;
-  std::vector<std::size_t> shape;
-  int attributes = 0;
-
-  std::size_t values() const {
-    std::size_t product = 1;
-    for (const std::size_t length : shape) product *= length;
-    return product;
-  }
-};
-
 class Server {
  public:
   Server(int socket, const std::string& name) : socket_(socket) {
@@ -106,14 +95,18 @@ class Server {
   }
 
   void answer(const Request& request) {
-    if (request.wish == Wish::block) {
-      answer_block(request);
-    } else {
-      for (const Declared& variable : variables_) {
-        allow_one_answer();
-        send(check(static_cast<int>(&variable - variables_.data()), variable));
-      }
+    std::array<std::size_t, MOST_DIMENSIONS> start{}, count{};
+    std::size_t values = 1;
+    for (std::size_t k = 0; k < std::min<std::size_t>(request.dimensions, MOST_DIMENSIONS); ++k) {
+      start[k] = request.start[k];
+      count[k] = request.count[k];
+      values *= count[k];
     }
+    allow_one_answer(values);
+    block_.resize(values);
+    const int status = nc_get_vara_double(file_, request.variable, start.data(), count.data(), block_.data());
+    send(status);
+    if (is_usable(status)) send_all(socket_, block_.data(), block_.size() * sizeof(double));
   }
 
  private:
@@ -155,108 +148,51 @@ class Server {
   }
 
   int add_variable(std::string& catalogue, int id) {
-    Declared variable;
     std::array<char, NC_MAX_NAME + 1> name{};
+    nc_type type = NC_NAT;
     int dims = 0;
-    int status = nc_inq_var(file_, id, name.data(), &variable.type, &dims, nullptr, &variable.attributes);
+    int status = nc_inq_var(file_, id, name.data(), &type, &dims, nullptr, nullptr);
     if (status != NC_NOERR) return status;
     if (dims < 0 || dims > static_cast<int>(MOST_DIMENSIONS)) return SAYS_TOO_MUCH;
     std::vector<int> ids(static_cast<std::size_t>(dims));
-    variable.shape.resize(ids.size());
+    std::vector<std::size_t> shape(ids.size());
     status = nc_inq_vardimid(file_, id, ids.data());
-    for (std::size_t k = 0; k < ids.size() && status == NC_NOERR; ++k) status = nc_inq_dimlen(file_, ids[k], &variable.shape[k]);
-    if (status == NC_NOERR) status = try_ends(id, variable);
-    variable.name = name.data();
+    for (std::size_t k = 0; k < ids.size() && status == NC_NOERR; ++k) status = nc_inq_dimlen(file_, ids[k], &shape[k]);
+    if (status == NC_NOERR) status = try_ends(id, type, shape);
+    if (status == NC_NOERR && name.data() == std::string_view(CHECKSUMS)) status = add_checksums(catalogue, id, type, shape);
     append(catalogue, Entry::variable);
     append(catalogue, static_cast<std::int32_t>(id));
-    append_text(catalogue, variable.name);
-    append(catalogue, static_cast<std::int32_t>(variable.type));
-    append(catalogue, static_cast<std::uint64_t>(variable.shape.size()));
-    for (const std::size_t length : variable.shape) append(catalogue, static_cast<std::uint64_t>(length));
-    variables_.push_back(variable);
+    append_text(catalogue, name.data());
+    append(catalogue, static_cast<std::int32_t>(type));
+    append(catalogue, static_cast<std::uint64_t>(shape.size()));
+    for (const std::size_t length : shape) append(catalogue, static_cast<std::uint64_t>(length));
+    return status;
+  }
+
+  // They are characters, and come as a text.
+  int add_checksums(std::string& catalogue, int id, nc_type type, const std::vector<std::size_t>& shape) {
+    if (type != NC_CHAR || shape.size() != 1) return SAYS_TOO_MUCH;
+    std::string text(shape[0], ' ');
+    const int status = nc_get_var_text(file_, id, text.data());
+    append(catalogue, Entry::text);
+    append_text(catalogue, CHECKSUMS);
+    append_text(catalogue, text);
     return status;
   }
 
   // The first and the last value, and with them the parts of the file where they lie.
-  int try_ends(int id, const Declared& variable) {
-    if (!holds_numbers(variable.type)) return NC_NOERR;
-    if (std::find(variable.shape.begin(), variable.shape.end(), 0u) != variable.shape.end()) return NC_NOERR;
+  int try_ends(int id, nc_type type, const std::vector<std::size_t>& shape) {
+    if (!holds_numbers(type) || std::find(shape.begin(), shape.end(), 0u) != shape.end()) return NC_NOERR;
     double value = 0;
-    std::vector<std::size_t> place(variable.shape.size() + 1, 0);
+    std::vector<std::size_t> place(shape.size() + 1, 0);
     int status = nc_get_var1_double(file_, id, place.data(), &value);
     if (!is_usable(status)) return status;
-    for (std::size_t k = 0; k < variable.shape.size(); ++k) place[k] = variable.shape[k] - 1;
+    for (std::size_t k = 0; k < shape.size(); ++k) place[k] = shape[k] - 1;
     status = nc_get_var1_double(file_, id, place.data(), &value);
     return is_usable(status) ? NC_NOERR : status;
   }
 
-  void answer_block(const Request& request) {
-    std::array<std::size_t, MOST_DIMENSIONS> start{}, count{};
-    std::size_t values = 1;
-    for (std::size_t k = 0; k < std::min<std::size_t>(request.dimensions, MOST_DIMENSIONS); ++k) {
-      start[k] = request.start[k];
-      count[k] = request.count[k];
-      values *= count[k];
-    }
-    allow_one_answer(values);
-    block_.resize(values);
-    const int status = nc_get_vara_double(file_, request.variable, start.data(), count.data(), block_.data());
-    send(status);
-    if (is_usable(status)) send_all(socket_, block_.data(), block_.size() * sizeof(double));
-  }
-
-  // Reads a variable's attributes and values, and forgets them.
-  int check(int id, const Declared& variable) {
-    int status = NC_NOERR;
-    for (int k = 0; k < variable.attributes && status == NC_NOERR; ++k) {
-      std::array<char, NC_MAX_NAME + 1> name{};
-      nc_type type = NC_NAT;
-      std::size_t length = 0, size = 0;
-      status = nc_inq_attname(file_, id, k, name.data());
-      if (status == NC_NOERR) status = nc_inq_att(file_, id, name.data(), &type, &length);
-      if (status != NC_NOERR || type == NC_STRING || nc_inq_type(file_, type, nullptr, &size) != NC_NOERR) continue;
-      std::string value(length * size + 1, ' ');
-      status = nc_get_att(file_, id, name.data(), value.data());
-    }
-    if (status != NC_NOERR) return status;
-    return variable.type == NC_STRING ? check_strings(id, variable) : check_values(id, variable);
-  }
-
-  int check_strings(int id, const Declared& variable) {
-    if (variable.values() == 0) return NC_NOERR;
-    std::vector<char*> strings(variable.values(), nullptr);
-    const int status = nc_get_var_string(file_, id, strings.data());
-    if (status == NC_NOERR) nc_free_string(strings.size(), strings.data());
-    return status;
-  }
-
-  // As they are stored, block by block.
-  int check_values(int id, const Declared& variable) {
-    std::size_t size = 0;
-    int status = nc_inq_type(file_, variable.type, nullptr, &size);
-    if (status != NC_NOERR || variable.values() == 0) return status;
-    // the last axes whole, as far as that is no more than a block; the one before them in steps, the others one by one
-    std::size_t whole = variable.shape.size(), bytes = size;
-    while (whole > 0 && bytes * variable.shape[whole - 1] <= CHECKED_AT_ONCE) bytes *= variable.shape[--whole];
-    const std::size_t step = std::max<std::size_t>(1, CHECKED_AT_ONCE / bytes);
-    std::vector<std::size_t> start(variable.shape.size() + 1, 0), count(variable.shape);
-    std::fill(count.begin(), count.begin() + static_cast<std::ptrdiff_t>(whole), 1);
-    count.push_back(1);
-    std::vector<char> block(whole > 0 ? bytes * step : bytes);
-    for (bool is_last = false; !is_last && status == NC_NOERR;) {
-      if (whole > 0) count[whole - 1] = std::min(step, variable.shape[whole - 1] - start[whole - 1]);
-      allow_one_answer();
-      status = nc_get_vara(file_, id, start.data(), count.data(), block.data());
-      std::size_t k = whole;
-      for (; k > 0 && (start[k - 1] += count[k - 1]) >= variable.shape[k - 1]; --k) start[k - 1] = 0;
-      is_last = k == 0;
-      if (!is_last) send(GOES_ON);
-    }
-    return status;
-  }
-
   int socket_, file_ = -1;
-  std::vector<Declared> variables_;
   std::vector<double> block_;
 };
 

@@ -9,16 +9,10 @@
 
 namespace wholehand::guarded {
 
-constexpr std::size_t MOST_DIMENSIONS = 32;   // of a variable
-constexpr std::int32_t GOES_ON = 0x40000000;  // instead of a status: more is being read
+constexpr std::size_t MOST_DIMENSIONS = 32;  // of a variable
 
-enum class Wish : std::uint32_t { block, everything };
-
-// A block of a variable, or everything. The answer to each begins with NetCDF's status (int32): of a block its values (double) follow unless the
-// status is an error; of everything there is one status a variable, and GOES_ON
-// whenever some of it was read.
+// A block of a variable. The answer begins with NetCDF's status (int32); its values (double) follow unless the status is an error.
 struct Request {
-  Wish wish = Wish::block;
   std::int32_t variable = -1;
   std::uint64_t dimensions = 0;
   std::array<std::uint64_t, MOST_DIMENSIONS> start{}, count{};

@@ -76,7 +76,8 @@ class Merge {
     progress.clear();
     if (!has_name(result, names_.partial))
       throw failure_error(names_.partial + " was replaced or removed while the shards were merged; the result was not named");
-    check_readable(names_, true);
+    check_readable(names_);
+    write_checksums(result, names_.partial, checksum_parts(names_.partial));
     name_result(names_);
     const double seconds = monotonic_now() - start;
     print(fmt::format("wrote {} ({}): {}, {} of them from {}\n{:.2f} s ({}/s); the shards can be removed\n",

@@ -48,6 +48,7 @@ class SweepDefinition : ResultDefinition {
     vessel_variables();
     grip_variables();
     best_variables();
+    grip_variables_.push_back(checksums());
   }
 
   bool has_dimension(const char* name) const {

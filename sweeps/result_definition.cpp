@@ -22,6 +22,7 @@ std::size_t value_size(nc_type type) {
   constexpr std::size_t REFERENCE = 16, IN_HEAP = 24;
   switch (type) {
     case NC_BYTE:
+    case NC_CHAR:
       return 1;
     case NC_INT:
     case NC_FLOAT:
@@ -93,6 +94,8 @@ int ResultDefinition::variable(const std::string& name, nc_type type, const Name
   std::uint64_t values = 1;
   for (const std::string& dim : dims) values *= lengths_.at(dim);
   size_ += values * value_size(type);
+  if (type != NC_STRING)
+    checksum_room_ += checksum_room(name, dims.size() > 1 ? lengths_.at(dims[0]) : 0, values * value_size(type));
   int id = variables_++;
   if (file_ >= 0) {
     std::vector<int> ids;
@@ -106,6 +109,11 @@ int ResultDefinition::variable(const std::string& name, nc_type type, const Name
   if (!units.empty()) text(id, "units", units);
   text(id, "long_name", long_name);
   return id;
+}
+
+int ResultDefinition::checksums() {
+  dimension(CHECKSUMS, checksum_room_);
+  return variable(CHECKSUMS, NC_CHAR, {CHECKSUMS}, "1", "checksums of all that the file holds (XXH3, 128 bits)");
 }
 
 void ResultDefinition::numbers(int variable, const char* name, nc_type type, std::size_t count, const void* values) {

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "sweeps/result_checksums.h"
+
 namespace wholehand {
 
 // What integers stand for: the meanings of 0, 1 .., each one word. MISSING may stand for a value that is not there.
@@ -52,6 +54,9 @@ class ResultDefinition {
   void strings(const std::string& name, const Names& dims, const std::string& long_name, const Names& values);
   void labels(const std::string& name, const std::string& long_name, const Names& values);
 
+  // The variable of the checksums, with room for those of all variables so far.
+  int checksums();
+
   // Bytes of the file so far: values, texts, and what HDF5 needs around them at most.
   std::uint64_t size() const { return size_; }
 
@@ -67,7 +72,8 @@ class ResultDefinition {
   std::string path_, remedy_;
   int file_ = -1;
   int variables_ = 0;
-  std::uint64_t size_ = 4096;                   // of the file's head
+  std::uint64_t size_ = 4096;  // of the file's head
+  std::uint64_t checksum_room_ = CHECKSUM_START_ROOM;
   std::map<std::string, std::size_t> lengths_;  // of the dimensions
   std::vector<std::function<void()>> values_;   // written once the definition stands
 };

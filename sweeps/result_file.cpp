@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <hdf5/serial/hdf5.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -13,10 +12,12 @@
 #include <cstdio>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "core/error.h"
 #include "shaders/layout.h"
 #include "sweeps/guarded_file.h"
+#include "sweeps/hdf5_file.h"
 #include "system/clock.h"
 
 namespace wholehand {
@@ -33,35 +34,9 @@ class Stopwatch {
   double start_ = monotonic_now();
 };
 
-// An HDF5 identifier that closes itself.
-class Handle {
- public:
-  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-  ~Handle() {
-    if (id_ >= 0) close_(id_);
-  }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  operator hid_t() const { return id_; }
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
-
-// HDF5 prints its own stack of errors unless told not to; ours are one line.
-void silence_hdf5() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
-
-// HDF5's own lock is not needed under the result's, and not every file system has it.
-hid_t open_hdf5(const std::string& path, unsigned mode) {
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  H5Pset_file_locking(access, false, true);
-  return H5Fopen(path.c_str(), mode, access);
-}
-
 // Place of a variable's block in the file, bytes.
 std::uint64_t block_offset(hid_t file, const std::string& name) {
-  const Handle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
+  const Hdf5Handle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
   const haddr_t offset = dataset >= 0 ? H5Dget_offset(dataset) : HADDR_UNDEF;
   if (offset == HADDR_UNDEF) throw failure_error("no place for the variable " + name);
   return offset;
@@ -69,7 +44,7 @@ std::uint64_t block_offset(hid_t file, const std::string& name) {
 
 // Overwrites the value of an attribute, in place: the file's structure stays as it is.
 bool put_attribute(hid_t file, const char* name, double value) {
-  const Handle attribute(H5Aopen(file, name, H5P_DEFAULT), H5Aclose);
+  const Hdf5Handle attribute(H5Aopen(file, name, H5P_DEFAULT), H5Aclose);
   return attribute >= 0 && H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value) >= 0;
 }
 
@@ -83,7 +58,6 @@ std::array<double, 6> axis_values(const GripInput& grip) {
 ResultFile::ResultFile(const OutputNames& names, const ResultContents& contents, const FieldSet& fields, FileStart start,
                        const OpenOutput& open_output)
     : names_(names), contents_(contents), fields_(fields) {
-  silence_hdf5();
   if (start != FileStart::resumed) create(start);
   file_ = open(names_.partial.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW);
   if (file_ < 0) fail("open", errno);
@@ -141,11 +115,13 @@ void ResultFile::fail(const char* what, int error) const {
 }
 
 FilePlaces ResultFile::find_places() const {
-  const Handle file(open_hdf5(names_.partial, H5F_ACC_RDONLY), H5Fclose);
+  const Hdf5Handle file(open_hdf5(names_.partial, H5F_ACC_RDONLY), H5Fclose);
   if (file < 0)
     throw failure_error(fmt::format("{}: cannot be read as a result file; start again without --resume", names_.partial));
   try {
     FilePlaces places;
+    const Hdf5Handle checksums(H5Dopen2(file, CHECKSUMS, H5P_DEFAULT), H5Dclose);
+    places.checksums = {block_offset(file, CHECKSUMS), H5Dget_storage_size(checksums)};
     for (const Variable* variable : contents_.variables) places.variables.push_back(block_offset(file, variable->name));
     const auto& axes = contents_.plan.axes();
     if (contents_.plan.is_sobol() && !contents_.variables.empty()) {
@@ -345,6 +321,7 @@ std::vector<FileRange> ResultFile::written_in_place() const {
   for (const std::uint64_t offset : places_.best) {
     ranges.push_back({offset, vessels * plan.hand_scales() * contents_.best * sizeof(double)});
   }
+  if (places_.checksums.size > 0) ranges.push_back(places_.checksums);
   std::sort(ranges.begin(), ranges.end(), [](const FileRange& a, const FileRange& b) { return a.offset < b.offset; });
   return ranges;
 }
@@ -414,7 +391,7 @@ void ResultFile::write_ending(const std::vector<std::vector<RankedGrip>>& best, 
     }
   }
   check_own();  // HDF5 opens it by its name
-  const Handle file(open_hdf5(names_.partial, H5F_ACC_RDWR), H5Fclose);
+  const Hdf5Handle file(open_hdf5(names_.partial, H5F_ACC_RDWR), H5Fclose);
   if (file < 0 || !put_attribute(file, WALL_TIME, wall_seconds) || !put_attribute(file, KERNEL_TIME, kernel_seconds)) {
     fail("write", EIO);
   }
@@ -423,21 +400,22 @@ void ResultFile::write_ending(const std::vector<std::vector<RankedGrip>>& best, 
 
 void ResultFile::drop_cached() { posix_fadvise(file_, 0, 0, POSIX_FADV_DONTNEED); }  // a hint
 
-void ResultFile::finish(bool is_read_back) {
+void ResultFile::finish(ChecksumParts parts) {
   sync();
   const Stopwatch stopwatch(seconds_);
   check_own();
-  check_readable(names_, !is_read_back);
+  check_readable(names_);
+  if (parts.parts.empty()) parts = checksum_parts(names_.partial);
+  write_checksums(file_, names_.partial, std::move(parts));
   check_own();  // reading it may have taken long
   name_result(names_);
   close(file_);
   file_ = -1;
 }
 
-void check_readable(const OutputNames& names, bool of_values) {
+void check_readable(const OutputNames& names) {
   try {
     const GuardedFile file(names.partial);
-    if (of_values) file.read_all();
   } catch (const Error& error) {
     // what could not be tried says nothing of the file
     const char* remedy = error.code == ExitCode::failure ? "go on with --resume" : "start again without --resume";

@@ -11,6 +11,7 @@
 #include "core/planes.h"
 #include "sweeps/mark.h"
 #include "sweeps/output_bytes.h"
+#include "sweeps/result_checksums.h"
 #include "sweeps/result_contents.h"
 #include "sweeps/run_layout.h"
 #include "system/checksum.h"
@@ -24,6 +25,7 @@ struct FilePlaces {
   std::vector<std::uint64_t> axes;       // the axes' values at Sobol points; empty for a grid
   std::optional<std::uint64_t> height;   // the vessels' heights in m at Sobol points, where their axis has fractions
   std::vector<std::uint64_t> best;       // best_grip, best_score, axes; refined score, axes; robust scores
+  FileRange checksums;                   // known to who made the file alone
 };
 
 // How a file begins: new, with room for all of it; new, where other files take most of the values; or as an earlier sweep has left it.
@@ -85,9 +87,13 @@ class ResultFile {
 
   // From now on what is read of the file comes from the disk, if it is synced.
   void drop_cached();
-  // Syncs, has the NetCDF library read all of the file (its structure alone, where the values are read back already), renames NAME.nc.partial to
-  // NAME.nc, closes it and removes the mark. The last call.
-  void finish(bool is_read_back = false);
+  // The checksum of a block of it (sweeps/result_checksums.h).
+  std::string block_checksum(const ChecksumPart& part, std::uint64_t block) const {
+    return wholehand::block_checksum(file_, part, block);
+  }
+  // Syncs, has the NetCDF library read the structure of the file, writes the checksums (parts that some are known of may be given), renames
+  // NAME.nc.partial to NAME.nc, closes it and removes the mark. The last call.
+  void finish(ChecksumParts parts = {});
 
   std::uint64_t bytes() const { return bytes_; }  // of values written by this process
   double seconds() const { return seconds_; }     // that writing and syncing took; the definition does not grow with the grips
@@ -126,9 +132,9 @@ class ResultFile {
   double seconds_ = 0;
 };
 
-// The last steps of a result whose values are on the disk: has the NetCDF library read NAME.nc.partial, its structure and, if asked, all values; then
-// renames it to NAME.nc and removes the mark. Both throw Error (failure).
-void check_readable(const OutputNames& names, bool of_values);
+// Of the last steps of a result whose values are on the disk: has the NetCDF library read the structure of NAME.nc.partial; renames it to NAME.nc and
+// removes the mark. Both throw Error (failure).
+void check_readable(const OutputNames& names);
 void name_result(const OutputNames& names);
 
 }  // namespace wholehand

@@ -18,10 +18,12 @@ void check_complete(const std::string& result, const Scene& scene, bool on_core,
                     const std::vector<const Variable*>& variables) {
   const SweepResult there(result);
   const SweepOrigin& origin = there.origin();
-  const auto refuse = [&result](const std::string& what) {
-    throw usage_error(fmt::format(
-        "--resume: {} is complete, but has another {}; name another file, or start again without --resume", result, what));
+  const auto refuse_for = [&result](const std::string& why) {
+    throw usage_error(
+        fmt::format("--resume: {} is complete, but {}; name another file, or start again without --resume", result, why));
   };
+  const auto refuse = [&refuse_for](const std::string& what) { refuse_for("has another " + what); };
+  there.check_all();
   if (origin.scene != scene.text) refuse("scene");
   if ((origin.backend == "core") != on_core) refuse("backend: " + origin.backend);
   if (origin.precision != precision) refuse(origin.precision == Precision::single ? "precision: float" : "precision: double");

@@ -525,7 +525,7 @@ void Sweep::finish(ResultFile& file, const BestLists& best) {
   const bool is_parted = has_shards();
   if (is_parted) mark_.shards->is_ended = true;
   if (is_marked_ || is_parted) save(file);  // which now vouches for the ending, too
-  if (!is_parted) file.finish(is_read_back_);
+  if (!is_parted) file.finish(std::move(checksums_));
   files.insert(files.begin(), is_parted ? names_.partial : names_.result);
   for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
     const std::string counts = counts_line(mark_.vessels[v].counts, has_field(FIELD_STATUS), plan().copies());

@@ -112,9 +112,9 @@ class Sweep {
   std::vector<VesselFacts> facts_;
   std::vector<HeatMap> maps_;  // one per vessel
   SweepMark mark_;
-  bool is_marked_ = false;     // there is a mark of this sweep
-  bool is_read_back_ = false;  // all that was written
-  double wait_seconds_ = 0;    // in the backend, less what it spent in the sink
+  bool is_marked_ = false;   // there is a mark of this sweep
+  ChecksumParts checksums_;  // of the result, as far as ranks have found some
+  double wait_seconds_ = 0;  // in the backend, less what it spent in the sink
   double kernel_seconds_ = 0;
 
  private:

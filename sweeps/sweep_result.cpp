@@ -60,6 +60,8 @@ std::uint64_t product(const std::vector<std::size_t>& lengths, std::size_t first
 }  // namespace
 
 SweepResult::SweepResult(const std::string& path) : file_(check_is_result(path)) {
+  if (const std::optional<std::string> checksums = file_.text(CHECKSUMS))
+    checksums_ = std::make_unique<ResultChecksums>(path, *checksums);
   origin_.bytes = file_.bytes();
   origin_.scene = text("scene");
   if (text("program") != "wholehand") throw usage_error(path + ": is not a result of a sweep: another program wrote it");
@@ -81,6 +83,7 @@ SweepResult::SweepResult(const std::string& path) : file_(check_is_result(path))
   if (!std::isfinite(origin_.wall_seconds)) {
     throw usage_error(path + ": is of a sweep that was not finished; finish it with wholehand sweep --resume");
   }
+  if (!checksums_) throw usage_error(path + ": has no checksums of its values; sweep again");
   for (const Variable& variable : variable_catalogue()) {
     if (file_.find(variable.name)) variables_.push_back(&variable);
   }
@@ -140,7 +143,7 @@ void SweepResult::read(const Variable& variable, std::size_t vessel, std::size_t
     }
     const std::uint64_t steps = std::min<std::uint64_t>(grip_shape_[axis] - start[outer + axis], count / step(axis));
     length[outer + axis] = steps;
-    file_.read(stored, start, length, out);
+    read_block(stored, start, length, out);
     const std::uint64_t done = steps * step(axis);
     first += done;
     count -= done;
@@ -259,8 +262,20 @@ std::size_t SweepResult::vessels() const {
 std::vector<double> SweepResult::of_vessels(const char* name) const {
   check_shape(name, {vessels()});
   std::vector<double> values(vessels());
-  file_.read(numbers(name), std::vector<std::size_t>{0}, std::vector<std::size_t>{values.size()}, values.data());
+  read_block(numbers(name), std::vector<std::size_t>{0}, std::vector<std::size_t>{values.size()}, values.data());
   return values;
+}
+
+// The only way to a value. What the block covers in the file's order is compared with its checksums first.
+void SweepResult::read_block(const GuardedFile::Stored& variable, std::span<const std::size_t> start,
+                             std::span<const std::size_t> count, double* out) const {
+  std::uint64_t first = 0, last = 0;
+  for (std::size_t k = 0; k < variable.shape.size(); ++k) {
+    first = first * variable.shape[k] + start[k];
+    last = last * variable.shape[k] + start[k] + count[k] - 1;
+  }
+  checksums_->check(variable.name, first, last + 1, product(variable.shape, 0));
+  file_.read(variable, start, count, out);
 }
 
 const GuardedFile::Stored& SweepResult::numbers(const std::string& name) const {
@@ -300,7 +315,7 @@ std::vector<double> SweepResult::row(const std::string& name, const std::vector<
   count.push_back(length);
   check_shape(name, shape);
   std::vector<double> values(length);
-  file_.read(numbers(name), start, count, values.data());
+  read_block(numbers(name), start, count, values.data());
   return values;
 }
 

@@ -5,7 +5,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,7 @@
 #include "core/result.h"
 #include "sweeps/guarded_file.h"
 #include "sweeps/plan.h"
+#include "sweeps/result_checksums.h"
 #include "sweeps/variables.h"
 
 namespace wholehand {
@@ -40,7 +43,7 @@ struct RefinedGrip {
 };
 
 // The one reader of results, of local files only; a damaged one costs an error and no more (sweeps/guarded_file.h). No value is taken from the file
-// before it is known to have the type and shape that a sweep gives it. Not thread-safe.
+// before it is known to have the type and shape that a sweep gives it, and to be what the sweep wrote (sweeps/result_checksums.h). Not thread-safe.
 class SweepResult {
  public:
   // Opens the file. Throws Error (usage), one line with the file: it is not there or cannot be read, is no NetCDF-4 file or a damaged one, is
@@ -49,6 +52,9 @@ class SweepResult {
 
   const std::string& path() const { return file_.path(); }
   const SweepOrigin& origin() const { return origin_; }
+
+  // Compares all that the file holds with its checksums; what is read is compared anyway. Throws Error (usage), as every method that reads.
+  void check_all() const { checksums_->check_all(); }
 
   // The variables of the grips that the file has, in the catalogue's order; and one of them by its name, null where it has it not.
   const std::vector<const Variable*>& variables() const { return variables_; }
@@ -96,7 +102,11 @@ class SweepResult {
   std::string text(const char* name) const;
   double number(const char* name) const;
 
+  void read_block(const GuardedFile::Stored& variable, std::span<const std::size_t> start, std::span<const std::size_t> count,
+                  double* out) const;
+
   GuardedFile file_;
+  std::unique_ptr<ResultChecksums> checksums_;
   SweepOrigin origin_;
   std::vector<const Variable*> variables_;
   const Scene* scene_ = nullptr;

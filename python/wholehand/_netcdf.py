@@ -45,14 +45,14 @@ class LibraryLock:
 
 
 def opened(file: str) -> xr.Dataset:
-    """What ``xarray.open_dataset`` gives, with the library under the lock from opening to ``close()``. What the garbage collector closes, it
+    """What ``xarray.open_dataset`` gives but for the checksums, with the library under the lock from opening to ``close()``. What the garbage collector closes, it
     closes without.
     """
     import xarray as xr
 
     lock = LibraryLock()
     with lock:
-        data = xr.open_dataset(file, engine="netcdf4", lock=lock)
+        data = xr.open_dataset(file, engine="netcdf4", lock=lock, drop_variables="checksums")
     data.set_close(functools.partial(_close, data._close))
     return data
 

@@ -22,6 +22,7 @@ std::array<double, 6> weights_of(const std::string& text, const std::string& wri
   EXPECT_EQ(nc_open(path.c_str(), NC_WRITE, &file), NC_NOERR);
   EXPECT_EQ(nc_put_att_text(file, NC_GLOBAL, "version", written_by.size(), written_by.data()), NC_NOERR);
   EXPECT_EQ(nc_close(file), NC_NOERR);
+  renew_checksums(path);
   return effective_weights(whole_scene_of_result(SweepResult(path)));
 }
 

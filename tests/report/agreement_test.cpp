@@ -130,11 +130,23 @@ TEST(Agreement, ManyOutcomesWithinTheMarginDoNotHold) {
   EXPECT_EQ(compare_with_core(*SweptScene(RESULT_SCENE).source, 0).allowed, allowed_flips(216));
 }
 
-TEST(Agreement, OfManyGripsTakesASample) {
-  const SweptScene swept(edited(RESULT_SCENE, "count = 12", "count = 30"));
+TEST(Agreement, OfManyGripsTakesASampleAndAllThatAreListed) {
+  SweptScene swept(edited(RESULT_SCENE, "count = 12", "count = 30"));
+  const std::vector<std::uint64_t> sample = sample_places(swept.plan->stored_grips(), SAMPLED_GRIPS);
+  std::vector<std::uint64_t> others;
+  for (const Candidate& best : swept.result->best(0))
+    if (std::find(sample.begin(), sample.end(), best.index) == sample.end()) others.push_back(best.index);
+  ASSERT_FALSE(others.empty());
   const Agreement agreement = compare_with_core(*swept.source, 0);
-  EXPECT_EQ(agreement.grips, SAMPLED_GRIPS);
-  EXPECT_NE(written_agreement(swept, 0).find("256 of 540 grips"), std::string::npos);
+  EXPECT_TRUE(agreement.holds());
+  EXPECT_EQ(agreement.grips, SAMPLED_GRIPS + others.size());
+  EXPECT_NE(written_agreement(swept, 0).find(std::to_string(agreement.grips) + " of 540 grips"), std::string::npos);
+  std::vector<double> gaps = read_values(swept.path, "gap");
+  gaps[others.back()] *= 1.001;
+  swept.change("gap", gaps);
+  EXPECT_EQ(compare_with_core(*swept.source, 0).outside, 1u);
+  swept.source->lists = GripLists(2);
+  EXPECT_TRUE(compare_with_core(*swept.source, 0).holds()) << "a page that lists none";
 }
 
 TEST(Agreement, IsToldInWords) {

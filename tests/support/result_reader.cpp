@@ -107,7 +107,7 @@ void expect_same_values(const std::string& file, const std::string& other) {
     nc_type type = NC_NAT;
     nc_inq_varid(reader.id, name.c_str(), &id);
     nc_inq_vartype(reader.id, id, &type);
-    if (type == NC_STRING) continue;
+    if (type == NC_STRING || type == NC_CHAR) continue;  // checksums cover the times, too
     const std::vector<double> a = read_values(file, name), b = read_values(other, name);
     ASSERT_EQ(a.size(), b.size()) << name;
     EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(double)), 0) << name;

@@ -16,7 +16,7 @@ std::string read_text(const std::string& file, const std::string& variable, cons
 std::vector<std::string> dimension_names(const std::string& file, const std::string& variable);
 std::vector<std::string> variable_names(const std::string& file);
 
-// Every variable of both files holds the same bits.
+// Every variable of both files but the checksums holds the same bits.
 void expect_same_values(const std::string& file, const std::string& other);
 
 }  // namespace wholehand

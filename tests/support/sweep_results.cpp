@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "tests/support/sweep_results.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <netcdf.h>
+#include <unistd.h>
 
 #include <filesystem>
 
@@ -103,9 +105,16 @@ void change_values(const std::string& path, const std::string& variable, const s
     }
   }
   EXPECT_EQ(nc_close(file), NC_NOERR);
+  renew_checksums(path);
 }
 
 }  // namespace
+
+void renew_checksums(const std::string& path) {
+  const int file = open(path.c_str(), O_RDWR | O_CLOEXEC);
+  EXPECT_NO_THROW(write_checksums(file, path, checksum_parts(path)));
+  close(file);
+}
 
 std::string edited(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);

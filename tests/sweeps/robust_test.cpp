@@ -460,6 +460,7 @@ void change_value(const std::string& path, const char* variable, std::array<std:
   EXPECT_EQ(nc_inq_varid(file, variable, &id), NC_NOERR) << variable;
   EXPECT_EQ(nc_put_var1_double(file, id, place.data(), &value), NC_NOERR);
   EXPECT_EQ(nc_close(file), NC_NOERR);
+  renew_checksums(path);
 }
 
 TEST_F(RobustRun, ScoresThatNoSweepWritesAreRefused) {
