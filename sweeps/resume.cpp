@@ -25,6 +25,9 @@ void check_complete(const std::string& result, const Scene& scene, bool on_core,
   const auto refuse = [&refuse_for](const std::string& what) { refuse_for("has another " + what); };
   there.check_all();
   if (origin.scene != scene.text) refuse("scene");
+  Scene read = scene;
+  const std::string trouble = reload_meshes(read, scene.file, origin.mesh_keys, origin.mesh_lattices, true);
+  if (!trouble.empty()) refuse_for(trouble);
   if ((origin.backend == "core") != on_core) refuse("backend: " + origin.backend);
   if (origin.precision != precision) refuse(origin.precision == Precision::single ? "precision: float" : "precision: double");
   for (const Variable* variable : variables) {

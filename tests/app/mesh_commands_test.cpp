@@ -121,6 +121,21 @@ TEST_F(MeshCommands, AResultThatMovedWithItsMeshIsReadAsBefore) {
   expect_error("rank " + result + " -o " + path("moved/cup.toml"), 2, "moved/cup.toml");
 }
 
+TEST_F(MeshCommands, AResultOfAnotherMeshIsNotComplete) {
+  const std::string sweep = "sweep " + path("cup.toml") + " --on core --resume -o " + path("cup.nc");
+  ASSERT_EQ(run("PROGRAM " + sweep + " >/dev/null 2>&1").code, 0);
+  const Outcome again = run("PROGRAM " + sweep + " 2>&1");
+  EXPECT_EQ(again.code, 0) << again.output;
+  EXPECT_NE(again.output.find("is complete, so nothing is left to do"), std::string::npos) << again.output;
+  write("cup.glb", glb_text(turned_mesh(beaker3(), 48, 2e-3)));
+  expect_error(sweep, 2,
+               "--resume: " + path("cup.nc") +
+                   " is complete, but the mesh files are not what they were when the sweep ran; name another file, or start again "
+                   "without --resume");
+  std::filesystem::remove(path("cup.glb"));
+  expect_error(sweep, 2, "cup.glb");
+}
+
 TEST_F(MeshCommands, ASessionHoldsAMesh) {
   const Outcome live = run("PROGRAM live " + path("cup.toml") + " --device sim --no-clock --seconds 10 2>&1");
   EXPECT_EQ(live.code, 0) << live.output;
