@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/printable.h"
 #include "core/text.h"
+#include "recordings/checksums.h"
 #include "recordings/fields.h"
 
 namespace wholehand {
@@ -23,7 +24,8 @@ constexpr const char* CONTENT = "recording of a wholehand session";
 constexpr std::uint64_t ROOM_FOR_END = 2048;  // bytes
 constexpr std::size_t LONGEST_REASON = 1000;  // bytes of it, well within that room
 constexpr std::size_t MOST_AMOUNTS = 64;
-constexpr double LARGEST_RATE = 1e6;  // Hz
+constexpr const char* RECORDS = "ticks";  // attribute: how many records the finished file has
+constexpr double LARGEST_RATE = 1e6;      // Hz
 
 // Builds a header with its fixed variables.
 class LayoutBuilder {
@@ -35,6 +37,7 @@ class LayoutBuilder {
     attributes();
     fixed_variables();
     tick_variables();
+    set_checksum(header(), layout_.fixed);
     classic::lay_out(layout_.header, ROOM_FOR_END);
     return std::move(layout_);
   }
@@ -158,6 +161,10 @@ class LayoutBuilder {
       if (field.as == RecordedAs::flag) add_meanings(added, field);
       if (field.as != RecordedAs::number) added.attributes.push_back(classic::text_attribute("coordinates", TIME_VARIABLE));
     }
+    classic::Variable& checksum = variable(CHECKSUM, classic::Type::int32, "", true, "1",
+                                           "checksum of the other values of this tick and of the ticks before it");
+    checksum.attributes.push_back(classic::text_attribute("_Unsigned", "true"));
+    checksum.attributes.push_back(classic::text_attribute("coordinates", TIME_VARIABLE));
   }
 
   // A meaning is one word there.
@@ -295,6 +302,7 @@ void add_end(Header& header, const RecordingEnd& end) {
   header.attributes.push_back(classic::number_attribute("missed_periods", {static_cast<double>(end.missed)}));
   header.attributes.push_back(classic::text_attribute("fault", FAULT_NAMES[static_cast<std::size_t>(end.fault)]));
   header.attributes.push_back(classic::text_attribute("ended_early", end.early.substr(0, LONGEST_REASON)));
+  header.attributes.push_back(classic::number_attribute(RECORDS, {static_cast<double>(header.records)}));
 }
 
 std::string dimension_names(const Header& header, const classic::Variable& variable) {
@@ -306,6 +314,12 @@ std::string dimension_names(const Header& header, const classic::Variable& varia
 RecordingInfo info_of(const Header& header, const FixedValues& fixed_values) {
   const Attribute* content = header.attribute("content");
   if (!content || content->bytes != CONTENT) throw usage_error("is not a recording of a session, but another NetCDF file");
+  std::string fixed;
+  for (const classic::Variable& variable : header.variables)
+    if (!variable.is_record) fixed += fixed_values(variable);
+  if (!has_right_checksum(header, fixed))
+    throw usage_error(
+        "is damaged: its attributes, labels or structure are not as the session wrote them; use a copy that is not damaged");
   RecordingInfo info;
   info.scene_name = recorded_line(header, "scene_name");
   info.scene_file = recorded_line(header, "scene_file");
@@ -347,6 +361,8 @@ std::optional<RecordingEnd> end_of(const Header& header) {
   if (fault == FAULT_NAMES.end()) throw usage_error("has an unknown fault");
   end.fault = static_cast<Fault>(fault - FAULT_NAMES.begin());
   end.early = recorded_line(header, "ended_early");
+  if (header.records <= classic::MOST_RECORDS && recorded_number(header, RECORDS) != header.records)
+    throw usage_error("is damaged: the number of its ticks is not the one that the session wrote; use a copy that is not damaged");
   return end;
 }
 

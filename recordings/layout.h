@@ -22,11 +22,11 @@ struct RecordingLayout {
 };
 RecordingLayout layout_recording(const RecordingInfo& info);
 
-// Adds the end's attributes. The header stays within its room.
+// Adds the end's attributes, among them how many records there are. The header stays within its room.
 void add_end(classic::Header& header, const RecordingEnd& end);
 
-// Both throw Error (usage), without the file's name, where something is missing or cannot be. `fixed_values` gives the bytes of a fixed
-// variable.
+// Both throw Error (usage), without the file's name, where something is missing, cannot be or is not what was written. `fixed_values` gives the
+// bytes of a fixed variable.
 using FixedValues = std::function<std::string(const classic::Variable&)>;
 RecordingInfo info_of(const classic::Header& header, const FixedValues& fixed_values);
 std::optional<RecordingEnd> end_of(const classic::Header& header);

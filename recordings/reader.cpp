@@ -88,8 +88,11 @@ std::vector<PlacedField> place_fields(const classic::Header& header, std::size_t
   return places;
 }
 
-std::vector<Tick> read_ticks(const RecordedFile& file, const classic::Header& header, std::uint64_t records, std::size_t vessels) {
+// `counted` of the `records` are known to be whole; the ticks end before the first of the others that is not.
+std::vector<Tick> read_ticks(const RecordedFile& file, const classic::Header& header, std::uint64_t records, std::uint64_t counted,
+                             std::size_t vessels) {
   const std::vector<PlacedField> places = place_fields(header, vessels);
+  RecordChecksums checksums(header);
   std::vector<Tick> ticks(records);
   const std::uint64_t at_once = std::max<std::uint64_t>(1, READ_AT_ONCE / header.record_size);
   std::string block;
@@ -97,9 +100,16 @@ std::vector<Tick> read_ticks(const RecordedFile& file, const classic::Header& he
     const std::uint64_t count = std::min(at_once, records - first);
     file.read(block, count * header.record_size, header.record_begin + first * header.record_size);
     for (std::uint64_t k = 0; k < count; ++k) {
+      const char* record = block.data() + k * header.record_size;
+      if (!checksums.is_next(record)) {
+        if (first + k < counted)
+          throw usage_error(fmt::format("record {} is damaged: its checksum is wrong; use a copy that is not damaged", first + k));
+        ticks.resize(first + k);
+        return ticks;
+      }
       Tick& tick = ticks[first + k];
       for (const auto& [field, place] : places) {
-        if (!load_field(block.data() + k * header.record_size + place, *field, tick, vessels))
+        if (!load_field(record + place, *field, tick, vessels))
           throw usage_error(fmt::format("record {}: {} has an impossible value", first + k, field->name));
       }
       if (tick.vessel >= static_cast<int>(vessels))
@@ -140,7 +150,9 @@ Recording read_recorded_file(const RecordedFile& file) {
   // no record size: place_fields refuses it, without any ticks
   const bool has_records = header.record_size > 0 && file.size() > header.record_begin;
   const std::uint64_t there = has_records ? (file.size() - header.record_begin) / header.record_size : 0;
-  recording.ticks = read_ticks(file, header, std::min<std::uint64_t>(there, header.records), vessels);
+  // a session that did not end has not counted its last block, or its count is damaged
+  const std::uint64_t counted = std::min<std::uint64_t>(there, header.records);
+  recording.ticks = read_ticks(file, header, recording.end ? counted : there, counted, vessels);
   recording.note = note_of(recording, header);
   return recording;
 }

@@ -36,10 +36,10 @@ bool Recorder::drain() {
 }
 
 void Recorder::tell_trouble() {
-  if (is_told_ || !writer_ || writer_->trouble().empty()) return;
-  is_told_ = true;
+  if (!writer_ || writer_->trouble() == told_) return;
+  told_ = writer_->trouble();
   const std::lock_guard lock(mutex_);
-  trouble_ = writer_->trouble();
+  trouble_ = told_;
 }
 
 void Recorder::run() {
@@ -71,7 +71,7 @@ bool Recorder::stop(const RecordingEnd& end) {
   thread_.join();
   if (writer_) {
     writer_->finish(end);
-    is_whole_ = writer_->trouble().empty();
+    is_whole_ = writer_->is_whole();
     tell_trouble();
   }
   return is_whole_;

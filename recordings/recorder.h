@@ -36,12 +36,14 @@ class Recorder {
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  // Why the recording ended early, once, as soon as it is known; nothing otherwise. From any thread but the one that pushes.
+  // Why the recording ended early or did not get its name, once, as soon as it is known; nothing otherwise. From any thread but the one that pushes.
   std::optional<std::string> trouble();
 
   // Takes what is still in the ring (nothing may be pushed any more), finishes the recording and ends the thread. False: the recording is
   // not all there; trouble() says why. Calls after the first do nothing and give the same answer.
   bool stop(const RecordingEnd& end);
+  // Where it is then (RecordingWriter::place); empty without a writer.
+  std::string place() const { return writer_ ? writer_->place() : ""; }
 
  private:
   void run();
@@ -53,7 +55,7 @@ class Recorder {
   Observer observer_;
   std::chrono::microseconds interval_;
   std::vector<Tick> block_;
-  bool is_told_ = false;  // its trouble
+  std::string told_;  // of its troubles
   bool is_whole_ = true;
 
   std::mutex mutex_;  // of the next three; the thread that pushes knows nothing of it

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "live/tick.h"
+#include "recordings/checksums.h"
 #include "recordings/classic_netcdf.h"
 
 namespace wholehand {
@@ -94,6 +95,9 @@ class RecordingWriter {
   // the recording is. Once.
   bool finish(RecordingEnd end);
 
+  // Whether it has all ticks that were appended, and where it is: at PATH once it is finished, else at PATH.partial; empty: it was taken away.
+  bool is_whole() const { return is_whole_; }
+  const std::string& place() const { return place_; }
   // What went wrong, in one line for the user; empty: nothing.
   const std::string& trouble() const { return trouble_; }
   // The reason for that alone, as "No space left on device".
@@ -110,13 +114,16 @@ class RecordingWriter {
   bool give_name();
   void give_up(int error);
 
-  std::string path_, partial_;
+  std::string path_, partial_, place_;
   int file_ = -1;
   double rate_;
   std::size_t vessels_;
   classic::Header header_;
-  std::string block_;  // records on their way into the file
+  std::string fixed_;                         // what its fixed variables hold
+  std::optional<RecordChecksums> checksums_;  // of the records so far
+  std::string block_;                         // records on their way into the file
   std::string trouble_, reason_;
+  bool is_whole_ = true;
 };
 
 struct Recording {

@@ -27,9 +27,12 @@ Error is_in_the_way(const std::string& path, const std::string& partial, const c
                   option, path, partial));
 }
 
-void append_record(std::string& block, const Tick& tick, double rate, std::size_t vessels) {
+void append_record(std::string& block, const Tick& tick, double rate, std::size_t vessels, RecordChecksums& checksums) {
+  const std::size_t start = block.size();
   classic::append_real(block, static_cast<double>(tick.number) / rate);
   for (const RecordedField& field : recorded_fields()) append_field(block, field, tick, vessels);
+  classic::append_32(block, 0);
+  checksums.store(block.data() + start);
 }
 
 }  // namespace
@@ -43,17 +46,19 @@ void check_recording_path(const std::string& path, const char* option) {
 }
 
 RecordingWriter::RecordingWriter(const std::string& path, const RecordingInfo& info, const char* option, const char* remedy)
-    : path_(path), partial_(partial_recording(path)), rate_(info.rate), vessels_(info.vessels.size()) {
+    : path_(path), partial_(partial_recording(path)), place_(partial_), rate_(info.rate), vessels_(info.vessels.size()) {
   if (vessels_ < 1 || vessels_ > LIVE_VESSELS)
     throw usage_error(fmt::format("{}: a recording has 1 to {} vessels", path, LIVE_VESSELS));
   check_recording_path(path, option);
   std::signal(SIGXFSZ, SIG_IGN);
   RecordingLayout layout = layout_recording(info);
   header_ = std::move(layout.header);
+  fixed_ = std::move(layout.fixed);
+  checksums_.emplace(header_);
   // the room between the header and the first variable is written, too, so that the end needs no more of the disk
   std::string start = classic::encode_header(header_);
-  start.resize(header_.record_begin - layout.fixed.size(), '\0');
-  start += layout.fixed;
+  start.resize(header_.record_begin - fixed_.size(), '\0');
+  start += fixed_;
   file_ = open(partial_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0666);
   if (file_ < 0 && errno == EEXIST) throw is_in_the_way(path, partial_, option);
   int error = file_ < 0 ? errno : 0;
@@ -87,6 +92,7 @@ std::uint64_t RecordingWriter::put(const char* data, std::uint64_t size, std::ui
 void RecordingWriter::give_up(int error) {
   reason_ = error == 0 ? "it holds as many ticks as a file can" : std::strerror(error);
   trouble_ = fmt::format("{}: recording ended: {}; it is complete up to here", path_, reason_);
+  is_whole_ = false;
 }
 
 std::uint64_t RecordingWriter::bytes() const { return header_.record_begin + header_.records * header_.record_size; }
@@ -97,7 +103,7 @@ bool RecordingWriter::append(std::span<const Tick> ticks) {
   try {
     block_.clear();
     block_.reserve(taken * header_.record_size);
-    for (const Tick& tick : ticks.first(taken)) append_record(block_, tick, rate_, vessels_);
+    for (const Tick& tick : ticks.first(taken)) append_record(block_, tick, rate_, vessels_, *checksums_);
   } catch (const std::bad_alloc&) {
     give_up(ENOMEM);
     return false;
@@ -141,6 +147,7 @@ bool RecordingWriter::is_all_there() {
   struct stat open {};
   if (fstat(file_, &open) != 0 || !trouble_.empty()) return trouble_.empty();
   if (!is_in_place()) {
+    place_.clear();
     reason_ = "its file was removed or renamed";
     trouble_ =
         fmt::format("{}: recording ended: {} was removed or renamed during the session, with all recorded ticks", path_, partial_);
@@ -152,7 +159,8 @@ bool RecordingWriter::is_all_there() {
     const std::uint64_t start = header_.record_begin, size = static_cast<std::uint64_t>(open.st_size);
     header_.records = size > start ? static_cast<std::uint32_t>((size - start) / header_.record_size) : 0;
   }
-  return trouble_.empty();
+  is_whole_ = trouble_.empty();
+  return is_whole_;
 }
 
 bool RecordingWriter::finish(RecordingEnd end) {
@@ -160,6 +168,7 @@ bool RecordingWriter::finish(RecordingEnd end) {
   is_all_there();
   if (end.early.empty()) end.early = reason_;
   add_end(header_, end);
+  set_checksum(header_, fixed_);
   const std::string start = classic::encode_header(header_);
   int error = 0;
   // in place, over bytes that the file has: a full disk does not prevent it
@@ -177,6 +186,7 @@ bool RecordingWriter::give_name() {
   try {
     if (rename_onto_nothing(partial_, followed(path_))) {
       sync_folder_of(followed(path_));
+      place_ = path_;
       return true;
     }
     refusal = fmt::format("{}: another file appeared there during the session, and is not overwritten", path_);
@@ -184,7 +194,7 @@ bool RecordingWriter::give_name() {
     refusal = refused.what();
   }
   if (reason_.empty()) reason_ = refusal;
-  trouble_ = fmt::format("{}; the {} recording is {}", refusal, trouble_.empty() ? "complete" : "incomplete", partial_);
+  trouble_ = fmt::format("{}; the {} recording is {}", refusal, is_whole_ ? "complete" : "incomplete", partial_);
   return false;
 }
 

@@ -48,6 +48,10 @@ std::string RunsChecksum::text() const {
 
 std::string checksum_text(const void* data, std::size_t size) { return hash_text(XXH3_128bits(data, size)); }
 
+std::uint64_t checksum_after(std::uint64_t before, const void* data, std::size_t size) {
+  return XXH3_64bits_withSeed(data, size, before);
+}
+
 bool add_range(RunsChecksum& checksum, std::size_t run, int file, FileRange range) {
   std::vector<char> buffer(std::min(range.size, PIECE));
   while (range.size > 0) {

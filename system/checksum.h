@@ -31,6 +31,9 @@ class RunsChecksum {
 // Of one piece of data.
 std::string checksum_text(const void* data, std::size_t size);
 
+// 64 bits of it, which depend on `before` as well.
+std::uint64_t checksum_after(std::uint64_t before, const void* data, std::size_t size);
+
 // So many bytes of a file from a place on.
 struct FileRange {
   std::uint64_t offset = 0, size = 0;

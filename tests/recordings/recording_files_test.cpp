@@ -54,13 +54,13 @@ TEST(Recording, OutlivesTheProcess) {
     std::size_t records = 0;
     EXPECT_EQ(nc_open((path + ".partial").c_str(), NC_NOWRITE, &file), NC_NOERR);
     EXPECT_EQ(nc_inq_dimlen(file, 0, &records), NC_NOERR);
-    EXPECT_EQ(records, recording.ticks.size()) << "for everybody else";
+    EXPECT_LE(records, recording.ticks.size()) << "for everybody else, the blocks that were counted";
     nc_close(file);
-    EXPECT_EQ(recording.ticks.size() % 64, 0u);
+    EXPECT_EQ(records % 64, 0u);
     const std::size_t bytes = std::filesystem::file_size(path + ".partial");
     for (std::size_t k = 0; k < recording.ticks.size(); ++k) ASSERT_EQ(recording.ticks[k].device.sequence, k + 1);
     // no more than the block under way is lost
-    const double per_tick = 708 + 24 * 2;
+    const double per_tick = 712 + 24 * 2;
     EXPECT_LT(static_cast<double>(bytes), (static_cast<double>(recording.ticks.size()) + 64) * per_tick + 20000);
   }
 }
@@ -145,6 +145,8 @@ TEST(Recording, WhatAppearsMeanwhileStays) {
             path + ": another file appeared there during the session, and is not overwritten; the complete recording is " + path +
                 ".partial");
   EXPECT_EQ(file_text(path), "a letter");
+  EXPECT_TRUE(writer.is_whole());
+  EXPECT_EQ(writer.place(), path + ".partial");
   expect_same_ticks(read_recording(path + ".partial").ticks, ticks);
 }
 
@@ -160,6 +162,8 @@ TEST(Recording, APartialFileThatIsTakenAwayIsNotCalledWhole) {
     EXPECT_EQ(writer.trouble(),
               path + ": recording ended: " + partial + " was removed or renamed during the session, with all recorded ticks");
     EXPECT_FALSE(writer.finish(recorded_end()));
+    EXPECT_FALSE(writer.is_whole());
+    EXPECT_EQ(writer.place(), "");
   }
   EXPECT_FALSE(std::filesystem::exists(path));
   RecordingWriter writer(path, recorded_info(2));

@@ -73,11 +73,13 @@ class Changed {
       found = true;
     }
     EXPECT_TRUE(found) << from;
+    renew_checksums(bytes_);
     return save();
   }
   std::string& with_value(const char* name, std::size_t record, const std::string& value) {
     bytes_ = whole_;
     bytes_.replace(header_.variable(name)->begin + record * header_.record_size, value.size(), value);
+    renew_checksums(bytes_);
     return save();
   }
   std::string& with_byte(std::size_t at, char byte) {
@@ -92,6 +94,7 @@ class Changed {
     const std::string start = classic::encode_header(other);
     EXPECT_EQ(start.size(), header_.bytes);
     bytes_ = start + whole_.substr(start.size());
+    renew_checksums(bytes_);
     return save();
   }
   std::string& cut_at(std::size_t length) {
@@ -138,7 +141,7 @@ TEST(Recording, RefusesWhatCannotBe) {
   EXPECT_REFUSED(changed.with_value("tick", 0, as_real(-1)), "record 0: tick has an impossible value");
   EXPECT_REFUSED(changed.with_value("tick", 3, as_real(1e300)), "record 3: tick has an impossible value");
   EXPECT_REFUSED(changed.with_value("tick", 3, as_real(5000.5)), "record 3: tick has an impossible value");
-  EXPECT_REFUSED(changed.with_value("state", 1, "\x07"), "record 1: state has an impossible value");
+  EXPECT_REFUSED(changed.with_value("state", 1, "\x08"), "record 1: state has an impossible value");
   EXPECT_REFUSED(changed.with_value("read", 1, "\x03"), "record 1: read has an impossible value");
   EXPECT_REFUSED(changed.with_value("fault", 1, "\x0a"), "record 1: fault has an impossible value");
   EXPECT_REFUSED(changed.with_value("task_done", 1, "\xff"), "record 1: task_done has an impossible value");

@@ -13,6 +13,7 @@
 #include "recordings/fields.h"
 #include "recordings/recording.h"
 #include "tests/support/files.h"
+#include "tests/support/renewed_recording.h"
 #include "tests/support/special_values.h"
 
 namespace wholehand {
