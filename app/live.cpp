@@ -186,13 +186,14 @@ class LiveRun {
     tell_advice(board);
     board.show(options_.json);
     show_status("");
-    tell(report, is_recorded, true);
+    tell(report, recorder, is_recorded, true);
     if (watch_ && !watch_->comes_back()) leave_watch(report);
     if (is_force_left(report) || (report.fault != Fault::none && report.fault != Fault::interrupted))
       throw failure_error(fault_words(report));
     if (report.fault == Fault::interrupted) return ExitCode::interrupted;
-    if (!is_recorded) throw failure_error("live: the session is over and the recording holds only its beginning");
-    return ExitCode::done;
+    if (!is_recorded) throw failure_error("live: the session is over and its recording is not whole");
+    // a line has said where it is
+    return recorder.place() == options_.record ? ExitCode::done : ExitCode::failure;
   }
 
  private:
@@ -414,7 +415,7 @@ class LiveRun {
       report.last = board.last();
       report.ticks = board.count();
     }
-    tell(report, is_recorded, ending.has_value());
+    tell(report, recorder, is_recorded, ending.has_value());
     std::fflush(stdout);
     std::fflush(stderr);
     _exit(static_cast<int>(ExitCode::failure));
@@ -464,9 +465,9 @@ class LiveRun {
   }
 
   // `has_times`: in `report`; false where the loop still has them.
-  void tell(const LoopReport& report, bool is_recorded, bool has_times) {
+  void tell(const LoopReport& report, const Recorder& recorder, bool is_recorded, bool has_times) {
     LiveSummary summary{scene_, gripper_->limits(), report,     0, has_times && !options_.no_clock,
-                        notes_, options_.record,    is_recorded};
+                        notes_, recorder.place(),   is_recorded};
     summary.seconds = static_cast<double>(report.last.number) / scene_.live.rate;
     if (advice_) summary.advice = advice_->tally();
     summary.is_by_signal = InterruptGuard::signalled();

@@ -388,6 +388,27 @@ TEST(Live, AFullDiskEndsTheRecordingAndNotTheSession) {
   EXPECT_GT(read_recording(file).ticks.size(), 1000u);
 }
 
+// Somebody's file at the recording's name stays, and nothing of the recording is lost.
+TEST(Live, OneLineSaysWhereTheRecordingIsWhenItsNameIsTaken) {
+  const TemporaryFolder folder;
+  const std::string file = folder / "a.nc";
+  Program program(patient_board(folder) + " --seconds 3 --record " + file);
+  for (int k = 0; k < 6000 && !fs::exists(file + ".partial"); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  write_file(file, "a letter");
+  const LiveOutcome outcome = program.wait();
+  EXPECT_EQ(outcome.code, 3) << "nothing is at the name that was asked for";
+  EXPECT_EQ(outcome.errors, "wholehand: live: " + file +
+                                ": another file appeared there during the session, and is not overwritten; the complete "
+                                "recording is " +
+                                file + ".partial\n");
+  EXPECT_NE(outcome.output.find("recorded in " + file + ".partial\n"), std::string::npos) << outcome.output;
+  EXPECT_EQ(file_text(file), "a letter");
+  const Recording recording = read_recording(file + ".partial");
+  EXPECT_EQ(recording.note, "");
+  EXPECT_GT(recording.ticks.size(), 0u);
+  EXPECT_TRUE(recording.end);
+}
+
 void expect_refused(const std::string& arguments, int code, const std::string& gist) {
   const LiveOutcome outcome = Program(arguments).wait();
   EXPECT_EQ(outcome.code, code) << arguments << outcome.errors;
