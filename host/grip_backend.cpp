@@ -2,6 +2,7 @@
 #include "host/grip_backend.h"
 
 #include <algorithm>
+#include <array>
 
 #include "core/candidates.h"
 #include "core/core_backend.h"
@@ -45,6 +46,13 @@ FieldSet fields_of_core(const Scene& scene, const FieldSet& fields) {
   }
   return lacking;
 }
+
+// A copy of the planes of a chunk that were read back.
+template <class Real>
+struct ReadBack {
+  std::vector<Real> reals;
+  std::vector<std::uint32_t> uints;
+};
 
 }  // namespace
 
@@ -179,7 +187,7 @@ struct GripBackend::Impl {
   template <class Real>
   StreamRequest buffers_for(const Selection& selection) const {
     const int real_kept = selection.on_host ? std::max(fields.real_kept, fields.plane[FIELD_SCORE] + 1) : fields.real_kept;
-    const int uint_kept = selection.on_host ? std::max(fields.uint_kept, fields.plane[FIELD_STATUS] + 1) : fields.uint_kept;
+    const int uint_kept = std::max(fields.uint_kept, fields.plane[FIELD_STATUS] + 1);  // which grips are undecided
     const std::size_t best = selection.best;
     StreamRequest work;
     work.inputs = {{BINDING_GRIPS, GRIP_AXES * sizeof(Real)}};
@@ -215,13 +223,42 @@ struct GripBackend::Impl {
     });
   }
 
+  // Grips whose turns ran out on the device.
+  std::vector<std::size_t> undecided_grips(const Chunk& chunk, std::span<const std::uint32_t> uints) const {
+    std::vector<std::size_t> undecided;
+    if (!fields.has(FIELD_STATUS)) return undecided;
+    const std::span<const std::uint32_t> statuses = uints.subspan(fields.plane[FIELD_STATUS] * chunk.stride, chunk.count);
+    for (std::size_t i = 0; i < chunk.count; ++i)
+      if ((statuses[i] & STATUS_UNDECIDED) != 0) undecided.push_back(i);
+    return undecided;
+  }
+
+  // Some grips of a chunk as evaluate_on_core leaves them, on all threads, in place of what was read back; of each the candidate, where
+  // `has_best`.
+  template <class Real>
+  void decide_on_core(const RunRequest& request, const Chunk& chunk, const std::vector<std::size_t>& undecided,
+                      ReadBack<Real>& read, bool has_best, std::vector<Candidate>& candidates) {
+    std::vector<Real> scores(undecided.size());
+    std::vector<std::uint32_t> indices(undecided.size(), NO_GRIP);
+    in_parallel(undecided.size(), 0, [&](std::size_t k) {
+      std::vector<Real> reals(read.reals.size() / chunk.stride);
+      std::vector<std::uint32_t> uints(read.uints.size() / chunk.stride);
+      const std::array<std::span<std::byte>, 4> outputs{
+          std::as_writable_bytes(std::span(reals)), std::as_writable_bytes(std::span(uints)),
+          std::as_writable_bytes(std::span(scores).subspan(k, 1)), std::as_writable_bytes(std::span(indices).subspan(k, 1))};
+      evaluate_on_core<Real>(request, Chunk{chunk.first + undecided[k], 1, 1}, outputs, has_best ? 1 : 0);
+      for (std::size_t plane = 0; plane < reals.size(); ++plane) read.reals[plane * chunk.stride + undecided[k]] = reals[plane];
+      for (std::size_t plane = 0; plane < uints.size(); ++plane) read.uints[plane * chunk.stride + undecided[k]] = uints[plane];
+    });
+    for (std::size_t k = 0; k < undecided.size(); ++k)
+      if (indices[k] != NO_GRIP) candidates.push_back({static_cast<double>(scores[k]), chunk.first + undecided[k]});
+  }
+
   // Mirrored planes turned back where there are some, and those of the core, in `turned`.
   template <class Real>
-  PlaneChunk planes_of(const RunRequest& request, const Chunk& chunk, const ChunkOutputs& outputs,
-                       std::vector<Real>& turned) const {
-    PlaneChunk planes{
-        request.vessel, chunk.first, chunk.count, chunk.stride, nullptr, nullptr, elements<const std::uint32_t>(outputs[1]).data()};
-    std::span<const Real> reals = elements<const Real>(outputs[0]);
+  PlaneChunk planes_of(const RunRequest& request, const Chunk& chunk, std::span<const Real> reals,
+                       std::span<const std::uint32_t> uints, std::vector<Real>& turned) const {
+    PlaneChunk planes{request.vessel, chunk.first, chunk.count, chunk.stride, nullptr, nullptr, uints.data()};
     if (!mirrored.empty() || of_core.real_planes > 0) {
       turned.assign(reals.begin(), reals.end());
       if (of_core.real_planes > 0) add_planes_of_core(request, chunk, turned);
@@ -247,7 +284,7 @@ struct GripBackend::Impl {
 
   template <class Real>
   RunResult run(const RunRequest& request) {
-    if (!outline_fits_device(arrays.vessels[request.vessel], program().on.info())) return run_on_core<Real>(request);
+    if (!program().vessels[request.vessel].grip) return run_on_core<Real>(request);
     const bool on_host = request.best > SELECT_LARGEST;
     const Selection selection{on_host, on_host ? 0 : request.best};
     RunResult result;
@@ -266,8 +303,21 @@ struct GripBackend::Impl {
       evaluate_on_core<Real>(request, chunk, outputs, selection.best);
     };
     std::vector<Real> turned;
+    ReadBack<Real> read;
+    std::size_t undecided_count = 0;
     work.sink = [&](const Chunk& chunk, const ChunkOutputs& outputs) {
-      const PlaneChunk planes = planes_of(request, chunk, outputs, turned);
+      std::span<const Real> reals = elements<const Real>(outputs[0]);
+      std::span<const std::uint32_t> uints = elements<const std::uint32_t>(outputs[1]);
+      const std::vector<std::size_t> undecided = undecided_grips(chunk, uints);
+      if (!undecided.empty()) {
+        read.reals.assign(reals.begin(), reals.end());
+        read.uints.assign(uints.begin(), uints.end());
+        decide_on_core(request, chunk, undecided, read, selection.best > 0, result.best);
+        reals = read.reals;
+        uints = read.uints;
+        undecided_count += undecided.size();
+      }
+      const PlaneChunk planes = planes_of(request, chunk, reals, uints, turned);
       if (selection.on_host) {
         const auto chosen = best_of(planes, request.best);
         result.best.insert(result.best.end(), chosen.begin(), chosen.end());
@@ -282,6 +332,11 @@ struct GripBackend::Impl {
     result.chunks = streamed.chunks;
     result.kernel_seconds = streamed.kernel_seconds;
     result.notes = streamed.notes;
+    if (undecided_count > 0) {
+      result.notes.push_back(scene.vessels[request.vessel].name + ": " + std::to_string(undecided_count) +
+                             (undecided_count == 1 ? " grip is" : " grips are") +
+                             " evaluated on the core: they take more turns of loops than every driver grants");
+    }
     return result;
   }
 

@@ -8,14 +8,10 @@
 
 #include "core/parallel.h"
 #include "host/run_once.h"
+#include "host/turns.h"
 
 namespace wholehand::host {
 namespace {
-
-// Mesa's CPU driver ends a loop silently after 65,535 iterations of an invocation, counted over all its loops. A level takes up to
-// LEVEL_STEPS evaluations; of the five parts of a piece of the cavity three at most are not empty (full, partial and full again).
-constexpr int LOOP_BUDGET = 60000;
-constexpr int iterations_per_piece(int points) { return LEVEL_STEPS * (6 + 3 * points); }
 
 template <class Real>
 Buffer upload_reals(const Device& device, const std::vector<double>& values) {
@@ -54,12 +50,31 @@ void add_real(std::vector<Constant>& constants, std::uint32_t id, double value, 
   }
 }
 
+// Steps that a grip may take on a device; fewer than the core's where its turns would pass the budget.
+struct DeviceSteps {
+  GripSteps most;
+  bool are_few = false;
+};
+
+DeviceSteps device_steps(const DeviceInfo& device, const EvaluatorOptions& asked, const GripLoops& loops) {
+  DeviceSteps steps;
+  if (asked.trace_steps > 0) steps.most.trace = asked.trace_steps;
+  if (asked.advance_steps > 0) steps.most.advance = asked.advance_steps;
+  steps.are_few = device.kind == DeviceKind::cpu && grip_turns(steps.most, loops) > TURN_BUDGET;
+  if (steps.are_few) {
+    steps.most.trace = std::min(steps.most.trace, most_steps(loops));
+    steps.most.advance = std::min(steps.most.advance, most_steps(loops));
+  }
+  return steps;
+}
+
 // Only what differs from the shaders' own named values.
-void add_limits(std::vector<Constant>& constants, const GripBackendOptions& options) {
+void add_limits(std::vector<Constant>& constants, const DeviceSteps& steps, const GripBackendOptions& options) {
   const EvaluatorOptions& asked = options.evaluator;
   if (asked.stop_tolerance > 0) add_real(constants, CONST_STOP_TOLERANCE, asked.stop_tolerance, options.precision);
-  if (asked.trace_steps > 0) constants.push_back({CONST_TRACE_STEPS, std::int32_t(asked.trace_steps)});
-  if (asked.advance_steps > 0) constants.push_back({CONST_ADVANCE_STEPS, std::int32_t(asked.advance_steps)});
+  if (steps.most.trace != TRACE_STEPS) constants.push_back({CONST_TRACE_STEPS, std::int32_t(steps.most.trace)});
+  if (steps.most.advance != ADVANCE_STEPS) constants.push_back({CONST_ADVANCE_STEPS, std::int32_t(steps.most.advance)});
+  if (steps.are_few) constants.push_back({CONST_FEW_STEPS, std::int32_t(1)});
   if (asked.gap_table > 0) {
     constants.push_back({CONST_GAP_STEPS, std::int32_t(0)});
     constants.push_back({CONST_GAP_TABLE_SIZE, std::int32_t(asked.gap_table)});
@@ -75,14 +90,7 @@ std::size_t real_size(Precision precision) { return precision == Precision::sing
 
 }  // namespace
 
-// A loop over N elements in every distance of every step has no bound that such a driver would grant; an unrolled one is not counted.
-bool outline_fits_device(const VesselArrays& vessel, const DeviceInfo& device) {
-  return device.kind != DeviceKind::cpu || vessel.lattice || vessel.outline_count <= MAX_OUTLINE;
-}
-
 int contact_planes(const FieldSet& fields) { return fields.has(FIELD_WORST_EFFORT) ? CONTACT_STRIDE * JOINTS : 0; }
-
-bool liquid_fits_device(int cavity_count, int points) { return cavity_count * iterations_per_piece(points) < LOOP_BUDGET; }
 
 GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Evaluator& core, const FieldSet& fields,
                          const std::string& selector, const GripBackendOptions& options)
@@ -127,8 +135,7 @@ GripProgram::GripProgram(const Scene& scene, const SceneArrays& arrays, const Ev
   std::vector<std::function<void()>> tasks;
   for (std::size_t v = 0; v < vessels.size(); ++v) {
     upload_vessel(v, scene, arrays, options);  // through the one queue: not side by side
-    if (outline_fits_device(arrays.vessels[v], on.info()))
-      tasks.push_back([&, v] { make_grip_kernel(v, scene, arrays, fields, options); });
+    tasks.push_back([&, v] { make_grip_kernel(v, scene, arrays, fields, options); });
   }
   const auto make = [&](std::optional<Kernel>& kernel, const char* name, const std::vector<Constant>& values) {
     tasks.push_back([&kernel, name, &values, &options, this] {
@@ -235,6 +242,11 @@ void GripProgram::make_grip_kernel(std::size_t v, const Scene& scene, const Scen
                                    const GripBackendOptions& options) {
   const VesselArrays& from = arrays.vessels[v];
   VesselOnDevice& vessel = vessels[v];
+  const bool is_looped = !from.lattice && vessel.outline_source == OUTLINE_BUFFER;
+  const bool has_proxies = fields.has(FIELD_PROXIES) || fields.has(FIELD_BONE_STRETCH);
+  const GripLoops loops{is_looped ? from.outline_count : 0, scene.hand.between, has_proxies};
+  const DeviceSteps steps = device_steps(on.info(), options.evaluator, loops);
+  if (steps.are_few && (from.outline_count > MAX_OUTLINE || most_steps(loops) < 1)) return;
   std::vector<Constant> constants = common_constants();
   add_planes(constants, fields);
   constants.push_back({CONST_POSE, std::int32_t(scene.pose == Pose::articulated ? POSE_ARTICULATED
@@ -246,7 +258,7 @@ void GripProgram::make_grip_kernel(std::size_t v, const Scene& scene, const Scen
   if (scene.hand.between > 0) constants.push_back({CONST_BETWEEN, std::int32_t(scene.hand.between)});
   if (from.halves) constants.push_back({CONST_LATTICE_BITS, std::int32_t(16)});
   if (has_efforts_) constants.push_back({CONST_CONTACTS, std::int32_t(fields.real_planes)});
-  add_limits(constants, options);
+  add_limits(constants, steps, options);
   constants.push_back({CONST_LID, std::int32_t(from.lattice ? -1 : from.lid)});
   if (vessel.outline_source == OUTLINE_SPECIALIZED) {
     for (std::size_t i = 0; i < from.outline.size(); ++i)
@@ -284,8 +296,8 @@ void GripProgram::make_liquid(std::size_t v, const Scene& scene, const SceneArra
   vessel.liquid.clear();
   const std::uint32_t states = fill_count * tilt_count;
   std::vector<double> loads;
-  if (arrays.vessels[v].cavity_count == 0 ||
-      !liquid_fits_device(arrays.vessels[v].cavity_count, options.evaluator.quadrature_points)) {
+  const int pieces = arrays.vessels[v].cavity_count;
+  if (pieces == 0 || liquid_turns(pieces, options.evaluator.quadrature_points) > TURN_BUDGET) {
     const VesselConstants constants = core.constants(v);
     for (const double fill : arrays.vessels[v].fills)
       for (const double tilt : scene.tilts) {

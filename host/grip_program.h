@@ -19,7 +19,7 @@ struct VesselOnDevice {
   std::vector<Buffer> states;                     // blocks of STATES_IN_BLOCK; empty without tilts
   std::vector<Buffer> worst_states, safe_states;  // likewise, of the efforts; empty without them
   std::uint32_t worst_count = 0, safe_count = 0;  // states in them
-  std::optional<Kernel> grip;
+  std::optional<Kernel> grip;  // none where a CPU driver would loop over a long outline: the turns have no bound that it grants
   std::vector<LiquidResult> liquid;  // fill-major; empty without
 };
 
@@ -71,12 +71,5 @@ struct GripProgram final : Program {
 
 // Planes of reals that a chunk has besides those of its fields: where joints press, in a scene with efforts.
 int contact_planes(const FieldSet& fields);
-
-// Whether grips of a vessel stay within those iterations: on a CPU driver an outline must be unrolled, so up to MAX_OUTLINE elements.
-bool outline_fits_device(const VesselArrays& vessel, const DeviceInfo& device);
-
-// Whether the liquid of a cavity of so many pieces, integrated with so many points each, stays within the loop iterations that every
-// driver grants an invocation.
-bool liquid_fits_device(int cavity_count, int points = QUADRATURE_POINTS);
 
 }  // namespace wholehand::host

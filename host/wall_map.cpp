@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <string>
 
 #include "host/buffer.h"
 #include "host/run_once.h"
 #include "host/shaders.h"
+#include "host/turns.h"
 #include "shaders/layout.h"
 
 namespace wholehand::host {
@@ -15,11 +17,6 @@ namespace {
 
 constexpr std::size_t CASES_AT_ONCE = std::size_t(1) << 17;
 constexpr double SUBMIT_SECONDS = 0.05;
-// Iterations that every driver grants an invocation are 65,535 (architecture.md). A sample costs itself and the forces that wait; with
-// friction at most the stops, each with Newton's steps of a series and its doublings, and the propagator before each.
-constexpr int SAMPLES_MOST = 65000 / (1 + 2 * LOOP_DELAYS);
-constexpr int PROPAGATOR_MOST = LOOP_ORDER + LOOP_DOUBLINGS + LOOP_DOUBLINGS;
-constexpr int SAMPLES_WITH_FRICTION = 65000 / (1 + 2 * LOOP_DELAYS + LOOP_STOPS * (1 + (LOOP_NEWTON + 2) * PROPAGATOR_MOST));
 
 std::array<double, CASE_PLANES> numbers(const WallCase& c) {
   std::array<double, CASE_PLANES> of{};
@@ -78,7 +75,9 @@ struct WallMap::Impl {
     const Buffer state(on, CASE_STATE_PLANES * cases.size() * sizeof(Real));
     const bool rubs = std::any_of(cases.begin(), cases.end(), [](const WallCase& c) { return c.friction > 0; });
     const Kernel& kernel = kernel_for(rubs);
-    const int most = rubs ? SAMPLES_WITH_FRICTION : SAMPLES_MOST;
+    const int substeps = std::ranges::max_element(cases, {}, &WallCase::substeps)->substeps;
+    const int most = most_samples(rubs, substeps);
+    if (most < 1) throw failure_error("internal: " + std::to_string(substeps) + " sub-steps of a sample", Remedy::core);
     int at_once = std::min(32, most);
     for (int done = 0; done < samples;) {
       const bool is_late = done >= samples - late;

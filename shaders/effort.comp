@@ -6,7 +6,6 @@
 
 #include "effort_solve.glsl"
 
-#define RISE_STEPS 4
 #define JUST_HELD (Real(1) + ROUNDING)  // see core/grip_effort.cpp
 
 // The state that the last lower bound's direction bounds most, where that is more than `most`.
@@ -29,7 +28,7 @@ void put_worst(Real worst, Vec4 tilted, uint grip) {
 // Whether this task has something to do for a grip. NaN where a grip is not plausible.
 bool is_busy(uint grip) {
   uint status = uint_out[uint(PLANE_STATUS) * push.stride + grip];
-  if ((status & (STATUS_REASON_MASK | STATUS_PLAUSIBLE)) == STATUS_PLAUSIBLE)
+  if (is_to_solve(status))
     return TASK != EFFORT_SAFE || kept(PLANE_WORST_EFFORT, 0, grip) > JUST_HELD;
   if (TASK == EFFORT_SAFE) {
     for (uint fill = 0u; fill < scene.fills; ++fill) put_real(PLANE_SAFE_TILT, int(fill), grip, NOT_A_NUMBER);
@@ -62,15 +61,16 @@ void main() {
     worst = kept(TASK == EFFORT_TIPS ? PLANE_TIPS_WORST_EFFORT : PLANE_WORST_EFFORT, 0, grip);
   }
   // first the search goes where the direction of a lower bound is highest, not yet exactly; then each other state is compared with what it found
-  int rises = RISE_STEPS;
+  int rises = DEVICE_RISES;
   bool is_rising = TASK != EFFORT_SAFE;
   uint state = 0u;
   int pivots = 0;  // since the inverse was refined
   Solve solve;
   Six wanted;
   bool has_basis = false, is_warm = false, is_solving = false;
+  int turns = 0;
   uint k = has_grip ? 0u : push.number;
-  while (k < push.number) {
+  for (; k < push.number && turns < EFFORT_TURNS; ++turns) {
     Real enough = TASK == EFFORT_SAFE ? JUST_HELD : is_rising ? Real(0) : worst * (Real(1) + HALF_TOLERANCE);
     // states that the last basis shows to be small, or that nothing depends on, are passed by
     bool is_new = !is_solving;
@@ -127,4 +127,5 @@ void main() {
       is_rising = false;
     }
   }
+  leave_undecided(grip, k < push.number);
 }

@@ -14,6 +14,7 @@
 layout(local_size_x_id = CONST_GROUP_SIZE) in;
 layout(constant_id = CONST_CONTACTS) const int CONTACTS = -1;
 layout(constant_id = CONST_POSE) const int POSE = POSE_ARTICULATED;
+layout(constant_id = CONST_FEW_STEPS) const bool FEW_STEPS = false;
 
 const bool WANTS_PROXIES = PLANE_PROXIES >= 0 || PLANE_BONE_STRETCH >= 0;
 const bool WANTS_RIGGED = POSE != POSE_ARTICULATED || PLANE_JOINTS >= 0;
@@ -86,6 +87,8 @@ void put_closing(Closing closing) {
 }
 
 void put_masks() {
+  bool is_unsettled = (status & STATUS_REASON_MASK) == REASON_NOT_CONVERGED || (status >> STATUS_UNSETTLED_SHIFT & 0x1Fu) != 0u;
+  if (FEW_STEPS && is_unsettled) status |= STATUS_UNDECIDED;
   put_uint(PLANE_STATUS, grip, status);
   put_uint(PLANE_TOUCH_MASK, grip, touch_mask);
   put_uint(PLANE_TIP_MASK, grip, tip_mask);

@@ -51,6 +51,17 @@
 #define LOOP_EULER 1                // explicit, at equal sub-steps
 #define LOOP_SEMI_IMPLICIT 2        // the place by the new speed
 
+// ---- turns of loops ----
+// Mesa's CPU driver ends every loop without a word after 65,535 turns of a vector of invocations, counted over all its loops together. A loop counts the
+// turns until its last lane leaves it, and one for each time that the vector comes to it. No kernel takes more than TURN_BUDGET turns in a
+// dispatch (host/turns.h): the loops of most have bounds. A grip whose efforts take more pivots than these is STATUS_UNDECIDED.
+#define TURN_BUDGET 60000
+#define MOST_LANES 16               // of a vector: 512 bits of float
+#define DEVICE_RISES 4              // of an effort: times that a grip looks for the state that its last lower bound bounds most
+#define EFFORT_TURNS 4000           // of a grip in a dispatch of the effort kernel
+#define RESERVE_TURNS 4100          // .. of the kernel of reserves,
+#define RESERVE_RAISE_TURNS 1100    // and turns in which it looks for a friction
+
 // ---- a case of the rendered wall as its kernel reads it: plane * n + case, reals ----
 #define CASE_MASS 0                 // of the plant: kg
 #define CASE_DAMPING 1              // N s/m
@@ -96,6 +107,7 @@
 #define STATUS_THROUGH_TABLE 0x2000 // bit 13: the hand, posed or open, reaches below the table and its clearance
 #define STATUS_SELF_OVERLAP 0x4000  // bit 14: two fingers lie deeper in each other than the depth limit
 #define STATUS_UNSETTLED_SHIFT 16   // bits 16..20: finger f took all its advancement steps
+#define STATUS_UNDECIDED 0x200000   // bit 21: a kernel's turns ran out (TURN_BUDGET); the host has the core compute the grip, and nobody else sees it
 
 // ---- kinds, as specialization constants ----
 #define POSE_ARTICULATED 0
@@ -237,7 +249,7 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define EFFORT_SAFE 2               // up to which tilt the whole hand holds, for each fill
 #define EFFORT_PUSH 3               // of the kernel of reserves: the largest force beside the weight
 #define EFFORT_FRICTION 4           // .. the least friction with which all states are held
-#define DEVICE_PIVOTS 200           // of a solve; a grip takes some hundred for all states of a block, of the 65,535 turns that a driver may grant
+#define DEVICE_PIVOTS 200           // of a solve
 
 // Liquid of one fill and tilt: volume, mass, lean, height, poured.
 #define LIQUID_STRIDE 5
@@ -266,11 +278,12 @@ UINT_FIELD_LIST(DECLARE_FIELD)
 #define CONST_LATTICE_BITS 45       // of a sample: 32 or 16
 #define CONST_FRICTION 46           // of the loop: whether any case has friction, bool
 #define CONST_EFFORT_TOLERANCE 47   // Real, of an effort's bracket; 1e-3 where nothing is given
+#define CONST_FEW_STEPS 48          // of the grips: whether their steps are fewer than the core's, so that TURN_BUDGET holds, bool
 #define CONST_OUTLINE 64            // + OUTLINE_STRIDE * element + value, Real
 #define CONST_PLANE 320             // + field: first plane, or -1: not computed
 
 #define GROUP_SIZE 64
-// Entries that an invocation of the top-N selection goes through: with the shifts of a full list, fewer iterations than every driver grants.
+// Entries that an invocation of the top-N selection goes through: with the shifts of a full list within TURN_BUDGET.
 #define SELECT_ENTRIES 900
 #define SELECT_SCORES_TO_FIRST 0   // push.first: from where, to which half of the candidates
 #define SELECT_FIRST_TO_SECOND 1

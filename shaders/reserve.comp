@@ -12,6 +12,8 @@
 #define QUICK_RAISES 20  // of the friction for one state, after which its range is halved
 #define PUSHES 7u        // the weight alone, and a force along six directions
 
+int raise_turns = 0;  // in which this grip looked for a friction
+
 // The friction at which h(u) comes to a value: Newton's method, as EffortSolver::least_friction. What each contact does along u without friction, and
 // what a friction of 1 adds, are found once: they take most of the time, and are the same in all turns.
 Real least_friction(Six direction, Real value) {
@@ -21,7 +23,9 @@ Real least_friction(Six direction, Real value) {
     across[j] = press(arms[j], normals[j], Real(1), gamma, direction) - along[j];
   }
   Real least = friction;
+  ++raise_turns;  // the end of the loop, too
   [[dont_unroll]] for (int turn = 0; turn < JOINTS; ++turn) {
+    ++raise_turns;
     // h(u), and how it grows with the friction
     Real most[DIGITS], slopes[DIGITS];
     [[unroll]] for (int digit = 0; digit < DIGITS; ++digit) most[digit] = slopes[digit] = Real(0);
@@ -62,7 +66,7 @@ int plane_of_task() { return TASK == EFFORT_PUSH ? PLANE_PUSH : PLANE_FRICTION_N
 
 bool is_busy(uint grip) {
   uint status = uint_out[uint(PLANE_STATUS) * push.stride + grip];
-  if ((status & (STATUS_REASON_MASK | STATUS_PLAUSIBLE)) == STATUS_PLAUSIBLE)
+  if (is_to_solve(status))
     return TASK == EFFORT_PUSH || push.first == 0u || kept(plane_of_task(), 0, grip) < INFINITE;
   put_real(plane_of_task(), 0, grip, NOT_A_NUMBER);
   return false;
@@ -100,8 +104,9 @@ void main() {
   Solve solve;
   Six wanted;
   bool has_basis = false, is_warm = false, is_solving = false;
+  int turns = 0;
   uint k = has_grip ? 0u : number;
-  while (k < number) {
+  for (; k < number && turns < RESERVE_TURNS && raise_turns < RESERVE_RAISE_TURNS; ++turns) {
     bool is_push = TASK == EFFORT_PUSH && k > 0u;
     Real enough = is_push ? worst : is_first ? Real(0) : Real(1), too_much = is_push || is_first ? INFINITE : Real(1);
     bool is_new = !is_solving;
@@ -179,4 +184,5 @@ void main() {
   if (TASK == EFFORT_FRICTION && has_grip && kept(PLANE_WORST_EFFORT, 0, grip) <= Real(1)) friction = min(friction, scene.friction);
   [[dont_unroll]] for (bool once = has_grip; once; once = false)
     put_real(plane_of_task(), 0, grip, TASK == EFFORT_FRICTION ? (is_first ? Real(0) : friction) : worst < INFINITE ? Real(1) / worst : Real(0));
+  leave_undecided(grip, k < number);
 }

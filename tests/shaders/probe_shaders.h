@@ -7,5 +7,7 @@
 namespace wholehand {
 
 std::span<const EmbeddedShader> probe_shaders();
+// The program's own, each followed by meter.glsl.
+std::span<const EmbeddedShader> metered_shaders();
 
 }  // namespace wholehand

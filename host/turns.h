@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// The most turns that the loops of each kernel take in a dispatch, as a driver counts them that ends loops after so many (TURN_BUDGET). What a
+// grip, a state or a sample takes decides how the host splits work into dispatches, and what it leaves to the core.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "shaders/layout.h"
+
+namespace wholehand::host {
+
+// Of a loop of so many turns with `inside` in the loops of each.
+constexpr std::int64_t loop_turns(std::int64_t turns, std::int64_t inside = 0) { return turns * (1 + inside) + 1; }
+
+// ---- grip ----
+struct GripSteps {
+  int trace = TRACE_STEPS, advance = ADVANCE_STEPS;
+};
+
+struct GripLoops {
+  int looped_elements = 0;  // of an outline that is not unrolled; 0: unrolled, or a lattice
+  int between = 0;          // spheres on a bone
+  bool proxies = false;
+};
+
+constexpr std::int64_t grip_turns(const GripSteps& steps, const GripLoops& loops) {
+  const std::int64_t distance = loops.looped_elements > 0 ? loop_turns(loops.looped_elements) : 0, places = 3 * (loops.between + 1);
+  const std::int64_t proxy = loops.proxies ? loop_turns(PROXY_STEPS, 2 * distance) + distance : 0;
+  // a finger looks at all places before each of four stages and once at rest; in pose paper it moves three points instead
+  const std::int64_t rest = std::max(loop_turns(4 * (steps.advance + 1) + 5 * places, distance),
+                                     loop_turns(3, distance + loop_turns(steps.advance, distance)));
+  const std::int64_t examine = loop_turns(5, 3 * distance + proxy);
+  const std::int64_t between = loops.between > 0 ? loop_turns(4 * loops.between, 3 * distance + 2) + loop_turns(5) : 0;
+  const std::int64_t overlap = loops.between > 0 ? loop_turns(PHALANGES - 3, loop_turns(PHALANGES - 2, loop_turns(2))) : 0;
+  return loop_turns(2, loop_turns(steps.trace, distance)) + loop_turns(GAP_STEPS) + 3 * rest +
+         loop_turns(FINGERS, examine + between) + overlap + loop_turns(JOINTS);
+}
+
+// The most steps, the same of a trace and a stage, with which a grip stays within the budget; below 1 where there are none.
+constexpr int most_steps(const GripLoops& loops) {
+  const std::int64_t none = grip_turns({0, 0}, loops), each = grip_turns({1, 1}, loops) - none;
+  return static_cast<int>(std::min<std::int64_t>((TURN_BUDGET - none) / each, TRACE_STEPS));
+}
+static_assert(grip_turns({}, {0, MOST_BETWEEN, true}) <= TURN_BUDGET);
+
+// ---- lip and liquid ----
+// Lanes of a vector have their liquid in different ones of a piece's five parts, or stand upright.
+constexpr std::int64_t slices_turns(int pieces, int points) {
+  return loop_turns(pieces, loop_turns(5, loop_turns(points)) + loop_turns(points));
+}
+constexpr std::int64_t liquid_turns(int pieces, int points) {
+  return loop_turns(WHOLE_DEGREES) + loop_turns(pieces) + loop_turns(LEVEL_STEPS, slices_turns(pieces, points));
+}
+
+// ---- force and score, of so many fills and states ----
+constexpr std::int64_t force_turns(int states) { return loop_turns(states, loop_turns(1)); }  // each of a fill of its own
+constexpr std::int64_t score_turns(int fills) { return loop_turns(fills) + loop_turns(6); }
+static_assert(force_turns(STATES_IN_BLOCK) <= TURN_BUDGET);
+
+// ---- efforts and reserves ----
+// A pivot's: the loop over pivots, the one that finds the next state to solve, and three loops of a single turn. Beside them states that a lane passes
+// by, and what a lane looks through by itself: all lanes of a vector may do so at different times.
+constexpr int PIVOT_TURNS = 1 + 1 + 1 + 3 * 2;
+constexpr std::int64_t effort_turns(int fills) {
+  return loop_turns(EFFORT_TURNS, PIVOT_TURNS - 1) + MOST_LANES * (STATES_IN_BLOCK + DEVICE_RISES * loop_turns(STATES_IN_BLOCK)) +
+         loop_turns(fills) + 2 * loop_turns(1);
+}
+constexpr std::int64_t reserve_turns() {
+  return loop_turns(RESERVE_TURNS, PIVOT_TURNS - 1) + MOST_LANES * (STATES_IN_BLOCK + RESERVE_RAISE_TURNS + loop_turns(JOINTS)) +
+         loop_turns(STATES_IN_BLOCK) + 4 * loop_turns(1);
+}
+
+static_assert(effort_turns(WHOLE_DEGREES) <= TURN_BUDGET && reserve_turns() <= TURN_BUDGET);
+
+// ---- select ----
+constexpr std::int64_t select_turns(int best) { return loop_turns(SELECT_ENTRIES, loop_turns(best)) + 2 * loop_turns(best); }
+static_assert(select_turns(SELECT_LARGEST) <= TURN_BUDGET);
+
+// ---- loop: samples of a rendered wall ----
+constexpr std::int64_t PROPAGATOR_TURNS = 2 * loop_turns(LOOP_DOUBLINGS) + loop_turns(LOOP_ORDER);
+constexpr std::int64_t sample_turns(bool has_friction) {
+  const std::int64_t stop = loop_turns(LOOP_NEWTON, PROPAGATOR_TURNS) + 2 * PROPAGATOR_TURNS;
+  return loop_turns(LOOP_DELAYS) + (has_friction ? loop_turns(LOOP_STOPS, stop) : 0);
+}
+// Samples of a dispatch, each step of a sample in so many parts.
+constexpr int most_samples(bool has_friction, int substeps) {
+  const std::int64_t start = PROPAGATOR_TURNS + loop_turns(substeps) + 2 * loop_turns(LOOP_DELAYS);
+  return static_cast<int>((TURN_BUDGET - start) / (1 + sample_turns(has_friction)));
+}
+
+}  // namespace wholehand::host
