@@ -95,7 +95,8 @@ ExitCode trials(const TrialsArguments& arguments) {
   Scene scene = result ? whole_scene_of_result(*result) : read_scene_file(path);
   if (!arguments.vessel.empty()) options.vessel = find_vessel(scene, arguments.vessel);
   if (!options.fills.empty() && !scene.liquid)
-    throw usage_error(fmt::format("--fill: {} has no [liquid]; add one with its fills, or leave --fill out", in_quotes(scene.file)));
+    throw usage_error(
+        fmt::format("--fill: {} has no [liquid]; add one with its fills, or leave --fill out", in_quotes(scene.file)));
   if (!result) load_meshes(scene);
   return run_trials(scene, options, make_mujoco_engine, result ? &*result : nullptr);
 }

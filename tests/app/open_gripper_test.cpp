@@ -111,7 +111,7 @@ bool is_no_force(const protocol::OutputReport& report) { return report.arm == st
 
 // What arrived last; a mock takes a moment to see it.
 protocol::OutputReport last_output(const MockGripper& mock) {
-  for (int k = 0; k < 200 && !is_no_force(mock.outputs().back()); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  for (int k = 0; k < 2000 && !is_no_force(mock.outputs().back()); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   return mock.outputs().back();
 }
 
@@ -216,10 +216,10 @@ pid_t start_pressing(const std::string& address) {
   _exit(3);
 }
 
-// Until `holds` of the last output, for ten seconds.
+// Until `holds` of the last output, for a minute.
 template <class Holds>
 bool await_output(const MockGripper& mock, std::size_t least, const Holds& holds) {
-  for (int k = 0; k < 10000; ++k) {
+  for (int k = 0; k < 60000; ++k) {
     const auto outputs = mock.outputs();
     if (outputs.size() >= least && !outputs.empty() && holds(outputs.back())) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -221,18 +221,19 @@ TEST(HapticLoop, LetsGoWhenStepsAreLate) {
   }
 }
 
-// A late step now and then is none too many.
+// A late step now and then is none too many. At a rate at which a busy machine makes no three in a row late.
 TEST(HapticLoop, ForgivesALateStepAlone) {
   LoopRig run;
   run.options.is_simulated = false;
-  run.options.seconds = 0.4;
-  run.scene.live.rate = 250;
+  run.options.seconds = 60;
+  run.scene.live.rate = 20;
   run.scene.live.late_steps = 3;
   run.scene.live.jump = 1000;
   run.gripper.refuses = [&](const GripperForce&) {
-    if (run.gripper.written.size() % 10 == 5) std::this_thread::sleep_for(std::chrono::milliseconds(6));
+    if (run.gripper.written.size() % 5 == 3) std::this_thread::sleep_for(std::chrono::milliseconds(60));
     return false;
   };
+  run.gripper.done = [&] { return run.gripper.written.size() >= 20; };
   const LoopReport report = run.go();
   EXPECT_EQ(report.fault, Fault::none);
   EXPECT_GE(report.late, 3);

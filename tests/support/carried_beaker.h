@@ -20,7 +20,7 @@ inline Scene carried_scene(double rate) {
   scene.live.rate = rate;
   scene.live.late_steps = 1000;
   scene.live.jump = 100;  // a machine that is busy sees a device jump
-  scene.live.ramp = 0.1;
+  scene.live.ramp = 0;    // and one that stalls again and again would fade in anew each time
   scene.live.slip = 3e-3;
   return scene;
 }

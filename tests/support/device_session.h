@@ -135,12 +135,16 @@ class DeviceSession {
   // Until so many writes have come; false: the child has ended before.
   bool has_written(int count) const {
     while (log->writes < count) {
-      siginfo_t info{};
-      waitid(P_PID, static_cast<id_t>(child_), &info, WEXITED | WNOHANG | WNOWAIT);
-      if (info.si_pid != 0) return false;
+      if (has_ended()) return false;
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     return true;
+  }
+
+  bool has_ended() const {
+    siginfo_t info{};
+    waitid(P_PID, static_cast<id_t>(child_), &info, WEXITED | WNOHANG | WNOWAIT);
+    return info.si_pid != 0;
   }
 
   void stop_for(std::chrono::milliseconds time) const {
