@@ -175,7 +175,7 @@ TEST_F(MeshFormats, WhatIsNoBodyIsRefused) {
       {"a.ply", xyz + faces + points + "3 0 1 -1\n", "has a face with the vertex -1"},
       {"a.ply", xyz + faces + points + "2 0 1\n", "has a face of 2 corners; 3 to 1000 are read"},
       {"a.ply", xyz + "element tristrips 1\nproperty list int int vertex_indices\n" + points + "3 0 1 2\n", "triangle strips"},
-      {"a.ply", xyz + faces + points + "3 0 1 2\n", "has 1 triangles, and a body needs at least 4"}};
+      {"a.ply", xyz + faces + points + "3 0 1 2\n", "has 1 triangle, and a body needs at least 4"}};
   for (const auto& [name, bytes, gist] : cases) {
     const std::string said = line(name, bytes);
     EXPECT_NE(said.find(gist), std::string::npos) << "'" << gist << "' not in: " << said;
