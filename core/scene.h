@@ -93,6 +93,7 @@ struct MeshData {
   std::string file;
   double scale = 1;
   bool z_is_up = false;      // of the file: its z is turned to y before `rotate`
+  bool says_up = false;      // the scene says which way is up
   bool close_holes = false;  // small ones, before the mesh is used
   Triple rotate{};           // rad
   bool origin_at_base = true;
@@ -118,8 +119,8 @@ struct VesselData {
   std::string cavity_place;           // of the key that gives the cavity, as above
   Surface surface = Surface::solid;
   double density = 2230;              // of the wall, kg/m3
-  std::optional<double> mass;         // kg, with center_of_mass: both given or neither
-  Triple center_of_mass{};            // vessel frame, m
+  std::optional<double> mass;         // kg, with center_of_mass: both given or neither; of a mesh also alone
+  Triple center_of_mass{};            // vessel frame, m; NaN: not given, that of what the mesh encloses
   std::optional<double> force_range;  // N; the scene's when absent
   std::vector<GuidancePoint> guidance;
   Triple place{};           // live scene, m

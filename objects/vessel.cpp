@@ -203,7 +203,7 @@ void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder
   const MeshFacts& facts = checked.facts;
   say(data.file + ": " + mesh_check_text(facts));
   const SizeHint size = mesh_size_hint(facts.size(), data.scale);
-  const bool is_turned = says_what_is_up || data.z_is_up || data.rotate != Triple{};
+  const bool is_turned = says_what_is_up || data.says_up || data.rotate != Triple{};
   for (const std::string& hint : {size.text, is_turned ? "" : posture_hint(checked.mesh, facts)})
     if (!hint.empty()) say(hint);
   check_above_table(scene, data, name, facts.high[1] - facts.low[1]);

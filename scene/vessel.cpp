@@ -34,6 +34,7 @@ MeshData read_mesh(const SceneTable& table) {
   mesh.place = table.file().text_of(table.place("mesh"));
   table.read("mesh_scale", ranges::MESH_SCALE, mesh.scale);
   table.read("up", {{"y", false}, {"z", true}}, mesh.z_is_up);
+  mesh.says_up = table.has("up");
   table.read("rotate_deg", ranges::ROTATION, "[x, y, z]", mesh.rotate);
   table.read_flag("close_holes", mesh.close_holes);
   table.read("origin", {{"base", true}, {"as_is", false}}, mesh.origin_at_base);
