@@ -42,4 +42,12 @@ bool presses_at(const Vessel& vessel, Vec3 p, Vec3& place, Vec3& normal) {
   return vessel.lid < 0 || element != vessel.lid;
 }
 
+// The lid begins at the mouth's edge, where the wall ends.
+bool is_undecided(const Vessel& vessel, Vec3 p, Real separation, Real tolerance) {
+  if (std::abs(separation - tolerance) <= Real(CONTACT_MARGIN)) return true;
+  if (vessel.lid < 0 || separation > tolerance) return false;
+  const Vec2 edge = vessel.outline[vessel.lid].a;
+  return p.y > edge.y && std::abs(std::sqrt(p.x * p.x + p.z * p.z) - edge.x) <= Real(CONTACT_MARGIN);
+}
+
 }  // namespace CORE_NS

@@ -22,5 +22,8 @@ Contact contact_at(const Vessel& vessel, Vec3 p, Real radius);
 // Where a point that touches presses: the surface's nearest place and the inward unit normal there. False: on the lid that closes the mouth of a
 // solid vessel, where nothing is.
 bool presses_at(const Vessel& vessel, Vec3 p, Vec3& place, Vec3& normal);
+// Whether rounding may decide if such a point is a contact: its separation is within CONTACT_MARGIN of the contact tolerance, or the point
+// is a contact above the mouth of a solid vessel and as near to where the lid begins.
+bool is_undecided(const Vessel& vessel, Vec3 p, Real separation, Real tolerance);
 
 }  // namespace CORE_NS

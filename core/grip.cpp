@@ -55,6 +55,7 @@ void pose_articulated(const Hand& hand, const Vessel& vessel, const PlacedFinger
   }
   answer.advance_steps = std::max(answer.advance_steps, resting.steps);
   if (resting.blocked) answer.status |= 1u << (STATUS_BLOCKED_SHIFT + f);
+  if (resting.undecided) answer.status |= STATUS_CONTACT_UNDECIDED;
   if (resting.unsettled) answer.status |= 1u << (STATUS_UNSETTLED_SHIFT + f);
 }
 
@@ -90,6 +91,8 @@ Real examine_pose(const Hand& hand, const Vessel& vessel, PoseKind pose, Wanted 
       if (!known) answer.separation[j] = separation_at(vessel, answer.posed[j], radius);
       const Real separation = answer.separation[j];
       if (k < 2 && separation <= hand.contact_tolerance) before[f] |= 1 << k;
+      if (j != THUMB_TIP && j != INDEX_TIP && is_undecided(vessel, answer.posed[j], separation, hand.contact_tolerance))
+        answer.status |= STATUS_CONTACT_UNDECIDED;
       const Real depth = std::max(Real(0), -separation);
       if (k == 0) {
         answer.palm_depth = std::max(answer.palm_depth, depth);
@@ -132,7 +135,8 @@ Real examine_between(const Hand& hand, const Vessel& vessel, PoseKind pose, Real
       for (int k = 1; k <= hand.between; ++k) {
         const Ball ball = ball_between(answer.posed[j], answer.posed[j + 1], scale * hand.radius[f][bone],
                                        scale * hand.radius[f][bone + 1], Real(k) / Real(hand.between + 1));
-        const Real depth = std::max(Real(0), -separation_at(vessel, ball.place, ball.radius));
+        const Real separation = separation_at(vessel, ball.place, ball.radius), depth = std::max(Real(0), -separation);
+        if (is_undecided(vessel, ball.place, separation, hand.contact_tolerance)) answer.status |= STATUS_CONTACT_UNDECIDED;
         Real& of_part = bone == 0 ? answer.palm_depth : answer.phalanx_depth;
         of_part = std::max(of_part, depth);
         if (f < 2 || pose != PoseKind::paper) judged_depth = std::max(judged_depth, depth);

@@ -59,6 +59,16 @@ Real place_step(Support support, Real separation, const Place& place, FingerFram
   return plane_step(support, separation, closing, place.speed, acceleration);
 }
 
+// The wall leaves a place no faster than that beside an edge, which curves by the ball's radius: what meets the wall faster than that lets
+// it leave within the margin does not depend on rounding.
+bool passes_close(const Support& support, Real separation, const Place& place, const FingerFrame& frame) {
+  const Vec2 normal(glm::dot(support.normal, frame.forward), glm::dot(support.normal, frame.palmward));
+  const Real closing = glm::dot(normal, place.velocity), leaving = glm::dot(normal, place.acceleration);
+  const Real across = glm::dot(place.velocity, place.velocity) - closing * closing;
+  const Real most = std::max(Real(0), leaving) + across / std::max(place.ball.radius, Real(1e-3));
+  return std::abs(separation) <= Real(CONTACT_MARGIN) && closing * closing < 2 * Real(CONTACT_MARGIN) * most;
+}
+
 int nearest_point(Vec3 separations, int first) {
   int nearest = 2;
   Real smallest = separations.z;
@@ -145,6 +155,7 @@ RestingFinger rest_finger(const Hand& hand, const Vessel& vessel, const Finger& 
     const Support support = support_at(vessel, place.ball.place);
     const Real separation = support.distance - place.ball.radius;
     see_place(hand, separation, place_step(support, separation, place, finger.frame), motion, watch);
+    resting.undecided = resting.undecided || passes_close(support, separation, place, finger.frame);
 
     // which joint turns next: after a look around at all places, or where one that was due touches
     const int moving = std::max(motion.joint, 0);  // first bone that moves

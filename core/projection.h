@@ -70,6 +70,7 @@ struct RestingFinger {
   int steps = 0;         // of its longest stage
   bool blocked = false;  // see FingerMotion
   bool unsettled = false;
+  bool undecided = false;  // it touched or passed the wall so aslant that rounding may decide which of the two
 };
 
 // Of three joints' angles or rates those of the segments.
@@ -82,6 +83,8 @@ Bend bend_finger(Vec3 lengths, Vec3 angles);
 Place watched_place(const Hand& hand, const Finger& finger, const Bend& bend, Vec3 rates, int number);
 // The largest step of the motion along which the place is sure not to pass a surface.
 Real place_step(Support support, Real separation, const Place& place, FingerFrame frame);
+// Whether a place that is within CONTACT_MARGIN of the wall moves along it so that rounding may decide if it touches or passes.
+bool passes_close(const Support& support, Real separation, const Place& place, const FingerFrame& frame);
 // Number (0..2) of the smallest separation among those from `first` on; of equal ones the innermost.
 int nearest_point(Vec3 separations, int first);
 // A finger at closure 0 that may go up to `limit`.

@@ -33,7 +33,9 @@ constexpr std::uint32_t ALL_STEPS = STATUS_PROXY_UNSETTLED | 0x1Fu << STATUS_UNS
 // Whether grip `i` of `a` has another outcome than grip `k` of `b`.
 bool differs(const GatheredPlanes& a, std::size_t i, const GatheredPlanes& b, std::size_t k, bool same_stop) {
   return std::any_of(DISCRETE.begin(), DISCRETE.end(), [&](int field) {
-    const std::uint32_t left_out = field == FIELD_STATUS && !same_stop ? ALL_STEPS : 0;
+    const std::uint32_t left_out = field != FIELD_STATUS ? 0
+                                   : same_stop           ? STATUS_CONTACT_UNDECIDED
+                                                         : ALL_STEPS | STATUS_CONTACT_UNDECIDED;
     return ((a.uint(field, i) ^ b.uint(field, k)) & ~left_out) != 0;
   });
 }

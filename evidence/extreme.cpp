@@ -81,7 +81,8 @@ class ExtremeTally {
       const std::uint32_t status = own.uint(FIELD_STATUS, i), true_status = full.uint(FIELD_STATUS, i);
       count(status);
       const auto differs = [&](int field) { return own.uint(field, i) != full.uint(field, i); };
-      const bool same = !differs(FIELD_STATUS) && !differs(FIELD_TOUCH_MASK) && !differs(FIELD_USED_MASK);
+      const bool same = ((status ^ true_status) & ~std::uint32_t(STATUS_CONTACT_UNDECIDED)) == 0 && !differs(FIELD_TOUCH_MASK) &&
+                        !differs(FIELD_USED_MASK);
       const bool feasible = (true_status & STATUS_REASON_MASK) == REASON_NONE;
       compared[i] = same && feasible && ((status | true_status) & STATUS_GRAZING) == 0 ? 1 : 0;
     }

@@ -32,15 +32,6 @@ struct StateHold {
   std::vector<HeldContact> contacts;
 };
 
-// A grip over the scene's own fills and tilts. The effort is a share of the strength: up to 1 the hand holds.
-struct GripHold {
-  double worst = 0, worst_fill = 0, worst_tilt = 0;  // a state of the largest effort: fraction, rad
-  double tips_worst = 0;
-  double push = 0;  // N: upright and fullest, what may push at the centre of mass along each of +-x, +-y, +-z beside the weight
-  double friction_needed = 0;  // the least mu that holds all states; infinite: none up to 10
-  int states = 0, skipped = 0, pivots = 0;
-};
-
 class Holding {
  public:
   // Of a feasible grip in a scene with strengths; `pour` is the report's. `scene` and `evaluator`, made for it, must outlive this.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "grips/report.h"
+#include "shaders/layout.h"
 #include "system/json.h"
 
 namespace wholehand {
@@ -129,6 +130,7 @@ std::string grip_json(const GripReport& report) {
   if (is_feasible) {
     json["plausible"] = result.plausible;
     json["antipodal"] = result.antipodal;
+    json["undecided"] = (result.status & STATUS_CONTACT_UNDECIDED) != 0;
     json["contact_angles_rad"] = result.contact_angles;
     json["closure"] = result.closure;
   }

@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
 #include "core/capacity.h"
 #include "core/counted_tilts.h"
 #include "core/error.h"
+#include "core/gather.h"
 #include "host/open_backend.h"
 
 namespace wholehand {
@@ -66,10 +68,23 @@ struct GripPlanes {
   double real(int field, std::size_t k = 0) const { return reals[fields.plane[field] + k]; }
 };
 
-std::vector<int> all_fields() {
-  std::vector<int> fields(FIELDS);
-  for (int field = 0; field < FIELDS; ++field) fields[field] = field;
-  return fields;
+// What the grip's planes say of the efforts over the scene's states; `told(field)`. Nothing of an implausible grip.
+template <class Told>
+std::optional<GripHold> hold_of(const Scene& scene, std::size_t vessel, const Told& told) {
+  if (!has_effort(scene) || std::isnan(told(FIELD_WORST_EFFORT))) return std::nullopt;
+  const auto listed = [](const std::vector<double>& values, double value) {  // planes may be float's
+    return *std::min_element(values.begin(), values.end(),
+                             [value](double a, double b) { return std::abs(a - value) < std::abs(b - value); });
+  };
+  const StateAxes own = scene_axes(scene, vessel);
+  GripHold hold;
+  hold.worst = told(FIELD_WORST_EFFORT);
+  hold.worst_fill = listed(own.fills, told(FIELD_WORST_EFFORT_FILL));
+  hold.worst_tilt = listed(own.tilts, told(FIELD_WORST_EFFORT_TILT));
+  hold.tips_worst = told(FIELD_TIPS_WORST_EFFORT);
+  hold.push = told(FIELD_PUSH);
+  hold.friction_needed = told(FIELD_FRICTION_NEEDED);
+  return hold;
 }
 
 GripPlanes run_one(Backend& backend, std::size_t vessel, const GripInput& grip) {
@@ -178,7 +193,7 @@ GripMethods core_grip_methods(const Scene& scene, std::shared_ptr<const Evaluato
 }
 
 GripMethods backend_grip_methods(const Scene& scene, const BackendOpener& open) {
-  std::shared_ptr<Backend> backend = open(scene, make_field_set(all_fields(), scene));
+  std::shared_ptr<Backend> backend = open(scene, all_fields(scene));
   const BackendInfo info = backend->info();
   const std::string device = info.device + (info.backend == "vulkan" && info.is_cpu ? ", a CPU driver" : "") +
                              (info.precision == Precision::single ? ", float" : ", double");
@@ -186,14 +201,16 @@ GripMethods backend_grip_methods(const Scene& scene, const BackendOpener& open) 
             GripFindings answer;
             GripPlanes planes = run_one(*backend, vessel, grip);
             answer.result = decode_grip(planes.chunk, planes.fields, 0);
+            answer.is_core_double = false;
             if (answer.result.reason != Reason::none) return answer;
             answer.score = score_of(planes, scene_fills(scene));
+            answer.hold = hold_of(scene, vessel, [&](int field) { return planes.real(field); });
             if (axes.tilts.empty()) return answer;
 
             const StateAxes own = scene_axes(scene, vessel);
             const bool is_own = axes.fills == own.fills && axes.tilts == own.tilts;
             const Scene asked = is_own ? scene : with_states(scene, vessel, axes);
-            if (!is_own) planes = run_one(*open(asked, make_field_set(all_fields(), asked)), vessel, grip);
+            if (!is_own) planes = run_one(*open(asked, all_fields(asked)), vessel, grip);
             const auto core = make_core_evaluator(asked);
             const std::vector<std::size_t> counted = counted_tilts(asked, vessel);
             for (const double fill : axes.fills) {
@@ -215,9 +232,20 @@ GripMethods open_grip_methods(const Scene& scene, const std::string& on, Precisi
       return open_backend(opened, fields, on, precision, 0);
     });
   }
-  const bool is_double = precision == Precision::full;
-  return core_grip_methods(scene, is_double ? make_core_evaluator(scene) : make_core_float_evaluator(scene),
-                           is_double ? "core, double" : "core, float");
+  if (precision == Precision::full) return core_grip_methods(scene, make_core_evaluator(scene), "core, double");
+  const std::shared_ptr<const Evaluator> single = make_core_float_evaluator(scene);
+  GripMethods methods = core_grip_methods(scene, single, "core, float");
+  methods.answer = [scene, single, answer = methods.answer](std::size_t vessel, const GripInput& grip, const StateAxes& axes) {
+    GripFindings found = answer(vessel, grip, axes);
+    found.is_core_double = false;
+    const FieldSet fields = make_field_set({FIELD_WORST_EFFORT, FIELD_WORST_EFFORT_FILL, FIELD_WORST_EFFORT_TILT,
+                                            FIELD_TIPS_WORST_EFFORT, FIELD_PUSH, FIELD_FRICTION_NEEDED},
+                                           scene);
+    const GatheredPlanes planes = gather(*single, fields, vessel, {grip});
+    found.hold = hold_of(scene, vessel, [&](int field) { return planes.real(fields.plane[field], 0); });
+    return found;
+  };
+  return methods;
 }
 
 }  // namespace wholehand

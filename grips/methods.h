@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,11 +21,22 @@ struct GripState {
   bool counts = true;  // false: the scene leaves it out ([tilts] until_poured), and what depends on the grip's forces is NaN
 };
 
+// A grip over the scene's own fills and tilts. The effort is a share of the strength: up to 1 the hand holds.
+struct GripHold {
+  double worst = 0, worst_fill = 0, worst_tilt = 0;  // a state of the largest effort: fraction, rad
+  double tips_worst = 0;
+  double push = 0;  // N: upright and fullest, what may push at the centre of mass along each of +-x, +-y, +-z beside the weight
+  double friction_needed = 0;  // the least mu that holds all states; infinite: none up to 10
+  int states = 0, skipped = 0, pivots = 0;
+};
+
 // Everything that is told of one grip. `states` and `score` are empty where the grip is not feasible.
 struct GripFindings {
   GripResult result;
   std::vector<GripState> states;  // fill-major, in the order asked
   GripScore score;                // over the scene's own fills and tilts
+  std::optional<GripHold> hold;   // of the same evaluation as the score; nothing where that is for the core in double to say
+  bool is_core_double = true;     // what the core in double adds is then of the same evaluation too
 };
 
 // Fills and tilts of the states that are asked for. Without liquid the one fill is 0. A scene leaves out states of its own list of

@@ -45,7 +45,7 @@ void add_holding(GripReport& report, const Scene& scene, std::size_t vessel, con
   if (report.answer.result.reason != Reason::none || !scene.strength) return;
   const Holding holding(scene, evaluator, vessel, report.answer.result, report.pour);
   for (const GripState& state : report.answer.states) report.holds.push_back(holding.state(state));
-  report.hold = holding.over_states();
+  report.hold = report.answer.hold ? report.answer.hold : holding.over_states();
 }
 
 void add_quality(GripReport& report, const Scene& scene, std::size_t vessel) {

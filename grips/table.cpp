@@ -77,6 +77,10 @@ void write_closing(std::string& out, const GripReport& report) {
   }
   append_formatted(out, "  bone stretch   {}\n", millimetres(report, r.bone_stretch));
   append_formatted(out, "  fingers used   {}\n", finger_list(r.used_mask));
+  if ((r.status & STATUS_CONTACT_UNDECIDED) != 0)
+    append_formatted(
+        out,
+        "  undecided      rounding may decide whether a point of the hand is a contact: efforts are those with it or without\n");
   const std::uint32_t blocked = r.status >> STATUS_BLOCKED_SHIFT & 0x1F, unsettled = r.status >> STATUS_UNSETTLED_SHIFT & 0x1F;
   if (blocked != 0) append_formatted(out, "  blocked        {}: inside the vessel even when open\n", finger_list(blocked));
   if (unsettled != 0) append_formatted(out, "  not settled    {}: used all its steps and is not at rest\n", finger_list(unsettled));
@@ -143,6 +147,13 @@ std::string percent(double effort) {
 std::string contact_name(const HeldContact& contact) {
   const std::string place = contact.between > 0 ? fmt::format(" bone {}", contact.between) : "";
   return joint_name(contact.joint) + place + (contact.digit == FINGER_COUNT ? ", palm" : "");
+}
+
+// What does not come from what answers the rest.
+void write_holding_source(std::string& out, const GripReport& report) {
+  if (report.answer.is_core_double || report.holds.empty()) return;
+  append_formatted(out, "\n  from the core  in double, for the hand above: hold forces, listed effort and contact forces{}\n",
+                   report.answer.hold ? "" : ", and what holds over the scene's states");
 }
 
 // What each digit presses in the hardest of the states that were asked for.
@@ -231,6 +242,7 @@ std::string grip_table(const GripReport& report) {
   if (report.answer.result.reason != Reason::none) return text;
   write_joints(text, report);
   write_states(text, report);
+  write_holding_source(text, report);
   write_contacts(text, report);
   write_hold(text, report);
   write_quality(text, report);

@@ -46,4 +46,11 @@ bool presses_at(Vec3 p, out Vec3 place, out Vec3 normal) {
   return LID < 0 || element != LID;
 }
 
+bool is_undecided(Vec3 p, Real separation, Real tolerance) {
+  if (abs(separation - tolerance) <= CONTACT_MARGIN) return true;
+  if (LID < 0 || separation > tolerance) return false;
+  Vec2 edge = outline_element(max(LID, 0)).a;
+  return p.y > edge.y && abs(sqrt(p.x * p.x + p.z * p.z) - edge.x) <= CONTACT_MARGIN;
+}
+
 #endif

@@ -49,9 +49,11 @@ void examine_point(int f, int k, int j, Vec3 p, Real radius, Real separation, Re
   add_depth(f, k == 0, separation);
   if (ON_TABLE) table_depth = max(table_depth, depth_in_table(p, radius));
   // touching: the tracked tips always do
+  bool is_tip = j == THUMB_TIP || j == INDEX_TIP;
+  status |= !is_tip && is_undecided(p, separation, HAND_CONTACT_TOLERANCE) ? STATUS_CONTACT_UNDECIDED : 0u;
   bool near_enough = separation <= HAND_CONTACT_TOLERANCE;
   if (k < 2 && near_enough) before |= 1 << k;
-  bool touching = near_enough || j == THUMB_TIP || j == INDEX_TIP;
+  bool touching = near_enough || is_tip;
   uint bit = touching ? 1u << j : 0u;
   touch_mask |= bit;
   used_mask |= touching ? 1u << f : 0u;
@@ -166,6 +168,7 @@ void pose_articulated(int f, Real closure, inout PlacedFinger finger) {
   if (resting.before.y <= HAND_CONTACT_TOLERANCE) finger.before |= 1 << 3;
   if (resting.before.z <= HAND_CONTACT_TOLERANCE) finger.before |= 1 << 4;
   if (resting.blocked) status |= 1u << (STATUS_BLOCKED_SHIFT + f);
+  if (resting.undecided) status |= STATUS_CONTACT_UNDECIDED;
   if (resting.unsettled) status |= 1u << (STATUS_UNSETTLED_SHIFT + f);
 }
 
@@ -221,6 +224,7 @@ void examine_between(int f, int first_joint, PlacedFinger finger) {
                              scale * hand_radius(f, bone + 1), share);
     Real separation = separation_at(ball.place, ball.radius);
     add_depth(f, bone == 0, separation);
+    status |= is_undecided(ball.place, separation, HAND_CONTACT_TOLERANCE) ? STATUS_CONTACT_UNDECIDED : 0u;
     uint places = vacant & (bone == 0 ? 1u : ~1u);
     bool touching = CONTACTS >= 0 && separation <= HAND_CONTACT_TOLERANCE && places != 0u;
     // a loop of one turn is passed by where no lane takes it

@@ -28,6 +28,7 @@
 #define LARGEST_E1_X RATIO(19, 20)  // |e1.x| above which the hand's frame is ill-defined: too narrow
 #define SMALLEST_PIVOT RATIO(1, 200)  // m: per_grip torque reference, and levers
 #define BARE_LEVER RATIO(1, 1000)  // of the pivot length, at least the smallest: a lever up to this is none for contacts without torsion
+#define CONTACT_MARGIN RATIO(1, 400000)  // m: nearer to where a contact begins, rounding may decide whether it is one
 #define DEPTH_SCALE RATIO(1, 100)   // m: depth at which the depth score reaches 0
 #define GRAZING_COSINE 0.017452406437283512  // cosine of 89 degrees: contact normal within 1 degree of perpendicular to the line
 
@@ -106,6 +107,7 @@
 #define STATUS_BLOCKED_SHIFT 8      // bits 8..12: finger f was inside when open
 #define STATUS_THROUGH_TABLE 0x2000 // bit 13: the hand, posed or open, reaches below the table and its clearance
 #define STATUS_SELF_OVERLAP 0x4000  // bit 14: two fingers lie deeper in each other than the depth limit
+#define STATUS_CONTACT_UNDECIDED 0x8000 // bit 15: a point or a sphere is within CONTACT_MARGIN of being a contact, or of being none
 #define STATUS_UNSETTLED_SHIFT 16   // bits 16..20: finger f took all its advancement steps
 #define STATUS_UNDECIDED 0x200000   // bit 21: a kernel's turns ran out (TURN_BUDGET); the host has the core compute the grip, and nobody else sees it
 

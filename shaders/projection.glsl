@@ -48,7 +48,7 @@ struct RestingFinger {
   Vec3 angles;
   FingerPoints points;
   Vec3 separations, before;
-  bool blocked, unsettled;
+  bool blocked, unsettled, undecided;
 };
 
 struct PaperAxis {
@@ -97,6 +97,14 @@ Real place_step(Support support, Real separation, Place place, FingerFrame frame
   Real most = towards + place.jerk * (separation / closing) / Real(3);
   Real acceleration = closing > Real(0) ? smaller(larger(most, Real(0)), place.bend) : place.bend;
   return plane_step(support, separation, closing, place.speed, acceleration);
+}
+
+bool passes_close(Support support, Real separation, Place place, FingerFrame frame) {
+  Vec2 normal = Vec2(dot(support.normal, frame.forward), dot(support.normal, frame.palmward));
+  Real closing = dot(normal, place.velocity), leaving = dot(normal, place.acceleration);
+  Real across = dot(place.velocity, place.velocity) - closing * closing;
+  Real most = larger(Real(0), leaving) + across / larger(place.ball.radius, RATIO(1, 1000));
+  return abs(separation) <= CONTACT_MARGIN && closing * closing < Real(2) * CONTACT_MARGIN * most;
 }
 
 int nearest_point(Vec3 separations, int first) {
@@ -168,6 +176,7 @@ int decide_turn(Vec3 clear, FingerMotion motion, out bool blocked) {
 // By selection and without branches: in nearly every turn of the loop some lane takes each of the core's ways, and then all wait for it.
 RestingFinger rest_finger(Finger finger, Real limit) {
   RestingFinger resting;
+  resting.undecided = false;
   FingerMotion motion = start_motion(limit);
   FingerWatch watch = FingerWatch(Vec3(0), Vec3(0), Vec3(NO_DISTANCE), 0, -1, true, true);
   for (int k = 0; k < PLACES; ++k) until[k] = Real(0);
@@ -176,6 +185,7 @@ RestingFinger rest_finger(Finger finger, Real limit) {
     Support support = support_at(place.ball.place);
     Real separation = support.distance - place.ball.radius;
     see_place(separation, place_step(support, separation, place, finger.frame), motion, watch);
+    resting.undecided = resting.undecided || passes_close(support, separation, place, finger.frame);
     int next = place_to_see(watch.number + 1, motion.joint, watch.touched);
     bool seen_all = watch.looks && next >= PLACES;
     bool meets = !watch.looks && separation < STOP_TOLERANCE;

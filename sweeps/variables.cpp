@@ -26,6 +26,7 @@ std::int32_t antipodal(std::uint32_t status) { return (status & STATUS_ANTIPODAL
 std::int32_t through_table(std::uint32_t status) { return (status & STATUS_THROUGH_TABLE) != 0; }
 std::int32_t self_overlap(std::uint32_t status) { return (status & STATUS_SELF_OVERLAP) != 0; }
 std::int32_t grazing(std::uint32_t status) { return (status & STATUS_GRAZING) != 0; }
+std::int32_t undecided(std::uint32_t status) { return (status & STATUS_CONTACT_UNDECIDED) != 0; }
 std::int32_t blocked(std::uint32_t status) { return static_cast<std::int32_t>((status >> STATUS_BLOCKED_SHIFT) & 0x1F); }
 std::int32_t unsettled(std::uint32_t status) { return static_cast<std::int32_t>((status >> STATUS_UNSETTLED_SHIFT) & 0x1F); }
 std::int32_t proxy_unsettled(std::uint32_t status) { return (status & STATUS_PROXY_UNSETTLED) != 0; }
@@ -192,6 +193,8 @@ std::vector<Variable> make_catalogue() {
           of_field(FIELD_SEPARATION),
           byte("grazing", "whether a contact normal is within 1 degree of perpendicular to the thumb-index line", YES_NO,
                FIELD_STATUS, grazing),
+          byte("undecided", "whether rounding may decide if a point or a sphere of the hand is a contact", YES_NO, FIELD_STATUS,
+               undecided),
           byte("proxy_unsettled", "whether a proxy took all its steps", YES_NO, FIELD_STATUS, proxy_unsettled),
       });
   add(all, ON_REQUEST, Need::articulated,

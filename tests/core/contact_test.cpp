@@ -386,5 +386,22 @@ TEST(Contact, BoneStretchIsTheLargestOverTheBones) {
   }
 }
 
+// beaker1 is 110 mm high, with a radius of 40 mm.
+TEST(Contact, IsUndecidedWhereRoundingMayDecide) {
+  const core_f64::Vessel solid = ready_vessel(beaker1()), shell = ready_vessel(shell_of(beaker1()));
+  const core_f64::Vec3 beside{0.05, 0.06, 0};
+  for (const double off : {0.0, 2.4e-6, -2.4e-6}) {
+    EXPECT_TRUE(is_undecided(solid, beside, 0.2e-3 + off, 0.2e-3));
+    EXPECT_TRUE(is_undecided(solid, {0, 0.118, 0.04 + off}, 0, 0.2e-3)) << "above the edge of the lid";
+    EXPECT_FALSE(is_undecided(shell, {0, 0.118, 0.04 + off}, 0, 0.2e-3)) << "the rim of a shell is glass on both sides";
+    EXPECT_FALSE(is_undecided(solid, {0, 0.118, 0.04 + off}, 0.3e-3, 0.2e-3)) << "no contact, whichever is nearer";
+    EXPECT_FALSE(is_undecided(solid, {0, 0.109, 0.04 + off}, 0, 0.2e-3)) << "below the mouth";
+  }
+  for (const double off : {2.6e-6, -2.6e-6}) {
+    EXPECT_FALSE(is_undecided(solid, beside, 0.2e-3 + off, 0.2e-3));
+    EXPECT_FALSE(is_undecided(solid, {0, 0.118, 0.04 + off}, 0, 0.2e-3));
+  }
+}
+
 }  // namespace
 }  // namespace wholehand

@@ -77,7 +77,7 @@ TEST(KeptBits, SpheresChangeOnlyDepths) {
     const Difference found = difference_of(without, with);
     EXPECT_EQ(found.fields, (std::set<int>{FIELD_PHALANX_DEPTH, FIELD_PALM_DEPTH, FIELD_SCORE, FIELD_TERMS}));
     EXPECT_EQ(found.terms, std::set<int>{DEPTH_TERM});
-    EXPECT_EQ(found.status & ~std::uint32_t(STATUS_PLAUSIBLE | STATUS_SELF_OVERLAP), 0u);
+    EXPECT_EQ(found.status & ~std::uint32_t(STATUS_PLAUSIBLE | STATUS_SELF_OVERLAP | STATUS_CONTACT_UNDECIDED), 0u);
     EXPECT_GT(found.feasible, 80);
   }
 }

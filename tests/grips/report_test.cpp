@@ -103,13 +103,13 @@ std::vector<std::string> keys_of(const Json& json) {
 
 TEST(GripReport, JsonHasEveryFieldInOrder) {
   const Json json = parse_ordered_json(grip_json(report_of(plain_scene(true, true), feasible_result())));
-  EXPECT_EQ(
-      keys_of(json),
-      (std::vector<std::string>{
-          "vessel",       "grip",      "feasible",     "reason",          "plausible",    "antipodal",      "contact_angles_rad",
-          "closure",      "gap_m",     "midpoint_m",   "joints_m",        "posed_m",      "separation_m",   "touching",
-          "proxies_m",    "projected", "fingers_used", "phalanx_depth_m", "palm_depth_m", "bone_stretch_m", "table_depth_m",
-          "self_depth_m", "states",    "score",        "score_terms"}));
+  EXPECT_EQ(keys_of(json), (std::vector<std::string>{"vessel",         "grip",          "feasible",        "reason",
+                                                     "plausible",      "antipodal",     "undecided",       "contact_angles_rad",
+                                                     "closure",        "gap_m",         "midpoint_m",      "joints_m",
+                                                     "posed_m",        "separation_m",  "touching",        "proxies_m",
+                                                     "projected",      "fingers_used",  "phalanx_depth_m", "palm_depth_m",
+                                                     "bone_stretch_m", "table_depth_m", "self_depth_m",    "states",
+                                                     "score",          "score_terms"}));
   EXPECT_EQ(json["vessel"], "glass");
   EXPECT_EQ(json_text(json["grip"]),
             R"({"height_m":0.05,"azimuth_rad":0.1,"obliquity_rad":0.2,"roll_rad":0.3,"offset_m":0.4,"hand_scale":1.1})");

@@ -199,6 +199,8 @@ TEST(Variables, WordsAreTakenApart) {
   EXPECT_EQ(value("antipodal", status), 0);
   EXPECT_EQ(value("antipodal", status | STATUS_ANTIPODAL), 1);
   EXPECT_EQ(value("grazing", STATUS_GRAZING), 1);
+  EXPECT_EQ(value("undecided", status), 0);
+  EXPECT_EQ(value("undecided", status | STATUS_CONTACT_UNDECIDED), 1);
   EXPECT_EQ(value("proxy_unsettled", STATUS_PROXY_UNSETTLED), 1);
   EXPECT_EQ(value("through_table", status), 0);
   EXPECT_EQ(value("through_table", status | STATUS_THROUGH_TABLE), 1);

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// Spheres that are just contacts, or just none: rounding decides, the grip says so, and what is told of it is one evaluation's.
+// sanitizers: none
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "evidence/compare.h"
+#include "grips/report.h"
+#include "host/open_backend.h"
+#include "scene/reader.h"
+#include "scene/shipped.h"
+#include "sweeps/plan.h"
+
+namespace wholehand {
+namespace {
+
+constexpr double LARGE = 0.005;  // of 1 / (1 + effort): more than an effort's own tolerance, and less than a contact's worth
+
+Scene beaker_scene() {
+  Scene scene = read_scene_file(find_scene("three_beakers"));
+  scene.vessels.resize(1);
+  return scene;
+}
+
+// A sphere on a bone of the index finger is a contact to 1e-7 m.
+GripInput touching_grip() {
+  GripInput grip;
+  grip.height = 0.10170970911141486;
+  grip.obliquity = -0.13093843058866886;
+  grip.roll = -1.0220236059302552;
+  return grip;
+}
+
+struct Undecided {
+  std::string who;
+  GatheredPlanes planes;
+  double form(std::size_t i) const {
+    return compared_form(FIELD_WORST_EFFORT, planes.real(planes.fields.plane[FIELD_WORST_EFFORT], i));
+  }
+  bool is_flagged(std::size_t i) const { return (planes.uint(FIELD_STATUS, i) & STATUS_CONTACT_UNDECIDED) != 0; }
+  std::uint32_t outcome(std::size_t i) const { return planes.uint(FIELD_STATUS, i) & ~std::uint32_t(STATUS_CONTACT_UNDECIDED); }
+};
+
+std::vector<Undecided> evaluated(const Scene& scene, const std::vector<GripInput>& grips) {
+  const FieldSet fields = make_field_set({FIELD_WORST_EFFORT, FIELD_STATUS, FIELD_TOUCH_MASK, FIELD_POSED}, scene);
+  std::vector<Undecided> all;
+  for (const std::string on : {"core", "vulkan"})
+    for (const Precision precision : {Precision::full, Precision::single})
+      all.push_back({on + (precision == Precision::full ? " double" : " float"),
+                     gather(*open_backend(scene, fields, on, precision, 1), 0, grips)});
+  return all;
+}
+
+// Heights from well below the rim to where bones of the hand lie on it, and obliquities nanometre by nanometre where a sphere of a hand that
+// moves along the wall becomes a contact.
+TEST(UndecidedContacts, AreFlaggedWhereverEffortsDiffer) {
+  const Scene scene = beaker_scene();
+  std::vector<GripInput> grips;
+  for (int k = 0; k < 400; ++k) {
+    GripInput grip = touching_grip();
+    grip.height = 0.09 + 4.7e-5 * k;
+    grip.obliquity = -0.1 - 1e-4 * k;
+    grips.push_back(grip);
+  }
+  const std::size_t scanned = grips.size();
+  for (int k = -60; k <= 60; ++k) {
+    GripInput grip = touching_grip();
+    grip.obliquity += 1e-7 * k;
+    grips.push_back(grip);
+  }
+  const std::vector<Undecided> all = evaluated(scene, grips);
+  std::size_t differing = 0, flagged = 0, contacts_change = 0;
+  for (std::size_t i = 0; i < grips.size(); ++i) {
+    flagged += i < scanned && all[0].is_flagged(i) ? 1 : 0;
+    contacts_change += i > scanned && std::abs(all[0].form(i) - all[0].form(i - 1)) > LARGE ? 1 : 0;
+    for (const Undecided& other : all) {
+      if (other.outcome(i) == all[0].outcome(i) && !(std::abs(other.form(i) - all[0].form(i)) > LARGE)) continue;
+      ++differing;
+      EXPECT_TRUE(other.is_flagged(i) && all[0].is_flagged(i))
+          << other.who << ", grip " << i << ": " << other.form(i) << ", " << all[0].form(i);
+    }
+  }
+  EXPECT_GT(contacts_change, 0u) << "no sphere becomes a contact here";
+  EXPECT_GT(differing, 0u) << "nothing is decided by rounding here";
+  EXPECT_LT(50 * flagged, scanned);
+}
+
+// Fingers that pass the wall within a micrometre and go on in double rest on it in float.
+TEST(UndecidedContacts, AreFlaggedWhereAFingerRestsByRounding) {
+  Scene scene = read_scene_file(find_scene("three_beakers"));
+  scene.vessels.erase(scene.vessels.begin(), scene.vessels.begin() + 2);  // beaker3
+  GripInput grip;
+  grip.height = 0.12084984338479117;
+  grip.obliquity = radians(17.81638406682759);
+  grip.roll = radians(-68.69069582317024);
+  const std::vector<Undecided> all = evaluated(scene, {grip});
+  std::size_t differing = 0;
+  for (const Undecided& one : all) {
+    EXPECT_TRUE(one.is_flagged(0)) << one.who;
+    differing += one.planes.uint(FIELD_TOUCH_MASK, 0) != all[0].planes.uint(FIELD_TOUCH_MASK, 0) ? 1 : 0;
+  }
+  EXPECT_GT(differing, 0u);
+}
+
+// What is told of the whole hand is what the score was made of, whatever answers.
+TEST(UndecidedContacts, HaveOneEffortInOneReport) {
+  const Scene scene = beaker_scene();
+  for (const std::string on : {"core", "vulkan"})
+    for (const Precision precision : {Precision::full, Precision::single}) {
+      if (on == "vulkan" && precision == Precision::full) continue;  // pipelines of all fields take long to compile
+      const GripMethods methods = open_grip_methods(scene, on, precision);
+      GripReport report = make_grip_report(scene, 0, touching_grip(), {{1}, {radians(60)}}, methods);
+      add_holding(report, scene, 0);
+      ASSERT_TRUE(report.hold) << report.device;
+      EXPECT_NEAR(1 / (1 + report.hold->worst), report.answer.score.terms.hold, 1e-6) << report.device;
+      const std::string table = grip_table(report);
+      EXPECT_NE(table.find("\n  undecided "), std::string::npos) << table;
+      const bool is_core_double = on == "core" && precision == Precision::full;
+      EXPECT_EQ(table.find("\n  from the core ") == std::string::npos, is_core_double) << table;
+      EXPECT_NE(grip_json(report).find("\"undecided\":true"), std::string::npos);
+    }
+}
+
+}  // namespace
+}  // namespace wholehand
