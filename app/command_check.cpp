@@ -11,7 +11,6 @@
 #include "evidence/check.h"
 #include "host/open_backend.h"
 #include "objects/vessel.h"
-#include "program/remedy.h"
 #include "program/vulkan_environment.h"
 #include "scene/reader.h"
 #include "scene/shipped.h"
@@ -47,12 +46,17 @@ void add_check_command(CLI::App& app, Action& action) {
       options.on = arguments->on;
       prepare_vulkan_environment(options.on);
       Scene scene = read_scene_file(find_scene(arguments->scene));
-      load_meshes(scene, [&] { return largest_buffer(options.on); });
-      const std::vector<std::string> warnings = say_float_warnings(scene, Precision::single);
+      load_meshes(scene, [&] {
+        try {
+          return largest_buffer(options.on);
+        } catch (const Error& error) {
+          throw check_error(error);
+        }
+      });
+      for (const std::string& line : check_warnings(scene)) say_note(line);
       say_cavity_notes(scene);
       if (const std::string note = idle_strength_note(scene); !note.empty()) say_note(note);
-      CheckReport report = check_scene(scene, options);
-      report.warnings = warnings;
+      const CheckReport report = check_scene(scene, options);
       print(arguments->json ? check_json(report) : check_text(report));
       return verdict_of(report).holds ? ExitCode::done : ExitCode::no;
     };

@@ -11,9 +11,10 @@ namespace {
 
 constexpr Real NEVER = std::numeric_limits<Real>::infinity();
 constexpr Real ROUNDING = EFFORT_ROUNDING;
-constexpr Real LEAST_PIVOT = SINGLE ? Real(1e-4) : Real(1e-9);  // of the largest of its column
-constexpr int FRESH_PIVOTS = 50;                                // after so many the inverse is made anew
-constexpr Real LEAST_LENGTH = Real(1e-3);                       // m: of a single contact, which has no extent
+constexpr Real LEAST_PIVOT =
+    SINGLE ? Real(1e-4) : Real(1e-9);      // of the largest of its column; where there is none, of what its row sums
+constexpr int FRESH_PIVOTS = 50;           // after so many the inverse is made anew
+constexpr Real LEAST_LENGTH = Real(1e-3);  // m: of a single contact, which has no extent
 // A basis costs at most so many times what an artificial column of the load's size does: the first one costs sqrt 6 times, and
 // pivots go down. What costs more is rounding, of a friction of 1e-200 for example.
 constexpr Real FIRST_COST = Real(3);
@@ -220,12 +221,24 @@ bool EffortSolver::enter(const Column& column, const Vec6& wanted) {
   const Real rounding = ROUNDING * std::sqrt(dot6(wanted, wanted));
   Real largest = 0;
   for (const Real value : turned) largest = std::max(largest, std::abs(value));
+  const auto is_idle = [&](std::size_t r, Real scale) {
+    return columns_[r].is_artificial && now[r] <= rounding && turned[r] < -LEAST_PIVOT * scale;
+  };
+  const auto may_leave = [&](std::size_t r, Real scale) { return is_idle(r, scale) || turned[r] > LEAST_PIVOT * scale; };
+  Vec6 scales{};
+  scales.fill(largest);
+  bool has_pivot = false;
+  for (std::size_t r = 0; r < 6; ++r) has_pivot = has_pivot || may_leave(r, largest);
+  if (!has_pivot) {  // a pivot that is small beside the others of its column is still one where it is large beside its own rounding
+    scales.fill(0);
+    for (std::size_t r = 0; r < 6; ++r)
+      for (std::size_t k = 0; k < 6; ++k) scales[r] += std::abs(inverse_[r][k] * column.point[k]);
+  }
   std::size_t leaves = 6;
   Real least = NEVER;
   for (std::size_t r = 0; r < 6; ++r) {
-    const bool is_idle = columns_[r].is_artificial && now[r] <= rounding && turned[r] < -LEAST_PIVOT * largest;
-    if (!is_idle && !(turned[r] > LEAST_PIVOT * largest)) continue;
-    const Real ratio = is_idle ? Real(0) : std::max(Real(0), now[r]) / turned[r];
+    if (!may_leave(r, scales[r])) continue;
+    const Real ratio = is_idle(r, scales[r]) ? Real(0) : std::max(Real(0), now[r]) / turned[r];
     const bool is_tie = leaves < 6 && std::abs(ratio - least) <= ROUNDING * least;
     const bool is_better = leaves < 6 && (columns_[r].is_artificial != columns_[leaves].is_artificial
                                               ? columns_[r].is_artificial
@@ -334,12 +347,18 @@ Effort EffortSolver::search(const Wrench& load, Real tolerance, Real enough, Rea
     begin(wanted);
   }
   bool is_beyond = false;
-  Vec6 best{};            // the direction of the greatest lower bound
-  bool is_fresh = false;  // the inverse
+  Vec6 best{};                       // the direction of the greatest lower bound
+  bool is_fresh = false;             // the inverse
+  std::array<Column, 6> balanced{};  // the last basis whose levels are none below zero
+  bool is_balanced = false;
   for (;; ++answer.pivots) {
     if (answer.pivots % FRESH_PIVOTS == FRESH_PIVOTS - 1 && !invert()) break;
     const Cost cost = cost_of(levels(wanted));
     const bool is_short = cost.artificial > ROUNDING * size;
+    if (!is_short && cost.least >= -ROUNDING * cost.real) {
+      balanced = columns_;
+      is_balanced = true;
+    }
     Column column = priced(is_short);
     const Real height = support(column.direction, column.point), value = dot6(column.direction, wanted);
     if (value > 0 && value > answer.low * height) {
@@ -362,7 +381,13 @@ Effort EffortSolver::search(const Wrench& load, Real tolerance, Real enough, Rea
     }
   }
   bool is_certain = !std::isfinite(answer.low);
-  if (!is_certain && invert()) {
+  // Where the digits' strengths are far apart, or columns nearly parallel, those that bring the last of the tolerance may leave forces that
+  // do not balance. All tries together take no more pivots than one may. The last try answers with those before.
+  const bool is_last_try = !is_warm && (answer.pivots >= most_pivots || tolerance >= MOST_TOLERANCE);
+  for (const bool is_end : {true, false}) {
+    if (is_certain || (!is_end && !(is_last_try && is_balanced))) break;
+    if (!is_end) columns_ = balanced;
+    if (!invert()) continue;
     last_ = levels(wanted);
     Vec6 rest = wanted;  // what rounding of the inverse leaves unbalanced, where columns are nearly parallel
     for (std::size_t r = 0; r < 6; ++r)
@@ -388,9 +413,7 @@ Effort EffortSolver::search(const Wrench& load, Real tolerance, Real enough, Rea
     answer.pivots += pivots;
     return answer;
   }
-  // Where the digits' strengths are far apart, columns that bring the last of the tolerance may leave forces that do not balance.
-  // All tries together take no more pivots than one may.
-  if (!is_certain && answer.pivots < most_pivots && tolerance < MOST_TOLERANCE) {
+  if (!is_certain && !is_last_try) {
     const int pivots = answer.pivots;
     answer = search(load, WIDER * tolerance, enough, too_much, most_pivots - pivots);
     answer.pivots += pivots;

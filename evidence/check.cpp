@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "core/error.h"
+#include "core/domain.h"
 #include "evidence/check_sample.h"
 #include "host/grip_backend.h"
 #include "system/progress.h"
@@ -49,9 +49,10 @@ class Checking {
         fields_(compared_fields(scene)),
         core_(make_core_evaluator(scene)),
         core_float_(make_core_float_evaluator(scene)),
-        translation_(scene, *core_, allowance(Precision::single)),
-        cost_(scene, *core_, float_against_double()),
-        exact_(scene, *core_, allowance(Precision::full)) {
+        translation_(scene, *core_, allowance(Precision::single), options.spreads),
+        cost_(scene, *core_, float_against_double(), options.spreads),
+        float_device_(scene, *core_, float_against_double(), Spreads::where_needed),
+        exact_(scene, *core_, allowance(Precision::full), options.spreads) {
     const Scene& device_scene = options.device_scene ? *options.device_scene : scene;
     const std::shared_ptr<const Evaluator> device_core = make_core_evaluator(device_scene);
     host::GripBackendOptions backend_options;
@@ -64,12 +65,18 @@ class Checking {
 
   void add(std::size_t v, const std::vector<GripInput>& grips) {
     const GatheredPlanes single = gather(*core_float_, fields_, v, grips), full = gather(*core_, fields_, v, grips);
-    translation_.add(v, grips, gather(*on_float_, v, grips), single);
+    const GatheredPlanes device = gather(*on_float_, v, grips);
+    translation_.add(v, grips, device, single);
     cost_.add(v, grips, single, full);
     if (on_double_) exact_.add(v, grips, gather(*on_double_, v, grips), full);
-    if (scene_.tilts.empty()) return;
+    const bool has_liquid = !scene_.tilts.empty();
     const auto liquid_float = core_liquid(scene_, *core_float_, v), liquid = core_liquid(scene_, *core_, v);
-    translation_.add_liquid(v, on_float_->liquid(v), liquid_float);
+    if (has_liquid) translation_.add_liquid(v, on_float_->liquid(v), liquid_float);
+    if (!translation_.outliers().empty()) {  // whose fault that is
+      float_device_.add(v, grips, device, full);
+      if (has_liquid) float_device_.add_liquid(v, on_float_->liquid(v), liquid);
+    }
+    if (!has_liquid) return;
     cost_.add_liquid(v, liquid_float, liquid);
     if (on_double_) exact_.add_liquid(v, on_double_->liquid(v), liquid);
   }
@@ -84,6 +91,7 @@ class Checking {
                                  translation_, scene_, samples);
     report.cost = pair_of("core_float_core_double", "core float against core double (what does single precision cost?)", cost_,
                           scene_, samples);
+    report.is_of_precision = is_of_precision(translation_, cost_, float_device_);
     if (on_double_)
       report.exact = pair_of("device_double_core_double", "device double against core double", exact_, scene_, samples);
   }
@@ -93,27 +101,45 @@ class Checking {
   FieldSet fields_;
   std::shared_ptr<const Evaluator> core_, core_float_;
   std::unique_ptr<host::GripBackend> on_float_, on_double_;
-  Comparer translation_, cost_, exact_;
+  Comparer translation_, cost_, float_device_, exact_;
 };
 
 }  // namespace
+
+std::vector<std::string> check_warnings(const Scene& scene) {
+  std::vector<std::string> lines = domain_warnings(scene, Precision::single);
+  for (std::string& line : lines) line += "; sweep with --precision double";
+  return lines;
+}
+
+Error check_error(const Error& error) {
+  const char* remedy = error.remedy == Remedy::core      ? "; sweep with --on core"
+                       : error.remedy == Remedy::or_core ? ", or sweep with --on core"
+                                                         : nullptr;
+  return remedy ? Error(error.code, std::string(error.what()) + remedy) : error;
+}
 
 CheckReport check_scene(const Scene& scene, const CheckOptions& options) {
   if (options.on == "core")
     throw usage_error("check: --on core is the reference that devices are compared with; name a Vulkan device");
   CheckReport report;
   report.scene = scene.name;
+  report.warnings = check_warnings(scene);
   const Plan plan(scene, true);
-  Checking checking(scene, options);
   std::vector<CheckSample> samples;
-  for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
-    const CheckSample& sample = samples.emplace_back(check_sample(scene, plan, v));
-    if (!options.is_quiet) show_status("comparing the grips of " + scene.vessels[v].name);
-    checking.add(v, sample.grips);
-    report.vessels.push_back({scene.vessels[v].name, sample.own, sample.grips.size() - sample.own});
+  try {
+    Checking checking(scene, options);
+    for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
+      const CheckSample& sample = samples.emplace_back(check_sample(scene, plan, v));
+      if (!options.is_quiet) show_status("comparing the grips of " + scene.vessels[v].name);
+      checking.add(v, sample.grips);
+      report.vessels.push_back({scene.vessels[v].name, sample.own, sample.grips.size() - sample.own});
+    }
+    checking.tell(report, samples);
+  } catch (const Error& error) {
+    throw check_error(error);
   }
   if (!options.is_quiet) show_status("");
-  checking.tell(report, samples);
   return report;
 }
 
@@ -122,14 +148,14 @@ CheckVerdict verdict_of(const CheckReport& report) {
   const bool in_float = report.translation.holds, in_double = report.exact && report.exact->holds;
   const bool double_fails = report.exact && !report.exact->holds;
   if (in_float && report.cost.holds && !double_fails) return {true, "the device computes what the core computes", ""};
-  const char* remedy = in_double ? "use --precision double, which holds" : "use --on core";
-  if (!in_float)
+  const char* remedy = in_double ? "sweep with --precision double, which holds" : "sweep with --on core";
+  if (!in_float && !report.is_of_precision)
     return {false,
             in_double      ? "in float the device does NOT compute what the core computes"
             : double_fails ? "the device does NOT compute what the core computes, in float nor in double"
                            : "the device does NOT compute what the core computes, and has no double precision",
             remedy};
-  if (!report.cost.holds)
+  if (!in_float || !report.cost.holds)
     return {false,
             std::string("single precision costs this scene more than the tolerances") +
                 (in_double      ? ""
@@ -137,7 +163,7 @@ CheckVerdict verdict_of(const CheckReport& report) {
                                 : ", and the device has no double precision"),
             remedy};
   return {false, "in double the device does NOT compute what the core computes",
-          "use --precision float, which holds, or --on core"};
+          "sweep with --precision float, which holds, or with --on core"};
 }
 
 }  // namespace wholehand

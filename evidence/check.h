@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.h"
 #include "core/scene.h"
 #include "evidence/compare.h"
 #include "host/device.h"
@@ -17,7 +18,9 @@ namespace wholehand {
 struct CheckOptions {
   std::string on = "vulkan";  // see open_backend
   host::DeviceOptions device;
-  bool is_quiet = false;                // no status line on a terminal
+  bool is_quiet = false;  // no status line on a terminal
+  // What is outside is the same; where_needed takes a tenth of the time, and leaves tolerances out of the tables.
+  Spreads spreads = Spreads::of_all;
   const Scene* device_scene = nullptr;  // tests: what the device evaluates instead of the scene
 };
 
@@ -50,10 +53,11 @@ struct CheckedVessel {
 struct CheckReport {
   std::string scene, device, driver;
   bool is_cpu = false, has_double = false;
-  std::vector<std::string> warnings;  // what of the scene is beyond float's domain: set by the caller, who knows the remedy
+  std::vector<std::string> warnings;  // check_warnings
   std::vector<CheckedVessel> vessels;
   CheckedPair translation;           // device in float, core in float
   CheckedPair cost;                  // core in float, core in double
+  bool is_of_precision = false;      // where the first does not hold: because of single precision, and not of the device
   std::optional<CheckedPair> exact;  // device in double, core in double; none on a device without double
 };
 
@@ -65,8 +69,14 @@ struct CheckVerdict {
       advice;  // what gives right numbers here, which the comparisons have shown; empty where it holds or nothing was compared
 };
 
+// What of the scene is beyond float's domain, a line each, with the remedy.
+std::vector<std::string> check_warnings(const Scene& scene);
+
+// The error of a device, for a command that the core does not help: the remedy is a sweep's.
+Error check_error(const Error& error);
+
 // Compares the device with the core in float and in double, per kernel and whole, on check_sample of every vessel. Throws Error (usage) for
-// the core as a device and what cannot be made ready, (failure) for a device that does not answer.
+// the core as a device and what cannot be made ready, (failure) for a device that does not answer, both as check_error.
 CheckReport check_scene(const Scene& scene, const CheckOptions& options);
 
 CheckVerdict verdict_of(const CheckReport& report);

@@ -154,8 +154,8 @@ class StateEfforts {
   GatheredPlanes planes_;
 };
 
-// Takes a difference into its row; true: over the tolerance.
-bool note_difference(Comparison& entry, double scale, std::size_t vessel, std::size_t grip, double difference, double tolerance) {
+// Takes a difference into its row. Answers it where it is over the tolerance, else 0.
+double note_difference(Comparison& entry, double scale, std::size_t vessel, std::size_t grip, double difference, double tolerance) {
   if (entry.worst == 0 && difference == 0) entry.tolerance = std::max(entry.tolerance, tolerance * scale);
   if (difference > entry.worst / scale) {
     entry.worst = difference * scale;
@@ -164,7 +164,7 @@ bool note_difference(Comparison& entry, double scale, std::size_t vessel, std::s
     entry.grip = grip;
   }
   entry.worst_ratio = std::max(entry.worst_ratio, difference == 0 ? 0 : difference / tolerance);
-  return difference > tolerance;
+  return difference > tolerance ? difference : 0;
 }
 
 // A length over which the hand reaches, m: it turns shifts into angles.
@@ -235,6 +235,13 @@ Comparison& Comparer::row(const std::string& kernel, const std::string& quantity
     if (existing.kernel == kernel && existing.quantity == quantity) return existing;
   rows_.push_back({kernel, quantity, unit, 0, 0, 0, 0, 0, 0, 0});
   return rows_.back();
+}
+
+// Where the difference is more than nothing: it is outside of its tolerance.
+void Comparer::count_outside(Comparison& entry, std::size_t vessel, std::size_t grip, double difference) {
+  if (!(difference > 0)) return;
+  ++entry.outside;
+  outliers_.push_back({static_cast<std::size_t>(&entry - rows_.data()), vessel, grip, difference});
 }
 
 // How far the core's own answers move where grips, tips and strengths move by what either side may be off: of each number, and
@@ -391,7 +398,7 @@ std::vector<char> Comparer::add_outcomes(std::size_t vessel, const GatheredPlane
     if (spread.undecided[i] != 0) {
       ++excluded_;
     } else {
-      ++outcomes.outside;
+      count_outside(outcomes, vessel, i, 1);
       outcomes.worst += 1;
       outcomes.vessel = vessel;
       outcomes.grip = i;
@@ -420,13 +427,13 @@ void Comparer::add_numbers(std::size_t vessel, const GatheredPlanes& a, const Ga
     for (std::size_t i = 0; i < left_out.size(); ++i) {
       if (left_out[i] != 0) continue;
       ++entry.compared;
-      bool over = false;
+      double over = 0;
       for (int p = 0; p < planes; ++p) {
         const int plane = a.fields.plane[field.number] + p;
         const double difference = figure_difference(a.real(plane, i), b.real(plane, i));
-        over = note_difference(entry, unit.scale, vessel, i, difference, tolerance(field.number, p, i)) || over;
+        over = std::max(over, note_difference(entry, unit.scale, vessel, i, difference, tolerance(field.number, p, i)));
       }
-      entry.outside += over ? 1 : 0;
+      count_outside(entry, vessel, i, over);
     }
   }
 }
@@ -496,7 +503,7 @@ void Comparer::add_tilts(std::size_t vessel, const std::vector<GripInput>& grips
     if (left_out[i] != 0 || (a.uint(FIELD_STATUS, i) & STATUS_REASON_MASK) != REASON_NONE) continue;
     ++peak.compared;
     ++safe.compared;
-    bool peak_over = false, safe_over = false;
+    double peak_over = 0, safe_over = 0;
     for (int fill = 0; fill < static_cast<int>(scene_fills(scene_)); ++fill) {
       const std::size_t first = fill * tilts;
       const auto told = [&](const GatheredPlanes& side, int field) {
@@ -505,18 +512,19 @@ void Comparer::add_tilts(std::size_t vessel, const std::vector<GripInput>& grips
       const std::optional<std::size_t> told_a = told(a, FIELD_PEAK_TILT), told_b = told(b, FIELD_PEAK_TILT);
       constexpr double WRONG = std::numeric_limits<double>::infinity();
       if (told_a.value_or(0) == 0 || told_b.value_or(0) == 0) {
-        peak_over |= note_difference(peak, 1e3, vessel, i, WRONG, 0);
+        peak_over = std::max(peak_over, note_difference(peak, 1e3, vessel, i, WRONG, 0));
         continue;
       }
       const std::size_t peak_a = first + *told_a - 1, peak_b = first + *told_b - 1;
       const auto feedback = [&](std::size_t state) {
         return b.real(fields.plane[FIELD_FEEDBACK_FORCE] + static_cast<int>(state), i);
       };
-      peak_over |= note_difference(peak, 1e3, vessel, i, std::max(0.0, feedback(peak_b) - feedback(peak_a)),
-                                   tolerance(FIELD_FEEDBACK_FORCE, peak_a, i) + tolerance(FIELD_FEEDBACK_FORCE, peak_b, i));
+      const double of_peak = tolerance(FIELD_FEEDBACK_FORCE, peak_a, i) + tolerance(FIELD_FEEDBACK_FORCE, peak_b, i);
+      peak_over =
+          std::max(peak_over, note_difference(peak, 1e3, vessel, i, std::max(0.0, feedback(peak_b) - feedback(peak_a)), of_peak));
       const std::optional<std::size_t> safe_told_a = told(a, FIELD_SAFE_TILT), safe_told_b = told(b, FIELD_SAFE_TILT);
       if (!safe_told_a || !safe_told_b) {
-        safe_over |= note_difference(safe, 1e3, vessel, i, WRONG, 0);
+        safe_over = std::max(safe_over, note_difference(safe, 1e3, vessel, i, WRONG, 0));
         continue;
       }
       const std::size_t safe_a = *safe_told_a, safe_b = *safe_told_b;
@@ -525,21 +533,21 @@ void Comparer::add_tilts(std::size_t vessel, const std::vector<GripInput>& grips
       const GatheredPlanes& stricter = safe_a < safe_b ? a : b;
       const std::size_t state = first + std::min(safe_a, safe_b);
       const double normal = stricter.real(fields.plane[FIELD_NORMAL_FORCE] + static_cast<int>(state), i) - scene_.force.max;
-      // with efforts, in shares of the strength
+      // with efforts, by how much 1 / (1 + effort) is below that of an effort of 1
       const double hold =
-          by_effort ? efforts.of(i, state) - 1
+          by_effort ? compared_form(FIELD_EFFORT, 1) - compared_form(FIELD_EFFORT, efforts.of(i, state))
                     : stricter.real(fields.plane[FIELD_HOLD_FORCE] + static_cast<int>(state), i) - scene_.force.grip_strength;
-      // the stricter side's own forces must say so too
-      // an effort e moves by (1 + e)^2 of what 1 / (1 + e) moves by, and here e is 1; hold forces are the stricter side's own
-      const double of_hold =
-          by_effort ? 4 * tolerance(FIELD_WORST_EFFORT, 0, i) + EFFORT_SHARE : tolerance(FIELD_HOLD_FORCE, state, i);
+      // the stricter side's own forces must say so too; hold forces are the stricter side's own
+      double of_hold = by_effort ? tolerance(FIELD_WORST_EFFORT, 0, i) + EFFORT_SHARE / 4 : tolerance(FIELD_HOLD_FORCE, state, i);
+      // the effort of this state may move more than that of the worst one does: from less than 1 to infinite, at the limit of friction
+      if (by_effort && std::abs(hold) > of_hold) of_hold += 2 * moves_state(vessel, grips[i], state);
       const double least_hold = by_effort ? -of_hold : 0;
       const double by_normal = normal < 0 && !(hold > least_hold) ? std::numeric_limits<double>::infinity() : std::max(0.0, normal);
-      safe_over |= note_difference(safe, 1e3, vessel, i, by_normal, tolerance(FIELD_NORMAL_FORCE, state, i));
-      safe_over |= note_difference(safe, 1e3, vessel, i, std::max(0.0, hold), of_hold);
+      safe_over = std::max({safe_over, note_difference(safe, 1e3, vessel, i, by_normal, tolerance(FIELD_NORMAL_FORCE, state, i)),
+                            note_difference(safe, 1e3, vessel, i, std::max(0.0, hold), of_hold)});
     }
-    peak.outside += peak_over ? 1 : 0;
-    safe.outside += safe_over ? 1 : 0;
+    count_outside(peak, vessel, i, peak_over);
+    count_outside(safe, vessel, i, safe_over);
   }
 }
 
@@ -571,7 +579,7 @@ void Comparer::add_worst_states(std::size_t vessel, const std::vector<GripInput>
       most = wrong;
       of_most = allowed;
     }
-    entry.outside += note_difference(entry, scale, vessel, i, most, of_most) ? 1 : 0;
+    count_outside(entry, vessel, i, note_difference(entry, scale, vessel, i, most, of_most));
   }
 }
 
@@ -623,13 +631,28 @@ void Comparer::add_liquid(std::size_t vessel, const std::vector<LiquidResult>& a
     for (std::size_t s = 0; s < a.size(); ++s) {
       const double difference = figure_difference(value(a[s]), value(b[s]));
       ++entry.compared;
-      entry.outside += note_difference(entry, scale, vessel, s, difference, tolerance) ? 1 : 0;
+      count_outside(entry, vessel, s, note_difference(entry, scale, vessel, s, difference, tolerance));
     }
   };
   compare("volume", "mL", 1e6, of_volume, [](const LiquidResult& r) { return r.volume; });
   compare("poured", "mL", 1e6, of_volume, [](const LiquidResult& r) { return r.poured; });
   compare("lean moment", "mL mm", 1e9, of_moment, [](const LiquidResult& r) { return r.volume * r.lean; });
   compare("height moment", "mL mm", 1e9, of_moment, [](const LiquidResult& r) { return r.volume * r.height; });
+}
+
+bool is_of_precision(const Comparer& translation, const Comparer& cost, const Comparer& device) {
+  const auto off = [](const Comparer& comparer, const Outlier& at) {
+    for (const Outlier& other : comparer.outliers())
+      if (other.row == at.row && other.vessel == at.vessel && other.grip == at.grip) return other.difference;
+    return 0.0;
+  };
+  const auto is_the_cores = [&](const Outlier& outlier) {
+    const double of_core = off(cost, outlier);
+    return of_core > 0 && off(device, outlier) <= of_core;
+  };
+  const std::vector<Outlier>& outliers = translation.outliers();
+  return !outliers.empty() && translation.excluded() <= translation.allowed() &&
+         std::all_of(outliers.begin(), outliers.end(), is_the_cores);
 }
 
 bool Comparer::holds() const {

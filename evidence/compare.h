@@ -54,6 +54,12 @@ struct Flip {
   bool inside = false;
 };
 
+// A grip that is outside of its tolerance, or whose outcome is another one beyond the margin: in which row, and by how much.
+struct Outlier {
+  std::size_t row = 0, vessel = 0, grip = 0;
+  double difference = 0;  // in the row's unit; of an outcome 1
+};
+
 // For which grips the core's own answers are moved, at twenty evaluations a grip. Where needed: where the sides differ by more than is
 // allowed without. What is outside, excluded and grazing is the same; tolerances and shares of them are then those without, where these are
 // enough.
@@ -76,6 +82,7 @@ class Comparer {
   std::uint64_t feasible() const { return feasible_; }  // by the core
   std::uint64_t excluded() const { return excluded_; }  // discrete outcomes differ within the margin
   const std::vector<Flip>& flips() const { return flips_; }
+  const std::vector<Outlier>& outliers() const { return outliers_; }
   std::uint64_t allowed() const { return allowed_flips(grips_ - grazing_); }  // so many excluded are no evidence
   // No number outside its tolerance, no more excluded than allowed, and not all of them left out.
   bool holds() const;
@@ -108,6 +115,7 @@ class Comparer {
   double shift(std::size_t vessel) const;
   std::optional<std::size_t> place_told(double told, const std::vector<double>& listed, double largest) const;
   Comparison& row(const std::string& kernel, const std::string& quantity, const std::string& unit);
+  void count_outside(Comparison& entry, std::size_t vessel, std::size_t grip, double difference);
 
   const Scene& scene_;
   const Evaluator& core_;
@@ -116,7 +124,13 @@ class Comparer {
   std::vector<std::shared_ptr<const Evaluator>> others_;  // with tips and strengths as far off as either side may be
   std::vector<Comparison> rows_;
   std::vector<Flip> flips_;
+  std::vector<Outlier> outliers_;
   std::uint64_t grips_ = 0, grazing_ = 0, excluded_ = 0, feasible_ = 0;
 };
+
+// Whether single precision is why a device in float and the core in float differ (`translation`), and not the device: wherever they do, the
+// core in float is itself outside of the core in double (`cost`), and the device in float (`device`: against the core in double) is no
+// further off. All three compare the same grips of one scene.
+bool is_of_precision(const Comparer& translation, const Comparer& cost, const Comparer& device);
 
 }  // namespace wholehand

@@ -22,7 +22,6 @@ py::tuple check(SceneHandle& handle, const std::string& on) {
     options.on = on;
     options.is_quiet = true;
     report = check_scene(handle.whole(on), options);
-    report.warnings = handle.float_notes(Precision::single);
   }
   return py::make_tuple(verdict_of(report).holds, check_text(report), check_json(report));
 }

@@ -116,13 +116,20 @@ bool enter(Six point, Real levels[6], Real rounding, bool allowed) {
   levels_of(point, turned);
   Real largest = Real(0);
   [[unroll]] for (int r = 0; r < 6; ++r) largest = max(largest, abs(turned[r]));
+  bool has_pivot = false;
+  [[unroll]] for (int r = 0; r < 6; ++r) {
+    bool may_be_idle = basis.is_artificial[r] && levels[r] <= rounding;
+    has_pivot = has_pivot || (may_be_idle ? abs(turned[r]) : turned[r]) > LEAST_PIVOT * largest;
+  }
   int leaves = 6;
   Real least = NO_DISTANCE, pivot = Real(0);
   bool is_artificial = false;
   Six row = Six(Vec3(0), Vec3(0));
   [[unroll]] for (int r = 0; r < 6; ++r) {
-    bool is_idle = basis.is_artificial[r] && levels[r] <= rounding && turned[r] < -LEAST_PIVOT * largest;
-    bool may_leave = is_idle || turned[r] > LEAST_PIVOT * largest;
+    Real summed = dot(abs(basis.inverse[r].first), abs(point.first)) + dot(abs(basis.inverse[r].second), abs(point.second));
+    Real least_pivot = LEAST_PIVOT * (has_pivot ? largest : summed);
+    bool is_idle = basis.is_artificial[r] && levels[r] <= rounding && turned[r] < -least_pivot;
+    bool may_leave = is_idle || turned[r] > least_pivot;
     Real ratio = is_idle ? Real(0) : max(Real(0), levels[r]) / turned[r];
     bool is_tie = leaves < 6 && abs(ratio - least) <= ROUNDING * least;
     bool is_better = basis.is_artificial[r] != is_artificial ? basis.is_artificial[r] : abs(turned[r]) > abs(pivot);

@@ -240,6 +240,16 @@ TEST(CommandLine, SaysWhenThereIsNoVulkan) {
     EXPECT_EQ(outcome.output.find('\n'), outcome.output.size() - 1) << outcome.output;
     EXPECT_NE(outcome.output.find("install mesa-vulkan-drivers"), std::string::npos) << outcome.output;
     for (const char* left : {"", ".partial"}) EXPECT_FALSE(std::filesystem::exists(result + left)) << left;
+    if (!arguments.starts_with("check")) continue;
+    const std::string words = "sweep with ";  // the remedy, which is followed
+    const std::size_t remedy = outcome.output.find(words);
+    ASSERT_NE(remedy, std::string::npos) << outcome.output;
+    const Outcome followed =
+        run("VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent PROGRAM sweep small -o " + result + " " +
+            outcome.output.substr(remedy + words.size(), outcome.output.find('\n') - remedy - words.size()) + " 2>&1");
+    EXPECT_EQ(followed.code, 0) << followed.output;
+    for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::temp_directory_path()))
+      if (entry.path().filename().string().starts_with("wholehand_cli_test.")) std::filesystem::remove(entry.path());
   }
   const std::string own = std::filesystem::temp_directory_path() / "wholehand_cli_auto_test.nc";
   const Outcome chosen = run("VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent PROGRAM sweep small -o " + own);

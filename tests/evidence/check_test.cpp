@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "evidence/check_sample.h"
 #include "scene/reader.h"
 #include "scene/shipped.h"
 #include "system/json.h"
@@ -72,7 +73,7 @@ TEST(Check, SaysNoWhereAConstantDiffersOnOneSide) {
   const CheckReport report = check_scene(scene, options);
   const CheckVerdict verdict = verdict_of(report);
   EXPECT_FALSE(verdict.holds);
-  EXPECT_EQ(verdict.advice, "use --on core") << "neither precision of this device is right";
+  EXPECT_EQ(verdict.advice, "sweep with --on core") << "neither precision of this device is right";
   EXPECT_EQ(check_text(report).find("DOES NOT HOLD: the device does NOT compute what the core computes"), 0u);
   const auto json = parse_json(check_json(report));
   EXPECT_EQ(json["holds"], false);
@@ -109,12 +110,59 @@ TEST(Check, AdvisesWhatTheComparisonsHaveShown) {
         const CheckVerdict verdict = verdict_of(report_of(translation, cost, exact));
         const std::string what = std::to_string(translation) + std::to_string(cost) + std::to_string(exact) + " " + verdict.advice;
         EXPECT_FALSE(verdict.holds) << what;
+        EXPECT_TRUE(verdict.advice.starts_with("sweep with --")) << what << ": check itself has no such options";
         EXPECT_EQ(verdict.advice.find("--precision double") != std::string::npos, exact == 1) << what;
         EXPECT_EQ(verdict.advice.find("--precision float") != std::string::npos, translation && cost) << what;
         EXPECT_EQ(verdict.advice.find("--on core") != std::string::npos, exact != 1) << what;
       }
     }
   }
+}
+
+// A difference is the device's, unless the core in float is itself off there and the device in float no further.
+TEST(Check, BlamesTheDeviceOnlyForWhatIsItsOwn) {
+  const Scene scene = small_scene();
+  const auto core = make_core_evaluator(scene);
+  const std::vector<GripInput> grips = check_sample(scene, Plan(scene, true), 0).grips;
+  const GatheredPlanes right = gather(*core, compared_fields(scene), 0, grips);
+  const auto score_off = [&](double by) {
+    GatheredPlanes planes = right;
+    for (std::size_t i = 0; i < planes.count; ++i) {
+      double& score = planes.reals[static_cast<std::size_t>(planes.fields.plane[FIELD_SCORE]) * planes.count + i];
+      if (score > 0) {
+        score += by;
+        break;
+      }
+    }
+    return planes;
+  };
+  const auto of_precision = [&](const GatheredPlanes& device, const GatheredPlanes& core_float) {
+    const auto compared = [&](const GatheredPlanes& a, const GatheredPlanes& b, Allowance allowed) {
+      Comparer comparer(scene, *core, allowed, Spreads::where_needed);
+      comparer.add(0, grips, a, b);
+      return comparer;
+    };
+    const Comparer translation = compared(device, core_float, allowance(Precision::single));
+    EXPECT_FALSE(translation.holds());
+    return is_of_precision(translation, compared(core_float, right, float_against_double()),
+                           compared(device, right, float_against_double()));
+  };
+  EXPECT_TRUE(of_precision(right, score_off(0.2))) << "the core in float alone is off";
+  EXPECT_TRUE(of_precision(score_off(0.1), score_off(0.2))) << "both are off, the device less";
+  EXPECT_FALSE(of_precision(score_off(0.2), right)) << "the device alone is off";
+  EXPECT_FALSE(of_precision(score_off(0.4), score_off(0.2))) << "both are off, the device more";
+
+  CheckReport report = report_of(false, false, 1);
+  report.is_of_precision = true;
+  EXPECT_EQ(verdict_of(report).text, "single precision costs this scene more than the tolerances");
+  EXPECT_EQ(verdict_of(report).advice, "sweep with --precision double, which holds");
+}
+
+TEST(Check, ARemedyNamesTheCommandThatHasIt) {
+  EXPECT_STREQ(check_error(failure_error("it was lost; try again", Remedy::or_core)).what(),
+               "it was lost; try again, or sweep with --on core");
+  EXPECT_STREQ(check_error(failure_error("no memory", Remedy::core)).what(), "no memory; sweep with --on core");
+  EXPECT_EQ(check_error(failure_error("no memory", Remedy::core)).remedy, Remedy::none);
 }
 
 TEST(Check, RefusesTheCoreAsADevice) {

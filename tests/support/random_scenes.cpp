@@ -4,40 +4,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <vector>
 
 #include "core/error.h"
 #include "core/evaluator.h"
 #include "scene/reader.h"
-#include "tests/support/scenes.h"
+#include "tests/support/scene_draw.h"
 
 namespace wholehand {
 namespace {
 
-// What a scene is drawn with.
-class Draw {
- public:
-  explicit Draw(std::uint64_t seed) : random_(seed) {}
-
-  double between(double low, double high) { return random_.uniform(low, high); }
-  // Evenly in the logarithm.
-  double over(double low, double high) { return std::exp(between(std::log(low), std::log(high))); }
-  bool chance(double share) { return between(0, 1) < share; }
-  int of(int count) { return static_cast<int>(between(0, count)); }
-  std::string word(const std::vector<std::string>& words) {
-    return words[static_cast<std::size_t>(of(static_cast<int>(words.size())))];
-  }
-
- private:
-  Random random_;
-};
-
 std::string key(const char* name, double value) { return fmt::format("{} = {:.9g}\n", name, value); }
 
 // So many numbers of a range, ascending, each once.
-std::string ascending(Draw& draw, int count, double low, double high) {
+std::string ascending(SceneDraw& draw, int count, double low, double high) {
   std::set<double> values;
   while (static_cast<int>(values.size()) < count)
     values.insert(draw.chance(0.1) ? (draw.chance(0.5) ? low : high) : draw.between(low, high));
@@ -47,7 +28,7 @@ std::string ascending(Draw& draw, int count, double low, double high) {
 }
 
 // Outwards from the base and upwards, of segments and of arcs whose centre is anywhere on the perpendicular through their middle.
-std::string random_outline(Draw& draw, double size) {
+std::string random_outline(SceneDraw& draw, double size) {
   double r = size * draw.between(0.1, 0.5), y = 0;
   std::string text = fmt::format("outline = [\n  {{ line = [{:.9g}, 0] }},\n", r);
   const int count = 1 + draw.of(8);
@@ -67,7 +48,7 @@ std::string random_outline(Draw& draw, double size) {
 }
 
 // `size`: its largest diameter or about that, mm.
-std::string random_form(Draw& draw, double size) {
+std::string random_form(SceneDraw& draw, double size) {
   const double height = size * draw.over(0.4, 4);
   switch (draw.of(4)) {
     case 0:
@@ -86,7 +67,7 @@ std::string random_form(Draw& draw, double size) {
   }
 }
 
-std::string random_vessel(Draw& draw, int number, double size) {
+std::string random_vessel(SceneDraw& draw, int number, double size) {
   std::string text = fmt::format("\n[[vessel]]\nname = \"v{}\"\n", number) + random_form(draw, size);
   const bool has_mass = draw.chance(0.3), has_wall = !has_mass || draw.chance(0.5);
   if (has_wall) text += key("wall_mm", std::clamp(size * draw.over(0.003, 0.15), 0.05, 100.0));
@@ -103,7 +84,7 @@ std::string random_vessel(Draw& draw, int number, double size) {
 }
 
 // Proportions near the default's, so that the gap still falls as the hand closes; some of them bare points.
-std::string random_fingers(Draw& draw) {
+std::string random_fingers(SceneDraw& draw) {
   const HandData usual;
   std::string text;
   for (std::size_t f = 0; f < FINGER_COUNT; ++f) {
@@ -119,7 +100,7 @@ std::string random_fingers(Draw& draw) {
   return text;
 }
 
-std::string random_hand(Draw& draw, double scale) {
+std::string random_hand(SceneDraw& draw, double scale) {
   std::string text = "[hand]\n" + key("scale", scale);
   if (draw.chance(0.5)) text += "handedness = \"left\"\n";
   if (draw.chance(0.6)) text += key("contact_tolerance_mm", draw.chance(0.3) ? 0 : draw.over(1e-5, 10));
@@ -133,7 +114,7 @@ std::string random_hand(Draw& draw, double scale) {
   return text;
 }
 
-std::string random_forces(Draw& draw) {
+std::string random_forces(SceneDraw& draw) {
   std::string text, strength;
   if (draw.chance(0.6)) {
     text += fmt::format("[liquid]\nfills = {}\n", ascending(draw, 1 + draw.of(3), 0, 1));
@@ -159,7 +140,7 @@ std::string random_forces(Draw& draw) {
 }
 
 // A number, a list or a range.
-std::string random_axis(Draw& draw, const char* name, double low, double high) {
+std::string random_axis(SceneDraw& draw, const char* name, double low, double high) {
   if (draw.chance(0.4)) return key(name, draw.between(low, high));
   if (draw.chance(0.5)) return fmt::format("{} = {}\n", name, ascending(draw, 2 + draw.of(2), low, high));
   const double from = draw.between(low, high);
@@ -176,7 +157,7 @@ bool has_bare_tips(const std::string& hand) {
   return bare("[hand.thumb]") || bare("[hand.index]");
 }
 
-std::string random_grips(Draw& draw, double size, bool beside_edges) {
+std::string random_grips(SceneDraw& draw, double size, bool beside_edges) {
   std::string text = "[grips]\n";
   const double least = beside_edges ? 1e-3 : 0;
   text += fmt::format("height_fraction = {}\n", ascending(draw, 2 + draw.of(3), least, 1 - least));
@@ -196,7 +177,7 @@ void add_key(std::string& text, const std::string& table, const std::string& key
 }
 
 // Drawn last, so that the rest of a scene is what it was before there were these keys.
-void add_later_keys(Draw& draw, std::string& text) {
+void add_later_keys(SceneDraw& draw, std::string& text) {
   if (draw.chance(0.3)) text += "[table]\n" + key("clearance_mm", draw.between(0, 10));
   if (draw.chance(0.3) && text.find("[liquid]") != std::string::npos)
     add_key(text, "[tilts]", key("until_poured", draw.chance(0.2) ? 1 : draw.over(1e-3, 1)));
@@ -215,7 +196,7 @@ void add_later_keys(Draw& draw, std::string& text) {
 }
 
 std::string random_scene_text(std::uint64_t seed) {
-  Draw draw(seed);
+  SceneDraw draw(seed);
   std::string text = fmt::format("[scene]\nname = \"random-{}\"\npose = \"{}\"\n", seed,
                                  draw.word({"articulated", "articulated", "paper", "rigged"}));
   if (draw.chance(0.2)) text += key("gravity_m_s2", draw.chance(0.2) ? 0 : draw.between(0, 100));
