@@ -126,6 +126,9 @@ std::string largest_differences(const Agreement& agreement) {
   return joined(parts, ", ");
 }
 
+// Whether the core has swept, so that it is compared with itself.
+bool is_of_core(const ReportSource& source) { return source.result.origin().backend == "core"; }
+
 std::string agreement_text(const ReportSource& source, const Agreement& agreement) {
   const bool is_all = agreement.grips == source.plan.stored_grips();
   const std::string stored = counted(source.plan.stored_grips(), "grip");
@@ -134,7 +137,11 @@ std::string agreement_text(const ReportSource& source, const Agreement& agreemen
              : fmt::format("The core computed {} of {} again in double precision", readable_number(agreement.grips), stored);
   text += fmt::format("; {} feasible. ", counted(agreement.feasible, "of them is", "of them are"));
   if (agreement.holds()) {
-    text += agreement.rows.empty() ? "They agree." : "Every number agrees within its tolerance.";
+    text += is_of_core(source)
+                ? "The file holds these numbers. The core computed them for the sweep, too: no device was compared with it; "
+                  "`wholehand check` does that."
+            : agreement.rows.empty() ? "They agree."
+                                     : "Every number agrees within its tolerance.";
   } else {
     text += fmt::format("{} and {} do NOT agree.", counted(agreement.outside, "number"),
                         counted(agreement.flipped, "discrete outcome"));
@@ -200,7 +207,10 @@ void write_agreement(MarkupWriter& html, const ReportSource& source, std::size_t
     return;
   }
   const Agreement agreement = compare_with_core(source, vessel);
-  html.element("p", agreement_text(source, agreement), {{"class", agreement.holds() ? "good" : "bad"}});
+  html.element("p", agreement_text(source, agreement),
+               {{"class", !agreement.holds()   ? "bad"
+                          : is_of_core(source) ? "note"
+                                               : "good"}});
   html.open("details").element("summary", "Each quantity");
   HtmlTable table(html, fmt::format("{}: the file compared with the core, on the sample", source.scene.vessels[vessel].name),
                   {"quantity", "unit", "largest difference", "tolerance there", "grips", "beyond"}, {1});

@@ -152,7 +152,9 @@ TEST(Agreement, OfManyGripsTakesASampleAndAllThatAreListed) {
 TEST(Agreement, IsToldInWords) {
   const std::string html = written_agreement(SweptScene(RESULT_SCENE), 0);
   EXPECT_NE(html.find("The core computed all 216 grips again"), std::string::npos);
-  EXPECT_NE(html.find("Every number agrees within its tolerance"), std::string::npos);
+  EXPECT_NE(html.find("no device was compared with it"), std::string::npos);
+  EXPECT_EQ(html.find("agrees within its tolerance"), std::string::npos) << "the core is compared with itself";
+  EXPECT_EQ(html.find("class=\"good\""), std::string::npos) << "no tick for that";
   EXPECT_NE(html.find("Reasons, flags and masks are equal in"), std::string::npos);
   EXPECT_NE(written_agreement(SweptScene(edited(RESULT_SCENE, "best = 5", "best = 5\nkeep = []")), 0).find("nothing to compare"),
             std::string::npos);
