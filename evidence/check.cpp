@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "evidence/check.h"
 
+#include <functional>
 #include <memory>
+#include <optional>
 
 #include "core/domain.h"
 #include "evidence/check_sample.h"
@@ -61,6 +63,15 @@ class Checking {
     if (!on_float_->device().float64) return;
     backend_options.precision = Precision::full;
     on_double_ = std::make_unique<host::GripBackend>(device_scene, device_core, fields_, options.on, backend_options);
+  }
+
+  // The evaluations of the core that add makes of so many grips of the vessel.
+  std::uint64_t evaluations(std::size_t v, std::size_t grips) const {
+    return translation_.evaluations(v, grips) + cost_.evaluations(v, grips) + (on_double_ ? exact_.evaluations(v, grips) : 0);
+  }
+
+  void on_evaluated(const std::function<void(std::uint64_t)>& done) {
+    for (Comparer* comparer : {&translation_, &cost_, &exact_}) comparer->on_evaluated(done);
   }
 
   void add(std::size_t v, const std::vector<GripInput>& grips) {
@@ -129,9 +140,18 @@ CheckReport check_scene(const Scene& scene, const CheckOptions& options) {
   std::vector<CheckSample> samples;
   try {
     Checking checking(scene, options);
+    std::uint64_t total = 0, done = 0;
     for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
-      const CheckSample& sample = samples.emplace_back(check_sample(scene, plan, v));
-      if (!options.is_quiet) show_status("comparing the grips of " + scene.vessels[v].name);
+      samples.push_back(check_sample(scene, plan, v));
+      total += checking.evaluations(v, samples[v].grips.size());
+    }
+    std::optional<Progress> progress;  // from the first evaluation on: the device makes its kernels ready before
+    for (std::size_t v = 0; v < scene.vessels.size(); ++v) {
+      const CheckSample& sample = samples[v];
+      checking.on_evaluated([&](std::uint64_t evaluated) {
+        if (!progress) progress.emplace(total, 0, "evaluations", options.is_quiet ? ProgressSink::none : progress_sink());
+        progress->update("comparing the grips of " + scene.vessels[v].name, done += evaluated);
+      });
       checking.add(v, sample.grips);
       report.vessels.push_back({scene.vessels[v].name, sample.own, sample.grips.size() - sample.own});
     }
@@ -139,7 +159,6 @@ CheckReport check_scene(const Scene& scene, const CheckOptions& options) {
   } catch (const Error& error) {
     throw check_error(error);
   }
-  if (!options.is_quiet) show_status("");
   return report;
 }
 

@@ -335,6 +335,17 @@ bool Comparer::asks_worst_state(std::size_t vessel, const GatheredPlanes& a, con
   return !of_a || of_a != worst_state(vessel, b, i) || of_a != worst_state(vessel, truth, i);
 }
 
+// Beside an edge, the distances to edge and face differ by x^2 / 2r at x from where they are equal, so the face that is nearest after
+// rounding may be another one up to here, and the normal with it.
+double Comparer::corner(std::size_t vessel) const {
+  return std::sqrt(2 * tip_radius(scene_.hand) * allowed_.epsilon * (reach(scene_) + scene_.vessels[vessel].height));
+}
+
+std::uint64_t Comparer::evaluations(std::size_t vessel, std::size_t grips) const {
+  const std::uint64_t ways = corner(vessel) > shift(vessel) ? 2 * WAYS : WAYS;
+  return grips * (ways + others_.size());
+}
+
 Comparer::Spread Comparer::spread_of(std::size_t vessel, const std::vector<GripInput>& all, const GatheredPlanes& truth,
                                      const std::vector<std::size_t>& chosen) const {
   const FieldSet& fields = truth.fields;
@@ -346,6 +357,7 @@ Comparer::Spread Comparer::spread_of(std::size_t vessel, const std::vector<GripI
   for (const std::size_t i : chosen) grips.push_back(all[i]);
   // of the planes from `first` on, which are those from `first_of_other` on of the other
   const auto spread_to = [&](GatheredPlanes other, int first, int first_of_other, int planes) {
+    on_evaluated_(m);
     to_compared_form(other);
     std::vector<char> differing(m, 0);
     for (std::size_t k = 0; k < m; ++k) {
@@ -361,12 +373,11 @@ Comparer::Spread Comparer::spread_of(std::size_t vessel, const std::vector<GripI
         if (std::isfinite(difference) || differing[k] == 0) most = std::max(most, difference);
       }
   };
+  on_evaluated_(0);
   for (int way = 0; way < WAYS; ++way)
     spread_to(gather(core_, fields, vessel, moved(grips, way, shift, length)), 0, 0, fields.real_planes);
   for (const auto& core : others_) spread_to(gather(*core, fields, vessel, grips), 0, 0, fields.real_planes);
-  // Beside an edge, the distances to edge and face differ by x^2 / 2r at x from where they are equal, so the face that is nearest after
-  // rounding may be another one up to here, and the normal with it.
-  const double corner = std::sqrt(2 * tip_radius(scene_.hand) * allowed_.epsilon * (length + scene_.vessels[vessel].height));
+  const double corner = this->corner(vessel);
   const int angles = fields.plane[FIELD_CONTACT_ANGLES];
   std::vector<int> asked = DISCRETE;
   if (angles >= 0) asked.push_back(FIELD_CONTACT_ANGLES);

@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/evaluator.h"
@@ -76,6 +77,11 @@ class Comparer {
   void add(std::size_t vessel, const std::vector<GripInput>& grips, const GatheredPlanes& a, const GatheredPlanes& b);
   void add_liquid(std::size_t vessel, const std::vector<LiquidResult>& a, const std::vector<LiquidResult>& b);
 
+  // How often the core evaluates moved grips while `grips` of the vessel are added, at most: nearly all of the time that add takes.
+  std::uint64_t evaluations(std::size_t vessel, std::size_t grips) const;
+  // Calls `done` while add runs, with how many of these evaluations have just been made: first with 0.
+  void on_evaluated(std::function<void(std::uint64_t)> done) { on_evaluated_ = std::move(done); }
+
   const std::vector<Comparison>& rows() const { return rows_; }
   std::uint64_t grips() const { return grips_; }
   std::uint64_t grazing() const { return grazing_; }
@@ -113,6 +119,7 @@ class Comparer {
                         const GatheredPlanes& truth, const std::vector<char>& left_out, const Tolerance& tolerance);
   double moves_state(std::size_t vessel, const GripInput& grip, std::size_t state) const;
   double shift(std::size_t vessel) const;
+  double corner(std::size_t vessel) const;
   std::optional<std::size_t> place_told(double told, const std::vector<double>& listed, double largest) const;
   Comparison& row(const std::string& kernel, const std::string& quantity, const std::string& unit);
   void count_outside(Comparison& entry, std::size_t vessel, std::size_t grip, double difference);
@@ -122,6 +129,7 @@ class Comparer {
   Allowance allowed_;
   Spreads spreads_;
   std::vector<std::shared_ptr<const Evaluator>> others_;  // with tips and strengths as far off as either side may be
+  std::function<void(std::uint64_t)> on_evaluated_ = [](std::uint64_t) {};
   std::vector<Comparison> rows_;
   std::vector<Flip> flips_;
   std::vector<Outlier> outliers_;

@@ -10,6 +10,7 @@
 #include "core/text.h"
 #include "report/grips.h"
 #include "shaders/layout.h"
+#include "system/progress.h"
 #include "system/readable.h"
 
 namespace wholehand {
@@ -174,6 +175,10 @@ Agreement compare_with_core(const ReportSource& source, std::size_t vessel) {
   Agreement agreement;
   const GatheredPlanes of_file = planes_of_file(source, vessel, places, by_core, agreement.outcomes);
   Comparer comparer(scene, *core, allowance(source.result.origin().precision));
+  Progress progress(comparer.evaluations(0, grips.size()), 0, "evaluations");
+  std::uint64_t done = 0;
+  comparer.on_evaluated(
+      [&](std::uint64_t evaluated) { progress.update("agreement of " + scene.vessels[0].name, done += evaluated); });
   comparer.add(0, grips, of_file, by_core);
   for (const Comparison& row : comparer.rows()) {
     if (row.kernel == "whole") {

@@ -18,11 +18,13 @@
 #include "sweeps/robust.h"
 #include "sweeps/variables.h"
 #include "system/clock.h"
+#include "system/progress.h"
 #include "system/readable.h"
 
 namespace wholehand {
 namespace {
 
+constexpr std::uint64_t PARTS = 9;
 constexpr long long SEARCHED_GRIPS = 64;  // for the figures of the search, at most
 
 // A way to evaluate the sample: what it took a grip, and what a grip takes in memory.
@@ -57,14 +59,15 @@ class Explainer {
             MAX_OUTLINE);
       }
     }
-    planes(as_is);
-    pose(as_is);
-    surface(as_is);
-    force(as_is);
-    liquid(as_is);
-    table(as_is);
-    body(as_is);
-    efforts(as_is);
+    done_ = 1;
+    planes(as_is), ++done_;
+    pose(as_is), ++done_;
+    surface(as_is), ++done_;
+    force(as_is), ++done_;
+    liquid(as_is), ++done_;
+    table(as_is), ++done_;
+    body(as_is), ++done_;
+    efforts(as_is), ++done_;
     robust();
     poured();
     azimuth();
@@ -120,6 +123,7 @@ class Explainer {
       const double start = monotonic_now();
       backend->run(request);
       const double seconds = monotonic_now() - start;
+      progress_.update("explaining", done_);
       if (run > 0) {
         runs.push_back(seconds);
       } else {  // the first compiles
@@ -353,6 +357,8 @@ class Explainer {
   bool on_core_;
   std::vector<GripInput> sample_;
   std::string text_;
+  std::uint64_t done_ = 0;  // parts: what is as it is, then those of run but for the last, quick ones
+  mutable Progress progress_{PARTS, 0, "parts"};
 };
 
 }  // namespace

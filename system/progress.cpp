@@ -12,6 +12,8 @@
 namespace wholehand {
 namespace {
 
+constexpr double LOG_PERIOD = 10;  // s
+
 std::string rate_text(double rate, const char* noun) {
   if (rate >= 1e6) return fmt::format("{:.2f} million {}/s", rate * 1e-6, noun);
   if (rate >= 1e3) return fmt::format("{:.1f} thousand {}/s", rate * 1e-3, noun);
@@ -27,11 +29,16 @@ std::string time_text(double seconds) {
 
 }  // namespace
 
-Progress::Progress(std::uint64_t total, std::uint64_t done, const char* noun)
-    : Progress(total, done, noun, isatty(STDERR_FILENO) == 1) {}
+ProgressSink progress_sink() { return isatty(STDERR_FILENO) == 1 ? ProgressSink::terminal : ProgressSink::log; }
 
-Progress::Progress(std::uint64_t total, std::uint64_t done, const char* noun, bool is_terminal)
-    : total_(total), before_(done), noun_(noun), shown_(is_terminal) {}
+Progress::Progress(std::uint64_t total, std::uint64_t done, const char* noun, ProgressSink sink, double (*clock)())
+    : total_(total),
+      before_(done),
+      noun_(noun),
+      sink_(sink),
+      clock_(clock),
+      start_(clock()),
+      next_(start_ + (sink == ProgressSink::terminal ? 0.5 : 1)) {}
 
 std::string Progress::line(const std::string& what, const char* noun, std::uint64_t total, std::uint64_t before, std::uint64_t done,
                            double seconds) {
@@ -42,14 +49,24 @@ std::string Progress::line(const std::string& what, const char* noun, std::uint6
   return line;
 }
 
-bool Progress::is_due() const { return shown_ && monotonic_now() - last_ >= 0.1; }
+bool Progress::is_due() const { return sink_ != ProgressSink::none && clock_() >= next_; }
 
 void Progress::update(const std::string& what, std::uint64_t done) {
   if (!is_due()) return;
-  const double now = monotonic_now();
-  last_ = now;
-  drawn_ = true;
-  fmt::print(stderr, "\r{}\033[K", line(what, noun_, total_, before_, done, now - start_));
+  const double now = clock_(), seconds = now - start_;
+  const std::string text = line(what, noun_, total_, before_, done, seconds);
+  if (sink_ == ProgressSink::terminal) {
+    next_ = now + 0.1;
+    drawn_ = true;
+    fmt::print(stderr, "\r{}\033[K", text);
+  } else {
+    // done / seconds is the rate, so that (total - done) / rate is what is left
+    const bool is_long = static_cast<double>(total_ - done) * seconds >= LOG_PERIOD * static_cast<double>(done - before_);
+    if (!logged_ && seconds < LOG_PERIOD && (done == before_ || !is_long)) return;
+    logged_ = true;
+    next_ = now + LOG_PERIOD;
+    fmt::print(stderr, "{}\n", text);
+  }
   std::fflush(stderr);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One line on the terminal while long work runs: how much is done, how fast, how long yet.
+// How much of long work is done, how fast it goes and how long it takes yet: a line that moves on a terminal, lines of a log elsewhere.
 #pragma once
 
 #include <cstdint>
@@ -12,22 +12,31 @@ namespace wholehand {
 // Shows a line on stderr over the last one, where that is a terminal; "" wipes it. For work that is not counted.
 void show_status(const std::string& line);
 
-// Shows nothing where stderr is not a terminal, nor in the first half second.
+enum class ProgressSink {
+  none,
+  terminal,  // one line that is drawn over, after half a second
+  log,       // a line every ten seconds; the first after one second, if the work takes ten seconds more
+};
+
+// terminal where stderr is one, else log.
+ProgressSink progress_sink();
+
+// Writes to stderr.
 class Progress {
  public:
   // `total` and `done` count what `noun` says, which must outlive it; `done` of them were there before (a resumed sweep) and say
-  // nothing about the rate.
-  Progress(std::uint64_t total, std::uint64_t done, const char* noun = "grips");
-  Progress(std::uint64_t total, std::uint64_t done, const char* noun, bool is_terminal);
+  // nothing about the rate. `clock` counts seconds.
+  Progress(std::uint64_t total, std::uint64_t done, const char* noun = "grips", ProgressSink sink = progress_sink(),
+           double (*clock)() = monotonic_now);
   ~Progress() { clear(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  // Whether update would draw: for those whose words take long to put together.
+  // Whether update may write: for those whose words take long to put together.
   bool is_due() const;
-  // Draws at most ten times a second.
+  // Draws at most ten times a second on a terminal.
   void update(const std::string& what, std::uint64_t done);
-  // Wipes the line, before something else is printed.
+  // Wipes a terminal's line, before something else is printed.
   void clear();
 
   // "beaker2  45 %  12.3 thousand grips/s  1:05 left".
@@ -37,8 +46,10 @@ class Progress {
  private:
   std::uint64_t total_, before_;
   const char* noun_;
-  bool shown_, drawn_ = false;
-  double start_ = monotonic_now(), last_ = start_ + 0.4;  // s
+  ProgressSink sink_;
+  double (*clock_)();
+  double start_, next_;  // s; next_: when update writes
+  bool drawn_ = false, logged_ = false;
 };
 
 }  // namespace wholehand

@@ -70,7 +70,9 @@ TEST(HostileNames, SteerNothingThatACommandPrints) {
     ++files;
     const std::string text = file_text(entry.path());
     expect_steers_nothing(text, ending);
-    if (ending == ".csv") EXPECT_EQ(text.find(",="), std::string::npos) << "a formula in " << text;
+    if (ending == ".csv") {
+      EXPECT_EQ(text.find(",="), std::string::npos) << "a formula in " << text;
+    }
   }
   EXPECT_GE(files, 6u);
 }

@@ -92,8 +92,9 @@ TEST(Levers, CountAlikeOnEveryBackend) {
       if (!is_known) continue;
       const double largest = planes.real(planes.fields.plane[FIELD_LARGEST_HOLD], i);
       EXPECT_EQ(std::isfinite(largest), is_all_held) << who << " " << i;
-      if (is_all_held)
+      if (is_all_held) {
         EXPECT_NEAR(planes.real(planes.fields.plane[FIELD_SAFE_TILT], i), scene.tilts.back(), 1e-6) << who << " " << i;
+      }
     }
   }
   EXPECT_GT(held, 800u);
@@ -125,8 +126,11 @@ TEST(Levers, AreComparedWhereTheyAreNone) {
     }
     Comparer comparer(scene, *core, float_against_double());
     comparer.add(0, grips, other, truth);
-    for (const Comparison& row : comparer.rows())
-      if (row.quantity == "hold force") EXPECT_EQ(row.outside, changed) << wrong;
+    for (const Comparison& row : comparer.rows()) {
+      if (row.quantity == "hold force") {
+        EXPECT_EQ(row.outside, changed) << wrong;
+      }
+    }
   }
 }
 

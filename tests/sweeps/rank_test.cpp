@@ -172,8 +172,9 @@ TEST(Rank, WhatTheFileLacksIsRefusedWithWhatToKeep) {
                       "sweep does not name them"),
             std::string::npos)
       << rank_refusal(part, {"force=1", {}, 5});
-  EXPECT_NE(rank_refusal(part, {"", {"gap_mm < 80"}, 5}).find("column 1: gap_mm is not in the file; add \"gap\" to [output] keep of"),
-            std::string::npos);
+  EXPECT_NE(
+      rank_refusal(part, {"", {"gap_mm < 80"}, 5}).find("column 1: gap_mm is not in the file; add \"gap\" to [output] keep of"),
+      std::string::npos);
   EXPECT_NE(rank_refusal(part, {"", {"max(joints) > 0"}, 5}).find("is a vector"), std::string::npos);
   const SweptScene none(edited(RESULT_SCENE, "best = 5", "best = 5\nkeep = [\"score\"]"));
   EXPECT_NE(rank_refusal(none, {"", {}, 5}).find("lacks plausible, as"), std::string::npos);

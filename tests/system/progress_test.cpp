@@ -3,11 +3,15 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <thread>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace wholehand {
 namespace {
+
+double now = 0;  // s
 
 TEST(Progress, LineSaysShareRateAndTimeLeft) {
   EXPECT_EQ(Progress::line("beaker1", "grips", 1000, 0, 250, 0.5), "beaker1  25 %  500 grips/s  0:02 left");
@@ -26,33 +30,37 @@ TEST(Progress, WhatWasThereBeforeSaysNothingAboutTheRate) {
   EXPECT_EQ(Progress::line("b", "grips", 1000, 500, 500, 1), "b  50 %") << "no rate yet";
 }
 
-TEST(Progress, NothingWherePiped) {
+// What a sink writes while work of 100 goes on: pairs of seconds and of what is done.
+std::string written(ProgressSink sink, const std::vector<std::pair<double, std::uint64_t>>& moments) {
+  now = 1000;
   testing::internal::CaptureStderr();
   {
-    Progress progress(100, 0, "grips", false);
-    std::this_thread::sleep_for(std::chrono::milliseconds(600));
-    progress.update("b", 50);
+    Progress progress(100, 0, "people", sink, [] { return now; });
+    for (const auto& [seconds, done] : moments) {
+      now = 1000 + seconds;
+      progress.update("b", done);
+    }
   }
-  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  return testing::internal::GetCapturedStderr();
 }
 
 TEST(Progress, TerminalGetsOneLineThatGoesAway) {
-  testing::internal::CaptureStderr();
-  {
-    Progress progress(100, 0, "people", true);
-    progress.update("b", 10);  // too early
-    std::this_thread::sleep_for(std::chrono::milliseconds(600));
-    progress.update("b", 50);
-    progress.update("b", 51);  // too soon after
-  }
-  const std::string text = testing::internal::GetCapturedStderr();
-  EXPECT_EQ(text.find("10 %"), std::string::npos);
-  EXPECT_NE(text.find("b  50 %"), std::string::npos);
-  EXPECT_NE(text.find(" people/s  0:0"), std::string::npos) << text;
-  EXPECT_EQ(text.find("51 %"), std::string::npos);
-  EXPECT_TRUE(text.ends_with("\r\033[K")) << text;
-  EXPECT_EQ(text.find('\n'), std::string::npos);
+  EXPECT_EQ(written(ProgressSink::terminal, {{0.4, 10}, {0.6, 50}, {0.65, 51}}), "\rb  50 %  83 people/s  0:01 left\033[K\r\033[K")
+      << "the first is too early, the last too soon after";
 }
+
+TEST(Progress, ALogGetsALineEveryTenSeconds) {
+  EXPECT_EQ(written(ProgressSink::log, {{0.9, 1}, {1.1, 1}, {5, 5}, {11, 10}, {11.2, 11}, {12, 12}, {22, 20}}),
+            "b  1 %  0.9 people/s  1:49 left\nb  11 %  1.0 people/s  1:31 left\nb  20 %  0.9 people/s  1:28 left\n")
+      << "the first as soon as the rate is known, for work that takes ten seconds more";
+}
+
+TEST(Progress, ALogGetsNothingOfWorkThatEndsSoon) {
+  EXPECT_EQ(written(ProgressSink::log, {{1.5, 20}, {4, 50}, {9, 99}}), "");
+  EXPECT_EQ(written(ProgressSink::log, {{4, 0}, {10.1, 0}}), "b  0 %\n") << "no rate yet, and a long silence";
+}
+
+TEST(Progress, NobodyGetsNothing) { EXPECT_EQ(written(ProgressSink::none, {{0.6, 1}, {30, 50}}), ""); }
 
 }  // namespace
 }  // namespace wholehand
