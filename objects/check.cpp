@@ -192,6 +192,12 @@ CheckedMesh check_mesh(const TriangleMesh& mesh, const std::string& name, bool c
   return checked;
 }
 
+std::string filled_text(double volume, const Triple& center) {
+  const auto millimetres = [](double length) { return plain_text(std::round(1e5 * length) / 100); };
+  return fmt::format("{:.4g} cm3, centre of mass ({}, {}, {}) mm", 1e6 * volume, millimetres(center[0]), millimetres(center[1]),
+                     millimetres(center[2]));
+}
+
 std::string mesh_check_text(const MeshFacts& facts) {
   std::string text =
       fmt::format("{}, {:.4g} x {:.4g} x {:.4g} mm (x {}, y {}, z {}), ", counted(facts.triangles, "triangle"),
@@ -202,10 +208,8 @@ std::string mesh_check_text(const MeshFacts& facts) {
                                  : "not closed";
   text += fmt::format("; {}, {}, {}; ", counted(facts.non_manifold_edges, "non-manifold edge"),
                       counted(facts.inverted_pairs, "inverted pair"), counted(facts.zero_triangles, "triangle") + " without area");
-  text += facts.has_sure_volume()
-              ? fmt::format("volume {:.4g} cm3, centre of mass ({:.4g}, {:.4g}, {:.4g}) mm.", 1e6 * facts.volume,
-                            1e3 * facts.center_of_mass[0], 1e3 * facts.center_of_mass[1], 1e3 * facts.center_of_mass[2])
-              : "volume by its lattice.";
+  text += facts.has_sure_volume() ? fmt::format("volume {}.", filled_text(facts.volume, facts.center_of_mass))
+                                  : "volume by its lattice.";
   if (facts.joined_corners > 0)
     text +=
         fmt::format(" {} {} equal to others joined with them.", counted(facts.joined_corners, "corner"), was(facts.joined_corners));

@@ -153,11 +153,8 @@ std::string set_volume(const MeshFacts& facts, const std::string& name, MeshBody
                       : facts.odd_edges > 0  ? "a wall ends within it"
                       : facts.open_edges > 0 ? "its holes leave open what is inside"
                                              : "its bodies overlap";
-  return fmt::format(
-      "{}: inside it are {:.4g} cm3, centre of mass ({:.4g}, {:.4g}, {:.4g}) mm, by the lattice, and these are taken; make one "
-      "closed "
-      "body of it, or give mass_kg",
-      cause, 1e6 * enclosed.volume, 1e3 * enclosed.center[0], 1e3 * enclosed.center[1], 1e3 * enclosed.center[2]);
+  return fmt::format("{}: inside it are {}, by the lattice, and these are taken; make one closed body of it, or give mass_kg",
+                     cause, filled_text(enclosed.volume, enclosed.center));
 }
 
 // What is shown while work runs, and wiped where it ends, also with an error.

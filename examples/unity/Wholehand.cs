@@ -12,7 +12,7 @@ namespace Wholehand {
 
 public enum Status { Ok = 0, Input = 2, System = 3, Argument = 4, Busy = 5 }
 public enum ValueType { Double = 0, Float = 1, Int32 = 2 }
-public enum SessionState { Free, Touching, Lift, Tilt, Maintain, Slipped, Released }
+public enum SessionState { Free, Touching, Lift, Tilt, Maintain, Slipped, Released, LetGo }
 
 public sealed class WholehandException : Exception {
   public readonly Status Status;
