@@ -21,7 +21,7 @@
 #include "recordings/recorded_scene.h"
 #include "scene/reader.h"
 #include "sweeps/grip_lists.h"
-#include "system/files.h"
+#include "system/file_kind_at.h"
 #include "system/output.h"
 #include "viewer/grips.h"
 #include "viewer/recording.h"
@@ -41,11 +41,15 @@ std::string file_name(const std::string& path) { return std::filesystem::path(pa
 // A file that is something else is not called a damaged recording.
 void check_is_recording(const std::string& path) {
   std::error_code failed;
-  if (!std::filesystem::is_regular_file(path, failed) || begins_with(path, "CDF")) return;
-  throw usage_error(fmt::format(
-      "{}: is neither a recording nor a result; view takes a recording of `wholehand live --record` or of `wholehand trials`, or a "
-      "result of `wholehand sweep`; `wholehand grip --view` shows a grip of a scene",
-      path));
+  const FileKind kind = file_kind_at(path);
+  if (kind == FileKind::recording || !std::filesystem::is_regular_file(path, failed)) return;
+  std::string what = wrong_kind(kind, "a recording or a result");
+  if (what.empty()) what = "is neither a recording nor a result";
+  if (!is_wrapping(kind))
+    what +=
+        "; view takes a recording of `wholehand live --record` or of `wholehand trials`, or a result of `wholehand sweep`; "
+        "`wholehand grip --view` shows a grip of a scene";
+  throw usage_error(path + ": " + what);
 }
 
 void view_recording(const std::string& path, int port) {

@@ -4,12 +4,12 @@
 #include "core/error.h"
 #include "objects/vessel.h"
 #include "scene/reader.h"
-#include "system/files.h"
+#include "system/file_kind_at.h"
 
 namespace wholehand {
 namespace {
 
-// Of the version that wrote a result: only 0.1 and 0.2 had others than today's.
+// Those of the version that wrote a result: only 0.1 and 0.2 had others than today's.
 ScoreWeights default_weights_of(const std::string& version) {
   const auto is_of = [&](const char* minor) { return version.rfind(minor, 0) == 0; };
   return is_of("0.1.") ? WEIGHTS_0_1 : is_of("0.2.") ? WEIGHTS_0_2 : ScoreWeights{};
@@ -17,7 +17,7 @@ ScoreWeights default_weights_of(const std::string& version) {
 
 }  // namespace
 
-bool is_result(const std::string& path) { return begins_with(path, NETCDF4_START); }
+bool is_result(const std::string& path) { return file_kind_at(path) == FileKind::result; }
 
 Scene scene_of_result(const SweepResult& result, std::string& trouble) {
   const SweepOrigin& origin = result.origin();

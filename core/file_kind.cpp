@@ -97,12 +97,12 @@ FileKind kind_of_text(std::string_view text) {
 
 // Without a mark at its start: each other byte of the first characters is 0.
 bool is_utf16(std::string_view start) {
-  constexpr std::size_t LOOKED_AT = 16;
-  if (start.size() < LOOKED_AT) return false;
+  constexpr std::size_t SEEN = 16;
+  if (start.size() < SEEN) return false;
   std::array<std::size_t, 2> zeros{};
-  for (std::size_t i = 0; i < LOOKED_AT; ++i)
+  for (std::size_t i = 0; i < SEEN; ++i)
     if (start[i] == '\0') ++zeros[i % 2];
-  return std::max(zeros[0], zeros[1]) == LOOKED_AT / 2 && std::min(zeros[0], zeros[1]) == 0;
+  return std::max(zeros[0], zeros[1]) == SEEN / 2 && std::min(zeros[0], zeros[1]) == 0;
 }
 
 }  // namespace
@@ -132,11 +132,12 @@ std::string wrong_kind(FileKind kind, std::string_view wanted) {
   if (words == WORDS.end()) return "";
   std::string text = "is ";
   text += words->what;
-  const bool is_wrapping = kind >= FileKind::lfs_pointer;  // around the file that was meant, or in its place
   text += " and not ";
-  text += is_wrapping ? "the file" : wanted;
-  text += is_wrapping ? ": " : "; ";
+  text += is_wrapping(kind) ? "the file" : wanted;
+  text += is_wrapping(kind) ? ": " : "; ";
   return text += words->remedy;
 }
+
+std::string backslash_note(std::string_view path) { return path.find('\\') == path.npos ? "" : "; " + std::string(WRITE_SLASHES); }
 
 }  // namespace wholehand

@@ -23,4 +23,12 @@ bool is_binary_stl(std::string_view start, std::uint64_t size);
 // "" where the kind is unknown.
 std::string wrong_kind(FileKind kind, std::string_view wanted);
 
+// Whether such a file is around the one that was meant, or in its place.
+constexpr bool is_wrapping(FileKind kind) { return kind >= FileKind::lfs_pointer; }
+
+// For a path that has backslashes, as on Windows.
+inline constexpr std::string_view WRITE_SLASHES = "write / in a path, and no backslash";
+// "; " and that for such a path, else "".
+std::string backslash_note(std::string_view path);
+
 }  // namespace wholehand

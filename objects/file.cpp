@@ -65,10 +65,7 @@ void MeshFile::refuse_size() const {
 std::string read_mesh_bytes(const std::string& path, std::string& bytes) {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) {
-    const bool is_of_windows = path.find('\\') != path.npos;
-    return is_of_windows ? "there is no such file; its path has backslashes: write / for each" : "there is no such file";
-  }
+  if (!std::filesystem::exists(status)) return "there is no such file" + backslash_note(path);
   if (!std::filesystem::is_regular_file(status)) return "is not a file";
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error) return "cannot be read: " + error.message();

@@ -28,7 +28,7 @@ toml::table parse_table(const SceneFile& file, std::string_view text, const std:
     if (what.size() > LARGEST) what = what.substr(0, LARGEST) + "...";
     const bool is_escape = what.find("escape sequence") != what.npos;
     file.refuse({static_cast<int>(begin.line), static_cast<int>(begin.column)}, what,
-                is_escape ? "allowed: TOML 1.0, where a backslash begins an escape; write / in a path" : "allowed: TOML 1.0");
+                fmt::format("allowed: TOML 1.0{}{}", is_escape ? "; " : "", is_escape ? WRITE_SLASHES : ""));
   }
 }
 

@@ -72,7 +72,7 @@ void read_device(const SceneTable& root, DeviceData& device) {
   std::int64_t button = device.clutch_button;
   table->read("clutch_button", ranges::BUTTON, button);
   device.clutch_button = static_cast<int>(button);
-  table->read_text("library", ranges::LARGEST_PATH, device.library);
+  table->read_path("library", device.library);
 }
 
 void read_task(const SceneTable& root, const std::vector<VesselData>& vessels, std::optional<TaskData>& task) {

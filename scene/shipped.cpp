@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "core/error.h"
+#include "core/file_kind.h"
 #include "core/text.h"
 #include "scene/text.h"
 
@@ -106,8 +107,8 @@ std::string find_scene(const std::string& name) {
   }
   if (fs::is_directory(name, failed)) throw usage_error(fmt::format("{} is a directory; give a scene file", in_quotes(name)));
   const auto shipped = shipped_scenes();
-  throw usage_error(fmt::format("no scene file {}{}{}; give the path of a TOML file{}{}", in_quotes(name), backslash_note(name),
-                                did_you_mean(name, shipped),
+  throw usage_error(fmt::format("no scene file {}{}{}; give the path of a TOML file{}{}", in_quotes(name),
+                                did_you_mean(name, shipped), backslash_note(name),
                                 shipped.empty() ? "" : " or one of the shipped scenes: ", joined(shipped, ", ")));
 }
 

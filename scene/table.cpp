@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "core/error.h"
+#include "core/file_kind.h"
 #include "core/printable.h"
 #include "core/scene.h"
 
@@ -151,7 +152,7 @@ void SceneTable::read_flag(std::string_view key, bool& value) const {
   value = flag->get();
 }
 
-void SceneTable::read_text(std::string_view key, std::size_t largest, std::string& value) const {
+void SceneTable::read_text(std::string_view key, std::size_t largest, std::string& value, std::string_view remedy) const {
   const toml::node* node = find(key);
   if (!node) return;
   const auto* text = node->as_string();
@@ -159,10 +160,14 @@ void SceneTable::read_text(std::string_view key, std::size_t largest, std::strin
   const bool has_control = text && std::any_of(text->get().begin(), text->get().end(), is_control);
   if (!text || text->get().empty() || text->get().size() > largest || has_control) {
     file_.refuse(place_of(*node), fmt::format("{} {}", key, found(*node)),
-                 fmt::format("allowed: a string of 1 to {} characters, without control characters{}", largest,
-                             has_control ? "; a backslash begins an escape: write / in a path" : ""));
+                 fmt::format("allowed: a string of 1 to {} characters, without control characters{}{}", largest,
+                             has_control && !remedy.empty() ? "; " : "", has_control ? remedy : ""));
   }
   value = text->get();
+}
+
+void SceneTable::read_path(std::string_view key, std::string& value) const {
+  read_text(key, ranges::LARGEST_PATH, value, WRITE_SLASHES);
 }
 
 void SceneTable::read_name(std::string_view key, std::string& value) const {

@@ -76,7 +76,9 @@ class SceneTable {
   void read(std::string_view key, const Quantity& quantity, const std::string& form, std::span<double> values) const;
   void read(std::string_view key, IntegerRange range, std::int64_t& value) const;
   void read_flag(std::string_view key, bool& value) const;
-  void read_text(std::string_view key, std::size_t largest, std::string& value) const;
+  // `remedy`: for control characters.
+  void read_text(std::string_view key, std::size_t largest, std::string& value, std::string_view remedy = "") const;
+  void read_path(std::string_view key, std::string& value) const;
   void read_name(std::string_view key, std::string& value) const;
 
   // Each throws Error (usage) where the key is absent.

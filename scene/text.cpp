@@ -36,10 +36,6 @@ std::string in_quotes(std::string_view text) {
   return fmt::format("'{}...'", one_line(text.substr(0, end)));
 }
 
-std::string backslash_note(std::string_view path) {
-  return path.find('\\') == path.npos ? "" : " (a path is written with '/', and this one has '\\')";
-}
-
 bool is_plain_name(std::string_view name) {
   const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
   const auto is_plain = [&](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.'; };

@@ -14,9 +14,6 @@ namespace wholehand {
 // `text` in single quotes on one line, cut after 60 bytes (never inside a character).
 std::string in_quotes(std::string_view text);
 
-// " (a path is written with '/', and this one has '\\')" for a path that has backslashes, as on Windows; else "".
-std::string backslash_note(std::string_view path);
-
 // Whether a name fits result files and file names: a letter, then letters, digits, '_', '-' or '.', at most LARGEST_NAME in all.
 bool is_plain_name(std::string_view name);
 

@@ -30,7 +30,7 @@ void refuse_keys(const SceneTable& table, std::span<const std::string_view> keys
 
 MeshData read_mesh(const SceneTable& table) {
   MeshData mesh;
-  table.read_text("mesh", ranges::LARGEST_PATH, mesh.file);
+  table.read_path("mesh", mesh.file);
   mesh.place = table.file().text_of(table.place("mesh"));
   table.read("mesh_scale", ranges::MESH_SCALE, mesh.scale);
   table.read("up", {{"y", false}, {"z", true}}, mesh.z_is_up);

@@ -4,21 +4,21 @@
 #include <fmt/format.h>
 #include <netcdf.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <functional>
 #include <numeric>
 
 #include "core/error.h"
-#include "core/file_kind.h"
 #include "sweeps/refine.h"
 #include "sweeps/result_contents.h"
 #include "sweeps/robust.h"
+#include "system/file_kind_at.h"
 #include "system/files.h"
 #include "system/readable.h"
 
@@ -40,12 +40,8 @@ const std::string& check_is_result(const std::string& path) {
     throw usage_error(fmt::format("{}: cannot be read: {}", path, std::strerror(error)));
   }
   if (!S_ISREG(status.st_mode)) return path;  // refused where it is opened
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw usage_error(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
-  std::string head(1 << 16, '\0');
-  file.read(head.data(), static_cast<std::streamsize>(head.size()));
-  head.resize(static_cast<std::size_t>(file.gcount()));
-  const FileKind kind = file_kind(head, static_cast<std::uint64_t>(status.st_size));
+  if (access(path.c_str(), R_OK) != 0) throw usage_error(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
+  const FileKind kind = file_kind_at(path);
   if (kind == FileKind::result) return path;
   throw usage_error(
       path + ": " +

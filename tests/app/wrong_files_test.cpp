@@ -2,6 +2,7 @@
 // Files of another kind than the one that is asked for: whoever reads them says what they are.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <vector>
@@ -92,18 +93,19 @@ TEST(WrongFiles, BackslashesInAPathAreNamed) {
   MeshData data;
   data.file = "meshes\\bowl.obj";
   const std::string line = refusal_line([&] { read_mesh(data, folder.path()); });
-  EXPECT_TRUE(has(line, "no such file; its path has backslashes: write / for each")) << line;
+  EXPECT_TRUE(has(line, "there is no such file; write / in a path, and no backslash")) << line;
   data.file = "meshes/bowl.obj";
   EXPECT_EQ(refusal_line([&] { read_mesh(data, folder.path()); }), "");
   const auto scene_line = [&](const std::string& mesh) {
     return refusal_line([&] { parse_scene("[[vessel]]\nname = \"v\"\nmesh = " + mesh + "\n", "scene.toml"); });
   };
   for (const char* mesh : {"\"meshes\\cup.obj\"", "\"meshes\\bowl.obj\"", "\"meshes\\nose.obj\""})
-    EXPECT_TRUE(has(scene_line(mesh), "a backslash begins an escape; write / in a path") ||
-                has(scene_line(mesh), "a backslash begins an escape: write / in a path"))
-        << scene_line(mesh);
+    EXPECT_TRUE(has(scene_line(mesh), "; write / in a path, and no backslash")) << scene_line(mesh);
   EXPECT_EQ(scene_line("\"meshes/bowl.obj\""), "");
-  EXPECT_TRUE(has(refusal_line([&] { read_scene_file("scenes\\cup.toml"); }), "a path is written with '/', and this one has '\\'"));
+  EXPECT_TRUE(has(refusal_line([&] { read_scene_file("scenes\\cup.toml"); }), "; write / in a path, and no backslash"));
+  const std::string name = refusal_line([&] { parse_scene("[scene]\nname = \"a\\tb\"\n", "scene.toml"); });
+  EXPECT_TRUE(has(name, "without control characters")) << name;
+  EXPECT_FALSE(has(name, "path")) << name;
 }
 
 #ifdef WHOLEHAND_PROGRAM
@@ -111,11 +113,12 @@ TEST(WrongFiles, BackslashesInAPathAreNamed) {
 TEST(WrongFiles, CommandsSayWhatTheyWereGiven) {
   const TemporaryFolder folder;
   const std::string result = folder / "result.nc", recording = folder / "recording.nc", mesh = folder / "cup.stl",
-                    scene = folder / "scene.toml";
+                    scene = folder / "scene.toml", pointer = folder / "pointer.nc";
   write_file(result, std::string(NETCDF4_START) + "rest");
   write_file(recording, "CDF\2\0\0\0\1rest"s);
   write_file(mesh, stl_text(icosphere(0.05, 1)));
   write_file(scene, "[[vessel]]\nname = \"v\"\n");
+  write_file(pointer, "version https://git-lfs.github.com/spec/v1\noid sha256:4d\nsize 1\n");
   const std::string classic = "is a NetCDF file of the classic format and not ", output = " -o " + (folder / "out");
   for (const char* command : {"sweep ", "check ", "live "}) {
     expect_error(command + result, 2, "is a NetCDF-4 file, as sweeps write them, and not a scene");
@@ -128,7 +131,10 @@ TEST(WrongFiles, CommandsSayWhatTheyWereGiven) {
   expect_error("session " + scene, 2, "is a scene file (TOML) and not a recording");
   expect_error("report " + recording, 2, classic + "a result of a sweep");
   expect_error("rank " + scene, 2, "is a scene file (TOML) and not a result of a sweep");
-  expect_error("sweep 'scenes\\cup.toml'", 2, "a path is written with '/', and this one has '\\'");
+  expect_error("view " + pointer, 2, pointer + ": is a Git LFS pointer and not the file: git lfs pull");
+  expect_error("view " + mesh, 2, "is a mesh (STL) and not a recording or a result; a scene names it");
+  expect_error("view " + scene, 2, "is a scene file (TOML) and not a recording or a result");
+  expect_error("sweep 'scenes\\cup.toml'", 2, "no scene file 'scenes\\cup.toml'; write / in a path, and no backslash; give");
 }
 
 #endif
