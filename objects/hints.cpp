@@ -26,6 +26,12 @@ constexpr std::array UNITS{LengthUnit{"metres", 1}, LengthUnit{"centimetres", 0.
 double largest(const Triple& size) { return *std::max_element(size.begin(), size.end()); }
 double smallest(const Triple& size) { return *std::min_element(size.begin(), size.end()); }
 
+// Whether a hand can hold a body of numbers in that unit.
+bool is_held(const Triple& numbers, double unit = 1) {
+  const double size = unit * largest(numbers), least = unit * smallest(numbers);
+  return size >= LEAST_HELD * (1 - ROUNDED) && size <= MOST_HELD * (1 + ROUNDED) && least <= WIDEST_GRASP * (1 + ROUNDED);
+}
+
 std::string length_text(double length) {
   return length >= 1 ? fmt::format("{:.4g} m", length) : fmt::format("{:.4g} mm", 1e3 * length);
 }
@@ -58,23 +64,17 @@ const char* name_of(Side side) {
 
 std::vector<LengthUnit> graspable_units(const Triple& numbers) {
   std::vector<LengthUnit> units;
-  for (const LengthUnit& unit : UNITS) {
-    const double size = unit.meters * largest(numbers), least = unit.meters * smallest(numbers);
-    const bool fits =
-        size >= LEAST_HELD * (1 - ROUNDED) && size <= MOST_HELD * (1 + ROUNDED) && least <= WIDEST_GRASP * (1 + ROUNDED);
-    if (fits) units.push_back(unit);
-  }
+  for (const LengthUnit& unit : UNITS)
+    if (is_held(numbers, unit.meters)) units.push_back(unit);
   const auto off = [&](const LengthUnit& unit) { return std::abs(std::log(unit.meters * largest(numbers) / USUAL_SIZE)); };
   std::stable_sort(units.begin(), units.end(), [&](const LengthUnit& a, const LengthUnit& b) { return off(a) < off(b); });
   return units;
 }
 
 SizeHint mesh_size_hint(const Triple& size, double scale) {
+  if (is_held(size)) return {};
   const Triple numbers{size[0] / scale, size[1] / scale, size[2] / scale};
-  const double extent = largest(size), least = smallest(size);
-  const bool is_held =
-      extent >= LEAST_HELD * (1 - ROUNDED) && extent <= MOST_HELD * (1 + ROUNDED) && least <= WIDEST_GRASP * (1 + ROUNDED);
-  if (is_held) return {};
+  const double extent = largest(size);
   std::vector<std::string> likely;
   for (const LengthUnit& unit : graspable_units(numbers))
     likely.push_back(fmt::format("{:.6g} ({}: {})", unit.meters, unit.name, length_text(unit.meters * largest(numbers))));
@@ -84,7 +84,7 @@ SizeHint mesh_size_hint(const Triple& size, double scale) {
                           scale == 1 ? "" : fmt::format(" times {:.6g}", scale));
   if (likely.empty()) {
     hint.text +=
-        fmt::format("in no usual unit it would fit, and mesh_scale = {:.4g} to {:.4g} makes it fit", LEAST_HELD / largest(numbers),
+        fmt::format("it would fit in no usual unit, and mesh_scale = {:.4g} to {:.4g} makes it fit", LEAST_HELD / largest(numbers),
                     std::min(MOST_HELD / largest(numbers), WIDEST_GRASP / smallest(numbers)));
   } else {
     hint.text += (likely.size() == 1 ? "the likely scale is mesh_scale = " : "the likely scale is one of mesh_scale = ") +

@@ -33,7 +33,7 @@ constexpr double OTHER_VOLUME = 0.05;  // of the mesh's: the lattice's volume is
 constexpr std::size_t OFF_SCALE_LATTICE = 4u << 20;   // bytes
 constexpr double LONG_WORK = 10, LONG_OPEN_WORK = 3;  // s
 
-// Of the points between axis and wall of a cavity: so many may be on the other side than the rest, where a fillet was left out.
+// Share of the points between axis and wall of a cavity: so many may be on the other side than the rest, where a fillet was left out.
 constexpr double OTHER_SIDE = 0.05;
 // How far a cavity's wall may be from that of a hollow mesh: m, or a share of its radius if that is more. Cups are drawn with
 // rounded numbers.
@@ -78,7 +78,8 @@ std::string place_cavity(const VesselData& vessel, MeshBody& body) {
   const double floor = cavity.front().a[1], mouth = cavity.back().b[1];
   const std::string hint = inner_outline_hint(mouth - floor, widest, body.high[1] - body.low[1], reach);
   const auto refuse = [&](const std::string& what) {
-    throw usage_error(at_place(vessel.mesh->place, fmt::format("vessel '{}': {}", vessel.name, hint.empty() ? what : hint)));
+    throw usage_error(
+        at_place(vessel.mesh->place, fmt::format("vessel '{}': {}", vessel.name, hint.empty() ? what : what + "; " + hint)));
   };
   if (floor < body.low[1] - ROUNDED_OUTLINE || mouth > body.high[1] + ROUNDED_OUTLINE || widest > reach + ROUNDED_OUTLINE) {
     refuse(fmt::format(
@@ -173,7 +174,7 @@ class StatusLine {
   bool is_quiet_;
 };
 
-// Of a shape or an outline the scene's reader checks it.
+// The scene's reader checks a shape or an outline.
 void check_above_table(const Scene& scene, const MeshData& data, const std::string& name, double height) {
   constexpr double ROUNDING = 1e-6;  // of a height, whose vertices were floats
   if (!scene.table || scene.table->clearance < height * (1 - ROUNDING)) return;

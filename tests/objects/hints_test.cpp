@@ -63,7 +63,7 @@ TEST(MeshHints, SizesThatNoHandHoldsGetTheLikelyScales) {
             "it is 0.12 mm large, which a hand hardly holds: its numbers times 0.001 are taken as metres; the likely scale is "
             "mesh_scale = 1 (metres: 120 mm)");
   EXPECT_TRUE(
-      has(mesh_size_hint({4277, 2600, 2600}).text, "in no usual unit it would fit, and mesh_scale = 4.676e-06 to 5.769e-05"));
+      has(mesh_size_hint({4277, 2600, 2600}).text, "it would fit in no usual unit, and mesh_scale = 4.676e-06 to 5.769e-05"));
   EXPECT_TRUE(has(mesh_size_hint({80e-6, 80e-6, 80e-6}).text, "mesh_scale = 250 to 1875 makes it fit"));
   // a vase may be meant
   EXPECT_FALSE(mesh_size_hint({0.2, 0.6, 0.2}).text.empty());
@@ -97,7 +97,7 @@ TriangleMesh open_box(const Triple& turn) {
   return placed_mesh(box, turn, {});
 }
 
-// Loads a scene with that mesh as an OBJ and with these keys of its vessel; returns what is said.
+// Loads a scene with that mesh as an OBJ and with these keys of its vessel; returns what that says.
 struct LoadedMesh {
   Scene scene;
   std::string said;
@@ -190,6 +190,22 @@ TEST(MeshHints, AnInnerOutlineInAnotherUnitIsNamed) {
   EXPECT_EQ(inner_outline_hint(0.05, 0.03, 0.18, 0.04), "") << "a glass with a stem";
   EXPECT_EQ(inner_outline_hint(0.015, 0.005, 0.1, 0.04),
             "the inner outline is 15 mm high and 10 mm wide, far smaller than the mesh of 100 and 80 mm");
+}
+
+TEST(MeshHints, ASmallInnerOutlineIsRefusedForWhatItDoes) {
+  const TemporaryFolder folder;
+  VesselData cup;
+  cup.outline = {line_to(40, 0), line_to(40, 100), line_to(37, 100), line_to(37, 3), line_to(0, 3)};
+  const auto refusal = [&](double floor) {
+    const std::string keys =
+        fmt::format("inner_outline = [{{ line = [0, {0}] }}, {{ line = [5, {0}] }}, {{ line = [5, {1}] }}]", floor, floor + 15);
+    return refusal_line([&] { load(folder, turned_mesh(cup, 64, 2e-3), keys); });
+  };
+  const std::string small = "; the inner outline is 15 mm high and 10 mm wide, far smaller than the mesh of 100 and 80 mm";
+  EXPECT_TRUE(has(refusal(0), "the inner outline passes through the mesh")) << refusal(0);
+  EXPECT_TRUE(has(refusal(0), "move it where the mesh is hollow, or make the mesh its hull" + small)) << refusal(0);
+  EXPECT_TRUE(has(refusal(90), "reaches beyond the mesh")) << refusal(90);
+  EXPECT_TRUE(has(refusal(90), "give it in the vessel's frame" + small)) << refusal(90);
 }
 
 TEST(MeshHints, NumbersTooLargeForSinglePrecisionAreNoFlatSheet) {
