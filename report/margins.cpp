@@ -88,11 +88,11 @@ std::vector<std::size_t> best_terms(const Scene& scene, const ScoreTerms& terms,
   return found;
 }
 
-std::string worst_state(const GripReport& report) {
+std::string worst_state(const Scene& scene, const GripReport& report) {
   const std::string tilt = fmt::format("at a tilt of {}°", plain_number(degrees(report.hold->worst_tilt)));
   return report.has_liquid ? fmt::format("{} and a fill of {}", tilt,
                                          report.capacity > 0 ? fill_words(report, report.hold->worst_fill)
-                                                             : percent_text(report.hold->worst_fill))
+                                                             : share_text(scene, report.hold->worst_fill))
                            : tilt;
 }
 
@@ -102,7 +102,8 @@ std::string limit_text(const Scene& scene, const GripReport& report, const Margi
   const std::string shown = fmt::format("(margin {})", shown_number(margin.value, margin.value < 10 ? 2 : 0));
   switch (margin.limit) {
     case Limit::effort:
-      if (std::isinf(report.hold->worst)) return fmt::format("no force of the hand holds the vessel {}", worst_state(report));
+      if (std::isinf(report.hold->worst))
+        return fmt::format("no force of the hand holds the vessel {}", worst_state(scene, report));
       return fmt::format("{}, because {} {}",
                          is_kept ? "the strength of the hand would fail first" : "the strength of the hand fails",
                          strength_share(report.hold->worst), shown);

@@ -22,6 +22,7 @@ struct JudgedGrip {
     scene.force.max = 8;
     scene.tilts = {0, radians(90)};
     scene.score = {0.30, 0.10, 0.20, 0.10, 0.15, 0.15};
+    scene.liquid.emplace();
     report.has_liquid = true;
     report.hold = GripHold{};
     report.hold->worst = 0.25;
@@ -135,6 +136,8 @@ TEST(ReportVerdict, NamesTheStateThatNothingHolds) {
   JudgedGrip grip;
   grip.report.hold->worst = grip.report.hold->friction_needed = ENDLESS_NUMBER;
   EXPECT_TRUE(has(grip.text(), ", no force of the hand holds the vessel at a tilt of 90° and a fill of 60\u00a0%."));
+  grip.report.hold->worst_fill = 0.605;
+  EXPECT_TRUE(has(grip.text(), " and a fill of 60.5\u00a0%.")) << "as tables and charts of the page have it: " << grip.text();
   grip.report.has_liquid = false;
   EXPECT_TRUE(has(grip.text(), ", no force of the hand holds the vessel at a tilt of 90°."));
 }
