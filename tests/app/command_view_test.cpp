@@ -50,7 +50,7 @@ class Viewed {
       execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
       _exit(127);
     }
-    for (int k = 0; k < 4000 && at.port == 0; ++k) {
+    for (int k = 0; k < 12000 && at.port == 0; ++k) {
       for (const std::string& text : {out(), err()}) {
         const std::size_t line = text.find("view: http://");
         if (line != std::string::npos && text.find('\n', line) != std::string::npos) at = ViewAddress(text.substr(line));

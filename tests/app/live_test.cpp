@@ -242,7 +242,7 @@ TEST(Live, WhatAPagePostsGraspsLiftsTiltsAndPours) {
   const TemporaryFolder folder;
   const Scene scene = board_scene();
   Program program(patient_board(folder) + " --view --device view --json");
-  for (int k = 0; k < 400 && program.errors().find("/\n") == std::string::npos; ++k)
+  for (int k = 0; k < 1200 && program.errors().find("/\n") == std::string::npos; ++k)
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   const ViewAddress page(program.errors());
   ASSERT_NE(page.port, 0) << program.errors();
@@ -296,7 +296,7 @@ TEST(Live, StreamsToWhoeverListens) {
   const TemporaryFolder folder;
   Program program(patient_board(folder) +
                   " --json --seconds 2 --stream osc://localhost:" + std::to_string(lo_server_get_port(server)));
-  while (heard.state != "released" && lo_server_recv_noblock(server, 20000) > 0) {
+  while (heard.state != "released" && lo_server_recv_noblock(server, 60000) > 0) {
   }
   while (lo_server_recv_noblock(server, 200) > 0) {
   }

@@ -111,7 +111,7 @@ bool is_no_force(const protocol::OutputReport& report) { return report.arm == st
 
 // What arrived last; a mock takes a moment to see it.
 protocol::OutputReport last_output(const MockGripper& mock) {
-  for (int k = 0; k < 2000 && !is_no_force(mock.outputs().back()); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  for (int k = 0; k < 6000 && !is_no_force(mock.outputs().back()); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   return mock.outputs().back();
 }
 

@@ -126,11 +126,13 @@ TEST(Levers, AreComparedWhereTheyAreNone) {
     }
     Comparer comparer(scene, *core, float_against_double());
     comparer.add(0, grips, other, truth);
+    int rows = 0;
     for (const Comparison& row : comparer.rows()) {
-      if (row.quantity == "hold force") {
-        EXPECT_EQ(row.outside, changed) << wrong;
-      }
+      if (row.quantity != "hold force") continue;
+      EXPECT_EQ(row.outside, changed) << wrong;
+      ++rows;
     }
+    EXPECT_EQ(rows, 1);
   }
 }
 

@@ -183,7 +183,7 @@ void check_silence(MockGripper& mock, const Open& open) {
   const double waited = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   EXPECT_GE(waited, 0.9 * READ_PATIENCE);
   EXPECT_LT(waited, 50 * READ_PATIENCE) << "umockdev and a busy machine included";
-  for (int k = 0; k < 20000 && (mock.has_force() || !mock.has_tripped()); ++k) rest(1e-3);
+  for (int k = 0; k < 60000 && (mock.has_force() || !mock.has_tripped()); ++k) rest(1e-3);
   EXPECT_FALSE(mock.has_force());
   EXPECT_TRUE(mock.has_tripped());
   mock.misbehave(Mischief::none);
