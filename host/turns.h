@@ -10,7 +10,7 @@
 
 namespace wholehand::host {
 
-// Of a loop of so many turns with `inside` in the loops of each.
+// What a loop of so many turns takes, with `inside` in the loops of each.
 constexpr std::int64_t loop_turns(std::int64_t turns, std::int64_t inside = 0) { return turns * (1 + inside) + 1; }
 
 // ---- grip ----

@@ -21,7 +21,7 @@ struct DoubledTriangles {
 // `uses`: those of the mesh, which shares its corners; made anew.
 DoubledTriangles drop_doubled(TriangleMesh& mesh, std::vector<EdgeUse>& uses);
 
-// Turns triangles until they turn the same way over every edge of exactly two triangles, as far as the surface has two sides. Of each part
+// Turns triangles until they turn the same way over every edge of exactly two triangles, as far as the surface has two sides. In each part
 // that such edges join, the side with less area turns. `turned`: of each triangle, whether it is the other way round than it was.
 void make_consistent(TriangleMesh& mesh, std::vector<EdgeUse>& uses, std::vector<bool>& turned);
 

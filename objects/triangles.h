@@ -18,7 +18,7 @@ using Corners = std::array<std::uint32_t, 3>;
 struct TriangleMesh {
   std::vector<Triple> vertices;
   std::vector<Corners> triangles;
-  double rounding = 0;           // m: by how much the file's single precision may have moved a vertex
+  double rounding = 0;           // in the file's unit: by how much single precision may have moved a vertex
   bool says_what_is_up = false;  // its format does: glTF
 };
 

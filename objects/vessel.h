@@ -41,7 +41,7 @@ void load_meshes(Scene& scene, const MeshOptions& options);
 // was found.
 void load_meshes(Scene& scene, const std::function<std::uint64_t()>& device_bytes = nullptr);
 
-// Of a scene read back from a file `kept_in`, say a recording: sets its own file (scene.file, from where meshes are looked for) to that of the
+// For a scene read back from a file `kept_in`, say a recording: sets its own file (scene.file, from where meshes are looked for) to that of the
 // same name beside `kept_in`, if all its meshes are there. Else it stays.
 void follow_moved_scene(Scene& scene, const std::string& kept_in);
 

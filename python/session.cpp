@@ -57,7 +57,7 @@ struct Step {
   VesselPoses poses;
 
   HandView hand() const { return hand_view(session->live(), tick, poses); }
-  // Of the whole hand; NaN where nothing is held.
+  // What the whole hand gives; NaN where nothing is held.
   double effort() const {
     const std::optional<HandHold> hold = hand().hold;
     return hold ? hold->effort : Tick::NONE;

@@ -196,7 +196,7 @@ std::string recorded_text(const Header& header, const char* name) {
   return attribute->bytes;
 }
 
-// Of what is printed.
+// A text that is printed.
 std::string recorded_line(const Header& header, const char* name) { return one_line(recorded_text(header, name)); }
 
 std::vector<double> recorded_numbers(const Header& header, const char* name, std::size_t count) {

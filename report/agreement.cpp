@@ -217,7 +217,7 @@ void write_agreement(MarkupWriter& html, const ReportSource& source, std::size_t
                           : is_of_core(source) ? "note"
                                                : "good"}});
   html.open("details").element("summary", "Each quantity");
-  HtmlTable table(html, fmt::format("{}: the file compared with the core, on the sample", source.scene.vessels[vessel].name),
+  HtmlTable table(html, fmt::format("{}: the file compared with the core, on the grips above", source.scene.vessels[vessel].name),
                   {"quantity", "unit", "largest difference", "tolerance there", "grips", "beyond"}, {1});
   for (const Comparison& row : agreement.rows)
     table.row({row.quantity, unit_for_people(row.unit), three_figures(row.worst), three_figures(row.tolerance),

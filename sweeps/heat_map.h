@@ -18,7 +18,7 @@ class MapAxis {
   static constexpr std::size_t LARGEST_MAP = 128;
   static constexpr std::size_t LARGEST_SOBOL = 64;  // cells
 
-  // `sobol_points`: of a vessel; 0 for a grid.
+  // `points`: grips of a vessel, which decide how many cells a range has.
   MapAxis(const PlanAxis& axis, std::uint64_t points);
   std::size_t cells() const { return edges_.size() - 1; }
   double edge(std::size_t i) const { return edges_[i]; }  // i in [0, cells()], ascending, in the axis's unit

@@ -132,8 +132,8 @@ class ResultFile {
   double seconds_ = 0;
 };
 
-// Of the last steps of a result whose values are on the disk: has the NetCDF library read the structure of NAME.nc.partial; renames it to NAME.nc and
-// removes the mark. Both throw Error (failure).
+// The last steps of a result whose values are on the disk: the first has the NetCDF library read the structure of NAME.nc.partial, the second
+// renames it to NAME.nc and removes the mark. Both throw Error (failure).
 void check_readable(const OutputNames& names);
 void name_result(const OutputNames& names);
 

@@ -21,7 +21,7 @@ using wholehand::run;
 using wholehand::TemporaryFolder;
 using wholehand::write_file;
 
-// Of a page or a picture what is read.
+// What is read of a page or a picture.
 std::string words_of(const std::string& markup) {
   std::string text;
   for (std::size_t at = 0; at < markup.size();) {

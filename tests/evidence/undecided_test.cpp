@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Spheres that are just contacts, or just none: rounding decides, the grip says so, and what is told of it is one evaluation's.
+// Spheres that are just contacts, or just none: rounding decides, the grip says so, and its report is one evaluation's.
 // sanitizers: none
 #include <gtest/gtest.h>
 
@@ -106,7 +106,7 @@ TEST(UndecidedContacts, AreFlaggedWhereAFingerRestsByRounding) {
   EXPECT_GT(differing, 0u);
 }
 
-// What is told of the whole hand is what the score was made of, whatever answers.
+// The efforts of a report are those that the score was made of, whatever answers.
 TEST(UndecidedContacts, HaveOneEffortInOneReport) {
   const Scene scene = beaker_scene();
   for (const std::string on : {"core", "vulkan"})

@@ -245,7 +245,7 @@ std::string foreign_file(const TemporaryFolder& folder, const std::function<void
   return path;
 }
 
-// All that a file needs before its variables are looked at.
+// All that a file needs before its variables are read.
 void put_texts(int file, const char* program) {
   int dim = -1, id = -1;
   nc_def_dim(file, CHECKSUMS, 4000, &dim);
