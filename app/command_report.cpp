@@ -26,6 +26,7 @@ ExitCode report_sweep(const PageArguments& arguments) {
   SweepResult result(arguments.result);
   check_output_path(page);
   check_overwrites_page(page, arguments.result);
+  result.check_all();  // also what the page does not show: it says that the file's numbers agree
   std::string trouble;
   const Scene scene = scene_of_result(result, trouble);
   const std::string html = report_page(result, scene, trouble, arguments.list);

@@ -184,6 +184,17 @@ TEST_F(FlippedResult, EveryCommandRefusesAScoreThatIsDamaged) {
     expect_error(command, 2, "flipped.nc: is damaged: the values of score of vessel 1 are not those that the sweep wrote");
 }
 
+// A page says that the file's numbers agree, so it is about all of them.
+TEST_F(FlippedResult, ReportRefusesADamagedVariableThatItDoesNotShow) {
+  const auto depth = std::find_if(parts_.parts.begin(), parts_.parts.end(),
+                                  [](const ChecksumPart& p) { return p.variable == "palm_depth" && p.vessel == 1u; });
+  ASSERT_NE(depth, parts_.parts.end());
+  std::string bytes = whole_;
+  bytes[depth->range.offset] ^= 1;
+  std::ofstream(path_, std::ios::binary) << bytes;
+  expect_error("report " + path_, 2, "flipped.nc: is damaged: the values of palm_depth of vessel 2 are not");
+}
+
 #endif
 
 }  // namespace
