@@ -41,4 +41,11 @@ std::vector<std::size_t> counted_tilts(const Scene& scene, std::size_t vessel) {
   return counted_tilts(scene, vessel, scene.liquid ? vessel_fills(scene, scene.vessels[vessel]) : std::vector<double>{0});
 }
 
+std::vector<double> last_tilts(const Scene& scene, std::size_t vessel) {
+  std::vector<double> last;
+  if (scene.tilts.empty()) return last;
+  for (const std::size_t count : counted_tilts(scene, vessel)) last.push_back(scene.tilts[count - 1]);
+  return last;
+}
+
 }  // namespace wholehand

@@ -16,5 +16,7 @@ namespace wholehand {
 std::vector<std::size_t> counted_tilts(const Scene& scene, std::size_t vessel, const std::vector<double>& fills);
 // At the scene's own fills; of a scene without liquid, at the one that it has.
 std::vector<std::size_t> counted_tilts(const Scene& scene, std::size_t vessel);
+// The last of those tilts at each fill, rad: a grip that is safe at all of them is safe up to it. Empty in a scene without tilts.
+std::vector<double> last_tilts(const Scene& scene, std::size_t vessel);
 
 }  // namespace wholehand

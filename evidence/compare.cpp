@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/grip_effort.h"
+#include "core/nearest.h"
 #include "evidence/load_floors.h"
 
 namespace wholehand {
@@ -622,10 +623,9 @@ double Comparer::shift(std::size_t vessel) const {
 // are handed through and at most rounded to the coarser precision. No value is larger than `largest`.
 std::optional<std::size_t> Comparer::place_told(double told, const std::vector<double>& listed, double largest) const {
   if (std::isnan(told)) return 0;
-  const auto nearest = std::min_element(listed.begin(), listed.end(),
-                                        [told](double a, double b) { return std::abs(a - told) < std::abs(b - told); });
-  if (!(std::abs(*nearest - told) <= 4 * allowed_.epsilon * largest)) return std::nullopt;
-  return static_cast<std::size_t>(nearest - listed.begin()) + 1;
+  const std::size_t nearest = nearest_place(listed, told);
+  if (!(std::abs(listed[nearest] - told) <= 4 * allowed_.epsilon * largest)) return std::nullopt;
+  return nearest + 1;
 }
 
 double Comparer::volume_tolerance(std::size_t vessel) const {

@@ -12,6 +12,7 @@
 #include "core/counted_tilts.h"
 #include "core/error.h"
 #include "core/gather.h"
+#include "core/nearest.h"
 #include "host/open_backend.h"
 
 namespace wholehand {
@@ -72,15 +73,11 @@ struct GripPlanes {
 template <class Told>
 std::optional<GripHold> hold_of(const Scene& scene, std::size_t vessel, const Told& told) {
   if (!has_effort(scene) || std::isnan(told(FIELD_WORST_EFFORT))) return std::nullopt;
-  const auto listed = [](const std::vector<double>& values, double value) {  // planes may be float's
-    return *std::min_element(values.begin(), values.end(),
-                             [value](double a, double b) { return std::abs(a - value) < std::abs(b - value); });
-  };
   const StateAxes own = scene_axes(scene, vessel);
   GripHold hold;
   hold.worst = told(FIELD_WORST_EFFORT);
-  hold.worst_fill = listed(own.fills, told(FIELD_WORST_EFFORT_FILL));
-  hold.worst_tilt = listed(own.tilts, told(FIELD_WORST_EFFORT_TILT));
+  hold.worst_fill = nearest_value(own.fills, told(FIELD_WORST_EFFORT_FILL));
+  hold.worst_tilt = nearest_value(own.tilts, told(FIELD_WORST_EFFORT_TILT));
   hold.tips_worst = told(FIELD_TIPS_WORST_EFFORT);
   hold.push = told(FIELD_PUSH);
   hold.friction_needed = told(FIELD_FRICTION_NEEDED);
@@ -110,15 +107,16 @@ GripPlanes run_one(Backend& backend, std::size_t vessel, const GripInput& grip) 
   return planes;
 }
 
-GripScore score_of(const GripPlanes& planes, std::size_t fills) {
+GripScore score_of(const GripPlanes& planes, const Scene& scene) {
   GripScore score;
   score.score = planes.real(FIELD_SCORE);
   const auto term = [&](std::size_t k) { return planes.real(FIELD_TERMS, k); };
   score.terms = {term(0), term(1), term(2), term(3), term(4), term(5)};
   if (!planes.has(FIELD_PEAK_FORCE)) return score;
-  for (std::size_t f = 0; f < fills; ++f) {
-    score.fills.push_back({planes.real(FIELD_PEAK_FORCE, f), planes.real(FIELD_PEAK_TILT, f), planes.real(FIELD_LARGEST_HOLD, f),
-                           planes.real(FIELD_SAFE_TILT, f)});
+  const auto tilt = [&](int field, std::size_t f) { return nearest_value(scene.tilts, planes.real(field, f)); };
+  for (std::size_t f = 0; f < scene_fills(scene); ++f) {
+    score.fills.push_back(
+        {planes.real(FIELD_PEAK_FORCE, f), tilt(FIELD_PEAK_TILT, f), planes.real(FIELD_LARGEST_HOLD, f), tilt(FIELD_SAFE_TILT, f)});
   }
   return score;
 }
@@ -203,7 +201,7 @@ GripMethods backend_grip_methods(const Scene& scene, const BackendOpener& open) 
             answer.result = decode_grip(planes.chunk, planes.fields, 0);
             answer.is_core_double = false;
             if (answer.result.reason != Reason::none) return answer;
-            answer.score = score_of(planes, scene_fills(scene));
+            answer.score = score_of(planes, scene);
             answer.hold = hold_of(scene, vessel, [&](int field) { return planes.real(field); });
             if (axes.tilts.empty()) return answer;
 

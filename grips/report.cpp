@@ -31,8 +31,8 @@ GripReport make_grip_report(const Scene& scene, std::size_t vessel, const GripIn
   report.has_tilts = !scene.tilts.empty();
   report.score_fills = scene_axes(scene, vessel).fills;
   report.score_tilts = scene.tilts.size();
-  if (report.has_tilts) report.largest_tilt = scene.tilts.back();
   report.counted_tilts = counted_tilts(scene, vessel);
+  report.last_tilts = last_tilts(scene, vessel);
   return report;
 }
 

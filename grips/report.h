@@ -22,8 +22,8 @@ struct GripReport {
   bool has_tilts = false;                  // the scene's: without them there are no force and hold terms
   std::vector<double> score_fills;         // fills of the score's terms
   std::size_t score_tilts = 0;             // the scene's,
-  double largest_tilt = 0;                 // rad: of these
-  std::vector<std::size_t> counted_tilts;  // and how many of them count at each of those fills
+  std::vector<std::size_t> counted_tilts;  // how many of them count at each of those fills,
+  std::vector<double> last_tilts;          // and the last that does, rad; empty without tilts
   std::vector<StateHold> holds;            // of answer.states; empty until add_holding
   std::optional<GripHold> hold;            // over the scene's states; nothing without tilts
   std::optional<GripQuality> quality;      // nothing until add_quality

@@ -9,6 +9,7 @@
 #include "charts/markup.h"
 #include "core/effort.h"
 #include "core/error.h"
+#include "core/nearest.h"
 #include "core/planes.h"
 #include "system/readable.h"
 
@@ -59,10 +60,7 @@ std::string fill_words(const GripReport& report, double fill) {
 
 std::string fill_text(const Scene& scene, std::size_t vessel, double fill) {
   if (!scene.liquid || scene.liquid->volumes.empty()) return share_text(scene, fill);
-  const std::vector<double>& fills = vessel_fills(scene, scene.vessels[vessel]);
-  const auto nearest =
-      std::min_element(fills.begin(), fills.end(), [fill](double a, double b) { return std::abs(a - fill) < std::abs(b - fill); });
-  const auto place = static_cast<std::size_t>(nearest - fills.begin());
+  const std::size_t place = nearest_place(vessel_fills(scene, scene.vessels[vessel]), fill);
   return plain_number(scene.vessels[vessel].has_cavity() ? 1e6 * scene.liquid->volumes[place] : 0) + "\u00a0mL";
 }
 

@@ -217,7 +217,7 @@ void write_score(std::string& out, const GripReport& report) {
     const std::size_t counted = report.counted_tilts.at(f);
     const std::string tilts = counted == report.score_tilts ? "all" : fmt::format("{} of {}", counted, report.score_tilts);
     const std::string hold = std::isinf(terms.largest_hold) ? "infinite" : hold_newtons(terms.largest_hold, report) + " N";
-    const bool is_end = terms.safe_tilt >= report.largest_tilt;
+    const bool is_end = terms.safe_tilt >= report.last_tilts.at(f);
     const std::string safe = std::isnan(terms.safe_tilt) ? "safe at no tilt"
                              : is_end ? fmt::format("safe at every tilt, up to {} deg", plain_text(degrees(terms.safe_tilt)))
                                       : fmt::format("safe up to {} deg", plain_text(degrees(terms.safe_tilt)));

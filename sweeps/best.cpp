@@ -8,7 +8,9 @@
 #include <cmath>
 #include <limits>
 
+#include "core/counted_tilts.h"
 #include "core/error.h"
+#include "core/nearest.h"
 #include "shaders/layout.h"
 #include "sweeps/variables.h"
 #include "system/csv.h"
@@ -19,14 +21,8 @@ namespace {
 
 constexpr double NOT_A_NUMBER = std::numeric_limits<double>::quiet_NaN();
 
-// The scene's own number for a tilt that a device tells in its precision; NaN stays.
-double listed(double told, const std::vector<double>& tilts) {
-  if (std::isnan(told)) return told;
-  return *std::min_element(tilts.begin(), tilts.end(),
-                           [told](double a, double b) { return std::abs(a - told) < std::abs(b - told); });
-}
-
-BestGrip read_best(const PlaneChunk& chunk, const FieldSet& fields, std::size_t i, const Scene& scene) {
+BestGrip read_best(const PlaneChunk& chunk, const FieldSet& fields, std::size_t i, const Scene& scene,
+                   const std::vector<double>& last_tilts) {
   const auto real = [&](int field, int plane = 0) { return chunk.real(fields.plane[field] + plane, i); };
   BestGrip best;
   best.score = real(FIELD_SCORE);
@@ -38,7 +34,7 @@ BestGrip read_best(const PlaneChunk& chunk, const FieldSet& fields, std::size_t 
   best.fingers_used = std::popcount(chunk.uint(fields.plane[FIELD_USED_MASK], i));
   best.antipodal = (chunk.uint(fields.plane[FIELD_STATUS], i) & STATUS_ANTIPODAL) != 0;
   best.points_touching = std::popcount(chunk.uint(fields.plane[FIELD_TOUCH_MASK], i));
-  set_worst(best, scene, real);
+  set_worst(best, scene, last_tilts, real);
   return best;
 }
 
@@ -66,25 +62,27 @@ std::vector<int> best_fields(const Scene& scene) {
   return fields;
 }
 
-void set_worst(BestGrip& best, const Scene& scene, const std::function<double(int field, int fill)>& value) {
+void set_worst(BestGrip& best, const Scene& scene, const std::vector<double>& last_tilts,
+               const std::function<double(int field, int fill)>& value) {
   best.peak_force = best.peak_tilt = best.largest_hold = best.safe_tilt = NOT_A_NUMBER;
   if (scene.tilts.empty()) return;
   best.peak_force = best.largest_hold = -1;
   best.safe_tilt = std::numeric_limits<double>::infinity();
+  best.is_safe_to_end = true;
   for (int fill = 0; fill < static_cast<int>(scene_fills(scene)); ++fill) {
     if (value(FIELD_PEAK_FORCE, fill) > best.peak_force) {
       best.peak_force = value(FIELD_PEAK_FORCE, fill);
-      best.peak_tilt = listed(value(FIELD_PEAK_TILT, fill), scene.tilts);
+      best.peak_tilt = nearest_value(scene.tilts, value(FIELD_PEAK_TILT, fill));
     }
     if (!has_effort(scene)) best.largest_hold = std::max(best.largest_hold, value(FIELD_LARGEST_HOLD, fill));
-    const double safe = listed(value(FIELD_SAFE_TILT, fill), scene.tilts);
+    const double safe = nearest_value(scene.tilts, value(FIELD_SAFE_TILT, fill));
     if (std::isnan(safe) || safe < best.safe_tilt) best.safe_tilt = safe;
+    best.is_safe_to_end = best.is_safe_to_end && safe >= last_tilts.at(static_cast<std::size_t>(fill));
   }
-  best.is_safe_to_end = best.safe_tilt >= scene.tilts.back();
   if (!has_effort(scene)) return;
   best.efforts = {value(FIELD_WORST_EFFORT, 0),
                   value(FIELD_WORST_EFFORT_FILL, 0),
-                  listed(value(FIELD_WORST_EFFORT_TILT, 0), scene.tilts),
+                  nearest_value(scene.tilts, value(FIELD_WORST_EFFORT_TILT, 0)),
                   value(FIELD_TIPS_WORST_EFFORT, 0),
                   value(FIELD_PUSH, 0),
                   value(FIELD_FRICTION_NEEDED, 0)};
@@ -95,6 +93,7 @@ std::vector<BestGrip> evaluate_best(Backend& backend, const Scene& scene, const 
                                     const std::vector<Candidate>& candidates) {
   std::vector<BestGrip> best(candidates.size());
   if (candidates.empty()) return best;
+  const std::vector<double> last = last_tilts(scene, vessel);
   RunRequest request;
   request.vessel = vessel;
   request.last = candidates.size();
@@ -104,7 +103,7 @@ std::vector<BestGrip> evaluate_best(Backend& backend, const Scene& scene, const 
   request.sink = [&](const PlaneChunk& chunk) {
     for (std::size_t i = 0; i < chunk.count; ++i) {
       BestGrip& grip = best[chunk.first + i];
-      grip = read_best(chunk, backend.fields(), i, scene);
+      grip = read_best(chunk, backend.fields(), i, scene, last);
       grip.candidate = candidates[chunk.first + i];
       grip.grip = plan.grip(vessel, grip.candidate.index);
       grip.rank = chunk.first + i + 1;

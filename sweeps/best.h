@@ -41,7 +41,7 @@ struct BestGrip {
   double peak_tilt = 0;                      // of it, rad
   double largest_hold = 0;                   // of each of two tips, N, may be infinite
   double safe_tilt = 0;                      // smallest over the fills, rad; NaN where a fill has none
-  bool is_safe_to_end = false;               // it is the scene's largest tilt: more was not asked
+  bool is_safe_to_end = false;               // at every fill it is the last tilt that counts: more was not asked
   GripEfforts efforts;                       // NaN in a scene without efforts
   GripInput refined{};                       // the best place near the grip (sweeps/refine.h), where there is a score of it
   double refined_score = std::numeric_limits<double>::quiet_NaN();
@@ -58,7 +58,9 @@ std::vector<BestGrip> evaluate_best(Backend& backend, const Scene& scene, const 
 
 // Sets forces and tilts to the worst over the fills from FIELD_PEAK_FORCE, FIELD_PEAK_TILT, FIELD_LARGEST_HOLD and FIELD_SAFE_TILT of
 // each. With efforts it sets these too, and the hold force follows from that of the tips: FIELD_LARGEST_HOLD is not asked for then.
-void set_worst(BestGrip& best, const Scene& scene, const std::function<double(int field, int fill)>& value);
+// `last_tilts` are those of the vessel (core/counted_tilts.h).
+void set_worst(BestGrip& best, const Scene& scene, const std::vector<double>& last_tilts,
+               const std::function<double(int field, int fill)>& value);
 
 // Which sweep a list is of: the name of its result without the folder, and its sweep_id (sweeps/grip_lists.h).
 struct ListOrigin {

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "core/core_backend.h"
+#include "core/counted_tilts.h"
 #include "core/error.h"
 #include "core/fields.h"
 #include "core/nearest_name.h"
@@ -218,6 +219,11 @@ std::vector<BestGrip> read_rows(const SweepResult& result, const Scene& scene, c
     for (int plane = 0; plane < field_planes(field, scene); ++plane)
       of_states[field].push_back(pick(field_row(field).variable, static_cast<std::size_t>(plane)));
   }
+  // where a mesh is not there, which tilts count is not known: then all of them are the end
+  const VesselData& data = scene.vessels[vessel];
+  const bool is_known = !data.mesh || data.mesh->body;
+  const std::vector<double> last =
+      is_known || scene.tilts.empty() ? last_tilts(scene, vessel) : std::vector<double>(scene_fills(scene), scene.tilts.back());
   for (std::size_t i = 0; i < best.size(); ++i) {
     best[i].closure = closure[i];
     best[i].gap = gap[i];
@@ -226,7 +232,7 @@ std::vector<BestGrip> read_rows(const SweepResult& result, const Scene& scene, c
     best[i].phalanx_depth = phalanx[i];
     best[i].palm_depth = palm[i];
     best[i].antipodal = antipodal[i] != 0;
-    set_worst(best[i], scene, [&](int field, int plane) { return of_states.at(field)[static_cast<std::size_t>(plane)][i]; });
+    set_worst(best[i], scene, last, [&](int field, int plane) { return of_states.at(field)[static_cast<std::size_t>(plane)][i]; });
   }
   for (std::size_t i = 0; i < best.size(); ++i) best[i].grip = plan.grip(vessel, grips[i]);
   return best;

@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/counted_tilts.h"
 #include "core/error.h"
 #include "core/load.h"
 #include "core/mesh_body.h"
@@ -74,6 +75,7 @@ class GripsView::Impl {
         evaluator_(make_core_evaluator(scene)),
         quadrature_(core_f64::load_quadrature(prepare_quadrature(QUADRATURE_POINTS))) {
     for (const VesselData& data : scene_.vessels) vessels_.push_back(load_viewed(scene_, data, quadrature_));
+    for (std::size_t v = 0; v < vessels_.size(); ++v) last_tilts_.push_back(last_tilts(scene_, v));
     for (const ViewedGrip& wanted : grips) {
       Seen seen{wanted, {}, {}, {}, {}};
       evaluator_->grip(wanted.vessel, wanted.grip, seen.result);
@@ -256,18 +258,18 @@ class GripsView::Impl {
     json["depth_m"] = std::max(result.phalanx_depth, result.palm_depth);
     json["antipodal"] = result.antipodal;
     double peak = Tick::NONE, hold = Tick::NONE, safe = Tick::NONE;
-    for (const FillTerms& fill : seen.score.fills) {
+    bool is_safe_to_end = !seen.score.fills.empty();
+    for (std::size_t f = 0; f < seen.score.fills.size(); ++f) {
+      const FillTerms& fill = seen.score.fills[f];
       peak = std::isnan(peak) ? fill.peak_force : std::max(peak, fill.peak_force);
       hold = std::isnan(hold) ? fill.largest_hold : std::max(hold, fill.largest_hold);
-      const bool is_first = &fill == &seen.score.fills.front();
-      safe = is_first                                         ? fill.safe_tilt
-             : std::isnan(safe) || std::isnan(fill.safe_tilt) ? Tick::NONE
-                                                              : std::min(safe, fill.safe_tilt);
+      safe = f == 0 ? fill.safe_tilt : std::isnan(safe) || std::isnan(fill.safe_tilt) ? Tick::NONE : std::min(safe, fill.safe_tilt);
+      is_safe_to_end = is_safe_to_end && fill.safe_tilt >= last_tilts_[seen.wanted.vessel][f];
     }
     json["peak_force_N"] = finite_or_null(peak);
     json["hold_force_N"] = finite_or_null(hold);
     json["safe_tilt_rad"] = finite_or_null(safe);
-    json["safe_to_end"] = !scene_.tilts.empty() && safe >= scene_.tilts.back();
+    json["safe_to_end"] = is_safe_to_end;
     return json;
   }
 
@@ -275,6 +277,7 @@ class GripsView::Impl {
   std::unique_ptr<Evaluator> evaluator_;
   core_f64::Quadrature quadrature_;
   std::vector<ViewedVessel> vessels_;
+  std::vector<std::vector<double>> last_tilts_;  // of each vessel
   std::vector<Seen> seen_;
 };
 

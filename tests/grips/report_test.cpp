@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -258,6 +259,16 @@ TEST(GripReport, TableGivesFillsAsTheyAreAskedFor) {
   EXPECT_NE(table.find("safe up to 2.86479 deg"), std::string::npos) << table;
 }
 
+// The end is the last tilt that counts at each fill.
+TEST(GripReport, TableSaysSafeAtEveryTiltThatCounts) {
+  GripReport report = report_of(plain_scene(true, true), feasible_result());
+  report.answer.score.fills = {{1, 0, 1, 0.05}, {1, 0, 1, 0.05}};
+  report.last_tilts = {0.1, 0.05};
+  const std::string table = grip_table(report);
+  EXPECT_NE(table.find("safe up to 2.86479 deg"), std::string::npos) << table;
+  EXPECT_NE(table.find("safe at every tilt, up to 2.86479 deg"), std::string::npos) << table;
+}
+
 TEST(GripThrough, FindsTheGripOfItsLine) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform(-1, 1);
@@ -368,6 +379,7 @@ TEST(GripReport, StatesThatAreLeftOutHaveNoForces) {
     ++rows;
   EXPECT_EQ(rows, left_out) << table;
   EXPECT_NE(table.find("over " + std::to_string(counted.back()) + " of 6 tilts"), std::string::npos) << table;
+  EXPECT_EQ(report.last_tilts.back(), scene.tilts[counted.back() - 1]);
   StateAxes asked = own;
   asked.tilts = {2.5};
   for (const GripState& state : make_grip_report(scene, 0, grip, asked, methods).answer.states)
@@ -404,6 +416,19 @@ TEST(GripReport, PlanesGiveWhatTheCoreGives) {
     EXPECT_EQ(grip_json(make_grip_report(cut, 1, grip, axes, cut_direct)),
               grip_json(make_grip_report(cut, 1, grip, axes, cut_planes)));
   }
+  // planes of float tell the scene's own tilts
+  cut.tilts = {0, radians(75), radians(150)};
+  cut.until_poured.reset();
+  cut.force.grip_strength = 1e3;
+  const GripMethods in_float = backend_grip_methods(cut, [](const Scene& opened, const FieldSet& fields) {
+    return std::make_unique<CoreBackend>(make_core_float_evaluator(opened), opened, fields, Precision::single, 1);
+  });
+  const GripReport told = make_grip_report(cut, 1, {0.05, 0.7, 0.1, -0.5, 0.002, 1}, scene_axes(cut, 1), in_float);
+  for (const FillTerms& terms : told.answer.score.fills) {
+    EXPECT_EQ(terms.safe_tilt, cut.tilts.back());
+    EXPECT_TRUE(std::find(cut.tilts.begin(), cut.tilts.end(), terms.peak_tilt) != cut.tilts.end()) << terms.peak_tilt;
+  }
+  EXPECT_NE(grip_table(told).find("safe at every tilt, up to 150 deg"), std::string::npos) << grip_table(told);
   other.fills = {0.9};
   EXPECT_THROW(planes.answer(0, {0.05, 0, 0, 0, 0, 1}, other), Error);
 }

@@ -77,9 +77,26 @@ TEST(Best, ForcesAreTheWorstOverTheFills) {
   EXPECT_EQ(best.peak_tilt, scene.tilts[1]) << "the listed one that is told to a device's digits";
   EXPECT_TRUE(std::isinf(best.largest_hold));
   EXPECT_EQ(best.safe_tilt, scene.tilts[2]);
-  EXPECT_EQ(best.is_safe_to_end, best.safe_tilt == scene.tilts.back());
+  EXPECT_FALSE(best.is_safe_to_end);
   backend.safe = std::nan("");
   EXPECT_TRUE(std::isnan(evaluate_best(backend, scene, plan, 0, {{0.9, 1}}).front().safe_tilt)) << "one fill has none";
+}
+
+// The end is each fill's own: where tilts are left out, the safe tilt runs over those that count.
+TEST(Best, SafeToTheEndMeansAtEveryTiltThatCounts) {
+  const Scene scene = fake_scene();
+  const auto is_safe = [&](std::vector<double> told, const std::vector<double>& last) {
+    BestGrip best;
+    set_worst(best, scene, last,
+              [&](int field, int fill) { return field == FIELD_SAFE_TILT ? told[static_cast<std::size_t>(fill)] : 0; });
+    return best.is_safe_to_end;
+  };
+  const double end = scene.tilts.back(), middle = scene.tilts[1];
+  EXPECT_TRUE(is_safe({end, static_cast<float>(middle)}, {end, middle}));
+  EXPECT_TRUE(is_safe({static_cast<float>(middle), end}, {middle, end}));
+  EXPECT_FALSE(is_safe({middle, middle}, {end, middle}));
+  EXPECT_FALSE(is_safe({end, std::nan("")}, {end, middle}));
+  EXPECT_FALSE(is_safe({middle, end}, {end, end}));
 }
 
 TEST(Best, CsvHasOneRowAVesselAndRankWithUnitsInItsHead) {

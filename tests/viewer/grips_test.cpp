@@ -300,6 +300,30 @@ TEST(GripsView, TheListTellsEachGripAndItsTerms) {
   }
 }
 
+TEST(GripsView, SafeToTheEndMeansAtEveryTiltThatCounts) {
+  Scene scene = beakers();
+  scene.liquid->volumes.clear();
+  for (VesselData& vessel : scene.vessels) vessel.fills.clear();
+  scene.liquid->fills = {0.5, 0.9};
+  scene.tilts = {0, radians(45), radians(90), radians(170)};
+  scene.until_poured = 0.3;
+  scene.force.grip_strength = 1e6;
+  std::vector<std::string> notes;
+  const GripsView view(scene, some_grips(), notes);
+  const json grips = parse_json(view.content("best", scene_axes(scene, 0)).scene)["grips"];
+  ASSERT_EQ(grips.size(), some_grips().size());
+  const auto is_end = [](const json& grip) { return grip["safe_to_end"] == true; };
+  EXPECT_TRUE(std::any_of(grips.begin(), grips.end(), is_end)) << grips;
+  for (const json& grip : grips) {
+    if (is_end(grip)) {
+      EXPECT_LT(grip["safe_tilt_rad"], scene.tilts.back()) << "no tilt is left out";
+    }
+  }
+  scene.force.grip_strength = 1e-3;
+  for (const json& grip : parse_json(GripsView(scene, some_grips(), notes).content("best", scene_axes(scene, 0)).scene)["grips"])
+    EXPECT_FALSE(is_end(grip));
+}
+
 TEST(GripsView, AnswersAtAnyStateAndRefusesWhatIsNone) {
   std::vector<std::string> notes;
   const GripsView view(beakers(), some_grips(), notes);
