@@ -278,15 +278,20 @@ class LiveRun {
     }
   }
 
-  // Where vessels without places stand in each other, which shipped scenes have places.
+  // Where vessels stand in each other only because they have no places, which shipped scenes have places.
   void check_places() const {
     try {
       const LiveScene placed(scene_);
     } catch (const Error& error) {
       if (error.code != ExitCode::usage || has_places(scene_)) throw;
+      constexpr double FAR_APART = 100;  // m
+      Scene apart = scene_;
+      for (std::size_t v = 0; v < apart.vessels.size(); ++v) apart.vessels[v].place = {FAR_APART * static_cast<double>(v), 0, 0};
+      const LiveScene of_other_causes(apart);  // throws what places do not mend
       std::vector<std::string> placed;
       for (const std::string& name : shipped_scenes())
         if (has_places(read_scene_file(find_scene(name)))) placed.push_back(name);
+      if (placed.empty()) throw;
       throw usage_error(fmt::format("{}; shipped scenes whose vessels have places: {}", error.what(), joined(placed, ", ")));
     }
   }

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "recordings/recording.h"
+#include "scene/shipped.h"
 #include "system/json.h"
 #include "tests/support/files.h"
 #include "tests/support/program.h"
@@ -146,7 +147,8 @@ TEST(CommandLine, EvaluatesOneGrip) {
   EXPECT_EQ(run("PROGRAM " + std::string(SMALL_GRIP) + " --hand-scale 0.2").code, 1);
 
   // but there is no hand to draw: nothing is written
-  const std::string drawing = std::filesystem::temp_directory_path() / "wholehand_cli_test";
+  const wholehand::TemporaryFolder folder;
+  const std::string drawing = folder / "drawing";
   for (const char* option : {"--glb", "--svg"}) {
     expect_error(std::string(SMALL_GRIP) + " --hand-scale 0.2 " + option + " " + drawing, 2, "not feasible (too_wide)");
     EXPECT_FALSE(std::filesystem::exists(drawing)) << option;
@@ -163,6 +165,17 @@ TEST(CommandLine, EvaluatesOneGrip) {
   const Outcome points =
       run("PROGRAM grip three_beakers --vessel beaker1 --thumb-mm 0,50,40 --index-mm 0,50,-40 --roll-deg -45 --tilt-deg 30 --json");
   EXPECT_EQ(parse_json(direct.output), parse_json(points.output));
+}
+
+// A program far from its scenes has none to name.
+TEST(CommandLine, NamesNoScenesWithPlacesWhereThereAreNone) {
+  const wholehand::TemporaryFolder folder;
+  wholehand::write_file(folder / "two.toml", wholehand::file_text(wholehand::find_scene("three_beakers")));
+  const Outcome outcome =
+      run("cp PROGRAM " + (folder / "alone") + " && " + (folder / "alone") + " live " + (folder / "two.toml") + " 2>&1");
+  EXPECT_EQ(outcome.code, 2);
+  if (!run((folder / "alone") + " scenes 2>/dev/null").output.empty()) return;  // those of a package
+  EXPECT_TRUE(outcome.output.ends_with("a live session needs place_mm for each\n")) << outcome.output;
 }
 
 TEST(CommandLine, DrawsAGrip) {

@@ -25,7 +25,8 @@ using wholehand::run;
 using wholehand::SMALL_GRIP;
 
 TEST(CommandLine, SaysWhenAResultCannotBeWritten) {
-  const std::string result = std::filesystem::temp_directory_path() / "wholehand_cli_test.nc";
+  const wholehand::TemporaryFolder folder;
+  const std::string result = folder / "a.nc";
   const Outcome limited = run("ulimit -f 8; PROGRAM sweep small --on core -o " + result + " 2>&1 >/dev/null");
   EXPECT_EQ(limited.code, 3) << limited.output;
   EXPECT_NE(limited.output.find("there is room for only 4.1 kB"), std::string::npos) << limited.output;
@@ -55,15 +56,14 @@ TEST(CommandLine, SaysWhenItCannotWrite) {
     EXPECT_EQ(closed.output, "wholehand: cannot write to standard output: Bad file descriptor; what was printed is incomplete\n");
   }
   // whose output comes while it works
-  const std::string result = std::filesystem::temp_directory_path() / "wholehand_cli_test.nc";
+  const wholehand::TemporaryFolder folder;
+  const std::string result = folder / "a.nc";
   for (const std::string& arguments : {"sweep three_beakers --on core -o " + result, std::string("check small")}) {
     const Outcome full = run("PROGRAM " + arguments + " 2>&1 >/dev/full");
     EXPECT_EQ(full.code, 3) << arguments;
     EXPECT_EQ(full.output, "wholehand: cannot write to standard output: No space left on device; what was printed is incomplete\n");
   }
   EXPECT_TRUE(std::filesystem::exists(result)) << "the result itself was written";
-  for (const char* name : {".nc", ".best.csv", ".beaker1.svg", ".beaker2.svg", ".beaker3.svg"})
-    std::filesystem::remove(result.substr(0, result.size() - 3) + name);
 }
 
 // The program's output goes into a pipe whose reader has gone; its code and what it says on stderr come back.

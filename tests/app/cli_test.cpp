@@ -173,7 +173,8 @@ TEST(CommandLine, RefusesWrongUsageWithOneLineAndCode2) {
 }
 
 TEST(CommandLine, NamesFileLineAndColumn) {
-  const std::string scene = std::filesystem::temp_directory_path() / "wholehand_cli_test.toml";
+  const wholehand::TemporaryFolder folder;
+  const std::string scene = folder / "a.toml";
   std::ofstream(scene) << "[scene]\npose = \"papr\"\n";
   expect_error("sweep " + scene, 2, scene + ":2:8: pose = 'papr'; allowed: \"articulated\", \"paper\" or \"rigged\"");
   // what only shows after reading
@@ -194,7 +195,6 @@ TEST(CommandLine, NamesFileLineAndColumn) {
     expect_error(line, 2, scene + ":3:8: ");
   }
   expect_error("error-time " + scene + " -o " + testing::TempDir(), 2, scene + ":3:8: vessel 'm' is a mesh");
-  std::filesystem::remove(scene);
 }
 
 // The grippers below the Vulkan devices, with the stand-in for Force Dimension's SDK.
@@ -231,7 +231,8 @@ TEST(CommandLine, ListsDevicesAndGrippers) {
 
 // No driver, as on a machine that has none: an error where a device was asked for, and the core where that is left to the program.
 TEST(CommandLine, SaysWhenThereIsNoVulkan) {
-  const std::string result = std::filesystem::temp_directory_path() / "wholehand_cli_test.nc";
+  const wholehand::TemporaryFolder folder;
+  const std::string result = folder / "a.nc";
   for (const std::string& arguments : {"sweep small --on vulkan -o " + result, std::string("check small")}) {
     const Outcome outcome =
         run("VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent PROGRAM " + arguments + " 2>&1 >/dev/null");
@@ -248,16 +249,13 @@ TEST(CommandLine, SaysWhenThereIsNoVulkan) {
         run("VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent PROGRAM sweep small -o " + result + " " +
             outcome.output.substr(remedy + words.size(), outcome.output.find('\n') - remedy - words.size()) + " 2>&1");
     EXPECT_EQ(followed.code, 0) << followed.output;
-    for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::temp_directory_path()))
-      if (entry.path().filename().string().starts_with("wholehand_cli_test.")) std::filesystem::remove(entry.path());
   }
-  const std::string own = std::filesystem::temp_directory_path() / "wholehand_cli_auto_test.nc";
+  const std::string own = folder / "own.nc";
   const Outcome chosen = run("VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent PROGRAM sweep small -o " + own);
   EXPECT_EQ(chosen.code, 0) << chosen.output;
   EXPECT_NE(chosen.output.find("\non core, "), std::string::npos) << chosen.output;
   EXPECT_NE(chosen.output.find("\nchosen: core, "), std::string::npos) << chosen.output;
-  EXPECT_TRUE(std::filesystem::remove(own));
-  for (const char* beside : {".best.csv", ".tumbler.svg"}) std::filesystem::remove(own.substr(0, own.size() - 3) + beside);
+  EXPECT_TRUE(std::filesystem::exists(own));
 }
 
 }  // namespace

@@ -23,6 +23,7 @@
 #include "app/open_gripper.h"
 #include "core/error.h"
 #include "core/vectors.h"
+#include "live/tick.h"
 #include "recordings/recording.h"
 #include "scene/reader.h"
 #include "scene/shipped.h"
@@ -393,7 +394,7 @@ TEST(Live, AFullDiskEndsTheRecordingAndNotTheSession) {
 TEST(Live, OneLineSaysWhereTheRecordingIsWhenItsNameIsTaken) {
   const TemporaryFolder folder;
   const std::string file = folder / "a.nc";
-  Program program(patient_board(folder) + " --seconds 3 --record " + file);
+  Program program(patient_board(folder) + " --seconds 30 --record " + file);
   for (int k = 0; k < 6000 && !fs::exists(file + ".partial"); ++k) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   write_file(file, "a letter");
   const LiveOutcome outcome = program.wait();
@@ -451,6 +452,13 @@ TEST(Live, RefusesWhatIsNotAllowedInOneLine) {
   expect_refused("three_beakers", 2,
                  "stand in each other; a live session needs place_mm for each; shipped scenes whose vessels have "
                  "places: mixing_board");
+  // only where places would help
+  std::string many;
+  for (int k = 0; k <= LIVE_VESSELS; ++k)
+    many +=
+        "[[vessel]]\nname = \"v" + std::to_string(k) + "\"\nshape = \"cylinder\"\ndiameter_mm = 76\nheight_mm = 100\nwall_mm = 2\n";
+  write_file(folder / "many.toml", many);
+  expect_refused(folder / "many.toml", 2, "this scene has " + std::to_string(LIVE_VESSELS + 1) + "\n");
   expect_refused("no_such_scene", 2, "no_such_scene");
   expect_refused("--record " + (folder / "notes.txt"), 2, "notes.txt");
   EXPECT_EQ(file_text(folder / "notes.txt"), "not a recording") << "it is still there";
