@@ -173,8 +173,8 @@ struct GripBackend::Impl {
     RunResult result = CoreBackend(core, scene, all, Precision::full, 0).run(asked);
     result.best = std::move(best);
     result.notes.push_back(scene.vessels[request.vessel].name + ": an outline of " +
-                           std::to_string(arrays.vessels[request.vessel].outline_count) + " elements is evaluated on the core: " +
-                           info.device + " ends loops over more than " + std::to_string(MAX_OUTLINE) + " too early");
+                           std::to_string(arrays.vessels[request.vessel].outline_count) +
+                           " elements is evaluated on the core: its loops may be longer than " + info.device + " runs them");
     return result;
   }
 

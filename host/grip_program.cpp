@@ -246,7 +246,8 @@ void GripProgram::make_grip_kernel(std::size_t v, const Scene& scene, const Scen
   const bool has_proxies = fields.has(FIELD_PROXIES) || fields.has(FIELD_BONE_STRETCH);
   const GripLoops loops{is_looped ? from.outline_count : 0, scene.hand.between, has_proxies};
   const DeviceSteps steps = device_steps(on.info(), options.evaluator, loops);
-  if (steps.are_few && (from.outline_count > MAX_OUTLINE || most_steps(loops) < 1)) return;
+  // without a status, no one learns of which grips the steps were too few
+  if (steps.are_few && (from.outline_count > MAX_OUTLINE || most_steps(loops) < 1 || !fields.has(FIELD_STATUS))) return;
   std::vector<Constant> constants = common_constants();
   add_planes(constants, fields);
   constants.push_back({CONST_POSE, std::int32_t(scene.pose == Pose::articulated ? POSE_ARTICULATED

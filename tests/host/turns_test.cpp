@@ -164,6 +164,14 @@ deg = { from = 0, to = 170, count = 69 }
   return scene;
 }
 
+VesselData belly_of_most_elements() {
+  std::vector<OutlineElement> outline{line_to(20, 0)};
+  const int pieces = MAX_OUTLINE - 2;
+  for (int i = 1; i <= pieces; ++i) outline.push_back(line_to(20 + 18 * std::sin(PI * i / (1.1 * pieces)), 100.0 * i / pieces));
+  outline.push_back(line_to(0, 100));
+  return vessel_of("belly", outline, 1);
+}
+
 GripInput grip_at(double height) {
   GripInput grip;
   grip.height = height;
@@ -220,6 +228,48 @@ TEST(Turns, AGripWhoseTurnsRunOutIsTheCores) {
   }
 }
 
+// Either that its loops leave no steps, or that no status can tell of which grips the steps were too few.
+TEST(Turns, AVesselWhoseStepsMayBeTooFewWithoutAWordIsTheCores) {
+  Scene scene = scene_of({belly_of_most_elements()});
+  scene.hand.between = MOST_BETWEEN;
+  host::GripBackendOptions options;
+  options.outline = OUTLINE_BUFFER;
+  FieldSet silent;
+  silent.plane.fill(-1);
+  silent.plane[FIELD_GAP] = 0;
+  silent.real_planes = silent.real_kept = 1;
+  FieldSet costly = make_field_set({FIELD_GAP, FIELD_PROXIES}, scene);
+  const auto core = make_core_evaluator(scene);
+  const auto grips = sample_grips(scene.vessels[0], 100, 3);
+  for (const FieldSet& fields : {silent, costly}) {
+    const bool has_status = fields.has(FIELD_STATUS);
+    const host::GripLoops loops{MAX_OUTLINE, MOST_BETWEEN, has_status};
+    ASSERT_GT(host::grip_turns({}, loops), TURN_BUDGET);
+    ASSERT_EQ(host::most_steps(loops) < 1, has_status);
+    host::GripBackend device(scene, make_core_evaluator(scene), fields, "vulkan", options);
+    const GatheredPlanes truth = gather(*core, fields, 0, grips);
+    RunRequest request;
+    request.last = grips.size();
+    request.grips = [&](std::size_t, std::uint64_t first, std::size_t count, GripInput* out) {
+      std::copy_n(grips.begin() + static_cast<std::ptrdiff_t>(first), count, out);
+    };
+    request.sink = [&](const PlaneChunk& chunk) {
+      for (std::size_t i = 0; i < chunk.count; ++i) {
+        const double found = chunk.real(fields.plane[FIELD_GAP], i), right = truth.real(fields.plane[FIELD_GAP], chunk.first + i);
+        EXPECT_EQ(std::isnan(found), std::isnan(right)) << i;
+        if (!std::isnan(right)) {
+          EXPECT_NEAR(found, right, 1e-5) << i;
+        }
+      }
+    };
+    const std::vector<std::string> notes = device.run(request).notes;
+    if (!device.info().is_cpu) continue;
+    ASSERT_EQ(notes.size(), 1u);
+    EXPECT_EQ(notes[0], "belly: an outline of 32 elements is evaluated on the core: its loops may be longer than " +
+                            device.info().device + " runs them");
+  }
+}
+
 // ---- every kernel at its worst ----
 
 // With a bracket that rounding never lets close, a solve ends after its last pivot, and a state after two solves.
@@ -244,14 +294,6 @@ TEST(Turns, EffortsEndWithinTheirBounds) {
       EXPECT_GT(turns.at("reserve"), TURN_BUDGET / 2) << "not its worst";
     }
   }
-}
-
-VesselData belly_of_most_elements() {
-  std::vector<OutlineElement> outline{line_to(20, 0)};
-  const int pieces = MAX_OUTLINE - 2;
-  for (int i = 1; i <= pieces; ++i) outline.push_back(line_to(20 + 18 * std::sin(PI * i / (1.1 * pieces)), 100.0 * i / pieces));
-  outline.push_back(line_to(0, 100));
-  return vessel_of("belly", outline, 1);
 }
 
 // Whole hands with as many spheres as there may be. A step that never ends near the wall takes all its turns, and an outline of the largest size in a loop
