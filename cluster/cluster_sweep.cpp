@@ -742,7 +742,7 @@ class ClusterSweep final : public Sweep {
     const WorkRange work(std::move(left));
     team_.restart_counter();
     last_report_ = monotonic_now();
-    if (team_.is_leader()) progress_.emplace(total(), reported_);
+    if (team_.is_leader()) progress_.emplace(total(), reported_, "grips", progress_sink(ProgressSink::none));
     const std::optional<Error> failure = caught([&] {
       take_pieces(work, interrupt, [&](const GripRange& range) { return compute(range, file, interrupt); });
       file.sync();  // of all: passes may read what any rank wrote

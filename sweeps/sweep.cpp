@@ -300,7 +300,7 @@ RunRequest Sweep::grips_of(std::size_t v, InterruptGuard& interrupt) const {
 
 // Every vessel from where it stands to its end. False: interrupted, everything done so far is marked.
 bool Sweep::sweep(ResultFile& file, InterruptGuard& interrupt) {
-  Progress progress(total(), done(), "grips", is_quiet() ? ProgressSink::none : progress_sink());
+  Progress progress(total(), done(), "grips", is_quiet() ? ProgressSink::none : progress_sink(ProgressSink::none));
   last_mark_ = monotonic_now();
   for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
     forget();
@@ -435,7 +435,7 @@ void Sweep::pass_remembered(ListChooser& chooser) const {
 
 // All grips of a vessel once more, for the chooser alone. False: interrupted.
 bool Sweep::pass_again(std::size_t v, ListChooser& chooser, InterruptGuard& interrupt) {
-  Progress progress(plan().grips(), 0, "grips", is_quiet() ? ProgressSink::none : progress_sink());
+  Progress progress(plan().grips(), 0, "grips", is_quiet() ? ProgressSink::none : progress_sink(ProgressSink::none));
   std::uint64_t delivered = 0;
   RunRequest request = grips_of(v, interrupt);
   request.last = plan().grips();

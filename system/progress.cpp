@@ -29,7 +29,7 @@ std::string time_text(double seconds) {
 
 }  // namespace
 
-ProgressSink progress_sink() { return isatty(STDERR_FILENO) == 1 ? ProgressSink::terminal : ProgressSink::log; }
+ProgressSink progress_sink(ProgressSink otherwise) { return isatty(STDERR_FILENO) == 1 ? ProgressSink::terminal : otherwise; }
 
 Progress::Progress(std::uint64_t total, std::uint64_t done, const char* noun, ProgressSink sink, double (*clock)())
     : total_(total),

@@ -18,8 +18,8 @@ enum class ProgressSink {
   log,       // a line every ten seconds; the first after one second, if the work takes ten seconds more
 };
 
-// terminal where stderr is one, else log.
-ProgressSink progress_sink();
+// terminal where stderr is one, else `otherwise`.
+ProgressSink progress_sink(ProgressSink otherwise = ProgressSink::log);
 
 // Writes to stderr.
 class Progress {
