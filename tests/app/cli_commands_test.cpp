@@ -86,7 +86,7 @@ TEST(CommandLine, WritesAPageForASweep) {
   const std::string& folder = temporary.path();
   const std::string result = folder + "/s.nc", page = folder + "/s.html";
   ASSERT_EQ(run("PROGRAM sweep small --on core -o " + result + " 2>&1").code, 0);
-  const Outcome named = run("PROGRAM report " + result + " 2>&1");
+  const Outcome named = run("PROGRAM report " + result);
   EXPECT_EQ(named.code, 0) << named.output;
   EXPECT_EQ(named.output.find("wrote " + page + " ("), 0u) << named.output;
   EXPECT_EQ(named.output.find('\n'), named.output.size() - 1) << named.output;

@@ -61,7 +61,10 @@ TEST(CommandLine, SaysWhenItCannotWrite) {
   for (const std::string& arguments : {"sweep three_beakers --on core -o " + result, std::string("check small")}) {
     const Outcome full = run("PROGRAM " + arguments + " 2>&1 >/dev/full");
     EXPECT_EQ(full.code, 3) << arguments;
-    EXPECT_EQ(full.output, "wholehand: cannot write to standard output: No space left on device; what was printed is incomplete\n");
+    // after lines of progress, where the machine is slow
+    EXPECT_TRUE(full.output.ends_with(
+        "wholehand: cannot write to standard output: No space left on device; what was printed is incomplete\n"))
+        << full.output;
   }
   EXPECT_TRUE(std::filesystem::exists(result)) << "the result itself was written";
 }
