@@ -36,10 +36,10 @@ bool Recorder::drain() {
 }
 
 void Recorder::tell_trouble() {
-  if (!writer_ || writer_->trouble() == told_) return;
-  told_ = writer_->trouble();
+  if (!writer_ || writer_->trouble() == reported_) return;
+  reported_ = writer_->trouble();
   const std::lock_guard lock(mutex_);
-  trouble_ = told_;
+  trouble_ = reported_;
 }
 
 void Recorder::run() {

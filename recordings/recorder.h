@@ -55,7 +55,7 @@ class Recorder {
   Observer observer_;
   std::chrono::microseconds interval_;
   std::vector<Tick> block_;
-  std::string told_;  // of its troubles
+  std::string reported_;  // the latest trouble of the writer that was passed on
   bool is_whole_ = true;
 
   std::mutex mutex_;  // of the next three; the thread that pushes knows nothing of it

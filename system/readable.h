@@ -19,7 +19,7 @@ std::string counted(std::uint64_t count, const char* thing, const char* things =
 std::string fixed_text(double value, int digits);
 // As many digits as it has, at most six; likewise.
 std::string plain_text(double value);
-// The same of the end of a range that was looked at, with "+" where what is found may lie beyond it: "150+".
+// The same, with "+" where the value is the end of the range that was searched and the true one may lie beyond it: "150+".
 std::string range_text(double value, bool is_end);
 // How many digits behind the point are known of what is known to `error`, at most `digits`: 1 of 0.2, 0 of 3; all of 0 (exact) and NaN.
 int known_digits(double error, int digits);
