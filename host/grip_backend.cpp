@@ -335,7 +335,7 @@ struct GripBackend::Impl {
     if (undecided_count > 0) {
       result.notes.push_back(scene.vessels[request.vessel].name + ": " + std::to_string(undecided_count) +
                              (undecided_count == 1 ? " grip is" : " grips are") +
-                             " evaluated on the core: they take more turns of loops than every driver grants");
+                             " evaluated on the core: more turns of loops than every driver grants");
     }
     return result;
   }
