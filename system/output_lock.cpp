@@ -90,14 +90,18 @@ OutputLock::OutputLock(const std::string& path, const char* what) : path_(path) 
     const bool is_read_only = file_ < 0 && (error == EACCES || error == EPERM);
     // another user's, left behind: it can be locked all the same
     if (is_read_only) file_ = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    const auto refuse_foreign = [&] {
+      throw usage_error(fmt::format("{}: is there and is no lock of wholehand's; move it, or name another {} with -o", path, what));
+    };
     if (file_ < 0) {
+      if (error == EISDIR || error == ELOOP) refuse_foreign();
       throw failure_error(
           fmt::format("{}: cannot make this lock: {}; make room, or name another {} with -o", path, std::strerror(error), what));
     }
     const std::string text = content(file_);
     if (!text.empty() && !text.starts_with(HOLDER)) {
       close(file_);
-      throw usage_error(fmt::format("{}: is there and is no lock of wholehand's; move it, or name another {} with -o", path, what));
+      refuse_foreign();
     }
     const Taken taken = try_lock(path, file_);
     if (taken == Taken::yes && is_read_only) return;

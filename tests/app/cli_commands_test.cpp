@@ -235,61 +235,6 @@ TEST(CommandLine, ACavityThatReachesIntoAStemIsNoted) {
   }
 }
 
-// What a line says to do, done: a scene and a command that are refused, words of the remedy, and what they make of both. @ stands for the
-// scene's file and the result's name without its end.
-struct RemedyCase {
-  std::string scene, command, words, mended_scene, mended_command;
-};
-
-TEST(CommandLine, WhatALineSaysToDoHelps) {
-  const wholehand::TemporaryFolder folder;
-  const std::string vessel =
-      "[[vessel]]\nname = \"cup\"\nshape = \"cylinder\"\ndiameter_mm = 80\nheight_mm = 100\nwall_mm = 2\n"
-      "[grips]\nheight_fraction = [0.4, 0.6]\nroll_deg = [-60, -30]\n";
-  const std::string liquid = "[liquid]\nfills = [0, 0.5]\n", tilts = "[tilts]\ndeg = [0, 45]\n", strength = "[strength]\n";
-  const std::string whole = vessel + liquid + tilts + strength, sweep = "sweep @.toml -o @.nc --on core ",
-                    swept = sweep + ">/dev/null && PROGRAM ", grip = "grip @.toml --vessel cup --height-mm 50 ";
-  const std::vector<RemedyCase> cases{
-      {whole, swept + "rank @.nc --where 'max(effort) < 2'", "which has worst_effort", whole,
-       swept + "rank @.nc --where 'worst_effort < 2'"},
-      {whole, swept + "rank @.nc --where 'max(effort) < 2'", "add \"effort\" to [output] also of the scene",
-       whole + "[output]\nalso = [\"effort\"]\n", swept + "rank @.nc --where 'max(effort) < 2'"},
-      {whole + "[output]\nkeep = [\"score\", \"plausible\"]\n", swept + "rank @.nc --where 'gap_mm < 200'",
-       "add \"gap\" to [output] keep of the scene", whole + "[output]\nkeep = [\"score\", \"plausible\", \"gap\"]\n",
-       swept + "rank @.nc --where 'gap_mm < 200'"},
-      {whole + "[output]\nkeep = [\"score\"]\n", swept + "rank @.nc",
-       "lacks plausible, as keep of the sweep does not name it; add it", whole + "[output]\nkeep = [\"score\", \"plausible\"]\n",
-       swept + "rank @.nc"},
-      {whole, sweep + "--best 1 --glb 2", "give --best 2 too", whole, sweep + "--best 2 --glb 2"},
-      {whole, swept + "rank @.nc --glb 1", "give -o LIST.csv", whole, swept + "rank @.nc --glb 1 -o @.csv"},
-      {whole, swept + "rank @.nc --best 1 --glb 2 -o @.csv", "give --best 2 too", whole,
-       swept + "rank @.nc --best 2 --glb 2 -o @.csv"},
-      {whole, swept + "rank @.nc --where '0 < worst_effort < 2'", "write a < b and b < c", whole,
-       swept + "rank @.nc --where '0 < worst_effort and worst_effort < 2'"},
-      {whole, swept + "grip @.nc --vessel cup", "give --rank", whole, swept + "grip @.nc --vessel cup --rank 1"},
-      {whole, sweep + "--no-refine >/dev/null && PROGRAM grip @.nc --vessel cup --rank 1 --refined",
-       "sweep again without --no-refine", whole, swept + "grip @.nc --vessel cup --rank 1 --refined"},
-      {vessel + tilts, grip + "--fill 0.5", "add one with its fills", vessel + tilts + liquid, grip + "--fill 0.5"},
-      {vessel + liquid, grip + "--fill 0.5", "give --tilt-deg too", vessel + liquid, grip + "--fill 0.5 --tilt-deg 0"},
-      {whole, grip + "--fill 1 --on vulkan", "use --on core", whole, grip + "--fill 1 --on core"},
-      {vessel, "study @.toml --quick --threads 1 -o @.study --experiment sessions", "or ask for --experiment forces", vessel,
-       "study @.toml --quick --threads 1 -o @.study --experiment forces"},
-  };
-  for (const RemedyCase& one : cases) {
-    const auto outcome = [&](const std::string& scene, std::string command) {
-      const std::string name = folder / "a";
-      std::ofstream(name + ".toml") << scene;
-      for (std::size_t at = 0; (at = command.find('@', at)) != std::string::npos;) command.replace(at, 1, name);
-      return run("PROGRAM " + command + " 2>&1 ");
-    };
-    const Outcome refused = outcome(one.scene, one.command);
-    EXPECT_EQ(refused.code, 2) << one.command << refused.output;
-    EXPECT_NE(refused.output.find(one.words), std::string::npos) << refused.output << "lacks " << one.words;
-    const Outcome followed = outcome(one.mended_scene, one.mended_command);
-    EXPECT_EQ(followed.code, 0) << one.mended_command << followed.output;
-  }
-}
-
 }  // namespace
 
 #endif

@@ -246,15 +246,30 @@ TEST(MeshHints, FollowingARemedyHelps) {
     std::string mended_keys;
   };
   const TriangleMesh box = box_mesh({-0.03, 0, -0.03}, {0.03, 0.1, 0.03}), open = open_box({});
-  TriangleMesh walled = box, finned = box, flat = box, holed = icosphere(0.05, 4);
+  TriangleMesh walled = box, finned = box, flat = box, one_sided = box, holed = icosphere(0.05, 4);
   walled.triangles.push_back({0, 2, 5});
   finned.vertices.push_back({0.05, 0.12, 0.05});
   finned.triangles.push_back({0, 1, 8});
   for (Triple& vertex : flat.vertices) vertex[1] = 0;
+  // a strip of five triangles in a ring
+  one_sided.triangles.clear();
+  for (std::uint32_t k = 0; k < 5; ++k) one_sided.triangles.push_back({k, (k + 1) % 5, (k + 2) % 5});
   holed.triangles.pop_back();
   const std::string far_off = "inner_outline = [{ line = [0, 2] }, { line = [90, 2] }, { line = [90, 98] }]",
                     within = "inner_outline = [{ line = [0, 2] }, { line = [28, 2] }, { line = [28, 98] }]";
+  VesselData profile;
+  profile.outline = {line_to(40, 0), line_to(40, 100), line_to(37, 100), line_to(37, 3), line_to(0, 3)};
+  const TriangleMesh cup = turned_mesh(profile, 64, 2e-3);
+  const std::string through = "inner_outline = [{ line = [0, 0] }, { line = [5, 0] }, { line = [5, 15] }]",
+                    hollow = "inner_outline = [{ line = [0, 3] }, { line = [37, 3] }, { line = [37, 100] }]";
   const std::vector<Case> cases{
+      {cup, through, "move it where the mesh is hollow", cup, hollow},
+      {cup, through, "or make the mesh its hull", box_mesh({-0.04, 0, -0.04}, {0.04, 0.1, 0.04}), through},
+      {open, "", "close them for a sure answer", box, ""},
+      {joined(box, placed_mesh(one_sided, {}, {0.1, 0, 0})), "", "meet at edges: make one body of it", box, ""},
+      {one_sided, "", "make one closed body of it", box, ""},
+      {holed, "close_holes = true\nmass_kg = 0.1\ndensity_kg_m3 = 2000", "allowed: one of the two", holed,
+       "close_holes = true\nmass_kg = 0.1"},
       {open, "close_holes = true", "or leave out close_holes", open, ""},
       {finned, "close_holes = true", "form no loop, as a surface meets others there: remove it", box, "close_holes = true"},
       {box, "close_holes = true", "close_holes closes nothing", box, ""},

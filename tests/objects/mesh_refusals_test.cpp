@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
 // What is no glTF file, or one that is not read: one line about why not.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "core/scene.h"
 #include "system/json.h"
 #include "tests/support/files.h"
 
@@ -33,6 +37,108 @@ TEST(Mesh, WhatIsNotReadIsNamedWithTheRemedy) {
   for (const auto& [mode, name] : std::map<int, std::string>{{0, "points"}, {1, "lines"}, {2, "lines"}, {3, "lines"}})
     EXPECT_SAYS(refusal_after([mode = mode](Gltf& g) { g.json["meshes"][0]["primitives"][0]["mode"] = mode; }), "made of " + name);
   EXPECT_SAYS(refusal_after([](Gltf& g) { g.json["meshes"][0]["primitives"][0]["mode"] = 7; }), "mode 7");
+}
+
+// What such a line says to do, done: the file as it is refused, words of the line, and what they make of it.
+TEST(Mesh, AFileIsReadOnceItsRemedyIsFollowed) {
+  using Change = std::function<void(Gltf&)>;
+  struct Case {
+    Change change;
+    const char* words;
+    Change mend;
+  };
+  const auto used = [](const char* name) {
+    return [=](Gltf& g) { g.json["extensionsUsed"] = g.json["extensionsRequired"] = {name}; };
+  };
+  const auto without_extensions = [](Gltf& g) {
+    g.json.erase("extensionsUsed");
+    g.json.erase("extensionsRequired");
+  };
+  const std::vector<Case> cases{
+      {[](Gltf& g) { g.json["nodes"][0]["skin"] = 0; }, "apply the armature", [](Gltf& g) { g.json["nodes"][0].erase("skin"); }},
+      {[](Gltf& g) {
+         g.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", 0}}};
+       },
+       "apply the shape keys", [](Gltf& g) { g.json["meshes"][0]["primitives"][0].erase("targets"); }},
+      {used("KHR_draco_mesh_compression"), "export it without compression", without_extensions},
+      {used("EXT_mesh_gpu_instancing"), "make them real, then export",
+       [&](Gltf& g) {
+         without_extensions(g);
+         g.json["nodes"] = {{{"mesh", 0}}, {{"mesh", 0}, {"translation", {5, 0, 0}}}};
+         g.json["scenes"][0]["nodes"] = {0, 1};
+       }},
+      {used("KHR_node_visibility"), "remove what is hidden, export it without", without_extensions},
+      {used("ACME_shape"), "requires the extension ACME_shape, which is not read: export it without", without_extensions},
+      {[](Gltf& g) { g.primitive(0, 1, 1); }, "made of lines, which have no inside: remove it",
+       [](Gltf& g) { g.json["meshes"][0]["primitives"].erase(1); }},
+      {[](Gltf& g) { g.json["scenes"] = Json::array(); }, "export the objects within a scene",
+       [](Gltf& g) {
+         g.json["scenes"] = {{{"nodes", {0}}}};
+       }},
+      // 2,000 triangles, 10,001 times
+      {[](Gltf& g) {
+         std::vector<std::uint8_t> faces;
+         for (int k = 0; k < 500; ++k) faces.insert(faces.end(), TETRAHEDRON_FACES.begin(), TETRAHEDRON_FACES.end());
+         g.json["meshes"][0]["primitives"][0]["indices"] = g.indices(faces);
+         for (int k = 1; k <= 10'000; ++k) {
+           g.json["nodes"].push_back({{"mesh", 0}, {"translation", {5 * k, 0, 0}}});
+           g.json["scenes"][0]["nodes"].push_back(k);
+         }
+       },
+       "has more than 20 million triangles, or three times as many vertices: simplify it",
+       [](Gltf& g) { g.json["meshes"][0]["primitives"][0]["indices"] = 1; }},
+  };
+  for (const Case& each : cases) {
+    Gltf gltf = gltf_tetrahedron();
+    each.change(gltf);
+    EXPECT_SAYS(mesh_refusal(gltf), each.words);
+    each.mend(gltf);
+    EXPECT_EQ(mesh_refusal(gltf), "read") << each.words;
+  }
+}
+
+// A prism of so many sides, whose ends are polygons, or triangles.
+std::string prism_text(int sides, bool is_cut) {
+  std::string text;
+  for (const int y : {0, 1})
+    for (int k = 0; k < sides; ++k)
+      text += fmt::format("v {} {} {}\n", std::cos(2 * PI * k / sides), y, std::sin(2 * PI * k / sides));
+  for (int k = 1; k <= sides; ++k) {
+    const int next = k % sides + 1;
+    text += fmt::format("f {} {} {} {}\n", k, sides + k, sides + next, next);
+    if (is_cut && k > 1 && k < sides) text += fmt::format("f 1 {} {}\nf {} {} {}\n", k, next, sides + 1, sides + next, sides + k);
+  }
+  if (is_cut) return text;
+  for (const int end : {0, 1}) {
+    text += "f";
+    for (int k = 0; k < sides; ++k) text += fmt::format(" {}", end == 0 ? k + 1 : 2 * sides - k);
+    text += "\n";
+  }
+  return text;
+}
+
+TEST(Mesh, AFileOfAnotherFormatIsReadOnceItsRemedyIsFollowed) {
+  struct Case {
+    std::string name, bytes, words, mended_name, mended_bytes;
+  };
+  Gltf gltf = gltf_tetrahedron();
+  const std::string glb = gltf.glb();
+  gltf.json["buffers"] = {{{"byteLength", gltf.binary.size()}, {"uri", "data:text/csv,1"}}};
+  const std::string beside = json_text(gltf.json);
+  const TriangleMesh box = box_mesh({0, 0, 0}, {1, 1, 1});
+  const std::string points = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n",
+                    strip = "element tristrips 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  for (const Case& each : std::vector<Case>{
+           {"a.gltf", beside, "a data URI of a kind that is not read: export as .glb", "a.glb", glb},
+           {"a.gltf", "{" + std::string(std::size_t{65} << 20, ' ') + beside.substr(1), "export as .glb", "a.glb", glb},
+           {"a.obj", glb, "is named as OBJ and holds glTF: give it the ending of what it holds", "a.glb", glb},
+           {"a.obj", obj_text(box) + "cstype bezier\n", "which are not read: export polygons", "a.obj", obj_text(box)},
+           {"a.obj", prism_text(1001, false), "cut it into triangles", "a.obj", prism_text(1001, true)},
+           {"a.ply", points + strip, "export faces", "a.ply", ply_text(box, PlyWriting::ascii)},
+       }) {
+    EXPECT_SAYS(mesh_refusal(mesh_as_is(write_gltf(each.name, each.bytes))), each.words);
+    EXPECT_EQ(mesh_refusal(mesh_as_is(write_gltf(each.mended_name, each.mended_bytes))), "read") << each.words;
+  }
 }
 
 TEST(Mesh, BytesThatAreNoGltfAreRefused) {

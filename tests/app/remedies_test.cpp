@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: MIT
+// sanitizers: none (it runs the program)
+// Whoever does what a line says to do no longer gets that line.
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <string>
+#include <vector>
+
+#include "scene/shipped.h"
+#include "tests/support/environment.h"
+#include "tests/support/files.h"
+#include "tests/support/program.h"
+
+#ifdef WHOLEHAND_PROGRAM
+
+namespace wholehand {
+namespace {
+
+// A scene and a command that get a line, words of its remedy, and what these words make of scene and command. In a command @ stands
+// for the scene's file and the result's name without its end.
+struct RemedyCase {
+  std::string scene, command, words, mended_scene, mended_command;
+};
+
+const std::string CUP =
+    "[[vessel]]\nname = \"cup\"\nshape = \"cylinder\"\ndiameter_mm = 80\nheight_mm = 100\nwall_mm = 2\n"
+    "[grips]\nheight_fraction = [0.4, 0.6]\nroll_deg = [-60, -30]\n";
+const std::string LIQUID = "[liquid]\nfills = [0, 0.5]\n", TILTS = "[tilts]\ndeg = [0, 45]\n", STRENGTH = "[strength]\n";
+const std::string WHOLE = CUP + LIQUID + TILTS + STRENGTH;
+
+const std::string SWEEP = "sweep @.toml -o @.nc --on core ", SWEPT = SWEEP + ">/dev/null && PROGRAM ";
+const std::string GRIP = "grip @.toml --vessel cup --height-mm 50 ", RANKED = SWEPT + "grip @.nc --vessel cup ";
+
+// A page is served until somebody ends it.
+const std::string SHOWN = SWEEP + ">/dev/null && timeout -s INT 2 PROGRAM ", SEEN = " || test $? = 124";
+
+std::string shipped_text(const char* name) { return file_text(find_scene(name)); }
+
+Outcome outcome_in(const TemporaryFolder& folder, const std::string& scene, std::string command) {
+  const std::string name = folder / "a";
+  write_file(name + ".toml", scene);
+  for (std::size_t at = 0; (at = command.find('@', at)) != std::string::npos;) command.replace(at, 1, name);
+  return run("{ PROGRAM " + command + "\n} 2>&1");
+}
+
+// `code` is that of a refusal, or 0 of a note.
+void expect_helps(const std::vector<RemedyCase>& cases, int code = 2) {
+  for (const RemedyCase& one : cases) {
+    const TemporaryFolder before, after;
+    const Outcome refused = outcome_in(before, one.scene, one.command);
+    EXPECT_EQ(refused.code, code) << one.command << "\n" << refused.output;
+    EXPECT_TRUE(has(refused.output, one.words)) << refused.output << "lacks " << one.words;
+    const Outcome followed = outcome_in(after, one.mended_scene, one.mended_command);
+    EXPECT_EQ(followed.code, 0) << one.mended_command << "\n" << followed.output;
+    EXPECT_FALSE(has(followed.output, one.words)) << followed.output;
+  }
+}
+
+TEST(FollowedRemedies, HelpSweepAndRank) {
+  const std::string rank = SWEPT + "rank @.nc ", keep = "[output]\nkeep = [\"score\"";
+  expect_helps({
+      {WHOLE, rank + "--where 'max(effort) < 2'", "which has worst_effort", WHOLE, rank + "--where 'worst_effort < 2'"},
+      {WHOLE, rank + "--where 'max(effort) < 2'", "add \"effort\" to [output] also of the scene",
+       WHOLE + "[output]\nalso = [\"effort\"]\n", rank + "--where 'max(effort) < 2'"},
+      {WHOLE + keep + ", \"plausible\"]\n", rank + "--where 'gap_mm < 200'", "add \"gap\" to [output] keep of the scene",
+       WHOLE + keep + ", \"plausible\", \"gap\"]\n", rank + "--where 'gap_mm < 200'"},
+      {WHOLE + keep + "]\n", rank, "lacks plausible, as keep of the sweep does not name it; add it",
+       WHOLE + keep + ", \"plausible\"]\n", rank},
+      {WHOLE, SWEEP + "--best 1 --glb 2", "give --best 2 too", WHOLE, SWEEP + "--best 2 --glb 2"},
+      {WHOLE, rank + "--glb 1", "give -o LIST.csv", WHOLE, rank + "--glb 1 -o @.csv"},
+      {WHOLE, rank + "--best 1 --glb 2 -o @.csv", "give --best 2 too", WHOLE, rank + "--best 2 --glb 2 -o @.csv"},
+      {WHOLE, rank + "--where '0 < worst_effort < 2'", "write a < b and b < c", WHOLE,
+       rank + "--where '0 < worst_effort and worst_effort < 2'"},
+      {WHOLE, rank + "--where 'gap > 1e'", "write 12, 0.5 or 2e-3", WHOLE, rank + "--where 'gap > 2e-3'"},
+      {WHOLE + "[output]\nalso = [\"effort\"]\n", rank + "--where 'effort < 2'", "write max(effort) or min(effort)",
+       WHOLE + "[output]\nalso = [\"effort\"]\n", rank + "--where 'max(effort) < 2'"},
+      {WHOLE, rank + "--where 'gab > 0'", "the nearest is 'gap'", WHOLE, rank + "--where 'gap > 0'"},
+      {WHOLE, rank + "--weights postur=1", "the nearest is 'posture'", WHOLE, rank + "--weights posture=1"},
+      {WHOLE, rank + "--weights posture=1,", "name a term after it", WHOLE, rank + "--weights posture=1,depth=1"},
+      {WHOLE, rank + "-o @.nc", "name another file for the list", WHOLE, rank + "-o @.csv"},
+      {WHOLE, rank + "-o @.best.csv", "this is the sweep's own list; name another file", WHOLE, rank + "-o @.csv"},
+      {CUP + "[output]\nbest = 0\n", SWEPT + "view @.nc", "sweep with --best 1 or more", CUP, SHOWN + "view @.nc" + SEEN},
+      {CUP + "count = 3\n", SWEEP, "allowed: with sampling = \"sobol\"", CUP + "count = 3\nsampling = \"sobol\"\n", SWEEP},
+      {CUP + "azimuth_deg = { from = 0, to = 1, count = 1000000 }\nobliquity_deg = { from = 0, to = 1, count = 1000000 }\n", SWEEP,
+       "give [grips] fewer values", CUP + "azimuth_deg = { from = 0, to = 1, count = 2 }\n", SWEEP},
+      {WHOLE, SWEPT + "sweep @.toml -o @.nc --on core --precision float --resume", "or start again without --resume", WHOLE,
+       SWEPT + "sweep @.toml -o @.nc --on core --precision float"},
+      {WHOLE, SWEPT + "sweep @.toml -o @.nc --on core --precision float --resume", "name another file", WHOLE,
+       SWEPT + "sweep @.toml -o @2.nc --on core --precision float --resume"},
+      {WHOLE, SWEEP + ">/dev/null && mv @.nc @.nc.partial && PROGRAM rank @.nc", "finish it with wholehand sweep --resume", WHOLE,
+       SWEPT + "rank @.nc"},
+  });
+}
+
+TEST(FollowedRemedies, HelpGrip) {
+  const std::string own_list = "--list @.best.csv ", scaled = WHOLE + "hand_scale = 1\n";
+  const std::string scales = CUP + "hand_scale = [0.9, 1]\n[output]\nbest = 1\n";
+  expect_helps({
+      {WHOLE, RANKED, "give --rank", WHOLE, RANKED + "--rank 1"},
+      {WHOLE, SWEEP + "--no-refine >/dev/null && PROGRAM grip @.nc --vessel cup --rank 1 --refined",
+       "sweep again without --no-refine", WHOLE, RANKED + "--rank 1 --refined"},
+      {CUP + TILTS, GRIP + "--fill 0.5", "add one with its fills", CUP + TILTS + LIQUID, GRIP + "--fill 0.5"},
+      {CUP + LIQUID, GRIP + "--fill 0.5", "give --tilt-deg too", CUP + LIQUID, GRIP + "--fill 0.5 --tilt-deg 0"},
+      {WHOLE, GRIP + "--fill 1 --on vulkan", "use --on core", WHOLE, GRIP + "--fill 1 --on core"},
+      {CUP, "grip @.toml --vessel cup", "give --height-mm", CUP, GRIP},
+      {CUP, "grip @.toml --vessel cup", "or --thumb-mm and --index-mm", CUP,
+       "grip @.toml --vessel cup --thumb-mm=-40,50,0 --index-mm 40,50,0"},
+      {CUP, "grip @.toml --vessel cup --thumb-mm 40,50,0 --index-mm 40,50,0", "give two points of the vessel's surface", CUP,
+       "grip @.toml --vessel cup --thumb-mm=-40,50,0 --index-mm 40,50,0"},
+      {CUP, GRIP + "--glb @.out --svg @.out", "give two different names", CUP, GRIP + "--glb @.glb --svg @.svg"},
+      {CUP, GRIP + "--hand-scale 0.2 --glb @.glb", "choose another grip", CUP, GRIP + "--glb @.glb"},
+      {CUP, GRIP + "--refined", "--refined: the rank of the grip is missing; give --rank", CUP, RANKED + "--rank 1 --refined"},
+      {CUP, GRIP + own_list, "--list: the rank of the grip is missing; give --rank", CUP, RANKED + "--rank 1 " + own_list},
+      {CUP, RANKED + "--rank 1 --refined " + own_list, "leave --list out", CUP, RANKED + "--rank 1 --refined"},
+      {CUP, RANKED + "--rank 1 --hand-scale 1", "leave the option out", CUP, RANKED + "--rank 1"},
+      {scales, RANKED + "--rank 1 --hand-scale 2", "the hand scales 0.9, 1; give one of them", scales,
+       RANKED + "--rank 1 --hand-scale 0.9"},
+      {CUP, "grip @.toml --vessel cub --height-mm 50", "the nearest is 'cup'", CUP, GRIP},
+      {CUP, GRIP + "--view-port 8000", "add --view", CUP, SHOWN + GRIP + "--view --view-port 0" + SEEN},
+  });
+}
+
+// These change the sweep's notes, and refuse nothing.
+TEST(FollowedRemedies, HelpWhereAKeyChangesNothing) {
+  const std::string robust = "[robust]\nfriction = 0.1\n", turned = "[robust]\nazimuth_deg = 5\n",
+                    weightless = "[score]\nhold = 0\n";
+  expect_helps(
+      {
+          {CUP + STRENGTH, SWEEP, "add [tilts] with its deg", CUP + STRENGTH + TILTS, SWEEP},
+          {CUP + STRENGTH, SWEEP, "or leave [strength] out", CUP, SWEEP},
+          {WHOLE + robust, SWEEP + "--best 0", "set 'best' of [output] above 0", WHOLE + robust + "[output]\nbest = 1\n", SWEEP},
+          {WHOLE + robust, SWEEP + "--best 0", "or leave [robust] out", WHOLE, SWEEP + "--best 0"},
+          {WHOLE + robust + weightless, SWEEP, "leave it out, and the scores take less time", WHOLE + weightless, SWEEP},
+          {WHOLE + turned, SWEEP, "bodies of revolution; leave it out", WHOLE, SWEEP},
+      },
+      0);
+}
+
+TEST(FollowedRemedies, HelpTrialsAndStudies) {
+  const std::string trials = "trials @.toml -o @.trials --quick --threads 1 --best 0 --grips ", one = trials + "1 ",
+                    study = "study @.toml --quick --threads 1 -o @.study ";
+  const std::string guided = CUP.substr(0, CUP.find("[grips]")) + "guidance_mm = [[50, 0]]\n";
+  const std::string
+      alone = "--protocol six-forces ",
+      task = "liquid = { name = \"red\", fill = 0.6 }\n" + LIQUID +
+             "[task]\ntarget = { place_mm = [0, 80, -280], diameter_mm = 120 }\namounts_ml = { red = 60 }\ntolerance_ml = 5\n"
+             "destination_mm = [0, 0, -280]\n";
+  expect_helps({
+      {CUP + TILTS, one, "an empty table [strength] is enough", CUP + TILTS + STRENGTH, one},
+      {CUP + STRENGTH, one, "add it to the scene, with its deg", CUP + STRENGTH + TILTS, one},
+      {CUP + STRENGTH + TILTS, one + "--fill 0.5", "add one with its fills", WHOLE, one + "--fill 0.5"},
+      {CUP + STRENGTH + TILTS, one + "--fill 0.5", "or leave --fill out", CUP + STRENGTH + TILTS, one},
+      {WHOLE, one + alone + "--tilt-deg 30", "leave --tilt-deg out", WHOLE, one + alone},
+      {WHOLE, one + alone + "--tilt-deg 30", "or ask for --protocol both", WHOLE, one + "--protocol both --tilt-deg 30"},
+      {WHOLE, one + alone + "--fill 0.2 0.4", "give one fill", WHOLE, one + alone + "--fill 0.4"},
+      {WHOLE, one + alone + "--fill 0.2 0.4", "or ask for --protocol both", WHOLE, one + "--protocol both --fill 0.2 0.4"},
+      {WHOLE, trials + "0", "give more of one", WHOLE, one},
+      {CUP.substr(0, CUP.find("[grips]")) + "surface = \"shell\"\n" + TILTS + STRENGTH, one, "use surface = \"solid\"",
+       CUP.substr(0, CUP.find("[grips]")) + "surface = \"solid\"\n" + TILTS + STRENGTH, one},
+      {WHOLE, one + ">/dev/null && PROGRAM " + one + "--seed 2 --resume", "leave --resume out to replace them", WHOLE,
+       one + ">/dev/null && PROGRAM " + one + "--seed 2"},
+      {guided, study + "--experiment sessions", "or ask for --experiment contacts or forces", guided,
+       study + "--experiment forces --people 2"},
+      {guided, study + "--experiment sessions", "add [task] to the scene", guided + task,
+       study + "--experiment sessions --people 1"},
+      {CUP, study + "--experiment contacts", "add guidance_mm to a vessel", guided, study + "--experiment contacts --people 20"},
+      {guided, study + "--experiment contacts --resume", "allowed: with forces", guided,
+       study + "--experiment forces --people 2 --resume"},
+      {"", "stability", "or use `stability wall` for one device", "",
+       "stability wall --mass-kg 0.1 --damping-Nspm 1 --rate-hz 1000"},
+      {"", "stability --quick wall --mass-kg 0.1 --damping-Nspm 1 --rate-hz 1000", "leave it out", "",
+       "stability wall --mass-kg 0.1 --damping-Nspm 1 --rate-hz 1000"},
+  });
+}
+
+TEST(FollowedRemedies, HelpLive) {
+  const std::string board = shipped_text("mixing_board"), quick = "live @.toml --no-clock --seconds 1 ",
+                    clocked = "live @.toml --seconds 0.3 ", recorded = quick + "--record @.nc >/dev/null && PROGRAM ",
+                    replay = "live --no-clock --device replay:@.nc ";
+  const std::string strengthless = board.substr(0, board.find("[strength]"));
+  const std::string second = CUP.substr(0, CUP.find("[grips]")),
+                    renamed = "[[vessel]]\nname = \"mug\"" + second.substr(second.find("\nshape"));
+  expect_helps({
+      {board, quick + "--advise-on core", "add --advise", board, quick + "--advise --advise-on core"},
+      {board, quick + "--follow-advice", "add --advise", board, quick + "--advise --follow-advice"},
+      {strengthless, quick + "--advise --advise-on core", "add [strength]", strengthless + STRENGTH,
+       quick + "--advise --advise-on core"},
+      {board, recorded + replay + "--advise --follow-advice", "allowed: with --device sim", board,
+       quick + "--advise --follow-advice"},
+      {board, recorded + replay + "--person 3", "allowed: with --device sim", board, quick + "--device sim --person 3"},
+      {board, quick + "--device osc:0", "allowed: with --device sim and replay:FILE", board, recorded + replay},
+      {board, quick + "--view", "leave one of the two out", board, clocked + "--view"},
+      {board, quick + "--stream osc://127.0.0.1:9", "leave one of the two out", board, clocked + "--stream osc://127.0.0.1:9"},
+      {board, recorded + replay + "--rate 500", "leave it out", board, recorded + replay},
+      {board, recorded + "live --no-clock --device replay:", "give --device replay:FILE", board, recorded + replay},
+      {board, clocked + "--device view", "add --view", board, clocked + "--device view --view"},
+      {board, clocked + "--view-port 0", "add --view", board, clocked + "--view --view-port 0"},
+      {second + renamed, quick, "a live session needs place_mm for each",
+       second + "place_mm = [-150, 0, 0]\n" + renamed + "place_mm = [150, 0, 0]\n", quick},
+      {second + renamed, quick, "whose vessels have places: mixing_board", board, quick},
+      {board, recorded + "session @.nc @.nc", "add --study", board, recorded + "session @.nc --study -o @.study"},
+      {board, recorded + "session @.nc --seed 3", "goes with --study", board, recorded + "session @.nc --study --seed 3"},
+      {board, recorded + "session @.nc --study --json", "goes without --study", board, recorded + "session @.nc --json"},
+  });
+}
+
+TEST(FollowedRemedies, HelpWithAGripper) {
+  const TemporaryFolder locks;
+  const ScopedVariable folder("WHOLEHAND_LOCK_DIR", locks.path().c_str());
+  const std::string board = shipped_text("mixing_board"), hand = board + "[hand]\nhandedness = ",
+                    live = "live @.toml --device omega --dhd-library " STAND_IN_DHD " --seconds 0.3 ";
+  expect_helps({
+      {hand + "\"left\"\n", live, "set handedness = \"right\" in [hand]", hand + "\"right\"\n", live},
+      {board, live + "--rate 5000", "measures at most 4000 times a second; allowed: a --rate up to this number", board,
+       live + "--rate 4000"},
+  });
+}
+
+// What lies where files are to be written: how it comes there, the command that is refused, words of the remedy, and what these words make
+// of the folder and of the command.
+struct PlaceCase {
+  std::string before, command, words, mend, mended_command;
+};
+
+TEST(FollowedRemedies, HelpWhereFilesAreInTheWay) {
+  const std::string sweep = "sweep a.toml --on core -o ", live = "live --no-clock --seconds 1 --record ",
+                    trials = "trials a.toml --quick --best 0 --grips 1 -o ", grip = "grip a.toml --vessel cup --height-mm 50 ";
+  const std::vector<PlaceCase> cases{
+      {"", sweep + "-", "name one (./- where that is its name)", "", sweep + "./-"},
+      {"mkdir d", sweep + "d", "is a directory; name a file", "", sweep + "d.nc"},
+      {"", sweep + "d/a.nc", "is not a directory; create it", "mkdir d", sweep + "d/a.nc"},
+      {"", sweep + "/proc/a.nc", "name a place elsewhere", "", sweep + "a.nc"},
+      {"PROGRAM " + sweep + "a.nc; mv a.nc a", sweep + "a.nc", "have the same names; name another file", "", sweep + "b.nc"},
+      {"ln -s b a.nc.partial", sweep + "a.nc", "the sweep would replace it with a file; remove it", "rm a.nc.partial",
+       sweep + "a.nc"},
+      {"mkdir a.nc.partial.lock", sweep + "a.nc", "is no lock of wholehand's; move it", "mv a.nc.partial.lock b", sweep + "a.nc"},
+      {"ln -s b a.nc.partial.lock", sweep + "a.nc", "is no lock of wholehand's; move it", "mv a.nc.partial.lock b", sweep + "a.nc"},
+      {"echo > a.nc.partial.lock", sweep + "a.nc", "or name another file with -o", "", sweep + "b.nc"},
+      {"echo > a.nc", sweep + "a.nc", "is there and is no result file; name another", "", sweep + "b.nc"},
+      {"echo > a.best.csv", sweep + "a.nc", "or remove it", "rm a.best.csv", sweep + "a.nc"},
+      {"", sweep + "a.toml", "this is the scene file itself; name another file", "", sweep + "a.nc"},
+      {"echo > a.nc", live + "a.nc", "is not overwritten; name another file", "", live + "b.nc"},
+      {"echo > a.nc", live + "a.nc", "or remove it", "rm a.nc", live + "a.nc"},
+      {"echo > a.nc.partial", live + "a.nc", "is still running; move it", "mv a.nc.partial b", live + "a.nc"},
+      {"echo > a.nc.partial", live + "a.nc", "remove it", "rm a.nc.partial", live + "a.nc"},
+      {"echo > t", trials + "t", "is not a folder; name another", "", trials + "u"},
+      {"", trials + "-", "name one (./- is one too)", "", trials + "./-"},
+      {"", trials + "t/u", "is not a directory; create it", "mkdir t", trials + "t/u"},
+      {"", trials + "/proc/t", "name one elsewhere", "", trials + "t"},
+      {"mkdir t; echo > t/trials.csv", trials + "t", "is no table of wholehand trials; name another", "", trials + "u"},
+      {"echo > a.svg", grip + "--svg a.svg", "name another, or remove it", "rm a.svg", grip + "--svg a.svg"},
+      {"mkdir d", "sweep d", "is a directory; give a scene file", "", sweep + "a.nc"},
+      {"", "grip a.tml --vessel cup --height-mm 50", "give the path of a TOML file", "", grip},
+  };
+  for (const PlaceCase& one : cases) {
+    const TemporaryFolder folder;
+    write_file(folder / "a.toml", WHOLE);
+    const std::string start = "cd " + folder.path() + " && ";
+    const Outcome refused =
+        run(start + "{ " + (one.before.empty() ? ":" : one.before) + "; } >/dev/null 2>&1; PROGRAM " + one.command + " 2>&1");
+    EXPECT_TRUE(refused.code == 2 || refused.code == 3) << one.command << "\n" << refused.output;
+    EXPECT_TRUE(has(refused.output, one.words)) << refused.output << "lacks " << one.words;
+    const Outcome followed = run(start + (one.mend.empty() ? ":" : one.mend) + " && PROGRAM " + one.mended_command + " 2>&1");
+    EXPECT_EQ(followed.code, 0) << one.mend << "; " << one.mended_command << "\n" << followed.output;
+  }
+}
+
+TEST(FollowedRemedies, HelpWhereAPortIsTaken) {
+  const int taken = socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in address{};
+  socklen_t size = sizeof address;
+  address.sin_family = AF_INET;
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  ASSERT_EQ(bind(taken, reinterpret_cast<sockaddr*>(&address), size), 0);
+  ASSERT_EQ(listen(taken, 1), 0);
+  ASSERT_EQ(getsockname(taken, reinterpret_cast<sockaddr*>(&address), &size), 0);
+  const std::string live = "live --seconds 0.3 --view ";
+  expect_helps(
+      {{"", live + "--view-port " + std::to_string(ntohs(address.sin_port)), "leave the option out for any free port", "", live}});
+  close(taken);
+}
+
+// The limits stand for a machine that has no more.
+TEST(FollowedRemedies, HelpWhereRoomMemoryOrThreadsEnd) {
+  const std::string many =
+                        "height_fraction = { from = 0.3, to = 0.7, count = 60 }\nroll_deg = { from = -90, to = 0, count = 60 }\n",
+                    some = "height_fraction = [0.4, 0.6]\nroll_deg = [-60, -30]\n",
+                    vessel = CUP.substr(0, CUP.find("height_fraction")),
+                    sweep = "--version >/dev/null && (ulimit -f 800; PROGRAM " + SWEEP + ")";
+  expect_helps(
+      {
+          {vessel + many + TILTS, sweep, "keep fewer variables ([output] keep)",
+           vessel + many + TILTS + "[output]\nkeep = [\"score\", \"plausible\"]\n", sweep},
+          {vessel + many + TILTS, sweep, "give [grips] fewer values", vessel + some + TILTS, sweep},
+          {CUP, "--version >/dev/null && (ulimit -v 400000; PROGRAM " + SWEEP + "--threads 256)",
+           "raise the limits of processes (ulimit -u) and memory (ulimit -v)", CUP, SWEEP + "--threads 256"},
+          {CUP, "--version >/dev/null && (ulimit -n 16; PROGRAM " + SWEEP + ")", "raise this limit (ulimit -n)", CUP,
+           "--version >/dev/null && (ulimit -n 256; PROGRAM " + SWEEP + ")"},
+      },
+      3);
+}
+
+}  // namespace
+}  // namespace wholehand
+
+#endif
