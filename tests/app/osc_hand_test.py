@@ -273,6 +273,13 @@ class AHandOverTheNetwork(unittest.TestCase):
                                        "give another port\n")
 
     @patiently
+    def test_it_is_streamed_to_another_port_than_its_hands(self):
+        session, peer = self.session("--stream", "osc://127.0.0.1:9")
+        peer.say(osc_hand.osc_message("/wholehand/gripper/bye"))
+        code, _, said = self.finish(session, peer)
+        self.assertEqual(code, 0, said)
+
+    @patiently
     def test_the_sixth_internet_protocol_too(self):
         with socket.socket(socket.AF_INET6, socket.SOCK_DGRAM) as probe:
             try:

@@ -12,6 +12,7 @@
 #include "scene/shipped.h"
 #include "tests/support/environment.h"
 #include "tests/support/files.h"
+#include "tests/support/meshes.h"
 #include "tests/support/program.h"
 
 #ifdef WHOLEHAND_PROGRAM
@@ -285,6 +286,11 @@ TEST(FollowedRemedies, HelpWhereAPortIsTaken) {
 
 // The limits stand for a machine that has no more.
 TEST(FollowedRemedies, HelpWhereRoomMemoryOrThreadsEnd) {
+  const TemporaryFolder meshes;
+  write_file(meshes / "box.obj", obj_text(box_mesh({-0.03, 0, -0.03}, {0.03, 0.1, 0.03})));
+  const std::string mesh =
+                        "[[vessel]]\nname = \"cup\"\nmesh = \"" + (meshes / "box.obj") + "\"\n[grips]\nheight_fraction = [0.5]\n",
+                    cramped = "--version >/dev/null && (ulimit -v 400000; PROGRAM " + SWEEP + "--threads ";
   const std::string many =
                         "height_fraction = { from = 0.3, to = 0.7, count = 60 }\nroll_deg = { from = -90, to = 0, count = 60 }\n",
                     some = "height_fraction = [0.4, 0.6]\nroll_deg = [-60, -30]\n",
@@ -295,8 +301,9 @@ TEST(FollowedRemedies, HelpWhereRoomMemoryOrThreadsEnd) {
           {vessel + many + TILTS, sweep, "keep fewer variables ([output] keep)",
            vessel + many + TILTS + "[output]\nkeep = [\"score\", \"plausible\"]\n", sweep},
           {vessel + many + TILTS, sweep, "give [grips] fewer values", vessel + some + TILTS, sweep},
-          {CUP, "--version >/dev/null && (ulimit -v 400000; PROGRAM " + SWEEP + "--threads 256)",
-           "raise the limits of processes (ulimit -u) and memory (ulimit -v)", CUP, SWEEP + "--threads 256"},
+          {CUP, cramped + "256)", "raise the limits of processes (ulimit -u) and memory (ulimit -v)", CUP, SWEEP + "--threads 256"},
+          {"[[vessel]]\ngrid_mm = 0.2" + mesh.substr(mesh.find("\nname")), cramped + "1)", "ask for less at once", mesh,
+           cramped + "1)"},
           {CUP, "--version >/dev/null && (ulimit -n 16; PROGRAM " + SWEEP + ")", "raise this limit (ulimit -n)", CUP,
            "--version >/dev/null && (ulimit -n 256; PROGRAM " + SWEEP + ")"},
       },

@@ -682,6 +682,8 @@ TEST(OscGripper, APortOrAnAddressThatCannotBeUsedIsAFailureInOneLine) {
         open_osc({"127.0.0.1", taken.port()}, scene, silent, 0.05);
       },
       place + ": the port is in use, by another session perhaps; give another port");
+  const OscPeer peer;
+  EXPECT_NE(open_said(scene, peer, {osc_state(1, hand_at(0))}), nullptr) << "at another port";
   expect_failure(
       [&] {
         open_osc({"192.0.2.7", 9000}, scene, silent, 0.05);
