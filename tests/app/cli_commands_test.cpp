@@ -168,13 +168,18 @@ TEST(CommandLine, EvaluatesOneGrip) {
 }
 
 // A program far from its scenes has none to name.
+// The program with shipped scenes of its own, whatever a package has installed: none of them has places.
 TEST(CommandLine, NamesNoScenesWithPlacesWhereThereAreNone) {
   const wholehand::TemporaryFolder folder;
-  wholehand::write_file(folder / "two.toml", wholehand::file_text(wholehand::find_scene("three_beakers")));
-  const Outcome outcome =
-      run("cp PROGRAM " + (folder / "alone") + " && " + (folder / "alone") + " live " + (folder / "two.toml") + " 2>&1");
+  const std::string text = wholehand::file_text(wholehand::find_scene("three_beakers")), program = folder / "bin/wholehand";
+  std::filesystem::create_directories(folder / "bin");
+  std::filesystem::create_directories(folder / "share/wholehand/scenes");
+  std::filesystem::copy_file(WHOLEHAND_PROGRAM, program);
+  wholehand::write_file(folder / "share/wholehand/scenes/three_beakers.toml", text);
+  wholehand::write_file(folder / "two.toml", text);
+  EXPECT_TRUE(run(program + " scenes 2>&1").output.starts_with("three_beakers")) << "another program's scenes";
+  const Outcome outcome = run(program + " live " + (folder / "two.toml") + " 2>&1");
   EXPECT_EQ(outcome.code, 2);
-  if (!run((folder / "alone") + " scenes 2>/dev/null").output.empty()) return;  // those of a package
   EXPECT_TRUE(outcome.output.ends_with("a live session needs place_mm for each\n")) << outcome.output;
 }
 
