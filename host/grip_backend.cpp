@@ -187,7 +187,7 @@ struct GripBackend::Impl {
   template <class Real>
   StreamRequest buffers_for(const Selection& selection) const {
     const int real_kept = selection.on_host ? std::max(fields.real_kept, fields.plane[FIELD_SCORE] + 1) : fields.real_kept;
-    const int uint_kept = std::max(fields.uint_kept, fields.plane[FIELD_STATUS] + 1);  // which grips are undecided
+    const int uint_kept = std::max(fields.uint_kept, fields.plane[FIELD_STATUS] + 1);  // which grips are unfinished
     const std::size_t best = selection.best;
     StreamRequest work;
     work.inputs = {{BINDING_GRIPS, GRIP_AXES * sizeof(Real)}};
@@ -224,34 +224,34 @@ struct GripBackend::Impl {
   }
 
   // Grips whose turns ran out on the device.
-  std::vector<std::size_t> undecided_grips(const Chunk& chunk, std::span<const std::uint32_t> uints) const {
-    std::vector<std::size_t> undecided;
-    if (!fields.has(FIELD_STATUS)) return undecided;
+  std::vector<std::size_t> unfinished_grips(const Chunk& chunk, std::span<const std::uint32_t> uints) const {
+    std::vector<std::size_t> unfinished;
+    if (!fields.has(FIELD_STATUS)) return unfinished;
     const std::span<const std::uint32_t> statuses = uints.subspan(fields.plane[FIELD_STATUS] * chunk.stride, chunk.count);
     for (std::size_t i = 0; i < chunk.count; ++i)
-      if ((statuses[i] & STATUS_UNDECIDED) != 0) undecided.push_back(i);
-    return undecided;
+      if ((statuses[i] & STATUS_OUT_OF_TURNS) != 0) unfinished.push_back(i);
+    return unfinished;
   }
 
   // Some grips of a chunk as evaluate_on_core leaves them, on all threads, in place of what was read back; of each the candidate, where
   // `has_best`.
   template <class Real>
-  void decide_on_core(const RunRequest& request, const Chunk& chunk, const std::vector<std::size_t>& undecided,
+  void finish_on_core(const RunRequest& request, const Chunk& chunk, const std::vector<std::size_t>& unfinished,
                       ReadBack<Real>& read, bool has_best, std::vector<Candidate>& candidates) {
-    std::vector<Real> scores(undecided.size());
-    std::vector<std::uint32_t> indices(undecided.size(), NO_GRIP);
-    in_parallel(undecided.size(), 0, [&](std::size_t k) {
+    std::vector<Real> scores(unfinished.size());
+    std::vector<std::uint32_t> indices(unfinished.size(), NO_GRIP);
+    in_parallel(unfinished.size(), 0, [&](std::size_t k) {
       std::vector<Real> reals(read.reals.size() / chunk.stride);
       std::vector<std::uint32_t> uints(read.uints.size() / chunk.stride);
       const std::array<std::span<std::byte>, 4> outputs{
           std::as_writable_bytes(std::span(reals)), std::as_writable_bytes(std::span(uints)),
           std::as_writable_bytes(std::span(scores).subspan(k, 1)), std::as_writable_bytes(std::span(indices).subspan(k, 1))};
-      evaluate_on_core<Real>(request, Chunk{chunk.first + undecided[k], 1, 1}, outputs, has_best ? 1 : 0);
-      for (std::size_t plane = 0; plane < reals.size(); ++plane) read.reals[plane * chunk.stride + undecided[k]] = reals[plane];
-      for (std::size_t plane = 0; plane < uints.size(); ++plane) read.uints[plane * chunk.stride + undecided[k]] = uints[plane];
+      evaluate_on_core<Real>(request, Chunk{chunk.first + unfinished[k], 1, 1}, outputs, has_best ? 1 : 0);
+      for (std::size_t plane = 0; plane < reals.size(); ++plane) read.reals[plane * chunk.stride + unfinished[k]] = reals[plane];
+      for (std::size_t plane = 0; plane < uints.size(); ++plane) read.uints[plane * chunk.stride + unfinished[k]] = uints[plane];
     });
-    for (std::size_t k = 0; k < undecided.size(); ++k)
-      if (indices[k] != NO_GRIP) candidates.push_back({static_cast<double>(scores[k]), chunk.first + undecided[k]});
+    for (std::size_t k = 0; k < unfinished.size(); ++k)
+      if (indices[k] != NO_GRIP) candidates.push_back({static_cast<double>(scores[k]), chunk.first + unfinished[k]});
   }
 
   // Mirrored planes turned back where there are some, and those of the core, in `turned`.
@@ -304,18 +304,18 @@ struct GripBackend::Impl {
     };
     std::vector<Real> turned;
     ReadBack<Real> read;
-    std::size_t undecided_count = 0;
+    std::size_t unfinished_count = 0;
     work.sink = [&](const Chunk& chunk, const ChunkOutputs& outputs) {
       std::span<const Real> reals = elements<const Real>(outputs[0]);
       std::span<const std::uint32_t> uints = elements<const std::uint32_t>(outputs[1]);
-      const std::vector<std::size_t> undecided = undecided_grips(chunk, uints);
-      if (!undecided.empty()) {
+      const std::vector<std::size_t> unfinished = unfinished_grips(chunk, uints);
+      if (!unfinished.empty()) {
         read.reals.assign(reals.begin(), reals.end());
         read.uints.assign(uints.begin(), uints.end());
-        decide_on_core(request, chunk, undecided, read, selection.best > 0, result.best);
+        finish_on_core(request, chunk, unfinished, read, selection.best > 0, result.best);
         reals = read.reals;
         uints = read.uints;
-        undecided_count += undecided.size();
+        unfinished_count += unfinished.size();
       }
       const PlaneChunk planes = planes_of(request, chunk, reals, uints, turned);
       if (selection.on_host) {
@@ -332,9 +332,9 @@ struct GripBackend::Impl {
     result.chunks = streamed.chunks;
     result.kernel_seconds = streamed.kernel_seconds;
     result.notes = streamed.notes;
-    if (undecided_count > 0) {
-      result.notes.push_back(scene.vessels[request.vessel].name + ": " + std::to_string(undecided_count) +
-                             (undecided_count == 1 ? " grip is" : " grips are") +
+    if (unfinished_count > 0) {
+      result.notes.push_back(scene.vessels[request.vessel].name + ": " + std::to_string(unfinished_count) +
+                             (unfinished_count == 1 ? " grip is" : " grips are") +
                              " evaluated on the core: more turns of loops than every driver grants");
     }
     return result;

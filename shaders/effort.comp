@@ -127,5 +127,5 @@ void main() {
       is_rising = false;
     }
   }
-  leave_undecided(grip, k < push.number);
+  leave_unfinished(grip, k < push.number);
 }

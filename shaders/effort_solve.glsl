@@ -175,11 +175,11 @@ void finish(inout Solve solve) {
 
 Real kept(int plane, int offset, uint grip) { return plane >= 0 ? real_out[uint(plane + offset) * push.stride + grip] : NOT_A_NUMBER; }
 
-bool is_to_solve(uint status) { return (status & (STATUS_REASON_MASK | STATUS_PLAUSIBLE | STATUS_UNDECIDED)) == STATUS_PLAUSIBLE; }
+bool is_to_solve(uint status) { return (status & (STATUS_REASON_MASK | STATUS_PLAUSIBLE | STATUS_OUT_OF_TURNS)) == STATUS_PLAUSIBLE; }
 
 // Where a grip's turns ran out before its states did.
-void leave_undecided(uint grip, bool is_undecided) {
-  [[dont_unroll]] for (bool once = is_undecided; once; once = false) uint_out[uint(PLANE_STATUS) * push.stride + grip] |= STATUS_UNDECIDED;
+void leave_unfinished(uint grip, bool is_unfinished) {
+  [[dont_unroll]] for (bool once = is_unfinished; once; once = false) uint_out[uint(PLANE_STATUS) * push.stride + grip] |= STATUS_OUT_OF_TURNS;
 }
 
 #endif

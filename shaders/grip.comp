@@ -90,7 +90,7 @@ void put_closing(Closing closing) {
 
 void put_masks() {
   bool is_unsettled = (status & STATUS_REASON_MASK) == REASON_NOT_CONVERGED || (status >> STATUS_UNSETTLED_SHIFT & 0x1Fu) != 0u;
-  if (FEW_STEPS && is_unsettled) status |= STATUS_UNDECIDED;
+  if (FEW_STEPS && is_unsettled) status |= STATUS_OUT_OF_TURNS;
   put_uint(PLANE_STATUS, grip, status);
   put_uint(PLANE_TOUCH_MASK, grip, touch_mask);
   put_uint(PLANE_TIP_MASK, grip, tip_mask);

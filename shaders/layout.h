@@ -55,7 +55,7 @@
 // ---- turns of loops ----
 // Mesa's CPU driver ends every loop without a word after 65,535 turns of a vector of invocations, counted over all its loops together. A loop counts the
 // turns until its last lane leaves it, and one for each time that the vector comes to it. No kernel takes more than TURN_BUDGET turns in a
-// dispatch (host/turns.h): the loops of most have bounds. A grip whose efforts take more pivots than these is STATUS_UNDECIDED.
+// dispatch (host/turns.h): the loops of most have bounds. A grip whose efforts take more pivots than these is STATUS_OUT_OF_TURNS.
 #define TURN_BUDGET 60000
 #define MOST_LANES 16               // of a vector: 512 bits of float
 #define DEVICE_RISES 4              // of an effort: times that a grip looks for the state that its last lower bound bounds most
@@ -109,7 +109,7 @@
 #define STATUS_SELF_OVERLAP 0x4000  // bit 14: two fingers lie deeper in each other than the depth limit
 #define STATUS_CONTACT_UNDECIDED 0x8000 // bit 15: a point or a sphere is within CONTACT_MARGIN of being a contact, or of being none
 #define STATUS_UNSETTLED_SHIFT 16   // bits 16..20: finger f took all its advancement steps
-#define STATUS_UNDECIDED 0x200000   // bit 21: a kernel's turns ran out (TURN_BUDGET); the host has the core compute the grip, and nobody else sees it
+#define STATUS_OUT_OF_TURNS 0x200000 // bit 21: a kernel's turns ran out (TURN_BUDGET); the host has the core compute the grip, and nobody else sees it
 
 // ---- kinds, as specialization constants ----
 #define POSE_ARTICULATED 0

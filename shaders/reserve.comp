@@ -184,5 +184,5 @@ void main() {
   if (TASK == EFFORT_FRICTION && has_grip && kept(PLANE_WORST_EFFORT, 0, grip) <= Real(1)) friction = min(friction, scene.friction);
   [[dont_unroll]] for (bool once = has_grip; once; once = false)
     put_real(plane_of_task(), 0, grip, TASK == EFFORT_FRICTION ? (is_first ? Real(0) : friction) : worst < INFINITE ? Real(1) / worst : Real(0));
-  leave_undecided(grip, k < number);
+  leave_unfinished(grip, k < number);
 }

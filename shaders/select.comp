@@ -47,7 +47,7 @@ void main() {
     uint index = entry;
     if (from_scores) {
       uint status = uint_out[uint(PLANE_STATUS) * push.stride + entry];
-      if ((status & (STATUS_REASON_MASK | STATUS_PLAUSIBLE | STATUS_UNDECIDED)) != STATUS_PLAUSIBLE) continue;
+      if ((status & (STATUS_REASON_MASK | STATUS_PLAUSIBLE | STATUS_OUT_OF_TURNS)) != STATUS_PLAUSIBLE) continue;
     } else {
       index = candidate_indices[from + entry];
     }
