@@ -62,16 +62,17 @@ StateAxes axes_of(const StateWish& wish, const Scene& scene, std::size_t vessel)
   StateAxes axes = scene_axes(scene, vessel);
   if (wish.tilts) {
     axes.tilts.clear();
-    for (const double tilt : *wish.tilts) axes.tilts.push_back(quantity(tilt, "--tilt-deg", ranges::TILT));
+    for (const double tilt : *wish.tilts) axes.tilts.push_back(quantity(tilt, "tilts_deg", ranges::TILT));
   }
   if (!wish.fills && !wish.volumes) return axes;
-  const char* option = wish.volumes ? "--fill-ml" : "--fill";
-  if (wish.fills && wish.volumes) throw usage_error("--fill and --fill-ml are both given; allowed: one of the two");
+  // Python's own names, which no rule makes of the options'
+  const char* option = wish.volumes ? "fills_ml" : "fills";
+  if (wish.fills && wish.volumes) throw usage_error("fills and fills_ml are both given; allowed: one of the two");
   if (!scene.liquid)
     throw usage_error(
         fmt::format("{0}: {1} has no [liquid]; add one with its fills, or leave {0} out", option, in_quotes(scene.file)));
   if (axes.tilts.empty())
-    throw usage_error(fmt::format("{}: {} has no [tilts]; give --tilt-deg too", option, in_quotes(scene.file)));
+    throw usage_error(fmt::format("{}: {} has no [tilts]; give tilts_deg too", option, in_quotes(scene.file)));
   axes.fills.clear();
   const VesselData& held = scene.vessels[vessel];
   for (const double fill : wish.fills.value_or(std::vector<double>{}))

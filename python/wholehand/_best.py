@@ -26,12 +26,6 @@ def scene_of(data: xr.Dataset) -> Scene:
     return Scene(_core.scene_of_dataset(str(data.attrs["scene"]), str(data.encoding.get("source", "")), *of_meshes))
 
 
-def _variable(data: xr.Dataset, name: str) -> xr.DataArray:
-    if name not in data:
-        raise Error(f"best: the dataset has no variable '{name}', by which grips are chosen; keep it in the sweep")
-    return data[name]
-
-
 def _with_vessels(data: xr.Dataset) -> xr.Dataset:
     if "vessel" in data.dims:
         return data
@@ -187,8 +181,9 @@ def best(
     apart = scene._core.apart if apart_mm is None else float(apart_mm) / 1e3
     if count < 1 or not apart >= 0 or not np.isfinite(apart):
         raise Error(f"best: n is {n} and apart_mm is {apart_mm}; allowed: n of 1 or more, apart_mm of 0 or more")
-    for name in ("reason", "plausible"):
-        _variable(data, name)
+    missing = [f"'{name}'" for name in ("reason", "plausible", by) if isinstance(name, str) and name not in data]
+    if missing:
+        raise Error(f"best: the dataset lacks {', '.join(missing)}, by which grips are chosen: keep all of these in the sweep")
     data = _with_vessels(data)
     if not data.sizes["vessel"]:
         raise Error("best: the dataset has no vessel left")
@@ -201,7 +196,7 @@ def best(
     if unknown:
         raise Error(f"best: the dimension {unknown[0]} of the grips is no axis of a sweep")
     # as numbers with a sign: the best are looked for by the least of what is below zero
-    own = _variable(data, by) if isinstance(by, str) else by
+    own = data[by] if isinstance(by, str) else by
     wanted = _of_grips(own, data, dims, "by", "biuf").astype(np.float64).reindex_like(data["reason"])
     eligible = (data["reason"] == 0) & (data["plausible"] == 1)
     if where is not None:
