@@ -9,11 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "scene/shipped.h"
 #include "tests/support/environment.h"
 #include "tests/support/files.h"
 #include "tests/support/meshes.h"
+#include "tests/support/patient_board.h"
 #include "tests/support/program.h"
+#include "tests/support/sweep_results.h"
 
 #ifdef WHOLEHAND_PROGRAM
 
@@ -38,7 +39,10 @@ const std::string GRIP = "grip @.toml --vessel cup --height-mm 50 ", RANKED = SW
 // A page is served until somebody ends it.
 const std::string SHOWN = SWEEP + ">/dev/null && timeout -s INT 2 PROGRAM ", SEEN = " || test $? = 124";
 
-std::string shipped_text(const char* name) { return file_text(find_scene(name)); }
+std::string board_text() {
+  const TemporaryFolder folder;
+  return file_text(patient_board(folder));
+}
 
 Outcome outcome_in(const TemporaryFolder& folder, const std::string& scene, std::string command) {
   const std::string name = folder / "a";
@@ -83,6 +87,8 @@ TEST(FollowedRemedies, HelpSweepAndRank) {
       {WHOLE, rank + "--weights posture=1,", "name a term after it", WHOLE, rank + "--weights posture=1,depth=1"},
       {WHOLE, rank + "-o @.nc", "name another file for the list", WHOLE, rank + "-o @.csv"},
       {WHOLE, rank + "-o @.best.csv", "this is the sweep's own list; name another file", WHOLE, rank + "-o @.csv"},
+      {CUP, "view @.toml", "`wholehand grip --view` shows a grip of a scene", CUP, SHOWN + GRIP + "--view" + SEEN},
+      {CUP, SWEPT + "report @.nc -o @.nc", "name another file for the page", CUP, SWEPT + "report @.nc -o @.html"},
       {CUP + "[output]\nbest = 0\n", SWEPT + "view @.nc", "sweep with --best 1 or more", CUP, SHOWN + "view @.nc" + SEEN},
       {CUP + "count = 3\n", SWEEP, "allowed: with sampling = \"sobol\"", CUP + "count = 3\nsampling = \"sobol\"\n", SWEEP},
       {CUP + "azimuth_deg = { from = 0, to = 1, count = 1000000 }\nobliquity_deg = { from = 0, to = 1, count = 1000000 }\n", SWEEP,
@@ -124,9 +130,12 @@ TEST(FollowedRemedies, HelpGrip) {
   });
 }
 
-// These change the sweep's notes, and refuse nothing.
-TEST(FollowedRemedies, HelpWhereAKeyChangesNothing) {
+// Notes, which refuse nothing.
+TEST(FollowedRemedies, HelpWhereALineIsANote) {
   const std::string robust = "[robust]\nfriction = 0.1\n", turned = "[robust]\nazimuth_deg = 5\n",
+                    hourglass =
+                        "[[vessel]]\nname = \"wine\"\noutline = [{ line = [30, 0] }, { line = [30, 30] }, { line = [5, 50] }, "
+                        "{ line = [30, 70] }, { line = [30, 120] }, { line = [0, 120] }]\nwall_mm = 2\n[grips]\nheight_mm = [90]\n",
                     weightless = "[score]\nhold = 0\n";
   expect_helps(
       {
@@ -136,6 +145,9 @@ TEST(FollowedRemedies, HelpWhereAKeyChangesNothing) {
           {WHOLE + robust, SWEEP + "--best 0", "or leave [robust] out", WHOLE, SWEEP + "--best 0"},
           {WHOLE + robust + weightless, SWEEP, "leave it out, and the scores take less time", WHOLE + weightless, SWEEP},
           {WHOLE + turned, SWEEP, "bodies of revolution; leave it out", WHOLE, SWEEP},
+          {CUP + "hand_scale = 0.09\n", SWEEP + "--precision float", "; use --precision double", CUP + "hand_scale = 0.09\n",
+           SWEEP + "--precision double"},
+          {hourglass, SWEEP, "give 'floor_mm'", edited(hourglass, "wall_mm = 2", "wall_mm = 2\nfloor_mm = 55"), SWEEP},
       },
       0);
 }
@@ -167,6 +179,8 @@ TEST(FollowedRemedies, HelpTrialsAndStudies) {
        study + "--experiment forces --people 2"},
       {guided, study + "--experiment sessions", "add [task] to the scene", guided + task,
        study + "--experiment sessions --people 1"},
+      {edited(guided, "cup", "all"), study + "--experiment contacts --people 20",
+       "as the rows of all vessels together; give it another", guided, study + "--experiment contacts --people 20"},
       {CUP, study + "--experiment contacts", "add guidance_mm to a vessel", guided, study + "--experiment contacts --people 20"},
       {guided, study + "--experiment contacts --resume", "allowed: with forces", guided,
        study + "--experiment forces --people 2 --resume"},
@@ -178,9 +192,8 @@ TEST(FollowedRemedies, HelpTrialsAndStudies) {
 }
 
 TEST(FollowedRemedies, HelpLive) {
-  const std::string board = shipped_text("mixing_board"), quick = "live @.toml --no-clock --seconds 1 ",
-                    clocked = "live @.toml --seconds 0.3 ", recorded = quick + "--record @.nc >/dev/null && PROGRAM ",
-                    replay = "live --no-clock --device replay:@.nc ";
+  const std::string board = board_text(), quick = "live @.toml --no-clock --seconds 1 ", clocked = "live @.toml --seconds 0.3 ",
+                    recorded = quick + "--record @.nc >/dev/null && PROGRAM ", replay = "live --no-clock --device replay:@.nc ";
   const std::string strengthless = board.substr(0, board.find("[strength]"));
   const std::string second = CUP.substr(0, CUP.find("[grips]")),
                     renamed = "[[vessel]]\nname = \"mug\"" + second.substr(second.find("\nshape"));
@@ -211,13 +224,24 @@ TEST(FollowedRemedies, HelpLive) {
 TEST(FollowedRemedies, HelpWithAGripper) {
   const TemporaryFolder locks;
   const ScopedVariable folder("WHOLEHAND_LOCK_DIR", locks.path().c_str());
-  const std::string board = shipped_text("mixing_board"), hand = board + "[hand]\nhandedness = ",
+  const std::string board = board_text(), hand = board + "[hand]\nhandedness = ",
                     live = "live @.toml --device omega --dhd-library " STAND_IN_DHD " --seconds 0.3 ";
   expect_helps({
       {hand + "\"left\"\n", live, "set handedness = \"right\" in [hand]", hand + "\"right\"\n", live},
       {board, live + "--rate 5000", "measures at most 4000 times a second; allowed: a --rate up to this number", board,
        live + "--rate 4000"},
   });
+  const std::string bare = "live @.toml --device omega --seconds 0.3 ", none = bare + "--dhd-library /none.so";
+  expect_helps(
+      {
+          {board, none, "name its path (--dhd-library", board, live},
+          {board, none, "[device] library of the scene", board + "[device]\nlibrary = \"" STAND_IN_DHD "\"\n", bare},
+          {board, none, "the environment variable WHOLEHAND_DHD_LIBRARY", board,
+           "--version >/dev/null && WHOLEHAND_DHD_LIBRARY=" STAND_IN_DHD " PROGRAM " + bare},
+          {board, "live @.toml --seconds 0.3 --stream osc://a..b:9", "give another host, or its address", board,
+           "live @.toml --seconds 0.3 --stream osc://127.0.0.1:9"},
+      },
+      3);
 }
 
 // What lies where files are to be written: how it comes there, the command that is refused, words of the remedy, and what these words make
@@ -253,12 +277,18 @@ TEST(FollowedRemedies, HelpWhereFilesAreInTheWay) {
       {"", trials + "/proc/t", "name one elsewhere", "", trials + "t"},
       {"mkdir t; echo > t/trials.csv", trials + "t", "is no table of wholehand trials; name another", "", trials + "u"},
       {"echo > a.svg", grip + "--svg a.svg", "name another, or remove it", "rm a.svg", grip + "--svg a.svg"},
+      {"PROGRAM sweep mesh.toml --on core -o a.nc; rm box.obj", "rank a.nc", "--apart-mm 0 lists grips without it", "",
+       "rank a.nc --apart-mm 0"},
+      {"PROGRAM " + live + "a.nc; nccopy -k nc4 a.nc b.nc", "session b.nc", "convert it by nccopy -k 64-bit-offset",
+       "nccopy -k 64-bit-offset b.nc c.nc", "session c.nc"},
       {"mkdir d", "sweep d", "is a directory; give a scene file", "", sweep + "a.nc"},
       {"", "grip a.tml --vessel cup --height-mm 50", "give the path of a TOML file", "", grip},
   };
   for (const PlaceCase& one : cases) {
     const TemporaryFolder folder;
     write_file(folder / "a.toml", WHOLE);
+    write_file(folder / "box.obj", obj_text(box_mesh({-0.03, 0, -0.03}, {0.03, 0.1, 0.03})));
+    write_file(folder / "mesh.toml", "[[vessel]]\nname = \"box\"\nmesh = \"box.obj\"\n[grips]\nheight_mm = [40, 60]\n");
     const std::string start = "cd " + folder.path() + " && ";
     const Outcome refused =
         run(start + "{ " + (one.before.empty() ? ":" : one.before) + "; } >/dev/null 2>&1; PROGRAM " + one.command + " 2>&1");
@@ -278,9 +308,9 @@ TEST(FollowedRemedies, HelpWhereAPortIsTaken) {
   ASSERT_EQ(bind(taken, reinterpret_cast<sockaddr*>(&address), size), 0);
   ASSERT_EQ(listen(taken, 1), 0);
   ASSERT_EQ(getsockname(taken, reinterpret_cast<sockaddr*>(&address), &size), 0);
-  const std::string live = "live --seconds 0.3 --view ";
-  expect_helps(
-      {{"", live + "--view-port " + std::to_string(ntohs(address.sin_port)), "leave the option out for any free port", "", live}});
+  const std::string board = board_text(), live = "live @.toml --seconds 0.3 --view ";
+  expect_helps({{board, live + "--view-port " + std::to_string(ntohs(address.sin_port)), "leave the option out for any free port",
+                 board, live}});
   close(taken);
 }
 
