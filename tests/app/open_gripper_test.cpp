@@ -32,7 +32,6 @@ namespace wholehand {
 namespace {
 
 constexpr double RATE = 250;  // Hz: umockdev answers within a millisecond or two
-constexpr double SLOW = 1;    // s: a watchdog that a busy machine does not trip
 
 // A machine that is busy with other tests may let no report through within a read's patience. That is no fault of what is tested
 // here.
@@ -69,12 +68,14 @@ struct Carried {
   bool was_held = false;  // when it ended
 };
 
+// Without a clock, as the mock's goes by what it hears: a machine that stands still takes nothing from the way.
 Carried carry(Patient& gripper, const Scene& scene) {
   Session session(scene, gripper.limits().gap);
   Carried carried;
   SessionState before = SessionState::free;
   LoopOptions options;
   options.seconds = CARRY_LASTS;
+  options.is_simulated = true;
   HapticLoop loop(
       scene.live, gripper, session,
       [&](const Tick& tick) {
@@ -104,6 +105,7 @@ void expect_whole_session(const Carried& carried) {
 MockSettings carrying() {
   MockSettings settings;
   settings.motion = carried_state;
+  settings.step = 1 / RATE;
   return settings;
 }
 
@@ -125,7 +127,7 @@ TYPED_TEST(OpenGripperSession, ABeakerIsCarriedAndFelt) {
   TypeParam mock(bench, carrying());
   const Scene scene = carried_scene(RATE);
   {
-    Patient gripper(open_gripper(mock.address(), scene, 1, "", SLOW));
+    Patient gripper(open_gripper(mock.address(), scene, 1, ""));
     expect_whole_session(carry(gripper, scene));
   }
   const auto outputs = mock.outputs();
@@ -148,7 +150,7 @@ TYPED_TEST(OpenGripperSession, WhateverTheDeviceDoesWrongEndsInNoForce) {
     MockBench bench;
     TypeParam mock(bench, carrying());
     const Scene scene = carried_scene(RATE);
-    Patient gripper(open_gripper(mock.address(), scene, 1, "", SLOW));
+    Patient gripper(open_gripper(mock.address(), scene, 1, ""));
     gripper.at_work = [&mock, &gripper, wrong = mischief] {
       mock.misbehave(wrong);
       if (wrong == Mischief::silent) gripper.patience = 1;
@@ -166,7 +168,7 @@ TYPED_TEST(OpenGripperSession, GarbageIsAFaultWhateverItSays) {
   MockBench bench;
   TypeParam mock(bench, carrying());
   const Scene scene = carried_scene(RATE);
-  Patient gripper(open_gripper(mock.address(), scene, 1, "", SLOW));
+  Patient gripper(open_gripper(mock.address(), scene, 1, ""));
   gripper.at_work = [&mock] { mock.misbehave(Mischief::garbage); };
   const Carried carried = carry(gripper, scene);
   EXPECT_NE(carried.report.fault, Fault::none);
@@ -177,7 +179,7 @@ TYPED_TEST(OpenGripperSession, UnpluggingEndsItAndSaysSo) {
   MockBench bench;
   TypeParam mock(bench, carrying());
   const Scene scene = carried_scene(RATE);
-  Patient gripper(open_gripper(mock.address(), scene, 1, "", SLOW));
+  Patient gripper(open_gripper(mock.address(), scene, 1, ""));
   gripper.at_work = [&mock] { mock.unplug(); };
   const Carried carried = carry(gripper, scene);
   EXPECT_TRUE(carried.report.fault == Fault::read_error || carried.report.fault == Fault::write_error);
@@ -207,7 +209,7 @@ pid_t start_pressing(const std::string& address) {
   scene.live.slew = 1e9;
   scene.live.jump = 1e6;
   scene.live.late_steps = 1 << 30;
-  Patient gripper(open_gripper(address, scene, 1, "", SLOW));
+  Patient gripper(open_gripper(address, scene, 1, ""));
   Session session(scene, gripper.limits().gap);
   HapticLoop loop(scene.live, gripper, session, {}, {});
   const std::atomic<bool> stop{false};
@@ -231,6 +233,7 @@ TYPED_TEST(OpenGripperSession, TheFirstForceAfterAStopIsZero) {
   MockBench bench;
   MockSettings settings;
   settings.motion = pressing_state;
+  settings.step = 1 / RATE;  // and no watchdog trips while the child stands still
   TypeParam mock(bench, settings);
   const pid_t child = start_pressing(mock.address());
   std::deque<int> stops{50, 100, 300};  // ms; the mock needs its turn for what was under way
@@ -267,10 +270,13 @@ TYPED_TEST(OpenGripperSession, AFullRingLeavesNoForceWhileTheGripperIsStillOpen)
   MockBench bench;
   TypeParam mock(bench, carrying());
   const Scene scene = carried_scene(RATE);
-  Patient gripper(open_gripper(mock.address(), scene, 1, "", SLOW));
+  Patient gripper(open_gripper(mock.address(), scene, 1, ""));
   Session session(scene, gripper.limits().gap);
   int held = 0;
-  HapticLoop loop(scene.live, gripper, session, [&held](const Tick& tick) { return !(tick.written.grip > 1 && ++held > 20); }, {});
+  LoopOptions options;
+  options.is_simulated = true;
+  HapticLoop loop(
+      scene.live, gripper, session, [&held](const Tick& tick) { return !(tick.written.grip > 1 && ++held > 20); }, options);
   const std::atomic<bool> stop{false};
   loop.run(stop);
   EXPECT_EQ(loop.report().fault, Fault::ring_full);
@@ -282,13 +288,13 @@ TYPED_TEST(OpenGripperSession, ASecondSessionIsRefusedAndTheFirstGoesOn) {
   MockBench bench;
   TypeParam mock(bench, carrying());
   const Scene scene = carried_scene(RATE);
-  Patient gripper(open_gripper(mock.address(), scene, 1, "", SLOW));
+  Patient gripper(open_gripper(mock.address(), scene, 1, ""));
   int refused = 0;
   std::future<void> second;  // beside the first, whose watchdog does not wait for it
   gripper.at_work = [&] {
     second = std::async(std::launch::async, [&] {
       try {
-        open_gripper(mock.address(), scene, 1, "", SLOW);
+        open_gripper(mock.address(), scene, 1, "");
       } catch (const Error& error) {
         refused += error.code == ExitCode::failure;
       }
@@ -334,7 +340,7 @@ TEST(OmegaSession, ABeakerIsCarriedAndFeltWithEitherHand) {
     Scene scene = carried_scene(RATE);
     if (is_left) scene.hand.handedness = Handedness::left;
     {
-      Patient gripper(open_gripper("omega", scene, 1, STAND_IN_DHD, SLOW));
+      Patient gripper(open_gripper("omega", scene, 1, STAND_IN_DHD));
       expect_whole_session(carry(gripper, scene));
     }
     double most = 0, weight = 0;
@@ -352,7 +358,7 @@ TEST(OmegaSession, AReadErrorEndsInNoForceAndSaysTheSdksWords) {
   StandIn dhd(STAND_IN_DHD);
   script(dhd, RATE, false);
   const Scene scene = carried_scene(RATE);
-  Patient gripper(open_gripper("omega", scene, 1, STAND_IN_DHD, SLOW));
+  Patient gripper(open_gripper("omega", scene, 1, STAND_IN_DHD));
   gripper.at_work = [&dhd] {
     dhd->error = "communication error";
     dhd->codes["dhdGetPositionAndOrientationFrame"] = -1;

@@ -12,15 +12,12 @@
 
 namespace wholehand {
 
-// beaker1 at the origin, held by a device whose gap is 0 to 25 mm. Steps that are late do not count: the mocks are slow.
+// beaker1 at the origin, held by a device whose gap is 0 to 25 mm.
 inline Scene carried_scene(double rate) {
   Scene scene = scene_of({beaker1()});
   scene.device.has_gap = true;
   scene.device.gap = {0, 25e-3};
   scene.live.rate = rate;
-  scene.live.late_steps = 1000;
-  scene.live.jump = 100;  // a machine that is busy sees a device jump
-  scene.live.ramp = 0;    // and one that stalls again and again would fade in anew each time
   scene.live.slip = 3e-3;
   return scene;
 }

@@ -99,7 +99,9 @@ void MockGripper::stop() {
   if (thread_.joinable()) thread_.join();
 }
 
-double MockGripper::now() const { return monotonic() - start_; }
+double MockGripper::now() const {
+  return settings_.step > 0 ? settings_.step * static_cast<double>(outputs_.size()) : monotonic() - start_;
+}
 
 void MockGripper::check_watchdog() {
   if (!has_force_ || !(watchdog_.flags & protocol::WATCHDOG_ON) || now() - last_heard_ <= watchdog_.period / protocol::SECOND)

@@ -67,6 +67,7 @@ struct MockSettings {
   double period = 2e-3;          // between measurements, s
   std::uint32_t first_time = 0;  // of the device's clock, us
   std::uint8_t version = protocol::VERSION;
+  double step = 0;              // > 0: its clock goes on by this, s, with each output that it takes, and by nothing else
   bool keeps_watchdog = false;  // does not take another period
   bool is_gripper = true;       // false: something else, by its descriptors
   // Position, rotation, gap and buttons at a time of the device's clock, s; the rest is the mock's own. From two threads, and under
@@ -113,7 +114,7 @@ class MockGripper {
   Mischief mischief_ = Mischief::none;
 
  private:
-  double now() const;
+  double now() const;  // s on its clock
   void check_watchdog();
 
   MockSettings settings_;
