@@ -21,10 +21,6 @@ constexpr const char* SAFE_TILT = "force beyond safe";  // where one side tells 
 const std::vector<int> DISCRETE{FIELD_STATUS,      FIELD_TOUCH_MASK, FIELD_TIP_MASK,
                                 FIELD_FINGER_MASK, FIELD_INNER_MASK, FIELD_USED_MASK};
 
-// Of an effort in float whose search ends because rounding lets no column enter: its bracket is wider than EFFORT_TOLERANCE. Such a state
-// may be named the worst where another is worse by this. Of 27,648 grips of three_beakers one is 1.4 % off.
-constexpr double UNFINISHED = 0.03;
-
 // Roundings that one number gathers on its way through a kernel, as a share of the quantity's largest value.
 constexpr double ROUNDINGS = 64;
 
@@ -584,8 +580,7 @@ void Comparer::add_worst_states(std::size_t vessel, const std::vector<GripInput>
       const double least = efforts.least_form(i, states);
       const double above = compared_form(FIELD_EFFORT, efforts.of(i, state)) - least;
       const double wrong = named && !std::isnan(above) ? above : std::numeric_limits<double>::infinity();
-      const double unfinished = allowed_.epsilon > std::numeric_limits<double>::epsilon() ? UNFINISHED * least * (1 - least) : 0;
-      double allowed = tolerance(FIELD_WORST_EFFORT, 0, i) + unfinished;
+      double allowed = tolerance(FIELD_WORST_EFFORT, 0, i);
       if (std::isfinite(wrong) && wrong > allowed) allowed += 2 * moves_state(vessel, grips[i], state);
       if (!(wrong / allowed > most / of_most)) continue;
       most = wrong;

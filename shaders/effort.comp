@@ -118,8 +118,8 @@ void main() {
       }
       if (is_coarse || !is_told) continue;
       if (TASK == EFFORT_SAFE) {
-        if (solve.effort > JUST_HELD) put_real(PLANE_SAFE_TILT, int(tilted.w), grip, tilted.z < Real(0) ? NOT_A_NUMBER : tilted.z);
-      } else if (solve.effort > max(enough, worst)) {
+        if (!solve.is_enough && solve.effort > JUST_HELD) put_real(PLANE_SAFE_TILT, int(tilted.w), grip, tilted.z < Real(0) ? NOT_A_NUMBER : tilted.z);
+      } else if (!solve.is_enough && solve.effort > max(enough, worst)) {
         worst = solve.effort;
         put_worst(worst, tilted, grip);
       }

@@ -116,7 +116,7 @@ struct Solve {
   Six wanted, cut;  // the direction of the last lower bound
   Real size, low, effort, cut_height;
   int pivots;
-  bool done, is_known, is_beyond;
+  bool done, is_enough, is_known, is_beyond;  // `is_enough`: forces of an effort that need not be known closer are found
 };
 
 Solve start(Six wanted) {
@@ -127,7 +127,7 @@ Solve start(Six wanted) {
   solve.cut_height = Real(1);
   solve.low = solve.effort = Real(0);
   solve.pivots = 0;
-  solve.done = solve.is_known = solve.is_beyond = false;
+  solve.done = solve.is_enough = solve.is_known = solve.is_beyond = false;
   return solve;
 }
 
@@ -156,7 +156,8 @@ void step(inout Solve solve, Real tolerance, Real enough, Real too_much, bool is
   solve.cut_height = is_higher ? height : solve.cut_height;
   bool is_never = solve.low > dear * solve.size;
   solve.is_beyond = solve.low > too_much;
-  solve.is_known = !is_short && (cost.real <= enough || cost.real - solve.low <= tolerance * cost.real);
+  solve.is_enough = !is_short && cost.real <= enough;
+  solve.is_known = solve.is_enough || (!is_short && cost.real - solve.low <= tolerance * cost.real);
   solve.done = is_never || solve.is_beyond || solve.is_known || solve.pivots == DEVICE_PIVOTS || !(height > (is_short ? Real(0) : Real(1)));
   solve.effort = is_never || solve.is_beyond || is_short ? INFINITE : cost.real;
   bool is_entered = enter(point, levels, ROUNDING * solve.size, is_solving && !solve.done);
@@ -164,13 +165,14 @@ void step(inout Solve solve, Real tolerance, Real enough, Real too_much, bool is
   solve.pivots += 1;
 }
 
-// The effort anew, less the rounding of the inverse.
+// The effort anew, less the rounding of the inverse. One that was enough stays so, also where it comes out a little larger.
 void finish(inout Solve solve) {
   Real levels[6];
   balanced_levels(solve.wanted, levels);
   Cost cost = cost_of(levels);
   bool holds = cost.artificial <= ROUNDING * solve.size && solve.effort < INFINITE;
   solve.effort = holds ? cost.real : INFINITE;
+  solve.is_enough = solve.is_enough && holds;
 }
 
 Real kept(int plane, int offset, uint grip) { return plane >= 0 ? real_out[uint(plane + offset) * push.stride + grip] : NOT_A_NUMBER; }
