@@ -25,7 +25,7 @@ class Advice(ViewerTest):
     scale = 0.5
 
     def test_the_advised_hand_is_a_ghost_on_the_vessel(self):
-        served = Served("live", patient_board(self.folder), "--view", "--advise", "--advise-on", "core", "--seconds", "90")
+        served = Served("live", patient_board(self.folder), "--view", "--advise", "--advise-on", "core")
         self.addCleanup(served.stop)
         page = self.open(served)
         page.evaluate(WATCH)
@@ -41,7 +41,7 @@ class Advice(ViewerTest):
             self.assertAlmostEqual(a, b, 5)
 
     def test_without_advice_there_is_none(self):
-        served = Served("live", patient_board(self.folder), "--view", "--seconds", "30")
+        served = Served("live", patient_board(self.folder), "--view", "--device", "view")  # which has no end
         self.addCleanup(served.stop)
         page = self.open(served)
         page.wait("window.wholehand && window.wholehand.frame && window.wholehand.frame.t > 1.5", PATIENCE)

@@ -18,7 +18,7 @@ import zlib
 from browser import Browser
 
 PROGRAM = os.environ.get("WHOLEHAND_PROGRAM", "")
-PATIENCE = 60  # s
+PATIENCE = 180  # s
 
 
 def wholehand(*arguments, folder=None):
