@@ -22,6 +22,7 @@ int find_contacts(const Vessel& vessel, const std::array<Vec3, JOINTS>& posed, s
     found.joint = joint;
     found.contact = contact;
     found.contact.digit = joint == finger_start(finger) ? PALM : finger;
+    found.contact.is_tip = joint == THUMB_TIP || joint == INDEX_TIP;
   }
   return count;
 }

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/force.h"
+
 namespace CORE_NS {
 
 namespace {
@@ -52,7 +54,7 @@ Slip slip_of(Vec3 arm, Vec3 normal, Real gamma, const std::array<Real, 6>& direc
 
 }  // namespace
 
-Wrench wrench_at(Vec3 place, Vec3 force) { return {force, glm::cross(place, force)}; }
+Wrench wrench_at(Vec3 place, Vec3 force) { return {force, glm::cross(place, force), place}; }
 
 // h = n.v + mu s, attained with the tangential force mu t / s and the moment mu gamma^2 (b.n) / s.
 Real press(Vec3 arm, Vec3 normal, Real friction, Real gamma, const std::array<Real, 6>& direction) {
@@ -84,11 +86,28 @@ EffortSolver::EffortSolver(std::span<const ContactPoint> contacts, const HandStr
   dear_ = UNRESISTED_EFFORT * (strongest > 0 ? strongest / weakest : Real(1));
   unit_length_ = std::max(LEAST_LENGTH, hand.torsion);
   for (const ContactPoint& contact : contacts) unit_length_ = std::max(unit_length_, glm::distance(contact.place, center));
+  const ContactPoint* other = nullptr;
+  for (const ContactPoint& contact : contacts) {
+    if (!contact.is_tip || hand.torsion > 0) continue;
+    if (other && contact.place != other->place) {
+      middle_ = (contact.place + other->place) / Real(2);
+      line_ = glm::normalize(contact.place - other->place);
+    }
+    other = &contact;
+  }
 }
 
-// The wrench that balances a load, in the solver's units.
+// The wrench that balances a load, in the solver's units. A lever that two tips alone cannot hold is taken as long as the unit: rounding would
+// hide a shorter one.
 EffortSolver::Vec6 EffortSolver::wanted_for(const Wrench& load) const {
-  const Vec3 moment = load.moment - glm::cross(center_, load.force);
+  Vec3 moment = load.moment - glm::cross(center_, load.force);
+  if (!(hand_.torsion > 0)) {
+    const Real turn = glm::dot(line_, load.moment - glm::cross(middle_, load.force)), force = glm::length(load.force);
+    const bool counts = std::abs(turn) > force * longest_bare_lever(glm::distance(load.place, middle_));
+    const Real least = contacts_.size() == 2 ? force * unit_length_ : Real(0);
+    const Real kept = counts ? std::max(std::abs(turn), least) : Real(0);
+    moment += ((turn > 0 ? kept : -kept) - turn) * line_;
+  }
   return joined(-load.force / unit_force_, -moment / (unit_force_ * unit_length_));
 }
 
@@ -425,8 +444,10 @@ Effort EffortSolver::search(const Wrench& load, Real tolerance, Real enough, Rea
   return answer;
 }
 
+// What is rounding of a product is none: beside the height of a direction that no contact opposes it would be any bound.
 Real EffortSolver::low(const Wrench& load) const {
-  const Real value = dot6(cut_, wanted_for(load));
+  const Vec6 wanted = wanted_for(load);
+  const Real value = dot6(cut_, wanted) - ROUNDING * std::sqrt(dot6(cut_, cut_) * dot6(wanted, wanted));
   if (!(value > 0)) return 0;
   return cut_height_ > 0 ? value / cut_height_ : NEVER;
 }

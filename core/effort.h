@@ -21,14 +21,16 @@ constexpr Real UNRESISTED_EFFORT =
 
 // Where a digit presses. Vessel frame, m.
 struct ContactPoint {
-  Vec3 place{};   // on the surface
-  Vec3 normal{};  // unit, into the object
-  int digit = 0;  // below DIGITS
+  Vec3 place{};         // on the surface
+  Vec3 normal{};        // unit, into the object
+  int digit = 0;        // below DIGITS
+  bool is_tip = false;  // of thumb or index finger: the two that pinch
 };
 
 // A force at the frame's origin and a moment about it, N and N m.
 struct Wrench {
   Vec3 force{}, moment{};
+  Vec3 place{};  // m, where the force acts: what its lever is a share of, where contacts have no torsion
 };
 Wrench wrench_at(Vec3 place, Vec3 force);
 
@@ -70,7 +72,8 @@ struct Effort {
 class EffortSolver {
  public:
   // Moments are about `center` inside of it, and lengths in units of the furthest contact from there: both change the way and not
-  // the answer.
+  // the answer. Without torsion, two tips resist no moment about their line, and a load's lever about it is none up to
+  // longest_bare_lever.
   EffortSolver(std::span<const ContactPoint> contacts, const HandStrength& hand, Vec3 center);
 
   // Ends where effort - low <= tolerance x effort, or after EFFORT_PIVOTS. Where rounding leaves forces that do not balance the
@@ -137,6 +140,7 @@ class EffortSolver {
   Vec3 center_;
   Real unit_force_ = 1, unit_length_ = 1;  // N, m
   Real dear_ = UNRESISTED_EFFORT;          // times the load's own size, an effort that counts as infinite
+  Vec3 middle_{}, line_{};                 // of the two tips, m, and unit; without torsion
   std::array<Column, 6> columns_{};
   std::array<Vec6, 6> inverse_{};  // rows
   Vec6 displaced_{};               // what points of Z are less

@@ -219,7 +219,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
     std::vector<wholehand::GripContact> contacts;
     for (int i = 0; i < count; ++i) {
       const ContactPoint& contact = pressing[i].contact;
-      contacts.push_back({pressing[i].joint, pressing[i].between, contact.digit, mirror(to_triple(contact.place)),
+      contacts.push_back({pressing[i].joint, pressing[i].between, contact.digit, contact.is_tip, mirror(to_triple(contact.place)),
                           mirror(to_triple(contact.normal))});
     }
     return contacts;
@@ -378,8 +378,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
         static_cast<std::size_t>(find_contacts(hand_, entry.vessel, posed, placed_scale(hand_, posed), touch_mask, pressing));
     for (std::size_t i = 0; i < hand.count; ++i) {
       hand.contacts[i] = pressing[i].contact;
-      const bool is_tip = pressing[i].joint == THUMB_TIP || pressing[i].joint == INDEX_TIP;
-      if (is_tip && pressing[i].between == 0) hand.tips[hand.tip_count++] = pressing[i].contact;
+      if (pressing[i].contact.is_tip) hand.tips[hand.tip_count++] = pressing[i].contact;
     }
     return hand;
   }

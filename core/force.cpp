@@ -44,12 +44,8 @@ Real opening_force(Real k_open, Real squeeze) { return k_open * squeeze; }
 // F = clamp(F_n + F_o, 0, F_max).
 Real feedback_force(Real normal, Real opening, Real max) { return std::clamp(normal + opening, Real(0), max); }
 
-namespace {
-
 // A share of the grip's own length and no absolute one: far above what rounding makes of a lever, in either precision.
 Real longest_bare_lever(Real pivot_length) { return Real(BARE_LEVER) * std::max(pivot_length, Real(SMALLEST_PIVOT)); }
-
-}  // namespace
 
 // Limit surface of each of two contacts: (f_t / (mu N))^2 + (tau_n / (mu gamma N))^2 <= 1, with the load across d and the moment
 // about d shared; the load along d adds half of itself to one side. With w = d . u, r = CoM - M and tau_d = m g |d . (r x u)|:

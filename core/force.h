@@ -43,6 +43,8 @@ Real normal_force(Real base, Real range, Real torque, Real reference);
 Real opening_force(Real k_open, Real squeeze);
 // clamp(normal + opening, 0, max), N.
 Real feedback_force(Real normal, Real opening, Real max);
+// The longest lever that is none for contacts without torsion, m. `pivot_length`: from their middle to where the load acts, m.
+Real longest_bare_lever(Real pivot_length);
 // Grip force a finger that a soft-finger pinch needs, N.
 Real hold_force(Real mass, Real gravity, Vec3 arm, Vec3 direction, Vec3 up, Real friction, Real torsion);
 // Virtual coupling of a tip to its proxy before the grasp: K (proxy - tip) - B v_n along the surface's outward normal, never a pull

@@ -69,6 +69,7 @@ struct LiquidResult {
 struct GripContact {
   int joint = 0, between = 0;  // between: number of a sphere of the bone that ends at the joint; 0: the joint
   int digit = 0;               // the digit is a finger, or FINGER_COUNT for the palm
+  bool is_tip = false;         // of thumb or index finger
   Triple point{}, normal{};
 };
 

@@ -28,8 +28,8 @@ Holding::Holding(const Scene& scene, const Evaluator& evaluator, std::size_t ves
   for (const GripContact& found : evaluator.contacts(vessel, result)) {
     joints_.push_back(found.joint);
     between_.push_back(found.between);
-    contacts_.push_back({to_vec3<double>(found.point), to_vec3<double>(found.normal), found.digit});
-    if (found.between == 0 && (found.joint == THUMB_TIP || found.joint == INDEX_TIP)) tips_.push_back(contacts_.back());
+    contacts_.push_back({to_vec3<double>(found.point), to_vec3<double>(found.normal), found.digit, found.is_tip});
+    if (found.is_tip) tips_.push_back(contacts_.back());
   }
   center_ = core_f64::contacts_center(contacts_);
   hand_.friction = scene.force.friction;

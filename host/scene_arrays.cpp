@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstring>
 #include <limits>
+#include <numeric>
 
 #include "core/counted_tilts.h"
 #include "core/extreme_points.h"
@@ -179,7 +180,13 @@ EffortStates effort_states(const Scene& scene, std::size_t v, const VesselArrays
     found.safe.insert(found.safe.end(), {load[0], load[1], load[2], load[3], sine, cosine, tilt > 0 ? scene.tilts[tilt - 1] : -1,
                                          static_cast<double>(fill)});
   }
-  std::vector<std::size_t> extreme = extreme_points(points);
+  std::vector<std::size_t> extreme;
+  if (scene.force.torsion > 0) {
+    extreme = extreme_points(points);
+  } else {  // an effort is no convex function of the load: a lever counts or does not
+    extreme.resize(points.size());
+    std::iota(extreme.begin(), extreme.end(), std::size_t(0));
+  }
   if (extreme.empty()) extreme.push_back(0);  // nothing to hold: the first state
   for (std::size_t i = extreme.size(); i-- > 0;) {
     const auto state = states.begin() + static_cast<std::ptrdiff_t>(STATE_STRIDE * extreme[i]);

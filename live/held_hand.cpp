@@ -28,9 +28,9 @@ HeldHand::HeldHand(const LiveScene& live, std::size_t vessel, const VesselPose& 
   const int count = core_f64::find_contacts(live.hand, live.vessels[vessel].vessel, joints,
                                             core_f64::placed_scale(live.hand, joints), touch_mask, pressing);
   for (int i = 0; i < count; ++i) {
-    const auto& [joint, between, contact] = pressing[static_cast<std::size_t>(i)];
+    const core_f64::ContactPoint& contact = pressing[static_cast<std::size_t>(i)].contact;
     contacts_.push_back(contact);
-    if (between == 0 && (joint == THUMB_TIP || joint == INDEX_TIP)) tips_.push_back(contact);
+    if (contact.is_tip) tips_.push_back(contact);
   }
   center_ = core_f64::contacts_center(contacts_);
 }

@@ -16,6 +16,7 @@
 layout(local_size_x_id = CONST_GROUP_SIZE) in;
 layout(constant_id = CONST_CONTACTS) const int CONTACTS = -1;
 layout(constant_id = CONST_EFFORT_TASK) const int TASK = EFFORT_WORST;
+layout(constant_id = CONST_BARE) const bool BARE = true;
 layout(std140, binding = BINDING_STATES) uniform StateBlock { Vec4 states_in[2 * STATES_IN_BLOCK]; };
 
 // The grips of the group that there is something to do for, one after another: all lanes of a vector run until the slowest is done.
@@ -31,7 +32,9 @@ Vec3 own_center;
 Real gravity;
 Real friction;
 Real shares[DIGITS];
-Six displaced;  // what points of Z are less, see EffortSolver::displace
+Six displaced;      // what points of Z are less, see EffortSolver::displace
+Vec3 line, middle;  // of the two tips: unit; m from `center`; without torsion
+bool are_alone;     // the tips
 
 int digit_of(int joint) {
   int finger = joint < 4 ? 0 : (joint + 1) / 5;
@@ -71,6 +74,12 @@ void load_contacts(uint grip) {
     arms[j] = is_pressing(j) ? arms[j] - center : Vec3(0);
     unit_length = max(unit_length, length(arms[j]));
   }
+  if (BARE) {
+    bool is_pinch = is_pressing(THUMB_TIP) && is_pressing(INDEX_TIP) && arms[THUMB_TIP] != arms[INDEX_TIP];
+    middle = (arms[THUMB_TIP] + arms[INDEX_TIP]) / Real(2);
+    are_alone = count == Real(2);
+    line = is_pinch ? normalize(arms[INDEX_TIP] - arms[THUMB_TIP]) : Vec3(0);
+  }
   unit_force = strongest > Real(0) ? strongest : Real(1);
   dear = UNRESISTED_EFFORT * (strongest > Real(0) ? strongest / weakest : Real(1));
   gamma = scene.torsion / unit_length;
@@ -105,11 +114,24 @@ Real support(Six direction, out Six point) {
   return dot6(direction, point);
 }
 
-// The wrench that balances the weight, in the units of force and length.
+// The wrench of a force in its unit at a place, in the units of force and length. Without torsion, without the lever about the tips' line that is none.
+Six wanted_at(Vec3 place, Vec3 lift) {
+  Vec3 arm = place - center, moment = cross(arm / unit_length, lift);
+  if (BARE) {
+    Vec3 pivot = arm - middle;
+    Real turn = dot(line, cross(pivot, lift)), force = length(lift);
+    bool counts = abs(turn) > force * longest_bare_lever(length(pivot));
+    Real least = are_alone ? force * unit_length : Real(0);
+    Real kept = counts ? max(abs(turn), least) : Real(0);
+    moment += (((turn > Real(0) ? kept : -kept) - turn) / unit_length) * line;
+  }
+  return Six(lift, moment);
+}
+
+// The wrench that balances the weight.
 Six wanted_for(Vec4 weight, Vec4 tilted) {
   Load load = Load(weight.x, (Real(1) - weight.y) * own_center, weight.z, weight.w);
-  Vec3 lift = (weight.x * gravity / unit_force) * up_direction(pour, tilted.x, tilted.y);
-  return Six(lift, cross((load_center(load, pour) - center) / unit_length, lift));
+  return wanted_at(load_center(load, pour), (weight.x * gravity / unit_force) * up_direction(pour, tilted.x, tilted.y));
 }
 
 struct Solve {

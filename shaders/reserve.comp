@@ -59,7 +59,7 @@ Six wanted_push(uint k) {
     lift = Vec3(0);
     lift[(k - 1u) / 2u] = ((k & 1u) == 1u ? Real(-1) : Real(1)) / unit_force;
   }
-  return Six(lift, cross((at - center) / unit_length, lift));
+  return wanted_at(at, lift);
 }
 
 int plane_of_task() { return TASK == EFFORT_PUSH ? PLANE_PUSH : PLANE_FRICTION_NEEDED; }

@@ -75,9 +75,8 @@ GripPrediction TrialPredictor::predict(std::size_t vessel, const GripInput& grip
   Held held{vessel, grip, {}, to_vec3<double>(pour_direction(scene_, grip)), {}, {}, {}};
   core_->grip(vessel, grip, held.result);
   for (const GripContact& found : core_->contacts(vessel, held.result)) {
-    held.contacts.push_back({to_vec3<double>(found.point), to_vec3<double>(found.normal), found.digit});
-    const bool is_tip = found.between == 0 && (found.joint == THUMB_TIP || found.joint == INDEX_TIP);
-    if (is_tip) held.tips.push_back(held.contacts.back());
+    held.contacts.push_back({to_vec3<double>(found.point), to_vec3<double>(found.normal), found.digit, found.is_tip});
+    if (found.is_tip) held.tips.push_back(held.contacts.back());
   }
   held.hand = {scene_.force.friction, scene_.force.torsion, scene_.strength.value().digits};
   GripPrediction prediction;

@@ -140,6 +140,52 @@ TEST(Effort, WithoutFrictionOrTorsion) {
   expect_effort(two_tips(), unit_strength(MU, 0), weight_at({0, -0.02, 0.01}), NEVER_HELD, "beside it nothing resists the turn");
 }
 
+// A load on tips beside their line by a lever: held as without the lever up to a thousandth of the way from their middle, or of 5 mm, and by
+// nothing beyond.
+TEST(Effort, OfTipsWithoutTorsionALeverIsNoneOrHeldByNothing) {
+  auto tips = two_tips();
+  for (ContactPoint& tip : tips) tip.is_tip = true;
+  const double answer = WEIGHT / (2 * MU);
+  for (const double below : {0.0, 1e-3, 0.05, 0.3}) {
+    const double longest = 1e-3 * std::max(5e-3, below);
+    const auto load = [&](double lever) { return weight_at({0, -below, lever}); };
+    const std::string where = "below " + std::to_string(below) + ", lever ";
+    const double without = EffortSolver(tips, unit_strength(MU, 0), {}).solve(load(0)).effort;
+    for (const double lever : {1e-12, 1e-11, 1e-9, 1e-6, 0.999 * longest})
+      for (const double side : {lever, -lever}) {
+        expect_effort(tips, unit_strength(MU, 0), load(side), answer, where + std::to_string(side));
+        EXPECT_NEAR(EffortSolver(tips, unit_strength(MU, 0), {}).solve(load(side)).effort, without, 1e-9 * answer);
+      }
+    for (const double lever : {1.001 * longest, 2 * longest, 0.1})
+      for (const double side : {lever, -lever})
+        expect_effort(tips, unit_strength(MU, 0), load(side), NEVER_HELD, where + std::to_string(side));
+  }
+}
+
+// A third contact turns the vessel about the line of the tips in one sense alone: what the tips hold, it leaves held.
+TEST(Effort, WithoutTorsionMoreContactsLeaveALeverNone) {
+  std::vector<ContactPoint> contacts = two_tips();
+  for (ContactPoint& tip : contacts) tip.is_tip = true;
+  contacts.push_back({{0, -0.003, 0.024}, {0, 0.8, -0.6}, 2});
+  for (const double lever : {1e-11, 1e-9, 1e-6, 4.9e-6})
+    for (const double side : {lever, -lever})
+      EXPECT_LE(EffortSolver(contacts, unit_strength(MU, 0), {}).solve(weight_at({0, 0, side})).effort, WEIGHT / (2 * MU) * 1.001)
+          << side;
+}
+
+// Contacts that are not two tips carry the shortest lever.
+TEST(Effort, WithoutTorsionOtherContactsCarryALever) {
+  const auto three = three_round_a_cylinder();
+  EffortSolver solver(three, unit_strength(MU, 0), {});
+  const Wrench load = weight_at({1e-6, -0.02, 1e-6});
+  EXPECT_NEAR(solver.solve(load).effort, WEIGHT / MU / 3, 2e-3 * WEIGHT);
+  std::vector<core_f64::ContactForce> forces(three.size());
+  solver.forces(forces);
+  Vec3 moment = load.moment;
+  for (std::size_t i = 0; i < three.size(); ++i) moment += glm::cross(three[i].place, forces[i].force);
+  EXPECT_LT(glm::length(moment), 1e-9 * WEIGHT);
+}
+
 // A smooth wall that two weak digits hold with 25 times the load each: held, however strong the digits are that do not touch.
 TEST(Effort, StrengthOfDigitsThatDoNotPressChangesNothing) {
   constexpr double SMOOTH = 0.02;

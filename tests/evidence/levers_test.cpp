@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "core/force.h"
+#include "core/vectors.h"
 #include "evidence/check.h"
 #include "evidence/compare.h"
 #include "tests/support/scenes.h"
@@ -16,6 +18,8 @@
 
 namespace wholehand {
 namespace {
+
+using core_f64::Vec3;
 
 constexpr double LEVER_SHARE = 1e-3,
                  LEAST_PIVOT = 5e-3;  // m: a lever up to the share of the pivot length, or of the least one, is none
@@ -99,6 +103,103 @@ TEST(Levers, CountAlikeOnEveryBackend) {
   }
   EXPECT_GT(held, 800u);
   EXPECT_GT(unheld, 200u);
+}
+
+// The longest lever of forces at a place about the line of two contacts, over the longest that is none.
+double longest_share(const Vec3& a, const Vec3& b, const Vec3& place, const std::vector<Vec3>& directions) {
+  const Vec3 arm = place - (a + b) * 0.5, line = glm::normalize(b - a);
+  double most = 0;
+  for (const Vec3& along : directions) most = std::max(most, std::abs(glm::dot(line, glm::cross(arm, along))));
+  return most / (LEVER_SHARE * std::max(LEAST_PIVOT, glm::length(arm)));
+}
+
+// A puck that the tips alone touch: what holds for the tips holds for the whole hand, its reserves too.
+Scene puck_scene() {
+  Scene scene = bare_scene();
+  scene.vessels = {cylinder("puck", 50, 10, 2)};
+  return scene;
+}
+
+struct CountedLevers {
+  int held = 0, unheld = 0, pushed = 0, unpushed = 0;
+};
+
+// Grips off the axis and off the height of the centre of mass against the grip at the same height on the axis, or at the centre of mass.
+CountedLevers count_levers(Scene scene, const std::vector<double>& above) {
+  scene.strength.emplace();
+  scene.hand.depth_limit = 20e-3;  // most grips are plausible
+  const auto core = make_core_evaluator(scene);
+  const Vec3 center = to_vec3<double>(core->constants(0).center_of_mass);
+  std::vector<Vec3> weights;
+  for (const double tilt : scene.tilts) weights.push_back(core_f64::up_direction({0, 0, -1}, std::sin(tilt), std::cos(tilt)));
+  std::vector<GripInput> grips;
+  for (const double height : above)
+    for (int k = -49; k <= -12; ++k) {
+      GripInput grip;
+      grip.height = center.y + height;
+      grip.roll = radians(-30);
+      grip.offset = k == -49 ? 0 : std::pow(10, k / 4.0);
+      grips.push_back(grip);
+    }
+  const std::size_t in_a_row = grips.size() / above.size();
+  const FieldSet fields = all_fields(scene);
+  const GatheredPlanes truth = gather(*core, fields, 0, grips);
+  CountedLevers counted;
+  for (const auto& [who, planes] : lever_answers(scene, grips)) {
+    for (std::size_t i = 0; i < grips.size(); ++i) {
+      GripResult result;
+      core->grip(0, grips[i], result);
+      const std::vector<GripContact> contacts = core->contacts(0, result);
+      std::vector<Vec3> tips;
+      for (const GripContact& contact : contacts)
+        if (contact.is_tip) tips.push_back(to_vec3<double>(contact.point));
+      if (tips.size() != 2) {
+        ADD_FAILURE() << i;
+        continue;
+      }
+      const std::string where = who + ", above " + std::to_string(grips[i].height - center.y) + ", offset 1e" +
+                                std::to_string(std::log10(grips[i].offset));
+      const auto expect = [&](int field, bool is_none, double otherwise, std::size_t at) {
+        const double found = planes.real(planes.fields.plane[field], i), as = truth.real(fields.plane[field], at);
+        if (is_none) {
+          EXPECT_NEAR(found, as, 3e-3 * as + (field == FIELD_FRICTION_NEEDED ? 1e-3 : 0)) << where << ", field " << field;
+        } else {
+          EXPECT_EQ(found, otherwise) << where << ", field " << field;
+        }
+      };
+      const std::size_t on_axis = i - i % in_a_row;
+      const double share = longest_share(tips[0], tips[1], center, weights);
+      if (std::abs(share - 1) < 0.05) continue;
+      const bool is_none = share < 1;
+      ++(is_none ? counted.held : counted.unheld);
+      expect(FIELD_TIPS_WORST_EFFORT, is_none, HUGE_VAL, on_axis);
+      if (contacts.size() > 2) {
+        const double whole = planes.real(planes.fields.plane[FIELD_WORST_EFFORT], i),
+                     pinch = planes.real(planes.fields.plane[FIELD_TIPS_WORST_EFFORT], i);
+        EXPECT_LE(whole, pinch * (1 + 3e-3)) << where;
+        continue;
+      }
+      expect(FIELD_WORST_EFFORT, is_none, HUGE_VAL, on_axis);
+      expect(FIELD_FRICTION_NEEDED, is_none, HUGE_VAL, on_axis);
+      if (is_none) expect(FIELD_SAFE_TILT, true, 0, on_axis);
+      const double of_pushes = longest_share(tips[0], tips[1], center, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+      if (std::abs(of_pushes - 1) < 0.05) continue;
+      expect(FIELD_PUSH, of_pushes < 1, 0, 0);
+      ++(of_pushes < 1 ? counted.pushed : counted.unpushed);
+    }
+  }
+  return counted;
+}
+
+TEST(Levers, CountAlikeInEffortsOnEveryBackend) {
+  const CountedLevers puck = count_levers(puck_scene(), {0, 1e-9, -1e-7, 1e-6, 4e-6, -6e-6, 1e-4, 2e-3});
+  EXPECT_GT(puck.held, 500);
+  EXPECT_GT(puck.unheld, 200);
+  EXPECT_GT(puck.pushed, 300);
+  EXPECT_GT(puck.unpushed, 300);
+  const CountedLevers beaker = count_levers(bare_scene(), {-0.03, 0, 0.02});
+  EXPECT_GT(beaker.held, 200);
+  EXPECT_GT(beaker.unheld, 60);
 }
 
 TEST(Levers, OfASceneWithoutTorsionAgree) {

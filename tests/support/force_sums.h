@@ -29,7 +29,7 @@ inline ForceSums sums_of_forces(std::span<const core_f64::ContactPoint> contacts
   ForceSums sums;
   sums.rest = load;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const auto& [place, normal, digit] = contacts[i];
+    const auto& [place, normal, digit, is_tip] = contacts[i];
     const auto& [force, twist] = forces[i];
     const double along = glm::dot(normal, force);
     const double across = std::hypot(glm::length(force - along * normal), torsion > 0 ? twist / torsion : 0);

@@ -14,8 +14,8 @@ LoadedGrip held_grip(const Scene& scene, const Evaluator& evaluator, std::size_t
                      const GripResult& result) {
   LoadedGrip held;
   for (const GripContact& found : evaluator.contacts(vessel, result)) {
-    held.contacts.push_back({to_vec3<double>(found.point), to_vec3<double>(found.normal), found.digit});
-    if (found.between == 0 && (found.joint == THUMB_TIP || found.joint == INDEX_TIP)) held.tips.push_back(held.contacts.back());
+    held.contacts.push_back({to_vec3<double>(found.point), to_vec3<double>(found.normal), found.digit, found.is_tip});
+    if (found.is_tip) held.tips.push_back(held.contacts.back());
   }
   held.hand = {scene.force.friction, scene.force.torsion, scene.strength->digits};
   held.counted = counted_tilts(scene, vessel);

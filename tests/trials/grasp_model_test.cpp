@@ -39,7 +39,7 @@ class ArticulatedHand : public testing::Test {
   }
   // The force of full strength on the edge of the cone that is of most use along a direction.
   ContactForce strongest(std::size_t contact, const Vec3& force, double torsion) const {
-    const auto& [place, normal, digit] = contacts_.points[contact];
+    const auto& [place, normal, digit, is_tip] = contacts_.points[contact];
     const double strength = contacts_.strength.digits[static_cast<std::size_t>(digit)], mu = contacts_.strength.friction;
     const Vec3 along = force - glm::dot(force, normal) * normal;
     const double twist = contacts_.strength.torsion * torsion, size = std::hypot(glm::length(along), twist);

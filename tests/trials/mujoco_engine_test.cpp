@@ -98,7 +98,7 @@ class MujocoEngine : public testing::Test {
     constexpr double HALF = 6e-3, THICK = 5e-3;  // m
     GripResult result;
     BodyForm walls;
-    for (const auto& [place, normal, digit] : contacts_of(one, result)) {
+    for (const auto& [place, normal, digit, is_tip] : contacts_of(one, result)) {
       const std::string name = fmt::format("wall{}", walls.names.size());
       const core_f64::Vec3 middle = place + THICK * normal;
       walls.geoms += fmt::format("<geom name=\"{}\" type=\"box\" pos=\"{} {} {}\" size=\"{} {} {}\" zaxis=\"{} {} {}\"/>\n", name,
