@@ -74,7 +74,7 @@ TEST(HidGripper, WrongReportsAreErrors) {
 
 TEST(HidGripper, SilenceIsATimeoutAndTripsTheWatchdogs) {
   MockBench bench;
-  HidMock mock(bench);
+  HidMock mock(bench, on_the_clock());
   check_silence(mock, [&mock] { return open_hid(mock.node(), 0.2); });
 }
 
@@ -115,7 +115,7 @@ TEST(HidGripper, ForceThatIsNotTakenIsAnError) {
 
 TEST(HidGripper, OldReportsAreNotTakenForNew) {
   MockBench bench;
-  HidMock mock(bench);
+  HidMock mock(bench, on_the_clock());
   check_old_reports(mock, [&mock] { return open_hid(mock.node(), PATIENT_WATCHDOG); });
 }
 

@@ -80,7 +80,7 @@ TEST(UsbGripper, WrongReportsAreErrors) {
 
 TEST(UsbGripper, SilenceIsATimeoutAndTripsTheWatchdogs) {
   MockBench bench;
-  UsbMock mock(bench);
+  UsbMock mock(bench, on_the_clock());
   check_silence(mock, [] { return open_usb("", 0.2); });
 }
 
@@ -164,7 +164,7 @@ TEST(UsbGripper, ForceThatIsNotTakenIsAnError) {
 
 TEST(UsbGripper, OldReportsAreNotTakenForNew) {
   MockBench bench;
-  UsbMock mock(bench);
+  UsbMock mock(bench, on_the_clock());
   check_old_reports(mock, [] { return open_usb("", PATIENT_WATCHDOG); });
 }
 

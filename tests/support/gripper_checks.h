@@ -101,6 +101,7 @@ void check_clock(const Open& open) {
   MockBench bench;
   MockSettings settings;
   settings.first_time = 0xFFFFFFFF - 300'000;  // wraps after 0.3 s
+  settings.step = 0;
   Mock mock(bench, settings);
   const auto gripper = open(mock);
   GripperState state;
@@ -164,7 +165,7 @@ void check_wrong_reports(MockGripper& mock, const Open& open) {
   EXPECT_EQ(first.time, again.time);
 }
 
-// Both sides let go: the host's read says so within its patience, the device by its watchdog of 200 ms, which stays tripped for
+// On the machine's clock. Both sides let go: the host's read says so within its patience, the device by its watchdog of 200 ms, which stays tripped for
 // this session and not for the next.
 template <class Open>
 void check_silence(MockGripper& mock, const Open& open) {
@@ -302,7 +303,7 @@ void check_signals(MockGripper& mock, const Open& open) {
   knocking.join();
 }
 
-// Nobody reads for longer than any queue lasts: what still waits then is old, and only a measurement of now is given out.
+// On the machine's clock. Nobody reads for longer than any queue lasts: what still waits then is old, and only a measurement of now is given out.
 template <class Open>
 void check_old_reports(MockGripper& mock, const Open& open) {
   const auto gripper = open();

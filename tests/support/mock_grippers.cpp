@@ -100,7 +100,8 @@ void MockGripper::stop() {
 }
 
 double MockGripper::now() const {
-  return settings_.step > 0 ? settings_.step * static_cast<double>(outputs_.size()) : monotonic() - start_;
+  if (settings_.step == 0) return monotonic() - start_;
+  return settings_.step * static_cast<double>(outputs_.size()) + sequence_ / protocol::SECOND;
 }
 
 void MockGripper::check_watchdog() {

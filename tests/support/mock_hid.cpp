@@ -99,6 +99,7 @@ void HidMock::send(const Bytes& report) {
 
 void HidMock::on_connected(UMockdevIoctlBase*, UMockdevIoctlClient* client, HidMock* self) {
   const std::lock_guard guard(self->lock_);
+  self->empty();  // what waited for the session before
   g_object_ref(client);
   self->clients_.push_back(client);
 }

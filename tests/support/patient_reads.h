@@ -11,14 +11,21 @@
 
 namespace wholehand {
 
-inline constexpr double PATIENT_WATCHDOG = 1;  // s: a busy machine does not trip it
+inline constexpr double PATIENT_WATCHDOG = 1;  // s
+
+// A device whose clock is the machine's.
+inline MockSettings on_the_clock() {
+  MockSettings settings;
+  settings.step = 0;
+  return settings;
+}
 
 inline void rest(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
 
-// A machine that is busy may let no report through within a read's patience: then again, a second long.
+// A machine that is busy may let no report through within a read's patience: then again, for a minute.
 inline ReadOutcome read_soon(Gripper& gripper, GripperState& state) {
   ReadOutcome outcome = ReadOutcome::timeout;
-  for (int i = 0; i < 100 && outcome == ReadOutcome::timeout; ++i) outcome = gripper.read(state, i);
+  for (int i = 0; i < 6000 && outcome == ReadOutcome::timeout; ++i) outcome = gripper.read(state, i);
   return outcome;
 }
 
@@ -40,7 +47,7 @@ inline bool is_nothing(const protocol::OutputReport& report) {
 
 // Whether so many reports of the host have arrived, now or in a while: a device takes one a frame.
 inline bool arrives(const MockGripper& mock, std::size_t count) {
-  for (int i = 0; i < 5000 && mock.outputs().size() < count; ++i) rest(0.0002);
+  for (int i = 0; i < 60000 && mock.outputs().size() < count; ++i) rest(0.001);
   return mock.outputs().size() >= count;
 }
 
