@@ -222,14 +222,14 @@ std::string mesh_check_text(const MeshFacts& facts) {
   if (facts.closed_holes > 0)
     text += fmt::format(" {} {} closed, up to {:.4g} mm across.", counted(facts.closed_holes, "hole"), was(facts.closed_holes),
                         1e3 * facts.widest_closed_hole);
-  if (facts.was_inside_out) {
+  if (facts.oriented && facts.was_inside_out) {
     text += " It was inside out and has been turned round.";
-  } else if (facts.turned_triangles > 0) {
+  } else if (facts.oriented && facts.turned_triangles > 0) {
     text += fmt::format(" {} faced inward and {} turned outward.", counted(facts.turned_triangles, "triangle"),
                         was(facts.turned_triangles));
   }
   if (facts.closes_nothing) text += " close_holes closes nothing: no edge is open.";
-  if (facts.open_edges > 0)
+  if (facts.holes > 0 || (facts.open_edges > 0 && facts.odd_edges == 0 && facts.oriented))
     text += " What lies inside is judged by the winding number, which guesses across the holes" + holes_text(facts);
   if (facts.odd_edges > 0)
     text += fmt::format(" At {} a wall ends within the body, and the winding number guesses what lies beside it: remove that wall.",

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <istream>
+#include <optional>
 #include <sstream>
 
 #include "core/error.h"
@@ -140,7 +141,7 @@ std::string mass_text(const VesselData& vessel, const MeshBody& body) {
 
 // Takes volume and centre of mass from the mesh; from its lattice where the triangles do not tell them: they cannot all face outward, a wall
 // ends within the body, or bodies overlap, so that the sum over triangles counts some parts twice. Returns the sentence that says so, else "".
-std::string set_volume(const MeshFacts& facts, const std::string& name, MeshBody& body) {
+std::string set_volume(const MeshFacts& facts, const std::string& name, bool has_mass, MeshBody& body) {
   body.volume = facts.volume;
   body.center_of_mass = facts.center_of_mass;
   const EnclosedVolume enclosed = enclosed_volume(body.lattice, facts.area);
@@ -154,8 +155,8 @@ std::string set_volume(const MeshFacts& facts, const std::string& name, MeshBody
                       : facts.odd_edges > 0  ? "a wall ends within it"
                       : facts.open_edges > 0 ? "its holes leave open what is inside"
                                              : "its bodies overlap";
-  return fmt::format("{}: inside it are {}, by the lattice, and these are taken; make one closed body of it, or give mass_kg",
-                     cause, filled_text(enclosed.volume, enclosed.center));
+  return fmt::format("{}: inside it are {}, by the lattice, and these are taken; make one closed body of it{}", cause,
+                     filled_text(enclosed.volume, enclosed.center), has_mass ? "" : ", or give mass_kg");
 }
 
 // What is shown while work runs, and wiped where it ends, also with an error.
@@ -216,14 +217,21 @@ void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder
   }
   cache_limit();  // throws here: a wrong limit is not the fault of grid_mm
   try {
-    const auto progress = [&](double share) { status.show(fmt::format("{}: distances to its mesh  {:.0f} %", name, 100 * share)); };
+    std::optional<Progress> samples;  // once it is known how many
+    const auto progress = [&](double share) {
+      const std::string what = name + ": distances to its mesh";
+      if (!samples) return status.show(fmt::format("{}  {:.0f} %", what, 100 * share));
+      samples->update(what, static_cast<std::uint64_t>(share * static_cast<double>(samples->total())));
+    };
     const auto announce = [&](const PreparedLattice& lattice, double seconds) {
+      if (!options.is_quiet) samples.emplace(std::uint64_t(lattice.nx) * lattice.ny * lattice.nz, 0, "samples");
       if (!is_long(seconds, facts.closed)) return;
       status.show("");
       const auto& tell = options.say ? options.say : options.forecast;
       if (tell) tell(name + ": " + forecast_text(lattice, seconds, facts.closed));
     };
     MeshLattice made = cached_lattice(checked, wish, options.cache_folder, progress, {announce, options.clock});
+    samples.reset();
     status.show("");
     body->lattice = std::move(made.lattice);
     body->lattice_error = made.error;
@@ -234,7 +242,7 @@ void load_mesh(const Scene& scene, VesselData& vessel, const std::string& folder
   }
   body->low = facts.low;
   body->high = facts.high;
-  const std::string other_volume = set_volume(facts, at_place(data.place, data.file), *body);
+  const std::string other_volume = set_volume(facts, at_place(data.place, data.file), vessel.mass.has_value(), *body);
   if (!other_volume.empty()) say(other_volume);
   body->facts = mesh_check_text(facts) + (other_volume.empty() ? "" : " But " + other_volume + ".");
   body->vertices = std::move(checked.mesh.vertices);

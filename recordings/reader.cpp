@@ -29,7 +29,7 @@ class RecordedFile {
     if (file_ < 0 || fstat(file_, &status) != 0) {
       const int error = errno;
       if (file_ >= 0) close(file_);
-      throw usage_error(fmt::format("{}: cannot be read: {}", path, std::strerror(error)));
+      throw usage_error(fmt::format("{}: cannot be read: {}{}", path, std::strerror(error), backslash_note(path)));
     }
     if (!S_ISREG(status.st_mode)) {
       close(file_);

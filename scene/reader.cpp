@@ -26,7 +26,7 @@ toml::table parse_table(const SceneFile& file, std::string_view text, const std:
     for (const char c : error.description()) what += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
     constexpr std::size_t LARGEST = 300;
     if (what.size() > LARGEST) what = what.substr(0, LARGEST) + "...";
-    const bool is_escape = what.find("escape sequence") != what.npos;
+    const bool is_escape = what.find("escape sequence") != what.npos || what.find("unicode scalar sequence") != what.npos;
     file.refuse({static_cast<int>(begin.line), static_cast<int>(begin.column)}, what,
                 fmt::format("allowed: TOML 1.0{}{}", is_escape ? "; " : "", is_escape ? WRITE_SLASHES : ""));
   }

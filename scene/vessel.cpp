@@ -83,7 +83,8 @@ void read_form(const SceneTable& table, VesselData& vessel, Silhouette& silhouet
 void read_mass(const SceneTable& table, VesselData& vessel) {
   const bool has_mass = table.has("mass_kg"), has_center = table.has("center_of_mass_mm");
   if (has_center && !has_mass)
-    table.file().refuse(table.place("center_of_mass_mm"), "center_of_mass_mm without mass_kg", "allowed: both or neither");
+    table.file().refuse(table.place("center_of_mass_mm"), "center_of_mass_mm without mass_kg",
+                        "allowed: both or neither; a mesh may have mass_kg alone");
   if (has_mass && !has_center && !vessel.mesh)
     table.file().refuse(table.place("mass_kg"), "mass_kg without center_of_mass_mm",
                         "allowed: both or neither; a mesh may have mass_kg alone");

@@ -288,8 +288,8 @@ class Explainer {
       pivots += hold->pivots;
     }
     if (states == 0) return;
-    say("    of {} plausible grips the core's search for the worst effort takes {:.2f} pivots a state; {:.0f} % of the states take "
-        "none\n",
+    say("    of {} plausible grips the core's search for the worst effort takes {:.2f} pivots a state; {:.0f} % of the states are "
+        "passed by once the worst is known\n",
         grips, static_cast<double>(pivots) / static_cast<double>(states),
         100 * static_cast<double>(skipped) / static_cast<double>(states));
   }

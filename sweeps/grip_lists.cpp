@@ -15,6 +15,7 @@
 #include <set>
 
 #include "core/error.h"
+#include "core/file_kind.h"
 #include "objects/vessel.h"
 #include "sweeps/heat_map_plot.h"
 #include "system/csv.h"
@@ -26,7 +27,8 @@ constexpr double LARGEST_LIST = 1 << 28;  // bytes: a million rows
 
 std::string list_text(const std::string& path) {
   struct stat status {};
-  if (stat(path.c_str(), &status) != 0) throw usage_error(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
+  if (stat(path.c_str(), &status) != 0)
+    throw usage_error(fmt::format("{}: cannot be read: {}{}", path, std::strerror(errno), backslash_note(path)));
   if (!S_ISREG(status.st_mode)) throw usage_error(fmt::format("{}: is not a file; name a list of wholehand rank", path));
   if (static_cast<double>(status.st_size) > LARGEST_LIST)
     throw usage_error(fmt::format("{}: is larger than any list of grips", path));

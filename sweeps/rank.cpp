@@ -59,8 +59,8 @@ std::string remedy_for(const Variable& variable, const SweepResult& result, cons
   std::vector<std::string> related;
   for (const Variable& other : variable_catalogue())
     if (std::string_view(other.name).ends_with(variable.name) && result.find(other.name)) related.push_back(other.name);
-  const std::string instead = related.empty() ? "" : fmt::format(", which has {}", joined(related, ", "));
-  return fmt::format("is not in the file{}; add \"{}\" to [output] {} of the scene and sweep again", instead, variable.name,
+  const std::string instead = related.empty() ? "" : fmt::format("write {}, which it has, or ", joined(related, " or "));
+  return fmt::format("is not in the file; {}add \"{}\" to [output] {} of the scene and sweep again", instead, variable.name,
                      scene.output.keep ? "keep" : "also");
 }
 

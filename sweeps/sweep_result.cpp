@@ -15,6 +15,7 @@
 #include <numeric>
 
 #include "core/error.h"
+#include "core/file_kind.h"
 #include "sweeps/refine.h"
 #include "sweeps/result_contents.h"
 #include "sweeps/robust.h"
@@ -37,7 +38,7 @@ const std::string& check_is_result(const std::string& path) {
     if (stat(partial.c_str(), &status) == 0)
       throw usage_error(
           fmt::format("{}: {} is of a sweep that was not finished; finish it with wholehand sweep --resume", path, partial));
-    throw usage_error(fmt::format("{}: cannot be read: {}", path, std::strerror(error)));
+    throw usage_error(fmt::format("{}: cannot be read: {}{}", path, std::strerror(error), backslash_note(path)));
   }
   if (!S_ISREG(status.st_mode)) return path;  // refused where it is opened
   if (access(path.c_str(), R_OK) != 0) throw usage_error(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));

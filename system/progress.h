@@ -32,6 +32,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
+  std::uint64_t total() const { return total_; }
   // Whether update may write: for those whose words take long to put together.
   bool is_due() const;
   // Draws at most ten times a second on a terminal.

@@ -99,7 +99,8 @@ TEST(WrongFiles, BackslashesInAPathAreNamed) {
   const auto scene_line = [&](const std::string& mesh) {
     return refusal_line([&] { parse_scene("[[vessel]]\nname = \"v\"\nmesh = " + mesh + "\n", "scene.toml"); });
   };
-  for (const char* mesh : {"\"meshes\\cup.obj\"", "\"meshes\\bowl.obj\"", "\"meshes\\nose.obj\""})
+  for (const char* mesh :
+       {"\"meshes\\cup.obj\"", "\"meshes\\bowl.obj\"", "\"meshes\\nose.obj\"", "\"C:\\Users\\me\\cup.obj\"", "\"meshes\\urn.obj\""})
     EXPECT_TRUE(has(scene_line(mesh), "; write / in a path, and no backslash")) << scene_line(mesh);
   EXPECT_EQ(scene_line("\"meshes/bowl.obj\""), "");
   EXPECT_TRUE(has(refusal_line([&] { read_scene_file("scenes\\cup.toml"); }), "; write / in a path, and no backslash"));
@@ -134,6 +135,8 @@ TEST(WrongFiles, CommandsSayWhatTheyWereGiven) {
   expect_error("view " + pointer, 2, pointer + ": is a Git LFS pointer and not the file: git lfs pull");
   expect_error("view " + mesh, 2, "is a mesh (STL) and not a recording or a result; a scene names it");
   expect_error("view " + scene, 2, "is a scene file (TOML) and not a recording or a result");
+  for (const char* command : {"rank 'a\\b.nc'", "session 'a\\b.rec'", "live three_beakers --device 'replay:a\\b.rec'"})
+    expect_error(command, 2, "cannot be read: No such file or directory; write / in a path, and no backslash");
   expect_error("sweep 'scenes\\cup.toml'", 2, "no scene file 'scenes\\cup.toml'; write / in a path, and no backslash; give");
 }
 

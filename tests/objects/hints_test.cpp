@@ -268,6 +268,7 @@ TEST(MeshHints, FollowingARemedyHelps) {
       {open, "", "close them for a sure answer", box, ""},
       {joined(box, placed_mesh(one_sided, {}, {0.1, 0, 0})), "", "meet at edges: make one body of it", box, ""},
       {one_sided, "", "make one closed body of it", box, ""},
+      {one_sided, "", "or give mass_kg", one_sided, "mass_kg = 0.1"},
       {holed, "close_holes = true\nmass_kg = 0.1\ndensity_kg_m3 = 2000", "allowed: one of the two", holed,
        "close_holes = true\nmass_kg = 0.1"},
       {open, "close_holes = true", "or leave out close_holes", open, ""},
