@@ -90,13 +90,18 @@ class ViewerTest(unittest.TestCase):
         page = self.browser.open(served.address, width, height, self.scale, **emulation)
         self.addCleanup(page.close)
         page.wait("window.wholehand && wholehand.frame", what="the first frame")
-        self.addCleanup(lambda: self.assertEqual(page.errors, []))
+        self.addCleanup(lambda: self.assertEqual([error for error in page.errors if not is_cut_stream(error)], []))
         return page
 
     def assert_near(self, found, expected, tolerance, what=""):
         self.assertEqual(len(found), len(expected), what)
         worst = max(abs(a - b) for a, b in zip(found, expected))
         self.assertLessEqual(worst, tolerance, what)
+
+
+def is_cut_stream(error):
+    """Whether the server gave up a page that read no frames for seconds, as on a busy machine: the page asks for them anew."""
+    return "ERR_INCOMPLETE_CHUNKED_ENCODING" in error and error.endswith("/frames")
 
 
 def still(page):
