@@ -6,7 +6,7 @@ import re
 
 from netCDF4 import Dataset
 
-from support import PATIENCE, ViewerTest, main, slide
+from support import PATIENCE, ViewerTest, complaints, main, slide
 
 SCENE = """
 [scene]
@@ -143,7 +143,7 @@ class ASession(ViewerTest):
         self.assertRegex(self.said, "^over")
 
     def test_there_is_nothing_to_complain_about(self):
-        self.assertEqual(self.page.errors, [])
+        self.assertEqual(complaints(self.page), [])
 
     def test_the_chart_has_the_last_ten_seconds(self):
         records = self.page.evaluate("wholehand.history.records.map((r) => r.x)")
