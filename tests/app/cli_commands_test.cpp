@@ -167,7 +167,6 @@ TEST(CommandLine, EvaluatesOneGrip) {
   EXPECT_EQ(parse_json(direct.output), parse_json(points.output));
 }
 
-// A program far from its scenes has none to name.
 // The program with shipped scenes of its own, whatever a package has installed: none of them has places.
 TEST(CommandLine, NamesNoScenesWithPlacesWhereThereAreNone) {
   const wholehand::TemporaryFolder folder;

@@ -99,9 +99,8 @@ void check_session(MockGripper& mock, const Open& open) {
 template <class Mock, class Open>
 void check_clock(const Open& open) {
   MockBench bench;
-  MockSettings settings;
+  MockSettings settings = on_the_clock();
   settings.first_time = 0xFFFFFFFF - 300'000;  // wraps after 0.3 s
-  settings.step = 0;
   Mock mock(bench, settings);
   const auto gripper = open(mock);
   GripperState state;
