@@ -354,8 +354,8 @@ Effort EffortSolver::search(const Wrench& load, Real tolerance, Real enough, Rea
   Effort answer;
   last_ = {};
   const Vec6 wanted = wanted_for(load);
-  const Real size = std::sqrt(dot6(wanted, wanted));
-  if (!(size > 0)) {
+  const Real square = dot6(wanted, wanted), size = std::sqrt(square);
+  if (!(square >= std::numeric_limits<Real>::min())) {
     has_basis_ = false;
     return answer;
   }

@@ -78,7 +78,8 @@ class EffortSolver {
 
   // Ends where effort - low <= tolerance x effort, or after EFFORT_PIVOTS. Where rounding leaves forces that do not balance the
   // load, it begins anew with the pivots that are left and four times the tolerance, until this is 0.1 or more. What the basis of
-  // another load does not tell is searched from nothing, with as many pivots again. No load: 0. Also ends, with the bracket that it
+  // another load does not tell is searched from nothing, with as many pivots again. No load, or one whose square underflows beside
+  // the square of the strongest digit: 0. Also ends, with the bracket that it
   // then has, where effort <= enough, or low > too_much (`effort` is then infinite): whether the effort is larger than a number
   // needs no more.
   Effort solve(const Wrench& load, Real tolerance = EFFORT_TOLERANCE, Real enough = 0,
