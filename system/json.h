@@ -17,7 +17,7 @@ nlohmann::ordered_json parse_ordered_json(std::string_view text);  // objects ke
 nlohmann::json try_json(std::string_view text);
 
 // The text of a value: on one line, or with `indent` spaces for each level. A name of a file may have any bytes: those that are not UTF-8
-// become U+FFFD. Characters that steer and are not seen are escaped.
+// become U+FFFD. Characters that steer and are not seen are escaped. A zero has no sign.
 std::string json_text(const nlohmann::json& value, int indent = -1);
 std::string json_text(const nlohmann::ordered_json& value, int indent = -1);
 

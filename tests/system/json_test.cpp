@@ -33,6 +33,13 @@ TEST(JsonText, OfBytesThatAreNoUtf8IsWritten) {
   EXPECT_EQ(json_text(nlohmann::ordered_json(name)), "\"m\xef\xbf\xbd.nc\"");
 }
 
+TEST(JsonText, GivesAZeroNoSign) {
+  EXPECT_EQ(json_text(nlohmann::json{-0.0, -0.05, -1.0, 0.0, -0.0}), "[0.0,-0.05,-1.0,0.0,0.0]");
+  EXPECT_EQ(json_text(nlohmann::ordered_json{{"-0.0", "[\"-0.0,\\"}, {"b", -0.0}}), R"({"-0.0":"[\"-0.0,\\","b":0.0})")
+      << "not in strings";
+  EXPECT_EQ(json_text(nlohmann::json(-0.0)), "0.0");
+}
+
 TEST(JsonText, SteersNothing) {
   const std::string name = "a\x1b\x7f\xc2\x9b\xe2\x80\xae\xc3\xa4";
   const std::string text = json_text(nlohmann::json{{name, name}});
