@@ -24,6 +24,7 @@
 #include "system/file_kind_at.h"
 #include "system/output.h"
 #include "viewer/grips.h"
+#include "system/readable.h"
 #include "viewer/recording.h"
 #include "viewer/serve_view.h"
 
@@ -78,7 +79,9 @@ void view_result(const std::string& path, const std::string& list_file, int port
     const auto refined =
         list_file.empty() ? result.refined(vessel, k % plan.hand_scales()) : std::vector<std::optional<RefinedGrip>>{};
     const auto robust = list_file.empty() ? result.robust(vessel, k % plan.hand_scales()) : std::vector<std::array<double, 2>>{};
-    if (shown < lists[k].size()) notes.push_back(fmt::format("{}: the first {} of {} are shown", name, shown, lists[k].size()));
+    if (shown < lists[k].size())
+      notes.push_back(
+          fmt::format("{}: the first {} of {} are shown", name, readable_number(shown), readable_number(lists[k].size())));
     for (std::size_t i = 0; i < shown; ++i) {
       const RankedCandidate& ranked = lists[k][i];
       ViewedGrip grip{vessel, plan.grip(vessel, ranked.candidate.index), fmt::format("{}, rank {}", name, ranked.rank)};

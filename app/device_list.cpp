@@ -8,6 +8,7 @@
 #include "host/device_info.h"
 #include "program/remedy.h"
 #include "system/output.h"
+#include "system/readable.h"
 
 namespace wholehand {
 
@@ -31,11 +32,10 @@ void print_vulkan_devices() {
     }
     print(fmt::format("  precision float{}; subgroups of {}; timestamps {}\n", device.float64 ? " and double" : " only",
                       device.subgroup_size, device.timestamps ? "by the device" : "by the host's clock"));
-    constexpr double MEBI = 1 << 20;
-    print(fmt::format("  memory {:.0f} MiB{}, one allocation {:.0f} MiB, one storage buffer {:.0f} MiB, shared memory {} KiB\n",
-                      static_cast<double>(device.memory) / MEBI, device.unified_memory ? " (the host's own)" : "",
-                      static_cast<double>(device.max_allocation) / MEBI, static_cast<double>(device.max_storage_range) / MEBI,
-                      device.shared_memory / 1024));
+    const auto mebibytes = [](std::uint64_t bytes) { return readable_count(static_cast<double>(bytes) / (1 << 20)); };
+    print(fmt::format("  memory {} MiB{}, one allocation {} MiB, one storage buffer {} MiB, shared memory {} KiB\n",
+                      mebibytes(device.memory), device.unified_memory ? " (the host's own)" : "", mebibytes(device.max_allocation),
+                      mebibytes(device.max_storage_range), readable_number(device.shared_memory / 1024)));
   }
 }
 

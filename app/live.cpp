@@ -46,6 +46,7 @@
 #include "system/json.h"
 #include "system/output.h"
 #include "system/progress.h"
+#include "system/readable.h"
 #include "system/udp.h"
 #include "system/version.h"
 #include "viewer/browser.h"
@@ -273,8 +274,8 @@ class LiveRun {
     }
     const double most = gripper_->limits().rate;
     if (!is_replay && most > 0 && scene_.live.rate > most) {
-      throw usage_error(fmt::format("{:g} Hz: {} measures at most {:g} times a second; allowed: a --rate up to this number",
-                                    scene_.live.rate, gripper_->limits().name, most));
+      throw usage_error(fmt::format("{} Hz: {} measures at most {} times a second; allowed: a --rate up to this number",
+                                    plain_text(scene_.live.rate), gripper_->limits().name, plain_text(most)));
     }
   }
 

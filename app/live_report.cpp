@@ -19,8 +19,9 @@ namespace {
 constexpr double ML = 1e6;  // a m3
 
 std::string percentiles(const Histogram& times) {
-  return fmt::format("p50 {:.1f}, p99 {:.1f}, p99.9 {:.1f}, largest {:.1f} us", times.quantile(0.5) * 1e6,
-                     times.quantile(0.99) * 1e6, times.quantile(0.999) * 1e6, times.largest() * 1e6);
+  const auto microseconds = [](double seconds) { return fixed_text(seconds * 1e6, 1); };
+  return fmt::format("p50 {}, p99 {}, p99.9 {}, largest {} us", microseconds(times.quantile(0.5)),
+                     microseconds(times.quantile(0.99)), microseconds(times.quantile(0.999)), microseconds(times.largest()));
 }
 
 nlohmann::ordered_json percentiles_json(const Histogram& times) {
@@ -108,8 +109,9 @@ std::string Narrator::status(const Tick& tick) const {
 std::string live_text(const LiveSummary& summary) {
   const LoopReport& loop = summary.loop;
   const Tick& last = loop.last;
-  std::string text = fmt::format("{} with {}: {:.1f} s, {} at {:g} Hz\n", summary.scene.name, summary.gripper.name, summary.seconds,
-                                 counted(static_cast<std::uint64_t>(loop.ticks), "tick"), summary.scene.live.rate);
+  std::string text =
+      fmt::format("{} with {}: {} s, {} at {} Hz\n", summary.scene.name, summary.gripper.name, fixed_text(summary.seconds, 1),
+                  counted(static_cast<std::uint64_t>(loop.ticks), "tick"), plain_text(summary.scene.live.rate));
   text += fmt::format("  grasps {}, lost {}", last.grasps, last.lost);
   if (summary.scene.task)
     text += fmt::format(", destinations {}; {}", last.destinations, last.task_done ? "the task is done" : "the task is not done");
@@ -119,9 +121,9 @@ std::string live_text(const LiveSummary& summary) {
                         total_spilt(summary.scene, last) * ML);
   }
   if (summary.has_clock) {
-    text += fmt::format("  period     {}; missed {}\n", percentiles(loop.period), loop.missed);
+    text += fmt::format("  period     {}; missed {}\n", percentiles(loop.period), readable_number(loop.missed));
     text += fmt::format("  wake-up    {}\n", percentiles(loop.latency));
-    text += fmt::format("  step       {}; late {}\n", percentiles(loop.step), loop.late);
+    text += fmt::format("  step       {}; late {}\n", percentiles(loop.step), readable_number(loop.late));
   }
   if (summary.advice) text += "  advice     " + tally_words(*summary.advice) + "\n";
   for (const std::string& note : summary.notes) text += "  " + note + "\n";

@@ -42,7 +42,7 @@ class MarkupWriter {
 // "-12.3" with a minus sign as wide as a plus; an en dash for NaN, "∞" for infinity.
 std::string shown_number(double value, int digits);
 
-// As short as six figures allow: "0.8", "1000".
+// As short as six figures allow: "0.8", "1,000".
 std::string plain_number(double value);
 
 }  // namespace wholehand

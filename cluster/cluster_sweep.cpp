@@ -802,7 +802,8 @@ class ClusterSweep final : public Sweep {
       interrupt.clear();
       if ((delivered != result.done && !(delivered == 0 && variables_.empty())) ||
           (result.done == 0 && !is_asked_to_end(interrupt) && !team_.is_stopped()))
-        throw failure_error(fmt::format("{}: handed over {} of {} grips", backend_->info().device, delivered, result.done));
+        throw failure_error(fmt::format("{}: handed over {} of {} grips", backend_->info().device, readable_number(delivered),
+                                        readable_number(result.done)));
       if (delivered == 0) piece.counts.grips += result.done;
       offer(range.vessel, result.best);
       count_kernels(result.kernel_seconds, since(start) - sink_seconds);

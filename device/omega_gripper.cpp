@@ -282,7 +282,7 @@ GripperFound describe(const DhdLibrary& dhd, int number) {
     dhd.get_sdk_version(&major, &minor, &release, &revision);
     found.address = address_of(number);
     found.name += fmt::format(", {}", hand_name(model));
-    found.summary = fmt::format("up to {:g} N, gripper {:g} N, gap {:g} to {:g} mm, up to 4000 Hz; SDK {}.{}.{} ({})", model.force,
+    found.summary = fmt::format("up to {:g} N, gripper {:g} N, gap {:g} to {:g} mm, up to 4,000 Hz; SDK {}.{}.{} ({})", model.force,
                                 model.grip, GAP[0] * 1e3, GAP[1] * 1e3, major, minor, release, dhd.path);
   } catch (const Error& error) {
     found.missing = error.what();

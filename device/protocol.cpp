@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/quaternion.h"
+#include "system/readable.h"
 
 namespace wholehand::protocol {
 namespace {
@@ -380,8 +381,8 @@ GripperLimits limits_of(const Identity& identity, const std::string& address) {
 }
 
 std::string summary_of(const GripperLimits& limits) {
-  return fmt::format("{:g} N, grip {:g} N, gap {:g} to {:g} mm, {:g} Hz, {}-handed{}", limits.force, limits.grip,
-                     limits.gap[0] * 1e3, limits.gap[1] * 1e3, limits.rate, limits.is_left_handed ? "left" : "right",
+  return fmt::format("{:g} N, grip {:g} N, gap {:g} to {:g} mm, {} Hz, {}-handed{}", limits.force, limits.grip, limits.gap[0] * 1e3,
+                     limits.gap[1] * 1e3, plain_text(limits.rate), limits.is_left_handed ? "left" : "right",
                      limits.has_rotation ? "" : ", rotation not measured");
 }
 

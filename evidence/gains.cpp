@@ -12,6 +12,7 @@
 #include "evidence/grip_loop.h"
 #include "evidence/wall_sweep.h"
 #include "live/workspace.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {
@@ -67,9 +68,9 @@ void refuse_unstable_gains(const Scene& scene, std::array<double, 2> device_gap,
   const double slope = device_slope(scene, device_gap);
   const auto refuse = [&](const std::string& what, double limit) {
     throw usage_error(
-        fmt::format("{}: unstable on a light device at {:g} Hz; allowed: at most {:.0f}, a higher [live] rate_Hz, or "
+        fmt::format("{}: unstable on a light device at {} Hz; allowed: at most {:.0f}, a higher [live] rate_Hz, or "
                     "--unsafe-gains if the device is known to stay stable (wholehand stability wall)",
-                    what, live.rate, limit));
+                    what, plain_text(live.rate), limit));
   };
   const double stiffness = wall_limit(live.rate, slope * live.damping) / slope;
   if (live.stiffness > stiffness) {

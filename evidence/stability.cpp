@@ -25,14 +25,13 @@
 #include "system/output.h"
 #include "system/pictures.h"
 #include "system/progress.h"
+#include "system/readable.h"
 #include "system/version.h"
 
 namespace wholehand {
 namespace {
 
-std::string newtons_per_metre(double limit) {
-  return std::isfinite(limit) ? fmt::format("{:.0f}", limit) : std::string("no limit");
-}
+std::string newtons_per_metre(double limit) { return std::isfinite(limit) ? fixed_text(limit, 0) : std::string("no limit"); }
 
 constexpr FolderTable STABILITY_TABLES[] = {{"wall.csv", "sheet,mass_kg,"},
                                             {"wall_limits.csv", "sheet,mass_kg,"},
@@ -74,14 +73,15 @@ void write_walls(std::string& out, const std::vector<WallSheet>& sheets, const W
   append_formatted(
       out,
       "\n## The rendered wall\n\n"
-      "The simulation pressed {} walls for 20,000 samples each. Of these, {} are passive by b > K T / 2 + |B|; {} of "
-      "the passive walls did not settle. Of {} random devices, fingers, walls and rates, {} settle 1 % below their "
+      "The simulation pressed {} walls for 20,000 samples each. {} of them are passive by b > K T / 2 + |B|; {} of "
+      "the passive walls did not settle. {} of {} random devices, fingers, walls and rates settle 1 % below their "
       "linear limit and do not settle 1 % above it.\n\n"
       "The table shows the largest stiffness K in N/m without wall damping: in simulation / linear limit / passive "
       "limit. The first two limits are lowest for a device that nobody holds. Only the passive limit is valid for every "
       "hand that holds the device.\n\n| device |",
-      found.points, found.passive, found.passive_unsettled, found.by_chance, found.chance_as_theory);
-  for (const double rate : RATES) append_formatted(out, " {:g} Hz |", rate);
+      readable_number(found.points), readable_number(found.passive), readable_number(found.passive_unsettled),
+      readable_number(found.chance_as_theory), readable_number(found.by_chance));
+  for (const double rate : RATES) append_formatted(out, " {} Hz |", plain_text(rate));
   append_formatted(out, "\n|---|");
   for (std::size_t k = 0; k < RATES.size(); ++k) append_formatted(out, "---|");
   for (const NamedDevice& named : wall_devices()) {
@@ -137,7 +137,7 @@ void write_grips(std::string& out, const std::vector<GripLoopRow>& rows) {
       "has no user. The delayed answer of a user adds damping or removes damping; this depends on its phase.\n\n| gripper |",
       usual.device_mass * 1e3, usual.device_damping, usual.finger_mass * 1e3, usual.finger_damping, usual.finger_stiffness,
       usual.reaction * 1e3, usual.response * 1e3, usual.excess);
-  for (const double rate : RATES) append_formatted(out, " {:g} Hz |", rate);
+  for (const double rate : RATES) append_formatted(out, " {} Hz |", plain_text(rate));
   append_formatted(out, "\n|---|");
   for (std::size_t k = 0; k < RATES.size(); ++k) append_formatted(out, "---|");
   for (const auto& [mass, damping] : {std::pair{0.05, 0.5}, {0.02, 0.2}, {0.1, 1.0}, {0.1, 3.0}}) {
@@ -170,8 +170,8 @@ void write_grips(std::string& out, const std::vector<GripLoopRow>& rows) {
     ++counts[static_cast<std::size_t>(row.result.outcome)];
     ++all;
   }
-  append_formatted(out,
-                   ".\n\nThe outcomes of {} sessions that vary F_base, F_range, k_open, reaction, finger and tilt speed:", all);
+  append_formatted(out, ".\n\nThe outcomes of {} sessions that vary F_base, F_range, k_open, reaction, finger and tilt speed:",
+                   readable_number(all));
   for (std::size_t k = 0; k < counts.size(); ++k) {
     append_formatted(out, "{} {} {:.1f} %", k == 0 ? "" : ",", GRIP_OUTCOME_NAMES[k],
                      100.0 * static_cast<double>(counts[k]) / static_cast<double>(std::max<std::size_t>(all, 1)));
@@ -191,7 +191,8 @@ void write_gains(std::string& out) {
       "ms.\n\n| rate | K | k_open |\n|---|---|---|\n");
   for (const double rate : RATES) {
     const GainLimits limits = gain_limits(rate, 1);
-    append_formatted(out, "| {:g} Hz | {} | {} |\n", rate, newtons_per_metre(limits.stiffness), newtons_per_metre(limits.k_open));
+    append_formatted(out, "| {} Hz | {} | {} |\n", plain_text(rate), newtons_per_metre(limits.stiffness),
+                     newtons_per_metre(limits.k_open));
   }
 }
 
@@ -215,7 +216,7 @@ void write_extremes(std::string& out, const std::vector<ExtremeCase>& cases, con
       "agree: core float / device float / device double.\n\n"
       "| scene | what must come out | feasible | separation, um | joints, um | feedback, mN | hold, mN | beyond the "
       "tolerances of `check` |\n|---|---|---|---|---|---|---|---|\n",
-      cases.size(), grips, misplaced);
+      cases.size(), readable_number(grips), readable_number(misplaced));
   for (const ExtremeCase& extreme : cases) {
     std::array<std::string, 4> cells;
     std::string feasible, beyond;

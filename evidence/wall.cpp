@@ -13,6 +13,7 @@
 #include "core/loop.h"
 #include "core/wall_run.h"
 #include "system/json.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {
@@ -174,14 +175,14 @@ std::string wall_json(const WallLimits& limits) {
 }
 
 std::string wall_table(const WallDevice& device, const WallLimits& limits) {
-  const auto number = [](double value) { return std::isfinite(value) ? fmt::format("{:.1f}", value) : std::string("no limit"); };
+  const auto number = [](double value) { return std::isfinite(value) ? fixed_text(value, 1) : std::string("no limit"); };
   return fmt::format(
-      "Stiffest wall of a device of {:g} kg and {:g} N s/m at {:g} Hz, N/m:\n"
+      "Stiffest wall of a device of {:g} kg and {:g} N s/m at {} Hz, N/m:\n"
       "  settles in simulation      {:>12}\n"
       "  passive, whoever holds it  {:>12}\n"
       "  linear loop's eigenvalues  {:>12}\n"
       "  encoder and friction       {:>12}\n",
-      device.mass, device.damping, device.rate, number(limits.simulated), number(limits.passive), number(limits.linear),
+      device.mass, device.damping, plain_text(device.rate), number(limits.simulated), number(limits.passive), number(limits.linear),
       number(limits.coulomb));
 }
 

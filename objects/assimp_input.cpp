@@ -11,6 +11,7 @@
 #include "core/file_kind.h"
 #include "objects/triangles.h"
 #include "objects/words.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {
@@ -86,7 +87,9 @@ class ObjShape {
         words_.refuse("has curves or surfaces, which are not read: export polygons");
       }
     }
-    if (largest_ > vertices_) file_.refuse(fmt::format("has a face with the vertex {} and {} vertices", largest_, vertices_));
+    if (largest_ > vertices_)
+      file_.refuse(
+          fmt::format("has a face with the vertex {} and {} vertices", readable_number(largest_), readable_number(vertices_)));
     if (triangles_ == 0) file_.refuse("has no face");
     return points_ + faces_;
   }
@@ -116,7 +119,8 @@ class ObjShape {
     const bool is_whole = end == word.data() + word.size() || *end == '/';
     if (error != std::errc() || !is_whole || index == 0)
       words_.refuse(fmt::format("'{}' is no corner of a face", MeshWords::shown(word)));
-    if (index < -vertices_) words_.refuse(fmt::format("has a face with the vertex {} and {} vertices before it", index, vertices_));
+    if (index < -vertices_)
+      words_.refuse(fmt::format("has a face with the vertex {} and {} vertices before it", index, readable_number(vertices_)));
     return index < 0 ? vertices_ + 1 + index : index;
   }
 
@@ -128,7 +132,7 @@ class ObjShape {
       largest_ = std::max(largest_, vertex);
       faces_ += fmt::format(" {}", vertex);
       if (++corners > MOST_CORNERS)
-        words_.refuse(fmt::format("has a face of more than {} corners: cut it into triangles", MOST_CORNERS));
+        words_.refuse(fmt::format("has a face of more than {} corners: cut it into triangles", readable_number(MOST_CORNERS)));
     }
     if (corners < 3) words_.refuse(fmt::format("has a face of {} corners", corners));
     faces_ += "\n";

@@ -109,9 +109,12 @@ double largest_extent(const MeshFacts& facts) {
 
 const char* was(std::size_t count) { return count == 1 ? "was" : "were"; }
 
+// Of a length in m.
+std::string millimetres(double length) { return plain_text(1e3 * length, 4); }
+
 // The mesh's extent along an axis, mm.
 std::string span_text(const MeshFacts& facts, int axis) {
-  return fmt::format("{:.4g} to {:.4g}", 1e3 * facts.low[axis], 1e3 * facts.high[axis]);
+  return millimetres(facts.low[axis]) + " to " + millimetres(facts.high[axis]);
 }
 
 // Closes all holes, or says why not; without the wish only measures them.
@@ -121,10 +124,11 @@ void note_holes(TriangleMesh& mesh, const std::string& name, bool close_holes, M
   for (const MeshHole& hole : holes.loops) {
     facts.widest_hole = std::max(facts.widest_hole, hole.across);
     if (close_holes && !is_small_hole(hole, extent))
-      throw usage_error(fmt::format(
-          "{}: close_holes: a hole is {:.4g} mm across, its edge {:.4g} mm long, and at most {:.4g} and {:.4g} mm are closed: "
-          "close it where the mesh was made, or leave out close_holes",
-          name, 1e3 * hole.across, 1e3 * hole.length, 1e3 * SMALL_HOLE * extent, 1e3 * SMALL_HOLE_EDGE * extent));
+      throw usage_error(
+          fmt::format("{}: close_holes: a hole is {} mm across, its edge {} mm long, and at most {} and {} mm are closed: "
+                      "close it where the mesh was made, or leave out close_holes",
+                      name, millimetres(hole.across), millimetres(hole.length), millimetres(SMALL_HOLE * extent),
+                      millimetres(SMALL_HOLE_EDGE * extent)));
   }
   if (close_holes && holes.loose_edges > 0)
     throw usage_error(
@@ -143,11 +147,11 @@ void note_holes(TriangleMesh& mesh, const std::string& name, bool close_holes, M
 // What an open mesh might do about it.
 std::string holes_text(const MeshFacts& facts) {
   if (facts.holes == 0) return ": close them for a sure answer.";
-  const std::string holes = fmt::format(": {}, up to {:.4g} mm across, ", counted(facts.holes, "hole"), 1e3 * facts.widest_hole);
+  const std::string holes = fmt::format(": {}, up to {} mm across, ", counted(facts.holes, "hole"), millimetres(facts.widest_hole));
   if (facts.closable) return holes + "which close_holes = true closes.";
   if (facts.widest_hole > SMALL_HOLE * largest_extent(facts))
-    return holes + fmt::format("more than the {:.4g} mm that close_holes closes: close them for a sure answer.",
-                               1e3 * SMALL_HOLE * largest_extent(facts));
+    return holes + fmt::format("more than the {} mm that close_holes closes: close them for a sure answer.",
+                               millimetres(SMALL_HOLE * largest_extent(facts)));
   return holes + "which close_holes does not close, as an edge is too long or forms no loop: close them for a sure answer.";
 }
 
@@ -193,16 +197,16 @@ CheckedMesh check_mesh(const TriangleMesh& mesh, const std::string& name, bool c
 }
 
 std::string filled_text(double volume, const Triple& center) {
-  const auto millimetres = [](double length) { return plain_text(std::round(1e5 * length) / 100); };
-  return fmt::format("{:.4g} cm3, centre of mass ({}, {}, {}) mm", 1e6 * volume, millimetres(center[0]), millimetres(center[1]),
-                     millimetres(center[2]));
+  const auto hundredths = [](double length) { return plain_text(std::round(1e5 * length) / 100); };
+  return fmt::format("{} cm3, centre of mass ({}, {}, {}) mm", plain_text(1e6 * volume, 4), hundredths(center[0]),
+                     hundredths(center[1]), hundredths(center[2]));
 }
 
 std::string mesh_check_text(const MeshFacts& facts) {
   std::string text =
-      fmt::format("{}, {:.4g} x {:.4g} x {:.4g} mm (x {}, y {}, z {}), ", counted(facts.triangles, "triangle"),
-                  1e3 * (facts.high[0] - facts.low[0]), 1e3 * (facts.high[1] - facts.low[1]), 1e3 * (facts.high[2] - facts.low[2]),
-                  span_text(facts, 0), span_text(facts, 1), span_text(facts, 2));
+      fmt::format("{}, {} x {} x {} mm (x {}, y {}, z {}), ", counted(facts.triangles, "triangle"),
+                  millimetres(facts.high[0] - facts.low[0]), millimetres(facts.high[1] - facts.low[1]),
+                  millimetres(facts.high[2] - facts.low[2]), span_text(facts, 0), span_text(facts, 1), span_text(facts, 2));
   text += facts.closed           ? "closed"
           : facts.open_edges > 0 ? fmt::format("not closed ({})", counted(facts.open_edges, "open edge"))
                                  : "not closed";
@@ -220,8 +224,8 @@ std::string mesh_check_text(const MeshFacts& facts) {
     text += fmt::format(" {} lay upon others that face the other way and {} left out.", counted(facts.back_triangles, "triangle"),
                         was(facts.back_triangles));
   if (facts.closed_holes > 0)
-    text += fmt::format(" {} {} closed, up to {:.4g} mm across.", counted(facts.closed_holes, "hole"), was(facts.closed_holes),
-                        1e3 * facts.widest_closed_hole);
+    text += fmt::format(" {} {} closed, up to {} mm across.", counted(facts.closed_holes, "hole"), was(facts.closed_holes),
+                        millimetres(facts.widest_closed_hole));
   if (facts.oriented && facts.was_inside_out) {
     text += " It was inside out and has been turned round.";
   } else if (facts.oriented && facts.turned_triangles > 0) {

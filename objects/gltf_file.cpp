@@ -17,6 +17,7 @@
 #include "core/error.h"
 #include "core/file_kind.h"
 #include "system/json.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {
@@ -149,13 +150,15 @@ GltfChunks glb_chunks(const MeshFile& file, std::string_view bytes) {
   if (bytes.size() < 20) file.refuse("is truncated: shorter than the header of a .glb");
   const std::uint32_t version = word_at(bytes, 4), length = word_at(bytes, 8);
   if (version != 2) file.refuse(fmt::format("is glTF version {}, and only version 2 is read", version));
-  if (length > bytes.size()) file.refuse(fmt::format("is truncated: it says {} bytes and has {}", length, bytes.size()));
+  if (length > bytes.size())
+    file.refuse(fmt::format("is truncated: it says {} bytes and has {}", readable_number(length), readable_number(bytes.size())));
   GltfChunks chunks;
   chunks.is_binary = true;
   for (std::size_t at = 12, chunk = 0; at + 8 <= length; ++chunk) {
     const std::uint32_t size = word_at(bytes, at), type = word_at(bytes, at + 4);
     at += 8;
-    if (size > length - at) file.refuse(fmt::format("is damaged: its chunk {} of {} bytes ends beyond the file", chunk, size));
+    if (size > length - at)
+      file.refuse(fmt::format("is damaged: its chunk {} of {} bytes ends beyond the file", chunk, readable_number(size)));
     if ((chunk == 0) != (type == GLB_JSON)) file.refuse("is damaged: its first chunk, and no other, must be JSON");
     if (chunk == 0) chunks.json = bytes.substr(at, size);
     if (chunk == 1 && type == GLB_BIN) chunks.binary = bytes.substr(at, size);

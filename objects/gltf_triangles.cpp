@@ -10,6 +10,7 @@
 #include <glm/mat4x4.hpp>
 
 #include "objects/gltf_file.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {
@@ -79,7 +80,7 @@ class AccessorReader {
     const bool has_bytes = accessor.bufferView >= 0;
     if (!has_bytes && !accessor.sparse.isSparse) file_.refuse(fmt::format("accessors[{}] has no data", index));
     if (accessor.count > (has_bytes ? MOST_MESH_VERTICES : MOST_WITHOUT_BYTES))
-      file_.refuse(fmt::format("accessors[{}] says it has {} elements, which is absurd", index, accessor.count));
+      file_.refuse(fmt::format("accessors[{}] says it has {} elements, which is absurd", index, readable_number(accessor.count)));
     return accessor.count;
   }
 
@@ -303,7 +304,7 @@ class SceneWalk {
                         corners = primitives[k].indices < 0 ? points : accessors_.count_of(primitives[k].indices);
       const bool is_list = primitives[k].mode == TINYGLTF_MODE_TRIANGLES;
       if (corners < 3 || (is_list && corners % 3 != 0))
-        file_.refuse(fmt::format("{} has {} corners, which make no whole triangles", place_of(index, k), corners));
+        file_.refuse(fmt::format("{} has {} corners, which make no whole triangles", place_of(index, k), readable_number(corners)));
       count.primitives.push_back(k);
       count.vertices += points;  // a list is at most as long as the file's JSON, and its numbers below 2^31: no overflow
       count.triangles += is_list ? corners / 3 : corners - 2;
@@ -341,7 +342,8 @@ class SceneWalk {
     if (primitive.indices >= 0) corners = accessors_.indices(primitive.indices);
     for (const std::uint32_t corner : corners)
       if (corner >= points.size())
-        file_.refuse(fmt::format("{} has the index {} and {} vertices", place_of(mesh, index), corner, points.size()));
+        file_.refuse(fmt::format("{} has the index {} and {} vertices", place_of(mesh, index), readable_number(corner),
+                                 readable_number(points.size())));
     const double stretch = std::max({glm::length(placed[0]), glm::length(placed[1]), glm::length(placed[2])});
     for (const Triple& point : points) {
       const glm::dvec4 moved = placed * glm::dvec4(point[0], point[1], point[2], 1);

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "core/text.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {
@@ -32,9 +33,7 @@ bool is_held(const Triple& numbers, double unit = 1) {
   return size >= LEAST_HELD * (1 - ROUNDED) && size <= MOST_HELD * (1 + ROUNDED) && least <= WIDEST_GRASP * (1 + ROUNDED);
 }
 
-std::string length_text(double length) {
-  return length >= 1 ? fmt::format("{:.4g} m", length) : fmt::format("{:.4g} mm", 1e3 * length);
-}
+std::string length_text(double length) { return length >= 1 ? plain_text(length, 4) + " m" : plain_text(1e3 * length, 4) + " mm"; }
 
 // The key of a scene that turns a direction of the mesh up (docs/mesh.md, "Frames").
 const char* key_that_raises(Side side) {

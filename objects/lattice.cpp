@@ -23,6 +23,7 @@
 #include "objects/distance.h"
 #include "shaders/layout.h"
 #include "system/clock.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {
@@ -199,8 +200,8 @@ PreparedLattice given_lattice(const MeshFacts& facts, const LatticeWish& wish) {
   bool at_limit = false;
   const double least = finest_lattice(facts, wish, coarsest_lattice(facts, wish, at_limit), lattice.spacing).spacing;
   throw usage_error(fmt::format(
-      "a lattice of {:.4g} mm has {:.3g} samples of {} bytes, and {} MB are free for them: the finest that fits has {:.4g} mm",
-      1e3 * lattice.spacing, samples_of(lattice), lattice.halves ? 2 : 4, wish.most_bytes >> 20,
+      "a lattice of {:.4g} mm has {} samples of {} bytes, and {} MB are free for them: the finest that fits has {:.4g} mm",
+      1e3 * lattice.spacing, readable_count(samples_of(lattice)), lattice.halves ? 2 : 4, readable_number(wish.most_bytes >> 20),
       1e3 * least * (1 + 5 * SAME_SPACING)));
 }
 

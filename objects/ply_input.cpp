@@ -16,6 +16,7 @@
 #include "objects/assimp_input.h"
 #include "objects/triangles.h"
 #include "objects/words.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {
@@ -156,7 +157,8 @@ class PlyShape {
     for (const PlyElement& element : header.elements) read_element(element);
     if (faces_ == 0) file_.refuse("has no face: a cloud of points is no body");
     if (largest_ >= static_cast<double>(vertices_))
-      file_.refuse(fmt::format("has a face with the vertex {} and {} vertices, counted from 0", largest_, vertices_));
+      file_.refuse(fmt::format("has a face with the vertex {} and {} vertices, counted from 0", readable_count(largest_),
+                               readable_number(vertices_)));
     return fmt::format(
                "ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty uchar begin\nproperty float x\nproperty float "
                "y\nproperty float z\n"
@@ -215,7 +217,8 @@ class PlyShape {
     const double length = body_.next(*property.count);
     if (!(length >= 0) || length != std::floor(length)) file_.refuse("has a list whose length is no whole number");
     if (is_shape && (length < 3 || length > static_cast<double>(MOST_CORNERS)))
-      file_.refuse(fmt::format("has a face of {} corners; 3 to {} are read", length, MOST_CORNERS));
+      file_.refuse(
+          fmt::format("has a face of {} corners; 3 to {} are read", readable_count(length), readable_number(MOST_CORNERS)));
     if (is_shape) append(static_cast<std::uint32_t>(length), 2, corners_);
     for (double i = 0; i < length; ++i) {
       const double index = body_.next(property.type);

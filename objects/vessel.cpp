@@ -94,13 +94,13 @@ std::string place_cavity(const VesselData& vessel, MeshBody& body) {
     refuse(
         fmt::format("the inner outline passes through the mesh: {} of {} points well within it are glass; move it where the mesh "
                     "is hollow, or make the mesh its hull",
-                    points.inside, points.all));
+                    readable_number(points.inside), readable_number(points.all)));
   }
   if (points.off_wall > OTHER_SIDE * points.of_wall) {
     refuse(fmt::format(
         "the inner outline is not that of the mesh: {} of {} points of it are far from the glass; it is turned about the "
         "axis x = z = 0, which is the middle of the mesh's bounding box unless origin = \"as_is\"",
-        points.off_wall, points.of_wall));
+        readable_number(points.off_wall), readable_number(points.of_wall)));
   }
   body.holds_cavity = share > 0.5;
   return hint;
@@ -123,7 +123,8 @@ std::string lattice_text(const MeshBody& body) {
   const PreparedLattice& lattice = body.lattice;
   std::string text = fmt::format(
       "lattice of {:.4g} mm, {} x {} x {} samples of {} bits; at {} points of the surface distances are within {:.2g} mm",
-      1e3 * lattice.spacing, lattice.nx, lattice.ny, lattice.nz, bits_of(lattice), SURFACE_SAMPLES, 1e3 * body.lattice_error);
+      1e3 * lattice.spacing, lattice.nx, lattice.ny, lattice.nz, bits_of(lattice), readable_number(SURFACE_SAMPLES),
+      1e3 * body.lattice_error);
   if (body.lattice_error > tolerance)
     text += fmt::format(", more than the {:.2g} mm aimed at: a smaller grid_mm is more exact, as far as memory allows",
                         1e3 * tolerance);
@@ -132,9 +133,9 @@ std::string lattice_text(const MeshBody& body) {
 
 // What weighs, and what it holds.
 std::string mass_text(const VesselData& vessel, const MeshBody& body) {
-  std::string text = vessel.mass ? fmt::format("mass {:.4g} g as given", 1e3 * *vessel.mass)
-                                 : fmt::format("mass of its volume{} at {:g} kg/m3", body.holds_cavity ? ", less the cavity," : "",
-                                               vessel.density);
+  std::string text = vessel.mass ? fmt::format("mass {} g as given", plain_text(1e3 * *vessel.mass, 4))
+                                 : fmt::format("mass of its volume{} at {} kg/m3", body.holds_cavity ? ", less the cavity," : "",
+                                               plain_text(vessel.density));
   return text + (vessel.has_cavity() ? "; holds liquid in its inner outline"
                                      : "; a solid object, without liquid: it has no inner_outline");
 }

@@ -13,6 +13,7 @@
 #include "recordings/fields.h"
 #include "recordings/layout.h"
 #include "recordings/recording.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {
@@ -125,7 +126,8 @@ std::vector<Tick> read_ticks(const RecordedFile& file, const classic::Header& he
 // What the user should know of the file's end; empty: nothing.
 std::string note_of(const Recording& recording, const classic::Header& header) {
   if (header.records <= classic::MOST_RECORDS && recording.ticks.size() < header.records)
-    return fmt::format("is cut off: {} of {} ticks are there", recording.ticks.size(), header.records);
+    return fmt::format("is cut off: {} of {} ticks are there", readable_number(recording.ticks.size()),
+                       readable_number(header.records));
   if (!recording.end) return "was not finished: the session was killed, or is still running";
   return recording.end->early.empty() ? "" : "ended before the session: " + recording.end->early;
 }

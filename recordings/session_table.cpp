@@ -52,8 +52,8 @@ class ColumnTable {
 
 void write_heading(std::string& out, const SessionReport& report) {
   const RecordingInfo& info = report.info;
-  append_formatted(out, "Session of {:.3f} s in {}, on {}, {:g} Hz{}{}\n", report.duration,
-                   info.scene_name.empty() ? info.scene_file : info.scene_name, info.device.name, info.rate,
+  append_formatted(out, "Session of {} s in {}, on {}, {} Hz{}{}\n", fixed_text(report.duration, 3),
+                   info.scene_name.empty() ? info.scene_file : info.scene_name, info.device.name, plain_text(info.rate),
                    info.start.empty() ? "" : ", ", info.start);
   if (report.fault != Fault::none)
     append_formatted(
@@ -87,9 +87,10 @@ void write_grasps(std::string& out, const SessionReport& report) {
   table.write(out);
   for (const GraspReport& grasp : report.grasps) {
     if (!(grasp.saturated > 0)) continue;
-    append_formatted(
-        out, "  {} at {:.3f} s: the feedback was at F_max for {:.3f} s; at F_max the gripper renders neither torque nor grip\n",
-        report.info.vessels[static_cast<std::size_t>(grasp.vessel)].name, grasp.start, grasp.saturated);
+    append_formatted(out,
+                     "  {} at {} s: the feedback was at F_max for {} s; at F_max the gripper renders neither torque nor grip\n",
+                     report.info.vessels[static_cast<std::size_t>(grasp.vessel)].name, fixed_text(grasp.start, 3),
+                     fixed_text(grasp.saturated, 3));
   }
   append_formatted(out, "\nBy vessel, mean +- deviation over grasps: times in s, forces in N\n");
   ColumnTable summary;

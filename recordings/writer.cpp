@@ -15,6 +15,7 @@
 #include "recordings/layout.h"
 #include "recordings/recording.h"
 #include "system/files.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {
@@ -153,8 +154,8 @@ bool RecordingWriter::is_all_there() {
         fmt::format("{}: recording ended: {} was removed or renamed during the session, with all recorded ticks", path_, partial_);
   } else if (static_cast<std::uint64_t>(open.st_size) < bytes()) {
     reason_ = "its file was cut";
-    trouble_ =
-        fmt::format("{}: recording ended: {} was cut to {} of {} bytes during the session", path_, partial_, open.st_size, bytes());
+    trouble_ = fmt::format("{}: recording ended: {} was cut to {} of {} bytes during the session", path_, partial_,
+                           readable_number(static_cast<std::uint64_t>(open.st_size)), readable_number(bytes()));
     // the ticks that are left, so that nothing later makes up the others
     const std::uint64_t start = header_.record_begin, size = static_cast<std::uint64_t>(open.st_size);
     header_.records = size > start ? static_cast<std::uint32_t>((size - start) / header_.record_size) : 0;

@@ -9,6 +9,7 @@
 #include "charts/lines.h"
 #include "grips/methods.h"
 #include "grips/states.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {
@@ -104,7 +105,8 @@ std::string forces_caption(const Scene& scene, const std::vector<FillForces>& fo
         fmt::format(" A line ends at the first tilt at which {}\u00a0% of its fill has poured; the tilts beyond are left out.",
                     plain_number(100 * *scene.until_poured));
   const std::size_t shown = shown_fills(forces.size()).size();
-  if (shown < forces.size()) caption += fmt::format(" {} of {} fills are drawn.", shown, forces.size());
+  if (shown < forces.size())
+    caption += fmt::format(" {} of {} fills are drawn.", readable_number(shown), readable_number(forces.size()));
   return caption;
 }
 

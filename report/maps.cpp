@@ -11,6 +11,7 @@
 #include "core/text.h"
 #include "shaders/layout.h"
 #include "sweeps/heat_map_plot.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {
@@ -172,7 +173,8 @@ void write_effort_map(MarkupWriter& html, const ReportSource& source, std::size_
     name.description += ": no grip holds the vessel.";
   }
   if (infinite > 0)
-    name.description += fmt::format(" In {} of {} cells no force of the hand holds the vessel.", infinite, map.cells.size());
+    name.description += fmt::format(" In {} of {} cells no force of the hand holds the vessel.", readable_number(infinite),
+                                    readable_number(map.cells.size()));
   write_map(html, frame, map, &MapCell::effort, scale, name);
 }
 

@@ -47,15 +47,16 @@ std::string states_text(const Scene& scene) {
   if (scene.tilts.empty()) return "none: the scene has no tilts";
   const std::string tilts =
       scene.tilts.size() == 1 ? fmt::format("the tilt {}°", plain_number(degrees(scene.tilts[0])))
-                              : fmt::format("{} tilts from {}° to {}°", scene.tilts.size(),
+                              : fmt::format("{} from {}° to {}°", counted(scene.tilts.size(), "tilt"),
                                             plain_number(degrees(scene.tilts.front())), plain_number(degrees(scene.tilts.back())));
   if (!scene.liquid) return tilts + "; the vessels are empty";
   std::vector<std::string> fills;
   const bool has_volumes = !scene.liquid->volumes.empty();
   for (const double volume : scene.liquid->volumes) fills.push_back(plain_number(1e6 * volume));
   for (const double fill : scene.liquid->fills) fills.push_back(plain_number(100 * fill));
-  const std::string shown = fills.size() > 12 ? fmt::format("{} fills from {} to {}", fills.size(), fills.front(), fills.back())
-                                              : fmt::format("fills {}", joined(fills, ", "));
+  const std::string shown = fills.size() > 12
+                                ? fmt::format("{} from {} to {}", counted(fills.size(), "fill"), fills.front(), fills.back())
+                                : fmt::format("fills {}", joined(fills, ", "));
   const std::string left_out = scene.until_poured
                                    ? fmt::format("; tilts beyond the first at which {} % of a fill has poured are left out",
                                                  plain_number(100 * *scene.until_poured))
@@ -223,7 +224,7 @@ void write_origin(MarkupWriter& html, const ReportSource& source) {
              fmt::format("{} s in all, {} s of it in kernels", shown_number(origin.wall_seconds, 2),
                          shown_number(origin.kernel_seconds, 2)));
   write_pair(html, "Evaluated",
-             fmt::format("{} {}{}", readable_count(grips), grips == 1 ? "grip" : "grips",
+             fmt::format("{}{}", counted(static_cast<std::uint64_t>(grips), "grip"),
                          states > grips ? fmt::format(", {} states", readable_count(states)) : ""));
   write_pair(html, "Result file",
              fmt::format("{}, {}", source.result.path().substr(source.result.path().rfind('/') + 1), readable_bytes(origin.bytes)));

@@ -150,11 +150,13 @@ class StudyRun {
       const std::size_t forces = journal_->done_of("forces", options_.people.forces),
                         sessions = journal_->done_of("sessions", options_.people.sessions);
       if (options_.people.advice > 0)
-        say_note(fmt::format("goes on: {} of {} people of advice are done", journal_->done_of("advice", options_.people.advice),
-                             options_.people.advice));
+        say_note(fmt::format("goes on: {} of {} people of advice are done",
+                             readable_number(journal_->done_of("advice", options_.people.advice)),
+                             readable_number(options_.people.advice)));
       if (options_.people.forces > 0 || options_.people.sessions > 0)
-        say_note(fmt::format("goes on: {} of {} people of forces and {} of {} people of sessions are done", forces,
-                             options_.people.forces, sessions, options_.people.sessions));
+        say_note(fmt::format("goes on: {} of {} people of forces and {} of {} people of sessions are done", readable_number(forces),
+                             readable_number(options_.people.forces), readable_number(sessions),
+                             readable_number(options_.people.sessions)));
     } else if (options_.resumes) {
       say_note("there is no interrupted study in this folder; it begins anew");
     }
@@ -212,7 +214,7 @@ class StudyRun {
     });
     if (static_cast<std::uint64_t>(gripped) < people)
       say_note(fmt::format("{} of {} people did not grip in every trial; they are left out where they did not",
-                           people - static_cast<std::uint64_t>(gripped), people));
+                           readable_number(people - static_cast<std::uint64_t>(gripped)), readable_number(people)));
     std::vector<StudyRow> rows = force_rows(found, vessel, options_.seed, options_.resamples, options_.threads);
     page_.sections.push_back(force_section(rows));
     lead_.push_back("forces: " + counted(people, "person", "people"));
@@ -261,8 +263,8 @@ class StudyRun {
     const auto broken = std::count_if(found.begin(), found.end(),
                                       [](const AdvisedPerson& one) { return one.without.is_whole == 0 || one.with.is_whole == 0; });
     if (broken > 0)
-      say_note(fmt::format("{} of {} people have a session that did not come to an end by itself; their times do not count", broken,
-                           people));
+      say_note(fmt::format("{} of {} people have a session that did not come to an end by itself; their times do not count",
+                           readable_number(static_cast<std::uint64_t>(broken)), readable_number(people)));
     std::vector<StudyRow> rows = advice_rows(found, options_.seed, options_.resamples, options_.threads);
     page_.sections.push_back(advice_section(rows));
     lead_.push_back("advice: " + counted(people, "person", "people"));

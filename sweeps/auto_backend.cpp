@@ -52,8 +52,8 @@ bool origin_of(const OutputNames& names, std::string& on, Precision& precision) 
 std::string cost_text(const CostEstimate& cost, const SweepTask& task) {
   const std::string source =
       cost.runs == 0 ? "a first guess" : fmt::format("the best of the last {} run{}", cost.runs, cost.runs == 1 ? "" : "s");
-  return fmt::format("{:.2f} s and {:.2f} us a grip, so {:.2f} s, by {}", cost.fixed, 1e6 * cost.per_grip, cost.seconds(task.grips),
-                     source);
+  return fmt::format("{} s and {} us a grip, so {} s, by {}", fixed_text(cost.fixed, 2), fixed_text(1e6 * cost.per_grip, 2),
+                     fixed_text(cost.seconds(task.grips), 2), source);
 }
 
 }  // namespace

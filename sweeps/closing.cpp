@@ -21,7 +21,7 @@ double seconds(const timeval& time) { return static_cast<double>(time.tv_sec) + 
 
 // Three digits, without an exponent where that is readable.
 std::string short_number(double value) {
-  return value >= 100 ? fmt::format("{:.0f}", value) : value >= 0.1 ? fmt::format("{:#.3g}", value) : fmt::format("{:.3g}", value);
+  return value >= 100 ? fixed_text(value, 0) : value >= 0.1 ? fmt::format("{:#.3g}", value) : fmt::format("{:.3g}", value);
 }
 
 }  // namespace
@@ -55,7 +55,7 @@ std::string list_lines(const Scene& scene, const Plan& plan, std::size_t vessel,
   if (best.empty()) return "";
   std::string text = best_table(scene, plan, best, TABLE_ROWS);
   if (best.size() > TABLE_ROWS)
-    text += fmt::format("  .. {} more{}\n", best.size() - TABLE_ROWS,
+    text += fmt::format("  .. {} more{}\n", readable_number(best.size() - TABLE_ROWS),
                         file.empty() ? "; -o FILE writes all of them" : " in " + one_line(file));
   std::vector<Candidate> candidates;
   for (const BestGrip& grip : best) candidates.push_back(grip.candidate);
@@ -83,10 +83,11 @@ std::string closing_lines(const std::vector<std::string>& files, const SweepTime
   struct rusage usage {};
   getrusage(RUSAGE_SELF, &usage);
   const double rate = static_cast<double>(times.written_bytes) / std::max(times.writing, 1e-9);
-  text += fmt::format(
-      "\n{:.2f} s: kernels {:.2f}, file writing {:.3f} ({:.0f} MB/s), everything else {:.2f}; CPU {:.2f} s; peak memory {}\n",
-      times.wall, times.kernels, times.writing, rate * 1e-6, times.wall - times.kernels - times.writing,
-      seconds(usage.ru_utime) + seconds(usage.ru_stime), readable_bytes(1024.0 * static_cast<double>(usage.ru_maxrss)));
+  text += fmt::format("\n{} s: kernels {}, file writing {} ({} MB/s), everything else {}; CPU {} s; peak memory {}\n",
+                      fixed_text(times.wall, 2), fixed_text(times.kernels, 2), fixed_text(times.writing, 3),
+                      fixed_text(rate * 1e-6, 0), fixed_text(times.wall - times.kernels - times.writing, 2),
+                      fixed_text(seconds(usage.ru_utime) + seconds(usage.ru_stime), 2),
+                      readable_bytes(1024.0 * static_cast<double>(usage.ru_maxrss)));
   return text;
 }
 

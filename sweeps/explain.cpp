@@ -35,6 +35,13 @@ struct Measured {
   double opening = 0;  // s, until the first run began to compute grips
 };
 
+std::string us(double microseconds) { return fixed_text(microseconds, 3); }
+
+// What a grip takes more in memory than by the other way, B.
+std::string more_bytes(const Measured& way, const Measured& other) {
+  return fixed_text(static_cast<double>(way.bytes) - static_cast<double>(other.bytes), 0);
+}
+
 class Explainer {
  public:
   Explainer(const Scene& scene, const Plan& plan, const FieldSet& fields, const ExplainOptions& options)
@@ -45,8 +52,8 @@ class Explainer {
 
   std::string run() {
     const Measured as_is = measure(scene_, fields_, OUTLINE_SPECIALIZED);
-    say("what the sweep leaves out, and what this saves per grip (both ways ran on {} of {}; this sweep: {:.3f} us, {} B)\n",
-        counted(sample_.size(), "grip"), scene_.vessels[0].name, microseconds(as_is), as_is.bytes);
+    say("what the sweep leaves out, and what this saves per grip (both ways ran on {} of {}; this sweep: {} us, {} B)\n",
+        counted(sample_.size(), "grip"), scene_.vessels[0].name, us(microseconds(as_is)), readable_number(as_is.bytes));
     if (!on_core_) {
       if (scene_.vessels[0].mesh) {
         say("  nothing of the outline: the distance comes from the mesh's lattice\n");
@@ -83,8 +90,8 @@ class Explainer {
   double microseconds(const Measured& m) const { return m.seconds * 1e6 / static_cast<double>(sample_.size()); }
 
   void row(const std::string& what, const Measured& with, const Measured& without, const std::string& variant) {
-    say("  {:<64} {:>8.3f} us {:>5} B  {}{}\n", what, microseconds(with) - microseconds(without),
-        static_cast<long long>(with.bytes) - static_cast<long long>(without.bytes), variant, noise_note(with, without));
+    say("  {:<64} {:>8} us {:>5} B  {}{}\n", what, us(microseconds(with) - microseconds(without)), more_bytes(with, without),
+        variant, noise_note(with, without));
   }
 
   static const char* noise_note(const Measured& with, const Measured& without) {
@@ -197,8 +204,8 @@ class Explainer {
     if (scene_.table) {
       other.table.reset();
       const Measured without = measure(other, make_field_set(kept_fields(), other), OUTLINE_SPECIALIZED);
-      say("  not left out: the table, which costs {:.3f} us and {} B per grip{}\n", microseconds(as_is) - microseconds(without),
-          static_cast<long long>(as_is.bytes) - static_cast<long long>(without.bytes), noise_note(as_is, without));
+      say("  not left out: the table, which costs {} us and {} B per grip{}\n", us(microseconds(as_is) - microseconds(without)),
+          more_bytes(as_is, without), noise_note(as_is, without));
       return;
     }
     other.table.emplace();
@@ -219,9 +226,8 @@ class Explainer {
     if (between == 0) {
       row("spheres between the joints, and fingers in each other", changed, as_is, "2 on a bone");
     } else {
-      say("  not left out: {} spheres on each bone, which cost {:.3f} us and {} B per grip ({:.2f} x without them)\n", between,
-          microseconds(as_is) - microseconds(changed), static_cast<long long>(as_is.bytes) - static_cast<long long>(changed.bytes),
-          as_is.seconds / changed.seconds);
+      say("  not left out: {} spheres on each bone, which cost {} us and {} B per grip ({:.2f} x without them)\n", between,
+          us(microseconds(as_is) - microseconds(changed)), more_bytes(as_is, changed), as_is.seconds / changed.seconds);
     }
     gaps();
   }
@@ -267,8 +273,8 @@ class Explainer {
     }
     other.strength.reset();
     const Measured without = measure(other, make_field_set(kept_fields(), other), OUTLINE_SPECIALIZED);
-    say("  not left out: the efforts, which cost {:.3f} us and {} B per grip\n", microseconds(as_is) - microseconds(without),
-        static_cast<long long>(as_is.bytes) - static_cast<long long>(without.bytes));
+    say("  not left out: the efforts, which cost {} us and {} B per grip\n", us(microseconds(as_is) - microseconds(without)),
+        more_bytes(as_is, without));
     searches();
   }
 
@@ -304,9 +310,10 @@ class Explainer {
     measure(scene_, fields, OUTLINE_SPECIALIZED);  // the driver compiles once for all frictions, and keeps that
     const Measured scored = measure(scene_, fields, OUTLINE_SPECIALIZED);
     const double each = microseconds(scored);
-    say("  not left out: the robust scores, {} deviations of {} best grips at most, which cost {:.3g} s a sweep ({:.3f} us each), "
+    say("  not left out: the robust scores, {} deviations of {} best grips at most, which cost {:.3g} s a sweep ({} us each), "
         "and {:.3g} s to begin with {}\n",
-        count, grips, static_cast<double>(count * grips) * each * 1e-6, each, static_cast<double>(backends) * scored.opening,
+        readable_number(count), readable_number(grips), static_cast<double>(count * grips) * each * 1e-6, us(each),
+        static_cast<double>(backends) * scored.opening,
         backends > 1 ? fmt::format("each of {} frictions", backends) : "one friction");
   }
 
@@ -319,7 +326,7 @@ class Explainer {
       std::size_t left_out = 0;
       for (const std::size_t count : counted) left_out += tilts - count;
       say("  {} of {} states of {}: their tilts are beyond the one at which {:.6g} of the fill has poured (until_poured)\n",
-          left_out, counted.size() * tilts, scene_.vessels[v].name, *scene_.until_poured);
+          readable_number(left_out), readable_number(counted.size() * tilts), scene_.vessels[v].name, *scene_.until_poured);
     }
   }
 
@@ -346,7 +353,8 @@ class Explainer {
     const Measured every = measure(scene_, fields_, OUTLINE_SPECIALIZED);
     sample_.swap(turned);
     const std::size_t others = plan_.copies() - 1;
-    row(fmt::format("{} of {} azimuths: the vessels are round, so one is enough", others, plan_.copies()),
+    row(fmt::format("{} of {} azimuths: the vessels are round, so one is enough", readable_number(others),
+                    readable_number(plan_.copies())),
         {every.seconds * static_cast<double>(others), every.bytes * others}, {}, "every azimuth");
   }
 

@@ -19,6 +19,7 @@
 #include "core/error.h"
 #include "system/files.h"
 #include "system/json.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {
@@ -187,11 +188,14 @@ namespace {
 
 // What is wrong with one vessel's progress; empty: nothing.
 std::string contradiction(const VesselProgress& vessel, const MarkBounds& bounds) {
-  if (vessel.done > bounds.grips) return fmt::format("{} grips are done of {}", vessel.done, bounds.grips);
-  if (vessel.counts.grips != vessel.done) return fmt::format("{} grips are done and {} counted", vessel.done, vessel.counts.grips);
+  if (vessel.done > bounds.grips)
+    return fmt::format("{} are done of {}", counted(vessel.done, "grip"), readable_number(bounds.grips));
+  if (vessel.counts.grips != vessel.done)
+    return fmt::format("{} are done and {} counted", counted(vessel.done, "grip"), readable_number(vessel.counts.grips));
   const auto& reasons = vessel.counts.by_reason;
   const std::uint64_t reasoned = std::accumulate(reasons.begin(), reasons.end(), std::uint64_t{0});
-  if (bounds.has_reasons && reasoned != vessel.done) return fmt::format("{} grips are done and {} sorted", vessel.done, reasoned);
+  if (bounds.has_reasons && reasoned != vessel.done)
+    return fmt::format("{} are done and {} sorted", counted(vessel.done, "grip"), readable_number(reasoned));
   const GripCounts& counts = vessel.counts;
   for (const auto& [part, what] : {std::pair{counts.through_table, "through the table"},
                                    {counts.self_overlap, "with fingers in each other"},
@@ -199,22 +203,25 @@ std::string contradiction(const VesselProgress& vessel, const MarkBounds& bounds
     if (part > counts.implausible) return fmt::format("{} implausible grips and {} {}", counts.implausible, part, what);
   if (vessel.best.size() > bounds.best) return fmt::format("{} best grips are kept of {}", vessel.best.size(), bounds.best);
   for (const Candidate& candidate : vessel.best) {
-    if (candidate.index >= vessel.done) return fmt::format("grip {} is one of the best of {}", candidate.index, vessel.done);
+    if (candidate.index >= vessel.done)
+      return fmt::format("grip {} is one of the best of {}", readable_number(candidate.index), readable_number(vessel.done));
   }
   if (!vessel.lists.empty() && (vessel.lists.size() != bounds.lists || vessel.done < bounds.grips))
-    return fmt::format("{} of {} lists are begun at {} grips", vessel.lists.size(), bounds.lists, vessel.done);
+    return fmt::format("{} of {} lists are begun at {} grips", vessel.lists.size(), bounds.lists, readable_number(vessel.done));
   for (const ListProgress& list : vessel.lists) {
     if (list.chosen.size() > bounds.listed) return fmt::format("{} grips are chosen of {}", list.chosen.size(), bounds.listed);
     for (const Candidate& candidate : list.chosen)
-      if (candidate.index >= vessel.done) return fmt::format("grip {} is chosen of {}", candidate.index, vessel.done);
+      if (candidate.index >= vessel.done)
+        return fmt::format("grip {} is chosen of {}", readable_number(candidate.index), readable_number(vessel.done));
   }
   std::uint64_t end = 0;
   for (const Stretch& stretch : vessel.stretches) {
     if (stretch.first != end || stretch.last <= stretch.first)
-      return fmt::format("a stretch from {} follows {}", stretch.first, end);
+      return fmt::format("a stretch from {} follows {}", readable_number(stretch.first), readable_number(end));
     end = stretch.last;
   }
-  if (bounds.has_stretches && end != vessel.done) return fmt::format("{} grips are done and {} have a checksum", vessel.done, end);
+  if (bounds.has_stretches && end != vessel.done)
+    return fmt::format("{} are done and {} have a checksum", counted(vessel.done, "grip"), readable_number(end));
   return "";
 }
 

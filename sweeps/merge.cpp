@@ -80,10 +80,9 @@ class Merge {
     write_checksums(result, names_.partial, checksum_parts(names_.partial));
     name_result(names_);
     const double seconds = monotonic_now() - start;
-    print(fmt::format("wrote {} ({}): {}, {} of them from {}\n{:.2f} s ({}/s); the shards can be removed\n",
-                      one_line(names_.result), readable_bytes(static_cast<double>(status.st_size)), counted(grips_, "grip"),
-                      readable_number(from_shards_), one_line(names_of_shards()), seconds,
-                      readable_bytes(static_cast<double>(bytes_) / seconds)));
+    print(fmt::format("wrote {} ({}): {}, {} of them from {}\n{} s ({}/s); the shards can be removed\n", one_line(names_.result),
+                      readable_bytes(static_cast<double>(status.st_size)), counted(grips_, "grip"), readable_number(from_shards_),
+                      one_line(names_of_shards()), fixed_text(seconds, 2), readable_bytes(static_cast<double>(bytes_) / seconds)));
     return ExitCode::done;
   }
 

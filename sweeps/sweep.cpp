@@ -354,7 +354,8 @@ void Sweep::run_stretch(std::size_t v, ResultFile& file, InterruptGuard& interru
   interrupt.clear();
   // a backend that has nothing to hand over need not call the sink; one that has must hand over all of it
   if ((delivered != result.done && !(delivered == 0 && variables_.empty())) || (result.done == 0 && !is_asked_to_end(interrupt))) {
-    throw failure_error(fmt::format("{}: handed over {} of {} grips", backend_->info().device, delivered, result.done));
+    throw failure_error(fmt::format("{}: handed over {} of {} grips", backend_->info().device, readable_number(delivered),
+                                    readable_number(result.done)));
   }
   if (delivered == 0) vessel.counts.grips += result.done;
   best.offer(result.best);  // none where they were chosen here

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {
@@ -104,9 +105,9 @@ std::string cache_text() {
   const std::string folder = cache_folder();
   if (folder.empty()) return "cache  none: neither XDG_CACHE_HOME nor HOME is an absolute path\n";
   const CacheUse use = cache_use(folder);
-  const std::string bound = limit > 0 ? fmt::format("at most {} MiB", limit / MEBIBYTE) : "not used";
-  return fmt::format("cache  {}  {:.1f} MiB in {} file{}, {} (WHOLEHAND_CACHE_MIB)\n", folder,
-                     static_cast<double>(use.bytes) / MEBIBYTE, use.files, use.files == 1 ? "" : "s", bound);
+  const std::string bound = limit > 0 ? fmt::format("at most {} MiB", readable_number(limit / MEBIBYTE)) : "not used";
+  return fmt::format("cache  {}  {} MiB in {}, {} (WHOLEHAND_CACHE_MIB)\n", folder,
+                     fixed_text(static_cast<double>(use.bytes) / MEBIBYTE, 1), counted(use.files, "file"), bound);
 }
 
 void make_cache_room(const std::string& folder, std::uintmax_t bytes, std::uintmax_t limit) noexcept try {

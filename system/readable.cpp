@@ -9,6 +9,18 @@
 
 namespace wholehand {
 
+namespace {
+
+// Commas between the thousands of a decimal number's whole part.
+std::string grouped(std::string number) {
+  const std::size_t begin = number.find_first_of("0123456789");
+  std::size_t at = begin == std::string::npos ? 0 : std::min(number.find_first_not_of("0123456789", begin), number.size());
+  while (at > begin + 3) number.insert(at -= 3, 1, ',');
+  return number;
+}
+
+}  // namespace
+
 std::string readable_bytes(double bytes) {
   static constexpr std::array<const char*, 7> UNITS{"B", "kB", "MB", "GB", "TB", "PB", "EB"};
   std::size_t unit = 0;
@@ -16,18 +28,11 @@ std::string readable_bytes(double bytes) {
     bytes /= 1000;
     ++unit;
   }
-  return fmt::format("{:.{}f} {}", bytes, unit > 0 && bytes < 99.95 ? 1 : 0, UNITS[unit]);
+  return fixed_text(bytes, unit > 0 && bytes < 99.95 ? 1 : 0) + " " + UNITS[unit];
 }
 
 std::string readable_count(double count) {
-  if (count >= 1e12) return fmt::format("{:.1e}", count);
-  const std::string digits = fmt::format("{:.0f}", count);
-  std::string grouped;
-  for (std::size_t i = 0; i < digits.size(); ++i) {
-    if (i > 0 && (digits.size() - i) % 3 == 0) grouped += ',';
-    grouped += digits[i];
-  }
-  return grouped;
+  return count >= 1e12 ? fmt::format("{:.1e}", count) : grouped(fmt::format("{:.0f}", count));
 }
 
 std::string readable_number(std::uint64_t count) { return readable_count(static_cast<double>(count)); }
@@ -40,10 +45,12 @@ std::string counted(std::uint64_t count, const char* thing, const char* things) 
 std::string fixed_text(double value, int digits) {
   if (std::isnan(value)) return "-";
   const std::string text = fmt::format("{:.{}f}", value, digits);
-  return text.starts_with('-') && text.find_first_not_of("-0.") == std::string::npos ? text.substr(1) : text;
+  return text.starts_with('-') && text.find_first_not_of("-0.") == std::string::npos ? text.substr(1) : grouped(text);
 }
 
-std::string plain_text(double value) { return std::isnan(value) ? "-" : fmt::format("{:.6g}", value == 0 ? 0 : value); }
+std::string plain_text(double value, int digits) {
+  return std::isnan(value) ? "-" : grouped(fmt::format("{:.{}g}", value == 0 ? 0 : value, digits));
+}
 
 std::string range_text(double value, bool is_end) { return plain_text(value) + (is_end && !std::isnan(value) ? "+" : ""); }
 

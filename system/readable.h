@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Numbers as people read them.
+// Numbers as people read them: whole parts from 1,000 on have commas. What is typed back (options, keys and values of a scene) and what a
+// program reads (CSV, JSON, NetCDF) has none and is not made here.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +18,8 @@ std::string counted(std::uint64_t count, const char* thing, const char* things =
 
 // As many digits behind the point; "-" for a number that does not exist, "inf", and no sign before zero.
 std::string fixed_text(double value, int digits);
-// As many digits as it has, at most six; likewise.
-std::string plain_text(double value);
+// As many digits as it has, at most `digits`; likewise.
+std::string plain_text(double value, int digits = 6);
 // The same, with "+" where the value is the end of the range that was searched and the true one may lie beyond it: "150+".
 std::string range_text(double value, bool is_end);
 // How many digits behind the point are known of what is known to `error`, at most `digits`: 1 of 0.2, 0 of 3; all of 0 (exact) and NaN.

@@ -53,7 +53,7 @@ TEST(CommandLine, ReportsASession) {
   const std::string path = small_recording(folder);
   const Outcome table = run("PROGRAM session " + path + " 2>&1");
   EXPECT_EQ(table.code, 0) << table.output;
-  EXPECT_EQ(table.output.find("Session of 1.500 s in bench, on omega.7, 1000 Hz"), 0u) << table.output;
+  EXPECT_EQ(table.output.find("Session of 1.500 s in bench, on omega.7, 1,000 Hz"), 0u) << table.output;
   const Outcome json = run("PROGRAM session " + path + " --json -o " + folder + "/out 2>&1");
   EXPECT_EQ(json.code, 0) << json.output;
   const auto report = parse_json(json.output);
@@ -75,7 +75,7 @@ TEST(CommandLine, ReportsASession) {
   std::filesystem::resize_file(path, std::filesystem::file_size(path) - 1000);
   const Outcome cut = run("PROGRAM session " + path + " 2>&1 >/dev/null");
   EXPECT_EQ(cut.code, 0);
-  EXPECT_EQ(cut.output, "wholehand: " + path + " is cut off: 1498 of 1500 ticks are there\n");
+  EXPECT_EQ(cut.output, "wholehand: " + path + " is cut off: 1,498 of 1,500 ticks are there\n");
   std::filesystem::resize_file(path, 3000);
   expect_error("session " + path, 2, path + ": its header is cut off or damaged");
   expect_error("session " + path + " --json -o " + folder + "/out", 2, path + ": its header is cut off or damaged");

@@ -66,7 +66,7 @@ TEST(ShownNumber, HasAMinusSignAndNoNegativeZero) {
   EXPECT_EQ(shown_number(std::numeric_limits<double>::infinity(), 2), "\u221E");
   EXPECT_EQ(shown_number(-std::numeric_limits<double>::infinity(), 2), "\u2212\u221E");
   EXPECT_EQ(plain_number(0.8), "0.8");
-  EXPECT_EQ(plain_number(1000), "1000");
+  EXPECT_EQ(plain_number(1000), "1,000");
   EXPECT_EQ(plain_number(-90), "\u221290");
   EXPECT_EQ(plain_number(-0.0), "0");
 }

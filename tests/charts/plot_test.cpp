@@ -68,7 +68,7 @@ TEST(LogarithmicTicks, RangesAreRound) {
 
 TEST(PowerText, IsShort) {
   EXPECT_EQ(power_text(0.005), "0.005");
-  EXPECT_EQ(power_text(2000), "2000");
+  EXPECT_EQ(power_text(2000), "2,000");
   EXPECT_EQ(power_text(1e4), "10⁴");
   EXPECT_EQ(power_text(2e4), "2·10⁴");
   EXPECT_EQ(power_text(1e-9), "10⁻⁹");

@@ -115,7 +115,7 @@ TEST_F(OmegaGripperTest, FindsEveryDevice) {
   ASSERT_EQ(found.size(), 2u);
   EXPECT_EQ(found[0].address, "omega");
   EXPECT_EQ(found[0].name, "omega.7, left hand");
-  EXPECT_EQ(found[0].summary, "up to 12 N, gripper 8 N, gap 0 to 25 mm, up to 4000 Hz; SDK 3.17.6 (" STAND_IN_DHD ")");
+  EXPECT_EQ(found[0].summary, "up to 12 N, gripper 8 N, gap 0 to 25 mm, up to 4,000 Hz; SDK 3.17.6 (" STAND_IN_DHD ")");
   EXPECT_EQ(found[0].missing, "");
   EXPECT_EQ(found[1].address, "");
   expect_has(found[1].missing, "(type 33) is not supported");

@@ -354,7 +354,7 @@ TEST(Protocol, LimitsAreWhatTheIdentitySays) {
   const GripperLimits limits = limits_of(some_identity(), "hid:/dev/x");
   EXPECT_EQ(limits.name, "no 1");
   EXPECT_EQ(limits.address, "hid:/dev/x");
-  EXPECT_EQ(summary_of(limits), "12 N, grip 8 N, gap -1 to 25 mm, 4000 Hz, left-handed, rotation not measured");
+  EXPECT_EQ(summary_of(limits), "12 N, grip 8 N, gap -1 to 25 mm, 4,000 Hz, left-handed, rotation not measured");
 }
 
 }  // namespace

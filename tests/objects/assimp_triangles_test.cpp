@@ -173,7 +173,7 @@ TEST_F(MeshFormats, WhatIsNoBodyIsRefused) {
       {"a.ply", xyz + faces + points + "3 0 1\n", "is truncated: it ends before its last element"},
       {"a.ply", xyz + faces + points + "3 0 1 3\n", "has a face with the vertex 3 and 3 vertices, counted from 0"},
       {"a.ply", xyz + faces + points + "3 0 1 -1\n", "has a face with the vertex -1"},
-      {"a.ply", xyz + faces + points + "2 0 1\n", "has a face of 2 corners; 3 to 1000 are read"},
+      {"a.ply", xyz + faces + points + "2 0 1\n", "has a face of 2 corners; 3 to 1,000 are read"},
       {"a.ply", xyz + "element tristrips 1\nproperty list int int vertex_indices\n" + points + "3 0 1 2\n", "triangle strips"},
       {"a.ply", xyz + faces + points + "3 0 1 2\n", "has 1 triangle, and a body needs at least 4"}};
   for (const auto& [name, bytes, gist] : cases) {

@@ -149,7 +149,7 @@ TEST_F(MeshVessel, HeightsCountFromTheLowestPoint) {
 TEST_F(MeshVessel, SaysWhatItIs) {
   loaded({of_file("ball", icosphere(0.03, 3), 1e-3)});
   for (const char* part :
-       {"vessel 'ball': ball.glb: 1,280 triangles", "closed", "lattice of 1 mm", "of 32 bits", "at 4096 points of the surface"})
+       {"vessel 'ball': ball.glb: 1,280 triangles", "closed", "lattice of 1 mm", "of 32 bits", "at 4,096 points of the surface"})
     EXPECT_NE(said_.find(part), std::string::npos) << part << " in\n" << said_;
   loaded({of_file("huge", icosphere(30, 2), 0)});
   EXPECT_NE(said_.find("mesh_scale = 0.001"), std::string::npos) << said_;

@@ -327,7 +327,7 @@ TEST(SessionReport, TableCsvAndJsonSayTheSame) {
   EXPECT_DOUBLE_EQ(json["time_in_state_s"]["tilt"].get<double>(), report.time_in_state[3]);
   const std::string table = session_table(report);
   for (const char* part :
-       {"Session of 4.700 s in bench, on omega.7, 1000 Hz", "maintain  1.000", "G2", "let go", "grasps 1, lost 0"})
+       {"Session of 4.700 s in bench, on omega.7, 1,000 Hz", "maintain  1.000", "G2", "let go", "grasps 1, lost 0"})
     EXPECT_NE(table.find(part), std::string::npos) << part << " is not in\n" << table;
   const std::string csv = grasps_csv(report);
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 2);

@@ -61,7 +61,7 @@ TEST(SceneScan, SurvivesHostileText) {
   EXPECT_NE(refusal_of(std::string("a\0b = 1", 7)).find("test.toml:1:"), std::string::npos);
   EXPECT_NE(refusal_of("a = \"\xff\xfe\"").find("test.toml:1:"), std::string::npos);
   EXPECT_NE(refusal_of("a = 99999999999999999999999").find("test.toml:1:"), std::string::npos);
-  EXPECT_NE(refusal_of(std::string(2 << 20, ' ')).find("more than 1048576 bytes; allowed: a scene of at most 1 MiB"),
+  EXPECT_NE(refusal_of(std::string(2 << 20, ' ')).find("more than 1,048,576 bytes; allowed: a scene of at most 1 MiB"),
             std::string::npos);
   const std::string key(500000, 'k');
   const std::string refusal = refusal_of(key + " = 1");

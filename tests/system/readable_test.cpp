@@ -21,6 +21,18 @@ TEST(Readable, BytesAndCounts) {
   EXPECT_EQ(readable_count(1e12), "1.0e+12");
 }
 
+TEST(Readable, NumbersFromAThousandOnHaveCommas) {
+  EXPECT_EQ(fixed_text(5438.7, 1), "5,438.7");
+  EXPECT_EQ(fixed_text(-1234567.25, 2), "-1,234,567.25");
+  EXPECT_EQ(fixed_text(999.4, 0), "999");
+  EXPECT_EQ(fixed_text(999.6, 0), "1,000");
+  EXPECT_EQ(fixed_text(0.12345, 5), "0.12345") << "not behind the point";
+  EXPECT_EQ(plain_text(1000), "1,000");
+  EXPECT_EQ(plain_text(4277.3, 4), "4,277");
+  EXPECT_EQ(plain_text(1.5e6), "1.5e+06");
+  EXPECT_EQ(plain_text(-2500), "-2,500");
+}
+
 TEST(Readable, OneThingIsOne) {
   EXPECT_EQ(counted(0, "grip"), "0 grips");
   EXPECT_EQ(counted(1, "grip"), "1 grip");
