@@ -53,9 +53,14 @@ std::optional<std::size_t> hardest_state(const GripReport& report) {
   return hardest;
 }
 
+std::string fill_number(const GripReport& report, double fill) {
+  return report.capacity > 0 ? plain_text(1e6 * report.capacity * fill, 4) : plain_text(fill, 3);
+}
+
 std::string fill_words(const GripReport& report, double fill) {
-  if (report.capacity > 0) return plain_text(1e6 * report.capacity * fill) + " mL";
-  return fmt::format("fill {:.3g}", fill);
+  if (fill == 0) return "empty";
+  if (report.capacity > 0) return fill_number(report, fill) + " mL";
+  return "fill " + fill_number(report, fill);
 }
 
 std::string fill_text(const Scene& scene, std::size_t vessel, double fill) {

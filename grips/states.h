@@ -30,7 +30,9 @@ void check_drawable(const GripReport& report, const std::string& option);
 // The first of the report's states that has liquid; null where none has.
 const GripState* drawn_liquid(const GripReport& report);
 
-// A fill of the report: "250 mL" where fills are asked for as volumes, else "fill 0.605".
+// A fill of the report in mL where fills are asked for as volumes, else as a share of the capacity: "250", "0.605".
+std::string fill_number(const GripReport& report, double fill);
+// The same in words: "250 mL", "fill 0.605", "empty".
 std::string fill_words(const GripReport& report, double fill);
 
 // A fill of a vessel as the scene gives it, for a page: "250 mL" of fills_ml, else "60.5 %" of what the vessel holds; "empty" without liquid. Number and

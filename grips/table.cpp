@@ -119,8 +119,7 @@ void write_states(std::string& out, const GripReport& report) {
         "hold"});
   head({report.capacity > 0 ? "mL" : "", "deg", "mL", "mL", "g", "mm", "mm", "mN m", "mN m", "", "N", "N", "N"});
   for (const GripState& s : report.answer.states) {
-    const std::string fill = report.capacity > 0 ? plain_text(1e6 * report.capacity * s.fill) : fmt::format("{:.3g}", s.fill);
-    append_formatted(out, "  {:>5}{:>7} {:>8} {:>8} {:>8} {}", fill, fixed_text(degrees(s.tilt), 2),
+    append_formatted(out, "  {:>5}{:>7} {:>8} {:>8} {:>8} {}", fill_number(report, s.fill), plain_text(degrees(s.tilt), 5),
                      known(report, s.liquid.volume * 1e6, 3), known(report, s.liquid.poured * 1e6, 3),
                      known(report, s.state.mass * 1e3, 3), millimetres(report, s.state.center_of_mass));
     if (!s.counts) {
@@ -163,8 +162,8 @@ void write_contacts(std::string& out, const GripReport& report) {
   const StateHold& hold = report.holds[*hardest];
   const GripState& state = report.answer.states[*hardest];
   // not "worst": the scene may have a worse one that is not listed, or none as bad
-  append_formatted(out, "\n  listed effort  {}, in the hardest of the states listed above, at {} and {:.2f} deg\n",
-                   percent(hold.effort), fill_words(report, state.fill), degrees(state.tilt));
+  append_formatted(out, "\n  listed effort  {}, in the hardest of the states listed above: {}, {} deg\n", percent(hold.effort),
+                   fill_words(report, state.fill), plain_text(degrees(state.tilt)));
   append_formatted(out, "                 two tips alone in this state: {}\n", percent(hold.tips));
   if (hold.escape) {
     const auto& v = *hold.escape;
@@ -184,8 +183,8 @@ void write_contacts(std::string& out, const GripReport& report) {
 void write_hold(std::string& out, const GripReport& report) {
   if (!report.hold) return;
   const GripHold& hold = *report.hold;
-  append_formatted(out, "\n  worst effort   {}, in the hardest of the scene's own states, at {} and {:.1f} deg\n",
-                   percent(hold.worst), fill_words(report, hold.worst_fill), degrees(hold.worst_tilt));
+  append_formatted(out, "\n  worst effort   {}, in the hardest of the scene's own states: {}, {} deg\n", percent(hold.worst),
+                   fill_words(report, hold.worst_fill), plain_text(degrees(hold.worst_tilt)));
   append_formatted(out, "                 two tips alone over the scene's states: {}\n", percent(hold.tips_worst));
   append_formatted(out, "  friction       {}\n",
                    std::isfinite(hold.friction_needed)

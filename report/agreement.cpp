@@ -7,6 +7,7 @@
 #include <set>
 #include <string_view>
 
+#include "charts/axes.h"
 #include "core/text.h"
 #include "report/grips.h"
 #include "shaders/layout.h"
@@ -22,6 +23,7 @@ struct StatusPart {
   std::uint32_t mask;
   int shift;
 };
+constexpr const char* MILLIONTHS = "1e-6";  // the unit of quantities without one
 constexpr StatusPart STATUS_PARTS[] = {
     {"reason", STATUS_REASON_MASK, 0},
     {"plausible", STATUS_PLAUSIBLE, 4},
@@ -109,11 +111,15 @@ GatheredPlanes planes_of_file(const ReportSource& source, std::size_t vessel, co
 }
 
 // Three figures, without an exponent where that is readable.
-std::string three_figures(double value) { return fmt::format("{:.3g}", value); }
+std::string three_figures(double value) { return value >= 100 && value < 1e6 ? fixed_text(value, 0) : plain_text(value, 3); }
 
 std::string unit_for_people(const std::string& unit) {
-  if (unit == "1e-6") return "· 10⁻⁶";
+  if (unit == MILLIONTHS) return "10⁻⁶";
   return unit.starts_with("u") ? "µ" + unit.substr(1) : unit;
+}
+
+std::string difference_text(const Comparison& row) {
+  return row.unit == MILLIONTHS ? power_text(1e-6 * row.worst) : three_figures(row.worst) + " " + unit_for_people(row.unit);
 }
 
 // The three that people ask for first, of those there are.
@@ -121,8 +127,7 @@ std::string largest_differences(const Agreement& agreement) {
   std::vector<std::string> parts;
   for (const std::string_view wanted : {"gap", "score", "peak feedback", "largest hold"}) {
     for (const Comparison& row : agreement.rows)
-      if (row.quantity == wanted)
-        parts.push_back(fmt::format("{} {} {}", row.quantity, three_figures(row.worst), unit_for_people(row.unit)));
+      if (row.quantity == wanted) parts.push_back(row.quantity + " " + difference_text(row));
   }
   return joined(parts, ", ");
 }
@@ -134,7 +139,8 @@ std::string agreement_text(const ReportSource& source, const Agreement& agreemen
   const bool is_all = agreement.grips == source.plan.stored_grips();
   const std::string stored = counted(source.plan.stored_grips(), "grip");
   std::string text =
-      is_all ? fmt::format("The core computed all {} again in double precision", stored)
+      is_all ? fmt::format("The core computed {}{} again in double precision", agreement.grips == 1 ? "the only " : "all ",
+                           agreement.grips == 1 ? "grip" : stored)
              : fmt::format("The core computed {} of {} again in double precision", readable_number(agreement.grips), stored);
   text += fmt::format("; {} feasible. ", counted(agreement.feasible, "of them is", "of them are"));
   if (agreement.holds()) {

@@ -91,7 +91,7 @@ std::vector<std::size_t> best_terms(const Scene& scene, const ScoreTerms& terms,
 std::string worst_state(const Scene& scene, const GripReport& report) {
   const std::string tilt = fmt::format("at a tilt of {}°", plain_number(degrees(report.hold->worst_tilt)));
   return report.has_liquid ? fmt::format("{} and a fill of {}", tilt,
-                                         report.capacity > 0 ? fill_words(report, report.hold->worst_fill)
+                                         report.capacity > 0 ? fill_number(report, report.hold->worst_fill) + "\u00a0mL"
                                                              : share_text(scene, report.hold->worst_fill))
                            : tilt;
 }

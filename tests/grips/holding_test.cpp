@@ -10,6 +10,7 @@
 
 #include "core/vectors.h"
 #include "grips/report.h"
+#include "grips/states.h"
 #include "system/json.h"
 #include "tests/support/scenes.h"
 
@@ -265,11 +266,10 @@ TEST(Holding, IsInTheJson) {
   // of many such states, the one that is called the worst
   const GripReport none = held_report(smooth, 0, beside(0.055));
   const std::string table = grip_table(none);
-  EXPECT_NE(
-      table.find(fmt::format("  listed effort  no force holds it, in the hardest of the states listed above, at fill {:.3g} and "
-                             "{:.2f} deg\n                 two tips alone in this state: no force holds it\n",
-                             none.hold.value().worst_fill, none.hold->worst_tilt * 180 / PI)),
-      std::string::npos)
+  EXPECT_NE(table.find(fmt::format("  listed effort  no force holds it, in the hardest of the states listed above: {}, "
+                                   "{:.6g} deg\n                 two tips alone in this state: no force holds it\n",
+                                   fill_words(none, none.hold.value().worst_fill), none.hold->worst_tilt * 180 / PI)),
+            std::string::npos)
       << table;
 }
 
@@ -283,15 +283,15 @@ TEST(Holding, TheTableTellsTheListedStatesFromTheScenesOwn) {
   report.holds.resize(1);
   ASSERT_LT(report.holds[0].effort, 0.9 * report.hold->worst);
   const std::string table = grip_table(report);
-  EXPECT_NE(
-      table.find(fmt::format("  listed effort  {:.2f} % of the hand's strength, in the hardest of the states listed above, at "
-                             "fill {:.3g} and {:.2f} deg\n",
-                             100 * report.holds[0].effort, report.answer.states[0].fill, degrees(report.answer.states[0].tilt))),
-      std::string::npos)
+  EXPECT_NE(table.find(fmt::format("  listed effort  {:.2f} % of the hand's strength, in the hardest of the states listed above: "
+                                   "empty, {:.6g} deg\n",
+                                   100 * report.holds[0].effort, degrees(report.answer.states[0].tilt))),
+            std::string::npos)
       << table;
-  EXPECT_NE(table.find(fmt::format("  worst effort   {:.2f} % of the hand's strength, in the hardest of the scene's own states, at "
-                                   "fill {:.3g} and {:.1f} deg\n",
-                                   100 * report.hold->worst, report.hold->worst_fill, degrees(report.hold->worst_tilt))),
+  EXPECT_NE(table.find(fmt::format("  worst effort   {:.2f} % of the hand's strength, in the hardest of the scene's own states: "
+                                   "{}, {:.6g} deg\n",
+                                   100 * report.hold->worst, fill_words(report, report.hold->worst_fill),
+                                   degrees(report.hold->worst_tilt))),
             std::string::npos)
       << table;
 }
