@@ -20,11 +20,12 @@
 #include "program/values.h"
 #include "recordings/recorded_scene.h"
 #include "scene/reader.h"
+#include "scene/shipped.h"
 #include "sweeps/grip_lists.h"
 #include "system/file_kind_at.h"
 #include "system/output.h"
-#include "viewer/grips.h"
 #include "system/readable.h"
+#include "viewer/grips.h"
 #include "viewer/recording.h"
 #include "viewer/serve_view.h"
 
@@ -41,15 +42,18 @@ std::string file_name(const std::string& path) { return std::filesystem::path(pa
 
 // A file that is something else is not called a damaged recording.
 void check_is_recording(const std::string& path) {
+  constexpr const char* TAKEN =
+      "; view takes a recording of `wholehand live --record` or of `wholehand trials`, or a result of `wholehand sweep`; "
+      "`wholehand grip --view` shows a grip of a scene";
   std::error_code failed;
+  const std::vector<std::string> shipped = shipped_scenes();
+  if (!std::filesystem::exists(path, failed) && std::find(shipped.begin(), shipped.end(), path) != shipped.end())
+    throw usage_error(path + ": is a shipped scene" + TAKEN);
   const FileKind kind = file_kind_at(path);
   if (kind == FileKind::recording || !std::filesystem::is_regular_file(path, failed)) return;
   std::string what = wrong_kind(kind, "a recording or a result");
   if (what.empty()) what = "is neither a recording nor a result";
-  if (!is_wrapping(kind))
-    what +=
-        "; view takes a recording of `wholehand live --record` or of `wholehand trials`, or a result of `wholehand sweep`; "
-        "`wholehand grip --view` shows a grip of a scene";
+  if (!is_wrapping(kind)) what += TAKEN;
   throw usage_error(path + ": " + what);
 }
 

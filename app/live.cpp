@@ -449,7 +449,7 @@ class LiveRun {
   void note(const std::string& line) {
     show_status("");
     say_note("live: " + line);
-    notes_.push_back(line);
+    if (options_.json) notes_.push_back(line);  // the summary in words does not say it again
   }
 
   void tell_trouble(Recorder& recorder) {

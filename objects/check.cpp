@@ -212,7 +212,7 @@ std::string mesh_check_text(const MeshFacts& facts) {
                                  : "not closed";
   text += fmt::format("; {}, {}, {}; ", counted(facts.non_manifold_edges, "non-manifold edge"),
                       counted(facts.inverted_pairs, "inverted pair"), counted(facts.zero_triangles, "triangle") + " without area");
-  text += facts.has_sure_volume() ? fmt::format("volume {}.", filled_text(facts.volume, facts.center_of_mass))
+  text += facts.has_sure_volume() ? fmt::format("its triangles enclose {}.", filled_text(facts.volume, facts.center_of_mass))
                                   : "volume by its lattice.";
   if (facts.joined_corners > 0)
     text +=

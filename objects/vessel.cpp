@@ -263,13 +263,13 @@ std::string beside_of(const std::string& kept_in, const std::string& file) {
   return (std::filesystem::path(kept_in).parent_path() / std::filesystem::path(file).filename()).string();
 }
 
-// Whether all meshes are there, seen from that scene file.
-bool has_mesh_files(const Scene& scene, const std::string& scene_file) {
+// The first mesh that is not there, seen from that scene file; "" where all are.
+std::string missing_mesh(const Scene& scene, const std::string& scene_file) {
   const std::filesystem::path folder = std::filesystem::path(scene_file).parent_path();
   std::error_code failed;
-  return std::all_of(scene.vessels.begin(), scene.vessels.end(), [&](const VesselData& vessel) {
-    return !vessel.mesh || std::filesystem::exists(folder / vessel.mesh->file, failed);
-  });
+  for (const VesselData& vessel : scene.vessels)
+    if (vessel.mesh && !std::filesystem::exists(folder / vessel.mesh->file, failed)) return (folder / vessel.mesh->file).string();
+  return "";
 }
 
 // As reload_meshes, from where scene.file says.
@@ -347,18 +347,28 @@ void load_meshes(Scene& scene, const MeshOptions& options) {
 
 void follow_moved_scene(Scene& scene, const std::string& kept_in) {
   const std::string beside = beside_of(kept_in, scene.file);
-  if (has_meshes(scene) && has_mesh_files(scene, beside)) scene.file = beside;
+  if (!has_meshes(scene)) return;
+  const std::string here = missing_mesh(scene, beside), there = missing_mesh(scene, scene.file);
+  if (here.empty()) {
+    scene.file = beside;
+  } else if (here != there && !there.empty()) {
+    throw usage_error(fmt::format("{}: a mesh of its scene is missing: neither {} nor {} exists", kept_in, here, there));
+  }
 }
 
 std::string reload_meshes(Scene& scene, const std::string& kept_in, const std::string& keys, const std::string& lattices,
                           bool is_quiet) {
   if (!has_meshes(scene)) return "";
   const std::string lay = scene.file;
-  follow_moved_scene(scene, kept_in);
+  try {
+    follow_moved_scene(scene, kept_in);
+  } catch (const Error& error) {
+    return error.what();
+  }
   const std::string trouble = load_same_meshes(scene, keys, lattices, is_quiet);
   if (trouble.empty() || scene.file == lay) return trouble;
   scene.file = lay;
-  return has_mesh_files(scene, lay) ? load_same_meshes(scene, keys, lattices, is_quiet) : trouble;
+  return missing_mesh(scene, lay).empty() ? load_same_meshes(scene, keys, lattices, is_quiet) : trouble;
 }
 
 void load_meshes(Scene& scene, const std::function<std::uint64_t()>& device_bytes) {

@@ -42,7 +42,7 @@ void load_meshes(Scene& scene, const MeshOptions& options);
 void load_meshes(Scene& scene, const std::function<std::uint64_t()>& device_bytes = nullptr);
 
 // For a scene read back from a file `kept_in`, say a recording: sets its own file (scene.file, from where meshes are looked for) to that of the
-// same name beside `kept_in`, if all its meshes are there. Else it stays.
+// same name beside `kept_in`, if all its meshes are there. Else it stays. Throws Error (usage) that names both places where neither has them.
 void follow_moved_scene(Scene& scene, const std::string& kept_in);
 
 // For a scene read back from the result `kept_in`, whose meshes had those keys and lattices (mesh_lattices). They are looked for beside the

@@ -194,13 +194,13 @@ void bind_step(py::module_& module) {
           "effort", &Step::effort,
           "Least share of the hand's strength that holds the vessel, with all contacts; inf: no force holds it;\n"
           "NaN: nothing is held, or the scene has no [strength].")
-      .def_property_readonly("weight", number(&Tick::weight), "Of vessel and liquid, as far as it is lifted, N.")
-      .def_property_readonly("torque", number(&Tick::torque), "Of the held vessel, N m.")
+      .def_property_readonly("weight", number(&Tick::weight), "Weight of vessel and liquid, as far as it is lifted, N.")
+      .def_property_readonly("torque", number(&Tick::torque), "Torque of the held vessel, N m.")
       .def_property_readonly("tilt", number(&Tick::tilt), "Between the vessel's axis and up, rad.")
-      .def_property_readonly("closure", number(&Tick::closure), "Of the hand: 0 open, 1 closed.")
-      .def_property_readonly("gap", number(&Tick::gap), "Of the hand, m.")
+      .def_property_readonly("closure", number(&Tick::closure), "Closure of the hand: 0 open, 1 closed.")
+      .def_property_readonly("gap", number(&Tick::gap), "Gap of the hand, m.")
       .def_property_readonly("grasp_height", number(&Tick::grasp_height),
-                             "Of the middle of the tips at the grasp, m, vessel's frame; NaN: nothing is held.")
+                             "Height of the middle of the tips at the grasp, m, vessel's frame; NaN: nothing is held.")
       .def_property_readonly("flow", number(&Tick::flow), "Over the held vessel's lip, m3/s.")
       .def_property_readonly(
           "volume", [](const Step& step) { return step.of_vessels(step.tick.volume); },
@@ -214,11 +214,12 @@ void bind_step(py::module_& module) {
       .def_property_readonly(
           "target_volume", [](const Step& step) { return target_volume(step.session->live().scene, step.tick); },
           "Liquid in the target of the task, of all vessels together, m3; 0 without a task.")
-      .def_property_readonly("middle", triple(&Tick::middle), "Of the two tips, m, world frame, shape (3,).")
+      .def_property_readonly("middle", triple(&Tick::middle), "Middle of the two tips, m, world frame, shape (3,).")
       .def_property_readonly(
           "hand_rotation", [](const Step& step) { return matrix_of(step.tick.hand_rotation); },
-          "Of the gripper's axes, world frame, shape (3, 3).")
-      .def_property_readonly("vessel_place", triple(&Tick::vessel_place), "Of the vessel's origin, m, world frame, shape (3,).")
+          "Rotation of the gripper's axes, world frame, shape (3, 3).")
+      .def_property_readonly("vessel_place", triple(&Tick::vessel_place),
+                             "Place of the vessel's origin, m, world frame, shape (3,).")
       .def_property_readonly(
           "vessel_rotation", [](const Step& step) { return matrix_of(step.tick.vessel_rotation); },
           "From the vessel's frame to the world's, shape (3, 3).")
@@ -261,8 +262,8 @@ void bind_hand(py::module_& module) {
           "wrist", [](const HandView& hand) { return array_of(hand.wrist); },
           "Origin of the hand's frame, m, world frame, shape (3,).")
       .def_property_readonly(
-          "rotation", [](const HandView& hand) { return matrix_of(hand.rotation); }, "Of the hand's frame, shape (3, 3).")
-      .def_property_readonly("touching", &touching, "Of each of the 24 joints, whether it touches the glass.");
+          "rotation", [](const HandView& hand) { return matrix_of(hand.rotation); }, "Rotation of the hand's frame, shape (3, 3).")
+      .def_property_readonly("touching", &touching, "Whether each of the 24 joints touches the glass.");
 }
 
 }  // namespace

@@ -101,7 +101,7 @@ class StudyRun {
     share.value = inside_share(rows_);
     rows_.insert(rows_.end(), sensitivity_.begin(), sensitivity_.end());
     if (!inside.empty()) {
-      page_.words.insert(page_.words.begin(), "Of all experiments: " + inside);
+      page_.words.insert(page_.words.begin(), "All experiments together: " + inside);
       rows_.push_back(share);
     }
     folder_->write(scene_, options_, page_, rows_);
@@ -138,7 +138,7 @@ class StudyRun {
 
   // Of the experiments that take long for each person.
   void open_journal() {
-    const StudyIdentity identity{{"scene", checksum_text(scene_.text.data(), scene_.text.size())},
+    const StudyIdentity identity{{"text of the scene", checksum_text(scene_.text.data(), scene_.text.size())},
                                  {"set of meshes", mesh_keys(scene_)},
                                  {"seed", fmt::format("{}", options_.seed)},
                                  {"build of the program", fmt::format("{} {}", version(), build_id())}};

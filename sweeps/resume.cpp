@@ -24,7 +24,7 @@ void check_complete(const std::string& result, const Scene& scene, bool on_core,
   };
   const auto refuse = [&refuse_for](const std::string& what) { refuse_for("has another " + what); };
   there.check_all();
-  if (origin.scene != scene.text) refuse("scene");
+  if (origin.scene != scene.text) refuse("text of the scene");
   Scene read = scene;
   const std::string trouble = reload_meshes(read, scene.file, origin.mesh_keys, origin.mesh_lattices, true);
   if (!trouble.empty()) refuse_for(trouble);
@@ -39,7 +39,7 @@ std::map<std::string, std::string> sweep_identity(const Scene& scene, const Plan
                                                   const std::vector<const Variable*>& variables) {
   std::vector<std::string> names;
   for (const Variable* variable : variables) names.push_back(variable->name);
-  return {{"scene", scene.text},
+  return {{"text of the scene", scene.text},
           {"version", version()},
           {"build", build_name()},  // other code may give other bits
           {"backend", info.backend},

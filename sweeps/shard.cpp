@@ -31,7 +31,7 @@ bool is_shard(const std::string& path, const std::string& id) { return begins_wi
 
 std::string why_no_shard(const std::string& path) {
   struct stat status {};
-  if (stat(path.c_str(), &status) != 0) return errno == ENOENT ? "" : fmt::format("cannot be looked at: {}", std::strerror(errno));
+  if (stat(path.c_str(), &status) != 0) return errno == ENOENT ? "" : fmt::format("cannot be examined: {}", std::strerror(errno));
   if (!S_ISREG(status.st_mode)) return "is no file";
   if (access(path.c_str(), R_OK) != 0) return fmt::format("cannot be read: {}", std::strerror(errno));
   return begins_with(path, SHARD_START) ? "is a shard of another sweep" : "is no shard";

@@ -71,7 +71,7 @@ std::string cases_text(const std::vector<std::vector<TrialCase>>& cases) {
 }
 
 TrialIdentity identity_of(const Scene& scene, const TrialOptions& options, const TriedGrips& tried, const TrialEngine& engine) {
-  return {{"scene", checksum_of(scene.text)},
+  return {{"text of the scene", checksum_of(scene.text)},
           {"choice of grips", checksum_of(grips_text(tried.grips))},
           {"choice of states", checksum_of(cases_text(tried.cases))},
           {"model, mass, friction or material", checksum_of(settings_text(options.settings))},

@@ -369,7 +369,7 @@ TEST(ViewCommand, RefusesWhatCannotBeShown) {
   std::ofstream(cut, std::ios::binary) << file_text(whole).substr(0, 3000);
   for (const std::string& file : {text, empty, cut, folder / "missing", std::string("/"), std::string("/dev/null")})
     expect_error("view " + file, 2, file);
-  for (const std::string& file : {text, empty, scenes_dir() + "/small.toml"})
+  for (const std::string& file : {text, empty, scenes_dir() + "/small.toml", std::string("three_beakers")})
     expect_error("view " + file, 2,
                  "view takes a recording of `wholehand live --record` or of `wholehand trials`, or a result of "
                  "`wholehand sweep`");

@@ -404,6 +404,7 @@ TEST(Live, OneLineSaysWhereTheRecordingIsWhenItsNameIsTaken) {
                                 "recording is " +
                                 file + ".partial\n");
   EXPECT_NE(outcome.output.find("recorded in " + file + ".partial\n"), std::string::npos) << outcome.output;
+  EXPECT_EQ(outcome.output.find("another file"), std::string::npos) << "said once: " << outcome.output;
   EXPECT_EQ(file_text(file), "a letter");
   const Recording recording = read_recording(file + ".partial");
   EXPECT_EQ(recording.note, "");

@@ -252,7 +252,8 @@ TEST_F(MeshVessel, AResultsMeshesAreLookedForBesideItThenWhereTheyLay) {
   EXPECT_EQ(found(), there);
   std::filesystem::remove(folder_ / mesh);
   std::filesystem::remove(moved / mesh);
-  EXPECT_NE(found().first.find((folder_ / mesh).string()), std::string::npos) << found().first;
+  EXPECT_EQ(found().first, result + ": a mesh of its scene is missing: neither " + (moved / mesh).string() + " nor " +
+                               (folder_ / mesh).string() + " exists");
 }
 
 TEST_F(MeshVessel, ASceneThatIsNotReadIsNotEvaluated) {

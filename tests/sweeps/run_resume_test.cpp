@@ -142,7 +142,7 @@ TEST_F(RunTest, ResumeOfSomethingElseThatIsCompleteIsRefused) {
     EXPECT_TRUE(has(outcome.error, what)) << outcome.error;
     EXPECT_EQ(trial.opened, 0) << what;
   };
-  refused(whole, "but has another scene", [](SweepTrial& trial) { trial.scene.text += "# changed"; });
+  refused(whole, "but has another text of the scene", [](SweepTrial& trial) { trial.scene.text += "# changed"; });
   refused(whole, "but has another precision", [](SweepTrial& trial) {
     trial.options.precision = read_text(trial.options.output, "", "precision") == "float" ? Precision::full : Precision::single;
   });
