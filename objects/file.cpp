@@ -15,6 +15,7 @@
 #include "core/error.h"
 #include "core/file_kind.h"
 #include "objects/triangles.h"
+#include "system/readable.h"
 
 namespace wholehand {
 namespace {
@@ -70,7 +71,8 @@ std::string read_mesh_bytes(const std::string& path, std::string& bytes) {
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error) return "cannot be read: " + error.message();
   if (size > LARGEST_MESH_FILE)
-    return fmt::format("is {} MB large, and at most {} MB are read", size >> 20, LARGEST_MESH_FILE >> 20);
+    return fmt::format("is {} MB large, and at most {} MB are read", readable_number(size >> 20),
+                       readable_number(LARGEST_MESH_FILE >> 20));
   bytes.resize(static_cast<std::size_t>(size));
   std::ifstream stream(path, std::ios::binary);
   if (!stream.read(bytes.data(), static_cast<std::streamsize>(size))) return "cannot be read";

@@ -370,7 +370,7 @@ class Ranks(Job):
         with open(another_build, "wb") as file:
             file.write(program)
         os.chmod(another_build, 0o755)
-        for what, command in {"scene": [MPI_PROGRAM, "sweep", other, *own[3:]], "build": [another_build, *own[1:]]}.items():
+        for what, command in {"text of the scene": [MPI_PROGRAM, "sweep", other, *own[3:]], "build": [another_build, *own[1:]]}.items():
             code, out, errors = self.end(self.start(["mpirun", "-q", "-n", "1", *own, ":", "-n", "1", *command]))
             self.assertEqual((code, out), (2, ""), errors)
             lines = errors.strip().split("\n")

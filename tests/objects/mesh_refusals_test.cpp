@@ -176,7 +176,7 @@ TEST(Mesh, AChangedByteIsReadOrRefused) {
 TEST(Mesh, SizesThatAreAbsurdAreRefused) {
   const std::string large = write_gltf("large.glb", "glTF");
   std::filesystem::resize_file(large, std::uintmax_t{2} << 30);  // no blocks of the disk are taken
-  EXPECT_SAYS(mesh_refusal(mesh_as_is(large)), "2048 MB large");
+  EXPECT_SAYS(mesh_refusal(mesh_as_is(large)), "2,048 MB large");
   std::filesystem::remove(large);
   EXPECT_SAYS(refusal_after([](Gltf& g) { g.json["accessors"][0]["count"] = 2'000'000'000; }), "absurd");
   EXPECT_SAYS(refusal_after([](Gltf& g) { g.json["accessors"][0]["count"] = 4'294'967'300; }), "accessors[0].count");

@@ -147,7 +147,7 @@ TEST(SceneReader, RefusesFilesThatAreNone) {
   EXPECT_EQ(refusal("/nowhere/scene.toml"), "no scene file '/nowhere/scene.toml'; give the path of a TOML file");
   EXPECT_EQ(refusal("/"), "'/' is a directory; give the path of a scene file");
   EXPECT_EQ(refusal(""), "no scene file ''; give the path of a TOML file");
-  EXPECT_NE(refusal("/dev/zero").find("/dev/zero:1:1: more than 1048576 bytes"), std::string::npos);
+  EXPECT_NE(refusal("/dev/zero").find("/dev/zero:1:1: more than 1,048,576 bytes"), std::string::npos);
   EXPECT_NE(refusal("/dev/null").find("/dev/null:1:1: the scene lacks 'vessel'"), std::string::npos);
 }
 

@@ -195,7 +195,7 @@ TEST_F(RunTest, ResumeOfSomethingElseIsRefused) {
     EXPECT_EQ(outcome.code, ExitCode::usage) << what;
     EXPECT_TRUE(has(outcome.error, std::string("another ") + what)) << outcome.error;
   };
-  refused("scene", [](SweepTrial& trial) { trial.scene.text += "# changed"; });
+  refused("text of the scene", [](SweepTrial& trial) { trial.scene.text += "# changed"; });
   refused("driver", [](SweepTrial& trial) { trial.driver = "fake driver 2"; });
   refused("precision", [](SweepTrial& trial) { trial.precision = Precision::single; });
   refused("number of best grips", [](SweepTrial& trial) { trial.options.best = 7; });

@@ -218,7 +218,7 @@ TEST_F(TrialsTest, AJournalOfOtherTrialsIsRefused) {
   options.tilts.clear();
   refused("engine", open_fake_engine([](FakeTrialEngine& engine) { engine.engine_name = "stand-in 2"; }));
   scene.text += "\n";
-  refused("scene");
+  refused("text of the scene");
   write_file(journal(), "wholehand trials journal 1\nrubbish\n");
   const TrialsRun damaged = run();
   EXPECT_EQ(damaged.code, ExitCode::failure);
