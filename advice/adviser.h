@@ -35,7 +35,7 @@ constexpr double SAME_FILL = 2e-3;
 
 // The scene that grips are rated in: one fill for each vessel, what it holds at the start of a session; the scene's own tilts or,
 // without any, tens of degrees up to 150; those up to where 95 % of a fill has poured. A table lies TABLE_LOWERED lower, as a
-// session has none: the adviser applies it to what it advises. Throws Error (usage): the scene has no [strength].
+// session has none: the adviser applies it to what it advises. Throws Error (usage): [strength] says efforts = false.
 Scene advice_scene(const Scene& scene);
 constexpr double TABLE_LOWERED = 2;  // m at a hand's scale of 1: further than a hand reaches from its grip
 

@@ -7,21 +7,11 @@
 #include "system/file_kind_at.h"
 
 namespace wholehand {
-namespace {
-
-// Those of the version that wrote a result: only 0.1 and 0.2 had others than today's.
-ScoreWeights default_weights_of(const std::string& version) {
-  const auto is_of = [&](const char* minor) { return version.rfind(minor, 0) == 0; };
-  return is_of("0.1.") ? WEIGHTS_0_1 : is_of("0.2.") ? WEIGHTS_0_2 : ScoreWeights{};
-}
-
-}  // namespace
-
 bool is_result(const std::string& path) { return file_kind_at(path) == FileKind::result; }
 
 Scene scene_of_result(const SweepResult& result, std::string& trouble) {
   const SweepOrigin& origin = result.origin();
-  Scene scene = parse_scene(origin.scene, result.path() + " (its scene)", default_weights_of(origin.version));
+  Scene scene = parse_scene(origin.scene, result.path() + " (its scene)", defaults_of(origin.version));
   if (!origin.scene_file.empty()) scene.file = origin.scene_file;
   trouble = reload_meshes(scene, result.path(), origin.mesh_keys, origin.mesh_lattices);
   return scene;

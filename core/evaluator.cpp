@@ -87,10 +87,6 @@ class CoreEvaluator final : public wholehand::Evaluator {
         states_(scene_) {
     hand_.limits = limits_of(options);
     if (options.effort_tolerance > 0) effort_tolerance_ = Real(options.effort_tolerance);
-    strength_.friction = Real(scene.force.friction);
-    strength_.torsion = Real(scene.force.torsion);
-    if (scene.strength)
-      for (std::size_t digit = 0; digit < DIGITS; ++digit) strength_.digits[digit] = Real(scene.strength->digits[digit]);
     const bool with_liquid = scene.liquid.has_value();
     for (const auto& data : scene.vessels) {
       VesselEntry entry;
@@ -361,6 +357,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
     std::array<ContactPoint, JOINTS> contacts;
     std::array<ContactPoint, 2> tips;
     std::size_t count = 0, tip_count = 0;
+    HandStrength strength;
     std::span<const ContactPoint> all() const { return {contacts.data(), count}; }
     std::span<const ContactPoint> pinch() const { return {tips.data(), tip_count}; }
   };
@@ -380,11 +377,12 @@ class CoreEvaluator final : public wholehand::Evaluator {
       hand.contacts[i] = pressing[i].contact;
       if (pressing[i].contact.is_tip) hand.tips[hand.tip_count++] = pressing[i].contact;
     }
+    hand.strength = load_strength(scene_, hand.pinch());
     return hand;
   }
 
   GripEffort effort_over_states(const HeldHand& hand, bool of_tips, const GripLoads& loads, std::span<FillEffort> fills) const {
-    return grip_effort(hand.all(), of_tips ? std::optional(hand.pinch()) : std::nullopt, strength_, loads, fills,
+    return grip_effort(hand.all(), of_tips ? std::optional(hand.pinch()) : std::nullopt, hand.strength, loads, fills,
                        effort_tolerance_);
   }
 
@@ -405,10 +403,10 @@ class CoreEvaluator final : public wholehand::Evaluator {
     if (row.fields.has(FIELD_PUSH)) {
       const Wrench weight = loads.weight(entry.largest, {});
       const Vec3 at = load_center(entry.largest, loads.pour);
-      row.put(FIELD_PUSH, 0, push_held(hand.all(), strength_, weight, at, effort_tolerance_));
+      row.put(FIELD_PUSH, 0, push_held(hand.all(), hand.strength, weight, at, effort_tolerance_));
     }
     if (row.fields.has(FIELD_FRICTION_NEEDED))
-      row.put(FIELD_FRICTION_NEEDED, 0, friction_needed(hand.all(), strength_, loads, found, effort_tolerance_));
+      row.put(FIELD_FRICTION_NEEDED, 0, friction_needed(hand.all(), hand.strength, loads, found, effort_tolerance_));
     put_state_efforts(row, hand, loads);
     return found.worst;
   }
@@ -419,7 +417,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
     const bool of_tips = row.fields.has(FIELD_TIPS_EFFORT) || row.fields.has(FIELD_HOLD_FORCE);
     if (!of_all && !of_tips) return;
     const Vec3 center = contacts_center(hand.all());
-    EffortSolver whole(hand.all(), strength_, center), tips(hand.pinch(), strength_, center);
+    EffortSolver whole(hand.all(), hand.strength, center), tips(hand.pinch(), hand.strength, center);
     for (std::size_t fill = 0; fill < states_.fills(); ++fill)
       for (std::size_t tilt = 0; tilt < loads.counted[fill]; ++tilt) {
         const int state = static_cast<int>(fill * states_.tilts() + tilt);
@@ -432,7 +430,7 @@ class CoreEvaluator final : public wholehand::Evaluator {
         if (!of_tips) continue;
         const Real effort = tips.solve(weight, effort_tolerance_).effort;
         row.put(FIELD_TIPS_EFFORT, state, effort);
-        row.put(FIELD_HOLD_FORCE, state, states_.tips_hold(effort));
+        row.put(FIELD_HOLD_FORCE, state, effort * hand.strength.weaker_tip());
       }
   }
 
@@ -441,8 +439,8 @@ class CoreEvaluator final : public wholehand::Evaluator {
                  TiltAngle tilt) const {
     const HeldHand hand = held_hand(entry, posed_of(result), result.touch_mask);
     const GripLoads loads = states_.loads(entry, pinch_of(input, result));
-    EffortSolver tips(hand.pinch(), strength_, contacts_center(hand.pinch()));
-    return states_.tips_hold(tips.solve(loads.weight(load, tilt), effort_tolerance_).effort);
+    EffortSolver tips(hand.pinch(), hand.strength, contacts_center(hand.pinch()));
+    return tips.solve(loads.weight(load, tilt), effort_tolerance_).effort * hand.strength.weaker_tip();
   }
 
   LargestForces put_states(const PlaneRow& row, const VesselEntry& entry, const GripAnswer& answer,
@@ -510,7 +508,6 @@ class CoreEvaluator final : public wholehand::Evaluator {
   Hand hand_;
   Quadrature quadrature_;
   SceneStates states_;
-  HandStrength strength_;
   Real effort_tolerance_ = EFFORT_TOLERANCE;
   bool has_effort_ = wholehand::has_effort(scene_);
   std::vector<VesselEntry> entries_;

@@ -51,6 +51,14 @@ Real longest_bare_lever(Real pivot_length) { return Real(BARE_LEVER) * std::max(
 // about d shared; the load along d adds half of itself to one side. With w = d . u, r = CoM - M and tau_d = m g |d . (r x u)|:
 //   N = sqrt((m g)^2 (1 - w^2) / 4 + (tau_d / (2 gamma))^2) / mu + m g |w| / 2
 // Degenerate: without torsion a lever that counts, and without friction whatever lies across d, needs an infinite force.
+Real strength_at(Real opening) {
+  constexpr Real FROM = Real(OPENING_FROM), STEP = Real(OPENING_STEP), GAIN = Real(OPENING_GAIN), LOSS_1 = Real(OPENING_LOSS_1),
+                 LOSS_2 = Real(OPENING_LOSS_2);
+  const Real step = (opening - FROM) / STEP;
+  return Real(1) - GAIN * (Real(1) - std::clamp(step, Real(0), Real(1))) - LOSS_1 * std::clamp(step - Real(1), Real(0), Real(1)) -
+         LOSS_2 * std::clamp(step - Real(2), Real(0), Real(1));
+}
+
 Real hold_force(Real mass, Real gravity, Vec3 arm, Vec3 direction, Vec3 up, Real friction, Real torsion) {
   const Real weight = mass * gravity;
   const Real along = glm::dot(direction, up);

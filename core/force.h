@@ -45,6 +45,9 @@ Real opening_force(Real k_open, Real squeeze);
 Real feedback_force(Real normal, Real opening, Real max);
 // The longest lever that is none for contacts without torsion, m. `pivot_length`: from their middle to where the load acts, m.
 Real longest_bare_lever(Real pivot_length);
+// The share of their strength that digits have where thumb and index finger lie `opening` apart, m: grip strength over the largest, as
+// measured on cylinders of four diameters. Linear between them; beyond the first and the last as there.
+Real strength_at(Real opening);
 // Grip force a finger that a soft-finger pinch needs, N.
 Real hold_force(Real mass, Real gravity, Vec3 arm, Vec3 direction, Vec3 up, Real friction, Real torsion);
 // Virtual coupling of a tip to its proxy before the grasp: K (proxy - tip) - B v_n along the surface's outward normal, never a pull

@@ -102,7 +102,9 @@ GripEffort grip_effort(std::span<const ContactPoint> contacts, std::optional<std
   for (std::size_t fill = 0; fill < fills.size(); ++fill) {
     Worst most;
     if (tips) find_worst(two, loads, fill, fill + 1, tolerance, most, pinch);
-    fills[fill] = {tips ? most.effort : grip.tips_worst, 0};
+    fills[fill].tips = tips ? most.effort : grip.tips_worst;
+    fills[fill].tips_hold = fills[fill].tips * hand.weaker_tip();
+    fills[fill].held = 0;
     grip.states += static_cast<int>(loads.counted[fill]);
     grip.tips_worst = std::max(grip.tips_worst, most.effort);
   }

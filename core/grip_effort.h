@@ -36,6 +36,7 @@ struct GripLoads {
 // One fill.
 struct FillEffort {
   Real tips = 0;         // the largest effort of thumb and index tip alone
+  Real tips_hold = 0;    // what each of the two must press with there, N: that effort times the strength of the weaker
   std::size_t held = 0;  // tilts from the first on at which the whole hand holds with an effort up to 1
 };
 

@@ -26,6 +26,18 @@ double percentile_of(const Surveyed& measure, double percentile) {
 
 }  // namespace
 
+HandData paper_hand() {
+  HandData hand;
+  hand.fingers = {{
+      {{-22e-3, -9e-3, -18e-3}, radians(10), 0, {46.22e-3, 31.57e-3, 27.34e-3, 0}, {8e-3, 8e-3, 8e-3, 8e-3, 0}},
+      {{-13e-3, 0, -28e-3}, radians(-8), 0, {68.12e-3, 39.78e-3, 22.38e-3, 19.66e-3}, {8e-3, 8e-3, 7.5e-3, 7e-3, 7e-3}},
+      {{-2e-3, 1.5e-3, -30e-3}, 0, 0, {64.60e-3, 44.63e-3, 26.33e-3, 21.35e-3}, {8e-3, 8e-3, 7.5e-3, 7e-3, 7e-3}},
+      {{8e-3, 0, -28e-3}, radians(7), radians(4), {58.00e-3, 41.37e-3, 25.65e-3, 21.25e-3}, {8e-3, 8e-3, 7.5e-3, 7e-3, 7e-3}},
+      {{17e-3, -3e-3, -24e-3}, radians(15), radians(8), {53.69e-3, 32.74e-3, 18.11e-3, 19.69e-3}, {8e-3, 8e-3, 7.5e-3, 7e-3, 7e-3}},
+  }};
+  return hand;
+}
+
 HandSize size_of(const HandData& hand) {
   const FingerData& middle = hand.fingers[MIDDLE];
   double finger = 0;

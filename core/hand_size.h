@@ -15,6 +15,10 @@ struct HandSize {
 
 HandSize size_of(const HandData& hand);
 
+// The default hand of versions before 0.4, scale and limits the default's: as long as the mean adult's, but narrower than 99 of 100
+// hands of women.
+HandData paper_hand();
+
 // Gives the hand a size. All bases and segments take the ratio of the lengths, all radii that of the breadths; the middle, ring
 // and little finger move sideways, as they are, until their knuckles lie apart from the index finger's by the ratio of the
 // breadths. Thumb and index finger therefore keep their form, and the hand closes as it did: its gap is the former one times the

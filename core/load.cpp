@@ -154,4 +154,17 @@ ForceScale load_force(const wholehand::Scene& scene, const wholehand::VesselData
   return scale;
 }
 
+HandStrength load_strength(const wholehand::Scene& scene, std::span<const ContactPoint> contacts) {
+  HandStrength hand{Real(scene.force.friction), Real(scene.force.torsion), {}};
+  if (!scene.strength) return hand;
+  const auto tip_of = [&](int digit) {
+    return std::find_if(contacts.begin(), contacts.end(), [&](const ContactPoint& c) { return c.is_tip && c.digit == digit; });
+  };
+  const auto thumb = tip_of(0), index = tip_of(1);
+  const bool has_opening = scene.strength->by_opening && thumb != contacts.end() && index != contacts.end();
+  const Real share = has_opening ? strength_at(glm::length(index->place - thumb->place)) : Real(1);
+  for (std::size_t digit = 0; digit < DIGITS; ++digit) hand.digits[digit] = share * Real(scene.strength->digits[digit]);
+  return hand;
+}
+
 }  // namespace CORE_NS

@@ -2,8 +2,10 @@
 // Prepared scenes in the kernels' own precision.
 #pragma once
 
+#include <span>
 #include <vector>
 
+#include "core/effort.h"
 #include "core/force.h"
 #include "core/hand.h"
 #include "core/liquid.h"
@@ -29,5 +31,9 @@ void use_lattice(Vessel& vessel, Lattice lattice);
 
 // The scene's force constants for a vessel; `reference` is filled by the caller.
 ForceScale load_force(const wholehand::Scene& scene, const wholehand::VesselData& data);
+
+// What a hand can do that holds with these contacts, at the opening between the tips of thumb and index finger; as at the best opening
+// where one of them does not press. No strength where the scene has none.
+HandStrength load_strength(const wholehand::Scene& scene, std::span<const ContactPoint> contacts);
 
 }  // namespace CORE_NS

@@ -49,7 +49,8 @@ struct AngleRange {
   double closed = 0;
 };
 
-// The default hand is KERNELS' table: segment means of Buryanov & Kotiuk 2010 with the pulp added.
+// The default hand is that of the mean adult, as many women as men: length and breadth of ANSUR II, segment means of Buryanov & Kotiuk
+// 2010 with the pulp added (docs/method.md). core/hand_size.h has others.
 struct HandData {
   std::string place;  // file:line:column of [hand], for messages; empty: none
   double scale = 1;
@@ -61,11 +62,31 @@ struct HandData {
   int between = 2;                                                            // spheres on each bone between its two joints
   std::array<double, 3> joint_limit{radians(90), radians(100), radians(80)};  // MCP, PIP, DIP, rad
   std::array<FingerData, FINGER_COUNT> fingers{{
-      {{-22e-3, -9e-3, -18e-3}, radians(10), 0, {46.22e-3, 31.57e-3, 27.34e-3, 0}, {8e-3, 8e-3, 8e-3, 8e-3, 0}},
-      {{-13e-3, 0, -28e-3}, radians(-8), 0, {68.12e-3, 39.78e-3, 22.38e-3, 19.66e-3}, {8e-3, 8e-3, 7.5e-3, 7e-3, 7e-3}},
-      {{-2e-3, 1.5e-3, -30e-3}, 0, 0, {64.60e-3, 44.63e-3, 26.33e-3, 21.35e-3}, {8e-3, 8e-3, 7.5e-3, 7e-3, 7e-3}},
-      {{8e-3, 0, -28e-3}, radians(7), radians(4), {58.00e-3, 41.37e-3, 25.65e-3, 21.25e-3}, {8e-3, 8e-3, 7.5e-3, 7e-3, 7e-3}},
-      {{17e-3, -3e-3, -24e-3}, radians(15), radians(8), {53.69e-3, 32.74e-3, 18.11e-3, 19.69e-3}, {8e-3, 8e-3, 7.5e-3, 7e-3, 7e-3}},
+      {{-22.03e-3, -9.01e-3, -18.03e-3},
+       radians(10),
+       0,
+       {46.29e-3, 31.62e-3, 27.38e-3, 0},
+       {9.61e-3, 9.61e-3, 9.61e-3, 9.61e-3, 0}},
+      {{-13.02e-3, 0, -28.04e-3},
+       radians(-8),
+       0,
+       {68.22e-3, 39.84e-3, 22.41e-3, 19.69e-3},
+       {9.61e-3, 9.61e-3, 9.01e-3, 8.41e-3, 8.41e-3}},
+      {{2.10e-3, 1.50e-3, -30.04e-3},
+       0,
+       0,
+       {64.69e-3, 44.69e-3, 26.37e-3, 21.38e-3},
+       {9.61e-3, 9.61e-3, 9.01e-3, 8.41e-3, 8.41e-3}},
+      {{15.53e-3, 0, -28.04e-3},
+       radians(7),
+       radians(4),
+       {58.08e-3, 41.43e-3, 25.69e-3, 21.28e-3},
+       {9.61e-3, 9.61e-3, 9.01e-3, 8.41e-3, 8.41e-3}},
+      {{27.68e-3, -3.00e-3, -24.03e-3},
+       radians(15),
+       radians(8),
+       {53.77e-3, 32.79e-3, 18.14e-3, 19.72e-3},
+       {9.61e-3, 9.61e-3, 9.01e-3, 8.41e-3, 8.41e-3}},
   }};
   AngleRange thumb_abduction{radians(60), radians(55)};
   AngleRange thumb_mcp{radians(4), radians(5)};
@@ -157,9 +178,8 @@ struct ForceData {
 // sources.
 struct StrengthData {
   std::array<double, FINGER_COUNT + 1> digits{40, 25, 35, 25, 14, 80};
-
-  // Of the weaker one of thumb and index finger, N: the hold force is the effort times this.
-  double weaker_tip() const { return digits[0] < digits[1] ? digits[0] : digits[1]; }
+  bool by_opening = true;  // they shrink as the hand opens; false: the same at every opening
+  std::string place;       // of [strength], as above; empty: by default
 };
 
 // Values of one axis of the grips, as the scene asks for them.
@@ -240,7 +260,7 @@ struct Scene {
   HandData hand;
   std::vector<VesselData> vessels;
   std::optional<LiquidData> liquid;
-  std::optional<StrengthData> strength;  // absent: no effort is computed
+  std::optional<StrengthData> strength;  // absent: no effort is computed; a scene file without [strength] has the default
   ForceData force;                       // a scene without [force] has these defaults
   GripsData grips;
   std::vector<double> tilts;           // rad, strictly ascending in [0, pi]; empty: no [tilts], no force kernel

@@ -26,8 +26,6 @@ HeldForces SceneStates::forces(const VesselEntry& entry, const Pinch& pinch, con
                      pour_direction(pinch.direction, pour_sense_), tilt.sine, tilt.cosine, pinch.is_antipodal, opening);
 }
 
-Real SceneStates::tips_hold(Real tips_effort) const { return tips_effort * Real(scene_.strength.value().weaker_tip()); }
-
 std::array<Real, 6> SceneStates::score_terms(const ScoredHand& hand, LargestForces largest, Real max) const {
   const bool has_forces = !tilts_.empty();
   return {fingers_term(std::popcount(hand.used_mask)),

@@ -72,9 +72,6 @@ class SceneStates {
   wholehand::FillTerms fill_terms(const VesselEntry& entry, std::size_t fill, const Pinch& pinch, const FillEffort* effort,
                                   const Keep& keep) const;
 
-  // What each of two tips must press, N: their effort times the strength of the weaker. In a scene with efforts.
-  Real tips_hold(Real tips_effort) const;
-
   // In the order of FIELD_TERMS; `max` is the vessel's largest force, N.
   std::array<Real, 6> score_terms(const ScoredHand& hand, LargestForces largest, Real max) const;
   Real weighted(const std::array<Real, 6>& terms) const;
@@ -104,7 +101,7 @@ wholehand::FillTerms SceneStates::fill_terms(const VesselEntry& entry, std::size
     if (safe) safe_tilt = scene_.tilts[t];
     keep(t, state);
   }
-  if (by_effort) largest_hold = effort ? tips_hold(effort->tips) : std::numeric_limits<Real>::quiet_NaN();
+  if (by_effort) largest_hold = effort ? effort->tips_hold : std::numeric_limits<Real>::quiet_NaN();
   return {static_cast<double>(peak_force), static_cast<double>(peak_tilt), static_cast<double>(largest_hold), safe_tilt};
 }
 

@@ -7,6 +7,7 @@
 #include "core/counted_tilts.h"
 #include "core/force.h"
 #include "core/grip_effort.h"
+#include "core/load.h"
 #include "core/vectors.h"
 
 namespace wholehand {
@@ -32,9 +33,7 @@ Holding::Holding(const Scene& scene, const Evaluator& evaluator, std::size_t ves
     if (found.is_tip) tips_.push_back(contacts_.back());
   }
   center_ = core_f64::contacts_center(contacts_);
-  hand_.friction = scene.force.friction;
-  hand_.torsion = scene.force.torsion;
-  hand_.digits = scene.strength.value().digits;
+  hand_ = core_f64::load_strength(scene, tips_);
 }
 
 // The weight at the centre of mass. Up in the vessel frame at a tilt t: cos t y - sin t n.
@@ -44,11 +43,12 @@ Wrench Holding::load(const StateResult& state, double tilt) const {
 }
 
 StateHold Holding::state(const GripState& state) const {
-  if (!state.counts) return {NOT_A_NUMBER, NOT_A_NUMBER, NOT_A_NUMBER, std::nullopt, {}};
+  if (!state.counts) return {NOT_A_NUMBER, NOT_A_NUMBER, NOT_A_NUMBER, hand_, std::nullopt, {}};
   const Wrench weight = load(state.state, state.tilt);
   EffortSolver solver(contacts_, hand_, center_);
   const Effort found = solver.solve(weight);
   StateHold hold;
+  hold.strength = hand_;
   hold.effort = found.effort;
   hold.low = found.low;
   hold.tips = EffortSolver(tips_, hand_, center_).solve(weight).effort;

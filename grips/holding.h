@@ -27,7 +27,8 @@ struct HeldContact {
 // together.
 struct StateHold {
   double effort = 0, low = 0;
-  double tips = 0;  // the effort of thumb and index tip alone
+  double tips = 0;                  // the effort of thumb and index tip alone
+  core_f64::HandStrength strength;  // at the opening of the grip
   std::optional<std::array<double, 6>> escape;
   std::vector<HeldContact> contacts;
 };
@@ -37,6 +38,8 @@ class Holding {
   // Of a feasible grip in a scene with strengths; `pour` is the report's. `scene` and `evaluator`, made for it, must outlive this.
   Holding(const Scene& scene, const Evaluator& evaluator, std::size_t vessel, const GripResult& result, const Triple& pour);
 
+  // At the opening of the grip.
+  const core_f64::HandStrength& strength() const { return hand_; }
   StateHold state(const GripState& state) const;
   // Nothing where the scene has no tilts.
   std::optional<GripHold> over_states() const;

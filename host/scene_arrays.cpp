@@ -84,6 +84,7 @@ void set_scene_scalars(Parameters<double>& p, const Scene& scene, const VesselDa
     p.ring_strength = digits[3];
     p.little_strength = digits[4];
     p.palm_strength = digits[5];
+    p.by_opening = scene.strength->by_opening ? 1 : 0;
   }
   p.table_top = scene.table ? table_top(scene, vessel) : 0;
   p.pour_sense = scene.liquid && scene.liquid->pour == Pour::towards ? -1 : 1;

@@ -21,11 +21,8 @@ std::optional<HandHold> hand_hold(const LiveScene& live, const Tick& tick, const
   const Wrench weight = weight_of(live, v, tick.volume[v], held.up());
   EffortSolver solver(held.contacts(), hand, held.center());
   const Effort found = solver.solve(weight);
-  HandHold hold{found.effort,
-                found.low,
-                EffortSolver(held.tips(), hand, held.center()).solve(weight).effort,
-                scene.strength->weaker_tip(),
-                {}};
+  HandHold hold{
+      found.effort, found.low, EffortSolver(held.tips(), hand, held.center()).solve(weight).effort, hand.weaker_tip(), {}};
   std::vector<core_f64::ContactForce> forces(held.contacts().size());
   solver.forces(forces);
   for (std::size_t i = 0; i < forces.size(); ++i) {

@@ -24,7 +24,7 @@ struct HandPress {
 struct HandHold {
   double effort = 0, low = 0;
   double tips = 0;      // the effort of thumb and index tip alone
-  double strength = 0;  // of the weaker one of thumb and index finger, N
+  double strength = 0;  // of the weaker one of thumb and index finger at this opening, N
   std::vector<HandPress> presses;
 
   // The hold force, N, in the whole hand and of the two tips alone: what the weaker of thumb and index finger presses with at most. The

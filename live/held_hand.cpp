@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/grip_effort.h"
+#include "core/load.h"
 #include "core/mirror.h"
 #include "core/vectors.h"
 
@@ -35,9 +36,7 @@ HeldHand::HeldHand(const LiveScene& live, std::size_t vessel, const VesselPose& 
   center_ = core_f64::contacts_center(contacts_);
 }
 
-core_f64::HandStrength HeldHand::strength() const {
-  return {live_.scene.force.friction, live_.scene.force.torsion, live_.scene.strength->digits};
-}
+core_f64::HandStrength HeldHand::strength() const { return core_f64::load_strength(live_.scene, tips_); }
 
 Triple HeldHand::place_out(Vec3 place) const { return mirrored(to_triple(place_ + turn_ * place), live_.scene.hand.handedness); }
 

@@ -151,8 +151,8 @@ HandlePointer parse_text(const std::string& text, const std::string& name) {
 
 // The scene of a result, whose meshes must be those of the sweep.
 HandlePointer scene_of_dataset(const std::string& text, const std::string& source, const std::string& scene_file,
-                               const std::string& keys, const std::string& lattices) {
-  Scene scene = parse_scene(text, "the result's scene");
+                               const std::string& version, const std::string& keys, const std::string& lattices) {
+  Scene scene = parse_scene(text, "the result's scene", defaults_of(version));
   if (!scene_file.empty()) scene.file = scene_file;
   const std::string trouble = reload_meshes(scene, source, keys, lattices, true);
   if (!trouble.empty()) throw usage_error("the result's scene: " + trouble);
@@ -229,8 +229,8 @@ void bind_scene(py::module_& module) {
           py::arg("precision"), py::arg("on"), py::call_guard<py::gil_scoped_release>());
   module.def("open_scene", &open_scene, py::arg("path_or_name"));
   module.def("parse_scene", &parse_text, py::arg("text"), py::arg("name"));
-  module.def("scene_of_dataset", &scene_of_dataset, py::arg("text"), py::arg("source"), py::arg("scene_file"), py::arg("keys"),
-             py::arg("lattices"), py::call_guard<py::gil_scoped_release>());
+  module.def("scene_of_dataset", &scene_of_dataset, py::arg("text"), py::arg("source"), py::arg("scene_file"), py::arg("version"),
+             py::arg("keys"), py::arg("lattices"), py::call_guard<py::gil_scoped_release>());
   module.def("shipped_scenes", &shipped_scenes);
 }
 

@@ -193,7 +193,7 @@ void bind_step(py::module_& module) {
       .def_property_readonly(
           "effort", &Step::effort,
           "Least share of the hand's strength that holds the vessel, with all contacts; inf: no force holds it;\n"
-          "NaN: nothing is held, or the scene has no [strength].")
+          "NaN: nothing is held, or [strength] says efforts = false.")
       .def_property_readonly("weight", number(&Tick::weight), "Weight of vessel and liquid, as far as it is lifted, N.")
       .def_property_readonly("torque", number(&Tick::torque), "Torque of the held vessel, N m.")
       .def_property_readonly("tilt", number(&Tick::tilt), "Between the vessel's axis and up, rad.")

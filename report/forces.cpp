@@ -7,7 +7,9 @@
 #include <cmath>
 
 #include "charts/lines.h"
+#include "grips/holding.h"
 #include "grips/methods.h"
+#include "grips/report.h"
 #include "grips/states.h"
 #include "system/readable.h"
 
@@ -71,29 +73,21 @@ double highest_feedback(const std::vector<FillForces>& forces) {
   return highest;
 }
 
-// What each of two tips can press with, and its name.
-struct TipStrength {
-  double force;
-  const char* name;
-};
-
-TipStrength strength_of_tips(const Scene& scene) {
-  if (!scene.strength) return {scene.force.grip_strength, "grip strength"};
-  return {scene.strength->weaker_tip(), "strength of the weaker tip"};
-}
+const char* strength_name_of(const Scene& scene) { return scene.strength ? "strength of the weaker tip" : "grip strength"; }
 
 std::string forces_caption(const Scene& scene, const std::vector<FillForces>& forces, const HoldExtent& extent) {
   std::string caption =
       "The feedback force is what the gripper renders. The hold force is what each finger must press with to hold the vessel.";
-  const double limit = scene.force.max;
-  const auto [strength, strength_name] = strength_of_tips(scene);
+  const double limit = scene.force.max, strength = forces.front().strength;
+  const char* strength_name = strength_name_of(scene);
   if (highest_feedback(forces) < limit) caption += fmt::format(" The device's limit of {} N is not reached.", plain_number(limit));
   if (!extent.is_finite_once) {
     caption += " No force of two fingers holds the vessel in this grip, so the hold force has no chart.";
   } else {
     if (!extent.is_finite_always)
       caption += " Where a line of the hold force is missing, no force of two fingers holds the vessel.";
-    if (extent.highest < strength) caption += fmt::format(" The {} of {} N is not reached.", strength_name, plain_number(strength));
+    if (extent.highest < strength)
+      caption += fmt::format(" The {} of {} N is not reached.", strength_name, shown_number(strength, 1));
     if (extent.highest > 2 * strength)
       caption += fmt::format(" The hold force goes up to {} N; its chart ends at twice the {}.", shown_number(extent.highest, 0),
                              strength_name);
@@ -141,8 +135,12 @@ std::vector<FillForces> forces_of(const ReportSource& source, std::size_t vessel
   const StateAxes axes = scene_axes(source.scene, vessel);
   const GripFindings answer = core_grip_methods(source.scene, source.core, "core").answer(vessel, grip, axes);
   if (answer.states.empty()) return forces;
+  const double strength =
+      !source.scene.strength
+          ? source.scene.force.grip_strength
+          : Holding(source.scene, *source.core, vessel, answer.result, pour_direction(source.scene, grip)).strength().weaker_tip();
   for (std::size_t f = 0; f < axes.fills.size(); ++f) {
-    FillForces fill{axes.fills[f], {}, {}};
+    FillForces fill{axes.fills[f], strength, {}, {}};
     for (std::size_t t = 0; t < axes.tilts.size(); ++t) {
       const StateResult& state = answer.states[f * axes.tilts.size() + t].state;
       fill.feedback.push_back(state.feedback_force);
@@ -187,8 +185,8 @@ void write_forces(MarkupWriter& html, const ReportSource& source, std::size_t ve
   hold.name.id = id + "-hold";
   hold.name.title = name + ": hold force over the tilt";
   hold.y_label = "hold force per finger (N)";
-  const auto [strength, strength_name] = strength_of_tips(scene);
-  hold.limit = LineChart::Limit{strength, fmt::format("{} {} N", strength_name, plain_number(strength))};
+  const double strength = forces.front().strength;
+  hold.limit = LineChart::Limit{strength, fmt::format("{} {} N", strength_name_of(scene), shown_number(strength, 1))};
   if (extent.highest > 2 * strength) hold.highest = 2 * strength;
   for (const LineChart* chart : {&feedback, &hold}) {
     if (chart == &hold && !extent.is_finite_once) continue;

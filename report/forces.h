@@ -12,6 +12,7 @@ namespace wholehand {
 // Feedback and hold force of one fill, N; hold infinite where no force holds.
 struct FillForces {
   double fill = 0;
+  double strength = 0;                 // what each of two tips can press with, N
   std::vector<double> feedback, hold;  // over the scene's tilts; NaN at those that are left out
 };
 // By the core. Empty where the grip is not feasible or the scene has no tilts.

@@ -110,13 +110,13 @@ GripReport grip_with_holding(const ReportSource& source, std::size_t vessel, con
   return report;
 }
 
-std::array<DigitLoad, FINGER_COUNT + 1> digit_loads(const Scene& scene, const StateHold& hold) {
+std::array<DigitLoad, FINGER_COUNT + 1> digit_loads(const StateHold& hold) {
   std::array<DigitLoad, FINGER_COUNT + 1> loads{};
   for (const HeldContact& contact : hold.contacts)
     loads[static_cast<std::size_t>(contact.digit)].force += dot(contact.force, contact.normal);
   for (std::size_t digit = 0; digit < loads.size(); ++digit) {
     if (!std::isfinite(hold.effort)) loads[digit].force = std::nan("");
-    loads[digit].share = loads[digit].force / scene.strength.value().digits[digit];
+    loads[digit].share = loads[digit].force / hold.strength.digits[digit];
   }
   return loads;
 }
@@ -127,12 +127,14 @@ void write_digits(MarkupWriter& html, const Scene& scene, const std::vector<Rank
   for (const auto& [rank, report] : grips) {
     const auto hardest = hardest_state(report);
     if (!hardest) continue;
-    loads.push_back(digit_loads(scene, report.holds[*hardest]));
+    loads.push_back(digit_loads(report.holds[*hardest]));
     columns.push_back(fmt::format("grip {} (N)", rank));
     columns.push_back(fmt::format("grip {} (%)", rank));
   }
   if (loads.empty()) return;
-  HtmlTable table(html, "Normal force of each digit, and its share of the strength, in the hardest state of " + name, columns);
+  HtmlTable table(
+      html, "Normal force of each digit, and its share of the strength at the opening of the grip, in the hardest state of " + name,
+      columns);
   for (std::size_t digit = 0; digit <= FINGER_COUNT; ++digit) {
     std::vector<std::string> cells{digit_name(digit), plain_number(scene.strength.value().digits[digit])};
     for (const auto& grip : loads) {

@@ -22,7 +22,7 @@ struct DigitLoad {
   double force = 0, share = 0;
 };
 // By digit, the palm last; NaN where no force of the hand holds the state.
-std::array<DigitLoad, FINGER_COUNT + 1> digit_loads(const Scene& scene, const StateHold& hold);
+std::array<DigitLoad, FINGER_COUNT + 1> digit_loads(const StateHold& hold);
 
 // A table of them for some grips, each in its hardest state; nothing where no grip has holds. `name`: of the list of grips.
 void write_digits(MarkupWriter& html, const Scene& scene, const std::vector<RankedReport>& grips, const std::string& name);

@@ -97,7 +97,8 @@ std::string hold_text(const Scene& scene) {
     const char* name = digit < FINGER_COUNT ? FINGER_NAMES[digit] : "palm";
     digits.push_back(fmt::format("{} {}", name, plain_number(scene.strength->digits[digit])));
   }
-  return fmt::format("{}, strength of the digits in N: {}", pinch, joined(digits, ", "));
+  return fmt::format("{}, strength of the digits in N{}: {}", pinch, scene.strength->by_opening ? " at the best opening" : "",
+                     joined(digits, ", "));
 }
 
 std::string weights_text(const Scene& scene) {
@@ -186,7 +187,8 @@ std::vector<std::string> left_out(const ReportSource& source) {
   if (scene.pose == Pose::rigged) sentences.emplace_back("The projection of the fingers: the pose is rigged.");
   if (scene.tilts.empty())
     sentences.emplace_back("The forces: the scene has no tilts. Their weights in the score went to the other terms.");
-  if (!scene.strength && !scene.tilts.empty()) sentences.emplace_back("The effort of the whole hand: the scene has no [strength].");
+  if (!scene.strength && !scene.tilts.empty())
+    sentences.emplace_back("The effort of the whole hand: [strength] says efforts = false.");
   if (!scene.liquid) sentences.emplace_back("The liquid: the scene has no liquid.");
   if (!scene.table) sentences.emplace_back("The table: the scene has no table, so a hand may reach below the base of a vessel.");
   if (any([](const VesselData& v) { return v.surface == Surface::solid && v.wall > 0; }))

@@ -44,12 +44,28 @@ void read_force(const SceneTable& root, ForceData& force) {
   table->read("torsion_mm", ranges::TORSION, force.torsion);
 }
 
-void read_strength(const SceneTable& root, std::optional<StrengthData>& strength) {
+void read_strength(const SceneTable& root, const StrengthData& unnamed, std::optional<StrengthData>& strength) {
   constexpr std::array<const char*, FINGER_COUNT + 1> KEYS{"thumb_N", "index_N", "middle_N", "ring_N", "little_N", "palm_N"};
-  const auto table = root.table("strength", {KEYS.begin(), KEYS.end()});
+  std::vector<std::string_view> keys{KEYS.begin(), KEYS.end()};
+  keys.insert(keys.end(), {"opening", "efforts"});
+  const auto table = root.table("strength", keys);
   if (!table) return;
-  auto& digits = strength.emplace().digits;
-  for (std::size_t digit = 0; digit < KEYS.size(); ++digit) table->read(KEYS[digit], ranges::GRIP_STRENGTH, digits[digit]);
+  bool has_efforts = true;
+  table->read_flag("efforts", has_efforts);
+  if (!has_efforts) {
+    keys.pop_back();
+    for (const std::string_view key : keys)
+      if (table->has(key))
+        root.file().refuse(table->place(key), fmt::format("{} beside efforts = false", key),
+                           "allowed: efforts = false alone, or the strengths without it");
+    strength.reset();
+    return;
+  }
+  strength = unnamed;
+  strength->place = root.file().text_of(table->place());
+  for (std::size_t digit = 0; digit < KEYS.size(); ++digit)
+    table->read(KEYS[digit], ranges::GRIP_STRENGTH, strength->digits[digit]);
+  table->read("opening", {{"measured", true}, {"fixed", false}}, strength->by_opening);
 }
 
 void read_score(const SceneTable& root, bool has_tilts, ScoreWeights& weights) {

@@ -27,18 +27,11 @@ void read_angle(const SceneTable& angles, const char* key, AngleRange& range) {
   range = {ends[0], ends[1]};
 }
 
-// Whose hand it is: a multiple of the default, a length, or a person of a survey. The tables of the fingers then change single
-// numbers.
+// Whose hand it is: the default, one of a length, a person of a survey, or the paper's. The tables of the fingers then change single
+// numbers, and `scale` multiplies all.
 void read_size(const SceneTable& table, HandData& hand) {
-  constexpr std::array<const char*, 3> SIZES{"scale", "length_mm", "person"};
-  const char* given = nullptr;
-  for (const char* key : SIZES) {
-    if (!table.has(key)) continue;
-    if (given) {
-      table.file().refuse(table.place(key), std::string(key) + " beside " + given, "allowed: one of scale, length_mm and person");
-    }
-    given = key;
-  }
+  if (table.has("length_mm") && table.has("person"))
+    table.file().refuse(table.place("person"), "person beside length_mm", "allowed: one of length_mm and person");
   table.read("scale", ranges::SCALE, hand.scale);
   if (table.has("length_mm")) {
     HandSize size;
@@ -46,12 +39,17 @@ void read_size(const SceneTable& table, HandData& hand) {
     size.breadth = expected_breadth(size.length);
     set_size(hand, size);
   }
-  if (const auto person = table.table("person", {"sex", "percentile"})) {
-    person->need("sex", "\"female\" or \"male\"");
+  if (const toml::node* person = table.find("person"); person && !person->is_table()) {
+    const auto* word = person->as_string();
+    if (!word || word->get() != "paper")
+      table.file().refuse(place_of(*person), "person " + found(*person), "allowed: \"paper\" or a table with sex and percentile");
+    hand.fingers = paper_hand().fingers;
+  } else if (const auto surveyed = table.table("person", {"sex", "percentile"})) {
+    surveyed->need("sex", "\"female\" or \"male\"");
     Sex sex = Sex::female;
-    person->read("sex", {{"female", Sex::female}, {"male", Sex::male}}, sex);
+    surveyed->read("sex", {{"female", Sex::female}, {"male", Sex::male}}, sex);
     double percentile = 50;
-    person->need("percentile", ranges::PERCENTILE, percentile);
+    surveyed->need("percentile", ranges::PERCENTILE, percentile);
     set_size(hand, surveyed_size(sex, percentile));
   }
 }

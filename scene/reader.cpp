@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "core/file_kind.h"
+#include "core/hand_size.h"
 #include "scene/parts.h"
 #include "scene/scan.h"
 #include "system/readable.h"
@@ -40,7 +41,7 @@ std::string stem_of(const std::string& name) {
   return stem.substr(0, ranges::LARGEST_NAME);
 }
 
-void read_scene(const SceneTable& root, Scene& scene) {
+void read_scene(const SceneTable& root, const StrengthData& strength, Scene& scene) {
   if (const auto table = root.table("scene", {"name", "pose", "gravity_m_s2"})) {
     table->read_text("name", ranges::LARGEST_NAME, scene.name);
     if (scene.name.find('/') != std::string::npos) {
@@ -55,7 +56,7 @@ void read_scene(const SceneTable& root, Scene& scene) {
   check_vessels(root, scene);
   set_vessel_fills(root, scene);
   read_force(root, scene.force);
-  read_strength(root, scene.strength);
+  read_strength(root, strength, scene.strength);
   const bool has_mesh =
       std::any_of(scene.vessels.begin(), scene.vessels.end(), [](const VesselData& vessel) { return vessel.mesh.has_value(); });
   read_grips(root, has_mesh, scene.grips);
@@ -72,7 +73,14 @@ void read_scene(const SceneTable& root, Scene& scene) {
 
 }  // namespace
 
-Scene parse_scene(std::string_view text, const std::string& name, const ScoreWeights& unnamed) {
+SceneDefaults defaults_of(const std::string& version) {
+  const auto is_of = [&](const char* minor) { return version.rfind(minor, 0) == 0; };
+  if (is_of("0.1.")) return {WEIGHTS_0_1, true};
+  if (is_of("0.2.")) return {WEIGHTS_0_2, true};
+  return {{}, is_of("0.3.")};
+}
+
+Scene parse_scene(std::string_view text, const std::string& name, const SceneDefaults& unnamed) {
   const SceneFile file(name);
   if (text.size() > ranges::LARGEST_FILE) {
     file.refuse({}, fmt::format("more than {} bytes", readable_number(ranges::LARGEST_FILE)), "allowed: a scene of at most 1 MiB");
@@ -86,8 +94,15 @@ Scene parse_scene(std::string_view text, const std::string& name, const ScoreWei
   const SceneTable root(file, table, "the scene",
                         {"scene", "hand", "vessel", "liquid", "force", "strength", "grips", "tilts", "score", "output", "table",
                          "robust", "people", "live", "device", "task"});
-  scene.score = unnamed;
-  read_scene(root, scene);
+  scene.score = unnamed.score;
+  StrengthData strength;
+  strength.by_opening = !unnamed.is_before_0_4;
+  if (unnamed.is_before_0_4) {
+    scene.hand = paper_hand();
+  } else {
+    scene.strength = strength;
+  }
+  read_scene(root, strength, scene);
   return scene;
 }
 

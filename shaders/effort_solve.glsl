@@ -69,6 +69,8 @@ void load_contacts(uint grip) {
     weakest = presses ? min(weakest, shares[digit_of(j)]) : weakest;
   }
   center /= max(count, Real(1));
+  bool has_opening = scene.by_opening > Real(0) && is_pressing(THUMB_TIP) && is_pressing(INDEX_TIP);
+  Real share = has_opening ? strength_at(length(arms[INDEX_TIP] - arms[THUMB_TIP])) : Real(1);
   unit_length = max(LEAST_LENGTH, scene.torsion);
   [[unroll]] for (int j = 0; j < JOINTS; ++j) {
     arms[j] = is_pressing(j) ? arms[j] - center : Vec3(0);
@@ -85,6 +87,7 @@ void load_contacts(uint grip) {
   gamma = scene.torsion / unit_length;
   [[unroll]] for (int j = 0; j < JOINTS; ++j) arms[j] /= unit_length;
   [[unroll]] for (int digit = 0; digit < DIGITS; ++digit) shares[digit] /= unit_force;
+  unit_force *= share;
 }
 
 // h(u), and the point of Z where it is attained: of each digit the contact that does most, where it does more than nothing.

@@ -40,6 +40,12 @@ Real feedback_force(Real normal, Real opening, Real max) { return clamp(normal +
 
 Real longest_bare_lever(Real pivot_length) { return BARE_LEVER * max(pivot_length, SMALLEST_PIVOT); }
 
+Real strength_at(Real opening) {
+  Real step = (opening - OPENING_FROM) / OPENING_STEP;
+  return Real(1) - OPENING_GAIN * (Real(1) - clamp(step, Real(0), Real(1))) - OPENING_LOSS_1 * clamp(step - Real(1), Real(0), Real(1)) -
+         OPENING_LOSS_2 * clamp(step - Real(2), Real(0), Real(1));
+}
+
 Real hold_force(Real mass, Real gravity, Vec3 arm, Vec3 direction, Vec3 up, Real friction, Real torsion) {
   Real weight = mass * gravity;
   Real along = dot(direction, up);

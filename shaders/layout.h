@@ -28,6 +28,12 @@
 #define LARGEST_E1_X RATIO(19, 20)  // |e1.x| above which the hand's frame is ill-defined: too narrow
 #define SMALLEST_PIVOT RATIO(1, 200)  // m: per_grip torque reference, and levers
 #define BARE_LEVER RATIO(1, 1000)  // of the pivot length, at least the smallest: a lever up to this is none for contacts without torsion
+// Mean grip strength on handles of 38.1, 50.8, 63.5 and 76.2 mm, over the largest: 231, 236, 208 and 158 N (PMC3855544).
+#define OPENING_FROM RATIO(381, 10000)  // m: the first diameter,
+#define OPENING_STEP RATIO(127, 10000)  // .. and what the next is more
+#define OPENING_GAIN RATIO(5, 236)      // of the strength: more at the second than at the first,
+#define OPENING_LOSS_1 RATIO(28, 236)   // .. less at the third than there,
+#define OPENING_LOSS_2 RATIO(50, 236)   // .. and less again at the fourth
 #define CONTACT_MARGIN RATIO(1, 400000)  // m: nearer to where a contact begins, rounding may decide whether it is one
 #define DEPTH_SCALE RATIO(1, 100)   // m: depth at which the depth score reaches 0
 #define GRAZING_COSINE 0.017452406437283512  // cosine of 89 degrees: contact normal within 1 degree of perpendicular to the line
@@ -316,6 +322,7 @@ struct Parameters {
   Real friction_angle;    // atan(mu), rad
   Real grip_strength;     // N
   Real thumb_strength, index_strength, middle_strength, ring_strength, little_strength, palm_strength;  // N
+  Real by_opening;        // 1: the strengths shrink as the hand opens, 0: they do not
   Real pour_sense;        // +1 away, -1 towards
   Real table_top;         // m, the table's height and the clearance
   Real weight_fingers, weight_contacts, weight_depth, weight_posture, weight_force, weight_hold;

@@ -51,12 +51,10 @@ struct Column {
 
 std::vector<int> best_fields(const Scene& scene) {
   std::vector<int> fields{FIELD_GAP, FIELD_CLOSURE, FIELD_PHALANX_DEPTH, FIELD_PALM_DEPTH};
-  if (!scene.tilts.empty()) fields.insert(fields.end(), {FIELD_PEAK_FORCE, FIELD_PEAK_TILT, FIELD_SAFE_TILT});
+  if (!scene.tilts.empty()) fields.insert(fields.end(), {FIELD_PEAK_FORCE, FIELD_PEAK_TILT, FIELD_LARGEST_HOLD, FIELD_SAFE_TILT});
   if (has_effort(scene)) {
     fields.insert(fields.end(), {FIELD_WORST_EFFORT, FIELD_WORST_EFFORT_FILL, FIELD_WORST_EFFORT_TILT, FIELD_TIPS_WORST_EFFORT,
                                  FIELD_PUSH, FIELD_FRICTION_NEEDED});
-  } else if (!scene.tilts.empty()) {
-    fields.push_back(FIELD_LARGEST_HOLD);
   }
   fields.insert(fields.end(), {FIELD_SCORE, FIELD_TERMS, FIELD_STATUS, FIELD_TOUCH_MASK, FIELD_USED_MASK});
   return fields;
@@ -74,7 +72,8 @@ void set_worst(BestGrip& best, const Scene& scene, const std::vector<double>& la
       best.peak_force = value(FIELD_PEAK_FORCE, fill);
       best.peak_tilt = nearest_value(scene.tilts, value(FIELD_PEAK_TILT, fill));
     }
-    if (!has_effort(scene)) best.largest_hold = std::max(best.largest_hold, value(FIELD_LARGEST_HOLD, fill));
+    const double hold = value(FIELD_LARGEST_HOLD, fill);  // NaN of an implausible grip
+    if (!(hold <= best.largest_hold)) best.largest_hold = hold;
     const double safe = nearest_value(scene.tilts, value(FIELD_SAFE_TILT, fill));
     if (std::isnan(safe) || safe < best.safe_tilt) best.safe_tilt = safe;
     best.is_safe_to_end = best.is_safe_to_end && safe >= last_tilts.at(static_cast<std::size_t>(fill));
@@ -86,7 +85,6 @@ void set_worst(BestGrip& best, const Scene& scene, const std::vector<double>& la
                   value(FIELD_TIPS_WORST_EFFORT, 0),
                   value(FIELD_PUSH, 0),
                   value(FIELD_FRICTION_NEEDED, 0)};
-  best.largest_hold = best.efforts.tips_worst * scene.strength->weaker_tip();
 }
 
 std::vector<BestGrip> evaluate_best(Backend& backend, const Scene& scene, const Plan& plan, std::size_t vessel,

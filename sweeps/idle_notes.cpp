@@ -6,7 +6,7 @@
 namespace wholehand {
 
 std::string idle_strength_note(const Scene& scene) {
-  if (!scene.strength || !scene.tilts.empty()) return "";
+  if (!scene.strength || scene.strength->place.empty() || !scene.tilts.empty()) return "";
   return "note: [strength] changes nothing here, since the scene has no [tilts] at which an effort could be computed; add [tilts] "
          "with its deg, or leave [strength] out";
 }

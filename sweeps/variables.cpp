@@ -244,7 +244,7 @@ const char* missing_need(Need need, const Scene& scene) {
     case Need::between:
       return scene.hand.between > 0 ? nullptr : "[hand] between";
     case Need::strength:
-      return !scene.strength ? "[strength]" : scene.tilts.empty() ? "[tilts]" : nullptr;
+      return !scene.strength ? "the efforts of [strength]" : scene.tilts.empty() ? "[tilts]" : nullptr;
     case Need::nothing:
       break;
   }

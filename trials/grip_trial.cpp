@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/joints.h"
+#include "core/load.h"
 #include "core/mirror.h"
 #include "core/prepare.h"
 #include "core/vectors.h"
@@ -36,11 +37,11 @@ GraspContacts grasp_contacts(const Scene& scene, const Evaluator& evaluator, std
   GraspContacts contacts;
   for (const GripContact& found : evaluator.contacts(vessel, result)) {
     const auto mirror = [&](const Triple& v) { return to_vec3(mirrored(v, scene.hand.handedness)); };
-    contacts.points.push_back({mirror(found.point), mirror(found.normal), found.digit});
+    contacts.points.push_back({mirror(found.point), mirror(found.normal), found.digit, found.is_tip});
     contacts.joints.push_back(found.joint);
     contacts.between.push_back(found.between);
   }
-  contacts.strength.digits = scene.strength.value_or(StrengthData{}).digits;
+  contacts.strength = core_f64::load_strength(scene, contacts.points);
   return contacts;
 }
 

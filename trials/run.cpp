@@ -84,9 +84,7 @@ void check_trial_scene(const Scene& scene) {
   const char* name = scene.file.empty() ? "the scene" : scene.file.c_str();
   if (!scene.strength)
     throw usage_error(
-        fmt::format("{}: trials need [strength], which limits how firmly the hand can hold; add it to the scene: an empty table "
-                    "[strength] is enough",
-                    name));
+        fmt::format("{}: trials need the strength of the hand, and [strength] says efforts = false; leave efforts out", name));
   if (scene.tilts.empty())
     throw usage_error(fmt::format("{}: trials need [tilts], as efforts do; add it to the scene, with its deg", name));
 }

@@ -224,7 +224,7 @@ class GripsView::Impl {
   HandHold hold_of(const StateHold& state, const VesselPose& pose) const {
     const Mat3 turn = to_mat3(pose.rotation);
     const auto turned = [&](const Triple& v) { return to_triple(turn * to_vec3(v)); };
-    HandHold hold{state.effort, state.low, state.tips, scene_.strength->weaker_tip(), {}};
+    HandHold hold{state.effort, state.low, state.tips, state.strength.weaker_tip(), {}};
     for (const HeldContact& contact : state.contacts) {
       if (contact.force == Triple{}) continue;
       const Triple place = to_triple(to_vec3(pose.place) + turn * to_vec3(contact.point));

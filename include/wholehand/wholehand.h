@@ -58,7 +58,7 @@ typedef enum wh_status {
 
 /* The line for the last call of this thread that did not return WH_OK; never NULL. */
 WH_API const char* wh_message(void);
-/* "0.3.0". */
+/* "0.4.0". */
 WH_API const char* wh_version(void);
 /* WH_ABI of the library. */
 WH_API int wh_abi(void);
@@ -208,7 +208,7 @@ typedef struct wh_grip_state {
   double torque, exact_torque;               /* N m */
   double normal_force, feedback_force;       /* N */
   double hold_force;                         /* N; infinite where the pinch is not antipodal */
-  double effort, effort_low;                 /* shares of the hand's strength; infinite: nothing holds; NaN without [strength] */
+  double effort, effort_low;                 /* shares of the hand's strength; infinite: nothing holds; NaN without efforts */
 } wh_grip_state;
 
 /* A feasible grip that holds the vessel at a fill (share of its capacity) and a tilt (0 .. pi). WH_INPUT: the grip is not

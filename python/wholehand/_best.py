@@ -22,7 +22,7 @@ def scene_of(data: xr.Dataset) -> Scene:
     """The scene that a result keeps. Raises Error where its meshes are no longer what they were."""
     if "scene" not in data.attrs:
         raise Error("best: the dataset has no attribute 'scene'; give one of wh.sweep, or of a result file")
-    of_meshes = [str(data.attrs.get(name, "")) for name in ("scene_file", "mesh_keys", "mesh_lattices")]
+    of_meshes = [str(data.attrs.get(name, "")) for name in ("scene_file", "version", "mesh_keys", "mesh_lattices")]
     return Scene(_core.scene_of_dataset(str(data.attrs["scene"]), str(data.encoding.get("source", "")), *of_meshes))
 
 

@@ -90,8 +90,7 @@ TEST_F(StudyCommand, ForcesAndSessionsAreTheSameOnAnyThreads) {
 // Of two people with and without advice: the same on any threads, and one row of each number says what advice changes.
 TEST_F(StudyCommand, AdviceIsTheSameOnAnyThreads) {
   const std::string scene = one_beaker_file(folder), weak = folder / "weak.toml";
-  write_file(weak, file_text(scene));
-  write_file(scene, file_text(scene) + "[strength]\n");
+  write_file(weak, file_text(scene) + "[strength]\nefforts = false\n");
   const std::string start = "PROGRAM study " + scene + " --experiment advice --people 2 --quick -o " + (folder / "");
   const Outcome one = run(start + "one --threads 1 2>&1");
   ASSERT_EQ(one.code, 0) << one.output;
@@ -104,7 +103,7 @@ TEST_F(StudyCommand, AdviceIsTheSameOnAnyThreads) {
   const std::string page = file_text(folder / "one/study.html"), doctype = "<!DOCTYPE html>\n";
   ASSERT_TRUE(page.starts_with(doctype));
   expect_well_formed(page.substr(doctype.size()));
-  expect_error("study " + weak + " --experiment advice -o " + (folder / "no"), 2, "add [strength]");
+  expect_error("study " + weak + " --experiment advice -o " + (folder / "no"), 2, "leave efforts out");
 }
 
 // Stopped when the journal has somebody: nothing is half written, and what is done is not done again.

@@ -107,8 +107,8 @@ TEST_F(LiveAdvised, RefusesWhatDoesNotGoTogether) {
   const std::string weak = folder / "weak.toml";
   write_file(weak,
              "[scene]\nname = \"weak\"\n[[vessel]]\nname = \"cup\"\nshape = \"cylinder\"\ndiameter_mm = 80\nheight_mm = "
-             "110\nwall_mm = 2\n");
-  expect_error("live " + weak + " --advise --advise-on core", 2, "add [strength]");
+             "110\nwall_mm = 2\n[strength]\nefforts = false\n");
+  expect_error("live " + weak + " --advise --advise-on core", 2, "leave efforts out");
 }
 
 // ---- the parts ----

@@ -30,6 +30,7 @@ struct RemedyCase {
 const std::string CUP =
     "[[vessel]]\nname = \"cup\"\nshape = \"cylinder\"\ndiameter_mm = 80\nheight_mm = 100\nwall_mm = 2\n"
     "[grips]\nheight_fraction = [0.4, 0.6]\nroll_deg = [-60, -30]\n";
+const std::string EFFORTLESS = "[strength]\nefforts = false\n";
 const std::string LIQUID = "[liquid]\nfills = [0, 0.5]\n", TILTS = "[tilts]\ndeg = [0, 45]\n", STRENGTH = "[strength]\n";
 const std::string WHOLE = CUP + LIQUID + TILTS + STRENGTH;
 
@@ -167,7 +168,7 @@ TEST(FollowedRemedies, HelpTrialsAndStudies) {
              "[task]\ntarget = { place_mm = [0, 80, -280], diameter_mm = 120 }\namounts_ml = { red = 60 }\ntolerance_ml = 5\n"
              "destination_mm = [0, 0, -280]\n";
   expect_helps({
-      {CUP + TILTS, one, "an empty table [strength] is enough", CUP + TILTS + STRENGTH, one},
+      {CUP + TILTS + EFFORTLESS, one, "leave efforts out", CUP + TILTS + STRENGTH, one},
       {CUP + STRENGTH, one, "add it to the scene, with its deg", CUP + STRENGTH + TILTS, one},
       {CUP + STRENGTH + TILTS, one + "--fill 0.5", "add one with its fills", WHOLE, one + "--fill 0.5"},
       {CUP + STRENGTH + TILTS, one + "--fill 0.5", "or leave --fill out", CUP + STRENGTH + TILTS, one},
@@ -199,13 +200,12 @@ TEST(FollowedRemedies, HelpTrialsAndStudies) {
 TEST(FollowedRemedies, HelpLive) {
   const std::string board = board_text(), quick = "live @.toml --no-clock --seconds 1 ", clocked = "live @.toml --seconds 0.3 ",
                     recorded = quick + "--record @.nc >/dev/null && PROGRAM ", replay = "live --no-clock --device replay:@.nc ";
-  const std::string strengthless = board.substr(0, board.find("[strength]"));
   const std::string second = CUP.substr(0, CUP.find("[grips]")),
                     renamed = "[[vessel]]\nname = \"mug\"" + second.substr(second.find("\nshape"));
   expect_helps({
       {board, quick + "--advise-on core", "add --advise", board, quick + "--advise --advise-on core"},
       {board, quick + "--follow-advice", "add --advise", board, quick + "--advise --follow-advice"},
-      {strengthless, quick + "--advise --advise-on core", "add [strength]", strengthless + STRENGTH,
+      {board + EFFORTLESS, quick + "--advise --advise-on core", "leave efforts out", board + STRENGTH,
        quick + "--advise --advise-on core"},
       {board, recorded + replay + "--advise --follow-advice", "allowed: with --device sim", board,
        quick + "--advise --follow-advice"},

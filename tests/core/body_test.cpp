@@ -217,7 +217,7 @@ std::vector<FoundBall> balls_of(const BodyScene& on, const GripInput& grip, cons
 template <class Look>
 int each_grip(std::vector<Pose> poses, const Look& look, int count = 60) {
   int feasible = 0, between = 0;
-  for (const HandData& hand : {HandData{}, odd_hand(), large_hand()})
+  for (const HandData& hand : {paper_hand(), odd_hand(), large_hand()})
     for (const Pose pose : poses)
       for (const VesselData& shape : {beaker1(), beaker3()}) {
         const VesselData vessel = scaled(shape, hand.scale);

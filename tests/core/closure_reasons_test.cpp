@@ -99,7 +99,7 @@ TEST(Closure, GrazingIsWithinADegreeOfPerpendicular) {
 TEST(Closure, OneGrazingTipIsEnough) {
   // tips of 70 and 80 mm on a vat of 10 m: where the smaller one's normal is 89.05 degrees from d, the larger one's is 87.3
   for (const bool index_is_smaller : {true, false}) {
-    HandData hand;
+    HandData hand = paper_hand();
     hand.scale = 10;
     hand.fingers[0].radii[3] = index_is_smaller ? 8e-3 : 7e-3;
     hand.fingers[1].radii[4] = index_is_smaller ? 7e-3 : 8e-3;
@@ -151,7 +151,7 @@ TEST(Closure, TooNarrowUnderTheSumOfTheRadii) {
 
 // A hand whose thumb lies across it and comes to the index tip from the side: at closure 1 its tips lie along x.
 HandData sideways_hand() {
-  HandData hand;
+  HandData hand = paper_hand();
   hand.fingers[0].base = {-168e-3, 1e-3, -175e-3};
   hand.fingers[0].splay = radians(-90);
   hand.thumb_abduction = {radians(60), radians(10)};

@@ -35,7 +35,7 @@ VesselData barrel(double radius_m) {
 // A pole as thick as a beaker.
 VesselData pole(double height_m) { return cylinder("pole", 60, height_m * 1e3, 2); }
 
-Scene tilted(std::vector<VesselData> vessels, const HandData& hand = {}) {
+Scene tilted(std::vector<VesselData> vessels, const HandData& hand = paper_hand()) {
   Scene scene = scene_of(std::move(vessels), Pose::articulated, hand);
   scene.tilts = {0, radians(30), radians(90), radians(120), PI};
   return scene;

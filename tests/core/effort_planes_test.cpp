@@ -9,6 +9,8 @@
 #include "core/absent.h"
 #include "core/evaluator.h"
 #include "core/fields.h"
+#include "core/force.h"
+#include "core/gather.h"
 #include "core/planes.h"
 #include "tests/support/scenes.h"
 
@@ -105,6 +107,54 @@ TEST(EffortPlanes, FollowFromTheStates) {
     }
   }
   EXPECT_GT(plausible, 20);
+}
+
+// Across the axis of a cylinder the opening is its diameter. All digits have the same share of their strength there, so every effort is
+// that at full strength over the share, and a hold force is the same.
+TEST(EffortPlanes, StrengthShrinksAsTheHandOpens) {
+  const std::vector<int> kept{FIELD_STATUS,       FIELD_EFFORT,    FIELD_WORST_EFFORT, FIELD_TIPS_WORST_EFFORT,
+                              FIELD_LARGEST_HOLD, FIELD_HOLD_FORCE};
+  int held = 0;
+  for (const double diameter : {38.1e-3, 44e-3, 50.8e-3, 60e-3, 63.5e-3, 70e-3, 76.2e-3, 90e-3}) {
+    Scene scene = scene_of({cylinder("cup", diameter * 1e3, 110, 2)});
+    scene.liquid = LiquidData{1000, {0, 0.8}, {}, Pour::away};
+    scene.tilts = {0, radians(60), radians(110)};
+    scene.strength.emplace();
+    scene.hand.depth_limit = 20e-3;  // most grips are plausible
+    Scene fixed = scene;
+    fixed.strength->by_opening = false;
+    const double share = core_f64::strength_at(diameter);
+    const FieldSet fields = make_field_set(kept, scene);
+    const auto opened = make_core_evaluator(scene), plain = make_core_evaluator(fixed);
+    std::vector<GripInput> grips;
+    for (const double height : {0.04, 0.055, 0.07})
+      for (const double roll : {-60.0, -20.0, 0.0}) {
+        GripInput grip;
+        grip.height = height;
+        grip.roll = radians(roll);
+        grips.push_back(grip);
+      }
+    const GatheredPlanes shrunk = gather(*opened, fields, 0, grips), full = gather(*plain, fields, 0, grips);
+    for (std::size_t i = 0; i < grips.size(); ++i) {
+      ASSERT_EQ(shrunk.uint(FIELD_STATUS, i), full.uint(FIELD_STATUS, i));
+      if ((full.uint(FIELD_STATUS, i) & STATUS_PLAUSIBLE) == 0) continue;
+      const auto expect_ratio = [&](int field, int plane, double ratio) {
+        const double is = shrunk.real(fields.plane[field] + plane, i), whole = full.real(fields.plane[field] + plane, i);
+        if (!std::isfinite(whole)) {
+          EXPECT_EQ(std::isnan(is), std::isnan(whole));
+          return;
+        }
+        ++held;
+        EXPECT_NEAR(is, whole * ratio, 2e-3 * whole * ratio) << field_row(field).variable << " at " << diameter;  // two brackets
+      };
+      expect_ratio(FIELD_WORST_EFFORT, 0, 1 / share);
+      expect_ratio(FIELD_TIPS_WORST_EFFORT, 0, 1 / share);
+      for (int state = 0; state < 6; ++state) expect_ratio(FIELD_EFFORT, state, 1 / share);
+      for (int state = 0; state < 6; ++state) expect_ratio(FIELD_HOLD_FORCE, state, 1);
+      for (int fill = 0; fill < 2; ++fill) expect_ratio(FIELD_LARGEST_HOLD, fill, 1);
+    }
+  }
+  EXPECT_GT(held, 300);
 }
 
 }  // namespace

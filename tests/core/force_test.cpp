@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "tests/support/scenes.h"
@@ -191,6 +192,22 @@ TEST(Force, HoldForceIsTheSmallestInsideBothLimitSurfaces) {
     const double found = searched_hold_force(held);
     EXPECT_NEAR(hold_force(held), found, 1e-12 * std::max(found, 1.0)) << i;  // N: rounding of forces up to 1e3 N
   }
+}
+
+// The published numbers, N at mm; nothing is known beyond the first and the last.
+TEST(Force, StrengthFollowsTheMeasuredGrips) {
+  const std::array<double, 4> strengths{231, 236, 208, 158};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const double opening = 38.1e-3 + 12.7e-3 * static_cast<double>(k);
+    EXPECT_NEAR(core_f64::strength_at(opening), strengths[k] / 236, ROUNDING) << k;
+    if (k == 3) continue;
+    for (const double share : {0.25, 0.5, 0.9}) {
+      const double between = (1 - share) * strengths[k] + share * strengths[k + 1];
+      EXPECT_NEAR(core_f64::strength_at(opening + share * 12.7e-3), between / 236, ROUNDING) << k << " " << share;
+    }
+  }
+  for (const double narrow : {0.0, 0.01, 0.038}) EXPECT_NEAR(core_f64::strength_at(narrow), 231.0 / 236, ROUNDING);
+  for (const double wide : {0.0763, 0.1, 1.0}) EXPECT_NEAR(core_f64::strength_at(wide), 158.0 / 236, ROUNDING);
 }
 
 TEST(Force, HoldForceAcrossTheLineIsHalfTheWeightOverFriction) {

@@ -39,9 +39,25 @@ HandData sized(const HandSize& size) {
   return hand;
 }
 
-TEST(HandSize, OfTheDefaultHandIsWhatTheReferenceSays) {
-  EXPECT_NEAR(size_of({}).length, 186.91e-3, ROUNDING);
-  EXPECT_NEAR(size_of({}).breadth, 69.24e-3, 5e-6);  // in two digits
+TEST(HandSize, OfThePapersHandIsWhatTheReferenceSays) {
+  EXPECT_NEAR(size_of(paper_hand()).length, 186.91e-3, ROUNDING);
+  EXPECT_NEAR(size_of(paper_hand()).breadth, 69.24e-3, 5e-6);  // in two digits
+}
+
+// The paper's hand, at the survey's means of as many women as men: each number of the default is that to 0.01 mm.
+TEST(HandSize, TheDefaultHandIsTheMeanAdults) {
+  HandData mean = paper_hand();
+  const HandSurvey &women = hand_survey(Sex::female), &men = hand_survey(Sex::male);
+  set_size(mean, {(women.length.mean + men.length.mean) / 2, (women.breadth.mean + men.breadth.mean) / 2});
+  const HandData plain;
+  for (std::size_t f = 0; f < FINGER_COUNT; ++f) {
+    const FingerData &is = plain.fingers[f], &wanted = mean.fingers[f];
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(is.base[k], wanted.base[k], 5e-6);
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(is.segments[k], wanted.segments[k], 5e-6);
+    for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR(is.radii[k], wanted.radii[k], 5e-6);
+    EXPECT_EQ(is.splay, wanted.splay);
+    EXPECT_EQ(is.arch, wanted.arch);
+  }
 }
 
 TEST(HandSize, IsMeasuredOnThePosedFlatHand) {

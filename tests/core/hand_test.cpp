@@ -22,7 +22,7 @@ using core_f64::Vec3;
 // 1e-15 m: a joint is a sum of at most five terms under 0.3 m, each rounded to 5e-17 m, with sines good to 1e-15.
 constexpr double JOINT_ROUNDING = 1e-15;
 const std::array<const char*, 3> HAND_NAMES{"default", "odd", "large"};
-const std::array<HandData, 3> HANDS{HandData{}, odd_hand(), large_hand()};
+const std::array<HandData, 3> HANDS{paper_hand(), odd_hand(), large_hand()};
 const std::array<double, 7> CLOSURES{0, 0.1, 1.0 / 3, 0.5, 0.75, 0.999, 1};
 
 // Joints of a hand at scale 1 by the leaf functions.
@@ -73,7 +73,7 @@ TEST(Hand, JointsFollowTheRotationMatrices) {
 TEST(Hand, OpenPostureOfTheIndexFingerWorkedByHand) {
   // default hand at closure 0, by plane trigonometry: the index finger lies in the plane turned by 8 degrees about +y, and its
   // segments point 0, 4, 16 and 23.2 degrees below its forward direction
-  const auto joints = core_joints(ready_hand({}), 0);
+  const auto joints = core_joints(ready_hand(paper_hand()), 0);
   const double forward =
       68.12e-3 + 39.78e-3 * std::cos(radians(4)) + 22.38e-3 * std::cos(radians(16)) + 19.66e-3 * std::cos(radians(23.2));
   const double down = 39.78e-3 * std::sin(radians(4)) + 22.38e-3 * std::sin(radians(16)) + 19.66e-3 * std::sin(radians(23.2));
@@ -133,7 +133,7 @@ TEST(Hand, FramesAreOrthonormal) {
 }
 
 TEST(Hand, GapOpensTo128Millimetres) {
-  const core_f64::Hand hand = ready_hand({});
+  const core_f64::Hand hand = ready_hand(paper_hand());
   EXPECT_NEAR(core_f64::gap_at(hand, 0), 0.128, 1e-3);  // 1e-3 m: the specification gives whole millimetres
   EXPECT_EQ(hand.gap_open, core_f64::gap_at(hand, 0));
   EXPECT_EQ(hand.gap_closed, core_f64::gap_at(hand, 1));
@@ -141,7 +141,7 @@ TEST(Hand, GapOpensTo128Millimetres) {
 
 TEST(Hand, GapClosesUntilThePadsTouch) {
   // the pads touch where the gap is the sum of the tips' radii, 15 mm
-  const core_f64::Hand hand = ready_hand({});
+  const core_f64::Hand hand = ready_hand(paper_hand());
   EXPECT_LT(hand.gap_closed, hand.radius[0][3] + hand.radius[1][4]);
 }
 
@@ -225,7 +225,7 @@ TEST(Hand, ScaleMultipliesEveryLength) {
   // the facade gives the gap with the scene's scale
   const double open = make_core_evaluator(scene_of({beaker1()}))->gap_at(0);
   for (const double scale : {0.1, 3.0}) {
-    HandData hand;
+    HandData hand = paper_hand();
     hand.scale = scale;
     const auto evaluator = make_core_evaluator(scene_of({beaker1()}, Pose::articulated, hand));
     EXPECT_NEAR(evaluator->gap_at(0), scale * open, JOINT_ROUNDING);
@@ -234,14 +234,14 @@ TEST(Hand, ScaleMultipliesEveryLength) {
 }
 
 TEST(Hand, WhoseGapRisesIsRefusedFromTheStart) {
-  HandData hand;
+  HandData hand = paper_hand();
   std::swap(hand.mcp.open, hand.mcp.closed);  // opens as it closes
   EXPECT_NE(refusal(hand), "");
 }
 
 TEST(Hand, WhoseGapTurnsIsRefusedWithTheClosureAtWhichItTurns) {
   // a finger that curls on past the thumb: find the first of 1,025 equal steps at which the gap does not fall
-  HandData hand;
+  HandData hand = paper_hand();
   hand.mcp.closed = radians(110);
   int turns = 0;
   for (int i = 1; i <= 1024 && turns == 0; ++i) {
@@ -263,7 +263,7 @@ TEST(Hand, WhoseGapTurnsIsRefusedWithTheClosureAtWhichItTurns) {
 }
 
 TEST(Hand, WhoseGapStandsStillIsRefused) {
-  HandData hand;  // nothing moves
+  HandData hand = paper_hand();  // nothing moves
   for (AngleRange* range : {&hand.thumb_abduction, &hand.thumb_mcp, &hand.thumb_ip, &hand.mcp, &hand.pip})
     range->closed = range->open;
   EXPECT_NE(refusal(hand), "");
@@ -322,7 +322,7 @@ TEST(Hand, LeftHandTooIsAboveAtRollMinus90) {
   GripInput grip;
   grip.height = 60e-3;
   grip.roll = radians(-90);
-  for (const HandData& data : {HandData{}, left_hand()}) {
+  for (const HandData& data : {paper_hand(), left_hand()}) {
     GripResult result;
     make_core_evaluator(scene_of({beaker1()}, Pose::articulated, data))->grip(0, grip, result);
     ASSERT_EQ(result.reason, Reason::none);

@@ -53,7 +53,7 @@ FingerMotion motion_at(const core_f64::Hand& hand, Vec3 angles) {
 }
 
 TEST(Advance, JointHasRoomUpToItsLimitOrItsLargestTurn) {
-  const core_f64::Hand hand = ready_hand({});
+  const core_f64::Hand hand = ready_hand(paper_hand());
   const FingerMotion inside = motion_at(hand, {radians(60), radians(30), radians(18)});
   EXPECT_NEAR(core_f64::turn_joint(hand, inside, 0).end, radians(30), 1e-15);  // to 90
   EXPECT_NEAR(core_f64::turn_joint(hand, inside, 1).end, radians(45), 1e-15);  // max_angle
@@ -66,7 +66,7 @@ TEST(Advance, JointHasRoomUpToItsLimitOrItsLargestTurn) {
 }
 
 TEST(Advance, StageGoesOnFromWhereTheOneBeforeEnded) {
-  const core_f64::Hand hand = ready_hand({});
+  const core_f64::Hand hand = ready_hand(paper_hand());
   FingerMotion motion = core_f64::start_motion(hand, 1);
   motion.at = 0.1;
   motion.steps = 5;
@@ -201,7 +201,7 @@ TEST(Advance, PlaceThatIsDueFirstIsTheInnermostThatMoves) {
 }
 
 TEST(Advance, DecidesWhichJointTurns) {
-  const core_f64::Hand hand = ready_hand({});
+  const core_f64::Hand hand = ready_hand(paper_hand());
   FingerMotion motion = core_f64::start_motion(hand, 1);
   bool blocked = true;
   EXPECT_EQ(core_f64::decide_turn(hand, {0.1, 0.1, 0.1}, motion, blocked), -1) << "it goes on";
@@ -256,7 +256,7 @@ TEST(Advance, PastItsStepsAFingerStaysAndIsFlagged) {
   const FingerFrame frame{{0.06, 0.05, 0.08}, {0, 0, -1}, {-1, 0, 0}};
   const core_f64::Finger finger{frame, {0.06, 0.05, 0.02}, {44e-3, 26e-3, 21e-3}, {7e-3, 7e-3, 7e-3, 7e-3}};
   for (const int steps : {1, 2, ADVANCE_STEPS}) {
-    core_f64::Hand hand = ready_hand({});
+    core_f64::Hand hand = ready_hand(paper_hand());
     hand.limits.advance_steps = steps;
     const core_f64::RestingFinger resting = core_f64::rest_finger(hand, vessel, finger, 1);
     EXPECT_FALSE(resting.blocked);

@@ -90,7 +90,7 @@ TEST(OnTable, DepthOfAPointInClosedForm) {
 
 TEST(OnTable, DepthIsThatOfTheLowestSkinOfThePosedAndTheOpenHand) {
   int feasible = 0, through = 0, by_open_hand = 0;
-  for (const HandData& hand : {HandData{}, odd_hand(), large_hand()}) {
+  for (const HandData& hand : {paper_hand(), odd_hand(), large_hand()}) {
     for (const Pose pose : {Pose::articulated, Pose::paper, Pose::rigged}) {
       const VesselData vessel = scaled(beaker1(), hand.scale);
       const Scene scene = scene_on_a_table(scene_of({vessel}, pose, hand), 3e-3);

@@ -119,7 +119,7 @@ class WatchingGripper : public Gripper {
       : seen_(seen), script_(script), misbehave_(std::move(misbehave)) {
     limits_.force = 12;
     limits_.grip = 8;
-    limits_.gap = own_gap(HandData{});
+    limits_.gap = own_gap(paper_hand());
     limits_.rate = script.rate;
   }
   const GripperLimits& limits() const noexcept override { return limits_; }

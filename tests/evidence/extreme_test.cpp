@@ -15,6 +15,7 @@
 #include "core/effort.h"
 #include "core/force.h"
 #include "core/joints.h"
+#include "core/load.h"
 #include "core/prepare.h"
 #include "evidence/extreme.h"
 #include "host/open_backend.h"
@@ -35,14 +36,19 @@ constexpr double MICROMETRE = 1e-6;
 // ---- the effort of a grip, its vessel upright and empty ----
 
 // `tips_only`: thumb and index tip press alone.
-core_f64::Effort upright_effort(const AnsweredScene& a, std::size_t v, std::size_t i, const core_f64::HandStrength& hand,
-                                bool tips_only = false) {
+std::vector<core_f64::ContactPoint> upright_contacts(const AnsweredScene& a, std::size_t v, std::size_t i, bool tips_only) {
   std::vector<core_f64::ContactPoint> contacts;
   for (const GripContact& at : a.core->contacts(v, a.result(v, i))) {
     const bool is_tip = at.between == 0 && (at.joint == finger_start(0) + 3 || at.joint == finger_start(1) + 4);
     if (tips_only && !is_tip) continue;
-    contacts.push_back({{at.point[0], at.point[1], at.point[2]}, {at.normal[0], at.normal[1], at.normal[2]}, at.digit});
+    contacts.push_back({{at.point[0], at.point[1], at.point[2]}, {at.normal[0], at.normal[1], at.normal[2]}, at.digit, is_tip});
   }
+  return contacts;
+}
+
+core_f64::Effort upright_effort(const AnsweredScene& a, std::size_t v, std::size_t i, const core_f64::HandStrength& hand,
+                                bool tips_only = false) {
+  const std::vector<core_f64::ContactPoint> contacts = upright_contacts(a, v, i, tips_only);
   const VesselConstants vessel = a.core->constants(v);
   const core_f64::Vec3 center(vessel.center_of_mass[0], vessel.center_of_mass[1], vessel.center_of_mass[2]);
   core_f64::EffortSolver solver(contacts, hand, center);
@@ -55,8 +61,8 @@ core_f64::HandStrength even_strength(const AnsweredScene& a, double strength) {
   return hand;
 }
 
-core_f64::HandStrength scene_strength(const AnsweredScene& a) {
-  return {a.scene.force.friction, a.scene.force.torsion, a.scene.strength->digits};
+core_f64::HandStrength scene_strength(const AnsweredScene& a, std::size_t v, std::size_t i) {
+  return core_f64::load_strength(a.scene, upright_contacts(a, v, i, true));
 }
 
 // Prices of 1e6, or as much times as the digits differ in strength, each rounded by 1e-16.
@@ -269,11 +275,11 @@ void no_friction(const AnsweredScene& a) {
   a.each([&](std::size_t v, std::size_t i) {
     // a hand that is all round it holds it, upright a finger under the base does
     EXPECT_EQ(a.real(FIELD_TERMS, v, i, 5) > 0, std::isfinite(a.real(FIELD_WORST_EFFORT, v, i))) << i;
-    const bool is_upright = upright_effort(a, v, i, scene_strength(a), false).effort <= 1;
+    const bool is_upright = upright_effort(a, v, i, scene_strength(a, v, i), false).effort <= 1;
     if ((a.status(v, i) & STATUS_PLAUSIBLE) != 0) {
       EXPECT_EQ(std::isfinite(a.real(FIELD_SAFE_TILT, v, i)), is_upright) << i;
     }
-    const core_f64::Effort tips = upright_effort(a, v, i, scene_strength(a), true);
+    const core_f64::Effort tips = upright_effort(a, v, i, scene_strength(a, v, i), true);
     EXPECT_EQ(tips.low, HUGE_VAL) << i;
     EXPECT_EQ(tips.effort, HUGE_VAL) << i;
   });
@@ -284,7 +290,7 @@ void weak_and_strong(const AnsweredScene& a) {
   std::size_t held = 0;
   a.each([&](std::size_t v, std::size_t i) {
     const core_f64::Effort weak = upright_effort(a, v, i, even_strength(a, 0.1)),
-                           mixed = upright_effort(a, v, i, scene_strength(a)),
+                           mixed = upright_effort(a, v, i, scene_strength(a, v, i)),
                            strong = upright_effort(a, v, i, even_strength(a, 10000));
     EXPECT_EQ(std::isfinite(weak.effort), std::isfinite(strong.effort)) << i;
     if (a.antipodal(v, i)) {
@@ -300,11 +306,11 @@ void weak_and_strong(const AnsweredScene& a) {
 }
 
 void most_friction(const AnsweredScene& a) {
-  core_f64::HandStrength usual = scene_strength(a);
-  usual.friction = 0.6;
   std::size_t held = 0;
   a.each([&](std::size_t v, std::size_t i) {
-    const core_f64::Effort rough = upright_effort(a, v, i, scene_strength(a)), smooth = upright_effort(a, v, i, usual);
+    core_f64::HandStrength usual = scene_strength(a, v, i);
+    usual.friction = 0.6;
+    const core_f64::Effort rough = upright_effort(a, v, i, scene_strength(a, v, i)), smooth = upright_effort(a, v, i, usual);
     EXPECT_LE(rough.low, smooth.effort * (1 + EFFORT_ROUNDED)) << i;
     if ((a.status(v, i) & STATUS_GRAZING) != 0) return;
     EXPECT_TRUE(a.antipodal(v, i)) << i;

@@ -155,6 +155,7 @@ void add_later_keys(Choices& choose, std::string& text) {
   if (choose.yes()) text += "[output]\n" + key("apart_mm", choose.in(ranges::APART));
   if (choose.yes()) add_key(text, "[hand]", fmt::format("between = {}\n", choose.of(static_cast<int>(ranges::BETWEEN.high) + 1)));
   if (choose.yes()) text += robust_of(choose);
+  if (text.find("[strength]") == std::string::npos) text += "[strength]\nefforts = false\n";
 }
 
 // The same grips once more, as the robust score deviates them.

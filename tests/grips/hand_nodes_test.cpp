@@ -88,7 +88,7 @@ TEST(HandNodes, RightHandIsTheChainOfTheSpecification) { expect_as_specified({})
 TEST(HandNodes, LeftHandIsItsMirrorImage) { expect_as_specified(left_hand()); }
 
 TEST(HandNodes, HandOfOtherNumbersToo) {
-  HandData hand;
+  HandData hand = paper_hand();
   hand.scale = 1.1;
   hand.handedness = Handedness::left;
   hand.fingers[2].splay = 0.05;
@@ -100,7 +100,7 @@ TEST(HandNodes, HandOfOtherNumbersToo) {
 // What the bones of a posed hand say of it, whatever the pose.
 TEST(HandNodes, PosedBonesRunAlongMinusZWithTheBackUp) {
   for (const Pose pose : {Pose::articulated, Pose::paper}) {
-    for (const HandData& hand : {HandData{}, left_hand()}) {
+    for (const HandData& hand : {paper_hand(), left_hand()}) {
       const HeldHand h = held(hand, pose, GRIP);
       const HandNodes nodes = hand_nodes(hand, h.grip, h.result);
       const Long3 palm_to_back = column(rotation_of(nodes.wrist.rotation), 1);

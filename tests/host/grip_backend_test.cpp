@@ -21,7 +21,7 @@ namespace {
 using host::GripBackend;
 using host::GripBackendOptions;
 
-Scene wet(std::vector<VesselData> vessels, const HandData& hand = {}) {
+Scene wet(std::vector<VesselData> vessels, const HandData& hand = paper_hand()) {
   Scene scene = scene_of(std::move(vessels), Pose::articulated, hand);
   scene.liquid = LiquidData{};
   scene.liquid->fills = {0, 0.6};

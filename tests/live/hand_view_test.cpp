@@ -4,6 +4,7 @@
 // sanitizers: address
 #include "live/hand_view.h"
 #include "core/joints.h"
+#include "core/load.h"
 #include "core/vectors.h"
 
 #include <gtest/gtest.h>
@@ -86,7 +87,7 @@ HeldGrip hold(const Scene& scene, const GripInput& grip, const GripResult& resul
 TEST(HandView, OfAHeldGripIsTheHandOfTheGrip) {
   int compared = 0;
   for (const Pose pose : {Pose::articulated, Pose::paper, Pose::rigged}) {
-    for (const HandData& hand : {HandData{}, left_hand()}) {
+    for (const HandData& hand : {paper_hand(), left_hand()}) {
       const Scene scene = scene_of({beaker1()}, pose, hand);
       const LiveScene live(scene);
       const auto evaluator = make_core_evaluator(scene);
@@ -207,10 +208,10 @@ void expect_carried(const Scene& scene, const HandHold& hold, double weight) {
 
 TEST(HandView, HoldsWithTheEffortOfTheGrip) {
   int compared = 0, unheld = 0;
-  for (const HandData& hand : {HandData{}, left_hand()}) {
+  for (const HandData& hand : {paper_hand(), left_hand()}) {
     Scene scene = scene_of({beaker1()}, Pose::articulated, hand);
     scene.liquid = LiquidData{1000, {0.5}, {}, Pour::away};
-    scene.strength = StrengthData{{30, 20, 25, 15, 10, 60}};
+    scene.strength = StrengthData{{30, 20, 25, 15, 10, 60}, true, {}};
     const LiveScene live(scene);
     const auto evaluator = make_core_evaluator(scene);
     for (const GripInput& grip : sample_grips(scene.vessels[0], 40, 6)) {
@@ -224,14 +225,14 @@ TEST(HandView, HoldsWithTheEffortOfTheGrip) {
       ++compared;
       std::vector<core_f64::ContactPoint> contacts, tips;
       for (const GripContact& contact : evaluator->contacts(0, result)) {
-        contacts.push_back({to_vec3(contact.point), to_vec3(contact.normal), contact.digit});
+        contacts.push_back({to_vec3(contact.point), to_vec3(contact.normal), contact.digit, contact.is_tip});
         if (is_tracked(contact.joint)) tips.push_back(contacts.back());
       }
-      const core_f64::HandStrength strength{scene.force.friction, scene.force.torsion, scene.strength->digits};
+      const core_f64::HandStrength strength = core_f64::load_strength(scene, tips);
       const core_f64::Wrench weight = weight_in(scene, *evaluator, held.tick);
       const auto effort = core_f64::EffortSolver(contacts, strength, Vec3(0)).solve(weight),
                  of_tips = core_f64::EffortSolver(tips, strength, Vec3(0)).solve(weight);
-      EXPECT_EQ(view.hold->strength, 20);
+      EXPECT_NEAR(view.hold->strength, strength.weaker_tip(), 1e-9) << "places are turned into the world and back";
       EXPECT_EQ(std::isinf(view.hold->tips), std::isinf(of_tips.effort));
       if (std::isfinite(of_tips.effort)) {
         EXPECT_NEAR(view.hold->tips / of_tips.effort, 1, 2e-3);  // two brackets of 1e-3
@@ -244,7 +245,7 @@ TEST(HandView, HoldsWithTheEffortOfTheGrip) {
       EXPECT_NEAR(view.hold->effort / effort.effort, 1, 2e-3);
       EXPECT_LE(view.hold->low, effort.effort);
       EXPECT_GE(view.hold->effort, effort.low * (1 - 1e-6));  // hands that are 1e-7 m apart
-      EXPECT_DOUBLE_EQ(view.hold->force(), 20 * view.hold->effort);
+      EXPECT_DOUBLE_EQ(view.hold->force(), view.hold->strength * view.hold->effort);
       expect_carried(scene, *view.hold, glm::length(weight.force));
       const Mat3 turn = to_mat3(held.poses[0].rotation);
       for (const HandPress& press : view.hold->presses) {

@@ -88,7 +88,7 @@ TEST(Session, APressThatGoesBackNeverPulls) {
 // felt; and the grasp comes about.
 TEST(Session, AThinWallHoldsAFastFinger) {
   for (const double rate : {1000.0, 3000.0}) {
-    HandData hand;
+    HandData hand = paper_hand();
     for (FingerData& finger : hand.fingers) finger.radii = {};
     Scene scene = scene_of({shell_of(beaker1())}, Pose::rigged, hand);
     scene.live.rate = rate;

@@ -109,7 +109,7 @@ TEST(Session, MissedTicksAreOnlyTime) {
 TEST(Session, StrengthsChangeNoTick) {
   Scene scene = live_scene();
   const std::vector<Tick> without = play_session(scene, script_for(scene));
-  scene.strength = StrengthData{{1, 2, 3, 4, 5, 6}};
+  scene.strength = StrengthData{{1, 2, 3, 4, 5, 6}, true, {}};
   expect_same_ticks(play_session(scene, script_for(scene)), without);
 }
 

@@ -48,7 +48,7 @@ TEST(Session, LettingGoWithinAnotherVesselPushesNobody) {
 
 // Kernel 3's too_wide: tips that touch at more than the hand can open hold nothing.
 TEST(Session, WhatIsTooWideIsNotHeld) {
-  const auto range = own_gap(HandData{});
+  const auto range = own_gap(paper_hand());
   Scene scene = scene_of({cylinder("wide", 1e3 * (range[1] - 15e-3) + 0.3, 110, 1.5)});
   bool touches = false;
   const auto at = [&](std::int64_t n) {
@@ -154,7 +154,7 @@ TEST(Session, SlipsWhenTheFingersOpen) {
 
 // A vessel as wide as the hand opens: it is held within the last hundredth of the gap, whose noise is no opening.
 TEST(Session, NoiseOpensNoFingers) {
-  const auto range = own_gap(HandData{});
+  const auto range = own_gap(paper_hand());
   Scene scene = scene_of({cylinder("wide", 1e3 * (range[1] - 15e-3) - 1, 110, 1.5)});
   const auto at = [&](std::int64_t n) {
     return gripper_at(

@@ -192,7 +192,7 @@ TEST(Session, CountsWhatTheTaskAsks) {
 // The rotation of a gripper whose first axis is the line through the tips and whose second is against the little finger's side.
 TEST(PlaceLiveHand, IsTheSweepsHand) {
   Random random(12);
-  for (const HandData& data : {HandData{}, odd_hand(), large_hand()}) {
+  for (const HandData& data : {paper_hand(), odd_hand(), large_hand()}) {
     const core_f64::Hand hand = ready_hand(data);
     for (int k = 0; k < 100; ++k) {
       const double azimuth = random.uniform(-PI, PI), obliquity = random.uniform(-1, 1), roll = random.uniform(-PI, PI);

@@ -250,7 +250,7 @@ TEST_F(MeshVessel, ATableAboveItsTopIsRefused) {
 
 // Dry meshes and wet ones beside an outline, in both hands; the lattices in both storages.
 TEST_F(MeshVessel, DevicesGiveWhatTheCoreGives) {
-  for (const HandData& hand : {HandData{}, left_hand()}) {
+  for (const HandData& hand : {paper_hand(), left_hand()}) {
     VesselData dry = of_file("mug", mug_mesh(), 1.5e-3), wet = of_file("beaker", turned_mesh(beaker3(), 64, 2e-3), 1.5e-3);
     wet.inner = inner_outline_of(beaker3());
     const Scene scene = loaded({dry, wet, beaker1()}, hand);

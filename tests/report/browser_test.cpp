@@ -62,7 +62,7 @@ class ReportBrowser : public testing::Test {
   }
 
   // with [strength], as its page has every part that there is
-  SweptScene swept{edited(RESULT_SCENE, "[tilts]", "[strength]\n[tilts]"), Precision::single};
+  SweptScene swept{edited(RESULT_SCENE, NO_EFFORTS, "[strength]\n"), Precision::single};
   std::string browser, page;
 };
 

@@ -130,7 +130,7 @@ TEST(ReportGrips, RobustScoresAreToldBesideTheScores) {
 }
 
 TEST(ReportGrips, EachDrawingHasItsForcesAndAVerdict) {
-  const std::string html = written_grips(SweptScene(edited(RESULT_SCENE, "[tilts]", "[strength]\n[tilts]")), 0);
+  const std::string html = written_grips(SweptScene(edited(RESULT_SCENE, NO_EFFORTS, "[strength]\n")), 0);
   EXPECT_GT(times_in(html, "class=%22force%22"), 2 * DRAWN_GRIPS) << "arrows in two views";
   EXPECT_EQ(times_in(html, "<p>This grip is good because "), DRAWN_GRIPS);
   EXPECT_EQ(times_in(html, "; longest arrow "), DRAWN_GRIPS);

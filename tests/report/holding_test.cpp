@@ -17,7 +17,7 @@ namespace {
 
 constexpr double BRACKET = 1e-3;  // relative width of the bracket to which an effort is solved
 
-std::string strong_scene() { return edited(RESULT_SCENE, "[tilts]", "[strength]\n[tilts]"); }
+std::string strong_scene() { return edited(RESULT_SCENE, NO_EFFORTS, "[strength]\n"); }
 
 std::string efforts_html(const SweptScene& swept, std::size_t vessel) {
   MarkupWriter html;
@@ -27,22 +27,20 @@ std::string efforts_html(const SweptScene& swept, std::size_t vessel) {
 }
 
 TEST(DigitLoads, AreSumsOfNormalForces) {
-  Scene scene;
-  scene.strength = StrengthData{};
-  scene.strength->digits = {40, 25, 35, 25, 14, 80};
   StateHold hold;
+  hold.strength.digits = {40, 25, 35, 25, 14, 80};
   hold.effort = 0.5;
   // two contacts of the thumb, one of the palm; what is across a normal does not count
   hold.contacts = {
       {1, 0, {}, {1, 0, 0}, {3, 9, -9}, 0}, {3, 0, {}, {0, 0, -1}, {5, 5, -7}, 0}, {0, FINGER_COUNT, {}, {0, 1, 0}, {0, 8, 0}, 0}};
-  const auto loads = digit_loads(scene, hold);
+  const auto loads = digit_loads(hold);
   EXPECT_EQ(loads[0].force, 10);
   EXPECT_EQ(loads[0].share, 10.0 / 40);
   for (const std::size_t digit : {1, 2, 3, 4}) EXPECT_EQ(loads[digit].force, 0);
   EXPECT_EQ(loads[FINGER_COUNT].force, 8);
   EXPECT_EQ(loads[FINGER_COUNT].share, 0.1);
   hold.effort = INFINITY;
-  for (const DigitLoad& load : digit_loads(scene, hold)) EXPECT_TRUE(std::isnan(load.force) && std::isnan(load.share));
+  for (const DigitLoad& load : digit_loads(hold)) EXPECT_TRUE(std::isnan(load.force) && std::isnan(load.share));
 }
 
 // The effort is the share of the digit that is nearest to its limit.
@@ -56,7 +54,7 @@ TEST(DigitLoads, TheLargestShareIsTheEffort) {
       if (!std::isfinite(hold.effort)) continue;
       ++held;
       double largest = 0;
-      for (const DigitLoad& load : digit_loads(swept.scene, hold)) largest = std::max(largest, load.share);
+      for (const DigitLoad& load : digit_loads(hold)) largest = std::max(largest, load.share);
       EXPECT_LE(largest, hold.effort * (1 + 1e-9)) << "roundings of the basis";
       EXPECT_GE(largest, hold.low * (1 - 1e-9));
     }
@@ -74,7 +72,7 @@ TEST(WriteDigits, HasARowForEachDigitAndTwoColumnsForEachGrip) {
   for (const char* header : {">thumb</th>", ">palm</th>", ">grip 1 (N)</th>", ">grip 2 (%)</th>", ">strength (N)</th>"})
     EXPECT_TRUE(has(html.written(), header)) << header;
   const auto hardest = hardest_state(grips[0].report);
-  const auto loads = digit_loads(swept.scene, grips[0].report.holds[hardest.value()]);
+  const auto loads = digit_loads(grips[0].report.holds[hardest.value()]);
   const std::string cells =
       "<td>" + shown_number(loads[0].force, 1) + "</td>\n<td>" + shown_number(100 * loads[0].share, 0) + "</td>";
   EXPECT_TRUE(has(html.written(), "<td>40</td>\n" + cells)) << html.written();

@@ -87,12 +87,13 @@ TEST(ReportPage, IsWellBuiltForEveryKindOfSweep) {
       {"nothing kept", edited(RESULT_SCENE, "best = 5", keep + "[]")},
       {"nothing kept nor listed", edited(RESULT_SCENE, "best = 5", "best = 0\nkeep = []")},
       {"score kept", edited(RESULT_SCENE, "best = 5", "best = 0\nkeep = [\"score\"]")},
-      {"strength", edited(RESULT_SCENE, "[tilts]", "[strength]\n[table]\n[tilts]")},
-      {"strength, no liquid", edited(edited(RESULT_SCENE, RESULT_LIQUID, ""), "[tilts]", "[strength]\n[tilts]")},
-      {"strength, nothing holds", edited(RESULT_SCENE, "[tilts]", "[strength]\n[force]\nfriction = 0\n[tilts]")},
-      {"strength, no tilts", edited(RESULT_SCENE, RESULT_TILTS, "[strength]")},
-      {"strength, tilts left out", edited(RESULT_SCENE, RESULT_TILTS, RESULT_TILTS + "\nuntil_poured = 0.5\n[strength]")},
-      {"strength, one tilt", edited(RESULT_SCENE, RESULT_TILTS, "[tilts]\ndeg = [60]\n[strength]")},
+      {"strength", edited(RESULT_SCENE, NO_EFFORTS, "[strength]\n[table]\n")},
+      {"strength, no liquid", edited(edited(RESULT_SCENE, RESULT_LIQUID, ""), NO_EFFORTS, "")},
+      {"strength, nothing holds", edited(RESULT_SCENE, NO_EFFORTS, "[force]\nfriction = 0\n")},
+      {"strength, no tilts", edited(edited(RESULT_SCENE, RESULT_TILTS, ""), NO_EFFORTS, "[strength]\n")},
+      {"strength, tilts left out",
+       edited(edited(RESULT_SCENE, RESULT_TILTS, RESULT_TILTS + "\nuntil_poured = 0.5"), NO_EFFORTS, "")},
+      {"strength, one tilt", edited(edited(RESULT_SCENE, RESULT_TILTS, "[tilts]\ndeg = [60]"), NO_EFFORTS, "")},
       {"vectors kept", edited(RESULT_SCENE, "best = 5", keep + "[\"posed\", \"score\", \"reason\"]")},
   };
   for (const auto& [kind, text] : kinds) {
@@ -116,7 +117,7 @@ TEST(ReportPage, TellsInItsOrder) {
 }
 
 TEST(ReportPage, OfAHandWithStrengthTellsWhatHoldingTakes) {
-  const SweptScene swept(edited(RESULT_SCENE, "[tilts]", "[strength]\n[tilts]"));
+  const SweptScene swept(edited(RESULT_SCENE, NO_EFFORTS, "[strength]\n"));
   const std::string page = page_of(swept);
   std::size_t at = 0;
   for (const char* part :
@@ -135,7 +136,7 @@ TEST(ReportPage, OfAHandWithStrengthTellsWhatHoldingTakes) {
 
 TEST(ReportPage, WithoutStrengthEffortIsNotSpokenOf) {
   const std::string page = page_of(SweptScene(RESULT_SCENE));
-  EXPECT_TRUE(has(page, "The effort of the whole hand: the scene has no [strength]."));
+  EXPECT_TRUE(has(page, "The effort of the whole hand: [strength] says efforts = false."));
   for (const char* part : {">Effort over the tilt</h3>", "What others call", ">effort</dt>", "Normal force of each digit",
                            "This grip is good because ", ">margin</dt>"})
     EXPECT_FALSE(has(page, part)) << part;

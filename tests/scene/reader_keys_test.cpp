@@ -34,7 +34,7 @@ const std::map<std::string, std::vector<std::string>> SCENE_KEYS{
       "place_mm", "liquid"}},
     {"[liquid]", {"density_kg_m3", "fills", "fills_ml", "pour"}},
     {"[force]", {"base_N", "range_N", "torque", "reference", "max_N", "k_open_N_m", "friction", "torsion_mm"}},
-    {"[strength]", {"thumb_N", "index_N", "middle_N", "ring_N", "little_N", "palm_N"}},
+    {"[strength]", {"thumb_N", "index_N", "middle_N", "ring_N", "little_N", "palm_N", "opening", "efforts"}},
     {"[grips]",
      {"height_mm", "height_fraction", "azimuth_deg", "obliquity_deg", "roll_deg", "offset_mm", "hand_scale", "sampling", "count",
       "seed"}},

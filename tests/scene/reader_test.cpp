@@ -149,17 +149,42 @@ TEST(SceneReader, HandsOfPeople) {
   set_size(whole, {171.5e-3, expected_breadth(171.5e-3)});
   EXPECT_EQ(measured.hand.fingers[2].radii, whole.fingers[2].radii);
   EXPECT_EQ(measured.hand.fingers[1].segments, whole.fingers[1].segments);
+  EXPECT_EQ(scene_from("[hand]\nlength_mm = 171.5\nscale = 0.5\n" + VESSEL).hand.scale, 0.5) << "it multiplies every hand";
+}
+
+TEST(SceneReader, ThePapersHand) {
+  const HandData hand = scene_from("[hand]\nperson = \"paper\"\nscale = 1.5\ndepth_limit_mm = 4\n" + VESSEL).hand;
+  EXPECT_NEAR(size_of(hand).breadth, 69.24e-3, 5e-6);
+  EXPECT_EQ(hand.fingers[1].radii, paper_hand().fingers[1].radii);
+  EXPECT_EQ(hand.scale, 1.5);
+  EXPECT_EQ(hand.depth_limit, 4e-3);
+}
+
+TEST(SceneReader, TextsOfEarlierVersionsHaveTheirDefaults) {
+  const auto read = [](const std::string& text, const char* version) {
+    return parse_scene(text + VESSEL, "test.toml", defaults_of(version));
+  };
+  for (const char* version : {"0.1.0", "0.2.1", "0.3.0"}) {
+    const Scene plain = read("", version), strong = read("[strength]\nthumb_N = 41\n", version);
+    EXPECT_EQ(plain.hand.fingers[2].base, paper_hand().fingers[2].base) << version;
+    EXPECT_FALSE(plain.strength) << version;
+    EXPECT_FALSE(strong.strength.value().by_opening) << version;
+  }
+  EXPECT_EQ(read("", "0.2.1").score.fingers, WEIGHTS_0_2.fingers);
+  const Scene today = read("", "0.4.0");
+  EXPECT_EQ(today.hand.fingers[2].base, HandData{}.fingers[2].base);
+  EXPECT_TRUE(today.strength.value().by_opening);
 }
 
 TEST(SceneReader, RefusesHandsOfNobody) {
-  const std::string either = "allowed: one of scale, length_mm and person";
+  const std::string either = "allowed: one of length_mm and person";
   expect_refusal("[hand]\nlength_mm = 180\nperson = @{ sex = \"male\", percentile = 5 }\n" + VESSEL,
                  "person beside length_mm; " + either);
-  expect_refusal("[hand]\nscale = 1\nlength_mm = @180\n" + VESSEL, "length_mm beside scale; " + either);
-  expect_refusal("[hand]\nscale = 1\nperson = @{ sex = \"male\", percentile = 5 }\n" + VESSEL, either);
+  expect_refusal("[hand]\nperson = @\"paper\"\nlength_mm = 180\n" + VESSEL, "person beside length_mm; " + either);
   expect_refusal("[hand]\nlength_mm = @18\n" + VESSEL, "length_mm = 18; allowed: 100 to 300");
   expect_refusal("[hand]\nlength_mm = @nan\n" + VESSEL, "allowed: 100 to 300");
-  expect_refusal("[hand]\nperson = @\"me\"\n" + VESSEL, "person = 'me'; allowed: a table");
+  expect_refusal("[hand]\nperson = @\"me\"\n" + VESSEL, "person = 'me'; allowed: \"paper\" or a table with sex and percentile");
+  expect_refusal("[hand]\nperson = @5\n" + VESSEL, "person = 5; allowed: \"paper\" or a table with sex and percentile");
   expect_refusal("[hand]\nperson = @{ percentile = 5 }\n" + VESSEL, "[hand.person] lacks 'sex'; allowed: \"female\" or \"male\"");
   expect_refusal("[hand]\nperson = @{ sex = \"male\" }\n" + VESSEL, "[hand.person] lacks 'percentile'; allowed: 0.01 to 99.99");
   expect_refusal("[hand]\nperson = { sex = @\"child\", percentile = 5 }\n" + VESSEL, "allowed: \"female\" or \"male\"");
@@ -169,12 +194,14 @@ TEST(SceneReader, RefusesHandsOfNobody) {
 }
 
 TEST(SceneReader, TheDefaultHandIsWhatItsTableSays) {
-  // lengths are divided, not multiplied: 46.22 mm must be the double 46.22e-3
-  const Scene scene =
-      scene_from("[hand.thumb]\nbase_mm = [-22, -9, -18]\nsplay_deg = 10\nsegments_mm = [46.22, 31.57, 27.34]\n" + VESSEL);
+  // lengths are divided, not multiplied: 44.69 mm must be the double 44.69e-3
+  const Scene scene = scene_from(
+      "[hand.thumb]\nbase_mm = [-22.03, -9.01, -18.03]\nsplay_deg = 10\n"
+      "[hand.middle]\nsegments_mm = [64.69, 44.69, 26.37, 21.38]\n" +
+      VESSEL);
   const HandData plain;
   EXPECT_EQ(scene.hand.fingers[0].base, plain.fingers[0].base);
-  EXPECT_EQ(scene.hand.fingers[0].segments, plain.fingers[0].segments);
+  EXPECT_EQ(scene.hand.fingers[2].segments, plain.fingers[2].segments);
   EXPECT_EQ(scene.hand.fingers[0].splay, plain.fingers[0].splay);
 }
 
@@ -408,7 +435,11 @@ obliquity_deg = { from = 5, to = 5 }
 
 TEST(SceneReader, ReadsStrengths) {
   const std::string vessel = "[[vessel]]\nname = \"v\"\nshape = \"cylinder\"\ndiameter_mm = 80\nheight_mm = 110\nwall_mm = 2\n";
-  EXPECT_FALSE(scene_from(vessel).strength);
+  EXPECT_EQ(scene_from(vessel).strength.value().digits, StrengthData{}.digits);
+  EXPECT_TRUE(scene_from(vessel).strength.value().by_opening);
+  EXPECT_FALSE(scene_from("[strength]\nefforts = false\n" + vessel).strength);
+  EXPECT_TRUE(scene_from("[strength]\nefforts = true\nopening = \"measured\"\n" + vessel).strength.value().by_opening);
+  EXPECT_FALSE(scene_from("[strength]\nopening = \"fixed\"\n" + vessel).strength.value().by_opening);
   EXPECT_EQ(scene_from("[strength]\n" + vessel).strength.value().digits, (std::array<double, 6>{40, 25, 35, 25, 14, 80}));
   EXPECT_EQ(scene_from("[strength]\nthumb_N = 41\nindex_N = 26\nmiddle_N = 36\nring_N = 27\nlittle_N = 15\npalm_N = 81\n" + vessel)
                 .strength.value()

@@ -41,7 +41,7 @@ const std::vector<int> KEPT{FIELD_WORST_EFFORT,
                             FIELD_STATUS,
                             FIELD_TOUCH_MASK};
 
-Scene strong_scene(std::vector<VesselData> vessels, const HandData& hand = {}) {
+Scene strong_scene(std::vector<VesselData> vessels, const HandData& hand = paper_hand()) {
   Scene scene = wet_scene(std::move(vessels), Pose::articulated, hand);
   scene.strength = StrengthData{};
   scene.hand.depth_limit = 20e-3;  // most grips are plausible

@@ -125,7 +125,7 @@ TEST_F(ParityLeaf, ProjectionPieces) {
 // All is copied but where the segments are and the room, a few sums: equal to the bit but for these. Angles at, before and beyond the
 // joints' limits.
 TEST_F(ParityLeaf, TurnJoint) {
-  for (const HandData& hand : {HandData{}, odd_hand()}) {
+  for (const HandData& hand : {paper_hand(), odd_hand()}) {
     Builder build(96);
     for (int i = 0; i < 600; ++i) {
       double angle = 0;

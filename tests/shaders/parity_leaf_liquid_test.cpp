@@ -176,7 +176,7 @@ TEST_F(ParityLeaf, LiquidInTheCavity) {
 
 TEST_F(ParityLeaf, Force) {
   const Scene scene = three_beakers();
-  Builder directions(170), centers(171), torques(172), forces(173), holds(174), couplings(175);
+  Builder directions(170), centers(171), torques(172), forces(173), holds(174), couplings(175), openings(176);
   for (int i = 0; i < 555; ++i) {
     const double tilt = i % 9 == 0 ? 0 : directions.random.uniform(0, PI), s = std::sin(tilt), c = std::cos(tilt);
     const double azimuth = directions.random.uniform(-PI, PI), obliquity = directions.random.uniform(-1, 1);
@@ -199,6 +199,7 @@ TEST_F(ParityLeaf, Force) {
         .vec({-s * pour[0], c, -s * pour[2]})
         .add(i % 13 == 0 ? 0 : holds.random.uniform(0.3, 0.9))
         .add(i % 17 == 0 ? 0 : holds.random.uniform(2e-3, 9e-3));
+    openings.uniform(0, 0.12);
     couplings.point(0.1).point(0.1).vec(couplings.direction()).point(1).uniform(0, 900).uniform(0, 5);
   }
   compare({.shader = "probe_force", .probe = PROBE_DIRECTIONS, .inputs = 6, .outputs = repeated("direction", 6, 1), .fixed = {3}},
@@ -214,6 +215,7 @@ TEST_F(ParityLeaf, Force) {
            .outputs = {{"hold", 6 * 0.2 / (2 * 2e-3) / 0.3}},
            .sharp_share = 0.8},
           holds.table, scene);
+  compare({"probe_force", PROBE_STRENGTH_AT, 1, {{"share", 1}}}, openings.table, scene);
   compare({"probe_force", PROBE_COUPLING_FORCE, 14, repeated("force", 3, 900 * 0.4)}, couplings.table, scene);
 }
 

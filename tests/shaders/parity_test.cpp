@@ -114,7 +114,7 @@ TEST(Parity, SpheresBetweenJoints) {
 // A short and narrow hand, and a long and broad one.
 TEST(Parity, HandsOfPeople) {
   for (const auto& [sex, percentile] : {std::pair{Sex::female, 5}, std::pair{Sex::male, 95}}) {
-    HandData hand;
+    HandData hand = paper_hand();
     set_size(hand, surveyed_size(sex, percentile));
     expect_parity(wet_scene({beaker1(), beaker3()}, Pose::articulated, hand), "person" + std::to_string(percentile));
   }

@@ -29,6 +29,7 @@ void main() {
   }
   if (PROBE == PROBE_HOLD_FORCE)
     answer(0, hold_force(given(0), given(1), given3(2), given3(5), given3(8), given(11), given(12)));
+  if (PROBE == PROBE_STRENGTH_AT) answer(0, strength_at(given(0)));
   if (PROBE == PROBE_COUPLING_FORCE)
     answer3(0, coupling_force(given3(0), given3(3), given3(6), given3(9), given(12), given(13)));
   if (PROBE == PROBE_SCORE) {

@@ -66,6 +66,7 @@
 #define PROBE_FORCES 83          // base, range, torque, reference, k_open, squeeze, max; normal, opening, feedback
 #define PROBE_HOLD_FORCE 84      // mass, gravity, arm, direction, up, friction, torsion; force
 #define PROBE_COUPLING_FORCE 85  // tip, proxy, normal, velocity, stiffness, damping; force
+#define PROBE_STRENGTH_AT 87     // opening; share
 #define PROBE_SCORE 86           // fingers, points, phalanx, palm, closure, feedback, max, hold, strength; terms
 // probe_loop; plant: mass, damping, stiffness; wall: stiffness, damping, period, encoder step, force limit, delay, bilateral
 #define PROBE_PROPAGATOR 90   // plant, time; of place, of speed: place, speed, force

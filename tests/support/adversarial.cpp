@@ -117,7 +117,7 @@ std::vector<Scene> adversarial_scenes() {
   feather.center_of_mass = {0, 0.5e-3, 0};
   tower.mass = 1e6;
   tower.center_of_mass = {10, -10, 10};
-  HandData least, most;
+  HandData least = paper_hand(), most = paper_hand();
   least.scale = 0.05;
   most.scale = 20;
   add({feather}, Pose::articulated, least);

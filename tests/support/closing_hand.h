@@ -11,10 +11,10 @@ namespace wholehand {
 
 // 1e-8 m: a tip stops within 1e-9 m of its distance, which is 1 / cos(contact angle) along the line: under 10 where not grazing.
 constexpr double CLOSING_STOPPED = 1e-8;
-constexpr double INDEX_RADIUS = 7e-3, THUMB_RADIUS = 8e-3;  // of the default hand's tips
+constexpr double INDEX_RADIUS = 7e-3, THUMB_RADIUS = 8e-3;  // of the paper's hand
 
 struct ClosingHand {
-  ClosingHand(const VesselData& vessel_data, const HandData& hand_data = {})
+  ClosingHand(const VesselData& vessel_data, const HandData& hand_data = paper_hand())
       : hand(ready_hand(hand_data)), vessel(ready_vessel(vessel_data)) {}
   core_f64::Closing close(const GripInput& grip) const { return core_f64::close_fingers(hand, vessel, ready_grip(grip)); }
   core_f64::Hand hand;

@@ -378,6 +378,7 @@ constexpr LeafEntry LEAVES[] = {
     {PROBE_TORQUES, answers_of<torques>},
     {PROBE_FORCES, answers_of<forces>},
     {PROBE_HOLD_FORCE, answers_of<hold_force>},
+    {PROBE_STRENGTH_AT, answers_of<strength_at>},
     {PROBE_COUPLING_FORCE, answers_of<coupling_force>},
     {PROBE_SCORE, answers_of<score_terms>},
     // loop

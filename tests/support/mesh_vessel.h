@@ -39,7 +39,7 @@ class MeshVessel : public testing::Test {
   double seconds_a_look_ = 0;
 
   // Read, in a scene with everything that a vessel can be asked.
-  Scene loaded(std::vector<VesselData> vessels, const HandData& hand = {}) {
+  Scene loaded(std::vector<VesselData> vessels, const HandData& hand = paper_hand()) {
     Scene scene = wet_scene(std::move(vessels), Pose::articulated, hand);
     scene.file = (folder_ / "scene.toml").string();
     said_.clear();

@@ -154,7 +154,7 @@ std::string natural_scene_text(std::uint64_t seed) {
   const bool has_liquid = draw.chance(0.7);
   if (has_liquid) text += natural_liquid(draw);
   if (draw.chance(0.7)) text += natural_force(draw);
-  if (draw.chance(0.7)) text += natural_strength(draw);
+  text += draw.chance(0.7) ? natural_strength(draw) : "[strength]\nefforts = false\n";
   text += natural_grips(draw);
   if (draw.chance(0.5)) text += "[table]\n" + (draw.chance(0.5) ? natural_key("clearance_mm", draw.between(0, 6)) : std::string());
   if (draw.chance(0.9)) {

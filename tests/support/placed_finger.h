@@ -188,7 +188,7 @@ struct ProjectionCase {
 };
 
 inline HandData with_limits(double mcp_deg, double pip_deg, double dip_deg, double max_angle_deg) {
-  HandData hand;
+  HandData hand = paper_hand();
   hand.joint_limit = {radians(mcp_deg), radians(pip_deg), radians(dip_deg)};
   hand.max_angle = radians(max_angle_deg);
   return hand;

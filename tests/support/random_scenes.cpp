@@ -85,7 +85,7 @@ std::string random_vessel(SceneDraw& draw, int number, double size) {
 
 // Proportions near the default's, so that the gap still falls as the hand closes; some of them bare points.
 std::string random_fingers(SceneDraw& draw) {
-  const HandData usual;
+  const HandData usual = paper_hand();
   std::string text;
   for (std::size_t f = 0; f < FINGER_COUNT; ++f) {
     const FingerData& finger = usual.fingers[f];
@@ -193,6 +193,7 @@ void add_later_keys(SceneDraw& draw, std::string& text) {
     text += fmt::format("count = {}\nseed = {}\n", 8 + draw.of(20), draw.of(1000));
   }
   if (draw.chance(0.4)) add_key(text, "[hand]", fmt::format("between = {}\n", draw.of(9)));
+  if (text.find("[strength]") == std::string::npos) text += "[strength]\nefforts = false\n";
 }
 
 std::string random_scene_text(std::uint64_t seed) {

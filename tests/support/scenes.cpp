@@ -144,25 +144,25 @@ double largest_radius(const VesselData& vessel) {
 // ---- hands ----
 
 HandData left_hand() {
-  HandData hand;
+  HandData hand = paper_hand();
   hand.handedness = Handedness::left;
   return hand;
 }
 
 HandData tiny_hand() {
-  HandData hand;
+  HandData hand = paper_hand();
   hand.scale = 0.1;
   return hand;
 }
 
 HandData large_hand() {
-  HandData hand;
+  HandData hand = paper_hand();
   hand.scale = 3;
   return hand;
 }
 
 HandData odd_hand() {
-  HandData hand;
+  HandData hand = paper_hand();
   hand.scale = 1.13;
   hand.contact_tolerance = 0.5e-3;
   hand.max_angle = radians(30);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/grip.h"
+#include "core/hand_size.h"
 #include "core/load.h"
 #include "core/prepare.h"
 #include "core/result.h"
@@ -36,10 +37,11 @@ double largest_radius(const VesselData& vessel);             // m
 
 // ---- hands ----
 
+// All but the odd one have the proportions of the paper's.
 HandData left_hand();
 HandData tiny_hand();   // scale 0.1
 HandData large_hand();  // scale 3
-HandData odd_hand();    // every number another than the default's, no two fingers alike, radii 0 among them
+HandData odd_hand();    // every number another than the paper's, no two fingers alike, radii 0 among them
 
 // ---- scenes ----
 
@@ -47,9 +49,9 @@ constexpr double G = 9.80665;  // m/s2, what a scene has where it says nothing e
 std::vector<double> linspace(double from, double to, int count);
 Axis axis_of(double from, double to, int count);
 Scene three_beakers();  // the default scene
-// A scene with these vessels and hand, the default in everything else: no liquid, no tilts; the hand is its 24 points
+// A scene with these vessels and hand (the paper's, for which many tests know numbers), the default in everything else: no liquid, no tilts; the hand is its 24 points
 // alone, without spheres between them.
-Scene scene_of(std::vector<VesselData> vessels, Pose pose = Pose::articulated, const HandData& hand = {});
+Scene scene_of(std::vector<VesselData> vessels, Pose pose = Pose::articulated, const HandData& hand = paper_hand());
 
 // ---- made ready for core_f64 ----
 

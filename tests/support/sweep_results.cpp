@@ -46,6 +46,9 @@ azimuth_deg = [0, 60, 120]
 obliquity_deg = [-10, 10]
 roll_deg = [-90, -30, 0]
 
+[strength]
+efforts = false
+
 [tilts]
 deg = [0, 45, 90, 135]
 

@@ -17,7 +17,8 @@ namespace wholehand {
 // other cases.
 extern const std::string RESULT_SCENE;
 // Parts of it that may be edited away.
-inline const std::string RESULT_TILTS = "[tilts]\ndeg = [0, 45, 90, 135]", RESULT_LIQUID = "[liquid]\nfills = [0, 0.6]";
+inline const std::string RESULT_TILTS = "[tilts]\ndeg = [0, 45, 90, 135]", RESULT_LIQUID = "[liquid]\nfills = [0, 0.6]",
+                         NO_EFFORTS = "[strength]\nefforts = false\n";
 
 // Sweeps the scene by the core, in either precision, and writes what `wholehand sweep` does to `path`. Without an ending it is as a
 // sweep that was interrupted leaves it.

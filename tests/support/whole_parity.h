@@ -17,7 +17,7 @@ namespace wholehand {
 
 // A belly of straight pieces: more elements than a pipeline's constants hold, and more pieces of cavity than the device integrates.
 VesselData facets();
-Scene wet_scene(std::vector<VesselData> vessels, Pose pose, const HandData& hand = {});
+Scene wet_scene(std::vector<VesselData> vessels, Pose pose, const HandData& hand = paper_hand());
 
 constexpr int COUNT = 203;  // no multiple of a work group
 // Hands of several sizes; the first along the axis.

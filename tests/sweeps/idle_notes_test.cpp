@@ -28,6 +28,8 @@ TEST(IdleNotes, StrengthNeedsTilts) {
   scene.strength = StrengthData{};
   EXPECT_EQ(notes_of(scene), "");
   scene.tilts.clear();
+  EXPECT_EQ(notes_of(scene), "") << "nobody asked for it";
+  scene.strength->place = "scene.toml:1:1";
   EXPECT_EQ(notes_of(scene).find("note: [strength] changes nothing here"), 0u);
   scene.strength.reset();
   EXPECT_EQ(notes_of(scene), "");

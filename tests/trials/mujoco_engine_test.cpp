@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/grip_effort.h"
 #include "core/joints.h"
+#include "core/load.h"
 #include "core/vectors.h"
 #include "grips/holding.h"
 #include "grips/report.h"
@@ -89,7 +90,7 @@ class MujocoEngine : public testing::Test {
     evaluator_->grip(one.vessel, one.grip, result);
     std::vector<core_f64::ContactPoint> contacts;
     for (const GripContact& found : evaluator_->contacts(one.vessel, result))
-      contacts.push_back({to_vec3(found.point), to_vec3(found.normal), found.digit});
+      contacts.push_back({to_vec3(found.point), to_vec3(found.normal), found.digit, found.is_tip});
     return contacts;
   }
 
@@ -120,7 +121,7 @@ class MujocoEngine : public testing::Test {
     const StateResult state = evaluator_->state(one.vessel, one.grip, result, evaluator_->liquid(one.vessel, one.fill, 0), 0);
     const core_f64::Wrench load =
         core_f64::wrench_at(to_vec3(state.center_of_mass), core_f64::Vec3(0, -state.mass * scene_.gravity, 0));
-    const core_f64::HandStrength hand{scene_.force.friction, scene_.force.torsion, scene_.strength->digits};
+    const core_f64::HandStrength hand = core_f64::load_strength(scene_, contacts);
     return core_f64::EffortSolver(contacts, hand, core_f64::contacts_center(contacts)).solve(load).effort;
   }
 };

@@ -287,8 +287,8 @@ TEST_F(TrialsTest, AnEngineThatFailsLeavesTheJournal) {
 
 TEST_F(TrialsTest, ScenesThatHaveNoEffortsAreRefused) {
   scene.strength.reset();
-  EXPECT_TRUE(has(run().error, "trials need [strength]"));
-  EXPECT_TRUE(has(run().error, "an empty table [strength] is enough"));
+  EXPECT_TRUE(has(run().error, "trials need the strength of the hand"));
+  EXPECT_TRUE(has(run().error, "leave efforts out"));
   scene.strength = StrengthData{};
   scene.tilts.clear();
   EXPECT_TRUE(has(run().error, "trials need [tilts]"));

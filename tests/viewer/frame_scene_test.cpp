@@ -67,7 +67,7 @@ TEST(ViewScene, TellsWhatDoesNotChange) {
 TEST(ViewScene, StrengthsAreThereWhereTheSceneHasThem) {
   Scene scene = live_scene();
   EXPECT_FALSE(parse_json(view_scene_json(scene, {})).contains("strength"));
-  scene.strength = StrengthData{{1, 2, 3, 4, 5, 6}};
+  scene.strength = StrengthData{{1, 2, 3, 4, 5, 6}, true, {}};
   EXPECT_EQ(parse_json(view_scene_json(scene, {}))["strength"], json({1.0, 2.0, 3.0, 4.0, 5.0, 6.0}));
 }
 

@@ -107,7 +107,7 @@ TEST(GripsView, AFrameHasTheHoldThatGripTells) {
   int held = 0;
   for (const Handedness handedness : {Handedness::right, Handedness::left}) {
     Scene scene = beakers();
-    scene.strength = StrengthData{{30, 20, 25, 15, 10, 60}};
+    scene.strength = StrengthData{{30, 20, 25, 15, 10, 60}, true, {}};
     scene.hand.handedness = handedness;
     std::vector<std::string> notes;
     const std::vector<ViewedGrip> grips = some_grips();
