@@ -56,7 +56,7 @@ TEST(Closure, NotConvergedComesBeforeMisses) {
 }
 
 TEST(Closure, NearGrazingIsFlaggedOrNotConverged) {
-  HandData alike;  // both tips alike, so that both graze
+  HandData alike = paper_hand();  // both tips alike, so that both graze
   alike.fingers[0].radii[3] = INDEX_RADIUS;
   const ClosingHand beaker(cylinder("wide", 100, 110, 1.5), alike);
   const double reach = 50e-3 + INDEX_RADIUS;
@@ -83,7 +83,7 @@ TEST(Closure, NearGrazingIsFlaggedOrNotConverged) {
 
 TEST(Closure, GrazingIsWithinADegreeOfPerpendicular) {
   // on a tip of radius 0 and a wide vessel a chord at 89 degrees can still be held: use a large vessel and a large hand
-  HandData bare;
+  HandData bare = paper_hand();
   bare.scale = 10;
   for (FingerData& finger : bare.fingers) finger.radii = {};
   const ClosingHand vat(cylinder("vat", 20000, 4000, 10), bare);
@@ -115,7 +115,7 @@ TEST(Closure, OneGrazingTipIsEnough) {
 }
 
 TEST(Closure, TooWideBeyondTheOpenGap) {
-  const double open = static_cast<double>(reference_gap({}, 0)), radii = INDEX_RADIUS + THUMB_RADIUS;
+  const double open = static_cast<double>(reference_gap(paper_hand(), 0)), radii = INDEX_RADIUS + THUMB_RADIUS;
   for (const double over : {-1e-6, 1e-6, 1e-2}) {
     const Closing closing = ClosingHand(cylinder("jar", (open - radii + over) * 1e3, 110, 1.5)).close(grip_of(55));
     EXPECT_EQ(closing.reason, over > 0 ? REASON_TOO_WIDE : REASON_NONE) << over;
@@ -125,7 +125,7 @@ TEST(Closure, TooWideBeyondTheOpenGap) {
 }
 
 TEST(Closure, TooNarrowUnderTheClosedGap) {
-  HandData stiff;  // closes to some 40 mm only
+  HandData stiff = paper_hand();  // closes to some 40 mm only
   stiff.mcp.closed = radians(40);
   const double closed = static_cast<double>(reference_gap(stiff, 1)), radii = INDEX_RADIUS + THUMB_RADIUS;
   ASSERT_GT(closed, radii + 1e-3);
@@ -137,7 +137,7 @@ TEST(Closure, TooNarrowUnderTheClosedGap) {
 }
 
 TEST(Closure, TooNarrowUnderTheSumOfTheRadii) {
-  HandData thick;  // tips of 20 mm, so that the sum is far over g(1)
+  HandData thick = paper_hand();  // tips of 20 mm, so that the sum is far over g(1)
   thick.fingers[0].radii[3] = thick.fingers[1].radii[4] = 20e-3;
   const ClosingHand beaker(beaker1(), thick);
   for (const double gap : {39.9e-3, 40.1e-3}) {
@@ -214,7 +214,7 @@ TEST(Closure, EdgeOfTheMouthIsNotTheLid) {
 TEST(Closure, OnMouthComesLast) {
   // too wide and on the mouth: too wide
   EXPECT_EQ(ClosingHand(cylinder("tall", 60, 130, 1)).close(grip_of(65, 89)).reason, REASON_TOO_WIDE);
-  HandData stiff;  // too narrow and on the mouth: too narrow
+  HandData stiff = paper_hand();  // too narrow and on the mouth: too narrow
   stiff.mcp.closed = radians(40);
   EXPECT_EQ(ClosingHand(cylinder("dish", 100, 12, 1), stiff).close(grip_of(6, 89)).reason, REASON_TOO_NARROW);
 }

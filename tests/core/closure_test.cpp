@@ -91,7 +91,7 @@ TEST(Closure, TipsAreScaledWithTheHand) {
 }
 
 TEST(Closure, BarePointsTouchTheSurfaceItself) {
-  HandData bare;
+  HandData bare = paper_hand();
   for (FingerData& finger : bare.fingers) finger.radii = {};
   const Closing closing = ClosingHand(beaker1(), bare).close(grip_of(55, 0, 10));
   ASSERT_EQ(closing.reason, REASON_NONE);
@@ -107,7 +107,8 @@ TEST(Closure, ClosureIsTheInverseOfTheGap) {
       const Closing closing = ready.close(grip);
       if (closing.reason != REASON_NONE) continue;
       ++feasible;
-      EXPECT_NEAR(static_cast<double>(reference_gap({}, closing.closure)), closing.gap, 2e-9);  // twice the stop tolerance
+      EXPECT_NEAR(static_cast<double>(reference_gap(paper_hand(), closing.closure)), closing.gap,
+                  2e-9);  // twice the stop tolerance
     }
     EXPECT_GT(feasible, 50) << vessel.name;
   }
@@ -233,7 +234,7 @@ TEST(Closure, AntipodalNeedsBothTips) {
 
 TEST(Closure, LatticeGivesTheOutlinesAnswerAtEveryAzimuth) {
   // tips of a small hand: tracing must not step into the vessel on its way from outside the lattice
-  HandData bare;
+  HandData bare = paper_hand();
   for (FingerData& finger : bare.fingers) finger.radii = {};
   for (const VesselData& vessel : {beaker1(), beaker3()}) {
     const Scene scene = scene_of({vessel}, Pose::rigged, bare);
@@ -261,7 +262,7 @@ TEST(Closure, LatticeGivesTheOutlinesAnswerAtEveryAzimuth) {
 TEST(Closure, OfATallHollowMeshMeetsTheNearWalls) {
   VesselData shell;
   shell.outline = {line_to(40, 0), line_to(40, 400), line_to(37, 400), line_to(37, 3), line_to(0, 3)};
-  HandData bare;
+  HandData bare = paper_hand();
   for (FingerData& finger : bare.fingers) finger.radii = {};
   const Scene scene = scene_of({vessel_of_mesh("cup", turned_mesh(shell, 128, 2e-3), 1e-3)}, Pose::rigged, bare);
   const auto core = make_core_evaluator(scene);

@@ -25,6 +25,7 @@ class EffortPrecision : public testing::Test {
  protected:
   EffortPrecision() : scene_(read_scene_file(find_scene("small"))) {
     scene_.strength = StrengthData{};
+    scene_.strength->by_opening = false;
     for (double& digit : scene_.strength->digits) digit *= 0.1;
     scene_.hand.depth_limit = 20e-3;
     for (int i = 0; i < 60; ++i) {

@@ -21,6 +21,7 @@ namespace {
 class Compare : public testing::Test {
  protected:
   Compare() : scene_(read_scene_file(find_scene("small"))) {
+    scene_.strength.reset();
     scene_.force.max = scene_.force.base + 0.08 * scene_.force.range;  // reached at some of the tilts
     core_ = make_core_evaluator(scene_);
     const Plan plan(scene_, true);
@@ -228,6 +229,7 @@ class CompareEfforts : public Compare {
   CompareEfforts() {
     scene_ = read_scene_file(find_scene("small"));
     scene_.strength = StrengthData{};
+    scene_.strength->by_opening = false;
     for (double& digit : scene_.strength->digits) digit *= 0.1;  // some states are not held
     scene_.hand.depth_limit = 20e-3;
     scene_.force.max = 1e3;

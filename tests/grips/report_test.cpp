@@ -318,6 +318,8 @@ wall_mm = 1.5
 [liquid]
 fills = [0.25, 0.8]
 pour = "POUR"
+[strength]
+efforts = false
 [tilts]
 deg = [0, 40, 80]
 )";

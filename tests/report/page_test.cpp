@@ -122,7 +122,8 @@ TEST(ReportPage, OfAHandWithStrengthTellsWhatHoldingTakes) {
   std::size_t at = 0;
   for (const char* part :
        {">cup</h2>", ">The best grips</h3>", "This grip is good because ", "(margin ",
-        ">Normal force of each digit, and its share of the strength, in the hardest state of cup</caption>",
+        ">Normal force of each digit, and its share of the strength at the opening of the grip, in the hardest state of "
+        "cup</caption>",
         ">Limits of the best grips of cup</caption>", "A margin says how many times over", "Why each of the other grips is good",
         ">Forces over the tilt</h3>", ">Effort over the tilt</h3>", ">Where pouring starts</h3>", ">flask</h2>",
         ">What others call a held grasp</h2>", ">The words</h2>", ">effort</dt>"}) {

@@ -56,7 +56,7 @@ TEST(SceneRemedies, HelpVessels) {
       {walled + "liquid = { name = \"red\", fill = 0.5, fill_ml = 5 }\n" + liquid, "allowed: one of the two",
        walled + with_liquid + liquid},
       {walled + walled, "allowed: another name", walled + "[[vessel]]\nname = \"w\"\n" + walled.substr(HEAD.size())},
-      {"[hand]\nscale = 1\nlength_mm = 180\n" + walled, "allowed: one of scale, length_mm and person",
+      {"[hand]\nperson = \"paper\"\nlength_mm = 180\n" + walled, "allowed: one of length_mm and person",
        "[hand]\nlength_mm = 180\n" + walled},
   });
 }

@@ -224,6 +224,7 @@ void expect_pressed(const json& seen, const HandPress& press) {
 TEST(ViewFrame, TellsWhatHoldingTakesOfTheHand) {
   Scene scene = live_scene();
   scene.strength.emplace();
+  scene.strength->by_opening = false;
   const LiveScene live(scene);
   FrameMaker maker(live);
   int held = 0;

@@ -125,7 +125,7 @@ TEST(GripsView, AFrameHasTheHoldThatGripTells) {
         EXPECT_EQ(seen.effort, told.effort);
         EXPECT_EQ(seen.low, told.low);
         EXPECT_EQ(seen.tips, told.tips);
-        EXPECT_EQ(frame.hold, 20 * told.effort) << "the index finger is the weaker one";
+        EXPECT_EQ(frame.hold, told.strength.digits[1] * told.effort) << "the index finger is the weaker one";
         EXPECT_EQ(seen.presses.empty(), std::isinf(told.effort));
         Vec3 sum(0);
         const VesselPose& pose = frame.vessels[grips[g].vessel].pose;
