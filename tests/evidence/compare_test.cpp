@@ -11,6 +11,7 @@
 #include <limits>
 #include <memory>
 
+#include "core/hand_size.h"
 #include "scene/reader.h"
 #include "scene/shipped.h"
 #include "sweeps/plan.h"
@@ -18,9 +19,17 @@
 namespace wholehand {
 namespace {
 
+// With the paper's hand, at heights at which none of its grips is near a margin.
+Scene small_of_the_paper() {
+  Scene scene = read_scene_file(find_scene("small"));
+  scene.hand.fingers = paper_hand().fingers;
+  scene.grips.height.values = {30e-3, 45e-3, 60e-3};
+  return scene;
+}
+
 class Compare : public testing::Test {
  protected:
-  Compare() : scene_(read_scene_file(find_scene("small"))) {
+  Compare() : scene_(small_of_the_paper()) {
     scene_.strength.reset();
     scene_.force.max = scene_.force.base + 0.08 * scene_.force.range;  // reached at some of the tilts
     core_ = make_core_evaluator(scene_);
@@ -227,7 +236,7 @@ TEST_F(Compare, LetsFewOutcomesDifferWithinTheMargin) {
 class CompareEfforts : public Compare {
  protected:
   CompareEfforts() {
-    scene_ = read_scene_file(find_scene("small"));
+    scene_ = small_of_the_paper();
     scene_.strength = StrengthData{};
     scene_.strength->by_opening = false;
     for (double& digit : scene_.strength->digits) digit *= 0.1;  // some states are not held

@@ -151,7 +151,7 @@ Offsets parameter_offsets() {
   OFFSET(largest_mass), OFFSET(largest_share), OFFSET(largest_height);
   OFFSET(friction), OFFSET(torsion), OFFSET(friction_angle), OFFSET(grip_strength);
   OFFSET(thumb_strength), OFFSET(index_strength), OFFSET(middle_strength), OFFSET(ring_strength), OFFSET(little_strength);
-  OFFSET(palm_strength), OFFSET(pour_sense), OFFSET(table_top);
+  OFFSET(palm_strength), OFFSET(by_opening), OFFSET(pour_sense), OFFSET(table_top);
   OFFSET(weight_fingers), OFFSET(weight_contacts), OFFSET(weight_depth), OFFSET(weight_posture), OFFSET(weight_force);
   OFFSET(weight_hold), OFFSET(outline_count), OFFSET(cavity_count), OFFSET(lattice_nx), OFFSET(lattice_ny), OFFSET(lattice_nz);
   OFFSET(fills), OFFSET(tilts), OFFSET(quadrature_count);

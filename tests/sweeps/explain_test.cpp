@@ -118,13 +118,13 @@ TEST(Explain, SaysWhatSpheresBetweenJointsCostAndLeaveOpen) {
       explained.text,
       std::regex("not left out: 2 spheres on each bone, which cost -?[0-9.]+ us and 8 B per grip \\([0-9.]+ x without")))
       << explained.text;
-  // the default hand: h = 44.63 / 3 mm and r = 7.5 mm of the middle finger's first phalanx, r - sqrt(r^2 - h^2 / 4) = 6.54 mm; the
-  // metacarpal bones of the four fingers are longer than six times their radius of 8 mm
-  EXPECT_NE(explained.text.find("up to 6.54 mm outside of both (a bone of 44.6 mm); on 4 of 19 bones the spheres do not meet"),
+  // the default hand: h = 53.77 / 3 mm and r = 9.61 mm of the little finger's metacarpal bone, r - sqrt(r^2 - h^2 / 4) = 6.14 mm; those
+  // of the three other fingers are longer than six times their radius
+  EXPECT_NE(explained.text.find("up to 6.14 mm outside of both (a bone of 53.8 mm); on 3 of 19 bones the spheres do not meet"),
             std::string::npos)
       << explained.text;
   scene.hand.between = 8;
-  EXPECT_NE(explain(scene, "core").text.find("up to 0.95 mm outside of both (a bone of 68.1 mm)\n"), std::string::npos)
+  EXPECT_NE(explain(scene, "core").text.find("up to 0.78 mm outside of both (a bone of 68.2 mm)\n"), std::string::npos)
       << explain(scene, "core").text;
 }
 
