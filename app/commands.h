@@ -23,6 +23,7 @@ void add_sweep_command(CLI::App& app, Action& action);                          
 void add_shared_sweep_command(CLI::App& app, Action& action, const SweepRunner& run);  // by many
 void add_merge_command(CLI::App& app, Action& action);
 void add_rank_command(CLI::App& app, Action& action);
+void add_compare_command(CLI::App& app, Action& action);
 void add_report_command(CLI::App& app, Action& action);
 void add_grip_command(CLI::App& app, Action& action);
 void add_trials_command(CLI::App& app, Action& action);

@@ -41,12 +41,16 @@ struct FingerData {
   double arch = 0;                   // rad, about +x, fingers only
   std::array<double, 4> segments{};  // L0..L3, m (thumb: L0..L2)
   std::array<double, 5> radii{};     // metacarpal base .. tip, m (thumb: four)
+
+  bool operator==(const FingerData&) const = default;
 };
 
 // An angle's value at closure 0 and 1, rad.
 struct AngleRange {
   double open = 0;
   double closed = 0;
+
+  bool operator==(const AngleRange&) const = default;
 };
 
 // The default hand is KERNELS' table: segment means of Buryanov & Kotiuk 2010 with the pulp added.
@@ -73,6 +77,8 @@ struct HandData {
   AngleRange mcp{radians(4), radians(66)};
   AngleRange pip{radians(12), radians(40)};
   double dip_per_pip = 0.6;
+
+  bool operator==(const HandData&) const = default;
 };
 
 // One element of a half outline in (r, y), m: from the previous element's end (the first from (0, 0)) to `end`. An arc is the
@@ -160,6 +166,8 @@ struct StrengthData {
 
   // Of the weaker one of thumb and index finger, N: the hold force is the effort times this.
   double weaker_tip() const { return digits[0] < digits[1] ? digits[0] : digits[1]; }
+
+  bool operator==(const StrengthData&) const = default;
 };
 
 // Values of one axis of the grips, as the scene asks for them.
@@ -207,6 +215,8 @@ struct RobustData {
   double hand_scale = 0;  // of the grip's
   int count = 64;
   std::uint64_t seed = 1;
+
+  bool operator==(const RobustData&) const = default;
 };
 
 struct LiveData {

@@ -52,17 +52,6 @@ std::string sentence(std::string line) {
   return line;
 }
 
-void write_head(MarkupWriter& html, const Scene& scene) {
-  html.open("head");
-  html.empty("meta", {{"charset", "utf-8"}});
-  html.empty("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
-  html.empty("meta", {{"name", "generator"}, {"content", "wholehand"}});
-  html.empty("meta", {{"name", "color-scheme"}, {"content", "light dark"}});
-  html.element("title", page_title(scene));
-  html.open("style").markup(REPORT_STYLE).markup(CHART_RULES).markup(LINE_RULES).close();
-  html.close();
-}
-
 void write_contents(MarkupWriter& html, const Scene& scene) {
   html.open("nav", {{"aria-label", "Contents"}}).open("ul");
   const auto link = [&html](const std::string& id, const std::string& text) {
@@ -121,8 +110,7 @@ class Page {
   explicit Page(const ReportSource& source) : source_(source), scene_(source.scene) {}
 
   std::string write() {
-    html_.markup("<!DOCTYPE html>\n").open("html", {{"lang", "en"}, {"xmlns", "http://www.w3.org/1999/xhtml"}});
-    write_head(html_, scene_);
+    begin_page(html_, page_title(scene_));
     html_.open("body").open("header").element("h1", page_title(scene_));
     html_.element(
         "p",
@@ -228,6 +216,18 @@ std::string report_page(SweepResult& result, const Scene& given, const std::stri
     }
   }
   return Page(source).write();
+}
+
+void begin_page(MarkupWriter& html, const std::string& title) {
+  html.markup("<!DOCTYPE html>\n").open("html", {{"lang", "en"}, {"xmlns", "http://www.w3.org/1999/xhtml"}});
+  html.open("head");
+  html.empty("meta", {{"charset", "utf-8"}});
+  html.empty("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
+  html.empty("meta", {{"name", "generator"}, {"content", "wholehand"}});
+  html.empty("meta", {{"name", "color-scheme"}, {"content", "light dark"}});
+  html.element("title", title);
+  html.open("style").markup(REPORT_STYLE).markup(CHART_RULES).markup(LINE_RULES).close();
+  html.close();
 }
 
 void check_overwrites_page(const std::string& path, const std::string& result) {
