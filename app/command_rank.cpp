@@ -27,6 +27,7 @@ namespace {
 struct RankArguments {
   std::string result, weights, best, apart, glb, output;
   std::vector<std::string> where;
+  bool least_bad = false;
 };
 
 // What can be refused before any work.
@@ -66,11 +67,18 @@ std::string ranking_text(const Scene& scene, const Plan& plan, const RankArgumen
   std::string text;
   for (std::size_t list = 0; list < ranking.lists.size(); ++list) {
     text += fmt::format("{}{}: ", list == 0 ? "" : "\n", list_name(scene, plan, list));
-    text += arguments.where.empty()
-                ? fmt::format("{} feasible and plausible\n", counted(ranking.plausible[list], "grip is", "grips are"))
-                : fmt::format("{} of {} {}\n", readable_number(ranking.matching[list]),
-                              counted(ranking.plausible[list], "feasible, plausible grip", "feasible, plausible grips"),
-                              ranking.plausible[list] == 1 ? "matches" : "match");
+    const std::uint64_t plausible = ranking.plausible[list], not_held = ranking.not_held[list], held = plausible - not_held;
+    const std::string of_these = not_held > 0 ? fmt::format(", {} not held", readable_number(not_held)) : "";
+    if (arguments.where.empty()) {
+      text += fmt::format("{} feasible and plausible{}\n", counted(plausible, "grip is", "grips are"),
+                          of_these.empty() ? "" : "; of these" + of_these.substr(1));
+    } else {
+      text += fmt::format("{} of {}{} {}{}\n", readable_number(ranking.matching[list]),
+                          counted(held, "feasible, plausible grip", "feasible, plausible grips"), not_held > 0 ? " that hold" : "",
+                          held == 1 ? "matches" : "match", of_these);
+    }
+    if (held == 0 && not_held > 0 && !arguments.least_bad)
+      text += "  no grip holds; --least-bad lists those that are nearest to it\n";
     text += list_lines(scene, plan, list / plan.hand_scales(), ranking.lists[list], arguments.output);
   }
   return text;
@@ -87,7 +95,7 @@ ExitCode rank(const RankArguments& arguments) {
   set_heights(result, scene);
   const Plan plan(scene, keeps_vectors(result.variables()));
   result.use(scene, plan);
-  RankRequest request{arguments.weights, arguments.where, 0, 0, 0};
+  RankRequest request{arguments.weights, arguments.where, 0, 0, 0, arguments.least_bad};
   request.best = arguments.best.empty() ? usual_length(result, scene, plan)
                                         : static_cast<std::size_t>(parse_integer(arguments.best, "--best", {1, ranges::BEST.high}));
   if (glb > static_cast<int>(request.best))
@@ -135,6 +143,7 @@ void add_rank_command(CLI::App& app, Action& action) {
   add("--best", arguments->best, "N", "Number of grips to list for each vessel (default: as many as the sweep listed)");
   add("--apart-mm", arguments->apart, "A",
       "List only grips that have some joint of the hand more than A from every grip before (default: the scene's; 0: any)");
+  command->add_flag("--least-bad", arguments->least_bad, "Where no grip of a list holds, list those of the least worst effort");
   add("--glb", arguments->glb, "N", "Write the best N grips of each vessel as glTF: LIST.<vessel>.<rank>.glb");
   add("-o,--output", arguments->output, "LIST.csv", "Write the list; grip, view and report read it with --list");
   command->callback([arguments, &action] { action = [arguments] { return rank(*arguments); }; });

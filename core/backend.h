@@ -40,7 +40,7 @@ struct RunRequest {
   std::uint64_t first = 0, last = 0;  // grips [first, last)
   GripSource grips;
   ChunkSink sink;        // may be empty when nothing is kept
-  std::size_t best = 0;  // candidates wanted, by score descending, then index ascending; only feasible, plausible ones
+  std::size_t best = 0;  // candidates wanted, by score descending, then index ascending; only eligible ones (shaders/status.h)
   const std::atomic<bool>* stop = nullptr;  // set: finish the chunks under way, deliver them, return
 };
 

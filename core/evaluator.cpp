@@ -17,9 +17,11 @@
 #include "core/prepare.h"
 #include "core/remaining.h"
 #include "core/scene_states.h"
+#include "core/score.h"
 #include "core/touch.h"
 #include "core/trig.h"
 #include "core/vectors.h"
+#include "shaders/status.h"
 
 namespace CORE_NS {
 
@@ -207,7 +209,8 @@ class CoreEvaluator final : public wholehand::Evaluator {
                           Real(result.closure)};
     const auto terms = states_.score_terms(hand, largest, entry.force.max);
     score.terms = {terms[0], terms[1], terms[2], terms[3], terms[4], terms[5]};
-    score.score = result.plausible ? states_.weighted(terms) : 0;
+    score.not_held = is_not_held(result.plausible, largest);
+    score.score = result.plausible && !score.not_held ? states_.weighted(terms) : 0;
     return score;
   }
 
@@ -474,7 +477,14 @@ class CoreEvaluator final : public wholehand::Evaluator {
     const ScoredHand hand{answer.used_mask, answer.touch_mask, answer.phalanx_depth, answer.palm_depth, answer.closing.closure};
     const auto terms = states_.score_terms(hand, largest, entry.force.max);
     for (int k = 0; k < 6; ++k) row.put(FIELD_TERMS, k, terms[k]);
-    row.put(FIELD_SCORE, 0, is_plausible(answer) ? states_.weighted(terms) : Real(0));
+    const std::uint32_t status = answer.status | (is_not_held(is_plausible(answer), largest) ? STATUS_NOT_HELD : 0u);
+    row.put_mask(FIELD_STATUS, status);
+    row.put(FIELD_SCORE, 0, wholehand::is_eligible(status) ? states_.weighted(terms) : Real(0));
+  }
+
+  // Of a scene without efforts, and of an implausible grip, it is not known.
+  static bool is_not_held(bool is_plausible, const LargestForces& largest) {
+    return is_plausible && largest.effort && !effort_holds(*largest.effort);
   }
 
   // How a grip of this result holds its vessel, in the world of the right hand.

@@ -13,6 +13,7 @@
 #include "core/prepare.h"
 #include "host/grip_program.h"
 #include "host/stream.h"
+#include "shaders/status.h"
 #include "system/clock.h"
 
 namespace wholehand::host {
@@ -131,7 +132,7 @@ struct GripBackend::Impl {
     std::vector<Candidate> candidates;
     for (std::size_t i = 0; i < planes.count; ++i) {
       const std::uint32_t status = planes.uint(fields.plane[FIELD_STATUS], i);
-      if ((status & (STATUS_REASON_MASK | STATUS_PLAUSIBLE)) != STATUS_PLAUSIBLE) continue;
+      if (!is_eligible(status)) continue;
       candidates.push_back({planes.real(fields.plane[FIELD_SCORE], i), planes.first + i});
     }
     keep_best(candidates, best);

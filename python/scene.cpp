@@ -213,6 +213,7 @@ void bind_scene(py::module_& module) {
       .def_property_readonly("tilts", [](const SceneHandle& scene) { return scene.described().tilts; })
       .def_property_readonly("apart", [](const SceneHandle& scene) { return scene.described().output.apart; })
       .def_property_readonly("hand_scales", &hand_scales)
+      .def_property_readonly("has_effort", [](const SceneHandle& handle) { return has_effort(handle.described()); })
       .def_property_readonly("best", [](const SceneHandle& scene) { return scene.described().output.best; })
       .def("fills", &fills_of, py::arg("vessel"))
       .def(

@@ -182,6 +182,11 @@ void write_limits(MarkupWriter& html, const ReportSource& source, std::size_t li
   html.close().close();
 }
 
+const char* no_best_grips(const Scene& scene) {
+  return has_effort(scene) ? "There are no best grips: no grip is feasible and plausible and holds."
+                           : "There are no best grips: no grip is feasible and plausible.";
+}
+
 }  // namespace
 
 std::string front_and_side(const std::string& drawing) {
@@ -259,7 +264,7 @@ void write_grips(MarkupWriter& html, const ReportSource& source, std::size_t lis
   html.element("h3", "The best grips" + of_hand, {{"id", id + "-best"}});
   if (best.grips.empty()) {
     html.element("p", source.lists                 ? fmt::format("{} lists no grips.", source.lists_file)
-                      : source.result.lists_best() ? "There are no best grips: no grip is feasible and plausible."
+                      : source.result.lists_best() ? no_best_grips(source.scene)
                                                    : "The sweep was not asked to list grips.");
     return;
   }

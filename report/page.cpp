@@ -23,6 +23,7 @@
 #include "report/style.h"
 #include "sweeps/edge.h"
 #include "sweeps/tally.h"
+#include "sweeps/unheld.h"
 #include "system/files.h"
 #include "system/readable.h"
 #include "system/version.h"
@@ -97,11 +98,12 @@ void write_words(MarkupWriter& html, bool has_table, bool has_efforts) {
          "least share of its strength that the digit nearest to its limit must give so that all contacts of the hand hold the "
          "vessel; up to 1 the hand holds; infinite where no force does");
     word("worst effort", "largest effort over all tilts and fills; the state that has it is the hardest");
+    word("not held", "plausible, but the worst effort is above 1: the hand is too weak, or friction is too small");
     word("margin", "how many times over a grip keeps to a limit; below 1 it does not");
   }
   word("score",
        "sum of six terms from 0 to 1, each times its weight: fingers used, points touching, depth, posture, feedback force, and "
-       "what holding takes; an infeasible or implausible grip scores 0");
+       "what holding takes; an infeasible or implausible grip, and one that is not held, scores 0");
   html.close().close();
 }
 
@@ -171,6 +173,8 @@ class Page {
     const bool knows_reasons = read_counts(source_, v, counts);
     if (!knows_reasons) counts.grips = source_.plan.grips();
     html_.open("p").text(counts_line(counts, knows_reasons, source_.plan.copies()) + ".");
+    if (counts.none_holds() && counts.least_bad.is_known() && source_.core)
+      html_.text(" " + sentence(unheld_line(*source_.core, scene_, source_.plan, v, counts.least_bad)) + ".");
     for (const ReportedGrips& best : lists) {
       if (best.grips.empty()) continue;
       const BestGrip& first = best.grips[0];

@@ -7,6 +7,7 @@
 #include "gauge.glsl"
 #include "grips.glsl"
 #include "planes.glsl"
+#include "status.h"
 #include "trig.glsl"
 
 #define HALF_TOLERANCE (Real(0.5) * EFFORT_TOLERANCE)
@@ -198,8 +199,6 @@ void finish(inout Solve solve) {
 }
 
 Real kept(int plane, int offset, uint grip) { return plane >= 0 ? real_out[uint(plane + offset) * push.stride + grip] : NOT_A_NUMBER; }
-
-bool is_to_solve(uint status) { return (status & (STATUS_REASON_MASK | STATUS_PLAUSIBLE | STATUS_OUT_OF_TURNS)) == STATUS_PLAUSIBLE; }
 
 // Where a grip's turns ran out before its states did.
 void leave_unfinished(uint grip, bool is_unfinished) {

@@ -110,6 +110,7 @@
 #define STATUS_CONTACT_UNDECIDED 0x8000 // bit 15: a point or a sphere is within CONTACT_MARGIN of being a contact, or of being none
 #define STATUS_UNSETTLED_SHIFT 16   // bits 16..20: finger f took all its advancement steps
 #define STATUS_OUT_OF_TURNS 0x200000 // bit 21: a kernel's turns ran out (TURN_BUDGET); the host has the core compute the grip, and nobody else sees it
+#define STATUS_NOT_HELD 0x400000    // bit 22: a plausible grip whose worst effort is above 1
 
 // ---- kinds, as specialization constants ----
 #define POSE_ARTICULATED 0

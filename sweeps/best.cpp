@@ -125,7 +125,7 @@ std::string best_csv(const Scene& scene, const Plan& plan, const std::vector<std
       "depth,"
       "score_posture,score_force,score_hold,closure,gap_mm,fingers_used,points_touching,phalanx_depth_mm,palm_depth_mm,"
       "peak_feedback_force_N,peak_feedback_tilt_deg,largest_hold_force_N,largest_safe_tilt_deg,antipodal,"
-      "worst_effort,worst_effort_fill,worst_effort_tilt_deg,tips_worst_effort,push_N,friction_needed,"
+      "worst_effort,worst_effort_fill,worst_effort_tilt_deg,tips_worst_effort,push_N,friction_needed,held_margin,"
       "refined_score,refined_height_mm,refined_azimuth_deg,refined_obliquity_deg,refined_roll_deg,refined_offset_mm,";
   if (scene.robust) csv += "robust_mean,robust_low,";
   csv += "grip,result,sweep\n";
@@ -146,7 +146,7 @@ std::string best_csv(const Scene& scene, const Plan& plan, const std::vector<std
                       degrees(best.peak_tilt), best.largest_hold, degrees(best.safe_tilt), best.antipodal ? 1.0 : 0.0});
       const GripEfforts& efforts = best.efforts;
       numbers.insert(numbers.end(), {efforts.worst, efforts.fill, degrees(efforts.tilt), efforts.tips_worst, efforts.push,
-                                     efforts.friction_needed});
+                                     efforts.friction_needed, held_margin(efforts.worst)});
       const GripInput& refined = best.refined;
       const bool is_refined = !std::isnan(best.refined_score);
       for (const double number : {best.refined_score, refined.height * 1e3, degrees(refined.azimuth), degrees(refined.obliquity),
@@ -200,6 +200,7 @@ std::string best_table(const Scene& scene, const Plan& plan, const std::vector<B
   }
   if (has_effort(scene)) {
     columns.push_back({"effort", [](const BestGrip& b) { return fixed_text(b.efforts.worst, 3); }});
+    columns.push_back({"margin", [](const BestGrip& b) { return fixed_text(held_margin(b.efforts.worst), 2); }});
     columns.push_back({"push N", [](const BestGrip& b) { return fixed_text(b.efforts.push, 1); }});
   }
   std::string table = "  rank";

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -269,29 +270,46 @@ void set_robust(const SweepResult& result, const Plan& plan, std::size_t list, s
       }
 }
 
-// Goes through the grips of a vessel and offers those of its lists; counts them in the first pass.
-void offer_grips(const SweepResult& result, const Scene& scene, const Plan& plan, std::size_t vessel, Scores& scores,
-                 const Where* where, ListChooser& chooser, Ranking* counted) {
-  const Variable& plausible = *result.find("plausible");
+// By what the grips of a list are ordered: scores of those that hold, or worst efforts of those that do not, the least first.
+enum class RankBy { score, least_effort };
+
+// Whether no grip of the list holds.
+bool none_holds(const Ranking& ranking, std::size_t list) {
+  return ranking.not_held[list] > 0 && ranking.not_held[list] == ranking.plausible[list];
+}
+
+// Goes through the grips of a vessel and offers those of its lists; counts them in the first pass. By least_effort it offers those of lists of
+// which none holds.
+void offer_grips(const SweepResult& result, const Scene& scene, const Plan& plan, std::size_t vessel, RankBy by, Scores& scores,
+                 const Where* where, ListChooser& chooser, Ranking& ranking, bool is_first_pass) {
+  const Variable &plausible = *result.find("plausible"), *not_held = result.find("not_held");
   const std::vector<WhereValue> none;
   ConditionValues values(result, scene, plan, where ? where->values() : none);
   const std::size_t scales = plan.hand_scales();
-  std::vector<double> is_plausible(GRIPS_AT_ONCE), score(GRIPS_AT_ONCE);
+  std::vector<double> is_plausible(GRIPS_AT_ONCE), fails(GRIPS_AT_ONCE, 0), score(GRIPS_AT_ONCE);
   std::vector<std::size_t> hands(GRIPS_AT_ONCE);
   std::vector<Candidate> offered;
   for (std::uint64_t first = 0; first < plan.grips(); first += GRIPS_AT_ONCE) {
     const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(GRIPS_AT_ONCE, plan.grips() - first));
     result.read(plausible, vessel, 0, first, count, is_plausible.data());
-    scores.read(vessel, first, count, score.data());
+    if (has_effort(scene)) result.read(*not_held, vessel, 0, first, count, fails.data());
+    if (by == RankBy::score) {
+      scores.read(vessel, first, count, score.data());
+    } else {
+      result.read(*result.find("worst_effort"), vessel, 0, first, count, score.data());
+      std::transform(score.begin(), score.begin() + static_cast<std::ptrdiff_t>(count), score.begin(), std::negate<>());
+    }
     plan.hand_scales_of(first, count, hands.data());
     values.read(vessel, first, count);
     offered.clear();
     for (std::size_t i = 0; i < count; ++i) {
       if (is_plausible[i] != 1) continue;  // infeasible ones have none
       const std::size_t list = vessel * scales + hands[i];
-      if (counted) ++counted->plausible[list];
+      if (is_first_pass) ++ranking.plausible[list];
+      if (is_first_pass && fails[i] == 1) ++ranking.not_held[list];
+      if (by == RankBy::score ? fails[i] == 1 : !none_holds(ranking, list)) continue;
       if (where && !where->holds(values.row(i))) continue;
-      if (counted) ++counted->matching[list];
+      if (is_first_pass) ++ranking.matching[list];
       offered.push_back({score[i], first + i});
     }
     chooser.offer(offered);
@@ -303,14 +321,25 @@ std::vector<ListProgress> rank_vessel(const SweepResult& result, const Scene& sc
                                       Scores& scores, const Where* where, const RankRequest& request, const Evaluator* core,
                                       Ranking& ranking) {
   const std::size_t pool = request.pool > 0 ? request.pool : usual_pool(plan, request.best, request.apart);
-  ListChooser chooser(plan, core, vessel, {request.best, request.apart, pool, 0});
-  Ranking* counted = &ranking;
-  do {
-    offer_grips(result, scene, plan, vessel, scores, where, chooser, counted);
-    chooser.end_pass();
-    counted = nullptr;
-  } while (!chooser.is_complete());
-  return chooser.progress();
+  const auto choose = [&](RankBy by) {
+    ListChooser chooser(plan, core, vessel, {request.best, request.apart, pool, 0});
+    bool is_first_pass = by == RankBy::score;
+    do {
+      offer_grips(result, scene, plan, vessel, by, scores, where, chooser, ranking, is_first_pass);
+      chooser.end_pass();
+      is_first_pass = false;
+    } while (!chooser.is_complete());
+    return chooser.progress();
+  };
+  std::vector<ListProgress> lists = choose(RankBy::score);
+  const std::size_t first = vessel * plan.hand_scales();
+  bool is_unheld = false;
+  for (std::size_t k = 0; k < lists.size(); ++k) is_unheld = is_unheld || none_holds(ranking, first + k);
+  if (!request.least_bad || !is_unheld) return lists;
+  const std::vector<ListProgress> least_bad = choose(RankBy::least_effort);
+  for (std::size_t k = 0; k < lists.size(); ++k)
+    if (none_holds(ranking, first + k)) lists[k] = least_bad[k];
+  return lists;
 }
 
 }  // namespace
@@ -372,12 +401,16 @@ std::vector<WhereName> where_names(const SweepResult& result, const Scene& scene
 
 Ranking rank_grips(const SweepResult& result, const Scene& scene, const Plan& plan, const RankRequest& request,
                    const std::function<std::shared_ptr<const Evaluator>()>& open_core) {
-  needed(result, {"plausible"});
+  needed(result, has_effort(scene) ? std::vector<std::string>{"plausible", "not_held"} : std::vector<std::string>{"plausible"});
+  if (request.least_bad && !has_effort(scene))
+    throw usage_error("--least-bad: needs [strength] and [tilts], which the scene of this file does not have");
+  if (request.least_bad) needed(result, {"worst_effort"});
   Scores scores(result, scene, request.weights);
   const std::vector<WhereName> names = where_names(result, scene, plan);
   const std::unique_ptr<const Where> where = request.where.empty() ? nullptr : std::make_unique<Where>(request.where, names);
   const std::size_t scales = plan.hand_scales(), lists = scene.vessels.size() * scales;
-  Ranking ranking{{}, std::vector<std::uint64_t>(lists, 0), std::vector<std::uint64_t>(lists, 0), ""};
+  const std::vector<std::uint64_t> none(lists, 0);
+  Ranking ranking{{}, none, none, none, ""};
   const std::shared_ptr<const Evaluator> posing = request.apart > 0 ? open_core() : nullptr;
   std::vector<ListProgress> best;
   for (std::size_t v = 0; v < scene.vessels.size(); ++v)
@@ -398,7 +431,7 @@ Ranking rank_grips(const SweepResult& result, const Scene& scene, const Plan& pl
         is_whole ? read_rows(result, scene, plan, list / scales, chosen) : evaluate_best(*core, scene, plan, list / scales, chosen);
     for (std::size_t i = 0; i < grips.size(); ++i) {
       grips[i].candidate = chosen[i];
-      grips[i].score = chosen[i].score;
+      grips[i].score = none_holds(ranking, list) ? 0 : chosen[i].score;
       grips[i].rank = i + 1;
     }
     if (scores.is_sweeps_own()) {

@@ -267,7 +267,9 @@ const ResultFile::Block* ResultFile::block_of(const char* variable) const {
   return nullptr;
 }
 
-bool ResultFile::has_eligible() const { return block_of("score") && block_of("plausible"); }
+bool ResultFile::has_eligible() const {
+  return block_of("score") && block_of("plausible") && (!has_effort(contents_.scene) || block_of("not_held"));
+}
 
 std::vector<Candidate> ResultFile::eligible(std::size_t vessel, std::uint64_t first, std::uint64_t last) const {
   // opened anew: a file system of a network shows what others wrote when a file is opened
@@ -291,7 +293,7 @@ std::vector<Candidate> ResultFile::eligible(std::size_t vessel, std::uint64_t fi
     }
   };
   const std::size_t count = last - first;
-  std::vector<std::int8_t> plausible(count);
+  std::vector<std::int8_t> plausible(count), not_held(count, 0);
   std::vector<float> floats;
   std::vector<double> doubles;
   const bool is_float = block_of("score")->size == sizeof(float);
@@ -303,10 +305,11 @@ std::vector<Candidate> ResultFile::eligible(std::size_t vessel, std::uint64_t fi
     read_block("score", doubles.data());
   }
   read_block("plausible", plausible.data());
+  if (block_of("not_held")) read_block("not_held", not_held.data());
   close(file);
   std::vector<Candidate> grips;
   for (std::size_t i = 0; i < count; ++i)
-    if (plausible[i] == 1) grips.push_back({is_float ? static_cast<double>(floats[i]) : doubles[i], first + i});
+    if (plausible[i] == 1 && not_held[i] == 0) grips.push_back({is_float ? static_cast<double>(floats[i]) : doubles[i], first + i});
   return grips;
 }
 

@@ -12,7 +12,7 @@
 #include "core/normal.h"
 #include "core/planes.h"
 #include "core/sobol.h"
-#include "shaders/layout.h"
+#include "shaders/status.h"
 #include "statistics/interval.h"
 
 namespace wholehand {
@@ -40,8 +40,7 @@ bool evaluate(Backend& backend, std::size_t vessel, const std::vector<Deviation>
     for (std::size_t i = 0; i < chunk.count; ++i) {
       const std::uint64_t at = chunk.first + i;
       const std::uint32_t status = chunk.uint(fields.plane[FIELD_STATUS], i);
-      const bool is_plausible = (status & (STATUS_REASON_MASK | STATUS_PLAUSIBLE)) == STATUS_PLAUSIBLE;
-      grips.scores[at / each][first + at % each] = is_plausible ? chunk.real(fields.plane[FIELD_SCORE], i) : 0;
+      grips.scores[at / each][first + at % each] = is_eligible(status) ? chunk.real(fields.plane[FIELD_SCORE], i) : 0;
     }
     if (look) look();
   };

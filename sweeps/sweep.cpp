@@ -10,6 +10,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/printable.h"
 #include "sweeps/best.h"
 #include "sweeps/cavity_notes.h"
 #include "sweeps/closing.h"
@@ -21,6 +22,7 @@
 #include "sweeps/resume.h"
 #include "sweeps/robust.h"
 #include "sweeps/tally.h"
+#include "sweeps/unheld.h"
 #include "sweeps/write_companions.h"
 #include "system/clock.h"
 #include "system/output.h"
@@ -160,6 +162,8 @@ std::vector<int> Sweep::swept_fields() const {
   const std::vector<int> kept = variable_fields(variables_);
   std::set<int> fields(kept.begin(), kept.end());
   if (ranks_here()) fields.insert({FIELD_SCORE, FIELD_STATUS});
+  // where no grip holds, the one that is nearest to it is told
+  if (best_wanted_ > 0 && has_effort(scene_)) fields.insert({FIELD_STATUS, FIELD_WORST_EFFORT});
   return {fields.begin(), fields.end()};
 }
 
@@ -511,6 +515,19 @@ bool Sweep::complete(BestLists& best, InterruptGuard& interrupt) const {
   return add_robust_scores(parts_.open_other, scene_, plan(), &interrupt.flag(), best, look);
 }
 
+// What there is to say where no grip of a vessel holds.
+std::string Sweep::unheld(std::size_t v) const {
+  const GripCounts& counts = mark_.vessels[v].counts;
+  if (!counts.none_holds() || !counts.least_bad.is_known()) return "";
+  const std::shared_ptr<const Evaluator> core = parts_.open_evaluator();
+  // what `rank` needs
+  int kept = 0;
+  for (const Variable* variable : variables_)
+    for (const std::string_view name : {"plausible", "not_held", "worst_effort"}) kept += variable->name == name ? 1 : 0;
+  return fmt::format("{}: {}{}", scene_.vessels[v].name, unheld_line(*core, scene_, plan(), v, counts.least_bad),
+                     kept == 3 ? fmt::format("; `wholehand rank {} --least-bad` lists such grips", one_line(names_.result)) : "");
+}
+
 void Sweep::finish(ResultFile& file, const BestLists& best) {
   std::vector<std::vector<RankedGrip>> ranked(best.size());
   for (std::size_t list = 0; list < best.size(); ++list) {
@@ -531,6 +548,7 @@ void Sweep::finish(ResultFile& file, const BestLists& best) {
   for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
     const std::string counts = counts_line(mark_.vessels[v].counts, has_field(FIELD_STATUS), plan().copies());
     print_text(fmt::format("\n{}: {}\n{}", scene_.vessels[v].name, counts, best_lines(scene_, plan(), v, best, names_.best)));
+    if (const std::string line = unheld(v); !line.empty()) is_quiet() ? note(line) : print_text(line + "\n");
   }
   // kernels that ran while the file was being written cost no time of their own
   const SweepTimes times{since(options_.started), std::min(wait_seconds_, kernel_seconds_), file.seconds(), file.bytes()};

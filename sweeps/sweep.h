@@ -122,6 +122,7 @@ class Sweep {
   CompanionRequest companions() const;
   std::vector<int> swept_fields() const;
   bool has_score() const;
+  std::string unheld(std::size_t vessel) const;
   MarkBounds bounds() const;
   void announce_check() const;
   bool repair(ResultFile& file, InterruptGuard& interrupt);

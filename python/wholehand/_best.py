@@ -125,11 +125,12 @@ def best(
     *,
     by: str | xr.DataArray = "score",
     where: xr.DataArray | None = None,
+    least_bad: bool = False,
 ) -> xr.Dataset:
     """The best grips of every vessel that differ from one another, as ``wholehand rank`` lists them.
 
     The feasible, plausible grips of a vessel are gone through from the best to the worst, of equal ones in the order of the sweep.
-    A grip is taken where some joint of the posed hand is more than ``apart_mm`` from the same joint of every hand before. Where a
+    In a scene with [strength] those are left out that do not hold (``not_held``). A grip is taken where some joint of the posed hand is more than ``apart_mm`` from the same joint of every hand before. Where a
     sweep has several hand scales, each has a list.
 
     Parameters
@@ -145,18 +146,21 @@ def best(
         out.
     where : DataArray of bool, optional
         Only grips where this holds.
+    least_bad : bool, optional
+        Where no grip of a list holds: the grips of the least worst effort instead of none, whatever ``by`` says.
 
     Returns
     -------
     xarray.Dataset
         Along ``grip``: every variable of the grips, and as coordinates the vessel, the rank in its list (from 1), and where it is:
-        height (m), azimuth, obliquity, roll (rad), offset (m), hand_scale. ``wh.grips(...)`` makes an array for ``wh.evaluate`` of
+        height (m), azimuth, obliquity, roll (rad), offset (m), hand_scale. Where the dataset has ``worst_effort``, there is also
+        ``held_margin``, which is 1 / worst effort. ``wh.grips(...)`` makes an array for ``wh.evaluate`` of
         it, and ``wh.grip(scene, vessel, at=found.isel(grip=0))`` shows one.
 
     Raises
     ------
     Error
-        A dataset without scene, reason, plausible or score; ``by`` or ``where`` that differ from azimuth to azimuth where the
+        A dataset without scene, reason, plausible or score, and, of a scene with [strength], not_held; ``by`` or ``where`` that differ from azimuth to azimuth where the
         sweep computed one for all.
 
     >>> import wholehand as wh
@@ -181,7 +185,10 @@ def best(
     apart = scene._core.apart if apart_mm is None else float(apart_mm) / 1e3
     if count < 1 or not apart >= 0 or not np.isfinite(apart):
         raise Error(f"best: n is {n} and apart_mm is {apart_mm}; allowed: n of 1 or more, apart_mm of 0 or more")
-    missing = [f"'{name}'" for name in ("reason", "plausible", by) if isinstance(name, str) and name not in data]
+    if least_bad and not scene._core.has_effort:
+        raise Error("best: least_bad needs [strength] and [tilts], which the scene does not have")
+    needed = ["reason", "plausible", by, *(["not_held"] if scene._core.has_effort else []), *(["worst_effort"] if least_bad else [])]
+    missing = [f"'{name}'" for name in needed if isinstance(name, str) and name not in data]
     if missing:
         raise Error(f"best: the dataset lacks {', '.join(missing)}, by which grips are chosen: keep all of these in the sweep")
     data = _with_vessels(data)
@@ -198,18 +205,25 @@ def best(
     # as numbers with a sign: the best are looked for by the least of what is below zero
     own = data[by] if isinstance(by, str) else by
     wanted = _of_grips(own, data, dims, "by", "biuf").astype(np.float64).reindex_like(data["reason"])
-    eligible = (data["reason"] == 0) & (data["plausible"] == 1)
+    plausible = eligible = (data["reason"] == 0) & (data["plausible"] == 1)
     if where is not None:
         eligible = eligible & _of_grips(where, data, dims, "where", "b").reindex_like(data["reason"], fill_value=False)
     order = ["vessel", *dims]
-    wanted, eligible = wanted.transpose(*order), eligible.transpose(*order)
+    fails = data["not_held"] == 1 if scene._core.has_effort else xr.zeros_like(data["reason"], dtype=bool)
+    wanted, eligible, plausible = wanted.transpose(*order), eligible.transpose(*order), plausible.transpose(*order)
+    fails = fails.transpose(*order)
+    efforts = data["worst_effort"].transpose(*order) if least_bad else None
     pieces = []
     for v, vessel in enumerate(data["vessel"].values.tolist()):
         part = data.isel(vessel=v)
         chooser = _Chooser(scene, part, dims, apart)
         scores, allowed = wanted.isel(vessel=v).values.ravel(), eligible.isel(vessel=v).values.ravel()
+        unheld, judged = fails.isel(vessel=v).values.ravel(), plausible.isel(vessel=v).values.ravel()
         for hand in _hands(part, dims, scene):
-            pieces.append(_listed(part, dims, chooser, chooser.choose(vessel, scores, allowed & hand, count)))
+            places = chooser.choose(vessel, scores, allowed & ~unheld & hand, count)
+            if efforts is not None and not (judged & ~unheld & hand).any():
+                places = chooser.choose(vessel, -efforts.isel(vessel=v).values.ravel(), allowed & hand, count)
+            pieces.append(_listed(part, dims, chooser, places))
     return xr.concat(pieces, "grip", combine_attrs="override")
 
 
@@ -219,8 +233,15 @@ def _listed(part: xr.Dataset, dims: list[str], chooser: _Chooser, places: tuple[
     import xarray as xr
 
     names = [name for name, variable in part.data_vars.items() if set(dims) <= set(variable.dims)]
-    picked = part[names].isel({dim: xr.DataArray(at, dims="grip") for dim, at in zip(dims, places)})
     length = len(places[0])
+    # of none, the first one less itself: a file is not read at no place
+    picked = part[names].isel({dim: xr.DataArray(at if length else [0], dims="grip") for dim, at in zip(dims, places)})
+    if not length:
+        picked = picked.load().isel(grip=slice(0, 0))
+    if "worst_effort" in picked:
+        with np.errstate(divide="ignore"):
+            margin = (1 / picked["worst_effort"]).assign_attrs(units="1", long_name="1 / worst effort")
+        picked = picked.assign(held_margin=margin)
     coordinates = {
         name: ("grip", chooser.column(name, places), dict(part[name].attrs) if name in part.coords else {})
         for name in _core.GRIP_COLUMNS

@@ -12,6 +12,25 @@ import xarray as xr
 
 from installed import MESH, SEVERAL, SOBOL, InFolder, complaint, run, tube_ply
 
+# a canister of 5.5 kg
+HEAVY = """[[vessel]]
+name = "canister"
+shape = "cylinder"
+diameter_mm = 75
+height_mm = 180
+wall_mm = 20
+density_kg_m3 = 7800
+[table]
+[strength]
+[liquid]
+fills = [0, 1]
+[grips]
+height_fraction = { from = 0.3, to = 0.9, count = 4 }
+roll_deg = { from = -90, to = 0, count = 3 }
+[tilts]
+deg = [0, 45, 90]
+"""
+
 
 class Best(InFolder):
     def setUp(self):
@@ -75,6 +94,29 @@ class Best(InFolder):
         of_states = self.refused(wh.best, data, by="largest_safe_tilt")
         self.assertIn("fill", str(of_states))
         np.testing.assert_array_equal(wh.best(data, n=2, by=data.score)["score"], wh.best(data, n=2)["score"])
+
+    def test_grips_that_do_not_hold_are_listed_on_request_alone(self):
+        data = self.data_of(HEAVY)
+        self.assertGreater(int((data.not_held == 1).sum()), 3)
+        np.testing.assert_array_equal(data.not_held == 1, data.worst_effort > 1)
+        np.testing.assert_array_equal(data.score.values[data.not_held.values == 1], 0)
+        self.assertEqual(wh.best(data).sizes["grip"], 0)
+        least_bad = wh.best(data, n=4, apart_mm=0, least_bad=True)
+        self.same(least_bad, self.ranked("--least-bad", "--best", 4, "--apart-mm", 0))
+        self.assertTrue((least_bad.held_margin < 1).all())
+        np.testing.assert_allclose(least_bad.held_margin * least_bad.worst_effort, 1)
+        np.testing.assert_array_equal(np.sort(data.worst_effort.values, axis=None)[:4], least_bad.worst_effort)
+        self.assertIn("'not_held'", str(self.refused(wh.best, data.drop_vars("not_held"))))
+        data.close()
+        light = self.data_of(HEAVY.replace("wall_mm = 20", "wall_mm = 1"))
+        held = wh.best(light, n=50)
+        self.assertGreater(held.sizes["grip"], 0)
+        self.assertTrue((held.not_held == 0).all() and (held.held_margin >= 1).all())
+        xr.testing.assert_identical(held, wh.best(light, n=50, least_bad=True))
+        light.close()
+        without = self.data_of(HEAVY.replace("[strength]", ""))
+        self.assertIn("[strength]", str(self.refused(wh.best, without, least_bad=True)))
+        without.close()
 
     def test_a_part_of_a_dataset(self):
         data = self.data_of(SEVERAL).load()

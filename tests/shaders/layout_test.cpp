@@ -84,10 +84,10 @@ TEST(Layout, SpecializationConstantsDoNotOverlap) {
 TEST(Layout, StatusBitsDoNotOverlap) {
   const unsigned fingers = (1u << FINGERS) - 1;
   unsigned used = 0;
-  for (const unsigned bits :
-       {unsigned(STATUS_REASON_MASK), unsigned(STATUS_PLAUSIBLE), unsigned(STATUS_ANTIPODAL), unsigned(STATUS_GRAZING),
-        unsigned(STATUS_PROXY_UNSETTLED), unsigned(STATUS_THROUGH_TABLE), unsigned(STATUS_SELF_OVERLAP),
-        unsigned(STATUS_CONTACT_UNDECIDED), fingers << STATUS_BLOCKED_SHIFT, fingers << STATUS_UNSETTLED_SHIFT}) {
+  for (const unsigned bits : {unsigned(STATUS_REASON_MASK), unsigned(STATUS_PLAUSIBLE), unsigned(STATUS_ANTIPODAL),
+                              unsigned(STATUS_GRAZING), unsigned(STATUS_PROXY_UNSETTLED), unsigned(STATUS_THROUGH_TABLE),
+                              unsigned(STATUS_SELF_OVERLAP), unsigned(STATUS_CONTACT_UNDECIDED), unsigned(STATUS_OUT_OF_TURNS),
+                              unsigned(STATUS_NOT_HELD), fingers << STATUS_BLOCKED_SHIFT, fingers << STATUS_UNSETTLED_SHIFT}) {
     EXPECT_EQ(used & bits, 0u) << std::hex << bits;
     used |= bits;
   }
