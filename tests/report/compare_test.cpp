@@ -38,7 +38,7 @@ std::vector<std::string> row_of(const ComparePart& part, const std::string& head
   return {"", "", ""};
 }
 
-TEST(Compare, HalfTheStrengthDoublesTheEffortsOfTheSameGrips) {
+TEST(CompareResults, HalfTheStrengthDoublesTheEffortsOfTheSameGrips) {
   const auto parts = compared(with_strength(), with_strength(0.5));
   ASSERT_EQ(parts.size(), 3u);
   EXPECT_EQ(parts[0].sentences, std::vector<std::string>{"Scores are not of one rule: other strength."});
@@ -74,7 +74,7 @@ TEST(Compare, HalfTheStrengthDoublesTheEffortsOfTheSameGrips) {
   }
 }
 
-TEST(Compare, SaysThatNothingDiffers) {
+TEST(CompareResults, SaysThatNothingDiffers) {
   const auto parts = compared(RESULT_SCENE, RESULT_SCENE);
   EXPECT_EQ(parts[0].sentences[0], "Nothing that is compared differs.");
   EXPECT_TRUE(parts[0].changes.empty() && parts[0].tables.empty());
@@ -84,7 +84,7 @@ TEST(Compare, SaysThatNothingDiffers) {
   EXPECT_EQ(commented[0].sentences[0], "Nothing that is compared differs.");
 }
 
-TEST(Compare, AHandThatNoLongerFitsHasAReason) {
+TEST(CompareResults, AHandThatNoLongerFitsHasAReason) {
   const auto parts = compared(RESULT_SCENE, edited(RESULT_SCENE, "[liquid]", "[hand]\nscale = 0.6\n\n[liquid]"));
   EXPECT_EQ(parts[0].sentences[0], "Scores are not of one rule: other hand.");
   EXPECT_EQ(parts[0].changes, (std::vector<std::string>{"+ [hand]", "+ [hand] scale = 0.6"}));
@@ -94,7 +94,7 @@ TEST(Compare, AHandThatNoLongerFitsHasAReason) {
   EXPECT_GT(infeasible, 0u) << comparison_text(parts);
 }
 
-TEST(Compare, NamesVesselsOfOneFileAndCutsLongChanges) {
+TEST(CompareResults, NamesVesselsOfOneFileAndCutsLongChanges) {
   std::string edit = edited(edited(RESULT_SCENE, "\"flask\"", "\"bottle\""), "best = 5", "best = 0");
   edit +=
       "[score]\nhold = 0.5\n[[vessel]]\nname = \"third\"\nshape = \"cylinder\"\ndiameter_mm = 60\nheight_mm = 95\nwall_mm = 1.5\n";
@@ -109,7 +109,7 @@ TEST(Compare, NamesVesselsOfOneFileAndCutsLongChanges) {
   EXPECT_EQ(parts[1].sentences[0], "B lists no grip of it.");
 }
 
-TEST(Compare, ReadsResultsOnlyAndWritesPagesOverPages) {
+TEST(CompareResults, ReadsResultsOnlyAndWritesPagesOverPages) {
   const SweptScene strong(with_strength()), weak(with_strength(0.5));
   const std::string page = strong.folder / "page.html", foreign = strong.folder / "mine.html";
   const std::string both = "compare " + strong.path + " " + weak.path;
