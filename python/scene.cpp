@@ -17,6 +17,7 @@
 #include "program/values.h"
 #include "program/vulkan_environment.h"
 #include "python/bind.h"
+#include "scene/new_scene.h"
 #include "scene/ranges.h"
 #include "scene/reader.h"
 #include "scene/shipped.h"
@@ -159,6 +160,11 @@ HandlePointer scene_of_dataset(const std::string& text, const std::string& sourc
   return std::make_shared<SceneHandle>(std::move(scene));
 }
 
+std::string new_text(const std::string& name, const std::string& shape, const std::string& mesh,
+                     const std::vector<std::pair<std::string, double>>& numbers, std::optional<double> fill) {
+  return new_scene({name, shape, mesh, numbers, fill});
+}
+
 std::vector<std::string> vessel_names(const SceneHandle& scene) {
   std::vector<std::string> names;
   for (const VesselData& vessel : scene.described().vessels) names.push_back(vessel.name);
@@ -232,6 +238,8 @@ void bind_scene(py::module_& module) {
   module.def("parse_scene", &parse_text, py::arg("text"), py::arg("name"));
   module.def("scene_of_dataset", &scene_of_dataset, py::arg("text"), py::arg("source"), py::arg("scene_file"), py::arg("keys"),
              py::arg("lattices"), py::call_guard<py::gil_scoped_release>());
+  module.def("new_scene_keys", &new_scene_keys);
+  module.def("new_scene", &new_text, py::arg("name"), py::arg("shape"), py::arg("mesh"), py::arg("numbers"), py::arg("fill"));
   module.def("shipped_scenes", &shipped_scenes);
 }
 

@@ -2,6 +2,7 @@
 #include "sweeps/idle_notes.h"
 
 #include "core/planes.h"
+#include "core/text.h"
 
 namespace wholehand {
 
@@ -11,9 +12,20 @@ std::string idle_strength_note(const Scene& scene) {
          "with its deg, or leave [strength] out";
 }
 
+std::string unjudged_note(const Scene& scene, const Plan& plan) {
+  std::vector<std::string> missing;
+  if (!scene.table) missing.emplace_back("without [table] fingers may reach under the base");
+  if (!scene.strength) missing.emplace_back("without [strength] any hand is strong enough");
+  if (scene.tilts.empty()) missing.emplace_back("without [tilts] no force is judged");
+  if (plan.grips() == 1) missing.emplace_back("with one grip a vessel there is nothing to compare");
+  if (missing.empty()) return "";
+  return "note: " + joined(missing, "; ") + " (`wholehand new` writes a scene with all of them)";
+}
+
 std::vector<std::string> idle_notes(const Scene& scene, const Plan& plan, std::size_t best) {
   std::vector<std::string> notes;
   if (const std::string note = idle_strength_note(scene); !note.empty()) notes.push_back(note);
+  if (const std::string note = unjudged_note(scene, plan); !note.empty()) notes.push_back(note);
   if (!scene.robust) return notes;
   if (best == 0) {
     notes.emplace_back(
