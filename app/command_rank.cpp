@@ -25,7 +25,7 @@ namespace wholehand {
 namespace {
 
 struct RankArguments {
-  std::string result, weights, best, apart, glb, output;
+  std::string result, weights, by, best, apart, glb, output;
   std::vector<std::string> where;
   bool least_bad = false;
 };
@@ -95,16 +95,16 @@ ExitCode rank(const RankArguments& arguments) {
   set_heights(result, scene);
   const Plan plan(scene, keeps_vectors(result.variables()));
   result.use(scene, plan);
-  RankRequest request{arguments.weights, arguments.where, 0, 0, 0, arguments.least_bad};
+  RankRequest request{arguments.weights, arguments.where, 0, 0, 0, arguments.least_bad, read_rank_by(arguments.by, scene)};
   request.best = arguments.best.empty() ? usual_length(result, scene, plan)
                                         : static_cast<std::size_t>(parse_integer(arguments.best, "--best", {1, ranges::BEST.high}));
   if (glb > static_cast<int>(request.best))
     throw usage_error(fmt::format("--glb {0}: each list keeps only its best {1} grips; give --best {0} too", glb, request.best));
   request.apart = arguments.apart.empty() ? scene.output.apart : parse_quantity(arguments.apart, "--apart-mm", ranges::APART);
   const auto open_core = [&]() -> std::shared_ptr<const Evaluator> {
-    if (!trouble.empty() && request.apart > 0 && glb == 0)
-      throw usage_error(
-          fmt::format("{}: {}; --apart-mm 0 lists grips without it, however near they are to each other", result.path(), trouble));
+    if (!trouble.empty() && (request.apart > 0 || request.by == RankBy::robust) && glb == 0)
+      throw usage_error(fmt::format("{}: {}; {}--apart-mm 0 lists grips without it, however near they are to each other",
+                                    result.path(), trouble, request.by == RankBy::robust ? "--rank-by score with " : ""));
     if (!trouble.empty()) throw usage_error(result.path() + ": " + trouble);
     return make_core_evaluator(scene);
   };
@@ -140,6 +140,9 @@ void add_rank_command(CLI::App& app, Action& action) {
   add("--where", arguments->where, "CONDITION",
       "List only grips that meet this condition: \"fingers_used >= 4 and palm_depth_mm < 2\"; given again: that one too")
       ->allow_extra_args(false);
+  add("--rank-by", arguments->by, "KEY",
+      "score, robust (10th percentile over the deviations of [robust]; the default where the scene has it), worst_effort or push")
+      ->check(offered("score robust worst_effort push"));
   add("--best", arguments->best, "N", "Number of grips to list for each vessel (default: as many as the sweep listed)");
   add("--apart-mm", arguments->apart, "A",
       "List only grips that have some joint of the hand more than A from every grip before (default: the scene's; 0: any)");

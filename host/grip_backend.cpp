@@ -372,15 +372,6 @@ RunResult GripBackend::run(const RunRequest& request) {
 
 std::vector<LiquidResult> GripBackend::liquid(std::size_t vessel) { return impl_->program().vessels[vessel].liquid; }
 
-bool GripBackend::use_friction_of(const Scene& other) {
-  // what a fresh device would be made from after a fault, and the core for what no device computes, are of the new friction, too
-  impl_->scene.force.friction = other.force.friction;
-  impl_->core = make_core_evaluator(impl_->scene, impl_->options.evaluator);
-  impl_->arrays = make_scene_arrays(impl_->scene, *impl_->core, impl_->options.evaluator);
-  impl_->program().write_parameters(impl_->arrays);
-  return true;
-}
-
 bool GripBackend::use_fills_of(const Scene& other) {
   if (!have_like_fills(impl_->scene, other)) return false;
   take_fills(impl_->scene, other);

@@ -24,6 +24,7 @@
 #include "sweeps/cavity_notes.h"
 #include "sweeps/idle_notes.h"
 #include "sweeps/plan.h"
+#include "sweeps/robust.h"
 
 namespace py = pybind11;
 
@@ -218,6 +219,9 @@ void bind_scene(py::module_& module) {
       .def_property_readonly("vessels", &vessel_names)
       .def_property_readonly("tilts", [](const SceneHandle& scene) { return scene.described().tilts; })
       .def_property_readonly("apart", [](const SceneHandle& scene) { return scene.described().output.apart; })
+      .def_property_readonly("has_robust", [](const SceneHandle& scene) { return scene.described().robust.has_value(); })
+      .def("robust_candidates",
+           [](const SceneHandle& scene, std::size_t best) { return robust_candidates(scene.described(), best); })
       .def_property_readonly("hand_scales", &hand_scales)
       .def_property_readonly("has_effort", [](const SceneHandle& handle) { return has_effort(handle.described()); })
       .def_property_readonly("best", [](const SceneHandle& scene) { return scene.described().output.best; })

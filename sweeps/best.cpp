@@ -127,7 +127,7 @@ std::string best_csv(const Scene& scene, const Plan& plan, const std::vector<std
       "peak_feedback_force_N,peak_feedback_tilt_deg,largest_hold_force_N,largest_safe_tilt_deg,antipodal,"
       "worst_effort,worst_effort_fill,worst_effort_tilt_deg,tips_worst_effort,push_N,friction_needed,held_margin,"
       "refined_score,refined_height_mm,refined_azimuth_deg,refined_obliquity_deg,refined_roll_deg,refined_offset_mm,";
-  if (scene.robust) csv += "robust_mean,robust_low,";
+  if (scene.robust) csv += "robust_mean,robust_low,robust_share,";
   csv += "grip,result,sweep\n";
   for (std::size_t list = 0; list < lists.size(); ++list) {
     const std::string& vessel = scene.vessels[list / plan.hand_scales()].name;
@@ -152,7 +152,7 @@ std::string best_csv(const Scene& scene, const Plan& plan, const std::vector<std
       for (const double number : {best.refined_score, refined.height * 1e3, degrees(refined.azimuth), degrees(refined.obliquity),
                                   degrees(refined.roll), refined.offset * 1e3})
         numbers.push_back(is_refined ? number : NOT_A_NUMBER);
-      if (scene.robust) numbers.insert(numbers.end(), {best.robust_mean, best.robust_low});
+      if (scene.robust) numbers.insert(numbers.end(), {best.robust.mean, best.robust.low, best.robust.share});
       csv += fmt::format("{},{}", csv_text(vessel), best.rank);
       for (const double number : numbers) csv += "," + csv_number(number);
       csv += fmt::format(",{},{},{}\n", best.candidate.index, csv_text(origin.result), origin.sweep);
@@ -166,8 +166,9 @@ std::string best_table(const Scene& scene, const Plan& plan, const std::vector<B
   if (std::any_of(best.begin(), best.end(), [](const BestGrip& b) { return !std::isnan(b.refined_score); }))
     columns.push_back({"refined", [](const BestGrip& b) { return fixed_text(b.refined_score, 3); }});
   if (scene.robust) {
-    columns.push_back({"robust", [](const BestGrip& b) { return fixed_text(b.robust_mean, 3); }});
-    columns.push_back({"robust low", [](const BestGrip& b) { return fixed_text(b.robust_low, 3); }});
+    columns.push_back({"robust low", [](const BestGrip& b) { return fixed_text(b.robust.low, 3); }});
+    columns.push_back({"mean", [](const BestGrip& b) { return fixed_text(b.robust.mean, 3); }});
+    columns.push_back({"holds %", [](const BestGrip& b) { return fixed_text(100 * b.robust.share, 0); }});
   }
   const auto axis = [&](int place, const char* title, std::string (*cell)(const BestGrip&)) {
     if (plan.varies(place)) columns.push_back({title, cell});

@@ -25,6 +25,13 @@ struct GripEfforts {
   double friction_needed = worst;
 };
 
+// Over deviations of a grip (sweeps/robust.h).
+struct RobustScore {
+  double mean = std::numeric_limits<double>::quiet_NaN();
+  double low = mean;    // 10th percentile
+  double share = mean;  // of the deviations that are feasible, plausible and held
+};
+
 // One of the best grips with what is told of it. Forces and tilts are the worst over all fills; NaN where the scene has no tilts.
 struct BestGrip {
   Candidate candidate;
@@ -45,7 +52,7 @@ struct BestGrip {
   GripEfforts efforts;                       // NaN in a scene without efforts
   GripInput refined{};                       // the best place near the grip (sweeps/refine.h), where there is a score of it
   double refined_score = std::numeric_limits<double>::quiet_NaN();
-  double robust_mean = refined_score, robust_low = refined_score;  // sweeps/robust.h; NaN in a scene without [robust]
+  RobustScore robust;  // NaN in a scene without [robust]
 };
 
 // FIELD_* that a BestGrip is read from.

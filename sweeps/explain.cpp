@@ -31,8 +31,7 @@ constexpr long long SEARCHED_GRIPS = 64;  // for the figures of the search, at m
 struct Measured {
   double seconds = 0;
   std::size_t bytes = 0;
-  double noise = 0;    // s, between the shortest runs
-  double opening = 0;  // s, until the first run began to compute grips
+  double noise = 0;  // s, between the shortest runs
 };
 
 std::string us(double microseconds) { return fixed_text(microseconds, 3); }
@@ -105,16 +104,19 @@ class Explainer {
   }
 
   Measured measure(const Scene& scene, const FieldSet& fields, OutlineSource outline) const {
-    const double opened = monotonic_now();
+    return measure(scene, fields, outline, on_core_, options_.precision);
+  }
+
+  Measured measure(const Scene& scene, const FieldSet& fields, OutlineSource outline, bool on_core, Precision precision) const {
     std::unique_ptr<Backend> backend;
     Measured result;
-    if (on_core_) {
-      auto core = options_.precision == Precision::full ? make_core_evaluator(scene) : make_core_float_evaluator(scene);
-      backend = std::make_unique<CoreBackend>(std::move(core), scene, fields, options_.precision, options_.threads);
+    if (on_core) {
+      auto core = precision == Precision::full ? make_core_evaluator(scene) : make_core_float_evaluator(scene);
+      backend = std::make_unique<CoreBackend>(std::move(core), scene, fields, precision, options_.threads);
       result.bytes = fields.real_planes * sizeof(double) + fields.uint_planes * sizeof(std::uint32_t);
     } else {
       host::GripBackendOptions options;
-      options.precision = options_.precision;
+      options.precision = precision;
       options.outline = outline;
       auto device = std::make_unique<host::GripBackend>(scene, make_core_evaluator(scene), fields, options_.on, options);
       result.bytes = device->bytes_per_grip();
@@ -131,15 +133,10 @@ class Explainer {
       backend->run(request);
       const double seconds = monotonic_now() - start;
       progress_.update("explaining", done_);
-      if (run > 0) {
-        runs.push_back(seconds);
-      } else {  // the first compiles
-        result.opening = monotonic_now() - opened;
-      }
+      if (run > 0) runs.push_back(seconds);  // the first compiles
     }
     std::sort(runs.begin(), runs.end());
     result.seconds = runs[0];
-    result.opening = std::max(0.0, result.opening - result.seconds);
     result.noise = runs[2] - runs[0];
     return result;
   }
@@ -304,17 +301,16 @@ class Explainer {
   void robust() {
     if (!scene_.robust || options_.best == 0) return;
     const std::size_t lists = scene_.vessels.size() * plan_.hand_scales(), count = static_cast<std::size_t>(scene_.robust->count);
-    const std::size_t grips = lists * std::min(options_.best, MOST_ROBUST);
-    const std::size_t backends = robust_frictions(scene_).size();
+    const std::size_t listed = lists * std::min(options_.best, MOST_ROBUST), judged = ROBUST_CANDIDATES * listed;
     const FieldSet fields = make_field_set({FIELD_SCORE, FIELD_STATUS}, scene_);
-    measure(scene_, fields, OUTLINE_SPECIALIZED);  // the driver compiles once for all frictions, and keeps that
-    const Measured scored = measure(scene_, fields, OUTLINE_SPECIALIZED);
-    const double each = microseconds(scored);
-    say("  not left out: the robust scores, {} deviations of {} best grips at most, which cost {:.3g} s a sweep ({} us each), "
-        "and {:.3g} s to begin with {}\n",
-        readable_number(count), readable_number(grips), static_cast<double>(count * grips) * each * 1e-6, us(each),
-        static_cast<double>(backends) * scored.opening,
-        backends > 1 ? fmt::format("each of {} frictions", backends) : "one friction");
+    const double each = microseconds(measure(scene_, fields, OUTLINE_SPECIALIZED, true, Precision::full));
+    const auto cost = [&](std::size_t grips) { return static_cast<double>(grips * count) * each * 1e-6; };
+    say("  not left out: the robust scores by the core, {} deviations of the {} listed grips, which cost {:.3g} s a sweep ({} us "
+        "each); "
+        "of {} candidates those that cannot be listed are judged at fewer, which saves up to {:.3g} s
+        ",
+        readable_number(count),
+        readable_number(listed), cost(listed), us(each), readable_number(judged), cost(judged) - cost(listed));
   }
 
   // Told, not measured: a device goes through these states all the same.

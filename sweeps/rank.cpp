@@ -18,8 +18,10 @@
 #include "core/nearest_name.h"
 #include "core/planes.h"
 #include "core/text.h"
+#include "scene/text.h"
 #include "shaders/layout.h"
 #include "sweeps/list_chooser.h"
+#include "sweeps/robust.h"
 
 namespace wholehand {
 namespace {
@@ -105,6 +107,7 @@ class Scores {
   }
 
   // Whether the weights are those of the sweep.
+  const std::array<double, 6>& weights() const { return weights_; }
   bool is_sweeps_own() const { return weights_ == effective_weights(scene_); }
 
   void read(std::size_t vessel, std::uint64_t first, std::size_t count, double* out) {
@@ -265,23 +268,67 @@ void set_robust(const SweepResult& result, const Plan& plan, std::size_t list, s
   for (std::size_t rank = 0; rank < robust.size(); ++rank)
     for (BestGrip& grip : grips)
       if (grip.candidate.index == listed[rank].index) {
-        grip.robust_mean = robust[rank][0];
-        grip.robust_low = robust[rank][1];
+        grip.robust = robust[rank];
       }
 }
-
-// By what the grips of a list are ordered: scores of those that hold, or worst efforts of those that do not, the least first.
-enum class RankBy { score, least_effort };
 
 // Whether no grip of the list holds.
 bool none_holds(const Ranking& ranking, std::size_t list) {
   return ranking.not_held[list] > 0 && ranking.not_held[list] == ranking.plausible[list];
 }
 
-// Goes through the grips of a vessel and offers those of its lists; counts them in the first pass. By least_effort it offers those of lists of
-// which none holds.
-void offer_grips(const SweepResult& result, const Scene& scene, const Plan& plan, std::size_t vessel, RankBy by, Scores& scores,
-                 const Where* where, ListChooser& chooser, Ranking& ranking, bool is_first_pass) {
+// What the lists are in the order of, of a block of grips: the larger, the better.
+class RankKeys {
+ public:
+  RankKeys(const SweepResult& result, Scores& scores, RankBy by) : result_(result), scores_(scores) {
+    if (by == RankBy::worst_effort) variable_ = needed(result, {"worst_effort"})[0];
+    if (by == RankBy::push) variable_ = needed(result, {"push"})[0];
+    sign_ = by == RankBy::worst_effort ? -1 : 1;
+  }
+
+  void read(std::size_t vessel, std::uint64_t first, std::size_t count, double* out) {
+    if (!variable_) return scores_.read(vessel, first, count, out);
+    result_.read(*variable_, vessel, 0, first, count, out);
+    for (std::size_t i = 0; i < count; ++i) out[i] *= sign_;
+  }
+
+  Scores& scores() { return scores_; }
+
+ private:
+  const SweepResult& result_;
+  Scores& scores_;
+  const Variable* variable_ = nullptr;  // null: the score
+  double sign_ = 1;
+};
+
+// The scene with these weights, as kernels take them; and by what a score of theirs is multiplied to be one of read_weights.
+Scene with_weights(const Scene& scene, const std::array<double, 6>& weights, double& factor) {
+  Scene other = scene;
+  other.score = {weights[0], weights[1], weights[2], weights[3], weights[4], weights[5]};
+  factor = scene.tilts.empty() ? weights[0] + weights[1] + weights[2] + weights[3] : 1;
+  return other;
+}
+
+// Ranks candidates by the core's robust scores.
+void rank_by_robust(const Scene& scene, const Plan& plan, const std::array<double, 6>& weights, std::size_t best,
+                    std::vector<std::vector<BestGrip>>& lists) {
+  double factor = 1;
+  const Scene weighted = with_weights(scene, weights, factor);
+  const OpenBackend open = [](const Scene& other, const FieldSet& fields) {
+    return std::make_unique<CoreBackend>(make_core_evaluator(other), other, fields, Precision::full, 0);
+  };
+  rank_robustly(open, weighted, plan, best, nullptr, lists);
+  for (auto& list : lists)
+    for (BestGrip& grip : list) {
+      grip.robust.mean *= factor;
+      grip.robust.low *= factor;
+    }
+}
+
+// Goes through the grips of a vessel and offers those of its lists; counts them in the first pass. `least_bad`: those of lists of which none
+// holds, instead of those that hold.
+void offer_grips(const SweepResult& result, const Scene& scene, const Plan& plan, std::size_t vessel, RankKeys& keys,
+                 bool least_bad, const Where* where, ListChooser& chooser, Ranking& ranking, bool is_first_pass) {
   const Variable &plausible = *result.find("plausible"), *not_held = result.find("not_held");
   const std::vector<WhereValue> none;
   ConditionValues values(result, scene, plan, where ? where->values() : none);
@@ -293,12 +340,7 @@ void offer_grips(const SweepResult& result, const Scene& scene, const Plan& plan
     const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(GRIPS_AT_ONCE, plan.grips() - first));
     result.read(plausible, vessel, 0, first, count, is_plausible.data());
     if (has_effort(scene)) result.read(*not_held, vessel, 0, first, count, fails.data());
-    if (by == RankBy::score) {
-      scores.read(vessel, first, count, score.data());
-    } else {
-      result.read(*result.find("worst_effort"), vessel, 0, first, count, score.data());
-      std::transform(score.begin(), score.begin() + static_cast<std::ptrdiff_t>(count), score.begin(), std::negate<>());
-    }
+    keys.read(vessel, first, count, score.data());
     plan.hand_scales_of(first, count, hands.data());
     values.read(vessel, first, count);
     offered.clear();
@@ -307,7 +349,7 @@ void offer_grips(const SweepResult& result, const Scene& scene, const Plan& plan
       const std::size_t list = vessel * scales + hands[i];
       if (is_first_pass) ++ranking.plausible[list];
       if (is_first_pass && fails[i] == 1) ++ranking.not_held[list];
-      if (by == RankBy::score ? fails[i] == 1 : !none_holds(ranking, list)) continue;
+      if (least_bad ? !none_holds(ranking, list) : fails[i] == 1) continue;
       if (where && !where->holds(values.row(i))) continue;
       if (is_first_pass) ++ranking.matching[list];
       offered.push_back({score[i], first + i});
@@ -318,25 +360,27 @@ void offer_grips(const SweepResult& result, const Scene& scene, const Plan& plan
 
 // The lists of a vessel, and how many grips they are of.
 std::vector<ListProgress> rank_vessel(const SweepResult& result, const Scene& scene, const Plan& plan, std::size_t vessel,
-                                      Scores& scores, const Where* where, const RankRequest& request, const Evaluator* core,
+                                      RankKeys& keys, const Where* where, const RankRequest& request, const Evaluator* core,
                                       Ranking& ranking) {
-  const std::size_t pool = request.pool > 0 ? request.pool : usual_pool(plan, request.best, request.apart);
-  const auto choose = [&](RankBy by) {
-    ListChooser chooser(plan, core, vessel, {request.best, request.apart, pool, 0});
-    bool is_first_pass = by == RankBy::score;
+  const auto choose = [&](RankKeys& order, std::size_t best, bool least_bad) {
+    const std::size_t pool = request.pool > 0 ? request.pool : usual_pool(plan, best, request.apart);
+    ListChooser chooser(plan, core, vessel, {best, request.apart, pool, 0});
+    bool is_first_pass = !least_bad;
     do {
-      offer_grips(result, scene, plan, vessel, by, scores, where, chooser, ranking, is_first_pass);
+      offer_grips(result, scene, plan, vessel, order, least_bad, where, chooser, ranking, is_first_pass);
       chooser.end_pass();
       is_first_pass = false;
     } while (!chooser.is_complete());
     return chooser.progress();
   };
-  std::vector<ListProgress> lists = choose(RankBy::score);
+  std::vector<ListProgress> lists =
+      choose(keys, request.by == RankBy::robust ? robust_candidates(scene, request.best) : request.best, false);
   const std::size_t first = vessel * plan.hand_scales();
   bool is_unheld = false;
   for (std::size_t k = 0; k < lists.size(); ++k) is_unheld = is_unheld || none_holds(ranking, first + k);
   if (!request.least_bad || !is_unheld) return lists;
-  const std::vector<ListProgress> least_bad = choose(RankBy::least_effort);
+  RankKeys efforts(result, keys.scores(), RankBy::worst_effort);
+  const std::vector<ListProgress> least_bad = choose(efforts, request.best, true);
   for (std::size_t k = 0; k < lists.size(); ++k)
     if (none_holds(ranking, first + k)) lists[k] = least_bad[k];
   return lists;
@@ -374,6 +418,22 @@ std::array<double, 6> read_weights(const std::string& text, const Scene& scene) 
   return weights;
 }
 
+RankBy read_rank_by(const std::string& text, const Scene& scene) {
+  if (text.empty()) return scene.robust ? RankBy::robust : RankBy::score;
+  if (text == "score") return RankBy::score;
+  const bool needs_effort = text == "worst_effort" || text == "push";
+  if (!needs_effort && text != "robust")
+    throw usage_error(fmt::format("--rank-by {}; allowed: score, robust, worst_effort or push", in_quotes(text)));
+  if (text == "robust" && !scene.robust)
+    throw usage_error(
+        "--rank-by robust needs [robust], which the scene of this file does not have; allowed: score, worst_effort or push");
+  if (needs_effort && !has_effort(scene))
+    throw usage_error(
+        fmt::format("--rank-by {} needs [strength] and [tilts], which the scene of this file does not have; allowed: score{}", text,
+                    scene.robust ? " or robust" : ""));
+  return text == "robust" ? RankBy::robust : text == "push" ? RankBy::push : RankBy::worst_effort;
+}
+
 std::vector<WhereName> where_names(const SweepResult& result, const Scene& scene, const Plan& plan) {
   std::vector<WhereName> names;
   const auto catalogue = variable_catalogue();
@@ -406,15 +466,17 @@ Ranking rank_grips(const SweepResult& result, const Scene& scene, const Plan& pl
     throw usage_error("--least-bad: needs [strength] and [tilts], which the scene of this file does not have");
   if (request.least_bad) needed(result, {"worst_effort"});
   Scores scores(result, scene, request.weights);
+  RankKeys keys(result, scores, request.by);
   const std::vector<WhereName> names = where_names(result, scene, plan);
   const std::unique_ptr<const Where> where = request.where.empty() ? nullptr : std::make_unique<Where>(request.where, names);
   const std::size_t scales = plan.hand_scales(), lists = scene.vessels.size() * scales;
   const std::vector<std::uint64_t> none(lists, 0);
   Ranking ranking{{}, none, none, none, ""};
-  const std::shared_ptr<const Evaluator> posing = request.apart > 0 ? open_core() : nullptr;
+  const bool is_robust = request.by == RankBy::robust;
+  const std::shared_ptr<const Evaluator> posing = request.apart > 0 || is_robust ? open_core() : nullptr;
   std::vector<ListProgress> best;
   for (std::size_t v = 0; v < scene.vessels.size(); ++v)
-    for (ListProgress& list : rank_vessel(result, scene, plan, v, scores, where.get(), request, posing.get(), ranking))
+    for (ListProgress& list : rank_vessel(result, scene, plan, v, keys, where.get(), request, posing.get(), ranking))
       best.push_back(std::move(list));
   const auto rows = row_variables(scene);
   const bool is_whole = std::all_of(rows.begin(), rows.end(), [&](const std::string& name) { return result.find(name); });
@@ -425,18 +487,37 @@ Ranking rank_grips(const SweepResult& result, const Scene& scene, const Plan& pl
     ranking.note =
         "the file lacks some columns of the table: apart from places and scores, the core computed them in double precision";
   }
+  std::vector<std::vector<BestGrip>> places(lists);
+  for (std::size_t list = 0; list < lists; ++list)
+    for (const Candidate& candidate : best[list].chosen) {
+      places[list].emplace_back().candidate = candidate;
+      places[list].back().grip = plan.grip(list / scales, candidate.index);
+    }
+  if (is_robust) {
+    std::vector<std::vector<BestGrip>> held = places;  // those that do not hold stay in the order of their efforts
+    for (std::size_t list = 0; list < lists; ++list)
+      if (none_holds(ranking, list)) held[list].clear();
+    rank_by_robust(scene, plan, scores.weights(), request.best, held);
+    for (std::size_t list = 0; list < lists; ++list)
+      if (!none_holds(ranking, list)) places[list] = std::move(held[list]);
+  }
   for (std::size_t list = 0; list < lists; ++list) {
-    const std::vector<Candidate>& chosen = best[list].chosen;
+    std::vector<Candidate> chosen;
+    for (const BestGrip& grip : places[list]) {
+      chosen.push_back(grip.candidate);
+      scores.read(list / scales, grip.candidate.index, 1, &chosen.back().score);
+    }
     auto grips =
         is_whole ? read_rows(result, scene, plan, list / scales, chosen) : evaluate_best(*core, scene, plan, list / scales, chosen);
     for (std::size_t i = 0; i < grips.size(); ++i) {
       grips[i].candidate = chosen[i];
       grips[i].score = none_holds(ranking, list) ? 0 : chosen[i].score;
       grips[i].rank = i + 1;
+      grips[i].robust = places[list][i].robust;
     }
     if (scores.is_sweeps_own()) {
       set_refined(result, plan, list, grips);
-      set_robust(result, plan, list, grips);
+      if (!is_robust) set_robust(result, plan, list, grips);
     }
     ranking.lists.push_back(std::move(grips));
   }

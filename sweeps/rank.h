@@ -24,6 +24,13 @@ std::array<double, 6> read_weights(const std::string& text, const Scene& scene);
 // What a condition may name: every variable of the catalogue, and the axes. Whatever the file lacks is there with the reason.
 std::vector<WhereName> where_names(const SweepResult& result, const Scene& scene, const Plan& plan);
 
+// By what a list is ranked: the largest score, the largest robust scores (sweeps/robust.h), the least worst_effort, or the largest push.
+enum class RankBy { score, robust, worst_effort, push };
+
+// From "score", "robust", "worst_effort" or "push"; empty: "robust" in a scene with [robust], else "score". Throws Error (usage), also
+// for what the scene does not have.
+RankBy read_rank_by(const std::string& text, const Scene& scene);
+
 struct RankRequest {
   std::string weights;             // as of read_weights; empty: the sweep's own scores
   std::vector<std::string> where;  // conditions, all of which a grip meets
@@ -31,6 +38,7 @@ struct RankRequest {
   double apart = 0;                // m, that some joint of the hand moves from one listed grip to any other (sweeps/list_chooser.h)
   std::size_t pool = 0;            // grips of a list that one pass keeps; 0: usual_pool
   bool least_bad = false;          // where no grip of a list holds: the plausible ones, by their worst effort
+  RankBy by = RankBy::score;
 };
 
 struct Ranking {
@@ -42,8 +50,9 @@ struct Ranking {
 };
 
 // Goes through the file in blocks, as often as ListChooser needs, so that memory does not depend on the number of grips. Only
-// eligible grips (shaders/status.h) are listed, by score, then by their number, as a sweep lists them; with the sweep's own weights the
-// scores are the file's, and grips that do not hold have 0 with any. What else is told of them is the file's or, where that lacks some of it, the core's. Throws Error (usage):
+// eligible grips (shaders/status.h) are listed, by what is asked for, then by their number, as a sweep lists them; robust scores are the core's.
+// With the sweep's own weights the scores are the file's, and grips that do not hold have 0 with any. What else is told of them is the
+// file's or, where that lacks some of it, the core's. Throws Error (usage):
 // read_weights, Where, or values that the file lacks, with what to keep.
 Ranking rank_grips(const SweepResult& result, const Scene& scene, const Plan& plan, const RankRequest& request,
                    const std::function<std::shared_ptr<const Evaluator>()>& open_core);

@@ -344,7 +344,9 @@ class SweepDefinition : ResultDefinition {
     }
     if (!contents_.scene.robust) return;
     const std::string over = fmt::format("over {} random deviations by [robust]", contents_.scene.robust->count);
-    for (const auto& [name, what] : {std::pair{ROBUST_MEAN, "mean of the score "}, {ROBUST_LOW, "10th percentile of the score "}})
+    for (const auto& [name, what] : {std::pair{ROBUST_MEAN, "mean of the score "},
+                                     {ROBUST_LOW, "10th percentile of the score "},
+                                     {ROBUST_SHARE, "share that is feasible, plausible and held "}})
       fill_value(define(name, NC_DOUBLE, "1", "best grips: " + (what + over)), NC_DOUBLE);
   }
 

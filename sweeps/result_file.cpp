@@ -135,7 +135,7 @@ FilePlaces ResultFile::find_places() const {
       for (const PlanAxis& axis : axes)
         if (is_refined_axis(axis)) places.best.push_back(block_offset(file, refined_axis_name(axis)));
       if (contents_.scene.robust)
-        places.best.insert(places.best.end(), {block_offset(file, ROBUST_MEAN), block_offset(file, ROBUST_LOW)});
+        for (const char* name : {ROBUST_MEAN, ROBUST_LOW, ROBUST_SHARE}) places.best.push_back(block_offset(file, name));
     }
     return places;
   } catch (const Error& error) {
@@ -378,8 +378,9 @@ void ResultFile::write_ending(const std::vector<std::vector<RankedGrip>>& best, 
       const auto values = axis_values(ranked.grip);
       for (std::size_t axis = 0; axis < values.size(); ++axis) reals[1 + axis][rank] = values[axis];
       if (contents_.scene.robust) {
-        reals[reals.size() - 2][rank] = ranked.robust_mean;
-        reals[reals.size() - 1][rank] = ranked.robust_low;
+        reals[reals.size() - 3][rank] = ranked.robust.mean;
+        reals[reals.size() - 2][rank] = ranked.robust.low;
+        reals[reals.size() - 1][rank] = ranked.robust.share;
       }
       if (std::isnan(ranked.refined_score)) continue;
       const auto refined = axis_values(ranked.refined);

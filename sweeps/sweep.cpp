@@ -110,7 +110,7 @@ ExitCode Sweep::run() {
   end(file, [&] {
     BestLists best = find_best();
     is_whole = complete(best, interrupt);
-    if (is_whole) return finish(file, best);
+    if (is_whole) return finish(file, std::move(best));
     save(file);
   });
   return is_whole ? ExitCode::done : interrupted();
@@ -151,10 +151,11 @@ ResultContents Sweep::contents() const { return {scene_, plan(), variables_, fac
 bool Sweep::is_choosy() const { return best_wanted_ > 0 && scene_.output.apart > 0; }
 bool Sweep::refines() const { return best_wanted_ > 0 && options_.refine; }
 std::size_t Sweep::pool() const {
-  return options_.pool > 0 && is_choosy() ? options_.pool : usual_pool(plan(), best_wanted_, scene_.output.apart);
+  return options_.pool > 0 && is_choosy() ? options_.pool : usual_pool(plan(), candidates(), scene_.output.apart);
 }
-std::size_t Sweep::kept_best() const { return is_choosy() ? pool() : best_wanted_; }
-ListRequest Sweep::list_request() const { return {best_wanted_, scene_.output.apart, pool(), options_.threads}; }
+std::size_t Sweep::candidates() const { return robust_candidates(scene_, best_wanted_); }
+std::size_t Sweep::kept_best() const { return is_choosy() ? pool() : candidates(); }
+ListRequest Sweep::list_request() const { return {candidates(), scene_.output.apart, pool(), options_.threads}; }
 bool Sweep::ranks_here() const { return best_wanted_ > 0 && (is_choosy() || plan().hand_scales() > 1); }
 // What is read back: a device chooses a few of the best of all hands together. Of several hand scales, and where grips have to
 // differ, the scores are chosen from here.
@@ -195,9 +196,9 @@ MarkBounds Sweep::bounds() const {
   const bool has_stretches = !variables_.empty();
   return {scene_.vessels.size(),
           plan().grips(),
-          std::max(best_wanted_, kept_best()) * plan().hand_scales(),
+          std::max(candidates(), kept_best()) * plan().hand_scales(),
           is_choosy() ? plan().hand_scales() : 0,
-          best_wanted_,
+          candidates(),
           has_stretches,
           has_stretches && has_field(FIELD_STATUS)};
 }
@@ -334,7 +335,7 @@ void Sweep::run_stretch(std::size_t v, ResultFile& file, InterruptGuard& interru
   request.first = vessel.done;
   request.last = plan().grips();
   HandLists best(plan(), kept_best(), vessel.best);
-  request.best = ranks_here() ? 0 : best_wanted_;
+  request.best = ranks_here() ? 0 : candidates();
   std::vector<Candidate> eligible;
   request.sink = [&](const PlaneChunk& chunk) {
     const double start = monotonic_now();
@@ -490,7 +491,20 @@ CompanionRequest Sweep::companions() const {
   return {scene_, plan(), names_, parts_, best_wanted_, options_.glb, [this](const std::string& line) { note(line); }};
 }
 
-BestLists Sweep::find_best() { return best_grips(companions(), mark_.vessels, *backend_); }
+BestLists Sweep::find_best() const {
+  BestLists lists;
+  for (std::size_t v = 0; v < scene_.vessels.size(); ++v) {
+    const HandLists kept(plan(), candidates(), mark_.vessels[v].best);
+    for (std::size_t s = 0; s < plan().hand_scales(); ++s) {
+      std::vector<BestGrip>& list = lists.emplace_back();
+      for (const Candidate& candidate : kept.sorted(s)) {
+        list.emplace_back().candidate = candidate;
+        list.back().grip = plan().grip(v, candidate.index);
+      }
+    }
+  }
+  return lists;
+}
 
 void Sweep::end(ResultFile& file, const std::function<void()>& ending) {
   try {
@@ -511,8 +525,9 @@ bool Sweep::complete(BestLists& best, InterruptGuard& interrupt) const {
     if (is_asked_to_end(interrupt)) interrupt.flag() = true;
     return interrupt.flag().load();
   };
-  if (refines() && !refine_lists(*evaluator_, scene_, plan(), options_.threads, best, look)) return false;
-  return add_robust_scores(parts_.open_other, scene_, plan(), &interrupt.flag(), best, look);
+  if (best_wanted_ > 0 && !rank_robustly(parts_.open_other, scene_, plan(), best_wanted_, &interrupt.flag(), best, look))
+    return false;
+  return !refines() || refine_lists(*evaluator_, scene_, plan(), options_.threads, best, look);
 }
 
 // What there is to say where no grip of a vessel holds.
@@ -528,11 +543,12 @@ std::string Sweep::unheld(std::size_t v) const {
                      kept == 3 ? fmt::format("; `wholehand rank {} --least-bad` lists such grips", one_line(names_.result)) : "");
 }
 
-void Sweep::finish(ResultFile& file, const BestLists& best) {
+void Sweep::finish(ResultFile& file, BestLists best) {
+  describe_best(companions(), *backend_, best);
   std::vector<std::vector<RankedGrip>> ranked(best.size());
   for (std::size_t list = 0; list < best.size(); ++list) {
     for (const BestGrip& grip : best[list])
-      ranked[list].push_back({grip.candidate, grip.grip, grip.refined, grip.refined_score, grip.robust_mean, grip.robust_low});
+      ranked[list].push_back({grip.candidate, grip.grip, grip.refined, grip.refined_score, grip.robust});
   }
   file.check_own();
   // the result's own name comes last: when it is there, all is

@@ -51,6 +51,12 @@ class _Chooser:
         along = tuple(places[self.dims.index(str(dim))] for dim in coordinate.dims)
         return np.array(np.broadcast_to(coordinate.values[along], places[0].shape), dtype=np.float64)
 
+    def rank_robustly(self, vessel: str, places: tuple[Any, ...], count: int) -> tuple[tuple[Any, ...], dict[str, list[float]]]:
+        """Those of the candidates' places that are listed, in their order, and their robust scores."""
+        columns = [self.column(name, places) for name in _core.GRIP_COLUMNS]
+        order, *scores = _core.rank_by_robust_scores(self.scene._core, self.scene._core.find_vessel(vessel), columns, count)
+        return tuple(at[order] for at in places), dict(zip(("robust_low", "robust_mean", "robust_share"), scores))
+
     def choose(self, vessel: str, scores: npt.NDArray[Any], eligible: npt.NDArray[np.bool_], count: int) -> tuple[Any, ...]:
         """The places of the chosen grips along the dimensions."""
         import numpy as np
@@ -123,13 +129,13 @@ def best(
     n: int | None = None,
     apart_mm: float | None = None,
     *,
-    by: str | xr.DataArray = "score",
+    by: str | xr.DataArray | None = None,
     where: xr.DataArray | None = None,
     least_bad: bool = False,
 ) -> xr.Dataset:
     """The best grips of every vessel that differ from one another, as ``wholehand rank`` lists them.
 
-    The feasible, plausible grips of a vessel are gone through from the best to the worst, of equal ones in the order of the sweep.
+    The feasible, plausible grips of a vessel are taken from the best to the worst, equal ones in the order of the sweep.
     In a scene with [strength] those are left out that do not hold (``not_held``). A grip is taken where some joint of the posed hand is more than ``apart_mm`` from the same joint of every hand before. Where a
     sweep has several hand scales, each has a list.
 
@@ -142,8 +148,9 @@ def best(
     apart_mm : float, optional
         Default: the scene's [output] apart_mm. 0: any two grips differ.
     by : str or DataArray
-        What is largest for the best grip: a variable, or your own score over (vessel and) the dimensions of the grips. NaN: left
-        out.
+        "robust": the robust scores of a scene with [robust], which the core finds here; the default there. "worst_effort": the
+        least. Else what is largest for the best grip: a variable (the default is "score"), or your own score over (vessel and) the
+        dimensions of the grips. NaN: left out.
     where : DataArray of bool, optional
         Only grips where this holds.
     least_bad : bool, optional
@@ -155,7 +162,7 @@ def best(
         Along ``grip``: every variable of the grips, and as coordinates the vessel, the rank in its list (from 1), and where it is:
         height (m), azimuth, obliquity, roll (rad), offset (m), hand_scale. Where the dataset has ``worst_effort``, there is also
         ``held_margin``, which is 1 / worst effort. ``wh.grips(...)`` makes an array for ``wh.evaluate`` of
-        it, and ``wh.grip(scene, vessel, at=found.isel(grip=0))`` shows one.
+        it, and ``wh.grip(scene, vessel, at=found.isel(grip=0))`` shows one. By "robust": robust_low, robust_mean, robust_share too.
 
     Raises
     ------
@@ -172,7 +179,7 @@ def best(
     import numpy as np
     import xarray as xr
 
-    if not isinstance(by, (str, xr.DataArray)):
+    if by is not None and not isinstance(by, (str, xr.DataArray)):
         raise TypeError(f"best: by is {type(by).__name__}; allowed: the name of a variable, or a DataArray")
     if where is not None and not isinstance(where, xr.DataArray):
         said = repr(where) if isinstance(where, str) else type(where).__name__
@@ -187,6 +194,14 @@ def best(
         raise Error(f"best: n is {n} and apart_mm is {apart_mm}; allowed: n of 1 or more, apart_mm of 0 or more")
     if least_bad and not scene._core.has_effort:
         raise Error("best: least_bad needs [strength] and [tilts], which the scene does not have")
+    if by is None:
+        by = "robust" if scene._core.has_robust else "score"
+    is_robust = isinstance(by, str) and by == "robust" and by not in data
+    if is_robust and not scene._core.has_robust:
+        raise Error("best: by is 'robust', and the scene has no [robust]; allowed: score, worst_effort, push or any other variable")
+    is_least = isinstance(by, str) and by == "worst_effort"
+    if is_robust:
+        by = "score"
     needed = ["reason", "plausible", by, *(["not_held"] if scene._core.has_effort else []), *(["worst_effort"] if least_bad else [])]
     missing = [f"'{name}'" for name in needed if isinstance(name, str) and name not in data]
     if missing:
@@ -205,6 +220,8 @@ def best(
     # as numbers with a sign: the best are looked for by the least of what is below zero
     own = data[by] if isinstance(by, str) else by
     wanted = _of_grips(own, data, dims, "by", "biuf").astype(np.float64).reindex_like(data["reason"])
+    if is_least:
+        wanted = -wanted
     plausible = eligible = (data["reason"] == 0) & (data["plausible"] == 1)
     if where is not None:
         eligible = eligible & _of_grips(where, data, dims, "where", "b").reindex_like(data["reason"], fill_value=False)
@@ -220,10 +237,13 @@ def best(
         scores, allowed = wanted.isel(vessel=v).values.ravel(), eligible.isel(vessel=v).values.ravel()
         unheld, judged = fails.isel(vessel=v).values.ravel(), plausible.isel(vessel=v).values.ravel()
         for hand in _hands(part, dims, scene):
-            places = chooser.choose(vessel, scores, allowed & ~unheld & hand, count)
+            kept = scene._core.robust_candidates(count) if is_robust else count
+            places, robust = chooser.choose(vessel, scores, allowed & ~unheld & hand, kept), {}
             if efforts is not None and not (judged & ~unheld & hand).any():
                 places = chooser.choose(vessel, -efforts.isel(vessel=v).values.ravel(), allowed & hand, count)
-            pieces.append(_listed(part, dims, chooser, places))
+            if is_robust:
+                places, robust = chooser.rank_robustly(vessel, places, count)
+            pieces.append(_listed(part, dims, chooser, places).assign({name: ("grip", values) for name, values in robust.items()}))
     return xr.concat(pieces, "grip", combine_attrs="override")
 
 

@@ -199,7 +199,7 @@ def new(
     >>> wh.new("flask", shape="flask", diameter_mm=70, height_mm=120)
     Traceback (most recent call last):
         ...
-    wholehand.Error: key 'neck_mm' is missing; allowed: a flask with diameter_mm, neck_mm, height_mm
+    wholehand.Error: [[vessel]] lacks 'neck_mm'; allowed: a flask with diameter_mm, neck_mm, height_mm
     """
     known = _core.new_scene_keys()
     for key, value in numbers.items():

@@ -64,9 +64,9 @@ TEST(NewScene, EveryShapeAndAMeshSweep) {
 
 TEST(NewScene, RefusesInOneLineAndWritesNothing) {
   const TemporaryFolder folder;
-  expect_refused(folder, "new cup --diameter-mm 70", "'height_mm' is missing");
+  expect_refused(folder, "new cup --diameter-mm 70", "lacks 'height_mm'");
   expect_refused(folder, "new cup --diameter-mm 70 --height-mm 120 --fill-ml 5000", "new: ");
-  expect_refused(folder, "new cup --diameter-mm 0 --height-mm 120", "--diameter-mm 0");
+  expect_refused(folder, "new cup --diameter-mm 0 --height-mm 120", "--diameter-mm '0'; allowed: a number, 1 to 10000");
   expect_refused(folder, "new cup --diameter-mm 70 --height-mm 120 --shape vase", "shape");
   expect_refused(folder, "new cup --shape flask --diameter-mm 70 --neck-mm 80 --height-mm 120", "neck_mm");
   expect_refused(folder, "new '9 cups' --diameter-mm 70 --height-mm 120", "'9 cups'");

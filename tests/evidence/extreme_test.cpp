@@ -405,8 +405,8 @@ void widest_deviations(const AnsweredScene& a) {
   ASSERT_TRUE(add_robust_scores(open, a.scene, plan, nullptr, lists));
   std::size_t above = 0;
   for (const BestGrip& best : lists[0]) {
-    for (const double score : {best.robust_low, best.robust_mean}) EXPECT_TRUE(score >= 0 && score <= 1) << best.candidate.index;
-    above += best.robust_mean > 0 ? 1 : 0;
+    for (const double score : {best.robust.low, best.robust.mean}) EXPECT_TRUE(score >= 0 && score <= 1) << best.candidate.index;
+    above += best.robust.mean > 0 ? 1 : 0;
   }
   EXPECT_GT(above, 0u);
 }

@@ -75,6 +75,16 @@ class Best(InFolder):
                 self.same(wh.best(data, n=n, apart_mm=apart), self.ranked("--best", n, "--apart-mm", apart))
             data.close()
 
+    def test_it_ranks_as_the_program_does(self):
+        data = self.data_of(SEVERAL + "[robust]\nheight_mm = 3\nroll_deg = 5\ncount = 8\n")
+        self.same(wh.best(data, n=4), self.ranked("--best", 4))
+        self.same(wh.best(data, n=4, by="robust"), self.ranked("--best", 4, "--rank-by", "robust"))
+        for by in ("score", "worst_effort", "push"):
+            self.same(wh.best(data, n=4, by=by), self.ranked("--best", 4, "--rank-by", by))
+        self.assertGreater(wh.best(data, n=4).robust_low.values.max(), 0)
+        without = self.data_of(SEVERAL)
+        self.assertIn("no [robust]", str(self.refused(wh.best, without, by="robust")))
+
     def test_where_vectors_are_kept_azimuths_count(self):
         data = self.data_of(SEVERAL.replace("[output]", '[output]\nalso = ["midpoint"]'))
         self.same(wh.best(data, n=30, apart_mm=10), self.ranked("--best", 30, "--apart-mm", 10))

@@ -27,7 +27,7 @@ class Scenes(InFolder):
         run("new", "cup", "--shape", "flask", "--diameter-mm", "85", "--neck-mm", "34", "--height-mm", "140", "--fill-ml", "100")
         made = wh.new("cup", shape="flask", diameter_mm=85, neck_mm=34, height_mm=140, fill_ml=100)
         self.assertEqual(made.text, pathlib.Path("cup.toml").read_text())
-        with self.assertRaisesRegex(wh.Error, "'height_mm' is missing"):
+        with self.assertRaisesRegex(wh.Error, "lacks 'height_mm'"):
             wh.new("cup", diameter_mm=85)
         with self.assertRaisesRegex(TypeError, "radius_mm"):
             wh.new("cup", radius_mm=85)

@@ -175,14 +175,16 @@ TEST(Explain, SaysWhatRobustScoresCost) {
   scene.robust->friction = 0.1;
   const std::string text = explain(scene, "core").text;
   std::smatch match;
-  ASSERT_TRUE(std::regex_search(text, match,
-                                std::regex("not left out: the robust scores, 24 deviations of 14 best grips at most, which cost "
-                                           "([0-9.e-]+) s a sweep \\(([0-9.]+) us each\\), and ([0-9.e-]+) s to begin with each "
-                                           "of 8 frictions\n")))
+  ASSERT_TRUE(
+      std::regex_search(text, match,
+                        std::regex("not left out: the robust scores by the core, 24 deviations of the 14 listed grips, which cost "
+                                   "([0-9.e-]+) s a sweep \\(([0-9.]+) us each\\); of 112 candidates those that cannot be "
+                                   "listed are judged at fewer, which saves up to ([0-9.e-]+) s\n")))
       << text;
   // to the digits that are told
   EXPECT_NEAR(std::stod(match[1]), 24 * 14 * 1e-6 * std::stod(match[2]), 0.01 * std::stod(match[1])) << text;
   EXPECT_GT(std::stod(match[2]), 0);
+  EXPECT_NEAR(std::stod(match[3]), 7 * std::stod(match[1]), 0.02 * std::stod(match[3])) << text;
   scene.output.best = 0;
   EXPECT_EQ(explain(scene, "core").text.find("robust"), std::string::npos) << "nothing is listed";
 }
