@@ -307,10 +307,9 @@ class Explainer {
     const auto cost = [&](std::size_t grips) { return static_cast<double>(grips * count) * each * 1e-6; };
     say("  not left out: the robust scores by the core, {} deviations of the {} listed grips, which cost {:.3g} s a sweep ({} us "
         "each); "
-        "of {} candidates those that cannot be listed are judged at fewer, which saves up to {:.3g} s
-        ",
-        readable_number(count),
-        readable_number(listed), cost(listed), us(each), readable_number(judged), cost(judged) - cost(listed));
+        "of {} candidates those that cannot be listed are judged at fewer, which saves up to {:.3g} s\n",
+        readable_number(count), readable_number(listed), cost(listed), us(each), readable_number(judged),
+        cost(judged) - cost(listed));
   }
 
   // Told, not measured: a device goes through these states all the same.
