@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/core_backend.h"
@@ -18,13 +20,15 @@
 #include "sweeps/robust.h"
 #include "sweeps/variables.h"
 #include "system/clock.h"
+#include "system/output.h"
 #include "system/progress.h"
 #include "system/readable.h"
 
 namespace wholehand {
 namespace {
 
-constexpr std::uint64_t PARTS = 9;
+constexpr std::uint64_t RUNS = 6;         // of each way; the first makes ready
+constexpr double LONG_EXPLAINING = 5;     // s: from here on it is said how long it takes
 constexpr long long SEARCHED_GRIPS = 64;  // for the figures of the search, at most
 
 // A way to evaluate the sample: what it took a grip, and what a grip takes in memory.
@@ -49,7 +53,18 @@ class Explainer {
     for (std::uint64_t i = 0; i < options.grips; ++i) sample_.push_back(plan.grip(0, i * all / options.grips % all));
   }
 
+  // Counts the ways first, so that the time is known when the first way is measured.
   std::string run() {
+    is_counting_ = true;
+    explain();
+    progress_.emplace(RUNS * std::exchange(measured_, 0), 0, "runs");
+    is_counting_ = false;
+    text_.clear();
+    return explain();
+  }
+
+ private:
+  std::string explain() {
     const Measured as_is = measure(scene_, fields_, OUTLINE_SPECIALIZED);
     say("what the sweep leaves out, and what this saves per grip (both ways ran on {} of {}; this sweep: {} us, {} B)\n",
         counted(sample_.size(), "grip"), scene_.vessels[0].name, us(microseconds(as_is)), readable_number(as_is.bytes));
@@ -65,22 +80,20 @@ class Explainer {
             MAX_OUTLINE);
       }
     }
-    done_ = 1;
-    planes(as_is), ++done_;
-    pose(as_is), ++done_;
-    surface(as_is), ++done_;
-    force(as_is), ++done_;
-    liquid(as_is), ++done_;
-    table(as_is), ++done_;
-    body(as_is), ++done_;
-    efforts(as_is), ++done_;
+    planes(as_is);
+    pose(as_is);
+    surface(as_is);
+    force(as_is);
+    liquid(as_is);
+    table(as_is);
+    body(as_is);
+    efforts(as_is);
     robust();
     poured();
     azimuth();
     return text_;
   }
 
- private:
   template <class... Args>
   void say(fmt::format_string<Args...> format, Args&&... args) {
     append_formatted(text_, format, std::forward<Args>(args)...);
@@ -103,11 +116,14 @@ class Explainer {
     return static_cast<int>(longest);
   }
 
-  Measured measure(const Scene& scene, const FieldSet& fields, OutlineSource outline) const {
+  Measured measure(const Scene& scene, const FieldSet& fields, OutlineSource outline) {
     return measure(scene, fields, outline, on_core_, options_.precision);
   }
 
-  Measured measure(const Scene& scene, const FieldSet& fields, OutlineSource outline, bool on_core, Precision precision) const {
+  Measured measure(const Scene& scene, const FieldSet& fields, OutlineSource outline, bool on_core, Precision precision) {
+    ++measured_;
+    if (is_counting_) return {1, 0, 0};
+    const double began = monotonic_now();
     std::unique_ptr<Backend> backend;
     Measured result;
     if (on_core) {
@@ -123,7 +139,7 @@ class Explainer {
       backend = std::move(device);
     }
     std::vector<double> runs;
-    for (int run = 0; run < 6; ++run) {
+    for (std::uint64_t run = 0; run < RUNS; ++run) {
       RunRequest request;
       request.last = sample_.size();
       request.grips = [this](std::size_t, std::uint64_t first, std::size_t count, GripInput* out) {
@@ -132,8 +148,12 @@ class Explainer {
       const double start = monotonic_now();
       backend->run(request);
       const double seconds = monotonic_now() - start;
-      progress_.update("explaining", done_);
+      progress_->update("explaining", RUNS * (measured_ - 1) + run + 1);
       if (run > 0) runs.push_back(seconds);  // the first compiles
+    }
+    if (measured_ == 1) {
+      const double whole = (monotonic_now() - began) * static_cast<double>(progress_->total() / RUNS);
+      if (whole >= LONG_EXPLAINING) say_note("explaining takes about " + readable_duration(whole));
     }
     std::sort(runs.begin(), runs.end());
     result.seconds = runs[0];
@@ -276,6 +296,7 @@ class Explainer {
   }
 
   void searches() {
+    if (is_counting_) return;
     const auto core = make_core_evaluator(scene_);
     long long grips = 0, states = 0, skipped = 0, pivots = 0;
     for (std::size_t i = 0; i < sample_.size() && grips < SEARCHED_GRIPS;
@@ -360,8 +381,9 @@ class Explainer {
   bool on_core_;
   std::vector<GripInput> sample_;
   std::string text_;
-  std::uint64_t done_ = 0;  // parts: what is as it is, then those of run but for the last, quick ones
-  mutable Progress progress_{PARTS, 0, "parts"};
+  bool is_counting_ = false;    // the ways that explain measures; nothing is measured then
+  std::uint64_t measured_ = 0;  // ways
+  std::optional<Progress> progress_;
 };
 
 }  // namespace

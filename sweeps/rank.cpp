@@ -18,7 +18,6 @@
 #include "core/nearest_name.h"
 #include "core/planes.h"
 #include "core/text.h"
-#include "scene/text.h"
 #include "shaders/layout.h"
 #include "sweeps/list_chooser.h"
 #include "sweeps/robust.h"
@@ -423,7 +422,7 @@ RankBy read_rank_by(const std::string& text, const Scene& scene) {
   if (text == "score") return RankBy::score;
   const bool needs_effort = text == "worst_effort" || text == "push";
   if (!needs_effort && text != "robust")
-    throw usage_error(fmt::format("--rank-by {}; allowed: score, robust, worst_effort or push", in_quotes(text)));
+    throw usage_error(fmt::format("--rank-by '{}'; allowed: score, robust, worst_effort or push", text.substr(0, 60)));
   if (text == "robust" && !scene.robust)
     throw usage_error(
         "--rank-by robust needs [robust], which the scene of this file does not have; allowed: score, worst_effort or push");

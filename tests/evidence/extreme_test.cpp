@@ -402,7 +402,7 @@ void widest_deviations(const AnsweredScene& a) {
   const OpenBackend open = [](const Scene& scene, const FieldSet& fields) {
     return open_backend(scene, fields, "core", Precision::full, 1);
   };
-  ASSERT_TRUE(add_robust_scores(open, a.scene, plan, nullptr, lists));
+  ASSERT_TRUE(rank_robustly(open, a.scene, plan, MOST_ROBUST, nullptr, lists));
   std::size_t above = 0;
   for (const BestGrip& best : lists[0]) {
     for (const double score : {best.robust.low, best.robust.mean}) EXPECT_TRUE(score >= 0 && score <= 1) << best.candidate.index;
