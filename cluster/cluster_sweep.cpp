@@ -1129,7 +1129,7 @@ class ClusterSweep final : public Sweep {
     Candidate candidate;
     GripInput refined{};
     double refined_score = 0;
-    RobustScore robust;
+    RobustScore robust{};
   };
 
   // Each rank chooses, refines and scores the grips of some of the lists. False: interrupted.

@@ -52,7 +52,7 @@ struct BestGrip {
   GripEfforts efforts;                       // NaN in a scene without efforts
   GripInput refined{};                       // the best place near the grip (sweeps/refine.h), where there is a score of it
   double refined_score = std::numeric_limits<double>::quiet_NaN();
-  RobustScore robust;  // NaN in a scene without [robust]
+  RobustScore robust{};  // NaN in a scene without [robust]
 };
 
 // FIELD_* that a BestGrip is read from.

@@ -32,7 +32,7 @@ struct RankedGrip {
   GripInput grip;
   GripInput refined{};
   double refined_score = std::numeric_limits<double>::quiet_NaN();  // and then there is no refined grip
-  RobustScore robust;
+  RobustScore robust{};
 };
 
 // Dimensions of the grips: those of the plan's axes, or "point" for Sobol points.
