@@ -109,7 +109,9 @@ Compared compare_efforts(const Scene& scene, Precision precision, int count, con
       for (const GatheredPlanes* side : {&device, &truth}) {
         const bool is_not_held = (side->uint(FIELD_STATUS, i) & STATUS_NOT_HELD) != 0;
         EXPECT_EQ(is_not_held, real(*side, FIELD_WORST_EFFORT) > 1) << which;  // not of NaN
-        if (is_plausible(side->uint(FIELD_STATUS, i))) EXPECT_EQ(is_not_held, real(*side, FIELD_SCORE) == 0) << which;
+        if (is_plausible(side->uint(FIELD_STATUS, i))) {
+          EXPECT_EQ(is_not_held, real(*side, FIELD_SCORE) == 0) << which;
+        }
       }
       if (std::isnan(worst)) continue;
       // both name a state, whose effort is the worst but for what they pass by
