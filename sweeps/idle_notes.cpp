@@ -19,13 +19,12 @@ std::string unjudged_note(const Scene& scene, const Plan& plan) {
   if (scene.tilts.empty()) missing.emplace_back("without [tilts] no force is judged");
   if (plan.grips() == 1) missing.emplace_back("with one grip a vessel there is nothing to compare");
   if (missing.empty()) return "";
-  return "note: " + joined(missing, "; ") + " (`wholehand new` writes a scene with all of them)";
+  return "not judged: " + joined(missing, "; ") + " (`wholehand new` writes a scene with all of them)\n";
 }
 
 std::vector<std::string> idle_notes(const Scene& scene, const Plan& plan, std::size_t best) {
   std::vector<std::string> notes;
   if (const std::string note = idle_strength_note(scene); !note.empty()) notes.push_back(note);
-  if (const std::string note = unjudged_note(scene, plan); !note.empty()) notes.push_back(note);
   if (!scene.robust) return notes;
   if (best == 0) {
     notes.emplace_back(

@@ -133,7 +133,7 @@ void Sweep::say_opening() const {
   for (const std::string& line : cavity_notes(scene_)) note(line);
   for (const std::string& line : idle_notes(scene_, plan(), best_wanted_)) note(line);
   const std::string choice = options_.choice.empty() ? "" : options_.choice + "\n";
-  print_text(opening_lines(scene_, plan(), info_) + choice + vessel_lines(scene_, facts_));
+  print_text(opening_lines(scene_, plan(), info_) + choice + vessel_lines(scene_, facts_) + unjudged_note(scene_, plan()));
   if (!options_.explain) return;
   print_text(options_.choice_explained);
   print_text(explain_sweep(scene_, plan(), backend_->fields(), {options_.on, precision(), options_.threads, best_wanted_}));

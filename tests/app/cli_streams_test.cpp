@@ -81,9 +81,7 @@ TEST(CommandLine, EndsQuietlyWhereNobodyReads) {
   for (const std::string& arguments : {std::string("--help"), std::string("scenes"), std::string(SMALL_GRIP) + " --json"})
     EXPECT_EQ(run_unread(arguments).output, "code 0\n") << arguments;
   // what is asked for is done to its end
-  const std::string swept = run_unread("sweep small --on core -o " + folder + "/s.nc").output;
-  EXPECT_EQ(swept.find("wholehand: note: without [strength]"), 0u) << swept;
-  EXPECT_EQ(swept.substr(swept.find('\n') + 1), "code 0\n") << "nothing else";
+  EXPECT_EQ(run_unread("sweep small --on core -o " + folder + "/s.nc").output, "code 0\n");
   for (const char* name : {"s.nc", "s.best.csv", "s.tumbler.svg"})
     EXPECT_TRUE(std::filesystem::exists(folder + "/" + name)) << name;
   EXPECT_EQ(run_unread("live --no-clock --seconds 20 --record " + folder + "/l.nc").output, "code 0\n");

@@ -39,6 +39,11 @@ struct Explained {
   }
 };
 
+double number(std::string text) {
+  std::erase(text, ',');
+  return std::stod(text);
+}
+
 Explained explain(const Scene& scene, const std::string& on, Precision precision = Precision::single) {
   const auto variables = choose_variables(scene);
   const Plan plan(scene, keeps_vectors(variables));
@@ -48,11 +53,11 @@ Explained explain(const Scene& scene, const std::string& on, Precision precision
   std::istringstream lines(explained.text);
   std::smatch match;
   for (std::string line; std::getline(lines, line);) {
-    if (std::regex_search(line, match, std::regex("this sweep: ([0-9.]+) us, ([0-9]+) B\\)$"))) {
-      explained.microseconds = std::stod(match[1]);
-      explained.bytes = std::stoll(match[2]);
-    } else if (std::regex_match(line, match, std::regex("  (.*?) +(-?[0-9.]+) us +(-?[0-9]+) B  (.+)"))) {
-      explained.rows.push_back({match[1], match[4], std::stod(match[2]), std::stoll(match[3])});
+    if (std::regex_search(line, match, std::regex("this sweep: ([0-9.,]+) us, ([0-9,]+) B\\)$"))) {
+      explained.microseconds = number(match[1]);
+      explained.bytes = static_cast<long long>(number(match[2]));
+    } else if (std::regex_match(line, match, std::regex("  (.*?) +(-?[0-9.,]+) us +(-?[0-9,]+) B  (.+)"))) {
+      explained.rows.push_back({match[1], match[4], number(match[2]), static_cast<long long>(number(match[3]))});
     }
   }
   return explained;
